@@ -1,0 +1,44 @@
+//! Speed of the kernel on one core: paths a second, at every SIMD level.
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use noisefall::{
+    math::SimdLevel,
+    render::{
+        film::Film,
+        pass::{PassJob, Threads},
+    },
+    scene::{RenderSettings, Roulette, built_in},
+};
+
+/// The five-sphere Cornell box at cap 8, one sample of 256 × 256 pixels an iteration.
+fn paths_per_second(c: &mut Criterion) {
+    let mut group = c.benchmark_group("cornell_spheres, cap 8, one core");
+    let scene = built_in();
+    let mut camera = scene.camera;
+    camera.resolution = [256, 256];
+    let rays = camera.rays();
+    for sampler in noisefall::sampling::SAMPLERS {
+        for level in SimdLevel::available() {
+            let settings = RenderSettings {
+                max_bounces: Some(8),
+                roulette: Roulette::Off,
+                sampler: sampler.sampler,
+                ..RenderSettings::default()
+            };
+            let threads = Threads::new(1, level).expect("one thread can be had");
+            group.throughput(Throughput::Elements(256 * 256));
+            group.bench_function(format!("{} {level:?}", sampler.name), |b| {
+                let mut film = Film::new(camera.resolution);
+                let mut spp = 0;
+                b.iter(|| {
+                    spp += 1;
+                    let job = PassJob { scene: &scene, rays: &rays, settings: &settings };
+                    threads.pass(job, &mut film, spp, &|| false)
+                });
+            });
+        }
+    }
+    group.finish();
+}
+
+criterion_group!(benches, paths_per_second);
+criterion_main!(benches);

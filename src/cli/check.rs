@@ -1,0 +1,30 @@
+//! `noisefall check`: scene files are read and compiled, nothing is rendered.
+use std::path::PathBuf;
+
+use noisefall::scene::load;
+
+use super::Failure;
+
+#[derive(clap::Args)]
+pub struct Arguments {
+    /// Scene files
+    #[arg(required = true)]
+    scenes: Vec<PathBuf>,
+}
+
+pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let mut reports = Vec::new();
+    for path in &arguments.scenes {
+        match load(path) {
+            Err(error) => reports.push(error.report()),
+            Ok(scene) => {
+                let [width, height] = scene.camera.resolution;
+                println!("{}: ok, {} objects, {width} × {height}", path.display(), scene.objects.len());
+                for warning in scene.warnings() {
+                    println!("{}: note: {warning}", path.display());
+                }
+            }
+        }
+    }
+    if reports.is_empty() { Ok(()) } else { Err(reports.join("\n\n")) }
+}

@@ -1,0 +1,48 @@
+//! `noisefall compare`: how far one picture is from another.
+use std::path::PathBuf;
+
+use noisefall::{measure::compare, render::image_file::read};
+
+use super::Failure;
+
+#[derive(clap::Args)]
+pub struct Arguments {
+    /// Picture (.exr or .png)
+    a: PathBuf,
+    /// Reference (.exr or .png)
+    b: PathBuf,
+    /// Print one line of JSON
+    #[arg(long)]
+    json: bool,
+}
+
+pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let load = |path| read(path).map_err(|error| error.to_string());
+    let (a, b) = (load(&arguments.a)?, load(&arguments.b)?);
+    if [a.width, a.height] != [b.width, b.height] {
+        return Err(format!(
+            "the pictures differ in size: {} is {} × {}, {} is {} × {}",
+            arguments.a.display(),
+            a.width,
+            a.height,
+            arguments.b.display(),
+            b.width,
+            b.height
+        ));
+    }
+    for (path, picture) in [(&arguments.a, &a), (&arguments.b, &b)] {
+        if let Some(i) = picture.radiance.iter().position(|rgb| rgb.iter().any(|c| !c.is_finite())) {
+            let (x, y) = (i as u32 % picture.width, i as u32 / picture.width);
+            return Err(format!("{}: pixel {x},{y} is not a finite number", path.display()));
+        }
+    }
+    let comparison = compare(&a.radiance, &b.radiance);
+    if arguments.json {
+        println!("{}", serde_json::json!(comparison));
+    } else {
+        println!("RMSE    {:.6e}", comparison.rmse);
+        println!("relMSE  {:.6e}", comparison.rel_mse);
+        println!("bias    {:+.6e}", comparison.bias);
+    }
+    Ok(())
+}

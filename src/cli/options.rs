@@ -1,0 +1,112 @@
+//! Values of options, parsed and checked.
+use std::time::Duration;
+
+use clap::ValueEnum;
+use noisefall::{
+    sampling::{Directions, SAMPLERS, Sampler},
+    scene::Roulette,
+};
+
+/// Estimators by name. Only those that this version has can be chosen.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Estimator {
+    Path,
+    Light,
+    Mis,
+}
+
+/// Distributions of the next direction by name. Only those that this version has can be chosen.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum DirectionsOption {
+    Uniform,
+    Cosine,
+    Bsdf,
+}
+
+pub fn estimator(text: &str) -> Result<Estimator, String> {
+    match Estimator::from_str(text, false)? {
+        Estimator::Path => Ok(Estimator::Path),
+        Estimator::Light | Estimator::Mis => Err("not supported yet: this version has `path` only".to_owned()),
+    }
+}
+
+pub fn directions(text: &str) -> Result<Directions, String> {
+    match DirectionsOption::from_str(text, false)? {
+        DirectionsOption::Uniform => Ok(Directions::Uniform),
+        DirectionsOption::Cosine => Ok(Directions::Cosine),
+        DirectionsOption::Bsdf => Err("not supported yet: this version has `uniform` and `cosine`".to_owned()),
+    }
+}
+
+pub fn sampler(text: &str) -> Result<Sampler, String> {
+    let found = SAMPLERS.iter().find(|entry| entry.name == text);
+    let names = || SAMPLERS.map(|entry| entry.name).join(", ");
+    found.map(|entry| entry.sampler).ok_or_else(|| format!("expected one of {}", names()))
+}
+
+/// `None` is no cap.
+#[derive(Clone, Copy)]
+pub struct BounceCap(pub Option<u32>);
+
+pub fn bounce_cap(text: &str) -> Result<BounceCap, String> {
+    match text {
+        "none" => Ok(BounceCap(None)),
+        _ => text.parse().map(|n| BounceCap(Some(n))).map_err(|_| "expected a whole number, or `none`".to_owned()),
+    }
+}
+
+pub fn roulette(text: &str) -> Result<Roulette, String> {
+    match text {
+        "off" => Ok(Roulette::Off),
+        "throughput" => Ok(Roulette::BY_THROUGHPUT),
+        _ => match text.parse() {
+            Ok(p) if p > 0.0 && p <= 1.0 => Ok(Roulette::Fixed(p)),
+            _ => Err("expected `off`, `throughput`, or a survival probability above 0, at most 1".to_owned()),
+        },
+    }
+}
+
+pub fn resolution(text: &str) -> Result<[u32; 2], String> {
+    pair(text, 'x').ok_or_else(|| "expected WIDTHxHEIGHT, such as 640x480".to_owned())
+}
+
+pub fn pixel(text: &str) -> Result<[u32; 2], String> {
+    pair(text, ',').ok_or_else(|| "expected X,Y, such as 12,34".to_owned())
+}
+
+fn pair(text: &str, separator: char) -> Option<[u32; 2]> {
+    let (a, b) = text.split_once(separator)?;
+    Some([a.parse().ok()?, b.parse().ok()?])
+}
+
+pub fn seconds(text: &str) -> Result<Duration, String> {
+    let seconds = text.parse().ok().filter(|s: &f64| *s > 0.0);
+    seconds.and_then(|s| Duration::try_from_secs_f64(s).ok()).ok_or_else(|| "expected a number of seconds above 0".to_owned())
+}
+
+pub fn noise(text: &str) -> Result<f64, String> {
+    let noise = text.parse().ok().filter(|noise| *noise > 0.0 && *noise < f64::INFINITY);
+    noise.ok_or_else(|| "expected a number above 0, such as 0.01 for 1 %".to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_out_of_range_are_refused() {
+        assert!(roulette("0").is_err() && roulette("1.5").is_err() && roulette("nan").is_err() && roulette("x").is_err());
+        assert!(seconds("-1").is_err() && seconds("inf").is_err() && noise("0").is_err() && noise("nan").is_err());
+        assert!(resolution("640").is_err() && resolution("-1x2").is_err() && pixel("1;2").is_err());
+        assert!(estimator("mis").is_err() && directions("bsdf").is_err() && sampler("halton").is_err());
+    }
+
+    #[test]
+    fn values_in_range_are_what_they_say() {
+        assert_eq!(roulette("0.5"), Ok(Roulette::Fixed(0.5)));
+        assert_eq!(resolution("640x480"), Ok([640, 480]));
+        assert_eq!(bounce_cap("none").map(|cap| cap.0), Ok(None));
+        assert_eq!(bounce_cap("0").map(|cap| cap.0), Ok(Some(0)));
+        assert_eq!(sampler("stratified"), Ok(Sampler::Stratified));
+    }
+}

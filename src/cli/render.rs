@@ -1,0 +1,223 @@
+//! `noisefall render`: a picture without a window, by the same worker that serves the window.
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+    time::{Duration, Instant},
+};
+
+use clap::ArgGroup;
+use indicatif::{ProgressBar, ProgressStyle};
+use noisefall::{
+    math::SimdLevel,
+    measure::compare,
+    render::{
+        Budget, Display, Job, Publish, Published, Renderer, State, Status,
+        image_file::{check_target, save},
+        pass::{SampleId, Threads},
+        settings_text::settings_text,
+        truth::reference,
+    },
+    sampling::{Directions, Sampler},
+    scene::{Camera, RenderSettings, Roulette, Scene, load},
+};
+
+use super::{Failure, options, options::BounceCap, replay};
+
+/// Samples per pixel when neither the command nor the scene says how many.
+const DEFAULT_SPP: u32 = 256;
+
+#[derive(clap::Args)]
+#[command(group = ArgGroup::new("target"))]
+pub struct Arguments {
+    /// Scene file (.toml)
+    scene: PathBuf,
+    /// Picture to write: .png (as shown, sRGB) or .exr (linear radiance)
+    #[arg(short, long, required_unless_present = "pixel")]
+    output: Option<PathBuf>,
+    /// Stop after N samples per pixel [default: the scene's, or 256]; of --spp, --time and --noise the last one given counts
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..), overrides_with_all = ["time", "noise"])]
+    spp: Option<u32>,
+    /// Stop after so many seconds of rendering
+    #[arg(long, value_name = "SECONDS", value_parser = options::seconds, overrides_with_all = ["spp", "noise"])]
+    time: Option<Duration>,
+    /// Stop at this estimated relative noise, the root of relMSE (0.01 is 1 %)
+    #[arg(long, value_name = "RELATIVE", value_parser = options::noise, overrides_with_all = ["spp", "time"])]
+    noise: Option<f64>,
+    /// How light is found: path, light or mis (this version: path)
+    #[arg(long, value_parser = options::estimator)]
+    estimator: Option<options::Estimator>,
+    /// How the next direction is drawn: uniform, cosine or bsdf (this version: uniform, cosine)
+    #[arg(long, value_parser = options::directions)]
+    directions: Option<Directions>,
+    /// Where samples lie: independent, stratified or sobol
+    #[arg(long, value_parser = options::sampler)]
+    sampler: Option<Sampler>,
+    /// Highest number of reflections, or none for no cap
+    #[arg(long, value_name = "N|none", value_parser = options::bounce_cap)]
+    max_bounces: Option<BounceCap>,
+    /// Russian roulette: off, a survival probability, or throughput
+    #[arg(long, value_name = "off|P|throughput", value_parser = options::roulette)]
+    roulette: Option<Roulette>,
+    /// Seed of the random numbers
+    #[arg(long, value_name = "N")]
+    seed: Option<u32>,
+    /// Threads; 0 for one a core
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u16).range(..=1024))]
+    threads: u16,
+    /// Resolution in pixels
+    #[arg(long, value_name = "WxH", value_parser = options::resolution)]
+    size: Option<[u32; 2]>,
+    /// Replay one path through this pixel instead of rendering
+    #[arg(long, value_name = "X,Y", value_parser = options::pixel)]
+    pixel: Option<[u32; 2]>,
+    /// Which sample of the pixel to replay
+    #[arg(long, value_name = "N", default_value_t = 0, requires = "pixel")]
+    sample: u32,
+    /// Print one line of JSON last
+    #[arg(long)]
+    json: bool,
+}
+
+pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let start = Instant::now();
+    let scene = Arc::new(load(&arguments.scene).map_err(|error| error.report())?);
+    let camera = Camera { resolution: arguments.size.unwrap_or(scene.camera.resolution), ..scene.camera };
+    camera.check().map_err(|error| error.to_string())?;
+    let settings = arguments.settings(&scene);
+    if let Some(pixel) = arguments.pixel {
+        return replay::run(&scene, &camera, &settings, pixel, arguments.sample, arguments.json);
+    }
+    let Some(output) = &arguments.output else { return Err("no output file".to_owned()) };
+    check_target(output).map_err(|error| error.to_string())?;
+    let reference = reference(&scene, camera.resolution)?;
+    scene.warnings().iter().for_each(|warning| eprintln!("note: {warning}"));
+    let threads = Threads::new(arguments.threads.into(), SimdLevel::best()).map_err(|error| error.to_string())?;
+    let thread_count = threads.count();
+    let build_seconds = start.elapsed().as_secs_f64();
+
+    let start = Instant::now();
+    let budget = arguments.budget(&scene);
+    let job = Job { generation: 1, scene: scene.clone(), camera, settings };
+    let Published { frame, status } = render(threads, job, budget, arguments.json);
+    let render_seconds = start.elapsed().as_secs_f64();
+
+    if let State::Failed(failure) = &status.state {
+        let replay = replay_command(arguments, failure.at, &settings);
+        return Err(format!("the renderer failed: {}\nreplay: {replay}", failure.message));
+    }
+    let text = settings_text(&scene, &camera, &settings, Display::default(), status.spp);
+    save_somewhere(output, |path| save(&frame, Display::default(), &text, path))?;
+    let rel_mse = reference.map(|truth| compare(&frame.radiance, &truth).rel_mse);
+    let replay = status.first_invalid.map(|at| replay_command(arguments, at, &settings));
+    if let Some(replay) = &replay {
+        eprintln!("warning: {} invalid samples were dropped; the first one: {replay}", status.invalid_samples);
+    }
+    if status.cut_paths > 0 {
+        let longest = RenderSettings::LONGEST_PATH;
+        eprintln!("warning: {} paths were cut after {longest} reflections: the picture is biased; use roulette", status.cut_paths);
+    }
+    if arguments.json {
+        let line = serde_json::json!({
+            "scene": arguments.scene, "width": frame.width, "height": frame.height, "spp": status.spp,
+            "threads": thread_count, "seed": settings.seed, "build_seconds": build_seconds, "render_seconds": render_seconds,
+            "paths": status.samples, "rays": status.rays, "invalid_samples": status.invalid_samples,
+            "rel_mse_estimate": status.rel_mse_estimate, "cut_paths": status.cut_paths, "bias": settings.bias(),
+            "rel_mse": rel_mse, "replay": replay,
+        });
+        println!("{line}");
+    } else {
+        println!("{}", summary(output, &status, &settings, render_seconds, rel_mse));
+    }
+    Ok(())
+}
+
+impl Arguments {
+    fn settings(&self, scene: &Scene) -> RenderSettings {
+        let of_scene = scene.settings;
+        RenderSettings {
+            sampler: self.sampler.unwrap_or(of_scene.sampler),
+            directions: self.directions.unwrap_or(of_scene.directions),
+            roulette: self.roulette.unwrap_or(of_scene.roulette),
+            max_bounces: self.max_bounces.map_or(of_scene.max_bounces, |cap| cap.0),
+            seed: self.seed.unwrap_or(of_scene.seed),
+        }
+    }
+
+    fn budget(&self, scene: &Scene) -> Budget {
+        let by_samples = self.time.is_none() && self.noise.is_none();
+        let max_spp = by_samples.then(|| self.spp.or(scene.spp).unwrap_or(DEFAULT_SPP));
+        Budget { max_spp, max_time: self.time, noise: self.noise, ..Budget::default() }
+    }
+}
+
+/// Renders to the end, with a progress bar where there is a terminal to show it.
+fn render(threads: Threads, job: Job, budget: Budget, quiet: bool) -> Published {
+    let (wake, woken) = crossbeam_channel::bounded(1);
+    let renderer = Renderer::new(threads, Publish::Sparse, move || {
+        let _ = wake.try_send(());
+    });
+    renderer.set_budget(budget);
+    renderer.submit(job);
+    let bar = if quiet { ProgressBar::hidden() } else { progress_bar(&budget) };
+    loop {
+        let _ = woken.recv_timeout(Duration::from_millis(200));
+        let published = renderer.latest();
+        show_progress(&bar, &budget, &published.status);
+        if matches!(published.status.state, State::Converged | State::Failed(_)) {
+            bar.finish_and_clear();
+            return published;
+        }
+    }
+}
+
+fn progress_bar(budget: &Budget) -> ProgressBar {
+    let length = match budget {
+        Budget { max_spp: Some(spp), .. } => u64::from(*spp),
+        Budget { max_time: Some(time), .. } => time.as_millis() as u64,
+        _ => 1000,
+    };
+    let style = ProgressStyle::with_template("{bar:30} {percent:>3} %  {msg}  {elapsed} elapsed, {eta} left");
+    ProgressBar::new(length).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+}
+
+fn show_progress(bar: &ProgressBar, budget: &Budget, status: &Status) {
+    let position = match (budget.noise, status.relative_noise()) {
+        _ if budget.max_spp.is_some() => u64::from(status.spp),
+        _ if budget.max_time.is_some() => status.elapsed.as_millis() as u64,
+        // Noise falls as the root of time: the square of the ratio is the share of the work that is done.
+        (Some(goal), Some(noise)) => (1000.0 * (goal / noise).powi(2)).min(1000.0) as u64,
+        _ => 0,
+    };
+    bar.set_position(position);
+    bar.set_message(format!("{} spp, {:.1} M samples/s{}", status.spp, status.samples_per_second() / 1e6, noise_text(status)));
+}
+
+fn noise_text(status: &Status) -> String {
+    status.relative_noise().map_or_else(String::new, |noise| format!(", noise {:.2} %", 100.0 * noise))
+}
+
+fn summary(output: &Path, status: &Status, settings: &RenderSettings, seconds: f64, rel_mse: Option<f64>) -> String {
+    let bias = settings.bias().map_or_else(|| "unbiased".to_owned(), |why| format!("biased: {why}"));
+    let error = rel_mse.map_or_else(String::new, |e| format!(", true error {:.2} %", 100.0 * e.sqrt()));
+    let rate = status.samples as f64 / seconds / 1e6;
+    let noise = noise_text(status);
+    format!("{}: {} spp in {seconds:.2} s ({rate:.1} M samples/s){noise}{error}, {bias}", output.display(), status.spp)
+}
+
+/// The command that traces one sample again.
+fn replay_command(arguments: &Arguments, at: SampleId, settings: &RenderSettings) -> String {
+    let [x, y] = at.pixel;
+    let size = arguments.size.map_or_else(String::new, |[w, h]| format!(" --size {w}x{h}"));
+    let options = noisefall::render::settings_text::options(settings);
+    format!("noisefall render {} --pixel {x},{y} --sample {}{size} {options}", arguments.scene.display(), at.sample)
+}
+
+/// A rendered picture must not be lost to a full disk: where the target fails, the folder for temporary files is tried.
+fn save_somewhere(path: &Path, save: impl Fn(&Path) -> Result<(), noisefall::render::image_file::ImageError>) -> Result<(), Failure> {
+    let Err(error) = save(path) else { return Ok(()) };
+    let rescue = std::env::temp_dir().join(path.file_name().unwrap_or_default());
+    match save(&rescue) {
+        Ok(()) => Err(format!("{error}\nthe picture was saved as {} instead", rescue.display())),
+        Err(_) => Err(error.to_string()),
+    }
+}

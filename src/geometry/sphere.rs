@@ -1,0 +1,87 @@
+//! The sphere, in *anchored* form: a point q on it near the scene, the outward unit normal n there, and the curvature k = 1/R.
+//!
+//! With m(x) = n + k(x − q), which at a point of the sphere is its normal, and
+//! c(x) = k|x − q|² + 2(x − q)·n, which is about twice the distance from the sphere, a ray o + td meets it where
+//! k t² + 2 b t + c(o) = 0 with b = m(o)·d. Neither the centre nor R² appears, so nothing large is subtracted: a wall of radius
+//! 10⁶ is as exact as a plane, and k = 0 is one. The discriminant is taken at the point of the ray nearest the anchor, so that a
+//! ball of radius 10⁻⁶ seen from far away is exact too. (The second is the idea of E. Haines et al., "Precision Improvements for
+//! Ray/Sphere Intersection", Ray Tracing Gems, 2019, chapter 7, moved to the anchor.)
+use glam::DVec3;
+
+use crate::math::{F, Lanes, M, Pick, V};
+
+/// An anchored sphere. Its front is the outside.
+#[derive(Clone, Copy, Debug)]
+pub struct Sphere {
+    anchor: [f32; 3],
+    normal: [f32; 3],
+    curvature: f32,
+    radius: f32,
+}
+
+/// A point of a surface in lanes.
+pub struct SurfacePoint<L: Lanes> {
+    pub p: V<L>,
+    /// Unit geometric normal on the front side.
+    pub n_geometric: V<L>,
+    /// How far along the normal a ray that starts at `p` must be moved to be strictly on that side of the surface.
+    pub error: F<L>,
+}
+
+impl Sphere {
+    /// Anchors the sphere at its point nearest to `near`, which should lie where the scene happens.
+    pub fn new(center: DVec3, radius: f64, near: DVec3) -> Sphere {
+        let n = (near - center).try_normalize().unwrap_or(DVec3::Y).as_vec3();
+        // The rounded normal is taken as the exact one, so that anchor, normal and radius describe one sphere.
+        let anchor = center + n.as_dvec3().normalize() * radius;
+        Sphere {
+            anchor: anchor.as_vec3().to_array(),
+            normal: n.to_array(),
+            curvature: (1.0 / radius) as f32,
+            radius: radius as f32,
+        }
+    }
+
+    /// The nearest t in (0, t_max) at which o + td, d of unit length, meets the sphere.
+    #[inline(always)]
+    pub fn intersect<L: Lanes>(&self, o: V<L>, d: V<L>, t_max: F<L>) -> (F<L>, M<L>) {
+        let from_anchor = o - self.anchor;
+        let along = from_anchor.dot(d);
+        let nearest = from_anchor - d * along;
+        let n_d = d.dot_with(self.normal);
+        let c_nearest = nearest.length_squared() * self.curvature + nearest.dot_with(self.normal) * 2.0;
+        let discriminant = n_d * n_d - c_nearest * self.curvature;
+
+        let b = along * self.curvature + n_d;
+        let c = c_nearest + along * (b + n_d);
+        // Both roots without cancellation: their product is c/k, their sum −2b/k.
+        let q = -(b + discriminant.sqrt().copysign(b));
+        let (t0, t1) = (q * self.radius, c / q);
+        let (near, far) = (t0.min(t1), t0.max(t1));
+        let t = near.above(0.0).pick(near, far);
+        (t, discriminant.ge(discriminant.splat(0.0)) & t.above(0.0) & t.lt(t_max))
+    }
+
+    /// The rows of the table that [`surface_point`] reads.
+    pub(super) fn rows(&self) -> [[f32; 4]; 2] {
+        let ([qx, qy, qz], [nx, ny, nz]) = (self.anchor, self.normal);
+        [[qx, qy, qz, self.curvature], [nx, ny, nz, 0.0]]
+    }
+}
+
+/// The point of the sphere with these rows that is nearest to `p`, which lies on it but for rounding.
+#[inline(always)]
+pub(super) fn surface_point<L: Lanes>([qx, qy, qz, curvature]: [F<L>; 4], [nx, ny, nz, _]: [F<L>; 4], p: V<L>) -> SurfacePoint<L> {
+    // A few roundings each in the point, in its distance from the anchor, and in the c of the ray that leaves it.
+    const ROUNDINGS: f32 = 4.0 * f32::EPSILON;
+    let anchor = V { x: qx, y: qy, z: qz };
+    let normal = V { x: nx, y: ny, z: nz };
+    let from_anchor = p - anchor;
+    let c = from_anchor.length_squared() * curvature + from_anchor.dot(normal) * 2.0;
+    let m = normal + from_anchor * curvature;
+    let length = m.length_squared().sqrt();
+    let n_geometric = m * (1.0 / length);
+    let p = p - n_geometric * (c / (length + 1.0));
+    let error = (p.max_abs() + from_anchor.max_abs()) * ROUNDINGS;
+    SurfacePoint { p, n_geometric, error }
+}

@@ -1,0 +1,123 @@
+//! What one thread works on: the samples of one tile at one sample index, and the queues they travel through.
+use super::queue::Queue;
+use crate::{
+    math::{F, Lanes, M, MAX_LANES, One, U, V},
+    record,
+    scene::{CameraRays, RenderSettings, Scene},
+};
+
+/// A tile is at most this many pixels wide and high; its pixels are the slots of a batch, row by row.
+pub const TILE: u32 = 32;
+const SLOTS: usize = (TILE * TILE) as usize;
+
+record! {
+    /// A path on its way to the next surface.
+    Path {
+        o: V,
+        /// Unit.
+        d: V,
+        /// Product of f cos/p and of the roulette's weights so far.
+        throughput: V,
+        slot: U,
+    }
+}
+
+record! {
+    /// A path at a surface that reflects.
+    Hit {
+        /// Where the next ray starts: the surface point, moved off the surface by its error.
+        p: V,
+        /// Unit normal on the side the path arrived from.
+        n: V,
+        albedo: V,
+        throughput: V,
+        slot: U,
+    }
+}
+
+/// What a batch computes: sample number `sample` of the pixels of one tile.
+#[derive(Clone, Copy)]
+pub struct Work<'a> {
+    pub scene: &'a Scene,
+    pub rays: &'a CameraRays,
+    pub settings: &'a RenderSettings,
+    /// Pixel coordinates of the tile's upper left corner.
+    pub origin: [u32; 2],
+    /// Width and height of the tile, at most [`TILE`].
+    pub size: [u32; 2],
+    pub sample: u32,
+}
+
+impl Work<'_> {
+    /// The pixels of slots, packed as the sampler wants them: y·2¹⁶ + x.
+    #[inline(always)]
+    pub(super) fn pixel<L: Lanes>(&self, slot: U<L>) -> U<L> {
+        let (x, y) = place(slot);
+        ((y + self.origin[1]) << 16) + (x + self.origin[0])
+    }
+}
+
+/// Column and row of slots within their tile.
+#[inline(always)]
+pub(super) fn place<L: Lanes>(slot: U<L>) -> (U<L>, U<L>) {
+    (slot & (TILE - 1), slot >> TILE.trailing_zeros())
+}
+
+/// The queues of a thread. Made once, used for every tile.
+pub struct Batch {
+    /// Paths of this bounce and of the next, in turn.
+    pub(super) paths: [Queue; 2],
+    pub(super) hits: Queue,
+    /// Distance and primitive id of the first surface of every path of this bounce.
+    pub(super) t: Vec<f32>,
+    pub(super) primitive: Vec<f32>,
+    /// Radiance gathered so far, a slot.
+    pub(super) radiance: Vec<[f32; 4]>,
+    pub(super) bounce: u32,
+    /// Path segments traced.
+    pub rays: u64,
+    /// Paths cut at [`RenderSettings::LONGEST_PATH`].
+    pub cut_paths: u64,
+}
+
+impl Default for Batch {
+    fn default() -> Self {
+        Batch {
+            paths: [Path::<One>::queue(SLOTS), Path::<One>::queue(SLOTS)],
+            hits: Hit::<One>::queue(SLOTS),
+            t: vec![0.0; SLOTS + MAX_LANES],
+            primitive: vec![0.0; SLOTS + MAX_LANES],
+            radiance: vec![[0.0; 4]; SLOTS],
+            bounce: 0,
+            rays: 0,
+            cut_paths: 0,
+        }
+    }
+}
+
+impl Batch {
+    /// The radiance of every slot after a trace; slot = row · [`TILE`] + column.
+    pub fn radiance(&self) -> &[[f32; 4]] {
+        &self.radiance
+    }
+
+    pub(super) fn current(&self) -> &Queue {
+        &self.paths[(self.bounce & 1) as usize]
+    }
+}
+
+/// Adds light to the slots of the lanes in `mask`.
+#[inline(always)]
+pub(super) fn add<L: Lanes>(radiance: &mut [[f32; 4]], mask: M<L>, slot: U<L>, light: V<L>) {
+    let slot = slot.to_array();
+    let [x, y, z] = [light.x, light.y, light.z].map(F::to_array);
+    let mut lanes = mask.bits();
+    while lanes != 0 {
+        let lane = lanes.trailing_zeros() as usize % MAX_LANES;
+        lanes &= lanes - 1;
+        let sum = &mut radiance[slot[lane] as usize];
+        sum[0] += x[lane];
+        sum[1] += y[lane];
+        sum[2] += z[lane];
+    }
+}

@@ -1,0 +1,150 @@
+//! Queues of records in structure-of-arrays form: one dense column of f32 a scalar field.
+//!
+//! A stage reads a queue a register at a time and appends what survives to the next one, compressed, so that lanes stay full
+//! however paths diverge.
+use crate::math::{F, Lanes, M, MAX_LANES, U, V};
+
+/// Columns of numbers. What they mean is known to the record type that made the queue.
+pub struct Queue {
+    columns: Vec<f32>,
+    stride: usize,
+    len: usize,
+}
+
+impl Queue {
+    pub fn new(columns: usize, capacity: usize) -> Queue {
+        // Registers are loaded and stored whole, so the last one may reach past the end.
+        let stride = capacity + MAX_LANES;
+        Queue { columns: vec![0.0; columns * stride], stride, len: 0 }
+    }
+
+    pub fn len(&self) -> usize {
+        self.len
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.len == 0
+    }
+
+    pub fn clear(&mut self) {
+        self.len = 0;
+    }
+
+    #[inline(always)]
+    pub fn advance(&mut self, by: usize) {
+        self.len += by;
+    }
+
+    #[inline(always)]
+    fn column(&self, column: usize, at: usize) -> &[f32] {
+        &self.columns[column * self.stride + at..]
+    }
+
+    #[inline(always)]
+    fn column_mut(&mut self, column: usize, at: usize) -> &mut [f32] {
+        &mut self.columns[column * self.stride + at..]
+    }
+}
+
+/// What a record can hold.
+pub trait Field<L: Lanes>: Copy {
+    const COLUMNS: usize;
+    fn read(l: L, queue: &Queue, column: usize, at: usize) -> Self;
+    /// Writes the lanes of `keep`, moved together, or all when `whole`.
+    fn append(self, keep: M<L>, whole: bool, queue: &mut Queue, column: usize);
+}
+
+impl<L: Lanes> Field<L> for F<L> {
+    const COLUMNS: usize = 1;
+    #[inline(always)]
+    fn read(l: L, queue: &Queue, column: usize, at: usize) -> Self {
+        l.load(queue.column(column, at))
+    }
+    #[inline(always)]
+    fn append(self, keep: M<L>, whole: bool, queue: &mut Queue, column: usize) {
+        let kept = if whole { self } else { self.compress(keep) };
+        let end = queue.len;
+        kept.store(queue.column_mut(column, end));
+    }
+}
+
+impl<L: Lanes> Field<L> for U<L> {
+    const COLUMNS: usize = 1;
+    #[inline(always)]
+    fn read(l: L, queue: &Queue, column: usize, at: usize) -> Self {
+        F::read(l, queue, column, at).bits()
+    }
+    #[inline(always)]
+    fn append(self, keep: M<L>, whole: bool, queue: &mut Queue, column: usize) {
+        self.as_real_bits().append(keep, whole, queue, column);
+    }
+}
+
+impl<L: Lanes> Field<L> for V<L> {
+    const COLUMNS: usize = 3;
+    #[inline(always)]
+    fn read(l: L, queue: &Queue, column: usize, at: usize) -> Self {
+        V {
+            x: F::read(l, queue, column, at),
+            y: F::read(l, queue, column + 1, at),
+            z: F::read(l, queue, column + 2, at),
+        }
+    }
+    #[inline(always)]
+    fn append(self, keep: M<L>, whole: bool, queue: &mut Queue, column: usize) {
+        self.x.append(keep, whole, queue, column);
+        self.y.append(keep, whole, queue, column + 1);
+        self.z.append(keep, whole, queue, column + 2);
+    }
+}
+
+/// `record! { Path { o: V, slot: U } }` makes the struct and its queue.
+#[macro_export]
+macro_rules! record {
+    ($(#[$attribute:meta])* $name:ident { $($(#[$doc:meta])* $field:ident: $kind:ident),* $(,)? }) => {
+        $(#[$attribute])*
+        pub struct $name<L: $crate::math::Lanes> {
+            $($(#[$doc])* pub $field: $crate::math::$kind<L>),*
+        }
+
+        impl<L: $crate::math::Lanes> $name<L> {
+            const COLUMNS: usize =
+                0 $(+ <$crate::math::$kind<L> as $crate::integrator::queue::Field<L>>::COLUMNS)*;
+
+            pub fn queue(capacity: usize) -> $crate::integrator::queue::Queue {
+                $crate::integrator::queue::Queue::new(Self::COLUMNS, capacity)
+            }
+
+            /// The records from place `at` on, one a lane.
+            #[inline(always)]
+            pub fn read(l: L, queue: &$crate::integrator::queue::Queue, at: usize) -> Self {
+                use $crate::integrator::queue::Field;
+                let mut column = 0;
+                $(
+                    let $field = <$crate::math::$kind<L> as Field<L>>::read(l, queue, column, at);
+                    column += <$crate::math::$kind<L> as Field<L>>::COLUMNS;
+                )*
+                let _ = column;
+                $name { $($field),* }
+            }
+
+            /// Appends the lanes of `keep`.
+            #[inline(always)]
+            pub fn push(self, keep: $crate::math::M<L>, queue: &mut $crate::integrator::queue::Queue) {
+                use $crate::integrator::queue::Field;
+                let count = keep.count();
+                if count == 0 {
+                    return;
+                }
+                let whole = count == L::N;
+                let mut column = 0;
+                $(
+                    Field::append(self.$field, keep, whole, queue, column);
+                    column += <$crate::math::$kind<L> as Field<L>>::COLUMNS;
+                )*
+                let _ = column;
+                queue.advance(count);
+            }
+        }
+    };
+}

@@ -1,0 +1,27 @@
+//! First stage: camera rays through uniform points of the pixels' areas (the box filter of one pixel's width).
+use fearless_simd_macros::simd;
+
+use super::batch::{Batch, Path, TILE, Work, place};
+use crate::{
+    math::{Lanes, V},
+    sampling::{Dimension, Stream},
+};
+
+#[simd]
+pub(super) fn spawn<L: Lanes>(l: L, work: &Work, batch: &mut Batch) {
+    batch.bounce = 0;
+    batch.paths[0].clear();
+    batch.radiance.fill([0.0; 4]);
+    let [width, height] = work.size;
+    for start in (0..height * TILE).step_by(L::N) {
+        let slot = l.iota() + start;
+        let (column, row) = place(slot);
+        let inside = column.below(width) & row.below(height);
+        let stream = Stream::new(work.settings.sampler, work.settings.seed, work.pixel(slot), work.sample);
+        let (u, v) = stream.two(Dimension::PIXEL);
+        let x = (column + work.origin[0]).to_real() + u;
+        let y = (row + work.origin[1]).to_real() + v;
+        let (o, d) = work.rays.through(l, x, y);
+        Path { o, d, throughput: V::splat(l, [1.0; 3]), slot }.push(inside, &mut batch.paths[0]);
+    }
+}

@@ -1,0 +1,63 @@
+//! The path loop: a batch runs bounce by bounce through the stages until no path is left.
+use fearless_simd_macros::simd;
+
+use super::{
+    batch::{Batch, Work},
+    intersect::intersect,
+    shade::shade,
+    spawn::spawn,
+    surface::surface,
+};
+use crate::{
+    in_lanes,
+    math::{Lanes, SimdLevel},
+};
+
+/// Looks at a batch between the stages; `()` does not.
+pub trait Observer {
+    /// Every path has met its surface and what reflects is queued.
+    fn at_surfaces(&mut self, _work: &Work, _batch: &Batch) {}
+}
+
+impl Observer for () {}
+
+/// The batch was interrupted: its radiance is worthless.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Interrupted;
+
+/// Traces one sample of every pixel of a tile; the result is [`Batch::radiance`]. `interrupted` is asked before every bounce.
+///
+/// The estimate is the sum over bounces k of throughput × emitted radiance at the k-th surface, which is the light transport
+/// equation with its integral replaced, again and again, by one sampled direction (Kajiya 1986; equation (9) of the brief).
+pub fn trace(level: SimdLevel, work: &Work, batch: &mut Batch, interrupted: &dyn Fn() -> bool) -> Result<(), Interrupted> {
+    in_lanes!(level, l => trace_in(l, work, batch, interrupted, &mut ()))
+}
+
+#[simd]
+pub(super) fn trace_in<L: Lanes, O: Observer>(
+    l: L,
+    work: &Work,
+    batch: &mut Batch,
+    interrupted: &dyn Fn() -> bool,
+    observer: &mut O,
+) -> Result<(), Interrupted> {
+    let last_bounce = work.settings.last_bounce();
+    let cut_short = work.settings.max_bounces != Some(last_bounce);
+    spawn(l, work, batch);
+    while !batch.current().is_empty() {
+        if interrupted() {
+            return Err(Interrupted);
+        }
+        let last = batch.bounce == last_bounce;
+        intersect(l, work, batch);
+        surface(l, work, batch, last);
+        observer.at_surfaces(work, batch);
+        if last {
+            batch.cut_paths += if cut_short { batch.current().len() as u64 } else { 0 };
+            break;
+        }
+        shade(l, work, batch);
+        batch.bounce += 1;
+    }
+    Ok(())
+}

@@ -1,0 +1,13 @@
+//! Noisefall: the light transport equation, solved by Monte-Carlo path tracing while one watches.
+//!
+//! The library is the renderer; the window and the command line are in the binary. Folders depend downwards only:
+//! `render`, `measure` → `integrator` → `scene` → `light`, `material`, `geometry` → `sampling` → `math`.
+pub mod geometry;
+pub mod integrator;
+pub mod light;
+pub mod material;
+pub mod math;
+pub mod measure;
+pub mod render;
+pub mod sampling;
+pub mod scene;

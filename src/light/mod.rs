@@ -1,0 +1,13 @@
+//! Light sources: surfaces that emit, and the background.
+//!
+//! | kind | file | what it is |
+//! |---|---|---|
+//! | emission | `emission.rs` | constant radiance from one or both sides of a surface |
+//! | background | `background.rs` | constant radiance from all directions that meet no surface |
+pub mod background;
+pub mod emission;
+
+pub use self::{
+    background::Background,
+    emission::{Emission, Emitters, Side},
+};

@@ -1,0 +1,10 @@
+//! The program: a window onto a path tracer, and its headless commands.
+use std::process::ExitCode;
+
+mod cli;
+#[cfg(feature = "viewer")]
+mod viewer;
+
+fn main() -> ExitCode {
+    cli::run()
+}

@@ -1,0 +1,486 @@
+//! Lanes: several numbers that are computed side by side by one instruction.
+//!
+//! A *lane configuration* is a zero-sized token, [`X16`], [`X4`] or [`One`], that names how many numbers travel together and
+//! which instructions the processor is known to have. Code generic over [`Lanes`] reads like scalar code and compiles to any of
+//! them. Every operation here is exactly rounded (IEEE 754) and nothing is contracted or reassociated, so all configurations
+//! give the same bits.
+//!
+//! This file alone knows the SIMD crate; the operators on top of it are in [`super::number`].
+use fearless_simd::{
+    Bytes, ExtractToken, Fallback, Select, Simd, SimdBase, SimdFloat, SimdInt, SimdMask, f32x4, f32x16,
+    mask32x4, mask32x16, u32x4, u32x16,
+};
+
+use super::number::{F, M, U};
+
+/// The widest configuration; arrays that hold the lanes of any configuration have this length.
+pub const MAX_LANES: usize = 16;
+
+/// A lane configuration: `N` reals, `N` unsigned integers or `N` truth values side by side.
+pub trait Lanes: ExtractToken + Copy + Send + Sync + 'static {
+    type Real: Copy;
+    type Int: Copy;
+    type Mask: Copy;
+    const N: usize;
+
+    fn f(self, x: f32) -> F<Self>;
+    fn u(self, x: u32) -> U<Self>;
+    /// The mask whose first `n` lanes are set (all of them when `n` exceeds `N`).
+    fn first(self, n: usize) -> M<Self>;
+    /// The integers 0, 1, 2, …
+    fn iota(self) -> U<Self>;
+    fn load(self, from: &[f32]) -> F<Self>;
+    /// Row `index[lane]` of a table of four numbers for every lane, transposed into four columns.
+    fn rows(self, table: &[[f32; 4]], index: U<Self>) -> [F<Self>; 4];
+
+    fn store(x: Self::Real, to: &mut [f32]);
+    fn store_int(x: Self::Int, to: &mut [u32]);
+    fn splat(like: Self::Real, x: f32) -> Self::Real;
+    fn splat_int(like: Self::Int, x: u32) -> Self::Int;
+
+    fn add(a: Self::Real, b: Self::Real) -> Self::Real;
+    fn sub(a: Self::Real, b: Self::Real) -> Self::Real;
+    fn mul(a: Self::Real, b: Self::Real) -> Self::Real;
+    fn div(a: Self::Real, b: Self::Real) -> Self::Real;
+    fn neg(a: Self::Real) -> Self::Real;
+    /// The smaller one; `b` when the two cannot be compared.
+    fn min(a: Self::Real, b: Self::Real) -> Self::Real;
+    /// The larger one; `b` when the two cannot be compared.
+    fn max(a: Self::Real, b: Self::Real) -> Self::Real;
+    fn abs(a: Self::Real) -> Self::Real;
+    fn sqrt(a: Self::Real) -> Self::Real;
+    fn copysign(a: Self::Real, sign: Self::Real) -> Self::Real;
+    fn lt(a: Self::Real, b: Self::Real) -> Self::Mask;
+    fn le(a: Self::Real, b: Self::Real) -> Self::Mask;
+    /// The lanes set in `keep`, moved to the front; what follows them is unspecified.
+    fn compress(a: Self::Real, keep: Self::Mask) -> Self::Real;
+
+    fn bits(a: Self::Real) -> Self::Int;
+    fn from_bits(a: Self::Int) -> Self::Real;
+    /// The nearest real.
+    fn to_real(a: Self::Int) -> Self::Real;
+
+    fn add_int(a: Self::Int, b: Self::Int) -> Self::Int;
+    fn mul_int(a: Self::Int, b: Self::Int) -> Self::Int;
+    fn xor(a: Self::Int, b: Self::Int) -> Self::Int;
+    fn or(a: Self::Int, b: Self::Int) -> Self::Int;
+    fn and(a: Self::Int, b: Self::Int) -> Self::Int;
+    fn shl(a: Self::Int, by: u32) -> Self::Int;
+    fn shr(a: Self::Int, by: u32) -> Self::Int;
+    fn eq_int(a: Self::Int, b: Self::Int) -> Self::Mask;
+    fn lt_int(a: Self::Int, b: Self::Int) -> Self::Mask;
+
+    fn pick(m: Self::Mask, a: Self::Real, b: Self::Real) -> Self::Real;
+    fn pick_int(m: Self::Mask, a: Self::Int, b: Self::Int) -> Self::Int;
+    fn and_mask(a: Self::Mask, b: Self::Mask) -> Self::Mask;
+    fn or_mask(a: Self::Mask, b: Self::Mask) -> Self::Mask;
+    fn not(a: Self::Mask) -> Self::Mask;
+    fn any(a: Self::Mask) -> bool;
+    /// Lane `i` as bit `i`.
+    fn bitmask(a: Self::Mask) -> u64;
+}
+
+const IOTA: [u32; MAX_LANES] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
+
+macro_rules! simd_lanes {
+    ($name:ident, $n:literal, $real:ty, $int:ty, $mask:ty, $doc:literal) => {
+        #[doc = $doc]
+        #[derive(Clone, Copy)]
+        pub struct $name<S: Simd>(pub S);
+
+        impl<S: Simd> ExtractToken for $name<S> {
+            type S = S;
+            #[inline(always)]
+            fn token(&self) -> S {
+                self.0
+            }
+        }
+
+        impl<S: Simd> Lanes for $name<S> {
+            type Real = $real;
+            type Int = $int;
+            type Mask = $mask;
+            const N: usize = $n;
+
+            #[inline(always)]
+            fn f(self, x: f32) -> F<Self> {
+                F(<$real>::splat(self.0, x))
+            }
+            #[inline(always)]
+            fn u(self, x: u32) -> U<Self> {
+                U(<$int>::splat(self.0, x))
+            }
+            #[inline(always)]
+            fn first(self, n: usize) -> M<Self> {
+                let bits = if n >= $n { u64::MAX >> (64 - $n) } else { (1u64 << n) - 1 };
+                M(<$mask>::from_bitmask(self.0, bits))
+            }
+            #[inline(always)]
+            fn iota(self) -> U<Self> {
+                U(<$int>::from_slice(self.0, &IOTA[..$n]))
+            }
+            #[inline(always)]
+            fn load(self, from: &[f32]) -> F<Self> {
+                F(<$real>::from_slice(self.0, &from[..$n]))
+            }
+            #[inline(always)]
+            fn rows(self, table: &[[f32; 4]], index: U<Self>) -> [F<Self>; 4] {
+                let mut at = [0u32; $n];
+                index.0.store_slice(&mut at);
+                let mut rows = [[0f32; 4]; $n];
+                for lane in 0..$n {
+                    rows[lane] = table[at[lane] as usize];
+                }
+                let flat = rows.as_flattened();
+                let quarter = |q: usize| <$real>::from_slice(self.0, &flat[q * $n..(q + 1) * $n]);
+                let (even0, odd0) = quarter(0).deinterleave(quarter(1));
+                let (even1, odd1) = quarter(2).deinterleave(quarter(3));
+                let (x, z) = even0.deinterleave(even1);
+                let (y, w) = odd0.deinterleave(odd1);
+                [F(x), F(y), F(z), F(w)]
+            }
+            #[inline(always)]
+            fn store(x: $real, to: &mut [f32]) {
+                x.store_slice(&mut to[..$n]);
+            }
+            #[inline(always)]
+            fn store_int(x: $int, to: &mut [u32]) {
+                x.store_slice(&mut to[..$n]);
+            }
+            #[inline(always)]
+            fn splat(like: $real, x: f32) -> $real {
+                <$real>::splat(like.token(), x)
+            }
+            #[inline(always)]
+            fn splat_int(like: $int, x: u32) -> $int {
+                <$int>::splat(like.token(), x)
+            }
+            #[inline(always)]
+            fn add(a: $real, b: $real) -> $real {
+                a + b
+            }
+            #[inline(always)]
+            fn sub(a: $real, b: $real) -> $real {
+                a - b
+            }
+            #[inline(always)]
+            fn mul(a: $real, b: $real) -> $real {
+                a * b
+            }
+            #[inline(always)]
+            fn div(a: $real, b: $real) -> $real {
+                a / b
+            }
+            #[inline(always)]
+            fn neg(a: $real) -> $real {
+                -a
+            }
+            #[inline(always)]
+            fn min(a: $real, b: $real) -> $real {
+                a.simd_lt(b).select(a, b)
+            }
+            #[inline(always)]
+            fn max(a: $real, b: $real) -> $real {
+                b.simd_lt(a).select(a, b)
+            }
+            #[inline(always)]
+            fn abs(a: $real) -> $real {
+                a.abs()
+            }
+            #[inline(always)]
+            fn sqrt(a: $real) -> $real {
+                a.sqrt()
+            }
+            #[inline(always)]
+            fn copysign(a: $real, sign: $real) -> $real {
+                a.copysign(sign)
+            }
+            #[inline(always)]
+            fn lt(a: $real, b: $real) -> $mask {
+                a.simd_lt(b)
+            }
+            #[inline(always)]
+            fn le(a: $real, b: $real) -> $mask {
+                a.simd_le(b)
+            }
+            #[inline(always)]
+            fn compress(a: $real, keep: $mask) -> $real {
+                a.compress(keep)
+            }
+            #[inline(always)]
+            fn bits(a: $real) -> $int {
+                a.bitcast()
+            }
+            #[inline(always)]
+            fn from_bits(a: $int) -> $real {
+                a.bitcast()
+            }
+            #[inline(always)]
+            fn to_real(a: $int) -> $real {
+                a.to_float()
+            }
+            #[inline(always)]
+            fn add_int(a: $int, b: $int) -> $int {
+                a + b
+            }
+            #[inline(always)]
+            fn mul_int(a: $int, b: $int) -> $int {
+                a * b
+            }
+            #[inline(always)]
+            fn xor(a: $int, b: $int) -> $int {
+                a ^ b
+            }
+            #[inline(always)]
+            fn or(a: $int, b: $int) -> $int {
+                a | b
+            }
+            #[inline(always)]
+            fn and(a: $int, b: $int) -> $int {
+                a & b
+            }
+            #[inline(always)]
+            fn shl(a: $int, by: u32) -> $int {
+                a << by
+            }
+            #[inline(always)]
+            fn shr(a: $int, by: u32) -> $int {
+                a >> by
+            }
+            #[inline(always)]
+            fn eq_int(a: $int, b: $int) -> $mask {
+                a.simd_eq(b)
+            }
+            #[inline(always)]
+            fn lt_int(a: $int, b: $int) -> $mask {
+                a.simd_lt(b)
+            }
+            #[inline(always)]
+            fn pick(m: $mask, a: $real, b: $real) -> $real {
+                m.select(a, b)
+            }
+            #[inline(always)]
+            fn pick_int(m: $mask, a: $int, b: $int) -> $int {
+                m.select(a, b)
+            }
+            #[inline(always)]
+            fn and_mask(a: $mask, b: $mask) -> $mask {
+                a & b
+            }
+            #[inline(always)]
+            fn or_mask(a: $mask, b: $mask) -> $mask {
+                a | b
+            }
+            #[inline(always)]
+            fn not(a: $mask) -> $mask {
+                !a
+            }
+            #[inline(always)]
+            fn any(a: $mask) -> bool {
+                a.any_true()
+            }
+            #[inline(always)]
+            fn bitmask(a: $mask) -> u64 {
+                a.to_bitmask()
+            }
+        }
+    };
+}
+
+simd_lanes!(X4, 4, f32x4<S>, u32x4<S>, mask32x4<S>, "Four lanes: the width of SSE and NEON.");
+simd_lanes!(
+    X16,
+    16,
+    f32x16<S>,
+    u32x16<S>,
+    mask32x16<S>,
+    "Sixteen lanes: one AVX-512 register, or two of AVX2."
+);
+
+/// One lane of plain numbers: the scalar path, for replaying a single sample and for tests.
+#[derive(Clone, Copy)]
+pub struct One;
+
+impl ExtractToken for One {
+    type S = Fallback;
+    #[inline(always)]
+    fn token(&self) -> Fallback {
+        Fallback::new()
+    }
+}
+
+impl Lanes for One {
+    type Real = f32;
+    type Int = u32;
+    type Mask = bool;
+    const N: usize = 1;
+
+    #[inline(always)]
+    fn f(self, x: f32) -> F<Self> {
+        F(x)
+    }
+    #[inline(always)]
+    fn u(self, x: u32) -> U<Self> {
+        U(x)
+    }
+    #[inline(always)]
+    fn first(self, n: usize) -> M<Self> {
+        M(n > 0)
+    }
+    #[inline(always)]
+    fn iota(self) -> U<Self> {
+        U(0)
+    }
+    #[inline(always)]
+    fn load(self, from: &[f32]) -> F<Self> {
+        F(from[0])
+    }
+    #[inline(always)]
+    fn rows(self, table: &[[f32; 4]], index: U<Self>) -> [F<Self>; 4] {
+        table[index.0 as usize].map(F)
+    }
+    #[inline(always)]
+    fn store(x: f32, to: &mut [f32]) {
+        to[0] = x;
+    }
+    #[inline(always)]
+    fn store_int(x: u32, to: &mut [u32]) {
+        to[0] = x;
+    }
+    #[inline(always)]
+    fn splat(_: f32, x: f32) -> f32 {
+        x
+    }
+    #[inline(always)]
+    fn splat_int(_: u32, x: u32) -> u32 {
+        x
+    }
+    #[inline(always)]
+    fn add(a: f32, b: f32) -> f32 {
+        a + b
+    }
+    #[inline(always)]
+    fn sub(a: f32, b: f32) -> f32 {
+        a - b
+    }
+    #[inline(always)]
+    fn mul(a: f32, b: f32) -> f32 {
+        a * b
+    }
+    #[inline(always)]
+    fn div(a: f32, b: f32) -> f32 {
+        a / b
+    }
+    #[inline(always)]
+    fn neg(a: f32) -> f32 {
+        -a
+    }
+    #[inline(always)]
+    fn min(a: f32, b: f32) -> f32 {
+        if a < b { a } else { b }
+    }
+    #[inline(always)]
+    fn max(a: f32, b: f32) -> f32 {
+        if b < a { a } else { b }
+    }
+    #[inline(always)]
+    fn abs(a: f32) -> f32 {
+        a.abs()
+    }
+    #[inline(always)]
+    fn sqrt(a: f32) -> f32 {
+        a.sqrt()
+    }
+    #[inline(always)]
+    fn copysign(a: f32, sign: f32) -> f32 {
+        a.copysign(sign)
+    }
+    #[inline(always)]
+    fn lt(a: f32, b: f32) -> bool {
+        a < b
+    }
+    #[inline(always)]
+    fn le(a: f32, b: f32) -> bool {
+        a <= b
+    }
+    #[inline(always)]
+    fn compress(a: f32, _: bool) -> f32 {
+        a
+    }
+    #[inline(always)]
+    fn bits(a: f32) -> u32 {
+        a.to_bits()
+    }
+    #[inline(always)]
+    fn from_bits(a: u32) -> f32 {
+        f32::from_bits(a)
+    }
+    #[inline(always)]
+    fn to_real(a: u32) -> f32 {
+        a as f32
+    }
+    #[inline(always)]
+    fn add_int(a: u32, b: u32) -> u32 {
+        a.wrapping_add(b)
+    }
+    #[inline(always)]
+    fn mul_int(a: u32, b: u32) -> u32 {
+        a.wrapping_mul(b)
+    }
+    #[inline(always)]
+    fn xor(a: u32, b: u32) -> u32 {
+        a ^ b
+    }
+    #[inline(always)]
+    fn or(a: u32, b: u32) -> u32 {
+        a | b
+    }
+    #[inline(always)]
+    fn and(a: u32, b: u32) -> u32 {
+        a & b
+    }
+    #[inline(always)]
+    fn shl(a: u32, by: u32) -> u32 {
+        a << by
+    }
+    #[inline(always)]
+    fn shr(a: u32, by: u32) -> u32 {
+        a >> by
+    }
+    #[inline(always)]
+    fn eq_int(a: u32, b: u32) -> bool {
+        a == b
+    }
+    #[inline(always)]
+    fn lt_int(a: u32, b: u32) -> bool {
+        a < b
+    }
+    #[inline(always)]
+    fn pick(m: bool, a: f32, b: f32) -> f32 {
+        if m { a } else { b }
+    }
+    #[inline(always)]
+    fn pick_int(m: bool, a: u32, b: u32) -> u32 {
+        if m { a } else { b }
+    }
+    #[inline(always)]
+    fn and_mask(a: bool, b: bool) -> bool {
+        a & b
+    }
+    #[inline(always)]
+    fn or_mask(a: bool, b: bool) -> bool {
+        a | b
+    }
+    #[inline(always)]
+    fn not(a: bool) -> bool {
+        !a
+    }
+    #[inline(always)]
+    fn any(a: bool) -> bool {
+        a
+    }
+    #[inline(always)]
+    fn bitmask(a: bool) -> u64 {
+        u64::from(a)
+    }
+}

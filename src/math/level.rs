@@ -1,0 +1,82 @@
+//! Which instructions this processor has, found at run time: one release binary runs everywhere.
+use fearless_simd::Level;
+
+/// The vector instructions a render uses. All give the same picture, bit for bit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SimdLevel {
+    /// One lane, no vector instructions.
+    Scalar,
+    /// Four lanes: SSE4.2 or NEON.
+    Bits128,
+    /// Sixteen lanes in pairs of AVX2 registers.
+    Avx2,
+    /// Sixteen lanes in AVX-512 registers.
+    Avx512,
+}
+
+impl SimdLevel {
+    /// The levels this processor can run, slowest first.
+    pub fn available() -> Vec<SimdLevel> {
+        let level = Level::new();
+        let mut all = vec![SimdLevel::Scalar];
+        #[cfg(target_arch = "x86_64")]
+        {
+            let x86 = [
+                (level.as_sse4_2().is_some(), SimdLevel::Bits128),
+                (level.as_avx2().is_some(), SimdLevel::Avx2),
+                (level.as_avx512().is_some(), SimdLevel::Avx512),
+            ];
+            all.extend(x86.into_iter().filter(|(has, _)| *has).map(|(_, level)| level));
+        }
+        #[cfg(target_arch = "aarch64")]
+        if level.as_neon().is_some() {
+            all.push(SimdLevel::Bits128);
+        }
+        let _ = level;
+        all
+    }
+
+    pub fn best() -> SimdLevel {
+        SimdLevel::available().into_iter().last().unwrap_or(SimdLevel::Scalar)
+    }
+}
+
+/// `in_lanes!(level, l => call(l, …))`: the call with the lane configuration of a [`SimdLevel`]. A level the processor does not
+/// have falls back to one lane.
+#[macro_export]
+macro_rules! in_lanes {
+    ($level:expr, $l:ident => $call:expr) => {{
+        use $crate::math::{
+            lanes::{One, X4, X16},
+            level::SimdLevel,
+        };
+        let detected = ::fearless_simd::Level::new();
+        let _ = (&detected, X4::<::fearless_simd::Fallback>, X16::<::fearless_simd::Fallback>);
+        match $level {
+            #[cfg(target_arch = "x86_64")]
+            SimdLevel::Avx512 if let Some(token) = detected.as_avx512() => {
+                let $l = X16(token);
+                $call
+            }
+            #[cfg(target_arch = "x86_64")]
+            SimdLevel::Avx2 if let Some(token) = detected.as_avx2() => {
+                let $l = X16(token);
+                $call
+            }
+            #[cfg(target_arch = "x86_64")]
+            SimdLevel::Bits128 if let Some(token) = detected.as_sse4_2() => {
+                let $l = X4(token);
+                $call
+            }
+            #[cfg(target_arch = "aarch64")]
+            SimdLevel::Bits128 if let Some(token) = detected.as_neon() => {
+                let $l = X4(token);
+                $call
+            }
+            _ => {
+                let $l = One;
+                $call
+            }
+        }
+    }};
+}

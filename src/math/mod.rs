@@ -1,0 +1,16 @@
+//! Numbers, vectors and frames in lanes, and colour. Nothing here knows what light is.
+pub mod colour;
+pub mod frame;
+pub mod lanes;
+pub mod level;
+pub mod number;
+pub mod trig;
+pub mod vector;
+
+pub use self::{
+    frame::Frame,
+    lanes::{Lanes, MAX_LANES, One},
+    level::SimdLevel,
+    number::{F, M, Pick, U},
+    vector::V,
+};

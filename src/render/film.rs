@@ -1,0 +1,104 @@
+//! The film: what a picture's samples add up to.
+use crate::integrator::TILE;
+
+/// Sums of samples over all pixels, in tiles that each belong to one thread at a time.
+pub struct Film {
+    width: u32,
+    pub tiles: Vec<Tile>,
+}
+
+/// The pixels of one tile, row by row. Sums are f64, so that a millionth sample still counts.
+pub struct Tile {
+    /// Pixel coordinates of the upper left corner.
+    pub origin: [u32; 2],
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// Samples taken of every pixel.
+    pub spp: u32,
+    sum: Vec<[f64; 3]>,
+    sum_of_squares: Vec<[f64; 3]>,
+    /// Samples that were not finite, or negative; they count as black.
+    pub invalid: u64,
+}
+
+/// Mean of a pixel's samples and the variance of that mean, a channel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Estimate {
+    pub mean: [f64; 3],
+    /// `None` before the second sample.
+    pub variance_of_mean: Option<[f64; 3]>,
+}
+
+impl Film {
+    pub fn new([width, height]: [u32; 2]) -> Film {
+        let corners = |side: u32| (0..side).step_by(TILE as usize);
+        let tile = |x: u32, y: u32| Tile::new([x, y], [TILE.min(width - x), TILE.min(height - y)]);
+        Film { width, tiles: corners(height).flat_map(|y| corners(width).map(move |x| tile(x, y))).collect() }
+    }
+
+    /// The samples that every pixel has at least.
+    pub fn spp(&self) -> u32 {
+        self.tiles.iter().map(|tile| tile.spp).min().unwrap_or(0)
+    }
+
+    pub fn samples(&self) -> u64 {
+        self.tiles.iter().map(|tile| u64::from(tile.spp) * tile.pixels() as u64).sum()
+    }
+
+    pub fn invalid_samples(&self) -> u64 {
+        self.tiles.iter().map(|tile| tile.invalid).sum()
+    }
+
+    /// Rows of tiles from top to bottom.
+    pub fn tile_rows(&self) -> impl Iterator<Item = &[Tile]> {
+        self.tiles.chunks(self.width.div_ceil(TILE) as usize)
+    }
+}
+
+impl Tile {
+    fn new(origin: [u32; 2], size: [u32; 2]) -> Tile {
+        let pixels = (size[0] * size[1]) as usize;
+        Tile { origin, size, spp: 0, sum: vec![[0.0; 3]; pixels], sum_of_squares: vec![[0.0; 3]; pixels], invalid: 0 }
+    }
+
+    pub fn pixels(&self) -> usize {
+        self.sum.len()
+    }
+
+    /// Adds one sample to every pixel; slot = row · [`TILE`] + column. Returns the first pixel whose sample is invalid.
+    pub fn add(&mut self, radiance: &[[f32; 4]]) -> Option<[u32; 2]> {
+        let mut first_invalid = None;
+        let width = self.size[0] as usize;
+        let rows = self.sum.chunks_exact_mut(width).zip(self.sum_of_squares.chunks_exact_mut(width));
+        for (y, ((sums, squares), slots)) in rows.zip(radiance.chunks(TILE as usize)).enumerate() {
+            for (x, ((sum, square), sample)) in sums.iter_mut().zip(squares).zip(slots).enumerate() {
+                let [r, g, b, _] = *sample;
+                // One comparison a channel refuses negative numbers, infinities and NaN alike.
+                if ![r, g, b].iter().all(|c| (0.0..=f32::MAX).contains(c)) {
+                    self.invalid += 1;
+                    first_invalid = first_invalid.or(Some([self.origin[0] + x as u32, self.origin[1] + y as u32]));
+                    continue;
+                }
+                for (channel, value) in [r, g, b].into_iter().enumerate() {
+                    let value = f64::from(value);
+                    sum[channel] += value;
+                    square[channel] += value * value;
+                }
+            }
+        }
+        self.spp += 1;
+        first_invalid
+    }
+
+    /// The estimates of one row of the tile; `row` counts from the tile's top.
+    pub fn estimates(&self, row: usize) -> impl Iterator<Item = Estimate> {
+        let width = self.size[0] as usize;
+        let pixels = row * width..(row + 1) * width;
+        let n = f64::from(self.spp.max(1));
+        self.sum[pixels.clone()].iter().zip(&self.sum_of_squares[pixels]).map(move |(sum, square)| {
+            let mean = sum.map(|s| s / n);
+            let variance = |c: usize| ((square[c] / n - mean[c] * mean[c]) / (n - 1.0)).max(0.0);
+            Estimate { mean, variance_of_mean: (n > 1.0).then(|| [variance(0), variance(1), variance(2)]) }
+        })
+    }
+}

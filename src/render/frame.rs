@@ -1,0 +1,80 @@
+//! A frame: the picture at one moment, as others may look at it while the render goes on.
+use rayon::prelude::*;
+
+use super::film::{Estimate, Film};
+use crate::{integrator::TILE, math::colour::luminance, measure::REL_MSE_FLOOR};
+
+/// Linear radiance, row by row from the top left. Immutable once published.
+#[derive(Debug, Default)]
+pub struct Frame {
+    pub generation: u64,
+    pub width: u32,
+    pub height: u32,
+    /// The resolution of the picture this frame is a view of; larger than the frame's own while the picture is coarse.
+    pub full_resolution: [u32; 2],
+    /// Linear Rec. 709.
+    pub radiance: Vec<[f32; 3]>,
+    /// Standard error of the pixel's luminance; NaN before the second sample.
+    pub standard_error: Vec<f32>,
+    /// Samples that every pixel has at least.
+    pub spp: u32,
+    /// Estimated relMSE of the picture, from the pixels' sample variances; `None` before the second sample.
+    pub rel_mse_estimate: Option<f64>,
+}
+
+impl Frame {
+    pub fn of_film(film: &Film, generation: u64, [width, height]: [u32; 2], full_resolution: [u32; 2]) -> Frame {
+        let pixels = width as usize * height as usize;
+        let mut radiance = vec![[0.0; 3]; pixels];
+        let mut standard_error = vec![f32::NAN; pixels];
+        let band = (width * TILE) as usize;
+        let rows: Vec<_> = film.tile_rows().collect();
+        let sums: Vec<f64> = radiance
+            .par_chunks_mut(band)
+            .zip(standard_error.par_chunks_mut(band))
+            .zip(rows)
+            .map(|((radiance, error), tiles)| {
+                let mut sum = 0.0;
+                for tile in tiles {
+                    for row in 0..tile.size[1] as usize {
+                        let start = row * width as usize + tile.origin[0] as usize;
+                        for (i, estimate) in (start..).zip(tile.estimates(row)) {
+                            radiance[i] = estimate.mean.map(|c| c as f32);
+                            error[i] = luminance_error(&estimate);
+                            sum += relative_variance(&estimate);
+                        }
+                    }
+                }
+                sum
+            })
+            .collect();
+        let spp = film.spp();
+        let mean = sums.iter().sum::<f64>() / (3 * pixels) as f64;
+        let rel_mse_estimate = (spp > 1).then_some(mean);
+        Frame { generation, width, height, full_resolution, radiance, standard_error, spp, rel_mse_estimate }
+    }
+
+    /// The pixel of the frame that covers a pixel of the full picture, as an index.
+    pub fn index_at(&self, [x, y]: [u32; 2]) -> Option<usize> {
+        let [w, h] = self.full_resolution;
+        if x >= w || y >= h {
+            return None;
+        }
+        let scaled = |at: u32, from: u32, to: u32| u64::from(at) * u64::from(to) / u64::from(from);
+        Some((scaled(y, h, self.height) * u64::from(self.width) + scaled(x, w, self.width)) as usize)
+    }
+
+    pub fn is_coarse(&self) -> bool {
+        [self.width, self.height] != self.full_resolution
+    }
+}
+
+/// The channels of a sample come from one path: their errors are added as if fully correlated, which is an upper bound.
+fn luminance_error(estimate: &Estimate) -> f32 {
+    estimate.variance_of_mean.map_or(f32::NAN, |variance| luminance(variance.map(|v| v.sqrt() as f32)))
+}
+
+fn relative_variance(estimate: &Estimate) -> f64 {
+    let variance = estimate.variance_of_mean.unwrap_or([0.0; 3]);
+    (0..3).map(|c| variance[c] / (estimate.mean[c] * estimate.mean[c] + REL_MSE_FLOOR)).sum()
+}

@@ -1,0 +1,174 @@
+//! Pictures on disk: PNG (what the screen shows) and EXR (linear radiance), both with the settings that made them.
+use std::{
+    fs::File,
+    io::{BufReader, BufWriter, Write},
+    path::{Path, PathBuf},
+};
+
+use exr::prelude::{
+    Encoding, Image, Layer, LayerAttributes, ReadChannels, ReadLayers, SpecificChannels, Text, WritableImage, attribute::AttributeValue,
+};
+
+use super::{
+    display::to_srgb,
+    frame::Frame,
+    tone::Display,
+};
+use crate::math::colour::linear_from_srgb;
+
+/// Where the settings stand in a file.
+pub const SETTINGS_KEY: &str = "noisefall";
+
+/// Why a picture could not be written or read.
+#[derive(Debug, thiserror::Error)]
+pub enum ImageError {
+    #[error("{}: the name must end in .png (as shown) or .exr (linear)", .0.display())]
+    Format(PathBuf),
+    #[error("{}: there is no folder {}", path.display(), folder.display())]
+    NoFolder { path: PathBuf, folder: PathBuf },
+    #[error("{}: cannot be written: {reason}", path.display())]
+    Write { path: PathBuf, reason: String },
+    #[error("{}: cannot be read: {reason}", path.display())]
+    Read { path: PathBuf, reason: String },
+}
+
+/// A picture in memory, linear Rec. 709, row by row from the top left.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Picture {
+    pub width: u32,
+    pub height: u32,
+    pub radiance: Vec<[f32; 3]>,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Format {
+    Png,
+    Exr,
+}
+
+fn format(path: &Path) -> Result<Format, ImageError> {
+    match path.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase).as_deref() {
+        Some("png") => Ok(Format::Png),
+        Some("exr") => Ok(Format::Exr),
+        _ => Err(ImageError::Format(path.to_owned())),
+    }
+}
+
+/// Whether a picture could be written there, as far as can be told before there is one.
+pub fn check_target(path: &Path) -> Result<(), ImageError> {
+    format(path)?;
+    let folder = folder(path);
+    if !folder.is_dir() {
+        return Err(ImageError::NoFolder { path: path.to_owned(), folder });
+    }
+    // Made and removed again: a folder that cannot be written to is better known before an hour of rendering than after.
+    temporary(path, &folder).map(drop)
+}
+
+fn folder(path: &Path) -> PathBuf {
+    let parent = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    parent.unwrap_or_else(|| Path::new(".")).to_owned()
+}
+
+/// Writes a frame as PNG or EXR, by the extension. The file appears whole or not at all. `settings` is any text.
+pub fn save(frame: &Frame, display: Display, settings: &str, path: &Path) -> Result<(), ImageError> {
+    let format = format(path)?;
+    let folder = folder(path);
+    if !folder.is_dir() {
+        return Err(ImageError::NoFolder { path: path.to_owned(), folder });
+    }
+    let failed = |reason: String| ImageError::Write { path: path.to_owned(), reason };
+    let mut file = temporary(path, &folder)?;
+    {
+        let mut writer = BufWriter::new(file.as_file_mut());
+        match format {
+            Format::Png => write_png(frame, display, settings, &mut writer),
+            Format::Exr => write_exr(frame, settings, &mut writer),
+        }
+        .map_err(failed)?;
+        writer.flush().map_err(|error| failed(error.to_string()))?;
+    }
+    file.as_file().sync_all().map_err(|error| failed(error.to_string()))?;
+    file.persist(path).map_err(|error| failed(error.error.to_string()))?;
+    Ok(())
+}
+
+/// A file beside the target that disappears unless it is renamed to it.
+fn temporary(path: &Path, folder: &Path) -> Result<tempfile::NamedTempFile, ImageError> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".noisefall-").suffix(".part");
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    builder.tempfile_in(folder).map_err(|error| ImageError::Write { path: path.to_owned(), reason: error.to_string() })
+}
+
+fn write_png(frame: &Frame, display: Display, settings: &str, to: &mut impl Write) -> Result<(), String> {
+    let rgb: Vec<u8> = to_srgb(frame, display).as_chunks::<4>().0.iter().flat_map(|[r, g, b, _]| [*r, *g, *b]).collect();
+    let mut encoder = png::Encoder::new(to, frame.width, frame.height);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
+    encoder.add_itxt_chunk(SETTINGS_KEY.to_owned(), settings.to_owned()).map_err(|error| error.to_string())?;
+    let mut writer = encoder.write_header().map_err(|error| error.to_string())?;
+    writer.write_image_data(&rgb).map_err(|error| error.to_string())?;
+    writer.finish().map_err(|error| error.to_string())
+}
+
+fn write_exr(frame: &Frame, settings: &str, to: &mut impl Write) -> Result<(), String> {
+    let size = (frame.width as usize, frame.height as usize);
+    let channels = SpecificChannels::rgb(|at: exr::prelude::Vec2<usize>| {
+        let [r, g, b] = frame.radiance[at.y() * size.0 + at.x()];
+        (r, g, b)
+    });
+    let mut attributes = LayerAttributes::named("");
+    attributes.layer_name = None;
+    attributes.software_name = Some(Text::from("Noisefall"));
+    attributes.other.insert(Text::from(SETTINGS_KEY), AttributeValue::Text(Text::from(settings)));
+    let layer = Layer::new(size, attributes, Encoding::FAST_LOSSLESS, channels);
+    // The format is written with seeks, which a buffer in memory allows whatever the target is.
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    Image::from_layer(layer).write().to_buffered(&mut bytes).map_err(|error| error.to_string())?;
+    to.write_all(bytes.get_ref()).map_err(|error| error.to_string())
+}
+
+/// Reads a PNG (undoing the sRGB curve) or an EXR.
+pub fn read(path: &Path) -> Result<Picture, ImageError> {
+    let format = format(path)?;
+    let failed = |reason: String| ImageError::Read { path: path.to_owned(), reason };
+    let file = BufReader::new(File::open(path).map_err(|error| failed(error.to_string()))?);
+    match format {
+        Format::Png => read_png(file).map_err(failed),
+        Format::Exr => read_exr(file).map_err(failed),
+    }
+}
+
+fn read_png(file: BufReader<File>) -> Result<Picture, String> {
+    let mut decoder = png::Decoder::new(file);
+    decoder.set_transformations(png::Transformations::normalize_to_color8());
+    let mut reader = decoder.read_info().map_err(|error| error.to_string())?;
+    let size = reader.output_buffer_size().ok_or("the picture is too large")?;
+    let mut bytes = vec![0; size];
+    let info = reader.next_frame(&mut bytes).map_err(|error| error.to_string())?;
+    let channels = info.color_type.samples();
+    let linear = |byte: u8| linear_from_srgb(f64::from(byte) / 255.0) as f32;
+    let pixel = |p: &[u8]| if channels < 3 { [linear(p[0]); 3] } else { [p[0], p[1], p[2]].map(linear) };
+    let radiance = bytes[..info.buffer_size()].chunks_exact(channels).map(pixel).collect();
+    Ok(Picture { width: info.width, height: info.height, radiance })
+}
+
+fn read_exr(file: BufReader<File>) -> Result<Picture, String> {
+    let image = exr::prelude::read()
+        .no_deep_data()
+        .largest_resolution_level()
+        .rgb_channels(
+            |size, _| (size.width(), vec![[0f32; 3]; size.area()]),
+            |(width, pixels), at, (r, g, b): (f32, f32, f32)| pixels[at.y() * *width + at.x()] = [r, g, b],
+        )
+        .first_valid_layer()
+        .all_attributes()
+        .from_buffered(file)
+        .map_err(|error| error.to_string())?;
+    let size = image.layer_data.size;
+    let (_, radiance) = image.layer_data.channel_data.pixels;
+    Ok(Picture { width: size.width() as u32, height: size.height() as u32, radiance })
+}

@@ -1,0 +1,136 @@
+//! A pass: all tiles of a film brought to a number of samples, on all threads.
+use std::{
+    panic::{AssertUnwindSafe, catch_unwind},
+    sync::Mutex,
+};
+
+use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder, prelude::*};
+
+use super::film::{Film, Tile};
+use crate::{
+    integrator::{Batch, Interrupted, Work, replay, trace},
+    math::SimdLevel,
+    scene::{CameraRays, RenderSettings, Scene},
+};
+
+/// The threads that render, each with its queues.
+pub struct Threads {
+    pool: ThreadPool,
+    batches: Vec<Mutex<Batch>>,
+    level: SimdLevel,
+}
+
+/// What a pass renders.
+#[derive(Clone, Copy)]
+pub struct PassJob<'a> {
+    pub scene: &'a Scene,
+    pub rays: &'a CameraRays,
+    pub settings: &'a RenderSettings,
+}
+
+/// What a pass did besides adding samples.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PassCount {
+    /// Path segments traced.
+    pub rays: u64,
+    /// Paths cut because they were too long.
+    pub cut_paths: u64,
+    /// The first invalid sample.
+    pub invalid: Option<SampleId>,
+    /// A sample that could not be computed at all.
+    pub failure: Option<Failure>,
+}
+
+/// One sample: a pixel and a number, enough to replay it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct SampleId {
+    pub pixel: [u32; 2],
+    pub sample: u32,
+}
+
+/// The renderer panicked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Failure {
+    pub at: SampleId,
+    pub message: String,
+}
+
+impl Threads {
+    /// `count` 0 means as many as there are cores.
+    pub fn new(count: usize, level: SimdLevel) -> Result<Threads, ThreadPoolBuildError> {
+        let pool = ThreadPoolBuilder::new().num_threads(count).thread_name(|i| format!("render {i}")).build()?;
+        let batches = (0..pool.current_num_threads()).map(|_| Mutex::default()).collect();
+        Ok(Threads { pool, batches, level })
+    }
+
+    pub fn count(&self) -> usize {
+        self.batches.len()
+    }
+
+    /// Runs something on the threads of the pool.
+    pub fn install<T: Send>(&self, task: impl FnOnce() -> T + Send) -> T {
+        self.pool.install(task)
+    }
+
+    /// Brings every tile to `spp` samples, or stops between two batches when `interrupted` says so. A tile that was interrupted
+    /// goes on later as if nothing had happened.
+    pub fn pass(&self, job: PassJob, film: &mut Film, spp: u32, interrupted: &(dyn Fn() -> bool + Sync)) -> PassCount {
+        self.pool.install(|| {
+            let tiles = film.tiles.par_iter_mut();
+            tiles.map(|tile| self.tile_to(job, tile, spp, interrupted)).reduce(PassCount::default, PassCount::merge)
+        })
+    }
+
+    fn tile_to(&self, job: PassJob, tile: &mut Tile, spp: u32, interrupted: &dyn Fn() -> bool) -> PassCount {
+        let thread = rayon::current_thread_index().unwrap_or(0);
+        let mut count = PassCount::default();
+        let mut batch = self.batches[thread].lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+        (batch.rays, batch.cut_paths) = (0, 0);
+        while tile.spp < spp && !interrupted() {
+            let PassJob { scene, rays, settings } = job;
+            let work = Work { scene, rays, settings, origin: tile.origin, size: tile.size, sample: tile.spp };
+            let traced = catch_unwind(AssertUnwindSafe(|| trace(self.level, &work, &mut batch, interrupted)));
+            match traced {
+                Ok(Ok(())) => {
+                    let sample = tile.spp;
+                    let invalid = tile.add(batch.radiance()).map(|pixel| SampleId { pixel, sample });
+                    count.invalid = count.invalid.or(invalid);
+                }
+                Ok(Err(Interrupted)) => break,
+                Err(panic) => {
+                    count.failure = Some(Failure { at: find_failure(&work), message: panic_message(&*panic) });
+                    break;
+                }
+            }
+        }
+        (count.rays, count.cut_paths) = (batch.rays, batch.cut_paths);
+        count
+    }
+}
+
+impl PassCount {
+    pub fn merge(self, other: PassCount) -> PassCount {
+        PassCount {
+            rays: self.rays + other.rays,
+            cut_paths: self.cut_paths + other.cut_paths,
+            invalid: [self.invalid, other.invalid].into_iter().flatten().min(),
+            failure: self.failure.or(other.failure),
+        }
+    }
+}
+
+/// The first pixel of the tile whose sample panics when it is replayed alone.
+fn find_failure(work: &Work) -> SampleId {
+    let [x, y] = work.origin;
+    let [width, height] = work.size;
+    let pixels = (y..y + height).flat_map(|y| (x..x + width).map(move |x| [x, y]));
+    let fails = |pixel: &[u32; 2]| {
+        catch_unwind(AssertUnwindSafe(|| replay(work.scene, work.rays, work.settings, *pixel, work.sample))).is_err()
+    };
+    SampleId { pixel: { pixels }.find(fails).unwrap_or(work.origin), sample: work.sample }
+}
+
+fn panic_message(panic: &(dyn std::any::Any + Send)) -> String {
+    let text = panic.downcast_ref::<String>().cloned();
+    text.or_else(|| panic.downcast_ref::<&str>().map(|s| (*s).to_owned())).unwrap_or_else(|| "unknown panic".to_owned())
+}

@@ -1,0 +1,199 @@
+//! One picture on its way: its films, from coarse to full, and how large the next pass should be.
+use std::time::{Duration, Instant};
+
+use super::{
+    film::Film,
+    frame::Frame,
+    pass::{PassCount, PassJob, Threads},
+    worker::{Budget, Job, Publish, State, Status},
+};
+use crate::scene::Camera;
+
+/// Camera samples a second before anything was measured: what a slow machine makes of a simple scene.
+const UNKNOWN_RATE: f64 = 1e6;
+/// How long the first, coarse picture may take to render; with all that surrounds it, it is there within a 30th of a second.
+const FIRST_PICTURE: Duration = Duration::from_millis(20);
+/// Between two frames: from 30 a second to 2, as the picture ages and changes less.
+const SHORTEST_INTERVAL: Duration = Duration::from_millis(33);
+const LONGEST_INTERVAL: Duration = Duration::from_millis(500);
+const MOST_SPP_A_PASS: f64 = 1024.0;
+
+/// A job and what has been rendered of it.
+pub(super) struct Session {
+    job: Job,
+    /// The picture at a lower resolution, to look at until the full one has a sample everywhere.
+    coarse: Option<Coarse>,
+    film: Film,
+    count: PassCount,
+    elapsed: Duration,
+    /// Camera samples a second, as measured last.
+    rate: Option<f64>,
+    steps_done: u64,
+    rel_mse_estimate: Option<f64>,
+    last_frame: Option<Instant>,
+    /// There are samples that no frame shows.
+    stale: bool,
+}
+
+/// One sample of every `scale`-th pixel.
+struct Coarse {
+    scale: u32,
+    camera: Camera,
+    film: Film,
+}
+
+impl Coarse {
+    fn new(full: &Camera, scale: u32) -> Option<Coarse> {
+        let resolution = full.resolution.map(|side| side.div_ceil(scale));
+        (scale > 1).then(|| Coarse { scale, camera: Camera { resolution, ..*full }, film: Film::new(resolution) })
+    }
+
+    /// The scale at which the first picture is there in time.
+    fn first_scale(camera: &Camera, rate: f64) -> u32 {
+        let pixels = camera.resolution.map(f64::from).iter().product::<f64>();
+        (pixels / (rate * FIRST_PICTURE.as_secs_f64())).sqrt().ceil() as u32
+    }
+}
+
+impl Session {
+    /// `rate`: camera samples a second that the same scene reached before, if known.
+    pub fn new(job: Job, publish: Publish, rate: Option<f64>, budget: &Budget) -> Session {
+        let scale = Coarse::first_scale(&job.camera, rate.unwrap_or(UNKNOWN_RATE));
+        Session {
+            coarse: if publish == Publish::Live { Coarse::new(&job.camera, scale) } else { None },
+            film: Film::new(job.camera.resolution),
+            count: PassCount::default(),
+            elapsed: Duration::ZERO,
+            rate,
+            steps_done: budget.steps,
+            rel_mse_estimate: None,
+            last_frame: None,
+            stale: false,
+            job,
+        }
+    }
+
+    pub fn job(&self) -> &Job {
+        &self.job
+    }
+
+    pub fn rate(&self) -> Option<f64> {
+        self.rate
+    }
+
+    /// Every picture gets its first sample, paused or not: one wants to see what one has changed.
+    pub fn state(&self, budget: &Budget) -> State {
+        let spp = self.film.spp();
+        let enough_samples = budget.max_spp.is_some_and(|most| spp >= most);
+        let enough_time = budget.max_time.is_some_and(|most| self.elapsed >= most);
+        let low_noise = budget.noise.zip(self.rel_mse_estimate).is_some_and(|(goal, rel_mse)| rel_mse.sqrt() <= goal);
+        if let Some(failure) = &self.count.failure {
+            State::Failed(failure.clone())
+        } else if spp > 0 && (enough_samples || enough_time || low_noise) {
+            State::Converged
+        } else if spp > 0 && budget.paused && budget.steps <= self.steps_done {
+            State::Paused
+        } else {
+            State::Running
+        }
+    }
+
+    /// Renders until the next frame is due, or until interrupted.
+    pub fn advance(&mut self, threads: &Threads, budget: &Budget, publish: Publish, interrupted: &(dyn Fn() -> bool + Sync)) {
+        if self.coarse.is_some() {
+            self.coarse_pass(threads, interrupted);
+            return;
+        }
+        let spp = self.film.spp();
+        let target = if budget.paused { spp + 1 } else { spp + self.spp_of_pass(budget, publish) };
+        let start = Instant::now();
+        let time_left = budget.max_time.filter(|_| spp > 0).map(|most| most.saturating_sub(self.elapsed));
+        let enough = || interrupted() || time_left.is_some_and(|left| start.elapsed() >= left);
+        let job = PassJob { scene: &self.job.scene, rays: &self.job.camera.rays(), settings: &self.job.settings };
+        let before = self.film.samples();
+        let count = threads.pass(job, &mut self.film, target, &enough);
+        let samples = self.film.samples() - before;
+        let took = start.elapsed();
+
+        self.elapsed += took;
+        self.measure(samples, took);
+        self.stale |= samples > 0;
+        self.count = std::mem::take(&mut self.count).merge(count);
+        if !budget.paused {
+            self.steps_done = budget.steps;
+        } else if self.film.spp() == target && spp > 0 {
+            self.steps_done += 1;
+        }
+    }
+
+    fn coarse_pass(&mut self, threads: &Threads, interrupted: &(dyn Fn() -> bool + Sync)) {
+        let Some(coarse) = &mut self.coarse else { return };
+        let job = PassJob { scene: &self.job.scene, rays: &coarse.camera.rays(), settings: &self.job.settings };
+        let start = Instant::now();
+        let before = coarse.film.samples();
+        let count = threads.pass(job, &mut coarse.film, 1, interrupted);
+        let samples = coarse.film.samples() - before;
+        let complete = coarse.film.spp() > 0;
+        self.measure(samples, start.elapsed());
+        self.stale |= complete;
+        self.count.failure = count.failure;
+    }
+
+    fn measure(&mut self, samples: u64, took: Duration) {
+        const ENOUGH_TO_TELL: u64 = 4096;
+        if samples >= ENOUGH_TO_TELL {
+            self.rate = Some(samples as f64 / took.as_secs_f64().max(1e-9));
+        }
+    }
+
+    /// As many samples as fit between two frames.
+    fn spp_of_pass(&self, budget: &Budget, publish: Publish) -> u32 {
+        let pixels = self.job.camera.resolution.map(f64::from).iter().product::<f64>();
+        let time_left = budget.max_time.map_or(Duration::MAX, |most| most.saturating_sub(self.elapsed));
+        let time = self.interval(publish).min(time_left).as_secs_f64();
+        let fits = (self.rate.unwrap_or(UNKNOWN_RATE) * time / pixels).clamp(1.0, MOST_SPP_A_PASS) as u32;
+        budget.max_spp.map_or(fits, |most| fits.min(most.saturating_sub(self.film.spp())))
+    }
+
+    fn interval(&self, publish: Publish) -> Duration {
+        match publish {
+            Publish::Live => (self.elapsed / 20).clamp(SHORTEST_INTERVAL, LONGEST_INTERVAL),
+            Publish::Sparse => LONGEST_INTERVAL,
+        }
+    }
+
+    /// Whether the samples that no frame shows yet should be shown now.
+    pub fn frame_due(&self, publish: Publish, at_rest: bool) -> bool {
+        let waited = self.last_frame.is_none_or(|last| last.elapsed() >= self.interval(publish));
+        self.stale && (at_rest || waited || self.coarse.is_some())
+    }
+
+    /// The picture so far. A coarse one makes place for the next finer one.
+    pub fn frame(&mut self) -> Frame {
+        self.stale = false;
+        self.last_frame = Some(Instant::now());
+        let full = self.job.camera.resolution;
+        if let Some(coarse) = self.coarse.take() {
+            self.coarse = Coarse::new(&self.job.camera, coarse.scale / 2);
+            return Frame::of_film(&coarse.film, self.job.generation, coarse.camera.resolution, full);
+        }
+        let frame = Frame::of_film(&self.film, self.job.generation, full, full);
+        self.rel_mse_estimate = frame.rel_mse_estimate;
+        frame
+    }
+
+    pub fn status(&self, state: State) -> Status {
+        Status {
+            generation: self.job.generation,
+            state,
+            spp: self.film.spp(),
+            samples: self.film.samples(),
+            rays: self.count.rays,
+            elapsed: self.elapsed,
+            rel_mse_estimate: self.rel_mse_estimate,
+            invalid_samples: self.film.invalid_samples(),
+            first_invalid: self.count.invalid,
+            cut_paths: self.count.cut_paths,
+        }
+    }
+}

@@ -1,0 +1,242 @@
+//! The worker: a thread that renders what was asked for last and publishes frames.
+//!
+//! Others say what they *want* ([`Job`], [`Budget`]); the worker takes the latest and forgets the rest. Whatever arrives while
+//! it renders stops the pass between two batches, so an answer never takes longer than a batch, a fraction of a millisecond.
+//! A new job starts an empty film; a new budget goes on with the film there is.
+use std::{
+    sync::{
+        Arc, Mutex, MutexGuard,
+        atomic::{AtomicU64, Ordering},
+    },
+    thread::JoinHandle,
+    time::Duration,
+};
+
+use crossbeam_channel::{Receiver, Sender, unbounded};
+
+use super::{
+    frame::Frame,
+    pass::{Failure, SampleId, Threads},
+    session::Session,
+};
+use crate::scene::{Camera, RenderSettings, Scene};
+
+/// A picture to render. Another generation is another picture.
+#[derive(Clone)]
+pub struct Job {
+    pub generation: u64,
+    pub scene: Arc<Scene>,
+    pub camera: Camera,
+    pub settings: RenderSettings,
+}
+
+/// How far to render it. A change goes on with the samples there are.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Budget {
+    pub paused: bool,
+    /// Single passes asked for so far while paused: a count that only grows.
+    pub steps: u64,
+    pub max_spp: Option<u32>,
+    pub max_time: Option<Duration>,
+    /// Relative noise at which to stop: the root of the estimated relMSE.
+    pub noise: Option<f64>,
+}
+
+/// What the worker is doing.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum State {
+    /// No job yet.
+    #[default]
+    Idle,
+    Running,
+    Paused,
+    /// A target of the budget is reached.
+    Converged,
+    /// The renderer panicked; the picture so far stands.
+    Failed(Failure),
+}
+
+/// Figures of the render, and what the worker is doing.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Status {
+    pub generation: u64,
+    pub state: State,
+    pub spp: u32,
+    /// Camera samples taken.
+    pub samples: u64,
+    /// Path segments traced.
+    pub rays: u64,
+    /// Time spent rendering this picture.
+    pub elapsed: Duration,
+    pub rel_mse_estimate: Option<f64>,
+    /// Samples dropped because they were not finite or negative.
+    pub invalid_samples: u64,
+    pub first_invalid: Option<SampleId>,
+    /// Paths cut at [`RenderSettings::LONGEST_PATH`].
+    pub cut_paths: u64,
+}
+
+impl Status {
+    /// Root of the estimated relMSE.
+    pub fn relative_noise(&self) -> Option<f64> {
+        self.rel_mse_estimate.map(f64::sqrt)
+    }
+
+    pub fn samples_per_second(&self) -> f64 {
+        self.samples as f64 / self.elapsed.as_secs_f64().max(1e-9)
+    }
+}
+
+/// The latest picture and figures.
+#[derive(Clone, Default)]
+pub struct Published {
+    pub frame: Arc<Frame>,
+    pub status: Status,
+}
+
+/// When frames are made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Publish {
+    /// A coarse one at once, then as the picture grows: for looking on.
+    Live,
+    /// Twice a second and at rest, full resolution only: for files.
+    Sparse,
+}
+
+enum Message {
+    Job(Box<Job>),
+    Budget(Budget),
+    Quit,
+}
+
+/// What both sides see.
+struct Shared {
+    published: Mutex<Published>,
+    /// Messages sent so far.
+    sent: AtomicU64,
+}
+
+/// The handle to the worker. Dropping it stops the thread.
+pub struct Renderer {
+    sender: Sender<Message>,
+    shared: Arc<Shared>,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl Renderer {
+    /// Starts the thread. `notify` is called on it after everything it publishes.
+    pub fn new(threads: Threads, publish: Publish, notify: impl Fn() + Send + 'static) -> Renderer {
+        let (sender, receiver) = unbounded();
+        let shared = Arc::new(Shared { published: Mutex::default(), sent: AtomicU64::new(0) });
+        let worker =
+            Worker { threads, publish, receiver, shared: shared.clone(), seen: 0, budget: Budget::default(), session: None };
+        let thread = std::thread::Builder::new().name("worker".to_owned()).spawn(move || worker.run(&notify));
+        Renderer { sender, shared, thread: Some(thread.expect("a thread can be started")) }
+    }
+
+    /// Renders this instead of what came before.
+    pub fn submit(&self, job: Job) {
+        self.send(Message::Job(Box::new(job)));
+    }
+
+    pub fn set_budget(&self, budget: Budget) {
+        self.send(Message::Budget(budget));
+    }
+
+    /// The latest frame and figures. Never waits for the render.
+    pub fn latest(&self) -> Published {
+        lock(&self.shared.published).clone()
+    }
+
+    fn send(&self, message: Message) {
+        // Counted before it is sent: a pass that sees the count stops and finds the message, at the latest a moment later.
+        self.shared.sent.fetch_add(1, Ordering::SeqCst);
+        let _ = self.sender.send(message);
+    }
+}
+
+impl Drop for Renderer {
+    fn drop(&mut self) {
+        self.send(Message::Quit);
+        if let Some(thread) = self.thread.take() {
+            let _ = thread.join();
+        }
+    }
+}
+
+fn lock(published: &Mutex<Published>) -> MutexGuard<'_, Published> {
+    published.lock().unwrap_or_else(|poisoned| poisoned.into_inner())
+}
+
+struct Worker {
+    threads: Threads,
+    publish: Publish,
+    receiver: Receiver<Message>,
+    shared: Arc<Shared>,
+    /// Messages received so far.
+    seen: u64,
+    budget: Budget,
+    session: Option<Session>,
+}
+
+impl Worker {
+    fn run(mut self, notify: &dyn Fn()) {
+        loop {
+            let busy = self.session.as_ref().is_some_and(|session| session.state(&self.budget) == State::Running);
+            if self.receive(!busy).is_none() {
+                return;
+            }
+            let Some(session) = &mut self.session else { continue };
+            if session.state(&self.budget) == State::Running {
+                let (sent, seen) = (&self.shared.sent, self.seen);
+                session.advance(&self.threads, &self.budget, self.publish, &|| sent.load(Ordering::Relaxed) != seen);
+            }
+            self.publish(notify);
+        }
+    }
+
+    /// Makes a frame if one is due, and tells what has changed.
+    fn publish(&mut self, notify: &dyn Fn()) {
+        let Some(session) = &mut self.session else { return };
+        let at_rest = session.state(&self.budget) != State::Running;
+        let frame = session.frame_due(self.publish, at_rest).then(|| self.threads.install(|| Arc::new(session.frame())));
+        // The frame's noise estimate may itself be what the budget waits for.
+        let status = session.status(session.state(&self.budget));
+        let mut published = lock(&self.shared.published);
+        let changed = frame.is_some() || published.status != status;
+        published.status = status;
+        if let Some(frame) = frame {
+            published.frame = frame;
+        }
+        drop(published);
+        if changed {
+            notify();
+        }
+    }
+
+    /// Takes all messages that have arrived, at least one if `wait`. `None` asks the worker to quit.
+    fn receive(&mut self, wait: bool) -> Option<()> {
+        if wait {
+            let message = self.receiver.recv().ok()?;
+            self.take(message)?;
+        }
+        while let Ok(message) = self.receiver.try_recv() {
+            self.take(message)?;
+        }
+        Some(())
+    }
+
+    fn take(&mut self, message: Message) -> Option<()> {
+        self.seen += 1;
+        match message {
+            Message::Quit => return None,
+            Message::Budget(budget) => self.budget = budget,
+            Message::Job(job) => {
+                let same_scene = |old: &&Session| Arc::ptr_eq(&old.job().scene, &job.scene);
+                let rate = self.session.as_ref().filter(same_scene).and_then(Session::rate);
+                self.session = Some(Session::new(*job, self.publish, rate, &self.budget));
+            }
+        }
+        Some(())
+    }
+}

@@ -1,0 +1,46 @@
+//! Points of the unit cube and warps of them to directions, each with its density.
+mod bits;
+pub mod hash;
+mod independent;
+mod sampler;
+mod sobol;
+mod stratified;
+pub mod warp;
+
+pub use self::{
+    sampler::{Dimension, Sampler, Stream},
+    warp::Directions,
+};
+
+/// One row of the catalogue of samplers.
+pub struct SamplerEntry {
+    pub sampler: Sampler,
+    /// What the scene file and the command line call it.
+    pub name: &'static str,
+    /// What the window calls it.
+    pub title: &'static str,
+    /// One sentence for the window.
+    pub doc: &'static str,
+}
+
+/// The catalogue: a new sampler is one file and one row here.
+pub const SAMPLERS: [SamplerEntry; 3] = [
+    SamplerEntry {
+        sampler: Sampler::Independent,
+        name: "independent",
+        title: "Independent",
+        doc: "Uniform random numbers: the plain Monte-Carlo method. Error falls as 1/√N.",
+    },
+    SamplerEntry {
+        sampler: Sampler::Stratified,
+        name: "stratified",
+        title: "Stratified",
+        doc: "Every 4ᵏ samples fill a 2ᵏ × 2ᵏ grid once each: random numbers without clumps.",
+    },
+    SamplerEntry {
+        sampler: Sampler::Sobol,
+        name: "sobol",
+        title: "Sobol (Owen)",
+        doc: "Owen-scrambled Sobol points: evenly spread in both dimensions and every projection. Least error.",
+    },
+];

@@ -1,0 +1,105 @@
+//! A path is one point of the infinite-dimensional unit cube. A sampler says which points a pixel's samples are.
+//!
+//! Every coordinate is a pure function of (seed, pixel, sample index, dimension): a sample can be revisited at any time, in any
+//! order, on any thread, and has the same coordinates. The dimension follows the depth of the path, so that all paths use the
+//! same coordinate for the same decision.
+use serde::{Deserialize, Serialize};
+
+use super::{
+    SAMPLERS,
+    hash::{GOLDEN, hash, hash_one},
+    independent, sobol, stratified,
+};
+use crate::math::{F, Lanes, U};
+
+/// Which points the samples of a pixel are. All are unbiased; they differ in how fast the error falls.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Sampler {
+    Independent,
+    Stratified,
+    #[default]
+    Sobol,
+}
+
+impl Sampler {
+    /// The row of this sampler in the catalogue.
+    pub fn entry(self) -> &'static super::SamplerEntry {
+        SAMPLERS.iter().find(|entry| entry.sampler == self).expect("every sampler stands in the catalogue")
+    }
+}
+
+/// The coordinate of the unit cube that a decision reads.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Dimension(pub u32);
+
+impl Dimension {
+    /// The point within the pixel (two coordinates).
+    pub const PIXEL: Dimension = Dimension(0);
+    const PER_BOUNCE: u32 = 8;
+
+    /// The direction in which the path goes on at its `bounce`-th surface, counted from 1 (two coordinates).
+    pub fn direction(bounce: u32) -> Dimension {
+        Dimension(Self::PER_BOUNCE * bounce)
+    }
+
+    /// Whether the path survives after its `bounce`-th surface, counted from 1 (one coordinate).
+    pub fn roulette(bounce: u32) -> Dimension {
+        Dimension(Self::PER_BOUNCE * bounce + 2)
+    }
+}
+
+/// The coordinates of one sample index in some pixels, one pixel a lane.
+#[derive(Clone, Copy)]
+pub struct Stream<L: Lanes> {
+    sampler: Sampler,
+    pixel_key: U<L>,
+    index: u32,
+}
+
+impl<L: Lanes> Stream<L> {
+    /// `pixel` packs y·2¹⁶ + x, so that a pixel keeps its numbers when the resolution changes.
+    #[inline(always)]
+    pub fn new(sampler: Sampler, seed: u32, pixel: U<L>, index: u32) -> Self {
+        let pixel_key = hash(pixel + hash_one(seed ^ GOLDEN));
+        Stream { sampler, pixel_key, index }
+    }
+
+    /// One coordinate, in (0, 1).
+    #[inline(always)]
+    pub fn one(&self, dimension: Dimension) -> F<L> {
+        match self.sampler {
+            Sampler::Independent => independent::one(self, dimension.0),
+            // In one dimension the (0, 1)-sequence is the progressive stratification.
+            Sampler::Stratified | Sampler::Sobol => sobol::one(self, dimension.0),
+        }
+    }
+
+    /// Two coordinates, each in (0, 1).
+    #[inline(always)]
+    pub fn two(&self, dimension: Dimension) -> (F<L>, F<L>) {
+        match self.sampler {
+            Sampler::Independent => independent::two(self, dimension.0),
+            Sampler::Stratified => stratified::two(self, dimension.0),
+            Sampler::Sobol => sobol::two(self, dimension.0),
+        }
+    }
+
+    /// A hash of pixel and sample; for one pixel no two samples share it.
+    #[inline(always)]
+    pub(super) fn sample_key(&self) -> U<L> {
+        hash(self.pixel_key + self.index.wrapping_mul(GOLDEN))
+    }
+
+    /// A hash of pixel and dimension.
+    #[inline(always)]
+    pub(super) fn dimension_key(&self, dimension: u32) -> U<L> {
+        // Another constant than the sample's key has: else index n and dimension n would share their hash.
+        hash((self.pixel_key ^ 0x6a09_e667) + dimension.wrapping_mul(GOLDEN))
+    }
+
+    #[inline(always)]
+    pub(super) fn reversed_index(&self) -> U<L> {
+        U(L::splat_int(self.pixel_key.0, self.index.reverse_bits()))
+    }
+}

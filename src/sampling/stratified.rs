@@ -1,0 +1,22 @@
+//! Progressive stratification: every 4ᵏ consecutive samples fill the 2ᵏ × 2ᵏ cells of the square once each, for every k at once.
+//!
+//! Progressive jittered sampling (Christensen et al., "Progressive Multi-Jittered Sample Sequences", EGSR 2018, section 4.1),
+//! built by Owen's scrambling of a Morton-ordered van der Corput sequence: no table, any number of samples, any order.
+use super::{
+    bits::{even_bits, owen_reversed, reverse},
+    hash::{hash, unit},
+    sampler::Stream,
+};
+use crate::math::{F, Lanes};
+
+#[inline(always)]
+pub(super) fn two<L: Lanes>(stream: &Stream<L>, dimension: u32) -> (F<L>, F<L>) {
+    let key = stream.dimension_key(dimension);
+    let shuffled = reverse(owen_reversed(stream.reversed_index(), key));
+    let morton = reverse(owen_reversed(shuffled, hash(key ^ 0xa511_e9b3)));
+    // Sixteen bits of a coordinate say the cell; below them the place within it is random.
+    let jitter = hash(stream.sample_key() ^ key);
+    let x = (even_bits(morton >> 1) << 16) | (jitter & 0xffff);
+    let y = (even_bits(morton) << 16) | (jitter >> 16);
+    (unit(x), unit(y))
+}

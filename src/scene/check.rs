@@ -1,0 +1,78 @@
+//! Checks of single values of a scene file: each returns the value in the renderer's units or an error at its place.
+use std::ops::Range;
+
+use glam::DVec3;
+use toml::Spanned;
+
+use super::{
+    desc::{Colour, Planned},
+    diagnostic::{SceneError, SourceText},
+};
+
+/// Coordinates and radii beyond these are refused: squares of them would leave the range of f32.
+const LARGEST: f64 = 1e12;
+const SMALLEST_RADIUS: f64 = 1e-12;
+const BRIGHTEST: f64 = 1e15;
+
+/// Checks against one source text.
+pub struct Checker<'a>(pub &'a SourceText);
+
+impl Checker<'_> {
+    /// Refuses the keys that are present.
+    pub fn refuse(&self, keys: &[(&str, &Planned)]) -> Result<(), SceneError> {
+        match keys.iter().find_map(|(name, value)| value.as_ref().map(|value| (name, value.span()))) {
+            Some((name, span)) => Err(self.not_supported(name, span)),
+            None => Ok(()),
+        }
+    }
+
+    pub fn not_supported(&self, what: &str, span: Range<usize>) -> SceneError {
+        self.0
+            .error(span, format!("`{what}` is not supported yet"), "not supported by this version")
+            .with_help("it is part of the scene format, but this version of Noisefall cannot render it; remove it for now")
+    }
+
+    pub fn point(&self, what: &str, value: &Spanned<[f64; 3]>) -> Result<DVec3, SceneError> {
+        if value.as_ref().iter().all(|x| x.abs() <= LARGEST) {
+            return Ok(DVec3::from_array(*value.as_ref()));
+        }
+        Err(self.0.error(
+            value.span(),
+            format!("`{what}` is not a position"),
+            format!("coordinates must be finite and at most {LARGEST:e} in size"),
+        ))
+    }
+
+    pub fn radius(&self, value: &Spanned<f64>) -> Result<f64, SceneError> {
+        let radius = *value.as_ref();
+        if (SMALLEST_RADIUS..=LARGEST).contains(&radius) {
+            return Ok(radius);
+        }
+        let message = match radius {
+            r if r.is_nan() => "the radius is not a number".to_owned(),
+            r if r < 0.0 => format!("the radius is negative: {r}"),
+            r => format!("the radius is out of range: {r}"),
+        };
+        let label = format!("expected a number from {SMALLEST_RADIUS:e} to {LARGEST:e}");
+        let error = self.0.error(value.span(), message, label);
+        Err(if radius < 0.0 { error.with_help("to look at a sphere from inside, keep the radius positive; `flip = true` turns its normal") } else { error })
+    }
+
+    /// Reflectances, each in [0, 1].
+    pub fn albedo(&self, value: &Spanned<Colour>) -> Result<[f32; 3], SceneError> {
+        self.colour("albedo", value, 1.0, "every channel must lie in [0, 1]: a surface cannot reflect more light than it receives")
+    }
+
+    /// Radiances, each finite and not negative.
+    pub fn radiance(&self, value: &Spanned<Colour>) -> Result<[f32; 3], SceneError> {
+        self.colour("radiance", value, BRIGHTEST, "every channel must be a finite number, not negative")
+    }
+
+    fn colour(&self, what: &str, value: &Spanned<Colour>, most: f64, label: &str) -> Result<[f32; 3], SceneError> {
+        match value.as_ref() {
+            Colour::Texture => Err(self.not_supported("texture", value.span())),
+            Colour::Rgb(rgb) if rgb.iter().all(|x| (0.0..=most).contains(x)) => Ok(rgb.map(|x| x as f32)),
+            Colour::Rgb(_) => Err(self.0.error(value.span(), format!("`{what}` is out of range"), label)),
+        }
+    }
+}

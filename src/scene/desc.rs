@@ -1,0 +1,197 @@
+//! What a scene file says, word for word: the shape of the TOML, before names are resolved and values checked.
+//!
+//! Every key of the format stands here. Those that this version does not support yet are [`Planned`], so that they are refused
+//! by name rather than ignored or called unknown.
+use std::collections::BTreeMap;
+
+use serde::{
+    Deserialize, Deserializer,
+    de::{self, IgnoredAny, MapAccess, SeqAccess, Visitor},
+};
+use toml::Spanned;
+
+/// A key of the format that this version reads but does not support.
+pub type Planned = Option<Spanned<IgnoredAny>>;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SceneDesc {
+    pub format: Spanned<i64>,
+    pub title: Option<String>,
+    pub notes: Option<String>,
+    pub camera: Spanned<CameraDesc>,
+    pub background: Option<Spanned<BackgroundDesc>>,
+    pub textures: Planned,
+    #[serde(default)]
+    pub materials: BTreeMap<String, Spanned<MaterialDesc>>,
+    #[serde(default)]
+    pub objects: Vec<Spanned<ObjectDesc>>,
+    #[serde(default)]
+    pub render: RenderDesc,
+    pub truth: Option<Spanned<TruthDesc>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CameraDesc {
+    pub eye: Spanned<[f64; 3]>,
+    pub look_at: Spanned<[f64; 3]>,
+    pub up: Option<Spanned<[f64; 3]>>,
+    pub fov: Spanned<f64>,
+    pub resolution: Spanned<[u32; 2]>,
+    pub lens: Planned,
+    pub shutter: Planned,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BackgroundDesc {
+    pub radiance: Option<Spanned<Colour>>,
+    pub image: Planned,
+    pub rotate: Planned,
+    pub scale: Planned,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MaterialDesc {
+    pub lambertian: Option<LambertianDesc>,
+    pub mirror: Planned,
+    pub dielectric: Planned,
+    pub conductor: Planned,
+    pub plastic: Planned,
+    pub bump: Planned,
+    pub normal_map: Planned,
+    pub two_sided: Planned,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LambertianDesc {
+    pub albedo: Spanned<Colour>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ObjectDesc {
+    pub name: Option<String>,
+    pub shape: Spanned<ShapeDesc>,
+    pub material: Option<Spanned<String>>,
+    pub emission: Option<Spanned<EmissionDesc>>,
+    #[serde(default)]
+    pub flip: bool,
+    pub transform: Planned,
+    pub motion: Planned,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ShapeDesc {
+    Sphere(SphereDesc),
+    Cuboid(IgnoredAny),
+    Cylinder(IgnoredAny),
+    Disk(IgnoredAny),
+    Rectangle(IgnoredAny),
+    Triangle(IgnoredAny),
+    Mesh(IgnoredAny),
+    Isosurface(IgnoredAny),
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SphereDesc {
+    pub center: Spanned<[f64; 3]>,
+    pub radius: Spanned<f64>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct EmissionDesc {
+    pub radiance: Option<Spanned<Colour>>,
+    #[serde(default)]
+    pub two_sided: bool,
+    pub texture: Planned,
+    pub scale: Planned,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct RenderDesc {
+    pub estimator: Option<Spanned<EstimatorDesc>>,
+    pub directions: Option<Spanned<DirectionsDesc>>,
+    pub sampler: Option<crate::sampling::Sampler>,
+    pub max_bounces: Option<u32>,
+    pub roulette: Option<Spanned<super::Roulette>>,
+    pub spp: Option<Spanned<u32>>,
+    pub seed: Option<u32>,
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum EstimatorDesc {
+    Path,
+    Light,
+    Mis,
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum DirectionsDesc {
+    Uniform,
+    Cosine,
+    Bsdf,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TruthDesc {
+    pub radiance: Option<Spanned<Colour>>,
+    pub image: Option<Spanned<String>>,
+}
+
+/// A colour: `[r, g, b]`, or one number for grey.
+pub enum Colour {
+    Rgb([f64; 3]),
+    /// `{ texture = "…" }`.
+    Texture,
+}
+
+impl<'de> Deserialize<'de> for Colour {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(ColourVisitor)
+    }
+}
+
+struct ColourVisitor;
+
+impl<'de> Visitor<'de> for ColourVisitor {
+    type Value = Colour;
+
+    fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("a colour: [red, green, blue], or one number for grey")
+    }
+    fn visit_f64<E: de::Error>(self, grey: f64) -> Result<Colour, E> {
+        Ok(Colour::Rgb([grey; 3]))
+    }
+    fn visit_i64<E: de::Error>(self, grey: i64) -> Result<Colour, E> {
+        self.visit_f64(grey as f64)
+    }
+    fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<Colour, A::Error> {
+        let mut rgb = [0.0; 3];
+        for (i, channel) in rgb.iter_mut().enumerate() {
+            *channel = seq.next_element()?.ok_or_else(|| de::Error::invalid_length(i, &self))?;
+        }
+        match seq.next_element::<IgnoredAny>()? {
+            None => Ok(Colour::Rgb(rgb)),
+            Some(_) => Err(de::Error::invalid_length(4, &self)),
+        }
+    }
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Colour, A::Error> {
+        while let Some((key, _)) = map.next_entry::<String, IgnoredAny>()? {
+            if key != "texture" {
+                return Err(de::Error::unknown_field(&key, &["texture"]));
+            }
+        }
+        Ok(Colour::Texture)
+    }
+}

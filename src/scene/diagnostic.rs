@@ -1,0 +1,96 @@
+//! Errors of scene files: what is wrong, where, and what was expected.
+use std::{fmt, ops::Range, path::Path};
+
+use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource, SourceCode};
+
+/// Why a scene file cannot be used. Displays as one line; [`SceneError::report`] adds the place with a caret.
+#[derive(Debug, Clone)]
+pub struct SceneError {
+    message: String,
+    label: String,
+    help: Option<String>,
+    source: NamedSource<String>,
+    span: Option<Range<usize>>,
+}
+
+/// The text of a scene file and what it is called, for pointing into it.
+#[derive(Debug, Clone)]
+pub struct SourceText {
+    pub name: String,
+    pub text: String,
+}
+
+impl SceneError {
+    /// An error about a file as a whole.
+    pub fn of_file(path: &Path, message: impl Into<String>, help: impl Into<String>) -> SceneError {
+        SceneError {
+            message: format!("{}: {}", path.display(), message.into()),
+            label: String::new(),
+            help: Some(help.into()),
+            source: NamedSource::new(path.display().to_string(), String::new()),
+            span: None,
+        }
+    }
+
+    /// Line and column, both from 1, of the place in the file, when the error has one.
+    pub fn line_column(&self) -> Option<(usize, usize)> {
+        let start = self.span.as_ref()?.start;
+        let before = &self.source.inner()[..start];
+        let line = before.matches('\n').count() + 1;
+        let column = before.rsplit('\n').next().unwrap_or_default().chars().count() + 1;
+        Some((line, column))
+    }
+
+    /// The whole message, several lines of plain text: what, file:line:column, the line with a caret, what to do.
+    pub fn report(&self) -> String {
+        let mut text = String::new();
+        let handler = GraphicalReportHandler::new_themed(GraphicalTheme::unicode_nocolor()).with_width(100);
+        if handler.render_report(&mut text, self).is_err() {
+            text = self.to_string();
+        }
+        text.trim_end().to_owned()
+    }
+}
+
+impl fmt::Display for SceneError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.message)
+    }
+}
+
+impl std::error::Error for SceneError {}
+
+impl Diagnostic for SceneError {
+    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        self.help.as_ref().map(|help| Box::new(help) as Box<dyn fmt::Display>)
+    }
+    fn source_code(&self) -> Option<&dyn SourceCode> {
+        self.span.as_ref().map(|_| &self.source as &dyn SourceCode)
+    }
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        let span = self.span.clone()?;
+        Some(Box::new(std::iter::once(LabeledSpan::new_with_span(Some(self.label.clone()), span))))
+    }
+}
+
+impl SourceText {
+    /// An error at a byte range of the text. `label` stands at the caret.
+    pub fn error(&self, span: Range<usize>, message: impl Into<String>, label: impl Into<String>) -> SceneError {
+        let end = self.text.len();
+        let start = span.start.min(end);
+        SceneError {
+            message: message.into(),
+            label: label.into(),
+            help: None,
+            source: NamedSource::new(&self.name, self.text.clone()),
+            span: Some(start..span.end.clamp(start, end)),
+        }
+    }
+}
+
+impl SceneError {
+    pub fn with_help(mut self, help: impl Into<String>) -> SceneError {
+        self.help = Some(help.into());
+        self
+    }
+}

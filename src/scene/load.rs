@@ -1,0 +1,67 @@
+//! Reading a scene file.
+use std::{fs::File, io::Read, path::Path};
+
+use super::{
+    Scene,
+    compile::compile,
+    diagnostic::{SceneError, SourceText},
+};
+
+/// Larger files are refused before they are read.
+const LARGEST_FILE: u64 = 64 << 20;
+
+/// The scene that the window opens when none is named; also `scenes/cornell_spheres.toml`.
+pub const BUILT_IN: &str = include_str!("../../scenes/cornell_spheres.toml");
+
+/// The built-in five-sphere Cornell box.
+pub fn built_in() -> Scene {
+    parse("cornell_spheres.toml", BUILT_IN.to_owned()).expect("the built-in scene is valid: a test compiles it")
+}
+
+/// Reads and compiles a scene file.
+pub fn load(path: &Path) -> Result<Scene, SceneError> {
+    let bytes = read(path)?;
+    let name = path.display().to_string();
+    let text = String::from_utf8(bytes).map_err(|error| {
+        let valid = error.utf8_error().valid_up_to();
+        let text = String::from_utf8_lossy(&error.into_bytes()).into_owned();
+        let source = SourceText { name: name.clone(), text };
+        source.error(valid..valid + 1, "the file is not UTF-8 text", "this byte is not UTF-8").with_help("save the file as UTF-8")
+    })?;
+    parse(&name, text)
+}
+
+/// Compiles the text of a scene file; `name` is what errors call it, and paths in the file are relative to its folder.
+pub fn parse(name: &str, text: String) -> Result<Scene, SceneError> {
+    let source = SourceText { name: name.to_owned(), text };
+    let desc = toml::from_str(&source.text).map_err(|error| {
+        let span = error.span().unwrap_or(0..0);
+        let message = error.message().replace('\n', ": ");
+        source.error(span, message, "here")
+    })?;
+    compile(&desc, &source)
+}
+
+fn read(path: &Path) -> Result<Vec<u8>, SceneError> {
+    let unreadable = |error: std::io::Error| {
+        let help = match error.kind() {
+            std::io::ErrorKind::NotFound => "check the path; scenes that come with Noisefall are in `scenes/`",
+            std::io::ErrorKind::PermissionDenied => "check the permissions of the file",
+            _ => "a scene is one TOML file",
+        };
+        let reason = match error.kind() {
+            std::io::ErrorKind::NotFound => "there is no such file".to_owned(),
+            _ => format!("cannot be read: {error}"),
+        };
+        SceneError::of_file(path, reason, help)
+    };
+    let file = File::open(path).map_err(unreadable)?;
+    let mut bytes = Vec::new();
+    // Reading stops past the limit whatever size the file claims: pipes and devices claim none.
+    file.take(LARGEST_FILE + 1).read_to_end(&mut bytes).map_err(unreadable)?;
+    if bytes.len() as u64 > LARGEST_FILE {
+        let message = format!("the file is larger than {} MB", LARGEST_FILE >> 20);
+        return Err(SceneError::of_file(path, message, "a scene file is short text; keep large data in files of their own"));
+    }
+    Ok(bytes)
+}

@@ -1,0 +1,83 @@
+//! The scene: what a file says, checked and compiled to what the renderer runs on.
+mod camera;
+mod check;
+mod compile;
+mod desc;
+mod diagnostic;
+mod load;
+mod settings;
+#[cfg(test)]
+mod tests;
+
+use std::path::PathBuf;
+
+use glam::DVec3;
+
+pub use self::{
+    camera::{Camera, CameraError, CameraRays},
+    diagnostic::SceneError,
+    load::{BUILT_IN, built_in, load, parse},
+    settings::{RenderSettings, Roulette},
+};
+use crate::{
+    geometry::Shapes,
+    light::{Background, Emission, Emitters},
+    material::Material,
+};
+
+/// A compiled scene. Immutable; shared between threads.
+pub struct Scene {
+    pub title: String,
+    /// The text of the scene file.
+    pub source: String,
+    pub notes: String,
+    pub shapes: Shapes,
+    /// Albedo of every primitive, red, green, blue; zero is black. The fourth column is unused.
+    pub albedo: Vec<[f32; 4]>,
+    pub emitters: Emitters,
+    /// Absent when black.
+    pub background: Option<Background>,
+    /// The objects in the order of their primitive ids.
+    pub objects: Vec<Object>,
+    /// The extent of the scene in metres, as a person walking through it would say it.
+    pub size: f64,
+    /// What the scene opens with.
+    pub camera: Camera,
+    pub settings: RenderSettings,
+    pub spp: Option<u32>,
+    pub truth: Option<Truth>,
+}
+
+/// One object as the file describes it.
+#[derive(Clone, Debug)]
+pub struct Object {
+    pub name: String,
+    pub center: DVec3,
+    pub radius: f64,
+    /// `None` is black.
+    pub material: Option<Material>,
+    pub emission: Option<Emission>,
+}
+
+/// What the picture must converge to.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Truth {
+    /// The same exact radiance at every pixel.
+    Radiance([f32; 3]),
+    /// A reference image.
+    Image(PathBuf),
+}
+
+impl Scene {
+    /// Things that are legal but probably not meant, for the window and the command line.
+    pub fn warnings(&self) -> Vec<String> {
+        let mut warnings = Vec::new();
+        if self.emitters.is_empty() && self.background.is_none() {
+            warnings.push("nothing in this scene emits light: the picture will be black".to_owned());
+        }
+        if self.objects.is_empty() {
+            warnings.push("this scene has no objects".to_owned());
+        }
+        warnings
+    }
+}

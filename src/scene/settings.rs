@@ -1,0 +1,61 @@
+//! What the user can choose about the estimate: everything a sample depends on besides scene and camera.
+use serde::{Deserialize, Serialize};
+
+use crate::sampling::{Directions, Sampler};
+
+/// The settings of a render. Together with scene, camera, pixel and sample index they determine every sample.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct RenderSettings {
+    pub sampler: Sampler,
+    pub directions: Directions,
+    pub roulette: Roulette,
+    /// The highest number of reflections counted; 0 is emitted light only, `None` is no cap.
+    pub max_bounces: Option<u32>,
+    pub seed: u32,
+}
+
+/// Russian roulette: ending paths at random and weighting the survivors, so that the mean stays right.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase", deny_unknown_fields)]
+pub enum Roulette {
+    Off,
+    /// Survival probability at every reflection, in (0, 1].
+    Fixed(f32),
+    /// Survival probability is the throughput's largest component, at most [`Roulette::MOST`].
+    Throughput {
+        /// The first reflection at which a path can end.
+        #[serde(default = "default_start")]
+        start: u32,
+    },
+}
+
+const fn default_start() -> u32 {
+    4
+}
+
+impl Roulette {
+    /// Upper bound of the survival probability by throughput: a path between white walls must end too.
+    pub const MOST: f32 = 0.95;
+    pub const BY_THROUGHPUT: Roulette = Roulette::Throughput { start: default_start() };
+}
+
+impl Default for Roulette {
+    fn default() -> Self {
+        Roulette::BY_THROUGHPUT
+    }
+}
+
+impl RenderSettings {
+    /// Paths that go on for longer are cut, counted and reported: a room of white walls without roulette would never let one go.
+    pub const LONGEST_PATH: u32 = 4096;
+
+    /// The number of reflections after which every path is cut.
+    pub fn last_bounce(&self) -> u32 {
+        self.max_bounces.map_or(Self::LONGEST_PATH, |cap| cap.min(Self::LONGEST_PATH))
+    }
+
+    /// Why the expected picture differs from the solution of the equation; `None` when it does not.
+    pub fn bias(&self) -> Option<String> {
+        self.max_bounces.map(|cap| format!("cap at {cap}"))
+    }
+}
