@@ -1,0 +1,274 @@
+//! The state of the window and its layout. Each panel is a file of its own.
+use std::{path::PathBuf, sync::Arc, sync::mpsc};
+
+use egui::{Align2, CentralPanel, CollapsingHeader, Panel, RichText, ScrollArea, TextureHandle, TextureOptions};
+use noisefall::{
+    render::{Budget, Display, Frame, Status, pass::Threads},
+    scene::{Camera, RenderSettings, built_in},
+};
+
+use super::{
+    canvas::{self, Tool, View},
+    catalogue,
+    darkroom::{Darkroom, Order},
+    link::{Link, Wish},
+    loader::{Loader, Opened},
+    save_dialog::SaveDialog,
+    saver::Saver,
+};
+
+pub struct App {
+    pub(super) ctx: egui::Context,
+    pub(super) link: Link,
+    darkroom: Darkroom,
+    pub(super) loader: Loader,
+    pub(super) saver: Saver,
+
+    /// What the user wants.
+    pub(super) opened: Option<Opened>,
+    pub(super) camera: Camera,
+    pub(super) settings: RenderSettings,
+    pub(super) budget: Budget,
+    pub(super) display: Display,
+
+    /// What there is.
+    pub(super) status: Status,
+    pub(super) shown: Option<Arc<Frame>>,
+    pub(super) true_rel_mse: Option<f64>,
+    texture: Option<TextureHandle>,
+
+    /// The window itself.
+    pub(super) tool: Tool,
+    pub(super) view: View,
+    pub(super) hovered: Option<[u32; 2]>,
+    pub(super) help_open: bool,
+    pub(super) save_dialog: Option<SaveDialog>,
+    pub(super) last_saved: Option<PathBuf>,
+    pub(super) catalogue: Vec<(String, PathBuf)>,
+    pub(super) picked: (mpsc::Sender<PathBuf>, mpsc::Receiver<PathBuf>),
+    /// Why the last scene could not be opened.
+    pub(super) scene_error: Option<String>,
+    pub(super) notice: Option<Notice>,
+}
+
+/// A message that goes away by itself, or when it is clicked.
+pub struct Notice {
+    pub text: String,
+    pub is_error: bool,
+    until: f64,
+}
+
+const NOTICE_SECONDS: f64 = 6.0;
+
+impl App {
+    pub fn new(ctx: &egui::Context, threads: Threads, scene: Option<PathBuf>) -> App {
+        ctx.set_theme(egui::Theme::Dark);
+        // The default is meant for a scene to be replaced within a moment: the loader opens the one asked for.
+        let default = built_in();
+        let mut loader = Loader::new(ctx);
+        loader.open(scene);
+        App {
+            ctx: ctx.clone(),
+            link: Link::new(threads, ctx),
+            darkroom: Darkroom::new(ctx),
+            loader,
+            saver: Saver::new(ctx),
+            opened: None,
+            camera: default.camera,
+            settings: default.settings,
+            budget: Budget::default(),
+            display: Display::default(),
+            status: Status::default(),
+            shown: None,
+            true_rel_mse: None,
+            texture: None,
+            tool: Tool::default(),
+            view: View::default(),
+            hovered: None,
+            help_open: false,
+            save_dialog: None,
+            last_saved: None,
+            catalogue: catalogue::find(),
+            picked: mpsc::channel(),
+            scene_error: None,
+            notice: None,
+        }
+    }
+
+    /// One frame of the window.
+    pub fn show(&mut self, ui: &mut egui::Ui) {
+        let ctx = ui.ctx().clone();
+        self.shortcuts(&ctx);
+        self.open_picked_files();
+        self.receive();
+        Panel::bottom("status").show(ui, |ui| self.status_bar(ui));
+        Panel::right("settings").resizable(false).exact_size(336.0).show(ui, |ui| self.panels(ui));
+        Panel::top("toolbar").show(ui, |ui| self.toolbar(ui));
+        CentralPanel::no_frame().show(ui, |ui| self.canvas(ui));
+        self.save_dialog(&ctx);
+        self.help(&ctx);
+        self.scene_error_window(&ctx);
+        self.notice(&ctx);
+        self.submit();
+    }
+
+    fn panels(&mut self, ui: &mut egui::Ui) {
+        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            ui.add_space(4.0);
+            self.scene_panel(ui);
+            ui.add_space(4.0);
+            section(ui, "Sampling", |ui| self.sampling_panel(ui));
+            section(ui, "Camera", |ui| self.camera_panel(ui));
+            section(ui, "Display", |ui| self.display_panel(ui));
+        });
+    }
+
+    fn canvas(&mut self, ui: &mut egui::Ui) {
+        let texture = self.texture.as_ref().map(TextureHandle::id);
+        let size = self.opened.as_ref().map_or(1.0, |opened| opened.scene.size);
+        let output = canvas::show(ui, texture, self.tool, &mut self.view, &self.camera, size);
+        self.hovered = output.hovered;
+        if let Some(camera) = output.camera.filter(|camera| camera.check().is_ok()) {
+            self.camera = camera;
+        }
+    }
+
+    /// Takes in what the threads have finished.
+    fn receive(&mut self) {
+        match self.loader.take() {
+            Some(Ok(opened)) => self.open(opened),
+            Some(Err(report)) => self.scene_error = Some(report),
+            None => {}
+        }
+        match self.saver.take() {
+            Some(Ok(path)) => {
+                self.tell(format!("Saved {}", path.display()), false);
+                self.last_saved = Some(path);
+            }
+            Some(Err(error)) => self.tell(format!("Not saved: {error}"), true),
+            None => {}
+        }
+        let published = self.link.latest();
+        self.status = published.status;
+        let truth = self.opened.as_ref().and_then(|opened| opened.truth.clone());
+        self.darkroom.order(Order { frame: published.frame, display: self.display, truth });
+        if let Some(print) = self.darkroom.take() {
+            match &mut self.texture {
+                Some(texture) => texture.set(print.image, TextureOptions::NEAREST),
+                None => self.texture = Some(self.ctx.load_texture("picture", print.image, TextureOptions::NEAREST)),
+            }
+            self.true_rel_mse = print.rel_mse;
+            self.shown = Some(print.frame);
+        }
+    }
+
+    fn open(&mut self, mut opened: Opened) {
+        let scene = &opened.scene;
+        if opened.path.is_none() {
+            opened.name = scene.title.clone();
+        }
+        (self.camera, self.settings) = (scene.camera, scene.settings);
+        self.budget = Budget { max_spp: scene.spp, steps: self.budget.steps, ..Budget::default() };
+        self.scene_error = None;
+        self.view.fit();
+        self.opened = Some(opened);
+    }
+
+    /// Asks the worker for what the controls say.
+    fn submit(&mut self) {
+        let Some(opened) = &self.opened else { return };
+        if self.camera.check().is_ok() {
+            let wish = Wish { scene: opened.scene.clone(), camera: self.camera, settings: self.settings };
+            self.link.update(wish, self.budget);
+        }
+    }
+
+    pub(super) fn toggle_pause(&mut self) {
+        self.budget.paused = !self.budget.paused;
+    }
+
+    pub(super) fn step(&mut self) {
+        if self.budget.paused {
+            self.budget.steps += 1;
+        }
+        self.budget.paused = true;
+    }
+
+    pub(super) fn reset_camera(&mut self) {
+        if let Some(opened) = &self.opened {
+            self.camera = opened.scene.camera;
+        }
+    }
+
+    pub(super) fn tell(&mut self, text: String, is_error: bool) {
+        let now = self.ctx.input(|input| input.time);
+        self.notice = Some(Notice { text, is_error, until: now + NOTICE_SECONDS });
+    }
+
+    fn notice(&mut self, ctx: &egui::Context) {
+        let Some(notice) = &self.notice else { return };
+        let left = notice.until - ctx.input(|input| input.time);
+        let mut closed = left <= 0.0;
+        egui::Area::new(egui::Id::unique("notice")).anchor(Align2::CENTER_BOTTOM, [-168.0, -44.0]).show(ctx, |ui| {
+            egui::Frame::popup(ui.style()).show(ui, |ui| {
+                let colour = if notice.is_error { ui.visuals().error_fg_color } else { ui.visuals().text_color() };
+                let label = egui::Label::new(RichText::new(&notice.text).color(colour)).sense(egui::Sense::click());
+                closed |= ui.add(label).clicked();
+            });
+        });
+        if closed {
+            self.notice = None;
+        } else {
+            ctx.request_repaint_after(std::time::Duration::from_secs_f64(left.max(0.0)));
+        }
+    }
+
+    fn scene_error_window(&mut self, ctx: &egui::Context) {
+        let Some(report) = &self.scene_error else { return };
+        let (mut open, mut built_in) = (true, false);
+        egui::Window::new("This scene cannot be opened")
+            .open(&mut open)
+            .collapsible(false)
+            .default_width(640.0)
+            .anchor(Align2::CENTER_CENTER, [-168.0, 0.0])
+            .show(ctx, |ui| {
+                ScrollArea::both().max_height(360.0).show(ui, |ui| {
+                    ui.add(egui::Label::new(RichText::new(report).monospace()).extend());
+                });
+                ui.horizontal(|ui| {
+                    if ui.button("Copy").on_hover_text("Copy this message").clicked() {
+                        ui.ctx().copy_text(report.clone());
+                    }
+                    built_in = self.opened.is_none() && ui.button("Open the built-in scene").clicked();
+                });
+            });
+        if built_in {
+            self.loader.open(None);
+        }
+        if !open || built_in {
+            self.scene_error = None;
+        }
+    }
+}
+
+impl eframe::App for App {
+    fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
+        self.show(ui);
+    }
+}
+
+fn section(ui: &mut egui::Ui, title: &str, contents: impl FnOnce(&mut egui::Ui)) {
+    ui.separator();
+    CollapsingHeader::new(RichText::new(title).strong()).default_open(true).show_unindented(ui, |ui| {
+        ui.add_space(2.0);
+        contents(ui);
+        ui.add_space(4.0);
+    });
+}
+
+/// A row of a two-column grid: a label that explains itself, and a control named after it for screen readers.
+pub(super) fn row(ui: &mut egui::Ui, label: &str, doc: &str, control: impl FnOnce(&mut egui::Ui)) {
+    ui.label(label).on_hover_text(doc);
+    control(ui);
+    ui.end_row();
+}

@@ -1,0 +1,58 @@
+//! The overlay that lists keys and mouse.
+use egui::{Align2, RichText};
+
+use super::app::App;
+
+const KEYS: [(&str, &[(&str, &str)]); 4] = [
+    ("Render", &[("Space", "pause, resume"), (".", "one more sample per pixel, then pause"), ("R", "start over")]),
+    (
+        "Picture",
+        &[
+            ("P", "drag and wheel move the picture"),
+            ("Wheel, drag", "magnify, pan"),
+            ("Ctrl+wheel, middle drag", "the same, with either tool"),
+            ("F, double-click", "whole picture"),
+            ("1", "one picture pixel to one screen pixel"),
+            ("[  ]", "half a stop darker, brighter"),
+        ],
+    ),
+    (
+        "Camera",
+        &[
+            ("C", "drag and wheel move the camera"),
+            ("Drag", "orbit"),
+            ("Right drag, Shift+drag", "pan"),
+            ("Wheel", "dolly"),
+            ("W A S D", "fly forwards, left, back, right"),
+            ("Q  E", "fly down, up"),
+            ("Arrows", "turn"),
+            ("Shift", "fly and turn faster"),
+            ("Home", "the scene's camera"),
+        ],
+    ),
+    ("Window", &[("Ctrl+S", "save the picture"), ("F1", "this help"), ("Esc", "close")]),
+];
+
+impl App {
+    pub(super) fn help(&mut self, ctx: &egui::Context) {
+        egui::Window::new("Keyboard and mouse")
+            .open(&mut self.help_open)
+            .collapsible(false)
+            .resizable(false)
+            .anchor(Align2::CENTER_CENTER, [0.0, 0.0])
+            .show(ctx, |ui| {
+                egui::Grid::new("help").num_columns(2).spacing([24.0, 5.0]).show(ui, |ui| {
+                    for (group, keys) in KEYS {
+                        ui.label(RichText::new(group).strong());
+                        ui.end_row();
+                        for (key, does) in keys {
+                            ui.label(RichText::new(*key).monospace());
+                            ui.label(*does);
+                            ui.end_row();
+                        }
+                        ui.end_row();
+                    }
+                });
+            });
+    }
+}

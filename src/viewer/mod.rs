@@ -1,0 +1,69 @@
+//! The window. It says what it wants rendered, shows what comes back, and never waits.
+//!
+//! Work that could take longer than a frame has a thread of its own: rendering (the worker), the display transform
+//! ([`darkroom`]), reading scenes ([`loader`]), and writing pictures ([`saver`]).
+mod app;
+mod camera_panel;
+mod canvas;
+mod catalogue;
+mod darkroom;
+mod display_panel;
+mod help;
+mod link;
+mod loader;
+mod navigation;
+mod sampling_panel;
+mod save_dialog;
+mod saver;
+mod scene_panel;
+mod status_bar;
+#[cfg(test)]
+mod tests;
+mod toolbar;
+
+use std::{
+    panic::{AssertUnwindSafe, catch_unwind},
+    path::PathBuf,
+};
+
+use app::App;
+use noisefall::{math::SimdLevel, render::pass::Threads};
+
+const NO_WINDOW: &str = "use `noisefall render SCENE -o picture.png` to render without a window";
+
+/// Opens the window on a scene file, or on the built-in scene. Returns when it is closed.
+pub fn run(scene: Option<PathBuf>) -> Result<(), String> {
+    if !has_display() {
+        return Err(format!("no display was found (neither DISPLAY nor WAYLAND_DISPLAY is set); {NO_WINDOW}"));
+    }
+    let threads = Threads::new(0, SimdLevel::best()).map_err(|error| error.to_string())?;
+    let options = eframe::NativeOptions {
+        viewport: egui::ViewportBuilder::default()
+            .with_title("Noisefall")
+            .with_app_id("noisefall")
+            .with_inner_size([1280.0, 800.0])
+            .with_min_inner_size([720.0, 480.0]),
+        renderer: eframe::Renderer::Glow,
+        ..Default::default()
+    };
+    let open = || eframe::run_native("Noisefall", options, Box::new(|cc| Ok(Box::new(App::new(&cc.egui_ctx, threads, scene)))));
+    // Some window systems panic where a library of theirs is missing; that is no crash of ours to show.
+    let hook = std::panic::take_hook();
+    std::panic::set_hook(Box::new(|_| {}));
+    let done = catch_unwind(AssertUnwindSafe(open));
+    std::panic::set_hook(hook);
+    match done {
+        Ok(Ok(())) => Ok(()),
+        Ok(Err(error)) => Err(format!("the window cannot be opened: {error}; {NO_WINDOW}")),
+        Err(panic) => {
+            let message = panic.downcast_ref::<String>().map(String::as_str).or(panic.downcast_ref::<&str>().copied());
+            Err(format!("the window failed: {}; {NO_WINDOW}", message.unwrap_or("unknown error")))
+        }
+    }
+}
+
+/// On systems where a window needs a display server, whether one is named.
+fn has_display() -> bool {
+    let named = |variable| std::env::var_os(variable).is_some_and(|value| !value.is_empty());
+    !cfg!(all(unix, not(target_os = "macos"))) || named("DISPLAY") || named("WAYLAND_DISPLAY")
+}

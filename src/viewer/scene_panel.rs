@@ -1,0 +1,60 @@
+//! Which scene is shown.
+use std::path::PathBuf;
+
+use egui::{ComboBox, RichText};
+
+use super::app::App;
+
+impl App {
+    pub(super) fn scene_panel(&mut self, ui: &mut egui::Ui) {
+        let name = self.opened.as_ref().map_or("Choose a scene", |opened| opened.name.as_str()).to_owned();
+        let mut chosen: Option<Option<PathBuf>> = None;
+        ui.horizontal(|ui| {
+            let width = ui.available_width() - 76.0;
+            ComboBox::from_id_salt("Scene").selected_text(name).width(width).height(400.0).show_ui(ui, |ui| {
+                if ui.selectable_label(false, "built-in Cornell box").clicked() {
+                    chosen = Some(None);
+                }
+                for (name, path) in &self.catalogue {
+                    let open = self.opened.as_ref().is_some_and(|opened| opened.path.as_ref() == Some(path));
+                    if ui.selectable_label(open, name).clicked() {
+                        chosen = Some(Some(path.clone()));
+                    }
+                }
+            });
+            if ui.button("Open…").on_hover_text("Choose a scene file").clicked() {
+                self.pick_scene_file();
+            }
+        });
+        if let Some(path) = chosen {
+            self.loader.open(path);
+        }
+        if let Some(opened) = &self.opened {
+            if !opened.scene.notes.is_empty() {
+                ui.label(RichText::new(&opened.scene.notes).weak());
+            }
+            for warning in opened.scene.warnings() {
+                ui.label(RichText::new(format!("Note: {warning}.")).color(ui.visuals().warn_fg_color));
+            }
+        }
+    }
+
+    /// A file dialog on a thread of its own; what is chosen arrives like a dropped file.
+    fn pick_scene_file(&self) {
+        let (sender, ctx) = (self.picked.0.clone(), self.ctx.clone());
+        std::thread::spawn(move || {
+            if let Some(path) = rfd::FileDialog::new().add_filter("Noisefall scene", &["toml"]).pick_file() {
+                let _ = sender.send(path);
+                ctx.request_repaint();
+            }
+        });
+    }
+
+    /// Scene files dropped on the window or chosen in a dialog.
+    pub(super) fn open_picked_files(&mut self) {
+        let dropped = self.ctx.input(|input| input.raw.dropped_files.first().map(|file| file.path().to_owned()));
+        if let Some(path) = dropped.or_else(|| self.picked.1.try_recv().ok()) {
+            self.loader.open(Some(path));
+        }
+    }
+}

@@ -1,0 +1,125 @@
+//! The line below the picture: how far the render is, how sure, and what is under the pointer.
+use std::time::Duration;
+
+use egui::{Color32, RichText};
+use noisefall::{
+    math::colour::luminance,
+    render::{State, Status},
+    scene::RenderSettings,
+};
+
+use super::app::App;
+
+const GREEN: Color32 = Color32::from_rgb(80, 180, 110);
+const AMBER: Color32 = Color32::from_rgb(222, 160, 60);
+const RED: Color32 = Color32::from_rgb(228, 96, 88);
+
+impl App {
+    pub(super) fn status_bar(&self, ui: &mut egui::Ui) {
+        let status = &self.status;
+        ui.horizontal(|ui| {
+            let (colour, state) = self.state_text();
+            ui.label(RichText::new("●").color(colour));
+            ui.label(RichText::new(state).strong());
+            ui.separator();
+            let target = self.budget.max_spp.map_or_else(String::new, |most| format!(" / {most}"));
+            ui.label(format!("{}{target} spp", status.spp)).on_hover_text("Samples per pixel so far, and the target");
+            ui.separator();
+            ui.label(format!("{:.1} M samples/s", status.samples_per_second() / 1e6));
+            ui.separator();
+            ui.label(clock(status.elapsed)).on_hover_text("Time spent rendering this picture");
+            ui.separator();
+            self.noise_label(ui);
+            self.truth_label(ui);
+            ui.separator();
+            self.bias_label(ui);
+            self.trouble_label(ui);
+            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| self.pixel_label(ui));
+        });
+    }
+
+    fn state_text(&self) -> (Color32, &'static str) {
+        match self.status.state {
+            _ if self.loader.is_busy() => (AMBER, "Opening"),
+            State::Idle => (Color32::GRAY, "No scene"),
+            State::Running => (GREEN, "Running"),
+            State::Paused => (AMBER, "Paused"),
+            State::Converged => (GREEN, "Converged"),
+            State::Failed(_) => (RED, "Failed"),
+        }
+    }
+
+    fn noise_label(&self, ui: &mut egui::Ui) {
+        let text = self.status.relative_noise().map_or_else(|| "–".to_owned(), percent);
+        ui.label(format!("noise {text}")).on_hover_text(
+            "Estimated relative error: the root of relMSE, from the variance of every pixel's samples. \
+             For stratified and Sobol samples it is an upper bound.",
+        );
+    }
+
+    fn truth_label(&self, ui: &mut egui::Ui) {
+        if let Some(rel_mse) = self.true_rel_mse {
+            ui.label(format!("true error {}", percent(rel_mse.sqrt())))
+                .on_hover_text("Root of relMSE against the exact picture that the scene names");
+        }
+    }
+
+    fn bias_label(&self, ui: &mut egui::Ui) {
+        match self.settings.bias() {
+            None => ui
+                .label(RichText::new("unbiased").color(GREEN))
+                .on_hover_text("The picture converges to the solution of the light transport equation"),
+            Some(why) => ui
+                .label(RichText::new(format!("biased: {why}")).color(AMBER))
+                .on_hover_text("Light reflected more often than the cap allows is missing, however long one waits"),
+        };
+    }
+
+    /// Whatever must not go unseen.
+    fn trouble_label(&self, ui: &mut egui::Ui) {
+        let Status { invalid_samples, first_invalid, cut_paths, .. } = self.status;
+        let mut trouble = |text: String, more: String| {
+            ui.separator();
+            ui.label(RichText::new(text).color(RED)).on_hover_text(more);
+        };
+        if let Some(at) = first_invalid {
+            let [x, y] = at.pixel;
+            let command = format!("Replay the first: noisefall render SCENE --pixel {x},{y} --sample {}", at.sample);
+            trouble(format!("{invalid_samples} invalid samples"), command);
+        }
+        if cut_paths > 0 {
+            let longest = RenderSettings::LONGEST_PATH;
+            let text = format!("{cut_paths} paths cut after {longest} reflections; the picture is biased");
+            trouble(text, "Choose a roulette: then paths end by themselves".to_owned());
+        }
+        if let State::Failed(failure) = &self.status.state {
+            let [x, y] = failure.at.pixel;
+            trouble(format!("pixel {x},{y}, sample {}: {}", failure.at.sample, failure.message), String::new());
+        }
+    }
+
+    fn pixel_label(&self, ui: &mut egui::Ui) {
+        let (Some([x, y]), Some(frame)) = (self.hovered, &self.shown) else { return };
+        let Some(index) = frame.index_at([x, y]) else { return };
+        let [r, g, b] = frame.radiance[index];
+        let error = frame.standard_error[index];
+        let error = if error.is_nan() { String::new() } else { format!(" ± {error:.3}") };
+        let y_value = luminance(frame.radiance[index]);
+        ui.label(RichText::new(format!("({x}, {y})  RGB {r:.3} {g:.3} {b:.3}  Y {y_value:.3}{error}")).monospace())
+            .on_hover_text("Pixel, its radiance in W·sr⁻¹·m⁻², its luminance and the standard error of that");
+    }
+}
+
+fn percent(x: f64) -> String {
+    let digits = if x < 0.001 { 3 } else { usize::from(x < 0.1) + 1 };
+    format!("{:.digits$} %", 100.0 * x)
+}
+
+fn clock(time: Duration) -> String {
+    let seconds = time.as_secs();
+    match seconds {
+        0..60 => format!("{:.1} s", time.as_secs_f64()),
+        60..3600 => format!("{}:{:02} min", seconds / 60, seconds % 60),
+        _ => format!("{}:{:02}:{:02} h", seconds / 3600, seconds / 60 % 60, seconds % 60),
+    }
+}
