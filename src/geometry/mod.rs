@@ -6,8 +6,6 @@
 //! |---|---|---|
 //! | sphere | `sphere.rs` | outside |
 mod sphere;
-#[cfg(test)]
-mod sphere_tests;
 
 pub use self::sphere::{Sphere, SurfacePoint};
 use crate::math::{F, Lanes, Pick, U, V};

@@ -6,6 +6,9 @@
 //! 10⁶ is as exact as a plane, and k = 0 is one. The discriminant is taken at the point of the ray nearest the anchor, so that a
 //! ball of radius 10⁻⁶ seen from far away is exact too. (The second is the idea of E. Haines et al., "Precision Improvements for
 //! Ray/Sphere Intersection", Ray Tracing Gems, 2019, chapter 7, moved to the anchor.)
+#[cfg(test)]
+mod tests;
+
 use glam::DVec3;
 
 use crate::math::{F, Lanes, M, Pick, V};

@@ -5,6 +5,8 @@ mod independent;
 mod sampler;
 mod sobol;
 mod stratified;
+#[cfg(test)]
+mod tests;
 pub mod warp;
 
 pub use self::{

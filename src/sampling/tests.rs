@@ -1,0 +1,177 @@
+//! Samplers and warps: distributions against densities, strata, and coordinates that do not depend on the order of visits.
+use statrs::distribution::{ChiSquared, ContinuousCDF};
+
+use super::{Dimension, Directions, SAMPLERS, Sampler, Stream};
+use crate::math::{F, One, U, colour};
+
+/// Every test statistic here must have at least this probability; seeds are fixed.
+const SIGNIFICANCE: f64 = 1e-4;
+
+fn stream(sampler: Sampler, seed: u32, pixel: u32, index: u32) -> Stream<One> {
+    Stream::new(sampler, seed, U(pixel), index)
+}
+
+fn point(sampler: Sampler, pixel: u32, index: u32, dimension: Dimension) -> [f64; 2] {
+    let (x, y) = stream(sampler, 7, pixel, index).two(dimension);
+    [x.0.into(), y.0.into()]
+}
+
+/// Probability of a chi² as large as that of counts against expectations.
+fn chi_squared(observed: &[f64], expected: &[f64]) -> f64 {
+    let statistic: f64 = observed.iter().zip(expected).map(|(o, e)| (o - e) * (o - e) / e).sum();
+    1.0 - ChiSquared::new(observed.len() as f64 - 1.0).unwrap().cdf(statistic)
+}
+
+#[test]
+fn directions_are_distributed_as_their_pdf() {
+    const ACROSS: usize = 16;
+    const AROUND: usize = 16;
+    const SAMPLES: u32 = 400_000;
+    for directions in Directions::ALL {
+        let mut counts = vec![0.0; ACROSS * AROUND];
+        for index in 0..SAMPLES {
+            let u = stream(Sampler::Independent, 1, index / 1000, index % 1000).two(Dimension::direction(1));
+            let d = directions.sample(u);
+            let (x, y, z) = (f64::from(d.x.0), f64::from(d.y.0), f64::from(d.z.0));
+            assert!((x * x + y * y + z * z - 1.0).abs() < 1e-6 && z > 0.0);
+            let turn = y.atan2(x) / std::f64::consts::TAU + 0.5;
+            let across = ((z * ACROSS as f64) as usize).min(ACROSS - 1);
+            counts[across * AROUND + ((turn * AROUND as f64) as usize).min(AROUND - 1)] += 1.0;
+        }
+        let expected: Vec<f64> =
+            (0..ACROSS * AROUND).map(|bin| f64::from(SAMPLES) * probability(directions, bin / AROUND, ACROSS, AROUND)).collect();
+        let p = chi_squared(&counts, &expected);
+        assert!(p > SIGNIFICANCE, "{directions:?}: p = {p}");
+    }
+}
+
+/// The pdf integrated over one of `across` × `around` bins of equal height; dω = dz dφ.
+fn probability(directions: Directions, bin: usize, across: usize, around: usize) -> f64 {
+    const STEPS: usize = 64;
+    let width = 1.0 / across as f64;
+    let at = |step: usize| (bin as f64 + (step as f64 + 0.5) / STEPS as f64) * width;
+    let mean = (0..STEPS).map(|step| f64::from(directions.pdf(F::<One>(at(step) as f32)).0)).sum::<f64>() / STEPS as f64;
+    mean * width * std::f64::consts::TAU / around as f64
+}
+
+#[test]
+fn pdfs_of_directions_integrate_to_one() {
+    for directions in Directions::ALL {
+        let whole: f64 = (0..256).map(|bin| probability(directions, bin, 256, 1)).sum();
+        assert!((whole - 1.0).abs() < 1e-6, "{directions:?}: {whole}");
+    }
+}
+
+#[test]
+fn the_weight_of_a_direction_is_cos_over_pi_times_pdf() {
+    for directions in Directions::ALL {
+        for i in 1..=100 {
+            let cos = F::<One>(i as f32 / 100.0);
+            let expected = cos.0 / (std::f32::consts::PI * directions.pdf(cos).0);
+            assert!((directions.lambertian_weight(cos).0 - expected).abs() < 1e-6);
+        }
+    }
+}
+
+#[test]
+fn every_sampler_is_uniform_in_every_dimension() {
+    const BINS: usize = 64;
+    const PIXELS: u32 = 4096;
+    for entry in SAMPLERS {
+        for dimension in [Dimension::PIXEL, Dimension::direction(1), Dimension::direction(9)] {
+            let (mut pairs, mut single) = (vec![0.0; BINS], vec![0.0; BINS]);
+            for pixel in 0..PIXELS {
+                // One sample a pixel: samples of one pixel are not independent, and chi² is for independent ones.
+                let [x, y] = point(entry.sampler, pixel, pixel % 13, dimension);
+                pairs[(x * 8.0) as usize * 8 + (y * 8.0) as usize] += 1.0;
+                let u = stream(entry.sampler, 7, pixel, pixel % 13).one(Dimension::roulette(2));
+                single[(u.0 * BINS as f32) as usize] += 1.0;
+            }
+            let expected = vec![f64::from(PIXELS) / BINS as f64; BINS];
+            let p = chi_squared(&pairs, &expected).min(chi_squared(&single, &expected));
+            assert!(p > SIGNIFICANCE, "{} in {dimension:?}: p = {p}", entry.name);
+        }
+    }
+}
+
+#[test]
+fn different_dimensions_of_a_sample_are_not_correlated() {
+    const SAMPLES: u32 = 16_384;
+    for entry in SAMPLERS {
+        let pairs = [(Dimension::PIXEL, Dimension::direction(1)), (Dimension::direction(1), Dimension::direction(2))];
+        for (a, b) in pairs {
+            let mut counts = vec![0.0; 64];
+            for index in 0..SAMPLES {
+                let (x, y) = (point(entry.sampler, index / 16, index % 16, a)[0], point(entry.sampler, index / 16, index % 16, b)[0]);
+                counts[(x * 8.0) as usize * 8 + (y * 8.0) as usize] += 1.0;
+            }
+            let p = chi_squared(&counts, &vec![f64::from(SAMPLES) / 64.0; 64]);
+            assert!(p > SIGNIFICANCE, "{}, {a:?} and {b:?}: p = {p}", entry.name);
+        }
+    }
+}
+
+#[test]
+fn a_pixel_revisited_out_of_order_has_the_same_numbers() {
+    for entry in SAMPLERS {
+        let visit = |index: u32| point(entry.sampler, 77, index, Dimension::direction(3)).map(f64::to_bits);
+        let forwards: Vec<_> = (0..1000).map(visit).collect();
+        let mut backwards: Vec<_> = (0..1000).rev().map(visit).collect();
+        backwards.reverse();
+        assert_eq!(forwards, backwards);
+        assert!(forwards.windows(2).all(|pair| pair[0] != pair[1]), "{} repeats itself", entry.name);
+    }
+}
+
+#[test]
+fn another_seed_or_pixel_gives_other_numbers() {
+    for entry in SAMPLERS {
+        let at = |seed, pixel| stream(entry.sampler, seed, pixel, 5).one(Dimension::roulette(1)).0;
+        assert_ne!(at(0, 0), at(1, 0));
+        assert_ne!(at(0, 0), at(0, 1));
+    }
+}
+
+/// Whether 2^(across + down) points lie one each in the cells of a grid of 2^across × 2^down.
+fn one_in_each_cell(points: &[[f64; 2]], across: u32, down: u32) -> bool {
+    let mut seen = vec![false; 1 << (across + down)];
+    points.iter().all(|[x, y]| {
+        let cell = ((x * f64::from(1 << across)) as usize) << down | (y * f64::from(1 << down)) as usize;
+        !std::mem::replace(&mut seen[cell], true)
+    })
+}
+
+#[test]
+fn sobol_points_have_one_in_every_elementary_interval_far_beyond_two_to_the_sixteenth() {
+    for pixel in 0..8 {
+        for log_count in 1..=10 {
+            // The last block is as late as a block can be.
+            for first in [0u32, 3 << 10, 1 << 17, 1 << 25, u32::MAX - ((1 << 10) - 1)] {
+                let points: Vec<_> =
+                    (0..1u32 << log_count).map(|i| point(Sampler::Sobol, pixel, first + i, Dimension::direction(pixel))).collect();
+                for across in 0..=log_count {
+                    assert!(one_in_each_cell(&points, across, log_count - across), "{pixel} {log_count} {first} {across}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn stratified_points_have_one_in_every_cell_of_every_grid() {
+    for pixel in 0..8 {
+        for level in 1..=6 {
+            for block in [0u32, 1, 7, 12345] {
+                let first = block << (2 * level);
+                let points: Vec<_> =
+                    (0..1u32 << (2 * level)).map(|i| point(Sampler::Stratified, pixel, first + i, Dimension::PIXEL)).collect();
+                assert!(one_in_each_cell(&points, level, level), "{pixel} {level} {block}");
+            }
+        }
+    }
+}
+
+#[test]
+fn luminance_weights_sum_to_one() {
+    assert!((colour::luminance([1.0; 3]) - 1.0).abs() < 1e-6);
+}
