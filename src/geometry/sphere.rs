@@ -75,8 +75,11 @@ impl Sphere {
 /// The point of the sphere with these rows that is nearest to `p`, which lies on it but for rounding.
 #[inline(always)]
 pub(super) fn surface_point<L: Lanes>([qx, qy, qz, curvature]: [F<L>; 4], [nx, ny, nz, _]: [F<L>; 4], p: V<L>) -> SurfacePoint<L> {
-    // A few roundings each in the point, in its distance from the anchor, and in the c of the ray that leaves it.
-    const ROUNDINGS: f32 = 4.0 * f32::EPSILON;
+    // What decides on which side of its own sphere a ray starts is the sign of c as `intersect` evaluates it. Adding up its
+    // roundings, each at most u = ε/2, gives |δc| ≤ u (24 k F² + 34 F) with F = |x − q|; on the sphere k F² ≤ 2 F, and F is at
+    // most √3 times its largest component, so that half of it is below 36 ε max|xᵢ − qᵢ|. The rest is the rounding of x itself.
+    const ROUNDINGS_OF_C: f32 = 36.0 * f32::EPSILON;
+    const ROUNDINGS_OF_X: f32 = 4.0 * f32::EPSILON;
     let anchor = V { x: qx, y: qy, z: qz };
     let normal = V { x: nx, y: ny, z: nz };
     let from_anchor = p - anchor;
@@ -85,6 +88,6 @@ pub(super) fn surface_point<L: Lanes>([qx, qy, qz, curvature]: [F<L>; 4], [nx, n
     let length = m.length_squared().sqrt();
     let n_geometric = m * (1.0 / length);
     let p = p - n_geometric * (c / (length + 1.0));
-    let error = (p.max_abs() + from_anchor.max_abs()) * ROUNDINGS;
+    let error = from_anchor.max_abs() * ROUNDINGS_OF_C + p.max_abs() * ROUNDINGS_OF_X;
     SurfacePoint { p, n_geometric, error }
 }

@@ -1,0 +1,88 @@
+//! A sample is a pure function of its number: threads, SIMD level, interruptions and replays change nothing, not a bit.
+use std::sync::atomic::{AtomicU32, Ordering};
+
+use noisefall::{
+    integrator::replay,
+    math::SimdLevel,
+    render::{
+        film::Film,
+        frame::Frame,
+        pass::{PassJob, Threads},
+    },
+    sampling::{Directions, SAMPLERS, Sampler},
+    scene::{Camera, RenderSettings, Roulette, Scene, built_in},
+};
+
+const RESOLUTION: [u32; 2] = [75, 50];
+
+fn settings(sampler: Sampler) -> RenderSettings {
+    RenderSettings { sampler, directions: Directions::Cosine, roulette: Roulette::BY_THROUGHPUT, max_bounces: None, seed: 5 }
+}
+
+fn camera(scene: &Scene) -> Camera {
+    Camera { resolution: RESOLUTION, ..scene.camera }
+}
+
+fn film(scene: &Scene, threads: usize, level: SimdLevel, settings: &RenderSettings, spp: u32) -> Film {
+    let mut film = Film::new(RESOLUTION);
+    let threads = Threads::new(threads, level).expect("threads can be had");
+    let job = PassJob { scene, rays: &camera(scene).rays(), settings };
+    threads.pass(job, &mut film, spp, &|| false);
+    film
+}
+
+fn bits(film: &Film) -> Vec<[u32; 4]> {
+    let frame = Frame::of_film(film, 0, RESOLUTION, RESOLUTION);
+    let pixels = frame.radiance.iter().zip(&frame.standard_error);
+    pixels.map(|([r, g, b], error)| [r, g, b, error].map(|x| x.to_bits())).collect()
+}
+
+#[test]
+fn the_film_is_the_same_for_every_number_of_threads_and_every_simd_level() {
+    let scene = built_in();
+    for entry in SAMPLERS {
+        let settings = settings(entry.sampler);
+        let reference = bits(&film(&scene, 1, SimdLevel::Scalar, &settings, 4));
+        for level in SimdLevel::available() {
+            for threads in [1, 2, 4] {
+                assert!(bits(&film(&scene, threads, level, &settings, 4)) == reference, "{}, {level:?}, {threads}", entry.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn an_interrupted_pass_goes_on_as_if_nothing_had_happened() {
+    let scene = built_in();
+    let settings = settings(Sampler::Sobol);
+    let threads = Threads::new(2, SimdLevel::best()).expect("threads can be had");
+    let rays = camera(&scene).rays();
+    let job = PassJob { scene: &scene, rays: &rays, settings: &settings };
+    let mut interrupted = Film::new(RESOLUTION);
+    let asked = AtomicU32::new(0);
+    while interrupted.spp() < 8 {
+        // Now and then, in the middle of a path.
+        threads.pass(job, &mut interrupted, 8, &|| asked.fetch_add(1, Ordering::Relaxed) % 37 == 36);
+    }
+    assert!(bits(&interrupted) == bits(&film(&scene, 1, SimdLevel::best(), &settings, 8)));
+}
+
+#[test]
+fn replayed_samples_add_up_to_the_film() {
+    let scene = built_in();
+    let rays = camera(&scene).rays();
+    for entry in SAMPLERS {
+        let settings = settings(entry.sampler);
+        let film = film(&scene, 2, SimdLevel::best(), &settings, 3);
+        let frame = Frame::of_film(&film, 0, RESOLUTION, RESOLUTION);
+        for [x, y] in [[0, 0], [37, 25], [74, 49], [64, 31], [12, 40]] {
+            let mut sum = [0f64; 3];
+            for sample in 0..3 {
+                let replay = replay(&scene, &rays, &settings, [x, y], sample);
+                assert_eq!(replay.vertices.last().map(|vertex| vertex.radiance), Some(replay.radiance));
+                (0..3).for_each(|c| sum[c] += f64::from(replay.radiance[c]));
+            }
+            assert_eq!(frame.radiance[(y * RESOLUTION[0] + x) as usize], sum.map(|s| (s / 3.0) as f32), "{}", entry.name);
+        }
+    }
+}

@@ -1,0 +1,111 @@
+//! Camera and lamp inside or outside a sphere that does not emit.
+use glam::DVec3;
+use noisefall::{
+    math::SimdLevel,
+    measure::exact::sphere_irradiance,
+    render::{
+        film::{Estimate, Film},
+        pass::{PassJob, Threads},
+    },
+    sampling::{Directions, Sampler},
+    scene::{Camera, RenderSettings, Roulette, Scene, load},
+};
+
+use crate::statistics::assert_within;
+
+const SIDE: u32 = 64;
+
+fn scene(name: &str) -> Scene {
+    load(format!("{}/scenes/{name}.toml", env!("CARGO_MANIFEST_DIR")).as_ref()).expect("a shipped scene compiles")
+}
+
+/// Estimates of all pixels, row by row.
+fn render(scene: &Scene, directions: Directions, spp: u32) -> Vec<Estimate> {
+    let camera = Camera { resolution: [SIDE, SIDE], ..scene.camera };
+    let sampler = Sampler::Independent;
+    let settings = RenderSettings { sampler, directions, roulette: Roulette::BY_THROUGHPUT, max_bounces: None, seed: 3 };
+    let mut film = Film::new(camera.resolution);
+    let threads = Threads::new(2, SimdLevel::best()).expect("two threads can be had");
+    let count = threads.pass(PassJob { scene, rays: &camera.rays(), settings: &settings }, &mut film, spp, &|| false);
+    assert_eq!((film.invalid_samples(), count.cut_paths), (0, 0));
+    let mut estimates = vec![Estimate { mean: [0.0; 3], variance_of_mean: None }; (SIDE * SIDE) as usize];
+    for tile in &film.tiles {
+        for row in 0..tile.size[1] {
+            let start = ((tile.origin[1] + row) * SIDE + tile.origin[0]) as usize;
+            for (i, estimate) in (start..).zip(tile.estimates(row as usize)) {
+                estimates[i] = estimate;
+            }
+        }
+    }
+    estimates
+}
+
+/// Deviation of the sum over pixels from its exact value, in standard errors.
+fn z_of_sum(pixels: impl Iterator<Item = (Estimate, f64)>) -> f64 {
+    let (mut difference, mut variance) = (0.0, 0.0);
+    for (estimate, exact) in pixels {
+        difference += estimate.mean[0] - exact;
+        variance += estimate.variance_of_mean.expect("more than one sample")[0];
+    }
+    difference / variance.sqrt()
+}
+
+#[test]
+fn no_light_passes_a_closed_sphere() {
+    for name in ["inside_lit_outside", "outside_lit_inside"] {
+        let picture = render(&scene(name), Directions::Uniform, 64);
+        assert!(picture.iter().all(|pixel| pixel.mean == [0.0; 3]), "{name}");
+    }
+}
+
+#[test]
+fn a_lamp_in_the_middle_lights_the_inside_evenly() {
+    // The lamp fills the share F = (r/R)² of the cosine-weighted hemisphere of a wall point and the wall itself the rest:
+    // B = ρ (L F + B (1 − F)).
+    let (albedo, radiance, share) = (0.5, 8.5, 0.25f64.powi(2));
+    let exact = albedo * radiance * share / (1.0 - albedo * (1.0 - share));
+    assert!((exact - 0.5).abs() < 1e-12);
+    for directions in Directions::ALL {
+        let picture = render(&scene("inside_lit_inside"), directions, 512);
+        assert_within(z_of_sum(picture.iter().map(|pixel| (*pixel, exact))), &format!("the whole picture, {directions:?}"));
+        for (i, quarter) in picture.chunks(picture.len() / 4).enumerate() {
+            assert_within(z_of_sum(quarter.iter().map(|pixel| (*pixel, exact))), &format!("quarter {i}, {directions:?}"));
+        }
+    }
+}
+
+/// ρ/π times the irradiance by the lamp where the ray meets the ball; `None` elsewhere and where the lamp dips below the horizon.
+fn lamberts_ball(o: DVec3, d: DVec3) -> Option<f64> {
+    const ALBEDO: f64 = 0.8;
+    const LAMP: (DVec3, f64, f64) = (DVec3::new(1.7, 1.4, 1.0), 0.5, 8.0);
+    let (b, c) = (o.dot(d), o.length_squared() - 1.0);
+    let discriminant = b * b - c;
+    let t = (discriminant > 0.0).then(|| -b - discriminant.sqrt())?;
+    let p = o + d * t;
+    let to_lamp = LAMP.0 - p;
+    let (distance, cos) = (to_lamp.length(), p.dot(to_lamp.normalize()));
+    let above_horizon = cos * distance > LAMP.1;
+    above_horizon.then(|| ALBEDO / std::f64::consts::PI * sphere_irradiance(LAMP.2, LAMP.1, distance, cos))
+}
+
+#[test]
+fn a_ball_lit_from_outside_is_lamberts_ball() {
+    const SUB: u32 = 8;
+    let scene = scene("outside_lit_outside");
+    let picture = render(&scene, Directions::Cosine, 1024);
+    let [right, up, forward] = scene.camera.axes();
+    let half = (scene.camera.fov.to_radians() / 2.0).tan();
+    // The exact mean over a pixel by the midpoint rule, where the formula holds in all of it.
+    let exact = |pixel: usize| -> Option<f64> {
+        let (x, y) = (pixel as u32 % SIDE, pixel as u32 / SIDE);
+        let at = |corner: u32, sub: u32| (f64::from(corner) + (f64::from(sub) + 0.5) / f64::from(SUB)) / f64::from(SIDE) * 2.0 - 1.0;
+        let ray = |i: u32| (forward + right * (half * at(x, i % SUB)) - up * (half * at(y, i / SUB))).normalize();
+        (0..SUB * SUB).map(|i| lamberts_ball(scene.camera.eye, ray(i))).sum::<Option<f64>>().map(|sum| sum / f64::from(SUB * SUB))
+    };
+    let lit: Vec<_> = picture.iter().enumerate().filter_map(|(i, pixel)| Some((*pixel, exact(i)?))).collect();
+    assert!(lit.len() > 150, "the ball is in the picture: {}", lit.len());
+    assert_within(z_of_sum(lit.iter().copied()), "the lit part of the ball");
+    for (i, part) in lit.chunks(lit.len().div_ceil(4)).enumerate() {
+        assert_within(z_of_sum(part.iter().copied()), &format!("part {i} of the ball"));
+    }
+}

@@ -1,0 +1,8 @@
+//! The estimator against exact solutions of the light transport equation.
+//!
+//! Every statement is a z-test at 4σ over seeded samples, or exact where the answer is. σ comes from the closed form where there
+//! is one, else from the samples.
+mod determinism;
+mod furnace;
+mod inside_outside;
+mod statistics;
