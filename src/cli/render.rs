@@ -114,7 +114,10 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     if status.cut_paths > 0 {
         let longest = RenderSettings::LONGEST_PATH;
-        eprintln!("warning: {} paths were cut after {longest} reflections: the picture is biased; use roulette", status.cut_paths);
+        eprintln!(
+            "warning: {} paths were cut after {longest} reflections: the picture is biased; use roulette",
+            status.cut_paths
+        );
     }
     if arguments.json {
         let line = serde_json::json!({
@@ -213,7 +216,10 @@ fn replay_command(arguments: &Arguments, at: SampleId, settings: &RenderSettings
 }
 
 /// A rendered picture must not be lost to a full disk: where the target fails, the folder for temporary files is tried.
-fn save_somewhere(path: &Path, save: impl Fn(&Path) -> Result<(), noisefall::render::image_file::ImageError>) -> Result<(), Failure> {
+fn save_somewhere(
+    path: &Path,
+    save: impl Fn(&Path) -> Result<(), noisefall::render::image_file::ImageError>,
+) -> Result<(), Failure> {
     let Err(error) = save(path) else { return Ok(()) };
     let rescue = std::env::temp_dir().join(path.file_name().unwrap_or_default());
     match save(&rescue) {

@@ -84,11 +84,7 @@ impl<L: Lanes> Field<L> for V<L> {
     const COLUMNS: usize = 3;
     #[inline(always)]
     fn read(l: L, queue: &Queue, column: usize, at: usize) -> Self {
-        V {
-            x: F::read(l, queue, column, at),
-            y: F::read(l, queue, column + 1, at),
-            z: F::read(l, queue, column + 2, at),
-        }
+        V { x: F::read(l, queue, column, at), y: F::read(l, queue, column + 1, at), z: F::read(l, queue, column + 2, at) }
     }
     #[inline(always)]
     fn append(self, keep: M<L>, whole: bool, queue: &mut Queue, column: usize) {

@@ -9,13 +9,7 @@ use crate::{
 
 /// The paths that survive their `reflection`-th reflection, and the throughput of the survivors.
 #[inline(always)]
-pub(super) fn survive<L: Lanes>(
-    l: L,
-    roulette: Roulette,
-    reflection: u32,
-    stream: &Stream<L>,
-    throughput: V<L>,
-) -> (M<L>, V<L>) {
+pub(super) fn survive<L: Lanes>(l: L, roulette: Roulette, reflection: u32, stream: &Stream<L>, throughput: V<L>) -> (M<L>, V<L>) {
     match roulette {
         Roulette::Fixed(p) if p < 1.0 => play(reflection, stream, throughput, l.f(p)),
         Roulette::Throughput { start } if reflection >= start => {

@@ -7,8 +7,8 @@
 //!
 //! This file alone knows the SIMD crate; the operators on top of it are in [`super::number`].
 use fearless_simd::{
-    Bytes, ExtractToken, Fallback, Select, Simd, SimdBase, SimdFloat, SimdInt, SimdMask, f32x4, f32x16,
-    mask32x4, mask32x16, u32x4, u32x16,
+    Bytes, ExtractToken, Fallback, Select, Simd, SimdBase, SimdFloat, SimdInt, SimdMask, f32x4, f32x16, mask32x4, mask32x16,
+    u32x4, u32x16,
 };
 
 use super::number::{F, M, U};
@@ -288,14 +288,7 @@ macro_rules! simd_lanes {
 }
 
 simd_lanes!(X4, 4, f32x4<S>, u32x4<S>, mask32x4<S>, "Four lanes: the width of SSE and NEON.");
-simd_lanes!(
-    X16,
-    16,
-    f32x16<S>,
-    u32x16<S>,
-    mask32x16<S>,
-    "Sixteen lanes: one AVX-512 register, or two of AVX2."
-);
+simd_lanes!(X16, 16, f32x16<S>, u32x16<S>, mask32x16<S>, "Sixteen lanes: one AVX-512 register, or two of AVX2.");
 
 /// One lane of plain numbers: the scalar path, for replaying a single sample and for tests.
 #[derive(Clone, Copy)]

@@ -3,7 +3,7 @@ use crate::integrator::TILE;
 
 /// Sums of samples over all pixels, in tiles that each belong to one thread at a time.
 pub struct Film {
-    width: u32,
+    resolution: [u32; 2],
     pub tiles: Vec<Tile>,
 }
 
@@ -30,10 +30,23 @@ pub struct Estimate {
 }
 
 impl Film {
-    pub fn new([width, height]: [u32; 2]) -> Film {
+    /// An empty film. Its memory is taken by the first sample, tile by tile on the threads that render.
+    pub fn new(resolution: [u32; 2]) -> Film {
+        let [width, height] = resolution;
         let corners = |side: u32| (0..side).step_by(TILE as usize);
         let tile = |x: u32, y: u32| Tile::new([x, y], [TILE.min(width - x), TILE.min(height - y)]);
-        Film { width, tiles: corners(height).flat_map(|y| corners(width).map(move |x| tile(x, y))).collect() }
+        Film { resolution, tiles: corners(height).flat_map(|y| corners(width).map(move |x| tile(x, y))).collect() }
+    }
+
+    /// An empty film in the memory of this one, if it has the right size.
+    pub fn recycled(mut self, resolution: [u32; 2]) -> Film {
+        if self.resolution != resolution {
+            return Film::new(resolution);
+        }
+        for tile in &mut self.tiles {
+            (tile.spp, tile.invalid) = (0, 0);
+        }
+        self
     }
 
     /// The samples that every pixel has at least.
@@ -51,22 +64,33 @@ impl Film {
 
     /// Rows of tiles from top to bottom.
     pub fn tile_rows(&self) -> impl Iterator<Item = &[Tile]> {
-        self.tiles.chunks(self.width.div_ceil(TILE) as usize)
+        self.tiles.chunks(self.resolution[0].div_ceil(TILE) as usize)
     }
 }
 
 impl Tile {
     fn new(origin: [u32; 2], size: [u32; 2]) -> Tile {
-        let pixels = (size[0] * size[1]) as usize;
-        Tile { origin, size, spp: 0, sum: vec![[0.0; 3]; pixels], sum_of_squares: vec![[0.0; 3]; pixels], invalid: 0 }
+        Tile { origin, size, spp: 0, sum: Vec::new(), sum_of_squares: Vec::new(), invalid: 0 }
     }
 
     pub fn pixels(&self) -> usize {
-        self.sum.len()
+        (self.size[0] * self.size[1]) as usize
+    }
+
+    /// Black, without samples.
+    fn clear(&mut self) {
+        let pixels = self.pixels();
+        for sums in [&mut self.sum, &mut self.sum_of_squares] {
+            sums.clear();
+            sums.resize(pixels, [0.0; 3]);
+        }
     }
 
     /// Adds one sample to every pixel; slot = row · [`TILE`] + column. Returns the first pixel whose sample is invalid.
     pub fn add(&mut self, radiance: &[[f32; 4]]) -> Option<[u32; 2]> {
+        if self.spp == 0 {
+            self.clear();
+        }
         let mut first_invalid = None;
         let width = self.size[0] as usize;
         let rows = self.sum.chunks_exact_mut(width).zip(self.sum_of_squares.chunks_exact_mut(width));
@@ -90,7 +114,7 @@ impl Tile {
         first_invalid
     }
 
-    /// The estimates of one row of the tile; `row` counts from the tile's top.
+    /// The estimates of one row of the tile, which must have a sample; `row` counts from the tile's top.
     pub fn estimates(&self, row: usize) -> impl Iterator<Item = Estimate> {
         let width = self.size[0] as usize;
         let pixels = row * width..(row + 1) * width;

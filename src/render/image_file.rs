@@ -6,14 +6,11 @@ use std::{
 };
 
 use exr::prelude::{
-    Encoding, Image, Layer, LayerAttributes, ReadChannels, ReadLayers, SpecificChannels, Text, WritableImage, attribute::AttributeValue,
+    Encoding, Image, Layer, LayerAttributes, ReadChannels, ReadLayers, SpecificChannels, Text, WritableImage,
+    attribute::AttributeValue,
 };
 
-use super::{
-    display::to_srgb,
-    frame::Frame,
-    tone::Display,
-};
+use super::{display::to_srgb, frame::Frame, tone::Display};
 use crate::math::colour::linear_from_srgb;
 
 /// Where the settings stand in a file.

@@ -56,12 +56,12 @@ impl Coarse {
 }
 
 impl Session {
-    /// `rate`: camera samples a second that the same scene reached before, if known.
-    pub fn new(job: Job, publish: Publish, rate: Option<f64>, budget: &Budget) -> Session {
+    /// `rate`: camera samples a second that the same scene reached before, if known. `film`: one that is not needed any more.
+    pub fn new(job: Job, publish: Publish, rate: Option<f64>, budget: &Budget, film: Option<Film>) -> Session {
         let scale = Coarse::first_scale(&job.camera, rate.unwrap_or(UNKNOWN_RATE));
         Session {
             coarse: if publish == Publish::Live { Coarse::new(&job.camera, scale) } else { None },
-            film: Film::new(job.camera.resolution),
+            film: film.map_or_else(|| Film::new(job.camera.resolution), |film| film.recycled(job.camera.resolution)),
             count: PassCount::default(),
             elapsed: Duration::ZERO,
             rate,
@@ -75,6 +75,10 @@ impl Session {
 
     pub fn job(&self) -> &Job {
         &self.job
+    }
+
+    pub fn into_film(self) -> Film {
+        self.film
     }
 
     pub fn rate(&self) -> Option<f64> {
@@ -165,7 +169,9 @@ impl Session {
     /// Whether the samples that no frame shows yet should be shown now.
     pub fn frame_due(&self, publish: Publish, at_rest: bool) -> bool {
         let waited = self.last_frame.is_none_or(|last| last.elapsed() >= self.interval(publish));
-        self.stale && (at_rest || waited || self.coarse.is_some())
+        // The full picture is shown once it has no holes; until then the last coarse one stays.
+        let complete = self.coarse.is_some() || self.film.spp() > 0;
+        self.stale && complete && (at_rest || waited || self.coarse.is_some())
     }
 
     /// The picture so far. A coarse one makes place for the next finer one.

@@ -234,7 +234,8 @@ impl Worker {
             Message::Job(job) => {
                 let same_scene = |old: &&Session| Arc::ptr_eq(&old.job().scene, &job.scene);
                 let rate = self.session.as_ref().filter(same_scene).and_then(Session::rate);
-                self.session = Some(Session::new(*job, self.publish, rate, &self.budget));
+                let film = self.session.take().map(Session::into_film);
+                self.session = Some(Session::new(*job, self.publish, rate, &self.budget, film));
             }
         }
         Some(())

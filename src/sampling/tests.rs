@@ -102,7 +102,8 @@ fn different_dimensions_of_a_sample_are_not_correlated() {
         for (a, b) in pairs {
             let mut counts = vec![0.0; 64];
             for index in 0..SAMPLES {
-                let (x, y) = (point(entry.sampler, index / 16, index % 16, a)[0], point(entry.sampler, index / 16, index % 16, b)[0]);
+                let (x, y) =
+                    (point(entry.sampler, index / 16, index % 16, a)[0], point(entry.sampler, index / 16, index % 16, b)[0]);
                 counts[(x * 8.0) as usize * 8 + (y * 8.0) as usize] += 1.0;
             }
             let p = chi_squared(&counts, &vec![f64::from(SAMPLES) / 64.0; 64]);
@@ -147,8 +148,9 @@ fn sobol_points_have_one_in_every_elementary_interval_far_beyond_two_to_the_sixt
         for log_count in 1..=10 {
             // The last block is as late as a block can be.
             for first in [0u32, 3 << 10, 1 << 17, 1 << 25, u32::MAX - ((1 << 10) - 1)] {
-                let points: Vec<_> =
-                    (0..1u32 << log_count).map(|i| point(Sampler::Sobol, pixel, first + i, Dimension::direction(pixel))).collect();
+                let points: Vec<_> = (0..1u32 << log_count)
+                    .map(|i| point(Sampler::Sobol, pixel, first + i, Dimension::direction(pixel)))
+                    .collect();
                 for across in 0..=log_count {
                     assert!(one_in_each_cell(&points, across, log_count - across), "{pixel} {log_count} {first} {across}");
                 }

@@ -57,11 +57,7 @@ impl Camera {
     pub fn check_resolution(&self) -> Result<(), CameraError> {
         let [w, h] = self.resolution;
         let fits = |side: u32| (1..=Self::MOST_SIDE).contains(&side);
-        if fits(w) && fits(h) && u64::from(w) * u64::from(h) <= MOST_PIXELS {
-            Ok(())
-        } else {
-            Err(CameraError::Resolution)
-        }
+        if fits(w) && fits(h) && u64::from(w) * u64::from(h) <= MOST_PIXELS { Ok(()) } else { Err(CameraError::Resolution) }
     }
 
     /// Unit vectors to the right, up and forward, in world space.

@@ -55,12 +55,21 @@ impl Checker<'_> {
         };
         let label = format!("expected a number from {SMALLEST_RADIUS:e} to {LARGEST:e}");
         let error = self.0.error(value.span(), message, label);
-        Err(if radius < 0.0 { error.with_help("to look at a sphere from inside, keep the radius positive; `flip = true` turns its normal") } else { error })
+        Err(if radius < 0.0 {
+            error.with_help("to look at a sphere from inside, keep the radius positive; `flip = true` turns its normal")
+        } else {
+            error
+        })
     }
 
     /// Reflectances, each in [0, 1].
     pub fn albedo(&self, value: &Spanned<Colour>) -> Result<[f32; 3], SceneError> {
-        self.colour("albedo", value, 1.0, "every channel must lie in [0, 1]: a surface cannot reflect more light than it receives")
+        self.colour(
+            "albedo",
+            value,
+            1.0,
+            "every channel must lie in [0, 1]: a surface cannot reflect more light than it receives",
+        )
     }
 
     /// Radiances, each finite and not negative.

@@ -112,10 +112,7 @@ fn background(check: &Checker, desc: &Spanned<BackgroundDesc>) -> Result<Backgro
     Ok(Background { radiance: check.radiance(radiance)? })
 }
 
-fn materials(
-    check: &Checker,
-    descs: &BTreeMap<String, Spanned<MaterialDesc>>,
-) -> Result<BTreeMap<String, Material>, SceneError> {
+fn materials(check: &Checker, descs: &BTreeMap<String, Spanned<MaterialDesc>>) -> Result<BTreeMap<String, Material>, SceneError> {
     descs.iter().map(|(name, desc)| Ok((name.clone(), material(check, name, desc)?))).collect()
 }
 
@@ -168,7 +165,8 @@ fn named_material(
 ) -> Result<Material, SceneError> {
     materials.get(name.as_ref()).copied().ok_or_else(|| {
         let known = materials.keys().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
-        let help = if known.is_empty() { "the scene defines no materials".to_owned() } else { format!("the scene defines {known}") };
+        let help =
+            if known.is_empty() { "the scene defines no materials".to_owned() } else { format!("the scene defines {known}") };
         let message = format!("there is no material `{}`", name.as_ref());
         check.0.error(name.span(), message, "not defined").with_help(help)
     })

@@ -18,7 +18,8 @@ impl App {
             row(ui, "Resolution", "Width and height in pixels.", |ui| {
                 ui.horizontal(|ui| {
                     let [width, height] = &mut camera.resolution;
-                    let side = |value| DragValue::new(value).range(1..=noisefall::scene::Camera::MOST_SIDE).update_while_editing(false);
+                    let side =
+                        |value| DragValue::new(value).range(1..=noisefall::scene::Camera::MOST_SIDE).update_while_editing(false);
                     ui.add(side(width)).on_hover_text("Width");
                     ui.label("×");
                     ui.add(side(height)).on_hover_text("Height");

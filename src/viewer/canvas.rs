@@ -98,7 +98,10 @@ pub fn show(
         view.fit();
     }
     move_picture(ui, &response, tool, view, area);
-    CanvasOutput { hovered: pixel_under(&response, rect, resolution), camera: move_camera(ui, &response, tool, camera, rect, size) }
+    CanvasOutput {
+        hovered: pixel_under(&response, rect, resolution),
+        camera: move_camera(ui, &response, tool, camera, rect, size),
+    }
 }
 
 fn pixel_under(response: &Response, rect: Rect, resolution: Vec2) -> Option<[u32; 2]> {

@@ -22,20 +22,30 @@ impl App {
                     }
                 });
             });
-            row(ui, "Directions", "How the next direction ωᵢ is drawn over the hemisphere at a surface: the density p(ωᵢ).", |ui| {
-                let directions = &mut self.settings.directions;
-                ui.horizontal(|ui| {
-                    ui.selectable_value(directions, Directions::Uniform, "Uniform").on_hover_text("p(ωᵢ) = 1 / 2π");
-                    ui.selectable_value(directions, Directions::Cosine, "Cosine")
-                        .on_hover_text("p(ωᵢ) = cos θ / π: cancels the cosine of the equation, less noise");
-                });
-            });
+            row(
+                ui,
+                "Directions",
+                "How the next direction ωᵢ is drawn over the hemisphere at a surface: the density p(ωᵢ).",
+                |ui| {
+                    let directions = &mut self.settings.directions;
+                    ui.horizontal(|ui| {
+                        ui.selectable_value(directions, Directions::Uniform, "Uniform").on_hover_text("p(ωᵢ) = 1 / 2π");
+                        ui.selectable_value(directions, Directions::Cosine, "Cosine")
+                            .on_hover_text("p(ωᵢ) = cos θ / π: cancels the cosine of the equation, less noise");
+                    });
+                },
+            );
             row(ui, "Roulette", "Ends paths at random and weights the survivors by 1/q: shorter paths, no bias.", |ui| {
                 self.roulette(ui);
             });
-            row(ui, "Bounce cap", "The highest number of reflections counted. A cap leaves light out: the picture is biased.", |ui| {
-                optional(ui, &mut self.settings.max_bounces, "no cap", DEFAULT_CAP, 0..=4096);
-            });
+            row(
+                ui,
+                "Bounce cap",
+                "The highest number of reflections counted. A cap leaves light out: the picture is biased.",
+                |ui| {
+                    optional(ui, &mut self.settings.max_bounces, "no cap", DEFAULT_CAP, 0..=4096);
+                },
+            );
             row(ui, "Seed", "Another seed gives another picture with other noise.", |ui| {
                 ui.add(DragValue::new(&mut self.settings.seed));
             });

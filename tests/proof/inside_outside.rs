@@ -98,7 +98,8 @@ fn a_ball_lit_from_outside_is_lamberts_ball() {
     // The exact mean over a pixel by the midpoint rule, where the formula holds in all of it.
     let exact = |pixel: usize| -> Option<f64> {
         let (x, y) = (pixel as u32 % SIDE, pixel as u32 / SIDE);
-        let at = |corner: u32, sub: u32| (f64::from(corner) + (f64::from(sub) + 0.5) / f64::from(SUB)) / f64::from(SIDE) * 2.0 - 1.0;
+        let at =
+            |corner: u32, sub: u32| (f64::from(corner) + (f64::from(sub) + 0.5) / f64::from(SUB)) / f64::from(SIDE) * 2.0 - 1.0;
         let ray = |i: u32| (forward + right * (half * at(x, i % SUB)) - up * (half * at(y, i / SUB))).normalize();
         (0..SUB * SUB).map(|i| lamberts_ball(scene.camera.eye, ray(i))).sum::<Option<f64>>().map(|sum| sum / f64::from(SUB * SUB))
     };

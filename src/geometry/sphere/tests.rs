@@ -68,14 +68,21 @@ fn assert_agrees(sphere: &Sphere, o: V<One>, d: V<One>, what: &str) {
         (Some(expected), Some(found)) => {
             let cos = discriminant.sqrt().max(blur.sqrt());
             let tolerance = rounding * (distance + expected) / cos;
-            assert!((expected - found).abs() <= tolerance, "{what}, R = {radius:e}: {found:e}, exactly {expected:e} ± {tolerance:e}");
+            assert!(
+                (expected - found).abs() <= tolerance,
+                "{what}, R = {radius:e}: {found:e}, exactly {expected:e} ± {tolerance:e}"
+            );
         }
         (None, None) => {}
         // Within rounding of the tangent, or of starting on the surface, either answer is right.
         _ => {
             let grazes = discriminant.abs() < blur;
-            let starts_on_surface = expected.or(found).is_some_and(|t| t < rounding * distance / discriminant.abs().sqrt().max(1e-3));
-            assert!(grazes || starts_on_surface, "{what}, R = {radius:e}: {found:?}, exactly {expected:?}, cos² {discriminant:e}");
+            let starts_on_surface =
+                expected.or(found).is_some_and(|t| t < rounding * distance / discriminant.abs().sqrt().max(1e-3));
+            assert!(
+                grazes || starts_on_surface,
+                "{what}, R = {radius:e}: {found:?}, exactly {expected:?}, cos² {discriminant:e}"
+            );
         }
     }
 }

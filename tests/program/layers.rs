@@ -1,0 +1,68 @@
+//! Folders depend downwards only.
+use std::{fs, path::Path};
+
+/// From the top down; folders of one line do not know each other.
+const LAYERS: [&[&str]; 6] =
+    [&["render"], &["measure"], &["integrator"], &["scene"], &["geometry", "light", "material"], &["sampling"]];
+
+fn level(folder: &str) -> Option<usize> {
+    LAYERS.iter().position(|layer| layer.contains(&folder)).or((folder == "math").then_some(LAYERS.len()))
+}
+
+fn source_files(folder: &Path) -> Vec<std::path::PathBuf> {
+    let entries = fs::read_dir(folder).expect("the folder can be read").map(|entry| entry.expect("an entry").path());
+    entries.flat_map(|path| if path.is_dir() { source_files(&path) } else { vec![path] }).collect()
+}
+
+/// The folders that a file names behind `crate::`, in `use crate::{a, b}` too.
+fn folders_used(text: &str) -> Vec<String> {
+    let word = |s: &str| s.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect::<String>();
+    let mut used = Vec::new();
+    for (at, _) in text.match_indices("crate::") {
+        let rest = &text[at + "crate::".len()..];
+        match rest.strip_prefix('{') {
+            None => used.push(word(rest)),
+            Some(group) => {
+                let mut depth = 1;
+                let mut start = true;
+                for (i, c) in group.char_indices() {
+                    depth += i32::from(c == '{') - i32::from(c == '}');
+                    if depth == 0 {
+                        break;
+                    }
+                    if start && c.is_alphabetic() {
+                        used.push(word(&group[i..]));
+                        start = false;
+                    }
+                    start |= depth == 1 && c == ',';
+                }
+            }
+        }
+    }
+    used
+}
+
+#[test]
+fn arrows_between_folders_point_down() {
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut arrows = 0;
+    for file in source_files(&source) {
+        let folder = file.strip_prefix(&source).expect("it lies in src").components().next().expect("it has a name");
+        let folder = folder.as_os_str().to_string_lossy().into_owned();
+        let Some(from) = level(&folder) else { continue };
+        let text = fs::read_to_string(&file).expect("source is text");
+        for used in folders_used(&text).iter().filter(|used| **used != folder) {
+            if let Some(to) = level(used) {
+                arrows += 1;
+                assert!(from < to, "{} uses {used}, which is not below {folder}", file.display());
+            }
+            assert!(used != "viewer" && used != "cli", "{} knows the program", file.display());
+        }
+    }
+    assert!(arrows > 20, "the search finds arrows: {arrows}");
+}
+
+#[test]
+fn groups_of_imports_are_understood() {
+    assert_eq!(folders_used("use crate::{a::{x, y}, b, c::z};\nuse crate::d::e;"), ["a", "b", "c", "d"]);
+}

@@ -1,0 +1,224 @@
+//! Scene files: the good ones compile, the bad ones are told what is wrong, where, and what was expected.
+use std::{fs, path::Path};
+
+use noisefall::{
+    sampling::{Directions, Sampler},
+    scene::{BUILT_IN, Roulette, SceneError, Truth, built_in, load, parse},
+};
+
+const GOOD: &str = r#"format = 1
+[camera]
+eye = [0.0, 1.0, 4.0]
+look_at = [0, 1, 0]
+fov = 40
+resolution = [32, 24]
+[materials.white]
+lambertian = { albedo = 0.8 }
+[[objects]]
+name = "ball"
+shape = { sphere = { center = [0.0, 1.0, 0.0], radius = 1.0 } }
+material = "white"
+emission = { radiance = [1.0, 2.0, 3.0] }
+[render]
+sampler = "stratified"
+directions = "uniform"
+roulette = { fixed = 0.75 }
+max_bounces = 5
+spp = 64
+seed = 9
+[truth]
+radiance = 2.0
+"#;
+
+fn error(text: &str) -> SceneError {
+    parse("test.toml", text.to_owned()).err().unwrap_or_else(|| panic!("this compiles:\n{text}"))
+}
+
+/// `GOOD` with one line replaced must fail there, with a message that contains `message`.
+fn refuses(line: &str, by: &str, message: &str) {
+    assert!(GOOD.contains(line), "{line}");
+    let text = GOOD.replacen(line, by, 1);
+    let error = error(&text);
+    let report = error.report();
+    assert!(report.contains(message), "expected {message:?} in:\n{report}");
+    let (line, column) = error.line_column().unwrap_or_else(|| panic!("no place in:\n{report}"));
+    assert!(report.contains(&format!("test.toml:{line}:{column}")), "{report}");
+    assert!(report.contains('─') || report.contains('▲'), "no caret in:\n{report}");
+    let first = GOOD.lines().zip(text.lines()).position(|(a, b)| a != b).expect("a line differs") + 1;
+    let last = first + by.lines().count().max(1) - 1;
+    // What a table lacks is reported at the table.
+    assert!((1..=last).contains(&line), "at line {line}, not {first}..={last}:\n{report}");
+}
+
+#[test]
+fn a_good_file_means_what_it_says() {
+    let scene = parse("test.toml", GOOD.to_owned()).expect("it is good");
+    assert_eq!(scene.camera.resolution, [32, 24]);
+    assert_eq!(scene.camera.fov, 40.0);
+    assert_eq!((scene.settings.sampler, scene.settings.directions), (Sampler::Stratified, Directions::Uniform));
+    assert_eq!((scene.settings.roulette, scene.settings.max_bounces), (Roulette::Fixed(0.75), Some(5)));
+    assert_eq!((scene.spp, scene.settings.seed), (Some(64), 9));
+    assert_eq!(scene.truth, Some(Truth::Radiance([2.0; 3])));
+    assert_eq!(scene.objects[0].name, "ball");
+    assert!(scene.warnings().is_empty());
+}
+
+#[test]
+fn the_built_in_scene_is_the_shipped_one() {
+    assert_eq!(built_in().objects.len(), 8);
+    let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/cornell_spheres.toml");
+    assert_eq!(fs::read_to_string(shipped).expect("it is shipped"), BUILT_IN);
+}
+
+#[test]
+fn every_shipped_scene_compiles_says_what_it_shows_and_emits_light() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
+    let mut count = 0;
+    for entry in fs::read_dir(folder).expect("scenes are shipped") {
+        let path = entry.expect("an entry").path();
+        let scene = load(&path).unwrap_or_else(|error| panic!("{}", error.report()));
+        assert!(!scene.title.is_empty() && !scene.notes.is_empty(), "{} says nothing", path.display());
+        assert_eq!(scene.warnings(), Vec::<String>::new(), "{}", path.display());
+        count += 1;
+    }
+    assert!(count >= 9);
+}
+
+#[test]
+fn unknown_keys_and_kinds_are_refused() {
+    refuses("fov = 40", "fov = 40\nfocal = 3", "unknown field `focal`");
+    refuses("albedo = 0.8", "albedo = 0.8, color = 1", "unknown field `color`");
+    refuses("sphere = {", "ball = {", "unknown variant `ball`");
+    refuses("\"stratified\"", "\"halton\"", "unknown variant `halton`");
+    refuses("format = 1", "format = 1\nlights = []", "unknown field `lights`");
+    refuses("{ fixed = 0.75 }", "\"always\"", "unknown variant `always`");
+}
+
+#[test]
+fn wrong_types_are_refused() {
+    refuses("fov = 40", "fov = \"wide\"", "invalid type: string \"wide\"");
+    refuses("look_at = [0, 1, 0]", "look_at = [0, 1]", "invalid length 2");
+    refuses("albedo = 0.8", "albedo = [0.8, 0.8]", "expected a colour");
+    refuses("albedo = 0.8", "albedo = [0.8, 0.8, 0.8, 0.8]", "expected a colour");
+    refuses("albedo = 0.8", "albedo = \"white\"", "expected a colour");
+    refuses("max_bounces = 5", "max_bounces = -1", "invalid value: integer `-1`");
+    refuses("seed = 9", "seed = 1.5", "invalid type: floating point");
+}
+
+#[test]
+fn what_is_missing_is_named() {
+    refuses("fov = 40\n", "", "missing field `fov`");
+    refuses("format = 1\n", "", "missing field `format`");
+    refuses(", radius = 1.0", "", "missing field `radius`");
+    refuses("lambertian = { albedo = 0.8 }", "", "material `white` says no kind");
+    refuses("emission = { radiance = [1.0, 2.0, 3.0] }", "emission = {}", "missing key `radiance`");
+}
+
+#[test]
+fn names_must_be_defined() {
+    refuses("material = \"white\"", "material = \"whit\"", "there is no material `whit`");
+    assert!(error(&GOOD.replace("material = \"white\"", "material = \"x\"")).report().contains("defines `white`"));
+}
+
+#[test]
+fn numbers_out_of_range_are_refused() {
+    refuses("radius = 1.0", "radius = -1.0", "the radius is negative");
+    refuses("radius = 1.0", "radius = 0.0", "the radius is out of range");
+    refuses("radius = 1.0", "radius = nan", "the radius is not a number");
+    refuses("radius = 1.0", "radius = inf", "the radius is out of range");
+    refuses("albedo = 0.8", "albedo = 1.01", "`albedo` is out of range");
+    refuses("albedo = 0.8", "albedo = [0.1, -0.1, 0.5]", "`albedo` is out of range");
+    refuses("albedo = 0.8", "albedo = nan", "`albedo` is out of range");
+    refuses("[1.0, 2.0, 3.0]", "[1.0, -2.0, 3.0]", "`radiance` is out of range");
+    refuses("[1.0, 2.0, 3.0]", "inf", "`radiance` is out of range");
+    refuses("center = [0.0, 1.0, 0.0]", "center = [nan, 1.0, 0.0]", "`center` is not a position");
+    refuses("eye = [0.0, 1.0, 4.0]", "eye = [1e300, 1.0, 4.0]", "`eye` is not a position");
+    refuses("fov = 40", "fov = 180", "`fov` must lie between");
+    refuses("fov = 40", "fov = nan", "not a finite number");
+    refuses("look_at = [0, 1, 0]", "look_at = [0, 1, 4]", "the same point");
+    refuses("look_at = [0, 1, 0]", "look_at = [0, 0, 4]", "parallel");
+    refuses("resolution = [32, 24]", "resolution = [0, 24]", "resolution must be");
+    refuses("resolution = [32, 24]", "resolution = [100000, 2]", "resolution must be");
+    refuses("resolution = [32, 24]", "resolution = [16384, 16384]", "resolution must be");
+    refuses("resolution = [32, 24]", "resolution = [-1, 24]", "invalid value: integer `-1`");
+    refuses("fixed = 0.75", "fixed = 0.0", "survival probability");
+    refuses("fixed = 0.75", "fixed = 1.5", "survival probability");
+    refuses("fixed = 0.75", "fixed = nan", "survival probability");
+    refuses("spp = 64", "spp = 0", "`spp` is 0");
+    refuses("format = 1", "format = 2", "scene format 2");
+}
+
+#[test]
+fn what_is_not_supported_yet_is_refused_by_name() {
+    let camera = |key: &str| format!("fov = 40\n{key}");
+    refuses("fov = 40", &camera("lens = { radius = 0.05, focus = 3.0 }"), "`lens` is not supported yet");
+    refuses("fov = 40", &camera("shutter = [0.0, 1.0]"), "`shutter` is not supported yet");
+    refuses("[render]", "[background]\nimage = \"sky.exr\"\n[render]", "`image` is not supported yet");
+    refuses("[render]", "[background]\nradiance = 1.0\nrotate = 3.0\n[render]", "`rotate` is not supported yet");
+    refuses("[render]", "[textures.tiles]\nchecker = { scale = 8.0 }\n[render]", "`textures` is not supported yet");
+    for kind in ["mirror", "dielectric", "conductor", "plastic"] {
+        refuses("lambertian = { albedo = 0.8 }", &format!("{kind} = {{ x = 1 }}"), &format!("`{kind}` is not supported yet"));
+    }
+    for extra in ["bump = { height = 1 }", "normal_map = \"n.png\"", "two_sided = false"] {
+        let name = extra.split(' ').next().unwrap_or_default();
+        let line = format!("lambertian = {{ albedo = 0.8 }}\n{extra}");
+        refuses("lambertian = { albedo = 0.8 }", &line, &format!("`{name}` is not supported yet"));
+    }
+    refuses("albedo = 0.8", "albedo = { texture = \"tiles\" }", "`texture` is not supported yet");
+    for shape in ["cuboid", "cylinder", "disk", "rectangle", "triangle", "mesh", "isosurface"] {
+        refuses("sphere = {", &format!("{shape} = {{"), &format!("`{shape}` is not supported yet"));
+    }
+    for key in ["transform", "motion"] {
+        let line = format!("name = \"ball\"\n{key} = []");
+        refuses("name = \"ball\"", &line, &format!("`{key}` is not supported yet"));
+    }
+    refuses("radiance = [1.0, 2.0, 3.0]", "texture = \"tiles\", scale = 10.0", "`texture` is not supported yet");
+    refuses("seed = 9", "seed = 9\nestimator = \"mis\"", "`mis` is not supported yet");
+    refuses("seed = 9", "seed = 9\nestimator = \"light\"", "`light` is not supported yet");
+    refuses("\"uniform\"", "\"bsdf\"", "`bsdf` is not supported yet");
+}
+
+#[test]
+fn what_is_not_toml_is_refused_at_its_place() {
+    refuses("fov = 40", "fov = = 40", "");
+    refuses("format = 1", "format = 1\nformat = 1", "duplicate key");
+    assert!(parse("empty.toml", String::new()).is_err());
+}
+
+#[test]
+fn files_that_are_no_scenes_are_refused_in_one_message() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = |name: &str| folder.path().join(name);
+    let report = |path: &Path| load(path).err().expect("it is no scene").report();
+
+    assert!(report(&file("nowhere.toml")).contains("there is no such file"));
+    assert!(report(folder.path()).contains("cannot be read"));
+
+    fs::write(file("latin1.toml"), b"format = 1\ntitle = \"caf\xe9\"\n").expect("it is written");
+    let not_utf8 = report(&file("latin1.toml"));
+    assert!(not_utf8.contains("not UTF-8") && not_utf8.contains("latin1.toml:2:13"), "{not_utf8}");
+
+    // A file of 200 MB that takes no room.
+    fs::File::create(file("huge.toml")).and_then(|huge| huge.set_len(200 << 20)).expect("it is made");
+    assert!(report(&file("huge.toml")).contains("larger than 64 MB"));
+}
+
+#[test]
+fn a_scene_that_cannot_show_anything_says_so() {
+    let dark = GOOD.replace("emission = { radiance = [1.0, 2.0, 3.0] }\n", "");
+    let scene = parse("test.toml", dark).expect("it is legal");
+    assert!(scene.warnings()[0].contains("nothing in this scene emits light"));
+}
+
+#[test]
+fn flip_turns_the_emitting_side_and_two_sided_has_both() {
+    use noisefall::light::Side;
+    let side = |emission: &str, flip: &str| {
+        let text = GOOD.replace("emission = { radiance = [1.0, 2.0, 3.0] }", &format!("emission = {emission}\n{flip}"));
+        parse("test.toml", text).expect("it is good").objects[0].emission.map(|emission| emission.side)
+    };
+    assert_eq!(side("{ radiance = 1 }", ""), Some(Side::Front));
+    assert_eq!(side("{ radiance = 1 }", "flip = true"), Some(Side::Back));
+    assert_eq!(side("{ radiance = 1, two_sided = true }", "flip = true"), Some(Side::Both));
+    assert_eq!(side("{ radiance = 0 }", ""), None);
+}

@@ -1,0 +1,179 @@
+//! The worker: latest job wins, at once, and nothing is lost that was paid for.
+use std::{
+    sync::Arc,
+    time::{Duration, Instant},
+};
+
+use noisefall::{
+    math::SimdLevel,
+    render::{Budget, Job, Publish, Published, Renderer, State, pass::Threads},
+    scene::{Camera, RenderSettings, Roulette, Scene, parse},
+};
+
+/// A scene whose whole picture is one colour: a sphere around the camera that emits and reflects nothing.
+fn plain(radiance: f32, resolution: u32) -> Arc<Scene> {
+    let text = format!(
+        "format = 1\n[camera]\neye = [0, 0, 0]\nlook_at = [0, 0, 1]\nfov = 60\nresolution = [{resolution}, {resolution}]\n\
+         [[objects]]\nshape = {{ sphere = {{ center = [0, 0, 0], radius = 1 }} }}\nflip = true\n\
+         emission = {{ radiance = {radiance:?} }}\n"
+    );
+    Arc::new(parse("plain.toml", text).expect("it is good"))
+}
+
+/// A scene in which paths go on for thousands of bounces: white walls, no roulette.
+fn endless() -> (Arc<Scene>, RenderSettings) {
+    let text = "format = 1\n[camera]\neye = [0, 0, 0]\nlook_at = [0, 0, 1]\nfov = 60\nresolution = [1280, 720]\n\
+                [materials.white]\nlambertian = { albedo = 0.9999 }\n\
+                [[objects]]\nshape = { sphere = { center = [0, 0, 0], radius = 1 } }\nmaterial = \"white\"\n\
+                flip = true\nemission = { radiance = 1 }\n[render]\nroulette = \"off\"\n";
+    let scene = Arc::new(parse("endless.toml", text.to_owned()).expect("it is good"));
+    let settings = scene.settings;
+    (scene, settings)
+}
+
+fn job(generation: u64, scene: &Arc<Scene>) -> Job {
+    Job { generation, scene: scene.clone(), camera: scene.camera, settings: scene.settings }
+}
+
+fn renderer(publish: Publish) -> Renderer {
+    Renderer::new(Threads::new(2, SimdLevel::best()).expect("threads can be had"), publish, || {})
+}
+
+/// Waits until what is published satisfies a condition. A minute is for a machine that is busy otherwise, not a target.
+fn wait_for(renderer: &Renderer, what: &str, condition: impl Fn(&Published) -> bool) -> Published {
+    let start = Instant::now();
+    loop {
+        let published = renderer.latest();
+        if condition(&published) {
+            return published;
+        }
+        assert!(start.elapsed() < Duration::from_secs(60), "{what} never came; status {:?}", published.status);
+        std::thread::sleep(Duration::from_micros(200));
+    }
+}
+
+#[test]
+fn the_first_picture_is_coarse_and_the_next_ones_finer_until_full() {
+    let renderer = renderer(Publish::Live);
+    let scene = plain(0.5, 1024);
+    renderer.set_budget(Budget { max_spp: Some(2), ..Budget::default() });
+    renderer.submit(job(1, &scene));
+    let first = wait_for(&renderer, "a first frame", |p| p.frame.generation == 1).frame;
+    assert!(first.is_coarse() && first.full_resolution == [1024, 1024]);
+    assert!(first.radiance.iter().all(|pixel| *pixel == [0.5; 3]), "a coarse picture has no holes");
+    let last = wait_for(&renderer, "the end", |p| p.status.state == State::Converged);
+    assert_eq!((last.frame.width, last.frame.spp, last.status.spp), (1024, 2, 2));
+    assert!(last.frame.radiance.iter().all(|pixel| *pixel == [0.5; 3]));
+}
+
+#[test]
+fn the_latest_job_wins_and_no_old_pixel_survives() {
+    let renderer = renderer(Publish::Live);
+    let scenes: Vec<_> = (1..=8).map(|i| plain(i as f32, 200)).collect();
+    for generation in 1..=200u64 {
+        let radiance = generation % 8;
+        renderer.submit(job(generation, &scenes[radiance as usize]));
+        if generation % 7 == 0 {
+            std::thread::sleep(Duration::from_millis(3));
+        }
+        let frame = renderer.latest().frame;
+        let expected = (frame.generation % 8 + 1) as f32;
+        assert!(frame.radiance.iter().all(|pixel| *pixel == [expected; 3]), "a pixel of another generation");
+    }
+    let last = wait_for(&renderer, "the last job", |p| p.frame.generation == 200 && !p.frame.is_coarse());
+    assert_eq!(last.status.generation, 200);
+    assert!(last.frame.radiance.iter().all(|pixel| *pixel == [1.0; 3]));
+}
+
+/// The picture of a scene with noise after exactly so many samples, without interruption.
+fn uninterrupted(job: Job, spp: u32) -> Vec<[f32; 3]> {
+    let renderer = renderer(Publish::Sparse);
+    renderer.set_budget(Budget { max_spp: Some(spp), ..Budget::default() });
+    renderer.submit(job);
+    wait_for(&renderer, "the end", |p| p.status.state == State::Converged).frame.radiance.clone()
+}
+
+fn noisy() -> Job {
+    let scene = Arc::new(noisefall::scene::built_in());
+    let camera = Camera { resolution: [320, 200], ..scene.camera };
+    Job { generation: 1, camera, settings: scene.settings, scene }
+}
+
+#[test]
+fn pause_and_resume_lose_nothing() {
+    let renderer = renderer(Publish::Live);
+    let target = Budget { max_spp: Some(40), ..Budget::default() };
+    renderer.set_budget(target);
+    renderer.submit(noisy());
+    for _ in 0..10 {
+        std::thread::sleep(Duration::from_millis(4));
+        renderer.set_budget(Budget { paused: true, ..target });
+        let paused = wait_for(&renderer, "the pause", |p| matches!(p.status.state, State::Paused | State::Converged));
+        std::thread::sleep(Duration::from_millis(10));
+        assert_eq!(renderer.latest().status.samples, paused.status.samples, "a paused worker works");
+        renderer.set_budget(target);
+        wait_for(&renderer, "the resumption", |p| p.status.state != State::Paused);
+    }
+    let last = wait_for(&renderer, "the end", |p| p.status.state == State::Converged);
+    assert!(last.frame.radiance == uninterrupted(noisy(), 40), "pausing changed the picture");
+}
+
+#[test]
+fn raising_the_target_goes_on_with_the_samples_there_are() {
+    let renderer = renderer(Publish::Live);
+    renderer.set_budget(Budget { max_spp: Some(4), ..Budget::default() });
+    renderer.submit(noisy());
+    let first = wait_for(&renderer, "the first target", |p| p.status.state == State::Converged);
+    assert_eq!(first.status.spp, 4);
+    renderer.set_budget(Budget { max_spp: Some(9), ..Budget::default() });
+    let second = wait_for(&renderer, "the second target", |p| p.status.state == State::Converged && p.status.spp == 9);
+    assert_eq!(second.status.samples, 9 * 320 * 200, "samples were taken twice");
+    assert_eq!(second.status.generation, 1);
+    assert!(second.frame.radiance == uninterrupted(noisy(), 9));
+    renderer.set_budget(Budget { max_spp: Some(5), ..Budget::default() });
+    std::thread::sleep(Duration::from_millis(20));
+    assert_eq!(renderer.latest().status.spp, 9, "a lower target takes nothing away");
+}
+
+#[test]
+fn a_step_adds_one_sample_a_pixel() {
+    let renderer = renderer(Publish::Live);
+    let step = |steps| Budget { paused: true, steps, ..Budget::default() };
+    renderer.set_budget(step(0));
+    renderer.submit(noisy());
+    for steps in 0..4u64 {
+        renderer.set_budget(step(steps));
+        let stepped =
+            wait_for(&renderer, "the step", |p| p.status.state == State::Paused && u64::from(p.status.spp) == steps + 1);
+        assert_eq!(stepped.status.samples, (steps + 1) * 320 * 200);
+        assert_eq!(stepped.frame.spp, stepped.status.spp);
+    }
+}
+
+#[test]
+fn a_noise_target_is_reached_and_a_time_target_kept() {
+    let renderer = renderer(Publish::Live);
+    renderer.set_budget(Budget { noise: Some(0.5), ..Budget::default() });
+    renderer.submit(noisy());
+    let quiet = wait_for(&renderer, "the noise target", |p| p.status.state == State::Converged);
+    assert!(quiet.status.relative_noise().is_some_and(|noise| noise <= 0.5));
+    let time = quiet.status.elapsed + Duration::from_millis(100);
+    renderer.set_budget(Budget { max_time: Some(time), ..Budget::default() });
+    let timed = wait_for(&renderer, "the time target", |p| p.status.state == State::Converged && p.status.elapsed >= time);
+    assert!(timed.status.spp >= quiet.status.spp);
+}
+
+#[test]
+fn paths_that_never_end_are_cut_counted_and_reported() {
+    let renderer = renderer(Publish::Sparse);
+    let (scene, settings) = endless();
+    let camera = Camera { resolution: [8, 8], ..scene.camera };
+    renderer.set_budget(Budget { max_spp: Some(1), ..Budget::default() });
+    renderer.submit(Job { generation: 1, scene: scene.clone(), camera, settings });
+    let cut = wait_for(&renderer, "the end", |p| p.status.state == State::Converged);
+    assert_eq!(cut.status.cut_paths, 64);
+    let settings = RenderSettings { roulette: Roulette::Fixed(0.9), ..settings };
+    renderer.submit(Job { generation: 2, scene, camera, settings });
+    let whole = wait_for(&renderer, "the end", |p| p.status.generation == 2 && p.status.state == State::Converged);
+    assert_eq!(whole.status.cut_paths, 0);
+}
