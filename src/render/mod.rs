@@ -13,8 +13,6 @@ pub mod image_file;
 pub mod pass;
 mod session;
 pub mod settings_text;
-#[cfg(test)]
-mod tests;
 pub mod tone;
 pub mod truth;
 pub mod worker;

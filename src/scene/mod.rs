@@ -6,8 +6,6 @@ mod desc;
 mod diagnostic;
 mod load;
 mod settings;
-#[cfg(test)]
-mod tests;
 
 use std::path::PathBuf;
 

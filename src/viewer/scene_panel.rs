@@ -10,8 +10,9 @@ impl App {
         let name = self.opened.as_ref().map_or("Choose a scene", |opened| opened.name.as_str()).to_owned();
         let mut chosen: Option<Option<PathBuf>> = None;
         ui.horizontal(|ui| {
+            let label = ui.label("Scene");
             let width = ui.available_width() - 76.0;
-            ComboBox::from_id_salt("Scene").selected_text(name).width(width).height(400.0).show_ui(ui, |ui| {
+            let combo = ComboBox::from_id_salt("Scene").selected_text(name).width(width).height(400.0).show_ui(ui, |ui| {
                 if ui.selectable_label(false, "built-in Cornell box").clicked() {
                     chosen = Some(None);
                 }
@@ -22,6 +23,7 @@ impl App {
                     }
                 }
             });
+            combo.response.labelled_by(label.id);
             if ui.button("Open…").on_hover_text("Choose a scene file").clicked() {
                 self.pick_scene_file();
             }

@@ -19,7 +19,8 @@ impl App {
         let status = &self.status;
         ui.horizontal(|ui| {
             let (colour, state) = self.state_text();
-            ui.label(RichText::new("●").color(colour));
+            let (dot, _) = ui.allocate_exact_size(egui::vec2(10.0, 10.0), egui::Sense::hover());
+            ui.painter().circle_filled(dot.center(), 4.5, colour);
             ui.label(RichText::new(state).strong());
             ui.separator();
             let target = self.budget.max_spp.map_or_else(String::new, |most| format!(" / {most}"));

@@ -1,1 +1,299 @@
+//! The window itself, driven as a user would: change a control, see the effect.
+use std::{
+    path::PathBuf,
+    time::{Duration, Instant},
+};
 
+use egui::{Key, Modifiers, PointerButton, Pos2, accesskit::Role, vec2};
+use egui_kittest::{
+    Harness,
+    kittest::{NodeT, Queryable},
+};
+use noisefall::{
+    math::SimdLevel,
+    render::{State, ToneMap, image_file, pass::Threads},
+    sampling::{Directions, Sampler},
+    scene::Roulette,
+};
+
+use super::{app::App, canvas::Tool};
+
+type Window = Harness<'static, App>;
+
+fn shipped(name: &str) -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("scenes").join(format!("{name}.toml"))
+}
+
+/// A window in which nothing has happened yet.
+fn open(scene: Option<PathBuf>) -> Window {
+    let threads = Threads::new(1, SimdLevel::best()).expect("a thread can be had");
+    Harness::builder().with_size(vec2(1280.0, 800.0)).build_eframe(|cc| App::new(&cc.egui_ctx, threads, scene))
+}
+
+/// A window with a small picture of a scene.
+fn window(scene: &str) -> Window {
+    let mut window = open(Some(shipped(scene)));
+    wait(&mut window, "the scene", |app| app.opened.is_some());
+    window.state_mut().camera.resolution = [96, 64];
+    wait(&mut window, "a picture", |app| app.shown.as_ref().is_some_and(|frame| frame.width == 96));
+    window
+}
+
+/// Frames of the window until a condition holds. The time limit is for a machine that is busy otherwise.
+fn wait(window: &mut Window, what: &str, condition: impl Fn(&App) -> bool) {
+    let start = Instant::now();
+    while !condition(window.state()) {
+        assert!(start.elapsed() < Duration::from_secs(60), "{what} never came; {:?}", window.state().status);
+        std::thread::sleep(Duration::from_millis(2));
+        window.step();
+    }
+}
+
+fn click(window: &mut Window, label: &str) {
+    window.get_by_label(label).click();
+    window.run_steps(3);
+}
+
+fn choose(window: &mut Window, combo: &str, item: &str) {
+    window.get_by_role_and_label(Role::ComboBox, combo).click();
+    window.run_steps(3);
+    click(window, item);
+}
+
+fn generation(window: &Window) -> u64 {
+    window.state().status.generation
+}
+
+/// Does something and waits for a picture of what it asked for.
+fn restarts(window: &mut Window, what: &str, act: impl FnOnce(&mut Window)) {
+    let before = generation(window);
+    act(window);
+    wait(window, what, |app| app.shown.as_ref().is_some_and(|frame| frame.generation > before));
+}
+
+/// Does something and makes sure that the render went on.
+fn never_restarts(window: &mut Window, act: impl FnOnce(&mut Window)) {
+    let before = generation(window);
+    act(window);
+    for _ in 0..20 {
+        window.step();
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    assert_eq!(generation(window), before, "the render was restarted");
+}
+
+#[test]
+fn the_built_in_scene_appears_and_refines() {
+    let mut window = open(None);
+    wait(&mut window, "a first picture", |app| app.shown.is_some());
+    wait(&mut window, "samples", |app| app.status.spp >= 2);
+    assert_eq!(window.state().status.state, State::Running);
+    assert!(window.query_by_label("Running").is_some() && window.query_by_label("unbiased").is_some());
+}
+
+#[test]
+fn every_setting_of_the_estimate_starts_a_new_picture() {
+    let mut window = window("cornell_spheres");
+    restarts(&mut window, "stratified", |w| choose(w, "Sampler", "Stratified"));
+    assert_eq!(window.state().settings.sampler, Sampler::Stratified);
+    restarts(&mut window, "uniform directions", |w| click(w, "Uniform"));
+    assert_eq!(window.state().settings.directions, Directions::Uniform);
+    restarts(&mut window, "fixed roulette", |w| choose(w, "Roulette", "Fixed probability"));
+    assert!(matches!(window.state().settings.roulette, Roulette::Fixed(_)));
+    restarts(&mut window, "another survival probability", |w| {
+        w.get_by_role_and_label(Role::Slider, "q").set_value_accesskit(0.5);
+        w.run_steps(2);
+    });
+    assert_eq!(window.state().settings.roulette, Roulette::Fixed(0.5));
+    restarts(&mut window, "no roulette", |w| choose(w, "Roulette", "Off"));
+    restarts(&mut window, "a cap", |w| {
+        w.get_by_role_and_label(Role::CheckBox, "Bounce cap").click();
+        w.run_steps(2);
+    });
+    assert!(window.query_by_label("biased: cap at 8").is_some(), "the badge says what the cap does");
+    restarts(&mut window, "another seed", |w| {
+        w.get_by_role_and_label(Role::SpinButton, "Seed").set_value_accesskit(42.0);
+        w.run_steps(2);
+    });
+    assert_eq!(window.state().settings.seed, 42);
+}
+
+#[test]
+fn the_camera_moves_by_numbers_by_mouse_and_by_keys() {
+    let mut window = window("cornell_spheres");
+    let start = window.state().camera;
+    restarts(&mut window, "another field of view", |w| {
+        w.get_by_role_and_label(Role::Slider, "Field of view").set_value_accesskit(60.0);
+        w.run_steps(2);
+    });
+    assert_eq!(window.state().camera.fov, 60.0);
+    window.get_by_role_and_label(Role::Button, "Camera").click();
+    window.run_steps(3);
+    assert_eq!(window.state().tool, Tool::Camera);
+    restarts(&mut window, "an orbit", |w| drag(w, PointerButton::Primary, [400.0, 400.0], [440.0, 420.0]));
+    let orbited = window.state().camera;
+    assert!((orbited.eye.distance(orbited.look_at) - start.eye.distance(start.look_at)).abs() < 1e-9);
+    assert_ne!(orbited.eye, start.eye);
+    restarts(&mut window, "a pan", |w| drag(w, PointerButton::Secondary, [400.0, 400.0], [380.0, 400.0]));
+    assert_ne!(window.state().camera.look_at, start.look_at);
+    let distance = |window: &Window| window.state().camera.eye.distance(window.state().camera.look_at);
+    let before = distance(&window);
+    restarts(&mut window, "a dolly", |w| scroll(w, [400.0, 400.0], 40.0));
+    assert!(distance(&window) < before);
+    let before = window.state().camera;
+    restarts(&mut window, "flight", |w| {
+        w.key_down(Key::W);
+        w.run_steps(5);
+        w.key_up(Key::W);
+        w.run_steps(2);
+    });
+    let moved = window.state().camera.eye - before.eye;
+    assert!(moved.normalize().dot(before.axes()[2]) > 0.999, "W flies forwards");
+    restarts(&mut window, "the scene's camera", |w| {
+        w.key_press(Key::Home);
+        w.run_steps(2);
+    });
+    assert_eq!(window.state().camera.eye, start.eye);
+}
+
+#[test]
+fn display_settings_zoom_and_target_never_restart() {
+    let mut window = window("cornell_spheres");
+    never_restarts(&mut window, |w| {
+        w.get_by_role_and_label(Role::Slider, "Exposure").set_value_accesskit(2.0);
+        choose(w, "Tone map", "Reinhard");
+    });
+    assert_eq!(window.state().display.exposure, 2.0);
+    assert_eq!(window.state().display.tone_map, ToneMap::Reinhard);
+    let fitted = window.state().view.drawn_zoom;
+    never_restarts(&mut window, |w| scroll(w, [400.0, 400.0], 50.0));
+    assert!(window.state().view.drawn_zoom > fitted);
+    never_restarts(&mut window, |w| drag(w, PointerButton::Primary, [400.0, 400.0], [300.0, 400.0]));
+    assert!(window.state().view.offset.x > 0.0);
+    never_restarts(&mut window, |w| click(w, "1:1"));
+    assert_eq!(window.state().view.drawn_zoom, 1.0);
+    never_restarts(&mut window, |w| {
+        w.get_by_role_and_label(Role::CheckBox, "Stop at").click();
+        w.run_steps(2);
+    });
+    assert_eq!(window.state().budget.max_spp, Some(1024));
+}
+
+#[test]
+fn pause_step_resume_and_restart_do_so() {
+    let mut window = window("cornell_spheres");
+    click(&mut window, "Pause");
+    wait(&mut window, "the pause", |app| app.status.state == State::Paused);
+    let paused = window.state().status.clone();
+    window.key_press(Key::Period);
+    wait(&mut window, "a step", |app| app.status.spp == paused.spp + 1);
+    never_restarts(&mut window, |w| click(w, "Resume"));
+    wait(&mut window, "more samples", |app| app.status.spp > paused.spp + 2);
+    restarts(&mut window, "a restart", |w| click(w, "Restart"));
+}
+
+#[test]
+fn a_reached_target_converges_and_a_higher_one_goes_on() {
+    let mut window = window("bright_sky");
+    window.state_mut().budget.max_spp = Some(3);
+    restarts(&mut window, "a restart", |w| click(w, "Restart"));
+    wait(&mut window, "the target", |app| app.status.state == State::Converged);
+    assert_eq!(window.state().status.spp, 3);
+    never_restarts(&mut window, |w| w.state_mut().budget.max_spp = Some(5));
+    wait(&mut window, "the next target", |app| app.status.spp == 5 && app.status.state == State::Converged);
+    assert!(window.query_by_label("Converged").is_some());
+}
+
+#[test]
+fn the_pixel_under_the_pointer_is_read_out() {
+    let mut window = window("furnace");
+    window.hover_at(Pos2::new(400.0, 400.0));
+    window.run_steps(2);
+    assert!(window.state().hovered.is_some());
+    assert!(
+        window.get_all_by_role(Role::Label).any(|label| label.accesskit_node().value().is_some_and(|text| text.contains("RGB")))
+    );
+}
+
+#[test]
+fn ctrl_s_saves_what_is_shown_where_the_path_field_says() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("shot.exr");
+    let mut window = window("cornell_spheres");
+    window.key_press_modifiers(Modifiers::COMMAND, Key::S);
+    window.run_steps(4);
+    let field = window.get_by_role(Role::TextInput);
+    field.set_text_value_accesskit(&path.display().to_string());
+    window.run_steps(3);
+    click(&mut window, "Save");
+    wait(&mut window, "the file", |app| app.last_saved.is_some());
+    let saved = image_file::read(&path).expect("it is a picture");
+    assert_eq!([saved.width, saved.height], [96, 64]);
+    assert!(window.state().notice.as_ref().is_some_and(|notice| !notice.is_error));
+    window.state_mut().save_to(folder.path().join("nowhere/shot.png"));
+    wait(&mut window, "the refusal", |app| app.notice.as_ref().is_some_and(|notice| notice.is_error));
+}
+
+#[test]
+fn a_bad_scene_shows_its_diagnostic_and_the_window_lives_on() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("bad.toml");
+    std::fs::write(&path, "format = 1\ncamera = 3\n").expect("it is written");
+    let mut window = open(Some(path));
+    wait(&mut window, "the diagnostic", |app| app.scene_error.is_some());
+    assert!(window.state().scene_error.as_ref().is_some_and(|report| report.contains("bad.toml:2:10")));
+    window.run_steps(3);
+    click(&mut window, "Open the built-in scene");
+    wait(&mut window, "the built-in scene", |app| app.opened.is_some() && app.shown.is_some());
+}
+
+#[test]
+fn scenes_are_chosen_from_the_list() {
+    let mut window = window("furnace");
+    assert!(window.state().catalogue.iter().any(|(name, _)| name == "tiny lamp"));
+    window.get_by_role_and_label(Role::ComboBox, "Scene").click();
+    window.run_steps(3);
+    click(&mut window, "bright sky");
+    wait(&mut window, "the other scene", |app| app.opened.as_ref().is_some_and(|opened| opened.name.starts_with("Bright sky")));
+}
+
+#[test]
+fn f1_shows_the_keys_and_escape_hides_them() {
+    let mut window = window("furnace");
+    window.key_press(Key::F1);
+    window.run_steps(3);
+    assert!(window.query_by_label("fly down, up").is_some());
+    window.key_press(Key::Escape);
+    window.run_steps(3);
+    assert!(window.query_by_label("fly down, up").is_none());
+}
+
+fn drag(window: &mut Window, button: PointerButton, from: [f32; 2], to: [f32; 2]) {
+    let [from, to] = [from, to].map(Pos2::from);
+    let press = |window: &Window, pos, pressed| {
+        window.event(egui::Event::PointerButton { pos, button, pressed, modifiers: Modifiers::NONE });
+    };
+    window.hover_at(from);
+    window.run_steps(2);
+    press(window, from, true);
+    window.run_steps(1);
+    for part in 1..=4 {
+        window.hover_at(from + (to - from) * (part as f32 / 4.0));
+        window.run_steps(1);
+    }
+    press(window, to, false);
+    window.run_steps(2);
+}
+
+fn scroll(window: &mut Window, at: [f32; 2], by: f32) {
+    window.hover_at(at.into());
+    window.run_steps(2);
+    window.event(egui::Event::MouseWheel {
+        unit: egui::MouseWheelUnit::Point,
+        source: egui::MouseWheelSource::Wheel,
+        delta: vec2(0.0, by),
+        phase: egui::TouchPhase::Move,
+        modifiers: Modifiers::NONE,
+    });
+    window.run_steps(10);
+}

@@ -26,8 +26,8 @@ impl App {
 
     fn render_buttons(&mut self, ui: &mut egui::Ui) {
         let open = self.opened.is_some();
-        let label = if self.budget.paused { "▶ Resume" } else { "⏸ Pause" };
-        let pause = ui.add_enabled(open, Button::new(label).min_size(egui::vec2(84.0, 0.0)));
+        let label = if self.budget.paused { "Resume" } else { "Pause" };
+        let pause = ui.add_enabled(open, Button::new(label).min_size(egui::vec2(70.0, 0.0)));
         if pause.on_hover_text("Stop and go on without losing samples (Space)").clicked() {
             self.toggle_pause();
         }
