@@ -20,7 +20,7 @@ fn paths_per_second(c: &mut Criterion) {
         for level in SimdLevel::available() {
             let settings = RenderSettings {
                 max_bounces: Some(8),
-                roulette: Roulette::Off,
+                roulette: Roulette::BY_THROUGHPUT,
                 sampler: sampler.sampler,
                 ..RenderSettings::default()
             };

@@ -1,5 +1,6 @@
 //! The window itself, driven as a user would: change a control, see the effect.
 use std::{
+    ops::{Deref, DerefMut},
     path::PathBuf,
     time::{Duration, Instant},
 };
@@ -18,7 +19,23 @@ use noisefall::{
 
 use super::{app::App, canvas::Tool};
 
-type Window = Harness<'static, App>;
+type Window = Harness<'static, Lazy>;
+
+/// The app, made in the first frame: it needs the context that the harness makes.
+struct Lazy(Option<App>);
+
+impl Deref for Lazy {
+    type Target = App;
+    fn deref(&self) -> &App {
+        self.0.as_ref().expect("the harness has drawn a frame")
+    }
+}
+
+impl DerefMut for Lazy {
+    fn deref_mut(&mut self) -> &mut App {
+        self.0.as_mut().expect("the harness has drawn a frame")
+    }
+}
 
 fn shipped(name: &str) -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("scenes").join(format!("{name}.toml"))
@@ -26,8 +43,11 @@ fn shipped(name: &str) -> PathBuf {
 
 /// A window in which nothing has happened yet.
 fn open(scene: Option<PathBuf>) -> Window {
-    let threads = Threads::new(1, SimdLevel::best()).expect("a thread can be had");
-    Harness::builder().with_size(vec2(1280.0, 800.0)).build_eframe(|cc| App::new(&cc.egui_ctx, threads, scene))
+    let draw = move |ui: &mut egui::Ui, app: &mut Lazy| {
+        let make = || App::new(ui.ctx(), Threads::new(1, SimdLevel::best()).expect("a thread can be had"), scene.clone());
+        app.0.get_or_insert_with(make).show(ui);
+    };
+    Harness::builder().with_size(vec2(1280.0, 800.0)).build_ui_state(draw, Lazy(None))
 }
 
 /// A window with a small picture of a scene.
