@@ -7,6 +7,7 @@
 //! | sphere | `sphere.rs` | outside |
 mod sphere;
 
+use self::sphere::Fraction;
 pub use self::sphere::{Sphere, SurfacePoint};
 use crate::math::{F, Lanes, Pick, U, V};
 
@@ -30,13 +31,14 @@ impl Shapes {
     /// Distance along o + td, d of unit length, to the first shape, and its primitive id or [`MISS`].
     #[inline(always)]
     pub fn closest<L: Lanes>(&self, l: L, o: V<L>, d: V<L>) -> (F<L>, U<L>) {
-        let (mut t, mut primitive) = (l.f(f32::INFINITY), l.u(MISS));
+        let (mut nearest, mut primitive) = (Fraction::infinite(l), l.u(MISS));
         for (id, sphere) in self.spheres.iter().enumerate() {
-            let (t_hit, hit) = sphere.intersect(o, d, t);
-            t = hit.pick(t_hit, t);
-            primitive = hit.pick(l.u(id as u32), primitive);
+            let meeting = sphere.intersect(o, d);
+            let nearer = meeting.less(&nearest);
+            nearest = nearer.pick(meeting, nearest);
+            primitive = nearer.pick(l.u(id as u32), primitive);
         }
-        (t, primitive)
+        (nearest.value(), primitive)
     }
 
     /// The surface at a point `p` of the given primitives, none of which may be [`MISS`].

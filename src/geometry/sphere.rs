@@ -19,7 +19,41 @@ pub struct Sphere {
     anchor: [f32; 3],
     normal: [f32; 3],
     curvature: f32,
-    radius: f32,
+}
+
+/// A distance as a fraction with a positive denominator, so that distances can be compared without dividing.
+#[derive(Clone, Copy)]
+pub(super) struct Fraction<L: Lanes> {
+    pub numerator: F<L>,
+    pub denominator: F<L>,
+}
+
+impl<L: Lanes> Fraction<L> {
+    #[inline(always)]
+    pub fn infinite(l: L) -> Self {
+        Fraction { numerator: l.f(1.0), denominator: l.f(0.0) }
+    }
+
+    /// False where either is NaN.
+    #[inline(always)]
+    pub fn less(&self, other: &Self) -> M<L> {
+        (self.numerator * other.denominator).lt(other.numerator * self.denominator)
+    }
+
+    #[inline(always)]
+    pub fn value(&self) -> F<L> {
+        self.numerator / self.denominator
+    }
+}
+
+impl<L: Lanes> Pick<Fraction<L>> for M<L> {
+    #[inline(always)]
+    fn pick(self, a: Fraction<L>, b: Fraction<L>) -> Fraction<L> {
+        Fraction {
+            numerator: self.pick(a.numerator, b.numerator),
+            denominator: self.pick(a.denominator, b.denominator),
+        }
+    }
 }
 
 /// A point of a surface in lanes.
@@ -41,28 +75,31 @@ impl Sphere {
             anchor: anchor.as_vec3().to_array(),
             normal: n.to_array(),
             curvature: (1.0 / radius) as f32,
-            radius: radius as f32,
         }
     }
 
-    /// The nearest t in (0, t_max) at which o + td, d of unit length, meets the sphere.
+    /// The nearest meeting of o + td, d of unit length, with t > 0, as a fraction; NaN where there is none.
     #[inline(always)]
-    pub fn intersect<L: Lanes>(&self, o: V<L>, d: V<L>, t_max: F<L>) -> (F<L>, M<L>) {
+    pub(super) fn intersect<L: Lanes>(&self, o: V<L>, d: V<L>) -> Fraction<L> {
         let from_anchor = o - self.anchor;
         let along = from_anchor.dot(d);
         let nearest = from_anchor - d * along;
         let n_d = d.dot_with(self.normal);
         let c_nearest = nearest.length_squared() * self.curvature + nearest.dot_with(self.normal) * 2.0;
         let discriminant = n_d * n_d - c_nearest * self.curvature;
-
         let b = along * self.curvature + n_d;
         let c = c_nearest + along * (b + n_d);
-        // Both roots without cancellation: their product is c/k, their sum −2b/k.
-        let q = -(b + discriminant.sqrt().copysign(b));
-        let (t0, t1) = (q * self.radius, c / q);
-        let (near, far) = (t0.min(t1), t0.max(t1));
-        let t = near.above(0.0).pick(near, far);
-        (t, discriminant.ge(discriminant.splat(0.0)) & t.above(0.0) & t.lt(t_max))
+
+        // With w = |b| + √discriminant the roots are w/k and c/w in size, without cancellation. c < 0 is inside, b < 0 is
+        // towards the anchor's side: from outside the first meeting is c/w if the ray comes nearer, else there is none; from
+        // inside it is the one root that lies ahead. On the surface, c = 0, a ray either leaves or meets the far side.
+        let w = b.abs() + discriminant.sqrt();
+        let nearing = b.below(0.0);
+        let far_side = nearing & !c.above(0.0);
+        let meets = nearing | c.below(0.0);
+        let numerator = far_side.pick(w, c.abs());
+        let denominator = far_side.pick(w.splat(self.curvature), w);
+        Fraction { numerator: meets.pick(numerator, w.splat(f32::NAN)), denominator }
     }
 
     /// The rows of the table that [`surface_point`] reads.

@@ -2,7 +2,7 @@
 use glam::DVec3;
 use rand::{Rng, SeedableRng, rngs::SmallRng};
 
-use super::{Sphere, SurfacePoint, surface_point};
+use super::{Fraction, Sphere, SurfacePoint, surface_point};
 use crate::math::{F, One, V};
 
 const RADII: [f64; 13] = [1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0, 1e3, 1e4, 1e5, 1e6];
@@ -46,8 +46,8 @@ fn oracle(sphere: &Sphere, o: V<One>, d: V<One>) -> (Option<f64>, f64) {
 }
 
 fn intersect(sphere: &Sphere, o: V<One>, d: V<One>) -> Option<f64> {
-    let (t, hit) = sphere.intersect(o, d, F(f32::INFINITY));
-    hit.0.then_some(f64::from(t.0))
+    let meeting = sphere.intersect(o, d);
+    meeting.less(&Fraction::infinite(One)).0.then_some(f64::from(meeting.value().0))
 }
 
 fn point_on(sphere: &Sphere, p: V<One>) -> SurfacePoint<One> {
@@ -58,7 +58,7 @@ fn point_on(sphere: &Sphere, p: V<One>) -> SurfacePoint<One> {
 /// A ray must agree with the oracle as far as f32 can know: an error of the discriminant of a few roundings of the distance in
 /// radii moves the hit by that over 2 cos θ.
 fn assert_agrees(sphere: &Sphere, o: V<One>, d: V<One>, what: &str) {
-    let radius = f64::from(sphere.radius);
+    let radius = 1.0 / f64::from(sphere.curvature);
     let distance = (exact(o) - DVec3::from_array(sphere.anchor.map(f64::from))).length();
     let rounding = 16.0 * f64::from(f32::EPSILON);
     let blur = rounding * (1.0 + distance / radius);
