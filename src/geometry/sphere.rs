@@ -49,10 +49,7 @@ impl<L: Lanes> Fraction<L> {
 impl<L: Lanes> Pick<Fraction<L>> for M<L> {
     #[inline(always)]
     fn pick(self, a: Fraction<L>, b: Fraction<L>) -> Fraction<L> {
-        Fraction {
-            numerator: self.pick(a.numerator, b.numerator),
-            denominator: self.pick(a.denominator, b.denominator),
-        }
+        Fraction { numerator: self.pick(a.numerator, b.numerator), denominator: self.pick(a.denominator, b.denominator) }
     }
 }
 
@@ -71,11 +68,7 @@ impl Sphere {
         let n = (near - center).try_normalize().unwrap_or(DVec3::Y).as_vec3();
         // The rounded normal is taken as the exact one, so that anchor, normal and radius describe one sphere.
         let anchor = center + n.as_dvec3().normalize() * radius;
-        Sphere {
-            anchor: anchor.as_vec3().to_array(),
-            normal: n.to_array(),
-            curvature: (1.0 / radius) as f32,
-        }
+        Sphere { anchor: anchor.as_vec3().to_array(), normal: n.to_array(), curvature: (1.0 / radius) as f32 }
     }
 
     /// The nearest meeting of o + td, d of unit length, with t > 0, as a fraction; NaN where there is none.

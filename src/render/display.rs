@@ -1,30 +1,58 @@
 //! The display transform: from a frame to 8-bit sRGB, the same for screen and file.
 use std::sync::LazyLock;
 
+use fearless_simd_macros::simd;
+
 use super::{
     frame::Frame,
-    tone::{Display, ToneMap},
+    tone::{Display, ToneMap, aces, reinhard},
 };
-use crate::math::colour::{linear_from_srgb, luminance, srgb_from_linear};
+use crate::{
+    in_lanes,
+    math::{
+        Lanes, SimdLevel,
+        colour::{linear_from_srgb, luminance, srgb_from_linear},
+    },
+};
 
-/// The picture as 8-bit sRGB with an opaque fourth channel, row by row from the top left.
-pub fn to_srgb(frame: &Frame, display: Display) -> Vec<u8> {
+/// The picture as 8-bit sRGB with an opaque fourth channel, row by row from the top left, into `pixels` instead of what was
+/// there. (Memory that is used again is half the time of a picture.)
+pub fn to_srgb(frame: &Frame, display: Display, pixels: &mut Vec<[u8; 4]>) {
     let scale = display.exposure.exp2();
-    let mut bytes = vec![255; frame.radiance.len() * 4];
-    let pixels = bytes.as_chunks_mut::<4>().0.iter_mut().zip(&frame.radiance);
-    if display.tone_map == ToneMap::FalseColour {
-        let colours = &*FALSE_COLOURS;
-        for (pixel, radiance) in pixels {
-            pixel[..3].copy_from_slice(&colours.of(luminance(*radiance) * scale));
-        }
-    } else {
-        let encode = &*SRGB;
-        for (pixel, radiance) in pixels {
-            let light = display.tone_map.apply(radiance.map(|c| c * scale));
-            pixel[..3].copy_from_slice(&light.map(|c| encode.of(c)));
+    pixels.clear();
+    match display.tone_map {
+        ToneMap::None => encode(frame, pixels, |radiance| radiance.map(|c| c * scale)),
+        ToneMap::Reinhard => encode(frame, pixels, |radiance| reinhard(radiance.map(|c| c * scale))),
+        ToneMap::Aces => encode(frame, pixels, |radiance| aces(radiance.map(|c| c * scale))),
+        ToneMap::FalseColour => {
+            let colours = &*FALSE_COLOURS;
+            pixels.extend(frame.radiance.iter().map(|radiance| colours.of(luminance(*radiance) * scale)));
         }
     }
-    bytes
+}
+
+/// Appends the sRGB codes of what `tone` makes of the radiance. Light and codes of a block take turns in short loops that the
+/// compiler can vectorise, which a loop over pixels is not.
+#[inline(always)]
+fn encode(frame: &Frame, pixels: &mut Vec<[u8; 4]>, tone: impl Fn([f32; 3]) -> [f32; 3]) {
+    const BLOCK: usize = 512;
+    let (table, level) = (&*SRGB, SimdLevel::best());
+    let (mut light, mut codes) = ([[0.0; 3]; BLOCK], [[0; 3]; BLOCK]);
+    for block in frame.radiance.chunks(BLOCK) {
+        for (light, radiance) in light.iter_mut().zip(block) {
+            *light = tone(*radiance);
+        }
+        in_lanes!(level, l => encode_block(l, table, light.as_flattened(), codes.as_flattened_mut()));
+        pixels.extend(codes[..block.len()].iter().map(|[r, g, b]| [*r, *g, *b, 255]));
+    }
+}
+
+/// A loop for the compiler to vectorise with the instructions of the level.
+#[simd]
+fn encode_block<L: Lanes>(_: L, table: &SrgbTable, light: &[f32], codes: &mut [u8]) {
+    for (code, light) in codes.iter_mut().zip(light) {
+        *code = table.of(*light);
+    }
 }
 
 static SRGB: LazyLock<SrgbTable> = LazyLock::new(SrgbTable::new);
@@ -32,39 +60,43 @@ static FALSE_COLOURS: LazyLock<FalseColours> = LazyLock::new(FalseColours::new);
 
 /// The sRGB code of a linear value by table, exactly as rounding the formula gives it.
 ///
-/// The upper bits of a float name a bucket so narrow that at most one code begins within it; the entry holds the bucket's first
-/// code and the value from which the next one holds.
+/// The upper bits of a float name a bucket so narrow that at most one code begins within it. The bucket's entry is its first code
+/// times 2¹⁵, plus what the lower 15 bits lack to the place where the next code begins: adding them carries over just then.
 struct SrgbTable {
-    buckets: Vec<(f32, u8)>,
+    entries: Box<[u32; ENTRIES]>,
 }
+
+/// More than there are buckets, for a power of two needs no check of the index.
+const ENTRIES: usize = 4096;
 
 impl SrgbTable {
     /// Buckets of 256 to the octave.
     const SHIFT: u32 = 15;
     /// Below this everything is code 0: half a code is 1.5e-4.
     const LOWEST: f32 = 1.0 / 8192.0;
+    const HIGHEST: f32 = 1.0 - f32::EPSILON / 2.0;
 
     fn new() -> SrgbTable {
-        let code = |x: f32| (srgb_from_linear(f64::from(x)) * 255.0).round() as u8;
+        let code = |bits: u32| (srgb_from_linear(f64::from(f32::from_bits(bits))) * 255.0).round() as u8;
         let first = Self::LOWEST.to_bits() >> Self::SHIFT;
         let last = 1f32.to_bits() >> Self::SHIFT;
-        let bucket = |b: u32| {
-            let base = code(f32::from_bits(b << Self::SHIFT));
-            (next_code_from(base), base)
-        };
-        SrgbTable { buckets: (first..last).map(bucket).collect() }
+        let mut entries = Box::new([0; ENTRIES]);
+        for (entry, bucket) in entries.iter_mut().zip(first..last) {
+            let base = code(bucket << Self::SHIFT);
+            let next = next_code_from(base).to_bits().min((bucket + 1) << Self::SHIFT);
+            *entry = (u32::from(base) << Self::SHIFT) + ((bucket + 1) << Self::SHIFT) - next;
+        }
+        SrgbTable { entries }
     }
 
     #[inline(always)]
     fn of(&self, x: f32) -> u8 {
-        // Written so that NaN becomes black.
-        if x >= 1.0 {
-            return 255;
-        }
+        // Written so that NaN becomes black; the code of what is just below 1 is that of 1.
         let x = if x > Self::LOWEST { x } else { Self::LOWEST };
-        let bucket = (x.to_bits() - Self::LOWEST.to_bits()) >> Self::SHIFT;
-        let (next, base) = self.buckets[bucket as usize];
-        base + u8::from(x >= next)
+        let x = if x < Self::HIGHEST { x } else { Self::HIGHEST };
+        let offset = x.to_bits() - Self::LOWEST.to_bits();
+        let entry = self.entries[(offset >> Self::SHIFT) as usize % ENTRIES];
+        ((entry + offset % (1 << Self::SHIFT)) >> Self::SHIFT) as u8
     }
 }
 
@@ -81,7 +113,7 @@ fn next_code_from(code: u8) -> f32 {
 
 /// Luminance from 10⁻³ to 10³ on a logarithmic scale through the colours of viridis (S. van der Walt and N. Smith, 2015).
 struct FalseColours {
-    colours: Vec<[u8; 3]>,
+    colours: Vec<[u8; 4]>,
 }
 
 impl FalseColours {
@@ -92,7 +124,10 @@ impl FalseColours {
 
     fn new() -> FalseColours {
         let buckets = Self::bucket(Self::HIGHEST) + 1;
-        let colour = |b: usize| viridis(b as f32 / (buckets - 1) as f32);
+        let colour = |b: usize| {
+            let [r, g, b] = viridis(b as f32 / (buckets - 1) as f32);
+            [r, g, b, 255]
+        };
         FalseColours { colours: (0..buckets).map(colour).collect() }
     }
 
@@ -102,14 +137,14 @@ impl FalseColours {
     }
 
     #[inline(always)]
-    fn of(&self, x: f32) -> [u8; 3] {
+    fn of(&self, x: f32) -> [u8; 4] {
         let x = if x > Self::LOWEST { x.min(Self::HIGHEST) } else { Self::LOWEST };
         self.colours[Self::bucket(x)]
     }
 }
 
 /// Viridis at nine equidistant points, linear between them; 8-bit sRGB.
-pub fn viridis(at: f32) -> [u8; 3] {
+fn viridis(at: f32) -> [u8; 3] {
     const POINTS: [[f32; 3]; 9] = [
         [68.0, 1.0, 84.0],
         [72.0, 40.0, 120.0],
@@ -149,15 +184,19 @@ mod tests {
     #[test]
     fn what_is_no_number_is_black_and_what_is_too_bright_is_white() {
         assert_eq!([f32::NAN, -1.0, f32::NEG_INFINITY, f32::INFINITY, 7.0].map(|x| SRGB.of(x)), [0, 0, 0, 255, 255]);
-        assert_eq!(FALSE_COLOURS.of(f32::NAN), viridis(0.0));
-        assert_eq!(FALSE_COLOURS.of(f32::INFINITY), viridis(1.0));
+        assert_eq!(FALSE_COLOURS.of(f32::NAN)[..3], viridis(0.0));
+        assert_eq!(FALSE_COLOURS.of(f32::INFINITY)[..3], viridis(1.0));
     }
 
     #[test]
     fn exposure_doubles_and_tone_maps_do_as_their_formulas_say() {
         let frame = Frame { radiance: vec![[0.25, 0.0, 2.0]], ..Frame::default() };
         let code = |x: f64| (srgb_from_linear(x.min(1.0)) * 255.0).round() as u8;
-        let show = |exposure, tone_map| to_srgb(&frame, Display { exposure, tone_map });
+        let show = |exposure, tone_map| {
+            let mut pixels = Vec::new();
+            to_srgb(&frame, Display { exposure, tone_map }, &mut pixels);
+            pixels[0]
+        };
         assert_eq!(show(1.0, ToneMap::None), [code(0.5), 0, 255, 255]);
         let y = 0.25 * 0.2126 + 2.0 * 0.0722;
         assert_eq!(show(0.0, ToneMap::Reinhard), [code(0.25 / (1.0 + y)), 0, 255, 255]);

@@ -100,7 +100,9 @@ fn temporary(path: &Path, folder: &Path) -> Result<tempfile::NamedTempFile, Imag
 }
 
 fn write_png(frame: &Frame, display: Display, settings: &str, to: &mut impl Write) -> Result<(), String> {
-    let rgb: Vec<u8> = to_srgb(frame, display).as_chunks::<4>().0.iter().flat_map(|[r, g, b, _]| [*r, *g, *b]).collect();
+    let mut pixels = Vec::new();
+    to_srgb(frame, display, &mut pixels);
+    let rgb: Vec<u8> = pixels.into_iter().flat_map(|[r, g, b, _]| [r, g, b]).collect();
     let mut encoder = png::Encoder::new(to, frame.width, frame.height);
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);

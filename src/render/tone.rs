@@ -36,17 +36,17 @@ impl ToneMap {
     pub fn name(self) -> &'static str {
         Self::ALL.iter().find(|(map, _, _)| *map == self).map_or("", |(_, name, _)| name)
     }
+}
 
-    /// Linear display light of linear radiance; above 1 it is cut off. Not for false colour.
-    #[inline(always)]
-    pub(super) fn apply(self, rgb: [f32; 3]) -> [f32; 3] {
-        match self {
-            ToneMap::None | ToneMap::FalseColour => rgb,
-            ToneMap::Reinhard => {
-                let scale = 1.0 / (1.0 + luminance(rgb));
-                rgb.map(|c| c * scale)
-            }
-            ToneMap::Aces => rgb.map(|c| c * (2.51 * c + 0.03) / (c * (2.43 * c + 0.59) + 0.14)),
-        }
-    }
+/// Linear display light of linear radiance.
+#[inline(always)]
+pub(super) fn reinhard(rgb: [f32; 3]) -> [f32; 3] {
+    let scale = 1.0 / (1.0 + luminance(rgb));
+    rgb.map(|c| c * scale)
+}
+
+/// Linear display light of linear radiance; above 1 it is cut off.
+#[inline(always)]
+pub(super) fn aces(rgb: [f32; 3]) -> [f32; 3] {
+    rgb.map(|c| c * (2.51 * c + 0.03) / (c * (2.43 * c + 0.59) + 0.14))
 }

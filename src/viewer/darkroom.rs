@@ -43,10 +43,11 @@ impl Darkroom {
         let ready = Arc::new(Mutex::new(None));
         let (ctx, shelf) = (ctx.clone(), ready.clone());
         let work = move || {
+            let mut pixels = Vec::new();
             while let Ok(order) = inbox.recv() {
                 // Only the latest order matters.
                 let order = inbox.try_iter().last().unwrap_or(order);
-                *shelf.lock().unwrap_or_else(|poisoned| poisoned.into_inner()) = Some(develop(order));
+                *shelf.lock().unwrap_or_else(|poisoned| poisoned.into_inner()) = Some(develop(order, &mut pixels));
                 ctx.request_repaint();
             }
         };
@@ -68,9 +69,10 @@ impl Darkroom {
     }
 }
 
-fn develop(Order { frame, display, truth }: Order) -> Print {
+fn develop(Order { frame, display, truth }: Order, pixels: &mut Vec<[u8; 4]>) -> Print {
+    to_srgb(&frame, display, pixels);
     let size = [frame.width as usize, frame.height as usize];
-    let image = egui::ColorImage::from_rgba_unmultiplied(size, &to_srgb(&frame, display));
+    let image = egui::ColorImage::from_rgba_unmultiplied(size, pixels.as_flattened());
     let truth = truth.filter(|truth| truth.len() == frame.radiance.len());
     let rel_mse = truth.map(|truth| compare(&frame.radiance, &truth).rel_mse);
     Print { frame, image, rel_mse }

@@ -22,8 +22,9 @@ fn a_png_has_the_pixels_of_the_screen_and_the_settings() {
     let mut reader = decoder.read_info().expect("it is a PNG");
     let mut bytes = vec![0; reader.output_buffer_size().expect("a size")];
     reader.next_frame(&mut bytes).expect("it has pixels");
-    let shown = to_srgb(&frame(), display);
-    let rgb: Vec<u8> = shown.chunks(4).flat_map(|pixel| pixel[..3].to_vec()).collect();
+    let mut shown = Vec::new();
+    to_srgb(&frame(), display, &mut shown);
+    let rgb: Vec<u8> = shown.iter().flat_map(|pixel| pixel[..3].to_vec()).collect();
     assert_eq!(bytes, rgb, "file and screen differ");
     assert!(reader.info().srgb.is_some());
     let text = &reader.info().utf8_text[0];
