@@ -1,7 +1,7 @@
 //! A pass: all tiles of a film brought to a number of samples, on all threads.
 use std::{
     panic::{AssertUnwindSafe, catch_unwind},
-    sync::Mutex,
+    sync::{Mutex, PoisonError},
 };
 
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder, prelude::*};
@@ -84,7 +84,7 @@ impl Threads {
     fn tile_to(&self, job: PassJob, tile: &mut Tile, spp: u32, interrupted: &dyn Fn() -> bool) -> PassCount {
         let thread = rayon::current_thread_index().unwrap_or(0);
         let mut count = PassCount::default();
-        let mut batch = self.batches[thread].lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+        let mut batch = self.batches[thread].lock().unwrap_or_else(PoisonError::into_inner);
         (batch.rays, batch.cut_paths) = (0, 0);
         while tile.spp < spp && !interrupted() {
             let PassJob { scene, rays, settings } = job;

@@ -5,7 +5,7 @@
 //! A new job starts an empty film; a new budget goes on with the film there is.
 use std::{
     sync::{
-        Arc, Mutex, MutexGuard,
+        Arc, Mutex, MutexGuard, PoisonError,
         atomic::{AtomicU64, Ordering},
     },
     thread::JoinHandle,
@@ -165,7 +165,7 @@ impl Drop for Renderer {
 }
 
 fn lock(published: &Mutex<Published>) -> MutexGuard<'_, Published> {
-    published.lock().unwrap_or_else(|poisoned| poisoned.into_inner())
+    published.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 struct Worker {

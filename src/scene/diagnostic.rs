@@ -5,7 +5,10 @@ use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, Na
 
 /// Why a scene file cannot be used. Displays as one line; [`SceneError::report`] adds the place with a caret.
 #[derive(Debug, Clone)]
-pub struct SceneError {
+pub struct SceneError(Box<Details>);
+
+#[derive(Debug, Clone)]
+struct Details {
     message: String,
     label: String,
     help: Option<String>,
@@ -23,19 +26,25 @@ pub struct SourceText {
 impl SceneError {
     /// An error about a file as a whole.
     pub fn of_file(path: &Path, message: impl Into<String>, help: impl Into<String>) -> SceneError {
-        SceneError {
+        SceneError(Box::new(Details {
             message: format!("{}: {}", path.display(), message.into()),
             label: String::new(),
             help: Some(help.into()),
             source: NamedSource::new(path.display().to_string(), String::new()),
             span: None,
-        }
+        }))
+    }
+
+    /// The same error with advice on what to do.
+    pub fn with_help(mut self, help: impl Into<String>) -> SceneError {
+        self.0.help = Some(help.into());
+        self
     }
 
     /// Line and column, both from 1, of the place in the file, when the error has one.
     pub fn line_column(&self) -> Option<(usize, usize)> {
-        let start = self.span.as_ref()?.start;
-        let before = &self.source.inner()[..start];
+        let start = self.0.span.as_ref()?.start;
+        let before = &self.0.source.inner()[..start];
         let line = before.matches('\n').count() + 1;
         let column = before.rsplit('\n').next().unwrap_or_default().chars().count() + 1;
         Some((line, column))
@@ -54,7 +63,7 @@ impl SceneError {
 
 impl fmt::Display for SceneError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.message)
+        f.write_str(&self.0.message)
     }
 }
 
@@ -62,14 +71,14 @@ impl std::error::Error for SceneError {}
 
 impl Diagnostic for SceneError {
     fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
-        self.help.as_ref().map(|help| Box::new(help) as Box<dyn fmt::Display>)
+        self.0.help.as_ref().map(|help| Box::new(help) as Box<dyn fmt::Display>)
     }
     fn source_code(&self) -> Option<&dyn SourceCode> {
-        self.span.as_ref().map(|_| &self.source as &dyn SourceCode)
+        self.0.span.as_ref().map(|_| &self.0.source as &dyn SourceCode)
     }
     fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
-        let span = self.span.clone()?;
-        Some(Box::new(std::iter::once(LabeledSpan::new_with_span(Some(self.label.clone()), span))))
+        let span = self.0.span.clone()?;
+        Some(Box::new(std::iter::once(LabeledSpan::new_with_span(Some(self.0.label.clone()), span))))
     }
 }
 
@@ -78,19 +87,12 @@ impl SourceText {
     pub fn error(&self, span: Range<usize>, message: impl Into<String>, label: impl Into<String>) -> SceneError {
         let end = self.text.len();
         let start = span.start.min(end);
-        SceneError {
+        SceneError(Box::new(Details {
             message: message.into(),
             label: label.into(),
             help: None,
             source: NamedSource::new(&self.name, self.text.clone()),
             span: Some(start..span.end.clamp(start, end)),
-        }
-    }
-}
-
-impl SceneError {
-    pub fn with_help(mut self, help: impl Into<String>) -> SceneError {
-        self.help = Some(help.into());
-        self
+        }))
     }
 }

@@ -10,10 +10,10 @@ impl App {
         let camera = &mut self.camera;
         controls(ui, "camera", |ui| {
             row(ui, "Eye", "Where the camera stands, in metres: x, y (up), z.", |ui, label| {
-                point(ui, label, &mut camera.eye, speed)
+                point(ui, label, &mut camera.eye, speed);
             });
             row(ui, "Look at", "The point in the middle of the picture.", |ui, label| {
-                point(ui, label, &mut camera.look_at, speed)
+                point(ui, label, &mut camera.look_at, speed);
             });
             row(ui, "Up", "The direction that is up in the picture.", |ui, label| point(ui, label, &mut camera.up, 0.01));
             row(ui, "Field of view", "The full angle across the picture's width.", |ui, label| {

@@ -118,7 +118,7 @@ fn move_picture(ui: &egui::Ui, response: &Response, tool: Tool, view: &mut View,
     }
     if let Some(pointer) = response.hover_pos() {
         let wheel = if tool == Tool::Picture { wheel_factor(ui) } else { 1.0 };
-        let factor = ui.input(|input| input.zoom_delta()) * wheel;
+        let factor = ui.input(egui::InputState::zoom_delta) * wheel;
         if factor != 1.0 {
             view.magnify(factor, pointer - area.center(), pixels_per_point);
         }

@@ -1,5 +1,5 @@
 //! The darkroom: frames are developed to screen pixels, and held against the exact picture, off the UI thread.
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use crossbeam_channel::{Sender, unbounded};
 use noisefall::{
@@ -47,7 +47,7 @@ impl Darkroom {
             while let Ok(order) = inbox.recv() {
                 // Only the latest order matters.
                 let order = inbox.try_iter().last().unwrap_or(order);
-                *shelf.lock().unwrap_or_else(|poisoned| poisoned.into_inner()) = Some(develop(order, &mut pixels));
+                *shelf.lock().unwrap_or_else(PoisonError::into_inner) = Some(develop(order, &mut pixels));
                 ctx.request_repaint();
             }
         };
@@ -65,7 +65,7 @@ impl Darkroom {
 
     /// The latest print, once.
     pub fn take(&self) -> Option<Print> {
-        self.ready.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).take()
+        self.ready.lock().unwrap_or_else(PoisonError::into_inner).take()
     }
 }
 

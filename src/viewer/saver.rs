@@ -14,9 +14,12 @@ pub struct Request {
     pub path: PathBuf,
 }
 
+/// Where a picture is, or why it is not.
+type Outcome = Result<PathBuf, String>;
+
 pub struct Saver {
     ctx: egui::Context,
-    done: (mpsc::Sender<Result<PathBuf, String>>, mpsc::Receiver<Result<PathBuf, String>>),
+    done: (mpsc::Sender<Outcome>, mpsc::Receiver<Outcome>),
     /// Pictures being written. The program waits for them before it ends.
     writing: Vec<std::thread::JoinHandle<()>>,
 }
@@ -37,8 +40,8 @@ impl Saver {
         }));
     }
 
-    /// What became of a picture, once: where it is, or why it is not.
-    pub fn take(&self) -> Option<Result<PathBuf, String>> {
+    /// What became of a picture, once.
+    pub fn take(&self) -> Option<Outcome> {
         self.done.1.try_recv().ok()
     }
 }

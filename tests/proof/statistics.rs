@@ -33,10 +33,11 @@ pub struct Moments {
 }
 
 impl Moments {
-    pub fn of(values: impl Iterator<Item = f64> + Clone) -> Moments {
-        let count = values.clone().count() as f64;
-        let mean = values.clone().sum::<f64>() / count;
-        let central = |power: i32| values.clone().map(|x| (x - mean).powi(power)).sum::<f64>();
+    pub fn of(values: impl IntoIterator<Item = f64>) -> Moments {
+        let values: Vec<f64> = values.into_iter().collect();
+        let count = values.len() as f64;
+        let mean = values.iter().sum::<f64>() / count;
+        let central = |power: i32| values.iter().map(|x| (x - mean).powi(power)).sum::<f64>();
         Moments { count, mean, variance: central(2) / (count - 1.0), fourth: central(4) / count }
     }
 
