@@ -4,6 +4,7 @@ pub mod frame;
 pub mod lanes;
 pub mod level;
 pub mod number;
+mod one;
 pub mod trig;
 pub mod vector;
 

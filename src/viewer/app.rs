@@ -1,7 +1,7 @@
 //! The state of the window and its layout. Each panel is a file of its own.
 use std::{path::PathBuf, sync::Arc, sync::mpsc};
 
-use egui::{Align2, CentralPanel, CollapsingHeader, Panel, RichText, ScrollArea, TextureHandle, TextureOptions};
+use egui::{CentralPanel, Panel, ScrollArea, TextureHandle, TextureOptions};
 use noisefall::{
     render::{Budget, Display, Frame, Status, pass::Threads},
     scene::{Camera, RenderSettings, built_in},
@@ -13,6 +13,8 @@ use super::{
     darkroom::{Darkroom, Order},
     link::{Link, Wish},
     loader::{Loader, Opened},
+    look::{dark, section},
+    messages::Notice,
     save_dialog::SaveDialog,
     saver::Saver,
 };
@@ -50,15 +52,6 @@ pub struct App {
     pub(super) scene_error: Option<String>,
     pub(super) notice: Option<Notice>,
 }
-
-/// A message that goes away by itself, or when it is clicked.
-pub struct Notice {
-    pub text: String,
-    pub is_error: bool,
-    until: f64,
-}
-
-const NOTICE_SECONDS: f64 = 6.0;
 
 impl App {
     pub fn new(ctx: &egui::Context, threads: Threads, scene: Option<PathBuf>) -> App {
@@ -199,94 +192,10 @@ impl App {
             self.camera = opened.scene.camera;
         }
     }
-
-    pub(super) fn tell(&mut self, text: String, is_error: bool) {
-        let now = self.ctx.input(|input| input.time);
-        self.notice = Some(Notice { text, is_error, until: now + NOTICE_SECONDS });
-    }
-
-    fn notice(&mut self, ctx: &egui::Context) {
-        let Some(notice) = &self.notice else { return };
-        let left = notice.until - ctx.input(|input| input.time);
-        let mut closed = left <= 0.0;
-        egui::Area::new(egui::Id::unique("notice")).anchor(Align2::CENTER_BOTTOM, [-168.0, -44.0]).show(ctx, |ui| {
-            egui::Frame::popup(ui.style()).show(ui, |ui| {
-                let colour = if notice.is_error { ui.visuals().error_fg_color } else { ui.visuals().text_color() };
-                let label = egui::Label::new(RichText::new(&notice.text).color(colour)).sense(egui::Sense::click());
-                closed |= ui.add(label).clicked();
-            });
-        });
-        if closed {
-            self.notice = None;
-        } else {
-            ctx.request_repaint_after(std::time::Duration::from_secs_f64(left.max(0.0)));
-        }
-    }
-
-    fn scene_error_window(&mut self, ctx: &egui::Context) {
-        let Some(report) = &self.scene_error else { return };
-        let (mut open, mut built_in) = (true, false);
-        egui::Window::new("This scene cannot be opened")
-            .open(&mut open)
-            .collapsible(false)
-            .default_width(640.0)
-            .anchor(Align2::CENTER_CENTER, [-168.0, 0.0])
-            .show(ctx, |ui| {
-                ScrollArea::both().max_height(360.0).show(ui, |ui| {
-                    ui.add(egui::Label::new(RichText::new(report).monospace()).extend());
-                });
-                ui.horizontal(|ui| {
-                    if ui.button("Copy").on_hover_text("Copy this message").clicked() {
-                        ui.ctx().copy_text(report.clone());
-                    }
-                    built_in = self.opened.is_none() && ui.button("Open the built-in scene").clicked();
-                });
-            });
-        if built_in {
-            self.loader.open(None);
-        }
-        if !open || built_in {
-            self.scene_error = None;
-        }
-    }
 }
 
 impl eframe::App for App {
     fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
         self.show(ui);
     }
-}
-
-fn section(ui: &mut egui::Ui, title: &str, contents: impl FnOnce(&mut egui::Ui)) {
-    ui.separator();
-    CollapsingHeader::new(RichText::new(title).strong()).default_open(true).show_unindented(ui, |ui| {
-        ui.add_space(2.0);
-        contents(ui);
-        ui.add_space(4.0);
-    });
-}
-
-/// A grid of labels and controls; all panels have their controls at the same place.
-pub(super) fn controls(ui: &mut egui::Ui, name: &str, rows: impl FnOnce(&mut egui::Ui)) {
-    const LABEL_WIDTH: f32 = 96.0;
-    ui.spacing_mut().slider_width = 120.0;
-    egui::Grid::new(name).num_columns(2).min_col_width(LABEL_WIDTH).spacing([8.0, 8.0]).show(ui, rows);
-}
-
-/// One row: a label that explains itself, and a control that screen readers know by it.
-pub(super) fn row(ui: &mut egui::Ui, label: &str, doc: &str, control: impl FnOnce(&mut egui::Ui, egui::Id)) {
-    let label = ui.label(label).on_hover_text(doc);
-    control(ui, label.id);
-    ui.end_row();
-}
-
-/// The dark theme, with what is faint in it made legible.
-fn dark(ctx: &egui::Context) {
-    ctx.set_theme(egui::Theme::Dark);
-    ctx.style_mut_of(egui::Theme::Dark, |style| {
-        let visuals = &mut style.visuals;
-        visuals.weak_text_color = Some(egui::Color32::from_gray(150));
-        visuals.widgets.noninteractive.fg_stroke.color = egui::Color32::from_gray(190);
-        visuals.widgets.inactive.bg_stroke = egui::Stroke::new(1.0, egui::Color32::from_gray(85));
-    });
 }

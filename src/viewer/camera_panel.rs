@@ -2,7 +2,10 @@
 use egui::{Button, DragValue, RichText, Slider};
 use glam::DVec3;
 
-use super::app::{App, controls, row};
+use super::{
+    app::App,
+    look::{controls, row},
+};
 
 impl App {
     pub(super) fn camera_panel(&mut self, ui: &mut egui::Ui) {

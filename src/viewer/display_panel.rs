@@ -2,7 +2,10 @@
 use egui::{ComboBox, Slider};
 use noisefall::render::ToneMap;
 
-use super::app::{App, controls, row};
+use super::{
+    app::App,
+    look::{controls, row},
+};
 
 impl App {
     pub(super) fn display_panel(&mut self, ui: &mut egui::Ui) {

@@ -11,6 +11,8 @@ mod display_panel;
 mod help;
 mod link;
 mod loader;
+mod look;
+mod messages;
 mod navigation;
 mod sampling_panel;
 mod save_dialog;

@@ -7,7 +7,10 @@ use noisefall::{
     scene::Roulette,
 };
 
-use super::app::{App, controls, row};
+use super::{
+    app::App,
+    look::{controls, row},
+};
 
 const DEFAULT_SURVIVAL: f32 = 0.8;
 const DEFAULT_CAP: u32 = 8;

@@ -177,6 +177,27 @@ fn the_camera_moves_by_numbers_by_mouse_and_by_keys() {
 }
 
 #[test]
+fn eye_look_at_up_and_resolution_can_be_typed() {
+    let mut window = window("cornell_spheres");
+    for (what, label) in [("an eye", "Eye"), ("a look-at", "Look at"), ("an up", "Up")] {
+        restarts(&mut window, what, |w| {
+            w.get_all_by_role_and_label(Role::SpinButton, label).next().expect("x comes first").set_value_accesskit(0.25);
+            w.run_steps(2);
+        });
+    }
+    let camera = window.state().camera;
+    assert_eq!((camera.eye.x, camera.look_at.x, camera.up.x), (0.25, 0.25, 0.25));
+    restarts(&mut window, "a width", |w| {
+        w.get_all_by_role_and_label(Role::SpinButton, "Resolution")
+            .next()
+            .expect("the width comes first")
+            .set_value_accesskit(120.0);
+        w.run_steps(2);
+    });
+    wait(&mut window, "the new width", |app| app.shown.as_ref().is_some_and(|frame| frame.width == 120 && frame.height == 64));
+}
+
+#[test]
 fn display_settings_zoom_and_target_never_restart() {
     let mut window = window("cornell_spheres");
     never_restarts(&mut window, |w| {

@@ -94,9 +94,13 @@ fn uninterrupted(job: Job, spp: u32) -> Vec<[f32; 3]> {
 }
 
 fn noisy() -> Job {
+    noisy_as(1)
+}
+
+fn noisy_as(generation: u64) -> Job {
     let scene = Arc::new(noisefall::scene::built_in());
     let camera = Camera { resolution: [320, 200], ..scene.camera };
-    Job { generation: 1, camera, settings: scene.settings, scene }
+    Job { generation, camera, settings: scene.settings, scene }
 }
 
 #[test]
@@ -176,4 +180,37 @@ fn paths_that_never_end_are_cut_counted_and_reported() {
     renderer.submit(Job { generation: 2, scene, camera, settings });
     let whole = wait_for(&renderer, "the end", |p| p.status.generation == 2 && p.status.state == State::Converged);
     assert_eq!(whole.status.cut_paths, 0);
+}
+
+#[test]
+fn a_panic_in_a_pass_becomes_a_status_with_pixel_sample_and_message() {
+    let mut broken = noisefall::scene::built_in();
+    broken.albedo.truncate(1);
+    let scene = Arc::new(broken);
+    let renderer = renderer(Publish::Live);
+    let camera = Camera { resolution: [40, 40], ..scene.camera };
+    renderer.submit(Job { generation: 1, scene: scene.clone(), camera, settings: scene.settings });
+    let failed = wait_for(&renderer, "the failure", |p| matches!(p.status.state, State::Failed(_)));
+    let State::Failed(failure) = failed.status.state else { unreachable!() };
+    assert!(failure.message.contains("index out of bounds") && failure.at.sample == 0, "{failure:?}");
+    renderer.submit(noisy_as(2));
+    wait_for(&renderer, "the next picture", |p| p.frame.generation == 2);
+}
+
+#[test]
+fn samples_that_are_no_numbers_are_dropped_and_counted_with_the_way_to_replay_them() {
+    use noisefall::light::{Emission, Emitters, Side};
+    let mut broken = noisefall::scene::built_in();
+    broken.emitters = Emitters::new(&[Emission { radiance: [1.0, f32::NAN, 1.0], side: Side::Front }]);
+    let scene = Arc::new(broken);
+    let renderer = renderer(Publish::Sparse);
+    renderer.set_budget(Budget { max_spp: Some(2), ..Budget::default() });
+    let camera = Camera { resolution: [64, 64], ..scene.camera };
+    renderer.submit(Job { generation: 1, scene: scene.clone(), camera, settings: scene.settings });
+    let done = wait_for(&renderer, "the end", |p| p.status.state == State::Converged);
+    assert!(done.status.invalid_samples > 0);
+    assert!(done.frame.radiance.iter().flatten().all(|c| c.is_finite()), "the picture stays finite");
+    let first = done.status.first_invalid.expect("the first one is known");
+    let replayed = noisefall::integrator::replay(&scene, &camera.rays(), &scene.settings, first.pixel, first.sample);
+    assert!(replayed.radiance[1].is_nan());
 }
