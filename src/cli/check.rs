@@ -3,7 +3,7 @@ use std::path::PathBuf;
 
 use noisefall::scene::load;
 
-use super::Failure;
+use super::{Failure, print};
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -19,9 +19,13 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
             Err(error) => reports.push(error.report()),
             Ok(scene) => {
                 let [width, height] = scene.camera.resolution;
-                println!("{}: ok, {} objects, {width} × {height}", path.display(), scene.objects.len());
+                let objects = match scene.objects.len() {
+                    1 => "1 object".to_owned(),
+                    n => format!("{n} objects"),
+                };
+                print(&format!("{}: ok, {objects}, {width} × {height}", path.display()))?;
                 for warning in scene.warnings() {
-                    println!("{}: note: {warning}", path.display());
+                    print(&format!("{}: note: {warning}", path.display()))?;
                 }
             }
         }

@@ -1,9 +1,12 @@
 //! `noisefall compare`: how far one picture is from another.
 use std::path::PathBuf;
 
-use noisefall::{measure::compare, render::image_file::read};
+use noisefall::{
+    measure::{Comparison, compare},
+    render::image_file::read,
+};
 
-use super::Failure;
+use super::{Failure, print};
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -38,11 +41,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     let comparison = compare(&a.radiance, &b.radiance);
     if arguments.json {
-        println!("{}", serde_json::json!(comparison));
-    } else {
-        println!("RMSE    {:.6e}", comparison.rmse);
-        println!("relMSE  {:.6e}", comparison.rel_mse);
-        println!("bias    {:+.6e}", comparison.bias);
+        return print(&serde_json::json!(comparison).to_string());
     }
-    Ok(())
+    let Comparison { rmse, rel_mse, bias } = comparison;
+    print(&format!("RMSE    {rmse:.6e}\nrelMSE  {rel_mse:.6e}\nbias    {bias:+.6e}"))
 }

@@ -24,14 +24,14 @@ pub enum DirectionsOption {
 }
 
 pub fn estimator(text: &str) -> Result<Estimator, String> {
-    match Estimator::from_str(text, false)? {
+    match Estimator::from_str(text, false).map_err(|_| "expected path, light or mis")? {
         Estimator::Path => Ok(Estimator::Path),
         Estimator::Light | Estimator::Mis => Err("not supported yet: this version has `path` only".to_owned()),
     }
 }
 
 pub fn directions(text: &str) -> Result<Directions, String> {
-    match DirectionsOption::from_str(text, false)? {
+    match DirectionsOption::from_str(text, false).map_err(|_| "expected uniform, cosine or bsdf")? {
         DirectionsOption::Uniform => Ok(Directions::Uniform),
         DirectionsOption::Cosine => Ok(Directions::Cosine),
         DirectionsOption::Bsdf => Err("not supported yet: this version has `uniform` and `cosine`".to_owned()),
@@ -60,23 +60,23 @@ pub fn roulette(text: &str) -> Result<Roulette, String> {
         "off" => Ok(Roulette::Off),
         "throughput" => Ok(Roulette::BY_THROUGHPUT),
         _ => match text.parse() {
-            Ok(p) if p > 0.0 && p <= 1.0 => Ok(Roulette::Fixed(p)),
-            _ => Err("expected `off`, `throughput`, or a survival probability above 0, at most 1".to_owned()),
+            Ok(p) if (Roulette::LEAST..=1.0).contains(&p) => Ok(Roulette::Fixed(p)),
+            _ => Err("expected `off`, `throughput`, or a survival probability from 0.01 to 1".to_owned()),
         },
     }
 }
 
 pub fn resolution(text: &str) -> Result<[u32; 2], String> {
-    pair(text, 'x').ok_or_else(|| "expected WIDTHxHEIGHT, such as 640x480".to_owned())
+    pair(text, &['x', 'X', '×']).ok_or_else(|| "expected WIDTHxHEIGHT, such as 640x480".to_owned())
 }
 
 pub fn pixel(text: &str) -> Result<[u32; 2], String> {
-    pair(text, ',').ok_or_else(|| "expected X,Y, such as 12,34".to_owned())
+    pair(text, &[',']).ok_or_else(|| "expected X,Y, such as 12,34".to_owned())
 }
 
-fn pair(text: &str, separator: char) -> Option<[u32; 2]> {
-    let (a, b) = text.split_once(separator)?;
-    Some([a.parse().ok()?, b.parse().ok()?])
+fn pair(text: &str, separators: &[char]) -> Option<[u32; 2]> {
+    let (a, b) = text.split_once(separators)?;
+    Some([a.trim().parse().ok()?, b.trim().parse().ok()?])
 }
 
 pub fn seconds(text: &str) -> Result<Duration, String> {

@@ -1,27 +1,34 @@
 //! `noisefall render`: a picture without a window, by the same worker that serves the window.
 use std::{
     path::{Path, PathBuf},
-    sync::Arc,
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering},
+    },
     time::{Duration, Instant},
 };
 
 use clap::ArgGroup;
+use crossbeam_channel::RecvTimeoutError;
 use indicatif::{ProgressBar, ProgressStyle};
 use noisefall::{
     math::SimdLevel,
-    measure::compare,
     render::{
         Budget, Display, Job, Publish, Published, Renderer, State, Status,
         image_file::{check_target, save},
         pass::{SampleId, Threads},
-        settings_text::settings_text,
-        truth::reference,
+        settings_text::{options, settings_text},
+        truth::Reference,
     },
     sampling::{Directions, Sampler},
     scene::{Camera, RenderSettings, Roulette, Scene, load},
 };
 
-use super::{Failure, options, options::BounceCap, replay};
+use super::{
+    Failure,
+    options::{self as parse, BounceCap},
+    print, replay,
+};
 
 /// Samples per pixel when neither the command nor the scene says how many.
 const DEFAULT_SPP: u32 = 256;
@@ -38,25 +45,25 @@ pub struct Arguments {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..), overrides_with_all = ["time", "noise"])]
     spp: Option<u32>,
     /// Stop after so many seconds of rendering
-    #[arg(long, value_name = "SECONDS", value_parser = options::seconds, overrides_with_all = ["spp", "noise"])]
+    #[arg(long, value_name = "SECONDS", value_parser = parse::seconds, overrides_with_all = ["spp", "noise"])]
     time: Option<Duration>,
     /// Stop at this estimated relative noise, the root of relMSE (0.01 is 1 %)
-    #[arg(long, value_name = "RELATIVE", value_parser = options::noise, overrides_with_all = ["spp", "time"])]
+    #[arg(long, value_name = "RELATIVE", value_parser = parse::noise, overrides_with_all = ["spp", "time"])]
     noise: Option<f64>,
     /// How light is found: path, light or mis (this version: path)
-    #[arg(long, value_parser = options::estimator)]
-    estimator: Option<options::Estimator>,
+    #[arg(long, value_parser = parse::estimator)]
+    estimator: Option<parse::Estimator>,
     /// How the next direction is drawn: uniform, cosine or bsdf (this version: uniform, cosine)
-    #[arg(long, value_parser = options::directions)]
+    #[arg(long, value_parser = parse::directions)]
     directions: Option<Directions>,
     /// Where samples lie: independent, stratified or sobol
-    #[arg(long, value_parser = options::sampler)]
+    #[arg(long, value_parser = parse::sampler)]
     sampler: Option<Sampler>,
     /// Highest number of reflections, or none for no cap
-    #[arg(long, value_name = "N|none", value_parser = options::bounce_cap)]
+    #[arg(long, value_name = "N|none", value_parser = parse::bounce_cap)]
     max_bounces: Option<BounceCap>,
     /// Russian roulette: off, a survival probability, or throughput
-    #[arg(long, value_name = "off|P|throughput", value_parser = options::roulette)]
+    #[arg(long, value_name = "off|P|throughput", value_parser = parse::roulette)]
     roulette: Option<Roulette>,
     /// Seed of the random numbers
     #[arg(long, value_name = "N")]
@@ -65,10 +72,10 @@ pub struct Arguments {
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u16).range(..=1024))]
     threads: u16,
     /// Resolution in pixels
-    #[arg(long, value_name = "WxH", value_parser = options::resolution)]
+    #[arg(long, value_name = "WxH", value_parser = parse::resolution)]
     size: Option<[u32; 2]>,
     /// Replay one path through this pixel instead of rendering
-    #[arg(long, value_name = "X,Y", value_parser = options::pixel)]
+    #[arg(long, value_name = "X,Y", value_parser = parse::pixel)]
     pixel: Option<[u32; 2]>,
     /// Which sample of the pixel to replay
     #[arg(long, value_name = "N", default_value_t = 0, requires = "pixel")]
@@ -89,7 +96,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     let Some(output) = &arguments.output else { return Err("no output file".to_owned()) };
     check_target(output).map_err(|error| error.to_string())?;
-    let reference = reference(&scene, camera.resolution)?;
+    let reference = Reference::of(&scene)?;
     scene.warnings().iter().for_each(|warning| eprintln!("note: {warning}"));
     let threads = Threads::new(arguments.threads.into(), SimdLevel::best()).map_err(|error| error.to_string())?;
     let thread_count = threads.count();
@@ -98,17 +105,17 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let start = Instant::now();
     let budget = arguments.budget(&scene);
     let job = Job { generation: 1, scene: scene.clone(), camera, settings };
-    let Published { frame, status } = render(threads, job, budget, arguments.json);
+    let Published { frame, status } = render(threads, job, budget, arguments.json)?;
     let render_seconds = start.elapsed().as_secs_f64();
 
     if let State::Failed(failure) = &status.state {
-        let replay = replay_command(arguments, failure.at, &settings);
+        let replay = replay_command(arguments, failure.at, &settings, &scene);
         return Err(format!("the renderer failed: {}\nreplay: {replay}", failure.message));
     }
     let text = settings_text(&scene, &camera, &settings, Display::default(), status.spp);
     save_somewhere(output, |path| save(&frame, Display::default(), &text, path))?;
-    let rel_mse = reference.map(|truth| compare(&frame.radiance, &truth).rel_mse);
-    let replay = status.first_invalid.map(|at| replay_command(arguments, at, &settings));
+    let rel_mse = reference.and_then(|truth| truth.compare(&frame)).map(|comparison| comparison.rel_mse);
+    let replay = status.first_invalid.map(|at| replay_command(arguments, at, &settings, &scene));
     if let Some(replay) = &replay {
         eprintln!("warning: {} invalid samples were dropped; the first one: {replay}", status.invalid_samples);
     }
@@ -127,11 +134,10 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
             "rel_mse_estimate": status.rel_mse_estimate, "cut_paths": status.cut_paths, "bias": settings.bias(),
             "rel_mse": rel_mse, "replay": replay,
         });
-        println!("{line}");
+        print(&line.to_string())
     } else {
-        println!("{}", summary(output, &status, &settings, render_seconds, rel_mse));
+        print(&summary(output, &status, &settings, render_seconds, rel_mse))
     }
-    Ok(())
 }
 
 impl Arguments {
@@ -154,23 +160,43 @@ impl Arguments {
 }
 
 /// Renders to the end, with a progress bar where there is a terminal to show it.
-fn render(threads: Threads, job: Job, budget: Budget, quiet: bool) -> Published {
+fn render(threads: Threads, job: Job, budget: Budget, quiet: bool) -> Result<Published, Failure> {
     let (wake, woken) = crossbeam_channel::bounded(1);
     let renderer = Renderer::new(threads, Publish::Sparse, move || {
         let _ = wake.try_send(());
     });
     renderer.set_budget(budget);
     renderer.submit(job);
+    let stop = stop_signal()?;
     let bar = if quiet { ProgressBar::hidden() } else { progress_bar(&budget) };
     loop {
-        let _ = woken.recv_timeout(Duration::from_millis(200));
+        if woken.recv_timeout(Duration::from_millis(200)) == Err(RecvTimeoutError::Disconnected) {
+            return Err("the render thread ended unexpectedly".to_owned());
+        }
+        if stop.load(Ordering::Relaxed) {
+            renderer.set_budget(Budget { paused: true, ..budget });
+        }
         let published = renderer.latest();
         show_progress(&bar, &budget, &published.status);
-        if matches!(published.status.state, State::Converged | State::Failed(_)) {
+        if matches!(published.status.state, State::Paused | State::Converged | State::Failed(_)) {
             bar.finish_and_clear();
-            return published;
+            return Ok(published);
         }
     }
+}
+
+/// Becomes true when the user interrupts the program, which then saves what it has. The second time the program ends at once.
+fn stop_signal() -> Result<Arc<AtomicBool>, Failure> {
+    let stop = Arc::new(AtomicBool::new(false));
+    let flag = stop.clone();
+    let interrupted = move || {
+        if flag.swap(true, Ordering::Relaxed) {
+            std::process::exit(130);
+        }
+        eprintln!("interrupted: saving the picture as it is (once more to give up)");
+    };
+    ctrlc::set_handler(interrupted).map_err(|error| error.to_string())?;
+    Ok(stop)
 }
 
 fn progress_bar(budget: &Budget) -> ProgressBar {
@@ -208,11 +234,11 @@ fn summary(output: &Path, status: &Status, settings: &RenderSettings, seconds: f
 }
 
 /// The command that traces one sample again.
-fn replay_command(arguments: &Arguments, at: SampleId, settings: &RenderSettings) -> String {
+fn replay_command(arguments: &Arguments, at: SampleId, settings: &RenderSettings, scene: &Scene) -> String {
     let [x, y] = at.pixel;
     let size = arguments.size.map_or_else(String::new, |[w, h]| format!(" --size {w}x{h}"));
-    let options = noisefall::render::settings_text::options(settings);
-    format!("noisefall render {} --pixel {x},{y} --sample {}{size} {options}", arguments.scene.display(), at.sample)
+    let options = options(settings, &scene.settings);
+    format!("noisefall render {} --pixel {x},{y} --sample {}{size}{options}", arguments.scene.display(), at.sample)
 }
 
 /// A rendered picture must not be lost to a full disk: where the target fails, the folder for temporary files is tried.
@@ -221,7 +247,9 @@ fn save_somewhere(
     save: impl Fn(&Path) -> Result<(), noisefall::render::image_file::ImageError>,
 ) -> Result<(), Failure> {
     let Err(error) = save(path) else { return Ok(()) };
-    let rescue = std::env::temp_dir().join(path.file_name().unwrap_or_default());
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let candidates = (0..).map(|i| std::env::temp_dir().join(format!("noisefall-{}-{i}-{name}", std::process::id())));
+    let Some(rescue) = { candidates }.find(|path| !path.exists()) else { return Err(error.to_string()) };
     match save(&rescue) {
         Ok(()) => Err(format!("{error}\nthe picture was saved as {} instead", rescue.display())),
         Err(_) => Err(error.to_string()),

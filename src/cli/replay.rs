@@ -4,7 +4,7 @@ use noisefall::{
     scene::{Camera, RenderSettings, Scene},
 };
 
-use super::Failure;
+use super::{Failure, print};
 
 pub fn run(
     scene: &Scene,
@@ -20,11 +20,10 @@ pub fn run(
     }
     let replay = replay(scene, &camera.rays(), settings, pixel, sample);
     if json {
-        println!("{}", serde_json::json!(replay));
-        return Ok(());
+        return print(&serde_json::json!(replay).to_string());
     }
-    println!("pixel {},{}, sample {sample}: radiance {}", pixel[0], pixel[1], colour(replay.radiance));
-    println!("bounce  throughput before        radiance after           distance  object");
+    print(&format!("pixel {},{}, sample {sample}: radiance {}", pixel[0], pixel[1], colour(replay.radiance)))?;
+    print("bounce  throughput before        radiance after           distance  object")?;
     for vertex in &replay.vertices {
         let object = vertex.object.map_or("(leaves the scene)", |id| match scene.objects[id as usize].name.as_str() {
             "" => "(unnamed)",
@@ -32,7 +31,7 @@ pub fn run(
         });
         let distance = vertex.distance.map_or_else(String::new, |t| format!("{t:.5}"));
         let (throughput, radiance) = (colour(vertex.throughput), colour(vertex.radiance));
-        println!("{:>6}  {throughput:<23}  {radiance:<23}  {distance:>8}  {object}", vertex.bounce);
+        print(&format!("{:>6}  {throughput:<23}  {radiance:<23}  {distance:>8}  {object}", vertex.bounce))?;
     }
     Ok(())
 }

@@ -13,7 +13,7 @@ pub(super) fn survive<L: Lanes>(l: L, roulette: Roulette, reflection: u32, strea
     match roulette {
         Roulette::Fixed(p) if p < 1.0 => play(reflection, stream, throughput, l.f(p)),
         Roulette::Throughput { start } if reflection >= start => {
-            let p = throughput.max_component().min(l.f(Roulette::MOST));
+            let p = throughput.max_component().min(l.f(Roulette::MOST)).max(l.f(Roulette::LEAST));
             play(reflection, stream, throughput, p)
         }
         // Without roulette a path ends when its throughput has become zero.

@@ -50,10 +50,10 @@ pub(super) fn trace_in<L: Lanes, O: Observer>(
         }
         let last = batch.bounce == last_bounce;
         intersect(l, work, batch);
-        surface(l, work, batch, last);
+        surface(l, work, batch, last && !cut_short);
         observer.at_surfaces(work, batch);
         if last {
-            batch.cut_paths += if cut_short { batch.current().len() as u64 } else { 0 };
+            batch.cut_paths += if cut_short { batch.hits.len() as u64 } else { 0 };
             break;
         }
         shade(l, work, batch);

@@ -54,26 +54,28 @@ fn format(path: &Path) -> Result<Format, ImageError> {
 /// Whether a picture could be written there, as far as can be told before there is one.
 pub fn check_target(path: &Path) -> Result<(), ImageError> {
     format(path)?;
-    let folder = folder(path);
-    if !folder.is_dir() {
-        return Err(ImageError::NoFolder { path: path.to_owned(), folder });
+    let folder = folder(path)?;
+    let refused = |reason: String| Err(ImageError::Write { path: path.to_owned(), reason });
+    match std::fs::metadata(path) {
+        Ok(there) if there.is_dir() => return refused("it is a folder".to_owned()),
+        Err(error) if error.kind() != std::io::ErrorKind::NotFound => return refused(error.to_string()),
+        _ => {}
     }
     // Made and removed again: a folder that cannot be written to is better known before an hour of rendering than after.
     temporary(path, &folder).map(drop)
 }
 
-fn folder(path: &Path) -> PathBuf {
+/// The folder that the file will lie in, which must exist.
+fn folder(path: &Path) -> Result<PathBuf, ImageError> {
     let parent = path.parent().filter(|folder| !folder.as_os_str().is_empty());
-    parent.unwrap_or_else(|| Path::new(".")).to_owned()
+    let folder = parent.unwrap_or_else(|| Path::new(".")).to_owned();
+    if folder.is_dir() { Ok(folder) } else { Err(ImageError::NoFolder { path: path.to_owned(), folder }) }
 }
 
 /// Writes a frame as PNG or EXR, by the extension. The file appears whole or not at all. `settings` is any text.
 pub fn save(frame: &Frame, display: Display, settings: &str, path: &Path) -> Result<(), ImageError> {
     let format = format(path)?;
-    let folder = folder(path);
-    if !folder.is_dir() {
-        return Err(ImageError::NoFolder { path: path.to_owned(), folder });
-    }
+    let folder = folder(path)?;
     let failed = |reason: String| ImageError::Write { path: path.to_owned(), reason };
     let mut file = temporary(path, &folder)?;
     {
@@ -122,7 +124,8 @@ fn write_exr(frame: &Frame, settings: &str, to: &mut impl Write) -> Result<(), S
     let mut attributes = LayerAttributes::named("");
     attributes.layer_name = None;
     attributes.software_name = Some(Text::from("Noisefall"));
-    attributes.other.insert(Text::from(SETTINGS_KEY), AttributeValue::Text(Text::from(settings)));
+    let text = Text::new_or_none(settings).ok_or("the settings are not Latin-1 text, and EXR knows no other")?;
+    attributes.other.insert(Text::from(SETTINGS_KEY), AttributeValue::Text(text));
     let layer = Layer::new(size, attributes, Encoding::FAST_LOSSLESS, channels);
     // The format is written with seeks, which a buffer in memory allows whatever the target is.
     let mut bytes = std::io::Cursor::new(Vec::new());

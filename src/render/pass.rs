@@ -72,7 +72,7 @@ impl Threads {
         self.pool.install(task)
     }
 
-    /// Brings every tile to `spp` samples, or stops between two batches when `interrupted` says so. A tile that was interrupted
+    /// Brings every tile to `spp` samples, or stops between two bounces when `interrupted` says so. A tile that was interrupted
     /// goes on later as if nothing had happened.
     pub fn pass(&self, job: PassJob, film: &mut Film, spp: u32, interrupted: &(dyn Fn() -> bool + Sync)) -> PassCount {
         self.pool.install(|| {
@@ -130,7 +130,8 @@ fn find_failure(work: &Work) -> SampleId {
     SampleId { pixel: { pixels }.find(fails).unwrap_or(work.origin), sample: work.sample }
 }
 
-fn panic_message(panic: &(dyn std::any::Any + Send)) -> String {
+/// What a panic said.
+pub fn panic_message(panic: &(dyn std::any::Any + Send)) -> String {
     let text = panic.downcast_ref::<String>().cloned();
     text.or_else(|| panic.downcast_ref::<&str>().map(|s| (*s).to_owned())).unwrap_or_else(|| "unknown panic".to_owned())
 }

@@ -11,12 +11,16 @@ use crate::scene::Camera;
 
 /// Camera samples a second before anything was measured: what a slow machine makes of a simple scene.
 const UNKNOWN_RATE: f64 = 1e6;
-/// How long the first, coarse picture may take to render; with all that surrounds it, it is there within a 30th of a second.
-const FIRST_PICTURE: Duration = Duration::from_millis(20);
+/// How long the first, coarse picture may take to render: less than the time between two moves of a dragged camera.
+const FIRST_PICTURE: Duration = Duration::from_millis(10);
 /// Between two frames: from 30 a second to 2, as the picture ages and changes less.
 const SHORTEST_INTERVAL: Duration = Duration::from_millis(33);
 const LONGEST_INTERVAL: Duration = Duration::from_millis(500);
 const MOST_SPP_A_PASS: f64 = 1024.0;
+/// Before so many samples a noise target is not believed: pixels that no light has found yet look free of noise.
+const LEAST_SPP_FOR_NOISE: u32 = 64;
+/// A pause waits for the first full sample of a picture, but not longer than this.
+const PATIENCE: Duration = Duration::from_secs(1);
 
 /// A job and what has been rendered of it.
 pub(super) struct Session {
@@ -81,6 +85,11 @@ impl Session {
         self.film
     }
 
+    /// Whether the next frame is a small one.
+    pub fn is_coarse(&self) -> bool {
+        self.coarse.is_some()
+    }
+
     pub fn rate(&self) -> Option<f64> {
         self.rate
     }
@@ -90,16 +99,23 @@ impl Session {
         let spp = self.film.spp();
         let enough_samples = budget.max_spp.is_some_and(|most| spp >= most);
         let enough_time = budget.max_time.is_some_and(|most| self.elapsed >= most);
-        let low_noise = budget.noise.zip(self.rel_mse_estimate).is_some_and(|(goal, rel_mse)| rel_mse.sqrt() <= goal);
+        let believable = spp >= LEAST_SPP_FOR_NOISE;
+        let low_noise =
+            believable && budget.noise.zip(self.rel_mse_estimate).is_some_and(|(goal, rel_mse)| rel_mse.sqrt() <= goal);
         if let Some(failure) = &self.count.failure {
             State::Failed(failure.clone())
         } else if spp > 0 && (enough_samples || enough_time || low_noise) {
             State::Converged
-        } else if spp > 0 && budget.paused && budget.steps <= self.steps_done {
+        } else if budget.paused && budget.steps <= self.steps_done && (spp > 0 || self.takes_long()) {
             State::Paused
         } else {
             State::Running
         }
+    }
+
+    /// The first sample is not there yet, and there has been something to look at for a while.
+    fn takes_long(&self) -> bool {
+        self.last_frame.is_some_and(|coarse| coarse.elapsed() > PATIENCE)
     }
 
     /// Renders until the next frame is due, or until interrupted.
@@ -112,7 +128,9 @@ impl Session {
         let target = if budget.paused { spp + 1 } else { spp + self.spp_of_pass(budget, publish) };
         let start = Instant::now();
         let time_left = budget.max_time.filter(|_| spp > 0).map(|most| most.saturating_sub(self.elapsed));
-        let enough = || interrupted() || time_left.is_some_and(|left| start.elapsed() >= left);
+        let last_frame = self.last_frame;
+        let impatient = || budget.paused && spp == 0 && last_frame.is_some_and(|coarse: Instant| coarse.elapsed() > PATIENCE);
+        let enough = || interrupted() || impatient() || time_left.is_some_and(|left| start.elapsed() >= left);
         let job = PassJob { scene: &self.job.scene, rays: &self.job.camera.rays(), settings: &self.job.settings };
         let before = self.film.samples();
         let count = threads.pass(job, &mut self.film, target, &enough);
@@ -144,7 +162,7 @@ impl Session {
     }
 
     fn measure(&mut self, samples: u64, took: Duration) {
-        const ENOUGH_TO_TELL: u64 = 4096;
+        const ENOUGH_TO_TELL: u64 = 1024;
         if samples >= ENOUGH_TO_TELL {
             self.rate = Some(samples as f64 / took.as_secs_f64().max(1e-9));
         }

@@ -1,16 +1,41 @@
 //! The picture that a scene says it must converge to.
-use super::image_file::read;
-use crate::scene::{Scene, Truth};
+use super::{
+    frame::Frame,
+    image_file::{Picture, read},
+};
+use crate::{
+    measure::{Comparison, compare},
+    scene::{Scene, Truth},
+};
 
-/// The scene's exact picture at a resolution, if it names one of that resolution. An error is one line of text.
-pub fn reference(scene: &Scene, [width, height]: [u32; 2]) -> Result<Option<Vec<[f32; 3]>>, String> {
-    match &scene.truth {
-        None => Ok(None),
-        Some(Truth::Radiance(radiance)) => Ok(Some(vec![*radiance; width as usize * height as usize])),
-        Some(Truth::Image(path)) => {
-            let picture = read(path).map_err(|error| error.to_string())?;
-            // At another resolution the reference says nothing about single pixels.
-            Ok(([picture.width, picture.height] == [width, height]).then_some(picture.radiance))
+/// What a scene's picture is held against. It holds for the camera that the scene opens with.
+pub enum Reference {
+    /// The same radiance at every pixel, at any resolution.
+    Constant([f32; 3]),
+    /// A picture of one resolution.
+    Picture(Picture),
+}
+
+impl Reference {
+    /// The scene's reference, if it names one. An error is one line of text.
+    pub fn of(scene: &Scene) -> Result<Option<Reference>, String> {
+        match &scene.truth {
+            None => Ok(None),
+            Some(Truth::Radiance(radiance)) => Ok(Some(Reference::Constant(*radiance))),
+            Some(Truth::Image(path)) => {
+                read(path).map(|picture| Some(Reference::Picture(picture))).map_err(|error| error.to_string())
+            }
+        }
+    }
+
+    /// The error of a frame, if it has the reference's resolution.
+    pub fn compare(&self, frame: &Frame) -> Option<Comparison> {
+        match self {
+            Reference::Constant(radiance) => Some(compare(&frame.radiance, &vec![*radiance; frame.radiance.len()])),
+            Reference::Picture(picture) if [picture.width, picture.height] == [frame.width, frame.height] => {
+                Some(compare(&frame.radiance, &picture.radiance))
+            }
+            Reference::Picture(_) => None,
         }
     }
 }

@@ -1,7 +1,8 @@
 //! The worker: a thread that renders what was asked for last and publishes frames.
 //!
 //! Others say what they *want* ([`Job`], [`Budget`]); the worker takes the latest and forgets the rest. Whatever arrives while
-//! it renders stops the pass between two batches, so an answer never takes longer than a batch, a fraction of a millisecond.
+//! it renders stops the pass between two bounces, so an answer never takes longer than that, some ten microseconds. A batch that
+//! is stopped is thrown away and traced again.
 //! A new job starts an empty film; a new budget goes on with the film there is.
 use std::{
     sync::{
@@ -191,7 +192,11 @@ impl Worker {
                 let (sent, seen) = (&self.shared.sent, self.seen);
                 session.advance(&self.threads, &self.budget, self.publish, &|| sent.load(Ordering::Relaxed) != seen);
             }
-            self.publish(notify);
+            // A large frame that is out of date already would only hold up what was asked for since. A coarse one is quick, and
+            // while the camera is dragged there is never anything but coarse ones.
+            if session.is_coarse() || self.shared.sent.load(Ordering::Relaxed) == self.seen {
+                self.publish(notify);
+            }
         }
     }
 

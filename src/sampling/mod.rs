@@ -25,7 +25,7 @@ pub struct SamplerEntry {
     pub doc: &'static str,
 }
 
-/// The catalogue: a new sampler is one file and one row here.
+/// The catalogue: a new sampler is one file, one variant of [`Sampler`] with its arms in [`Stream`], and one row here.
 pub const SAMPLERS: [SamplerEntry; 3] = [
     SamplerEntry {
         sampler: Sampler::Independent,

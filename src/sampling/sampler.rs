@@ -61,7 +61,9 @@ impl<L: Lanes> Stream<L> {
     /// `pixel` packs y·2¹⁶ + x, so that a pixel keeps its numbers when the resolution changes.
     #[inline(always)]
     pub fn new(sampler: Sampler, seed: u32, pixel: U<L>, index: u32) -> Self {
-        let pixel_key = hash(pixel + hash_one(seed ^ GOLDEN));
+        // A factor of its own for every seed: by addition alone one seed's noise would be another's, moved aside.
+        let salt = hash_one(seed ^ GOLDEN);
+        let pixel_key = hash(pixel * (hash_one(salt) | 1) + salt);
         Stream { sampler, pixel_key, index }
     }
 

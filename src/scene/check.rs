@@ -5,7 +5,7 @@ use glam::DVec3;
 use toml::Spanned;
 
 use super::{
-    desc::{Colour, Planned},
+    desc::{Colour, Exactly, Planned},
     diagnostic::{SceneError, SourceText},
 };
 
@@ -32,9 +32,9 @@ impl Checker<'_> {
             .with_help("it is part of the scene format, but this version of Noisefall cannot render it; remove it for now")
     }
 
-    pub fn point(&self, what: &str, value: &Spanned<[f64; 3]>) -> Result<DVec3, SceneError> {
-        if value.as_ref().iter().all(|x| x.abs() <= LARGEST) {
-            return Ok(DVec3::from_array(*value.as_ref()));
+    pub fn point(&self, what: &str, value: &Spanned<Exactly<f64, 3>>) -> Result<DVec3, SceneError> {
+        if value.as_ref().0.iter().all(|x| x.abs() <= LARGEST) {
+            return Ok(DVec3::from_array(value.as_ref().0));
         }
         Err(self.0.error(
             value.span(),
@@ -74,7 +74,7 @@ impl Checker<'_> {
 
     /// Radiances, each finite and not negative.
     pub fn radiance(&self, value: &Spanned<Colour>) -> Result<[f32; 3], SceneError> {
-        self.colour("radiance", value, BRIGHTEST, "every channel must be a finite number, not negative")
+        self.colour("radiance", value, BRIGHTEST, "every channel must be a number from 0 to 1e15")
     }
 
     fn colour(&self, what: &str, value: &Spanned<Colour>, most: f64, label: &str) -> Result<[f32; 3], SceneError> {

@@ -21,15 +21,11 @@ use crate::{
 };
 
 /// The version of the scene format that this program reads.
-const FORMAT: i64 = 1;
+pub const FORMAT: i64 = 1;
 
 /// Checks a description and builds the scene. Errors point into `source`, which is the text that `desc` was read from.
 pub fn compile(desc: &SceneDesc, source: &SourceText) -> Result<Scene, SceneError> {
     let check = Checker(source);
-    if *desc.format.as_ref() != FORMAT {
-        let message = format!("this is scene format {}, and Noisefall reads format {FORMAT}", desc.format.as_ref());
-        return Err(source.error(desc.format.span(), message, format!("expected {FORMAT}")));
-    }
     check.refuse(&[("textures", &desc.textures)])?;
     let camera = camera(&check, &desc.camera)?;
     let background = desc.background.as_ref().map(|b| background(&check, b)).transpose()?;
@@ -91,7 +87,7 @@ fn camera(check: &Checker, desc: &Spanned<CameraDesc>) -> Result<Camera, SceneEr
         look_at: check.point("look_at", &c.look_at)?,
         up: c.up.as_ref().map_or(Ok(DVec3::Y), |up| check.point("up", up))?,
         fov: *c.fov.as_ref(),
-        resolution: *c.resolution.as_ref(),
+        resolution: c.resolution.as_ref().0,
     };
     camera.check().map_err(|error| {
         let span = match error {
@@ -200,9 +196,9 @@ fn settings(check: &Checker, desc: &RenderDesc) -> Result<(RenderSettings, Optio
     };
     let roulette = desc.roulette.as_ref().map_or(Roulette::default(), |r| *r.as_ref());
     if let (Roulette::Fixed(p), Some(r)) = (roulette, &desc.roulette)
-        && !(p > 0.0 && p <= 1.0)
+        && !(Roulette::LEAST..=1.0).contains(&p)
     {
-        return Err(check.0.error(r.span(), format!("a survival probability of {p}"), "expected a number above 0, at most 1"));
+        return Err(check.0.error(r.span(), format!("a survival probability of {p}"), "expected a number from 0.01 to 1"));
     }
     if let Some(spp) = desc.spp.as_ref().filter(|spp| *spp.as_ref() == 0) {
         return Err(check.0.error(spp.span(), "`spp` is 0", "expected at least 1 sample per pixel"));

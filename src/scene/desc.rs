@@ -13,10 +13,18 @@ use toml::Spanned;
 /// A key of the format that this version reads but does not support.
 pub type Planned = Option<Spanned<IgnoredAny>>;
 
+/// What every version of the format has: a file of another version is told so, whatever else it says.
+#[derive(Deserialize)]
+pub struct Header {
+    pub format: Spanned<i64>,
+}
+
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SceneDesc {
-    pub format: Spanned<i64>,
+    /// Checked before the rest is read: see [`Header`].
+    #[serde(rename = "format")]
+    pub _format: i64,
     pub title: Option<String>,
     pub notes: Option<String>,
     pub camera: Spanned<CameraDesc>,
@@ -34,11 +42,11 @@ pub struct SceneDesc {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CameraDesc {
-    pub eye: Spanned<[f64; 3]>,
-    pub look_at: Spanned<[f64; 3]>,
-    pub up: Option<Spanned<[f64; 3]>>,
+    pub eye: Spanned<Exactly<f64, 3>>,
+    pub look_at: Spanned<Exactly<f64, 3>>,
+    pub up: Option<Spanned<Exactly<f64, 3>>>,
     pub fov: Spanned<f64>,
-    pub resolution: Spanned<[u32; 2]>,
+    pub resolution: Spanned<Exactly<u32, 2>>,
     pub lens: Planned,
     pub shutter: Planned,
 }
@@ -100,7 +108,7 @@ pub enum ShapeDesc {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SphereDesc {
-    pub center: Spanned<[f64; 3]>,
+    pub center: Spanned<Exactly<f64, 3>>,
     pub radius: Spanned<f64>,
 }
 
@@ -147,6 +155,18 @@ pub enum DirectionsDesc {
 pub struct TruthDesc {
     pub radiance: Option<Spanned<Colour>>,
     pub image: Option<Spanned<String>>,
+}
+
+/// An array of neither more nor fewer than `N` elements.
+pub struct Exactly<T, const N: usize>(pub [T; N]);
+
+impl<'de, T: Deserialize<'de>, const N: usize> Deserialize<'de> for Exactly<T, N> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let elements = Vec::deserialize(deserializer)?;
+        let length = elements.len();
+        let exactly = elements.try_into().map_err(|_| de::Error::custom(format!("{length} numbers in place of {N}")))?;
+        Ok(Exactly(exactly))
+    }
 }
 
 /// A colour: `[r, g, b]`, or one number for grey.

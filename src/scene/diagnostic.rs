@@ -53,7 +53,7 @@ impl SceneError {
     /// The whole message, several lines of plain text: what, file:line:column, the line with a caret, what to do.
     pub fn report(&self) -> String {
         let mut text = String::new();
-        let handler = GraphicalReportHandler::new_themed(GraphicalTheme::unicode_nocolor()).with_width(100);
+        let handler = GraphicalReportHandler::new_themed(GraphicalTheme::unicode_nocolor()).with_width(88);
         if handler.render_report(&mut text, self).is_err() {
             text = self.to_string();
         }

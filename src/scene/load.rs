@@ -3,7 +3,8 @@ use std::{fs::File, io::Read, path::Path};
 
 use super::{
     Scene,
-    compile::compile,
+    compile::{FORMAT, compile},
+    desc::Header,
     diagnostic::{SceneError, SourceText},
 };
 
@@ -34,6 +35,12 @@ pub fn load(path: &Path) -> Result<Scene, SceneError> {
 /// Compiles the text of a scene file; `name` is what errors call it, and paths in the file are relative to its folder.
 pub fn parse(name: &str, text: String) -> Result<Scene, SceneError> {
     let source = SourceText { name: name.to_owned(), text };
+    if let Ok(Header { format }) = toml::from_str(&source.text)
+        && *format.as_ref() != FORMAT
+    {
+        let message = format!("this is scene format {}, and Noisefall reads format {FORMAT}", format.as_ref());
+        return Err(source.error(format.span(), message, format!("expected {FORMAT}")));
+    }
     let desc = toml::from_str(&source.text).map_err(|error| {
         let span = error.span().unwrap_or(0..0);
         let message = error.message().replace('\n', ": ");

@@ -19,7 +19,7 @@ pub struct RenderSettings {
 #[serde(rename_all = "lowercase", deny_unknown_fields)]
 pub enum Roulette {
     Off,
-    /// Survival probability at every reflection, in (0, 1].
+    /// Survival probability at every reflection, from [`Roulette::LEAST`] to 1.
     Fixed(f32),
     /// Survival probability is the throughput's largest component, at most [`Roulette::MOST`].
     Throughput {
@@ -36,6 +36,8 @@ const fn default_start() -> u32 {
 impl Roulette {
     /// Upper bound of the survival probability by throughput: a path between white walls must end too.
     pub const MOST: f32 = 0.95;
+    /// Lower bound of all survival probabilities: random numbers are multiples of 2⁻²³, which would round smaller ones.
+    pub const LEAST: f32 = 0.01;
     pub const BY_THROUGHPUT: Roulette = Roulette::Throughput { start: default_start() };
 }
 

@@ -3,7 +3,7 @@ use std::{path::PathBuf, sync::Arc, sync::mpsc};
 
 use egui::{CentralPanel, Panel, ScrollArea, TextureHandle, TextureOptions};
 use noisefall::{
-    render::{Budget, Display, Frame, Status, pass::Threads},
+    render::{Budget, Display, Frame, State, Status, pass::Threads, truth::Reference},
     scene::{Camera, RenderSettings, built_in},
 };
 
@@ -110,16 +110,19 @@ impl App {
             ui.add_space(4.0);
             self.scene_panel(ui);
             ui.add_space(4.0);
-            section(ui, "Sampling", |ui| self.sampling_panel(ui));
-            section(ui, "Camera", |ui| self.camera_panel(ui));
-            section(ui, "Display", |ui| self.display_panel(ui));
+            ui.add_enabled_ui(self.opened.is_some(), |ui| {
+                section(ui, "Sampling", |ui| self.sampling_panel(ui));
+                section(ui, "Camera", |ui| self.camera_panel(ui));
+                section(ui, "Display", |ui| self.display_panel(ui));
+            });
         });
     }
 
     fn canvas(&mut self, ui: &mut egui::Ui) {
         let texture = self.texture.as_ref().map(TextureHandle::id);
         let size = self.opened.as_ref().map_or(1.0, |opened| opened.scene.size);
-        let output = canvas::show(ui, texture, self.tool, &mut self.view, &self.camera, size);
+        let keys = self.save_dialog.is_none() && !self.help_open;
+        let output = canvas::show(ui, texture, self.tool, &mut self.view, &self.camera, size, keys);
         self.hovered = output.hovered;
         if let Some(camera) = output.camera.filter(|camera| camera.check().is_ok()) {
             self.camera = camera;
@@ -143,8 +146,9 @@ impl App {
         }
         let published = self.link.latest();
         self.status = published.status;
-        let truth = self.opened.as_ref().and_then(|opened| opened.truth.clone());
-        self.darkroom.order(Order { frame: published.frame, display: self.display, truth });
+        let most_side = self.ctx.input(|input| input.max_texture_side);
+        let order = Order { truth: self.truth(&published.frame), frame: published.frame, display: self.display, most_side };
+        self.darkroom.order(order);
         if let Some(print) = self.darkroom.take() {
             match &mut self.texture {
                 Some(texture) => texture.set(print.image, TextureOptions::NEAREST),
@@ -155,11 +159,16 @@ impl App {
         }
     }
 
-    fn open(&mut self, mut opened: Opened) {
+    /// What a frame must converge to: known for the scene's own camera only.
+    fn truth(&self, frame: &Frame) -> Option<Arc<Reference>> {
+        let (opened, wish) = (self.opened.as_ref()?, self.link.wish()?);
+        let of_scene = Camera { resolution: wish.camera.resolution, ..opened.scene.camera };
+        let is_of_scene = wish.camera == of_scene && Arc::ptr_eq(&wish.scene, &opened.scene);
+        opened.truth.clone().filter(|_| is_of_scene && frame.generation == self.link.generation())
+    }
+
+    fn open(&mut self, opened: Opened) {
         let scene = &opened.scene;
-        if opened.path.is_none() {
-            opened.name = scene.title.clone();
-        }
         (self.camera, self.settings) = (scene.camera, scene.settings);
         self.budget = Budget { max_spp: scene.spp, steps: self.budget.steps, ..Budget::default() };
         self.scene_error = None;
@@ -181,10 +190,10 @@ impl App {
     }
 
     pub(super) fn step(&mut self) {
-        if self.budget.paused {
+        if self.status.state != State::Converged {
             self.budget.steps += 1;
+            self.budget.paused = true;
         }
-        self.budget.paused = true;
     }
 
     pub(super) fn reset_camera(&mut self) {

@@ -1,5 +1,5 @@
 //! The camera, by numbers.
-use egui::{Button, DragValue, RichText, Slider};
+use egui::{Button, DragValue, RichText, Slider, SliderClamping};
 use glam::DVec3;
 
 use super::{
@@ -20,7 +20,8 @@ impl App {
             });
             row(ui, "Up", "The direction that is up in the picture.", |ui, label| point(ui, label, &mut camera.up, 0.01));
             row(ui, "Field of view", "The full angle across the picture's width.", |ui, label| {
-                ui.add(Slider::new(&mut camera.fov, 1.0..=170.0).suffix("°").fixed_decimals(1)).labelled_by(label);
+                ui.add(Slider::new(&mut camera.fov, 1.0..=170.0).clamping(SliderClamping::Edits).suffix("°").max_decimals(2))
+                    .labelled_by(label);
             });
             row(ui, "Resolution", "Width and height in pixels.", |ui, label| {
                 ui.horizontal(|ui| {

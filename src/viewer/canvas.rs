@@ -74,7 +74,8 @@ impl View {
     }
 }
 
-/// Draws the picture into all the room there is and reads what the user does to it. `size` is the scene's, in metres.
+/// Draws the picture into all the room there is and reads what the user does to it. `size` is the scene's, in metres; `keys` says
+/// whether keys move the camera.
 pub fn show(
     ui: &mut egui::Ui,
     texture: Option<TextureId>,
@@ -82,6 +83,7 @@ pub fn show(
     view: &mut View,
     camera: &Camera,
     size: f64,
+    keys: bool,
 ) -> CanvasOutput {
     let area = ui.available_rect_before_wrap();
     let response = ui.allocate_rect(area, Sense::click_and_drag());
@@ -100,7 +102,7 @@ pub fn show(
     move_picture(ui, &response, tool, view, area);
     CanvasOutput {
         hovered: pixel_under(&response, rect, resolution),
-        camera: move_camera(ui, &response, tool, camera, rect, size),
+        camera: move_camera(ui, &response, tool, camera, rect, keys.then_some(size)),
     }
 }
 
@@ -125,7 +127,14 @@ fn move_picture(ui: &egui::Ui, response: &Response, tool: Tool, view: &mut View,
     }
 }
 
-fn move_camera(ui: &egui::Ui, response: &Response, tool: Tool, camera: &Camera, rect: Rect, size: f64) -> Option<Camera> {
+fn move_camera(
+    ui: &egui::Ui,
+    response: &Response,
+    tool: Tool,
+    camera: &Camera,
+    rect: Rect,
+    flies: Option<f64>,
+) -> Option<Camera> {
     let mut moved = *camera;
     if tool == Tool::Camera {
         let delta = response.drag_delta();
@@ -140,7 +149,9 @@ fn move_camera(ui: &egui::Ui, response: &Response, tool: Tool, camera: &Camera, 
             moved = navigation::dolly(&moved, 1.0 / f64::from(wheel_factor(ui)));
         }
     }
-    moved = flight(ui, &moved, size);
+    if let Some(size) = flies {
+        moved = flight(ui, &moved, size);
+    }
     (moved != *camera).then_some(moved)
 }
 

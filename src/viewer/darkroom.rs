@@ -2,18 +2,17 @@
 use std::sync::{Arc, Mutex, PoisonError};
 
 use crossbeam_channel::{Sender, unbounded};
-use noisefall::{
-    measure::compare,
-    render::{Display, Frame, display::to_srgb},
-};
+use noisefall::render::{Display, Frame, display::to_srgb, truth::Reference};
 
 /// What to develop.
 #[derive(Clone)]
 pub struct Order {
     pub frame: Arc<Frame>,
     pub display: Display,
-    /// The exact picture, if the scene names one.
-    pub truth: Option<Arc<Vec<[f32; 3]>>>,
+    /// What the frame must converge to, if that is known.
+    pub truth: Option<Arc<Reference>>,
+    /// Textures cannot be larger.
+    pub most_side: usize,
 }
 
 /// A frame ready to be shown.
@@ -69,11 +68,19 @@ impl Darkroom {
     }
 }
 
-fn develop(Order { frame, display, truth }: Order, pixels: &mut Vec<[u8; 4]>) -> Print {
+fn develop(order: Order, pixels: &mut Vec<[u8; 4]>) -> Print {
+    let Order { frame, display, truth, most_side } = order;
     to_srgb(&frame, display, pixels);
-    let size = [frame.width as usize, frame.height as usize];
-    let image = egui::ColorImage::from_rgba_unmultiplied(size, pixels.as_flattened());
-    let truth = truth.filter(|truth| truth.len() == frame.radiance.len());
-    let rel_mse = truth.map(|truth| compare(&frame.radiance, &truth).rel_mse);
+    let [width, height] = [frame.width, frame.height].map(|side| side as usize);
+    let step = width.max(height).div_ceil(most_side.max(1)).max(1);
+    let image = if step == 1 {
+        egui::ColorImage::from_rgba_unmultiplied([width, height], pixels.as_flattened())
+    } else {
+        // Every `step`-th pixel of what no texture can hold whole.
+        let rows = pixels.chunks_exact(width).step_by(step);
+        let thinned: Vec<u8> = rows.flat_map(|row| row.iter().step_by(step)).flatten().copied().collect();
+        egui::ColorImage::from_rgba_unmultiplied([width.div_ceil(step), height.div_ceil(step)], &thinned)
+    };
+    let rel_mse = truth.and_then(|truth| truth.compare(&frame)).map(|comparison| comparison.rel_mse);
     Print { frame, image, rel_mse }
 }

@@ -41,18 +41,22 @@ impl App {
             .resizable(false)
             .anchor(Align2::CENTER_CENTER, [0.0, 0.0])
             .show(ctx, |ui| {
-                egui::Grid::new("help").num_columns(2).spacing([24.0, 5.0]).show(ui, |ui| {
-                    for (group, keys) in KEYS {
-                        ui.label(RichText::new(group).strong());
-                        ui.end_row();
-                        for (key, does) in keys {
-                            ui.label(RichText::new(*key).monospace());
-                            ui.label(*does);
-                            ui.end_row();
-                        }
-                        ui.end_row();
-                    }
-                });
+                egui::ScrollArea::vertical().max_height(ctx.content_rect().height() - 90.0).show(ui, keys);
             });
     }
+}
+
+fn keys(ui: &mut egui::Ui) {
+    egui::Grid::new("help").num_columns(2).spacing([24.0, 5.0]).show(ui, |ui| {
+        for (group, keys) in KEYS {
+            ui.label(RichText::new(group).strong());
+            ui.end_row();
+            for (key, does) in keys {
+                ui.label(RichText::new(*key).monospace());
+                ui.label(*does);
+                ui.end_row();
+            }
+            ui.end_row();
+        }
+    });
 }

@@ -53,6 +53,11 @@ impl Link {
         self.wish = None;
     }
 
+    /// The number of the picture that was asked for last.
+    pub fn generation(&self) -> u64 {
+        self.generation
+    }
+
     pub fn latest(&self) -> Published {
         self.renderer.latest()
     }

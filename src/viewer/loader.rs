@@ -5,7 +5,7 @@ use std::{
 };
 
 use noisefall::{
-    render::truth::reference,
+    render::truth::Reference,
     scene::{Scene, built_in, load},
 };
 
@@ -16,8 +16,8 @@ pub struct Opened {
     pub scene: Arc<Scene>,
     pub name: String,
     pub path: Option<PathBuf>,
-    /// The exact picture at the scene's own resolution.
-    pub truth: Option<Arc<Vec<[f32; 3]>>>,
+    /// What the picture from the scene's own camera must converge to.
+    pub truth: Option<Arc<Reference>>,
 }
 
 /// What became of a request.
@@ -50,11 +50,13 @@ impl Loader {
 
     /// The outcome of the latest request, once.
     pub fn take(&mut self) -> Option<Outcome> {
-        let outcome = self.pending.as_ref()?.try_recv();
-        if !matches!(outcome, Err(mpsc::TryRecvError::Empty)) {
-            self.pending = None;
-        }
-        outcome.ok()
+        let outcome = match self.pending.as_ref()?.try_recv() {
+            Err(mpsc::TryRecvError::Empty) => return None,
+            Err(mpsc::TryRecvError::Disconnected) => Err("reading the scene failed unexpectedly".to_owned()),
+            Ok(outcome) => outcome,
+        };
+        self.pending = None;
+        Some(outcome)
     }
 }
 
@@ -64,7 +66,7 @@ fn open(path: Option<PathBuf>) -> Outcome {
         return Ok(Opened { name: scene.title.clone(), scene: Arc::new(scene), path: None, truth: None });
     };
     let scene = load(&path).map_err(|error| error.report())?;
-    let truth = reference(&scene, scene.camera.resolution)?.map(Arc::new);
+    let truth = Reference::of(&scene)?.map(Arc::new);
     let name = if scene.title.is_empty() { catalogue::name(&path) } else { scene.title.clone() };
     Ok(Opened { scene: Arc::new(scene), name, path: Some(path), truth })
 }

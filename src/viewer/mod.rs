@@ -29,7 +29,10 @@ use std::{
 };
 
 use app::App;
-use noisefall::{math::SimdLevel, render::pass::Threads};
+use noisefall::{
+    math::SimdLevel,
+    render::pass::{Threads, panic_message},
+};
 
 const NO_WINDOW: &str = "use `noisefall render SCENE -o picture.png` to render without a window";
 
@@ -43,24 +46,27 @@ pub fn run(scene: Option<PathBuf>) -> Result<(), String> {
         viewport: egui::ViewportBuilder::default()
             .with_title("Noisefall")
             .with_app_id("noisefall")
-            .with_inner_size([1280.0, 800.0])
+            .with_inner_size([1280.0, 760.0])
             .with_min_inner_size([720.0, 480.0]),
         renderer: eframe::Renderer::Glow,
         ..Default::default()
     };
-    let open = || eframe::run_native("Noisefall", options, Box::new(|cc| Ok(Box::new(App::new(&cc.egui_ctx, threads, scene)))));
-    // Some window systems panic where a library of theirs is missing; that is no crash of ours to show.
-    let hook = std::panic::take_hook();
+    let open = || {
+        let create = |cc: &eframe::CreationContext| -> Box<dyn eframe::App> {
+            // There is a window: from here on a panic is ours, and is shown as usual.
+            let _ = std::panic::take_hook();
+            Box::new(App::new(&cc.egui_ctx, threads, scene))
+        };
+        eframe::run_native("Noisefall", options, Box::new(|cc| Ok(create(cc))))
+    };
+    // Some window systems panic where a library of theirs is missing. The message below says it in our words.
     std::panic::set_hook(Box::new(|_| {}));
     let done = catch_unwind(AssertUnwindSafe(open));
-    std::panic::set_hook(hook);
+    let _ = std::panic::take_hook();
     match done {
         Ok(Ok(())) => Ok(()),
         Ok(Err(error)) => Err(format!("the window cannot be opened: {error}; {NO_WINDOW}")),
-        Err(panic) => {
-            let message = panic.downcast_ref::<String>().map(String::as_str).or(panic.downcast_ref::<&str>().copied());
-            Err(format!("the window failed: {}; {NO_WINDOW}", message.unwrap_or("unknown error")))
-        }
+        Err(panic) => Err(format!("the window failed: {}; {NO_WINDOW}", panic_message(&*panic))),
     }
 }
 

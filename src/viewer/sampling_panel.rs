@@ -1,7 +1,7 @@
 //! The estimate: sampler, directions, roulette, cap, seed, and when to stop.
 use std::ops::RangeInclusive;
 
-use egui::{ComboBox, DragValue, Id, Slider, Ui};
+use egui::{ComboBox, DragValue, Id, Slider, SliderClamping, Ui};
 use noisefall::{
     sampling::{Directions, SAMPLERS},
     scene::Roulette,
@@ -81,7 +81,8 @@ fn roulette(ui: &mut Ui, label: Id, roulette: &mut Roulette) {
         });
         combo.response.labelled_by(label);
         if let Roulette::Fixed(q) = roulette {
-            ui.add(Slider::new(q, 0.05..=1.0).fixed_decimals(2).text("q")).on_hover_text("Survival probability");
+            ui.add(Slider::new(q, 0.05..=1.0).clamping(SliderClamping::Edits).max_decimals(3).text("q"))
+                .on_hover_text("Survival probability");
         }
     });
 }
@@ -94,7 +95,7 @@ fn optional(ui: &mut Ui, label: Id, value: &mut Option<u32>, none: &str, default
             *value = present.then_some(default);
         }
         match value {
-            Some(number) => drop(ui.add(DragValue::new(number).range(range)).labelled_by(label)),
+            Some(number) => drop(ui.add(DragValue::new(number).range(range).clamp_existing_to_range(false)).labelled_by(label)),
             None => drop(ui.weak(none)),
         }
     });

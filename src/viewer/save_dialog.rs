@@ -2,7 +2,7 @@
 use std::{path::PathBuf, sync::mpsc};
 
 use egui::{Align2, Button, RichText, TextEdit};
-use noisefall::render::settings_text::settings_text;
+use noisefall::render::{image_file::check_target, settings_text::settings_text};
 
 use super::{app::App, saver::Request};
 
@@ -10,11 +10,13 @@ pub struct SaveDialog {
     path: String,
     picked: (mpsc::Sender<PathBuf>, mpsc::Receiver<PathBuf>),
     focus: bool,
+    /// Why the path cannot be written to.
+    refusal: Option<String>,
 }
 
 impl SaveDialog {
     pub fn new(path: String) -> SaveDialog {
-        SaveDialog { path, picked: mpsc::channel(), focus: true }
+        SaveDialog { path, picked: mpsc::channel(), focus: true, refusal: None }
     }
 
     fn set_extension(&mut self, extension: &str) {
@@ -35,8 +37,9 @@ impl SaveDialog {
 }
 
 impl App {
+    /// Whether what is shown is the full picture of what the controls say.
     pub(super) fn can_save(&self) -> bool {
-        self.shown.as_ref().is_some_and(|frame| !frame.is_coarse())
+        self.shown.as_ref().is_some_and(|frame| !frame.is_coarse() && frame.generation == self.link.generation())
     }
 
     pub(super) fn open_save_dialog(&mut self) {
@@ -70,8 +73,12 @@ impl App {
             .show(ctx, |ui| {
                 (save, cancelled) = dialog_body(ui, &mut dialog);
             });
-        if save {
-            self.save_to(PathBuf::from(dialog.path.trim()));
+        let path = PathBuf::from(dialog.path.trim());
+        if save && self.can_save() {
+            dialog.refusal = check_target(&path).err().map(|error| error.to_string());
+        }
+        if save && dialog.refusal.is_none() {
+            self.save_to(path);
         } else if open && !cancelled {
             self.save_dialog = Some(dialog);
         }
@@ -79,8 +86,12 @@ impl App {
 
     /// Saves what is shown.
     pub(super) fn save_to(&mut self, path: PathBuf) {
-        let (Some(frame), Some(opened), Some(wish)) = (&self.shown, &self.opened, self.link.wish()) else { return };
-        let settings = settings_text(&opened.scene, &wish.camera, &wish.settings, self.display, frame.spp);
+        if !self.can_save() {
+            self.tell("Not saved: the new picture has no sample everywhere yet. Try again in a moment.".to_owned(), true);
+            return;
+        }
+        let (Some(frame), Some(wish)) = (&self.shown, self.link.wish()) else { return };
+        let settings = settings_text(&wish.scene, &wish.camera, &wish.settings, self.display, frame.spp);
         self.saver.save(Request { frame: frame.clone(), display: self.display, settings, path });
     }
 }
@@ -96,8 +107,14 @@ fn dialog_body(ui: &mut egui::Ui, dialog: &mut SaveDialog) -> (bool, bool) {
     }
     let entered = field.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
     let exists = PathBuf::from(dialog.path.trim()).exists();
-    let note = if exists { "This file exists and will be replaced." } else { " " };
-    ui.label(RichText::new(note).color(ui.visuals().warn_fg_color));
+    if field.changed() {
+        dialog.refusal = None;
+    }
+    match &dialog.refusal {
+        Some(refusal) => ui.colored_label(ui.visuals().error_fg_color, refusal),
+        None if exists => ui.colored_label(ui.visuals().warn_fg_color, "This file exists and will be replaced."),
+        None => ui.label(" "),
+    };
     let (mut save, mut cancel) = (entered, false);
     ui.horizontal(|ui| {
         let is_exr = dialog.path.trim().to_ascii_lowercase().ends_with(".exr");

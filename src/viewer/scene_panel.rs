@@ -12,17 +12,19 @@ impl App {
         ui.horizontal(|ui| {
             let label = ui.label("Scene");
             let width = ui.available_width() - 76.0;
-            let combo = ComboBox::from_id_salt("Scene").selected_text(name).width(width).height(400.0).show_ui(ui, |ui| {
-                if ui.selectable_label(false, "built-in Cornell box").clicked() {
-                    chosen = Some(None);
-                }
-                for (name, path) in &self.catalogue {
-                    let open = self.opened.as_ref().is_some_and(|opened| opened.path.as_ref() == Some(path));
-                    if ui.selectable_label(open, name).clicked() {
-                        chosen = Some(Some(path.clone()));
+            let combo =
+                ComboBox::from_id_salt("Scene").selected_text(name).width(width).height(400.0).truncate().show_ui(ui, |ui| {
+                    let is_open = self.opened.as_ref().is_some_and(|opened| opened.path.is_none());
+                    if ui.selectable_label(is_open, "built-in Cornell box").clicked() {
+                        chosen = Some(None);
                     }
-                }
-            });
+                    for (name, path) in &self.catalogue {
+                        let open = self.opened.as_ref().is_some_and(|opened| opened.path.as_ref() == Some(path));
+                        if ui.selectable_label(open, name).clicked() {
+                            chosen = Some(Some(path.clone()));
+                        }
+                    }
+                });
             combo.response.labelled_by(label.id);
             if ui.button("Open…").on_hover_text("Choose a scene file").clicked() {
                 self.pick_scene_file();

@@ -4,7 +4,7 @@ use std::time::Duration;
 use egui::{Color32, RichText};
 use noisefall::{
     math::colour::luminance,
-    render::{State, Status},
+    render::{State, Status, settings_text::options},
     scene::RenderSettings,
 };
 
@@ -22,6 +22,9 @@ impl App {
             let (dot, _) = ui.allocate_exact_size(egui::vec2(10.0, 10.0), egui::Sense::hover());
             ui.painter().circle_filled(dot.center(), 4.5, colour);
             ui.label(RichText::new(state).strong());
+            if self.opened.is_none() {
+                return;
+            }
             ui.separator();
             let target = self.budget.max_spp.map_or_else(String::new, |most| format!(" / {most}"));
             ui.label(format!("{}{target} spp", status.spp)).on_hover_text("Samples per pixel so far, and the target");
@@ -54,7 +57,7 @@ impl App {
         let text = self.status.relative_noise().map_or_else(|| "–".to_owned(), percent);
         ui.label(format!("noise {text}")).on_hover_text(
             "Estimated relative error: the root of relMSE, from the variance of every pixel's samples. \
-             For stratified and Sobol samples it is an upper bound.",
+             Stratified and Sobol samples are better than it says; where light is hard to find, it is too low at first.",
         );
     }
 
@@ -66,13 +69,14 @@ impl App {
     }
 
     fn bias_label(&self, ui: &mut egui::Ui) {
-        match self.settings.bias() {
+        let cut = (self.status.cut_paths > 0).then(|| format!("{} paths cut", self.status.cut_paths));
+        match self.settings.bias().or(cut) {
             None => ui
                 .label(RichText::new("unbiased").color(GREEN))
                 .on_hover_text("The picture converges to the solution of the light transport equation"),
             Some(why) => ui
                 .label(RichText::new(format!("biased: {why}")).color(AMBER))
-                .on_hover_text("Light reflected more often than the cap allows is missing, however long one waits"),
+                .on_hover_text("Light reflected more often than that is missing, however long one waits"),
         };
     }
 
@@ -85,18 +89,29 @@ impl App {
         };
         if let Some(at) = first_invalid {
             let [x, y] = at.pixel;
-            let command = format!("Replay the first: noisefall render SCENE --pixel {x},{y} --sample {}", at.sample);
-            trouble(format!("{invalid_samples} invalid samples"), command);
+            let command = self.replay_command([x, y], at.sample);
+            trouble(format!("{invalid_samples} invalid samples"), format!("Replay the first: {command}"));
         }
         if cut_paths > 0 {
             let longest = RenderSettings::LONGEST_PATH;
-            let text = format!("{cut_paths} paths cut after {longest} reflections; the picture is biased");
+            let text = format!("paths cut after {longest} reflections");
             trouble(text, "Choose a roulette: then paths end by themselves".to_owned());
         }
         if let State::Failed(failure) = &self.status.state {
             let [x, y] = failure.at.pixel;
-            trouble(format!("pixel {x},{y}, sample {}: {}", failure.at.sample, failure.message), String::new());
+            let command = self.replay_command([x, y], failure.at.sample);
+            trouble(format!("pixel {x},{y}, sample {}: {}", failure.at.sample, failure.message), format!("Replay it: {command}"));
         }
+    }
+
+    /// The command that traces one sample again; it knows the scene's camera only.
+    fn replay_command(&self, [x, y]: [u32; 2], sample: u32) -> String {
+        let Some(wish) = self.link.wish() else { return String::new() };
+        let file = self.opened.as_ref().and_then(|opened| opened.path.as_ref());
+        let file = file.map_or_else(|| "scenes/cornell_spheres.toml".to_owned(), |path| path.display().to_string());
+        let [width, height] = wish.camera.resolution;
+        let options = options(&wish.settings, &wish.scene.settings);
+        format!("noisefall render {file} --pixel {x},{y} --sample {sample} --size {width}x{height}{options}")
     }
 
     fn pixel_label(&self, ui: &mut egui::Ui) {

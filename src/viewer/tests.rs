@@ -77,7 +77,8 @@ fn click(window: &mut Window, label: &str) {
 fn choose(window: &mut Window, combo: &str, item: &str) {
     window.get_by_role_and_label(Role::ComboBox, combo).click();
     window.run_steps(3);
-    click(window, item);
+    window.get_by_role_and_label(Role::Button, item).click();
+    window.run_steps(3);
 }
 
 fn generation(window: &Window) -> u64 {
@@ -118,6 +119,7 @@ fn every_setting_of_the_estimate_starts_a_new_picture() {
     assert_eq!(window.state().settings.sampler, Sampler::Stratified);
     restarts(&mut window, "uniform directions", |w| click(w, "Uniform"));
     assert_eq!(window.state().settings.directions, Directions::Uniform);
+    restarts(&mut window, "cosine directions", |w| click(w, "Cosine"));
     restarts(&mut window, "fixed roulette", |w| choose(w, "Roulette", "Fixed probability"));
     assert!(matches!(window.state().settings.roulette, Roulette::Fixed(_)));
     restarts(&mut window, "another survival probability", |w| {
@@ -273,6 +275,93 @@ fn ctrl_s_saves_what_is_shown_where_the_path_field_says() {
     assert!(window.state().notice.as_ref().is_some_and(|notice| !notice.is_error));
     window.state_mut().save_to(folder.path().join("nowhere/shot.png"));
     wait(&mut window, "the refusal", |app| app.notice.as_ref().is_some_and(|notice| notice.is_error));
+}
+
+#[test]
+fn a_path_that_cannot_be_written_to_is_refused_in_the_dialog() {
+    let mut window = window("furnace");
+    window.key_press_modifiers(Modifiers::COMMAND, Key::S);
+    window.run_steps(4);
+    window.get_by_role(Role::TextInput).set_text_value_accesskit("/nowhere/at/all.png");
+    window.run_steps(3);
+    click(&mut window, "Save");
+    assert!(window.state().save_dialog.is_some(), "the dialog stays");
+    assert!(window.query_by_label_contains("there is no folder").is_some());
+    window.key_press(Key::Escape);
+    window.run_steps(2);
+    assert!(window.state().save_dialog.is_none());
+}
+
+#[test]
+fn saving_never_moves_the_camera() {
+    let mut window = window("cornell_spheres");
+    never_restarts(&mut window, |w| {
+        w.key_down_modifiers(Modifiers::COMMAND, Key::S);
+        w.run_steps(1);
+        // Ctrl is up again, S is still down.
+        w.key_down(Key::S);
+        w.run_steps(3);
+    });
+    assert!(window.state().save_dialog.is_some());
+}
+
+#[test]
+fn every_single_key_does_what_the_help_says() {
+    let mut window = window("cornell_spheres");
+    let press = |window: &mut Window, key| {
+        window.key_press(key);
+        window.run_steps(3);
+    };
+    press(&mut window, Key::C);
+    assert_eq!(window.state().tool, Tool::Camera);
+    press(&mut window, Key::P);
+    assert_eq!(window.state().tool, Tool::Picture);
+    press(&mut window, Key::Num1);
+    assert_eq!(window.state().view.drawn_zoom, 1.0);
+    press(&mut window, Key::F);
+    assert!(window.state().view.zoom.is_none());
+    press(&mut window, Key::CloseBracket);
+    press(&mut window, Key::CloseBracket);
+    press(&mut window, Key::OpenBracket);
+    assert_eq!(window.state().display.exposure, 0.5);
+    press(&mut window, Key::Space);
+    assert!(window.state().budget.paused);
+    press(&mut window, Key::Space);
+    assert!(!window.state().budget.paused);
+    restarts(&mut window, "a restart", |w| press(w, Key::R));
+    for (key, axis, sign) in
+        [(Key::A, 0, -1.0), (Key::D, 0, 1.0), (Key::Q, 1, -1.0), (Key::E, 1, 1.0), (Key::S, 2, -1.0), (Key::W, 2, 1.0)]
+    {
+        let before = window.state().camera;
+        restarts(&mut window, "flight", |w| {
+            w.key_down(key);
+            w.run_steps(3);
+            w.key_up(key);
+            w.run_steps(1);
+        });
+        let moved = window.state().camera.eye - before.eye;
+        assert!(moved.dot(before.axes()[axis]) * sign > 0.0, "{key:?}");
+    }
+}
+
+#[test]
+fn exposure_and_tone_map_change_what_is_saved() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = window("bright_sky");
+    click(&mut window, "Pause");
+    wait(&mut window, "the pause", |app| app.status.state == State::Paused && app.can_save());
+    let mut pictures = Vec::new();
+    for (i, map) in ["None (sRGB)", "Reinhard", "ACES-like", "False colour"].into_iter().enumerate() {
+        choose(&mut window, "Tone map", map);
+        let path = folder.path().join(format!("{i}.png"));
+        window.state_mut().last_saved = None;
+        window.state_mut().save_to(path.clone());
+        wait(&mut window, "the file", |app| app.last_saved.is_some());
+        pictures.push(image_file::read(&path).expect("it is a picture").radiance);
+    }
+    for i in 1..pictures.len() {
+        assert!(pictures[..i].iter().all(|other| *other != pictures[i]), "tone map {i} shows nothing new");
+    }
 }
 
 #[test]

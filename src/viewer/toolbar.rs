@@ -96,12 +96,9 @@ impl App {
         if pressed(Key::Num1) {
             self.view.actual_size();
         }
-        if pressed(Key::OpenBracket) {
-            self.display.exposure -= 0.5;
-        }
-        if pressed(Key::CloseBracket) {
-            self.display.exposure += 0.5;
-        }
+        // More than one press can fall into a frame.
+        let presses = |key| ctx.input(|input| input.num_presses(key)) as f32;
+        self.display.exposure += 0.5 * (presses(Key::CloseBracket) - presses(Key::OpenBracket));
         if pressed(Key::Home) {
             self.reset_camera();
         }

@@ -74,6 +74,32 @@ fn a_render_writes_a_picture_and_one_line_of_json() {
 }
 
 #[test]
+fn every_shipped_scene_can_be_saved_as_exr_and_png() {
+    let shell = Shell::new();
+    for entry in std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes")).expect("scenes are shipped") {
+        let scene = entry.expect("an entry").path().display().to_string();
+        for file in ["out.exr", "out.png"] {
+            let output = shell.run(&["render", &scene, "-o", file, "--spp", "1", "--size", "16x16"]);
+            assert!(output.status.success(), "{scene}: {}", text(&output.stderr));
+        }
+    }
+}
+
+#[test]
+#[cfg(unix)]
+fn an_interrupted_render_saves_what_it_has() {
+    let shell = Shell::new();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_noisefall"));
+    command.args(["render", &scene("furnace"), "-o", "out.exr", "--spp", "100000000", "--size", "64x64"]);
+    let mut child = command.current_dir(shell.folder.path()).spawn().expect("the program starts");
+    std::thread::sleep(std::time::Duration::from_millis(700));
+    let killed = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+    assert!(killed.is_ok_and(|status| status.success()));
+    assert!(child.wait().expect("it ends").success());
+    assert!(shell.path("out.exr").is_file());
+}
+
+#[test]
 fn equal_seeds_give_equal_files_whatever_the_threads() {
     let shell = Shell::new();
     for (file, threads) in [("a.exr", "1"), ("b.exr", "3")] {
@@ -142,6 +168,11 @@ fn failures_exit_with_1_and_say_why_and_wrong_usage_with_2() {
     fails(&["render", &furnace, "-o", "nowhere/out.png"], 1, "there is no folder");
     fails(&["render", &furnace, "-o", "out.png", "--size", "0x5"], 1, "resolution");
     fails(&["render", &furnace, "-o", "out.png", "--size", "99999x99999"], 1, "resolution");
+    let long = format!("{}.png", "x".repeat(300));
+    fails(&["render", &furnace, "-o", &long], 1, "cannot be written");
+    std::fs::create_dir(shell.path("folder.png")).expect("a folder");
+    fails(&["render", &furnace, "-o", "folder.png"], 1, "it is a folder");
+    fails(&["render", &furnace, "-o", "out.png", "--estimator", "foo"], 2, "path, light or mis");
     fails(&["render", &furnace], 2, "--output");
     fails(&["render", &furnace, "-o", "out.png", "--spp", "0"], 2, "--spp");
     fails(&["render", &furnace, "-o", "out.png", "--estimator", "mis"], 2, "not supported yet");

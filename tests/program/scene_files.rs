@@ -97,7 +97,8 @@ fn unknown_keys_and_kinds_are_refused() {
 #[test]
 fn wrong_types_are_refused() {
     refuses("fov = 40", "fov = \"wide\"", "invalid type: string \"wide\"");
-    refuses("look_at = [0, 1, 0]", "look_at = [0, 1]", "invalid length 2");
+    refuses("look_at = [0, 1, 0]", "look_at = [0, 1]", "2 numbers in place of 3");
+    refuses("resolution = [32, 24]", "resolution = [32, 24, 3]", "3 numbers in place of 2");
     refuses("albedo = 0.8", "albedo = [0.8, 0.8]", "expected a colour");
     refuses("albedo = 0.8", "albedo = [0.8, 0.8, 0.8, 0.8]", "expected a colour");
     refuses("albedo = 0.8", "albedo = \"white\"", "expected a colour");
@@ -145,7 +146,9 @@ fn numbers_out_of_range_are_refused() {
     refuses("fixed = 0.75", "fixed = 1.5", "survival probability");
     refuses("fixed = 0.75", "fixed = nan", "survival probability");
     refuses("spp = 64", "spp = 0", "`spp` is 0");
+    refuses("fixed = 0.75", "fixed = 0.001", "survival probability");
     refuses("format = 1", "format = 2", "scene format 2");
+    assert!(error("format = 2\n").report().contains("scene format 2"), "whatever else it says");
 }
 
 #[test]
