@@ -119,9 +119,10 @@ impl Tile {
         let width = self.size[0] as usize;
         let pixels = row * width..(row + 1) * width;
         let n = f64::from(self.spp.max(1));
+        let (per_sample, per_degree) = (1.0 / n, 1.0 / (n - 1.0));
         self.sum[pixels.clone()].iter().zip(&self.sum_of_squares[pixels]).map(move |(sum, square)| {
             let mean = sum.map(|s| s / n);
-            let variance = |c: usize| ((square[c] / n - mean[c] * mean[c]) / (n - 1.0)).max(0.0);
+            let variance = |c: usize| ((square[c] * per_sample - mean[c] * mean[c]) * per_degree).max(0.0);
             Estimate { mean, variance_of_mean: (n > 1.0).then(|| [variance(0), variance(1), variance(2)]) }
         })
     }

@@ -41,7 +41,7 @@ impl Frame {
                         for (i, estimate) in (start..).zip(tile.estimates(row)) {
                             radiance[i] = estimate.mean.map(|c| c as f32);
                             error[i] = luminance_error(&estimate);
-                            sum += relative_variance(&estimate);
+                            sum += f64::from(relative_variance(&estimate));
                         }
                     }
                 }
@@ -71,10 +71,12 @@ impl Frame {
 
 /// The channels of a sample come from one path: their errors are added as if fully correlated, which is an upper bound.
 fn luminance_error(estimate: &Estimate) -> f32 {
-    estimate.variance_of_mean.map_or(f32::NAN, |variance| luminance(variance.map(|v| v.sqrt() as f32)))
+    estimate.variance_of_mean.map_or(f32::NAN, |variance| luminance(variance.map(|v| (v as f32).sqrt())))
 }
 
-fn relative_variance(estimate: &Estimate) -> f64 {
-    let variance = estimate.variance_of_mean.unwrap_or([0.0; 3]);
-    (0..3).map(|c| variance[c] / (estimate.mean[c] * estimate.mean[c] + REL_MSE_FLOOR)).sum()
+/// Sum over channels of variance / (mean² + 0.01); single precision is enough for an estimate.
+fn relative_variance(estimate: &Estimate) -> f32 {
+    let variance = estimate.variance_of_mean.unwrap_or([0.0; 3]).map(|v| v as f32);
+    let mean = estimate.mean.map(|m| m as f32);
+    (0..3).map(|c| variance[c] / (mean[c] * mean[c] + REL_MSE_FLOOR as f32)).sum()
 }
