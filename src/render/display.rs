@@ -113,7 +113,8 @@ fn next_code_from(code: u8) -> f32 {
 
 /// Luminance from 10⁻³ to 10³ on a logarithmic scale through the colours of viridis (S. van der Walt and N. Smith, 2015).
 struct FalseColours {
-    colours: Vec<[u8; 4]>,
+    /// More than there are buckets, for a power of two needs no check of the index.
+    colours: Box<[[u8; 4]; 1024]>,
 }
 
 impl FalseColours {
@@ -123,12 +124,13 @@ impl FalseColours {
     const HIGHEST: f32 = 1e3;
 
     fn new() -> FalseColours {
-        let buckets = Self::bucket(Self::HIGHEST) + 1;
-        let colour = |b: usize| {
-            let [r, g, b] = viridis(b as f32 / (buckets - 1) as f32);
-            [r, g, b, 255]
-        };
-        FalseColours { colours: (0..buckets).map(colour).collect() }
+        let mut colours = Box::new([[0; 4]; 1024]);
+        let last = Self::bucket(Self::HIGHEST);
+        for (b, colour) in colours.iter_mut().enumerate() {
+            let [r, g, b] = viridis((b as f32 / last as f32).min(1.0));
+            *colour = [r, g, b, 255];
+        }
+        FalseColours { colours }
     }
 
     #[inline(always)]
@@ -138,8 +140,8 @@ impl FalseColours {
 
     #[inline(always)]
     fn of(&self, x: f32) -> [u8; 4] {
-        let x = if x > Self::LOWEST { x.min(Self::HIGHEST) } else { Self::LOWEST };
-        self.colours[Self::bucket(x)]
+        let x = x.max(Self::LOWEST).min(Self::HIGHEST);
+        self.colours[Self::bucket(x) % 1024]
     }
 }
 

@@ -41,7 +41,8 @@ impl App {
             .resizable(false)
             .anchor(Align2::CENTER_CENTER, [0.0, 0.0])
             .show(ctx, |ui| {
-                egui::ScrollArea::vertical().max_height(ctx.content_rect().height() - 90.0).show(ui, keys);
+                let most = ctx.content_rect().height() - 90.0;
+                egui::ScrollArea::vertical().max_height(most).min_scrolled_height(most).show(ui, keys);
             });
     }
 }

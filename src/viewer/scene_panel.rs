@@ -1,34 +1,25 @@
 //! Which scene is shown.
 use std::path::PathBuf;
 
-use egui::{ComboBox, RichText};
+use egui::{Align, ComboBox, Layout, RichText};
 
 use super::app::App;
 
 impl App {
     pub(super) fn scene_panel(&mut self, ui: &mut egui::Ui) {
         let name = self.opened.as_ref().map_or("Choose a scene", |opened| opened.name.as_str()).to_owned();
-        let mut chosen: Option<Option<PathBuf>> = None;
+        let mut chosen = None;
         ui.horizontal(|ui| {
             let label = ui.label("Scene");
-            let width = ui.available_width() - 76.0;
-            let combo =
-                ComboBox::from_id_salt("Scene").selected_text(name).width(width).height(400.0).truncate().show_ui(ui, |ui| {
-                    let is_open = self.opened.as_ref().is_some_and(|opened| opened.path.is_none());
-                    if ui.selectable_label(is_open, "built-in Cornell box").clicked() {
-                        chosen = Some(None);
-                    }
-                    for (name, path) in &self.catalogue {
-                        let open = self.opened.as_ref().is_some_and(|opened| opened.path.as_ref() == Some(path));
-                        if ui.selectable_label(open, name).clicked() {
-                            chosen = Some(Some(path.clone()));
-                        }
-                    }
-                });
-            combo.response.labelled_by(label.id);
-            if ui.button("Open…").on_hover_text("Choose a scene file").clicked() {
-                self.pick_scene_file();
-            }
+            // From the right, so that the button has its place and a long title is cut by what is left.
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                if ui.button("Open…").on_hover_text("Choose a scene file").clicked() {
+                    self.pick_scene_file();
+                }
+                let combo = ComboBox::from_id_salt("Scene").selected_text(name).width(ui.available_width()).height(400.0);
+                let combo = combo.truncate().show_ui(ui, |ui| chosen = self.scene_list(ui));
+                combo.response.labelled_by(label.id);
+            });
         });
         if let Some(path) = chosen {
             self.loader.open(path);
@@ -41,6 +32,21 @@ impl App {
                 ui.label(RichText::new(format!("Note: {warning}.")).color(ui.visuals().warn_fg_color));
             }
         }
+    }
+
+    /// The scenes to choose from; `Some(None)` is the built-in one.
+    fn scene_list(&self, ui: &mut egui::Ui) -> Option<Option<PathBuf>> {
+        let open = self.opened.as_ref().map(|opened| opened.path.as_deref());
+        let mut chosen = None;
+        if ui.selectable_label(open == Some(None), "built-in Cornell box").clicked() {
+            chosen = Some(None);
+        }
+        for (name, path) in &self.catalogue {
+            if ui.selectable_label(open == Some(Some(path.as_path())), name).clicked() {
+                chosen = Some(Some(path.clone()));
+            }
+        }
+        chosen
     }
 
     /// A file dialog on a thread of its own; what is chosen arrives like a dropped file.

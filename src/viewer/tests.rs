@@ -69,6 +69,14 @@ fn wait(window: &mut Window, what: &str, condition: impl Fn(&App) -> bool) {
     }
 }
 
+#[test]
+fn a_long_title_does_not_push_the_panel_out_of_the_window() {
+    let mut window = window("truncation");
+    window.run_steps(3);
+    let (label, button) = (window.get_by_label("Scene").rect(), window.get_by_label("Open…").rect());
+    assert!(label.left() > 1280.0 - 336.0 && button.right() < 1280.0, "{label:?} {button:?}");
+}
+
 fn click(window: &mut Window, label: &str) {
     window.get_by_label(label).click();
     window.run_steps(3);
