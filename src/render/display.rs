@@ -140,8 +140,7 @@ impl FalseColours {
 
     #[inline(always)]
     fn of(&self, x: f32) -> [u8; 4] {
-        let x = if x > Self::LOWEST { x.min(Self::HIGHEST) } else { Self::LOWEST };
-        self.colours[Self::bucket(x) % 1024]
+        self.colours[Self::bucket(x.clamp(Self::LOWEST, Self::HIGHEST)) % 1024]
     }
 }
 
