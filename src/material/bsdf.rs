@@ -1,0 +1,27 @@
+//! What every kind of reflection can do, in lanes.
+use crate::math::{F, Lanes, M, V};
+
+/// A bsdf with its parameters at some surface points, one point a lane.
+///
+/// Directions are unit, point away from the surface and are in the local frame, z along the shading normal on the side of the
+/// viewer: `wo.z` > 0; `wi.z` < 0 is transmission. Densities are per solid angle.
+pub trait Bsdf<L: Lanes>: Copy {
+    /// f(ω_o, ω_i) |cos θ_i| of the lobes that are not delta, and the density with which [`Bsdf::sample`] draws `wi` from them,
+    /// the probability of choosing them included.
+    fn eval(&self, wo: V<L>, wi: V<L>) -> (V<L>, F<L>);
+
+    /// Draws the next direction from the point `u` of the unit square; `lobe` in (0, 1) chooses between lobes.
+    fn sample(&self, wo: V<L>, u: (F<L>, F<L>), lobe: F<L>) -> BsdfSample<L>;
+}
+
+/// A next direction at a surface.
+pub struct BsdfSample<L: Lanes> {
+    pub wi: V<L>,
+    /// f(ω_o, ω_i) |cos θ_i| / p(ω_i); for a delta lobe its reflectance over the probability of choosing it. Zero where no
+    /// direction exists.
+    pub weight: V<L>,
+    /// Density of `wi` as [`Bsdf::eval`] gives it; of no meaning where `delta`.
+    pub pdf: F<L>,
+    /// The direction comes from a delta lobe: no other way of sampling can find it.
+    pub delta: M<L>,
+}
