@@ -6,7 +6,7 @@ use noisefall::{
         film::Film,
         pass::{PassJob, Threads},
     },
-    scene::{RenderSettings, Roulette, built_in},
+    scene::{Estimator, RenderSettings, Roulette, built_in},
 };
 
 /// The five-sphere Cornell box at cap 8, one sample of 256 × 256 pixels an iteration.
@@ -19,6 +19,7 @@ fn paths_per_second(c: &mut Criterion) {
     for sampler in noisefall::sampling::SAMPLERS {
         for level in SimdLevel::available() {
             let settings = RenderSettings {
+                estimator: Estimator::Path,
                 max_bounces: Some(8),
                 roulette: Roulette::BY_THROUGHPUT,
                 sampler: sampler.sampler,

@@ -1,41 +1,17 @@
 //! Values of options, parsed and checked.
 use std::time::Duration;
 
-use clap::ValueEnum;
 use noisefall::{
     sampling::{Directions, SAMPLERS, Sampler},
-    scene::Roulette,
+    scene::{Estimator, Roulette},
 };
 
-/// Estimators by name. Only those that this version has can be chosen.
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Estimator {
-    Path,
-    Light,
-    Mis,
-}
-
-/// Distributions of the next direction by name. Only those that this version has can be chosen.
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum DirectionsOption {
-    Uniform,
-    Cosine,
-    Bsdf,
-}
-
 pub fn estimator(text: &str) -> Result<Estimator, String> {
-    match Estimator::from_str(text, false).map_err(|_| "expected path, light or mis")? {
-        Estimator::Path => Ok(Estimator::Path),
-        Estimator::Light | Estimator::Mis => Err("not supported yet: this version has `path` only".to_owned()),
-    }
+    Estimator::ALL.into_iter().find(|e| e.name() == text).ok_or_else(|| "expected path, light or mis".to_owned())
 }
 
 pub fn directions(text: &str) -> Result<Directions, String> {
-    match DirectionsOption::from_str(text, false).map_err(|_| "expected uniform, cosine or bsdf")? {
-        DirectionsOption::Uniform => Ok(Directions::Uniform),
-        DirectionsOption::Cosine => Ok(Directions::Cosine),
-        DirectionsOption::Bsdf => Err("not supported yet: this version has `uniform` and `cosine`".to_owned()),
-    }
+    Directions::ALL.into_iter().find(|d| d.name() == text).ok_or_else(|| "expected uniform, cosine or bsdf".to_owned())
 }
 
 pub fn sampler(text: &str) -> Result<Sampler, String> {
@@ -98,7 +74,7 @@ mod tests {
         assert!(roulette("0").is_err() && roulette("1.5").is_err() && roulette("nan").is_err() && roulette("x").is_err());
         assert!(seconds("-1").is_err() && seconds("inf").is_err() && noise("0").is_err() && noise("nan").is_err());
         assert!(resolution("640").is_err() && resolution("-1x2").is_err() && pixel("1;2").is_err());
-        assert!(estimator("mis").is_err() && directions("bsdf").is_err() && sampler("halton").is_err());
+        assert!(estimator("bdpt").is_err() && directions("sphere").is_err() && sampler("halton").is_err());
     }
 
     #[test]

@@ -21,7 +21,7 @@ use noisefall::{
         truth::Reference,
     },
     sampling::{Directions, Sampler},
-    scene::{Camera, RenderSettings, Roulette, Scene, load},
+    scene::{Camera, Estimator, RenderSettings, Roulette, Scene, load},
 };
 
 use super::{
@@ -52,7 +52,7 @@ pub struct Arguments {
     noise: Option<f64>,
     /// How light is found: path, light or mis (this version: path)
     #[arg(long, value_parser = parse::estimator)]
-    estimator: Option<parse::Estimator>,
+    estimator: Option<Estimator>,
     /// How the next direction is drawn: uniform, cosine or bsdf (this version: uniform, cosine)
     #[arg(long, value_parser = parse::directions)]
     directions: Option<Directions>,
@@ -145,6 +145,7 @@ impl Arguments {
         let of_scene = scene.settings;
         RenderSettings {
             sampler: self.sampler.unwrap_or(of_scene.sampler),
+            estimator: self.estimator.unwrap_or(of_scene.estimator),
             directions: self.directions.unwrap_or(of_scene.directions),
             roulette: self.roulette.unwrap_or(of_scene.roulette),
             max_bounces: self.max_bounces.map_or(of_scene.max_bounces, |cap| cap.0),

@@ -8,13 +8,14 @@
 mod sphere;
 
 use self::sphere::Fraction;
-pub use self::sphere::{Sphere, SurfacePoint};
+pub use self::sphere::{Cone, Sphere, SurfacePoint};
 use crate::math::{F, Lanes, Pick, U, V};
 
 /// The primitive id of a ray that meets nothing.
 pub const MISS: u32 = u32::MAX;
 
 /// All shapes of a scene, a flat table a kind.
+#[derive(Default)]
 pub struct Shapes {
     spheres: Vec<Sphere>,
     anchors: Vec<[f32; 4]>,
@@ -39,6 +40,12 @@ impl Shapes {
             primitive = nearer.pick(l.u(id as u32), primitive);
         }
         (nearest.value(), primitive)
+    }
+
+    /// The directions in which given primitives are seen from `x`.
+    #[inline(always)]
+    pub fn seen_from<L: Lanes>(&self, l: L, primitive: U<L>, x: V<L>) -> Cone<L> {
+        Cone::of_sphere(l.rows(&self.anchors, primitive), l.rows(&self.normals, primitive), x)
     }
 
     /// The surface at a point `p` of the given primitives, none of which may be [`MISS`].

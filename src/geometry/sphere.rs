@@ -6,9 +6,11 @@
 //! 10⁶ is as exact as a plane, and k = 0 is one. The discriminant is taken at the point of the ray nearest the anchor, so that a
 //! ball of radius 10⁻⁶ seen from far away is exact too. (The second is the idea of E. Haines et al., "Precision Improvements for
 //! Ray/Sphere Intersection", Ray Tracing Gems, 2019, chapter 7, moved to the anchor.)
+mod cone;
 #[cfg(test)]
 mod tests;
 
+pub use self::cone::Cone;
 use glam::DVec3;
 
 use crate::math::{F, Lanes, M, Pick, V};
@@ -93,6 +95,13 @@ impl Sphere {
         let numerator = far_side.pick(w, c.abs());
         let denominator = far_side.pick(w.splat(self.curvature), w);
         Fraction { numerator: meets.pick(numerator, w.splat(f32::NAN)), denominator }
+    }
+
+    /// The directions in which this sphere is seen from `x`.
+    #[inline(always)]
+    pub fn seen_from<L: Lanes>(&self, l: L, x: V<L>) -> Cone<L> {
+        let [[qx, qy, qz, k], [nx, ny, nz, _]] = self.rows();
+        Cone::of_sphere([l.f(qx), l.f(qy), l.f(qz), l.f(k)], [l.f(nx), l.f(ny), l.f(nz), l.f(0.0)], x)
     }
 
     /// The rows of the table that [`surface_point`] reads.

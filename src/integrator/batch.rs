@@ -3,7 +3,7 @@ use super::queue::Queue;
 use crate::{
     math::{F, Lanes, M, MAX_LANES, One, U, V},
     record,
-    scene::{CameraRays, RenderSettings, Scene},
+    scene::{CameraRays, Estimator, RenderSettings, Scene, surface::Stage},
 };
 
 /// A tile is at most this many pixels wide and high; its pixels are the slots of a batch, row by row.
@@ -23,14 +23,58 @@ record! {
 }
 
 record! {
+    /// Where a path comes from, for the weight of a light that it runs into: see [`super::weight`].
+    Past {
+        /// Shading normal on the viewer's side.
+        n: V,
+        /// Density of the path's direction, per solid angle.
+        pdf: F,
+        flags: U,
+    }
+}
+
+/// Flag of [`Past`]: no light sample could have had the direction.
+pub(super) const DELTA: u32 = 1;
+/// Flag of [`Past`]: light was looked for on both sides of the surface.
+pub(super) const TRANSMITS: u32 = 2;
+
+record! {
     /// A path at a surface that reflects.
     Hit {
         /// Where the next ray starts: the surface point, moved off the surface by its error.
         p: V,
-        /// Unit normal on the side the path arrived from.
+        /// Unit geometric normal on the side the path arrived from.
         n: V,
-        albedo: V,
+        /// Albedo or reflectance.
+        colour: V,
         throughput: V,
+        slot: U,
+    }
+}
+
+record! {
+    /// What shading needs to know besides where a surface is more than diffuse.
+    Detail {
+        /// Unit, towards the viewer.
+        wo: V,
+        /// Unit shading normal on the side the path arrived from.
+        n: V,
+        alpha: F,
+        /// How far [`Hit::p`] was moved.
+        error: F,
+        /// See [`crate::scene::surface`]; with its flag `FRONT` where the path arrived at the front.
+        surface: U,
+    }
+}
+
+record! {
+    /// A light sample that is seen if the first surface along its ray is the target.
+    Shadow {
+        o: V,
+        d: V,
+        /// What it adds to its pixel then.
+        radiance: V,
+        target: U,
         slot: U,
     }
 }
@@ -55,6 +99,12 @@ impl Work<'_> {
         let (x, y) = place(slot);
         ((y + self.origin[1]) << 16) + (x + self.origin[0])
     }
+
+    /// Whether light is looked for besides being run into.
+    #[inline(always)]
+    pub(super) fn samples_lights(&self) -> bool {
+        self.settings.estimator != Estimator::Path && !self.scene.lights.is_empty()
+    }
 }
 
 /// Column and row of slots within their tile.
@@ -67,7 +117,13 @@ pub(super) fn place<L: Lanes>(slot: U<L>) -> (U<L>, U<L>) {
 pub struct Batch {
     /// Paths of this bounce and of the next, in turn.
     pub(super) paths: [Queue; 2],
-    pub(super) hits: Queue,
+    /// Kept beside `paths` when lights are sampled.
+    pub(super) pasts: [Queue; 2],
+    /// A queue for every kind of bsdf.
+    pub(super) hits: [Queue; Stage::COUNT],
+    /// Kept beside `hits` for kinds that read it.
+    pub(super) details: [Queue; Stage::COUNT],
+    pub(super) shadows: Queue,
     /// Distance and primitive id of the first surface of every path of this bounce.
     pub(super) t: Vec<f32>,
     pub(super) primitive: Vec<f32>,
@@ -84,7 +140,10 @@ impl Default for Batch {
     fn default() -> Self {
         Batch {
             paths: [Path::<One>::queue(SLOTS), Path::<One>::queue(SLOTS)],
-            hits: Hit::<One>::queue(SLOTS),
+            pasts: [Past::<One>::queue(SLOTS), Past::<One>::queue(SLOTS)],
+            hits: std::array::from_fn(|_| Hit::<One>::queue(SLOTS)),
+            details: std::array::from_fn(|_| Detail::<One>::queue(SLOTS)),
+            shadows: Shadow::<One>::queue(SLOTS),
             t: vec![0.0; SLOTS + MAX_LANES],
             primitive: vec![0.0; SLOTS + MAX_LANES],
             radiance: vec![[0.0; 4]; SLOTS],
@@ -99,6 +158,11 @@ impl Batch {
     /// The radiance of every slot after a trace; slot = row · [`TILE`] + column.
     pub fn radiance(&self) -> &[[f32; 4]] {
         &self.radiance
+    }
+
+    /// Beside [`Batch::current`].
+    pub(super) fn past(&self) -> &Queue {
+        &self.pasts[(self.bounce & 1) as usize]
     }
 
     pub(super) fn current(&self) -> &Queue {

@@ -1,17 +1,20 @@
 //! The path tracer: batches of paths that run through stages, bounce by bounce.
 //!
-//! `spawn → ( intersect → surface → shade )*`. Each stage is a short loop over full registers that reads a dense queue and
+//! `spawn → ( intersect → surface → shade, a kind of bsdf at a time → shadow )*`. Each stage is a short loop over full registers that reads a dense queue and
 //! appends to the next. The bounce is the same for a whole batch, so what depends on it (the sampler's dimension, the cap,
 //! whether roulette has begun) is decided once a stage and not once a path.
 mod batch;
 mod intersect;
+mod kinds;
 pub mod queue;
 mod replay;
 mod roulette;
 mod shade;
+mod shadow;
 mod spawn;
 mod surface;
 mod trace;
+mod weight;
 
 pub use self::{
     batch::{Batch, TILE, Work},

@@ -126,7 +126,7 @@ macro_rules! record {
 
             /// Appends the lanes of `keep`.
             #[inline(always)]
-            pub fn push(self, keep: $crate::math::M<L>, queue: &mut $crate::integrator::queue::Queue) {
+            pub fn push(&self, keep: $crate::math::M<L>, queue: &mut $crate::integrator::queue::Queue) {
                 use $crate::integrator::queue::Field;
                 let count = keep.count();
                 if count == 0 {

@@ -61,7 +61,7 @@ impl Observer for Replay {
             throughput: path.throughput.lane(0),
             distance: object.map(|_| batch.t[0]),
             object,
-            normal: (!batch.hits.is_empty()).then(|| Hit::read(One, &batch.hits, 0).n.lane(0)),
+            normal: batch.hits.iter().find(|hits| !hits.is_empty()).map(|hits| Hit::read(One, hits, 0).n.lane(0)),
             radiance: [r, g, b],
         });
     }

@@ -7,14 +7,26 @@ use crate::{
     scene::Roulette,
 };
 
-/// The paths that survive their `reflection`-th reflection, and the throughput of the survivors.
+/// The paths that survive their `reflection`-th reflection, and the throughput of the survivors. Roulette by throughput judges
+/// the throughput times `scale`.
 #[inline(always)]
-pub(super) fn survive<L: Lanes>(l: L, roulette: Roulette, reflection: u32, stream: &Stream<L>, throughput: V<L>) -> (M<L>, V<L>) {
+pub(super) fn survive<L: Lanes>(
+    l: L,
+    roulette: Roulette,
+    reflection: u32,
+    stream: &Stream<L>,
+    throughput: V<L>,
+    scale: F<L>,
+) -> (M<L>, V<L>) {
     match roulette {
-        Roulette::Fixed(p) if p < 1.0 => play(reflection, stream, throughput, l.f(p)),
+        Roulette::Fixed(p) if p < 1.0 => {
+            let (alive, survivors) = play(reflection, stream, throughput, l.f(p));
+            (alive & throughput.max_component().above(0.0), survivors)
+        }
         Roulette::Throughput { start } if reflection >= start => {
-            let p = throughput.max_component().min(l.f(Roulette::MOST)).max(l.f(Roulette::LEAST));
-            play(reflection, stream, throughput, p)
+            let p = (throughput.max_component() * scale).min(l.f(Roulette::MOST)).max(l.f(Roulette::LEAST));
+            let (alive, survivors) = play(reflection, stream, throughput, p);
+            (alive & throughput.max_component().above(0.0), survivors)
         }
         // Without roulette a path ends when its throughput has become zero.
         _ => (throughput.max_component().above(0.0), throughput),

@@ -1,32 +1,125 @@
-//! Last stage of a bounce: the next direction of every path, and whether it survives.
-//!
-//! Light sampling (next-event estimation) will read the same hits just before this.
+//! Stage of a kind of bsdf: light samples at every hit, the next direction of every path, and whether it survives.
 use fearless_simd_macros::simd;
 
 use super::{
-    batch::{Batch, Hit, Path, Work},
+    batch::{Batch, DELTA, Detail, Hit, Past, Path, Shadow, TRANSMITS, Work},
+    kinds::Kind,
     roulette::survive,
+    weight::power_heuristic,
 };
 use crate::{
-    material::lambertian,
-    math::{Frame, Lanes},
+    light::Receiver,
+    material::{Bsdf, Local},
+    math::{F, Frame, Lanes, M, Pick, V},
     sampling::{Dimension, Stream},
+    scene::{Estimator, surface},
 };
 
 #[simd]
-pub(super) fn shade<L: Lanes>(l: L, work: &Work, batch: &mut Batch) {
-    let Batch { paths, hits, bounce, .. } = batch;
+pub(super) fn shade<L: Lanes, K: Kind>(l: L, work: &Work, batch: &mut Batch) {
+    let Batch { paths, pasts, hits, details, shadows, bounce, .. } = batch;
+    let (hits, details) = (&hits[K::STAGE as usize], &details[K::STAGE as usize]);
     let reflection = *bounce + 1;
-    let next = &mut paths[(reflection & 1) as usize];
+    let next = (reflection & 1) as usize;
     let settings = work.settings;
-    next.clear();
     for start in (0..hits.len()).step_by(L::N) {
         let live = l.first(hits.len() - start);
         let hit = Hit::read(l, hits, start);
         let stream = Stream::new(settings.sampler, settings.seed, work.pixel(hit.slot), work.sample);
-        let sample = lambertian::sample(hit.albedo, settings.directions, stream.two(Dimension::direction(reflection)));
-        let d = Frame::new(hit.n).world_from_local(sample.wi);
-        let (alive, throughput) = survive(l, settings.roulette, reflection, &stream, hit.throughput * sample.weight);
-        Path { o: hit.p, d, throughput, slot: hit.slot }.push(live & alive, next);
+        let vertex = if K::DETAILED { Vertex::detailed(&hit, &Detail::read(l, details, start)) } else { Vertex::plain(l, &hit) };
+        let bsdf = K::at(l, &work.scene.materials, settings, &vertex.local);
+        if K::SEES_LIGHTS && work.samples_lights() {
+            let (shadow, seen) = sample_light::<L, K>(l, work, &stream, reflection, &hit, &vertex, &bsdf);
+            shadow.push(live & seen, shadows);
+        }
+
+        let lobe = if K::LOBES { stream.one(Dimension::lobe(reflection)) } else { l.f(0.0) };
+        let sample = bsdf.sample(vertex.wo, stream.two(Dimension::direction(reflection)), lobe);
+        let d = vertex.frame.world_from_local(sample.wi);
+        let (o, consistent) = vertex.leave::<K>(&hit, d, sample.wi.z);
+        let judged = K::roulette_scale(&bsdf, vertex.local.front, sample.wi.z);
+        let throughput = hit.throughput * sample.weight;
+        let (alive, throughput) = survive(l, settings.roulette, reflection, &stream, throughput, judged);
+        let keep = live & alive & consistent;
+        Path { o, d, throughput, slot: hit.slot }.push(keep, &mut paths[next]);
+        if work.samples_lights() {
+            let flags = sample.delta.pick(l.u(DELTA), l.u(0)) | if K::TRANSMITS { TRANSMITS } else { 0 };
+            Past { n: vertex.n, pdf: sample.pdf, flags }.push(keep, &mut pasts[next]);
+        }
     }
+}
+
+/// A surface point that is shaded.
+struct Vertex<L: Lanes> {
+    frame: Frame<L>,
+    /// Shading normal on the viewer's side.
+    n: V<L>,
+    /// Towards the viewer, in the local frame.
+    wo: V<L>,
+    /// How far the origin of rays was moved off the surface.
+    error: F<L>,
+    local: Local<L>,
+}
+
+impl<L: Lanes> Vertex<L> {
+    /// Where shading and geometric normal are one and the direction to the viewer does not matter.
+    #[inline(always)]
+    fn plain(l: L, hit: &Hit<L>) -> Self {
+        let local = Local { material: l.u(0), colour: hit.colour, alpha: l.f(0.0), front: l.first(L::N) };
+        Vertex { frame: Frame::new(hit.n), n: hit.n, wo: V::splat(l, [0.0, 0.0, 1.0]), error: l.f(0.0), local }
+    }
+
+    #[inline(always)]
+    fn detailed(hit: &Hit<L>, detail: &Detail<L>) -> Self {
+        let frame = Frame::new(detail.n);
+        let local = Local {
+            material: surface::material(detail.surface),
+            colour: hit.colour,
+            alpha: detail.alpha,
+            front: surface::is_set(detail.surface, surface::FRONT),
+        };
+        Vertex { wo: frame.local_from_world(detail.wo), frame, n: detail.n, error: detail.error, local }
+    }
+
+    /// Where a ray in the world direction `d` starts, and whether it leaves on the side that the shading normal says; `z` is its
+    /// height over that normal. Light that would leak through the surface because the two normals differ is left out.
+    #[inline(always)]
+    fn leave<K: Kind>(&self, hit: &Hit<L>, d: V<L>, z: F<L>) -> (V<L>, M<L>) {
+        if !K::DETAILED {
+            return (hit.p, z.above(0.0));
+        }
+        let consistent = (hit.n.dot(d) * z).above(0.0);
+        if !K::TRANSMITS {
+            return (hit.p, consistent & z.above(0.0));
+        }
+        let through = hit.p - hit.n * (self.error * 2.0);
+        (z.above(0.0).pick(hit.p, through), consistent)
+    }
+}
+
+/// Next-event estimation: a sample of a light, weighted, and where it may contribute.
+#[inline(always)]
+fn sample_light<L: Lanes, K: Kind>(
+    l: L,
+    work: &Work,
+    stream: &Stream<L>,
+    reflection: u32,
+    hit: &Hit<L>,
+    vertex: &Vertex<L>,
+    bsdf: &K::Bsdf<'_, L>,
+) -> (Shadow<L>, M<L>) {
+    let lights = &work.scene.lights;
+    let choice = if lights.are_several() { stream.one(Dimension::light_choice(reflection)) } else { l.f(0.0) };
+    let at = Receiver { p: hit.p, n: vertex.n, transmits: if K::TRANSMITS { l.first(L::N) } else { l.first(0) } };
+    let sample = lights.sample(l, &work.scene.shapes, &at, choice, stream.two(Dimension::light(reflection)));
+    let wi = vertex.frame.local_from_world(sample.wi);
+    let (f_cos, pdf) = bsdf.eval(vertex.wo, wi);
+    let (o, consistent) = vertex.leave::<K>(hit, sample.wi, wi.z);
+    let weight = match work.settings.estimator {
+        Estimator::Mis => power_heuristic(sample.pdf, pdf),
+        Estimator::Path | Estimator::Light => l.f(1.0),
+    };
+    let radiance = hit.throughput * f_cos * sample.radiance * (weight / sample.pdf);
+    let seen = consistent & sample.pdf.above(0.0) & radiance.max_component().above(0.0);
+    (Shadow { o, d: sample.wi, radiance, target: sample.target, slot: hit.slot }, seen)
 }

@@ -4,13 +4,17 @@ use fearless_simd_macros::simd;
 use super::{
     batch::{Batch, Work},
     intersect::intersect,
+    kinds::Plain,
+    queue::Queue,
     shade::shade,
+    shadow::shadow,
     spawn::spawn,
-    surface::surface,
+    surface::surfaces,
 };
 use crate::{
     in_lanes,
     math::{Lanes, SimdLevel},
+    scene::surface::Stage,
 };
 
 /// Looks at a batch between the stages; `()` does not.
@@ -50,14 +54,31 @@ pub(super) fn trace_in<L: Lanes, O: Observer>(
         }
         let last = batch.bounce == last_bounce;
         intersect(l, work, batch);
-        surface(l, work, batch, last && !cut_short);
+        surfaces(l, work, batch, last && !cut_short);
         observer.at_surfaces(work, batch);
         if last {
-            batch.cut_paths += if cut_short { batch.hits.len() as u64 } else { 0 };
+            batch.cut_paths += if cut_short { batch.hits.iter().map(Queue::len).sum::<usize>() as u64 } else { 0 };
             break;
         }
-        shade(l, work, batch);
+        shade_all(l, work, batch);
+        if work.samples_lights() {
+            shadow(l, work, batch);
+        }
         batch.bounce += 1;
     }
     Ok(())
+}
+
+/// The shading stages that the scene has.
+#[inline(always)]
+fn shade_all<L: Lanes>(l: L, work: &Work, batch: &mut Batch) {
+    let next = (batch.bounce + 1 & 1) as usize;
+    batch.paths[next].clear();
+    batch.pasts[next].clear();
+    for stage in &work.scene.stages {
+        match stage {
+            Stage::Plain => shade::<L, Plain>(l, work, batch),
+            _ => {}
+        }
+    }
 }

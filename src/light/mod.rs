@@ -5,9 +5,11 @@
 //! | emission | `emission.rs` | constant radiance from one or both sides of a surface |
 //! | background | `background.rs` | constant radiance from all directions that meet no surface |
 pub mod background;
+mod choice;
 pub mod emission;
 
 pub use self::{
+    choice::{LightSample, Lights, Receiver},
     background::Background,
     emission::{Emission, Emitters, Side},
 };

@@ -1,21 +1,29 @@
 //! The ideal diffuse surface: f = ρ/π in all directions of the hemisphere.
+use std::f32::consts::FRAC_1_PI;
+
+use super::bsdf::{Bsdf, BsdfSample};
 use crate::{
     math::{F, Lanes, V},
     sampling::Directions,
 };
 
-/// A next direction at a surface.
-pub struct BsdfSample<L: Lanes> {
-    /// Unit, in the local frame of the surface.
-    pub wi: V<L>,
-    /// f(ω_o, ω_i) cos θ_i / p(ω_i).
-    pub weight: V<L>,
+#[derive(Clone, Copy)]
+pub struct Lambertian<L: Lanes> {
+    pub albedo: V<L>,
+    pub directions: Directions,
 }
 
-/// Draws the next direction. For cosine directions the density cancels f cos θ and the weight is the albedo itself.
-#[inline(always)]
-pub fn sample<L: Lanes>(albedo: V<L>, directions: Directions, u: (F<L>, F<L>)) -> BsdfSample<L> {
-    let wi = directions.sample(u);
-    let weight = albedo * directions.lambertian_weight(wi.z);
-    BsdfSample { wi, weight }
+impl<L: Lanes> Bsdf<L> for Lambertian<L> {
+    #[inline(always)]
+    fn eval(&self, _wo: V<L>, wi: V<L>) -> (V<L>, F<L>) {
+        let cos = wi.z.max(wi.z.splat(0.0));
+        (self.albedo * (cos * FRAC_1_PI), self.directions.pdf(cos))
+    }
+
+    #[inline(always)]
+    fn sample(&self, _wo: V<L>, u: (F<L>, F<L>), _lobe: F<L>) -> BsdfSample<L> {
+        let wi = self.directions.sample(u);
+        let weight = self.albedo * self.directions.lambertian_weight(wi.z);
+        BsdfSample { wi, weight, pdf: self.directions.pdf(wi.z), delta: wi.z.below(0.0) }
+    }
 }

@@ -27,4 +27,9 @@ impl<L: Lanes> Frame<L> {
     pub fn world_from_local(&self, v: V<L>) -> V<L> {
         self.t * v.x + (self.b * v.y + self.n * v.z)
     }
+
+    #[inline(always)]
+    pub fn local_from_world(&self, v: V<L>) -> V<L> {
+        V { x: self.t.dot(v), y: self.b.dot(v), z: self.n.dot(v) }
+    }
 }

@@ -110,6 +110,15 @@ impl<L: Lanes> BitOr for M<L> {
     }
 }
 
+/// Where one is set and the other is not.
+impl<L: Lanes> BitXor for M<L> {
+    type Output = Self;
+    #[inline(always)]
+    fn bitxor(self, b: Self) -> Self {
+        (self | b) & !(self & b)
+    }
+}
+
 impl<L: Lanes> Not for M<L> {
     type Output = Self;
     #[inline(always)]
@@ -196,6 +205,10 @@ impl<L: Lanes> U<L> {
     #[inline(always)]
     pub fn is(self, k: u32) -> M<L> {
         M(L::eq_int(self.0, L::splat_int(self.0, k)))
+    }
+    #[inline(always)]
+    pub fn equals(self, b: Self) -> M<L> {
+        M(L::eq_int(self.0, b.0))
     }
     /// Lanes less than the number `k`.
     #[inline(always)]

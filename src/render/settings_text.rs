@@ -3,7 +3,6 @@ use serde_json::json;
 
 use super::tone::Display;
 use crate::{
-    sampling::Directions,
     scene::{Camera, RenderSettings, Roulette, Scene},
 };
 
@@ -43,11 +42,8 @@ pub fn options(settings: &RenderSettings, of_scene: &RenderSettings) -> String {
         }
     };
     option(settings.sampler != of_scene.sampler, "sampler", settings.sampler.entry().name.to_owned());
-    let directions = match settings.directions {
-        Directions::Uniform => "uniform",
-        Directions::Cosine => "cosine",
-    };
-    option(settings.directions != of_scene.directions, "directions", directions.to_owned());
+    option(settings.estimator != of_scene.estimator, "estimator", settings.estimator.name().to_owned());
+    option(settings.directions != of_scene.directions, "directions", settings.directions.name().to_owned());
     let roulette = match settings.roulette {
         Roulette::Off => "off".to_owned(),
         Roulette::Fixed(p) => p.to_string(),

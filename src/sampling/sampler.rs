@@ -36,16 +36,38 @@ pub struct Dimension(pub u32);
 impl Dimension {
     /// The point within the pixel (two coordinates).
     pub const PIXEL: Dimension = Dimension(0);
-    const PER_BOUNCE: u32 = 8;
+    /// The point on the lens (two).
+    pub const LENS: Dimension = Dimension(2);
+    const PER_BOUNCE: u32 = 16;
 
-    /// The direction in which the path goes on at its `bounce`-th surface, counted from 1 (two coordinates).
+    /// The direction in which the path goes on at its `bounce`-th surface, counted from 1 (two).
     pub fn direction(bounce: u32) -> Dimension {
         Dimension(Self::PER_BOUNCE * bounce)
     }
 
-    /// Whether the path survives after its `bounce`-th surface, counted from 1 (one coordinate).
+    /// Whether the path survives after its `bounce`-th surface (one).
     pub fn roulette(bounce: u32) -> Dimension {
         Dimension(Self::PER_BOUNCE * bounce + 2)
+    }
+
+    /// Which lobe of the bsdf the direction comes from (one).
+    pub fn lobe(bounce: u32) -> Dimension {
+        Dimension(Self::PER_BOUNCE * bounce + 3)
+    }
+
+    /// Which light is sampled at the `bounce`-th surface (one).
+    pub fn light_choice(bounce: u32) -> Dimension {
+        Dimension(Self::PER_BOUNCE * bounce + 4)
+    }
+
+    /// The direction to the light (two).
+    pub fn light(bounce: u32) -> Dimension {
+        Dimension(Self::PER_BOUNCE * bounce + 6)
+    }
+
+    /// The cell of an image background (two).
+    pub fn cell(bounce: u32) -> Dimension {
+        Dimension(Self::PER_BOUNCE * bounce + 8)
     }
 }
 

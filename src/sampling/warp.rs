@@ -14,19 +14,30 @@ pub enum Directions {
     /// All directions alike: p(ω) = 1/2π.
     Uniform,
     /// In proportion to the cosine: p(ω) = cos θ/π.
-    #[default]
     Cosine,
+    /// In proportion to bsdf times cosine, which at a diffuse surface is the cosine.
+    #[default]
+    Bsdf,
 }
 
 impl Directions {
-    pub const ALL: [Directions; 2] = [Directions::Uniform, Directions::Cosine];
+    pub const ALL: [Directions; 3] = [Directions::Uniform, Directions::Cosine, Directions::Bsdf];
+
+    /// What the scene file and the command line call it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Directions::Uniform => "uniform",
+            Directions::Cosine => "cosine",
+            Directions::Bsdf => "bsdf",
+        }
+    }
 
     /// A unit direction with z > 0.
     #[inline(always)]
     pub fn sample<L: Lanes>(self, u: (F<L>, F<L>)) -> V<L> {
         match self {
             Directions::Uniform => uniform_hemisphere(u),
-            Directions::Cosine => cosine_hemisphere(u),
+            Directions::Cosine | Directions::Bsdf => cosine_hemisphere(u),
         }
     }
 
@@ -35,7 +46,7 @@ impl Directions {
     pub fn pdf<L: Lanes>(self, cos: F<L>) -> F<L> {
         match self {
             Directions::Uniform => cos.splat(1.0 / TAU),
-            Directions::Cosine => cos * FRAC_1_PI,
+            Directions::Cosine | Directions::Bsdf => cos * FRAC_1_PI,
         }
     }
 
@@ -44,7 +55,7 @@ impl Directions {
     pub fn lambertian_weight<L: Lanes>(self, cos: F<L>) -> F<L> {
         match self {
             Directions::Uniform => cos * 2.0,
-            Directions::Cosine => cos.splat(1.0),
+            Directions::Cosine | Directions::Bsdf => cos.splat(1.0),
         }
     }
 }
@@ -59,7 +70,7 @@ fn uniform_hemisphere<L: Lanes>((u, v): (F<L>, F<L>)) -> V<L> {
 
 /// Uniform over the disk, lifted to the hemisphere (Malley): the density is cos θ/π.
 #[inline(always)]
-fn cosine_hemisphere<L: Lanes>((u, v): (F<L>, F<L>)) -> V<L> {
+pub fn cosine_hemisphere<L: Lanes>((u, v): (F<L>, F<L>)) -> V<L> {
     let (sin, cos) = sin_cos_turns(v);
     let r = u.sqrt();
     V { x: r * cos, y: r * sin, z: (1.0 - u).sqrt() }

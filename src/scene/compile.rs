@@ -8,16 +8,16 @@ use super::{
     Camera, CameraError, Object, RenderSettings, Roulette, Scene, Truth,
     check::Checker,
     desc::{
-        BackgroundDesc, CameraDesc, DirectionsDesc, EmissionDesc, EstimatorDesc, MaterialDesc, ObjectDesc, RenderDesc, SceneDesc,
+        BackgroundDesc, CameraDesc, EmissionDesc, MaterialDesc, ObjectDesc, RenderDesc, SceneDesc,
         ShapeDesc, TruthDesc,
     },
     diagnostic::{SceneError, SourceText},
+    surface::{self, Stage},
 };
 use crate::{
     geometry::{Shapes, Sphere},
-    light::{Background, Emission, Emitters, Side},
-    material::Material,
-    sampling::Directions,
+    light::{Background, Emission, Lights, Side},
+    material::{Material, Materials},
 };
 
 /// The version of the scene format that this program reads.
@@ -48,20 +48,23 @@ pub fn compile(desc: &SceneDesc, source: &SourceText) -> Result<Scene, SceneErro
 
 /// The tables of the kernel.
 fn build(objects: Vec<Object>, background: Option<Background>, camera: Camera, settings: RenderSettings) -> Scene {
-    let spheres = objects.iter().map(|o| Sphere::new(o.center, o.radius, camera.look_at)).collect();
+    let spheres: Vec<_> = objects.iter().map(|o| Sphere::new(o.center, o.radius, camera.look_at)).collect();
     let emissions: Vec<Emission> = objects.iter().map_while(|o| o.emission).collect();
-    let albedo = |object: &Object| match object.material {
-        Some(Material::Lambertian { albedo: [r, g, b] }) => [r, g, b, 0.0],
+    let background = background.filter(|b| b.radiance != [0.0; 3]);
+    let surface = |object: &Object| match object.material {
+        Some(Material::Lambertian { albedo: [r, g, b] }) => [r, g, b, f32::from_bits(surface::pack(0, Stage::Plain, 0))],
         None => [0.0; 4],
     };
     Scene {
         title: String::new(),
         source: String::new(),
         notes: String::new(),
+        lights: Lights::new(&spheres, &emissions, background),
         shapes: Shapes::new(spheres),
-        albedo: objects.iter().map(albedo).collect(),
-        emitters: Emitters::new(&emissions),
-        background: background.filter(|b| b.radiance != [0.0; 3]),
+        materials: Materials::default(),
+        surfaces: objects.iter().map(surface).collect(),
+        varying: vec![[0.0; 4]; objects.len()],
+        stages: vec![Stage::Plain],
         size: size(&objects, &camera),
         objects,
         camera,
@@ -181,19 +184,6 @@ fn emission(check: &Checker, desc: &Spanned<EmissionDesc>, flip: bool) -> Result
 }
 
 fn settings(check: &Checker, desc: &RenderDesc) -> Result<(RenderSettings, Option<u32>), SceneError> {
-    if let Some(estimator) = &desc.estimator {
-        match estimator.as_ref() {
-            EstimatorDesc::Path => {}
-            EstimatorDesc::Light => return Err(check.not_supported("light", estimator.span())),
-            EstimatorDesc::Mis => return Err(check.not_supported("mis", estimator.span())),
-        }
-    }
-    let directions = match desc.directions.as_ref().map(|d| (*d.as_ref(), d.span())) {
-        None => Directions::default(),
-        Some((DirectionsDesc::Uniform, _)) => Directions::Uniform,
-        Some((DirectionsDesc::Cosine, _)) => Directions::Cosine,
-        Some((DirectionsDesc::Bsdf, span)) => return Err(check.not_supported("bsdf", span)),
-    };
     let roulette = desc.roulette.as_ref().map_or(Roulette::default(), |r| *r.as_ref());
     if let (Roulette::Fixed(p), Some(r)) = (roulette, &desc.roulette)
         && !(Roulette::LEAST..=1.0).contains(&p)
@@ -204,8 +194,9 @@ fn settings(check: &Checker, desc: &RenderDesc) -> Result<(RenderSettings, Optio
         return Err(check.0.error(spp.span(), "`spp` is 0", "expected at least 1 sample per pixel"));
     }
     let settings = RenderSettings {
+        estimator: desc.estimator.unwrap_or_default(),
         sampler: desc.sampler.unwrap_or_default(),
-        directions,
+        directions: desc.directions.unwrap_or_default(),
         roulette,
         max_bounces: desc.max_bounces,
         seed: desc.seed.unwrap_or(0),

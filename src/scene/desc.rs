@@ -125,29 +125,13 @@ pub struct EmissionDesc {
 #[derive(Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct RenderDesc {
-    pub estimator: Option<Spanned<EstimatorDesc>>,
-    pub directions: Option<Spanned<DirectionsDesc>>,
+    pub estimator: Option<super::Estimator>,
+    pub directions: Option<crate::sampling::Directions>,
     pub sampler: Option<crate::sampling::Sampler>,
     pub max_bounces: Option<u32>,
     pub roulette: Option<Spanned<super::Roulette>>,
     pub spp: Option<Spanned<u32>>,
     pub seed: Option<u32>,
-}
-
-#[derive(Clone, Copy, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum EstimatorDesc {
-    Path,
-    Light,
-    Mis,
-}
-
-#[derive(Clone, Copy, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum DirectionsDesc {
-    Uniform,
-    Cosine,
-    Bsdf,
 }
 
 #[derive(Deserialize)]

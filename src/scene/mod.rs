@@ -6,6 +6,7 @@ mod desc;
 mod diagnostic;
 mod load;
 mod settings;
+pub mod surface;
 
 use std::path::PathBuf;
 
@@ -15,12 +16,13 @@ pub use self::{
     camera::{Camera, CameraError, CameraRays},
     diagnostic::SceneError,
     load::{BUILT_IN, built_in, load, parse},
-    settings::{RenderSettings, Roulette},
+    settings::{Estimator, RenderSettings, Roulette},
 };
+use self::surface::Stage;
 use crate::{
     geometry::Shapes,
-    light::{Background, Emission, Emitters},
-    material::Material,
+    light::{Emission, Lights},
+    material::{Material, Materials},
 };
 
 /// A compiled scene. Immutable; shared between threads.
@@ -30,11 +32,14 @@ pub struct Scene {
     pub source: String,
     pub notes: String,
     pub shapes: Shapes,
-    /// Albedo of every primitive, red, green, blue; zero is black. The fourth column is unused.
-    pub albedo: Vec<[f32; 4]>,
-    pub emitters: Emitters,
-    /// Absent when black.
-    pub background: Option<Background>,
+    pub materials: Materials,
+    /// Colour of every primitive, and its surface in one word: see [`surface`]. A black one reflects nothing.
+    pub surfaces: Vec<[f32; 4]>,
+    /// What else is looked up of a primitive: roughness α.
+    pub varying: Vec<[f32; 4]>,
+    /// The shading stages that the scene needs.
+    pub stages: Vec<Stage>,
+    pub lights: Lights,
     /// The objects in the order of their primitive ids.
     pub objects: Vec<Object>,
     /// The extent of the scene in metres, as a person walking through it would say it.
@@ -67,10 +72,15 @@ pub enum Truth {
 }
 
 impl Scene {
+    /// Whether all surfaces are diffuse and nothing about them varies.
+    pub fn is_plain(&self) -> bool {
+        self.stages == [Stage::Plain]
+    }
+
     /// Things that are legal but probably not meant, for the window and the command line.
     pub fn warnings(&self) -> Vec<String> {
         let mut warnings = Vec::new();
-        if self.emitters.is_empty() && self.background.is_none() {
+        if self.lights.is_empty() {
             warnings.push("nothing in this scene emits light: the picture will be black".to_owned());
         }
         if self.objects.is_empty() {

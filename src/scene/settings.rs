@@ -6,12 +6,39 @@ use crate::sampling::{Directions, Sampler};
 /// The settings of a render. Together with scene, camera, pixel and sample index they determine every sample.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct RenderSettings {
+    pub estimator: Estimator,
     pub sampler: Sampler,
     pub directions: Directions,
     pub roulette: Roulette,
     /// The highest number of reflections counted; 0 is emitted light only, `None` is no cap.
     pub max_bounces: Option<u32>,
     pub seed: u32,
+}
+
+/// How light is found. All estimators converge to the same picture.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Estimator {
+    /// Only by paths that run into it: equation (9) of the brief, as it stands.
+    Path,
+    /// Only by sampling the lights (next-event estimation), but for what is seen directly or by mirrors.
+    Light,
+    /// By both, each weighted by how likely it was to find what it found (Veach 1997, power heuristic).
+    #[default]
+    Mis,
+}
+
+impl Estimator {
+    pub const ALL: [Estimator; 3] = [Estimator::Path, Estimator::Light, Estimator::Mis];
+
+    /// What the scene file and the command line call it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Estimator::Path => "path",
+            Estimator::Light => "light",
+            Estimator::Mis => "mis",
+        }
+    }
 }
 
 /// Russian roulette: ending paths at random and weighting the survivors, so that the mean stays right.

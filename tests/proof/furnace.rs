@@ -5,7 +5,7 @@
 use noisefall::{
     measure::exact::{furnace, furnace_capped, furnace_variance},
     sampling::{Directions, Sampler},
-    scene::{RenderSettings, Roulette, Scene, load},
+    scene::{Estimator, RenderSettings, Roulette, Scene, load},
 };
 
 use crate::statistics::{Moments, assert_within, samples};
@@ -18,7 +18,7 @@ fn scene() -> Scene {
 }
 
 fn settings(directions: Directions) -> RenderSettings {
-    RenderSettings { sampler: Sampler::Independent, directions, roulette: Roulette::Off, max_bounces: None, seed: 11 }
+    RenderSettings { estimator: Estimator::Path, sampler: Sampler::Independent, directions, roulette: Roulette::Off, max_bounces: None, seed: 11 }
 }
 
 fn moments(settings: RenderSettings, spp: u32) -> Moments {

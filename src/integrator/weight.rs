@@ -1,0 +1,31 @@
+//! How much of the light that a path runs into is counted, when lights are sampled as well.
+use super::batch::{DELTA, Past, TRANSMITS, Work};
+use crate::{
+    light::Receiver,
+    math::{F, Lanes, Pick, U, V},
+    scene::Estimator,
+};
+
+/// The power heuristic with exponent 2 (Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997, equation
+/// 9.14): the weight of a sample of density `pdf` that another strategy would have drawn with density `other`.
+#[inline(always)]
+pub(super) fn power_heuristic<L: Lanes>(pdf: F<L>, other: F<L>) -> F<L> {
+    let ratio = other / pdf;
+    1.0 / (1.0 + ratio * ratio)
+}
+
+/// The weight of light met by paths that left `o` in the direction `d` and ran into `target`, a primitive or
+/// [`crate::geometry::MISS`].
+#[inline(always)]
+pub(super) fn weight_of_met_light<L: Lanes>(l: L, work: &Work, past: &Past<L>, o: V<L>, d: V<L>, target: U<L>) -> F<L> {
+    let delta = !(past.flags & DELTA).is(0);
+    let sampled_too = match work.settings.estimator {
+        Estimator::Path => return l.f(1.0),
+        Estimator::Light => l.f(0.0),
+        Estimator::Mis => {
+            let at = Receiver { p: o, n: past.n, transmits: !(past.flags & TRANSMITS).is(0) };
+            power_heuristic(past.pdf, work.scene.lights.pdf(l, &at, d, target))
+        }
+    };
+    delta.pick(l.f(1.0), sampled_too)
+}
