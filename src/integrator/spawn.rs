@@ -1,4 +1,4 @@
-//! First stage: camera rays through uniform points of the pixels' areas (the box filter of one pixel's width).
+//! First stage: camera rays through points drawn from the pixels' filters.
 use fearless_simd_macros::simd;
 
 use super::batch::{Batch, Path, TILE, Work, place};
@@ -19,9 +19,13 @@ pub(super) fn spawn<L: Lanes>(l: L, work: &Work, batch: &mut Batch) {
         let inside = column.below(width) & row.below(height);
         let stream = Stream::new(work.settings.sampler, work.settings.seed, work.pixel(slot), work.sample);
         let (u, v) = stream.two(Dimension::PIXEL);
-        let x = (column + work.origin[0]).to_real() + u;
-        let y = (row + work.origin[1]).to_real() + v;
-        let (o, d) = work.rays.through(l, x, y);
+        let x = (column + work.origin[0]).to_real() + work.rays.filter.place(l, u);
+        let y = (row + work.origin[1]).to_real() + work.rays.filter.place(l, v);
+        let (o, d) = if work.rays.have_lens() {
+            work.rays.through_lens(l, x, y, stream.two(Dimension::LENS))
+        } else {
+            work.rays.through(l, x, y)
+        };
         Path { o, d, throughput: V::splat(l, [1.0; 3]), slot }.push(inside, &mut batch.paths[0]);
     }
 }

@@ -9,7 +9,7 @@ use super::{
 use crate::{
     geometry::{MISS, SurfacePoint},
     math::{F, Lanes, M, Pick, U, V},
-    scene::surface::{self, Stage, FLIPPED, FRONT, ONE_SIDED, is_set},
+    scene::surface::{self, FLIPPED, FRONT, ONE_SIDED, Stage, is_set},
 };
 
 /// `last`: nothing is reflected any more.

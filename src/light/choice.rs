@@ -85,14 +85,7 @@ impl Lights {
 
     /// A direction towards a light. `choice` says which light, `u` where on it.
     #[inline(always)]
-    pub fn sample<L: Lanes>(
-        &self,
-        l: L,
-        shapes: &Shapes,
-        at: &Receiver<L>,
-        choice: F<L>,
-        u: (F<L>, F<L>),
-    ) -> LightSample<L> {
+    pub fn sample<L: Lanes>(&self, l: L, shapes: &Shapes, at: &Receiver<L>, choice: F<L>, u: (F<L>, F<L>)) -> LightSample<L> {
         let (target, pmf) = self.choose(l, at, choice);
         let sky = target.is(MISS);
         let mut sample = LightSample { wi: at.n, radiance: V::splat(l, [0.0; 3]), pdf: l.f(0.0), target };

@@ -9,7 +9,7 @@ mod choice;
 pub mod emission;
 
 pub use self::{
-    choice::{LightSample, Lights, Receiver},
     background::Background,
+    choice::{LightSample, Lights, Receiver},
     emission::{Emission, Emitters, Side},
 };

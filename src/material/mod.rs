@@ -13,4 +13,9 @@ pub enum Material {
 }
 #[derive(Default)]
 pub struct Materials;
-pub struct Local<L: Lanes> { pub material: U<L>, pub colour: V<L>, pub alpha: F<L>, pub front: M<L> }
+pub struct Local<L: Lanes> {
+    pub material: U<L>,
+    pub colour: V<L>,
+    pub alpha: F<L>,
+    pub front: M<L>,
+}

@@ -2,9 +2,7 @@
 use serde_json::json;
 
 use super::tone::Display;
-use crate::{
-    scene::{Camera, RenderSettings, Roulette, Scene},
-};
+use crate::scene::{Camera, RenderSettings, Roulette, Scene};
 
 /// One JSON object, in ASCII, with all that a picture depends on.
 pub fn settings_text(scene: &Scene, camera: &Camera, settings: &RenderSettings, display: Display, spp: u32) -> String {

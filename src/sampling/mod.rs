@@ -1,5 +1,6 @@
 //! Points of the unit cube and warps of them to directions, each with its density.
 mod bits;
+mod filter;
 pub mod hash;
 mod independent;
 mod sampler;
@@ -10,6 +11,7 @@ mod tests;
 pub mod warp;
 
 pub use self::{
+    filter::Filter,
     sampler::{Dimension, Sampler, Stream},
     warp::Directions,
 };

@@ -1,8 +1,8 @@
-//! The pinhole camera.
+//! The camera: where it stands, what it looks at, and what its lens and its pixels do.
 use glam::DVec3;
 use serde::Serialize;
 
-use crate::math::{F, Lanes, V};
+use crate::sampling::Filter;
 
 /// Where the picture is taken from. Right-handed world, y usually up.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -12,8 +12,22 @@ pub struct Camera {
     pub up: DVec3,
     /// Full angle across the picture's width, degrees.
     pub fov: f64,
+    /// Width of the picture in metres, when all rays are parallel; then `fov` has no meaning.
+    pub orthographic: Option<f64>,
+    /// Absent: a pinhole.
+    pub lens: Option<Lens>,
+    pub filter: Filter,
     /// Width and height in pixels.
     pub resolution: [u32; 2],
+}
+
+/// A thin lens: an open disk around the eye that brings the plane at distance `focus` into focus.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Lens {
+    /// Metres.
+    pub radius: f64,
+    /// Distance of the plane in focus from the eye along the axis, metres.
+    pub focus: f64,
 }
 
 /// Why a camera cannot take a picture.
@@ -27,6 +41,16 @@ pub enum CameraError {
     UpIsForward,
     #[error("`fov` must lie between 0.001 and 179.9 degrees")]
     Fov,
+    #[error("the width of an orthographic picture must lie between 1e-9 and 1e9 metres")]
+    Width,
+    #[error("the radius of a lens must lie between 0 and 1e9 metres")]
+    LensRadius,
+    #[error("the distance in focus must lie between 1e-9 and 1e12 metres")]
+    Focus,
+    #[error("a lens needs a perspective camera")]
+    LensOrthographic,
+    #[error("the width of a pixel filter must lie between 0.01 and 16 pixels")]
+    Filter,
     #[error("the resolution must be at least 1 × 1, at most {0} a side and {MOST_PIXELS} pixels in all", Camera::MOST_SIDE)]
     Resolution,
 }
@@ -46,12 +70,36 @@ impl Camera {
         if !(0.001..=179.9).contains(&self.fov) {
             return Err(CameraError::Fov);
         }
+        self.check_optics()?;
         let forward = (self.look_at - self.eye).try_normalize().ok_or(CameraError::NoDirection)?;
         let up = self.up.try_normalize().ok_or(CameraError::UpIsForward)?;
         if forward.cross(up).length() < 1e-6 {
             return Err(CameraError::UpIsForward);
         }
         Ok(())
+    }
+
+    fn check_optics(&self) -> Result<(), CameraError> {
+        if self.orthographic.is_some_and(|width| !(1e-9..=1e9).contains(&width)) {
+            return Err(CameraError::Width);
+        }
+        if let Some(lens) = self.lens {
+            if !(0.0..=1e9).contains(&lens.radius) {
+                return Err(CameraError::LensRadius);
+            }
+            if !(1e-9..=1e12).contains(&lens.focus) {
+                return Err(CameraError::Focus);
+            }
+            if self.orthographic.is_some() {
+                return Err(CameraError::LensOrthographic);
+            }
+        }
+        match self.filter {
+            Filter::Tent { radius: width } | Filter::Gaussian { sigma: width } if !(0.01..=16.0).contains(&width) => {
+                Err(CameraError::Filter)
+            }
+            _ => Ok(()),
+        }
     }
 
     pub fn check_resolution(&self) -> Result<(), CameraError> {
@@ -67,35 +115,9 @@ impl Camera {
         [right, right.cross(forward), forward]
     }
 
-    pub fn rays(&self) -> CameraRays {
-        let [right, up, forward] = self.axes();
-        let half_width = (self.fov.to_radians() / 2.0).tan();
-        let [w, h] = self.resolution.map(f64::from);
-        let half_height = half_width * h / w;
-        CameraRays {
-            eye: self.eye.as_vec3().to_array(),
-            corner: (forward - right * half_width + up * half_height).as_vec3().to_array(),
-            per_x: (right * (2.0 * half_width / w)).as_vec3().to_array(),
-            per_y: (up * (-2.0 * half_height / h)).as_vec3().to_array(),
-        }
-    }
-}
-
-/// The rays of a camera, ready for lanes.
-#[derive(Clone, Copy, Debug)]
-pub struct CameraRays {
-    eye: [f32; 3],
-    /// Direction to the upper left corner of the picture, and its change per pixel to the right and down.
-    corner: [f32; 3],
-    per_x: [f32; 3],
-    per_y: [f32; 3],
-}
-
-impl CameraRays {
-    /// Origin and unit direction of the rays through raster points, in pixels from the upper left corner of the picture.
-    #[inline(always)]
-    pub fn through<L: Lanes>(&self, l: L, x: F<L>, y: F<L>) -> (V<L>, V<L>) {
-        let d = V::splat(l, self.per_x) * x + V::splat(l, self.per_y) * y + self.corner;
-        (V::splat(l, self.eye), d.normalized())
+    /// The width of what the picture shows at the look-at point, metres.
+    pub fn width_at_look_at(&self) -> f64 {
+        let perspective = 2.0 * self.eye.distance(self.look_at) * (self.fov.to_radians() / 2.0).tan();
+        self.orthographic.unwrap_or(perspective)
     }
 }

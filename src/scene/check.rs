@@ -32,6 +32,10 @@ impl Checker<'_> {
             .with_help("it is part of the scene format, but this version of Noisefall cannot render it; remove it for now")
     }
 
+    pub fn missing<T>(&self, table: &Spanned<T>, key: &str) -> SceneError {
+        self.0.error(table.span(), format!("missing key `{key}`"), format!("`{key}` must be given here"))
+    }
+
     pub fn point(&self, what: &str, value: &Spanned<Exactly<f64, 3>>) -> Result<DVec3, SceneError> {
         if value.as_ref().0.iter().all(|x| x.abs() <= LARGEST) {
             return Ok(DVec3::from_array(value.as_ref().0));

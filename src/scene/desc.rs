@@ -45,10 +45,34 @@ pub struct CameraDesc {
     pub eye: Spanned<Exactly<f64, 3>>,
     pub look_at: Spanned<Exactly<f64, 3>>,
     pub up: Option<Spanned<Exactly<f64, 3>>>,
-    pub fov: Spanned<f64>,
+    pub fov: Option<Spanned<f64>>,
     pub resolution: Spanned<Exactly<u32, 2>>,
-    pub lens: Planned,
+    pub projection: Option<Spanned<ProjectionDesc>>,
+    pub lens: Option<Spanned<LensDesc>>,
+    pub filter: Option<Spanned<FilterDesc>>,
     pub shutter: Planned,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "lowercase", deny_unknown_fields)]
+pub enum ProjectionDesc {
+    Perspective,
+    Orthographic { width: f64 },
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LensDesc {
+    pub radius: f64,
+    pub focus: f64,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "lowercase", deny_unknown_fields)]
+pub enum FilterDesc {
+    Box,
+    Tent { radius: f32 },
+    Gaussian { sigma: f32 },
 }
 
 #[derive(Deserialize)]

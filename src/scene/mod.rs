@@ -5,6 +5,7 @@ mod compile;
 mod desc;
 mod diagnostic;
 mod load;
+mod rays;
 mod settings;
 pub mod surface;
 
@@ -12,13 +13,14 @@ use std::path::PathBuf;
 
 use glam::DVec3;
 
+use self::surface::Stage;
 pub use self::{
-    camera::{Camera, CameraError, CameraRays},
+    camera::{Camera, CameraError, Lens},
     diagnostic::SceneError,
     load::{BUILT_IN, built_in, load, parse},
+    rays::CameraRays,
     settings::{Estimator, RenderSettings, Roulette},
 };
-use self::surface::Stage;
 use crate::{
     geometry::Shapes,
     light::{Emission, Lights},

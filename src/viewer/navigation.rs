@@ -37,21 +37,26 @@ pub fn fly(camera: &Camera, by: DVec3) -> Camera {
 
 /// Moves the camera in its own plane so that what is at the look-at point follows the pointer; in widths of the picture.
 pub fn pan(camera: &Camera, right: f64, up: f64) -> Camera {
-    let width = 2.0 * camera.eye.distance(camera.look_at) * (camera.fov.to_radians() / 2.0).tan();
+    let width = camera.width_at_look_at();
     fly(camera, DVec3::new(-right * width, -up * width, 0.0))
 }
 
-/// Multiplies the distance to the look-at point.
+/// Multiplies the distance to the look-at point, or where all rays are parallel the width of the picture.
 pub fn dolly(camera: &Camera, factor: f64) -> Camera {
-    Camera { eye: camera.look_at + (camera.eye - camera.look_at) * factor, ..*camera }
+    match camera.orthographic {
+        Some(width) => Camera { orthographic: Some((width * factor).clamp(1e-9, 1e9)), ..*camera },
+        None => Camera { eye: camera.look_at + (camera.eye - camera.look_at) * factor, ..*camera },
+    }
 }
 
 #[cfg(test)]
 mod tests {
+    use noisefall::scene::built_in;
+
     use super::*;
 
     fn camera() -> Camera {
-        Camera { eye: DVec3::new(0.0, 1.0, 4.0), look_at: DVec3::Y, up: DVec3::Y, fov: 40.0, resolution: [4, 3] }
+        built_in().camera
     }
 
     #[test]

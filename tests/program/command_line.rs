@@ -175,7 +175,6 @@ fn failures_exit_with_1_and_say_why_and_wrong_usage_with_2() {
     fails(&["render", &furnace, "-o", "out.png", "--estimator", "foo"], 2, "path, light or mis");
     fails(&["render", &furnace], 2, "--output");
     fails(&["render", &furnace, "-o", "out.png", "--spp", "0"], 2, "--spp");
-    fails(&["render", &furnace, "-o", "out.png", "--estimator", "mis"], 2, "not supported yet");
     fails(&["render", &furnace, "-o", "out.png", "--sampler", "halton"], 2, "independent, stratified, sobol");
     fails(&["render", &furnace, "-o", "out.png", "--roulette", "2"], 2, "survival probability");
     fails(&["compare", "a.exr", "b.exr"], 1, "cannot be read");

@@ -10,13 +10,20 @@ use noisefall::{
         pass::{PassJob, Threads},
     },
     sampling::{Directions, SAMPLERS, Sampler},
-    scene::{Estimator, Camera, RenderSettings, Roulette, Scene, built_in},
+    scene::{Camera, Estimator, RenderSettings, Roulette, Scene, built_in},
 };
 
 const RESOLUTION: [u32; 2] = [75, 50];
 
 fn settings(sampler: Sampler) -> RenderSettings {
-    RenderSettings { estimator: Estimator::Path, sampler, directions: Directions::Cosine, roulette: Roulette::BY_THROUGHPUT, max_bounces: None, seed: 5 }
+    RenderSettings {
+        estimator: Estimator::Path,
+        sampler,
+        directions: Directions::Cosine,
+        roulette: Roulette::BY_THROUGHPUT,
+        max_bounces: None,
+        seed: 5,
+    }
 }
 
 fn camera(scene: &Scene) -> Camera {

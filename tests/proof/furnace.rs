@@ -18,7 +18,14 @@ fn scene() -> Scene {
 }
 
 fn settings(directions: Directions) -> RenderSettings {
-    RenderSettings { estimator: Estimator::Path, sampler: Sampler::Independent, directions, roulette: Roulette::Off, max_bounces: None, seed: 11 }
+    RenderSettings {
+        estimator: Estimator::Path,
+        sampler: Sampler::Independent,
+        directions,
+        roulette: Roulette::Off,
+        max_bounces: None,
+        seed: 11,
+    }
 }
 
 fn moments(settings: RenderSettings, spp: u32) -> Moments {

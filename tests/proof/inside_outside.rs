@@ -8,7 +8,7 @@ use noisefall::{
         pass::{PassJob, Threads},
     },
     sampling::{Directions, Sampler},
-    scene::{Estimator, Camera, RenderSettings, Roulette, Scene, load},
+    scene::{Camera, Estimator, RenderSettings, Roulette, Scene, load},
 };
 
 use crate::statistics::assert_within;
@@ -23,7 +23,14 @@ fn scene(name: &str) -> Scene {
 fn render(scene: &Scene, directions: Directions, spp: u32) -> Vec<Estimate> {
     let camera = Camera { resolution: [SIDE, SIDE], ..scene.camera };
     let sampler = Sampler::Independent;
-    let settings = RenderSettings { estimator: Estimator::Path, sampler, directions, roulette: Roulette::BY_THROUGHPUT, max_bounces: None, seed: 3 };
+    let settings = RenderSettings {
+        estimator: Estimator::Path,
+        sampler,
+        directions,
+        roulette: Roulette::BY_THROUGHPUT,
+        max_bounces: None,
+        seed: 3,
+    };
     let mut film = Film::new(camera.resolution);
     let threads = Threads::new(2, SimdLevel::best()).expect("two threads can be had");
     let count = threads.pass(PassJob { scene, rays: &camera.rays(), settings: &settings }, &mut film, spp, &|| false);

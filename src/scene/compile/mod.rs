@@ -1,16 +1,19 @@
 //! From what a file says to what the renderer runs on: names become numbers, values are checked, tables are built.
 use std::collections::BTreeMap;
 
-use glam::DVec3;
 use toml::Spanned;
 
+mod camera;
+mod settings;
+
+use self::{
+    camera::camera,
+    settings::{settings, truth},
+};
 use super::{
-    Camera, CameraError, Object, RenderSettings, Roulette, Scene, Truth,
+    Camera, Object, RenderSettings, Scene,
     check::Checker,
-    desc::{
-        BackgroundDesc, CameraDesc, EmissionDesc, MaterialDesc, ObjectDesc, RenderDesc, SceneDesc,
-        ShapeDesc, TruthDesc,
-    },
+    desc::{BackgroundDesc, EmissionDesc, MaterialDesc, ObjectDesc, SceneDesc, ShapeDesc},
     diagnostic::{SceneError, SourceText},
     surface::{self, Stage},
 };
@@ -82,32 +85,10 @@ fn size(objects: &[Object], camera: &Camera) -> f64 {
     small.map(|object| 2.0 * (object.center.distance(camera.look_at) + object.radius)).fold(view, f64::max).min(10.0 * view)
 }
 
-fn camera(check: &Checker, desc: &Spanned<CameraDesc>) -> Result<Camera, SceneError> {
-    let c = desc.as_ref();
-    check.refuse(&[("lens", &c.lens), ("shutter", &c.shutter)])?;
-    let camera = Camera {
-        eye: check.point("eye", &c.eye)?,
-        look_at: check.point("look_at", &c.look_at)?,
-        up: c.up.as_ref().map_or(Ok(DVec3::Y), |up| check.point("up", up))?,
-        fov: *c.fov.as_ref(),
-        resolution: c.resolution.as_ref().0,
-    };
-    camera.check().map_err(|error| {
-        let span = match error {
-            CameraError::Resolution => c.resolution.span(),
-            CameraError::Fov | CameraError::NotFinite => c.fov.span(),
-            CameraError::NoDirection => c.look_at.span(),
-            CameraError::UpIsForward => c.up.as_ref().unwrap_or(&c.look_at).span(),
-        };
-        check.0.error(span, error.to_string(), "here")
-    })?;
-    Ok(camera)
-}
-
 fn background(check: &Checker, desc: &Spanned<BackgroundDesc>) -> Result<Background, SceneError> {
     let b = desc.as_ref();
     check.refuse(&[("image", &b.image), ("rotate", &b.rotate), ("scale", &b.scale)])?;
-    let radiance = b.radiance.as_ref().ok_or_else(|| missing(check, desc, "radiance"))?;
+    let radiance = b.radiance.as_ref().ok_or_else(|| check.missing(desc, "radiance"))?;
     Ok(Background { radiance: check.radiance(radiance)? })
 }
 
@@ -174,51 +155,11 @@ fn named_material(
 fn emission(check: &Checker, desc: &Spanned<EmissionDesc>, flip: bool) -> Result<Option<Emission>, SceneError> {
     let e = desc.as_ref();
     check.refuse(&[("texture", &e.texture), ("scale", &e.scale)])?;
-    let radiance = check.radiance(e.radiance.as_ref().ok_or_else(|| missing(check, desc, "radiance"))?)?;
+    let radiance = check.radiance(e.radiance.as_ref().ok_or_else(|| check.missing(desc, "radiance"))?)?;
     let side = match (e.two_sided, flip) {
         (true, _) => Side::Both,
         (false, false) => Side::Front,
         (false, true) => Side::Back,
     };
     Ok((radiance != [0.0; 3]).then_some(Emission { radiance, side }))
-}
-
-fn settings(check: &Checker, desc: &RenderDesc) -> Result<(RenderSettings, Option<u32>), SceneError> {
-    let roulette = desc.roulette.as_ref().map_or(Roulette::default(), |r| *r.as_ref());
-    if let (Roulette::Fixed(p), Some(r)) = (roulette, &desc.roulette)
-        && !(Roulette::LEAST..=1.0).contains(&p)
-    {
-        return Err(check.0.error(r.span(), format!("a survival probability of {p}"), "expected a number from 0.01 to 1"));
-    }
-    if let Some(spp) = desc.spp.as_ref().filter(|spp| *spp.as_ref() == 0) {
-        return Err(check.0.error(spp.span(), "`spp` is 0", "expected at least 1 sample per pixel"));
-    }
-    let settings = RenderSettings {
-        estimator: desc.estimator.unwrap_or_default(),
-        sampler: desc.sampler.unwrap_or_default(),
-        directions: desc.directions.unwrap_or_default(),
-        roulette,
-        max_bounces: desc.max_bounces,
-        seed: desc.seed.unwrap_or(0),
-    };
-    Ok((settings, desc.spp.as_ref().map(|spp| *spp.as_ref())))
-}
-
-fn truth(check: &Checker, desc: &Spanned<TruthDesc>) -> Result<Truth, SceneError> {
-    match (&desc.as_ref().radiance, &desc.as_ref().image) {
-        (Some(radiance), None) => Ok(Truth::Radiance(check.radiance(radiance)?)),
-        (None, Some(image)) => {
-            let folder = std::path::Path::new(&check.0.name).parent();
-            let path = folder.map_or_else(|| image.as_ref().into(), |folder| folder.join(image.as_ref()));
-            if !path.is_file() {
-                return Err(check.0.error(image.span(), format!("there is no file {}", path.display()), "not found"));
-            }
-            Ok(Truth::Image(path))
-        }
-        _ => Err(check.0.error(desc.span(), "`truth` must say either `radiance` or `image`", "here")),
-    }
-}
-
-fn missing<T>(check: &Checker, table: &Spanned<T>, key: &str) -> SceneError {
-    check.0.error(table.span(), format!("missing key `{key}`"), format!("`{key}` must be given here"))
 }

@@ -1,0 +1,68 @@
+//! The camera of a scene file.
+use glam::DVec3;
+use toml::Spanned;
+
+use crate::{
+    sampling::Filter,
+    scene::{
+        Camera, CameraError, Lens,
+        check::Checker,
+        desc::{CameraDesc, FilterDesc, ProjectionDesc},
+        diagnostic::SceneError,
+    },
+};
+
+/// What an orthographic camera has in place of an angle; it takes no part in anything.
+const NO_FOV: f64 = 40.0;
+
+pub fn camera(check: &Checker, desc: &Spanned<CameraDesc>) -> Result<Camera, SceneError> {
+    let c = desc.as_ref();
+    check.refuse(&[("shutter", &c.shutter)])?;
+    let orthographic = match c.projection.as_ref().map(Spanned::as_ref) {
+        Some(ProjectionDesc::Orthographic { width }) => Some(*width),
+        Some(ProjectionDesc::Perspective) | None => None,
+    };
+    let fov = match (&c.fov, orthographic) {
+        (Some(fov), None) => *fov.as_ref(),
+        (None, Some(_)) => NO_FOV,
+        (None, None) => return Err(check.missing(desc, "fov")),
+        (Some(fov), Some(_)) => {
+            return Err(check.0.error(fov.span(), "an orthographic camera has no `fov`", "remove it, or the projection"));
+        }
+    };
+    let camera = Camera {
+        eye: check.point("eye", &c.eye)?,
+        look_at: check.point("look_at", &c.look_at)?,
+        up: c.up.as_ref().map_or(Ok(DVec3::Y), |up| check.point("up", up))?,
+        fov,
+        orthographic,
+        lens: c.lens.as_ref().map(|lens| Lens { radius: lens.as_ref().radius, focus: lens.as_ref().focus }),
+        filter: c.filter.as_ref().map_or(Filter::Box, |filter| self::filter(filter.as_ref())),
+        resolution: c.resolution.as_ref().0,
+    };
+    camera.check().map_err(|error| check.0.error(place(desc, error), error.to_string(), "here"))?;
+    Ok(camera)
+}
+
+fn filter(desc: &FilterDesc) -> Filter {
+    match *desc {
+        FilterDesc::Box => Filter::Box,
+        FilterDesc::Tent { radius } => Filter::Tent { radius },
+        FilterDesc::Gaussian { sigma } => Filter::Gaussian { sigma },
+    }
+}
+
+/// The key that an error is about.
+fn place(desc: &Spanned<CameraDesc>, error: CameraError) -> std::ops::Range<usize> {
+    let c = desc.as_ref();
+    let key = match error {
+        CameraError::Resolution => Some(c.resolution.span()),
+        CameraError::Fov | CameraError::NotFinite => c.fov.as_ref().map(Spanned::span),
+        CameraError::NoDirection => Some(c.look_at.span()),
+        CameraError::UpIsForward => Some(c.up.as_ref().unwrap_or(&c.look_at).span()),
+        CameraError::Width => c.projection.as_ref().map(Spanned::span),
+        CameraError::LensRadius | CameraError::Focus | CameraError::LensOrthographic => c.lens.as_ref().map(Spanned::span),
+        CameraError::Filter => c.filter.as_ref().map(Spanned::span),
+    };
+    key.unwrap_or_else(|| desc.span())
+}

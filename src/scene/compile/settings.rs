@@ -1,0 +1,45 @@
+//! The settings a scene opens with, and what its picture must converge to.
+use toml::Spanned;
+
+use crate::scene::{
+    RenderSettings, Roulette, Truth,
+    check::Checker,
+    desc::{RenderDesc, TruthDesc},
+    diagnostic::SceneError,
+};
+
+pub fn settings(check: &Checker, desc: &RenderDesc) -> Result<(RenderSettings, Option<u32>), SceneError> {
+    let roulette = desc.roulette.as_ref().map_or(Roulette::default(), |r| *r.as_ref());
+    if let (Roulette::Fixed(p), Some(r)) = (roulette, &desc.roulette)
+        && !(Roulette::LEAST..=1.0).contains(&p)
+    {
+        return Err(check.0.error(r.span(), format!("a survival probability of {p}"), "expected a number from 0.01 to 1"));
+    }
+    if let Some(spp) = desc.spp.as_ref().filter(|spp| *spp.as_ref() == 0) {
+        return Err(check.0.error(spp.span(), "`spp` is 0", "expected at least 1 sample per pixel"));
+    }
+    let settings = RenderSettings {
+        estimator: desc.estimator.unwrap_or_default(),
+        sampler: desc.sampler.unwrap_or_default(),
+        directions: desc.directions.unwrap_or_default(),
+        roulette,
+        max_bounces: desc.max_bounces,
+        seed: desc.seed.unwrap_or(0),
+    };
+    Ok((settings, desc.spp.as_ref().map(|spp| *spp.as_ref())))
+}
+
+pub fn truth(check: &Checker, desc: &Spanned<TruthDesc>) -> Result<Truth, SceneError> {
+    match (&desc.as_ref().radiance, &desc.as_ref().image) {
+        (Some(radiance), None) => Ok(Truth::Radiance(check.radiance(radiance)?)),
+        (None, Some(image)) => {
+            let folder = std::path::Path::new(&check.0.name).parent();
+            let path = folder.map_or_else(|| image.as_ref().into(), |folder| folder.join(image.as_ref()));
+            if !path.is_file() {
+                return Err(check.0.error(image.span(), format!("there is no file {}", path.display()), "not found"));
+            }
+            Ok(Truth::Image(path))
+        }
+        _ => Err(check.0.error(desc.span(), "`truth` must say either `radiance` or `image`", "here")),
+    }
+}

@@ -1,0 +1,81 @@
+//! The rays of a camera, in lanes.
+use super::Camera;
+use crate::{
+    math::{F, Lanes, V, trig::sin_cos_turns},
+    sampling::Filter,
+};
+
+/// The rays of a camera, ready for lanes: plane coordinates of a raster point are `corner + x per_x + y per_y`.
+#[derive(Clone, Copy, Debug)]
+pub struct CameraRays {
+    eye: [f32; 3],
+    /// The upper left corner of the picture, and its change per pixel to the right and down. A direction whose forward component
+    /// is 1, or for parallel rays an offset of the eye.
+    corner: [f32; 3],
+    per_x: [f32; 3],
+    per_y: [f32; 3],
+    /// The direction of all rays when they are parallel.
+    parallel: Option<[f32; 3]>,
+    lens: Option<LensRays>,
+    pub filter: Filter,
+}
+
+/// A lens of some size.
+#[derive(Clone, Copy, Debug)]
+struct LensRays {
+    /// From the middle of the lens to its rim, to the right and up.
+    right: [f32; 3],
+    up: [f32; 3],
+    focus: f32,
+}
+
+impl Camera {
+    pub fn rays(&self) -> CameraRays {
+        let [right, up, forward] = self.axes();
+        let [w, h] = self.resolution.map(f64::from);
+        let half_width = self.orthographic.map_or((self.fov.to_radians() / 2.0).tan(), |width| width / 2.0);
+        let half_height = half_width * h / w;
+        let middle = if self.orthographic.is_some() { glam::DVec3::ZERO } else { forward };
+        let lens = self.lens.filter(|lens| lens.radius > 0.0);
+        CameraRays {
+            eye: self.eye.as_vec3().to_array(),
+            corner: (middle - right * half_width + up * half_height).as_vec3().to_array(),
+            per_x: (right * (2.0 * half_width / w)).as_vec3().to_array(),
+            per_y: (up * (-2.0 * half_height / h)).as_vec3().to_array(),
+            parallel: self.orthographic.map(|_| forward.as_vec3().to_array()),
+            lens: lens.map(|lens| LensRays {
+                right: (right * lens.radius).as_vec3().to_array(),
+                up: (up * lens.radius).as_vec3().to_array(),
+                focus: lens.focus as f32,
+            }),
+            filter: self.filter,
+        }
+    }
+}
+
+impl CameraRays {
+    pub fn have_lens(&self) -> bool {
+        self.lens.is_some()
+    }
+
+    /// Origin and unit direction of the rays through raster points, in pixels from the upper left corner of the picture.
+    #[inline(always)]
+    pub fn through<L: Lanes>(&self, l: L, x: F<L>, y: F<L>) -> (V<L>, V<L>) {
+        let place = V::splat(l, self.per_x) * x + V::splat(l, self.per_y) * y + self.corner;
+        match self.parallel {
+            Some(forward) => (place + self.eye, V::splat(l, forward)),
+            None => (V::splat(l, self.eye), place.normalized()),
+        }
+    }
+
+    /// The same rays through the points `u` of the lens, uniform over its disk. Only where there is a lens.
+    #[inline(always)]
+    pub fn through_lens<L: Lanes>(&self, l: L, x: F<L>, y: F<L>, (u, v): (F<L>, F<L>)) -> (V<L>, V<L>) {
+        let Some(lens) = self.lens else { return self.through(l, x, y) };
+        let place = V::splat(l, self.per_x) * x + V::splat(l, self.per_y) * y + self.corner;
+        let (sin, cos) = sin_cos_turns(v);
+        let r = u.sqrt();
+        let on_lens = V::splat(l, lens.right) * (r * cos) + V::splat(l, lens.up) * (r * sin);
+        (on_lens + self.eye, (place * lens.focus - on_lens).normalized())
+    }
+}
