@@ -1,6 +1,10 @@
 //! The camera, by numbers.
 use egui::{Button, DragValue, RichText, Slider, SliderClamping};
 use glam::DVec3;
+use noisefall::{
+    sampling::Filter,
+    scene::{Camera, Lens},
+};
 
 use super::{
     app::App,
@@ -19,15 +23,15 @@ impl App {
                 point(ui, label, &mut camera.look_at, speed);
             });
             row(ui, "Up", "The direction that is up in the picture.", |ui, label| point(ui, label, &mut camera.up, 0.01));
-            row(ui, "Field of view", "The full angle across the picture's width.", |ui, label| {
-                ui.add(Slider::new(&mut camera.fov, 1.0..=170.0).clamping(SliderClamping::Edits).suffix("°").max_decimals(2))
-                    .labelled_by(label);
-            });
+            projection(ui, camera);
+            if camera.orthographic.is_none() {
+                lens(ui, camera, speed);
+            }
+            row(ui, "Pixel filter", "How a pixel weighs the light around its centre.", |ui, _| filter(ui, &mut camera.filter));
             row(ui, "Resolution", "Width and height in pixels.", |ui, label| {
                 ui.horizontal(|ui| {
                     let [width, height] = &mut camera.resolution;
-                    let side =
-                        |value| DragValue::new(value).range(1..=noisefall::scene::Camera::MOST_SIDE).update_while_editing(false);
+                    let side = |value| DragValue::new(value).range(1..=Camera::MOST_SIDE).update_while_editing(false);
                     ui.add(side(width)).labelled_by(label).on_hover_text("Width");
                     ui.label("×");
                     ui.add(side(height)).labelled_by(label).on_hover_text("Height");
@@ -43,6 +47,67 @@ impl App {
             self.reset_camera();
         }
     }
+}
+
+fn projection(ui: &mut egui::Ui, camera: &mut Camera) {
+    row(ui, "Projection", "Rays through one point, or all parallel.", |ui, _| {
+        ui.horizontal(|ui| {
+            if ui.selectable_label(camera.orthographic.is_none(), "Perspective").clicked() {
+                camera.orthographic = None;
+            }
+            if ui.selectable_label(camera.orthographic.is_some(), "Orthographic").clicked() && camera.orthographic.is_none() {
+                *camera = Camera { orthographic: Some(camera.width_at_look_at()), lens: None, ..*camera };
+            }
+        });
+    });
+    match &mut camera.orthographic {
+        None => row(ui, "Field of view", "The full angle across the picture's width.", |ui, label| {
+            ui.add(Slider::new(&mut camera.fov, 1.0..=170.0).clamping(SliderClamping::Edits).suffix("°").max_decimals(2))
+                .labelled_by(label);
+        }),
+        Some(width) => row(ui, "Width", "What the picture shows from left to right, in metres.", |ui, label| {
+            let speed = 0.005 * *width;
+            ui.add(DragValue::new(width).speed(speed).range(1e-9..=1e9).max_decimals(3).suffix(" m")).labelled_by(label);
+        }),
+    }
+}
+
+fn lens(ui: &mut egui::Ui, camera: &mut Camera, speed: f64) {
+    let distance = camera.eye.distance(camera.look_at);
+    let mut lens = camera.lens.unwrap_or(Lens { radius: 0.0, focus: distance });
+    row(ui, "Lens radius", "In metres. A wide lens blurs what is not in focus; 0 is a pinhole.", |ui, label| {
+        let radius = DragValue::new(&mut lens.radius).speed(0.05 * speed).range(0.0..=1e9).max_decimals(4).suffix(" m");
+        ui.add(radius).labelled_by(label);
+    });
+    if lens.radius > 0.0 {
+        row(ui, "Focus", "Distance of the plane in focus, in metres.", |ui, label| {
+            ui.horizontal(|ui| {
+                let focus = DragValue::new(&mut lens.focus).speed(speed).range(1e-9..=1e12).max_decimals(3).suffix(" m");
+                ui.add(focus).labelled_by(label);
+                if ui.button("Look-at point").on_hover_text("Focus on the point in the middle of the picture").clicked() {
+                    lens.focus = distance;
+                }
+            });
+        });
+    }
+    camera.lens = (lens.radius > 0.0).then_some(lens);
+}
+
+fn filter(ui: &mut egui::Ui, filter: &mut Filter) {
+    const KINDS: [(Filter, &str, &str); 3] = [
+        (Filter::Box, "Box", "The mean over the pixel's own square: sharpest."),
+        (Filter::TENT, "Tent", "Falls linearly over one pixel: smoother edges."),
+        (Filter::GAUSSIAN, "Gaussian", "A bell of half a pixel's deviation: smoothest."),
+    ];
+    ui.horizontal(|ui| {
+        for (kind, name, doc) in KINDS {
+            let chosen = std::mem::discriminant(filter) == std::mem::discriminant(&kind);
+            let response = ui.selectable_label(chosen, name).on_hover_text(doc);
+            if response.clicked() && !chosen {
+                *filter = kind;
+            }
+        }
+    });
 }
 
 fn point(ui: &mut egui::Ui, label: egui::Id, p: &mut DVec3, speed: f64) {

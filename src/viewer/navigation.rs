@@ -56,7 +56,7 @@ mod tests {
     use super::*;
 
     fn camera() -> Camera {
-        built_in().camera
+        Camera { eye: DVec3::new(0.0, 1.0, 4.0), look_at: DVec3::Y, fov: 40.0, ..built_in().camera }
     }
 
     #[test]

@@ -1,10 +1,10 @@
-//! The estimate: sampler, directions, roulette, cap, seed, and when to stop.
+//! The estimate: estimator, sampler, directions, roulette, cap, seed, and when to stop.
 use std::ops::RangeInclusive;
 
 use egui::{ComboBox, DragValue, Id, Slider, SliderClamping, Ui};
 use noisefall::{
     sampling::{Directions, SAMPLERS},
-    scene::Roulette,
+    scene::{Estimator, Roulette},
 };
 
 use super::{
@@ -16,10 +16,33 @@ const DEFAULT_SURVIVAL: f32 = 0.8;
 const DEFAULT_CAP: u32 = 8;
 const DEFAULT_TARGET: u32 = 1024;
 
+const ESTIMATORS: [(Estimator, &str, &str); 3] = [
+    (Estimator::Path, "Path", "Paths go on until they run into light: the equation as it stands, with most noise."),
+    (
+        Estimator::Light,
+        "Light",
+        "Every surface point samples a light (next-event estimation). Poor at glossy surfaces and large lights.",
+    ),
+    (Estimator::Mis, "MIS", "Both, each weighted by how likely it was to find what it found (multiple importance sampling)."),
+];
+
+const DIRECTIONS: [(Directions, &str, &str); 3] = [
+    (Directions::Uniform, "Uniform", "p(ωᵢ) = 1 / 2π: every direction of the hemisphere alike."),
+    (Directions::Cosine, "Cosine", "p(ωᵢ) = cos θ / π: cancels the cosine of the equation, so there is less noise."),
+    (Directions::Bsdf, "Bsdf", "p(ωᵢ) in proportion to f cos θ, which at a diffuse surface is the cosine."),
+];
+
 impl App {
     pub(super) fn sampling_panel(&mut self, ui: &mut Ui) {
         let settings = &mut self.settings;
         controls(ui, "sampling", |ui| {
+            row(ui, "Estimator", "How light is found. All converge to the same picture.", |ui, _| {
+                ui.horizontal(|ui| {
+                    for (estimator, name, doc) in ESTIMATORS {
+                        ui.selectable_value(&mut settings.estimator, estimator, name).on_hover_text(doc);
+                    }
+                });
+            });
             row(ui, "Sampler", "Which points of the unit cube the samples of a pixel are.", |ui, label| {
                 let combo = ComboBox::from_id_salt("Sampler").selected_text(settings.sampler.entry().title).show_ui(ui, |ui| {
                     for entry in &SAMPLERS {
@@ -31,13 +54,12 @@ impl App {
             row(
                 ui,
                 "Directions",
-                "How the next direction ωᵢ is drawn over the hemisphere at a surface: its density p(ωᵢ).",
+                "How the next direction ωᵢ is drawn over the hemisphere at a diffuse surface: its density p(ωᵢ).",
                 |ui, _| {
                     ui.horizontal(|ui| {
-                        ui.selectable_value(&mut settings.directions, Directions::Uniform, "Uniform")
-                            .on_hover_text("p(ωᵢ) = 1 / 2π: every direction of the hemisphere alike");
-                        ui.selectable_value(&mut settings.directions, Directions::Cosine, "Cosine")
-                            .on_hover_text("p(ωᵢ) = cos θ / π: cancels the cosine of the equation, so there is less noise");
+                        for (directions, name, doc) in DIRECTIONS {
+                            ui.selectable_value(&mut settings.directions, directions, name).on_hover_text(doc);
+                        }
                     });
                 },
             );

@@ -13,8 +13,8 @@ use egui_kittest::{
 use noisefall::{
     math::SimdLevel,
     render::{State, ToneMap, image_file, pass::Threads},
-    sampling::{Directions, Sampler},
-    scene::Roulette,
+    sampling::{Directions, Filter, Sampler},
+    scene::{Estimator, Lens, Roulette},
 };
 
 use super::{app::App, canvas::Tool};
@@ -125,6 +125,10 @@ fn every_setting_of_the_estimate_starts_a_new_picture() {
     let mut window = window("cornell_spheres");
     restarts(&mut window, "stratified", |w| choose(w, "Sampler", "Stratified"));
     assert_eq!(window.state().settings.sampler, Sampler::Stratified);
+    restarts(&mut window, "light sampling alone", |w| click(w, "Light"));
+    assert_eq!(window.state().settings.estimator, Estimator::Light);
+    restarts(&mut window, "paths alone", |w| click(w, "Path"));
+    assert_eq!(window.state().settings.estimator, Estimator::Path);
     restarts(&mut window, "uniform directions", |w| click(w, "Uniform"));
     assert_eq!(window.state().settings.directions, Directions::Uniform);
     restarts(&mut window, "cosine directions", |w| click(w, "Cosine"));
@@ -157,6 +161,20 @@ fn the_camera_moves_by_numbers_by_mouse_and_by_keys() {
         w.run_steps(2);
     });
     assert_eq!(window.state().camera.fov, 60.0);
+    restarts(&mut window, "a pixel filter", |w| click(w, "Gaussian"));
+    assert_eq!(window.state().camera.filter, Filter::GAUSSIAN);
+    restarts(&mut window, "a lens", |w| {
+        w.get_by_role_and_label(Role::SpinButton, "Lens radius").set_value_accesskit(0.05);
+        w.run_steps(2);
+    });
+    restarts(&mut window, "another focus", |w| {
+        w.get_by_role_and_label(Role::SpinButton, "Focus").set_value_accesskit(2.0);
+        w.run_steps(2);
+    });
+    assert_eq!(window.state().camera.lens, Some(Lens { radius: 0.05, focus: 2.0 }));
+    restarts(&mut window, "parallel rays", |w| click(w, "Orthographic"));
+    assert!(window.state().camera.orthographic.is_some() && window.state().camera.lens.is_none());
+    restarts(&mut window, "perspective", |w| click(w, "Perspective"));
     window.get_by_role_and_label(Role::Button, "Camera").click();
     window.run_steps(3);
     assert_eq!(window.state().tool, Tool::Camera);
