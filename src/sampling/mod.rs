@@ -3,6 +3,7 @@ mod bits;
 mod filter;
 pub mod hash;
 mod independent;
+mod joint;
 mod sampler;
 mod sobol;
 mod stratified;
@@ -12,6 +13,7 @@ pub mod warp;
 
 pub use self::{
     filter::Filter,
+    joint::SampleNumber,
     sampler::{Dimension, Sampler, Stream},
     warp::Directions,
 };

@@ -8,7 +8,9 @@ use serde::{Deserialize, Serialize};
 use super::{
     SAMPLERS,
     hash::{GOLDEN, hash, hash_one},
-    independent, sobol, stratified,
+    independent,
+    joint::SampleNumber,
+    sobol, stratified,
 };
 use crate::math::{F, Lanes, U};
 
@@ -76,17 +78,17 @@ impl Dimension {
 pub struct Stream<L: Lanes> {
     sampler: Sampler,
     pixel_key: U<L>,
-    index: u32,
+    sample: SampleNumber,
 }
 
 impl<L: Lanes> Stream<L> {
     /// `pixel` packs y·2¹⁶ + x, so that a pixel keeps its numbers when the resolution changes.
     #[inline(always)]
-    pub fn new(sampler: Sampler, seed: u32, pixel: U<L>, index: u32) -> Self {
+    pub fn new(sampler: Sampler, seed: u32, pixel: U<L>, sample: SampleNumber) -> Self {
         // A factor of its own for every seed: by addition alone one seed's noise would be another's, moved aside.
         let salt = hash_one(seed ^ GOLDEN);
         let pixel_key = hash(pixel * (hash_one(salt) | 1) + salt);
-        Stream { sampler, pixel_key, index }
+        Stream { sampler, pixel_key, sample }
     }
 
     /// One coordinate, in (0, 1).
@@ -105,14 +107,17 @@ impl<L: Lanes> Stream<L> {
         match self.sampler {
             Sampler::Independent => independent::two(self, dimension.0),
             Sampler::Stratified => stratified::two(self, dimension.0),
-            Sampler::Sobol => sobol::two(self, dimension.0),
+            Sampler::Sobol => match self.sample.joint(dimension) {
+                Some(point) => sobol::joint(self, dimension.0, point),
+                None => sobol::two(self, dimension.0),
+            },
         }
     }
 
     /// A hash of pixel and sample; for one pixel no two samples share it.
     #[inline(always)]
     pub(super) fn sample_key(&self) -> U<L> {
-        hash(self.pixel_key + self.index.wrapping_mul(GOLDEN))
+        hash(self.pixel_key + self.sample.index.wrapping_mul(GOLDEN))
     }
 
     /// A hash of pixel and dimension.
@@ -124,6 +129,11 @@ impl<L: Lanes> Stream<L> {
 
     #[inline(always)]
     pub(super) fn reversed_index(&self) -> U<L> {
-        U(L::splat_int(self.pixel_key.0, self.index.reverse_bits()))
+        self.splat(self.sample.index.reverse_bits())
+    }
+
+    #[inline(always)]
+    pub(super) fn splat(&self, x: u32) -> U<L> {
+        U(L::splat_int(self.pixel_key.0, x))
     }
 }

@@ -25,3 +25,13 @@ pub(super) fn two<L: Lanes>(stream: &Stream<L>, dimension: u32) -> (F<L>, F<L>) 
     let y = reverse(owen_reversed(sobol_reversed(shuffled), hash(key ^ 0x63d8_3595)));
     (unit(x), unit(y))
 }
+
+/// Two coordinates of a point of more dimensions, given with reversed bits, scrambled anew for every pixel but not shuffled: the
+/// coordinates stay together.
+#[inline(always)]
+pub(super) fn joint<L: Lanes>(stream: &Stream<L>, dimension: u32, [x, y]: [u32; 2]) -> (F<L>, F<L>) {
+    let key = stream.dimension_key(dimension);
+    let x = owen_reversed(stream.splat(x), hash(key ^ 0xa511_e9b3));
+    let y = owen_reversed(stream.splat(y), hash(key ^ 0x63d8_3595));
+    (unit(reverse(x)), unit(reverse(y)))
+}

@@ -1,14 +1,14 @@
 //! Samplers and warps: distributions against densities, strata, and coordinates that do not depend on the order of visits.
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
-use super::{Dimension, Directions, SAMPLERS, Sampler, Stream};
+use super::{Dimension, Directions, SAMPLERS, SampleNumber, Sampler, Stream};
 use crate::math::{F, One, U, colour};
 
 /// Every test statistic here must have at least this probability; seeds are fixed.
 const SIGNIFICANCE: f64 = 1e-4;
 
 fn stream(sampler: Sampler, seed: u32, pixel: u32, index: u32) -> Stream<One> {
-    Stream::new(sampler, seed, U(pixel), index)
+    Stream::new(sampler, seed, U(pixel), SampleNumber::new(index))
 }
 
 fn point(sampler: Sampler, pixel: u32, index: u32, dimension: Dimension) -> [f64; 2] {

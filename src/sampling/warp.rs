@@ -5,7 +5,7 @@ use std::f32::consts::{FRAC_1_PI, TAU};
 
 use serde::{Deserialize, Serialize};
 
-use crate::math::{F, Lanes, V, trig::sin_cos_turns};
+use crate::math::{F, Lanes, Pick, V, trig::sin_cos_eighth};
 
 /// How the next direction is drawn over the hemisphere at a diffuse vertex.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -36,7 +36,7 @@ impl Directions {
     #[inline(always)]
     pub fn sample<L: Lanes>(self, u: (F<L>, F<L>)) -> V<L> {
         match self {
-            Directions::Uniform => uniform_hemisphere(u),
+            Directions::Uniform => cap(u.0.splat(1.0), u),
             Directions::Cosine | Directions::Bsdf => cosine_hemisphere(u),
         }
     }
@@ -60,18 +60,34 @@ impl Directions {
     }
 }
 
-/// Uniform over the hemisphere: the height z is uniform (Archimedes).
+/// Uniform over the unit disk: x, y and the squared radius.
+///
+/// Squares around the centre become circles, so that neighbours stay neighbours and strata stay compact (P. Shirley and K. Chiu,
+/// "A Low Distortion Map Between Disk and Square", Journal of Graphics Tools 2(3), 1997). No coordinate in (0, 1) that a sampler
+/// gives is exactly ½, so that the centre is never divided by.
 #[inline(always)]
-fn uniform_hemisphere<L: Lanes>((u, v): (F<L>, F<L>)) -> V<L> {
-    let (sin, cos) = sin_cos_turns(v);
-    let r = ((1.0 - u) * (1.0 + u)).sqrt();
-    V { x: r * cos, y: r * sin, z: u }
+pub fn disk<L: Lanes>((u, v): (F<L>, F<L>)) -> (F<L>, F<L>, F<L>) {
+    let (a, b) = (u * 2.0 - 1.0, v * 2.0 - 1.0);
+    let wide = b.abs().lt(a.abs());
+    let r = wide.pick(a, b);
+    let (sin, cos) = sin_cos_eighth(wide.pick(b, a) / r);
+    (r * wide.pick(cos, sin), r * wide.pick(sin, cos), r * r)
+}
+
+/// Uniform over the cap of unit directions around z whose heights are at least 1 − `height`; 1 is the hemisphere, 2 the sphere.
+/// By Archimedes the height is uniform.
+#[inline(always)]
+pub fn cap<L: Lanes>(height: F<L>, u: (F<L>, F<L>)) -> V<L> {
+    let (x, y, r2) = disk(u);
+    let below = r2 * height;
+    // With r² = height fraction, sin θ = √(below (2 − below)), and the disk already points in the right direction.
+    let stretch = (height * (2.0 - below)).sqrt();
+    V { x: x * stretch, y: y * stretch, z: 1.0 - below }
 }
 
 /// Uniform over the disk, lifted to the hemisphere (Malley): the density is cos θ/π.
 #[inline(always)]
-pub fn cosine_hemisphere<L: Lanes>((u, v): (F<L>, F<L>)) -> V<L> {
-    let (sin, cos) = sin_cos_turns(v);
-    let r = u.sqrt();
-    V { x: r * cos, y: r * sin, z: (1.0 - u).sqrt() }
+pub fn cosine_hemisphere<L: Lanes>(u: (F<L>, F<L>)) -> V<L> {
+    let (x, y, r2) = disk(u);
+    V { x, y, z: (1.0 - r2).sqrt() }
 }

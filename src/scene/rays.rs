@@ -1,8 +1,8 @@
 //! The rays of a camera, in lanes.
 use super::Camera;
 use crate::{
-    math::{F, Lanes, V, trig::sin_cos_turns},
-    sampling::Filter,
+    math::{F, Lanes, V},
+    sampling::{Filter, warp::disk},
 };
 
 /// The rays of a camera, ready for lanes: plane coordinates of a raster point are `corner + x per_x + y per_y`.
@@ -70,12 +70,11 @@ impl CameraRays {
 
     /// The same rays through the points `u` of the lens, uniform over its disk. Only where there is a lens.
     #[inline(always)]
-    pub fn through_lens<L: Lanes>(&self, l: L, x: F<L>, y: F<L>, (u, v): (F<L>, F<L>)) -> (V<L>, V<L>) {
+    pub fn through_lens<L: Lanes>(&self, l: L, x: F<L>, y: F<L>, u: (F<L>, F<L>)) -> (V<L>, V<L>) {
         let Some(lens) = self.lens else { return self.through(l, x, y) };
         let place = V::splat(l, self.per_x) * x + V::splat(l, self.per_y) * y + self.corner;
-        let (sin, cos) = sin_cos_turns(v);
-        let r = u.sqrt();
-        let on_lens = V::splat(l, lens.right) * (r * cos) + V::splat(l, lens.up) * (r * sin);
+        let (right, up, _) = disk(u);
+        let on_lens = V::splat(l, lens.right) * right + V::splat(l, lens.up) * up;
         (on_lens + self.eye, (place * lens.focus - on_lens).normalized())
     }
 }

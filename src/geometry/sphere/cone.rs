@@ -5,7 +5,10 @@
 //! a sphere that nearly touches x, or is tiny and far, has no cancellation.
 use std::f32::consts::TAU;
 
-use crate::math::{F, Frame, Lanes, M, Pick, V, trig::sin_cos_turns};
+use crate::{
+    math::{F, Frame, Lanes, M, Pick, V},
+    sampling::warp::cap,
+};
 
 /// The directions in which a sphere is seen from a point: a cone from outside, all directions from inside.
 pub struct Cone<L: Lanes> {
@@ -48,10 +51,7 @@ impl<L: Lanes> Cone<L> {
 
     /// A unit direction of the cone.
     #[inline(always)]
-    pub fn sample(&self, (u, v): (F<L>, F<L>)) -> V<L> {
-        let height = u * self.one_less_cos;
-        let sin = (height * (2.0 - height)).sqrt();
-        let (sin_around, cos_around) = sin_cos_turns(v);
-        Frame::new(self.axis).world_from_local(V { x: sin * cos_around, y: sin * sin_around, z: 1.0 - height })
+    pub fn sample(&self, u: (F<L>, F<L>)) -> V<L> {
+        Frame::new(self.axis).world_from_local(cap(self.one_less_cos, u))
     }
 }
