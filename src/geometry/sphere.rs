@@ -6,10 +6,13 @@
 //! 10⁶ is as exact as a plane, and k = 0 is one. The discriminant is taken at the point of the ray nearest the anchor, so that a
 //! ball of radius 10⁻⁶ seen from far away is exact too. (The second is the idea of E. Haines et al., "Precision Improvements for
 //! Ray/Sphere Intersection", Ray Tracing Gems, 2019, chapter 7, moved to the anchor.)
+mod coordinates;
 #[cfg(test)]
 mod tests;
 
 use glam::DVec3;
+
+pub use self::coordinates::{sphere_tangents, sphere_uv};
 
 use crate::math::{F, Lanes, M, Pick, V};
 

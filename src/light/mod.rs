@@ -4,10 +4,13 @@
 //! |---|---|---|
 //! | emission | `emission.rs` | constant radiance from one or both sides of a surface |
 //! | background | `background.rs` | constant radiance from all directions that meet no surface |
+//! | image background | `image_background.rs` | a picture of all directions, sampled by its light |
 pub mod background;
 pub mod emission;
+pub mod image_background;
 
 pub use self::{
     background::Background,
     emission::{Emission, Emitters, Side},
+    image_background::ImageBackground,
 };

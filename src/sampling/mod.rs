@@ -1,4 +1,5 @@
 //! Points of the unit cube and warps of them to directions, each with its density.
+pub mod alias;
 mod bits;
 pub mod hash;
 mod independent;
@@ -10,6 +11,7 @@ mod tests;
 pub mod warp;
 
 pub use self::{
+    alias::AliasTable,
     sampler::{Dimension, Sampler, Stream},
     warp::Directions,
 };
