@@ -40,7 +40,8 @@ fn angles_are_within_their_error() {
 fn angles_on_the_axes_are_exact_and_no_input_gives_nan() {
     let turns = |x: f32, y: f32| turns_of(F::<One>(x), F::<One>(y)).0;
     assert_eq!([turns(1.0, 0.0), turns(0.0, 2.0), turns(-3.0, 0.0), turns(0.0, -1.0)], [0.0, 0.25, 0.5, 0.75]);
-    assert_eq!([turns(0.0, 0.0), turns(-0.0, -0.0), turns(1.0, -1e-30), turns(f32::NAN, 1.0)], [0.0; 4]);
+    assert_eq!([turns(0.0, 0.0), turns(-0.0, -0.0), turns(1.0, -1e-30)], [0.0; 3]);
+    assert!([turns(f32::NAN, 1.0), turns(1.0, f32::NAN)].iter().all(|turns| (0.0..1.0).contains(turns)));
 }
 
 #[test]

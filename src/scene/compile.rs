@@ -6,18 +6,20 @@ use toml::Spanned;
 
 use super::{
     Camera, CameraError, Object, RenderSettings, Roulette, Scene, Truth,
-    check::Checker,
+    check::{Checker, ColourRange},
     desc::{
         BackgroundDesc, CameraDesc, DirectionsDesc, EmissionDesc, EstimatorDesc, MaterialDesc, ObjectDesc, RenderDesc, SceneDesc,
         ShapeDesc, TruthDesc,
     },
     diagnostic::{SceneError, SourceText},
+    textures::{ColourSource, NamedTextures},
 };
 use crate::{
     geometry::{Shapes, Sphere},
     light::{Background, Emission, Emitters, Side},
     material::Material,
     sampling::Directions,
+    texture::Textures,
 };
 
 /// The version of the scene format that this program reads.
@@ -26,10 +28,10 @@ pub const FORMAT: i64 = 1;
 /// Checks a description and builds the scene. Errors point into `source`, which is the text that `desc` was read from.
 pub fn compile(desc: &SceneDesc, source: &SourceText) -> Result<Scene, SceneError> {
     let check = Checker(source);
-    check.refuse(&[("textures", &desc.textures)])?;
     let camera = camera(&check, &desc.camera)?;
     let background = desc.background.as_ref().map(|b| background(&check, b)).transpose()?;
-    let materials = materials(&check, &desc.materials)?;
+    let textures = NamedTextures::compile(&check, &desc.textures)?;
+    let materials = materials(&check, &desc.materials, &textures)?;
     let mut objects = desc.objects.iter().map(|o| object(&check, o, &materials)).collect::<Result<Vec<_>, _>>()?;
     // A stable sort: emitting primitives first, as the table of emitters wants it.
     objects.sort_by_key(|object| object.emission.is_none());
@@ -40,6 +42,7 @@ pub fn compile(desc: &SceneDesc, source: &SourceText) -> Result<Scene, SceneErro
         title: desc.title.clone().unwrap_or_default(),
         notes: desc.notes.clone().unwrap_or_default(),
         source: source.text.clone(),
+        textures: textures.textures,
         spp,
         truth,
         ..scene
@@ -60,6 +63,7 @@ fn build(objects: Vec<Object>, background: Option<Background>, camera: Camera, s
         notes: String::new(),
         shapes: Shapes::new(spheres),
         albedo: objects.iter().map(albedo).collect(),
+        textures: Textures::default(),
         emitters: Emitters::new(&emissions),
         background: background.filter(|b| b.radiance != [0.0; 3]),
         size: size(&objects, &camera),
@@ -108,11 +112,15 @@ fn background(check: &Checker, desc: &Spanned<BackgroundDesc>) -> Result<Backgro
     Ok(Background { radiance: check.radiance(radiance)? })
 }
 
-fn materials(check: &Checker, descs: &BTreeMap<String, Spanned<MaterialDesc>>) -> Result<BTreeMap<String, Material>, SceneError> {
-    descs.iter().map(|(name, desc)| Ok((name.clone(), material(check, name, desc)?))).collect()
+fn materials(
+    check: &Checker,
+    descs: &BTreeMap<String, Spanned<MaterialDesc>>,
+    textures: &NamedTextures,
+) -> Result<BTreeMap<String, Material>, SceneError> {
+    descs.iter().map(|(name, desc)| Ok((name.clone(), material(check, name, desc, textures)?))).collect()
 }
 
-fn material(check: &Checker, name: &str, desc: &Spanned<MaterialDesc>) -> Result<Material, SceneError> {
+fn material(check: &Checker, name: &str, desc: &Spanned<MaterialDesc>, textures: &NamedTextures) -> Result<Material, SceneError> {
     let m = desc.as_ref();
     check.refuse(&[
         ("mirror", &m.mirror),
@@ -126,7 +134,10 @@ fn material(check: &Checker, name: &str, desc: &Spanned<MaterialDesc>) -> Result
     let lambertian = m.lambertian.as_ref().ok_or_else(|| {
         check.0.error(desc.span(), format!("material `{name}` says no kind"), "expected `lambertian = { albedo = … }`")
     })?;
-    Ok(Material::Lambertian { albedo: check.albedo(&lambertian.albedo)? })
+    match textures.colour_or_texture(check, &ColourRange::ALBEDO, &lambertian.albedo)? {
+        ColourSource::Constant(albedo) => Ok(Material::Lambertian { albedo }),
+        ColourSource::Texture(_) => Err(check.not_supported("texture", lambertian.albedo.span())),
+    }
 }
 
 fn object(check: &Checker, desc: &Spanned<ObjectDesc>, materials: &BTreeMap<String, Material>) -> Result<Object, SceneError> {
@@ -159,13 +170,7 @@ fn named_material(
     name: &Spanned<String>,
     materials: &BTreeMap<String, Material>,
 ) -> Result<Material, SceneError> {
-    materials.get(name.as_ref()).copied().ok_or_else(|| {
-        let known = materials.keys().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
-        let help =
-            if known.is_empty() { "the scene defines no materials".to_owned() } else { format!("the scene defines {known}") };
-        let message = format!("there is no material `{}`", name.as_ref());
-        check.0.error(name.span(), message, "not defined").with_help(help)
-    })
+    materials.get(name.as_ref()).copied().ok_or_else(|| check.not_defined("material", name, materials.keys()))
 }
 
 fn emission(check: &Checker, desc: &Spanned<EmissionDesc>, flip: bool) -> Result<Option<Emission>, SceneError> {
@@ -217,8 +222,7 @@ fn truth(check: &Checker, desc: &Spanned<TruthDesc>) -> Result<Truth, SceneError
     match (&desc.as_ref().radiance, &desc.as_ref().image) {
         (Some(radiance), None) => Ok(Truth::Radiance(check.radiance(radiance)?)),
         (None, Some(image)) => {
-            let folder = std::path::Path::new(&check.0.name).parent();
-            let path = folder.map_or_else(|| image.as_ref().into(), |folder| folder.join(image.as_ref()));
+            let path = check.path(image);
             if !path.is_file() {
                 return Err(check.0.error(image.span(), format!("there is no file {}", path.display()), "not found"));
             }

@@ -29,7 +29,8 @@ pub struct SceneDesc {
     pub notes: Option<String>,
     pub camera: Spanned<CameraDesc>,
     pub background: Option<Spanned<BackgroundDesc>>,
-    pub textures: Planned,
+    #[serde(default)]
+    pub textures: BTreeMap<String, Spanned<TextureDesc>>,
     #[serde(default)]
     pub materials: BTreeMap<String, Spanned<MaterialDesc>>,
     #[serde(default)]
@@ -58,6 +59,40 @@ pub struct BackgroundDesc {
     pub image: Planned,
     pub rotate: Planned,
     pub scale: Planned,
+}
+
+/// Exactly one of the kinds is given.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TextureDesc {
+    pub image: Option<ImageTextureDesc>,
+    pub checker: Option<CheckerDesc>,
+    pub noise: Option<NoiseDesc>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ImageTextureDesc {
+    pub path: Spanned<String>,
+    #[serde(default)]
+    pub encoding: crate::image::Encoding,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CheckerDesc {
+    pub even: Spanned<Colour>,
+    pub odd: Spanned<Colour>,
+    pub scale: Spanned<f64>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct NoiseDesc {
+    pub scale: Spanned<f64>,
+    pub octaves: Spanned<u32>,
+    pub low: Spanned<Colour>,
+    pub high: Spanned<Colour>,
 }
 
 #[derive(Deserialize)]
@@ -172,8 +207,8 @@ impl<'de, T: Deserialize<'de>, const N: usize> Deserialize<'de> for Exactly<T, N
 /// A colour: `[r, g, b]`, or one number for grey.
 pub enum Colour {
     Rgb([f64; 3]),
-    /// `{ texture = "…" }`.
-    Texture,
+    /// `{ texture = "…" }`: the name of a texture.
+    Texture(Spanned<String>),
 }
 
 impl<'de> Deserialize<'de> for Colour {
@@ -207,11 +242,13 @@ impl<'de> Visitor<'de> for ColourVisitor {
         }
     }
     fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Colour, A::Error> {
-        while let Some((key, _)) = map.next_entry::<String, IgnoredAny>()? {
+        let mut name = None;
+        while let Some(key) = map.next_key::<String>()? {
             if key != "texture" {
                 return Err(de::Error::unknown_field(&key, &["texture"]));
             }
+            name = Some(map.next_value()?);
         }
-        Ok(Colour::Texture)
+        name.map(Colour::Texture).ok_or_else(|| de::Error::missing_field("texture"))
     }
 }

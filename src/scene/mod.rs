@@ -6,6 +6,7 @@ mod desc;
 mod diagnostic;
 mod load;
 mod settings;
+mod textures;
 
 use std::path::PathBuf;
 
@@ -21,6 +22,7 @@ use crate::{
     geometry::Shapes,
     light::{Background, Emission, Emitters},
     material::Material,
+    texture::Textures,
 };
 
 /// A compiled scene. Immutable; shared between threads.
@@ -32,6 +34,7 @@ pub struct Scene {
     pub shapes: Shapes,
     /// Albedo of every primitive, red, green, blue; zero is black. The fourth column is unused.
     pub albedo: Vec<[f32; 4]>,
+    pub textures: Textures,
     pub emitters: Emitters,
     /// Absent when black.
     pub background: Option<Background>,
