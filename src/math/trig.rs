@@ -30,8 +30,8 @@ fn sin_quarter_turn<L: Lanes>(y: F<L>) -> F<L> {
     x * (x2 * p + 1.0)
 }
 
-/// The angle of the point (x, y), counter-clockwise from the x axis, in turns: in [0, 1), within 1.2e-7 of a turn (most of it the
-/// last bit of the result; 4e-8 below an eighth). The length of (x, y) does not matter; (0, 0) has the angle 0.
+/// The angle of the point (x, y), counter-clockwise from the x axis, in turns: in [0, 1), within 7e-8 of a turn (most of it the
+/// last bit of the result; 3e-8 below an eighth). The length of (x, y) does not matter; (0, 0) has the angle 0.
 #[inline(always)]
 pub fn turns_of<L: Lanes>(x: F<L>, y: F<L>) -> F<L> {
     let (across, up) = (x.abs(), y.abs());

@@ -7,7 +7,7 @@ use statrs::distribution::{ChiSquared, ContinuousCDF};
 use super::{ImageBackground, cell_means};
 use crate::{
     image::Picture,
-    math::{F, One, V, colour::luminance},
+    math::{F, Lanes, One, SimdLevel, V, colour::luminance},
 };
 
 fn picture(width: u32, height: u32, radiance: impl FnMut(u32) -> [f32; 3]) -> Picture {
@@ -155,5 +155,28 @@ fn cell_means_are_those_of_the_bilinear_picture() {
         let value = |i: usize| texture.colour(One, at(i % 64, cell % 4, 4), at(i / 64, cell / 4, 8), crate::texture::Edge::Clamp);
         let exact = (0..4096).map(|i| f64::from(luminance(value(i).lane(0)))).sum::<f64>() / 4096.0;
         assert!((mean - exact).abs() < 1e-3, "{cell}: {mean} {exact}");
+    }
+}
+
+#[inline(always)]
+fn lanes_of<L: Lanes>(l: L, sky: &ImageBackground, numbers: &[[f32; 16]; 4]) -> Vec<[u32; 8]> {
+    let [index, coin, u, v] = [0, 1, 2, 3].map(|i| l.load(&numbers[i]));
+    let (d, density) = sky.sample(l, (index, coin), (u, v));
+    let (pdf, radiance) = (sky.pdf(l, d), sky.radiance(l, d));
+    let numbers = [d.x, d.y, d.z, density, pdf, radiance.x, radiance.y, radiance.z].map(F::to_array);
+    (0..L::N).map(|lane| numbers.map(|number| number[lane].to_bits())).collect()
+}
+
+#[test]
+fn every_width_gives_the_same_bits() {
+    let sky = sky(37, 19);
+    let mut random = SmallRng::seed_from_u64(9);
+    for _ in 0..500 {
+        let numbers: [[f32; 16]; 4] = std::array::from_fn(|_| std::array::from_fn(|_| unit(&mut random).0));
+        for level in SimdLevel::available() {
+            let found = crate::in_lanes!(level, l => lanes_of(l, &sky, &numbers));
+            let one = |lane: usize| lanes_of(One, &sky, &numbers.map(|n| [n[lane]; 16]))[0];
+            assert_eq!(found, (0..found.len()).map(one).collect::<Vec<_>>(), "{level:?}");
+        }
     }
 }
