@@ -57,7 +57,7 @@ pub struct PictureError {
 /// What is wrong with a file.
 #[derive(Debug, PartialEq, thiserror::Error)]
 pub enum Flaw {
-    #[error("there is no such file")]
+    #[error("cannot be read: there is no such file")]
     Missing,
     #[error("cannot be read: {0}")]
     Unreadable(String),

@@ -43,7 +43,7 @@ fn good_textures_compile() {
 fn pictures_that_cannot_be_used_are_named() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = |name: &str| folder.path().join(name);
-    image(&file("nowhere.png"), "nowhere.png: there is no such file");
+    image(&file("nowhere.png"), "nowhere.png: cannot be read: there is no such file");
     fs::write(file("text.png"), "no picture").expect("it is written");
     image(&file("text.png"), "not a picture");
     image(folder.path(), "cannot be read");
