@@ -53,6 +53,6 @@ fn arctan_turns<L: Lanes>(x: F<L>) -> F<L> {
     let p = x2 * p + 0.106_562_64;
     let p = x2 * p - 0.142_089;
     let p = x2 * p + 0.199_935_51;
-    let p = x2 * p - 0.333_331_453;
+    let p = x2 * p - 0.333_331_46;
     (x2 * p + 1.0) * x * (1.0 / TAU)
 }
