@@ -1,8 +1,9 @@
 //! Noisefall: the light transport equation, solved by Monte-Carlo path tracing while one watches.
 //!
 //! The library is the renderer; the window and the command line are in the binary. Folders depend downwards only:
-//! `render`, `measure` → `integrator` → `scene` → `light`, `material`, `geometry` → `sampling` → `math`.
+//! `render`, `measure` → `integrator` → `scene` → `light` → `material`, `geometry` → `texture` → `sampling`, `image` → `math`.
 pub mod geometry;
+pub mod image;
 pub mod integrator;
 pub mod light;
 pub mod material;
@@ -11,3 +12,4 @@ pub mod measure;
 pub mod render;
 pub mod sampling;
 pub mod scene;
+pub mod texture;

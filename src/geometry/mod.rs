@@ -8,7 +8,7 @@
 mod sphere;
 
 use self::sphere::Fraction;
-pub use self::sphere::{Cone, Sphere, SurfacePoint};
+pub use self::sphere::{Cone, Sphere, SurfacePoint, sphere_tangents, sphere_uv};
 use crate::math::{F, Lanes, Pick, U, V};
 
 /// The primitive id of a ray that meets nothing.

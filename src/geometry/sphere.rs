@@ -7,11 +7,14 @@
 //! ball of radius 10⁻⁶ seen from far away is exact too. (The second is the idea of E. Haines et al., "Precision Improvements for
 //! Ray/Sphere Intersection", Ray Tracing Gems, 2019, chapter 7, moved to the anchor.)
 mod cone;
+mod coordinates;
 #[cfg(test)]
 mod tests;
 
 pub use self::cone::Cone;
 use glam::DVec3;
+
+pub use self::coordinates::{sphere_tangents, sphere_uv};
 
 use crate::math::{F, Lanes, M, Pick, V};
 

@@ -4,12 +4,15 @@
 //! |---|---|---|
 //! | emission | `emission.rs` | constant radiance from one or both sides of a surface |
 //! | background | `background.rs` | constant radiance from all directions that meet no surface |
+//! | image background | `image_background.rs` | a picture of all directions, sampled by its light |
 pub mod background;
 mod choice;
 pub mod emission;
+pub mod image_background;
 
 pub use self::{
     background::Background,
     choice::{LightSample, Lights, Receiver},
     emission::{Emission, Emitters, Side},
+    image_background::ImageBackground,
 };

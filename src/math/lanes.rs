@@ -59,9 +59,6 @@ pub trait Lanes: ExtractToken + Copy + Send + Sync + 'static {
     fn from_bits(a: Self::Int) -> Self::Real;
     /// The nearest real.
     fn to_real(a: Self::Int) -> Self::Real;
-    /// The whole part of a real in [0, 2³²).
-    fn to_int(a: Self::Real) -> Self::Int;
-    fn floor(a: Self::Real) -> Self::Real;
 
     fn add_int(a: Self::Int, b: Self::Int) -> Self::Int;
     fn mul_int(a: Self::Int, b: Self::Int) -> Self::Int;
@@ -221,14 +218,6 @@ macro_rules! simd_lanes {
             #[inline(always)]
             fn to_real(a: $int) -> $real {
                 a.to_float()
-            }
-            #[inline(always)]
-            fn to_int(a: $real) -> $int {
-                a.to_int()
-            }
-            #[inline(always)]
-            fn floor(a: $real) -> $real {
-                a.floor()
             }
             #[inline(always)]
             fn add_int(a: $int, b: $int) -> $int {

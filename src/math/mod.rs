@@ -5,6 +5,9 @@ pub mod lanes;
 pub mod level;
 pub mod number;
 mod one;
+pub mod round;
+#[cfg(test)]
+mod tests;
 pub mod trig;
 pub mod vector;
 

@@ -145,15 +145,6 @@ impl<L: Lanes> F<L> {
         F(L::sqrt(self.0))
     }
     #[inline(always)]
-    pub fn floor(self) -> Self {
-        F(L::floor(self.0))
-    }
-    /// The whole part of a number that is not negative.
-    #[inline(always)]
-    pub fn to_int(self) -> U<L> {
-        U(L::to_int(self.0))
-    }
-    #[inline(always)]
     pub fn copysign(self, sign: Self) -> Self {
         F(L::copysign(self.0, sign.0))
     }

@@ -115,14 +115,6 @@ impl Lanes for One {
         a as f32
     }
     #[inline(always)]
-    fn to_int(a: f32) -> u32 {
-        a as u32
-    }
-    #[inline(always)]
-    fn floor(a: f32) -> f32 {
-        a.floor()
-    }
-    #[inline(always)]
     fn add_int(a: u32, b: u32) -> u32 {
         a.wrapping_add(b)
     }

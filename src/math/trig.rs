@@ -42,3 +42,30 @@ fn sin_quarter_turn<L: Lanes>(y: F<L>) -> F<L> {
     let p = x2 * p + -1.666_666_7e-1;
     x * (x2 * p + 1.0)
 }
+
+/// The angle of the point (x, y), counter-clockwise from the x axis, in turns: in [0, 1), within 7e-8 of a turn (most of it the
+/// last bit of the result; 3e-8 below an eighth). The length of (x, y) does not matter; (0, 0) has the angle 0.
+#[inline(always)]
+pub fn turns_of<L: Lanes>(x: F<L>, y: F<L>) -> F<L> {
+    let (across, up) = (x.abs(), y.abs());
+    let ratio = across.min(up) / across.max(up).max(x.splat(f32::MIN_POSITIVE));
+    let eighth = arctan_turns(ratio);
+    let quarter = across.lt(up).pick(0.25 - eighth, eighth);
+    let half = x.below(0.0).pick(0.5 - quarter, quarter);
+    let turn = y.below(0.0).pick(1.0 - half, half);
+    turn.below(1.0).pick(turn, x.splat(0.0))
+}
+
+/// arctan(x)/2π for x in [0, 1]. M. Abramowitz and I. Stegun, "Handbook of Mathematical Functions", 1964, formula 4.4.49.
+#[inline(always)]
+fn arctan_turns<L: Lanes>(x: F<L>) -> F<L> {
+    let x2 = x * x;
+    let p = x2 * 0.002_866_225_7 - 0.016_165_737;
+    let p = x2 * p + 0.042_909_614;
+    let p = x2 * p - 0.075_289_64;
+    let p = x2 * p + 0.106_562_64;
+    let p = x2 * p - 0.142_089;
+    let p = x2 * p + 0.199_935_51;
+    let p = x2 * p - 0.333_331_46;
+    (x2 * p + 1.0) * x * (1.0 / TAU)
+}

@@ -1,17 +1,14 @@
 //! Pictures on disk: PNG (what the screen shows) and EXR (linear radiance), both with the settings that made them.
 use std::{
-    fs::File,
-    io::{BufReader, BufWriter, Write},
+    io::{BufWriter, Write},
     path::{Path, PathBuf},
 };
 
-use exr::prelude::{
-    Encoding, Image, Layer, LayerAttributes, ReadChannels, ReadLayers, SpecificChannels, Text, WritableImage,
-    attribute::AttributeValue,
-};
+use exr::prelude::{Image, Layer, LayerAttributes, SpecificChannels, Text, WritableImage, attribute::AttributeValue};
 
 use super::{display::to_srgb, frame::Frame, tone::Display};
-use crate::math::colour::linear_from_srgb;
+pub use crate::image::Picture;
+use crate::image::{Encoding, PictureError};
 
 /// Where the settings stand in a file.
 pub const SETTINGS_KEY: &str = "noisefall";
@@ -25,16 +22,8 @@ pub enum ImageError {
     NoFolder { path: PathBuf, folder: PathBuf },
     #[error("{}: cannot be written: {reason}", path.display())]
     Write { path: PathBuf, reason: String },
-    #[error("{}: cannot be read: {reason}", path.display())]
-    Read { path: PathBuf, reason: String },
-}
-
-/// A picture in memory, linear Rec. 709, row by row from the top left.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Picture {
-    pub width: u32,
-    pub height: u32,
-    pub radiance: Vec<[f32; 3]>,
+    #[error(transparent)]
+    Read(#[from] PictureError),
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -126,51 +115,14 @@ fn write_exr(frame: &Frame, settings: &str, to: &mut impl Write) -> Result<(), S
     attributes.software_name = Some(Text::from("Noisefall"));
     let text = Text::new_or_none(settings).ok_or("the settings are not Latin-1 text, and EXR knows no other")?;
     attributes.other.insert(Text::from(SETTINGS_KEY), AttributeValue::Text(text));
-    let layer = Layer::new(size, attributes, Encoding::FAST_LOSSLESS, channels);
+    let layer = Layer::new(size, attributes, exr::prelude::Encoding::FAST_LOSSLESS, channels);
     // The format is written with seeks, which a buffer in memory allows whatever the target is.
     let mut bytes = std::io::Cursor::new(Vec::new());
     Image::from_layer(layer).write().to_buffered(&mut bytes).map_err(|error| error.to_string())?;
     to.write_all(bytes.get_ref()).map_err(|error| error.to_string())
 }
 
-/// Reads a PNG (undoing the sRGB curve) or an EXR.
+/// Reads a picture; a PNG is taken as sRGB.
 pub fn read(path: &Path) -> Result<Picture, ImageError> {
-    let format = format(path)?;
-    let failed = |reason: String| ImageError::Read { path: path.to_owned(), reason };
-    let file = BufReader::new(File::open(path).map_err(|error| failed(error.to_string()))?);
-    match format {
-        Format::Png => read_png(file).map_err(failed),
-        Format::Exr => read_exr(file).map_err(failed),
-    }
-}
-
-fn read_png(file: BufReader<File>) -> Result<Picture, String> {
-    let mut decoder = png::Decoder::new(file);
-    decoder.set_transformations(png::Transformations::normalize_to_color8());
-    let mut reader = decoder.read_info().map_err(|error| error.to_string())?;
-    let size = reader.output_buffer_size().ok_or("the picture is too large")?;
-    let mut bytes = vec![0; size];
-    let info = reader.next_frame(&mut bytes).map_err(|error| error.to_string())?;
-    let channels = info.color_type.samples();
-    let linear = |byte: u8| linear_from_srgb(f64::from(byte) / 255.0) as f32;
-    let pixel = |p: &[u8]| if channels < 3 { [linear(p[0]); 3] } else { [p[0], p[1], p[2]].map(linear) };
-    let radiance = bytes[..info.buffer_size()].chunks_exact(channels).map(pixel).collect();
-    Ok(Picture { width: info.width, height: info.height, radiance })
-}
-
-fn read_exr(file: BufReader<File>) -> Result<Picture, String> {
-    let image = exr::prelude::read()
-        .no_deep_data()
-        .largest_resolution_level()
-        .rgb_channels(
-            |size, _| (size.width(), vec![[0f32; 3]; size.area()]),
-            |(width, pixels), at, (r, g, b): (f32, f32, f32)| pixels[at.y() * *width + at.x()] = [r, g, b],
-        )
-        .first_valid_layer()
-        .all_attributes()
-        .from_buffered(file)
-        .map_err(|error| error.to_string())?;
-    let size = image.layer_data.size;
-    let (_, radiance) = image.layer_data.channel_data.pixels;
-    Ok(Picture { width: size.width() as u32, height: size.height() as u32, radiance })
+    Ok(crate::image::read(path, Encoding::Srgb)?)
 }

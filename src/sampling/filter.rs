@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 
 use serde::Serialize;
 
-use crate::math::{F, Lanes, Pick};
+use crate::math::{F, Lanes, Pick, round::floor};
 
 /// How a pixel weighs the light around its centre; separable, of integral 1. Lengths are in pixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
@@ -51,8 +51,8 @@ fn tent<L: Lanes>(u: F<L>) -> F<L> {
 #[inline(always)]
 fn gaussian<L: Lanes>(l: L, u: F<L>) -> F<L> {
     let at = u * STEPS as f32;
-    let step = at.floor();
-    let [start, width, ..] = l.rows(&*GAUSSIAN, step.to_int());
+    let (step, row) = floor(at);
+    let [start, width, ..] = l.rows(&*GAUSSIAN, row);
     start + width * (at - step)
 }
 

@@ -1,4 +1,5 @@
 //! Points of the unit cube and warps of them to directions, each with its density.
+pub mod alias;
 mod bits;
 mod filter;
 pub mod hash;
@@ -12,6 +13,7 @@ mod tests;
 pub mod warp;
 
 pub use self::{
+    alias::AliasTable,
     filter::Filter,
     joint::SampleNumber,
     sampler::{Dimension, Sampler, Stream},

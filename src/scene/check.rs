@@ -1,5 +1,8 @@
 //! Checks of single values of a scene file: each returns the value in the renderer's units or an error at its place.
-use std::ops::Range;
+use std::{
+    ops::Range,
+    path::{Path, PathBuf},
+};
 
 use glam::DVec3;
 use toml::Spanned;
@@ -13,6 +16,25 @@ use super::{
 const LARGEST: f64 = 1e12;
 const SMALLEST_RADIUS: f64 = 1e-12;
 const BRIGHTEST: f64 = 1e15;
+
+/// What the channels of a colour may be: from 0 to `most`.
+pub struct ColourRange {
+    pub what: &'static str,
+    pub most: f64,
+    pub expected: &'static str,
+}
+
+impl ColourRange {
+    pub const ALBEDO: ColourRange = ColourRange {
+        what: "albedo",
+        most: 1.0,
+        expected: "every channel must lie in [0, 1]: a surface cannot reflect more light than it receives",
+    };
+    pub const RADIANCE: ColourRange =
+        ColourRange { what: "radiance", most: BRIGHTEST, expected: "every channel must be a number from 0 to 1e15" };
+    /// A colour within a texture, whatever it is used for.
+    pub const TEXTURE: ColourRange = ColourRange { what: "colour", ..ColourRange::RADIANCE };
+}
 
 /// Checks against one source text.
 pub struct Checker<'a>(pub &'a SourceText);
@@ -66,26 +88,40 @@ impl Checker<'_> {
         })
     }
 
-    /// Reflectances, each in [0, 1].
-    pub fn albedo(&self, value: &Spanned<Colour>) -> Result<[f32; 3], SceneError> {
-        self.colour(
-            "albedo",
-            value,
-            1.0,
-            "every channel must lie in [0, 1]: a surface cannot reflect more light than it receives",
-        )
+    /// A number from `least` to `most`.
+    pub fn within(&self, what: &str, value: &Spanned<f64>, least: f64, most: f64) -> Result<f32, SceneError> {
+        let number = *value.as_ref();
+        if (least..=most).contains(&number) {
+            return Ok(number as f32);
+        }
+        let message = format!("`{what}` is out of range: {number}");
+        Err(self.0.error(value.span(), message, format!("expected a number from {least:e} to {most:e}")))
+    }
+
+    /// A path relative to the scene file.
+    pub fn path(&self, value: &Spanned<String>) -> PathBuf {
+        let folder = Path::new(&self.0.name).parent();
+        folder.map_or_else(|| value.as_ref().into(), |folder| folder.join(value.as_ref()))
+    }
+
+    /// The error of a name that stands for nothing; `known` are those that do.
+    pub fn not_defined<'k>(&self, kind: &str, name: &Spanned<String>, known: impl Iterator<Item = &'k String>) -> SceneError {
+        let known = known.map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
+        let help = if known.is_empty() { format!("the scene defines no {kind}s") } else { format!("the scene defines {known}") };
+        self.0.error(name.span(), format!("there is no {kind} `{}`", name.as_ref()), "not defined").with_help(help)
     }
 
     /// Radiances, each finite and not negative.
     pub fn radiance(&self, value: &Spanned<Colour>) -> Result<[f32; 3], SceneError> {
-        self.colour("radiance", value, BRIGHTEST, "every channel must be a number from 0 to 1e15")
+        self.colour(&ColourRange::RADIANCE, value)
     }
 
-    fn colour(&self, what: &str, value: &Spanned<Colour>, most: f64, label: &str) -> Result<[f32; 3], SceneError> {
+    /// A colour that is no texture.
+    pub fn colour(&self, range: &ColourRange, value: &Spanned<Colour>) -> Result<[f32; 3], SceneError> {
         match value.as_ref() {
-            Colour::Texture => Err(self.not_supported("texture", value.span())),
-            Colour::Rgb(rgb) if rgb.iter().all(|x| (0.0..=most).contains(x)) => Ok(rgb.map(|x| x as f32)),
-            Colour::Rgb(_) => Err(self.0.error(value.span(), format!("`{what}` is out of range"), label)),
+            Colour::Texture(_) => Err(self.not_supported("texture", value.span())),
+            Colour::Rgb(rgb) if rgb.iter().all(|x| (0.0..=range.most).contains(x)) => Ok(rgb.map(|x| x as f32)),
+            Colour::Rgb(_) => Err(self.0.error(value.span(), format!("`{}` is out of range", range.what), range.expected)),
         }
     }
 }

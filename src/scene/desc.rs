@@ -6,9 +6,11 @@ use std::collections::BTreeMap;
 
 use serde::{
     Deserialize, Deserializer,
-    de::{self, IgnoredAny, MapAccess, SeqAccess, Visitor},
+    de::{self, IgnoredAny},
 };
 use toml::Spanned;
+
+pub use super::colour::Colour;
 
 /// A key of the format that this version reads but does not support.
 pub type Planned = Option<Spanned<IgnoredAny>>;
@@ -29,7 +31,8 @@ pub struct SceneDesc {
     pub notes: Option<String>,
     pub camera: Spanned<CameraDesc>,
     pub background: Option<Spanned<BackgroundDesc>>,
-    pub textures: Planned,
+    #[serde(default)]
+    pub textures: BTreeMap<String, Spanned<TextureDesc>>,
     #[serde(default)]
     pub materials: BTreeMap<String, Spanned<MaterialDesc>>,
     #[serde(default)]
@@ -82,6 +85,40 @@ pub struct BackgroundDesc {
     pub image: Planned,
     pub rotate: Planned,
     pub scale: Planned,
+}
+
+/// Exactly one of the kinds is given.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TextureDesc {
+    pub image: Option<ImageTextureDesc>,
+    pub checker: Option<CheckerDesc>,
+    pub noise: Option<NoiseDesc>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ImageTextureDesc {
+    pub path: Spanned<String>,
+    #[serde(default)]
+    pub encoding: crate::image::Encoding,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CheckerDesc {
+    pub even: Spanned<Colour>,
+    pub odd: Spanned<Colour>,
+    pub scale: Spanned<f64>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct NoiseDesc {
+    pub scale: Spanned<f64>,
+    pub octaves: Spanned<u32>,
+    pub low: Spanned<Colour>,
+    pub high: Spanned<Colour>,
 }
 
 #[derive(Deserialize)]
@@ -174,52 +211,5 @@ impl<'de, T: Deserialize<'de>, const N: usize> Deserialize<'de> for Exactly<T, N
         let length = elements.len();
         let exactly = elements.try_into().map_err(|_| de::Error::custom(format!("{length} numbers in place of {N}")))?;
         Ok(Exactly(exactly))
-    }
-}
-
-/// A colour: `[r, g, b]`, or one number for grey.
-pub enum Colour {
-    Rgb([f64; 3]),
-    /// `{ texture = "…" }`.
-    Texture,
-}
-
-impl<'de> Deserialize<'de> for Colour {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_any(ColourVisitor)
-    }
-}
-
-struct ColourVisitor;
-
-impl<'de> Visitor<'de> for ColourVisitor {
-    type Value = Colour;
-
-    fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str("a colour: [red, green, blue], or one number for grey")
-    }
-    fn visit_f64<E: de::Error>(self, grey: f64) -> Result<Colour, E> {
-        Ok(Colour::Rgb([grey; 3]))
-    }
-    fn visit_i64<E: de::Error>(self, grey: i64) -> Result<Colour, E> {
-        self.visit_f64(grey as f64)
-    }
-    fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<Colour, A::Error> {
-        let mut rgb = [0.0; 3];
-        for (i, channel) in rgb.iter_mut().enumerate() {
-            *channel = seq.next_element()?.ok_or_else(|| de::Error::invalid_length(i, &self))?;
-        }
-        match seq.next_element::<IgnoredAny>()? {
-            None => Ok(Colour::Rgb(rgb)),
-            Some(_) => Err(de::Error::invalid_length(4, &self)),
-        }
-    }
-    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Colour, A::Error> {
-        while let Some((key, _)) = map.next_entry::<String, IgnoredAny>()? {
-            if key != "texture" {
-                return Err(de::Error::unknown_field(&key, &["texture"]));
-            }
-        }
-        Ok(Colour::Texture)
     }
 }

@@ -1,6 +1,7 @@
 //! The scene: what a file says, checked and compiled to what the renderer runs on.
 mod camera;
 mod check;
+mod colour;
 mod compile;
 mod desc;
 mod diagnostic;
@@ -8,6 +9,7 @@ mod load;
 mod rays;
 mod settings;
 pub mod surface;
+mod textures;
 
 use std::path::PathBuf;
 
@@ -25,6 +27,7 @@ use crate::{
     geometry::Shapes,
     light::{Emission, Lights},
     material::{Material, Materials},
+    texture::Textures,
 };
 
 /// A compiled scene. Immutable; shared between threads.
@@ -41,6 +44,7 @@ pub struct Scene {
     pub varying: Vec<[f32; 4]>,
     /// The shading stages that the scene needs.
     pub stages: Vec<Stage>,
+    pub textures: Textures,
     pub lights: Lights,
     /// The objects in the order of their primitive ids.
     pub objects: Vec<Object>,

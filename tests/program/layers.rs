@@ -2,8 +2,16 @@
 use std::{fs, path::Path};
 
 /// From the top down; folders of one line do not know each other.
-const LAYERS: [&[&str]; 7] =
-    [&["render"], &["measure"], &["integrator"], &["scene"], &["light"], &["geometry", "material"], &["sampling"]];
+const LAYERS: [&[&str]; 8] = [
+    &["render"],
+    &["measure"],
+    &["integrator"],
+    &["scene"],
+    &["light"],
+    &["geometry", "material"],
+    &["texture"],
+    &["sampling", "image"],
+];
 
 fn level(folder: &str) -> Option<usize> {
     LAYERS.iter().position(|layer| layer.contains(&folder)).or((folder == "math").then_some(LAYERS.len()))

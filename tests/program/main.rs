@@ -3,4 +3,5 @@ mod command_line;
 mod layers;
 mod pictures;
 mod scene_files;
+mod textures;
 mod worker;

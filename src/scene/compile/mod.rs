@@ -12,15 +12,17 @@ use self::{
 };
 use super::{
     Camera, Object, RenderSettings, Scene,
-    check::Checker,
+    check::{Checker, ColourRange},
     desc::{BackgroundDesc, EmissionDesc, MaterialDesc, ObjectDesc, SceneDesc, ShapeDesc},
     diagnostic::{SceneError, SourceText},
     surface::{self, Stage},
+    textures::{ColourSource, NamedTextures},
 };
 use crate::{
     geometry::{Shapes, Sphere},
     light::{Background, Emission, Lights, Side},
     material::{Material, Materials},
+    texture::Textures,
 };
 
 /// The version of the scene format that this program reads.
@@ -29,10 +31,10 @@ pub const FORMAT: i64 = 1;
 /// Checks a description and builds the scene. Errors point into `source`, which is the text that `desc` was read from.
 pub fn compile(desc: &SceneDesc, source: &SourceText) -> Result<Scene, SceneError> {
     let check = Checker(source);
-    check.refuse(&[("textures", &desc.textures)])?;
     let camera = camera(&check, &desc.camera)?;
     let background = desc.background.as_ref().map(|b| background(&check, b)).transpose()?;
-    let materials = materials(&check, &desc.materials)?;
+    let textures = NamedTextures::compile(&check, &desc.textures)?;
+    let materials = materials(&check, &desc.materials, &textures)?;
     let mut objects = desc.objects.iter().map(|o| object(&check, o, &materials)).collect::<Result<Vec<_>, _>>()?;
     // A stable sort: emitting primitives first, as the table of emitters wants it.
     objects.sort_by_key(|object| object.emission.is_none());
@@ -43,6 +45,7 @@ pub fn compile(desc: &SceneDesc, source: &SourceText) -> Result<Scene, SceneErro
         title: desc.title.clone().unwrap_or_default(),
         notes: desc.notes.clone().unwrap_or_default(),
         source: source.text.clone(),
+        textures: textures.textures,
         spp,
         truth,
         ..scene
@@ -64,6 +67,7 @@ fn build(objects: Vec<Object>, background: Option<Background>, camera: Camera, s
         notes: String::new(),
         lights: Lights::new(&spheres, &emissions, background),
         shapes: Shapes::new(spheres),
+        textures: Textures::default(),
         materials: Materials::default(),
         surfaces: objects.iter().map(surface).collect(),
         varying: vec![[0.0; 4]; objects.len()],
@@ -92,11 +96,15 @@ fn background(check: &Checker, desc: &Spanned<BackgroundDesc>) -> Result<Backgro
     Ok(Background { radiance: check.radiance(radiance)? })
 }
 
-fn materials(check: &Checker, descs: &BTreeMap<String, Spanned<MaterialDesc>>) -> Result<BTreeMap<String, Material>, SceneError> {
-    descs.iter().map(|(name, desc)| Ok((name.clone(), material(check, name, desc)?))).collect()
+fn materials(
+    check: &Checker,
+    descs: &BTreeMap<String, Spanned<MaterialDesc>>,
+    textures: &NamedTextures,
+) -> Result<BTreeMap<String, Material>, SceneError> {
+    descs.iter().map(|(name, desc)| Ok((name.clone(), material(check, name, desc, textures)?))).collect()
 }
 
-fn material(check: &Checker, name: &str, desc: &Spanned<MaterialDesc>) -> Result<Material, SceneError> {
+fn material(check: &Checker, name: &str, desc: &Spanned<MaterialDesc>, textures: &NamedTextures) -> Result<Material, SceneError> {
     let m = desc.as_ref();
     check.refuse(&[
         ("mirror", &m.mirror),
@@ -110,7 +118,10 @@ fn material(check: &Checker, name: &str, desc: &Spanned<MaterialDesc>) -> Result
     let lambertian = m.lambertian.as_ref().ok_or_else(|| {
         check.0.error(desc.span(), format!("material `{name}` says no kind"), "expected `lambertian = { albedo = … }`")
     })?;
-    Ok(Material::Lambertian { albedo: check.albedo(&lambertian.albedo)? })
+    match textures.colour_or_texture(check, &ColourRange::ALBEDO, &lambertian.albedo)? {
+        ColourSource::Constant(albedo) => Ok(Material::Lambertian { albedo }),
+        ColourSource::Texture(_) => Err(check.not_supported("texture", lambertian.albedo.span())),
+    }
 }
 
 fn object(check: &Checker, desc: &Spanned<ObjectDesc>, materials: &BTreeMap<String, Material>) -> Result<Object, SceneError> {
@@ -143,13 +154,7 @@ fn named_material(
     name: &Spanned<String>,
     materials: &BTreeMap<String, Material>,
 ) -> Result<Material, SceneError> {
-    materials.get(name.as_ref()).copied().ok_or_else(|| {
-        let known = materials.keys().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
-        let help =
-            if known.is_empty() { "the scene defines no materials".to_owned() } else { format!("the scene defines {known}") };
-        let message = format!("there is no material `{}`", name.as_ref());
-        check.0.error(name.span(), message, "not defined").with_help(help)
-    })
+    materials.get(name.as_ref()).copied().ok_or_else(|| check.not_defined("material", name, materials.keys()))
 }
 
 fn emission(check: &Checker, desc: &Spanned<EmissionDesc>, flip: bool) -> Result<Option<Emission>, SceneError> {

@@ -33,8 +33,7 @@ pub fn truth(check: &Checker, desc: &Spanned<TruthDesc>) -> Result<Truth, SceneE
     match (&desc.as_ref().radiance, &desc.as_ref().image) {
         (Some(radiance), None) => Ok(Truth::Radiance(check.radiance(radiance)?)),
         (None, Some(image)) => {
-            let folder = std::path::Path::new(&check.0.name).parent();
-            let path = folder.map_or_else(|| image.as_ref().into(), |folder| folder.join(image.as_ref()));
+            let path = check.path(image);
             if !path.is_file() {
                 return Err(check.0.error(image.span(), format!("there is no file {}", path.display()), "not found"));
             }

@@ -1,0 +1,130 @@
+//! Radiance HDR: three mantissas of 8 bits and the exponent they share, packed by runs.
+//!
+//! G. Ward, "Real Pixels", Graphics Gems II, 1991, and the Radiance file format notes ("Picture File Format"). The mantissas are
+//! taken as they stand, without the half step that Radiance itself adds: then black is 0, and other readers agree.
+use std::io::{BufRead, Read};
+
+use super::{Flaw, Picture, check_size};
+
+/// A line of the header may not be longer.
+const LONGEST_LINE: u64 = 4096;
+/// Widths that can have packed channels.
+const PACKED_WIDTHS: std::ops::RangeInclusive<usize> = 8..=0x7fff;
+
+type Rgbe = [u8; 4];
+
+pub(super) fn decode(mut file: impl BufRead) -> Result<Picture, Flaw> {
+    let exposure = exposure(&mut file)?;
+    let (width, height) = size(&text_line(&mut file)?)?;
+    check_size(width.into(), height.into())?;
+    let mut radiance = Vec::new();
+    let mut row = vec![[0; 4]; width as usize];
+    for _ in 0..height {
+        read_row(&mut file, &mut row)?;
+        radiance.extend(row.iter().map(|rgbe| linear(*rgbe, exposure)));
+    }
+    Ok(Picture { width, height, radiance })
+}
+
+/// Reads the header to its empty line: the factor by which the values were multiplied.
+fn exposure(file: &mut impl BufRead) -> Result<f64, Flaw> {
+    let mut exposure = 1.0;
+    loop {
+        let line = text_line(file)?;
+        if line.is_empty() {
+            return Ok(exposure);
+        }
+        if let Some(format) = line.strip_prefix("FORMAT=")
+            && format.trim() != "32-bit_rle_rgbe"
+        {
+            return Err(Flaw::broken(format!("its pixels are {format}, not 32-bit_rle_rgbe")));
+        }
+        if let Some(factor) = line.strip_prefix("EXPOSURE=") {
+            let factor = factor.trim().parse().ok().filter(|factor| f64::is_normal(*factor) && *factor > 0.0);
+            exposure *= factor.ok_or_else(|| Flaw::broken(format!("`{line}` is no factor")))?;
+        }
+    }
+}
+
+/// Width and height of a line like `-Y 512 +X 1024`: rows from the top, columns from the left.
+fn size(line: &str) -> Result<(u32, u32), Flaw> {
+    let size = match line.split_whitespace().collect::<Vec<_>>()[..] {
+        ["-Y", height, "+X", width] => width.parse().ok().zip(height.parse().ok()),
+        _ => None,
+    };
+    size.ok_or_else(|| Flaw::broken(format!("its size is `{line}`, not `-Y height +X width`")))
+}
+
+fn text_line(file: &mut impl BufRead) -> Result<String, Flaw> {
+    let mut line = Vec::new();
+    file.take(LONGEST_LINE).read_until(b'\n', &mut line)?;
+    if line.pop() != Some(b'\n') {
+        return Err(Flaw::broken("the file ends within its header"));
+    }
+    Ok(String::from_utf8_lossy(&line).trim_end().to_owned())
+}
+
+fn bytes<const N: usize>(file: &mut impl BufRead) -> Result<[u8; N], Flaw> {
+    let mut bytes = [0; N];
+    file.read_exact(&mut bytes).map_err(|_| Flaw::broken("the file ends within its pixels"))?;
+    Ok(bytes)
+}
+
+fn read_row(file: &mut impl BufRead, row: &mut [Rgbe]) -> Result<(), Flaw> {
+    let first: Rgbe = bytes(file)?;
+    match first {
+        [2, 2, high, low] if high < 128 && PACKED_WIDTHS.contains(&row.len()) => {
+            if usize::from(u16::from_be_bytes([high, low])) != row.len() {
+                return Err(Flaw::broken("a row has another width than the picture"));
+            }
+            (0..4).try_for_each(|channel| read_channel(file, row, channel))
+        }
+        _ => read_pixels(file, first, row),
+    }
+}
+
+/// One channel of a row in runs: a byte above 128 repeats the next one, another says how many follow as they are.
+fn read_channel(file: &mut impl BufRead, row: &mut [Rgbe], channel: usize) -> Result<(), Flaw> {
+    let mut done = 0;
+    while done < row.len() {
+        let [count] = bytes(file)?;
+        let (length, repeated) = if count > 128 { (count - 128, Some(bytes::<1>(file)?)) } else { (count, None) };
+        let run = row.get_mut(done..done + usize::from(length)).filter(|run| !run.is_empty());
+        for pixel in run.ok_or_else(|| Flaw::broken("a run leaves its row"))? {
+            [pixel[channel]] = repeated.map_or_else(|| bytes(file), Ok)?;
+        }
+        done += usize::from(length);
+    }
+    Ok(())
+}
+
+/// A row pixel by pixel, `first` already read. Mantissas 1, 1, 1 repeat the last pixel as often as the exponent says;
+/// such repetitions in a row are the digits, to base 256, of one count.
+fn read_pixels(file: &mut impl BufRead, first: Rgbe, row: &mut [Rgbe]) -> Result<(), Flaw> {
+    let (mut done, mut digit, mut next) = (0usize, 0, first);
+    loop {
+        if let [1, 1, 1, count] = next {
+            let last = done.checked_sub(1).map(|last| row[last]);
+            let length = usize::from(count) << (8 * digit).min(24);
+            let run = row.get_mut(done..done + length);
+            let (Some(last), Some(run)) = (last, run) else { return Err(Flaw::broken("a run leaves its row")) };
+            run.fill(last);
+            done += length;
+            digit += 1;
+        } else {
+            row[done] = next;
+            done += 1;
+            digit = 0;
+        }
+        if done == row.len() {
+            return Ok(());
+        }
+        next = bytes(file)?;
+    }
+}
+
+/// m · 2^(e − 136), divided by the exposure; e = 0 is black.
+fn linear([r, g, b, e]: Rgbe, exposure: f64) -> [f32; 3] {
+    let scale = if e == 0 { 0.0 } else { f64::powi(2.0, i32::from(e) - 136) / exposure };
+    [r, g, b].map(|m| (f64::from(m) * scale) as f32)
+}

@@ -1,0 +1,129 @@
+//! Decoding of picture files to linear light. What a file is, its first bytes say, not its name.
+//!
+//! | kind | file | values |
+//! |---|---|---|
+//! | PNG | `png.rs` | 8 or 16 bits a channel, sRGB or linear; alpha is ignored |
+//! | OpenEXR | `exr.rs` | linear; the layer's R, G and B |
+//! | Radiance HDR | `hdr.rs` | linear; a common exponent a pixel |
+mod exr;
+mod hdr;
+mod png;
+#[cfg(test)]
+mod tests;
+
+use std::{
+    fmt,
+    fs::File,
+    io::{BufRead, BufReader, ErrorKind, Read, Seek},
+    path::{Path, PathBuf},
+};
+
+use serde::Deserialize;
+
+/// Longer sides are refused.
+pub const LONGEST_SIDE: u64 = 16_384;
+/// Pictures of more pixels are refused.
+pub const MOST_PIXELS: u64 = 1 << 27;
+/// The brightest value that counts as light.
+const BRIGHTEST: f32 = 1e15;
+
+/// A picture in memory, linear Rec. 709, row by row from the top left.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Picture {
+    pub width: u32,
+    pub height: u32,
+    pub radiance: Vec<[f32; 3]>,
+}
+
+/// How the numbers of a PNG stand for light. The other kinds of file are linear whatever this says.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Encoding {
+    /// Through the sRGB curve: colours.
+    #[default]
+    Srgb,
+    /// In proportion: heights, normals, masks.
+    Linear,
+}
+
+/// Why a file gave no picture.
+#[derive(Debug, thiserror::Error)]
+#[error("{}: {flaw}", path.display())]
+pub struct PictureError {
+    pub path: PathBuf,
+    pub flaw: Flaw,
+}
+
+/// What is wrong with a file.
+#[derive(Debug, PartialEq, thiserror::Error)]
+pub enum Flaw {
+    #[error("cannot be read: there is no such file")]
+    Missing,
+    #[error("cannot be read: {0}")]
+    Unreadable(String),
+    #[error("not a picture: neither PNG nor OpenEXR nor Radiance HDR")]
+    NotAPicture,
+    #[error("the picture is {0} × {1}: it has no pixels")]
+    Empty(u64, u64),
+    #[error("the picture is {0} × {1}: a side may have {LONGEST_SIDE} pixels and the whole {MOST_PIXELS}")]
+    TooLarge(u64, u64),
+    #[error("the pixel at column {0}, row {1} is no amount of light: it must be a number up to {BRIGHTEST:e}")]
+    NotLight(usize, usize),
+}
+
+impl Flaw {
+    /// A file that breaks the rules of its own format.
+    fn broken(reason: impl fmt::Display) -> Flaw {
+        Flaw::Unreadable(reason.to_string())
+    }
+}
+
+impl From<std::io::Error> for Flaw {
+    fn from(error: std::io::Error) -> Flaw {
+        if error.kind() == ErrorKind::NotFound { Flaw::Missing } else { Flaw::broken(error) }
+    }
+}
+
+/// Reads a picture file of any known kind.
+pub fn read(path: &Path, encoding: Encoding) -> Result<Picture, PictureError> {
+    let file = File::open(path).map_err(Flaw::from);
+    let picture = file.and_then(|file| decode(BufReader::new(file), encoding));
+    picture.map_err(|flaw| PictureError { path: path.to_owned(), flaw })
+}
+
+/// Reads a picture whose values are amounts of light: numbers, finite and not negative. Small negative values are what other
+/// programs write for colours outside Rec. 709, and become 0.
+pub fn read_light(path: &Path, encoding: Encoding) -> Result<Picture, PictureError> {
+    let mut picture = read(path, encoding)?;
+    if let Some(at) = picture.radiance.iter().position(|pixel| !pixel.iter().all(|x| *x <= BRIGHTEST)) {
+        let flaw = Flaw::NotLight(at % picture.width as usize, at / picture.width as usize);
+        return Err(PictureError { path: path.to_owned(), flaw });
+    }
+    for pixel in &mut picture.radiance {
+        *pixel = pixel.map(|x| x.max(0.0));
+    }
+    Ok(picture)
+}
+
+fn decode(mut file: impl BufRead + Seek, encoding: Encoding) -> Result<Picture, Flaw> {
+    let mut magic = Vec::new();
+    (&mut file).take(4).read_to_end(&mut magic)?;
+    file.rewind()?;
+    match magic.as_slice() {
+        [0x89, b'P', b'N', b'G'] => png::decode(file, encoding),
+        [0x76, 0x2f, 0x31, 0x01] => exr::decode(file),
+        [b'#', b'?', ..] => hdr::decode(file),
+        _ => Err(Flaw::NotAPicture),
+    }
+}
+
+/// Refuses by the size that a header claims, before room is made for it.
+fn check_size(width: u64, height: u64) -> Result<(), Flaw> {
+    if width == 0 || height == 0 {
+        return Err(Flaw::Empty(width, height));
+    }
+    if width.max(height) > LONGEST_SIDE || width * height > MOST_PIXELS {
+        return Err(Flaw::TooLarge(width, height));
+    }
+    Ok(())
+}

@@ -1,0 +1,101 @@
+//! Pictures made by hand, byte by byte.
+use std::io::Cursor;
+
+use super::{Encoding, Flaw, Picture, decode};
+
+fn read(bytes: &[u8]) -> Result<Picture, Flaw> {
+    decode(Cursor::new(bytes), Encoding::Linear)
+}
+
+fn hdr(header: &str, pixels: &[u8]) -> Vec<u8> {
+    [header.as_bytes(), pixels].concat()
+}
+
+fn png(width: u32, height: u32, colour: png::ColorType, depth: png::BitDepth, data: &[u8]) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, width, height);
+    encoder.set_color(colour);
+    encoder.set_depth(depth);
+    let mut writer = encoder.write_header().expect("a header");
+    writer.write_image_data(data).expect("data");
+    writer.finish().expect("an end");
+    bytes
+}
+
+const HEADER: &str = "#?RADIANCE\n# by hand\nFORMAT=32-bit_rle_rgbe\n";
+
+#[test]
+fn a_plain_hdr_has_its_mantissas_times_powers_of_two() {
+    let bytes = hdr(&format!("{HEADER}EXPOSURE=2\n\n-Y 2 +X 1\n"), &[128, 64, 0, 129, 7, 7, 7, 0]);
+    let picture = read(&bytes).expect("it is a picture");
+    assert_eq!((picture.width, picture.height), (1, 2));
+    assert_eq!(picture.radiance, [[0.5, 0.25, 0.0], [0.0; 3]]);
+}
+
+#[test]
+fn old_runs_repeat_a_pixel() {
+    let pixels = [128, 128, 128, 129, 1, 1, 1, 2, 64, 64, 64, 129, 1, 1, 1, 3, 1, 1, 1, 1];
+    let picture = read(&hdr(&format!("{HEADER}\n-Y 1 +X 263\n"), &pixels)).expect("it is a picture");
+    let greys: Vec<f32> = picture.radiance.iter().map(|pixel| pixel[0]).collect();
+    assert_eq!(greys, [vec![1.0; 3], vec![0.5; 260]].concat());
+}
+
+#[test]
+fn new_runs_fill_channel_by_channel() {
+    let row = [&[2, 2, 0, 8][..], &[136, 128], &[4, 0, 64, 128, 192, 132, 32], &[136, 0], &[136, 129]].concat();
+    let picture = read(&hdr(&format!("{HEADER}\n-Y 2 +X 8\n"), &row.repeat(2))).expect("it is a picture");
+    let greens = [0.0, 0.5, 1.0, 1.5, 0.25, 0.25, 0.25, 0.25].repeat(2);
+    assert_eq!(picture.radiance, greens.into_iter().map(|green| [1.0, green, 0.0]).collect::<Vec<_>>());
+}
+
+#[test]
+fn broken_hdrs_are_refused() {
+    let refuses = |header: &str, pixels: &[u8], reason: &str| {
+        let error = read(&hdr(header, pixels)).expect_err("it is broken").to_string();
+        assert!(error.contains(reason), "{error}");
+    };
+    let sized = |size: &str| format!("{HEADER}\n{size}\n");
+    refuses(&sized("-Y 1 +X 2"), &[1, 2, 3, 4, 5], "ends within its pixels");
+    refuses(&sized("-Y 1 +X 2"), &[1, 1, 1, 1, 5, 5, 5, 5], "a run leaves");
+    refuses(&sized("-Y 1 +X 2"), &[5, 5, 5, 5, 1, 1, 1, 9], "a run leaves");
+    refuses(&sized("-Y 1 +X 8"), &[2, 2, 0, 8, 137, 1], "a run leaves");
+    refuses(&sized("-Y 1 +X 8"), &[2, 2, 0, 8, 0], "a run leaves");
+    refuses(&sized("-Y 1 +X 8"), &[2, 2, 0, 9, 136, 1], "another width");
+    refuses(&sized("+X 8 -Y 1"), &[], "not `-Y height +X width`");
+    refuses(&sized("-Y 0 +X 8"), &[], "no pixels");
+    refuses(&sized("-Y 60000 +X 8"), &[], "8 × 60000");
+    refuses(&sized("-Y 16384 +X 16384"), &[], "16384 × 16384");
+    refuses("#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n", &[], "32-bit_rle_xyze");
+    refuses("#?RADIANCE\nEXPOSURE=0\n\n", &[], "no factor");
+    refuses("#?RADIANCE\n", &[], "within its header");
+    refuses(&format!("#?{}", "x".repeat(10_000)), &[], "within its header");
+}
+
+#[test]
+fn pngs_of_any_depth_and_channels_are_read() {
+    use png::{BitDepth, ColorType};
+    let radiance = |bytes: &[u8]| read(bytes).expect("it is a picture").radiance;
+    assert_eq!(radiance(&png(1, 1, ColorType::Rgba, BitDepth::Eight, &[255, 0, 51, 7])), [[1.0, 0.0, 0.2]]);
+    assert_eq!(radiance(&png(1, 1, ColorType::GrayscaleAlpha, BitDepth::Eight, &[51, 0])), [[0.2; 3]]);
+    assert_eq!(radiance(&png(2, 1, ColorType::Grayscale, BitDepth::One, &[0b0100_0000])), [[0.0; 3], [1.0; 3]]);
+    assert_eq!(radiance(&png(1, 1, ColorType::Rgb, BitDepth::Sixteen, &[0, 1, 255, 255, 0, 0])), [[1.0 / 65535.0, 1.0, 0.0]]);
+    let grey = decode(Cursor::new(png(1, 1, ColorType::Grayscale, BitDepth::Eight, &[188])), Encoding::Srgb);
+    assert!((grey.expect("it is a picture").radiance[0][1] - 0.502_886).abs() < 1e-6);
+}
+
+#[test]
+fn sizes_are_refused_by_the_header_alone() {
+    let header = |width: u32, height: u32| {
+        let mut bytes = png(1, 1, png::ColorType::Grayscale, png::BitDepth::Eight, &[0]);
+        bytes[16..20].copy_from_slice(&width.to_be_bytes());
+        bytes[20..24].copy_from_slice(&height.to_be_bytes());
+        bytes.truncate(24);
+        read(&bytes)
+    };
+    assert_eq!(header(60_000, 1), Err(Flaw::TooLarge(60_000, 1)));
+    assert_eq!(header(0, 4), Err(Flaw::Empty(0, 4)));
+    assert_eq!(header(u32::MAX, u32::MAX), Err(Flaw::TooLarge(u32::MAX.into(), u32::MAX.into())));
+    assert!(matches!(header(1, 1), Err(Flaw::Unreadable(_))));
+    assert_eq!(read(b"GIF89a"), Err(Flaw::NotAPicture));
+    assert_eq!(read(b""), Err(Flaw::NotAPicture));
+}

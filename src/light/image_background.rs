@@ -1,0 +1,132 @@
+//! The background as a picture of all directions, equirectangular: columns are azimuths, rows are polar angles.
+//!
+//! World space, y up. The top edge (v = 0) is straight up, the bottom edge straight down, and the middle column (u = ½) faces −z,
+//! with +x to its right: the picture as a camera that looks along −z sees it. It is sampled by an alias table over equal cells of
+//! u and v, by the light that comes through each; within a cell the density is constant per solid angle.
+#[cfg(test)]
+mod tests;
+mod weights;
+
+use std::f64::consts::{PI, TAU};
+
+use self::weights::cell_means;
+use crate::{
+    image::Picture,
+    math::{
+        F, Lanes, Pick, U, V,
+        round::floor,
+        trig::{sin_cos_turns, turns_of},
+    },
+    sampling::AliasTable,
+    texture::{Edge, ImageTexture},
+};
+
+const MOST_COLUMNS: u32 = 1024;
+const MOST_ROWS: u32 = 512;
+
+/// A picture at infinity. Radiance in W·sr⁻¹·m⁻², linear Rec. 709.
+pub struct ImageBackground {
+    picture: ImageTexture,
+    /// What must be added to an azimuth, in turns from −z towards +x, to get u; in [0, 1).
+    shift: f32,
+    /// Numbers of cells, powers of two.
+    columns: u32,
+    rows: u32,
+    cells: AliasTable,
+    /// A row of cells: see [`row_bounds`].
+    bounds: Vec<[f32; 4]>,
+    mean_luminance: f32,
+}
+
+impl ImageBackground {
+    /// `picture` holds amounts of light ([`crate::image::read_light`]), which `scale` multiplies. `rotate` turns the picture about
+    /// +y by degrees, counter-clockwise seen from above.
+    pub fn new(mut picture: Picture, rotate: f64, scale: f32) -> ImageBackground {
+        for pixel in &mut picture.radiance {
+            *pixel = pixel.map(|x| x * scale);
+        }
+        let columns = picture.width.next_power_of_two().min(MOST_COLUMNS);
+        let rows = picture.height.next_power_of_two().clamp(2, MOST_ROWS);
+        let bounds: Vec<_> = (0..rows).map(|row| row_bounds(row, rows, columns)).collect();
+        let mut weights = cell_means(&picture, columns as usize, rows as usize);
+        for (row, bounds) in weights.chunks_exact_mut(columns as usize).zip(&bounds) {
+            row.iter_mut().for_each(|mean| *mean /= f64::from(bounds[3]));
+        }
+        let power: f64 = weights.iter().sum();
+        if power == 0.0 {
+            weights.fill(1.0);
+        }
+        ImageBackground {
+            picture: ImageTexture::new(&picture),
+            shift: (0.5 + rotate / 360.0).rem_euclid(1.0) as f32,
+            columns,
+            rows,
+            cells: AliasTable::new(&weights),
+            bounds,
+            mean_luminance: (power / (2.0 * TAU)) as f32,
+        }
+    }
+
+    /// Mean luminance over all directions, by the cells; 0 if and only if the picture is black.
+    pub fn mean_luminance(&self) -> f32 {
+        self.mean_luminance
+    }
+
+    /// Radiance that arrives from the unit direction `d`.
+    #[inline(always)]
+    pub fn radiance<L: Lanes>(&self, l: L, d: V<L>) -> V<L> {
+        let (u, v) = self.picture_from_world(d);
+        self.picture.colour(l, u, v, Edge::Clamp)
+    }
+
+    /// A unit direction and its density per solid angle. `cell` chooses the cell, by index and coin; `u` is the place in it.
+    #[inline(always)]
+    pub fn sample<L: Lanes>(&self, l: L, cell: (F<L>, F<L>), u: (F<L>, F<L>)) -> (V<L>, F<L>) {
+        let (cell, probability) = self.cells.sample(l, cell);
+        let column = cell & (self.columns - 1);
+        let [start, extent, up, density] = l.rows(&self.bounds, cell >> self.columns.trailing_zeros());
+        // sin²(θ/2) is uniform in solid angle, and exact near the pole that it is measured from.
+        let s = start + extent * u.1;
+        let y = up * (1.0 - s * 2.0);
+        let r = (s * (1.0 - s)).sqrt() * 2.0;
+        let azimuth = (column.to_real() + u.0) * (1.0 / self.columns as f32) + (1.0 - self.shift);
+        let (sin, cos) = sin_cos_turns(azimuth.above(1.0).pick(azimuth - 1.0, azimuth));
+        (V { x: r * sin, y, z: -(r * cos) }, probability * density)
+    }
+
+    /// Density of [`sample`](Self::sample) at the unit direction `d`, per solid angle.
+    #[inline(always)]
+    pub fn pdf<L: Lanes>(&self, l: L, d: V<L>) -> F<L> {
+        let (u, v) = self.picture_from_world(d);
+        let row = place(v, self.rows);
+        let [_, _, _, density] = l.rows(&self.bounds, row);
+        self.cells.probability(l, row * self.columns + place(u, self.columns)) * density
+    }
+
+    /// (u, v) in [0, 1]².
+    #[inline(always)]
+    fn picture_from_world<L: Lanes>(&self, d: V<L>) -> (F<L>, F<L>) {
+        let u = turns_of(-d.z, d.x) + self.shift;
+        let u = u.below(1.0).pick(u, u - 1.0);
+        let r = (d.x * d.x + d.z * d.z).sqrt();
+        (u, turns_of(d.y, r) * 2.0)
+    }
+}
+
+/// Which of `count` equal parts of [0, 1] holds `t`.
+#[inline(always)]
+fn place<L: Lanes>(t: F<L>, count: u32) -> U<L> {
+    floor((t * count as f32).min(t.splat((count - 1) as f32))).1
+}
+
+/// For a row of cells: where sin²(θ/2) begins, θ from the pole that the row is nearer to, and how far it extends; 1 if that pole is
+/// the upper one and −1 if not; and the reciprocal of the solid angle of a cell. Rows are an even number.
+fn row_bounds(row: u32, rows: u32, columns: u32) -> [f32; 4] {
+    let upper = row < rows / 2;
+    let from_pole = if upper { row } else { rows - 1 - row };
+    let sin_squared = |k: u32| (PI * f64::from(k) / f64::from(2 * rows)).sin().powi(2);
+    let (start, end) = (sin_squared(from_pole), sin_squared(from_pole + 1));
+    // The height 1 − 2 sin²(θ/2) is cos θ, and dω = dφ d(cos θ).
+    let solid_angle = TAU / f64::from(columns) * 2.0 * (end - start);
+    [start as f32, (end - start) as f32, if upper { 1.0 } else { -1.0 }, (1.0 / solid_angle) as f32]
+}

@@ -1,0 +1,182 @@
+//! Sampling against density, density against light, and which way the picture faces.
+use std::f64::consts::{PI, TAU};
+
+use rand::{Rng, SeedableRng, rngs::SmallRng};
+use statrs::distribution::{ChiSquared, ContinuousCDF};
+
+use super::{ImageBackground, cell_means};
+use crate::{
+    image::Picture,
+    math::{F, Lanes, One, SimdLevel, V, colour::luminance},
+};
+
+fn picture(width: u32, height: u32, radiance: impl FnMut(u32) -> [f32; 3]) -> Picture {
+    Picture { width, height, radiance: (0..width * height).map(radiance).collect() }
+}
+
+/// Degrees.
+const ROTATE: f64 = 75.0;
+
+/// Noise with a sun, in a picture whose sides are no powers of two.
+fn sky(width: u32, height: u32) -> ImageBackground {
+    let mut random = SmallRng::seed_from_u64(3);
+    let sun = height / 5 * width + width / 3;
+    let sky = picture(width, height, |i| if i == sun { [900.0, 800.0, 500.0] } else { [random.random(), 0.1, 0.0] });
+    ImageBackground::new(sky, ROTATE, 2.0)
+}
+
+fn direction(theta: f64, phi: f64) -> V<One> {
+    let [x, y, z] = [theta.sin() * phi.cos(), theta.cos(), theta.sin() * phi.sin()];
+    V { x: F(x as f32), y: F(y as f32), z: F(z as f32) }
+}
+
+/// Midpoints of the 2²³ cells of (0, 1), as samplers give them.
+fn unit(random: &mut SmallRng) -> F<One> {
+    F(((f64::from(random.random_range(0..1u32 << 23)) + 0.5) / f64::from(1 << 23)) as f32)
+}
+
+/// The pdf integrated over bins of equal polar angle and azimuth, exactly: it is constant in every step of the sum, because 24
+/// steps of a bin are 1/480 and 1/960 of the sphere's angles, [`ROTATE`] is a whole number of them, and so is a cell when the
+/// picture is small.
+fn bin_probabilities(sky: &ImageBackground, rows: usize, columns: usize) -> Vec<f64> {
+    const STEPS: usize = 24;
+    let (theta_step, phi_step) = (PI / (rows * STEPS) as f64, TAU / (columns * STEPS) as f64);
+    let mut bins = vec![0.0; rows * columns];
+    for row in 0..rows * STEPS {
+        let solid_angle = phi_step * ((row as f64 * theta_step).cos() - ((row + 1) as f64 * theta_step).cos());
+        for column in 0..columns * STEPS {
+            let d = direction((row as f64 + 0.5) * theta_step, (column as f64 + 0.5) * phi_step);
+            bins[row / STEPS * columns + column / STEPS] += f64::from(sky.pdf(One, d).0) * solid_angle;
+        }
+    }
+    bins
+}
+
+#[test]
+fn samples_are_distributed_as_their_pdf() {
+    const ROWS: usize = 20;
+    const COLUMNS: usize = 40;
+    const SAMPLES: usize = 1_000_000;
+    for (width, height) in [(37, 19), (1, 1), (2, 3), (1500, 700)] {
+        let sky = sky(width, height);
+        let mut random = SmallRng::seed_from_u64(5);
+        let mut counts = vec![0.0; ROWS * COLUMNS];
+        let mut elsewhere = 0;
+        for _ in 0..SAMPLES {
+            let cell = (unit(&mut random), unit(&mut random));
+            let (d, pdf) = sky.sample(One, cell, (unit(&mut random), unit(&mut random)));
+            assert!((d.length_squared().0 - 1.0).abs() < 1e-6 && pdf.0 > 0.0);
+            // At the rim of a cell rounding may put a direction into the next one.
+            elsewhere += usize::from((sky.pdf(One, d).0 / pdf.0 - 1.0).abs() > 1e-6);
+            let [x, y, z] = d.lane(0).map(f64::from);
+            let row = (x.hypot(z).atan2(y) / PI * ROWS as f64) as usize;
+            let column = (z.atan2(x) / TAU).rem_euclid(1.0) * COLUMNS as f64;
+            counts[row.min(ROWS - 1) * COLUMNS + (column as usize).min(COLUMNS - 1)] += 1.0;
+        }
+        println!("{width} × {height}: {elsewhere} of {SAMPLES} samples have the pdf of the next cell");
+        assert!(elsewhere < SAMPLES / 2000, "{elsewhere}");
+        if width > 1000 {
+            continue;
+        }
+        let expected = bin_probabilities(&sky, ROWS, COLUMNS);
+        let whole: f64 = expected.iter().sum();
+        assert!((whole - 1.0).abs() < 1e-6, "{whole}");
+        let bins: Vec<(f64, f64)> = counts.into_iter().zip(expected.iter().map(|p| p * SAMPLES as f64)).collect();
+        let statistic: f64 = bins.iter().map(|(count, expected)| (count - expected).powi(2) / expected).sum();
+        let p = 1.0 - ChiSquared::new((ROWS * COLUMNS - 1) as f64).expect("degrees").cdf(statistic);
+        println!("{width} × {height}: p = {p:.3}");
+        assert!(p > 1e-4, "{width} × {height}: p = {p}");
+    }
+}
+
+#[test]
+fn pdf_integrates_to_one_and_follows_the_light() {
+    let sky = sky(64, 32);
+    let (mut whole, mut light) = (0.0, 0.0);
+    for row in 0..32 {
+        for column in 0..64 {
+            let share = TAU / 64.0 * ((PI * f64::from(row) / 32.0).cos() - (PI * f64::from(row + 1) / 32.0).cos());
+            let (theta, phi) = (PI * (f64::from(row) + 0.5) / 32.0, TAU * (f64::from(column) + 0.5) / 64.0);
+            // The picture's cells are turned against the axes of φ.
+            let d = direction(theta, phi - ROTATE.to_radians());
+            whole += f64::from(sky.pdf(One, d).0) * share;
+            light += f64::from(luminance(sky.radiance(One, d).lane(0))) * share;
+        }
+    }
+    println!("pdf integrates to {whole}");
+    assert!((whole - 1.0).abs() < 1e-6, "{whole}");
+    assert!((light / (2.0 * TAU) / f64::from(sky.mean_luminance()) - 1.0).abs() < 0.5);
+}
+
+#[test]
+fn directions_with_light_have_a_density() {
+    let lone = ImageBackground::new(picture(2000, 1000, |i| if i == 1_234_567 { [1e-30; 3] } else { [0.0; 3] }), 0.0, 1.0);
+    let mut lit = 0;
+    for i in 0..4_000_000 {
+        let (row, column) = (617.0 + 0.5 + f64::from(i / 2000 % 2000) / 1000.0 - 1.0, f64::from(i % 2000) / 1000.0 + 566.5);
+        let d = direction(PI * row / 1000.0, TAU * (column / 2000.0 - 0.75));
+        let bright = lone.radiance(One, d).x.0 > 0.0;
+        lit += i32::from(bright);
+        assert!(!bright || lone.pdf(One, d).0 > 0.0);
+    }
+    assert!(lit > 1_000_000, "{lit}");
+}
+
+#[test]
+fn the_middle_column_faces_minus_z_and_rotation_is_counter_clockwise_from_above() {
+    let marked = |column: u32| picture(8, 4, move |i| if i / 8 == 0 { [9.0; 3] } else { [f32::from(i % 8 == column); 3] });
+    let at = |sky: &ImageBackground, [x, y, z]: [f32; 3]| sky.radiance(One, V { x: F(x), y: F(y), z: F(z) }).x.0;
+    // The middle of the picture is the edge between columns 3 and 4.
+    let sky = ImageBackground::new(marked(4), 22.5, 1.0);
+    assert!((at(&sky, [0.0, 0.0, -1.0]) - 1.0).abs() < 1e-5);
+    assert_eq!((at(&sky, [0.0, 1.0, 0.0]), at(&sky, [0.0, -1.0, 0.0])), (9.0, 1.0));
+    let right = ImageBackground::new(marked(6), 22.5, 1.0);
+    assert!((at(&right, [1.0, 0.0, 0.0]) - 1.0).abs() < 1e-5);
+    let turned = ImageBackground::new(marked(4), 22.5 + 90.0, 1.0);
+    assert!((at(&turned, [-1.0, 0.0, 0.0]) - 1.0).abs() < 1e-5);
+}
+
+#[test]
+fn a_black_picture_has_no_light_and_a_density_all_the_same() {
+    let black = ImageBackground::new(picture(3, 2, |_| [0.0; 3]), 0.0, 1.0);
+    assert_eq!(black.mean_luminance(), 0.0);
+    assert!(black.pdf(One, direction(1.0, 1.0)).0 > 0.0);
+    let white = ImageBackground::new(picture(3, 2, |_| [1.0; 3]), 0.0, 3.0);
+    assert!((white.mean_luminance() - 3.0).abs() < 1e-6);
+}
+
+#[test]
+fn cell_means_are_those_of_the_bilinear_picture() {
+    let steps = picture(5, 3, |i| [(i * i % 7) as f32; 3]);
+    let texture = crate::texture::ImageTexture::new(&steps);
+    let means = cell_means(&steps, 4, 8);
+    for (cell, mean) in means.iter().enumerate() {
+        let at = |i: usize, cell: usize, cells: usize| F::<One>(((cell as f64 + (i as f64 + 0.5) / 64.0) / cells as f64) as f32);
+        let value = |i: usize| texture.colour(One, at(i % 64, cell % 4, 4), at(i / 64, cell / 4, 8), crate::texture::Edge::Clamp);
+        let exact = (0..4096).map(|i| f64::from(luminance(value(i).lane(0)))).sum::<f64>() / 4096.0;
+        assert!((mean - exact).abs() < 1e-3, "{cell}: {mean} {exact}");
+    }
+}
+
+#[inline(always)]
+fn lanes_of<L: Lanes>(l: L, sky: &ImageBackground, numbers: &[[f32; 16]; 4]) -> Vec<[u32; 8]> {
+    let [index, coin, u, v] = [0, 1, 2, 3].map(|i| l.load(&numbers[i]));
+    let (d, density) = sky.sample(l, (index, coin), (u, v));
+    let (pdf, radiance) = (sky.pdf(l, d), sky.radiance(l, d));
+    let numbers = [d.x, d.y, d.z, density, pdf, radiance.x, radiance.y, radiance.z].map(F::to_array);
+    (0..L::N).map(|lane| numbers.map(|number| number[lane].to_bits())).collect()
+}
+
+#[test]
+fn every_width_gives_the_same_bits() {
+    let sky = sky(37, 19);
+    let mut random = SmallRng::seed_from_u64(9);
+    for _ in 0..500 {
+        let numbers: [[f32; 16]; 4] = std::array::from_fn(|_| std::array::from_fn(|_| unit(&mut random).0));
+        for level in SimdLevel::available() {
+            let found = crate::in_lanes!(level, l => lanes_of(l, &sky, &numbers));
+            let one = |lane: usize| lanes_of(One, &sky, &numbers.map(|n| [n[lane]; 16]))[0];
+            assert_eq!(found, (0..found.len()).map(one).collect::<Vec<_>>(), "{level:?}");
+        }
+    }
+}

@@ -1,0 +1,48 @@
+//! Means of a bilinear picture's luminance over the cells of a grid, exactly: so no cell that has light has the weight 0.
+use crate::{image::Picture, math::colour::LUMINANCE};
+
+/// The mean over every cell, row by row. The picture repeats left and right; its top and bottom rows go on beyond it.
+pub(super) fn cell_means(picture: &Picture, columns: usize, rows: usize) -> Vec<f64> {
+    let (width, height) = (picture.width as usize, picture.height as usize);
+    let across = cell_texels(width, columns);
+    let down = cell_texels(height, rows);
+    let luminance = |pixel: &[f32; 3]| (0..3).map(|i| f64::from(pixel[i]) * f64::from(LUMINANCE[i])).sum::<f64>();
+    // Row by row of texels first, so that no texel is visited twice: the means over the width of every cell.
+    let mut narrowed = Vec::with_capacity(columns * height);
+    for row in picture.radiance.chunks_exact(width) {
+        let row: Vec<f64> = row.iter().map(luminance).collect();
+        let mean = |texels: &Vec<(isize, f64)>| {
+            texels.iter().map(|(at, weight)| row[at.rem_euclid(width as isize) as usize] * weight).sum::<f64>()
+        };
+        narrowed.extend(across.iter().map(mean));
+    }
+    let mut means = Vec::with_capacity(columns * rows);
+    for texels in &down {
+        let row = |at: isize| at.clamp(0, height as isize - 1) as usize * columns;
+        means.extend((0..columns).map(|x| texels.iter().map(|(at, weight)| narrowed[row(*at) + x] * weight).sum::<f64>()));
+    }
+    means
+}
+
+/// For every one of `cells` equal cells of an axis of `size` texels: the texels that reach into it, with their shares of its mean.
+fn cell_texels(size: usize, cells: usize) -> Vec<Vec<(isize, f64)>> {
+    let width = size as f64 / cells as f64;
+    let texels = |cell: usize| {
+        let (start, end) = (cell as f64 * width, (cell + 1) as f64 * width);
+        let share = |at: isize| {
+            let centre = at as f64 + 0.5;
+            (at, (hat_integral(end - centre) - hat_integral(start - centre)) / width)
+        };
+        let reach = (start - 0.5).floor() as isize..=(end + 0.5).floor() as isize;
+        reach.map(share).filter(|(_, share)| *share > 0.0).collect()
+    };
+    (0..cells).map(texels).collect()
+}
+
+/// ∫ max(0, 1 − |s|) ds from −∞ to t: a texel's part in a linear interpolation falls off like that.
+fn hat_integral(t: f64) -> f64 {
+    match t.clamp(-1.0, 1.0) {
+        t if t < 0.0 => 0.5 * (1.0 + t) * (1.0 + t),
+        t => 1.0 - 0.5 * (1.0 - t) * (1.0 - t),
+    }
+}

@@ -1,0 +1,89 @@
+//! Image: the texels of a picture, joined bilinearly.
+//!
+//! The picture spans the unit square, u to the right and v downwards from its top left corner; texel centres lie at
+//! ((i + ½)/width, (j + ½)/height).
+use crate::{
+    image::Picture,
+    math::{F, Lanes, Pick, U, V, round::floor},
+};
+
+/// What lies beyond the top and bottom of a picture. Left and right it always repeats.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Edge {
+    /// The picture again.
+    Repeat,
+    /// Its first and its last row.
+    Clamp,
+}
+
+/// A picture as a table of texels.
+pub struct ImageTexture {
+    width: u32,
+    height: u32,
+    /// Red, green, blue; the fourth column is unused.
+    texels: Vec<[f32; 4]>,
+}
+
+impl ImageTexture {
+    pub fn new(picture: &Picture) -> ImageTexture {
+        let texels = picture.radiance.iter().map(|[r, g, b]| [*r, *g, *b, 0.0]).collect();
+        ImageTexture { width: picture.width, height: picture.height, texels }
+    }
+
+    /// The colour at (u, v), which may be any numbers: NaN and infinity give some colour of the picture.
+    #[inline(always)]
+    pub fn colour<L: Lanes>(&self, l: L, u: F<L>, v: F<L>, edge: Edge) -> V<L> {
+        let (left, right, x) = neighbours(u - floor(u).0, self.width, Edge::Repeat);
+        let v = match edge {
+            Edge::Repeat => v - floor(v).0,
+            Edge::Clamp => v,
+        };
+        let (upper, lower, y) = neighbours(v, self.height, edge);
+        let (upper, lower) = (upper * self.width, lower * self.width);
+        let top = self.mix(l, upper + left, upper + right, x);
+        let bottom = self.mix(l, lower + left, lower + right, x);
+        top * (1.0 - y) + bottom * y
+    }
+
+    #[inline(always)]
+    fn mix<L: Lanes>(&self, l: L, a: U<L>, b: U<L>, t: F<L>) -> V<L> {
+        let [ax, ay, az, _] = l.rows(&self.texels, a);
+        let [bx, by, bz, _] = l.rows(&self.texels, b);
+        V { x: ax, y: ay, z: az } * (1.0 - t) + V { x: bx, y: by, z: bz } * t
+    }
+
+    /// The mean over the unit square, which for repeated bilinear texels is the mean texel.
+    pub fn mean(&self) -> [f32; 3] {
+        let sum = |channel: usize| self.texels.iter().map(|texel| f64::from(texel[channel])).sum::<f64>();
+        [0, 1, 2].map(|channel| (sum(channel) / self.texels.len() as f64) as f32)
+    }
+
+    pub fn maximum(&self) -> [f32; 3] {
+        [0, 1, 2].map(|channel| self.texels.iter().map(|texel| texel[channel]).fold(0.0, f32::max))
+    }
+
+    /// Half a texel.
+    pub fn step_u(&self) -> f32 {
+        0.5 / self.width as f32
+    }
+    pub fn step_v(&self) -> f32 {
+        0.5 / self.height as f32
+    }
+}
+
+/// The two texels between whose centres `t` in [0, 1] lies on an axis of `size` texels, and how far it is from the first.
+#[inline(always)]
+fn neighbours<L: Lanes>(t: F<L>, size: u32, edge: Edge) -> (U<L>, U<L>, F<L>) {
+    // NaN becomes 1: whatever a lane holds, the texels exist.
+    let t = t.min(t.splat(1.0)).max(t.splat(0.0));
+    let x = t * size as f32 - 0.5;
+    let (start, first) = floor(x);
+    let second = first + 1;
+    let (before, after) = match edge {
+        Edge::Repeat => (size - 1, 0),
+        Edge::Clamp => (0, size - 1),
+    };
+    let before = U(L::splat_int(first.0, before));
+    let after = U(L::splat_int(first.0, after));
+    (first.is(u32::MAX).pick(before, first), second.is(size).pick(after, second), x - start)
+}
