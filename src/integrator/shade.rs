@@ -8,7 +8,7 @@ use super::{
     weight::power_heuristic,
 };
 use crate::{
-    light::Receiver,
+    light::{LightCoordinates, Receiver},
     material::{Bsdf, Local},
     math::{F, Frame, Lanes, M, Pick, V},
     sampling::{Dimension, SampleNumber, Stream},
@@ -110,9 +110,14 @@ fn sample_light<L: Lanes, K: Kind>(
     bsdf: &K::Bsdf<'_, L>,
 ) -> (Shadow<L>, M<L>) {
     let lights = &work.scene.lights;
-    let choice = if lights.are_several() { stream.one(Dimension::light_choice(reflection)) } else { l.f(0.0) };
+    let unused = l.f(0.0);
+    let coordinates = LightCoordinates {
+        choice: if lights.are_several() { stream.one(Dimension::light_choice(reflection)) } else { unused },
+        cell: if lights.have_cells() { stream.two(Dimension::cell(reflection)) } else { (unused, unused) },
+        place: stream.two(Dimension::light(reflection)),
+    };
     let at = Receiver { p: hit.p, n: vertex.n, transmits: if K::TRANSMITS { l.first(L::N) } else { l.first(0) } };
-    let sample = lights.sample(l, &work.scene.shapes, &at, choice, stream.two(Dimension::light(reflection)));
+    let sample = lights.sample(l, &work.scene.shapes, &at, &coordinates);
     let wi = vertex.frame.local_from_world(sample.wi);
     let (f_cos, pdf) = bsdf.eval(vertex.wo, wi);
     let (o, consistent) = vertex.leave::<K>(hit, sample.wi, wi.z);

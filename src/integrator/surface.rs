@@ -27,7 +27,7 @@ pub(super) fn surfaces<L: Lanes>(l: L, work: &Work, batch: &mut Batch, last: boo
         if let Some(background) = &scene.lights.background {
             let sky = live & miss;
             if sky.any() {
-                let mut light = path.throughput * background.radiance;
+                let mut light = path.throughput * background.radiance(l, path.d);
                 if weighted {
                     let past = Past::read(l, batch.past(), start);
                     light = light * weight_of_met_light(l, work, &past, path.o, path.d, primitive);

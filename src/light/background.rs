@@ -1,7 +1,65 @@
-//! The background: the same radiance from every direction that meets no surface.
+//! The background: light from every direction that meets no surface.
+use std::f32::consts::FRAC_1_PI;
 
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Background {
-    /// W·sr⁻¹·m⁻², linear Rec. 709.
-    pub radiance: [f32; 3],
+use super::{ImageBackground, Receiver};
+use crate::{
+    math::{F, Frame, Lanes, Pick, V, colour::luminance},
+    sampling::warp::cosine_hemisphere,
+};
+
+/// Radiance in W·sr⁻¹·m⁻², linear Rec. 709.
+pub enum Background {
+    /// The same from everywhere.
+    Constant([f32; 3]),
+    Image(ImageBackground),
+}
+
+impl Background {
+    /// Radiance from the unit direction `d`.
+    #[inline(always)]
+    pub fn radiance<L: Lanes>(&self, l: L, d: V<L>) -> V<L> {
+        match self {
+            Background::Constant(radiance) => V::splat(l, *radiance),
+            Background::Image(image) => image.radiance(l, d),
+        }
+    }
+
+    /// A unit direction and its density per solid angle. Of a constant background it is drawn in proportion to the cosine, where
+    /// the surface transmits from either side alike; of a picture by its light. Only a picture reads `cell`.
+    #[inline(always)]
+    pub(super) fn sample<L: Lanes>(&self, l: L, at: &Receiver<L>, cell: (F<L>, F<L>), u: (F<L>, F<L>)) -> (V<L>, F<L>) {
+        match self {
+            Background::Constant(_) => {
+                let behind = u.0.ge(l.f(0.5)) & at.transmits;
+                let folded = behind.pick(u.0 * 2.0 - 1.0, u.0 * 2.0);
+                let local = cosine_hemisphere((at.transmits.pick(folded, u.0), u.1));
+                let wi = Frame::new(at.n).world_from_local(V { z: behind.pick(-local.z, local.z), ..local });
+                (wi, cosine_pdf(at, wi))
+            }
+            Background::Image(image) => image.sample(l, cell, u),
+        }
+    }
+
+    /// The density of [`Background::sample`] at the unit direction `wi`.
+    #[inline(always)]
+    pub(super) fn pdf<L: Lanes>(&self, l: L, at: &Receiver<L>, wi: V<L>) -> F<L> {
+        match self {
+            Background::Constant(_) => cosine_pdf(at, wi),
+            Background::Image(image) => image.pdf(l, wi),
+        }
+    }
+
+    /// Mean luminance over all directions.
+    pub fn luminance(&self) -> f32 {
+        match self {
+            Background::Constant(radiance) => luminance(*radiance),
+            Background::Image(image) => image.mean_luminance(),
+        }
+    }
+}
+
+#[inline(always)]
+fn cosine_pdf<L: Lanes>(at: &Receiver<L>, wi: V<L>) -> F<L> {
+    let cos = wi.dot(at.n);
+    at.transmits.pick(cos.abs() * (0.5 * FRAC_1_PI), cos.max(cos.splat(0.0)) * FRAC_1_PI)
 }

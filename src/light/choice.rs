@@ -2,16 +2,13 @@
 //!
 //! A light is chosen with a probability proportional to a bound on the irradiance it would cause at the point if nothing stood
 //! in between: E ≤ π L sin²θ · max(cos) over its cone of half angle θ (Shirley et al. 1996, section 4, for what a good choice is).
-use std::f32::consts::FRAC_1_PI;
-
 use super::{
     background::Background,
     emission::{Emission, Emitters, Side},
 };
 use crate::{
     geometry::{Cone, MISS, Shapes, Sphere},
-    math::{F, Frame, Lanes, M, Pick, U, V, colour::luminance},
-    sampling::warp::cosine_hemisphere,
+    math::{F, Lanes, M, Pick, U, V, colour::luminance},
 };
 
 /// All lights of a scene: the emitting primitives 0, 1, 2, … and the background.
@@ -22,7 +19,7 @@ pub struct Lights {
     pub background: Option<Background>,
     /// Radiant power a light is chosen by, in the order of primitives.
     sources: Vec<Source>,
-    /// Luminance of the background.
+    /// Mean luminance of the background.
     sky: f32,
 }
 
@@ -42,6 +39,16 @@ pub struct Receiver<L: Lanes> {
     pub n: V<L>,
     /// Lanes where light may come from both sides of the surface.
     pub transmits: M<L>,
+}
+
+/// The random numbers of a light sample.
+pub struct LightCoordinates<L: Lanes> {
+    /// Which light; read where there are several.
+    pub choice: F<L>,
+    /// Which cell of a picture; read where the background is one.
+    pub cell: (F<L>, F<L>),
+    /// Where on the light.
+    pub place: (F<L>, F<L>),
 }
 
 /// A direction in which light may come.
@@ -68,9 +75,9 @@ impl Lights {
         };
         Lights {
             emitters: Emitters::new(emissions),
+            sky: background.as_ref().map_or(0.0, Background::luminance),
             background,
             sources: shapes.iter().zip(emissions).map(source).collect(),
-            sky: background.map_or(0.0, |background| luminance(background.radiance)),
         }
     }
 
@@ -83,10 +90,15 @@ impl Lights {
         self.sources.len() + usize::from(self.background.is_some()) > 1
     }
 
-    /// A direction towards a light. `choice` says which light, `u` where on it.
+    /// Whether the background is a picture, of which a cell is chosen.
+    pub fn have_cells(&self) -> bool {
+        matches!(self.background, Some(Background::Image(_)))
+    }
+
+    /// A direction towards a light.
     #[inline(always)]
-    pub fn sample<L: Lanes>(&self, l: L, shapes: &Shapes, at: &Receiver<L>, choice: F<L>, u: (F<L>, F<L>)) -> LightSample<L> {
-        let (target, pmf) = self.choose(l, at, choice);
+    pub fn sample<L: Lanes>(&self, l: L, shapes: &Shapes, at: &Receiver<L>, u: &LightCoordinates<L>) -> LightSample<L> {
+        let (target, pmf) = self.choose(l, at, u.choice);
         let sky = target.is(MISS);
         let mut sample = LightSample { wi: at.n, radiance: V::splat(l, [0.0; 3]), pdf: l.f(0.0), target };
         if (!sky).any() {
@@ -94,16 +106,16 @@ impl Lights {
             let cone = shapes.seen_from(l, primitive, at.p);
             let side = cone.outside.pick(l.f(1.0), l.f(-1.0));
             let (radiance, lit) = self.emitters.radiance(l, !sky, primitive, side);
-            sample.wi = cone.sample(u);
+            sample.wi = cone.sample(u.place);
             sample.radiance = radiance;
             sample.pdf = lit.pick(cone.pdf(), l.f(0.0));
         }
         if let Some(background) = &self.background
             && sky.any()
         {
-            let (wi, pdf) = sky_direction(at, u);
+            let (wi, pdf) = background.sample(l, at, u.cell, u.place);
             sample.wi = sky.pick(wi, sample.wi);
-            sample.radiance = sky.pick(V::splat(l, background.radiance), sample.radiance);
+            sample.radiance = sky.pick(background.radiance(l, wi), sample.radiance);
             sample.pdf = sky.pick(pdf, sample.pdf);
         }
         sample.pdf = sample.pdf * pmf;
@@ -122,11 +134,13 @@ impl Lights {
             chosen = this.pick(weight, chosen);
             density = this.pick(cone.pdf(), density);
         }
-        if self.background.is_some() {
+        if let Some(background) = &self.background {
             let this = target.is(MISS);
             total = total + self.sky;
             chosen = this.pick(l.f(self.sky), chosen);
-            density = this.pick(sky_pdf(at, wi), density);
+            if this.any() {
+                density = this.pick(background.pdf(l, at, wi), density);
+            }
         }
         if self.are_several() { total.above(0.0).pick(density * (chosen / total), l.f(0.0)) } else { density }
     }
@@ -168,20 +182,4 @@ impl Source {
         let light = cone.outside.pick(sin.splat(self.front), sin.splat(self.back));
         light * cone.sin_squared * facing
     }
-}
-
-/// A direction to a constant background, in proportion to the cosine; where the surface transmits, from either side alike.
-#[inline(always)]
-fn sky_direction<L: Lanes>(at: &Receiver<L>, (u, v): (F<L>, F<L>)) -> (V<L>, F<L>) {
-    let behind = u.ge(u.splat(0.5)) & at.transmits;
-    let folded = behind.pick(u * 2.0 - 1.0, u * 2.0);
-    let local = cosine_hemisphere((at.transmits.pick(folded, u), v));
-    let wi = Frame::new(at.n).world_from_local(V { z: behind.pick(-local.z, local.z), ..local });
-    (wi, sky_pdf(at, wi))
-}
-
-#[inline(always)]
-fn sky_pdf<L: Lanes>(at: &Receiver<L>, wi: V<L>) -> F<L> {
-    let cos = wi.dot(at.n);
-    at.transmits.pick(cos.abs() * (0.5 * FRAC_1_PI), cos.max(cos.splat(0.0)) * FRAC_1_PI)
 }
