@@ -57,3 +57,17 @@ pub fn sample_visible_normal<L: Lanes>(alpha: F<L>, wo: V<L>, u: (F<L>, F<L>)) -
 pub fn visible_normal_pdf<L: Lanes>(alpha: F<L>, wo: V<L>, h: V<L>) -> F<L> {
     g1_over_cos(alpha, wo) * wo.dot(h).max(wo.z.splat(0.0)) * d(alpha, h)
 }
+
+/// A direction reflected by a visible microfacet; below the surface where the microfacet throws light at others.
+#[inline(always)]
+pub fn sample_reflection<L: Lanes>(alpha: F<L>, wo: V<L>, u: (F<L>, F<L>)) -> V<L> {
+    let h = sample_visible_normal(alpha, wo, u);
+    h * (2.0 * wo.dot(h)) - wo
+}
+
+/// Density of [`sample_reflection`] per solid angle of the reflected direction, `h` halfway between it and `wo`. Times G1(ω_i)
+/// it is f |cos θ_i| of perfectly reflecting microfacets.
+#[inline(always)]
+pub fn reflection_pdf<L: Lanes>(alpha: F<L>, wo: V<L>, h: V<L>) -> F<L> {
+    0.25 * (g1_over_cos(alpha, wo) * d(alpha, h))
+}
