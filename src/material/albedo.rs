@@ -11,10 +11,10 @@ use super::{
     albedo_table::{ACROSS, DOWN, build},
     ggx::SMOOTH,
 };
-use crate::math::{F, Lanes, U};
+use crate::math::{F, Lanes, SimdLevel, U};
 
 /// 1 − E(μ, α) of perfectly reflecting microfacets, the light that single scattering loses to shadowing; and its average.
-pub static LOSS: LazyLock<Vec<[f32; 4]>> = LazyLock::new(|| build(None));
+pub static LOSS: LazyLock<Vec<[f32; 4]>> = LazyLock::new(|| build(SimdLevel::best(), None));
 
 /// A line of a table: α fixed, lane by lane.
 pub struct Albedo<'a, L: Lanes> {

@@ -24,12 +24,12 @@ type Line = [f32; ACROSS + 1];
 ///
 /// Without `coat` the function is 1 − E(μ, α) of perfectly reflecting microfacets, and the average is its own. With a coat of
 /// that index, it is E(μ, α)/F(μ), which unlike E varies with μ/α alone at small α, and the average is that of 1 − E.
-pub fn build(coat: Option<f32>) -> Vec<[f32; 4]> {
+pub fn build(level: SimdLevel, coat: Option<f32>) -> Vec<[f32; 4]> {
     let points = lattice();
     let lines: Vec<Line> = (0..=DOWN)
         .map(|j| {
             let mut values = [0.0; ACROSS + 1];
-            in_lanes!(SimdLevel::best(), l => line(l, &points, width(j as f64) as f32, coat, &mut values));
+            in_lanes!(level, l => line(l, &points, width(j as f64) as f32, coat, &mut values));
             values
         })
         .collect();

@@ -7,7 +7,7 @@
 use std::f32::consts::FRAC_1_PI;
 
 use super::{
-    albedo::{Albedo, LOSS},
+    albedo::Albedo,
     bsdf::{Bsdf, BsdfSample},
     fresnel::ConductorFresnel,
     ggx,

@@ -1,6 +1,6 @@
 //! The materials of a scene as tables for the kernel.
 use super::{Material, albedo, albedo_table, fresnel, ggx::SMOOTH};
-use crate::math::{F, Lanes, M, U, V};
+use crate::math::{F, Lanes, M, SimdLevel, U, V};
 
 /// Which shading a material needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -82,10 +82,10 @@ impl Materials {
             }
             Material::Plastic { ior, alpha, .. } => {
                 let smooth = 1.0 - fresnel::dielectric_average(ior);
-                rows[0] = match alpha < SMOOTH {
-                    true => [ior, smooth, 0.0, 0.0],
-                    false => [ior, smooth, f32::from_bits(self.coat(ior, coats)), 1.0],
-                };
+                rows[0] = [ior, smooth, 0.0, 0.0];
+                if alpha >= SMOOTH {
+                    rows[0] = [ior, smooth, f32::from_bits(self.coat(ior, coats)), 1.0];
+                }
             }
         }
         rows
@@ -95,7 +95,7 @@ impl Materials {
     fn coat(&mut self, ior: f32, coats: &mut Vec<f32>) -> u32 {
         let known = coats.iter().position(|known| *known == ior).unwrap_or_else(|| {
             coats.push(ior);
-            self.tables.extend(albedo_table::build(Some(ior)));
+            self.tables.extend(albedo_table::build(SimdLevel::best(), Some(ior)));
             coats.len() - 1
         });
         (known * albedo_table::ROWS) as u32
