@@ -68,8 +68,6 @@ impl<'a, L: Lanes> Albedo<'a, L> {
 /// The cell of `x` in [0, cells] and where in it `x` lies, 0 to 1.
 #[inline(always)]
 fn cell<L: Lanes>(x: F<L>, cells: usize) -> (U<L>, F<L>) {
-    // The sum's last bits are the nearest integer.
-    const SHIFT: f32 = (1 << 23) as f32;
-    let shifted = (x - 0.5).max(x.splat(0.0)).min(x.splat((cells - 1) as f32)) + SHIFT;
-    (shifted.bits() & 0xffff, x - (shifted - SHIFT))
+    let index = x.max(x.splat(0.0)).min(x.splat((cells - 1) as f32)).to_int();
+    (index, x - index.to_real())
 }

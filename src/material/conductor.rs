@@ -10,13 +10,10 @@ use super::{
     albedo::Albedo,
     bsdf::{Bsdf, BsdfSample},
     fresnel::ConductorFresnel,
-    ggx,
+    ggx, grazing,
     materials::{Local, Materials},
 };
-use crate::{
-    math::{F, Lanes, M, Pick, V},
-    sampling::Directions,
-};
+use crate::math::{F, Lanes, M, Pick, V};
 
 pub struct Conductor<L: Lanes> {
     l: L,
@@ -67,7 +64,8 @@ impl<L: Lanes> Conductor<L> {
         if self.compensated.any() { self.compensated.pick(self.loss.value(self.l, mu), none) } else { none }
     }
 
-    /// [`Bsdf::eval`] where 1 − E(ω_o) is known. The lobe of further scattering is chosen with that probability.
+    /// [`Bsdf::eval`] where 1 − E(ω_o) is known. The lobe of further scattering is chosen with that probability, and sampled
+    /// where it is bright: cosines would find its rim rarely, with weights of 1/α.
     #[inline(always)]
     fn eval_with(&self, wo: V<L>, wi: V<L>, loss: F<L>) -> (V<L>, F<L>) {
         let zero = wo.z.splat(0.0);
@@ -76,7 +74,10 @@ impl<L: Lanes> Conductor<L> {
         let density = ggx::reflection_pdf(self.alpha, wo, h);
         let single = self.fresnel.reflectance(wo.dot(h)) * (density * ggx::g1(self.alpha, wi));
         let further = self.returned * (loss * self.loss(cos) * cos);
-        let pdf = (1.0 - loss) * density + loss * (cos * FRAC_1_PI);
+        let mut pdf = (1.0 - loss) * density;
+        if self.compensated.any() {
+            pdf = pdf + loss * grazing::pdf(self.alpha, cos);
+        }
         let above = wi.z.above(0.0);
         (above.pick(single + further, V { x: zero, y: zero, z: zero }), above.pick(pdf, zero))
     }
@@ -94,7 +95,7 @@ impl<L: Lanes> Bsdf<L> for Conductor<L> {
         let further = lobe.lt(loss);
         let mut wi = ggx::sample_reflection(self.alpha, wo, u);
         if further.any() {
-            wi = further.pick(Directions::Cosine.sample(u), wi);
+            wi = further.pick(grazing::sample(self.alpha, u, lobe / loss), wi);
         }
         let (f, pdf) = self.eval_with(wo, wi, loss);
         BsdfSample::of(wi, f, pdf)

@@ -9,12 +9,13 @@
 //!
 //! All reflect from both sides. Roughness is the width α of the GGX distribution (`ggx.rs`); `albedo.rs` has the tables that
 //! account for all light.
-pub mod albedo;
+mod albedo;
 mod albedo_table;
 mod bsdf;
-pub mod conductor;
+mod conductor;
 pub mod fresnel;
 pub mod ggx;
+mod grazing;
 mod lambertian;
 mod materials;
 mod mirror;

@@ -14,28 +14,37 @@ use crate::{
 
 /// Directional albedo in red, by a lattice of samples of each lobe.
 fn albedo(bsdf: &Any<'_>, cos: f32) -> f64 {
-    const BELOW_ONE: f32 = 1.0 - f32::EPSILON / 2.0;
-    let mean = |lobe: f32| {
-        let weights = lattice(10_946, 6765).map(|u| f64::from(bsdf.sample(viewer(cos), u, F(lobe)).weight.x.0));
-        weights.sum::<f64>() / 10_946.0
-    };
-    let chance = f64::from(first_lobe(bsdf, cos));
-    chance * mean(1e-9) + if chance < 1.0 { (1.0 - chance) * mean(BELOW_ONE) } else { 0.0 }
+    const POINTS: u32 = 10_946;
+    let mut whole = 0.0;
+    let mut start = 0.0;
+    for end in ends_of_lobes(bsdf, cos) {
+        let lobe = F(0.5 * (start + end));
+        let weights = lattice(POINTS, 6765).map(|u| f64::from(bsdf.sample(viewer(cos), u, lobe).weight.x.0));
+        whole += f64::from(end - start) * weights.sum::<f64>() / f64::from(POINTS);
+        start = end;
+    }
+    whole
 }
 
-/// Probability of the lobe that is chosen by small numbers, by bisection.
-fn first_lobe(bsdf: &Any<'_>, cos: f32) -> f32 {
+/// Where the numbers that choose a lobe go over from one to the next, and 1: octaves towards both ends that differ, bisected.
+fn ends_of_lobes(bsdf: &Any<'_>, cos: f32) -> Vec<f32> {
     let direction = |lobe: f32| bsdf.sample(viewer(cos), (F(0.3), F(0.6)), F(lobe)).wi.lane(0);
-    let first = direction(1e-9);
-    if direction(1.0) == first {
-        return 1.0;
+    let low = (1..=40).rev().map(|k| 0.5f32.powi(k));
+    let high = (2..=23).map(|k| 1.0 - 0.5f32.powi(k));
+    let octaves: Vec<f32> = low.chain(high).collect();
+    let mut ends = Vec::new();
+    for pair in octaves.windows(2) {
+        let [mut a, mut b] = [pair[0], pair[1]];
+        if direction(a) != direction(b) {
+            for _ in 0..30 {
+                let middle = 0.5 * (a + b);
+                if direction(middle) == direction(pair[0]) { a = middle } else { b = middle }
+            }
+            ends.push(b);
+        }
     }
-    let (mut low, mut high) = (0.0, 1.0);
-    for _ in 0..40 {
-        let middle = 0.5 * (low + high);
-        if direction(middle) == first { low = middle } else { high = middle }
-    }
-    high
+    ends.push(1.0);
+    ends
 }
 
 #[test]
@@ -43,11 +52,8 @@ fn no_light_is_made_and_what_is_lossless_loses_none() {
     for case in &cases() {
         for cos in COSINES {
             let albedo = albedo(&case.bsdf(), cos);
-            if std::env::var("SHOW").is_ok() && case.lossless {
-                println!("{:+.5} {cos} {}", albedo - 1.0, case.name);
-            }
-            assert!(albedo < 1.001, "{} at {cos}: {albedo}", case.name);
-            assert!(!case.lossless || albedo > 0.999, "{} at {cos}: {albedo}", case.name);
+            assert!(albedo < 1.0005, "{} at {cos}: {albedo}", case.name);
+            assert!(!case.lossless || albedo > 0.9995, "{} at {cos}: {albedo}", case.name);
         }
     }
 }
@@ -66,7 +72,7 @@ fn a_mirror_is_exact() {
 }
 
 #[test]
-fn the_table_of_lost_light_is_interpolated_within_three_ten_thousandths() {
+fn the_table_of_lost_light_is_interpolated_within_four_ten_thousandths() {
     for (alpha, cos) in lattice(144, 89) {
         let alpha = F(0.001 + 0.999 * alpha.0 * alpha.0 * alpha.0);
         let wo = viewer(cos.0 * cos.0 * cos.0);
@@ -77,6 +83,6 @@ fn the_table_of_lost_light_is_interpolated_within_three_ten_thousandths() {
             loss += 1.0 - if wi.z.0 > 0.0 { f64::from(ggx::g1(alpha, wi).0) } else { 0.0 };
         }
         let loss = loss / 28_657.0;
-        assert!((f64::from(table.0) - loss).abs() < 3e-4, "{} {}: {} {loss}", alpha.0, wo.z.0, table.0);
+        assert!((f64::from(table.0) - loss).abs() < 4e-4, "{} {}: {} {loss}", alpha.0, wo.z.0, table.0);
     }
 }
