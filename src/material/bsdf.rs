@@ -1,5 +1,5 @@
 //! What every kind of reflection can do, in lanes.
-use crate::math::{F, Lanes, M, V};
+use crate::math::{F, Lanes, M, Pick, V};
 
 /// A bsdf with its parameters at some surface points, one point a lane.
 ///
@@ -24,4 +24,14 @@ pub struct BsdfSample<L: Lanes> {
     pub pdf: F<L>,
     /// The direction comes from a delta lobe: no other way of sampling can find it.
     pub delta: M<L>,
+}
+
+impl<L: Lanes> BsdfSample<L> {
+    /// A direction of lobes that are not delta, from what [`Bsdf::eval`] says of it.
+    #[inline(always)]
+    pub(super) fn of(wi: V<L>, f: V<L>, pdf: F<L>) -> Self {
+        let exists = pdf.above(0.0);
+        let scale = exists.pick(1.0 / pdf, pdf.splat(0.0));
+        BsdfSample { wi, weight: f * scale, pdf, delta: pdf.below(0.0) }
+    }
 }

@@ -3,7 +3,7 @@ use std::f32::consts::FRAC_1_PI;
 
 use super::bsdf::{Bsdf, BsdfSample};
 use crate::{
-    math::{F, Lanes, V},
+    math::{F, Lanes, Pick, V},
     sampling::Directions,
 };
 
@@ -16,8 +16,9 @@ pub struct Lambertian<L: Lanes> {
 impl<L: Lanes> Bsdf<L> for Lambertian<L> {
     #[inline(always)]
     fn eval(&self, _wo: V<L>, wi: V<L>) -> (V<L>, F<L>) {
-        let cos = wi.z.max(wi.z.splat(0.0));
-        (self.albedo * (cos * FRAC_1_PI), self.directions.pdf(cos))
+        let zero = wi.z.splat(0.0);
+        let cos = wi.z.max(zero);
+        (self.albedo * (cos * FRAC_1_PI), wi.z.above(0.0).pick(self.directions.pdf(cos), zero))
     }
 
     #[inline(always)]

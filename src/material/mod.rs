@@ -1,21 +1,89 @@
 //! Materials: how a surface reflects.
+//!
+//! | kind | file | what it is |
+//! |---|---|---|
+//! | lambertian | `lambertian.rs` | ideal diffuse reflection |
+//! | mirror | `mirror.rs` | smooth metal or a mirror of constant reflectance: a delta lobe |
+//! | conductor | `conductor.rs` | rough metal: GGX reflection, with the light of further scattering given back |
+//! | plastic | `plastic.rs` | diffuse base under a clear coat, smooth (delta lobe) or rough (GGX) |
+//!
+//! All reflect from both sides. Roughness is the width α of the GGX distribution (`ggx.rs`); `albedo.rs` has the tables that
+//! account for all light.
+mod albedo;
+mod albedo_table;
 mod bsdf;
+mod conductor;
+pub mod fresnel;
+pub mod ggx;
+mod grazing;
 mod lambertian;
-use crate::math::{F, Lanes, M, U, V};
-pub use bsdf::{Bsdf, BsdfSample};
-pub use lambertian::Lambertian;
+mod materials;
+mod mirror;
+mod plastic;
+#[cfg(test)]
+mod tests;
 
-/// What a surface is made of.
+pub use self::{
+    bsdf::{Bsdf, BsdfSample},
+    conductor::Conductor,
+    lambertian::Lambertian,
+    materials::{BsdfKind, Local, Materials},
+    mirror::Mirror,
+    plastic::Plastic,
+};
+
+/// What a surface is made of. `alpha` is the width of the GGX distribution, the square of artists' roughness, in [0, 1]; below
+/// [`ggx::SMOOTH`] the surface is smooth. Where a texture varies it, it is the largest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Material {
     /// Reflectances in [0, 1] of red, green and blue. Zero is black: paths end there.
-    Lambertian { albedo: [f32; 3] },
+    Lambertian {
+        albedo: [f32; 3],
+    },
+    Mirror {
+        reflectance: [f32; 3],
+    },
+    /// Refractive indices of the side against the normal and of the side of the normal.
+    Dielectric {
+        ior: f32,
+        ior_outside: f32,
+        alpha: f32,
+        transmittance: [f32; 3],
+        compensated: bool,
+    },
+    /// `compensated`: with light that scatters more than once between microfacets.
+    Conductor {
+        fresnel: Reflectance,
+        alpha: f32,
+        compensated: bool,
+    },
+    /// The albedo is that of the base without its coat; the index of the coat is at least 1.
+    Plastic {
+        albedo: [f32; 3],
+        ior: f32,
+        alpha: f32,
+    },
 }
-#[derive(Default)]
-pub struct Materials;
-pub struct Local<L: Lanes> {
-    pub material: U<L>,
-    pub colour: V<L>,
-    pub alpha: F<L>,
-    pub front: M<L>,
+
+/// How much a metal reflects, channel by channel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Reflectance {
+    /// The same at every angle.
+    Constant([f32; 3]),
+    /// Schlick's approximation from the reflectance at normal incidence.
+    Schlick([f32; 3]),
+    /// Fresnel's equations with the complex index η + ik relative to the outside.
+    Index { eta: [f32; 3], k: [f32; 3] },
+}
+
+impl Material {
+    /// What a texture may replace: the albedo, or the reflectance at normal incidence; white for kinds without.
+    pub fn colour(&self) -> [f32; 3] {
+        match *self {
+            Material::Lambertian { albedo } | Material::Plastic { albedo, .. } => albedo,
+            Material::Mirror { reflectance } => reflectance,
+            Material::Conductor { fresnel: Reflectance::Constant(f0) | Reflectance::Schlick(f0), .. } => f0,
+            Material::Conductor { .. } | Material::Dielectric { .. } => [1.0; 3],
+        }
+    }
 }

@@ -58,7 +58,10 @@ fn build(objects: Vec<Object>, background: Option<Background>, camera: Camera, s
     let emissions: Vec<Emission> = objects.iter().map_while(|o| o.emission).collect();
     let background = background.filter(|b| b.radiance != [0.0; 3]);
     let surface = |object: &Object| match object.material {
-        Some(Material::Lambertian { albedo: [r, g, b] }) => [r, g, b, f32::from_bits(surface::pack(0, Stage::Plain, 0))],
+        Some(material) => {
+            let [r, g, b] = material.colour();
+            [r, g, b, f32::from_bits(surface::pack(0, Stage::Plain, 0))]
+        }
         None => [0.0; 4],
     };
     Scene {

@@ -1,0 +1,73 @@
+//! How much light a rough surface reflects in all, by the cosine μ of the viewer's angle and the width α.
+//!
+//! A table holds a function of (μ, α) over cells that are even in x = μ(1 + α)/(μ + α) and in √α. As α falls, what happens at
+//! μ ~ α becomes a function of μ/α alone, and so of x: the same cells suit every α. A cell's row has the values at its four
+//! corners, so that a lookup is one gather.
+//!
+//! Averages are those of the interpolated function, not of the true one: what they normalise integrates to 1 for every α.
+use std::sync::LazyLock;
+
+use super::{
+    albedo_table::{ACROSS, DOWN, build},
+    ggx::SMOOTH,
+};
+use crate::math::{F, Lanes, SimdLevel, U};
+
+/// 1 − E(μ, α) of perfectly reflecting microfacets, the light that single scattering loses to shadowing; and its average.
+pub static LOSS: LazyLock<Vec<[f32; 4]>> = LazyLock::new(|| build(SimdLevel::best(), None));
+
+/// A line of a table: α fixed, lane by lane.
+pub struct Albedo<'a, L: Lanes> {
+    table: &'a [[f32; 4]],
+    /// Row of the line's first cell.
+    cells: U<L>,
+    /// Row of the line's average.
+    average: U<L>,
+    alpha: F<L>,
+    /// Where α lies between the line's lower and upper ends.
+    t: F<L>,
+}
+
+impl<L: Lanes> Clone for Albedo<'_, L> {
+    #[inline(always)]
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+impl<L: Lanes> Copy for Albedo<'_, L> {}
+
+impl<'a, L: Lanes> Albedo<'a, L> {
+    /// In the table that begins at row `first` of `table`; α from [`SMOOTH`] to 1.
+    #[inline(always)]
+    pub fn at(table: &'a [[f32; 4]], first: U<L>, alpha: F<L>) -> Self {
+        let root = SMOOTH.sqrt();
+        let (line, t) = cell((alpha.sqrt() - root) * (DOWN as f32 / (1.0 - root)), DOWN);
+        let cells = first + line * ACROSS as u32;
+        Albedo { table, cells, average: first + line + (DOWN * ACROSS) as u32, alpha, t }
+    }
+
+    /// The function at cosine μ in [0, 1].
+    #[inline(always)]
+    pub fn value(&self, l: L, mu: F<L>) -> F<L> {
+        let (index, s) = cell(mu * (1.0 + self.alpha) / (mu + self.alpha) * ACROSS as f32, ACROSS);
+        let [a, b, c, d] = l.rows(self.table, self.cells + index);
+        let low = a + (b - a) * s;
+        let high = c + (d - c) * s;
+        low + (high - low) * self.t
+    }
+
+    /// 2 ∫₀¹ of the function, or of the light that it leaves, × μ dμ: a cubic in Newton's form on thirds of the line.
+    #[inline(always)]
+    pub fn average(&self, l: L) -> F<L> {
+        let [a, b, c, d] = l.rows(self.table, self.average);
+        let n = self.t * 3.0;
+        a + n * (b + (n - 1.0) * (c + (n - 2.0) * d))
+    }
+}
+
+/// The cell of `x` in [0, cells] and where in it `x` lies, 0 to 1.
+#[inline(always)]
+fn cell<L: Lanes>(x: F<L>, cells: usize) -> (U<L>, F<L>) {
+    let index = x.max(x.splat(0.0)).min(x.splat((cells - 1) as f32)).to_int();
+    (index, x - index.to_real())
+}

@@ -1,0 +1,119 @@
+//! Building the tables of [`super::albedo`] by quadrature.
+use fearless_simd_macros::simd;
+
+use super::{
+    fresnel::dielectric,
+    ggx::{SMOOTH, g1, sample_visible_normal},
+};
+use crate::{
+    in_lanes,
+    math::{F, Lanes, MAX_LANES, One, Pick, SimdLevel, V},
+};
+
+/// Cells in x: their ends fill registers.
+pub const ACROSS: usize = 2 * MAX_LANES - 1;
+/// Cells in √α.
+pub const DOWN: usize = 64;
+/// Rows of a table.
+pub const ROWS: usize = DOWN * (ACROSS + 1);
+
+/// The values at the ends of the cells in x.
+type Line = [f32; ACROSS + 1];
+
+/// Rows of corners of the cells, then a row for the average over each line of cells.
+///
+/// Without `coat` the function is 1 − E(μ, α) of perfectly reflecting microfacets, and the average is its own. With a coat of
+/// that index, it is E(μ, α)/F(μ), which unlike E varies with μ/α alone at small α, and the average is that of 1 − E.
+pub fn build(level: SimdLevel, coat: Option<f32>) -> Vec<[f32; 4]> {
+    let points = lattice();
+    let lines: Vec<Line> = (0..=DOWN)
+        .map(|j| {
+            let mut values = [0.0; ACROSS + 1];
+            in_lanes!(level, l => line(l, &points, width(j as f64) as f32, coat, &mut values));
+            values
+        })
+        .collect();
+    let pairs = || lines.windows(2);
+    let cells = pairs().flat_map(|pair| (0..ACROSS).map(move |i| [pair[0][i], pair[0][i + 1], pair[1][i], pair[1][i + 1]]));
+    cells.chain(pairs().enumerate().map(|(j, pair)| cubic(j, &pair[0], &pair[1], coat))).collect()
+}
+
+/// α at the height `y` of the table.
+fn width(y: f64) -> f64 {
+    let root = f64::from(SMOOTH).sqrt();
+    (root + (1.0 - root) * y / DOWN as f64).powi(2)
+}
+
+/// Points of the unit square with weights: a Fibonacci lattice, denser towards u.0 = 1, the steepest microfacets.
+fn lattice() -> Vec<[f32; 3]> {
+    const POINTS: u32 = 1597;
+    const STEP: u32 = 987;
+    let points = f64::from(POINTS);
+    let point = |i: u32| {
+        let rest = 1.0 - (f64::from(i) + 0.5) / points;
+        let turn = (f64::from(i * STEP % POINTS) + 0.5) / points;
+        [1.0 - rest.powi(4), turn, 4.0 * rest.powi(3) / points].map(|x| x as f32)
+    };
+    (0..POINTS).map(point).collect()
+}
+
+/// Expectation over visible normals, at the ends of the cells of one α.
+#[simd]
+fn line<L: Lanes>(l: L, lattice: &[[f32; 3]], alpha: f32, coat: Option<f32>, values: &mut Line) {
+    let (zero, one, width) = (l.f(0.0), l.f(1.0), l.f(alpha));
+    for start in (0..=ACROSS).step_by(L::N) {
+        let x = (l.iota() + start as u32).to_real() / ACROSS as f32;
+        let mu = (alpha * x / (1.0 + alpha - x)).min(one);
+        let wo = V { x: ((1.0 - mu) * (1.0 + mu)).sqrt(), y: zero, z: mu };
+        let mut sum = zero;
+        for &[u, v, weight] in lattice {
+            let h = sample_visible_normal(width, wo, (l.f(u), l.f(v)));
+            let cos = wo.dot(h);
+            let wi = h * (2.0 * cos) - wo;
+            let leaves = wi.z.above(0.0).pick(g1(width, wi), zero);
+            let value = match coat {
+                None => 1.0 - leaves,
+                Some(ior) => leaves * dielectric(cos.max(zero), l.f(ior)).0,
+            };
+            sum = sum + value * weight;
+        }
+        if let Some(ior) = coat {
+            sum = sum / dielectric(mu, l.f(ior)).0.max(l.f(1e-9));
+        }
+        sum.store(&mut values[start..]);
+    }
+}
+
+/// The average on the way from one line to the next, a cubic in Newton's form through thirds of the way.
+fn cubic(j: usize, low: &Line, high: &Line, coat: Option<f32>) -> [f32; 4] {
+    let at = |third: u32| {
+        let t = f64::from(third) / 3.0;
+        let mut between = *low;
+        for (value, high) in between.iter_mut().zip(high) {
+            *value += (high - *value) * t as f32;
+        }
+        average(&between, width(j as f64 + t), coat)
+    };
+    let [a, b, c, d] = [at(0), at(1), at(2), at(3)];
+    [a, b - a, (c - 2.0 * b + a) / 2.0, (d - 3.0 * c + 3.0 * b - a) / 6.0].map(|x| x as f32)
+}
+
+/// 2 ∫₀¹ of the interpolated loss, or of the light the coat lets through, × μ dμ; by the midpoint rule in ⁴√μ, for which the
+/// smallest α are wide.
+fn average(line: &Line, alpha: f64, coat: Option<f32>) -> f64 {
+    const STEPS: u32 = 512;
+    let mut sum = 0.0;
+    for step in 0..STEPS {
+        let s = (f64::from(step) + 0.5) / f64::from(STEPS);
+        let mu = s.powi(4);
+        let x = mu * (1.0 + alpha) / (mu + alpha) * ACROSS as f64;
+        let cell = (x as usize).min(ACROSS - 1);
+        let value = f64::from(line[cell]) + f64::from(line[cell + 1] - line[cell]) * (x - cell as f64);
+        let value = match coat {
+            None => value,
+            Some(ior) => 1.0 - value * f64::from(dielectric(F::<One>(mu as f32), F(ior)).0.0),
+        };
+        sum += value * 8.0 * s.powi(7);
+    }
+    sum / f64::from(STEPS)
+}

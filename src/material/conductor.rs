@@ -1,0 +1,103 @@
+//! Rough metal: GGX microfacets, with the light of further scattering between them given back.
+//!
+//! Kulla and Conty, "Revisiting Physically Based Shading at Imageworks", 2017: a lobe (1 − E(ω_o))(1 − E(ω_i))/(π(1 − E_avg))
+//! returns what single scattering loses, E being the albedo of perfectly reflecting microfacets. It is reciprocal, and lossless
+//! when the metal is. Light that scatters k times has met Fresnel's reflectance k times and had the chance 1 − E_avg of each
+//! further meeting, which sums to F_avg² E_avg/(1 − F_avg(1 − E_avg)) for k ≥ 2.
+use std::f32::consts::FRAC_1_PI;
+
+use super::{
+    albedo::Albedo,
+    bsdf::{Bsdf, BsdfSample},
+    fresnel::ConductorFresnel,
+    ggx, grazing,
+    materials::{Local, Materials},
+};
+use crate::math::{F, Lanes, M, Pick, V};
+
+pub struct Conductor<L: Lanes> {
+    l: L,
+    fresnel: ConductorFresnel<L>,
+    alpha: F<L>,
+    /// Lanes that give the lost light back.
+    compensated: M<L>,
+    loss: Albedo<'static, L>,
+    /// Of the light lost by single scattering, the part that is returned, over π times its average.
+    returned: V<L>,
+}
+
+impl<L: Lanes> Clone for Conductor<L> {
+    #[inline(always)]
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+impl<L: Lanes> Copy for Conductor<L> {}
+
+impl<L: Lanes> Conductor<L> {
+    #[inline(always)]
+    pub fn at(l: L, materials: &Materials, at: &Local<L>) -> Self {
+        let first = Materials::first_row(at.material);
+        let fresnel = ConductorFresnel::read(l, &materials.rows, first, at.colour);
+        let [_, _, _, compensated] = l.rows(&materials.rows, first + 1);
+        let compensated = compensated.above(0.0);
+        let alpha = at.alpha.max(l.f(ggx::SMOOTH));
+        let loss = Albedo::at(materials.loss, l.u(0), alpha);
+        let mut returned = V::splat(l, [0.0; 3]);
+        if compensated.any() {
+            let lost = loss.average(l);
+            let f = fresnel.average();
+            let scale = (1.0 - lost) * FRAC_1_PI / lost;
+            returned = V {
+                x: f.x * f.x * scale / (1.0 - f.x * lost),
+                y: f.y * f.y * scale / (1.0 - f.y * lost),
+                z: f.z * f.z * scale / (1.0 - f.z * lost),
+            };
+        }
+        Conductor { l, fresnel, alpha, compensated, loss, returned }
+    }
+
+    /// 1 − E(μ); 0 in lanes that lose it for good.
+    #[inline(always)]
+    fn loss(&self, mu: F<L>) -> F<L> {
+        let none = mu.splat(0.0);
+        if self.compensated.any() { self.compensated.pick(self.loss.value(self.l, mu), none) } else { none }
+    }
+
+    /// [`Bsdf::eval`] where 1 − E(ω_o) is known. The lobe of further scattering is chosen with that probability, and sampled
+    /// where it is bright: cosines would find its rim rarely, with weights of 1/α.
+    #[inline(always)]
+    fn eval_with(&self, wo: V<L>, wi: V<L>, loss: F<L>) -> (V<L>, F<L>) {
+        let zero = wo.z.splat(0.0);
+        let cos = wi.z.max(zero);
+        let h = (wo + wi).normalized();
+        let density = ggx::reflection_pdf(self.alpha, wo, h);
+        let single = self.fresnel.reflectance(wo.dot(h)) * (density * ggx::g1(self.alpha, wi));
+        let further = self.returned * (loss * self.loss(cos) * cos);
+        let mut pdf = (1.0 - loss) * density;
+        if self.compensated.any() {
+            pdf = pdf + loss * grazing::pdf(self.alpha, cos);
+        }
+        let above = wi.z.above(0.0);
+        (above.pick(single + further, V { x: zero, y: zero, z: zero }), above.pick(pdf, zero))
+    }
+}
+
+impl<L: Lanes> Bsdf<L> for Conductor<L> {
+    #[inline(always)]
+    fn eval(&self, wo: V<L>, wi: V<L>) -> (V<L>, F<L>) {
+        self.eval_with(wo, wi, self.loss(wo.z))
+    }
+
+    #[inline(always)]
+    fn sample(&self, wo: V<L>, u: (F<L>, F<L>), lobe: F<L>) -> BsdfSample<L> {
+        let loss = self.loss(wo.z);
+        let further = lobe.lt(loss);
+        let mut wi = ggx::sample_reflection(self.alpha, wo, u);
+        if further.any() {
+            wi = further.pick(grazing::sample(self.alpha, u, lobe / loss), wi);
+        }
+        let (f, pdf) = self.eval_with(wo, wi, loss);
+        BsdfSample::of(wi, f, pdf)
+    }
+}

@@ -1,0 +1,126 @@
+//! A diffuse base under a clear coat, smooth or rough.
+//!
+//! Light that the coat does not reflect enters, T(μ) = 1 − E(μ), scatters at the base, and tries to leave until it is absorbed
+//! or does: f = ρ T(ω_o) T(ω_i) / (π η² (1 − ρ R)), R the coat's average reflectance from inside. Reciprocity of the interface
+//! ties R to the average T_avg of T over diffuse light from outside, η²(1 − R) = T_avg (Egan and Hilgeman, "Optical Properties of
+//! Inhomogeneous Materials", 1979), so that the denominator is π (η²(1 − ρ) + ρ T_avg): the term is reciprocal, and lossless for
+//! ρ = 1 with any coat. E is Fresnel's reflectance of a smooth coat and the directional albedo of a GGX coat; the light that
+//! single scattering in the coat loses is thereby given to the base.
+use std::f32::consts::FRAC_1_PI;
+
+use super::{
+    albedo::Albedo,
+    bsdf::{Bsdf, BsdfSample},
+    fresnel::dielectric,
+    ggx,
+    materials::{Local, Materials},
+};
+use crate::{
+    math::{F, Lanes, M, Pick, V},
+    sampling::Directions,
+};
+
+pub struct Plastic<'a, L: Lanes> {
+    l: L,
+    ior: F<L>,
+    /// Lanes with a GGX coat; the coat of the others is a delta lobe.
+    rough: M<L>,
+    alpha: F<L>,
+    /// E/F of the rough coats.
+    coat: Albedo<'a, L>,
+    /// ρ/(η²(1 − ρ) + ρ T_avg).
+    base: V<L>,
+    /// The largest channel of the base's directional albedo, over T(ω_o).
+    brightest: F<L>,
+}
+
+impl<L: Lanes> Clone for Plastic<'_, L> {
+    #[inline(always)]
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+impl<L: Lanes> Copy for Plastic<'_, L> {}
+
+impl<'a, L: Lanes> Plastic<'a, L> {
+    #[inline(always)]
+    pub fn at(l: L, materials: &'a Materials, at: &Local<L>) -> Self {
+        let [ior, smooth_average, table, rough] = l.rows(&materials.rows, Materials::first_row(at.material));
+        let rough = rough.above(0.0);
+        let alpha = at.alpha.max(l.f(ggx::SMOOTH));
+        let coat = Albedo::at(&materials.tables, table.bits(), alpha);
+        let mut average = smooth_average;
+        if rough.any() {
+            average = rough.pick(coat.average(l), average);
+        }
+        let ior2 = ior * ior;
+        let rho = at.colour;
+        let base = V {
+            x: rho.x / (ior2 * (1.0 - rho.x) + rho.x * average),
+            y: rho.y / (ior2 * (1.0 - rho.y) + rho.y * average),
+            z: rho.z / (ior2 * (1.0 - rho.z) + rho.z * average),
+        };
+        Plastic { l, ior, rough, alpha, coat, base, brightest: base.max_component() * average }
+    }
+
+    /// T(μ).
+    #[inline(always)]
+    fn transmission(&self, mu: F<L>) -> F<L> {
+        let mut reflected = dielectric(mu, self.ior).0;
+        if self.rough.any() {
+            reflected = self.rough.pick(reflected * self.coat.value(self.l, mu), reflected);
+        }
+        1.0 - reflected
+    }
+
+    /// Probability of choosing the coat: its share of the reflected light.
+    #[inline(always)]
+    fn coat_chance(&self, transmission: F<L>) -> F<L> {
+        let coat = 1.0 - transmission;
+        // Nothing is reflected by a black base under a coat of index 1.
+        coat / (coat + self.brightest * transmission).max(coat.splat(f32::MIN_POSITIVE))
+    }
+
+    /// [`Bsdf::eval`] where T(ω_o) and the chance of the coat are known.
+    #[inline(always)]
+    fn eval_with(&self, wo: V<L>, wi: V<L>, transmission: F<L>, chance: F<L>) -> (V<L>, F<L>) {
+        let zero = wo.z.splat(0.0);
+        let cosine = wi.z.max(zero) * FRAC_1_PI;
+        let mut f = self.base * (transmission * self.transmission(wi.z.max(zero)) * cosine);
+        let mut pdf = (1.0 - chance) * cosine;
+        if self.rough.any() {
+            let h = (wo + wi).normalized();
+            let density = self.rough.pick(ggx::reflection_pdf(self.alpha, wo, h), zero);
+            let coat = dielectric(wo.dot(h).max(zero), self.ior).0 * density * ggx::g1(self.alpha, wi);
+            f = f + V { x: coat, y: coat, z: coat };
+            pdf = pdf + chance * density;
+        }
+        let above = wi.z.above(0.0);
+        (above.pick(f, V { x: zero, y: zero, z: zero }), above.pick(pdf, zero))
+    }
+}
+
+impl<L: Lanes> Bsdf<L> for Plastic<'_, L> {
+    #[inline(always)]
+    fn eval(&self, wo: V<L>, wi: V<L>) -> (V<L>, F<L>) {
+        let transmission = self.transmission(wo.z);
+        self.eval_with(wo, wi, transmission, self.coat_chance(transmission))
+    }
+
+    #[inline(always)]
+    fn sample(&self, wo: V<L>, u: (F<L>, F<L>), lobe: F<L>) -> BsdfSample<L> {
+        let transmission = self.transmission(wo.z);
+        let chance = self.coat_chance(transmission);
+        let coat = lobe.lt(chance);
+        let mut reflected = V { x: -wo.x, y: -wo.y, z: wo.z };
+        if self.rough.any() {
+            reflected = self.rough.pick(ggx::sample_reflection(self.alpha, wo, u), reflected);
+        }
+        let wi = coat.pick(reflected, Directions::Cosine.sample(u));
+        let (f, pdf) = self.eval_with(wo, wi, transmission, chance);
+        let sample = BsdfSample::of(wi, f, pdf);
+        let delta = coat & !self.rough;
+        let mirror = (1.0 - transmission) / chance;
+        BsdfSample { weight: delta.pick(V { x: mirror, y: mirror, z: mirror }, sample.weight), delta, ..sample }
+    }
+}

@@ -1,0 +1,22 @@
+//! Every kind of bsdf against what holds for all: samples against densities, weights, reciprocity, energy, lanes.
+mod cases;
+mod distribution;
+mod energy;
+mod fresnel;
+mod lanes;
+
+use crate::math::{F, One, V};
+
+/// A lattice of `n` points of the unit square, `n` and `step` successive Fibonacci numbers.
+fn lattice(n: u32, step: u32) -> impl Iterator<Item = (F<One>, F<One>)> {
+    let n64 = f64::from(n);
+    (0..n).map(move |i| {
+        let turn = f64::from((u64::from(i) * u64::from(step) % u64::from(n)) as u32);
+        (F(((f64::from(i) + 0.5) / n64) as f32), F(((turn + 0.5) / n64) as f32))
+    })
+}
+
+/// Towards a viewer at cosine `cos`.
+fn viewer(cos: f32) -> V<One> {
+    V { x: F(((1.0 - cos) * (1.0 + cos)).sqrt() * 0.8), y: F(((1.0 - cos) * (1.0 + cos)).sqrt() * -0.6), z: F(cos) }
+}
