@@ -15,7 +15,7 @@ fn paths_per_second(c: &mut Criterion) {
     let scene = built_in();
     let mut camera = scene.camera;
     camera.resolution = [256, 256];
-    let rays = camera.rays();
+    let rays = scene.rays(&camera);
     for sampler in noisefall::sampling::SAMPLERS {
         for level in SimdLevel::available() {
             let settings = RenderSettings {

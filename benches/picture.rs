@@ -22,7 +22,7 @@ fn camera() -> Camera {
 fn film(spp: u32) -> Film {
     let scene = built_in();
     let mut film = Film::new(RESOLUTION);
-    let job = PassJob { scene: &scene, rays: &camera().rays(), settings: &RenderSettings::default() };
+    let job = PassJob { scene: &scene, rays: &scene.rays(&camera()), settings: &RenderSettings::default() };
     Threads::new(0, SimdLevel::best()).expect("threads can be had").pass(job, &mut film, spp, &|| false);
     film
 }
@@ -53,7 +53,7 @@ fn first_picture(c: &mut Criterion) {
 fn one_pass(c: &mut Criterion) {
     let scene = built_in();
     let threads = Threads::new(0, SimdLevel::best()).expect("threads can be had");
-    let (rays, settings) = (camera().rays(), RenderSettings::default());
+    let (rays, settings) = (scene.rays(&camera()), RenderSettings::default());
     let mut film = film(1);
     let mut spp = 1;
     c.bench_function("1280 x 720, one pass, all cores", |b| {

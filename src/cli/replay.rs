@@ -18,7 +18,7 @@ pub fn run(
     if pixel[0] >= width || pixel[1] >= height {
         return Err(format!("pixel {},{} lies outside the picture of {width} × {height}", pixel[0], pixel[1]));
     }
-    let replay = replay(scene, &camera.rays(), settings, pixel, sample);
+    let replay = replay(scene, &scene.rays(camera), settings, pixel, sample);
     if json {
         return print(&serde_json::json!(replay).to_string());
     }

@@ -39,6 +39,13 @@ pub(super) const DELTA: u32 = 1;
 pub(super) const TRANSMITS: u32 = 2;
 
 record! {
+    /// The media that a path is in, innermost in the lowest byte. Kept beside paths and light samples in scenes with media.
+    Inside {
+        media: U,
+    }
+}
+
+record! {
     /// A path at a surface that reflects.
     Hit {
         /// Where the next ray starts: the surface point, moved off the surface by its error.
@@ -62,8 +69,11 @@ record! {
         alpha: F,
         /// How far [`Hit::p`] was moved.
         error: F,
-        /// See [`crate::scene::surface`]; with its flag `FRONT` where the path arrived at the front.
+        /// Word of the surface (see [`crate::scene::surface`]), with its flag `FRONT` where the path arrived at the front.
         surface: U,
+        /// Media on the side the path arrived from, and the one inside the surface.
+        media: U,
+        medium: U,
     }
 }
 
@@ -100,6 +110,12 @@ impl Work<'_> {
         ((y + self.origin[1]) << 16) + (x + self.origin[0])
     }
 
+    /// Whether media tint what passes through them.
+    #[inline(always)]
+    pub(super) fn has_media(&self) -> bool {
+        !self.scene.surfaces.media.is_empty()
+    }
+
     /// Whether light is looked for besides being run into.
     #[inline(always)]
     pub(super) fn samples_lights(&self) -> bool {
@@ -124,6 +140,9 @@ pub struct Batch {
     /// Kept beside `hits` for kinds that read it.
     pub(super) details: [Queue; Stage::COUNT],
     pub(super) shadows: Queue,
+    /// Kept beside `paths` and `shadows` in scenes with media.
+    pub(super) path_media: [Queue; 2],
+    pub(super) shadow_media: Queue,
     /// Distance and primitive id of the first surface of every path of this bounce.
     pub(super) t: Vec<f32>,
     pub(super) primitive: Vec<f32>,
@@ -144,6 +163,8 @@ impl Default for Batch {
             hits: std::array::from_fn(|_| Hit::<One>::queue(SLOTS)),
             details: std::array::from_fn(|_| Detail::<One>::queue(SLOTS)),
             shadows: Shadow::<One>::queue(SLOTS),
+            path_media: [Inside::<One>::queue(SLOTS), Inside::<One>::queue(SLOTS)],
+            shadow_media: Inside::<One>::queue(SLOTS),
             t: vec![0.0; SLOTS + MAX_LANES],
             primitive: vec![0.0; SLOTS + MAX_LANES],
             radiance: vec![[0.0; 4]; SLOTS],

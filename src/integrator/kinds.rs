@@ -1,7 +1,7 @@
 //! The kinds of bsdf as the shading stage sees them: one instance of the stage is compiled for each.
 use crate::{
-    material::{Bsdf, Lambertian, Local, Materials},
-    math::{F, Lanes, M},
+    material::{self, Bsdf, Lambertian, Local, Materials},
+    math::{F, Lanes, M, Pick},
     scene::{RenderSettings, surface::Stage},
 };
 
@@ -19,15 +19,14 @@ pub(super) trait Kind {
 
     fn at<'a, L: Lanes>(l: L, materials: &'a Materials, settings: &RenderSettings, at: &Local<L>) -> Self::Bsdf<'a, L>;
 
-    /// What roulette multiplies the throughput by before it judges it: radiance is compressed in a dense medium, and expands
-    /// again when it leaves. `z` is the height of the next direction.
+    /// What roulette multiplies the throughput by before it judges it. `z` is the height of the next direction.
     #[inline(always)]
     fn roulette_scale<L: Lanes>(_bsdf: &Self::Bsdf<'_, L>, _front: M<L>, z: F<L>) -> F<L> {
         z.splat(1.0)
     }
 }
 
-/// Diffuse, with the geometric normal.
+/// Diffuse, with the geometric normal and nothing that varies but the colour.
 pub(super) struct Plain;
 
 impl Kind for Plain {
@@ -40,4 +39,70 @@ impl Kind for Plain {
     fn at<'a, L: Lanes>(_: L, _: &'a Materials, settings: &RenderSettings, at: &Local<L>) -> Lambertian<L> {
         Lambertian { albedo: at.colour, directions: settings.directions }
     }
+}
+
+/// Diffuse, with a normal of its own or in a medium.
+pub(super) struct Diffuse;
+
+impl Kind for Diffuse {
+    type Bsdf<'a, L: Lanes> = Lambertian<L>;
+    const STAGE: Stage = Stage::Diffuse;
+    const LOBES: bool = false;
+
+    #[inline(always)]
+    fn at<'a, L: Lanes>(_: L, _: &'a Materials, settings: &RenderSettings, at: &Local<L>) -> Lambertian<L> {
+        Lambertian { albedo: at.colour, directions: settings.directions }
+    }
+}
+
+macro_rules! kinds {
+    ($($name:ident $bsdf:ty { $($item:item)* })*) => { $(
+        pub(super) struct $name;
+
+        impl Kind for $name {
+            type Bsdf<'a, L: Lanes> = $bsdf;
+            const STAGE: Stage = Stage::$name;
+            $($item)*
+
+            #[inline(always)]
+            fn at<'a, L: Lanes>(l: L, materials: &'a Materials, _: &RenderSettings, at: &Local<L>) -> Self::Bsdf<'a, L> {
+                material::$name::at(l, materials, at)
+            }
+        }
+    )* };
+}
+
+kinds! {
+    Mirror material::Mirror<L> {
+        const SEES_LIGHTS: bool = false;
+        const LOBES: bool = false;
+    }
+    Conductor material::Conductor<L> {}
+    Plastic material::Plastic<'a, L> {}
+    Dielectric material::Dielectric<L> {
+        const SEES_LIGHTS: bool = false;
+        const TRANSMITS: bool = true;
+
+        #[inline(always)]
+        fn roulette_scale<L: Lanes>(bsdf: &Self::Bsdf<'_, L>, front: M<L>, z: F<L>) -> F<L> {
+            uncompressed(bsdf.eta, front, z)
+        }
+    }
+    RoughDielectric material::RoughDielectric<'a, L> {
+        const TRANSMITS: bool = true;
+
+        #[inline(always)]
+        fn roulette_scale<L: Lanes>(bsdf: &Self::Bsdf<'_, L>, front: M<L>, z: F<L>) -> F<L> {
+            uncompressed(bsdf.eta(), front, z)
+        }
+    }
+}
+
+/// The square of the index that a path is in over the one outside the surface it leaves: radiance has that much more to give once
+/// it is outside again. `eta` is the index beyond the surface over that on the viewer's side.
+#[inline(always)]
+fn uncompressed<L: Lanes>(eta: F<L>, front: M<L>, z: F<L>) -> F<L> {
+    let inside = front ^ z.above(0.0);
+    let ratio = front.pick(eta, 1.0 / eta);
+    inside.pick(ratio * ratio, z.splat(1.0))
 }

@@ -6,7 +6,9 @@
 mod batch;
 mod intersect;
 mod kinds;
+mod media;
 pub mod queue;
+mod relief;
 mod replay;
 mod roulette;
 mod shade;

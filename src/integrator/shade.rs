@@ -2,22 +2,23 @@
 use fearless_simd_macros::simd;
 
 use super::{
-    batch::{Batch, DELTA, Detail, Hit, Past, Path, Shadow, TRANSMITS, Work},
+    batch::{Batch, DELTA, Detail, Hit, Inside, Past, Path, Shadow, TRANSMITS, Work},
     kinds::Kind,
+    media::beyond,
     roulette::survive,
     weight::power_heuristic,
 };
 use crate::{
     light::{LightCoordinates, Receiver},
     material::{Bsdf, Local},
-    math::{F, Frame, Lanes, M, Pick, V},
+    math::{F, Frame, Lanes, M, Pick, U, V},
     sampling::{Dimension, SampleNumber, Stream},
     scene::{Estimator, surface},
 };
 
 #[simd]
 pub(super) fn shade<L: Lanes, K: Kind>(l: L, work: &Work, batch: &mut Batch) {
-    let Batch { paths, pasts, hits, details, shadows, bounce, .. } = batch;
+    let Batch { paths, pasts, path_media, hits, details, shadows, shadow_media, bounce, .. } = batch;
     let (hits, details) = (&hits[K::STAGE as usize], &details[K::STAGE as usize]);
     let reflection = *bounce + 1;
     let next = (reflection & 1) as usize;
@@ -28,10 +29,14 @@ pub(super) fn shade<L: Lanes, K: Kind>(l: L, work: &Work, batch: &mut Batch) {
         let hit = Hit::read(l, hits, start);
         let stream = Stream::new(settings.sampler, settings.seed, work.pixel(hit.slot), number);
         let vertex = if K::DETAILED { Vertex::detailed(&hit, &Detail::read(l, details, start)) } else { Vertex::plain(l, &hit) };
-        let bsdf = K::at(l, &work.scene.materials, settings, &vertex.local);
+        let bsdf = K::at(l, &work.scene.surfaces.materials, settings, &vertex.local);
         if K::SEES_LIGHTS && work.samples_lights() {
             let (shadow, seen) = sample_light::<L, K>(l, work, &stream, reflection, &hit, &vertex, &bsdf);
             shadow.push(live & seen, shadows);
+            if K::DETAILED && work.has_media() {
+                let wi = vertex.frame.local_from_world(shadow.d);
+                Inside { media: vertex.media_towards(wi.z) }.push(live & seen, shadow_media);
+            }
         }
 
         let lobe = if K::LOBES { stream.one(Dimension::lobe(reflection)) } else { l.f(0.0) };
@@ -47,6 +52,9 @@ pub(super) fn shade<L: Lanes, K: Kind>(l: L, work: &Work, batch: &mut Batch) {
             let flags = sample.delta.pick(l.u(DELTA), l.u(0)) | if K::TRANSMITS { TRANSMITS } else { 0 };
             Past { n: vertex.n, pdf: sample.pdf, flags }.push(keep, &mut pasts[next]);
         }
+        if K::DETAILED && work.has_media() {
+            Inside { media: vertex.media_towards(sample.wi.z) }.push(keep, &mut path_media[next]);
+        }
     }
 }
 
@@ -60,6 +68,9 @@ struct Vertex<L: Lanes> {
     /// How far the origin of rays was moved off the surface.
     error: F<L>,
     local: Local<L>,
+    /// Media on the viewer's side, and the one inside the surface.
+    media: U<L>,
+    medium: U<L>,
 }
 
 impl<L: Lanes> Vertex<L> {
@@ -67,7 +78,15 @@ impl<L: Lanes> Vertex<L> {
     #[inline(always)]
     fn plain(l: L, hit: &Hit<L>) -> Self {
         let local = Local { material: l.u(0), colour: hit.colour, alpha: l.f(0.0), front: l.first(L::N) };
-        Vertex { frame: Frame::new(hit.n), n: hit.n, wo: V::splat(l, [0.0, 0.0, 1.0]), error: l.f(0.0), local }
+        Vertex {
+            frame: Frame::new(hit.n),
+            n: hit.n,
+            wo: V::splat(l, [0.0, 0.0, 1.0]),
+            error: l.f(0.0),
+            local,
+            media: l.u(0),
+            medium: l.u(0),
+        }
     }
 
     #[inline(always)]
@@ -79,7 +98,21 @@ impl<L: Lanes> Vertex<L> {
             alpha: detail.alpha,
             front: surface::is_set(detail.surface, surface::FRONT),
         };
-        Vertex { wo: frame.local_from_world(detail.wo), frame, n: detail.n, error: detail.error, local }
+        Vertex {
+            wo: frame.local_from_world(detail.wo),
+            frame,
+            n: detail.n,
+            error: detail.error,
+            local,
+            media: detail.media,
+            medium: detail.medium,
+        }
+    }
+
+    /// The media that a direction of height `z` leads into.
+    #[inline(always)]
+    fn media_towards(&self, z: F<L>) -> U<L> {
+        z.below(0.0).pick(beyond(self.media, self.medium, self.local.front), self.media)
     }
 
     /// Where a ray in the world direction `d` starts, and whether it leaves on the side that the shading normal says; `z` is its

@@ -4,18 +4,39 @@
 //! tolerance is needed.
 use fearless_simd_macros::simd;
 
-use super::batch::{Batch, Shadow, Work, add};
-use crate::math::Lanes;
+use super::{
+    batch::{Batch, Inside, Shadow, Work, add},
+    media::transmittance,
+};
+use crate::{
+    geometry::sphere_uv,
+    math::{Lanes, Pick},
+    texture::TextureCoordinates,
+};
 
 #[simd]
 pub(super) fn shadow<L: Lanes>(l: L, work: &Work, batch: &mut Batch) {
-    let Batch { shadows, radiance, .. } = batch;
+    let Batch { shadows, shadow_media, radiance, .. } = batch;
+    let scene = work.scene;
     for start in (0..shadows.len()).step_by(L::N) {
         let live = l.first(shadows.len() - start);
         let shadow = Shadow::read(l, shadows, start);
-        let (_, primitive) = work.scene.shapes.closest(l, shadow.o, shadow.d);
-        add(radiance, live & primitive.equals(shadow.target), shadow.slot, shadow.radiance);
+        let (t, primitive) = scene.shapes.closest(l, shadow.o, shadow.d);
+        let seen = live & primitive.equals(shadow.target);
+        let mut light = shadow.radiance;
+        if work.has_media() {
+            light = light * transmittance(l, work, Inside::read(l, shadow_media, start).media, t);
+        }
+        if scene.lights.emitters.vary() {
+            let emits = seen & scene.lights.emitters.emits(primitive);
+            let point = scene.shapes.surface_point(l, emits.pick(primitive, l.u(0)), shadow.o + shadow.d * t);
+            let (u, v) = sphere_uv(point.n_geometric);
+            let at = TextureCoordinates { u, v, p: point.p };
+            light = light * scene.lights.emitters.variation(l, &scene.textures, emits, primitive, &at);
+        }
+        add(radiance, seen, shadow.slot, light);
     }
     batch.rays += shadows.len() as u64;
     shadows.clear();
+    shadow_media.clear();
 }

@@ -1,7 +1,7 @@
 //! First stage: camera rays through points drawn from the pixels' filters.
 use fearless_simd_macros::simd;
 
-use super::batch::{Batch, Path, TILE, Work, place};
+use super::batch::{Batch, Inside, Path, TILE, Work, place};
 use crate::{
     math::{Lanes, V},
     sampling::{Dimension, SampleNumber, Stream},
@@ -11,6 +11,7 @@ use crate::{
 pub(super) fn spawn<L: Lanes>(l: L, work: &Work, batch: &mut Batch) {
     batch.bounce = 0;
     batch.paths[0].clear();
+    batch.path_media[0].clear();
     batch.radiance.fill([0.0; 4]);
     let [width, height] = work.size;
     let sample = SampleNumber::new(work.sample);
@@ -28,5 +29,8 @@ pub(super) fn spawn<L: Lanes>(l: L, work: &Work, batch: &mut Batch) {
             work.rays.through(l, x, y)
         };
         Path { o, d, throughput: V::splat(l, [1.0; 3]), slot }.push(inside, &mut batch.paths[0]);
+        if work.has_media() {
+            Inside { media: l.u(work.rays.media) }.push(inside, &mut batch.path_media[0]);
+        }
     }
 }

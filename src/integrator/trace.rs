@@ -4,7 +4,7 @@ use fearless_simd_macros::simd;
 use super::{
     batch::{Batch, Work},
     intersect::intersect,
-    kinds::Plain,
+    kinds,
     queue::Queue,
     shade::shade,
     shadow::shadow,
@@ -75,10 +75,16 @@ fn shade_all<L: Lanes>(l: L, work: &Work, batch: &mut Batch) {
     let next = (batch.bounce + 1 & 1) as usize;
     batch.paths[next].clear();
     batch.pasts[next].clear();
-    for stage in &work.scene.stages {
+    batch.path_media[next].clear();
+    for stage in &work.scene.surfaces.stages {
         match stage {
-            Stage::Plain => shade::<L, Plain>(l, work, batch),
-            _ => {}
+            Stage::Plain => shade::<L, kinds::Plain>(l, work, batch),
+            Stage::Diffuse => shade::<L, kinds::Diffuse>(l, work, batch),
+            Stage::Mirror => shade::<L, kinds::Mirror>(l, work, batch),
+            Stage::Conductor => shade::<L, kinds::Conductor>(l, work, batch),
+            Stage::Dielectric => shade::<L, kinds::Dielectric>(l, work, batch),
+            Stage::RoughDielectric => shade::<L, kinds::RoughDielectric>(l, work, batch),
+            Stage::Plastic => shade::<L, kinds::Plastic>(l, work, batch),
         }
     }
 }

@@ -65,7 +65,7 @@ pub struct LightSample<L: Lanes> {
 impl Lights {
     pub fn new(shapes: &[Sphere], emissions: &[Emission], background: Option<Background>) -> Lights {
         let source = |(shape, emission): (&Sphere, &Emission)| {
-            let light = luminance(emission.radiance);
+            let light = luminance(emission.mean);
             let (front, back) = match emission.side {
                 Side::Front => (light, 0.0),
                 Side::Back => (0.0, light),

@@ -1,5 +1,8 @@
 //! Emission of surfaces: L_e(x, ω_o), the first term of the light transport equation.
-use crate::math::{F, Lanes, M, U, V};
+use crate::{
+    math::{F, Lanes, M, Pick, U, V},
+    texture::{TextureCoordinates, Textures},
+};
 
 /// The side of a surface that emits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -10,11 +13,15 @@ pub enum Side {
     Both,
 }
 
-/// Constant emission of a surface.
+/// Emission of a surface, W·sr⁻¹·m⁻², linear Rec. 709.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Emission {
-    /// W·sr⁻¹·m⁻², linear Rec. 709.
+    /// Radiance; where there is a texture, what multiplies it.
     pub radiance: [f32; 3],
+    /// Mean radiance over the surface.
+    pub mean: [f32; 3],
+    /// Id of the texture that it varies by.
+    pub texture: Option<u32>,
     pub side: Side,
 }
 
@@ -23,6 +30,8 @@ pub struct Emission {
 pub struct Emitters {
     /// Radiance, and the sign of the emitting side (0: both).
     rows: Vec<[f32; 4]>,
+    /// Id of the texture plus 1 as bits, 0 for none; empty when no emission varies.
+    textures: Vec<[f32; 4]>,
 }
 
 impl Emitters {
@@ -37,7 +46,12 @@ impl Emitters {
             };
             [r, g, b, sign]
         };
-        Emitters { rows: emissions.iter().map(row).collect() }
+        let texture = |emission: &Emission| [f32::from_bits(emission.texture.map_or(0, |id| id + 1)), 0.0, 0.0, 0.0];
+        let vary = emissions.iter().any(|emission| emission.texture.is_some());
+        Emitters {
+            rows: emissions.iter().map(row).collect(),
+            textures: if vary { emissions.iter().map(texture).collect() } else { Vec::new() },
+        }
     }
 
     pub fn is_empty(&self) -> bool {
@@ -54,8 +68,28 @@ impl Emitters {
     /// front normal and the direction to the viewer.
     #[inline(always)]
     pub fn radiance<L: Lanes>(&self, l: L, emits: M<L>, primitive: U<L>, cos: F<L>) -> (V<L>, M<L>) {
-        use crate::math::Pick;
         let [x, y, z, side] = l.rows(&self.rows, emits.pick(primitive, l.u(0)));
         (V { x, y, z }, emits & (side * cos).ge(l.f(0.0)))
+    }
+
+    /// Whether some emission varies over its surface.
+    pub fn vary(&self) -> bool {
+        !self.textures.is_empty()
+    }
+
+    /// What the texture of emission multiplies radiance by in the lanes of `emits`; 1 where there is none. Only where some
+    /// [vary](Emitters::vary).
+    #[inline(always)]
+    pub fn variation<L: Lanes>(
+        &self,
+        l: L,
+        textures: &Textures,
+        emits: M<L>,
+        primitive: U<L>,
+        at: &TextureCoordinates<L>,
+    ) -> V<L> {
+        let [id, ..] = l.rows(&self.textures, emits.pick(primitive, l.u(0)));
+        let textured = emits & !id.bits().is(0);
+        textured.pick(textures.colour(l, id.bits() + u32::MAX, textured, at), V::splat(l, [1.0; 3]))
     }
 }

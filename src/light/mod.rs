@@ -2,7 +2,7 @@
 //!
 //! | kind | file | what it is |
 //! |---|---|---|
-//! | emission | `emission.rs` | constant radiance from one or both sides of a surface |
+//! | emission | `emission.rs` | radiance from one or both sides of a surface, constant or by a texture |
 //! | background | `background.rs` | constant radiance from all directions that meet no surface |
 //! | image background | `image_background.rs` | a picture of all directions, sampled by its light |
 pub mod background;
@@ -12,7 +12,7 @@ pub mod image_background;
 
 pub use self::{
     background::Background,
-    choice::{LightSample, Lights, Receiver},
+    choice::{LightCoordinates, LightSample, Lights, Receiver},
     emission::{Emission, Emitters, Side},
     image_background::ImageBackground,
 };

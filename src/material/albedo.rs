@@ -11,7 +11,7 @@ use super::{
     albedo_table::{ACROSS, DOWN, build},
     ggx::SMOOTH,
 };
-use crate::math::{F, Lanes, SimdLevel, U};
+use crate::math::{F, Lanes, SimdLevel, U, round::floor};
 
 /// 1 − E(μ, α) of perfectly reflecting microfacets, the light that single scattering loses to shadowing; and its average.
 pub static LOSS: LazyLock<Vec<[f32; 4]>> = LazyLock::new(|| build(SimdLevel::best(), None));
@@ -68,6 +68,6 @@ impl<'a, L: Lanes> Albedo<'a, L> {
 /// The cell of `x` in [0, cells] and where in it `x` lies, 0 to 1.
 #[inline(always)]
 fn cell<L: Lanes>(x: F<L>, cells: usize) -> (U<L>, F<L>) {
-    let index = x.max(x.splat(0.0)).min(x.splat((cells - 1) as f32)).to_int();
-    (index, x - index.to_real())
+    let (whole, index) = floor(x.max(x.splat(0.0)).min(x.splat((cells - 1) as f32)));
+    (index, x - whole)
 }

@@ -14,8 +14,6 @@ use crate::{
 pub const ACROSS: usize = 2 * MAX_LANES - 1;
 /// Cells in √α.
 pub const DOWN: usize = 64;
-/// Rows of a table.
-pub const ROWS: usize = DOWN * (ACROSS + 1);
 
 /// The values at the ends of the cells in x.
 type Line = [f32; ACROSS + 1];

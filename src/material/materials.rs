@@ -1,5 +1,5 @@
 //! The materials of a scene as tables for the kernel.
-use super::{Material, albedo, albedo_table, fresnel, ggx::SMOOTH};
+use super::{Material, albedo, albedo_table, dielectric_albedo, fresnel, ggx::SMOOTH, missing_energy, rough_dielectric::FAINT};
 use crate::math::{F, Lanes, M, SimdLevel, U, V};
 
 /// Which shading a material needs.
@@ -30,7 +30,7 @@ pub struct Local<L: Lanes> {
 /// | kind | row 0 | row 1 | row 2 |
 /// |---|---|---|---|
 /// | mirror, conductor | average Fresnel of an index, mode | η, compensated | k, – |
-/// | dielectric | inside over outside index, α, table, compensated | transmittance, – | – |
+/// | dielectric | inside over outside index, table, roughness varies, – | – | – |
 /// | plastic | index, T_avg of a smooth coat, table, rough | – | – |
 ///
 /// A table is the number of its first row in `tables`, as bits.
@@ -40,6 +40,8 @@ pub struct Materials {
     pub(super) tables: Vec<[f32; 4]>,
     /// Of compensated conductors; empty when there is none.
     pub(super) loss: &'static [[f32; 4]],
+    /// Some dielectric is compensated.
+    pub(super) compensated_dielectrics: bool,
     kinds: Vec<BsdfKind>,
 }
 
@@ -47,13 +49,21 @@ const ROWS: u32 = 3;
 
 impl Materials {
     pub fn new(materials: &[Material]) -> Self {
-        let mut coats = Vec::new();
+        let mut known = KnownTables::default();
         let mut all = Materials { kinds: materials.iter().map(Material::kind).collect(), ..Materials::default() };
         for material in materials {
-            let rows = all.describe(material, &mut coats);
+            let rows = all.describe(material, &mut known);
             all.rows.extend(rows);
         }
         all
+    }
+
+    pub fn len(&self) -> usize {
+        self.kinds.len()
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.kinds.is_empty()
     }
 
     pub fn kind(&self, material: usize) -> BsdfKind {
@@ -65,7 +75,7 @@ impl Materials {
         material * ROWS
     }
 
-    fn describe(&mut self, material: &Material, coats: &mut Vec<f32>) -> [[f32; 4]; ROWS as usize] {
+    fn describe(&mut self, material: &Material, known: &mut KnownTables) -> [[f32; 4]; ROWS as usize] {
         let mut rows = [[0.0; 4]; ROWS as usize];
         match *material {
             Material::Lambertian { .. } | Material::Mirror { .. } => {}
@@ -76,15 +86,22 @@ impl Materials {
                     self.loss = &albedo::LOSS;
                 }
             }
-            Material::Dielectric { ior, ior_outside, alpha, transmittance: [r, g, b], compensated } => {
-                rows[0] = [ior / ior_outside, alpha, 0.0, f32::from(u8::from(compensated))];
-                rows[1] = [r, g, b, 0.0];
+            Material::Dielectric { ior, ior_outside, alpha, varies, compensated } => {
+                let eta = ior / ior_outside;
+                rows[0] = [eta, 0.0, 0.0, 0.0];
+                if alpha >= SMOOTH {
+                    let compensated = compensated && (eta - 1.0).abs() >= FAINT;
+                    self.compensated_dielectrics |= compensated;
+                    let table = compensated.then_some((eta, if varies { None } else { Some(alpha) }));
+                    rows[0][1] = f32::from_bits(self.interface(table, known));
+                    rows[0][2] = f32::from(u8::from(varies && compensated));
+                }
             }
             Material::Plastic { ior, alpha, .. } => {
                 let smooth = 1.0 - fresnel::dielectric_average(ior);
                 rows[0] = [ior, smooth, 0.0, 0.0];
                 if alpha >= SMOOTH {
-                    rows[0] = [ior, smooth, f32::from_bits(self.coat(ior, coats)), 1.0];
+                    rows[0] = [ior, smooth, f32::from_bits(self.coat(ior, known)), 1.0];
                 }
             }
         }
@@ -92,14 +109,42 @@ impl Materials {
     }
 
     /// The first row of the table of a coat; coats of the same index share it.
-    fn coat(&mut self, ior: f32, coats: &mut Vec<f32>) -> u32 {
-        let known = coats.iter().position(|known| *known == ior).unwrap_or_else(|| {
-            coats.push(ior);
-            self.tables.extend(albedo_table::build(SimdLevel::best(), Some(ior)));
-            coats.len() - 1
-        });
-        (known * albedo_table::ROWS) as u32
+    fn coat(&mut self, ior: f32, known: &mut KnownTables) -> u32 {
+        if let Some((_, table)) = known.coats.iter().find(|(index, _)| *index == ior) {
+            return *table;
+        }
+        let table = self.append(albedo_table::build(SimdLevel::best(), Some(ior)));
+        known.coats.push((ior, table));
+        table
     }
+
+    /// The first row of the table of an interface: index and roughness, which is absent where it varies. Without an interface
+    /// nothing is given back.
+    fn interface(&mut self, interface: Option<(f32, Option<f32>)>, known: &mut KnownTables) -> u32 {
+        if let Some((_, table)) = known.interfaces.iter().find(|(of, _)| *of == interface) {
+            return *table;
+        }
+        let table = self.append(match interface {
+            None => missing_energy::nothing_missing(),
+            Some((eta, Some(alpha))) => dielectric_albedo::uniform_rows(eta, alpha.clamp(SMOOTH, 1.0)),
+            Some((eta, None)) => dielectric_albedo::textured_rows(eta),
+        });
+        known.interfaces.push((interface, table));
+        table
+    }
+
+    fn append(&mut self, rows: Vec<[f32; 4]>) -> u32 {
+        let first = self.tables.len() as u32;
+        self.tables.extend(rows);
+        first
+    }
+}
+
+/// What the tables made so far are of, and their first rows.
+#[derive(Default)]
+struct KnownTables {
+    coats: Vec<(f32, u32)>,
+    interfaces: Vec<(Option<(f32, Option<f32>)>, u32)>,
 }
 
 impl Material {

@@ -5,31 +5,39 @@
 //! | lambertian | `lambertian.rs` | ideal diffuse reflection |
 //! | mirror | `mirror.rs` | smooth metal or a mirror of constant reflectance: a delta lobe |
 //! | conductor | `conductor.rs` | rough metal: GGX reflection, with the light of further scattering given back |
+//! | dielectric | `dielectric.rs` | smooth interface: delta lobes of reflection and refraction |
+//! | rough dielectric | `rough_dielectric.rs` | microfacets that reflect and refract, with the light of further scattering given back |
 //! | plastic | `plastic.rs` | diffuse base under a clear coat, smooth (delta lobe) or rough (GGX) |
 //!
-//! All reflect from both sides. Roughness is the width α of the GGX distribution (`ggx.rs`); `albedo.rs` has the tables that
-//! account for all light.
+//! All reflect from both sides. Roughness is the width α of the GGX distribution (`ggx.rs`); the tables that account for all light
+//! are in `albedo.rs` for reflection and in `missing_energy.rs` for interfaces.
 mod albedo;
 mod albedo_table;
 mod bsdf;
 mod conductor;
+mod dielectric;
+mod dielectric_albedo;
 pub mod fresnel;
 pub mod ggx;
 mod grazing;
 mod lambertian;
 mod materials;
 mod mirror;
+mod missing_energy;
 mod plastic;
+mod rough_dielectric;
 #[cfg(test)]
 mod tests;
 
 pub use self::{
     bsdf::{Bsdf, BsdfSample},
     conductor::Conductor,
+    dielectric::Dielectric,
     lambertian::Lambertian,
     materials::{BsdfKind, Local, Materials},
     mirror::Mirror,
     plastic::Plastic,
+    rough_dielectric::RoughDielectric,
 };
 
 /// What a surface is made of. `alpha` is the width of the GGX distribution, the square of artists' roughness, in [0, 1]; below
@@ -48,7 +56,8 @@ pub enum Material {
         ior: f32,
         ior_outside: f32,
         alpha: f32,
-        transmittance: [f32; 3],
+        /// A texture varies the roughness.
+        varies: bool,
         compensated: bool,
     },
     /// `compensated`: with light that scatters more than once between microfacets.

@@ -1,5 +1,6 @@
 //! Numbers, vectors and frames in lanes, and colour. Nothing here knows what light is.
 pub mod colour;
+pub mod exp;
 pub mod frame;
 pub mod lanes;
 pub mod level;

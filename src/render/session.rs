@@ -131,7 +131,7 @@ impl Session {
         let last_frame = self.last_frame;
         let impatient = || budget.paused && spp == 0 && last_frame.is_some_and(|coarse: Instant| coarse.elapsed() > PATIENCE);
         let enough = || interrupted() || impatient() || time_left.is_some_and(|left| start.elapsed() >= left);
-        let job = PassJob { scene: &self.job.scene, rays: &self.job.camera.rays(), settings: &self.job.settings };
+        let job = PassJob { scene: &self.job.scene, rays: &self.job.scene.rays(&self.job.camera), settings: &self.job.settings };
         let before = self.film.samples();
         let count = threads.pass(job, &mut self.film, target, &enough);
         let samples = self.film.samples() - before;
@@ -150,7 +150,7 @@ impl Session {
 
     fn coarse_pass(&mut self, threads: &Threads, interrupted: &(dyn Fn() -> bool + Sync)) {
         let Some(coarse) = &mut self.coarse else { return };
-        let job = PassJob { scene: &self.job.scene, rays: &coarse.camera.rays(), settings: &self.job.settings };
+        let job = PassJob { scene: &self.job.scene, rays: &self.job.scene.rays(&coarse.camera), settings: &self.job.settings };
         let start = Instant::now();
         let before = coarse.film.samples();
         let count = threads.pass(job, &mut coarse.film, 1, interrupted);

@@ -32,6 +32,17 @@ impl ColourRange {
     };
     pub const RADIANCE: ColourRange =
         ColourRange { what: "radiance", most: BRIGHTEST, expected: "every channel must be a number from 0 to 1e15" };
+    pub const REFLECTANCE: ColourRange = ColourRange { what: "reflectance", ..ColourRange::ALBEDO };
+    pub const F0: ColourRange = ColourRange { what: "f0", ..ColourRange::ALBEDO };
+    pub const TRANSMITTANCE: ColourRange = ColourRange {
+        what: "transmittance",
+        most: 1.0,
+        expected: "every channel must lie in [0, 1]: what a metre of the interior lets pass",
+    };
+    pub const ROUGHNESS: ColourRange = ColourRange { what: "roughness", most: 1.0, expected: "expected a number from 0 to 1" };
+    pub const ALPHA: ColourRange = ColourRange { what: "alpha", ..ColourRange::ROUGHNESS };
+    pub const INDEX: ColourRange =
+        ColourRange { what: "index", most: 1e3, expected: "every channel of `eta` and `k` must be a number from 0 to 1000" };
     /// A colour within a texture, whatever it is used for.
     pub const TEXTURE: ColourRange = ColourRange { what: "colour", ..ColourRange::RADIANCE };
 }

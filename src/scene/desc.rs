@@ -82,9 +82,9 @@ pub enum FilterDesc {
 #[serde(deny_unknown_fields)]
 pub struct BackgroundDesc {
     pub radiance: Option<Spanned<Colour>>,
-    pub image: Planned,
-    pub rotate: Planned,
-    pub scale: Planned,
+    pub image: Option<Spanned<String>>,
+    pub rotate: Option<Spanned<f64>>,
+    pub scale: Option<Spanned<f64>>,
 }
 
 /// Exactly one of the kinds is given.
@@ -125,13 +125,60 @@ pub struct NoiseDesc {
 #[serde(deny_unknown_fields)]
 pub struct MaterialDesc {
     pub lambertian: Option<LambertianDesc>,
-    pub mirror: Planned,
-    pub dielectric: Planned,
-    pub conductor: Planned,
-    pub plastic: Planned,
-    pub bump: Planned,
-    pub normal_map: Planned,
-    pub two_sided: Planned,
+    pub mirror: Option<MirrorDesc>,
+    pub dielectric: Option<DielectricDesc>,
+    pub conductor: Option<Spanned<ConductorDesc>>,
+    pub plastic: Option<PlasticDesc>,
+    pub bump: Option<BumpDesc>,
+    pub normal_map: Option<Spanned<String>>,
+    pub two_sided: Option<Spanned<bool>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MirrorDesc {
+    pub reflectance: Spanned<Colour>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct DielectricDesc {
+    pub ior: Spanned<f64>,
+    pub ior_outside: Option<Spanned<f64>>,
+    pub roughness: Option<Spanned<Colour>>,
+    pub alpha: Option<Spanned<Colour>>,
+    pub transmittance: Option<Spanned<Colour>>,
+    pub energy_compensation: Option<bool>,
+}
+
+/// Either `eta` and `k`, or `f0`, or `reflectance`.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ConductorDesc {
+    pub eta: Option<Spanned<Colour>>,
+    pub k: Option<Spanned<Colour>>,
+    pub f0: Option<Spanned<Colour>>,
+    pub reflectance: Option<Spanned<Colour>>,
+    pub roughness: Option<Spanned<Colour>>,
+    pub alpha: Option<Spanned<Colour>>,
+    pub energy_compensation: Option<bool>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PlasticDesc {
+    pub albedo: Spanned<Colour>,
+    pub ior: Spanned<f64>,
+    pub roughness: Option<Spanned<Colour>>,
+    pub alpha: Option<Spanned<Colour>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BumpDesc {
+    pub texture: Spanned<String>,
+    /// Metres that the brightest texel rises above the darkest.
+    pub height: Spanned<f64>,
 }
 
 #[derive(Deserialize)]
@@ -179,8 +226,8 @@ pub struct EmissionDesc {
     pub radiance: Option<Spanned<Colour>>,
     #[serde(default)]
     pub two_sided: bool,
-    pub texture: Planned,
-    pub scale: Planned,
+    pub texture: Option<Spanned<String>>,
+    pub scale: Option<Spanned<f64>>,
 }
 
 #[derive(Default, Deserialize)]

@@ -15,9 +15,10 @@ use std::path::PathBuf;
 
 use glam::DVec3;
 
-use self::surface::Stage;
+use self::surface::Surfaces;
 pub use self::{
     camera::{Camera, CameraError, Lens},
+    compile::{Coating, Roughness},
     diagnostic::SceneError,
     load::{BUILT_IN, built_in, load, parse},
     rays::CameraRays,
@@ -26,7 +27,7 @@ pub use self::{
 use crate::{
     geometry::Shapes,
     light::{Emission, Lights},
-    material::{Material, Materials},
+    material::Material,
     texture::Textures,
 };
 
@@ -37,13 +38,7 @@ pub struct Scene {
     pub source: String,
     pub notes: String,
     pub shapes: Shapes,
-    pub materials: Materials,
-    /// Colour of every primitive, and its surface in one word: see [`surface`]. A black one reflects nothing.
-    pub surfaces: Vec<[f32; 4]>,
-    /// What else is looked up of a primitive: roughness α.
-    pub varying: Vec<[f32; 4]>,
-    /// The shading stages that the scene needs.
-    pub stages: Vec<Stage>,
+    pub surfaces: Surfaces,
     pub textures: Textures,
     pub lights: Lights,
     /// The objects in the order of their primitive ids.
@@ -63,8 +58,10 @@ pub struct Object {
     pub name: String,
     pub center: DVec3,
     pub radius: f64,
+    /// The normal points inwards.
+    pub flip: bool,
     /// `None` is black.
-    pub material: Option<Material>,
+    pub coating: Option<Coating>,
     pub emission: Option<Emission>,
 }
 
@@ -78,9 +75,17 @@ pub enum Truth {
 }
 
 impl Scene {
-    /// Whether all surfaces are diffuse and nothing about them varies.
-    pub fn is_plain(&self) -> bool {
-        self.stages == [Stage::Plain]
+    /// The media around a point, as paths carry them: see [`surface::Surfaces::media`].
+    fn media_at(&self, p: DVec3) -> u32 {
+        if self.surfaces.media.is_empty() {
+            return 0;
+        }
+        let inside = |(_, object): &(usize, &Object)| (p.distance(object.center) < object.radius) != object.flip;
+        let is_dielectric = |coating: &Coating| matches!(coating.material, Material::Dielectric { .. });
+        let mut around: Vec<_> = self.objects.iter().enumerate().filter(inside).collect();
+        around.retain(|(_, object)| object.coating.as_ref().is_some_and(is_dielectric));
+        around.sort_by(|a, b| b.1.radius.total_cmp(&a.1.radius));
+        around.iter().fold(0, |stack, (id, _)| stack << 8 | self.surfaces.varying[*id][3].to_bits())
     }
 
     /// Things that are legal but probably not meant, for the window and the command line.

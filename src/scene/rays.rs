@@ -1,5 +1,5 @@
 //! The rays of a camera, in lanes.
-use super::Camera;
+use super::{Camera, Scene};
 use crate::{
     math::{F, Lanes, V},
     sampling::{Filter, warp::disk},
@@ -18,6 +18,8 @@ pub struct CameraRays {
     parallel: Option<[f32; 3]>,
     lens: Option<LensRays>,
     pub filter: Filter,
+    /// The media around the eye: see [`crate::scene::surface::Surfaces::media`].
+    pub media: u32,
 }
 
 /// A lens of some size.
@@ -30,7 +32,7 @@ struct LensRays {
 }
 
 impl Camera {
-    pub fn rays(&self) -> CameraRays {
+    fn rays(&self) -> CameraRays {
         let [right, up, forward] = self.axes();
         let [w, h] = self.resolution.map(f64::from);
         let half_width = self.orthographic.map_or((self.fov.to_radians() / 2.0).tan(), |width| width / 2.0);
@@ -49,7 +51,15 @@ impl Camera {
                 focus: lens.focus as f32,
             }),
             filter: self.filter,
+            media: 0,
         }
+    }
+}
+
+impl Scene {
+    /// The rays of a camera in this scene.
+    pub fn rays(&self, camera: &Camera) -> CameraRays {
+        CameraRays { media: self.media_at(camera.eye), ..camera.rays() }
     }
 }
 

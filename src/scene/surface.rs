@@ -1,16 +1,15 @@
-//! What a primitive's surface is, packed in one word a primitive: `material | stage << 16 | flags`.
-use crate::math::{Lanes, M, U};
+//! What the primitives' surfaces are, as tables for the kernel, and which shading stages they need.
+use super::{
+    Object,
+    compile::{Coating, Roughness},
+    textures::ColourSource,
+};
+use crate::{
+    material::{BsdfKind, Materials},
+    math::{Lanes, M, U},
+};
 
-const STAGE_SHIFT: u32 = 16;
-const STAGE_MASK: u32 = 0xf;
-/// The normal is reversed.
-pub const FLIPPED: u32 = 1 << 20;
-/// Only the front reflects.
-pub const ONE_SIDED: u32 = 1 << 21;
-/// Set while rendering where a path met the front.
-pub const FRONT: u32 = 1 << 31;
-
-/// The shading stages: a kind of bsdf each, and one for diffuse surfaces that need nothing but their colour.
+/// The shading stages: one for every kind of bsdf, and one for diffuse surfaces of which nothing but the colour matters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Stage {
     Plain,
@@ -26,22 +25,148 @@ impl Stage {
     pub const COUNT: usize = Stage::Plastic as usize + 1;
 }
 
-/// The word of a surface.
-pub fn pack(material: u32, stage: Stage, flags: u32) -> u32 {
-    material | (stage as u32) << STAGE_SHIFT | flags
+/// Surfaces by primitive. Tables that a scene does not need are empty.
+#[derive(Default)]
+pub struct Surfaces {
+    /// Colour, and the surface's word: `material | stage << 16 | flags`. A black one reflects nothing.
+    pub rows: Vec<[f32; 4]>,
+    /// α, textures of colour and of α, and the medium inside. An id is stored plus 1, as bits; 0 is none.
+    pub varying: Vec<[f32; 4]>,
+    /// Texture of heights, their scale, texture of normals (ids like above), and the radius.
+    pub relief: Vec<[f32; 4]>,
+    /// What a metre of a medium takes away, in octaves; the first is empty space. Empty when all media are.
+    pub media: Vec<[f32; 4]>,
+    /// Colour or α of some surface is textured.
+    pub textured: bool,
+    pub stages: Vec<Stage>,
+    /// All surfaces are diffuse, from both sides, and of constant colour.
+    pub plain: bool,
+    pub materials: Materials,
+}
+
+const STAGE_SHIFT: u32 = 16;
+const STAGE_MASK: u32 = 0xf;
+/// The normal is reversed.
+pub const FLIPPED: u32 = 1 << 20;
+/// Only the front reflects.
+pub const ONE_SIDED: u32 = 1 << 21;
+/// α is the square of what its texture says.
+pub const SQUARED: u32 = 1 << 22;
+/// Set while rendering where a path met the front.
+pub const FRONT: u32 = 1 << 31;
+/// Materials have 16 bits, media 8: what is beyond is refused by [`Surfaces::check`].
+const MOST_MATERIALS: usize = 1 << 16;
+const MOST_MEDIA: usize = 1 << 8;
+
+impl Surfaces {
+    /// Surfaces of the objects in their order.
+    pub fn new(objects: &[Object]) -> Surfaces {
+        let mut coatings: Vec<&Coating> = Vec::new();
+        for coating in objects.iter().filter_map(|object| object.coating.as_ref()) {
+            if !coatings.contains(&coating) {
+                coatings.push(coating);
+            }
+        }
+        let materials: Vec<_> = coatings.iter().map(|coating| coating.material).collect();
+        let has_media = coatings.iter().any(|coating| coating.transmittance != [1.0; 3]);
+        let has_relief = coatings.iter().any(|coating| coating.bump.or(coating.normal_map.map(|id| (id, 0.0))).is_some());
+        let mut surfaces = Surfaces { materials: Materials::new(&materials), ..Surfaces::default() };
+        if has_media {
+            surfaces.media.push([0.0; 4]);
+            surfaces.media.extend(coatings.iter().map(|coating| octaves_per_metre(coating.transmittance)));
+        }
+        for object in objects {
+            let material = object.coating.as_ref().and_then(|coating| coatings.iter().position(|known| *known == coating));
+            surfaces.push(object, material, has_relief);
+        }
+        surfaces.stages.sort_unstable();
+        surfaces.stages.dedup();
+        surfaces.plain = surfaces.are_plain();
+        surfaces
+    }
+
+    fn push(&mut self, object: &Object, material: Option<usize>, has_relief: bool) {
+        let (Some(coating), Some(material)) = (&object.coating, material) else {
+            self.rows.push([0.0; 4]);
+            self.varying.push([0.0; 4]);
+            if has_relief {
+                self.relief.push([0.0; 4]);
+            }
+            return;
+        };
+        let stage = self.stage(coating, material);
+        let id = |texture: Option<u32>| f32::from_bits(texture.map_or(0, |id| id + 1));
+        let ([r, g, b], colour_texture) = match coating.colour {
+            ColourSource::Constant(colour) => (colour, None),
+            ColourSource::Texture(id) => ([1.0; 3], Some(id)),
+        };
+        let (alpha, alpha_texture, squared) = match coating.roughness {
+            Roughness::Constant(alpha) => (alpha, None, false),
+            Roughness::Texture { id, squared } => (1.0, Some(id), squared),
+        };
+        let flag = |set: bool, flag: u32| if set { flag } else { 0 };
+        let flags = flag(object.flip, FLIPPED) | flag(coating.one_sided, ONE_SIDED) | flag(squared, SQUARED);
+        let medium = if self.media.is_empty() { 0 } else { material as u32 + 1 };
+        self.textured |= colour_texture.or(alpha_texture).is_some();
+        self.rows.push([r, g, b, f32::from_bits(material as u32 | (stage as u32) << STAGE_SHIFT | flags)]);
+        self.varying.push([alpha, id(colour_texture), id(alpha_texture), f32::from_bits(medium)]);
+        if has_relief {
+            let height = coating.bump.map_or(0.0, |(_, height)| height);
+            self.relief.push([id(coating.bump.map(|(id, _)| id)), height, id(coating.normal_map), object.radius as f32]);
+        }
+        if [r, g, b] != [0.0; 3] {
+            self.stages.push(stage);
+        }
+    }
+
+    fn stage(&self, coating: &Coating, material: usize) -> Stage {
+        let has_normals = coating.bump.is_some() || coating.normal_map.is_some();
+        match self.materials.kind(material) {
+            BsdfKind::Lambertian if has_normals || !self.media.is_empty() => Stage::Diffuse,
+            BsdfKind::Lambertian => Stage::Plain,
+            BsdfKind::Mirror => Stage::Mirror,
+            BsdfKind::Conductor => Stage::Conductor,
+            BsdfKind::Dielectric => Stage::Dielectric,
+            BsdfKind::RoughDielectric => Stage::RoughDielectric,
+            BsdfKind::Plastic => Stage::Plastic,
+        }
+    }
+
+    fn are_plain(&self) -> bool {
+        let one_sided = |row: &[f32; 4]| row[3].to_bits() & ONE_SIDED != 0;
+        !self.textured && self.stages.iter().all(|stage| *stage == Stage::Plain) && !self.rows.iter().any(one_sided)
+    }
+
+    /// What is too many for the tables.
+    pub fn check(&self) -> Result<(), String> {
+        let too_many = |what: &str, most: usize| Err(format!("more than {most} {what}"));
+        if self.materials.len() > MOST_MATERIALS {
+            return too_many("materials", MOST_MATERIALS);
+        }
+        if self.media.len() > MOST_MEDIA {
+            return too_many("materials in a scene with tinted media", MOST_MEDIA - 1);
+        }
+        Ok(())
+    }
+}
+
+/// −log₂ of what a metre lets pass; black lets nothing pass, but at no distance everything.
+fn octaves_per_metre(transmittance: [f32; 3]) -> [f32; 4] {
+    let octaves = |t: f32| (-t.log2()).min(1e30);
+    [octaves(transmittance[0]), octaves(transmittance[1]), octaves(transmittance[2]), 0.0]
 }
 
 #[inline(always)]
-pub fn material<L: Lanes>(surface: U<L>) -> U<L> {
-    surface & 0xffff
+pub fn material<L: Lanes>(word: U<L>) -> U<L> {
+    word & 0xffff
 }
 
 #[inline(always)]
-pub fn stage<L: Lanes>(surface: U<L>) -> U<L> {
-    (surface >> STAGE_SHIFT) & STAGE_MASK
+pub fn stage<L: Lanes>(word: U<L>) -> U<L> {
+    (word >> STAGE_SHIFT) & STAGE_MASK
 }
 
 #[inline(always)]
-pub fn is_set<L: Lanes>(surface: U<L>, flag: u32) -> M<L> {
-    !(surface & flag).is(0)
+pub fn is_set<L: Lanes>(word: U<L>, flag: u32) -> M<L> {
+    !(word & flag).is(0)
 }

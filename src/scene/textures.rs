@@ -5,18 +5,18 @@ use toml::Spanned;
 
 use super::{
     check::{Checker, ColourRange},
-    desc::{CheckerDesc, Colour, ImageTextureDesc, NoiseDesc, TextureDesc},
+    desc::{CheckerDesc, Colour, NoiseDesc, TextureDesc},
     diagnostic::SceneError,
 };
 use crate::{
-    image::read_light,
+    image::{Encoding, read_light},
     texture::{ImageTexture, Texture, Textures},
 };
 
 /// Checkers of checkers may go this deep.
 const DEEPEST: usize = 64;
 
-/// A colour of the scene, compiled.
+/// A colour of the scene: constant or by a texture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ColourSource {
     Constant([f32; 3]),
@@ -39,6 +39,25 @@ impl NamedTextures {
         Ok(NamedTextures { textures: builder.textures, ids: builder.ids })
     }
 
+    /// The id of a texture by its name.
+    pub fn id(&self, check: &Checker, name: &Spanned<String>) -> Result<u32, SceneError> {
+        let id = self.ids.get(name.as_ref()).copied();
+        id.ok_or_else(|| check.not_defined("texture", name, self.ids.keys()))
+    }
+
+    /// A texture without a name, from a picture file.
+    pub fn picture(&mut self, check: &Checker, path: &Spanned<String>, encoding: Encoding) -> Result<u32, SceneError> {
+        Ok(self.textures.push(image(check, path, encoding)?))
+    }
+
+    /// The colour, or the mean colour of the texture.
+    pub fn typical(&self, source: ColourSource) -> [f32; 3] {
+        match source {
+            ColourSource::Constant(colour) => colour,
+            ColourSource::Texture(id) => self.textures.mean(id),
+        }
+    }
+
     /// A colour or the texture that it names, all of whose values lie in the range.
     pub fn colour_or_texture(
         &self,
@@ -49,7 +68,7 @@ impl NamedTextures {
         let Colour::Texture(name) = value.as_ref() else {
             return Ok(ColourSource::Constant(check.colour(range, value)?));
         };
-        let id = *self.ids.get(name.as_ref()).ok_or_else(|| check.not_defined("texture", name, self.ids.keys()))?;
+        let id = self.id(check, name)?;
         let most = self.textures.maximum(id).into_iter().fold(0.0, f32::max);
         if f64::from(most) > range.most {
             let message = format!("`{}` is out of range: texture `{}` reaches {most}", range.what, name.as_ref());
@@ -57,6 +76,12 @@ impl NamedTextures {
         }
         Ok(ColourSource::Texture(id))
     }
+}
+
+fn image(check: &Checker, path: &Spanned<String>, encoding: Encoding) -> Result<Texture, SceneError> {
+    let picture = read_light(&check.path(path), encoding)
+        .map_err(|error| check.0.error(path.span(), error.to_string(), "this picture cannot be used"))?;
+    Ok(Texture::Image(ImageTexture::new(&picture)))
 }
 
 struct Builder<'a> {
@@ -76,7 +101,7 @@ impl<'a> Builder<'a> {
         self.open.push(name);
         let d = desc.as_ref();
         let texture = match (&d.image, &d.checker, &d.noise) {
-            (Some(image), None, None) => self.image(image)?,
+            (Some(picture), None, None) => image(self.check, &picture.path, picture.encoding)?,
             (None, Some(checker), None) => self.checker(checker)?,
             (None, None, Some(noise)) => self.noise(noise)?,
             (None, None, None) => return Err(self.kinds(desc, &format!("texture `{name}` says no kind"))),
@@ -90,13 +115,6 @@ impl<'a> Builder<'a> {
 
     fn kinds(&self, desc: &Spanned<TextureDesc>, message: &str) -> SceneError {
         self.check.0.error(desc.span(), message, "expected one of `image = { … }`, `checker = { … }` and `noise = { … }`")
-    }
-
-    fn image(&self, desc: &ImageTextureDesc) -> Result<Texture, SceneError> {
-        let path = self.check.path(&desc.path);
-        let picture = read_light(&path, desc.encoding)
-            .map_err(|error| self.check.0.error(desc.path.span(), error.to_string(), "this picture cannot be used"))?;
-        Ok(Texture::Image(ImageTexture::new(&picture)))
     }
 
     fn checker(&mut self, desc: &'a CheckerDesc) -> Result<Texture, SceneError> {

@@ -185,7 +185,7 @@ fn paths_that_never_end_are_cut_counted_and_reported() {
 #[test]
 fn a_panic_in_a_pass_becomes_a_status_with_pixel_sample_and_message() {
     let mut broken = noisefall::scene::built_in();
-    broken.surfaces.truncate(1);
+    broken.surfaces.rows.truncate(1);
     let scene = Arc::new(broken);
     let renderer = renderer(Publish::Live);
     let camera = Camera { resolution: [40, 40], ..scene.camera };
@@ -201,7 +201,8 @@ fn a_panic_in_a_pass_becomes_a_status_with_pixel_sample_and_message() {
 fn samples_that_are_no_numbers_are_dropped_and_counted_with_the_way_to_replay_them() {
     use noisefall::light::{Emission, Emitters, Side};
     let mut broken = noisefall::scene::built_in();
-    broken.lights.emitters = Emitters::new(&[Emission { radiance: [1.0, f32::NAN, 1.0], side: Side::Front }]);
+    broken.lights.emitters =
+        Emitters::new(&[Emission { radiance: [1.0, f32::NAN, 1.0], mean: [1.0; 3], texture: None, side: Side::Front }]);
     let scene = Arc::new(broken);
     let renderer = renderer(Publish::Sparse);
     renderer.set_budget(Budget { max_spp: Some(2), ..Budget::default() });
@@ -211,6 +212,6 @@ fn samples_that_are_no_numbers_are_dropped_and_counted_with_the_way_to_replay_th
     assert!(done.status.invalid_samples > 0);
     assert!(done.frame.radiance.iter().flatten().all(|c| c.is_finite()), "the picture stays finite");
     let first = done.status.first_invalid.expect("the first one is known");
-    let replayed = noisefall::integrator::replay(&scene, &camera.rays(), &scene.settings, first.pixel, first.sample);
+    let replayed = noisefall::integrator::replay(&scene, &scene.rays(&camera), &scene.settings, first.pixel, first.sample);
     assert!(replayed.radiance[1].is_nan());
 }

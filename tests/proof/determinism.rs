@@ -33,7 +33,7 @@ fn camera(scene: &Scene) -> Camera {
 fn film(scene: &Scene, threads: usize, level: SimdLevel, settings: &RenderSettings, spp: u32) -> Film {
     let mut film = Film::new(RESOLUTION);
     let threads = Threads::new(threads, level).expect("threads can be had");
-    let job = PassJob { scene, rays: &camera(scene).rays(), settings };
+    let job = PassJob { scene, rays: &scene.rays(&camera(scene)), settings };
     threads.pass(job, &mut film, spp, &|| false);
     film
 }
@@ -63,7 +63,7 @@ fn an_interrupted_pass_goes_on_as_if_nothing_had_happened() {
     let scene = built_in();
     let settings = settings(Sampler::Sobol);
     let threads = Threads::new(2, SimdLevel::best()).expect("threads can be had");
-    let rays = camera(&scene).rays();
+    let rays = scene.rays(&camera(&scene));
     let job = PassJob { scene: &scene, rays: &rays, settings: &settings };
     let mut interrupted = Film::new(RESOLUTION);
     let asked = AtomicU32::new(0);
@@ -77,7 +77,7 @@ fn an_interrupted_pass_goes_on_as_if_nothing_had_happened() {
 #[test]
 fn replayed_samples_add_up_to_the_film() {
     let scene = built_in();
-    let rays = camera(&scene).rays();
+    let rays = scene.rays(&camera(&scene));
     for entry in SAMPLERS {
         let settings = settings(entry.sampler);
         let film = film(&scene, 2, SimdLevel::best(), &settings, 3);

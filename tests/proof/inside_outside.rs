@@ -33,7 +33,7 @@ fn render(scene: &Scene, directions: Directions, spp: u32) -> Vec<Estimate> {
     };
     let mut film = Film::new(camera.resolution);
     let threads = Threads::new(2, SimdLevel::best()).expect("two threads can be had");
-    let count = threads.pass(PassJob { scene, rays: &camera.rays(), settings: &settings }, &mut film, spp, &|| false);
+    let count = threads.pass(PassJob { scene, rays: &scene.rays(&camera), settings: &settings }, &mut film, spp, &|| false);
     assert_eq!((film.invalid_samples(), count.cut_paths), (0, 0));
     let mut estimates = vec![Estimate { mean: [0.0; 3], variance_of_mean: None }; (SIDE * SIDE) as usize];
     for tile in &film.tiles {

@@ -12,7 +12,7 @@ pub const SIGMAS: f64 = 4.0;
 /// Red of `spp` samples of each of 32 × 32 pixels, pixel after pixel.
 pub fn samples(scene: &Scene, settings: RenderSettings, spp: u32) -> Vec<Vec<f64>> {
     let camera = Camera { resolution: [TILE, TILE], ..scene.camera };
-    let rays = camera.rays();
+    let rays = scene.rays(&camera);
     let by_sample: Vec<Vec<f64>> = (0..spp)
         .into_par_iter()
         .map_init(Batch::default, |batch, sample| {

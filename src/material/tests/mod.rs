@@ -1,5 +1,8 @@
 //! Every kind of bsdf against what holds for all: samples against densities, weights, reciprocity, energy, lanes.
 mod cases;
+mod dielectric;
+mod dielectric_fixtures;
+mod dielectric_pdf;
 mod distribution;
 mod energy;
 mod fresnel;

@@ -1,0 +1,63 @@
+//! Shading normals by bump and normal maps.
+use crate::{
+    geometry::sphere_tangents,
+    math::{F, Lanes, M, Pick, V},
+    scene::Scene,
+    texture::{TextureCoordinates, Textures},
+};
+
+/// The shading normal on the front of a surface with outward normal `n`: in the lanes of `mask` tilted by the textures in its
+/// row of [`crate::scene::surface::Surfaces::relief`].
+///
+/// A height h moves the surface to p + h n; without the small terms that bend n itself, its normal is n − ∇h (J. Blinn,
+/// "Simulation of Wrinkled Surfaces", SIGGRAPH 1978). A normal map holds (x, y, z)/2 + ½ of the normal, x along ∂p/∂u, y against
+/// ∂p/∂v (up in the picture) and z along n.
+#[inline(always)]
+pub(super) fn shading_normal<L: Lanes>(
+    l: L,
+    scene: &Scene,
+    [bump, height, map, radius]: [F<L>; 4],
+    mask: M<L>,
+    n: V<L>,
+    at: &TextureCoordinates<L>,
+) -> V<L> {
+    let (bump, map) = (bump.bits(), map.bits());
+    let (bumped, mapped) = (mask & !bump.is(0), mask & !map.is(0));
+    if !(bumped | mapped).any() {
+        return n;
+    }
+    let (along_u, along_v) = sphere_tangents(n, radius);
+    let mut tilted = n;
+    if mapped.any() {
+        let code = scene.textures.colour(l, map + u32::MAX, mapped, at);
+        let [x, y, z] = [code.x * 2.0 - 1.0, code.y * 2.0 - 1.0, code.z * 2.0 - 1.0];
+        let normal = along_u.normalized() * x - along_v.normalized() * y + n * z;
+        tilted = mapped.pick(normal.normalized(), n);
+    }
+    if bumped.any() {
+        let id = bumped.pick(bump + u32::MAX, l.u(0));
+        let slope = gradient(l, &scene.textures, id, bumped, along_u, along_v, at) * height;
+        tilted = bumped.pick((tilted - slope).normalized(), tilted);
+    }
+    tilted
+}
+
+/// ∇h along the surface, per metre, by finite differences.
+#[inline(always)]
+fn gradient<L: Lanes>(
+    l: L,
+    textures: &Textures,
+    id: crate::math::U<L>,
+    mask: M<L>,
+    along_u: V<L>,
+    along_v: V<L>,
+    at: &TextureCoordinates<L>,
+) -> V<L> {
+    let steps = textures.steps(l, id);
+    let (length_u, length_v) = (along_u.length_squared().sqrt(), along_v.length_squared().sqrt());
+    let (du, dv) = (steps.u.min(steps.p / length_u), steps.v.min(steps.p / length_v));
+    let here = textures.height(l, id, mask, at);
+    let right = textures.height(l, id, mask, &TextureCoordinates { u: at.u + du, p: at.p + along_u * du, ..*at });
+    let down = textures.height(l, id, mask, &TextureCoordinates { v: at.v + dv, p: at.p + along_v * dv, ..*at });
+    along_u * ((right - here) / (du * length_u * length_u)) + along_v * ((down - here) / (dv * length_v * length_v))
+}

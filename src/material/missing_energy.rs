@@ -1,0 +1,159 @@
+//! The lobes that give back what single scattering loses at a rough dielectric.
+//!
+//! Kulla and Conty, "Revisiting Physically Based Shading at Imageworks", SIGGRAPH 2017 course, for dielectrics: with loss
+//! ℓ(μ) = 1 − E(μ) and its cosine-weighted mean ℓ̄ on either side, and X the mean loss that crosses,
+//!
+//! f_reflected = (ℓ̄ − X)/ℓ̄² · ℓ(μ_o) ℓ(μ_i)/π,  f_transmitted = X/(ℓ̄ ℓ̄') · ℓ(μ_o) ℓ'(μ_i)/π  (primes: the far side).
+//!
+//! The two together reflect ℓ(μ_o), for ∫ ℓ(μ) μ dω = π ℓ̄. Their split is ours: see [`super::dielectric_albedo`].
+use std::f32::consts::{FRAC_1_PI, PI};
+
+use super::dielectric_albedo::{ALPHAS, CELLS, HALF, LEVEL_ROWS, LEVELS};
+use crate::math::{F, Lanes, M, Pick, U, V, trig::sin_cos_turns};
+
+/// Where lanes find what their materials lose.
+pub struct LossTable<'a, L: Lanes> {
+    /// Rows of all materials, from [`super::dielectric_albedo`].
+    pub rows: &'a [[f32; 4]],
+    /// First row of the lane's material.
+    pub offset: U<L>,
+    /// Lanes whose material has rows for every roughness.
+    pub textured: M<L>,
+}
+
+/// Rows of a material of one roughness that loses its light for good.
+pub fn nothing_missing() -> Vec<[f32; 4]> {
+    vec![[0.0, 0.0, 1.0, 0.0]; LEVEL_ROWS]
+}
+
+/// The lost light of some surface points of known roughness.
+pub struct MissingEnergy<'a, L: Lanes> {
+    l: L,
+    rows: &'a [[f32; 4]],
+    /// First row of the roughness; the next roughness follows `step` rows later, weighed by `blend`.
+    first: U<L>,
+    step: U<L>,
+    blend: F<L>,
+    blends: bool,
+    alpha: F<L>,
+    /// The viewer is on the outside of the interface.
+    outside: M<L>,
+}
+
+/// What is lost at one cosine.
+pub struct Loss<L: Lanes> {
+    /// 1 − E(μ).
+    pub here: F<L>,
+    /// Mean over the cosines of this side, over α².
+    mean: F<L>,
+    /// Part of the mean that goes to the other side, over α².
+    exchanged: F<L>,
+}
+
+impl<L: Lanes> Clone for LossTable<'_, L> {
+    #[inline(always)]
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+impl<L: Lanes> Copy for LossTable<'_, L> {}
+
+impl<L: Lanes> Clone for MissingEnergy<'_, L> {
+    #[inline(always)]
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+impl<L: Lanes> Copy for MissingEnergy<'_, L> {}
+
+impl<'a, L: Lanes> MissingEnergy<'a, L> {
+    #[inline(always)]
+    pub fn new(l: L, alpha: F<L>, outside: M<L>, table: LossTable<'a, L>) -> Self {
+        let (low, high) = (ALPHAS.start.sqrt().sqrt(), ALPHAS.end.sqrt().sqrt());
+        let place = (alpha.sqrt().sqrt() - low) * ((LEVELS - 1) as f32 / (high - low));
+        let (level, blend) = split(place, LEVELS - 1);
+        let LossTable { rows, offset, textured } = table;
+        let first = offset + textured.pick(level * LEVEL_ROWS as u32, l.u(0));
+        let step = textured.pick(l.u(LEVEL_ROWS as u32), l.u(0));
+        MissingEnergy { l, rows, first, step, blend, blends: textured.any(), alpha, outside }
+    }
+
+    /// Loss towards a direction at cosine `cos` to the normal, on the far side of the interface where `through`.
+    #[inline(always)]
+    pub fn loss(&self, cos: F<L>, through: M<L>) -> Loss<L> {
+        let half = self.alpha * HALF;
+        let (cell, t) = split(cos * (1.0 + half) / (cos + half) * CELLS as f32, CELLS);
+        let outside = (self.outside & !through) | (!self.outside & through);
+        let row = self.first + cell + outside.pick(self.l.u(0), self.l.u(CELLS as u32));
+        let [near, far, mean, exchanged] = self.row(row);
+        Loss { here: near + (far - near) * t, mean, exchanged }
+    }
+
+    /// A row, blended between two roughnesses where they vary.
+    #[inline(always)]
+    fn row(&self, at: U<L>) -> [F<L>; 4] {
+        let [a, b, c, d] = self.l.rows(self.rows, at);
+        if !self.blends {
+            return [a, b, c, d];
+        }
+        let [p, q, r, s] = self.l.rows(self.rows, at + self.step);
+        let w = self.blend;
+        [a + (p - a) * w, b + (q - b) * w, c + (r - c) * w, d + (s - d) * w]
+    }
+
+    /// f |cos θ_i| without the scale of radiance, and the density of [`MissingEnergy::sample`], for the loss towards the viewer
+    /// and the height of ω_i.
+    #[inline(always)]
+    pub fn eval(&self, viewer: &Loss<L>, height: F<L>) -> (F<L>, F<L>) {
+        let (through, cos) = (height.below(0.0), height.abs());
+        let there = self.loss(cos, through);
+        let crossing = viewer.exchanged / viewer.mean;
+        let share = through.pick(crossing, 1.0 - crossing);
+        let mean = there.mean * (self.alpha * self.alpha);
+        (share * viewer.here * there.here / mean * cos * FRAC_1_PI, share * self.pdf(cos))
+    }
+
+    /// A direction from the point `u` of the unit square; `lobe` in (0, 1) chooses the side.
+    #[inline(always)]
+    pub fn sample(&self, viewer: &Loss<L>, u: (F<L>, F<L>), lobe: F<L>) -> V<L> {
+        let (start, end) = self.radii();
+        let k = (u.0 * 2.0 - 1.0) * (end - start);
+        let product = start * end;
+        // The positive root of s² − ks − product, by the formula that does not cancel.
+        let large = ((k * k + product * 4.0).sqrt() + k.abs()) * 0.5;
+        let s = k.below(0.0).pick(product / large, large);
+        let cos = ((s - start) * (s + start)).max(s.splat(0.0)).sqrt().min(s.splat(1.0));
+        let sin = ((1.0 - cos) * (1.0 + cos)).sqrt();
+        let (sin_phi, cos_phi) = sin_cos_turns(u.1);
+        let through = lobe.lt(viewer.exchanged / viewer.mean);
+        V { x: sin * cos_phi, y: sin * sin_phi, z: through.pick(-cos, cos) }
+    }
+
+    /// Density of a direction within its side, at cosine `cos`.
+    ///
+    /// The loss falls about as 1/(μ² + α²): most of it is lost at grazing angles. In s = √(μ² + α²) the density is the mean of a
+    /// uniform one and one uniform in 1/s, whose inverse needs no more than a square root. It is at least a fifth of what the
+    /// loss asks for, at least a ninth where the indices are almost equal.
+    #[inline(always)]
+    fn pdf(&self, cos: F<L>) -> F<L> {
+        let (start, end) = self.radii();
+        let square = cos * cos + start * start;
+        cos * (1.0 + start * end / square) / (square.sqrt() * (end - start) * (4.0 * PI))
+    }
+
+    /// The first and the last s.
+    #[inline(always)]
+    fn radii(&self) -> (F<L>, F<L>) {
+        (self.alpha, (1.0 + self.alpha * self.alpha).sqrt())
+    }
+}
+
+/// The cell of `x` among `cells` of width 1, and the place within it; between two cells it may be the end of the former.
+#[inline(always)]
+fn split<L: Lanes>(x: F<L>, cells: usize) -> (U<L>, F<L>) {
+    let x = x.max(x.splat(0.0)).min(x.splat(cells as f32));
+    // A sum with 2²³ has the nearest integer in the low bits of its mantissa.
+    let shifted = (x - 0.5).max(x.splat(0.0)).min(x.splat((cells - 1) as f32)) + 8_388_608.0;
+    let cell = shifted.bits() & 0x7f_ffff;
+    (cell, x - cell.to_real())
+}

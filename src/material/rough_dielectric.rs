@@ -1,0 +1,156 @@
+//! The rough dielectric: microfacets that reflect and refract.
+//!
+//! Walter, Marschner, Li and Torrance, "Microfacet Models for Refraction through Rough Surfaces", EGSR 2007, with GGX facets
+//! drawn as the viewer sees them, and with the light of further bounces between facets given back ([`super::missing_energy`]).
+use super::{
+    bsdf::{Bsdf, BsdfSample},
+    dielectric::Dielectric,
+    fresnel, ggx,
+    materials::{Local, Materials},
+    missing_energy::{LossTable, MissingEnergy},
+};
+use crate::math::{F, Lanes, M, Pick, V};
+
+/// Interfaces whose indices differ by less are handled as smooth: what passes bends by less than this even at the roughest
+/// facet, too little for a half vector in f32, and would see the facets only through their masking, which is an artefact there.
+pub const FAINT: f32 = 1e-3;
+
+/// The rough interface between two transparent media; radiance that passes is scaled by 1/η² as in [`Dielectric`].
+pub struct RoughDielectric<'a, L: Lanes> {
+    eta: F<L>,
+    alpha: F<L>,
+    missing: Option<MissingEnergy<'a, L>>,
+}
+
+impl<L: Lanes> Clone for RoughDielectric<'_, L> {
+    #[inline(always)]
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+impl<L: Lanes> Copy for RoughDielectric<'_, L> {}
+
+impl<'a, L: Lanes> RoughDielectric<'a, L> {
+    #[inline(always)]
+    pub fn at(l: L, materials: &'a Materials, at: &Local<L>) -> Self {
+        let [inside_over_outside, offset, textured, _] = l.rows(&materials.rows, Materials::first_row(at.material));
+        let eta = at.front.pick(inside_over_outside, 1.0 / inside_over_outside);
+        let table = LossTable { rows: &materials.tables, offset: offset.bits(), textured: textured.above(0.0) };
+        let alpha = at.alpha.max(l.f(ggx::SMOOTH)).min(l.f(1.0));
+        let losses = if materials.compensated_dielectrics { Some(table) } else { None };
+        RoughDielectric::new(l, eta, alpha, at.front, losses)
+    }
+
+    /// `eta` is the index beyond the surface over that on the side of the viewer, who is `outside` in the lanes of the mask;
+    /// `alpha` is from [`ggx::SMOOTH`] to 1. Without a table only single scattering is left.
+    #[inline(always)]
+    pub(super) fn new(l: L, eta: F<L>, alpha: F<L>, outside: M<L>, losses: Option<LossTable<'a, L>>) -> Self {
+        #[expect(clippy::manual_map, reason = "a closure would not be compiled for the instructions of the lanes")]
+        let missing = match losses {
+            Some(table) => Some(MissingEnergy::new(l, alpha, outside, table)),
+            None => None,
+        };
+        RoughDielectric { eta, alpha, missing }
+    }
+
+    /// The index beyond the surface over that on the side of the viewer.
+    #[inline(always)]
+    pub fn eta(&self) -> F<L> {
+        self.eta
+    }
+
+    /// Lanes whose interface is handled as smooth.
+    #[inline(always)]
+    fn faint(&self) -> M<L> {
+        (self.eta - 1.0).abs().below(FAINT)
+    }
+
+    /// 1/η² below the surface.
+    #[inline(always)]
+    fn radiance_scale(&self, wi: V<L>) -> F<L> {
+        wi.z.below(0.0).pick(1.0 / (self.eta * self.eta), self.eta.splat(1.0))
+    }
+
+    /// f |cos θ_i| of single scattering without the scale of radiance, and its density.
+    ///
+    /// The half vector and the density of ω_i for that of facets are those of Walter et al. 2007, equations 13, 14, 16 and 17:
+    /// reflection is refraction with an index of 1 apart from the sign. What leaves the visible facet unmasked is G₁(ω_i).
+    #[inline(always)]
+    fn single(&self, wo: V<L>, wi: V<L>) -> (F<L>, F<L>) {
+        let through = wi.z.below(0.0);
+        let index = through.pick(self.eta, self.eta.splat(1.0));
+        let sum = wo + wi * index;
+        let square = sum.length_squared();
+        let m = sum * (1.0 / square.sqrt()).copysign(sum.z);
+        let (cos, beyond) = (wo.dot(m), wi.dot(m));
+        let opposite = through.pick(-beyond, beyond);
+        // Either side has the same reflectance. Refraction takes it from the thinner one, where a small error of the cosine does
+        // not become a large one of transmittance next to total reflection.
+        let swap = through & self.eta.below(1.0);
+        let (seen, eta) = (swap.pick(opposite, cos), swap.pick(1.0 / self.eta, self.eta));
+        let (reflectance, _) = fresnel::dielectric(seen.max(cos.splat(0.0)), eta);
+        let chosen = through.pick(1.0 - reflectance, reflectance);
+        let pdf = ggx::visible_normal_pdf(self.alpha, wo, m) * chosen * (index * index * opposite / square);
+        let exists = cos.above(0.0) & opposite.above(0.0) & square.above(0.0);
+        let pdf = exists.pick(pdf, cos.splat(0.0));
+        (pdf * ggx::g1(self.alpha, wi), pdf)
+    }
+
+    /// A direction from a facet that the viewer sees, and whether it is on the side where it belongs.
+    #[inline(always)]
+    fn sample_single(&self, wo: V<L>, u: (F<L>, F<L>), lobe: F<L>) -> (V<L>, M<L>) {
+        let m = ggx::sample_visible_normal(self.alpha, wo, u);
+        let cos = wo.dot(m).max(wo.z.splat(0.0));
+        let (reflectance, cos_t) = fresnel::dielectric(cos, self.eta);
+        let reflects = lobe.lt(reflectance);
+        let inverse = 1.0 / self.eta;
+        let bend = reflects.pick(wo.z.splat(1.0), inverse);
+        let along = reflects.pick(cos * 2.0, cos * inverse - cos_t);
+        let wi = (m * along + -wo * bend).normalized();
+        (wi, reflects.pick(wi.z, -wi.z).above(0.0))
+    }
+
+    /// A direction from all lobes that are not delta, and whether it exists.
+    #[inline(always)]
+    fn sample_wi(&self, wo: V<L>, u: (F<L>, F<L>), lobe: F<L>) -> (V<L>, M<L>) {
+        let Some(missing) = &self.missing else {
+            return self.sample_single(wo, u, lobe);
+        };
+        let lost = missing.loss(wo.z, wo.z.below(0.0));
+        let again = lobe.lt(lost.here);
+        let (wi, exists) = self.sample_single(wo, u, (lobe - lost.here) / (1.0 - lost.here));
+        (again.pick(missing.sample(&lost, u, lobe / lost.here), wi), again | exists)
+    }
+}
+
+impl<L: Lanes> Bsdf<L> for RoughDielectric<'_, L> {
+    #[inline(always)]
+    fn eval(&self, wo: V<L>, wi: V<L>) -> (V<L>, F<L>) {
+        let (mut f, mut pdf) = self.single(wo, wi);
+        if let Some(missing) = &self.missing {
+            let lost = missing.loss(wo.z, wo.z.below(0.0));
+            let (f_more, pdf_more) = missing.eval(&lost, wi.z);
+            f = f + f_more;
+            pdf = pdf * (1.0 - lost.here) + pdf_more * lost.here;
+        }
+        let (zero, faint) = (wo.z.splat(0.0), self.faint());
+        let f = faint.pick(zero, f * self.radiance_scale(wi));
+        (V { x: f, y: f, z: f }, faint.pick(zero, pdf))
+    }
+
+    #[inline(always)]
+    fn sample(&self, wo: V<L>, u: (F<L>, F<L>), lobe: F<L>) -> BsdfSample<L> {
+        let zero = wo.z.splat(0.0);
+        let (wi, exists) = self.sample_wi(wo, u, lobe);
+        let (f, pdf) = self.eval(wo, wi);
+        let weight = (exists & pdf.above(0.0)).pick(f.x / pdf, zero);
+        let faint = self.faint();
+        let smooth = Dielectric { eta: self.eta }.sample(wo, u, lobe);
+        BsdfSample {
+            wi: faint.pick(smooth.wi, wi),
+            weight: faint.pick(smooth.weight, V { x: weight, y: weight, z: weight }),
+            pdf,
+            delta: faint,
+        }
+    }
+}
