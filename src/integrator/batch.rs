@@ -181,11 +181,6 @@ impl Batch {
         &self.radiance
     }
 
-    /// Beside [`Batch::current`].
-    pub(super) fn past(&self) -> &Queue {
-        &self.pasts[(self.bounce & 1) as usize]
-    }
-
     pub(super) fn current(&self) -> &Queue {
         &self.paths[(self.bounce & 1) as usize]
     }

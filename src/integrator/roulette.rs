@@ -19,14 +19,10 @@ pub(super) fn survive<L: Lanes>(
     scale: F<L>,
 ) -> (M<L>, V<L>) {
     match roulette {
-        Roulette::Fixed(p) if p < 1.0 => {
-            let (alive, survivors) = play(reflection, stream, throughput, l.f(p));
-            (alive & throughput.max_component().above(0.0), survivors)
-        }
+        Roulette::Fixed(p) if p < 1.0 => play(reflection, stream, throughput, l.f(p)),
         Roulette::Throughput { start } if reflection >= start => {
             let p = (throughput.max_component() * scale).min(l.f(Roulette::MOST)).max(l.f(Roulette::LEAST));
-            let (alive, survivors) = play(reflection, stream, throughput, p);
-            (alive & throughput.max_component().above(0.0), survivors)
+            play(reflection, stream, throughput, p)
         }
         // Without roulette a path ends when its throughput has become zero.
         _ => (throughput.max_component().above(0.0), throughput),

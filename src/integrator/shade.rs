@@ -46,7 +46,10 @@ pub(super) fn shade<L: Lanes, K: Kind>(l: L, work: &Work, batch: &mut Batch) {
         let judged = K::roulette_scale(&bsdf, vertex.local.front, sample.wi.z);
         let throughput = hit.throughput * sample.weight;
         let (alive, throughput) = survive(l, settings.roulette, reflection, &stream, throughput, judged);
-        let keep = live & alive & consistent;
+        let mut keep = live & alive & consistent;
+        if K::DETAILED {
+            keep = keep & throughput.max_component().above(0.0);
+        }
         Path { o, d, throughput, slot: hit.slot }.push(keep, &mut paths[next]);
         if work.samples_lights() {
             let flags = sample.delta.pick(l.u(DELTA), l.u(0)) | if K::TRANSMITS { TRANSMITS } else { 0 };
@@ -120,7 +123,8 @@ impl<L: Lanes> Vertex<L> {
     #[inline(always)]
     fn leave<K: Kind>(&self, hit: &Hit<L>, d: V<L>, z: F<L>) -> (V<L>, M<L>) {
         if !K::DETAILED {
-            return (hit.p, z.above(0.0));
+            // What lies below has no weight.
+            return (hit.p, self.local.front);
         }
         let consistent = (hit.n.dot(d) * z).above(0.0);
         if !K::TRANSMITS {

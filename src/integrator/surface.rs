@@ -21,32 +21,35 @@ use crate::{
 /// Viewers lower than this over a shading normal see the geometric one instead.
 const GRAZING: f32 = 1e-3;
 
-/// `last`: nothing is reflected any more.
+/// `last`: nothing is reflected any more. `VARIED` is compiled for scenes whose surfaces are not all plain.
 #[simd]
-pub(super) fn surfaces<L: Lanes>(l: L, work: &Work, batch: &mut Batch, last: bool) {
+pub(super) fn surfaces<L: Lanes, const VARIED: bool>(l: L, work: &Work, batch: &mut Batch, last: bool) {
     let scene = work.scene;
-    batch.hits.iter_mut().chain(&mut batch.details).for_each(Queue::clear);
-    let weighted = batch.bounce > 0 && work.samples_lights();
-    let count = batch.current().len();
-    for start in (0..count).step_by(L::N) {
-        let live = l.first(count - start);
-        let mut path = Path::read(l, batch.current(), start);
-        let primitive = l.load(&batch.primitive[start..]).bits();
+    let Batch { paths, pasts, path_media, hits, details, t, primitive, radiance, bounce, .. } = batch;
+    hits.iter_mut().chain(details.iter_mut()).for_each(Queue::clear);
+    let current = (*bounce & 1) as usize;
+    let (paths, pasts, path_media) = (&paths[current], &pasts[current], &path_media[current]);
+    let weighted = *bounce > 0 && work.samples_lights();
+    for start in (0..paths.len()).step_by(L::N) {
+        let live = l.first(paths.len() - start);
+        let mut path = Path::read(l, paths, start);
+        let primitive = l.load(&primitive[start..]).bits();
         let miss = primitive.is(MISS);
+        let t = l.load(&t[start..]);
         let mut media = l.u(0);
-        if work.has_media() {
-            media = Inside::read(l, &batch.path_media[(batch.bounce & 1) as usize], start).media;
-            path.throughput = path.throughput * transmittance(l, work, media, l.load(&batch.t[start..]));
+        if VARIED && work.has_media() {
+            media = Inside::read(l, path_media, start).media;
+            path.throughput = path.throughput * transmittance(l, work, media, t);
         }
         if let Some(background) = &scene.lights.background {
             let sky = live & miss;
             if sky.any() {
                 let mut light = path.throughput * background.radiance(l, path.d);
                 if weighted {
-                    let past = Past::read(l, batch.past(), start);
+                    let past = Past::read(l, pasts, start);
                     light = light * weight_of_met_light(l, work, &past, path.o, path.d, primitive);
                 }
-                add(&mut batch.radiance, sky, path.slot, light);
+                add(radiance, sky, path.slot, light);
             }
         }
         let hit = live & !miss;
@@ -56,80 +59,87 @@ pub(super) fn surfaces<L: Lanes>(l: L, work: &Work, batch: &mut Batch, last: boo
 
         // Lanes without a surface look at primitive 0 and are masked out.
         let primitive = hit.pick(primitive, l.u(0));
-        let t = hit.pick(l.load(&batch.t[start..]), l.f(0.0));
-        let point = scene.shapes.surface_point(l, primitive, path.o + path.d * t);
+        let point = scene.shapes.surface_point(l, primitive, path.o + path.d * hit.pick(t, l.f(0.0)));
         let cos = -point.n_geometric.dot(path.d);
         if !scene.lights.emitters.is_empty() {
             let emits = hit & scene.lights.emitters.emits(primitive);
             if emits.any() {
                 let (le, seen) = scene.lights.emitters.radiance(l, emits, primitive, cos);
                 let mut light = path.throughput * le;
-                if scene.lights.emitters.vary() {
+                if VARIED && scene.lights.emitters.vary() {
                     let (u, v) = sphere_uv(point.n_geometric);
                     let at = TextureCoordinates { u, v, p: point.p };
                     light = light * scene.lights.emitters.variation(l, &scene.textures, emits, primitive, &at);
                 }
                 if weighted {
-                    let past = Past::read(l, batch.past(), start);
+                    let past = Past::read(l, pasts, start);
                     light = light * weight_of_met_light(l, work, &past, path.o, path.d, primitive);
                 }
-                add(&mut batch.radiance, seen, path.slot, light);
+                add(radiance, seen, path.slot, light);
             }
         }
-        if !last {
-            sort(l, work, batch, &Arrival { path, point, cos, primitive, media }, hit);
+        if last {
+            continue;
+        }
+
+        let [x, y, z, word] = l.rows(&scene.surfaces.rows, primitive);
+        let colour = V { x, y, z };
+        let n = point.n_geometric * l.f(1.0).copysign(cos);
+        let record = Hit { p: point.p + n * point.error, n, colour, throughput: path.throughput, slot: path.slot };
+        if VARIED {
+            sort(l, work, hits, details, &Arrival { d: path.d, point, cos, primitive, media, word: word.bits() }, record, hit);
+        } else {
+            record.push(hit & colour.max_component().above(0.0), &mut hits[Stage::Plain as usize]);
         }
     }
 }
 
 /// Paths at a surface.
 struct Arrival<L: Lanes> {
-    path: Path<L>,
+    d: V<L>,
     point: SurfacePoint<L>,
     /// Between the front normal and the direction to the viewer.
     cos: F<L>,
     primitive: U<L>,
     /// What the paths are in.
     media: U<L>,
+    /// See [`surface`].
+    word: U<L>,
 }
 
-/// Queues the paths of `hit` whose surface reflects, by shading stage.
+/// Queues the paths of `mask` whose surface reflects, by shading stage.
 #[inline(always)]
-fn sort<L: Lanes>(l: L, work: &Work, batch: &mut Batch, arrival: &Arrival<L>, hit: M<L>) {
-    let Arrival { path, point, cos, primitive, .. } = arrival;
-    let surfaces = &work.scene.surfaces;
-    let [x, y, z, word] = l.rows(&surfaces.rows, *primitive);
-    let colour = V { x, y, z };
-    let n = point.n_geometric * l.f(1.0).copysign(*cos);
-    let p = point.p + n * point.error;
-    let mut record = Hit { p, n, colour, throughput: path.throughput, slot: path.slot };
-    if surfaces.plain {
-        record.push(hit & colour.max_component().above(0.0), &mut batch.hits[Stage::Plain as usize]);
-        return;
-    }
-
-    let word = word.bits();
-    let front = cos.above(0.0) ^ is_set(word, FLIPPED);
-    let faces = hit & (front | !is_set(word, ONE_SIDED));
-    let detail = vary(l, work, arrival, faces, word, &mut record);
+fn sort<L: Lanes>(
+    l: L,
+    work: &Work,
+    hits: &mut [Queue],
+    details: &mut [Queue],
+    arrival: &Arrival<L>,
+    mut hit: Hit<L>,
+    mask: M<L>,
+) {
+    let word = arrival.word;
+    let front = arrival.cos.above(0.0) ^ is_set(word, FLIPPED);
+    let faces = mask & (front | !is_set(word, ONE_SIDED));
+    let detail = vary(l, work.scene, arrival, faces, &mut hit);
     let detail = Detail { surface: word | front.pick(l.u(FRONT), l.u(0)), ..detail };
-    let reflects = faces & record.colour.max_component().above(0.0);
-    for stage in &surfaces.stages {
+    let reflects = faces & hit.colour.max_component().above(0.0);
+    for stage in &work.scene.surfaces.stages {
         let here = reflects & surface::stage(word).is(*stage as u32);
-        record.push(here, &mut batch.hits[*stage as usize]);
+        hit.push(here, &mut hits[*stage as usize]);
         if *stage != Stage::Plain {
-            detail.push(here, &mut batch.details[*stage as usize]);
+            detail.push(here, &mut details[*stage as usize]);
         }
     }
 }
 
 /// What varies over the surface: sets the colour of the hit, and returns its details.
 #[inline(always)]
-fn vary<L: Lanes>(l: L, work: &Work, arrival: &Arrival<L>, mask: M<L>, word: U<L>, hit: &mut Hit<L>) -> Detail<L> {
-    let Scene { surfaces, textures, .. } = work.scene;
-    let Arrival { path, point, cos, primitive, media } = arrival;
+fn vary<L: Lanes>(l: L, scene: &Scene, arrival: &Arrival<L>, mask: M<L>, hit: &mut Hit<L>) -> Detail<L> {
+    let Scene { surfaces, textures, .. } = scene;
+    let Arrival { d, point, cos, primitive, media, word } = arrival;
     let [mut alpha, colour_texture, alpha_texture, medium] = l.rows(&surfaces.varying, *primitive);
-    let wo = -path.d;
+    let wo = -*d;
     let mut n = hit.n;
     if surfaces.textured || !surfaces.relief.is_empty() {
         let (u, v) = sphere_uv(point.n_geometric);
@@ -143,14 +153,14 @@ fn vary<L: Lanes>(l: L, work: &Work, arrival: &Arrival<L>, mask: M<L>, word: U<L
         let rough = mask & !id.is(0);
         if rough.any() {
             let value = textures.height(l, id + u32::MAX, rough, &at);
-            alpha = rough.pick(is_set(word, SQUARED).pick(value * value, value), alpha);
+            alpha = rough.pick(is_set(*word, SQUARED).pick(value * value, value), alpha);
         }
         if !surfaces.relief.is_empty() {
-            let tilted = shading_normal(l, work.scene, l.rows(&surfaces.relief, *primitive), mask, point.n_geometric, &at);
+            let tilted = shading_normal(l, scene, l.rows(&surfaces.relief, *primitive), mask, point.n_geometric, &at);
             let tilted = tilted * l.f(1.0).copysign(*cos);
             // A normal that the viewer could not see is not used.
             n = tilted.dot(wo).above(GRAZING).pick(tilted, n);
         }
     }
-    Detail { wo, n, alpha, error: point.error, surface: word, media: *media, medium: medium.bits() }
+    Detail { wo, n, alpha, error: point.error, surface: *word, media: *media, medium: medium.bits() }
 }

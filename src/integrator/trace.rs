@@ -54,7 +54,11 @@ pub(super) fn trace_in<L: Lanes, O: Observer>(
         }
         let last = batch.bounce == last_bounce;
         intersect(l, work, batch);
-        surfaces(l, work, batch, last && !cut_short);
+        if work.scene.is_plain() {
+            surfaces::<L, false>(l, work, batch, last && !cut_short);
+        } else {
+            surfaces::<L, true>(l, work, batch, last && !cut_short);
+        }
         observer.at_surfaces(work, batch);
         if last {
             batch.cut_paths += if cut_short { batch.hits.iter().map(Queue::len).sum::<usize>() as u64 } else { 0 };

@@ -75,6 +75,11 @@ pub enum Truth {
 }
 
 impl Scene {
+    /// Whether all surfaces are diffuse, from both sides, and neither their colour nor what they emit varies.
+    pub fn is_plain(&self) -> bool {
+        self.surfaces.plain && !self.lights.emitters.vary()
+    }
+
     /// The media around a point, as paths carry them: see [`surface::Surfaces::media`].
     fn media_at(&self, p: DVec3) -> u32 {
         if self.surfaces.media.is_empty() {

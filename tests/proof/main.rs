@@ -5,4 +5,5 @@
 mod determinism;
 mod furnace;
 mod inside_outside;
+mod references;
 mod statistics;
