@@ -12,7 +12,7 @@ use crate::{
     light::{LightCoordinates, Receiver},
     material::{Bsdf, Local},
     math::{F, Frame, Lanes, M, Pick, U, V},
-    sampling::{Dimension, SampleNumber, Stream},
+    sampling::{Dimension, Stream},
     scene::{Estimator, surface},
 };
 
@@ -23,11 +23,10 @@ pub(super) fn shade<L: Lanes, K: Kind>(l: L, work: &Work, batch: &mut Batch) {
     let reflection = *bounce + 1;
     let next = (reflection & 1) as usize;
     let settings = work.settings;
-    let number = SampleNumber::new(work.sample);
     for start in (0..hits.len()).step_by(L::N) {
         let live = l.first(hits.len() - start);
         let hit = Hit::read(l, hits, start);
-        let stream = Stream::new(settings.sampler, settings.seed, work.pixel(hit.slot), number);
+        let stream = Stream::new(settings.sampler, settings.seed, work.pixel(hit.slot), work.sample);
         let vertex = if K::DETAILED { Vertex::detailed(&hit, &Detail::read(l, details, start)) } else { Vertex::plain(l, &hit) };
         let bsdf = K::at(l, &work.scene.surfaces.materials, settings, &vertex.local);
         if K::SEES_LIGHTS && work.samples_lights() {

@@ -4,7 +4,7 @@ use fearless_simd_macros::simd;
 use super::batch::{Batch, Inside, Path, TILE, Work, place};
 use crate::{
     math::{Lanes, V},
-    sampling::{Dimension, SampleNumber, Stream},
+    sampling::{Dimension, Stream},
 };
 
 #[simd]
@@ -14,12 +14,11 @@ pub(super) fn spawn<L: Lanes>(l: L, work: &Work, batch: &mut Batch) {
     batch.path_media[0].clear();
     batch.radiance.fill([0.0; 4]);
     let [width, height] = work.size;
-    let sample = SampleNumber::new(work.sample);
     for start in (0..height * TILE).step_by(L::N) {
         let slot = l.iota() + start;
         let (column, row) = place(slot);
         let inside = column.below(width) & row.below(height);
-        let stream = Stream::new(work.settings.sampler, work.settings.seed, work.pixel(slot), sample);
+        let stream = Stream::new(work.settings.sampler, work.settings.seed, work.pixel(slot), work.sample);
         let (u, v) = stream.two(Dimension::PIXEL);
         let x = (column + work.origin[0]).to_real() + work.rays.filter.place(l, u);
         let y = (row + work.origin[1]).to_real() + work.rays.filter.place(l, v);

@@ -35,6 +35,15 @@ pub fn sobol_reversed<L: Lanes>(x: U<L>) -> U<L> {
     x ^ ((x & 0xffff_0000) >> 16)
 }
 
+/// The lower half of the bits of `x`, which has no others, moved apart to the even places: the inverse of [`even_bits`].
+#[inline(always)]
+pub fn spread_bits<L: Lanes>(x: U<L>) -> U<L> {
+    let x = (x | (x << 8)) & 0x00ff_00ff;
+    let x = (x | (x << 4)) & 0x0f0f_0f0f;
+    let x = (x | (x << 2)) & 0x3333_3333;
+    (x | (x << 1)) & 0x5555_5555
+}
+
 /// The even bits of `x`, moved together into the lower half: one coordinate of a Morton code.
 #[inline(always)]
 pub fn even_bits<L: Lanes>(x: U<L>) -> U<L> {

@@ -1,10 +1,10 @@
 //! Points of the unit cube and warps of them to directions, each with its density.
 pub mod alias;
 mod bits;
+mod blue_noise;
 mod filter;
 pub mod hash;
 mod independent;
-mod joint;
 mod sampler;
 mod sobol;
 mod stratified;
@@ -15,7 +15,6 @@ pub mod warp;
 pub use self::{
     alias::AliasTable,
     filter::Filter,
-    joint::SampleNumber,
     sampler::{Dimension, Sampler, Stream},
     warp::Directions,
 };
@@ -32,7 +31,7 @@ pub struct SamplerEntry {
 }
 
 /// The catalogue: a new sampler is one file, one variant of [`Sampler`] with its arms in [`Stream`], and one row here.
-pub const SAMPLERS: [SamplerEntry; 3] = [
+pub const SAMPLERS: [SamplerEntry; 4] = [
     SamplerEntry {
         sampler: Sampler::Independent,
         name: "independent",
@@ -50,5 +49,11 @@ pub const SAMPLERS: [SamplerEntry; 3] = [
         name: "sobol",
         title: "Sobol (Owen)",
         doc: "Owen-scrambled Sobol points: evenly spread in both dimensions and every projection. Least error.",
+    },
+    SamplerEntry {
+        sampler: Sampler::BlueNoise,
+        name: "bluenoise",
+        title: "Sobol, blue noise",
+        doc: "Sobol points ordered over the picture so that the noise of few samples is fine-grained.",
     },
 ];

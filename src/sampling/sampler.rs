@@ -6,11 +6,9 @@
 use serde::{Deserialize, Serialize};
 
 use super::{
-    SAMPLERS,
+    SAMPLERS, blue_noise,
     hash::{GOLDEN, hash, hash_one},
-    independent,
-    joint::SampleNumber,
-    sobol, stratified,
+    independent, sobol, stratified,
 };
 use crate::math::{F, Lanes, U};
 
@@ -22,6 +20,8 @@ pub enum Sampler {
     Stratified,
     #[default]
     Sobol,
+    #[serde(rename = "bluenoise")]
+    BlueNoise,
 }
 
 impl Sampler {
@@ -41,6 +41,11 @@ impl Dimension {
     /// The point on the lens (two).
     pub const LENS: Dimension = Dimension(2);
     const PER_BOUNCE: u32 = 16;
+
+    /// Whether the coordinate decides about the camera or the first surface.
+    pub(super) fn is_near(self) -> bool {
+        self.0 < 2 * Self::PER_BOUNCE
+    }
 
     /// The direction in which the path goes on at its `bounce`-th surface, counted from 1 (two).
     pub fn direction(bounce: u32) -> Dimension {
@@ -77,18 +82,21 @@ impl Dimension {
 #[derive(Clone, Copy)]
 pub struct Stream<L: Lanes> {
     sampler: Sampler,
+    pub(super) pixel: U<L>,
     pixel_key: U<L>,
-    sample: SampleNumber,
+    /// A hash of the seed.
+    pub(super) salt: u32,
+    index: u32,
 }
 
 impl<L: Lanes> Stream<L> {
     /// `pixel` packs y·2¹⁶ + x, so that a pixel keeps its numbers when the resolution changes.
     #[inline(always)]
-    pub fn new(sampler: Sampler, seed: u32, pixel: U<L>, sample: SampleNumber) -> Self {
+    pub fn new(sampler: Sampler, seed: u32, pixel: U<L>, index: u32) -> Self {
         // A factor of its own for every seed: by addition alone one seed's noise would be another's, moved aside.
         let salt = hash_one(seed ^ GOLDEN);
         let pixel_key = hash(pixel * (hash_one(salt) | 1) + salt);
-        Stream { sampler, pixel_key, sample }
+        Stream { sampler, pixel, pixel_key, salt, index }
     }
 
     /// One coordinate, in (0, 1).
@@ -98,6 +106,7 @@ impl<L: Lanes> Stream<L> {
             Sampler::Independent => independent::one(self, dimension.0),
             // In one dimension the (0, 1)-sequence is the progressive stratification.
             Sampler::Stratified | Sampler::Sobol => sobol::one(self, dimension.0),
+            Sampler::BlueNoise => blue_noise::one(self, dimension),
         }
     }
 
@@ -107,17 +116,21 @@ impl<L: Lanes> Stream<L> {
         match self.sampler {
             Sampler::Independent => independent::two(self, dimension.0),
             Sampler::Stratified => stratified::two(self, dimension.0),
-            Sampler::Sobol => match self.sample.joint(dimension) {
-                Some(point) => sobol::joint(self, dimension.0, point),
-                None => sobol::two(self, dimension.0),
-            },
+            Sampler::Sobol => sobol::two(self, dimension.0),
+            Sampler::BlueNoise => blue_noise::two(self, dimension),
         }
+    }
+
+    /// The first sample of the same pixels.
+    #[inline(always)]
+    pub(super) fn first(&self) -> Self {
+        Stream { index: 0, ..*self }
     }
 
     /// A hash of pixel and sample; for one pixel no two samples share it.
     #[inline(always)]
     pub(super) fn sample_key(&self) -> U<L> {
-        hash(self.pixel_key + self.sample.index.wrapping_mul(GOLDEN))
+        hash(self.pixel_key + self.index.wrapping_mul(GOLDEN))
     }
 
     /// A hash of pixel and dimension.
@@ -129,7 +142,7 @@ impl<L: Lanes> Stream<L> {
 
     #[inline(always)]
     pub(super) fn reversed_index(&self) -> U<L> {
-        self.splat(self.sample.index.reverse_bits())
+        self.splat(self.index.reverse_bits())
     }
 
     #[inline(always)]

@@ -6,32 +6,38 @@ use super::{
     hash::{hash, unit},
     sampler::Stream,
 };
-use crate::math::{F, Lanes};
+use crate::math::{F, Lanes, U};
 
 /// Every 2ᵏ consecutive samples have one in each of 2ᵏ equal intervals.
 #[inline(always)]
 pub(super) fn one<L: Lanes>(stream: &Stream<L>, dimension: u32) -> F<L> {
-    let key = stream.dimension_key(dimension);
-    let shuffled = reverse(owen_reversed(stream.reversed_index(), key));
-    unit(reverse(owen_reversed(shuffled, hash(key ^ 0xa511_e9b3))))
+    unit(reverse(one_reversed(stream, dimension)))
 }
 
 /// Every 2ᵏ consecutive samples have one in each of the 2ᵏ equal rectangles, of whatever shape 2ⁱ × 2ᵏ⁻ⁱ.
 #[inline(always)]
 pub(super) fn two<L: Lanes>(stream: &Stream<L>, dimension: u32) -> (F<L>, F<L>) {
-    let key = stream.dimension_key(dimension);
-    let shuffled = reverse(owen_reversed(stream.reversed_index(), key));
-    let x = reverse(owen_reversed(shuffled, hash(key ^ 0xa511_e9b3)));
-    let y = reverse(owen_reversed(sobol_reversed(shuffled), hash(key ^ 0x63d8_3595)));
-    (unit(x), unit(y))
+    let [x, y] = two_reversed(stream, dimension);
+    (unit(reverse(x)), unit(reverse(y)))
 }
 
-/// Two coordinates of a point of more dimensions, given with reversed bits, scrambled anew for every pixel but not shuffled: the
-/// coordinates stay together.
+/// [`one`] as a 32-bit fraction with its bits in reverse order.
 #[inline(always)]
-pub(super) fn joint<L: Lanes>(stream: &Stream<L>, dimension: u32, [x, y]: [u32; 2]) -> (F<L>, F<L>) {
+pub(super) fn one_reversed<L: Lanes>(stream: &Stream<L>, dimension: u32) -> U<L> {
     let key = stream.dimension_key(dimension);
-    let x = owen_reversed(stream.splat(x), hash(key ^ 0xa511_e9b3));
-    let y = owen_reversed(stream.splat(y), hash(key ^ 0x63d8_3595));
-    (unit(reverse(x)), unit(reverse(y)))
+    let shuffled = reverse(owen_reversed(stream.reversed_index(), key));
+    owen_reversed(shuffled, hash(key ^ 0xa511_e9b3))
+}
+
+/// [`two`] as 32-bit fractions with their bits in reverse order.
+#[inline(always)]
+pub(super) fn two_reversed<L: Lanes>(stream: &Stream<L>, dimension: u32) -> [U<L>; 2] {
+    scrambled(stream.reversed_index(), stream.dimension_key(dimension))
+}
+
+/// The Sobol points of indices with reversed bits, shuffled and scrambled by a key; their own bits are reversed too.
+#[inline(always)]
+pub(super) fn scrambled<L: Lanes>(index: U<L>, key: U<L>) -> [U<L>; 2] {
+    let shuffled = reverse(owen_reversed(index, key));
+    [owen_reversed(shuffled, hash(key ^ 0xa511_e9b3)), owen_reversed(sobol_reversed(shuffled), hash(key ^ 0x63d8_3595))]
 }

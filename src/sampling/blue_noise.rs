@@ -1,0 +1,44 @@
+//! Sobol points whose error is blue noise over the picture while samples are few: neighbouring pixels err in opposite directions,
+//! and what the eye averages has less noise than any pixel.
+//!
+//! The first samples of all pixels are one Owen-scrambled Sobol sequence along the Z-curve (A. G. M. Ahmed and P. Wonka,
+//! "Screen-Space Blue-Noise Diffusion of Monte Carlo Sampling Error via Hierarchical Ordering of Pixels", SIGGRAPH Asia 2020).
+//! Theirs needs the number of samples beforehand; here every pixel's own sequence is shifted, by exclusive or, so that its first
+//! point falls where the curve wants it. That keeps all strata of the pixel, so that it converges as Sobol points do, and the
+//! order over the picture fades as samples are added. Beyond the first surface paths differ too much for any order to last.
+use super::{
+    Dimension,
+    bits::{reverse, spread_bits},
+    hash::{hash_one, unit},
+    sampler::Stream,
+    sobol,
+};
+use crate::math::{F, Lanes, U};
+
+#[inline(always)]
+pub(super) fn one<L: Lanes>(stream: &Stream<L>, dimension: Dimension) -> F<L> {
+    let point = sobol::one_reversed(stream, dimension.0);
+    if !dimension.is_near() {
+        return unit(reverse(point));
+    }
+    let first = sobol::one_reversed(&stream.first(), dimension.0);
+    unit(reverse(point ^ first ^ on_curve(stream, dimension.0)[0]))
+}
+
+#[inline(always)]
+pub(super) fn two<L: Lanes>(stream: &Stream<L>, dimension: Dimension) -> (F<L>, F<L>) {
+    let [x, y] = sobol::two_reversed(stream, dimension.0);
+    if !dimension.is_near() {
+        return (unit(reverse(x)), unit(reverse(y)));
+    }
+    let [first_x, first_y] = sobol::two_reversed(&stream.first(), dimension.0);
+    let [curve_x, curve_y] = on_curve(stream, dimension.0);
+    (unit(reverse(x ^ first_x ^ curve_x)), unit(reverse(y ^ first_y ^ curve_y)))
+}
+
+/// The point of the sequence that all pixels share, with reversed bits, at the pixels' places along the Z-curve.
+#[inline(always)]
+fn on_curve<L: Lanes>(stream: &Stream<L>, dimension: u32) -> [U<L>; 2] {
+    let place = spread_bits(stream.pixel & 0xffff) | (spread_bits(stream.pixel >> 16) << 1);
+    sobol::scrambled(reverse(place), stream.splat(hash_one(stream.salt ^ hash_one(dimension))))
+}
