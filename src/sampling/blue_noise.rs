@@ -5,7 +5,7 @@
 //! "Screen-Space Blue-Noise Diffusion of Monte Carlo Sampling Error via Hierarchical Ordering of Pixels", SIGGRAPH Asia 2020).
 //! Theirs needs the number of samples beforehand; here every pixel's own sequence is shifted, by exclusive or, so that its first
 //! point falls where the curve wants it. That keeps all strata of the pixel, so that it converges as Sobol points do, and the
-//! order over the picture fades as samples are added. Beyond the first surface paths differ too much for any order to last.
+//! order over the picture fades as samples are added. Beyond the third surface paths differ too much for any order to last.
 use super::{
     Dimension,
     bits::{reverse, spread_bits},

@@ -42,9 +42,9 @@ impl Dimension {
     pub const LENS: Dimension = Dimension(2);
     const PER_BOUNCE: u32 = 16;
 
-    /// Whether the coordinate decides about the camera or the first surface.
+    /// Whether the coordinate decides about the camera or one of the first three surfaces.
     pub(super) fn is_near(self) -> bool {
-        self.0 < 2 * Self::PER_BOUNCE
+        self.0 < 4 * Self::PER_BOUNCE
     }
 
     /// The direction in which the path goes on at its `bounce`-th surface, counted from 1 (two).
