@@ -86,6 +86,17 @@ pub enum Reflectance {
 }
 
 impl Material {
+    /// What the scene file calls the kind.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Material::Lambertian { .. } => "lambertian",
+            Material::Mirror { .. } => "mirror",
+            Material::Dielectric { .. } => "dielectric",
+            Material::Conductor { .. } => "conductor",
+            Material::Plastic { .. } => "plastic",
+        }
+    }
+
     /// What a texture may replace: the albedo, or the reflectance at normal incidence; white for kinds without.
     pub fn colour(&self) -> [f32; 3] {
         match *self {

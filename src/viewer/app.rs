@@ -15,6 +15,7 @@ use super::{
     loader::{Loader, Opened},
     look::{dark, section},
     messages::Notice,
+    objects_panel::objects_panel,
     save_dialog::SaveDialog,
     saver::Saver,
 };
@@ -114,6 +115,9 @@ impl App {
                 section(ui, "Sampling", |ui| self.sampling_panel(ui));
                 section(ui, "Camera", |ui| self.camera_panel(ui));
                 section(ui, "Display", |ui| self.display_panel(ui));
+                if let Some(opened) = &self.opened {
+                    section(ui, "Objects", |ui| objects_panel(ui, &opened.scene));
+                }
             });
         });
     }

@@ -14,6 +14,7 @@ mod loader;
 mod look;
 mod messages;
 mod navigation;
+mod objects_panel;
 mod sampling_panel;
 mod save_dialog;
 mod saver;
