@@ -40,7 +40,12 @@ pub(super) fn shade<L: Lanes, K: Kind>(l: L, work: &Work, batch: &mut Batch) {
 
         let lobe = if K::LOBES { stream.one(Dimension::lobe(reflection)) } else { l.f(0.0) };
         let sample = bsdf.sample(vertex.wo, stream.two(Dimension::direction(reflection)), lobe);
-        let d = vertex.frame.world_from_local(sample.wi);
+        let mut d = vertex.frame.world_from_local(sample.wi);
+        if K::DETAILED {
+            // What mirrors and refracts a direction keeps the error of its length: a step of Newton's method to 1, or else it
+            // adds up from bounce to bounce until a ray no longer knows on which side of its surface it starts.
+            d = d * (1.5 - d.length_squared() * 0.5);
+        }
         let (o, consistent) = vertex.leave::<K>(&hit, d, sample.wi.z);
         let judged = K::roulette_scale(&bsdf, vertex.local.front, sample.wi.z);
         let throughput = hit.throughput * sample.weight;

@@ -3,7 +3,15 @@
 //! Every statement is a z-test at 4σ over seeded samples, or exact where the answer is. σ comes from the closed form where there
 //! is one, else from the samples.
 mod determinism;
+mod estimators;
 mod furnace;
+mod glass;
 mod inside_outside;
+mod lamp;
+mod lens;
+mod mirrors;
+mod picture;
 mod references;
 mod statistics;
+mod textured_sphere;
+mod tinted_glass;

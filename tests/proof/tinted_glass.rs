@@ -1,0 +1,103 @@
+//! Glass that absorbs, seen along its axis, against the sum over all internal reflections.
+//!
+//! Every ray runs through the common centre of the balls, so that it meets every surface at right angles again and again. There
+//! R = ((n − 1)/(n + 1))² of the light is reflected (Fresnel's equations at normal incidence) and 1 − R passes; a way of length s
+//! lets a = transmittanceˢ pass (Beer's law). Light of radiance 1 comes from everywhere outside.
+use noisefall::scene::{Estimator, RenderSettings, Roulette};
+
+use crate::{
+    glass::{O, in_white_light},
+    picture::{BLUE, GREEN, RED, picture, settings},
+    statistics::assert_within,
+};
+
+const IOR: f64 = 1.5;
+const RADIUS: f64 = 0.5;
+const TRANSMITTANCE: [f64; 3] = [0.9, 0.5, 0.05];
+
+const ON_AXIS: &str = "eye = [0.0, 0.0, 3.0], look_at = [0.0, 0.0, 0.0], projection.orthographic.width = 1e-6";
+const FROM_THE_MIDDLE: &str = "eye = [0.0, 0.0, 0.0], look_at = [0.0, 0.0, 1.0], fov = 60.0";
+
+/// The radiance in a tinted ball, with clear bubbles and kernels of these radii and materials in it, as a function of R and of
+/// what a metre lets pass.
+fn assert_shows(camera: &str, inner: &[(f64, &str)], exact: impl Fn(f64, f64) -> f64) {
+    let materials = format!(
+        "materials.tinted.dielectric = {{ ior = {IOR:?}, transmittance = {TRANSMITTANCE:?} }}
+        materials.bubble.dielectric = {{ ior = 1.0, ior_outside = {IOR:?} }}
+        materials.kernel.dielectric = {{ ior = {IOR:?}, transmittance = {TRANSMITTANCE:?} }}"
+    );
+    let spheres: Vec<_> = [(RADIUS, "tinted")].iter().chain(inner).map(|(radius, material)| (O, *radius, *material)).collect();
+    let scene = in_white_light(camera, &materials, &spheres);
+    let r = ((IOR - 1.0) / (IOR + 1.0)).powi(2);
+    for (transmittance, measure) in TRANSMITTANCE.into_iter().zip([RED, GREEN, BLUE]) {
+        let expected = exact(r, transmittance);
+        for estimator in Estimator::ALL {
+            for roulette in [Roulette::Off, Roulette::BY_THROUGHPUT] {
+                let found = picture(&scene, RenderSettings { roulette, ..settings(estimator) }, measure, 256).whole();
+                let what = format!("transmittance {transmittance}, {}, {roulette:?}", estimator.name());
+                println!("{what}: {:.6} ± {:.1e}, exact {expected:.6}", found.mean, found.variance_of_mean.sqrt());
+                assert_within(found.z(expected), &what);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_tinted_ball_shows_the_sum_over_its_internal_reflections() {
+    // R is reflected outside. What enters crosses the ball, k + 1 times when it is reflected k times inside, and leaves:
+    // R + (1 − R)² Σₖ Rᵏ aᵏ⁺¹.
+    assert_shows(ON_AXIS, &[], |r, transmittance| {
+        let a = transmittance.powf(2.0 * RADIUS);
+        r + (1.0 - r).powi(2) * a / (1.0 - r * a)
+    });
+}
+
+#[test]
+fn the_middle_of_a_tinted_ball_sees_the_same_sum_through_one_surface() {
+    // Half a crossing to the surface, through which the radiance is n² times that outside; a further crossing for every internal
+    // reflection: n² (1 − R) √a Σₖ (R a)ᵏ. The path must know that it starts inside.
+    assert_shows(FROM_THE_MIDDLE, &[], |r, transmittance| {
+        let a = transmittance.powf(2.0 * RADIUS);
+        IOR * IOR * (1.0 - r) * a.sqrt() / (1.0 - r * a)
+    });
+}
+
+/// A stack of layers: what it reflects on its near and on its far side, and what it lets pass.
+#[derive(Clone, Copy)]
+struct Stack {
+    near: f64,
+    far: f64,
+    passes: f64,
+}
+
+impl Stack {
+    /// Another stack beyond a way that lets `a` pass: the series of reflections between the two (G. G. Stokes, "On the Intensity
+    /// of the Light Reflected from or Transmitted through a Pile of Plates", 1862).
+    fn then(self, a: f64, next: Stack) -> Stack {
+        let echoes = 1.0 / (1.0 - self.far * a * a * next.near);
+        Stack {
+            near: self.near + self.passes.powi(2) * a * a * next.near * echoes,
+            far: next.far + next.passes.powi(2) * a * a * self.far * echoes,
+            passes: self.passes * a * next.passes * echoes,
+        }
+    }
+}
+
+#[test]
+fn shells_of_tinted_glass_and_air_are_a_pile_of_plates() {
+    const BUBBLE: f64 = 0.4;
+    const KERNEL: f64 = 0.15;
+    for inner in [&[(BUBBLE, "bubble")][..], &[(BUBBLE, "bubble"), (KERNEL, "kernel")]] {
+        assert_shows(ON_AXIS, inner, |r, transmittance| {
+            let surface = Stack { near: r, far: r, passes: 1.0 - r };
+            let shell = surface.then(transmittance.powf(RADIUS - BUBBLE), surface);
+            let pile = if inner.len() == 1 {
+                shell.then(1.0, shell)
+            } else {
+                let kernel = surface.then(transmittance.powf(2.0 * KERNEL), surface);
+                shell.then(1.0, kernel).then(1.0, shell)
+            };
+            pile.near + pile.passes
+        });
+    }
+}
