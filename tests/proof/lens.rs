@@ -11,7 +11,7 @@ use crate::{
 };
 
 const SIDE: usize = 32;
-const SPP: u32 = 512;
+const SPP: u32 = 4096;
 
 /// The picture of a sphere that emits 1, with nothing else to see. A camera of parallel rays may stand partly inside.
 fn emitter(camera: &str, center: [f64; 3], radius: f64) -> Picture {
@@ -109,8 +109,8 @@ fn a_straight_edge_out_of_focus_is_a_circular_segment_of_the_lens() {
     for z in [250.0, 500.0, 900.0, 1500.0, 3000.0] {
         let scale = z / FOCUS;
         let blur = LENS * (1.0 - scale).abs();
-        // Not in the middle of a pixel, nor of the picture. So large a sphere is a half-plane to 10⁻⁴ of the blur.
-        let (edge, radius) = (0.0123 * scale, 400.0);
+        // Not in the middle of a pixel, nor of the picture. So large a sphere is a half-plane to less than 10⁻³ of the blur.
+        let (edge, radius) = (0.0123 * scale, 150.0);
         let found = emitter(&lens_camera(), [edge + radius, 0.0, -z], radius);
         let exact = |x, y| over_pixel(x, y, |x, _| segment((edge - in_focus(x) * scale) / blur));
         assert_shows(&found, exact, &format!("edge at {z}"));
