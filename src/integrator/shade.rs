@@ -27,7 +27,14 @@ pub(super) fn shade<L: Lanes, K: Kind>(l: L, work: &Work, batch: &mut Batch) {
         let live = l.first(hits.len() - start);
         let hit = Hit::read(l, hits, start);
         let stream = Stream::new(settings.sampler, settings.seed, work.pixel(hit.slot), work.sample);
-        let vertex = if K::DETAILED { Vertex::detailed(&hit, &Detail::read(l, details, start)) } else { Vertex::plain(l, &hit) };
+        let vertex = if K::DETAILED {
+            let mut detail = Detail::read(l, details, start);
+            // Lanes past the end may say anything: they take a material of this kind, whose rows can be read as such.
+            detail.surface = live.pick(detail.surface, l.u(detail.surface.to_array()[0]));
+            Vertex::detailed(&hit, &detail)
+        } else {
+            Vertex::plain(l, &hit)
+        };
         let bsdf = K::at(l, &work.scene.surfaces.materials, settings, &vertex.local);
         if K::SEES_LIGHTS && work.samples_lights() {
             let (shadow, seen) = sample_light::<L, K>(l, work, &stream, reflection, &hit, &vertex, &bsdf);

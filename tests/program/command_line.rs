@@ -4,6 +4,8 @@ use std::{
     process::{Command, Output},
 };
 
+use super::scene_files::shipped_scenes;
+
 struct Shell {
     folder: tempfile::TempDir,
 }
@@ -76,8 +78,8 @@ fn a_render_writes_a_picture_and_one_line_of_json() {
 #[test]
 fn every_shipped_scene_can_be_saved_as_exr_and_png() {
     let shell = Shell::new();
-    for entry in std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes")).expect("scenes are shipped") {
-        let scene = entry.expect("an entry").path().display().to_string();
+    for scene in shipped_scenes() {
+        let scene = scene.display().to_string();
         for file in ["out.exr", "out.png"] {
             let output = shell.run(&["render", &scene, "-o", file, "--spp", "1", "--size", "16x16"]);
             assert!(output.status.success(), "{scene}: {}", text(&output.stderr));

@@ -1,5 +1,8 @@
 //! Scene files: the good ones compile, the bad ones are told what is wrong, where, and what was expected.
-use std::{fs, path::Path};
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
 
 use noisefall::{
     sampling::{Directions, Sampler},
@@ -70,12 +73,17 @@ fn the_built_in_scene_is_the_shipped_one() {
     assert_eq!(fs::read_to_string(shipped).expect("it is shipped"), BUILT_IN);
 }
 
+/// The files of all shipped scenes.
+pub fn shipped_scenes() -> Vec<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
+    let entries = fs::read_dir(folder).expect("scenes are shipped").map(|entry| entry.expect("an entry").path());
+    entries.filter(|path| path.extension().is_some_and(|extension| extension == "toml")).collect()
+}
+
 #[test]
 fn every_shipped_scene_compiles_says_what_it_shows_and_emits_light() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
     let mut count = 0;
-    for entry in fs::read_dir(folder).expect("scenes are shipped") {
-        let path = entry.expect("an entry").path();
+    for path in shipped_scenes() {
         let scene = load(&path).unwrap_or_else(|error| panic!("{}", error.report()));
         assert!(!scene.title.is_empty() && !scene.notes.is_empty(), "{} says nothing", path.display());
         assert_eq!(scene.warnings(), Vec::<String>::new(), "{}", path.display());
