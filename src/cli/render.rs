@@ -50,13 +50,13 @@ pub struct Arguments {
     /// Stop at this estimated relative noise, the root of relMSE (0.01 is 1 %)
     #[arg(long, value_name = "RELATIVE", value_parser = parse::noise, overrides_with_all = ["spp", "time"])]
     noise: Option<f64>,
-    /// How light is found: path, light or mis (this version: path)
+    /// How light is found: path, light or mis
     #[arg(long, value_parser = parse::estimator)]
     estimator: Option<Estimator>,
-    /// How the next direction is drawn: uniform, cosine or bsdf (this version: uniform, cosine)
+    /// How the next direction is drawn at diffuse surfaces: uniform, cosine or bsdf
     #[arg(long, value_parser = parse::directions)]
     directions: Option<Directions>,
-    /// Where samples lie: independent, stratified or sobol
+    /// Where samples lie: independent, stratified, sobol or bluenoise
     #[arg(long, value_parser = parse::sampler)]
     sampler: Option<Sampler>,
     /// Highest number of reflections, or none for no cap

@@ -130,7 +130,10 @@ impl Checker<'_> {
     /// A colour that is no texture.
     pub fn colour(&self, range: &ColourRange, value: &Spanned<Colour>) -> Result<[f32; 3], SceneError> {
         match value.as_ref() {
-            Colour::Texture(_) => Err(self.not_supported("texture", value.span())),
+            Colour::Texture(_) => {
+                let message = format!("`{}` cannot be a texture here", range.what);
+                Err(self.0.error(value.span(), message, "expected a colour: [red, green, blue], or one number for grey"))
+            }
             Colour::Rgb(rgb) if rgb.iter().all(|x| (0.0..=range.most).contains(x)) => Ok(rgb.map(|x| x as f32)),
             Colour::Rgb(_) => Err(self.0.error(value.span(), format!("`{}` is out of range", range.what), range.expected)),
         }

@@ -52,7 +52,7 @@ pub struct CameraDesc {
     pub resolution: Spanned<Exactly<u32, 2>>,
     pub projection: Option<Spanned<ProjectionDesc>>,
     pub lens: Option<Spanned<LensDesc>>,
-    pub filter: Option<Spanned<FilterDesc>>,
+    pub filter: Option<Spanned<super::filter::FilterDesc>>,
     pub shutter: Planned,
 }
 
@@ -68,14 +68,6 @@ pub enum ProjectionDesc {
 pub struct LensDesc {
     pub radius: f64,
     pub focus: f64,
-}
-
-#[derive(Deserialize)]
-#[serde(rename_all = "lowercase", deny_unknown_fields)]
-pub enum FilterDesc {
-    Box,
-    Tent { radius: f32 },
-    Gaussian { sigma: f32 },
 }
 
 #[derive(Deserialize)]

@@ -5,6 +5,7 @@ mod colour;
 mod compile;
 mod desc;
 mod diagnostic;
+mod filter;
 mod load;
 mod rays;
 mod settings;

@@ -169,6 +169,11 @@ fn a_camera_that_cannot_be_is_refused() {
     camera("filter = { tent = { radius = 0.0 } }", "pixel filter");
     camera("filter = { gaussian = { sigma = nan } }", "pixel filter");
     camera("filter = \"sinc\"", "unknown variant `sinc`");
+    camera("filter = 1.0", "expected \"box\"");
+    for filter in ["\"box\"", "\"tent\"", "\"gaussian\"", "{ tent = { radius = 1.5 } }", "{ gaussian = { sigma = 0.4 } }"] {
+        let text = GOOD.replace("fov = 40", &format!("fov = 40\nfilter = {filter}"));
+        assert!(parse("test.toml", text).is_ok(), "{filter}");
+    }
     camera("projection = { orthographic = { width = 2.0 } }", "has no `fov`");
     refuses("fov = 40", "projection = { orthographic = { width = -2.0 } }", "width of an orthographic");
     refuses("fov = 40", "projection = { orthographic = { width = 1 } }\nlens = { radius = 1, focus = 1 }", "needs a perspective");

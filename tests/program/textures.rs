@@ -86,7 +86,7 @@ fn parameters_out_of_range_are_refused() {
     texture(&noise("1", "0", "0"), "`octaves` is out of range");
     texture(&noise("1", "17", "0"), "`octaves` is out of range");
     texture(&noise("1", "5", "\"dark\""), "expected a colour");
-    texture(&noise("1", "5", "{ texture = \"t\" }"), "`texture` is not supported yet");
+    texture(&noise("1", "5", "{ texture = \"t\" }"), "cannot be a texture here");
 }
 
 fn checkers(pairs: &[(&str, &str)]) -> String {

@@ -1,7 +1,8 @@
 //! Surface coordinates of a sphere, from its outward unit normal n in world space, y up.
 //!
-//! u is the azimuth from +x towards +z, in turns, and v the angle from +y in half turns: n = (sin πv cos 2πu, cos πv,
-//! sin πv sin 2πu). Both lie in [0, 1]; u is below 1, and v = 0 is the top. ∂p/∂u × ∂p/∂v points outwards.
+//! u is the azimuth from +x towards −z, in turns, and v the angle from +y in half turns: n = (sin πv cos 2πu, cos πv,
+//! −sin πv sin 2πu). Both lie in [0, 1]; u is below 1, and v = 0 is the top: from outside a picture is seen as it is, u to the
+//! right. ∂p/∂v × ∂p/∂u points outwards.
 use std::f32::consts::{PI, TAU};
 
 use crate::math::{F, Lanes, Pick, V, trig::turns_of};
@@ -11,7 +12,7 @@ use crate::math::{F, Lanes, Pick, V, trig::turns_of};
 pub fn sphere_uv<L: Lanes>(n: V<L>) -> (F<L>, F<L>) {
     let r = (n.x * n.x + n.z * n.z).sqrt();
     // The polar angle from both coordinates: from y alone it would be inexact near the poles.
-    (turns_of(n.x, n.z), turns_of(n.y, r) * 2.0)
+    (turns_of(n.x, -n.z), turns_of(n.y, r) * 2.0)
 }
 
 /// (∂p/∂u, ∂p/∂v) in metres. Within 10⁻⁶ of a pole, where ∂p/∂u vanishes, its length is kept at what it is there; at the pole
@@ -22,10 +23,13 @@ pub fn sphere_tangents<L: Lanes>(n: V<L>, radius: F<L>) -> (V<L>, V<L>) {
     let r = (n.x * n.x + n.z * n.z).sqrt();
     let off_axis = r.above(0.0);
     let cos = off_axis.pick(n.x / r, r.splat(1.0));
-    let sin = off_axis.pick(n.z / r, r.splat(0.0));
+    let sin = off_axis.pick(-n.z / r, r.splat(0.0));
     let around = r.max(r.splat(POLE)) * radius * TAU;
     let down = radius * PI;
-    (V { x: -(sin * around), y: r.splat(0.0), z: cos * around }, V { x: n.y * cos * down, y: -(r * down), z: n.y * sin * down })
+    (
+        V { x: -(sin * around), y: r.splat(0.0), z: -(cos * around) },
+        V { x: n.y * cos * down, y: -(r * down), z: -(n.y * sin * down) },
+    )
 }
 
 #[cfg(test)]
@@ -35,7 +39,7 @@ mod tests {
 
     fn normal(u: f64, v: f64) -> [f64; 3] {
         let (theta, phi) = (std::f64::consts::PI * v, std::f64::consts::TAU * u);
-        [theta.sin() * phi.cos(), theta.cos(), theta.sin() * phi.sin()]
+        [theta.sin() * phi.cos(), theta.cos(), -theta.sin() * phi.sin()]
     }
 
     fn rounded(n: [f64; 3]) -> V<One> {

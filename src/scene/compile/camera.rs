@@ -7,7 +7,7 @@ use crate::{
     scene::{
         Camera, CameraError, Lens,
         check::Checker,
-        desc::{CameraDesc, FilterDesc, ProjectionDesc},
+        desc::{CameraDesc, ProjectionDesc},
         diagnostic::SceneError,
     },
 };
@@ -37,19 +37,11 @@ pub fn camera(check: &Checker, desc: &Spanned<CameraDesc>) -> Result<Camera, Sce
         fov,
         orthographic,
         lens: c.lens.as_ref().map(|lens| Lens { radius: lens.as_ref().radius, focus: lens.as_ref().focus }),
-        filter: c.filter.as_ref().map_or(Filter::Box, |filter| self::filter(filter.as_ref())),
+        filter: c.filter.as_ref().map_or(Filter::Box, |filter| filter.as_ref().0),
         resolution: c.resolution.as_ref().0,
     };
     camera.check().map_err(|error| check.0.error(place(desc, error), error.to_string(), "here"))?;
     Ok(camera)
-}
-
-fn filter(desc: &FilterDesc) -> Filter {
-    match *desc {
-        FilterDesc::Box => Filter::Box,
-        FilterDesc::Tent { radius } => Filter::Tent { radius },
-        FilterDesc::Gaussian { sigma } => Filter::Gaussian { sigma },
-    }
 }
 
 /// The key that an error is about.

@@ -67,7 +67,10 @@ pub fn emission(
             let id = textures.id(check, name)?;
             Emission { radiance: [scale; 3], mean: textures.textures.mean(id).map(|x| x * scale), texture: Some(id), side }
         }
-        (None, None) => return Err(check.missing(desc, "radiance")),
+        (None, None) => {
+            let message = "missing key `radiance` or `texture`";
+            return Err(check.0.error(desc.span(), message, "one of them must be given here"));
+        }
         (Some(_), Some(texture)) => {
             return Err(check.0.error(texture.span(), "`emission` must say either `radiance` or `texture`", "one of them"));
         }
