@@ -36,7 +36,7 @@ impl Kind for Plain {
     const LOBES: bool = false;
 
     #[inline(always)]
-    fn at<'a, L: Lanes>(_: L, _: &'a Materials, settings: &RenderSettings, at: &Local<L>) -> Lambertian<L> {
+    fn at<L: Lanes>(_: L, _: &Materials, settings: &RenderSettings, at: &Local<L>) -> Lambertian<L> {
         Lambertian { albedo: at.colour, directions: settings.directions }
     }
 }
@@ -50,7 +50,7 @@ impl Kind for Diffuse {
     const LOBES: bool = false;
 
     #[inline(always)]
-    fn at<'a, L: Lanes>(_: L, _: &'a Materials, settings: &RenderSettings, at: &Local<L>) -> Lambertian<L> {
+    fn at<L: Lanes>(_: L, _: &Materials, settings: &RenderSettings, at: &Local<L>) -> Lambertian<L> {
         Lambertian { albedo: at.colour, directions: settings.directions }
     }
 }

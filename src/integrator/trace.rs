@@ -76,7 +76,7 @@ pub(super) fn trace_in<L: Lanes, O: Observer>(
 /// The shading stages that the scene has.
 #[inline(always)]
 fn shade_all<L: Lanes>(l: L, work: &Work, batch: &mut Batch) {
-    let next = (batch.bounce + 1 & 1) as usize;
+    let next = ((batch.bounce + 1) & 1) as usize;
     batch.paths[next].clear();
     batch.pasts[next].clear();
     batch.path_media[next].clear();

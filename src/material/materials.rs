@@ -118,9 +118,8 @@ impl Materials {
         table
     }
 
-    /// The first row of the table of an interface: index and roughness, which is absent where it varies. Without an interface
-    /// nothing is given back.
-    fn interface(&mut self, interface: Option<(f32, Option<f32>)>, known: &mut KnownTables) -> u32 {
+    /// The first row of the table of an interface. Without an interface nothing is given back.
+    fn interface(&mut self, interface: Option<Interface>, known: &mut KnownTables) -> u32 {
         if let Some((_, table)) = known.interfaces.iter().find(|(of, _)| *of == interface) {
             return *table;
         }
@@ -140,11 +139,14 @@ impl Materials {
     }
 }
 
+/// Index of refraction and roughness, which is absent where it varies.
+type Interface = (f32, Option<f32>);
+
 /// What the tables made so far are of, and their first rows.
 #[derive(Default)]
 struct KnownTables {
     coats: Vec<(f32, u32)>,
-    interfaces: Vec<(Option<(f32, Option<f32>)>, u32)>,
+    interfaces: Vec<(Option<Interface>, u32)>,
 }
 
 impl Material {

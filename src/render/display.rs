@@ -90,7 +90,6 @@ impl SrgbTable {
     }
 
     #[inline(always)]
-    #[expect(clippy::manual_clamp, reason = "what is no number must become dark, and clamp keeps it")]
     fn of(&self, x: f32) -> u8 {
         // Written so that NaN becomes black; the code of what is just below 1 is that of 1.
         let x = if x > Self::LOWEST { x } else { Self::LOWEST };

@@ -52,7 +52,7 @@ fn tent<L: Lanes>(u: F<L>) -> F<L> {
 fn gaussian<L: Lanes>(l: L, u: F<L>) -> F<L> {
     let at = u * STEPS as f32;
     let (step, row) = floor(at);
-    let [start, width, ..] = l.rows(&*GAUSSIAN, row);
+    let [start, width, ..] = l.rows(&GAUSSIAN, row);
     start + width * (at - step)
 }
 

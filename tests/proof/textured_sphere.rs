@@ -41,7 +41,7 @@ fn seen_at(scene: &Scene, x: f64, y: f64) -> (f64, f64) {
     let d = (forward + right * plane(x) - up * plane(y)).normalize();
     let b = EYE.dot(d);
     let p = EYE + d * ((b * b + 1.0 - EYE.length_squared()).sqrt() - b);
-    ((p.z.atan2(p.x) / TAU).rem_euclid(1.0), p.y.acos() / PI)
+    (((-p.z).atan2(p.x) / TAU).rem_euclid(1.0), p.y.acos() / PI)
 }
 
 /// The pixels for which `exact` knows the radiance: as a whole, and in eight parts from dark to bright.
