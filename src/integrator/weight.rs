@@ -1,4 +1,6 @@
 //! How much of the light that a path runs into is counted, when lights are sampled as well.
+use fearless_simd_macros::simd;
+
 use super::batch::{DELTA, Past, TRANSMITS, Work};
 use crate::{
     light::Receiver,
@@ -16,7 +18,7 @@ pub(super) fn power_heuristic<L: Lanes>(pdf: F<L>, other: F<L>) -> F<L> {
 
 /// The weight of light met by paths that left `o` in the direction `d` and ran into `target`, a primitive or
 /// [`crate::geometry::MISS`].
-#[inline(always)]
+#[simd]
 pub(super) fn weight_of_met_light<L: Lanes>(l: L, work: &Work, past: &Past<L>, o: V<L>, d: V<L>, target: U<L>) -> F<L> {
     let delta = !(past.flags & DELTA).is(0);
     let sampled_too = match work.settings.estimator {
