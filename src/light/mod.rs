@@ -9,6 +9,8 @@ pub mod background;
 mod choice;
 pub mod emission;
 pub mod image_background;
+#[cfg(test)]
+mod tests;
 
 pub use self::{
     background::Background,

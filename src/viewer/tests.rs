@@ -70,6 +70,13 @@ fn wait(window: &mut Window, what: &str, condition: impl Fn(&App) -> bool) {
 }
 
 #[test]
+fn the_objects_of_the_scene_are_listed_with_their_materials() {
+    let window = window("cornell_spheres");
+    assert!(window.query_by_label("black, lamp").is_some());
+    assert_eq!(window.query_all_by_label("lambertian").count(), 7);
+}
+
+#[test]
 fn a_long_title_does_not_push_the_panel_out_of_the_window() {
     let mut window = window("truncation");
     window.run_steps(3);

@@ -1,0 +1,99 @@
+//! Light samples against their densities.
+use glam::DVec3;
+use statrs::distribution::{ChiSquared, ContinuousCDF};
+
+use super::{Background, Emission, LightCoordinates, Lights, Receiver, Side};
+use crate::{
+    geometry::{MISS, Shapes, Sphere},
+    math::{F, M, One, U, V},
+    sampling::hash::hash_one,
+};
+
+/// Two lamps, one of them partly below the horizon, a shell that shines inwards, one that shines away, and a sky.
+fn lights() -> (Lights, Shapes, Vec<Shapes>) {
+    let spheres = [
+        (DVec3::new(1.5, 0.5, 1.0), 0.6),
+        (DVec3::new(-0.4, 0.2, 0.3), 0.4),
+        (DVec3::new(0.0, 0.5, 0.0), 20.0),
+        (DVec3::new(0.0, 2.0, 0.5), 0.5),
+    ]
+    .map(|(center, radius)| Sphere::new(center, radius, DVec3::ZERO));
+    let emission = |light: f32, side| Emission { radiance: [light; 3], mean: [light; 3], texture: None, side };
+    let emissions = [emission(8.0, Side::Front), emission(3.0, Side::Both), emission(0.2, Side::Back), emission(9.0, Side::Back)];
+    let lights = Lights::new(&spheres, &emissions, Some(Background::Constant([0.5, 0.4, 0.6])));
+    let alone = spheres.iter().map(|sphere| Shapes::new(vec![*sphere])).collect();
+    (lights, Shapes::new(spheres.to_vec()), alone)
+}
+
+fn vector(x: f64, y: f64, z: f64) -> V<One> {
+    V { x: F(x as f32), y: F(y as f32), z: F(z as f32) }
+}
+
+fn random(i: u32) -> F<One> {
+    F(((hash_one(i) >> 9) as f32 + 0.5) / (1 << 23) as f32)
+}
+
+fn coordinates(i: u32) -> LightCoordinates<One> {
+    let n = 5 * i;
+    LightCoordinates { choice: random(n), cell: (random(n + 1), random(n + 2)), place: (random(n + 3), random(n + 4)) }
+}
+
+#[test]
+fn directions_to_lights_are_distributed_as_their_pdf() {
+    const ACROSS: usize = 24;
+    const AROUND: usize = 48;
+    const SUB: usize = 24;
+    const SAMPLES: u32 = 400_000;
+    let (lights, shapes, alone) = lights();
+    for transmits in [false, true] {
+        let at = Receiver { p: vector(0.1, -0.2, 0.1), n: vector(0.0, 0.6, 0.8), transmits: M(transmits) };
+        let mut counts = vec![0.0; ACROSS * AROUND];
+        let mut drawn = 0.0;
+        for i in 0..SAMPLES {
+            let sample = lights.sample(One, &shapes, &at, &coordinates(i));
+            if sample.pdf.0 == 0.0 {
+                continue;
+            }
+            let pdf = lights.pdf(One, &at, sample.wi, sample.target);
+            assert!((pdf.0 / sample.pdf.0 - 1.0).abs() < 1e-3, "{} {}", pdf.0, sample.pdf.0);
+            let [x, y, z] = sample.wi.lane(0).map(f64::from);
+            let turn = (y.atan2(x) / std::f64::consts::TAU).rem_euclid(1.0);
+            let across = (((z + 1.0) / 2.0 * ACROSS as f64) as usize).min(ACROSS - 1);
+            counts[across * AROUND + ((turn * AROUND as f64) as usize).min(AROUND - 1)] += 1.0;
+            drawn += 1.0;
+        }
+        // The density over all lights that lie in a direction, hidden or not.
+        let density = |d: V<One>| {
+            let lit = |(i, shape): (usize, &Shapes)| {
+                let seen = shape.closest(One, at.p, d).1.0 != MISS;
+                if seen { f64::from(lights.pdf(One, &at, d, U(i as u32)).0) } else { 0.0 }
+            };
+            alone.iter().enumerate().map(lit).sum::<f64>() + f64::from(lights.pdf(One, &at, d, U(MISS)).0)
+        };
+        let cell = 2.0 / ACROSS as f64 * std::f64::consts::TAU / AROUND as f64 / (SUB * SUB) as f64;
+        let (mut statistic, mut bins, mut whole) = (0.0, 0.0, 0.0);
+        for (bin, count) in counts.iter().enumerate() {
+            let mut expected = 0.0;
+            for sub in 0..SUB * SUB {
+                let z = -1.0 + 2.0 * ((bin / AROUND) as f64 + ((sub / SUB) as f64 + 0.5) / SUB as f64) / ACROSS as f64;
+                let turn = ((bin % AROUND) as f64 + ((sub % SUB) as f64 + 0.5) / SUB as f64) / AROUND as f64;
+                let (sin, cos) = (turn * std::f64::consts::TAU).sin_cos();
+                let r = (1.0 - z * z).sqrt();
+                expected += density(vector(r * cos, r * sin, z)) * cell;
+            }
+            whole += expected;
+            let expected = expected * f64::from(SAMPLES);
+            if expected > 8.0 {
+                // Edges of cones run through bins: the quadrature knows them to a part in its points along a side.
+                let quadrature = 0.01 * expected;
+                statistic += (count - expected).powi(2) / (expected + quadrature * quadrature);
+                bins += 1.0;
+            }
+        }
+        // What faces away is chosen but has no directions: the pdf integrates to the probability that a sample exists.
+        let exists = drawn / f64::from(SAMPLES);
+        assert!((whole - exists).abs() < 4.0 * (exists * (1.0 - exists) / f64::from(SAMPLES)).sqrt() + 1e-3, "{whole} {exists}");
+        let p = 1.0 - ChiSquared::new(bins - 1.0).unwrap().cdf(statistic);
+        assert!(p > 1e-4, "transmits: {transmits}, p = {p}, {statistic} of {bins}");
+    }
+}
