@@ -18,7 +18,7 @@ pub const HALF: f32 = 16.0;
 /// Rows of one roughness: outside, then inside.
 pub const LEVEL_ROWS: usize = 2 * CELLS;
 /// Roughnesses of the table of a textured material, evenly spaced in ⁴√α over [`ALPHAS`].
-pub const LEVELS: usize = 32;
+pub const LEVELS: usize = 48;
 /// Roughnesses between which a texture may vary.
 pub const ALPHAS: Range<f32> = SMOOTH..1.0;
 
@@ -35,7 +35,7 @@ pub fn uniform_rows(eta: f32, alpha: f32) -> Vec<[f32; 4]> {
 ///
 /// The rules are coarser than for one roughness, as the error between two levels is greater.
 pub fn textured_rows(eta: f32) -> Vec<[f32; 4]> {
-    let rules = Rules { thin: Lattice::new(377, 233), dense: Lattice::new(1597, 987) };
+    let rules = Rules { thin: Lattice::new(610, 377), dense: Lattice::new(2584, 1597) };
     let [first, last] = [ALPHAS.start, ALPHAS.end].map(|alpha| f64::from(alpha).sqrt().sqrt());
     let alpha = |level: usize| (first + (last - first) * level as f64 / (LEVELS - 1) as f64).powi(4);
     (0..LEVELS).flat_map(|level| Level::new(eta.into(), alpha(level), &rules).rows()).collect()

@@ -119,14 +119,14 @@ fn textured_roughness_loses_nothing() {
                 let eta = if outside { inside } else { 1.0 / inside };
                 let table = LossTable { rows: &rows, offset: U(0), textured: M(true) };
                 let bsdf = RoughDielectric::new(One, F(eta), F(alpha), M(outside), Some(table));
-                let error = (albedo(&bsdf, eta, view(cos), [987, 610]) - 1.0).abs();
+                let error = (albedo(&bsdf, eta, view(cos), [6765, 4181]) - 1.0).abs();
                 if error > worst.0 {
                     worst = (error, format!("{eta} {alpha} {cos}"));
                 }
             }
         }
     }
-    assert!(worst.0 < 4e-3, "{worst:?}");
+    assert!(worst.0 < 1e-3, "{worst:?}");
 }
 
 #[test]
