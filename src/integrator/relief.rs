@@ -56,8 +56,16 @@ fn gradient<L: Lanes>(
     let steps = textures.steps(l, id);
     let (length_u, length_v) = (along_u.length_squared().sqrt(), along_v.length_squared().sqrt());
     let (du, dv) = (steps.u.min(steps.p / length_u), steps.v.min(steps.p / length_v));
+    // Backwards at the end of u and of v: beyond it the texture may go on otherwise than it begins.
+    let (du, dv) = (within(at.u, du), within(at.v, dv));
     let here = textures.height(l, id, mask, at);
     let right = textures.height(l, id, mask, &TextureCoordinates { u: at.u + du, p: at.p + along_u * du, ..*at });
     let down = textures.height(l, id, mask, &TextureCoordinates { v: at.v + dv, p: at.p + along_v * dv, ..*at });
     along_u * ((right - here) / (du * length_u * length_u)) + along_v * ((down - here) / (dv * length_v * length_v))
+}
+
+/// A step from `x` that does not reach 1, where `x` itself lies below.
+#[inline(always)]
+fn within<L: Lanes>(x: F<L>, step: F<L>) -> F<L> {
+    (x + step).below(1.0).pick(step, -step)
 }

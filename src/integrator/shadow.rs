@@ -25,7 +25,8 @@ pub(super) fn shadow<L: Lanes>(l: L, work: &Work, batch: &mut Batch) {
         let seen = live & primitive.equals(shadow.target);
         let mut light = shadow.radiance;
         if work.has_media() {
-            light = light * transmittance(l, work, Inside::read(l, shadow_media, start).media, t);
+            let media = live.pick(Inside::read(l, shadow_media, start).media, l.u(0));
+            light = light * transmittance(l, work, media, t);
         }
         if scene.lights.emitters.vary() {
             let emits = seen & scene.lights.emitters.emits(primitive);

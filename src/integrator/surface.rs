@@ -38,7 +38,8 @@ pub(super) fn surfaces<L: Lanes, const VARIED: bool>(l: L, work: &Work, batch: &
         let t = l.load(&t[start..]);
         let mut media = l.u(0);
         if VARIED && work.has_media() {
-            media = Inside::read(l, path_media, start).media;
+            // Lanes past the end may say anything, even media of an earlier scene.
+            media = live.pick(Inside::read(l, path_media, start).media, l.u(0));
             path.throughput = path.throughput * transmittance(l, work, media, t);
         }
         if let Some(background) = &scene.lights.background {

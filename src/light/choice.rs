@@ -1,7 +1,7 @@
 //! Choosing a light and a direction towards it.
 //!
-//! A light is chosen with a probability proportional to a bound on the irradiance it would cause at the point if nothing stood
-//! in between: E ≤ π L sin²θ · max(cos) over its cone of half angle θ (Shirley et al. 1996, section 4, for what a good choice is).
+//! A light is chosen with a probability proportional to the irradiance it could cause at the point at most if nothing stood in
+//! between, of varying light to its mean: E ≤ π L sin²θ · max(cos) over its cone of half angle θ (Shirley et al. 1996, section 4, for what a good choice is).
 use super::{
     background::Background,
     emission::{Emission, Emitters, Side},

@@ -38,11 +38,14 @@ impl<'de> Visitor<'de> for FilterVisitor {
             _ => Err(de::Error::unknown_variant(name, &["box", "tent", "gaussian"])),
         }
     }
-    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<FilterDesc, A::Error> {
-        let filter = match Wide::deserialize(de::value::MapAccessDeserializer::new(map))? {
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<FilterDesc, A::Error> {
+        let filter = match Wide::deserialize(de::value::MapAccessDeserializer::new(&mut map))? {
             Wide::Tent { radius } => Filter::Tent { radius },
             Wide::Gaussian { sigma } => Filter::Gaussian { sigma },
         };
-        Ok(FilterDesc(filter))
+        match map.next_key::<String>()? {
+            None => Ok(FilterDesc(filter)),
+            Some(second) => Err(de::Error::custom(format!("a second kind of filter, `{second}`: there can be one"))),
+        }
     }
 }

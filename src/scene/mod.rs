@@ -32,6 +32,9 @@ use crate::{
     texture::Textures,
 };
 
+/// Media that a path can be in at once: those of tinted scenes are kept in four bytes.
+const MOST_NESTED: usize = 4;
+
 /// A compiled scene. Immutable; shared between threads.
 pub struct Scene {
     pub title: String,
@@ -86,11 +89,10 @@ impl Scene {
         if self.surfaces.media.is_empty() {
             return 0;
         }
-        let inside = |(_, object): &(usize, &Object)| (p.distance(object.center) < object.radius) != object.flip;
-        let is_dielectric = |coating: &Coating| matches!(coating.material, Material::Dielectric { .. });
-        let mut around: Vec<_> = self.objects.iter().enumerate().filter(inside).collect();
-        around.retain(|(_, object)| object.coating.as_ref().is_some_and(is_dielectric));
-        around.sort_by(|a, b| b.1.radius.total_cmp(&a.1.radius));
+        let mut around: Vec<_> = self.media_around(p).collect();
+        // The outermost first: a medium that fills all but a sphere lies around every one within a sphere.
+        let reach = |object: &Object| if object.flip { f64::INFINITY } else { object.radius };
+        around.sort_by(|a, b| reach(b.1).total_cmp(&reach(a.1)));
         around.iter().fold(0, |stack, (id, _)| stack << 8 | self.surfaces.varying[*id][3].to_bits())
     }
 
@@ -103,6 +105,18 @@ impl Scene {
         if self.objects.is_empty() {
             warnings.push("this scene has no objects".to_owned());
         }
+        let depth = self.objects.iter().map(|object| self.media_around(object.center).count()).max().unwrap_or(0);
+        if !self.surfaces.media.is_empty() && depth > MOST_NESTED {
+            warnings.push(format!("{depth} media lie within each other: only the tint of the inner {MOST_NESTED} is kept"));
+        }
         warnings
+    }
+
+    /// The dielectrics whose inside holds a point, with their numbers.
+    fn media_around(&self, p: DVec3) -> impl Iterator<Item = (usize, &Object)> {
+        let is_dielectric = |coating: &Coating| matches!(coating.material, Material::Dielectric { .. });
+        self.objects.iter().enumerate().filter(move |(_, object)| {
+            (p.distance(object.center) < object.radius) != object.flip && object.coating.as_ref().is_some_and(is_dielectric)
+        })
     }
 }

@@ -52,6 +52,8 @@ pub const FLIPPED: u32 = 1 << 20;
 pub const ONE_SIDED: u32 = 1 << 21;
 /// α is the square of what its texture says.
 pub const SQUARED: u32 = 1 << 22;
+/// It transmits and emits: no light is looked for from it, as it would find itself, seen from the wrong side.
+pub const SELF_LIT: u32 = 1 << 23;
 /// Set while rendering where a path met the front.
 pub const FRONT: u32 = 1 << 31;
 /// Materials have 16 bits, media 8: what is beyond is refused by [`Surfaces::check`].
@@ -105,7 +107,9 @@ impl Surfaces {
             Roughness::Texture { id, squared } => (1.0, Some(id), squared),
         };
         let flag = |set: bool, flag: u32| if set { flag } else { 0 };
-        let flags = flag(object.flip, FLIPPED) | flag(coating.one_sided, ONE_SIDED) | flag(squared, SQUARED);
+        let self_lit = stage == Stage::RoughDielectric && object.emission.is_some();
+        let flags =
+            flag(object.flip, FLIPPED) | flag(coating.one_sided, ONE_SIDED) | flag(squared, SQUARED) | flag(self_lit, SELF_LIT);
         let medium = if self.media.is_empty() { 0 } else { material as u32 + 1 };
         self.textured |= colour_texture.or(alpha_texture).is_some();
         self.rows.push([r, g, b, f32::from_bits(material as u32 | (stage as u32) << STAGE_SHIFT | flags)]);
