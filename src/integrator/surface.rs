@@ -9,7 +9,7 @@ use super::{
     weight::weight_of_met_light,
 };
 use crate::{
-    geometry::{MISS, SurfacePoint, sphere_uv},
+    geometry::{Coordinates, MISS, SurfacePoint},
     math::{F, Lanes, M, Pick, U, V},
     scene::{
         Scene,
@@ -68,7 +68,7 @@ pub(super) fn surfaces<L: Lanes, const VARIED: bool>(l: L, work: &Work, batch: &
                 let (le, seen) = scene.lights.emitters.radiance(l, emits, primitive, cos);
                 let mut light = path.throughput * le;
                 if VARIED && scene.lights.emitters.vary() {
-                    let (u, v) = sphere_uv(point.n_geometric);
+                    let Coordinates { u, v } = scene.shapes.coordinates(l, primitive, &point);
                     let at = TextureCoordinates { u, v, p: point.p };
                     light = light * scene.lights.emitters.variation(l, &scene.textures, emits, primitive, &at);
                 }
@@ -143,7 +143,7 @@ fn vary<L: Lanes>(l: L, scene: &Scene, arrival: &Arrival<L>, mask: M<L>, hit: &m
     let wo = -*d;
     let mut n = hit.n;
     if surfaces.textured || !surfaces.relief.is_empty() {
-        let (u, v) = sphere_uv(point.n_geometric);
+        let Coordinates { u, v } = scene.shapes.coordinates(l, *primitive, point);
         let at = TextureCoordinates { u, v, p: point.p };
         let id = colour_texture.bits();
         let coloured = mask & !id.is(0);
@@ -157,7 +157,7 @@ fn vary<L: Lanes>(l: L, scene: &Scene, arrival: &Arrival<L>, mask: M<L>, hit: &m
             alpha = rough.pick(is_set(*word, SQUARED).pick(value * value, value), alpha);
         }
         if !surfaces.relief.is_empty() {
-            let tilted = shading_normal(l, scene, l.rows(&surfaces.relief, *primitive), mask, point.n_geometric, &at);
+            let tilted = shading_normal(l, scene, *primitive, mask, point, &at);
             let tilted = tilted * l.f(1.0).copysign(*cos);
             // A normal that the viewer could not see is not used.
             n = tilted.dot(wo).above(GRAZING).pick(tilted, n);

@@ -26,7 +26,7 @@ pub use self::{
     settings::{Estimator, RenderSettings, Roulette},
 };
 use crate::{
-    geometry::Shapes,
+    geometry::{Shape, Shapes},
     light::{Emission, Lights},
     material::Material,
     texture::Textures,
@@ -45,8 +45,10 @@ pub struct Scene {
     pub surfaces: Surfaces,
     pub textures: Textures,
     pub lights: Lights,
-    /// The objects in the order of their primitive ids.
+    /// The objects in the order of their primitive ids, emitting ones first.
     pub objects: Vec<Object>,
+    /// The place of the object that a primitive is a piece of.
+    pub owners: Vec<u32>,
     /// The extent of the scene in metres, as a person walking through it would say it.
     pub size: f64,
     /// What the scene opens with.
@@ -60,8 +62,7 @@ pub struct Scene {
 #[derive(Clone, Debug)]
 pub struct Object {
     pub name: String,
-    pub center: DVec3,
-    pub radius: f64,
+    pub shape: Shape,
     /// The normal points inwards.
     pub flip: bool,
     /// `None` is black.
@@ -91,9 +92,13 @@ impl Scene {
         }
         let mut around: Vec<_> = self.media_around(p).collect();
         // The outermost first: a medium that fills all but a sphere lies around every one within a sphere.
-        let reach = |object: &Object| if object.flip { f64::INFINITY } else { object.radius };
+        let reach = |object: &Object| if object.flip { f64::INFINITY } else { object.shape.bounding_sphere().1 };
         around.sort_by(|a, b| reach(b.1).total_cmp(&reach(a.1)));
-        around.iter().fold(0, |stack, (id, _)| stack << 8 | self.surfaces.varying[*id][3].to_bits())
+        let medium = |object: usize| {
+            let primitive = self.owners.iter().position(|owner| *owner == object as u32);
+            primitive.map_or(0, |primitive| self.surfaces.varying[primitive][3].to_bits())
+        };
+        around.iter().fold(0, |stack, (id, _)| stack << 8 | medium(*id))
     }
 
     /// Things that are legal but probably not meant, for the window and the command line.
@@ -105,7 +110,8 @@ impl Scene {
         if self.objects.is_empty() {
             warnings.push("this scene has no objects".to_owned());
         }
-        let depth = self.objects.iter().map(|object| self.media_around(object.center).count()).max().unwrap_or(0);
+        let depth =
+            self.objects.iter().map(|object| self.media_around(object.shape.bounding_sphere().0).count()).max().unwrap_or(0);
         if !self.surfaces.media.is_empty() && depth > MOST_NESTED {
             warnings.push(format!("{depth} media lie within each other: only the tint of the inner {MOST_NESTED} is kept"));
         }
@@ -116,7 +122,7 @@ impl Scene {
     fn media_around(&self, p: DVec3) -> impl Iterator<Item = (usize, &Object)> {
         let is_dielectric = |coating: &Coating| matches!(coating.material, Material::Dielectric { .. });
         self.objects.iter().enumerate().filter(move |(_, object)| {
-            (p.distance(object.center) < object.radius) != object.flip && object.coating.as_ref().is_some_and(is_dielectric)
+            object.shape.contains(p) != object.flip && object.coating.as_ref().is_some_and(is_dielectric)
         })
     }
 }

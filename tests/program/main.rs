@@ -3,5 +3,6 @@ mod command_line;
 mod layers;
 mod pictures;
 mod scene_files;
+mod shapes;
 mod textures;
 mod worker;
