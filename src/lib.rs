@@ -1,7 +1,7 @@
 //! Noisefall: the light transport equation, solved by Monte-Carlo path tracing while one watches.
 //!
 //! The library is the renderer; the window and the command line are in the binary. Folders depend downwards only:
-//! `render`, `measure` → `integrator` → `scene` → `light` → `material`, `geometry` → `texture` → `sampling`, `image` → `math`.
+//! `render`, `measure` → `integrator` → `scene` → `light` → `material`, `geometry` → `texture` → `sampling`, `image`, `model` → `math`.
 pub mod geometry;
 pub mod image;
 pub mod integrator;
@@ -9,6 +9,7 @@ pub mod light;
 pub mod material;
 pub mod math;
 pub mod measure;
+pub mod model;
 pub mod render;
 pub mod sampling;
 pub mod scene;

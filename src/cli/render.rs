@@ -131,7 +131,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
             "scene": arguments.scene, "width": frame.width, "height": frame.height, "spp": status.spp,
             "threads": thread_count, "seed": settings.seed, "build_seconds": build_seconds, "render_seconds": render_seconds,
             "paths": status.samples, "rays": status.rays, "invalid_samples": status.invalid_samples,
-            "rel_mse_estimate": status.rel_mse_estimate, "cut_paths": status.cut_paths, "bias": status.bias(&settings),
+            "rel_mse_estimate": status.rel_mse_estimate, "cut_paths": status.cut_paths, "dropped_triangles": scene.shapes.dropped_triangles(), "bias": status.bias(&settings),
             "rel_mse": rel_mse, "replay": replay,
         });
         print(&line.to_string())

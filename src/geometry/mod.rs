@@ -10,23 +10,39 @@
 //! | rectangle, triangle, disk | `flat.rs` | 1 | where the normal points |
 //! | cuboid | `cuboid.rs` | 6 | outside |
 //! | cylinder | `quadric.rs` | 1, with caps 3 | outside |
+//! | mesh | `mesh/` | 1, its triangles are *elements* | counter-clockwise |
+//! | isosurface | `isosurface/` | 1 | where the function is positive |
+//!
+//! What a ray runs through first are `tables.rs`, which hold analytic shapes that stand still; meshes, isosurfaces and what
+//! moves have a space of their own (`placed.rs`). All together are [`Shapes`].
+mod bounds;
+mod bvh;
 mod cuboid;
 mod flat;
 mod fraction;
+mod isosurface;
+pub mod mesh;
+mod motion;
+mod placed;
 mod quadric;
 mod shape;
 mod shapes;
 mod sphere;
 mod surface_point;
+mod tables;
 #[cfg(test)]
 mod tests;
 mod toward;
 
+use self::sphere::{sphere_tangents, sphere_uv};
 pub use self::{
+    isosurface::{Expression, Isosurface, ParseError},
+    mesh::MeshData,
+    motion::{Motion, Step},
     shape::{Outline, Shape},
-    shapes::Shapes,
+    shapes::{Nearest, Shapes},
     sphere::{Cone, Sphere},
-    surface_point::{Coordinates, SurfacePoint},
+    surface_point::{Coordinates, Place, SurfacePoint},
     toward::Toward,
 };
 

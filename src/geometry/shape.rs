@@ -1,10 +1,13 @@
 //! Shapes as a scene describes them: in world space, in f64, placed by transforms.
-use glam::{DAffine3, DMat3, DVec3};
+use std::sync::Arc;
 
-use super::cuboid::face;
+use glam::{DAffine3, DMat3, DVec3, Vec3};
+
+use super::{Isosurface, MeshData, cuboid::face};
+use crate::math::{One, V};
 
 /// A shape. Every kind but the sphere is closed under affine maps, and a sphere becomes an ellipsoid.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub enum Shape {
     Sphere {
         center: DVec3,
@@ -33,6 +36,15 @@ pub enum Shape {
         base: DVec3,
         axes: DMat3,
         capped: bool,
+    },
+    /// What `map` makes of the triangles; they may be shared with other shapes.
+    Mesh {
+        data: Arc<MeshData>,
+        map: DAffine3,
+    },
+    Isosurface {
+        surface: Arc<Isosurface>,
+        map: DAffine3,
     },
 }
 
@@ -80,6 +92,8 @@ impl Shape {
             Shape::Cylinder { base, axes, capped } => {
                 Shape::Cylinder { base: point(base), axes: linear * *axes, capped: *capped }
             }
+            Shape::Mesh { data, map: before } => Shape::Mesh { data: data.clone(), map: *map * *before },
+            Shape::Isosurface { surface, map: before } => Shape::Isosurface { surface: surface.clone(), map: *map * *before },
         }
     }
 
@@ -123,6 +137,8 @@ impl Shape {
             Shape::Flat { outline: Outline::Ellipse, .. } => "disk",
             Shape::Cuboid { .. } => "cuboid",
             Shape::Cylinder { .. } => "cylinder",
+            Shape::Mesh { .. } => "mesh",
+            Shape::Isosurface { .. } => "isosurface",
         }
     }
 
@@ -152,6 +168,8 @@ impl Shape {
                 let round = longest(&DMat3::from_cols(axes.x_axis, axes.y_axis, DVec3::ZERO));
                 (*base + axes.z_axis / 2.0, round + axes.z_axis.length() / 2.0)
             }
+            Shape::Mesh { data, map } => around(data.bounds(), map),
+            Shape::Isosurface { surface, map } => around(surface.bounds(), map),
         }
     }
 
@@ -169,6 +187,13 @@ impl Shape {
                 let x = axes.inverse() * (p - *base);
                 *capped && x.truncate().length() < 1.0 && (0.0..1.0).contains(&x.z)
             }
+            Shape::Mesh { data, map } => data.contains(map.inverse().transform_point3(p)),
+            Shape::Isosurface { surface, map } => {
+                let local = map.inverse().transform_point3(p).as_vec3().to_array();
+                let (min, max) = surface.bounds();
+                let boxed = (0..3).all(|axis| (min[axis]..=max[axis]).contains(&local[axis]));
+                boxed && surface.value(One, V::splat(One, local)).0 < 0.0
+            }
         }
     }
 
@@ -182,7 +207,7 @@ impl Shape {
                 let [a, b, c] = [edges.x_axis, edges.y_axis, edges.z_axis];
                 Some(2.0 * (a.cross(b).length() + b.cross(c).length() + c.cross(a).length()))
             }
-            Shape::Ellipsoid { .. } | Shape::Cylinder { .. } => None,
+            _ => None,
         }
     }
 }
@@ -196,6 +221,15 @@ impl Outline {
             Outline::Ellipse => std::f64::consts::PI,
         }
     }
+}
+
+/// The sphere around what a map makes of a box.
+fn around((min, max): ([f32; 3], [f32; 3]), map: &DAffine3) -> (DVec3, f64) {
+    let [min, max] = [min, max].map(|corner| Vec3::from(corner).as_dvec3());
+    let half = map.matrix3 * DMat3::from_diagonal((max - min) / 2.0);
+    let corner = |signs: [f64; 2]| (half.x_axis + half.y_axis * signs[0] + half.z_axis * signs[1]).length();
+    let reach = [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]].map(corner).into_iter().fold(0.0, f64::max);
+    (map.transform_point3((min + max) / 2.0), reach)
 }
 
 /// The factor by which the map scales all lengths alike, if it does.

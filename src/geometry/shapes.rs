@@ -1,209 +1,251 @@
-//! All shapes of a scene as tables: flat ones a kind for rays to run through, and rows by primitive for what they meet.
-use glam::DVec3;
+//! All shapes of a scene.
+use std::{collections::HashMap, sync::Arc};
+
+use glam::{DAffine3, DVec3};
 
 use super::{
-    MISS,
-    cuboid::Cuboid,
-    flat::Flat,
-    fraction::Fraction,
-    quadric::{Local, Quadric},
-    shape::Shape,
-    sphere::{self, Sphere, sphere_tangents, sphere_uv},
-    surface_point::{Coordinates, SurfacePoint},
+    Coordinates, Motion, Place, SurfacePoint, Toward,
+    mesh::{Mesh, MeshData},
+    placed::{Body, Placed},
+    shape::{Outline, Shape},
+    tables::{PLACED, Tables},
 };
-use crate::math::{F, Lanes, M, Pick, U, V, trig::turns_of};
+use crate::math::{F, Lanes, M, Pick, U, V};
 
-/// The kind of a primitive, in the last two bits of its tag; the rest is its place in the table of the kind.
-pub(super) const FLAT: u32 = 1;
-pub(super) const QUADRIC: u32 = 2;
-
-/// All shapes of a scene. Kinds that it does not have cost nothing.
+/// All shapes of a scene: analytic ones that stand still in tables, the others with a place of their own.
 #[derive(Default)]
 pub struct Shapes {
-    /// What rays are tested against, each with its primitive id, or that of its first face.
-    spheres: Vec<(u32, Sphere)>,
-    flats: Vec<(u32, Flat)>,
-    cuboids: Vec<(u32, Cuboid)>,
-    quadrics: Vec<(u32, Quadric)>,
-    /// By primitive: the anchor and the curvature; the normal there and the tag.
-    pub(super) anchors: Vec<[f32; 4]>,
-    pub(super) normals: Vec<[f32; 4]>,
-    /// Four rows each: see [`Flat::rows`] and [`Quadric::rows`].
-    pub(super) flat_rows: Vec<[f32; 4]>,
-    quadric_rows: Vec<[f32; 4]>,
+    tables: Tables,
+    placed: Vec<Placed>,
+    /// Meshes are among them, whose triangles are elements.
+    has_elements: bool,
+    moves: bool,
+    /// Triangles without area, which were left out.
+    dropped: usize,
+}
+
+/// What rays meet.
+pub struct Nearest<L: Lanes> {
+    pub t: F<L>,
+    /// Or [`super::MISS`].
+    pub primitive: U<L>,
+    /// The triangle of a mesh.
+    pub element: U<L>,
 }
 
 impl Shapes {
     /// The pieces of the shapes are numbered in their order. `near` is where the scene happens.
-    pub fn new(shapes: &[Shape], near: DVec3) -> Shapes {
-        let mut tables = Shapes::default();
-        for shape in shapes {
-            let first = tables.anchors.len() as u32;
-            if let Shape::Cuboid { origin, edges } = shape {
-                tables.cuboids.push((first, Cuboid::new(*origin, *edges, near)));
-            }
-            for piece in shape.pieces() {
-                tables.push(&piece, matches!(shape, Shape::Cuboid { .. }), near);
-            }
-        }
-        tables
-    }
-
-    /// `within`: rays find the piece by the shape that it is part of.
-    fn push(&mut self, piece: &Shape, within: bool, near: DVec3) {
-        let id = self.anchors.len() as u32;
-        let row = |[x, y, z]: [f32; 3], w: f32| [x, y, z, w];
-        match piece {
-            Shape::Sphere { center, radius } => {
-                let sphere = Sphere::new(*center, *radius, near);
-                let [anchor, normal] = sphere.rows();
-                self.spheres.push((id, sphere));
-                self.anchors.push(anchor);
-                self.normals.push(normal);
-            }
-            Shape::Flat { outline, origin, edges, mirrored } => {
-                let flat = Flat::new(*outline, *origin, *edges, *mirrored, near);
-                let tag = FLAT | (self.flat_rows.len() as u32 / 4) << 2;
-                self.anchors.push(row(flat.anchor, 0.0));
-                self.normals.push(row(flat.normal, f32::from_bits(tag)));
-                self.flat_rows.extend(flat.rows(*edges));
-                if !within {
-                    self.flats.push((id, flat));
+    pub fn new<'a>(shapes: impl Iterator<Item = (&'a Shape, &'a Motion)> + Clone, near: DVec3) -> Shapes {
+        let mut meshes = Meshes::new(shapes.clone());
+        let mut all = Shapes::default();
+        for (shape, motion) in shapes {
+            let first = all.tables.len() as u32;
+            let (body, still) = match shape {
+                Shape::Mesh { data, map } => {
+                    all.has_elements = true;
+                    let (mesh, still) = meshes.build(data, map);
+                    all.dropped += mesh.dropped();
+                    (Body::Mesh(mesh), still)
                 }
+                Shape::Isosurface { surface, map } => (Body::Isosurface(Box::new(surface.as_ref().clone())), *map),
+                _ if motion.0.is_empty() => {
+                    all.tables.push_shape(shape, near);
+                    continue;
+                }
+                _ => {
+                    let mut tables = Tables::default();
+                    tables.push_shape(shape, near);
+                    (Body::Shapes(Box::new(tables)), DAffine3::IDENTITY)
+                }
+            };
+            all.moves |= !motion.0.is_empty();
+            for _ in 0..shape.piece_count() {
+                all.tables.push_placed(all.placed.len());
             }
-            Shape::Ellipsoid { center: origin, axes } | Shape::Cylinder { base: origin, axes, .. } => {
-                let quadric = Quadric::new(*origin, *axes, matches!(piece, Shape::Cylinder { .. }), near);
-                let tag = QUADRIC | (self.quadric_rows.len() as u32 / 4) << 2;
-                self.anchors.push([0.0; 4]);
-                self.normals.push(row([0.0, 1.0, 0.0], f32::from_bits(tag)));
-                self.quadric_rows.extend(quadric.rows());
-                self.quadrics.push((id, quadric));
-            }
-            Shape::Cuboid { .. } => unreachable!("a cuboid is not a piece"),
+            all.placed.push(Placed::new(first, body, still, &motion.0));
         }
+        all
     }
 
-    /// Distance along o + td, d of unit length, to the first surface, and its primitive id or [`MISS`].
-    #[inline(always)]
-    pub fn closest<L: Lanes>(&self, l: L, o: V<L>, d: V<L>) -> (F<L>, U<L>) {
-        let mut nearest = Nearest { t: Fraction::infinite(l), primitive: l.u(MISS) };
-        for (id, sphere) in &self.spheres {
-            nearest.meet(sphere.intersect(o, d), l.u(*id));
-        }
-        for (id, flat) in &self.flats {
-            nearest.meet(flat.intersect(o, d), l.u(*id));
-        }
-        for (first, cuboid) in &self.cuboids {
-            let (t, face) = cuboid.intersect(l, o, d);
-            nearest.meet(t, face + *first);
-        }
-        for (id, quadric) in &self.quadrics {
-            nearest.meet(quadric.intersect(l, o, d), l.u(*id));
-        }
-        (nearest.t.value(), nearest.primitive)
+    /// The triangles of a mesh in the order of its elements.
+    pub fn triangles(&self, primitive: u32) -> Vec<Shape> {
+        let of = |placed: &&Placed| placed.first == primitive;
+        let Some(placed) = self.placed.iter().find(of) else { return Vec::new() };
+        let Body::Mesh(mesh) = &placed.body else { return Vec::new() };
+        let triangle = |id: u32| {
+            let [a, b, c] = mesh.corners(id).map(|corner| glam::Vec3::from(corner).as_dvec3());
+            let flat = Shape::Flat { outline: Outline::Triangle, origin: a, edges: [b - a, c - a], mirrored: false };
+            flat.transformed(placed.still())
+        };
+        (0..mesh.len() as u32).map(triangle).collect()
     }
 
-    /// The surface at a point `p` of the given primitives, none of which may be [`MISS`].
+    /// Whether primitives have elements.
+    pub fn have_elements(&self) -> bool {
+        self.has_elements
+    }
+
+    /// Whether some shape moves while the shutter is open.
+    pub fn move_in_time(&self) -> bool {
+        self.moves
+    }
+
+    /// Triangles without area, which were left out.
+    pub fn dropped_triangles(&self) -> usize {
+        self.dropped
+    }
+
+    /// The first surface along o + td, d of unit length, in the lanes of `live`.
     #[inline(always)]
-    pub fn surface_point<L: Lanes>(&self, l: L, primitive: U<L>, p: V<L>) -> SurfacePoint<L> {
-        let normal = l.rows(&self.normals, primitive);
-        let mut point = sphere::surface_point(l.rows(&self.anchors, primitive), normal, p);
-        let tag = normal[3].bits();
-        if let Some((here, quadric)) = self.quadric(l, tag) {
-            point = here.pick(quadric.surface_point(p), point);
+    pub fn closest<L: Lanes>(&self, l: L, live: M<L>, o: V<L>, d: V<L>, time: F<L>) -> Nearest<L> {
+        let (t, primitive) = self.tables.closest(l, o, d);
+        let mut nearest = Nearest { t, primitive, element: l.u(0) };
+        for placed in &self.placed {
+            let found = placed.closest(l, live, o, d, time, nearest.t);
+            let nearer = found.t.lt(nearest.t);
+            nearest.t = nearer.pick(found.t, nearest.t);
+            nearest.primitive = nearer.pick(found.piece + placed.first, nearest.primitive);
+            nearest.element = nearer.pick(found.element, nearest.element);
+        }
+        nearest
+    }
+
+    /// The surface at a point `p` of the given places, none of which may be a [`super::MISS`].
+    #[inline(always)]
+    pub fn surface_point<L: Lanes>(&self, l: L, place: &Place<L>, p: V<L>) -> SurfacePoint<L> {
+        let mut point = self.tables.surface_point(l, place.primitive, p);
+        let mut rest = self.at_placed(l, place);
+        while let Some((here, placed)) = rest.next(self) {
+            point = here.pick(placed.surface_point(l, &rest.within(here, place), p), point);
         }
         point
     }
 
-    /// Surface coordinates of a point of the given primitives.
+    /// Surface coordinates of a point.
     #[inline(always)]
-    pub fn coordinates<L: Lanes>(&self, l: L, primitive: U<L>, point: &SurfacePoint<L>) -> Coordinates<L> {
-        let (mut u, mut v) = sphere_uv(point.n_geometric);
-        let tag = l.rows(&self.normals, primitive)[3].bits();
-        if let Some(AtFlat { here, rows: [to_u, to_v, ..], from_anchor }) = self.flat(l, tag, primitive, point.p) {
-            u = here.pick(coordinate(to_u, from_anchor), u);
-            v = here.pick(1.0 - coordinate(to_v, from_anchor), v);
+    pub fn coordinates<L: Lanes>(&self, l: L, place: &Place<L>, point: &SurfacePoint<L>) -> Coordinates<L> {
+        let mut coordinates = self.tables.coordinates(l, place.primitive, point);
+        let mut rest = self.at_placed(l, place);
+        while let Some((here, placed)) = rest.next(self) {
+            let (found, _) = placed.coordinates(l, &rest.within(here, place), point);
+            coordinates = Coordinates { u: here.pick(found.u, coordinates.u), v: here.pick(found.v, coordinates.v) };
         }
-        if let Some((here, quadric)) = self.quadric(l, tag) {
-            let place = quadric.place(point.p);
-            let (sphere_u, sphere_v) = sphere_uv(place);
-            let around = turns_of(place.x, place.y);
-            u = here.pick(quadric.is_cylinder.pick(around, sphere_u), u);
-            v = here.pick(quadric.is_cylinder.pick(1.0 - place.z, sphere_v), v);
-        }
-        Coordinates { u, v }
+        coordinates
     }
 
-    /// (∂p/∂u, ∂p/∂v) at a point of the given primitives, in metres; neither is zero.
+    /// (∂p/∂u, ∂p/∂v) at a point, in metres; neither is zero.
     #[inline(always)]
-    pub fn tangents<L: Lanes>(&self, l: L, primitive: U<L>, point: &SurfacePoint<L>) -> (V<L>, V<L>) {
-        let tag = l.rows(&self.normals, primitive)[3].bits();
-        let curvature = l.rows(&self.anchors, primitive)[3];
-        let (mut along_u, mut along_v) = sphere_tangents(point.n_geometric, 1.0 / curvature);
-        if let Some(AtFlat { here, rows: [_, _, a, b], .. }) = self.flat(l, tag, primitive, point.p) {
-            along_u = here.pick(V { x: a[0], y: a[1], z: a[2] }, along_u);
-            along_v = here.pick(-V { x: b[0], y: b[1], z: b[2] }, along_v);
-        }
-        if let Some((here, quadric)) = self.quadric(l, tag) {
-            let (around, down) = quadric.tangents(quadric.place(point.p));
-            (along_u, along_v) = (here.pick(around, along_u), here.pick(down, along_v));
+    pub fn tangents<L: Lanes>(&self, l: L, place: &Place<L>, point: &SurfacePoint<L>) -> (V<L>, V<L>) {
+        let (mut along_u, mut along_v) = self.tables.tangents(l, place.primitive, point);
+        let mut rest = self.at_placed(l, place);
+        while let Some((here, placed)) = rest.next(self) {
+            let (_, [u, v]) = placed.coordinates(l, &rest.within(here, place), point);
+            (along_u, along_v) = (here.pick(u, along_u), here.pick(v, along_v));
         }
         (along_u, along_v)
     }
 
-    /// The lanes at flat primitives, if there are any, and the way to `p`.
+    /// The normal that a smooth mesh is shaded with, elsewhere the geometric one.
     #[inline(always)]
-    pub(super) fn flat<L: Lanes>(&self, l: L, tag: U<L>, primitive: U<L>, p: V<L>) -> Option<AtFlat<L>> {
-        let here = (tag & 3).is(FLAT);
-        if self.flat_rows.is_empty() || !here.any() {
-            return None;
+    pub fn smooth_normal<L: Lanes>(&self, l: L, place: &Place<L>, point: &SurfacePoint<L>) -> V<L> {
+        let mut normal = point.n_geometric;
+        let mut rest = self.at_placed(l, place);
+        while let Some((here, placed)) = rest.next(self) {
+            normal = here.pick(placed.smooth_normal(l, &rest.within(here, place), point), normal);
         }
-        let [x, y, z, _] = l.rows(&self.anchors, primitive);
-        Some(AtFlat { here, rows: four_rows(l, &self.flat_rows, here, tag), from_anchor: p - V { x, y, z } })
+        normal
     }
 
-    /// The lanes at quadrics, if there are any.
+    /// A direction from `x` towards the given places, from the point `u` of the unit square.
     #[inline(always)]
-    pub(super) fn quadric<L: Lanes>(&self, l: L, tag: U<L>) -> Option<(M<L>, Local<L>)> {
-        let here = (tag & 3).is(QUADRIC);
-        if self.quadrics.is_empty() || !here.any() {
-            return None;
+    pub fn toward<L: Lanes>(&self, l: L, place: &Place<L>, x: V<L>, u: (F<L>, F<L>)) -> Toward<L> {
+        let mut toward = self.tables.toward(l, place.primitive, x, u);
+        let mut rest = self.at_placed(l, place);
+        while let Some((here, placed)) = rest.next(self) {
+            toward = here.pick(placed.toward(l, &rest.within(here, place), x, u), toward);
         }
-        Some((here, Local::new(four_rows(l, &self.quadric_rows, here, tag))))
+        toward
+    }
+
+    /// The density of [`Shapes::toward`] at the unit direction `wi`, in which the given places lie.
+    #[inline(always)]
+    pub fn pdf_toward<L: Lanes>(&self, l: L, place: &Place<L>, x: V<L>, wi: V<L>) -> F<L> {
+        let mut pdf = self.tables.pdf_toward(l, place.primitive, x, wi);
+        let mut rest = self.at_placed(l, place);
+        while let Some((here, placed)) = rest.next(self) {
+            pdf = here.pick(placed.pdf_toward(l, &rest.within(here, place), x, wi), pdf);
+        }
+        pdf
+    }
+
+    #[inline(always)]
+    fn at_placed<L: Lanes>(&self, l: L, place: &Place<L>) -> AtPlaced<L> {
+        if self.placed.is_empty() {
+            return AtPlaced { l, index: l.u(0), rest: l.first(0) };
+        }
+        let tag = self.tables.tag(l, place.primitive);
+        AtPlaced { l, index: tag >> 2, rest: (tag & 3).is(PLACED) }
     }
 }
 
-#[inline(always)]
-fn coordinate<L: Lanes>([x, y, z, at_anchor]: [F<L>; 4], from_anchor: V<L>) -> F<L> {
-    V { x, y, z }.dot(from_anchor) + at_anchor
+/// Lanes at placed shapes, one shape after the other.
+struct AtPlaced<L: Lanes> {
+    l: L,
+    index: U<L>,
+    rest: M<L>,
 }
 
-/// Lanes at flat primitives.
-pub(super) struct AtFlat<L: Lanes> {
-    pub here: M<L>,
-    pub rows: [[F<L>; 4]; 4],
-    /// The way from the anchor to a point.
-    pub from_anchor: V<L>,
-}
-
-/// The rows of the lanes in `here`; the others get those of the first entry.
-#[inline(always)]
-fn four_rows<L: Lanes>(l: L, table: &[[f32; 4]], here: M<L>, tag: U<L>) -> [[F<L>; 4]; 4] {
-    let first = here.pick((tag >> 2) << 2, l.u(0));
-    [l.rows(table, first), l.rows(table, first + 1), l.rows(table, first + 2), l.rows(table, first + 3)]
-}
-
-/// The nearest meeting so far.
-struct Nearest<L: Lanes> {
-    t: Fraction<L>,
-    primitive: U<L>,
-}
-
-impl<L: Lanes> Nearest<L> {
+impl<L: Lanes> AtPlaced<L> {
+    /// The next shape and the lanes that are at it.
     #[inline(always)]
-    fn meet(&mut self, t: Fraction<L>, primitive: U<L>) {
-        let nearer = t.less(&self.t);
-        self.t = nearer.pick(t, self.t);
-        self.primitive = nearer.pick(primitive, self.primitive);
+    fn next<'a>(&mut self, shapes: &'a Shapes) -> Option<(M<L>, &'a Placed)> {
+        if !self.rest.any() {
+            return None;
+        }
+        let index = self.index.to_array()[self.rest.bits().trailing_zeros() as usize];
+        let here = self.rest & self.index.is(index);
+        self.rest = self.rest & !here;
+        Some((here, &shapes.placed[index as usize]))
+    }
+
+    /// The places of these lanes; the others are at the first primitive and element of the same shape.
+    #[inline(always)]
+    fn within(&self, here: M<L>, place: &Place<L>) -> Place<L> {
+        let primitive = place.primitive.to_array()[here.bits().trailing_zeros() as usize];
+        Place {
+            primitive: here.pick(place.primitive, self.l.u(primitive)),
+            element: here.pick(place.element, self.l.u(0)),
+            time: place.time,
+        }
+    }
+}
+
+/// Meshes by their data, built once for all that show them.
+struct Meshes {
+    /// How many shapes show the data, and the mesh if it has been built in its own space.
+    known: HashMap<*const MeshData, (usize, Option<Arc<Mesh>>)>,
+}
+
+impl Meshes {
+    fn new<'a>(shapes: impl Iterator<Item = (&'a Shape, &'a Motion)>) -> Meshes {
+        let mut known = HashMap::new();
+        for (shape, motion) in shapes {
+            if let Shape::Mesh { data, .. } = shape {
+                // What moves needs a space of its own as well.
+                let uses = if motion.0.is_empty() { 1 } else { 2 };
+                known.entry(Arc::as_ptr(data)).or_insert((0, None)).0 += uses;
+            }
+        }
+        Meshes { known }
+    }
+
+    /// The mesh, and the map from its space to the world. A mesh that is shown once is built in the world.
+    fn build(&mut self, data: &Arc<MeshData>, map: &DAffine3) -> (Arc<Mesh>, DAffine3) {
+        let (uses, mesh) = self.known.entry(Arc::as_ptr(data)).or_insert((1, None));
+        if *uses == 1 {
+            return (Arc::new(Mesh::new(&data.transformed(map))), DAffine3::IDENTITY);
+        }
+        let mesh = mesh.get_or_insert_with(|| Arc::new(Mesh::new(data)));
+        (mesh.clone(), *map)
     }
 }

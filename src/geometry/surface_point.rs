@@ -1,5 +1,5 @@
 //! What a path needs to know of the surface point it meets.
-use crate::math::{F, Lanes, M, Pick, V};
+use crate::math::{F, Lanes, M, Pick, U, V};
 
 /// A point of a surface in lanes.
 #[derive(Clone, Copy)]
@@ -27,4 +27,14 @@ pub struct Coordinates<L: Lanes> {
     /// To the right and downwards as pictures are read, [0, 1] on shapes that are not meshes.
     pub u: F<L>,
     pub v: F<L>,
+}
+
+/// Where on the shapes of a scene a point lies.
+#[derive(Clone, Copy)]
+pub struct Place<L: Lanes> {
+    pub primitive: U<L>,
+    /// The triangle of a mesh.
+    pub element: U<L>,
+    /// From 0 when the shutter opens to 1 when it closes.
+    pub time: F<L>,
 }

@@ -7,8 +7,8 @@ use std::f32::consts::TAU;
 use super::{
     quadric::Local,
     shape::Outline,
-    shapes::{AtFlat, Shapes},
     sphere::Cone,
+    tables::{AtFlat, Tables},
 };
 use crate::{
     math::{F, Lanes, M, Pick, U, V, trig::sin_cos_turns},
@@ -32,7 +32,7 @@ impl<L: Lanes> Pick<Toward<L>> for M<L> {
     }
 }
 
-impl Shapes {
+impl Tables {
     /// The cone in which given primitives are seen from `x`; only for spheres.
     #[inline(always)]
     fn cone<L: Lanes>(&self, l: L, primitive: U<L>, x: V<L>) -> Cone<L> {
@@ -44,7 +44,7 @@ impl Shapes {
     pub fn toward<L: Lanes>(&self, l: L, primitive: U<L>, x: V<L>, u: (F<L>, F<L>)) -> Toward<L> {
         let cone = self.cone(l, primitive, x);
         let mut toward = Toward { wi: cone.sample(u), pdf: cone.pdf(), front: cone.outside };
-        let tag = l.rows(&self.normals, primitive)[3].bits();
+        let tag = self.tag(l, primitive);
         if let Some(AtFlat { here, rows, from_anchor }) = self.flat(l, tag, primitive, x) {
             let wi = toward_flat(&rows, from_anchor, u);
             let (pdf, front) = self.flat_pdf(l, &rows, primitive, from_anchor, wi);
@@ -56,11 +56,11 @@ impl Shapes {
         toward
     }
 
-    /// The density of [`Shapes::toward`] at the unit direction `wi`, in which the given primitives lie.
+    /// The density of [`Tables::toward`] at the unit direction `wi`, in which the given primitives lie.
     #[inline(always)]
     pub fn pdf_toward<L: Lanes>(&self, l: L, primitive: U<L>, x: V<L>, wi: V<L>) -> F<L> {
         let mut pdf = self.cone(l, primitive, x).pdf();
-        let tag = l.rows(&self.normals, primitive)[3].bits();
+        let tag = self.tag(l, primitive);
         if let Some(AtFlat { here, rows, from_anchor }) = self.flat(l, tag, primitive, x) {
             pdf = here.pick(self.flat_pdf(l, &rows, primitive, from_anchor, wi).0, pdf);
         }

@@ -3,6 +3,7 @@ use super::queue::Queue;
 use crate::{
     math::{F, Lanes, M, MAX_LANES, One, U, V},
     record,
+    sampling::{Dimension, Stream},
     scene::{CameraRays, Estimator, RenderSettings, Scene, surface::Stage},
 };
 
@@ -116,6 +117,15 @@ impl Work<'_> {
         !self.scene.surfaces.media.is_empty()
     }
 
+    /// When the samples of slots are taken, from 0 when the shutter opens to 1 when it closes; 0 where nothing moves.
+    #[inline(always)]
+    pub(super) fn time<L: Lanes>(&self, l: L, slot: U<L>) -> F<L> {
+        if !self.rays.take_time {
+            return l.f(0.0);
+        }
+        Stream::new(self.settings.sampler, self.settings.seed, self.pixel(slot), self.sample).one(Dimension::TIME)
+    }
+
     /// Whether light is looked for besides being run into.
     #[inline(always)]
     pub(super) fn samples_lights(&self) -> bool {
@@ -146,6 +156,8 @@ pub struct Batch {
     /// Distance and primitive id of the first surface of every path of this bounce.
     pub(super) t: Vec<f32>,
     pub(super) primitive: Vec<f32>,
+    /// The triangle in scenes with meshes.
+    pub(super) element: Vec<f32>,
     /// Radiance gathered so far, a slot.
     pub(super) radiance: Vec<[f32; 4]>,
     pub(super) bounce: u32,
@@ -167,6 +179,7 @@ impl Default for Batch {
             shadow_media: Inside::<One>::queue(SLOTS),
             t: vec![0.0; SLOTS + MAX_LANES],
             primitive: vec![0.0; SLOTS + MAX_LANES],
+            element: vec![0.0; SLOTS + MAX_LANES],
             radiance: vec![[0.0; 4]; SLOTS],
             bounce: 0,
             rays: 0,

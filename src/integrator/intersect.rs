@@ -9,9 +9,13 @@ pub(super) fn intersect<L: Lanes>(l: L, work: &Work, batch: &mut Batch) {
     let paths = &batch.paths[(batch.bounce & 1) as usize];
     for start in (0..paths.len()).step_by(L::N) {
         let path = Path::read(l, paths, start);
-        let (t, primitive) = work.scene.shapes.closest(l, path.o, path.d);
-        t.store(&mut batch.t[start..]);
-        primitive.as_real_bits().store(&mut batch.primitive[start..]);
+        let live = l.first(paths.len() - start);
+        let nearest = work.scene.shapes.closest(l, live, path.o, path.d, work.time(l, path.slot));
+        nearest.t.store(&mut batch.t[start..]);
+        nearest.primitive.as_real_bits().store(&mut batch.primitive[start..]);
+        if work.scene.shapes.have_elements() {
+            nearest.element.as_real_bits().store(&mut batch.element[start..]);
+        }
     }
     batch.rays += paths.len() as u64;
 }

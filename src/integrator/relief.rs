@@ -1,12 +1,12 @@
 //! Shading normals by bump and normal maps.
 use crate::{
-    geometry::SurfacePoint,
+    geometry::{Place, SurfacePoint},
     math::{F, Lanes, M, Pick, U, V},
     scene::Scene,
     texture::{TextureCoordinates, Textures},
 };
 
-/// The shading normal on the front of the surface at `point`: in the lanes of `mask` tilted by the textures in its row of
+/// The shading normal on the front of the surface at `point`: in the lanes of `mask` `n`, on the front, tilted by the textures in its row of
 /// [`crate::scene::surface::Surfaces::relief`].
 ///
 /// A height h moves the surface to p + h n; without the small terms that bend n itself, its normal is n − ∇h (J. Blinn,
@@ -16,19 +16,19 @@ use crate::{
 pub(super) fn shading_normal<L: Lanes>(
     l: L,
     scene: &Scene,
-    primitive: U<L>,
+    place: &Place<L>,
     mask: M<L>,
     point: &SurfacePoint<L>,
+    n: V<L>,
     at: &TextureCoordinates<L>,
 ) -> V<L> {
-    let n = point.n_geometric;
-    let [bump, height, map, _] = l.rows(&scene.surfaces.relief, primitive);
+    let [bump, height, map, _] = l.rows(&scene.surfaces.relief, place.primitive);
     let (bump, map) = (bump.bits(), map.bits());
     let (bumped, mapped) = (mask & !bump.is(0), mask & !map.is(0));
     if !(bumped | mapped).any() {
         return n;
     }
-    let (along_u, along_v) = scene.shapes.tangents(l, primitive, point);
+    let (along_u, along_v) = scene.shapes.tangents(l, place, point);
     let mut tilted = n;
     if mapped.any() {
         let code = scene.textures.colour(l, map + u32::MAX, mapped, at);
@@ -63,7 +63,11 @@ fn gradient<L: Lanes>(
     let here = textures.height(l, id, mask, at);
     let right = textures.height(l, id, mask, &TextureCoordinates { u: at.u + du, p: at.p + along_u * du, ..*at });
     let down = textures.height(l, id, mask, &TextureCoordinates { v: at.v + dv, p: at.p + along_v * dv, ..*at });
-    along_u * ((right - here) / (du * length_u * length_u)) + along_v * ((down - here) / (dv * length_v * length_v))
+    // By the metric of directions that need not be at right angles.
+    let (by_u, by_v) = ((right - here) / du, (down - here) / dv);
+    let (uu, uv, vv) = (along_u.length_squared(), along_u.dot(along_v), along_v.length_squared());
+    let scale = 1.0 / (uu * vv - uv * uv);
+    along_u * ((vv * by_u - uv * by_v) * scale) + along_v * ((uu * by_v - uv * by_u) * scale)
 }
 
 /// A step from `x` that does not reach 1, where `x` itself lies below.

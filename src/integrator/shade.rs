@@ -173,7 +173,7 @@ fn sample_light<L: Lanes, K: Kind>(
         place: stream.two(Dimension::light(reflection)),
     };
     let at = Receiver { p: hit.p, n: vertex.n, transmits: if K::TRANSMITS { l.first(L::N) } else { l.first(0) } };
-    let sample = lights.sample(l, &work.scene.shapes, &at, &coordinates);
+    let sample = lights.sample(l, &work.scene.shapes, &at, work.time(l, hit.slot), &coordinates);
     let wi = vertex.frame.local_from_world(sample.wi);
     let (f_cos, pdf) = bsdf.eval(vertex.wo, wi);
     let (o, consistent) = vertex.leave::<K>(hit, sample.wi, wi.z);

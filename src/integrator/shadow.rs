@@ -9,7 +9,7 @@ use super::{
     media::transmittance,
 };
 use crate::{
-    geometry::Coordinates,
+    geometry::{Coordinates, Nearest, Place},
     math::{Lanes, Pick},
     texture::TextureCoordinates,
 };
@@ -21,8 +21,9 @@ pub(super) fn shadow<L: Lanes>(l: L, work: &Work, batch: &mut Batch) {
     for start in (0..shadows.len()).step_by(L::N) {
         let live = l.first(shadows.len() - start);
         let shadow = Shadow::read(l, shadows, start);
-        let (t, primitive) = scene.shapes.closest(l, shadow.o, shadow.d);
-        let seen = live & primitive.equals(shadow.target);
+        let time = work.time(l, shadow.slot);
+        let Nearest { t, primitive, element } = scene.shapes.closest(l, live, shadow.o, shadow.d, time);
+        let seen = live & scene.lights.light_at(l, primitive, element).equals(shadow.target);
         let mut light = shadow.radiance;
         if work.has_media() {
             let media = live.pick(Inside::read(l, shadow_media, start).media, l.u(0));
@@ -31,8 +32,9 @@ pub(super) fn shadow<L: Lanes>(l: L, work: &Work, batch: &mut Batch) {
         if scene.lights.emitters.vary() {
             let emits = seen & scene.lights.emitters.emits(primitive);
             let primitive = emits.pick(primitive, l.u(0));
-            let point = scene.shapes.surface_point(l, primitive, shadow.o + shadow.d * t);
-            let Coordinates { u, v } = scene.shapes.coordinates(l, primitive, &point);
+            let place = Place { primitive, element: emits.pick(element, l.u(0)), time };
+            let point = scene.shapes.surface_point(l, &place, shadow.o + shadow.d * t);
+            let Coordinates { u, v } = scene.shapes.coordinates(l, &place, &point);
             let at = TextureCoordinates { u, v, p: point.p };
             light = light * scene.lights.emitters.variation(l, &scene.textures, emits, primitive, &at);
         }

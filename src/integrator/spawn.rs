@@ -27,6 +27,7 @@ pub(super) fn spawn<L: Lanes>(l: L, work: &Work, batch: &mut Batch) {
         } else {
             work.rays.through(l, x, y)
         };
+        let (o, d) = if work.rays.move_in_time() { work.rays.carried(l, (o, d), work.time(l, slot)) } else { (o, d) };
         Path { o, d, throughput: V::splat(l, [1.0; 3]), slot }.push(inside, &mut batch.paths[0]);
         if work.has_media() {
             Inside { media: l.u(work.rays.media) }.push(inside, &mut batch.path_media[0]);

@@ -9,7 +9,7 @@ use super::{
     weight::weight_of_met_light,
 };
 use crate::{
-    geometry::{Coordinates, MISS, SurfacePoint},
+    geometry::{Coordinates, MISS, Place, SurfacePoint},
     math::{F, Lanes, M, Pick, U, V},
     scene::{
         Scene,
@@ -25,7 +25,7 @@ const GRAZING: f32 = 1e-3;
 #[simd]
 pub(super) fn surfaces<L: Lanes, const VARIED: bool>(l: L, work: &Work, batch: &mut Batch, last: bool) {
     let scene = work.scene;
-    let Batch { paths, pasts, path_media, hits, details, t, primitive, radiance, bounce, .. } = batch;
+    let Batch { paths, pasts, path_media, hits, details, t, primitive, element, radiance, bounce, .. } = batch;
     hits.iter_mut().chain(details.iter_mut()).for_each(Queue::clear);
     let current = (*bounce & 1) as usize;
     let (paths, pasts, path_media) = (&paths[current], &pasts[current], &path_media[current]);
@@ -48,7 +48,8 @@ pub(super) fn surfaces<L: Lanes, const VARIED: bool>(l: L, work: &Work, batch: &
                 let mut light = path.throughput * background.radiance(l, path.d);
                 if weighted {
                     let past = Past::read(l, pasts, start);
-                    light = light * weight_of_met_light(l, work, &past, path.o, path.d, primitive);
+                    light = light
+                        * weight_of_met_light(l, work, &past, path.o, path.d, &Place { primitive, element: primitive, time: t });
                 }
                 add(radiance, sky, path.slot, light);
             }
@@ -60,7 +61,11 @@ pub(super) fn surfaces<L: Lanes, const VARIED: bool>(l: L, work: &Work, batch: &
 
         // Lanes without a surface look at primitive 0 and are masked out.
         let primitive = hit.pick(primitive, l.u(0));
-        let point = scene.shapes.surface_point(l, primitive, path.o + path.d * hit.pick(t, l.f(0.0)));
+        let mut place = Place { primitive, element: l.u(0), time: work.time(l, path.slot) };
+        if scene.shapes.have_elements() {
+            place.element = hit.pick(l.load(&element[start..]).bits(), l.u(0));
+        }
+        let point = scene.shapes.surface_point(l, &place, path.o + path.d * hit.pick(t, l.f(0.0)));
         let cos = -point.n_geometric.dot(path.d);
         if !scene.lights.emitters.is_empty() {
             let emits = hit & scene.lights.emitters.emits(primitive);
@@ -68,13 +73,13 @@ pub(super) fn surfaces<L: Lanes, const VARIED: bool>(l: L, work: &Work, batch: &
                 let (le, seen) = scene.lights.emitters.radiance(l, emits, primitive, cos);
                 let mut light = path.throughput * le;
                 if VARIED && scene.lights.emitters.vary() {
-                    let Coordinates { u, v } = scene.shapes.coordinates(l, primitive, &point);
+                    let Coordinates { u, v } = scene.shapes.coordinates(l, &place, &point);
                     let at = TextureCoordinates { u, v, p: point.p };
                     light = light * scene.lights.emitters.variation(l, &scene.textures, emits, primitive, &at);
                 }
                 if weighted {
                     let past = Past::read(l, pasts, start);
-                    light = light * weight_of_met_light(l, work, &past, path.o, path.d, primitive);
+                    light = light * weight_of_met_light(l, work, &past, path.o, path.d, &place);
                 }
                 add(radiance, seen, path.slot, light);
             }
@@ -88,7 +93,7 @@ pub(super) fn surfaces<L: Lanes, const VARIED: bool>(l: L, work: &Work, batch: &
         let n = point.n_geometric * l.f(1.0).copysign(cos);
         let record = Hit { p: point.p + n * point.error, n, colour, throughput: path.throughput, slot: path.slot };
         if VARIED {
-            sort(l, work, hits, details, &Arrival { d: path.d, point, cos, primitive, media, word: word.bits() }, record, hit);
+            sort(l, work, hits, details, &Arrival { d: path.d, point, cos, place, media, word: word.bits() }, record, hit);
         } else {
             record.push(hit & colour.max_component().above(0.0), &mut hits[Stage::Plain as usize]);
         }
@@ -101,7 +106,7 @@ struct Arrival<L: Lanes> {
     point: SurfacePoint<L>,
     /// Between the front normal and the direction to the viewer.
     cos: F<L>,
-    primitive: U<L>,
+    place: Place<L>,
     /// What the paths are in.
     media: U<L>,
     /// See [`surface`].
@@ -138,12 +143,16 @@ fn sort<L: Lanes>(
 #[inline(always)]
 fn vary<L: Lanes>(l: L, scene: &Scene, arrival: &Arrival<L>, mask: M<L>, hit: &mut Hit<L>) -> Detail<L> {
     let Scene { surfaces, textures, .. } = scene;
-    let Arrival { d, point, cos, primitive, media, word } = arrival;
-    let [mut alpha, colour_texture, alpha_texture, medium] = l.rows(&surfaces.varying, *primitive);
+    let Arrival { d, point, cos, place, media, word } = arrival;
+    let [mut alpha, colour_texture, alpha_texture, medium] = l.rows(&surfaces.varying, place.primitive);
     let wo = -*d;
     let mut n = hit.n;
+    if scene.shapes.have_elements() {
+        let smooth = scene.shapes.smooth_normal(l, place, point) * l.f(1.0).copysign(*cos);
+        n = smooth.dot(wo).above(GRAZING).pick(smooth, n);
+    }
     if surfaces.textured || !surfaces.relief.is_empty() {
-        let Coordinates { u, v } = scene.shapes.coordinates(l, *primitive, point);
+        let Coordinates { u, v } = scene.shapes.coordinates(l, place, point);
         let at = TextureCoordinates { u, v, p: point.p };
         let id = colour_texture.bits();
         let coloured = mask & !id.is(0);
@@ -157,8 +166,8 @@ fn vary<L: Lanes>(l: L, scene: &Scene, arrival: &Arrival<L>, mask: M<L>, hit: &m
             alpha = rough.pick(is_set(*word, SQUARED).pick(value * value, value), alpha);
         }
         if !surfaces.relief.is_empty() {
-            let tilted = shading_normal(l, scene, *primitive, mask, point, &at);
-            let tilted = tilted * l.f(1.0).copysign(*cos);
+            let side = l.f(1.0).copysign(*cos);
+            let tilted = shading_normal(l, scene, place, mask, point, n * side, &at) * side;
             // A normal that the viewer could not see is not used.
             n = tilted.dot(wo).above(GRAZING).pick(tilted, n);
         }

@@ -3,8 +3,9 @@ use fearless_simd_macros::simd;
 
 use super::batch::{DELTA, Past, TRANSMITS, Work};
 use crate::{
+    geometry::Place,
     light::Receiver,
-    math::{F, Lanes, Pick, U, V},
+    math::{F, Lanes, Pick, V},
     scene::Estimator,
 };
 
@@ -16,10 +17,10 @@ pub(super) fn power_heuristic<L: Lanes>(pdf: F<L>, other: F<L>) -> F<L> {
     1.0 / (1.0 + ratio * ratio)
 }
 
-/// The weight of light met by paths that left `o` in the direction `d` and ran into `target`, a primitive or
-/// [`crate::geometry::MISS`].
+/// The weight of light met by paths that left `o` in the direction `d` and ran into `target`, whose primitive
+/// may be [`crate::geometry::MISS`].
 #[simd]
-pub(super) fn weight_of_met_light<L: Lanes>(l: L, work: &Work, past: &Past<L>, o: V<L>, d: V<L>, target: U<L>) -> F<L> {
+pub(super) fn weight_of_met_light<L: Lanes>(l: L, work: &Work, past: &Past<L>, o: V<L>, d: V<L>, target: &Place<L>) -> F<L> {
     let delta = !(past.flags & DELTA).is(0);
     let sampled_too = match work.settings.estimator {
         Estimator::Path => return l.f(1.0),

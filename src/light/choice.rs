@@ -10,18 +10,22 @@ use super::{
     source::Source,
 };
 use crate::{
-    geometry::{MISS, Shape, Shapes},
+    geometry::{MISS, Motion, Place, Shape, Shapes},
     math::{F, Lanes, M, Pick, U, V},
 };
 
-/// All lights of a scene: the emitting primitives 0, 1, 2, … and the background.
+/// All lights of a scene: the emitting primitives 0, 1, 2, …, of meshes every triangle, and the background.
 #[derive(Default)]
 pub struct Lights {
     pub emitters: Emitters,
     /// Absent when black.
     pub background: Option<Background>,
-    /// What lights are chosen by, in the order of primitives.
+    /// What lights are chosen by, in the order of primitives and, of a mesh, of its triangles.
     sources: Vec<Source>,
+    /// Primitive and triangle of every light, as bits; empty where a light's number is its primitive.
+    places: Vec<[f32; 4]>,
+    /// The first light of every emitting primitive; likewise.
+    firsts: Vec<[f32; 4]>,
     /// Mean luminance of the background.
     sky: f32,
 }
@@ -53,19 +57,60 @@ pub struct LightSample<L: Lanes> {
     pub radiance: V<L>,
     /// Density of `wi`, per solid angle, the probability of choosing the light included; 0 where there is no light.
     pub pdf: F<L>,
-    /// What a ray along `wi` must meet first for the light to arrive: a primitive, or [`MISS`] for the background.
+    /// What a ray along `wi` must meet first for the light to arrive: the [light](Lights::light_at) of this number, or [`MISS`] for
+    /// the background.
     pub target: U<L>,
 }
 
 impl Lights {
-    /// `pieces` are the shapes of the primitives, of which the first ones emit. `near` is where the scene happens.
-    pub fn new(pieces: &[Shape], emissions: &[Emission], background: Option<Background>, near: DVec3) -> Lights {
-        Lights {
-            emitters: Emitters::new(emissions),
+    /// `emitters` are the emitting pieces of the shapes, which are their first primitives, and how they move.
+    pub fn new(shapes: &Shapes, emitters: &[(Shape, Motion, Emission)], background: Option<Background>, near: DVec3) -> Lights {
+        let mut lights = Lights {
+            emitters: Emitters::new(&emitters.iter().map(|(.., emission)| *emission).collect::<Vec<_>>()),
             sky: background.as_ref().map_or(0.0, Background::luminance),
             background,
-            sources: pieces.iter().zip(emissions).map(|(piece, emission)| Source::new(piece, emission, near)).collect(),
+            ..Lights::default()
+        };
+        let have_elements = emitters.iter().any(|(piece, ..)| matches!(piece, Shape::Mesh { .. }));
+        for (primitive, (piece, motion, emission)) in emitters.iter().enumerate() {
+            let first = lights.sources.len();
+            match piece {
+                Shape::Mesh { .. } => {
+                    let triangles = shapes.triangles(primitive as u32);
+                    lights.sources.extend(triangles.iter().map(|triangle| Source::new(triangle, motion, emission, near)));
+                }
+                _ => lights.sources.push(Source::new(piece, motion, emission, near)),
+            }
+            if have_elements {
+                let row = |a: u32, b: u32| [f32::from_bits(a), f32::from_bits(b), 0.0, 0.0];
+                lights.firsts.push(row(first as u32, 0));
+                let count = (lights.sources.len() - first) as u32;
+                lights.places.extend((0..count).map(|element| row(primitive as u32, element)));
+            }
         }
+        lights
+    }
+
+    /// The number of the light at a triangle of a primitive, [`MISS`] for the background.
+    #[inline(always)]
+    pub fn light_at<L: Lanes>(&self, l: L, primitive: U<L>, element: U<L>) -> U<L> {
+        let emits = self.emitters.emits(primitive);
+        if self.firsts.is_empty() || !emits.any() {
+            return primitive;
+        }
+        let [first, ..] = l.rows(&self.firsts, emits.pick(primitive, l.u(0)));
+        // What does not emit has a number that no light has.
+        emits.pick(first.bits() + element, primitive.is(MISS).pick(primitive, l.u(MISS - 1)))
+    }
+
+    /// Primitive and triangle of lights.
+    #[inline(always)]
+    fn place<L: Lanes>(&self, l: L, light: U<L>, time: F<L>) -> Place<L> {
+        if self.places.is_empty() {
+            return Place { primitive: light, element: l.u(0), time };
+        }
+        let [primitive, element, ..] = l.rows(&self.places, light);
+        Place { primitive: primitive.bits(), element: element.bits(), time }
     }
 
     pub fn is_empty(&self) -> bool {
@@ -84,15 +129,22 @@ impl Lights {
 
     /// A direction towards a light.
     #[inline(always)]
-    pub fn sample<L: Lanes>(&self, l: L, shapes: &Shapes, at: &Receiver<L>, u: &LightCoordinates<L>) -> LightSample<L> {
+    pub fn sample<L: Lanes>(
+        &self,
+        l: L,
+        shapes: &Shapes,
+        at: &Receiver<L>,
+        time: F<L>,
+        u: &LightCoordinates<L>,
+    ) -> LightSample<L> {
         let (target, pmf) = self.choose(l, at, u.choice);
         let sky = target.is(MISS);
         let mut sample = LightSample { wi: at.n, radiance: V::splat(l, [0.0; 3]), pdf: l.f(0.0), target };
         if (!sky).any() {
-            let primitive = sky.pick(l.u(0), target);
-            let toward = shapes.toward(l, primitive, at.p, u.place);
+            let place = self.place(l, sky.pick(l.u(0), target), time);
+            let toward = shapes.toward(l, &place, at.p, u.place);
             let side = toward.front.pick(l.f(1.0), l.f(-1.0));
-            let (radiance, lit) = self.emitters.radiance(l, !sky, primitive, side);
+            let (radiance, lit) = self.emitters.radiance(l, !sky, place.primitive, side);
             sample.wi = toward.wi;
             sample.radiance = radiance;
             sample.pdf = lit.pick(toward.pdf, l.f(0.0));
@@ -109,14 +161,20 @@ impl Lights {
         sample
     }
 
-    /// The density with which [`Lights::sample`] draws the direction `wi`, in which lie the given primitives or [`MISS`].
+    /// The density with which [`Lights::sample`] draws the direction `wi`, in which lie the given places or, for their primitive is
+    /// [`MISS`], the background.
     #[inline(always)]
-    pub fn pdf<L: Lanes>(&self, l: L, shapes: &Shapes, at: &Receiver<L>, wi: V<L>, target: U<L>) -> F<L> {
-        let sky = target.is(MISS);
-        let emits = self.emitters.emits(target);
+    pub fn pdf<L: Lanes>(&self, l: L, shapes: &Shapes, at: &Receiver<L>, wi: V<L>, target: &Place<L>) -> F<L> {
+        let sky = target.primitive.is(MISS);
+        let emits = self.emitters.emits(target.primitive);
         let mut density = l.f(0.0);
         if emits.any() {
-            density = emits.pick(shapes.pdf_toward(l, emits.pick(target, l.u(0)), at.p, wi), density);
+            let place = Place {
+                primitive: emits.pick(target.primitive, l.u(0)),
+                element: emits.pick(target.element, l.u(0)),
+                time: target.time,
+            };
+            density = emits.pick(shapes.pdf_toward(l, &place, at.p, wi), density);
         }
         if let Some(background) = &self.background
             && sky.any()
@@ -127,10 +185,11 @@ impl Lights {
             return density;
         }
         let (mut total, mut chosen) = (l.f(self.sky), sky.pick(l.f(self.sky), l.f(0.0)));
-        for (primitive, source) in self.sources.iter().enumerate() {
+        let target = self.light_at(l, target.primitive, target.element);
+        for (light, source) in self.sources.iter().enumerate() {
             let weight = source.weight(l, at);
             total = total + weight;
-            chosen = target.is(primitive as u32).pick(weight, chosen);
+            chosen = target.is(light as u32).pick(weight, chosen);
         }
         total.above(0.0).pick(density * (chosen / total), l.f(0.0))
     }
@@ -148,10 +207,10 @@ impl Lights {
         // The last light whose share begins at or before the chosen place; the background comes first.
         let place = choice * total;
         let (mut target, mut chosen, mut begin) = (l.u(MISS), l.f(self.sky), l.f(self.sky));
-        for (primitive, source) in self.sources.iter().enumerate() {
+        for (light, source) in self.sources.iter().enumerate() {
             let weight = source.weight(l, at);
             let here = place.ge(begin) & weight.above(0.0);
-            target = here.pick(l.u(primitive as u32), target);
+            target = here.pick(l.u(light as u32), target);
             chosen = here.pick(weight, chosen);
             begin = begin + weight;
         }

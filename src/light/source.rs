@@ -6,7 +6,7 @@ use super::{
     emission::{Emission, Side},
 };
 use crate::{
-    geometry::{Shape, Sphere},
+    geometry::{Motion, Shape, Sphere},
     math::{F, Lanes, Pick, V, colour::luminance},
 };
 
@@ -30,15 +30,16 @@ enum Extent {
 }
 
 impl Source {
-    /// Of a piece of a [`Shape`].
-    pub fn new(piece: &Shape, emission: &Emission, near: DVec3) -> Source {
+    /// Of a piece of a [`Shape`], wherever it moves.
+    pub fn new(piece: &Shape, motion: &Motion, emission: &Emission, near: DVec3) -> Source {
         let light = luminance(emission.mean);
         let (front, back) = match emission.side {
             Side::Front => (light, 0.0),
             Side::Back => (0.0, light),
             Side::Both => (light, light),
         };
-        Source { extent: Extent::new(piece, near), front, back }
+        let extent = if motion.0.is_empty() { Extent::new(piece, near) } else { Extent::of_moving(piece, motion) };
+        Source { extent, front, back }
     }
 
     /// A bound on the irradiance from this light, over π: E ≤ L A cos θ_i cos θ_e/d².
@@ -85,12 +86,24 @@ impl Extent {
             }
             _ => (radius * radius, None),
         };
-        Extent::Within {
-            center: center.as_vec3().to_array(),
-            radius_squared: (radius * radius) as f32,
-            size: size as f32,
-            normal,
-        }
+        Extent::within(center, radius, size, normal)
+    }
+
+    /// The sphere around all poses, of which some are looked at.
+    fn of_moving(piece: &Shape, motion: &Motion) -> Extent {
+        const POSES: u32 = 64;
+        /// For what lies between them.
+        const SLACK: f64 = 1.02;
+        let poses: Vec<_> = (0..=POSES).map(|i| piece.transformed(&motion.at(f64::from(i) / f64::from(POSES)))).collect();
+        let spheres: Vec<_> = poses.iter().map(Shape::bounding_sphere).collect();
+        let center = spheres.iter().map(|(center, _)| *center).sum::<DVec3>() / spheres.len() as f64;
+        let radius = spheres.iter().map(|(c, r)| c.distance(center) + r).fold(0.0, f64::max) * SLACK;
+        Extent::within(center, radius, radius * radius, None)
+    }
+
+    fn within(center: DVec3, radius: f64, size: f64, normal: Option<[f32; 3]>) -> Extent {
+        let radius_squared = (radius * radius) as f32;
+        Extent::Within { center: center.as_vec3().to_array(), radius_squared, size: size as f32, normal }
     }
 }
 

@@ -4,7 +4,7 @@ use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use super::{Background, Emission, LightCoordinates, Lights, Receiver, Side};
 use crate::{
-    geometry::{MISS, Shape, Shapes},
+    geometry::{MISS, Motion, Place, Shape, Shapes},
     math::{F, M, One, U, V},
     sampling::hash::hash_one,
 };
@@ -20,14 +20,28 @@ fn lights() -> (Lights, Shapes, Vec<Shapes>) {
     .map(|(center, radius)| Shape::Sphere { center, radius });
     let emission = |light: f32, side| Emission { radiance: [light; 3], mean: [light; 3], texture: None, side };
     let emissions = [emission(8.0, Side::Front), emission(3.0, Side::Both), emission(0.2, Side::Back), emission(9.0, Side::Back)];
-    let lights = Lights::new(&spheres, &emissions, Some(Background::Constant([0.5, 0.4, 0.6])), DVec3::ZERO);
-    let alone = spheres.iter().map(|sphere| Shapes::new(std::slice::from_ref(sphere), DVec3::ZERO)).collect();
-    (lights, Shapes::new(&spheres, DVec3::ZERO), alone)
+    let shapes_of = shapes;
+    let shapes = shapes_of(&spheres);
+    let emitters: Vec<_> =
+        spheres.iter().cloned().zip(emissions).map(|(shape, emission)| (shape, STILL.clone(), emission)).collect();
+    let lights = Lights::new(&shapes, &emitters, Some(Background::Constant([0.5, 0.4, 0.6])), DVec3::ZERO);
+    let alone = spheres.iter().map(|sphere| shapes_of(std::slice::from_ref(sphere))).collect();
+    (lights, shapes, alone)
 }
 
 fn vector(x: f64, y: f64, z: f64) -> V<One> {
     V { x: F(x as f32), y: F(y as f32), z: F(z as f32) }
 }
+
+fn place(primitive: U<One>) -> Place<One> {
+    Place { primitive, element: U(0), time: F(0.0) }
+}
+
+fn shapes(of: &[Shape]) -> Shapes {
+    Shapes::new(of.iter().map(|shape| (shape, &STILL)), DVec3::ZERO)
+}
+
+static STILL: Motion = Motion(Vec::new());
 
 fn random(i: u32) -> F<One> {
     F(((hash_one(i) >> 9) as f32 + 0.5) / (1 << 23) as f32)
@@ -50,11 +64,11 @@ fn directions_to_lights_are_distributed_as_their_pdf() {
         let mut counts = vec![0.0; ACROSS * AROUND];
         let mut drawn = 0.0;
         for i in 0..SAMPLES {
-            let sample = lights.sample(One, &shapes, &at, &coordinates(i));
+            let sample = lights.sample(One, &shapes, &at, F(0.0), &coordinates(i));
             if sample.pdf.0 == 0.0 {
                 continue;
             }
-            let pdf = lights.pdf(One, &shapes, &at, sample.wi, sample.target);
+            let pdf = lights.pdf(One, &shapes, &at, sample.wi, &place(sample.target));
             assert!((pdf.0 / sample.pdf.0 - 1.0).abs() < 1e-3, "{} {}", pdf.0, sample.pdf.0);
             let [x, y, z] = sample.wi.lane(0).map(f64::from);
             let turn = (y.atan2(x) / std::f64::consts::TAU).rem_euclid(1.0);
@@ -65,10 +79,10 @@ fn directions_to_lights_are_distributed_as_their_pdf() {
         // The density over all lights that lie in a direction, hidden or not.
         let density = |d: V<One>| {
             let lit = |(i, shape): (usize, &Shapes)| {
-                let seen = shape.closest(One, at.p, d).1.0 != MISS;
-                if seen { f64::from(lights.pdf(One, &shapes, &at, d, U(i as u32)).0) } else { 0.0 }
+                let seen = shape.closest(One, M(true), at.p, d, F(0.0)).primitive.0 != MISS;
+                if seen { f64::from(lights.pdf(One, &shapes, &at, d, &place(U(i as u32))).0) } else { 0.0 }
             };
-            alone.iter().enumerate().map(lit).sum::<f64>() + f64::from(lights.pdf(One, &shapes, &at, d, U(MISS)).0)
+            alone.iter().enumerate().map(lit).sum::<f64>() + f64::from(lights.pdf(One, &shapes, &at, d, &place(U(MISS))).0)
         };
         let cell = 2.0 / ACROSS as f64 * std::f64::consts::TAU / AROUND as f64 / (SUB * SUB) as f64;
         let (mut statistic, mut bins, mut whole) = (0.0, 0.0, 0.0);

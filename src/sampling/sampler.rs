@@ -40,6 +40,8 @@ impl Dimension {
     pub const PIXEL: Dimension = Dimension(0);
     /// The point on the lens (two).
     pub const LENS: Dimension = Dimension(2);
+    /// When between the opening and the closing of the shutter (one).
+    pub const TIME: Dimension = Dimension(4);
     const PER_BOUNCE: u32 = 16;
 
     /// Whether the coordinate decides about the camera or one of the first three surfaces.

@@ -17,6 +17,8 @@ pub struct Camera {
     /// Absent: a pinhole.
     pub lens: Option<Lens>,
     pub filter: Filter,
+    /// The shutter stays open while things move, which blurs them; or else all is as when it opens.
+    pub shutter: bool,
     /// Width and height in pixels.
     pub resolution: [u32; 2],
 }

@@ -1,14 +1,11 @@
 //! Checks of single values of a scene file: each returns the value in the renderer's units or an error at its place.
-use std::{
-    ops::Range,
-    path::{Path, PathBuf},
-};
+use std::path::{Path, PathBuf};
 
 use glam::DVec3;
 use toml::Spanned;
 
 use super::{
-    desc::{Colour, Exactly, Planned},
+    desc::{Colour, Exactly},
     diagnostic::{SceneError, SourceText},
 };
 use crate::geometry::Shape;
@@ -52,20 +49,6 @@ impl ColourRange {
 pub struct Checker<'a>(pub &'a SourceText);
 
 impl Checker<'_> {
-    /// Refuses the keys that are present.
-    pub fn refuse(&self, keys: &[(&str, &Planned)]) -> Result<(), SceneError> {
-        match keys.iter().find_map(|(name, value)| value.as_ref().map(|value| (name, value.span()))) {
-            Some((name, span)) => Err(self.not_supported(name, span)),
-            None => Ok(()),
-        }
-    }
-
-    pub fn not_supported(&self, what: &str, span: Range<usize>) -> SceneError {
-        self.0
-            .error(span, format!("`{what}` is not supported yet"), "not supported by this version")
-            .with_help("it is part of the scene format, but this version of Noisefall cannot render it; remove it for now")
-    }
-
     pub fn missing<T>(&self, table: &Spanned<T>, key: &str) -> SceneError {
         self.0.error(table.span(), format!("missing key `{key}`"), format!("`{key}` must be given here"))
     }

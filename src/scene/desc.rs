@@ -1,22 +1,17 @@
 //! What a scene file says, word for word: the shape of the TOML, before names are resolved and values checked.
 //!
-//! Every key of the format stands here. Those that this version does not support yet are [`Planned`], so that they are refused
-//! by name rather than ignored or called unknown.
+//! Every key of the format stands here.
 mod shape;
 
 use std::collections::BTreeMap;
 
-use serde::{
-    Deserialize, Deserializer,
-    de::{self, IgnoredAny},
-};
+use serde::{Deserialize, Deserializer, de};
 use toml::Spanned;
 
-pub use self::shape::{CuboidDesc, CylinderDesc, DiskDesc, RectangleDesc, ShapeDesc, TransformDesc, TriangleDesc};
+pub use self::shape::{
+    CuboidDesc, CylinderDesc, DiskDesc, IsosurfaceDesc, MeshDesc, RectangleDesc, ShapeDesc, TransformDesc, TriangleDesc,
+};
 pub use super::colour::Colour;
-
-/// A key of the format that this version reads but does not support.
-pub type Planned = Option<Spanned<IgnoredAny>>;
 
 /// What every version of the format has: a file of another version is told so, whatever else it says.
 #[derive(Deserialize)]
@@ -56,7 +51,10 @@ pub struct CameraDesc {
     pub projection: Option<Spanned<ProjectionDesc>>,
     pub lens: Option<Spanned<LensDesc>>,
     pub filter: Option<Spanned<super::filter::FilterDesc>>,
-    pub shutter: Planned,
+    pub shutter: Option<Spanned<Exactly<f64, 2>>>,
+    /// What carries the camera while the shutter is open.
+    #[serde(default)]
+    pub motion: Vec<Spanned<TransformDesc>>,
 }
 
 #[derive(Deserialize)]
@@ -193,7 +191,8 @@ pub struct ObjectDesc {
     pub flip: bool,
     #[serde(default)]
     pub transform: Vec<Spanned<TransformDesc>>,
-    pub motion: Planned,
+    #[serde(default)]
+    pub motion: Vec<Spanned<TransformDesc>>,
 }
 
 #[derive(Deserialize)]

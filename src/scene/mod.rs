@@ -26,7 +26,7 @@ pub use self::{
     settings::{Estimator, RenderSettings, Roulette},
 };
 use crate::{
-    geometry::{Shape, Shapes},
+    geometry::{Motion, Shape, Shapes},
     light::{Emission, Lights},
     material::Material,
     texture::Textures,
@@ -53,6 +53,8 @@ pub struct Scene {
     pub size: f64,
     /// What the scene opens with.
     pub camera: Camera,
+    /// What carries the camera while the shutter is open.
+    pub camera_motion: Motion,
     pub settings: RenderSettings,
     pub spp: Option<u32>,
     pub truth: Option<Truth>,
@@ -63,6 +65,7 @@ pub struct Scene {
 pub struct Object {
     pub name: String,
     pub shape: Shape,
+    pub motion: Motion,
     /// The normal points inwards.
     pub flip: bool,
     /// `None` is black.
@@ -83,6 +86,11 @@ impl Scene {
     /// Whether all surfaces are diffuse, from both sides, and neither their colour nor what they emit varies.
     pub fn is_plain(&self) -> bool {
         self.surfaces.plain && !self.lights.emitters.vary()
+    }
+
+    /// Whether something moves while the shutter is open.
+    pub fn moves(&self) -> bool {
+        self.shapes.move_in_time() || !self.camera_motion.0.is_empty()
     }
 
     /// The media around a point, as paths carry them: see [`surface::Surfaces::media`].
@@ -106,6 +114,12 @@ impl Scene {
         let mut warnings = Vec::new();
         if self.lights.is_empty() {
             warnings.push("nothing in this scene emits light: the picture will be black".to_owned());
+        }
+        if self.moves() && !self.camera.shutter {
+            warnings.push("something moves, but without `shutter` in [camera] it is seen standing still".to_owned());
+        }
+        if self.shapes.dropped_triangles() > 0 {
+            warnings.push(format!("{} triangles without area were left out", self.shapes.dropped_triangles()));
         }
         if self.objects.is_empty() {
             warnings.push("this scene has no objects".to_owned());

@@ -1,12 +1,13 @@
 //! The rays of a camera, in lanes.
 use super::{Camera, Scene};
 use crate::{
+    geometry::Motion,
     math::{F, Lanes, V},
     sampling::{Filter, warp::disk},
 };
 
 /// The rays of a camera, ready for lanes: plane coordinates of a raster point are `corner + x per_x + y per_y`.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct CameraRays {
     eye: [f32; 3],
     /// The upper left corner of the picture, and its change per pixel to the right and down. A direction whose forward component
@@ -20,6 +21,9 @@ pub struct CameraRays {
     pub filter: Filter,
     /// The media around the eye: see [`crate::scene::surface::Surfaces::media`].
     pub media: u32,
+    /// Samples are taken at different times.
+    pub take_time: bool,
+    motion: Motion,
 }
 
 /// A lens of some size.
@@ -52,6 +56,8 @@ impl Camera {
             }),
             filter: self.filter,
             media: 0,
+            take_time: false,
+            motion: Motion::default(),
         }
     }
 }
@@ -59,13 +65,29 @@ impl Camera {
 impl Scene {
     /// The rays of a camera in this scene.
     pub fn rays(&self, camera: &Camera) -> CameraRays {
-        CameraRays { media: self.media_at(camera.eye), ..camera.rays() }
+        CameraRays {
+            media: self.media_at(camera.eye),
+            take_time: camera.shutter && self.moves(),
+            motion: if camera.shutter { self.camera_motion.clone() } else { Motion::default() },
+            ..camera.rays()
+        }
     }
 }
 
 impl CameraRays {
     pub fn have_lens(&self) -> bool {
         self.lens.is_some()
+    }
+
+    /// Whether the camera itself moves.
+    pub fn move_in_time(&self) -> bool {
+        !self.motion.0.is_empty()
+    }
+
+    /// A ray of the camera as it stands when the shutter opens, carried to `time`.
+    #[inline(always)]
+    pub fn carried<L: Lanes>(&self, l: L, (o, d): (V<L>, V<L>), time: F<L>) -> (V<L>, V<L>) {
+        self.motion.carry(l, o, d, time)
     }
 
     /// Origin and unit direction of the rays through raster points, in pixels from the upper left corner of the picture.

@@ -5,6 +5,7 @@ use super::{
     textures::ColourSource,
 };
 use crate::{
+    geometry::Shape,
     material::{BsdfKind, Materials},
     math::{Lanes, M, U},
 };
@@ -98,7 +99,8 @@ impl Surfaces {
             }
             return;
         };
-        let stage = self.stage(coating, material);
+        let is_smooth = matches!(&object.shape, Shape::Mesh { data, .. } if !data.normals.is_empty());
+        let stage = self.stage(coating, material, is_smooth);
         let id = |texture: Option<u32>| f32::from_bits(texture.map_or(0, |id| id + 1));
         let ([r, g, b], colour_texture) = match coating.colour {
             ColourSource::Constant(colour) => (colour, None),
@@ -125,10 +127,10 @@ impl Surfaces {
         }
     }
 
-    fn stage(&self, coating: &Coating, material: usize) -> Stage {
+    fn stage(&self, coating: &Coating, material: usize, is_smooth: bool) -> Stage {
         let has_normals = coating.bump.is_some() || coating.normal_map.is_some();
         match self.materials.kind(material) {
-            BsdfKind::Lambertian if has_normals || !self.media.is_empty() => Stage::Diffuse,
+            BsdfKind::Lambertian if has_normals || is_smooth || !self.media.is_empty() => Stage::Diffuse,
             BsdfKind::Lambertian => Stage::Plain,
             BsdfKind::Mirror => Stage::Mirror,
             BsdfKind::Conductor => Stage::Conductor,

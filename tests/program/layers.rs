@@ -10,7 +10,7 @@ const LAYERS: [&[&str]; 8] = [
     &["light"],
     &["geometry", "material"],
     &["texture"],
-    &["sampling", "image"],
+    &["sampling", "image", "model"],
 ];
 
 fn level(folder: &str) -> Option<usize> {

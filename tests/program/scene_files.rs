@@ -215,16 +215,6 @@ fn lights_that_cannot_be_are_refused() {
 }
 
 #[test]
-fn what_is_not_supported_yet_is_refused_by_name() {
-    let camera = |key: &str| format!("fov = 40\n{key}");
-    refuses("fov = 40", &camera("shutter = [0.0, 1.0]"), "`shutter` is not supported yet");
-    for shape in ["mesh", "isosurface"] {
-        refuses("sphere = {", &format!("{shape} = {{"), &format!("`{shape}` is not supported yet"));
-    }
-    refuses("name = \"ball\"", "name = \"ball\"\nmotion = []", "`motion` is not supported yet");
-}
-
-#[test]
 fn what_is_not_toml_is_refused_at_its_place() {
     refuses("fov = 40", "fov = = 40", "");
     refuses("format = 1", "format = 1\nformat = 1", "duplicate key");

@@ -59,3 +59,54 @@ fn transforms_apply_first_to_last() {
     let stretched = with("transform = [ { scale = [1.0, 2.0, 1.0] } ]");
     assert!(matches!(stretched.objects[0].shape, Shape::Ellipsoid { .. }));
 }
+
+#[test]
+fn meshes_that_cannot_be_are_refused() {
+    shape("mesh = { path = \"no.ply\" }", "there is no such file");
+    shape("mesh = { smooth = true }", "a mesh must say one thing");
+    shape("mesh = { knot = { triangles = 100 }, path = \"a.ply\" }", "a mesh must say one thing");
+    shape("mesh = { knot = { triangles = 4 } }", "expected 18 to");
+    shape("mesh = { heightfield = { quads = 0 } }", "expected 1 to");
+    let lists = |vertices: &str, triangles: &str| format!("mesh = {{ vertices = [{vertices}], triangles = [{triangles}] }}");
+    shape(&lists("[0, 0, 0], [1, 0, 0], [0, 1, 0]", ""), "the mesh is empty");
+    shape(&lists("[0, 0, 0], [1, 0, 0], [0, 1, 0]", "[0, 1, 3]"), "there is no vertex 3");
+    shape(&lists("[0, 0, nan], [1, 0, 0], [0, 1, 0]", "[0, 1, 2]"), "vertex 0 is not finite");
+    shape(&lists("[0, 0, 0], [1, 0, 0], [0, 1, 0]", "[0, -1, 2]"), "-1");
+}
+
+#[test]
+fn isosurfaces_that_cannot_be_are_refused() {
+    let iso = |expression: &str, max: &str| {
+        format!("isosurface = {{ expression = \"{expression}\", bounds = {{ min = [-1, -1, -1], max = [{max}] }} }}")
+    };
+    shape(&iso("x^2 + y^2 + w", "1, 1, 1"), "is not known");
+    shape(&iso("x^2 + (y^2", "1, 1, 1"), ")");
+    shape(&iso("", "1, 1, 1"), "empty");
+    shape(&iso("x^2 + y^2 - 1", "1, -2, 1"), "inverted or empty in y");
+}
+
+#[test]
+fn motions_that_cannot_be_are_refused() {
+    let motion = |list: &str, message: &str| {
+        refuses("material = \"white\"", &format!("material = \"white\"\nmotion = [ {list} ]"), message);
+    };
+    motion("{ scale = -1.0 }", "the motion cannot be inverted");
+    motion("{ scale = 0.0 }", "cannot be inverted");
+    motion("{ matrix = [[-1, 0, 0, 0], [0, -1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]] }", "the motion cannot be inverted");
+    refuses("fov = 40", "fov = 40\nshutter = [1.0, 0.0]", "the earlier one first");
+    refuses("fov = 40", "fov = 40\nshutter = [0.0, nan]", "two times");
+}
+
+#[test]
+fn what_is_odd_but_legal_is_told() {
+    let still = with("motion = [{ translate = [1, 0, 0] }]");
+    assert!(still.warnings().iter().any(|warning| warning.contains("shutter")), "{:?}", still.warnings());
+    let flat = GOOD.replacen(
+        BALL,
+        "mesh = { vertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [2, 0, 0]], triangles = [[0, 1, 2], [0, 1, 3]] }",
+        1,
+    );
+    let scene = parse("test.toml", flat).unwrap_or_else(|error| panic!("{}", error.report()));
+    assert_eq!(scene.shapes.dropped_triangles(), 1);
+    assert!(scene.warnings().iter().any(|warning| warning.contains("1 triangles without area")), "{:?}", scene.warnings());
+}

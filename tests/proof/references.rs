@@ -102,3 +102,8 @@ fn glass_mirror_disk_and_cylinder_agree_with_an_independent_renderer() {
 fn lamps_of_all_sizes_on_plates_of_all_glosses_agree_with_an_independent_renderer() {
     agrees("veach_mis");
 }
+
+#[test]
+fn a_field_of_spheres_under_a_lens_agrees_with_an_independent_renderer() {
+    agrees("dof_spheres");
+}

@@ -1,10 +1,10 @@
 //! Surface coordinates and their tangents.
 use rand::{Rng, SeedableRng, rngs::SmallRng};
 
-use super::{cases, exact, lane, point, v};
+use super::{cases, exact, lane, place, point, v};
 use crate::{
     geometry::{Coordinates, Outline, Shape},
-    math::{One, U},
+    math::One,
 };
 
 #[test]
@@ -14,7 +14,7 @@ fn coordinates_lie_in_the_unit_square_and_tangents_are_their_derivatives() {
     for case in cases() {
         let (shapes, size) = (case.shapes(), case.size());
         for (id, piece) in case.shape.pieces().iter().enumerate() {
-            let id = U(id as u32);
+            let id = &place(id as u32);
             let ellipse = matches!(piece, Shape::Flat { outline: Outline::Ellipse, .. });
             for _ in 0..300 {
                 let at = shapes.surface_point(One, id, v(point(&mut rng, piece)));

@@ -9,8 +9,8 @@ use std::f64::consts::PI;
 use glam::{DAffine3, DMat3, DVec3};
 use rand::{Rng, rngs::SmallRng};
 
-use super::{Outline, Shape, Shapes};
-use crate::math::{F, One, V};
+use super::{Motion, Outline, Place, Shape, Shapes};
+use crate::math::{F, One, U, V};
 
 /// A shape and what it is.
 pub struct Case {
@@ -20,7 +20,7 @@ pub struct Case {
 
 impl Case {
     pub fn shapes(&self) -> Shapes {
-        Shapes::new(std::slice::from_ref(&self.shape), DVec3::ZERO)
+        shapes(std::slice::from_ref(&self.shape))
     }
 
     /// The extent of the shape.
@@ -73,6 +73,16 @@ pub fn cases() -> Vec<Case> {
     cases
 }
 
+static STILL: Motion = Motion(Vec::new());
+
+pub fn shapes(of: &[Shape]) -> Shapes {
+    Shapes::new(of.iter().map(|shape| (shape, &STILL)), DVec3::ZERO)
+}
+
+pub fn place(primitive: u32) -> Place<One> {
+    Place { primitive: U(primitive), element: U(0), time: F(0.0) }
+}
+
 pub fn v(a: DVec3) -> V<One> {
     V::splat(One, a.as_vec3().to_array())
 }
@@ -106,7 +116,7 @@ pub fn point_at(piece: &Shape, [a, b]: [f64; 2]) -> DVec3 {
             *origin + *e * s + *f * t
         }
         Shape::Cylinder { base, axes, .. } => *base + *axes * DVec3::new((2.0 * PI * b).cos(), (2.0 * PI * b).sin(), a),
-        Shape::Cuboid { .. } => unreachable!("a piece"),
+        _ => unreachable!("not an analytic piece"),
     }
 }
 

@@ -37,7 +37,7 @@ fn meetings_of(piece: &Shape, o: DVec3, d: DVec3) -> Vec<Meeting> {
             };
             vec![Meeting { t, margin, cos: d.dot(n).abs() }]
         }
-        Shape::Cuboid { .. } => unreachable!("a piece"),
+        _ => unreachable!("not an analytic piece"),
     }
 }
 

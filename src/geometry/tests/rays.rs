@@ -2,16 +2,16 @@
 use glam::DVec3;
 use rand::{Rng, SeedableRng, rngs::SmallRng};
 
-use super::{Case, cases, exact, lane, oracle::meetings, point, unit_vector, v};
+use super::{Case, cases, exact, lane, oracle::meetings, place, point, unit_vector, v};
 use crate::{
-    geometry::{MISS, Shapes},
-    math::{One, U, V},
+    geometry::{MISS, Nearest, Shapes},
+    math::{F, M, One, U, V},
 };
 
 const ROUNDING: f64 = 32.0 * f32::EPSILON as f64;
 
 fn closest(shapes: &Shapes, o: V<One>, d: V<One>) -> Option<f64> {
-    let (t, U(primitive)) = shapes.closest(One, o, d);
+    let Nearest { t, primitive: U(primitive), .. } = shapes.closest(One, M(true), o, d, F(0.0));
     (primitive != MISS).then_some(lane(t))
 }
 
@@ -83,7 +83,7 @@ fn surface_points_lie_on_the_surface() {
             for _ in 0..500 {
                 let on = point(&mut rng, piece);
                 let beside = on + unit_vector(&mut rng) * case.size() * 1e-6;
-                let found = shapes.surface_point(One, U(id as u32), v(beside));
+                let found = shapes.surface_point(One, &place(id as u32), v(beside));
                 let n = exact(found.n_geometric);
                 assert!((n.length() - 1.0).abs() < 4e-7, "{}: {n}", case.name);
                 // From the point moved off by its error outwards the surface is behind, nearer than a few times the error.
@@ -104,10 +104,10 @@ fn rays_that_leave_a_surface_do_not_meet_it_at_once() {
     for case in cases() {
         let shapes = case.shapes();
         for (id, piece) in case.shape.pieces().iter().enumerate() {
-            let alone = Shapes::new(std::slice::from_ref(piece), DVec3::ZERO);
+            let alone = super::shapes(std::slice::from_ref(piece));
             for i in 0..4_000 {
                 let on = point(&mut rng, piece);
-                let found = shapes.surface_point(One, U(id as u32), v(on));
+                let found = shapes.surface_point(One, &place(id as u32), v(on));
                 let side = if i % 2 == 0 { 1.0 } else { -1.0f32 };
                 let n = exact(found.n_geometric) * f64::from(side);
                 let grazing = 10f64.powf(rng.random_range(-6.0..0.0));

@@ -4,10 +4,10 @@ use std::f64::consts::PI;
 use glam::DVec3;
 use rand::{Rng, SeedableRng, rngs::SmallRng};
 
-use super::{Case, exact, kinds, lane, transforms, unit_vector, v};
+use super::{Case, exact, kinds, lane, place, shapes, transforms, unit_vector, v};
 use crate::{
-    geometry::{MISS, Shapes},
-    math::{F, One, U, V},
+    geometry::{MISS, Nearest, Shapes},
+    math::{F, M, One, U, V},
 };
 
 const SAMPLES: usize = 30_000;
@@ -40,16 +40,16 @@ impl Estimate {
 
 /// Whether the first surface along `d` is seen from the front.
 fn front(shapes: &Shapes, x: V<One>, d: V<One>) -> Option<bool> {
-    let (t, U(primitive)) = shapes.closest(One, x, d);
-    (primitive != MISS).then(|| shapes.surface_point(One, U(primitive), x + d * t).n_geometric.dot(d).0 < 0.0)
+    let Nearest { t, primitive: U(primitive), .. } = shapes.closest(One, M(true), x, d, F(0.0));
+    (primitive != MISS).then(|| shapes.surface_point(One, &place(primitive), x + d * t).n_geometric.dot(d).0 < 0.0)
 }
 
 fn assert_match(case: &Case, x: DVec3, rng: &mut SmallRng) {
     let x = v(x);
     for (id, piece) in case.shape.pieces().into_iter().enumerate() {
         let whole = case.shapes();
-        let alone = Shapes::new(std::slice::from_ref(&piece), DVec3::ZERO);
-        let id = U(id as u32);
+        let alone = shapes(std::slice::from_ref(&piece));
+        let id = &place(id as u32);
         let (mut sampled, mut seen) = (Estimate::default(), Estimate::default());
         let (center, radius) = piece.bounding_sphere();
         let (axis, away) = ((center - exact(x)).normalize(), center.distance(exact(x)));
@@ -75,7 +75,7 @@ fn assert_match(case: &Case, x: DVec3, rng: &mut SmallRng) {
         for i in 0..4 {
             let ((a, var_a), (b, var_b)) = (sampled.mean(i), seen.mean(i));
             let z = (a - b) / (var_a + var_b + (1e-5 * b).powi(2)).sqrt().max(1e-12);
-            assert!(z.abs() < 4.5, "{} {id}, integral {i}: sampled {a}, seen {b}, z = {z}", case.name, id = id.0);
+            assert!(z.abs() < 4.5, "{} {}, integral {i}: sampled {a}, seen {b}, z = {z}", case.name, id.primitive.0);
         }
     }
 }

@@ -7,7 +7,7 @@ use crate::{
     scene::{
         Camera, CameraError, Lens,
         check::Checker,
-        desc::{CameraDesc, ProjectionDesc},
+        desc::{CameraDesc, Exactly, ProjectionDesc},
         diagnostic::SceneError,
     },
 };
@@ -17,7 +17,6 @@ const NO_FOV: f64 = 40.0;
 
 pub fn camera(check: &Checker, desc: &Spanned<CameraDesc>) -> Result<Camera, SceneError> {
     let c = desc.as_ref();
-    check.refuse(&[("shutter", &c.shutter)])?;
     let orthographic = match c.projection.as_ref().map(Spanned::as_ref) {
         Some(ProjectionDesc::Orthographic { width }) => Some(*width),
         Some(ProjectionDesc::Perspective) | None => None,
@@ -38,11 +37,22 @@ pub fn camera(check: &Checker, desc: &Spanned<CameraDesc>) -> Result<Camera, Sce
         orthographic,
         lens: c.lens.as_ref().map(|lens| Lens { radius: lens.as_ref().radius, focus: lens.as_ref().focus }),
         filter: c.filter.as_ref().map_or(Filter::Box, |filter| filter.as_ref().0),
+        shutter: c.shutter.as_ref().map(|shutter| opens(check, shutter)).transpose()?.unwrap_or(false),
         resolution: c.resolution.as_ref().0,
     };
     camera.check().map_err(|error| check.0.error(place(desc, error), error.to_string(), "here"))?;
     // A lens without extent is a pinhole.
     Ok(Camera { lens: camera.lens.filter(|lens| lens.radius > 0.0), ..camera })
+}
+
+/// Whether the shutter is open for some time.
+fn opens(check: &Checker, shutter: &Spanned<Exactly<f64, 2>>) -> Result<bool, SceneError> {
+    let [open, close] = shutter.as_ref().0;
+    if open.is_finite() && close.is_finite() && open <= close {
+        return Ok(open < close);
+    }
+    let message = format!("the shutter opens at {open} and closes at {close}");
+    Err(check.0.error(shutter.span(), message, "expected two times, the earlier one first"))
 }
 
 /// The key that an error is about.

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 mod camera;
 mod light;
 mod material;
+mod mesh;
 mod object;
 mod settings;
 mod shape;
@@ -13,8 +14,10 @@ use self::{
     camera::camera,
     light::background,
     material::coating,
+    mesh::Meshes,
     object::object,
     settings::{settings, truth},
+    shape::motion,
 };
 use super::{
     Camera, Object, Scene,
@@ -24,10 +27,7 @@ use super::{
     surface::Surfaces,
     textures::NamedTextures,
 };
-use crate::{
-    geometry::{Shape, Shapes},
-    light::{Emission, Lights},
-};
+use crate::{geometry::Shapes, light::Lights};
 
 /// The version of the scene format that this program reads.
 pub const FORMAT: i64 = 1;
@@ -42,25 +42,28 @@ pub fn compile(desc: &SceneDesc, source: &SourceText) -> Result<Scene, SceneErro
     for (name, material) in &desc.materials {
         coatings.insert(name.clone(), coating(&check, name, material, &mut textures)?);
     }
-    let objects = desc.objects.iter().map(|o| object(&check, o, &coatings, &textures));
+    let mut meshes = Meshes::default();
+    let objects = desc.objects.iter().map(|o| object(&check, o, &coatings, &textures, &mut meshes));
     let mut objects = objects.collect::<Result<Vec<_>, _>>()?;
     // A stable sort: emitting primitives first, as the table of emitters wants it.
     objects.sort_by_key(|object| object.emission.is_none());
     let (settings, spp) = settings(&check, &desc.render)?;
     let truth = desc.truth.as_ref().map(|t| truth(&check, t)).transpose()?;
     let owners = objects.iter().enumerate().flat_map(|(i, o)| vec![i as u32; o.shape.piece_count()]).collect();
-    let shapes: Vec<_> = objects.iter().map(|o| o.shape.clone()).collect();
-    let emitting = objects.iter().map_while(|o| o.emission.map(|emission| (emission, o.shape.pieces())));
-    let (emissions, emitters): (Vec<Emission>, Vec<Shape>) =
-        emitting.flat_map(|(emission, pieces)| pieces.into_iter().map(move |piece| (emission, piece))).unzip();
+    let shapes = Shapes::new(objects.iter().map(|o| (&o.shape, &o.motion)), camera.look_at);
+    let emitting = objects.iter().map_while(|o| o.emission.map(|emission| (o, emission)));
+    let emitters: Vec<_> = emitting
+        .flat_map(|(o, emission)| o.shape.pieces().into_iter().map(move |piece| (piece, o.motion.clone(), emission)))
+        .collect();
     let surfaces = Surfaces::new(&objects);
     surfaces.check().map_err(|message| check.0.error(0..1, message, "in this scene"))?;
     Ok(Scene {
         title: desc.title.clone().unwrap_or_default(),
         notes: desc.notes.clone().unwrap_or_default(),
         source: source.text.clone(),
-        lights: Lights::new(&emitters, &emissions, background, camera.look_at),
-        shapes: Shapes::new(&shapes, camera.look_at),
+        lights: Lights::new(&shapes, &emitters, background, camera.look_at),
+        shapes,
+        camera_motion: motion(&check, &desc.camera.as_ref().motion)?,
         owners,
         surfaces,
         textures: textures.textures,

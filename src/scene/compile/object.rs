@@ -6,7 +6,8 @@ use toml::Spanned;
 use super::{
     light::emission,
     material::Coating,
-    shape::{shape, transform},
+    mesh::Meshes,
+    shape::{motion, shape, transform},
 };
 use crate::scene::{Object, check::Checker, desc::ObjectDesc, diagnostic::SceneError, textures::NamedTextures};
 
@@ -15,10 +16,10 @@ pub fn object(
     desc: &Spanned<ObjectDesc>,
     coatings: &BTreeMap<String, Coating>,
     textures: &NamedTextures,
+    meshes: &mut Meshes,
 ) -> Result<Object, SceneError> {
     let o = desc.as_ref();
-    check.refuse(&[("motion", &o.motion)])?;
-    let shape = shape(check, &o.shape)?.transformed(&transform(check, &o.transform)?);
+    let shape = shape(check, &o.shape, meshes)?.transformed(&transform(check, &o.transform)?);
     check.extent(&shape, &o.shape)?;
     let coating = o
         .material
@@ -27,6 +28,7 @@ pub fn object(
     Ok(Object {
         name: o.name.clone().unwrap_or_default(),
         shape,
+        motion: motion(check, &o.motion)?,
         flip: o.flip,
         coating: coating.transpose()?,
         emission: o.emission.as_ref().map(|e| emission(check, e, o.flip, textures)).transpose()?,

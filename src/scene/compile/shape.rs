@@ -1,12 +1,17 @@
 //! Shapes of a scene file, and the transforms that place them.
+use std::sync::Arc;
+
 use glam::{DAffine3, DMat3, DVec3};
 use toml::Spanned;
 
+use super::mesh::Meshes;
 use crate::{
-    geometry::{Outline, Shape},
+    geometry::{Expression, Isosurface, Motion, Outline, Shape, Step},
     scene::{
         check::Checker,
-        desc::{CuboidDesc, CylinderDesc, DiskDesc, RectangleDesc, ShapeDesc, TransformDesc, TriangleDesc},
+        desc::{
+            CuboidDesc, CylinderDesc, DiskDesc, Exactly, IsosurfaceDesc, RectangleDesc, ShapeDesc, TransformDesc, TriangleDesc,
+        },
         diagnostic::SceneError,
     },
 };
@@ -17,7 +22,7 @@ const FLATTEST: f64 = 1e-9;
 const SMALLEST_SCALE: f64 = 1e-12;
 const LARGEST_SCALE: f64 = 1e12;
 
-pub fn shape(check: &Checker, desc: &Spanned<ShapeDesc>) -> Result<Shape, SceneError> {
+pub fn shape(check: &Checker, desc: &Spanned<ShapeDesc>, meshes: &mut Meshes) -> Result<Shape, SceneError> {
     match desc.as_ref() {
         ShapeDesc::Sphere(sphere) => {
             Ok(Shape::Sphere { center: check.point("center", &sphere.center)?, radius: check.radius(&sphere.radius)? })
@@ -27,20 +32,42 @@ pub fn shape(check: &Checker, desc: &Spanned<ShapeDesc>) -> Result<Shape, SceneE
         ShapeDesc::Disk(disk_desc) => disk(check, disk_desc),
         ShapeDesc::Rectangle(rectangle_desc) => rectangle(check, rectangle_desc),
         ShapeDesc::Triangle(triangle_desc) => triangle(check, triangle_desc),
-        ShapeDesc::Mesh(_) => Err(check.not_supported("mesh", desc.span())),
-        ShapeDesc::Isosurface(_) => Err(check.not_supported("isosurface", desc.span())),
+        ShapeDesc::Mesh(mesh_desc) => {
+            Ok(Shape::Mesh { data: meshes.mesh(check, mesh_desc, desc.span())?, map: DAffine3::IDENTITY })
+        }
+        ShapeDesc::Isosurface(isosurface_desc) => isosurface(check, isosurface_desc),
     }
 }
 
-fn cuboid(check: &Checker, desc: &CuboidDesc) -> Result<Shape, SceneError> {
-    let (min, max) = (check.point("min", &desc.min)?, check.point("max", &desc.max)?);
+/// The least corner of a box, and its size.
+fn bounds(check: &Checker, min: &Spanned<Exactly<f64, 3>>, max: &Spanned<Exactly<f64, 3>>) -> Result<(DVec3, DVec3), SceneError> {
+    let (min, max, end) = (check.point("min", min)?, check.point("max", max)?, max.span());
     let size = max - min;
     if let Some(axis) = (0..3).find(|axis| size[*axis] <= 0.0) {
         let name = ["x", "y", "z"][axis];
         let message = format!("the bounds are inverted or empty in {name}: {} to {}", min[axis], max[axis]);
-        return Err(check.0.error(desc.max.span(), message, "`max` must lie above `min` in every coordinate"));
+        return Err(check.0.error(end, message, "`max` must lie above `min` in every coordinate"));
     }
-    Ok(Shape::Cuboid { origin: min, edges: DMat3::from_diagonal(size) })
+    Ok((min, size))
+}
+
+fn cuboid(check: &Checker, desc: &CuboidDesc) -> Result<Shape, SceneError> {
+    let (origin, size) = bounds(check, &desc.min, &desc.max)?;
+    Ok(Shape::Cuboid { origin, edges: DMat3::from_diagonal(size) })
+}
+
+fn isosurface(check: &Checker, desc: &IsosurfaceDesc) -> Result<Shape, SceneError> {
+    let (min, size) = bounds(check, &desc.bounds.min, &desc.bounds.max)?;
+    let text = desc.expression.as_ref();
+    let expression = Expression::parse(text).map_err(|error| {
+        // Within the quotes, unless they hold escapes: then only the whole is known.
+        let start = desc.expression.span().start + 1;
+        let plain = check.0.text.get(start..start + text.len()) == Some(text);
+        let place = if plain { start + error.at.start..start + error.at.end } else { desc.expression.span() };
+        check.0.error(place, error.message, error.label)
+    })?;
+    let [min, max] = [min, min + size].map(|corner| corner.as_vec3().to_array());
+    Ok(Shape::Isosurface { surface: Arc::new(Isosurface::new(expression, min, max)), map: DAffine3::IDENTITY })
 }
 
 fn cylinder(check: &Checker, desc: &CylinderDesc) -> Result<Shape, SceneError> {
@@ -82,16 +109,27 @@ fn are_parallel([a, b]: [DVec3; 2]) -> bool {
 
 /// The product of a list of transforms, the first one applied first.
 pub fn transform(check: &Checker, list: &[Spanned<TransformDesc>]) -> Result<DAffine3, SceneError> {
-    list.iter().try_fold(DAffine3::IDENTITY, |before, entry| Ok(single(check, entry)? * before))
+    list.iter().try_fold(DAffine3::IDENTITY, |before, entry| Ok(single(check, entry)?.at(1.0) * before))
 }
 
-fn single(check: &Checker, entry: &Spanned<TransformDesc>) -> Result<DAffine3, SceneError> {
+/// A list of transforms that are reached at the end of the shutter's time.
+pub fn motion(check: &Checker, list: &[Spanned<TransformDesc>]) -> Result<Motion, SceneError> {
+    let motion = Motion(list.iter().map(|entry| single(check, entry)).collect::<Result<_, _>>()?);
+    match list.last() {
+        Some(last) if !motion.is_invertible() => {
+            Err(check.0.error(last.span(), "the motion cannot be inverted", "it mirrors or flattens space on its way"))
+        }
+        _ => Ok(motion),
+    }
+}
+
+fn single(check: &Checker, entry: &Spanned<TransformDesc>) -> Result<Step, SceneError> {
     let error = |message: &str, label: &str| Err(check.0.error(entry.span(), message.to_owned(), label));
-    let map = match entry.as_ref() {
-        TransformDesc::Translate(by) => DAffine3::from_translation(DVec3::from_array(by.0)),
-        TransformDesc::Scale(factors) => DAffine3::from_scale(DVec3::from_array(factors.0)),
+    let step = match entry.as_ref() {
+        TransformDesc::Translate(by) => Step::Translate(DVec3::from_array(by.0)),
+        TransformDesc::Scale(factors) => Step::Scale(DVec3::from_array(factors.0)),
         TransformDesc::Rotate(rotate) => match DVec3::from_array(rotate.axis.0).try_normalize() {
-            Some(axis) => DAffine3::from_axis_angle(axis, rotate.degrees.to_radians()),
+            Some(axis) => Step::Rotate { axis, turns: rotate.degrees / 360.0 },
             None => return error("the axis of rotation has no direction", "it must not be zero"),
         },
         TransformDesc::Matrix(rows) => {
@@ -100,9 +138,10 @@ fn single(check: &Checker, entry: &Spanned<TransformDesc>) -> Result<DAffine3, S
                 return error("the matrix is not affine", "the last row must be 0, 0, 0, 1");
             }
             let column = |i: usize| DVec3::new(x[i], y[i], z[i]);
-            DAffine3 { matrix3: DMat3::from_cols(column(0), column(1), column(2)), translation: column(3) }
+            Step::Matrix(DAffine3 { matrix3: DMat3::from_cols(column(0), column(1), column(2)), translation: column(3) })
         }
     };
+    let map = step.at(1.0);
     if !map.is_finite() {
         return error("the transform is not finite", "all of its numbers must be");
     }
@@ -113,5 +152,5 @@ fn single(check: &Checker, entry: &Spanned<TransformDesc>) -> Result<DAffine3, S
     {
         return error("the transform cannot be inverted", "it flattens space, or scales it beyond 1e-12 to 1e12");
     }
-    Ok(map)
+    Ok(step)
 }

@@ -1,7 +1,7 @@
 //! Shapes and transforms as a scene file writes them.
 use serde::{
     Deserialize, Deserializer,
-    de::{self, IgnoredAny, SeqAccess, Visitor},
+    de::{self, SeqAccess, Visitor},
 };
 use toml::Spanned;
 
@@ -16,8 +16,8 @@ pub enum ShapeDesc {
     Disk(DiskDesc),
     Rectangle(RectangleDesc),
     Triangle(TriangleDesc),
-    Mesh(IgnoredAny),
-    Isosurface(IgnoredAny),
+    Mesh(MeshDesc),
+    Isosurface(IsosurfaceDesc),
 }
 
 type Point = Spanned<Exactly<f64, 3>>;
@@ -67,6 +67,47 @@ pub struct TriangleDesc {
     pub a: Point,
     pub b: Point,
     pub c: Point,
+}
+
+/// From a file, as lists, or made by formula.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MeshDesc {
+    pub path: Option<Spanned<String>>,
+    pub vertices: Option<Spanned<Vec<Exactly<f64, 3>>>>,
+    pub triangles: Option<Spanned<Vec<Spanned<Exactly<u32, 3>>>>>,
+    pub knot: Option<KnotDesc>,
+    pub heightfield: Option<HeightfieldDesc>,
+    pub smooth: Option<bool>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct KnotDesc {
+    pub triangles: Spanned<u32>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct HeightfieldDesc {
+    /// Along each side.
+    pub quads: Spanned<u32>,
+    #[serde(default)]
+    pub seed: u32,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct IsosurfaceDesc {
+    pub expression: Spanned<String>,
+    pub bounds: BoundsDesc,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BoundsDesc {
+    pub min: Point,
+    pub max: Point,
 }
 
 #[derive(Deserialize)]

@@ -1,0 +1,70 @@
+//! Boxes with sides along the axes.
+
+/// An axis-parallel box: all points p with `min` ≤ p ≤ `max` in each component. It may be flat, or a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounds {
+    pub min: [f32; 3],
+    pub max: [f32; 3],
+}
+
+impl Bounds {
+    /// The box of nothing: the union with it changes nothing.
+    pub const EMPTY: Bounds = Bounds { min: [f32::INFINITY; 3], max: [f32::NEG_INFINITY; 3] };
+
+    /// The smallest box around the points.
+    pub fn of_points(points: impl IntoIterator<Item = [f32; 3]>) -> Bounds {
+        points.into_iter().fold(Bounds::EMPTY, |bounds, p| bounds.union(&Bounds { min: p, max: p }))
+    }
+
+    /// The smallest box around both.
+    pub fn union(&self, other: &Bounds) -> Bounds {
+        Bounds {
+            min: std::array::from_fn(|axis| self.min[axis].min(other.min[axis])),
+            max: std::array::from_fn(|axis| self.max[axis].max(other.max[axis])),
+        }
+    }
+
+    /// Whether no point lies inside.
+    pub fn is_empty(&self) -> bool {
+        !(0..3).all(|axis| self.min[axis] <= self.max[axis])
+    }
+
+    /// Edge lengths; 0 for an empty box.
+    pub fn size(&self) -> [f32; 3] {
+        std::array::from_fn(|axis| (self.max[axis] - self.min[axis]).max(0.0))
+    }
+
+    /// Area of the six sides.
+    pub fn surface_area(&self) -> f32 {
+        let [x, y, z] = self.size();
+        2.0 * (x * y + y * z + z * x)
+    }
+
+    /// Whether `other` lies inside.
+    pub fn contains(&self, other: &Bounds) -> bool {
+        (0..3).all(|axis| self.min[axis] <= other.min[axis] && other.max[axis] <= self.max[axis])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn unions_sizes_and_areas() {
+        let a = Bounds::of_points([[0.0, 0.0, 0.0], [1.0, 2.0, 3.0]]);
+        let flat = Bounds::of_points([[4.0, 1.0, 1.0], [4.0, 2.0, 3.0]]);
+        assert_eq!((a.surface_area(), flat.surface_area()), (22.0, 4.0));
+        assert_eq!(a.union(&flat), Bounds { min: [0.0; 3], max: [4.0, 2.0, 3.0] });
+        assert!(a.union(&flat).contains(&a) && !a.contains(&flat));
+    }
+
+    #[test]
+    fn the_empty_box_is_neutral() {
+        let point = Bounds::of_points([[1.0, -2.0, 3.0]]);
+        assert_eq!(Bounds::EMPTY.union(&point), point);
+        assert!(Bounds::EMPTY.is_empty() && !point.is_empty());
+        assert_eq!((Bounds::EMPTY.surface_area(), point.surface_area()), (0.0, 0.0));
+        assert!(point.contains(&Bounds::EMPTY));
+    }
+}

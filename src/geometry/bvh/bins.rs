@@ -1,0 +1,134 @@
+//! Where to split a set of boxes: the surface area heuristic over bins.
+//!
+//! A split costs area(left)·leaves(left) + area(right)·leaves(right): the chance that a ray which meets the parent meets a
+//! part, times the work there (D. MacDonald and S. Booth, "Heuristics for ray tracing using space subdivision", 1990).
+//! Candidates are planes between bins of box centres (I. Wald, "On fast construction of SAH-based bounding volume
+//! hierarchies", 2007).
+use glam::Vec4;
+
+/// The most bins along an axis.
+const BINS: usize = 32;
+/// The fewest.
+const FEWEST: usize = 16;
+/// Items for which there is a bin, up to [`BINS`] of them.
+const ITEMS_PER_BIN: usize = 4;
+
+/// A box as the builder computes with it, four floats at a time; `w` means nothing.
+#[derive(Clone, Copy)]
+pub(super) struct Extent {
+    pub min: Vec4,
+    pub max: Vec4,
+}
+
+impl Extent {
+    pub const EMPTY: Extent = Extent { min: Vec4::INFINITY, max: Vec4::NEG_INFINITY };
+
+    #[inline(always)]
+    pub fn add(&mut self, min: Vec4, max: Vec4) {
+        self.min = self.min.min(min);
+        self.max = self.max.max(max);
+    }
+
+    /// Half the area of the six sides.
+    #[inline(always)]
+    pub fn half_area(&self) -> f32 {
+        let size = self.max - self.min;
+        size.x * size.y + size.y * size.z + size.z * size.x
+    }
+}
+
+#[derive(Clone, Copy)]
+struct Bin {
+    extent: Extent,
+    count: u32,
+}
+
+impl Bin {
+    const EMPTY: Bin = Bin { extent: Extent::EMPTY, count: 0 };
+
+    #[inline(always)]
+    fn add(&mut self, other: &Bin) {
+        self.extent.add(other.extent.min, other.extent.max);
+        self.count += other.count;
+    }
+
+    /// Area times leaves.
+    #[inline(always)]
+    fn cost<const LEAF_SIZE: usize>(&self) -> f32 {
+        self.extent.half_area() * self.count.div_ceil(LEAF_SIZE as u32) as i32 as f32
+    }
+}
+
+/// Numbers the bins along the three axes.
+#[derive(Clone, Copy)]
+pub(super) struct Grid {
+    base: Vec4,
+    scale: Vec4,
+    bins: usize,
+}
+
+impl Grid {
+    /// Bins for `count` items with centres (doubled) in `centers`.
+    pub fn new(centers: &Extent, count: usize) -> Grid {
+        let bins = (count / ITEMS_PER_BIN).clamp(FEWEST, BINS);
+        let size = centers.max - centers.min;
+        // An axis along which all centres agree, or nearly overflow, has scale 0: all in one bin, which is no split.
+        let scale = size.map(|size| if size > 1e-30 && size < 1e30 { bins as f32 * 0.9999 / size } else { 0.0 });
+        Grid { base: centers.min, scale, bins }
+    }
+
+    /// The bin of a doubled centre along each axis.
+    #[inline(always)]
+    pub fn bins_of(&self, center: Vec4) -> [usize; 4] {
+        // Adding 2²³ rounds to an integer that stands in the last bits.
+        const ROUNDER: f32 = 8_388_608.0;
+        let place = (center - self.base) * self.scale - 0.5 + ROUNDER;
+        place.max(Vec4::splat(ROUNDER)).to_array().map(|place| place.to_bits() as usize & (BINS - 1))
+    }
+}
+
+/// A plane between bins.
+pub(super) struct Plane {
+    pub axis: usize,
+    /// The first bin of the right part.
+    pub bin: usize,
+    pub left: Extent,
+    pub right: Extent,
+}
+
+/// The cheapest plane for boxes given by (minimum, maximum); none if all centres fall into one bin along every axis.
+pub(super) fn cheapest_plane<const LEAF_SIZE: usize>(boxes: impl Iterator<Item = (Vec4, Vec4)>, grid: &Grid) -> Option<Plane> {
+    let mut bins = [[Bin::EMPTY; BINS]; 3];
+    for (min, max) in boxes {
+        let at = grid.bins_of(min + max);
+        for axis in 0..3 {
+            bins[axis][at[axis]].add(&Bin { extent: Extent { min, max }, count: 1 });
+        }
+    }
+    let (mut lowest, mut best) = (f32::INFINITY, None);
+    for (axis, bins) in bins.iter().enumerate() {
+        let mut right_costs = [f32::INFINITY; BINS];
+        let mut right = Bin::EMPTY;
+        for bin in (1..grid.bins).rev() {
+            right.add(&bins[bin]);
+            if right.count > 0 {
+                right_costs[bin] = right.cost::<LEAF_SIZE>();
+            }
+        }
+        let mut left = Bin::EMPTY;
+        for bin in 1..grid.bins {
+            left.add(&bins[bin - 1]);
+            let cost = left.cost::<LEAF_SIZE>() + right_costs[bin];
+            if left.count > 0 && cost < lowest {
+                (lowest, best) = (cost, Some((axis, bin)));
+            }
+        }
+    }
+    let (axis, bin) = best?;
+    let join = |bins: &[Bin]| {
+        let mut all = Bin::EMPTY;
+        bins.iter().for_each(|bin| all.add(bin));
+        all.extent
+    };
+    Some(Plane { axis, bin, left: join(&bins[axis][..bin]), right: join(&bins[axis][bin..grid.bins]) })
+}

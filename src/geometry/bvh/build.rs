@@ -1,0 +1,149 @@
+//! Building: a binary tree from the top, which `collapse.rs` makes one of eight children a node.
+use glam::Vec4;
+
+use super::{
+    Bvh,
+    bins::{Extent, Grid, Plane, cheapest_plane},
+    collapse::{Branch, Collapse, Forest},
+};
+use crate::geometry::bounds::Bounds;
+
+/// The number of a place in a leaf that holds nothing.
+pub const NONE: u32 = u32::MAX;
+
+/// The most branches between the root and a leaf. Where splits by the heuristic would lead further, items are halved instead.
+pub(super) const MAX_DEPTH: usize = 36;
+
+/// The box of an item, with the item's number in `min.w`, so that sorting moves 32 bytes.
+#[derive(Clone, Copy)]
+pub(super) struct Item {
+    min: Vec4,
+    max: Vec4,
+}
+
+impl Item {
+    /// The bits for number 0. Computing with the bits of small integers, which are subnormal reals, takes a hundred times as long.
+    const ZERO: u32 = 1 << 29;
+
+    fn new(number: usize, bounds: &Bounds) -> Item {
+        let ([x, y, z], [max_x, max_y, max_z]) = (bounds.min, bounds.max);
+        Item { min: Vec4::new(x, y, z, f32::from_bits(number as u32 + Item::ZERO)), max: Vec4::new(max_x, max_y, max_z, 0.0) }
+    }
+
+    pub fn number(&self) -> u32 {
+        self.min.w.to_bits() - Item::ZERO
+    }
+
+    /// Twice the centre of the box.
+    #[inline(always)]
+    fn center(&self) -> Vec4 {
+        self.min + self.max
+    }
+}
+
+/// A run of items that go under one branch.
+#[derive(Clone, Copy)]
+struct Part {
+    start: usize,
+    end: usize,
+    bounds: Extent,
+    /// The box of the doubled centres.
+    centers: Extent,
+}
+
+impl Part {
+    fn of(items: &[Item], start: usize, end: usize) -> Part {
+        let mut part = Part { start, end, bounds: Extent::EMPTY, centers: Extent::EMPTY };
+        for item in &items[start..end] {
+            part.bounds.add(item.min, item.max);
+            part.centers.add(item.center(), item.center());
+        }
+        part
+    }
+
+    fn len(&self) -> usize {
+        self.end - self.start
+    }
+}
+
+struct Builder<const LEAF_SIZE: usize> {
+    items: Vec<Item>,
+    branches: Vec<Branch>,
+}
+
+impl Bvh {
+    /// A tree over boxes, none of which may be empty or infinite, and the numbers of the boxes in its leaves: leaf k holds
+    /// `order[k * LEAF_SIZE..][..LEAF_SIZE]`, of which the last ones may be [`NONE`].
+    pub fn build<const LEAF_SIZE: usize>(boxes: impl ExactSizeIterator<Item = Bounds>) -> (Bvh, Vec<u32>) {
+        let count = boxes.len();
+        let mut items = Vec::with_capacity(count);
+        items.extend(boxes.enumerate().map(|(number, bounds)| Item::new(number, &bounds)));
+        let all = Part::of(&items, 0, count);
+        let mut builder = Builder::<LEAF_SIZE> { items, branches: Vec::with_capacity(4 * count / LEAF_SIZE + 1) };
+        builder.grow(all, MAX_DEPTH);
+        let [min, max] = [all.bounds.min, all.bounds.max].map(|corner| corner.truncate().to_array());
+        let (nodes, order) = Collapse::of(&builder.branches, &builder.items, LEAF_SIZE);
+        (Bvh { nodes, bounds: Bounds { min, max } }, order)
+    }
+}
+
+impl<const LEAF_SIZE: usize> Builder<LEAF_SIZE> {
+    /// Adds the branch for `part`, under which there may be `levels` more levels, and what lies under it. Returns its place.
+    fn grow(&mut self, part: Part, levels: usize) -> u32 {
+        let place = self.branches.len();
+        let mut branch = Branch::leaf(part.bounds, part.start as u32, part.len() as u32);
+        self.branches.push(branch);
+        if part.len() > LEAF_SIZE {
+            let [left, right] = self.split(part, levels);
+            let left = self.grow(left, levels - 1);
+            let right = self.grow(right, levels - 1);
+            branch.forest = Forest::over(&part.bounds, [left, right], &self.branches);
+            self.branches[place] = branch;
+        }
+        place as u32
+    }
+
+    fn split(&mut self, part: Part, levels: usize) -> [Part; 2] {
+        // However the heuristic splits, a side must fit under the levels that are left.
+        let most = LEAF_SIZE.saturating_mul(1 << (levels - 1));
+        if part.len() <= most {
+            let grid = Grid::new(&part.centers, part.len());
+            let boxes = self.items[part.start..part.end].iter().map(|item| (item.min, item.max));
+            if let Some(plane) = cheapest_plane::<LEAF_SIZE>(boxes, &grid) {
+                return self.partition(part, &grid, &plane);
+            }
+        }
+        self.halve(part)
+    }
+
+    /// Brings the items left of the plane to the front.
+    fn partition(&mut self, part: Part, grid: &Grid, plane: &Plane) -> [Part; 2] {
+        let items = &mut self.items[..part.end];
+        let (mut left, mut right) = (Extent::EMPTY, Extent::EMPTY);
+        let (mut middle, mut end) = (part.start, part.end);
+        while middle < end {
+            let center = items[middle].center();
+            if grid.bins_of(center)[plane.axis] < plane.bin {
+                left.add(center, center);
+                middle += 1;
+            } else {
+                right.add(center, center);
+                end -= 1;
+                items.swap(middle, end);
+            }
+        }
+        [
+            Part { start: part.start, end: middle, bounds: plane.left, centers: left },
+            Part { start: middle, end: part.end, bounds: plane.right, centers: right },
+        ]
+    }
+
+    /// Two parts with as many items, along the axis on which the centres spread most.
+    fn halve(&mut self, part: Part) -> [Part; 2] {
+        let axis = (part.centers.max - part.centers.min).truncate().max_position();
+        let middle = part.start + part.len() / 2;
+        self.items[part.start..part.end]
+            .select_nth_unstable_by(part.len() / 2, |a, b| a.center()[axis].total_cmp(&b.center()[axis]));
+        [Part::of(&self.items, part.start, middle), Part::of(&self.items, middle, part.end)]
+    }
+}

@@ -1,0 +1,132 @@
+//! Every box that a ray meets is shown, and the tree serves objects as it serves triangles.
+use fearless_simd::{ExtractToken, Fallback, Simd};
+use rand::{Rng, SeedableRng, rngs::SmallRng};
+
+use super::{Bvh, Leaves, NONE, Slabs, Stack, traverse};
+use crate::{
+    geometry::{
+        bounds::Bounds,
+        mesh::{Mesh, Rays, generate},
+    },
+    math::{Lanes, One, V},
+};
+
+fn boxes(count: usize, rng: &mut SmallRng) -> Vec<Bounds> {
+    let mut corner = |size: f32| [0; 3].map(|_| rng.random_range(-size..size));
+    let mut boxes = Vec::new();
+    for k in 0..count {
+        let min = corner(1.0);
+        let size = corner(if k % 4 == 0 { 0.5 } else { 0.02 }).map(f32::abs);
+        // Some are flat, some are points.
+        let max = std::array::from_fn(|axis| if k % 5 <= axis { min[axis] + size[axis] } else { min[axis] });
+        boxes.push(Bounds { min, max });
+    }
+    boxes
+}
+
+/// Marks the items of the leaves it is shown.
+struct Marks<'a> {
+    order: &'a [u32],
+    shown: Vec<bool>,
+}
+
+impl<S: Simd> Leaves<S> for Marks<'_> {
+    #[inline(always)]
+    fn meet(&mut self, _: S, leaf: u32, t_max: f32) -> f32 {
+        for &item in self.order[4 * leaf as usize..][..4].iter().filter(|&&item| item != NONE) {
+            self.shown[item as usize] = true;
+        }
+        t_max
+    }
+
+    #[inline(always)]
+    fn touch(&self, leaf: u32) -> u32 {
+        self.order[4 * leaf as usize]
+    }
+}
+
+/// Whether the ray meets the box, in f64.
+fn meets(bounds: &Bounds, o: [f32; 3], d: [f32; 3]) -> bool {
+    let (mut near, mut far) = (0.0f64, f64::INFINITY);
+    for axis in 0..3 {
+        let distance = |plane: f32| (f64::from(plane) - f64::from(o[axis])) / f64::from(d[axis]);
+        if d[axis] == 0.0 {
+            far = if (bounds.min[axis]..=bounds.max[axis]).contains(&o[axis]) { far } else { -1.0 };
+        } else {
+            let (a, b) = (distance(bounds.min[axis]), distance(bounds.max[axis]));
+            (near, far) = (near.max(a.min(b)), far.min(a.max(b)));
+        }
+    }
+    near <= far
+}
+
+#[test]
+fn every_box_that_is_met_is_shown() {
+    let mut rng = SmallRng::seed_from_u64(1);
+    for count in [0, 1, 3, 4, 5, 40, 2000] {
+        let boxes = boxes(count, &mut rng);
+        let (bvh, order) = Bvh::build::<4>(boxes.iter().copied());
+        let mut numbers: Vec<u32> = order.iter().copied().filter(|&item| item != NONE).collect();
+        numbers.sort_unstable();
+        assert!(numbers.iter().copied().eq(0..count as u32), "each in one leaf");
+        assert!(boxes.iter().all(|bounds| bvh.bounds().contains(bounds)));
+        let mut stack = Stack::default();
+        for k in 0..2000 {
+            let mut corner = || [0; 3].map(|_| rng.random_range(-1.5f32..1.5));
+            let (o, mut d) = (corner(), corner());
+            d[k % 3] *= [1.0, 0.0, -0.0, 1e-12][k % 4];
+            let slabs = Slabs::new(One, V::splat(One, o), V::splat(One, d), &bvh.bounds());
+            let mut marks = Marks { order: &order, shown: vec![false; count] };
+            traverse(Fallback::new(), &bvh, &mut stack, (&slabs, 0), f32::INFINITY, &mut marks);
+            let lost = boxes.iter().zip(marks.shown).position(|(bounds, shown)| !shown && meets(bounds, o, d));
+            assert_eq!(lost, None, "{o:?} {d:?}");
+        }
+    }
+}
+
+/// A top level over meshes.
+struct Objects<'a> {
+    order: &'a [u32],
+    meshes: &'a [Mesh],
+    rays: &'a Rays,
+    below: Stack,
+    nearest: (u32, u32),
+}
+
+impl<S: Simd> Leaves<S> for Objects<'_> {
+    #[inline(always)]
+    fn meet(&mut self, s: S, leaf: u32, t_max: f32) -> f32 {
+        let object = self.order[leaf as usize];
+        let (t, triangle) = self.meshes[object as usize].closest_of(s, &mut self.below, self.rays, 0, t_max);
+        self.nearest = if triangle == NONE { self.nearest } else { (object, triangle) };
+        t
+    }
+
+    #[inline(always)]
+    fn touch(&self, leaf: u32) -> u32 {
+        self.order[leaf as usize]
+    }
+}
+
+#[test]
+fn a_tree_over_meshes_finds_the_nearest() {
+    let mut rng = SmallRng::seed_from_u64(2);
+    let meshes: Vec<Mesh> = (0..20)
+        .map(|k| {
+            let mut data = generate::torus_knot(300);
+            data.vertices.iter_mut().for_each(|v| *v = [v[0] + (k % 5) as f32, v[1] + (k / 5) as f32 * 0.3, v[2]]);
+            Mesh::new(&data)
+        })
+        .collect();
+    let (bvh, order) = Bvh::build::<1>(meshes.iter().map(Mesh::bounds));
+    for _ in 0..3000 {
+        let mut corner = || [0; 3].map(|_| rng.random_range(-2.0f32..4.0));
+        let (o, d) = (V::splat(One, corner()), V::splat(One, corner()));
+        let rays = Rays::new(One, o, d, &bvh.bounds());
+        let mut objects = Objects { order: &order, meshes: &meshes, rays: &rays, below: Stack::default(), nearest: (NONE, NONE) };
+        let t = traverse(One.token(), &bvh, &mut Stack::default(), (rays.slabs(), 0), f32::INFINITY, &mut objects);
+        let alone = |mesh: &Mesh| mesh.closest(One, o, d, One.f(f32::INFINITY)).0.0;
+        assert_eq!(t, meshes.iter().map(alone).fold(f32::INFINITY, f32::min));
+        assert!(t.is_infinite() || alone(&meshes[objects.nearest.0 as usize]) == t);
+    }
+}

@@ -1,0 +1,246 @@
+//! Enclosures of a function and its derivative over a segment: a straight line and how far the function may be from it.
+//!
+//! With s in [−1, 1] along the segment, f(s) = a + b s + e(s), where |e| ≤ r, and q is a Lipschitz constant of e: |e′| ≤ q
+//! wherever there is a derivative. So f lies in a ± (|b| + r) and f′ in b ± q. Unlike intervals, whose width shrinks like that
+//! of the segment, r shrinks like its square, and one line holds both f and f′. (Affine arithmetic with a single symbol, as in
+//! A. Knoll et al., "Fast Ray Tracing of Arbitrary Implicit Surfaces with Interval and Affine Arithmetic", Computer Graphics
+//! Forum 28, 2009; the bound q of the derivative is added here.)
+//!
+//! The bounds are rigorous. With u = ε/2, each rounded operation is off by at most u times its result, or by less than the
+//! smallest normal number where it underflows; those of a and b are added to r and q. Those of r and q themselves, which are
+//! sums and products of positive numbers with at most 12 roundings in a row, are covered by [`WIDEN`]. Overflow makes r infinite
+//! or NaN, of which nothing can be concluded, as comparisons with it are false.
+use super::tape::Quantity;
+use crate::math::{F, Lanes, M, Pick};
+
+/// A rounding, and what its own bound may lose in being computed.
+const ROUNDING: f32 = 0.51 * f32::EPSILON;
+/// Two of them.
+const TWO_ROUNDINGS: f32 = 1.02 * f32::EPSILON;
+/// 16 roundings of what is positive.
+pub(super) const WIDEN: f32 = 1.0 + 8.0 * f32::EPSILON;
+/// What may be lost in underflow.
+const UNDERFLOW: f32 = f32::MIN_POSITIVE;
+
+/// f(s) = a + b s + e(s) for s in [−1, 1]; |e| ≤ r, |e′| ≤ q.
+pub(super) struct Enclosure<L: Lanes> {
+    pub a: F<L>,
+    pub b: F<L>,
+    pub r: F<L>,
+    pub q: F<L>,
+}
+
+impl<L: Lanes> Clone for Enclosure<L> {
+    #[inline(always)]
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+impl<L: Lanes> Copy for Enclosure<L> {}
+
+/// g(x) ≈ at_middle + slope (x − a) within `error` where x is the enclosed quantity, and |g′ − slope| ≤ `bend`.
+pub(super) struct Line<L: Lanes> {
+    pub at_middle: F<L>,
+    pub slope: F<L>,
+    pub error: F<L>,
+    pub bend: F<L>,
+}
+
+impl<L: Lanes> Pick<Line<L>> for M<L> {
+    #[inline(always)]
+    fn pick(self, a: Line<L>, b: Line<L>) -> Line<L> {
+        Line {
+            at_middle: self.pick(a.at_middle, b.at_middle),
+            slope: self.pick(a.slope, b.slope),
+            error: self.pick(a.error, b.error),
+            bend: self.pick(a.bend, b.bend),
+        }
+    }
+}
+
+impl<L: Lanes> Pick<Enclosure<L>> for M<L> {
+    #[inline(always)]
+    fn pick(self, a: Enclosure<L>, b: Enclosure<L>) -> Enclosure<L> {
+        Enclosure { a: self.pick(a.a, b.a), b: self.pick(a.b, b.b), r: self.pick(a.r, b.r), q: self.pick(a.q, b.q) }
+    }
+}
+
+impl<L: Lanes> Enclosure<L> {
+    /// The coordinate o + d (middle + half · s) of a line; o, d, middle and half are exact.
+    #[inline(always)]
+    pub fn along(o: F<L>, d: F<L>, middle: F<L>, half: F<L>) -> Self {
+        let far = d * middle;
+        let (a, b) = (o + far, d * half);
+        let of_slope = b.abs() * ROUNDING + UNDERFLOW;
+        // The sum is not farther from the exact one than o is.
+        let of_middle = far.abs() * ROUNDING + (a.abs() * ROUNDING).min(far.abs());
+        Enclosure { a, b, r: (of_middle + of_slope) * WIDEN, q: of_slope }
+    }
+
+    /// How far the function may be from a.
+    #[inline(always)]
+    pub fn reach(&self) -> F<L> {
+        (self.b.abs() + self.r) * WIDEN
+    }
+
+    /// Nowhere zero. Then it has the sign of a.
+    #[inline(always)]
+    pub fn has_no_zero(&self) -> M<L> {
+        self.reach().lt(self.a.abs())
+    }
+
+    /// Strictly monotone.
+    #[inline(always)]
+    pub fn is_monotone(&self) -> M<L> {
+        self.q.lt(self.b.abs())
+    }
+
+    /// g of this quantity.
+    #[inline(always)]
+    pub fn map(&self, line: &Line<L>) -> Self {
+        let slope = line.slope.abs();
+        let b = line.slope * self.b;
+        let rounding = b.abs() * ROUNDING + UNDERFLOW;
+        Enclosure {
+            a: line.at_middle,
+            b,
+            r: (slope * self.r + line.error + rounding) * WIDEN,
+            q: (line.bend * (self.b.abs() + self.q) + slope * self.q + rounding) * WIDEN,
+        }
+    }
+
+    #[inline(always)]
+    fn negative(&self) -> Self {
+        Enclosure { a: -self.a, b: -self.b, ..*self }
+    }
+
+    /// |x| where x may have either sign: it lies between the chord over the range a ± w and the chord less w − a²/w, its depth
+    /// at 0.
+    #[inline(always)]
+    fn absolute_around_zero(&self) -> Self {
+        let w = self.reach();
+        let slope = self.a / w;
+        let depth = (w - slope * self.a) * 0.5;
+        let error = (depth + w * (4.0 * f32::EPSILON)) * WIDEN;
+        self.map(&Line { at_middle: w - depth, slope, error, bend: slope.abs() + 1.0 })
+    }
+
+    /// The extreme of two where either may be: half their sum and, up or down, half their distance.
+    #[inline(always)]
+    fn extreme(&self, b: &Self, sign: f32) -> Self {
+        let difference = self.subtract(b);
+        let distance = difference.absolute_around_zero().scale(sign);
+        let mean = self.add(b).add(&distance).scale(0.5);
+        let first_is_less = difference.a.below(0.0);
+        let first_or_second = (if sign < 0.0 { first_is_less } else { !first_is_less }).pick(*self, *b);
+        difference.has_no_zero().pick(first_or_second, mean)
+    }
+}
+
+impl<L: Lanes> Quantity<L> for Enclosure<L> {
+    #[inline(always)]
+    fn constant(l: L, value: f32) -> Self {
+        let zero = l.f(0.0);
+        Enclosure { a: l.f(value), b: zero, r: zero, q: zero }
+    }
+    #[inline(always)]
+    fn add_constant(&self, by: f32) -> Self {
+        let a = self.a + by;
+        Enclosure { a, r: (self.r + a.abs() * ROUNDING) * WIDEN, ..*self }
+    }
+    #[inline(always)]
+    fn scale(&self, by: f32) -> Self {
+        let (a, b) = (self.a * by, self.b * by);
+        let of_slope = b.abs() * ROUNDING + UNDERFLOW;
+        let by = by.abs();
+        Enclosure { a, b, r: (self.r * by + a.abs() * ROUNDING + of_slope) * WIDEN, q: (self.q * by + of_slope) * WIDEN }
+    }
+    #[inline(always)]
+    fn add(&self, b: &Self) -> Self {
+        let sum = self.a + b.a;
+        let slope = self.b + b.b;
+        let of_slope = slope.abs() * ROUNDING;
+        Enclosure {
+            a: sum,
+            b: slope,
+            r: (self.r + b.r + sum.abs() * ROUNDING + of_slope) * WIDEN,
+            q: (self.q + b.q + of_slope) * WIDEN,
+        }
+    }
+    #[inline(always)]
+    fn subtract(&self, b: &Self) -> Self {
+        self.add(&b.negative())
+    }
+
+    /// (a₁ + b₁s + e₁)(a₂ + b₂s + e₂), where b₁b₂s² is taken as b₁b₂(½ ± ½), of slope up to 2b₁b₂.
+    #[inline(always)]
+    fn multiply(&self, other: &Self) -> Self {
+        let (b1, b2) = (self.b.abs(), other.b.abs());
+        let (m1, m2) = (self.a.abs() + b1, other.a.abs() + b2);
+        let (reach1, reach2) = (m1 + self.r, m2 + other.r);
+        let bb = self.b * other.b;
+        let curve = bb.abs();
+        // Two roundings each of a and b, in all at most 2u m₁m₂, and of b alone 2u (m₁|b₂| + m₂|b₁|).
+        let r1 = self.r + m1 * TWO_ROUNDINGS;
+        let (q1, q2) = (self.q + b1 * TWO_ROUNDINGS, other.q + b2 * TWO_ROUNDINGS);
+        Enclosure {
+            a: self.a * other.a + bb * 0.5,
+            b: self.a * other.b + other.a * self.b,
+            r: (curve * 0.5 + reach1 * other.r + m2 * r1 + UNDERFLOW) * WIDEN,
+            q: ((curve + curve) + (reach1 * q2 + reach2 * q1) + (b1 * other.r + b2 * self.r) + UNDERFLOW) * WIDEN,
+        }
+    }
+    #[inline(always)]
+    fn square(&self) -> Self {
+        let slope = self.b.abs();
+        let m = self.a.abs() + slope;
+        let reach = m + self.r;
+        let (curve, ab) = (self.b * self.b, self.a * self.b);
+        let a = self.a * self.a + curve * 0.5;
+        let rounding = ab.abs() * TWO_ROUNDINGS + UNDERFLOW;
+        let bend = curve + reach * self.q + slope * self.r;
+        Enclosure {
+            a,
+            b: ab + ab,
+            r: (curve * 0.5 + self.r * (m + reach) + a * TWO_ROUNDINGS + rounding) * WIDEN,
+            q: (bend + bend + rounding) * WIDEN,
+        }
+    }
+    #[inline(always)]
+    fn reciprocal(&self) -> Self {
+        self.map(&super::lines::reciprocal(self.a, self.reach()))
+    }
+    #[inline(always)]
+    fn square_root(&self) -> Self {
+        self.map(&super::lines::square_root(self.a, self.reach()))
+    }
+    #[inline(always)]
+    fn absolute(&self) -> Self {
+        let one_sided = self.a.below(0.0).pick(self.negative(), *self);
+        self.has_no_zero().pick(one_sided, self.absolute_around_zero())
+    }
+    #[inline(always)]
+    fn minimum(&self, b: &Self) -> Self {
+        self.extreme(b, -1.0)
+    }
+    #[inline(always)]
+    fn maximum(&self, b: &Self) -> Self {
+        self.extreme(b, 1.0)
+    }
+    #[inline(always)]
+    fn exponential(&self) -> Self {
+        self.map(&super::lines::exponential(self.a, self.reach()))
+    }
+    #[inline(always)]
+    fn logarithm(&self) -> Self {
+        self.map(&super::lines::logarithm(self.a, self.reach()))
+    }
+    #[inline(always)]
+    fn sine(&self) -> Self {
+        self.map(&super::lines::sine(self.a, self.reach()))
+    }
+    #[inline(always)]
+    fn cosine(&self) -> Self {
+        self.map(&super::lines::cosine(self.a, self.reach()))
+    }
+}

@@ -1,0 +1,170 @@
+//! One ray against several triangles: first at once, then those it seems to meet one by one and without doubt.
+//!
+//! The test of S. Woop, C. Benthin and I. Wald, "Watertight Ray/Triangle Intersection", JCGT 2013: the vertices are moved so
+//! that the ray starts at the origin, and sheared so that it runs along the axis z of d's largest component. What remains is
+//! whether the origin lies in a triangle of the plane: u = c × b, v = a × c and w = b × a have one sign. A vertex is rounded
+//! in the same way in whatever triangle it stands, and an edge function is the exact negative of the neighbour's, so that a
+//! ray that runs into an edge or vertex of a closed mesh meets at least one of the triangles there.
+//!
+//! In f32 a product's rounding is monotonic: u computed is never on the wrong side of 0, but may be 0. So the first stage,
+//! which lets 0 pass on either side, loses nothing. The second, for the one or two triangles a ray that pass, has products of
+//! two f32 exactly and so the signs of u, v and w: it meets what the sheared triangle really covers and nothing else. Its
+//! distance is the mean of the vertices', weighted by u, v and w.
+//!
+//! So the test is exact but for the rounding of vertices. With a and b the distances of one from the ray's origin along x and z,
+//! s the slope of the ray and u = ε/2, its place fl(fl(a) − fl(fl(s) fl(b))) is off by u |a| + 3 u |s b| + u (|a| + |b|), which
+//! is at most u (2 |a| + 4 |b|), as |s| ≤ 1; that along z by u |b|.
+use fearless_simd::{Simd, SimdBase, SimdMask, f32x8};
+
+use crate::math::{Lanes, M, MAX_LANES, Pick, V};
+
+/// Triangles of a block.
+pub(super) const SIZE: usize = 8;
+
+/// Vertices of up to [`SIZE`] triangles, side by side; NaN where there is none.
+#[derive(Clone, Copy)]
+#[repr(align(32))]
+pub(super) struct Block {
+    /// By corner, then axis.
+    corners: [[[f32; SIZE]; 3]; 3],
+    /// The number of its first triangle.
+    pub first: u32,
+}
+
+/// What the test of triangles needs to know of the rays o + td of several lanes.
+pub(super) struct Shears {
+    /// The axis of the largest component of d.
+    z: [u32; MAX_LANES],
+    /// The origin, along the axes that follow z, and z last.
+    origin: [[f32; MAX_LANES]; 3],
+    /// How far the ray moves along the first two for a step along z.
+    slope: [[f32; MAX_LANES]; 2],
+    /// The component of d along z.
+    depth: [f32; MAX_LANES],
+}
+
+/// The same for one ray.
+pub(super) struct Shear {
+    axes: [usize; 3],
+    origin: [f32; 3],
+    slope: [f32; 2],
+    depth: f32,
+}
+
+/// The components in a cyclic order that ends with x, with y or with z.
+#[inline(always)]
+fn turned<L: Lanes>(v: V<L>, x_last: M<L>, y_last: M<L>) -> V<L> {
+    V {
+        x: x_last.pick(v.y, y_last.pick(v.z, v.x)),
+        y: x_last.pick(v.z, y_last.pick(v.x, v.y)),
+        z: x_last.pick(v.x, y_last.pick(v.y, v.z)),
+    }
+}
+
+impl Shears {
+    #[inline(always)]
+    pub fn new<L: Lanes>(l: L, o: V<L>, d: V<L>) -> Shears {
+        let (x, y, z) = (d.x.abs(), d.y.abs(), d.z.abs());
+        let is_x = y.lt(x) & z.lt(x);
+        let is_y = !is_x & z.lt(y);
+        let (o, d) = (turned(o, is_x, is_y), turned(d, is_x, is_y));
+        let mut shears = Shears {
+            z: is_x.pick(l.u(0), is_y.pick(l.u(1), l.u(2))).to_array(),
+            origin: [[0.0; MAX_LANES]; 3],
+            slope: [[0.0; MAX_LANES]; 2],
+            depth: d.z.to_array(),
+        };
+        o.x.store(&mut shears.origin[0]);
+        o.y.store(&mut shears.origin[1]);
+        o.z.store(&mut shears.origin[2]);
+        (d.x / d.z).store(&mut shears.slope[0]);
+        (d.y / d.z).store(&mut shears.slope[1]);
+        shears
+    }
+
+    #[inline(always)]
+    pub fn lane(&self, lane: usize) -> Shear {
+        Shear {
+            axes: [[1, 2, 0], [2, 0, 1], [0, 1, 2]][self.z[lane] as usize],
+            origin: [self.origin[0][lane], self.origin[1][lane], self.origin[2][lane]],
+            slope: [self.slope[0][lane], self.slope[1][lane]],
+            depth: self.depth[lane],
+        }
+    }
+}
+
+impl Block {
+    pub fn new(triangles: &[[[f32; 3]; 3]], first: u32) -> Block {
+        let mut corners = [[[f32::NAN; SIZE]; 3]; 3];
+        for (place, triangle) in triangles.iter().enumerate() {
+            for (corner, vertex) in triangle.iter().enumerate() {
+                for axis in 0..3 {
+                    corners[corner][axis][place] = vertex[axis];
+                }
+            }
+        }
+        Block { corners, first }
+    }
+
+    /// Words of its cache lines.
+    #[inline(always)]
+    pub fn touch(&self) -> u32 {
+        let [a, b, c] = &self.corners;
+        a[0][0].to_bits() | b[1][0].to_bits() | c[0][0].to_bits() | self.first
+    }
+
+    /// The vertices, sheared.
+    #[inline(always)]
+    pub fn sheared<S: Simd>(&self, s: S, ray: &Shear) -> Sheared<S> {
+        Sheared { corners: [self.corner(s, ray, 0), self.corner(s, ray, 1), self.corner(s, ray, 2)] }
+    }
+
+    #[inline(always)]
+    fn corner<S: Simd>(&self, s: S, ray: &Shear, corner: usize) -> [f32x8<S>; 3] {
+        let corner = &self.corners[corner];
+        let x = f32x8::load_array_ref(s, &corner[ray.axes[0]]) - ray.origin[0];
+        let y = f32x8::load_array_ref(s, &corner[ray.axes[1]]) - ray.origin[1];
+        let z = f32x8::load_array_ref(s, &corner[ray.axes[2]]) - ray.origin[2];
+        [x - z * ray.slope[0], y - z * ray.slope[1], z]
+    }
+}
+
+/// The vertices of a block, sheared for a ray; by corner, then axis.
+pub(super) struct Sheared<S: Simd> {
+    corners: [[f32x8<S>; 3]; 3],
+}
+
+impl<S: Simd> Sheared<S> {
+    /// The triangles that the line of the ray seems to meet, as bits; all that it does meet are among them.
+    #[inline(always)]
+    pub fn candidates(&self, s: S) -> u32 {
+        let [[ax, ay, _], [bx, by, _], [cx, cy, _]] = self.corners;
+        let u = cx * by - cy * bx;
+        let v = ax * cy - ay * cx;
+        let w = bx * ay - by * ax;
+        let zero = f32x8::splat(s, 0.0);
+        let inside = u.min(v).min(w).simd_ge(zero) | u.max(v).max(w).simd_le(zero);
+        inside.to_bitmask() as u32
+    }
+
+    /// Distance to the triangle at `place`, in units of d; NaN if the line of the ray does not meet it.
+    #[inline(always)]
+    pub fn distance(&self, place: usize, ray: &Shear) -> f32 {
+        let [ax, ay, az] = self.vertex(0, place);
+        let [bx, by, bz] = self.vertex(1, place);
+        let [cx, cy, cz] = self.vertex(2, place);
+        let u = cx * by - cy * bx;
+        let v = ax * cy - ay * cx;
+        let w = bx * ay - by * ax;
+        let inside = ((u >= 0.0) & (v >= 0.0) & (w >= 0.0)) | ((u <= 0.0) & (v <= 0.0) & (w <= 0.0));
+        let distance = (u * az + v * bz + w * cz) / ((u + v + w) * f64::from(ray.depth));
+        if inside { distance as f32 } else { f32::NAN }
+    }
+
+    #[inline(always)]
+    fn vertex(&self, corner: usize, place: usize) -> [f64; 3] {
+        let [x, y, z] = &self.corners[corner];
+        let place = place % SIZE;
+        [f64::from(x[place]), f64::from(y[place]), f64::from(z[place])]
+    }
+}

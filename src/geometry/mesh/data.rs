@@ -1,0 +1,56 @@
+//! What a mesh is made of, before it is given a tree.
+use glam::{DAffine3, DVec3, Vec3};
+
+use crate::geometry::bounds::Bounds;
+
+/// Vertices and triangles. `normals` and `uvs` belong to the vertices; they may be empty.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MeshData {
+    pub vertices: Vec<[f32; 3]>,
+    /// Counter-clockwise seen from the front.
+    pub triangles: Vec<[u32; 3]>,
+    /// For shading, of any length.
+    pub normals: Vec<[f32; 3]>,
+    /// v is upwards.
+    pub uvs: Vec<[f32; 2]>,
+}
+
+impl MeshData {
+    /// The corners of the box around all vertices.
+    pub fn bounds(&self) -> ([f32; 3], [f32; 3]) {
+        let Bounds { min, max } = Bounds::of_points(self.vertices.iter().copied());
+        (min, max)
+    }
+
+    /// In another space. The front stays the front, whether the map mirrors or not.
+    pub fn transformed(&self, map: &DAffine3) -> MeshData {
+        if *map == DAffine3::IDENTITY {
+            return self.clone();
+        }
+        let mirrors = map.matrix3.determinant() < 0.0;
+        let covector = map.matrix3.inverse().transpose();
+        let point = |p: &[f32; 3]| map.transform_point3(Vec3::from(*p).as_dvec3()).as_vec3().to_array();
+        let normal = |n: &[f32; 3]| (covector * Vec3::from(*n).as_dvec3()).normalize_or_zero().as_vec3().to_array();
+        let turned = |&[a, b, c]: &[u32; 3]| if mirrors { [a, c, b] } else { [a, b, c] };
+        MeshData {
+            vertices: self.vertices.iter().map(point).collect(),
+            triangles: self.triangles.iter().map(turned).collect(),
+            normals: self.normals.iter().map(normal).collect(),
+            uvs: self.uvs.clone(),
+        }
+    }
+
+    /// Whether a point lies inside a closed mesh: a ray from there crosses it an odd number of times.
+    pub fn contains(&self, p: DVec3) -> bool {
+        // No edge or corner of a mesh made by hand lies in this direction.
+        let d = DVec3::new(0.577_215, 0.691_417, 0.432_294);
+        let vertex = |id: u32| Vec3::from(self.vertices[id as usize]).as_dvec3() - p;
+        let crosses = |triangle: &&[u32; 3]| {
+            let [a, b, c] = triangle.map(vertex);
+            let weights = DVec3::new(d.dot(b.cross(c)), d.dot(c.cross(a)), d.dot(a.cross(b)));
+            let ahead = (a.dot(b.cross(c)) > 0.0) == (weights.element_sum() > 0.0);
+            ahead && (weights.min_element() > 0.0 || weights.max_element() < 0.0)
+        };
+        self.triangles.iter().filter(crosses).count() % 2 == 1
+    }
+}

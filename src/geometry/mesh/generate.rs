@@ -1,0 +1,111 @@
+//! Meshes made by formula, for tests, benchmarks and scenes.
+use std::f32::consts::TAU;
+
+use glam::{Vec3, vec3};
+
+use super::MeshData;
+
+/// Closes the grid of `columns` × `rows` quads whose corners `vertex(i, j)` gives, i below `columns`, j below `rows`, in both
+/// directions, as a torus is closed. Counter-clockwise where i runs to the right and j up.
+fn torus_grid(columns: usize, rows: usize) -> Vec<[u32; 3]> {
+    let at = |i: usize, j: usize| ((i % columns) * rows + j % rows) as u32;
+    let quads = (0..columns).flat_map(|i| (0..rows).map(move |j| (i, j)));
+    quads
+        .flat_map(|(i, j)| {
+            let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+            [[a, b, c], [a, c, d]]
+        })
+        .collect()
+}
+
+/// Unit normals of the vertices: the mean of their triangles', weighted by area.
+pub fn smooth_normals(vertices: &[[f32; 3]], triangles: &[[u32; 3]]) -> Vec<[f32; 3]> {
+    let mut sums = vec![Vec3::ZERO; vertices.len()];
+    for triangle in triangles {
+        let [a, b, c] = triangle.map(|vertex| Vec3::from(vertices[vertex as usize]));
+        let doubled_area = (b - a).cross(c - a);
+        for vertex in triangle {
+            sums[*vertex as usize] += doubled_area;
+        }
+    }
+    sums.into_iter().map(|sum| sum.normalize_or(Vec3::Y).to_array()).collect()
+}
+
+/// A closed tube along the (2, 3) torus knot, about 1.7 wide, with bumps: near to `triangles` triangles. The front is outside.
+pub fn torus_knot(triangles: usize) -> MeshData {
+    // The tube is about 16 times as long as it is around; twice as many quads go along it as around it squared.
+    let rows = ((triangles as f64 / 16.0).sqrt().round() as usize).max(3);
+    let columns = (triangles / (2 * rows)).max(3);
+    let mut data = MeshData { triangles: torus_grid(columns, rows), ..MeshData::default() };
+    for i in 0..columns {
+        let u = i as f32 / columns as f32;
+        let (center, across, up) = knot_frame(u * TAU);
+        for j in 0..rows {
+            let v = j as f32 / rows as f32;
+            let radius = 0.13 * bumps(u * TAU, v * TAU);
+            let (sin, cos) = (v * TAU).sin_cos();
+            data.vertices.push((center + (across * cos - up * sin) * radius).to_array());
+            data.uvs.push([u, v]);
+        }
+    }
+    data.normals = smooth_normals(&data.vertices, &data.triangles);
+    data
+}
+
+/// A point of the knot and two directions across it.
+fn knot_frame(u: f32) -> (Vec3, Vec3, Vec3) {
+    let point = |u: f32| {
+        let r = 0.55 + 0.22 * (3.0 * u).cos();
+        vec3(r * (2.0 * u).cos(), 0.28 * (3.0 * u).sin(), r * (2.0 * u).sin())
+    };
+    let tangent = (point(u + 1e-3) - point(u - 1e-3)).normalize();
+    let across = tangent.cross(Vec3::Y).normalize();
+    (point(u), across, tangent.cross(across))
+}
+
+/// The radius of the tube, about 1.
+fn bumps(u: f32, v: f32) -> f32 {
+    1.0 + 0.15 * (23.0 * u).sin() * (7.0 * v).sin() + 0.06 * (91.0 * u + 3.0 * v).sin() * (31.0 * v).cos()
+}
+
+/// Hills over the square |x|, |z| ≤ 1 about y = 0, of 2·`quads`² triangles; `seed` chooses which. The front is above.
+pub fn heightfield(quads: usize, seed: u32) -> MeshData {
+    let side = quads + 1;
+    let mut data = MeshData::default();
+    for (i, j) in (0..side).flat_map(|i| (0..side).map(move |j| (i, j))) {
+        let (u, v) = (i as f32 / quads as f32, j as f32 / quads as f32);
+        data.vertices.push([2.0 * u - 1.0, hills(u, v, seed), 1.0 - 2.0 * v]);
+        data.uvs.push([u, v]);
+    }
+    for (i, j) in (0..quads).flat_map(|i| (0..quads).map(move |j| (i, j))) {
+        let [a, b, c, d] = [[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]].map(|[i, j]| (i * side + j) as u32);
+        data.triangles.extend([[a, b, c], [a, c, d]]);
+    }
+    data.normals = smooth_normals(&data.vertices, &data.triangles);
+    data
+}
+
+/// Six octaves of value noise, within ±0.32.
+fn hills(u: f32, v: f32, seed: u32) -> f32 {
+    let (mut sum, mut cells, mut height) = (0.0, 4.0, 0.16);
+    for octave in 0..6 {
+        sum += height * value_noise(u * cells, v * cells, seed.wrapping_add(octave));
+        (cells, height) = (cells * 2.0, height * 0.5);
+    }
+    sum
+}
+
+/// Values in [−1, 1] at the integers, hashed, with a smooth passage between them.
+fn value_noise(x: f32, y: f32, seed: u32) -> f32 {
+    let (cell_x, cell_y) = (x.floor(), y.floor());
+    let smooth = |t: f32| t * t * (3.0 - 2.0 * t);
+    let (s, t) = (smooth(x - cell_x), smooth(y - cell_y));
+    let value = |i: u32, j: u32| {
+        let mut h = (cell_x as u32 + i).wrapping_mul(0x8DA6_B343) ^ (cell_y as u32 + j).wrapping_mul(0xD816_3841) ^ seed;
+        h = (h ^ (h >> 16)).wrapping_mul(0x7FEB_352D);
+        h = (h ^ (h >> 15)).wrapping_mul(0x846C_A68B);
+        ((h ^ (h >> 16)) >> 8) as f32 / 8_388_608.0 - 1.0
+    };
+    let along_x = |j: u32| value(0, j) + (value(1, j) - value(0, j)) * s;
+    along_x(0) + (along_x(1) - along_x(0)) * t
+}

@@ -1,0 +1,215 @@
+//! Triangle meshes.
+//!
+//! | part | file |
+//! |---|---|
+//! | a ray against several triangles at once | `block.rs` |
+//! | the point where it met one | `surface.rs` |
+//! | coordinates and smooth normals there | `shading.rs` |
+//! | directions towards one that emits | `toward.rs` |
+//! | what a mesh is made from | `data.rs` |
+//! | meshes made by formula | `generate.rs` |
+mod block;
+mod data;
+pub mod generate;
+mod shading;
+mod surface;
+#[cfg(test)]
+mod tests;
+mod toward;
+
+use fearless_simd::Simd;
+use fearless_simd_macros::simd;
+
+use self::{
+    block::{Block, Shear, Shears},
+    surface::scaled_area_squared,
+};
+pub use self::{
+    data::MeshData,
+    surface::{Attributes, MeshPoint},
+};
+use super::{
+    bounds::Bounds,
+    bvh::{Bvh, Leaves, NONE, Slabs, Stack, traverse},
+};
+use crate::math::{F, Lanes, MAX_LANES, One, U, V};
+
+/// Coordinates beyond this could overflow when they are multiplied.
+const LARGEST: f32 = 1e11;
+
+/// A triangle mesh with its tree. A triangle's front is the side from which its vertices run counter-clockwise.
+pub struct Mesh {
+    bvh: Bvh,
+    blocks: Vec<Block>,
+    /// The vertices of the triangles as integers in bits, in the order of the leaves.
+    triangles: Vec<[f32; 4]>,
+    /// Position, then u.
+    vertices: Vec<[f32; 4]>,
+    /// Normal, then v. Empty if the mesh has neither.
+    normals: Vec<[f32; 4]>,
+    is_smooth: bool,
+    has_uvs: bool,
+    dropped: usize,
+}
+
+/// The nearest meeting so far, and how to find nearer ones in the leaves.
+struct Nearest<'a> {
+    blocks: &'a [Block],
+    ray: Shear,
+    triangle: u32,
+}
+
+impl<S: Simd> Leaves<S> for Nearest<'_> {
+    #[inline(always)]
+    fn meet(&mut self, s: S, leaf: u32, mut t_max: f32) -> f32 {
+        let block = &self.blocks[leaf as usize];
+        let sheared = block.sheared(s, &self.ray);
+        let mut candidates = sheared.candidates(s);
+        while candidates != 0 {
+            let place = candidates.trailing_zeros();
+            candidates &= candidates - 1;
+            let t = sheared.distance(place as usize, &self.ray);
+            let nearer = (t > 0.0) & (t < t_max);
+            t_max = if nearer { t } else { t_max };
+            self.triangle = if nearer { block.first + place } else { self.triangle };
+        }
+        t_max
+    }
+
+    #[inline(always)]
+    fn touch(&self, leaf: u32) -> u32 {
+        self.blocks[leaf as usize].touch()
+    }
+}
+
+/// Rays of several lanes, prepared for boxes and triangles.
+pub struct Rays {
+    slabs: Slabs,
+    shears: Shears,
+}
+
+impl Rays {
+    /// Rays o + td towards what lies in `bounds`.
+    #[inline(always)]
+    pub fn new<L: Lanes>(l: L, o: V<L>, d: V<L>, bounds: &Bounds) -> Rays {
+        Rays { slabs: Slabs::new(l, o, d, bounds), shears: Shears::new(l, o, d) }
+    }
+
+    /// For a tree above the meshes.
+    pub fn slabs(&self) -> &Slabs {
+        &self.slabs
+    }
+}
+
+impl Mesh {
+    /// Leaves out triangles without area and those with coordinates that are not finite or beyond 10¹¹.
+    pub fn new(data: &MeshData) -> Mesh {
+        let corners = |triangle: [u32; 3]| triangle.map(|vertex| data.vertices[vertex as usize]);
+        let kept: Vec<[u32; 3]> = data.triangles.iter().copied().filter(|&triangle| has_area(corners(triangle))).collect();
+        let boxes = kept.iter().map(|&triangle| Bounds::of_points(corners(triangle)));
+        let (bvh, order) = Bvh::build::<{ block::SIZE }>(boxes);
+
+        let mut blocks = Vec::with_capacity(order.len() / block::SIZE);
+        let mut triangles = Vec::with_capacity(kept.len());
+        for leaf in order.chunks_exact(block::SIZE) {
+            let first = triangles.len();
+            let members = leaf.iter().filter(|&&number| number != NONE).map(|&number| kept[number as usize]);
+            triangles.extend(members.map(|[a, b, c]| [a, b, c, 0].map(f32::from_bits)));
+            let vertices: Vec<_> = triangles[first..].iter().map(|row| corners(ids(row))).collect();
+            blocks.push(Block::new(&vertices, first as u32));
+        }
+        let (vertices, normals) = rows(data);
+        let (is_smooth, has_uvs) = (!data.normals.is_empty(), !data.uvs.is_empty());
+        Mesh { bvh, blocks, triangles, vertices, normals, is_smooth, has_uvs, dropped: data.triangles.len() - kept.len() }
+    }
+
+    /// The first triangle along o + td with 0 < t < `t_max`: t, or `t_max` if there is none, and the triangle's number or [`NONE`].
+    /// Both sides count. d need not be of unit length. Lanes with a `t_max` of 0 cost next to nothing.
+    #[inline(always)]
+    pub fn closest<L: Lanes>(&self, l: L, o: V<L>, d: V<L>, t_max: F<L>) -> (F<L>, U<L>) {
+        let rays = Rays::new(l, o, d, &self.bounds());
+        let mut stack = Stack::default();
+        let mut distances = t_max.to_array();
+        let mut triangles = [0.0; MAX_LANES];
+        for lane in 0..L::N {
+            let (t, triangle) = self.closest_of(l.token(), &mut stack, &rays, lane, distances[lane]);
+            distances[lane] = t;
+            triangles[lane] = f32::from_bits(triangle);
+        }
+        (l.load(&distances), l.load(&triangles).bits())
+    }
+
+    /// The same for the ray in one lane of rays that were prepared for bounds which contain the mesh.
+    #[simd]
+    pub fn closest_of<S: Simd>(&self, s: S, stack: &mut Stack, rays: &Rays, lane: usize, t_max: f32) -> (f32, u32) {
+        let mut nearest = Nearest { blocks: &self.blocks, ray: rays.shears.lane(lane), triangle: NONE };
+        let t = traverse(s, &self.bvh, stack, (&rays.slabs, lane), t_max, &mut nearest);
+        (t, nearest.triangle)
+    }
+
+    /// The vertices of a triangle.
+    pub fn corners(&self, triangle: u32) -> [[f32; 3]; 3] {
+        ids(&self.triangles[triangle as usize]).map(|vertex| {
+            let [x, y, z, _] = self.vertices[vertex as usize];
+            [x, y, z]
+        })
+    }
+
+    pub fn bounds(&self) -> Bounds {
+        self.bvh.bounds()
+    }
+
+    /// Triangles, which are numbered 0, 1, …, in an order of the mesh's own.
+    pub fn len(&self) -> usize {
+        self.triangles.len()
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.triangles.is_empty()
+    }
+
+    /// Whether it is shaded with normals that vary over its triangles.
+    pub fn is_smooth(&self) -> bool {
+        self.is_smooth
+    }
+
+    pub fn has_uvs(&self) -> bool {
+        self.has_uvs
+    }
+
+    /// How many triangles were left out.
+    pub fn dropped(&self) -> usize {
+        self.dropped
+    }
+
+    /// Memory in bytes.
+    pub fn bytes(&self) -> usize {
+        let rows = self.triangles.len() + self.vertices.len() + self.normals.len();
+        self.bvh.bytes() + size_of_val(self.blocks.as_slice()) + rows * size_of::<[f32; 4]>()
+    }
+}
+
+fn ids(row: &[f32; 4]) -> [u32; 3] {
+    [row[0].to_bits(), row[1].to_bits(), row[2].to_bits()]
+}
+
+/// The tables of vertices and normals.
+fn rows(data: &MeshData) -> (Vec<[f32; 4]>, Vec<[f32; 4]>) {
+    let uv = |vertex: usize| data.uvs.get(vertex).copied().unwrap_or_default();
+    let vertices = data.vertices.iter().enumerate().map(|(vertex, [x, y, z])| [*x, *y, *z, uv(vertex)[0]]).collect();
+    let count = data.normals.len().max(data.uvs.len());
+    let normal = |vertex: usize| data.normals.get(vertex).copied().unwrap_or_default();
+    let normals = (0..count).map(|vertex| {
+        let [x, y, z] = normal(vertex);
+        [x, y, z, uv(vertex)[1]]
+    });
+    (vertices, normals.collect())
+}
+
+/// Whether the triangle has a normal in f32, and coordinates to compute with.
+fn has_area(corners: [[f32; 3]; 3]) -> bool {
+    let fine = corners.as_flattened().iter().all(|x| x.abs() <= LARGEST);
+    let [a, b, c] = corners.map(|corner| V::splat(One, corner));
+    let area_squared = scaled_area_squared(a, b, c).0;
+    fine && area_squared > 0.0 && area_squared.is_finite()
+}

@@ -1,0 +1,52 @@
+//! Coordinates and smooth normals between the vertices of a mesh.
+use super::Mesh;
+use crate::{
+    geometry::Coordinates,
+    math::{F, Lanes, Pick, U, V},
+};
+
+impl Mesh {
+    /// Coordinates at a point `p` of a triangle, and the directions in which they grow. A mesh that has none is given those in
+    /// which every triangle is half of the unit square.
+    #[inline(always)]
+    pub fn coordinates<L: Lanes>(&self, l: L, triangle: U<L>, p: V<L>) -> (Coordinates<L>, [V<L>; 2]) {
+        // Triangles of less area in u and v than this, of their own, have no directions of theirs.
+        const LEAST: f32 = 1e-12;
+        let point = self.surface_point(l, triangle, p);
+        let [beta, gamma] = point.barycentrics;
+        let [a, b, c] = self.positions(l, triangle);
+        let (ab, ac) = (b - a, c - a);
+        if !self.has_uvs() {
+            return (Coordinates { u: beta, v: 1.0 - gamma }, [ab, -ac]);
+        }
+        let [u, v] = self.attributes(l, triangle, point.barycentrics).uv;
+        let [[ua, va], [ub, vb], [uc, vc]] = self.uvs(l, triangle);
+        let (u1, v1, u2, v2) = (ub - ua, vb - va, uc - ua, vc - va);
+        let determinant = u1 * v2 - u2 * v1;
+        let defined = determinant.abs().above(LEAST);
+        let scale = 1.0 / determinant;
+        let along_u = defined.pick((ab * v2 - ac * v1) * scale, ab);
+        let along_v = defined.pick((ac * u1 - ab * u2) * scale, ac);
+        (Coordinates { u, v: 1.0 - v }, [along_u, -along_v])
+    }
+
+    /// The normal between those of the vertices, on the front side; not of unit length.
+    #[inline(always)]
+    pub fn smooth_normal<L: Lanes>(&self, l: L, triangle: U<L>, p: V<L>) -> V<L> {
+        let point = self.surface_point(l, triangle, p);
+        let normal = self.attributes(l, triangle, point.barycentrics).normal;
+        // A normal of the file that points to the back, or nowhere, is not used.
+        normal.dot(point.n_geometric).above(0.0).pick(normal, point.n_geometric)
+    }
+
+    #[inline(always)]
+    fn uvs<L: Lanes>(&self, l: L, triangle: U<L>) -> [[F<L>; 2]; 3] {
+        let [a, b, c, _] = l.rows(&self.triangles, triangle);
+        let (ids, zero) = ([a.bits(), b.bits(), c.bits()], l.f(0.0));
+        let mut uvs = [[zero; 2]; 3];
+        for (uv, id) in uvs.iter_mut().zip(ids) {
+            *uv = [l.rows(&self.vertices, id)[3], l.rows(&self.normals, id)[3]];
+        }
+        uvs
+    }
+}

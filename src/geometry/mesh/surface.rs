@@ -1,0 +1,111 @@
+//! The surface of a mesh where a ray met it.
+use super::Mesh;
+use crate::math::{F, Lanes, U, V};
+
+/// A point of a mesh in lanes.
+pub struct MeshPoint<L: Lanes> {
+    pub p: V<L>,
+    /// Unit geometric normal on the front side, from which the vertices run counter-clockwise.
+    pub n_geometric: V<L>,
+    /// How far along the normal a ray that starts at `p` must be moved to be strictly on that side of the triangle.
+    pub error: F<L>,
+    /// Weights of the second and the third vertex.
+    pub barycentrics: [F<L>; 2],
+}
+
+/// What is given at the vertices, in between.
+pub struct Attributes<L: Lanes> {
+    /// Not of unit length.
+    pub normal: V<L>,
+    pub uv: [F<L>; 2],
+}
+
+/// Two edges from one vertex.
+struct Edges<L: Lanes> {
+    b: V<L>,
+    c: V<L>,
+    /// The largest component of the three edges.
+    size: F<L>,
+}
+
+impl<L: Lanes> Edges<L> {
+    #[inline(always)]
+    fn of(a: V<L>, b: V<L>, c: V<L>) -> Self {
+        let (b, c) = (b - a, c - a);
+        Edges { b, c, size: b.max_abs().max(c.max_abs()).max((c - b).max_abs()) }
+    }
+
+    /// Edges of a triangle of size 1, whose products neither vanish nor overflow, and their cross product.
+    #[inline(always)]
+    fn scaled(&self) -> (V<L>, V<L>, V<L>) {
+        let scale = 1.0 / self.size;
+        let (b, c) = (self.b * scale, self.c * scale);
+        (b, c, b.cross(c))
+    }
+}
+
+/// The weighted mean.
+#[inline(always)]
+fn mix<L: Lanes>(weights: [F<L>; 3], of: [F<L>; 3]) -> F<L> {
+    weights[0] * of[0] + (weights[1] * of[1] + weights[2] * of[2])
+}
+
+/// Twice the area of a triangle scaled to size 1, squared; 0, infinite or NaN if it has no normal in f32.
+pub(super) fn scaled_area_squared<L: Lanes>(a: V<L>, b: V<L>, c: V<L>) -> F<L> {
+    Edges::of(a, b, c).scaled().2.length_squared()
+}
+
+impl Mesh {
+    /// The surface at a point `p` that lies on a given triangle but for rounding.
+    #[inline(always)]
+    pub fn surface_point<L: Lanes>(&self, l: L, triangle: U<L>, p: V<L>) -> MeshPoint<L> {
+        // Adding up what can bring a ray back to its triangle, with u = ε/2 and R the size of the triangle:
+        // * `p` is a weighted mean of vertices, so that it leaves the plane only by its own rounding, √3 (3 u R + u |p|), however
+        //   wrong the weights; the origin after it was moved is rounded by another √3 u |p|;
+        // * the intersection is exact for vertices that are off by 6 u R along two axes and u R along one (`block.rs`), √73 u R;
+        // * a direction that seems to leave may dive by the rounding of n · d, of d's shear and of n itself: 8 u + 4√3 u κ with
+        //   κ = |b||c|/|b × c| for edges b and c, which over the triangle, √3 R, is (14 + 12.2 κ) u R.
+        const ROUNDINGS_OF_R: f32 = 15.0 * f32::EPSILON;
+        const ROUNDINGS_OF_N: f32 = 6.5 * f32::EPSILON;
+        const ROUNDINGS_OF_P: f32 = 2.0 * f32::EPSILON;
+        let [a, b, c] = self.positions(l, triangle);
+        let edges = Edges::of(a, b, c);
+        let (unit_b, unit_c, normal) = edges.scaled();
+        let normal_squared = normal.length_squared();
+        let length = normal_squared.sqrt();
+
+        let w = (p - a) * (1.0 / edges.size);
+        let beta = (w.cross(unit_c).dot(normal) / normal_squared).max(l.f(0.0));
+        let gamma = (unit_b.cross(w).dot(normal) / normal_squared).max(l.f(0.0));
+        let excess = (beta + gamma).max(l.f(1.0));
+        let (beta, gamma) = (beta / excess, gamma / excess);
+        let p = a + (edges.b * beta + edges.c * gamma);
+
+        let kappa = (unit_b.length_squared() * unit_c.length_squared()).sqrt() / length;
+        let error = edges.size * (kappa * ROUNDINGS_OF_N + ROUNDINGS_OF_R) + p.max_abs() * ROUNDINGS_OF_P;
+        MeshPoint { p, n_geometric: normal * (1.0 / length), error, barycentrics: [beta, gamma] }
+    }
+
+    /// Normal and coordinates at a point with these barycentrics. Only for a mesh that has normals or coordinates.
+    #[inline(always)]
+    pub fn attributes<L: Lanes>(&self, l: L, triangle: U<L>, [beta, gamma]: [F<L>; 2]) -> Attributes<L> {
+        let [a, b, c, _] = l.rows(&self.triangles, triangle);
+        let alpha = 1.0 - beta - gamma;
+        let weights = [alpha, beta, gamma];
+        let ([nax, nay, naz, va], [nbx, nby, nbz, vb], [ncx, ncy, ncz, vc]) =
+            (l.rows(&self.normals, a.bits()), l.rows(&self.normals, b.bits()), l.rows(&self.normals, c.bits()));
+        let ([_, _, _, ua], [_, _, _, ub], [_, _, _, uc]) =
+            (l.rows(&self.vertices, a.bits()), l.rows(&self.vertices, b.bits()), l.rows(&self.vertices, c.bits()));
+        let normal = V { x: mix(weights, [nax, nbx, ncx]), y: mix(weights, [nay, nby, ncy]), z: mix(weights, [naz, nbz, ncz]) };
+        Attributes { normal, uv: [mix(weights, [ua, ub, uc]), mix(weights, [va, vb, vc])] }
+    }
+
+    #[inline(always)]
+    pub(super) fn positions<L: Lanes>(&self, l: L, triangle: U<L>) -> [V<L>; 3] {
+        let [a, b, c, _] = l.rows(&self.triangles, triangle);
+        let [ax, ay, az, _] = l.rows(&self.vertices, a.bits());
+        let [bx, by, bz, _] = l.rows(&self.vertices, b.bits());
+        let [cx, cy, cz, _] = l.rows(&self.vertices, c.bits());
+        [V { x: ax, y: ay, z: az }, V { x: bx, y: by, z: bz }, V { x: cx, y: cy, z: cz }]
+    }
+}

@@ -1,0 +1,307 @@
+//! Against brute force and an oracle in f64.
+mod surface;
+mod watertight;
+
+use std::f32::consts::TAU;
+
+use fearless_simd::Fallback;
+use glam::{DVec3, Vec3, vec3};
+use rand::{Rng, SeedableRng, rngs::SmallRng};
+
+use super::{
+    Mesh, MeshData, NONE,
+    block::{SIZE, Shears},
+    generate,
+};
+use crate::{
+    in_lanes,
+    math::{F, Lanes, MAX_LANES, One, Pick, SimdLevel, V},
+};
+
+type Ray = ([f32; 3], [f32; 3]);
+
+fn unit(rng: &mut SmallRng) -> Vec3 {
+    let (z, turn): (f32, f32) = (rng.random_range(-1.0..1.0), rng.random_range(0.0..TAU));
+    let r = (1.0 - z * z).sqrt();
+    vec3(r * turn.cos(), r * turn.sin(), z)
+}
+
+fn point(rng: &mut SmallRng, size: f32) -> Vec3 {
+    vec3(rng.random_range(-size..size), rng.random_range(-size..size), rng.random_range(-size..size))
+}
+
+/// Triangles at random in a cube, some of them needles, specks or axis-parallel.
+fn soup(count: usize, rng: &mut SmallRng) -> MeshData {
+    let mut data = MeshData::default();
+    for k in 0..count {
+        let center = point(rng, 1.0);
+        let size = if k % 7 == 0 { 1e-4 } else { 0.3 };
+        let flat = if k % 3 == 0 { vec3(1.0, 0.0, 1.0) } else { Vec3::ONE };
+        let needle = vec3(0.6, 0.64, 0.48) * size;
+        for _ in 0..3 {
+            let offset = if k % 5 == 0 { needle * rng.random::<f32>() + point(rng, size * 1e-4) } else { point(rng, size) };
+            data.vertices.push((center + offset * flat).to_array());
+        }
+        data.triangles.push([3 * k as u32, 3 * k as u32 + 1, 3 * k as u32 + 2]);
+    }
+    data
+}
+
+/// A closed bumpy ball about the origin, of radius 0.7 to 1.3.
+fn bumpy_ball(columns: usize, rows: usize) -> MeshData {
+    let mut data = MeshData { vertices: vec![[0.0, 1.0, 0.0], [0.0, -1.0, 0.0]], ..MeshData::default() };
+    let at = |i: usize, j: usize| match j {
+        0 => 0,
+        j if j == rows => 1,
+        j => (2 + (i % columns) * (rows - 1) + j - 1) as u32,
+    };
+    for (i, j) in (0..columns).flat_map(|i| (1..rows).map(move |j| (i, j))) {
+        let (phi, theta) = (TAU * i as f32 / columns as f32, 0.5 * TAU * j as f32 / rows as f32);
+        let r = 1.0 + 0.2 * (7.0 * phi).sin() * (9.0 * theta).sin() + 0.1 * (31.0 * phi + 17.0 * theta).sin() * theta.sin();
+        data.vertices.push([r * theta.sin() * phi.cos(), r * theta.cos(), -r * theta.sin() * phi.sin()]);
+    }
+    for (i, j) in (0..columns).flat_map(|i| (0..rows).map(move |j| (i, j))) {
+        let [a, b, c, d] = [at(i, j), at(i, j + 1), at(i + 1, j + 1), at(i + 1, j)];
+        data.triangles.extend([[a, b, c], [a, c, d]].into_iter().filter(|t| t[0] != t[1] && t[1] != t[2] && t[2] != t[0]));
+    }
+    data
+}
+
+/// Rays of many kinds towards a mesh of size about 1.
+fn rays(mesh: &Mesh, count: usize, rng: &mut SmallRng) -> Vec<Ray> {
+    let mut rays = Vec::new();
+    for k in 0..count {
+        let corners = mesh.corners(rng.random_range(0..mesh.len() as u32)).map(Vec3::from);
+        let [a, b, c] = corners;
+        let (s, t): (f32, f32) = (rng.random(), rng.random());
+        let on = a + (b - a) * (s * t.sqrt()) + (c - a) * ((1.0 - s) * t.sqrt());
+        let along = b - a;
+        let axis = [Vec3::X, Vec3::NEG_Y, Vec3::Z][k % 3];
+        let (o, d) = match k % 12 {
+            0 => (point(rng, 1.5), unit(rng)),
+            1 => (point(rng, 1.5), axis),
+            2 => (point(rng, 1.5), vec3(-0.0, axis.y + axis.x, 0.0) + axis * 1e-20),
+            3 => (a - along * 2.0, along),
+            4 => (point(rng, 1.0), a - point(rng, 1.0)),
+            5 => {
+                let o = point(rng, 2.0);
+                (o, [a, a + along * s][k / 12 % 2] - o)
+            }
+            6 => (on - (along * s + (c - a) * (t - 0.5)).normalize_or(axis), along * s + (c - a) * (t - 0.5)),
+            7 => (on, unit(rng)),
+            8 => {
+                let from = on + unit(rng) * 1e6;
+                (from, (on - from).normalize())
+            }
+            9 => (on + unit(rng) * 1e-6, unit(rng) * 1e-6),
+            10 => (on - axis, axis * 1e10),
+            _ => (corners[k / 12 % 3] + axis, -axis),
+        };
+        rays.push((o.to_array(), if d == Vec3::ZERO { axis } else { d }.to_array()));
+    }
+    rays
+}
+
+/// The least distance over all triangles, one after the other.
+fn brute_force(mesh: &Mesh, ray: Ray) -> f32 {
+    let (o, d) = in_columns(One, &[ray]);
+    let shear = Shears::new(One, o, d).lane(0);
+    let mut least = f32::INFINITY;
+    for block in &mesh.blocks {
+        let sheared = block.sheared(Fallback::new(), &shear);
+        for place in 0..SIZE {
+            let t = sheared.distance(place, &shear);
+            least = if t > 0.0 && t < least { t } else { least };
+        }
+    }
+    least
+}
+
+/// Distance, infinite if there is none, and triangle, for every ray.
+fn closest(mesh: &Mesh, rays: &[Ray]) -> Vec<(f32, u32)> {
+    in_lanes!(SimdLevel::best(), l => traced(l, mesh, rays))
+}
+
+fn traced<L: Lanes>(l: L, mesh: &Mesh, rays: &[Ray]) -> Vec<(f32, u32)> {
+    let mut hits = Vec::new();
+    for rays in rays.chunks(L::N) {
+        let (o, d) = in_columns(l, rays);
+        let (t, triangle) = mesh.closest(l, o, d, l.f(f32::INFINITY));
+        hits.extend(t.to_array().into_iter().zip(triangle.to_array()).take(rays.len()));
+    }
+    hits
+}
+
+/// The rays in lanes; those left over repeat the last one.
+fn in_columns<L: Lanes>(l: L, rays: &[Ray]) -> (V<L>, V<L>) {
+    let mut columns = [[0.0; MAX_LANES]; 6];
+    for lane in 0..MAX_LANES {
+        let (o, d) = rays[lane.min(rays.len() - 1)];
+        for axis in 0..3 {
+            (columns[axis][lane], columns[3 + axis][lane]) = (o[axis], d[axis]);
+        }
+    }
+    let [ox, oy, oz, dx, dy, dz] = columns;
+    (V { x: l.load(&ox), y: l.load(&oy), z: l.load(&oz) }, V { x: l.load(&dx), y: l.load(&dy), z: l.load(&dz) })
+}
+
+fn assert_no_hit_is_lost(mesh: &Mesh, rays: &[Ray]) {
+    for (ray, (t, _)) in rays.iter().zip(closest(mesh, rays)) {
+        assert_eq!(t, brute_force(mesh, *ray), "{ray:?}");
+    }
+}
+
+fn meshes(rng: &mut SmallRng) -> Vec<Mesh> {
+    let data = [soup(400, rng), generate::torus_knot(3000), generate::heightfield(24, 1), bumpy_ball(40, 20)];
+    data.iter().map(Mesh::new).collect()
+}
+
+#[test]
+fn no_hit_is_lost_to_a_box() {
+    let mut rng = SmallRng::seed_from_u64(1);
+    for mesh in meshes(&mut rng) {
+        assert_no_hit_is_lost(&mesh, &rays(&mesh, 12_000, &mut rng));
+    }
+}
+
+#[test]
+fn no_hit_is_lost_at_any_scale_or_place() {
+    let mut rng = SmallRng::seed_from_u64(2);
+    for (scale, shift) in [(1e-6, 0.0), (1e6, 0.0), (1e-15, 0.0), (1e10, 0.0), (1.0, 1e4), (1e-3, 1e3), (1e3, -1e6)] {
+        let mut data = soup(150, &mut rng);
+        data.vertices.iter_mut().flatten().for_each(|x| *x = *x * scale + shift);
+        let mesh = Mesh::new(&data);
+        let mut rays = rays(&Mesh::new(&soup(150, &mut rng)), 6_000, &mut rng);
+        rays.iter_mut().for_each(|ray| ray.0 = ray.0.map(|x| x * scale + shift));
+        assert_no_hit_is_lost(&mesh, &rays);
+    }
+}
+
+/// Distance and the smallest barycentric coordinate, where the ray meets the plane of the triangle ahead.
+fn oracle(corners: [[f32; 3]; 3], (o, d): Ray) -> Option<(f64, f64, f64)> {
+    let [a, b, c] = corners.map(|corner| Vec3::from(corner).as_dvec3());
+    let (o, d) = (Vec3::from(o).as_dvec3(), Vec3::from(d).as_dvec3());
+    let n = (b - a).cross(c - a);
+    let t = (a - o).dot(n) / d.dot(n);
+    let p = o + d * t;
+    let weight = |b: DVec3, c: DVec3| (b - p).cross(c - p).dot(n) / n.length_squared();
+    let least = weight(a, b).min(weight(b, c)).min(weight(c, a));
+    let cosine = d.dot(n).abs() / (d.length() * n.length());
+    (t > 0.0 && t.is_finite()).then_some((t, least, cosine))
+}
+
+#[test]
+fn distances_are_those_of_the_oracle() {
+    let mut rng = SmallRng::seed_from_u64(3);
+    let (mut worst, mut compared) = (0.0f64, 0);
+    for mesh in meshes(&mut rng) {
+        for _ in 0..4000 {
+            let (o, d) = (point(&mut rng, 1.5), unit(&mut rng));
+            let ray = (o.to_array(), d.to_array());
+            let meetings: Vec<_> = (0..mesh.len() as u32).filter_map(|k| oracle(mesh.corners(k), ray)).collect();
+            let clear = |meeting: &&(f64, f64, f64)| meeting.1.abs() > 1e-3 && meeting.2 > 1e-2;
+            let doubtful = meetings.iter().any(|meeting| meeting.1 > -1e-3 && !clear(&meeting));
+            let nearest = meetings.iter().filter(|meeting| meeting.1 > 0.0).map(|meeting| meeting.0).min_by(f64::total_cmp);
+            if !doubtful {
+                let t = closest(&mesh, &[ray])[0].0;
+                assert_eq!(t.is_finite(), nearest.is_some(), "{ray:?}");
+                worst = worst.max(nearest.map_or(0.0, |exact| (f64::from(t) - exact).abs()));
+                compared += 1;
+            }
+        }
+    }
+    println!("{compared} compared, worst difference {worst:.2e}");
+    assert!(compared > 10_000 && worst < 3e-5, "{compared} {worst}");
+}
+
+#[test]
+fn nothing_and_next_to_nothing() {
+    let ray = ([0.0, 0.0, 1.0], [0.0, 0.0, -1.0]);
+    let one = [[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [0.0, 1.0, 0.0]];
+    let empty = Mesh::new(&MeshData::default());
+    assert!(empty.is_empty() && empty.bounds().is_empty());
+    assert_eq!(first(&empty, ray, f32::INFINITY), (f32::INFINITY, NONE));
+    let data = MeshData { vertices: one.to_vec(), triangles: vec![[0, 1, 2]], ..MeshData::default() };
+    let single = Mesh::new(&data);
+    assert_eq!(first(&single, ray, f32::INFINITY), (1.0, 0));
+    assert_eq!(first(&single, ([0.0, 0.0, -3.0], [0.0, 0.0, 2.0]), f32::INFINITY), (1.5, 0));
+    assert_eq!(first(&single, ([0.0, 0.0, -3.0], [0.0, 0.0, -2.0]), f32::INFINITY).1, NONE);
+    assert_eq!(first(&single, ray, 1.0), (1.0, NONE));
+    assert_eq!(first(&single, ray, 1.0 + f32::EPSILON), (1.0, 0));
+    for d in [[0.0; 3], [f32::NAN; 3], [f32::INFINITY, 0.0, 0.0]] {
+        assert_eq!(first(&single, (ray.0, d), f32::INFINITY).1, NONE);
+    }
+}
+
+fn first(mesh: &Mesh, ray: Ray, t_max: f32) -> (f32, u32) {
+    let (o, d) = in_columns(One, &[ray]);
+    let (t, triangle) = mesh.closest(One, o, d, F(t_max));
+    (t.0, triangle.0)
+}
+
+#[test]
+fn degenerate_triangles_are_dropped_and_counted() {
+    let mut data = generate::torus_knot(1000);
+    let good = data.triangles.len();
+    let first = data.vertices.len() as u32;
+    let (nan, inf) = ([f32::NAN, 0.0, 0.0], [0.0, f32::INFINITY, 0.0]);
+    data.vertices.extend([[0.0; 3], [1.0, 1.0, 1.0], [2.0, 2.0, 2.0], nan, inf, [1e30, 0.0, 0.0], [1e-44, 0.0, 0.0]]);
+    let [o, a, b, nan, inf, far, speck] = [0, 1, 2, 3, 4, 5, 6].map(|k| first + k);
+    data.triangles.extend([[o, o, a], [a, a, a], [o, a, b], [o, nan, a], [inf, a, 0], [far, a, 0], [o, speck, speck]]);
+    let mesh = Mesh::new(&data);
+    assert_eq!((mesh.len(), mesh.dropped()), (good, 7));
+}
+
+#[test]
+fn coinciding_triangles_fit_into_the_tree() {
+    let one = [[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [0.0, 1.0, 0.0]];
+    let mut data = MeshData { vertices: one.to_vec(), triangles: vec![[0, 1, 2]; 1000], ..MeshData::default() };
+    // Sizes that double drive the heuristic into a comb.
+    for k in 0..90u32 {
+        let x = 2f32.powi(k as i32 - 45);
+        data.vertices.extend([[x, 0.0, 0.0], [x, x, 0.0], [x, 0.0, x]]);
+        data.triangles.push([3 * k + 3, 3 * k + 4, 3 * k + 5]);
+    }
+    let mesh = Mesh::new(&data);
+    let mut rng = SmallRng::seed_from_u64(4);
+    assert_no_hit_is_lost(&mesh, &rays(&mesh, 3000, &mut rng));
+}
+
+#[test]
+fn every_level_gives_the_same_bits() {
+    let mut rng = SmallRng::seed_from_u64(11);
+    for mesh in meshes(&mut rng) {
+        let rays = rays(&mesh, 4800, &mut rng);
+        let expected = bits(One, &mesh, &rays);
+        for level in SimdLevel::available() {
+            assert!(in_lanes!(level, l => bits(l, &mesh, &rays)) == expected, "{level:?}");
+        }
+    }
+}
+
+/// Bits of all that is known of the points the rays meet.
+fn bits<L: Lanes>(l: L, mesh: &Mesh, rays: &[Ray]) -> Vec<[u32; 6]> {
+    let mut all = Vec::new();
+    for rays in rays.chunks_exact(L::N) {
+        let (o, d) = in_columns(l, rays);
+        let (t, triangle) = mesh.closest(l, o, d, l.f(f32::INFINITY));
+        let some = triangle.equals(l.u(NONE)).pick(l.u(0), triangle);
+        let at = mesh.surface_point(l, some, o + d * t);
+        let of_point = [at.p.x, at.n_geometric.y, at.error, at.barycentrics[0]].map(|x| x.bits().to_array());
+        for lane in 0..L::N {
+            let [p, n, error, beta] = of_point.map(|bits| bits[lane]);
+            all.push([t.bits().to_array()[lane], triangle.to_array()[lane], p, n, error, beta]);
+        }
+    }
+    all
+}
+
+#[test]
+fn the_front_of_the_knot_is_outside() {
+    let data = generate::torus_knot(2000);
+    let vertex = |id: u32| Vec3::from(data.vertices[id as usize]).as_dvec3();
+    let sixfold = |triangle: &[u32; 3]| vertex(triangle[0]).dot(vertex(triangle[1]).cross(vertex(triangle[2])));
+    let volume = data.triangles.iter().map(sixfold).sum::<f64>() / 6.0;
+    assert!(volume > 0.0, "{volume}");
+    assert!(data.contains(DVec3::new(0.77, 0.0, 0.0)) && !data.contains(DVec3::ZERO));
+}

@@ -1,0 +1,37 @@
+//! Directions towards triangles of a mesh that emits, uniform over their area.
+use super::Mesh;
+use crate::{
+    geometry::Toward,
+    math::{F, Lanes, M, Pick, U, V},
+    sampling::warp::triangle as warp,
+};
+
+impl Mesh {
+    /// See [`crate::geometry::Shapes::toward`].
+    #[inline(always)]
+    pub fn toward<L: Lanes>(&self, l: L, triangle: U<L>, x: V<L>, u: (F<L>, F<L>)) -> Toward<L> {
+        let [a, b, c] = self.positions(l, triangle);
+        let (s, t) = warp(u);
+        let wi = (a + ((b - a) * s + (c - a) * t) - x).normalized();
+        let (pdf, front) = self.density(l, triangle, x, wi);
+        Toward { wi, pdf, front }
+    }
+
+    /// The density of [`Mesh::toward`].
+    #[inline(always)]
+    pub fn pdf_toward<L: Lanes>(&self, l: L, triangle: U<L>, x: V<L>, wi: V<L>) -> F<L> {
+        self.density(l, triangle, x, wi).0
+    }
+
+    /// t²/(A |cos θ|) with 2A n = (b − a) × (c − a), and whether the front is seen.
+    #[inline(always)]
+    fn density<L: Lanes>(&self, l: L, triangle: U<L>, x: V<L>, wi: V<L>) -> (F<L>, M<L>) {
+        let [a, b, c] = self.positions(l, triangle);
+        let doubled = (b - a).cross(c - a);
+        let height = (x - a).dot(doubled);
+        let nearing = wi.dot(doubled).abs();
+        let t = height / nearing;
+        let exists = height.abs().above(0.0) & nearing.above(0.0);
+        (exists.pick(2.0 * t * t / nearing, l.f(0.0)), height.above(0.0))
+    }
+}

@@ -1,0 +1,187 @@
+//! Shapes in a space of their own: meshes and isosurfaces, and whatever moves while the shutter is open.
+use std::sync::Arc;
+
+use fearless_simd_macros::simd;
+use glam::DAffine3;
+
+use super::{
+    Coordinates, Place, SurfacePoint, Toward,
+    isosurface::Isosurface,
+    mesh::Mesh,
+    motion::{Pose, Step},
+    tables::Tables,
+};
+use crate::math::{F, Lanes, M, Pick, U, V};
+
+/// A shape with its way into the world.
+pub(super) struct Placed {
+    /// Its first primitive.
+    pub first: u32,
+    pub body: Body,
+    still: DAffine3,
+    motion: Vec<Step>,
+    /// The local space is the world's.
+    is_world: bool,
+}
+
+pub(super) enum Body {
+    Mesh(Arc<Mesh>),
+    Isosurface(Box<Isosurface>),
+    Shapes(Box<Tables>),
+}
+
+/// What a ray met of a placed shape: distance in the world, place in the body, triangle.
+pub(super) struct Meeting<L: Lanes> {
+    /// NaN or infinite where there is none.
+    pub t: F<L>,
+    pub piece: U<L>,
+    pub element: U<L>,
+}
+
+impl Placed {
+    pub fn new(first: u32, body: Body, still: DAffine3, motion: &[Step]) -> Placed {
+        let is_world = motion.is_empty() && still == DAffine3::IDENTITY;
+        Placed { first, body, still, motion: motion.to_vec(), is_world }
+    }
+
+    /// The map into the world when the shutter opens.
+    pub fn still(&self) -> &DAffine3 {
+        &self.still
+    }
+
+    #[inline(always)]
+    fn pose<L: Lanes>(&self, l: L, time: F<L>) -> Pose<L> {
+        Pose::new(l, &self.still, &self.motion, time)
+    }
+
+    /// The first meeting of o + td, d of unit length, with 0 < t < `limit` in the lanes of `live`.
+    #[simd]
+    pub fn closest<L: Lanes>(&self, l: L, live: M<L>, o: V<L>, d: V<L>, time: F<L>, limit: F<L>) -> Meeting<L> {
+        if self.is_world {
+            return self.closest_in_body(l, live, o, d, limit);
+        }
+        let pose = self.pose(l, time);
+        let local = pose.vector_to_local(d);
+        let speed = local.length_squared().sqrt();
+        let found = self.closest_in_body(l, live, pose.point_to_local(o), local * (1.0 / speed), limit * speed);
+        Meeting { t: found.t / speed, ..found }
+    }
+
+    #[inline(always)]
+    fn closest_in_body<L: Lanes>(&self, l: L, live: M<L>, o: V<L>, d: V<L>, limit: F<L>) -> Meeting<L> {
+        let zero = l.u(0);
+        match &self.body {
+            Body::Mesh(mesh) => {
+                let (t, element) = mesh.closest(l, o, d, live.pick(limit, l.f(0.0)));
+                Meeting { t, piece: zero, element }
+            }
+            Body::Isosurface(surface) => Meeting { t: surface.intersect(l, o, d, limit), piece: zero, element: zero },
+            Body::Shapes(tables) => {
+                let (t, piece) = tables.closest(l, o, d);
+                Meeting { t, piece, element: zero }
+            }
+        }
+    }
+
+    /// The surface at a point `p` of the world.
+    #[simd]
+    pub fn surface_point<L: Lanes>(&self, l: L, place: &Place<L>, p: V<L>) -> SurfacePoint<L> {
+        if self.is_world {
+            return self.local_point(l, place, p);
+        }
+        let pose = self.pose(l, place.time);
+        let there = pose.point_to_local(p);
+        let local = self.local_point(l, place, there);
+        let normal = pose.normal_to_world(local.n_geometric);
+        let stretch = 1.0 / normal.length_squared().sqrt();
+        let n_geometric = normal * stretch;
+        // The point moves along the normal as it does there, so that the inverse of the pose is not needed exactly.
+        let height = (there - local.p).dot(local.n_geometric);
+        SurfacePoint {
+            p: p - n_geometric * (height * stretch),
+            n_geometric,
+            error: (local.error + pose.rounding(p)) * stretch + p.max_abs() * (4.0 * f32::EPSILON),
+        }
+    }
+
+    #[inline(always)]
+    fn local_point<L: Lanes>(&self, l: L, place: &Place<L>, p: V<L>) -> SurfacePoint<L> {
+        match &self.body {
+            Body::Mesh(mesh) => {
+                let point = mesh.surface_point(l, place.element, p);
+                SurfacePoint { p: point.p, n_geometric: point.n_geometric, error: point.error }
+            }
+            Body::Isosurface(surface) => surface.surface_point(l, p),
+            Body::Shapes(tables) => tables.surface_point(l, self.piece(place), p),
+        }
+    }
+
+    /// Surface coordinates of a point, and the directions in which they grow.
+    #[simd]
+    pub fn coordinates<L: Lanes>(&self, l: L, place: &Place<L>, point: &SurfacePoint<L>) -> (Coordinates<L>, [V<L>; 2]) {
+        let pose = self.pose(l, place.time);
+        let p = pose.point_to_local(point.p);
+        let (coordinates, [u, v]) = match &self.body {
+            Body::Mesh(mesh) => mesh.coordinates(l, place.element, p),
+            Body::Isosurface(surface) => surface.coordinates(l, p),
+            Body::Shapes(tables) => {
+                let local = tables.surface_point(l, self.piece(place), p);
+                let (u, v) = tables.tangents(l, self.piece(place), &local);
+                (tables.coordinates(l, self.piece(place), &local), [u, v])
+            }
+        };
+        (coordinates, [pose.vector_to_world(u), pose.vector_to_world(v)])
+    }
+
+    /// The interpolated normal of a smooth mesh, unit; elsewhere the geometric one.
+    #[simd]
+    pub fn smooth_normal<L: Lanes>(&self, l: L, place: &Place<L>, point: &SurfacePoint<L>) -> V<L> {
+        match &self.body {
+            Body::Mesh(mesh) if mesh.is_smooth() => {
+                let pose = self.pose(l, place.time);
+                let normal = mesh.smooth_normal(l, place.element, pose.point_to_local(point.p));
+                pose.normal_to_world(normal).normalized()
+            }
+            _ => point.n_geometric,
+        }
+    }
+
+    /// A direction from `x` towards a primitive; see [`super::Shapes::toward`].
+    #[simd]
+    pub fn toward<L: Lanes>(&self, l: L, place: &Place<L>, x: V<L>, u: (F<L>, F<L>)) -> Toward<L> {
+        let pose = self.pose(l, place.time);
+        let there = pose.point_to_local(x);
+        let local = match &self.body {
+            Body::Mesh(mesh) => mesh.toward(l, place.element, there, u),
+            Body::Isosurface(surface) => surface.toward(l, there, u),
+            Body::Shapes(tables) => tables.toward(l, self.piece(place), there, u),
+        };
+        let wi = pose.vector_to_world(local.wi).normalized();
+        Toward { wi, pdf: local.pdf * stretch(&pose, wi), front: local.front }
+    }
+
+    /// The density of [`Placed::toward`].
+    #[simd]
+    pub fn pdf_toward<L: Lanes>(&self, l: L, place: &Place<L>, x: V<L>, wi: V<L>) -> F<L> {
+        let pose = self.pose(l, place.time);
+        let (x, local) = (pose.point_to_local(x), pose.vector_to_local(wi).normalized());
+        let pdf = match &self.body {
+            Body::Mesh(mesh) => mesh.pdf_toward(l, place.element, x, local),
+            Body::Isosurface(surface) => surface.pdf_toward(l, x),
+            Body::Shapes(tables) => tables.pdf_toward(l, self.piece(place), x, local),
+        };
+        pdf * stretch(&pose, wi)
+    }
+
+    #[inline(always)]
+    fn piece<L: Lanes>(&self, place: &Place<L>) -> U<L> {
+        place.primitive + self.first.wrapping_neg()
+    }
+}
+
+/// What a density over directions in the local space becomes in the world: |det G| / |G ω|³ with G the map into it.
+#[inline(always)]
+fn stretch<L: Lanes>(pose: &Pose<L>, wi: V<L>) -> F<L> {
+    let square = pose.vector_to_local(wi).length_squared();
+    pose.rows[0].dot(pose.rows[1].cross(pose.rows[2])).abs() / (square * square.sqrt())
+}

@@ -1,0 +1,223 @@
+//! Wavefront OBJ: the polygons of a text, whatever groups, objects and materials they belong to.
+//!
+//! Wavefront Technologies, "Appendix B1. Object Files (.obj)", Advanced Visualizer manual, 1995. A corner of a face names a place,
+//! a texture coordinate and a normal apart; each combination that is used becomes a vertex.
+use super::{Flaw, Model, Place, quoted};
+
+/// Stands for the texture coordinate or the normal that a corner does not have.
+const NONE: u32 = u32::MAX;
+
+pub(super) fn decode(bytes: &[u8]) -> Result<Model, Flaw> {
+    let text = text(bytes)?;
+    let lists = Lists::read(text)?;
+    let mut faces = Faces::new(&lists);
+    let mut before = Counts::default();
+    for (number, line) in Lines::new(text) {
+        let mut words = words(line);
+        match words.next() {
+            Some("v") => before.places += 1,
+            Some("vt") => before.uvs += 1,
+            Some("vn") => before.normals += 1,
+            Some("f") => faces.add(&before, words).map_err(|reason| Place::Line(number).broken(reason))?,
+            _ => {}
+        }
+    }
+    Ok(faces.into_model())
+}
+
+fn text(bytes: &[u8]) -> Result<&str, Flaw> {
+    let text = std::str::from_utf8(bytes).map_err(|error| {
+        let lines = bytes[..error.valid_up_to()].iter().filter(|byte| **byte == b'\n').count();
+        Place::Line(lines + 1).broken("this is not text in UTF-8")
+    })?;
+    Ok(text.strip_prefix('\u{feff}').unwrap_or(text))
+}
+
+/// The lines with their numbers. One that ends in a backslash goes on in the next.
+struct Lines<'a> {
+    rest: &'a str,
+    number: usize,
+}
+
+impl<'a> Lines<'a> {
+    fn new(text: &'a str) -> Lines<'a> {
+        Lines { rest: text, number: 1 }
+    }
+}
+
+impl<'a> Iterator for Lines<'a> {
+    type Item = (usize, &'a str);
+
+    fn next(&mut self) -> Option<(usize, &'a str)> {
+        let (text, first) = (self.rest, self.number);
+        let mut end = 0;
+        while end < text.len() {
+            end = text[end..].find('\n').map_or(text.len(), |length| end + length + 1);
+            self.number += 1;
+            // Comments end in backslashes by chance, after the name of a directory.
+            if text.starts_with('#') || !text[..end].trim_end_matches(['\r', '\n']).ends_with('\\') {
+                break;
+            }
+        }
+        self.rest = &text[end..];
+        (end > 0).then(|| (first, &text[..end]))
+    }
+}
+
+/// The words of a line before its comment.
+fn words(line: &str) -> impl Iterator<Item = &str> {
+    let line = line.split('#').next().unwrap_or_default();
+    line.split_ascii_whitespace().map(|word| word.trim_end_matches('\\')).filter(|word| !word.is_empty())
+}
+
+/// What the corners of faces refer to.
+#[derive(Default)]
+struct Lists {
+    places: Vec<[f32; 3]>,
+    uvs: Vec<[f32; 2]>,
+    normals: Vec<[f32; 3]>,
+}
+
+impl Lists {
+    fn read(text: &str) -> Result<Lists, Flaw> {
+        let mut lists = Lists::default();
+        for (number, line) in Lines::new(text) {
+            lists.add(words(line)).map_err(|reason| Place::Line(number).broken(reason))?;
+        }
+        Ok(lists)
+    }
+
+    fn add<'a>(&mut self, mut words: impl Iterator<Item = &'a str>) -> Result<(), String> {
+        match words.next() {
+            Some("v") => self.places.push(numbers(words, 3)?),
+            Some("vt") => self.uvs.push(numbers(words, 1)?),
+            Some("vn") => self.normals.push(numbers(words, 3)?),
+            _ => {}
+        }
+        Ok(())
+    }
+}
+
+/// The first N numbers, of which the file may leave out those after the first few; they are 0. More, as weights, are ignored.
+fn numbers<'a, const N: usize>(words: impl Iterator<Item = &'a str>, needed: usize) -> Result<[f32; N], String> {
+    let mut numbers = [0.0; N];
+    let mut found = 0;
+    for (number, word) in numbers.iter_mut().zip(words) {
+        let value: f32 = word.parse().map_err(|_| format!("{} is not a number", quoted(word.as_bytes())))?;
+        if !value.is_finite() {
+            return Err(format!("{} is not a finite number", quoted(word.as_bytes())));
+        }
+        *number = value;
+        found += 1;
+    }
+    if found < needed { Err(format!("there are {found} numbers, not {needed}")) } else { Ok(numbers) }
+}
+
+/// How many of each there are before a line.
+#[derive(Default)]
+struct Counts {
+    places: usize,
+    uvs: usize,
+    normals: usize,
+}
+
+/// What makes a vertex: positions in the lists.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Corner {
+    place: u32,
+    uv: u32,
+    normal: u32,
+}
+
+struct Faces<'a> {
+    lists: &'a Lists,
+    /// Of all faces, one after the other.
+    corners: Vec<Corner>,
+    /// Positions in `corners`.
+    triangles: Vec<[u32; 3]>,
+}
+
+impl<'a> Faces<'a> {
+    fn new(lists: &'a Lists) -> Faces<'a> {
+        Faces { lists, corners: Vec::new(), triangles: Vec::new() }
+    }
+
+    fn add<'w>(&mut self, before: &Counts, words: impl Iterator<Item = &'w str>) -> Result<(), String> {
+        let first = self.corners.len() as u32;
+        for word in words {
+            self.corners.push(self.corner(before, word)?);
+        }
+        let end = self.corners.len() as u32;
+        if end - first < 3 {
+            return Err(format!("a face has {} corners, not 3 or more", end - first));
+        }
+        self.triangles.extend((first + 2..end).map(|corner| [first, corner - 1, corner]));
+        Ok(())
+    }
+
+    /// Reads `place`, `place/uv`, `place//normal` or `place/uv/normal`.
+    fn corner(&self, before: &Counts, word: &str) -> Result<Corner, String> {
+        let mut parts = word.split('/');
+        let mut index = |what, count, before| match parts.next() {
+            None | Some("") => Ok(NONE),
+            Some(part) => position(part, what, count, before),
+        };
+        let place = index("vertex", self.lists.places.len(), before.places)?;
+        let uv = index("texture coordinate", self.lists.uvs.len(), before.uvs)?;
+        let normal = index("normal", self.lists.normals.len(), before.normals)?;
+        if place == NONE || parts.next().is_some() {
+            return Err(format!("{} is not a corner: `vertex/texture coordinate/normal`", quoted(word.as_bytes())));
+        }
+        Ok(Corner { place, uv, normal })
+    }
+
+    fn into_model(self) -> Model {
+        let Faces { lists, corners, mut triangles } = self;
+        let (distinct, vertices) = distinct(&corners, lists.places.len());
+        triangles.as_flattened_mut().iter_mut().for_each(|corner| *corner = vertices[*corner as usize]);
+        let uvs = attribute(&distinct, &lists.uvs, |corner| corner.uv);
+        let normals = attribute(&distinct, &lists.normals, |corner| corner.normal);
+        let vertices = distinct.iter().map(|corner| lists.places[corner.place as usize]).collect();
+        Model { vertices, triangles, normals, uvs }
+    }
+}
+
+/// The distinct corners in the order of their places, and for each corner its position among them.
+///
+/// By sorting, which no file can make slow as it could a hash table.
+fn distinct(corners: &[Corner], places: usize) -> (Vec<Corner>, Vec<u32>) {
+    let mut distinct = corners.to_vec();
+    distinct.sort_unstable();
+    distinct.dedup();
+    let mut starts = vec![0u32; places + 1];
+    for corner in &distinct {
+        starts[corner.place as usize + 1] += 1;
+    }
+    for place in 0..places {
+        starts[place + 1] += starts[place];
+    }
+    let position = |corner: &Corner| {
+        let [start, end] = [0, 1].map(|next| starts[corner.place as usize + next]);
+        let same_place = &distinct[start as usize..end as usize];
+        start + same_place.partition_point(|other| other < corner) as u32
+    };
+    let positions = corners.iter().map(position).collect();
+    (distinct, positions)
+}
+
+/// What each corner has of a list, zeros where it has nothing; `None` where none has anything.
+fn attribute<const N: usize>(corners: &[Corner], list: &[[f32; N]], index: impl Fn(&Corner) -> u32) -> Option<Vec<[f32; N]>> {
+    let value = |corner| list.get(index(corner) as usize).copied().unwrap_or([0.0; N]);
+    corners.iter().any(|corner| index(corner) != NONE).then(|| corners.iter().map(value).collect())
+}
+
+/// The position in a list of `count`, which the file counts from 1, or back from what it has `before` this line.
+fn position(index: &str, what: &str, count: usize, before: usize) -> Result<u32, String> {
+    let number: i64 = index.parse().map_err(|_| format!("{} is not a {what}'s number", quoted(index.as_bytes())))?;
+    let position = if number < 0 { before as i64 + number } else { number - 1 };
+    if (0..count as i64).contains(&position) {
+        return Ok(position as u32);
+    }
+    let there = if number < 0 { format!("{before} before this line") } else { format!("{count}, counted from 1") };
+    Err(format!("{what} {number} does not exist: there are {there}"))
+}

@@ -1,0 +1,187 @@
+//! The header of a PLY file: what follows it, value by value.
+use super::super::{Flaw, Place, quoted};
+
+/// How values are written.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Encoding {
+    Text,
+    Binary { big_endian: bool },
+}
+
+/// Of one value.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Kind {
+    I8,
+    U8,
+    I16,
+    U16,
+    I32,
+    U32,
+    F32,
+    F64,
+}
+
+impl Kind {
+    fn named(name: &str) -> Option<Kind> {
+        Some(match name {
+            "char" | "int8" => Kind::I8,
+            "uchar" | "uint8" => Kind::U8,
+            "short" | "int16" => Kind::I16,
+            "ushort" | "uint16" => Kind::U16,
+            "int" | "int32" => Kind::I32,
+            "uint" | "uint32" => Kind::U32,
+            "float" | "float32" => Kind::F32,
+            "double" | "float64" => Kind::F64,
+            _ => return None,
+        })
+    }
+
+    fn is_whole(self) -> bool {
+        !matches!(self, Kind::F32 | Kind::F64)
+    }
+
+    /// Its bytes when binary.
+    pub fn size(self) -> usize {
+        match self {
+            Kind::I8 | Kind::U8 => 1,
+            Kind::I16 | Kind::U16 => 2,
+            Kind::I32 | Kind::U32 | Kind::F32 => 4,
+            Kind::F64 => 8,
+        }
+    }
+}
+
+/// Of a property.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Layout {
+    One(Kind),
+    /// How many there are, and those.
+    List(Kind, Kind),
+}
+
+impl Layout {
+    /// The value that is there in any case.
+    pub fn head(self) -> Kind {
+        match self {
+            Layout::One(kind) | Layout::List(kind, _) => kind,
+        }
+    }
+}
+
+pub struct Property<'a> {
+    pub name: &'a str,
+    pub layout: Layout,
+}
+
+impl Property<'_> {
+    /// Of a face: these are its corners.
+    pub fn is_polygon(&self) -> bool {
+        matches!(self.name, "vertex_indices" | "vertex_index")
+    }
+}
+
+pub struct Element<'a> {
+    pub name: &'a str,
+    pub count: u64,
+    pub properties: Vec<Property<'a>>,
+}
+
+pub struct Header<'a> {
+    pub encoding: Encoding,
+    pub elements: Vec<Element<'a>>,
+    /// Where the values begin.
+    pub end: usize,
+    /// How many there are in the header.
+    pub lines: usize,
+}
+
+impl<'a> Header<'a> {
+    pub fn read(bytes: &'a [u8]) -> Result<Header<'a>, Flaw> {
+        let mut header = Header { encoding: Encoding::Text, elements: Vec::new(), end: 0, lines: 0 };
+        let mut encoding = None;
+        for line in bytes.split_inclusive(|byte| *byte == b'\n') {
+            header.end += line.len();
+            header.lines += 1;
+            let place = Place::Line(header.lines);
+            let line = line.trim_ascii();
+            // Of the comments, in whatever encoding, no more than the first word is looked at.
+            let words = str::from_utf8(line).unwrap_or_else(|error| str::from_utf8(&line[..error.valid_up_to()]).unwrap_or(""));
+            // No line but a comment has more than five.
+            match words.split_ascii_whitespace().take(6).collect::<Vec<_>>()[..] {
+                ["ply"] if header.lines == 1 => {}
+                ["format", name, "1.0"] => encoding = Some(named_encoding(name).ok_or_else(|| unknown(place, line))?),
+                ["comment" | "obj_info", ..] | [] => {}
+                ["element", name, count] => header.add_element(name, count).map_err(|reason| place.broken(reason))?,
+                ["property", ref words @ ..] => header.add_property(words).map_err(|reason| place.broken(reason))?,
+                ["end_header"] => {
+                    header.encoding = encoding.ok_or_else(|| place.broken("the header does not say its `format`"))?;
+                    header.check().map_err(|reason| place.broken(reason))?;
+                    return Ok(header);
+                }
+                _ => return Err(unknown(place, line)),
+            }
+        }
+        Err(Place::Line(header.lines).broken("the file ends within its header"))
+    }
+
+    pub fn element(&self, name: &str) -> Option<&Element<'a>> {
+        self.elements.iter().find(|element| element.name == name)
+    }
+
+    fn add_element(&mut self, name: &'a str, count: &str) -> Result<(), String> {
+        let count = count.parse().map_err(|_| format!("{} is not a count", quoted(count.as_bytes())))?;
+        if matches!(name, "vertex" | "face") && self.element(name).is_some() {
+            return Err(format!("there is a second element `{name}`"));
+        }
+        self.elements.push(Element { name, count, properties: Vec::new() });
+        Ok(())
+    }
+
+    fn add_property(&mut self, words: &[&'a str]) -> Result<(), String> {
+        let element = self.elements.last_mut().ok_or("a property comes before the first element")?;
+        let kind = |name: &str| Kind::named(name).ok_or_else(|| format!("{} is not a type of values", quoted(name.as_bytes())));
+        let (name, layout) = match *words {
+            ["list", count, item, name] => (name, Layout::List(kind(count)?, kind(item)?)),
+            [item, name] => (name, Layout::One(kind(item)?)),
+            _ => return Err("a property is `property type name` or `property list type type name`".to_owned()),
+        };
+        if !layout.head().is_whole() && matches!(layout, Layout::List(..)) {
+            return Err(format!("the length of list {} is not of a whole type", quoted(name.as_bytes())));
+        }
+        element.properties.push(Property { name, layout });
+        Ok(())
+    }
+
+    /// Vertices have places and faces have corners.
+    fn check(&self) -> Result<(), String> {
+        if let Some(vertex) = self.element("vertex") {
+            let has = |name: &&str| vertex.properties.iter().any(|p| p.name == *name && matches!(p.layout, Layout::One(_)));
+            if let Some(name) = ["x", "y", "z"].iter().find(|name| !has(name)) {
+                return Err(format!("element `vertex` has no property `{name}`"));
+            }
+        }
+        if let Some(face) = self.element("face") {
+            let corners = face.properties.iter().filter(|property| property.is_polygon());
+            match corners.map(|property| property.layout).collect::<Vec<_>>()[..] {
+                [Layout::List(_, item)] if item.is_whole() => {}
+                [] => return Err("element `face` has no list `vertex_indices`".to_owned()),
+                [_] => return Err("`vertex_indices` is not a list of whole numbers".to_owned()),
+                _ => return Err("element `face` has more than one list `vertex_indices`".to_owned()),
+            }
+        }
+        Ok(())
+    }
+}
+
+fn named_encoding(name: &str) -> Option<Encoding> {
+    match name {
+        "ascii" => Some(Encoding::Text),
+        "binary_little_endian" => Some(Encoding::Binary { big_endian: false }),
+        "binary_big_endian" => Some(Encoding::Binary { big_endian: true }),
+        _ => None,
+    }
+}
+
+fn unknown(place: Place, line: &[u8]) -> Flaw {
+    place.broken(format!("{} is not a line of a PLY 1.0 header", quoted(line)))
+}

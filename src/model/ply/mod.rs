@@ -1,0 +1,166 @@
+//! PLY: vertices and polygons in a text or binary, in the layout that the header declares.
+//!
+//! G. Turk, "The PLY Polygon File Format", Stanford, 1994. Unknown elements and properties are skipped. Values of a text may be
+//! spread over lines at will.
+mod header;
+mod values;
+
+use self::{
+    header::{Element, Encoding, Header, Kind, Layout},
+    values::{Binary, Text, Values},
+};
+use super::{Flaw, Model};
+
+/// The file says that it is PLY.
+pub(super) fn is_ply(bytes: &[u8]) -> bool {
+    let line = bytes.split(|byte| *byte == b'\n').next();
+    line.is_some_and(|line| line.trim_ascii_end() == b"ply")
+}
+
+pub(super) fn decode(bytes: &[u8]) -> Result<Model, Flaw> {
+    let header = Header::read(bytes)?;
+    match header.encoding {
+        Encoding::Text => read(&header, Text::new(bytes, header.end, header.lines)),
+        Encoding::Binary { big_endian: false } => read(&header, Binary::<false>::new(bytes, header.end)),
+        Encoding::Binary { big_endian: true } => read(&header, Binary::<true>::new(bytes, header.end)),
+    }
+}
+
+fn read(header: &Header, mut values: impl Values) -> Result<Model, Flaw> {
+    let mut model = Model::default();
+    let vertices = header.element("vertex").map_or(0, |element| element.count);
+    for element in &header.elements {
+        check_count(element, &values)?;
+        match element.name {
+            "vertex" => read_vertices(element, &mut values, &mut model)?,
+            "face" => read_faces(element, vertices, &mut values, &mut model)?,
+            _ => skip(element, &mut values)?,
+        }
+    }
+    Ok(model)
+}
+
+/// Refuses what cannot be in the rest of the file, before room is made for it or time spent on it.
+fn check_count<V: Values>(element: &Element, values: &V) -> Result<(), Flaw> {
+    let least = element.properties.iter().map(|property| V::least_bytes(property.layout.head())).sum::<usize>() as u64;
+    // A text's last value needs no separator.
+    if element.count.saturating_mul(least) > values.left() as u64 + 1 {
+        let (name, count, left) = (element.name, element.count, values.left());
+        return Err(values.place().broken(format!("the {left} bytes that are left are too few for {count} of element `{name}`")));
+    }
+    Ok(())
+}
+
+/// The place among a vertex's eight numbers of what a property means.
+fn slot(name: &str) -> Option<usize> {
+    let names: [&[&str]; 8] =
+        [&["x"], &["y"], &["z"], &["nx"], &["ny"], &["nz"], &["s", "u", "texture_u"], &["t", "v", "texture_v"]];
+    names.iter().position(|names| names.contains(&name))
+}
+
+fn read_vertices(element: &Element, values: &mut impl Values, model: &mut Model) -> Result<(), Flaw> {
+    let mut is_there = [false; 8];
+    // Of properties that mean the same the first counts.
+    let mut wanted = |name| slot(name).filter(|slot| !std::mem::replace(&mut is_there[*slot], true));
+    let slots: Vec<(Layout, Option<usize>)> = element.properties.iter().map(|p| (p.layout, wanted(p.name))).collect();
+    let mut normals = is_there[3..6].iter().all(|there| *there).then(Vec::new);
+    let mut uvs = is_there[6..].iter().all(|there| *there).then(Vec::new);
+    let mut vertex = [0.0; 8];
+    for index in 0..element.count {
+        read_vertex(&slots, values, &mut vertex).map_err(|flaw| in_element(flaw, element.name, index))?;
+        let [x, y, z, nx, ny, nz, u, v] = vertex;
+        model.vertices.push([x, y, z]);
+        normals.iter_mut().for_each(|normals| normals.push([nx, ny, nz]));
+        uvs.iter_mut().for_each(|uvs| uvs.push([u, v]));
+    }
+    (model.normals, model.uvs) = (normals, uvs);
+    Ok(())
+}
+
+fn read_vertex(slots: &[(Layout, Option<usize>)], values: &mut impl Values, vertex: &mut [f32; 8]) -> Result<(), Flaw> {
+    for (layout, slot) in slots {
+        match (layout, slot) {
+            (Layout::One(kind), Some(slot)) => vertex[*slot] = values.number(*kind)?,
+            _ => skip_property(*layout, values)?,
+        }
+    }
+    Ok(())
+}
+
+fn read_faces(element: &Element, vertices: u64, values: &mut impl Values, model: &mut Model) -> Result<(), Flaw> {
+    for index in 0..element.count {
+        for property in &element.properties {
+            let read = match property.layout {
+                Layout::List(count, kind) if property.is_polygon() => {
+                    read_polygon(count, kind, vertices, values, &mut model.triangles)
+                }
+                layout => skip_property(layout, values),
+            };
+            read.map_err(|flaw| in_element(flaw, element.name, index))?;
+        }
+    }
+    Ok(())
+}
+
+/// Reads a polygon as a fan of triangles around its first corner.
+fn read_polygon(
+    count: Kind,
+    kind: Kind,
+    vertices: u64,
+    values: &mut impl Values,
+    triangles: &mut Vec<[u32; 3]>,
+) -> Result<(), Flaw> {
+    let place = values.place();
+    let corners = values.integer(count)?;
+    if corners < 3 {
+        return Err(place.broken(format!("it has {corners} corners, not 3 or more")));
+    }
+    let mut corner = || {
+        let place = values.place();
+        let vertex = values.integer(kind)?;
+        let there = u64::try_from(vertex).ok().filter(|vertex| *vertex < vertices);
+        // The file is too short for vertices beyond 32 bits.
+        let missing = || place.broken(format!("vertex {vertex} does not exist: there are {vertices}, counted from 0"));
+        there.map(|vertex| vertex as u32).ok_or_else(missing)
+    };
+    let (first, mut last) = (corner()?, corner()?);
+    for _ in 2..corners {
+        let next = corner()?;
+        triangles.push([first, last, next]);
+        last = next;
+    }
+    Ok(())
+}
+
+fn skip(element: &Element, values: &mut impl Values) -> Result<(), Flaw> {
+    // Else any count of elements that are nothing would be counted through.
+    if element.properties.is_empty() {
+        return Ok(());
+    }
+    for index in 0..element.count {
+        for property in &element.properties {
+            skip_property(property.layout, values).map_err(|flaw| in_element(flaw, element.name, index))?;
+        }
+    }
+    Ok(())
+}
+
+fn skip_property(layout: Layout, values: &mut impl Values) -> Result<(), Flaw> {
+    match layout {
+        Layout::One(kind) => values.skip(kind, 1),
+        Layout::List(count, kind) => {
+            let place = values.place();
+            let count = values.integer(count)?;
+            let count = u64::try_from(count).map_err(|_| place.broken(format!("a list has {count} values")))?;
+            values.skip(kind, count)
+        }
+    }
+}
+
+/// Says in which element it was, counted from 0.
+fn in_element(flaw: Flaw, name: &str, index: u64) -> Flaw {
+    match flaw {
+        Flaw::Broken(place, reason) => place.broken(format!("{name} {index}: {reason}")),
+        flaw => flaw,
+    }
+}

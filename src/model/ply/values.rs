@@ -1,0 +1,157 @@
+//! The values of a PLY file one after the other, as text or binary.
+use super::{
+    super::{Flaw, Place, quoted},
+    header::Kind,
+};
+
+pub trait Values {
+    /// A value takes no fewer.
+    fn least_bytes(kind: Kind) -> usize;
+
+    /// Where the next value is looked for.
+    fn place(&self) -> Place;
+
+    /// Bytes to the end of the file.
+    fn left(&self) -> usize;
+
+    /// A finite number.
+    fn number(&mut self, kind: Kind) -> Result<f32, Flaw>;
+
+    /// A whole number of a whole kind.
+    fn integer(&mut self, kind: Kind) -> Result<i64, Flaw>;
+
+    fn skip(&mut self, kind: Kind, count: u64) -> Result<(), Flaw>;
+}
+
+const ENDS: &str = "the file ends too early";
+
+/// Words between white space.
+pub struct Text<'a> {
+    rest: &'a [u8],
+    line: usize,
+}
+
+impl<'a> Text<'a> {
+    pub fn new(bytes: &'a [u8], start: usize, lines: usize) -> Text<'a> {
+        let mut text = Text { rest: &bytes[start..], line: lines + 1 };
+        text.skip_space();
+        text
+    }
+
+    fn skip_space(&mut self) {
+        while let [byte, rest @ ..] = self.rest
+            && byte.is_ascii_whitespace()
+        {
+            self.line += usize::from(*byte == b'\n');
+            self.rest = rest;
+        }
+    }
+
+    /// The next word, converted, and then on to the one after it.
+    fn word<T>(&mut self, what: &str, convert: impl Fn(&str) -> Option<T>) -> Result<T, Flaw> {
+        let length = self.rest.iter().position(u8::is_ascii_whitespace).unwrap_or(self.rest.len());
+        let (word, rest) = self.rest.split_at(length);
+        if word.is_empty() {
+            return Err(self.place().broken(ENDS));
+        }
+        let value = str::from_utf8(word).ok().and_then(convert);
+        let value = value.ok_or_else(|| self.place().broken(format!("{} is not {what}", quoted(word))))?;
+        self.rest = rest;
+        self.skip_space();
+        Ok(value)
+    }
+}
+
+impl Values for Text<'_> {
+    fn least_bytes(_: Kind) -> usize {
+        // A digit and what separates it from the next.
+        2
+    }
+
+    fn place(&self) -> Place {
+        Place::Line(self.line)
+    }
+
+    fn left(&self) -> usize {
+        self.rest.len()
+    }
+
+    fn number(&mut self, _: Kind) -> Result<f32, Flaw> {
+        self.word("a finite number", |word| word.parse().ok().filter(|number| f32::is_finite(*number)))
+    }
+
+    fn integer(&mut self, _: Kind) -> Result<i64, Flaw> {
+        self.word("a whole number", |word| word.parse().ok())
+    }
+
+    fn skip(&mut self, _: Kind, count: u64) -> Result<(), Flaw> {
+        (0..count).try_for_each(|_| self.word("a value", |_| Some(())))
+    }
+}
+
+/// Values side by side.
+pub struct Binary<'a, const BIG_ENDIAN: bool> {
+    rest: &'a [u8],
+    length: usize,
+}
+
+impl<'a, const BIG_ENDIAN: bool> Binary<'a, BIG_ENDIAN> {
+    pub fn new(bytes: &'a [u8], start: usize) -> Self {
+        Binary { rest: &bytes[start..], length: bytes.len() }
+    }
+
+    /// The next bytes, the least significant one first.
+    fn bytes<const N: usize>(&mut self) -> Result<[u8; N], Flaw> {
+        let Some((bytes, rest)) = self.rest.split_first_chunk::<N>() else {
+            return Err(Place::Byte(self.length).broken(ENDS));
+        };
+        self.rest = rest;
+        let mut bytes = *bytes;
+        if BIG_ENDIAN {
+            bytes.reverse();
+        }
+        Ok(bytes)
+    }
+}
+
+impl<const BIG_ENDIAN: bool> Values for Binary<'_, BIG_ENDIAN> {
+    fn least_bytes(kind: Kind) -> usize {
+        kind.size()
+    }
+
+    fn place(&self) -> Place {
+        Place::Byte(self.length - self.rest.len())
+    }
+
+    fn left(&self) -> usize {
+        self.rest.len()
+    }
+
+    fn number(&mut self, kind: Kind) -> Result<f32, Flaw> {
+        let place = self.place();
+        let number = match kind {
+            Kind::F32 => f32::from_le_bytes(self.bytes()?),
+            Kind::F64 => f64::from_le_bytes(self.bytes()?) as f32,
+            kind => self.integer(kind)? as f32,
+        };
+        if number.is_finite() { Ok(number) } else { Err(place.broken(format!("`{number}` is not a finite number"))) }
+    }
+
+    fn integer(&mut self, kind: Kind) -> Result<i64, Flaw> {
+        Ok(match kind {
+            Kind::I8 => i8::from_le_bytes(self.bytes()?).into(),
+            Kind::U8 => u8::from_le_bytes(self.bytes()?).into(),
+            Kind::I16 => i16::from_le_bytes(self.bytes()?).into(),
+            Kind::U16 => u16::from_le_bytes(self.bytes()?).into(),
+            Kind::I32 => i32::from_le_bytes(self.bytes()?).into(),
+            Kind::U32 => u32::from_le_bytes(self.bytes()?).into(),
+            Kind::F32 | Kind::F64 => unreachable!("the header lets lengths and indices be whole only"),
+        })
+    }
+
+    fn skip(&mut self, kind: Kind, count: u64) -> Result<(), Flaw> {
+        let rest = usize::try_from(count).ok().and_then(|count| self.rest.get(count.checked_mul(kind.size())?..));
+        self.rest = rest.ok_or_else(|| Place::Byte(self.length).broken(ENDS))?;
+        Ok(())
+    }
+}

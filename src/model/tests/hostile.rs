@@ -1,0 +1,104 @@
+//! Files changed at random: whatever they are, they are read or refused.
+use rand::{Rng, SeedableRng, rngs::SmallRng};
+
+use super::super::{Model, decode};
+
+const OBJ: &str = "# a square\nv 0 0 0\nv 1 0 0 1\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 1\nvn 0 0 1\nvn 0 1 0\n\
+    f 1/1/1 2/2/1 3/1/2 \\\n 4/2/1\ng a\nf -1//-1 -2//-2 -3//-1\nf 1 2 3\n";
+const HEADER: &str = "element vertex 4\nproperty float x\nproperty double y\nproperty short z\nproperty float nx\n\
+    property float ny\nproperty char nz\nproperty float s\nproperty float t\nelement tag 2\nproperty list uint uchar bytes\n\
+    element face 2\nproperty list uchar int vertex_indices\nproperty uchar red\nelement none 7\nend_header\n";
+
+fn text_ply() -> Vec<u8> {
+    let vertices = "0 0 0 0 0 1 0 0\n1 0 0 0 0 1 1 0\n1 1 0 0 0 1 1 1\n0 1 0 0 0 0 0 1\n";
+    format!("ply\nformat ascii 1.0\n{HEADER}{vertices}2 7 8\n0\n4 0 1 2 3 255\n3 0 1 2 0\n").into_bytes()
+}
+
+fn binary_ply(big_endian: bool) -> Vec<u8> {
+    let name = if big_endian { "binary_big_endian" } else { "binary_little_endian" };
+    let mut file = format!("ply\nformat {name} 1.0\n{HEADER}").into_bytes();
+    let mut push = |little: &[u8]| {
+        let mut bytes = little.to_vec();
+        if big_endian {
+            bytes.reverse();
+        }
+        file.extend(bytes);
+    };
+    for (x, y) in [(0u8, 0u8), (1, 0), (1, 1), (0, 1)] {
+        push(&f32::from(x).to_le_bytes());
+        push(&f64::from(y).to_le_bytes());
+        push(&[3, 0]);
+        (0..2).for_each(|_| push(&0.5f32.to_le_bytes()));
+        push(&[9]);
+        (0..2).for_each(|_| push(&f32::from(x).to_le_bytes()));
+    }
+    push(&2u32.to_le_bytes());
+    (0..2).for_each(|_| push(&[7]));
+    push(&0u32.to_le_bytes());
+    for corners in [&[0, 1, 2, 3][..], &[3, 2, 1]] {
+        push(&[corners.len() as u8]);
+        corners.iter().for_each(|corner: &u32| push(&corner.to_le_bytes()));
+        push(&[255]);
+    }
+    file
+}
+
+/// A few bytes changed, put in, taken out or repeated, pieces of what such files contain put in, or the end cut off.
+fn mutated(file: &[u8], random: &mut SmallRng) -> Vec<u8> {
+    const PIECES: [&[u8]; 12] =
+        [b"9", b"000000000", b"-", b" ", b"\n", b"nan", b"/", b"\\\n", b"uint", b"list ", b"\xff\xff\xff\xff", b"f "];
+    let mut file = file.to_vec();
+    for _ in 0..random.random_range(1..4) {
+        let at = random.random_range(0..=file.len());
+        let end = (at + random.random_range(1..20)).min(file.len());
+        match random.random_range(0..6) {
+            0 => file.truncate(at),
+            1 => drop(file.drain(at..end)),
+            2 => drop(file.splice(at..at, PIECES[random.random_range(0..PIECES.len())].iter().copied())),
+            3 => file.extend_from_within(at..end),
+            4 => file[at..end].iter_mut().take(1).for_each(|byte| *byte ^= 1 << random.random_range(0..8)),
+            _ => file[at..end].iter_mut().take(1).for_each(|byte| *byte = random.random()),
+        }
+    }
+    file
+}
+
+/// What the renderer relies on.
+fn check(model: &Model) {
+    let count = model.vertices.len();
+    assert!(!model.triangles.is_empty());
+    assert!(model.triangles.as_flattened().iter().all(|vertex| (*vertex as usize) < count));
+    assert!(model.vertices.as_flattened().iter().all(|x| x.is_finite()));
+    if let Some(normals) = &model.normals {
+        let is_unit = |n: &[f32; 3]| (n.iter().map(|x| x * x).sum::<f32>() - 1.0).abs() < 1e-5;
+        assert!(normals.len() == count && normals.iter().all(is_unit));
+    }
+    if let Some(uvs) = &model.uvs {
+        assert!(uvs.len() == count && uvs.as_flattened().iter().all(|x| x.is_finite()));
+    }
+}
+
+#[test]
+fn mutated_files_are_read_or_refused() {
+    let files = [OBJ.as_bytes().to_vec(), text_ply(), binary_ply(false), binary_ply(true)];
+    files.iter().for_each(|file| check(&decode(file, true).expect("it is a mesh")));
+    let (mut random, mut read) = (SmallRng::seed_from_u64(1), 0);
+    for i in 0..10_000 {
+        let file = mutated(&files[i % files.len()], &mut random);
+        if let Ok(model) = decode(&file, true) {
+            check(&model);
+            // A triangle takes 6 bytes and a vertex of its own 2 at least: nothing comes from a claim alone.
+            assert!(6 * model.triangles.len() <= 4 * file.len() && model.vertices.len() <= file.len());
+            read += 1;
+        }
+    }
+    // Else the mutations would be too coarse to get anywhere.
+    assert!((1000..9000).contains(&read), "{read} could be read");
+}
+
+#[test]
+fn cut_files_are_read_or_refused_at_every_length() {
+    for file in [OBJ.as_bytes().to_vec(), text_ply(), binary_ply(false), binary_ply(true)] {
+        (0..file.len()).filter_map(|length| decode(&file[..length], true).ok()).for_each(|model| check(&model));
+    }
+}

@@ -1,0 +1,114 @@
+//! OBJ files.
+use super::{model, refusal};
+
+const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+
+fn square(rest: &str) -> Vec<u8> {
+    format!("{SQUARE}{rest}").into_bytes()
+}
+
+#[test]
+fn polygons_become_fans() {
+    let square = model(&square("f 1 2 3 4\n"));
+    assert_eq!(square.vertices, [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]]);
+    assert_eq!(square.triangles, [[0, 1, 2], [0, 2, 3]]);
+    assert_eq!((square.normals, square.uvs), (None, None));
+}
+
+#[test]
+fn faces_count_from_the_first_vertex_or_back_from_the_last() {
+    let faces = "f 1 2 3\nf -4 -2 -1\n";
+    assert_eq!(model(&square(faces)).triangles, [[0, 1, 2], [0, 2, 3]]);
+    // Back from what there is before the line.
+    let model = model(&square(&format!("{faces}v 2 2 2\nf -1 -2 -3\n")));
+    assert_eq!(model.triangles[2], [4, 3, 2]);
+    assert_eq!(model.vertices[4], [2.0; 3]);
+}
+
+#[test]
+fn faces_may_come_before_their_vertices() {
+    assert_eq!(model(format!("f 1 2 3\n{SQUARE}").as_bytes()), model(&square("f 1 2 3\n")));
+}
+
+#[test]
+fn each_combination_that_is_used_is_a_vertex() {
+    let lists = "vt 0 0\nvt 1\nvt 0.5 1 0\nvn 0 0 2\nvn 3 0 0\n";
+    let faces = "f 1/1/1 2/2/1 3/3/1\nf 1/1/1 3/3/1 4/1/1\nf 1/2/1 2/2/2 3/3/1\n";
+    let model = model(&square(&format!("{lists}{faces}")));
+    assert_eq!(model.triangles, [[0, 2, 4], [0, 4, 5], [1, 3, 4]]);
+    let ([a, b], [c, d]) = ([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]], [[1.0, 1.0, 0.0], [0.0, 1.0, 0.0]]);
+    assert_eq!(model.vertices, [a, a, b, b, c, d]);
+    let (z, x) = ([0.0, 0.0, 1.0], [1.0, 0.0, 0.0]);
+    assert_eq!(model.normals, Some(vec![z, z, z, x, z, z]));
+    let (none, right, top) = ([0.0, 0.0], [1.0, 0.0], [0.5, 1.0]);
+    assert_eq!(model.uvs, Some(vec![none, right, right, right, top, none]));
+}
+
+#[test]
+fn attributes_that_no_face_uses_are_none() {
+    let lists = "vt 0 0\nvn 0 0 1\n";
+    let plain = model(&square(&format!("{lists}f 1 2 3\n")));
+    assert_eq!((plain.normals, plain.uvs), (None, None));
+    let normals = model(&square(&format!("{lists}f 1//1 2//1 3//1\n")));
+    assert_eq!((normals.normals, normals.uvs), (Some(vec![[0.0, 0.0, 1.0]; 3]), None));
+    let uvs = model(&square(&format!("{lists}f 1/1 2/1/ 3/1\n")));
+    assert_eq!((uvs.normals, uvs.uvs), (None, Some(vec![[0.0; 2]; 3])));
+}
+
+#[test]
+fn normals_that_are_missing_or_zero_are_those_of_the_surface() {
+    let model = model(&square("vn 1 0 0\nvn 0 0 0\nf 1//1 2//2 3\n"));
+    assert_eq!(model.normals, Some(vec![[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, 1.0]]));
+}
+
+#[test]
+fn everything_else_is_passed_over() {
+    let text = "\u{feff}# é\\\r\nmtllib a b.mtl\r\no ball\r\ng\r\nusemtl red # one\r\ns off\r\nvp 1\r\n\r\n  v 0 0 0 1\r\n\
+        v 1e0 .0 0. 0.5 0.5 0.5 # coloured\r\nv\t+1 1 -0\r\nl 1 2\r\nf 1 \\\r\n2\\\r\n 3# 4\r\nv 5 5 5";
+    let model = model(text.as_bytes());
+    assert_eq!(model.vertices, [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0]]);
+    assert_eq!(model.triangles, [[0, 1, 2]]);
+}
+
+#[test]
+fn indices_without_a_vertex_are_refused_by_line() {
+    let refuses = |face: &str, reason: &str| assert_eq!(refusal(&square(&format!("vt 0 0\n\n{face}\nvn 0 0 1\n"))), reason);
+    refuses("f 0 1 2", "line 7: vertex 0 does not exist: there are 4, counted from 1");
+    refuses("f 1 2 5", "line 7: vertex 5 does not exist: there are 4, counted from 1");
+    refuses("f 1 2 9000000000", "line 7: vertex 9000000000 does not exist: there are 4, counted from 1");
+    refuses("f 1 2 -5", "line 7: vertex -5 does not exist: there are 4 before this line");
+    refuses("f 1/1 2/2 3/1", "line 7: texture coordinate 2 does not exist: there are 1, counted from 1");
+    refuses("f 1//1 2//-1 3//1", "line 7: normal -1 does not exist: there are 0 before this line");
+}
+
+#[test]
+fn faces_that_are_none_are_refused_by_line() {
+    let refuses = |face: &str, reason: &str| assert_eq!(refusal(&square(&format!("f 1 2 3\n{face}"))), reason);
+    refuses("f 1 2", "line 6: a face has 2 corners, not 3 or more");
+    refuses("f", "line 6: a face has 0 corners, not 3 or more");
+    refuses("f 1 2 x", "line 6: `x` is not a vertex's number");
+    refuses("f 1 2 3.0", "line 6: `3.0` is not a vertex's number");
+    refuses("f 1 2 99999999999999999999", "line 6: `99999999999999999999` is not a vertex's number");
+    refuses("f 1 2 //", "line 6: `//` is not a corner: `vertex/texture coordinate/normal`");
+    refuses("f 1 2 3///", "line 6: `3///` is not a corner: `vertex/texture coordinate/normal`");
+    refuses("\\\nf 1 2", "line 6: a face has 2 corners, not 3 or more");
+}
+
+#[test]
+fn numbers_that_are_none_are_refused_by_line() {
+    let refuses = |line: &str, reason: &str| assert_eq!(refusal(&square(line)), reason);
+    refuses("v 0 NaN 0", "line 5: `NaN` is not a finite number");
+    refuses("v 0 0 -inf", "line 5: `-inf` is not a finite number");
+    refuses("v 0 0 1e39", "line 5: `1e39` is not a finite number");
+    refuses("v 0 0", "line 5: there are 2 numbers, not 3");
+    refuses("v 0 0 #0", "line 5: there are 2 numbers, not 3");
+    refuses("vt", "line 5: there are 0 numbers, not 1");
+    refuses("vn 0,5 0 0", "line 5: `0,5` is not a number");
+    let long = "x".repeat(100);
+    refuses(&format!("v {long}"), &format!("line 5: `{}…` is not a number", &long[..40]));
+}
+
+#[test]
+fn what_is_not_text_is_refused_by_line() {
+    assert_eq!(refusal(b"v 0 0 0\n# Jos\xe9\nv 0 0 1\n"), "line 2: this is not text in UTF-8");
+}

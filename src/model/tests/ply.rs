@@ -1,0 +1,185 @@
+//! PLY files.
+use super::{model, refusal};
+
+const PLACES: &str = "property float x\nproperty float y\nproperty float z\n";
+const CORNERS: &str = "property list uchar int vertex_indices\n";
+
+fn file(format: &str, elements: &str, data: &[u8]) -> Vec<u8> {
+    [format!("ply\nformat {format} 1.0\n{elements}end_header\n").as_bytes(), data].concat()
+}
+
+fn mesh(vertices: usize, faces: usize) -> String {
+    format!("element vertex {vertices}\n{PLACES}element face {faces}\n{CORNERS}")
+}
+
+/// Values of these types, one after the other: [`SQUARE_TYPES`].
+fn binary(values: &[f64], big_endian: bool) -> Vec<u8> {
+    let types = "dhfBcsfbHi".chars().cycle();
+    let bytes = |(value, kind): (&f64, char)| {
+        let mut bytes = match kind {
+            'c' | 'b' => (*value as i8).to_le_bytes().to_vec(),
+            'B' => (*value as u8).to_le_bytes().to_vec(),
+            'h' | 's' => (*value as i16).to_le_bytes().to_vec(),
+            'H' => (*value as u16).to_le_bytes().to_vec(),
+            'i' => (*value as i32).to_le_bytes().to_vec(),
+            'f' => (*value as f32).to_le_bytes().to_vec(),
+            _ => value.to_le_bytes().to_vec(),
+        };
+        if big_endian {
+            bytes.reverse();
+        }
+        bytes
+    };
+    values.iter().zip(types).flat_map(bytes).collect()
+}
+
+/// A header with every type, and in the two encodings the same triangle.
+const ALL_TYPES: &str = "comment by hand\nobj_info none\nelement vertex 3\nproperty double x\nproperty int16 quality\n\
+    property float32 y\nproperty uint8 red\nproperty char z\nproperty short nx\nproperty float ny\nproperty int8 nz\n\
+    property ushort u\nproperty int v\nelement edge 1\nproperty int vertex1\nelement face 1\nproperty list uchar short flags\n\
+    property list uint32 ushort vertex_index\nproperty uchar last\n";
+const VERTICES: [[f64; 10]; 3] = [
+    [0.5, 9.0, 0.25, 255.0, -1.0, 0.0, 0.0, 5.0, 1.0, 0.0],
+    [1.5, -9.0, 0.25, 0.0, -1.0, 7.0, 0.0, 0.0, 0.0, -1.0],
+    [0.5, 9.0, 1.25, 1.0, 2.0, 0.0, -2.5, 0.0, 300.0, 70000.0],
+];
+
+#[test]
+fn text_and_both_binaries_with_every_type_are_the_same() {
+    let text: String = VERTICES.iter().flatten().map(|value| format!("{value} ")).collect();
+    let text = model(&file("ascii", ALL_TYPES, format!("{text}\n77\n2 8 9\n3 0 1 2\n1\n").as_bytes()));
+    let rest: [&[u8]; 5] = [&77i32.to_le_bytes(), &[2, 8, 0, 9, 0], &[3, 0, 0, 0], &[0, 0, 1, 0, 2, 0], &[1]];
+    let little = [binary(VERTICES.as_flattened(), false), rest.concat()].concat();
+    assert_eq!(model(&file("binary_little_endian", ALL_TYPES, &little)), text);
+    let rest: [&[u8]; 5] = [&77i32.to_be_bytes(), &[2, 0, 8, 0, 9], &[0, 0, 0, 3], &[0, 0, 0, 1, 0, 2], &[1]];
+    let big = [binary(VERTICES.as_flattened(), true), rest.concat()].concat();
+    assert_eq!(model(&file("binary_big_endian", ALL_TYPES, &big)), text);
+    assert_eq!(text.vertices, [[0.5, 0.25, -1.0], [1.5, 0.25, -1.0], [0.5, 1.25, 2.0]]);
+    assert_eq!(text.triangles, [[0, 1, 2]]);
+    assert_eq!(text.normals, Some(vec![[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, -1.0, 0.0]]));
+    assert_eq!(text.uvs, Some(vec![[1.0, 0.0], [0.0, -1.0], [300.0, 70000.0]]));
+}
+
+#[test]
+fn polygons_become_fans_and_half_attributes_none() {
+    let elements = mesh(5, 2).replace("property float z\n", "property float z\nproperty float nx\nproperty float s\n");
+    let vertices = "0 0 0 1 1\n1 0 0 1 1\n1 1 0 1 1\n0 1 0 1 1\n0 2 0 1 1\n";
+    let model = model(&file("ascii", &elements, format!("{vertices}5 0 1 2 3 4\n3 4 3 2\n").as_bytes()));
+    assert_eq!(model.triangles, [[0, 1, 2], [0, 2, 3], [0, 3, 4], [4, 3, 2]]);
+    assert_eq!((model.normals, model.uvs), (None, None));
+}
+
+#[test]
+fn faces_may_come_first_and_lines_end_in_two_characters() {
+    let text = format!("element face 1\n{CORNERS}element none 999999999999\nelement vertex 3\n{PLACES}");
+    let file = String::from_utf8(file("ascii", &text, b"3 2 1 0\n0 0 0\n1 0 0\n0 1 0\nmore\n")).expect("a text");
+    assert_eq!(model(file.as_bytes()).triangles, [[2, 1, 0]]);
+    assert_eq!(model(file.replace('\n', "\r\n").as_bytes()), model(file.as_bytes()));
+}
+
+#[test]
+fn comments_may_be_in_any_encoding() {
+    let elements = [b"comment Jos\xe9\n", mesh(3, 1).as_bytes()].concat();
+    let start = b"ply\nformat ascii 1.0\n".as_slice();
+    assert_eq!(model(&[start, &elements, b"end_header\n0 0 0 1 0 0 0 1 0 3 0 1 2"].concat()).triangles, [[0, 1, 2]]);
+}
+
+#[test]
+fn broken_headers_are_refused_by_line() {
+    let refuses = |lines: &str, reason: &str| assert_eq!(refusal(format!("ply\n{lines}").as_bytes()), reason);
+    refuses("", "line 1: the file ends within its header");
+    refuses("format ascii 1.0\ncomment", "line 3: the file ends within its header");
+    refuses("element vertex 0\nend_header\n", "line 3: the header does not say its `format`");
+    refuses("format ascii 2.0\n", "line 2: `format ascii 2.0` is not a line of a PLY 1.0 header");
+    refuses("format zip 1.0\n", "line 2: `format zip 1.0` is not a line of a PLY 1.0 header");
+    refuses("ply\n", "line 2: `ply` is not a line of a PLY 1.0 header");
+    refuses("\x01\x02\u{e9}\n", "line 2: `\\u{1}\\u{2}é` is not a line of a PLY 1.0 header");
+    refuses("element face\n", "line 2: `element face` is not a line of a PLY 1.0 header");
+    refuses("element face -1\n", "line 2: `-1` is not a count");
+    refuses("element face 1\nelement face 1\n", "line 3: there is a second element `face`");
+    refuses("property int x\n", "line 2: a property comes before the first element");
+    refuses("element a 1\nproperty int64 x\n", "line 3: `int64` is not a type of values");
+    refuses("element a 1\nproperty list uchar string x\n", "line 3: `string` is not a type of values");
+    refuses("element a 1\nproperty list float int x\n", "line 3: the length of list `x` is not of a whole type");
+    refuses("element a 1\nproperty x\n", "line 3: a property is `property type name` or `property list type type name`");
+}
+
+#[test]
+fn headers_without_places_or_corners_are_refused() {
+    let refuses = |elements: &str, reason: &str| assert_eq!(refusal(&file("ascii", elements, b"")), reason);
+    refuses("element vertex 0\nproperty int x\nproperty int z\n", "line 6: element `vertex` has no property `y`");
+    refuses(&mesh(0, 0).replace("float z", "list int int z"), "line 9: element `vertex` has no property `z`");
+    refuses("element face 0\nproperty int flags\n", "line 5: element `face` has no list `vertex_indices`");
+    refuses(&mesh(0, 0).replace("uchar int", "uchar float"), "line 9: `vertex_indices` is not a list of whole numbers");
+    refuses(&mesh(0, 0).replace("list uchar int", "int"), "line 9: `vertex_indices` is not a list of whole numbers");
+    let twice = format!("{}property list uchar int vertex_index\n", mesh(0, 0));
+    refuses(&twice, "line 10: element `face` has more than one list `vertex_indices`");
+}
+
+#[test]
+fn counts_beyond_the_file_are_refused() {
+    let refuses = |format: &str, vertices: usize, faces: usize, data: &[u8], reason: &str| {
+        assert_eq!(refusal(&file(format, &mesh(vertices, faces), data)), reason);
+    };
+    let text = b"0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+    refuses("ascii", 3, 100_000_000, text, "line 13: the 8 bytes that are left are too few for 100000000 of element `face`");
+    refuses(
+        "ascii",
+        usize::MAX,
+        1,
+        text,
+        "line 10: the 26 bytes that are left are too few for 18446744073709551615 of element `vertex`",
+    );
+    let binary = [&[0; 36][..], &[3, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]].concat();
+    let format = "binary_little_endian";
+    refuses(format, 3, 100_000_000, &binary, "byte 213: the 13 bytes that are left are too few for 100000000 of element `face`");
+    refuses(format, 5, 1, &binary, "byte 169: the 49 bytes that are left are too few for 5 of element `vertex`");
+}
+
+#[test]
+fn files_that_end_too_early_are_refused() {
+    let elements = mesh(3, 2);
+    let text = "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 1";
+    assert_eq!(refusal(&file("ascii", &elements, text.as_bytes())), "line 14: face 1: the file ends too early");
+    let binary = [&[0; 36][..], &[3, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0].repeat(2)].concat();
+    for length in 51..62 {
+        let file = file("binary_little_endian", &elements, &binary[..length]);
+        assert_eq!(refusal(&file), format!("byte {}: face 1: the file ends too early", file.len()));
+    }
+    let list = "element tag 1\nproperty list uint double values\n";
+    let file = file("binary_big_endian", list, &[255; 20]);
+    assert_eq!(refusal(&file), format!("byte {}: tag 0: the file ends too early", file.len()));
+}
+
+#[test]
+fn values_that_do_not_fit_are_refused_by_place() {
+    let text = |vertex: &str, face: &str| {
+        let data = format!("0 0 0\n1 0 0\n{vertex}\n{face}\n");
+        refusal(&file("ascii", &mesh(3, 1), data.as_bytes()))
+    };
+    let face = "3 0 1 2";
+    assert_eq!(text("0 nan 0", face), "line 12: vertex 2: `nan` is not a finite number");
+    assert_eq!(text("0 1e99 0", face), "line 12: vertex 2: `1e99` is not a finite number");
+    assert_eq!(text("0 x 0", face), "line 12: vertex 2: `x` is not a finite number");
+    assert_eq!(text("0 1 0", "3 0 1 3"), "line 13: face 0: vertex 3 does not exist: there are 3, counted from 0");
+    assert_eq!(text("0 1 0", "3 0 1 -1"), "line 13: face 0: vertex -1 does not exist: there are 3, counted from 0");
+    assert_eq!(text("0 1 0", "3 0 1 1.5"), "line 13: face 0: `1.5` is not a whole number");
+    assert_eq!(text("0 1 0", "2 0 1"), "line 13: face 0: it has 2 corners, not 3 or more");
+    assert_eq!(text("0 1 0", "-3 0 1"), "line 13: face 0: it has -3 corners, not 3 or more");
+    let list = "element tag 1\nproperty list char int values\n";
+    assert_eq!(refusal(&file("ascii", list, b"-1")), "line 6: tag 0: a list has -1 values");
+}
+
+#[test]
+fn binary_values_that_do_not_fit_are_refused_by_place() {
+    let refuses = |vertex: f32, corner: i32, reason: &str| {
+        let vertices = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, vertex, 0.0].map(f32::to_be_bytes);
+        let corners = [0, 1, corner].map(i32::to_be_bytes);
+        let data = [vertices.as_flattened(), &[3], corners.as_flattened()].concat();
+        assert_eq!(refusal(&file("binary_big_endian", &mesh(3, 1), &data)), reason);
+    };
+    refuses(f32::NAN, 2, "byte 194: vertex 2: `NaN` is not a finite number");
+    refuses(f32::NEG_INFINITY, 2, "byte 194: vertex 2: `-inf` is not a finite number");
+    refuses(1.0, 3, "byte 211: face 0: vertex 3 does not exist: there are 3, counted from 0");
+    refuses(1.0, -1, "byte 211: face 0: vertex -1 does not exist: there are 3, counted from 0");
+}
