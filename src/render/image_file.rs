@@ -87,7 +87,11 @@ fn temporary(path: &Path, folder: &Path) -> Result<tempfile::NamedTempFile, Imag
     builder.prefix(".noisefall-").suffix(".part");
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    builder.tempfile_in(folder).map_err(|error| ImageError::Write { path: path.to_owned(), reason: error.to_string() })
+    builder.tempfile_in(folder).map_err(|error| {
+        // The error names the temporary file, which says nothing to anybody; what it wraps says why.
+        let why = error.get_ref().and_then(std::error::Error::source).map(ToString::to_string);
+        ImageError::Write { path: path.to_owned(), reason: why.unwrap_or_else(|| error.to_string()) }
+    })
 }
 
 fn write_png(frame: &Frame, display: Display, settings: &str, to: &mut impl Write) -> Result<(), String> {

@@ -5,12 +5,15 @@ mod colour;
 mod compile;
 mod desc;
 mod diagnostic;
+mod excerpt;
 mod filter;
 mod load;
 mod rays;
+mod roulette;
 mod settings;
 pub mod surface;
 mod textures;
+mod wording;
 
 use std::path::PathBuf;
 

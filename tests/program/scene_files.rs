@@ -94,31 +94,77 @@ fn every_shipped_scene_compiles_says_what_it_shows_and_emits_light() {
 
 #[test]
 fn unknown_keys_and_kinds_are_refused() {
-    refuses("fov = 40", "fov = 40\nfocal = 3", "unknown field `focal`");
-    refuses("albedo = 0.8", "albedo = 0.8, color = 1", "unknown field `color`");
-    refuses("sphere = {", "ball = {", "unknown variant `ball`");
-    refuses("\"stratified\"", "\"halton\"", "unknown variant `halton`");
-    refuses("format = 1", "format = 1\nlights = []", "unknown field `lights`");
-    refuses("{ fixed = 0.75 }", "\"always\"", "unknown variant `always`");
+    refuses("fov = 40", "fov = 40\nfocal = 3", "unknown key `focal`");
+    refuses("albedo = 0.8", "albedo = 0.8, color = 1", "unknown key `color`");
+    refuses("sphere = {", "ball = {", "unknown kind `ball`");
+    refuses("\"stratified\"", "\"halton\"", "unknown value `halton`");
+    refuses("format = 1", "format = 1\nlights = []", "unknown key `lights`");
+    refuses("{ fixed = 0.75 }", "\"always\"", "unknown value `always`");
 }
 
 #[test]
 fn wrong_types_are_refused() {
-    refuses("fov = 40", "fov = \"wide\"", "invalid type: string \"wide\"");
-    refuses("look_at = [0, 1, 0]", "look_at = [0, 1]", "2 numbers in place of 3");
-    refuses("resolution = [32, 24]", "resolution = [32, 24, 3]", "3 numbers in place of 2");
+    refuses("fov = 40", "fov = \"wide\"", "`fov`: expected a number, found the text \"wide\"");
+    refuses("look_at = [0, 1, 0]", "look_at = [0, 1]", "`look_at`: expected 3 numbers, found 2 values");
+    refuses("resolution = [32, 24]", "resolution = [32, 24, 3]", "expected 2 numbers, found 3 values");
     refuses("albedo = 0.8", "albedo = [0.8, 0.8]", "expected a colour");
     refuses("albedo = 0.8", "albedo = [0.8, 0.8, 0.8, 0.8]", "expected a colour");
     refuses("albedo = 0.8", "albedo = \"white\"", "expected a colour");
-    refuses("max_bounces = 5", "max_bounces = -1", "invalid value: integer `-1`");
-    refuses("seed = 9", "seed = 1.5", "invalid type: floating point");
+    refuses("max_bounces = 5", "max_bounces = -1", "`max_bounces`: expected a whole number, 0 or more, found -1");
+    refuses("seed = 9", "seed = 1.5", "expected a whole number, 0 or more, found 1.5");
+}
+
+#[test]
+fn wrong_values_are_told_in_plain_words() {
+    refuses("max_bounces = 5", "max_bounces = \"none\"", "leave it out for no cap");
+    refuses("[[objects]]", "[objects]", "write `[[objects]]`");
+    refuses(
+        "{ sphere = { center = [0.0, 1.0, 0.0], radius = 1.0 } }",
+        "{ sphere = 3 }",
+        "`sphere`: expected a table { … }, found 3",
+    );
+    refuses("{ sphere = { center = [0.0, 1.0, 0.0], radius = 1.0 } }", "\"sphere\"", "write { sphere = … }");
+    refuses("{ sphere = { center = [0.0, 1.0, 0.0], radius = 1.0 } }", "{}", "says exactly one kind");
+    refuses("\"stratified\"", "3", "expected a name in quotes");
+    refuses("seed = 9", "seed = 2024-01-01", "found a date");
+    refuses("name = \"ball\"", "name = 3", "`name`: expected text in quotes, found 3");
+    refuses("name = \"ball\"", "flip = 1", "`flip`: expected true or false, found 1");
+    refuses("fov = 40", "fov = ", "a value is missing");
+    refuses("{ fixed = 0.75 }", "\"fixed\"", "write { fixed = … }");
+    refuses("{ fixed = 0.75 }", "{ fixed = 0.5, throughput = {} }", "found 2 values");
+    refuses("{ fixed = 0.75 }", "{ throughput = { begin = 4 } }", "unknown key `begin`");
+    for jargon in ["f64", "u32", "i64", "map", "struct", "variant", "sequence"] {
+        for (line, by) in
+            [("fov = 40", "fov = []"), ("seed = 9", "seed = {}"), ("format = 1", "format = 1.0"), ("eye = [", "eye = [[],")]
+        {
+            let report = error(&GOOD.replacen(line, by, 1)).report();
+            assert!(!report.contains(jargon), "{report}");
+        }
+    }
+}
+
+#[test]
+fn what_was_probably_meant_is_named() {
+    refuses("look_at = [0, 1, 0]", "lookat = [0, 1, 0]", "did you mean `look_at`?");
+    refuses("[render]", "[rendr]", "did you mean `render`?");
+    refuses("\"stratified\"", "\"stratifed\"", "did you mean `stratified`?");
+    refuses("material = \"white\"", "material = \"whit\"", "did you mean `white`?");
+}
+
+#[test]
+fn roulette_by_throughput_can_be_said_as_on_the_command_line() {
+    let roulette = |text: &str| parse("test.toml", GOOD.replace("{ fixed = 0.75 }", text)).expect("it is good").settings.roulette;
+    assert_eq!(roulette("\"throughput\""), Roulette::BY_THROUGHPUT);
+    assert_eq!(roulette("{ throughput = {} }"), Roulette::BY_THROUGHPUT);
+    assert_eq!(roulette("{ throughput = { start = 7 } }"), Roulette::Throughput { start: 7 });
+    assert_eq!(roulette("\"off\""), Roulette::Off);
 }
 
 #[test]
 fn what_is_missing_is_named() {
     refuses("fov = 40\n", "", "missing key `fov`");
-    refuses("format = 1\n", "", "missing field `format`");
-    refuses(", radius = 1.0", "", "missing field `radius`");
+    refuses("format = 1\n", "", "missing key `format`");
+    refuses(", radius = 1.0", "", "missing key `radius`");
     refuses("lambertian = { albedo = 0.8 }", "", "material `white` says no kind");
     refuses("emission = { radiance = [1.0, 2.0, 3.0] }", "emission = {}", "missing key `radiance`");
 }
@@ -135,7 +181,7 @@ fn numbers_out_of_range_are_refused() {
     refuses("radius = 1.0", "radius = 0.0", "the radius is out of range");
     refuses("radius = 1.0", "radius = nan", "the radius is not a number");
     refuses("radius = 1.0", "radius = inf", "the radius is out of range");
-    refuses("albedo = 0.8", "albedo = 1.01", "`albedo` is out of range");
+    refuses("albedo = 0.8", "albedo = 1.01", "`albedo` is out of range: 1.01");
     refuses("albedo = 0.8", "albedo = [0.1, -0.1, 0.5]", "`albedo` is out of range");
     refuses("albedo = 0.8", "albedo = nan", "`albedo` is out of range");
     refuses("[1.0, 2.0, 3.0]", "[1.0, -2.0, 3.0]", "`radiance` is out of range");
@@ -149,7 +195,7 @@ fn numbers_out_of_range_are_refused() {
     refuses("resolution = [32, 24]", "resolution = [0, 24]", "resolution must be");
     refuses("resolution = [32, 24]", "resolution = [100000, 2]", "resolution must be");
     refuses("resolution = [32, 24]", "resolution = [16384, 16384]", "resolution must be");
-    refuses("resolution = [32, 24]", "resolution = [-1, 24]", "invalid value: integer `-1`");
+    refuses("resolution = [32, 24]", "resolution = [-1, 24]", "expected a whole number, 0 or more, found -1");
     refuses("fixed = 0.75", "fixed = 0.0", "survival probability");
     refuses("fixed = 0.75", "fixed = 1.5", "survival probability");
     refuses("fixed = 0.75", "fixed = nan", "survival probability");
@@ -165,10 +211,10 @@ fn a_camera_that_cannot_be_is_refused() {
     camera("lens = { radius = -0.05, focus = 3.0 }", "radius of a lens");
     camera("lens = { radius = nan, focus = 3.0 }", "radius of a lens");
     camera("lens = { radius = 0.05, focus = 0.0 }", "distance in focus");
-    camera("lens = { radius = 0.05 }", "missing field `focus`");
+    camera("lens = { radius = 0.05 }", "missing key `focus`");
     camera("filter = { tent = { radius = 0.0 } }", "pixel filter");
     camera("filter = { gaussian = { sigma = nan } }", "pixel filter");
-    camera("filter = \"sinc\"", "unknown variant `sinc`");
+    camera("filter = \"sinc\"", "unknown value `sinc`");
     camera("filter = 1.0", "expected \"box\"");
     for filter in ["\"box\"", "\"tent\"", "\"gaussian\"", "{ tent = { radius = 1.5 } }", "{ gaussian = { sigma = 0.4 } }"] {
         let text = GOOD.replace("fov = 40", &format!("fov = 40\nfilter = {filter}"));
@@ -184,7 +230,7 @@ fn materials_that_cannot_be_are_refused() {
     let material = |by: &str, message: &str| refuses("lambertian = { albedo = 0.8 }", by, message);
     material("lambertian = { albedo = 0.8 }\nmirror = { reflectance = 1.0 }", "says more than one kind");
     material("mirror = { reflectance = 1.1 }", "`reflectance` is out of range");
-    material("dielectric = { ior = 0.0 }", "`ior` is out of range");
+    material("dielectric = { ior = 0.0 }", "expected a number from 0.05 to 20");
     material("dielectric = { ior = -1.5 }", "`ior` is out of range");
     material("dielectric = { ior = nan }", "`ior` is");
     material("dielectric = { ior = 1.5, ior_outside = 0.0 }", "`ior_outside` is out of range");
@@ -230,8 +276,10 @@ fn what_is_not_supported_yet_is_refused_by_name() {
 #[test]
 fn what_is_not_toml_is_refused_at_its_place() {
     refuses("fov = 40", "fov = = 40", "");
-    refuses("format = 1", "format = 1\nformat = 1", "duplicate key");
-    assert!(parse("empty.toml", String::new()).is_err());
+    refuses("format = 1", "format = 1\nformat = 1", "duplicate key `format`");
+    for nothing in ["", "\n\n", "# only a remark\n"] {
+        assert!(error(nothing).report().contains("the file is empty") && error(nothing).report().contains("`format = 1`"));
+    }
 }
 
 #[test]
@@ -241,15 +289,47 @@ fn files_that_are_no_scenes_are_refused_in_one_message() {
     let report = |path: &Path| load(path).err().expect("it is no scene").report();
 
     assert!(report(&file("nowhere.toml")).contains("there is no such file"));
-    assert!(report(folder.path()).contains("cannot be read"));
+    assert!(report(folder.path()).contains("not a regular file but a folder"));
 
     fs::write(file("latin1.toml"), b"format = 1\ntitle = \"caf\xe9\"\n").expect("it is written");
     let not_utf8 = report(&file("latin1.toml"));
     assert!(not_utf8.contains("not UTF-8") && not_utf8.contains("latin1.toml:2:13"), "{not_utf8}");
 
+    fs::write(file("picture.toml"), b"\x89PNG\r\n\x1a\n\xff\xfe").expect("it is written");
+    let picture = report(&file("picture.toml"));
+    assert!(picture.contains("not a text file: it looks like a PNG picture") && !picture.contains('\u{fffd}'));
+    fs::write(file("bytes.toml"), b"format = 1\0\x01").expect("it is written");
+    assert!(report(&file("bytes.toml")).contains("not a text file"));
+
     // A file of 200 MB that takes no room.
     fs::File::create(file("huge.toml")).and_then(|huge| huge.set_len(200 << 20)).expect("it is made");
     assert!(report(&file("huge.toml")).contains("larger than 64 MB"));
+}
+
+#[test]
+fn long_lines_are_cut_around_the_caret() {
+    let long = format!("fov = 40 # {}\ntitel = \"{}\"", "y".repeat(5000), "x".repeat(5000));
+    let error =
+        error(&GOOD.replace("format = 1", &format!("format = 1\n{}albedo = 3", " ".repeat(1000))).replace("fov = 40", &long));
+    let report = error.report();
+    assert_eq!(error.line_column(), Some((2, 1001)));
+    assert!(report.contains("unknown key `albedo`") && report.contains("test.toml:2:1001"), "{report}");
+    assert!(report.lines().all(|line| line.chars().count() < 260), "{report}");
+    let with_title = GOOD.replace("format = 1", &format!("format = 1\ntitle = \"{}\" 3", "ü".repeat(5000)));
+    let report = parse("test.toml", with_title).err().expect("it is no TOML").report();
+    assert!(report.lines().all(|line| line.chars().count() < 260), "{report}");
+}
+
+#[test]
+#[cfg(unix)]
+fn a_pipe_is_refused_without_waiting_for_it() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let pipe = folder.path().join("pipe.toml");
+    let made = std::process::Command::new("mkfifo").arg(&pipe).status().expect("mkfifo runs");
+    assert!(made.success());
+    assert!(load(&pipe).err().expect("it is no scene").report().contains("not a regular file"));
+    let textured = format!("[textures.t]\nimage = {{ path = '{}' }}\n[render]", pipe.display());
+    refuses("[render]", &textured, "not a regular file");
 }
 
 #[test]

@@ -40,8 +40,23 @@ pub fn camera(check: &Checker, desc: &Spanned<CameraDesc>) -> Result<Camera, Sce
         filter: c.filter.as_ref().map_or(Filter::Box, |filter| filter.as_ref().0),
         resolution: c.resolution.as_ref().0,
     };
-    camera.check().map_err(|error| check.0.error(place(desc, error), error.to_string(), "here"))?;
+    camera.check().map_err(|error| check.0.error(place(desc, error), error.to_string(), label(error)))?;
     Ok(camera)
+}
+
+/// What stands at the key that an error is about.
+fn label(error: CameraError) -> &'static str {
+    match error {
+        CameraError::Resolution => "width and height in pixels",
+        CameraError::Fov => "degrees",
+        CameraError::NotFinite => "not a finite number",
+        CameraError::NoDirection => "the same as `eye`",
+        CameraError::UpIsForward => "choose another direction",
+        CameraError::UpIsZero => "a direction, such as [0, 1, 0]",
+        CameraError::Width | CameraError::LensRadius | CameraError::Focus => "metres",
+        CameraError::LensOrthographic => "remove it, or the projection",
+        CameraError::Filter => "pixels",
+    }
 }
 
 /// The key that an error is about.
@@ -51,7 +66,7 @@ fn place(desc: &Spanned<CameraDesc>, error: CameraError) -> std::ops::Range<usiz
         CameraError::Resolution => Some(c.resolution.span()),
         CameraError::Fov | CameraError::NotFinite => c.fov.as_ref().map(Spanned::span),
         CameraError::NoDirection => Some(c.look_at.span()),
-        CameraError::UpIsForward => Some(c.up.as_ref().unwrap_or(&c.look_at).span()),
+        CameraError::UpIsForward | CameraError::UpIsZero => Some(c.up.as_ref().unwrap_or(&c.look_at).span()),
         CameraError::Width => c.projection.as_ref().map(Spanned::span),
         CameraError::LensRadius | CameraError::Focus | CameraError::LensOrthographic => c.lens.as_ref().map(Spanned::span),
         CameraError::Filter => c.filter.as_ref().map(Spanned::span),

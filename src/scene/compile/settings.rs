@@ -9,7 +9,7 @@ use crate::scene::{
 };
 
 pub fn settings(check: &Checker, desc: &RenderDesc) -> Result<(RenderSettings, Option<u32>), SceneError> {
-    let roulette = desc.roulette.as_ref().map_or(Roulette::default(), |r| *r.as_ref());
+    let roulette = desc.roulette.as_ref().map_or(Roulette::default(), |r| r.as_ref().0);
     if let (Roulette::Fixed(p), Some(r)) = (roulette, &desc.roulette)
         && !(Roulette::LEAST..=1.0).contains(&p)
     {
@@ -39,6 +39,10 @@ pub fn truth(check: &Checker, desc: &Spanned<TruthDesc>) -> Result<Truth, SceneE
             }
             Ok(Truth::Image(path))
         }
-        _ => Err(check.0.error(desc.span(), "`truth` must say either `radiance` or `image`", "here")),
+        _ => Err(check.0.error(
+            desc.span(),
+            "`truth` must say either `radiance` or `image`",
+            "exactly one of them must be given here",
+        )),
     }
 }
