@@ -115,10 +115,13 @@ pub fn open_regular(path: &Path) -> std::io::Result<File> {
     File::open(path)
 }
 
+/// What [`looks_like`] says of a PNG.
+pub const PNG: &str = "a PNG picture";
+
 /// What a file that begins with these bytes looks like, of the kinds that are mistaken for one another.
 pub fn looks_like(start: &[u8]) -> Option<&'static str> {
     const KINDS: [(&[u8], &str); 8] = [
-        (b"\x89PNG", "a PNG picture"),
+        (b"\x89PNG", PNG),
         (b"\x76\x2f\x31\x01", "an OpenEXR picture"),
         (b"#?RADIANCE", "a Radiance HDR picture"),
         (b"#?RGBE", "a Radiance HDR picture"),

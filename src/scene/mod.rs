@@ -1,4 +1,5 @@
 //! The scene: what a file says, checked and compiled to what the renderer runs on.
+mod black;
 mod camera;
 mod check;
 mod colour;
@@ -15,7 +16,7 @@ pub mod surface;
 mod textures;
 mod wording;
 
-use std::path::PathBuf;
+use std::{path::PathBuf, sync::Arc};
 
 use glam::DVec3;
 
@@ -27,9 +28,11 @@ pub use self::{
     load::{BUILT_IN, built_in, load, parse},
     rays::CameraRays,
     settings::{Estimator, RenderSettings, Roulette},
+    wording::nearest,
 };
 use crate::{
     geometry::Shapes,
+    image::Picture,
     light::{Emission, Lights},
     material::Material,
     texture::Textures,
@@ -74,8 +77,8 @@ pub struct Object {
 pub enum Truth {
     /// The same exact radiance at every pixel.
     Radiance([f32; 3]),
-    /// A reference image.
-    Image(PathBuf),
+    /// A reference image, read from this file.
+    Image(PathBuf, Arc<Picture>),
 }
 
 impl Scene {

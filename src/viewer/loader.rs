@@ -66,7 +66,7 @@ fn open(path: Option<PathBuf>) -> Outcome {
         return Ok(Opened { name: scene.title.clone(), scene: Arc::new(scene), path: None, truth: None });
     };
     let scene = load(&path).map_err(|error| error.report())?;
-    let truth = Reference::of(&scene)?.map(Arc::new);
+    let truth = Reference::of(&scene).map(Arc::new);
     let name = if scene.title.is_empty() { catalogue::name(&path) } else { scene.title.clone() };
     Ok(Opened { scene: Arc::new(scene), name, path: Some(path), truth })
 }
