@@ -101,9 +101,10 @@ fn temporary(path: &Path, folder: &Path) -> Result<tempfile::NamedTempFile, Imag
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     builder.tempfile_in(folder).map_err(|error| {
-        // The error names the temporary file, which says nothing to anybody; what it wraps says why.
-        let why = error.get_ref().and_then(std::error::Error::source).map(ToString::to_string);
-        ImageError::Write { path: path.to_owned(), reason: why.unwrap_or_else(|| error.to_string()) }
+        // The crate adds the path of the temporary file, which says nothing to anybody.
+        let reason = error.to_string();
+        let why = reason.split(" at path ").next().unwrap_or_default();
+        ImageError::Write { path: path.to_owned(), reason: why.to_owned() }
     })
 }
 

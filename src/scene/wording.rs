@@ -87,21 +87,20 @@ fn wrong_kind(source: &SourceText, span: &Range<usize>, message: &str) -> Option
     let key = key_before(source, span.start);
     let place = key.map_or_else(String::new, |key| format!("`{key}`: "));
     let error = source.error(span.clone(), format!("{place}expected {expected}, found {found}"), format!("expected {expected}"));
-    Some(match advice(key, text_at(source, span)) {
+    Some(match advice(key, &found, text_at(source, span)) {
         Some(help) => error.with_help(help),
         None => error,
     })
 }
 
 /// What is said of the likeliest mistakes.
-fn advice(key: Option<&str>, found: &str) -> Option<String> {
+fn advice(key: Option<&str>, found: &str, text: &str) -> Option<String> {
     match key {
         Some("max_bounces") => Some("leave it out for no cap".to_owned()),
-        Some(_) => None,
-        None if found.starts_with("[") && found.ends_with(']') => {
-            Some(format!("each of several has its own table: write `[{found}]`"))
+        None if found == "a table" && text.starts_with('[') => {
+            Some(format!("each of several has its own table: write `[{text}]`"))
         }
-        None => None,
+        _ => None,
     }
 }
 

@@ -43,6 +43,8 @@ pub(super) const RED: Color32 = Color32::from_rgb(228, 96, 88);
 pub(super) fn dark(ctx: &egui::Context) {
     ctx.set_theme(egui::Theme::Dark);
     ctx.style_mut_of(egui::Theme::Dark, |style| {
+        // Lists are as tall as they say, within the window.
+        style.spacing.default_area_size.y = 4096.0;
         let visuals = &mut style.visuals;
         visuals.weak_text_color = Some(Color32::from_gray(150));
         (visuals.warn_fg_color, visuals.error_fg_color) = (AMBER, RED);

@@ -1,11 +1,12 @@
 //! Which scene file to open.
 use egui::{Align, Align2, Button, Layout, RichText};
 
-use super::{app::App, path_field::PathField};
+use super::{app::App, catalogue::in_full, path_field::PathField};
 
 impl App {
     pub(super) fn open_open_dialog(&mut self) {
-        let folder = self.opened.as_ref().and_then(|opened| opened.path.as_ref()?.parent());
+        let path = self.opened.as_ref().and_then(|opened| opened.path.as_deref()).map(in_full);
+        let folder = path.as_ref().and_then(|path| path.parent());
         let start = folder.map_or_else(String::new, |folder| folder.join("").display().to_string());
         self.open_dialog = Some(PathField::new(start, "path/to/scene.toml"));
     }

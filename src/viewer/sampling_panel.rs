@@ -131,7 +131,7 @@ fn optional(
             Some(number) => {
                 let field = number::field(ui, number, 0, range);
                 ui.add(field).labelled_by(label);
-                ui.weak(unit);
+                ui.weak(if *number == 1 { unit.trim_end_matches('s') } else { unit });
             }
             None => drop(ui.weak(none)),
         }

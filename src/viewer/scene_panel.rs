@@ -1,9 +1,12 @@
 //! Which scene is shown.
 use std::path::PathBuf;
 
-use egui::{Align, ComboBox, Layout, RichText};
+use egui::{Align, Button, ComboBox, Layout, RichText, vec2};
 
 use super::{app::App, catalogue::in_full, loader::BUILT_IN_NAME};
+
+/// The height of a row of the list: more than its text needs, so that all are alike.
+const ROW: f32 = 26.0;
 
 impl App {
     pub(super) fn scene_panel(&mut self, ui: &mut egui::Ui) {
@@ -16,9 +19,9 @@ impl App {
                 if ui.button("Open…").on_hover_text("Choose a scene file").clicked() {
                     self.open_open_dialog();
                 }
-                let (row, rows) = self.rows_of_list(ui);
-                let combo = ComboBox::from_id_salt("Scene").selected_text(name).width(ui.available_width()).height(row * rows);
-                let combo = combo.truncate().show_ui(ui, |ui| chosen = self.scene_list(ui, row));
+                let height = self.height_of_list(ui);
+                let combo = ComboBox::from_id_salt("Scene").selected_text(name).width(ui.available_width()).height(height);
+                let combo = combo.truncate().show_ui(ui, |ui| chosen = self.scene_list(ui));
                 combo.response.labelled_by(label.id);
             });
         });
@@ -39,27 +42,26 @@ impl App {
         }
     }
 
-    /// The height of a row of the list, and how many whole rows there is room for.
-    fn rows_of_list(&self, ui: &egui::Ui) -> (f32, f32) {
+    /// The height of the list: of all its rows, or of as many whole ones as there is room for.
+    fn height_of_list(&self, ui: &egui::Ui) -> f32 {
         const AROUND: f32 = 110.0;
-        let row = ui.spacing().interact_size.y + 4.0;
-        let fit = ((ui.ctx().content_rect().height() - AROUND) / row).floor().max(3.0);
-        (row, fit.min(self.catalogue.len() as f32 + 1.0))
+        let fit = ((ui.ctx().content_rect().height() - AROUND) / ROW).floor().max(3.0);
+        ROW * fit.min(self.catalogue.len() as f32 + 1.0)
     }
 
     /// The scenes to choose from; `Some(None)` is the built-in one.
-    fn scene_list(&self, ui: &mut egui::Ui, row: f32) -> Option<Option<PathBuf>> {
+    fn scene_list(&self, ui: &mut egui::Ui) -> Option<Option<PathBuf>> {
         // Rows touch: a click between two of them would close the list and choose nothing.
         ui.spacing_mut().item_spacing.y = 0.0;
-        ui.spacing_mut().interact_size.y = row;
+        let row = |marked, name: &str| Button::selectable(marked, name.to_owned()).min_size(vec2(0.0, ROW));
         let open = self.opened.as_ref().map(|opened| opened.path.as_deref().map(in_full));
         let mut chosen = None;
-        if ui.selectable_label(open == Some(None), BUILT_IN_NAME).clicked() {
+        if ui.add(row(open == Some(None), BUILT_IN_NAME)).clicked() {
             chosen = Some(None);
         }
         for entry in &self.catalogue {
             let is_open = open.as_ref().is_some_and(|open| open.as_ref() == Some(&entry.path));
-            let label = ui.selectable_label(is_open, &entry.name);
+            let label = ui.add(row(is_open, &entry.name));
             if label.on_hover_text(entry.path.display().to_string()).clicked() {
                 chosen = Some(Some(entry.path.clone()));
             }
