@@ -115,8 +115,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let render_seconds = start.elapsed().as_secs_f64();
 
     if let State::Failed(failure) = &status.state {
-        let replay = replay_command(arguments, failure.at, &settings, &scene);
-        return Err(format!("the renderer failed: {}\nreplay: {replay}", failure.message));
+        let replay = failure.replays.then(|| format!("\nreplay: {}", replay_command(arguments, failure.at, &settings, &scene)));
+        return Err(format!("the renderer failed: {}{}", failure.message, replay.unwrap_or_default()));
     }
     let text = settings_text(&scene, &camera, &settings, Display::default(), status.spp);
     save_somewhere(output, |path| save(&frame, Display::default(), &text, path))?;
@@ -141,7 +141,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
             "scene": arguments.scene, "width": frame.width, "height": frame.height, "spp": status.spp,
             "threads": thread_count, "seed": settings.seed, "build_seconds": build_seconds, "render_seconds": render_seconds,
             "paths": status.samples, "rays": status.rays, "invalid_samples": status.invalid_samples,
-            "rel_mse_estimate": status.rel_mse_estimate, "cut_paths": status.cut_paths, "bias": settings.bias(),
+            "rel_mse_estimate": status.rel_mse_estimate, "cut_paths": status.cut_paths, "bias": status.bias(&settings),
             "rel_mse": rel_mse, "replay": replay,
         });
         print(&line.to_string())
@@ -237,7 +237,7 @@ fn noise_text(status: &Status) -> String {
 }
 
 fn summary(output: &Path, status: &Status, settings: &RenderSettings, seconds: f64, rel_mse: Option<f64>, black: bool) -> String {
-    let bias = settings.bias().map_or_else(|| "unbiased".to_owned(), |why| format!("biased: {why}"));
+    let bias = status.bias(settings).map_or_else(|| "unbiased".to_owned(), |why| format!("biased: {why}"));
     let error = rel_mse.map_or_else(String::new, |e| format!(", true error {:.2} %", 100.0 * e.sqrt()));
     let rate = status.samples as f64 / seconds / 1e6;
     let noise = if black { ", no light found".to_owned() } else { noise_text(status) };

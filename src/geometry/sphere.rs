@@ -16,7 +16,8 @@ use glam::DVec3;
 
 pub use self::coordinates::{sphere_tangents, sphere_uv};
 
-use crate::math::{F, Lanes, M, Pick, V};
+use super::{fraction::Fraction, surface_point::SurfacePoint};
+use crate::math::{F, Lanes, Pick, V};
 
 /// An anchored sphere. Its front is the outside.
 #[derive(Clone, Copy, Debug)]
@@ -24,47 +25,6 @@ pub struct Sphere {
     anchor: [f32; 3],
     normal: [f32; 3],
     curvature: f32,
-}
-
-/// A distance as a fraction with a positive denominator, so that distances can be compared without dividing.
-#[derive(Clone, Copy)]
-pub(super) struct Fraction<L: Lanes> {
-    pub numerator: F<L>,
-    pub denominator: F<L>,
-}
-
-impl<L: Lanes> Fraction<L> {
-    #[inline(always)]
-    pub fn infinite(l: L) -> Self {
-        Fraction { numerator: l.f(1.0), denominator: l.f(0.0) }
-    }
-
-    /// False where either is NaN.
-    #[inline(always)]
-    pub fn less(&self, other: &Self) -> M<L> {
-        (self.numerator * other.denominator).lt(other.numerator * self.denominator)
-    }
-
-    #[inline(always)]
-    pub fn value(&self) -> F<L> {
-        self.numerator / self.denominator
-    }
-}
-
-impl<L: Lanes> Pick<Fraction<L>> for M<L> {
-    #[inline(always)]
-    fn pick(self, a: Fraction<L>, b: Fraction<L>) -> Fraction<L> {
-        Fraction { numerator: self.pick(a.numerator, b.numerator), denominator: self.pick(a.denominator, b.denominator) }
-    }
-}
-
-/// A point of a surface in lanes.
-pub struct SurfacePoint<L: Lanes> {
-    pub p: V<L>,
-    /// Unit geometric normal on the front side.
-    pub n_geometric: V<L>,
-    /// How far along the normal a ray that starts at `p` must be moved to be strictly on that side of the surface.
-    pub error: F<L>,
 }
 
 impl Sphere {

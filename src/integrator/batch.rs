@@ -149,7 +149,7 @@ pub struct Batch {
     /// Radiance gathered so far, a slot.
     pub(super) radiance: Vec<[f32; 4]>,
     pub(super) bounce: u32,
-    /// Path segments traced.
+    /// Rays traced: path segments and shadow rays.
     pub rays: u64,
     /// Paths cut at [`RenderSettings::LONGEST_PATH`].
     pub cut_paths: u64,

@@ -1,13 +1,13 @@
 //! Shading normals by bump and normal maps.
 use crate::{
-    geometry::sphere_tangents,
-    math::{F, Lanes, M, Pick, V},
+    geometry::SurfacePoint,
+    math::{F, Lanes, M, Pick, U, V},
     scene::Scene,
     texture::{TextureCoordinates, Textures},
 };
 
-/// The shading normal on the front of a surface with outward normal `n`: in the lanes of `mask` tilted by the textures in its
-/// row of [`crate::scene::surface::Surfaces::relief`].
+/// The shading normal on the front of the surface at `point`: in the lanes of `mask` tilted by the textures in its row of
+/// [`crate::scene::surface::Surfaces::relief`].
 ///
 /// A height h moves the surface to p + h n; without the small terms that bend n itself, its normal is n − ∇h (J. Blinn,
 /// "Simulation of Wrinkled Surfaces", SIGGRAPH 1978). A normal map holds (x, y, z)/2 + ½ of the normal, x along ∂p/∂u, y against
@@ -16,17 +16,19 @@ use crate::{
 pub(super) fn shading_normal<L: Lanes>(
     l: L,
     scene: &Scene,
-    [bump, height, map, radius]: [F<L>; 4],
+    primitive: U<L>,
     mask: M<L>,
-    n: V<L>,
+    point: &SurfacePoint<L>,
     at: &TextureCoordinates<L>,
 ) -> V<L> {
+    let n = point.n_geometric;
+    let [bump, height, map, _] = l.rows(&scene.surfaces.relief, primitive);
     let (bump, map) = (bump.bits(), map.bits());
     let (bumped, mapped) = (mask & !bump.is(0), mask & !map.is(0));
     if !(bumped | mapped).any() {
         return n;
     }
-    let (along_u, along_v) = sphere_tangents(n, radius);
+    let (along_u, along_v) = scene.shapes.tangents(l, primitive, point);
     let mut tilted = n;
     if mapped.any() {
         let code = scene.textures.colour(l, map + u32::MAX, mapped, at);
@@ -47,7 +49,7 @@ pub(super) fn shading_normal<L: Lanes>(
 fn gradient<L: Lanes>(
     l: L,
     textures: &Textures,
-    id: crate::math::U<L>,
+    id: U<L>,
     mask: M<L>,
     along_u: V<L>,
     along_v: V<L>,
@@ -56,8 +58,16 @@ fn gradient<L: Lanes>(
     let steps = textures.steps(l, id);
     let (length_u, length_v) = (along_u.length_squared().sqrt(), along_v.length_squared().sqrt());
     let (du, dv) = (steps.u.min(steps.p / length_u), steps.v.min(steps.p / length_v));
+    // Backwards at the end of u and of v: beyond it the texture may go on otherwise than it begins.
+    let (du, dv) = (within(at.u, du), within(at.v, dv));
     let here = textures.height(l, id, mask, at);
     let right = textures.height(l, id, mask, &TextureCoordinates { u: at.u + du, p: at.p + along_u * du, ..*at });
     let down = textures.height(l, id, mask, &TextureCoordinates { v: at.v + dv, p: at.p + along_v * dv, ..*at });
     along_u * ((right - here) / (du * length_u * length_u)) + along_v * ((down - here) / (dv * length_v * length_v))
+}
+
+/// A step from `x` that does not reach 1, where `x` itself lies below.
+#[inline(always)]
+fn within<L: Lanes>(x: F<L>, step: F<L>) -> F<L> {
+    (x + step).below(1.0).pick(step, -step)
 }

@@ -50,9 +50,10 @@ pub fn replay(scene: &Scene, rays: &CameraRays, settings: &RenderSettings, pixel
 }
 
 impl Observer for Replay {
-    fn at_surfaces(&mut self, _work: &Work, batch: &Batch) {
+    fn at_surfaces(&mut self, work: &Work, batch: &Batch) {
         let path = Path::read(One, batch.current(), 0);
-        let object = Some(One.load(&batch.primitive).bits().0).filter(|id| *id != MISS);
+        let primitive = Some(One.load(&batch.primitive).bits().0).filter(|id| *id != MISS);
+        let object = primitive.map(|id| work.scene.owners[id as usize]);
         let [r, g, b, _] = batch.radiance[0];
         self.vertices.push(Vertex {
             bounce: batch.bounce,

@@ -37,7 +37,10 @@ pub(super) fn shade<L: Lanes, K: Kind>(l: L, work: &Work, batch: &mut Batch) {
         };
         let bsdf = K::at(l, &work.scene.surfaces.materials, settings, &vertex.local);
         if K::SEES_LIGHTS && work.samples_lights() {
-            let (shadow, seen) = sample_light::<L, K>(l, work, &stream, reflection, &hit, &vertex, &bsdf);
+            let (shadow, mut seen) = sample_light::<L, K>(l, work, &stream, reflection, &hit, &vertex, &bsdf);
+            if K::TRANSMITS {
+                seen = seen & !vertex.self_lit;
+            }
             shadow.push(live & seen, shadows);
             if K::DETAILED && work.has_media() {
                 let wi = vertex.frame.local_from_world(shadow.d);
@@ -63,7 +66,8 @@ pub(super) fn shade<L: Lanes, K: Kind>(l: L, work: &Work, batch: &mut Batch) {
         }
         Path { o, d, throughput, slot: hit.slot }.push(keep, &mut paths[next]);
         if work.samples_lights() {
-            let flags = sample.delta.pick(l.u(DELTA), l.u(0)) | if K::TRANSMITS { TRANSMITS } else { 0 };
+            let unsampled = if K::TRANSMITS { sample.delta | vertex.self_lit } else { sample.delta };
+            let flags = unsampled.pick(l.u(DELTA), l.u(0)) | if K::TRANSMITS { TRANSMITS } else { 0 };
             Past { n: vertex.n, pdf: sample.pdf, flags }.push(keep, &mut pasts[next]);
         }
         if K::DETAILED && work.has_media() {
@@ -82,6 +86,8 @@ struct Vertex<L: Lanes> {
     /// How far the origin of rays was moved off the surface.
     error: F<L>,
     local: Local<L>,
+    /// See [`surface::SELF_LIT`].
+    self_lit: M<L>,
     /// Media on the viewer's side, and the one inside the surface.
     media: U<L>,
     medium: U<L>,
@@ -98,6 +104,7 @@ impl<L: Lanes> Vertex<L> {
             wo: V::splat(l, [0.0, 0.0, 1.0]),
             error: l.f(0.0),
             local,
+            self_lit: l.first(0),
             media: l.u(0),
             medium: l.u(0),
         }
@@ -118,6 +125,7 @@ impl<L: Lanes> Vertex<L> {
             n: detail.n,
             error: detail.error,
             local,
+            self_lit: surface::is_set(detail.surface, surface::SELF_LIT),
             media: detail.media,
             medium: detail.medium,
         }

@@ -9,7 +9,7 @@ use super::{
     media::transmittance,
 };
 use crate::{
-    geometry::sphere_uv,
+    geometry::Coordinates,
     math::{Lanes, Pick},
     texture::TextureCoordinates,
 };
@@ -25,12 +25,14 @@ pub(super) fn shadow<L: Lanes>(l: L, work: &Work, batch: &mut Batch) {
         let seen = live & primitive.equals(shadow.target);
         let mut light = shadow.radiance;
         if work.has_media() {
-            light = light * transmittance(l, work, Inside::read(l, shadow_media, start).media, t);
+            let media = live.pick(Inside::read(l, shadow_media, start).media, l.u(0));
+            light = light * transmittance(l, work, media, t);
         }
         if scene.lights.emitters.vary() {
             let emits = seen & scene.lights.emitters.emits(primitive);
-            let point = scene.shapes.surface_point(l, emits.pick(primitive, l.u(0)), shadow.o + shadow.d * t);
-            let (u, v) = sphere_uv(point.n_geometric);
+            let primitive = emits.pick(primitive, l.u(0));
+            let point = scene.shapes.surface_point(l, primitive, shadow.o + shadow.d * t);
+            let Coordinates { u, v } = scene.shapes.coordinates(l, primitive, &point);
             let at = TextureCoordinates { u, v, p: point.p };
             light = light * scene.lights.emitters.variation(l, &scene.textures, emits, primitive, &at);
         }

@@ -9,7 +9,7 @@ use super::{
     weight::weight_of_met_light,
 };
 use crate::{
-    geometry::{MISS, SurfacePoint, sphere_uv},
+    geometry::{Coordinates, MISS, SurfacePoint},
     math::{F, Lanes, M, Pick, U, V},
     scene::{
         Scene,
@@ -38,7 +38,8 @@ pub(super) fn surfaces<L: Lanes, const VARIED: bool>(l: L, work: &Work, batch: &
         let t = l.load(&t[start..]);
         let mut media = l.u(0);
         if VARIED && work.has_media() {
-            media = Inside::read(l, path_media, start).media;
+            // Lanes past the end may say anything, even media of an earlier scene.
+            media = live.pick(Inside::read(l, path_media, start).media, l.u(0));
             path.throughput = path.throughput * transmittance(l, work, media, t);
         }
         if let Some(background) = &scene.lights.background {
@@ -67,7 +68,7 @@ pub(super) fn surfaces<L: Lanes, const VARIED: bool>(l: L, work: &Work, batch: &
                 let (le, seen) = scene.lights.emitters.radiance(l, emits, primitive, cos);
                 let mut light = path.throughput * le;
                 if VARIED && scene.lights.emitters.vary() {
-                    let (u, v) = sphere_uv(point.n_geometric);
+                    let Coordinates { u, v } = scene.shapes.coordinates(l, primitive, &point);
                     let at = TextureCoordinates { u, v, p: point.p };
                     light = light * scene.lights.emitters.variation(l, &scene.textures, emits, primitive, &at);
                 }
@@ -142,7 +143,7 @@ fn vary<L: Lanes>(l: L, scene: &Scene, arrival: &Arrival<L>, mask: M<L>, hit: &m
     let wo = -*d;
     let mut n = hit.n;
     if surfaces.textured || !surfaces.relief.is_empty() {
-        let (u, v) = sphere_uv(point.n_geometric);
+        let Coordinates { u, v } = scene.shapes.coordinates(l, *primitive, point);
         let at = TextureCoordinates { u, v, p: point.p };
         let id = colour_texture.bits();
         let coloured = mask & !id.is(0);
@@ -156,7 +157,7 @@ fn vary<L: Lanes>(l: L, scene: &Scene, arrival: &Arrival<L>, mask: M<L>, hit: &m
             alpha = rough.pick(is_set(*word, SQUARED).pick(value * value, value), alpha);
         }
         if !surfaces.relief.is_empty() {
-            let tilted = shading_normal(l, scene, l.rows(&surfaces.relief, *primitive), mask, point.n_geometric, &at);
+            let tilted = shading_normal(l, scene, *primitive, mask, point, &at);
             let tilted = tilted * l.f(1.0).copysign(*cos);
             // A normal that the viewer could not see is not used.
             n = tilted.dot(wo).above(GRAZING).pick(tilted, n);

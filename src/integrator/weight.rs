@@ -26,7 +26,7 @@ pub(super) fn weight_of_met_light<L: Lanes>(l: L, work: &Work, past: &Past<L>, o
         Estimator::Light => l.f(0.0),
         Estimator::Mis => {
             let at = Receiver { p: o, n: past.n, transmits: !(past.flags & TRANSMITS).is(0) };
-            power_heuristic(past.pdf, work.scene.lights.pdf(l, &at, d, target))
+            power_heuristic(past.pdf, work.scene.lights.pdf(l, &work.scene.shapes, &at, d, target))
         }
     };
     delta.pick(l.f(1.0), sampled_too)

@@ -1,14 +1,17 @@
 //! Choosing a light and a direction towards it.
 //!
-//! A light is chosen with a probability proportional to a bound on the irradiance it would cause at the point if nothing stood
-//! in between: E ≤ π L sin²θ · max(cos) over its cone of half angle θ (Shirley et al. 1996, section 4, for what a good choice is).
+//! A light is chosen with a probability proportional to the irradiance it could cause at the point at most if nothing stood in
+//! between, of varying light to its mean: E ≤ π L sin²θ · max(cos) over its cone of half angle θ (Shirley et al. 1996, section 4, for what a good choice is).
+use glam::DVec3;
+
 use super::{
     background::Background,
-    emission::{Emission, Emitters, Side},
+    emission::{Emission, Emitters},
+    source::Source,
 };
 use crate::{
-    geometry::{Cone, MISS, Shapes, Sphere},
-    math::{F, Lanes, M, Pick, U, V, colour::luminance},
+    geometry::{MISS, Shape, Shapes},
+    math::{F, Lanes, M, Pick, U, V},
 };
 
 /// All lights of a scene: the emitting primitives 0, 1, 2, … and the background.
@@ -17,18 +20,10 @@ pub struct Lights {
     pub emitters: Emitters,
     /// Absent when black.
     pub background: Option<Background>,
-    /// Radiant power a light is chosen by, in the order of primitives.
+    /// What lights are chosen by, in the order of primitives.
     sources: Vec<Source>,
     /// Mean luminance of the background.
     sky: f32,
-}
-
-/// What the choice knows of an emitting primitive.
-struct Source {
-    shape: Sphere,
-    /// Luminance of its front and of its back.
-    front: f32,
-    back: f32,
 }
 
 /// A point that light is looked for from.
@@ -63,21 +58,13 @@ pub struct LightSample<L: Lanes> {
 }
 
 impl Lights {
-    pub fn new(shapes: &[Sphere], emissions: &[Emission], background: Option<Background>) -> Lights {
-        let source = |(shape, emission): (&Sphere, &Emission)| {
-            let light = luminance(emission.mean);
-            let (front, back) = match emission.side {
-                Side::Front => (light, 0.0),
-                Side::Back => (0.0, light),
-                Side::Both => (light, light),
-            };
-            Source { shape: *shape, front, back }
-        };
+    /// `pieces` are the shapes of the primitives, of which the first ones emit. `near` is where the scene happens.
+    pub fn new(pieces: &[Shape], emissions: &[Emission], background: Option<Background>, near: DVec3) -> Lights {
         Lights {
             emitters: Emitters::new(emissions),
             sky: background.as_ref().map_or(0.0, Background::luminance),
             background,
-            sources: shapes.iter().zip(emissions).map(source).collect(),
+            sources: pieces.iter().zip(emissions).map(|(piece, emission)| Source::new(piece, emission, near)).collect(),
         }
     }
 
@@ -103,12 +90,12 @@ impl Lights {
         let mut sample = LightSample { wi: at.n, radiance: V::splat(l, [0.0; 3]), pdf: l.f(0.0), target };
         if (!sky).any() {
             let primitive = sky.pick(l.u(0), target);
-            let cone = shapes.seen_from(l, primitive, at.p);
-            let side = cone.outside.pick(l.f(1.0), l.f(-1.0));
+            let toward = shapes.toward(l, primitive, at.p, u.place);
+            let side = toward.front.pick(l.f(1.0), l.f(-1.0));
             let (radiance, lit) = self.emitters.radiance(l, !sky, primitive, side);
-            sample.wi = cone.sample(u.place);
+            sample.wi = toward.wi;
             sample.radiance = radiance;
-            sample.pdf = lit.pick(cone.pdf(), l.f(0.0));
+            sample.pdf = lit.pick(toward.pdf, l.f(0.0));
         }
         if let Some(background) = &self.background
             && sky.any()
@@ -124,25 +111,28 @@ impl Lights {
 
     /// The density with which [`Lights::sample`] draws the direction `wi`, in which lie the given primitives or [`MISS`].
     #[inline(always)]
-    pub fn pdf<L: Lanes>(&self, l: L, at: &Receiver<L>, wi: V<L>, target: U<L>) -> F<L> {
-        let (mut total, mut chosen, mut density) = (l.f(0.0), l.f(0.0), l.f(0.0));
+    pub fn pdf<L: Lanes>(&self, l: L, shapes: &Shapes, at: &Receiver<L>, wi: V<L>, target: U<L>) -> F<L> {
+        let sky = target.is(MISS);
+        let emits = self.emitters.emits(target);
+        let mut density = l.f(0.0);
+        if emits.any() {
+            density = emits.pick(shapes.pdf_toward(l, emits.pick(target, l.u(0)), at.p, wi), density);
+        }
+        if let Some(background) = &self.background
+            && sky.any()
+        {
+            density = sky.pick(background.pdf(l, at, wi), density);
+        }
+        if !self.are_several() {
+            return density;
+        }
+        let (mut total, mut chosen) = (l.f(self.sky), sky.pick(l.f(self.sky), l.f(0.0)));
         for (primitive, source) in self.sources.iter().enumerate() {
-            let cone = source.shape.seen_from(l, at.p);
-            let weight = source.weight(at, &cone);
-            let this = target.is(primitive as u32);
+            let weight = source.weight(l, at);
             total = total + weight;
-            chosen = this.pick(weight, chosen);
-            density = this.pick(cone.pdf(), density);
+            chosen = target.is(primitive as u32).pick(weight, chosen);
         }
-        if let Some(background) = &self.background {
-            let this = target.is(MISS);
-            total = total + self.sky;
-            chosen = this.pick(l.f(self.sky), chosen);
-            if this.any() {
-                density = this.pick(background.pdf(l, at, wi), density);
-            }
-        }
-        if self.are_several() { total.above(0.0).pick(density * (chosen / total), l.f(0.0)) } else { density }
+        total.above(0.0).pick(density * (chosen / total), l.f(0.0))
     }
 
     /// A light and the probability of its choice.
@@ -153,33 +143,18 @@ impl Lights {
         }
         let mut total = l.f(self.sky);
         for source in &self.sources {
-            total = total + source.weight(at, &source.shape.seen_from(l, at.p));
+            total = total + source.weight(l, at);
         }
         // The last light whose share begins at or before the chosen place; the background comes first.
         let place = choice * total;
         let (mut target, mut chosen, mut begin) = (l.u(MISS), l.f(self.sky), l.f(self.sky));
         for (primitive, source) in self.sources.iter().enumerate() {
-            let weight = source.weight(at, &source.shape.seen_from(l, at.p));
+            let weight = source.weight(l, at);
             let here = place.ge(begin) & weight.above(0.0);
             target = here.pick(l.u(primitive as u32), target);
             chosen = here.pick(weight, chosen);
             begin = begin + weight;
         }
         (target, total.above(0.0).pick(chosen / total, l.f(0.0)))
-    }
-}
-
-impl Source {
-    /// A bound on the irradiance from this light, over π.
-    #[inline(always)]
-    fn weight<L: Lanes>(&self, at: &Receiver<L>, cone: &Cone<L>) -> F<L> {
-        // Not quite 0 for a light that only just lies below the horizon: rounding may see it.
-        const GRAZING: f32 = 1e-3;
-        let sin = cone.sin_squared.sqrt();
-        let one = sin.splat(1.0);
-        let facing = (cone.axis.dot(at.n) + sin + GRAZING).max(sin.splat(0.0)).min(one);
-        let facing = (at.transmits | !cone.outside).pick(one, facing);
-        let light = cone.outside.pick(sin.splat(self.front), sin.splat(self.back));
-        light * cone.sin_squared * facing
     }
 }

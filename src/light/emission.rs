@@ -18,7 +18,7 @@ pub enum Side {
 pub struct Emission {
     /// Radiance; where there is a texture, what multiplies it.
     pub radiance: [f32; 3],
-    /// Mean radiance over the surface.
+    /// Mean radiance; of a texture over its unit square.
     pub mean: [f32; 3],
     /// Id of the texture that it varies by.
     pub texture: Option<u32>,

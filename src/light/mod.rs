@@ -9,6 +9,7 @@ pub mod background;
 mod choice;
 pub mod emission;
 pub mod image_background;
+mod source;
 #[cfg(test)]
 mod tests;
 

@@ -4,7 +4,7 @@ use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use super::{Background, Emission, LightCoordinates, Lights, Receiver, Side};
 use crate::{
-    geometry::{MISS, Shapes, Sphere},
+    geometry::{MISS, Shape, Shapes},
     math::{F, M, One, U, V},
     sampling::hash::hash_one,
 };
@@ -17,12 +17,12 @@ fn lights() -> (Lights, Shapes, Vec<Shapes>) {
         (DVec3::new(0.0, 0.5, 0.0), 20.0),
         (DVec3::new(0.0, 2.0, 0.5), 0.5),
     ]
-    .map(|(center, radius)| Sphere::new(center, radius, DVec3::ZERO));
+    .map(|(center, radius)| Shape::Sphere { center, radius });
     let emission = |light: f32, side| Emission { radiance: [light; 3], mean: [light; 3], texture: None, side };
     let emissions = [emission(8.0, Side::Front), emission(3.0, Side::Both), emission(0.2, Side::Back), emission(9.0, Side::Back)];
-    let lights = Lights::new(&spheres, &emissions, Some(Background::Constant([0.5, 0.4, 0.6])));
-    let alone = spheres.iter().map(|sphere| Shapes::new(vec![*sphere])).collect();
-    (lights, Shapes::new(spheres.to_vec()), alone)
+    let lights = Lights::new(&spheres, &emissions, Some(Background::Constant([0.5, 0.4, 0.6])), DVec3::ZERO);
+    let alone = spheres.iter().map(|sphere| Shapes::new(std::slice::from_ref(sphere), DVec3::ZERO)).collect();
+    (lights, Shapes::new(&spheres, DVec3::ZERO), alone)
 }
 
 fn vector(x: f64, y: f64, z: f64) -> V<One> {
@@ -54,7 +54,7 @@ fn directions_to_lights_are_distributed_as_their_pdf() {
             if sample.pdf.0 == 0.0 {
                 continue;
             }
-            let pdf = lights.pdf(One, &at, sample.wi, sample.target);
+            let pdf = lights.pdf(One, &shapes, &at, sample.wi, sample.target);
             assert!((pdf.0 / sample.pdf.0 - 1.0).abs() < 1e-3, "{} {}", pdf.0, sample.pdf.0);
             let [x, y, z] = sample.wi.lane(0).map(f64::from);
             let turn = (y.atan2(x) / std::f64::consts::TAU).rem_euclid(1.0);
@@ -66,9 +66,9 @@ fn directions_to_lights_are_distributed_as_their_pdf() {
         let density = |d: V<One>| {
             let lit = |(i, shape): (usize, &Shapes)| {
                 let seen = shape.closest(One, at.p, d).1.0 != MISS;
-                if seen { f64::from(lights.pdf(One, &at, d, U(i as u32)).0) } else { 0.0 }
+                if seen { f64::from(lights.pdf(One, &shapes, &at, d, U(i as u32)).0) } else { 0.0 }
             };
-            alone.iter().enumerate().map(lit).sum::<f64>() + f64::from(lights.pdf(One, &at, d, U(MISS)).0)
+            alone.iter().enumerate().map(lit).sum::<f64>() + f64::from(lights.pdf(One, &shapes, &at, d, U(MISS)).0)
         };
         let cell = 2.0 / ACROSS as f64 * std::f64::consts::TAU / AROUND as f64 / (SUB * SUB) as f64;
         let (mut statistic, mut bins, mut whole) = (0.0, 0.0, 0.0);

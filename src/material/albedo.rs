@@ -67,7 +67,7 @@ impl<'a, L: Lanes> Albedo<'a, L> {
 
 /// The cell of `x` in [0, cells] and where in it `x` lies, 0 to 1.
 #[inline(always)]
-fn cell<L: Lanes>(x: F<L>, cells: usize) -> (U<L>, F<L>) {
+pub(super) fn cell<L: Lanes>(x: F<L>, cells: usize) -> (U<L>, F<L>) {
     let (whole, index) = floor(x.max(x.splat(0.0)).min(x.splat((cells - 1) as f32)));
     (index, x - whole)
 }

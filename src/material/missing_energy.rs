@@ -8,7 +8,10 @@
 //! The two together reflect ℓ(μ_o), for ∫ ℓ(μ) μ dω = π ℓ̄. Their split is ours: see [`super::dielectric_albedo`].
 use std::f32::consts::{FRAC_1_PI, PI};
 
-use super::dielectric_albedo::{ALPHAS, CELLS, HALF, LEVEL_ROWS, LEVELS};
+use super::{
+    albedo::cell,
+    dielectric_albedo::{ALPHAS, CELLS, HALF, LEVEL_ROWS, LEVELS},
+};
 use crate::math::{F, Lanes, M, Pick, U, V, trig::sin_cos_turns};
 
 /// Where lanes find what their materials lose.
@@ -71,7 +74,7 @@ impl<'a, L: Lanes> MissingEnergy<'a, L> {
     pub fn new(l: L, alpha: F<L>, outside: M<L>, table: LossTable<'a, L>) -> Self {
         let (low, high) = (ALPHAS.start.sqrt().sqrt(), ALPHAS.end.sqrt().sqrt());
         let place = (alpha.sqrt().sqrt() - low) * ((LEVELS - 1) as f32 / (high - low));
-        let (level, blend) = split(place, LEVELS - 1);
+        let (level, blend) = cell(place, LEVELS - 1);
         let LossTable { rows, offset, textured } = table;
         let first = offset + textured.pick(level * LEVEL_ROWS as u32, l.u(0));
         let step = textured.pick(l.u(LEVEL_ROWS as u32), l.u(0));
@@ -82,9 +85,9 @@ impl<'a, L: Lanes> MissingEnergy<'a, L> {
     #[inline(always)]
     pub fn loss(&self, cos: F<L>, through: M<L>) -> Loss<L> {
         let half = self.alpha * HALF;
-        let (cell, t) = split(cos * (1.0 + half) / (cos + half) * CELLS as f32, CELLS);
+        let (index, t) = cell(cos * (1.0 + half) / (cos + half) * CELLS as f32, CELLS);
         let outside = (self.outside & !through) | (!self.outside & through);
-        let row = self.first + cell + outside.pick(self.l.u(0), self.l.u(CELLS as u32));
+        let row = self.first + index + outside.pick(self.l.u(0), self.l.u(CELLS as u32));
         let [near, far, mean, exchanged] = self.row(row);
         Loss { here: near + (far - near) * t, mean, exchanged }
     }
@@ -146,14 +149,4 @@ impl<'a, L: Lanes> MissingEnergy<'a, L> {
     fn radii(&self) -> (F<L>, F<L>) {
         (self.alpha, (1.0 + self.alpha * self.alpha).sqrt())
     }
-}
-
-/// The cell of `x` among `cells` of width 1, and the place within it; between two cells it may be the end of the former.
-#[inline(always)]
-fn split<L: Lanes>(x: F<L>, cells: usize) -> (U<L>, F<L>) {
-    let x = x.max(x.splat(0.0)).min(x.splat(cells as f32));
-    // A sum with 2²³ has the nearest integer in the low bits of its mantissa.
-    let shifted = (x - 0.5).max(x.splat(0.0)).min(x.splat((cells - 1) as f32)) + 8_388_608.0;
-    let cell = shifted.bits() & 0x7f_ffff;
-    (cell, x - cell.to_real())
 }

@@ -96,14 +96,4 @@ impl Material {
             Material::Plastic { .. } => "plastic",
         }
     }
-
-    /// What a texture may replace: the albedo, or the reflectance at normal incidence; white for kinds without.
-    pub fn colour(&self) -> [f32; 3] {
-        match *self {
-            Material::Lambertian { albedo } | Material::Plastic { albedo, .. } => albedo,
-            Material::Mirror { reflectance } => reflectance,
-            Material::Conductor { fresnel: Reflectance::Constant(f0) | Reflectance::Schlick(f0), .. } => f0,
-            Material::Conductor { .. } | Material::Dielectric { .. } => [1.0; 3],
-        }
-    }
 }

@@ -80,6 +80,10 @@ impl<L: Lanes> V<L> {
         self.x * b[0] + (self.y * b[1] + self.z * b[2])
     }
     #[inline(always)]
+    pub fn cross(self, b: Self) -> Self {
+        V { x: self.y * b.z - self.z * b.y, y: self.z * b.x - self.x * b.z, z: self.x * b.y - self.y * b.x }
+    }
+    #[inline(always)]
     pub fn length_squared(self) -> F<L> {
         self.dot(self)
     }

@@ -3,7 +3,7 @@ use crate::integrator::TILE;
 
 /// Sums of samples over all pixels, in tiles that each belong to one thread at a time.
 pub struct Film {
-    resolution: [u32; 2],
+    pub(super) resolution: [u32; 2],
     pub tiles: Vec<Tile>,
 }
 

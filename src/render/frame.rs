@@ -79,9 +79,8 @@ fn luminance_error(estimate: &Estimate) -> f32 {
     estimate.variance_of_mean.map_or(f32::NAN, |variance| luminance(variance.map(|v| (v as f32).sqrt())))
 }
 
-/// Sum over channels of variance / (mean² + 0.01); single precision is enough for an estimate.
+/// Sum over channels of variance / (mean² + 0.01), in f64: squares of the brightest means leave the range of f32.
 fn relative_variance(estimate: &Estimate) -> f32 {
-    let variance = estimate.variance_of_mean.unwrap_or([0.0; 3]).map(|v| v as f32);
-    let mean = estimate.mean.map(|m| m as f32);
-    (0..3).map(|c| variance[c] / (mean[c] * mean[c] + REL_MSE_FLOOR as f32)).sum()
+    let (variance, mean) = (estimate.variance_of_mean.unwrap_or([0.0; 3]), estimate.mean);
+    (0..3).map(|c| variance[c] / (mean[c] * mean[c] + REL_MSE_FLOOR)).sum::<f64>() as f32
 }

@@ -51,7 +51,12 @@ pub struct SampleId {
 /// The renderer panicked.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Failure {
+    /// The sample, or the first one of the tile where none fails alone.
     pub at: SampleId,
+    /// The sample fails when it is replayed.
+    pub replays: bool,
+    /// Of the picture, which may have been a coarse one.
+    pub resolution: [u32; 2],
     pub message: String,
 }
 
@@ -75,13 +80,21 @@ impl Threads {
     /// Brings every tile to `spp` samples, or stops between two bounces when `interrupted` says so. A tile that was interrupted
     /// goes on later as if nothing had happened.
     pub fn pass(&self, job: PassJob, film: &mut Film, spp: u32, interrupted: &(dyn Fn() -> bool + Sync)) -> PassCount {
+        let resolution = film.resolution;
         self.pool.install(|| {
             let tiles = film.tiles.par_iter_mut();
-            tiles.map(|tile| self.tile_to(job, tile, spp, interrupted)).reduce(PassCount::default, PassCount::merge)
+            tiles.map(|tile| self.tile_to(job, resolution, tile, spp, interrupted)).reduce(PassCount::default, PassCount::merge)
         })
     }
 
-    fn tile_to(&self, job: PassJob, tile: &mut Tile, spp: u32, interrupted: &dyn Fn() -> bool) -> PassCount {
+    fn tile_to(
+        &self,
+        job: PassJob,
+        resolution: [u32; 2],
+        tile: &mut Tile,
+        spp: u32,
+        interrupted: &dyn Fn() -> bool,
+    ) -> PassCount {
         let thread = rayon::current_thread_index().unwrap_or(0);
         let mut count = PassCount::default();
         let mut batch = self.batches[thread].lock().unwrap_or_else(PoisonError::into_inner);
@@ -98,7 +111,13 @@ impl Threads {
                 }
                 Ok(Err(Interrupted)) => break,
                 Err(panic) => {
-                    count.failure = Some(Failure { at: find_failure(&work), message: panic_message(&*panic) });
+                    let alone = find_failure(&work);
+                    count.failure = Some(Failure {
+                        at: alone.unwrap_or(SampleId { pixel: work.origin, sample: work.sample }),
+                        replays: alone.is_some(),
+                        resolution,
+                        message: panic_message(&*panic),
+                    });
                     break;
                 }
             }
@@ -120,14 +139,14 @@ impl PassCount {
 }
 
 /// The first pixel of the tile whose sample panics when it is replayed alone.
-fn find_failure(work: &Work) -> SampleId {
+fn find_failure(work: &Work) -> Option<SampleId> {
     let [x, y] = work.origin;
     let [width, height] = work.size;
     let pixels = (y..y + height).flat_map(|y| (x..x + width).map(move |x| [x, y]));
     let fails = |pixel: &[u32; 2]| {
         catch_unwind(AssertUnwindSafe(|| replay(work.scene, work.rays, work.settings, *pixel, work.sample))).is_err()
     };
-    SampleId { pixel: { pixels }.find(fails).unwrap_or(work.origin), sample: work.sample }
+    { pixels }.find(fails).map(|pixel| SampleId { pixel, sample: work.sample })
 }
 
 /// What a panic said.

@@ -78,6 +78,11 @@ pub struct Status {
 }
 
 impl Status {
+    /// Why the expected picture differs from the solution of the equation; `None` when it does not.
+    pub fn bias(&self, settings: &RenderSettings) -> Option<String> {
+        settings.bias().or((self.cut_paths > 0).then(|| format!("{} paths cut", self.cut_paths)))
+    }
+
     /// Root of the estimated relMSE.
     pub fn relative_noise(&self) -> Option<f64> {
         self.rel_mse_estimate.map(f64::sqrt)

@@ -74,6 +74,15 @@ pub fn disk<L: Lanes>((u, v): (F<L>, F<L>)) -> (F<L>, F<L>, F<L>) {
     (r * wide.pick(cos, sin), r * wide.pick(sin, cos), r * r)
 }
 
+/// Uniform over the triangle u, v ≥ 0, u + v ≤ 1, by a map that keeps neighbours together (E. Heitz, "A Low-Distortion Map Between
+/// Triangle and Square", 2019).
+#[inline(always)]
+pub fn triangle<L: Lanes>((a, b): (F<L>, F<L>)) -> (F<L>, F<L>) {
+    let low = a.lt(b);
+    let (s, t) = (a * 0.5, b * 0.5);
+    (low.pick(s, a - t), low.pick(b - s, t))
+}
+
 /// Uniform over the cap of unit directions around z whose heights are at least 1 − `height`; 1 is the hemisphere, 2 the sphere.
 /// By Archimedes the height is uniform.
 #[inline(always)]

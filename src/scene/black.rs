@@ -7,8 +7,9 @@ impl Scene {
     pub fn around(&self, camera: &Camera) -> Option<&Object> {
         let is_opaque =
             |object: &Object| object.coating.as_ref().is_none_or(|c| !matches!(c.material, Material::Dielectric { .. }));
-        let shuts_in = |object: &&Object| !object.flip && is_opaque(object) && camera.eye.distance(object.center) < object.radius;
-        self.objects.iter().filter(shuts_in).min_by(|a, b| a.radius.total_cmp(&b.radius))
+        let shuts_in = |object: &&Object| !object.flip && is_opaque(object) && object.shape.contains(camera.eye);
+        let size = |object: &Object| object.shape.bounding_sphere().1;
+        self.objects.iter().filter(shuts_in).min_by(|a, b| size(a).total_cmp(&size(b)))
     }
 
     /// The likeliest reason for a picture that is black so far.

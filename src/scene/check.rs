@@ -12,6 +12,7 @@ use super::{
     diagnostic::{SceneError, SourceText},
     wording::nearest,
 };
+use crate::geometry::Shape;
 
 /// Coordinates and radii beyond these are refused: squares of them would leave the range of f32.
 const LARGEST: f64 = 1e12;
@@ -103,6 +104,16 @@ impl Checker<'_> {
         } else {
             error
         })
+    }
+
+    /// Shapes after their transforms: neither too small nor too large or far away to be told from nothing.
+    pub fn extent<T>(&self, shape: &Shape, desc: &Spanned<T>) -> Result<(), SceneError> {
+        let (center, radius) = shape.bounding_sphere();
+        if center.abs().max_element() <= LARGEST && (SMALLEST_RADIUS..=LARGEST).contains(&radius) {
+            return Ok(());
+        }
+        let message = format!("after its transforms the {} reaches {radius:e} m around {center}", shape.name());
+        Err(self.0.error(desc.span(), message, format!("expected {SMALLEST_RADIUS:e} to {LARGEST:e} m")))
     }
 
     /// A number from `least` to `most`.

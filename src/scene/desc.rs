@@ -2,6 +2,8 @@
 //!
 //! Every key of the format stands here. Those that this version does not support yet are [`Planned`], so that they are refused
 //! by name rather than ignored or called unknown.
+mod shape;
+
 use std::collections::BTreeMap;
 
 use serde::{
@@ -10,6 +12,7 @@ use serde::{
 };
 use toml::Spanned;
 
+pub use self::shape::{CuboidDesc, CylinderDesc, DiskDesc, RectangleDesc, ShapeDesc, TransformDesc, TriangleDesc};
 pub use super::colour::Colour;
 
 /// A key of the format that this version reads but does not support.
@@ -188,28 +191,9 @@ pub struct ObjectDesc {
     pub emission: Option<Spanned<EmissionDesc>>,
     #[serde(default)]
     pub flip: bool,
-    pub transform: Planned,
+    #[serde(default)]
+    pub transform: Vec<Spanned<TransformDesc>>,
     pub motion: Planned,
-}
-
-#[derive(Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum ShapeDesc {
-    Sphere(SphereDesc),
-    Cuboid(IgnoredAny),
-    Cylinder(IgnoredAny),
-    Disk(IgnoredAny),
-    Rectangle(IgnoredAny),
-    Triangle(IgnoredAny),
-    Mesh(IgnoredAny),
-    Isosurface(IgnoredAny),
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct SphereDesc {
-    pub center: Spanned<Exactly<f64, 3>>,
-    pub radius: Spanned<f64>,
 }
 
 #[derive(Deserialize)]
@@ -248,7 +232,7 @@ impl<'de, T: Deserialize<'de>, const N: usize> Deserialize<'de> for Exactly<T, N
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let elements = Vec::deserialize(deserializer)?;
         let length = elements.len();
-        let exactly = elements.try_into().map_err(|_| de::Error::invalid_length(length, &format!("{N} numbers").as_str()))?;
+        let exactly = elements.try_into().map_err(|_| de::Error::invalid_length(length, &format!("a list of {N}").as_str()))?;
         Ok(Exactly(exactly))
     }
 }

@@ -1,7 +1,7 @@
 //! How a scene file writes pixel filters: by name, `"gaussian"`, or with a width, `{ gaussian = { sigma = 0.4 } }`.
 use serde::{
     Deserialize, Deserializer,
-    de::{self, IgnoredAny, MapAccess, Visitor},
+    de::{self, MapAccess, Visitor},
 };
 
 use crate::sampling::Filter;
@@ -57,9 +57,9 @@ impl<'de> Visitor<'de> for FilterVisitor {
             Some(other) => return Err(de::Error::unknown_field(other, &["tent", "gaussian"])),
             None => return Err(de::Error::invalid_length(0, &self)),
         };
-        match map.next_key::<IgnoredAny>()? {
+        match map.next_key::<String>()? {
             None => Ok(FilterDesc(filter)),
-            Some(_) => Err(de::Error::invalid_length(2, &self)),
+            Some(second) => Err(de::Error::custom(format!("a second kind of filter, `{second}`: there can be one"))),
         }
     }
 }

@@ -31,12 +31,15 @@ pub use self::{
     wording::nearest,
 };
 use crate::{
-    geometry::Shapes,
+    geometry::{Shape, Shapes},
     image::Picture,
     light::{Emission, Lights},
     material::Material,
     texture::Textures,
 };
+
+/// Media that a path can be in at once: those of tinted scenes are kept in four bytes.
+const MOST_NESTED: usize = 4;
 
 /// A compiled scene. Immutable; shared between threads.
 pub struct Scene {
@@ -48,8 +51,10 @@ pub struct Scene {
     pub surfaces: Surfaces,
     pub textures: Textures,
     pub lights: Lights,
-    /// The objects in the order of their primitive ids.
+    /// The objects in the order of their primitive ids, emitting ones first.
     pub objects: Vec<Object>,
+    /// The place of the object that a primitive is a piece of.
+    pub owners: Vec<u32>,
     /// The extent of the scene in metres, as a person walking through it would say it.
     pub size: f64,
     /// What the scene opens with.
@@ -63,8 +68,7 @@ pub struct Scene {
 #[derive(Clone, Debug)]
 pub struct Object {
     pub name: String,
-    pub center: DVec3,
-    pub radius: f64,
+    pub shape: Shape,
     /// The normal points inwards.
     pub flip: bool,
     /// `None` is black.
@@ -92,12 +96,15 @@ impl Scene {
         if self.surfaces.media.is_empty() {
             return 0;
         }
-        let inside = |(_, object): &(usize, &Object)| (p.distance(object.center) < object.radius) != object.flip;
-        let is_dielectric = |coating: &Coating| matches!(coating.material, Material::Dielectric { .. });
-        let mut around: Vec<_> = self.objects.iter().enumerate().filter(inside).collect();
-        around.retain(|(_, object)| object.coating.as_ref().is_some_and(is_dielectric));
-        around.sort_by(|a, b| b.1.radius.total_cmp(&a.1.radius));
-        around.iter().fold(0, |stack, (id, _)| stack << 8 | self.surfaces.varying[*id][3].to_bits())
+        let mut around: Vec<_> = self.media_around(p).collect();
+        // The outermost first: a medium that fills all but a sphere lies around every one within a sphere.
+        let reach = |object: &Object| if object.flip { f64::INFINITY } else { object.shape.bounding_sphere().1 };
+        around.sort_by(|a, b| reach(b.1).total_cmp(&reach(a.1)));
+        let medium = |object: usize| {
+            let primitive = self.owners.iter().position(|owner| *owner == object as u32);
+            primitive.map_or(0, |primitive| self.surfaces.varying[primitive][3].to_bits())
+        };
+        around.iter().fold(0, |stack, (id, _)| stack << 8 | medium(*id))
     }
 
     /// Things that are legal but probably not meant, for the window and the command line.
@@ -109,6 +116,19 @@ impl Scene {
         if self.objects.is_empty() {
             warnings.push("this scene has no objects".to_owned());
         }
+        let depth =
+            self.objects.iter().map(|object| self.media_around(object.shape.bounding_sphere().0).count()).max().unwrap_or(0);
+        if !self.surfaces.media.is_empty() && depth > MOST_NESTED {
+            warnings.push(format!("{depth} media lie within each other: only the tint of the inner {MOST_NESTED} is kept"));
+        }
         warnings
+    }
+
+    /// The dielectrics whose inside holds a point, with their numbers.
+    fn media_around(&self, p: DVec3) -> impl Iterator<Item = (usize, &Object)> {
+        let is_dielectric = |coating: &Coating| matches!(coating.material, Material::Dielectric { .. });
+        self.objects.iter().enumerate().filter(move |(_, object)| {
+            object.shape.contains(p) != object.flip && object.coating.as_ref().is_some_and(is_dielectric)
+        })
     }
 }

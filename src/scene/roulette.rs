@@ -1,7 +1,7 @@
 //! How a scene file writes roulette: by name, as on the command line, or with a value, `{ fixed = 0.9 }`.
 use serde::{
     Deserialize, Deserializer,
-    de::{self, IgnoredAny, MapAccess, Unexpected, Visitor},
+    de::{self, MapAccess, Unexpected, Visitor},
 };
 
 use super::Roulette;
@@ -47,9 +47,9 @@ impl<'de> Visitor<'de> for RouletteVisitor {
             Some(other) => return Err(de::Error::unknown_field(other, &["fixed", "throughput"])),
             None => return Err(de::Error::invalid_length(0, &self)),
         };
-        match map.next_key::<IgnoredAny>()? {
+        match map.next_key::<String>()? {
             None => Ok(RouletteDesc(roulette)),
-            Some(_) => Err(de::Error::invalid_length(2, &self)),
+            Some(second) => Err(de::Error::custom(format!("a second kind of roulette, `{second}`: there can be one"))),
         }
     }
 }

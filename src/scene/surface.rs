@@ -32,7 +32,7 @@ pub struct Surfaces {
     pub rows: Vec<[f32; 4]>,
     /// α, textures of colour and of α, and the medium inside. An id is stored plus 1, as bits; 0 is none.
     pub varying: Vec<[f32; 4]>,
-    /// Texture of heights, their scale, texture of normals (ids like above), and the radius.
+    /// Texture of heights, their scale, and texture of normals (ids like above).
     pub relief: Vec<[f32; 4]>,
     /// What a metre of a medium takes away, in octaves; the first is empty space. Empty when all media are.
     pub media: Vec<[f32; 4]>,
@@ -52,6 +52,8 @@ pub const FLIPPED: u32 = 1 << 20;
 pub const ONE_SIDED: u32 = 1 << 21;
 /// α is the square of what its texture says.
 pub const SQUARED: u32 = 1 << 22;
+/// It transmits and emits: no light is looked for from it, as it would find itself, seen from the wrong side.
+pub const SELF_LIT: u32 = 1 << 23;
 /// Set while rendering where a path met the front.
 pub const FRONT: u32 = 1 << 31;
 /// Materials have 16 bits, media 8: what is beyond is refused by [`Surfaces::check`].
@@ -59,7 +61,7 @@ const MOST_MATERIALS: usize = 1 << 16;
 const MOST_MEDIA: usize = 1 << 8;
 
 impl Surfaces {
-    /// Surfaces of the objects in their order.
+    /// Surfaces of the pieces of the objects in their order.
     pub fn new(objects: &[Object]) -> Surfaces {
         let mut coatings: Vec<&Coating> = Vec::new();
         for coating in objects.iter().filter_map(|object| object.coating.as_ref()) {
@@ -77,7 +79,9 @@ impl Surfaces {
         }
         for object in objects {
             let material = object.coating.as_ref().and_then(|coating| coatings.iter().position(|known| *known == coating));
-            surfaces.push(object, material, has_relief);
+            for _ in 0..object.shape.piece_count() {
+                surfaces.push(object, material, has_relief);
+            }
         }
         surfaces.stages.sort_unstable();
         surfaces.stages.dedup();
@@ -105,14 +109,16 @@ impl Surfaces {
             Roughness::Texture { id, squared } => (1.0, Some(id), squared),
         };
         let flag = |set: bool, flag: u32| if set { flag } else { 0 };
-        let flags = flag(object.flip, FLIPPED) | flag(coating.one_sided, ONE_SIDED) | flag(squared, SQUARED);
+        let self_lit = stage == Stage::RoughDielectric && object.emission.is_some();
+        let flags =
+            flag(object.flip, FLIPPED) | flag(coating.one_sided, ONE_SIDED) | flag(squared, SQUARED) | flag(self_lit, SELF_LIT);
         let medium = if self.media.is_empty() { 0 } else { material as u32 + 1 };
         self.textured |= colour_texture.or(alpha_texture).is_some();
         self.rows.push([r, g, b, f32::from_bits(material as u32 | (stage as u32) << STAGE_SHIFT | flags)]);
         self.varying.push([alpha, id(colour_texture), id(alpha_texture), f32::from_bits(medium)]);
         if has_relief {
             let height = coating.bump.map_or(0.0, |(_, height)| height);
-            self.relief.push([id(coating.bump.map(|(id, _)| id)), height, id(coating.normal_map), object.radius as f32]);
+            self.relief.push([id(coating.bump.map(|(id, _)| id)), height, id(coating.normal_map), 0.0]);
         }
         if [r, g, b] != [0.0; 3] {
             self.stages.push(stage);

@@ -114,6 +114,7 @@ fn wrong_form(source: &SourceText, span: &Range<usize>, message: &str) -> Option
             Some(error.with_help("a key can be given once; of several objects each begins with `[[objects]]`"))
         }
         "wanted string or table" => error("expected a name in quotes, or a table { … }", "neither of them"),
+        _ if message.starts_with("a second kind") => error(message, "remove one of them"),
         _ if message.starts_with("wanted exactly 1 element") => {
             error("expected a table that says exactly one kind", "one of the kinds must be given here")
         }

@@ -17,7 +17,7 @@ pub(super) fn objects_panel(ui: &mut Ui, scene: &Scene) {
     Grid::new("objects").num_columns(2).spacing([12.0, 4.0]).show(ui, |ui| {
         for (i, object) in scene.objects.iter().take(MOST_ROWS).enumerate() {
             let name = if object.name.is_empty() { format!("object {}", i + 1) } else { object.name.clone() };
-            elided(ui, NAME_WIDTH, name).on_hover_text(format!("sphere of radius {} m at {}", object.radius, object.center));
+            elided(ui, NAME_WIDTH, name).on_hover_text(place(object));
             elided(ui, KIND_WIDTH, RichText::new(summary(object)).weak()).on_hover_text(details(object));
             ui.end_row();
         }
@@ -25,6 +25,12 @@ pub(super) fn objects_panel(ui: &mut Ui, scene: &Scene) {
     if scene.objects.len() > MOST_ROWS {
         ui.weak(format!("and {} more", scene.objects.len() - MOST_ROWS));
     }
+}
+
+/// What shape, and where.
+fn place(object: &Object) -> String {
+    let (center, radius) = object.shape.bounding_sphere();
+    format!("{} within {radius:.4} m of {center:.4}", object.shape.name())
 }
 
 /// Kind of material, and whether it is a lamp.

@@ -4,7 +4,7 @@ use std::time::Duration;
 use egui::{Color32, RichText};
 use noisefall::{
     math::colour::luminance,
-    render::{State, Status, settings_text::options},
+    render::{State, Status, pass::SampleId, settings_text::options},
     scene::RenderSettings,
 };
 
@@ -85,8 +85,7 @@ impl App {
     }
 
     fn bias_label(&self, ui: &mut egui::Ui) {
-        let cut = (self.status.cut_paths > 0).then(|| format!("{} paths cut", self.status.cut_paths));
-        match self.settings.bias().or(cut) {
+        match self.status.bias(&self.settings) {
             None => ui
                 .label(RichText::new("unbiased").color(GREEN))
                 .on_hover_text("The picture converges to the solution of the light transport equation"),
@@ -104,8 +103,8 @@ impl App {
             ui.label(RichText::new(text).color(RED)).on_hover_text(more);
         };
         if let Some(at) = first_invalid {
-            let [x, y] = at.pixel;
-            let command = self.replay_command([x, y], at.sample);
+            let size = self.link.wish().map_or([0; 2], |wish| wish.camera.resolution);
+            let command = self.replay_command(at, size);
             trouble(format!("{invalid_samples} invalid samples"), format!("Replay the first: {command}"));
         }
         if cut_paths > 0 {
@@ -115,17 +114,20 @@ impl App {
         }
         if let State::Failed(failure) = &self.status.state {
             let [x, y] = failure.at.pixel;
-            let command = self.replay_command([x, y], failure.at.sample);
-            trouble(format!("pixel {x},{y}, sample {}: {}", failure.at.sample, failure.message), format!("Replay it: {command}"));
+            let (place, advice) = if failure.replays {
+                ("pixel", format!("Replay it: {}", self.replay_command(failure.at, failure.resolution)))
+            } else {
+                ("the tile at", "None of its samples fails alone".to_owned())
+            };
+            trouble(format!("{place} {x},{y}, sample {}: {}", failure.at.sample, failure.message), advice);
         }
     }
 
     /// The command that traces one sample again; it knows the scene's camera only.
-    fn replay_command(&self, [x, y]: [u32; 2], sample: u32) -> String {
+    fn replay_command(&self, SampleId { pixel: [x, y], sample }: SampleId, [width, height]: [u32; 2]) -> String {
         let Some(wish) = self.link.wish() else { return String::new() };
         let file = self.opened.as_ref().and_then(|opened| opened.path.as_ref());
         let file = file.map_or_else(|| "scenes/cornell_spheres.toml".to_owned(), |path| path.display().to_string());
-        let [width, height] = wish.camera.resolution;
         let options = options(&wish.settings, &wish.scene.settings);
         format!("noisefall render {file} --pixel {x},{y} --sample {sample} --size {width}x{height}{options}")
     }

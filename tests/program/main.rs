@@ -5,5 +5,6 @@ mod layers;
 mod pictures;
 mod scene_files;
 mod scene_messages;
+mod shapes;
 mod textures;
 mod worker;

@@ -23,7 +23,7 @@ fn wrong_values_are_told_in_plain_words() {
     refuses("name = \"ball\"", "flip = 1", "`flip`: expected true or false, found 1");
     refuses("fov = 40", "fov = ", "a value is missing");
     refuses("{ fixed = 0.75 }", "\"fixed\"", "write { fixed = … }");
-    refuses("{ fixed = 0.75 }", "{ fixed = 0.5, throughput = {} }", "found 2 values");
+    refuses("{ fixed = 0.75 }", "{ fixed = 0.5, throughput = {} }", "a second kind of roulette, `throughput`");
     refuses("{ fixed = 0.75 }", "{ throughput = { begin = 4 } }", "unknown key `begin`");
     for jargon in ["f64", "u32", "i64", "map", "struct", "variant", "sequence"] {
         for (line, by) in

@@ -107,3 +107,23 @@ fn both_together_are_better_than_either_where_lamps_and_glosses_range_from_tiny_
     // two single ways are worse than this says.
     assert!(mis < path && mis < light, "path {path:.3e}, light {light:.3e}, mis {mis:.3e}");
 }
+
+#[test]
+fn they_agree_on_rough_glass_that_shines() {
+    for side in ["radiance = 1.0", "radiance = 1.0, two_sided = true", "radiance = 1.0 }\nflip = true\n#"] {
+        let text = format!(
+            "camera = {{ eye = [0.0, 0.0, 4.0], look_at = [0.0, 0.0, 0.0], fov = 30.0, resolution = [16, 16] }}
+            background.radiance = 0.2
+            materials.glow.dielectric = {{ ior = 1.5, roughness = 0.5 }}
+            [[objects]]
+            shape.sphere = {{ center = [0.0, 0.0, 0.0], radius = 1.0 }}
+            material = 'glow'
+            emission = {{ {side} }}"
+        );
+        let scene = scene(&text);
+        let [path, light, mis] = Estimator::ALL.map(|estimator| picture(&scene, settings(estimator), LUMINANCE, 2048).whole());
+        let deviations = [light.z_from(path), mis.z_from(path)];
+        println!("{side}: {:.5}, {deviations:?}", path.mean);
+        assert_all_within(&deviations, side);
+    }
+}

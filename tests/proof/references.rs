@@ -87,3 +87,18 @@ fn the_five_sphere_cornell_box_agrees_with_an_independent_renderer() {
 fn the_furnace_agrees_with_its_exact_solution() {
     agrees("furnace_enclosure");
 }
+
+#[test]
+fn the_classical_cornell_box_agrees_with_an_independent_renderer() {
+    agrees("cornell_box");
+}
+
+#[test]
+fn glass_mirror_disk_and_cylinder_agree_with_an_independent_renderer() {
+    agrees("glass_mirror");
+}
+
+#[test]
+fn lamps_of_all_sizes_on_plates_of_all_glosses_agree_with_an_independent_renderer() {
+    agrees("veach_mis");
+}

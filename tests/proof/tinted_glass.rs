@@ -101,3 +101,58 @@ fn shells_of_tinted_glass_and_air_are_a_pile_of_plates() {
         });
     }
 }
+
+#[test]
+fn a_clear_ball_within_endless_fog_is_clear() {
+    // A flipped sphere is fog everywhere but inside it: 3 m of ball, then 6 m of fog, then the hollow's clear metre around the lamp.
+    let text = "camera = { eye = [0.0, 0.0, 0.0], look_at = [0.0, 0.0, 1.0], fov = 1.0, resolution = [4, 4] }
+        materials.clear.dielectric = { ior = 1.0 }
+        materials.fog.dielectric = { ior = 1.0, transmittance = 0.5 }
+        [[objects]]
+        shape.sphere = { center = [0.0, 0.0, 0.0], radius = 3.0 }
+        material = 'clear'
+        [[objects]]
+        shape.sphere = { center = [0.0, 0.0, 10.0], radius = 1.0 }
+        material = 'fog'
+        flip = true
+        [[objects]]
+        shape.sphere = { center = [0.0, 0.0, 10.0], radius = 0.9 }
+        emission.radiance = 1.0";
+    let found = picture(&crate::picture::scene(text), settings(Estimator::Path), RED, 16).whole();
+    assert!((found.mean - 0.5f64.powi(6)).abs() < 1e-4, "{}", found.mean);
+}
+
+#[test]
+fn threads_forget_the_media_of_the_scene_before() {
+    use noisefall::{
+        math::SimdLevel,
+        render::{
+            film::Film,
+            pass::{PassJob, Threads},
+        },
+    };
+    let scene = |tints: usize| {
+        let tint = |i: usize| format!("materials.tint{i}.dielectric = {{ ior = 1.1, transmittance = 0.{i:02} }}\n");
+        let ball = |i: usize| {
+            let [x, y] = [i % 5, i / 5].map(|i| i as f64 - 2.0);
+            format!("[[objects]]\nshape.sphere = {{ center = [{x:?}, {y:?}, 0.0], radius = 0.45 }}\nmaterial = 'tint{i}'\n")
+        };
+        let numbers = || (0..25).map(|i| i % tints + 10);
+        let materials: String = (10..10 + tints).map(tint).collect();
+        let objects: String =
+            numbers().enumerate().map(|(i, tint)| ball(i).replace(&format!("tint{i}'"), &format!("tint{tint}'"))).collect();
+        let camera = "camera = { eye = [0.0, 0.0, 6.0], look_at = [0.0, 0.0, 0.0], fov = 50.0, resolution = [96, 96] }";
+        crate::picture::scene(&format!("{camera}\nbackground.radiance = 1.0\n{materials}{objects}"))
+    };
+    let threads = Threads::new(1, SimdLevel::best()).expect("a thread can be had");
+    for tints in [25, 2] {
+        let scene = scene(tints);
+        for seed in 0..8 {
+            let settings = RenderSettings { seed, ..settings(Estimator::Mis) };
+            let mut film = Film::new(scene.camera.resolution);
+            let rays = scene.rays(&scene.camera);
+            let count = threads.pass(PassJob { scene: &scene, rays: &rays, settings: &settings }, &mut film, 2, &|| false);
+            assert_eq!(count.failure, None, "{tints} tints, seed {seed}");
+        }
+    }
+}

@@ -2,7 +2,8 @@
 use glam::DVec3;
 use rand::{Rng, SeedableRng, rngs::SmallRng};
 
-use super::{Fraction, Sphere, SurfacePoint, surface_point};
+use super::{Sphere, surface_point};
+use crate::geometry::{fraction::Fraction, surface_point::SurfacePoint};
 use crate::math::{F, One, V};
 
 const RADII: [f64; 13] = [1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0, 1e3, 1e4, 1e5, 1e6];

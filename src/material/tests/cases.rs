@@ -31,7 +31,7 @@ impl Case {
     }
 
     pub fn bsdf(&self) -> Any<'_> {
-        let [x, y, z] = self.material.colour().map(F);
+        let [x, y, z] = colour(&self.material).map(F);
         let at = Local { material: U(0), colour: V { x, y, z }, alpha: F(self.alpha), front: M(true) };
         match self.materials.kind(0) {
             BsdfKind::Lambertian => Any::Lambertian(Lambertian { albedo: at.colour, directions: self.directions }),
@@ -112,4 +112,14 @@ pub fn mixed() -> [Vec<Material>; 2] {
         vec![conductor(FRESNELS[0], true), conductor(FRESNELS[1], false), conductor(GOLD, true), conductor(FRESNELS[1], true)],
         vec![plastic(1.5, 0.0), plastic(1.5, 0.2), plastic(2.0, 0.2), plastic(1.3, 0.0)],
     ]
+}
+
+/// The colour that a texture may replace; white for kinds without.
+fn colour(material: &Material) -> [f32; 3] {
+    match *material {
+        Material::Lambertian { albedo } | Material::Plastic { albedo, .. } => albedo,
+        Material::Mirror { reflectance } => reflectance,
+        Material::Conductor { fresnel: Reflectance::Constant(f0) | Reflectance::Schlick(f0), .. } => f0,
+        Material::Conductor { .. } | Material::Dielectric { .. } => [1.0; 3],
+    }
 }

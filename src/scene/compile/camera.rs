@@ -41,7 +41,8 @@ pub fn camera(check: &Checker, desc: &Spanned<CameraDesc>) -> Result<Camera, Sce
         resolution: c.resolution.as_ref().0,
     };
     camera.check().map_err(|error| check.0.error(place(desc, error), error.to_string(), label(error)))?;
-    Ok(camera)
+    // A lens without extent is a pinhole.
+    Ok(Camera { lens: camera.lens.filter(|lens| lens.radius > 0.0), ..camera })
 }
 
 /// What stands at the key that an error is about.

@@ -6,6 +6,7 @@ mod light;
 mod material;
 mod object;
 mod settings;
+mod shape;
 
 pub use self::material::{Coating, Roughness};
 use self::{
@@ -24,7 +25,7 @@ use super::{
     textures::NamedTextures,
 };
 use crate::{
-    geometry::{Shapes, Sphere},
+    geometry::{Shape, Shapes},
     light::{Emission, Lights},
 };
 
@@ -47,16 +48,20 @@ pub fn compile(desc: &SceneDesc, source: &SourceText) -> Result<Scene, SceneErro
     objects.sort_by_key(|object| object.emission.is_none());
     let (settings, spp) = settings(&check, &desc.render)?;
     let truth = desc.truth.as_ref().map(|t| truth(&check, t)).transpose()?;
-    let spheres: Vec<_> = objects.iter().map(|o| Sphere::new(o.center, o.radius, camera.look_at)).collect();
-    let emissions: Vec<Emission> = objects.iter().map_while(|o| o.emission).collect();
+    let owners = objects.iter().enumerate().flat_map(|(i, o)| vec![i as u32; o.shape.piece_count()]).collect();
+    let shapes: Vec<_> = objects.iter().map(|o| o.shape.clone()).collect();
+    let emitting = objects.iter().map_while(|o| o.emission.map(|emission| (emission, o.shape.pieces())));
+    let (emissions, emitters): (Vec<Emission>, Vec<Shape>) =
+        emitting.flat_map(|(emission, pieces)| pieces.into_iter().map(move |piece| (emission, piece))).unzip();
     let surfaces = Surfaces::new(&objects);
     surfaces.check().map_err(|message| check.0.error(0..1, message, "in this scene"))?;
     Ok(Scene {
         title: desc.title.clone().unwrap_or_default(),
         notes: desc.notes.clone().unwrap_or_default(),
         source: source.text.clone(),
-        lights: Lights::new(&spheres, &emissions, background),
-        shapes: Shapes::new(spheres),
+        lights: Lights::new(&emitters, &emissions, background, camera.look_at),
+        shapes: Shapes::new(&shapes, camera.look_at),
+        owners,
         surfaces,
         textures: textures.textures,
         size: size(&objects, &camera),
@@ -72,6 +77,7 @@ pub fn compile(desc: &SceneDesc, source: &SourceText) -> Result<Scene, SceneErro
 /// distance the camera looks over.
 fn size(objects: &[Object], camera: &Camera) -> f64 {
     let view = camera.eye.distance(camera.look_at);
-    let small = objects.iter().filter(|object| object.radius < 10.0 * view);
-    small.map(|object| 2.0 * (object.center.distance(camera.look_at) + object.radius)).fold(view, f64::max).min(10.0 * view)
+    let spheres = objects.iter().map(|object| object.shape.bounding_sphere());
+    let small = spheres.filter(|(_, radius)| *radius < 10.0 * view);
+    small.map(|(center, radius)| 2.0 * (center.distance(camera.look_at) + radius)).fold(view, f64::max).min(10.0 * view)
 }

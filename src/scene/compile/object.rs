@@ -3,14 +3,12 @@ use std::collections::BTreeMap;
 
 use toml::Spanned;
 
-use super::{light::emission, material::Coating};
-use crate::scene::{
-    Object,
-    check::Checker,
-    desc::{ObjectDesc, ShapeDesc},
-    diagnostic::SceneError,
-    textures::NamedTextures,
+use super::{
+    light::emission,
+    material::Coating,
+    shape::{shape, transform},
 };
+use crate::scene::{Object, check::Checker, desc::ObjectDesc, diagnostic::SceneError, textures::NamedTextures};
 
 pub fn object(
     check: &Checker,
@@ -19,26 +17,16 @@ pub fn object(
     textures: &NamedTextures,
 ) -> Result<Object, SceneError> {
     let o = desc.as_ref();
-    check.refuse(&[("transform", &o.transform), ("motion", &o.motion)])?;
-    let unsupported = |kind: &str| Err(check.not_supported(kind, o.shape.span()));
-    let sphere = match o.shape.as_ref() {
-        ShapeDesc::Sphere(sphere) => sphere,
-        ShapeDesc::Cuboid(_) => return unsupported("cuboid"),
-        ShapeDesc::Cylinder(_) => return unsupported("cylinder"),
-        ShapeDesc::Disk(_) => return unsupported("disk"),
-        ShapeDesc::Rectangle(_) => return unsupported("rectangle"),
-        ShapeDesc::Triangle(_) => return unsupported("triangle"),
-        ShapeDesc::Mesh(_) => return unsupported("mesh"),
-        ShapeDesc::Isosurface(_) => return unsupported("isosurface"),
-    };
+    check.refuse(&[("motion", &o.motion)])?;
+    let shape = shape(check, &o.shape)?.transformed(&transform(check, &o.transform)?);
+    check.extent(&shape, &o.shape)?;
     let coating = o
         .material
         .as_ref()
         .map(|name| coatings.get(name.as_ref()).cloned().ok_or_else(|| check.not_defined("material", name, coatings.keys())));
     Ok(Object {
         name: o.name.clone().unwrap_or_default(),
-        center: check.point("center", &sphere.center)?,
-        radius: check.radius(&sphere.radius)?,
+        shape,
         flip: o.flip,
         coating: coating.transpose()?,
         emission: o.emission.as_ref().map(|e| emission(check, e, o.flip, textures)).transpose()?,

@@ -1,0 +1,40 @@
+//! Distances as fractions, so that they can be compared without dividing.
+use crate::math::{F, Lanes, M, Pick};
+
+/// A distance as a fraction with a denominator that is not negative; NaN where there is no meeting.
+#[derive(Clone, Copy)]
+pub(super) struct Fraction<L: Lanes> {
+    pub numerator: F<L>,
+    pub denominator: F<L>,
+}
+
+impl<L: Lanes> Fraction<L> {
+    #[inline(always)]
+    pub fn infinite(l: L) -> Self {
+        Fraction { numerator: l.f(1.0), denominator: l.f(0.0) }
+    }
+
+    /// False where either is NaN.
+    #[inline(always)]
+    pub fn less(&self, other: &Self) -> M<L> {
+        (self.numerator * other.denominator).lt(other.numerator * self.denominator)
+    }
+
+    #[inline(always)]
+    pub fn value(&self) -> F<L> {
+        self.numerator / self.denominator
+    }
+
+    /// Itself in the lanes of `mask`, elsewhere no meeting.
+    #[inline(always)]
+    pub fn only(self, mask: M<L>) -> Self {
+        Fraction { numerator: mask.pick(self.numerator, self.numerator.splat(f32::NAN)), ..self }
+    }
+}
+
+impl<L: Lanes> Pick<Fraction<L>> for M<L> {
+    #[inline(always)]
+    fn pick(self, a: Fraction<L>, b: Fraction<L>) -> Fraction<L> {
+        Fraction { numerator: self.pick(a.numerator, b.numerator), denominator: self.pick(a.denominator, b.denominator) }
+    }
+}

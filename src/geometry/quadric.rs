@@ -1,0 +1,192 @@
+//! Ellipsoid and the side of a cylinder: the unit sphere and the unit cylinder under an affine map, anchored like
+//! [`super::sphere`].
+//!
+//! A point x has the local coordinates y = G (x − q) from the anchor q, which itself lies at m. Without their third components
+//! in case of the cylinder, c(x) = |y|² + 2 y·m vanishes on the surface, and ∇c/2 = Gᵀ(m + y).
+use std::f32::consts::TAU;
+
+use glam::{DMat3, DVec2, DVec3};
+
+use super::{fraction::Fraction, sphere::sphere_tangents, surface_point::SurfacePoint};
+use crate::math::{F, Lanes, M, Pick, V};
+
+/// A quadric. Its front is the outside.
+#[derive(Clone, Copy, Debug)]
+pub struct Quadric {
+    /// Rows of G, each with its component of m; then the anchor, and 1 for a cylinder.
+    rows: [[f32; 4]; 4],
+}
+
+impl Quadric {
+    /// origin + `axes` y with |y| = 1; for a cylinder with |(y₁, y₂)| = 1 and y₃ in [0, 1]. Anchored near `near`.
+    pub fn new(origin: DVec3, axes: DMat3, cylinder: bool, near: DVec3) -> Quadric {
+        let g = axes.inverse();
+        let y = g * (near - origin);
+        let m = if cylinder {
+            y.truncate().try_normalize().unwrap_or(DVec2::X).extend(y.z.clamp(0.0, 1.0))
+        } else {
+            y.try_normalize().unwrap_or(DVec3::Y)
+        };
+        let anchor = (origin + axes * m).as_vec3();
+        // Where the rounded anchor lies.
+        let m = g * (anchor.as_dvec3() - origin);
+        let row = |i: usize| {
+            let [x, y, z] = g.row(i).as_vec3().to_array();
+            [x, y, z, m[i] as f32]
+        };
+        Quadric { rows: [row(0), row(1), row(2), [anchor.x, anchor.y, anchor.z, if cylinder { 1.0 } else { 0.0 }]] }
+    }
+
+    /// The rows that [`Local::new`] reads.
+    pub(super) fn rows(&self) -> [[f32; 4]; 4] {
+        self.rows
+    }
+
+    /// The nearest meeting of o + td with t > 0; NaN where there is none.
+    #[inline(always)]
+    pub(super) fn intersect<L: Lanes>(&self, l: L, o: V<L>, d: V<L>) -> Fraction<L> {
+        let [a, b, c, q] = self.rows;
+        let [near, far] = Local::new([splat(l, a), splat(l, b), splat(l, c), splat(l, q)]).meetings(o, d);
+        let first = near.numerator.above(0.0).pick(near, far);
+        first.only(first.numerator.above(0.0))
+    }
+}
+
+/// Quadrics in lanes.
+pub(super) struct Local<L: Lanes> {
+    g: [V<L>; 3],
+    /// Place of the anchor.
+    pub m: V<L>,
+    anchor: V<L>,
+    pub is_cylinder: M<L>,
+    /// What the third component counts: 0 for a cylinder.
+    weight: F<L>,
+}
+
+impl<L: Lanes> Local<L> {
+    #[inline(always)]
+    pub fn new([a, b, c, q]: [[F<L>; 4]; 4]) -> Self {
+        Local {
+            g: [V { x: a[0], y: a[1], z: a[2] }, V { x: b[0], y: b[1], z: b[2] }, V { x: c[0], y: c[1], z: c[2] }],
+            m: V { x: a[3], y: b[3], z: c[3] },
+            anchor: V { x: q[0], y: q[1], z: q[2] },
+            is_cylinder: q[3].above(0.0),
+            weight: 1.0 - q[3],
+        }
+    }
+
+    /// G v.
+    #[inline(always)]
+    pub fn linear(&self, v: V<L>) -> V<L> {
+        V { x: self.g[0].dot(v), y: self.g[1].dot(v), z: self.g[2].dot(v) }
+    }
+
+    /// The local coordinates of x from the anchor.
+    #[inline(always)]
+    pub fn local(&self, x: V<L>) -> V<L> {
+        self.linear(x - self.anchor)
+    }
+
+    /// Without the third component of cylinders.
+    #[inline(always)]
+    fn across(&self, v: V<L>) -> V<L> {
+        V { z: v.z * self.weight, ..v }
+    }
+
+    /// Both meetings of o + td in the order of t, NaN where there are none; t may be negative.
+    #[inline(always)]
+    pub fn meetings(&self, o: V<L>, d: V<L>) -> [Fraction<L>; 2] {
+        let (y, e) = (self.local(o), self.linear(d));
+        let speed = self.across(e).length_squared().sqrt();
+        let (from_anchor, d, m) = (self.across(y), self.across(e) * (1.0 / speed), self.across(self.m));
+        // As in `super::sphere` with the curvature 1.
+        let along = from_anchor.dot(d);
+        let nearest = from_anchor - d * along;
+        let m_d = m.dot(d);
+        let c_nearest = nearest.length_squared() + nearest.dot(m) * 2.0;
+        let b = along + m_d;
+        let c = c_nearest + along * (b + m_d);
+        let w = b.abs() + (m_d * m_d - c_nearest).sqrt();
+        let (nearing, quotient) = (b.below(0.0), c / w);
+        let ways = [nearing.pick(quotient, -w), nearing.pick(w, -quotient)];
+        let (z, climb) = (self.m.z + y.z, e.z / speed);
+        let within = [self.is_within(z + climb * ways[0]), self.is_within(z + climb * ways[1])];
+        [
+            Fraction { numerator: ways[0], denominator: speed }.only(within[0]),
+            Fraction { numerator: ways[1], denominator: speed }.only(within[1]),
+        ]
+    }
+
+    /// Whether the surface reaches the height `z`.
+    #[inline(always)]
+    fn is_within(&self, z: F<L>) -> M<L> {
+        (z.ge(z.splat(0.0)) & z.splat(1.0).ge(z)) | !self.is_cylinder
+    }
+
+    /// The place of x on the unit sphere or around the unit cylinder, with its height.
+    #[inline(always)]
+    pub fn place(&self, x: V<L>) -> V<L> {
+        self.m + self.local(x)
+    }
+
+    /// Gᵀ of the place without the height of cylinders: along the outward normal.
+    #[inline(always)]
+    pub fn gradient(&self, place: V<L>) -> V<L> {
+        self.g[0] * place.x + (self.g[1] * place.y + self.g[2] * (place.z * self.weight))
+    }
+
+    /// Columns of G⁻¹: ∂x/∂y.
+    #[inline(always)]
+    pub fn axes(&self) -> [V<L>; 3] {
+        let [a, b, c] = self.g;
+        let (bc, ca, ab) = (b.cross(c), c.cross(a), a.cross(b));
+        let scale = 1.0 / a.dot(bc);
+        [bc * scale, ca * scale, ab * scale]
+    }
+
+    /// (∂x/∂u, ∂x/∂v) at a place, for the coordinates of [`super::Shapes::coordinates`].
+    #[inline(always)]
+    pub fn tangents(&self, place: V<L>) -> (V<L>, V<L>) {
+        let zero = place.x.splat(0.0);
+        let (around, down) = sphere_tangents(place, zero.splat(1.0));
+        let around = self.is_cylinder.pick(V { x: -place.y, y: place.x, z: zero } * TAU, around);
+        let down = self.is_cylinder.pick(V { x: zero, y: zero, z: zero.splat(-1.0) }, down);
+        let [a, b, c] = self.axes();
+        (a * around.x + (b * around.y + c * around.z), a * down.x + (b * down.y + c * down.z))
+    }
+
+    /// |det G|.
+    #[inline(always)]
+    pub fn determinant(&self) -> F<L> {
+        self.g[0].dot(self.g[1].cross(self.g[2])).abs()
+    }
+
+    /// The point of the surface next to `p`, which lies on it but for rounding.
+    #[inline(always)]
+    pub fn surface_point(&self, p: V<L>) -> SurfacePoint<L> {
+        // Half of the rounding of c as `meetings` evaluates it is, as for a sphere, at most 36 ε max|yᵢ|, and each yᵢ has one of
+        // 2.5 ε Σⱼ |Gᵢⱼ (x − q)ⱼ| itself. The steepness |∇c|/2 turns that into a distance.
+        const ROUNDINGS: f32 = 40.0 * f32::EPSILON;
+        const ROUNDINGS_OF_X: f32 = 4.0 * f32::EPSILON;
+        let x = p - self.anchor;
+        let y = self.across(self.linear(x));
+        let gradient = self.gradient(self.m + y);
+        let steepness = gradient.length_squared().sqrt();
+        let n_geometric = gradient * (1.0 / steepness);
+        let c = y.length_squared() + y.dot(self.across(self.m)) * 2.0;
+        let p = p - n_geometric * (c * 0.5 / steepness);
+        let sizes = absolute_dot(self.g[0], x) + absolute_dot(self.g[1], x) + absolute_dot(self.g[2], x) * self.weight;
+        SurfacePoint { p, n_geometric, error: sizes * ROUNDINGS / steepness + p.max_abs() * ROUNDINGS_OF_X }
+    }
+}
+
+#[inline(always)]
+fn splat<L: Lanes>(l: L, [x, y, z, w]: [f32; 4]) -> [F<L>; 4] {
+    [l.f(x), l.f(y), l.f(z), l.f(w)]
+}
+
+/// Σ |aᵢ bᵢ|.
+#[inline(always)]
+fn absolute_dot<L: Lanes>(a: V<L>, b: V<L>) -> F<L> {
+    (a.x * b.x).abs() + ((a.y * b.y).abs() + (a.z * b.z).abs())
+}

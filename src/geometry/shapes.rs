@@ -1,0 +1,209 @@
+//! All shapes of a scene as tables: flat ones a kind for rays to run through, and rows by primitive for what they meet.
+use glam::DVec3;
+
+use super::{
+    MISS,
+    cuboid::Cuboid,
+    flat::Flat,
+    fraction::Fraction,
+    quadric::{Local, Quadric},
+    shape::Shape,
+    sphere::{self, Sphere, sphere_tangents, sphere_uv},
+    surface_point::{Coordinates, SurfacePoint},
+};
+use crate::math::{F, Lanes, M, Pick, U, V, trig::turns_of};
+
+/// The kind of a primitive, in the last two bits of its tag; the rest is its place in the table of the kind.
+pub(super) const FLAT: u32 = 1;
+pub(super) const QUADRIC: u32 = 2;
+
+/// All shapes of a scene. Kinds that it does not have cost nothing.
+#[derive(Default)]
+pub struct Shapes {
+    /// What rays are tested against, each with its primitive id, or that of its first face.
+    spheres: Vec<(u32, Sphere)>,
+    flats: Vec<(u32, Flat)>,
+    cuboids: Vec<(u32, Cuboid)>,
+    quadrics: Vec<(u32, Quadric)>,
+    /// By primitive: the anchor and the curvature; the normal there and the tag.
+    pub(super) anchors: Vec<[f32; 4]>,
+    pub(super) normals: Vec<[f32; 4]>,
+    /// Four rows each: see [`Flat::rows`] and [`Quadric::rows`].
+    pub(super) flat_rows: Vec<[f32; 4]>,
+    quadric_rows: Vec<[f32; 4]>,
+}
+
+impl Shapes {
+    /// The pieces of the shapes are numbered in their order. `near` is where the scene happens.
+    pub fn new(shapes: &[Shape], near: DVec3) -> Shapes {
+        let mut tables = Shapes::default();
+        for shape in shapes {
+            let first = tables.anchors.len() as u32;
+            if let Shape::Cuboid { origin, edges } = shape {
+                tables.cuboids.push((first, Cuboid::new(*origin, *edges, near)));
+            }
+            for piece in shape.pieces() {
+                tables.push(&piece, matches!(shape, Shape::Cuboid { .. }), near);
+            }
+        }
+        tables
+    }
+
+    /// `within`: rays find the piece by the shape that it is part of.
+    fn push(&mut self, piece: &Shape, within: bool, near: DVec3) {
+        let id = self.anchors.len() as u32;
+        let row = |[x, y, z]: [f32; 3], w: f32| [x, y, z, w];
+        match piece {
+            Shape::Sphere { center, radius } => {
+                let sphere = Sphere::new(*center, *radius, near);
+                let [anchor, normal] = sphere.rows();
+                self.spheres.push((id, sphere));
+                self.anchors.push(anchor);
+                self.normals.push(normal);
+            }
+            Shape::Flat { outline, origin, edges, mirrored } => {
+                let flat = Flat::new(*outline, *origin, *edges, *mirrored, near);
+                let tag = FLAT | (self.flat_rows.len() as u32 / 4) << 2;
+                self.anchors.push(row(flat.anchor, 0.0));
+                self.normals.push(row(flat.normal, f32::from_bits(tag)));
+                self.flat_rows.extend(flat.rows(*edges));
+                if !within {
+                    self.flats.push((id, flat));
+                }
+            }
+            Shape::Ellipsoid { center: origin, axes } | Shape::Cylinder { base: origin, axes, .. } => {
+                let quadric = Quadric::new(*origin, *axes, matches!(piece, Shape::Cylinder { .. }), near);
+                let tag = QUADRIC | (self.quadric_rows.len() as u32 / 4) << 2;
+                self.anchors.push([0.0; 4]);
+                self.normals.push(row([0.0, 1.0, 0.0], f32::from_bits(tag)));
+                self.quadric_rows.extend(quadric.rows());
+                self.quadrics.push((id, quadric));
+            }
+            Shape::Cuboid { .. } => unreachable!("a cuboid is not a piece"),
+        }
+    }
+
+    /// Distance along o + td, d of unit length, to the first surface, and its primitive id or [`MISS`].
+    #[inline(always)]
+    pub fn closest<L: Lanes>(&self, l: L, o: V<L>, d: V<L>) -> (F<L>, U<L>) {
+        let mut nearest = Nearest { t: Fraction::infinite(l), primitive: l.u(MISS) };
+        for (id, sphere) in &self.spheres {
+            nearest.meet(sphere.intersect(o, d), l.u(*id));
+        }
+        for (id, flat) in &self.flats {
+            nearest.meet(flat.intersect(o, d), l.u(*id));
+        }
+        for (first, cuboid) in &self.cuboids {
+            let (t, face) = cuboid.intersect(l, o, d);
+            nearest.meet(t, face + *first);
+        }
+        for (id, quadric) in &self.quadrics {
+            nearest.meet(quadric.intersect(l, o, d), l.u(*id));
+        }
+        (nearest.t.value(), nearest.primitive)
+    }
+
+    /// The surface at a point `p` of the given primitives, none of which may be [`MISS`].
+    #[inline(always)]
+    pub fn surface_point<L: Lanes>(&self, l: L, primitive: U<L>, p: V<L>) -> SurfacePoint<L> {
+        let normal = l.rows(&self.normals, primitive);
+        let mut point = sphere::surface_point(l.rows(&self.anchors, primitive), normal, p);
+        let tag = normal[3].bits();
+        if let Some((here, quadric)) = self.quadric(l, tag) {
+            point = here.pick(quadric.surface_point(p), point);
+        }
+        point
+    }
+
+    /// Surface coordinates of a point of the given primitives.
+    #[inline(always)]
+    pub fn coordinates<L: Lanes>(&self, l: L, primitive: U<L>, point: &SurfacePoint<L>) -> Coordinates<L> {
+        let (mut u, mut v) = sphere_uv(point.n_geometric);
+        let tag = l.rows(&self.normals, primitive)[3].bits();
+        if let Some(AtFlat { here, rows: [to_u, to_v, ..], from_anchor }) = self.flat(l, tag, primitive, point.p) {
+            u = here.pick(coordinate(to_u, from_anchor), u);
+            v = here.pick(1.0 - coordinate(to_v, from_anchor), v);
+        }
+        if let Some((here, quadric)) = self.quadric(l, tag) {
+            let place = quadric.place(point.p);
+            let (sphere_u, sphere_v) = sphere_uv(place);
+            let around = turns_of(place.x, place.y);
+            u = here.pick(quadric.is_cylinder.pick(around, sphere_u), u);
+            v = here.pick(quadric.is_cylinder.pick(1.0 - place.z, sphere_v), v);
+        }
+        Coordinates { u, v }
+    }
+
+    /// (∂p/∂u, ∂p/∂v) at a point of the given primitives, in metres; neither is zero.
+    #[inline(always)]
+    pub fn tangents<L: Lanes>(&self, l: L, primitive: U<L>, point: &SurfacePoint<L>) -> (V<L>, V<L>) {
+        let tag = l.rows(&self.normals, primitive)[3].bits();
+        let curvature = l.rows(&self.anchors, primitive)[3];
+        let (mut along_u, mut along_v) = sphere_tangents(point.n_geometric, 1.0 / curvature);
+        if let Some(AtFlat { here, rows: [_, _, a, b], .. }) = self.flat(l, tag, primitive, point.p) {
+            along_u = here.pick(V { x: a[0], y: a[1], z: a[2] }, along_u);
+            along_v = here.pick(-V { x: b[0], y: b[1], z: b[2] }, along_v);
+        }
+        if let Some((here, quadric)) = self.quadric(l, tag) {
+            let (around, down) = quadric.tangents(quadric.place(point.p));
+            (along_u, along_v) = (here.pick(around, along_u), here.pick(down, along_v));
+        }
+        (along_u, along_v)
+    }
+
+    /// The lanes at flat primitives, if there are any, and the way to `p`.
+    #[inline(always)]
+    pub(super) fn flat<L: Lanes>(&self, l: L, tag: U<L>, primitive: U<L>, p: V<L>) -> Option<AtFlat<L>> {
+        let here = (tag & 3).is(FLAT);
+        if self.flat_rows.is_empty() || !here.any() {
+            return None;
+        }
+        let [x, y, z, _] = l.rows(&self.anchors, primitive);
+        Some(AtFlat { here, rows: four_rows(l, &self.flat_rows, here, tag), from_anchor: p - V { x, y, z } })
+    }
+
+    /// The lanes at quadrics, if there are any.
+    #[inline(always)]
+    pub(super) fn quadric<L: Lanes>(&self, l: L, tag: U<L>) -> Option<(M<L>, Local<L>)> {
+        let here = (tag & 3).is(QUADRIC);
+        if self.quadrics.is_empty() || !here.any() {
+            return None;
+        }
+        Some((here, Local::new(four_rows(l, &self.quadric_rows, here, tag))))
+    }
+}
+
+#[inline(always)]
+fn coordinate<L: Lanes>([x, y, z, at_anchor]: [F<L>; 4], from_anchor: V<L>) -> F<L> {
+    V { x, y, z }.dot(from_anchor) + at_anchor
+}
+
+/// Lanes at flat primitives.
+pub(super) struct AtFlat<L: Lanes> {
+    pub here: M<L>,
+    pub rows: [[F<L>; 4]; 4],
+    /// The way from the anchor to a point.
+    pub from_anchor: V<L>,
+}
+
+/// The rows of the lanes in `here`; the others get those of the first entry.
+#[inline(always)]
+fn four_rows<L: Lanes>(l: L, table: &[[f32; 4]], here: M<L>, tag: U<L>) -> [[F<L>; 4]; 4] {
+    let first = here.pick((tag >> 2) << 2, l.u(0));
+    [l.rows(table, first), l.rows(table, first + 1), l.rows(table, first + 2), l.rows(table, first + 3)]
+}
+
+/// The nearest meeting so far.
+struct Nearest<L: Lanes> {
+    t: Fraction<L>,
+    primitive: U<L>,
+}
+
+impl<L: Lanes> Nearest<L> {
+    #[inline(always)]
+    fn meet(&mut self, t: Fraction<L>, primitive: U<L>) {
+        let nearer = t.less(&self.t);
+        self.t = nearer.pick(t, self.t);
+        self.primitive = nearer.pick(primitive, self.primitive);
+    }
+}

@@ -1,0 +1,30 @@
+//! What a path needs to know of the surface point it meets.
+use crate::math::{F, Lanes, M, Pick, V};
+
+/// A point of a surface in lanes.
+#[derive(Clone, Copy)]
+pub struct SurfacePoint<L: Lanes> {
+    pub p: V<L>,
+    /// Unit geometric normal on the front side.
+    pub n_geometric: V<L>,
+    /// How far along the normal a ray that starts at `p` must be moved to be strictly on that side of the surface.
+    pub error: F<L>,
+}
+
+impl<L: Lanes> Pick<SurfacePoint<L>> for M<L> {
+    #[inline(always)]
+    fn pick(self, a: SurfacePoint<L>, b: SurfacePoint<L>) -> SurfacePoint<L> {
+        SurfacePoint {
+            p: self.pick(a.p, b.p),
+            n_geometric: self.pick(a.n_geometric, b.n_geometric),
+            error: self.pick(a.error, b.error),
+        }
+    }
+}
+
+/// Surface coordinates.
+pub struct Coordinates<L: Lanes> {
+    /// To the right and downwards as pictures are read, [0, 1] on shapes that are not meshes.
+    pub u: F<L>,
+    pub v: F<L>,
+}

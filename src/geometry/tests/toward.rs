@@ -1,0 +1,99 @@
+//! Directions towards primitives against their density.
+use std::f64::consts::PI;
+
+use glam::DVec3;
+use rand::{Rng, SeedableRng, rngs::SmallRng};
+
+use super::{Case, exact, kinds, lane, transforms, unit_vector, v};
+use crate::{
+    geometry::{MISS, Shapes},
+    math::{F, One, U, V},
+};
+
+const SAMPLES: usize = 30_000;
+
+/// Functions of directions whose integrals over what is seen of a shape are compared.
+fn measures(d: DVec3) -> [f64; 4] {
+    [1.0, 0.5 + 0.5 * d.x, d.y * d.y, 0.5 + 0.5 * (5.0 * d.z + 2.0 * d.x).sin()]
+}
+
+/// Mean and variance of the mean of the integrals.
+#[derive(Default)]
+struct Estimate {
+    sums: [[f64; 2]; 4],
+    count: f64,
+}
+
+impl Estimate {
+    fn add(&mut self, weight: f64, d: DVec3) {
+        for (sum, measure) in self.sums.iter_mut().zip(measures(d)) {
+            *sum = [sum[0] + weight * measure, sum[1] + (weight * measure).powi(2)];
+        }
+        self.count += 1.0;
+    }
+
+    fn mean(&self, i: usize) -> (f64, f64) {
+        let [sum, square] = self.sums[i].map(|sum| sum / self.count);
+        (sum, (square - sum * sum).max(0.0) / self.count)
+    }
+}
+
+/// Whether the first surface along `d` is seen from the front.
+fn front(shapes: &Shapes, x: V<One>, d: V<One>) -> Option<bool> {
+    let (t, U(primitive)) = shapes.closest(One, x, d);
+    (primitive != MISS).then(|| shapes.surface_point(One, U(primitive), x + d * t).n_geometric.dot(d).0 < 0.0)
+}
+
+fn assert_match(case: &Case, x: DVec3, rng: &mut SmallRng) {
+    let x = v(x);
+    for (id, piece) in case.shape.pieces().into_iter().enumerate() {
+        let whole = case.shapes();
+        let alone = Shapes::new(std::slice::from_ref(&piece), DVec3::ZERO);
+        let id = U(id as u32);
+        let (mut sampled, mut seen) = (Estimate::default(), Estimate::default());
+        let (center, radius) = piece.bounding_sphere();
+        let (axis, away) = ((center - exact(x)).normalize(), center.distance(exact(x)));
+        // Uniform over a cone around the piece, or everywhere from within its bounding sphere.
+        let least = if away > radius { (1.0 - (radius / away).powi(2)).sqrt() - 1e-6 } else { -1.0 };
+        for _ in 0..SAMPLES {
+            let u = (F(rng.random_range(0.0..1.0f32)), F(rng.random_range(0.0..1.0f32)));
+            let toward = whole.toward(One, id, x, u);
+            if toward.pdf.0 > 0.0 && front(&alone, x, toward.wi).is_some() {
+                let pdf = whole.pdf_toward(One, id, x, toward.wi);
+                assert!((pdf.0 / toward.pdf.0 - 1.0).abs() < 1e-3, "{}: {} {}", case.name, pdf.0, toward.pdf.0);
+                assert_eq!(front(&alone, x, toward.wi), Some(toward.front.0), "{}", case.name);
+                sampled.add(1.0 / lane(toward.pdf), exact(toward.wi));
+            } else {
+                sampled.add(0.0, DVec3::ZERO);
+            }
+            let z = rng.random_range(least..1.0f64);
+            let beside = axis.cross(unit_vector(rng)).normalize();
+            let d = axis * z + beside * (1.0 - z * z).sqrt();
+            let hit = front(&alone, x, v(d)).is_some();
+            seen.add(if hit { 2.0 * PI * (1.0 - least) } else { 0.0 }, d);
+        }
+        for i in 0..4 {
+            let ((a, var_a), (b, var_b)) = (sampled.mean(i), seen.mean(i));
+            let z = (a - b) / (var_a + var_b + (1e-5 * b).powi(2)).sqrt().max(1e-12);
+            assert!(z.abs() < 4.5, "{} {id}, integral {i}: sampled {a}, seen {b}, z = {z}", case.name, id = id.0);
+        }
+    }
+}
+
+#[test]
+fn directions_cover_what_is_seen_of_a_shape_as_their_density_says() {
+    let mut rng = SmallRng::seed_from_u64(1);
+    for shape in kinds() {
+        for (how, map) in transforms().into_iter().take(5) {
+            let shape = shape.transformed(&map);
+            let case = Case { name: format!("{} {how}", shape.name()), shape };
+            let (center, size) = case.shape.bounding_sphere();
+            for distance in [1.3, 6.0] {
+                assert_match(&case, center + unit_vector(&mut rng) * size * distance, &mut rng);
+            }
+            if case.shape.contains(center) {
+                assert_match(&case, center + unit_vector(&mut rng) * size * 0.05, &mut rng);
+            }
+        }
+    }
+}

@@ -1,0 +1,152 @@
+//! Directions from a point towards a primitive, for light samples, with their densities per solid angle.
+//!
+//! Spheres and ellipsoids are sampled by the cone in which they are seen, flat shapes and cylinders by their area. An affine map
+//! A takes a density over directions p' to p(ω) = p' |det A| / |A ω|³.
+use std::f32::consts::TAU;
+
+use super::{
+    quadric::Local,
+    shape::Outline,
+    shapes::{AtFlat, Shapes},
+    sphere::Cone,
+};
+use crate::{
+    math::{F, Lanes, M, Pick, U, V, trig::sin_cos_turns},
+    sampling::warp::{disk, triangle},
+};
+
+/// A direction towards a primitive.
+pub struct Toward<L: Lanes> {
+    /// Unit.
+    pub wi: V<L>,
+    /// 0 where there is none.
+    pub pdf: F<L>,
+    /// The front of the primitive is what is seen first along it.
+    pub front: M<L>,
+}
+
+impl<L: Lanes> Pick<Toward<L>> for M<L> {
+    #[inline(always)]
+    fn pick(self, a: Toward<L>, b: Toward<L>) -> Toward<L> {
+        Toward { wi: self.pick(a.wi, b.wi), pdf: self.pick(a.pdf, b.pdf), front: (self & a.front) | (!self & b.front) }
+    }
+}
+
+impl Shapes {
+    /// The cone in which given primitives are seen from `x`; only for spheres.
+    #[inline(always)]
+    fn cone<L: Lanes>(&self, l: L, primitive: U<L>, x: V<L>) -> Cone<L> {
+        Cone::of_sphere(l.rows(&self.anchors, primitive), l.rows(&self.normals, primitive), x)
+    }
+
+    /// A direction from `x` towards the given primitives, from the point `u` of the unit square.
+    #[inline(always)]
+    pub fn toward<L: Lanes>(&self, l: L, primitive: U<L>, x: V<L>, u: (F<L>, F<L>)) -> Toward<L> {
+        let cone = self.cone(l, primitive, x);
+        let mut toward = Toward { wi: cone.sample(u), pdf: cone.pdf(), front: cone.outside };
+        let tag = l.rows(&self.normals, primitive)[3].bits();
+        if let Some(AtFlat { here, rows, from_anchor }) = self.flat(l, tag, primitive, x) {
+            let wi = toward_flat(&rows, from_anchor, u);
+            let (pdf, front) = self.flat_pdf(l, &rows, primitive, from_anchor, wi);
+            toward = here.pick(Toward { wi, pdf, front }, toward);
+        }
+        if let Some((here, quadric)) = self.quadric(l, tag) {
+            toward = here.pick(toward_quadric(l, &quadric, x, u), toward);
+        }
+        toward
+    }
+
+    /// The density of [`Shapes::toward`] at the unit direction `wi`, in which the given primitives lie.
+    #[inline(always)]
+    pub fn pdf_toward<L: Lanes>(&self, l: L, primitive: U<L>, x: V<L>, wi: V<L>) -> F<L> {
+        let mut pdf = self.cone(l, primitive, x).pdf();
+        let tag = l.rows(&self.normals, primitive)[3].bits();
+        if let Some(AtFlat { here, rows, from_anchor }) = self.flat(l, tag, primitive, x) {
+            pdf = here.pick(self.flat_pdf(l, &rows, primitive, from_anchor, wi).0, pdf);
+        }
+        if let Some((here, quadric)) = self.quadric(l, tag) {
+            let (of_cylinder, _) = cylinder_pdf(l, &quadric, x, wi);
+            let of_ellipsoid = seen_from(l, &quadric, x).pdf() * stretch(&quadric, wi);
+            pdf = here.pick(quadric.is_cylinder.pick(of_cylinder, of_ellipsoid), pdf);
+        }
+        pdf
+    }
+
+    /// Uniform over the area: t²/(A |cos θ|), and whether the front is seen.
+    #[inline(always)]
+    fn flat_pdf<L: Lanes>(&self, l: L, rows: &[[F<L>; 4]; 4], primitive: U<L>, from_anchor: V<L>, wi: V<L>) -> (F<L>, M<L>) {
+        let [x, y, z, _] = l.rows(&self.normals, primitive);
+        let n = V { x, y, z };
+        let (height, cos) = (from_anchor.dot(n), wi.dot(n).abs());
+        let t = height / cos;
+        let area = rows[3][3];
+        let exists = height.abs().above(0.0) & cos.above(0.0);
+        (exists.pick(t * t / (area * cos), l.f(0.0)), height.above(0.0))
+    }
+}
+
+/// Towards a point of a flat shape that is uniform over its area.
+#[inline(always)]
+fn toward_flat<L: Lanes>(rows: &[[F<L>; 4]; 4], from_anchor: V<L>, u: (F<L>, F<L>)) -> V<L> {
+    let [to_u, to_v, a, b] = rows;
+    let outline = a[3];
+    let (tri_u, tri_v) = triangle(u);
+    let (disk_u, disk_v, _) = disk(u);
+    let is_ellipse = outline.above(Outline::Triangle as u32 as f32);
+    let is_triangle = outline.above(Outline::Parallelogram as u32 as f32) & !is_ellipse;
+    let s = is_ellipse.pick(disk_u, is_triangle.pick(tri_u, u.0)) - to_u[3];
+    let t = is_ellipse.pick(disk_v, is_triangle.pick(tri_v, u.1)) - to_v[3];
+    (V { x: a[0], y: a[1], z: a[2] } * s + V { x: b[0], y: b[1], z: b[2] } * t - from_anchor).normalized()
+}
+
+#[inline(always)]
+fn toward_quadric<L: Lanes>(l: L, quadric: &Local<L>, x: V<L>, u: (F<L>, F<L>)) -> Toward<L> {
+    let [a, b, c] = quadric.axes();
+    let cone = seen_from(l, quadric, x);
+    let local = cone.sample(u);
+    let (sin, cos) = sin_cos_turns(u.0);
+    let on_side = V { x: cos, y: sin, z: u.1 } - quadric.place(x);
+    let way = quadric.is_cylinder.pick(on_side, local);
+    let wi = (a * way.x + (b * way.y + c * way.z)).normalized();
+    let (of_cylinder, front) = cylinder_pdf(l, quadric, x, wi);
+    let of_ellipsoid = cone.pdf() * stretch(quadric, wi);
+    Toward {
+        wi,
+        pdf: quadric.is_cylinder.pick(of_cylinder, of_ellipsoid),
+        front: (quadric.is_cylinder & front) | (!quadric.is_cylinder & cone.outside),
+    }
+}
+
+/// The cone in which the unit sphere is seen in local space.
+#[inline(always)]
+fn seen_from<L: Lanes>(l: L, quadric: &Local<L>, x: V<L>) -> Cone<L> {
+    let (zero, one) = (l.f(0.0), l.f(1.0));
+    Cone::of_sphere([zero, zero, zero, one], [quadric.m.x, quadric.m.y, quadric.m.z, zero], quadric.local(x))
+}
+
+/// |det G| / |G ω|³.
+#[inline(always)]
+fn stretch<L: Lanes>(quadric: &Local<L>, wi: V<L>) -> F<L> {
+    let square = quadric.linear(wi).length_squared();
+    quadric.determinant() / (square * square.sqrt())
+}
+
+/// Uniform in angle and height: t²/(2π |∂x/∂φ × ∂x/∂z · ω|), summed over both places that the direction meets, for either may have
+/// been the one drawn; and whether the front is met first.
+#[inline(always)]
+fn cylinder_pdf<L: Lanes>(l: L, quadric: &Local<L>, x: V<L>, wi: V<L>) -> (F<L>, M<L>) {
+    let [near, far] = quadric.meetings(x, wi);
+    let (of_near, met_near, front_near) = density_of_place(l, quadric, x, wi, near.value());
+    let (of_far, _, front_far) = density_of_place(l, quadric, x, wi, far.value());
+    (of_near + of_far, (met_near & front_near) | (!met_near & front_far))
+}
+
+/// Of the place at distance `t`: its density, whether it is one, and whether its front is seen.
+#[inline(always)]
+fn density_of_place<L: Lanes>(l: L, quadric: &Local<L>, x: V<L>, wi: V<L>, t: F<L>) -> (F<L>, M<L>, M<L>) {
+    let nearing = quadric.gradient(quadric.place(x + wi * t)).dot(wi);
+    let met = t.above(0.0);
+    // Infinite only at the very edge that is seen.
+    let density = t * t * quadric.determinant() / nearing.abs().max(l.f(1e-20)) * (1.0 / TAU);
+    (met.pick(density, l.f(0.0)), met, nearing.below(0.0))
+}

@@ -1,0 +1,104 @@
+//! What the choice of a light knows of an emitting primitive: a bound on the irradiance it causes.
+use glam::DVec3;
+
+use super::{
+    Receiver,
+    emission::{Emission, Side},
+};
+use crate::{
+    geometry::{Shape, Sphere},
+    math::{F, Lanes, Pick, V, colour::luminance},
+};
+
+/// An emitting primitive.
+pub(super) struct Source {
+    extent: Extent,
+    /// Luminance of its front and of its back.
+    front: f32,
+    back: f32,
+}
+
+enum Extent {
+    Sphere(Sphere),
+    /// Any other shape within the sphere around `center`. `size` is its largest projected area over π; flat ones have a normal.
+    Within {
+        center: [f32; 3],
+        radius_squared: f32,
+        size: f32,
+        normal: Option<[f32; 3]>,
+    },
+}
+
+impl Source {
+    /// Of a piece of a [`Shape`].
+    pub fn new(piece: &Shape, emission: &Emission, near: DVec3) -> Source {
+        let light = luminance(emission.mean);
+        let (front, back) = match emission.side {
+            Side::Front => (light, 0.0),
+            Side::Back => (0.0, light),
+            Side::Both => (light, light),
+        };
+        Source { extent: Extent::new(piece, near), front, back }
+    }
+
+    /// A bound on the irradiance from this light, over π: E ≤ L A cos θ_i cos θ_e/d².
+    #[inline(always)]
+    pub fn weight<L: Lanes>(&self, l: L, at: &Receiver<L>) -> F<L> {
+        match &self.extent {
+            Extent::Sphere(sphere) => {
+                let cone = sphere.seen_from(l, at.p);
+                let light = cone.outside.pick(l.f(self.front), l.f(self.back));
+                let facing = (!cone.outside).pick(l.f(1.0), facing(l, at, cone.axis, cone.sin_squared.sqrt()));
+                light * cone.sin_squared * facing
+            }
+            Extent::Within { center, radius_squared, size, normal } => {
+                let way = -(at.p - *center);
+                let distance_squared = way.length_squared();
+                let near = !distance_squared.above(*radius_squared);
+                let axis = way * (1.0 / distance_squared.sqrt());
+                let sin = (l.f(*radius_squared) / distance_squared).sqrt();
+                let mut light = near.pick(l.f(1.0), facing(l, at, axis, sin));
+                match normal {
+                    Some(normal) => {
+                        let cos = -axis.dot_with(*normal);
+                        let leaving = near.pick(l.f(1.0), (cos.abs() + sin).min(l.f(1.0)));
+                        light = light * leaving * cos.above(0.0).pick(l.f(self.front), l.f(self.back));
+                    }
+                    None => light = light * self.front.max(self.back),
+                }
+                light * *size / distance_squared.max(l.f(*radius_squared))
+            }
+        }
+    }
+}
+
+impl Extent {
+    fn new(piece: &Shape, near: DVec3) -> Extent {
+        if let Shape::Sphere { center, radius } = piece {
+            return Extent::Sphere(Sphere::new(*center, *radius, near));
+        }
+        let (center, radius) = piece.bounding_sphere();
+        let (size, normal) = match piece {
+            Shape::Flat { edges: [a, b], mirrored, .. } => {
+                let across = a.cross(*b).normalize() * if *mirrored { -1.0 } else { 1.0 };
+                (piece.area().unwrap_or(0.0) / std::f64::consts::PI, Some(across.as_vec3().to_array()))
+            }
+            _ => (radius * radius, None),
+        };
+        Extent::Within {
+            center: center.as_vec3().to_array(),
+            radius_squared: (radius * radius) as f32,
+            size: size as f32,
+            normal,
+        }
+    }
+}
+
+/// A bound on the cosine at the receiver of all directions within the angle of sine `sin` around `axis`.
+#[inline(always)]
+fn facing<L: Lanes>(l: L, at: &Receiver<L>, axis: V<L>, sin: F<L>) -> F<L> {
+    // Not quite 0 for a light that only just lies below the horizon: rounding may see it.
+    const GRAZING: f32 = 1e-3;
+    let cos = (axis.dot(at.n) + sin + GRAZING).max(l.f(0.0)).min(l.f(1.0));
+    at.transmits.pick(l.f(1.0), cos)
+}

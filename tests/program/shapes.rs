@@ -1,0 +1,61 @@
+//! Shapes and transforms in scene files.
+use noisefall::{
+    geometry::Shape,
+    scene::{Scene, parse},
+};
+
+use crate::scene_files::{GOOD, refuses};
+
+const BALL: &str = "sphere = { center = [0.0, 1.0, 0.0], radius = 1.0 }";
+
+fn shape(text: &str, message: &str) {
+    refuses(BALL, text, message);
+}
+
+fn transform(list: &str, message: &str) {
+    refuses("material = \"white\"", &format!("material = \"white\"\ntransform = [ {list} ]"), message);
+}
+
+fn with(line: &str) -> Scene {
+    let text = GOOD.replacen("material = \"white\"", &format!("material = \"white\"\n{line}"), 1);
+    parse("test.toml", text).unwrap_or_else(|error| panic!("{}", error.report()))
+}
+
+#[test]
+fn degenerate_shapes_are_refused() {
+    shape("cuboid = { min = [0.0, 0.0, 0.0], max = [1.0, -1.0, 1.0] }", "inverted or empty in y: 0 to -1");
+    shape("cuboid = { min = [0.0, 0.0, 0.0], max = [1.0, 1.0, 0.0] }", "inverted or empty in z");
+    shape("cuboid = { min = [0.0, 0.0, nan], max = [1.0, 1.0, 1.0] }", "`min` is not a position");
+    shape("cylinder = { base = [0.0, 1.0, 0.0], top = [0.0, 1.0, 0.0], radius = 1.0 }", "has no height");
+    shape("cylinder = { base = [0.0, 1.0, 0.0], top = [0.0, 2.0, 0.0], radius = -1.0 }", "the radius is negative");
+    shape("disk = { center = [0.0, 1.0, 0.0], normal = [0.0, 0.0, 0.0], radius = 1.0 }", "the normal has no direction");
+    shape("disk = { center = [0.0, 1.0, 0.0], radius = 1.0 }", "normal");
+    shape("rectangle = { origin = [0.0, 0.0, 0.0], edge_u = [1.0, 2.0, 0.0], edge_v = [2.0, 4.0, 0.0] }", "has no area");
+    shape("triangle = { a = [0.0, 0.0, 0.0], b = [1.0, 0.0, 0.0], c = [2.0, 0.0, 0.0] }", "has no area");
+    shape("triangle = { a = [0.0, 0.0, 0.0], b = [1.0, 0.0, 0.0], d = [2.0, 0.0, 0.0] }", "`d`");
+}
+
+#[test]
+fn transforms_that_cannot_be_are_refused() {
+    transform("{ scale = 0.0 }", "cannot be inverted");
+    transform("{ scale = [1.0, 0.0, 1.0] }", "cannot be inverted");
+    transform("{ scale = [1.0, 2.0] }", "expected a list of 3, found 2 values");
+    transform("{ scale = nan }", "is not finite");
+    transform("{ translate = [0.0, inf, 0.0] }", "is not finite");
+    transform("{ rotate = { axis = [0.0, 0.0, 0.0], degrees = 3.0 } }", "has no direction");
+    transform("{ matrix = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 2]] }", "not affine");
+    transform("{ matrix = [[1, 2, 3, 0], [2, 4, 6, 0], [0, 0, 1, 0], [0, 0, 0, 1]] }", "cannot be inverted");
+    transform("{ matrix = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]] }", "expected a list of 4, found 3 values");
+    transform("{ scale = 1e11 }, { scale = 1e11 }", "after its transforms the sphere reaches");
+    transform("{ spin = 1.0 }", "spin");
+}
+
+#[test]
+fn transforms_apply_first_to_last() {
+    let scene = with("transform = [ { translate = [1, 0, 0] }, { rotate = { axis = [0, 0, 2], degrees = 90 } }, { scale = 2 } ]");
+    let (center, radius) = scene.objects[0].shape.bounding_sphere();
+    assert!(center.distance(glam::DVec3::new(-2.0, 2.0, 0.0)) < 1e-12 && (radius - 2.0).abs() < 1e-12, "{center} {radius}");
+    assert_eq!(scene.objects[0].shape.name(), "sphere");
+    let stretched = with("transform = [ { scale = [1.0, 2.0, 1.0] } ]");
+    assert!(matches!(stretched.objects[0].shape, Shape::Ellipsoid { .. }));
+}
