@@ -1,7 +1,11 @@
 //! `noisefall compare`: how far one picture is from another.
-use std::path::PathBuf;
+use std::{
+    io::Read,
+    path::{Path, PathBuf},
+};
 
 use noisefall::{
+    image::{PNG, looks_like, open_regular},
     measure::{Comparison, compare},
     render::image_file::read,
 };
@@ -19,7 +23,17 @@ pub struct Arguments {
     json: bool,
 }
 
+/// By its first bytes, as pictures are read.
+fn is_png(path: &Path) -> bool {
+    let mut start = [0; 8];
+    let read = open_regular(path).and_then(|mut file| file.read_exact(&mut start));
+    read.is_ok() && looks_like(&start) == Some(PNG)
+}
+
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    if is_png(&arguments.a) != is_png(&arguments.b) {
+        eprintln!("note: a PNG is clipped at 1 and rounded to display codes, an EXR is not: they differ by more than noise");
+    }
     let load = |path| read(path).map_err(|error| error.to_string());
     let (a, b) = (load(&arguments.a)?, load(&arguments.b)?);
     if [a.width, a.height] != [b.width, b.height] {

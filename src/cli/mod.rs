@@ -5,9 +5,17 @@ mod options;
 mod render;
 mod replay;
 
-use std::{io::Write, path::PathBuf, process::ExitCode};
+use std::{
+    ffi::OsString,
+    io::Write,
+    path::{Path, PathBuf},
+    process::ExitCode,
+};
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
+use noisefall::scene::{load, nearest};
+
+const WRONG_USAGE: u8 = 2;
 
 /// Why a command failed: one message, of one or several lines.
 pub type Failure = String;
@@ -35,6 +43,10 @@ enum Command {
 }
 
 pub fn run() -> ExitCode {
+    if let Some(mistake) = mistaken_command(&std::env::args_os().skip(1).collect::<Vec<_>>()) {
+        eprintln!("{mistake}");
+        return ExitCode::from(WRONG_USAGE);
+    }
     let arguments = Arguments::parse();
     let done = match arguments.command {
         None => window(arguments.scene),
@@ -51,6 +63,22 @@ pub fn run() -> ExitCode {
     }
 }
 
+/// What to say of a first word that is neither a command nor a scene, but looks like a command.
+fn mistaken_command(arguments: &[OsString]) -> Option<String> {
+    let word = arguments.first()?.to_str()?;
+    let commands = Arguments::command();
+    let names: Vec<_> = commands.get_subcommands().map(clap::Command::get_name).chain(["help"]).collect();
+    let is_path = word.starts_with('-') || word.contains(['.', '/', '\\']) || Path::new(word).exists();
+    if is_path || names.contains(&word) {
+        return None;
+    }
+    let meant = nearest(word, names.iter().copied());
+    let advice = meant.map(|meant| format!("did you mean `{meant}`?"));
+    // A single word that is near to nothing is rather a scene that is not there.
+    let advice = advice.or_else(|| (arguments.len() > 1).then(|| "`noisefall --help` lists them".to_owned()))?;
+    Some(format!("there is no command `{word}`; {advice}"))
+}
+
 /// Prints text and ends the line. A reader that has gone away, as in `… | head`, is no failure.
 fn print(text: &str) -> Result<(), Failure> {
     match writeln!(std::io::stdout(), "{text}") {
@@ -59,12 +87,20 @@ fn print(text: &str) -> Result<(), Failure> {
     }
 }
 
-#[cfg(feature = "viewer")]
+/// Where there is no window, what is wrong with the scene is said all the same.
 fn window(scene: Option<PathBuf>) -> Result<(), Failure> {
+    open_window(scene.clone()).map_err(|no_window| match scene.and_then(|path| load(&path).err()) {
+        Some(bad_scene) => format!("{}\n\n{no_window}", bad_scene.report()),
+        None => no_window,
+    })
+}
+
+#[cfg(feature = "viewer")]
+fn open_window(scene: Option<PathBuf>) -> Result<(), Failure> {
     crate::viewer::run(scene)
 }
 
 #[cfg(not(feature = "viewer"))]
-fn window(_: Option<PathBuf>) -> Result<(), Failure> {
+fn open_window(_: Option<PathBuf>) -> Result<(), Failure> {
     Err("this build has no window (feature `viewer` is off); use `noisefall render SCENE -o picture.png`".to_owned())
 }

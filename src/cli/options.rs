@@ -27,7 +27,7 @@ pub struct BounceCap(pub Option<u32>);
 pub fn bounce_cap(text: &str) -> Result<BounceCap, String> {
     match text {
         "none" => Ok(BounceCap(None)),
-        _ => text.parse().map(|n| BounceCap(Some(n))).map_err(|_| "expected a whole number, or `none`".to_owned()),
+        _ => text.parse().map(|n| BounceCap(Some(n))).map_err(|_| "expected a whole number, 0 or more, or `none`".to_owned()),
     }
 }
 
@@ -55,6 +55,20 @@ fn pair(text: &str, separators: &[char]) -> Option<[u32; 2]> {
     Some([a.trim().parse().ok()?, b.trim().parse().ok()?])
 }
 
+pub fn whole(text: &str) -> Result<u32, String> {
+    text.parse().map_err(|_| format!("expected a whole number from 0 to {}", u32::MAX))
+}
+
+pub fn samples(text: &str) -> Result<u32, String> {
+    let samples = text.parse().ok().filter(|samples| *samples > 0);
+    samples.ok_or_else(|| "expected a whole number, 1 or more".to_owned())
+}
+
+pub fn threads(text: &str) -> Result<u16, String> {
+    let threads = text.parse().ok().filter(|threads| *threads <= 1024);
+    threads.ok_or_else(|| "expected a whole number from 0 to 1024".to_owned())
+}
+
 pub fn seconds(text: &str) -> Result<Duration, String> {
     let seconds = text.parse().ok().filter(|s: &f64| *s > 0.0);
     seconds.and_then(|s| Duration::try_from_secs_f64(s).ok()).ok_or_else(|| "expected a number of seconds above 0".to_owned())
@@ -73,6 +87,7 @@ mod tests {
     fn values_out_of_range_are_refused() {
         assert!(roulette("0").is_err() && roulette("1.5").is_err() && roulette("nan").is_err() && roulette("x").is_err());
         assert!(seconds("-1").is_err() && seconds("inf").is_err() && noise("0").is_err() && noise("nan").is_err());
+        assert!(whole("-1").is_err() && samples("0").is_err() && samples("1e3").is_err() && threads("1025").is_err());
         assert!(resolution("640").is_err() && resolution("-1x2").is_err() && pixel("1;2").is_err());
         assert!(estimator("bdpt").is_err() && directions("sphere").is_err() && sampler("halton").is_err());
     }

@@ -34,7 +34,11 @@ use super::{
 const DEFAULT_SPP: u32 = 256;
 
 #[derive(clap::Args)]
-#[command(group = ArgGroup::new("target"))]
+#[command(
+    group = ArgGroup::new("target"),
+    allow_negative_numbers = true,
+    override_usage = "noisefall render [OPTIONS] <SCENE> -o <OUTPUT>\n       noisefall render [OPTIONS] <SCENE> --pixel <X,Y>"
+)]
 pub struct Arguments {
     /// Scene file (.toml)
     scene: PathBuf,
@@ -42,7 +46,7 @@ pub struct Arguments {
     #[arg(short, long, required_unless_present = "pixel")]
     output: Option<PathBuf>,
     /// Stop after N samples per pixel [default: the scene's, or 256]; of --spp, --time and --noise the last one given counts
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..), overrides_with_all = ["time", "noise"])]
+    #[arg(long, value_name = "N", value_parser = parse::samples, overrides_with_all = ["time", "noise"])]
     spp: Option<u32>,
     /// Stop after so many seconds of rendering
     #[arg(long, value_name = "SECONDS", value_parser = parse::seconds, overrides_with_all = ["spp", "noise"])]
@@ -66,19 +70,19 @@ pub struct Arguments {
     #[arg(long, value_name = "off|P|throughput", value_parser = parse::roulette)]
     roulette: Option<Roulette>,
     /// Seed of the random numbers
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = parse::whole)]
     seed: Option<u32>,
     /// Threads; 0 for one a core
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u16).range(..=1024))]
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = parse::threads)]
     threads: u16,
     /// Resolution in pixels
-    #[arg(long, value_name = "WxH", value_parser = parse::resolution)]
+    #[arg(long, value_name = "WxH", value_parser = parse::resolution, allow_hyphen_values = true)]
     size: Option<[u32; 2]>,
     /// Replay one path through this pixel instead of rendering
-    #[arg(long, value_name = "X,Y", value_parser = parse::pixel)]
+    #[arg(long, value_name = "X,Y", value_parser = parse::pixel, allow_hyphen_values = true, conflicts_with = "output")]
     pixel: Option<[u32; 2]>,
     /// Which sample of the pixel to replay
-    #[arg(long, value_name = "N", default_value_t = 0, requires = "pixel")]
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = parse::whole, requires = "pixel")]
     sample: u32,
     /// Print one line of JSON last
     #[arg(long)]
@@ -96,7 +100,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     let Some(output) = &arguments.output else { return Err("no output file".to_owned()) };
     check_target(output).map_err(|error| error.to_string())?;
-    let reference = Reference::of(&scene)?;
+    let reference = Reference::of(&scene);
+    let mismatch = reference.as_ref().and_then(|truth| truth.mismatch(camera.resolution));
+    mismatch.iter().for_each(|mismatch| eprintln!("note: {mismatch}"));
     scene.warnings().iter().for_each(|warning| eprintln!("note: {warning}"));
     let threads = Threads::new(arguments.threads.into(), SimdLevel::best()).map_err(|error| error.to_string())?;
     let thread_count = threads.count();
@@ -119,6 +125,10 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     if let Some(replay) = &replay {
         eprintln!("warning: {} invalid samples were dropped; the first one: {replay}", status.invalid_samples);
     }
+    let black = frame.is_black();
+    if black {
+        eprintln!("note: the picture is entirely black: {}", scene.why_black(&camera, &settings));
+    }
     if status.cut_paths > 0 {
         let longest = RenderSettings::LONGEST_PATH;
         eprintln!(
@@ -136,7 +146,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         });
         print(&line.to_string())
     } else {
-        print(&summary(output, &status, &settings, render_seconds, rel_mse))
+        print(&summary(output, &status, &settings, render_seconds, rel_mse, black))
     }
 }
 
@@ -226,11 +236,11 @@ fn noise_text(status: &Status) -> String {
     status.relative_noise().map_or_else(String::new, |noise| format!(", noise {:.2} %", 100.0 * noise))
 }
 
-fn summary(output: &Path, status: &Status, settings: &RenderSettings, seconds: f64, rel_mse: Option<f64>) -> String {
+fn summary(output: &Path, status: &Status, settings: &RenderSettings, seconds: f64, rel_mse: Option<f64>, black: bool) -> String {
     let bias = status.bias(settings).map_or_else(|| "unbiased".to_owned(), |why| format!("biased: {why}"));
     let error = rel_mse.map_or_else(String::new, |e| format!(", true error {:.2} %", 100.0 * e.sqrt()));
     let rate = status.samples as f64 / seconds / 1e6;
-    let noise = noise_text(status);
+    let noise = if black { ", no light found".to_owned() } else { noise_text(status) };
     format!("{}: {} spp in {seconds:.2} s ({rate:.1} M samples/s){noise}{error}, {bias}", output.display(), status.spp)
 }
 

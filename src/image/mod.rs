@@ -86,7 +86,7 @@ impl From<std::io::Error> for Flaw {
 
 /// Reads a picture file of any known kind.
 pub fn read(path: &Path, encoding: Encoding) -> Result<Picture, PictureError> {
-    let file = File::open(path).map_err(Flaw::from);
+    let file = open_regular(path).map_err(Flaw::from);
     let picture = file.and_then(|file| decode(BufReader::new(file), encoding));
     picture.map_err(|flaw| PictureError { path: path.to_owned(), flaw })
 }
@@ -103,6 +103,34 @@ pub fn read_light(path: &Path, encoding: Encoding) -> Result<Picture, PictureErr
         *pixel = pixel.map(|x| x.max(0.0));
     }
     Ok(picture)
+}
+
+/// Opens a file for reading, and nothing else: a pipe would be waited for, perhaps for ever.
+pub fn open_regular(path: &Path) -> std::io::Result<File> {
+    let kind = std::fs::metadata(path)?.file_type();
+    let what = if kind.is_dir() { " but a folder" } else { "" };
+    if !kind.is_file() {
+        return Err(std::io::Error::other(format!("it is not a regular file{what}")));
+    }
+    File::open(path)
+}
+
+/// What [`looks_like`] says of a PNG.
+pub const PNG: &str = "a PNG picture";
+
+/// What a file that begins with these bytes looks like, of the kinds that are mistaken for one another.
+pub fn looks_like(start: &[u8]) -> Option<&'static str> {
+    const KINDS: [(&[u8], &str); 8] = [
+        (b"\x89PNG", PNG),
+        (b"\x76\x2f\x31\x01", "an OpenEXR picture"),
+        (b"#?RADIANCE", "a Radiance HDR picture"),
+        (b"#?RGBE", "a Radiance HDR picture"),
+        (b"\xff\xd8\xff", "a JPEG picture"),
+        (b"PK\x03\x04", "a ZIP archive"),
+        (b"\x1f\x8b", "a gzip archive"),
+        (b"\x7fELF", "a program"),
+    ];
+    KINDS.iter().find(|(magic, _)| start.starts_with(magic)).map(|(_, kind)| *kind)
 }
 
 fn decode(mut file: impl BufRead + Seek, encoding: Encoding) -> Result<Picture, Flaw> {

@@ -64,6 +64,11 @@ impl Frame {
         Some((scaled(y, h, self.height) * u64::from(self.width) + scaled(x, w, self.width)) as usize)
     }
 
+    /// Whether no sample has found any light.
+    pub fn is_black(&self) -> bool {
+        self.radiance.iter().all(|radiance| *radiance == [0.0; 3])
+    }
+
     pub fn is_coarse(&self) -> bool {
         [self.width, self.height] != self.full_resolution
     }

@@ -43,6 +43,7 @@ fn format(path: &Path) -> Result<Format, ImageError> {
 /// Whether a picture could be written there, as far as can be told before there is one.
 pub fn check_target(path: &Path) -> Result<(), ImageError> {
     format(path)?;
+    let path = &through_links(path);
     let folder = folder(path)?;
     let refused = |reason: String| Err(ImageError::Write { path: path.to_owned(), reason });
     match std::fs::metadata(path) {
@@ -52,6 +53,17 @@ pub fn check_target(path: &Path) -> Result<(), ImageError> {
     }
     // Made and removed again: a folder that cannot be written to is better known before an hour of rendering than after.
     temporary(path, &folder).map(drop)
+}
+
+/// What a symbolic link stands for in the end, there or not: a file that is renamed to the link itself would replace it.
+fn through_links(path: &Path) -> PathBuf {
+    const MOST_LINKS: usize = 40;
+    let mut path = path.to_owned();
+    for _ in 0..MOST_LINKS {
+        let Ok(to) = std::fs::read_link(&path) else { break };
+        path = path.parent().map_or_else(|| to.clone(), |folder| folder.join(&to));
+    }
+    path
 }
 
 /// The folder that the file will lie in, which must exist.
@@ -64,6 +76,7 @@ fn folder(path: &Path) -> Result<PathBuf, ImageError> {
 /// Writes a frame as PNG or EXR, by the extension. The file appears whole or not at all. `settings` is any text.
 pub fn save(frame: &Frame, display: Display, settings: &str, path: &Path) -> Result<(), ImageError> {
     let format = format(path)?;
+    let path = &through_links(path);
     let folder = folder(path)?;
     let failed = |reason: String| ImageError::Write { path: path.to_owned(), reason };
     let mut file = temporary(path, &folder)?;
@@ -87,7 +100,12 @@ fn temporary(path: &Path, folder: &Path) -> Result<tempfile::NamedTempFile, Imag
     builder.prefix(".noisefall-").suffix(".part");
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    builder.tempfile_in(folder).map_err(|error| ImageError::Write { path: path.to_owned(), reason: error.to_string() })
+    builder.tempfile_in(folder).map_err(|error| {
+        // The crate adds the path of the temporary file, which says nothing to anybody.
+        let reason = error.to_string();
+        let why = reason.split(" at path ").next().unwrap_or_default();
+        ImageError::Write { path: path.to_owned(), reason: why.to_owned() }
+    })
 }
 
 fn write_png(frame: &Frame, display: Display, settings: &str, to: &mut impl Write) -> Result<(), String> {

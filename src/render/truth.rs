@@ -1,8 +1,7 @@
 //! The picture that a scene says it must converge to.
-use super::{
-    frame::Frame,
-    image_file::{Picture, read},
-};
+use std::sync::Arc;
+
+use super::{frame::Frame, image_file::Picture};
 use crate::{
     measure::{Comparison, compare},
     scene::{Scene, Truth},
@@ -13,18 +12,26 @@ pub enum Reference {
     /// The same radiance at every pixel, at any resolution.
     Constant([f32; 3]),
     /// A picture of one resolution.
-    Picture(Picture),
+    Picture(Arc<Picture>),
 }
 
 impl Reference {
-    /// The scene's reference, if it names one. An error is one line of text.
-    pub fn of(scene: &Scene) -> Result<Option<Reference>, String> {
-        match &scene.truth {
-            None => Ok(None),
-            Some(Truth::Radiance(radiance)) => Ok(Some(Reference::Constant(*radiance))),
-            Some(Truth::Image(path)) => {
-                read(path).map(|picture| Some(Reference::Picture(picture))).map_err(|error| error.to_string())
+    /// The scene's reference, if it names one.
+    pub fn of(scene: &Scene) -> Option<Reference> {
+        match scene.truth.as_ref()? {
+            Truth::Radiance(radiance) => Some(Reference::Constant(*radiance)),
+            Truth::Image(_, picture) => Some(Reference::Picture(picture.clone())),
+        }
+    }
+
+    /// Why pictures of this resolution cannot be held against the reference, if they cannot.
+    pub fn mismatch(&self, [width, height]: [u32; 2]) -> Option<String> {
+        match self {
+            Reference::Picture(p) if [p.width, p.height] != [width, height] => {
+                let size = format!("{} × {}", p.width, p.height);
+                Some(format!("the true picture is {size} and this one {width} × {height}, so the true error is not known"))
             }
+            _ => None,
         }
     }
 

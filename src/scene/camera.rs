@@ -39,6 +39,8 @@ pub enum CameraError {
     NotFinite,
     #[error("`eye` and `look_at` are the same point")]
     NoDirection,
+    #[error("`up` is zero: it must be a direction")]
+    UpIsZero,
     #[error("`up` is parallel to the direction of view")]
     UpIsForward,
     #[error("`fov` must lie between 0.001 and 179.9 degrees")]
@@ -74,7 +76,7 @@ impl Camera {
         }
         self.check_optics()?;
         let forward = (self.look_at - self.eye).try_normalize().ok_or(CameraError::NoDirection)?;
-        let up = self.up.try_normalize().ok_or(CameraError::UpIsForward)?;
+        let up = self.up.try_normalize().ok_or(CameraError::UpIsZero)?;
         if forward.cross(up).length() < 1e-6 {
             return Err(CameraError::UpIsForward);
         }

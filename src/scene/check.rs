@@ -7,6 +7,7 @@ use toml::Spanned;
 use super::{
     desc::{Colour, Exactly},
     diagnostic::{SceneError, SourceText},
+    wording::nearest,
 };
 use crate::geometry::Shape;
 
@@ -14,6 +15,11 @@ use crate::geometry::Shape;
 const LARGEST: f64 = 1e12;
 const SMALLEST_RADIUS: f64 = 1e-12;
 const BRIGHTEST: f64 = 1e15;
+
+/// A number as one would write it: powers of ten only where there are many zeros.
+fn short(x: f64) -> String {
+    if x == 0.0 || (1e-4..1e6).contains(&x.abs()) { x.to_string() } else { format!("{x:e}") }
+}
 
 /// What the channels of a colour may be: from 0 to `most`.
 pub struct ColourRange {
@@ -74,7 +80,7 @@ impl Checker<'_> {
             r if r < 0.0 => format!("the radius is negative: {r}"),
             r => format!("the radius is out of range: {r}"),
         };
-        let label = format!("expected a number from {SMALLEST_RADIUS:e} to {LARGEST:e}");
+        let label = format!("expected a number from {} to {}", short(SMALLEST_RADIUS), short(LARGEST));
         let error = self.0.error(value.span(), message, label);
         Err(if radius < 0.0 {
             error.with_help("to look at a sphere from inside, keep the radius positive; `flip = true` turns its normal")
@@ -100,7 +106,7 @@ impl Checker<'_> {
             return Ok(number as f32);
         }
         let message = format!("`{what}` is out of range: {number}");
-        Err(self.0.error(value.span(), message, format!("expected a number from {least:e} to {most:e}")))
+        Err(self.0.error(value.span(), message, format!("expected a number from {} to {}", short(least), short(most))))
     }
 
     /// A path relative to the scene file.
@@ -111,9 +117,12 @@ impl Checker<'_> {
 
     /// The error of a name that stands for nothing; `known` are those that do.
     pub fn not_defined<'k>(&self, kind: &str, name: &Spanned<String>, known: impl Iterator<Item = &'k String>) -> SceneError {
-        let known = known.map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
+        let known: Vec<_> = known.map(String::as_str).collect();
+        let nearest = nearest(name.as_ref(), known.iter().copied());
+        let known = known.into_iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
         let help = if known.is_empty() { format!("the scene defines no {kind}s") } else { format!("the scene defines {known}") };
-        self.0.error(name.span(), format!("there is no {kind} `{}`", name.as_ref()), "not defined").with_help(help)
+        let label = nearest.map_or_else(|| "not defined".to_owned(), |meant| format!("did you mean `{meant}`?"));
+        self.0.error(name.span(), format!("there is no {kind} `{}`", name.as_ref()), label).with_help(help)
     }
 
     /// Radiances, each finite and not negative.
@@ -129,7 +138,10 @@ impl Checker<'_> {
                 Err(self.0.error(value.span(), message, "expected a colour: [red, green, blue], or one number for grey"))
             }
             Colour::Rgb(rgb) if rgb.iter().all(|x| (0.0..=range.most).contains(x)) => Ok(rgb.map(|x| x as f32)),
-            Colour::Rgb(_) => Err(self.0.error(value.span(), format!("`{}` is out of range", range.what), range.expected)),
+            Colour::Rgb(rgb) => {
+                let wrong = rgb.iter().find(|x| !(0.0..=range.most).contains(*x)).copied().unwrap_or_default();
+                Err(self.0.error(value.span(), format!("`{}` is out of range: {wrong}", range.what), range.expected))
+            }
         }
     }
 }

@@ -212,7 +212,7 @@ pub struct RenderDesc {
     pub directions: Option<crate::sampling::Directions>,
     pub sampler: Option<crate::sampling::Sampler>,
     pub max_bounces: Option<u32>,
-    pub roulette: Option<Spanned<super::Roulette>>,
+    pub roulette: Option<Spanned<super::roulette::RouletteDesc>>,
     pub spp: Option<Spanned<u32>>,
     pub seed: Option<u32>,
 }
@@ -231,7 +231,7 @@ impl<'de, T: Deserialize<'de>, const N: usize> Deserialize<'de> for Exactly<T, N
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let elements = Vec::deserialize(deserializer)?;
         let length = elements.len();
-        let exactly = elements.try_into().map_err(|_| de::Error::custom(format!("{length} numbers in place of {N}")))?;
+        let exactly = elements.try_into().map_err(|_| de::Error::invalid_length(length, &format!("a list of {N}").as_str()))?;
         Ok(Exactly(exactly))
     }
 }

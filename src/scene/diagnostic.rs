@@ -1,7 +1,9 @@
 //! Errors of scene files: what is wrong, where, and what was expected.
 use std::{fmt, ops::Range, path::Path};
 
-use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource, SourceCode};
+use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, SourceCode};
+
+use super::excerpt::Excerpt;
 
 /// Why a scene file cannot be used. Displays as one line; [`SceneError::report`] adds the place with a caret.
 #[derive(Debug, Clone)]
@@ -12,8 +14,14 @@ struct Details {
     message: String,
     label: String,
     help: Option<String>,
-    source: NamedSource<String>,
-    span: Option<Range<usize>>,
+    place: Option<Place>,
+}
+
+#[derive(Debug, Clone)]
+struct Place {
+    /// Both from 1.
+    line_column: (usize, usize),
+    excerpt: Excerpt,
 }
 
 /// The text of a scene file and what it is called, for pointing into it.
@@ -30,8 +38,7 @@ impl SceneError {
             message: format!("{}: {}", path.display(), message.into()),
             label: String::new(),
             help: Some(help.into()),
-            source: NamedSource::new(path.display().to_string(), String::new()),
-            span: None,
+            place: None,
         }))
     }
 
@@ -43,11 +50,7 @@ impl SceneError {
 
     /// Line and column, both from 1, of the place in the file, when the error has one.
     pub fn line_column(&self) -> Option<(usize, usize)> {
-        let start = self.0.span.as_ref()?.start;
-        let before = &self.0.source.inner()[..start];
-        let line = before.matches('\n').count() + 1;
-        let column = before.rsplit('\n').next().unwrap_or_default().chars().count() + 1;
-        Some((line, column))
+        self.0.place.as_ref().map(|place| place.line_column)
     }
 
     /// The whole message, several lines of plain text: what, file:line:column, the line with a caret, what to do.
@@ -74,10 +77,10 @@ impl Diagnostic for SceneError {
         self.0.help.as_ref().map(|help| Box::new(help) as Box<dyn fmt::Display>)
     }
     fn source_code(&self) -> Option<&dyn SourceCode> {
-        self.0.span.as_ref().map(|_| &self.0.source as &dyn SourceCode)
+        self.0.place.as_ref().map(|place| &place.excerpt as &dyn SourceCode)
     }
     fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
-        let span = self.0.span.clone()?;
+        let span = self.0.place.as_ref()?.excerpt.span();
         Some(Box::new(std::iter::once(LabeledSpan::new_with_span(Some(self.0.label.clone()), span))))
     }
 }
@@ -87,12 +90,15 @@ impl SourceText {
     pub fn error(&self, span: Range<usize>, message: impl Into<String>, label: impl Into<String>) -> SceneError {
         let end = self.text.len();
         let start = span.start.min(end);
+        let before = &self.text[..start];
+        let line = before.matches('\n').count() + 1;
+        let column = before.rsplit('\n').next().unwrap_or_default().chars().count() + 1;
+        let excerpt = Excerpt::new(&self.name, &self.text, start..span.end.clamp(start, end));
         SceneError(Box::new(Details {
             message: message.into(),
             label: label.into(),
             help: None,
-            source: NamedSource::new(&self.name, self.text.clone()),
-            span: Some(start..span.end.clamp(start, end)),
+            place: Some(Place { line_column: (line, column), excerpt }),
         }))
     }
 }

@@ -8,12 +8,18 @@ use crate::sampling::Filter;
 
 pub struct FilterDesc(pub Filter);
 
-/// The forms with a width.
+/// What stands behind `tent`.
 #[derive(Deserialize)]
-#[serde(rename_all = "lowercase", deny_unknown_fields)]
-enum Wide {
-    Tent { radius: f32 },
-    Gaussian { sigma: f32 },
+#[serde(deny_unknown_fields)]
+struct Tent {
+    radius: f32,
+}
+
+/// What stands behind `gaussian`.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Gaussian {
+    sigma: f32,
 }
 
 impl<'de> Deserialize<'de> for FilterDesc {
@@ -39,9 +45,17 @@ impl<'de> Visitor<'de> for FilterVisitor {
         }
     }
     fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<FilterDesc, A::Error> {
-        let filter = match Wide::deserialize(de::value::MapAccessDeserializer::new(&mut map))? {
-            Wide::Tent { radius } => Filter::Tent { radius },
-            Wide::Gaussian { sigma } => Filter::Gaussian { sigma },
+        let filter = match map.next_key::<String>()?.as_deref() {
+            Some("tent") => {
+                let Tent { radius } = map.next_value()?;
+                Filter::Tent { radius }
+            }
+            Some("gaussian") => {
+                let Gaussian { sigma } = map.next_value()?;
+                Filter::Gaussian { sigma }
+            }
+            Some(other) => return Err(de::Error::unknown_field(other, &["tent", "gaussian"])),
+            None => return Err(de::Error::invalid_length(0, &self)),
         };
         match map.next_key::<String>()? {
             None => Ok(FilterDesc(filter)),

@@ -1,12 +1,14 @@
 //! Reading a scene file.
-use std::{fs::File, io::Read, path::Path};
+use std::{io::Read, path::Path};
 
 use super::{
     Scene,
     compile::{FORMAT, compile},
     desc::Header,
     diagnostic::{SceneError, SourceText},
+    wording::in_plain_words,
 };
+use crate::image::{looks_like, open_regular};
 
 /// Larger files are refused before they are read.
 const LARGEST_FILE: u64 = 64 << 20;
@@ -22,6 +24,10 @@ pub fn built_in() -> Scene {
 /// Reads and compiles a scene file.
 pub fn load(path: &Path) -> Result<Scene, SceneError> {
     let bytes = read(path)?;
+    if let Some(kind) = not_text(&bytes) {
+        let message = format!("this is not a text file{kind}");
+        return Err(SceneError::of_file(path, message, "a scene is one TOML file, saved as UTF-8 text"));
+    }
     let name = path.display().to_string();
     let text = String::from_utf8(bytes).map_err(|error| {
         let valid = error.utf8_error().valid_up_to();
@@ -41,12 +47,21 @@ pub fn parse(name: &str, text: String) -> Result<Scene, SceneError> {
         let message = format!("this is scene format {}, and Noisefall reads format {FORMAT}", format.as_ref());
         return Err(source.error(format.span(), message, format!("expected {FORMAT}")));
     }
-    let desc = toml::from_str(&source.text).map_err(|error| {
-        let span = error.span().unwrap_or(0..0);
-        let message = error.message().replace('\n', ": ");
-        source.error(span, message, "here")
-    })?;
+    let desc = toml::from_str(&source.text).map_err(|error| in_plain_words(&source, &error))?;
     compile(&desc, &source)
+}
+
+/// What the file looks like, as the end of a sentence, if it is no text at all: then none of it can be shown.
+fn not_text(bytes: &[u8]) -> Option<String> {
+    let start = &bytes[..bytes.len().min(4096)];
+    let is_control = |byte: &u8| *byte < 0x20 && !b"\t\n\r\x0c".contains(byte);
+    match looks_like(start) {
+        Some(kind) => Some(format!(": it looks like {kind}")),
+        None if start.starts_with(b"\xff\xfe") || start.starts_with(b"\xfe\xff") => {
+            Some(" of the kind that is read here: it looks like UTF-16".to_owned())
+        }
+        None => start.iter().any(is_control).then(String::new),
+    }
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, SceneError> {
@@ -62,9 +77,9 @@ fn read(path: &Path) -> Result<Vec<u8>, SceneError> {
         };
         SceneError::of_file(path, reason, help)
     };
-    let file = File::open(path).map_err(unreadable)?;
+    let file = open_regular(path).map_err(unreadable)?;
     let mut bytes = Vec::new();
-    // Reading stops past the limit whatever size the file claims: pipes and devices claim none.
+    // Reading stops past the limit whatever size the file claims: it may grow meanwhile.
     file.take(LARGEST_FILE + 1).read_to_end(&mut bytes).map_err(unreadable)?;
     if bytes.len() as u64 > LARGEST_FILE {
         let message = format!("the file is larger than {} MB", LARGEST_FILE >> 20);

@@ -1,18 +1,22 @@
 //! The scene: what a file says, checked and compiled to what the renderer runs on.
+mod black;
 mod camera;
 mod check;
 mod colour;
 mod compile;
 mod desc;
 mod diagnostic;
+mod excerpt;
 mod filter;
 mod load;
 mod rays;
+mod roulette;
 mod settings;
 pub mod surface;
 mod textures;
+mod wording;
 
-use std::path::PathBuf;
+use std::{path::PathBuf, sync::Arc};
 
 use glam::DVec3;
 
@@ -24,9 +28,11 @@ pub use self::{
     load::{BUILT_IN, built_in, load, parse},
     rays::CameraRays,
     settings::{Estimator, RenderSettings, Roulette},
+    wording::nearest,
 };
 use crate::{
     geometry::{Motion, Shape, Shapes},
+    image::Picture,
     light::{Emission, Lights},
     material::Material,
     texture::Textures,
@@ -78,8 +84,8 @@ pub struct Object {
 pub enum Truth {
     /// The same exact radiance at every pixel.
     Radiance([f32; 3]),
-    /// A reference image.
-    Image(PathBuf),
+    /// A reference image, read from this file.
+    Image(PathBuf, Arc<Picture>),
 }
 
 impl Scene {

@@ -42,8 +42,8 @@ impl Estimator {
 }
 
 /// Russian roulette: ending paths at random and weighting the survivors, so that the mean stays right.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase", deny_unknown_fields)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Roulette {
     Off,
     /// Survival probability at every reflection, from [`Roulette::LEAST`] to 1.
@@ -51,13 +51,8 @@ pub enum Roulette {
     /// Survival probability is the throughput's largest component, at most [`Roulette::MOST`].
     Throughput {
         /// The first reflection at which a path can end.
-        #[serde(default = "default_start")]
         start: u32,
     },
-}
-
-const fn default_start() -> u32 {
-    4
 }
 
 impl Roulette {
@@ -65,7 +60,9 @@ impl Roulette {
     pub const MOST: f32 = 0.95;
     /// Lower bound of all survival probabilities: random numbers are multiples of 2⁻²³, which would round smaller ones.
     pub const LEAST: f32 = 0.01;
-    pub const BY_THROUGHPUT: Roulette = Roulette::Throughput { start: default_start() };
+    /// The first reflection at which a path can end, where nothing is said.
+    pub const FIRST: u32 = 4;
+    pub const BY_THROUGHPUT: Roulette = Roulette::Throughput { start: Roulette::FIRST };
 }
 
 impl Default for Roulette {

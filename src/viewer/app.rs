@@ -1,5 +1,5 @@
 //! The state of the window and its layout. Each panel is a file of its own.
-use std::{path::PathBuf, sync::Arc, sync::mpsc};
+use std::{path::PathBuf, sync::Arc};
 
 use egui::{CentralPanel, Panel, ScrollArea, TextureHandle, TextureOptions};
 use noisefall::{
@@ -16,7 +16,7 @@ use super::{
     look::{dark, section},
     messages::Notice,
     objects_panel::objects_panel,
-    save_dialog::SaveDialog,
+    path_field::PathField,
     saver::Saver,
 };
 
@@ -38,6 +38,8 @@ pub struct App {
     pub(super) status: Status,
     pub(super) shown: Option<Arc<Frame>>,
     pub(super) true_rel_mse: Option<f64>,
+    /// No sample of what is shown has found light.
+    pub(super) black: bool,
     texture: Option<TextureHandle>,
 
     /// The window itself.
@@ -45,10 +47,10 @@ pub struct App {
     pub(super) view: View,
     pub(super) hovered: Option<[u32; 2]>,
     pub(super) help_open: bool,
-    pub(super) save_dialog: Option<SaveDialog>,
+    pub(super) save_dialog: Option<PathField>,
+    pub(super) open_dialog: Option<PathField>,
     pub(super) last_saved: Option<PathBuf>,
-    pub(super) catalogue: Vec<(String, PathBuf)>,
-    pub(super) picked: (mpsc::Sender<PathBuf>, mpsc::Receiver<PathBuf>),
+    pub(super) catalogue: Vec<catalogue::Entry>,
     /// Why the last scene could not be opened.
     pub(super) scene_error: Option<String>,
     pub(super) notice: Option<Notice>,
@@ -75,15 +77,16 @@ impl App {
             status: Status::default(),
             shown: None,
             true_rel_mse: None,
+            black: false,
             texture: None,
             tool: Tool::default(),
             view: View::default(),
             hovered: None,
             help_open: false,
             save_dialog: None,
+            open_dialog: None,
             last_saved: None,
             catalogue: catalogue::find(),
-            picked: mpsc::channel(),
             scene_error: None,
             notice: None,
         }
@@ -93,13 +96,14 @@ impl App {
     pub fn show(&mut self, ui: &mut egui::Ui) {
         let ctx = ui.ctx().clone();
         self.shortcuts(&ctx);
-        self.open_picked_files();
+        self.open_dropped_file();
         self.receive();
         Panel::bottom("status").show(ui, |ui| self.status_bar(ui));
         Panel::right("settings").resizable(false).exact_size(336.0).show(ui, |ui| self.panels(ui));
         Panel::top("toolbar").show(ui, |ui| self.toolbar(ui));
         CentralPanel::no_frame().show(ui, |ui| self.canvas(ui));
         self.save_dialog(&ctx);
+        self.open_dialog(&ctx);
         self.help(&ctx);
         self.scene_error_window(&ctx);
         self.notice(&ctx);
@@ -107,6 +111,9 @@ impl App {
     }
 
     fn panels(&mut self, ui: &mut egui::Ui) {
+        // The bar has room of its own: it would lie over what is at the right.
+        let scroll = &mut ui.spacing_mut().scroll;
+        scroll.floating_allocated_width = scroll.bar_width;
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             ui.add_space(4.0);
             self.scene_panel(ui);
@@ -125,8 +132,11 @@ impl App {
     fn canvas(&mut self, ui: &mut egui::Ui) {
         let texture = self.texture.as_ref().map(TextureHandle::id);
         let size = self.opened.as_ref().map_or(1.0, |opened| opened.scene.size);
-        let keys = self.save_dialog.is_none() && !self.help_open;
-        let output = canvas::show(ui, texture, self.tool, &mut self.view, &self.camera, size, keys);
+        let keys = self.save_dialog.is_none() && self.open_dialog.is_none() && !self.help_open;
+        // The picture keeps its own shape until another one is there, which may be never: settings can be impossible.
+        let resolution = self.shown.as_ref().map_or(self.camera.resolution, |frame| frame.full_resolution);
+        let picture = texture.map(|texture| (texture, resolution));
+        let output = canvas::show(ui, picture, self.tool, &mut self.view, &self.camera, size, keys);
         self.hovered = output.hovered;
         if let Some(camera) = output.camera.filter(|camera| camera.check().is_ok()) {
             self.camera = camera;
@@ -158,9 +168,15 @@ impl App {
                 Some(texture) => texture.set(print.image, TextureOptions::NEAREST),
                 None => self.texture = Some(self.ctx.load_texture("picture", print.image, TextureOptions::NEAREST)),
             }
-            self.true_rel_mse = print.rel_mse;
+            (self.true_rel_mse, self.black) = (print.rel_mse, print.black);
             self.shown = Some(print.frame);
         }
+    }
+
+    /// The likeliest reason why what is shown is black, if it is.
+    pub(super) fn why_black(&self) -> Option<String> {
+        let wish = self.link.wish().filter(|_| self.black)?;
+        Some(wish.scene.why_black(&wish.camera, &wish.settings))
     }
 
     /// What a frame must converge to: known for the scene's own camera only.
@@ -173,6 +189,14 @@ impl App {
 
     fn open(&mut self, opened: Opened) {
         let scene = &opened.scene;
+        if self.opened.as_ref().is_none_or(|before| before.path != opened.path) {
+            // What suited another scene's light says nothing about this one's.
+            self.display.exposure = 0.0;
+        }
+        if let Some(path) = &opened.path {
+            catalogue::remember(&mut self.catalogue, &opened.name, path);
+        }
+        self.ctx.send_viewport_cmd(egui::ViewportCommand::Title(format!("{} – Noisefall", opened.name)));
         (self.camera, self.settings) = (scene.camera, scene.settings);
         self.budget = Budget { max_spp: scene.spp, steps: self.budget.steps, ..Budget::default() };
         self.scene_error = None;

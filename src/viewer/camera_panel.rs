@@ -1,5 +1,5 @@
 //! The camera, by numbers.
-use egui::{Button, DragValue, RichText, Slider, SliderClamping};
+use egui::{Button, RichText};
 use glam::DVec3;
 use noisefall::{
     sampling::Filter,
@@ -9,6 +9,7 @@ use noisefall::{
 use super::{
     app::App,
     look::{controls, row},
+    number,
 };
 
 impl App {
@@ -31,16 +32,19 @@ impl App {
             row(ui, "Resolution", "Width and height in pixels.", |ui, label| {
                 ui.horizontal(|ui| {
                     let [width, height] = &mut camera.resolution;
-                    let side = |value| DragValue::new(value).range(1..=Camera::MOST_SIDE).update_while_editing(false);
-                    ui.add(side(width)).labelled_by(label).on_hover_text("Width");
+                    let range = 1.0..=f64::from(Camera::MOST_SIDE);
+                    let side = number::field(ui, width, 0, range.clone());
+                    ui.add(side).labelled_by(label).on_hover_text("Width");
                     ui.label("×");
-                    ui.add(side(height)).labelled_by(label).on_hover_text("Height");
+                    let side = number::field(ui, height, 0, range);
+                    ui.add(side).labelled_by(label).on_hover_text("Height");
                 });
             });
         });
         if let Err(error) = self.camera.check() {
             ui.label(RichText::new(error.to_string()).color(ui.visuals().error_fg_color));
         }
+        ui.add_space(5.0);
         let moved = self.opened.as_ref().is_some_and(|opened| opened.scene.camera != self.camera);
         let reset = ui.add_enabled(moved, Button::new("Back to the scene's camera"));
         if reset.on_hover_text("The camera the scene opened with (Home)").clicked() {
@@ -62,12 +66,13 @@ fn projection(ui: &mut egui::Ui, camera: &mut Camera) {
     });
     match &mut camera.orthographic {
         None => row(ui, "Field of view", "The full angle across the picture's width.", |ui, label| {
-            ui.add(Slider::new(&mut camera.fov, 1.0..=170.0).clamping(SliderClamping::Edits).suffix("°").max_decimals(2))
-                .labelled_by(label);
+            let slider = number::slider(ui, &mut camera.fov, 2, 1.0..=170.0).suffix("°");
+            ui.add(slider).labelled_by(label);
         }),
         Some(width) => row(ui, "Width", "What the picture shows from left to right, in metres.", |ui, label| {
             let speed = 0.005 * *width;
-            ui.add(DragValue::new(width).speed(speed).range(1e-9..=1e9).max_decimals(3).suffix(" m")).labelled_by(label);
+            let field = number::field(ui, width, 3, 1e-9..=1e9).speed(speed).suffix(" m");
+            ui.add(field).labelled_by(label);
         }),
     }
 }
@@ -76,13 +81,13 @@ fn lens(ui: &mut egui::Ui, camera: &mut Camera, speed: f64) {
     let distance = camera.eye.distance(camera.look_at);
     let mut lens = camera.lens.unwrap_or(Lens { radius: 0.0, focus: distance });
     row(ui, "Lens radius", "In metres. A wide lens blurs what is not in focus; 0 is a pinhole.", |ui, label| {
-        let radius = DragValue::new(&mut lens.radius).speed(0.05 * speed).range(0.0..=1e9).max_decimals(4).suffix(" m");
+        let radius = number::field(ui, &mut lens.radius, 4, 0.0..=1e9).speed(0.05 * speed).suffix(" m");
         ui.add(radius).labelled_by(label);
     });
     if lens.radius > 0.0 {
         row(ui, "Focus", "Distance of the plane in focus, in metres.", |ui, label| {
             ui.horizontal(|ui| {
-                let focus = DragValue::new(&mut lens.focus).speed(speed).range(1e-9..=1e12).max_decimals(3).suffix(" m");
+                let focus = number::field(ui, &mut lens.focus, 3, 1e-9..=1e12).speed(speed).suffix(" m");
                 ui.add(focus).labelled_by(label);
                 if ui.button("Look-at point").on_hover_text("Focus on the point in the middle of the picture").clicked() {
                     lens.focus = distance;
@@ -114,7 +119,7 @@ fn point(ui: &mut egui::Ui, label: egui::Id, p: &mut DVec3, speed: f64) {
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         for coordinate in [&mut p.x, &mut p.y, &mut p.z] {
-            let value = DragValue::new(coordinate).speed(speed).max_decimals(3).range(-1e12..=1e12);
+            let value = number::field(ui, coordinate, 3, -1e12..=1e12).speed(speed);
             ui.add_sized([62.0, 20.0], value).labelled_by(label);
         }
     });

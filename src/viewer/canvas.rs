@@ -74,11 +74,11 @@ impl View {
     }
 }
 
-/// Draws the picture into all the room there is and reads what the user does to it. `size` is the scene's, in metres; `keys` says
-/// whether keys move the camera.
+/// Draws the picture, of a resolution of its own, into all the room there is and reads what the user does to it. `size` is the
+/// scene's, in metres; `keys` says whether keys move the camera.
 pub fn show(
     ui: &mut egui::Ui,
-    texture: Option<TextureId>,
+    picture: Option<(TextureId, [u32; 2])>,
     tool: Tool,
     view: &mut View,
     camera: &Camera,
@@ -89,9 +89,9 @@ pub fn show(
     let response = ui.allocate_rect(area, Sense::click_and_drag());
     let painter = ui.painter_at(area);
     painter.rect_filled(area, 0.0, ui.visuals().extreme_bg_color);
-    let Some(texture) = texture else { return CanvasOutput::default() };
+    let Some((texture, [width, height])) = picture else { return CanvasOutput::default() };
 
-    let resolution = Vec2::new(camera.resolution[0] as f32, camera.resolution[1] as f32);
+    let resolution = Vec2::new(width as f32, height as f32);
     let pixels_per_point = ui.ctx().pixels_per_point();
     let rect = view.rect(area, resolution, pixels_per_point);
     painter.image(texture, rect, Rect::from_min_max(Pos2::ZERO, Pos2::new(1.0, 1.0)), Color32::WHITE);

@@ -1,11 +1,38 @@
-//! The scenes that can be opened with one click: the files of the nearest `scenes/` folder.
-use std::path::{Path, PathBuf};
+//! The scenes that can be opened with one click: the files of the nearest `scenes/` folder, and those opened from elsewhere.
+use std::{
+    fs::File,
+    io::Read,
+    path::{Path, PathBuf},
+};
 
-/// Scene files by name, sorted.
-pub fn find() -> Vec<(String, PathBuf)> {
+/// Titles stand at the beginning of a file.
+const LONGEST_HEAD: u64 = 16 << 10;
+
+/// A scene file by what it calls itself.
+pub struct Entry {
+    pub name: String,
+    /// In full, without links, so that one file has one path.
+    pub path: PathBuf,
+}
+
+/// The shipped scenes, sorted by name.
+pub fn find() -> Vec<Entry> {
     let mut scenes = folder().map_or_else(Vec::new, |folder| list(&folder));
-    scenes.sort();
+    scenes.sort_by_cached_key(|entry| entry.name.to_lowercase());
     scenes
+}
+
+/// Lists a scene that was opened, under the name it has now.
+pub fn remember(scenes: &mut Vec<Entry>, name: &str, path: &Path) {
+    let path = in_full(path);
+    match scenes.iter_mut().find(|entry| entry.path == path) {
+        Some(entry) => name.clone_into(&mut entry.name),
+        None => scenes.push(Entry { name: name.to_owned(), path }),
+    }
+}
+
+pub fn in_full(path: &Path) -> PathBuf {
+    path.canonicalize().unwrap_or_else(|_| path.to_owned())
 }
 
 /// `scenes/` in the current folder, or in one above the program's own (a build lies in `target/release` of its project).
@@ -16,14 +43,24 @@ fn folder() -> Option<PathBuf> {
     candidates.map(|folder| folder.join("scenes")).find(|folder| folder.is_dir())
 }
 
-fn list(folder: &Path) -> Vec<(String, PathBuf)> {
+fn list(folder: &Path) -> Vec<Entry> {
     let Ok(entries) = std::fs::read_dir(folder) else { return Vec::new() };
     let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
-    let scenes = paths.filter(|path| path.extension().is_some_and(|extension| extension == "toml"));
-    scenes.map(|path| (name(&path), path)).collect()
+    let scenes = paths.filter(|path| path.is_file() && path.extension().is_some_and(|extension| extension == "toml"));
+    scenes.map(|path| Entry { name: name(&title(&path).unwrap_or_default(), &path), path: in_full(&path) }).collect()
 }
 
-/// A file's name as a title: `tiny_lamp.toml` is "tiny lamp".
-pub fn name(path: &Path) -> String {
-    path.file_stem().unwrap_or_default().to_string_lossy().replace('_', " ")
+/// What a scene file says its title is, before its first table.
+fn title(path: &Path) -> Option<String> {
+    let mut head = Vec::new();
+    File::open(path).ok()?.take(LONGEST_HEAD).read_to_end(&mut head).ok()?;
+    let head = String::from_utf8_lossy(&head);
+    let end = head.find("\n[").unwrap_or(head.len());
+    let table: toml::Table = head[..end].parse().ok()?;
+    Some(table.get("title")?.as_str()?.to_owned())
+}
+
+/// What a scene is called: by its title, or else by its file: `tiny_lamp.toml` is "tiny lamp".
+pub fn name(title: &str, path: &Path) -> String {
+    if title.is_empty() { path.file_stem().unwrap_or_default().to_string_lossy().replace('_', " ") } else { title.to_owned() }
 }

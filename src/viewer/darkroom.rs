@@ -21,6 +21,8 @@ pub struct Print {
     pub image: egui::ColorImage,
     /// relMSE against the exact picture.
     pub rel_mse: Option<f64>,
+    /// No sample has found light.
+    pub black: bool,
 }
 
 pub struct Darkroom {
@@ -82,5 +84,5 @@ fn develop(order: Order, pixels: &mut Vec<[u8; 4]>) -> Print {
         egui::ColorImage::from_rgba_unmultiplied([width.div_ceil(step), height.div_ceil(step)], &thinned)
     };
     let rel_mse = truth.and_then(|truth| truth.compare(&frame)).map(|comparison| comparison.rel_mse);
-    Print { frame, image, rel_mse }
+    Print { black: frame.is_black(), frame, image, rel_mse }
 }

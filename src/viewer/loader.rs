@@ -11,6 +11,9 @@ use noisefall::{
 
 use super::catalogue;
 
+/// What the built-in scene is called.
+pub const BUILT_IN_NAME: &str = "Five-sphere Cornell box (built-in)";
+
 /// A scene ready to be shown.
 pub struct Opened {
     pub scene: Arc<Scene>,
@@ -63,10 +66,10 @@ impl Loader {
 fn open(path: Option<PathBuf>) -> Outcome {
     let Some(path) = path else {
         let scene = built_in();
-        return Ok(Opened { name: scene.title.clone(), scene: Arc::new(scene), path: None, truth: None });
+        return Ok(Opened { name: BUILT_IN_NAME.to_owned(), scene: Arc::new(scene), path: None, truth: None });
     };
     let scene = load(&path).map_err(|error| error.report())?;
-    let truth = Reference::of(&scene)?.map(Arc::new);
-    let name = if scene.title.is_empty() { catalogue::name(&path) } else { scene.title.clone() };
+    let truth = Reference::of(&scene).map(Arc::new);
+    let name = catalogue::name(&scene.title, &path);
     Ok(Opened { scene: Arc::new(scene), name, path: Some(path), truth })
 }

@@ -5,6 +5,11 @@ use noisefall::{
     scene::{Coating, Object, Roughness, Scene},
 };
 
+use super::look::elided;
+
+/// Together, with what is between them, as wide as the panel.
+const NAME_WIDTH: f32 = 156.0;
+const KIND_WIDTH: f32 = 136.0;
 /// More rows than these nobody reads.
 const MOST_ROWS: usize = 100;
 
@@ -12,8 +17,8 @@ pub(super) fn objects_panel(ui: &mut Ui, scene: &Scene) {
     Grid::new("objects").num_columns(2).spacing([12.0, 4.0]).show(ui, |ui| {
         for (i, object) in scene.objects.iter().take(MOST_ROWS).enumerate() {
             let name = if object.name.is_empty() { format!("object {}", i + 1) } else { object.name.clone() };
-            ui.label(name).on_hover_text(place(object));
-            ui.label(RichText::new(summary(object)).weak()).on_hover_text(details(object));
+            elided(ui, NAME_WIDTH, name).on_hover_text(place(object));
+            elided(ui, KIND_WIDTH, RichText::new(summary(object)).weak()).on_hover_text(details(object));
             ui.end_row();
         }
     });

@@ -1,7 +1,7 @@
 //! The estimate: estimator, sampler, directions, roulette, cap, seed, and when to stop.
 use std::ops::RangeInclusive;
 
-use egui::{ComboBox, DragValue, Id, Slider, SliderClamping, Ui};
+use egui::{ComboBox, Id, Ui};
 use noisefall::{
     sampling::{Directions, SAMPLERS},
     scene::{Estimator, Roulette},
@@ -10,6 +10,7 @@ use noisefall::{
 use super::{
     app::App,
     look::{controls, row},
+    number,
 };
 
 const DEFAULT_SURVIVAL: f32 = 0.8;
@@ -29,7 +30,7 @@ const ESTIMATORS: [(Estimator, &str, &str); 3] = [
 const DIRECTIONS: [(Directions, &str, &str); 3] = [
     (Directions::Uniform, "Uniform", "p(ωᵢ) = 1 / 2π: every direction of the hemisphere alike."),
     (Directions::Cosine, "Cosine", "p(ωᵢ) = cos θ / π: cancels the cosine of the equation, so there is less noise."),
-    (Directions::Bsdf, "Bsdf", "p(ωᵢ) in proportion to f cos θ, which at a diffuse surface is the cosine."),
+    (Directions::Bsdf, "BSDF", "p(ωᵢ) in proportion to f cos θ, which at a diffuse surface is the cosine."),
 ];
 
 impl App {
@@ -66,19 +67,26 @@ impl App {
             row(ui, "Roulette", "Ends paths at random and weights the survivors by 1/q: shorter paths, no bias.", |ui, label| {
                 roulette(ui, label, &mut settings.roulette);
             });
+            if let Roulette::Fixed(q) = &mut settings.roulette {
+                row(ui, "Survival", "The probability q with which a path goes on after a reflection.", |ui, label| {
+                    let slider = number::slider(ui, q, 3, 0.05..=1.0);
+                    ui.add(slider).labelled_by(label);
+                });
+            }
             row(
                 ui,
                 "Bounce cap",
                 "The highest number of reflections counted. A cap leaves light out: the picture is biased.",
                 |ui, label| {
-                    optional(ui, label, &mut settings.max_bounces, "no cap", DEFAULT_CAP, 0..=4096);
+                    optional(ui, label, &mut settings.max_bounces, ("no cap", "reflections"), DEFAULT_CAP, 0.0..=4096.0);
                 },
             );
             row(ui, "Seed", "Another seed gives another picture, with other noise.", |ui, label| {
-                ui.add(DragValue::new(&mut settings.seed)).labelled_by(label);
+                let field = number::field(ui, &mut settings.seed, 0, 0.0..=u32::MAX.into());
+                ui.add(field).labelled_by(label);
             });
             row(ui, "Stop at", "Samples per pixel at which the render stops. Changing it never restarts.", |ui, label| {
-                optional(ui, label, &mut self.budget.max_spp, "never", DEFAULT_TARGET, 1..=1 << 24);
+                optional(ui, label, &mut self.budget.max_spp, ("never", "spp"), DEFAULT_TARGET, 1.0..=16_777_216.0);
             });
         });
     }
@@ -102,22 +110,29 @@ fn roulette(ui: &mut Ui, label: Id, roulette: &mut Roulette) {
             }
         });
         combo.response.labelled_by(label);
-        if let Roulette::Fixed(q) = roulette {
-            ui.add(Slider::new(q, 0.05..=1.0).clamping(SliderClamping::Edits).max_decimals(3).text("q"))
-                .on_hover_text("Survival probability");
-        }
     });
 }
 
-/// A number that may be absent.
-fn optional(ui: &mut Ui, label: Id, value: &mut Option<u32>, none: &str, default: u32, range: RangeInclusive<u32>) {
+/// A number that may be absent, and what is said without and behind it.
+fn optional(
+    ui: &mut Ui,
+    label: Id,
+    value: &mut Option<u32>,
+    (none, unit): (&str, &str),
+    default: u32,
+    range: RangeInclusive<f64>,
+) {
     ui.horizontal(|ui| {
         let mut present = value.is_some();
         if ui.checkbox(&mut present, "").labelled_by(label).changed() {
             *value = present.then_some(default);
         }
         match value {
-            Some(number) => drop(ui.add(DragValue::new(number).range(range).clamp_existing_to_range(false)).labelled_by(label)),
+            Some(number) => {
+                let field = number::field(ui, number, 0, range);
+                ui.add(field).labelled_by(label);
+                ui.weak(if *number == 1 { unit.trim_end_matches('s') } else { unit });
+            }
             None => drop(ui.weak(none)),
         }
     });

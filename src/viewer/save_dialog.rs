@@ -1,40 +1,10 @@
-//! Where to save the picture: a path that can be typed, and a file dialog that fills it in.
-use std::{path::PathBuf, sync::mpsc};
+//! Where to save the picture.
+use std::path::PathBuf;
 
-use egui::{Align2, Button, RichText, TextEdit};
+use egui::{Align2, Button, RichText};
 use noisefall::render::{image_file::check_target, settings_text::settings_text};
 
-use super::{app::App, saver::Request};
-
-pub struct SaveDialog {
-    path: String,
-    picked: (mpsc::Sender<PathBuf>, mpsc::Receiver<PathBuf>),
-    focus: bool,
-    /// Why the path cannot be written to.
-    refusal: Option<String>,
-}
-
-impl SaveDialog {
-    pub fn new(path: String) -> SaveDialog {
-        SaveDialog { path, picked: mpsc::channel(), focus: true, refusal: None }
-    }
-
-    fn set_extension(&mut self, extension: &str) {
-        self.path = PathBuf::from(&self.path).with_extension(extension).display().to_string();
-    }
-
-    fn browse(&self, ctx: &egui::Context) {
-        let (sender, ctx, start) = (self.picked.0.clone(), ctx.clone(), PathBuf::from(&self.path));
-        std::thread::spawn(move || {
-            let name = start.file_name().unwrap_or_default().to_string_lossy().into_owned();
-            let dialog = rfd::FileDialog::new().set_file_name(name).add_filter("PNG or EXR", &["png", "exr"]);
-            if let Some(path) = dialog.save_file() {
-                let _ = sender.send(path);
-                ctx.request_repaint();
-            }
-        });
-    }
-}
+use super::{app::App, path_field::PathField, saver::Request};
 
 impl App {
     /// Whether what is shown is the full picture of what the controls say.
@@ -44,43 +14,35 @@ impl App {
 
     pub(super) fn open_save_dialog(&mut self) {
         if self.save_dialog.is_none() {
-            self.save_dialog = Some(SaveDialog::new(self.suggested_path()));
+            self.save_dialog = Some(PathField::new(self.suggested_path().display().to_string(), "path/to/picture.png"));
         }
     }
 
-    /// The name of the last picture, or one made from the scene's.
-    fn suggested_path(&self) -> String {
-        if let Some(path) = &self.last_saved {
-            return path.display().to_string();
-        }
+    /// A name that is not taken, after the last picture of this scene or after the scene.
+    fn suggested_path(&self) -> PathBuf {
         let of_file = self.opened.as_ref().and_then(|opened| opened.path.as_ref()?.file_stem()?.to_str().map(str::to_owned));
         let name = format!("{}.png", of_file.unwrap_or_else(|| "cornell_spheres".to_owned()));
-        std::env::current_dir().map_or_else(|_| name.clone(), |folder| folder.join(&name).display().to_string())
+        let path = self.last_saved.clone();
+        free(&path.unwrap_or_else(|| std::env::current_dir().map_or_else(|_| name.clone().into(), |folder| folder.join(&name))))
     }
 
     pub(super) fn save_dialog(&mut self, ctx: &egui::Context) {
-        let Some(mut dialog) = self.save_dialog.take() else { return };
-        if let Ok(path) = dialog.picked.1.try_recv() {
-            dialog.path = path.display().to_string();
-        }
-        let (mut save, mut open) = (false, true);
-        let mut cancelled = false;
+        let Some(mut field) = self.save_dialog.take() else { return };
+        let (mut open, mut save, mut cancelled) = (true, false, false);
         egui::Window::new("Save picture")
             .open(&mut open)
             .collapsible(false)
             .resizable(false)
             .anchor(Align2::CENTER_CENTER, [0.0, 0.0])
-            .show(ctx, |ui| {
-                (save, cancelled) = dialog_body(ui, &mut dialog);
-            });
-        let path = PathBuf::from(dialog.path.trim());
-        if save && self.can_save() {
-            dialog.refusal = check_target(&path).err().map(|error| error.to_string());
+            .show(ctx, |ui| (save, cancelled) = dialog_body(ui, &mut field));
+        if let Some(path) = field.path().filter(|_| save) {
+            match check_target(&path) {
+                Ok(()) => return self.save_to(path),
+                Err(error) => field.refusal = Some(error.to_string()),
+            }
         }
-        if save && dialog.refusal.is_none() {
-            self.save_to(path);
-        } else if open && !cancelled {
-            self.save_dialog = Some(dialog);
+        if open && !cancelled {
+            self.save_dialog = Some(field);
         }
     }
 
@@ -96,40 +58,41 @@ impl App {
     }
 }
 
-/// Whether to save, and whether to close.
-fn dialog_body(ui: &mut egui::Ui, dialog: &mut SaveDialog) -> (bool, bool) {
+/// The path, or the first of `name-2`, `name-3`, … that is not taken.
+fn free(path: &std::path::Path) -> PathBuf {
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    // A number that was added here before is counted on.
+    let stem = stem.rsplit_once('-').filter(|(_, n)| n.parse::<u32>().is_ok()).map_or(&*stem, |(stem, _)| stem);
+    let extension = path.extension().unwrap_or_default().to_string_lossy();
+    let numbered = (2..10_000).map(|n| path.with_file_name(format!("{stem}-{n}.{extension}")));
+    std::iter::once(path.to_owned()).chain(numbered).find(|path| !path.exists()).unwrap_or_else(|| path.to_owned())
+}
+
+/// Whether to save, and whether to close. A file is replaced by the button that says so, never by Enter.
+fn dialog_body(ui: &mut egui::Ui, field: &mut PathField) -> (bool, bool) {
     ui.set_width(460.0);
     ui.label("PNG is the picture as shown; EXR is linear radiance. Both carry the settings.");
     ui.add_space(4.0);
-    let field = ui.add(TextEdit::singleline(&mut dialog.path).hint_text("path/to/picture.png").desired_width(f32::INFINITY));
-    if std::mem::take(&mut dialog.focus) {
-        field.request_focus();
-    }
-    let entered = field.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
-    let exists = PathBuf::from(dialog.path.trim()).exists();
-    if field.changed() {
-        dialog.refusal = None;
-    }
-    match &dialog.refusal {
-        Some(refusal) => ui.colored_label(ui.visuals().error_fg_color, refusal),
-        None if exists => ui.colored_label(ui.visuals().warn_fg_color, "This file exists and will be replaced."),
-        None => ui.label(" "),
-    };
-    let (mut save, mut cancel) = (entered, false);
+    let entered = field.show(ui);
+    let exists = field.path().is_some_and(|path| path.is_file());
+    field.remark(ui, if exists { "This file exists. Replace it?" } else { "" });
+    let (mut save, mut cancel) = (entered && !exists, false);
     ui.horizontal(|ui| {
-        let is_exr = dialog.path.trim().to_ascii_lowercase().ends_with(".exr");
-        if ui.selectable_label(!is_exr, "PNG").clicked() {
-            dialog.set_extension("png");
+        let is_exr = field.path.trim().to_ascii_lowercase().ends_with(".exr");
+        for (name, extension, chosen) in [("PNG", "png", !is_exr), ("EXR", "exr", is_exr)] {
+            if ui.selectable_label(chosen, name).clicked() {
+                field.path = PathBuf::from(&field.path).with_extension(extension).display().to_string();
+                field.refusal = None;
+            }
         }
-        if ui.selectable_label(is_exr, "EXR").clicked() {
-            dialog.set_extension("exr");
-        }
-        if ui.button("Browse…").on_hover_text("If no file dialog appears on your system, type the path").clicked() {
-            dialog.browse(ui.ctx());
-        }
+        let name = field.path().and_then(|path| path.file_name().map(|name| name.to_string_lossy().into_owned()));
+        field.browse(ui, |dialog| {
+            let dialog = dialog.add_filter("PNG or EXR", &["png", "exr"]);
+            name.into_iter().fold(dialog, rfd::FileDialog::set_file_name).save_file()
+        });
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            let name = RichText::new("Save").strong();
-            save |= ui.add_enabled(!dialog.path.trim().is_empty(), Button::new(name)).clicked();
+            let name = RichText::new(if exists { "Replace" } else { "Save" }).strong();
+            save |= ui.add_enabled(field.path().is_some(), Button::new(name)).clicked();
             cancel = ui.button("Cancel").clicked();
         });
     });

@@ -1,9 +1,12 @@
 //! Which scene is shown.
 use std::path::PathBuf;
 
-use egui::{Align, ComboBox, Layout, RichText};
+use egui::{Align, Button, ComboBox, Layout, RichText, vec2};
 
-use super::app::App;
+use super::{app::App, catalogue::in_full, loader::BUILT_IN_NAME};
+
+/// The height of a row of the list: more than its text needs, so that all are alike.
+const ROW: f32 = 26.0;
 
 impl App {
     pub(super) fn scene_panel(&mut self, ui: &mut egui::Ui) {
@@ -14,9 +17,10 @@ impl App {
             // From the right, so that the button has its place and a long title is cut by what is left.
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 if ui.button("Open…").on_hover_text("Choose a scene file").clicked() {
-                    self.pick_scene_file();
+                    self.open_open_dialog();
                 }
-                let combo = ComboBox::from_id_salt("Scene").selected_text(name).width(ui.available_width()).height(400.0);
+                let height = self.height_of_list(ui);
+                let combo = ComboBox::from_id_salt("Scene").selected_text(name).width(ui.available_width()).height(height);
                 let combo = combo.truncate().show_ui(ui, |ui| chosen = self.scene_list(ui));
                 combo.response.labelled_by(label.id);
             });
@@ -28,42 +32,47 @@ impl App {
             if !opened.scene.notes.is_empty() {
                 ui.label(RichText::new(&opened.scene.notes).weak());
             }
-            for warning in opened.scene.warnings() {
+            let mut warnings = opened.scene.warnings();
+            if !opened.scene.lights.is_empty() {
+                warnings.extend(self.why_black());
+            }
+            for warning in warnings {
                 ui.label(RichText::new(format!("Note: {warning}.")).color(ui.visuals().warn_fg_color));
             }
         }
     }
 
+    /// The height of the list: of all its rows, or of as many whole ones as there is room for.
+    fn height_of_list(&self, ui: &egui::Ui) -> f32 {
+        const AROUND: f32 = 110.0;
+        let fit = ((ui.ctx().content_rect().height() - AROUND) / ROW).floor().max(3.0);
+        ROW * fit.min(self.catalogue.len() as f32 + 1.0)
+    }
+
     /// The scenes to choose from; `Some(None)` is the built-in one.
     fn scene_list(&self, ui: &mut egui::Ui) -> Option<Option<PathBuf>> {
-        let open = self.opened.as_ref().map(|opened| opened.path.as_deref());
+        // Rows touch: a click between two of them would close the list and choose nothing.
+        ui.spacing_mut().item_spacing.y = 0.0;
+        let row = |marked, name: &str| Button::selectable(marked, name.to_owned()).min_size(vec2(0.0, ROW));
+        let open = self.opened.as_ref().map(|opened| opened.path.as_deref().map(in_full));
         let mut chosen = None;
-        if ui.selectable_label(open == Some(None), "built-in Cornell box").clicked() {
+        if ui.add(row(open == Some(None), BUILT_IN_NAME)).clicked() {
             chosen = Some(None);
         }
-        for (name, path) in &self.catalogue {
-            if ui.selectable_label(open == Some(Some(path.as_path())), name).clicked() {
-                chosen = Some(Some(path.clone()));
+        for entry in &self.catalogue {
+            let is_open = open.as_ref().is_some_and(|open| open.as_ref() == Some(&entry.path));
+            let label = ui.add(row(is_open, &entry.name));
+            if label.on_hover_text(entry.path.display().to_string()).clicked() {
+                chosen = Some(Some(entry.path.clone()));
             }
         }
         chosen
     }
 
-    /// A file dialog on a thread of its own; what is chosen arrives like a dropped file.
-    fn pick_scene_file(&self) {
-        let (sender, ctx) = (self.picked.0.clone(), self.ctx.clone());
-        std::thread::spawn(move || {
-            if let Some(path) = rfd::FileDialog::new().add_filter("Noisefall scene", &["toml"]).pick_file() {
-                let _ = sender.send(path);
-                ctx.request_repaint();
-            }
-        });
-    }
-
-    /// Scene files dropped on the window or chosen in a dialog.
-    pub(super) fn open_picked_files(&mut self) {
+    /// Scene files dropped on the window.
+    pub(super) fn open_dropped_file(&mut self) {
         let dropped = self.ctx.input(|input| input.raw.dropped_files.first().map(|file| file.path().to_owned()));
-        if let Some(path) = dropped.or_else(|| self.picked.1.try_recv().ok()) {
+        if let Some(path) = dropped {
             self.loader.open(Some(path));
         }
     }

@@ -8,11 +8,10 @@ use noisefall::{
     scene::RenderSettings,
 };
 
-use super::app::App;
-
-const GREEN: Color32 = Color32::from_rgb(80, 180, 110);
-const AMBER: Color32 = Color32::from_rgb(222, 160, 60);
-const RED: Color32 = Color32::from_rgb(228, 96, 88);
+use super::{
+    app::App,
+    look::{AMBER, GREEN, RED},
+};
 
 impl App {
     pub(super) fn status_bar(&self, ui: &mut egui::Ui) {
@@ -26,6 +25,11 @@ impl App {
                 return;
             }
             ui.separator();
+            if let Err(error) = self.camera.check() {
+                ui.label(RichText::new("this camera cannot take a picture; the last one is shown").color(AMBER))
+                    .on_hover_text(error.to_string());
+                return;
+            }
             let target = self.budget.max_spp.map_or_else(String::new, |most| format!(" / {most}"));
             ui.label(format!("{}{target} spp", status.spp)).on_hover_text("Samples per pixel so far, and the target");
             ui.separator();
@@ -45,6 +49,7 @@ impl App {
     fn state_text(&self) -> (Color32, &'static str) {
         match self.status.state {
             _ if self.loader.is_busy() => (AMBER, "Opening"),
+            _ if self.camera.check().is_err() => (AMBER, "Invalid settings"),
             State::Idle => (Color32::GRAY, "No scene"),
             State::Running => (GREEN, "Running"),
             State::Paused => (AMBER, "Paused"),
@@ -54,6 +59,10 @@ impl App {
     }
 
     fn noise_label(&self, ui: &mut egui::Ui) {
+        if let Some(why) = self.why_black() {
+            ui.label(RichText::new("no light found yet").color(AMBER)).on_hover_text(format!("All samples are black: {why}"));
+            return;
+        }
         let text = self.status.relative_noise().map_or_else(|| "–".to_owned(), percent);
         ui.label(format!("noise {text}")).on_hover_text(
             "Estimated relative error: the root of relMSE, from the variance of every pixel's samples. \
@@ -65,7 +74,14 @@ impl App {
         if let Some(rel_mse) = self.true_rel_mse {
             ui.label(format!("true error {}", percent(rel_mse.sqrt())))
                 .on_hover_text("Root of relMSE against the exact picture that the scene names");
+        } else if let Some(mismatch) = self.mismatch() {
+            ui.label(RichText::new("true error unknown").color(AMBER)).on_hover_text(mismatch);
         }
+    }
+
+    /// Why the picture cannot be held against the one that the scene names.
+    fn mismatch(&self) -> Option<String> {
+        self.opened.as_ref()?.truth.as_ref()?.mismatch(self.camera.resolution)
     }
 
     fn bias_label(&self, ui: &mut egui::Ui) {

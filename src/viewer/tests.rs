@@ -1,4 +1,7 @@
 //! The window itself, driven as a user would: change a control, see the effect.
+mod fields;
+mod scenes;
+
 use std::{
     ops::{Deref, DerefMut},
     path::PathBuf,
@@ -10,6 +13,7 @@ use egui_kittest::{
     Harness,
     kittest::{NodeT, Queryable},
 };
+use glam::DVec3;
 use noisefall::{
     math::SimdLevel,
     render::{State, ToneMap, image_file, pass::Threads},
@@ -142,7 +146,7 @@ fn every_setting_of_the_estimate_starts_a_new_picture() {
     restarts(&mut window, "fixed roulette", |w| choose(w, "Roulette", "Fixed probability"));
     assert!(matches!(window.state().settings.roulette, Roulette::Fixed(_)));
     restarts(&mut window, "another survival probability", |w| {
-        w.get_by_role_and_label(Role::Slider, "q").set_value_accesskit(0.5);
+        w.get_by_role_and_label(Role::Slider, "Survival").set_value_accesskit(0.5);
         w.run_steps(2);
     });
     assert_eq!(window.state().settings.roulette, Roulette::Fixed(0.5));
@@ -413,10 +417,10 @@ fn a_bad_scene_shows_its_diagnostic_and_the_window_lives_on() {
 #[test]
 fn scenes_are_chosen_from_the_list() {
     let mut window = window("furnace");
-    assert!(window.state().catalogue.iter().any(|(name, _)| name == "tiny lamp"));
+    assert!(window.state().catalogue.iter().any(|entry| entry.name.starts_with("Tiny lamp")));
     window.get_by_role_and_label(Role::ComboBox, "Scene").click();
     window.run_steps(3);
-    click(&mut window, "bright sky");
+    click(&mut window, "Bright sky: fast to converge");
     wait(&mut window, "the other scene", |app| app.opened.as_ref().is_some_and(|opened| opened.name.starts_with("Bright sky")));
 }
 

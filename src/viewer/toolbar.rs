@@ -10,8 +10,10 @@ impl App {
             self.render_buttons(ui);
             ui.separator();
             self.tool_buttons(ui);
-            ui.separator();
-            self.zoom_buttons(ui);
+            if self.shown.is_some() {
+                ui.separator();
+                self.zoom_buttons(ui);
+            }
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                 if ui.button("Help").on_hover_text("Keyboard and mouse (F1)").clicked() {
                     self.help_open = !self.help_open;
@@ -66,7 +68,7 @@ impl App {
             self.open_save_dialog();
         }
         if ctx.input(|input| input.key_pressed(Key::Escape)) {
-            (self.help_open, self.save_dialog) = (false, None);
+            (self.help_open, self.save_dialog, self.open_dialog) = (false, None, None);
         }
         if ctx.input(|input| input.key_pressed(Key::F1)) {
             self.help_open = !self.help_open;

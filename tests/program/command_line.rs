@@ -6,32 +6,32 @@ use std::{
 
 use super::scene_files::shipped_scenes;
 
-struct Shell {
+pub(super) struct Shell {
     folder: tempfile::TempDir,
 }
 
 impl Shell {
-    fn new() -> Shell {
+    pub(super) fn new() -> Shell {
         Shell { folder: tempfile::tempdir().expect("a folder") }
     }
 
-    fn path(&self, name: &str) -> PathBuf {
+    pub(super) fn path(&self, name: &str) -> PathBuf {
         self.folder.path().join(name)
     }
 
     /// Runs the program in the folder, without a display.
-    fn run(&self, arguments: &[&str]) -> Output {
+    pub(super) fn run(&self, arguments: &[&str]) -> Output {
         let mut command = Command::new(env!("CARGO_BIN_EXE_noisefall"));
         command.args(arguments).current_dir(self.folder.path()).env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY");
         command.output().expect("the program starts")
     }
 }
 
-fn scene(name: &str) -> String {
+pub(super) fn scene(name: &str) -> String {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(format!("{name}.toml")).display().to_string()
 }
 
-fn text(bytes: &[u8]) -> String {
+pub(super) fn text(bytes: &[u8]) -> String {
     String::from_utf8_lossy(bytes).into_owned()
 }
 
@@ -176,11 +176,20 @@ fn failures_exit_with_1_and_say_why_and_wrong_usage_with_2() {
     fails(&["render", &furnace, "-o", "folder.png"], 1, "it is a folder");
     fails(&["render", &furnace, "-o", "out.png", "--estimator", "foo"], 2, "path, light or mis");
     fails(&["render", &furnace], 2, "--output");
+    fails(&["render", &furnace], 2, "-o <OUTPUT>");
     fails(&["render", &furnace, "-o", "out.png", "--spp", "0"], 2, "--spp");
     fails(&["render", &furnace, "-o", "out.png", "--sampler", "halton"], 2, "independent, stratified, sobol");
     fails(&["render", &furnace, "-o", "out.png", "--roulette", "2"], 2, "survival probability");
     fails(&["compare", "a.exr", "b.exr"], 1, "cannot be read");
     fails(&["check"], 2, "SCENES");
+    fails(&["render", &furnace, "--pixel", "1,1", "-o", "out.png"], 2, "cannot be used with");
+    fails(&["render", &furnace, "-o", "out.png", "--spp", "1e3"], 2, "expected a whole number");
+    for (option, value) in [("--seed", "-1"), ("--time", "-1"), ("--noise", "-0.1"), ("--roulette", "-1"), ("--size", "-1x5")] {
+        fails(&["render", &furnace, "-o", "out.png", option, value], 2, "invalid value");
+    }
+    fails(&["render", &furnace, "--pixel", "-1,5"], 2, "invalid value '-1,5'");
+    fails(&["rendr", &furnace], 2, "there is no command `rendr`; did you mean `render`?");
+    fails(&["paint", &furnace], 2, "there is no command `paint`");
 }
 
 #[test]

@@ -1,8 +1,10 @@
 //! The program as its users meet it: scene files, command line, worker, and the structure of the source.
 mod command_line;
+mod command_notes;
 mod layers;
 mod pictures;
 mod scene_files;
+mod scene_messages;
 mod shapes;
 mod textures;
 mod worker;

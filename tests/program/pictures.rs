@@ -57,6 +57,14 @@ fn what_cannot_be_written_is_said_and_leaves_nothing_behind() {
 }
 
 #[test]
+#[cfg(target_os = "linux")]
+fn names_of_temporary_files_are_not_told() {
+    // No file can be made there, whoever tries.
+    let error = check_target(std::path::Path::new("/proc/picture.png")).expect_err("it fails").to_string();
+    assert!(error.contains("/proc/picture.png: cannot be written") && !error.contains(".part"), "{error}");
+}
+
+#[test]
 fn what_is_no_picture_is_refused() {
     let folder = tempfile::tempdir().expect("a folder");
     for name in ["broken.png", "broken.exr"] {

@@ -39,13 +39,13 @@ fn degenerate_shapes_are_refused() {
 fn transforms_that_cannot_be_are_refused() {
     transform("{ scale = 0.0 }", "cannot be inverted");
     transform("{ scale = [1.0, 0.0, 1.0] }", "cannot be inverted");
-    transform("{ scale = [1.0, 2.0] }", "2 numbers in place of 3");
+    transform("{ scale = [1.0, 2.0] }", "expected a list of 3, found 2 values");
     transform("{ scale = nan }", "is not finite");
     transform("{ translate = [0.0, inf, 0.0] }", "is not finite");
     transform("{ rotate = { axis = [0.0, 0.0, 0.0], degrees = 3.0 } }", "has no direction");
     transform("{ matrix = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 2]] }", "not affine");
     transform("{ matrix = [[1, 2, 3, 0], [2, 4, 6, 0], [0, 0, 1, 0], [0, 0, 0, 1]] }", "cannot be inverted");
-    transform("{ matrix = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]] }", "in place of 4");
+    transform("{ matrix = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]] }", "expected a list of 4, found 3 values");
     transform("{ scale = 1e11 }, { scale = 1e11 }", "after its transforms the sphere reaches");
     transform("{ spin = 1.0 }", "spin");
 }

@@ -62,9 +62,9 @@ fn textures_say_exactly_one_kind() {
     texture("", "texture `t` says no kind");
     let noise = "noise = { scale = 1, octaves = 1, low = 0, high = 1 }";
     texture(&format!("{noise}\nchecker = {{ even = 0, odd = 1, scale = 1 }}"), "says more than one kind");
-    texture("marble = { scale = 1 }", "unknown field `marble`");
-    texture("image = { path = \"a.png\", encoding = \"gamma\" }", "unknown variant `gamma`");
-    texture("image = {}", "missing field `path`");
+    texture("marble = { scale = 1 }", "unknown key `marble`");
+    texture("image = { path = \"a.png\", encoding = \"gamma\" }", "unknown value `gamma`");
+    texture("image = {}", "missing key `path`");
 }
 
 #[test]
@@ -74,8 +74,8 @@ fn parameters_out_of_range_are_refused() {
     texture(&checker("[1, 2]", "1"), "expected a colour");
     texture(&checker("-1", "1"), "`colour` is out of range");
     texture(&checker("nan", "1"), "`colour` is out of range");
-    texture(&checker("{ name = \"x\" }", "1"), "unknown field `name`");
-    texture(&checker("{}", "1"), "missing field `texture`");
+    texture(&checker("{ name = \"x\" }", "1"), "unknown key `name`");
+    texture(&checker("{}", "1"), "missing key `texture`");
     for scale in ["0", "-1", "nan", "inf", "1e9"] {
         texture(&checker("0.5", scale), "`scale` is out of range");
     }

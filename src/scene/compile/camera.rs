@@ -40,7 +40,7 @@ pub fn camera(check: &Checker, desc: &Spanned<CameraDesc>) -> Result<Camera, Sce
         shutter: c.shutter.as_ref().map(|shutter| opens(check, shutter)).transpose()?.unwrap_or(false),
         resolution: c.resolution.as_ref().0,
     };
-    camera.check().map_err(|error| check.0.error(place(desc, error), error.to_string(), "here"))?;
+    camera.check().map_err(|error| check.0.error(place(desc, error), error.to_string(), label(error)))?;
     // A lens without extent is a pinhole.
     Ok(Camera { lens: camera.lens.filter(|lens| lens.radius > 0.0), ..camera })
 }
@@ -55,6 +55,21 @@ fn opens(check: &Checker, shutter: &Spanned<Exactly<f64, 2>>) -> Result<bool, Sc
     Err(check.0.error(shutter.span(), message, "expected two times, the earlier one first"))
 }
 
+/// What stands at the key that an error is about.
+fn label(error: CameraError) -> &'static str {
+    match error {
+        CameraError::Resolution => "width and height in pixels",
+        CameraError::Fov => "degrees",
+        CameraError::NotFinite => "not a finite number",
+        CameraError::NoDirection => "the same as `eye`",
+        CameraError::UpIsForward => "choose another direction",
+        CameraError::UpIsZero => "a direction, such as [0, 1, 0]",
+        CameraError::Width | CameraError::LensRadius | CameraError::Focus => "metres",
+        CameraError::LensOrthographic => "remove it, or the projection",
+        CameraError::Filter => "pixels",
+    }
+}
+
 /// The key that an error is about.
 fn place(desc: &Spanned<CameraDesc>, error: CameraError) -> std::ops::Range<usize> {
     let c = desc.as_ref();
@@ -62,7 +77,7 @@ fn place(desc: &Spanned<CameraDesc>, error: CameraError) -> std::ops::Range<usiz
         CameraError::Resolution => Some(c.resolution.span()),
         CameraError::Fov | CameraError::NotFinite => c.fov.as_ref().map(Spanned::span),
         CameraError::NoDirection => Some(c.look_at.span()),
-        CameraError::UpIsForward => Some(c.up.as_ref().unwrap_or(&c.look_at).span()),
+        CameraError::UpIsForward | CameraError::UpIsZero => Some(c.up.as_ref().unwrap_or(&c.look_at).span()),
         CameraError::Width => c.projection.as_ref().map(Spanned::span),
         CameraError::LensRadius | CameraError::Focus | CameraError::LensOrthographic => c.lens.as_ref().map(Spanned::span),
         CameraError::Filter => c.filter.as_ref().map(Spanned::span),

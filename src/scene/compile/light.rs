@@ -41,7 +41,11 @@ pub fn background(check: &Checker, desc: &Spanned<BackgroundDesc>) -> Result<Opt
             }
             Ok(Some(Background::Image(background)))
         }
-        _ => Err(check.0.error(desc.span(), "`background` must say either `radiance` or `image`", "here")),
+        _ => Err(check.0.error(
+            desc.span(),
+            "`background` must say either `radiance` or `image`",
+            "exactly one of them must be given here",
+        )),
     }
 }
 

@@ -1,15 +1,20 @@
 //! The settings a scene opens with, and what its picture must converge to.
+use std::sync::Arc;
+
 use toml::Spanned;
 
-use crate::scene::{
-    RenderSettings, Roulette, Truth,
-    check::Checker,
-    desc::{RenderDesc, TruthDesc},
-    diagnostic::SceneError,
+use crate::{
+    image::{Encoding, read},
+    scene::{
+        RenderSettings, Roulette, Truth,
+        check::Checker,
+        desc::{RenderDesc, TruthDesc},
+        diagnostic::SceneError,
+    },
 };
 
 pub fn settings(check: &Checker, desc: &RenderDesc) -> Result<(RenderSettings, Option<u32>), SceneError> {
-    let roulette = desc.roulette.as_ref().map_or(Roulette::default(), |r| *r.as_ref());
+    let roulette = desc.roulette.as_ref().map_or(Roulette::default(), |r| r.as_ref().0);
     if let (Roulette::Fixed(p), Some(r)) = (roulette, &desc.roulette)
         && !(Roulette::LEAST..=1.0).contains(&p)
     {
@@ -34,11 +39,14 @@ pub fn truth(check: &Checker, desc: &Spanned<TruthDesc>) -> Result<Truth, SceneE
         (Some(radiance), None) => Ok(Truth::Radiance(check.radiance(radiance)?)),
         (None, Some(image)) => {
             let path = check.path(image);
-            if !path.is_file() {
-                return Err(check.0.error(image.span(), format!("there is no file {}", path.display()), "not found"));
-            }
-            Ok(Truth::Image(path))
+            let picture = read(&path, Encoding::Srgb)
+                .map_err(|error| check.0.error(image.span(), error.to_string(), "this picture cannot be used"))?;
+            Ok(Truth::Image(path, Arc::new(picture)))
         }
-        _ => Err(check.0.error(desc.span(), "`truth` must say either `radiance` or `image`", "here")),
+        _ => Err(check.0.error(
+            desc.span(),
+            "`truth` must say either `radiance` or `image`",
+            "exactly one of them must be given here",
+        )),
     }
 }

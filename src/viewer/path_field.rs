@@ -1,0 +1,75 @@
+//! A path that can be typed, and a file dialog of the system that fills it in.
+use std::{
+    path::PathBuf,
+    sync::mpsc,
+    time::{Duration, Instant},
+};
+
+use egui::{Key, RichText, TextEdit, Ui};
+
+/// Nobody can dismiss a dialog sooner: there was none.
+const TOO_SOON: Duration = Duration::from_millis(300);
+const NO_DIALOG: &str = "This system offers no file dialog (a desktop portal or zenity): type the path.";
+
+pub struct PathField {
+    pub path: String,
+    pub hint: &'static str,
+    /// What is wrong with the path.
+    pub refusal: Option<String>,
+    /// What the file dialog gave: nothing where there is none.
+    picked: (mpsc::Sender<Option<PathBuf>>, mpsc::Receiver<Option<PathBuf>>),
+    focus: bool,
+}
+
+impl PathField {
+    pub fn new(path: String, hint: &'static str) -> PathField {
+        PathField { path, hint, refusal: None, picked: mpsc::channel(), focus: true }
+    }
+
+    /// The path without the spaces around it, if there is one.
+    pub fn path(&self) -> Option<PathBuf> {
+        let path = self.path.trim();
+        (!path.is_empty()).then(|| PathBuf::from(path))
+    }
+
+    /// The field; whether Enter was pressed in it.
+    pub fn show(&mut self, ui: &mut Ui) -> bool {
+        match self.picked.1.try_recv() {
+            Ok(Some(path)) => (self.path, self.refusal) = (path.display().to_string(), None),
+            Ok(None) => self.refusal = Some(NO_DIALOG.to_owned()),
+            Err(_) => {}
+        }
+        let field = ui.add(TextEdit::singleline(&mut self.path).hint_text(self.hint).desired_width(f32::INFINITY));
+        if std::mem::take(&mut self.focus) {
+            field.request_focus();
+        }
+        if field.changed() {
+            self.refusal = None;
+        }
+        field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter))
+    }
+
+    /// What is wrong with the path, or else this remark, in a line that is there even when it is empty.
+    pub fn remark(&self, ui: &mut Ui, remark: &str) {
+        match &self.refusal {
+            Some(refusal) => ui.colored_label(ui.visuals().error_fg_color, refusal),
+            None => ui.label(RichText::new(if remark.is_empty() { " " } else { remark }).color(ui.visuals().warn_fg_color)),
+        };
+    }
+
+    /// The button that asks the system for a path, on a thread of its own.
+    pub fn browse(&self, ui: &mut Ui, ask: impl FnOnce(rfd::FileDialog) -> Option<PathBuf> + Send + 'static) {
+        if !ui.button("Browse…").on_hover_text("Choose it in a file dialog").clicked() {
+            return;
+        }
+        let (sender, ctx) = (self.picked.0.clone(), ui.ctx().clone());
+        std::thread::spawn(move || {
+            let start = Instant::now();
+            let path = ask(rfd::FileDialog::new());
+            if path.is_some() || start.elapsed() < TOO_SOON {
+                let _ = sender.send(path);
+                ctx.request_repaint();
+            }
+        });
+    }
+}

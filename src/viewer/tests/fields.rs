@@ -1,0 +1,102 @@
+//! Fields that are typed into: numbers, and paths of files.
+use super::*;
+
+/// Clicks into a field of numbers, the one of its name that has this place.
+fn enter(window: &mut Window, label: &str, place: usize) {
+    let field = window.get_all_by_role_and_label(Role::SpinButton, label).nth(place).expect("there is such a field");
+    field.click();
+    window.run_steps(4);
+}
+
+fn type_text(window: &mut Window, text: &str) {
+    window.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    window.event(egui::Event::Text(text.to_owned()));
+    window.run_steps(3);
+}
+
+#[test]
+fn a_field_that_is_only_looked_into_changes_nothing() {
+    let mut window = window("cornell_spheres");
+    let odd = DVec3::new(-0.123_456_789, 1.364_251, 12_345.678_912);
+    restarts(&mut window, "an eye of many decimals", |w| {
+        w.state_mut().camera.eye = odd;
+        w.state_mut().camera.lens = Some(Lens { radius: 0.012_345_6, focus: 4.417_23 });
+        w.state_mut().camera.fov = 0.5;
+        w.run_steps(3);
+    });
+    for (label, place) in [("Eye", 0), ("Eye", 1), ("Eye", 2), ("Lens radius", 0), ("Focus", 0), ("Seed", 0), ("Resolution", 0)] {
+        for end in [Key::Escape, Key::Enter, Key::Tab] {
+            never_restarts(&mut window, |w| {
+                enter(w, label, place);
+                w.key_press(end);
+                w.run_steps(3);
+            });
+        }
+    }
+    never_restarts(&mut window, |w| {
+        enter(w, "Eye", 1);
+        enter(w, "Look at", 1);
+        w.key_press(Key::Escape);
+        w.run_steps(3);
+    });
+    assert_eq!((window.state().camera.eye, window.state().camera.fov), (odd, 0.5));
+}
+
+#[test]
+fn a_typed_number_counts_when_it_is_entered_and_escape_gives_it_up() {
+    let mut window = window("cornell_spheres");
+    never_restarts(&mut window, |w| {
+        enter(w, "Eye", 1);
+        type_text(w, "7.5");
+        w.key_press(Key::Escape);
+        w.run_steps(1);
+        w.run_steps(3);
+    });
+    restarts(&mut window, "another eye", |w| {
+        enter(w, "Eye", 1);
+        type_text(w, "2.5");
+        w.key_press(Key::Enter);
+        w.run_steps(3);
+    });
+    assert_eq!(window.state().camera.eye.y, 2.5);
+}
+
+#[test]
+fn a_scene_can_be_opened_by_its_path() {
+    let mut window = window("furnace");
+    click(&mut window, "Open…");
+    window.get_by_role(Role::TextInput).set_text_value_accesskit("/nowhere/at/all.toml");
+    window.run_steps(3);
+    click(&mut window, "Open");
+    assert!(window.query_by_label_contains("There is no file").is_some());
+    window.get_by_role(Role::TextInput).set_text_value_accesskit(&shipped("bright_sky").display().to_string());
+    window.run_steps(3);
+    click(&mut window, "Open");
+    assert!(window.state().open_dialog.is_none());
+    wait(&mut window, "the other scene", |app| app.opened.as_ref().is_some_and(|opened| opened.name.starts_with("Bright sky")));
+}
+
+#[test]
+fn a_picture_is_replaced_only_by_the_button_that_says_so() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("shot.png");
+    std::fs::write(&path, "what was there").expect("it is written");
+    let mut window = window("furnace");
+    window.state_mut().last_saved = Some(path.clone());
+    window.key_press_modifiers(Modifiers::COMMAND, Key::S);
+    window.run_steps(4);
+    let suggested = window.state().save_dialog.as_ref().map(|dialog| dialog.path.clone());
+    assert_eq!(suggested, Some(folder.path().join("shot-2.png").display().to_string()));
+    window.get_by_role(Role::TextInput).set_text_value_accesskit(&path.display().to_string());
+    window.run_steps(3);
+    assert!(window.query_by_label("This file exists. Replace it?").is_some() && window.query_by_label("Save").is_none());
+    window.get_by_role(Role::TextInput).focus();
+    window.run_steps(2);
+    window.key_press(Key::Enter);
+    window.run_steps(3);
+    assert!(window.state().save_dialog.is_some(), "Enter replaces nothing");
+    window.state_mut().last_saved = None;
+    click(&mut window, "Replace");
+    wait(&mut window, "the file", |app| app.last_saved.is_some());
+    assert!(image_file::read(&path).is_ok());
+}

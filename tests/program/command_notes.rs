@@ -1,0 +1,65 @@
+//! What the commands tell besides what they were asked for.
+use super::command_line::{Shell, scene, text};
+
+#[test]
+#[cfg(all(unix, not(target_os = "macos")))]
+fn without_a_display_a_bad_scene_is_named_too() {
+    let shell = Shell::new();
+    let said = text(&shell.run(&["nosuch.toml"]).stderr);
+    assert!(said.contains("there is no such file") && said.contains("no display"), "{said}");
+    std::fs::write(shell.path("bad.toml"), "format = 1\ncamera = 3\n").expect("it is written");
+    let said = text(&shell.run(&["bad.toml"]).stderr);
+    assert!(said.contains("bad.toml:2:10") && said.contains("no display"), "{said}");
+}
+
+#[test]
+fn a_black_picture_is_told_with_its_likely_cause() {
+    let shell = Shell::new();
+    let said = |scene: &str| {
+        let output = shell.run(&["render", scene, "-o", "out.png", "--spp", "4", "--size", "8x8"]);
+        assert!(output.status.success(), "{}", text(&output.stderr));
+        (text(&output.stderr), text(&output.stdout))
+    };
+    let (notes, summary) = said(&scene("inside_lit_outside"));
+    assert!(notes.contains("entirely black: the camera is inside `wall`") && summary.contains("no light found"), "{notes}");
+    let (notes, _) = said(&scene("outside_lit_inside"));
+    assert!(notes.contains("entirely black: no path found light"), "{notes}");
+    let (notes, summary) = said(&scene("furnace"));
+    assert!(!notes.contains("black") && !summary.contains("no light"), "{notes}");
+}
+
+#[test]
+fn a_true_picture_of_another_size_or_kind_is_told() {
+    let shell = Shell::new();
+    let furnace = std::fs::read_to_string(scene("furnace")).expect("it is shipped");
+    let truth = furnace.find("[truth]").expect("it has one");
+    std::fs::write(shell.path("scene.toml"), format!("{}[truth]\nimage = \"true.exr\"\n", &furnace[..truth])).expect("written");
+    let missing = shell.run(&["check", "scene.toml"]);
+    assert!(text(&missing.stderr).contains("true.exr: cannot be read") && text(&missing.stderr).contains("scene.toml:"));
+    std::fs::write(shell.path("true.exr"), "no picture").expect("it is written");
+    assert!(text(&shell.run(&["check", "scene.toml"]).stderr).contains("not a picture"));
+
+    let render = |to: &str, from: &str, size: &str| shell.run(&["render", from, "-o", to, "--spp", "2", "--size", size]);
+    assert!(render("true.exr", &scene("furnace"), "16x9").status.success());
+    let same = render("out.exr", "scene.toml", "16x9");
+    assert!(text(&same.stdout).contains("true error") && !text(&same.stderr).contains("true picture"));
+    let other = render("out.exr", "scene.toml", "16x10");
+    assert!(text(&other.stderr).contains("the true picture is 16 × 9 and this one 16 × 10"), "{}", text(&other.stderr));
+    assert!(render("out.png", "scene.toml", "16x9").status.success());
+    let compared = shell.run(&["compare", "out.png", "true.exr"]);
+    assert!(compared.status.success() && text(&compared.stderr).contains("a PNG is clipped"));
+    assert!(text(&shell.run(&["compare", "true.exr", "true.exr"]).stderr).is_empty());
+}
+
+#[test]
+#[cfg(unix)]
+fn a_link_is_written_through() {
+    let shell = Shell::new();
+    std::fs::create_dir(shell.path("disk")).expect("a folder");
+    std::os::unix::fs::symlink("disk/there.png", shell.path("link.png")).expect("a link");
+    for _ in 0..2 {
+        let output = shell.run(&["render", &scene("furnace"), "-o", "link.png", "--spp", "1", "--size", "8x8"]);
+        assert!(output.status.success(), "{}", text(&output.stderr));
+        assert!(shell.path("link.png").is_symlink() && shell.path("disk/there.png").is_file());
+    }
+}
