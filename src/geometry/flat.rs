@@ -4,7 +4,7 @@
 use glam::{DMat3, DVec3};
 
 use super::{fraction::Fraction, shape::Outline};
-use crate::math::{F, Lanes, V};
+use crate::math::{F, Lanes, M, V};
 
 /// A flat shape. Its front is the side of the normal.
 #[derive(Clone, Copy, Debug)]
@@ -64,6 +64,12 @@ impl Flat {
         };
         Fraction { numerator, denominator }.only(numerator.above(0.0) & inside)
     }
+}
+
+/// Of an outline in the rows.
+#[inline(always)]
+pub(super) fn is_ellipse<L: Lanes>(outline: F<L>) -> M<L> {
+    outline.above(Outline::Triangle as u32 as f32)
 }
 
 #[inline(always)]

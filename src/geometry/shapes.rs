@@ -4,7 +4,7 @@ use glam::DVec3;
 use super::{
     MISS,
     cuboid::Cuboid,
-    flat::Flat,
+    flat::{Flat, is_ellipse},
     fraction::Fraction,
     quadric::{Local, Quadric},
     shape::Shape,
@@ -120,9 +120,12 @@ impl Shapes {
     pub fn coordinates<L: Lanes>(&self, l: L, primitive: U<L>, point: &SurfacePoint<L>) -> Coordinates<L> {
         let (mut u, mut v) = sphere_uv(point.n_geometric);
         let tag = l.rows(&self.normals, primitive)[3].bits();
-        if let Some(AtFlat { here, rows: [to_u, to_v, ..], from_anchor }) = self.flat(l, tag, primitive, point.p) {
-            u = here.pick(coordinate(to_u, from_anchor), u);
-            v = here.pick(1.0 - coordinate(to_v, from_anchor), v);
+        if let Some(AtFlat { here, rows: [to_u, to_v, edge, _], from_anchor }) = self.flat(l, tag, primitive, point.p) {
+            let (across, up) = (coordinate(to_u, from_anchor), coordinate(to_v, from_anchor));
+            // Of ellipses they run from −1 to 1.
+            let round = is_ellipse(edge[3]);
+            u = here.pick(round.pick(across * 0.5 + 0.5, across), u);
+            v = here.pick(1.0 - round.pick(up * 0.5 + 0.5, up), v);
         }
         if let Some((here, quadric)) = self.quadric(l, tag) {
             let place = quadric.place(point.p);
@@ -141,8 +144,9 @@ impl Shapes {
         let curvature = l.rows(&self.anchors, primitive)[3];
         let (mut along_u, mut along_v) = sphere_tangents(point.n_geometric, 1.0 / curvature);
         if let Some(AtFlat { here, rows: [_, _, a, b], .. }) = self.flat(l, tag, primitive, point.p) {
-            along_u = here.pick(V { x: a[0], y: a[1], z: a[2] }, along_u);
-            along_v = here.pick(-V { x: b[0], y: b[1], z: b[2] }, along_v);
+            let scale = is_ellipse(a[3]).pick(l.f(2.0), l.f(1.0));
+            along_u = here.pick(V { x: a[0], y: a[1], z: a[2] } * scale, along_u);
+            along_v = here.pick(-V { x: b[0], y: b[1], z: b[2] } * scale, along_v);
         }
         if let Some((here, quadric)) = self.quadric(l, tag) {
             let (around, down) = quadric.tangents(quadric.place(point.p));
