@@ -8,18 +8,18 @@ use std::f32::consts::TAU;
 use glam::{DMat3, DVec2, DVec3};
 
 use super::{fraction::Fraction, sphere::sphere_tangents, surface_point::SurfacePoint};
-use crate::math::{F, Lanes, M, Pick, V};
+use crate::math::{F, Lanes, M, Pick, U, V};
 
 /// A quadric. Its front is the outside.
 #[derive(Clone, Copy, Debug)]
 pub struct Quadric {
-    /// Rows of G, each with its component of m; then the anchor, and 1 for a cylinder.
+    /// Rows of G, each with its component of m; then the anchor, with 1 for a cylinder, 2 for one with caps.
     rows: [[f32; 4]; 4],
 }
 
 impl Quadric {
     /// origin + `axes` y with |y| = 1; for a cylinder with |(y₁, y₂)| = 1 and y₃ in [0, 1]. Anchored near `near`.
-    pub fn new(origin: DVec3, axes: DMat3, cylinder: bool, near: DVec3) -> Quadric {
+    pub fn new(origin: DVec3, axes: DMat3, cylinder: bool, capped: bool, near: DVec3) -> Quadric {
         let g = axes.inverse();
         let y = g * (near - origin);
         let m = if cylinder {
@@ -34,7 +34,14 @@ impl Quadric {
             let [x, y, z] = g.row(i).as_vec3().to_array();
             [x, y, z, m[i] as f32]
         };
-        Quadric { rows: [row(0), row(1), row(2), [anchor.x, anchor.y, anchor.z, if cylinder { 1.0 } else { 0.0 }]] }
+        Quadric {
+            rows: [
+                row(0),
+                row(1),
+                row(2),
+                [anchor.x, anchor.y, anchor.z, f32::from(u8::from(cylinder)) + f32::from(u8::from(capped))],
+            ],
+        }
     }
 
     /// The rows that [`Local::new`] reads.
@@ -45,11 +52,30 @@ impl Quadric {
     /// The nearest meeting of o + td with t > 0; NaN where there is none.
     #[inline(always)]
     pub(super) fn intersect<L: Lanes>(&self, l: L, o: V<L>, d: V<L>) -> Fraction<L> {
-        let [a, b, c, q] = self.rows;
-        let [near, far] = Local::new([splat(l, a), splat(l, b), splat(l, c), splat(l, q)]).meetings(o, d);
+        let [near, far] = self.splat(l).meetings(o, d);
         let first = near.numerator.above(0.0).pick(near, far);
         first.only(first.numerator.above(0.0))
     }
+
+    /// The same for a capped cylinder, with the number of its piece.
+    #[inline(always)]
+    pub(super) fn intersect_solid<L: Lanes>(&self, l: L, o: V<L>, d: V<L>) -> (Fraction<L>, U<L>) {
+        self.splat(l).meet_solid(l, o, d)
+    }
+
+    #[inline(always)]
+    fn splat<L: Lanes>(&self, l: L) -> Local<L> {
+        let [a, b, c, q] = self.rows;
+        Local::new([splat(l, a), splat(l, b), splat(l, c), splat(l, q)])
+    }
+}
+
+/// How a ray crosses a quadric: ways along it in local units, its speed in them per metre, height and climb per unit.
+struct Crossing<L: Lanes> {
+    ways: [F<L>; 2],
+    speed: F<L>,
+    z: F<L>,
+    climb: F<L>,
 }
 
 /// Quadrics in lanes.
@@ -59,6 +85,7 @@ pub(super) struct Local<L: Lanes> {
     pub m: V<L>,
     anchor: V<L>,
     pub is_cylinder: M<L>,
+    is_capped: M<L>,
     /// What the third component counts: 0 for a cylinder.
     weight: F<L>,
 }
@@ -71,7 +98,8 @@ impl<L: Lanes> Local<L> {
             m: V { x: a[3], y: b[3], z: c[3] },
             anchor: V { x: q[0], y: q[1], z: q[2] },
             is_cylinder: q[3].above(0.0),
-            weight: 1.0 - q[3],
+            is_capped: q[3].above(1.0),
+            weight: q[3].above(0.0).pick(q[3].splat(0.0), q[3].splat(1.0)),
         }
     }
 
@@ -96,8 +124,20 @@ impl<L: Lanes> Local<L> {
     /// Both meetings of o + td in the order of t, NaN where there are none; t may be negative.
     #[inline(always)]
     pub fn meetings(&self, o: V<L>, d: V<L>) -> [Fraction<L>; 2] {
+        let Crossing { ways, speed, z, climb } = self.crossing(o, d);
+        let within = [self.is_within(z + climb * ways[0]), self.is_within(z + climb * ways[1])];
+        [
+            Fraction { numerator: ways[0], denominator: speed }.only(within[0]),
+            Fraction { numerator: ways[1], denominator: speed }.only(within[1]),
+        ]
+    }
+
+    /// Where a ray meets the sphere, or the cylinder without its ends.
+    #[inline(always)]
+    fn crossing(&self, o: V<L>, d: V<L>) -> Crossing<L> {
         let (y, e) = (self.local(o), self.linear(d));
-        let speed = self.across(e).length_squared().sqrt();
+        // Along the axis of a cylinder nothing is divided by 0.
+        let speed = self.across(e).length_squared().sqrt().max(e.z.splat(1e-30));
         let (from_anchor, d, m) = (self.across(y), self.across(e) * (1.0 / speed), self.across(self.m));
         // As in `super::sphere` with the curvature 1.
         let along = from_anchor.dot(d);
@@ -109,12 +149,29 @@ impl<L: Lanes> Local<L> {
         let w = b.abs() + (m_d * m_d - c_nearest).sqrt();
         let (nearing, quotient) = (b.below(0.0), c / w);
         let ways = [nearing.pick(quotient, -w), nearing.pick(w, -quotient)];
-        let (z, climb) = (self.m.z + y.z, e.z / speed);
-        let within = [self.is_within(z + climb * ways[0]), self.is_within(z + climb * ways[1])];
-        [
-            Fraction { numerator: ways[0], denominator: speed }.only(within[0]),
-            Fraction { numerator: ways[1], denominator: speed }.only(within[1]),
-        ]
+        Crossing { ways, speed, z: self.m.z + y.z, climb: e.z / speed }
+    }
+
+    /// The first meeting of o + td with a capped cylinder, t > 0, and its piece: 0 is the side, 1 the base, 2 the top.
+    ///
+    /// Side and caps are met in one frame, so that no rounding opens a gap between them.
+    #[inline(always)]
+    fn meet_solid(&self, l: L, o: V<L>, d: V<L>) -> (Fraction<L>, U<L>) {
+        // Along the axis a ray crosses the side far away.
+        const SLOWEST: f32 = 1e-30;
+        let Crossing { ways: [enter_side, leave_side], speed, z, climb } = self.crossing(o, d);
+        let inverse = 1.0 / climb.abs().max(l.f(SLOWEST)).copysign(climb);
+        let (at_base, at_top) = (-(z * inverse), (1.0 - z) * inverse);
+        let upwards = climb.ge(l.f(0.0));
+        let (enter_cap, leave_cap) = (upwards.pick(at_base, at_top), upwards.pick(at_top, at_base));
+        let (first_cap, last_cap) = (upwards.pick(l.u(1), l.u(2)), upwards.pick(l.u(2), l.u(1)));
+        let (through_cap, out_of_cap) = (enter_side.lt(enter_cap), leave_cap.lt(leave_side));
+        let enter = through_cap.pick(enter_cap, enter_side);
+        let leave = out_of_cap.pick(leave_cap, leave_side);
+        let outside = enter.above(0.0);
+        let piece = outside.pick(through_cap.pick(first_cap, l.u(0)), out_of_cap.pick(last_cap, l.u(0)));
+        let meets = leave.ge(enter) & leave.above(0.0);
+        (Fraction { numerator: outside.pick(enter, leave), denominator: speed }.only(meets), piece)
     }
 
     /// Whether the surface reaches the height `z`.
@@ -176,7 +233,16 @@ impl<L: Lanes> Local<L> {
         let c = y.length_squared() + y.dot(self.across(self.m)) * 2.0;
         let p = p - n_geometric * (c * 0.5 / steepness);
         let sizes = absolute_dot(self.g[0], x) + absolute_dot(self.g[1], x) + absolute_dot(self.g[2], x) * self.weight;
-        SurfacePoint { p, n_geometric, error: sizes * ROUNDINGS / steepness + p.max_abs() * ROUNDINGS_OF_X }
+        let error = sizes * ROUNDINGS / steepness + p.max_abs() * ROUNDINGS_OF_X;
+        SurfacePoint { p: self.is_capped.pick(self.between_caps(p, error), p), n_geometric, error }
+    }
+
+    /// A point of the side moved between the caps by as much as keeps it there, however they round.
+    #[inline(always)]
+    fn between_caps(&self, p: V<L>, error: F<L>) -> V<L> {
+        let z = self.place(p).z;
+        let margin = self.g[2].length_squared().sqrt() * error * 2.0;
+        p + self.axes()[2] * (z.max(margin).min(1.0 - margin) - z)
     }
 }
 

@@ -4,7 +4,7 @@ use glam::DVec3;
 use super::{
     MISS,
     cuboid::Cuboid,
-    flat::Flat,
+    flat::{Flat, is_ellipse, within_outline},
     fraction::Fraction,
     quadric::{Local, Quadric},
     shape::Shape,
@@ -27,12 +27,16 @@ pub(super) struct Tables {
     flats: Vec<(u32, Flat)>,
     cuboids: Vec<(u32, Cuboid)>,
     quadrics: Vec<(u32, Quadric)>,
+    /// With caps.
+    cylinders: Vec<(u32, Quadric)>,
     /// By primitive: the anchor and the curvature; the normal there and the tag.
     pub(super) anchors: Vec<[f32; 4]>,
     pub(super) normals: Vec<[f32; 4]>,
     /// Four rows each: see [`Flat::rows`] and [`Quadric::rows`].
     pub(super) flat_rows: Vec<[f32; 4]>,
     quadric_rows: Vec<[f32; 4]>,
+    /// Some are made of several pieces that enclose a space.
+    have_closed: bool,
 }
 
 impl Tables {
@@ -54,12 +58,14 @@ impl Tables {
             self.cuboids.push((first, Cuboid::new(*origin, *edges, near)));
         }
         for piece in shape.pieces() {
-            self.push(&piece, matches!(shape, Shape::Cuboid { .. }), near);
+            self.push(&piece, shape, near);
         }
     }
 
-    /// `within`: rays find the piece by the shape that it is part of.
-    fn push(&mut self, piece: &Shape, within: bool, near: DVec3) {
+    /// Adds a piece of a shape.
+    fn push(&mut self, piece: &Shape, shape: &Shape, near: DVec3) {
+        let closed = matches!(shape, Shape::Cuboid { .. } | Shape::Cylinder { capped: true, .. });
+        self.have_closed |= closed;
         let id = self.anchors.len() as u32;
         let row = |[x, y, z]: [f32; 3], w: f32| [x, y, z, w];
         match piece {
@@ -75,18 +81,24 @@ impl Tables {
                 let tag = FLAT | (self.flat_rows.len() as u32 / 4) << 2;
                 self.anchors.push(row(flat.anchor, 0.0));
                 self.normals.push(row(flat.normal, f32::from_bits(tag)));
-                self.flat_rows.extend(flat.rows(*edges));
-                if !within {
+                let reach = if closed { 2.0 * shape.bounding_sphere().1 } else { 0.0 };
+                self.flat_rows.extend(flat.rows(*edges, reach));
+                // Rays find the pieces of a closed shape by itself.
+                if !closed {
                     self.flats.push((id, flat));
                 }
             }
             Shape::Ellipsoid { center: origin, axes } | Shape::Cylinder { base: origin, axes, .. } => {
-                let quadric = Quadric::new(*origin, *axes, matches!(piece, Shape::Cylinder { .. }), near);
+                let quadric = Quadric::new(*origin, *axes, matches!(piece, Shape::Cylinder { .. }), closed, near);
                 let tag = QUADRIC | (self.quadric_rows.len() as u32 / 4) << 2;
                 self.anchors.push([0.0; 4]);
                 self.normals.push(row([0.0, 1.0, 0.0], f32::from_bits(tag)));
                 self.quadric_rows.extend(quadric.rows());
-                self.quadrics.push((id, quadric));
+                if closed {
+                    self.cylinders.push((id, quadric));
+                } else {
+                    self.quadrics.push((id, quadric));
+                }
             }
             Shape::Cuboid { .. } | Shape::Mesh { .. } | Shape::Isosurface { .. } => unreachable!("not an analytic piece"),
         }
@@ -114,6 +126,10 @@ impl Tables {
         for (id, quadric) in &self.quadrics {
             nearest.meet(quadric.intersect(l, o, d), l.u(*id));
         }
+        for (first, cylinder) in &self.cylinders {
+            let (t, piece) = cylinder.intersect_solid(l, o, d);
+            nearest.meet(t, piece + *first);
+        }
         (nearest.t.value(), nearest.primitive)
     }
 
@@ -123,6 +139,12 @@ impl Tables {
         let normal = l.rows(&self.normals, primitive);
         let mut point = sphere::surface_point(l.rows(&self.anchors, primitive), normal, p);
         let tag = normal[3].bits();
+        if self.have_closed {
+            if let Some(AtFlat { here, rows, from_anchor }) = self.flat(l, tag, primitive, point.p) {
+                let closed = here & rows[3][3].above(0.0);
+                point = closed.pick(within_outline(&rows, from_anchor, &point), point);
+            }
+        }
         if let Some((here, quadric)) = self.quadric(l, tag) {
             point = here.pick(quadric.surface_point(p), point);
         }
@@ -134,9 +156,12 @@ impl Tables {
     pub fn coordinates<L: Lanes>(&self, l: L, primitive: U<L>, point: &SurfacePoint<L>) -> Coordinates<L> {
         let (mut u, mut v) = sphere_uv(point.n_geometric);
         let tag = self.tag(l, primitive);
-        if let Some(AtFlat { here, rows: [to_u, to_v, ..], from_anchor }) = self.flat(l, tag, primitive, point.p) {
-            u = here.pick(coordinate(to_u, from_anchor), u);
-            v = here.pick(1.0 - coordinate(to_v, from_anchor), v);
+        if let Some(AtFlat { here, rows: [to_u, to_v, edge, _], from_anchor }) = self.flat(l, tag, primitive, point.p) {
+            let (across, up) = (coordinate(to_u, from_anchor), coordinate(to_v, from_anchor));
+            // Of ellipses they run from −1 to 1.
+            let round = is_ellipse(edge[3]);
+            u = here.pick(round.pick(across * 0.5 + 0.5, across), u);
+            v = here.pick(1.0 - round.pick(up * 0.5 + 0.5, up), v);
         }
         if let Some((here, quadric)) = self.quadric(l, tag) {
             let place = quadric.place(point.p);
@@ -155,8 +180,9 @@ impl Tables {
         let curvature = l.rows(&self.anchors, primitive)[3];
         let (mut along_u, mut along_v) = sphere_tangents(point.n_geometric, 1.0 / curvature);
         if let Some(AtFlat { here, rows: [_, _, a, b], .. }) = self.flat(l, tag, primitive, point.p) {
-            along_u = here.pick(V { x: a[0], y: a[1], z: a[2] }, along_u);
-            along_v = here.pick(-V { x: b[0], y: b[1], z: b[2] }, along_v);
+            let scale = is_ellipse(a[3]).pick(l.f(2.0), l.f(1.0));
+            along_u = here.pick(V { x: a[0], y: a[1], z: a[2] } * scale, along_u);
+            along_v = here.pick(-V { x: b[0], y: b[1], z: b[2] } * scale, along_v);
         }
         if let Some((here, quadric)) = self.quadric(l, tag) {
             let (around, down) = quadric.tangents(quadric.place(point.p));
@@ -180,7 +206,7 @@ impl Tables {
     #[inline(always)]
     pub(super) fn quadric<L: Lanes>(&self, l: L, tag: U<L>) -> Option<(M<L>, Local<L>)> {
         let here = (tag & 3).is(QUADRIC);
-        if self.quadrics.is_empty() || !here.any() {
+        if self.quadric_rows.is_empty() || !here.any() {
             return None;
         }
         Some((here, Local::new(four_rows(l, &self.quadric_rows, here, tag))))

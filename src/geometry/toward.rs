@@ -5,6 +5,7 @@
 use std::f32::consts::TAU;
 
 use super::{
+    flat::{area, is_ellipse},
     quadric::Local,
     shape::Outline,
     sphere::Cone,
@@ -79,7 +80,7 @@ impl Tables {
         let n = V { x, y, z };
         let (height, cos) = (from_anchor.dot(n), wi.dot(n).abs());
         let t = height / cos;
-        let area = rows[3][3];
+        let area = area(rows);
         let exists = height.abs().above(0.0) & cos.above(0.0);
         (exists.pick(t * t / (area * cos), l.f(0.0)), height.above(0.0))
     }
@@ -92,7 +93,7 @@ fn toward_flat<L: Lanes>(rows: &[[F<L>; 4]; 4], from_anchor: V<L>, u: (F<L>, F<L
     let outline = a[3];
     let (tri_u, tri_v) = triangle(u);
     let (disk_u, disk_v, _) = disk(u);
-    let is_ellipse = outline.above(Outline::Triangle as u32 as f32);
+    let is_ellipse = is_ellipse(outline);
     let is_triangle = outline.above(Outline::Parallelogram as u32 as f32) & !is_ellipse;
     let s = is_ellipse.pick(disk_u, is_triangle.pick(tri_u, u.0)) - to_u[3];
     let t = is_ellipse.pick(disk_v, is_triangle.pick(tri_v, u.1)) - to_v[3];

@@ -3,6 +3,7 @@
 //! Every statement is a z-test at 4σ over seeded samples, or exact where the answer is. σ comes from the closed form where there
 //! is one, else from the samples.
 mod determinism;
+mod enclosures;
 mod estimators;
 mod furnace;
 mod glass;
@@ -11,7 +12,9 @@ mod lamp;
 mod lens;
 mod mirrors;
 mod picture;
+mod plate;
 mod references;
+mod shape_lamps;
 mod statistics;
 mod textured_sphere;
 mod tinted_glass;

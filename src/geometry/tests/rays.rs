@@ -4,7 +4,7 @@ use rand::{Rng, SeedableRng, rngs::SmallRng};
 
 use super::{Case, cases, exact, lane, oracle::meetings, place, point, unit_vector, v};
 use crate::{
-    geometry::{MISS, Nearest, Shapes},
+    geometry::{MISS, Nearest, Shape, Shapes},
     math::{F, M, One, U, V},
 };
 
@@ -122,6 +122,47 @@ fn rays_that_leave_a_surface_do_not_meet_it_at_once() {
                 assert!(t > 0.5 * next, "{}: {t:e} of {next:e}", case.name);
                 assert!(side < 0.0, "{}: the outside of a convex piece is met from outside at {t:e}", case.name);
             }
+        }
+    }
+}
+
+#[test]
+fn rays_inside_closed_shapes_stay_inside() {
+    let mut rng = SmallRng::seed_from_u64(4);
+    for case in cases() {
+        if !case.shape.contains(case.shape.bounding_sphere().0) {
+            continue;
+        }
+        let (shapes, pieces) = (case.shapes(), case.shape.pieces());
+        // Edges first: parameters at the ends of their range.
+        let edge = |x: f64| if x < 0.5 { 1e-7 * x } else { 1.0 - 1e-7 * (1.0 - x) };
+        for i in 0..40_000 {
+            let id = i % pieces.len();
+            let (a, b) = (rng.random_range(0.0..1.0), rng.random_range(0.0..1.0));
+            let on =
+                super::point_at(&pieces[id], if i % 3 == 0 { [a, b] } else { [edge(a), if i % 3 == 1 { b } else { edge(b) }] });
+            let found = shapes.surface_point(One, &place(id as u32), v(on));
+            let n = -exact(found.n_geometric);
+            let grazing = 10f64.powf(rng.random_range(-5.0..0.0));
+            let along = n.cross(unit_vector(&mut rng)).normalize();
+            let d = (n * grazing + along * (1.0 - grazing * grazing).sqrt()).normalize();
+            let o = found.p - found.n_geometric * found.error;
+            let Nearest { t, primitive, .. } = shapes.closest(One, M(true), o, v(d), F(0.0));
+            assert!(primitive.0 != MISS, "{}: a ray from {on} along {d} gets out", case.name);
+            let there = shapes.surface_point(One, &place(primitive.0), o + v(d) * t);
+            assert!(there.n_geometric.dot(v(d)).0 > -1e-5, "{}: a ray from {on} along {d} sees the outside", case.name);
+        }
+    }
+}
+
+#[test]
+fn a_capped_cylinder_keeps_rays_along_its_axis() {
+    let shape = [Shape::cylinder(DVec3::ZERO, DVec3::new(0.0, 2.0, 0.0), 0.5, true)];
+    let shapes = super::shapes(&shape);
+    for (x, inside) in [(0.0, true), (0.3, true), (0.4999, true), (0.6, false)] {
+        for (y, d, t) in [(0.5, DVec3::Y, 1.5), (0.5, DVec3::NEG_Y, 0.5), (-1.0, DVec3::Y, 1.0), (3.0, DVec3::NEG_Y, 1.0)] {
+            let found = closest(&shapes, v(DVec3::new(x, y, 0.0)), v(d));
+            assert_eq!(found.map(|t| (t * 1e4).round() / 1e4), inside.then_some(t), "{x} {y} {d}");
         }
     }
 }
