@@ -1,13 +1,10 @@
 //! Choosing a light and a direction towards it.
-//!
-//! A light is chosen with a probability proportional to the irradiance it could cause at the point at most if nothing stood in
-//! between, of varying light to its mean: E ≤ π L sin²θ · max(cos) over its cone of half angle θ (Shirley et al. 1996, section 4, for what a good choice is).
 use glam::DVec3;
 
 use super::{
     background::Background,
     emission::{Emission, Emitters},
-    source::Source,
+    selection::Selection,
 };
 use crate::{
     geometry::{MISS, Shape, Shapes},
@@ -20,10 +17,9 @@ pub struct Lights {
     pub emitters: Emitters,
     /// Absent when black.
     pub background: Option<Background>,
-    /// What lights are chosen by, in the order of primitives.
-    sources: Vec<Source>,
-    /// Mean luminance of the background.
-    sky: f32,
+    selection: Selection,
+    /// Number of emitting primitives.
+    count: usize,
 }
 
 /// A point that light is looked for from.
@@ -60,21 +56,22 @@ pub struct LightSample<L: Lanes> {
 impl Lights {
     /// `pieces` are the shapes of the primitives, of which the first ones emit. `near` is where the scene happens.
     pub fn new(pieces: &[Shape], emissions: &[Emission], background: Option<Background>, near: DVec3) -> Lights {
+        let sky = background.as_ref().map_or(0.0, Background::luminance);
         Lights {
             emitters: Emitters::new(emissions),
-            sky: background.as_ref().map_or(0.0, Background::luminance),
+            selection: Selection::new(pieces, emissions, sky, near),
+            count: pieces.len(),
             background,
-            sources: pieces.iter().zip(emissions).map(|(piece, emission)| Source::new(piece, emission, near)).collect(),
         }
     }
 
     pub fn is_empty(&self) -> bool {
-        self.sources.is_empty() && self.background.is_none()
+        self.count == 0 && self.background.is_none()
     }
 
     /// Whether there is a choice to make.
     pub fn are_several(&self) -> bool {
-        self.sources.len() + usize::from(self.background.is_some()) > 1
+        self.count + usize::from(self.background.is_some()) > 1
     }
 
     /// Whether the background is a picture, of which a cell is chosen.
@@ -85,7 +82,7 @@ impl Lights {
     /// A direction towards a light.
     #[inline(always)]
     pub fn sample<L: Lanes>(&self, l: L, shapes: &Shapes, at: &Receiver<L>, u: &LightCoordinates<L>) -> LightSample<L> {
-        let (target, pmf) = self.choose(l, at, u.choice);
+        let (target, pmf) = self.choose(l, at, u);
         let sky = target.is(MISS);
         let mut sample = LightSample { wi: at.n, radiance: V::splat(l, [0.0; 3]), pdf: l.f(0.0), target };
         if (!sky).any() {
@@ -126,35 +123,15 @@ impl Lights {
         if !self.are_several() {
             return density;
         }
-        let (mut total, mut chosen) = (l.f(self.sky), sky.pick(l.f(self.sky), l.f(0.0)));
-        for (primitive, source) in self.sources.iter().enumerate() {
-            let weight = source.weight(l, at);
-            total = total + weight;
-            chosen = target.is(primitive as u32).pick(weight, chosen);
-        }
-        total.above(0.0).pick(density * (chosen / total), l.f(0.0))
+        density * self.selection.probability(l, at, emits, target)
     }
 
     /// A light and the probability of its choice.
     #[inline(always)]
-    fn choose<L: Lanes>(&self, l: L, at: &Receiver<L>, choice: F<L>) -> (U<L>, F<L>) {
+    fn choose<L: Lanes>(&self, l: L, at: &Receiver<L>, u: &LightCoordinates<L>) -> (U<L>, F<L>) {
         if !self.are_several() {
-            return (l.u(if self.sources.is_empty() { MISS } else { 0 }), l.f(1.0));
+            return (l.u(if self.count == 0 { MISS } else { 0 }), l.f(1.0));
         }
-        let mut total = l.f(self.sky);
-        for source in &self.sources {
-            total = total + source.weight(l, at);
-        }
-        // The last light whose share begins at or before the chosen place; the background comes first.
-        let place = choice * total;
-        let (mut target, mut chosen, mut begin) = (l.u(MISS), l.f(self.sky), l.f(self.sky));
-        for (primitive, source) in self.sources.iter().enumerate() {
-            let weight = source.weight(l, at);
-            let here = place.ge(begin) & weight.above(0.0);
-            target = here.pick(l.u(primitive as u32), target);
-            chosen = here.pick(weight, chosen);
-            begin = begin + weight;
-        }
-        (target, total.above(0.0).pick(chosen / total, l.f(0.0)))
+        self.selection.choose(l, at, u)
     }
 }

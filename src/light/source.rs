@@ -1,13 +1,10 @@
 //! What the choice of a light knows of an emitting primitive: a bound on the irradiance it causes.
 use glam::DVec3;
 
-use super::{
-    Receiver,
-    emission::{Emission, Side},
-};
+use super::{Receiver, bound::Bound};
 use crate::{
     geometry::{Shape, Sphere},
-    math::{F, Lanes, Pick, V, colour::luminance},
+    math::{F, Lanes, Pick, V},
 };
 
 /// An emitting primitive.
@@ -30,15 +27,18 @@ enum Extent {
 }
 
 impl Source {
-    /// Of a piece of a [`Shape`].
-    pub fn new(piece: &Shape, emission: &Emission, near: DVec3) -> Source {
-        let light = luminance(emission.mean);
-        let (front, back) = match emission.side {
-            Side::Front => (light, 0.0),
-            Side::Back => (0.0, light),
-            Side::Both => (light, light),
+    /// Of a piece of a [`Shape`] and what bounds it. `near` is where the scene happens.
+    pub fn new(piece: &Shape, bound: &Bound, near: DVec3) -> Source {
+        let extent = match piece {
+            Shape::Sphere { center, radius } => Extent::Sphere(Sphere::new(*center, *radius, near)),
+            _ => Extent::Within {
+                center: bound.center.as_vec3().to_array(),
+                radius_squared: (bound.radius * bound.radius) as f32,
+                size: bound.size as f32,
+                normal: bound.normal.map(|n| n.as_vec3().to_array()),
+            },
         };
-        Source { extent: Extent::new(piece, near), front, back }
+        Source { extent, front: bound.front, back: bound.back }
     }
 
     /// A bound on the irradiance from this light, over π: E ≤ L A cos θ_i cos θ_e/d².
@@ -68,28 +68,6 @@ impl Source {
                 }
                 light * *size / distance_squared.max(l.f(*radius_squared))
             }
-        }
-    }
-}
-
-impl Extent {
-    fn new(piece: &Shape, near: DVec3) -> Extent {
-        if let Shape::Sphere { center, radius } = piece {
-            return Extent::Sphere(Sphere::new(*center, *radius, near));
-        }
-        let (center, radius) = piece.bounding_sphere();
-        let (size, normal) = match piece {
-            Shape::Flat { edges: [a, b], mirrored, .. } => {
-                let across = a.cross(*b).normalize() * if *mirrored { -1.0 } else { 1.0 };
-                (piece.area().unwrap_or(0.0) / std::f64::consts::PI, Some(across.as_vec3().to_array()))
-            }
-            _ => (radius * radius, None),
-        };
-        Extent::Within {
-            center: center.as_vec3().to_array(),
-            radius_squared: (radius * radius) as f32,
-            size: size as f32,
-            normal,
         }
     }
 }
