@@ -139,11 +139,11 @@ impl Tables {
         let normal = l.rows(&self.normals, primitive);
         let mut point = sphere::surface_point(l.rows(&self.anchors, primitive), normal, p);
         let tag = normal[3].bits();
-        if self.have_closed {
-            if let Some(AtFlat { here, rows, from_anchor }) = self.flat(l, tag, primitive, point.p) {
-                let closed = here & rows[3][3].above(0.0);
-                point = closed.pick(within_outline(&rows, from_anchor, &point), point);
-            }
+        if self.have_closed
+            && let Some(AtFlat { here, rows, from_anchor }) = self.flat(l, tag, primitive, point.p)
+        {
+            let closed = here & rows[3][3].above(0.0);
+            point = closed.pick(within_outline(&rows, from_anchor, &point), point);
         }
         if let Some((here, quadric)) = self.quadric(l, tag) {
             point = here.pick(quadric.surface_point(p), point);

@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::{
     background::Background,
     emission::{Emission, Emitters},
-    source::Source,
+    selection::Selection,
 };
 use crate::{
     geometry::{MISS, Motion, Place, Shape, Shapes},
@@ -20,14 +20,13 @@ pub struct Lights {
     pub emitters: Emitters,
     /// Absent when black.
     pub background: Option<Background>,
-    /// What lights are chosen by, in the order of primitives and, of a mesh, of its triangles.
-    sources: Vec<Source>,
+    selection: Selection,
+    /// How many there are besides the background.
+    count: usize,
     /// Primitive and triangle of every light, as bits; empty where a light's number is its primitive.
     places: Vec<[f32; 4]>,
     /// The first light of every emitting primitive; likewise.
     firsts: Vec<[f32; 4]>,
-    /// Mean luminance of the background.
-    sky: f32,
 }
 
 /// A point that light is looked for from.
@@ -67,27 +66,30 @@ impl Lights {
     pub fn new(shapes: &Shapes, emitters: &[(Shape, Motion, Emission)], background: Option<Background>, near: DVec3) -> Lights {
         let mut lights = Lights {
             emitters: Emitters::new(&emitters.iter().map(|(.., emission)| *emission).collect::<Vec<_>>()),
-            sky: background.as_ref().map_or(0.0, Background::luminance),
             background,
             ..Lights::default()
         };
         let have_elements = emitters.iter().any(|(piece, ..)| matches!(piece, Shape::Mesh { .. }));
+        let mut sources = Vec::new();
         for (primitive, (piece, motion, emission)) in emitters.iter().enumerate() {
-            let first = lights.sources.len();
+            let first = sources.len();
             match piece {
                 Shape::Mesh { .. } => {
                     let triangles = shapes.triangles(primitive as u32);
-                    lights.sources.extend(triangles.iter().map(|triangle| Source::new(triangle, motion, emission, near)));
+                    sources.extend(triangles.into_iter().map(|triangle| (triangle, motion.clone(), *emission)));
                 }
-                _ => lights.sources.push(Source::new(piece, motion, emission, near)),
+                _ => sources.push((piece.clone(), motion.clone(), *emission)),
             }
             if have_elements {
                 let row = |a: u32, b: u32| [f32::from_bits(a), f32::from_bits(b), 0.0, 0.0];
                 lights.firsts.push(row(first as u32, 0));
-                let count = (lights.sources.len() - first) as u32;
+                let count = (sources.len() - first) as u32;
                 lights.places.extend((0..count).map(|element| row(primitive as u32, element)));
             }
         }
+        lights.count = sources.len();
+        let sky = lights.background.as_ref().map_or(0.0, Background::luminance);
+        lights.selection = Selection::new(&sources, sky, near);
         lights
     }
 
@@ -114,12 +116,12 @@ impl Lights {
     }
 
     pub fn is_empty(&self) -> bool {
-        self.sources.is_empty() && self.background.is_none()
+        self.count == 0 && self.background.is_none()
     }
 
     /// Whether there is a choice to make.
     pub fn are_several(&self) -> bool {
-        self.sources.len() + usize::from(self.background.is_some()) > 1
+        self.count + usize::from(self.background.is_some()) > 1
     }
 
     /// Whether the background is a picture, of which a cell is chosen.
@@ -137,7 +139,7 @@ impl Lights {
         time: F<L>,
         u: &LightCoordinates<L>,
     ) -> LightSample<L> {
-        let (target, pmf) = self.choose(l, at, u.choice);
+        let (target, pmf) = self.choose(l, at, u);
         let sky = target.is(MISS);
         let mut sample = LightSample { wi: at.n, radiance: V::splat(l, [0.0; 3]), pdf: l.f(0.0), target };
         if (!sky).any() {
@@ -184,36 +186,16 @@ impl Lights {
         if !self.are_several() {
             return density;
         }
-        let (mut total, mut chosen) = (l.f(self.sky), sky.pick(l.f(self.sky), l.f(0.0)));
-        let target = self.light_at(l, target.primitive, target.element);
-        for (light, source) in self.sources.iter().enumerate() {
-            let weight = source.weight(l, at);
-            total = total + weight;
-            chosen = target.is(light as u32).pick(weight, chosen);
-        }
-        total.above(0.0).pick(density * (chosen / total), l.f(0.0))
+        let light = self.light_at(l, target.primitive, target.element);
+        density * self.selection.probability(l, at, emits, light)
     }
 
     /// A light and the probability of its choice.
     #[inline(always)]
-    fn choose<L: Lanes>(&self, l: L, at: &Receiver<L>, choice: F<L>) -> (U<L>, F<L>) {
+    fn choose<L: Lanes>(&self, l: L, at: &Receiver<L>, u: &LightCoordinates<L>) -> (U<L>, F<L>) {
         if !self.are_several() {
-            return (l.u(if self.sources.is_empty() { MISS } else { 0 }), l.f(1.0));
+            return (l.u(if self.count == 0 { MISS } else { 0 }), l.f(1.0));
         }
-        let mut total = l.f(self.sky);
-        for source in &self.sources {
-            total = total + source.weight(l, at);
-        }
-        // The last light whose share begins at or before the chosen place; the background comes first.
-        let place = choice * total;
-        let (mut target, mut chosen, mut begin) = (l.u(MISS), l.f(self.sky), l.f(self.sky));
-        for (light, source) in self.sources.iter().enumerate() {
-            let weight = source.weight(l, at);
-            let here = place.ge(begin) & weight.above(0.0);
-            target = here.pick(l.u(light as u32), target);
-            chosen = here.pick(weight, chosen);
-            begin = begin + weight;
-        }
-        (target, total.above(0.0).pick(chosen / total, l.f(0.0)))
+        self.selection.choose(l, at, u)
     }
 }

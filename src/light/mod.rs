@@ -6,12 +6,15 @@
 //! | background | `background.rs` | constant radiance from all directions that meet no surface |
 //! | image background | `image_background.rs` | a picture of all directions, sampled by its light |
 pub mod background;
+mod bound;
 mod choice;
 pub mod emission;
 pub mod image_background;
+mod selection;
 mod source;
 #[cfg(test)]
 mod tests;
+mod tree;
 
 pub use self::{
     background::Background,

@@ -1,13 +1,10 @@
 //! What the choice of a light knows of an emitting primitive: a bound on the irradiance it causes.
 use glam::DVec3;
 
-use super::{
-    Receiver,
-    emission::{Emission, Side},
-};
+use super::{Receiver, bound::Bound};
 use crate::{
-    geometry::{Motion, Shape, Sphere},
-    math::{F, Lanes, Pick, V, colour::luminance},
+    geometry::{Shape, Sphere},
+    math::{F, Lanes, Pick, V},
 };
 
 /// An emitting primitive.
@@ -30,16 +27,18 @@ enum Extent {
 }
 
 impl Source {
-    /// Of a piece of a [`Shape`], wherever it moves.
-    pub fn new(piece: &Shape, motion: &Motion, emission: &Emission, near: DVec3) -> Source {
-        let light = luminance(emission.mean);
-        let (front, back) = match emission.side {
-            Side::Front => (light, 0.0),
-            Side::Back => (0.0, light),
-            Side::Both => (light, light),
+    /// Of a piece of a [`Shape`] and what bounds it. `near` is where the scene happens.
+    pub fn new(piece: &Shape, bound: &Bound, near: DVec3) -> Source {
+        let extent = match piece {
+            Shape::Sphere { center, radius } if !bound.moves => Extent::Sphere(Sphere::new(*center, *radius, near)),
+            _ => Extent::Within {
+                center: bound.center.as_vec3().to_array(),
+                radius_squared: (bound.radius * bound.radius) as f32,
+                size: bound.size as f32,
+                normal: bound.normal.map(|n| n.as_vec3().to_array()),
+            },
         };
-        let extent = if motion.0.is_empty() { Extent::new(piece, near) } else { Extent::of_moving(piece, motion) };
-        Source { extent, front, back }
+        Source { extent, front: bound.front, back: bound.back }
     }
 
     /// A bound on the irradiance from this light, over π: E ≤ L A cos θ_i cos θ_e/d².
@@ -70,40 +69,6 @@ impl Source {
                 light * *size / distance_squared.max(l.f(*radius_squared))
             }
         }
-    }
-}
-
-impl Extent {
-    fn new(piece: &Shape, near: DVec3) -> Extent {
-        if let Shape::Sphere { center, radius } = piece {
-            return Extent::Sphere(Sphere::new(*center, *radius, near));
-        }
-        let (center, radius) = piece.bounding_sphere();
-        let (size, normal) = match piece {
-            Shape::Flat { edges: [a, b], mirrored, .. } => {
-                let across = a.cross(*b).normalize() * if *mirrored { -1.0 } else { 1.0 };
-                (piece.area().unwrap_or(0.0) / std::f64::consts::PI, Some(across.as_vec3().to_array()))
-            }
-            _ => (radius * radius, None),
-        };
-        Extent::within(center, radius, size, normal)
-    }
-
-    /// The sphere around all poses, of which some are looked at.
-    fn of_moving(piece: &Shape, motion: &Motion) -> Extent {
-        const POSES: u32 = 64;
-        /// For what lies between them.
-        const SLACK: f64 = 1.02;
-        let poses: Vec<_> = (0..=POSES).map(|i| piece.transformed(&motion.at(f64::from(i) / f64::from(POSES)))).collect();
-        let spheres: Vec<_> = poses.iter().map(Shape::bounding_sphere).collect();
-        let center = spheres.iter().map(|(center, _)| *center).sum::<DVec3>() / spheres.len() as f64;
-        let radius = spheres.iter().map(|(c, r)| c.distance(center) + r).fold(0.0, f64::max) * SLACK;
-        Extent::within(center, radius, radius * radius, None)
-    }
-
-    fn within(center: DVec3, radius: f64, size: f64, normal: Option<[f32; 3]>) -> Extent {
-        let radius_squared = (radius * radius) as f32;
-        Extent::Within { center: center.as_vec3().to_array(), radius_squared, size: size as f32, normal }
     }
 }
 

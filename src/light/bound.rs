@@ -1,0 +1,58 @@
+//! What the choice of a light knows of an emitting piece: where it is, how much it may send, and to which side.
+use std::f64::consts::PI;
+
+use glam::DVec3;
+
+use super::emission::{Emission, Side};
+use crate::{
+    geometry::{Motion, Shape},
+    math::colour::luminance,
+};
+
+/// An emitting piece of a shape, within a sphere.
+pub(super) struct Bound {
+    pub center: DVec3,
+    pub radius: f64,
+    /// Largest projected area over π.
+    pub size: f64,
+    /// Unit normal of the front; only flat pieces have one.
+    pub normal: Option<DVec3>,
+    /// Luminance of the front and of the back.
+    pub front: f32,
+    pub back: f32,
+    pub moves: bool,
+}
+
+impl Bound {
+    /// Of a piece wherever it moves.
+    pub fn new(piece: &Shape, motion: &Motion, emission: &Emission) -> Bound {
+        let moves = !motion.0.is_empty();
+        let (center, radius) = if moves { around_poses(piece, motion) } else { piece.bounding_sphere() };
+        let (size, normal) = match piece {
+            _ if moves => (radius * radius, None),
+            Shape::Flat { edges: [a, b], mirrored, .. } => {
+                let across = a.cross(*b).normalize() * if *mirrored { -1.0 } else { 1.0 };
+                (piece.area().unwrap_or(0.0) / PI, Some(across))
+            }
+            _ => (radius * radius, None),
+        };
+        let light = luminance(emission.mean);
+        let (front, back) = match emission.side {
+            Side::Front => (light, 0.0),
+            Side::Back => (0.0, light),
+            Side::Both => (light, light),
+        };
+        Bound { center, radius, size, normal, front, back, moves }
+    }
+}
+
+/// A sphere around all poses, of which some are looked at.
+fn around_poses(piece: &Shape, motion: &Motion) -> (DVec3, f64) {
+    const POSES: u32 = 64;
+    /// For what lies between them.
+    const SLACK: f64 = 1.02;
+    let pose = |i: u32| piece.transformed(&motion.at(f64::from(i) / f64::from(POSES))).bounding_sphere();
+    let spheres: Vec<_> = (0..=POSES).map(pose).collect();
+    let center = spheres.iter().map(|(center, _)| *center).sum::<DVec3>() / spheres.len() as f64;
+    (center, spheres.iter().map(|(c, r)| c.distance(center) + r).fold(0.0, f64::max) * SLACK)
+}

@@ -1,0 +1,161 @@
+//! Which light a point looks at.
+//!
+//! A light is chosen with a probability proportional to the irradiance it could cause at the point at most if nothing stood in
+//! between, of varying light to its mean: E ≤ π L sin²θ · max(cos) over its cone of half angle θ (Shirley et al. 1996, section 4,
+//! for what a good choice is). Few lights are weighed one by one; of many all but those of outstanding size form a tree.
+#[cfg(test)]
+mod tests;
+
+use fearless_simd_macros::simd;
+use glam::{DVec3, Vec3};
+
+use super::{
+    Emission, LightCoordinates, Receiver,
+    bound::Bound,
+    source::Source,
+    tree::{Descent, Item, Tree, light_of_word, word_of_light},
+};
+use crate::{
+    geometry::{MISS, Motion, Shape},
+    math::{F, Lanes, M, Pick, U},
+    sampling::hash::GOLDEN,
+};
+
+/// Such a choice is made without a large table of weights.
+const VERY_FEW: usize = 8;
+/// As many lights are weighed one by one, and no more.
+const FEW: usize = 64;
+/// Of more than that, at most so many of outstanding size are.
+const LARGE: usize = 16;
+/// Number of heads of the tree.
+const HEADS: usize = 32;
+const MOST_CANDIDATES: usize = if FEW > LARGE + HEADS { FEW } else { LARGE + HEADS };
+
+/// The candidates of a choice: the background, the lights that are weighed one by one, and the heads of the tree.
+#[derive(Default)]
+pub(super) struct Selection {
+    /// Mean luminance of the background.
+    sky: f32,
+    sources: Vec<Source>,
+    tree: Tree,
+    /// Of sources and heads, as in the tree.
+    words: Vec<u32>,
+}
+
+impl Selection {
+    /// `lights` are the shapes that emit, and how they move. `near` is where the scene happens.
+    pub fn new(lights: &[(Shape, Motion, Emission)], sky: f32, near: DVec3) -> Selection {
+        let bound = |light: usize| Bound::new(&lights[light].0, &lights[light].1, &lights[light].2);
+        let (single, tree) = if lights.len() <= FEW {
+            ((0..lights.len() as u32).collect(), Tree::default())
+        } else {
+            let mut items: Vec<_> = (0..lights.len()).map(|light| Item::new(&bound(light), light as u32)).collect();
+            let small = items.len() - outstanding(&mut items);
+            let single: Vec<_> = items.drain(small..).map(|item| item.light).collect();
+            let tree = Tree::new(&mut items, &single, HEADS);
+            (single, tree)
+        };
+        let source = |light: &u32| Source::new(&lights[*light as usize].0, &bound(*light as usize), near);
+        Selection {
+            sky,
+            sources: single.iter().map(source).collect(),
+            words: single.iter().map(|light| word_of_light(*light)).chain(tree.words()).collect(),
+            tree,
+        }
+    }
+
+    /// A light or [`MISS`] for the background, and the probability of this choice.
+    #[simd]
+    pub fn choose<L: Lanes>(&self, l: L, at: &Receiver<L>, u: &LightCoordinates<L>) -> (U<L>, F<L>) {
+        let chosen = if self.words.len() <= VERY_FEW {
+            self.choose_candidate::<L, VERY_FEW>(l, at, u.choice)
+        } else {
+            self.choose_candidate::<L, MOST_CANDIDATES>(l, at, u.choice)
+        };
+        let Chosen { mut word, mut pmf, u: rest } = chosen;
+        let sky = word.is(MISS);
+        if !self.tree.is_empty() {
+            let bits = u.choice.bits() ^ ((u.place.0.bits() + u.place.1.bits() * GOLDEN) * GOLDEN);
+            (word, pmf) = self.tree.descend(l, at, &Descent { inside: !sky, word, u: rest, bits, pmf });
+        }
+        (sky.pick(word, light_of_word(word)), pmf)
+    }
+
+    /// `MOST` is a bound on the number of candidates.
+    #[inline(always)]
+    fn choose_candidate<L: Lanes, const MOST: usize>(&self, l: L, at: &Receiver<L>, u: F<L>) -> Chosen<L> {
+        let mut weights = [l.f(0.0); MOST];
+        let mut total = l.f(self.sky);
+        for (i, weight) in weights.iter_mut().enumerate().take(self.words.len()) {
+            *weight = self.weight(l, at, i);
+            total = total + *weight;
+        }
+        // The last candidate whose share begins at or before the chosen place.
+        let place = u * total;
+        let (mut word, mut chosen, mut begin, mut end) = (l.u(MISS), l.f(self.sky), l.f(0.0), l.f(self.sky));
+        for (weight, candidate) in weights.iter().zip(&self.words) {
+            let here = place.ge(end) & weight.above(0.0);
+            word = here.pick(l.u(*candidate), word);
+            chosen = here.pick(*weight, chosen);
+            begin = here.pick(end, begin);
+            end = end + *weight;
+        }
+        let pmf = total.above(0.0).pick(chosen / total, l.f(0.0));
+        Chosen { word, pmf, u: ((place - begin) / chosen).max(l.f(0.0)).min(l.f(1.0 - f32::EPSILON)) }
+    }
+
+    /// The probability with which [`Selection::choose`] chooses a light of the lanes that `emits`, and in the others the background.
+    #[simd]
+    pub fn probability<L: Lanes>(&self, l: L, at: &Receiver<L>, emits: M<L>, target: U<L>) -> F<L> {
+        let light = emits.pick(target, l.u(0));
+        let (candidate, trail) = if self.tree.is_empty() { (light, light) } else { self.tree.place(l, light) };
+        let (mut total, mut chosen, mut word) = (l.f(self.sky), l.f(self.sky), l.u(0));
+        for (i, word_here) in self.words.iter().enumerate() {
+            let weight = self.weight(l, at, i);
+            let here = emits & candidate.is(i as u32);
+            chosen = here.pick(weight, chosen);
+            word = here.pick(l.u(*word_here), word);
+            total = total + weight;
+        }
+        let pmf = total.above(0.0).pick(chosen / total, l.f(0.0));
+        if self.tree.is_empty() { pmf } else { self.tree.follow(l, at, emits, word, trail, pmf) }
+    }
+
+    /// Of a source or a head.
+    #[inline(always)]
+    fn weight<L: Lanes>(&self, l: L, at: &Receiver<L>, candidate: usize) -> F<L> {
+        match self.sources.get(candidate) {
+            Some(source) => source.weight(l, at),
+            None => self.tree.head_weight(l, at, candidate - self.sources.len()),
+        }
+    }
+}
+
+/// A chosen candidate.
+struct Chosen<L: Lanes> {
+    /// [`MISS`] for the background.
+    word: U<L>,
+    pmf: F<L>,
+    /// What is left of the random number, uniform in (0, 1).
+    u: F<L>,
+}
+
+/// Moves lights that all others could hide behind to the end, and returns how many there are: a node of the tree would be as
+/// large as they are.
+fn outstanding(items: &mut [Item]) -> usize {
+    let begin = items.len() - LARGE.min(items.len());
+    let by_size = |a: &Item, b: &Item| a.radius.total_cmp(&b.radius).then(a.light.cmp(&b.light));
+    if begin > 0 {
+        items.select_nth_unstable_by(begin, by_size);
+    }
+    items[begin..].sort_unstable_by(by_size);
+    let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+    for (i, item) in items.iter().enumerate() {
+        if i >= begin && item.radius > 0.25 * low.distance(high) {
+            return items.len() - i;
+        }
+        low = low.min(item.center);
+        high = high.max(item.center);
+    }
+    0
+}

@@ -1,0 +1,266 @@
+//! The choice among few and many lights, against itself and against what lights give.
+use glam::{DMat3, DVec3};
+use statrs::distribution::{ChiSquared, ContinuousCDF};
+
+use super::{FEW, Selection};
+use crate::{
+    geometry::{MISS, Motion, Outline, Place, Shape, Shapes},
+    light::{Emission, Emitters, LightCoordinates, Receiver, Side},
+    math::{F, Lanes, M, One, Pick, SimdLevel, U, V},
+    sampling::hash::hash_one,
+};
+
+struct Random(u32);
+
+impl Random {
+    fn next(&mut self) -> f64 {
+        self.0 += 1;
+        (f64::from(hash_one(self.0) >> 9) + 0.5) / f64::from(1 << 23)
+    }
+
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.next()
+    }
+
+    fn direction(&mut self) -> DVec3 {
+        let (z, turn) = (self.between(-1.0, 1.0), self.next() * std::f64::consts::TAU);
+        DVec3::new(turn.cos() * (1.0 - z * z).sqrt(), turn.sin() * (1.0 - z * z).sqrt(), z)
+    }
+
+    fn point(&mut self, extent: f64) -> DVec3 {
+        DVec3::new(self.between(-extent, extent), self.between(-extent, extent), self.between(-extent, extent))
+    }
+}
+
+static STILL: Motion = Motion(Vec::new());
+
+struct Set {
+    name: &'static str,
+    shapes: Vec<Shape>,
+    emissions: Vec<Emission>,
+    sky: f32,
+}
+
+impl Set {
+    fn new(name: &'static str, lights: impl IntoIterator<Item = (Shape, f32, Side)>) -> Set {
+        let emission = |light, side| Emission { radiance: [light; 3], mean: [light; 3], texture: None, side };
+        let (shapes, emissions) = lights.into_iter().map(|(shape, light, side)| (shape, emission(light, side))).unzip();
+        Set { name, shapes, emissions, sky: 0.0 }
+    }
+
+    fn selection(&self) -> Selection {
+        let still = |(shape, emission): (&Shape, &Emission)| (shape.clone(), Motion::default(), *emission);
+        let lights: Vec<_> = self.shapes.iter().zip(&self.emissions).map(still).collect();
+        Selection::new(&lights, self.sky, DVec3::ZERO)
+    }
+
+    /// Of all lights, and last of the background.
+    fn pmf(&self, selection: &Selection, at: &Receiver<One>) -> Vec<f64> {
+        let lights = (0..self.shapes.len() as u32).map(|light| selection.probability(One, at, M(true), U(light)));
+        lights.chain([selection.probability(One, at, M(false), U(MISS))]).map(|pmf| f64::from(pmf.0)).collect()
+    }
+}
+
+fn ball(center: DVec3, radius: f64) -> Shape {
+    Shape::Sphere { center, radius }
+}
+
+/// Any shape, of about the given size.
+fn any_shape(random: &mut Random, size: f64) -> Shape {
+    let center = random.point(3.0);
+    let axes = DMat3::from_cols(random.direction(), random.direction(), random.direction()) * size;
+    let flat =
+        |outline| Shape::Flat { outline, origin: center, edges: [axes.x_axis, axes.y_axis], mirrored: axes.determinant() < 0.0 };
+    match (random.next() * 6.0) as u32 {
+        0 => ball(center, size),
+        1 => Shape::Ellipsoid { center, axes },
+        2 => Shape::cylinder(center, center + axes.x_axis, size * 0.3, false),
+        3 => flat(Outline::Triangle),
+        4 => flat(Outline::Ellipse),
+        _ => flat(Outline::Parallelogram),
+    }
+}
+
+fn any_side(random: &mut Random) -> Side {
+    [Side::Front, Side::Back, Side::Both][(random.next() * 3.0) as usize]
+}
+
+const MANY: usize = 300;
+
+fn sets() -> Vec<Set> {
+    let r = &mut Random(0);
+    let front = Side::Front;
+    let few: Vec<_> = (0..FEW).map(|_| (any_shape(r, 0.2), 1.0, any_side(r))).collect();
+    let mut all = vec![Set::new("few", few)];
+    let lights: Vec<_> = (0..3 * MANY)
+        .map(|_| {
+            let size = 10f64.powf(r.between(-3.0, 0.0));
+            (any_shape(r, size), 10f64.powf(r.between(-4.0, 4.0)) as f32, any_side(r))
+        })
+        .collect();
+    all.push(Set { sky: 0.3, ..Set::new("of all kinds", lights) });
+    let panels: Vec<_> = (0..MANY).map(|_| (Shape::disk(r.point(3.0).with_y(2.0), -DVec3::Y, 0.05), 1.0, front)).collect();
+    all.push(Set::new("a ceiling of lamps", panels));
+    all.push(Set::new("identical", (0..MANY).map(|_| (ball(DVec3::X, 0.1), 1.0, front))));
+    let turned: Vec<_> = (0..MANY).map(|_| (Shape::disk(DVec3::Y, r.direction(), 0.1), 1.0, any_side(r))).collect();
+    all.push(Set::new("in one place", turned));
+    all.push(Set::new("collinear", (0..MANY).map(|i| (ball(DVec3::X * (i as f64 * 0.1), 0.02), 1.0, front))));
+    // Each ten times as far as the one before, and many near each.
+    let spread = (0..MANY).map(|i| (ball(DVec3::X * 10f64.powi(i as i32 % 12 - 6) * (1.0 + i as f64 * 1e-3), 1e-8), 1.0, front));
+    all.push(Set::new("further and further", spread));
+    let mut lights: Vec<_> = (0..1000).map(|_| (ball(r.point(2.0), 1e-5), 1e6, front)).collect();
+    lights.insert(500, (ball(DVec3::Y * -1e6, 1e6 - 3.0), 0.1, front));
+    lights.push((ball(DVec3::ZERO, 1e3), 0.01, Side::Back));
+    all.push(Set::new("two enormous, a thousand tiny", lights));
+    let shells: Vec<_> = (0..MANY).map(|_| (ball(r.point(3.0), 0.5), 1.0, any_side(r))).collect();
+    all.push(Set::new("shells", shells));
+    all
+}
+
+fn vector(v: DVec3) -> V<One> {
+    let [x, y, z] = v.as_vec3().to_array().map(F);
+    V { x, y, z }
+}
+
+/// Among the lights, close to one of them, in the middle of one, or far away.
+fn receiver(random: &mut Random, set: &Set) -> Receiver<One> {
+    let light = &set.shapes[(random.next() * set.shapes.len() as f64) as usize];
+    let (center, radius) = light.bounding_sphere();
+    let p = match (random.next() * 5.0) as u32 {
+        0 | 1 => random.point(4.0),
+        2 => center + random.direction() * radius * random.between(0.9, 1.5),
+        3 => center + random.direction() * radius * random.next(),
+        _ => random.direction() * 10f64.powf(random.between(1.0, 7.0)),
+    };
+    Receiver { p: vector(p), n: vector(random.direction()), transmits: M(random.next() < 0.3) }
+}
+
+fn coordinates(random: &mut Random) -> LightCoordinates<One> {
+    let mut f = || F(random.next() as f32);
+    LightCoordinates { choice: f(), cell: (F(0.5), F(0.5)), place: (f(), f()) }
+}
+
+#[test]
+fn probabilities_sum_to_one() {
+    let random = &mut Random(1 << 20);
+    let mut lit = 0;
+    for set in sets() {
+        let selection = set.selection();
+        for _ in 0..100 {
+            let at = receiver(random, &set);
+            let pmf = set.pmf(&selection, &at);
+            let sum: f64 = pmf.iter().sum();
+            // Where it is seen at once that no light contributes, none is chosen.
+            assert!(sum == 0.0 || (sum - 1.0).abs() < 1e-4, "{}: {sum}", set.name);
+            lit += u32::from(sum > 0.0);
+        }
+    }
+    assert!(lit > 600, "{lit}");
+}
+
+#[test]
+fn a_choice_has_its_probability_at_every_level() {
+    let random = &mut Random(2 << 20);
+    for set in sets() {
+        let selection = set.selection();
+        for _ in 0..20 {
+            let cases: Vec<_> = (0..16).map(|_| (receiver(random, &set), coordinates(random))).collect();
+            let one: Vec<_> = cases.iter().map(|(at, u)| selection.choose(One, at, u)).collect();
+            for (i, (target, pmf)) in one.iter().enumerate() {
+                let again = selection.probability(One, &cases[i].0, M(target.0 != MISS), *target);
+                assert!(again.0.to_bits() == pmf.0.to_bits() || target.0 == MISS && pmf.0 == 0.0, "{} {}", again.0, pmf.0);
+            }
+            for level in SimdLevel::available() {
+                crate::in_lanes!(level, l => all_same(l, &selection, &cases, &one));
+            }
+        }
+    }
+}
+
+type Drawing = (Receiver<One>, LightCoordinates<One>);
+
+fn all_same<L: Lanes>(l: L, selection: &Selection, cases: &[Drawing], one: &[(U<One>, F<One>)]) {
+    for (cases, one) in cases.chunks(L::N).zip(one.chunks(L::N)) {
+        let real = |get: &dyn Fn(&Drawing) -> f32| l.load(&cases.iter().map(get).collect::<Vec<_>>());
+        let at = Receiver {
+            p: V { x: real(&|c| c.0.p.x.0), y: real(&|c| c.0.p.y.0), z: real(&|c| c.0.p.z.0) },
+            n: V { x: real(&|c| c.0.n.x.0), y: real(&|c| c.0.n.y.0), z: real(&|c| c.0.n.z.0) },
+            transmits: real(&|c| f32::from(u8::from(c.0.transmits.0))).above(0.5),
+        };
+        let half = l.f(0.5);
+        let place = (real(&|c| c.1.place.0.0), real(&|c| c.1.place.1.0));
+        let (target, pmf) =
+            selection.choose(l, &at, &LightCoordinates { choice: real(&|c| c.1.choice.0), cell: (half, half), place });
+        let again = selection.probability(l, &at, !target.is(MISS), target);
+        for (lane, (target_of_one, pmf_of_one)) in one.iter().enumerate() {
+            assert_eq!(target.to_array()[lane], target_of_one.0);
+            assert_eq!(pmf.to_array()[lane].to_bits(), pmf_of_one.0.to_bits());
+            assert!(target_of_one.0 == MISS || again.to_array()[lane].to_bits() == pmf_of_one.0.to_bits());
+        }
+    }
+}
+
+#[test]
+fn choices_are_as_frequent_as_their_probability() {
+    const CHOICES: usize = 60_000;
+    let random = &mut Random(3 << 20);
+    let mut tests = 0;
+    for set in sets() {
+        let selection = set.selection();
+        for _ in 0..2 {
+            let at = receiver(random, &set);
+            let pmf = set.pmf(&selection, &at);
+            let mut counts = vec![0.0; pmf.len()];
+            for _ in 0..CHOICES {
+                let (target, _) = selection.choose(One, &at, &coordinates(random));
+                counts[(target.0 as usize).min(set.shapes.len())] += 1.0;
+            }
+            // What is rare is taken together.
+            let (mut statistic, mut bins, mut rest) = (0.0, 0.0, (0.0, 0.0));
+            for (count, pmf) in counts.iter().zip(&pmf) {
+                let expected = pmf * CHOICES as f64;
+                if expected < 8.0 {
+                    rest = (rest.0 + count, rest.1 + expected);
+                } else {
+                    statistic += (count - expected).powi(2) / expected;
+                    bins += 1.0;
+                }
+            }
+            if rest.1 >= 8.0 {
+                statistic += (rest.0 - rest.1).powi(2) / rest.1;
+                bins += 1.0;
+            }
+            if bins > 1.0 {
+                let p = 1.0 - ChiSquared::new(bins - 1.0).unwrap().cdf(statistic);
+                assert!(p > 1e-4 / 20.0, "{}: p = {p}, {statistic} of {bins}", set.name);
+                tests += 1;
+            }
+        }
+    }
+    assert!(tests > 12);
+}
+
+#[test]
+fn what_can_contribute_can_be_chosen() {
+    let random = &mut Random(4 << 20);
+    let mut contributions = 0;
+    for set in sets() {
+        let selection = set.selection();
+        let (shapes, emitters) =
+            (Shapes::new(set.shapes.iter().map(|shape| (shape, &STILL)), DVec3::ZERO), Emitters::new(&set.emissions));
+        for _ in 0..20_000 {
+            let at = receiver(random, &set);
+            let light = U((random.next() * set.shapes.len() as f64) as u32);
+            let place = Place { primitive: light, element: U(0), time: F(0.0) };
+            let toward = shapes.toward(One, &place, at.p, (F(random.next() as f32), F(random.next() as f32)));
+            let (_, lit) = emitters.radiance(One, M(true), light, toward.front.pick(F(1.0), F(-1.0)));
+            let visible = at.transmits.0 || toward.wi.dot(at.n).0 > 0.0;
+            if lit.0 && visible && toward.pdf.0 > 0.0 {
+                let pmf = selection.probability(One, &at, M(true), light).0;
+                assert!(pmf > 0.0, "{}: light {} from {:?}", set.name, light.0, at.p.lane(0));
+                contributions += 1;
+            }
+        }
+    }
+    assert!(contributions > 40_000, "{contributions}");
+}

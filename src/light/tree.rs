@@ -1,0 +1,176 @@
+//! The light tree: thousands of lights as nodes that lead to others, so that a light is found in a few steps.
+//!
+//! A. Conty Estevez and C. Kulla, "Importance Sampling of Many Lights with Adaptive Tree Splitting" (2018), made for lanes: nodes
+//! have up to eight ways, weighed against each other, in place of three levels of two with looser bounds; and the way down
+//! begins not at a root but at one of a number of *heads*, which are weighed one by one, since all lanes look at the same heads.
+mod build;
+mod cluster;
+mod split;
+
+pub(super) use self::cluster::Item;
+use self::cluster::{Cluster, Rows};
+use super::Receiver;
+use crate::{
+    math::{F, Lanes, M, Pick, U},
+    sampling::hash::{GOLDEN, hash, unit},
+};
+
+/// A node leads to at most so many others, which takes so many bits to say.
+const WAYS: usize = 1 << BITS;
+const BITS: u32 = 3;
+const LAST: u32 = WAYS as u32 - 1;
+
+/// The word of a node that is a light.
+pub(super) fn word_of_light(light: u32) -> u32 {
+    light << BITS
+}
+
+/// The light of words that say one.
+#[inline(always)]
+pub(super) fn light_of_word<L: Lanes>(word: U<L>) -> U<L> {
+    word >> BITS
+}
+
+/// A light tree. Words of nodes hold a light, or the first of the ways and in the last bits their number less 1.
+#[derive(Default)]
+pub(super) struct Tree {
+    heads: Vec<Rows>,
+    /// Two rows a node; the ways of a node follow each other.
+    nodes: Vec<[f32; 4]>,
+    /// By light: the candidate of the choice that it is or lies below, and the trail from there.
+    places: Vec<[f32; 4]>,
+    /// Some lights have normals.
+    oriented: bool,
+}
+
+/// How a choice goes on below a head.
+pub(super) struct Descent<L: Lanes> {
+    /// Lanes that the choice has led to a head.
+    pub inside: M<L>,
+    /// Words of the heads.
+    pub word: U<L>,
+    /// Uniform in (0, 1).
+    pub u: F<L>,
+    /// Any bits from which to draw another number where `u` has been used up.
+    pub bits: U<L>,
+    /// Probability of the head.
+    pub pmf: F<L>,
+}
+
+impl Tree {
+    pub fn is_empty(&self) -> bool {
+        self.heads.is_empty()
+    }
+
+    /// The words of the heads.
+    pub fn words(&self) -> impl Iterator<Item = u32> {
+        self.heads.iter().map(|[_, row]| row[3].to_bits())
+    }
+
+    #[inline(always)]
+    pub fn head_weight<L: Lanes>(&self, l: L, at: &Receiver<L>, head: usize) -> F<L> {
+        Cluster::of_all(l, &self.heads[head]).weight(l, at, self.oriented)
+    }
+
+    /// The candidate and the trail of a light.
+    #[inline(always)]
+    pub fn place<L: Lanes>(&self, l: L, light: U<L>) -> (U<L>, U<L>) {
+        let [candidate, trail, ..] = l.rows(&self.places, light);
+        (candidate.bits(), trail.bits())
+    }
+
+    /// Goes down to a light: its word, and its probability.
+    #[inline(always)]
+    pub fn descend<L: Lanes>(&self, l: L, at: &Receiver<L>, from: &Descent<L>) -> (U<L>, F<L>) {
+        // A number has 23 bits. Where a path through the tree has used up 10 of them, others are drawn in their place: the first
+        // decisions are as well stratified as the number is, and the last ones as fine as they must be.
+        const COARSE: f32 = 1.0 / 1024.0;
+        let Descent { inside, mut word, mut u, bits, mut pmf } = *from;
+        let mut share = pmf;
+        let mut level = 0;
+        loop {
+            let inner = inside & !(word & LAST).is(0);
+            if !inner.any() {
+                return (word, pmf);
+            }
+            let coarse = share.below(COARSE);
+            u = coarse.pick(unit(hash(bits + GOLDEN.wrapping_mul(level))), u);
+            share = coarse.pick(l.f(1.0), share);
+            level += 1;
+
+            let ways = self.ways(l, at, inner, word);
+            let place = u * ways.total;
+            let (mut begin, mut chosen, mut next) = (l.f(0.0), ways.weights[0], ways.words[0]);
+            let mut end = ways.weights[0];
+            for way in 1..WAYS {
+                let weight = ways.weights[way];
+                let here = (place.ge(end) & weight.above(0.0)) | !chosen.above(0.0);
+                begin = here.pick(end, begin);
+                chosen = here.pick(weight, chosen);
+                next = here.pick(ways.words[way], next);
+                end = end + weight;
+            }
+            // Below 1, whatever the rounding.
+            u = ((place - begin) / chosen).max(l.f(0.0)).min(l.f(1.0 - f32::EPSILON));
+            let probability = chosen / ways.total;
+            share = share * probability;
+            pmf = inner.pick(pmf * probability, pmf);
+            word = inner.pick(next, word);
+        }
+    }
+
+    /// The probability of going down from heads of the given words by trails, starting with `pmf`.
+    #[inline(always)]
+    pub fn follow<L: Lanes>(&self, l: L, at: &Receiver<L>, inside: M<L>, head: U<L>, trail: U<L>, pmf: F<L>) -> F<L> {
+        let (mut word, mut trail, mut pmf) = (head, trail, pmf);
+        loop {
+            let inner = inside & !(word & LAST).is(0);
+            if !inner.any() {
+                return pmf;
+            }
+            let ways = self.ways(l, at, inner, word);
+            let (mut chosen, mut next) = (ways.weights[0], ways.words[0]);
+            for way in 1..WAYS {
+                let here = (trail & LAST).is(way as u32);
+                chosen = here.pick(ways.weights[way], chosen);
+                next = here.pick(ways.words[way], next);
+            }
+            pmf = inner.pick(pmf * (chosen / ways.total), pmf);
+            word = inner.pick(next, word);
+            trail = trail >> BITS;
+        }
+    }
+
+    /// What the nodes of these words in the lanes of `inner` lead to.
+    #[inline(always)]
+    fn ways<L: Lanes>(&self, l: L, at: &Receiver<L>, inner: M<L>, word: U<L>) -> Ways<L> {
+        let word = inner.pick(word, l.u(0));
+        let (first, last) = (word >> BITS, word & LAST);
+        let mut ways = Ways { weights: [l.f(0.0); WAYS], words: [word; WAYS], total: l.f(0.0) };
+        for way in 0..WAYS {
+            let exists = !last.below(way as u32);
+            let node = exists.pick(first + way as u32, first) << 1;
+            let cluster = Cluster::new([l.rows(&self.nodes, node), l.rows(&self.nodes, node + 1)]);
+            ways.weights[way] = exists.pick(cluster.weight(l, at, self.oriented), l.f(0.0));
+            ways.words[way] = cluster.word;
+            ways.total = ways.total + ways.weights[way];
+        }
+        // Where none could contribute: any, all alike.
+        let dead = !ways.total.above(0.0);
+        if dead.any() {
+            for way in 0..WAYS {
+                let exists = dead & !last.below(way as u32);
+                ways.weights[way] = exists.pick(l.f(1.0), ways.weights[way]);
+            }
+            ways.total = dead.pick((last + 1).to_real(), ways.total);
+        }
+        ways
+    }
+}
+
+/// What nodes lead to.
+struct Ways<L: Lanes> {
+    weights: [F<L>; WAYS],
+    words: [U<L>; WAYS],
+    total: F<L>,
+}

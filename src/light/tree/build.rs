@@ -1,0 +1,70 @@
+//! Building the tree, from the heads down.
+use glam::Vec3;
+
+use super::{
+    BITS, Tree, WAYS,
+    cluster::{Item, Rows, rows},
+    split::groups,
+    word_of_light,
+};
+
+/// Levels below a head; the trail of a light has some bits for each.
+const MOST_LEVELS: u32 = 32 / BITS;
+
+impl Tree {
+    /// Over these lights. `single` are those outside the tree, the first candidates of the choice; the heads follow.
+    pub fn new(items: &mut [Item], single: &[u32], heads: usize) -> Tree {
+        let mut tree = Tree {
+            heads: Vec::new(),
+            nodes: Vec::new(),
+            places: vec![[0.0; 4]; single.len() + items.len()],
+            oriented: items.iter().any(|item| item.axis != Vec3::ZERO),
+        };
+        for (candidate, light) in single.iter().enumerate() {
+            tree.places[*light as usize][0] = f32::from_bits(candidate as u32);
+        }
+        let mut rest = items;
+        for size in groups(rest, heads) {
+            let (head, others) = rest.split_at_mut(size);
+            rest = others;
+            let candidate = (single.len() + tree.heads.len()) as u32;
+            let word = tree.grow(head, Place { candidate, trail: 0, level: 0 });
+            tree.heads.push(rows(head, word));
+        }
+        tree
+    }
+
+    /// Adds what lies below a node of these lights, and returns the word of the node.
+    fn grow(&mut self, items: &mut [Item], place: Place) -> u32 {
+        if let [item] = items {
+            self.places[item.light as usize] = [f32::from_bits(place.candidate), f32::from_bits(place.trail), 0.0, 0.0];
+            return word_of_light(item.light);
+        }
+        let mut sizes = groups(items, WAYS);
+        let fits = WAYS.saturating_pow(MOST_LEVELS - 1 - place.level);
+        if sizes.iter().any(|size| *size > fits) {
+            // Too uneven for the levels that are left.
+            sizes = (0..WAYS).map(|way| items.len() * (way + 1) / WAYS - items.len() * way / WAYS).collect();
+        }
+        let first = self.nodes.len() / 2;
+        self.nodes.resize(2 * (first + sizes.len()), [0.0; 4]);
+        let mut rest = items;
+        for (way, size) in sizes.iter().enumerate() {
+            let (part, others) = rest.split_at_mut(*size);
+            rest = others;
+            let trail = place.trail | (way as u32) << (BITS * place.level);
+            let word = self.grow(part, Place { trail, level: place.level + 1, ..place });
+            let node: Rows = rows(part, word);
+            self.nodes[2 * (first + way)..][..2].copy_from_slice(&node);
+        }
+        (first as u32) << BITS | (sizes.len() as u32 - 1)
+    }
+}
+
+/// Where the building is.
+#[derive(Clone, Copy)]
+struct Place {
+    candidate: u32,
+    trail: u32,
+    level: u32,
+}

@@ -1,0 +1,180 @@
+//! Lights taken together, as a node of the tree knows them: a sphere around all, what they may send in sum, and a cone around
+//! their normals. Two rows of four numbers.
+use glam::Vec3;
+
+use super::super::{Receiver, bound::Bound};
+use crate::math::{F, Lanes, M, Pick, U, V};
+
+/// A light as the tree is built over it.
+#[derive(Clone, Copy)]
+pub(in crate::light) struct Item {
+    pub center: Vec3,
+    pub radius: f32,
+    /// Luminance times largest projected area over π.
+    pub power: f32,
+    /// Unit normal of the side that shines; 0 where there is none, and all sides shine.
+    pub axis: Vec3,
+    pub two_sided: bool,
+    pub light: u32,
+}
+
+impl Item {
+    pub fn new(bound: &Bound, light: u32) -> Item {
+        let center = bound.center.as_vec3();
+        // What rounding takes the centre away by, of both the light and the receiver.
+        let moved = 4.0 * f32::EPSILON * center.abs().max_element();
+        let axis = bound.normal.map_or(Vec3::ZERO, glam::DVec3::as_vec3);
+        Item {
+            center,
+            radius: (bound.radius as f32 * (1.0 + 1e-6) + moved).max(1e-18),
+            power: bound.size as f32 * bound.front.max(bound.back),
+            axis: if bound.front > 0.0 { axis } else { -axis },
+            two_sided: bound.front > 0.0 && bound.back > 0.0,
+            light,
+        }
+    }
+}
+
+/// The rows of a node: centre, radius; power (negative when two-sided), axis x and y, axis z and cosine of the spread in halves of
+/// words, and the word.
+pub(super) type Rows = [[f32; 4]; 2];
+
+const HALF: f32 = 32767.0;
+
+/// x in [−1, 1] as a 16-bit number, rounded to nearest.
+fn half(x: f32) -> u32 {
+    (x * HALF + HALF).round() as u32
+}
+
+/// The rows of lights; `word` says where the tree goes on.
+pub(super) fn rows(items: &[Item], word: u32) -> Rows {
+    let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+    for item in items {
+        low = low.min(item.center - item.radius);
+        high = high.max(item.center + item.radius);
+    }
+    let center = if items.len() == 1 { items[0].center } else { low + (high - low) * 0.5 };
+    let reach = |item: &Item| item.center.distance(center) + item.radius;
+    let radius = items.iter().map(reach).fold(0.0, f32::max) * (1.0 + 1e-6);
+    let power: f32 = items.iter().map(|item| f64::from(item.power)).sum::<f64>() as f32;
+    let two_sided = items.iter().any(|item| item.two_sided);
+    let (axis, cos_spread) = cone(items, two_sided);
+    let [x, y, z] = axis.map(half);
+    let spread = (cos_spread * HALF + HALF).floor().max(0.0) as u32;
+    let power = if two_sided { -power } else { power };
+    [
+        [center.x, center.y, center.z, radius],
+        [power, f32::from_bits(x | y << 16), f32::from_bits(z | spread << 16), f32::from_bits(word)],
+    ]
+}
+
+/// A cone around the normals, of two-sided lights to one side or the other; its axis survives being stored.
+fn cone(items: &[Item], two_sided: bool) -> ([f32; 3], f32) {
+    /// What storing the axis may tilt it by, and its length being not quite 1, with some to spare.
+    const TILT: f32 = 0.01;
+    let mut sum = Vec3::ZERO;
+    for item in items {
+        let axis = item.axis * item.power;
+        sum += if two_sided && axis.dot(sum) < 0.0 { -axis } else { axis };
+    }
+    let axis = sum.try_normalize().unwrap_or(Vec3::Z);
+    let cos = |item: &Item| match item.axis.dot(axis) {
+        _ if item.axis == Vec3::ZERO => -1.0,
+        cos if two_sided => cos.abs(),
+        cos => cos,
+    };
+    let angle = items.iter().map(cos).fold(1.0, f32::min).max(-1.0).acos() + TILT;
+    (axis.to_array(), angle.min(std::f32::consts::PI).cos())
+}
+
+/// Nodes in lanes.
+pub(super) struct Cluster<L: Lanes> {
+    center: V<L>,
+    radius: F<L>,
+    power: F<L>,
+    axis: U<L>,
+    spread: U<L>,
+    pub word: U<L>,
+}
+
+impl<L: Lanes> Cluster<L> {
+    #[inline(always)]
+    pub fn new([[x, y, z, radius], [power, axis, spread, word]]: [[F<L>; 4]; 2]) -> Self {
+        Cluster { center: V { x, y, z }, radius, power, axis: axis.bits(), spread: spread.bits(), word: word.bits() }
+    }
+
+    /// One node in all lanes.
+    #[inline(always)]
+    pub fn of_all(l: L, rows: &Rows) -> Self {
+        let [[x, y, z, radius], [power, axis, spread, word]] = *rows;
+        Cluster::new([[l.f(x), l.f(y), l.f(z), l.f(radius)], [l.f(power), l.f(axis), l.f(spread), l.f(word)]])
+    }
+
+    /// An estimate of the irradiance from these lights, over π; 0 only where they cannot contribute. `oriented`: some have normals.
+    ///
+    /// With θ the angle at the receiver between its normal and the way to the centre, and β half the angle in which the sphere is
+    /// seen, cos(θ − β) bounds all cosines. A quarter of the bound is mixed with the cosine at the centre, and lights around
+    /// the receiver are taken to be as far as half the radius: measured to be better than the bounds alone, by a factor of
+    /// 1.3 to 3 in variance for thousands of lamps. Sines and cosines are kept times the distance; what lies beyond an angle is
+    /// told by the sign of the sine of the difference.
+    #[inline(always)]
+    pub fn weight(&self, l: L, at: &Receiver<L>, oriented: bool) -> F<L> {
+        let (zero, one) = (l.f(0.0), l.f(1.0));
+        let way = self.center - at.p;
+        let (distance_squared, radius_squared) = (way.length_squared(), self.radius * self.radius);
+        let scale = 1.0 / distance_squared.max(radius_squared);
+        let seen = Seen {
+            cos_beta: (distance_squared - radius_squared).max(zero).sqrt(),
+            sin_beta: self.radius,
+            far: radius_squared.lt(distance_squared),
+            scale,
+            root_of_scale: scale.sqrt(),
+        };
+        let power = self.power.abs() / distance_squared.max(radius_squared * 0.25);
+        let cos = way.dot(at.n);
+        let sin = (distance_squared - cos * cos).max(zero).sqrt();
+        let mut weight = power * at.transmits.pick(one, seen.cosine(cos, sin));
+        if oriented {
+            let axis = V { x: unhalf(self.axis & 0xffff), y: unhalf(self.axis >> 16), z: unhalf(self.spread & 0xffff) };
+            let cos_spread = unhalf(self.spread >> 16);
+            let sin_spread = (1.0 - cos_spread * cos_spread).max(zero).sqrt();
+            let cos = -way.dot(axis);
+            let cos = self.power.below(0.0).pick(cos.abs(), cos);
+            let sin = (distance_squared - cos * cos).max(zero).sqrt();
+            let (cos, sin) = (cos * cos_spread + sin * sin_spread, sin * cos_spread - cos * sin_spread);
+            weight = weight * sin.above(0.0).pick(seen.cosine(cos, sin), one);
+        }
+        weight
+    }
+}
+
+/// How the sphere of a cluster is seen.
+struct Seen<L: Lanes> {
+    /// Of half the angle in which it is seen, times the distance.
+    cos_beta: F<L>,
+    sin_beta: F<L>,
+    /// From outside.
+    far: M<L>,
+    /// 1/distance², and its root; at most 1/radius².
+    scale: F<L>,
+    root_of_scale: F<L>,
+}
+
+impl<L: Lanes> Seen<L> {
+    /// The cosine of an angle at the receiver, for the whole sphere; `cos` and `sin` are those at the centre times the distance.
+    #[inline(always)]
+    fn cosine(&self, cos: F<L>, sin: F<L>) -> F<L> {
+        // Not quite 0 for a light that only just lies below the horizon: rounding may see it.
+        const GRAZING: f32 = 1e-3;
+        let (zero, one) = (cos.splat(0.0), cos.splat(1.0));
+        let beyond = self.far & (sin * self.cos_beta - cos * self.sin_beta).above(0.0);
+        let bound = (cos * self.cos_beta + sin * self.sin_beta) * self.scale + GRAZING;
+        let bound = beyond.pick(bound.max(zero).min(one), one);
+        bound * 0.25 + (cos * self.root_of_scale).max(zero) * 0.75
+    }
+}
+
+#[inline(always)]
+fn unhalf<L: Lanes>(x: U<L>) -> F<L> {
+    x.to_real() * (1.0 / HALF) - 1.0
+}
