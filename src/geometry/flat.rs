@@ -1,7 +1,7 @@
 //! Flat shapes: parallelogram, triangle and ellipse, told apart by their outline only.
 //!
 //! The plane is anchored like [`super::sphere`], with curvature 0: a point q on it near the scene and the unit normal n.
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DVec3, Vec3};
 
 use super::{SurfacePoint, fraction::Fraction, shape::Outline};
 use crate::math::{F, Lanes, M, Pick, V};
@@ -37,11 +37,20 @@ impl Flat {
         Flat { anchor: anchor.to_array(), normal: n.as_vec3().to_array(), u: row(dual.x_axis), v: row(dual.y_axis), outline }
     }
 
-    /// The rows of the table: gradients of u and v with their values at the anchor, and the edges, with the outline and, of pieces
-    /// of closed shapes, how far these reach; else 0.
-    pub(super) fn rows(&self, edges: [DVec3; 2], reach: f64) -> [[f32; 4]; 4] {
+    /// The rows of the table: gradients of u and v with their values at the anchor, and the edges, with the outline and the area.
+    pub(super) fn rows(&self, edges: [DVec3; 2]) -> [[f32; 4]; 4] {
+        let area = edges[0].cross(edges[1]).length() * self.outline.area();
         let [a, b] = [edges[0].as_vec3(), edges[1].as_vec3()];
-        [self.u, self.v, [a.x, a.y, a.z, self.outline as u32 as f32], [b.x, b.y, b.z, reach as f32]]
+        [self.u, self.v, [a.x, a.y, a.z, self.outline as u32 as f32], [b.x, b.y, b.z, area as f32]]
+    }
+
+    /// How far the height over this piece, and its coordinates u and v, may be off where the closed shape that it belongs to is met:
+    /// sums of products with ways within the shape, which reaches so far along the axes of the world.
+    pub(super) fn roundings(&self, extent: DVec3) -> [f32; 4] {
+        const ROUNDINGS: f64 = 4.0 * f32::EPSILON as f64;
+        let of = |g: [f32; 3]| (Vec3::from(g).as_dvec3().abs().dot(extent) * ROUNDINGS) as f32;
+        let [[ux, uy, uz, _], [vx, vy, vz, _]] = [self.u, self.v];
+        [of(self.normal), of([ux, uy, uz]), of([vx, vy, vz]), 0.0]
     }
 
     /// The meeting of o + td, t > 0, as a fraction; NaN where there is none.
@@ -82,28 +91,21 @@ fn coordinate<L: Lanes>(row: &[f32; 4], from_anchor: V<L>) -> F<L> {
     gradient(row, from_anchor) + row[3]
 }
 
-/// Area in metres of the shapes with these rows.
-#[inline(always)]
-pub(super) fn area<L: Lanes>([_, _, a, b]: &[[F<L>; 4]; 4]) -> F<L> {
-    let across = V { x: a[0], y: a[1], z: a[2] }.cross(V { x: b[0], y: b[1], z: b[2] });
-    let outline = a[3];
-    let one = outline.splat(Outline::Parallelogram.area() as f32);
-    let of_triangle = outline.above(0.0).pick(one.splat(Outline::Triangle.area() as f32), one);
-    let of_outline = is_ellipse(outline).pick(one.splat(Outline::Ellipse.area() as f32), of_triangle);
-    across.length_squared().sqrt() * of_outline
-}
-
 /// A point of a piece of a closed shape, moved inside the outline by as much as keeps it on the inner side of the pieces that it
-/// meets at its edge, though they round otherwise. `reach` is how far the shape reaches: its other pieces round by that.
+/// meets at its edge, though they round otherwise: see [`Flat::roundings`] for the row of these.
 #[inline(always)]
-pub(super) fn within_outline<L: Lanes>(rows: &[[F<L>; 4]; 4], from_anchor: V<L>, point: &SurfacePoint<L>) -> SurfacePoint<L> {
-    const ROUNDINGS_OF_REACH: f32 = 4.0 * f32::EPSILON;
+pub(super) fn within_outline<L: Lanes>(
+    rows: &[[F<L>; 4]; 4],
+    [of_height, of_u, of_v, _]: [F<L>; 4],
+    from_anchor: V<L>,
+    point: &SurfacePoint<L>,
+) -> SurfacePoint<L> {
     let [to_u, to_v, a, b] = rows;
     let (grad_u, grad_v) = (V { x: to_u[0], y: to_u[1], z: to_u[2] }, V { x: to_v[0], y: to_v[1], z: to_v[2] });
     let (u, v) = (grad_u.dot(from_anchor) + to_u[3], grad_v.dot(from_anchor) + to_v[3]);
-    let error = point.error + b[3] * ROUNDINGS_OF_REACH;
-    let margin_u = grad_u.length_squared().sqrt() * error * 2.0;
-    let margin_v = grad_v.length_squared().sqrt() * error * 2.0;
+    let error = point.error + of_height;
+    let margin_u = (grad_u.length_squared().sqrt() * error + of_u) * 2.0;
+    let margin_v = (grad_v.length_squared().sqrt() * error + of_v) * 2.0;
     let in_square = (u.max(margin_u).min(1.0 - margin_u), v.max(margin_v).min(1.0 - margin_v));
     let radius = (u * u + v * v).sqrt();
     let shrink = ((1.0 - margin_u.max(margin_v)) / radius).min(u.splat(1.0));

@@ -173,6 +173,15 @@ impl Shape {
         }
     }
 
+    /// How far a cuboid or a cylinder reaches along the axes of the world, from any of its points to another.
+    pub(super) fn extent(&self) -> DVec3 {
+        match self {
+            Shape::Cuboid { edges, .. } => edges.x_axis.abs() + edges.y_axis.abs() + edges.z_axis.abs(),
+            Shape::Cylinder { axes, .. } => (axes.x_axis.abs() + axes.y_axis.abs()) * 2.0 + axes.z_axis.abs(),
+            _ => DVec3::splat(2.0 * self.bounding_sphere().1),
+        }
+    }
+
     /// Whether a point lies inside; nothing lies inside a surface that is open.
     pub fn contains(&self, p: DVec3) -> bool {
         match self {

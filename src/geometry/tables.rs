@@ -35,6 +35,8 @@ pub(super) struct Tables {
     /// Four rows each: see [`Flat::rows`] and [`Quadric::rows`].
     pub(super) flat_rows: Vec<[f32; 4]>,
     quadric_rows: Vec<[f32; 4]>,
+    /// Of flats: see [`Flat::roundings`]; 0 where they are not part of a closed shape.
+    roundings: Vec<[f32; 4]>,
     /// Some are made of several pieces that enclose a space.
     have_closed: bool,
 }
@@ -81,8 +83,8 @@ impl Tables {
                 let tag = FLAT | (self.flat_rows.len() as u32 / 4) << 2;
                 self.anchors.push(row(flat.anchor, 0.0));
                 self.normals.push(row(flat.normal, f32::from_bits(tag)));
-                let reach = if closed { 2.0 * shape.bounding_sphere().1 } else { 0.0 };
-                self.flat_rows.extend(flat.rows(*edges, reach));
+                self.flat_rows.extend(flat.rows(*edges));
+                self.roundings.push(if closed { flat.roundings(shape.extent()) } else { [0.0; 4] });
                 // Rays find the pieces of a closed shape by itself.
                 if !closed {
                     self.flats.push((id, flat));
@@ -142,8 +144,9 @@ impl Tables {
         if self.have_closed
             && let Some(AtFlat { here, rows, from_anchor }) = self.flat(l, tag, primitive, point.p)
         {
-            let closed = here & rows[3][3].above(0.0);
-            point = closed.pick(within_outline(&rows, from_anchor, &point), point);
+            let roundings = l.rows(&self.roundings, here.pick(tag >> 2, l.u(0)));
+            let closed = here & roundings[0].above(0.0);
+            point = closed.pick(within_outline(&rows, roundings, from_anchor, &point), point);
         }
         if let Some((here, quadric)) = self.quadric(l, tag) {
             point = here.pick(quadric.surface_point(p), point);

@@ -5,7 +5,7 @@
 use std::f32::consts::TAU;
 
 use super::{
-    flat::{area, is_ellipse},
+    flat::is_ellipse,
     quadric::Local,
     shape::Outline,
     sphere::Cone,
@@ -80,7 +80,7 @@ impl Tables {
         let n = V { x, y, z };
         let (height, cos) = (from_anchor.dot(n), wi.dot(n).abs());
         let t = height / cos;
-        let area = area(rows);
+        let area = rows[3][3];
         let exists = height.abs().above(0.0) & cos.above(0.0);
         (exists.pick(t * t / (area * cos), l.f(0.0)), height.above(0.0))
     }
