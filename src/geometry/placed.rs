@@ -5,10 +5,11 @@ use fearless_simd_macros::simd;
 use glam::DAffine3;
 
 use super::{
-    Coordinates, Place, SurfacePoint, Toward,
+    Coordinates, MISS, Place, SurfacePoint, Toward,
     isosurface::Isosurface,
     mesh::Mesh,
     motion::{Pose, Step},
+    shape::Shape,
     tables::Tables,
 };
 use crate::math::{F, Lanes, M, Pick, U, V};
@@ -22,6 +23,8 @@ pub(super) struct Placed {
     motion: Vec<Step>,
     /// The local space is the world's.
     is_world: bool,
+    /// Centre and square of the radius of a sphere around it, where it stands still.
+    around: Option<([f32; 3], f32)>,
 }
 
 pub(super) enum Body {
@@ -39,9 +42,28 @@ pub(super) struct Meeting<L: Lanes> {
 }
 
 impl Placed {
-    pub fn new(first: u32, body: Body, still: DAffine3, motion: &[Step]) -> Placed {
+    /// `shape` is the whole in the world, when the shutter opens.
+    pub fn new(first: u32, body: Body, still: DAffine3, motion: &[Step], shape: &Shape) -> Placed {
+        // Much more than all roundings on the way.
+        const SLACK: f64 = 1.0001;
         let is_world = motion.is_empty() && still == DAffine3::IDENTITY;
-        Placed { first, body, still, motion: motion.to_vec(), is_world }
+        let (center, radius) = shape.bounding_sphere();
+        let around = (center.as_vec3().to_array(), (radius * radius * SLACK) as f32);
+        Placed { first, body, still, motion: motion.to_vec(), is_world, around: motion.is_empty().then_some(around) }
+    }
+
+    /// The lanes whose ray may meet it.
+    #[inline(always)]
+    pub fn near<L: Lanes>(&self, live: M<L>, o: V<L>, d: V<L>) -> M<L> {
+        // Of the distance of the centre: how far it may be off, squared, and more.
+        const ROUNDING: f32 = 1e-11;
+        let Some((center, radius_squared)) = self.around else { return live };
+        let way = o - center;
+        let distance_squared = way.length_squared();
+        let along = way.dot(d);
+        let nearest = (way - d * along).length_squared();
+        let reach = distance_squared * ROUNDING + radius_squared;
+        live & nearest.lt(reach) & (along.below(0.0) | distance_squared.lt(reach))
     }
 
     /// The map into the world when the shutter opens.
@@ -73,7 +95,8 @@ impl Placed {
         match &self.body {
             Body::Mesh(mesh) => {
                 let (t, element) = mesh.closest(l, o, d, live.pick(limit, l.f(0.0)));
-                Meeting { t, piece: zero, element }
+                let none = element.is(MISS);
+                Meeting { t: none.pick(l.f(f32::INFINITY), t), piece: zero, element: none.pick(zero, element) }
             }
             Body::Isosurface(surface) => Meeting { t: surface.intersect(l, o, d, limit), piece: zero, element: zero },
             Body::Shapes(tables) => {

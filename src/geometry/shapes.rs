@@ -62,7 +62,7 @@ impl Shapes {
             for _ in 0..shape.piece_count() {
                 all.tables.push_placed(all.placed.len());
             }
-            all.placed.push(Placed::new(first, body, still, &motion.0));
+            all.placed.push(Placed::new(first, body, still, &motion.0, shape));
         }
         all
     }
@@ -101,7 +101,11 @@ impl Shapes {
         let (t, primitive) = self.tables.closest(l, o, d);
         let mut nearest = Nearest { t, primitive, element: l.u(0) };
         for placed in &self.placed {
-            let found = placed.closest(l, live, o, d, time, nearest.t);
+            let near = placed.near(live, o, d);
+            if !near.any() {
+                continue;
+            }
+            let found = placed.closest(l, near, o, d, time, nearest.t);
             let nearer = found.t.lt(nearest.t);
             nearest.t = nearer.pick(found.t, nearest.t);
             nearest.primitive = nearer.pick(found.piece + placed.first, nearest.primitive);
