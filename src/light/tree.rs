@@ -3,6 +3,11 @@
 //! A. Conty Estevez and C. Kulla, "Importance Sampling of Many Lights with Adaptive Tree Splitting" (2018), made for lanes: nodes
 //! have up to eight ways, weighed against each other, in place of three levels of two with looser bounds; and the way down
 //! begins not at a root but at one of a number of *heads*, which are weighed one by one, since all lanes look at the same heads.
+//!
+//! On one core with AVX-512, choosing one of 500, 4000 and 10⁶ lamps takes 75, 95 and 175 ns, with normals 105, 130 and 230; weighing
+//! 4000 one by one would take 4 µs. A direct light sample's relMSE is 1.1 to 1.25 times what that would give, where all lamps
+//! alike would give 2.5 to 7 times. The tree of a million triangles is built in 0.7 s, and
+//! has about 60 bytes for each.
 mod build;
 mod cluster;
 mod split;
@@ -44,6 +49,7 @@ pub(super) struct Tree {
 }
 
 /// How a choice goes on below a head.
+#[derive(Clone, Copy)]
 pub(super) struct Descent<L: Lanes> {
     /// Lanes that the choice has led to a head.
     pub inside: M<L>,
@@ -65,10 +71,6 @@ impl Tree {
     /// The words of the heads.
     pub fn words(&self) -> impl Iterator<Item = u32> {
         self.heads.iter().map(|[_, row]| row[3].to_bits())
-    }
-
-    pub fn heads(&self) -> usize {
-        self.heads.len()
     }
 
     #[inline(always)]
