@@ -23,11 +23,13 @@ use crate::{
 
 /// Such a choice is made without a large table of weights.
 const VERY_FEW: usize = 8;
-/// As many lights are weighed one by one, and no more.
+/// As many lights are weighed one by one, and no more. Time × relMSE of 64 lamps is 1.1 to 1.4 times better so, of 96 it is as good
+/// either way, and of 128 up to 1.15 times better with the tree.
 const FEW: usize = 64;
 /// Of more than that, at most so many of outstanding size are.
 const LARGE: usize = 16;
-/// Number of heads of the tree.
+/// Number of heads of the tree. With twice as many a choice takes 15 to 50 % longer, and its variance, a tenth or so of that of a
+/// light sample, mostly falls by a third.
 const HEADS: usize = 32;
 const MOST_CANDIDATES: usize = if FEW > LARGE + HEADS { FEW } else { LARGE + HEADS };
 

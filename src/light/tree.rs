@@ -3,6 +3,10 @@
 //! A. Conty Estevez and C. Kulla, "Importance Sampling of Many Lights with Adaptive Tree Splitting" (2018), made for lanes: nodes
 //! have up to eight ways, weighed against each other, in place of three levels of two with looser bounds; and the way down
 //! begins not at a root but at one of a number of *heads*, which are weighed one by one, since all lanes look at the same heads.
+//!
+//! On one core with AVX-512, choosing one of 500, 4000 and 10⁶ lamps takes 75, 95 and 175 ns, with normals 105, 130 and 230;
+//! weighing 4000 one by one took 8 to 12 µs. Direct light has 1.1 to 1.25 times the relMSE that this gave, where all lamps alike
+//! give 2.5 to 7 times. The tree of a million triangles is built in 0.7 s, and has about 60 bytes for each.
 mod build;
 mod cluster;
 mod split;
@@ -44,6 +48,7 @@ pub(super) struct Tree {
 }
 
 /// How a choice goes on below a head.
+#[derive(Clone, Copy)]
 pub(super) struct Descent<L: Lanes> {
     /// Lanes that the choice has led to a head.
     pub inside: M<L>,

@@ -132,3 +132,53 @@ fn they_agree_on_rough_glass_that_shines() {
         assert_all_within(&deviations, side);
     }
 }
+
+/// More lamps than are weighed one by one: of all shapes and sides, around balls and below a floor, in a shell that shines inwards.
+fn hundreds_of_lamps() -> Scene {
+    let mut objects = String::new();
+    let mut object = |text: &str| objects += &format!("[[objects]]\n{text}\n");
+    object("shape.sphere = { center = [0.0, 0.0, 0.0], radius = 50.0 }\nemission.radiance = 0.05\nflip = true");
+    object(
+        "shape.rectangle = { origin = [-4.0, 0.0, 4.0], edge_u = [8.0, 0.0, 0.0], edge_v = [0.0, 0.0, -8.0] }\nmaterial = 'white'",
+    );
+    object("shape.sphere = { center = [-1.0, 0.8, 0.0], radius = 0.7 }\nmaterial = 'rough'");
+    object("shape.sphere = { center = [1.0, 0.8, 0.0], radius = 0.7 }\nmaterial = 'gloss'");
+    for i in 0..400 {
+        let part = |step: f64| (f64::from(i) * step).fract();
+        let [x, y, z] = [8.0 * part(0.618_034) - 4.0, 3.0 * part(0.414_214) - 0.5, 8.0 * part(0.732_051) - 4.0];
+        let [a, b, c] = [part(0.236_068) - 0.5, part(0.645_751) - 0.5, part(0.316_625) - 0.5];
+        let shape = match i % 4 {
+            0 => format!("sphere = {{ center = [{x}, {y}, {z}], radius = 0.1 }}"),
+            1 => format!("disk = {{ center = [{x}, {y}, {z}], normal = [{a}, {b}, {c}], radius = 0.2 }}"),
+            2 => format!("triangle = {{ a = [{x}, {y}, {z}], b = [{}, {y}, {}], c = [{x}, {}, {z}] }}", x + a, z + c, y + b),
+            _ => format!("cylinder = {{ base = [{x}, {y}, {z}], top = [{}, {}, {}], radius = 0.05 }}", x + a, y + b, z + c),
+        };
+        let [power, two_sided] = [0.3 + 3.0 * part(0.141_593), f64::from(i % 3)];
+        object(&format!("shape.{shape}\nemission = {{ radiance = {power}, two_sided = {} }}", two_sided == 0.0));
+    }
+    scene(&format!(
+        "camera = {{ eye = [0.0, 2.5, 7.0], look_at = [0.0, 0.6, 0.0], fov = 45.0, resolution = [48, 32] }}
+        background.radiance = 0.1
+        materials.white.lambertian.albedo = 0.7
+        materials.rough.dielectric = {{ ior = 1.5, roughness = 0.5 }}
+        materials.gloss.plastic = {{ albedo = 0.4, ior = 1.5, roughness = 0.3 }}
+        {objects}"
+    ))
+}
+
+#[test]
+fn they_agree_among_hundreds_of_lamps() {
+    let scene = hundreds_of_lamps();
+    let [path, light, mis] = Estimator::ALL.map(|estimator| {
+        let settings = RenderSettings { max_bounces: Some(3), ..settings(estimator) };
+        means(&picture(&scene, settings, LUMINANCE, if estimator == Estimator::Path { 1024 } else { 256 }))
+    });
+    let both = |other: &[Mean]| path.iter().zip(other).map(|(a, b)| b.z_from(*a)).collect::<Vec<_>>();
+    let deviations = [both(&light), both(&mis)].concat();
+    println!(
+        "whole picture: {:.5}, {:?}",
+        path[path.len() - 1].mean,
+        [&light, &mis].map(|m| m[m.len() - 1].z_from(path[path.len() - 1]))
+    );
+    assert_all_within(&deviations, "estimators among hundreds of lamps");
+}

@@ -68,3 +68,28 @@ struct Place {
     trail: u32,
     level: u32,
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn uneven_lights_fit_the_levels_that_are_left() {
+        // All but a few lie in one place, so that groups by cost would be of very different sizes.
+        let item = |light: u32| Item {
+            center: Vec3::X * if light < 7 { 10f32.powi(light as i32) } else { 0.0 },
+            radius: 0.1,
+            power: 1.0,
+            axis: Vec3::ZERO,
+            two_sided: false,
+            light,
+        };
+        let mut items: Vec<_> = (0..WAYS.pow(2) as u32).map(item).collect();
+        let mut tree = Tree { places: vec![[0.0; 4]; items.len()], ..Tree::default() };
+        tree.grow(&mut items, Place { candidate: 0, trail: 0, level: MOST_LEVELS - 2 });
+        let mut trails: Vec<_> = tree.places.iter().map(|place| place[1].to_bits()).collect();
+        trails.sort_unstable();
+        let last_levels = |i: u32| i << (BITS * (MOST_LEVELS - 2));
+        assert!(trails.into_iter().eq((0..WAYS.pow(2) as u32).map(last_levels)));
+    }
+}

@@ -113,10 +113,10 @@ impl<L: Lanes> Cluster<L> {
     /// An estimate of the irradiance from these lights, over π; 0 only where they cannot contribute. `oriented`: some have normals.
     ///
     /// With θ the angle at the receiver between its normal and the way to the centre, and β half the angle in which the sphere is
-    /// seen, cos(θ − β) bounds all cosines. A quarter of the bound is mixed with the cosine at the centre, and lights around
-    /// the receiver are taken to be as far as half the radius: measured to be better than the bounds alone, by a factor of
-    /// 1.3 to 3 in variance for thousands of lamps. Sines and cosines are kept times the distance; what lies beyond an angle is
-    /// told by the sign of the sine of the difference.
+    /// seen, cos(θ − β) bounds all cosines. A quarter of the bound is mixed with the cosine at the centre, and lights around the
+    /// receiver are taken to be as far as half the radius. Over 500 and 4000 lamps of four kinds the variance of the choice was 1.3
+    /// to 3 times lower than with the bounds alone in seven cases, and 1.1 times higher in one. Sines and cosines are kept times
+    /// the distance; what lies beyond an angle is told by the sign of the sine of the difference.
     #[inline(always)]
     pub fn weight(&self, l: L, at: &Receiver<L>, oriented: bool) -> F<L> {
         let (zero, one) = (l.f(0.0), l.f(1.0));
