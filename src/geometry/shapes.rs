@@ -95,6 +95,29 @@ impl Shapes {
         self.dropped
     }
 
+    /// Whether there are none but spheres that stand still.
+    pub fn are_spheres(&self) -> bool {
+        self.placed.is_empty() && self.tables.are_spheres()
+    }
+
+    /// Whether all surfaces stand still and are spheres, or open and flat.
+    pub fn are_simple(&self) -> bool {
+        self.placed.is_empty() && self.tables.are_simple()
+    }
+
+    /// [`Shapes::closest`] where all [are spheres](Shapes::are_spheres).
+    #[inline(always)]
+    pub fn closest_sphere<L: Lanes>(&self, l: L, o: V<L>, d: V<L>) -> Nearest<L> {
+        let (t, primitive) = self.tables.closest_sphere(l, o, d);
+        Nearest { t, primitive, element: l.u(0) }
+    }
+
+    /// [`Shapes::surface_point`] where all [are simple](Shapes::are_simple).
+    #[inline(always)]
+    pub fn simple_point<L: Lanes>(&self, l: L, primitive: U<L>, p: V<L>) -> SurfacePoint<L> {
+        self.tables.simple_point(l, primitive, p)
+    }
+
     /// The first surface along o + td, d of unit length, in the lanes of `live`.
     #[inline(always)]
     pub fn closest<L: Lanes>(&self, l: L, live: M<L>, o: V<L>, d: V<L>, time: F<L>) -> Nearest<L> {

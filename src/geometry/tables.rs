@@ -111,6 +111,32 @@ impl Tables {
         l.rows(&self.normals, primitive)[3].bits()
     }
 
+    /// Whether there are none but spheres.
+    pub fn are_spheres(&self) -> bool {
+        self.spheres.len() == self.anchors.len()
+    }
+
+    /// Whether all surfaces are spheres or open and flat, which are as spheres of curvature 0.
+    pub fn are_simple(&self) -> bool {
+        self.quadric_rows.is_empty() && !self.have_closed
+    }
+
+    /// [`Tables::closest`] where there are only spheres.
+    #[inline(always)]
+    pub fn closest_sphere<L: Lanes>(&self, l: L, o: V<L>, d: V<L>) -> (F<L>, U<L>) {
+        let mut nearest = Nearest { t: Fraction::infinite(l), primitive: l.u(MISS) };
+        for (id, sphere) in &self.spheres {
+            nearest.meet(sphere.intersect(o, d), l.u(*id));
+        }
+        (nearest.t.value(), nearest.primitive)
+    }
+
+    /// [`Tables::surface_point`] where all are [simple](Tables::are_simple).
+    #[inline(always)]
+    pub fn simple_point<L: Lanes>(&self, l: L, primitive: U<L>, p: V<L>) -> SurfacePoint<L> {
+        sphere::surface_point(l.rows(&self.anchors, primitive), l.rows(&self.normals, primitive), p)
+    }
+
     /// Distance along o + td, d of unit length, to the first surface, and its primitive or [`MISS`].
     #[inline(always)]
     pub fn closest<L: Lanes>(&self, l: L, o: V<L>, d: V<L>) -> (F<L>, U<L>) {

@@ -61,11 +61,15 @@ pub(super) fn surfaces<L: Lanes, const VARIED: bool>(l: L, work: &Work, batch: &
 
         // Lanes without a surface look at primitive 0 and are masked out.
         let primitive = hit.pick(primitive, l.u(0));
-        let mut place = Place { primitive, element: l.u(0), time: work.time(l, path.slot) };
-        if scene.shapes.have_elements() {
+        let mut place = Place { primitive, element: l.u(0), time: l.f(0.0) };
+        if VARIED {
+            place.time = work.time(l, path.slot);
+        }
+        if VARIED && scene.shapes.have_elements() {
             place.element = hit.pick(l.load(&element[start..]).bits(), l.u(0));
         }
-        let point = scene.shapes.surface_point(l, &place, path.o + path.d * hit.pick(t, l.f(0.0)));
+        let p = path.o + path.d * hit.pick(t, l.f(0.0));
+        let point = if VARIED { scene.shapes.surface_point(l, &place, p) } else { scene.shapes.simple_point(l, primitive, p) };
         let cos = -point.n_geometric.dot(path.d);
         if !scene.lights.emitters.is_empty() {
             let emits = hit & scene.lights.emitters.emits(primitive);

@@ -53,7 +53,11 @@ pub(super) fn trace_in<L: Lanes, O: Observer>(
             return Err(Interrupted);
         }
         let last = batch.bounce == last_bounce;
-        intersect(l, work, batch);
+        if work.scene.shapes.are_spheres() {
+            intersect::<L, true>(l, work, batch);
+        } else {
+            intersect::<L, false>(l, work, batch);
+        }
         if work.scene.is_plain() {
             surfaces::<L, false>(l, work, batch, last && !cut_short);
         } else {

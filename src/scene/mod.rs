@@ -89,9 +89,9 @@ pub enum Truth {
 }
 
 impl Scene {
-    /// Whether all surfaces are diffuse, from both sides, and neither their colour nor what they emit varies.
+    /// Whether all surfaces are spheres or flat, diffuse, from both sides, and neither their colour nor what they emit varies.
     pub fn is_plain(&self) -> bool {
-        self.surfaces.plain && !self.lights.emitters.vary()
+        self.surfaces.plain && !self.lights.emitters.vary() && self.shapes.are_simple()
     }
 
     /// Whether something moves while the shutter is open.
