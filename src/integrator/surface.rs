@@ -83,7 +83,8 @@ pub(super) fn surfaces<L: Lanes, const VARIED: bool>(l: L, work: &Work, batch: &
                 }
                 if weighted {
                     let past = Past::read(l, pasts, start);
-                    light = light * weight_of_met_light(l, work, &past, path.o, path.d, &place);
+                    // A copy: of `place` itself nothing is kept in memory then.
+                    light = light * weight_of_met_light(l, work, &past, path.o, path.d, &{ place });
                 }
                 add(radiance, seen, path.slot, light);
             }
