@@ -2,6 +2,7 @@
 //!
 //! The library is the renderer; the window and the command line are in the binary. Folders depend downwards only:
 //! `render`, `measure` → `integrator` → `scene` → `light` → `material`, `geometry` → `texture` → `sampling`, `image`, `model` → `math`.
+pub mod file;
 pub mod geometry;
 pub mod image;
 pub mod integrator;

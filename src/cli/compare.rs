@@ -5,7 +5,8 @@ use std::{
 };
 
 use noisefall::{
-    image::{PNG, looks_like, open_regular},
+    file::open_regular,
+    image::{PNG, looks_like},
     measure::{Comparison, compare},
     render::image_file::read,
 };

@@ -29,7 +29,7 @@ pub(super) struct Placed {
 
 pub(super) enum Body {
     Mesh(Arc<Mesh>),
-    Isosurface(Box<Isosurface>),
+    Isosurface(Arc<Isosurface>),
     Shapes(Box<Tables>),
 }
 

@@ -40,6 +40,8 @@ pub enum Shape {
     /// What `map` makes of the triangles; they may be shared with other shapes.
     Mesh {
         data: Arc<MeshData>,
+        /// Least and greatest corner of the box around the data.
+        bounds: ([f32; 3], [f32; 3]),
         map: DAffine3,
     },
     Isosurface {
@@ -67,6 +69,10 @@ impl Shape {
         Shape::Flat { outline: Outline::Ellipse, origin: center, edges, mirrored: false }
     }
 
+    pub fn mesh(data: Arc<MeshData>) -> Shape {
+        Shape::Mesh { bounds: data.bounds(), data, map: DAffine3::IDENTITY }
+    }
+
     pub fn cylinder(base: DVec3, top: DVec3, radius: f64, capped: bool) -> Shape {
         let (a, b) = (top - base).normalize().any_orthonormal_pair();
         Shape::Cylinder { base, axes: DMat3::from_cols(a * radius, b * radius, top - base), capped }
@@ -92,7 +98,7 @@ impl Shape {
             Shape::Cylinder { base, axes, capped } => {
                 Shape::Cylinder { base: point(base), axes: linear * *axes, capped: *capped }
             }
-            Shape::Mesh { data, map: before } => Shape::Mesh { data: data.clone(), map: *map * *before },
+            Shape::Mesh { data, bounds, map: before } => Shape::Mesh { data: data.clone(), bounds: *bounds, map: *map * *before },
             Shape::Isosurface { surface, map: before } => Shape::Isosurface { surface: surface.clone(), map: *map * *before },
         }
     }
@@ -168,7 +174,7 @@ impl Shape {
                 let round = longest(&DMat3::from_cols(axes.x_axis, axes.y_axis, DVec3::ZERO));
                 (*base + axes.z_axis / 2.0, round + axes.z_axis.length() / 2.0)
             }
-            Shape::Mesh { data, map } => around(data.bounds(), map),
+            Shape::Mesh { bounds, map, .. } => around(*bounds, map),
             Shape::Isosurface { surface, map } => around(surface.bounds(), map),
         }
     }
@@ -196,27 +202,16 @@ impl Shape {
                 let x = axes.inverse() * (p - *base);
                 *capped && x.truncate().length() < 1.0 && (0.0..1.0).contains(&x.z)
             }
-            Shape::Mesh { data, map } => data.contains(map.inverse().transform_point3(p)),
+            Shape::Mesh { data, bounds, map } => {
+                let (center, radius) = around(*bounds, map);
+                p.distance(center) <= radius && data.contains(map.inverse().transform_point3(p))
+            }
             Shape::Isosurface { surface, map } => {
                 let local = map.inverse().transform_point3(p).as_vec3().to_array();
                 let (min, max) = surface.bounds();
                 let boxed = (0..3).all(|axis| (min[axis]..=max[axis]).contains(&local[axis]));
                 boxed && surface.value(One, V::splat(One, local)).0 < 0.0
             }
-        }
-    }
-
-    /// Area of the surface where it is known in closed form, m².
-    pub fn area(&self) -> Option<f64> {
-        use std::f64::consts::PI;
-        match self {
-            Shape::Sphere { radius, .. } => Some(4.0 * PI * radius * radius),
-            Shape::Flat { outline, edges: [a, b], .. } => Some(a.cross(*b).length() * outline.area()),
-            Shape::Cuboid { edges, .. } => {
-                let [a, b, c] = [edges.x_axis, edges.y_axis, edges.z_axis];
-                Some(2.0 * (a.cross(b).length() + b.cross(c).length() + c.cross(a).length()))
-            }
-            _ => None,
         }
     }
 }

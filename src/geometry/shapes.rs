@@ -41,13 +41,13 @@ impl Shapes {
         for (shape, motion) in shapes {
             let first = all.tables.len() as u32;
             let (body, still) = match shape {
-                Shape::Mesh { data, map } => {
+                Shape::Mesh { data, map, .. } => {
                     all.has_elements = true;
                     let (mesh, still) = meshes.build(data, map);
                     all.dropped += mesh.dropped();
                     (Body::Mesh(mesh), still)
                 }
-                Shape::Isosurface { surface, map } => (Body::Isosurface(Box::new(surface.as_ref().clone())), *map),
+                Shape::Isosurface { surface, map } => (Body::Isosurface(surface.clone()), *map),
                 _ if motion.0.is_empty() => {
                     all.tables.push_shape(shape, near);
                     continue;

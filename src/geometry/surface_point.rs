@@ -38,3 +38,11 @@ pub struct Place<L: Lanes> {
     /// From 0 when the shutter opens to 1 when it closes.
     pub time: F<L>,
 }
+
+impl<L: Lanes> Place<L> {
+    /// On primitives that neither have elements nor move.
+    #[inline(always)]
+    pub fn of(l: L, primitive: U<L>) -> Self {
+        Place { primitive, element: l.u(0), time: l.f(0.0) }
+    }
+}

@@ -13,12 +13,13 @@ mod tests;
 
 use std::{
     fmt,
-    fs::File,
     io::{BufRead, BufReader, ErrorKind, Read, Seek},
     path::{Path, PathBuf},
 };
 
 use serde::Deserialize;
+
+use crate::file::open_regular;
 
 /// Longer sides are refused.
 pub const LONGEST_SIDE: u64 = 16_384;
@@ -103,16 +104,6 @@ pub fn read_light(path: &Path, encoding: Encoding) -> Result<Picture, PictureErr
         *pixel = pixel.map(|x| x.max(0.0));
     }
     Ok(picture)
-}
-
-/// Opens a file for reading, and nothing else: a pipe would be waited for, perhaps for ever.
-pub fn open_regular(path: &Path) -> std::io::Result<File> {
-    let kind = std::fs::metadata(path)?.file_type();
-    let what = if kind.is_dir() { " but a folder" } else { "" };
-    if !kind.is_file() {
-        return Err(std::io::Error::other(format!("it is not a regular file{what}")));
-    }
-    File::open(path)
 }
 
 /// What [`looks_like`] says of a PNG.

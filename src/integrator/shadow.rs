@@ -7,11 +7,11 @@ use fearless_simd_macros::simd;
 use super::{
     batch::{Batch, Inside, Shadow, Work, add},
     media::transmittance,
+    surface::emission_texture,
 };
 use crate::{
-    geometry::{Coordinates, Nearest, Place},
+    geometry::{Nearest, Place},
     math::{Lanes, Pick},
-    texture::TextureCoordinates,
 };
 
 #[simd]
@@ -34,9 +34,7 @@ pub(super) fn shadow<L: Lanes>(l: L, work: &Work, batch: &mut Batch) {
             let primitive = emits.pick(primitive, l.u(0));
             let place = Place { primitive, element: emits.pick(element, l.u(0)), time };
             let point = scene.shapes.surface_point(l, &place, shadow.o + shadow.d * t);
-            let Coordinates { u, v } = scene.shapes.coordinates(l, &place, &point);
-            let at = TextureCoordinates { u, v, p: point.p };
-            light = light * scene.lights.emitters.variation(l, &scene.textures, emits, primitive, &at);
+            light = light * emission_texture(l, scene, emits, &place, &point);
         }
         add(radiance, seen, shadow.slot, light);
     }

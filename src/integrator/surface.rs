@@ -47,9 +47,7 @@ pub(super) fn surfaces<L: Lanes, const VARIED: bool>(l: L, work: &Work, batch: &
             if sky.any() {
                 let mut light = path.throughput * background.radiance(l, path.d);
                 if weighted {
-                    let past = Past::read(l, pasts, start);
-                    light = light
-                        * weight_of_met_light(l, work, &past, path.o, path.d, &Place { primitive, element: primitive, time: t });
+                    light = light * weight(l, work, pasts, start, &path, Place::of(l, primitive));
                 }
                 add(radiance, sky, path.slot, light);
             }
@@ -61,7 +59,7 @@ pub(super) fn surfaces<L: Lanes, const VARIED: bool>(l: L, work: &Work, batch: &
 
         // Lanes without a surface look at primitive 0 and are masked out.
         let primitive = hit.pick(primitive, l.u(0));
-        let mut place = Place { primitive, element: l.u(0), time: l.f(0.0) };
+        let mut place = Place::of(l, primitive);
         if VARIED {
             place.time = work.time(l, path.slot);
         }
@@ -74,17 +72,13 @@ pub(super) fn surfaces<L: Lanes, const VARIED: bool>(l: L, work: &Work, batch: &
         if !scene.lights.emitters.is_empty() {
             let emits = hit & scene.lights.emitters.emits(primitive);
             if emits.any() {
-                let (le, seen) = scene.lights.emitters.radiance(l, emits, primitive, cos);
-                let mut light = path.throughput * le;
+                let (mut le, seen) = scene.lights.emitters.radiance(l, emits, primitive, cos);
                 if VARIED && scene.lights.emitters.vary() {
-                    let Coordinates { u, v } = scene.shapes.coordinates(l, &place, &point);
-                    let at = TextureCoordinates { u, v, p: point.p };
-                    light = light * scene.lights.emitters.variation(l, &scene.textures, emits, primitive, &at);
+                    le = le * emission_texture(l, scene, emits, &place, &point);
                 }
+                let mut light = path.throughput * le;
                 if weighted {
-                    let past = Past::read(l, pasts, start);
-                    // A copy: of `place` itself nothing is kept in memory then.
-                    light = light * weight_of_met_light(l, work, &past, path.o, path.d, &{ place });
+                    light = light * weight(l, work, pasts, start, &path, place);
                 }
                 add(radiance, seen, path.slot, light);
             }
@@ -103,6 +97,23 @@ pub(super) fn surfaces<L: Lanes, const VARIED: bool>(l: L, work: &Work, batch: &
             record.push(hit & colour.max_component().above(0.0), &mut hits[Stage::Plain as usize]);
         }
     }
+}
+
+/// The weight of light that the paths of a register, read from `start` on, run into at a place; see [`weight_of_met_light`].
+///
+/// The place is passed by value, or else it would be kept in memory for scenes that never ask.
+#[inline(always)]
+fn weight<L: Lanes>(l: L, work: &Work, pasts: &Queue, start: usize, path: &Path<L>, place: Place<L>) -> F<L> {
+    let past = Past::read(l, pasts, start);
+    weight_of_met_light(l, work, &past, path.o, path.d, &place)
+}
+
+/// What the texture of emission multiplies radiance by at a point.
+#[inline(always)]
+pub(super) fn emission_texture<L: Lanes>(l: L, scene: &Scene, emits: M<L>, place: &Place<L>, point: &SurfacePoint<L>) -> V<L> {
+    let Coordinates { u, v } = scene.shapes.coordinates(l, place, point);
+    let at = TextureCoordinates { u, v, p: point.p };
+    scene.lights.emitters.variation(l, &scene.textures, emits, place.primitive, &at)
 }
 
 /// Paths at a surface.

@@ -30,9 +30,10 @@ impl Bound {
         let (center, radius) = if moves { around_poses(piece, motion) } else { piece.bounding_sphere() };
         let (size, normal) = match piece {
             _ if moves => (radius * radius, None),
-            Shape::Flat { edges: [a, b], mirrored, .. } => {
-                let across = a.cross(*b).normalize() * if *mirrored { -1.0 } else { 1.0 };
-                (piece.area().unwrap_or(0.0) / PI, Some(across))
+            Shape::Flat { outline, edges: [a, b], mirrored, .. } => {
+                let across = a.cross(*b);
+                let side = if *mirrored { -1.0 } else { 1.0 };
+                (across.length() * outline.area() / PI, Some(across.normalize() * side))
             }
             _ => (radius * radius, None),
         };

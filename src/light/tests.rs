@@ -34,7 +34,7 @@ fn vector(x: f64, y: f64, z: f64) -> V<One> {
 }
 
 fn place(primitive: U<One>) -> Place<One> {
-    Place { primitive, element: U(0), time: F(0.0) }
+    Place::of(One, primitive)
 }
 
 fn shapes(of: &[Shape]) -> Shapes {

@@ -14,12 +14,13 @@ mod tests;
 
 use std::{
     fmt,
-    fs::{self, File},
     io::{ErrorKind, Read},
     path::{Path, PathBuf},
 };
 
 pub use normals::smooth_normals;
+
+use crate::file::open_regular;
 
 /// Longer files are refused: 2 GiB. It also keeps every count of vertices and triangles within 32 bits.
 pub const LARGEST_FILE: u64 = 1 << 31;
@@ -49,8 +50,6 @@ pub struct ModelError {
 pub enum Flaw {
     #[error("cannot be read: there is no such file")]
     Missing,
-    #[error("cannot be read: it is a directory")]
-    Directory,
     #[error("cannot be read: {0}")]
     Unreadable(String),
     #[error("the file is larger than {LARGEST_FILE} bytes, the most that is read")]
@@ -94,20 +93,14 @@ pub fn read(path: &Path) -> Result<Model, ModelError> {
 }
 
 fn bytes(path: &Path) -> Result<Vec<u8>, Flaw> {
-    let about = fs::metadata(path)?;
-    if about.is_dir() {
-        return Err(Flaw::Directory);
-    }
-    // Opening a pipe could wait for ever, and a device may have no end.
-    if !about.is_file() {
-        return Err(Flaw::Unreadable("it is not a regular file".to_owned()));
-    }
-    if about.len() > LARGEST_FILE {
+    let file = open_regular(path)?;
+    let length = file.metadata()?.len();
+    if length > LARGEST_FILE {
         return Err(Flaw::TooLarge);
     }
-    let mut bytes = Vec::with_capacity(about.len() as usize);
+    let mut bytes = Vec::with_capacity(length as usize);
     // The file may grow meanwhile.
-    File::open(path)?.take(about.len()).read_to_end(&mut bytes)?;
+    file.take(length).read_to_end(&mut bytes)?;
     Ok(bytes)
 }
 

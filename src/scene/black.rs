@@ -1,13 +1,10 @@
 //! Why a picture may be black.
 use super::{Camera, Object, RenderSettings, Scene};
-use crate::material::Material;
 
 impl Scene {
     /// The innermost object that shuts the camera in: opaque, and with its front outwards, so that only its inside is seen.
     pub fn around(&self, camera: &Camera) -> Option<&Object> {
-        let is_opaque =
-            |object: &Object| object.coating.as_ref().is_none_or(|c| !matches!(c.material, Material::Dielectric { .. }));
-        let shuts_in = |object: &&Object| !object.flip && is_opaque(object) && object.shape.contains(camera.eye);
+        let shuts_in = |object: &&Object| !object.flip && !object.is_dielectric() && object.shape.contains(camera.eye);
         let size = |object: &Object| object.shape.bounding_sphere().1;
         self.objects.iter().filter(shuts_in).min_by(|a, b| size(a).total_cmp(&size(b)))
     }

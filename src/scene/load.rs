@@ -8,7 +8,7 @@ use super::{
     diagnostic::{SceneError, SourceText},
     wording::in_plain_words,
 };
-use crate::image::{looks_like, open_regular};
+use crate::{file::open_regular, image::looks_like};
 
 /// Larger files are refused before they are read.
 const LARGEST_FILE: u64 = 64 << 20;

@@ -9,6 +9,7 @@ mod diagnostic;
 mod excerpt;
 mod filter;
 mod load;
+mod named;
 mod rays;
 mod roulette;
 mod settings;
@@ -130,19 +131,34 @@ impl Scene {
         if self.objects.is_empty() {
             warnings.push("this scene has no objects".to_owned());
         }
-        let depth =
-            self.objects.iter().map(|object| self.media_around(object.shape.bounding_sphere().0).count()).max().unwrap_or(0);
-        if !self.surfaces.media.is_empty() && depth > MOST_NESTED {
+        let depth = self.deepest_media();
+        if depth > MOST_NESTED {
             warnings.push(format!("{depth} media lie within each other: only the tint of the inner {MOST_NESTED} is kept"));
         }
         warnings
     }
 
+    /// How many media lie around the middle of some dielectric, its own included; 0 where none is tinted.
+    fn deepest_media(&self) -> usize {
+        if self.surfaces.media.is_empty() {
+            return 0;
+        }
+        let middles = self.objects.iter().filter(|object| object.is_dielectric()).map(|object| object.shape.bounding_sphere().0);
+        middles.map(|middle| self.media_around(middle).count()).max().unwrap_or(0)
+    }
+
     /// The dielectrics whose inside holds a point, with their numbers.
     fn media_around(&self, p: DVec3) -> impl Iterator<Item = (usize, &Object)> {
-        let is_dielectric = |coating: &Coating| matches!(coating.material, Material::Dielectric { .. });
-        self.objects.iter().enumerate().filter(move |(_, object)| {
-            object.shape.contains(p) != object.flip && object.coating.as_ref().is_some_and(is_dielectric)
-        })
+        self.objects
+            .iter()
+            .enumerate()
+            .filter(move |(_, object)| object.is_dielectric() && object.shape.contains(p) != object.flip)
+    }
+}
+
+impl Object {
+    /// Whether light passes into it.
+    pub fn is_dielectric(&self) -> bool {
+        self.coating.as_ref().is_some_and(|coating| matches!(coating.material, Material::Dielectric { .. }))
     }
 }

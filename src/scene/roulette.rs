@@ -1,10 +1,13 @@
-//! How a scene file writes roulette: by name, as on the command line, or with a value, `{ fixed = 0.9 }`.
+//! How a scene file writes roulette: by name, as on the command line, or with a value.
 use serde::{
     Deserialize, Deserializer,
-    de::{self, MapAccess, Unexpected, Visitor},
+    de::{self, MapAccess, Unexpected},
 };
 
-use super::Roulette;
+use super::{
+    Roulette,
+    named::{self, Named},
+};
 
 pub struct RouletteDesc(pub Roulette);
 
@@ -17,39 +20,30 @@ struct Throughput {
 
 impl<'de> Deserialize<'de> for RouletteDesc {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_any(RouletteVisitor)
+        named::deserialize(deserializer).map(RouletteDesc)
     }
 }
 
-struct RouletteVisitor;
+impl Named for Roulette {
+    const WHAT: &'static str = "roulette";
+    const EXPECTED: &'static str = "\"off\", \"throughput\", { fixed = … } or { throughput = { start = … } }";
 
-impl<'de> Visitor<'de> for RouletteVisitor {
-    type Value = RouletteDesc;
-
-    fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str("\"off\", \"throughput\", { fixed = … } or { throughput = { start = … } }")
-    }
-    fn visit_str<E: de::Error>(self, name: &str) -> Result<RouletteDesc, E> {
+    fn of_name<E: de::Error>(name: &str) -> Result<Self, E> {
         match name {
-            "off" => Ok(RouletteDesc(Roulette::Off)),
-            "throughput" => Ok(RouletteDesc(Roulette::BY_THROUGHPUT)),
+            "off" => Ok(Roulette::Off),
+            "throughput" => Ok(Roulette::BY_THROUGHPUT),
             "fixed" => Err(de::Error::invalid_type(Unexpected::UnitVariant, &"newtype variant")),
             _ => Err(de::Error::unknown_variant(name, &["off", "throughput"])),
         }
     }
-    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<RouletteDesc, A::Error> {
-        let roulette = match map.next_key::<String>()?.as_deref() {
-            Some("fixed") => Roulette::Fixed(map.next_value()?),
-            Some("throughput") => {
-                let Throughput { start } = map.next_value()?;
-                Roulette::Throughput { start: start.unwrap_or(Roulette::FIRST) }
+
+    fn of_kind<'de, A: MapAccess<'de>>(kind: &str, map: &mut A) -> Result<Self, A::Error> {
+        match kind {
+            "fixed" => map.next_value().map(Roulette::Fixed),
+            "throughput" => {
+                map.next_value().map(|Throughput { start }| Roulette::Throughput { start: start.unwrap_or(Roulette::FIRST) })
             }
-            Some(other) => return Err(de::Error::unknown_field(other, &["fixed", "throughput"])),
-            None => return Err(de::Error::invalid_length(0, &self)),
-        };
-        match map.next_key::<String>()? {
-            None => Ok(RouletteDesc(roulette)),
-            Some(second) => Err(de::Error::custom(format!("a second kind of roulette, `{second}`: there can be one"))),
+            _ => Err(de::Error::unknown_field(kind, &["fixed", "throughput"])),
         }
     }
 }

@@ -1,6 +1,9 @@
 //! The window itself, driven as a user would: change a control, see the effect.
+mod camera;
 mod fields;
+mod saving;
 mod scenes;
+mod settings;
 
 use std::{
     ops::{Deref, DerefMut},
@@ -132,159 +135,6 @@ fn the_built_in_scene_appears_and_refines() {
 }
 
 #[test]
-fn every_setting_of_the_estimate_starts_a_new_picture() {
-    let mut window = window("cornell_spheres");
-    restarts(&mut window, "stratified", |w| choose(w, "Sampler", "Stratified"));
-    assert_eq!(window.state().settings.sampler, Sampler::Stratified);
-    restarts(&mut window, "light sampling alone", |w| click(w, "Light"));
-    assert_eq!(window.state().settings.estimator, Estimator::Light);
-    restarts(&mut window, "paths alone", |w| click(w, "Path"));
-    assert_eq!(window.state().settings.estimator, Estimator::Path);
-    restarts(&mut window, "uniform directions", |w| click(w, "Uniform"));
-    assert_eq!(window.state().settings.directions, Directions::Uniform);
-    restarts(&mut window, "cosine directions", |w| click(w, "Cosine"));
-    restarts(&mut window, "fixed roulette", |w| choose(w, "Roulette", "Fixed probability"));
-    assert!(matches!(window.state().settings.roulette, Roulette::Fixed(_)));
-    restarts(&mut window, "another survival probability", |w| {
-        w.get_by_role_and_label(Role::Slider, "Survival").set_value_accesskit(0.5);
-        w.run_steps(2);
-    });
-    assert_eq!(window.state().settings.roulette, Roulette::Fixed(0.5));
-    restarts(&mut window, "no roulette", |w| choose(w, "Roulette", "Off"));
-    restarts(&mut window, "a cap", |w| {
-        w.get_by_role_and_label(Role::CheckBox, "Bounce cap").click();
-        w.run_steps(2);
-    });
-    assert!(window.query_by_label("biased: cap at 8").is_some(), "the badge says what the cap does");
-    restarts(&mut window, "another seed", |w| {
-        w.get_by_role_and_label(Role::SpinButton, "Seed").set_value_accesskit(42.0);
-        w.run_steps(2);
-    });
-    assert_eq!(window.state().settings.seed, 42);
-}
-
-#[test]
-fn the_camera_moves_by_numbers_by_mouse_and_by_keys() {
-    let mut window = window("cornell_spheres");
-    let start = window.state().camera;
-    restarts(&mut window, "another field of view", |w| {
-        w.get_by_role_and_label(Role::Slider, "Field of view").set_value_accesskit(60.0);
-        w.run_steps(2);
-    });
-    assert_eq!(window.state().camera.fov, 60.0);
-    restarts(&mut window, "a pixel filter", |w| click(w, "Gaussian"));
-    assert_eq!(window.state().camera.filter, Filter::GAUSSIAN);
-    restarts(&mut window, "a lens", |w| {
-        w.get_by_role_and_label(Role::SpinButton, "Lens radius").set_value_accesskit(0.05);
-        w.run_steps(2);
-    });
-    restarts(&mut window, "another focus", |w| {
-        w.get_by_role_and_label(Role::SpinButton, "Focus").set_value_accesskit(2.0);
-        w.run_steps(2);
-    });
-    assert_eq!(window.state().camera.lens, Some(Lens { radius: 0.05, focus: 2.0 }));
-    restarts(&mut window, "parallel rays", |w| click(w, "Orthographic"));
-    assert!(window.state().camera.orthographic.is_some() && window.state().camera.lens.is_none());
-    restarts(&mut window, "perspective", |w| click(w, "Perspective"));
-    window.get_by_role_and_label(Role::Button, "Camera").click();
-    window.run_steps(3);
-    assert_eq!(window.state().tool, Tool::Camera);
-    restarts(&mut window, "an orbit", |w| drag(w, PointerButton::Primary, [400.0, 400.0], [440.0, 420.0]));
-    let orbited = window.state().camera;
-    assert!((orbited.eye.distance(orbited.look_at) - start.eye.distance(start.look_at)).abs() < 1e-9);
-    assert_ne!(orbited.eye, start.eye);
-    restarts(&mut window, "a pan", |w| drag(w, PointerButton::Secondary, [400.0, 400.0], [380.0, 400.0]));
-    assert_ne!(window.state().camera.look_at, start.look_at);
-    let distance = |window: &Window| window.state().camera.eye.distance(window.state().camera.look_at);
-    let before = distance(&window);
-    restarts(&mut window, "a dolly", |w| scroll(w, [400.0, 400.0], 40.0));
-    assert!(distance(&window) < before);
-    let before = window.state().camera;
-    restarts(&mut window, "flight", |w| {
-        w.key_down(Key::W);
-        w.run_steps(5);
-        w.key_up(Key::W);
-        w.run_steps(2);
-    });
-    let moved = window.state().camera.eye - before.eye;
-    assert!(moved.normalize().dot(before.axes()[2]) > 0.999, "W flies forwards");
-    restarts(&mut window, "the scene's camera", |w| {
-        w.key_press(Key::Home);
-        w.run_steps(2);
-    });
-    assert_eq!(window.state().camera.eye, start.eye);
-}
-
-#[test]
-fn eye_look_at_up_and_resolution_can_be_typed() {
-    let mut window = window("cornell_spheres");
-    for (what, label) in [("an eye", "Eye"), ("a look-at", "Look at"), ("an up", "Up")] {
-        restarts(&mut window, what, |w| {
-            w.get_all_by_role_and_label(Role::SpinButton, label).next().expect("x comes first").set_value_accesskit(0.25);
-            w.run_steps(2);
-        });
-    }
-    let camera = window.state().camera;
-    assert_eq!((camera.eye.x, camera.look_at.x, camera.up.x), (0.25, 0.25, 0.25));
-    restarts(&mut window, "a width", |w| {
-        w.get_all_by_role_and_label(Role::SpinButton, "Resolution")
-            .next()
-            .expect("the width comes first")
-            .set_value_accesskit(120.0);
-        w.run_steps(2);
-    });
-    wait(&mut window, "the new width", |app| app.shown.as_ref().is_some_and(|frame| frame.width == 120 && frame.height == 64));
-}
-
-#[test]
-fn display_settings_zoom_and_target_never_restart() {
-    let mut window = window("cornell_spheres");
-    never_restarts(&mut window, |w| {
-        w.get_by_role_and_label(Role::Slider, "Exposure").set_value_accesskit(2.0);
-        choose(w, "Tone map", "Reinhard");
-    });
-    assert_eq!(window.state().display.exposure, 2.0);
-    assert_eq!(window.state().display.tone_map, ToneMap::Reinhard);
-    let fitted = window.state().view.drawn_zoom;
-    never_restarts(&mut window, |w| scroll(w, [400.0, 400.0], 50.0));
-    assert!(window.state().view.drawn_zoom > fitted);
-    never_restarts(&mut window, |w| drag(w, PointerButton::Primary, [400.0, 400.0], [300.0, 400.0]));
-    assert!(window.state().view.offset.x > 0.0);
-    never_restarts(&mut window, |w| click(w, "1:1"));
-    assert_eq!(window.state().view.drawn_zoom, 1.0);
-    never_restarts(&mut window, |w| {
-        w.get_by_role_and_label(Role::CheckBox, "Stop at").click();
-        w.run_steps(2);
-    });
-    assert_eq!(window.state().budget.max_spp, Some(1024));
-}
-
-#[test]
-fn pause_step_resume_and_restart_do_so() {
-    let mut window = window("cornell_spheres");
-    click(&mut window, "Pause");
-    wait(&mut window, "the pause", |app| app.status.state == State::Paused);
-    let paused = window.state().status.clone();
-    window.key_press(Key::Period);
-    wait(&mut window, "a step", |app| app.status.spp == paused.spp + 1);
-    never_restarts(&mut window, |w| click(w, "Resume"));
-    wait(&mut window, "more samples", |app| app.status.spp > paused.spp + 2);
-    restarts(&mut window, "a restart", |w| click(w, "Restart"));
-}
-
-#[test]
-fn a_reached_target_converges_and_a_higher_one_goes_on() {
-    let mut window = window("bright_sky");
-    window.state_mut().budget.max_spp = Some(3);
-    restarts(&mut window, "a restart", |w| click(w, "Restart"));
-    wait(&mut window, "the target", |app| app.status.state == State::Converged);
-    assert_eq!(window.state().status.spp, 3);
-    never_restarts(&mut window, |w| w.state_mut().budget.max_spp = Some(5));
-    wait(&mut window, "the next target", |app| app.status.spp == 5 && app.status.state == State::Converged);
-    assert!(window.query_by_label("Converged").is_some());
-}
-
-#[test]
 fn the_pixel_under_the_pointer_is_read_out() {
     let mut window = window("furnace");
     window.hover_at(Pos2::new(400.0, 400.0));
@@ -293,53 +143,6 @@ fn the_pixel_under_the_pointer_is_read_out() {
     assert!(
         window.get_all_by_role(Role::Label).any(|label| label.accesskit_node().value().is_some_and(|text| text.contains("RGB")))
     );
-}
-
-#[test]
-fn ctrl_s_saves_what_is_shown_where_the_path_field_says() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = folder.path().join("shot.exr");
-    let mut window = window("cornell_spheres");
-    window.key_press_modifiers(Modifiers::COMMAND, Key::S);
-    window.run_steps(4);
-    let field = window.get_by_role(Role::TextInput);
-    field.set_text_value_accesskit(&path.display().to_string());
-    window.run_steps(3);
-    click(&mut window, "Save");
-    wait(&mut window, "the file", |app| app.last_saved.is_some());
-    let saved = image_file::read(&path).expect("it is a picture");
-    assert_eq!([saved.width, saved.height], [96, 64]);
-    assert!(window.state().notice.as_ref().is_some_and(|notice| !notice.is_error));
-    window.state_mut().save_to(folder.path().join("nowhere/shot.png"));
-    wait(&mut window, "the refusal", |app| app.notice.as_ref().is_some_and(|notice| notice.is_error));
-}
-
-#[test]
-fn a_path_that_cannot_be_written_to_is_refused_in_the_dialog() {
-    let mut window = window("furnace");
-    window.key_press_modifiers(Modifiers::COMMAND, Key::S);
-    window.run_steps(4);
-    window.get_by_role(Role::TextInput).set_text_value_accesskit("/nowhere/at/all.png");
-    window.run_steps(3);
-    click(&mut window, "Save");
-    assert!(window.state().save_dialog.is_some(), "the dialog stays");
-    assert!(window.query_by_label_contains("there is no folder").is_some());
-    window.key_press(Key::Escape);
-    window.run_steps(2);
-    assert!(window.state().save_dialog.is_none());
-}
-
-#[test]
-fn saving_never_moves_the_camera() {
-    let mut window = window("cornell_spheres");
-    never_restarts(&mut window, |w| {
-        w.key_down_modifiers(Modifiers::COMMAND, Key::S);
-        w.run_steps(1);
-        // Ctrl is up again, S is still down.
-        w.key_down(Key::S);
-        w.run_steps(3);
-    });
-    assert!(window.state().save_dialog.is_some());
 }
 
 #[test]
@@ -378,26 +181,6 @@ fn every_single_key_does_what_the_help_says() {
         });
         let moved = window.state().camera.eye - before.eye;
         assert!(moved.dot(before.axes()[axis]) * sign > 0.0, "{key:?}");
-    }
-}
-
-#[test]
-fn exposure_and_tone_map_change_what_is_saved() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let mut window = window("bright_sky");
-    click(&mut window, "Pause");
-    wait(&mut window, "the pause", |app| app.status.state == State::Paused && app.can_save());
-    let mut pictures = Vec::new();
-    for (i, map) in ["None (sRGB)", "Reinhard", "ACES-like", "False colour"].into_iter().enumerate() {
-        choose(&mut window, "Tone map", map);
-        let path = folder.path().join(format!("{i}.png"));
-        window.state_mut().last_saved = None;
-        window.state_mut().save_to(path.clone());
-        wait(&mut window, "the file", |app| app.last_saved.is_some());
-        pictures.push(image_file::read(&path).expect("it is a picture").radiance);
-    }
-    for i in 1..pictures.len() {
-        assert!(pictures[..i].iter().all(|other| *other != pictures[i]), "tone map {i} shows nothing new");
     }
 }
 

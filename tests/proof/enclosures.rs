@@ -39,12 +39,15 @@ const CLOSED: [(&str, &str); 6] = [
 const INSIDE: &str = "eye = [0.1, -0.05, 0.2], look_at = [0.6, 0.3, -0.2], fov = 90.0, resolution = [32, 32]";
 const OUTSIDE: &str = "eye = [1.5, 2.0, 4.0], look_at = [0.0, 0.0, 0.0], fov = 45.0, resolution = [32, 32]";
 
+/// From the middle at the middle of a wall.
+const AWAY_FROM_CORNERS: &str = "eye = [0.0, 0.0, 0.0], look_at = [0.3, 0.2, -1.0], fov = 10.0, resolution = [32, 32]";
+
 const LE: f64 = 1.0;
 const ALBEDO: f64 = 0.6;
 
-fn glowing(shape: &str) -> Scene {
+fn glowing(camera: &str, shape: &str) -> Scene {
     scene(&format!(
-        "camera = {{ {INSIDE} }}
+        "camera = {{ {camera} }}
         materials.wall.lambertian.albedo = {ALBEDO}
         [[objects]]
         {shape}
@@ -62,7 +65,7 @@ fn exactly(found: &[Mean], expected: f64) -> bool {
 #[test]
 fn a_closed_room_of_any_shape_is_a_furnace() {
     for (what, shape) in CLOSED {
-        let room = glowing(shape);
+        let room = glowing(INSIDE, shape);
         // By the path estimator every sample is the series itself.
         let still = RenderSettings { roulette: Roulette::Off, ..settings(Estimator::Path) };
         assert!(exactly(&picture(&room, still, RED, 16).pixels, furnace(LE, ALBEDO)), "{what}");
@@ -83,16 +86,7 @@ fn a_closed_room_of_any_shape_is_a_furnace() {
 #[test]
 fn away_from_corners_light_samples_alone_find_one_reflection() {
     for (what, shape) in CLOSED {
-        let text = format!(
-            "camera = {{ eye = [0.0, 0.0, 0.0], look_at = [0.3, 0.2, -1.0], fov = 10.0, resolution = [32, 32] }}
-            materials.wall.lambertian.albedo = {ALBEDO}
-            [[objects]]
-            {shape}
-            material = 'wall'
-            flip = true
-            emission.radiance = {LE:?}"
-        );
-        let room = scene(&text);
+        let room = glowing(AWAY_FROM_CORNERS, shape);
         for estimator in Estimator::ALL {
             let found = picture(&room, RenderSettings { max_bounces: Some(1), ..settings(estimator) }, RED, 256).whole();
             let what = format!("{what}, {}", estimator.name());

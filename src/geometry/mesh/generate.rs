@@ -4,6 +4,11 @@ use std::f32::consts::TAU;
 use glam::{Vec3, vec3};
 
 use super::MeshData;
+use crate::{
+    math::{One, V},
+    model::smooth_normals,
+    texture::noise::fraction,
+};
 
 /// Closes the grid of `columns` × `rows` quads whose corners `vertex(i, j)` gives, i below `columns`, j below `rows`, in both
 /// directions, as a torus is closed. Counter-clockwise where i runs to the right and j up.
@@ -16,19 +21,6 @@ fn torus_grid(columns: usize, rows: usize) -> Vec<[u32; 3]> {
             [[a, b, c], [a, c, d]]
         })
         .collect()
-}
-
-/// Unit normals of the vertices: the mean of their triangles', weighted by area.
-pub fn smooth_normals(vertices: &[[f32; 3]], triangles: &[[u32; 3]]) -> Vec<[f32; 3]> {
-    let mut sums = vec![Vec3::ZERO; vertices.len()];
-    for triangle in triangles {
-        let [a, b, c] = triangle.map(|vertex| Vec3::from(vertices[vertex as usize]));
-        let doubled_area = (b - a).cross(c - a);
-        for vertex in triangle {
-            sums[*vertex as usize] += doubled_area;
-        }
-    }
-    sums.into_iter().map(|sum| sum.normalize_or(Vec3::Y).to_array()).collect()
 }
 
 /// A closed tube along the (2, 3) torus knot, about 1.7 wide, with bumps: near to `triangles` triangles. The front is outside.
@@ -85,27 +77,8 @@ pub fn heightfield(quads: usize, seed: u32) -> MeshData {
     data
 }
 
-/// Six octaves of value noise, within ±0.32.
+/// Six octaves of noise, within ±0.32; every seed is another plane through it.
 fn hills(u: f32, v: f32, seed: u32) -> f32 {
-    let (mut sum, mut cells, mut height) = (0.0, 4.0, 0.16);
-    for octave in 0..6 {
-        sum += height * value_noise(u * cells, v * cells, seed.wrapping_add(octave));
-        (cells, height) = (cells * 2.0, height * 0.5);
-    }
-    sum
-}
-
-/// Values in [−1, 1] at the integers, hashed, with a smooth passage between them.
-fn value_noise(x: f32, y: f32, seed: u32) -> f32 {
-    let (cell_x, cell_y) = (x.floor(), y.floor());
-    let smooth = |t: f32| t * t * (3.0 - 2.0 * t);
-    let (s, t) = (smooth(x - cell_x), smooth(y - cell_y));
-    let value = |i: u32, j: u32| {
-        let mut h = (cell_x as u32 + i).wrapping_mul(0x8DA6_B343) ^ (cell_y as u32 + j).wrapping_mul(0xD816_3841) ^ seed;
-        h = (h ^ (h >> 16)).wrapping_mul(0x7FEB_352D);
-        h = (h ^ (h >> 15)).wrapping_mul(0x846C_A68B);
-        ((h ^ (h >> 16)) >> 8) as f32 / 8_388_608.0 - 1.0
-    };
-    let along_x = |j: u32| value(0, j) + (value(1, j) - value(0, j)) * s;
-    along_x(0) + (along_x(1) - along_x(0)) * t
+    let plane = seed as f32 * 0.618 + 0.37;
+    0.64 * (fraction(V::splat(One, [u, v, plane]), 4.0, 6).0 - 0.5)
 }

@@ -80,7 +80,7 @@ pub fn shapes(of: &[Shape]) -> Shapes {
 }
 
 pub fn place(primitive: u32) -> Place<One> {
-    Place { primitive: U(primitive), element: U(0), time: F(0.0) }
+    Place::of(One, U(primitive))
 }
 
 pub fn v(a: DVec3) -> V<One> {

@@ -32,9 +32,7 @@ pub fn shape(check: &Checker, desc: &Spanned<ShapeDesc>, meshes: &mut Meshes) ->
         ShapeDesc::Disk(disk_desc) => disk(check, disk_desc),
         ShapeDesc::Rectangle(rectangle_desc) => rectangle(check, rectangle_desc),
         ShapeDesc::Triangle(triangle_desc) => triangle(check, triangle_desc),
-        ShapeDesc::Mesh(mesh_desc) => {
-            Ok(Shape::Mesh { data: meshes.mesh(check, mesh_desc, desc.span())?, map: DAffine3::IDENTITY })
-        }
+        ShapeDesc::Mesh(mesh_desc) => Ok(Shape::mesh(meshes.mesh(check, mesh_desc, desc.span())?)),
         ShapeDesc::Isosurface(isosurface_desc) => isosurface(check, isosurface_desc),
     }
 }

@@ -1,0 +1,69 @@
+//! Saving pictures.
+use super::*;
+
+#[test]
+fn ctrl_s_saves_what_is_shown_where_the_path_field_says() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("shot.exr");
+    let mut window = window("cornell_spheres");
+    window.key_press_modifiers(Modifiers::COMMAND, Key::S);
+    window.run_steps(4);
+    let field = window.get_by_role(Role::TextInput);
+    field.set_text_value_accesskit(&path.display().to_string());
+    window.run_steps(3);
+    click(&mut window, "Save");
+    wait(&mut window, "the file", |app| app.last_saved.is_some());
+    let saved = image_file::read(&path).expect("it is a picture");
+    assert_eq!([saved.width, saved.height], [96, 64]);
+    assert!(window.state().notice.as_ref().is_some_and(|notice| !notice.is_error));
+    window.state_mut().save_to(folder.path().join("nowhere/shot.png"));
+    wait(&mut window, "the refusal", |app| app.notice.as_ref().is_some_and(|notice| notice.is_error));
+}
+
+#[test]
+fn a_path_that_cannot_be_written_to_is_refused_in_the_dialog() {
+    let mut window = window("furnace");
+    window.key_press_modifiers(Modifiers::COMMAND, Key::S);
+    window.run_steps(4);
+    window.get_by_role(Role::TextInput).set_text_value_accesskit("/nowhere/at/all.png");
+    window.run_steps(3);
+    click(&mut window, "Save");
+    assert!(window.state().save_dialog.is_some(), "the dialog stays");
+    assert!(window.query_by_label_contains("there is no folder").is_some());
+    window.key_press(Key::Escape);
+    window.run_steps(2);
+    assert!(window.state().save_dialog.is_none());
+}
+
+#[test]
+fn saving_never_moves_the_camera() {
+    let mut window = window("cornell_spheres");
+    never_restarts(&mut window, |w| {
+        w.key_down_modifiers(Modifiers::COMMAND, Key::S);
+        w.run_steps(1);
+        // Ctrl is up again, S is still down.
+        w.key_down(Key::S);
+        w.run_steps(3);
+    });
+    assert!(window.state().save_dialog.is_some());
+}
+
+#[test]
+fn exposure_and_tone_map_change_what_is_saved() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = window("bright_sky");
+    click(&mut window, "Pause");
+    wait(&mut window, "the pause", |app| app.status.state == State::Paused && app.can_save());
+    let mut pictures = Vec::new();
+    for (i, map) in ["None (sRGB)", "Reinhard", "ACES-like", "False colour"].into_iter().enumerate() {
+        choose(&mut window, "Tone map", map);
+        let path = folder.path().join(format!("{i}.png"));
+        window.state_mut().last_saved = None;
+        window.state_mut().save_to(path.clone());
+        wait(&mut window, "the file", |app| app.last_saved.is_some());
+        pictures.push(image_file::read(&path).expect("it is a picture").radiance);
+    }
+    for i in 1..pictures.len() {
+        assert!(pictures[..i].iter().all(|other| *other != pictures[i]), "tone map {i} shows nothing new");
+    }
+}

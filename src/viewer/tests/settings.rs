@@ -1,0 +1,82 @@
+//! Settings: what starts a new picture, and what does not.
+use super::*;
+
+#[test]
+fn every_setting_of_the_estimate_starts_a_new_picture() {
+    let mut window = window("cornell_spheres");
+    restarts(&mut window, "stratified", |w| choose(w, "Sampler", "Stratified"));
+    assert_eq!(window.state().settings.sampler, Sampler::Stratified);
+    restarts(&mut window, "light sampling alone", |w| click(w, "Light"));
+    assert_eq!(window.state().settings.estimator, Estimator::Light);
+    restarts(&mut window, "paths alone", |w| click(w, "Path"));
+    assert_eq!(window.state().settings.estimator, Estimator::Path);
+    restarts(&mut window, "uniform directions", |w| click(w, "Uniform"));
+    assert_eq!(window.state().settings.directions, Directions::Uniform);
+    restarts(&mut window, "cosine directions", |w| click(w, "Cosine"));
+    restarts(&mut window, "fixed roulette", |w| choose(w, "Roulette", "Fixed probability"));
+    assert!(matches!(window.state().settings.roulette, Roulette::Fixed(_)));
+    restarts(&mut window, "another survival probability", |w| {
+        w.get_by_role_and_label(Role::Slider, "Survival").set_value_accesskit(0.5);
+        w.run_steps(2);
+    });
+    assert_eq!(window.state().settings.roulette, Roulette::Fixed(0.5));
+    restarts(&mut window, "no roulette", |w| choose(w, "Roulette", "Off"));
+    restarts(&mut window, "a cap", |w| {
+        w.get_by_role_and_label(Role::CheckBox, "Bounce cap").click();
+        w.run_steps(2);
+    });
+    assert!(window.query_by_label("biased: cap at 8").is_some(), "the badge says what the cap does");
+    restarts(&mut window, "another seed", |w| {
+        w.get_by_role_and_label(Role::SpinButton, "Seed").set_value_accesskit(42.0);
+        w.run_steps(2);
+    });
+    assert_eq!(window.state().settings.seed, 42);
+}
+
+#[test]
+fn display_settings_zoom_and_target_never_restart() {
+    let mut window = window("cornell_spheres");
+    never_restarts(&mut window, |w| {
+        w.get_by_role_and_label(Role::Slider, "Exposure").set_value_accesskit(2.0);
+        choose(w, "Tone map", "Reinhard");
+    });
+    assert_eq!(window.state().display.exposure, 2.0);
+    assert_eq!(window.state().display.tone_map, ToneMap::Reinhard);
+    let fitted = window.state().view.drawn_zoom;
+    never_restarts(&mut window, |w| scroll(w, [400.0, 400.0], 50.0));
+    assert!(window.state().view.drawn_zoom > fitted);
+    never_restarts(&mut window, |w| drag(w, PointerButton::Primary, [400.0, 400.0], [300.0, 400.0]));
+    assert!(window.state().view.offset.x > 0.0);
+    never_restarts(&mut window, |w| click(w, "1:1"));
+    assert_eq!(window.state().view.drawn_zoom, 1.0);
+    never_restarts(&mut window, |w| {
+        w.get_by_role_and_label(Role::CheckBox, "Stop at").click();
+        w.run_steps(2);
+    });
+    assert_eq!(window.state().budget.max_spp, Some(1024));
+}
+
+#[test]
+fn pause_step_resume_and_restart_do_so() {
+    let mut window = window("cornell_spheres");
+    click(&mut window, "Pause");
+    wait(&mut window, "the pause", |app| app.status.state == State::Paused);
+    let paused = window.state().status.clone();
+    window.key_press(Key::Period);
+    wait(&mut window, "a step", |app| app.status.spp == paused.spp + 1);
+    never_restarts(&mut window, |w| click(w, "Resume"));
+    wait(&mut window, "more samples", |app| app.status.spp > paused.spp + 2);
+    restarts(&mut window, "a restart", |w| click(w, "Restart"));
+}
+
+#[test]
+fn a_reached_target_converges_and_a_higher_one_goes_on() {
+    let mut window = window("bright_sky");
+    window.state_mut().budget.max_spp = Some(3);
+    restarts(&mut window, "a restart", |w| click(w, "Restart"));
+    wait(&mut window, "the target", |app| app.status.state == State::Converged);
+    assert_eq!(window.state().status.spp, 3);
+    never_restarts(&mut window, |w| w.state_mut().budget.max_spp = Some(5));
+    wait(&mut window, "the next target", |app| app.status.spp == 5 && app.status.state == State::Converged);
+    assert!(window.query_by_label("Converged").is_some());
+}
