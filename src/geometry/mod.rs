@@ -18,12 +18,16 @@
 mod bounds;
 mod bvh;
 mod cuboid;
+mod extent;
 mod flat;
 mod fraction;
 mod isosurface;
+mod lists;
 pub mod mesh;
 mod motion;
+mod objects;
 mod placed;
+mod pose;
 mod quadric;
 mod shape;
 mod shapes;

@@ -1,14 +1,18 @@
 //! Shapes in a space of their own: meshes and isosurfaces, and whatever moves while the shutter is open.
 use std::sync::Arc;
 
+use fearless_simd::Simd;
 use fearless_simd_macros::simd;
 use glam::DAffine3;
 
 use super::{
     Coordinates, MISS, Place, SurfacePoint, Toward,
+    bvh::Stack,
     isosurface::Isosurface,
+    lists::Lists,
     mesh::Mesh,
-    motion::{Pose, Step},
+    motion::{Motion, Step},
+    pose::{Pose, Rest},
     shape::Shape,
     tables::Tables,
 };
@@ -20,17 +24,18 @@ pub(super) struct Placed {
     pub first: u32,
     pub body: Body,
     still: DAffine3,
+    rest: Rest,
     motion: Vec<Step>,
     /// The local space is the world's.
     is_world: bool,
-    /// Centre and square of the radius of a sphere around it, where it stands still.
-    around: Option<([f32; 3], f32)>,
+    /// Centre and square of the radius of a sphere around it, wherever it moves.
+    around: ([f32; 3], f32),
 }
 
 pub(super) enum Body {
     Mesh(Arc<Mesh>),
     Isosurface(Arc<Isosurface>),
-    Shapes(Box<Tables>),
+    Shape(Box<Tables>, Box<Lists>),
 }
 
 /// What a ray met of a placed shape: distance in the world, place in the body, triangle.
@@ -43,13 +48,13 @@ pub(super) struct Meeting<L: Lanes> {
 
 impl Placed {
     /// `shape` is the whole in the world, when the shutter opens.
-    pub fn new(first: u32, body: Body, still: DAffine3, motion: &[Step], shape: &Shape) -> Placed {
+    pub fn new(first: u32, body: Body, still: DAffine3, motion: &Motion, shape: &Shape) -> Placed {
         // Much more than all roundings on the way.
         const SLACK: f64 = 1.0001;
-        let is_world = motion.is_empty() && still == DAffine3::IDENTITY;
-        let (center, radius) = shape.bounding_sphere();
+        let is_world = motion.0.is_empty() && still == DAffine3::IDENTITY;
+        let (center, radius) = shape.swept_sphere(motion);
         let around = (center.as_vec3().to_array(), (radius * radius * SLACK) as f32);
-        Placed { first, body, still, motion: motion.to_vec(), is_world, around: motion.is_empty().then_some(around) }
+        Placed { first, body, still, rest: Rest::new(&still), motion: motion.0.clone(), is_world, around }
     }
 
     /// The lanes whose ray may meet it.
@@ -57,7 +62,7 @@ impl Placed {
     pub fn near<L: Lanes>(&self, live: M<L>, o: V<L>, d: V<L>) -> M<L> {
         // Of the distance of the centre: how far it may be off, squared, and more.
         const ROUNDING: f32 = 1e-11;
-        let Some((center, radius_squared)) = self.around else { return live };
+        let (center, radius_squared) = self.around;
         let way = o - center;
         let distance_squared = way.length_squared();
         let along = way.dot(d);
@@ -73,34 +78,49 @@ impl Placed {
 
     #[inline(always)]
     fn pose<L: Lanes>(&self, l: L, time: F<L>) -> Pose<L> {
-        Pose::new(l, &self.still, &self.motion, time)
+        Pose::new(l, &self.rest, &self.motion, time)
     }
 
-    /// The first meeting of o + td, d of unit length, with 0 < t < `limit` in the lanes of `live`.
+    /// The first meeting of o + td, d of unit length, with 0 < t < `limit`. Lanes with a limit of 0 cost next to nothing.
     #[simd]
-    pub fn closest<L: Lanes>(&self, l: L, live: M<L>, o: V<L>, d: V<L>, time: F<L>, limit: F<L>) -> Meeting<L> {
+    pub fn closest<L: Lanes>(&self, l: L, ray: (V<L>, V<L>), time: F<L>, limit: F<L>) -> Meeting<L> {
+        self.meet(l, l.token(), &mut Stack::default(), ray, time, limit)
+    }
+
+    /// The same; a mesh is met by the instructions of `s`, whatever the lanes.
+    #[inline(always)]
+    pub fn meet<L: Lanes, S: Simd>(
+        &self,
+        l: L,
+        s: S,
+        stack: &mut Stack,
+        (o, d): (V<L>, V<L>),
+        time: F<L>,
+        limit: F<L>,
+    ) -> Meeting<L> {
         if self.is_world {
-            return self.closest_in_body(l, live, o, d, limit);
+            return self.meet_in_body(l, s, stack, (o, d), limit);
         }
         let pose = self.pose(l, time);
         let local = pose.vector_to_local(d);
         let speed = local.length_squared().sqrt();
-        let found = self.closest_in_body(l, live, pose.point_to_local(o), local * (1.0 / speed), limit * speed);
+        let ray = (pose.point_to_local(o), local * (1.0 / speed));
+        let found = self.meet_in_body(l, s, stack, ray, limit * speed);
         Meeting { t: found.t / speed, ..found }
     }
 
     #[inline(always)]
-    fn closest_in_body<L: Lanes>(&self, l: L, live: M<L>, o: V<L>, d: V<L>, limit: F<L>) -> Meeting<L> {
+    fn meet_in_body<L: Lanes, S: Simd>(&self, l: L, s: S, stack: &mut Stack, (o, d): (V<L>, V<L>), limit: F<L>) -> Meeting<L> {
         let zero = l.u(0);
         match &self.body {
             Body::Mesh(mesh) => {
-                let (t, element) = mesh.closest(l, o, d, live.pick(limit, l.f(0.0)));
+                let (t, element) = mesh.closest_by(l, s, stack, (o, d), limit);
                 let none = element.is(MISS);
                 Meeting { t: none.pick(l.f(f32::INFINITY), t), piece: zero, element: none.pick(zero, element) }
             }
             Body::Isosurface(surface) => Meeting { t: surface.intersect(l, o, d, limit), piece: zero, element: zero },
-            Body::Shapes(tables) => {
-                let (t, piece) = tables.closest(l, o, d);
+            Body::Shape(_, list) => {
+                let (t, piece) = list.closest(l, o, d);
                 Meeting { t, piece, element: zero }
             }
         }
@@ -135,7 +155,7 @@ impl Placed {
                 SurfacePoint { p: point.p, n_geometric: point.n_geometric, error: point.error }
             }
             Body::Isosurface(surface) => surface.surface_point(l, p),
-            Body::Shapes(tables) => tables.surface_point(l, self.piece(place), p),
+            Body::Shape(tables, _) => tables.surface_point(l, self.piece(place), p),
         }
     }
 
@@ -147,7 +167,7 @@ impl Placed {
         let (coordinates, [u, v]) = match &self.body {
             Body::Mesh(mesh) => mesh.coordinates(l, place.element, p),
             Body::Isosurface(surface) => surface.coordinates(l, p),
-            Body::Shapes(tables) => {
+            Body::Shape(tables, _) => {
                 let local = tables.surface_point(l, self.piece(place), p);
                 let (u, v) = tables.tangents(l, self.piece(place), &local);
                 (tables.coordinates(l, self.piece(place), &local), [u, v])
@@ -177,7 +197,7 @@ impl Placed {
         let local = match &self.body {
             Body::Mesh(mesh) => mesh.toward(l, place.element, there, u),
             Body::Isosurface(surface) => surface.toward(l, there, u),
-            Body::Shapes(tables) => tables.toward(l, self.piece(place), there, u),
+            Body::Shape(tables, _) => tables.toward(l, self.piece(place), there, u),
         };
         let wi = pose.vector_to_world(local.wi).normalized();
         Toward { wi, pdf: local.pdf * stretch(&pose, wi), front: local.front }
@@ -191,7 +211,7 @@ impl Placed {
         let pdf = match &self.body {
             Body::Mesh(mesh) => mesh.pdf_toward(l, place.element, x, local),
             Body::Isosurface(surface) => surface.pdf_toward(l, x),
-            Body::Shapes(tables) => tables.pdf_toward(l, self.piece(place), x, local),
+            Body::Shape(tables, _) => tables.pdf_toward(l, self.piece(place), x, local),
         };
         pdf * stretch(&pose, wi)
     }

@@ -5,9 +5,9 @@
 //! in case of the cylinder, c(x) = |y|² + 2 y·m vanishes on the surface, and ∇c/2 = Gᵀ(m + y).
 use std::f32::consts::TAU;
 
-use glam::{DMat3, DVec2, DVec3};
+use glam::{DVec2, DVec3};
 
-use super::{fraction::Fraction, sphere::sphere_tangents, surface_point::SurfacePoint};
+use super::{Shape, fraction::Fraction, sphere::sphere_tangents, surface_point::SurfacePoint};
 use crate::math::{F, Lanes, M, Pick, U, V};
 
 /// A quadric. Its front is the outside.
@@ -18,8 +18,13 @@ pub struct Quadric {
 }
 
 impl Quadric {
-    /// origin + `axes` y with |y| = 1; for a cylinder with |(y₁, y₂)| = 1 and y₃ in [0, 1]. Anchored near `near`.
-    pub fn new(origin: DVec3, axes: DMat3, cylinder: bool, capped: bool, near: DVec3) -> Quadric {
+    /// An ellipsoid or the side of a cylinder, which may have caps. Anchored near `near`.
+    pub fn new(piece: &Shape, capped: bool, near: DVec3) -> Quadric {
+        let (origin, axes, cylinder) = match piece {
+            Shape::Ellipsoid { center, axes } => (*center, axes, false),
+            Shape::Cylinder { base, axes, .. } => (*base, axes, true),
+            _ => unreachable!("not a quadric"),
+        };
         let g = axes.inverse();
         let y = g * (near - origin);
         let m = if cylinder {
@@ -27,7 +32,7 @@ impl Quadric {
         } else {
             y.try_normalize().unwrap_or(DVec3::Y)
         };
-        let anchor = (origin + axes * m).as_vec3();
+        let anchor = (origin + *axes * m).as_vec3();
         // Where the rounded anchor lies.
         let m = g * (anchor.as_dvec3() - origin);
         let row = |i: usize| {

@@ -1,9 +1,9 @@
 //! Shapes as a scene describes them: in world space, in f64, placed by transforms.
 use std::sync::Arc;
 
-use glam::{DAffine3, DMat3, DVec3, Vec3};
+use glam::{DAffine3, DMat3, DVec3};
 
-use super::{Isosurface, MeshData, cuboid::face};
+use super::{Isosurface, MeshData, bounds::Bounds, cuboid::face};
 use crate::math::{One, V};
 
 /// A shape. Every kind but the sphere is closed under affine maps, and a sphere becomes an ellipsoid.
@@ -40,8 +40,8 @@ pub enum Shape {
     /// What `map` makes of the triangles; they may be shared with other shapes.
     Mesh {
         data: Arc<MeshData>,
-        /// Least and greatest corner of the box around the data.
-        bounds: ([f32; 3], [f32; 3]),
+        /// [Around](MeshData::boxes) the data.
+        boxes: Arc<[Bounds]>,
         map: DAffine3,
     },
     Isosurface {
@@ -70,7 +70,7 @@ impl Shape {
     }
 
     pub fn mesh(data: Arc<MeshData>) -> Shape {
-        Shape::Mesh { bounds: data.bounds(), data, map: DAffine3::IDENTITY }
+        Shape::Mesh { boxes: data.boxes().into(), data, map: DAffine3::IDENTITY }
     }
 
     pub fn cylinder(base: DVec3, top: DVec3, radius: f64, capped: bool) -> Shape {
@@ -98,7 +98,9 @@ impl Shape {
             Shape::Cylinder { base, axes, capped } => {
                 Shape::Cylinder { base: point(base), axes: linear * *axes, capped: *capped }
             }
-            Shape::Mesh { data, bounds, map: before } => Shape::Mesh { data: data.clone(), bounds: *bounds, map: *map * *before },
+            Shape::Mesh { data, boxes, map: before } => {
+                Shape::Mesh { data: data.clone(), boxes: boxes.clone(), map: *map * *before }
+            }
             Shape::Isosurface { surface, map: before } => Shape::Isosurface { surface: surface.clone(), map: *map * *before },
         }
     }
@@ -148,46 +150,6 @@ impl Shape {
         }
     }
 
-    /// Centre and radius of a sphere around the shape.
-    pub fn bounding_sphere(&self) -> (DVec3, f64) {
-        match self {
-            Shape::Sphere { center, radius } => (*center, *radius),
-            Shape::Ellipsoid { center, axes } => (*center, longest(axes)),
-            Shape::Flat { outline: Outline::Ellipse, origin, edges, .. } => {
-                (*origin, longest(&DMat3::from_cols(edges[0], edges[1], DVec3::ZERO)))
-            }
-            Shape::Flat { outline, origin, edges: [a, b], .. } => {
-                let center = match outline {
-                    Outline::Triangle => *origin + (*a + *b) / 3.0,
-                    Outline::Parallelogram | Outline::Ellipse => *origin + (*a + *b) / 2.0,
-                };
-                let corners = [*origin, *origin + *a, *origin + *b, *origin + *a + *b];
-                let count = if *outline == Outline::Triangle { 3 } else { 4 };
-                (center, corners[..count].iter().map(|corner| corner.distance(center)).fold(0.0, f64::max))
-            }
-            Shape::Cuboid { origin, edges } => {
-                let half = |signs: [f64; 2]| (edges.x_axis + edges.y_axis * signs[0] + edges.z_axis * signs[1]).length() / 2.0;
-                let diagonals = [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]].map(half);
-                (*origin + *edges * DVec3::splat(0.5), diagonals.into_iter().fold(0.0, f64::max))
-            }
-            Shape::Cylinder { base, axes, .. } => {
-                let round = longest(&DMat3::from_cols(axes.x_axis, axes.y_axis, DVec3::ZERO));
-                (*base + axes.z_axis / 2.0, round + axes.z_axis.length() / 2.0)
-            }
-            Shape::Mesh { bounds, map, .. } => around(*bounds, map),
-            Shape::Isosurface { surface, map } => around(surface.bounds(), map),
-        }
-    }
-
-    /// How far a cuboid or a cylinder reaches along the axes of the world, from any of its points to another.
-    pub(super) fn extent(&self) -> DVec3 {
-        match self {
-            Shape::Cuboid { edges, .. } => edges.x_axis.abs() + edges.y_axis.abs() + edges.z_axis.abs(),
-            Shape::Cylinder { axes, .. } => (axes.x_axis.abs() + axes.y_axis.abs()) * 2.0 + axes.z_axis.abs(),
-            _ => DVec3::splat(2.0 * self.bounding_sphere().1),
-        }
-    }
-
     /// Whether a point lies inside; nothing lies inside a surface that is open.
     pub fn contains(&self, p: DVec3) -> bool {
         match self {
@@ -202,8 +164,8 @@ impl Shape {
                 let x = axes.inverse() * (p - *base);
                 *capped && x.truncate().length() < 1.0 && (0.0..1.0).contains(&x.z)
             }
-            Shape::Mesh { data, bounds, map } => {
-                let (center, radius) = around(*bounds, map);
+            Shape::Mesh { data, map, .. } => {
+                let (center, radius) = self.bounding_sphere();
                 p.distance(center) <= radius && data.contains(map.inverse().transform_point3(p))
             }
             Shape::Isosurface { surface, map } => {
@@ -227,15 +189,6 @@ impl Outline {
     }
 }
 
-/// The sphere around what a map makes of a box.
-fn around((min, max): ([f32; 3], [f32; 3]), map: &DAffine3) -> (DVec3, f64) {
-    let [min, max] = [min, max].map(|corner| Vec3::from(corner).as_dvec3());
-    let half = map.matrix3 * DMat3::from_diagonal((max - min) / 2.0);
-    let corner = |signs: [f64; 2]| (half.x_axis + half.y_axis * signs[0] + half.z_axis * signs[1]).length();
-    let reach = [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]].map(corner).into_iter().fold(0.0, f64::max);
-    (map.transform_point3((min + max) / 2.0), reach)
-}
-
 /// The factor by which the map scales all lengths alike, if it does.
 fn similarity(linear: &DMat3) -> Option<f64> {
     let gram = linear.transpose() * *linear;
@@ -243,16 +196,4 @@ fn similarity(linear: &DMat3) -> Option<f64> {
     let rest = gram - DMat3::from_diagonal(DVec3::splat(square));
     let largest = [rest.x_axis, rest.y_axis, rest.z_axis].map(|axis| axis.abs().max_element()).into_iter().fold(0.0, f64::max);
     (largest <= 1e-9 * square).then(|| square.sqrt())
-}
-
-/// The longest of the images of unit vectors: the largest singular value, by power iteration; never too small.
-fn longest(axes: &DMat3) -> f64 {
-    let gram = axes.transpose() * *axes;
-    let trace = gram.x_axis.x + gram.y_axis.y + gram.z_axis.z;
-    let mut x = DVec3::new(0.6, 0.7, 0.4);
-    for _ in 0..60 {
-        x = (gram * x).try_normalize().unwrap_or(x);
-    }
-    // The iteration comes from below.
-    (x.dot(gram * x) * (1.0 + 1e-6)).min(trace).sqrt()
 }

@@ -5,18 +5,25 @@ use glam::{DAffine3, DVec3};
 
 use super::{
     Coordinates, Motion, Place, SurfacePoint, Toward,
+    lists::Lists,
     mesh::{Mesh, MeshData},
+    objects::{Kind, Object, Objects, few_and_large},
     placed::{Body, Placed},
     shape::{Outline, Shape},
     tables::{PLACED, Tables},
 };
 use crate::math::{F, Lanes, M, Pick, U, V};
 
-/// All shapes of a scene: analytic ones that stand still in tables, the others with a place of their own.
+/// All shapes of a scene.
 #[derive(Default)]
 pub struct Shapes {
     tables: Tables,
     placed: Vec<Placed>,
+    /// What every ray is tested against: analytic shapes, and the places of others among the placed ones.
+    lists: Lists,
+    loops: Vec<u32>,
+    /// What rays find by a tree.
+    objects: Option<Objects>,
     /// Meshes are among them, whose triangles are elements.
     has_elements: bool,
     moves: bool,
@@ -38,33 +45,53 @@ impl Shapes {
     pub fn new<'a>(shapes: impl Iterator<Item = (&'a Shape, &'a Motion)> + Clone, near: DVec3) -> Shapes {
         let mut meshes = Meshes::new(shapes.clone());
         let mut all = Shapes::default();
+        let mut objects = Vec::new();
         for (shape, motion) in shapes {
-            let first = all.tables.len() as u32;
-            let (body, still) = match shape {
-                Shape::Mesh { data, map, .. } => {
-                    all.has_elements = true;
-                    let (mesh, still) = meshes.build(data, map);
-                    all.dropped += mesh.dropped();
-                    (Body::Mesh(mesh), still)
-                }
-                Shape::Isosurface { surface, map } => (Body::Isosurface(surface.clone()), *map),
-                _ if motion.0.is_empty() => {
-                    all.tables.push_shape(shape, near);
-                    continue;
-                }
-                _ => {
-                    let mut tables = Tables::default();
-                    tables.push_shape(shape, near);
-                    (Body::Shapes(Box::new(tables)), DAffine3::IDENTITY)
-                }
-            };
-            all.moves |= !motion.0.is_empty();
-            for _ in 0..shape.piece_count() {
-                all.tables.push_placed(all.placed.len());
-            }
-            all.placed.push(Placed::new(first, body, still, &motion.0, shape));
+            let kind = all.push(shape, motion, &mut meshes, near);
+            objects.push(Object { bounds: shape.bounds(motion), kind });
         }
+        let few = few_and_large(&mut objects);
+        for object in &objects[..few] {
+            match object.kind {
+                Kind::Analytic { first, shape } => {
+                    all.lists.push(first, shape, near);
+                }
+                Kind::Placed(index) => all.loops.push(index),
+            }
+        }
+        all.objects = (few < objects.len()).then(|| Objects::new(&objects[few..], near));
         all
+    }
+
+    /// Adds the pieces of a shape, but not where rays find them.
+    fn push<'a>(&mut self, shape: &'a Shape, motion: &Motion, meshes: &mut Meshes, near: DVec3) -> Kind<'a> {
+        let first = self.tables.len() as u32;
+        let (body, still) = match shape {
+            Shape::Mesh { data, map, .. } => {
+                self.has_elements = true;
+                let (mesh, still) = meshes.build(data, map);
+                self.dropped += mesh.dropped();
+                (Body::Mesh(mesh), still)
+            }
+            Shape::Isosurface { surface, map } => (Body::Isosurface(surface.clone()), *map),
+            _ if motion.0.is_empty() => {
+                self.tables.push_shape(shape, near);
+                return Kind::Analytic { first, shape };
+            }
+            _ => {
+                let (mut tables, mut list) = <(Box<Tables>, Box<Lists>)>::default();
+                tables.push_shape(shape, near);
+                list.push(0, shape, near);
+                (Body::Shape(tables, list), DAffine3::IDENTITY)
+            }
+        };
+        self.moves |= !motion.0.is_empty();
+        let index = self.placed.len();
+        for _ in 0..shape.piece_count() {
+            self.tables.push_placed(index);
+        }
+        self.placed.push(Placed::new(first, body, still, motion, shape));
+        Kind::Placed(index as u32)
     }
 
     /// The triangles of a mesh in the order of its elements.
@@ -95,9 +122,14 @@ impl Shapes {
         self.dropped
     }
 
-    /// Whether there are none but spheres that stand still.
+    #[cfg(test)]
+    pub fn has_tree(&self) -> bool {
+        self.objects.is_some()
+    }
+
+    /// Whether there are none but spheres that stand still, and few.
     pub fn are_spheres(&self) -> bool {
-        self.placed.is_empty() && self.tables.are_spheres()
+        self.placed.is_empty() && self.objects.is_none() && self.lists.are_spheres()
     }
 
     /// Whether all surfaces stand still and are spheres, or open and flat.
@@ -108,7 +140,7 @@ impl Shapes {
     /// [`Shapes::closest`] where all [are spheres](Shapes::are_spheres).
     #[inline(always)]
     pub fn closest_sphere<L: Lanes>(&self, l: L, o: V<L>, d: V<L>) -> Nearest<L> {
-        let (t, primitive) = self.tables.closest_sphere(l, o, d);
+        let (t, primitive) = self.lists.closest_sphere(l, o, d);
         Nearest { t, primitive, element: l.u(0) }
     }
 
@@ -121,18 +153,22 @@ impl Shapes {
     /// The first surface along o + td, d of unit length, in the lanes of `live`.
     #[inline(always)]
     pub fn closest<L: Lanes>(&self, l: L, live: M<L>, o: V<L>, d: V<L>, time: F<L>) -> Nearest<L> {
-        let (t, primitive) = self.tables.closest(l, o, d);
+        let (t, primitive) = self.lists.closest(l, o, d);
         let mut nearest = Nearest { t, primitive, element: l.u(0) };
-        for placed in &self.placed {
+        for &index in &self.loops {
+            let placed = &self.placed[index as usize];
             let near = placed.near(live, o, d);
             if !near.any() {
                 continue;
             }
-            let found = placed.closest(l, near, o, d, time, nearest.t);
+            let found = placed.closest(l, (o, d), time, near.pick(nearest.t, l.f(0.0)));
             let nearer = found.t.lt(nearest.t);
             nearest.t = nearer.pick(found.t, nearest.t);
             nearest.primitive = nearer.pick(found.piece + placed.first, nearest.primitive);
             nearest.element = nearer.pick(found.element, nearest.element);
+        }
+        if let Some(objects) = &self.objects {
+            objects.closest(l, &self.placed, live, (o, d), time, &mut nearest);
         }
         nearest
     }

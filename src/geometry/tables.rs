@@ -1,11 +1,8 @@
-//! Analytic shapes as tables: one a kind for rays to run through, and rows by primitive for what they meet.
+//! What rays meet of analytic shapes: rows by primitive. How they are met is in [`super::lists`].
 use glam::DVec3;
 
 use super::{
-    MISS,
-    cuboid::Cuboid,
     flat::{Flat, is_ellipse, within_outline},
-    fraction::Fraction,
     quadric::{Local, Quadric},
     shape::Shape,
     sphere::{self, Sphere, sphere_tangents, sphere_uv},
@@ -19,16 +16,9 @@ pub(super) const QUADRIC: u32 = 2;
 /// Not in these tables: see [`super::placed`].
 pub(super) const PLACED: u32 = 3;
 
-/// Analytic shapes that stand still. Kinds that there are none of cost nothing.
+/// Analytic shapes by primitive. Kinds that there are none of cost nothing.
 #[derive(Default)]
 pub(super) struct Tables {
-    /// What rays are tested against, each with its primitive id, or that of its first face.
-    spheres: Vec<(u32, Sphere)>,
-    flats: Vec<(u32, Flat)>,
-    cuboids: Vec<(u32, Cuboid)>,
-    quadrics: Vec<(u32, Quadric)>,
-    /// With caps.
-    cylinders: Vec<(u32, Quadric)>,
     /// By primitive: the anchor and the curvature; the normal there and the tag.
     pub(super) anchors: Vec<[f32; 4]>,
     pub(super) normals: Vec<[f32; 4]>,
@@ -50,59 +40,34 @@ impl Tables {
     /// A primitive that is elsewhere.
     pub fn push_placed(&mut self, index: usize) {
         self.anchors.push([0.0; 4]);
-        self.normals.push([0.0, 1.0, 0.0, f32::from_bits(PLACED | (index as u32) << 2)]);
+        self.normals.push([0.0, 1.0, 0.0, tag(PLACED, index)]);
     }
 
     /// Adds an analytic shape, whose pieces get the next numbers. `near` is where the scene happens.
     pub fn push_shape(&mut self, shape: &Shape, near: DVec3) {
-        let first = self.anchors.len() as u32;
-        if let Shape::Cuboid { origin, edges } = shape {
-            self.cuboids.push((first, Cuboid::new(*origin, *edges, near)));
-        }
-        for piece in shape.pieces() {
-            self.push(&piece, shape, near);
-        }
-    }
-
-    /// Adds a piece of a shape.
-    fn push(&mut self, piece: &Shape, shape: &Shape, near: DVec3) {
-        let closed = matches!(shape, Shape::Cuboid { .. } | Shape::Cylinder { capped: true, .. });
+        let closed = shape.piece_count() > 1;
         self.have_closed |= closed;
-        let id = self.anchors.len() as u32;
-        let row = |[x, y, z]: [f32; 3], w: f32| [x, y, z, w];
-        match piece {
-            Shape::Sphere { center, radius } => {
-                let sphere = Sphere::new(*center, *radius, near);
-                let [anchor, normal] = sphere.rows();
-                self.spheres.push((id, sphere));
-                self.anchors.push(anchor);
-                self.normals.push(normal);
-            }
-            Shape::Flat { outline, origin, edges, mirrored } => {
-                let flat = Flat::new(*outline, *origin, *edges, *mirrored, near);
-                let tag = FLAT | (self.flat_rows.len() as u32 / 4) << 2;
-                self.anchors.push(row(flat.anchor, 0.0));
-                self.normals.push(row(flat.normal, f32::from_bits(tag)));
-                self.flat_rows.extend(flat.rows(*edges));
-                self.roundings.push(if closed { flat.roundings(shape.extent()) } else { [0.0; 4] });
-                // Rays find the pieces of a closed shape by itself.
-                if !closed {
-                    self.flats.push((id, flat));
+        for piece in shape.pieces() {
+            match &piece {
+                Shape::Sphere { center, radius } => {
+                    let [anchor, normal] = Sphere::new(*center, *radius, near).rows();
+                    self.anchors.push(anchor);
+                    self.normals.push(normal);
+                }
+                Shape::Flat { outline, origin, edges, mirrored } => {
+                    let flat = Flat::new(*outline, *origin, *edges, *mirrored, near);
+                    let ([x, y, z], [nx, ny, nz]) = (flat.anchor, flat.normal);
+                    self.anchors.push([x, y, z, 0.0]);
+                    self.normals.push([nx, ny, nz, tag(FLAT, self.flat_rows.len() / 4)]);
+                    self.flat_rows.extend(flat.rows(*edges));
+                    self.roundings.push(if closed { flat.roundings(shape.size()) } else { [0.0; 4] });
+                }
+                _ => {
+                    self.anchors.push([0.0; 4]);
+                    self.normals.push([0.0, 1.0, 0.0, tag(QUADRIC, self.quadric_rows.len() / 4)]);
+                    self.quadric_rows.extend(Quadric::new(&piece, closed, near).rows());
                 }
             }
-            Shape::Ellipsoid { center: origin, axes } | Shape::Cylinder { base: origin, axes, .. } => {
-                let quadric = Quadric::new(*origin, *axes, matches!(piece, Shape::Cylinder { .. }), closed, near);
-                let tag = QUADRIC | (self.quadric_rows.len() as u32 / 4) << 2;
-                self.anchors.push([0.0; 4]);
-                self.normals.push(row([0.0, 1.0, 0.0], f32::from_bits(tag)));
-                self.quadric_rows.extend(quadric.rows());
-                if closed {
-                    self.cylinders.push((id, quadric));
-                } else {
-                    self.quadrics.push((id, quadric));
-                }
-            }
-            Shape::Cuboid { .. } | Shape::Mesh { .. } | Shape::Isosurface { .. } => unreachable!("not an analytic piece"),
         }
     }
 
@@ -111,54 +76,15 @@ impl Tables {
         l.rows(&self.normals, primitive)[3].bits()
     }
 
-    /// Whether there are none but spheres.
-    pub fn are_spheres(&self) -> bool {
-        self.spheres.len() == self.anchors.len()
-    }
-
     /// Whether all surfaces are spheres or open and flat, which are as spheres of curvature 0.
     pub fn are_simple(&self) -> bool {
         self.quadric_rows.is_empty() && !self.have_closed
-    }
-
-    /// [`Tables::closest`] where there are only spheres.
-    #[inline(always)]
-    pub fn closest_sphere<L: Lanes>(&self, l: L, o: V<L>, d: V<L>) -> (F<L>, U<L>) {
-        let mut nearest = Nearest { t: Fraction::infinite(l), primitive: l.u(MISS) };
-        for (id, sphere) in &self.spheres {
-            nearest.meet(sphere.intersect(o, d), l.u(*id));
-        }
-        (nearest.t.value(), nearest.primitive)
     }
 
     /// [`Tables::surface_point`] where all are [simple](Tables::are_simple).
     #[inline(always)]
     pub fn simple_point<L: Lanes>(&self, l: L, primitive: U<L>, p: V<L>) -> SurfacePoint<L> {
         sphere::surface_point(l.rows(&self.anchors, primitive), l.rows(&self.normals, primitive), p)
-    }
-
-    /// Distance along o + td, d of unit length, to the first surface, and its primitive or [`MISS`].
-    #[inline(always)]
-    pub fn closest<L: Lanes>(&self, l: L, o: V<L>, d: V<L>) -> (F<L>, U<L>) {
-        let mut nearest = Nearest { t: Fraction::infinite(l), primitive: l.u(MISS) };
-        for (id, sphere) in &self.spheres {
-            nearest.meet(sphere.intersect(o, d), l.u(*id));
-        }
-        for (id, flat) in &self.flats {
-            nearest.meet(flat.intersect(o, d), l.u(*id));
-        }
-        for (first, cuboid) in &self.cuboids {
-            let (t, face) = cuboid.intersect(l, o, d);
-            nearest.meet(t, face + *first);
-        }
-        for (id, quadric) in &self.quadrics {
-            nearest.meet(quadric.intersect(l, o, d), l.u(*id));
-        }
-        for (first, cylinder) in &self.cylinders {
-            let (t, piece) = cylinder.intersect_solid(l, o, d);
-            nearest.meet(t, piece + *first);
-        }
-        (nearest.t.value(), nearest.primitive)
     }
 
     /// The surface at a point `p` of the given primitives, none of which may be [`MISS`].
@@ -242,6 +168,11 @@ impl Tables {
     }
 }
 
+/// A tag as a real with its bits.
+fn tag(kind: u32, index: usize) -> f32 {
+    f32::from_bits(kind | (index as u32) << 2)
+}
+
 #[inline(always)]
 fn coordinate<L: Lanes>([x, y, z, at_anchor]: [F<L>; 4], from_anchor: V<L>) -> F<L> {
     V { x, y, z }.dot(from_anchor) + at_anchor
@@ -260,19 +191,4 @@ pub(super) struct AtFlat<L: Lanes> {
 fn four_rows<L: Lanes>(l: L, table: &[[f32; 4]], here: M<L>, tag: U<L>) -> [[F<L>; 4]; 4] {
     let first = here.pick((tag >> 2) << 2, l.u(0));
     [l.rows(table, first), l.rows(table, first + 1), l.rows(table, first + 2), l.rows(table, first + 3)]
-}
-
-/// The nearest meeting so far.
-struct Nearest<L: Lanes> {
-    t: Fraction<L>,
-    primitive: U<L>,
-}
-
-impl<L: Lanes> Nearest<L> {
-    #[inline(always)]
-    fn meet(&mut self, t: Fraction<L>, primitive: U<L>) {
-        let nearer = t.less(&self.t);
-        self.t = nearer.pick(t, self.t);
-        self.primitive = nearer.pick(primitive, self.primitive);
-    }
 }

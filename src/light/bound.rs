@@ -27,7 +27,7 @@ impl Bound {
     /// Of a piece wherever it moves.
     pub fn new(piece: &Shape, motion: &Motion, emission: &Emission) -> Bound {
         let moves = !motion.0.is_empty();
-        let (center, radius) = if moves { around_poses(piece, motion) } else { piece.bounding_sphere() };
+        let (center, radius) = piece.swept_sphere(motion);
         let (size, normal) = match piece {
             _ if moves => (radius * radius, None),
             Shape::Flat { outline, edges: [a, b], mirrored, .. } => {
@@ -45,15 +45,4 @@ impl Bound {
         };
         Bound { center, radius, size, normal, front, back, moves }
     }
-}
-
-/// A sphere around all poses, of which some are looked at.
-fn around_poses(piece: &Shape, motion: &Motion) -> (DVec3, f64) {
-    const POSES: u32 = 64;
-    /// For what lies between them.
-    const SLACK: f64 = 1.02;
-    let pose = |i: u32| piece.transformed(&motion.at(f64::from(i) / f64::from(POSES))).bounding_sphere();
-    let spheres: Vec<_> = (0..=POSES).map(pose).collect();
-    let center = spheres.iter().map(|(center, _)| *center).sum::<DVec3>() / spheres.len() as f64;
-    (center, spheres.iter().map(|(c, r)| c.distance(center) + r).fold(0.0, f64::max) * SLACK)
 }

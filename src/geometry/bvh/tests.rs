@@ -1,14 +1,11 @@
-//! Every box that a ray meets is shown, and the tree serves objects as it serves triangles.
-use fearless_simd::{ExtractToken, Fallback, Simd};
+//! Every box that a ray meets is shown.
+use fearless_simd::{Fallback, Simd};
 use rand::{Rng, SeedableRng, rngs::SmallRng};
 
 use super::{Bvh, Leaves, NONE, Slabs, Stack, traverse};
 use crate::{
-    geometry::{
-        bounds::Bounds,
-        mesh::{Mesh, Rays, generate},
-    },
-    math::{Lanes, One, V},
+    geometry::bounds::Bounds,
+    math::{One, V},
 };
 
 fn boxes(count: usize, rng: &mut SmallRng) -> Vec<Bounds> {
@@ -81,52 +78,5 @@ fn every_box_that_is_met_is_shown() {
             let lost = boxes.iter().zip(marks.shown).position(|(bounds, shown)| !shown && meets(bounds, o, d));
             assert_eq!(lost, None, "{o:?} {d:?}");
         }
-    }
-}
-
-/// A top level over meshes.
-struct Objects<'a> {
-    order: &'a [u32],
-    meshes: &'a [Mesh],
-    rays: &'a Rays,
-    below: Stack,
-    nearest: (u32, u32),
-}
-
-impl<S: Simd> Leaves<S> for Objects<'_> {
-    #[inline(always)]
-    fn meet(&mut self, s: S, leaf: u32, t_max: f32) -> f32 {
-        let object = self.order[leaf as usize];
-        let (t, triangle) = self.meshes[object as usize].closest_of(s, &mut self.below, self.rays, 0, t_max);
-        self.nearest = if triangle == NONE { self.nearest } else { (object, triangle) };
-        t
-    }
-
-    #[inline(always)]
-    fn touch(&self, leaf: u32) -> u32 {
-        self.order[leaf as usize]
-    }
-}
-
-#[test]
-fn a_tree_over_meshes_finds_the_nearest() {
-    let mut rng = SmallRng::seed_from_u64(2);
-    let meshes: Vec<Mesh> = (0..20)
-        .map(|k| {
-            let mut data = generate::torus_knot(300);
-            data.vertices.iter_mut().for_each(|v| *v = [v[0] + (k % 5) as f32, v[1] + (k / 5) as f32 * 0.3, v[2]]);
-            Mesh::new(&data)
-        })
-        .collect();
-    let (bvh, order) = Bvh::build::<1>(meshes.iter().map(Mesh::bounds));
-    for _ in 0..3000 {
-        let mut corner = || [0; 3].map(|_| rng.random_range(-2.0f32..4.0));
-        let (o, d) = (V::splat(One, corner()), V::splat(One, corner()));
-        let rays = Rays::new(One, o, d, &bvh.bounds());
-        let mut objects = Objects { order: &order, meshes: &meshes, rays: &rays, below: Stack::default(), nearest: (NONE, NONE) };
-        let t = traverse(One.token(), &bvh, &mut Stack::default(), (rays.slabs(), 0), f32::INFINITY, &mut objects);
-        let alone = |mesh: &Mesh| mesh.closest(One, o, d, One.f(f32::INFINITY)).0.0;
-        assert_eq!(t, meshes.iter().map(alone).fold(f32::INFINITY, f32::min));
-        assert!(t.is_infinite() || alone(&meshes[objects.nearest.0 as usize]) == t);
     }
 }

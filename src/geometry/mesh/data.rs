@@ -16,10 +16,22 @@ pub struct MeshData {
 }
 
 impl MeshData {
-    /// The corners of the box around all vertices.
-    pub fn bounds(&self) -> ([f32; 3], [f32; 3]) {
-        let Bounds { min, max } = Bounds::of_points(self.vertices.iter().copied());
-        (min, max)
+    /// Boxes around the vertices in each cell of a coarse grid: what an affine map makes of the mesh is hardly smaller than what it
+    /// makes of them.
+    pub fn boxes(&self) -> Vec<Bounds> {
+        const CELLS: usize = 4;
+        let all = Bounds::of_points(self.vertices.iter().copied());
+        let size = all.size();
+        let mut boxes = vec![Bounds::EMPTY; CELLS * CELLS * CELLS];
+        for vertex in &self.vertices {
+            let cell = (0..3).fold(0, |cell, axis| {
+                let place = (vertex[axis] - all.min[axis]) / size[axis] * CELLS as f32;
+                cell * CELLS + (place as usize).min(CELLS - 1)
+            });
+            boxes[cell] = boxes[cell].union(&Bounds { min: *vertex, max: *vertex });
+        }
+        boxes.retain(|bounds| !bounds.is_empty());
+        boxes
     }
 
     /// In another space. The front stays the front, whether the map mirrors or not.

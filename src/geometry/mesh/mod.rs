@@ -83,7 +83,7 @@ impl<S: Simd> Leaves<S> for Nearest<'_> {
 }
 
 /// Rays of several lanes, prepared for boxes and triangles.
-pub struct Rays {
+struct Rays {
     slabs: Slabs,
     shears: Shears,
 }
@@ -91,13 +91,8 @@ pub struct Rays {
 impl Rays {
     /// Rays o + td towards what lies in `bounds`.
     #[inline(always)]
-    pub fn new<L: Lanes>(l: L, o: V<L>, d: V<L>, bounds: &Bounds) -> Rays {
+    fn new<L: Lanes>(l: L, o: V<L>, d: V<L>, bounds: &Bounds) -> Rays {
         Rays { slabs: Slabs::new(l, o, d, bounds), shears: Shears::new(l, o, d) }
-    }
-
-    /// For a tree above the meshes.
-    pub fn slabs(&self) -> &Slabs {
-        &self.slabs
     }
 }
 
@@ -127,21 +122,33 @@ impl Mesh {
     /// Both sides count. d need not be of unit length. Lanes with a `t_max` of 0 cost next to nothing.
     #[inline(always)]
     pub fn closest<L: Lanes>(&self, l: L, o: V<L>, d: V<L>, t_max: F<L>) -> (F<L>, U<L>) {
+        self.closest_by(l, l.token(), &mut Stack::default(), (o, d), t_max)
+    }
+
+    /// The same, with boxes and triangles tested by the instructions of `s`, whatever the lanes.
+    #[inline(always)]
+    pub fn closest_by<L: Lanes, S: Simd>(
+        &self,
+        l: L,
+        s: S,
+        stack: &mut Stack,
+        (o, d): (V<L>, V<L>),
+        t_max: F<L>,
+    ) -> (F<L>, U<L>) {
         let rays = Rays::new(l, o, d, &self.bounds());
-        let mut stack = Stack::default();
         let mut distances = t_max.to_array();
         let mut triangles = [0.0; MAX_LANES];
         for lane in 0..L::N {
-            let (t, triangle) = self.closest_of(l.token(), &mut stack, &rays, lane, distances[lane]);
+            let (t, triangle) = self.closest_of(s, stack, &rays, lane, distances[lane]);
             distances[lane] = t;
             triangles[lane] = f32::from_bits(triangle);
         }
         (l.load(&distances), l.load(&triangles).bits())
     }
 
-    /// The same for the ray in one lane of rays that were prepared for bounds which contain the mesh.
+    /// The same for the ray in one lane.
     #[simd]
-    pub fn closest_of<S: Simd>(&self, s: S, stack: &mut Stack, rays: &Rays, lane: usize, t_max: f32) -> (f32, u32) {
+    fn closest_of<S: Simd>(&self, s: S, stack: &mut Stack, rays: &Rays, lane: usize, t_max: f32) -> (f32, u32) {
         let mut nearest = Nearest { blocks: &self.blocks, ray: rays.shears.lane(lane), triangle: NONE };
         let t = traverse(s, &self.bvh, stack, (&rays.slabs, lane), t_max, &mut nearest);
         (t, nearest.triangle)

@@ -1,5 +1,6 @@
 //! Every kind of shape, placed by every kind of transform, against oracles in f64.
 mod coordinates;
+mod objects;
 mod oracle;
 mod rays;
 mod toward;

@@ -1,0 +1,196 @@
+//! How large shapes are: spheres and boxes around them, at rest and in motion.
+use std::f64::consts::TAU;
+
+use glam::{DAffine3, DMat3, DVec3, Vec3};
+
+use super::{Motion, Outline, Shape, Step, bounds::Bounds};
+
+/// Times, one less, at which motion is looked at for how far it reaches.
+const POSES: u32 = 128;
+
+/// A box in f64.
+#[derive(Clone, Copy)]
+struct Extent {
+    min: DVec3,
+    max: DVec3,
+}
+
+impl Extent {
+    const EMPTY: Extent = Extent { min: DVec3::INFINITY, max: DVec3::NEG_INFINITY };
+
+    fn around(center: DVec3, reach: DVec3) -> Extent {
+        Extent { min: center - reach, max: center + reach }
+    }
+
+    fn of_points(points: impl IntoIterator<Item = DVec3>) -> Extent {
+        points.into_iter().fold(Extent::EMPTY, |all, p| all.union(&Extent { min: p, max: p }))
+    }
+
+    fn union(&self, other: &Extent) -> Extent {
+        Extent { min: self.min.min(other.min), max: self.max.max(other.max) }
+    }
+
+    /// In f32, and wider than all roundings of what is in it.
+    fn widened(&self, by: f64) -> Bounds {
+        const OF_SIZE: f64 = 4e-6;
+        const OF_PLACE: f64 = 4.0 * f32::EPSILON as f64;
+        let size = self.max - self.min;
+        let place = self.min.abs().max(self.max.abs());
+        let margin = DVec3::splat(size.max_element() * OF_SIZE + by) + place * OF_PLACE;
+        Bounds { min: (self.min - margin).as_vec3().to_array(), max: (self.max + margin).as_vec3().to_array() }
+    }
+}
+
+impl Shape {
+    /// A box around the shape wherever the motion takes it, rounding included.
+    pub(super) fn bounds(&self, motion: &Motion) -> Bounds {
+        let all = self.poses(motion).map(|pose| pose.extent()).fold(Extent::EMPTY, |all, extent| all.union(&extent));
+        all.widened(self.way_between_poses(motion))
+    }
+
+    /// Centre and radius of a sphere around the shape wherever the motion takes it.
+    pub fn swept_sphere(&self, motion: &Motion) -> (DVec3, f64) {
+        if motion.0.is_empty() {
+            return self.bounding_sphere();
+        }
+        let spheres: Vec<_> = self.poses(motion).map(|pose| pose.bounding_sphere()).collect();
+        let center = spheres.iter().map(|(center, _)| *center).sum::<DVec3>() / spheres.len() as f64;
+        let radius = spheres.iter().map(|(c, r)| c.distance(center) + r).fold(0.0, f64::max);
+        (center, radius + self.way_between_poses(motion))
+    }
+
+    /// The shape at [`POSES`] + 1 times, or once if it does not move.
+    fn poses(&self, motion: &Motion) -> impl Iterator<Item = Shape> {
+        let last = if motion.0.is_empty() { 0 } else { POSES };
+        (0..=last).map(|i| self.transformed(&motion.at(f64::from(i) / f64::from(POSES))))
+    }
+
+    /// No point is ever farther than this from where it is at the nearer one of two poses.
+    fn way_between_poses(&self, motion: &Motion) -> f64 {
+        let (center, radius) = self.bounding_sphere();
+        longest_way(center.length() + radius, motion) / f64::from(2 * POSES)
+    }
+
+    fn extent(&self) -> Extent {
+        match self {
+            Shape::Sphere { center, radius } => Extent::around(*center, DVec3::splat(*radius)),
+            Shape::Ellipsoid { center, axes } => Extent::around(*center, ellipse_reach(axes)),
+            Shape::Flat { outline: Outline::Ellipse, origin, edges: [a, b], .. } => {
+                Extent::around(*origin, ellipse_reach(&DMat3::from_cols(*a, *b, DVec3::ZERO)))
+            }
+            Shape::Flat { outline, origin: o, edges: [a, b], .. } => {
+                let corners = [*o, *o + *a, *o + *b, *o + *a + *b];
+                Extent::of_points(corners.into_iter().take(if *outline == Outline::Triangle { 3 } else { 4 }))
+            }
+            Shape::Cuboid { origin, edges } => of_box(DVec3::ZERO, DVec3::ONE, &DAffine3::from_mat3_translation(*edges, *origin)),
+            Shape::Cylinder { base, axes, .. } => {
+                let reach = ellipse_reach(&DMat3::from_cols(axes.x_axis, axes.y_axis, DVec3::ZERO));
+                Extent::around(*base, reach).union(&Extent::around(*base + axes.z_axis, reach))
+            }
+            Shape::Mesh { boxes, map, .. } => {
+                let image = |bounds: &Bounds| of_box(Vec3::from(bounds.min).as_dvec3(), Vec3::from(bounds.max).as_dvec3(), map);
+                boxes.iter().map(image).fold(Extent::EMPTY, |all, extent| all.union(&extent))
+            }
+            Shape::Isosurface { surface, map } => {
+                let (min, max) = surface.bounds();
+                of_box(Vec3::from(min).as_dvec3(), Vec3::from(max).as_dvec3(), map)
+            }
+        }
+    }
+
+    /// Centre and radius of a sphere around the shape.
+    pub fn bounding_sphere(&self) -> (DVec3, f64) {
+        match self {
+            Shape::Sphere { center, radius } => (*center, *radius),
+            Shape::Ellipsoid { center, axes } => (*center, longest(axes)),
+            Shape::Flat { outline: Outline::Ellipse, origin, edges, .. } => {
+                (*origin, longest(&DMat3::from_cols(edges[0], edges[1], DVec3::ZERO)))
+            }
+            Shape::Flat { outline, origin, edges: [a, b], .. } => {
+                let center = match outline {
+                    Outline::Triangle => *origin + (*a + *b) / 3.0,
+                    Outline::Parallelogram | Outline::Ellipse => *origin + (*a + *b) / 2.0,
+                };
+                let corners = [*origin, *origin + *a, *origin + *b, *origin + *a + *b];
+                let count = if *outline == Outline::Triangle { 3 } else { 4 };
+                (center, corners[..count].iter().map(|corner| corner.distance(center)).fold(0.0, f64::max))
+            }
+            Shape::Cuboid { origin, edges } => {
+                let half = |signs: [f64; 2]| (edges.x_axis + edges.y_axis * signs[0] + edges.z_axis * signs[1]).length() / 2.0;
+                let diagonals = [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]].map(half);
+                (*origin + *edges * DVec3::splat(0.5), diagonals.into_iter().fold(0.0, f64::max))
+            }
+            Shape::Cylinder { base, axes, .. } => {
+                let round = longest(&DMat3::from_cols(axes.x_axis, axes.y_axis, DVec3::ZERO));
+                (*base + axes.z_axis / 2.0, round + axes.z_axis.length() / 2.0)
+            }
+            Shape::Mesh { boxes, map, .. } => around(boxes, map),
+            Shape::Isosurface { surface, map } => {
+                let (min, max) = surface.bounds();
+                around(&[Bounds { min, max }], map)
+            }
+        }
+    }
+
+    /// How far it reaches along the axes of the world, from any of its points to another.
+    pub(super) fn size(&self) -> DVec3 {
+        let Extent { min, max } = self.extent();
+        max - min
+    }
+}
+
+/// A sphere around what a map makes of boxes.
+fn around(boxes: &[Bounds], map: &DAffine3) -> (DVec3, f64) {
+    let corners = boxes.iter().flat_map(|Bounds { min, max }| {
+        (0..8).map(|corner| {
+            let at = |axis: usize| f64::from(if corner >> axis & 1 == 0 { min[axis] } else { max[axis] });
+            map.transform_point3(DVec3::new(at(0), at(1), at(2)))
+        })
+    });
+    let Extent { min, max } = Extent::of_points(corners.clone());
+    let center = (min + max) / 2.0;
+    (center, corners.map(|corner| corner.distance(center)).fold(0.0, f64::max))
+}
+
+/// The longest of the images of unit vectors: the largest singular value, by power iteration; never too small.
+fn longest(axes: &DMat3) -> f64 {
+    let gram = axes.transpose() * *axes;
+    let trace = gram.x_axis.x + gram.y_axis.y + gram.z_axis.z;
+    let mut x = DVec3::new(0.6, 0.7, 0.4);
+    for _ in 0..60 {
+        x = (gram * x).try_normalize().unwrap_or(x);
+    }
+    // The iteration comes from below.
+    (x.dot(gram * x) * (1.0 + 1e-6)).min(trace).sqrt()
+}
+
+/// How far the image of the unit sphere reaches along the axes of the world.
+fn ellipse_reach(axes: &DMat3) -> DVec3 {
+    let rows = axes.transpose();
+    DVec3::new(rows.x_axis.length(), rows.y_axis.length(), rows.z_axis.length())
+}
+
+/// The box around what a map makes of a box.
+fn of_box(min: DVec3, max: DVec3, map: &DAffine3) -> Extent {
+    let half = map.matrix3 * DMat3::from_diagonal((max - min) / 2.0);
+    let reach = half.x_axis.abs() + half.y_axis.abs() + half.z_axis.abs();
+    Extent::around(map.transform_point3((min + max) / 2.0), reach)
+}
+
+/// The longest way that a point within `reach` of the origin could go if it kept its greatest speed.
+fn longest_way(mut reach: f64, motion: &Motion) -> f64 {
+    let size = |matrix: &DMat3| matrix.to_cols_array().iter().map(|x| x * x).sum::<f64>().sqrt();
+    let mut way = 0.0;
+    for step in &motion.0 {
+        // What the step multiplies ways by at most, and the ways that it adds: one that all points go, one by their reach.
+        let (factor, of_all, of_reach) = match step {
+            Step::Translate(by) => (1.0, by.length(), 0.0),
+            Step::Rotate { turns, .. } => (1.0, 0.0, turns.abs() * TAU),
+            Step::Scale(factors) => (factors.abs().max_element().max(1.0), 0.0, (*factors - DVec3::ONE).abs().max_element()),
+            Step::Matrix(map) => (size(&map.matrix3).max(1.0), map.translation.length(), size(&(map.matrix3 - DMat3::IDENTITY))),
+        };
+        way = way * factor + of_all + reach * of_reach;
+        reach = reach * factor + of_all;
+    }
+    way
+}

@@ -1,0 +1,155 @@
+//! Ways between the space of a shape and the world, in lanes, at the time of each.
+use glam::{DAffine3, DMat3, DVec3};
+
+use super::Step;
+use crate::math::{F, Lanes, V, round::floor, trig::sin_cos_turns};
+
+/// An affine map and its inverse, rounded: where something is when the shutter opens.
+pub(super) struct Rest {
+    axes: [[f32; 3]; 3],
+    origin: [f32; 3],
+    rows: [[f32; 3]; 3],
+}
+
+impl Rest {
+    pub const IDENTITY: Rest = {
+        let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        Rest { axes, origin: [0.0; 3], rows: axes }
+    };
+
+    pub fn new(map: &DAffine3) -> Rest {
+        let columns = |matrix: &DMat3| [0, 1, 2].map(|axis| matrix.col(axis).as_vec3().to_array());
+        let rows = columns(&map.matrix3.inverse().transpose());
+        Rest { axes: columns(&map.matrix3), origin: map.translation.as_vec3().to_array(), rows }
+    }
+}
+
+/// An affine map in lanes and its inverse.
+pub(super) struct Pose<L: Lanes> {
+    /// Images of the axes, and of the origin.
+    pub axes: [V<L>; 3],
+    origin: V<L>,
+    /// Rows of the inverse of `axes`.
+    pub rows: [V<L>; 3],
+}
+
+impl<L: Lanes> Pose<L> {
+    /// Where something is at `time`.
+    #[inline(always)]
+    pub fn new(l: L, rest: &Rest, motion: &[Step], time: F<L>) -> Self {
+        let mut axes = three(l, &rest.axes);
+        let mut origin = V::splat(l, rest.origin);
+        if motion.is_empty() {
+            return Pose { axes, origin, rows: three(l, &rest.rows) };
+        }
+        for step in motion {
+            let partial = Partial::new(l, step, time);
+            axes = [partial.turn(axes[0]), partial.turn(axes[1]), partial.turn(axes[2])];
+            origin = partial.turn(origin) + partial.way;
+        }
+        let [a, b, c] = axes;
+        let (bc, ca, ab) = (b.cross(c), c.cross(a), a.cross(b));
+        let scale = 1.0 / a.dot(bc);
+        Pose { axes, origin, rows: [bc * scale, ca * scale, ab * scale] }
+    }
+
+    #[inline(always)]
+    pub fn vector_to_local(&self, v: V<L>) -> V<L> {
+        V { x: self.rows[0].dot(v), y: self.rows[1].dot(v), z: self.rows[2].dot(v) }
+    }
+
+    #[inline(always)]
+    pub fn point_to_local(&self, p: V<L>) -> V<L> {
+        self.vector_to_local(p - self.origin)
+    }
+
+    #[inline(always)]
+    pub fn vector_to_world(&self, v: V<L>) -> V<L> {
+        self.axes[0] * v.x + (self.axes[1] * v.y + self.axes[2] * v.z)
+    }
+
+    #[inline(always)]
+    pub fn point_to_world(&self, p: V<L>) -> V<L> {
+        self.vector_to_world(p) + self.origin
+    }
+
+    /// The image of a covector, as a normal is: of another length.
+    #[inline(always)]
+    pub fn normal_to_world(&self, n: V<L>) -> V<L> {
+        self.rows[0] * n.x + (self.rows[1] * n.y + self.rows[2] * n.z)
+    }
+
+    /// How far [`Pose::point_to_local`] may be off at `p`, in the local space: the sum over its coordinates.
+    #[inline(always)]
+    pub fn rounding(&self, p: V<L>) -> F<L> {
+        // Each coordinate is rounded as the differences to the origin, the products and two sums.
+        const ROUNDINGS: f32 = 3.0 * f32::EPSILON;
+        let [a, b, c] = self.rows;
+        let size = p.max_abs() + self.origin.max_abs();
+        (sum_of_sizes(a) + (sum_of_sizes(b) + sum_of_sizes(c))) * size * ROUNDINGS
+    }
+}
+
+/// A part of a [`Step`] in lanes.
+struct Partial<L: Lanes> {
+    axes: [V<L>; 3],
+    way: V<L>,
+}
+
+impl<L: Lanes> Partial<L> {
+    #[inline(always)]
+    fn new(l: L, step: &Step, time: F<L>) -> Self {
+        let mut axes = columns(l, &DMat3::IDENTITY);
+        let mut way = splat(l, DVec3::ZERO);
+        match step {
+            Step::Translate(by) => way = splat(l, *by) * time,
+            Step::Rotate { axis, turns } => {
+                let angle = time * *turns as f32;
+                let (sin, cos) = sin_cos_turns(angle - floor(angle).0);
+                let axis = splat(l, *axis);
+                // O. Rodrigues, 1840: v cos + (k × v) sin + k (k·v)(1 − cos).
+                for e in &mut axes {
+                    *e = *e * cos + (axis.cross(*e) * sin + axis * (axis.dot(*e) * (1.0 - cos)));
+                }
+            }
+            Step::Scale(factors) => {
+                let [x, y, z] = (*factors - DVec3::ONE).as_vec3().to_array();
+                axes[0].x = time * x + 1.0;
+                axes[1].y = time * y + 1.0;
+                axes[2].z = time * z + 1.0;
+            }
+            Step::Matrix(map) => {
+                for (e, goal) in axes.iter_mut().zip(columns(l, &map.matrix3)) {
+                    *e = *e + (goal - *e) * time;
+                }
+                way = splat(l, map.translation) * time;
+            }
+        }
+        Partial { axes, way }
+    }
+
+    #[inline(always)]
+    fn turn(&self, v: V<L>) -> V<L> {
+        self.axes[0] * v.x + (self.axes[1] * v.y + self.axes[2] * v.z)
+    }
+}
+
+#[inline(always)]
+fn splat<L: Lanes>(l: L, v: DVec3) -> V<L> {
+    V::splat(l, v.as_vec3().to_array())
+}
+
+#[inline(always)]
+fn columns<L: Lanes>(l: L, matrix: &DMat3) -> [V<L>; 3] {
+    [splat(l, matrix.x_axis), splat(l, matrix.y_axis), splat(l, matrix.z_axis)]
+}
+
+#[inline(always)]
+fn sum_of_sizes<L: Lanes>(v: V<L>) -> F<L> {
+    v.x.abs() + (v.y.abs() + v.z.abs())
+}
+
+#[inline(always)]
+fn three<L: Lanes>(l: L, vectors: &[[f32; 3]; 3]) -> [V<L>; 3] {
+    [V::splat(l, vectors[0]), V::splat(l, vectors[1]), V::splat(l, vectors[2])]
+}

@@ -1,0 +1,72 @@
+//! Many shapes of every kind, still and in motion: what is found by the tree is what is found by trying each.
+use std::sync::Arc;
+
+use glam::{DAffine3, DVec3};
+use rand::{Rng, SeedableRng, rngs::SmallRng};
+
+use super::{cases, exact, unit_vector, v};
+use crate::{
+    geometry::{Expression, Isosurface, MISS, Motion, Nearest, Shape, Shapes, Step, mesh::generate},
+    math::{F, M, One, U, V},
+};
+
+/// Every kind under every transform that keeps its size, meshes and isosurfaces, about a cube: every third one moves.
+fn crowd(rng: &mut SmallRng) -> Vec<(Shape, Motion)> {
+    let knot = Shape::mesh(Arc::new(generate::torus_knot(300)));
+    let expression = Expression::parse("x^2 + y^2 + z^2 - 0.8").expect("an expression");
+    let ball = Shape::Isosurface { surface: Arc::new(Isosurface::new(expression, [-1.0; 3], [1.0; 3])), map: DAffine3::IDENTITY };
+    let kinds: Vec<Shape> = cases().into_iter().map(|case| case.shape).filter(|shape| shape.bounding_sphere().1 < 5.0).collect();
+    let kinds: Vec<Shape> = kinds.into_iter().chain([knot, ball]).collect();
+    let mut crowd = Vec::new();
+    for i in 0..300 {
+        let at = unit_vector(rng) * rng.random_range(1.0..10.0);
+        let turn = DAffine3::from_axis_angle(unit_vector(rng), rng.random_range(0.0..6.0));
+        let map = DAffine3::from_translation(at) * turn * DAffine3::from_scale(DVec3::splat(rng.random_range(0.1..0.6)));
+        let steps = [
+            Step::Translate(unit_vector(rng)),
+            Step::Rotate { axis: unit_vector(rng), turns: rng.random_range(-0.3..0.3) },
+            Step::Scale(DVec3::new(1.3, 0.8, 1.1)),
+            Step::Matrix(DAffine3::from_translation(unit_vector(rng) * 0.1)),
+        ];
+        let motion = Motion(if i % 3 == 0 { steps[..1 + i / 3 % 4].to_vec() } else { Vec::new() });
+        crowd.push((kinds[i % kinds.len()].transformed(&map), motion));
+    }
+    crowd
+}
+
+/// Distance and the place in the list of the nearest of shapes that are asked one by one.
+fn one_by_one(alone: &[Shapes], o: V<One>, d: V<One>, time: f32) -> Option<f32> {
+    let meet = |shapes: &Shapes| shapes.closest(One, M(true), o, d, F(time));
+    let distances = alone.iter().map(meet).filter(|nearest| nearest.primitive.0 != MISS).map(|nearest| nearest.t.0);
+    distances.min_by(f32::total_cmp)
+}
+
+#[test]
+fn the_tree_finds_what_trying_each_finds() {
+    let mut rng = SmallRng::seed_from_u64(1);
+    let crowd = crowd(&mut rng);
+    let of = |crowd: &[(Shape, Motion)]| Shapes::new(crowd.iter().map(|(shape, motion)| (shape, motion)), DVec3::ZERO);
+    let all = of(&crowd);
+    assert!(all.has_tree());
+    let alone: Vec<Shapes> = crowd.chunks(1).map(of).collect();
+    let (mut o, mut met) = (v(DVec3::ZERO), 0);
+    for i in 0..6000 {
+        let (d, time) = (v(unit_vector(&mut rng)), rng.random_range(0.0..1.0));
+        let Nearest { t, primitive: U(primitive), .. } = all.closest(One, M(true), o, d, F(time));
+        let expected = one_by_one(&alone, o, d, time);
+        let found = (primitive != MISS).then_some(t.0);
+        // Fractions are compared here, quotients there.
+        let same = match (found, expected) {
+            (Some(a), Some(b)) => (a - b).abs() <= 2.0 * f32::EPSILON * b,
+            (a, b) => a == b,
+        };
+        assert!(same, "{found:?} for {expected:?}, ray {i}: o {} d {} time {time}", exact(o), exact(d));
+        met += usize::from(found.is_some());
+        // On from the surface, or anew: from the middle, or from far away.
+        o = match found {
+            Some(t) => o + d * F(t),
+            None => v(unit_vector(&mut rng) * [0.0, 8.0, 1e3][i % 3]),
+        };
+    }
+    assert!(met > 1500, "{met}");
+}
