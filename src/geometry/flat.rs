@@ -38,10 +38,16 @@ impl Flat {
     }
 
     /// The rows of the table: gradients of u and v with their values at the anchor, and the edges, with the outline and the area.
-    pub(super) fn rows(&self, edges: [DVec3; 2]) -> [[f32; 4]; 4] {
+    /// The outline of a rectangle, which is more than a parallelogram, is −1 if it is large from `near`, where the scene happens.
+    pub(super) fn rows(&self, edges: [DVec3; 2], near: DVec3) -> [[f32; 4]; 4] {
         let area = edges[0].cross(edges[1]).length() * self.outline.area();
         let [a, b] = [edges[0].as_vec3(), edges[1].as_vec3()];
-        [self.u, self.v, [a.x, a.y, a.z, self.outline as u32 as f32], [b.x, b.y, b.z, area as f32]]
+        let orthogonal = edges[0].dot(edges[1]).abs() < 1e-7 * edges[0].length() * edges[1].length();
+        // Of a smaller one few points are near enough for its solid angle to be worth its cost.
+        let large = area > 0.5 * Vec3::from(self.anchor).as_dvec3().distance_squared(near);
+        let rectangle = large && orthogonal && self.outline == Outline::Parallelogram;
+        let outline = if rectangle { -1.0 } else { self.outline as u32 as f32 };
+        [self.u, self.v, [a.x, a.y, a.z, outline], [b.x, b.y, b.z, area as f32]]
     }
 
     /// How far the height over this piece, and its coordinates u and v, may be off where the closed shape that it belongs to is met:
@@ -73,6 +79,12 @@ impl Flat {
         };
         Fraction { numerator, denominator }.only(numerator.above(0.0) & inside)
     }
+}
+
+/// Of an outline in the rows.
+#[inline(always)]
+pub(super) fn is_rectangle<L: Lanes>(outline: F<L>) -> M<L> {
+    outline.below(0.0)
 }
 
 /// Of an outline in the rows.

@@ -29,6 +29,7 @@ mod objects;
 mod placed;
 mod pose;
 mod quadric;
+mod rectangle;
 mod shape;
 mod shapes;
 mod sphere;

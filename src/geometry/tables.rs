@@ -59,7 +59,7 @@ impl Tables {
                     let ([x, y, z], [nx, ny, nz]) = (flat.anchor, flat.normal);
                     self.anchors.push([x, y, z, 0.0]);
                     self.normals.push([nx, ny, nz, tag(FLAT, self.flat_rows.len() / 4)]);
-                    self.flat_rows.extend(flat.rows(*edges));
+                    self.flat_rows.extend(flat.rows(*edges, near));
                     self.roundings.push(if closed { flat.roundings(shape.size()) } else { [0.0; 4] });
                 }
                 _ => {
@@ -173,8 +173,9 @@ fn tag(kind: u32, index: usize) -> f32 {
     f32::from_bits(kind | (index as u32) << 2)
 }
 
+/// One coordinate of a point on a flat shape, in edges.
 #[inline(always)]
-fn coordinate<L: Lanes>([x, y, z, at_anchor]: [F<L>; 4], from_anchor: V<L>) -> F<L> {
+pub(super) fn coordinate<L: Lanes>([x, y, z, at_anchor]: [F<L>; 4], from_anchor: V<L>) -> F<L> {
     V { x, y, z }.dot(from_anchor) + at_anchor
 }
 

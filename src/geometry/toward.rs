@@ -1,15 +1,16 @@
 //! Directions from a point towards a primitive, for light samples, with their densities per solid angle.
 //!
-//! Spheres and ellipsoids are sampled by the cone in which they are seen, flat shapes and cylinders by their area. An affine map
-//! A takes a density over directions p' to p(ω) = p' |det A| / |A ω|³.
+//! Spheres and ellipsoids are sampled by the cone in which they are seen, rectangles that are seen large by their solid angle, other
+//! flat shapes and cylinders by their area. An affine map A takes a density over directions p' to p(ω) = p' |det A| / |A ω|³.
 use std::f32::consts::TAU;
 
 use super::{
-    flat::is_ellipse,
+    flat::{is_ellipse, is_rectangle},
     quadric::Local,
+    rectangle::SphericalRectangle,
     shape::Outline,
     sphere::Cone,
-    tables::{AtFlat, Tables},
+    tables::{AtFlat, Tables, coordinate},
 };
 use crate::{
     math::{F, Lanes, M, Pick, U, V, trig::sin_cos_turns},
@@ -47,9 +48,7 @@ impl Tables {
         let mut toward = Toward { wi: cone.sample(u), pdf: cone.pdf(), front: cone.outside };
         let tag = self.tag(l, primitive);
         if let Some(AtFlat { here, rows, from_anchor }) = self.flat(l, tag, primitive, x) {
-            let wi = toward_flat(&rows, from_anchor, u);
-            let (pdf, front) = self.flat_pdf(l, &rows, primitive, from_anchor, wi);
-            toward = here.pick(Toward { wi, pdf, front }, toward);
+            toward = here.pick(SeenFlat::new(here, rows, from_anchor, l.rows(&self.normals, primitive)).toward(l, u), toward);
         }
         if let Some((here, quadric)) = self.quadric(l, tag) {
             toward = here.pick(toward_quadric(l, &quadric, x, u), toward);
@@ -63,7 +62,7 @@ impl Tables {
         let mut pdf = self.cone(l, primitive, x).pdf();
         let tag = self.tag(l, primitive);
         if let Some(AtFlat { here, rows, from_anchor }) = self.flat(l, tag, primitive, x) {
-            pdf = here.pick(self.flat_pdf(l, &rows, primitive, from_anchor, wi).0, pdf);
+            pdf = here.pick(SeenFlat::new(here, rows, from_anchor, l.rows(&self.normals, primitive)).pdf(l, wi), pdf);
         }
         if let Some((here, quadric)) = self.quadric(l, tag) {
             let (of_cylinder, _) = cylinder_pdf(l, &quadric, x, wi);
@@ -72,32 +71,68 @@ impl Tables {
         }
         pdf
     }
-
-    /// Uniform over the area: t²/(A |cos θ|), and whether the front is seen.
-    #[inline(always)]
-    fn flat_pdf<L: Lanes>(&self, l: L, rows: &[[F<L>; 4]; 4], primitive: U<L>, from_anchor: V<L>, wi: V<L>) -> (F<L>, M<L>) {
-        let [x, y, z, _] = l.rows(&self.normals, primitive);
-        let n = V { x, y, z };
-        let (height, cos) = (from_anchor.dot(n), wi.dot(n).abs());
-        let t = height / cos;
-        let area = rows[3][3];
-        let exists = height.abs().above(0.0) & cos.above(0.0);
-        (exists.pick(t * t / (area * cos), l.f(0.0)), height.above(0.0))
-    }
 }
 
-/// Towards a point of a flat shape that is uniform over its area.
-#[inline(always)]
-fn toward_flat<L: Lanes>(rows: &[[F<L>; 4]; 4], from_anchor: V<L>, u: (F<L>, F<L>)) -> V<L> {
-    let [to_u, to_v, a, b] = rows;
-    let outline = a[3];
-    let (tri_u, tri_v) = triangle(u);
-    let (disk_u, disk_v, _) = disk(u);
-    let is_ellipse = is_ellipse(outline);
-    let is_triangle = outline.above(Outline::Parallelogram as u32 as f32) & !is_ellipse;
-    let s = is_ellipse.pick(disk_u, is_triangle.pick(tri_u, u.0)) - to_u[3];
-    let t = is_ellipse.pick(disk_v, is_triangle.pick(tri_v, u.1)) - to_v[3];
-    (V { x: a[0], y: a[1], z: a[2] } * s + V { x: b[0], y: b[1], z: b[2] } * t - from_anchor).normalized()
+/// Flat shapes as seen from points.
+struct SeenFlat<L: Lanes> {
+    rows: [[F<L>; 4]; 4],
+    from_anchor: V<L>,
+    n: V<L>,
+    /// Of the point over the plane.
+    height: F<L>,
+    /// Rectangles that are sampled by their solid angle, if there are any.
+    spherical: Option<(M<L>, SphericalRectangle<L>)>,
+}
+
+impl<L: Lanes> SeenFlat<L> {
+    #[inline(always)]
+    fn new(here: M<L>, rows: [[F<L>; 4]; 4], from_anchor: V<L>, [nx, ny, nz, _]: [F<L>; 4]) -> Self {
+        let n = V { x: nx, y: ny, z: nz };
+        let height = from_anchor.dot(n);
+        let [to_u, to_v, a, b] = rows;
+        let edges = [V { x: a[0], y: a[1], z: a[2] }, V { x: b[0], y: b[1], z: b[2] }];
+        let place = [coordinate(to_u, from_anchor), coordinate(to_v, from_anchor)];
+        let spherical = SphericalRectangle::of_near(here & is_rectangle(a[3]), edges, place, height);
+        SeenFlat { rows, from_anchor, n, height, spherical }
+    }
+
+    #[inline(always)]
+    fn toward(&self, l: L, u: (F<L>, F<L>)) -> Toward<L> {
+        let mut way = self.uniform_over_area(u);
+        if let Some((large, rectangle)) = &self.spherical {
+            way = large.pick(rectangle.sample(u) - self.n * self.height, way);
+        }
+        let wi = way.normalized();
+        Toward { wi, pdf: self.pdf(l, wi), front: self.height.above(0.0) }
+    }
+
+    /// One over the solid angle, or uniform over the area: t²/(A |cos θ|).
+    #[inline(always)]
+    fn pdf(&self, l: L, wi: V<L>) -> F<L> {
+        let cos = wi.dot(self.n).abs();
+        let t = self.height / cos;
+        let area = self.rows[3][3];
+        let mut pdf = t * t / (area * cos);
+        if let Some((large, rectangle)) = &self.spherical {
+            pdf = large.pick(rectangle.pdf(), pdf);
+        }
+        let exists = self.height.abs().above(0.0) & cos.above(0.0);
+        exists.pick(pdf, l.f(0.0))
+    }
+
+    /// To a point that is uniform over the area.
+    #[inline(always)]
+    fn uniform_over_area(&self, u: (F<L>, F<L>)) -> V<L> {
+        let [to_u, to_v, a, b] = self.rows;
+        let outline = a[3];
+        let (tri_u, tri_v) = triangle(u);
+        let (disk_u, disk_v, _) = disk(u);
+        let is_ellipse = is_ellipse(outline);
+        let is_triangle = outline.above(Outline::Parallelogram as u32 as f32) & !is_ellipse;
+        let s = is_ellipse.pick(disk_u, is_triangle.pick(tri_u, u.0)) - to_u[3];
+        let t = is_ellipse.pick(disk_v, is_triangle.pick(tri_v, u.1)) - to_v[3];
+        V { x: a[0], y: a[1], z: a[2] } * s + V { x: b[0], y: b[1], z: b[2] } * t - self.from_anchor
+    }
 }
 
 #[inline(always)]
