@@ -33,6 +33,7 @@ mod rectangle;
 mod shape;
 mod shapes;
 mod sphere;
+mod sphere_field;
 mod surface_point;
 mod tables;
 #[cfg(test)]
@@ -47,6 +48,7 @@ pub use self::{
     shape::{Outline, Shape},
     shapes::{Nearest, Shapes},
     sphere::{Cone, Sphere},
+    sphere_field::sphere_field,
     surface_point::{Coordinates, Place, SurfacePoint},
     toward::Toward,
 };

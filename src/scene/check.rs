@@ -99,6 +99,14 @@ impl Checker<'_> {
         Err(self.0.error(desc.span(), message, format!("expected {SMALLEST_RADIUS:e} to {LARGEST:e} m")))
     }
 
+    pub fn count(&self, value: &Spanned<u32>, least: u32, most: u32) -> Result<u32, SceneError> {
+        let count = *value.as_ref();
+        if (least..=most).contains(&count) {
+            return Ok(count);
+        }
+        Err(self.0.error(value.span(), format!("{count} is out of range"), format!("expected {least} to {most}")))
+    }
+
     /// A number from `least` to `most`.
     pub fn within(&self, what: &str, value: &Spanned<f64>, least: f64, most: f64) -> Result<f32, SceneError> {
         let number = *value.as_ref();

@@ -1,6 +1,8 @@
 //! The objects of the scene: what they are made of and what they emit.
 use egui::{Grid, RichText, Ui};
+use glam::DVec3;
 use noisefall::{
+    geometry::{Outline, Shape},
     material::{Material, Reflectance},
     scene::{Coating, Object, Roughness, Scene},
 };
@@ -27,10 +29,24 @@ pub(super) fn objects_panel(ui: &mut Ui, scene: &Scene) {
     }
 }
 
-/// What shape, and where.
+/// What shape, how large, and where.
 fn place(object: &Object) -> String {
     let (center, radius) = object.shape.bounding_sphere();
-    format!("{} within {radius:.4} m of {center:.4}", object.shape.name())
+    let edges = |edges: &[DVec3]| edges.iter().map(|edge| format!("{:.4}", edge.length())).collect::<Vec<_>>().join(" × ");
+    let size = match &object.shape {
+        Shape::Ellipsoid { axes, .. } => format!("half axes {} m, ", edges(&[axes.x_axis, axes.y_axis, axes.z_axis])),
+        Shape::Flat { outline: Outline::Ellipse, edges: axes, .. } => format!("half axes {} m, ", edges(axes)),
+        Shape::Flat { edges: sides, .. } => format!("sides {} m, ", edges(sides)),
+        Shape::Cuboid { edges: sides, .. } => format!("sides {} m, ", edges(&[sides.x_axis, sides.y_axis, sides.z_axis])),
+        Shape::Cylinder { axes, capped, .. } => {
+            let ends = if *capped { "" } else { "open, " };
+            format!("{ends}radius {:.4} m, height {:.4} m, ", axes.x_axis.length(), axes.z_axis.length())
+        }
+        Shape::Mesh { data, .. } => format!("{} triangles, ", data.triangles.len()),
+        Shape::Sphere { .. } | Shape::Isosurface { .. } => String::new(),
+    };
+    let moves = if object.motion.0.is_empty() { "" } else { "\nmoves while the shutter is open" };
+    format!("{}: {size}within {radius:.4} m of {center:.4}{moves}", object.shape.name())
 }
 
 /// Kind of material, and whether it is a lamp.

@@ -42,11 +42,11 @@ impl Meshes {
                 path: None, vertices: Some(vertices), triangles: Some(triangles), knot: None, heightfield: None, ..
             } => Ok(Arc::new(from_lists(check, vertices, triangles, desc.smooth.unwrap_or(false))?)),
             MeshDesc { path: None, vertices: None, triangles: None, knot: Some(knot), heightfield: None, .. } => {
-                let triangles = count(check, &knot.triangles, 18, MOST_TRIANGLES)?;
+                let triangles = check.count(&knot.triangles, 18, MOST_TRIANGLES)?;
                 self.known(Source::Knot { triangles, smooth }, || Ok(shaded(torus_knot(triangles as usize), smooth)))
             }
             MeshDesc { path: None, vertices: None, triangles: None, knot: None, heightfield: Some(field), .. } => {
-                let quads = count(check, &field.quads, 1, (MOST_TRIANGLES / 2).isqrt())?;
+                let quads = check.count(&field.quads, 1, (MOST_TRIANGLES / 2).isqrt())?;
                 let source = Source::Heightfield { quads, seed: field.seed, smooth };
                 self.known(source, || Ok(shaded(heightfield(quads as usize, field.seed), smooth)))
             }
@@ -106,12 +106,4 @@ fn from_lists(
 
 fn shaded(data: MeshData, smooth: bool) -> MeshData {
     if smooth { data } else { MeshData { normals: Vec::new(), ..data } }
-}
-
-fn count(check: &Checker, value: &Spanned<u32>, least: u32, most: u32) -> Result<u32, SceneError> {
-    let count = *value.as_ref();
-    if (least..=most).contains(&count) {
-        return Ok(count);
-    }
-    Err(check.0.error(value.span(), format!("{count} is out of range"), format!("expected {least} to {most}")))
 }

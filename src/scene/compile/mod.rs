@@ -15,7 +15,7 @@ use self::{
     light::background,
     material::coating,
     mesh::Meshes,
-    object::object,
+    object::objects,
     settings::{settings, truth},
     shape::motion,
 };
@@ -43,8 +43,8 @@ pub fn compile(desc: &SceneDesc, source: &SourceText) -> Result<Scene, SceneErro
         coatings.insert(name.clone(), coating(&check, name, material, &mut textures)?);
     }
     let mut meshes = Meshes::default();
-    let objects = desc.objects.iter().map(|o| object(&check, o, &coatings, &textures, &mut meshes));
-    let mut objects = objects.collect::<Result<Vec<_>, _>>()?;
+    let lists = desc.objects.iter().map(|o| objects(&check, o, &coatings, &textures, &mut meshes));
+    let mut objects: Vec<Object> = lists.collect::<Result<Vec<_>, _>>()?.into_iter().flatten().collect();
     // A stable sort: emitting primitives first, as the table of emitters wants it.
     objects.sort_by_key(|object| object.emission.is_none());
     let (settings, spp) = settings(&check, &desc.render)?;

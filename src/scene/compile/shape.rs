@@ -6,7 +6,7 @@ use toml::Spanned;
 
 use super::mesh::Meshes;
 use crate::{
-    geometry::{Expression, Isosurface, Motion, Outline, Shape, Step},
+    geometry::{Expression, Isosurface, Motion, Outline, Shape, Step, sphere_field},
     scene::{
         check::Checker,
         desc::{
@@ -18,23 +18,31 @@ use crate::{
 
 /// The sine of the angle between edges below which a shape is taken as degenerate.
 const FLATTEST: f64 = 1e-9;
+/// Spheres of a field.
+const MOST_SPHERES: u32 = 1_000_000;
 /// Scales beyond these leave the range of f32.
 const SMALLEST_SCALE: f64 = 1e-12;
 const LARGEST_SCALE: f64 = 1e12;
 
-pub fn shape(check: &Checker, desc: &Spanned<ShapeDesc>, meshes: &mut Meshes) -> Result<Shape, SceneError> {
-    match desc.as_ref() {
-        ShapeDesc::Sphere(sphere) => {
-            Ok(Shape::Sphere { center: check.point("center", &sphere.center)?, radius: check.radius(&sphere.radius)? })
+/// The shape that is described, or the many.
+pub fn shapes(check: &Checker, desc: &Spanned<ShapeDesc>, meshes: &mut Meshes) -> Result<Vec<Shape>, SceneError> {
+    let shape = match desc.as_ref() {
+        ShapeDesc::SphereField(field) => {
+            let (min, size) = bounds(check, &field.bounds.min, &field.bounds.max)?;
+            return Ok(sphere_field(check.count(&field.count, 1, MOST_SPHERES)?, min, size, field.seed));
         }
-        ShapeDesc::Cuboid(cuboid_desc) => cuboid(check, cuboid_desc),
-        ShapeDesc::Cylinder(cylinder_desc) => cylinder(check, cylinder_desc),
-        ShapeDesc::Disk(disk_desc) => disk(check, disk_desc),
-        ShapeDesc::Rectangle(rectangle_desc) => rectangle(check, rectangle_desc),
-        ShapeDesc::Triangle(triangle_desc) => triangle(check, triangle_desc),
-        ShapeDesc::Mesh(mesh_desc) => Ok(Shape::mesh(meshes.mesh(check, mesh_desc, desc.span())?)),
-        ShapeDesc::Isosurface(isosurface_desc) => isosurface(check, isosurface_desc),
-    }
+        ShapeDesc::Sphere(sphere) => {
+            Shape::Sphere { center: check.point("center", &sphere.center)?, radius: check.radius(&sphere.radius)? }
+        }
+        ShapeDesc::Cuboid(cuboid_desc) => cuboid(check, cuboid_desc)?,
+        ShapeDesc::Cylinder(cylinder_desc) => cylinder(check, cylinder_desc)?,
+        ShapeDesc::Disk(disk_desc) => disk(check, disk_desc)?,
+        ShapeDesc::Rectangle(rectangle_desc) => rectangle(check, rectangle_desc)?,
+        ShapeDesc::Triangle(triangle_desc) => triangle(check, triangle_desc)?,
+        ShapeDesc::Mesh(mesh_desc) => Shape::mesh(meshes.mesh(check, mesh_desc, desc.span())?),
+        ShapeDesc::Isosurface(isosurface_desc) => isosurface(check, isosurface_desc)?,
+    };
+    Ok(vec![shape])
 }
 
 /// The least corner of a box, and its size.

@@ -11,6 +11,8 @@ use super::Exactly;
 #[serde(rename_all = "lowercase")]
 pub enum ShapeDesc {
     Sphere(SphereDesc),
+    #[serde(rename = "sphere_field")]
+    SphereField(SphereFieldDesc),
     Cuboid(CuboidDesc),
     Cylinder(CylinderDesc),
     Disk(DiskDesc),
@@ -27,6 +29,16 @@ type Point = Spanned<Exactly<f64, 3>>;
 pub struct SphereDesc {
     pub center: Point,
     pub radius: Spanned<f64>,
+}
+
+/// Many spheres by formula.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SphereFieldDesc {
+    pub count: Spanned<u32>,
+    pub bounds: BoundsDesc,
+    #[serde(default)]
+    pub seed: u32,
 }
 
 #[derive(Deserialize)]

@@ -1,0 +1,65 @@
+//! Many spheres by formula, for scenes, tests and benchmarks.
+use glam::{DVec3, UVec3};
+
+use super::Shape;
+use crate::sampling::hash::{GOLDEN, hash_one};
+
+/// Cells for each sphere, so that no rows are seen.
+const CELLS: f64 = 2.0;
+/// Radii as parts of the largest that fits into a cell.
+const LEAST_RADIUS: f64 = 0.4;
+const MOST_RADIUS: f64 = 0.95;
+
+/// `count` spheres in the box from `min` on, none of which touch: each has a cell of a grid to itself, where its radius and its
+/// place follow from its number and `seed`.
+pub fn sphere_field(count: u32, min: DVec3, size: DVec3, seed: u32) -> Vec<Shape> {
+    let grid = grid(count, size);
+    let cell = size / grid.as_dvec3();
+    let share = grid.as_dvec3().element_product() / f64::from(count);
+    let sphere = |number: u32| {
+        let mut word = hash_one(seed ^ hash_one(number));
+        let mut uniform = || {
+            word = hash_one(word.wrapping_add(GOLDEN));
+            f64::from(word) / f64::from(u32::MAX)
+        };
+        // One of the cells that are for this sphere.
+        let (first, next) = ((f64::from(number) * share).ceil(), (f64::from(number + 1) * share).ceil());
+        let at = (first + uniform() * (next - first)).min(next - 1.0) as u32;
+        let corner = min + cell * UVec3::new(at % grid.x, at / grid.x % grid.y, at / grid.x / grid.y).as_dvec3();
+        let radius = cell.min_element() / 2.0 * (LEAST_RADIUS + (MOST_RADIUS - LEAST_RADIUS) * uniform());
+        let room = cell - 2.0 * radius;
+        Shape::Sphere { center: corner + radius + room * DVec3::new(uniform(), uniform(), uniform()), radius }
+    };
+    (0..count).map(sphere).collect()
+}
+
+/// A grid of about [`CELLS`] times `count` cells, and not fewer, that are about cubes.
+fn grid(count: u32, size: DVec3) -> UVec3 {
+    let count = f64::from(count) * CELLS;
+    let mut edge = (size.element_product() / count).cbrt();
+    loop {
+        let cells = (size / edge).floor().max(DVec3::ONE);
+        if cells.element_product() >= count {
+            return cells.as_uvec3();
+        }
+        edge *= 0.99;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn spheres_lie_in_the_box_and_apart() {
+        for (count, size) in [(1, DVec3::ONE), (300, DVec3::new(3.0, 0.2, 1.0)), (1000, DVec3::new(1.0, 1.0, 1e-3))] {
+            let spheres: Vec<_> = sphere_field(count, DVec3::ONE, size, 7).iter().map(Shape::bounding_sphere).collect();
+            assert_eq!(spheres.len(), count as usize);
+            for (i, (center, radius)) in spheres.iter().enumerate() {
+                let place = *center - DVec3::ONE;
+                assert!((place - *radius).min_element() >= -1e-12 && (size - place - *radius).min_element() >= -1e-12);
+                assert!(spheres[..i].iter().all(|(other, r)| other.distance(*center) > r + radius));
+            }
+        }
+    }
+}
