@@ -4,6 +4,7 @@ mod compare;
 mod options;
 mod render;
 mod replay;
+mod validate;
 
 use std::{
     ffi::OsString,
@@ -38,6 +39,8 @@ enum Command {
     Render(render::Arguments),
     /// Error of picture A against reference B
     Compare(compare::Arguments),
+    /// Hold the renderer against exact solutions and write a report
+    Validate(validate::Arguments),
     /// Read and check scene files; render nothing
     Check(check::Arguments),
 }
@@ -53,6 +56,7 @@ pub fn run() -> ExitCode {
         Some(Command::Render(arguments)) => render::run(&arguments),
         Some(Command::Compare(arguments)) => compare::run(&arguments),
         Some(Command::Check(arguments)) => check::run(&arguments),
+        Some(Command::Validate(arguments)) => validate::run(&arguments),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

@@ -4,6 +4,8 @@
 //! appends to the next. The bounce is the same for a whole batch, so what depends on it (the sampler's dimension, the cap,
 //! whether roulette has begun) is decided once a stage and not once a path.
 mod batch;
+#[cfg(test)]
+mod fault;
 mod intersect;
 mod kinds;
 mod media;

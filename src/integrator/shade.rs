@@ -50,6 +50,11 @@ pub(super) fn shade<L: Lanes, K: Kind>(l: L, work: &Work, batch: &mut Batch) {
 
         let lobe = if K::LOBES { stream.one(Dimension::lobe(reflection)) } else { l.f(0.0) };
         let sample = bsdf.sample(vertex.wo, stream.two(Dimension::direction(reflection)), lobe);
+        #[cfg(test)]
+        let sample = crate::material::BsdfSample {
+            weight: super::fault::spoil(settings.fault, reflection, sample.weight, sample.wi.z),
+            ..sample
+        };
         let mut d = vertex.frame.world_from_local(sample.wi);
         if K::DETAILED {
             // What mirrors and refracts a direction keeps the error of its length: a step of Newton's method to 1, or else it
@@ -60,6 +65,9 @@ pub(super) fn shade<L: Lanes, K: Kind>(l: L, work: &Work, batch: &mut Batch) {
         let judged = K::roulette_scale(&bsdf, vertex.local.front, sample.wi.z);
         let throughput = hit.throughput * sample.weight;
         let (alive, throughput) = survive(l, settings.roulette, reflection, &stream, throughput, judged);
+        #[cfg(test)]
+        let throughput =
+            if settings.fault == Some(crate::scene::Fault::NoReweighting) { hit.throughput * sample.weight } else { throughput };
         let mut keep = live & alive & consistent;
         if K::DETAILED {
             keep = keep & throughput.max_component().above(0.0);

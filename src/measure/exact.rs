@@ -4,6 +4,8 @@
 //! everywhere, so that L = L_e + ρ L (the "furnace test": see J. Arvo, "The Irradiance Jacobian", 1994, for uniform
 //! enclosures). Every bounce k therefore carries L_e ρᵏ, whatever the shape of the room.
 
+use glam::DVec3;
+
 /// L_e / (1 − ρ).
 pub fn furnace(le: f64, albedo: f64) -> f64 {
     le / (1.0 - albedo)
@@ -33,4 +35,58 @@ pub fn furnace_variance(le: f64, albedo: f64, weight_square: f64) -> f64 {
 /// the distance of the centre and θ its angle to the normal (Moon, "The Scientific Basis of Illuminating Engineering", 1936).
 pub fn sphere_irradiance(radiance: f64, radius: f64, distance: f64, cos: f64) -> f64 {
     std::f64::consts::PI * radiance * (radius / distance).powi(2) * cos
+}
+
+/// Irradiance by a sphere that the horizon may cut, `cos` being that of the angle θ of its centre from the normal. Between
+/// [`sphere_irradiance`] while all of it is up and 0 when all of it has set, that is for |cos θ| < r/d, with h = d/r:
+///
+///   E = L { [cos θ acos(−y cot θ) − y √(sin²θ − y² cos²θ)]/h² + atan(√(1 − h² cos²θ)/y) },  y = √(h² − 1)
+///
+/// J. M. Snyder, "Area Light Sources for Real-Time Graphics", Microsoft Research MSR-TR-96-11, 1996; in this form by S. Lagarde
+/// and C. de Rousiers, "Moving Frostbite to Physically Based Rendering", 2014, listing 7.
+pub fn horizon_sphere_irradiance(radiance: f64, radius: f64, distance: f64, cos: f64) -> f64 {
+    let h = distance / radius;
+    if (cos * h).abs() >= 1.0 {
+        return sphere_irradiance(radiance, radius, distance, cos.max(0.0));
+    }
+    let sin = (1.0 - cos * cos).sqrt();
+    let y = (h * h - 1.0).sqrt();
+    let set = sin * (1.0 - (y * cos / sin).powi(2)).sqrt();
+    radiance * ((cos * (-y * cos / sin).acos() - y * set) / (h * h) + (set / y).atan())
+}
+
+/// Irradiance at the origin, whose normal is the y axis, by a polygon of constant radiance: E = L/2 Σ θᵢ Γᵢ · n over its edges, θᵢ
+/// being the angle in which an edge is seen and Γᵢ the normal of the plane through it (J. H. Lambert, "Photometria", 1760).
+pub fn polygon_irradiance(radiance: f64, polygon: &[DVec3]) -> f64 {
+    let polygon = above_horizon(polygon);
+    let edge = |i: usize| {
+        let (a, b) = (polygon[i], polygon[(i + 1) % polygon.len()]);
+        a.angle_between(b) * a.cross(b).normalize().y
+    };
+    radiance / 2.0 * (0..polygon.len()).map(edge).sum::<f64>().abs()
+}
+
+/// The part of a polygon that is not below the ground.
+fn above_horizon(polygon: &[DVec3]) -> Vec<DVec3> {
+    let mut clipped = Vec::new();
+    for (i, a) in polygon.iter().enumerate() {
+        let b = polygon[(i + 1) % polygon.len()];
+        if a.y >= 0.0 {
+            clipped.push(*a);
+        }
+        if (a.y > 0.0) != (b.y > 0.0) {
+            clipped.push(*a + (b - *a) * (a.y / (a.y - b.y)));
+        }
+    }
+    clipped
+}
+
+/// What a smooth face of glass reflects of unpolarised light that comes at the angle θ from the thinner side, and the cosine of the
+/// angle within (A. Fresnel, 1823).
+pub fn fresnel(ior: f64, theta: f64) -> (f64, f64) {
+    let (cos, sin) = (theta.cos(), theta.sin());
+    let inside = (1.0 - (sin / ior).powi(2)).sqrt();
+    let s = (cos - ior * inside) / (cos + ior * inside);
+    let p = (ior * cos - inside) / (ior * cos + inside);
+    ((s * s + p * p) / 2.0, inside)
 }

@@ -1,5 +1,11 @@
-//! Error metrics between pictures, and exact solutions that pictures are held against.
+//! Error metrics between pictures, exact solutions that pictures are held against, and what samples say of the means they come from.
 mod error;
 pub mod exact;
+mod means;
+mod moments;
 
-pub use error::{Comparison, REL_MSE_FLOOR, compare};
+pub use self::{
+    error::{Comparison, REL_MSE_FLOOR, compare},
+    means::{Mean, Measure, Picture, picture},
+    moments::{Moments, samples},
+};

@@ -96,11 +96,7 @@ pub fn save(frame: &Frame, display: Display, settings: &str, path: &Path) -> Res
 
 /// A file beside the target that disappears unless it is renamed to it.
 fn temporary(path: &Path, folder: &Path) -> Result<tempfile::NamedTempFile, ImageError> {
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".noisefall-").suffix(".part");
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    builder.tempfile_in(folder).map_err(|error| {
+    crate::file::temporary(folder).map_err(|error| {
         // The crate adds the path of the temporary file, which says nothing to anybody.
         let reason = error.to_string();
         let why = reason.split(" at path ").next().unwrap_or_default();

@@ -21,6 +21,8 @@ use std::{path::PathBuf, sync::Arc};
 
 use glam::DVec3;
 
+#[cfg(test)]
+pub use self::settings::Fault;
 use self::surface::Surfaces;
 pub use self::{
     camera::{Camera, CameraError, Lens},

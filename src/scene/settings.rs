@@ -13,6 +13,24 @@ pub struct RenderSettings {
     /// The highest number of reflections counted; 0 is emitted light only, `None` is no cap.
     pub max_bounces: Option<u32>,
     pub seed: u32,
+    /// A mistake that the validation must notice.
+    #[cfg(test)]
+    #[serde(skip)]
+    pub fault: Option<Fault>,
+}
+
+/// Mistakes that tests inject into the integrator.
+#[cfg(test)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fault {
+    /// Samples are divided by 1.03 times their density.
+    WrongPdf,
+    /// cos θ is missing from the integrand at the first reflection.
+    DroppedCosine,
+    /// Survivors of roulette are not weighted.
+    NoReweighting,
+    /// One reflection more than the cap allows.
+    OneBounceMore,
 }
 
 /// How light is found. All estimators converge to the same picture.
@@ -77,7 +95,11 @@ impl RenderSettings {
 
     /// The number of reflections after which every path is cut.
     pub fn last_bounce(&self) -> u32 {
-        self.max_bounces.map_or(Self::LONGEST_PATH, |cap| cap.min(Self::LONGEST_PATH))
+        let last = self.max_bounces.map_or(Self::LONGEST_PATH, |cap| cap.min(Self::LONGEST_PATH));
+        // A mistake may let paths go on for ever.
+        #[cfg(test)]
+        let last = self.fault.map_or(last, |fault| last.min(60) + u32::from(fault == Fault::OneBounceMore));
+        last
     }
 
     /// Why the expected picture differs from the solution of the equation; `None` when it does not.

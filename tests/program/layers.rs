@@ -2,7 +2,8 @@
 use std::{fs, path::Path};
 
 /// From the top down; folders of one line do not know each other.
-const LAYERS: [&[&str]; 8] = [
+const LAYERS: [&[&str]; 9] = [
+    &["validate"],
     &["render"],
     &["measure"],
     &["integrator"],

@@ -2,7 +2,7 @@
 use std::f64::consts::PI;
 
 use noisefall::{
-    measure::exact::sphere_irradiance,
+    measure::exact::horizon_sphere_irradiance,
     scene::{Estimator, RenderSettings, Scene},
 };
 
@@ -16,22 +16,8 @@ const DISTANCE: f64 = 1.0;
 const RADIANCE: f64 = 7.0;
 const ALBEDO: f64 = 0.8;
 
-/// Irradiance by a sphere that the horizon may cut, θ being the angle of its centre from the normal. Between E = π L (r/d)² cos θ
-/// while all of it is up and 0 when all of it has set, that is for |cos θ| < r/d, with h = d/r:
-///
-///   E = L { [cos θ acos(−y cot θ) − y √(sin²θ − y² cos²θ)]/h² + atan(√(1 − h² cos²θ)/y) },  y = √(h² − 1)
-///
-/// J. M. Snyder, "Area Light Sources for Real-Time Graphics", Microsoft Research MSR-TR-96-11, 1996; in this form by S. Lagarde
-/// and C. de Rousiers, "Moving Frostbite to Physically Based Rendering", 2014, listing 7.
 fn irradiance(cos: f64) -> f64 {
-    let h = DISTANCE / LAMP;
-    if (cos * h).abs() >= 1.0 {
-        return sphere_irradiance(RADIANCE, LAMP, DISTANCE, cos.max(0.0));
-    }
-    let sin = (1.0 - cos * cos).sqrt();
-    let y = (h * h - 1.0).sqrt();
-    let set = sin * (1.0 - (y * cos / sin).powi(2)).sqrt();
-    RADIANCE * ((cos * (-y * cos / sin).acos() - y * set) / (h * h) + (set / y).atan())
+    horizon_sphere_irradiance(RADIANCE, LAMP, DISTANCE, cos)
 }
 
 /// The same by integration over the lamp's cone. On the circle at the angle ρ from its axis the cosine with the normal is

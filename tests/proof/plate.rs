@@ -3,7 +3,10 @@
 //! Each face reflects R(θ), the mean of both polarisations, and a crossing lets a pass. Of what comes from beyond the plate
 //! (1 − R)² a Σ (R a)²ᵏ arrives, that is (1 − R)/(1 + R) if a = 1; of what comes from the viewer's side R + (1 − R)² R a² Σ (R a)²ᵏ
 //! returns, 2 R/(1 + R) if a = 1 (G. G. Stokes, 1862).
-use noisefall::scene::{Estimator, RenderSettings, Roulette};
+use noisefall::{
+    measure::exact::fresnel,
+    scene::{Estimator, RenderSettings, Roulette},
+};
 
 use crate::{
     picture::{RED, picture, scene, settings},
@@ -11,15 +14,6 @@ use crate::{
 };
 
 const THICKNESS: f64 = 0.1;
-
-/// R at the angle θ from the thinner side, and the cosine within.
-fn fresnel(ior: f64, theta: f64) -> (f64, f64) {
-    let (cos, sin) = (theta.cos(), theta.sin());
-    let inside = (1.0 - (sin / ior).powi(2)).sqrt();
-    let s = (cos - ior * inside) / (cos + ior * inside);
-    let p = (ior * cos - inside) / (ior * cos + inside);
-    ((s * s + p * p) / 2.0, inside)
-}
 
 /// What the plate shows at the angle `degrees` of a wall that shines on this side of it, or beyond it.
 fn assert_shows(ior: f64, transmittance: f64, degrees: f64, beyond: bool) {

@@ -3,7 +3,10 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use glam::{DAffine3, DMat3, DVec3};
-use noisefall::scene::{Estimator, RenderSettings};
+use noisefall::{
+    measure::exact::polygon_irradiance,
+    scene::{Estimator, RenderSettings},
+};
 
 use crate::{
     picture::{Mean, RED, picture, scene, settings},
@@ -45,32 +48,6 @@ fn text(p: DVec3) -> String {
     format!("{:?}", p.to_array())
 }
 
-/// The part of a polygon that is not below the ground.
-fn above_horizon(polygon: &[DVec3]) -> Vec<DVec3> {
-    let mut clipped = Vec::new();
-    for (i, a) in polygon.iter().enumerate() {
-        let b = polygon[(i + 1) % polygon.len()];
-        if a.y >= 0.0 {
-            clipped.push(*a);
-        }
-        if (a.y > 0.0) != (b.y > 0.0) {
-            clipped.push(*a + (b - *a) * (a.y / (a.y - b.y)));
-        }
-    }
-    clipped
-}
-
-/// Irradiance at the origin by a polygon: E = L/2 Σ θᵢ Γᵢ · n over its edges, θᵢ being the angle in which an edge is seen and Γᵢ the
-/// normal of the plane through it (J. H. Lambert, "Photometria", 1760).
-fn polygon_irradiance(polygon: &[DVec3]) -> f64 {
-    let polygon = above_horizon(polygon);
-    let edge = |i: usize| {
-        let (a, b) = (polygon[i], polygon[(i + 1) % polygon.len()]);
-        a.angle_between(b) * a.cross(b).normalize().y
-    };
-    RADIANCE / 2.0 * (0..polygon.len()).map(edge).sum::<f64>().abs()
-}
-
 const TRIANGLE: bool = true;
 const PARALLELOGRAM: bool = false;
 
@@ -102,7 +79,7 @@ fn a_polygon_lights_the_ground_by_lamberts_formula() {
             let shape = format!("rectangle = {{ origin = {}, edge_u = {}, edge_v = {} }}", text(a), text(u), text(v));
             (vec![a, a + u, a + u + v, a + v], shape)
         };
-        assert_lights(&emitting(&shape, &format!("flip = {away}")), polygon_irradiance(&corners), what);
+        assert_lights(&emitting(&shape, &format!("flip = {away}")), polygon_irradiance(RADIANCE, &corners), what);
     }
 }
 
@@ -114,7 +91,7 @@ fn a_polygon_lights_nothing_behind_it_unless_it_has_two_sides() {
     let behind = u.cross(v).dot(a) > 0.0;
     for flip in [false, true] {
         let both = format!("{shape}\nemission = {{ radiance = {RADIANCE:?}, two_sided = true }}\nflip = {flip}");
-        assert_lights(&both, polygon_irradiance(&corners), "two sides");
+        assert_lights(&both, polygon_irradiance(RADIANCE, &corners), "two sides");
     }
     let back = format!("{shape}\nemission = {{ radiance = {RADIANCE:?} }}\nflip = {}", !behind);
     for estimator in Estimator::ALL {

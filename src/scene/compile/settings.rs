@@ -30,6 +30,8 @@ pub fn settings(check: &Checker, desc: &RenderDesc) -> Result<(RenderSettings, O
         roulette,
         max_bounces: desc.max_bounces,
         seed: desc.seed.unwrap_or(0),
+        #[cfg(test)]
+        fault: None,
     };
     Ok((settings, desc.spp.as_ref().map(|spp| *spp.as_ref())))
 }

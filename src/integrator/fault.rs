@@ -1,0 +1,16 @@
+//! Mistakes that tests inject to prove that the validation notices them. Not part of the program.
+use crate::{
+    math::{F, Lanes, V},
+    scene::Fault,
+};
+
+/// The weight of the direction of a path's `reflection`-th reflection at cosine `cos` with its mistake.
+#[inline(always)]
+pub(super) fn spoil<L: Lanes>(fault: Option<Fault>, reflection: u32, weight: V<L>, cos: F<L>) -> V<L> {
+    match fault {
+        Some(Fault::WrongPdf) => weight * (1.0 / 1.03),
+        // Once only: the light would grow without end.
+        Some(Fault::DroppedCosine) if reflection == 1 => weight * (1.0 / cos.abs().max(cos.splat(1e-3))),
+        _ => weight,
+    }
+}

@@ -1,0 +1,128 @@
+//! Whole pictures: every pixel's samples as a mean with its variance.
+use std::cell::RefCell;
+
+use rayon::prelude::*;
+
+use crate::{
+    integrator::{Batch, TILE, Work, trace},
+    math::SimdLevel,
+    scene::{RenderSettings, Scene},
+};
+
+/// The colours of a sample as one number.
+pub type Measure = fn([f32; 4]) -> f64;
+
+/// The samples of one pixel, or means of pixels, as far as z-tests need them.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Mean {
+    pub mean: f64,
+    pub variance_of_mean: f64,
+}
+
+impl Mean {
+    /// The mean of independent means.
+    pub fn of(means: impl IntoIterator<Item = Mean>) -> Mean {
+        let (mut sum, mut count) = (Mean::default(), 0.0);
+        for mean in means {
+            sum.mean += mean.mean;
+            sum.variance_of_mean += mean.variance_of_mean;
+            count += 1.0;
+        }
+        Mean { mean: sum.mean / count, variance_of_mean: sum.variance_of_mean / (count * count) }
+    }
+
+    /// Deviation from an exact value, in standard errors; 0 where there is none. Single precision has an error of its own, which
+    /// shows where there is hardly any noise.
+    pub fn z(self, exact: f64) -> f64 {
+        const ROUNDING: f64 = 1e-6;
+        let difference = self.mean - exact;
+        if difference == 0.0 { 0.0 } else { difference / (self.variance_of_mean + (ROUNDING * exact).powi(2)).sqrt() }
+    }
+
+    /// Deviation from an independent mean of the same.
+    pub fn z_from(self, other: Mean) -> f64 {
+        Mean { variance_of_mean: self.variance_of_mean + other.variance_of_mean, ..self }.z(other.mean)
+    }
+}
+
+/// A picture at the resolution of the scene's camera, row by row.
+pub struct Picture {
+    pub width: usize,
+    pub pixels: Vec<Mean>,
+}
+
+thread_local! {
+    /// Making one takes longer than a small picture.
+    static BATCH: RefCell<Batch> = RefCell::default();
+}
+
+/// Means of `spp` samples a pixel, a sample as a number by `measure`.
+///
+/// # Panics
+/// If a sample is negative or not finite.
+pub fn picture(scene: &Scene, settings: RenderSettings, measure: Measure, spp: u32) -> Picture {
+    let [width, height] = scene.camera.resolution;
+    let rays = scene.rays(&scene.camera);
+    let mut pixels = vec![Mean::default(); (width * height) as usize];
+    for y in (0..height).step_by(TILE as usize) {
+        for x in (0..width).step_by(TILE as usize) {
+            let size = [TILE.min(width - x), TILE.min(height - y)];
+            let work = |sample| Work { scene, rays: &rays, settings: &settings, origin: [x, y], size, sample };
+            for (i, mean) in tile(&work, size, measure, spp).into_iter().enumerate() {
+                let (row, column) = (i as u32 / size[0], i as u32 % size[0]);
+                pixels[((y + row) * width + x + column) as usize] = mean;
+            }
+        }
+    }
+    Picture { width: width as usize, pixels }
+}
+
+/// The means of one tile, row by row.
+fn tile<'a>(work: &(impl Fn(u32) -> Work<'a> + Sync), size: [u32; 2], measure: Measure, spp: u32) -> Vec<Mean> {
+    // Fixed parts, added in order, so that the sums do not depend on threads.
+    const PARTS: u32 = 16;
+    let slots: Vec<usize> = (0..size[1]).flat_map(|row| (0..size[0]).map(move |column| (row * TILE + column) as usize)).collect();
+    let sample = |number: u32| -> Vec<f64> {
+        BATCH.with_borrow_mut(|batch| {
+            trace(SimdLevel::best(), &work(number), batch, &|| false).expect("nobody interrupts");
+            let values: Vec<f64> = slots.iter().map(|slot| measure(batch.radiance()[*slot])).collect();
+            assert!(values.iter().all(|value| value.is_finite() && *value >= 0.0), "an invalid sample");
+            values
+        })
+    };
+    // Sums of deviations from the first sample: without noise their variance is exactly 0.
+    let first = sample(0);
+    let part = |part: u32| {
+        let mut sums = vec![[0.0; 2]; slots.len()];
+        for number in (part..spp).step_by(PARTS as usize) {
+            for ((sum, value), first) in sums.iter_mut().zip(sample(number)).zip(&first) {
+                sum[0] += value - first;
+                sum[1] += (value - first).powi(2);
+            }
+        }
+        sums
+    };
+    let parts: Vec<Vec<[f64; 2]>> = (0..PARTS).into_par_iter().map(part).collect();
+    let n = f64::from(spp);
+    let mean = |(i, first): (usize, &f64)| {
+        let [sum, square] = parts.iter().fold([0.0; 2], |[a, b], part| [a + part[i][0], b + part[i][1]]);
+        let variance_of_mean = ((square - sum * sum / n) / (n * (n - 1.0))).max(0.0);
+        Mean { mean: first + sum / n, variance_of_mean }
+    };
+    first.iter().enumerate().map(mean).collect()
+}
+
+impl Picture {
+    pub fn whole(&self) -> Mean {
+        Mean::of(self.pixels.iter().copied())
+    }
+
+    /// The means over squares of so many pixels, row by row.
+    pub fn blocks(&self, side: usize) -> Vec<Mean> {
+        let rows: Vec<&[Mean]> = self.pixels.chunks(self.width).collect();
+        let column_starts = || (0..self.width).step_by(side);
+        let block =
+            |rows: &[&[Mean]], x: usize| Mean::of(rows.iter().flat_map(|row| &row[x..(x + side).min(row.len())]).copied());
+        rows.chunks(side).flat_map(|rows| column_starts().map(|x| block(rows, x)).collect::<Vec<_>>()).collect()
+    }
+}

@@ -1,0 +1,53 @@
+//! What sections measure with: scenes from text, settings whose only chance is in the samples, sums over pictures.
+use super::Validation;
+use crate::{
+    measure::{Measure, Moments, samples},
+    sampling::{Directions, Sampler},
+    scene::{Estimator, RenderSettings, Roulette, Scene, parse},
+};
+
+pub const RED: Measure = |radiance| f64::from(radiance[0]);
+
+/// The scene of a file that says this after its version.
+pub fn scene(text: &str) -> Scene {
+    parse("validation", format!("format = 1\n{text}")).unwrap_or_else(|error| panic!("{}\n{text}", error.report()))
+}
+
+/// The inside of a unit sphere that emits 1 and reflects ρ.
+pub fn furnace(albedo: f64) -> Scene {
+    scene(&format!(
+        "camera = {{ eye = [0.3, 0.1, -0.2], look_at = [1.0, 0.4, 0.3], fov = 70.0, resolution = [32, 32] }}
+        materials.wall.lambertian.albedo = {albedo:?}
+        [[objects]]
+        shape.sphere = {{ center = [0.0, 0.0, 0.0], radius = 1.0 }}
+        material = 'wall'
+        emission.radiance = 1.0
+        flip = true"
+    ))
+}
+
+impl Validation {
+    /// Independent samples without cap or roulette; estimators that are compared share no random numbers.
+    pub fn settings(&self, estimator: Estimator) -> RenderSettings {
+        RenderSettings {
+            estimator,
+            sampler: Sampler::Independent,
+            directions: Directions::Cosine,
+            roulette: Roulette::Off,
+            max_bounces: None,
+            seed: 29 + estimator as u32,
+            #[cfg(test)]
+            fault: self.fault,
+        }
+    }
+
+    /// The path estimator with these directions. Measurements that stand side by side have numbers, and no random numbers in common.
+    pub fn path(&self, directions: Directions, number: u32) -> RenderSettings {
+        RenderSettings { directions, seed: 1000 + number, ..self.settings(Estimator::Path) }
+    }
+
+    /// Moments of the red of `full` samples (fewer in a quick run) of each of 1024 pixels.
+    pub fn moments(&self, scene: &Scene, settings: RenderSettings, full: u32) -> Moments {
+        Moments::of(samples(scene, settings, self.spp(full)).iter().flatten().copied())
+    }
+}

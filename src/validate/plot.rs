@@ -1,0 +1,155 @@
+//! Plots as SVG.
+use plotters::prelude::*;
+
+use super::Figure;
+
+/// Distinct for colour-blind readers too (M. Okabe and K. Ito, "Color Universal Design", 2008).
+const COLOURS: [RGBColor; 6] = [
+    RGBColor(0, 114, 178),
+    RGBColor(213, 94, 0),
+    RGBColor(0, 158, 115),
+    RGBColor(204, 121, 167),
+    RGBColor(86, 180, 233),
+    RGBColor(60, 60, 60),
+];
+const SIZE: (u32, u32) = (660, 340);
+
+/// An axis; on a logarithmic one all values must be positive.
+#[derive(Clone, Copy)]
+pub struct Axis {
+    pub label: &'static str,
+    pub log: bool,
+}
+
+impl Axis {
+    pub fn linear(label: &'static str) -> Axis {
+        Axis { label, log: false }
+    }
+
+    pub fn log(label: &'static str) -> Axis {
+        Axis { label, log: true }
+    }
+
+    fn place(self, x: f64) -> f64 {
+        if self.log { x.max(1e-300).log10() } else { x }
+    }
+
+    fn text(self, place: f64) -> String {
+        let value = if self.log { 10f64.powf(place) } else { place };
+        let size = value.abs();
+        if !(0.001..10_000.0).contains(&size) && size > 0.0 {
+            return format!("{value:.0e}");
+        }
+        // Three digits that count.
+        let digits = if size > 0.0 { (2.0 - size.log10().floor()).max(0.0) as usize } else { 0 };
+        let text = format!("{value:.digits$}");
+        if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+    }
+
+    /// How many labels the range has room for: on a logarithmic axis the powers of ten, if they are enough.
+    fn labels(self, range: &std::ops::Range<f64>) -> usize {
+        let decades = (range.end.floor() - range.start.ceil()) as usize + 1;
+        if self.log && decades > 1 { decades.min(8) } else { 7 }
+    }
+
+    /// From the least to the greatest place, with a margin.
+    fn range(self, values: impl Iterator<Item = f64>) -> std::ops::Range<f64> {
+        let (min, max) =
+            values.filter(|x| x.is_finite()).fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
+        let margin = if max > min { (max - min) * 0.06 } else { min.abs().max(1.0) * 0.1 };
+        min - margin..max + margin
+    }
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Style {
+    Line,
+    Dashed,
+    Points,
+}
+
+pub struct Curve {
+    pub name: String,
+    pub style: Style,
+    pub points: Vec<(f64, f64)>,
+}
+
+pub fn curve(name: impl Into<String>, style: Style, points: Vec<(f64, f64)>) -> Curve {
+    Curve { name: name.into(), style, points }
+}
+
+/// Curves over each other, in the colours of their order; points and lines of the same name share one.
+pub fn plot(caption: impl Into<String>, x: Axis, y: Axis, curves: &[Curve]) -> Figure {
+    let mut svg = String::new();
+    let drawn = draw(&mut svg, x, y, curves);
+    let element = drawn.map_or_else(|error| format!("<p>this plot could not be drawn: {error}</p>"), |()| svg);
+    Figure { caption: caption.into(), element }
+}
+
+fn draw(svg: &mut String, x: Axis, y: Axis, curves: &[Curve]) -> Result<(), Box<dyn std::error::Error>> {
+    let all = || curves.iter().flat_map(|curve| curve.points.iter().copied());
+    let area = SVGBackend::with_string(svg, SIZE).into_drawing_area();
+    let (xs, ys) = (x.range(all().map(|(a, _)| x.place(a))), y.range(all().map(|(_, b)| y.place(b))));
+    let labels = [x.labels(&xs), y.labels(&ys)];
+    let corner = emptiest_corner(all().map(|(a, b)| (part(&xs, x.place(a)), part(&ys, y.place(b)))));
+    let mut chart = ChartBuilder::on(&area).margin(8).x_label_area_size(42).y_label_area_size(64).build_cartesian_2d(xs, ys)?;
+    chart
+        .configure_mesh()
+        .x_desc(x.label)
+        .y_desc(y.label)
+        .x_labels(labels[0])
+        .y_labels(labels[1])
+        .light_line_style(WHITE)
+        .bold_line_style(RGBColor(225, 225, 225))
+        .x_label_formatter(&|place| x.text(*place))
+        .y_label_formatter(&|place| y.text(*place))
+        .label_style(("sans-serif", 13))
+        .axis_desc_style(("sans-serif", 14))
+        .draw()?;
+    let mut names: Vec<&str> = Vec::new();
+    for curve in curves {
+        let known = names.iter().position(|name| *name == curve.name);
+        let number = known.unwrap_or(names.len());
+        let colour = COLOURS[number % COLOURS.len()];
+        let places = curve.points.iter().map(|&(a, b)| (x.place(a), y.place(b)));
+        let line = colour.stroke_width(2);
+        let series = match curve.style {
+            Style::Line => chart.draw_series(LineSeries::new(places, line))?,
+            Style::Dashed => chart.draw_series(DashedLineSeries::new(places, 5, 4, line))?,
+            Style::Points => chart.draw_series(places.map(|place| Circle::new(place, 3, colour.filled())))?,
+        };
+        if known.is_none() {
+            names.push(&curve.name);
+            series.label(&curve.name).legend(move |(x, y)| PathElement::new([(x, y), (x + 16, y)], line));
+        }
+    }
+    chart
+        .configure_series_labels()
+        .background_style(WHITE.mix(0.85))
+        .border_style(RGBColor(200, 200, 200))
+        .label_font(("sans-serif", 13))
+        .position(corner)
+        .draw()?;
+    area.present()?;
+    Ok(())
+}
+
+/// Where in a range, from 0 to 1.
+fn part(range: &std::ops::Range<f64>, x: f64) -> f64 {
+    (x - range.start) / (range.end - range.start)
+}
+
+/// Where the legend hides the least.
+fn emptiest_corner(places: impl Iterator<Item = (f64, f64)>) -> SeriesLabelPosition {
+    const CORNERS: [(SeriesLabelPosition, f64, f64); 4] = [
+        (SeriesLabelPosition::UpperRight, 1.0, 1.0),
+        (SeriesLabelPosition::LowerRight, 1.0, 0.0),
+        (SeriesLabelPosition::UpperLeft, 0.0, 1.0),
+        (SeriesLabelPosition::LowerLeft, 0.0, 0.0),
+    ];
+    let places: Vec<_> = places.collect();
+    let hidden = |&(_, x, y): &(SeriesLabelPosition, f64, f64)| {
+        places.iter().filter(|(a, b)| (a - x).abs() < 0.35 && (b - y).abs() < 0.35).count()
+    };
+    CORNERS.into_iter().min_by_key(hidden).map_or(SeriesLabelPosition::UpperRight, |(corner, ..)| corner)
+}

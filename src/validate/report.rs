@@ -1,0 +1,119 @@
+//! The report as one HTML file, which needs nothing else and prints well.
+use maud::{DOCTYPE, Markup, PreEscaped, html as markup};
+
+use super::{Effort, Section, Statement};
+
+const STYLE: &str = "
+:root { color-scheme: light; }
+body { font: 16px/1.5 system-ui, sans-serif; color: #1b1b1b; background: #fff; max-width: 50rem; margin: 2rem auto; padding: 0 1rem; }
+h1 { font-size: 1.7rem; margin-bottom: .2rem; } h2 { font-size: 1.25rem; margin-top: 2.6rem; }
+table { border-collapse: collapse; width: 100%; font-size: .86rem; font-variant-numeric: tabular-nums; margin: 1rem 0; }
+th, td { text-align: left; padding: .25rem .5rem; border-bottom: 1px solid #ddd; vertical-align: top; }
+th { border-bottom: 2px solid #888; } td.n, th.n { text-align: right; white-space: nowrap; }
+td.s { white-space: nowrap; }
+.holds { color: #00654a; font-weight: 600; white-space: nowrap; } .fails { color: #b00020; font-weight: 700; white-space: nowrap; }
+.claim { font-size: 1.06rem; font-weight: 600; } .source { color: #555; font-size: .86rem; }
+.derivation { border-left: 3px solid #bbb; padding-left: 1rem; }
+figure { margin: 1.2rem 0; } figure svg, figure img { max-width: 100%; height: auto; } figcaption { font-size: .86rem; color: #444; }
+@media print { body { font-size: 11pt; margin: 0; max-width: none; } section { break-inside: auto; } figure, tr { break-inside: avoid; } }
+";
+
+/// The report of all sections.
+pub fn html(sections: &[Section], effort: Effort) -> String {
+    let statements: usize = sections.iter().map(|section| section.statements.len()).sum();
+    let failed: usize = sections.iter().flat_map(|section| &section.statements).filter(|statement| !statement.holds).count();
+    let page = markup! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                title { "Noisefall: validation" }
+                style { (PreEscaped(STYLE)) }
+            }
+            body {
+                h1 { "Does Noisefall solve the light transport equation?" }
+                p { "L = L" sub { "e" } " + ∫ f L cos θ dω, by Monte Carlo integration: held against exact solutions, "
+                    (statements) " statements in " (sections.len()) " sections. "
+                    @if failed == 0 { span.holds { "All hold." } } @else { span.fails { (failed) " fail." } } }
+                p.source { "noisefall " (env!("CARGO_PKG_VERSION")) ", " @if effort == Effort::Quick { "a quick run: fewer samples" } @else { "a full run" }
+                    ". A statement with chance in it fails beyond 4 standard errors; all samples are seeded, and the same on every machine." }
+                (contents(sections))
+                @for (i, section) in sections.iter().enumerate() { (body(i + 1, section)) }
+            }
+        }
+    };
+    page.into_string()
+}
+
+fn contents(sections: &[Section]) -> Markup {
+    markup! {
+        table {
+            @for (i, section) in sections.iter().enumerate() {
+                tr {
+                    td { (i + 1) }
+                    td { a href={ "#section-" (i + 1) } { (formula(section.title)) } }
+                    td.n { (section.statements.len()) }
+                    td { (verdict(section.holds())) }
+                }
+            }
+        }
+    }
+}
+
+fn body(number: usize, section: &Section) -> Markup {
+    markup! {
+        section id={ "section-" (number) } {
+            h2 { (number) ". " (formula(section.title)) " " (verdict(section.holds())) }
+            p.claim { (formula(section.claim)) }
+            div.derivation { @for paragraph in section.derivation { p { (formula(paragraph)) } } }
+            p.source { (formula(section.source)) }
+            @if let Some(remark) = &section.remark { p { (remark) } }
+            @for figure in &section.figures {
+                figure { (PreEscaped(&figure.element)) figcaption { (formula(&figure.caption)) } }
+            }
+            @if !section.statements.is_empty() {
+                table {
+                    thead { tr { th { "statement" } th.n { "measured" } th.n { "± standard error" } th.n { "exact" } th { "statistic" } th { "verdict" } } }
+                    tbody { @for statement in &section.statements { (row(statement)) } }
+                }
+            }
+        }
+    }
+}
+
+fn row(statement: &Statement) -> Markup {
+    let error = if statement.error > 0.0 { format!("{:.1e}", statement.error) } else { "–".to_owned() };
+    markup! {
+        tr {
+            td { (formula(&statement.what)) }
+            td.n { (number(statement.measured)) }
+            td.n { (error) }
+            td.n { (number(statement.exact)) }
+            td.s { (statement.statistic) }
+            td { (verdict(statement.holds)) }
+        }
+    }
+}
+
+/// Text with a letter behind an underscore as its index.
+fn formula(text: &str) -> Markup {
+    let mut parts = text.split('_');
+    let first = parts.next().unwrap_or_default();
+    markup! {
+        (first)
+        @for part in parts {
+            @if let Some(index) = part.chars().next() { sub { (index) } (&part[index.len_utf8()..]) }
+        }
+    }
+}
+
+fn verdict(holds: bool) -> Markup {
+    markup! { @if holds { span.holds { "✓ holds" } } @else { span.fails { "✗ fails" } } }
+}
+
+/// Six digits.
+fn number(x: f64) -> String {
+    let size = x.abs();
+    if size == 0.0 || (1e-3..1e5).contains(&size) { format!("{x:.6}") } else { format!("{x:.5e}") }
+}

@@ -1,0 +1,67 @@
+//! 1. The estimate converges to the algebraic solution.
+use crate::{
+    measure::{
+        Moments,
+        exact::{furnace, furnace_variance},
+        samples,
+    },
+    sampling::Directions,
+    validate::{
+        Section, Statement, Validation, check,
+        plot::{Axis, Style, curve, plot},
+    },
+};
+
+const ALBEDOS: [f64; 3] = [0.2, 0.5, 0.8];
+
+pub fn section(validation: &Validation) -> Section {
+    let mut statements = Vec::new();
+    for (number, albedo) in (0..).zip(ALBEDOS) {
+        let scene = check::furnace(albedo);
+        let exact = furnace(1.0, albedo);
+        let uniform = validation.moments(&scene, validation.path(Directions::Uniform, number), 3000);
+        let variance = furnace_variance(1.0, albedo, 4.0 / 3.0);
+        statements.push(Statement::mean_with(format!("ρ = {albedo}, uniform directions"), &uniform, exact, variance));
+        let cosine = validation.moments(&scene, validation.path(Directions::Cosine, number), 100);
+        // Every weight is ρ: each sample is the series, rounded.
+        statements.push(Statement::within(format!("ρ = {albedo}, cosine directions"), cosine.mean, exact, 2e-6 * exact));
+        statements.push(Statement::within(format!("ρ = {albedo}, cosine directions: variance"), cosine.variance, 0.0, 1e-10));
+    }
+    Section {
+        title: "The estimate converges to the algebraic solution",
+        claim: "In a closed room that emits L_e and reflects ρ alike everywhere, the picture is L_e/(1 − ρ).",
+        derivation: &[
+            "By symmetry the radiance L is the same everywhere and in all directions, so that the integral over the hemisphere is \
+             ρ L and the equation becomes L = L_e + ρ L, that is L = L_e/(1 − ρ): no discretisation, no approximation.",
+            "A path of uniform directions multiplies its throughput by ρ · 2 cos θ at every wall, of mean ρ; a path of \
+             cosine-distributed directions by ρ itself, so that every single sample is the geometric series.",
+        ],
+        source: "The furnace test; J. Arvo, “The Irradiance Jacobian for Partially Occluded Polyhedral Sources”, 1994, on uniform \
+                 enclosures. Camera inside a sphere, L_e = 1.",
+        statements,
+        figures: vec![running_means(validation)],
+        remark: None,
+    }
+}
+
+/// Running means of single pixels in the band that they should keep to.
+fn running_means(validation: &Validation) -> crate::validate::Figure {
+    const ALBEDO: f64 = 0.5;
+    let count = validation.spp(12_000);
+    let pixels = samples(&check::furnace(ALBEDO), validation.path(Directions::Uniform, 10), count);
+    let numbers: Vec<usize> = (0..60).map(|i| f64::from(count).powf(f64::from(i) / 59.0) as usize).collect();
+    let (exact, variance) = (furnace(1.0, ALBEDO), furnace_variance(1.0, ALBEDO, 4.0 / 3.0));
+    let band = |sign: f64| numbers.iter().map(|&n| (n as f64, exact + sign * 1.96 * (variance / n as f64).sqrt())).collect();
+    let mut curves = vec![
+        curve("exact, and 95 % of means", Style::Line, numbers.iter().map(|&n| (n as f64, exact)).collect()),
+        curve("exact, and 95 % of means", Style::Dashed, band(1.0)),
+        curve("exact, and 95 % of means", Style::Dashed, band(-1.0)),
+    ];
+    for pixel in [0, 341, 682] {
+        let mean = |&n: &usize| (n as f64, Moments::of(pixels[pixel][..n].iter().copied()).mean);
+        curves.push(curve(format!("pixel {pixel}"), Style::Line, numbers.iter().map(mean).collect()));
+    }
+    let caption = "Running means of three pixels (ρ = 0.5, uniform directions) against the number of samples N, with the band \
+                   1.96 σ/√N by the closed form of σ (section 2), in which 95 of 100 lie at any one N.";
+    plot(caption, Axis::log("samples N"), Axis::linear("radiance"), &curves)
+}

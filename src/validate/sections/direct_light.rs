@@ -1,0 +1,102 @@
+//! 7. Direct light.
+use std::{f64::consts::PI, time::Instant};
+
+use glam::DVec3;
+
+use crate::{
+    measure::{
+        Mean,
+        exact::{horizon_sphere_irradiance, polygon_irradiance},
+        picture,
+    },
+    scene::{Estimator, RenderSettings, Scene},
+    validate::{
+        Section, Statement, Validation,
+        check::{RED, scene},
+    },
+};
+
+const ALBEDO: f64 = 0.8;
+const LAMP: f64 = 0.3;
+/// Angles of a spherical lamp from the zenith: high, partly set, just before it is gone.
+const DEGREES: [f64; 5] = [0.0, 45.0, 75.0, 90.0, 103.0];
+/// Origin and two edges: small and far, and so large and near that its solid angle is sampled rather than its area.
+const RECTANGLES: [(&str, [[f64; 3]; 3]); 3] = [
+    ("small rectangle", [[0.3, 1.0, -0.2], [0.3, 0.0, 0.0], [0.0, 0.0, 0.3]]),
+    ("large rectangle, near", [[-0.8, 0.4, -0.7], [1.6, 0.0, 0.0], [0.0, 0.0, 1.2]]),
+    ("rectangle that the horizon cuts", [[0.5, -0.7, -0.4], [0.0, 0.0, 1.0], [0.0, 1.2, 0.0]]),
+];
+
+/// A point of level ground, seen so closely that all pixels show the same, and a lamp.
+fn lit(lamp: &str) -> Scene {
+    scene(&format!(
+        "camera = {{ eye = [0.0, 1.0, 2.0], look_at = [0.0, 0.0, 0.0], fov = 0.001, resolution = [32, 32] }}
+        materials.ground.lambertian.albedo = {ALBEDO}
+        [[objects]]
+        shape.disk = {{ center = [0.0, 0.0, 0.0], normal = [0.0, 1.0, 0.0], radius = 0.01 }}
+        material = 'ground'
+        [[objects]]
+        {lamp}
+        emission.radiance = 1.0"
+    ))
+}
+
+pub fn section(validation: &Validation) -> Section {
+    let mut statements = Vec::new();
+    let mut costs = Vec::new();
+    let mut lamp = |what: &str, scene: &Scene, irradiance: f64| {
+        for estimator in Estimator::ALL {
+            let settings = RenderSettings { max_bounces: Some(1), ..validation.settings(estimator) };
+            let start = Instant::now();
+            let found = picture(scene, settings, RED, validation.spp(400)).whole();
+            let seconds = start.elapsed().as_secs_f64();
+            statements.push(Statement::mean(format!("{what}, {}", estimator.name()), found, ALBEDO / PI * irradiance));
+            costs.push((what.to_owned(), estimator, found, seconds));
+        }
+    };
+    for degrees in DEGREES {
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        let scene = lit(&format!("shape.sphere = {{ center = [{sin:?}, {cos:?}, 0.0], radius = {LAMP} }}"));
+        lamp(&format!("sphere at {degrees}°"), &scene, horizon_sphere_irradiance(1.0, LAMP, 1.0, cos));
+    }
+    for (what, [origin, u, v]) in RECTANGLES {
+        let corner = |a: f64, b: f64| DVec3::from_array(origin) + DVec3::from_array(u) * a + DVec3::from_array(v) * b;
+        let corners = [corner(0.0, 0.0), corner(1.0, 0.0), corner(1.0, 1.0), corner(0.0, 1.0)];
+        let shape = format!("shape.rectangle = {{ origin = {origin:?}, edge_u = {u:?}, edge_v = {v:?} }}");
+        // The front looks at the origin.
+        let flip = DVec3::from_array(u).cross(DVec3::from_array(v)).dot(corners[0]) > 0.0;
+        lamp(what, &lit(&format!("{shape}\nflip = {flip}")), polygon_irradiance(1.0, &corners));
+    }
+    Section {
+        title: "Direct light",
+        claim: "The irradiance under a sphere and under a rectangle is that of the closed forms, by whichever way of sampling.",
+        derivation: &[
+            "E = ∫ L cos θ dω over the part of the lamp above the horizon; diffuse ground shows (ρ/π) E. For a sphere wholly above \
+             the horizon this is π L (r/d)² cos θ; partly set, a segment of its disk is left out. For a polygon Lambert's formula \
+             sums the angles of its edges.",
+            "`path` finds the lamp by directions drawn from the bsdf, `light` by directions towards it (a sphere by the cone in which \
+             it is seen, a rectangle by its solid angle if it is large and near, else by its area), `mis` by both, weighted by the \
+             power heuristic.",
+        ],
+        source: "P. Moon, 1936; J. M. Snyder, MSR-TR-96-11, 1996; J. H. Lambert, “Photometria”, 1760; E. Veach, “Robust Monte Carlo \
+                 Methods for Light Transport Simulation”, 1997, section 9.2.",
+        statements,
+        figures: Vec::new(),
+        remark: Some(remark(&costs)),
+    }
+}
+
+/// Errors at equal time, which are no statements: times differ from run to run.
+fn remark(costs: &[(String, Estimator, Mean, f64)]) -> String {
+    let relative = |found: &Mean, seconds: f64| 100.0 * (found.variance_of_mean * 1024.0 * seconds).sqrt() / found.mean;
+    let row = |chunk: &[(String, Estimator, Mean, f64)]| {
+        let errors =
+            chunk.iter().map(|(_, estimator, found, seconds)| format!("{} {:.3} %", estimator.name(), relative(found, *seconds)));
+        format!("{}: {}", chunk[0].0, errors.collect::<Vec<_>>().join(", "))
+    };
+    let rows: Vec<String> = costs.chunks(Estimator::ALL.len()).map(row).collect();
+    format!(
+        "Standard error of a pixel after equal time (one second for 1024 pixels, as measured in this run): {}.",
+        rows.join("; ")
+    )
+}

@@ -1,0 +1,150 @@
+//! 9. Rooms and plates.
+use std::f64::consts::PI;
+
+use crate::{
+    measure::{
+        exact::{fresnel, furnace_capped},
+        picture,
+    },
+    scene::{Estimator, RenderSettings, Roulette, Scene},
+    validate::{
+        Section, Statement, Validation,
+        check::{RED, scene},
+    },
+};
+
+const THICKNESS: f64 = 0.1;
+
+pub fn section(validation: &Validation) -> Section {
+    let mut statements = integrating_sphere(validation);
+    statements.extend(mirrors(validation));
+    statements.extend(plates(validation));
+    Section {
+        title: "Integrating sphere, mirrors, plates",
+        claim: "Light is mixed by a sphere, counted by mirrors and divided by a pane as their closed forms say.",
+        derivation: &[
+            "All points of a sphere see each other alike: the irradiance is the same everywhere, and E/π = H = mean(L_e)/(1 − mean(ρ)) \
+             with means over its area, however emission and albedo are distributed. Averaged over its wall, the picture is \
+             mean(L_e) + mean(ρ) H, here under checkers of albedo in five strips and of emission in three.",
+            "Two mirrors that face each other, both of reflectance r and shining with L_e, show L_e Σ rᵏ: with a cap of n reflections \
+             the partial sum, and every single sample is that number.",
+            "A pane of glass lets (1 − R)² Σ R²ᵏ = (1 − R)/(1 + R) through, with R by Fresnel's equations at the angle of the light.",
+        ],
+        source: "W. E. Sumpner, 1892, for the integrating sphere; G. G. Stokes, 1862, for a pile of plates.",
+        statements,
+        figures: Vec::new(),
+        remark: None,
+    }
+}
+
+/// Even cells, odd cells, and how many strips there are.
+type Checker = (f64, f64, u32);
+
+/// The mean over the area of a sphere of a checker in (u, v) with an odd number of strips: along each strip of v both colours have
+/// as many cells or one more, and a strip has the area ½ (cos πv₀ − cos πv₁).
+fn mean((even, odd, strips): Checker) -> f64 {
+    let edge = |j: u32| (PI * f64::from(j) / f64::from(strips)).cos();
+    let strip = |j: u32| {
+        let evens = (0..strips).filter(|i| (i + j).is_multiple_of(2)).count() as f64 / f64::from(strips);
+        (edge(j) - edge(j + 1)) / 2.0 * (evens * even + (1.0 - evens) * odd)
+    };
+    (0..strips).map(strip).sum()
+}
+
+/// Looking from the middle in all directions there are: six views of a right angle, each pixel weighed by its solid angle.
+fn integrating_sphere(validation: &Validation) -> Vec<Statement> {
+    const SIDE: u32 = 32;
+    let (albedo, radiance): (Checker, Checker) = ((0.9, 0.2, 5), (0.25, 2.0, 3));
+    let exact = mean(radiance) + mean(albedo) * mean(radiance) / (1.0 - mean(albedo));
+    let text = |(even, odd, strips): Checker| format!("checker = {{ even = {even:?}, odd = {odd:?}, scale = {strips}.0 }}");
+    let views = [[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]];
+    let mut statements = Vec::new();
+    for estimator in Estimator::ALL {
+        let (mut sum, mut variance, mut whole) = (0.0, 0.0, 0.0);
+        for at in views {
+            let up = if at[1] == 0 { [0, 1, 0] } else { [0, 0, 1] };
+            let scene = scene(&format!(
+                "camera = {{ eye = [0.0, 0.0, 0.0], look_at = {at:?}, up = {up:?}, fov = 90.0, resolution = [{SIDE}, {SIDE}] }}
+                textures.albedo.{}
+                textures.radiance.{}
+                materials.wall.lambertian.albedo.texture = 'albedo'
+                [[objects]]
+                shape.sphere = {{ center = [0.0, 0.0, 0.0], radius = 1.0 }}
+                material = 'wall'
+                flip = true
+                emission.texture = 'radiance'",
+                text(albedo),
+                text(radiance)
+            ));
+            let settings = RenderSettings { roulette: Roulette::BY_THROUGHPUT, ..validation.settings(estimator) };
+            let settings = RenderSettings { seed: settings.seed + 97 * (statements.len() as u32 + 1) + whole as u32, ..settings };
+            for (i, pixel) in picture(&scene, settings, RED, validation.spp(200)).pixels.iter().enumerate() {
+                let place = |x: u32| (f64::from(x) + 0.5) / f64::from(SIDE) * 2.0 - 1.0;
+                let (x, y) = (place(i as u32 % SIDE), place(i as u32 / SIDE));
+                let weight = (1.0 + x * x + y * y).powf(-1.5);
+                sum += weight * pixel.mean;
+                variance += weight * weight * pixel.variance_of_mean;
+                whole += weight;
+            }
+        }
+        // Edges of cells within pixels: the weight of a pixel is that of its middle.
+        let error = variance.sqrt().hypot(1e-4 * whole);
+        let what = format!("textured integrating sphere, mean over all directions, {}", estimator.name());
+        statements.push(Statement::z(what, sum / whole, error / whole, exact));
+    }
+    statements
+}
+
+fn mirrors(validation: &Validation) -> Vec<Statement> {
+    const RADIUS: f64 = 1e6;
+    const REFLECTANCE: f64 = 0.75;
+    let object = |z: f64| {
+        format!(
+            "[[objects]]
+            shape.sphere = {{ center = [0.0, 0.0, {z:?}], radius = {RADIUS:?} }}
+            material = 'mirror'
+            emission.radiance = 1.0"
+        )
+    };
+    let scene = scene(&format!(
+        "camera = {{ eye = [0.0, 0.0, 0.0], look_at = [0.0, 0.0, 0.5], fov = 0.001, resolution = [8, 8] }}
+        materials.mirror.mirror.reflectance = {REFLECTANCE}
+        {}
+        {}",
+        object(RADIUS + 0.5),
+        object(-RADIUS - 0.5)
+    ));
+    let mirror = |cap: u32| {
+        let settings = RenderSettings { max_bounces: Some(cap), ..validation.settings(Estimator::Mis) };
+        let found = picture(&scene, settings, RED, 4).whole();
+        let exact = furnace_capped(1.0, REFLECTANCE, cap);
+        Statement::within(format!("mirrors that face each other, cap at {cap}"), found.mean, exact, 2e-6 * exact)
+    };
+    [0, 1, 2, 5, 20, 100].map(mirror).into()
+}
+
+/// A pane before a wall that shines.
+fn pane(degrees: f64) -> Scene {
+    let theta = f64::to_radians(degrees);
+    let eye = [2.0 * theta.sin(), 0.0, 2.0 * theta.cos()];
+    scene(&format!(
+        "camera = {{ eye = {eye:?}, look_at = [0.0, 0.0, 0.0], projection.orthographic.width = 0.1, resolution = [32, 32] }}
+        materials.glass.dielectric = {{ ior = 1.5 }}
+        [[objects]]
+        shape.cuboid = {{ min = [-100.0, -100.0, {:?}], max = [100.0, 100.0, 0.0] }}
+        material = 'glass'
+        [[objects]]
+        shape.rectangle = {{ origin = [-90.0, -90.0, -3.0], edge_u = [180.0, 0.0, 0.0], edge_v = [0.0, 180.0, 0.0] }}
+        emission.radiance = 1.0",
+        -THICKNESS
+    ))
+}
+
+fn plates(validation: &Validation) -> Vec<Statement> {
+    let plate = |degrees: f64| {
+        let (r, _) = fresnel(1.5, degrees.to_radians());
+        let found = picture(&pane(degrees), validation.settings(Estimator::Path), RED, validation.spp(300)).whole();
+        Statement::mean(format!("a pane of index 1.5 transmits, at {degrees}°"), found, (1.0 - r) / (1.0 + r))
+    };
+    [0.0, 30.0, 56.31, 75.0, 85.0].map(plate).into()
+}
