@@ -13,8 +13,8 @@
 //! | mesh | `mesh/` | 1, its triangles are *elements* | counter-clockwise |
 //! | isosurface | `isosurface/` | 1 | where the function is positive |
 //!
-//! What a ray runs through first are `tables.rs`, which hold analytic shapes that stand still; meshes, isosurfaces and what
-//! moves have a space of their own (`placed.rs`). All together are [`Shapes`].
+//! A ray runs through the few and large shapes of `lists.rs` and down a tree over the many (`objects.rs`); what it met is looked up
+//! in `tables.rs`. Meshes, isosurfaces and what moves have a space of their own (`placed.rs`). All together are [`Shapes`].
 mod bounds;
 mod bvh;
 mod cuboid;

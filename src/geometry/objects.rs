@@ -13,7 +13,7 @@ use super::{
     lists::{Listed, Lists},
     placed::Placed,
 };
-use crate::math::{F, Lanes, M, MAX_LANES, One, Pick, U, V};
+use crate::math::{F, Lanes, M, MAX_LANES, One, U, V};
 
 /// What a step down a tree costs, in tests of lanes against a sphere: where the sum of [`Kind::cost`] is less, a tree is slower
 /// (measured with 16 lanes on fields of 4 to 128 spheres, cuboids, cylinders and meshes).
@@ -61,20 +61,59 @@ enum Item {
     Placed(u32),
 }
 
-/// Sorts objects so that those for a tree come last, and returns how many come before.
-pub(super) fn few_and_large(objects: &mut [Object]) -> usize {
-    let area = |object: &Object| object.bounds.surface_area();
-    objects.sort_by(|a, b| area(b).total_cmp(&area(a)));
-    let mut rest = Bounds::EMPTY;
-    let mut first = objects.len();
-    for (place, object) in objects.iter().enumerate().rev() {
-        rest = rest.union(&object.bounds);
+/// The objects for lists and those for a tree, each in their order: of surfaces that coincide the first one is met.
+pub(super) fn few_and_many(objects: Vec<Object>) -> [Vec<Object>; 2] {
+    let mut many = are_small(&objects);
+    leave_out_far(&objects, &mut many);
+    let cost: f32 = objects.iter().zip(&many).filter(|(_, many)| **many).map(|(object, _)| object.kind.cost()).sum();
+    if cost < COST_OF_TREE {
+        return [objects, Vec::new()];
+    }
+    let mut many = many.into_iter();
+    let (many, few) = objects.into_iter().partition(|_| many.next() == Some(true));
+    [few, many]
+}
+
+/// Which objects are met by less than one in [`SHARE`] of the rays that come near to the smaller ones.
+fn are_small(objects: &[Object]) -> Vec<bool> {
+    let area = |object: usize| objects[object].bounds.surface_area();
+    let mut by_area: Vec<usize> = (0..objects.len()).collect();
+    by_area.sort_by(|&a, &b| area(a).total_cmp(&area(b)));
+    let (mut count, mut rest) = (0, Bounds::EMPTY);
+    for (place, &object) in by_area.iter().enumerate() {
+        rest = rest.union(&objects[object].bounds);
         if area(object) * SHARE <= rest.surface_area() {
-            first = place;
+            count = place + 1;
         }
     }
-    let cost: f32 = objects[first..].iter().map(|object| object.kind.cost()).sum();
-    if cost < COST_OF_TREE { objects.len() } else { first }
+    let mut small = vec![false; objects.len()];
+    by_area[..count].iter().for_each(|&object| small[object] = true);
+    small
+}
+
+/// Takes back a few objects that lie far outside the crowd, as a sun does: boxes are widened by what rounds over the whole tree.
+fn leave_out_far(objects: &[Object], many: &mut [bool]) {
+    const FAR: f32 = 16.0;
+    const MOST: usize = 8;
+    let middle =
+        |object: usize| [0, 1, 2].map(|axis| 0.5 * objects[object].bounds.min[axis] + 0.5 * objects[object].bounds.max[axis]);
+    let members: Vec<usize> = (0..objects.len()).filter(|&object| many[object]).collect();
+    if members.is_empty() {
+        return;
+    }
+    let median = [0, 1, 2].map(|axis| {
+        let mut places: Vec<f32> = members.iter().map(|&object| middle(object)[axis]).collect();
+        let half = places.len() / 2;
+        *places.select_nth_unstable_by(half, f32::total_cmp).1
+    });
+    let distance = |object: usize| middle(object).iter().zip(median).map(|(x, m)| (x - m).abs()).fold(0.0, f32::max);
+    let mut distances: Vec<f32> = members.iter().map(|&object| distance(object)).collect();
+    let most = distances.len() * 9 / 10;
+    let usual = *distances.select_nth_unstable_by(most, f32::total_cmp).1;
+    let far: Vec<usize> = members.into_iter().filter(|&object| distance(object) > FAR * usual).collect();
+    if far.len() <= MOST {
+        far.into_iter().for_each(|object| many[object] = false);
+    }
 }
 
 impl Objects {
@@ -89,6 +128,11 @@ impl Objects {
         };
         let items = order.iter().map(item).collect();
         Objects { bvh, items, lists }
+    }
+
+    #[cfg(test)]
+    pub fn bounds(&self) -> Bounds {
+        self.bvh.bounds()
     }
 
     /// Replaces `nearest` by what is nearer along o + td, d of unit length, in the lanes of `live`.
@@ -157,10 +201,13 @@ impl<S: Simd> Leaves<S> for Found<'_> {
                 (found.t, found.piece + placed.first, found.element)
             }
         };
-        let nearer = t.above(0.0) & t.below(t_max);
-        self.primitive = nearer.pick(primitive, U(self.primitive)).0;
-        self.element = nearer.pick(element, U(self.element)).0;
-        nearer.pick(t, F(t_max)).0
+        // The first of surfaces that coincide.
+        let same = t.0 == t_max && t_max < f32::INFINITY && primitive.0 < self.primitive;
+        if t.0 > 0.0 && (t.0 < t_max || same) {
+            (self.primitive, self.element) = (primitive.0, element.0);
+            return t.0;
+        }
+        t_max
     }
 
     #[inline(always)]

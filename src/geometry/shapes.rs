@@ -7,7 +7,7 @@ use super::{
     Coordinates, Motion, Place, SurfacePoint, Toward,
     lists::Lists,
     mesh::{Mesh, MeshData},
-    objects::{Kind, Object, Objects, few_and_large},
+    objects::{Kind, Object, Objects, few_and_many},
     placed::{Body, Placed},
     shape::{Outline, Shape},
     tables::{PLACED, Tables},
@@ -50,8 +50,8 @@ impl Shapes {
             let kind = all.push(shape, motion, &mut meshes, near);
             objects.push(Object { bounds: shape.bounds(motion), kind });
         }
-        let few = few_and_large(&mut objects);
-        for object in &objects[..few] {
+        let [few, many] = few_and_many(objects);
+        for object in few {
             match object.kind {
                 Kind::Analytic { first, shape } => {
                     all.lists.push(first, shape, near);
@@ -59,7 +59,7 @@ impl Shapes {
                 Kind::Placed(index) => all.loops.push(index),
             }
         }
-        all.objects = (few < objects.len()).then(|| Objects::new(&objects[few..], near));
+        all.objects = (!many.is_empty()).then(|| Objects::new(&many, near));
         all
     }
 
@@ -96,8 +96,7 @@ impl Shapes {
 
     /// The triangles of a mesh in the order of its elements.
     pub fn triangles(&self, primitive: u32) -> Vec<Shape> {
-        let of = |placed: &&Placed| placed.first == primitive;
-        let Some(placed) = self.placed.iter().find(of) else { return Vec::new() };
+        let Some(placed) = self.tables.placed_at(primitive).map(|index| &self.placed[index]) else { return Vec::new() };
         let Body::Mesh(mesh) = &placed.body else { return Vec::new() };
         let triangle = |id: u32| {
             let [a, b, c] = mesh.corners(id).map(|corner| glam::Vec3::from(corner).as_dvec3());
@@ -125,6 +124,12 @@ impl Shapes {
     #[cfg(test)]
     pub fn has_tree(&self) -> bool {
         self.objects.is_some()
+    }
+
+    /// The longest edge of the box around the tree.
+    #[cfg(test)]
+    pub fn tree_reach(&self) -> f32 {
+        self.objects.as_ref().map_or(0.0, |objects| objects.bounds().size().into_iter().fold(0.0, f32::max))
     }
 
     /// Whether there are none but spheres that stand still, and few.

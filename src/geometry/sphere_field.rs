@@ -15,7 +15,7 @@ const MOST_RADIUS: f64 = 0.95;
 pub fn sphere_field(count: u32, min: DVec3, size: DVec3, seed: u32) -> Vec<Shape> {
     let grid = grid(count, size);
     let cell = size / grid.as_dvec3();
-    let share = grid.as_dvec3().element_product() / f64::from(count);
+    let cells = u128::from(grid.x) * u128::from(grid.y) * u128::from(grid.z);
     let sphere = |number: u32| {
         let mut word = hash_one(seed ^ hash_one(number));
         let mut uniform = || {
@@ -23,9 +23,11 @@ pub fn sphere_field(count: u32, min: DVec3, size: DVec3, seed: u32) -> Vec<Shape
             f64::from(word) / f64::from(u32::MAX)
         };
         // One of the cells that are for this sphere.
-        let (first, next) = ((f64::from(number) * share).ceil(), (f64::from(number + 1) * share).ceil());
-        let at = (first + uniform() * (next - first)).min(next - 1.0) as u32;
-        let corner = min + cell * UVec3::new(at % grid.x, at / grid.x % grid.y, at / grid.x / grid.y).as_dvec3();
+        let [first, next] = [number, number + 1].map(|n| (u128::from(n) * cells).div_ceil(u128::from(count)));
+        let at = (first + (uniform() * (next - first) as f64) as u128).min(next - 1);
+        let (column, row) = (at % u128::from(grid.x), at / u128::from(grid.x));
+        let (row, layer) = (row % u128::from(grid.y), row / u128::from(grid.y));
+        let corner = min + cell * DVec3::new(column as f64, row as f64, layer as f64);
         let radius = cell.min_element() / 2.0 * (LEAST_RADIUS + (MOST_RADIUS - LEAST_RADIUS) * uniform());
         let room = cell - 2.0 * radius;
         Shape::Sphere { center: corner + radius + room * DVec3::new(uniform(), uniform(), uniform()), radius }
@@ -52,12 +54,18 @@ mod tests {
 
     #[test]
     fn spheres_lie_in_the_box_and_apart() {
-        for (count, size) in [(1, DVec3::ONE), (300, DVec3::new(3.0, 0.2, 1.0)), (1000, DVec3::new(1.0, 1.0, 1e-3))] {
+        for (count, size) in [
+            (1, DVec3::ONE),
+            (300, DVec3::new(3.0, 0.2, 1.0)),
+            (13, DVec3::ONE),
+            (1000, DVec3::new(1.0, 1.0, 1e-3)),
+            (20, DVec3::new(1e6, 1e6, 1e-9)),
+        ] {
             let spheres: Vec<_> = sphere_field(count, DVec3::ONE, size, 7).iter().map(Shape::bounding_sphere).collect();
             assert_eq!(spheres.len(), count as usize);
             for (i, (center, radius)) in spheres.iter().enumerate() {
                 let place = *center - DVec3::ONE;
-                assert!((place - *radius).min_element() >= -1e-12 && (size - place - *radius).min_element() >= -1e-12);
+                assert!((place - *radius).min_element() >= -1e-9 && (size - place - *radius).min_element() >= -1e-9);
                 assert!(spheres[..i].iter().all(|(other, r)| other.distance(*center) > r + radius));
             }
         }

@@ -43,6 +43,12 @@ impl Tables {
         self.normals.push([0.0, 1.0, 0.0, tag(PLACED, index)]);
     }
 
+    /// Where a primitive is, if it is elsewhere.
+    pub fn placed_at(&self, primitive: u32) -> Option<usize> {
+        let tag = self.normals[primitive as usize][3].to_bits();
+        (tag & 3 == PLACED).then_some((tag >> 2) as usize)
+    }
+
     /// Adds an analytic shape, whose pieces get the next numbers. `near` is where the scene happens.
     pub fn push_shape(&mut self, shape: &Shape, near: DVec3) {
         let closed = shape.piece_count() > 1;

@@ -99,6 +99,15 @@ impl Checker<'_> {
         Err(self.0.error(desc.span(), message, format!("expected {SMALLEST_RADIUS:e} to {LARGEST:e} m")))
     }
 
+    /// How far from the origin a shape comes in motion.
+    pub fn reach<T>(&self, reach: f64, desc: &Spanned<T>) -> Result<(), SceneError> {
+        if reach <= 4.0 * LARGEST {
+            return Ok(());
+        }
+        let message = format!("in motion it comes as far as {reach:e} m from the origin");
+        Err(self.0.error(desc.span(), message, format!("expected at most {LARGEST:e} m")))
+    }
+
     pub fn count(&self, value: &Spanned<u32>, least: u32, most: u32) -> Result<u32, SceneError> {
         let count = *value.as_ref();
         if (least..=most).contains(&count) {

@@ -44,6 +44,9 @@ use crate::{
 /// Media that a path can be in at once: those of tinted scenes are kept in four bytes.
 const MOST_NESTED: usize = 4;
 
+/// Dielectrics that are looked at for media within each other.
+const MOST_LOOKED_AT: usize = 256;
+
 /// A compiled scene. Immutable; shared between threads.
 pub struct Scene {
     pub title: String,
@@ -67,6 +70,8 @@ pub struct Scene {
     pub settings: RenderSettings,
     pub spp: Option<u32>,
     pub truth: Option<Truth>,
+    /// How many media lie around the middle of some dielectric.
+    pub deepest_media: usize,
 }
 
 /// One object as the file describes it.
@@ -112,8 +117,8 @@ impl Scene {
         let reach = |object: &Object| if object.flip { f64::INFINITY } else { object.shape.bounding_sphere().1 };
         around.sort_by(|a, b| reach(b.1).total_cmp(&reach(a.1)));
         let medium = |object: usize| {
-            let primitive = self.owners.iter().position(|owner| *owner == object as u32);
-            primitive.map_or(0, |primitive| self.surfaces.varying[primitive][3].to_bits())
+            let primitive = self.owners.partition_point(|owner| *owner < object as u32);
+            self.surfaces.varying[primitive][3].to_bits()
         };
         around.iter().fold(0, |stack, (id, _)| stack << 8 | medium(*id))
     }
@@ -133,7 +138,7 @@ impl Scene {
         if self.objects.is_empty() {
             warnings.push("this scene has no objects".to_owned());
         }
-        let depth = self.deepest_media();
+        let depth = self.deepest_media;
         if depth > MOST_NESTED {
             warnings.push(format!("{depth} media lie within each other: only the tint of the inner {MOST_NESTED} is kept"));
         }
@@ -141,11 +146,14 @@ impl Scene {
     }
 
     /// How many media lie around the middle of some dielectric, its own included; 0 where none is tinted.
-    fn deepest_media(&self) -> usize {
+    fn count_deepest_media(&self) -> usize {
         if self.surfaces.media.is_empty() {
             return 0;
         }
-        let middles = self.objects.iter().filter(|object| object.is_dielectric()).map(|object| object.shape.bounding_sphere().0);
+        // Of a crowd some are looked at: each is held against all.
+        let dielectrics = self.objects.iter().filter(|object| object.is_dielectric());
+        let step = dielectrics.clone().count().div_ceil(MOST_LOOKED_AT).max(1);
+        let middles = dielectrics.step_by(step).map(|object| object.shape.bounding_sphere().0);
         middles.map(|middle| self.media_around(middle).count()).max().unwrap_or(0)
     }
 

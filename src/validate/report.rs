@@ -14,7 +14,8 @@ td.s { white-space: nowrap; }
 .holds { color: #00654a; font-weight: 600; white-space: nowrap; } .fails { color: #b00020; font-weight: 700; white-space: nowrap; }
 .claim { font-size: 1.06rem; font-weight: 600; } .source { color: #555; font-size: .86rem; }
 .derivation { border-left: 3px solid #bbb; padding-left: 1rem; }
-figure { margin: 1.2rem 0; } figure svg, figure img { max-width: 100%; height: auto; } figcaption { font-size: .86rem; color: #444; }
+figure { margin: 1.2rem 0; } figure svg, figure img { max-width: 100%; height: auto; } figure:has(img) { display: inline-block; margin: .6rem .8rem .6rem 0; }
+figcaption { font-size: .86rem; color: #444; }
 @media print { body { font-size: 11pt; margin: 0; max-width: none; } section { break-inside: auto; } figure, tr { break-inside: avoid; } }
 ";
 

@@ -7,4 +7,5 @@ mod scene_files;
 mod scene_messages;
 mod shapes;
 mod textures;
+mod validate;
 mod worker;

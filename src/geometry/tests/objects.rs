@@ -6,7 +6,7 @@ use rand::{Rng, SeedableRng, rngs::SmallRng};
 
 use super::{cases, exact, unit_vector, v};
 use crate::{
-    geometry::{Expression, Isosurface, MISS, Motion, Nearest, Shape, Shapes, Step, mesh::generate},
+    geometry::{Expression, Isosurface, MISS, Motion, Nearest, Outline, Shape, Shapes, Step, mesh::generate, sphere_field},
     math::{F, M, One, U, V},
 };
 
@@ -69,4 +69,41 @@ fn the_tree_finds_what_trying_each_finds() {
         };
     }
     assert!(met > 1500, "{met}");
+}
+
+/// A unit square at this height, and a larger one in the same plane.
+fn lamp_in_ceiling() -> [Shape; 2] {
+    let square = |half: f64| Shape::Flat {
+        outline: Outline::Parallelogram,
+        origin: DVec3::new(-half, 20.0, -half),
+        edges: [DVec3::X * 2.0 * half, DVec3::Z * 2.0 * half],
+        mirrored: false,
+    };
+    [square(1.0), square(30.0)]
+}
+
+#[test]
+fn of_surfaces_that_coincide_the_first_one_is_met_with_a_tree_and_without() {
+    let still = Motion::default();
+    let crowd: Vec<Shape> = sphere_field(100, DVec3::splat(-2.0), DVec3::splat(4.0), 1);
+    for order in [[0, 1], [1, 0]] {
+        for count in [0, crowd.len()] {
+            let pair = order.map(|i| lamp_in_ceiling()[i].clone());
+            let shapes: Vec<Shape> = pair.into_iter().chain(crowd[..count].iter().cloned()).collect();
+            let shapes = Shapes::new(shapes.iter().map(|shape| (shape, &still)), DVec3::ZERO);
+            assert_eq!(shapes.has_tree(), count > 0);
+            let met = shapes.closest(One, M(true), v(DVec3::new(0.1, 10.0, 0.3)), v(DVec3::Y), F(0.0)).primitive.0;
+            assert_eq!(met, 0, "{order:?}");
+        }
+    }
+}
+
+#[test]
+fn a_sun_does_not_widen_the_boxes_of_a_crowd() {
+    let still = Motion::default();
+    let mut shapes = sphere_field(500, DVec3::splat(-2.0), DVec3::splat(4.0), 1);
+    shapes.insert(0, Shape::Sphere { center: DVec3::new(0.0, 1.5e11, 0.0), radius: 7e8 });
+    let all = Shapes::new(shapes.iter().map(|shape| (shape, &still)), DVec3::ZERO);
+    assert!(all.tree_reach() < 10.0, "{}", all.tree_reach());
+    assert_eq!(all.closest(One, M(true), v(DVec3::new(0.0, 3.0, 0.0)), v(DVec3::Y), F(0.0)).primitive.0, 0);
 }

@@ -57,7 +57,7 @@ pub fn compile(desc: &SceneDesc, source: &SourceText) -> Result<Scene, SceneErro
         .collect();
     let surfaces = Surfaces::new(&objects);
     surfaces.check().map_err(|message| check.0.error(0..1, message, "in this scene"))?;
-    Ok(Scene {
+    let mut scene = Scene {
         title: desc.title.clone().unwrap_or_default(),
         notes: desc.notes.clone().unwrap_or_default(),
         source: source.text.clone(),
@@ -73,7 +73,10 @@ pub fn compile(desc: &SceneDesc, source: &SourceText) -> Result<Scene, SceneErro
         settings,
         spp,
         truth,
-    })
+        deepest_media: 0,
+    };
+    scene.deepest_media = scene.count_deepest_media();
+    Ok(scene)
 }
 
 /// The extent that a person would call the size of the scene: of the objects that are not themselves far larger than the

@@ -30,6 +30,9 @@ pub fn objects(
         .map(|name| coatings.get(name.as_ref()).cloned().ok_or_else(|| check.not_defined("material", name, coatings.keys())))
         .transpose()?;
     let motion = motion(check, &o.motion)?;
+    if let Some(last) = o.motion.last() {
+        shapes.iter().try_for_each(|shape| check.reach(shape.reach(&motion), last))?;
+    }
     let emission = o.emission.as_ref().map(|e| emission(check, e, o.flip, textures)).transpose()?;
     let many = shapes.len() > 1;
     let name = |number: usize| match &o.name {

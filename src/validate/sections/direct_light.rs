@@ -74,8 +74,8 @@ pub fn section(validation: &Validation) -> Section {
             "E = ∫ L cos θ dω over the part of the lamp above the horizon; diffuse ground shows (ρ/π) E. For a sphere wholly above \
              the horizon this is π L (r/d)² cos θ; partly set, a segment of its disk is left out. For a polygon Lambert's formula \
              sums the angles of its edges.",
-            "`path` finds the lamp by directions drawn from the bsdf, `light` by directions towards it (a sphere by the cone in which \
-             it is seen, a rectangle by its solid angle if it is large and near, else by its area), `mis` by both, weighted by the \
+            "“Path” finds the lamp by directions drawn from the bsdf, “light” by directions towards it (a sphere by the cone in which \
+             it is seen, a rectangle by its solid angle if it is large and near, else by its area), “mis” by both, weighted by the \
              power heuristic.",
         ],
         source: "P. Moon, 1936; J. M. Snyder, MSR-TR-96-11, 1996; J. H. Lambert, “Photometria”, 1760; E. Veach, “Robust Monte Carlo \

@@ -6,12 +6,14 @@ use crate::{
     sampling::{Directions, hash::hash_one},
     scene::Scene,
     validate::{
-        Figure, Section, Statement, Validation,
+        Section, Statement, Validation,
         check::{RED, scene},
         plot::{Axis, Style, curve, plot},
     },
 };
 
+const CAPTION: &str = "The radiance of lossless balls by the cosine of the angle at which their surface is seen, each at its roughest. \
+                       Exact is 1; what is left is noise.";
 const SIDE: usize = 48;
 /// What tables of lost light and their interpolation may lose or add.
 const TOLERANCE: f64 = 1e-3;
@@ -42,7 +44,7 @@ pub fn section(validation: &Validation) -> Section {
     for (name, text, roughnesses) in MATERIALS {
         for roughness in roughnesses {
             let scene = ball(&text.replace("ROUGHNESS", &format!("{roughness:?}")));
-            let found = picture(&scene, validation.path(Directions::Cosine, 100), RED, validation.spp(400));
+            let found = picture(&scene, validation.path(Directions::Cosine, 100), RED, validation.spp(2000));
             let rings = rings(&found);
             let what = if roughnesses.len() > 1 { format!("{name}, roughness {roughness}") } else { name.to_owned() };
             let worst = rings.iter().map(|(_, ring)| excess(*ring)).fold(0.0, f64::max);
@@ -52,7 +54,9 @@ pub fn section(validation: &Validation) -> Section {
                 TOLERANCE,
             );
             statements.push(statement);
-            curves.push(curve(what, Style::Line, rings.iter().map(|(cos, ring)| (*cos, ring.mean)).collect()));
+            if roughnesses.last() == Some(roughness) {
+                curves.push(curve(what, Style::Line, rings.iter().map(|(cos, ring)| (*cos, ring.mean)).collect()));
+            }
         }
     }
     statements.extend(reciprocity(validation));
@@ -70,15 +74,9 @@ pub fn section(validation: &Validation) -> Section {
         ],
         source: "The white furnace; C. Kulla and A. Conty, “Revisiting Physically Based Shading at Imageworks”, SIGGRAPH 2017 courses.",
         statements,
-        figures: vec![figure(&curves)],
+        figures: vec![plot(CAPTION, Axis::linear("cos θ"), Axis::linear("radiance"), &curves)],
         remark: None,
     }
-}
-
-fn figure(curves: &[crate::validate::plot::Curve]) -> Figure {
-    let shown: Vec<_> = curves.iter().map(|c| curve(c.name.clone(), c.style, c.points.clone())).collect();
-    let caption = "The radiance of lossless balls by the cosine of the angle at which their surface is seen. Exact is 1.";
-    plot(caption, Axis::linear("cos θ"), Axis::linear("radiance"), &shown)
 }
 
 /// How far a mean is from 1 beyond what chance allows.

@@ -31,7 +31,7 @@ pub fn section(validation: &Validation) -> Section {
             "outside_lit_outside" => statements.extend(lamberts_ball(&scene, &found, title)),
             _ => statements.push(Statement::within(format!("{title}: the brightest pixel"), brightest, 0.0, 0.0)),
         }
-        figures.push(Figure { caption: format!("{title} ({name}.toml)"), element: element(&found, title) });
+        figures.push(Figure { caption: title.to_owned(), element: element(&found, title) });
     }
     Section {
         title: "Camera and lamp inside or outside of a sphere",

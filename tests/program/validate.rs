@@ -1,0 +1,49 @@
+//! `noisefall validate`: a report that stands alone, and an exit status that says whether all of it holds.
+use std::{fs, path::Path};
+
+use crate::command_line::{Shell, text};
+
+fn references() -> String {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/references").display().to_string()
+}
+
+#[test]
+fn a_quick_validation_holds_and_writes_a_report_that_needs_nothing_else() {
+    let shell = Shell::new();
+    let done = shell.run(&["validate", "--quick", "-o", "new/report", "--references", &references()]);
+    let shown = text(&done.stdout);
+    assert!(done.status.success(), "{shown}{}", text(&done.stderr));
+    assert!(shown.contains("11  holds") && shown.contains("statements hold"), "{shown}");
+    let report = fs::read_to_string(shell.path("new/report/report.html")).expect("a report");
+    assert_eq!(report.matches("<section").count(), 11);
+    assert!(report.matches("<svg").count() >= 7 && report.contains("data:image/png;base64,"));
+    for outside in ["http://", "https://", "src=\"/", "<script", "<link"] {
+        let elsewhere = report.replace("http://www.w3.org/2000/svg", "");
+        assert!(!elsewhere.contains(outside), "{outside}");
+    }
+    assert!(!report.contains("✗"), "no verdict is red");
+}
+
+#[test]
+fn a_reference_that_differs_fails_the_validation() {
+    let shell = Shell::new();
+    fs::create_dir(shell.path("wrong")).expect("a folder");
+    for name in ["furnace_enclosure.toml", "furnace_enclosure.txt"] {
+        let kept = fs::read_to_string(Path::new(&references()).join(name)).expect("a reference");
+        // One block a fifth too bright.
+        fs::write(shell.path("wrong").join(name), kept.replacen("\n2 2 2", "\n2.4 2 2", 1)).expect("it can be written");
+    }
+    let done = shell.run(&["validate", "--quick", "--references", "wrong"]);
+    assert_eq!(done.status.code(), Some(1), "{}", text(&done.stdout));
+    assert!(text(&done.stderr).contains("statements fail"), "{}", text(&done.stderr));
+    assert!(text(&done.stdout).contains("furnace_enclosure: largest |z|"), "{}", text(&done.stdout));
+}
+
+#[test]
+fn a_folder_that_cannot_be_made_is_told_at_once() {
+    let shell = Shell::new();
+    fs::write(shell.path("file"), "").expect("a file");
+    let done = shell.run(&["validate", "-o", "file"]);
+    assert_eq!(done.status.code(), Some(1));
+    assert!(text(&done.stderr).starts_with("file: cannot be made"), "{}", text(&done.stderr));
+}
