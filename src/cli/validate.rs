@@ -2,14 +2,15 @@
 use std::{path::PathBuf, time::Instant};
 
 use noisefall::{
-    file::replace,
-    validate::{Effort, Section, Validation, html},
+    file::{replace, temporary},
+    validate::{Effort, Section, Validation, html, reference_names},
 };
 
 use super::{Failure, print};
 
 /// The file in the folder that the report goes to.
 const REPORT: &str = "report.html";
+const REFERENCES: &str = "tests/references";
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -19,26 +20,26 @@ pub struct Arguments {
     /// Fewer samples: under half a minute
     #[arg(long)]
     quick: bool,
-    /// Folder of reference scenes with block means
-    #[arg(long, value_name = "DIR", default_value = "tests/references")]
-    references: PathBuf,
+    /// Folder of reference scenes with block means [default: tests/references, if it is there]
+    #[arg(long, value_name = "DIR")]
+    references: Option<PathBuf>,
 }
 
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    // A folder that cannot be written is told before minutes are spent.
-    if let Some(folder) = &arguments.output {
-        std::fs::create_dir_all(folder).map_err(|error| format!("{}: cannot be made: {error}", folder.display()))?;
-    }
+    check(arguments)?;
+    let references = arguments.references.clone().unwrap_or_else(|| REFERENCES.into());
     let effort = if arguments.quick { Effort::Quick } else { Effort::Full };
     let start = Instant::now();
     let mut lines = Vec::new();
-    let sections = Validation::new(effort, arguments.references.clone()).run(|number, section| lines.push(show(number, section)));
+    let sections = Validation::new(effort, references).run(|number, section| lines.push(show(number, section)));
     lines.into_iter().collect::<Result<Vec<()>, Failure>>()?;
     if let Some(folder) = &arguments.output {
         let path = folder.join(REPORT);
         let written = replace(folder, REPORT, html(&sections, effort).as_bytes());
         written.map_err(|error| format!("{}: cannot be written: {error}", path.display()))?;
         print(&format!("report: {}", path.display()))?;
+    } else {
+        print("no report was written: -o DIR says where to")?;
     }
     let statements: usize = sections.iter().map(|section| section.statements.len()).sum();
     let failed: usize = sections.iter().map(failures).sum();
@@ -49,18 +50,38 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     print(&format!("all {statements} statements hold ({seconds:.0} s)"))
 }
 
+/// What is wrong with the folders is told before a minute is spent.
+fn check(arguments: &Arguments) -> Result<(), Failure> {
+    if let Some(folder) = &arguments.references
+        && reference_names(folder).is_empty()
+    {
+        return Err(format!("{}: no references (NAME.toml with NAME.txt) in this folder", folder.display()));
+    }
+    let Some(folder) = &arguments.output else { return Ok(()) };
+    if folder.exists() && !folder.is_dir() {
+        return Err(format!("{}: this is a file; -o names a folder", folder.display()));
+    }
+    let refused = |error: std::io::Error| format!("{}: cannot be written to: {}", folder.display(), error.kind());
+    std::fs::create_dir_all(folder).and_then(|()| temporary(folder).map(drop)).map_err(refused)
+}
+
 fn failures(section: &Section) -> usize {
     section.statements.iter().filter(|statement| !statement.holds).count()
 }
 
 /// A line for the section, and one for each statement that fails.
 fn show(number: usize, section: &Section) -> Result<(), Failure> {
-    let verdict = if section.holds() { "holds" } else { "FAILS" };
-    print(&format!("{number:>2}  {verdict}  {:>3} statements  {}", section.statements.len(), section.title))?;
+    let verdict = match (section.was_run(), section.holds()) {
+        (false, _) => "not run",
+        (_, true) => "holds",
+        (_, false) => "FAILS",
+    };
+    print(&format!("{number:>2}  {verdict:<7}  {:>3} statements  {}", section.statements.len(), section.title.replace('_', "")))?;
     for statement in section.statements.iter().filter(|statement| !statement.holds) {
-        let (measured, exact) = (statement.measured, statement.exact);
+        let measured = statement.measured;
+        let exact = statement.exact.map_or(String::new(), |exact| format!("exact {exact:.6e}, "));
         print(&format!(
-            "           {}: {measured:.6e} ± {:.1e}, exact {exact:.6e}, {}",
+            "           {}: {measured:.6e} ± {:.1e}, {exact}{}",
             statement.what, statement.error, statement.statistic
         ))?;
     }

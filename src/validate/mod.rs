@@ -12,7 +12,7 @@ mod tests;
 
 use std::path::PathBuf;
 
-pub use self::{report::html, statement::Statement};
+pub use self::{report::html, sections::reference_names, statement::Statement};
 #[cfg(test)]
 use crate::scene::Fault;
 
@@ -55,6 +55,11 @@ pub struct Figure {
 }
 
 impl Section {
+    /// Whether there was anything to hold it against.
+    pub fn was_run(&self) -> bool {
+        !self.statements.is_empty()
+    }
+
     pub fn holds(&self) -> bool {
         self.statements.iter().all(|statement| statement.holds)
     }

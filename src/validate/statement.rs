@@ -11,7 +11,8 @@ pub struct Statement {
     pub measured: f64,
     /// Standard error of `measured`; 0 where there is no chance in it.
     pub error: f64,
-    pub exact: f64,
+    /// None where the statement is about a limit.
+    pub exact: Option<f64>,
     /// The test and its outcome.
     pub statistic: String,
     pub holds: bool,
@@ -21,7 +22,14 @@ impl Statement {
     /// A z-test.
     pub fn z(what: impl Into<String>, measured: f64, error: f64, exact: f64) -> Statement {
         let z = if measured == exact { 0.0 } else { (measured - exact) / error };
-        Statement { what: what.into(), measured, error, exact, statistic: format!("z = {z:+.2}"), holds: z.abs() < SIGMAS }
+        Statement {
+            what: what.into(),
+            measured,
+            error,
+            exact: Some(exact),
+            statistic: format!("z = {z:+.2}"),
+            holds: z.abs() < SIGMAS,
+        }
     }
 
     /// The z-test of a mean by the variance of its own samples.
@@ -29,7 +37,7 @@ impl Statement {
         let z = found.z(exact);
         let error = found.variance_of_mean.sqrt();
         let statistic = format!("z = {z:+.2}");
-        Statement { what: what.into(), measured: found.mean, error, exact, statistic, holds: z.abs() < SIGMAS }
+        Statement { what: what.into(), measured: found.mean, error, exact: Some(exact), statistic, holds: z.abs() < SIGMAS }
     }
 
     /// The z-test of the mean of samples whose variance is known.
@@ -47,12 +55,19 @@ impl Statement {
     pub fn within(what: impl Into<String>, measured: f64, exact: f64, tolerance: f64) -> Statement {
         let difference = (measured - exact).abs();
         let statistic = format!("|Δ| = {difference:.1e} ≤ {tolerance:.0e}");
-        Statement { what: what.into(), measured, error: 0.0, exact, statistic, holds: difference <= tolerance }
+        Statement { what: what.into(), measured, error: 0.0, exact: Some(exact), statistic, holds: difference <= tolerance }
+    }
+
+    /// Nothing may be found where something is counted.
+    pub fn none(what: impl Into<String>, count: u32) -> Statement {
+        let statistic = "must be 0".to_owned();
+        Statement { what: what.into(), measured: f64::from(count), error: 0.0, exact: Some(0.0), statistic, holds: count == 0 }
     }
 
     /// Must be less than a limit.
     pub fn below(what: impl Into<String>, measured: f64, limit: f64) -> Statement {
-        let statistic = format!("< {limit}");
-        Statement { what: what.into(), measured, error: 0.0, exact: limit, statistic, holds: measured < limit }
+        let text = if limit.abs() < 1e-3 { format!("{limit:.0e}") } else { limit.to_string() };
+        let statistic = format!("must be < {text}");
+        Statement { what: what.into(), measured, error: 0.0, exact: None, statistic, holds: measured < limit }
     }
 }

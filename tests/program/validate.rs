@@ -36,7 +36,7 @@ fn a_reference_that_differs_fails_the_validation() {
     let done = shell.run(&["validate", "--quick", "--references", "wrong"]);
     assert_eq!(done.status.code(), Some(1), "{}", text(&done.stdout));
     assert!(text(&done.stderr).contains("statements fail"), "{}", text(&done.stderr));
-    assert!(text(&done.stdout).contains("furnace_enclosure: largest |z|"), "{}", text(&done.stdout));
+    assert!(text(&done.stdout).contains("furnace enclosure: largest |z|"), "{}", text(&done.stdout));
 }
 
 #[test]
@@ -45,5 +45,12 @@ fn a_folder_that_cannot_be_made_is_told_at_once() {
     fs::write(shell.path("file"), "").expect("a file");
     let done = shell.run(&["validate", "-o", "file"]);
     assert_eq!(done.status.code(), Some(1));
-    assert!(text(&done.stderr).starts_with("file: cannot be made"), "{}", text(&done.stderr));
+    assert!(text(&done.stderr).starts_with("file: this is a file"), "{}", text(&done.stderr));
+}
+
+#[test]
+fn references_that_are_asked_for_must_be_there() {
+    let done = Shell::new().run(&["validate", "--quick", "--references", "nowhere"]);
+    assert_eq!(done.status.code(), Some(1));
+    assert!(text(&done.stderr).starts_with("nowhere: no references"), "{}", text(&done.stderr));
 }

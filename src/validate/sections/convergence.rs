@@ -34,10 +34,10 @@ pub fn section(validation: &Validation) -> Section {
             "By symmetry the radiance L is the same everywhere and in all directions, so that the integral over the hemisphere is \
              ρ L and the equation becomes L = L_e + ρ L, that is L = L_e/(1 − ρ): no discretisation, no approximation.",
             "A path of uniform directions multiplies its throughput by ρ · 2 cos θ at every wall, of mean ρ; a path of \
-             cosine-distributed directions by ρ itself, so that every single sample is the geometric series.",
+             cosine-distributed directions by ρ itself, so that every single sample is the geometric series. No path is capped here: \
+             it ends when its throughput has become 0 in f32, which leaves out less than can be represented.",
         ],
-        source: "The furnace test; J. Arvo, “The Irradiance Jacobian for Partially Occluded Polyhedral Sources”, 1994, on uniform \
-                 enclosures. Camera inside a sphere, L_e = 1.",
+        source: "The furnace test. Camera inside a sphere, L_e = 1.",
         statements,
         figures: vec![running_means(validation)],
         remark: None,

@@ -42,7 +42,8 @@ pub fn section(validation: &Validation) -> Section {
              hemisphere of every wall point, the wall itself the rest. The radiance B of the wall is B = ρ (L F + B (1 − F)), here \
              with ρ = 1/2, L = 8.5 and F = 1/16: B = 1/2 everywhere.",
             "Outside: where the whole lamp is above the horizon, a ball shows (ρ/π) E = ρ L (r/d)² cos θ, d being the distance of \
-             the lamp's centre and θ its angle from the normal (Lambert's ball).",
+             the lamp's centre and θ its angle from the normal (Lambert's ball). Here the ball is the unit sphere with ρ = 0.8, the lamp \
+             lies at (1.7, 1.4, 1) with r = 0.5 and L = 8; pixels in which the lamp dips below the horizon are left out.",
             "With a wall between lamp and camera nothing arrives: each pixel is exactly 0, for no ray may step through a surface.",
         ],
         source: "Form factor of a concentric sphere; P. Moon, “The Scientific Basis of Illuminating Engineering”, 1936.",

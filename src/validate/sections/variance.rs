@@ -27,7 +27,7 @@ pub fn section(validation: &Validation) -> Section {
         if sampler == Sampler::Independent {
             for (n, found) in &points {
                 let exact = one_reflection / n;
-                statements.push(Statement::variance(format!("one reflection, mean of {n} samples: variance"), found, exact));
+                statements.push(Statement::variance(format!("one reflection: variance of the mean of N = {n}"), found, exact));
             }
         }
         slopes.push(slope(&points));
@@ -47,7 +47,7 @@ pub fn section(validation: &Validation) -> Section {
         derivation: &[
             "A sample is X = L_e + ρ w X′ with the weight w = 2 cos θ of a uniform direction, E w = 1, E w² = 4/3, and X′ \
              distributed as X but independent of w. Hence E X² = L_e² + 2 L_e ρ L + ρ² (4/3) E X², which gives \
-             Var X = (L_e² + 2 L_e ρ L)/(1 − 4ρ²/3) − L².",
+             Var X = (L_e² + 2 L_e ρ L)/(1 − 4ρ²/3) − L², finite while ρ² < 3/4. Here ρ = 0.5 and L_e = 1.",
             "With one reflection only, X = L_e (1 + 2ρ cos θ) and Var X = 4ρ² L_e² (1/3 − 1/4) = ρ² L_e²/3. Independent samples \
              add their variances; samples that avoid each other need not, and for a smooth integrand they fall faster.",
         ],
@@ -60,7 +60,7 @@ pub fn section(validation: &Validation) -> Section {
 }
 
 fn figure(curves: &[crate::validate::plot::Curve]) -> Figure {
-    let caption = "Variance of the mean over 1024 pixels against N, one reflection in the furnace with ρ = 0.5.";
+    let caption = "Variance, over 1024 pixels, of the mean of N samples; one reflection in the furnace with ρ = 0.5.";
     plot(caption, Axis::log("samples N"), Axis::log("variance of the mean"), curves)
 }
 
