@@ -40,8 +40,9 @@ impl Axis {
         if !(0.001..10_000.0).contains(&size) && size > 0.0 {
             return format!("{value:.0e}");
         }
-        // Three digits that count.
-        let digits = if size > 0.0 { (2.0 - size.log10().floor()).max(0.0) as usize } else { 0 };
+        // Digits that count: neighbouring labels of a linear axis may differ in the fifth.
+        let count = if self.log { 2.0 } else { 4.0 };
+        let digits = if size > 0.0 { (count - size.log10().floor()).max(0.0) as usize } else { 0 };
         let text = format!("{value:.digits$}");
         if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
     }

@@ -103,7 +103,7 @@ fn element(found: &Picture, title: &str) -> String {
     let written = encoder.write_header().and_then(|mut writer| writer.write_image_data(&rgb));
     match written {
         Ok(()) => format!(
-            "<img width='192' height='192' style='image-rendering: pixelated' alt='{title}' src='data:image/png;base64,{}'>",
+            "<img width='172' height='172' style='image-rendering: pixelated' alt='{title}' src='data:image/png;base64,{}'>",
             BASE64_STANDARD.encode(&bytes)
         ),
         Err(error) => format!("<p>this picture could not be written: {error}</p>"),
