@@ -37,6 +37,27 @@ pub fn sphere_irradiance(radiance: f64, radius: f64, distance: f64, cos: f64) ->
     std::f64::consts::PI * radiance * (radius / distance).powi(2) * cos
 }
 
+/// A spherical lamp.
+#[derive(Clone, Copy)]
+pub struct Lamp {
+    pub center: DVec3,
+    pub radius: f64,
+    pub radiance: f64,
+}
+
+/// The radiance of a diffuse unit sphere around the origin where the ray o + td first meets it from outside: ρ/π times the
+/// [irradiance](sphere_irradiance) by the lamp. None elsewhere, and where the lamp dips below the horizon.
+pub fn lamberts_ball(albedo: f64, lamp: Lamp, o: DVec3, d: DVec3) -> Option<f64> {
+    let b = o.dot(d);
+    let discriminant = b * b - (o.length_squared() - 1.0);
+    let t = (discriminant > 0.0).then(|| -b - discriminant.sqrt())?;
+    let p = o + d * t;
+    let to_lamp = lamp.center - p;
+    let (distance, cos) = (to_lamp.length(), p.dot(to_lamp.normalize()));
+    let above_horizon = cos * distance > lamp.radius;
+    above_horizon.then(|| albedo / std::f64::consts::PI * sphere_irradiance(lamp.radiance, lamp.radius, distance, cos))
+}
+
 /// Irradiance by a sphere that the horizon may cut, `cos` being that of the angle θ of its centre from the normal. Between
 /// [`sphere_irradiance`] while all of it is up and 0 when all of it has set, that is for |cos θ| < r/d, with h = d/r:
 ///

@@ -2,7 +2,7 @@
 use glam::DVec3;
 use noisefall::{
     math::SimdLevel,
-    measure::exact::sphere_irradiance,
+    measure::exact::{Lamp, lamberts_ball},
     render::{
         film::{Estimate, Film},
         pass::{PassJob, Threads},
@@ -12,6 +12,10 @@ use noisefall::{
 };
 
 use crate::statistics::assert_within;
+
+/// Of `outside_lit_outside.toml`.
+const ALBEDO: f64 = 0.8;
+const LAMP: Lamp = Lamp { center: DVec3::new(1.7, 1.4, 1.0), radius: 0.5, radiance: 8.0 };
 
 const SIDE: u32 = 64;
 
@@ -81,20 +85,6 @@ fn a_lamp_in_the_middle_lights_the_inside_evenly() {
     }
 }
 
-/// ρ/π times the irradiance by the lamp where the ray meets the ball; `None` elsewhere and where the lamp dips below the horizon.
-fn lamberts_ball(o: DVec3, d: DVec3) -> Option<f64> {
-    const ALBEDO: f64 = 0.8;
-    const LAMP: (DVec3, f64, f64) = (DVec3::new(1.7, 1.4, 1.0), 0.5, 8.0);
-    let (b, c) = (o.dot(d), o.length_squared() - 1.0);
-    let discriminant = b * b - c;
-    let t = (discriminant > 0.0).then(|| -b - discriminant.sqrt())?;
-    let p = o + d * t;
-    let to_lamp = LAMP.0 - p;
-    let (distance, cos) = (to_lamp.length(), p.dot(to_lamp.normalize()));
-    let above_horizon = cos * distance > LAMP.1;
-    above_horizon.then(|| ALBEDO / std::f64::consts::PI * sphere_irradiance(LAMP.2, LAMP.1, distance, cos))
-}
-
 #[test]
 fn a_ball_lit_from_outside_is_lamberts_ball() {
     const SUB: u32 = 8;
@@ -108,7 +98,10 @@ fn a_ball_lit_from_outside_is_lamberts_ball() {
         let at =
             |corner: u32, sub: u32| (f64::from(corner) + (f64::from(sub) + 0.5) / f64::from(SUB)) / f64::from(SIDE) * 2.0 - 1.0;
         let ray = |i: u32| (forward + right * (half * at(x, i % SUB)) - up * (half * at(y, i / SUB))).normalize();
-        (0..SUB * SUB).map(|i| lamberts_ball(scene.camera.eye, ray(i))).sum::<Option<f64>>().map(|sum| sum / f64::from(SUB * SUB))
+        (0..SUB * SUB)
+            .map(|i| lamberts_ball(ALBEDO, LAMP, scene.camera.eye, ray(i)))
+            .sum::<Option<f64>>()
+            .map(|sum| sum / f64::from(SUB * SUB))
     };
     let lit: Vec<_> = picture.iter().enumerate().filter_map(|(i, pixel)| Some((*pixel, exact(i)?))).collect();
     assert!(lit.len() > 150, "the ball is in the picture: {}", lit.len());

@@ -4,11 +4,19 @@ use glam::DVec3;
 
 use crate::{
     math::colour::srgb_from_linear,
-    measure::{Mean, Picture, exact::sphere_irradiance, picture},
+    measure::{
+        Mean, Picture,
+        exact::{Lamp, lamberts_ball},
+        picture,
+    },
     sampling::Directions,
     scene::{Camera, RenderSettings, Roulette, Scene, parse},
     validate::{Figure, Section, Statement, Validation, check::RED},
 };
+
+/// Of `outside_lit_outside.toml`.
+const ALBEDO: f64 = 0.8;
+const LAMP: Lamp = Lamp { center: DVec3::new(1.7, 1.4, 1.0), radius: 0.5, radiance: 8.0 };
 
 const SIDE: u32 = 96;
 const CASES: [(&str, &str, &str); 4] = [
@@ -28,7 +36,7 @@ pub fn section(validation: &Validation) -> Section {
         let brightest = found.pixels.iter().map(|pixel| pixel.mean).fold(0.0, f64::max);
         match name {
             "inside_lit_inside" => statements.push(Statement::mean(format!("{title}: the whole picture"), found.whole(), 0.5)),
-            "outside_lit_outside" => statements.extend(lamberts_ball(&scene, &found, title)),
+            "outside_lit_outside" => statements.extend(lit_parts(&scene, &found, title)),
             _ => statements.push(Statement::within(format!("{title}: the brightest pixel"), brightest, 0.0, 0.0)),
         }
         figures.push(Figure { caption: title.to_owned(), element: element(&found, title) });
@@ -54,7 +62,7 @@ pub fn section(validation: &Validation) -> Section {
 }
 
 /// The pixels in which the whole lamp is above the horizon, in four parts from top to bottom.
-fn lamberts_ball(scene: &Scene, found: &Picture, title: &str) -> Vec<Statement> {
+fn lit_parts(scene: &Scene, found: &Picture, title: &str) -> Vec<Statement> {
     const SUB: u32 = 8;
     let [right, up, forward] = scene.camera.axes();
     let half = (scene.camera.fov.to_radians() / 2.0).tan();
@@ -64,7 +72,7 @@ fn lamberts_ball(scene: &Scene, found: &Picture, title: &str) -> Vec<Statement> 
         let at =
             |corner: u32, sub: u32| (f64::from(corner) + (f64::from(sub) + 0.5) / f64::from(SUB)) / f64::from(SIDE) * 2.0 - 1.0;
         let ray = |i: u32| (forward + right * (half * at(x, i % SUB)) - up * (half * at(y, i / SUB))).normalize();
-        let sum = (0..SUB * SUB).map(|i| radiance(scene.camera.eye, ray(i))).sum::<Option<f64>>();
+        let sum = (0..SUB * SUB).map(|i| lamberts_ball(ALBEDO, LAMP, scene.camera.eye, ray(i))).sum::<Option<f64>>();
         sum.map(|sum| sum / f64::from(SUB * SUB))
     };
     let lit: Vec<(Mean, f64)> = found.pixels.iter().enumerate().filter_map(|(i, pixel)| Some((*pixel, exact(i)?))).collect();
@@ -77,20 +85,6 @@ fn lamberts_ball(scene: &Scene, found: &Picture, title: &str) -> Vec<Statement> 
         )
     });
     parts.collect()
-}
-
-/// ρ/π times the irradiance where the ray meets the ball; none elsewhere and where the lamp dips below the horizon.
-fn radiance(o: DVec3, d: DVec3) -> Option<f64> {
-    const ALBEDO: f64 = 0.8;
-    const LAMP: (DVec3, f64, f64) = (DVec3::new(1.7, 1.4, 1.0), 0.5, 8.0);
-    let b = o.dot(d);
-    let discriminant = b * b - (o.length_squared() - 1.0);
-    let t = (discriminant > 0.0).then(|| -b - discriminant.sqrt())?;
-    let p = o + d * t;
-    let to_lamp = LAMP.0 - p;
-    let (distance, cos) = (to_lamp.length(), p.dot(to_lamp.normalize()));
-    let above = cos * distance > LAMP.1;
-    above.then(|| ALBEDO / std::f64::consts::PI * sphere_irradiance(LAMP.2, LAMP.1, distance, cos))
 }
 
 /// The picture as it is in the report.
