@@ -6,6 +6,8 @@
 
 use glam::DVec3;
 
+use crate::scene::Camera;
+
 /// L_e / (1 − ρ).
 pub fn furnace(le: f64, albedo: f64) -> f64 {
     le / (1.0 - albedo)
@@ -56,6 +58,22 @@ pub fn lamberts_ball(albedo: f64, lamp: Lamp, o: DVec3, d: DVec3) -> Option<f64>
     let (distance, cos) = (to_lamp.length(), p.dot(to_lamp.normalize()));
     let above_horizon = cos * distance > lamp.radius;
     above_horizon.then(|| albedo / std::f64::consts::PI * sphere_irradiance(lamp.radiance, lamp.radius, distance, cos))
+}
+
+/// The mean of an exact radiance of rays o + td over a pixel of a pinhole camera, by the midpoint rule; none where it is not known
+/// all over the pixel.
+pub fn mean_over_pixel(camera: &Camera, [x, y]: [u32; 2], radiance: impl Fn(DVec3, DVec3) -> Option<f64>) -> Option<f64> {
+    const SUB: u32 = 8;
+    let [right, up, forward] = camera.axes();
+    let [width, height] = camera.resolution.map(f64::from);
+    let half = (camera.fov.to_radians() / 2.0).tan();
+    let at = |corner: u32, sub: u32| f64::from(corner) + (f64::from(sub) + 0.5) / f64::from(SUB);
+    let ray = |i: u32| {
+        let (across, down) = (2.0 * at(x, i % SUB) - width, 2.0 * at(y, i / SUB) - height);
+        (forward + (right * across - up * down) * (half / width)).normalize()
+    };
+    let sum = (0..SUB * SUB).map(|i| radiance(camera.eye, ray(i))).sum::<Option<f64>>();
+    sum.map(|sum| sum / f64::from(SUB * SUB))
 }
 
 /// Irradiance by a sphere that the horizon may cut, `cos` being that of the angle θ of its centre from the normal. Between

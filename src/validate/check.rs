@@ -1,8 +1,12 @@
 //! What sections measure with: scenes from text, settings whose only chance is in the samples, sums over pictures.
 use super::Validation;
 use crate::{
+    math::{F, One, U},
     measure::{Measure, Moments, samples},
-    sampling::{Directions, Sampler},
+    sampling::{
+        Directions, Sampler,
+        hash::{hash, unit},
+    },
     scene::{Estimator, RenderSettings, Roulette, Scene, parse},
 };
 
@@ -24,6 +28,11 @@ pub fn furnace(albedo: f64) -> Scene {
         emission.radiance = 1.0
         flip = true"
     ))
+}
+
+/// A number in (0, 1) for each of eight dimensions of the `i`-th of many.
+pub fn uniform(i: u32, dimension: u32) -> F<One> {
+    unit(hash(U(i.wrapping_mul(8).wrapping_add(dimension))))
 }
 
 impl Validation {

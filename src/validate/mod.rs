@@ -12,7 +12,11 @@ mod tests;
 
 use std::path::PathBuf;
 
-pub use self::{report::html, sections::reference_names, statement::Statement};
+pub use self::{
+    report::html,
+    sections::{Agreement, agreement, reference_names},
+    statement::Statement,
+};
 #[cfg(test)]
 use crate::scene::Fault;
 

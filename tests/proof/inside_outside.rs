@@ -2,7 +2,7 @@
 use glam::DVec3;
 use noisefall::{
     math::SimdLevel,
-    measure::exact::{Lamp, lamberts_ball},
+    measure::exact::{Lamp, lamberts_ball, mean_over_pixel},
     render::{
         film::{Estimate, Film},
         pass::{PassJob, Threads},
@@ -87,21 +87,12 @@ fn a_lamp_in_the_middle_lights_the_inside_evenly() {
 
 #[test]
 fn a_ball_lit_from_outside_is_lamberts_ball() {
-    const SUB: u32 = 8;
     let scene = scene("outside_lit_outside");
     let picture = render(&scene, Directions::Cosine, 1024);
-    let [right, up, forward] = scene.camera.axes();
-    let half = (scene.camera.fov.to_radians() / 2.0).tan();
-    // The exact mean over a pixel by the midpoint rule, where the formula holds in all of it.
-    let exact = |pixel: usize| -> Option<f64> {
-        let (x, y) = (pixel as u32 % SIDE, pixel as u32 / SIDE);
-        let at =
-            |corner: u32, sub: u32| (f64::from(corner) + (f64::from(sub) + 0.5) / f64::from(SUB)) / f64::from(SIDE) * 2.0 - 1.0;
-        let ray = |i: u32| (forward + right * (half * at(x, i % SUB)) - up * (half * at(y, i / SUB))).normalize();
-        (0..SUB * SUB)
-            .map(|i| lamberts_ball(ALBEDO, LAMP, scene.camera.eye, ray(i)))
-            .sum::<Option<f64>>()
-            .map(|sum| sum / f64::from(SUB * SUB))
+    let camera = Camera { resolution: [SIDE; 2], ..scene.camera };
+    let exact = |pixel: usize| {
+        let place = [pixel as u32 % SIDE, pixel as u32 / SIDE];
+        mean_over_pixel(&camera, place, |o, d| lamberts_ball(ALBEDO, LAMP, o, d))
     };
     let lit: Vec<_> = picture.iter().enumerate().filter_map(|(i, pixel)| Some((*pixel, exact(i)?))).collect();
     assert!(lit.len() > 150, "the ball is in the picture: {}", lit.len());

@@ -3,11 +3,11 @@ use crate::{
     material::{Bsdf, Conductor, Local, Material, Materials, Plastic, Reflectance},
     math::{F, M, One, U, V},
     measure::{Mean, Picture, picture},
-    sampling::{Directions, hash::hash_one},
+    sampling::Directions,
     scene::Scene,
     validate::{
         Section, Statement, Validation,
-        check::{RED, scene},
+        check::{RED, scene, uniform},
         plot::{Axis, Style, curve, plot},
         statement::SIGMAS,
     },
@@ -121,10 +121,7 @@ fn reciprocity(validation: &Validation) -> Vec<Statement> {
 
 /// The largest relative difference between f of two directions and f of the same exchanged.
 fn asymmetry(name: &str, count: u32, bsdf: &impl Bsdf<One>) -> Statement {
-    let direction = |i: u32| {
-        let u = |dimension: u32| (hash_one(i.wrapping_mul(4).wrapping_add(dimension)) >> 8) as f32 / 16_777_216.0;
-        Directions::Cosine.sample((F(u(0)), F(u(1))))
-    };
+    let direction = |i: u32| Directions::Cosine.sample((uniform(i, 0), uniform(i, 1)));
     let worst = (0..count).map(|i| {
         let (a, b) = (direction(2 * i), direction(2 * i + 1));
         let f = |wo: V<One>, wi: V<One>| f64::from(bsdf.eval(wo, wi).0.x.0) / f64::from(wi.z.0);

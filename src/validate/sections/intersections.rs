@@ -8,9 +8,10 @@ use crate::{
     geometry::{MISS, Motion, Nearest, Shape, Shapes},
     material::{Bsdf, Lambertian},
     math::{F, M, One, U, V},
-    sampling::{Directions, hash::hash_one},
+    sampling::Directions,
     validate::{
         Figure, Section, Statement, Validation,
+        check::uniform,
         plot::{Axis, Style, curve, plot},
     },
 };
@@ -53,11 +54,6 @@ pub fn section(validation: &Validation) -> Section {
     }
 }
 
-/// A uniform number by its count.
-fn uniform(i: u32, dimension: u32) -> f32 {
-    (hash_one(i.wrapping_mul(8).wrapping_add(dimension)) >> 8) as f32 / 16_777_216.0
-}
-
 type Points = Vec<(f64, f64)>;
 
 fn hemisphere(validation: &Validation, directions: Directions) -> (Statement, Points, Points) {
@@ -65,7 +61,7 @@ fn hemisphere(validation: &Validation, directions: Directions) -> (Statement, Po
     let bsdf = Lambertian { albedo: V::splat(One, [1.0; 3]), directions };
     let mut bins = vec![0u32; BINS[0] * BINS[1]];
     for i in 0..count {
-        let wi = bsdf.sample(V::splat(One, [0.0, 0.0, 1.0]), (F(uniform(i, 0)), F(uniform(i, 1))), F(0.5)).wi;
+        let wi = bsdf.sample(V::splat(One, [0.0, 0.0, 1.0]), (uniform(i, 0), uniform(i, 1)), F(0.5)).wi;
         let turn = (f64::from(wi.y.0).atan2(f64::from(wi.x.0)) / (2.0 * PI)).rem_euclid(1.0);
         let place = [f64::from(wi.z.0), turn].into_iter().zip(BINS).map(|(x, n)| ((x * n as f64) as usize).min(n - 1));
         let [a, b] = place.collect::<Vec<_>>()[..] else { unreachable!("two coordinates") };
@@ -104,13 +100,14 @@ fn hits(validation: &Validation) -> Vec<(f64, Vec<f64>)> {
         let shapes = Shapes::new(std::iter::once((&shape, &Motion::default())), DVec3::ZERO);
         let error = |i: u32| {
             let unit = |dimension: u32| {
-                let (z, turn) = (2.0 * f64::from(uniform(i, dimension)) - 1.0, 2.0 * PI * f64::from(uniform(i, dimension + 1)));
+                let (z, turn) =
+                    (2.0 * f64::from(uniform(i, dimension).0) - 1.0, 2.0 * PI * f64::from(uniform(i, dimension + 1).0));
                 let r = (1.0 - z * z).sqrt();
                 DVec3::new(r * turn.cos(), z, r * turn.sin())
             };
             // From inside and outside, within ten radii of the point where the scene is anchored, towards a point near the sphere.
-            let o = (unit(0) * radius.min(10.0) * 10.0 * f64::from(uniform(i, 4))).as_vec3();
-            let target = center + unit(2) * radius * f64::from(uniform(i, 5)).sqrt();
+            let o = (unit(0) * radius.min(10.0) * 10.0 * f64::from(uniform(i, 4).0)).as_vec3();
+            let target = center + unit(2) * radius * f64::from(uniform(i, 5).0).sqrt();
             let d = (target - o.as_dvec3()).normalize().as_vec3();
             error_of_hit(&shapes, center, radius, o.as_dvec3(), d.as_dvec3())
         };

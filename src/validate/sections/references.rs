@@ -26,7 +26,7 @@ pub fn section(validation: &Validation) -> Section {
         found.truncate(1);
     }
     for name in &found {
-        statements.extend(agreement(validation, name));
+        statements.extend(self::statements(validation, name));
     }
     let place = validation.references.display();
     let remark = match found.len() {
@@ -65,44 +65,57 @@ pub fn names(folder: &Path) -> Vec<String> {
     names
 }
 
-fn agreement(validation: &Validation, name: &str) -> Vec<Statement> {
-    let failed = |reason: String| {
-        vec![Statement {
-            what: format!("{}: {reason}", spoken(name)),
-            measured: f64::NAN,
-            error: 0.0,
-            exact: None,
-            statistic: String::new(),
-            holds: false,
-        }]
-    };
+fn statements(validation: &Validation, name: &str) -> Vec<Statement> {
     let path = validation.references.join(format!("{name}.toml"));
-    let scene = match load(&path) {
-        Ok(scene) => scene,
-        Err(error) => return failed(error.report()),
+    let settings = |scene: &Scene| RenderSettings {
+        max_bounces: scene.settings.max_bounces,
+        roulette: Roulette::BY_THROUGHPUT,
+        ..validation.settings(Estimator::Mis)
     };
-    let reference = match fs::read_to_string(path.with_extension("txt")).map(|text| blocks(&text)) {
-        Ok(Some(reference)) => reference,
-        Ok(None) => return failed("its block means cannot be read".to_owned()),
-        Err(error) => return failed(format!("its block means cannot be read: {error}")),
-    };
-    let ours = rendered(validation, &scene);
+    let what = |text: String| format!("{}: {text}", spoken(name));
+    match agreement(&path, settings, validation.spp(800)) {
+        Ok(Agreement { worst, rms, count }) => vec![
+            Statement::below(what(format!("largest |z| of {count} block means")), worst, MOST_SIGMAS),
+            Statement::below(what("root mean square of z".to_owned()), rms, 1.1),
+        ],
+        Err(reason) => {
+            let statistic = String::new();
+            vec![Statement { what: what(reason), measured: f64::NAN, error: 0.0, exact: None, statistic, holds: false }]
+        }
+    }
+}
+
+/// How far block means are from a reference, in standard errors of both.
+pub struct Agreement {
+    pub worst: f64,
+    pub rms: f64,
+    /// Block means compared.
+    pub count: usize,
+}
+
+/// Renders the scene of a file and compares it with the block means beside it. The variance of `settings` must be known from the
+/// samples themselves, as that of independent ones is.
+pub fn agreement(path: &Path, settings: impl FnOnce(&Scene) -> RenderSettings, spp: u32) -> Result<Agreement, String> {
+    let scene = load(path).map_err(|error| error.report())?;
+    let unread = |reason: &str| format!("its block means cannot be read{reason}");
+    let text = fs::read_to_string(path.with_extension("txt")).map_err(|error| unread(&format!(": {error}")))?;
+    let reference = blocks(&text).ok_or_else(|| unread(""))?;
+    let ours = rendered(&scene, &settings(&scene), spp);
     if ours.len() != reference.len() {
-        return failed(format!("{} blocks, but the reference has {}", ours.len(), reference.len()));
+        return Err(format!("{} blocks, but the reference has {}", ours.len(), reference.len()));
     }
-    let (mut worst, mut squares, mut count) = (0f64, 0.0, 0.0);
-    for (ours, theirs) in ours.iter().flatten().zip(reference.iter().flatten()) {
+    let z = |([mean, variance], [exact, error]): (&[f64; 2], &[f64; 2])| {
         // Rounding of the reference's six digits, and of ours.
-        let rounding = 2e-6 * theirs[0];
-        let z = (ours[0] - theirs[0]) / (ours[1] + theirs[1] + rounding * rounding).sqrt();
-        worst = worst.max(z.abs());
-        squares += z * z;
-        count += 1.0;
-    }
-    vec![
-        Statement::below(format!("{}: largest |z| of {count} block means", spoken(name)), worst, MOST_SIGMAS),
-        Statement::below(format!("{}: root mean square of z", spoken(name)), f64::sqrt(squares / count), 1.1),
-    ]
+        let rounding = 2e-6 * exact;
+        (mean - exact) / (variance + error + rounding * rounding).sqrt()
+    };
+    let deviations: Vec<f64> = ours.iter().flatten().zip(reference.iter().flatten()).map(z).collect();
+    let count = deviations.len();
+    Ok(Agreement {
+        worst: deviations.iter().fold(0.0, |worst, z| z.abs().max(worst)),
+        rms: (deviations.iter().map(|z| z * z).sum::<f64>() / count as f64).sqrt(),
+        count,
+    })
 }
 
 /// Six numbers a line: means, then standard errors; lines that start with # are remarks.
@@ -115,14 +128,12 @@ fn blocks(text: &str) -> Option<Vec<Block>> {
     text.lines().filter(|line| !line.starts_with('#')).map(block).collect()
 }
 
-fn rendered(validation: &Validation, scene: &Scene) -> Vec<Block> {
-    let settings = RenderSettings { max_bounces: scene.settings.max_bounces, ..validation.settings(Estimator::Mis) };
-    let settings = RenderSettings { roulette: Roulette::BY_THROUGHPUT, ..settings };
+fn rendered(scene: &Scene, settings: &RenderSettings, spp: u32) -> Vec<Block> {
     let [width, height] = scene.camera.resolution;
     let mut film = Film::new([width, height]);
     let threads = Threads::new(0, SimdLevel::best()).expect("threads can be had");
     let rays = scene.rays(&scene.camera);
-    threads.pass(PassJob { scene, rays: &rays, settings: &settings }, &mut film, validation.spp(800), &|| false);
+    threads.pass(PassJob { scene, rays: &rays, settings }, &mut film, spp, &|| false);
     let columns = width.div_ceil(BLOCK);
     let mut blocks = vec![Block::default(); (columns * height.div_ceil(BLOCK)) as usize];
     let pixels = f64::from(BLOCK * BLOCK);

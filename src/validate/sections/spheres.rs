@@ -6,7 +6,7 @@ use crate::{
     math::colour::srgb_from_linear,
     measure::{
         Mean, Picture,
-        exact::{Lamp, lamberts_ball},
+        exact::{Lamp, lamberts_ball, mean_over_pixel},
         picture,
     },
     sampling::Directions,
@@ -63,17 +63,9 @@ pub fn section(validation: &Validation) -> Section {
 
 /// The pixels in which the whole lamp is above the horizon, in four parts from top to bottom.
 fn lit_parts(scene: &Scene, found: &Picture, title: &str) -> Vec<Statement> {
-    const SUB: u32 = 8;
-    let [right, up, forward] = scene.camera.axes();
-    let half = (scene.camera.fov.to_radians() / 2.0).tan();
-    // The mean over a pixel by the midpoint rule.
-    let exact = |pixel: usize| -> Option<f64> {
-        let (x, y) = (pixel as u32 % SIDE, pixel as u32 / SIDE);
-        let at =
-            |corner: u32, sub: u32| (f64::from(corner) + (f64::from(sub) + 0.5) / f64::from(SUB)) / f64::from(SIDE) * 2.0 - 1.0;
-        let ray = |i: u32| (forward + right * (half * at(x, i % SUB)) - up * (half * at(y, i / SUB))).normalize();
-        let sum = (0..SUB * SUB).map(|i| lamberts_ball(ALBEDO, LAMP, scene.camera.eye, ray(i))).sum::<Option<f64>>();
-        sum.map(|sum| sum / f64::from(SUB * SUB))
+    let exact = |pixel: usize| {
+        let place = [pixel as u32 % SIDE, pixel as u32 / SIDE];
+        mean_over_pixel(&scene.camera, place, |o, d| lamberts_ball(ALBEDO, LAMP, o, d))
     };
     let lit: Vec<(Mean, f64)> = found.pixels.iter().enumerate().filter_map(|(i, pixel)| Some((*pixel, exact(i)?))).collect();
     let parts = lit.chunks(lit.len().div_ceil(4)).enumerate().map(|(i, part)| {
