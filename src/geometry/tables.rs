@@ -11,6 +11,7 @@ use super::{
 use crate::math::{F, Lanes, M, Pick, U, V, trig::turns_of};
 
 /// The kind of a primitive, in the last two bits of its tag; the rest is its place in the table of the kind.
+pub(super) const SPHERE: u32 = 0;
 pub(super) const FLAT: u32 = 1;
 pub(super) const QUADRIC: u32 = 2;
 /// Not in these tables: see [`super::placed`].

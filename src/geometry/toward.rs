@@ -10,7 +10,7 @@ use super::{
     rectangle::SphericalRectangle,
     shape::Outline,
     sphere::Cone,
-    tables::{AtFlat, Tables, coordinate},
+    tables::{AtFlat, SPHERE, Tables, coordinate},
 };
 use crate::{
     math::{F, Lanes, M, Pick, U, V, trig::sin_cos_turns},
@@ -44,9 +44,12 @@ impl Tables {
     /// A direction from `x` towards the given primitives, from the point `u` of the unit square.
     #[inline(always)]
     pub fn toward<L: Lanes>(&self, l: L, primitive: U<L>, x: V<L>, u: (F<L>, F<L>)) -> Toward<L> {
-        let cone = self.cone(l, primitive, x);
-        let mut toward = Toward { wi: cone.sample(u), pdf: cone.pdf(), front: cone.outside };
         let tag = self.tag(l, primitive);
+        let mut toward = Toward { wi: x, pdf: l.f(0.0), front: l.first(0) };
+        if (tag & 3).is(SPHERE).any() {
+            let cone = self.cone(l, primitive, x);
+            toward = Toward { wi: cone.sample(u), pdf: cone.pdf(), front: cone.outside };
+        }
         if let Some(AtFlat { here, rows, from_anchor }) = self.flat(l, tag, primitive, x) {
             toward = here.pick(SeenFlat::new(here, rows, from_anchor, l.rows(&self.normals, primitive)).toward(l, u), toward);
         }
@@ -59,8 +62,8 @@ impl Tables {
     /// The density of [`Tables::toward`] at the unit direction `wi`, in which the given primitives lie.
     #[inline(always)]
     pub fn pdf_toward<L: Lanes>(&self, l: L, primitive: U<L>, x: V<L>, wi: V<L>) -> F<L> {
-        let mut pdf = self.cone(l, primitive, x).pdf();
         let tag = self.tag(l, primitive);
+        let mut pdf = if (tag & 3).is(SPHERE).any() { self.cone(l, primitive, x).pdf() } else { l.f(0.0) };
         if let Some(AtFlat { here, rows, from_anchor }) = self.flat(l, tag, primitive, x) {
             pdf = here.pick(SeenFlat::new(here, rows, from_anchor, l.rows(&self.normals, primitive)).pdf(l, wi), pdf);
         }
@@ -125,12 +128,18 @@ impl<L: Lanes> SeenFlat<L> {
     fn uniform_over_area(&self, u: (F<L>, F<L>)) -> V<L> {
         let [to_u, to_v, a, b] = self.rows;
         let outline = a[3];
-        let (tri_u, tri_v) = triangle(u);
-        let (disk_u, disk_v, _) = disk(u);
+        let (mut s, mut t) = u;
         let is_ellipse = is_ellipse(outline);
+        if is_ellipse.any() {
+            let (disk_u, disk_v, _) = disk(u);
+            (s, t) = (is_ellipse.pick(disk_u, s), is_ellipse.pick(disk_v, t));
+        }
         let is_triangle = outline.above(Outline::Parallelogram as u32 as f32) & !is_ellipse;
-        let s = is_ellipse.pick(disk_u, is_triangle.pick(tri_u, u.0)) - to_u[3];
-        let t = is_ellipse.pick(disk_v, is_triangle.pick(tri_v, u.1)) - to_v[3];
+        if is_triangle.any() {
+            let (triangle_u, triangle_v) = triangle(u);
+            (s, t) = (is_triangle.pick(triangle_u, s), is_triangle.pick(triangle_v, t));
+        }
+        let (s, t) = (s - to_u[3], t - to_v[3]);
         V { x: a[0], y: a[1], z: a[2] } * s + V { x: b[0], y: b[1], z: b[2] } * t - self.from_anchor
     }
 }

@@ -127,6 +127,9 @@ macro_rules! simd_lanes {
             fn rows(self, table: &[[f32; 4]], index: U<Self>) -> [F<Self>; 4] {
                 let mut at = [0u32; $n];
                 index.0.store_slice(&mut at);
+                if index.is(at[0]).count() == $n {
+                    return table[at[0] as usize].map(|x| self.f(x));
+                }
                 let mut rows = [[0f32; 4]; $n];
                 for lane in 0..$n {
                     rows[lane] = table[at[lane] as usize];
