@@ -6,7 +6,7 @@ use noisefall::{
         film::Film,
         pass::{PassJob, Threads},
     },
-    scene::{Estimator, RenderSettings, Roulette, built_in},
+    scene::{Estimator, RenderSettings, Reuse, Roulette, built_in},
 };
 
 /// The five-sphere Cornell box at cap 8, one sample of 256 × 256 pixels an iteration.
@@ -21,6 +21,7 @@ fn paths_per_second(c: &mut Criterion) {
             let settings = RenderSettings {
                 estimator: Estimator::Path,
                 max_bounces: Some(8),
+                reuse: Reuse::Off,
                 roulette: Roulette::BY_THROUGHPUT,
                 sampler: sampler.sampler,
                 ..RenderSettings::default()

@@ -3,7 +3,7 @@ use std::time::Duration;
 
 use noisefall::{
     sampling::{Directions, SAMPLERS, Sampler},
-    scene::{Estimator, Roulette},
+    scene::{Estimator, Reuse, Roulette},
 };
 
 pub fn estimator(text: &str) -> Result<Estimator, String> {
@@ -12,6 +12,10 @@ pub fn estimator(text: &str) -> Result<Estimator, String> {
 
 pub fn directions(text: &str) -> Result<Directions, String> {
     Directions::ALL.into_iter().find(|d| d.name() == text).ok_or_else(|| "expected uniform, cosine or bsdf".to_owned())
+}
+
+pub fn reuse(text: &str) -> Result<Reuse, String> {
+    Reuse::ALL.into_iter().find(|reuse| reuse.name() == text).ok_or_else(|| "expected auto, on or off".to_owned())
 }
 
 pub fn sampler(text: &str) -> Result<Sampler, String> {

@@ -21,7 +21,7 @@ use noisefall::{
         truth::Reference,
     },
     sampling::{Directions, Sampler},
-    scene::{Camera, Estimator, RenderSettings, Roulette, Scene, load},
+    scene::{Camera, Estimator, RenderSettings, Reuse, Roulette, Scene, load},
 };
 
 use super::{
@@ -69,6 +69,9 @@ pub struct Arguments {
     /// Russian roulette: off, a survival probability, or throughput
     #[arg(long, value_name = "off|P|throughput", value_parser = parse::roulette)]
     roulette: Option<Roulette>,
+    /// Whether neighbouring pixels share what their paths find: auto, on or off
+    #[arg(long, value_parser = parse::reuse)]
+    reuse: Option<Reuse>,
     /// Seed of the random numbers
     #[arg(long, value_name = "N", value_parser = parse::whole)]
     seed: Option<u32>,
@@ -142,7 +145,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
             "threads": thread_count, "seed": settings.seed, "build_seconds": build_seconds, "render_seconds": render_seconds,
             "paths": status.samples, "rays": status.rays, "invalid_samples": status.invalid_samples,
             "rel_mse_estimate": status.rel_mse_estimate, "cut_paths": status.cut_paths, "dropped_triangles": scene.shapes.dropped_triangles(), "bias": status.bias(&settings),
-            "rel_mse": rel_mse, "replay": replay,
+            "reuse": status.shares, "rel_mse": rel_mse, "replay": replay,
         });
         print(&line.to_string())
     } else {
@@ -159,6 +162,7 @@ impl Arguments {
             directions: self.directions.unwrap_or(of_scene.directions),
             roulette: self.roulette.unwrap_or(of_scene.roulette),
             max_bounces: self.max_bounces.map_or(of_scene.max_bounces, |cap| cap.0),
+            reuse: self.reuse.unwrap_or(of_scene.reuse),
             seed: self.seed.unwrap_or(of_scene.seed),
         }
     }

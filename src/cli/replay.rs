@@ -1,6 +1,7 @@
 //! `noisefall render --pixel X,Y --sample N`: one path, vertex by vertex.
 use noisefall::{
     integrator::replay,
+    render::trial::resolved,
     scene::{Camera, RenderSettings, Scene},
 };
 
@@ -18,7 +19,8 @@ pub fn run(
     if pixel[0] >= width || pixel[1] >= height {
         return Err(format!("pixel {},{} lies outside the picture of {width} × {height}", pixel[0], pixel[1]));
     }
-    let replay = replay(scene, &scene.rays(camera), settings, pixel, sample);
+    let settings = resolved(scene, settings);
+    let replay = replay(scene, &scene.rays(camera), &settings, pixel, sample);
     if json {
         return print(&serde_json::json!(replay).to_string());
     }
@@ -32,6 +34,9 @@ pub fn run(
         let distance = vertex.distance.map_or_else(String::new, |t| format!("{t:.5}"));
         let (throughput, radiance) = (colour(vertex.throughput), colour(vertex.radiance));
         print(&format!("{:>6}  {throughput:<23}  {radiance:<23}  {distance:>8}  {object}", vertex.bounce))?;
+    }
+    if let Some(alone) = replay.alone {
+        print(&format!("This path alone would have made it {}: pixels share what their paths find (--reuse off: none does).", colour(alone)))?;
     }
     Ok(())
 }

@@ -14,6 +14,11 @@ impl<L: Lanes> Fraction<L> {
         Fraction { numerator: l.f(1.0), denominator: l.f(0.0) }
     }
 
+    #[inline(always)]
+    pub fn none(l: L) -> Self {
+        Fraction { numerator: l.f(f32::NAN), denominator: l.f(1.0) }
+    }
+
     /// False where either is NaN.
     #[inline(always)]
     pub fn less(&self, other: &Self) -> M<L> {

@@ -60,7 +60,9 @@ impl Lists {
     pub fn closest_sphere<L: Lanes>(&self, l: L, o: V<L>, d: V<L>) -> (F<L>, U<L>) {
         let mut nearest = Nearest::none(l);
         for (id, sphere) in &self.spheres {
-            nearest.meet(sphere.intersect(o, d), l.u(*id));
+            if let Some(t) = sphere.intersect(o, d) {
+                nearest.meet(t, l.u(*id));
+            }
         }
         (nearest.t.value(), nearest.primitive)
     }
@@ -70,7 +72,9 @@ impl Lists {
     pub fn closest<L: Lanes>(&self, l: L, o: V<L>, d: V<L>) -> (F<L>, U<L>) {
         let mut nearest = Nearest::none(l);
         for (id, sphere) in &self.spheres {
-            nearest.meet(sphere.intersect(o, d), l.u(*id));
+            if let Some(t) = sphere.intersect(o, d) {
+                nearest.meet(t, l.u(*id));
+            }
         }
         for (id, flat) in &self.flats {
             nearest.meet(flat.intersect(o, d), l.u(*id));
@@ -95,7 +99,7 @@ impl Lists {
         let (t, primitive) = match which {
             Listed::Sphere(place) => {
                 let (id, sphere) = &self.spheres[place as usize];
-                (sphere.intersect(o, d), l.u(*id))
+                (sphere.intersect(o, d).unwrap_or(Fraction::none(l)), l.u(*id))
             }
             Listed::Flat(place) => {
                 let (id, flat) = &self.flats[place as usize];

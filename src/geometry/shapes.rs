@@ -137,6 +137,11 @@ impl Shapes {
         self.placed.is_empty() && self.objects.is_none() && self.lists.are_spheres()
     }
 
+    /// Whether rays run through lists only, and not through trees.
+    pub fn are_listed(&self) -> bool {
+        self.objects.is_none() && self.loops.is_empty()
+    }
+
     /// Whether all surfaces stand still and are spheres, or open and flat.
     pub fn are_simple(&self) -> bool {
         self.placed.is_empty() && self.tables.are_simple()

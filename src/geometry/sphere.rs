@@ -36,9 +36,10 @@ impl Sphere {
         Sphere { anchor: anchor.as_vec3().to_array(), normal: n.to_array(), curvature: (1.0 / radius) as f32 }
     }
 
-    /// The nearest meeting of o + td, d of unit length, with t > 0, as a fraction; NaN where there is none.
+    /// The nearest meeting of o + td, d of unit length, with t > 0, as a fraction; NaN where there is none. `None` if there is none in
+    /// any lane.
     #[inline(always)]
-    pub(super) fn intersect<L: Lanes>(&self, o: V<L>, d: V<L>) -> Fraction<L> {
+    pub(super) fn intersect<L: Lanes>(&self, o: V<L>, d: V<L>) -> Option<Fraction<L>> {
         let from_anchor = o - self.anchor;
         let along = from_anchor.dot(d);
         let nearest = from_anchor - d * along;
@@ -51,13 +52,16 @@ impl Sphere {
         // With w = |b| + √discriminant the roots are w/k and c/w in size, without cancellation. c < 0 is inside, b < 0 is
         // towards the anchor's side: from outside the first meeting is c/w if the ray comes nearer, else there is none; from
         // inside it is the one root that lies ahead. On the surface, c = 0, a ray either leaves or meets the far side.
-        let w = b.abs() + discriminant.sqrt();
         let nearing = b.below(0.0);
+        let meets = (nearing | c.below(0.0)) & discriminant.ge(c.splat(0.0));
+        if !meets.any() {
+            return None;
+        }
+        let w = b.abs() + discriminant.sqrt();
         let far_side = nearing & !c.above(0.0);
-        let meets = nearing | c.below(0.0);
         let numerator = far_side.pick(w, c.abs());
         let denominator = far_side.pick(w.splat(self.curvature), w);
-        Fraction { numerator: meets.pick(numerator, w.splat(f32::NAN)), denominator }
+        Some(Fraction { numerator: meets.pick(numerator, w.splat(f32::NAN)), denominator })
     }
 
     /// The directions in which this sphere is seen from `x`.

@@ -1,15 +1,18 @@
 //! What one thread works on: the samples of one tile at one sample index, and the queues they travel through.
-use super::queue::Queue;
+use super::{
+    queue::Queue,
+    reuse::{self, Shared},
+};
 use crate::{
     math::{F, Lanes, M, MAX_LANES, One, U, V},
     record,
-    sampling::{Dimension, Stream},
-    scene::{CameraRays, Estimator, RenderSettings, Scene, surface::Stage},
+    sampling::{Dimension, Directions, Stream},
+    scene::{CameraRays, Estimator, RenderSettings, Reuse, Scene, surface::Stage},
 };
 
 /// A tile is at most this many pixels wide and high; its pixels are the slots of a batch, row by row.
 pub const TILE: u32 = 32;
-const SLOTS: usize = (TILE * TILE) as usize;
+pub(super) const SLOTS: usize = (TILE * TILE) as usize;
 
 record! {
     /// A path on its way to the next surface.
@@ -107,8 +110,36 @@ impl Work<'_> {
     /// The pixels of slots, packed as the sampler wants them: y·2¹⁶ + x.
     #[inline(always)]
     pub(super) fn pixel<L: Lanes>(&self, slot: U<L>) -> U<L> {
-        let (x, y) = place(slot);
+        let (x, y) = self.place(slot);
         ((y + self.origin[1]) << 16) + (x + self.origin[0])
+    }
+
+    /// The same sample of all pixels of the tile that this begins in.
+    pub(super) fn whole_tile(self) -> Self {
+        let origin = self.origin.map(|x| x / TILE * TILE);
+        let size = [0, 1].map(|axis| TILE.min(self.rays.resolution[axis] - origin[axis]));
+        Work { origin, size, ..self }
+    }
+
+    /// Column and row of slots within their tile.
+    #[inline(always)]
+    pub(super) fn place<L: Lanes>(&self, slot: U<L>) -> (U<L>, U<L>) {
+        let slot = slot & (SLOTS as u32 - 1);
+        if self.shares() {
+            return reuse::place(slot, self.sample);
+        }
+        (slot & (TILE - 1), slot >> TILE.trailing_zeros())
+    }
+
+    /// Whether pixels share what their paths find: from diffuse surfaces, in empty space, while nothing moves.
+    #[inline(always)]
+    pub(super) fn shares(&self) -> bool {
+        let RenderSettings { reuse, directions, max_bounces, .. } = *self.settings;
+        reuse == Reuse::On
+            && directions != Directions::Uniform
+            && max_bounces.is_none_or(|cap| cap > 1)
+            && self.scene.can_share()
+            && !self.rays.take_time
     }
 
     /// Whether media tint what passes through them.
@@ -133,12 +164,6 @@ impl Work<'_> {
     }
 }
 
-/// Column and row of slots within their tile.
-#[inline(always)]
-pub(super) fn place<L: Lanes>(slot: U<L>) -> (U<L>, U<L>) {
-    (slot & (TILE - 1), slot >> TILE.trailing_zeros())
-}
-
 /// The queues of a thread. Made once, used for every tile.
 pub struct Batch {
     /// Paths of this bounce and of the next, in turn.
@@ -158,8 +183,9 @@ pub struct Batch {
     pub(super) primitive: Vec<f32>,
     /// The triangle in scenes with meshes.
     pub(super) element: Vec<f32>,
-    /// Radiance gathered so far, a slot.
+    /// Radiance gathered so far, a slot; then what paths found that is to be shared.
     pub(super) radiance: Vec<[f32; 4]>,
+    pub(super) shared: Shared,
     pub(super) bounce: u32,
     /// Rays traced: path segments and shadow rays.
     pub rays: u64,
@@ -180,7 +206,8 @@ impl Default for Batch {
             t: vec![0.0; SLOTS + MAX_LANES],
             primitive: vec![0.0; SLOTS + MAX_LANES],
             element: vec![0.0; SLOTS + MAX_LANES],
-            radiance: vec![[0.0; 4]; SLOTS],
+            radiance: vec![[0.0; 4]; 2 * SLOTS],
+            shared: Shared::default(),
             bounce: 0,
             rays: 0,
             cut_paths: 0,
@@ -191,7 +218,7 @@ impl Default for Batch {
 impl Batch {
     /// The radiance of every slot after a trace; slot = row · [`TILE`] + column.
     pub fn radiance(&self) -> &[[f32; 4]] {
-        &self.radiance
+        &self.radiance[..SLOTS]
     }
 
     pub(super) fn current(&self) -> &Queue {

@@ -12,6 +12,7 @@ mod media;
 pub mod queue;
 mod relief;
 mod replay;
+mod reuse;
 mod roulette;
 mod shade;
 mod shadow;

@@ -103,6 +103,14 @@ macro_rules! record {
             $($(#[$doc])* pub $field: $crate::math::$kind<L>),*
         }
 
+        impl<L: $crate::math::Lanes> Clone for $name<L> {
+            #[inline(always)]
+            fn clone(&self) -> Self {
+                *self
+            }
+        }
+        impl<L: $crate::math::Lanes> Copy for $name<L> {}
+
         impl<L: $crate::math::Lanes> $name<L> {
             const COLUMNS: usize =
                 0 $(+ <$crate::math::$kind<L> as $crate::integrator::queue::Field<L>>::COLUMNS)*;

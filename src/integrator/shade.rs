@@ -13,16 +13,20 @@ use crate::{
     material::{Bsdf, Local},
     math::{F, Frame, Lanes, M, Pick, U, V},
     sampling::{Dimension, Stream},
-    scene::{Estimator, surface},
+    scene::{
+        Estimator,
+        surface::{self, Stage},
+    },
 };
 
 #[simd]
 pub(super) fn shade<L: Lanes, K: Kind>(l: L, work: &Work, batch: &mut Batch) {
-    let Batch { paths, pasts, path_media, hits, details, shadows, shadow_media, bounce, .. } = batch;
+    let Batch { paths, pasts, path_media, hits, details, shadows, shadow_media, shared, bounce, .. } = batch;
     let (hits, details) = (&hits[K::STAGE as usize], &details[K::STAGE as usize]);
     let reflection = *bounce + 1;
     let next = (reflection & 1) as usize;
     let settings = work.settings;
+    let shares = K::STAGE == Stage::Plain && *bounce == 0 && work.shares();
     for start in (0..hits.len()).step_by(L::N) {
         let live = l.first(hits.len() - start);
         let hit = Hit::read(l, hits, start);
@@ -63,11 +67,15 @@ pub(super) fn shade<L: Lanes, K: Kind>(l: L, work: &Work, batch: &mut Batch) {
         }
         let (o, consistent) = vertex.leave::<K>(&hit, d, sample.wi.z);
         let judged = K::roulette_scale(&bsdf, vertex.local.front, sample.wi.z);
-        let throughput = hit.throughput * sample.weight;
+        // What is shared is weighted by the albedo of each pixel that gets it.
+        let throughput = if shares { hit.throughput } else { hit.throughput * sample.weight };
         let (alive, throughput) = survive(l, settings.roulette, reflection, &stream, throughput, judged);
         #[cfg(test)]
         let throughput =
             if settings.fault == Some(crate::scene::Fault::NoReweighting) { hit.throughput * sample.weight } else { throughput };
+        if shares {
+            shared.keep_first(l, live, &hit);
+        }
         let mut keep = live & alive & consistent;
         if K::DETAILED {
             keep = keep & throughput.max_component().above(0.0);

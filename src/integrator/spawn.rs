@@ -1,7 +1,7 @@
 //! First stage: camera rays through points drawn from the pixels' filters.
 use fearless_simd_macros::simd;
 
-use super::batch::{Batch, Inside, Path, TILE, Work, place};
+use super::batch::{Batch, Inside, Path, SLOTS, TILE, Work};
 use crate::{
     math::{Lanes, V},
     sampling::{Dimension, Stream},
@@ -14,9 +14,13 @@ pub(super) fn spawn<L: Lanes>(l: L, work: &Work, batch: &mut Batch) {
     batch.path_media[0].clear();
     batch.radiance.fill([0.0; 4]);
     let [width, height] = work.size;
-    for start in (0..height * TILE).step_by(L::N) {
+    let slots = if work.shares() { SLOTS as u32 } else { height * TILE };
+    if work.shares() {
+        batch.shared.clear();
+    }
+    for start in (0..slots).step_by(L::N) {
         let slot = l.iota() + start;
-        let (column, row) = place(slot);
+        let (column, row) = work.place(slot);
         let inside = column.below(width) & row.below(height);
         let stream = Stream::new(work.settings.sampler, work.settings.seed, work.pixel(slot), work.sample);
         let (u, v) = stream.two(Dimension::PIXEL);

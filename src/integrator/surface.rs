@@ -25,11 +25,12 @@ const GRAZING: f32 = 1e-3;
 #[simd]
 pub(super) fn surfaces<L: Lanes, const VARIED: bool>(l: L, work: &Work, batch: &mut Batch, last: bool) {
     let scene = work.scene;
-    let Batch { paths, pasts, path_media, hits, details, t, primitive, element, radiance, bounce, .. } = batch;
+    let Batch { paths, pasts, path_media, hits, details, t, primitive, element, radiance, shared, bounce, .. } = batch;
     hits.iter_mut().chain(details.iter_mut()).for_each(Queue::clear);
     let current = (*bounce & 1) as usize;
     let (paths, pasts, path_media) = (&paths[current], &pasts[current], &path_media[current]);
     let weighted = *bounce > 0 && work.samples_lights();
+    let shares = *bounce == 1 && work.shares();
     for start in (0..paths.len()).step_by(L::N) {
         let live = l.first(paths.len() - start);
         let mut path = Path::read(l, paths, start);
@@ -41,6 +42,13 @@ pub(super) fn surfaces<L: Lanes, const VARIED: bool>(l: L, work: &Work, batch: &
             // Lanes past the end may say anything, even media of an earlier scene.
             media = live.pick(Inside::read(l, path_media, start).media, l.u(0));
             path.throughput = path.throughput * transmittance(l, work, media, t);
+        }
+        let shared_throughput = path.throughput;
+        let mut sharing = l.first(0);
+        if shares {
+            let (first, albedo) = shared.first(l, path.slot);
+            sharing = live & first;
+            path.throughput = sharing.pick(path.throughput * albedo, path.throughput);
         }
         if let Some(background) = &scene.lights.background {
             let sky = live & miss;
@@ -91,10 +99,17 @@ pub(super) fn surfaces<L: Lanes, const VARIED: bool>(l: L, work: &Work, batch: &
         let colour = V { x, y, z };
         let n = point.n_geometric * l.f(1.0).copysign(cos);
         let record = Hit { p: point.p + n * point.error, n, colour, throughput: path.throughput, slot: path.slot };
+        let arrival = Arrival { d: path.d, point, cos, place, media, word: word.bits() };
+        let mut plain = record;
+        if shares {
+            let kept = sharing & hit & surface::stage(arrival.word).is(Stage::Plain as u32);
+            plain.throughput = kept.pick(shared_throughput, plain.throughput);
+            shared.keep_second(kept, &place, &mut plain);
+        }
         if VARIED {
-            sort(l, work, hits, details, &Arrival { d: path.d, point, cos, place, media, word: word.bits() }, record, hit);
+            sort(l, work, hits, details, &arrival, &plain, record, hit);
         } else {
-            record.push(hit & colour.max_component().above(0.0), &mut hits[Stage::Plain as usize]);
+            plain.push(hit & colour.max_component().above(0.0), &mut hits[Stage::Plain as usize]);
         }
     }
 }
@@ -129,7 +144,7 @@ struct Arrival<L: Lanes> {
     word: U<L>,
 }
 
-/// Queues the paths of `mask` whose surface reflects, by shading stage.
+/// Queues the paths of `mask` whose surface reflects, by shading stage; as `plain` where that is a plain one.
 #[inline(always)]
 fn sort<L: Lanes>(
     l: L,
@@ -137,6 +152,7 @@ fn sort<L: Lanes>(
     hits: &mut [Queue],
     details: &mut [Queue],
     arrival: &Arrival<L>,
+    plain: &Hit<L>,
     mut hit: Hit<L>,
     mask: M<L>,
 ) {
@@ -148,8 +164,10 @@ fn sort<L: Lanes>(
     let reflects = faces & hit.colour.max_component().above(0.0);
     for stage in &work.scene.surfaces.stages {
         let here = reflects & surface::stage(word).is(*stage as u32);
-        hit.push(here, &mut hits[*stage as usize]);
-        if *stage != Stage::Plain {
+        if *stage == Stage::Plain {
+            Hit { colour: hit.colour, ..*plain }.push(here, &mut hits[*stage as usize]);
+        } else {
+            hit.push(here, &mut hits[*stage as usize]);
             detail.push(here, &mut details[*stage as usize]);
         }
     }

@@ -6,6 +6,7 @@ use super::{
     intersect::intersect,
     kinds,
     queue::Queue,
+    reuse::share,
     shade::shade,
     shadow::shadow,
     spawn::spawn,
@@ -73,6 +74,9 @@ pub(super) fn trace_in<L: Lanes, O: Observer>(
             shadow(l, work, batch);
         }
         batch.bounce += 1;
+    }
+    if work.shares() {
+        share(l, work, batch);
     }
     Ok(())
 }

@@ -1,4 +1,5 @@
 //! The film: what a picture's samples add up to.
+use super::doubling::Doubling;
 use crate::integrator::TILE;
 
 /// Sums of samples over all pixels, in tiles that each belong to one thread at a time.
@@ -17,6 +18,10 @@ pub struct Tile {
     pub spp: u32,
     sum: Vec<[f64; 3]>,
     sum_of_squares: Vec<[f64; 3]>,
+    /// The means when the number of samples was last a power of two.
+    before: Vec<[f32; 3]>,
+    /// What was seen whenever the number of samples had doubled: at 2, 4, 8, … samples.
+    pub(super) doublings: Vec<Doubling>,
     /// Samples that were not finite, or negative; they count as black.
     pub invalid: u64,
 }
@@ -70,7 +75,7 @@ impl Film {
 
 impl Tile {
     fn new(origin: [u32; 2], size: [u32; 2]) -> Tile {
-        Tile { origin, size, spp: 0, sum: Vec::new(), sum_of_squares: Vec::new(), invalid: 0 }
+        Tile { origin, size, spp: 0, sum: Vec::new(), sum_of_squares: Vec::new(), before: Vec::new(), doublings: Vec::new(), invalid: 0 }
     }
 
     pub fn pixels(&self) -> usize {
@@ -84,6 +89,7 @@ impl Tile {
             sums.clear();
             sums.resize(pixels, [0.0; 3]);
         }
+        self.doublings.clear();
     }
 
     /// Adds one sample to every pixel; slot = row · [`TILE`] + column. Returns the first pixel whose sample is invalid.
@@ -111,7 +117,20 @@ impl Tile {
             }
         }
         self.spp += 1;
+        if self.spp.is_power_of_two() {
+            self.double();
+        }
         first_invalid
+    }
+
+    /// Notes how far the picture has moved since it had half as many samples.
+    fn double(&mut self) {
+        let estimates: Vec<Estimate> = (0..self.size[1] as usize).flat_map(|row| self.estimates(row)).collect();
+        if self.spp > 1 {
+            self.doublings.push(Doubling::new(&estimates, &self.before, self.size[0] as usize));
+        }
+        self.before.clear();
+        self.before.extend(estimates.iter().map(|estimate| estimate.mean.map(|c| c as f32)));
     }
 
     /// The estimates of one row of the tile, which must have a sample; `row` counts from the tile's top.

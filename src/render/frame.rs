@@ -1,8 +1,11 @@
 //! A frame: the picture at one moment, as others may look at it while the render goes on.
 use rayon::prelude::*;
 
-use super::film::{Estimate, Film};
-use crate::{integrator::TILE, math::colour::luminance, measure::REL_MSE_FLOOR};
+use super::{
+    doubling::rel_mse_estimate,
+    film::{Estimate, Film},
+};
+use crate::{integrator::TILE, math::colour::luminance};
 
 /// Linear radiance, row by row from the top left. Immutable once published.
 #[derive(Debug, Default)]
@@ -18,7 +21,7 @@ pub struct Frame {
     pub standard_error: Vec<f32>,
     /// Samples that every pixel has at least.
     pub spp: u32,
-    /// Estimated relMSE of the picture, from the pixels' sample variances; `None` before the second sample.
+    /// Estimated relMSE of the picture: see [`super::doubling`]; `None` before the second sample.
     pub rel_mse_estimate: Option<f64>,
 }
 
@@ -29,29 +32,23 @@ impl Frame {
         let mut standard_error = vec![f32::NAN; pixels];
         let band = (width * TILE) as usize;
         let rows: Vec<_> = film.tile_rows().collect();
-        let sums: Vec<f64> = radiance
+        radiance
             .par_chunks_mut(band)
             .zip(standard_error.par_chunks_mut(band))
             .zip(rows)
-            .map(|((radiance, error), tiles)| {
-                let mut sum = 0.0;
+            .for_each(|((radiance, error), tiles)| {
                 for tile in tiles {
                     for row in 0..tile.size[1] as usize {
                         let start = row * width as usize + tile.origin[0] as usize;
                         for (i, estimate) in (start..).zip(tile.estimates(row)) {
                             radiance[i] = estimate.mean.map(|c| c as f32);
                             error[i] = luminance_error(&estimate);
-                            sum += f64::from(relative_variance(&estimate));
                         }
                     }
                 }
-                sum
-            })
-            .collect();
-        let spp = film.spp();
-        let mean = sums.iter().sum::<f64>() / (3 * pixels) as f64;
-        let rel_mse_estimate = (spp > 1).then_some(mean);
-        Frame { generation, width, height, full_resolution, radiance, standard_error, spp, rel_mse_estimate }
+            });
+        let rel_mse_estimate = rel_mse_estimate(film);
+        Frame { generation, width, height, full_resolution, radiance, standard_error, spp: film.spp(), rel_mse_estimate }
     }
 
     /// The pixel of the frame that covers a pixel of the full picture, as an index.
@@ -77,10 +74,4 @@ impl Frame {
 /// The channels of a sample come from one path: their errors are added as if fully correlated, which is an upper bound.
 fn luminance_error(estimate: &Estimate) -> f32 {
     estimate.variance_of_mean.map_or(f32::NAN, |variance| luminance(variance.map(|v| (v as f32).sqrt())))
-}
-
-/// Sum over channels of variance / (mean² + 0.01), in f64: squares of the brightest means leave the range of f32.
-fn relative_variance(estimate: &Estimate) -> f32 {
-    let (variance, mean) = (estimate.variance_of_mean.unwrap_or([0.0; 3]), estimate.mean);
-    (0..3).map(|c| variance[c] / (mean[c] * mean[c] + REL_MSE_FLOOR)).sum::<f64>() as f32
 }

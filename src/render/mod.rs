@@ -7,6 +7,7 @@
 //! ```
 //! The window says what it wants and never waits; see [`worker`].
 pub mod display;
+mod doubling;
 pub mod film;
 pub mod frame;
 pub mod image_file;
@@ -14,6 +15,7 @@ pub mod pass;
 mod session;
 pub mod settings_text;
 pub mod tone;
+pub mod trial;
 pub mod truth;
 pub mod worker;
 

@@ -5,9 +5,10 @@ use super::{
     film::Film,
     frame::Frame,
     pass::{PassCount, PassJob, Threads},
+    trial::resolved,
     worker::{Budget, Job, Publish, State, Status},
 };
-use crate::scene::Camera;
+use crate::scene::{Camera, Reuse};
 
 /// Camera samples a second before anything was measured: what a slow machine makes of a simple scene.
 const UNKNOWN_RATE: f64 = 1e6;
@@ -34,6 +35,8 @@ pub(super) struct Session {
     rate: Option<f64>,
     steps_done: u64,
     rel_mse_estimate: Option<f64>,
+    /// Pixels share what their paths find.
+    shares: bool,
     last_frame: Option<Instant>,
     /// There are samples that no frame shows.
     stale: bool,
@@ -71,6 +74,7 @@ impl Session {
             rate,
             steps_done: budget.steps,
             rel_mse_estimate: None,
+            shares: false,
             last_frame: None,
             stale: false,
             job,
@@ -131,7 +135,9 @@ impl Session {
         let last_frame = self.last_frame;
         let impatient = || budget.paused && spp == 0 && last_frame.is_some_and(|coarse: Instant| coarse.elapsed() > PATIENCE);
         let enough = || interrupted() || impatient() || time_left.is_some_and(|left| start.elapsed() >= left);
-        let job = PassJob { scene: &self.job.scene, rays: &self.job.scene.rays(&self.job.camera), settings: &self.job.settings };
+        let settings = threads.install(|| resolved(&self.job.scene, &self.job.settings));
+        let job = PassJob { scene: &self.job.scene, rays: &self.job.scene.rays(&self.job.camera), settings: &settings };
+        self.shares = settings.reuse == Reuse::On;
         let before = self.film.samples();
         let count = threads.pass(job, &mut self.film, target, &enough);
         let samples = self.film.samples() - before;
@@ -215,6 +221,7 @@ impl Session {
             rays: self.count.rays,
             elapsed: self.elapsed,
             rel_mse_estimate: self.rel_mse_estimate,
+            shares: self.shares,
             invalid_samples: self.film.invalid_samples(),
             first_invalid: self.count.invalid,
             cut_paths: self.count.cut_paths,

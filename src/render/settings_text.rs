@@ -50,6 +50,7 @@ pub fn options(settings: &RenderSettings, of_scene: &RenderSettings) -> String {
     option(settings.roulette != of_scene.roulette, "roulette", roulette);
     let cap = settings.max_bounces.map_or_else(|| "none".to_owned(), |cap| cap.to_string());
     option(settings.max_bounces != of_scene.max_bounces, "max-bounces", cap);
+    option(settings.reuse != of_scene.reuse, "reuse", settings.reuse.name().to_owned());
     option(settings.seed != of_scene.seed, "seed", settings.seed.to_string());
     options
 }

@@ -70,6 +70,8 @@ pub struct Status {
     /// Time spent rendering this picture.
     pub elapsed: Duration,
     pub rel_mse_estimate: Option<f64>,
+    /// Pixels share what their paths find.
+    pub shares: bool,
     /// Samples dropped because they were not finite or negative.
     pub invalid_samples: u64,
     pub first_invalid: Option<SampleId>,

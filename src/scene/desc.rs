@@ -213,6 +213,7 @@ pub struct RenderDesc {
     pub sampler: Option<crate::sampling::Sampler>,
     pub max_bounces: Option<u32>,
     pub roulette: Option<Spanned<super::roulette::RouletteDesc>>,
+    pub reuse: Option<super::Reuse>,
     pub spp: Option<Spanned<u32>>,
     pub seed: Option<u32>,
 }

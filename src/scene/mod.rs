@@ -17,7 +17,10 @@ pub mod surface;
 mod textures;
 mod wording;
 
-use std::{path::PathBuf, sync::Arc};
+use std::{
+    path::PathBuf,
+    sync::{Arc, OnceLock},
+};
 
 use glam::DVec3;
 
@@ -30,7 +33,7 @@ pub use self::{
     diagnostic::SceneError,
     load::{BUILT_IN, built_in, load, parse},
     rays::CameraRays,
-    settings::{Estimator, RenderSettings, Roulette},
+    settings::{Estimator, RenderSettings, Reuse, Roulette},
     wording::nearest,
 };
 use crate::{
@@ -68,6 +71,8 @@ pub struct Scene {
     /// What carries the camera while the shutter is open.
     pub camera_motion: Motion,
     pub settings: RenderSettings,
+    /// By estimator: whether sharing paths between pixels pays, once it has been tried.
+    pub sharing_pays: [OnceLock<bool>; Estimator::ALL.len()],
     pub spp: Option<u32>,
     pub truth: Option<Truth>,
     /// How many media lie around the middle of some dielectric.
@@ -100,6 +105,11 @@ impl Scene {
     /// Whether all surfaces are spheres or flat, diffuse, from both sides, and neither their colour nor what they emit varies.
     pub fn is_plain(&self) -> bool {
         self.surfaces.plain && !self.lights.emitters.vary() && self.shapes.are_simple()
+    }
+
+    /// Whether pixels can share what their paths find: diffuse surfaces in empty space, of which none moves.
+    pub fn can_share(&self) -> bool {
+        self.surfaces.stages.contains(&surface::Stage::Plain) && self.surfaces.media.is_empty() && !self.shapes.move_in_time()
     }
 
     /// Whether something moves while the shutter is open.

@@ -9,6 +9,8 @@ use crate::{
 /// The rays of a camera, ready for lanes: plane coordinates of a raster point are `corner + x per_x + y per_y`.
 #[derive(Clone, Debug)]
 pub struct CameraRays {
+    /// Of the picture, in pixels.
+    pub resolution: [u32; 2],
     eye: [f32; 3],
     /// The upper left corner of the picture, and its change per pixel to the right and down. A direction whose forward component
     /// is 1, or for parallel rays an offset of the eye.
@@ -44,6 +46,7 @@ impl Camera {
         let middle = if self.orthographic.is_some() { glam::DVec3::ZERO } else { forward };
         let lens = self.lens.filter(|lens| lens.radius > 0.0);
         CameraRays {
+            resolution: self.resolution,
             eye: self.eye.as_vec3().to_array(),
             corner: (middle - right * half_width + up * half_height).as_vec3().to_array(),
             per_x: (right * (2.0 * half_width / w)).as_vec3().to_array(),

@@ -12,6 +12,7 @@ pub struct RenderSettings {
     pub roulette: Roulette,
     /// The highest number of reflections counted; 0 is emitted light only, `None` is no cap.
     pub max_bounces: Option<u32>,
+    pub reuse: Reuse,
     pub seed: u32,
     /// A mistake that the validation must notice.
     #[cfg(test)]
@@ -86,6 +87,30 @@ impl Roulette {
 impl Default for Roulette {
     fn default() -> Self {
         Roulette::BY_THROUGHPUT
+    }
+}
+
+/// Whether neighbouring pixels share what their paths find beyond the first surface: see [`crate::integrator`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Reuse {
+    /// Where a short trial says that it pays. The integrator itself takes it for [`Reuse::Off`].
+    #[default]
+    Auto,
+    On,
+    Off,
+}
+
+impl Reuse {
+    pub const ALL: [Reuse; 3] = [Reuse::Auto, Reuse::On, Reuse::Off];
+
+    /// What the scene file and the command line call it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Reuse::Auto => "auto",
+            Reuse::On => "on",
+            Reuse::Off => "off",
+        }
     }
 }
 

@@ -7,7 +7,7 @@ use crate::{
         Directions, Sampler,
         hash::{hash, unit},
     },
-    scene::{Estimator, RenderSettings, Roulette, Scene, parse},
+    scene::{Estimator, RenderSettings, Reuse, Roulette, Scene, parse},
 };
 
 pub const RED: Measure = |radiance| f64::from(radiance[0]);
@@ -44,6 +44,7 @@ impl Validation {
             directions: Directions::Cosine,
             roulette: Roulette::Off,
             max_bounces: None,
+            reuse: Reuse::Off,
             seed: 29 + estimator as u32,
             #[cfg(test)]
             fault: self.fault,

@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 use egui::{ComboBox, Id, Ui};
 use noisefall::{
     sampling::{Directions, SAMPLERS},
-    scene::{Estimator, Roulette},
+    scene::{Estimator, Reuse, Roulette},
 };
 
 use super::{
@@ -31,6 +31,12 @@ const DIRECTIONS: [(Directions, &str, &str); 3] = [
     (Directions::Uniform, "Uniform", "p(ωᵢ) = 1 / 2π: every direction of the hemisphere alike."),
     (Directions::Cosine, "Cosine", "p(ωᵢ) = cos θ / π: cancels the cosine of the equation, so there is less noise."),
     (Directions::Bsdf, "BSDF", "p(ωᵢ) in proportion to f cos θ, which at a diffuse surface is the cosine."),
+];
+
+const REUSE: [(Reuse, &str, &str); 3] = [
+    (Reuse::Auto, "Auto", "Where a short trial of the scene says that it pays."),
+    (Reuse::On, "On", "Groups of 4 × 4 pixels divide what their paths find among them, by how likely each was to find it."),
+    (Reuse::Off, "Off", "Every pixel keeps what its own paths find: the noise of neighbours is independent."),
 ];
 
 impl App {
@@ -60,6 +66,18 @@ impl App {
                     ui.horizontal(|ui| {
                         for (directions, name, doc) in DIRECTIONS {
                             ui.selectable_value(&mut settings.directions, directions, name).on_hover_text(doc);
+                        }
+                    });
+                },
+            );
+            row(
+                ui,
+                "Share paths",
+                "Whether neighbouring pixels share the light that their paths find beyond the first diffuse surface: less noise, no bias.",
+                |ui, _| {
+                    ui.horizontal(|ui| {
+                        for (reuse, name, doc) in REUSE {
+                            ui.selectable_value(&mut settings.reuse, reuse, name).on_hover_text(doc);
                         }
                     });
                 },

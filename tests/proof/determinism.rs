@@ -10,18 +10,20 @@ use noisefall::{
         pass::{PassJob, Threads},
     },
     sampling::{Directions, SAMPLERS, Sampler},
-    scene::{Camera, Estimator, RenderSettings, Roulette, Scene, built_in},
+    scene::{Camera, Estimator, RenderSettings, Reuse, Roulette, Scene, built_in},
 };
 
 const RESOLUTION: [u32; 2] = [75, 50];
+const SHARING: [Reuse; 2] = [Reuse::Off, Reuse::On];
 
-fn settings(sampler: Sampler) -> RenderSettings {
+fn settings(sampler: Sampler, reuse: Reuse) -> RenderSettings {
     RenderSettings {
         estimator: Estimator::Path,
         sampler,
         directions: Directions::Cosine,
         roulette: Roulette::BY_THROUGHPUT,
         max_bounces: None,
+        reuse,
         seed: 5,
     }
 }
@@ -47,12 +49,13 @@ fn bits(film: &Film) -> Vec<[u32; 4]> {
 #[test]
 fn the_film_is_the_same_for_every_number_of_threads_and_every_simd_level() {
     let scene = built_in();
-    for entry in SAMPLERS {
-        let settings = settings(entry.sampler);
+    for (entry, reuse) in SAMPLERS.iter().flat_map(|entry| SHARING.map(|reuse| (entry, reuse))) {
+        let settings = settings(entry.sampler, reuse);
         let reference = bits(&film(&scene, 1, SimdLevel::Scalar, &settings, 4));
         for level in SimdLevel::available() {
             for threads in [1, 2, 4] {
-                assert!(bits(&film(&scene, threads, level, &settings, 4)) == reference, "{}, {level:?}, {threads}", entry.name);
+                let bits = bits(&film(&scene, threads, level, &settings, 4));
+                assert!(bits == reference, "{}, {reuse:?}, {level:?}, {threads}", entry.name);
             }
         }
     }
@@ -61,7 +64,7 @@ fn the_film_is_the_same_for_every_number_of_threads_and_every_simd_level() {
 #[test]
 fn an_interrupted_pass_goes_on_as_if_nothing_had_happened() {
     let scene = built_in();
-    let settings = settings(Sampler::Sobol);
+    let settings = settings(Sampler::Sobol, Reuse::On);
     let threads = Threads::new(2, SimdLevel::best()).expect("threads can be had");
     let rays = scene.rays(&camera(&scene));
     let job = PassJob { scene: &scene, rays: &rays, settings: &settings };
@@ -78,15 +81,16 @@ fn an_interrupted_pass_goes_on_as_if_nothing_had_happened() {
 fn replayed_samples_add_up_to_the_film() {
     let scene = built_in();
     let rays = scene.rays(&camera(&scene));
-    for entry in SAMPLERS {
-        let settings = settings(entry.sampler);
+    for (entry, reuse) in SAMPLERS.iter().flat_map(|entry| SHARING.map(|reuse| (entry, reuse))) {
+        let settings = settings(entry.sampler, reuse);
         let film = film(&scene, 2, SimdLevel::best(), &settings, 3);
         let frame = Frame::of_film(&film, 0, RESOLUTION, RESOLUTION);
         for [x, y] in [[0, 0], [37, 25], [74, 49], [64, 31], [12, 40]] {
             let mut sum = [0f64; 3];
             for sample in 0..3 {
                 let replay = replay(&scene, &rays, &settings, [x, y], sample);
-                assert_eq!(replay.vertices.last().map(|vertex| vertex.radiance), Some(replay.radiance));
+                let own = replay.alone.unwrap_or(replay.radiance);
+                assert_eq!(replay.vertices.last().map(|vertex| vertex.radiance), Some(own));
                 (0..3).for_each(|c| sum[c] += f64::from(replay.radiance[c]));
             }
             assert_eq!(frame.radiance[(y * RESOLUTION[0] + x) as usize], sum.map(|s| (s / 3.0) as f32), "{}", entry.name);

@@ -5,7 +5,7 @@
 use noisefall::{
     measure::exact::{furnace, furnace_capped, furnace_variance},
     sampling::{Directions, Sampler},
-    scene::{Estimator, RenderSettings, Roulette, Scene, load},
+    scene::{Estimator, RenderSettings, Reuse, Roulette, Scene, load},
 };
 
 use crate::statistics::{Moments, assert_within, samples};
@@ -24,6 +24,7 @@ fn settings(directions: Directions) -> RenderSettings {
         directions,
         roulette: Roulette::Off,
         max_bounces: None,
+        reuse: Reuse::Off,
         seed: 11,
     }
 }

@@ -8,7 +8,7 @@ use noisefall::{
         pass::{PassJob, Threads},
     },
     sampling::{Directions, Sampler},
-    scene::{Camera, Estimator, RenderSettings, Roulette, Scene, load},
+    scene::{Camera, Estimator, RenderSettings, Reuse, Roulette, Scene, load},
 };
 
 use crate::statistics::assert_within;
@@ -33,6 +33,7 @@ fn render(scene: &Scene, directions: Directions, spp: u32) -> Vec<Estimate> {
         directions,
         roulette: Roulette::BY_THROUGHPUT,
         max_bounces: None,
+        reuse: Reuse::Off,
         seed: 3,
     };
     let mut film = Film::new(camera.resolution);

@@ -15,6 +15,7 @@ mod picture;
 mod plate;
 mod references;
 mod shape_lamps;
+mod sharing;
 mod space;
 mod statistics;
 mod textured_sphere;

@@ -2,7 +2,7 @@
 pub use noisefall::measure::{Mean, Measure, Picture, picture};
 use noisefall::{
     sampling::{Directions, Sampler},
-    scene::{Estimator, RenderSettings, Roulette, Scene, parse},
+    scene::{Estimator, RenderSettings, Reuse, Roulette, Scene, parse},
 };
 use statrs::distribution::{ContinuousCDF, Normal};
 
@@ -21,6 +21,7 @@ pub fn settings(estimator: Estimator) -> RenderSettings {
         directions: Directions::Cosine,
         roulette: Roulette::BY_THROUGHPUT,
         max_bounces: None,
+        reuse: Reuse::Off,
         // Estimators that are compared with each other share no random numbers.
         seed: 17 + estimator as u32,
     }

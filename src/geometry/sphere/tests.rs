@@ -47,7 +47,7 @@ fn oracle(sphere: &Sphere, o: V<One>, d: V<One>) -> (Option<f64>, f64) {
 }
 
 fn intersect(sphere: &Sphere, o: V<One>, d: V<One>) -> Option<f64> {
-    let meeting = sphere.intersect(o, d);
+    let meeting = sphere.intersect(o, d)?;
     meeting.less(&Fraction::infinite(One)).0.then_some(f64::from(meeting.value().0))
 }
 

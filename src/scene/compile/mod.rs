@@ -71,6 +71,7 @@ pub fn compile(desc: &SceneDesc, source: &SourceText) -> Result<Scene, SceneErro
         objects,
         camera,
         settings,
+        sharing_pays: Default::default(),
         spp,
         truth,
         deepest_media: 0,

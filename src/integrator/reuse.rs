@@ -1,0 +1,238 @@
+//! Last stage: what paths find beyond the first surface is shared among the pixels of a group.
+//!
+//! P. Bekaert, M. Sbert and J. Halton, "Accelerating Path Tracing by Re-using Paths", Eurographics Workshop on Rendering 2002.
+//! The path of pixel j meets a diffuse surface at xⱼ and, by a sampled direction, another at yⱼ, which sends the radiance Lⱼ in all
+//! directions alike. Any pixel i of the group could have found yⱼ, with the density pᵢ(yⱼ) over areas, and takes it into account by
+//! the balance heuristic: it adds ρᵢ Lⱼ pᵢ(yⱼ)/Σₖ pₖ(yⱼ). Where yⱼ is not seen from xᵢ, pᵢ is 0. The weights of a path add up to 1:
+//! its light is divided among the pixels, so that the mean over a group stays what it was and only the noise of the pixels falls.
+use fearless_simd_macros::simd;
+
+use super::batch::{Batch, Hit, SLOTS, TILE, Work};
+use crate::{
+    geometry::Place,
+    math::{F, Lanes, M, MAX_LANES, Pick, U, V},
+    sampling::hash::hash_one,
+};
+
+/// A group is so many pixels wide and high.
+const WIDTH: u32 = 4;
+const HEIGHT: u32 = 4;
+/// The pixels of a group. A visibility ray for each but one is what a sample costs more.
+const MEMBERS: usize = (WIDTH * HEIGHT) as usize;
+/// The slots of a batch are the first members of all groups, then the second members, and so on.
+const GROUPS: usize = SLOTS / MEMBERS;
+
+/// The surface points that are shared, by slot.
+pub(super) struct Shared {
+    /// The first surfaces: where rays start, and 1 in lanes that share; normals; albedos.
+    points: Vec<[f32; 4]>,
+    normals: Vec<[f32; 4]>,
+    albedos: Vec<[f32; 4]>,
+    /// The second ones: where they are, and the primitive; normals, zero where there is none, and the triangle.
+    found: Vec<[f32; 4]>,
+    found_normals: Vec<[f32; 4]>,
+    /// What comes out, row by row of the tile.
+    pub(super) radiance: Vec<[f32; 4]>,
+}
+
+impl Default for Shared {
+    fn default() -> Self {
+        let rows = || vec![[0.0; 4]; SLOTS];
+        Shared {
+            points: rows(),
+            normals: rows(),
+            albedos: rows(),
+            found: rows(),
+            found_normals: rows(),
+            radiance: vec![[0.0; 4]; 2 * SLOTS],
+        }
+    }
+}
+
+/// Column and row of slots within their tile. Groups lie elsewhere in every sample, or else their edges would show.
+#[inline(always)]
+pub(super) fn place<L: Lanes>(slot: U<L>, sample: u32) -> (U<L>, U<L>) {
+    let (member, group) = (slot >> GROUPS.trailing_zeros(), slot & (GROUPS as u32 - 1));
+    let offset = hash_one(sample);
+    let x = (group & (TILE / WIDTH - 1)) * WIDTH + (member & (WIDTH - 1));
+    let y = (group >> (TILE / WIDTH).trailing_zeros()) * HEIGHT + (member >> WIDTH.trailing_zeros());
+    ((x + (offset & (TILE - 1))) & (TILE - 1), (y + (offset >> 16)) & (TILE - 1))
+}
+
+impl Shared {
+    pub fn clear(&mut self) {
+        self.points.fill([0.0; 4]);
+        self.found_normals.fill([0.0; 4]);
+    }
+
+    /// What a path has gathered of which nothing is shared: `radiance` by slot.
+    pub fn alone(&self, radiance: &[[f32; 4]], slot: usize) -> [f32; 3] {
+        let found = self.weighted(slot, [0, 1, 2].map(|c| radiance[slot + SLOTS][c]));
+        [0, 1, 2].map(|c| radiance[slot][c] + found[c])
+    }
+
+    /// Times the albedo of the first surface, where that is shared.
+    pub fn weighted(&self, slot: usize, colour: [f32; 3]) -> [f32; 3] {
+        let shares = self.points[slot][3] > 0.0;
+        [0, 1, 2].map(|c| if shares { colour[c] * self.albedos[slot][c] } else { colour[c] })
+    }
+
+    /// Keeps the first surface of paths.
+    #[inline(always)]
+    pub fn keep_first<L: Lanes>(&mut self, l: L, lanes: M<L>, hit: &Hit<L>) {
+        put(lanes, hit.slot, hit.p, l.f(1.0), &mut self.points);
+        put(lanes, hit.slot, hit.n, l.f(0.0), &mut self.normals);
+        put(lanes, hit.slot, hit.colour, l.f(0.0), &mut self.albedos);
+    }
+
+    /// The lanes that share their first surface, and its albedo.
+    #[inline(always)]
+    pub fn first<L: Lanes>(&self, l: L, slot: U<L>) -> (M<L>, V<L>) {
+        // Lanes past the end may say anything.
+        let slot = slot & (SLOTS as u32 - 1);
+        let [r, g, b, _] = l.rows(&self.albedos, slot);
+        (l.rows(&self.points, slot)[3].above(0.0), V { x: r, y: g, z: b })
+    }
+
+    /// Keeps the second surface of paths, and has what they find from there on gathered apart.
+    #[inline(always)]
+    pub fn keep_second<L: Lanes>(&mut self, lanes: M<L>, place: &Place<L>, hit: &mut Hit<L>) {
+        put(lanes, hit.slot, hit.p, place.primitive.as_real_bits(), &mut self.found);
+        put(lanes, hit.slot, hit.n, place.element.as_real_bits(), &mut self.found_normals);
+        hit.slot = lanes.pick(hit.slot + SLOTS as u32, hit.slot);
+    }
+}
+
+/// Writes rows by slot.
+#[inline(always)]
+fn put<L: Lanes>(lanes: M<L>, slot: U<L>, V { x, y, z }: V<L>, w: F<L>, rows: &mut [[f32; 4]]) {
+    let slot = slot.to_array();
+    let [x, y, z, w] = [x, y, z, w].map(F::to_array);
+    let mut rest = lanes.bits();
+    while rest != 0 {
+        let lane = rest.trailing_zeros() as usize % MAX_LANES;
+        rest &= rest - 1;
+        rows[slot[lane] as usize] = [x[lane], y[lane], z[lane], w[lane]];
+    }
+}
+
+/// A first surface.
+#[derive(Clone, Copy)]
+struct First<L: Lanes> {
+    p: V<L>,
+    n: V<L>,
+    shares: M<L>,
+}
+
+/// A second surface.
+struct Second<L: Lanes> {
+    p: V<L>,
+    n: V<L>,
+    place: Place<L>,
+    radiance: V<L>,
+    /// Lanes where there is light to share.
+    lit: M<L>,
+}
+
+/// Adds to the radiance of every slot what it gets of its group, and brings the slots into the order of rows.
+#[simd]
+pub(super) fn share<L: Lanes>(l: L, work: &Work, batch: &mut Batch) {
+    let none = First { p: V::splat(l, [0.0; 3]), n: V::splat(l, [0.0; 3]), shares: l.first(0) };
+    for start in (0..GROUPS).step_by(L::N) {
+        let slot = |member: usize| l.iota() + (member * GROUPS + start) as u32;
+        let mut firsts = [none; MEMBERS];
+        for (member, first) in firsts.iter_mut().enumerate() {
+            *first = First::read(l, &batch.shared, slot(member));
+        }
+        let mut sums = [V::splat(l, [0.0; 3]); MEMBERS];
+        for finder in 0..MEMBERS {
+            let second = Second::read(l, batch, slot(finder));
+            if !second.lit.any() {
+                continue;
+            }
+            let mut densities = [l.f(0.0); MEMBERS];
+            let mut total = l.f(0.0);
+            for (member, density) in densities.iter_mut().enumerate() {
+                *density = second.density_from(l, work, &firsts[member], member == finder, &mut batch.rays);
+                total = total + *density;
+            }
+            let per_density = second.radiance * (1.0 / total);
+            for (sum, density) in sums.iter_mut().zip(densities) {
+                *sum = *sum + density.above(0.0).pick(per_density * density, V::splat(l, [0.0; 3]));
+            }
+        }
+        for (member, sum) in sums.into_iter().enumerate() {
+            finish(l, work, batch, slot(member), sum);
+        }
+    }
+    std::mem::swap(&mut batch.radiance, &mut batch.shared.radiance);
+}
+
+impl<L: Lanes> First<L> {
+    #[inline(always)]
+    fn read(l: L, shared: &Shared, slot: U<L>) -> Self {
+        let [x, y, z, shares] = l.rows(&shared.points, slot);
+        let [nx, ny, nz, _] = l.rows(&shared.normals, slot);
+        First { p: V { x, y, z }, n: V { x: nx, y: ny, z: nz }, shares: shares.above(0.0) }
+    }
+}
+
+impl<L: Lanes> Second<L> {
+    #[inline(always)]
+    fn read(l: L, batch: &Batch, slot: U<L>) -> Self {
+        let [x, y, z, primitive] = l.rows(&batch.shared.found, slot);
+        let [nx, ny, nz, element] = l.rows(&batch.shared.found_normals, slot);
+        let [r, g, b, _] = l.rows(&batch.radiance, slot + SLOTS as u32);
+        let (n, radiance) = (V { x: nx, y: ny, z: nz }, V { x: r, y: g, z: b });
+        let place = Place { primitive: primitive.bits(), element: element.bits(), time: l.f(0.0) };
+        let lit = n.max_abs().above(0.0) & radiance.max_component().above(0.0);
+        Second { p: V { x, y, z }, n, place, radiance, lit }
+    }
+
+    /// Density over areas, times π, with which a cosine-distributed direction from a first surface finds this place; 0 where it
+    /// is not seen. The finder itself sees it.
+    #[inline(always)]
+    fn density_from(&self, l: L, work: &Work, first: &First<L>, is_finder: bool, rays: &mut u64) -> F<L> {
+        // Rounding must not take its own find away from a path that grazes.
+        const LEAST: f32 = 1e-6;
+        let way = self.p - first.p;
+        let distance_squared = way.length_squared();
+        let inverse = 1.0 / distance_squared.sqrt();
+        let wi = way * inverse;
+        let (leaving, arriving) = (wi.dot(first.n), -wi.dot(self.n));
+        if is_finder {
+            let density = leaving.max(l.f(LEAST)) * arriving.max(l.f(LEAST)) / distance_squared;
+            return (self.lit & first.shares).pick(density, l.f(0.0));
+        }
+        let faces = self.lit & first.shares & leaving.above(0.0) & arriving.above(0.0);
+        if !faces.any() {
+            return l.f(0.0);
+        }
+        *rays += faces.count() as u64;
+        let seen = faces & self.is_met(l, work, first.p, wi, distance_squared * inverse, faces);
+        seen.pick(leaving * arriving / distance_squared, l.f(0.0))
+    }
+
+    /// Whether a ray meets this place first.
+    #[inline(always)]
+    fn is_met(&self, l: L, work: &Work, o: V<L>, d: V<L>, distance: F<L>, lanes: M<L>) -> M<L> {
+        // Of a surface that is not convex a ray may meet another part first.
+        const NEARLY: f32 = 0.999;
+        let shapes = &work.scene.shapes;
+        let met = if shapes.are_spheres() { shapes.closest_sphere(l, o, d) } else { shapes.closest(l, lanes, o, d, self.place.time) };
+        let same = met.primitive.equals(self.place.primitive) & met.element.equals(self.place.element);
+        same & met.t.ge(distance * NEARLY)
+    }
+}
+
+/// Writes what the slots get to their places in the tile.
+#[inline(always)]
+fn finish<L: Lanes>(l: L, work: &Work, batch: &mut Batch, slot: U<L>, sum: V<L>) {
+    let [r, g, b, _] = l.rows(&batch.radiance, slot);
+    let [x, y, z, _] = l.rows(&batch.shared.albedos, slot);
+    let own = V { x: r, y: g, z: b };
+    let shares = l.rows(&batch.shared.points, slot)[3].above(0.0);
+    let total = shares.pick(own + sum * V { x, y, z }, own);
+    let (column, row) = work.place(slot);
+    put(l.first(L::N), (row << TILE.trailing_zeros()) + column, total, l.f(0.0), &mut batch.shared.radiance);
+}
