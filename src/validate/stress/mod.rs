@@ -36,6 +36,13 @@ struct Trial {
 }
 
 impl Trial {
+    /// The scene if it breaks an invariant.
+    fn kept(&self) -> Option<KeptScene> {
+        let reason = statements::breaks(self)?;
+        let text = format!("# {}\n{}", reason.replace('\n', " "), self.text);
+        Some(KeptScene { name: self.name.clone(), text, reason })
+    }
+
     /// The part of the light that is lost, and what may be.
     fn loss(&self) -> Option<(f64, f64)> {
         match self.draft.expected {
@@ -63,11 +70,7 @@ impl Validation {
             let section = statements::section(group, &trials);
             done(i + 1, &section);
             sections.push(section);
-            kept.extend(trials.into_iter().filter_map(|trial| {
-                let reason = statements::breaks(&trial)?;
-                let text = format!("# {}\n{}", reason.replace('\n', " "), trial.text);
-                Some(KeptScene { name: trial.name, text, reason })
-            }));
+            kept.extend(trials.iter().filter_map(Trial::kept));
         }
         (sections, kept)
     }

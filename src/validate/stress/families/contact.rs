@@ -116,7 +116,9 @@ pub fn along_a_floor(dice: &mut Dice, walls: &str) -> (Draft, f64) {
         0 => room.body("shape.cuboid = { min = [-20.0, -1.0, -20.0], max = [20.0, 0.0, 20.0] }"),
         1 => room.body(&sphere(DVec3::new(0.0, -radius, 0.0), radius)),
         _ => {
-            room.sheet("shape.rectangle = { origin = [-20.0, 0.0, -20.0], edge_u = [0.0, 0.0, 40.0], edge_v = [40.0, 0.0, 0.0] }")
+            room.sheet(
+                "shape.rectangle = { origin = [-20.0, 0.0, -20.0], edge_u = [0.0, 0.0, 40.0], edge_v = [40.0, 0.0, 0.0] }",
+            );
         }
     }
     for _ in 0..5 {

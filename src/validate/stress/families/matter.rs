@@ -43,13 +43,13 @@ fn glass(dice: &mut Dice) -> Draft {
         (outside, radius) = (ior, radius * dice.within(0.3, 0.9999));
     }
     // Glass takes reflections that count towards the cap: only without one is the sum known.
-    uncapped(room.draft(dice, &camera, 1.0), furnace(1.0, 0.5))
+    uncapped(&room.draft(dice, &camera, 1.0), furnace(1.0, 0.5))
 }
 
 /// The same scene without a cap, with what then is exact.
-fn uncapped(draft: Draft, exact: f64) -> Draft {
+fn uncapped(draft: &Draft, exact: f64) -> Draft {
     let text = draft.text.replace("max_bounces = 60, ", "");
-    Draft { text, expected: Expected::Everywhere(exact), cap: None, ..draft }
+    Draft { size: draft.size, ..Draft::of(text, Expected::Everywhere(exact)) }
 }
 
 fn rough(dice: &mut Dice) -> Draft {
@@ -62,7 +62,7 @@ fn rough(dice: &mut Dice) -> Draft {
         _ => format!("dielectric = {{ ior = {ior:?}, alpha = {alpha:?} }}"),
     };
     room.lossless("rough", &material, &sphere(DVec3::ZERO, 0.5));
-    let draft = uncapped(room.draft(dice, &camera, 1.0), furnace(1.0, 0.5));
+    let draft = uncapped(&room.draft(dice, &camera, 1.0), furnace(1.0, 0.5));
     Draft { expected: Expected::Mean(furnace(1.0, 0.5)), spp: 64, ..draft }
 }
 
@@ -70,7 +70,7 @@ fn rough(dice: &mut Dice) -> Draft {
 fn estimators(dice: &mut Dice) -> Draft {
     let (mut room, camera) = room(dice);
     room.body(&sphere(DVec3::ZERO, 0.4));
-    let draft = uncapped(room.draft(dice, &camera, 1.0), furnace(1.0, 0.5));
+    let draft = uncapped(&room.draft(dice, &camera, 1.0), furnace(1.0, 0.5));
     let text = draft
         .text
         .replace("'path'", &format!("'{}'", dice.pick(&["path", "light", "mis"])))

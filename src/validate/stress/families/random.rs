@@ -98,7 +98,7 @@ fn material(dice: &mut Dice) -> String {
         3 => format!("dielectric = {{ ior = {ior:?}, alpha = {alpha:?}, ior_outside = {:?} }}", dice.pick(&[1.0, 1.5])),
         4 => format!("conductor = {{ f0 = {colour}, alpha = {alpha:?} }}"),
         5 => format!("conductor = {{ eta = [0.0, 0.2, 1e3], k = [1e-3, 3.0, 1e3], alpha = {alpha:?} }}"),
-        6 => format!("conductor = {{ reflectance = 1.0, roughness = {{ texture = 'fine' }} }}"),
+        6 => "conductor = { reflectance = 1.0, roughness = { texture = 'fine' } }".to_owned(),
         _ => format!("plastic = {{ albedo = {colour}, ior = {:?}, alpha = {alpha:?} }}", f64::max(ior, 1.0)),
     }
 }
