@@ -103,7 +103,9 @@ fn meetings_of(piece: &Shape, o: DVec3, d: DVec3) -> Vec<Meeting> {
             let margin = margin(*outline, in_plane(*origin, [*e, *f], o + d * t));
             // The lesser height over an edge.
             let height = e.cross(*f).length() / e.length().max(f.length());
-            vec![Meeting { t, margin, cos: d.dot(n).abs(), clearance: margin * height }]
+            // Aside by a metre, a ray at the angle θ meets the plane 1/cos θ metres farther on.
+            let cos = d.dot(n).abs();
+            vec![Meeting { t, margin, cos, clearance: margin * height * cos }]
         }
         _ => unreachable!("not an analytic piece"),
     }
@@ -146,8 +148,9 @@ fn quadric(origin: DVec3, axes: DMat3, cylinder: bool, o: DVec3, d: DVec3) -> Ve
         let place = y + e * t;
         let n = (g.transpose() * (place * weight)).normalize();
         let margin = if cylinder { place.z.min(1.0 - place.z) } else { 1.0 };
-        let clearance = if cylinder { depth.min(margin * axes.z_axis.length()) } else { depth };
-        Meeting { t, margin, cos: n.dot(d).abs(), clearance }
+        let cos = n.dot(d).abs();
+        let clearance = if cylinder { depth.min(margin * axes.z_axis.length() * cos) } else { depth };
+        Meeting { t, margin, cos, clearance }
     };
     vec![meeting(w / a), meeting(c / w)]
 }

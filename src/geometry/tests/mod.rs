@@ -1,6 +1,5 @@
 //! Every kind of shape, placed by every kind of transform, against oracles in f64.
 mod coordinates;
-mod distances;
 mod objects;
 mod rays;
 mod toward;
