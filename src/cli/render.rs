@@ -133,7 +133,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         eprintln!("note: the picture is entirely black: {}", scene.why_black(&camera, &settings));
     }
     if status.cut_paths > 0 {
-        let longest = RenderSettings::LONGEST_PATH;
+        let longest = settings.last_bounce();
         eprintln!(
             "warning: {} paths were cut after {longest} reflections: the picture is biased; use roulette",
             status.cut_paths

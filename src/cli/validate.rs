@@ -1,9 +1,12 @@
 //! `noisefall validate`: every exact solution against what the renderer says.
-use std::{path::PathBuf, time::Instant};
+use std::{
+    path::{Path, PathBuf},
+    time::Instant,
+};
 
 use noisefall::{
     file::{replace, temporary},
-    validate::{Effort, Section, Validation, html, reference_names},
+    validate::{Effort, KeptScene, Section, Suite, Validation, html, reference_names},
 };
 
 use super::{Failure, print};
@@ -11,15 +14,20 @@ use super::{Failure, print};
 /// The file in the folder that the report goes to.
 const REPORT: &str = "report.html";
 const REFERENCES: &str = "tests/references";
+/// The folder beside the report that scenes which fail go to.
+const KEPT: &str = "stress";
 
 #[derive(clap::Args)]
 pub struct Arguments {
     /// Folder for the report, made if it is not there
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
-    /// Fewer samples: under half a minute
+    /// Fewer samples or scenes: under half a minute
     #[arg(long)]
     quick: bool,
+    /// Adversarial scenes by the hundred in place of exact solutions; those that fail are written to DIR/stress
+    #[arg(long, conflicts_with = "references")]
+    stress: bool,
     /// Folder of reference scenes with block means [default: tests/references, if it is there]
     #[arg(long, value_name = "DIR")]
     references: Option<PathBuf>,
@@ -30,14 +38,18 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let references = arguments.references.clone().unwrap_or_else(|| REFERENCES.into());
     let effort = if arguments.quick { Effort::Quick } else { Effort::Full };
     let start = Instant::now();
+    let suite = if arguments.stress { Suite::Stress } else { Suite::Exact };
+    let validation = Validation::new(effort, references);
     let mut lines = Vec::new();
-    let sections = Validation::new(effort, references).run(|number, section| lines.push(show(number, section)));
+    let done = |number: usize, section: &Section| lines.push(show(number, section, suite));
+    let (sections, kept) = match suite {
+        Suite::Exact => (validation.run(done), Vec::new()),
+        Suite::Stress => validation.stress(done),
+    };
     lines.into_iter().collect::<Result<Vec<()>, Failure>>()?;
     if let Some(folder) = &arguments.output {
-        let path = folder.join(REPORT);
-        let written = replace(folder, REPORT, html(&sections, effort).as_bytes());
-        written.map_err(|error| format!("{}: cannot be written: {error}", path.display()))?;
-        print(&format!("report: {}", path.display()))?;
+        write(folder, REPORT, &html(&sections, suite, effort), "report")?;
+        keep(&folder.join(KEPT), &kept)?;
     } else {
         print("no report was written: -o DIR says where to")?;
     }
@@ -48,6 +60,20 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         return Err(format!("{failed} of {statements} statements fail ({seconds:.0} s)"));
     }
     print(&format!("all {statements} statements hold ({seconds:.0} s)"))
+}
+
+fn write(folder: &Path, name: &str, text: &str, what: &str) -> Result<(), Failure> {
+    let path = folder.join(name);
+    replace(folder, name, text.as_bytes()).map_err(|error| format!("{}: cannot be written: {error}", path.display()))?;
+    print(&format!("{what}: {}", path.display()))
+}
+
+/// Writes the scenes that fail, if there are any.
+fn keep(folder: &Path, scenes: &[KeptScene]) -> Result<(), Failure> {
+    if !scenes.is_empty() {
+        std::fs::create_dir_all(folder).map_err(|error| format!("{}: cannot be made: {error}", folder.display()))?;
+    }
+    scenes.iter().try_for_each(|scene| write(folder, &format!("{}.toml", scene.name), &scene.text, "scene"))
 }
 
 /// What is wrong with the folders is told before a minute is spent.
@@ -69,14 +95,17 @@ fn failures(section: &Section) -> usize {
     section.statements.iter().filter(|statement| !statement.holds).count()
 }
 
-/// A line for the section, and one for each statement that fails.
-fn show(number: usize, section: &Section) -> Result<(), Failure> {
+/// A line for the section, of scenes under stress another with its figures, and one for each statement that fails.
+fn show(number: usize, section: &Section, suite: Suite) -> Result<(), Failure> {
     let verdict = match (section.was_run(), section.holds()) {
         (false, _) => "not run",
         (_, true) => "holds",
         (_, false) => "FAILS",
     };
     print(&format!("{number:>2}  {verdict:<7}  {:>3} statements  {}", section.statements.len(), section.title.replace('_', "")))?;
+    if let (Suite::Stress, Some(figures)) = (suite, &section.remark) {
+        print(&format!("           {}", figures.replace('_', "")))?;
+    }
     for statement in section.statements.iter().filter(|statement| !statement.holds) {
         let measured = statement.measured;
         let exact = statement.exact.map_or(String::new(), |exact| format!("exact {exact:.6e}, "));

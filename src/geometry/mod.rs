@@ -26,6 +26,7 @@ mod lists;
 pub mod mesh;
 mod motion;
 mod objects;
+pub mod oracle;
 mod placed;
 mod pose;
 mod quadric;

@@ -75,7 +75,7 @@ pub struct Status {
     /// Samples dropped because they were not finite or negative.
     pub invalid_samples: u64,
     pub first_invalid: Option<SampleId>,
-    /// Paths cut at [`RenderSettings::LONGEST_PATH`].
+    /// Paths cut at [`RenderSettings::last_bounce`] without a cap that says so.
     pub cut_paths: u64,
 }
 

@@ -117,10 +117,12 @@ impl Reuse {
 impl RenderSettings {
     /// Paths that go on for longer are cut, counted and reported: a room of white walls without roulette would never let one go.
     pub const LONGEST_PATH: u32 = 4096;
+    /// The highest cap that is taken at its word: who asks for long paths gets them, and waits.
+    pub const HIGHEST_CAP: u32 = 1 << 17;
 
     /// The number of reflections after which every path is cut.
     pub fn last_bounce(&self) -> u32 {
-        let last = self.max_bounces.map_or(Self::LONGEST_PATH, |cap| cap.min(Self::LONGEST_PATH));
+        let last = self.max_bounces.map_or(Self::LONGEST_PATH, |cap| cap.min(Self::HIGHEST_CAP));
         // A mistake may let paths go on for ever.
         #[cfg(test)]
         let last = self.fault.map_or(last, |fault| last.min(60) + u32::from(fault == Fault::OneBounceMore));

@@ -12,6 +12,9 @@ use crate::{
 
 pub const RED: Measure = |radiance| f64::from(radiance[0]);
 
+/// What tables of lost light and their interpolation may lose or add.
+pub const TABLES: f64 = 1e-3;
+
 /// The scene of a file that says this after its version.
 pub fn scene(text: &str) -> Scene {
     parse("validation", format!("format = 1\n{text}")).unwrap_or_else(|error| panic!("{}\n{text}", error.report()))

@@ -7,18 +7,30 @@ mod plot;
 mod report;
 mod sections;
 mod statement;
+mod stress;
 #[cfg(test)]
 mod tests;
 
 use std::path::PathBuf;
 
+use self::statement::SIGMAS;
 pub use self::{
     report::html,
     sections::{Agreement, agreement, reference_names},
     statement::Statement,
+    stress::KeptScene,
 };
 #[cfg(test)]
 use crate::scene::Fault;
+
+/// What is held against what.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Suite {
+    /// Exact solutions of the light transport equation.
+    Exact,
+    /// Hundreds of adversarial scenes against invariants.
+    Stress,
+}
 
 /// How much is computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

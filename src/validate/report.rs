@@ -1,7 +1,7 @@
 //! The report as one HTML file, which needs nothing else and prints well.
 use maud::{DOCTYPE, Markup, PreEscaped, html as markup};
 
-use super::{Effort, Section, Statement};
+use super::{Effort, Section, Statement, Suite};
 
 const STYLE: &str = "
 :root { color-scheme: light; }
@@ -20,7 +20,7 @@ figcaption { font-size: .86rem; color: #444; }
 ";
 
 /// The report of all sections.
-pub fn html(sections: &[Section], effort: Effort) -> String {
+pub fn html(sections: &[Section], suite: Suite, effort: Effort) -> String {
     let statements: usize = sections.iter().map(|section| section.statements.len()).sum();
     let run = sections.iter().filter(|section| section.was_run()).count();
     let failed: usize = sections.iter().flat_map(|section| &section.statements).filter(|statement| !statement.holds).count();
@@ -34,20 +34,53 @@ pub fn html(sections: &[Section], effort: Effort) -> String {
                 style { (PreEscaped(STYLE)) }
             }
             body {
-                h1 { "Does Noisefall solve the light transport equation?" }
-                p { (formula("L(x, ω_o) = L_e(x, ω_o) + ∫ f(x, ω_i, ω_o) L(x_M(x, ω_i), −ω_i) cos θ_i dω_i")) ", where "
-                    (formula("x_M")) " is the first surface point seen from x along " (formula("ω_i")) ": solved by Monte Carlo integration \
-                     and held against exact solutions in " (statements) " statements of " (run) " sections. "
+                h1 { (suite.question()) }
+                p { (formula(suite.answer())) " " (statements) " statements of " (run) " sections. "
                     @if failed == 0 { span.holds { "All hold." } } @else { span.fails { (failed) " fail." } } }
-                p.source { "noisefall " (env!("CARGO_PKG_VERSION")) ", " @if effort == Effort::Quick { "a quick run: fewer samples" } @else { "a full run" }
-                    ". A statement with chance in it fails beyond 4 standard errors, unless its row says otherwise. All samples are seeded and the \
-                     same on every machine; only the times of section 7 differ." }
+                p.source { "noisefall " (env!("CARGO_PKG_VERSION")) ", " @if effort == Effort::Quick { "a quick run" } @else { "a full run" } ". "
+                    (suite.conditions()) }
                 (contents(sections))
                 @for (i, section) in sections.iter().enumerate() { (body(i + 1, section)) }
             }
         }
     };
     page.into_string()
+}
+
+impl Suite {
+    fn question(self) -> &'static str {
+        match self {
+            Suite::Exact => "Does Noisefall solve the light transport equation?",
+            Suite::Stress => "What does it take to break Noisefall?",
+        }
+    }
+
+    fn answer(self) -> &'static str {
+        match self {
+            Suite::Exact => {
+                "L(x, ω_o) = L_e(x, ω_o) + ∫ f(x, ω_i, ω_o) L(x_M(x, ω_i), −ω_i) cos θ_i dω_i, where x_M is the first surface point \
+                 seen from x along ω_i: solved by Monte Carlo integration and held against exact solutions in"
+            }
+            Suite::Stress => {
+                "Random and adversarial scenes, each read, compiled and rendered as a user's file would be: no sample may be negative or \
+                 not finite, energy that is known must be kept, x_M must be what f64 says, no scene may hang, and what cannot be rendered \
+                 must be refused clearly. Held in"
+            }
+        }
+    }
+
+    fn conditions(self) -> &'static str {
+        match self {
+            Suite::Exact => {
+                "A statement with chance in it fails beyond 4 standard errors, unless its row says otherwise. All samples are seeded and \
+                 the same on every machine; only the times of section 7 differ."
+            }
+            Suite::Stress => {
+                "A scene is named by its family and number and is the same on every machine; only times differ. Those that fail are \
+                 written to the folder stress beside this report."
+            }
+        }
+    }
 }
 
 fn contents(sections: &[Section]) -> Markup {
@@ -72,7 +105,7 @@ fn body(number: usize, section: &Section) -> Markup {
             p.claim { (formula(section.claim)) }
             div.derivation { @for paragraph in section.derivation { p { (formula(paragraph)) } } }
             p.source { (formula(section.source)) }
-            @if let Some(remark) = &section.remark { p { (remark) } }
+            @if let Some(remark) = &section.remark { p { (formula(remark)) } }
             @for figure in &section.figures {
                 figure { (PreEscaped(&figure.element)) figcaption { (formula(&figure.caption)) } }
             }

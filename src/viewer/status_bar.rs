@@ -108,7 +108,7 @@ impl App {
             trouble(format!("{invalid_samples} invalid samples"), format!("Replay the first: {command}"));
         }
         if cut_paths > 0 {
-            let longest = RenderSettings::LONGEST_PATH;
+            let longest = self.link.wish().map_or(RenderSettings::LONGEST_PATH, |wish| wish.settings.last_bounce());
             let text = format!("paths cut after {longest} reflections");
             trouble(text, "Choose a roulette: then paths end by themselves".to_owned());
         }

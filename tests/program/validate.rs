@@ -25,6 +25,19 @@ fn a_quick_validation_holds_and_writes_a_report_that_needs_nothing_else() {
 }
 
 #[test]
+fn scenes_under_stress_hold_and_are_reported() {
+    let shell = Shell::new();
+    let done = shell.run(&["validate", "--stress", "--quick", "-o", "report"]);
+    let shown = text(&done.stdout);
+    assert!(done.status.success(), "{shown}{}", text(&done.stderr));
+    assert!(shown.contains(" 7  holds") && shown.contains("scenes, ") && shown.contains("slowest"), "{shown}");
+    let report = fs::read_to_string(shell.path("report/report.html")).expect("a report");
+    assert_eq!(report.matches("<section").count(), 7);
+    assert!(report.matches("<svg").count() >= 5 && !report.contains("✗"));
+    assert!(!shell.path("report/stress").exists(), "nothing fails, nothing is kept");
+}
+
+#[test]
 fn a_reference_that_differs_fails_the_validation() {
     let shell = Shell::new();
     fs::create_dir(shell.path("wrong")).expect("a folder");

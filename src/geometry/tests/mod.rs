@@ -1,7 +1,6 @@
 //! Every kind of shape, placed by every kind of transform, against oracles in f64.
 mod coordinates;
 mod objects;
-mod oracle;
 mod rays;
 mod toward;
 
@@ -10,7 +9,7 @@ use std::f64::consts::PI;
 use glam::{DAffine3, DMat3, DVec3};
 use rand::{Rng, rngs::SmallRng};
 
-use super::{Motion, Outline, Place, Shape, Shapes};
+use super::{Motion, Outline, Place, Shape, Shapes, oracle::point_at};
 use crate::math::{F, One, U, V};
 
 /// A shape and what it is.
@@ -96,29 +95,6 @@ pub fn unit_vector(rng: &mut SmallRng) -> DVec3 {
     let (z, phi) = (rng.random_range(-1.0..1.0f64), rng.random_range(0.0..2.0 * PI));
     let r = (1.0 - z * z).sqrt();
     DVec3::new(r * phi.cos(), r * phi.sin(), z)
-}
-
-/// A point of a piece at the parameters (a, b) in [0, 1]².
-pub fn point_at(piece: &Shape, [a, b]: [f64; 2]) -> DVec3 {
-    let on_sphere = || {
-        let (z, phi) = (2.0 * a - 1.0, 2.0 * PI * b);
-        let r = (1.0 - z * z).sqrt();
-        DVec3::new(r * phi.cos(), r * phi.sin(), z)
-    };
-    match piece {
-        Shape::Sphere { center, radius } => *center + on_sphere() * *radius,
-        Shape::Ellipsoid { center, axes } => *center + *axes * on_sphere(),
-        Shape::Flat { outline, origin, edges: [e, f], .. } => {
-            let (s, t) = match outline {
-                Outline::Triangle if a + b > 1.0 => (1.0 - a, 1.0 - b),
-                Outline::Parallelogram | Outline::Triangle => (a, b),
-                Outline::Ellipse => (a.sqrt() * (2.0 * PI * b).cos(), a.sqrt() * (2.0 * PI * b).sin()),
-            };
-            *origin + *e * s + *f * t
-        }
-        Shape::Cylinder { base, axes, .. } => *base + *axes * DVec3::new((2.0 * PI * b).cos(), (2.0 * PI * b).sin(), a),
-        _ => unreachable!("not an analytic piece"),
-    }
 }
 
 pub fn point(rng: &mut SmallRng, piece: &Shape) -> DVec3 {

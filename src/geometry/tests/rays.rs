@@ -2,9 +2,12 @@
 use glam::DVec3;
 use rand::{Rng, SeedableRng, rngs::SmallRng};
 
-use super::{Case, cases, exact, lane, oracle::meetings, place, point, unit_vector, v};
+use super::{Case, cases, exact, lane, place, point, unit_vector, v};
 use crate::{
-    geometry::{MISS, Nearest, Shape, Shapes},
+    geometry::{
+        MISS, Nearest, Shape, Shapes,
+        oracle::{meetings, point_at},
+    },
     math::{F, M, One, U, V},
 };
 
@@ -139,8 +142,7 @@ fn rays_inside_closed_shapes_stay_inside() {
         for i in 0..40_000 {
             let id = i % pieces.len();
             let (a, b) = (rng.random_range(0.0..1.0), rng.random_range(0.0..1.0));
-            let on =
-                super::point_at(&pieces[id], if i % 3 == 0 { [a, b] } else { [edge(a), if i % 3 == 1 { b } else { edge(b) }] });
+            let on = point_at(&pieces[id], if i % 3 == 0 { [a, b] } else { [edge(a), if i % 3 == 1 { b } else { edge(b) }] });
             let found = shapes.surface_point(One, &place(id as u32), v(on));
             let n = -exact(found.n_geometric);
             let grazing = 10f64.powf(rng.random_range(-5.0..0.0));

@@ -7,7 +7,7 @@ use crate::{
     scene::Scene,
     validate::{
         Section, Statement, Validation,
-        check::{RED, scene, uniform},
+        check::{RED, TABLES, scene, uniform},
         plot::{Axis, Style, curve, plot},
         statement::SIGMAS,
     },
@@ -16,8 +16,6 @@ use crate::{
 const CAPTION: &str = "The radiance of lossless balls by the cosine of the angle at which their surface is seen, each at its roughest. \
                        Exact is 1; what is left is noise.";
 const SIDE: usize = 48;
-/// What tables of lost light and their interpolation may lose or add.
-const TOLERANCE: f64 = 1e-3;
 const MATERIALS: [(&str, &str, &[f64]); 6] = [
     ("lambertian", "lambertian = { albedo = 1.0 }", &[0.0]),
     ("mirror", "mirror = { reflectance = 1.0 }", &[0.0]),
@@ -50,7 +48,7 @@ pub fn section(validation: &Validation) -> Section {
             let what = if roughnesses.len() > 1 { format!("{name}, roughness {roughness}") } else { name.to_owned() };
             let whole = Mean::of(rings.iter().map(|(_, ring)| *ring));
             // What tables of lost light may be off by counts as an error.
-            let error = whole.variance_of_mean.sqrt().hypot(TOLERANCE / SIGMAS);
+            let error = whole.variance_of_mean.sqrt().hypot(TABLES / SIGMAS);
             statements.push(Statement::z(format!("{what}: mean over angles"), whole.mean, error, 1.0));
             let worst = rings.iter().map(|(_, ring)| z(*ring)).fold(0.0, f64::max);
             statements.push(Statement::below(format!("{what}: largest |z| of {} angles", rings.len()), worst, SIGMAS + 0.5));
@@ -81,7 +79,7 @@ pub fn section(validation: &Validation) -> Section {
 
 /// How far a mean is from 1, in standard errors, of which what tables may be off by is one.
 fn z(found: Mean) -> f64 {
-    (found.mean - 1.0).abs() / found.variance_of_mean.sqrt().hypot(TOLERANCE / SIGMAS).max(1e-6)
+    (found.mean - 1.0).abs() / found.variance_of_mean.sqrt().hypot(TABLES / SIGMAS).max(1e-6)
 }
 
 /// Means of the pixels that see the ball at about the same angle, by its cosine.

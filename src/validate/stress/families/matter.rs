@@ -1,0 +1,106 @@
+//! Materials at the limits of their parameters, and every way to find light.
+use glam::DVec3;
+
+use super::{Family, rooms::sphere};
+use crate::{
+    measure::exact::furnace,
+    validate::stress::{
+        dice::Dice,
+        draft::{Draft, Expected, Furnace, camera_at, camera_towards},
+    },
+};
+
+pub const FAMILIES: [Family; 4] = [
+    Family { name: "glass", what: "clear balls within balls, indices from 1 + 10⁻⁶ to 2.4", scenes: 60, draft: glass },
+    Family { name: "rough", what: "lossless rough balls, α from 10⁻⁴ to 1", scenes: 84, draft: rough },
+    Family { name: "estimators", what: "estimators, samplers, directions, roulettes", scenes: 90, draft: estimators },
+    Family { name: "bright", what: "lamps of 10⁻⁹ and 10⁹ seen by all estimators", scenes: 60, draft: bright },
+];
+
+const INDICES: [f64; 6] = [1.0, 1.000_001, 1.0003, 1.333, 1.5, 2.4];
+
+/// A spherical room with something in its middle.
+fn room(dice: &mut Dice) -> (Furnace, String) {
+    let mut room = Furnace::of(0.5, 60);
+    room.wall(&sphere(DVec3::ZERO, 1.0));
+    let eye = dice.direction() * dice.within(0.6, 0.9);
+    let middle = dice.in_ball() * 0.2;
+    let camera = camera_towards(dice, eye, middle);
+    (room, camera)
+}
+
+fn glass(dice: &mut Dice) -> Draft {
+    let (mut room, camera) = room(dice);
+    // From the outermost to the innermost; each names the index on both its sides.
+    let (mut outside, mut radius) = (1.0, 0.5);
+    for i in 0..1 + dice.below(3) {
+        let ior = dice.pick(&INDICES);
+        room.lossless(
+            &format!("glass{i}"),
+            &format!("dielectric = {{ ior = {ior:?}, ior_outside = {outside:?} }}"),
+            &sphere(DVec3::ZERO, radius),
+        );
+        (outside, radius) = (ior, radius * dice.within(0.3, 0.9999));
+    }
+    // Glass takes reflections that count towards the cap: only without one is the sum known.
+    uncapped(&room.draft(dice, &camera, 1.0), furnace(1.0, 0.5))
+}
+
+/// The same scene without a cap, with what then is exact.
+fn uncapped(draft: &Draft, exact: f64) -> Draft {
+    let text = draft.text.replace("max_bounces = 60, ", "");
+    Draft { size: draft.size, ..Draft::of(text, Expected::Everywhere(exact)) }
+}
+
+fn rough(dice: &mut Dice) -> Draft {
+    let (mut room, camera) = room(dice);
+    let (alpha, ior) = (dice.pick(&[1e-4, 1e-3, 0.01, 0.1, 0.3, 0.6, 1.0]), dice.pick(&INDICES));
+    let material = match dice.below(4) {
+        0 => format!("conductor = {{ f0 = 1.0, alpha = {alpha:?} }}"),
+        1 => format!("conductor = {{ reflectance = 1.0, alpha = {alpha:?} }}"),
+        2 => format!("plastic = {{ albedo = 1.0, ior = {ior:?}, alpha = {alpha:?} }}"),
+        _ => format!("dielectric = {{ ior = {ior:?}, alpha = {alpha:?} }}"),
+    };
+    room.lossless("rough", &material, &sphere(DVec3::ZERO, 0.5));
+    let draft = uncapped(&room.draft(dice, &camera, 1.0), furnace(1.0, 0.5));
+    Draft { expected: Expected::Mean(furnace(1.0, 0.5)), spp: 64, ..draft }
+}
+
+/// A furnace with a grey ball, by any settings that converge to the same.
+fn estimators(dice: &mut Dice) -> Draft {
+    let (mut room, camera) = room(dice);
+    room.body(&sphere(DVec3::ZERO, 0.4));
+    let draft = uncapped(&room.draft(dice, &camera, 1.0), furnace(1.0, 0.5));
+    let text = draft
+        .text
+        .replace("'path'", &format!("'{}'", dice.pick(&["path", "light", "mis"])))
+        .replace("'cosine'", &format!("'{}'", dice.pick(&["uniform", "cosine", "bsdf"])))
+        .replace(
+            "'off'",
+            dice.pick(&["'off'", "'throughput'", "{ fixed = 0.5 }", "{ fixed = 0.95 }", "{ throughput = { start = 1 } }"]),
+        );
+    Draft { text, expected: Expected::Mean(furnace(1.0, 0.5)), spp: 64, ..draft }
+}
+
+/// One reflection off a grey ball under lamps of any strength: what is emitted outweighs all else or is nothing beside it.
+fn bright(dice: &mut Dice) -> Draft {
+    let lamp = |dice: &mut Dice| {
+        let (place, radius) = (dice.direction() * dice.within(2.0, 9.0), dice.decade(-4.0, -0.5));
+        let radiance = dice.pick(&[1e-9, 1.0, 1e9]);
+        format!("[[objects]]\n{}\nemission.radiance = {radiance:?}\n", sphere(place, radius))
+    };
+    let lamps: String = (0..1 + dice.below(5)).map(|_| lamp(dice)).collect();
+    let eye = dice.direction() * 3.0;
+    let camera = camera_at(dice, eye, 3.0);
+    let estimator = dice.pick(&["path", "light", "mis"]);
+    let text = format!(
+        "camera = {{ {camera} }}\nrender.estimator = '{estimator}'\nbackground.radiance = {:?}\n\
+         materials.grey.lambertian.albedo = 0.9\nmaterials.gold.conductor = {{ f0 = [1.0, 0.8, 0.3], alpha = {:?} }}\n\
+         [[objects]]\n{}\nmaterial = '{}'\n{lamps}",
+        dice.pick(&[0.0, 1e-9, 1e9]),
+        dice.decade(-4.0, 0.0),
+        sphere(DVec3::ZERO, 1.0),
+        dice.pick(&["grey", "gold"]),
+    );
+    Draft::of(text, Expected::Valid)
+}

@@ -1,0 +1,62 @@
+//! Closed shapes for rooms and bodies.
+use glam::DVec3;
+
+use crate::validate::stress::{dice::Dice, draft::v};
+
+const CUBE: &str = "shape.mesh = { vertices = [[-1.0, -1.0, -1.0], [1.0, -1.0, -1.0], [1.0, 1.0, -1.0], [-1.0, 1.0, -1.0], \
+                    [-1.0, -1.0, 1.0], [1.0, -1.0, 1.0], [1.0, 1.0, 1.0], [-1.0, 1.0, 1.0]], triangles = [[0, 2, 1], [0, 3, 2], \
+                    [4, 5, 6], [4, 6, 7], [0, 1, 5], [0, 5, 4], [2, 3, 7], [2, 7, 6], [1, 2, 6], [1, 6, 5], [0, 4, 7], [0, 7, 3]] }";
+const UNIT_SPHERE: &str = "shape.sphere = { center = [0.0, 0.0, 0.0], radius = 1.0 }";
+const UNIT_CUBE: &str = "shape.cuboid = { min = [-1.0, -1.0, -1.0], max = [1.0, 1.0, 1.0] }";
+const ISOSURFACE: &str = "shape.isosurface = { expression = 'x^2 + y^2 + z^2 - 1', bounds = { min = [-1.1, -1.1, -1.1], max = [1.1, \
+                          1.1, 1.1] } }";
+
+/// A closed shape around a point, at least half its size away from it and at most three times.
+pub fn closed(dice: &mut Dice, center: DVec3, size: f64) -> String {
+    let uneven = |dice: &mut Dice| DVec3::new(dice.within(0.6, 1.5), dice.within(0.6, 1.5), dice.within(0.6, 1.5)) * size;
+    match dice.below(7) {
+        0 => sphere(center, size),
+        1 => {
+            let half = uneven(dice);
+            format!("shape.cuboid = {{ min = {}, max = {} }}", v(center - half), v(center + half))
+        }
+        2 => {
+            let axis = dice.direction() * size;
+            let radius = size * dice.within(0.6, 1.5);
+            format!("shape.cylinder = {{ base = {}, top = {}, radius = {radius:?} }}", v(center - axis), v(center + axis))
+        }
+        3 => {
+            let scale = uneven(dice);
+            placed(dice, UNIT_SPHERE, scale, center)
+        }
+        4 => {
+            let scale = uneven(dice);
+            placed(dice, UNIT_CUBE, scale, center)
+        }
+        5 => {
+            let scale = uneven(dice);
+            placed(dice, CUBE, scale, center)
+        }
+        _ => placed(dice, ISOSURFACE, DVec3::splat(size), center),
+    }
+}
+
+pub fn sphere(center: DVec3, radius: f64) -> String {
+    format!("shape.sphere = {{ center = {}, radius = {radius:?} }}", v(center))
+}
+
+/// An ellipsoid with these radii, turned at random.
+pub fn ellipsoid(dice: &mut Dice, center: DVec3, radii: DVec3) -> String {
+    placed(dice, UNIT_SPHERE, radii, center)
+}
+
+/// A cuboid with these half edges, turned at random.
+pub fn cuboid(dice: &mut Dice, center: DVec3, half: DVec3) -> String {
+    placed(dice, UNIT_CUBE, half, center)
+}
+
+fn placed(dice: &mut Dice, shape: &str, scale: DVec3, center: DVec3) -> String {
+    let (axis, degrees) = (v(dice.direction()), dice.within(-180.0, 180.0));
+    let rotate = format!("rotate = {{ axis = {axis}, degrees = {degrees:?} }}");
+    format!("{shape}\ntransform = [{{ scale = {} }}, {{ {rotate} }}, {{ translate = {} }}]", v(scale), v(center))
+}

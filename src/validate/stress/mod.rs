@@ -1,0 +1,97 @@
+//! The renderer under stress: random and adversarial scenes by the hundred, each held against invariants.
+//!
+//! A scene is text that goes through the same reader and compiler as a user's file. It is a pure function of its family and its
+//! number: a statement that fails names it, and its text is kept.
+mod dice;
+mod draft;
+mod families;
+mod figures;
+mod statements;
+mod surfaces;
+#[cfg(test)]
+mod tests;
+mod trial;
+
+use rayon::prelude::*;
+
+use self::{
+    dice::Dice,
+    draft::{Draft, Expected},
+    families::{Family, GROUPS},
+    trial::Outcome,
+};
+use super::{Effort, Section, Validation};
+use crate::scene::RenderSettings;
+
+/// Of the scenes of a family a quick run tries one in so many.
+const QUICK: u32 = 10;
+
+/// A scene that was tried.
+struct Trial {
+    family: &'static Family,
+    name: String,
+    text: String,
+    draft: Draft,
+    outcome: Outcome,
+}
+
+impl Trial {
+    /// The scene if it breaks an invariant.
+    fn kept(&self) -> Option<KeptScene> {
+        let reason = statements::breaks(self)?;
+        let text = format!("# {}\n{}", reason.replace('\n', " "), self.text);
+        Some(KeptScene { name: self.name.clone(), text, reason })
+    }
+
+    /// The part of the light that is lost, and what may be.
+    fn loss(&self) -> Option<(f64, f64)> {
+        match self.draft.expected {
+            Expected::Within { loss, .. } => Some((self.outcome.lost?, loss)),
+            _ => None,
+        }
+    }
+}
+
+/// A scene file that breaks an invariant.
+pub struct KeptScene {
+    pub name: String,
+    /// The text of a scene file that says why it was kept.
+    pub text: String,
+    pub reason: String,
+}
+
+impl Validation {
+    /// The sections under stress in their order, and the scenes that break an invariant; `done` is shown each section when it is
+    /// finished.
+    pub fn stress(&self, mut done: impl FnMut(usize, &Section)) -> (Vec<Section>, Vec<KeptScene>) {
+        let (mut sections, mut kept) = (Vec::new(), Vec::new());
+        for (i, group) in GROUPS.iter().enumerate() {
+            let trials: Vec<Trial> = group.families.iter().flat_map(|family| self.trials(family)).collect();
+            let section = statements::section(group, &trials);
+            done(i + 1, &section);
+            sections.push(section);
+            kept.extend(trials.iter().filter_map(Trial::kept));
+        }
+        (sections, kept)
+    }
+
+    fn trials(&self, family: &'static Family) -> Vec<Trial> {
+        let count = match self.effort {
+            Effort::Full => family.scenes,
+            Effort::Quick => family.scenes.div_ceil(QUICK),
+        };
+        let settings = |settings: RenderSettings| RenderSettings {
+            #[cfg(test)]
+            fault: self.fault,
+            ..settings
+        };
+        let trial = |number: u32| {
+            let draft = (family.draft)(&mut Dice::new(family.name, number));
+            let name = format!("{}-{number}", family.name);
+            let text = format!("format = 1\ntitle = 'stress: {name}'\n{}", draft.text);
+            let outcome = trial::run(&text, &draft, settings);
+            Trial { family, name, text, draft, outcome }
+        };
+        (0..count).into_par_iter().map(trial).collect()
+    }
+}

@@ -1,0 +1,194 @@
+//! x_M in a scene: what its rays find, against formulas in f64.
+use glam::{DVec3, Vec3};
+
+use super::dice::Dice;
+use crate::{
+    geometry::{
+        MISS, Nearest, Shape,
+        oracle::{distance, meetings, pieces, point_at},
+    },
+    integrator::replay,
+    math::{F, M, One, U, V},
+    scene::{CameraRays, RenderSettings, Scene},
+};
+
+/// In units of εS (see [`scale`]) a point off its surface, or a surface in front of it, is no rounding any more.
+pub const LIMIT: f64 = 32.0;
+/// ε = 2⁻²³.
+const EPSILON: f64 = f32::EPSILON as f64;
+/// Scenes of more pieces are not looked at.
+const MOST_FACES: usize = 3000;
+/// Reflections that are followed.
+const DEPTH: u32 = 24;
+
+/// How the rays of a scene agree with f64.
+#[derive(Default)]
+pub struct Comparison {
+    pub rays: u64,
+    /// The farthest that a point was off its surface, in εS.
+    pub worst: f64,
+    /// Rays that passed through a surface.
+    pub missed: u64,
+    /// Rays that met the surface they left at once.
+    pub self_hits: u64,
+    /// Paths that left a closed room.
+    pub escaped: u64,
+    /// The first ray that is wrong.
+    pub first: Option<String>,
+}
+
+/// A primitive and the flat or quadric pieces it is made of.
+struct Known {
+    primitive: u32,
+    faces: Vec<Shape>,
+    is_mesh: bool,
+}
+
+struct World<'a> {
+    scene: &'a Scene,
+    known: Vec<Known>,
+    near: f64,
+}
+
+#[derive(Clone, Copy)]
+struct Ray {
+    o: DVec3,
+    d: DVec3,
+    /// The primitive and element it leaves.
+    from: Option<(u32, u32)>,
+}
+
+/// Compares rays of replayed paths and rays aimed at surfaces; `closed` scenes let none get out.
+pub fn compare(scene: &Scene, settings: &RenderSettings, rays: &CameraRays, closed: bool) -> Comparison {
+    let mut found = Comparison::default();
+    let Some(world) = World::new(scene) else { return found };
+    let settings = RenderSettings { max_bounces: Some(settings.last_bounce().min(DEPTH)), ..*settings };
+    // What moves has another place at every time.
+    if !scene.moves() {
+        let [width, height] = scene.camera.resolution;
+        for i in 0..64 {
+            let pixel = [(i % 8) * width / 8, (i / 8) * height / 8];
+            let mut from = None;
+            for vertex in replay(scene, rays, &settings, pixel, 0).vertices {
+                let [o, d] = [vertex.origin, vertex.direction].map(|v| Vec3::from(v).as_dvec3());
+                from = world.judge(Ray { o, d, from }, closed, &mut found);
+            }
+        }
+    }
+    let mut dice = Dice::new("rays", settings.seed);
+    for _ in 0..256 {
+        let Some((target, size)) = world.somewhere(&mut dice) else { break };
+        let start = scene.camera.eye + dice.in_ball() * size * dice.pick(&[0.0, 0.1]);
+        let o = start.as_vec3().as_dvec3();
+        if let Some(d) = (target - o).try_normalize() {
+            world.judge(Ray { o, d: d.as_vec3().as_dvec3(), from: None }, false, &mut found);
+        }
+    }
+    found
+}
+
+impl World<'_> {
+    fn new(scene: &Scene) -> Option<World<'_>> {
+        let mut first = 0;
+        let known: Vec<Known> = scene
+            .objects
+            .iter()
+            .flat_map(|object| {
+                let faces = pieces(&object.shape);
+                let (primitive, is_mesh) = (first, matches!(object.shape, Shape::Mesh { .. }));
+                first += object.shape.piece_count() as u32;
+                if is_mesh || faces.is_empty() {
+                    return vec![Known { primitive, faces, is_mesh }];
+                }
+                (primitive..).zip(faces).map(|(primitive, face)| Known { primitive, faces: vec![face], is_mesh }).collect()
+            })
+            .collect();
+        let count: usize = known.iter().map(|known| known.faces.len()).sum();
+        (count <= MOST_FACES).then(|| World { scene, known, near: scene.camera.look_at.length() })
+    }
+
+    /// A point of a surface, sometimes near its edge, and the size of that surface.
+    fn somewhere(&self, dice: &mut Dice) -> Option<(DVec3, f64)> {
+        let known = &self.known[dice.below(self.known.len().max(1)).min(self.known.len().checked_sub(1)?)];
+        let face = known.faces.get(dice.below(known.faces.len()))?;
+        let near_edge = |x: f64, dice: &mut Dice| if dice.chance(0.8) { x } else { x.round() + (x - x.round()) * 1e-6 };
+        let (a, b) = (dice.unit(), dice.unit());
+        let at = [near_edge(a, dice), near_edge(b, dice)];
+        Some((point_at(face, at), face.bounding_sphere().1))
+    }
+
+    /// Looks at one ray, and returns what it meets.
+    fn judge(&self, ray: Ray, closed: bool, found: &mut Comparison) -> Option<(u32, u32)> {
+        let splat = |v: DVec3| V::splat(One, v.as_vec3().to_array());
+        let Nearest { t, primitive: U(primitive), element: U(element) } =
+            self.scene.shapes.closest(One, M(true), splat(ray.o), splat(ray.d), F(0.0));
+        let t = if primitive == MISS { f64::INFINITY } else { f64::from(t.0) };
+        found.rays += 1;
+        let mut wrong = |what: &str| {
+            found.first.get_or_insert_with(|| format!("{what}: from {} along {}, primitive {primitive} at {t:e}", ray.o, ray.d));
+        };
+        if closed && primitive == MISS {
+            wrong("a ray gets out");
+            found.escaped += 1;
+        }
+        if self.passes_a_surface(ray, t) {
+            wrong("a surface is missed");
+            found.missed += 1;
+        }
+        let here = self.known.iter().find(|known| known.primitive == primitive)?;
+        let p = ray.o + ray.d * t;
+        let error = |face: &Shape| {
+            // To first order only: where the surface is strongly curved, the way along the ray may be nearer.
+            let along =
+                meetings(face, ray.o, ray.d, 0.0).iter().map(|meeting| (meeting.t - t).abs()).fold(f64::INFINITY, f64::min);
+            distance(face, p).min(along) / (EPSILON * self.scale(face, ray.o, p, t))
+        };
+        let error = here.faces.iter().map(error).reduce(f64::min).unwrap_or(0.0);
+        if error > LIMIT {
+            wrong(&format!("{error:.0} εS off the surface"));
+        }
+        found.worst = found.worst.max(error);
+        if ray.from == Some((primitive, element)) && is_self_hit(here, ray, t) {
+            wrong("the surface it leaves is met");
+            found.self_hits += 1;
+        }
+        Some((primitive, element))
+    }
+
+    /// Whether f64 sees a surface in front of t, and would if the ray were moved aside or along by some rounding.
+    fn passes_a_surface(&self, ray: Ray, t: f64) -> bool {
+        let surely = |face: &Shape| {
+            meetings(face, ray.o, ray.d, 0.0).iter().any(|meeting| {
+                let p = ray.o + ray.d * meeting.t;
+                let rounding = LIMIT * EPSILON * self.scale(face, ray.o, p, meeting.t.abs());
+                let along = rounding / meeting.cos.max(1e-9);
+                meeting.clearance > rounding && meeting.t > along && meeting.t < t - along
+            })
+        };
+        self.known.iter().flat_map(|known| &known.faces).any(surely)
+    }
+
+    /// S: what coordinates in f32 are rounded at on the way from o to p, metres. Spheres are anchored near the scene, other
+    /// shapes are as large as they are.
+    fn scale(&self, face: &Shape, o: DVec3, p: DVec3, t: f64) -> f64 {
+        let (center, radius) = face.bounding_sphere();
+        let shape = match face {
+            // What f64 itself rounds.
+            Shape::Sphere { .. } => (radius + center.length()) * (4.0 * f64::EPSILON / EPSILON),
+            _ => radius + center.length(),
+        };
+        o.length() + p.length() + t + self.near + shape
+    }
+}
+
+/// Whether a ray that leaves a primitive meets the same much nearer than f64 does.
+fn is_self_hit(known: &Known, ray: Ray, t: f64) -> bool {
+    if known.faces.is_empty() {
+        return false;
+    }
+    if known.is_mesh || matches!(known.faces[..], [Shape::Flat { .. }]) {
+        return true;
+    }
+    let next = known.faces.iter().flat_map(|face| meetings(face, ray.o, ray.d, 1e-3)).map(|meeting| meeting.t).find(|t| *t > 0.0);
+    next.is_none_or(|next| t < 0.5 * next)
+}

@@ -1,0 +1,136 @@
+//! One scene: read, compiled, rendered and held against what is known of it.
+use std::{
+    cell::RefCell,
+    panic::{AssertUnwindSafe, catch_unwind},
+    time::{Duration, Instant},
+};
+
+use super::{
+    draft::{Draft, Expected},
+    surfaces::{Comparison, compare},
+};
+use crate::{
+    integrator::{Batch, TILE, Work, trace},
+    math::SimdLevel,
+    measure::Mean,
+    scene::{CameraRays, RenderSettings, Scene, parse},
+};
+
+/// Longer than any scene takes a hundred times over; one that takes longer is given up.
+const PATIENCE: Duration = Duration::from_secs(20);
+/// The relative error that is allowed to a sample which is known.
+pub const ENERGY: f64 = 1e-4;
+
+/// What came of a scene.
+#[derive(Default)]
+pub struct Outcome {
+    pub samples: u64,
+    /// Samples that are negative or not finite.
+    pub invalid: u64,
+    /// Where every sample is known: the largest relative deviation of one.
+    pub energy: Option<f64>,
+    /// Samples that deviate by more than [`ENERGY`], and the first of them as the command line names it.
+    pub off: u64,
+    pub first_off: Option<String>,
+    /// Where some loss is allowed: the part of the light that is lost.
+    pub lost: Option<f64>,
+    /// Where the mean is known: its deviation in standard errors.
+    pub z: Option<f64>,
+    pub surfaces: Comparison,
+    /// It was refused with a message that names a place.
+    pub refused: bool,
+    pub seconds: f64,
+    /// What else went wrong: a panic, a scene that was not done in time, a valid one that was refused, or the opposite.
+    pub trouble: Option<String>,
+}
+
+thread_local! {
+    static BATCH: RefCell<Batch> = RefCell::default();
+}
+
+/// Tries the scene of this text, which is that of the draft after its first lines.
+pub fn run(text: &str, draft: &Draft, settings: impl Fn(RenderSettings) -> RenderSettings) -> Outcome {
+    let start = Instant::now();
+    let tried = catch_unwind(AssertUnwindSafe(|| try_scene(text, draft, settings, start)));
+    let mut outcome = tried.unwrap_or_else(|panic| Outcome::trouble(format!("panics: {}", message(&*panic))));
+    outcome.seconds = start.elapsed().as_secs_f64();
+    if outcome.trouble.is_none() && start.elapsed() > PATIENCE {
+        outcome.trouble = Some(format!("takes {:.0} s", outcome.seconds));
+    }
+    outcome
+}
+
+fn message(panic: &(dyn std::any::Any + Send)) -> String {
+    let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
+    text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_default()
+}
+
+impl Outcome {
+    fn trouble(what: impl Into<String>) -> Outcome {
+        Outcome { trouble: Some(what.into()), ..Outcome::default() }
+    }
+}
+
+fn try_scene(text: &str, draft: &Draft, settings: impl Fn(RenderSettings) -> RenderSettings, start: Instant) -> Outcome {
+    let may_be_refused = matches!(draft.expected, Expected::Refused | Expected::ValidOrRefused);
+    let scene = match parse("stress", text.to_owned()) {
+        Ok(_) if draft.expected == Expected::Refused => return Outcome::trouble("is not refused"),
+        Ok(scene) => scene,
+        Err(error) if may_be_refused && error.line_column().is_some() && !error.to_string().is_empty() => {
+            return Outcome { refused: true, ..Outcome::default() };
+        }
+        Err(error) => return Outcome::trouble(format!("is refused: {error}")),
+    };
+    let (settings, rays) = (settings(scene.settings), scene.rays(&scene.camera));
+    let Some(outcome) = render(&scene, &settings, &rays, draft, start) else {
+        return Outcome::trouble(format!("is not done after {} s", PATIENCE.as_secs()));
+    };
+    let surfaces = compare(&scene, &settings, &rays, matches!(draft.expected, Expected::Everywhere(_)));
+    Outcome { surfaces, ..outcome }
+}
+
+/// None if it takes too long.
+fn render(scene: &Scene, settings: &RenderSettings, rays: &CameraRays, draft: &Draft, start: Instant) -> Option<Outcome> {
+    let size = scene.camera.resolution.map(|side| side.min(TILE));
+    let mut outcome = Outcome::default();
+    let (mut sum, mut square, mut worst) = (0.0, 0.0, 0.0f64);
+    let exact = match draft.expected {
+        Expected::Everywhere(exact) | Expected::Mean(exact) | Expected::Within { radiance: exact, .. } => exact,
+        _ => 1.0,
+    };
+    for sample in 0..draft.spp {
+        let work = Work { scene, rays, settings, origin: [0, 0], size, sample };
+        BATCH.with_borrow_mut(|batch| {
+            trace(SimdLevel::best(), &work, batch, &|| start.elapsed() > PATIENCE).ok()?;
+            for slot in (0..size[1]).flat_map(|row| (0..size[0]).map(move |column| row * TILE + column)) {
+                let [r, g, b, _] = batch.radiance()[slot as usize];
+                outcome.samples += 1;
+                outcome.invalid += u64::from([r, g, b].iter().any(|x| !x.is_finite() || *x < 0.0));
+                let relative = f64::from(r) / exact;
+                let error = [r, g, b].map(|x| (f64::from(x) / exact - 1.0).abs()).into_iter().fold(0.0, f64::max);
+                if error > ENERGY {
+                    outcome.off += 1;
+                    outcome.first_off.get_or_insert_with(|| format!("--pixel {},{} --sample {sample}", slot % TILE, slot / TILE));
+                }
+                worst = worst.max(error);
+                (sum, square) = (sum + (relative - 1.0), square + (relative - 1.0).powi(2));
+            }
+            Some(())
+        })?;
+    }
+    match draft.expected {
+        Expected::Everywhere(_) => outcome.energy = Some(worst),
+        Expected::Within { .. } => outcome.lost = Some((sum / outcome.samples as f64).abs()),
+        Expected::Mean(_) => outcome.z = Some(deviation(sum, square, outcome.samples as f64)),
+        _ => {}
+    }
+    Some(outcome)
+}
+
+/// A mean of deviations from 1 in standard errors, what tables of lost light may be off by included.
+fn deviation(sum: f64, square: f64, count: f64) -> f64 {
+    let mean = sum / count;
+    let variance = (square / count - mean * mean).max(0.0) / count;
+    Mean { mean: 1.0 + mean, variance_of_mean: variance + (crate::validate::check::TABLES / crate::validate::SIGMAS).powi(2) }
+        .z(1.0)
+}
