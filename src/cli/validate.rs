@@ -1,15 +1,10 @@
 //! `noisefall validate`: every exact solution against what the renderer says.
 use std::{path::PathBuf, time::Instant};
 
-use noisefall::{
-    file::{replace, temporary},
-    validate::{Effort, Section, Validation, html, reference_names},
-};
+use noisefall::validate::{Effort, Section, Validation, html, reference_names};
 
-use super::{Failure, print};
+use super::{Failure, folder, print};
 
-/// The file in the folder that the report goes to.
-const REPORT: &str = "report.html";
 const REFERENCES: &str = "tests/references";
 
 #[derive(clap::Args)]
@@ -33,11 +28,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let mut lines = Vec::new();
     let sections = Validation::new(effort, references).run(|number, section| lines.push(show(number, section)));
     lines.into_iter().collect::<Result<Vec<()>, Failure>>()?;
-    if let Some(folder) = &arguments.output {
-        let path = folder.join(REPORT);
-        let written = replace(folder, REPORT, html(&sections, effort).as_bytes());
-        written.map_err(|error| format!("{}: cannot be written: {error}", path.display()))?;
-        print(&format!("report: {}", path.display()))?;
+    if let Some(output) = &arguments.output {
+        folder::write_report(output, &html(&sections, effort))?;
     } else {
         print("no report was written: -o DIR says where to")?;
     }
@@ -57,12 +49,7 @@ fn check(arguments: &Arguments) -> Result<(), Failure> {
     {
         return Err(format!("{}: no references (NAME.toml with NAME.txt) in this folder", folder.display()));
     }
-    let Some(folder) = &arguments.output else { return Ok(()) };
-    if folder.exists() && !folder.is_dir() {
-        return Err(format!("{}: this is a file; -o names a folder", folder.display()));
-    }
-    let refused = |error: std::io::Error| format!("{}: cannot be written to: {}", folder.display(), error.kind());
-    std::fs::create_dir_all(folder).and_then(|()| temporary(folder).map(drop)).map_err(refused)
+    arguments.output.as_deref().map_or(Ok(()), folder::make)
 }
 
 fn failures(section: &Section) -> usize {

@@ -3,7 +3,6 @@
 //! Each section makes one claim, derives the exact answer, and holds measurements against it in [`Statement`]s. All samples are
 //! seeded and the same on every machine, so that a verdict is, too.
 mod check;
-mod plot;
 mod report;
 mod sections;
 mod statement;
@@ -17,6 +16,7 @@ pub use self::{
     sections::{Agreement, agreement, reference_names},
     statement::Statement,
 };
+use crate::report::Figure;
 #[cfg(test)]
 use crate::scene::Fault;
 
@@ -49,13 +49,6 @@ pub struct Section {
     pub figures: Vec<Figure>,
     /// What a reader should know besides.
     pub remark: Option<String>,
-}
-
-/// A picture or a plot with what it shows.
-pub struct Figure {
-    pub caption: String,
-    /// An `svg` or `img` element.
-    pub element: String,
 }
 
 impl Section {

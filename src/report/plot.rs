@@ -12,7 +12,11 @@ const COLOURS: [RGBColor; 6] = [
     RGBColor(86, 180, 233),
     RGBColor(60, 60, 60),
 ];
-const SIZE: (u32, u32) = (660, 340);
+const GREY: RGBColor = RGBColor(150, 150, 150);
+/// Width and height of a plot that stands alone, in pixels.
+const ALONE: (u32, u32) = (660, 340);
+/// Of two that stand side by side.
+pub const BESIDE: (u32, u32) = (560, 380);
 
 /// An axis; on a logarithmic one all values must be positive.
 #[derive(Clone, Copy)]
@@ -67,6 +71,8 @@ pub enum Style {
     Line,
     Dashed,
     Points,
+    /// A dashed line that is no measurement: grey, and last in the order.
+    Guide,
 }
 
 pub struct Curve {
@@ -79,17 +85,21 @@ pub fn curve(name: impl Into<String>, style: Style, points: Vec<(f64, f64)>) -> 
     Curve { name: name.into(), style, points }
 }
 
-/// Curves over each other, in the colours of their order; points and lines of the same name share one.
+/// [`svg`] in a figure of its own.
 pub fn plot(caption: impl Into<String>, x: Axis, y: Axis, curves: &[Curve]) -> Figure {
-    let mut svg = String::new();
-    let drawn = draw(&mut svg, x, y, curves);
-    let element = drawn.map_or_else(|error| format!("<p>this plot could not be drawn: {error}</p>"), |()| svg);
-    Figure { caption: caption.into(), element }
+    Figure { caption: caption.into(), element: svg(ALONE, x, y, curves) }
 }
 
-fn draw(svg: &mut String, x: Axis, y: Axis, curves: &[Curve]) -> Result<(), Box<dyn std::error::Error>> {
+/// Curves over each other, in the colours of their order; points and lines of the same name share one.
+pub fn svg(size: (u32, u32), x: Axis, y: Axis, curves: &[Curve]) -> String {
+    let mut svg = String::new();
+    let drawn = draw(&mut svg, size, x, y, curves);
+    drawn.map_or_else(|error| format!("<p>this plot could not be drawn: {error}</p>"), |()| svg)
+}
+
+fn draw(svg: &mut String, size: (u32, u32), x: Axis, y: Axis, curves: &[Curve]) -> Result<(), Box<dyn std::error::Error>> {
     let all = || curves.iter().flat_map(|curve| curve.points.iter().copied());
-    let area = SVGBackend::with_string(svg, SIZE).into_drawing_area();
+    let area = SVGBackend::with_string(svg, size).into_drawing_area();
     let (xs, ys) = (x.range(all().map(|(a, _)| x.place(a))), y.range(all().map(|(_, b)| y.place(b))));
     let labels = [x.labels(&xs), y.labels(&ys)];
     let corner = emptiest_corner(all().map(|(a, b)| (part(&xs, x.place(a)), part(&ys, y.place(b)))));
@@ -111,12 +121,12 @@ fn draw(svg: &mut String, x: Axis, y: Axis, curves: &[Curve]) -> Result<(), Box<
     for curve in curves {
         let known = names.iter().position(|name| *name == curve.name);
         let number = known.unwrap_or(names.len());
-        let colour = COLOURS[number % COLOURS.len()];
+        let colour = if curve.style == Style::Guide { GREY } else { COLOURS[number % COLOURS.len()] };
         let places = curve.points.iter().map(|&(a, b)| (x.place(a), y.place(b)));
         let line = colour.stroke_width(2);
         let series = match curve.style {
             Style::Line => chart.draw_series(LineSeries::new(places, line))?,
-            Style::Dashed => chart.draw_series(DashedLineSeries::new(places, 5, 4, line))?,
+            Style::Dashed | Style::Guide => chart.draw_series(DashedLineSeries::new(places, 5, 4, line))?,
             Style::Points => chart.draw_series(places.map(|place| Circle::new(place, 3, colour.filled())))?,
         };
         if known.is_none() {
