@@ -17,15 +17,17 @@ use super::{
     stop::{INTERRUPTED, stop_signal},
 };
 
-/// Measures run time against error for every combination of settings.
-///
-/// Each combination renders each scene several times and is compared with a reference whenever its samples have doubled: the scene's
-/// [truth], else the picture NAME.ref.exr beside NAME.toml, else a converged render that is made first and kept in DIR. DIR gets
-/// study.csv, a line for every measurement, and report.html with plots, slopes, efficiencies and the best settings for each scene.
-///
-/// Lists are separated by commas. What DIR has already is not measured again, so an interrupted study goes on where it was.
+const NOTES: &str = "\
+Each combination of the lists renders each scene several times, and is compared with a reference whenever its samples have doubled: the \
+scene's [truth], else the picture NAME.ref.exr beside NAME.toml, else a converged render that is made first and kept in DIR.
+
+DIR gets study.csv, a line for every measurement, and report.html: error against time and samples, slopes, efficiencies, and the best \
+settings for each scene. What DIR has already is not measured again, so an interrupted study goes on where it was.
+
+Example: noisefall study scenes/cornell_box.toml -o study --samplers independent,sobol --roulette off,throughput";
+
 #[derive(clap::Args)]
-#[command(allow_negative_numbers = true)]
+#[command(allow_negative_numbers = true, after_help = NOTES)]
 pub struct Arguments {
     /// Scene files (.toml)
     #[arg(required = true, value_name = "SCENE")]

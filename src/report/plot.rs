@@ -1,5 +1,13 @@
 //! Plots as SVG.
-use plotters::prelude::*;
+use std::ops::Range;
+
+use plotters::{
+    coord::{
+        ranged1d::{DefaultFormatting, KeyPointHint, Ranged},
+        types::RangedCoordf64,
+    },
+    prelude::*,
+};
 
 use super::Figure;
 
@@ -12,6 +20,8 @@ const COLOURS: [RGBColor; 6] = [
     RGBColor(86, 180, 233),
     RGBColor(60, 60, 60),
 ];
+/// More labels on an axis than these would crowd it.
+const MOST_TICKS: usize = 8;
 const GREY: RGBColor = RGBColor(150, 150, 150);
 /// Width and height of a plot that stands alone, in pixels.
 const ALONE: (u32, u32) = (660, 340);
@@ -51,18 +61,56 @@ impl Axis {
         if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
     }
 
-    /// How many labels the range has room for: on a logarithmic axis the powers of ten, if they are enough.
-    fn labels(self, range: &std::ops::Range<f64>) -> usize {
-        let decades = (range.end.floor() - range.start.ceil()) as usize + 1;
-        if self.log && decades > 1 { decades.min(8) } else { 7 }
+    /// Where the range of places has labels: on a logarithmic axis at powers of ten, and at 2 and 5 times these where there is room.
+    fn ticks(self, range: &Range<f64>) -> Vec<f64> {
+        let even = RangedCoordf64::from(range.clone()).key_points(MOST_TICKS);
+        if !self.log {
+            return even;
+        }
+        let decades = (range.start.floor() as i32)..=(range.end.ceil() as i32);
+        let within = |mantissas: &[f64]| -> Vec<f64> {
+            let places = decades.clone().flat_map(|decade| mantissas.iter().map(move |m| f64::from(decade) + m.log10()));
+            places.filter(|place| range.contains(place)).collect()
+        };
+        let candidates = [within(&[1.0, 2.0, 5.0]), within(&[1.0])];
+        candidates.into_iter().find(|places| (2..=MOST_TICKS).contains(&places.len())).unwrap_or(even)
     }
 
     /// From the least to the greatest place, with a margin.
-    fn range(self, values: impl Iterator<Item = f64>) -> std::ops::Range<f64> {
+    fn range(self, values: impl Iterator<Item = f64>) -> Range<f64> {
         let (min, max) =
             values.filter(|x| x.is_finite()).fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
         let margin = if max > min { (max - min) * 0.06 } else { min.abs().max(1.0) * 0.1 };
         min - margin..max + margin
+    }
+}
+
+/// The places of an axis, with its labels where we want them.
+struct Scale {
+    places: RangedCoordf64,
+    ticks: Vec<f64>,
+}
+
+impl Scale {
+    fn new(axis: Axis, range: Range<f64>) -> Scale {
+        Scale { ticks: axis.ticks(&range), places: range.into() }
+    }
+}
+
+impl Ranged for Scale {
+    type FormatOption = DefaultFormatting;
+    type ValueType = f64;
+
+    fn map(&self, place: &f64, pixels: (i32, i32)) -> i32 {
+        self.places.map(place, pixels)
+    }
+
+    fn key_points<Hint: KeyPointHint>(&self, hint: Hint) -> Vec<f64> {
+        if hint.weight().allow_light_points() { Vec::new() } else { self.ticks.clone() }
+    }
+
+    fn range(&self) -> Range<f64> {
+        self.places.range()
     }
 }
 
@@ -101,8 +149,10 @@ fn draw(svg: &mut String, size: (u32, u32), x: Axis, y: Axis, curves: &[Curve]) 
     let all = || curves.iter().flat_map(|curve| curve.points.iter().copied());
     let area = SVGBackend::with_string(svg, size).into_drawing_area();
     let (xs, ys) = (x.range(all().map(|(a, _)| x.place(a))), y.range(all().map(|(_, b)| y.place(b))));
-    let labels = [x.labels(&xs), y.labels(&ys)];
-    let corner = emptiest_corner(all().map(|(a, b)| (part(&xs, x.place(a)), part(&ys, y.place(b)))));
+    let within = |(a, b): (f64, f64)| (part(&xs, x.place(a)), part(&ys, y.place(b)));
+    let corner = emptiest_corner(curves.iter().flat_map(|curve| between(curve).map(within)), legend_size(curves, size));
+    let (xs, ys) = (Scale::new(x, xs), Scale::new(y, ys));
+    let labels = [xs.ticks.len(), ys.ticks.len()];
     let mut chart = ChartBuilder::on(&area).margin(8).x_label_area_size(42).y_label_area_size(64).build_cartesian_2d(xs, ys)?;
     chart
         .configure_mesh()
@@ -146,12 +196,35 @@ fn draw(svg: &mut String, size: (u32, u32), x: Axis, y: Axis, curves: &[Curve]) 
 }
 
 /// Where in a range, from 0 to 1.
-fn part(range: &std::ops::Range<f64>, x: f64) -> f64 {
+fn part(range: &Range<f64>, x: f64) -> f64 {
     (x - range.start) / (range.end - range.start)
 }
 
-/// Where the legend hides the least.
-fn emptiest_corner(places: impl Iterator<Item = (f64, f64)>) -> SeriesLabelPosition {
+/// The points of a curve, and such between them as its line runs through.
+fn between(curve: &Curve) -> impl Iterator<Item = (f64, f64)> {
+    const STEPS: u32 = 8;
+    let geometric = |a: f64, b: f64, t: f64| if a > 0.0 && b > 0.0 { a * (b / a).powf(t) } else { a + (b - a) * t };
+    let lines = curve.points.windows(2).filter(|_| curve.style != Style::Points);
+    let inner = lines.flat_map(move |ends| {
+        let [(a, b), (c, d)] = [ends[0], ends[1]];
+        (1..STEPS).map(move |step| f64::from(step) / f64::from(STEPS)).map(move |t| (geometric(a, c, t), geometric(b, d, t)))
+    });
+    curve.points.iter().copied().chain(inner)
+}
+
+/// About the width and height of the legend, as parts of the plot's.
+fn legend_size(curves: &[Curve], size: (u32, u32)) -> (f64, f64) {
+    const LETTER: f64 = 7.0;
+    const LINE: f64 = 18.0;
+    let mut names: Vec<&str> = curves.iter().map(|curve| curve.name.as_str()).collect();
+    names.dedup();
+    let longest = names.iter().map(|name| name.chars().count()).max().unwrap_or(0);
+    let (width, height) = (40.0 + LETTER * longest as f64, 16.0 + LINE * names.len() as f64);
+    (width / f64::from(size.0), height / f64::from(size.1))
+}
+
+/// Where a legend of this size hides the least.
+fn emptiest_corner(places: impl Iterator<Item = (f64, f64)>, (width, height): (f64, f64)) -> SeriesLabelPosition {
     const CORNERS: [(SeriesLabelPosition, f64, f64); 4] = [
         (SeriesLabelPosition::UpperRight, 1.0, 1.0),
         (SeriesLabelPosition::LowerRight, 1.0, 0.0),
@@ -160,7 +233,7 @@ fn emptiest_corner(places: impl Iterator<Item = (f64, f64)>) -> SeriesLabelPosit
     ];
     let places: Vec<_> = places.collect();
     let hidden = |&(_, x, y): &(SeriesLabelPosition, f64, f64)| {
-        places.iter().filter(|(a, b)| (a - x).abs() < 0.35 && (b - y).abs() < 0.35).count()
+        places.iter().filter(|(a, b)| (a - x).abs() < width && (b - y).abs() < height).count()
     };
     CORNERS.into_iter().min_by_key(hidden).map_or(SeriesLabelPosition::UpperRight, |(corner, ..)| corner)
 }

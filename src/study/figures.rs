@@ -16,7 +16,7 @@ pub struct Pair {
     pub elements: [String; 2],
 }
 
-/// The first places, what the scene opens with, and the last place.
+/// The first places, what the scene opens with, and the last place that is ranked.
 pub fn overview(findings: &Findings) -> Option<Pair> {
     let best = findings.best()?;
     let sound: Vec<&Outcome> = findings.outcomes.iter().filter(|outcome| outcome.standing == best.standing).collect();
@@ -28,7 +28,7 @@ pub fn overview(findings: &Findings) -> Option<Pair> {
             shown.push((name, outcome));
         }
     }
-    let mut caption = "The best combinations, what the scene opens with, and the last of those that converge.".to_owned();
+    let mut caption = "The best combinations, what the scene opens with, and the last of those that are ranked.".to_owned();
     if findings.limits.floor > 0.0 {
         caption.push_str(" The reference's own error is taken off, and curves end where they come near to it.");
     }

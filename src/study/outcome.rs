@@ -16,8 +16,9 @@ const LEAST_SPP_OF_FIT: u32 = 4;
 pub enum Standing {
     /// It converges, and its picture is better than none.
     Sound,
-    /// It converges, but its last picture is no nearer to the reference than a black one.
-    NothingYet,
+    /// It converges, but its last picture has more than half the relMSE of a black one: where no light has been found, little noise is no
+    /// merit.
+    TooNoisy,
     /// It converges to something else.
     Biased,
 }
@@ -68,7 +69,7 @@ impl Outcome {
         let standing = match curve.last() {
             _ if !bias.is_empty() => Standing::Biased,
             Some(last) if last.rel_mse < 0.5 * limits.black => Standing::Sound,
-            _ => Standing::NothingYet,
+            _ => Standing::TooNoisy,
         };
         let efficiency = |run: &Vec<Point>| run.last().map(|last| 1.0 / (last.rel_mse.max(ROUNDING) * last.seconds));
         Outcome {
@@ -109,10 +110,12 @@ impl Outcome {
     }
 }
 
-/// How many checkpoints all runs have and are clear of the reference's own error; at least one.
+/// How many checkpoints all runs have and are clear of the reference's own error; at least one. More than the first say nothing where
+/// that one is exact.
 fn comparable(runs: &[Run], floor: f64) -> usize {
-    let shared = runs.iter().map(|run| run.checkpoints.len()).min().unwrap_or(0);
-    let is_clear = |i: usize| runs.iter().all(|run| run.checkpoints[i].rel_mse > 2.0 * floor);
+    let is_exact = |run: &Run| run.checkpoints[0].rel_mse <= ROUNDING;
+    let shared = if runs.iter().all(is_exact) { 1 } else { runs.iter().map(|run| run.checkpoints.len()).min().unwrap_or(1) };
+    let is_clear = |i: usize| runs.iter().all(|run| run.checkpoints[i].rel_mse >= 2.0 * floor);
     (0..shared).rev().find(|i| is_clear(*i)).map_or(1, |last| last + 1)
 }
 

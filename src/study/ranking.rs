@@ -26,14 +26,13 @@ pub struct Findings {
     pub outcomes: Vec<Outcome>,
 }
 
-/// What a value of a setting is worth, as parts of the best efficiency.
+/// What a value of a setting is worth, as parts of the best efficiency; none where that is not ranked.
 pub struct Worth {
     pub value: String,
     /// With all other settings as in the best combination.
     pub alone: Option<f64>,
     /// With the other settings at what is best with this value.
-    pub at_best: f64,
-    pub standing: Standing,
+    pub at_best: Option<f64>,
 }
 
 /// Sorts by standing, then by efficiency.
@@ -52,15 +51,21 @@ impl Findings {
         self.outcomes.iter().find(|outcome| outcome.alike().any(|alike| alike == settings))
     }
 
-    /// Efficiency as a part of the best.
-    pub fn ratio(&self, outcome: &Outcome) -> f64 {
-        self.best().map_or(f64::NAN, |best| outcome.efficiency() / best.efficiency())
+    /// Efficiency as a part of the best. None where there is no best, and of what has noise where the best has none.
+    pub fn ratio(&self, outcome: &Outcome) -> Option<f64> {
+        let best = self.best().filter(|best| best.is_exact() == outcome.is_exact())?;
+        Some(outcome.efficiency() / best.efficiency())
+    }
+
+    /// [`Findings::ratio`] of what can be the best.
+    fn ranked_ratio(&self, outcome: &Outcome) -> Option<f64> {
+        self.ratio(outcome).filter(|_| outcome.standing == Standing::Sound)
     }
 
     /// The factor that the ratio of two efficiencies is known to, at 95 %: from the spread of log efficiencies over repeats, taken
     /// to be the same for all combinations near the best. None for a single repeat.
     pub fn uncertainty(&self) -> Option<f64> {
-        let near = self.outcomes.iter().filter(|outcome| outcome.standing == Standing::Sound && self.ratio(outcome) >= NEAR);
+        let near = self.outcomes.iter().filter(|outcome| self.ranked_ratio(outcome).is_some_and(|ratio| ratio >= NEAR));
         let (mut squares, mut degrees) = (0.0, 0.0);
         for moments in near.map(Outcome::log_efficiency).filter(|moments| moments.count > 1.0) {
             squares += moments.variance * (moments.count - 1.0);
@@ -73,8 +78,7 @@ impl Findings {
     /// The others that may be as good as the best.
     pub fn rivals(&self) -> impl Iterator<Item = &Outcome> {
         let limit = self.uncertainty().map_or(1.0, |factor| 1.0 / factor);
-        let sound = self.outcomes.iter().skip(1).take_while(|outcome| outcome.standing == Standing::Sound);
-        sound.take_while(move |outcome| self.ratio(outcome) >= limit)
+        self.outcomes.iter().skip(1).take_while(move |outcome| self.ranked_ratio(outcome).is_some_and(|ratio| ratio >= limit))
     }
 
     /// The values of a setting, in the order of the ranking; empty where there is only one.
@@ -85,8 +89,8 @@ impl Findings {
             for settings in outcome.alike() {
                 let value = setting.value(settings);
                 if values.iter().all(|worth| worth.value != value) {
-                    let alone = self.find(&setting.with(&best.settings, settings)).map(|outcome| self.ratio(outcome));
-                    values.push(Worth { value, alone, at_best: self.ratio(outcome), standing: outcome.standing });
+                    let alone = self.find(&setting.with(&best.settings, settings)).and_then(|alone| self.ranked_ratio(alone));
+                    values.push(Worth { value, alone, at_best: self.ranked_ratio(outcome) });
                 }
             }
         }

@@ -38,14 +38,14 @@ impl Reference {
 /// The settings of a converged render: unbiased, and the best of most scenes.
 pub fn settings(subject: &Subject) -> RenderSettings {
     let of_scene = subject.scene.settings;
+    let seeded = RenderSettings { seed: of_scene.seed ^ SEED_OF_REFERENCE, ..of_scene };
     RenderSettings {
         estimator: Estimator::Mis,
         sampler: Sampler::Sobol,
         directions: Directions::Bsdf,
         roulette: Roulette::BY_THROUGHPUT,
         max_bounces: None,
-        seed: of_scene.seed ^ SEED_OF_REFERENCE,
-        ..of_scene
+        ..seeded
     }
 }
 

@@ -15,11 +15,13 @@ const STYLE: &str = "
 p, pre, li { max-width: 60rem; }
 h3 { font-size: 1.05rem; margin: 2rem 0 .2rem; }
 pre { background: #f4f4f4; padding: .5rem .8rem; overflow-x: auto; font-size: .86rem; }
-.verdict { font-size: 1.1rem; font-weight: 600; }
+.formula { white-space: nowrap; } .verdict { font-size: 1.1rem; font-weight: 600; }
 .pair { margin: .4rem 0 1.4rem; } .pair div { display: grid; grid-template-columns: 1fr 1fr; gap: 1rem; }
 table.short { width: auto; min-width: 36rem; }
 tr.weak td { color: #666; } tr.first td { font-weight: 600; }
-summary { cursor: pointer; font-size: .86rem; } details::details-content { content-visibility: visible; }
+td { white-space: nowrap; } table.contents td { white-space: normal; }
+summary { cursor: pointer; font-size: .86rem; }
+@media print { details::details-content { content-visibility: visible; } }
 ";
 /// Rows of a table that are shown at once.
 const ROWS: usize = 20;
@@ -42,8 +44,8 @@ fn introduction(plan: &Plan) -> Markup {
     markup! {
         p { "Every combination of settings rendered each scene " @if repeats == 1 { "once" } @else { (repeats) " times with different seeds" }
             ", and was compared with a reference whenever its number of samples had doubled. The " b { "error" } " is the root of relMSE, the \
-             mean over pixels and channels of (x − r)²/(r² + 0.01) for the picture x and the reference r. " b { "Time" } " is that of \
-             rendering alone. " b { "Efficiency" } " is 1/(relMSE · seconds) at the end of a run: of two combinations the one of \
+             mean over pixels and channels of " span.formula { "(x − r)²/(r² + 0.01)" } " for the picture x and the reference r. " b { "Time" } " is that of \
+             rendering alone. " b { "Efficiency" } " is " span.formula { "1/(relMSE · s)" } " at the end of a run: of two combinations the one of \
              twice the efficiency needs half the time for the same error, where both fall alike." }
         p { "The " b { "slope" } " is how the error falls with the number of samples N: as N to this power. It is −1/2 for independent samples, \
              and steeper where samples are spread evenly. It is a least-squares fit from 4 samples on with its 95 % confidence interval, which \
@@ -52,11 +54,11 @@ fn introduction(plan: &Plan) -> Markup {
 }
 
 fn circumstances(plan: &Plan, machine: &Machine) -> Markup {
-    let threads = if machine.threads == 1 { "1 thread".to_owned() } else { format!("{} threads", machine.threads) };
+    let count = |n: usize, what: &str| if n == 1 { format!("1 {what}") } else { format!("{n} {what}s") };
     markup! {
         table.short {
             tr { th { "processor" } td { (machine.cpu) } }
-            tr { th { "used" } td { (threads) " on " (machine.cores) " cores, SIMD: " (machine.simd) } }
+            tr { th { "used" } td { (count(machine.threads, "thread")) " on " (count(machine.cores, "core")) ", SIMD: " (machine.simd) } }
             tr { th { "system" } td { (machine.os) } }
             tr { th { "each run" } td { "up to " (plan.spp) " samples a pixel; no doubling that would end after "
                 (significant(plan.time.as_secs_f64())) " s" } }
@@ -67,7 +69,7 @@ fn circumstances(plan: &Plan, machine: &Machine) -> Markup {
 fn contents(findings: &[Findings]) -> Markup {
     markup! {
         h2 { "The best settings" }
-        table {
+        table.contents {
             thead { tr { th { "scene" } th { "best" } } }
             tbody { @for (i, scene) in findings.iter().enumerate() {
                 tr { td { a href={ "#scene-" (i + 1) } { (scene.title) } } td { (verdict(scene)) } }
@@ -84,7 +86,7 @@ fn section(number: usize, findings: &Findings) -> Markup {
             h2 { (findings.title) }
             p.source { (findings.path.display()) ", " (width) " × " (height) " pixels, against " (findings.reference)
                 @if findings.limits.floor > 0.0 { ", whose own error is estimated as " (percent(findings.limits.floor)) } "." }
-            p.verdict { (verdict(findings)) }
+            p.formula { white-space: nowrap; } .verdict { (verdict(findings)) }
             p { (certainty(findings)) }
             @if let Some(command) = command(findings) { pre { (command) } }
             @if invalid > 0 { p.fails { (invalid) " samples were not finite or negative, and count as black." } }
@@ -113,9 +115,7 @@ fn worth(findings: &Findings) -> Markup {
         markup! {
             tr {
                 th { (setting) } td { (worth.value) }
-                td.n { (worth.alone.map_or_else(|| "–".to_owned(), significant)) }
-                td.n { (significant(worth.at_best)) }
-                td { (remark(worth.standing, "")) }
+                @for part in [worth.alone, worth.at_best] { td.n { (part.map_or_else(|| "–".to_owned(), significant)) } }
             }
         }
     };
@@ -123,25 +123,27 @@ fn worth(findings: &Findings) -> Markup {
         @if settings.iter().any(|(_, values)| !values.is_empty()) {
             h3 { "What each setting is worth" }
             table.short {
-                thead { tr { th { "setting" } th { "value" } th.n { "others as in the best" } th.n { "others at their best" } th {} } }
+                thead { tr { th { "setting" } th { "value" } th.n { "others as in the best" } th.n { "others at their best" } } }
                 tbody { @for (setting, values) in &settings { @for (i, worth) in values.iter().enumerate() {
                     (row(if i == 0 { setting.name() } else { "" }, worth))
                 } } }
             }
             p.source { "Efficiency as a part of the best: with this value and all other settings as in the best combination, and with this \
-                        value and whatever other settings are best with it." }
+                        value and whatever other settings are best with it. A dash is for what is not ranked, or has noise where the best has none." }
         }
     }
 }
 
 fn ranking(findings: &Findings) -> Markup {
     let outcomes = &findings.outcomes;
+    let capped = outcomes.iter().any(|outcome| outcome.settings.max_bounces.is_some());
+    let shown: Vec<Setting> = Setting::ALL.into_iter().filter(|setting| *setting != Setting::Cap || capped).collect();
     let twins: usize = outcomes.iter().map(|outcome| outcome.twins.len()).sum();
     let table = |rows: &[Outcome], first: usize| {
         markup! {
             table {
-                thead { (heading()) }
-                tbody { @for (i, outcome) in rows.iter().enumerate() { (row(first + i, outcome, findings)) } }
+                thead { (heading(&shown)) }
+                tbody { @for (i, outcome) in rows.iter().enumerate() { (row(first + i, outcome, &shown, findings)) } }
             }
         }
     };
@@ -152,25 +154,25 @@ fn ranking(findings: &Findings) -> Markup {
             details { summary { "the other " (outcomes.len() - ROWS) } (table(&outcomes[ROWS..], ROWS + 1)) }
         }
         p.source {
-            "± is the standard error of the efficiency, from the repeats. What is biased, or no clearly nearer to the reference than a black \
-             picture, comes last whatever its efficiency."
+            "± is the standard error of the efficiency, from the repeats. What is biased, or too noisy (its relMSE is more than half of that of a \
+             black picture), is not ranked and comes last."
             @if twins > 0 { " Values joined by = give the same picture, bit for bit in a trial, and were measured once: that spared "
                 (twins) " of " (outcomes.len() + twins) " combinations." }
         }
     }
 }
 
-fn heading() -> Markup {
+fn heading(shown: &[Setting]) -> Markup {
     markup! {
         tr {
             th.n { "" }
-            @for setting in Setting::ALL { th { (setting.name()) } }
+            @for setting in shown { th { (setting.name()) } }
             th.n { "samples" } th.n { "s" } th.n { "error" } th.n { "slope" } th.n { "efficiency" } th.n { "±" } th.n { "of the best" } th {}
         }
     }
 }
 
-fn row(place: usize, outcome: &Outcome, findings: &Findings) -> Markup {
+fn row(place: usize, outcome: &Outcome, shown: &[Setting], findings: &Findings) -> Markup {
     let moments = outcome.log_efficiency();
     let spread = 100.0 * (moments.variance / moments.count).sqrt();
     let class = match (place, outcome.standing) {
@@ -181,15 +183,15 @@ fn row(place: usize, outcome: &Outcome, findings: &Findings) -> Markup {
     markup! {
         tr class=(class) {
             td.n { (place) }
-            @for setting in Setting::ALL { td { (values(setting, outcome)) } }
+            @for setting in shown { td { (values(*setting, outcome)) } }
             td.n { (outcome.last().spp) }
             td.n { (significant(outcome.last().seconds)) }
             td.n { (error(outcome)) }
             td.n { (slope(outcome.slope)) }
             td.n { (significant(outcome.efficiency())) }
             td.n { @if spread.is_finite() { (format!("{spread:.0} %")) } @else { "–" } }
-            td.n { (significant(findings.ratio(outcome))) }
-            td { (remark(outcome.standing, &outcome.bias)) }
+            td.n { (findings.ratio(outcome).map_or_else(|| "–".to_owned(), significant)) }
+            td { (remark(outcome)) }
         }
     }
 }
@@ -202,11 +204,11 @@ fn values(setting: Setting, outcome: &Outcome) -> String {
     values.join(" = ")
 }
 
-fn remark(standing: Standing, bias: &str) -> String {
-    match standing {
+/// Why a combination is not ranked.
+fn remark(outcome: &Outcome) -> String {
+    match outcome.standing {
         Standing::Sound => String::new(),
-        Standing::NothingYet => "hardly any light".to_owned(),
-        Standing::Biased if bias.is_empty() => "biased".to_owned(),
-        Standing::Biased => format!("biased: {bias}"),
+        Standing::TooNoisy => "too noisy".to_owned(),
+        Standing::Biased => format!("biased: {}", outcome.bias),
     }
 }

@@ -31,52 +31,59 @@ pub fn slope(slope: Option<Slope>) -> String {
 /// Which settings are best, in one sentence.
 pub fn verdict(findings: &Findings) -> String {
     let Some(best) = findings.best() else {
-        return "No combination is both unbiased and clearly nearer to the reference than a black picture: more samples are needed."
-            .to_owned();
+        return "None is unbiased and clearly nearer to the reference than a black picture: more samples are needed.".to_owned();
     };
-    let seconds = significant(best.last().seconds);
-    let spp = best.last().spp;
-    let reached = if best.is_exact() {
-        format!("its picture has no noise, only rounding, and {spp} samples a pixel take {seconds} s")
-    } else {
-        format!("an error of {} after {seconds} s ({spp} samples a pixel)", error(best))
+    let (last, settings) = (best.last(), label(&best.settings));
+    let place = match findings.rivals().count() {
+        0 => "Best".to_owned(),
+        rivals => format!("First of {} that cannot be told apart", rivals + 1),
     };
-    format!("Best: {} – {reached}.", label(&best.settings))
+    let seconds = significant(last.seconds);
+    if best.is_exact() {
+        return format!("{place}: {settings} – no noise but rounding from the first sample on, which takes {seconds} s.");
+    }
+    format!("{place}: {settings} – an error of {} after {seconds} s ({} samples a pixel).", error(best), last.spp)
 }
 
 /// How sure the verdict is, and what it gains.
 pub fn certainty(findings: &Findings) -> String {
     let Some(best) = findings.best() else { return String::new() };
-    let rivals: Vec<String> = findings.rivals().map(|outcome| label(&outcome.settings)).collect();
-    let next = findings.outcomes.get(1).filter(|next| next.standing == best.standing);
-    let lead = next.map(|next| 1.0 / findings.ratio(next));
+    let lead = findings.outcomes.get(1).filter(|next| next.standing == best.standing).and_then(|next| findings.ratio(next));
+    let lead = lead.map(f64::recip);
     let mut text = match (findings.uncertainty(), lead) {
-        (_, None) => "No other combination can be compared with it.".to_owned(),
+        (_, None) if best.is_exact() => "All others have noise.".to_owned(),
+        (_, None) => "No other combination is ranked.".to_owned(),
         (None, Some(lead)) => {
-            format!("It is {} times as efficient as the next; how sure that is, a single repeat cannot tell.", significant(lead))
+            format!("It is {} times as efficient as the next; how sure that is, one repeat cannot tell.", significant(lead))
         }
-        (Some(factor), Some(lead)) if rivals.is_empty() => {
-            let (low, high) = (significant(lead / factor), significant(lead * factor));
-            format!("It is {} times as efficient as the next (95 %: {low} to {high}).", significant(lead))
+        (Some(factor), Some(lead)) if findings.rivals().next().is_none() => {
+            let [low, lead, high] = [lead / factor, lead, lead * factor].map(significant);
+            format!("It is {lead} times as efficient as the next (95 %, by the spread of repeats: {low} to {high}).")
         }
-        (Some(factor), Some(_)) => {
-            let shown = rivals.iter().take(3).cloned().collect::<Vec<_>>().join("; ");
-            let more = if rivals.len() > 3 { format!("; and {} more", rivals.len() - 3) } else { String::new() };
-            let spread = significant(100.0 * (factor - 1.0));
-            format!(
-                "Ratios are known to {spread} % (95 %, from repeats), and within that {} as good: {shown}{more}.",
-                others(rivals.len())
-            )
-        }
+        (Some(factor), Some(_)) => format!(
+            "By the spread of repeats, ratios of efficiencies are known to a factor of {} (95 %). Within that are also: {}.",
+            significant(factor),
+            some_of(findings.rivals().map(|outcome| label(&outcome.settings)).collect())
+        ),
     };
-    if let Some(own) = findings.find(&findings.of_scene).filter(|own| own.settings != best.settings) {
-        text.push_str(&format!(" What the scene opens with has {} of its efficiency.", significant(findings.ratio(own))));
+    if let Some(own) = findings.find(&findings.of_scene).filter(|own| own.settings != best.settings)
+        && let Some(ratio) = findings.ratio(own)
+    {
+        text.push_str(&format!(
+            " The scene opens with {}, which has {} of the efficiency.",
+            label(&own.settings),
+            significant(ratio)
+        ));
     }
     text
 }
 
-fn others(count: usize) -> String {
-    if count == 1 { "one other is".to_owned() } else { format!("{count} others are") }
+/// The first of many, and how many more there are.
+fn some_of(names: Vec<String>) -> String {
+    const SHOWN: usize = 3;
+    let more = names.len().saturating_sub(SHOWN);
+    let shown: Vec<String> = names.into_iter().take(SHOWN).collect();
+    if more == 0 { shown.join("; ") } else { format!("{}; and {more} more", shown.join("; ")) }
 }
 
 /// The command that renders with the best settings.
@@ -99,7 +106,7 @@ pub fn table(findings: &Findings) -> String {
     const PLACES: usize = 5;
     let cells = |outcome: &Outcome| {
         let remark = if outcome.standing == Standing::Sound { "" } else { "not ranked" };
-        let ratio = significant(findings.ratio(outcome));
+        let ratio = findings.ratio(outcome).map_or_else(|| "–".to_owned(), significant);
         let last = outcome.last();
         let [seconds, efficiency] = [last.seconds, outcome.efficiency()].map(significant);
         [

@@ -31,7 +31,7 @@ fn a_study_writes_measurements_and_a_report_that_needs_nothing_else() {
     let done = study(&shell, &[&scene("furnace"), &scene("bright_sky"), "--max-bounces", "none,1"]);
     assert!(done.status.success(), "{}", text(&done.stderr));
     let shown = text(&done.stdout);
-    assert!(shown.contains("Best: ") && shown.contains("report: new/study/report.html"), "{shown}");
+    assert!(shown.contains(" – ") && shown.contains("report: new/study/report.html"), "{shown}");
 
     let csv = fs::read_to_string(shell.path("new/study/study.csv")).expect("measurements");
     assert!(csv.starts_with("scene,width,height,estimator,"), "{csv}");
