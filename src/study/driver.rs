@@ -64,6 +64,8 @@ impl Study<'_> {
 
     fn prepare<'a>(&'a self, subject: &'a Subject) -> Result<Prepared<'a>, StudyError> {
         let bench = Bench { subject, threads: self.threads, stop: self.stop };
+        // What is wrong with it is told before anything is rendered.
+        reference::known(subject)?;
         // The bits of a picture stand for all that it is made of: the scene's meshes and images, and the program itself.
         let picture = trial(bench, &reference::settings(subject))?;
         let [width, height] = subject.camera.resolution.map(u32::to_le_bytes);

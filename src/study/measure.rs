@@ -69,18 +69,20 @@ impl Bench<'_> {
 
 /// Renders one combination as far as the plan says, and compares it with the reference on the way.
 pub fn measure(bench: Bench, settings: &RenderSettings, plan: &Plan, reference: &[[f32; 3]]) -> Result<Run, StudyError> {
-    // A sample that does not count: the first one takes memory and fills caches.
     let mut film = bench.film();
-    bench.pass(settings, &mut film, 1)?;
-    let mut film = film.recycled(bench.subject.camera.resolution);
+    // A sample that does not count, since it takes memory and fills caches; but where it takes long that does not matter.
+    let mut counts = Some(bench.pass(settings, &mut film, 1)?);
+    if counts.as_ref().is_some_and(|(took, _)| *took < plan.time) {
+        (counts, film) = (None, film.recycled(bench.subject.camera.resolution));
+    }
     let (mut run, mut elapsed, mut cut_paths) = (Run::default(), Duration::ZERO, 0);
     for spp in checkpoints(plan.spp) {
         // Refused by the rate so far: a doubling that is cut short would be lost.
-        let share = f64::from(spp) / f64::from(film.spp().max(1));
-        if film.spp() > 0 && elapsed.as_secs_f64() * share > plan.time.as_secs_f64() {
+        let before = run.checkpoints.last().map_or(spp, |last| last.spp);
+        if elapsed.as_secs_f64() * f64::from(spp) / f64::from(before) > plan.time.as_secs_f64() {
             break;
         }
-        let (took, count) = bench.pass(settings, &mut film, spp)?;
+        let (took, count) = counts.take().map_or_else(|| bench.pass(settings, &mut film, spp), Ok)?;
         elapsed += took;
         cut_paths += count.cut_paths;
         let error = compare(&bench.frame(&film).radiance, reference);

@@ -29,6 +29,16 @@ pub struct Reference {
 }
 
 impl Reference {
+    /// Without light there is no error to measure.
+    fn if_lit(self, subject: &Subject) -> Result<Reference, StudyError> {
+        if self.rel_mse_of_black() > 0.0 {
+            return Ok(self);
+        }
+        let why = subject.scene.why_black(&subject.camera, &settings(subject));
+        let reason = format!("{} is entirely black ({why}): there is no error to measure", self.name);
+        Err(StudyError::Unmeasurable { path: subject.path.clone(), reason })
+    }
+
     /// What a picture without any light is off by.
     pub fn rel_mse_of_black(&self) -> f64 {
         compare(&vec![[0.0; 3]; self.radiance.len()], &self.radiance).rel_mse
@@ -47,6 +57,13 @@ pub fn settings(subject: &Subject) -> RenderSettings {
         max_bounces: None,
         ..seeded
     }
+}
+
+/// The reference of a scene that says or has one.
+pub fn known(subject: &Subject) -> Result<Option<Reference>, StudyError> {
+    let Some((known, name)) = &subject.known else { return Ok(None) };
+    let reference = Reference { name: name.clone(), radiance: radiance(subject, known), rel_mse: 0.0 };
+    reference.if_lit(subject).map(Some)
 }
 
 /// What makes it another reference. `spp` is that of the longest render.
@@ -84,17 +101,10 @@ pub struct Converged<'a> {
 impl Converged<'_> {
     /// The reference of the scene; `done` is told the share of the work that is done, where there is work.
     pub fn reference(&self, done: &mut dyn FnMut(f64)) -> Result<Reference, StudyError> {
-        let subject = self.bench.subject;
-        let reference = match &subject.known {
-            Some((known, name)) => Reference { name: name.clone(), radiance: radiance(subject, known), rel_mse: 0.0 },
-            None => self.render(done)?,
-        };
-        if reference.rel_mse_of_black() == 0.0 {
-            let why = subject.scene.why_black(&subject.camera, &settings(subject));
-            let reason = format!("{} is entirely black ({why}): there is no error to measure", reference.name);
-            return Err(StudyError::Unmeasurable { path: subject.path.clone(), reason });
+        match known(self.bench.subject)? {
+            Some(reference) => Ok(reference),
+            None => self.render(done)?.if_lit(self.bench.subject),
         }
-        Ok(reference)
     }
 
     /// The mean m of halves a and b has the error (a + b)/2 of theirs, of which (a − b)/2 has the same variance: its relMSE is that

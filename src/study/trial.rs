@@ -8,6 +8,8 @@ use crate::scene::RenderSettings;
 
 /// Samples a pixel of a trial. The first sample of different samplers may be the same point.
 const TRIAL_SPP: u32 = 2;
+/// Reflections of a trial: what settings differ in shows early, and paths in a closed white room would take for ever.
+const TRIAL_BOUNCES: u32 = 8;
 
 /// A combination that is measured, and those that are the same picture.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,8 +30,9 @@ pub fn groups(bench: Bench, combinations: &[RenderSettings]) -> Result<Vec<Group
 
 /// A hash of a trial picture's bits.
 pub fn trial(bench: Bench, settings: &RenderSettings) -> Result<u64, StudyError> {
+    let cap = settings.max_bounces.map_or(TRIAL_BOUNCES, |cap| cap.min(TRIAL_BOUNCES));
     let mut film = bench.film();
-    bench.pass(settings, &mut film, TRIAL_SPP)?;
+    bench.pass(&RenderSettings { max_bounces: Some(cap), ..*settings }, &mut film, TRIAL_SPP)?;
     Ok(hash_of_picture(&bench.frame(&film).radiance))
 }
 
