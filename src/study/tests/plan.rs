@@ -52,7 +52,7 @@ fn lists_are_combined_each_value_once() {
 fn a_run_stops_before_a_doubling_that_takes_too_long() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("scene.toml");
-    std::fs::write(&path, include_str!("../../scenes/furnace.toml")).expect("it can be written");
+    std::fs::write(&path, include_str!("../../../scenes/furnace.toml")).expect("it can be written");
     let subject = Subject::load(&path, Some([8, 8]), None).expect("a scene");
     let threads = Threads::new(1, SimdLevel::best()).expect("threads");
     let bench = Bench { subject: &subject, threads: &threads, stop: &|| false };
