@@ -1,7 +1,7 @@
 //! Noisefall: the light transport equation, solved by Monte-Carlo path tracing while one watches.
 //!
 //! The library is the renderer; the window and the command line are in the binary. Folders depend downwards only:
-//! `render`, `measure` → `integrator` → `scene` → `light` → `material`, `geometry` → `texture` → `sampling`, `image`, `model` → `math`.
+//! `validate`, `study` → `report`, `render`, `measure` → `integrator` → `scene` → `light` → `material`, `geometry` → `texture` → `sampling`, `image`, `model` → `math`.
 pub mod file;
 pub mod geometry;
 pub mod image;
@@ -12,7 +12,9 @@ pub mod math;
 pub mod measure;
 pub mod model;
 pub mod render;
+pub mod report;
 pub mod sampling;
 pub mod scene;
+pub mod study;
 pub mod texture;
 pub mod validate;

@@ -1,9 +1,12 @@
-//! The command line. Exit status 0 done, 1 failed with a message on standard error, 2 wrong usage.
+//! The command line. Exit status 0 done, 1 failed with a message on standard error, 2 wrong usage, 130 interrupted.
 mod check;
 mod compare;
+mod folder;
 mod options;
 mod render;
 mod replay;
+mod stop;
+mod study;
 mod validate;
 
 use std::{
@@ -41,6 +44,8 @@ enum Command {
     Compare(compare::Arguments),
     /// Hold the renderer against exact solutions and write a report
     Validate(validate::Arguments),
+    /// Run time against error for every combination of settings, as a report
+    Study(study::Arguments),
     /// Read and check scene files; render nothing
     Check(check::Arguments),
 }
@@ -51,20 +56,19 @@ pub fn run() -> ExitCode {
         return ExitCode::from(WRONG_USAGE);
     }
     let arguments = Arguments::parse();
+    let succeeded = |()| ExitCode::SUCCESS;
     let done = match arguments.command {
-        None => window(arguments.scene),
-        Some(Command::Render(arguments)) => render::run(&arguments),
-        Some(Command::Compare(arguments)) => compare::run(&arguments),
-        Some(Command::Check(arguments)) => check::run(&arguments),
-        Some(Command::Validate(arguments)) => validate::run(&arguments),
+        None => window(arguments.scene).map(succeeded),
+        Some(Command::Render(arguments)) => render::run(&arguments).map(succeeded),
+        Some(Command::Compare(arguments)) => compare::run(&arguments).map(succeeded),
+        Some(Command::Check(arguments)) => check::run(&arguments).map(succeeded),
+        Some(Command::Validate(arguments)) => validate::run(&arguments).map(succeeded),
+        Some(Command::Study(arguments)) => study::run(&arguments),
     };
-    match done {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(message) => {
-            eprintln!("{message}");
-            ExitCode::FAILURE
-        }
-    }
+    done.unwrap_or_else(|message| {
+        eprintln!("{message}");
+        ExitCode::FAILURE
+    })
 }
 
 /// What to say of a first word that is neither a command nor a scene, but looks like a command.

@@ -1,10 +1,7 @@
 //! `noisefall render`: a picture without a window, by the same worker that serves the window.
 use std::{
     path::{Path, PathBuf},
-    sync::{
-        Arc,
-        atomic::{AtomicBool, Ordering},
-    },
+    sync::{Arc, atomic::Ordering},
     time::{Duration, Instant},
 };
 
@@ -28,6 +25,7 @@ use super::{
     Failure,
     options::{self as parse, BounceCap},
     print, replay,
+    stop::stop_signal,
 };
 
 /// Samples per pixel when neither the command nor the scene says how many.
@@ -182,7 +180,7 @@ fn render(threads: Threads, job: Job, budget: Budget, quiet: bool) -> Result<Pub
     });
     renderer.set_budget(budget);
     renderer.submit(job);
-    let stop = stop_signal()?;
+    let stop = stop_signal("interrupted: saving the picture as it is (once more to give up)")?;
     let bar = if quiet { ProgressBar::hidden() } else { progress_bar(&budget) };
     loop {
         if woken.recv_timeout(Duration::from_millis(200)) == Err(RecvTimeoutError::Disconnected) {
@@ -198,20 +196,6 @@ fn render(threads: Threads, job: Job, budget: Budget, quiet: bool) -> Result<Pub
             return Ok(published);
         }
     }
-}
-
-/// Becomes true when the user interrupts the program, which then saves what it has. The second time the program ends at once.
-fn stop_signal() -> Result<Arc<AtomicBool>, Failure> {
-    let stop = Arc::new(AtomicBool::new(false));
-    let flag = stop.clone();
-    let interrupted = move || {
-        if flag.swap(true, Ordering::Relaxed) {
-            std::process::exit(130);
-        }
-        eprintln!("interrupted: saving the picture as it is (once more to give up)");
-    };
-    ctrlc::set_handler(interrupted).map_err(|error| error.to_string())?;
-    Ok(stop)
 }
 
 fn progress_bar(budget: &Budget) -> ProgressBar {

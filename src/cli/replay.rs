@@ -36,7 +36,10 @@ pub fn run(
         print(&format!("{:>6}  {throughput:<23}  {radiance:<23}  {distance:>8}  {object}", vertex.bounce))?;
     }
     if let Some(alone) = replay.alone {
-        print(&format!("This path alone would have made it {}: pixels share what their paths find (--reuse off: none does).", colour(alone)))?;
+        print(&format!(
+            "This path alone would have made it {}: pixels share what their paths find (--reuse off: none does).",
+            colour(alone)
+        ))?;
     }
     Ok(())
 }

@@ -5,14 +5,12 @@ use std::{
 };
 
 use noisefall::{
-    file::{replace, temporary},
+    file::replace,
     validate::{Effort, KeptScene, Section, Suite, Validation, html, reference_names},
 };
 
-use super::{Failure, print};
+use super::{Failure, folder, print};
 
-/// The file in the folder that the report goes to.
-const REPORT: &str = "report.html";
 const REFERENCES: &str = "tests/references";
 /// The folder beside the report that scenes which fail go to.
 const KEPT: &str = "stress";
@@ -47,9 +45,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         Suite::Stress => validation.stress(done),
     };
     lines.into_iter().collect::<Result<Vec<()>, Failure>>()?;
-    if let Some(folder) = &arguments.output {
-        write(folder, REPORT, &html(&sections, suite, effort), "report")?;
-        keep(&folder.join(KEPT), &kept)?;
+    if let Some(output) = &arguments.output {
+        folder::write_report(output, &html(&sections, suite, effort))?;
+        keep(&output.join(KEPT), &kept)?;
     } else {
         print("no report was written: -o DIR says where to")?;
     }
@@ -83,12 +81,7 @@ fn check(arguments: &Arguments) -> Result<(), Failure> {
     {
         return Err(format!("{}: no references (NAME.toml with NAME.txt) in this folder", folder.display()));
     }
-    let Some(folder) = &arguments.output else { return Ok(()) };
-    if folder.exists() && !folder.is_dir() {
-        return Err(format!("{}: this is a file; -o names a folder", folder.display()));
-    }
-    let refused = |error: std::io::Error| format!("{}: cannot be written to: {}", folder.display(), error.kind());
-    std::fs::create_dir_all(folder).and_then(|()| temporary(folder).map(drop)).map_err(refused)
+    arguments.output.as_deref().map_or(Ok(()), folder::make)
 }
 
 fn failures(section: &Section) -> usize {

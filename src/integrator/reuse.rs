@@ -219,7 +219,8 @@ impl<L: Lanes> Second<L> {
         // Of a surface that is not convex a ray may meet another part first.
         const NEARLY: f32 = 0.999;
         let shapes = &work.scene.shapes;
-        let met = if shapes.are_spheres() { shapes.closest_sphere(l, o, d) } else { shapes.closest(l, lanes, o, d, self.place.time) };
+        let met =
+            if shapes.are_spheres() { shapes.closest_sphere(l, o, d) } else { shapes.closest(l, lanes, o, d, self.place.time) };
         let same = met.primitive.equals(self.place.primitive) & met.element.equals(self.place.element);
         same & met.t.ge(distance * NEARLY)
     }

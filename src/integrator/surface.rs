@@ -99,15 +99,15 @@ pub(super) fn surfaces<L: Lanes, const VARIED: bool>(l: L, work: &Work, batch: &
         let colour = V { x, y, z };
         let n = point.n_geometric * l.f(1.0).copysign(cos);
         let record = Hit { p: point.p + n * point.error, n, colour, throughput: path.throughput, slot: path.slot };
-        let arrival = Arrival { d: path.d, point, cos, place, media, word: word.bits() };
         let mut plain = record;
         if shares {
-            let kept = sharing & hit & surface::stage(arrival.word).is(Stage::Plain as u32);
+            let kept = sharing & hit & surface::stage(word.bits()).is(Stage::Plain as u32);
             plain.throughput = kept.pick(shared_throughput, plain.throughput);
             shared.keep_second(kept, &place, &mut plain);
         }
         if VARIED {
-            sort(l, work, hits, details, &arrival, &plain, record, hit);
+            let arrival = Arrival { d: path.d, point, cos, place, media, word: word.bits(), plain };
+            sort(l, work, hits, details, &arrival, record, hit);
         } else {
             plain.push(hit & colour.max_component().above(0.0), &mut hits[Stage::Plain as usize]);
         }
@@ -142,9 +142,11 @@ struct Arrival<L: Lanes> {
     media: U<L>,
     /// See [`surface`].
     word: U<L>,
+    /// What is queued where the surface is a plain one.
+    plain: Hit<L>,
 }
 
-/// Queues the paths of `mask` whose surface reflects, by shading stage; as `plain` where that is a plain one.
+/// Queues the paths of `mask` whose surface reflects, by shading stage.
 #[inline(always)]
 fn sort<L: Lanes>(
     l: L,
@@ -152,7 +154,6 @@ fn sort<L: Lanes>(
     hits: &mut [Queue],
     details: &mut [Queue],
     arrival: &Arrival<L>,
-    plain: &Hit<L>,
     mut hit: Hit<L>,
     mask: M<L>,
 ) {
@@ -165,7 +166,7 @@ fn sort<L: Lanes>(
     for stage in &work.scene.surfaces.stages {
         let here = reflects & surface::stage(word).is(*stage as u32);
         if *stage == Stage::Plain {
-            Hit { colour: hit.colour, ..*plain }.push(here, &mut hits[*stage as usize]);
+            Hit { colour: hit.colour, ..arrival.plain }.push(here, &mut hits[*stage as usize]);
         } else {
             hit.push(here, &mut hits[*stage as usize]);
             detail.push(here, &mut details[*stage as usize]);
@@ -177,7 +178,7 @@ fn sort<L: Lanes>(
 #[inline(always)]
 fn vary<L: Lanes>(l: L, scene: &Scene, arrival: &Arrival<L>, mask: M<L>, hit: &mut Hit<L>) -> Detail<L> {
     let Scene { surfaces, textures, .. } = scene;
-    let Arrival { d, point, cos, place, media, word } = arrival;
+    let Arrival { d, point, cos, place, media, word, .. } = arrival;
     let [mut alpha, colour_texture, alpha_texture, medium] = l.rows(&surfaces.varying, place.primitive);
     let wo = -*d;
     let mut n = hit.n;

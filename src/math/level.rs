@@ -36,6 +36,17 @@ impl SimdLevel {
         all
     }
 
+    /// What a reader calls it.
+    pub fn name(self) -> &'static str {
+        match self {
+            SimdLevel::Scalar => "none",
+            SimdLevel::Bits128 if cfg!(target_arch = "aarch64") => "NEON",
+            SimdLevel::Bits128 => "SSE4.2",
+            SimdLevel::Avx2 => "AVX2",
+            SimdLevel::Avx512 => "AVX-512",
+        }
+    }
+
     pub fn best() -> SimdLevel {
         SimdLevel::available().into_iter().last().unwrap_or(SimdLevel::Scalar)
     }

@@ -17,8 +17,8 @@ pub(super) struct Doubling {
 
 /// Radiance is smoothed over squares of so many pixels where noise hides it.
 const SIDE: usize = 8;
-/// Twice the samples leave at least this share of the squared error, as far as is believed.
-const LEAST: f64 = 0.125;
+/// At least this share of the last move remains, as far as is believed.
+const LEAST: f64 = 0.15;
 
 impl Doubling {
     /// `estimates` are those of a tile, row by row, `before` the means that they had at half as many samples.
@@ -48,8 +48,7 @@ impl Doubling {
         for &i in pixels {
             // A pixel far brighter than its neighbours by one lucky sample must not be divided by that sample's square: its
             // radiance is taken for the likelier one of its own mean and of the square's (W. James and C. Stein 1961).
-            let relative = variance(i) / (mean(i) * mean(i)).max(f64::MIN_POSITIVE);
-            let trust = if variance(i) > 0.0 { (signal / (signal + variance(i))).max(1.0 - relative) } else { 1.0 };
+            let trust = if variance(i) > 0.0 { signal / (signal + variance(i)) } else { 1.0 };
             let radiance = level + (mean(i) - level) * trust;
             let scale = 1.0 / (radiance * radiance + REL_MSE_FLOOR);
             self.moved += (mean(i) - f64::from(before[i][channel])).powi(2) * scale;
@@ -72,45 +71,65 @@ pub(super) fn rel_mse_estimate(film: &Film) -> Option<f64> {
     Some(remaining(&(1..=last).map(at).collect::<Vec<_>>()) / values * since)
 }
 
-/// V(N) from the moves mₖ = V(2ᵏ⁻¹) − V(2ᵏ) of the doublings so far and the sample variances, which tell the moves of independent
-/// samples.
+/// V(N) from the moves mₖ = V(2ᵏ⁻¹) − V(2ᵏ) and the sample variances at the doublings so far: the geometric mean of two laws, of which
+/// one mostly says too much and the other too little.
 ///
-/// V falls in turn by a factor ρ and by a factor ρ', for (0, 2)-sequences are better at even powers of two than at odd ones. With
-/// r₁ = mₖ/mₖ₋₁ and r₂ = mₖ/mₖ₋₂ = ρρ' it follows that ρ = r₂(1 + r₁)/(r₁ + r₂), and V(N) = mₖ ρ/(1 − ρ). Both are taken relative to the
-/// sample variances, which chance moves in the same way.
+/// Moves are counted in units of sample variances, which fall as 1/N and which chance moves in the same way.
 fn remaining(doublings: &[(f64, f64)]) -> f64 {
-    let Some((moved, variance)) = doublings.last().filter(|(moved, variance)| *moved > 0.0 && *variance > 0.0) else { return 0.0 };
-    let gain = |steps: usize| {
-        let before = doublings.len().checked_sub(steps + 1).map(|at| doublings[at]).filter(|(moved, _)| *moved > 0.0);
-        before.map_or(1.0, |(moved_before, variance_before)| (moved / variance) / (moved_before / variance_before))
+    let Some((_, variance)) = doublings.last() else { return 0.0 };
+    let q = |steps: usize| {
+        let (moved, variance) = doublings.len().checked_sub(steps + 1).map_or((1.0, 1.0), |at| doublings[at]);
+        if variance > 0.0 { moved / variance } else { 0.0 }
     };
-    let (r1, r2) = (0.5 * gain(1), 0.25 * gain(2).min(1.0));
-    let left = (r2 * (1.0 + r1) / (r1 + r2)).clamp(LEAST, 0.5);
-    moved * left / (1.0 - left)
+    let moves = [q(0), 2.0 * q(1), 4.0 * q(2)];
+    let [least, most] = [LEAST * q(0), q(0).max(q(1))];
+    let within = |left: f64| left.max(least).min(most);
+    variance * (within(by_two_powers(moves)) * within(by_factors(moves))).sqrt()
+}
+
+/// What remains after the moves [mₖ, mₖ₋₁, mₖ₋₂] if V = a/N + b/N²: what independent and what well stratified coordinates leave.
+///
+/// m = a/N + 3b/N², so that two moves say what a and b are: V(N) = (5 mₖ − mₖ₋₁)/3, or from one doubling before
+/// V(N) = (5 mₖ₋₁ − mₖ₋₂)/3 − mₖ; the mean of both is taken, for (0, 2)-sequences are better at even powers of two than at odd ones.
+fn by_two_powers([last, before, first]: [f64; 3]) -> f64 {
+    (2.0 * last + 4.0 * before - first) / 6.0
+}
+
+/// What remains if V falls in turn by a factor ρ and by a factor ρ'.
+///
+/// With r₁ = mₖ/mₖ₋₁ and r₂ = mₖ/mₖ₋₂ = ρρ' it follows that ρ = r₂(1 + r₁)/(r₁ + r₂), and V(N) = mₖ ρ/(1 − ρ).
+fn by_factors([last, before, first]: [f64; 3]) -> f64 {
+    let (r1, r2) = (last / before, (last / first).min(0.25));
+    let factor = r2 * (1.0 + r1) / (r1 + r2);
+    if factor < 1.0 { last * factor / (1.0 - factor) } else { last }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// Doublings of a process whose squared error is V(2ᵏ), with the sample variance of independent samples.
-    fn doublings(v: impl Fn(u32) -> f64, count: u32) -> Vec<(f64, f64)> {
-        (1..=count).map(|k| (v(k - 1) - v(k), v(0) / f64::from(1 << k))).collect()
+    /// Moves up to V(2ᵏ).
+    fn moves(v: impl Fn(i32) -> f64, k: i32) -> [f64; 3] {
+        [0, 1, 2].map(|steps| v(k - steps - 1) - v(k - steps))
     }
 
     #[test]
-    fn what_remains_of_powers_of_n_is_exact() {
-        for steepness in [1.0, 1.2, 1.5, 2.0] {
-            let v = |k: u32| 2f64.powf(-steepness * f64::from(k));
-            assert!((remaining(&doublings(v, 6)) / v(6) - 1.0).abs() < 1e-9, "{steepness}");
+    fn each_law_is_exact_where_it_holds() {
+        for share in [0.0, 0.2, 1.0] {
+            let v = |k: i32| (1.0 - share) * 2f64.powi(-k) + share * 4f64.powi(-k);
+            assert!((by_two_powers(moves(v, 6)) / v(6) - 1.0).abs() < 1e-9, "{share}");
+        }
+        for (factor, other) in [(0.5, 0.5), (0.25, 0.25), (0.2, 0.4), (0.4, 0.2)] {
+            let v = |k: i32| (factor * other).powi(k / 2) * if k % 2 == 1 { factor } else { 1.0 };
+            assert!((by_factors(moves(v, 6)) / v(6) - 1.0).abs() < 1e-9, "{factor} {other}");
         }
     }
 
     #[test]
-    fn what_remains_is_exact_where_even_powers_are_better() {
-        let v = |k: u32| 2f64.powf(-1.5 * f64::from(k)) * if k % 2 == 1 { 1.2 } else { 1.0 };
-        for count in [5, 6] {
-            assert!((remaining(&doublings(v, count)) / v(count) - 1.0).abs() < 1e-9, "{count}");
+    fn independent_samples_leave_what_their_variance_says() {
+        let doublings: Vec<_> = (1..7).map(|k| (2f64.powi(-k), 2f64.powi(-k))).collect();
+        for count in 1..6 {
+            assert!((remaining(&doublings[..count]) * 2f64.powi(count as i32) - 1.0).abs() < 1e-9, "{count}");
         }
     }
 

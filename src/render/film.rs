@@ -75,7 +75,16 @@ impl Film {
 
 impl Tile {
     fn new(origin: [u32; 2], size: [u32; 2]) -> Tile {
-        Tile { origin, size, spp: 0, sum: Vec::new(), sum_of_squares: Vec::new(), before: Vec::new(), doublings: Vec::new(), invalid: 0 }
+        Tile {
+            origin,
+            size,
+            spp: 0,
+            sum: Vec::new(),
+            sum_of_squares: Vec::new(),
+            before: Vec::new(),
+            doublings: Vec::new(),
+            invalid: 0,
+        }
     }
 
     pub fn pixels(&self) -> usize {

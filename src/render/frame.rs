@@ -32,11 +32,8 @@ impl Frame {
         let mut standard_error = vec![f32::NAN; pixels];
         let band = (width * TILE) as usize;
         let rows: Vec<_> = film.tile_rows().collect();
-        radiance
-            .par_chunks_mut(band)
-            .zip(standard_error.par_chunks_mut(band))
-            .zip(rows)
-            .for_each(|((radiance, error), tiles)| {
+        radiance.par_chunks_mut(band).zip(standard_error.par_chunks_mut(band)).zip(rows).for_each(
+            |((radiance, error), tiles)| {
                 for tile in tiles {
                     for row in 0..tile.size[1] as usize {
                         let start = row * width as usize + tile.origin[0] as usize;
@@ -46,7 +43,8 @@ impl Frame {
                         }
                     }
                 }
-            });
+            },
+        );
         let rel_mse_estimate = rel_mse_estimate(film);
         Frame { generation, width, height, full_resolution, radiance, standard_error, spp: film.spp(), rel_mse_estimate }
     }

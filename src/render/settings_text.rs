@@ -2,7 +2,7 @@
 use serde_json::json;
 
 use super::tone::Display;
-use crate::scene::{Camera, RenderSettings, Roulette, Scene};
+use crate::scene::{Camera, RenderSettings, Scene};
 
 /// One JSON object, in ASCII, with all that a picture depends on.
 pub fn settings_text(scene: &Scene, camera: &Camera, settings: &RenderSettings, display: Display, spp: u32) -> String {
@@ -42,12 +42,7 @@ pub fn options(settings: &RenderSettings, of_scene: &RenderSettings) -> String {
     option(settings.sampler != of_scene.sampler, "sampler", settings.sampler.entry().name.to_owned());
     option(settings.estimator != of_scene.estimator, "estimator", settings.estimator.name().to_owned());
     option(settings.directions != of_scene.directions, "directions", settings.directions.name().to_owned());
-    let roulette = match settings.roulette {
-        Roulette::Off => "off".to_owned(),
-        Roulette::Fixed(p) => p.to_string(),
-        Roulette::Throughput { .. } => "throughput".to_owned(),
-    };
-    option(settings.roulette != of_scene.roulette, "roulette", roulette);
+    option(settings.roulette != of_scene.roulette, "roulette", settings.roulette.name());
     let cap = settings.max_bounces.map_or_else(|| "none".to_owned(), |cap| cap.to_string());
     option(settings.max_bounces != of_scene.max_bounces, "max-bounces", cap);
     option(settings.reuse != of_scene.reuse, "reuse", settings.reuse.name().to_owned());
@@ -58,7 +53,7 @@ pub fn options(settings: &RenderSettings, of_scene: &RenderSettings) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::built_in;
+    use crate::scene::{Roulette, built_in};
 
     #[test]
     fn the_text_is_ascii_and_still_says_the_same() {

@@ -23,7 +23,9 @@ const SEED: u32 = 0x7f4a_7c15;
 /// The same settings, with [`Reuse::Auto`] decided. The answer depends on scene and estimator only, and is found once.
 pub fn resolved(scene: &Scene, settings: &RenderSettings) -> RenderSettings {
     let reuse = match settings.reuse {
-        Reuse::Auto if scene.can_share() && *scene.sharing_pays[settings.estimator as usize].get_or_init(|| pays(scene, settings)) => {
+        Reuse::Auto
+            if scene.can_share() && *scene.sharing_pays[settings.estimator as usize].get_or_init(|| pays(scene, settings)) =>
+        {
             Reuse::On
         }
         Reuse::Auto => Reuse::Off,
@@ -33,7 +35,8 @@ pub fn resolved(scene: &Scene, settings: &RenderSettings) -> RenderSettings {
 }
 
 fn pays(scene: &Scene, settings: &RenderSettings) -> bool {
-    let settings = RenderSettings { estimator: settings.estimator, sampler: Sampler::Independent, seed: SEED, ..Default::default() };
+    let settings =
+        RenderSettings { estimator: settings.estimator, sampler: Sampler::Independent, seed: SEED, ..Default::default() };
     let rays = scene.rays(&scene.camera);
     let [width, height] = scene.camera.resolution;
     let tile = |[x, y]: &[f64; 2]| {
@@ -79,6 +82,11 @@ impl Tile {
 
     /// The sum of variances, each over the square of its mean as relMSE has it.
     fn relative_variance(&self, mean: &[f64]) -> f64 {
-        self.variance.iter().zip(mean).map(|(variance, mean)| variance / (mean * mean + REL_MSE_FLOOR)).filter(|x| x.is_finite()).sum()
+        self.variance
+            .iter()
+            .zip(mean)
+            .map(|(variance, mean)| variance / (mean * mean + REL_MSE_FLOOR))
+            .filter(|x| x.is_finite())
+            .sum()
     }
 }

@@ -82,6 +82,15 @@ impl Roulette {
     /// The first reflection at which a path can end, where nothing is said.
     pub const FIRST: u32 = 4;
     pub const BY_THROUGHPUT: Roulette = Roulette::Throughput { start: Roulette::FIRST };
+
+    /// What the command line calls it.
+    pub fn name(self) -> String {
+        match self {
+            Roulette::Off => "off".to_owned(),
+            Roulette::Fixed(p) => p.to_string(),
+            Roulette::Throughput { .. } => "throughput".to_owned(),
+        }
+    }
 }
 
 impl Default for Roulette {

@@ -3,7 +3,6 @@
 //! Each section makes one claim, derives the exact answer, and holds measurements against it in [`Statement`]s. All samples are
 //! seeded and the same on every machine, so that a verdict is, too.
 mod check;
-mod plot;
 mod report;
 mod sections;
 mod statement;
@@ -20,6 +19,7 @@ pub use self::{
     statement::Statement,
     stress::KeptScene,
 };
+use crate::report::Figure;
 #[cfg(test)]
 use crate::scene::Fault;
 
@@ -61,13 +61,6 @@ pub struct Section {
     pub figures: Vec<Figure>,
     /// What a reader should know besides.
     pub remark: Option<String>,
-}
-
-/// A picture or a plot with what it shows.
-pub struct Figure {
-    pub caption: String,
-    /// An `svg` or `img` element.
-    pub element: String,
 }
 
 impl Section {

@@ -1,22 +1,16 @@
 //! The report as one HTML file, which needs nothing else and prints well.
-use maud::{DOCTYPE, Markup, PreEscaped, html as markup};
+use maud::{Markup, html as markup};
 
 use super::{Effort, Section, Statement, Suite};
+use crate::report::{self, formula};
 
+/// What only this report has.
 const STYLE: &str = "
-:root { color-scheme: light; }
-body { font: 16px/1.5 system-ui, sans-serif; color: #1b1b1b; background: #fff; max-width: 50rem; margin: 2rem auto; padding: 0 1rem; }
-h1 { font-size: 1.7rem; margin-bottom: .2rem; } h2 { font-size: 1.25rem; margin-top: 2.6rem; }
-table { border-collapse: collapse; width: 100%; font-size: .86rem; font-variant-numeric: tabular-nums; margin: 1rem 0; }
-th, td { text-align: left; padding: .25rem .5rem; border-bottom: 1px solid #ddd; vertical-align: top; }
-th { border-bottom: 2px solid #888; } td.n, th.n { text-align: right; white-space: nowrap; }
+:root { --width: 50rem; }
 td.s { white-space: nowrap; }
-.holds { color: #00654a; font-weight: 600; white-space: nowrap; } .fails { color: #b00020; font-weight: 700; white-space: nowrap; }
-.claim { font-size: 1.06rem; font-weight: 600; } .source { color: #555; font-size: .86rem; }
+.claim { font-size: 1.06rem; font-weight: 600; }
 .derivation { border-left: 3px solid #bbb; padding-left: 1rem; }
-figure { margin: 1.2rem 0; } figure svg, figure img { max-width: 100%; height: auto; } figure:has(img) { display: inline-block; margin: .6rem .8rem .6rem 0; }
-figcaption { font-size: .86rem; color: #444; }
-@media print { body { font-size: 11pt; margin: 0; max-width: none; } section { break-inside: auto; } figure, tr { break-inside: avoid; } }
+figure:has(img) { display: inline-block; margin: .6rem .8rem .6rem 0; }
 ";
 
 /// The report of all sections.
@@ -24,27 +18,16 @@ pub fn html(sections: &[Section], suite: Suite, effort: Effort) -> String {
     let statements: usize = sections.iter().map(|section| section.statements.len()).sum();
     let run = sections.iter().filter(|section| section.was_run()).count();
     let failed: usize = sections.iter().flat_map(|section| &section.statements).filter(|statement| !statement.holds).count();
-    let page = markup! {
-        (DOCTYPE)
-        html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                title { "Noisefall: validation" }
-                style { (PreEscaped(STYLE)) }
-            }
-            body {
-                h1 { (suite.question()) }
-                p { (formula(suite.answer())) " " (statements) " statements of " (run) " sections. "
-                    @if failed == 0 { span.holds { "All hold." } } @else { span.fails { (failed) " fail." } } }
-                p.source { "noisefall " (env!("CARGO_PKG_VERSION")) ", " @if effort == Effort::Quick { "a quick run" } @else { "a full run" } ". "
-                    (suite.conditions()) }
-                (contents(sections))
-                @for (i, section) in sections.iter().enumerate() { (body(i + 1, section)) }
-            }
-        }
+    let content = markup! {
+        h1 { (suite.question()) }
+        p { (formula(suite.answer())) " " (statements) " statements of " (run) " sections. "
+            @if failed == 0 { span.holds { "All hold." } } @else { span.fails { (failed) " fail." } } }
+        p.source { "noisefall " (env!("CARGO_PKG_VERSION")) ", " @if effort == Effort::Quick { "a quick run" } @else { "a full run" } ". "
+            (suite.conditions()) }
+        (contents(sections))
+        @for (i, section) in sections.iter().enumerate() { (body(i + 1, section)) }
     };
-    page.into_string()
+    report::page("Noisefall: validation", STYLE, &content)
 }
 
 impl Suite {
@@ -107,7 +90,7 @@ fn body(number: usize, section: &Section) -> Markup {
             p.source { (formula(section.source)) }
             @if let Some(remark) = &section.remark { p { (formula(remark)) } }
             @for figure in &section.figures {
-                figure { (PreEscaped(&figure.element)) figcaption { (formula(&figure.caption)) } }
+                (figure.markup())
             }
             @if !section.statements.is_empty() {
                 table {
@@ -129,18 +112,6 @@ fn row(statement: &Statement) -> Markup {
             td.n { @if let Some(exact) = statement.exact { (number(exact)) } }
             td.s { (statement.statistic) }
             td { (verdict(statement.holds)) }
-        }
-    }
-}
-
-/// Text with a letter behind an underscore as its index.
-fn formula(text: &str) -> Markup {
-    let mut parts = text.split('_');
-    let first = parts.next().unwrap_or_default();
-    markup! {
-        (first)
-        @for part in parts {
-            @if let Some(index) = part.chars().next() { sub { (index) } (&part[index.len_utf8()..]) }
         }
     }
 }

@@ -44,9 +44,14 @@ fn json(output: &Output) -> serde_json::Value {
 #[test]
 fn every_command_has_help() {
     let shell = Shell::new();
-    for arguments in
-        [&["--help"][..], &["render", "--help"], &["compare", "--help"], &["check", "--help"], &["validate", "--help"]]
-    {
+    for arguments in [
+        &["--help"][..],
+        &["render", "--help"],
+        &["compare", "--help"],
+        &["check", "--help"],
+        &["validate", "--help"],
+        &["study", "--help"],
+    ] {
         let output = shell.run(arguments);
         assert!(output.status.success() && text(&output.stdout).contains("Usage: noisefall"));
     }

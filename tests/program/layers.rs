@@ -3,8 +3,8 @@ use std::{fs, path::Path};
 
 /// From the top down; folders of one line do not know each other.
 const LAYERS: [&[&str]; 9] = [
-    &["validate"],
-    &["render"],
+    &["validate", "study"],
+    &["render", "report"],
     &["measure"],
     &["integrator"],
     &["scene"],

@@ -6,6 +6,7 @@ mod pictures;
 mod scene_files;
 mod scene_messages;
 mod shapes;
+mod study;
 mod textures;
 mod validate;
 mod worker;

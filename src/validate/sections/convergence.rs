@@ -5,11 +5,12 @@ use crate::{
         exact::{furnace, furnace_variance},
         samples,
     },
-    sampling::Directions,
-    validate::{
-        Section, Statement, Validation, check,
+    report::{
+        Figure,
         plot::{Axis, Style, curve, plot},
     },
+    sampling::Directions,
+    validate::{Section, Statement, Validation, check},
 };
 
 const ALBEDOS: [f64; 3] = [0.2, 0.5, 0.8];
@@ -45,7 +46,7 @@ pub fn section(validation: &Validation) -> Section {
 }
 
 /// Running means of single pixels in the band that they should keep to.
-fn running_means(validation: &Validation) -> crate::validate::Figure {
+fn running_means(validation: &Validation) -> Figure {
     const ALBEDO: f64 = 0.5;
     let count = validation.spp(12_000);
     let pixels = samples(&check::furnace(ALBEDO), validation.path(Directions::Uniform, 10), count);

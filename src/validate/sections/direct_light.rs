@@ -9,9 +9,10 @@ use crate::{
         exact::{horizon_sphere_irradiance, polygon_irradiance},
         picture,
     },
+    report::Figure,
     scene::{Estimator, RenderSettings, Scene},
     validate::{
-        Figure, Section, Statement, Validation,
+        Section, Statement, Validation,
         check::{RED, scene},
     },
 };

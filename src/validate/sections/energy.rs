@@ -3,12 +3,12 @@ use crate::{
     material::{Bsdf, Conductor, Local, Material, Materials, Plastic, Reflectance},
     math::{F, M, One, U, V},
     measure::{Mean, Picture, picture},
+    report::plot::{Axis, Style, curve, plot},
     sampling::Directions,
     scene::Scene,
     validate::{
         Section, Statement, Validation,
         check::{RED, TABLES, scene, uniform},
-        plot::{Axis, Style, curve, plot},
         statement::SIGMAS,
     },
 };

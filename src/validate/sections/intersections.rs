@@ -8,12 +8,12 @@ use crate::{
     geometry::{MISS, Motion, Nearest, Shape, Shapes},
     material::{Bsdf, Lambertian},
     math::{F, M, One, U, V},
-    sampling::Directions,
-    validate::{
-        Figure, Section, Statement, Validation,
-        check::uniform,
+    report::{
+        Figure,
         plot::{Axis, Style, curve, plot},
     },
+    sampling::Directions,
+    validate::{Section, Statement, Validation, check::uniform},
 };
 
 /// Of cos θ, and of the azimuth.

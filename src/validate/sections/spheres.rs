@@ -9,9 +9,10 @@ use crate::{
         exact::{Lamp, lamberts_ball, mean_over_pixel},
         picture,
     },
+    report::Figure,
     sampling::Directions,
     scene::{Camera, RenderSettings, Roulette, Scene, parse},
-    validate::{Figure, Section, Statement, Validation, check::RED},
+    validate::{Section, Statement, Validation, check::RED},
 };
 
 /// Of `outside_lit_outside.toml`.

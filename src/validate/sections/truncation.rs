@@ -1,12 +1,13 @@
 //! 3. Truncation is biased, roulette is not.
 use crate::{
     measure::exact::{furnace, furnace_capped, furnace_variance},
-    sampling::Directions,
-    scene::{RenderSettings, Roulette},
-    validate::{
-        Figure, Section, Statement, Validation, check,
+    report::{
+        Figure,
         plot::{Axis, Style, curve, plot},
     },
+    sampling::Directions,
+    scene::{RenderSettings, Roulette},
+    validate::{Section, Statement, Validation, check},
 };
 
 const ALBEDO: f64 = 0.5;

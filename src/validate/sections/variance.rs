@@ -1,12 +1,13 @@
 //! 2. Variance falls as 1/N.
 use crate::{
     measure::{Moments, exact::furnace_variance, samples},
+    report::{
+        Figure,
+        plot::{Axis, Curve, Style, curve, plot},
+    },
     sampling::{Directions, Sampler},
     scene::RenderSettings,
-    validate::{
-        Figure, Section, Statement, Validation, check,
-        plot::{Axis, Style, curve, plot},
-    },
+    validate::{Section, Statement, Validation, check},
 };
 
 const ALBEDO: f64 = 0.5;
@@ -59,7 +60,7 @@ pub fn section(validation: &Validation) -> Section {
     }
 }
 
-fn figure(curves: &[crate::validate::plot::Curve]) -> Figure {
+fn figure(curves: &[Curve]) -> Figure {
     let caption = "Variance, over 1024 pixels, of the mean of N samples; one reflection in the furnace with ρ = 0.5.";
     plot(caption, Axis::log("samples N"), Axis::log("variance of the mean"), curves)
 }

@@ -1,6 +1,6 @@
 //! Errors of the scenes of a section as points.
 use super::{Trial, surfaces::LIMIT, trial::ENERGY};
-use crate::validate::{
+use crate::report::{
     Figure,
     plot::{Axis, Curve, Style, curve, plot},
 };

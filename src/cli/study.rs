@@ -1,0 +1,160 @@
+//! `noisefall study`: run time against error for every combination of settings.
+use std::{path::PathBuf, process::ExitCode, sync::atomic::Ordering, time::Duration};
+
+use indicatif::{ProgressBar, ProgressStyle};
+use noisefall::{
+    math::SimdLevel,
+    render::pass::Threads,
+    sampling::{Directions, Sampler},
+    scene::{Estimator, Roulette},
+    study::{CSV, Findings, Lists, Machine, Plan, Progress, Store, Study, StudyError, Subject, html, label, table, verdict},
+};
+
+use super::{
+    Failure, WRONG_USAGE, folder,
+    options::{self as parse, BounceCap},
+    print,
+    stop::{INTERRUPTED, stop_signal},
+};
+
+const NOTES: &str = "\
+Each combination of the lists renders each scene several times, and is compared with a reference whenever its samples have doubled: the \
+scene's [truth], else the picture NAME.ref.exr beside NAME.toml, else a converged render that is made first and kept in DIR.
+
+DIR gets study.csv, a line for every measurement, and report.html: error against time and samples, slopes, efficiencies, and the best \
+settings for each scene. What DIR has already is not measured again, so an interrupted study goes on where it was.
+
+Example: noisefall study scenes/cornell_box.toml -o study --samplers independent,sobol --roulette off,throughput";
+
+#[derive(clap::Args)]
+#[command(allow_negative_numbers = true, after_help = NOTES)]
+pub struct Arguments {
+    /// Scene files (.toml)
+    #[arg(required = true, value_name = "SCENE")]
+    scenes: Vec<PathBuf>,
+    /// Folder for study.csv, report.html and references, made if it is not there
+    #[arg(short, long, value_name = "DIR")]
+    output: PathBuf,
+    /// How light is found: path, light, mis
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::estimator, default_value = "path,light,mis")]
+    estimators: Vec<Estimator>,
+    /// How the next direction is drawn at diffuse surfaces: uniform, cosine, bsdf
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::directions, default_value = "uniform,cosine,bsdf")]
+    directions: Vec<Directions>,
+    /// Where samples lie: independent, stratified, sobol, bluenoise (which is sobol in another order)
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::sampler, default_value = "independent,stratified,sobol")]
+    samplers: Vec<Sampler>,
+    /// Russian roulette: off, survival probabilities, throughput
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::roulette, default_value = "off,0.8,throughput")]
+    roulette: Vec<Roulette>,
+    /// Highest numbers of reflections, none for no cap; what is capped is biased and never the best
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::bounce_cap, default_value = "none")]
+    max_bounces: Vec<BounceCap>,
+    /// Largest number of samples per pixel; errors are measured at powers of two up to it
+    #[arg(long, value_name = "N", default_value = "256", value_parser = parse::samples)]
+    spp: u32,
+    /// Rendering time of one run: a doubling of the samples that would end later is not begun
+    #[arg(long, value_name = "SECONDS", default_value = "1.5", value_parser = parse::seconds)]
+    seconds: Duration,
+    /// Runs of each combination, with different seeds
+    #[arg(long, value_name = "N", default_value = "2", value_parser = parse::samples)]
+    repeats: u32,
+    /// Picture that the scene must converge to (.exr), in place of its truth; of a single scene only
+    #[arg(long, value_name = "FILE")]
+    reference: Option<PathBuf>,
+    /// Resolution in pixels [default: the reference's, or the scene's made small enough for 256 along the longer side]
+    #[arg(long, value_name = "WxH", value_parser = parse::resolution, allow_hyphen_values = true)]
+    size: Option<[u32; 2]>,
+    /// Threads; 0 for one a core
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = parse::threads)]
+    threads: u16,
+}
+
+pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
+    if arguments.reference.is_some() && arguments.scenes.len() > 1 {
+        eprintln!("--reference is the picture of one scene, and {} are given", arguments.scenes.len());
+        return Ok(ExitCode::from(WRONG_USAGE));
+    }
+    folder::make(&arguments.output)?;
+    let load = |path: &PathBuf| Subject::load(path, arguments.size, arguments.reference.as_deref());
+    let subjects = arguments.scenes.iter().map(load).collect::<Result<Vec<_>, _>>().map_err(|error| error.to_string())?;
+    let mut store = Store::open(&arguments.output).map_err(|error| error.to_string())?;
+    if store.dropped > 0 {
+        eprintln!("note: {} lines of {CSV} belong to runs that are not complete and are left out", store.dropped);
+    }
+    let threads = Threads::new(arguments.threads.into(), SimdLevel::best()).map_err(|error| error.to_string())?;
+    let (plan, machine) = (arguments.plan(), Machine::here(&threads));
+    let stop = stop_signal("interrupted: what has been measured is kept (once more to end at once)")?;
+    let stopped = || stop.load(Ordering::Relaxed);
+    let study = Study { plan: &plan, folder: &arguments.output, threads: &threads, machine: &machine, stop: &stopped };
+
+    let mut display = Display::new();
+    let found = study.run(&subjects, &mut store, &mut |progress| display.show(&progress));
+    display.bar.finish_and_clear();
+    match found {
+        Ok(findings) => finish(arguments, &findings, &plan, &machine).map(|()| ExitCode::SUCCESS),
+        Err(StudyError::Interrupted) => {
+            eprintln!("stopped: {} has {} runs; the same command goes on from there", arguments.output.display(), store.len());
+            Ok(ExitCode::from(INTERRUPTED))
+        }
+        Err(error) => Err(error.to_string()),
+    }
+}
+
+impl Arguments {
+    fn plan(&self) -> Plan {
+        let lists = Lists {
+            estimators: self.estimators.clone(),
+            directions: self.directions.clone(),
+            samplers: self.samplers.clone(),
+            roulettes: self.roulette.clone(),
+            caps: self.max_bounces.iter().map(|cap| cap.0).collect(),
+        };
+        Plan { lists, spp: self.spp, time: self.seconds, repeats: self.repeats }
+    }
+}
+
+fn finish(arguments: &Arguments, findings: &[Findings], plan: &Plan, machine: &Machine) -> Result<(), Failure> {
+    for scene in findings {
+        print(&format!("\n{}\n{}\n{}", scene.title, table(scene), verdict(scene)))?;
+    }
+    print("")?;
+    folder::write_report(&arguments.output, &html(findings, plan, machine))
+}
+
+/// A bar where there is a terminal, else a line for each combination.
+struct Display {
+    bar: ProgressBar,
+}
+
+impl Display {
+    fn new() -> Display {
+        let style = ProgressStyle::with_template("{bar:30} {pos}/{len} runs  {msg}  {elapsed} elapsed, {eta} left");
+        Display { bar: ProgressBar::new(0).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar())) }
+    }
+
+    fn show(&mut self, progress: &Progress) {
+        match progress {
+            Progress::Planned { runs, found } => {
+                self.bar.set_length((runs - found) as u64);
+                if *found > 0 {
+                    eprintln!("{found} of {runs} runs are there already");
+                }
+            }
+            Progress::Reference { title, share } => {
+                self.bar.set_message(format!("{title}: reference, {:.0} %", 100.0 * share));
+                self.bar.tick();
+                if self.bar.is_hidden() && *share == 1.0 {
+                    eprintln!("{title}: the reference is rendered");
+                }
+            }
+            Progress::Begun { title, settings } => {
+                self.bar.set_message(format!("{title}: {}", label(settings)));
+                self.bar.tick();
+            }
+            Progress::Done => self.bar.inc(1),
+            Progress::Combination { title, outcome } if self.bar.is_hidden() => eprintln!("{title}: {outcome}"),
+            Progress::Combination { .. } => {}
+        }
+    }
+}

@@ -1,0 +1,61 @@
+//! What reports are made of: one HTML file each, which needs nothing else and prints well; plots as SVG.
+pub mod plot;
+
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+
+/// What all reports look like.
+const STYLE: &str = "
+:root { color-scheme: light; }
+body { font: 16px/1.5 system-ui, sans-serif; color: #1b1b1b; background: #fff; max-width: var(--width); margin: 2rem auto; padding: 0 1rem; }
+h1 { font-size: 1.7rem; margin-bottom: .2rem; } h2 { font-size: 1.25rem; margin-top: 2.6rem; }
+table { border-collapse: collapse; width: 100%; font-size: .86rem; font-variant-numeric: tabular-nums; margin: 1rem 0; }
+th, td { text-align: left; padding: .25rem .5rem; border-bottom: 1px solid #ddd; vertical-align: top; }
+thead th { border-bottom: 2px solid #888; } td.n, th.n { text-align: right; white-space: nowrap; }
+.holds { color: #00654a; font-weight: 600; white-space: nowrap; } .fails { color: #b00020; font-weight: 700; white-space: nowrap; }
+.source { color: #555; font-size: .86rem; }
+figure { margin: 1.2rem 0; } figure svg, figure img { max-width: 100%; height: auto; }
+figcaption { font-size: .86rem; color: #444; }
+@media print { body { font-size: 11pt; margin: 0; --width: none; } section { break-inside: auto; } figure, tr { break-inside: avoid; } }
+";
+
+/// A picture or a plot with what it shows.
+pub struct Figure {
+    pub caption: String,
+    /// An `svg` or `img` element.
+    pub element: String,
+}
+
+impl Figure {
+    pub fn markup(&self) -> Markup {
+        html! { figure { (PreEscaped(&self.element)) figcaption { (formula(&self.caption)) } } }
+    }
+}
+
+/// A whole page; `style` is what only this report has, `--width` of `:root` at least.
+pub fn page(title: &str, style: &str, body: &Markup) -> String {
+    let page = html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                title { (title) }
+                style { (PreEscaped(STYLE)) (PreEscaped(style)) }
+            }
+            body { (body) }
+        }
+    };
+    page.into_string()
+}
+
+/// Text with a letter behind an underscore as its index.
+pub fn formula(text: &str) -> Markup {
+    let mut parts = text.split('_');
+    let first = parts.next().unwrap_or_default();
+    html! {
+        (first)
+        @for part in parts {
+            @if let Some(index) = part.chars().next() { sub { (index) } (&part[index.len_utf8()..]) }
+        }
+    }
+}

@@ -1,0 +1,239 @@
+//! Plots as SVG.
+use std::ops::Range;
+
+use plotters::{
+    coord::{
+        ranged1d::{DefaultFormatting, KeyPointHint, Ranged},
+        types::RangedCoordf64,
+    },
+    prelude::*,
+};
+
+use super::Figure;
+
+/// Distinct for colour-blind readers too (M. Okabe and K. Ito, "Color Universal Design", 2008).
+const COLOURS: [RGBColor; 6] = [
+    RGBColor(0, 114, 178),
+    RGBColor(213, 94, 0),
+    RGBColor(0, 158, 115),
+    RGBColor(204, 121, 167),
+    RGBColor(86, 180, 233),
+    RGBColor(60, 60, 60),
+];
+/// More labels on an axis than these would crowd it.
+const MOST_TICKS: usize = 8;
+const GREY: RGBColor = RGBColor(150, 150, 150);
+/// Width and height of a plot that stands alone, in pixels.
+const ALONE: (u32, u32) = (660, 340);
+/// Of two that stand side by side.
+pub const BESIDE: (u32, u32) = (560, 380);
+
+/// An axis; on a logarithmic one all values must be positive.
+#[derive(Clone, Copy)]
+pub struct Axis {
+    pub label: &'static str,
+    pub log: bool,
+}
+
+impl Axis {
+    pub fn linear(label: &'static str) -> Axis {
+        Axis { label, log: false }
+    }
+
+    pub fn log(label: &'static str) -> Axis {
+        Axis { label, log: true }
+    }
+
+    fn place(self, x: f64) -> f64 {
+        if self.log { x.max(1e-300).log10() } else { x }
+    }
+
+    fn text(self, place: f64) -> String {
+        let value = if self.log { 10f64.powf(place) } else { place };
+        let size = value.abs();
+        if !(0.001..10_000.0).contains(&size) && size > 0.0 {
+            return format!("{value:.0e}");
+        }
+        // Digits that count: neighbouring labels of a linear axis may differ in the fifth.
+        let count = if self.log { 2.0 } else { 4.0 };
+        let digits = if size > 0.0 { (count - size.log10().floor()).max(0.0) as usize } else { 0 };
+        let text = format!("{value:.digits$}");
+        if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+    }
+
+    /// Where the range of places has labels: on a logarithmic axis at powers of ten, and at 2 and 5 times these where there is room.
+    fn ticks(self, range: &Range<f64>) -> Vec<f64> {
+        let even = RangedCoordf64::from(range.clone()).key_points(MOST_TICKS);
+        if !self.log {
+            return even;
+        }
+        let decades = (range.start.floor() as i32)..=(range.end.ceil() as i32);
+        let within = |mantissas: &[f64]| -> Vec<f64> {
+            let places = decades.clone().flat_map(|decade| mantissas.iter().map(move |m| f64::from(decade) + m.log10()));
+            places.filter(|place| range.contains(place)).collect()
+        };
+        let candidates = [within(&[1.0, 2.0, 5.0]), within(&[1.0])];
+        candidates.into_iter().find(|places| (2..=MOST_TICKS).contains(&places.len())).unwrap_or(even)
+    }
+
+    /// From the least to the greatest place, with a margin.
+    fn range(self, values: impl Iterator<Item = f64>) -> Range<f64> {
+        let (min, max) =
+            values.filter(|x| x.is_finite()).fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
+        let margin = if max > min { (max - min) * 0.06 } else { min.abs().max(1.0) * 0.1 };
+        min - margin..max + margin
+    }
+}
+
+/// The places of an axis, with its labels where we want them.
+struct Scale {
+    places: RangedCoordf64,
+    ticks: Vec<f64>,
+}
+
+impl Scale {
+    fn new(axis: Axis, range: Range<f64>) -> Scale {
+        Scale { ticks: axis.ticks(&range), places: range.into() }
+    }
+}
+
+impl Ranged for Scale {
+    type FormatOption = DefaultFormatting;
+    type ValueType = f64;
+
+    fn map(&self, place: &f64, pixels: (i32, i32)) -> i32 {
+        self.places.map(place, pixels)
+    }
+
+    fn key_points<Hint: KeyPointHint>(&self, hint: Hint) -> Vec<f64> {
+        if hint.weight().allow_light_points() { Vec::new() } else { self.ticks.clone() }
+    }
+
+    fn range(&self) -> Range<f64> {
+        self.places.range()
+    }
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Style {
+    Line,
+    Dashed,
+    Points,
+    /// A dashed line that is no measurement: grey, and last in the order.
+    Guide,
+}
+
+pub struct Curve {
+    pub name: String,
+    pub style: Style,
+    pub points: Vec<(f64, f64)>,
+}
+
+pub fn curve(name: impl Into<String>, style: Style, points: Vec<(f64, f64)>) -> Curve {
+    Curve { name: name.into(), style, points }
+}
+
+/// [`svg`] in a figure of its own.
+pub fn plot(caption: impl Into<String>, x: Axis, y: Axis, curves: &[Curve]) -> Figure {
+    Figure { caption: caption.into(), element: svg(ALONE, x, y, curves) }
+}
+
+/// Curves over each other, in the colours of their order; points and lines of the same name share one.
+pub fn svg(size: (u32, u32), x: Axis, y: Axis, curves: &[Curve]) -> String {
+    let mut svg = String::new();
+    let drawn = draw(&mut svg, size, x, y, curves);
+    drawn.map_or_else(|error| format!("<p>this plot could not be drawn: {error}</p>"), |()| svg)
+}
+
+fn draw(svg: &mut String, size: (u32, u32), x: Axis, y: Axis, curves: &[Curve]) -> Result<(), Box<dyn std::error::Error>> {
+    let all = || curves.iter().flat_map(|curve| curve.points.iter().copied());
+    let area = SVGBackend::with_string(svg, size).into_drawing_area();
+    let (xs, ys) = (x.range(all().map(|(a, _)| x.place(a))), y.range(all().map(|(_, b)| y.place(b))));
+    let within = |(a, b): (f64, f64)| (part(&xs, x.place(a)), part(&ys, y.place(b)));
+    let corner = emptiest_corner(curves.iter().flat_map(|curve| between(curve).map(within)), legend_size(curves, size));
+    let (xs, ys) = (Scale::new(x, xs), Scale::new(y, ys));
+    let labels = [xs.ticks.len(), ys.ticks.len()];
+    let mut chart = ChartBuilder::on(&area).margin(8).x_label_area_size(42).y_label_area_size(64).build_cartesian_2d(xs, ys)?;
+    chart
+        .configure_mesh()
+        .x_desc(x.label)
+        .y_desc(y.label)
+        .x_labels(labels[0])
+        .y_labels(labels[1])
+        .light_line_style(WHITE)
+        .bold_line_style(RGBColor(225, 225, 225))
+        .x_label_formatter(&|place| x.text(*place))
+        .y_label_formatter(&|place| y.text(*place))
+        .label_style(("sans-serif", 13))
+        .axis_desc_style(("sans-serif", 14))
+        .draw()?;
+    let mut names: Vec<&str> = Vec::new();
+    for curve in curves {
+        let known = names.iter().position(|name| *name == curve.name);
+        let number = known.unwrap_or(names.len());
+        let colour = if curve.style == Style::Guide { GREY } else { COLOURS[number % COLOURS.len()] };
+        let places = curve.points.iter().map(|&(a, b)| (x.place(a), y.place(b)));
+        let line = colour.stroke_width(2);
+        let series = match curve.style {
+            Style::Line => chart.draw_series(LineSeries::new(places, line))?,
+            Style::Dashed | Style::Guide => chart.draw_series(DashedLineSeries::new(places, 5, 4, line))?,
+            Style::Points => chart.draw_series(places.map(|place| Circle::new(place, 3, colour.filled())))?,
+        };
+        if known.is_none() {
+            names.push(&curve.name);
+            series.label(&curve.name).legend(move |(x, y)| PathElement::new([(x, y), (x + 16, y)], line));
+        }
+    }
+    chart
+        .configure_series_labels()
+        .background_style(WHITE.mix(0.85))
+        .border_style(RGBColor(200, 200, 200))
+        .label_font(("sans-serif", 13))
+        .position(corner)
+        .draw()?;
+    area.present()?;
+    Ok(())
+}
+
+/// Where in a range, from 0 to 1.
+fn part(range: &Range<f64>, x: f64) -> f64 {
+    (x - range.start) / (range.end - range.start)
+}
+
+/// The points of a curve, and such between them as its line runs through.
+fn between(curve: &Curve) -> impl Iterator<Item = (f64, f64)> {
+    const STEPS: u32 = 8;
+    let geometric = |a: f64, b: f64, t: f64| if a > 0.0 && b > 0.0 { a * (b / a).powf(t) } else { a + (b - a) * t };
+    let lines = curve.points.windows(2).filter(|_| curve.style != Style::Points);
+    let inner = lines.flat_map(move |ends| {
+        let [(a, b), (c, d)] = [ends[0], ends[1]];
+        (1..STEPS).map(move |step| f64::from(step) / f64::from(STEPS)).map(move |t| (geometric(a, c, t), geometric(b, d, t)))
+    });
+    curve.points.iter().copied().chain(inner)
+}
+
+/// About the width and height of the legend, as parts of the plot's.
+fn legend_size(curves: &[Curve], size: (u32, u32)) -> (f64, f64) {
+    const LETTER: f64 = 7.0;
+    const LINE: f64 = 18.0;
+    let mut names: Vec<&str> = curves.iter().map(|curve| curve.name.as_str()).collect();
+    names.dedup();
+    let longest = names.iter().map(|name| name.chars().count()).max().unwrap_or(0);
+    let (width, height) = (40.0 + LETTER * longest as f64, 16.0 + LINE * names.len() as f64);
+    (width / f64::from(size.0), height / f64::from(size.1))
+}
+
+/// Where a legend of this size hides the least.
+fn emptiest_corner(places: impl Iterator<Item = (f64, f64)>, (width, height): (f64, f64)) -> SeriesLabelPosition {
+    const CORNERS: [(SeriesLabelPosition, f64, f64); 4] = [
+        (SeriesLabelPosition::UpperRight, 1.0, 1.0),
+        (SeriesLabelPosition::LowerRight, 1.0, 0.0),
+        (SeriesLabelPosition::UpperLeft, 0.0, 1.0),
+        (SeriesLabelPosition::LowerLeft, 0.0, 0.0),
+    ];
+    let places: Vec<_> = places.collect();
+    let hidden = |&(_, x, y): &(SeriesLabelPosition, f64, f64)| {
+        places.iter().filter(|(a, b)| (a - x).abs() < width && (b - y).abs() < height).count()
+    };
+    CORNERS.into_iter().min_by_key(hidden).map_or(SeriesLabelPosition::UpperRight, |(corner, ..)| corner)
+}

@@ -1,0 +1,146 @@
+//! The whole of a study: scene by scene, what is not in the folder yet is measured.
+use std::path::Path;
+
+use super::{
+    Findings, Machine, Plan, Run, Store, StudyError, Subject,
+    key::{hash, text},
+    measure::{Bench, measure},
+    outcome::{Limits, Outcome},
+    ranking::rank,
+    reference::{self, Converged, Reference},
+    row::{Header, rows},
+    trial::{Group, groups, trial},
+};
+use crate::{render::pass::Threads, scene::RenderSettings};
+
+/// A study of some scenes in a folder.
+pub struct Study<'a> {
+    pub plan: &'a Plan,
+    pub folder: &'a Path,
+    pub threads: &'a Threads,
+    pub machine: &'a Machine,
+    /// Asks to stop.
+    pub stop: &'a (dyn Fn() -> bool + Sync),
+}
+
+/// What is going on.
+pub enum Progress<'a> {
+    /// How many runs there will be, and how many of them the folder has.
+    Planned { runs: usize, found: usize },
+    /// The share of a converged render that is done.
+    Reference { title: &'a str, share: f64 },
+    /// A run begins.
+    Begun { title: &'a str, settings: &'a RenderSettings },
+    /// A run is done and kept.
+    Done,
+    /// All runs of a combination are done.
+    Combination { title: &'a str, outcome: &'a Outcome },
+}
+
+/// A scene with what will be measured of it.
+struct Prepared<'a> {
+    bench: Bench<'a>,
+    title: String,
+    /// All that a picture of the scene depends on besides settings.
+    fingerprint: u64,
+    groups: Vec<Group>,
+}
+
+impl Study<'_> {
+    /// Measures what the store does not have, and keeps each run at once, so that an interrupted study can go on.
+    pub fn run(
+        &self,
+        subjects: &[Subject],
+        store: &mut Store,
+        observe: &mut dyn FnMut(Progress),
+    ) -> Result<Vec<Findings>, StudyError> {
+        let prepared = subjects.iter().map(|subject| self.prepare(subject)).collect::<Result<Vec<_>, _>>()?;
+        let keys = prepared.iter().flat_map(|scene| self.runs(scene).map(|(group, repeat)| self.key(scene, group, repeat).1));
+        let keys: Vec<String> = keys.collect();
+        let found = keys.iter().filter(|key| store.run(key).is_some()).count();
+        observe(Progress::Planned { runs: keys.len(), found });
+        prepared.into_iter().map(|scene| self.scene(scene, store, observe)).collect()
+    }
+
+    fn prepare<'a>(&'a self, subject: &'a Subject) -> Result<Prepared<'a>, StudyError> {
+        let bench = Bench { subject, threads: self.threads, stop: self.stop };
+        // What is wrong with it is told before anything is rendered.
+        reference::known(subject)?;
+        // The bits of a picture stand for all that it is made of: the scene's meshes and images, and the program itself.
+        let picture = trial(bench, &reference::settings(subject))?;
+        let [width, height] = subject.camera.resolution.map(u32::to_le_bytes);
+        let fingerprint = hash(&[subject.scene.source.as_bytes(), &width, &height, &picture.to_le_bytes()]);
+        let groups = groups(bench, &self.plan.lists.combinations(subject.scene.settings))?;
+        Ok(Prepared { bench, title: subject.title(), fingerprint, groups })
+    }
+
+    /// Repeat by repeat, so that what slows the machine for a while slows all combinations, and shows as spread.
+    fn runs<'s>(&self, scene: &'s Prepared) -> impl Iterator<Item = (&'s Group, u32)> {
+        (0..self.plan.repeats).flat_map(|repeat| scene.groups.iter().map(move |group| (group, repeat)))
+    }
+
+    /// The settings of a run with its seed, and what it is found by.
+    fn key(&self, scene: &Prepared, group: &Group, repeat: u32) -> (RenderSettings, String) {
+        let settings = RenderSettings { seed: group.settings.seed.wrapping_add(repeat), ..group.settings };
+        let Machine { cpu, threads, simd, version, .. } = self.machine;
+        let Plan { spp, time, .. } = self.plan;
+        let reference = reference::identity(scene.bench.subject, *spp);
+        let how = format!("{settings:?} {spp} {time:?} {cpu} {threads} {simd} {version}");
+        (settings, text(hash(&[&scene.fingerprint.to_le_bytes(), &reference.to_le_bytes(), how.as_bytes()])))
+    }
+
+    fn scene(&self, scene: Prepared, store: &mut Store, observe: &mut dyn FnMut(Progress)) -> Result<Findings, StudyError> {
+        let reference = self.reference(&scene, observe)?;
+        let limits = Limits { floor: reference.rel_mse, black: reference.rel_mse_of_black() };
+        let mut runs: Vec<Vec<Run>> = vec![Vec::new(); scene.groups.len()];
+        for (number, (group, repeat)) in self.runs(&scene).enumerate() {
+            let of_group = &mut runs[number % scene.groups.len()];
+            let (settings, key) = self.key(&scene, group, repeat);
+            if let Some(found) = store.run(&key) {
+                of_group.push(found);
+                continue;
+            }
+            observe(Progress::Begun { title: &scene.title, settings: &settings });
+            let run = measure(scene.bench, &settings, self.plan, &reference.radiance)?;
+            let Prepared { bench: Bench { subject, .. }, .. } = scene;
+            let header = Header {
+                subject,
+                settings: &settings,
+                repeat: repeat + 1,
+                reference: &reference,
+                machine: self.machine,
+                key: &key,
+            };
+            store.add(rows(&header, &run))?;
+            of_group.push(run);
+            observe(Progress::Done);
+            if repeat + 1 == self.plan.repeats {
+                observe(Progress::Combination { title: &scene.title, outcome: &Outcome::of(group.clone(), of_group, limits) });
+            }
+        }
+        Ok(self.findings(scene, &runs, reference, limits))
+    }
+
+    fn reference(&self, scene: &Prepared, observe: &mut dyn FnMut(Progress)) -> Result<Reference, StudyError> {
+        let Prepared { bench, ref title, fingerprint, .. } = *scene;
+        let converged = Converged { bench, folder: self.folder, fingerprint, spp: self.plan.spp };
+        converged.reference(&mut |share| observe(Progress::Reference { title, share }))
+    }
+
+    fn findings(&self, scene: Prepared, runs: &[Vec<Run>], reference: Reference, limits: Limits) -> Findings {
+        let subject = scene.bench.subject;
+        let outcome = |(group, runs): (Group, &Vec<Run>)| Outcome::of(group, runs, limits);
+        let mut outcomes: Vec<Outcome> = scene.groups.into_iter().zip(runs).map(outcome).collect();
+        rank(&mut outcomes);
+        Findings {
+            title: scene.title,
+            path: subject.path.clone(),
+            resolution: subject.camera.resolution,
+            of_scene: subject.scene.settings,
+            reference: reference.name,
+            limits,
+            repeats: self.plan.repeats,
+            outcomes,
+        }
+    }
+}

@@ -1,0 +1,89 @@
+//! Plots of error against time and samples: few curves each, chosen by what they tell.
+use super::{
+    outcome::{Outcome, Point, ROUNDING},
+    ranking::Findings,
+    setting::{Setting, label},
+};
+use crate::report::plot::{Axis, BESIDE, Curve, Style, curve, svg};
+
+/// How many of the first places the overview shows.
+const FIRST_PLACES: usize = 3;
+
+/// Two plots with the same curves: error against time, error against samples.
+pub struct Pair {
+    pub title: String,
+    pub caption: String,
+    pub elements: [String; 2],
+}
+
+/// The first places, what the scene opens with, and the last place that is ranked.
+pub fn overview(findings: &Findings) -> Option<Pair> {
+    let best = findings.best()?;
+    let sound: Vec<&Outcome> = findings.outcomes.iter().filter(|outcome| outcome.standing == best.standing).collect();
+    let own = findings.find(&findings.of_scene);
+    let mut shown: Vec<(String, &Outcome)> = Vec::new();
+    for outcome in sound.iter().take(FIRST_PLACES).copied().chain(own).chain(sound.last().copied()) {
+        let name = label(&outcome.settings);
+        if shown.iter().all(|(known, _)| *known != name) {
+            shown.push((name, outcome));
+        }
+    }
+    let mut caption = "The best combinations, what the scene opens with, and the last of those that are ranked.".to_owned();
+    if findings.limits.floor > 0.0 {
+        caption.push_str(" The reference's own error is taken off, and curves end where they come near to it.");
+    }
+    pair("Error against time and samples".to_owned(), caption, &shown)
+}
+
+/// One curve for each value of a setting, all others as in the best combination. None where there is only one curve.
+pub fn by_setting(findings: &Findings, setting: Setting) -> Option<Pair> {
+    let best = findings.best()?;
+    let mut shown: Vec<(String, &Outcome)> = Vec::new();
+    for worth in findings.worth(setting) {
+        let with_value = |outcome: &&Outcome| {
+            let same_otherwise = |s: &&_| setting.with(s, &best.settings) == best.settings && setting.value(s) == worth.value;
+            outcome.alike().find(same_otherwise).is_some()
+        };
+        let Some(outcome) = findings.outcomes.iter().find(with_value) else { continue };
+        match shown.iter_mut().find(|(_, known)| known.settings == outcome.settings) {
+            Some((name, _)) => *name = format!("{name} = {}", worth.value),
+            None => shown.push((worth.value, outcome)),
+        }
+    }
+    let caption = format!("All other settings as in the best combination: {}.", label(&best.settings));
+    if shown.len() > 1 { pair(capitalised(setting.name()), caption, &shown) } else { None }
+}
+
+fn capitalised(name: &str) -> String {
+    let mut letters = name.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
+
+fn pair(title: String, mut caption: String, shown: &[(String, &Outcome)]) -> Option<Pair> {
+    let exact: Vec<&str> = shown.iter().filter(|(_, outcome)| outcome.is_exact()).map(|(name, _)| name.as_str()).collect();
+    if !exact.is_empty() {
+        caption.push_str(&format!(" Without noise, and so not shown: {}.", exact.join("; ")));
+    }
+    let draw = |x: Axis, place: fn(&Point) -> f64| {
+        let mut curves = Vec::new();
+        for (name, outcome) in shown {
+            let noisy = outcome.curve.iter().filter(|point| point.rel_mse > ROUNDING);
+            let points: Vec<(f64, f64)> = noisy.map(|point| (place(point), point.rel_mse.sqrt())).collect();
+            curves.push(curve(name, Style::Line, points.clone()));
+            curves.push(curve(name, Style::Points, points));
+        }
+        curves.retain(|curve| !curve.points.is_empty());
+        curves.extend(guide(&curves));
+        (!curves.is_empty()).then(|| svg(BESIDE, x, Axis::log("error (root of relMSE)"), &curves))
+    };
+    let by_time = draw(Axis::log("rendering time, s"), |point| point.seconds)?;
+    let by_samples = draw(Axis::log("samples a pixel"), |point| f64::from(point.spp))?;
+    Some(Pair { title, caption, elements: [by_time, by_samples] })
+}
+
+/// How independent samples fall: from the start of the first curve, as long as the first curve.
+fn guide(curves: &[Curve]) -> Option<Curve> {
+    let points = &curves.first()?.points;
+    let (&(x, y), &(end, _)) = (points.first()?, points.last()?);
+    Some(curve("slope −1/2", Style::Guide, vec![(x, y), (end, y * (x / end).sqrt())]))
+}

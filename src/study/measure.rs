@@ -1,0 +1,95 @@
+//! One render of one combination, stopped at powers of two of samples to compare it: the time of comparing does not count.
+use std::time::{Duration, Instant};
+
+use super::{Plan, StudyError, Subject, checkpoints};
+use crate::{
+    measure::compare,
+    render::{
+        Frame,
+        film::Film,
+        pass::{PassCount, PassJob, Threads},
+    },
+    scene::RenderSettings,
+};
+
+/// The error after some samples.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Checkpoint {
+    pub spp: u32,
+    /// Rendering time up to here.
+    pub seconds: f64,
+    /// As in [`crate::measure::Comparison`].
+    pub rmse: f64,
+    pub rel_mse: f64,
+    pub bias: f64,
+}
+
+/// One render of one combination.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Run {
+    pub checkpoints: Vec<Checkpoint>,
+    /// Samples that were not finite or negative.
+    pub invalid_samples: u64,
+    /// Why the picture does not converge to the solution; empty when it does.
+    pub bias: String,
+}
+
+/// What renders: a scene, threads, and somebody who may stop it.
+#[derive(Clone, Copy)]
+pub struct Bench<'a> {
+    pub subject: &'a Subject,
+    pub threads: &'a Threads,
+    pub stop: &'a (dyn Fn() -> bool + Sync),
+}
+
+impl Bench<'_> {
+    /// Brings a film to so many samples a pixel. Returns how long that took.
+    pub fn pass(&self, settings: &RenderSettings, film: &mut Film, spp: u32) -> Result<(Duration, PassCount), StudyError> {
+        let scene = &self.subject.scene;
+        let rays = scene.rays(&self.subject.camera);
+        let start = Instant::now();
+        let count = self.threads.pass(PassJob { scene, rays: &rays, settings }, film, spp, self.stop);
+        let took = start.elapsed();
+        match &count.failure {
+            Some(failure) => Err(StudyError::Renderer(failure.message.clone())),
+            None if film.spp() < spp => Err(StudyError::Interrupted),
+            None => Ok((took, count)),
+        }
+    }
+
+    pub fn frame(&self, film: &Film) -> Frame {
+        let resolution = self.subject.camera.resolution;
+        self.threads.install(|| Frame::of_film(film, 0, resolution, resolution))
+    }
+
+    pub fn film(&self) -> Film {
+        Film::new(self.subject.camera.resolution)
+    }
+}
+
+/// Renders one combination as far as the plan says, and compares it with the reference on the way.
+pub fn measure(bench: Bench, settings: &RenderSettings, plan: &Plan, reference: &[[f32; 3]]) -> Result<Run, StudyError> {
+    let mut film = bench.film();
+    // A sample that does not count, since it takes memory and fills caches; but where it takes long that does not matter.
+    let mut counts = Some(bench.pass(settings, &mut film, 1)?);
+    if counts.as_ref().is_some_and(|(took, _)| *took < plan.time) {
+        (counts, film) = (None, film.recycled(bench.subject.camera.resolution));
+    }
+    let (mut run, mut elapsed, mut cut_paths) = (Run::default(), Duration::ZERO, 0);
+    for spp in checkpoints(plan.spp) {
+        // Refused by the rate so far: a doubling that is cut short would be lost.
+        let before = run.checkpoints.last().map_or(spp, |last| last.spp);
+        if elapsed.as_secs_f64() * f64::from(spp) / f64::from(before) > plan.time.as_secs_f64() {
+            break;
+        }
+        let (took, count) = counts.take().map_or_else(|| bench.pass(settings, &mut film, spp), Ok)?;
+        elapsed += took;
+        cut_paths += count.cut_paths;
+        let error = compare(&bench.frame(&film).radiance, reference);
+        let seconds = elapsed.as_secs_f64();
+        run.checkpoints.push(Checkpoint { spp, seconds, rmse: error.rmse, rel_mse: error.rel_mse, bias: error.bias });
+    }
+    run.invalid_samples = film.invalid_samples();
+    run.bias = settings.bias().or((cut_paths > 0).then(|| format!("{cut_paths} paths cut"))).unwrap_or_default();
+    Ok(run)
+}

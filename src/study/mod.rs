@@ -1,0 +1,64 @@
+//! Run time against error: every combination of settings is timed and held against a reference, and the best is named.
+//!
+//! ```text
+//!   Subject (scene, size) ─▶ trial: which combinations are the same picture
+//!                         ─▶ Reference: the truth, a file, or a converged render
+//!                         ─▶ measure: Run (seconds and errors at powers of two of samples) ─▶ Store: study.csv
+//!   runs ─▶ Outcome (slope, efficiency) ─▶ Findings (ranking) ─▶ report.html
+//! ```
+//! What has been measured is kept line by line in the store and never measured again: see [`Study::run`].
+mod driver;
+mod figures;
+mod fit;
+mod key;
+mod machine;
+mod measure;
+mod outcome;
+mod plan;
+mod ranking;
+mod reference;
+mod report;
+mod row;
+mod setting;
+mod store;
+mod subject;
+#[cfg(test)]
+mod tests;
+mod trial;
+mod wording;
+
+use std::path::PathBuf;
+
+pub use self::{
+    driver::{Progress, Study},
+    fit::Slope,
+    machine::Machine,
+    measure::{Checkpoint, Run},
+    outcome::{Outcome, Standing},
+    plan::{Lists, Plan, checkpoints},
+    ranking::Findings,
+    report::html,
+    setting::label,
+    store::{CSV, Store},
+    subject::Subject,
+    wording::{table, verdict},
+};
+use crate::scene::SceneError;
+
+/// Why a study ended early.
+#[derive(Debug, thiserror::Error)]
+pub enum StudyError {
+    #[error("{}", .0.report())]
+    Scene(SceneError),
+    /// A scene that cannot be measured.
+    #[error("{}: {reason}", path.display())]
+    Unmeasurable { path: PathBuf, reason: String },
+    /// A file that cannot be read or written.
+    #[error("{}: {reason}", path.display())]
+    File { path: PathBuf, reason: String },
+    #[error("the renderer failed: {0}")]
+    Renderer(String),
+    /// Somebody asked to stop; what was complete is in the store.
+    #[error("interrupted")]
+    Interrupted,
+}

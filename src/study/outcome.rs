@@ -1,0 +1,137 @@
+//! What the runs of one combination say.
+use super::{
+    fit::{Slope, slope},
+    measure::{Checkpoint, Run},
+    trial::Group,
+};
+use crate::{measure::Moments, scene::RenderSettings};
+
+/// A relMSE below this is rounding of single precision, not noise.
+pub const ROUNDING: f64 = 1e-12;
+/// Fewer samples say little of how the error falls.
+const LEAST_SPP_OF_FIT: u32 = 4;
+
+/// Whether a combination can be the best one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Standing {
+    /// It converges, and its picture is better than none.
+    Sound,
+    /// It converges, but its last picture has more than half the relMSE of a black one: where no light has been found, little noise is no
+    /// merit.
+    TooNoisy,
+    /// It converges to something else.
+    Biased,
+}
+
+/// A point of the curve of errors.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Point {
+    pub spp: u32,
+    pub seconds: f64,
+    pub rel_mse: f64,
+}
+
+/// A combination with its measurements.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    pub settings: RenderSettings,
+    /// Combinations whose picture is the same.
+    pub twins: Vec<RenderSettings>,
+    pub standing: Standing,
+    /// Why it is biased; empty where it is not.
+    pub bias: String,
+    /// Means over the runs without the reference's own error, as far as they are clear of it; never empty.
+    pub curve: Vec<Point>,
+    /// 1/(relMSE · seconds) of each run where the curve ends.
+    pub efficiencies: Vec<f64>,
+    /// Of the root of relMSE over samples. None where there is no noise or too few points.
+    pub slope: Option<Slope>,
+    pub invalid_samples: u64,
+}
+
+/// The relMSE that a reference has itself, and that a black picture has.
+#[derive(Clone, Copy, Debug)]
+pub struct Limits {
+    pub floor: f64,
+    pub black: f64,
+}
+
+impl Outcome {
+    /// `runs` must not be empty, nor without checkpoints.
+    pub fn of(group: Group, runs: &[Run], limits: Limits) -> Outcome {
+        let Group { settings, twins } = group;
+        let length = comparable(runs, limits.floor);
+        let point = |c: &Checkpoint| Point { spp: c.spp, seconds: c.seconds, rel_mse: clear_of(c.rel_mse, limits.floor) };
+        let runs_of_points: Vec<Vec<Point>> =
+            runs.iter().map(|run| run.checkpoints[..length].iter().map(point).collect()).collect();
+        let curve: Vec<Point> = (0..length).map(|i| mean(runs_of_points.iter().map(|run| run[i]))).collect();
+        let bias = runs.iter().map(|run| run.bias.clone()).find(|bias| !bias.is_empty()).unwrap_or_default();
+        let standing = match curve.last() {
+            _ if !bias.is_empty() => Standing::Biased,
+            Some(last) if last.rel_mse < 0.5 * limits.black => Standing::Sound,
+            _ => Standing::TooNoisy,
+        };
+        let efficiency = |run: &Vec<Point>| run.last().map(|last| 1.0 / (last.rel_mse.max(ROUNDING) * last.seconds));
+        Outcome {
+            settings,
+            twins,
+            standing,
+            bias,
+            efficiencies: runs_of_points.iter().filter_map(efficiency).collect(),
+            slope: slope(&runs_of_points.iter().map(|run| fitted(run)).collect::<Vec<_>>()),
+            curve,
+            invalid_samples: runs.iter().map(|run| run.invalid_samples).sum(),
+        }
+    }
+
+    /// Where the curve ends.
+    pub fn last(&self) -> Point {
+        self.curve[self.curve.len() - 1]
+    }
+
+    /// Whether what is left is rounding.
+    pub fn is_exact(&self) -> bool {
+        self.last().rel_mse <= ROUNDING
+    }
+
+    /// Geometric mean over the runs.
+    pub fn efficiency(&self) -> f64 {
+        self.log_efficiency().mean.exp()
+    }
+
+    /// Of the logarithms of efficiency; their variance is NaN for a single run.
+    pub fn log_efficiency(&self) -> Moments {
+        Moments::of(self.efficiencies.iter().map(|efficiency| efficiency.ln()))
+    }
+
+    /// All settings that give this picture.
+    pub fn alike(&self) -> impl Iterator<Item = &RenderSettings> {
+        std::iter::once(&self.settings).chain(&self.twins)
+    }
+}
+
+/// How many checkpoints all runs have and are clear of the reference's own error; at least one. More than the first say nothing where
+/// that one is exact.
+fn comparable(runs: &[Run], floor: f64) -> usize {
+    let is_exact = |run: &Run| run.checkpoints[0].rel_mse <= ROUNDING;
+    let shared = if runs.iter().all(is_exact) { 1 } else { runs.iter().map(|run| run.checkpoints.len()).min().unwrap_or(1) };
+    let is_clear = |i: usize| runs.iter().all(|run| run.checkpoints[i].rel_mse >= 2.0 * floor);
+    (0..shared).rev().find(|i| is_clear(*i)).map_or(1, |last| last + 1)
+}
+
+/// Without the error of the reference, which is independent; no less than that, below which nothing is known.
+fn clear_of(rel_mse: f64, floor: f64) -> f64 {
+    (rel_mse - floor).max(floor)
+}
+
+fn mean(points: impl Iterator<Item = Point>) -> Point {
+    let points: Vec<Point> = points.collect();
+    let mean = |value: fn(&Point) -> f64| points.iter().map(value).sum::<f64>() / points.len() as f64;
+    Point { spp: points[0].spp, seconds: mean(|point| point.seconds), rel_mse: mean(|point| point.rel_mse) }
+}
+
+/// Samples and errors that a slope can be fitted to.
+fn fitted(run: &[Point]) -> Vec<(f64, f64)> {
+    let noisy = run.iter().filter(|point| point.spp >= LEAST_SPP_OF_FIT && point.rel_mse > ROUNDING);
+    noisy.map(|point| (f64::from(point.spp), point.rel_mse.sqrt())).collect()
+}

@@ -1,0 +1,68 @@
+//! What is measured: settings that are combined with each other, and how far each combination is taken.
+use std::time::Duration;
+
+use crate::{
+    sampling::{Directions, Sampler},
+    scene::{Estimator, RenderSettings, Roulette},
+};
+
+/// The longer side of a picture, in pixels, where nobody says how large it should be.
+const LONGER_SIDE: u32 = 256;
+
+/// The values of each setting, all of which are combined.
+#[derive(Clone, Debug)]
+pub struct Lists {
+    pub estimators: Vec<Estimator>,
+    pub directions: Vec<Directions>,
+    pub samplers: Vec<Sampler>,
+    pub roulettes: Vec<Roulette>,
+    /// `None` is no cap.
+    pub caps: Vec<Option<u32>>,
+}
+
+/// How far each combination is taken.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    pub lists: Lists,
+    /// The largest number of samples a pixel.
+    pub spp: u32,
+    /// A doubling of the samples is not begun if it would end after so much rendering time.
+    pub time: Duration,
+    /// Renders of each combination, with different seeds.
+    pub repeats: u32,
+}
+
+impl Lists {
+    /// All combinations, each once; what is not in the lists is as in `base`.
+    pub fn combinations(&self, base: RenderSettings) -> Vec<RenderSettings> {
+        let mut all = Vec::new();
+        for &estimator in &self.estimators {
+            for &directions in &self.directions {
+                for &sampler in &self.samplers {
+                    for &roulette in &self.roulettes {
+                        for &max_bounces in &self.caps {
+                            let settings = RenderSettings { estimator, directions, sampler, roulette, max_bounces, ..base };
+                            if !all.contains(&settings) {
+                                all.push(settings);
+                            }
+                        }
+                    }
+                }
+            }
+        }
+        all
+    }
+}
+
+/// Where the error is measured: powers of two, and the last number.
+pub fn checkpoints(spp: u32) -> Vec<u32> {
+    let powers = (0..u32::BITS).map(|power| 1 << power).take_while(|n| *n < spp);
+    powers.chain([spp]).collect()
+}
+
+/// A resolution of the same shape that is not larger than a study needs.
+pub fn study_size(resolution: [u32; 2]) -> [u32; 2] {
+    let longer = resolution[0].max(resolution[1]);
+    let scaled = |side: u32| (u64::from(side) * u64::from(LONGER_SIDE) + u64::from(longer) / 2) / u64::from(longer);
+    if longer <= LONGER_SIDE { resolution } else { resolution.map(|side| scaled(side).max(1) as u32) }
+}

@@ -1,0 +1,99 @@
+//! Which combination is best for a scene, and how sure that is.
+use std::path::PathBuf;
+
+use super::{
+    fit::student_95,
+    outcome::{Limits, Outcome, Standing},
+    setting::Setting,
+};
+use crate::scene::RenderSettings;
+
+/// Combinations whose efficiency is less than this part of the best say nothing of how sure the first places are.
+const NEAR: f64 = 0.1;
+
+/// All that was found about a scene.
+pub struct Findings {
+    pub title: String,
+    pub path: PathBuf,
+    pub resolution: [u32; 2],
+    /// What the scene opens with.
+    pub of_scene: RenderSettings,
+    /// What errors are against.
+    pub reference: String,
+    pub limits: Limits,
+    pub repeats: u32,
+    /// The best first; what cannot be the best comes last.
+    pub outcomes: Vec<Outcome>,
+}
+
+/// What a value of a setting is worth, as parts of the best efficiency; none where that is not ranked.
+pub struct Worth {
+    pub value: String,
+    /// With all other settings as in the best combination.
+    pub alone: Option<f64>,
+    /// With the other settings at what is best with this value.
+    pub at_best: Option<f64>,
+}
+
+/// Sorts by standing, then by efficiency.
+pub fn rank(outcomes: &mut [Outcome]) {
+    outcomes.sort_by(|a, b| a.standing.cmp(&b.standing).then(b.efficiency().total_cmp(&a.efficiency())));
+}
+
+impl Findings {
+    /// None where nothing has converged without bias.
+    pub fn best(&self) -> Option<&Outcome> {
+        self.outcomes.first().filter(|best| best.standing == Standing::Sound)
+    }
+
+    /// The combination that gives the picture of these settings.
+    pub fn find(&self, settings: &RenderSettings) -> Option<&Outcome> {
+        self.outcomes.iter().find(|outcome| outcome.alike().any(|alike| alike == settings))
+    }
+
+    /// Efficiency as a part of the best. None where there is no best, and of what has noise where the best has none.
+    pub fn ratio(&self, outcome: &Outcome) -> Option<f64> {
+        let best = self.best().filter(|best| best.is_exact() == outcome.is_exact())?;
+        Some(outcome.efficiency() / best.efficiency())
+    }
+
+    /// [`Findings::ratio`] of what can be the best.
+    fn ranked_ratio(&self, outcome: &Outcome) -> Option<f64> {
+        self.ratio(outcome).filter(|_| outcome.standing == Standing::Sound)
+    }
+
+    /// The factor that the ratio of two efficiencies is known to, at 95 %: from the spread of log efficiencies over repeats, taken
+    /// to be the same for all combinations near the best. None for a single repeat.
+    pub fn uncertainty(&self) -> Option<f64> {
+        let near = self.outcomes.iter().filter(|outcome| self.ranked_ratio(outcome).is_some_and(|ratio| ratio >= NEAR));
+        let (mut squares, mut degrees) = (0.0, 0.0);
+        for moments in near.map(Outcome::log_efficiency).filter(|moments| moments.count > 1.0) {
+            squares += moments.variance * (moments.count - 1.0);
+            degrees += moments.count - 1.0;
+        }
+        let error_of_difference = (squares / degrees * 2.0 / f64::from(self.repeats)).sqrt();
+        (degrees > 0.0).then(|| (student_95(degrees) * error_of_difference).exp())
+    }
+
+    /// The others that may be as good as the best.
+    pub fn rivals(&self) -> impl Iterator<Item = &Outcome> {
+        let limit = self.uncertainty().map_or(1.0, |factor| 1.0 / factor);
+        self.outcomes.iter().skip(1).take_while(move |outcome| self.ranked_ratio(outcome).is_some_and(|ratio| ratio >= limit))
+    }
+
+    /// The values of a setting, in the order of the ranking; empty where there is only one.
+    pub fn worth(&self, setting: Setting) -> Vec<Worth> {
+        let mut values: Vec<Worth> = Vec::new();
+        let Some(best) = self.best() else { return values };
+        for outcome in &self.outcomes {
+            for settings in outcome.alike() {
+                let value = setting.value(settings);
+                if values.iter().all(|worth| worth.value != value) {
+                    let alone = self.find(&setting.with(&best.settings, settings)).and_then(|alone| self.ranked_ratio(alone));
+                    values.push(Worth { value, alone, at_best: self.ranked_ratio(outcome) });
+                }
+            }
+        }
+        if values.len() > 1 { values } else { Vec::new() }
+    }
+}

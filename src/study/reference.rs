@@ -1,0 +1,164 @@
+//! What errors are measured against: what the scene says, a file, or a converged render that is made here and kept.
+use std::path::{Path, PathBuf};
+
+use super::{
+    StudyError, Subject,
+    key::{hash, hash_of_picture, text},
+    measure::Bench,
+};
+use crate::{
+    measure::compare,
+    render::{Display, Frame, image_file, settings_text::settings_text, truth},
+    sampling::{Directions, Sampler},
+    scene::{Estimator, RenderSettings, Roulette},
+};
+
+/// A converged render takes so many times the samples of the longest render that is held against it.
+const TIMES_THE_SAMPLES: u32 = 16;
+/// No render that is measured has this bit of the seed changed.
+const SEED_OF_REFERENCE: u32 = 1 << 31;
+/// Parts in which a half is rendered, for the progress.
+const PARTS: u32 = 32;
+
+pub struct Reference {
+    /// What it is, for a reader.
+    pub name: String,
+    pub radiance: Vec<[f32; 3]>,
+    /// Its own relMSE, estimated; 0 where it is taken for exact.
+    pub rel_mse: f64,
+}
+
+impl Reference {
+    /// Without light there is no error to measure.
+    fn if_lit(self, subject: &Subject) -> Result<Reference, StudyError> {
+        if self.rel_mse_of_black() > 0.0 {
+            return Ok(self);
+        }
+        let why = subject.scene.why_black(&subject.camera, &settings(subject));
+        let reason = format!("{} is entirely black ({why}): there is no error to measure", self.name);
+        Err(StudyError::Unmeasurable { path: subject.path.clone(), reason })
+    }
+
+    /// What a picture without any light is off by.
+    pub fn rel_mse_of_black(&self) -> f64 {
+        compare(&vec![[0.0; 3]; self.radiance.len()], &self.radiance).rel_mse
+    }
+}
+
+/// The settings of a converged render: unbiased, and the best of most scenes.
+pub fn settings(subject: &Subject) -> RenderSettings {
+    let of_scene = subject.scene.settings;
+    let seeded = RenderSettings { seed: of_scene.seed ^ SEED_OF_REFERENCE, ..of_scene };
+    RenderSettings {
+        estimator: Estimator::Mis,
+        sampler: Sampler::Sobol,
+        directions: Directions::Bsdf,
+        roulette: Roulette::BY_THROUGHPUT,
+        max_bounces: None,
+        ..seeded
+    }
+}
+
+/// The reference of a scene that says or has one.
+pub fn known(subject: &Subject) -> Result<Option<Reference>, StudyError> {
+    let Some((known, name)) = &subject.known else { return Ok(None) };
+    let reference = Reference { name: name.clone(), radiance: radiance(subject, known), rel_mse: 0.0 };
+    reference.if_lit(subject).map(Some)
+}
+
+/// What makes it another reference. `spp` is that of the longest render.
+pub fn identity(subject: &Subject, spp: u32) -> u64 {
+    match &subject.known {
+        Some((known, _)) => hash_of_picture(&radiance(subject, known)),
+        None => spp_of_half(spp).into(),
+    }
+}
+
+fn spp_of_half(spp_of_longest: u32) -> u32 {
+    spp_of_longest.saturating_mul(TIMES_THE_SAMPLES / 2)
+}
+
+fn radiance(subject: &Subject, known: &truth::Reference) -> Vec<[f32; 3]> {
+    match known {
+        truth::Reference::Constant(radiance) => {
+            let [width, height] = subject.camera.resolution;
+            vec![*radiance; width as usize * height as usize]
+        }
+        truth::Reference::Picture(picture) => picture.radiance.clone(),
+    }
+}
+
+/// A converged render as two independent halves, kept in a folder.
+pub struct Converged<'a> {
+    pub bench: Bench<'a>,
+    pub folder: &'a Path,
+    /// All that a picture of the scene depends on besides settings.
+    pub fingerprint: u64,
+    /// Samples a pixel of the longest render that is held against it.
+    pub spp: u32,
+}
+
+impl Converged<'_> {
+    /// The reference of the scene; `done` is told the share of the work that is done, where there is work.
+    pub fn reference(&self, done: &mut dyn FnMut(f64)) -> Result<Reference, StudyError> {
+        match known(self.bench.subject)? {
+            Some(reference) => Ok(reference),
+            None => self.render(done)?.if_lit(self.bench.subject),
+        }
+    }
+
+    /// The mean m of halves a and b has the error (a + b)/2 of theirs, of which (a − b)/2 has the same variance: its relMSE is that
+    /// of a against m.
+    fn render(&self, done: &mut dyn FnMut(f64)) -> Result<Reference, StudyError> {
+        let halves = [self.half(0, &mut |share| done(share / 2.0))?, self.half(1, &mut |share| done(0.5 + share / 2.0))?];
+        let mean = |(a, b): (&[f32; 3], &[f32; 3])| [0, 1, 2].map(|c| 0.5 * (a[c] + b[c]));
+        let radiance: Vec<[f32; 3]> = halves[0].iter().zip(&halves[1]).map(mean).collect();
+        let rel_mse = compare(&halves[0], &radiance).rel_mse;
+        let name = format!("a converged render (mis, Sobol, {} samples a pixel)", spp_of_half(self.spp) * 2);
+        Ok(Reference { name, radiance, rel_mse })
+    }
+
+    fn file(&self, settings: &RenderSettings) -> PathBuf {
+        let stem = self.bench.subject.path.file_stem().unwrap_or_default().to_string_lossy();
+        let parts = [
+            self.fingerprint.to_le_bytes(),
+            u64::from(settings.seed).to_le_bytes(),
+            u64::from(spp_of_half(self.spp)).to_le_bytes(),
+        ];
+        let key = text(hash(&[&parts.concat()]));
+        self.folder.join(format!("reference-{stem}-{key}.exr"))
+    }
+
+    /// One half, from its file if that is there and whole.
+    fn half(&self, number: u32, done: &mut dyn FnMut(f64)) -> Result<Vec<[f32; 3]>, StudyError> {
+        let settings = settings(self.bench.subject);
+        let settings = RenderSettings { seed: settings.seed.wrapping_add(number), ..settings };
+        let path = self.file(&settings);
+        let resolution = self.bench.subject.camera.resolution;
+        match image_file::read(&path) {
+            Ok(kept) if [kept.width, kept.height] == resolution => Ok(kept.radiance),
+            _ => {
+                let frame = self.render_half(&settings, done)?;
+                self.keep(&frame, &settings, &path)?;
+                Ok(frame.radiance)
+            }
+        }
+    }
+
+    fn render_half(&self, settings: &RenderSettings, done: &mut dyn FnMut(f64)) -> Result<Frame, StudyError> {
+        let mut film = self.bench.film();
+        for part in 1..=PARTS {
+            let spp = u64::from(spp_of_half(self.spp)) * u64::from(part) / u64::from(PARTS);
+            self.bench.pass(settings, &mut film, spp as u32)?;
+            done(f64::from(part) / f64::from(PARTS));
+        }
+        Ok(self.bench.frame(&film))
+    }
+
+    fn keep(&self, frame: &Frame, settings: &RenderSettings, path: &Path) -> Result<(), StudyError> {
+        let Subject { scene, camera, .. } = self.bench.subject;
+        let text = settings_text(scene, camera, settings, Display::default(), frame.spp);
+        let failed = |error: image_file::ImageError| StudyError::File { path: path.to_owned(), reason: error.to_string() };
+        image_file::save(frame, Display::default(), &text, path).map_err(failed)
+    }
+}

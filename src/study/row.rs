@@ -1,0 +1,110 @@
+//! A line of `study.csv`: one checkpoint of one run, with all that it depends on.
+use serde::{Deserialize, Serialize};
+
+use super::{Checkpoint, Machine, Run, Subject, key::is_key, reference::Reference, setting::Setting};
+use crate::scene::RenderSettings;
+
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Row {
+    pub scene: String,
+    pub width: u32,
+    pub height: u32,
+    pub estimator: String,
+    pub directions: String,
+    pub sampler: String,
+    pub roulette: String,
+    pub max_bounces: String,
+    /// From 1.
+    pub repeat: u32,
+    pub seed: u32,
+    /// From 1 to `checkpoints`, which is how many lines the run has.
+    pub checkpoint: usize,
+    pub checkpoints: usize,
+    pub spp: u32,
+    /// Rendering time so far.
+    pub seconds: f64,
+    pub paths_per_second: f64,
+    pub rmse: f64,
+    pub rel_mse: f64,
+    pub bias: f64,
+    /// Why the picture does not converge to the solution; empty when it does.
+    pub biased: String,
+    pub invalid_samples: u64,
+    pub reference: String,
+    /// The reference's own.
+    pub reference_rel_mse: f64,
+    pub threads: usize,
+    pub simd: String,
+    pub cpu: String,
+    pub version: String,
+    pub commit: String,
+    /// Last, and of fixed length, so that a line that is cut off is noticed.
+    pub key: String,
+}
+
+/// What a run is besides what it measured.
+pub struct Header<'a> {
+    pub subject: &'a Subject,
+    pub settings: &'a RenderSettings,
+    pub repeat: u32,
+    pub reference: &'a Reference,
+    pub machine: &'a Machine,
+    pub key: &'a str,
+}
+
+impl Row {
+    pub fn is_whole(&self) -> bool {
+        is_key(&self.key) && (1..=self.checkpoints).contains(&self.checkpoint)
+    }
+
+    fn point(&self) -> Checkpoint {
+        let Row { spp, seconds, rmse, rel_mse, bias, .. } = *self;
+        Checkpoint { spp, seconds, rmse, rel_mse, bias }
+    }
+}
+
+/// The lines of a run.
+pub fn rows(header: &Header, run: &Run) -> Vec<Row> {
+    let Header { subject, settings, repeat, reference, machine, key } = *header;
+    let [width, height] = subject.camera.resolution;
+    let pixels = f64::from(width) * f64::from(height);
+    let row = |(i, point): (usize, &Checkpoint)| Row {
+        scene: subject.path.display().to_string(),
+        width,
+        height,
+        estimator: Setting::Estimator.value(settings),
+        directions: Setting::Directions.value(settings),
+        sampler: Setting::Sampler.value(settings),
+        roulette: Setting::Roulette.value(settings),
+        max_bounces: Setting::Cap.value(settings),
+        repeat,
+        seed: settings.seed,
+        checkpoint: i + 1,
+        checkpoints: run.checkpoints.len(),
+        spp: point.spp,
+        seconds: point.seconds,
+        paths_per_second: pixels * f64::from(point.spp) / point.seconds,
+        rmse: point.rmse,
+        rel_mse: point.rel_mse,
+        bias: point.bias,
+        biased: run.bias.clone(),
+        invalid_samples: run.invalid_samples,
+        reference: reference.name.clone(),
+        reference_rel_mse: reference.rel_mse,
+        threads: machine.threads,
+        simd: machine.simd.clone(),
+        cpu: machine.cpu.clone(),
+        version: machine.version.clone(),
+        commit: machine.commit.clone(),
+        key: key.to_owned(),
+    };
+    run.checkpoints.iter().enumerate().map(row).collect()
+}
+
+/// The run of its lines, if none is missing.
+pub fn run(rows: &[Row]) -> Option<Run> {
+    let first = rows.first()?;
+    let complete = rows.len() == first.checkpoints && (1..).zip(rows).all(|(place, row)| row.checkpoint == place);
+    let checkpoints = rows.iter().map(Row::point).collect();
+    complete.then(|| Run { checkpoints, invalid_samples: first.invalid_samples, bias: first.biased.clone() })
+}

@@ -1,0 +1,114 @@
+//! What has been measured: `study.csv`, whose runs are found again by their keys. Studies of other scenes and settings stay in it.
+use std::{
+    collections::HashMap,
+    io::ErrorKind,
+    path::{Path, PathBuf},
+};
+
+use super::{StudyError, measure::Run, row};
+use crate::file::replace;
+
+/// The name of the file.
+pub const CSV: &str = "study.csv";
+
+pub struct Store {
+    folder: PathBuf,
+    /// The lines of each run, in the order of the file.
+    runs: Vec<Vec<row::Row>>,
+    places: HashMap<String, usize>,
+    /// Lines that were cut off, or whose run was.
+    pub dropped: usize,
+}
+
+impl Store {
+    /// What a folder has.
+    pub fn open(folder: &Path) -> Result<Store, StudyError> {
+        let path = folder.join(CSV);
+        let failed = |reason: String| StudyError::File { path: path.clone(), reason };
+        match std::fs::read(&path) {
+            Ok(bytes) => Store::read(folder, &bytes).map_err(failed),
+            Err(error) if error.kind() == ErrorKind::NotFound => Ok(Store::empty(folder)),
+            Err(error) => Err(failed(format!("cannot be read: {error}"))),
+        }
+    }
+
+    fn empty(folder: &Path) -> Store {
+        Store { folder: folder.to_owned(), runs: Vec::new(), places: HashMap::new(), dropped: 0 }
+    }
+
+    fn read(folder: &Path, bytes: &[u8]) -> Result<Store, String> {
+        let mut store = Store::empty(folder);
+        let mut reader = csv::Reader::from_reader(bytes);
+        let header = reader.byte_headers().map_err(|error| error.to_string())?;
+        if !bytes.is_empty() && header != &columns()? {
+            let advice = "move it away, or name another folder";
+            return Err(format!("was not written by `noisefall study` of this version: {advice}"));
+        }
+        for line in reader.deserialize::<row::Row>() {
+            match line {
+                Ok(row) if row.is_whole() => store.push(row),
+                _ => store.dropped += 1,
+            }
+        }
+        store.forget_incomplete();
+        Ok(store)
+    }
+
+    fn push(&mut self, row: row::Row) {
+        let place = *self.places.entry(row.key.clone()).or_insert(self.runs.len());
+        if place == self.runs.len() {
+            self.runs.push(Vec::new());
+        }
+        self.runs[place].push(row);
+    }
+
+    fn forget_incomplete(&mut self) {
+        let all = std::mem::take(&mut self.runs);
+        self.places.clear();
+        for rows in all {
+            match row::run(&rows) {
+                Some(_) => rows.into_iter().for_each(|row| self.push(row)),
+                None => self.dropped += rows.len(),
+            }
+        }
+    }
+
+    /// The run of a key, if it has been measured.
+    pub fn run(&self, key: &str) -> Option<Run> {
+        row::run(&self.runs[*self.places.get(key)?])
+    }
+
+    /// Runs of all studies.
+    pub fn len(&self) -> usize {
+        self.runs.len()
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.runs.is_empty()
+    }
+
+    /// Keeps the lines of a run: they are in the file when this returns.
+    pub fn add(&mut self, rows: Vec<row::Row>) -> Result<(), StudyError> {
+        rows.into_iter().for_each(|row| self.push(row));
+        let written = self.bytes().and_then(|bytes| replace(&self.folder, CSV, &bytes).map_err(|error| error.to_string()));
+        let path = self.folder.join(CSV);
+        written.map_err(|error| StudyError::File { path, reason: format!("cannot be written: {error}") })
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, String> {
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        for row in self.runs.iter().flatten() {
+            writer.serialize(row).map_err(|error| error.to_string())?;
+        }
+        writer.into_inner().map_err(|error| error.to_string())
+    }
+}
+
+/// The names of the columns.
+fn columns() -> Result<csv::ByteRecord, String> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    writer.serialize(row::Row::default()).map_err(|error| error.to_string())?;
+    let bytes = writer.into_inner().map_err(|error| error.to_string())?;
+    let mut reader = csv::Reader::from_reader(&bytes[..]);
+    reader.byte_headers().cloned().map_err(|error| error.to_string())
+}

@@ -1,0 +1,67 @@
+//! A scene as it is studied: compiled, at the size of the study, with the file its pictures are held against.
+use std::path::{Path, PathBuf};
+
+use super::{StudyError, plan::study_size};
+use crate::{
+    render::{image_file, truth},
+    scene::{Camera, Scene, Truth, load},
+};
+
+/// Beside a scene `NAME.toml`, its reference is `NAME.ref.exr`.
+const REFERENCE_EXTENSION: &str = "ref.exr";
+
+pub struct Subject {
+    pub path: PathBuf,
+    pub scene: Scene,
+    pub camera: Camera,
+    /// The picture or radiance that is known, and what to call it; where there is none, a converged render is made.
+    pub known: Option<(truth::Reference, String)>,
+}
+
+impl Subject {
+    /// Reads a scene. `reference` is a picture to hold it against whatever else there is.
+    pub fn load(path: &Path, size: Option<[u32; 2]>, reference: Option<&Path>) -> Result<Subject, StudyError> {
+        let scene = load(path).map_err(StudyError::Scene)?;
+        let unmeasurable = |reason: String| StudyError::Unmeasurable { path: path.to_owned(), reason };
+        let known = known(path, &scene, reference)?;
+        let own_size = match &known {
+            Some((truth::Reference::Picture(picture), _)) => [picture.width, picture.height],
+            _ => study_size(scene.camera.resolution),
+        };
+        let camera = Camera { resolution: size.unwrap_or(own_size), ..scene.camera };
+        camera.check().map_err(|error| unmeasurable(error.to_string()))?;
+        if let Some((truth::Reference::Picture(picture), name)) = &known
+            && own_size != camera.resolution
+        {
+            let ([width, height], [w, h]) = (camera.resolution, [picture.width, picture.height]);
+            return Err(unmeasurable(format!("{name} is {w} × {h} and the study {width} × {height}: leave --size out")));
+        }
+        if scene.lights.is_empty() {
+            return Err(unmeasurable("nothing in this scene emits light: there is no error to measure".to_owned()));
+        }
+        Ok(Subject { path: path.to_owned(), scene, camera, known })
+    }
+
+    /// The scene's title, or the name of its file.
+    pub fn title(&self) -> String {
+        let stem = self.path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        if self.scene.title.is_empty() { stem } else { self.scene.title.clone() }
+    }
+}
+
+fn known(path: &Path, scene: &Scene, given: Option<&Path>) -> Result<Option<(truth::Reference, String)>, StudyError> {
+    let beside = path.with_extension(REFERENCE_EXTENSION);
+    let beside = (scene.truth.is_none() && beside.is_file()).then_some(beside);
+    if let Some(file) = given.map(Path::to_owned).or(beside) {
+        let unreadable =
+            |error: image_file::ImageError| StudyError::Unmeasurable { path: path.to_owned(), reason: error.to_string() };
+        let picture = image_file::read(&file).map_err(unreadable)?;
+        let name = format!("the reference {}", file.display());
+        return Ok(Some((truth::Reference::Picture(picture.into()), name)));
+    }
+    let name = match &scene.truth {
+        Some(Truth::Image(file, _)) => format!("the true picture {}", file.display()),
+        _ => "the exact radiance".to_owned(),
+    };
+    Ok(truth::Reference::of(scene).map(|reference| (reference, name)))
+}

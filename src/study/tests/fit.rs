@@ -1,0 +1,49 @@
+//! Slopes of series that are known.
+use crate::{
+    math::{One, U},
+    sampling::hash::{hash, unit},
+    study::fit::slope,
+};
+
+/// A number in (0, 1).
+fn uniform(i: u32) -> f64 {
+    f64::from(unit(hash(U::<One>(i))).0)
+}
+
+/// Squared errors of running means over `pixels` of noise, at powers of two: what a render of independent samples measures.
+fn noise(seed: u32, powers: u32, pixels: u32) -> Vec<(f64, f64)> {
+    let mut squares = vec![0.0; powers as usize + 1];
+    for pixel in 0..pixels {
+        let mut sum = 0.0;
+        for n in 1..=1u32 << powers {
+            sum += uniform(seed.wrapping_mul(7919).wrapping_add(pixel << 12) ^ n) - 0.5;
+            if n.is_power_of_two() {
+                squares[n.ilog2() as usize] += (sum / f64::from(n)).powi(2);
+            }
+        }
+    }
+    (0..).zip(squares).map(|(power, square)| (f64::from(1u32 << power), (square / f64::from(pixels)).sqrt())).collect()
+}
+
+#[test]
+fn a_power_law_is_found_exactly() {
+    let run: Vec<(f64, f64)> = [4.0, 8.0, 16.0, 32.0, 50.0].iter().map(|&n: &f64| (n, 3.0 * n.powf(-0.75))).collect();
+    let found = slope(&[run.clone(), run]).expect("points");
+    assert!((found.slope + 0.75).abs() < 1e-9 && found.half_width < 1e-6, "{found:?}");
+    assert_eq!(slope(&[vec![(4.0, 1.0), (8.0, 0.5)]]), None);
+    assert_eq!(slope(&[]), None);
+}
+
+/// The points of a run share samples; ordinary least squares would make intervals that cover in 89 of 100 cases.
+#[test]
+fn intervals_cover_the_slope_of_independent_samples() {
+    const STUDIES: u32 = 400;
+    let covered = |study: &u32| {
+        let runs: Vec<_> = (0..2).map(|repeat| noise(2 * study + repeat, 6, 64)).collect();
+        let found = slope(&runs).expect("points");
+        (found.slope + 0.5).abs() <= found.half_width
+    };
+    let share = f64::from((0..STUDIES).filter(covered).count() as u32) / f64::from(STUDIES);
+    // 4 standard errors of a share of 0.95 are 0.044.
+    assert!((share - 0.95).abs() < 0.045, "{share}");
+}

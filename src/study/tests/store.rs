@@ -1,0 +1,61 @@
+//! Files of measurements, whole and cut off.
+use crate::study::{CSV, Store, key, row};
+
+/// The lines of a run of `checkpoints`, as the store keeps them.
+fn rows(key: &str, checkpoints: usize) -> Vec<row::Row> {
+    let row = |checkpoint| row::Row {
+        scene: "a scene, with \"quotes\" – ρ.toml".to_owned(),
+        checkpoint,
+        checkpoints,
+        spp: 1 << checkpoint,
+        seconds: 0.1 + checkpoint as f64 / 3.0,
+        rel_mse: f64::MIN_POSITIVE,
+        biased: "cap at 3".to_owned(),
+        key: key.to_owned(),
+        ..row::Row::default()
+    };
+    (1..=checkpoints).map(row).collect()
+}
+
+const KEYS: [&str; 2] = ["00000000000000aa", "ffffffffffffffff"];
+
+#[test]
+fn what_is_kept_is_read_back_bit_for_bit() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut store = Store::open(folder.path()).expect("an empty store");
+    for key in KEYS {
+        store.add(rows(key, 3)).expect("it can be written");
+    }
+    let again = Store::open(folder.path()).expect("a store");
+    assert_eq!((again.len(), again.dropped), (2, 0));
+    assert_eq!(again.run(KEYS[1]), row::run(&rows(KEYS[1], 3)));
+    assert_eq!(again.run("0000000000000000"), None);
+    assert_eq!(again.run(KEYS[0]).map(|run| run.bias), Some("cap at 3".to_owned()));
+}
+
+#[test]
+fn lines_that_are_cut_off_spoil_their_own_run_only() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut store = Store::open(folder.path()).expect("an empty store");
+    for key in KEYS {
+        store.add(rows(key, 3)).expect("it can be written");
+    }
+    let path = folder.path().join(CSV);
+    let whole = std::fs::read(&path).expect("a file");
+    // Wherever the last line ends early, down to its last digit.
+    let last_line = whole[..whole.len() - 1].iter().rposition(|byte| *byte == b'\n').expect("lines") + 1;
+    for end in last_line + 1..whole.len() - 1 {
+        std::fs::write(&path, &whole[..end]).expect("it can be written");
+        let store = Store::open(folder.path()).expect("a store");
+        assert!(store.run(KEYS[0]).is_some() && store.run(KEYS[1]).is_none() && store.dropped == 3, "{end}");
+    }
+    std::fs::write(&path, "a,b\n1,2\n").expect("it can be written");
+    assert!(Store::open(folder.path()).is_err_and(|error| error.to_string().contains("was not written by")));
+}
+
+#[test]
+fn keys_tell_parts_apart() {
+    assert_ne!(key::hash(&[b"ab", b"c"]), key::hash(&[b"a", b"bc"]));
+    assert_ne!(key::hash_of_picture(&[[0.0; 3]]), key::hash_of_picture(&[[0.0, -0.0, 0.0]]));
+    assert!(key::is_key(&key::text(7)) && !key::is_key("7") && !key::is_key("000000000000000g"));
+}

@@ -1,0 +1,134 @@
+//! What was found, in sentences and numbers, for report and terminal alike.
+use std::fmt;
+
+use super::{Findings, Outcome, Slope, Standing, setting::label};
+use crate::render::settings_text::options;
+
+/// Three digits.
+pub fn significant(x: f64) -> String {
+    let digits = if x == 0.0 { 0.0 } else { x.abs().log10().floor() };
+    match digits {
+        d if (-3.0..5.0).contains(&d) => format!("{x:.*}", (2.0 - d).max(0.0) as usize),
+        _ if x.is_finite() => format!("{x:.2e}"),
+        _ => "–".to_owned(),
+    }
+}
+
+/// The root of a relMSE, as a percentage.
+pub fn percent(rel_mse: f64) -> String {
+    format!("{} %", significant(100.0 * rel_mse.sqrt()))
+}
+
+/// The error of the last picture.
+pub fn error(outcome: &Outcome) -> String {
+    if outcome.is_exact() { "no noise".to_owned() } else { percent(outcome.last().rel_mse) }
+}
+
+pub fn slope(slope: Option<Slope>) -> String {
+    slope.map_or_else(|| "–".to_owned(), |Slope { slope, half_width }| format!("{slope:.2} ± {half_width:.2}").replace('-', "−"))
+}
+
+/// Which settings are best, in one sentence.
+pub fn verdict(findings: &Findings) -> String {
+    let Some(best) = findings.best() else {
+        return "None is unbiased and clearly nearer to the reference than a black picture: more samples are needed.".to_owned();
+    };
+    let (last, settings) = (best.last(), label(&best.settings));
+    let place = match findings.rivals().count() {
+        0 => "Best".to_owned(),
+        rivals => format!("First of {} that cannot be told apart", rivals + 1),
+    };
+    let seconds = significant(last.seconds);
+    if best.is_exact() {
+        return format!("{place}: {settings} – no noise but rounding from the first sample on, which takes {seconds} s.");
+    }
+    format!("{place}: {settings} – an error of {} after {seconds} s ({} samples a pixel).", error(best), last.spp)
+}
+
+/// How sure the verdict is, and what it gains.
+pub fn certainty(findings: &Findings) -> String {
+    let Some(best) = findings.best() else { return String::new() };
+    let lead = findings.outcomes.get(1).filter(|next| next.standing == best.standing).and_then(|next| findings.ratio(next));
+    let lead = lead.map(f64::recip);
+    let mut text = match (findings.uncertainty(), lead) {
+        (_, None) if best.is_exact() => "All others have noise.".to_owned(),
+        (_, None) => "No other combination is ranked.".to_owned(),
+        (None, Some(lead)) => {
+            format!("It is {} times as efficient as the next; how sure that is, one repeat cannot tell.", significant(lead))
+        }
+        (Some(factor), Some(lead)) if findings.rivals().next().is_none() => {
+            let [low, lead, high] = [lead / factor, lead, lead * factor].map(significant);
+            format!("It is {lead} times as efficient as the next (95 %, by the spread of repeats: {low} to {high}).")
+        }
+        (Some(factor), Some(_)) => format!(
+            "By the spread of repeats, ratios of efficiencies are known to a factor of {} (95 %). Within that are also: {}.",
+            significant(factor),
+            some_of(findings.rivals().map(|outcome| label(&outcome.settings)).collect())
+        ),
+    };
+    if let Some(own) = findings.find(&findings.of_scene).filter(|own| own.settings != best.settings)
+        && let Some(ratio) = findings.ratio(own)
+    {
+        text.push_str(&format!(
+            " The scene opens with {}, which has {} of the efficiency.",
+            label(&own.settings),
+            significant(ratio)
+        ));
+    }
+    text
+}
+
+/// The first of many, and how many more there are.
+fn some_of(names: Vec<String>) -> String {
+    const SHOWN: usize = 3;
+    let more = names.len().saturating_sub(SHOWN);
+    let shown: Vec<String> = names.into_iter().take(SHOWN).collect();
+    if more == 0 { shown.join("; ") } else { format!("{}; and {more} more", shown.join("; ")) }
+}
+
+/// The command that renders with the best settings.
+pub fn command(findings: &Findings) -> Option<String> {
+    let best = findings.best()?;
+    Some(format!("noisefall render {} -o picture.exr{}", findings.path.display(), options(&best.settings, &findings.of_scene)))
+}
+
+/// One line.
+impl fmt::Display for Outcome {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let last = self.last();
+        write!(f, "{}: {} after {} s, {} spp", label(&self.settings), error(self), significant(last.seconds), last.spp)?;
+        if self.bias.is_empty() { Ok(()) } else { write!(f, ", biased: {}", self.bias) }
+    }
+}
+
+/// The first places as lines of a table for the terminal.
+pub fn table(findings: &Findings) -> String {
+    const PLACES: usize = 5;
+    let cells = |outcome: &Outcome| {
+        let remark = if outcome.standing == Standing::Sound { "" } else { "not ranked" };
+        let ratio = findings.ratio(outcome).map_or_else(|| "–".to_owned(), significant);
+        let last = outcome.last();
+        let [seconds, efficiency] = [last.seconds, outcome.efficiency()].map(significant);
+        [
+            label(&outcome.settings),
+            last.spp.to_string(),
+            seconds,
+            error(outcome),
+            slope(outcome.slope),
+            efficiency,
+            ratio,
+            remark.to_owned(),
+        ]
+    };
+    let heading = ["settings", "spp", "s", "error", "slope", "efficiency", "of best", ""].map(str::to_owned);
+    let rows: Vec<[String; 8]> = std::iter::once(heading).chain(findings.outcomes.iter().take(PLACES).map(cells)).collect();
+    let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
+    let line = |row: &[String; 8]| {
+        let padded = row.iter().enumerate().map(|(column, cell)| match column {
+            0 => format!("{cell:<0$}", width(0)),
+            _ => format!("{cell:>0$}", width(column)),
+        });
+        padded.collect::<Vec<_>>().join("  ").trim_end().to_owned()
+    };
+    rows.iter().map(line).collect::<Vec<_>>().join("\n")
+}

@@ -1,0 +1,147 @@
+//! `noisefall study`: a table of measurements and a report, which an interruption does not spoil.
+use std::fs;
+
+use crate::command_line::{Shell, scene, text};
+
+/// Eight combinations, of which some are the same picture.
+const SMALL: [&str; 14] = [
+    "--estimators",
+    "path,mis",
+    "--directions",
+    "uniform,cosine",
+    "--samplers",
+    "independent",
+    "--roulette",
+    "off,0.8",
+    "--spp",
+    "11",
+    "--size",
+    "16x16",
+    "--seconds",
+    "1000",
+];
+
+fn study(shell: &Shell, arguments: &[&str]) -> std::process::Output {
+    shell.run(&[&["study", "-o", "new/study"], &SMALL[..], arguments].concat())
+}
+
+#[test]
+fn a_study_writes_measurements_and_a_report_that_needs_nothing_else() {
+    let shell = Shell::new();
+    let done = study(&shell, &[&scene("furnace"), &scene("bright_sky"), "--max-bounces", "none,1"]);
+    assert!(done.status.success(), "{}", text(&done.stderr));
+    let shown = text(&done.stdout);
+    assert!(shown.contains(" – ") && shown.contains("report: new/study/report.html"), "{shown}");
+
+    let csv = fs::read_to_string(shell.path("new/study/study.csv")).expect("measurements");
+    assert!(csv.starts_with("scene,width,height,estimator,"), "{csv}");
+    // 1, 2, 4, 8 and 11 samples, twice each.
+    assert!(csv.lines().count() > 1 && (csv.lines().count() - 1).is_multiple_of(5 * 2), "{csv}");
+    assert!(csv.contains(",cap at 1,") && csv.contains(",the exact radiance,") && csv.contains("a converged render"), "{csv}");
+
+    let report = fs::read_to_string(shell.path("new/study/report.html")).expect("a report");
+    assert_eq!(report.matches("<section").count(), 2);
+    assert!(report.matches("<svg").count() >= 8 && report.contains("biased: cap at 1") && report.contains("whose own error"));
+    for outside in ["http://", "https://", "src=", "<script", "<link"] {
+        assert!(!report.replace("http://www.w3.org/2000/svg", "").contains(outside), "{outside}");
+    }
+}
+
+#[test]
+fn the_same_study_again_measures_nothing_and_another_one_is_kept_beside_it() {
+    let shell = Shell::new();
+    assert!(study(&shell, &[&scene("bright_sky")]).status.success());
+    let csv = || fs::read_to_string(shell.path("new/study/study.csv")).expect("measurements");
+    let (first, runs) = (csv(), (csv().lines().count() - 1) / 5);
+
+    let again = study(&shell, &[&scene("bright_sky")]);
+    assert!(text(&again.stderr).contains(&format!("{runs} of {runs} runs are there already")), "{}", text(&again.stderr));
+    assert_eq!(csv(), first);
+
+    let larger = study(&shell, &[&scene("bright_sky"), "--threads", "3"]);
+    assert!(larger.status.success() && !text(&larger.stderr).contains("there already"), "{}", text(&larger.stderr));
+    assert!(csv().starts_with(&first) && csv().len() > first.len());
+}
+
+#[test]
+fn a_study_that_was_cut_off_goes_on_where_it_was() {
+    let shell = Shell::new();
+    assert!(study(&shell, &[&scene("furnace")]).status.success());
+    let path = shell.path("new/study/study.csv");
+    let whole = fs::read_to_string(&path).expect("measurements");
+    let (lines, runs) = (whole.lines().count(), (whole.lines().count() - 1) / 5);
+    // The last run loses its last three lines and half of the one before.
+    let cut = whole.lines().take(lines - 3).map(str::len).sum::<usize>() + lines - 3 - 20;
+    fs::write(&path, &whole[..cut]).expect("it can be written");
+    let again = study(&shell, &[&scene("furnace")]);
+    let told = text(&again.stderr);
+    assert!(again.status.success() && told.contains("note: 2 lines of study.csv belong to runs that are not complete"), "{told}");
+    assert!(told.contains(&format!("{} of {runs} runs are there already", runs - 1)), "{told}");
+    assert_eq!(fs::read_to_string(&path).expect("measurements").lines().count(), lines);
+}
+
+#[test]
+#[cfg(unix)]
+fn an_interrupted_study_keeps_what_it_has_and_says_how_to_go_on() {
+    use std::{io::Read, process::Command};
+    let shell = Shell::new();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_noisefall"));
+    command.args(["study", &scene("bright_sky"), "-o", "out", "--spp", "1000000", "--seconds", "1000", "--size", "64x64"]);
+    let mut child = command.current_dir(shell.path("")).stderr(std::process::Stdio::piped()).spawn().expect("the program starts");
+    std::thread::sleep(std::time::Duration::from_millis(700));
+    let killed = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+    assert!(killed.is_ok_and(|status| status.success()));
+    assert_eq!(child.wait().expect("it ends").code(), Some(130));
+    let mut told = String::new();
+    child.stderr.take().expect("a pipe").read_to_string(&mut told).expect("text");
+    assert!(told.contains("the same command goes on from there"), "{told}");
+}
+
+#[test]
+fn references_are_files_where_there_are_some() {
+    let shell = Shell::new();
+    fs::copy(scene("bright_sky"), shell.path("sky.toml")).expect("a scene");
+    let render = ["render", "sky.toml", "-o", "sky.ref.exr", "--spp", "64", "--size", "20x10"];
+    assert!(shell.run(&render).status.success());
+    let few = ["--estimators", "mis", "--directions", "bsdf", "--samplers", "sobol", "--roulette", "off", "--spp", "4"];
+    let study = |arguments: &[&str]| shell.run(&[&["study", "sky.toml", "-o", "out"], &few[..], arguments].concat());
+    let done = study(&[]);
+    assert!(done.status.success(), "{}", text(&done.stderr));
+    let csv = fs::read_to_string(shell.path("out/study.csv")).expect("measurements");
+    assert!(csv.contains("sky.toml,20,10,") && csv.contains("the reference sky.ref.exr"), "{csv}");
+    fs::copy(shell.path("sky.ref.exr"), shell.path("other.exr")).expect("a picture");
+    let other = study(&["--reference", "other.exr", "--size", "16x16"]);
+    assert_eq!(other.status.code(), Some(1));
+    let told = text(&other.stderr);
+    assert!(told.contains("the reference other.exr is 20 × 10 and the study 16 × 16: leave --size out"), "{told}");
+}
+
+#[test]
+fn what_cannot_be_studied_is_told_at_once() {
+    let shell = Shell::new();
+    let furnace = scene("furnace");
+    let dark = "format = 1\ncamera = { eye = [0.0, 0.0, 4.0], look_at = [0.0, 0.0, 0.0], fov = 40.0, resolution = [8, 8] }\n";
+    fs::write(shell.path("dark.toml"), dark).expect("a scene");
+    fs::write(shell.path("file"), "").expect("a file");
+    fs::create_dir(shell.path("taken")).expect("a folder");
+    fs::write(shell.path("taken/study.csv"), "a,b\n1,2\n").expect("a file");
+    let fails = |arguments: &[&str], code: i32, message: &str| {
+        let output = shell.run(&[&["study"], arguments].concat());
+        assert_eq!(output.status.code(), Some(code), "{arguments:?}");
+        assert!(text(&output.stderr).contains(message), "{arguments:?}: {}", text(&output.stderr));
+        assert!(!text(&output.stderr).contains("panicked"));
+    };
+    fails(&["nowhere.toml", "-o", "out"], 1, "there is no such file");
+    fails(&["dark.toml", "-o", "out"], 1, "nothing in this scene emits light");
+    fails(&[&scene("inside_lit_outside"), "-o", "out"], 1, "is entirely black");
+    fails(&[&furnace, "-o", "file"], 1, "file: this is a file; -o names a folder");
+    fails(&[&furnace, "-o", "taken"], 1, "was not written by `noisefall study`");
+    fails(&[&furnace, "-o", "out", "--reference", "nowhere.exr"], 1, "there is no such file");
+    fails(&[&furnace, "-o", "out", "--size", "0x5"], 1, "resolution");
+    fails(&[&furnace, &furnace, "-o", "out", "--reference", "a.exr"], 2, "--reference is the picture of one scene");
+    fails(&[&furnace, "-o", "out", "--samplers", "sobol,foo"], 2, "independent, stratified, sobol");
+    fails(&[&furnace, "-o", "out", "--roulette", "off,2"], 2, "survival probability");
+    fails(&[&furnace, "-o", "out", "--max-bounces", "some"], 2, "`none`");
+    fails(&[&furnace], 2, "--output");
+    fails(&["-o", "out"], 2, "SCENE");
+}
