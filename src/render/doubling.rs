@@ -119,7 +119,7 @@ mod tests {
             let v = |k: i32| (1.0 - share) * 2f64.powi(-k) + share * 4f64.powi(-k);
             assert!((by_two_powers(moves(v, 6)) / v(6) - 1.0).abs() < 1e-9, "{share}");
         }
-        for (factor, other) in [(0.5, 0.5), (0.25, 0.25), (0.2, 0.4), (0.4, 0.2)] {
+        for (factor, other) in [(0.5, 0.5), (0.25, 0.25), (0.2, 0.4), (0.4, 0.2f64)] {
             let v = |k: i32| (factor * other).powi(k / 2) * if k % 2 == 1 { factor } else { 1.0 };
             assert!((by_factors(moves(v, 6)) / v(6) - 1.0).abs() < 1e-9, "{factor} {other}");
         }

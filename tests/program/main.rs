@@ -1,6 +1,7 @@
 //! The program as its users meet it: scene files, command line, worker, and the structure of the source.
 mod command_line;
 mod command_notes;
+mod compare;
 mod layers;
 mod pictures;
 mod scene_files;

@@ -11,6 +11,7 @@ mod inside_outside;
 mod lamp;
 mod lens;
 mod mirrors;
+mod noise;
 mod picture;
 mod plate;
 mod references;
