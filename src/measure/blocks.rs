@@ -31,8 +31,7 @@ impl Deviations {
             score(&means)
         };
         let corners = |count: usize| (0..(count + 1).saturating_sub(SQUARES)).step_by(SQUARES);
-        let of_blocks =
-            corners(lines).flat_map(|y| corners(columns).filter_map(move |x| Some([x, y]))).filter_map(|[x, y]| block(x, y));
+        let of_blocks = corners(lines).flat_map(|y| corners(columns).map(move |x| [x, y])).filter_map(|[x, y]| block(x, y));
         Some(Deviations { of_mean, of_blocks: of_blocks.collect() })
     }
 

@@ -1,4 +1,6 @@
 //! Whether sharing paths between pixels pays in a scene, by a trial of a few tiles with and without.
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
 use rayon::prelude::*;
 
 use crate::{
@@ -24,7 +26,8 @@ const SEED: u32 = 0x7f4a_7c15;
 pub fn resolved(scene: &Scene, settings: &RenderSettings) -> RenderSettings {
     let reuse = match settings.reuse {
         Reuse::Auto
-            if scene.can_share() && *scene.sharing_pays[settings.estimator as usize].get_or_init(|| pays(scene, settings)) =>
+            if scene.can_share()
+                && *scene.sharing_pays[settings.estimator as usize].get_or_init(|| pays_safely(scene, settings)) =>
         {
             Reuse::On
         }
@@ -32,6 +35,11 @@ pub fn resolved(scene: &Scene, settings: &RenderSettings) -> RenderSettings {
         said => said,
     };
     RenderSettings { reuse, ..*settings }
+}
+
+/// A scene that fails will fail again in the pass, which says where.
+fn pays_safely(scene: &Scene, settings: &RenderSettings) -> bool {
+    catch_unwind(AssertUnwindSafe(|| pays(scene, settings))).unwrap_or(false)
 }
 
 fn pays(scene: &Scene, settings: &RenderSettings) -> bool {

@@ -99,7 +99,7 @@ impl Default for Roulette {
     }
 }
 
-/// Whether neighbouring pixels share what their paths find beyond the first surface: see [`crate::integrator`].
+/// Whether neighbouring pixels share what their paths find beyond the first surface (Bekaert, Sbert and Halton 2002).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Reuse {
