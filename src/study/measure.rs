@@ -8,6 +8,7 @@ use crate::{
         Frame,
         film::Film,
         pass::{PassCount, PassJob, Threads},
+        trial::resolved,
     },
     scene::RenderSettings,
 };
@@ -47,8 +48,9 @@ impl Bench<'_> {
     pub fn pass(&self, settings: &RenderSettings, film: &mut Film, spp: u32) -> Result<(Duration, PassCount), StudyError> {
         let scene = &self.subject.scene;
         let rays = scene.rays(&self.subject.camera);
+        let settings = self.threads.install(|| resolved(scene, settings));
         let start = Instant::now();
-        let count = self.threads.pass(PassJob { scene, rays: &rays, settings }, film, spp, self.stop);
+        let count = self.threads.pass(PassJob { scene, rays: &rays, settings: &settings }, film, spp, self.stop);
         let took = start.elapsed();
         match &count.failure {
             Some(failure) => Err(StudyError::Renderer(failure.message.clone())),

@@ -84,7 +84,10 @@ fn settings(dice: &mut Dice) -> String {
     let directions = dice.pick(&["uniform", "cosine", "bsdf"]);
     let roulette = dice.pick(&["'throughput'", "{ fixed = 0.01 }", "{ fixed = 0.9 }", "{ throughput = { start = 1 } }"]);
     let seed = dice.below(1 << 20);
-    format!("estimator = '{estimator}', sampler = '{sampler}', directions = '{directions}', roulette = {roulette}, seed = {seed}")
+    let reuse = dice.pick(&["on", "off"]);
+    format!(
+        "estimator = '{estimator}', sampler = '{sampler}', directions = '{directions}', roulette = {roulette}, reuse = '{reuse}', seed = {seed}"
+    )
 }
 
 fn material(dice: &mut Dice) -> String {
