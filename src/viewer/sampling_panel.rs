@@ -41,7 +41,7 @@ const REUSE: [(Reuse, &str, &str); 3] = [
 
 impl App {
     pub(super) fn sampling_panel(&mut self, ui: &mut Ui) {
-        let settings = &mut self.settings;
+        let (settings, status) = (&mut self.settings, &self.status);
         controls(ui, "sampling", |ui| {
             row(ui, "Estimator", "How light is found. All converge to the same picture.", |ui, _| {
                 ui.horizontal(|ui| {
@@ -78,6 +78,9 @@ impl App {
                     ui.horizontal(|ui| {
                         for (reuse, name, doc) in REUSE {
                             ui.selectable_value(&mut settings.reuse, reuse, name).on_hover_text(doc);
+                        }
+                        if settings.reuse == Reuse::Auto && status.spp > 0 {
+                            ui.weak(if status.shares { "on here" } else { "off here" });
                         }
                     });
                 },
