@@ -1,7 +1,9 @@
 //! The FLIP error of two pictures: how large an observer finds their difference who looks at one after the other.
 //!
 //! P. Andersson et al., "FLIP: A Difference Evaluator for Alternating Images", HPG 2020.
-use noisefall::render::{Display, Frame, display::to_srgb};
+use noisefall::render::Frame;
+#[cfg(feature = "flip")]
+use noisefall::render::{Display, display::to_srgb};
 
 /// The mean error from 0 to 1 at 67 pixels a degree, of the pictures as the screen shows them; `None` in a program built without FLIP.
 #[cfg(feature = "flip")]
