@@ -19,8 +19,9 @@ pub fn run(
     if pixel[0] >= width || pixel[1] >= height {
         return Err(format!("pixel {},{} lies outside the picture of {width} × {height}", pixel[0], pixel[1]));
     }
-    let settings = resolved(scene, settings);
-    let replay = replay(scene, &scene.rays(camera), &settings, pixel, sample);
+    let rays = scene.rays(camera);
+    let settings = resolved(scene, &rays, settings);
+    let replay = replay(scene, &rays, &settings, pixel, sample);
     if json {
         return print(&serde_json::json!(replay).to_string());
     }

@@ -6,11 +6,11 @@ use super::{
 use crate::{
     math::{F, Lanes, M, MAX_LANES, One, U, V},
     record,
-    sampling::{Dimension, Directions, Stream},
-    scene::{CameraRays, Estimator, RenderSettings, Reuse, Scene, surface::Stage},
+    sampling::{Dimension, Stream},
+    scene::{CameraRays, Estimator, RenderSettings, Scene, surface::Stage},
 };
 
-/// A tile is at most this many pixels wide and high; its pixels are the slots of a batch, row by row.
+/// A tile is at most this many pixels wide and high; its pixels are the slots of a batch, in the order of [`Work::place`].
 pub const TILE: u32 = 32;
 pub(super) const SLOTS: usize = (TILE * TILE) as usize;
 
@@ -131,15 +131,10 @@ impl Work<'_> {
         (slot & (TILE - 1), slot >> TILE.trailing_zeros())
     }
 
-    /// Whether pixels share what their paths find: from diffuse surfaces, in empty space, while nothing moves.
+    /// Whether pixels share what their paths find.
     #[inline(always)]
     pub(super) fn shares(&self) -> bool {
-        let RenderSettings { reuse, directions, max_bounces, .. } = *self.settings;
-        reuse == Reuse::On
-            && directions != Directions::Uniform
-            && max_bounces.is_none_or(|cap| cap > 1)
-            && self.scene.can_share()
-            && !self.rays.take_time
+        self.scene.shares(self.rays, self.settings)
     }
 
     /// Whether media tint what passes through them.
@@ -216,7 +211,7 @@ impl Default for Batch {
 }
 
 impl Batch {
-    /// The radiance of every slot after a trace; slot = row · [`TILE`] + column.
+    /// The radiance of every pixel of the tile after a trace, at row · [`TILE`] + column.
     pub fn radiance(&self) -> &[[f32; 4]] {
         &self.radiance[..SLOTS]
     }

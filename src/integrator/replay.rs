@@ -87,7 +87,8 @@ impl Observer for Follower {
         };
         let slot = self.slot as usize;
         let [r, g, b, _] = batch.radiance[slot];
-        let shared = work.shares() && batch.bounce > 0;
+        // Beyond that the albedo of the first surface is left out of what is shared only.
+        let shared = work.shares() && (batch.bounce == 1 || path.slot.0 as usize >= SLOTS);
         self.vertices.push(Vertex {
             bounce: batch.bounce,
             origin: path.o.lane(0),
@@ -96,7 +97,7 @@ impl Observer for Follower {
             distance: object.map(|_| batch.t[at]),
             object,
             normal: batch.hits.iter().find_map(normal),
-            radiance: if shared { batch.shared.alone(&batch.radiance, slot) } else { [r, g, b] },
+            radiance: if work.shares() { batch.shared.alone(&batch.radiance, slot) } else { [r, g, b] },
         });
     }
 }

@@ -4,7 +4,7 @@
 //! The path of pixel j meets a diffuse surface at xⱼ and, by a sampled direction, another at yⱼ, which sends the radiance Lⱼ in all
 //! directions alike. Any pixel i of the group could have found yⱼ, with the density pᵢ(yⱼ) over areas, and takes it into account by
 //! the balance heuristic: it adds ρᵢ Lⱼ pᵢ(yⱼ)/Σₖ pₖ(yⱼ). Where yⱼ is not seen from xᵢ, pᵢ is 0. The weights of a path add up to 1:
-//! its light is divided among the pixels, so that the mean over a group stays what it was and only the noise of the pixels falls.
+//! its light is divided among the pixels, so that nothing of it is lost and only the noise of the pixels falls.
 use fearless_simd_macros::simd;
 
 use super::batch::{Batch, Hit, SLOTS, TILE, Work};
@@ -196,7 +196,8 @@ impl<L: Lanes> Second<L> {
         // Rounding must not take its own find away from a path that grazes.
         const LEAST: f32 = 1e-6;
         let way = self.p - first.p;
-        let distance_squared = way.length_squared();
+        // In the corner between two walls both places may be the same number.
+        let distance_squared = way.length_squared().max(l.f(1e-30));
         let inverse = 1.0 / distance_squared.sqrt();
         let wi = way * inverse;
         let (leaving, arriving) = (wi.dot(first.n), -wi.dot(self.n));

@@ -60,6 +60,9 @@ fn score(values: &[f64]) -> Option<f64> {
         return Some(0.0);
     }
     let t = mean / (variance / n).sqrt();
+    if t.is_nan() {
+        return None;
+    }
     let (student, normal) = (StudentsT::new(0.0, 1.0, n - 1.0).ok()?, Normal::new(0.0, 1.0).ok()?);
     // From the lower tail, where small probabilities keep their digits.
     let tail = student.cdf(-t.abs()).max(f64::MIN_POSITIVE);

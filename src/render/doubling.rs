@@ -67,7 +67,7 @@ pub(super) fn rel_mse_estimate(film: &Film) -> Option<f64> {
         (sum(|doubling| doubling.moved), sum(|doubling| doubling.variance))
     };
     // Between doublings nothing is known of Sobol samples but that they are no worse than independent ones.
-    let since = f64::from(1 << last) / f64::from(spp);
+    let since = f64::from(1u32 << last) / f64::from(spp);
     Some(remaining(&(1..=last).map(at).collect::<Vec<_>>()) / values * since)
 }
 

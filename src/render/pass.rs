@@ -10,7 +10,7 @@ use super::film::{Film, Tile};
 use crate::{
     integrator::{Batch, Interrupted, Work, replay, trace},
     math::SimdLevel,
-    scene::{CameraRays, RenderSettings, Scene},
+    scene::{CameraRays, RenderSettings, Reuse, Scene},
 };
 
 /// The threads that render, each with its queues.
@@ -143,8 +143,10 @@ fn find_failure(work: &Work) -> Option<SampleId> {
     let [x, y] = work.origin;
     let [width, height] = work.size;
     let pixels = (y..y + height).flat_map(|y| (x..x + width).map(move |x| [x, y]));
+    // Paths that are shared would be those of the whole tile.
+    let settings = RenderSettings { reuse: Reuse::Off, ..*work.settings };
     let fails = |pixel: &[u32; 2]| {
-        catch_unwind(AssertUnwindSafe(|| replay(work.scene, work.rays, work.settings, *pixel, work.sample))).is_err()
+        catch_unwind(AssertUnwindSafe(|| replay(work.scene, work.rays, &settings, *pixel, work.sample))).is_err()
     };
     { pixels }.find(fails).map(|pixel| SampleId { pixel, sample: work.sample })
 }

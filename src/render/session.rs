@@ -8,7 +8,7 @@ use super::{
     trial::resolved,
     worker::{Budget, Job, Publish, State, Status},
 };
-use crate::scene::{Camera, Reuse};
+use crate::scene::Camera;
 
 /// Camera samples a second before anything was measured: what a slow machine makes of a simple scene.
 const UNKNOWN_RATE: f64 = 1e6;
@@ -130,14 +130,15 @@ impl Session {
         }
         let spp = self.film.spp();
         let target = if budget.paused { spp + 1 } else { spp + self.spp_of_pass(budget, publish) };
+        let rays = self.job.scene.rays(&self.job.camera);
+        let settings = threads.install(|| resolved(&self.job.scene, &rays, &self.job.settings));
+        self.shares = self.job.scene.shares(&rays, &settings);
         let start = Instant::now();
         let time_left = budget.max_time.filter(|_| spp > 0).map(|most| most.saturating_sub(self.elapsed));
         let last_frame = self.last_frame;
         let impatient = || budget.paused && spp == 0 && last_frame.is_some_and(|coarse: Instant| coarse.elapsed() > PATIENCE);
         let enough = || interrupted() || impatient() || time_left.is_some_and(|left| start.elapsed() >= left);
-        let settings = threads.install(|| resolved(&self.job.scene, &self.job.settings));
-        let job = PassJob { scene: &self.job.scene, rays: &self.job.scene.rays(&self.job.camera), settings: &settings };
-        self.shares = settings.reuse == Reuse::On;
+        let job = PassJob { scene: &self.job.scene, rays: &rays, settings: &settings };
         let before = self.film.samples();
         let count = threads.pass(job, &mut self.film, target, &enough);
         let samples = self.film.samples() - before;

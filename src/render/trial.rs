@@ -8,7 +8,7 @@ use crate::{
     math::SimdLevel,
     measure::REL_MSE_FLOOR,
     sampling::Sampler,
-    scene::{CameraRays, RenderSettings, Reuse, Scene},
+    scene::{CameraRays, Estimator, RenderSettings, Reuse, Scene},
 };
 
 /// Tiles lie at these places of the picture.
@@ -22,29 +22,27 @@ const COST_WITH_TREES: f64 = 1.4;
 /// Not the seed of any picture that is likely to be asked for.
 const SEED: u32 = 0x7f4a_7c15;
 
-/// The same settings, with [`Reuse::Auto`] decided. The answer depends on scene and estimator only, and is found once.
-pub fn resolved(scene: &Scene, settings: &RenderSettings) -> RenderSettings {
+/// The same settings, with [`Reuse::Auto`] decided. Where sharing is possible, the answer depends on scene and estimator only, and is
+/// found once.
+pub fn resolved(scene: &Scene, rays: &CameraRays, settings: &RenderSettings) -> RenderSettings {
+    let pays = || {
+        let known = &scene.sharing_pays[settings.estimator as usize];
+        known.get().copied().unwrap_or_else(|| {
+            // A scene that fails will fail again in the pass, which says where.
+            let pays = catch_unwind(AssertUnwindSafe(|| pays(scene, settings.estimator))).unwrap_or(false);
+            *known.get_or_init(|| pays)
+        })
+    };
     let reuse = match settings.reuse {
-        Reuse::Auto
-            if scene.can_share()
-                && *scene.sharing_pays[settings.estimator as usize].get_or_init(|| pays_safely(scene, settings)) =>
-        {
-            Reuse::On
-        }
+        Reuse::Auto if scene.can_share(rays, settings) && pays() => Reuse::On,
         Reuse::Auto => Reuse::Off,
         said => said,
     };
     RenderSettings { reuse, ..*settings }
 }
 
-/// A scene that fails will fail again in the pass, which says where.
-fn pays_safely(scene: &Scene, settings: &RenderSettings) -> bool {
-    catch_unwind(AssertUnwindSafe(|| pays(scene, settings))).unwrap_or(false)
-}
-
-fn pays(scene: &Scene, settings: &RenderSettings) -> bool {
-    let settings =
-        RenderSettings { estimator: settings.estimator, sampler: Sampler::Independent, seed: SEED, ..Default::default() };
+fn pays(scene: &Scene, estimator: Estimator) -> bool {
+    let settings = RenderSettings { estimator, sampler: Sampler::Independent, seed: SEED, ..Default::default() };
     let rays = scene.rays(&scene.camera);
     let [width, height] = scene.camera.resolution;
     let tile = |[x, y]: &[f64; 2]| {

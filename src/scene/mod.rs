@@ -41,6 +41,7 @@ use crate::{
     image::Picture,
     light::{Emission, Lights},
     material::Material,
+    sampling::Directions,
     texture::Textures,
 };
 
@@ -107,9 +108,19 @@ impl Scene {
         self.surfaces.plain && !self.lights.emitters.vary() && self.shapes.are_simple()
     }
 
-    /// Whether pixels can share what their paths find: diffuse surfaces in empty space, of which none moves.
-    pub fn can_share(&self) -> bool {
-        self.surfaces.stages.contains(&surface::Stage::Plain) && self.surfaces.media.is_empty() && !self.shapes.move_in_time()
+    /// Whether pixels share what their paths find.
+    #[inline(always)]
+    pub fn shares(&self, rays: &CameraRays, settings: &RenderSettings) -> bool {
+        settings.reuse == Reuse::On && self.can_share(rays, settings)
+    }
+
+    /// Whether they could: from diffuse surfaces by cosine-distributed directions, in empty space, while nothing moves.
+    pub fn can_share(&self, rays: &CameraRays, settings: &RenderSettings) -> bool {
+        settings.directions != Directions::Uniform
+            && settings.max_bounces.is_none_or(|cap| cap > 1)
+            && !rays.take_time
+            && self.surfaces.media.is_empty()
+            && self.surfaces.stages.contains(&surface::Stage::Plain)
     }
 
     /// Whether something moves while the shutter is open.

@@ -48,7 +48,7 @@ impl Bench<'_> {
     pub fn pass(&self, settings: &RenderSettings, film: &mut Film, spp: u32) -> Result<(Duration, PassCount), StudyError> {
         let scene = &self.subject.scene;
         let rays = scene.rays(&self.subject.camera);
-        let settings = self.threads.install(|| resolved(scene, settings));
+        let settings = self.threads.install(|| resolved(scene, &rays, settings));
         let start = Instant::now();
         let count = self.threads.pass(PassJob { scene, rays: &rays, settings: &settings }, film, spp, self.stop);
         let took = start.elapsed();

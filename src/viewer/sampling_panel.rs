@@ -35,8 +35,8 @@ const DIRECTIONS: [(Directions, &str, &str); 3] = [
 
 const REUSE: [(Reuse, &str, &str); 3] = [
     (Reuse::Auto, "Auto", "Where a short trial of the scene says that it pays."),
-    (Reuse::On, "On", "Groups of 4 × 4 pixels divide what their paths find among them, by how likely each was to find it."),
-    (Reuse::Off, "Off", "Every pixel keeps what its own paths find: the noise of neighbours is independent."),
+    (Reuse::On, "Always", "Groups of 4 × 4 pixels divide what their paths find among them, by how likely each was to find it."),
+    (Reuse::Off, "Never", "Every pixel keeps what its own paths find: the noise of neighbours is independent."),
 ];
 
 impl App {
@@ -80,7 +80,7 @@ impl App {
                             ui.selectable_value(&mut settings.reuse, reuse, name).on_hover_text(doc);
                         }
                         if settings.reuse == Reuse::Auto && status.spp > 0 {
-                            ui.weak(if status.shares { "on here" } else { "off here" });
+                            ui.weak(if status.shares { "(does here)" } else { "(does not here)" });
                         }
                     });
                 },

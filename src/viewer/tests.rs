@@ -21,7 +21,7 @@ use noisefall::{
     math::SimdLevel,
     render::{State, ToneMap, image_file, pass::Threads},
     sampling::{Directions, Filter, Sampler},
-    scene::{Estimator, Lens, Roulette},
+    scene::{Estimator, Lens, Reuse, Roulette},
 };
 
 use super::{app::App, canvas::Tool};

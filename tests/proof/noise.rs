@@ -26,8 +26,8 @@ const WORSE: [(&str, f64); 4] = [("tiny_lamp", 6.0), ("veach_plates", 1.6), ("ou
 fn frame(threads: &Threads, scene: &Scene, seed: u32, spp: u32) -> Frame {
     let [width, height] = scene.camera.resolution;
     let resolution = [64, (64 * height).div_ceil(width)];
-    let settings = RenderSettings { seed, ..resolved(scene, &scene.settings) };
     let rays = scene.rays(&Camera { resolution, ..scene.camera });
+    let settings = RenderSettings { seed, ..resolved(scene, &rays, &scene.settings) };
     let mut film = Film::new(resolution);
     threads.pass(PassJob { scene, rays: &rays, settings: &settings }, &mut film, spp, &|| false);
     Frame::of_film(&film, 0, resolution, resolution)

@@ -13,6 +13,8 @@ fn every_setting_of_the_estimate_starts_a_new_picture() {
     restarts(&mut window, "uniform directions", |w| click(w, "Uniform"));
     assert_eq!(window.state().settings.directions, Directions::Uniform);
     restarts(&mut window, "cosine directions", |w| click(w, "Cosine"));
+    restarts(&mut window, "shared paths", |w| click(w, "Always"));
+    assert_eq!(window.state().settings.reuse, Reuse::On);
     restarts(&mut window, "fixed roulette", |w| choose(w, "Roulette", "Fixed probability"));
     assert!(matches!(window.state().settings.roulette, Roulette::Fixed(_)));
     restarts(&mut window, "another survival probability", |w| {
