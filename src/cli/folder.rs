@@ -19,8 +19,12 @@ pub fn make(folder: &Path) -> Result<(), Failure> {
 
 /// Writes the report and says where it is.
 pub fn write_report(folder: &Path, html: &str) -> Result<(), Failure> {
-    let path = folder.join(REPORT);
-    let written = replace(folder, REPORT, html.as_bytes());
-    written.map_err(|error| format!("{}: cannot be written: {error}", path.display()))?;
-    print(&format!("report: {}", path.display()))
+    write(folder, REPORT, html, "report")
+}
+
+/// Writes a file of the folder, and says what and where it is.
+pub fn write(folder: &Path, name: &str, text: &str, what: &str) -> Result<(), Failure> {
+    let path = folder.join(name);
+    replace(folder, name, text.as_bytes()).map_err(|error| format!("{}: cannot be written: {error}", path.display()))?;
+    print(&format!("{what}: {}", path.display()))
 }

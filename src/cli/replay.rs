@@ -1,7 +1,7 @@
 //! `noisefall render --pixel X,Y --sample N`: one path, vertex by vertex.
 use noisefall::{
     integrator::replay,
-    render::trial::resolved,
+    render::sharing::resolved,
     scene::{Camera, RenderSettings, Scene},
 };
 

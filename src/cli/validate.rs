@@ -4,10 +4,7 @@ use std::{
     time::Instant,
 };
 
-use noisefall::{
-    file::replace,
-    validate::{Effort, KeptScene, Section, Suite, Validation, html, reference_names},
-};
+use noisefall::validate::{Effort, KeptScene, Section, Suite, Validation, html, reference_names};
 
 use super::{Failure, folder, print};
 
@@ -60,18 +57,12 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     print(&format!("all {statements} statements hold ({seconds:.0} s)"))
 }
 
-fn write(folder: &Path, name: &str, text: &str, what: &str) -> Result<(), Failure> {
-    let path = folder.join(name);
-    replace(folder, name, text.as_bytes()).map_err(|error| format!("{}: cannot be written: {error}", path.display()))?;
-    print(&format!("{what}: {}", path.display()))
-}
-
 /// Writes the scenes that fail, if there are any.
 fn keep(folder: &Path, scenes: &[KeptScene]) -> Result<(), Failure> {
     if !scenes.is_empty() {
         std::fs::create_dir_all(folder).map_err(|error| format!("{}: cannot be made: {error}", folder.display()))?;
     }
-    scenes.iter().try_for_each(|scene| write(folder, &format!("{}.toml", scene.name), &scene.text, "scene"))
+    scenes.iter().try_for_each(|scene| folder::write(folder, &format!("{}.toml", scene.name), &scene.text, "scene"))
 }
 
 /// What is wrong with the folders is told before a minute is spent.

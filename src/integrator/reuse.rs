@@ -162,7 +162,7 @@ pub(super) fn share<L: Lanes>(l: L, work: &Work, batch: &mut Batch) {
             }
         }
         for (member, sum) in sums.into_iter().enumerate() {
-            finish(l, work, batch, slot(member), sum);
+            finish(l, work, batch, slot(member), firsts[member].shares, sum);
         }
     }
     std::mem::swap(&mut batch.radiance, &mut batch.shared.radiance);
@@ -229,11 +229,10 @@ impl<L: Lanes> Second<L> {
 
 /// Writes what the slots get to their places in the tile.
 #[inline(always)]
-fn finish<L: Lanes>(l: L, work: &Work, batch: &mut Batch, slot: U<L>, sum: V<L>) {
+fn finish<L: Lanes>(l: L, work: &Work, batch: &mut Batch, slot: U<L>, shares: M<L>, sum: V<L>) {
     let [r, g, b, _] = l.rows(&batch.radiance, slot);
     let [x, y, z, _] = l.rows(&batch.shared.albedos, slot);
     let own = V { x: r, y: g, z: b };
-    let shares = l.rows(&batch.shared.points, slot)[3].above(0.0);
     let total = shares.pick(own + sum * V { x, y, z }, own);
     let (column, row) = work.place(slot);
     put(l.first(L::N), (row << TILE.trailing_zeros()) + column, total, l.f(0.0), &mut batch.shared.radiance);

@@ -74,7 +74,7 @@ impl Film {
 }
 
 impl Tile {
-    fn new(origin: [u32; 2], size: [u32; 2]) -> Tile {
+    pub(super) fn new(origin: [u32; 2], size: [u32; 2]) -> Tile {
         Tile {
             origin,
             size,

@@ -14,8 +14,8 @@ pub mod image_file;
 pub mod pass;
 mod session;
 pub mod settings_text;
+pub mod sharing;
 pub mod tone;
-pub mod trial;
 pub mod truth;
 pub mod worker;
 

@@ -5,7 +5,7 @@ use super::{
     film::Film,
     frame::Frame,
     pass::{PassCount, PassJob, Threads},
-    trial::resolved,
+    sharing::resolved,
     worker::{Budget, Job, Publish, State, Status},
 };
 use crate::scene::Camera;

@@ -8,7 +8,7 @@ use crate::{
         Frame,
         film::Film,
         pass::{PassCount, PassJob, Threads},
-        trial::resolved,
+        sharing::resolved,
     },
     scene::RenderSettings,
 };

@@ -8,7 +8,7 @@ use noisefall::{
         film::Film,
         frame::Frame,
         pass::{PassJob, Threads},
-        trial::resolved,
+        sharing::resolved,
     },
     scene::{Camera, RenderSettings, Scene, load},
 };

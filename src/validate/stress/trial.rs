@@ -13,6 +13,7 @@ use crate::{
     integrator::{Batch, TILE, Work, trace},
     math::SimdLevel,
     measure::Mean,
+    render::pass::panic_message,
     scene::{CameraRays, RenderSettings, Scene, parse},
 };
 
@@ -52,17 +53,12 @@ thread_local! {
 pub fn run(text: &str, draft: &Draft, settings: impl Fn(RenderSettings) -> RenderSettings) -> Outcome {
     let start = Instant::now();
     let tried = catch_unwind(AssertUnwindSafe(|| try_scene(text, draft, settings, start)));
-    let mut outcome = tried.unwrap_or_else(|panic| Outcome::trouble(format!("panics: {}", message(&*panic))));
+    let mut outcome = tried.unwrap_or_else(|panic| Outcome::trouble(format!("panics: {}", panic_message(&*panic))));
     outcome.seconds = start.elapsed().as_secs_f64();
     if outcome.trouble.is_none() && start.elapsed() > PATIENCE {
         outcome.trouble = Some(format!("takes {:.0} s", outcome.seconds));
     }
     outcome
-}
-
-fn message(panic: &(dyn std::any::Any + Send)) -> String {
-    let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
-    text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_default()
 }
 
 impl Outcome {

@@ -3,6 +3,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use rayon::prelude::*;
 
+use super::film::{Estimate, Tile};
 use crate::{
     integrator::{Batch, TILE, Work, trace},
     math::SimdLevel,
@@ -48,10 +49,8 @@ fn pays(scene: &Scene, estimator: Estimator) -> bool {
     let tile = |[x, y]: &[f64; 2]| {
         let origin = [(width, x), (height, y)].map(|(side, part)| (f64::from(side) * part) as u32 / TILE * TILE);
         let size = [TILE.min(width - origin[0]), TILE.min(height - origin[1])];
-        let of = |reuse| Tile::trace(scene, &rays, RenderSettings { reuse, ..settings }, origin, size);
-        let (without, with) = (of(Reuse::Off), of(Reuse::On));
-        let mean: Vec<f64> = without.mean.iter().zip(&with.mean).map(|(a, b)| (a + b) / 2.0).collect();
-        [without.relative_variance(&mean), with.relative_variance(&mean)]
+        let of = |reuse| estimates(scene, &rays, RenderSettings { reuse, ..settings }, Tile::new(origin, size));
+        relative_variances(&of(Reuse::Off), &of(Reuse::On))
     };
     let variances: Vec<[f64; 2]> = PLACES.par_iter().map(tile).collect();
     let [without, with] = [0, 1].map(|i| variances.iter().map(|variance| variance[i]).sum::<f64>());
@@ -59,40 +58,28 @@ fn pays(scene: &Scene, estimator: Estimator) -> bool {
     without > cost * with
 }
 
-/// Means and variances of the samples of a tile, of all channels one after the other.
-struct Tile {
-    mean: Vec<f64>,
-    variance: Vec<f64>,
+/// What a few samples of a tile say.
+fn estimates(scene: &Scene, rays: &CameraRays, settings: RenderSettings, mut tile: Tile) -> Vec<Estimate> {
+    let mut batch = Batch::default();
+    for sample in 0..SPP {
+        let work = Work { scene, rays, settings: &settings, origin: tile.origin, size: tile.size, sample };
+        if trace(SimdLevel::best(), &work, &mut batch, &|| false).is_ok() {
+            tile.add(batch.radiance());
+        }
+    }
+    (0..tile.size[1] as usize).flat_map(|row| tile.estimates(row)).collect()
 }
 
-impl Tile {
-    fn trace(scene: &Scene, rays: &CameraRays, settings: RenderSettings, origin: [u32; 2], size: [u32; 2]) -> Tile {
-        let mut batch = Batch::default();
-        let values = 4 * (TILE * TILE) as usize;
-        let (mut sum, mut squares) = (vec![0.0; values], vec![0.0; values]);
-        for sample in 0..SPP {
-            let work = Work { scene, rays, settings: &settings, origin, size, sample };
-            if trace(SimdLevel::best(), &work, &mut batch, &|| false).is_err() {
-                break;
-            }
-            for ((sum, square), value) in sum.iter_mut().zip(&mut squares).zip(batch.radiance().as_flattened()) {
-                let value = f64::from(*value);
-                *sum += value;
-                *square += value * value;
-            }
+/// Sums of the variances of both, over the squares of the means of both together as relMSE has it.
+fn relative_variances(without: &[Estimate], with: &[Estimate]) -> [f64; 2] {
+    let mut sums = [0.0; 2];
+    for (a, b) in without.iter().zip(with) {
+        for channel in 0..3 {
+            let mean = (a.mean[channel] + b.mean[channel]) / 2.0;
+            let variance = |of: &Estimate| of.variance_of_mean.map_or(0.0, |variance| variance[channel]);
+            sums[0] += variance(a) / (mean * mean + REL_MSE_FLOOR);
+            sums[1] += variance(b) / (mean * mean + REL_MSE_FLOOR);
         }
-        let n = f64::from(SPP);
-        let variance = |(sum, square): (&f64, &f64)| ((square - sum * sum / n) / (n - 1.0)).max(0.0);
-        Tile { variance: sum.iter().zip(&squares).map(variance).collect(), mean: sum.into_iter().map(|sum| sum / n).collect() }
     }
-
-    /// The sum of variances, each over the square of its mean as relMSE has it.
-    fn relative_variance(&self, mean: &[f64]) -> f64 {
-        self.variance
-            .iter()
-            .zip(mean)
-            .map(|(variance, mean)| variance / (mean * mean + REL_MSE_FLOOR))
-            .filter(|x| x.is_finite())
-            .sum()
-    }
+    sums
 }
