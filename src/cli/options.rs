@@ -14,6 +14,14 @@ pub fn directions(text: &str) -> Result<Directions, String> {
     Directions::ALL.into_iter().find(|d| d.name() == text).ok_or_else(|| "expected uniform, cosine or bsdf".to_owned())
 }
 
+pub fn on_or_off(text: &str) -> Result<bool, String> {
+    match text {
+        "on" => Ok(true),
+        "off" => Ok(false),
+        _ => Err("expected on or off".to_owned()),
+    }
+}
+
 pub fn reuse(text: &str) -> Result<Reuse, String> {
     Reuse::ALL.into_iter().find(|reuse| reuse.name() == text).ok_or_else(|| "expected auto, on or off".to_owned())
 }

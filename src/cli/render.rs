@@ -70,6 +70,9 @@ pub struct Arguments {
     /// Whether neighbouring pixels share what their paths find: auto, on or off
     #[arg(long, value_parser = parse::reuse)]
     reuse: Option<Reuse>,
+    /// Whether pixels get more samples where a pilot finds more noise: on or off; on, --spp is the average
+    #[arg(long, value_parser = parse::on_or_off)]
+    adaptive: Option<bool>,
     /// Seed of the random numbers
     #[arg(long, value_name = "N", value_parser = parse::whole)]
     seed: Option<u32>,
@@ -143,7 +146,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
             "threads": thread_count, "seed": settings.seed, "build_seconds": build_seconds, "render_seconds": render_seconds,
             "paths": status.samples, "rays": status.rays, "invalid_samples": status.invalid_samples,
             "rel_mse_estimate": status.rel_mse_estimate, "cut_paths": status.cut_paths, "dropped_triangles": scene.shapes.dropped_triangles(), "bias": status.bias(&settings),
-            "reuse": status.shares, "rel_mse": rel_mse, "replay": replay,
+            "reuse": status.shares, "adaptive": status.adapts, "rel_mse": rel_mse, "replay": replay,
         });
         print(&line.to_string())
     } else {
@@ -161,6 +164,7 @@ impl Arguments {
             roulette: self.roulette.unwrap_or(of_scene.roulette),
             max_bounces: self.max_bounces.map_or(of_scene.max_bounces, |cap| cap.0),
             reuse: self.reuse.unwrap_or(of_scene.reuse),
+            adaptive: self.adaptive.unwrap_or(of_scene.adaptive),
             seed: self.seed.unwrap_or(of_scene.seed),
         }
     }

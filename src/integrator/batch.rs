@@ -1,18 +1,10 @@
-//! What one thread works on: the samples of one tile at one sample index, and the queues they travel through.
-use super::{
-    queue::Queue,
-    reuse::{self, Shared},
-};
+//! The queues of one thread, through which the paths of a batch travel.
+use super::{queue::Queue, reuse::Shared, work::SLOTS};
 use crate::{
     math::{F, Lanes, M, MAX_LANES, One, U, V},
     record,
-    sampling::{Dimension, Stream},
-    scene::{CameraRays, Estimator, RenderSettings, Scene, surface::Stage},
+    scene::surface::Stage,
 };
-
-/// A tile is at most this many pixels wide and high; its pixels are the slots of a batch, in the order of [`Work::place`].
-pub const TILE: u32 = 32;
-pub(super) const SLOTS: usize = (TILE * TILE) as usize;
 
 record! {
     /// A path on its way to the next surface.
@@ -34,6 +26,14 @@ record! {
         /// Density of the path's direction, per solid angle.
         pdf: F,
         flags: U,
+    }
+}
+
+record! {
+    /// The [`crate::light::Lobe`] that a path's direction comes from. Kept beside [`Past`] where the choice of a light asks for it.
+    Gloss {
+        wo: V,
+        alpha: F,
     }
 }
 
@@ -93,78 +93,14 @@ record! {
     }
 }
 
-/// What a batch computes: sample number `sample` of the pixels of one tile.
-#[derive(Clone, Copy)]
-pub struct Work<'a> {
-    pub scene: &'a Scene,
-    pub rays: &'a CameraRays,
-    pub settings: &'a RenderSettings,
-    /// Pixel coordinates of the tile's upper left corner.
-    pub origin: [u32; 2],
-    /// Width and height of the tile, at most [`TILE`].
-    pub size: [u32; 2],
-    pub sample: u32,
-}
-
-impl Work<'_> {
-    /// The pixels of slots, packed as the sampler wants them: y·2¹⁶ + x.
-    #[inline(always)]
-    pub(super) fn pixel<L: Lanes>(&self, slot: U<L>) -> U<L> {
-        let (x, y) = self.place(slot);
-        ((y + self.origin[1]) << 16) + (x + self.origin[0])
-    }
-
-    /// The same sample of all pixels of the tile that this begins in.
-    pub(super) fn whole_tile(self) -> Self {
-        let origin = self.origin.map(|x| x / TILE * TILE);
-        let size = [0, 1].map(|axis| TILE.min(self.rays.resolution[axis] - origin[axis]));
-        Work { origin, size, ..self }
-    }
-
-    /// Column and row of slots within their tile.
-    #[inline(always)]
-    pub(super) fn place<L: Lanes>(&self, slot: U<L>) -> (U<L>, U<L>) {
-        let slot = slot & (SLOTS as u32 - 1);
-        if self.shares() {
-            return reuse::place(slot, self.sample);
-        }
-        (slot & (TILE - 1), slot >> TILE.trailing_zeros())
-    }
-
-    /// Whether pixels share what their paths find.
-    #[inline(always)]
-    pub(super) fn shares(&self) -> bool {
-        self.scene.shares(self.rays, self.settings)
-    }
-
-    /// Whether media tint what passes through them.
-    #[inline(always)]
-    pub(super) fn has_media(&self) -> bool {
-        !self.scene.surfaces.media.is_empty()
-    }
-
-    /// When the samples of slots are taken, from 0 when the shutter opens to 1 when it closes; 0 where nothing moves.
-    #[inline(always)]
-    pub(super) fn time<L: Lanes>(&self, l: L, slot: U<L>) -> F<L> {
-        if !self.rays.take_time {
-            return l.f(0.0);
-        }
-        Stream::new(self.settings.sampler, self.settings.seed, self.pixel(slot), self.sample).one(Dimension::TIME)
-    }
-
-    /// Whether light is looked for besides being run into.
-    #[inline(always)]
-    pub(super) fn samples_lights(&self) -> bool {
-        self.settings.estimator != Estimator::Path && !self.scene.lights.is_empty()
-    }
-}
-
 /// The queues of a thread. Made once, used for every tile.
 pub struct Batch {
     /// Paths of this bounce and of the next, in turn.
     pub(super) paths: [Queue; 2],
     /// Kept beside `paths` when lights are sampled.
     pub(super) pasts: [Queue; 2],
+    /// Kept beside `pasts` in scenes with conductors and several lights.
+    pub(super) glosses: [Queue; 2],
     /// A queue for every kind of bsdf.
     pub(super) hits: [Queue; Stage::COUNT],
     /// Kept beside `hits` for kinds that read it.
@@ -193,6 +129,7 @@ impl Default for Batch {
         Batch {
             paths: [Path::<One>::queue(SLOTS), Path::<One>::queue(SLOTS)],
             pasts: [Past::<One>::queue(SLOTS), Past::<One>::queue(SLOTS)],
+            glosses: [Gloss::<One>::queue(SLOTS), Gloss::<One>::queue(SLOTS)],
             hits: std::array::from_fn(|_| Hit::<One>::queue(SLOTS)),
             details: std::array::from_fn(|_| Detail::<One>::queue(SLOTS)),
             shadows: Shadow::<One>::queue(SLOTS),
@@ -211,7 +148,8 @@ impl Default for Batch {
 }
 
 impl Batch {
-    /// The radiance of every pixel of the tile after a trace, at row · [`TILE`] + column.
+    /// After a trace: the radiance of every pixel of a tile, at row · [`super::TILE`] + column, or of [`super::Blocks`], one block
+    /// after the other, at row · [`super::BLOCK`] + column of the block.
     pub fn radiance(&self) -> &[[f32; 4]] {
         &self.radiance[..SLOTS]
     }

@@ -1,7 +1,10 @@
 //! Second stage: x_M, the first surface along every path. One instance is compiled for scenes of spheres alone.
 use fearless_simd_macros::simd;
 
-use super::batch::{Batch, Path, Work};
+use super::{
+    batch::{Batch, Path},
+    work::Work,
+};
 use crate::math::Lanes;
 
 #[simd]

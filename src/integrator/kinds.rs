@@ -17,7 +17,16 @@ pub(super) trait Kind {
     const LOBES: bool = true;
     const TRANSMITS: bool = false;
 
+    /// It has one lobe, for which the choice of a light is better made.
+    const GLOSSY: bool = false;
+
     fn at<'a, L: Lanes>(l: L, materials: &'a Materials, settings: &RenderSettings, at: &Local<L>) -> Self::Bsdf<'a, L>;
+
+    /// The width of the lobe; 0 where there is none.
+    #[inline(always)]
+    fn alpha<L: Lanes>(_bsdf: &Self::Bsdf<'_, L>, z: F<L>) -> F<L> {
+        z.splat(0.0)
+    }
 
     /// What roulette multiplies the throughput by before it judges it. `z` is the height of the next direction.
     #[inline(always)]
@@ -77,7 +86,14 @@ kinds! {
         const SEES_LIGHTS: bool = false;
         const LOBES: bool = false;
     }
-    Conductor material::Conductor<L> {}
+    Conductor material::Conductor<L> {
+        const GLOSSY: bool = true;
+
+        #[inline(always)]
+        fn alpha<L: Lanes>(bsdf: &Self::Bsdf<'_, L>, _z: F<L>) -> F<L> {
+            bsdf.alpha
+        }
+    }
     Plastic material::Plastic<'a, L> {}
     Dielectric material::Dielectric<L> {
         const SEES_LIGHTS: bool = false;

@@ -1,5 +1,5 @@
 //! Absorption inside tinted media: Beer's law.
-use super::batch::Work;
+use super::work::Work;
 use crate::math::{F, Lanes, U, V, exp::exp2_of_negative};
 
 /// Longer ways are not told apart: what they let pass is 0, or all.

@@ -20,9 +20,11 @@ mod spawn;
 mod surface;
 mod trace;
 mod weight;
+mod work;
 
 pub use self::{
-    batch::{Batch, TILE, Work},
+    batch::Batch,
     replay::{Replay, Vertex, replay},
-    trace::{Interrupted, trace},
+    trace::{Interrupted, Segments, trace, trace_counting},
+    work::{BLOCK, BLOCKS, Blocks, TILE, Work},
 };

@@ -2,9 +2,10 @@
 use serde::Serialize;
 
 use super::{
-    batch::{Batch, Hit, Path, SLOTS, TILE, Work},
+    batch::{Batch, Hit, Path},
     queue::Queue,
     trace::{Observer, trace_in},
+    work::{SLOTS, TILE, Work},
 };
 use crate::{
     geometry::MISS,
@@ -42,7 +43,7 @@ pub struct Vertex {
 
 /// Replays sample number `sample` of a pixel.
 pub fn replay(scene: &Scene, rays: &CameraRays, settings: &RenderSettings, pixel: [u32; 2], sample: u32) -> Replay {
-    let one = Work { scene, rays, settings, origin: pixel, size: [1, 1], sample };
+    let one = Work::tile(scene, rays, settings, pixel, [1, 1], sample);
     let shares = one.shares();
     // What is shared needs the paths of the whole tile.
     let work = if shares { one.whole_tile() } else { one };

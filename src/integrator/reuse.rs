@@ -7,7 +7,10 @@
 //! its light is divided among the pixels, so that nothing of it is lost and only the noise of the pixels falls.
 use fearless_simd_macros::simd;
 
-use super::batch::{Batch, Hit, SLOTS, TILE, Work};
+use super::{
+    batch::{Batch, Hit},
+    work::{SLOTS, TILE, Work},
+};
 use crate::{
     geometry::Place,
     math::{F, Lanes, M, MAX_LANES, Pick, U, V},

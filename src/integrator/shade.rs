@@ -2,14 +2,15 @@
 use fearless_simd_macros::simd;
 
 use super::{
-    batch::{Batch, DELTA, Detail, Hit, Inside, Past, Path, Shadow, TRANSMITS, Work},
+    batch::{Batch, DELTA, Detail, Gloss, Hit, Inside, Past, Path, Shadow, TRANSMITS},
     kinds::Kind,
     media::beyond,
     roulette::survive,
     weight::power_heuristic,
+    work::Work,
 };
 use crate::{
-    light::{LightCoordinates, Receiver},
+    light::{LightCoordinates, Lobe, Receiver},
     material::{Bsdf, Local},
     math::{F, Frame, Lanes, M, Pick, U, V},
     sampling::{Dimension, Stream},
@@ -21,7 +22,7 @@ use crate::{
 
 #[simd]
 pub(super) fn shade<L: Lanes, K: Kind>(l: L, work: &Work, batch: &mut Batch) {
-    let Batch { paths, pasts, path_media, hits, details, shadows, shadow_media, shared, bounce, .. } = batch;
+    let Batch { paths, pasts, glosses, path_media, hits, details, shadows, shadow_media, shared, bounce, .. } = batch;
     let (hits, details) = (&hits[K::STAGE as usize], &details[K::STAGE as usize]);
     let reflection = *bounce + 1;
     let next = (reflection & 1) as usize;
@@ -30,7 +31,7 @@ pub(super) fn shade<L: Lanes, K: Kind>(l: L, work: &Work, batch: &mut Batch) {
     for start in (0..hits.len()).step_by(L::N) {
         let live = l.first(hits.len() - start);
         let hit = Hit::read(l, hits, start);
-        let stream = Stream::new(settings.sampler, settings.seed, work.pixel(hit.slot), work.sample);
+        let stream = work.stream(l, hit.slot);
         let vertex = if K::DETAILED {
             let mut detail = Detail::read(l, details, start);
             // Lanes past the end may say anything: they take a material of this kind, whose rows can be read as such.
@@ -85,6 +86,10 @@ pub(super) fn shade<L: Lanes, K: Kind>(l: L, work: &Work, batch: &mut Batch) {
             let unsampled = if K::TRANSMITS { sample.delta | vertex.self_lit } else { sample.delta };
             let flags = unsampled.pick(l.u(DELTA), l.u(0)) | if K::TRANSMITS { TRANSMITS } else { 0 };
             Past { n: vertex.n, pdf: sample.pdf, flags }.push(keep, &mut pasts[next]);
+            if work.heeds_lobes() {
+                let Lobe { wo, alpha } = vertex.lobe::<K>(&bsdf);
+                Gloss { wo, alpha }.push(keep, &mut glosses[next]);
+            }
         }
         if K::DETAILED && work.has_media() {
             Inside { media: vertex.media_towards(sample.wi.z) }.push(keep, &mut path_media[next]);
@@ -147,6 +152,13 @@ impl<L: Lanes> Vertex<L> {
         }
     }
 
+    /// What the choice of a light asks for.
+    #[inline(always)]
+    fn lobe<K: Kind>(&self, bsdf: &K::Bsdf<'_, L>) -> Lobe<L> {
+        let wo = if K::GLOSSY { self.frame.world_from_local(self.wo) } else { self.n };
+        Lobe { wo, alpha: K::alpha(bsdf, self.error) }
+    }
+
     /// The media that a direction of height `z` leads into.
     #[inline(always)]
     fn media_towards(&self, z: F<L>) -> U<L> {
@@ -188,7 +200,8 @@ fn sample_light<L: Lanes, K: Kind>(
         cell: if lights.have_cells() { stream.two(Dimension::cell(reflection)) } else { (unused, unused) },
         place: stream.two(Dimension::light(reflection)),
     };
-    let at = Receiver { p: hit.p, n: vertex.n, transmits: if K::TRANSMITS { l.first(L::N) } else { l.first(0) } };
+    let lobe = (K::GLOSSY && work.heeds_lobes()).then(|| vertex.lobe::<K>(bsdf));
+    let at = Receiver { p: hit.p, n: vertex.n, transmits: if K::TRANSMITS { l.first(L::N) } else { l.first(0) }, lobe };
     let sample = lights.sample(l, &work.scene.shapes, &at, work.time(l, hit.slot), &coordinates);
     let wi = vertex.frame.local_from_world(sample.wi);
     let (f_cos, pdf) = bsdf.eval(vertex.wo, wi);

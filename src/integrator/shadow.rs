@@ -5,9 +5,10 @@
 use fearless_simd_macros::simd;
 
 use super::{
-    batch::{Batch, Inside, Shadow, Work, add},
+    batch::{Batch, Inside, Shadow, add},
     media::transmittance,
     surface::emission_texture,
+    work::Work,
 };
 use crate::{
     geometry::{Nearest, Place},

@@ -1,10 +1,13 @@
 //! First stage: camera rays through points drawn from the pixels' filters.
 use fearless_simd_macros::simd;
 
-use super::batch::{Batch, Inside, Path, SLOTS, TILE, Work};
+use super::{
+    batch::{Batch, Inside, Path},
+    work::Work,
+};
 use crate::{
     math::{Lanes, V},
-    sampling::{Dimension, Stream},
+    sampling::Dimension,
 };
 
 #[simd]
@@ -13,19 +16,17 @@ pub(super) fn spawn<L: Lanes>(l: L, work: &Work, batch: &mut Batch) {
     batch.paths[0].clear();
     batch.path_media[0].clear();
     batch.radiance.fill([0.0; 4]);
-    let [width, height] = work.size;
-    let slots = if work.shares() { SLOTS as u32 } else { height * TILE };
     if work.shares() {
         batch.shared.clear();
     }
-    for start in (0..slots).step_by(L::N) {
+    for start in (0..work.slots()).step_by(L::N) {
         let slot = l.iota() + start;
-        let (column, row) = work.place(slot);
-        let inside = column.below(width) & row.below(height);
-        let stream = Stream::new(work.settings.sampler, work.settings.seed, work.pixel(slot), work.sample);
+        let pixel = work.pixel(l, slot);
+        let inside = work.inside(pixel);
+        let stream = work.stream(l, slot);
         let (u, v) = stream.two(Dimension::PIXEL);
-        let x = (column + work.origin[0]).to_real() + work.rays.filter.place(l, u);
-        let y = (row + work.origin[1]).to_real() + work.rays.filter.place(l, v);
+        let x = (pixel & 0xffff).to_real() + work.rays.filter.place(l, u);
+        let y = (pixel >> 16).to_real() + work.rays.filter.place(l, v);
         let (o, d) = if work.rays.have_lens() {
             work.rays.through_lens(l, x, y, stream.two(Dimension::LENS))
         } else {

@@ -2,14 +2,16 @@
 use fearless_simd_macros::simd;
 
 use super::{
-    batch::{Batch, Detail, Hit, Inside, Past, Path, Work, add},
+    batch::{Batch, Detail, Gloss, Hit, Inside, Past, Path, add},
     media::transmittance,
     queue::Queue,
     relief::shading_normal,
     weight::weight_of_met_light,
+    work::Work,
 };
 use crate::{
     geometry::{Coordinates, MISS, Place, SurfacePoint},
+    light::Lobe,
     math::{F, Lanes, M, Pick, U, V},
     scene::{
         Scene,
@@ -25,10 +27,10 @@ const GRAZING: f32 = 1e-3;
 #[simd]
 pub(super) fn surfaces<L: Lanes, const VARIED: bool>(l: L, work: &Work, batch: &mut Batch, last: bool) {
     let scene = work.scene;
-    let Batch { paths, pasts, path_media, hits, details, t, primitive, element, radiance, shared, bounce, .. } = batch;
+    let Batch { paths, pasts, glosses, path_media, hits, details, t, primitive, element, radiance, shared, bounce, .. } = batch;
     hits.iter_mut().chain(details.iter_mut()).for_each(Queue::clear);
     let current = (*bounce & 1) as usize;
-    let (paths, pasts, path_media) = (&paths[current], &pasts[current], &path_media[current]);
+    let (paths, pasts, path_media) = (&paths[current], (&pasts[current], &glosses[current]), &path_media[current]);
     let weighted = *bounce > 0 && work.samples_lights();
     let shares = *bounce == 1 && work.shares();
     for start in (0..paths.len()).step_by(L::N) {
@@ -118,9 +120,20 @@ pub(super) fn surfaces<L: Lanes, const VARIED: bool>(l: L, work: &Work, batch: &
 ///
 /// The place is passed by value, or else it would be kept in memory for scenes that never ask.
 #[inline(always)]
-fn weight<L: Lanes>(l: L, work: &Work, pasts: &Queue, start: usize, path: &Path<L>, place: Place<L>) -> F<L> {
+fn weight<L: Lanes>(
+    l: L,
+    work: &Work,
+    (pasts, glosses): (&Queue, &Queue),
+    start: usize,
+    path: &Path<L>,
+    place: Place<L>,
+) -> F<L> {
     let past = Past::read(l, pasts, start);
-    weight_of_met_light(l, work, &past, path.o, path.d, &place)
+    let lobe = work.heeds_lobes().then(|| {
+        let Gloss { wo, alpha } = Gloss::read(l, glosses, start);
+        Lobe { wo, alpha }
+    });
+    weight_of_met_light(l, work, &past, lobe, path.o, path.d, &place)
 }
 
 /// What the texture of emission multiplies radiance by at a point.

@@ -2,7 +2,7 @@
 use fearless_simd_macros::simd;
 
 use super::{
-    batch::{Batch, Work},
+    batch::{Batch, Path},
     intersect::intersect,
     kinds,
     queue::Queue,
@@ -11,10 +11,11 @@ use super::{
     shadow::shadow,
     spawn::spawn,
     surface::surfaces,
+    work::{BLOCK, BLOCKS, TILE, Work},
 };
 use crate::{
     in_lanes,
-    math::{Lanes, SimdLevel},
+    math::{Lanes, One, SimdLevel},
     scene::surface::Stage,
 };
 
@@ -36,6 +37,33 @@ pub struct Interrupted;
 /// equation with its integral replaced, again and again, by one sampled direction (Kajiya 1986; equation (9) of the brief).
 pub fn trace(level: SimdLevel, work: &Work, batch: &mut Batch, interrupted: &dyn Fn() -> bool) -> Result<(), Interrupted> {
     in_lanes!(level, l => trace_in(l, work, batch, interrupted, &mut ()))
+}
+
+/// Path segments, by block of the tile.
+#[derive(Default)]
+pub struct Segments(pub [u32; BLOCKS]);
+
+impl Observer for Segments {
+    fn at_surfaces(&mut self, work: &Work, batch: &Batch) {
+        const ACROSS: u32 = TILE / BLOCK;
+        let paths = batch.current();
+        for at in 0..paths.len() {
+            let (x, y) = work.place(Path::read(One, paths, at).slot);
+            self.0[(y.0 / BLOCK * ACROSS + x.0 / BLOCK) as usize] += 1;
+        }
+    }
+}
+
+/// [`trace`] of a tile, which also says how long the paths of its blocks are.
+pub fn trace_counting(
+    level: SimdLevel,
+    work: &Work,
+    batch: &mut Batch,
+    interrupted: &dyn Fn() -> bool,
+) -> Result<Segments, Interrupted> {
+    let mut segments = Segments::default();
+    in_lanes!(level, l => trace_in(l, work, batch, interrupted, &mut segments))?;
+    Ok(segments)
 }
 
 #[simd]
@@ -87,6 +115,7 @@ fn shade_all<L: Lanes>(l: L, work: &Work, batch: &mut Batch) {
     let next = ((batch.bounce + 1) & 1) as usize;
     batch.paths[next].clear();
     batch.pasts[next].clear();
+    batch.glosses[next].clear();
     batch.path_media[next].clear();
     for stage in &work.scene.surfaces.stages {
         match stage {

@@ -1,10 +1,13 @@
 //! How much of the light that a path runs into is counted, when lights are sampled as well.
 use fearless_simd_macros::simd;
 
-use super::batch::{DELTA, Past, TRANSMITS, Work};
+use super::{
+    batch::{DELTA, Past, TRANSMITS},
+    work::Work,
+};
 use crate::{
     geometry::Place,
-    light::Receiver,
+    light::{Lobe, Receiver},
     math::{F, Lanes, Pick, V},
     scene::Estimator,
 };
@@ -20,13 +23,21 @@ pub(super) fn power_heuristic<L: Lanes>(pdf: F<L>, other: F<L>) -> F<L> {
 /// The weight of light met by paths that left `o` in the direction `d` and ran into `target`, whose primitive
 /// may be [`crate::geometry::MISS`].
 #[simd]
-pub(super) fn weight_of_met_light<L: Lanes>(l: L, work: &Work, past: &Past<L>, o: V<L>, d: V<L>, target: &Place<L>) -> F<L> {
+pub(super) fn weight_of_met_light<L: Lanes>(
+    l: L,
+    work: &Work,
+    past: &Past<L>,
+    lobe: Option<Lobe<L>>,
+    o: V<L>,
+    d: V<L>,
+    target: &Place<L>,
+) -> F<L> {
     let delta = !(past.flags & DELTA).is(0);
     let sampled_too = match work.settings.estimator {
         Estimator::Path => return l.f(1.0),
         Estimator::Light => l.f(0.0),
         Estimator::Mis => {
-            let at = Receiver { p: o, n: past.n, transmits: !(past.flags & TRANSMITS).is(0) };
+            let at = Receiver { p: o, n: past.n, transmits: !(past.flags & TRANSMITS).is(0), lobe };
             power_heuristic(past.pdf, work.scene.lights.pdf(l, &work.scene.shapes, &at, d, target))
         }
     };

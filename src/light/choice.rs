@@ -7,6 +7,7 @@ use glam::DVec3;
 use super::{
     background::Background,
     emission::{Emission, Emitters},
+    lobe::Lobe,
     selection::Selection,
 };
 use crate::{
@@ -37,6 +38,8 @@ pub struct Receiver<L: Lanes> {
     pub n: V<L>,
     /// Lanes where light may come from both sides of the surface.
     pub transmits: M<L>,
+    /// What reflects it; none where all is diffuse or not asked.
+    pub lobe: Option<Lobe<L>>,
 }
 
 /// The random numbers of a light sample.
@@ -122,6 +125,11 @@ impl Lights {
     /// Whether there is a choice to make.
     pub fn are_several(&self) -> bool {
         self.count + usize::from(self.background.is_some()) > 1
+    }
+
+    /// Whether the choice asks for [`Receiver::lobe`].
+    pub fn heed_lobes(&self) -> bool {
+        self.are_several() && self.selection.is_without_tree()
     }
 
     /// Whether the background is a picture, of which a cell is chosen.

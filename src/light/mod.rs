@@ -12,6 +12,7 @@ mod bound;
 mod choice;
 pub mod emission;
 pub mod image_background;
+mod lobe;
 mod selection;
 mod source;
 #[cfg(test)]
@@ -23,4 +24,5 @@ pub use self::{
     choice::{LightCoordinates, LightSample, Lights, Receiver},
     emission::{Emission, Emitters, Side},
     image_background::ImageBackground,
+    lobe::Lobe,
 };

@@ -66,6 +66,16 @@ impl Selection {
         }
     }
 
+    pub fn is_without_tree(&self) -> bool {
+        self.tree.is_empty()
+    }
+
+    /// What the background weighs.
+    #[inline(always)]
+    fn sky<L: Lanes>(&self, l: L, at: &Receiver<L>) -> F<L> {
+        at.lobe.map_or(l.f(self.sky), |lobe| lobe.of_sky() * self.sky)
+    }
+
     /// A light or [`MISS`] for the background, and the probability of this choice.
     #[simd]
     pub fn choose<L: Lanes>(&self, l: L, at: &Receiver<L>, u: &LightCoordinates<L>) -> (U<L>, F<L>) {
@@ -87,14 +97,15 @@ impl Selection {
     #[inline(always)]
     fn choose_candidate<L: Lanes, const MOST: usize>(&self, l: L, at: &Receiver<L>, u: F<L>) -> Chosen<L> {
         let mut weights = [l.f(0.0); MOST];
-        let mut total = l.f(self.sky);
+        let sky = self.sky(l, at);
+        let mut total = sky;
         for (i, weight) in weights.iter_mut().enumerate().take(self.words.len()) {
             *weight = self.weight(l, at, i);
             total = total + *weight;
         }
         // The last candidate whose share begins at or before the chosen place.
         let place = u * total;
-        let (mut word, mut chosen, mut begin, mut end) = (l.u(MISS), l.f(self.sky), l.f(0.0), l.f(self.sky));
+        let (mut word, mut chosen, mut begin, mut end) = (l.u(MISS), sky, l.f(0.0), sky);
         for (weight, candidate) in weights.iter().zip(&self.words) {
             let here = place.ge(end) & weight.above(0.0);
             word = here.pick(l.u(*candidate), word);
@@ -111,7 +122,8 @@ impl Selection {
     pub fn probability<L: Lanes>(&self, l: L, at: &Receiver<L>, emits: M<L>, target: U<L>) -> F<L> {
         let light = emits.pick(target, l.u(0));
         let (candidate, trail) = if self.tree.is_empty() { (light, light) } else { self.tree.place(l, light) };
-        let (mut total, mut chosen, mut word) = (l.f(self.sky), l.f(self.sky), l.u(0));
+        let sky = self.sky(l, at);
+        let (mut total, mut chosen, mut word) = (sky, sky, l.u(0));
         for (i, word_here) in self.words.iter().enumerate() {
             let weight = self.weight(l, at, i);
             let here = emits & candidate.is(i as u32);

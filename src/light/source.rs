@@ -41,15 +41,15 @@ impl Source {
         Source { extent, front: bound.front, back: bound.back }
     }
 
-    /// A bound on the irradiance from this light, over π: E ≤ L A cos θ_i cos θ_e/d².
+    /// A bound on the irradiance from this light, over π: E ≤ L A cos θ_i cos θ_e/d². Of lobes, what they may reflect of it.
     #[inline(always)]
     pub fn weight<L: Lanes>(&self, l: L, at: &Receiver<L>) -> F<L> {
         match &self.extent {
             Extent::Sphere(sphere) => {
                 let cone = sphere.seen_from(l, at.p);
                 let light = cone.outside.pick(l.f(self.front), l.f(self.back));
-                let facing = (!cone.outside).pick(l.f(1.0), facing(l, at, cone.axis, cone.sin_squared.sqrt()));
-                light * cone.sin_squared * facing
+                let facing = facing(l, at, cone.axis, cone.sin_squared.sqrt());
+                light * cone.sin_squared * cone.outside.pick(reflected(at, cone.axis, cone.sin_squared, facing), l.f(1.0))
             }
             Extent::Within { center, radius_squared, size, normal } => {
                 let way = -(at.p - *center);
@@ -57,7 +57,7 @@ impl Source {
                 let near = !distance_squared.above(*radius_squared);
                 let axis = way * (1.0 / distance_squared.sqrt());
                 let sin = (l.f(*radius_squared) / distance_squared).sqrt();
-                let mut light = near.pick(l.f(1.0), facing(l, at, axis, sin));
+                let mut light = near.pick(l.f(1.0), reflected(at, axis, sin * sin, facing(l, at, axis, sin)));
                 match normal {
                     Some(normal) => {
                         let cos = -axis.dot_with(*normal);
@@ -70,6 +70,12 @@ impl Source {
             }
         }
     }
+}
+
+/// What of the light is reflected, over what a diffuse surface would reflect of it if it stood overhead.
+#[inline(always)]
+fn reflected<L: Lanes>(at: &Receiver<L>, axis: V<L>, sin_squared: F<L>, facing: F<L>) -> F<L> {
+    at.lobe.map_or(facing, |lobe| lobe.reflected(at.n, axis, sin_squared, facing))
 }
 
 /// A bound on the cosine at the receiver of all directions within the angle of sine `sin` around `axis`.

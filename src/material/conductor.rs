@@ -18,7 +18,7 @@ use crate::math::{F, Lanes, M, Pick, V};
 pub struct Conductor<L: Lanes> {
     l: L,
     fresnel: ConductorFresnel<L>,
-    alpha: F<L>,
+    pub alpha: F<L>,
     /// Lanes that give the lost light back.
     compensated: M<L>,
     loss: Albedo<'static, L>,

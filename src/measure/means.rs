@@ -67,7 +67,7 @@ pub fn picture(scene: &Scene, settings: RenderSettings, measure: Measure, spp: u
     for y in (0..height).step_by(TILE as usize) {
         for x in (0..width).step_by(TILE as usize) {
             let size = [TILE.min(width - x), TILE.min(height - y)];
-            let work = |sample| Work { scene, rays: &rays, settings: &settings, origin: [x, y], size, sample };
+            let work = |sample| Work::tile(scene, &rays, &settings, [x, y], size, sample);
             for (i, mean) in tile(&work, size, measure, spp).into_iter().enumerate() {
                 let (row, column) = (i as u32 / size[0], i as u32 % size[0]);
                 pixels[((y + row) * width + x + column) as usize] = mean;

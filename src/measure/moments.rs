@@ -14,7 +14,7 @@ pub fn samples(scene: &Scene, settings: RenderSettings, spp: u32) -> Vec<Vec<f64
     let by_sample: Vec<Vec<f64>> = (0..spp)
         .into_par_iter()
         .map_init(Batch::default, |batch, sample| {
-            let work = Work { scene, rays: &rays, settings: &settings, origin: [0, 0], size: [TILE, TILE], sample };
+            let work = Work::tile(scene, &rays, &settings, [0, 0], [TILE, TILE], sample);
             trace(SimdLevel::best(), &work, batch, &|| false).expect("nobody interrupts");
             batch.radiance().iter().map(|radiance| f64::from(radiance[0])).collect()
         })

@@ -3,10 +3,13 @@
 //! For independent samples the sample variance says it all. Stratified and Sobol samples are better than it says, by how much shows
 //! only over the whole picture. Let V(N) be the squared error of the mean of N samples. Where the second half of the samples is as
 //! good as the first, E|I_N − I_{N/2}|² = V(N/2) − V(N): see [`remaining`] for how V(N) follows from these differences.
-use super::film::{Estimate, Film};
+use super::{
+    film::Film,
+    tile::{Block, Estimate},
+};
 use crate::measure::REL_MSE_FLOOR;
 
-/// Sums over the pixels and channels of a tile, each divided by the square of the radiance as relMSE has it.
+/// Sums over the pixels and channels of a block, each divided by the square of the radiance as relMSE has it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Doubling {
     /// Of the squared difference of the means of N and of N/2 samples.
@@ -15,60 +18,57 @@ pub(super) struct Doubling {
     variance: f64,
 }
 
-/// Radiance is smoothed over squares of so many pixels where noise hides it.
-const SIDE: usize = 8;
 /// At least this share of the last move remains, as far as is believed.
 const LEAST: f64 = 0.15;
 
 impl Doubling {
-    /// `estimates` are those of a tile, row by row, `before` the means that they had at half as many samples.
-    pub fn new(estimates: &[Estimate], before: &[[f32; 3]], width: usize) -> Doubling {
+    /// `estimates` are those of the pixels of a block, `before` the means that they had at half as many samples.
+    pub fn new(estimates: &[Estimate], before: &[[f32; 3]]) -> Doubling {
         let mut doubling = Doubling::default();
-        for top in (0..estimates.len() / width).step_by(SIDE) {
-            for left in (0..width).step_by(SIDE) {
-                let rows = top..(top + SIDE).min(estimates.len() / width);
-                let place = |row: usize| row * width + left..row * width + (left + SIDE).min(width);
-                let pixels: Vec<usize> = rows.flat_map(place).collect();
-                (0..3).for_each(|channel| doubling.add_square(&pixels, channel, estimates, before));
-            }
-        }
+        (0..3).for_each(|channel| doubling.add(channel, estimates, before));
         doubling
     }
 
-    /// One channel of a square of pixels.
-    fn add_square(&mut self, pixels: &[usize], channel: usize, estimates: &[Estimate], before: &[[f32; 3]]) {
-        let mean = |i: usize| estimates[i].mean[channel];
-        let variance = |i: usize| estimates[i].variance_of_mean.map_or(0.0, |variance| variance[channel]);
-        let count = pixels.len() as f64;
-        let level = pixels.iter().map(|i| mean(*i)).sum::<f64>() / count;
-        let noise = pixels.iter().map(|i| variance(*i)).sum::<f64>() / count;
-        let spread = pixels.iter().map(|i| (mean(*i) - level).powi(2)).sum::<f64>() / count;
-        // How much the radiance itself varies over the square.
+    /// Adds one channel. Radiance is smoothed over the block where noise hides it.
+    fn add(&mut self, channel: usize, estimates: &[Estimate], before: &[[f32; 3]]) {
+        let mean = |estimate: &Estimate| estimate.mean[channel];
+        let variance = |estimate: &Estimate| estimate.variance_of_mean.map_or(0.0, |variance| variance[channel]);
+        let count = estimates.len() as f64;
+        let level = estimates.iter().map(mean).sum::<f64>() / count;
+        let noise = estimates.iter().map(variance).sum::<f64>() / count;
+        let spread = estimates.iter().map(|estimate| (mean(estimate) - level).powi(2)).sum::<f64>() / count;
+        // How much the radiance itself varies over the block.
         let signal = (spread - noise).max(0.0);
-        for &i in pixels {
+        for (estimate, before) in estimates.iter().zip(before) {
             // A pixel far brighter than its neighbours by one lucky sample must not be divided by that sample's square: its
-            // radiance is taken for the likelier one of its own mean and of the square's (W. James and C. Stein 1961).
-            let trust = if variance(i) > 0.0 { signal / (signal + variance(i)) } else { 1.0 };
-            let radiance = level + (mean(i) - level) * trust;
+            // radiance is taken for the likelier one of its own mean and of the block's (W. James and C. Stein 1961).
+            let (mean, variance) = (mean(estimate), variance(estimate));
+            let trust = if variance > 0.0 { signal / (signal + variance) } else { 1.0 };
+            let radiance = level + (mean - level) * trust;
             let scale = 1.0 / (radiance * radiance + REL_MSE_FLOOR);
-            self.moved += (mean(i) - f64::from(before[i][channel])).powi(2) * scale;
-            self.variance += variance(i) * scale;
+            self.moved += (mean - f64::from(before[channel])).powi(2) * scale;
+            self.variance += variance * scale;
         }
     }
 }
 
 /// The relMSE that a film of this many samples is expected to have; `None` before the second sample.
 pub(super) fn rel_mse_estimate(film: &Film) -> Option<f64> {
-    let spp = film.spp();
-    let last = spp.checked_ilog2().filter(|k| *k > 0)?;
-    let values = 3.0 * film.resolution.map(f64::from).iter().product::<f64>();
-    let at = |k: u32| {
-        let sum = |f: fn(&Doubling) -> f64| film.tiles.iter().map(|tile| f(&tile.doublings[k as usize - 1])).sum::<f64>();
-        (sum(|doubling| doubling.moved), sum(|doubling| doubling.variance))
+    if film.spp() < 2 {
+        return None;
+    }
+    let blocks = || film.tiles.iter().flat_map(|tile| &tile.blocks);
+    let back = |steps: usize| {
+        let doubled = blocks().filter(|block| block.spp.ilog2() as usize > steps).map(|block| block.doublings[steps]);
+        doubled.fold((0.0, 0.0), |(moved, variance), doubling| (moved + doubling.moved, variance + doubling.variance))
     };
+    let doublings: Vec<_> = (0..3).rev().map(back).filter(|(_, variance)| *variance > 0.0).collect();
+    let Some((_, last)) = doublings.last() else { return Some(0.0) };
     // Between doublings nothing is known of Sobol samples but that they are no worse than independent ones.
-    let since = f64::from(1u32 << last) / f64::from(spp);
-    Some(remaining(&(1..=last).map(at).collect::<Vec<_>>()) / values * since)
+    let since = |block: &Block| f64::from(1u32 << block.spp.ilog2()) / f64::from(block.spp);
+    let now: f64 = blocks().map(|block| block.doublings[0].variance * since(block)).sum();
+    let values = 3.0 * film.resolution.map(f64::from).iter().product::<f64>();
+    Some(remaining(&doublings) * now / last / values)
 }
 
 /// V(N) from the moves mₖ = V(2ᵏ⁻¹) − V(2ᵏ) and the sample variances at the doublings so far: the geometric mean of two laws, of which

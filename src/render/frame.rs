@@ -1,10 +1,7 @@
 //! A frame: the picture at one moment, as others may look at it while the render goes on.
 use rayon::prelude::*;
 
-use super::{
-    doubling::rel_mse_estimate,
-    film::{Estimate, Film},
-};
+use super::{doubling::rel_mse_estimate, film::Film, tile::Estimate};
 use crate::{integrator::TILE, math::colour::luminance};
 
 /// Linear radiance, row by row from the top left. Immutable once published.

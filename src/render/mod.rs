@@ -6,6 +6,7 @@
 //!   Frame, Status ◀── Mutex<Published> ──  one frame when it is due     ◀── sums, counts
 //! ```
 //! The window says what it wants and never waits; see [`worker`].
+mod adaptive;
 pub mod display;
 mod doubling;
 pub mod film;
@@ -15,6 +16,7 @@ pub mod pass;
 mod session;
 pub mod settings_text;
 pub mod sharing;
+pub mod tile;
 pub mod tone;
 pub mod truth;
 pub mod worker;

@@ -6,9 +6,9 @@ use std::{
 
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder, prelude::*};
 
-use super::film::{Film, Tile};
+use super::{adaptive, film::Film, tile::Tile};
 use crate::{
-    integrator::{Batch, Interrupted, Work, replay, trace},
+    integrator::{Batch, Blocks, Interrupted, Segments, Work, replay, trace, trace_counting},
     math::SimdLevel,
     scene::{CameraRays, RenderSettings, Reuse, Scene},
 };
@@ -77,12 +77,34 @@ impl Threads {
         self.pool.install(task)
     }
 
-    /// Brings every tile to `spp` samples, or stops between two bounces when `interrupted` says so. A tile that was interrupted
+    /// Traces a tile, on a thread of the pool: the radiance of its pixels, and how long paths are.
+    pub(super) fn trace_counting<T>(
+        &self,
+        work: &Work,
+        interrupted: &dyn Fn() -> bool,
+        result: impl FnOnce(&[[f32; 4]], Segments) -> T,
+    ) -> Result<T, Interrupted> {
+        let thread = rayon::current_thread_index().unwrap_or(0);
+        let mut batch = self.batches[thread].lock().unwrap_or_else(PoisonError::into_inner);
+        trace_counting(self.level, work, &mut batch, interrupted).map(|segments| result(batch.radiance(), segments))
+    }
+
+    /// Brings a film to `spp` samples a pixel, or stops between two bounces when `interrupted` says so. A tile that was interrupted
     /// goes on later as if nothing had happened.
     pub fn pass(&self, job: PassJob, film: &mut Film, spp: u32, interrupted: &(dyn Fn() -> bool + Sync)) -> PassCount {
+        if spp > adaptive::UNIFORM {
+            // A pilot that fails is given up: the samples of the picture will fail as well, and it is known which.
+            let spread = catch_unwind(AssertUnwindSafe(|| adaptive::spread(self, job, film, interrupted)));
+            if matches!(spread, Ok(Err(Interrupted))) {
+                return PassCount::default();
+            }
+        }
         let resolution = film.resolution;
+        let mut tiles: Vec<&mut Tile> = film.tiles.iter_mut().filter(|tile| tile.spp < spp).collect();
+        // What takes long begins first, or else one thread would be left with it in the end.
+        tiles.sort_by_cached_key(|tile| std::cmp::Reverse(tile.distance_to(spp)));
         self.pool.install(|| {
-            let tiles = film.tiles.par_iter_mut();
+            let tiles = tiles.into_par_iter().with_max_len(1);
             tiles.map(|tile| self.tile_to(job, resolution, tile, spp, interrupted)).reduce(PassCount::default, PassCount::merge)
         })
     }
@@ -101,13 +123,22 @@ impl Threads {
         (batch.rays, batch.cut_paths) = (0, 0);
         while tile.spp < spp && !interrupted() {
             let PassJob { scene, rays, settings } = job;
-            let work = Work { scene, rays, settings, origin: tile.origin, size: tile.size, sample: tile.spp };
+            let blocks = tile.is_adaptive().then(|| tile.missing(spp));
+            if blocks.as_ref().is_some_and(Blocks::is_empty) {
+                tile.spp = spp;
+                break;
+            }
+            let whole = Work::tile(scene, rays, settings, tile.origin, tile.size, tile.spp);
+            let work = Work { blocks: blocks.as_ref(), ..whole };
             let traced = catch_unwind(AssertUnwindSafe(|| trace(self.level, &work, &mut batch, interrupted)));
             match traced {
                 Ok(Ok(())) => {
                     let sample = tile.spp;
-                    let invalid = tile.add(batch.radiance()).map(|pixel| SampleId { pixel, sample });
-                    count.invalid = count.invalid.or(invalid);
+                    let invalid = match &blocks {
+                        Some(blocks) => tile.add_blocks(blocks, batch.radiance()),
+                        None => tile.add(batch.radiance()).map(|pixel| (pixel, sample)),
+                    };
+                    count.invalid = count.invalid.or(invalid.map(|(pixel, sample)| SampleId { pixel, sample }));
                 }
                 Ok(Err(Interrupted)) => break,
                 Err(panic) => {
@@ -138,17 +169,17 @@ impl PassCount {
     }
 }
 
-/// The first pixel of the tile whose sample panics when it is replayed alone.
+/// The first sample of the work that panics when it is replayed alone.
 fn find_failure(work: &Work) -> Option<SampleId> {
-    let [x, y] = work.origin;
-    let [width, height] = work.size;
-    let pixels = (y..y + height).flat_map(|y| (x..x + width).map(move |x| [x, y]));
+    let samples = |([left, top], [width, height], sample): ([u32; 2], [u32; 2], u32)| {
+        let pixels = (top..top + height).flat_map(move |y| (left..left + width).map(move |x| [x, y]));
+        pixels.map(move |pixel| SampleId { pixel, sample })
+    };
     // Paths that are shared would be those of the whole tile.
     let settings = RenderSettings { reuse: Reuse::Off, ..*work.settings };
-    let fails = |pixel: &[u32; 2]| {
-        catch_unwind(AssertUnwindSafe(|| replay(work.scene, work.rays, &settings, *pixel, work.sample))).is_err()
-    };
-    { pixels }.find(fails).map(|pixel| SampleId { pixel, sample: work.sample })
+    let fails =
+        |at: &SampleId| catch_unwind(AssertUnwindSafe(|| replay(work.scene, work.rays, &settings, at.pixel, at.sample))).is_err();
+    work.parts().into_iter().flat_map(samples).find(fails)
 }
 
 /// What a panic said.

@@ -223,6 +223,7 @@ impl Session {
             elapsed: self.elapsed,
             rel_mse_estimate: self.rel_mse_estimate,
             shares: self.shares,
+            adapts: self.film.is_adaptive(),
             invalid_samples: self.film.invalid_samples(),
             first_invalid: self.count.invalid,
             cut_paths: self.count.cut_paths,

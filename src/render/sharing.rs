@@ -3,7 +3,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use rayon::prelude::*;
 
-use super::film::{Estimate, Tile};
+use super::tile::{Estimate, Tile};
 use crate::{
     integrator::{Batch, TILE, Work, trace},
     math::SimdLevel,
@@ -62,7 +62,7 @@ fn pays(scene: &Scene, estimator: Estimator) -> bool {
 fn estimates(scene: &Scene, rays: &CameraRays, settings: RenderSettings, mut tile: Tile) -> Vec<Estimate> {
     let mut batch = Batch::default();
     for sample in 0..SPP {
-        let work = Work { scene, rays, settings: &settings, origin: tile.origin, size: tile.size, sample };
+        let work = Work::tile(scene, rays, &settings, tile.origin, tile.size, sample);
         if trace(SimdLevel::best(), &work, &mut batch, &|| false).is_ok() {
             tile.add(batch.radiance());
         }

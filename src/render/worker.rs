@@ -72,6 +72,8 @@ pub struct Status {
     pub rel_mse_estimate: Option<f64>,
     /// Pixels share what their paths find.
     pub shares: bool,
+    /// Samples are spread by noise.
+    pub adapts: bool,
     /// Samples dropped because they were not finite or negative.
     pub invalid_samples: u64,
     pub first_invalid: Option<SampleId>,

@@ -6,7 +6,9 @@
 use serde::{Deserialize, Serialize};
 
 use super::{
-    SAMPLERS, blue_noise,
+    SAMPLERS,
+    bits::reverse,
+    blue_noise,
     hash::{GOLDEN, hash, hash_one},
     independent, sobol, stratified,
 };
@@ -80,7 +82,7 @@ impl Dimension {
     }
 }
 
-/// The coordinates of one sample index in some pixels, one pixel a lane.
+/// The coordinates of a sample of some pixels, one pixel a lane.
 #[derive(Clone, Copy)]
 pub struct Stream<L: Lanes> {
     sampler: Sampler,
@@ -88,17 +90,19 @@ pub struct Stream<L: Lanes> {
     pixel_key: U<L>,
     /// A hash of the seed.
     pub(super) salt: u32,
-    index: u32,
+    index: U<L>,
+    /// The index with its bits in reverse order.
+    reversed: U<L>,
 }
 
 impl<L: Lanes> Stream<L> {
     /// `pixel` packs y·2¹⁶ + x, so that a pixel keeps its numbers when the resolution changes.
     #[inline(always)]
-    pub fn new(sampler: Sampler, seed: u32, pixel: U<L>, index: u32) -> Self {
+    pub fn new(sampler: Sampler, seed: u32, pixel: U<L>, index: U<L>) -> Self {
         // A factor of its own for every seed: by addition alone one seed's noise would be another's, moved aside.
         let salt = hash_one(seed ^ GOLDEN);
         let pixel_key = hash(pixel * (hash_one(salt) | 1) + salt);
-        Stream { sampler, pixel, pixel_key, salt, index }
+        Stream { sampler, pixel, pixel_key, salt, index, reversed: reverse(index) }
     }
 
     /// One coordinate, in (0, 1).
@@ -126,13 +130,13 @@ impl<L: Lanes> Stream<L> {
     /// The first sample of the same pixels.
     #[inline(always)]
     pub(super) fn first(&self) -> Self {
-        Stream { index: 0, ..*self }
+        Stream { index: self.splat(0), reversed: self.splat(0), ..*self }
     }
 
     /// A hash of pixel and sample; for one pixel no two samples share it.
     #[inline(always)]
     pub(super) fn sample_key(&self) -> U<L> {
-        hash(self.pixel_key + self.index.wrapping_mul(GOLDEN))
+        hash(self.pixel_key + self.index * GOLDEN)
     }
 
     /// A hash of pixel and dimension.
@@ -144,7 +148,7 @@ impl<L: Lanes> Stream<L> {
 
     #[inline(always)]
     pub(super) fn reversed_index(&self) -> U<L> {
-        self.splat(self.index.reverse_bits())
+        self.reversed
     }
 
     #[inline(always)]

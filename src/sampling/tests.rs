@@ -8,7 +8,7 @@ use crate::math::{F, One, U, colour};
 const SIGNIFICANCE: f64 = 1e-4;
 
 fn stream(sampler: Sampler, seed: u32, pixel: u32, index: u32) -> Stream<One> {
-    Stream::new(sampler, seed, U(pixel), index)
+    Stream::new(sampler, seed, U(pixel), U(index))
 }
 
 fn point(sampler: Sampler, pixel: u32, index: u32, dimension: Dimension) -> [f64; 2] {

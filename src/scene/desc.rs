@@ -214,6 +214,7 @@ pub struct RenderDesc {
     pub max_bounces: Option<u32>,
     pub roulette: Option<Spanned<super::roulette::RouletteDesc>>,
     pub reuse: Option<super::Reuse>,
+    pub adaptive: Option<bool>,
     pub spp: Option<Spanned<u32>>,
     pub seed: Option<u32>,
 }

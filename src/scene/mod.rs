@@ -123,6 +123,11 @@ impl Scene {
             && self.surfaces.stages.contains(&surface::Stage::Plain)
     }
 
+    /// Whether lights are chosen by what glossy surfaces reflect of them.
+    pub fn heeds_lobes(&self) -> bool {
+        self.lights.heed_lobes() && self.surfaces.stages.contains(&surface::Stage::Conductor)
+    }
+
     /// Whether something moves while the shutter is open.
     pub fn moves(&self) -> bool {
         self.shapes.move_in_time() || !self.camera_motion.0.is_empty()

@@ -13,6 +13,8 @@ pub struct RenderSettings {
     /// The highest number of reflections counted; 0 is emitted light only, `None` is no cap.
     pub max_bounces: Option<u32>,
     pub reuse: Reuse,
+    /// Whether pixels get more samples where a pilot found more noise. Not where they share paths.
+    pub adaptive: bool,
     pub seed: u32,
     /// A mistake that the validation must notice.
     #[cfg(test)]

@@ -48,6 +48,7 @@ impl Validation {
             roulette: Roulette::Off,
             max_bounces: None,
             reuse: Reuse::Off,
+            adaptive: false,
             seed: 29 + estimator as u32,
             #[cfg(test)]
             fault: self.fault,

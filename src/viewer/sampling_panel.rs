@@ -85,6 +85,14 @@ impl App {
                     });
                 },
             );
+            row(
+                ui,
+                "Adaptive",
+                "More samples where a pilot, whose own samples do not count, finds more noise. Not where pixels share paths.",
+                |ui, label| {
+                    ui.checkbox(&mut settings.adaptive, "").labelled_by(label);
+                },
+            );
             row(ui, "Roulette", "Ends paths at random and weights the survivors by 1/q: shorter paths, no bias.", |ui, label| {
                 roulette(ui, label, &mut settings.roulette);
             });

@@ -15,6 +15,8 @@ use noisefall::{
 
 const RESOLUTION: [u32; 2] = [75, 50];
 const SHARING: [Reuse; 2] = [Reuse::Off, Reuse::On];
+/// Enough for samples to be spread by noise.
+const SPP: u32 = 8;
 
 fn settings(sampler: Sampler, reuse: Reuse) -> RenderSettings {
     RenderSettings {
@@ -24,6 +26,7 @@ fn settings(sampler: Sampler, reuse: Reuse) -> RenderSettings {
         roulette: Roulette::BY_THROUGHPUT,
         max_bounces: None,
         reuse,
+        adaptive: true,
         seed: 5,
     }
 }
@@ -51,10 +54,10 @@ fn the_film_is_the_same_for_every_number_of_threads_and_every_simd_level() {
     let scene = built_in();
     for (entry, reuse) in SAMPLERS.iter().flat_map(|entry| SHARING.map(|reuse| (entry, reuse))) {
         let settings = settings(entry.sampler, reuse);
-        let reference = bits(&film(&scene, 1, SimdLevel::Scalar, &settings, 4));
+        let reference = bits(&film(&scene, 1, SimdLevel::Scalar, &settings, SPP));
         for level in SimdLevel::available() {
             for threads in [1, 2, 4] {
-                let bits = bits(&film(&scene, threads, level, &settings, 4));
+                let bits = bits(&film(&scene, threads, level, &settings, SPP));
                 assert!(bits == reference, "{}, {reuse:?}, {level:?}, {threads}", entry.name);
             }
         }
@@ -64,17 +67,19 @@ fn the_film_is_the_same_for_every_number_of_threads_and_every_simd_level() {
 #[test]
 fn an_interrupted_pass_goes_on_as_if_nothing_had_happened() {
     let scene = built_in();
-    let settings = settings(Sampler::Sobol, Reuse::On);
     let threads = Threads::new(2, SimdLevel::best()).expect("threads can be had");
     let rays = scene.rays(&camera(&scene));
-    let job = PassJob { scene: &scene, rays: &rays, settings: &settings };
-    let mut interrupted = Film::new(RESOLUTION);
-    let asked = AtomicU32::new(0);
-    while interrupted.spp() < 8 {
-        // Now and then, in the middle of a path.
-        threads.pass(job, &mut interrupted, 8, &|| asked.fetch_add(1, Ordering::Relaxed) % 37 == 36);
+    for reuse in SHARING {
+        let settings = settings(Sampler::Sobol, reuse);
+        let job = PassJob { scene: &scene, rays: &rays, settings: &settings };
+        let mut interrupted = Film::new(RESOLUTION);
+        let asked = AtomicU32::new(0);
+        while interrupted.spp() < SPP {
+            // Now and then, in the middle of a path.
+            threads.pass(job, &mut interrupted, SPP, &|| asked.fetch_add(1, Ordering::Relaxed) % 211 == 210);
+        }
+        assert!(bits(&interrupted) == bits(&film(&scene, 1, SimdLevel::best(), &settings, SPP)), "{reuse:?}");
     }
-    assert!(bits(&interrupted) == bits(&film(&scene, 1, SimdLevel::best(), &settings, 8)));
 }
 
 #[test]

@@ -25,6 +25,7 @@ fn settings(directions: Directions) -> RenderSettings {
         roulette: Roulette::Off,
         max_bounces: None,
         reuse: Reuse::Off,
+        adaptive: false,
         seed: 11,
     }
 }

@@ -4,8 +4,9 @@ use noisefall::{
     math::SimdLevel,
     measure::exact::{Lamp, lamberts_ball, mean_over_pixel},
     render::{
-        film::{Estimate, Film},
+        film::Film,
         pass::{PassJob, Threads},
+        tile::Estimate,
     },
     sampling::{Directions, Sampler},
     scene::{Camera, Estimator, RenderSettings, Reuse, Roulette, Scene, load},
@@ -34,6 +35,7 @@ fn render(scene: &Scene, directions: Directions, spp: u32) -> Vec<Estimate> {
         roulette: Roulette::BY_THROUGHPUT,
         max_bounces: None,
         reuse: Reuse::Off,
+        adaptive: true,
         seed: 3,
     };
     let mut film = Film::new(camera.resolution);

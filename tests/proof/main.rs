@@ -2,6 +2,7 @@
 //!
 //! Every statement is a z-test at 4σ over seeded samples, or exact where the answer is. σ comes from the closed form where there
 //! is one, else from the samples.
+mod adaptive;
 mod determinism;
 mod enclosures;
 mod estimators;

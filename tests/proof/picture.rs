@@ -22,6 +22,7 @@ pub fn settings(estimator: Estimator) -> RenderSettings {
         roulette: Roulette::BY_THROUGHPUT,
         max_bounces: None,
         reuse: Reuse::Off,
+        adaptive: false,
         // Estimators that are compared with each other share no random numbers.
         seed: 17 + estimator as u32,
     }

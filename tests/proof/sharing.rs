@@ -13,7 +13,7 @@ use crate::{
 
 /// A room with something of everything that is shared or must not be: walls of many colours, one of them one-sided, mirror, glass,
 /// metal and plastic, a lamp that reflects, a mesh, a texture, a sky behind an opening.
-const ROOM: &str = r#"
+pub const ROOM: &str = r#"
 [camera]
 eye = [0.0, 1.0, 3.9]
 look_at = [0.0, 0.9, 0.0]
@@ -70,7 +70,7 @@ material = "white"
 /// The radiance of every pixel of one tile for one sample.
 fn tile(scene: &Scene, settings: RenderSettings, size: u32, sample: u32) -> Vec<[f32; 4]> {
     let rays = scene.rays(&Camera { resolution: [size; 2], ..scene.camera });
-    let work = Work { scene, rays: &rays, settings: &settings, origin: [0, 0], size: [size; 2], sample };
+    let work = Work::tile(scene, &rays, &settings, [0, 0], [size; 2], sample);
     let mut batch = Batch::default();
     trace(SimdLevel::best(), &work, &mut batch, &|| false).expect("nobody interrupts");
     (0..size * size).map(|i| batch.radiance()[(i / size * TILE + i % size) as usize]).collect()

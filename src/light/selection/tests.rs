@@ -5,7 +5,7 @@ use statrs::distribution::{ChiSquared, ContinuousCDF};
 use super::{FEW, Selection};
 use crate::{
     geometry::{MISS, Motion, Outline, Place, Shape, Shapes},
-    light::{Emission, Emitters, LightCoordinates, Receiver, Side},
+    light::{Emission, Emitters, LightCoordinates, Lobe, Receiver, Side},
     math::{F, Lanes, M, One, Pick, SimdLevel, U, V},
     sampling::hash::hash_one,
 };
@@ -131,7 +131,9 @@ fn receiver(random: &mut Random, set: &Set) -> Receiver<One> {
         3 => center + random.direction() * radius * random.next(),
         _ => random.direction() * 10f64.powf(random.between(1.0, 7.0)),
     };
-    Receiver { p: vector(p), n: vector(random.direction()), transmits: M(random.next() < 0.3) }
+    let alpha = if random.next() < 0.4 { 0.0 } else { random.between(1e-3, 1.0) };
+    let lobe = Some(Lobe { wo: vector(random.direction()), alpha: F(alpha as f32) });
+    Receiver { p: vector(p), n: vector(random.direction()), transmits: M(random.next() < 0.3), lobe }
 }
 
 fn coordinates(random: &mut Random) -> LightCoordinates<One> {
@@ -174,6 +176,10 @@ fn a_choice_has_its_probability_at_every_level() {
 
 type Case = (Receiver<One>, LightCoordinates<One>);
 
+fn lobe(case: &Case) -> Lobe<One> {
+    case.0.lobe.expect("every receiver has one")
+}
+
 fn all_same<L: Lanes>(l: L, selection: &Selection, cases: &[Case], one: &[(U<One>, F<One>)]) {
     for (cases, one) in cases.chunks(L::N).zip(one.chunks(L::N)) {
         let real = |get: &dyn Fn(&Case) -> f32| l.load(&cases.iter().map(get).collect::<Vec<_>>());
@@ -181,6 +187,10 @@ fn all_same<L: Lanes>(l: L, selection: &Selection, cases: &[Case], one: &[(U<One
             p: V { x: real(&|c| c.0.p.x.0), y: real(&|c| c.0.p.y.0), z: real(&|c| c.0.p.z.0) },
             n: V { x: real(&|c| c.0.n.x.0), y: real(&|c| c.0.n.y.0), z: real(&|c| c.0.n.z.0) },
             transmits: real(&|c| f32::from(u8::from(c.0.transmits.0))).above(0.5),
+            lobe: Some(Lobe {
+                wo: V { x: real(&|c| lobe(c).wo.x.0), y: real(&|c| lobe(c).wo.y.0), z: real(&|c| lobe(c).wo.z.0) },
+                alpha: real(&|c| lobe(c).alpha.0),
+            }),
         };
         let place = (real(&|c| c.1.place.0.0), real(&|c| c.1.place.1.0));
         let (target, pmf) = selection.choose(l, &at, &LightCoordinates { choice: real(&|c| c.1.choice.0), cell: place, place });

@@ -30,6 +30,7 @@ pub fn settings(check: &Checker, desc: &RenderDesc) -> Result<(RenderSettings, O
         roulette,
         max_bounces: desc.max_bounces,
         reuse: desc.reuse.unwrap_or_default(),
+        adaptive: desc.adaptive.unwrap_or_default(),
         seed: desc.seed.unwrap_or(0),
         #[cfg(test)]
         fault: None,

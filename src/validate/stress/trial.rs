@@ -95,7 +95,7 @@ fn render(scene: &Scene, settings: &RenderSettings, rays: &CameraRays, draft: &D
         _ => 1.0,
     };
     for sample in 0..draft.spp {
-        let work = Work { scene, rays, settings, origin: [0, 0], size, sample };
+        let work = Work::tile(scene, rays, settings, [0, 0], size, sample);
         BATCH.with_borrow_mut(|batch| {
             trace(SimdLevel::best(), &work, batch, &|| start.elapsed() > PATIENCE).ok()?;
             for slot in (0..size[1]).flat_map(|row| (0..size[0]).map(move |column| row * TILE + column)) {

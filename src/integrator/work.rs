@@ -1,0 +1,193 @@
+//! What a batch computes: one sample of each pixel of a tile, or of some blocks of pixels.
+use super::reuse;
+use crate::{
+    math::{F, Lanes, M, U},
+    sampling::{Dimension, Stream},
+    scene::{CameraRays, Estimator, RenderSettings, Scene},
+};
+
+/// A tile is at most this many pixels wide and high.
+pub const TILE: u32 = 32;
+/// A batch has a slot for every pixel of a tile.
+pub(super) const SLOTS: usize = (TILE * TILE) as usize;
+/// A block is at most this many pixels wide and high.
+pub const BLOCK: u32 = 8;
+/// So many blocks make up a tile, and so many fit into a batch.
+pub const BLOCKS: usize = SLOTS / (BLOCK * BLOCK) as usize;
+
+/// What a batch computes: sample number `sample` of the pixels of one tile, or else a sample of the pixels of some blocks.
+#[derive(Clone, Copy)]
+pub struct Work<'a> {
+    pub scene: &'a Scene,
+    pub rays: &'a CameraRays,
+    pub settings: &'a RenderSettings,
+    /// Pixel coordinates of the tile's upper left corner.
+    pub origin: [u32; 2],
+    /// Width and height of the tile, at most [`TILE`].
+    pub size: [u32; 2],
+    pub sample: u32,
+    /// The blocks of the tile to compute in its place. Not where pixels share paths, which takes whole tiles.
+    pub blocks: Option<&'a Blocks>,
+}
+
+/// Up to [`BLOCKS`] blocks, each at a sample number of its own.
+#[derive(Default)]
+pub struct Blocks {
+    /// Bits of a row: the pixel in the upper left corner, y·2¹⁶ + x, and the sample number.
+    rows: [[f32; 4]; BLOCKS],
+    count: usize,
+}
+
+impl Blocks {
+    /// Adds the block with its upper left corner at this pixel.
+    pub fn push(&mut self, [x, y]: [u32; 2], sample: u32) {
+        self.rows[self.count] = [(y << 16) + x, sample, 0, 0].map(f32::from_bits);
+        self.count += 1;
+    }
+}
+
+impl Blocks {
+    pub fn is_empty(&self) -> bool {
+        self.count == 0
+    }
+
+    pub fn is_full(&self) -> bool {
+        self.count == BLOCKS
+    }
+
+    /// Corners and sample numbers.
+    pub fn iter(&self) -> impl Iterator<Item = ([u32; 2], u32)> {
+        self.rows[..self.count].iter().map(|[corner, sample, ..]| {
+            let corner = corner.to_bits();
+            ([corner & 0xffff, corner >> 16], sample.to_bits())
+        })
+    }
+}
+
+impl<'a> Work<'a> {
+    /// A sample of a whole tile.
+    pub fn tile(
+        scene: &'a Scene,
+        rays: &'a CameraRays,
+        settings: &'a RenderSettings,
+        origin: [u32; 2],
+        size: [u32; 2],
+        sample: u32,
+    ) -> Self {
+        Work { scene, rays, settings, origin, size, sample, blocks: None }
+    }
+
+    /// The corners of what is computed, its width and height, and the sample number.
+    pub fn parts(&self) -> Vec<([u32; 2], [u32; 2], u32)> {
+        let Some(blocks) = self.blocks else { return vec![(self.origin, self.size, self.sample)] };
+        let end = [0, 1].map(|axis| self.origin[axis] + self.size[axis]);
+        let size = |corner: [u32; 2]| [0, 1].map(|axis| BLOCK.min(end[axis] - corner[axis]));
+        blocks.iter().map(|(corner, sample)| (corner, size(corner), sample)).collect()
+    }
+
+    /// The slots to fill, from 0 on.
+    pub(super) fn slots(&self) -> u32 {
+        match self.blocks {
+            Some(blocks) => blocks.count as u32 * BLOCK * BLOCK,
+            None if self.shares() => SLOTS as u32,
+            None => self.size[1] * TILE,
+        }
+    }
+
+    /// The pixels of slots, packed as the sampler wants them: y·2¹⁶ + x.
+    #[inline(always)]
+    pub(super) fn pixel<L: Lanes>(&self, l: L, slot: U<L>) -> U<L> {
+        if let Some(blocks) = self.blocks {
+            let [corner, _] = blocks.rows(l, slot);
+            return corner + in_block(slot);
+        }
+        let (x, y) = self.place(slot);
+        ((y + self.origin[1]) << 16) + (x + self.origin[0])
+    }
+
+    /// The slots whose `pixel` lies inside the tile.
+    #[inline(always)]
+    pub(super) fn inside<L: Lanes>(&self, pixel: U<L>) -> M<L> {
+        let [right, bottom] = [0, 1].map(|axis| self.origin[axis] + self.size[axis]);
+        (pixel & 0xffff).below(right) & (pixel >> 16).below(bottom)
+    }
+
+    /// The random numbers of slots.
+    #[inline(always)]
+    pub(super) fn stream<L: Lanes>(&self, l: L, slot: U<L>) -> Stream<L> {
+        let RenderSettings { sampler, seed, .. } = *self.settings;
+        if let Some(blocks) = self.blocks {
+            let [corner, sample] = blocks.rows(l, slot);
+            return Stream::new(sampler, seed, corner + in_block(slot), sample);
+        }
+        Stream::new(sampler, seed, self.pixel(l, slot), l.u(self.sample))
+    }
+
+    /// The same sample of all pixels of the tile that this begins in.
+    pub(super) fn whole_tile(self) -> Self {
+        let origin = self.origin.map(|x| x / TILE * TILE);
+        let size = [0, 1].map(|axis| TILE.min(self.rays.resolution[axis] - origin[axis]));
+        Work { origin, size, ..self }
+    }
+
+    /// Column and row of slots within their tile.
+    #[inline(always)]
+    pub(super) fn place<L: Lanes>(&self, slot: U<L>) -> (U<L>, U<L>) {
+        let slot = slot & (SLOTS as u32 - 1);
+        if self.shares() {
+            return reuse::place(slot, self.sample);
+        }
+        (slot & (TILE - 1), slot >> TILE.trailing_zeros())
+    }
+
+    /// Whether pixels share what their paths find.
+    #[inline(always)]
+    pub(super) fn shares(&self) -> bool {
+        self.scene.shares(self.rays, self.settings)
+    }
+
+    /// Whether media tint what passes through them.
+    #[inline(always)]
+    pub(super) fn has_media(&self) -> bool {
+        !self.scene.surfaces.media.is_empty()
+    }
+
+    /// When the samples of slots are taken, from 0 when the shutter opens to 1 when it closes; 0 where nothing moves.
+    #[inline(always)]
+    pub(super) fn time<L: Lanes>(&self, l: L, slot: U<L>) -> F<L> {
+        if !self.rays.take_time {
+            return l.f(0.0);
+        }
+        self.stream(l, slot).one(Dimension::TIME)
+    }
+
+    /// Whether the choice of a light asks what surfaces reflect it.
+    #[inline(always)]
+    pub(super) fn heeds_lobes(&self) -> bool {
+        self.samples_lights() && self.scene.heeds_lobes()
+    }
+
+    /// Whether light is looked for besides being run into.
+    #[inline(always)]
+    pub(super) fn samples_lights(&self) -> bool {
+        self.settings.estimator != Estimator::Path && !self.scene.lights.is_empty()
+    }
+}
+
+impl Blocks {
+    /// Corners and sample numbers of the blocks of slots.
+    #[inline(always)]
+    fn rows<L: Lanes>(&self, l: L, slot: U<L>) -> [U<L>; 2] {
+        // Lanes past the end may say anything.
+        let block = (slot >> (2 * BLOCK.trailing_zeros())) & (BLOCKS as u32 - 1);
+        let [corner, sample, _, _] = l.rows(&self.rows, block);
+        [corner.bits(), sample.bits()]
+    }
+}
+
+/// Row and column of slots within their block, packed as pixels are.
+#[inline(always)]
+fn in_block<L: Lanes>(slot: U<L>) -> U<L> {
+    const BITS: u32 = BLOCK.trailing_zeros();
+    ((slot & ((BLOCK - 1) << BITS)) << (16 - BITS)) + (slot & (BLOCK - 1))
+}

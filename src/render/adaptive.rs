@@ -1,0 +1,217 @@
+//! Adaptive sampling: more samples where there is more noise, as a pilot says whose samples are thrown away.
+//!
+//! A block of pixels with the relative variance V, whose samples take the time c, should have samples in proportion to √(V/c). Were
+//! V estimated from the samples of the picture itself, pixels whose first samples happen to be dark would get fewer of them, and
+//! the mean would be biased (D. Kirk and J. Arvo, "Unbiased Sampling Techniques for Image Synthesis", SIGGRAPH 1991). From a pilot
+//! with other random numbers, numbers of samples are as good as constants.
+use rayon::prelude::*;
+
+use super::{
+    film::Film,
+    pass::{PassJob, Threads},
+    tile::Tile,
+};
+use crate::{
+    integrator::{BLOCK, Interrupted, Segments, TILE, Work},
+    measure::REL_MSE_FLOOR,
+    sampling::Sampler,
+    scene::RenderSettings,
+};
+
+/// So many samples every pixel has.
+pub(super) const UNIFORM: u32 = 4;
+/// Powers of two of the rates at most and at least.
+const RATES: [i32; 2] = [-2, 4];
+/// The pilot tells noise from squares of so many pixels, a quarter of a block.
+const SQUARE: u32 = BLOCK / 2;
+/// Noise that every block is taken to have, by the average: a pilot may have missed it.
+const LEAST: f64 = 0.05;
+/// Makes another seed of the picture's.
+const PILOT: u32 = 0x51ed_270b;
+
+/// What a block of the picture is like, row by row.
+struct Pilot {
+    columns: usize,
+    /// Relative variances of a sample, as two halves of the pilot have them.
+    noise: [Vec<f64>; 2],
+    /// How long a sample takes, in path segments.
+    cost: Vec<f64>,
+}
+
+/// Has samples spread by noise over a film from now on, if the settings want it and the pilot does not advise against it.
+pub(super) fn spread(
+    threads: &Threads,
+    job: PassJob,
+    film: &mut Film,
+    interrupted: &(dyn Fn() -> bool + Sync),
+) -> Result<(), Interrupted> {
+    if film.is_piloted || !job.settings.adaptive || job.scene.shares(job.rays, job.settings) {
+        return Ok(());
+    }
+    let pilot = pilot(threads, job, film, interrupted)?;
+    let smoothed = [1, 2, 4].map(|width| pilot.noise.each_ref().map(|noise| smooth(noise, pilot.columns, width)));
+    let gains = smoothed.each_ref().map(|noise| pilot.gain_by(noise));
+    let best = (0..3).max_by(|&a, &b| gains[a].total_cmp(&gains[b])).unwrap_or(0);
+    film.is_piloted = true;
+    if gains[best] < 1.0 {
+        return Ok(());
+    }
+    let [a, b] = &smoothed[best];
+    let noise: Vec<f64> = a.iter().zip(b).map(|(a, b)| a + b).collect();
+    let rates = rates(&pilot.needs(&noise));
+    let columns = pilot.columns;
+    for tile in &mut film.tiles {
+        let at = tile.origin.map(|x| (x / BLOCK) as usize);
+        let wide = tile.size[0].div_ceil(BLOCK) as usize;
+        for (i, block) in tile.blocks.iter_mut().enumerate() {
+            block.rate = rates[(at[1] + i / wide) * columns + at[0] + i % wide];
+        }
+    }
+    Ok(())
+}
+
+/// Traces one sample of every pixel.
+fn pilot(threads: &Threads, job: PassJob, film: &Film, interrupted: &(dyn Fn() -> bool + Sync)) -> Result<Pilot, Interrupted> {
+    let PassJob { scene, rays, settings } = job;
+    let settings = RenderSettings { sampler: Sampler::Independent, seed: settings.seed ^ PILOT, ..*settings };
+    let of_tile = |tile: &Tile| {
+        let work = Work::tile(scene, rays, &settings, tile.origin, tile.size, 0);
+        threads.trace_counting(&work, interrupted, |radiance, segments| {
+            let of_block = |block| (noise_of_block(tile, block, radiance), cost_of_block(tile, block, &segments));
+            (0..tile.blocks.len()).map(of_block).collect::<Vec<_>>()
+        })
+    };
+    let tiles = threads.install(|| film.tiles.par_iter().map(of_tile).collect::<Result<Vec<_>, _>>())?;
+    let columns = film.resolution[0].div_ceil(BLOCK) as usize;
+    let none = vec![0.0; columns * film.resolution[1].div_ceil(BLOCK) as usize];
+    let mut pilot = Pilot { columns, noise: [none.clone(), none.clone()], cost: none };
+    for (tile, blocks) in film.tiles.iter().zip(tiles) {
+        for (i, (noise, cost)) in blocks.into_iter().enumerate() {
+            let [x, y] = tile.corner(i).map(|x| (x / BLOCK) as usize);
+            let place = y * columns + x;
+            (0..2).for_each(|half| pilot.noise[half][place] = noise[half]);
+            pilot.cost[place] = cost;
+        }
+    }
+    Ok(pilot)
+}
+
+/// Path segments of a pixel.
+fn cost_of_block(tile: &Tile, block: usize, segments: &Segments) -> f64 {
+    /// Of making the ray and adding to the film.
+    const BESIDES: f64 = 0.5;
+    let [column, row] = [0, 1].map(|axis| (tile.corner(block)[axis] - tile.origin[axis]) / BLOCK);
+    let [width, height] = tile.block_size(tile.place(block)).map(f64::from);
+    BESIDES + f64::from(segments.0[(row * TILE / BLOCK + column) as usize]) / (width * height)
+}
+
+/// The relative variance in a block, by two pairs of its squares that lie across from each other. Radiance is by row · [`TILE`] +
+/// column of the tile.
+fn noise_of_block(tile: &Tile, block: usize, radiance: &[[f32; 4]]) -> [f64; 2] {
+    let corner = tile.corner(block);
+    let [left, top] = [0, 1].map(|axis| corner[axis] - tile.origin[axis]);
+    let square = |x: u32, y: u32| {
+        let [left, top] = [left + x * SQUARE, top + y * SQUARE];
+        let rows = top..(top + SQUARE).min(tile.size[1]);
+        let columns = left..(left + SQUARE).min(tile.size[0]);
+        let slots = rows.flat_map(|row| columns.clone().map(move |column| (row * TILE + column) as usize));
+        relative_variance(slots.map(|slot| radiance[slot]))
+    };
+    [square(0, 0) + square(1, 1), square(0, 1) + square(1, 0)]
+}
+
+/// Sum over the channels of the variance of some samples over the square of their mean, as relMSE has it.
+fn relative_variance(samples: impl Iterator<Item = [f32; 4]>) -> f64 {
+    let (mut n, mut sums, mut squares) = (0.0, [0.0; 3], [0.0; 3]);
+    for sample in samples.filter(|sample| sample[..3].iter().all(|x| (0.0..1e18).contains(x))) {
+        n += 1.0;
+        for channel in 0..3 {
+            let x = f64::from(sample[channel]);
+            sums[channel] += x;
+            squares[channel] += x * x;
+        }
+    }
+    let relative = |channel: usize| {
+        let mean: f64 = sums[channel] / n;
+        (squares[channel] - mean * sums[channel]).max(0.0) / (n - 1.0) / (mean * mean + REL_MSE_FLOOR)
+    };
+    if n > 1.0 { (0..3).map(relative).sum() } else { 0.0 }
+}
+
+/// Averages over squares of so many blocks.
+fn smooth(noise: &[f64], columns: usize, width: usize) -> Vec<f64> {
+    let rows = noise.len() / columns;
+    let mut smooth = vec![0.0; noise.len()];
+    for (top, left) in (0..rows).step_by(width).flat_map(|y| (0..columns).step_by(width).map(move |x| (y, x))) {
+        let square =
+            (top..(top + width).min(rows)).flat_map(|y| (left..(left + width).min(columns)).map(move |x| y * columns + x));
+        let square: Vec<usize> = square.collect();
+        let mean = square.iter().map(|&place| noise[place]).sum::<f64>() / square.len() as f64;
+        square.iter().for_each(|&place| smooth[place] = mean);
+    }
+    smooth
+}
+
+impl Pilot {
+    /// By what factor relMSE × time falls if one half says where samples are to go, and the other one what noise there really is.
+    fn gain_by(&self, smoothed: &[Vec<f64>; 2]) -> f64 {
+        let gain = |half: usize| {
+            let (needs, noise) = (self.needs(&smoothed[half]), &self.noise[1 - half]);
+            let after: f64 = noise.iter().zip(&needs).map(|(noise, need)| noise / need).sum();
+            let time: f64 = self.cost.iter().zip(&needs).map(|(cost, need)| cost * need).sum();
+            let before = noise.iter().sum::<f64>() * self.cost.iter().sum::<f64>();
+            if after > 0.0 { before / (after * time) } else { 1.0 }
+        };
+        (gain(0) * gain(1)).sqrt()
+    }
+
+    /// What is in proportion to the samples that blocks of such noise should have.
+    fn needs(&self, noise: &[f64]) -> Vec<f64> {
+        let least = LEAST * noise.iter().sum::<f64>() / noise.len() as f64;
+        noise.iter().zip(&self.cost).map(|(noise, cost)| ((noise + least) / cost).sqrt().max(f64::MIN_POSITIVE)).collect()
+    }
+}
+
+/// Powers of two in proportion to the needs, such that the average is at most 1: Sobol points are best at powers of two.
+fn rates(needs: &[f64]) -> Vec<i8> {
+    let [lowest, highest] = RATES.map(f64::from);
+    let at = |scale: f64| needs.iter().map(move |need| (need.log2() + scale).round().clamp(lowest, highest));
+    let average = needs.iter().sum::<f64>() / needs.len() as f64;
+    // Halving finds the largest scale; at the lowest one all rates are the lowest.
+    let (mut low, mut high) = (-average.log2() + 2.0 * lowest, -average.log2() + 2.0 * highest);
+    for _ in 0..40 {
+        let middle = (low + high) / 2.0;
+        let mean = at(middle).map(f64::exp2).sum::<f64>() / needs.len() as f64;
+        if mean > 1.0 { high = middle } else { low = middle }
+    }
+    at(low).map(|rate| rate as i8).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rates_follow_the_needs_and_cost_no_more_than_one_sample_a_pixel() {
+        let needs: Vec<f64> = (0..400).map(|i| 2f64.powf(f64::from(i % 7) * 0.9)).collect();
+        let rates = rates(&needs);
+        let mean = rates.iter().map(|rate| f64::from(*rate).exp2()).sum::<f64>() / 400.0;
+        assert!((0.8..=1.0).contains(&mean), "{mean}");
+        assert!(needs.iter().zip(&rates).all(|(a, rate)| needs.iter().zip(&rates).all(|(b, other)| a > b || rate <= other)));
+    }
+
+    #[test]
+    fn one_noisy_quarter_gains_and_noise_alone_does_not() {
+        let gain = |values: [fn(usize) -> f64; 2], cost: fn(usize) -> f64| {
+            let noise = values.map(|value| (0..64).map(value).collect::<Vec<f64>>());
+            let pilot = Pilot { columns: 8, noise: noise.clone(), cost: (0..64).map(cost).collect() };
+            pilot.gain_by(&noise)
+        };
+        let quarter: [fn(usize) -> f64; 2] = [|i| if i < 16 { 100.0 } else { 1.0 }; 2];
+        assert!(gain(quarter, |_| 1.0) > 2.0);
+        // Noise that costs as much as it is.
+        assert!(gain(quarter, |i| if i < 16 { 100.0 } else { 1.0 }) < 1.1);
+        let chance: [fn(usize) -> f64; 2] = [|i| if i % 5 == 0 { 100.0 } else { 1.0 }, |i| if i % 7 == 1 { 100.0 } else { 1.0 }];
+        assert!(gain(chance, |_| 1.0) < 1.0);
+    }
+}

@@ -1,0 +1,236 @@
+//! A tile of the film: sums of samples a pixel, and counts a block of pixels.
+use super::{adaptive::UNIFORM, doubling::Doubling};
+use crate::integrator::{BLOCK, Blocks, TILE};
+
+/// The pixels of one tile, row by row. Sums are f64, so that a millionth sample still counts.
+pub struct Tile {
+    /// Pixel coordinates of the upper left corner.
+    pub origin: [u32; 2],
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// See [`super::film::Film::spp`].
+    pub spp: u32,
+    sum: Vec<[f64; 3]>,
+    sum_of_squares: Vec<[f64; 3]>,
+    /// The means when the number of samples was last a power of two.
+    before: Vec<[f32; 3]>,
+    /// Row by row.
+    pub(super) blocks: Vec<Block>,
+    /// Samples that were not finite, or negative; they count as black.
+    pub invalid: u64,
+}
+
+/// Pixels that have the same number of samples.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Block {
+    /// Samples taken of every pixel.
+    pub spp: u32,
+    /// 2 to this power is how many samples are taken for one of the average.
+    pub rate: i8,
+    /// What was seen when the number of samples had last doubled, and the two times before, the last one first. It doubles at
+    /// 2, 4, 8, … samples.
+    pub doublings: [Doubling; 3],
+}
+
+/// Mean of a pixel's samples and the variance of that mean, a channel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Estimate {
+    pub mean: [f64; 3],
+    /// `None` before the second sample.
+    pub variance_of_mean: Option<[f64; 3]>,
+}
+
+impl Block {
+    /// The samples to have where the average is `spp`.
+    fn goal(&self, spp: u32) -> u32 {
+        if spp <= UNIFORM {
+            return spp;
+        }
+        let scaled = if self.rate < 0 { spp >> -self.rate } else { spp.saturating_mul(1 << self.rate) };
+        scaled.max(UNIFORM)
+    }
+}
+
+impl Tile {
+    pub(super) fn new(origin: [u32; 2], size: [u32; 2]) -> Tile {
+        let [columns, rows] = size.map(|side| side.div_ceil(BLOCK));
+        Tile {
+            origin,
+            size,
+            spp: 0,
+            sum: Vec::new(),
+            sum_of_squares: Vec::new(),
+            before: Vec::new(),
+            blocks: vec![Block::default(); (columns * rows) as usize],
+            invalid: 0,
+        }
+    }
+
+    /// Takes all samples back.
+    pub(super) fn forget(&mut self) {
+        (self.spp, self.invalid) = (0, 0);
+        self.blocks.fill(Block::default());
+    }
+
+    pub(super) fn samples(&self) -> u64 {
+        let samples = |(block, state): (usize, &Block)| {
+            let [width, height] = self.block_size(self.place(block)).map(u64::from);
+            u64::from(state.spp) * width * height
+        };
+        self.blocks.iter().enumerate().map(samples).sum()
+    }
+
+    pub(super) fn is_adaptive(&self) -> bool {
+        self.blocks.iter().any(|block| block.rate != 0)
+    }
+
+    /// How many samples [`Tile::missing`] would name, were it not limited.
+    pub(super) fn distance_to(&self, spp: u32) -> u64 {
+        self.blocks.iter().map(|block| u64::from(block.goal(spp).saturating_sub(block.spp))).sum()
+    }
+
+    /// Blocks that have not yet the samples to have where the average is `spp`, as many as a batch holds.
+    pub(super) fn missing(&self, spp: u32) -> Blocks {
+        let mut missing = Blocks::default();
+        for ahead in 0.. {
+            let before = missing.iter().count();
+            for (block, state) in self.blocks.iter().enumerate() {
+                let sample = state.spp + ahead;
+                if sample < state.goal(spp) && !missing.is_full() {
+                    missing.push(self.corner(block), sample);
+                }
+            }
+            if missing.is_full() || missing.iter().count() == before {
+                break;
+            }
+        }
+        missing
+    }
+
+    /// Adds one sample to every pixel; slot = row · [`TILE`] + column. Returns the first pixel whose sample is invalid.
+    pub fn add(&mut self, radiance: &[[f32; 4]]) -> Option<[u32; 2]> {
+        self.clear_if_new();
+        let mut invalid = None;
+        for block in 0..self.blocks.len() {
+            let [x, y] = self.place(block);
+            invalid = invalid.or(self.add_block(block, &radiance[(y * TILE + x) as usize..], TILE as usize));
+        }
+        self.spp += 1;
+        invalid
+    }
+
+    /// Adds samples of blocks, one block after the other; slot = row · [`BLOCK`] + column. Returns the first one that is invalid.
+    pub(super) fn add_blocks(&mut self, blocks: &Blocks, radiance: &[[f32; 4]]) -> Option<([u32; 2], u32)> {
+        self.clear_if_new();
+        let mut invalid = None;
+        for ((corner, sample), slots) in blocks.iter().zip(radiance.chunks((BLOCK * BLOCK) as usize)) {
+            let [column, row] = [0, 1].map(|axis| (corner[axis] - self.origin[axis]) / BLOCK);
+            let block = (row * self.size[0].div_ceil(BLOCK) + column) as usize;
+            let found = self.add_block(block, slots, BLOCK as usize);
+            invalid = invalid.or(found.map(|pixel| (pixel, sample)));
+        }
+        invalid
+    }
+
+    /// Adds one sample to every pixel of a block; slot = row · `stride` + column.
+    fn add_block(&mut self, block: usize, radiance: &[[f32; 4]], stride: usize) -> Option<[u32; 2]> {
+        let mut first_invalid = None;
+        let ([left, top], [width, height]) = (self.place(block), self.block_size(self.place(block)));
+        for row in 0..height {
+            let start = ((top + row) * self.size[0] + left) as usize;
+            let pixels = start..start + width as usize;
+            let sums = self.sum[pixels.clone()].iter_mut().zip(&mut self.sum_of_squares[pixels]);
+            for (column, ((sum, square), sample)) in sums.zip(&radiance[row as usize * stride..]).enumerate() {
+                let [r, g, b, _] = *sample;
+                // One comparison a channel refuses negative numbers, infinities and NaN alike.
+                if ![r, g, b].iter().all(|c| (0.0..=f32::MAX).contains(c)) {
+                    self.invalid += 1;
+                    let pixel = [self.origin[0] + left + column as u32, self.origin[1] + top + row];
+                    first_invalid = first_invalid.or(Some(pixel));
+                    continue;
+                }
+                for (channel, value) in [r, g, b].into_iter().enumerate() {
+                    let value = f64::from(value);
+                    sum[channel] += value;
+                    square[channel] += value * value;
+                }
+            }
+        }
+        self.blocks[block].spp += 1;
+        if self.blocks[block].spp.is_power_of_two() {
+            self.double(block);
+        }
+        first_invalid
+    }
+
+    /// Black, before the first sample.
+    fn clear_if_new(&mut self) {
+        if self.blocks.iter().any(|block| block.spp > 0) {
+            return;
+        }
+        let pixels = (self.size[0] * self.size[1]) as usize;
+        for sums in [&mut self.sum, &mut self.sum_of_squares] {
+            sums.clear();
+            sums.resize(pixels, [0.0; 3]);
+        }
+        self.before.resize(pixels, [0.0; 3]);
+    }
+
+    /// Notes how far a block has moved since it had half as many samples.
+    fn double(&mut self, block: usize) {
+        let ([left, top], [width, height]) = (self.place(block), self.block_size(self.place(block)));
+        let (mut estimates, mut before) = (Vec::new(), Vec::new());
+        for row in top..top + height {
+            let start = (row * self.size[0] + left) as usize;
+            estimates.extend(self.run(start..start + width as usize, self.blocks[block].spp));
+            let means = &mut self.before[start..start + width as usize];
+            before.extend_from_slice(means);
+            let now = &estimates[estimates.len() - means.len()..];
+            means.iter_mut().zip(now).for_each(|(mean, estimate)| *mean = estimate.mean.map(|c| c as f32));
+        }
+        let state = &mut self.blocks[block];
+        if state.spp > 1 {
+            let [last, before_last, _] = state.doublings;
+            state.doublings = [Doubling::new(&estimates, &before), last, before_last];
+        }
+    }
+
+    /// The estimates of one row of the tile, which must have a sample; `row` counts from the tile's top.
+    pub fn estimates(&self, row: usize) -> impl Iterator<Item = Estimate> {
+        let [width, _] = self.size.map(|side| side as usize);
+        let columns = width.div_ceil(BLOCK as usize);
+        let blocks = &self.blocks[row / BLOCK as usize * columns..][..columns];
+        blocks.iter().enumerate().flat_map(move |(column, block)| {
+            let left = column * BLOCK as usize;
+            self.run(row * width + left..row * width + width.min(left + BLOCK as usize), block.spp)
+        })
+    }
+
+    /// The estimates of some pixels with so many samples.
+    fn run(&self, pixels: std::ops::Range<usize>, spp: u32) -> impl Iterator<Item = Estimate> {
+        let n = f64::from(spp.max(1));
+        let (per_sample, per_degree) = (1.0 / n, 1.0 / (n - 1.0));
+        self.sum[pixels.clone()].iter().zip(&self.sum_of_squares[pixels]).map(move |(sum, square)| {
+            let mean = sum.map(|s| s / n);
+            let variance = |c: usize| ((square[c] * per_sample - mean[c] * mean[c]) * per_degree).max(0.0);
+            Estimate { mean, variance_of_mean: (n > 1.0).then(|| [variance(0), variance(1), variance(2)]) }
+        })
+    }
+
+    /// Pixel coordinates of the upper left corner of a block.
+    pub(super) fn corner(&self, block: usize) -> [u32; 2] {
+        let place = self.place(block);
+        [0, 1].map(|axis| self.origin[axis] + place[axis])
+    }
+
+    /// Column and row, within the tile, of the upper left corner of a block.
+    pub(super) fn place(&self, block: usize) -> [u32; 2] {
+        let columns = self.size[0].div_ceil(BLOCK);
+        [block as u32 % columns * BLOCK, block as u32 / columns * BLOCK]
+    }
+
+    /// Width and height of the block with its corner there.
+    pub(super) fn block_size(&self, place: [u32; 2]) -> [u32; 2] {
+        [0, 1].map(|axis| BLOCK.min(self.size[axis] - place[axis]))
+    }
+}

@@ -1,0 +1,96 @@
+//! Samples spread by noise: the picture is the same, and less noisy.
+use noisefall::{
+    math::SimdLevel,
+    measure::compare,
+    render::{
+        film::Film,
+        frame::Frame,
+        pass::{PassJob, Threads},
+    },
+    sampling::Sampler,
+    scene::{Camera, Estimator, RenderSettings, Scene, load},
+};
+
+use crate::{
+    picture::{assert_all_within, scene, settings},
+    sharing::ROOM,
+    statistics::Moments,
+};
+
+const SIDE: u32 = 96;
+/// Sums are taken over squares of so many pixels.
+const SQUARE: usize = 16;
+
+struct Picture {
+    radiance: Vec<[f32; 3]>,
+    samples: u64,
+}
+
+fn render(threads: &Threads, scene: &Scene, settings: &RenderSettings, spp: u32) -> Picture {
+    let camera = Camera { resolution: [SIDE; 2], ..scene.camera };
+    let mut film = Film::new(camera.resolution);
+    threads.pass(PassJob { scene, rays: &scene.rays(&camera), settings }, &mut film, spp, &|| false);
+    assert!(settings.adaptive || !film.is_adaptive());
+    Picture { radiance: Frame::of_film(&film, 0, [SIDE; 2], [SIDE; 2]).radiance, samples: film.samples() }
+}
+
+/// Sums over squares of a picture, a channel.
+fn sums(picture: &Picture) -> Vec<f64> {
+    let squares = SIDE as usize / SQUARE;
+    let mut sums = vec![0.0; squares * squares * 3];
+    for (i, radiance) in picture.radiance.iter().enumerate() {
+        let (x, y) = (i % SIDE as usize / SQUARE, i / SIDE as usize / SQUARE);
+        (0..3).for_each(|c| sums[(squares * y + x) * 3 + c] += f64::from(radiance[c]));
+    }
+    sums
+}
+
+/// Most of this picture has little noise.
+fn plates() -> Scene {
+    load(concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/veach_plates.toml").as_ref()).expect("a shipped scene compiles")
+}
+
+/// Short renders, in which what the first samples happen to be would matter most, were it asked.
+#[test]
+fn adaptive_samples_give_the_same_picture() {
+    const RENDERS: u32 = 150;
+    let threads = Threads::new(2, SimdLevel::best()).expect("two threads can be had");
+    for (scene, sampler, what) in
+        [(scene(ROOM), Sampler::Independent, "independent samples"), (plates(), Sampler::Sobol, "Sobol samples")]
+    {
+        let of = |adaptive, first: u32| {
+            let mut values = vec![Vec::new(); (SIDE as usize / SQUARE).pow(2) * 3];
+            for seed in first..first + RENDERS {
+                let settings = RenderSettings { sampler, adaptive, seed, ..settings(Estimator::Mis) };
+                let sums = sums(&render(&threads, &scene, &settings, 6));
+                values.iter_mut().zip(sums).for_each(|(values, sum)| values.push(sum));
+            }
+            values
+        };
+        let deviation = |(a, b): (Vec<f64>, Vec<f64>)| {
+            let (a, b) = (Moments::of(a), Moments::of(b));
+            (a.mean - b.mean) / ((a.variance + b.variance) / f64::from(RENDERS)).sqrt().max(1e-9)
+        };
+        let deviations: Vec<f64> = of(false, 0).into_iter().zip(of(true, RENDERS)).map(deviation).collect();
+        assert_all_within(&deviations, what);
+    }
+}
+
+#[test]
+fn where_noise_is_in_one_place_there_is_less_of_it_for_as_many_samples() {
+    let plates = plates();
+    let threads = Threads::new(2, SimdLevel::best()).expect("two threads can be had");
+    let with = |adaptive, seed, spp| {
+        let settings = RenderSettings { adaptive, seed, ..settings(Estimator::Mis) };
+        render(&threads, &plates, &settings, spp)
+    };
+    let truth = with(false, 99, 2048).radiance;
+    let of = |adaptive| {
+        let pictures: Vec<Picture> = (0..4).map(|seed| with(adaptive, seed, 64)).collect();
+        let error: f64 = pictures.iter().map(|picture| compare(&picture.radiance, &truth).rel_mse).sum();
+        (error, pictures.iter().map(|picture| picture.samples).sum::<u64>())
+    };
+    let ((uniform, budget), (adaptive, samples)) = (of(false), of(true));
+    assert!(samples <= budget, "{samples} of {budget}");
+    assert!(adaptive < 0.7 * uniform, "{adaptive} {uniform}");
+}
