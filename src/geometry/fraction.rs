@@ -25,6 +25,13 @@ impl<L: Lanes> Fraction<L> {
         (self.numerator * other.denominator).lt(other.numerator * self.denominator)
     }
 
+    /// Where both are the same distance, which is finite.
+    #[inline(always)]
+    pub fn equals(&self, other: &Self) -> M<L> {
+        let (a, b) = (self.numerator * other.denominator, other.numerator * self.denominator);
+        a.ge(b) & b.ge(a) & self.denominator.above(0.0)
+    }
+
     #[inline(always)]
     pub fn value(&self) -> F<L> {
         self.numerator / self.denominator

@@ -1,13 +1,14 @@
 //! Analytic shapes that stand still, as a ray runs through them: a list a kind.
 use glam::DVec3;
 
-use super::{MISS, Shape, Sphere, cuboid::Cuboid, flat::Flat, fraction::Fraction, quadric::Quadric};
+use super::{MISS, Shape, Sphere, clusters::Cluster, cuboid::Cuboid, flat::Flat, fraction::Fraction, quadric::Quadric};
 use crate::math::{F, Lanes, Pick, U, V};
 
 /// Shapes, each with its primitive id, or that of its first piece. Kinds that there are none of cost nothing.
 #[derive(Default)]
 pub(super) struct Lists {
     spheres: Vec<(u32, Sphere)>,
+    clusters: Vec<Cluster>,
     flats: Vec<(u32, Flat)>,
     cuboids: Vec<(u32, Cuboid)>,
     /// Ellipsoids and open cylinders.
@@ -50,6 +51,11 @@ impl Lists {
         }
     }
 
+    /// Spheres beside those that are added one by one.
+    pub fn set_clusters(&mut self, clusters: Vec<Cluster>) {
+        self.clusters = clusters;
+    }
+
     /// Whether there are none but spheres.
     pub fn are_spheres(&self) -> bool {
         self.flats.is_empty() && self.cuboids.is_empty() && self.quadrics.is_empty() && self.cylinders.is_empty()
@@ -58,24 +64,38 @@ impl Lists {
     /// [`Lists::closest`] where there are only spheres.
     #[inline(always)]
     pub fn closest_sphere<L: Lanes>(&self, l: L, o: V<L>, d: V<L>) -> (F<L>, U<L>) {
+        let nearest = self.nearest_sphere(l, o, d);
+        (nearest.t.value(), nearest.primitive)
+    }
+
+    /// Among the spheres.
+    #[inline(always)]
+    fn nearest_sphere<L: Lanes>(&self, l: L, o: V<L>, d: V<L>) -> Nearest<L> {
         let mut nearest = Nearest::none(l);
         for (id, sphere) in &self.spheres {
             if let Some(t) = sphere.intersect(o, d) {
                 nearest.meet(t, l.u(*id));
             }
         }
-        (nearest.t.value(), nearest.primitive)
+        for Cluster { around, members } in &self.clusters {
+            let near = around.near(o, d);
+            if !near.any() {
+                continue;
+            }
+            for (id, sphere) in members {
+                if let Some(t) = sphere.intersect(o, d) {
+                    // What a lane meets must not depend on the others, which have led here.
+                    nearest.meet_in_any_order(l, t.only(near), *id);
+                }
+            }
+        }
+        nearest
     }
 
     /// Distance along o + td, d of unit length, to the first surface, and its primitive or [`MISS`].
     #[inline(always)]
     pub fn closest<L: Lanes>(&self, l: L, o: V<L>, d: V<L>) -> (F<L>, U<L>) {
-        let mut nearest = Nearest::none(l);
-        for (id, sphere) in &self.spheres {
-            if let Some(t) = sphere.intersect(o, d) {
-                nearest.meet(t, l.u(*id));
-            }
-        }
+        let mut nearest = self.nearest_sphere(l, o, d);
         for (id, flat) in &self.flats {
             nearest.meet(flat.intersect(o, d), l.u(*id));
         }
@@ -146,5 +166,13 @@ impl<L: Lanes> Nearest<L> {
         let nearer = t.less(&self.t);
         self.t = nearer.pick(t, self.t);
         self.primitive = nearer.pick(primitive, self.primitive);
+    }
+    /// The same where primitives do not come in their order: of surfaces that coincide the first one is met.
+    #[inline(always)]
+    fn meet_in_any_order(&mut self, l: L, t: Fraction<L>, primitive: u32) {
+        let is_first = t.equals(&self.t) & !self.primitive.below(primitive.saturating_add(1));
+        let nearer = t.less(&self.t) | is_first;
+        self.t = nearer.pick(t, self.t);
+        self.primitive = nearer.pick(l.u(primitive), self.primitive);
     }
 }

@@ -13,10 +13,13 @@
 //! | mesh | `mesh/` | 1, its triangles are *elements* | counter-clockwise |
 //! | isosurface | `isosurface/` | 1 | where the function is positive |
 //!
-//! A ray runs through the few and large shapes of `lists.rs` and down a tree over the many (`objects.rs`); what it met is looked up
+//! A ray runs through the few and large shapes of `lists.rs`, past clusters of spheres that none of its register comes near
+//! (`clusters.rs`), and down a tree over the many (`objects.rs`); what it met is looked up
 //! in `tables.rs`. Meshes, isosurfaces and what moves have a space of their own (`placed.rs`). All together are [`Shapes`].
+mod around;
 mod bounds;
 mod bvh;
+mod clusters;
 mod cuboid;
 mod extent;
 mod flat;

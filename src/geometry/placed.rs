@@ -7,6 +7,7 @@ use glam::DAffine3;
 
 use super::{
     Coordinates, MISS, Place, SurfacePoint, Toward,
+    around::Around,
     bvh::Stack,
     isosurface::Isosurface,
     lists::Lists,
@@ -28,8 +29,8 @@ pub(super) struct Placed {
     motion: Vec<Step>,
     /// The local space is the world's.
     is_world: bool,
-    /// Centre and square of the radius of a sphere around it, wherever it moves.
-    around: ([f32; 3], f32),
+    /// Around it, wherever it moves.
+    around: Around,
 }
 
 pub(super) enum Body {
@@ -49,26 +50,16 @@ pub(super) struct Meeting<L: Lanes> {
 impl Placed {
     /// `shape` is the whole in the world, when the shutter opens.
     pub fn new(first: u32, body: Body, still: DAffine3, motion: &Motion, shape: &Shape) -> Placed {
-        // Much more than all roundings on the way.
-        const SLACK: f64 = 1.0001;
         let is_world = motion.0.is_empty() && still == DAffine3::IDENTITY;
         let (center, radius) = shape.swept_sphere(motion);
-        let around = (center.as_vec3().to_array(), (radius * radius * SLACK) as f32);
-        Placed { first, body, still, rest: Rest::new(&still), motion: motion.0.clone(), is_world, around }
+        let (rest, around) = (Rest::new(&still), Around::new(center, radius));
+        Placed { first, body, still, rest, motion: motion.0.clone(), is_world, around }
     }
 
     /// The lanes whose ray may meet it.
     #[inline(always)]
     pub fn near<L: Lanes>(&self, live: M<L>, o: V<L>, d: V<L>) -> M<L> {
-        // Of the distance of the centre: how far it may be off, squared, and more.
-        const ROUNDING: f32 = 1e-11;
-        let (center, radius_squared) = self.around;
-        let way = o - center;
-        let distance_squared = way.length_squared();
-        let along = way.dot(d);
-        let nearest = (way - d * along).length_squared();
-        let reach = distance_squared * ROUNDING + radius_squared;
-        live & nearest.lt(reach) & (along.below(0.0) | distance_squared.lt(reach))
+        live & self.around.near(o, d)
     }
 
     /// The map into the world when the shutter opens.

@@ -5,6 +5,7 @@ use glam::{DAffine3, DVec3};
 
 use super::{
     Coordinates, Motion, Place, SurfacePoint, Toward,
+    clusters::take_clusters,
     lists::Lists,
     mesh::{Mesh, MeshData},
     objects::{Kind, Object, Objects, few_and_many},
@@ -50,7 +51,8 @@ impl Shapes {
             let kind = all.push(shape, motion, &mut meshes, near);
             objects.push(Object { bounds: shape.bounds(motion), kind });
         }
-        let [few, many] = few_and_many(objects);
+        let [mut few, many] = few_and_many(objects);
+        all.lists.set_clusters(take_clusters(&mut few, near));
         for object in few {
             match object.kind {
                 Kind::Analytic { first, shape } => {

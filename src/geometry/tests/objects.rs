@@ -4,7 +4,7 @@ use std::sync::Arc;
 use glam::{DAffine3, DVec3};
 use rand::{Rng, SeedableRng, rngs::SmallRng};
 
-use super::{cases, exact, unit_vector, v};
+use super::{cases, exact, shapes, unit_vector, v};
 use crate::{
     geometry::{Expression, Isosurface, MISS, Motion, Nearest, Outline, Shape, Shapes, Step, mesh::generate, sphere_field},
     math::{F, M, One, U, V},
@@ -85,13 +85,13 @@ fn lamp_in_ceiling() -> [Shape; 2] {
 #[test]
 fn of_surfaces_that_coincide_the_first_one_is_met_with_a_tree_and_without() {
     let still = Motion::default();
-    let crowd: Vec<Shape> = sphere_field(100, DVec3::splat(-2.0), DVec3::splat(4.0), 1);
+    let crowd: Vec<Shape> = sphere_field(600, DVec3::splat(-2.0), DVec3::splat(4.0), 1);
     for order in [[0, 1], [1, 0]] {
-        for count in [0, crowd.len()] {
+        for count in [0, 100, crowd.len()] {
             let pair = order.map(|i| lamp_in_ceiling()[i].clone());
             let shapes: Vec<Shape> = pair.into_iter().chain(crowd[..count].iter().cloned()).collect();
             let shapes = Shapes::new(shapes.iter().map(|shape| (shape, &still)), DVec3::ZERO);
-            assert_eq!(shapes.has_tree(), count > 0);
+            assert_eq!(shapes.has_tree(), count == crowd.len());
             let met = shapes.closest(One, M(true), v(DVec3::new(0.1, 10.0, 0.3)), v(DVec3::Y), F(0.0)).primitive.0;
             assert_eq!(met, 0, "{order:?}");
         }
@@ -106,4 +106,41 @@ fn a_sun_does_not_widen_the_boxes_of_a_crowd() {
     let all = Shapes::new(shapes.iter().map(|shape| (shape, &still)), DVec3::ZERO);
     assert!(all.tree_reach() < 10.0, "{}", all.tree_reach());
     assert_eq!(all.closest(One, M(true), v(DVec3::new(0.0, 3.0, 0.0)), v(DVec3::Y), F(0.0)).primitive.0, 0);
+}
+
+/// Spheres in a grid that touch, some of them twice or ten times.
+fn touching() -> Vec<Shape> {
+    let mut spheres = Vec::new();
+    for i in 0..60 {
+        let center = DVec3::new(f64::from(i % 4), f64::from(i / 4 % 4), f64::from(i / 16)) - 1.5;
+        let times = if i == 21 { 10 } else { 1 + i % 3 / 2 };
+        spheres.extend((0..times).map(|_| Shape::Sphere { center, radius: 0.5 }));
+    }
+    spheres
+}
+
+#[test]
+fn clusters_find_what_single_spheres_find() {
+    let mut rng = SmallRng::seed_from_u64(7);
+    let field = sphere_field(100, DVec3::splat(-2.0), DVec3::splat(4.0), 1);
+    for spheres in [field, touching()] {
+        let all = shapes(&spheres);
+        assert!(!all.has_tree());
+        let alone: Vec<Shapes> = spheres.iter().map(|sphere| shapes(std::slice::from_ref(sphere))).collect();
+        let mut hits = 0;
+        for i in 0..4000 {
+            let o = v(unit_vector(&mut rng) * [0.3, 4.0, 300.0][i % 3]);
+            let target = DVec3::from_array([0; 3].map(|_| rng.random_range(-2.0..2.0)));
+            let d = v((target - exact(o)).normalize());
+            let found = all.closest(One, M(true), o, d, F(0.0));
+            let distances = alone.iter().map(|sphere| sphere.closest(One, M(true), o, d, F(0.0)).t.0);
+            let (first, t) = distances.enumerate().min_by(|a, b| a.1.total_cmp(&b.1)).expect("spheres");
+            assert_eq!(found.t.0, t, "ray {i}");
+            if t < f32::INFINITY {
+                hits += 1;
+                assert_eq!(found.primitive.0, first as u32, "ray {i}: of spheres that coincide the first");
+            }
+        }
+        assert!(hits > 500, "{hits}");
+    }
 }

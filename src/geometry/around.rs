@@ -1,0 +1,31 @@
+//! Which rays come near: a sphere around a thing, tested in all lanes.
+use glam::DVec3;
+
+use crate::math::{Lanes, M, V};
+
+/// A sphere around something.
+pub(super) struct Around {
+    center: [f32; 3],
+    radius_squared: f32,
+}
+
+impl Around {
+    pub fn new(center: DVec3, radius: f64) -> Around {
+        // Much more than all roundings on the way.
+        const SLACK: f64 = 1.0001;
+        Around { center: center.as_vec3().to_array(), radius_squared: (radius * radius * SLACK) as f32 }
+    }
+
+    /// The lanes whose ray o + td, d of unit length, may meet what is in it.
+    #[inline(always)]
+    pub fn near<L: Lanes>(&self, o: V<L>, d: V<L>) -> M<L> {
+        // Of the distance of the centre: how far it may be off, squared, and more.
+        const ROUNDING: f32 = 1e-11;
+        let way = o - self.center;
+        let distance_squared = way.length_squared();
+        let along = way.dot(d);
+        let nearest = (way - d * along).length_squared();
+        let reach = distance_squared * ROUNDING + self.radius_squared;
+        nearest.lt(reach) & (along.below(0.0) | distance_squared.lt(reach))
+    }
+}
