@@ -161,10 +161,10 @@ impl<'a> Work<'a> {
         self.stream(l, slot).one(Dimension::TIME)
     }
 
-    /// Whether the choice of a light asks what surfaces reflect it.
+    /// Whether the choice of a light asks what surfaces reflect it: what that leaves to chance, paths must find.
     #[inline(always)]
     pub(super) fn heeds_lobes(&self) -> bool {
-        self.samples_lights() && self.scene.heeds_lobes()
+        self.settings.estimator == Estimator::Mis && self.scene.heeds_lobes()
     }
 
     /// Whether light is looked for besides being run into.

@@ -22,17 +22,19 @@ impl<L: Lanes> Lobe<L> {
         const GRAZING: f32 = 0.05;
         let h = (self.wo + axis).normalized();
         let (across, along) = (h.dot(n), h.dot(self.wo));
-        // Halfway vectors turn by half the angle.
-        let alpha2 = self.alpha * self.alpha + sin_squared.min(sin_squared.splat(1.0)) * 0.25;
+        let along = along.max(along.splat(GRAZING));
+        // Halfway vectors turn by half the angle, out of the plane of incidence by as much over the cosine.
+        let alpha2 = self.alpha * self.alpha + sin_squared.min(sin_squared.splat(1.0)) * 0.25 / (along * along);
         let e = across * across * (alpha2 - 1.0) + 1.0;
-        let lobe = alpha2 / (e * e * along.max(along.splat(GRAZING)) * 4.0);
+        let lobe = alpha2 / (e * e * along * 4.0);
         self.alpha.above(0.0).pick(lobe + facing * SCATTERED, facing)
     }
 
     /// The same for light from everywhere.
     #[inline(always)]
     pub(super) fn of_sky(&self) -> F<L> {
+        const LEAST: f32 = 0.02;
         // By cosine-distributed directions a narrow lobe is hardly met.
-        self.alpha.above(0.0).pick(self.alpha * self.alpha, self.alpha.splat(1.0))
+        self.alpha.above(0.0).pick((self.alpha * self.alpha).max(self.alpha.splat(LEAST)), self.alpha.splat(1.0))
     }
 }

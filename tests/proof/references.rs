@@ -9,7 +9,7 @@ use noisefall::{
     validate::{Agreement, agreement},
 };
 
-const SPP: u32 = 64;
+const SPP: u32 = 256;
 /// Some 800 block means a scene: beyond this one in 10⁵ is by chance.
 const MOST_SIGMAS: f64 = 4.5;
 
