@@ -10,7 +10,7 @@ use noisefall::{
         film::Film,
         pass::{PassJob, Threads},
     },
-    scene::{Camera, RenderSettings, built_in},
+    scene::{Camera, RenderSettings, built_in, load},
 };
 
 const RESOLUTION: [u32; 2] = [1280, 720];
@@ -35,19 +35,22 @@ fn first_picture(c: &mut Criterion) {
     };
     let threads = Threads::new(0, SimdLevel::best()).expect("threads can be had");
     let renderer = Renderer::new(threads, Publish::Live, notify);
-    let scene = Arc::new(built_in());
+    let triangles = load("scenes/million_triangles.toml".as_ref()).expect("a shipped scene compiles");
     let mut generation = 0;
-    c.bench_function("1280 x 720, camera change to first coarse picture, all cores", |b| {
-        b.iter(|| {
-            generation += 1;
-            let mut camera = camera();
-            camera.eye.x = (generation % 7) as f64 * 0.01;
-            renderer.submit(Job { generation, scene: scene.clone(), camera, settings: RenderSettings::default() });
-            while renderer.latest().frame.generation != generation {
-                let _ = woken.recv();
-            }
+    for (name, scene) in [("the built-in scene", built_in()), ("1.28 million triangles", triangles)] {
+        let scene = Arc::new(scene);
+        c.bench_function(&format!("1280 x 720, camera change to first coarse picture, {name}, all cores"), |b| {
+            b.iter(|| {
+                generation += 1;
+                let mut camera = Camera { resolution: RESOLUTION, ..scene.camera };
+                camera.eye.x += (generation % 7) as f64 * 0.01;
+                renderer.submit(Job { generation, scene: scene.clone(), camera, settings: RenderSettings::default() });
+                while renderer.latest().frame.generation != generation {
+                    let _ = woken.recv();
+                }
+            });
         });
-    });
+    }
 }
 
 fn one_pass(c: &mut Criterion) {
