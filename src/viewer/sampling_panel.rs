@@ -75,12 +75,15 @@ impl App {
                 "Share paths",
                 "Whether neighbouring pixels share the light that their paths find beyond the first diffuse surface: less noise, no bias.",
                 |ui, _| {
-                    ui.horizontal(|ui| {
-                        for (reuse, name, doc) in REUSE {
-                            ui.selectable_value(&mut settings.reuse, reuse, name).on_hover_text(doc);
-                        }
+                    // Below, and not beside: the panel is as wide as its widest row.
+                    ui.vertical(|ui| {
+                        ui.horizontal(|ui| {
+                            for (reuse, name, doc) in REUSE {
+                                ui.selectable_value(&mut settings.reuse, reuse, name).on_hover_text(doc);
+                            }
+                        });
                         if settings.reuse == Reuse::Auto && status.spp > 0 {
-                            ui.weak(if status.shares { "(does here)" } else { "(does not here)" });
+                            ui.weak(if status.shares { "in use here" } else { "not in use here" });
                         }
                     });
                 },
