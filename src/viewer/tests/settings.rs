@@ -15,6 +15,11 @@ fn every_setting_of_the_estimate_starts_a_new_picture() {
     restarts(&mut window, "cosine directions", |w| click(w, "Cosine"));
     restarts(&mut window, "shared paths", |w| click(w, "Always"));
     assert_eq!(window.state().settings.reuse, Reuse::On);
+    restarts(&mut window, "adaptive samples", |w| {
+        w.get_by_role_and_label(Role::CheckBox, "Adaptive").click();
+        w.run_steps(2);
+    });
+    assert!(window.state().settings.adaptive);
     restarts(&mut window, "fixed roulette", |w| choose(w, "Roulette", "Fixed probability"));
     assert!(matches!(window.state().settings.roulette, Roulette::Fixed(_)));
     restarts(&mut window, "another survival probability", |w| {
@@ -33,6 +38,20 @@ fn every_setting_of_the_estimate_starts_a_new_picture() {
         w.run_steps(2);
     });
     assert_eq!(window.state().settings.seed, 42);
+}
+
+#[test]
+fn no_row_is_wider_than_the_panel() {
+    for (scene, says) in [("cornell_spheres", "in use here"), ("veach_plates", "not in use here")] {
+        let mut window = window(scene);
+        wait(&mut window, "samples", |app| app.status.spp >= 1);
+        window.run_steps(3);
+        let note = window.get_by_label(says).rect();
+        let label = window.get_by_label("Share paths").rect();
+        let toolbar = window.get_by_label("Help").rect();
+        assert!(note.right() <= 1280.0, "{scene}: {note:?}");
+        assert!(label.left() > toolbar.right(), "{scene}: {label:?} is cut off at {toolbar:?}");
+    }
 }
 
 #[test]
