@@ -24,8 +24,8 @@ pub(super) trait Kind {
 
     /// The width of the lobe; 0 where there is none.
     #[inline(always)]
-    fn alpha<L: Lanes>(_bsdf: &Self::Bsdf<'_, L>, z: F<L>) -> F<L> {
-        z.splat(0.0)
+    fn alpha<L: Lanes>(l: L, _bsdf: &Self::Bsdf<'_, L>) -> F<L> {
+        l.f(0.0)
     }
 
     /// What roulette multiplies the throughput by before it judges it. `z` is the height of the next direction.
@@ -90,7 +90,7 @@ kinds! {
         const GLOSSY: bool = true;
 
         #[inline(always)]
-        fn alpha<L: Lanes>(bsdf: &Self::Bsdf<'_, L>, _z: F<L>) -> F<L> {
+        fn alpha<L: Lanes>(_l: L, bsdf: &Self::Bsdf<'_, L>) -> F<L> {
             bsdf.alpha
         }
     }

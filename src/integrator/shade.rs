@@ -87,7 +87,7 @@ pub(super) fn shade<L: Lanes, K: Kind>(l: L, work: &Work, batch: &mut Batch) {
             let flags = unsampled.pick(l.u(DELTA), l.u(0)) | if K::TRANSMITS { TRANSMITS } else { 0 };
             Past { n: vertex.n, pdf: sample.pdf, flags }.push(keep, &mut pasts[next]);
             if work.heeds_lobes() {
-                let Lobe { wo, alpha } = vertex.lobe::<K>(&bsdf);
+                let Lobe { wo, alpha } = vertex.lobe::<K>(l, &bsdf);
                 Gloss { wo, alpha }.push(keep, &mut glosses[next]);
             }
         }
@@ -154,9 +154,9 @@ impl<L: Lanes> Vertex<L> {
 
     /// What the choice of a light asks for.
     #[inline(always)]
-    fn lobe<K: Kind>(&self, bsdf: &K::Bsdf<'_, L>) -> Lobe<L> {
+    fn lobe<K: Kind>(&self, l: L, bsdf: &K::Bsdf<'_, L>) -> Lobe<L> {
         let wo = if K::GLOSSY { self.frame.world_from_local(self.wo) } else { self.n };
-        Lobe { wo, alpha: K::alpha(bsdf, self.error) }
+        Lobe { wo, alpha: K::alpha(l, bsdf) }
     }
 
     /// The media that a direction of height `z` leads into.
@@ -200,7 +200,7 @@ fn sample_light<L: Lanes, K: Kind>(
         cell: if lights.have_cells() { stream.two(Dimension::cell(reflection)) } else { (unused, unused) },
         place: stream.two(Dimension::light(reflection)),
     };
-    let lobe = (K::GLOSSY && work.heeds_lobes()).then(|| vertex.lobe::<K>(bsdf));
+    let lobe = if K::GLOSSY && work.heeds_lobes() { Some(vertex.lobe::<K>(l, bsdf)) } else { None };
     let at = Receiver { p: hit.p, n: vertex.n, transmits: if K::TRANSMITS { l.first(L::N) } else { l.first(0) }, lobe };
     let sample = lights.sample(l, &work.scene.shapes, &at, work.time(l, hit.slot), &coordinates);
     let wi = vertex.frame.local_from_world(sample.wi);

@@ -129,10 +129,12 @@ fn weight<L: Lanes>(
     place: Place<L>,
 ) -> F<L> {
     let past = Past::read(l, pasts, start);
-    let lobe = work.heeds_lobes().then(|| {
+    let lobe = if work.heeds_lobes() {
         let Gloss { wo, alpha } = Gloss::read(l, glosses, start);
-        Lobe { wo, alpha }
-    });
+        Some(Lobe { wo, alpha })
+    } else {
+        None
+    };
     weight_of_met_light(l, work, &past, lobe, path.o, path.d, &place)
 }
 

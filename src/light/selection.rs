@@ -73,7 +73,10 @@ impl Selection {
     /// What the background weighs.
     #[inline(always)]
     fn sky<L: Lanes>(&self, l: L, at: &Receiver<L>) -> F<L> {
-        at.lobe.map_or(l.f(self.sky), |lobe| lobe.of_sky() * self.sky)
+        match &at.lobe {
+            Some(lobe) => lobe.of_sky() * self.sky,
+            None => l.f(self.sky),
+        }
     }
 
     /// A light or [`MISS`] for the background, and the probability of this choice.

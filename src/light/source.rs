@@ -75,7 +75,11 @@ impl Source {
 /// What of the light is reflected, over what a diffuse surface would reflect of it if it stood overhead.
 #[inline(always)]
 fn reflected<L: Lanes>(at: &Receiver<L>, axis: V<L>, sin_squared: F<L>, facing: F<L>) -> F<L> {
-    at.lobe.map_or(facing, |lobe| lobe.reflected(at.n, axis, sin_squared, facing))
+    // Not `map_or`, whose closure would be compiled without the instructions of `L`.
+    match &at.lobe {
+        Some(lobe) => lobe.reflected(at.n, axis, sin_squared, facing),
+        None => facing,
+    }
 }
 
 /// A bound on the cosine at the receiver of all directions within the angle of sine `sin` around `axis`.
