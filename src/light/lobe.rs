@@ -25,7 +25,8 @@ impl<L: Lanes> Lobe<L> {
         let along = along.max(along.splat(GRAZING));
         // Halfway vectors turn by half the angle, out of the plane of incidence by as much over the cosine.
         let alpha2 = self.alpha * self.alpha + sin_squared.min(sin_squared.splat(1.0)) * 0.25 / (along * along);
-        let e = across * across * (alpha2 - 1.0) + 1.0;
+        // The squared sine by itself: 1 − cos² would have no digits left where α is least.
+        let e = across * across * alpha2 + (h - n * across).length_squared();
         let lobe = alpha2 / (e * e * along * 4.0);
         self.alpha.above(0.0).pick(lobe + facing * SCATTERED, facing)
     }
