@@ -7,8 +7,17 @@ use super::{
 };
 use crate::math::Lanes;
 
+#[inline(always)]
+pub(super) fn intersect<L: Lanes>(l: L, work: &Work, batch: &mut Batch) {
+    if work.scene.shapes.are_spheres() {
+        intersect_with::<L, true>(l, work, batch);
+    } else {
+        intersect_with::<L, false>(l, work, batch);
+    }
+}
+
 #[simd]
-pub(super) fn intersect<L: Lanes, const SPHERES: bool>(l: L, work: &Work, batch: &mut Batch) {
+fn intersect_with<L: Lanes, const SPHERES: bool>(l: L, work: &Work, batch: &mut Batch) {
     let paths = &batch.paths[(batch.bounce & 1) as usize];
     for start in (0..paths.len()).step_by(L::N) {
         let path = Path::read(l, paths, start);

@@ -6,6 +6,7 @@
 mod batch;
 #[cfg(test)]
 mod fault;
+mod features;
 mod intersect;
 mod kinds;
 mod media;
@@ -24,6 +25,7 @@ mod work;
 
 pub use self::{
     batch::Batch,
+    features::{Features, features},
     replay::{Replay, Vertex, replay},
     trace::{Interrupted, Segments, trace, trace_counting},
     work::{BLOCK, BLOCKS, Blocks, TILE, Work},

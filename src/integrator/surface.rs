@@ -147,18 +147,27 @@ pub(super) fn emission_texture<L: Lanes>(l: L, scene: &Scene, emits: M<L>, place
 }
 
 /// Paths at a surface.
-struct Arrival<L: Lanes> {
-    d: V<L>,
-    point: SurfacePoint<L>,
+pub(super) struct Arrival<L: Lanes> {
+    pub d: V<L>,
+    pub point: SurfacePoint<L>,
     /// Between the front normal and the direction to the viewer.
-    cos: F<L>,
-    place: Place<L>,
+    pub cos: F<L>,
+    pub place: Place<L>,
     /// What the paths are in.
-    media: U<L>,
+    pub media: U<L>,
     /// See [`surface`].
-    word: U<L>,
+    pub word: U<L>,
     /// What is queued where the surface is a plain one.
-    plain: Hit<L>,
+    pub plain: Hit<L>,
+}
+
+impl<L: Lanes> Arrival<L> {
+    /// Whether the paths are at the front, and whether the surface reflects on the side where they are.
+    #[inline(always)]
+    pub fn sides(&self) -> (M<L>, M<L>) {
+        let front = self.cos.above(0.0) ^ is_set(self.word, FLIPPED);
+        (front, front | !is_set(self.word, ONE_SIDED))
+    }
 }
 
 /// Queues the paths of `mask` whose surface reflects, by shading stage.
@@ -173,8 +182,8 @@ fn sort<L: Lanes>(
     mask: M<L>,
 ) {
     let word = arrival.word;
-    let front = arrival.cos.above(0.0) ^ is_set(word, FLIPPED);
-    let faces = mask & (front | !is_set(word, ONE_SIDED));
+    let (front, reflects) = arrival.sides();
+    let faces = mask & reflects;
     let detail = vary(l, work.scene, arrival, faces, &mut hit);
     let detail = Detail { surface: word | front.pick(l.u(FRONT), l.u(0)), ..detail };
     let reflects = faces & hit.colour.max_component().above(0.0);
@@ -191,7 +200,7 @@ fn sort<L: Lanes>(
 
 /// What varies over the surface: sets the colour of the hit, and returns its details.
 #[inline(always)]
-fn vary<L: Lanes>(l: L, scene: &Scene, arrival: &Arrival<L>, mask: M<L>, hit: &mut Hit<L>) -> Detail<L> {
+pub(super) fn vary<L: Lanes>(l: L, scene: &Scene, arrival: &Arrival<L>, mask: M<L>, hit: &mut Hit<L>) -> Detail<L> {
     let Scene { surfaces, textures, .. } = scene;
     let Arrival { d, point, cos, place, media, word, .. } = arrival;
     let [mut alpha, colour_texture, alpha_texture, medium] = l.rows(&surfaces.varying, place.primitive);

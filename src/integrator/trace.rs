@@ -82,11 +82,7 @@ pub(super) fn trace_in<L: Lanes, O: Observer>(
             return Err(Interrupted);
         }
         let last = batch.bounce == last_bounce;
-        if work.scene.shapes.are_spheres() {
-            intersect::<L, true>(l, work, batch);
-        } else {
-            intersect::<L, false>(l, work, batch);
-        }
+        intersect(l, work, batch);
         if work.scene.is_plain() {
             surfaces::<L, false>(l, work, batch, last && !cut_short);
         } else {

@@ -8,6 +8,7 @@ mod desc;
 mod diagnostic;
 mod excerpt;
 mod filter;
+mod legend;
 mod load;
 mod named;
 mod rays;
@@ -31,6 +32,7 @@ pub use self::{
     camera::{Camera, CameraError, Lens},
     compile::{Coating, Roughness},
     diagnostic::SceneError,
+    legend::Legend,
     load::{BUILT_IN, built_in, load, parse},
     rays::CameraRays,
     settings::{Estimator, RenderSettings, Reuse, Roulette},

@@ -6,6 +6,7 @@ mod adaptive;
 mod determinism;
 mod enclosures;
 mod estimators;
+mod features;
 mod furnace;
 mod glass;
 mod inside_outside;
