@@ -39,6 +39,7 @@ pub enum Progress<'a> {
 
 /// A scene with what will be measured of it.
 struct Prepared<'a> {
+    subject: &'a Subject,
     bench: Bench<'a>,
     title: String,
     /// All that a picture of the scene depends on besides settings.
@@ -63,7 +64,7 @@ impl Study<'_> {
     }
 
     fn prepare<'a>(&'a self, subject: &'a Subject) -> Result<Prepared<'a>, StudyError> {
-        let bench = Bench { subject, threads: self.threads, stop: self.stop };
+        let bench = Bench { scene: &subject.scene, camera: &subject.camera, threads: self.threads, stop: self.stop };
         // What is wrong with it is told before anything is rendered.
         reference::known(subject)?;
         // The bits of a picture stand for all that it is made of: the scene's meshes and images, and the program itself.
@@ -71,7 +72,7 @@ impl Study<'_> {
         let [width, height] = subject.camera.resolution.map(u32::to_le_bytes);
         let fingerprint = hash(&[subject.scene.source.as_bytes(), &width, &height, &picture.to_le_bytes()]);
         let groups = groups(bench, &self.plan.lists.combinations(subject.scene.settings))?;
-        Ok(Prepared { bench, title: subject.title(), fingerprint, groups })
+        Ok(Prepared { subject, bench, title: subject.title(), fingerprint, groups })
     }
 
     /// Repeat by repeat, so that what slows the machine for a while slows all combinations, and shows as spread.
@@ -84,7 +85,7 @@ impl Study<'_> {
         let settings = RenderSettings { seed: group.settings.seed.wrapping_add(repeat), ..group.settings };
         let Machine { cpu, threads, simd, version, .. } = self.machine;
         let Plan { spp, time, .. } = self.plan;
-        let reference = reference::identity(scene.bench.subject, *spp);
+        let reference = reference::identity(scene.subject, *spp);
         let how = format!("{settings:?} {spp} {time:?} {cpu} {threads} {simd} {version}");
         (settings, text(hash(&[&scene.fingerprint.to_le_bytes(), &reference.to_le_bytes(), how.as_bytes()])))
     }
@@ -102,9 +103,8 @@ impl Study<'_> {
             }
             observe(Progress::Begun { title: &scene.title, settings: &settings });
             let run = measure(scene.bench, &settings, self.plan, &reference.radiance)?;
-            let Prepared { bench: Bench { subject, .. }, .. } = scene;
             let header = Header {
-                subject,
+                subject: scene.subject,
                 settings: &settings,
                 repeat: repeat + 1,
                 reference: &reference,
@@ -122,13 +122,13 @@ impl Study<'_> {
     }
 
     fn reference(&self, scene: &Prepared, observe: &mut dyn FnMut(Progress)) -> Result<Reference, StudyError> {
-        let Prepared { bench, ref title, fingerprint, .. } = *scene;
-        let converged = Converged { bench, folder: self.folder, fingerprint, spp: self.plan.spp };
+        let Prepared { subject, bench, ref title, fingerprint, .. } = *scene;
+        let converged = Converged { subject, bench, folder: self.folder, fingerprint, spp: self.plan.spp };
         converged.reference(&mut |share| observe(Progress::Reference { title, share }))
     }
 
     fn findings(&self, scene: Prepared, runs: &[Vec<Run>], reference: Reference, limits: Limits) -> Findings {
-        let subject = scene.bench.subject;
+        let subject = scene.subject;
         let outcome = |(group, runs): (Group, &Vec<Run>)| Outcome::of(group, runs, limits);
         let mut outcomes: Vec<Outcome> = scene.groups.into_iter().zip(runs).map(outcome).collect();
         rank(&mut outcomes);

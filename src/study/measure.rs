@@ -1,7 +1,7 @@
 //! One render of one combination, stopped at powers of two of samples to compare it: the time of comparing does not count.
 use std::time::{Duration, Instant};
 
-use super::{Plan, StudyError, Subject, checkpoints};
+use super::{Plan, StudyError, checkpoints};
 use crate::{
     measure::compare,
     render::{
@@ -10,7 +10,7 @@ use crate::{
         pass::{PassCount, PassJob, Threads},
         sharing::resolved,
     },
-    scene::RenderSettings,
+    scene::{Camera, RenderSettings, Scene},
 };
 
 /// The error after some samples.
@@ -35,10 +35,11 @@ pub struct Run {
     pub bias: String,
 }
 
-/// What renders: a scene, threads, and somebody who may stop it.
+/// What renders: a scene before a camera, threads, and somebody who may stop it.
 #[derive(Clone, Copy)]
 pub struct Bench<'a> {
-    pub subject: &'a Subject,
+    pub scene: &'a Scene,
+    pub camera: &'a Camera,
     pub threads: &'a Threads,
     pub stop: &'a (dyn Fn() -> bool + Sync),
 }
@@ -46,8 +47,8 @@ pub struct Bench<'a> {
 impl Bench<'_> {
     /// Brings a film to so many samples a pixel. Returns how long that took.
     pub fn pass(&self, settings: &RenderSettings, film: &mut Film, spp: u32) -> Result<(Duration, PassCount), StudyError> {
-        let scene = &self.subject.scene;
-        let rays = scene.rays(&self.subject.camera);
+        let scene = self.scene;
+        let rays = scene.rays(self.camera);
         let settings = self.threads.install(|| resolved(scene, &rays, settings));
         let start = Instant::now();
         let count = self.threads.pass(PassJob { scene, rays: &rays, settings: &settings }, film, spp, self.stop);
@@ -60,12 +61,12 @@ impl Bench<'_> {
     }
 
     pub fn frame(&self, film: &Film) -> Frame {
-        let resolution = self.subject.camera.resolution;
+        let resolution = self.camera.resolution;
         self.threads.install(|| Frame::of_film(film, 0, resolution, resolution))
     }
 
     pub fn film(&self) -> Film {
-        Film::new(self.subject.camera.resolution)
+        Film::new(self.camera.resolution)
     }
 }
 
@@ -75,7 +76,7 @@ pub fn measure(bench: Bench, settings: &RenderSettings, plan: &Plan, reference: 
     // A sample that does not count, since it takes memory and fills caches; but where it takes long that does not matter.
     let mut counts = Some(bench.pass(settings, &mut film, 1)?);
     if counts.as_ref().is_some_and(|(took, _)| *took < plan.time) {
-        (counts, film) = (None, film.recycled(bench.subject.camera.resolution));
+        (counts, film) = (None, film.recycled(bench.camera.resolution));
     }
     let (mut run, mut elapsed, mut cut_paths) = (Run::default(), Duration::ZERO, 0);
     for spp in checkpoints(plan.spp) {

@@ -90,6 +90,7 @@ fn radiance(subject: &Subject, known: &truth::Reference) -> Vec<[f32; 3]> {
 
 /// A converged render as two independent halves, kept in a folder.
 pub struct Converged<'a> {
+    pub subject: &'a Subject,
     pub bench: Bench<'a>,
     pub folder: &'a Path,
     /// All that a picture of the scene depends on besides settings.
@@ -101,9 +102,9 @@ pub struct Converged<'a> {
 impl Converged<'_> {
     /// The reference of the scene; `done` is told the share of the work that is done, where there is work.
     pub fn reference(&self, done: &mut dyn FnMut(f64)) -> Result<Reference, StudyError> {
-        match known(self.bench.subject)? {
+        match known(self.subject)? {
             Some(reference) => Ok(reference),
-            None => self.render(done)?.if_lit(self.bench.subject),
+            None => self.render(done)?.if_lit(self.subject),
         }
     }
 
@@ -119,7 +120,7 @@ impl Converged<'_> {
     }
 
     fn file(&self, settings: &RenderSettings) -> PathBuf {
-        let stem = self.bench.subject.path.file_stem().unwrap_or_default().to_string_lossy();
+        let stem = self.subject.path.file_stem().unwrap_or_default().to_string_lossy();
         let parts = [
             self.fingerprint.to_le_bytes(),
             u64::from(settings.seed).to_le_bytes(),
@@ -131,10 +132,10 @@ impl Converged<'_> {
 
     /// One half, from its file if that is there and whole.
     fn half(&self, number: u32, done: &mut dyn FnMut(f64)) -> Result<Vec<[f32; 3]>, StudyError> {
-        let settings = settings(self.bench.subject);
+        let settings = settings(self.subject);
         let settings = RenderSettings { seed: settings.seed.wrapping_add(number), ..settings };
         let path = self.file(&settings);
-        let resolution = self.bench.subject.camera.resolution;
+        let resolution = self.bench.camera.resolution;
         match image_file::read(&path) {
             Ok(kept) if [kept.width, kept.height] == resolution => Ok(kept.radiance),
             _ => {
@@ -156,7 +157,7 @@ impl Converged<'_> {
     }
 
     fn keep(&self, frame: &Frame, settings: &RenderSettings, path: &Path) -> Result<(), StudyError> {
-        let Subject { scene, camera, .. } = self.bench.subject;
+        let Subject { scene, camera, .. } = self.subject;
         let text = settings_text(scene, camera, settings, Display::default(), frame.spp);
         let failed = |error: image_file::ImageError| StudyError::File { path: path.to_owned(), reason: error.to_string() };
         image_file::save(frame, Display::default(), &text, path).map_err(failed)

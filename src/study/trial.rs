@@ -25,7 +25,7 @@ pub fn groups(bench: Bench, combinations: &[RenderSettings]) -> Result<Vec<Group
         // Equal for a while does not mean that a cap is never reached: pictures with different caps never count as the same.
         pictures.push((trial(bench, settings)?, settings.max_bounces));
     }
-    Ok(group(&pictures, combinations, &bench.subject.scene.settings))
+    Ok(group(&pictures, combinations, &bench.scene.settings))
 }
 
 /// A hash of a trial picture's bits.

@@ -55,7 +55,7 @@ fn a_run_stops_before_a_doubling_that_takes_too_long() {
     std::fs::write(&path, include_str!("../../../scenes/furnace.toml")).expect("it can be written");
     let subject = Subject::load(&path, Some([8, 8]), None).expect("a scene");
     let threads = Threads::new(1, SimdLevel::best()).expect("threads");
-    let bench = Bench { subject: &subject, threads: &threads, stop: &|| false };
+    let bench = Bench { scene: &subject.scene, camera: &subject.camera, threads: &threads, stop: &|| false };
     let lists = Lists { estimators: vec![], directions: vec![], samplers: vec![], roulettes: vec![], caps: vec![] };
     let plan = |time| Plan { lists: lists.clone(), spp: 16, time, repeats: 1 };
     let reference = [[2.0; 3]; 64];
