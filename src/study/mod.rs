@@ -7,6 +7,7 @@
 //!   runs ─▶ Outcome (slope, efficiency) ─▶ Findings (ranking) ─▶ report.html
 //! ```
 //! What has been measured is kept line by line in the store and never measured again: see [`Study::run`].
+mod advice;
 mod driver;
 mod figures;
 mod fit;
@@ -30,6 +31,7 @@ mod wording;
 use std::path::PathBuf;
 
 pub use self::{
+    advice::{Advice, Candidate, advise},
     driver::{Progress, Study},
     fit::Slope,
     machine::Machine,

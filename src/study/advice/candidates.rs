@@ -1,0 +1,48 @@
+//! Which settings are tried, in two stages: not all combinations, for who waits for advice does not wait long.
+use super::Advice;
+use crate::{
+    sampling::SAMPLERS,
+    scene::{Estimator, RenderSettings, Roulette},
+    study::setting::Setting,
+};
+
+/// Without roulette paths may have no end, so that it is tried only where it is in use.
+const ROULETTES: [Roulette; 4] =
+    [Roulette::Throughput { start: 2 }, Roulette::BY_THROUGHPUT, Roulette::Throughput { start: 8 }, Roulette::Fixed(0.8)];
+
+/// The settings in use besides each sampler.
+pub const MOST_OF_SECOND_STAGE: usize = 1 + SAMPLERS.len();
+
+/// The settings in use, then those with another roulette or another estimator.
+pub fn first_stage(in_use: &RenderSettings) -> Vec<RenderSettings> {
+    let roulettes = ROULETTES.map(|roulette| RenderSettings { roulette, ..*in_use });
+    let estimators = Estimator::ALL.map(|estimator| RenderSettings { estimator, ..*in_use });
+    each_once(in_use, roulettes.into_iter().chain(estimators))
+}
+
+/// The settings in use, then `base` with each sampler.
+pub fn second_stage(in_use: &RenderSettings, base: &RenderSettings) -> Vec<RenderSettings> {
+    each_once(in_use, SAMPLERS.map(|entry| RenderSettings { sampler: entry.sampler, ..*base }))
+}
+
+fn each_once(first: &RenderSettings, others: impl IntoIterator<Item = RenderSettings>) -> Vec<RenderSettings> {
+    let mut all = vec![*first];
+    for settings in others {
+        if !all.contains(&settings) {
+            all.push(settings);
+        }
+    }
+    all
+}
+
+/// The settings in use with the roulette and the estimator that stand out of the first stage. What is not clearly better is left as it
+/// is: advice should change little.
+pub fn adopted(advice: &Advice) -> RenderSettings {
+    let in_use = advice.candidates[advice.current].settings;
+    [Setting::Roulette, Setting::Estimator].into_iter().fold(in_use, |base, setting| {
+        let differs_in_it_alone = |settings: &RenderSettings| setting.with(&in_use, settings) == *settings;
+        let mut better = advice.candidates.iter().filter(|candidate| candidate.is_clearly_better());
+        let best = better.find(|candidate| differs_in_it_alone(&candidate.settings));
+        best.map_or(base, |best| setting.with(&base, &best.settings))
+    })
+}

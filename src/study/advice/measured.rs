@@ -1,0 +1,91 @@
+//! What pictures of the same settings say of their noise, and how long they took.
+use rayon::prelude::*;
+
+use super::rounds::{Picture, Series};
+use crate::{measure::REL_MSE_FLOOR, scene::RenderSettings, study::outcome::ROUNDING};
+
+/// What was measured of some settings, round by round.
+#[derive(Clone, Debug)]
+pub struct Measured {
+    pub settings: RenderSettings,
+    /// The numbers of the rounds.
+    pub rounds: Vec<u32>,
+    /// Of the time that each picture took.
+    pub log_seconds: Vec<f64>,
+    /// Of each picture from each before it: the mean over pixels and channels of (x − y)²/(m² + 0.01), as relMSE has it, where m is the
+    /// mean of all pictures of all settings.
+    pub differences: Vec<Vec<f64>>,
+    /// How much of m the mean of these pictures has: about 1.
+    pub found: f64,
+}
+
+/// What the pictures say; all settings must converge to the same.
+pub fn measured(series: &[Series]) -> Vec<Measured> {
+    let common = mean(series.iter().flat_map(|series| &series.pictures));
+    let weights: Vec<f64> = common.iter().map(|m| 1.0 / (m * m + REL_MSE_FLOOR)).collect();
+    series.iter().map(|series| Measured::of(series, &common, &weights)).collect()
+}
+
+/// The mean of pictures, channel by channel.
+fn mean<'a>(pictures: impl Iterator<Item = &'a Picture>) -> Vec<f64> {
+    let (mut sum, mut count) = (Vec::new(), 0.0);
+    for picture in pictures {
+        let values = picture.radiance.as_flattened();
+        sum.resize(values.len(), 0.0);
+        sum.iter_mut().zip(values).for_each(|(sum, value)| *sum += f64::from(*value));
+        count += 1.0;
+    }
+    sum.iter().map(|sum| sum / count).collect()
+}
+
+impl Measured {
+    fn of(series: &Series, common: &[f64], weights: &[f64]) -> Measured {
+        let Series { settings, pictures } = series;
+        let difference = |a: &Picture, b: &Picture| {
+            let values = a.radiance.as_flattened().iter().zip(b.radiance.as_flattened()).zip(weights);
+            let sum: f64 = values.map(|((a, b), weight)| (f64::from(*a) - f64::from(*b)).powi(2) * weight).sum();
+            sum / weights.len() as f64
+        };
+        let before = |i: usize| pictures[..i].iter().map(|other| difference(&pictures[i], other)).collect();
+        let own = mean(pictures.iter());
+        let along = |picture: &[f64]| picture.iter().zip(common).zip(weights).map(|((x, m), weight)| x * m * weight).sum::<f64>();
+        let light = along(common);
+        Measured {
+            settings: *settings,
+            rounds: pictures.iter().map(|picture| picture.round).collect(),
+            log_seconds: pictures.iter().map(|picture| picture.seconds.ln()).collect(),
+            differences: (0..pictures.len()).into_par_iter().map(before).collect(),
+            found: if light > 0.0 { along(&own) / light } else { 1.0 },
+        }
+    }
+
+    /// Whether these settings find light at all: where they do not, little noise is no merit.
+    pub fn is_sound(&self) -> bool {
+        self.found > 0.5
+    }
+
+    /// The relMSE of a picture by those of some rounds, at least two: half the mean square of the difference of two, which has twice
+    /// the variance of one.
+    pub fn rel_mse(&self, rounds: &[u32]) -> f64 {
+        let places: Vec<usize> = self.places(rounds).collect();
+        let pairs = places.iter().flat_map(|a| places.iter().filter(move |b| *b < a).map(move |b| self.differences[*a][*b]));
+        pairs.sum::<f64>() / (places.len() * (places.len() - 1)) as f64
+    }
+
+    /// The geometric mean of the time of a picture.
+    pub fn seconds(&self, rounds: &[u32]) -> f64 {
+        let (sum, count) =
+            self.places(rounds).fold((0.0, 0.0), |(sum, count), place| (sum + self.log_seconds[place], count + 1.0));
+        f64::exp(sum / count)
+    }
+
+    /// The relMSE, no less than what rounding may add.
+    pub fn noise(&self, rounds: &[u32]) -> f64 {
+        self.rel_mse(rounds).max(ROUNDING)
+    }
+
+    /// Where the pictures of these rounds are.
+    fn places(&self, rounds: &[u32]) -> impl Iterator<Item = usize> {
+        rounds.iter().filter_map(|round| self.rounds.iter().position(|known| known == round))
+    }
+}

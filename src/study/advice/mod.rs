@@ -1,0 +1,92 @@
+//! What to use here: a short study of one scene that says which sampler, roulette and estimator would find its picture soonest.
+//!
+//! ```text
+//!   settings in use ─▶ first stage: each roulette, each estimator ─▶ second stage: with what stands out, each sampler ─▶ Advice
+//!                      Rounds: a picture of each ─▶ Measured: noise and time ─▶ rank
+//! ```
+//! No reference is needed: pictures of the same settings with other seeds differ by their noise alone, and that is so whatever the
+//! sampler, for another seed scrambles its points anew. All settings that are tried converge to the same picture, since directions,
+//! cap and reuse stay as they are in use.
+mod candidates;
+mod measured;
+mod rank;
+mod rounds;
+#[cfg(test)]
+mod tests;
+mod wording;
+
+use std::time::Duration;
+
+pub use self::rank::{Advice, Candidate};
+use self::{
+    candidates::{MOST_OF_SECOND_STAGE, adopted, first_stage, second_stage},
+    measured::measured,
+    rank::rank,
+    rounds::Rounds,
+};
+use super::{StudyError, measure::Bench, plan::study_size};
+use crate::{
+    render::pass::Threads,
+    scene::{Camera, RenderSettings, Scene},
+};
+
+/// Samples a pixel of every picture.
+const SPP: u32 = 16;
+/// Rounds of a stage: the spread of fewer would say little. Where time is short, pictures are made smaller instead.
+const ROUNDS: u32 = 8;
+/// The longer side of a picture is not made shorter than this, in pixels.
+const LEAST_SIDE: f64 = 32.0;
+
+/// Tries what could be better than `settings` in a scene for about so much `time`. `progress` is told how many of the pictures to make
+/// are there, and how many that are; whoever says `stop` is heeded between two bounces.
+pub fn advise(
+    scene: &Scene,
+    camera: &Camera,
+    settings: &RenderSettings,
+    threads: &Threads,
+    time: Duration,
+    progress: &mut dyn FnMut(usize, usize),
+    stop: &(dyn Fn() -> bool + Sync),
+) -> Result<Advice, StudyError> {
+    let first = first_stage(settings);
+    let camera = Camera { resolution: study_size(camera.resolution), ..*camera };
+    let bench = Bench { scene, camera: &camera, threads, stop };
+    let in_a_round = first.len() + MOST_OF_SECOND_STAGE;
+    let seconds = sample_of_each(bench, &first)? * f64::from(SPP) * in_a_round as f64 / first.len() as f64;
+    let share = time.as_secs_f64() / (seconds * f64::from(ROUNDS));
+    let camera = Camera { resolution: reduced(camera.resolution, share), ..camera };
+
+    let total = ROUNDS as usize * in_a_round;
+    let mut done = 0;
+    let mut made = || {
+        done += 1;
+        progress(done, total);
+    };
+    let mut pictures = Rounds::new(Bench { camera: &camera, ..bench });
+    pictures.make(&first, 0..ROUNDS, &mut made)?;
+    let base = adopted(&rank(&threads.install(|| measured(&pictures.series)), SPP));
+    pictures.make(&second_stage(settings, &base), ROUNDS..2 * ROUNDS, &mut made)?;
+    let advice = rank(&threads.install(|| measured(&pictures.series)), SPP);
+    // What both stages have in common is not tried twice.
+    progress(total, total);
+    Ok(advice)
+}
+
+/// The time that one sample a pixel of each of these takes, in seconds. Before that, one that does not count: it takes memory, fills
+/// caches, and finds out whether sharing paths pays.
+fn sample_of_each(bench: Bench, candidates: &[RenderSettings]) -> Result<f64, StudyError> {
+    let mut seconds = 0.0;
+    for settings in candidates {
+        let mut film = bench.film();
+        bench.pass(settings, &mut film, 1)?;
+        seconds += bench.pass(settings, &mut film, 2)?.0.as_secs_f64();
+    }
+    Ok(seconds)
+}
+
+/// A resolution of the same shape with this share of the pixels, or of [`LEAST_SIDE`]; never a larger one.
+fn reduced(resolution: [u32; 2], share: f64) -> [u32; 2] {
+    let longer = f64::from(resolution[0].max(resolution[1]));
+    let scale = share.sqrt().max(LEAST_SIDE / longer).min(1.0);
+    resolution.map(|side| (f64::from(side) * scale).round().max(1.0) as u32)
+}

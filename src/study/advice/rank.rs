@@ -1,0 +1,136 @@
+//! From measurements to advice: which settings are the most efficient, and whether that is more than chance.
+use super::{
+    measured::Measured,
+    wording::{difference, differing},
+};
+use crate::{
+    measure::Moments,
+    scene::RenderSettings,
+    study::{fit::student_95, outcome::ROUNDING},
+};
+
+/// Less is not worth a change.
+const LEAST_GAIN: f64 = 1.05;
+
+/// Settings that were tried.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Candidate {
+    pub settings: RenderSettings,
+    /// What differs from the settings in use.
+    pub name: String,
+    /// 1/(relMSE · seconds); 0 where hardly any of the light was found that others found.
+    pub efficiency: f64,
+    /// Efficiency over that of the settings in use, which is infinite where those found hardly any light.
+    pub relative: f64,
+    /// Standard error of ln `relative`, that is, as a part of it, by the spread over rounds.
+    pub standard_error: f64,
+    /// Of a picture of `spp` samples a pixel.
+    pub rel_mse: f64,
+    /// That the picture took.
+    pub seconds: f64,
+    pub spp: u32,
+    /// How many pictures were made.
+    pub rounds: usize,
+}
+
+/// What was found out. There is always a candidate, for the settings in use are one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Advice {
+    /// The most efficient first.
+    pub candidates: Vec<Candidate>,
+    /// Place of what should be used: of those that are clearly better and about as good as any, the one that changes least; the
+    /// settings in use, if nothing is clearly better.
+    pub best: usize,
+    /// Place of the settings in use.
+    pub current: usize,
+}
+
+impl Candidate {
+    /// Whether it is better than the settings in use beyond what the spread over rounds explains, at 95 %, and by enough to matter.
+    pub fn is_clearly_better(&self) -> bool {
+        let by_chance = student_95(self.rounds as f64 - 1.0) * self.standard_error;
+        self.relative >= LEAST_GAIN && self.relative.ln() > by_chance
+    }
+
+    /// Whether it was measured to be better by enough to matter, but not beyond chance.
+    pub fn may_be_better(&self) -> bool {
+        self.relative >= LEAST_GAIN && !self.is_clearly_better()
+    }
+
+    /// Whether what is left is rounding.
+    pub fn is_exact(&self) -> bool {
+        self.rel_mse <= ROUNDING && self.efficiency > 0.0
+    }
+}
+
+impl Advice {
+    pub fn best(&self) -> &Candidate {
+        &self.candidates[self.best]
+    }
+
+    pub fn current(&self) -> &Candidate {
+        &self.candidates[self.current]
+    }
+}
+
+/// Ranks settings of which at least three pictures of `spp` samples were made. The first are those in use, which must have one in every
+/// round.
+pub fn rank(measured: &[Measured], spp: u32) -> Advice {
+    let in_use = &measured[0];
+    let mut candidates: Vec<Candidate> = measured.iter().map(|measured| candidate(measured, in_use, spp)).collect();
+    candidates.sort_by(|a, b| b.efficiency.total_cmp(&a.efficiency));
+    let current = candidates.iter().position(|candidate| candidate.settings == in_use.settings).unwrap_or(0);
+    let better = || (0..candidates.len()).filter(|place| candidates[*place].is_clearly_better());
+    let most = better().next().map_or(0.0, |place| candidates[place].efficiency);
+    let about_as_good = better().filter(|place| candidates[*place].efficiency * LEAST_GAIN >= most);
+    let best = about_as_good.min_by_key(|place| differing(&candidates[*place].settings, &in_use.settings).len());
+    Advice { best: best.unwrap_or(current), current, candidates }
+}
+
+fn candidate(measured: &Measured, in_use: &Measured, spp: u32) -> Candidate {
+    let rounds = &measured.rounds[..];
+    let relative = log_relative(measured, in_use, &in_use.rounds).exp();
+    let efficiency = relative / (in_use.noise(&in_use.rounds) * in_use.seconds(&in_use.rounds));
+    let is_in_use = measured.settings == in_use.settings;
+    Candidate {
+        settings: measured.settings,
+        name: difference(&measured.settings, &in_use.settings),
+        efficiency: if measured.is_sound() { efficiency } else { 0.0 },
+        relative: match (measured.is_sound(), in_use.is_sound()) {
+            _ if is_in_use => 1.0,
+            (false, _) => 0.0,
+            (true, false) => f64::INFINITY,
+            (true, true) => relative,
+        },
+        standard_error: standard_error(measured, in_use),
+        rel_mse: measured.rel_mse(rounds),
+        seconds: measured.seconds(rounds),
+        spp,
+        rounds: rounds.len(),
+    }
+}
+
+/// ln of the efficiency relative to that of the settings in use, by some of the rounds.
+///
+/// Times are compared round by round, so that what slows a round cancels. Noise is that of all rounds: what a few rare samples add to
+/// that of the settings in use must not make candidates differ that were tried in other rounds.
+fn log_relative(measured: &Measured, in_use: &Measured, rounds: &[u32]) -> f64 {
+    let own: Vec<u32> = rounds.iter().copied().filter(|round| measured.rounds.contains(round)).collect();
+    let (noise, seconds) = (in_use.noise(rounds) / measured.noise(&own), in_use.seconds(&own) / measured.seconds(&own));
+    (noise * seconds).ln()
+}
+
+/// The standard error of [`log_relative`] by estimates that leave one round out: the jackknife (J. W. Tukey, 1958; for variances R. G.
+/// Miller, "Jackknifing Variances", 1968), by itself in the rounds of the candidate and in those that only the settings in use have.
+fn standard_error(measured: &Measured, in_use: &Measured) -> f64 {
+    let without = |left_out: &u32| {
+        let rest: Vec<u32> = in_use.rounds.iter().copied().filter(|round| round != left_out).collect();
+        log_relative(measured, in_use, &rest)
+    };
+    let (own, others): (Vec<u32>, Vec<u32>) = in_use.rounds.iter().partition(|round| measured.rounds.contains(round));
+    let squared = |rounds: Vec<u32>| {
+        let spread = Moments::of(rounds.iter().map(without));
+        if spread.count > 1.0 { (spread.count - 1.0).powi(2) * spread.variance / spread.count } else { 0.0 }
+    };
+    (squared(own) + squared(others)).sqrt()
+}

@@ -1,0 +1,244 @@
+//! Estimates on noise that is known, ranking on numbers that are known, and advice whose time is counted work.
+use std::{cell::Cell, time::Duration};
+
+use super::{
+    candidates::{adopted, first_stage, second_stage},
+    measured::{Measured, measured},
+    rank::rank,
+    *,
+};
+use crate::{
+    math::{One, SimdLevel, U},
+    measure::REL_MSE_FLOOR,
+    sampling::{
+        Sampler,
+        hash::{hash, unit},
+    },
+    scene::{Estimator, Roulette, parse},
+    study::advice::rounds::{Picture, Series},
+};
+
+const IN_USE: RenderSettings = RenderSettings {
+    estimator: Estimator::Mis,
+    sampler: Sampler::Independent,
+    directions: crate::sampling::Directions::Bsdf,
+    roulette: Roulette::Fixed(0.3),
+    max_bounces: None,
+    reuse: crate::scene::Reuse::Off,
+    adaptive: false,
+    seed: 7,
+    fault: None,
+};
+const ADVISED: RenderSettings = RenderSettings { sampler: Sampler::Sobol, roulette: Roulette::BY_THROUGHPUT, ..IN_USE };
+
+/// A number in (0, 1).
+fn uniform(i: u32) -> f64 {
+    f64::from(unit(hash(U::<One>(i))).0)
+}
+
+fn series(settings: RenderSettings, pictures: impl IntoIterator<Item = Vec<[f32; 3]>>) -> Series {
+    let picture = |(round, radiance)| Picture { round, seconds: 2.0, radiance };
+    Series { settings, pictures: (0..).zip(pictures).map(picture).collect() }
+}
+
+/// Settings whose pictures took these times, and differ by noise of these relMSE.
+fn known(settings: RenderSettings, rel_mse: f64, seconds: &[f64]) -> Measured {
+    Measured {
+        settings,
+        rounds: (0..seconds.len() as u32).collect(),
+        log_seconds: seconds.iter().map(|seconds| seconds.ln()).collect(),
+        differences: (0..seconds.len()).map(|i| vec![2.0 * rel_mse; i]).collect(),
+        found: 1.0,
+    }
+}
+
+#[test]
+fn pictures_that_are_known_have_the_noise_they_have() {
+    let found = &measured(&[series(IN_USE, [vec![[1.0; 3]], vec![[2.0; 3]], vec![[6.0; 3]]])])[0];
+    // The variance of 1, 2, 6 is 7, and their mean is 3.
+    assert!((found.rel_mse(&[0, 1, 2]) - 7.0 / (9.0 + REL_MSE_FLOOR)).abs() < 1e-12);
+    // Half of 5².
+    assert!((found.rel_mse(&[2, 0]) - 12.5 / (9.0 + REL_MSE_FLOOR)).abs() < 1e-12);
+    assert!((found.seconds(&[0, 2]) - 2.0).abs() < 1e-12);
+    assert!((found.found - 1.0).abs() < 1e-12);
+}
+
+#[test]
+fn noise_is_estimated_without_bias() {
+    const PIXELS: u32 = 3000;
+    // Uniform on an interval of length 0.6: the variance is 0.6²/12.
+    let noisy = |round: u32| (0..PIXELS).map(|i| [(0.7 + 0.6 * uniform(round * PIXELS + i)) as f32; 3]).collect();
+    let found = &measured(&[series(IN_USE, (0..6).map(noisy))])[0];
+    let exact = 0.03 / (1.0 + REL_MSE_FLOOR);
+    // The fourth moment of a uniform number is 1.8 σ⁴, so that Var s² = σ⁴ (1.8 − (n − 3)/(n − 1))/n.
+    let standard_error = exact * ((1.8 - 3.0 / 5.0) / 6.0 / f64::from(PIXELS)).sqrt();
+    let z = (found.rel_mse(&found.rounds) - exact) / standard_error;
+    assert!(z.abs() < 4.0, "{z}");
+}
+
+#[test]
+fn efficiency_is_told_from_noise_and_time() {
+    let advice = rank(&[known(IN_USE, 0.08, &[1.0, 2.0, 1.0, 4.0]), known(ADVISED, 0.01, &[2.0, 4.0, 2.0, 8.0])], SPP);
+    assert_eq!((advice.best, advice.current), (0, 1));
+    let best = advice.best();
+    // Whatever slowed the machine slowed both.
+    assert!((best.relative - 4.0).abs() < 1e-9 && best.standard_error < 1e-9, "{best:?}");
+    assert!((best.efficiency / advice.current().efficiency - 4.0).abs() < 1e-9);
+    assert_eq!(advice.current().relative, 1.0);
+    let verdict = "Sobol (Owen), roulette by throughput from reflection 4 on: 4.000 ± 0.000 times as efficient as what you have.";
+    assert_eq!(advice.verdict(), verdict);
+}
+
+#[test]
+fn what_chance_explains_is_as_good() {
+    let seconds = [1.0, 1.6, 0.9, 0.5];
+    let advice = rank(&[known(IN_USE, 0.012, &[1.0; 4]), known(ADVISED, 0.01, &seconds)], SPP);
+    // Of the mean of logarithms the jackknife gives what the textbook does.
+    let logs = crate::measure::Moments::of(seconds.map(f64::ln));
+    let candidate = &advice.candidates[0];
+    assert!((candidate.standard_error - (logs.variance / 4.0).sqrt()).abs() < 1e-12);
+    assert!(candidate.relative > 1.1 && !candidate.is_clearly_better() && advice.best == advice.current);
+    let verdict = advice.verdict();
+    assert!(verdict.starts_with("What you have is as good: the best of the others, Sobol (Owen), "), "{verdict}");
+    assert!(verdict.ends_with(" times as efficient, which may be chance."), "{verdict}");
+    // Nor is a gain worth a change that is sure, but small.
+    let small = rank(&[known(IN_USE, 0.0103, &[1.0; 4]), known(ADVISED, 0.01, &[1.0; 4])], SPP);
+    assert_eq!(small.best, small.current);
+}
+
+#[test]
+fn advice_changes_as_little_as_it_can() {
+    let roulette = RenderSettings { roulette: ADVISED.roulette, ..IN_USE };
+    let with = |of_roulette| {
+        rank(&[known(IN_USE, 0.08, &[1.0; 4]), known(ADVISED, 0.01, &[1.0; 4]), known(roulette, of_roulette, &[1.0; 4])], SPP)
+    };
+    assert_eq!(with(0.0104).best().settings, roulette);
+    assert_eq!(with(0.011).best().settings, ADVISED);
+}
+
+/// The settings in use are in both stages, and rare samples make their noise differ.
+#[test]
+fn the_noise_in_use_makes_no_difference_between_stages() {
+    let mut in_use = known(IN_USE, 0.08, &[1.0; 8]);
+    in_use.differences[7].fill(50.0);
+    let first = known(ADVISED, 0.01, &[1.0; 4]);
+    let second = Measured {
+        settings: RenderSettings { sampler: Sampler::Stratified, ..IN_USE },
+        rounds: vec![4, 5, 6, 7],
+        ..first.clone()
+    };
+    let advice = rank(&[in_use, first, second], SPP);
+    let [a, b] = [0, 1].map(|place| &advice.candidates[place]);
+    assert!((a.efficiency / b.efficiency - 1.0).abs() < 1e-12);
+    assert!((a.standard_error / b.standard_error - 1.0).abs() < 1e-9 && a.standard_error > 0.1, "{a:?}, {b:?}");
+}
+
+#[test]
+fn who_finds_no_light_is_not_praised_for_little_noise() {
+    let lit = |i: u32| vec![[1.0 + 0.1 * (i % 2) as f32; 3]; 4];
+    let dark = |_| vec![[0.0; 3]; 4];
+    let advice = rank(&measured(&[series(IN_USE, (0..4).map(lit)), series(ADVISED, (0..4).map(dark))]), SPP);
+    assert_eq!((advice.best, advice.current), (0, 0));
+    assert_eq!((advice.candidates[1].efficiency, advice.candidates[1].relative), (0.0, 0.0));
+    let advice = rank(&measured(&[series(IN_USE, (0..4).map(dark)), series(ADVISED, (0..4).map(lit))]), SPP);
+    assert_eq!((advice.best, advice.best().relative), (0, f64::INFINITY));
+    assert!(advice.verdict().contains("what you have finds hardly any"), "{}", advice.verdict());
+}
+
+#[test]
+fn without_noise_nothing_is_better() {
+    let same = |settings| series(settings, (0..4).map(|_| vec![[0.5; 3]; 4]));
+    let advice = rank(&measured(&[same(IN_USE), same(ADVISED)]), SPP);
+    assert_eq!(advice.best, advice.current);
+    assert_eq!(advice.verdict(), "What you have leaves no noise: nothing is better than that.");
+}
+
+#[test]
+fn the_second_stage_takes_over_what_stood_out() {
+    let first = first_stage(&IN_USE);
+    assert_eq!(first.len(), 1 + 4 + 2);
+    assert_eq!(first_stage(&ADVISED).len(), 1 + 3 + 2);
+    let seconds = |settings: &RenderSettings| match (settings.roulette, settings.estimator) {
+        (Roulette::Throughput { start: 2 }, _) => 0.2,
+        (Roulette::Throughput { .. }, _) => 0.4,
+        (_, Estimator::Light) => 0.97,
+        _ => 1.0,
+    };
+    let trials: Vec<Measured> = first.iter().map(|settings| known(*settings, 0.01, &[seconds(settings); 4])).collect();
+    let base = adopted(&rank(&trials, SPP));
+    assert_eq!(base, RenderSettings { roulette: Roulette::Throughput { start: 2 }, ..IN_USE });
+    let second = second_stage(&IN_USE, &base);
+    assert_eq!((second.len(), second[0]), (MOST_OF_SECOND_STAGE, IN_USE));
+    assert_eq!(second_stage(&IN_USE, &IN_USE).len(), MOST_OF_SECOND_STAGE - 1);
+}
+
+fn scene() -> Scene {
+    parse("scene.toml", include_str!("../../../scenes/cornell_spheres.toml").to_owned()).expect("it is a scene")
+}
+
+#[test]
+fn by_counted_work_a_roulette_that_kills_most_paths_is_advised_against() {
+    let scene = scene();
+    let camera = Camera { resolution: [48, 48], ..scene.camera };
+    let threads = Threads::new(2, SimdLevel::best()).expect("threads");
+    let bench = Bench { scene: &scene, camera: &camera, threads: &threads, stop: &|| false };
+    let series = |settings: RenderSettings| {
+        let picture = |round| {
+            let (seeded, mut film) = (RenderSettings { seed: settings.seed + round, ..settings }, bench.film());
+            let (_, count) = bench.pass(&seeded, &mut film, SPP).expect("a picture");
+            Picture { round, seconds: count.rays as f64, radiance: bench.frame(&film).radiance }
+        };
+        Series { settings, pictures: (0..6).map(picture).collect() }
+    };
+    let sobol = RenderSettings { sampler: Sampler::Sobol, ..IN_USE };
+    let advice = rank(&measured(&[IN_USE, sobol, ADVISED].map(series)), SPP);
+    println!("{advice:#?}\n{}", advice.verdict());
+    assert_eq!(advice.best().settings, ADVISED);
+    assert!(advice.best().relative > 1.5);
+}
+
+#[test]
+fn advice_comes_to_an_end_and_keeps_the_cap() {
+    let scene = scene();
+    let in_use = RenderSettings { max_bounces: Some(3), ..IN_USE };
+    let threads = Threads::new(2, SimdLevel::best()).expect("threads");
+    let (mut done, mut total) = (0, 0);
+    let mut progress = |now: usize, of: usize| {
+        assert!(now >= done && (total == 0 || of == total), "{now} of {of} after {done} of {total}");
+        (done, total) = (now, of);
+    };
+    let advice = advise(&scene, &scene.camera, &in_use, &threads, Duration::ZERO, &mut progress, &|| false).expect("advice");
+    assert!(done == total && total > 0);
+    assert!(advice.candidates.len() >= 7 + 3, "{}", advice.candidates.len());
+    assert!(advice.candidates.iter().all(|candidate| candidate.settings.max_bounces == Some(3) && candidate.settings.seed == 7));
+    assert_eq!(advice.current().settings, in_use);
+    assert!(advice.verdict().ends_with(" All that was tried has your cap at 3, and misses what lies beyond it."));
+}
+
+#[test]
+fn advice_can_be_stopped_at_any_time() {
+    let scene = scene();
+    let threads = Threads::new(1, SimdLevel::best()).expect("threads");
+    let stopped = |after: usize| {
+        let made = Cell::new(0);
+        // The threads that render see it through an atomic.
+        let stop = std::sync::atomic::AtomicBool::new(after == 0);
+        let mut progress = |done, _| {
+            made.set(done);
+            stop.fetch_or(done >= after, std::sync::atomic::Ordering::Relaxed);
+        };
+        let asked = || stop.load(std::sync::atomic::Ordering::Relaxed);
+        let advice = advise(&scene, &scene.camera, &IN_USE, &threads, Duration::ZERO, &mut progress, &asked);
+        assert!(matches!(advice, Err(StudyError::Interrupted)), "{after}");
+        made.get()
+    };
+    assert_eq!([0, 1, 5].map(stopped), [0, 1, 5]);
+}
+
+#[test]
+fn pictures_are_made_smaller_in_shape() {
+    assert_eq!(reduced([256, 128], 2.0), [256, 128]);
+    assert_eq!(reduced([256, 128], 0.25), [128, 64]);
+    assert_eq!(reduced([256, 128], 1e-9), [32, 16]);
+    assert_eq!(reduced([20, 10], 1e-9), [20, 10]);
+}

@@ -1,0 +1,79 @@
+//! Advice in words.
+use super::{Advice, Candidate};
+use crate::{
+    scene::{RenderSettings, Roulette},
+    study::setting::Setting,
+};
+
+/// What differs from the settings in use.
+pub fn differing(settings: &RenderSettings, in_use: &RenderSettings) -> Vec<Setting> {
+    Setting::ALL.into_iter().filter(|setting| setting.with(in_use, settings) != *in_use).collect()
+}
+
+/// What differs from the settings in use, as a reader of the window calls it.
+pub fn difference(settings: &RenderSettings, in_use: &RenderSettings) -> String {
+    let word = |setting| match setting {
+        Setting::Estimator => format!("estimator {}", settings.estimator.name()),
+        Setting::Sampler => settings.sampler.entry().title.to_owned(),
+        Setting::Roulette => roulette(settings.roulette),
+        Setting::Directions | Setting::Cap => format!("{} {}", setting.name(), setting.value(settings)),
+    };
+    let words: Vec<String> = differing(settings, in_use).into_iter().map(word).collect();
+    if words.is_empty() { "what you have".to_owned() } else { words.join(", ") }
+}
+
+fn roulette(roulette: Roulette) -> String {
+    match roulette {
+        Roulette::Off => "no roulette".to_owned(),
+        Roulette::Fixed(survival) => format!("roulette fixed at {survival}"),
+        Roulette::Throughput { start } => format!("roulette by throughput from reflection {start} on"),
+    }
+}
+
+impl Candidate {
+    /// Relative efficiency and its standard error, as `1.83 ± 0.04`: two digits of the error, but no more than three behind the point.
+    /// `∞` where the settings in use found hardly any light.
+    pub fn ratio(&self) -> String {
+        if !self.relative.is_finite() {
+            return "∞".to_owned();
+        }
+        let error = self.relative * self.standard_error;
+        let decimals = if error > 0.0 { (1.0 - error.log10().floor()).clamp(0.0, 3.0) as usize } else { 2 };
+        format!("{:.decimals$} ± {error:.decimals$}", self.relative)
+    }
+}
+
+impl Advice {
+    /// What to use, and how sure that is; errors are standard errors.
+    pub fn verdict(&self) -> String {
+        let (best, current) = (self.best(), self.current());
+        let mut text = if self.best == self.current {
+            self.nothing_better()
+        } else if !best.relative.is_finite() {
+            format!("{}: finds light; what you have finds hardly any of it.", best.name)
+        } else if best.is_exact() && !current.is_exact() {
+            format!("{}: leaves no noise at all.", best.name)
+        } else {
+            format!("{}: {} times as efficient as what you have.", best.name, best.ratio())
+        };
+        if let Some(bias) = current.settings.bias() {
+            text.push_str(&format!(" All that was tried has your {bias}, and misses what lies beyond it."));
+        }
+        text
+    }
+
+    fn nothing_better(&self) -> String {
+        if self.current().is_exact() {
+            return "What you have leaves no noise: nothing is better than that.".to_owned();
+        }
+        let Some(next) = self.candidates.iter().find(|candidate| candidate.name != self.current().name) else {
+            return "Nothing else was tried than what you have.".to_owned();
+        };
+        let chance = if next.may_be_better() { ", which may be chance" } else { "" };
+        format!(
+            "What you have is as good: the best of the others, {}, is {} times as efficient{chance}.",
+            next.name,
+            next.ratio()
+        )
+    }
+}
