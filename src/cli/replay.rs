@@ -1,6 +1,6 @@
 //! `noisefall render --pixel X,Y --sample N`: one path, vertex by vertex.
 use noisefall::{
-    integrator::replay,
+    integrator::{Emission, LightSearch, Outcome, Reflection, Surface, Vertex, replay},
     render::sharing::resolved,
     scene::{Camera, RenderSettings, Scene},
 };
@@ -25,26 +25,99 @@ pub fn run(
     if json {
         return print(&serde_json::json!(replay).to_string());
     }
-    print(&format!("pixel {},{}, sample {sample}: radiance {}", pixel[0], pixel[1], colour(replay.radiance)))?;
-    print("bounce  throughput before        radiance after           distance  object")?;
+    print(&format!("pixel {},{}, sample {sample}: radiance {}", pixel[0], pixel[1], three(replay.radiance)))?;
     for vertex in &replay.vertices {
-        let object = vertex.object.map_or("(leaves the scene)", |id| match scene.objects[id as usize].name.as_str() {
-            "" => "(unnamed)",
-            name => name,
-        });
-        let distance = vertex.distance.map_or_else(String::new, |t| format!("{t:.5}"));
-        let (throughput, radiance) = (colour(vertex.throughput), colour(vertex.radiance));
-        print(&format!("{:>6}  {throughput:<23}  {radiance:<23}  {distance:>8}  {object}", vertex.bounce))?;
+        print(&block(scene, vertex))?;
     }
     if let Some(alone) = replay.alone {
         print(&format!(
             "This path alone would have made it {}: pixels share what their paths find (--reuse off: none does).",
-            colour(alone)
+            three(alone)
         ))?;
     }
     Ok(())
 }
 
-fn colour([r, g, b]: [f32; 3]) -> String {
-    format!("{r:.5} {g:.5} {b:.5}")
+/// What is printed of a vertex: a title, and a line or more a term.
+fn block(scene: &Scene, vertex: &Vertex) -> String {
+    let mut text = title(scene, vertex);
+    let mut term = |name: &str, value: &str| text += &format!("\n  {name:<15} {value}");
+    term("throughput", &three(vertex.throughput));
+    if vertex.transmittance != [1.0; 3] {
+        term("media let pass", &three(vertex.transmittance));
+    }
+    if let Some(Surface { position, wo, shading_normal, .. }) = &vertex.surface {
+        term("position", &three(*position));
+        term("to the viewer", &three(*wo));
+        shading_normal.iter().for_each(|n| term("normal", &three(*n)));
+    }
+    if let Some(Emission { radiance, weight, contribution }) = &vertex.emission {
+        term("emission", &format!("Le {}, weight {}", three(*radiance), number(*weight)));
+        term("", &format!("adds {}", three(*contribution)));
+    }
+    vertex.light.iter().for_each(|light| light_sample(scene, light, &mut term));
+    vertex.reflection.iter().for_each(|reflection| next(reflection, &mut term));
+    term("radiance so far", &three(vertex.radiance));
+    text
+}
+
+fn title(scene: &Scene, vertex: &Vertex) -> String {
+    let (Some(id), Some(distance), Some(surface)) = (vertex.object, vertex.distance, &vertex.surface) else {
+        return format!("\nvertex {}: leaves the scene", vertex.bounce);
+    };
+    let (material, side) = (surface.material.unwrap_or("black"), if surface.front { "front" } else { "back" });
+    format!("\nvertex {}: {}, {material}, {side}, {} m away", vertex.bounce, name(scene, id), number(distance))
+}
+
+fn light_sample(scene: &Scene, light: &LightSearch, term: &mut impl FnMut(&str, &str)) {
+    let aim = light.object.map_or("the background", |id| name(scene, id));
+    term("light sample", &format!("{aim}, p {}", number(light.pdf)));
+    term("", &format!("ω {}", three(light.direction)));
+    term("", &format!("Le {}, weight {}", three(light.radiance), number(light.weight)));
+    term("", &format!("f cos {}", three(light.f_cos)));
+    if light.outcome == Outcome::Seen && light.passed != [1.0; 3] {
+        term("", &format!("× {} by media and texture", three(light.passed)));
+    }
+    term(
+        "",
+        &match light.outcome {
+            Outcome::Seen => format!("is seen, adds {}", three(light.contribution)),
+            Outcome::Hidden => "is hidden".to_owned(),
+            Outcome::Void => "cannot be reflected or is dark".to_owned(),
+        },
+    );
+}
+
+fn next(reflection: &Reflection, term: &mut impl FnMut(&str, &str)) {
+    term("next direction", &format!("ω {}", three(reflection.direction)));
+    match (reflection.f, reflection.pdf) {
+        (Some(f), Some(pdf)) => {
+            term("", &format!("f {}, p {}", three(f), number(pdf)));
+            term("", &format!("cos θ {}, f cos/p {}", number(reflection.cos), three(reflection.weight)));
+        }
+        _ => term("", &format!("delta lobe, weight {}", three(reflection.weight))),
+    }
+    let played = if reflection.survival < 1.0 { format!("survival {}, ", number(reflection.survival)) } else { String::new() };
+    let end = match reflection {
+        Reflection { goes_on: true, throughput, .. } => format!("goes on with {}", three(*throughput)),
+        Reflection { survives: false, survival, .. } if *survival < 1.0 => "ended by roulette".to_owned(),
+        _ => "ends: nothing would come of it".to_owned(),
+    };
+    term("", &format!("{played}{end}"));
+}
+
+fn name(scene: &Scene, object: u32) -> &str {
+    match scene.objects[object as usize].name.as_str() {
+        "" => "(unnamed)",
+        name => name,
+    }
+}
+
+fn three(values: [f32; 3]) -> String {
+    values.map(number).join(" ")
+}
+
+/// Five decimals, or as many digits where these would be few or the number long.
+fn number(x: f32) -> String {
+    if x == 0.0 || (1e-3..1e4).contains(&x.abs()) { format!("{x:.5}") } else { format!("{x:.4e}") }
 }

@@ -10,7 +10,7 @@ use super::{
     batch::{Batch, Hit, Path},
     intersect::intersect,
     spawn::spawn,
-    surface::{Arrival, vary},
+    surface::{Arrival, Met, vary},
     work::{BLOCK, Work},
 };
 use crate::{
@@ -171,7 +171,7 @@ fn shading<L: Lanes>(l: L, scene: &Scene, hit: M<L>, path: &Path<L>, place: Plac
     let [x, y, z, word] = l.rows(&scene.surfaces.rows, place.primitive);
     let n = point.n_geometric * l.f(1.0).copysign(cos);
     let mut record = Hit { p: point.p, n, colour: V { x, y, z }, throughput: path.throughput, slot: path.slot };
-    let arrival = Arrival { d: path.d, point, cos, place, media: l.u(0), word: word.bits(), plain: record };
+    let arrival = Arrival { d: path.d, met: Met { place, point, cos }, media: l.u(0), word: word.bits(), plain: record };
     let (_, reflects) = arrival.sides();
     let detail = vary(l, scene, &arrival, hit & reflects, &mut record);
     (detail.n, reflects.pick(record.colour, V::splat(l, [0.0; 3])))

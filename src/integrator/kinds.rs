@@ -122,3 +122,19 @@ fn uncompressed<L: Lanes>(eta: F<L>, front: M<L>, z: F<L>) -> F<L> {
     let ratio = front.pick(eta, 1.0 / eta);
     inside.pick(ratio * ratio, z.splat(1.0))
 }
+
+/// `in_kind!(stage, K => call::<K>(…))`: the call with the kind of a [`Stage`].
+macro_rules! in_kind {
+    ($stage:expr, $kind:ident => $call:expr) => {
+        in_kind!($stage, $kind => $call; Plain Diffuse Mirror Conductor Dielectric RoughDielectric Plastic)
+    };
+    ($stage:expr, $kind:ident => $call:expr; $($name:ident)*) => {
+        match $stage {
+            $($crate::scene::surface::Stage::$name => {
+                type $kind = $crate::integrator::kinds::$name;
+                $call
+            })*
+        }
+    };
+}
+pub(super) use in_kind;

@@ -16,6 +16,7 @@ mod replay;
 mod reuse;
 mod roulette;
 mod shade;
+mod shading;
 mod shadow;
 mod spawn;
 mod surface;
@@ -26,7 +27,7 @@ mod work;
 pub use self::{
     batch::Batch,
     features::{Features, features},
-    replay::{Replay, Vertex, replay},
+    replay::{MetLight, Outcome, Reflection, Replay, SampledLight, Surface, Vertex, pixel_samples, replay},
     trace::{Interrupted, Segments, trace, trace_counting},
     work::{BLOCK, BLOCKS, Blocks, TILE, Work},
 };

@@ -68,12 +68,6 @@ impl Shared {
         self.found_normals.fill([0.0; 4]);
     }
 
-    /// What a path has gathered of which nothing is shared: `radiance` by slot.
-    pub fn alone(&self, radiance: &[[f32; 4]], slot: usize) -> [f32; 3] {
-        let found = self.weighted(slot, [0, 1, 2].map(|c| radiance[slot + SLOTS][c]));
-        [0, 1, 2].map(|c| radiance[slot][c] + found[c])
-    }
-
     /// Times the albedo of the first surface, where that is shared.
     pub fn weighted(&self, slot: usize, colour: [f32; 3]) -> [f32; 3] {
         let shares = self.points[slot][3] > 0.0;

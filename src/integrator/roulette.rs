@@ -7,8 +7,16 @@ use crate::{
     scene::Roulette,
 };
 
-/// The paths that survive their `reflection`-th reflection, and the throughput of the survivors. Roulette by throughput judges
-/// the throughput times `scale`.
+/// What roulette makes of paths.
+pub(super) struct Survival<L: Lanes> {
+    pub alive: M<L>,
+    /// Of the survivors.
+    pub throughput: V<L>,
+    /// With which they survive; 1 where no roulette is played.
+    pub probability: F<L>,
+}
+
+/// The paths that survive their `reflection`-th reflection. Roulette by throughput judges the throughput times `scale`.
 #[inline(always)]
 pub(super) fn survive<L: Lanes>(
     l: L,
@@ -17,7 +25,7 @@ pub(super) fn survive<L: Lanes>(
     stream: &Stream<L>,
     throughput: V<L>,
     scale: F<L>,
-) -> (M<L>, V<L>) {
+) -> Survival<L> {
     match roulette {
         Roulette::Fixed(p) if p < 1.0 => play(reflection, stream, throughput, l.f(p)),
         Roulette::Throughput { start } if reflection >= start => {
@@ -25,12 +33,12 @@ pub(super) fn survive<L: Lanes>(
             play(reflection, stream, throughput, p)
         }
         // Without roulette a path ends when its throughput has become zero.
-        _ => (throughput.max_component().above(0.0), throughput),
+        _ => Survival { alive: throughput.max_component().above(0.0), throughput, probability: l.f(1.0) },
     }
 }
 
 #[inline(always)]
-fn play<L: Lanes>(reflection: u32, stream: &Stream<L>, throughput: V<L>, p: F<L>) -> (M<L>, V<L>) {
+fn play<L: Lanes>(reflection: u32, stream: &Stream<L>, throughput: V<L>, p: F<L>) -> Survival<L> {
     let u = stream.one(Dimension::roulette(reflection));
-    (u.lt(p), throughput * (1.0 / p))
+    Survival { alive: u.lt(p), throughput: throughput * (1.0 / p), probability: p }
 }

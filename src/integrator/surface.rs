@@ -67,25 +67,13 @@ pub(super) fn surfaces<L: Lanes, const VARIED: bool>(l: L, work: &Work, batch: &
             continue;
         }
 
-        // Lanes without a surface look at primitive 0 and are masked out.
-        let primitive = hit.pick(primitive, l.u(0));
-        let mut place = Place::of(l, primitive);
-        if VARIED {
-            place.time = work.time(l, path.slot);
-        }
-        if VARIED && scene.shapes.have_elements() {
-            place.element = hit.pick(l.load(&element[start..]).bits(), l.u(0));
-        }
-        let p = path.o + path.d * hit.pick(t, l.f(0.0));
-        let point = if VARIED { scene.shapes.surface_point(l, &place, p) } else { scene.shapes.simple_point(l, primitive, p) };
-        let cos = -point.n_geometric.dot(path.d);
+        let met = meet::<L, VARIED>(l, work, &path, hit, t, primitive, &element[start..]);
+        let Met { place, point, cos } = met;
+        let primitive = place.primitive;
         if !scene.lights.emitters.is_empty() {
             let emits = hit & scene.lights.emitters.emits(primitive);
             if emits.any() {
-                let (mut le, seen) = scene.lights.emitters.radiance(l, emits, primitive, cos);
-                if VARIED && scene.lights.emitters.vary() {
-                    le = le * emission_texture(l, scene, emits, &place, &point);
-                }
+                let (le, seen) = emitted::<L, VARIED>(l, scene, emits, &met);
                 let mut light = path.throughput * le;
                 if weighted {
                     light = light * weight(l, work, pasts, start, &path, place);
@@ -108,7 +96,7 @@ pub(super) fn surfaces<L: Lanes, const VARIED: bool>(l: L, work: &Work, batch: &
             shared.keep_second(kept, &place, &mut plain);
         }
         if VARIED {
-            let arrival = Arrival { d: path.d, point, cos, place, media, word: word.bits(), plain };
+            let arrival = Arrival { d: path.d, met, media, word: word.bits(), plain };
             sort(l, work, hits, details, &arrival, record, hit);
         } else {
             plain.push(hit & colour.max_component().above(0.0), &mut hits[Stage::Plain as usize]);
@@ -116,11 +104,56 @@ pub(super) fn surfaces<L: Lanes, const VARIED: bool>(l: L, work: &Work, batch: &
     }
 }
 
+/// Where paths meet a surface.
+#[derive(Clone, Copy)]
+pub(super) struct Met<L: Lanes> {
+    pub place: Place<L>,
+    pub point: SurfacePoint<L>,
+    /// Between the front normal and the direction to the viewer.
+    pub cos: F<L>,
+}
+
+/// Where the paths of the lanes of `hit` meet the primitives at distance `t`. The others look at primitive 0 and are to be masked
+/// out.
+#[inline(always)]
+pub(super) fn meet<L: Lanes, const VARIED: bool>(
+    l: L,
+    work: &Work,
+    path: &Path<L>,
+    hit: M<L>,
+    t: F<L>,
+    primitive: U<L>,
+    element: &[f32],
+) -> Met<L> {
+    let shapes = &work.scene.shapes;
+    let mut place = Place::of(l, hit.pick(primitive, l.u(0)));
+    if VARIED {
+        place.time = work.time(l, path.slot);
+    }
+    if VARIED && shapes.have_elements() {
+        place.element = hit.pick(l.load(element).bits(), l.u(0));
+    }
+    let p = path.o + path.d * hit.pick(t, l.f(0.0));
+    let point = if VARIED { shapes.surface_point(l, &place, p) } else { shapes.simple_point(l, place.primitive, p) };
+    Met { place, point, cos: -point.n_geometric.dot(path.d) }
+}
+
+/// Radiance emitted towards the viewer in the lanes of `emits`, and those of them that see an emitting side.
+#[inline(always)]
+pub(super) fn emitted<L: Lanes, const VARIED: bool>(l: L, scene: &Scene, emits: M<L>, met: &Met<L>) -> (V<L>, M<L>) {
+    let emitters = &scene.lights.emitters;
+    let (mut le, seen) = emitters.radiance(l, emits, met.place.primitive, met.cos);
+    if VARIED && emitters.vary() {
+        le = le * emission_texture(l, scene, emits, &met.place, &met.point);
+    }
+    (le, seen)
+}
+
 /// The weight of light that the paths of a register, read from `start` on, run into at a place; see [`weight_of_met_light`].
 ///
 /// The place is passed by value, or else it would be kept in memory for scenes that never ask.
 #[inline(always)]
-fn weight<L: Lanes>(
+pub(super) fn weight<L: Lanes>(
     l: L,
     work: &Work,
     (pasts, glosses): (&Queue, &Queue),
@@ -149,10 +182,7 @@ pub(super) fn emission_texture<L: Lanes>(l: L, scene: &Scene, emits: M<L>, place
 /// Paths at a surface.
 pub(super) struct Arrival<L: Lanes> {
     pub d: V<L>,
-    pub point: SurfacePoint<L>,
-    /// Between the front normal and the direction to the viewer.
-    pub cos: F<L>,
-    pub place: Place<L>,
+    pub met: Met<L>,
     /// What the paths are in.
     pub media: U<L>,
     /// See [`surface`].
@@ -165,7 +195,7 @@ impl<L: Lanes> Arrival<L> {
     /// Whether the paths are at the front, and whether the surface reflects on the side where they are.
     #[inline(always)]
     pub fn sides(&self) -> (M<L>, M<L>) {
-        let front = self.cos.above(0.0) ^ is_set(self.word, FLIPPED);
+        let front = self.met.cos.above(0.0) ^ is_set(self.word, FLIPPED);
         (front, front | !is_set(self.word, ONE_SIDED))
     }
 }
@@ -202,7 +232,7 @@ fn sort<L: Lanes>(
 #[inline(always)]
 pub(super) fn vary<L: Lanes>(l: L, scene: &Scene, arrival: &Arrival<L>, mask: M<L>, hit: &mut Hit<L>) -> Detail<L> {
     let Scene { surfaces, textures, .. } = scene;
-    let Arrival { d, point, cos, place, media, word, .. } = arrival;
+    let Arrival { d, met: Met { place, point, cos }, media, word, .. } = arrival;
     let [mut alpha, colour_texture, alpha_texture, medium] = l.rows(&surfaces.varying, place.primitive);
     let wo = -*d;
     let mut n = hit.n;

@@ -4,7 +4,7 @@ use fearless_simd_macros::simd;
 use super::{
     batch::{Batch, Path},
     intersect::intersect,
-    kinds,
+    kinds::in_kind,
     queue::Queue,
     reuse::share,
     shade::shade,
@@ -16,13 +16,15 @@ use super::{
 use crate::{
     in_lanes,
     math::{Lanes, One, SimdLevel},
-    scene::surface::Stage,
 };
 
 /// Looks at a batch between the stages; `()` does not.
 pub trait Observer {
     /// Every path has met its surface and what reflects is queued.
     fn at_surfaces(&mut self, _work: &Work, _batch: &Batch) {}
+
+    /// What reflects is shaded: light samples and the paths of the next bounce are queued.
+    fn at_shaded(&mut self, _work: &Work, _batch: &Batch) {}
 }
 
 impl Observer for () {}
@@ -94,6 +96,7 @@ pub(super) fn trace_in<L: Lanes, O: Observer>(
             break;
         }
         shade_all(l, work, batch);
+        observer.at_shaded(work, batch);
         if work.samples_lights() {
             shadow(l, work, batch);
         }
@@ -114,14 +117,6 @@ fn shade_all<L: Lanes>(l: L, work: &Work, batch: &mut Batch) {
     batch.glosses[next].clear();
     batch.path_media[next].clear();
     for stage in &work.scene.surfaces.stages {
-        match stage {
-            Stage::Plain => shade::<L, kinds::Plain>(l, work, batch),
-            Stage::Diffuse => shade::<L, kinds::Diffuse>(l, work, batch),
-            Stage::Mirror => shade::<L, kinds::Mirror>(l, work, batch),
-            Stage::Conductor => shade::<L, kinds::Conductor>(l, work, batch),
-            Stage::Dielectric => shade::<L, kinds::Dielectric>(l, work, batch),
-            Stage::RoughDielectric => shade::<L, kinds::RoughDielectric>(l, work, batch),
-            Stage::Plastic => shade::<L, kinds::Plastic>(l, work, batch),
-        }
+        in_kind!(stage, K => shade::<L, K>(l, work, batch));
     }
 }

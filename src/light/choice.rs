@@ -110,7 +110,7 @@ impl Lights {
 
     /// Primitive and triangle of lights.
     #[inline(always)]
-    fn place<L: Lanes>(&self, l: L, light: U<L>, time: F<L>) -> Place<L> {
+    pub fn place<L: Lanes>(&self, l: L, light: U<L>, time: F<L>) -> Place<L> {
         if self.places.is_empty() {
             return Place { primitive: light, element: l.u(0), time };
         }

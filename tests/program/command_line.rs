@@ -155,9 +155,17 @@ fn of_several_targets_the_last_one_counts() {
 fn a_path_can_be_replayed() {
     let shell = Shell::new();
     let arguments = ["render", &scene("furnace"), "--pixel", "3,4", "--sample", "2"];
-    assert!(text(&shell.run(&arguments).stdout).contains("wall"));
+    let printed = text(&shell.run(&arguments).stdout);
+    for term in ["wall", "throughput", "position", "emission", "next direction", "cos θ", "radiance so far"] {
+        assert!(printed.contains(term), "{term}: {printed}");
+    }
+    assert!(printed.lines().all(|line| line.chars().count() <= 100), "{printed}");
     let line = json(&shell.run(&[&arguments[..], &["--json"]].concat()));
-    assert!(line["vertices"].as_array().is_some_and(|vertices| !vertices.is_empty()));
+    let vertex = &line["vertices"][0];
+    for field in ["bounce", "origin", "direction", "throughput", "distance", "object", "normal", "radiance"] {
+        assert!(!vertex[field].is_null(), "{field}: {vertex}");
+    }
+    assert!(vertex["emission"]["weight"] == 1.0 && vertex["reflection"]["survival"] == 1.0, "{vertex}");
     let outside = shell.run(&["render", &scene("furnace"), "--pixel", "9999,4"]);
     assert!(outside.status.code() == Some(1) && text(&outside.stderr).contains("outside the picture"));
 }

@@ -23,3 +23,4 @@ mod space;
 mod statistics;
 mod textured_sphere;
 mod tinted_glass;
+mod vertices;

@@ -1,0 +1,221 @@
+//! Writes down the path of one slot while a batch is traced at one lane.
+use super::terms::{Emission, LightSearch, Outcome, Reflection, Surface, Vertex};
+use crate::{
+    geometry::{MISS, Place},
+    integrator::{
+        batch::{Batch, Detail, Hit, Inside, Path, Shadow},
+        kinds::{Kind, in_kind},
+        media::transmittance,
+        queue::Queue,
+        shading::{LightEstimate, Reflected, Shading, shares_first},
+        shadow::arriving,
+        surface::{Met, emitted, meet, weight},
+        trace::Observer,
+        work::{SLOTS, Work},
+    },
+    material::Bsdf,
+    math::{F, Lanes, M, One, U, V},
+    scene::surface::Stage,
+};
+
+const BLACK: [f32; 3] = [0.0; 3];
+const WHITE: [f32; 3] = [1.0; 3];
+
+pub(super) struct Follower {
+    slot: u32,
+    /// The sum of contributions.
+    pub radiance: [f32; 3],
+    pub vertices: Vec<Vertex>,
+}
+
+impl Observer for Follower {
+    fn at_surfaces(&mut self, work: &Work, batch: &Batch) {
+        let paths = batch.current();
+        let Some(at) = self.find(paths, |at| Path::read(One, paths, at).slot) else { return };
+        let vertex =
+            if work.scene.is_plain() { self.arrive::<false>(work, batch, at) } else { self.arrive::<true>(work, batch, at) };
+        self.vertices.push(vertex);
+    }
+
+    fn at_shaded(&mut self, work: &Work, batch: &Batch) {
+        for stage in &work.scene.surfaces.stages {
+            in_kind!(stage, K => self.shade::<K>(work, batch));
+        }
+    }
+}
+
+impl Follower {
+    pub fn new(slot: u32) -> Follower {
+        Follower { slot, radiance: BLACK, vertices: Vec::new() }
+    }
+
+    /// Where the slot is in a queue, if it is there.
+    fn find(&self, queue: &Queue, slot: impl Fn(usize) -> U<One>) -> Option<usize> {
+        (0..queue.len()).find(|at| slot(*at).0 % SLOTS as u32 == self.slot)
+    }
+
+    /// Adds to the radiance of the sample, as the stages do.
+    fn add(&mut self, contribution: [f32; 3]) {
+        self.radiance = [0, 1, 2].map(|c| self.radiance[c] + contribution[c]);
+    }
+
+    /// The path at place `at` of its queue meets a surface or leaves the scene.
+    fn arrive<const VARIED: bool>(&mut self, work: &Work, batch: &Batch, at: usize) -> Vertex {
+        let path = Path::read(One, batch.current(), at);
+        let t = One.load(&batch.t[at..]);
+        let primitive = One.load(&batch.primitive[at..]).bits();
+        let object = (primitive.0 != MISS).then(|| work.scene.owners[primitive.0 as usize]);
+        let met = object.map(|_| meet::<One, VARIED>(One, work, &path, M(true), t, primitive, &batch.element[at..]));
+        let media = Inside::read(One, &batch.path_media[(batch.bounce & 1) as usize], at).media;
+        let transmittance = if VARIED && work.has_media() { transmittance(One, work, media, t) } else { V::splat(One, WHITE) };
+        let throughput = carried(work, batch, batch.bounce, &path);
+        let emission = light_met::<VARIED>(work, &path, met).map(|(radiance, place)| {
+            let weight = weight_of_met(work, batch, at, &path, place);
+            let contribution = V::splat(One, throughput) * transmittance * radiance * weight;
+            Emission { radiance: radiance.lane(0), weight: weight.0, contribution: contribution.lane(0) }
+        });
+        self.add(emission.as_ref().map_or(BLACK, |emission| emission.contribution));
+        let (normal, shading_normal) = self.normals(work, batch).unzip();
+        Vertex {
+            bounce: batch.bounce,
+            origin: path.o.lane(0),
+            direction: path.d.lane(0),
+            throughput,
+            transmittance: transmittance.lane(0),
+            distance: object.map(|_| t.0),
+            object,
+            normal,
+            surface: object.zip(met).map(|(object, met)| surface(work, object, &path, &met, shading_normal)),
+            emission,
+            light: None,
+            reflection: None,
+            radiance: self.radiance,
+        }
+    }
+
+    /// Geometric and shading normal where the surface reflects.
+    fn normals(&self, work: &Work, batch: &Batch) -> Option<([f32; 3], [f32; 3])> {
+        let of_stage = |stage: &Stage| {
+            let hits = &batch.hits[*stage as usize];
+            let at = self.find(hits, |at| Hit::read(One, hits, at).slot)?;
+            let n = Hit::read(One, hits, at).n;
+            let shading = if *stage == Stage::Plain { n } else { Detail::read(One, &batch.details[*stage as usize], at).n };
+            Some((n.lane(0), shading.lane(0)))
+        };
+        work.scene.surfaces.stages.iter().find_map(of_stage)
+    }
+
+    /// The terms of the stage of a kind, if the surface is of that kind.
+    fn shade<K: Kind>(&mut self, work: &Work, batch: &Batch) {
+        let (hits, details) = (&batch.hits[K::STAGE as usize], &batch.details[K::STAGE as usize]);
+        let Some(at) = self.find(hits, |at| Hit::read(One, hits, at).slot) else { return };
+        let shading = Shading::<One, K>::read(One, work, (hits, details), at, batch.bounce + 1);
+        let light = (K::SEES_LIGHTS && work.samples_lights()).then(|| self.light(work, batch, &shading));
+        self.add(light.as_ref().map_or(BLACK, |light| light.contribution));
+        if let Some(vertex) = self.vertices.last_mut() {
+            vertex.light = light;
+            vertex.reflection = Some(reflection(work, batch, &shading));
+            vertex.radiance = self.radiance;
+        }
+    }
+
+    /// The light sample, and what becomes of it if it was queued.
+    fn light<K: Kind>(&self, work: &Work, batch: &Batch, shading: &Shading<One, K>) -> LightSearch {
+        let LightEstimate { sample, f_cos, weight, .. } = shading.sample_light(One, work);
+        let target = sample.target.0;
+        let place = |light: u32| work.scene.lights.place(One, U(light), F(0.0));
+        let mut light = LightSearch {
+            direction: sample.wi.lane(0),
+            object: (target != MISS).then(|| work.scene.owners[place(target).primitive.0 as usize]),
+            pdf: sample.pdf.0,
+            f_cos: f_cos.lane(0),
+            weight: weight.0,
+            radiance: sample.radiance.lane(0),
+            outcome: Outcome::Void,
+            passed: BLACK,
+            contribution: BLACK,
+        };
+        let shadows = &batch.shadows;
+        let Some(at) = self.find(shadows, |at| Shadow::read(One, shadows, at).slot) else { return light };
+        let shadow = Shadow::read(One, shadows, at);
+        let media = Inside::read(One, &batch.shadow_media, at).media;
+        let (seen, radiance) = arriving(One, work, M(true), &shadow, media);
+        light.outcome = if seen.0 { Outcome::Seen } else { Outcome::Hidden };
+        if seen.0 {
+            let (_, passed) = arriving(One, work, M(true), &Shadow { radiance: V::splat(One, WHITE), ..shadow }, media);
+            light.passed = passed.lane(0);
+            light.contribution = own(batch, shadow.slot, radiance.lane(0));
+        }
+        light
+    }
+}
+
+/// The next direction.
+fn reflection<K: Kind>(work: &Work, batch: &Batch, shading: &Shading<One, K>) -> Reflection {
+    let Reflected { sample, survival, path, goes_on } = shading.reflect(One, work, shares_first::<K>(work, batch.bounce));
+    let delta = sample.delta.0;
+    let cos = sample.wi.z.abs();
+    let (f_cos, _) = shading.bsdf.eval(shading.vertex.wo, sample.wi);
+    let f = if cos.0 > 0.0 { f_cos * (1.0 / cos) } else { f_cos };
+    Reflection {
+        direction: path.d.lane(0),
+        delta,
+        f: (!delta).then(|| f.lane(0)),
+        cos: cos.0,
+        pdf: (!delta).then_some(sample.pdf.0),
+        weight: sample.weight.lane(0),
+        survival: survival.probability.0,
+        survives: survival.alive.0,
+        goes_on: goes_on.0,
+        throughput: if goes_on.0 { carried(work, batch, batch.bounce + 1, &path) } else { BLACK },
+    }
+}
+
+/// The throughput of a path on its way to a bounce. The albedo of the first surface is left out of what is shared only.
+fn carried(work: &Work, batch: &Batch, bounce: u32, path: &Path<One>) -> [f32; 3] {
+    let throughput = path.throughput.lane(0);
+    if bounce == 1 && work.shares() {
+        return batch.shared.weighted(path.slot.0 as usize, throughput);
+    }
+    own(batch, path.slot, throughput)
+}
+
+/// What the path's own pixel would get of what is gathered in a slot.
+fn own(batch: &Batch, slot: U<One>, colour: [f32; 3]) -> [f32; 3] {
+    let slot = slot.0 as usize;
+    if slot < SLOTS { colour } else { batch.shared.weighted(slot - SLOTS, colour) }
+}
+
+/// Emitted radiance that a path runs into, and where.
+fn light_met<const VARIED: bool>(work: &Work, path: &Path<One>, met: Option<Met<One>>) -> Option<(V<One>, Place<One>)> {
+    let lights = &work.scene.lights;
+    let Some(met) = met else {
+        return lights.background.as_ref().map(|sky| (sky.radiance(One, path.d), Place::of(One, U(MISS))));
+    };
+    let emits = lights.emitters.emits(met.place.primitive);
+    if !emits.0 {
+        return None;
+    }
+    let (radiance, seen) = emitted::<One, VARIED>(One, work.scene, emits, &met);
+    seen.0.then_some((radiance, met.place))
+}
+
+/// How much is counted of the light that the path at place `at` of its queue runs into.
+fn weight_of_met(work: &Work, batch: &Batch, at: usize, path: &Path<One>, place: Place<One>) -> F<One> {
+    let current = (batch.bounce & 1) as usize;
+    if batch.bounce == 0 || !work.samples_lights() {
+        return F(1.0);
+    }
+    weight(One, work, (&batch.pasts[current], &batch.glosses[current]), at, path, place)
+}
+
+fn surface(work: &Work, object: u32, path: &Path<One>, met: &Met<One>, shading_normal: Option<[f32; 3]>) -> Surface {
+    let object = &work.scene.objects[object as usize];
+    Surface {
+        position: met.point.p.lane(0),
+        material: object.coating.as_ref().map(|coating| coating.material.name()),
+        front: (met.cos.0 > 0.0) != object.flip,
+        wo: (-path.d).lane(0),
+        shading_normal,
+    }
+}

@@ -1,0 +1,71 @@
+//! One sample again, vertex by vertex: exactly the one the renderer took, because samples are pure functions of their number.
+//!
+//! The path is traced at one lane and a [`Follower`] looks at the queues between the stages. What no queue holds it computes by the
+//! functions that the stages call, so that every term is the one that the estimator used, bit for bit.
+mod follower;
+mod samples;
+mod terms;
+
+use serde::Serialize;
+
+use self::follower::Follower;
+pub use self::{
+    samples::pixel_samples,
+    terms::{Emission, LightSearch, Outcome, Reflection, Surface, Vertex},
+};
+use super::{
+    batch::Batch,
+    trace::trace_in,
+    work::{SLOTS, TILE, Work},
+};
+use crate::{
+    math::{One, U},
+    scene::{CameraRays, RenderSettings, Scene},
+};
+
+/// A path, replayed.
+#[derive(Debug, Clone, Default, Serialize)]
+pub struct Replay {
+    /// The sample's estimate of the pixel's radiance.
+    pub radiance: [f32; 3],
+    /// What the path alone would have made of it, where pixels share what their paths find.
+    pub alone: Option<[f32; 3]>,
+    /// The contributions of their emission and of their light samples, added in this order, make the radiance, or `alone` where
+    /// pixels share.
+    pub vertices: Vec<Vertex>,
+}
+
+/// Replays sample number `sample` of a pixel.
+pub fn replay(scene: &Scene, rays: &CameraRays, settings: &RenderSettings, pixel: [u32; 2], sample: u32) -> Replay {
+    let (work, [x, y]) = work_of(scene, rays, settings, pixel, sample);
+    let is_here = |slot: &u32| {
+        let (column, row) = work.place::<One>(U(*slot));
+        (column.0, row.0) == (x, y)
+    };
+    let slot = (0..SLOTS as u32).find(is_here).unwrap_or(0);
+    let mut follower = Follower::new(slot);
+    let mut batch = Batch::default();
+    let finished = trace_in(One, &work, &mut batch, &|| false, &mut follower);
+    debug_assert_eq!(finished, Ok(()));
+    let alone = work.shares().then_some(follower.radiance);
+    Replay { radiance: radiance_at(&batch, [x, y]), alone, vertices: follower.vertices }
+}
+
+/// What takes a sample of a pixel, and the pixel's column and row in it: what is shared needs the paths of the whole tile.
+fn work_of<'a>(
+    scene: &'a Scene,
+    rays: &'a CameraRays,
+    settings: &'a RenderSettings,
+    pixel: [u32; 2],
+    sample: u32,
+) -> (Work<'a>, [u32; 2]) {
+    let one = Work::tile(scene, rays, settings, pixel, [1, 1], sample);
+    let work = if one.shares() { one.whole_tile() } else { one };
+    (work, [0, 1].map(|axis| pixel[axis] - work.origin[axis]))
+}
+
+/// The radiance of a pixel of a tile that was traced.
+fn radiance_at(batch: &Batch, [x, y]: [u32; 2]) -> [f32; 3] {
+    let [r, g, b, _] = batch.radiance()[(y * TILE + x) as usize];
+    [r, g, b]
+}

@@ -1,0 +1,227 @@
+//! What shading computes at hits: a light sample, the next direction, and whether the path survives. [`super::shade`] queues what
+//! comes of it; [`super::replay`] writes down its terms.
+use super::{
+    batch::{Detail, Hit, Path, Shadow},
+    kinds::Kind,
+    media::beyond,
+    queue::Queue,
+    roulette::{Survival, survive},
+    weight::power_heuristic,
+    work::Work,
+};
+use crate::{
+    light::{LightCoordinates, LightSample, Lobe, Receiver},
+    material::{Bsdf, BsdfSample, Local},
+    math::{F, Frame, Lanes, M, Pick, U, V},
+    sampling::{Dimension, Stream},
+    scene::{
+        Estimator,
+        surface::{self, Stage},
+    },
+};
+
+/// A register of hits of a kind.
+pub(super) struct Shading<'a, L: Lanes, K: Kind> {
+    pub live: M<L>,
+    pub hit: Hit<L>,
+    pub vertex: Vertex<L>,
+    pub bsdf: K::Bsdf<'a, L>,
+    stream: Stream<L>,
+    /// How many reflections their paths have with this one.
+    reflection: u32,
+}
+
+/// A light sample and what it is made of: [`Shadow::radiance`] is throughput × f cos × radiance × weight/pdf.
+pub(super) struct LightEstimate<L: Lanes> {
+    pub shadow: Shadow<L>,
+    /// Where there is something to be seen, and it would be reflected.
+    pub may_contribute: M<L>,
+    pub sample: LightSample<L>,
+    /// The direction of the sample in the local frame.
+    pub wi: V<L>,
+    pub f_cos: V<L>,
+    /// See [`super::weight`].
+    pub weight: F<L>,
+}
+
+/// A next direction and what it does to the path.
+pub(super) struct Reflected<L: Lanes> {
+    pub sample: BsdfSample<L>,
+    pub survival: Survival<L>,
+    pub path: Path<L>,
+    pub goes_on: M<L>,
+}
+
+/// Whether the hits of a kind at a bounce are first surfaces whose finds are shared.
+#[inline(always)]
+pub(super) fn shares_first<K: Kind>(work: &Work, bounce: u32) -> bool {
+    K::STAGE == Stage::Plain && bounce == 0 && work.shares()
+}
+
+impl<'a, L: Lanes, K: Kind> Shading<'a, L, K> {
+    /// The hits from place `start` on.
+    #[inline(always)]
+    pub fn read(l: L, work: &Work<'a>, (hits, details): (&Queue, &Queue), start: usize, reflection: u32) -> Self {
+        let live = l.first(hits.len() - start);
+        let hit = Hit::read(l, hits, start);
+        let stream = work.stream(l, hit.slot);
+        let vertex = if K::DETAILED {
+            let mut detail = Detail::read(l, details, start);
+            // Lanes past the end may say anything: they take a material of this kind, whose rows can be read as such.
+            detail.surface = live.pick(detail.surface, l.u(detail.surface.to_array()[0]));
+            Vertex::detailed(&hit, &detail)
+        } else {
+            Vertex::plain(l, &hit)
+        };
+        let bsdf = K::at(l, &work.scene.surfaces.materials, work.settings, &vertex.local);
+        Shading { live, hit, vertex, bsdf, stream, reflection }
+    }
+
+    /// Next-event estimation: a sample of a light, weighted, and where it may contribute.
+    #[inline(always)]
+    pub fn sample_light(&self, l: L, work: &Work) -> LightEstimate<L> {
+        let Shading { hit, vertex, bsdf, stream, reflection, .. } = self;
+        let lights = &work.scene.lights;
+        let unused = l.f(0.0);
+        let coordinates = LightCoordinates {
+            choice: if lights.are_several() { stream.one(Dimension::light_choice(*reflection)) } else { unused },
+            cell: if lights.have_cells() { stream.two(Dimension::cell(*reflection)) } else { (unused, unused) },
+            place: stream.two(Dimension::light(*reflection)),
+        };
+        let lobe = if K::GLOSSY && work.heeds_lobes() { Some(self.lobe(l)) } else { None };
+        let at = Receiver { p: hit.p, n: vertex.n, transmits: if K::TRANSMITS { l.first(L::N) } else { l.first(0) }, lobe };
+        let sample = lights.sample(l, &work.scene.shapes, &at, work.time(l, hit.slot), &coordinates);
+        let wi = vertex.frame.local_from_world(sample.wi);
+        let (f_cos, pdf) = bsdf.eval(vertex.wo, wi);
+        let (o, consistent) = vertex.leave::<K>(hit, sample.wi, wi.z);
+        let weight = match work.settings.estimator {
+            Estimator::Mis => power_heuristic(sample.pdf, pdf),
+            Estimator::Path | Estimator::Light => l.f(1.0),
+        };
+        let radiance = hit.throughput * f_cos * sample.radiance * (weight / sample.pdf);
+        let mut may_contribute = consistent & sample.pdf.above(0.0) & radiance.max_component().above(0.0);
+        if K::TRANSMITS {
+            may_contribute = may_contribute & !vertex.self_lit;
+        }
+        let shadow = Shadow { o, d: sample.wi, radiance, target: sample.target, slot: hit.slot };
+        LightEstimate { shadow, may_contribute, sample, wi, f_cos, weight }
+    }
+
+    /// The next direction. What is shared is weighted by the albedo of each pixel that gets it, and not here.
+    #[inline(always)]
+    pub fn reflect(&self, l: L, work: &Work, shares: bool) -> Reflected<L> {
+        let Shading { hit, vertex, bsdf, stream, reflection, .. } = self;
+        let lobe = if K::LOBES { stream.one(Dimension::lobe(*reflection)) } else { l.f(0.0) };
+        let sample = bsdf.sample(vertex.wo, stream.two(Dimension::direction(*reflection)), lobe);
+        #[cfg(test)]
+        let sample =
+            BsdfSample { weight: super::fault::spoil(work.settings.fault, *reflection, sample.weight, sample.wi.z), ..sample };
+        let mut d = vertex.frame.world_from_local(sample.wi);
+        if K::DETAILED {
+            // What mirrors and refracts a direction keeps the error of its length: a step of Newton's method to 1, or else it
+            // adds up from bounce to bounce until a ray no longer knows on which side of its surface it starts.
+            d = d * (1.5 - d.length_squared() * 0.5);
+        }
+        let (o, consistent) = vertex.leave::<K>(hit, d, sample.wi.z);
+        let judged = K::roulette_scale(bsdf, vertex.local.front, sample.wi.z);
+        let throughput = if shares { hit.throughput } else { hit.throughput * sample.weight };
+        let survival = survive(l, work.settings.roulette, *reflection, stream, throughput, judged);
+        #[cfg(test)]
+        let survival = match work.settings.fault {
+            Some(crate::scene::Fault::NoReweighting) => Survival { throughput, ..survival },
+            _ => survival,
+        };
+        let mut goes_on = survival.alive & consistent;
+        if K::DETAILED {
+            goes_on = goes_on & survival.throughput.max_component().above(0.0);
+        }
+        let path = Path { o, d, throughput: survival.throughput, slot: hit.slot };
+        Reflected { sample, survival, path, goes_on }
+    }
+
+    /// What the choice of a light asks for.
+    #[inline(always)]
+    pub fn lobe(&self, l: L) -> Lobe<L> {
+        let Vertex { frame, n, wo, .. } = &self.vertex;
+        let wo = if K::GLOSSY { frame.world_from_local(*wo) } else { *n };
+        Lobe { wo, alpha: K::alpha(l, &self.bsdf) }
+    }
+}
+
+/// A surface point that is shaded.
+pub(super) struct Vertex<L: Lanes> {
+    frame: Frame<L>,
+    /// Shading normal on the viewer's side.
+    pub n: V<L>,
+    /// Towards the viewer, in the local frame.
+    pub wo: V<L>,
+    /// How far the origin of rays was moved off the surface.
+    error: F<L>,
+    local: Local<L>,
+    /// See [`surface::SELF_LIT`].
+    pub self_lit: M<L>,
+    /// Media on the viewer's side, and the one inside the surface.
+    media: U<L>,
+    medium: U<L>,
+}
+
+impl<L: Lanes> Vertex<L> {
+    /// Where shading and geometric normal are one and the direction to the viewer does not matter.
+    #[inline(always)]
+    fn plain(l: L, hit: &Hit<L>) -> Self {
+        let local = Local { material: l.u(0), colour: hit.colour, alpha: l.f(0.0), front: l.first(L::N) };
+        Vertex {
+            frame: Frame::new(hit.n),
+            n: hit.n,
+            wo: V::splat(l, [0.0, 0.0, 1.0]),
+            error: l.f(0.0),
+            local,
+            self_lit: l.first(0),
+            media: l.u(0),
+            medium: l.u(0),
+        }
+    }
+
+    #[inline(always)]
+    fn detailed(hit: &Hit<L>, detail: &Detail<L>) -> Self {
+        let frame = Frame::new(detail.n);
+        let local = Local {
+            material: surface::material(detail.surface),
+            colour: hit.colour,
+            alpha: detail.alpha,
+            front: surface::is_set(detail.surface, surface::FRONT),
+        };
+        Vertex {
+            wo: frame.local_from_world(detail.wo),
+            frame,
+            n: detail.n,
+            error: detail.error,
+            local,
+            self_lit: surface::is_set(detail.surface, surface::SELF_LIT),
+            media: detail.media,
+            medium: detail.medium,
+        }
+    }
+
+    /// The media that a direction of height `z` leads into.
+    #[inline(always)]
+    pub fn media_towards(&self, z: F<L>) -> U<L> {
+        z.below(0.0).pick(beyond(self.media, self.medium, self.local.front), self.media)
+    }
+
+    /// Where a ray in the world direction `d` starts, and whether it leaves on the side that the shading normal says; `z` is its
+    /// height over that normal. Light that would leak through the surface because the two normals differ is left out.
+    #[inline(always)]
+    fn leave<K: Kind>(&self, hit: &Hit<L>, d: V<L>, z: F<L>) -> (V<L>, M<L>) {
+        if !K::DETAILED {
+            // What lies below has no weight.
+            return (hit.p, self.local.front);
+        }
+        let consistent = (hit.n.dot(d) * z).above(0.0);
+        if !K::TRANSMITS {
+            return (hit.p, consistent & z.above(0.0));
+        }
+        let through = hit.p - hit.n * (self.error * 2.0);
+        (z.above(0.0).pick(hit.p, through), consistent)
+    }
+}

@@ -1,0 +1,203 @@
+//! A replayed path is the renderer's own, bit for bit, and so are the terms that its vertices list.
+use std::path::Path;
+
+use noisefall::{
+    integrator::{Batch, Outcome, Replay, TILE, Vertex, Work, pixel_samples, replay, trace},
+    math::SimdLevel,
+    sampling::SAMPLERS,
+    scene::{Camera, CameraRays, Estimator, RenderSettings, Reuse, Roulette, Scene, load},
+};
+
+use crate::{picture::scene, sharing::ROOM};
+
+/// Two tiles wide and high, the outer ones cut.
+const RESOLUTION: [u32; 2] = [48, 40];
+const PIXELS: [[u32; 2]; 4] = [[3, 9], [24, 13], [31, 31], [16, 25]];
+/// Of a tile that is cut.
+const OUTER_PIXELS: [[u32; 2]; 2] = [[40, 35], [47, 39]];
+
+/// All scenes that are shipped, and one with something of everything.
+fn scenes() -> Vec<(String, Scene)> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
+    let mut files: Vec<_> = std::fs::read_dir(folder).expect("the folder").map(|entry| entry.expect("an entry").path()).collect();
+    files.retain(|path| path.extension().is_some_and(|extension| extension == "toml"));
+    files.sort();
+    let shipped = files.iter().map(|path| (path.display().to_string(), load(path).expect("a scene")));
+    shipped.chain([("room".to_owned(), scene(ROOM))]).collect()
+}
+
+fn rays(scene: &Scene) -> CameraRays {
+    scene.rays(&Camera { resolution: RESOLUTION, ..scene.camera })
+}
+
+/// Estimators, roulettes and caps in all combinations, with every sampler where paths are not shared. Without roulette there is
+/// always a cap, for paths between white walls would have no end.
+fn all_settings(seed: u32) -> Vec<RenderSettings> {
+    let endings = [
+        (Roulette::Off, Some(12)),
+        (Roulette::Fixed(0.7), None),
+        (Roulette::Throughput { start: 1 }, None),
+        (Roulette::BY_THROUGHPUT, Some(3)),
+    ];
+    let mut all = Vec::new();
+    for estimator in Estimator::ALL {
+        for (roulette, max_bounces) in endings {
+            let settings = RenderSettings { estimator, roulette, max_bounces, seed, ..RenderSettings::default() };
+            all.extend(SAMPLERS.iter().map(|entry| RenderSettings { sampler: entry.sampler, reuse: Reuse::Off, ..settings }));
+            let sampler = SAMPLERS[all.len() / 5 % SAMPLERS.len()].sampler;
+            all.push(RenderSettings { sampler, reuse: Reuse::On, ..settings });
+        }
+    }
+    all
+}
+
+/// What the renderer has for some pixels of the tile that begins at `origin`.
+fn rendered(
+    level: SimdLevel,
+    (scene, rays, settings): (&Scene, &CameraRays, &RenderSettings),
+    origin: [u32; 2],
+    sample: u32,
+    batch: &mut Batch,
+) -> impl Fn([u32; 2]) -> [u32; 3] {
+    let size = [0, 1].map(|axis| TILE.min(RESOLUTION[axis] - origin[axis]));
+    let work = Work::tile(scene, rays, settings, origin, size, sample);
+    trace(level, &work, batch, &|| false).expect("nothing interrupts");
+    let radiance = batch.radiance();
+    move |[x, y]| {
+        let [r, g, b, _] = radiance[((y - origin[1]) * TILE + x - origin[0]) as usize];
+        bits([r, g, b])
+    }
+}
+
+fn bits(colour: [f32; 3]) -> [u32; 3] {
+    colour.map(f32::to_bits)
+}
+
+fn product(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
+    [0, 1, 2].map(|c| a[c] * b[c])
+}
+
+#[test]
+fn replayed_samples_are_those_of_the_renderer_and_their_vertices_add_up_to_them() {
+    let levels = SimdLevel::available();
+    let mut batch = Batch::default();
+    let mut lengths = 0;
+    for (number, (name, scene)) in scenes().iter().enumerate() {
+        let rays = rays(scene);
+        for (i, settings) in all_settings(number as u32).iter().enumerate() {
+            // Whole tiles are traced for each where they are shared.
+            let pixels = if settings.reuse == Reuse::On { &PIXELS[i % 4..=i % 4] } else { &PIXELS[..] };
+            let rendered = rendered(levels[i % levels.len()], (scene, &rays, settings), [0, 0], i as u32, &mut batch);
+            for pixel in pixels {
+                let replay = replay(scene, &rays, settings, *pixel, i as u32);
+                let what = format!("{name}, {settings:?}, pixel {pixel:?}, sample {i}");
+                assert_eq!(bits(replay.radiance), rendered(*pixel), "{what}");
+                assert_sums(&replay, &what);
+                assert_path(&replay, &what);
+                replay.vertices.iter().for_each(|vertex| assert_terms(vertex, settings, &what));
+                lengths += replay.vertices.len();
+            }
+        }
+    }
+    assert!(lengths > 10_000, "paths have vertices: {lengths}");
+}
+
+/// The contributions, added in order, are the sample.
+fn assert_sums(replay: &Replay, what: &str) {
+    let mut sum = [0f32; 3];
+    for vertex in &replay.vertices {
+        let emission = vertex.emission.iter().map(|emission| emission.contribution);
+        for contribution in emission.chain(vertex.light.iter().map(|light| light.contribution)) {
+            sum = [0, 1, 2].map(|c| sum[c] + contribution[c]);
+        }
+        assert_eq!(bits(sum), bits(vertex.radiance), "bounce {} of {what}", vertex.bounce);
+    }
+    assert_eq!(bits(sum), bits(replay.alone.unwrap_or(replay.radiance)), "{what}");
+}
+
+/// Every vertex begins with what the one before it ended with.
+fn assert_path(replay: &Replay, what: &str) {
+    for (k, vertex) in replay.vertices.iter().enumerate() {
+        assert_eq!(vertex.bounce, k as u32, "{what}");
+        let reflection = vertex.reflection.as_ref().filter(|reflection| reflection.goes_on);
+        let next = replay.vertices.get(k + 1);
+        assert_eq!(reflection.is_some(), next.is_some(), "bounce {k} of {what}");
+        let (Some(reflection), Some(next)) = (reflection, next) else { continue };
+        assert_eq!(bits(reflection.throughput), bits(next.throughput), "bounce {k} of {what}");
+        assert_eq!(bits(reflection.direction), bits(next.direction), "bounce {k} of {what}");
+        assert!(reflection.survives, "bounce {k} of {what}");
+    }
+}
+
+/// The terms of a vertex have the relations that their names say.
+fn assert_terms(vertex: &Vertex, settings: &RenderSettings, what: &str) {
+    let near = |a: [f32; 3], b: [f32; 3], tolerance: f32| {
+        let close = |c: usize| (a[c] - b[c]).abs() <= tolerance * a[c].abs().max(b[c].abs()).max(1e-30);
+        assert!((0..3).all(close), "{a:?} and {b:?} at {vertex:#?} of {what}");
+    };
+    let arriving = product(vertex.throughput, vertex.transmittance);
+    if let Some(emission) = &vertex.emission {
+        near(emission.contribution, product(arriving, emission.radiance.map(|x| x * emission.weight)), 1e-6);
+        match settings.estimator {
+            Estimator::Path => assert_eq!(emission.weight, 1.0),
+            Estimator::Light => assert!([0.0, 1.0].contains(&emission.weight)),
+            Estimator::Mis => assert!((0.0..=1.0).contains(&emission.weight)),
+        }
+    }
+    if let Some(light) = &vertex.light {
+        assert!(settings.estimator != Estimator::Path && (0.0..=1.0).contains(&light.weight));
+        let seen = light.outcome == Outcome::Seen;
+        assert!(seen || light.contribution == [0.0; 3]);
+        if seen {
+            let scale = light.weight / light.pdf;
+            let incident = product(light.radiance.map(|x| x * scale), light.passed);
+            near(light.contribution, product(product(arriving, light.f_cos), incident), 1e-5);
+        }
+    }
+    if let Some(reflection) = &vertex.reflection {
+        let weighted = product(arriving, reflection.weight.map(|x| x / reflection.survival));
+        if reflection.goes_on {
+            near(reflection.throughput, weighted, 1e-5);
+        }
+        if let (Some(f), Some(pdf), true) = (reflection.f, reflection.pdf, reflection.goes_on) {
+            near(reflection.weight, f.map(|f| f * reflection.cos / pdf), 1e-5);
+        }
+        match settings.roulette {
+            Roulette::Off => assert_eq!(reflection.survival, 1.0),
+            Roulette::Fixed(p) => assert_eq!(reflection.survival, p),
+            Roulette::Throughput { start } => assert!(reflection.survival == 1.0 || vertex.bounce + 1 >= start),
+        }
+    }
+}
+
+#[test]
+fn the_samples_of_a_pixel_are_those_of_the_renderer() {
+    let level = SimdLevel::best();
+    let mut batch = Batch::default();
+    for (name, scene) in scenes() {
+        let rays = rays(&scene);
+        for reuse in [Reuse::Off, Reuse::On] {
+            let settings = RenderSettings { reuse, ..scene.settings };
+            // Neither begins nor ends with a full batch.
+            let numbers = 5..27;
+            let of = |pixel: [u32; 2]| pixel_samples(&scene, &rays, &settings, pixel, numbers.clone(), &|| false);
+            let pixels = [PIXELS[1], PIXELS[2], OUTER_PIXELS[0], OUTER_PIXELS[1]];
+            let samples = pixels.map(|pixel| of(pixel).expect("nothing interrupts"));
+            for (place, sample) in numbers.clone().enumerate() {
+                for (pixel, samples) in pixels.iter().zip(&samples) {
+                    let origin = pixel.map(|x| x / TILE * TILE);
+                    let rendered = rendered(level, (&scene, &rays, &settings), origin, sample, &mut batch);
+                    assert_eq!(bits(samples[place]), rendered(*pixel), "{name}, {reuse:?}, pixel {pixel:?}, sample {sample}");
+                }
+            }
+            assert!(samples.iter().all(|samples| samples.len() == numbers.len()));
+        }
+    }
+}
+
+#[test]
+fn taking_the_samples_of_a_pixel_can_be_interrupted() {
+    let scene = noisefall::scene::built_in();
+    let taken = pixel_samples(&scene, &rays(&scene), &scene.settings, PIXELS[0], 0..100, &|| true);
+    assert_eq!(taken, None);
+}
