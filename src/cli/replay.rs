@@ -1,6 +1,6 @@
 //! `noisefall render --pixel X,Y --sample N`: one path, vertex by vertex.
 use noisefall::{
-    integrator::{Emission, LightSearch, Outcome, Reflection, Surface, Vertex, replay},
+    integrator::{MetLight, Outcome, Reflection, SampledLight, Surface, Vertex, replay},
     render::sharing::resolved,
     scene::{Camera, RenderSettings, Scene},
 };
@@ -47,11 +47,11 @@ fn block(scene: &Scene, vertex: &Vertex) -> String {
         term("media let pass", &three(vertex.transmittance));
     }
     if let Some(Surface { position, wo, shading_normal, .. }) = &vertex.surface {
-        term("position", &three(*position));
-        term("to the viewer", &three(*wo));
-        shading_normal.iter().for_each(|n| term("normal", &three(*n)));
+        term("position", &place(*position));
+        term("to the viewer", &place(*wo));
+        shading_normal.iter().for_each(|n| term("normal", &place(*n)));
     }
-    if let Some(Emission { radiance, weight, contribution }) = &vertex.emission {
+    if let Some(MetLight { radiance, weight, contribution }) = &vertex.emission {
         term("emission", &format!("Le {}, weight {}", three(*radiance), number(*weight)));
         term("", &format!("adds {}", three(*contribution)));
     }
@@ -69,10 +69,10 @@ fn title(scene: &Scene, vertex: &Vertex) -> String {
     format!("\nvertex {}: {}, {material}, {side}, {} m away", vertex.bounce, name(scene, id), number(distance))
 }
 
-fn light_sample(scene: &Scene, light: &LightSearch, term: &mut impl FnMut(&str, &str)) {
+fn light_sample(scene: &Scene, light: &SampledLight, term: &mut impl FnMut(&str, &str)) {
     let aim = light.object.map_or("the background", |id| name(scene, id));
     term("light sample", &format!("{aim}, p {}", number(light.pdf)));
-    term("", &format!("ω {}", three(light.direction)));
+    term("", &format!("ω {}", place(light.direction)));
     term("", &format!("Le {}, weight {}", three(light.radiance), number(light.weight)));
     term("", &format!("f cos {}", three(light.f_cos)));
     if light.outcome == Outcome::Seen && light.passed != [1.0; 3] {
@@ -89,7 +89,7 @@ fn light_sample(scene: &Scene, light: &LightSearch, term: &mut impl FnMut(&str, 
 }
 
 fn next(reflection: &Reflection, term: &mut impl FnMut(&str, &str)) {
-    term("next direction", &format!("ω {}", three(reflection.direction)));
+    term("next direction", &format!("ω {}", place(reflection.direction)));
     match (reflection.f, reflection.pdf) {
         (Some(f), Some(pdf)) => {
             term("", &format!("f {}, p {}", three(f), number(pdf)));
@@ -115,6 +115,11 @@ fn name(scene: &Scene, object: u32) -> &str {
 
 fn three(values: [f32; 3]) -> String {
     values.map(number).join(" ")
+}
+
+/// A point or a direction.
+fn place([x, y, z]: [f32; 3]) -> String {
+    format!("{x:.5} {y:.5} {z:.5}")
 }
 
 /// Five decimals, or as many digits where these would be few or the number long.

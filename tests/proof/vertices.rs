@@ -1,5 +1,7 @@
 //! A replayed path is the renderer's own, bit for bit, and so are the terms that its vertices list.
-use std::path::Path;
+mod tally;
+
+use std::{f32::consts::PI, path::Path};
 
 use noisefall::{
     integrator::{Batch, Outcome, Replay, TILE, Vertex, Work, pixel_samples, replay, trace},
@@ -8,6 +10,7 @@ use noisefall::{
     scene::{Camera, CameraRays, Estimator, RenderSettings, Reuse, Roulette, Scene, load},
 };
 
+use self::tally::Tally;
 use crate::{picture::scene, sharing::ROOM};
 
 /// Two tiles wide and high, the outer ones cut.
@@ -16,14 +19,38 @@ const PIXELS: [[u32; 2]; 4] = [[3, 9], [24, 13], [31, 31], [16, 25]];
 /// Of a tile that is cut.
 const OUTER_PIXELS: [[u32; 2]; 2] = [[40, 35], [47, 39]];
 
-/// All scenes that are shipped, and one with something of everything.
+/// In a ball of tinted glass: a lamp that a texture varies, a matt ball, and the camera.
+const LANTERN: &str = r#"
+[camera]
+eye = [0.0, 0.0, 2.0]
+look_at = [0.0, 0.0, 0.0]
+fov = 60.0
+resolution = [48, 40]
+[textures.flame]
+checker = { even = [0.9, 0.5, 0.2], odd = 0.1, scale = 8.0 }
+[materials]
+tinted = { dielectric = { ior = 1.5, transmittance = [0.9, 0.7, 0.5] } }
+white = { lambertian = { albedo = 0.8 } }
+[[objects]]
+shape = { sphere = { center = [0.0, 0.0, 0.0], radius = 3.0 } }
+material = "tinted"
+[[objects]]
+shape = { sphere = { center = [0.0, -0.8, 0.0], radius = 0.8 } }
+material = "white"
+[[objects]]
+name = "lamp"
+shape = { sphere = { center = [0.0, 1.2, 0.0], radius = 0.6 } }
+emission = { texture = "flame", scale = 10.0 }
+"#;
+
+/// All scenes that are shipped, one with something of everything, and one where light samples meet media and textures.
 fn scenes() -> Vec<(String, Scene)> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
     let mut files: Vec<_> = std::fs::read_dir(folder).expect("the folder").map(|entry| entry.expect("an entry").path()).collect();
     files.retain(|path| path.extension().is_some_and(|extension| extension == "toml"));
     files.sort();
     let shipped = files.iter().map(|path| (path.display().to_string(), load(path).expect("a scene")));
-    shipped.chain([("room".to_owned(), scene(ROOM))]).collect()
+    shipped.chain([("room".to_owned(), scene(ROOM)), ("lantern".to_owned(), scene(LANTERN))]).collect()
 }
 
 fn rays(scene: &Scene) -> CameraRays {
@@ -81,7 +108,7 @@ fn product(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
 fn replayed_samples_are_those_of_the_renderer_and_their_vertices_add_up_to_them() {
     let levels = SimdLevel::available();
     let mut batch = Batch::default();
-    let mut lengths = 0;
+    let mut tally = Tally::default();
     for (number, (name, scene)) in scenes().iter().enumerate() {
         let rays = rays(scene);
         for (i, settings) in all_settings(number as u32).iter().enumerate() {
@@ -94,12 +121,32 @@ fn replayed_samples_are_those_of_the_renderer_and_their_vertices_add_up_to_them(
                 assert_eq!(bits(replay.radiance), rendered(*pixel), "{what}");
                 assert_sums(&replay, &what);
                 assert_path(&replay, &what);
-                replay.vertices.iter().for_each(|vertex| assert_terms(vertex, settings, &what));
-                lengths += replay.vertices.len();
+                for vertex in &replay.vertices {
+                    assert_surface(vertex, &what);
+                    assert_terms(vertex, settings, &what);
+                    tally.count(vertex);
+                }
             }
         }
     }
-    assert!(lengths > 10_000, "paths have vertices: {lengths}");
+    tally.assert_everything_was_met();
+}
+
+/// The surface is where the segment ends, and its normals are on the side of the viewer.
+fn assert_surface(vertex: &Vertex, what: &str) {
+    assert_eq!(vertex.surface.is_some(), vertex.object.is_some(), "{what}");
+    let (Some(surface), Some(distance)) = (&vertex.surface, vertex.distance) else { return };
+    let extent = vertex.origin.iter().fold(distance, |extent, x| extent.max(x.abs()));
+    for c in 0..3 {
+        let end = vertex.origin[c] + vertex.direction[c] * distance;
+        assert!((surface.position[c] - end).abs() <= 1e-4 * extent, "{vertex:#?} of {what}");
+        assert_eq!(surface.wo[c], -vertex.direction[c]);
+    }
+    for normal in [vertex.normal, surface.shading_normal].into_iter().flatten() {
+        let [x, y, z] = product(normal, surface.wo);
+        let [xx, yy, zz] = product(normal, normal);
+        assert!(x + y + z > -1e-6 && (xx + yy + zz - 1.0).abs() < 1e-5, "{vertex:#?} of {what}");
+    }
 }
 
 /// The contributions, added in order, are the sample.
@@ -161,6 +208,9 @@ fn assert_terms(vertex: &Vertex, settings: &RenderSettings, what: &str) {
         }
         if let (Some(f), Some(pdf), true) = (reflection.f, reflection.pdf, reflection.goes_on) {
             near(reflection.weight, f.map(|f| f * reflection.cos / pdf), 1e-5);
+            if vertex.surface.as_ref().and_then(|surface| surface.material) == Some("lambertian") {
+                near([pdf; 3], [reflection.cos / PI; 3], 1e-5);
+            }
         }
         match settings.roulette {
             Roulette::Off => assert_eq!(reflection.survival, 1.0),

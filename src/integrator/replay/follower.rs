@@ -1,5 +1,5 @@
 //! Writes down the path of one slot while a batch is traced at one lane.
-use super::terms::{Emission, LightSearch, Outcome, Reflection, Surface, Vertex};
+use super::terms::{MetLight, Outcome, Reflection, SampledLight, Surface, Vertex};
 use crate::{
     geometry::{MISS, Place},
     integrator::{
@@ -72,7 +72,7 @@ impl Follower {
         let emission = light_met::<VARIED>(work, &path, met).map(|(radiance, place)| {
             let weight = weight_of_met(work, batch, at, &path, place);
             let contribution = V::splat(One, throughput) * transmittance * radiance * weight;
-            Emission { radiance: radiance.lane(0), weight: weight.0, contribution: contribution.lane(0) }
+            MetLight { radiance: radiance.lane(0), weight: weight.0, contribution: contribution.lane(0) }
         });
         self.add(emission.as_ref().map_or(BLACK, |emission| emission.contribution));
         let (normal, shading_normal) = self.normals(work, batch).unzip();
@@ -120,16 +120,16 @@ impl Follower {
     }
 
     /// The light sample, and what becomes of it if it was queued.
-    fn light<K: Kind>(&self, work: &Work, batch: &Batch, shading: &Shading<One, K>) -> LightSearch {
+    fn light<K: Kind>(&self, work: &Work, batch: &Batch, shading: &Shading<One, K>) -> SampledLight {
         let LightEstimate { sample, f_cos, weight, .. } = shading.sample_light(One, work);
         let target = sample.target.0;
         let place = |light: u32| work.scene.lights.place(One, U(light), F(0.0));
-        let mut light = LightSearch {
+        let mut light = SampledLight {
             direction: sample.wi.lane(0),
             object: (target != MISS).then(|| work.scene.owners[place(target).primitive.0 as usize]),
             pdf: sample.pdf.0,
             f_cos: f_cos.lane(0),
-            weight: weight.0,
+            weight: if sample.pdf.0 > 0.0 { weight.0 } else { 0.0 },
             radiance: sample.radiance.lane(0),
             outcome: Outcome::Void,
             passed: BLACK,

@@ -11,7 +11,7 @@ use serde::Serialize;
 use self::follower::Follower;
 pub use self::{
     samples::pixel_samples,
-    terms::{Emission, LightSearch, Outcome, Reflection, Surface, Vertex},
+    terms::{MetLight, Outcome, Reflection, SampledLight, Surface, Vertex},
 };
 use super::{
     batch::Batch,

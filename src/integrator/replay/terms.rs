@@ -24,10 +24,10 @@ pub struct Vertex {
     /// Absent when the path leaves the scene.
     pub surface: Option<Surface>,
     /// Emitted light that the path ran into; absent where nothing emits.
-    pub emission: Option<Emission>,
+    pub emission: Option<MetLight>,
     /// Absent where no light is looked for: it is not by the estimator `path`, from surfaces that reflect or refract like mirrors,
     /// and where the path ends.
-    pub light: Option<LightSearch>,
+    pub light: Option<SampledLight>,
     /// Absent where nothing is reflected: the surface is black, or the path has come to its last vertex.
     pub reflection: Option<Reflection>,
     /// The sum of radiance after this vertex.
@@ -50,7 +50,7 @@ pub struct Surface {
 
 /// Emitted light that a path runs into.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Emission {
+pub struct MetLight {
     /// L_e towards the viewer.
     pub radiance: [f32; 3],
     /// How much of it is counted where lights are sampled as well (power heuristic, Veach 1997); 1 where they are not.
@@ -61,7 +61,7 @@ pub struct Emission {
 
 /// A light sample (next-event estimation).
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct LightSearch {
+pub struct SampledLight {
     pub direction: [f32; 3],
     /// Number of the object that the sample lies on; absent for the background.
     pub object: Option<u32>,
@@ -69,7 +69,8 @@ pub struct LightSearch {
     pub pdf: f32,
     /// Bsdf times |cos θ_i|.
     pub f_cos: [f32; 3],
-    /// How much of it is counted where paths run into lights as well (power heuristic); 1 where they are not counted.
+    /// How much of it is counted where paths run into lights as well (power heuristic); 1 where that is not counted, 0 where the
+    /// density is.
     pub weight: f32,
     /// L_e of the light; where a texture varies it, what that multiplies.
     pub radiance: [f32; 3],
