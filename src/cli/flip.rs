@@ -10,7 +10,7 @@ use noisefall::render::{Display, display::to_srgb};
 pub fn mean_error(picture: &Frame, reference: &Frame) -> Option<f64> {
     let shown = |frame: &Frame| {
         let mut pixels = Vec::new();
-        to_srgb(frame, Display::default(), &mut pixels);
+        to_srgb(&frame.radiance, Display::default(), &mut pixels);
         let rgb: Vec<u8> = pixels.into_iter().flat_map(|[r, g, b, _]| [r, g, b]).collect();
         nv_flip::FlipImageRgb8::with_data(frame.width, frame.height, &rgb)
     };

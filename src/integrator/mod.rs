@@ -15,6 +15,7 @@ mod relief;
 mod replay;
 mod reuse;
 mod roulette;
+mod series;
 mod shade;
 mod shading;
 mod shadow;
@@ -28,6 +29,7 @@ pub use self::{
     batch::Batch,
     features::{Features, features},
     replay::{MetLight, Outcome, Reflection, Replay, SampledLight, Surface, Vertex, pixel_samples, replay},
+    series::{SHARES, TERMS, Terms, trace_series},
     trace::{Interrupted, Segments, trace, trace_counting},
     work::{BLOCK, BLOCKS, Blocks, TILE, Work},
 };

@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 use fearless_simd_macros::simd;
 
 use super::{
-    frame::Frame,
+    colour_map::ColourMap,
     tone::{Display, ToneMap, aces, reinhard},
 };
 use crate::{
@@ -17,16 +17,16 @@ use crate::{
 
 /// The picture as 8-bit sRGB with an opaque fourth channel, row by row from the top left, into `pixels` instead of what was
 /// there. (Memory that is used again is half the time of a picture.)
-pub fn to_srgb(frame: &Frame, display: Display, pixels: &mut Vec<[u8; 4]>) {
+pub fn to_srgb(radiance: &[[f32; 3]], display: Display, pixels: &mut Vec<[u8; 4]>) {
     let scale = display.exposure.exp2();
     pixels.clear();
     match display.tone_map {
-        ToneMap::None => encode(frame, pixels, |radiance| radiance.map(|c| c * scale)),
-        ToneMap::Reinhard => encode(frame, pixels, |radiance| reinhard(radiance.map(|c| c * scale))),
-        ToneMap::Aces => encode(frame, pixels, |radiance| aces(radiance.map(|c| c * scale))),
+        ToneMap::None => encode(radiance, pixels, |radiance| radiance.map(|c| c * scale)),
+        ToneMap::Reinhard => encode(radiance, pixels, |radiance| reinhard(radiance.map(|c| c * scale))),
+        ToneMap::Aces => encode(radiance, pixels, |radiance| aces(radiance.map(|c| c * scale))),
         ToneMap::FalseColour => {
             let colours = &*FALSE_COLOURS;
-            pixels.extend(frame.radiance.iter().map(|radiance| colours.of(luminance(*radiance) * scale)));
+            pixels.extend(radiance.iter().map(|radiance| colours.of(luminance(*radiance) * scale)));
         }
     }
 }
@@ -34,11 +34,11 @@ pub fn to_srgb(frame: &Frame, display: Display, pixels: &mut Vec<[u8; 4]>) {
 /// Appends the sRGB codes of what `tone` makes of the radiance. Light and codes of a block take turns in short loops that the
 /// compiler can vectorise, which a loop over pixels is not.
 #[inline(always)]
-fn encode(frame: &Frame, pixels: &mut Vec<[u8; 4]>, tone: impl Fn([f32; 3]) -> [f32; 3]) {
+fn encode(radiance: &[[f32; 3]], pixels: &mut Vec<[u8; 4]>, tone: impl Fn([f32; 3]) -> [f32; 3]) {
     const BLOCK: usize = 512;
     let (table, level) = (&*SRGB, SimdLevel::best());
     let (mut light, mut codes) = ([[0.0; 3]; BLOCK], [[0; 3]; BLOCK]);
-    for block in frame.radiance.chunks(BLOCK) {
+    for block in radiance.chunks(BLOCK) {
         for (light, radiance) in light.iter_mut().zip(block) {
             *light = tone(*radiance);
         }
@@ -111,7 +111,7 @@ fn next_code_from(code: u8) -> f32 {
     x
 }
 
-/// Luminance from 10⁻³ to 10³ on a logarithmic scale through the colours of viridis (S. van der Walt and N. Smith, 2015).
+/// Luminance from 10⁻³ to 10³ on a logarithmic scale through the colours of viridis.
 struct FalseColours {
     /// More than there are buckets, for a power of two needs no check of the index.
     colours: Box<[[u8; 4]; 1024]>,
@@ -127,7 +127,7 @@ impl FalseColours {
         let mut colours = Box::new([[0; 4]; 1024]);
         let last = Self::bucket(Self::HIGHEST);
         for (b, colour) in colours.iter_mut().enumerate() {
-            let [r, g, b] = viridis((b as f32 / last as f32).min(1.0));
+            let [r, g, b] = ColourMap::Viridis.of((b as f32 / last as f32).min(1.0));
             *colour = [r, g, b, 255];
         }
         FalseColours { colours }
@@ -143,25 +143,6 @@ impl FalseColours {
     fn of(&self, x: f32) -> [u8; 4] {
         self.colours[Self::bucket(x.max(Self::LOWEST).min(Self::HIGHEST)) % 1024]
     }
-}
-
-/// Viridis at nine equidistant points, linear between them; 8-bit sRGB.
-fn viridis(at: f32) -> [u8; 3] {
-    const POINTS: [[f32; 3]; 9] = [
-        [68.0, 1.0, 84.0],
-        [72.0, 40.0, 120.0],
-        [62.0, 74.0, 137.0],
-        [49.0, 104.0, 142.0],
-        [38.0, 130.0, 142.0],
-        [31.0, 158.0, 137.0],
-        [53.0, 183.0, 121.0],
-        [143.0, 215.0, 68.0],
-        [253.0, 231.0, 37.0],
-    ];
-    let place = at.clamp(0.0, 1.0) * (POINTS.len() - 1) as f32;
-    let i = (place as usize).min(POINTS.len() - 2);
-    let t = place - i as f32;
-    std::array::from_fn(|c| (POINTS[i][c] + (POINTS[i + 1][c] - POINTS[i][c]) * t).round() as u8)
 }
 
 #[cfg(test)]
@@ -186,17 +167,17 @@ mod tests {
     #[test]
     fn what_is_no_number_is_black_and_what_is_too_bright_is_white() {
         assert_eq!([f32::NAN, -1.0, f32::NEG_INFINITY, f32::INFINITY, 7.0].map(|x| SRGB.of(x)), [0, 0, 0, 255, 255]);
-        assert_eq!(FALSE_COLOURS.of(f32::NAN)[..3], viridis(0.0));
-        assert_eq!(FALSE_COLOURS.of(f32::INFINITY)[..3], viridis(1.0));
+        assert_eq!(FALSE_COLOURS.of(f32::NAN)[..3], ColourMap::Viridis.of(0.0));
+        assert_eq!(FALSE_COLOURS.of(f32::INFINITY)[..3], ColourMap::Viridis.of(1.0));
     }
 
     #[test]
     fn exposure_doubles_and_tone_maps_do_as_their_formulas_say() {
-        let frame = Frame { radiance: vec![[0.25, 0.0, 2.0]], ..Frame::default() };
+        let radiance = [[0.25, 0.0, 2.0]];
         let code = |x: f64| (srgb_from_linear(x.min(1.0)) * 255.0).round() as u8;
         let show = |exposure, tone_map| {
             let mut pixels = Vec::new();
-            to_srgb(&frame, Display { exposure, tone_map }, &mut pixels);
+            to_srgb(&radiance, Display { exposure, tone_map }, &mut pixels);
             pixels[0]
         };
         assert_eq!(show(1.0, ToneMap::None), [code(0.5), 0, 255, 255]);

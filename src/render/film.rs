@@ -1,5 +1,5 @@
 //! The film: what a picture's samples add up to.
-use super::tile::Tile;
+use super::{region::Region, tile::Tile};
 use crate::integrator::TILE;
 
 /// Sums of samples over all pixels, in tiles that each belong to one thread at a time.
@@ -8,6 +8,8 @@ pub struct Film {
     pub tiles: Vec<Tile>,
     /// It has been found out where noise is.
     pub(super) is_piloted: bool,
+    /// Samples go here alone.
+    pub(super) focus: Option<Region>,
 }
 
 impl Film {
@@ -17,7 +19,7 @@ impl Film {
         let corners = |side: u32| (0..side).step_by(TILE as usize);
         let tile = |x: u32, y: u32| Tile::new([x, y], [TILE.min(width - x), TILE.min(height - y)]);
         let tiles = corners(height).flat_map(|y| corners(width).map(move |x| tile(x, y))).collect();
-        Film { resolution, tiles, is_piloted: false }
+        Film { resolution, tiles, is_piloted: false, focus: None }
     }
 
     /// An empty film in the memory of this one, if it has the right size.
@@ -26,8 +28,18 @@ impl Film {
             return Film::new(resolution);
         }
         self.tiles.iter_mut().for_each(Tile::forget);
-        self.is_piloted = false;
+        (self.is_piloted, self.focus) = (false, None);
         self
+    }
+
+    /// Keeps what each number of reflections adds apart from now on.
+    pub(super) fn keep_series(&mut self) {
+        self.tiles.iter_mut().for_each(Tile::keep_series);
+    }
+
+    /// Samples a pixel of the tiles in a region; `None` where it lies outside.
+    pub(super) fn spp_in(&self, region: &Region) -> Option<u32> {
+        self.tiles.iter().filter(|tile| tile.lies_in(region)).map(|tile| tile.spp).min()
     }
 
     /// Samples a pixel: of every pixel, or on average at most where they are spread by noise.
@@ -47,6 +59,12 @@ impl Film {
 
     pub fn invalid_samples(&self) -> u64 {
         self.tiles.iter().map(|tile| tile.invalid).sum()
+    }
+
+    /// The tiles that samples go to.
+    pub(super) fn tiles_in_focus(&mut self) -> impl Iterator<Item = &mut Tile> {
+        let focus = self.focus;
+        self.tiles.iter_mut().filter(move |tile| focus.is_none_or(|region| tile.lies_in(&region)))
     }
 
     /// Rows of tiles from top to bottom.

@@ -1,7 +1,14 @@
 //! A frame: the picture at one moment, as others may look at it while the render goes on.
+use std::time::Duration;
+
 use rayon::prelude::*;
 
-use super::{doubling::rel_mse_estimate, film::Film, tile::Estimate};
+use super::{
+    doubling::rel_mse_estimate,
+    film::Film,
+    series::Series,
+    tile::{Estimate, Tile},
+};
 use crate::{integrator::TILE, math::colour::luminance};
 
 /// Linear radiance, row by row from the top left. Immutable once published.
@@ -18,6 +25,12 @@ pub struct Frame {
     pub standard_error: Vec<f32>,
     /// Samples that every pixel has at least.
     pub spp: u32,
+    /// Samples of every pixel, row by row; empty where all have `spp`.
+    pub counts: Vec<u32>,
+    /// Time spent rendering it.
+    pub elapsed: Duration,
+    /// What each number of reflections adds, where that was asked for.
+    pub series: Option<Series>,
     /// Estimated relMSE of the picture: see [`super::doubling`]; `None` before the second sample.
     pub rel_mse_estimate: Option<f64>,
 }
@@ -43,7 +56,24 @@ impl Frame {
             },
         );
         let rel_mse_estimate = rel_mse_estimate(film);
-        Frame { generation, width, height, full_resolution, radiance, standard_error, spp: film.spp(), rel_mse_estimate }
+        Frame {
+            generation,
+            width,
+            height,
+            full_resolution,
+            radiance,
+            standard_error,
+            spp: film.spp(),
+            counts: counts(film),
+            elapsed: Duration::ZERO,
+            series: Series::of_film(film),
+            rel_mse_estimate,
+        }
+    }
+
+    /// Samples of a pixel, by its index.
+    pub fn spp_at(&self, index: usize) -> u32 {
+        self.counts.get(index).copied().unwrap_or(self.spp)
     }
 
     /// The pixel of the frame that covers a pixel of the full picture, as an index.
@@ -64,6 +94,17 @@ impl Frame {
     pub fn is_coarse(&self) -> bool {
         [self.width, self.height] != self.full_resolution
     }
+}
+
+/// See [`Frame::counts`].
+fn counts(film: &Film) -> Vec<u32> {
+    let spp = film.spp();
+    if film.tiles.iter().all(|tile| !tile.is_adaptive() && tile.spp == spp) {
+        return Vec::new();
+    }
+    let row = |tiles: &[Tile], row: usize| tiles.iter().flat_map(|tile| tile.counts(row)).collect::<Vec<_>>();
+    let rows = film.tile_rows().flat_map(|tiles| (0..tiles[0].size[1] as usize).map(move |y| row(tiles, y)));
+    rows.collect::<Vec<_>>().concat()
 }
 
 /// The channels of a sample come from one path: their errors are added as if fully correlated, which is an upper bound.

@@ -75,6 +75,15 @@ fn folder(path: &Path) -> Result<PathBuf, ImageError> {
 
 /// Writes a frame as PNG or EXR, by the extension. The file appears whole or not at all. `settings` is any text.
 pub fn save(frame: &Frame, display: Display, settings: &str, path: &Path) -> Result<(), ImageError> {
+    let mut pixels = Vec::new();
+    if format(path)? == Format::Png {
+        to_srgb(&frame.radiance, display, &mut pixels);
+    }
+    save_shown(frame, &pixels, settings, path)
+}
+
+/// [`save`] with these pixels in a PNG: what the screen shows of the frame.
+pub fn save_shown(frame: &Frame, pixels: &[[u8; 4]], settings: &str, path: &Path) -> Result<(), ImageError> {
     let format = format(path)?;
     let path = &through_links(path);
     let folder = folder(path)?;
@@ -83,7 +92,7 @@ pub fn save(frame: &Frame, display: Display, settings: &str, path: &Path) -> Res
     {
         let mut writer = BufWriter::new(file.as_file_mut());
         match format {
-            Format::Png => write_png(frame, display, settings, &mut writer),
+            Format::Png => write_png([frame.width, frame.height], pixels, settings, &mut writer),
             Format::Exr => write_exr(frame, settings, &mut writer),
         }
         .map_err(failed)?;
@@ -104,11 +113,9 @@ fn temporary(path: &Path, folder: &Path) -> Result<tempfile::NamedTempFile, Imag
     })
 }
 
-fn write_png(frame: &Frame, display: Display, settings: &str, to: &mut impl Write) -> Result<(), String> {
-    let mut pixels = Vec::new();
-    to_srgb(frame, display, &mut pixels);
-    let rgb: Vec<u8> = pixels.into_iter().flat_map(|[r, g, b, _]| [r, g, b]).collect();
-    let mut encoder = png::Encoder::new(to, frame.width, frame.height);
+fn write_png([width, height]: [u32; 2], pixels: &[[u8; 4]], settings: &str, to: &mut impl Write) -> Result<(), String> {
+    let rgb: Vec<u8> = pixels.iter().flat_map(|[r, g, b, _]| [*r, *g, *b]).collect();
+    let mut encoder = png::Encoder::new(to, width, height);
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
     encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);

@@ -7,22 +7,28 @@
 //! ```
 //! The window says what it wants and never waits; see [`worker`].
 mod adaptive;
+pub mod colour_map;
 pub mod display;
 mod doubling;
 pub mod film;
 pub mod frame;
 pub mod image_file;
 pub mod pass;
+pub mod region;
+pub mod series;
 mod session;
 pub mod settings_text;
 pub mod sharing;
 pub mod tile;
 pub mod tone;
 pub mod truth;
+pub mod view;
 pub mod worker;
 
 pub use self::{
     frame::Frame,
+    region::Region,
+    series::Series,
     tone::{Display, ToneMap},
-    worker::{Budget, Job, Publish, Published, Renderer, State, Status},
+    worker::{Beside, Budget, Job, Publish, Published, Renderer, State, Status},
 };

@@ -8,7 +8,7 @@ use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder, prelude::*};
 
 use super::{adaptive, film::Film, tile::Tile};
 use crate::{
-    integrator::{Batch, Blocks, Interrupted, Segments, Work, replay, trace, trace_counting},
+    integrator::{Batch, Blocks, Interrupted, Segments, Terms, Work, replay, trace, trace_counting, trace_series},
     math::SimdLevel,
     scene::{CameraRays, RenderSettings, Reuse, Scene},
 };
@@ -17,6 +17,8 @@ use crate::{
 pub struct Threads {
     pool: ThreadPool,
     batches: Vec<Mutex<Batch>>,
+    /// For films that keep the series.
+    terms: Vec<Mutex<Terms>>,
     level: SimdLevel,
 }
 
@@ -64,8 +66,8 @@ impl Threads {
     /// `count` 0 means as many as there are cores.
     pub fn new(count: usize, level: SimdLevel) -> Result<Threads, ThreadPoolBuildError> {
         let pool = ThreadPoolBuilder::new().num_threads(count).thread_name(|i| format!("render {i}")).build()?;
-        let batches = (0..pool.current_num_threads()).map(|_| Mutex::default()).collect();
-        Ok(Threads { pool, batches, level })
+        let (batches, terms) = (0..pool.current_num_threads()).map(|_| Default::default()).unzip();
+        Ok(Threads { pool, batches, terms, level })
     }
 
     pub fn count(&self) -> usize {
@@ -100,7 +102,7 @@ impl Threads {
             }
         }
         let resolution = film.resolution;
-        let mut tiles: Vec<&mut Tile> = film.tiles.iter_mut().filter(|tile| tile.spp < spp).collect();
+        let mut tiles: Vec<&mut Tile> = film.tiles_in_focus().filter(|tile| tile.spp < spp).collect();
         // What takes long begins first, or else one thread would be left with it in the end.
         tiles.sort_by_cached_key(|tile| std::cmp::Reverse(tile.distance_to(spp)));
         self.pool.install(|| {
@@ -120,6 +122,7 @@ impl Threads {
         let thread = rayon::current_thread_index().unwrap_or(0);
         let mut count = PassCount::default();
         let mut batch = self.batches[thread].lock().unwrap_or_else(PoisonError::into_inner);
+        let mut terms = self.terms[thread].lock().unwrap_or_else(PoisonError::into_inner);
         (batch.rays, batch.cut_paths) = (0, 0);
         while tile.spp < spp && !interrupted() {
             let PassJob { scene, rays, settings } = job;
@@ -130,7 +133,11 @@ impl Threads {
             }
             let whole = Work::tile(scene, rays, settings, tile.origin, tile.size, tile.spp);
             let work = Work { blocks: blocks.as_ref(), ..whole };
-            let traced = catch_unwind(AssertUnwindSafe(|| trace(self.level, &work, &mut batch, interrupted)));
+            let traced = catch_unwind(AssertUnwindSafe(|| match &mut tile.series {
+                None => trace(self.level, &work, &mut batch, interrupted),
+                Some(series) => trace_series(self.level, &work, &mut batch, interrupted, &mut terms)
+                    .map(|()| series.add(tile.size, &terms, batch.radiance())),
+            }));
             match traced {
                 Ok(Ok(())) => {
                     let sample = tile.spp;

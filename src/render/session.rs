@@ -5,10 +5,11 @@ use super::{
     film::Film,
     frame::Frame,
     pass::{PassCount, PassJob, Threads},
+    region::Region,
     sharing::resolved,
     worker::{Budget, Job, Publish, State, Status},
 };
-use crate::scene::Camera;
+use crate::scene::{Camera, RenderSettings, Reuse};
 
 /// Camera samples a second before anything was measured: what a slow machine makes of a simple scene.
 const UNKNOWN_RATE: f64 = 1e6;
@@ -81,6 +82,14 @@ impl Session {
         }
     }
 
+    /// One that keeps what each number of reflections adds apart. Pixels share nothing then, and have the same number of samples.
+    pub fn of_series(job: Job, rate: Option<f64>, budget: &Budget) -> Session {
+        let settings = RenderSettings { reuse: Reuse::Off, adaptive: false, ..job.settings };
+        let mut session = Session::new(Job { settings, ..job }, Publish::Sparse, rate, budget, None);
+        session.film.keep_series();
+        session
+    }
+
     pub fn job(&self) -> &Job {
         &self.job
     }
@@ -92,6 +101,11 @@ impl Session {
     /// Whether the next frame is a small one.
     pub fn is_coarse(&self) -> bool {
         self.coarse.is_some()
+    }
+
+    /// Time spent rendering it.
+    pub fn elapsed(&self) -> Duration {
+        self.elapsed
     }
 
     pub fn rate(&self) -> Option<f64> {
@@ -117,6 +131,20 @@ impl Session {
         }
     }
 
+    /// The region to render before the rest, until it has what the budget asks for. Every pixel has its first sample by then.
+    fn focus(&self, budget: &Budget) -> Option<Region> {
+        let unfinished = |region: &Region| {
+            let spp = self.film.spp_in(region);
+            spp.is_some_and(|spp| spp > 0 && budget.max_spp.is_none_or(|most| spp < most))
+        };
+        budget.region.filter(|region| self.film.spp() > 0 && unfinished(region))
+    }
+
+    /// Samples of every pixel that samples go to now.
+    fn spp_in_focus(&self) -> u32 {
+        self.film.focus.and_then(|region| self.film.spp_in(&region)).unwrap_or_else(|| self.film.spp())
+    }
+
     /// The first sample is not there yet, and there has been something to look at for a while.
     fn takes_long(&self) -> bool {
         self.last_frame.is_some_and(|coarse| coarse.elapsed() > PATIENCE)
@@ -128,7 +156,8 @@ impl Session {
             self.coarse_pass(threads, interrupted);
             return;
         }
-        let spp = self.film.spp();
+        self.film.focus = self.focus(budget);
+        let spp = self.spp_in_focus();
         let target = if budget.paused { spp + 1 } else { spp + self.spp_of_pass(budget, publish) };
         let rays = self.job.scene.rays(&self.job.camera);
         let settings = threads.install(|| resolved(&self.job.scene, &rays, &self.job.settings));
@@ -150,7 +179,7 @@ impl Session {
         self.count = std::mem::take(&mut self.count).merge(count);
         if !budget.paused {
             self.steps_done = budget.steps;
-        } else if self.film.spp() == target && spp > 0 {
+        } else if self.spp_in_focus() == target && spp > 0 {
             self.steps_done += 1;
         }
     }
@@ -177,11 +206,13 @@ impl Session {
 
     /// As many samples as fit between two frames.
     fn spp_of_pass(&self, budget: &Budget, publish: Publish) -> u32 {
-        let pixels = self.job.camera.resolution.map(f64::from).iter().product::<f64>();
+        let resolution = self.job.camera.resolution;
+        let size = self.film.focus.map_or(resolution, |region| region.in_tiles(resolution).size());
+        let pixels = size.map(f64::from).iter().product::<f64>().max(1.0);
         let time_left = budget.max_time.map_or(Duration::MAX, |most| most.saturating_sub(self.elapsed));
         let time = self.interval(publish).min(time_left).as_secs_f64();
         let fits = (self.rate.unwrap_or(UNKNOWN_RATE) * time / pixels).clamp(1.0, MOST_SPP_A_PASS) as u32;
-        budget.max_spp.map_or(fits, |most| fits.min(most.saturating_sub(self.film.spp())))
+        budget.max_spp.map_or(fits, |most| fits.min(most.saturating_sub(self.spp_in_focus())))
     }
 
     fn interval(&self, publish: Publish) -> Duration {
@@ -208,7 +239,7 @@ impl Session {
             self.coarse = Coarse::new(&self.job.camera, coarse.scale / 2);
             return Frame::of_film(&coarse.film, self.job.generation, coarse.camera.resolution, full);
         }
-        let frame = Frame::of_film(&self.film, self.job.generation, full, full);
+        let frame = Frame { elapsed: self.elapsed, ..Frame::of_film(&self.film, self.job.generation, full, full) };
         self.rel_mse_estimate = frame.rel_mse_estimate;
         frame
     }
@@ -218,6 +249,7 @@ impl Session {
             generation: self.job.generation,
             state,
             spp: self.film.spp(),
+            region_spp: self.film.focus.map(|_| self.spp_in_focus()),
             samples: self.film.samples(),
             rays: self.count.rays,
             elapsed: self.elapsed,

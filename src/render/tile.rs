@@ -1,5 +1,5 @@
 //! A tile of the film: sums of samples a pixel, and counts a block of pixels.
-use super::{adaptive::UNIFORM, doubling::Doubling};
+use super::{adaptive::UNIFORM, doubling::Doubling, region::Region, series::TileSeries};
 use crate::integrator::{BLOCK, Blocks, TILE};
 
 /// The pixels of one tile, row by row. Sums are f64, so that a millionth sample still counts.
@@ -16,6 +16,8 @@ pub struct Tile {
     before: Vec<[f32; 3]>,
     /// Row by row.
     pub(super) blocks: Vec<Block>,
+    /// What each number of reflections adds, where somebody looks at that.
+    pub(super) series: Option<TileSeries>,
     /// Samples that were not finite, or negative; they count as black.
     pub invalid: u64,
 }
@@ -62,13 +64,30 @@ impl Tile {
             sum_of_squares: Vec::new(),
             before: Vec::new(),
             blocks: vec![Block::default(); (columns * rows) as usize],
+            series: None,
             invalid: 0,
         }
     }
 
+    /// Keeps the terms of samples apart from now on.
+    pub(super) fn keep_series(&mut self) {
+        self.series = Some(TileSeries::new((self.size[0] * self.size[1]) as usize));
+    }
+
+    pub(super) fn lies_in(&self, region: &Region) -> bool {
+        region.meets(self.origin, self.size)
+    }
+
+    /// Samples of the pixels of one row, which counts from the tile's top.
+    pub(super) fn counts(&self, row: usize) -> impl Iterator<Item = u32> {
+        let columns = self.size[0].div_ceil(BLOCK) as usize;
+        let blocks = &self.blocks[row / BLOCK as usize * columns..][..columns];
+        (0..self.size[0]).map(move |column| blocks[(column / BLOCK) as usize].spp)
+    }
+
     /// Takes all samples back.
     pub(super) fn forget(&mut self) {
-        (self.spp, self.invalid) = (0, 0);
+        (self.spp, self.invalid, self.series) = (0, 0, None);
         self.blocks.fill(Block::default());
     }
 

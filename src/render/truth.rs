@@ -1,9 +1,13 @@
-//! The picture that a scene says it must converge to.
-use std::sync::Arc;
+//! The picture that a render must converge to: as the scene says, or one by another program.
+use std::{borrow::Cow, path::Path, sync::Arc};
 
-use super::{frame::Frame, image_file::Picture};
+use super::{
+    frame::Frame,
+    image_file::{ImageError, Picture, read},
+};
 use crate::{
-    measure::{Comparison, compare},
+    math::colour::luminance,
+    measure::{Comparison, Deviations, compare},
     scene::{Scene, Truth},
 };
 
@@ -24,6 +28,11 @@ impl Reference {
         }
     }
 
+    /// A picture in a file.
+    pub fn read(path: &Path) -> Result<Reference, ImageError> {
+        Ok(Reference::Picture(Arc::new(read(path)?)))
+    }
+
     /// Why pictures of this resolution cannot be held against the reference, if they cannot.
     pub fn mismatch(&self, [width, height]: [u32; 2]) -> Option<String> {
         match self {
@@ -35,14 +44,28 @@ impl Reference {
         }
     }
 
+    /// What every pixel of a frame should be, if the frame has the reference's resolution.
+    pub fn radiance_of(&self, frame: &Frame) -> Option<Cow<'_, [[f32; 3]]>> {
+        match self {
+            Reference::Constant(radiance) => Some(vec![*radiance; frame.radiance.len()].into()),
+            Reference::Picture(picture) => {
+                let same = [picture.width, picture.height] == [frame.width, frame.height];
+                same.then(|| picture.radiance.as_slice().into())
+            }
+        }
+    }
+
     /// The error of a frame, if it has the reference's resolution.
     pub fn compare(&self, frame: &Frame) -> Option<Comparison> {
-        match self {
-            Reference::Constant(radiance) => Some(compare(&frame.radiance, &vec![*radiance; frame.radiance.len()])),
-            Reference::Picture(picture) if [picture.width, picture.height] == [frame.width, frame.height] => {
-                Some(compare(&frame.radiance, &picture.radiance))
-            }
-            Reference::Picture(_) => None,
-        }
+        Some(compare(&frame.radiance, &self.radiance_of(frame)?))
+    }
+
+    /// How far the mean of a frame is from the true one, in standard errors that the scatter over the picture gives; `None` if that
+    /// cannot be told.
+    pub fn bias(&self, frame: &Frame) -> Option<f64> {
+        let truth = self.radiance_of(frame)?;
+        let pairs = frame.radiance.iter().zip(truth.iter());
+        let differences: Vec<f64> = pairs.map(|(x, r)| f64::from(luminance(*x)) - f64::from(luminance(*r))).collect();
+        Deviations::of(&differences, frame.width as usize).map(|deviations| deviations.of_mean)
     }
 }

@@ -4,6 +4,8 @@
 //! it renders stops the pass between two bounces, so an answer never takes longer than that, some ten microseconds. A batch that
 //! is stopped is thrown away and traced again.
 //! A new job starts an empty film; a new budget goes on with the film there is.
+//!
+//! A second picture may be rendered beside the first. Both get the same time: the one that had less goes on.
 use std::{
     sync::{
         Arc, Mutex, MutexGuard, PoisonError,
@@ -18,6 +20,7 @@ use crossbeam_channel::{Receiver, Sender, unbounded};
 use super::{
     frame::Frame,
     pass::{Failure, SampleId, Threads},
+    region::Region,
     session::Session,
 };
 use crate::scene::{Camera, RenderSettings, Scene};
@@ -41,6 +44,17 @@ pub struct Budget {
     pub max_time: Option<Duration>,
     /// Relative noise at which to stop: the root of the estimated relMSE.
     pub noise: Option<f64>,
+    /// What to render before the rest, until it has `max_spp` samples.
+    pub region: Option<Region>,
+}
+
+/// A picture beside the first.
+#[derive(Clone)]
+pub enum Beside {
+    /// Another one, as of the same scene by other settings.
+    Picture(Job),
+    /// The same one as a [`super::Series`]: only full frames.
+    Series(Job),
 }
 
 /// What the worker is doing.
@@ -63,6 +77,8 @@ pub struct Status {
     pub generation: u64,
     pub state: State,
     pub spp: u32,
+    /// Samples per pixel of the region that is rendered before the rest.
+    pub region_spp: Option<u32>,
     /// Camera samples taken.
     pub samples: u64,
     /// Path segments traced.
@@ -115,13 +131,16 @@ pub enum Publish {
 
 enum Message {
     Job(Box<Job>),
+    Beside(Option<Box<Beside>>),
     Budget(Budget),
+    Threads(Threads),
     Quit,
 }
 
 /// What both sides see.
 struct Shared {
-    published: Mutex<Published>,
+    /// Of the first picture and of the one beside it.
+    published: Mutex<[Published; 2]>,
     /// Messages sent so far.
     sent: AtomicU64,
 }
@@ -138,8 +157,15 @@ impl Renderer {
     pub fn new(threads: Threads, publish: Publish, notify: impl Fn() + Send + 'static) -> Renderer {
         let (sender, receiver) = unbounded();
         let shared = Arc::new(Shared { published: Mutex::default(), sent: AtomicU64::new(0) });
-        let worker =
-            Worker { threads, publish, receiver, shared: shared.clone(), seen: 0, budget: Budget::default(), session: None };
+        let worker = Worker {
+            threads,
+            publish,
+            receiver,
+            shared: shared.clone(),
+            seen: 0,
+            budget: Budget::default(),
+            sessions: [None, None],
+        };
         let thread = std::thread::Builder::new().name("worker".to_owned()).spawn(move || worker.run(&notify));
         Renderer { sender, shared, thread: Some(thread.expect("a thread can be started")) }
     }
@@ -149,13 +175,28 @@ impl Renderer {
         self.send(Message::Job(Box::new(job)));
     }
 
+    /// Renders this beside the first picture, or nothing.
+    pub fn submit_beside(&self, beside: Option<Beside>) {
+        self.send(Message::Beside(beside.map(Box::new)));
+    }
+
+    /// Goes on with these threads.
+    pub fn set_threads(&self, threads: Threads) {
+        self.send(Message::Threads(threads));
+    }
+
     pub fn set_budget(&self, budget: Budget) {
         self.send(Message::Budget(budget));
     }
 
     /// The latest frame and figures. Never waits for the render.
     pub fn latest(&self) -> Published {
-        lock(&self.shared.published).clone()
+        lock(&self.shared.published)[0].clone()
+    }
+
+    /// The same of the picture beside it.
+    pub fn latest_beside(&self) -> Published {
+        lock(&self.shared.published)[1].clone()
     }
 
     fn send(&self, message: Message) {
@@ -174,7 +215,7 @@ impl Drop for Renderer {
     }
 }
 
-fn lock(published: &Mutex<Published>) -> MutexGuard<'_, Published> {
+fn lock(published: &Mutex<[Published; 2]>) -> MutexGuard<'_, [Published; 2]> {
     published.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
@@ -186,41 +227,54 @@ struct Worker {
     /// Messages received so far.
     seen: u64,
     budget: Budget,
-    session: Option<Session>,
+    /// Of the first picture and of the one beside it.
+    sessions: [Option<Session>; 2],
 }
 
 impl Worker {
     fn run(mut self, notify: &dyn Fn()) {
         loop {
-            let busy = self.session.as_ref().is_some_and(|session| session.state(&self.budget) == State::Running);
+            let busy = self.next().is_some();
             if self.receive(!busy).is_none() {
                 return;
             }
-            let Some(session) = &mut self.session else { continue };
-            if session.state(&self.budget) == State::Running {
+            let next = self.next();
+            if let Some(session) = next.and_then(|side| self.sessions[side].as_mut()) {
                 let (sent, seen) = (&self.shared.sent, self.seen);
                 session.advance(&self.threads, &self.budget, self.publish, &|| sent.load(Ordering::Relaxed) != seen);
             }
-            // A large frame that is out of date already would only hold up what was asked for since. A coarse one is quick, and
-            // while the camera is dragged there is never anything but coarse ones.
-            if session.is_coarse() || self.shared.sent.load(Ordering::Relaxed) == self.seen {
-                self.publish(notify);
+            for side in 0..self.sessions.len() {
+                // A large frame that is out of date already would only hold up what was asked for since. A coarse one is quick,
+                // and while the camera is dragged there is never anything but coarse ones.
+                let is_coarse = self.sessions[side].as_ref().is_some_and(Session::is_coarse);
+                if is_coarse || self.shared.sent.load(Ordering::Relaxed) == self.seen {
+                    self.publish(side, notify);
+                }
             }
         }
     }
 
+    /// The side whose turn it is: of those that are not done, the one that had less time.
+    fn next(&self) -> Option<usize> {
+        let running = |session: &Session| session.state(&self.budget) == State::Running;
+        let sides = self.sessions.iter().enumerate().filter_map(|(side, session)| Some((side, session.as_ref()?)));
+        let running = sides.filter(|(_, session)| running(session));
+        // The first look at a picture goes before the second sample of another one.
+        running.min_by_key(|(_, session)| (!session.is_coarse(), session.elapsed())).map(|(side, _)| side)
+    }
+
     /// Makes a frame if one is due, and tells what has changed.
-    fn publish(&mut self, notify: &dyn Fn()) {
-        let Some(session) = &mut self.session else { return };
+    fn publish(&mut self, side: usize, notify: &dyn Fn()) {
+        let Some(session) = &mut self.sessions[side] else { return };
         let at_rest = session.state(&self.budget) != State::Running;
         let frame = session.frame_due(self.publish, at_rest).then(|| self.threads.install(|| Arc::new(session.frame())));
         // The frame's noise estimate may itself be what the budget waits for.
         let status = session.status(session.state(&self.budget));
         let mut published = lock(&self.shared.published);
-        let changed = frame.is_some() || published.status != status;
-        published.status = status;
+        let changed = frame.is_some() || published[side].status != status;
+        published[side].status = status;
         if let Some(frame) = frame {
-            published.frame = frame;
+            published[side].frame = frame;
         }
         drop(published);
         if changed {
@@ -245,13 +299,25 @@ impl Worker {
         match message {
             Message::Quit => return None,
             Message::Budget(budget) => self.budget = budget,
-            Message::Job(job) => {
-                let same_scene = |old: &&Session| Arc::ptr_eq(&old.job().scene, &job.scene);
-                let rate = self.session.as_ref().filter(same_scene).and_then(Session::rate);
-                let film = self.session.take().map(Session::into_film);
-                self.session = Some(Session::new(*job, self.publish, rate, &self.budget, film));
+            Message::Threads(threads) => self.threads = threads,
+            Message::Job(job) => self.start(0, Beside::Picture(*job)),
+            Message::Beside(None) => {
+                self.sessions[1] = None;
+                lock(&self.shared.published)[1] = Published::default();
             }
+            Message::Beside(Some(beside)) => self.start(1, *beside),
         }
         Some(())
+    }
+
+    fn start(&mut self, side: usize, what: Beside) {
+        let (Beside::Picture(job) | Beside::Series(job)) = &what;
+        let sessions = || self.sessions.iter().flatten();
+        let rate = sessions().filter(|old| Arc::ptr_eq(&old.job().scene, &job.scene)).find_map(Session::rate);
+        let film = self.sessions[side].take().map(Session::into_film);
+        self.sessions[side] = Some(match what {
+            Beside::Picture(job) => Session::new(job, self.publish, rate, &self.budget, film),
+            Beside::Series(job) => Session::of_series(job, rate, &self.budget),
+        });
     }
 }

@@ -33,7 +33,7 @@ use std::path::PathBuf;
 pub use self::{
     advice::{Advice, Candidate, advise},
     driver::{Progress, Study},
-    fit::Slope,
+    fit::{Slope, slope},
     machine::Machine,
     measure::{Checkpoint, Run},
     outcome::{Outcome, Standing},

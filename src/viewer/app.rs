@@ -1,113 +1,183 @@
 //! The state of the window and its layout. Each panel is a file of its own.
-use std::{path::PathBuf, sync::Arc};
+use std::{path::PathBuf, sync::Arc, time::Instant};
 
-use egui::{CentralPanel, Panel, ScrollArea, TextureHandle, TextureOptions};
+use egui::{CentralPanel, Panel, ScrollArea, TextureHandle};
 use noisefall::{
-    render::{Budget, Display, Frame, State, Status, pass::Threads, truth::Reference},
+    render::{
+        Budget, Frame, Region, State, Status,
+        pass::Threads,
+        truth::Reference,
+        view::{Legend, Look, Scores},
+    },
     scene::{Camera, RenderSettings, built_in},
 };
 
 use super::{
-    canvas::{self, Tool, View},
+    bounces::Bounces,
+    canvas::{self, Pictures, Split, Tool},
     catalogue,
-    darkroom::{Darkroom, Order},
+    compare::Compare,
+    convergence::History,
+    darkroom::{Against, Darkroom},
+    dock::Tab,
+    feature_finder::FeatureFinder,
+    gallery::Gallery,
     link::{Link, Wish},
     loader::{Loader, Opened},
-    look::{dark, section},
+    look::{section, themes},
     messages::Notice,
     objects_panel::objects_panel,
-    path_field::PathField,
+    pace::Pace,
+    path::Inspector,
+    picture_view::View,
+    preferences::Preferences,
+    save_dialog::SaveDialog,
     saver::Saver,
 };
 
 pub struct App {
     pub(super) ctx: egui::Context,
     pub(super) link: Link,
-    darkroom: Darkroom,
+    pub(super) darkroom: Darkroom,
     pub(super) loader: Loader,
     pub(super) saver: Saver,
+    pub(super) finder: FeatureFinder,
 
     /// What the user wants.
     pub(super) opened: Option<Opened>,
     pub(super) camera: Camera,
     pub(super) settings: RenderSettings,
+    pub(super) compare: Option<Compare>,
+    pub(super) bounces: Bounces,
     pub(super) budget: Budget,
-    pub(super) display: Display,
+    pub(super) threads: usize,
+    pub(super) look: Look,
+    pub(super) pinned: Option<Arc<Frame>>,
+    /// A reference that was dropped on the window, and its name.
+    pub(super) dropped_truth: Option<(String, Arc<Reference>)>,
 
     /// What there is.
     pub(super) status: Status,
+    pub(super) status_beside: Status,
     pub(super) shown: Option<Arc<Frame>>,
-    pub(super) true_rel_mse: Option<f64>,
+    /// The latest frame of what is rendered beside the picture.
+    pub(super) frame_beside: Option<Arc<Frame>>,
+    pub(super) against: Option<Against>,
+    pub(super) against_beside: Option<Against>,
+    pub(super) legend: Option<Legend>,
+    pub(super) scores: Option<Scores>,
+    /// What the screen shows of `shown`.
+    pub(super) pixels: Vec<[u8; 4]>,
+    pub(super) history: History,
     /// No sample of what is shown has found light.
     pub(super) black: bool,
-    texture: Option<TextureHandle>,
+    pub(super) textures: [Option<TextureHandle>; 2],
 
     /// The window itself.
     pub(super) tool: Tool,
     pub(super) view: View,
+    pub(super) dock: Option<Tab>,
     pub(super) hovered: Option<[u32; 2]>,
+    /// The region that is being drawn.
+    pub(super) marking: Option<Region>,
+    pub(super) hidden: bool,
     pub(super) help_open: bool,
-    pub(super) save_dialog: Option<PathField>,
-    pub(super) open_dialog: Option<PathField>,
+    pub(super) save_dialog: Option<SaveDialog>,
+    pub(super) open_dialog: Option<super::path_field::PathField>,
     pub(super) last_saved: Option<PathBuf>,
     pub(super) catalogue: Vec<catalogue::Entry>,
     /// Why the last scene could not be opened.
     pub(super) scene_error: Option<String>,
-    pub(super) notice: Option<Notice>,
+    pub(super) notices: Vec<Notice>,
+    pub(super) pace: Pace,
+    pub(super) gallery: Gallery,
+    pub(super) inspector: Inspector,
+    /// The page of the tour that is open.
+    pub(super) tour: Option<usize>,
+    pub(super) preferences: Preferences,
 }
 
 impl App {
-    pub fn new(ctx: &egui::Context, threads: Threads, scene: Option<PathBuf>) -> App {
-        dark(ctx);
+    pub fn new(ctx: &egui::Context, threads: Threads, scene: Option<PathBuf>, preferences: Preferences) -> App {
+        themes(ctx, preferences.now.theme.as_deref());
         // The default is meant for a scene to be replaced within a moment: the loader opens the one asked for.
         let default = built_in();
         let mut loader = Loader::new(ctx);
         loader.open(scene);
         App {
             ctx: ctx.clone(),
+            threads: threads.count(),
             link: Link::new(threads, ctx),
             darkroom: Darkroom::new(ctx),
             loader,
             saver: Saver::new(ctx),
+            finder: FeatureFinder::new(ctx),
             opened: None,
             camera: default.camera,
             settings: default.settings,
+            compare: None,
+            bounces: Bounces::default(),
             budget: Budget::default(),
-            display: Display::default(),
+            look: Look::default(),
+            pinned: None,
+            dropped_truth: None,
             status: Status::default(),
+            status_beside: Status::default(),
             shown: None,
-            true_rel_mse: None,
+            frame_beside: None,
+            against: None,
+            against_beside: None,
+            legend: None,
+            scores: None,
+            pixels: Vec::new(),
+            history: History::default(),
             black: false,
-            texture: None,
+            textures: [None, None],
             tool: Tool::default(),
             view: View::default(),
+            dock: None,
             hovered: None,
+            marking: None,
+            hidden: false,
             help_open: false,
             save_dialog: None,
             open_dialog: None,
             last_saved: None,
             catalogue: catalogue::find(),
             scene_error: None,
-            notice: None,
+            notices: Vec::new(),
+            pace: Pace::default(),
+            gallery: Gallery::default(),
+            inspector: Inspector::new(ctx),
+            tour: None,
+            preferences,
         }
     }
 
     /// One frame of the window.
     pub fn show(&mut self, ui: &mut egui::Ui) {
+        let start = Instant::now();
         let ctx = ui.ctx().clone();
+        self.hidden = false;
         self.shortcuts(&ctx);
-        self.open_dropped_file();
+        self.take_dropped_file();
         self.receive();
+        self.inspect();
         Panel::bottom("status").show(ui, |ui| self.status_bar(ui));
         Panel::right("settings").resizable(false).exact_size(336.0).show(ui, |ui| self.panels(ui));
         Panel::top("toolbar").show(ui, |ui| self.toolbar(ui));
+        self.dock(ui);
         CentralPanel::no_frame().show(ui, |ui| self.canvas(ui));
         self.save_dialog(&ctx);
         self.open_dialog(&ctx);
         self.help(&ctx);
         self.scene_error_window(&ctx);
-        self.notice(&ctx);
+        self.show_gallery(&ctx);
+        self.show_tour(&ctx);
+        self.show_notices(&ctx);
+        self.show_pace(&ctx);
         self.submit();
+        self.pace.record(start.elapsed(), ctx.input(|input| input.time));
     }
 
     fn panels(&mut self, ui: &mut egui::Ui) {
@@ -120,96 +190,77 @@ impl App {
             ui.add_space(4.0);
             ui.add_enabled_ui(self.opened.is_some(), |ui| {
                 section(ui, "Sampling", |ui| self.sampling_panel(ui));
+                section(ui, "Stop", |ui| self.stop_panel(ui));
                 section(ui, "Camera", |ui| self.camera_panel(ui));
                 section(ui, "Display", |ui| self.display_panel(ui));
                 if let Some(opened) = &self.opened {
                     section(ui, "Objects", |ui| objects_panel(ui, &opened.scene));
                 }
+                section(ui, "Window", |ui| self.window_panel(ui));
             });
         });
     }
 
     fn canvas(&mut self, ui: &mut egui::Ui) {
-        let texture = self.texture.as_ref().map(TextureHandle::id);
         let size = self.opened.as_ref().map_or(1.0, |opened| opened.scene.size);
-        let keys = self.save_dialog.is_none() && self.open_dialog.is_none() && !self.help_open;
-        // The picture keeps its own shape until another one is there, which may be never: settings can be impossible.
-        let resolution = self.shown.as_ref().map_or(self.camera.resolution, |frame| frame.full_resolution);
-        let picture = texture.map(|texture| (texture, resolution));
-        let output = canvas::show(ui, picture, self.tool, &mut self.view, &self.camera, size, keys);
+        let keys = self.save_dialog.is_none() && self.open_dialog.is_none() && !self.help_open && !self.gallery.open;
+        let output = canvas::show(ui, self.pictures(), self.tool, &mut self.view, &self.camera, size, keys);
         self.hovered = output.hovered;
         if let Some(camera) = output.camera.filter(|camera| camera.check().is_ok()) {
             self.camera = camera;
         }
-    }
-
-    /// Takes in what the threads have finished.
-    fn receive(&mut self) {
-        match self.loader.take() {
-            Some(Ok(opened)) => self.open(opened),
-            Some(Err(report)) => self.scene_error = Some(report),
-            None => {}
+        self.marking = output.marked.map(|(region, _)| region);
+        if let Some((region, true)) = output.marked {
+            self.budget.region = Some(region);
+            self.marking = None;
         }
-        match self.saver.take() {
-            Some(Ok(path)) => {
-                self.tell(format!("Saved {}", path.display()), false);
-                self.last_saved = Some(path);
-            }
-            Some(Err(error)) => self.tell(format!("Not saved: {error}"), true),
-            None => {}
+        if let Some(pixel) = output.clicked {
+            self.click(pixel);
         }
-        let published = self.link.latest();
-        self.status = published.status;
-        let most_side = self.ctx.input(|input| input.max_texture_side);
-        let order = Order { truth: self.truth(&published.frame), frame: published.frame, display: self.display, most_side };
-        self.darkroom.order(order);
-        if let Some(print) = self.darkroom.take() {
-            match &mut self.texture {
-                Some(texture) => texture.set(print.image, TextureOptions::NEAREST),
-                None => self.texture = Some(self.ctx.load_texture("picture", print.image, TextureOptions::NEAREST)),
-            }
-            (self.true_rel_mse, self.black) = (print.rel_mse, print.black);
-            self.shown = Some(print.frame);
+        if let Some(place) = &output.place {
+            self.overlay(ui, place);
+            self.draw_path(ui, place);
         }
     }
 
-    /// The likeliest reason why what is shown is black, if it is.
-    pub(super) fn why_black(&self) -> Option<String> {
-        let wish = self.link.wish().filter(|_| self.black)?;
-        Some(wish.scene.why_black(&wish.camera, &wish.settings))
+    /// What the canvas draws.
+    fn pictures(&self) -> Option<Pictures> {
+        let [first, second] = self.textures.each_ref().map(|texture| texture.as_ref().map(TextureHandle::id));
+        // The picture keeps its own shape until another one is there, which may be never: settings can be impossible.
+        let resolution = self.shown.as_ref().map_or(self.camera.resolution, |frame| frame.full_resolution);
+        let split = self.comparison().map_or(Split::None, |compare| compare.layout.split());
+        Some(Pictures { first: first?, second: second.filter(|_| split != Split::None), resolution, split })
     }
 
-    /// What a frame must converge to: known for the scene's own camera only.
-    fn truth(&self, frame: &Frame) -> Option<Arc<Reference>> {
-        let (opened, wish) = (self.opened.as_ref()?, self.link.wish()?);
-        let of_scene = Camera { resolution: wish.camera.resolution, ..opened.scene.camera };
-        let is_of_scene = wish.camera == of_scene && Arc::ptr_eq(&wish.scene, &opened.scene);
-        opened.truth.clone().filter(|_| is_of_scene && frame.generation == self.link.generation())
-    }
-
-    fn open(&mut self, opened: Opened) {
-        let scene = &opened.scene;
-        if self.opened.as_ref().is_none_or(|before| before.path != opened.path) {
-            // What suited another scene's light says nothing about this one's.
-            self.display.exposure = 0.0;
-        }
-        if let Some(path) = &opened.path {
-            catalogue::remember(&mut self.catalogue, &opened.name, path);
-        }
-        self.ctx.send_viewport_cmd(egui::ViewportCommand::Title(format!("{} – Noisefall", opened.name)));
-        (self.camera, self.settings) = (scene.camera, scene.settings);
-        self.budget = Budget { max_spp: scene.spp, steps: self.budget.steps, ..Budget::default() };
-        self.scene_error = None;
-        self.view.fit();
-        self.opened = Some(opened);
+    /// The comparison, while its instrument renders.
+    pub(super) fn comparison(&self) -> Option<Compare> {
+        self.compare.filter(|_| self.dock != Some(Tab::Bounces))
     }
 
     /// Asks the worker for what the controls say.
     fn submit(&mut self) {
+        if let Err(error) = self.link.set_threads(self.threads) {
+            self.tell(format!("The threads cannot be had: {error}"), true);
+        }
         let Some(opened) = &self.opened else { return };
-        if self.camera.check().is_ok() {
-            let wish = Wish { scene: opened.scene.clone(), camera: self.camera, settings: self.settings };
-            self.link.update(wish, self.budget);
+        let budget = Budget { paused: self.budget.paused || self.hidden, ..self.budget };
+        let wish = Wish { scene: opened.scene.clone(), camera: self.camera, settings: self.settings };
+        // A control that is dragged asks for a new picture at every step; the next one is not asked for before the last is seen.
+        let shown = self.shown.as_ref().map_or(0, |frame| frame.generation);
+        let drags_control = self.ctx.input(|input| input.pointer.any_down()) && self.tool != Tool::Camera;
+        let waits = drags_control && self.link.is_awaited(shown) && self.link.wish() != Some(&wish);
+        if waits {
+            self.ctx.request_repaint_after(std::time::Duration::from_millis(20));
+        } else if self.camera.check().is_ok() {
+            self.link.update(wish, self.companion(), budget);
+        }
+    }
+
+    /// Nobody sees the window, or somebody does again.
+    pub(super) fn hide(&mut self, hidden: bool) {
+        if hidden != self.hidden {
+            self.hidden = hidden;
+            self.submit();
         }
     }
 
@@ -232,6 +283,10 @@ impl App {
 }
 
 impl eframe::App for App {
+    fn logic(&mut self, ctx: &egui::Context, _frame: &mut eframe::Frame) {
+        self.hide(ctx.input(|input| input.viewport().visible() == Some(false)));
+    }
+
     fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
         self.show(ui);
     }

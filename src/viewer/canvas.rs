@@ -1,9 +1,11 @@
-//! The picture: zoomed, panned, and moved through.
-use egui::{Color32, Key, Modifiers, PointerButton, Pos2, Rect, Response, Sense, TextureId, Vec2};
-use glam::DVec3;
-use noisefall::scene::Camera;
+//! The picture: zoomed, panned, moved through, pointed at. Two pictures lie side by side, or share one place with a line between.
+use egui::{Color32, CursorIcon, Painter, PointerButton, Pos2, Rect, Response, Sense, TextureId, Vec2};
+use noisefall::{render::Region, scene::Camera};
 
-use super::navigation;
+use super::{
+    flight::{self, wheel_factor},
+    picture_view::View,
+};
 
 /// What a drag and the wheel do.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -13,17 +15,30 @@ pub enum Tool {
     Picture,
     /// Move the camera: orbit, pan, dolly.
     Camera,
+    /// Mark what is rendered before the rest.
+    Region,
+    /// Point at pixels to see their samples.
+    Inspect,
 }
 
-/// Which part of the picture is seen, and how large.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct View {
-    /// Screen pixels a picture pixel; `None` fits the picture into the window.
-    pub zoom: Option<f32>,
-    /// From the centre of the picture to what is seen in the middle, in picture pixels.
-    pub offset: Vec2,
-    /// Screen pixels a picture pixel as last drawn.
-    pub drawn_zoom: f32,
+/// How two pictures are seen.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Split {
+    /// Only the first.
+    #[default]
+    None,
+    Wipe,
+    SideBySide,
+}
+
+/// What there is to draw.
+#[derive(Clone, Copy)]
+pub struct Pictures {
+    pub first: TextureId,
+    pub second: Option<TextureId>,
+    /// In picture pixels, of both; their textures may be coarser.
+    pub resolution: [u32; 2],
+    pub split: Split,
 }
 
 /// What the user did to the canvas.
@@ -31,54 +46,61 @@ pub struct View {
 pub struct CanvasOutput {
     /// The picture's pixel under the pointer.
     pub hovered: Option<[u32; 2]>,
+    /// The pixel that was clicked.
+    pub clicked: Option<[u32; 2]>,
+    /// The corner where a drag began and the one where it is, and whether it has ended.
+    pub marked: Option<(Region, bool)>,
     /// The camera, if it was moved.
     pub camera: Option<Camera>,
+    /// Where the picture lies, for what is drawn over it; of two side by side, the first.
+    pub place: Option<Place>,
 }
 
-const ZOOM_RANGE: std::ops::RangeInclusive<f32> = 0.05..=64.0;
-const RADIANS_PER_POINT: f64 = 0.006;
-/// The part of the scene's size that flight covers in a second.
-const FLIGHT_SPEED: f64 = 0.25;
+/// Where a picture lies on the screen.
+#[derive(Clone, Copy, Debug)]
+pub struct Place {
+    /// What may be drawn upon.
+    pub clip: Rect,
+    /// All of the picture, in points.
+    pub rect: Rect,
+    pub resolution: Vec2,
+}
 
-impl View {
-    pub fn fit(&mut self) {
-        *self = View::default();
+/// How near to the line between two pictures it can be taken, in points.
+const GRIP: f32 = 7.0;
+
+impl Place {
+    /// The point of the screen at a place in picture pixels.
+    pub fn screen(&self, x: f32, y: f32) -> Pos2 {
+        self.rect.min + Vec2::new(x, y) / self.resolution * self.rect.size()
     }
 
-    /// One picture pixel to one screen pixel.
-    pub fn actual_size(&mut self) {
-        *self = View { zoom: Some(1.0), ..View::default() };
+    /// The rectangle of the screen that pixels take.
+    pub fn of_region(&self, region: &Region) -> Rect {
+        let corner = |[x, y]: [u32; 2]| self.screen(x as f32, y as f32);
+        Rect::from_min_max(corner(region.from), corner(region.to))
     }
 
-    /// Where the picture lies, in points.
-    fn rect(&mut self, area: Rect, resolution: Vec2, pixels_per_point: f32) -> Rect {
-        let fit = (area.size() * pixels_per_point / resolution).min_elem();
-        self.drawn_zoom = self.zoom.unwrap_or(fit);
-        let scale = self.drawn_zoom / pixels_per_point;
-        let rect = Rect::from_center_size(area.center() - self.offset * scale, resolution * scale);
-        // On whole screen pixels every picture pixel is as wide as its neighbour, or one pixel off at most.
-        let snap = |p: Pos2| (p.to_vec2() * pixels_per_point).round().to_pos2() / pixels_per_point;
-        Rect::from_min_size(snap(rect.min), rect.size())
+    /// The pixel under a point of the screen.
+    fn pixel(&self, at: Pos2) -> Option<[u32; 2]> {
+        let at = (at - self.rect.min) / self.rect.size() * self.resolution;
+        let inside = at.x >= 0.0 && at.y >= 0.0 && at.x < self.resolution.x && at.y < self.resolution.y;
+        inside.then_some([at.x as u32, at.y as u32])
     }
 
-    fn pan(&mut self, points: Vec2, pixels_per_point: f32) {
-        self.zoom = Some(self.drawn_zoom);
-        self.offset -= points * pixels_per_point / self.drawn_zoom;
-    }
-
-    /// Magnifies about a point of the screen, which stays where it is.
-    fn magnify(&mut self, factor: f32, about: Vec2, pixels_per_point: f32) {
-        let zoom = (self.drawn_zoom * factor).clamp(*ZOOM_RANGE.start(), *ZOOM_RANGE.end());
-        self.offset += about * pixels_per_point * (1.0 / self.drawn_zoom - 1.0 / zoom);
-        self.zoom = Some(zoom);
+    /// The pixel that is nearest to a point of the screen.
+    fn nearest_pixel(&self, at: Pos2) -> [u32; 2] {
+        let at = (at - self.rect.min) / self.rect.size() * self.resolution;
+        let most = self.resolution - Vec2::splat(1.0);
+        [at.x.clamp(0.0, most.x) as u32, at.y.clamp(0.0, most.y) as u32]
     }
 }
 
-/// Draws the picture, of a resolution of its own, into all the room there is and reads what the user does to it. `size` is the
-/// scene's, in metres; `keys` says whether keys move the camera.
+/// Draws the pictures into all the room there is and reads what the user does to them. `size` is the scene's, in metres; `keys`
+/// says whether keys move the camera.
 pub fn show(
     ui: &mut egui::Ui,
-    picture: Option<(TextureId, [u32; 2])>,
+    pictures: Option<Pictures>,
     tool: Tool,
     view: &mut View,
     camera: &Camera,
@@ -87,96 +109,129 @@ pub fn show(
 ) -> CanvasOutput {
     let area = ui.available_rect_before_wrap();
     let response = ui.allocate_rect(area, Sense::click_and_drag());
-    let painter = ui.painter_at(area);
-    painter.rect_filled(area, 0.0, ui.visuals().extreme_bg_color);
-    let Some((texture, [width, height])) = picture else { return CanvasOutput::default() };
+    ui.painter_at(area).rect_filled(area, 0.0, ui.visuals().extreme_bg_color);
+    let Some(pictures) = pictures else { return CanvasOutput::default() };
 
-    let resolution = Vec2::new(width as f32, height as f32);
-    let pixels_per_point = ui.ctx().pixels_per_point();
-    let rect = view.rect(area, resolution, pixels_per_point);
-    painter.image(texture, rect, Rect::from_min_max(Pos2::ZERO, Pos2::new(1.0, 1.0)), Color32::WHITE);
-
+    let places = place(ui, area, &pictures, view);
+    let wiped = draw(ui, &response, &pictures, &places, view);
     if response.double_clicked() {
         view.fit();
     }
-    move_picture(ui, &response, tool, view, area);
+    let under = response.hover_pos().and_then(|at| places.iter().find(|place| place.clip.contains(at)));
+    let under = *under.unwrap_or(&places[0]);
+    if !wiped {
+        move_picture(ui, &response, tool, view, under.clip);
+    }
+    let hovered = response.hover_pos().and_then(|at| under.pixel(at));
+    let flies = keys.then_some(size);
     CanvasOutput {
-        hovered: pixel_under(&response, rect, resolution),
-        camera: move_camera(ui, &response, tool, camera, rect, keys.then_some(size)),
+        hovered,
+        clicked: hovered.filter(|_| response.clicked()),
+        marked: if tool == Tool::Region { marked(ui, &response, &places[0]) } else { None },
+        camera: flight::moved(ui, &response, tool == Tool::Camera && !wiped, camera, under.rect, flies),
+        place: Some(places[0]),
     }
 }
 
-fn pixel_under(response: &Response, rect: Rect, resolution: Vec2) -> Option<[u32; 2]> {
-    let at = (response.hover_pos()? - rect.min) / rect.size() * resolution;
-    let inside = at.x >= 0.0 && at.y >= 0.0 && at.x < resolution.x && at.y < resolution.y;
-    inside.then_some([at.x as u32, at.y as u32])
+/// Where the pictures lie.
+fn place(ui: &egui::Ui, area: Rect, pictures: &Pictures, view: &mut View) -> Vec<Place> {
+    const GAP: f32 = 2.0;
+    let resolution = Vec2::from(pictures.resolution.map(|side| side as f32));
+    let pixels_per_point = ui.ctx().pixels_per_point();
+    let mut place = |clip: Rect| Place { clip, rect: view.rect(clip, resolution, pixels_per_point), resolution };
+    if pictures.split == Split::SideBySide && pictures.second.is_some() {
+        let middle = area.center().x;
+        let left = area.with_max_x(middle - GAP / 2.0);
+        return vec![place(left), place(area.with_min_x(middle + GAP / 2.0))];
+    }
+    vec![place(area)]
+}
+
+/// Draws the pictures. Whether the line between them was dragged.
+fn draw(ui: &egui::Ui, response: &Response, pictures: &Pictures, places: &[Place], view: &mut View) -> bool {
+    let paint = |painter: &Painter, texture: TextureId, rect: Rect| {
+        painter.image(texture, rect, Rect::from_min_max(Pos2::ZERO, Pos2::new(1.0, 1.0)), Color32::WHITE);
+    };
+    let Place { clip, rect, .. } = places[0];
+    paint(&ui.painter_at(clip), pictures.first, rect);
+    let Some(second) = pictures.second else { return false };
+    match (pictures.split, places.get(1)) {
+        (Split::None, _) => false,
+        (Split::SideBySide, other) => {
+            if let Some(other) = other {
+                paint(&ui.painter_at(other.clip), second, other.rect);
+                letter(ui, other.clip, "B");
+            }
+            letter(ui, clip, "A");
+            false
+        }
+        (Split::Wipe, _) => {
+            let seen = rect.intersect(clip);
+            let dragged = drag_line(ui, response, seen, view);
+            let line = seen.left() + view.wipe * seen.width();
+            paint(&ui.painter_at(clip.with_min_x(line)), second, rect);
+            let stroke = egui::Stroke::new(2.0, Color32::from_white_alpha(220));
+            ui.painter_at(clip).vline(line, seen.y_range(), stroke);
+            ui.painter_at(clip).circle_filled(egui::pos2(line, seen.center().y), 5.0, Color32::WHITE);
+            letter(ui, clip.with_max_x(line), "A");
+            letter(ui, clip.with_min_x(line), "B");
+            dragged
+        }
+    }
+}
+
+/// Lets the user drag the line between two pictures.
+fn drag_line(ui: &egui::Ui, response: &Response, seen: Rect, view: &mut View) -> bool {
+    let line = seen.left() + view.wipe * seen.width();
+    let near = |at: Pos2| (at.x - line).abs() <= GRIP && seen.contains(at);
+    if response.hover_pos().is_some_and(near) {
+        ui.ctx().set_cursor_icon(CursorIcon::ResizeHorizontal);
+    }
+    let origin = ui.input(|input| input.pointer.press_origin());
+    view.wiping |= response.drag_started_by(PointerButton::Primary) && origin.is_some_and(near);
+    if !response.dragged_by(PointerButton::Primary) {
+        view.wiping = false;
+    }
+    if let Some(at) = response.interact_pointer_pos().filter(|_| view.wiping) {
+        view.wipe = ((at.x - seen.left()) / seen.width().max(1.0)).clamp(0.0, 1.0);
+    }
+    view.wiping
+}
+
+/// Says which picture this is, in its upper left corner.
+fn letter(ui: &egui::Ui, clip: Rect, letter: &str) {
+    let at = clip.left_top() + Vec2::splat(8.0);
+    let painter = ui.painter_at(clip);
+    let back = Rect::from_min_size(at, Vec2::new(22.0, 22.0));
+    painter.rect_filled(back, 4.0, Color32::from_black_alpha(170));
+    painter.text(back.center(), egui::Align2::CENTER_CENTER, letter, egui::FontId::proportional(15.0), Color32::WHITE);
+}
+
+/// The rectangle that is being drawn.
+fn marked(ui: &egui::Ui, response: &Response, place: &Place) -> Option<(Region, bool)> {
+    if response.hovered() {
+        ui.ctx().set_cursor_icon(CursorIcon::Crosshair);
+    }
+    let ended = response.drag_stopped_by(PointerButton::Primary);
+    if !ended && !response.dragged_by(PointerButton::Primary) {
+        return None;
+    }
+    let from = ui.input(|input| input.pointer.press_origin()).or(response.interact_pointer_pos())?;
+    let to = response.interact_pointer_pos()?;
+    Some((Region::between(place.nearest_pixel(from), place.nearest_pixel(to)), ended))
 }
 
 fn move_picture(ui: &egui::Ui, response: &Response, tool: Tool, view: &mut View, area: Rect) {
     let pixels_per_point = ui.ctx().pixels_per_point();
-    let by_main_button = tool == Tool::Picture && response.dragged_by(PointerButton::Primary);
-    if by_main_button || response.dragged_by(PointerButton::Middle) {
+    let moves = matches!(tool, Tool::Picture | Tool::Inspect);
+    if (moves && response.dragged_by(PointerButton::Primary)) || response.dragged_by(PointerButton::Middle) {
         view.pan(response.drag_delta(), pixels_per_point);
     }
     if let Some(pointer) = response.hover_pos() {
-        let wheel = if tool == Tool::Picture { wheel_factor(ui) } else { 1.0 };
+        let wheel = if tool == Tool::Camera { 1.0 } else { wheel_factor(ui) };
         let factor = ui.input(egui::InputState::zoom_delta) * wheel;
         if factor != 1.0 {
             view.magnify(factor, pointer - area.center(), pixels_per_point);
         }
     }
-}
-
-fn move_camera(
-    ui: &egui::Ui,
-    response: &Response,
-    tool: Tool,
-    camera: &Camera,
-    rect: Rect,
-    flies: Option<f64>,
-) -> Option<Camera> {
-    let mut moved = *camera;
-    if tool == Tool::Camera {
-        let delta = response.drag_delta();
-        let (x, y) = (f64::from(delta.x), f64::from(delta.y));
-        let shift = ui.input(|input| input.modifiers.shift);
-        if response.dragged_by(PointerButton::Secondary) || (shift && response.dragged_by(PointerButton::Primary)) {
-            moved = navigation::pan(&moved, x / f64::from(rect.width()), -y / f64::from(rect.width()));
-        } else if response.dragged_by(PointerButton::Primary) {
-            moved = navigation::orbit(&moved, -x * RADIANS_PER_POINT, y * RADIANS_PER_POINT);
-        }
-        if response.hovered() {
-            moved = navigation::dolly(&moved, 1.0 / f64::from(wheel_factor(ui)));
-        }
-    }
-    if let Some(size) = flies {
-        moved = flight(ui, &moved, size);
-    }
-    (moved != *camera).then_some(moved)
-}
-
-fn wheel_factor(ui: &egui::Ui) -> f32 {
-    const PER_POINT: f32 = 0.004;
-    (ui.input(|input| input.smooth_scroll_delta().y) * PER_POINT).exp()
-}
-
-/// W A S D fly forwards, left, back and right, Q and E down and up; arrows turn. Shift is four times as fast.
-fn flight(ui: &egui::Ui, camera: &Camera, size: f64) -> Camera {
-    if ui.ctx().egui_wants_keyboard_input() {
-        return *camera;
-    }
-    let (along, turn, dt, fast) = ui.input(|input| {
-        let free = input.modifiers.matches_logically(Modifiers::NONE) || input.modifiers == Modifiers::SHIFT;
-        let held = |key| f64::from(u8::from(free && input.key_down(key)));
-        let along = DVec3::new(held(Key::D) - held(Key::A), held(Key::E) - held(Key::Q), held(Key::W) - held(Key::S));
-        let turn = [held(Key::ArrowRight) - held(Key::ArrowLeft), held(Key::ArrowUp) - held(Key::ArrowDown)];
-        (along, turn, f64::from(input.stable_dt.min(0.1)), input.modifiers.shift)
-    });
-    if along == DVec3::ZERO && turn == [0.0; 2] {
-        return *camera;
-    }
-    ui.ctx().request_repaint();
-    let speed = if fast { 4.0 } else { 1.0 };
-    let moved = navigation::fly(camera, along * (FLIGHT_SPEED * size * speed * dt));
-    navigation::look(&moved, turn[0] * speed.sqrt() * dt, turn[1] * speed.sqrt() * dt)
 }

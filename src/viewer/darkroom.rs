@@ -1,28 +1,67 @@
-//! The darkroom: frames are developed to screen pixels, and held against the exact picture, off the UI thread.
+//! The darkroom: frames are developed to screen pixels, and held against the true picture, off the UI thread.
 use std::sync::{Arc, Mutex, PoisonError};
 
 use crossbeam_channel::{Sender, unbounded};
-use noisefall::render::{Display, Frame, display::to_srgb, truth::Reference};
+use noisefall::{
+    integrator::Features,
+    render::{
+        Frame,
+        truth::Reference,
+        view::{Legend, Look, Scale, Scores, Sources, View, draw},
+    },
+};
 
 /// What to develop.
 #[derive(Clone)]
 pub struct Order {
     pub frame: Arc<Frame>,
-    pub display: Display,
+    /// A second picture, to be seen with the first.
+    pub beside: Option<Arc<Frame>>,
+    /// The term of a series to show in place of the frame's own radiance.
+    pub term: Option<Term>,
+    pub look: Look,
     /// What the frame must converge to, if that is known.
     pub truth: Option<Arc<Reference>>,
+    pub pinned: Option<Arc<Frame>>,
+    pub features: Option<Arc<Features>>,
+    pub materials: Arc<[String]>,
     /// Textures cannot be larger.
     pub most_side: usize,
+}
+
+/// A part of a picture's series.
+#[derive(Clone)]
+pub struct Term {
+    /// A frame with a series.
+    pub of: Arc<Frame>,
+    pub reflections: usize,
+    /// Light of at most so many reflections.
+    pub up_to: bool,
 }
 
 /// A frame ready to be shown.
 pub struct Print {
     pub frame: Arc<Frame>,
+    pub beside: Option<Arc<Frame>>,
+    /// As shown, row by row: what a PNG of it has.
+    pub pixels: Vec<[u8; 4]>,
     pub image: egui::ColorImage,
-    /// relMSE against the exact picture.
-    pub rel_mse: Option<f64>,
+    pub image_beside: Option<egui::ColorImage>,
+    pub legend: Option<Legend>,
+    /// Where z-scores are shown.
+    pub scores: Option<Scores>,
+    pub truth: Option<Against>,
+    pub truth_beside: Option<Against>,
     /// No sample has found light.
     pub black: bool,
+}
+
+/// A frame held against the true picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Against {
+    pub rel_mse: f64,
+    /// Of the mean over the picture, in standard errors.
+    pub bias: Option<f64>,
 }
 
 pub struct Darkroom {
@@ -31,10 +70,34 @@ pub struct Darkroom {
     ready: Arc<Mutex<Option<Print>>>,
 }
 
+/// Whether both are the same thing in memory, or neither is there.
+fn same<T>(a: Option<&Arc<T>>, b: Option<&Arc<T>>) -> bool {
+    a.map(Arc::as_ptr) == b.map(Arc::as_ptr)
+}
+
 impl PartialEq for Order {
     fn eq(&self, other: &Self) -> bool {
-        let same_truth = self.truth.as_ref().map(Arc::as_ptr) == other.truth.as_ref().map(Arc::as_ptr);
-        Arc::ptr_eq(&self.frame, &other.frame) && self.display == other.display && same_truth
+        Arc::ptr_eq(&self.frame, &other.frame)
+            && same(self.beside.as_ref(), other.beside.as_ref())
+            && self.look == other.look
+            && same(self.truth.as_ref(), other.truth.as_ref())
+            && same(self.pinned.as_ref(), other.pinned.as_ref())
+            && same(self.features.as_ref(), other.features.as_ref())
+            && self.term == other.term
+    }
+}
+
+impl PartialEq for Term {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.of, &other.of) && (self.reflections, self.up_to) == (other.reflections, other.up_to)
+    }
+}
+
+impl Term {
+    /// Mean radiance of that light.
+    fn radiance(&self) -> Option<Vec<[f32; 3]>> {
+        let series = self.of.series.as_ref()?;
+        Some(if self.up_to { series.up_to(self.reflections) } else { series.terms.get(self.reflections)?.clone() })
     }
 }
 
@@ -44,11 +107,10 @@ impl Darkroom {
         let ready = Arc::new(Mutex::new(None));
         let (ctx, shelf) = (ctx.clone(), ready.clone());
         let work = move || {
-            let mut pixels = Vec::new();
             while let Ok(order) = inbox.recv() {
                 // Only the latest order matters.
                 let order = inbox.try_iter().last().unwrap_or(order);
-                *shelf.lock().unwrap_or_else(PoisonError::into_inner) = Some(develop(order, &mut pixels));
+                *shelf.lock().unwrap_or_else(PoisonError::into_inner) = Some(develop(order));
                 ctx.request_repaint();
             }
         };
@@ -70,19 +132,47 @@ impl Darkroom {
     }
 }
 
-fn develop(order: Order, pixels: &mut Vec<[u8; 4]>) -> Print {
-    let Order { frame, display, truth, most_side } = order;
-    to_srgb(&frame, display, pixels);
+fn develop(order: Order) -> Print {
+    let Order { frame, beside, term, look, truth, pinned, features, materials, most_side } = order;
+    let truth = truth.as_deref();
+    let picture = |frame: &Frame, radiance: Option<&[[f32; 3]]>, scale: Option<Scale>| {
+        let mut pixels = Vec::new();
+        let (pinned, features) = (pinned.as_deref(), features.as_deref());
+        let legend = draw(look, &Sources { frame, radiance, truth, pinned, features, scale, materials: &materials }, &mut pixels);
+        (image(frame, &pixels, most_side), legend, pixels)
+    };
+    let radiance = term.as_ref().filter(|term| term.of.radiance.len() == frame.radiance.len()).and_then(Term::radiance);
+    let (image, legend, pixels) = picture(&frame, radiance.as_deref(), None);
+    let scale = legend.as_ref().and_then(|legend| legend.scale);
+    let image_beside = beside.as_ref().map(|beside| picture(beside, None, scale).0);
+    let against = |frame: &Frame| {
+        let truth = truth?;
+        Some(Against { rel_mse: truth.compare(frame)?.rel_mse, bias: truth.bias(frame) })
+    };
+    let scores = truth.filter(|_| look.view == View::ZScore).and_then(|truth| Scores::of(&frame, truth));
+    Print {
+        truth: against(&frame),
+        truth_beside: beside.as_ref().and_then(|beside| against(beside)),
+        black: frame.is_black(),
+        frame,
+        beside,
+        pixels,
+        image,
+        image_beside,
+        legend,
+        scores,
+    }
+}
+
+/// Pixels for a texture.
+fn image(frame: &Frame, pixels: &[[u8; 4]], most_side: usize) -> egui::ColorImage {
     let [width, height] = [frame.width, frame.height].map(|side| side as usize);
     let step = width.max(height).div_ceil(most_side.max(1)).max(1);
-    let image = if step == 1 {
-        egui::ColorImage::from_rgba_unmultiplied([width, height], pixels.as_flattened())
-    } else {
-        // Every `step`-th pixel of what no texture can hold whole.
-        let rows = pixels.chunks_exact(width).step_by(step);
-        let thinned: Vec<u8> = rows.flat_map(|row| row.iter().step_by(step)).flatten().copied().collect();
-        egui::ColorImage::from_rgba_unmultiplied([width.div_ceil(step), height.div_ceil(step)], &thinned)
-    };
-    let rel_mse = truth.and_then(|truth| truth.compare(&frame)).map(|comparison| comparison.rel_mse);
-    Print { black: frame.is_black(), frame, image, rel_mse }
+    if step == 1 {
+        return egui::ColorImage::from_rgba_unmultiplied([width, height], pixels.as_flattened());
+    }
+    // Every `step`-th pixel of what no texture can hold whole.
+    let rows = pixels.chunks_exact(width).step_by(step);
+    let thinned: Vec<u8> = rows.flat_map(|row| row.iter().step_by(step)).flatten().copied().collect();
+    egui::ColorImage::from_rgba_unmultiplied([width.div_ceil(step), height.div_ceil(step)], &thinned)
 }

@@ -14,6 +14,9 @@ const KEYS: [(&str, &[(&str, &str)]); 4] = [
             ("F, double-click", "whole picture"),
             ("1", "one picture pixel to one screen pixel"),
             ("[  ]", "half a stop darker, brighter"),
+            ("V, Shift+V", "the next view, the one before"),
+            ("G", "drag marks what is rendered first; Esc clears it"),
+            ("I", "a click shows a pixel's samples and paths"),
         ],
     ),
     (
@@ -30,7 +33,17 @@ const KEYS: [(&str, &[(&str, &str)]); 4] = [
             ("Home", "the scene's camera"),
         ],
     ),
-    ("Window", &[("Ctrl+S", "save the picture"), ("F1", "this help"), ("Esc", "close")]),
+    (
+        "Window",
+        &[
+            ("Ctrl+S", "save the picture"),
+            ("F1", "this help"),
+            ("F2  F3  F4  F5", "convergence, compare, bounces, path"),
+            ("F6", "the scenes as pictures"),
+            ("F12", "how long the window takes to draw"),
+            ("Esc", "close"),
+        ],
+    ),
 ];
 
 impl App {

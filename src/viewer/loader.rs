@@ -21,19 +21,25 @@ pub struct Opened {
     pub path: Option<PathBuf>,
     /// What the picture from the scene's own camera must converge to.
     pub truth: Option<Arc<Reference>>,
+    /// Names of the materials by number.
+    pub materials: Arc<[String]>,
 }
 
 /// What became of a request.
 pub type Outcome = Result<Opened, String>;
 
+/// A picture to hold renders against, by its file name.
+pub type ReferenceOutcome = Result<(String, Arc<Reference>), String>;
+
 pub struct Loader {
     ctx: egui::Context,
     pending: Option<mpsc::Receiver<Outcome>>,
+    reference: Option<mpsc::Receiver<ReferenceOutcome>>,
 }
 
 impl Loader {
     pub fn new(ctx: &egui::Context) -> Loader {
-        Loader { ctx: ctx.clone(), pending: None }
+        Loader { ctx: ctx.clone(), pending: None, reference: None }
     }
 
     /// Opens a scene file, or the built-in scene.
@@ -45,6 +51,26 @@ impl Loader {
             ctx.request_repaint();
         });
         self.pending = Some(receiver);
+    }
+
+    /// Reads a picture to hold renders against.
+    pub fn read_reference(&mut self, path: PathBuf) {
+        let (sender, receiver) = mpsc::channel();
+        let ctx = self.ctx.clone();
+        std::thread::spawn(move || {
+            let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+            let read = Reference::read(&path).map(|reference| (name, Arc::new(reference)));
+            let _ = sender.send(read.map_err(|error| format!("Not a reference: {error}")));
+            ctx.request_repaint();
+        });
+        self.reference = Some(receiver);
+    }
+
+    /// What became of the last picture that was to be read, once.
+    pub fn take_reference(&mut self) -> Option<ReferenceOutcome> {
+        let outcome = self.reference.as_ref()?.try_recv().ok()?;
+        self.reference = None;
+        Some(outcome)
     }
 
     pub fn is_busy(&self) -> bool {
@@ -66,10 +92,12 @@ impl Loader {
 fn open(path: Option<PathBuf>) -> Outcome {
     let Some(path) = path else {
         let scene = built_in();
-        return Ok(Opened { name: BUILT_IN_NAME.to_owned(), scene: Arc::new(scene), path: None, truth: None });
+        let materials = scene.legend().names.into();
+        return Ok(Opened { name: BUILT_IN_NAME.to_owned(), scene: Arc::new(scene), path: None, truth: None, materials });
     };
     let scene = load(&path).map_err(|error| error.report())?;
     let truth = Reference::of(&scene).map(Arc::new);
     let name = catalogue::name(&scene.title, &path);
-    Ok(Opened { scene: Arc::new(scene), name, path: Some(path), truth })
+    let materials = scene.legend().names.into();
+    Ok(Opened { scene: Arc::new(scene), name, path: Some(path), truth, materials })
 }

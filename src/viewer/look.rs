@@ -34,21 +34,72 @@ pub(super) fn elided(ui: &mut egui::Ui, width: f32, text: impl Into<egui::Widget
     .inner
 }
 
-/// Good, to be minded, wrong: as light as text on a dark ground must be.
-pub(super) const GREEN: Color32 = Color32::from_rgb(80, 180, 110);
-pub(super) const AMBER: Color32 = Color32::from_rgb(222, 160, 60);
-pub(super) const RED: Color32 = Color32::from_rgb(228, 96, 88);
+/// A square of a colour, before what it stands for.
+pub(super) fn swatch(ui: &mut egui::Ui, colour: Color32) {
+    let (rect, _) = ui.allocate_exact_size(egui::vec2(11.0, 11.0), egui::Sense::hover());
+    ui.painter().rect_filled(rect, 2.0, colour);
+}
 
-/// The dark theme, with what is faint in it made legible.
-pub(super) fn dark(ctx: &egui::Context) {
-    ctx.set_theme(egui::Theme::Dark);
-    ctx.style_mut_of(egui::Theme::Dark, |style| {
+/// Inks that mean something, as dark or light as text on the theme's ground must be.
+pub(super) trait Inks {
+    fn visuals(&self) -> &egui::Visuals;
+
+    /// As it should be.
+    fn good(&self) -> Color32 {
+        if self.visuals().dark_mode { Color32::from_rgb(80, 180, 110) } else { Color32::from_rgb(20, 118, 56) }
+    }
+
+    /// To be minded.
+    fn warning(&self) -> Color32 {
+        self.visuals().warn_fg_color
+    }
+
+    /// Wrong.
+    fn bad(&self) -> Color32 {
+        self.visuals().error_fg_color
+    }
+
+    /// What is chosen, or said with emphasis.
+    fn accent(&self) -> Color32 {
+        if self.visuals().dark_mode { Color32::from_rgb(110, 190, 240) } else { Color32::from_rgb(0, 92, 150) }
+    }
+}
+
+impl Inks for egui::Ui {
+    fn visuals(&self) -> &egui::Visuals {
+        self.visuals()
+    }
+}
+
+impl Inks for egui::Visuals {
+    fn visuals(&self) -> &egui::Visuals {
+        self
+    }
+}
+
+/// Both themes, with what is faint in them made legible, and the one that was chosen.
+pub(super) fn themes(ctx: &egui::Context, chosen: Option<&str>) {
+    ctx.set_theme(match chosen {
+        Some("dark") => egui::ThemePreference::Dark,
+        Some("light") => egui::ThemePreference::Light,
+        _ => egui::ThemePreference::System,
+    });
+    ctx.all_styles_mut(|style| {
         // Lists are as tall as they say, within the window.
         style.spacing.default_area_size.y = 4096.0;
+    });
+    ctx.style_mut_of(egui::Theme::Dark, |style| {
         let visuals = &mut style.visuals;
         visuals.weak_text_color = Some(Color32::from_gray(150));
-        (visuals.warn_fg_color, visuals.error_fg_color) = (AMBER, RED);
+        (visuals.warn_fg_color, visuals.error_fg_color) = (Color32::from_rgb(222, 160, 60), Color32::from_rgb(228, 96, 88));
         visuals.widgets.noninteractive.fg_stroke.color = Color32::from_gray(190);
         visuals.widgets.inactive.bg_stroke = egui::Stroke::new(1.0, Color32::from_gray(85));
+    });
+    ctx.style_mut_of(egui::Theme::Light, |style| {
+        let visuals = &mut style.visuals;
+        visuals.weak_text_color = Some(Color32::from_gray(95));
+        (visuals.warn_fg_color, visuals.error_fg_color) = (Color32::from_rgb(148, 84, 0), Color32::from_rgb(178, 24, 24));
+        visuals.widgets.noninteractive.fg_stroke.color = Color32::from_gray(40);
+        visuals.widgets.inactive.bg_stroke = egui::Stroke::new(1.0, Color32::from_gray(165));
     });
 }

@@ -1,9 +1,11 @@
 //! What the window has to say: short notices, and why a scene cannot be opened.
+use std::time::Duration;
+
 use egui::{Align2, RichText, ScrollArea};
 
-use super::app::App;
+use super::{app::App, look::Inks};
 
-/// A message that goes away by itself, or when it is clicked.
+/// A message. Good news go away by themselves; errors stay until they are closed, and can be copied.
 pub struct Notice {
     pub text: String,
     pub is_error: bool,
@@ -11,28 +13,42 @@ pub struct Notice {
 }
 
 const NOTICE_SECONDS: f64 = 6.0;
+/// Older ones make place.
+const MOST_NOTICES: usize = 4;
 
 impl App {
     pub(super) fn tell(&mut self, text: String, is_error: bool) {
         let now = self.ctx.input(|input| input.time);
-        self.notice = Some(Notice { text, is_error, until: now + NOTICE_SECONDS });
+        self.notices.retain(|notice| notice.text != text);
+        if self.notices.len() == MOST_NOTICES {
+            self.notices.remove(0);
+        }
+        let until = if is_error { f64::INFINITY } else { now + NOTICE_SECONDS };
+        self.notices.push(Notice { text, is_error, until });
     }
 
-    pub(super) fn notice(&mut self, ctx: &egui::Context) {
-        let Some(notice) = &self.notice else { return };
-        let left = notice.until - ctx.input(|input| input.time);
-        let mut closed = left <= 0.0;
-        egui::Area::new(egui::Id::unique("notice")).anchor(Align2::CENTER_BOTTOM, [-168.0, -44.0]).show(ctx, |ui| {
-            egui::Frame::popup(ui.style()).show(ui, |ui| {
-                let colour = if notice.is_error { ui.visuals().error_fg_color } else { ui.visuals().text_color() };
-                let label = egui::Label::new(RichText::new(&notice.text).color(colour)).sense(egui::Sense::click());
-                closed |= ui.add(label).clicked();
-            });
+    pub(super) fn show_notices(&mut self, ctx: &egui::Context) {
+        let now = ctx.input(|input| input.time);
+        self.notices.retain(|notice| notice.until > now);
+        if self.notices.is_empty() {
+            return;
+        }
+        let mut closed = None;
+        egui::Area::new(egui::Id::unique("notices")).anchor(Align2::CENTER_BOTTOM, [-168.0, -64.0]).show(ctx, |ui| {
+            for (number, notice) in self.notices.iter().enumerate() {
+                egui::Frame::popup(ui.style()).show(ui, |ui| {
+                    if show_notice(ui, notice) {
+                        closed = Some(number);
+                    }
+                });
+            }
         });
-        if closed {
-            self.notice = None;
-        } else {
-            ctx.request_repaint_after(std::time::Duration::from_secs_f64(left.max(0.0)));
+        if let Some(number) = closed {
+            self.notices.remove(number);
+        }
+        let next = self.notices.iter().map(|notice| notice.until - now).fold(f64::INFINITY, f64::min);
+        if next.is_finite() {
+            ctx.request_repaint_after(Duration::from_secs_f64(next.max(0.0)));
         }
     }
 
@@ -62,4 +78,18 @@ impl App {
             self.scene_error = None;
         }
     }
+}
+
+/// Draws a message. Whether it was closed.
+fn show_notice(ui: &mut egui::Ui, notice: &Notice) -> bool {
+    ui.horizontal(|ui| {
+        let colour = if notice.is_error { ui.bad() } else { ui.visuals().text_color() };
+        ui.set_max_width(620.0);
+        ui.add(egui::Label::new(RichText::new(&notice.text).color(colour)).wrap());
+        if notice.is_error && ui.small_button("Copy").on_hover_text("Copy this message").clicked() {
+            ui.ctx().copy_text(notice.text.clone());
+        }
+        ui.small_button("Close").on_hover_text("Close this message (Esc)").clicked()
+    })
+    .inner
 }

@@ -3,11 +3,18 @@
 //! Work that could take longer than a frame has a thread of its own: rendering (the worker), the display transform
 //! ([`darkroom`]), reading scenes ([`loader`]), and writing pictures ([`saver`]).
 mod app;
+mod bounces;
 mod camera_panel;
 mod canvas;
 mod catalogue;
+mod compare;
+mod convergence;
 mod darkroom;
 mod display_panel;
+mod dock;
+mod feature_finder;
+mod flight;
+mod gallery;
 mod help;
 mod link;
 mod loader;
@@ -17,15 +24,25 @@ mod navigation;
 mod number;
 mod objects_panel;
 mod open_dialog;
+mod overlay;
+mod pace;
+mod path;
 mod path_field;
+mod picture_view;
+mod preferences;
+mod receive;
 mod sampling_panel;
 mod save_dialog;
 mod saver;
 mod scene_panel;
 mod status_bar;
+mod stop_panel;
 #[cfg(test)]
 mod tests;
 mod toolbar;
+mod tour;
+mod views_bar;
+mod window_panel;
 
 use std::{
     panic::{AssertUnwindSafe, catch_unwind},
@@ -37,6 +54,7 @@ use noisefall::{
     math::SimdLevel,
     render::pass::{Threads, panic_message},
 };
+use preferences::Preferences;
 
 const NO_WINDOW: &str = "use `noisefall render SCENE -o picture.png` to render without a window";
 
@@ -45,7 +63,9 @@ pub fn run(scene: Option<PathBuf>) -> Result<(), String> {
     if !has_display() {
         return Err(format!("no display was found (neither DISPLAY nor WAYLAND_DISPLAY is set); {NO_WINDOW}"));
     }
-    let threads = Threads::new(0, SimdLevel::best()).map_err(|error| error.to_string())?;
+    // One core is left for the window and everything else.
+    let threads = window_panel::cores().saturating_sub(1).max(1);
+    let threads = Threads::new(threads, SimdLevel::best()).map_err(|error| error.to_string())?;
     let options = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default()
             .with_title("Noisefall")
@@ -59,7 +79,13 @@ pub fn run(scene: Option<PathBuf>) -> Result<(), String> {
         let create = |cc: &eframe::CreationContext| -> Box<dyn eframe::App> {
             // There is a window: from here on a panic is ours, and is shown as usual.
             let _ = std::panic::take_hook();
-            Box::new(App::new(&cc.egui_ctx, threads, scene))
+            let preferences = Preferences::of_user();
+            let is_first = !preferences.now.toured;
+            let mut app = App::new(&cc.egui_ctx, threads, scene, preferences);
+            if is_first {
+                app.start_tour();
+            }
+            Box::new(app)
         };
         eframe::run_native("Noisefall", options, Box::new(|cc| Ok(create(cc))))
     };

@@ -18,6 +18,32 @@ pub(super) fn slider<'a, N: Numeric>(ui: &Ui, value: &'a mut N, decimals: usize,
     slider.max_decimals(decimals).clamping(SliderClamping::Edits).update_while_editing(false)
 }
 
+/// A number that may be absent, and what is said without and behind it.
+pub(super) fn optional<N: Numeric>(
+    ui: &mut Ui,
+    label: Id,
+    value: &mut Option<N>,
+    (none, unit): (&str, &str),
+    default: N,
+    decimals: usize,
+    range: RangeInclusive<f64>,
+) {
+    ui.horizontal(|ui| {
+        let mut present = value.is_some();
+        if ui.checkbox(&mut present, "").labelled_by(label).changed() {
+            *value = present.then_some(default);
+        }
+        match value {
+            Some(number) => {
+                let field = field(ui, number, decimals, range);
+                ui.add(field).labelled_by(label);
+                ui.weak(if number.to_f64() == 1.0 { unit.trim_end_matches('s') } else { unit });
+            }
+            None => drop(ui.weak(none)),
+        }
+    });
+}
+
 /// Reads and writes a value. A field shows it rounded, and gives that back whether or not somebody typed: what it may have shown
 /// is no edit.
 fn kept<N: Numeric>(value: &mut N, decimals: usize, range: RangeInclusive<f64>, gave_up: bool) -> impl FnMut(Option<f64>) -> f64 {

@@ -1,6 +1,4 @@
 //! The estimate: estimator, sampler, directions, roulette, cap, seed, and when to stop.
-use std::ops::RangeInclusive;
-
 use egui::{ComboBox, Id, Ui};
 use noisefall::{
     sampling::{Directions, SAMPLERS},
@@ -15,7 +13,6 @@ use super::{
 
 const DEFAULT_SURVIVAL: f32 = 0.8;
 const DEFAULT_CAP: u32 = 8;
-const DEFAULT_TARGET: u32 = 1024;
 
 const ESTIMATORS: [(Estimator, &str, &str); 3] = [
     (Estimator::Path, "Path", "Paths go on until they run into light: the equation as it stands, with most noise."),
@@ -41,23 +38,33 @@ const REUSE: [(Reuse, &str, &str); 3] = [
 
 impl App {
     pub(super) fn sampling_panel(&mut self, ui: &mut Ui) {
-        let (settings, status) = (&mut self.settings, &self.status);
+        self.side_choice(ui);
+        let edits_other = self.compare.is_some_and(|compare| compare.edits_other);
+        let status = if edits_other { &self.status_beside } else { &self.status };
+        let (spp, shares) = (status.spp, status.shares);
+        let settings = self.edited();
         controls(ui, "sampling", |ui| {
-            row(ui, "Estimator", "How light is found. All converge to the same picture.", |ui, _| {
+            row(ui, "Estimator", "How light L_o is found at x_M. All converge to the same picture.", |ui, _| {
                 ui.horizontal(|ui| {
                     for (estimator, name, doc) in ESTIMATORS {
                         ui.selectable_value(&mut settings.estimator, estimator, name).on_hover_text(doc);
                     }
                 });
             });
-            row(ui, "Sampler", "Which points of the unit cube the samples of a pixel are.", |ui, label| {
-                let combo = ComboBox::from_id_salt("Sampler").selected_text(settings.sampler.entry().title).show_ui(ui, |ui| {
-                    for entry in &SAMPLERS {
-                        ui.selectable_value(&mut settings.sampler, entry.sampler, entry.title).on_hover_text(entry.doc);
-                    }
-                });
-                combo.response.labelled_by(label);
-            });
+            row(
+                ui,
+                "Sampler",
+                "Which points of the unit cube the N samples of a pixel are: they decide how fast the noise falls.",
+                |ui, label| {
+                    let combo =
+                        ComboBox::from_id_salt("Sampler").selected_text(settings.sampler.entry().title).show_ui(ui, |ui| {
+                            for entry in &SAMPLERS {
+                                ui.selectable_value(&mut settings.sampler, entry.sampler, entry.title).on_hover_text(entry.doc);
+                            }
+                        });
+                    combo.response.labelled_by(label);
+                },
+            );
             row(
                 ui,
                 "Directions",
@@ -82,8 +89,8 @@ impl App {
                                 ui.selectable_value(&mut settings.reuse, reuse, name).on_hover_text(doc);
                             }
                         });
-                        if settings.reuse == Reuse::Auto && status.spp > 0 {
-                            ui.weak(if status.shares { "in use here" } else { "not in use here" });
+                        if settings.reuse == Reuse::Auto && spp > 0 {
+                            ui.weak(if shares { "in use here" } else { "not in use here" });
                         }
                     });
                 },
@@ -91,14 +98,19 @@ impl App {
             row(
                 ui,
                 "Adaptive",
-                "More samples where a pilot, whose own samples do not count, finds more noise. Not where pixels share paths.",
+                "More samples N where a pilot, whose own samples do not count, finds more noise. Not where pixels share paths.",
                 |ui, label| {
                     ui.checkbox(&mut settings.adaptive, "").labelled_by(label);
                 },
             );
-            row(ui, "Roulette", "Ends paths at random and weights the survivors by 1/q: shorter paths, no bias.", |ui, label| {
-                roulette(ui, label, &mut settings.roulette);
-            });
+            row(
+                ui,
+                "Roulette",
+                "Ends paths at random with probability 1 − q and weights the survivors by 1/q: shorter paths, no bias.",
+                |ui, label| {
+                    roulette(ui, label, &mut settings.roulette);
+                },
+            );
             if let Roulette::Fixed(q) = &mut settings.roulette {
                 row(ui, "Survival", "The probability q with which a path goes on after a reflection.", |ui, label| {
                     let slider = number::slider(ui, q, 3, 0.05..=1.0);
@@ -108,19 +120,40 @@ impl App {
             row(
                 ui,
                 "Bounce cap",
-                "The highest number of reflections counted. A cap leaves light out: the picture is biased.",
+                "n, the highest number of reflections counted: the series L_e + T L_e + … is cut after Tⁿ L_e, and the picture is biased.",
                 |ui, label| {
-                    optional(ui, label, &mut settings.max_bounces, ("no cap", "reflections"), DEFAULT_CAP, 0.0..=4096.0);
+                    number::optional(
+                        ui,
+                        label,
+                        &mut settings.max_bounces,
+                        ("no cap", "reflections"),
+                        DEFAULT_CAP,
+                        0,
+                        0.0..=4096.0,
+                    );
                 },
             );
-            row(ui, "Seed", "Another seed gives another picture, with other noise.", |ui, label| {
-                let field = number::field(ui, &mut settings.seed, 0, 0.0..=u32::MAX.into());
-                ui.add(field).labelled_by(label);
-            });
-            row(ui, "Stop at", "Samples per pixel at which the render stops. Changing it never restarts.", |ui, label| {
-                optional(ui, label, &mut self.budget.max_spp, ("never", "spp"), DEFAULT_TARGET, 1.0..=16_777_216.0);
-            });
+            row(
+                ui,
+                "Seed",
+                "Which random numbers are drawn: another seed gives other noise around the same mean.",
+                |ui, label| {
+                    let field = number::field(ui, &mut settings.seed, 0, 0.0..=u32::MAX.into());
+                    ui.add(field).labelled_by(label);
+                },
+            );
         });
+    }
+
+    /// Which side of a comparison the panel is about.
+    fn side_choice(&mut self, ui: &mut Ui) {
+        let Some(compare) = &mut self.compare else { return };
+        ui.horizontal(|ui| {
+            ui.label("Settings of").on_hover_text("The two sides of the comparison below the picture");
+            ui.selectable_value(&mut compare.edits_other, false, "A");
+            ui.selectable_value(&mut compare.edits_other, true, "B");
+        });
+        ui.add_space(4.0);
     }
 }
 
@@ -142,30 +175,5 @@ fn roulette(ui: &mut Ui, label: Id, roulette: &mut Roulette) {
             }
         });
         combo.response.labelled_by(label);
-    });
-}
-
-/// A number that may be absent, and what is said without and behind it.
-fn optional(
-    ui: &mut Ui,
-    label: Id,
-    value: &mut Option<u32>,
-    (none, unit): (&str, &str),
-    default: u32,
-    range: RangeInclusive<f64>,
-) {
-    ui.horizontal(|ui| {
-        let mut present = value.is_some();
-        if ui.checkbox(&mut present, "").labelled_by(label).changed() {
-            *value = present.then_some(default);
-        }
-        match value {
-            Some(number) => {
-                let field = number::field(ui, number, 0, range);
-                ui.add(field).labelled_by(label);
-                ui.weak(if *number == 1 { unit.trim_end_matches('s') } else { unit });
-            }
-            None => drop(ui.weak(none)),
-        }
     });
 }

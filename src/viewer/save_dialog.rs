@@ -1,10 +1,80 @@
 //! Where to save the picture.
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use egui::{Align2, Button, RichText};
-use noisefall::render::{image_file::check_target, settings_text::settings_text};
+use noisefall::{
+    file::replace,
+    render::{
+        image_file::{check_target, save_shown},
+        settings_text::settings_text,
+    },
+};
 
-use super::{app::App, path_field::PathField, saver::Request};
+use super::{app::App, path_field::PathField};
+
+/// What is saved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Target {
+    Picture,
+    CurvesCsv,
+    CurvesSvg,
+}
+
+/// Asks where something goes.
+pub struct SaveDialog {
+    target: Target,
+    field: PathField,
+}
+
+#[cfg(test)]
+impl SaveDialog {
+    /// What stands in the field.
+    pub fn path(&self) -> &str {
+        &self.field.path
+    }
+}
+
+impl Target {
+    fn title(self) -> &'static str {
+        match self {
+            Target::Picture => "Save picture",
+            Target::CurvesCsv => "Save figures",
+            Target::CurvesSvg => "Save plot",
+        }
+    }
+
+    fn explanation(self) -> &'static str {
+        match self {
+            Target::Picture => "PNG is the picture as shown; EXR is linear radiance. Both carry the settings.",
+            Target::CurvesCsv => "CSV: settings, samples, seconds, errors and bias, a line each.",
+            Target::CurvesSvg => "SVG: the curves of all settings, for a page or a slide.",
+        }
+    }
+
+    /// What its files end in.
+    fn extensions(self) -> &'static [&'static str] {
+        match self {
+            Target::Picture => &["png", "exr"],
+            Target::CurvesCsv => &["csv"],
+            Target::CurvesSvg => &["svg"],
+        }
+    }
+
+    fn check(self, path: &Path) -> Result<(), String> {
+        if self == Target::Picture {
+            return check_target(path).map_err(|error| error.to_string());
+        }
+        match folder(path) {
+            folder if folder.is_dir() => Ok(()),
+            folder => Err(format!("{}: there is no folder {}", path.display(), folder.display())),
+        }
+    }
+}
+
+/// The folder of a file.
+fn folder(path: &Path) -> &Path {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or_else(|| Path::new("."))
+}
 
 impl App {
     /// Whether what is shown is the full picture of what the controls say.
@@ -12,38 +82,54 @@ impl App {
         self.shown.as_ref().is_some_and(|frame| !frame.is_coarse() && frame.generation == self.link.generation())
     }
 
-    pub(super) fn open_save_dialog(&mut self) {
+    pub(super) fn open_save_dialog(&mut self, target: Target) {
         if self.save_dialog.is_none() {
-            self.save_dialog = Some(PathField::new(self.suggested_path().display().to_string(), "path/to/picture.png"));
+            let path = self.suggested_path(target.extensions()[0]).display().to_string();
+            self.save_dialog = Some(SaveDialog { target, field: PathField::new(path, "path/to/file") });
         }
     }
 
-    /// A name that is not taken, after the last picture of this scene or after the scene.
-    fn suggested_path(&self) -> PathBuf {
+    /// A name that is not taken, after the last file of this scene or after the scene.
+    fn suggested_path(&self, extension: &str) -> PathBuf {
         let of_file = self.opened.as_ref().and_then(|opened| opened.path.as_ref()?.file_stem()?.to_str().map(str::to_owned));
-        let name = format!("{}.png", of_file.unwrap_or_else(|| "cornell_spheres".to_owned()));
-        let path = self.last_saved.clone();
-        free(&path.unwrap_or_else(|| std::env::current_dir().map_or_else(|_| name.clone().into(), |folder| folder.join(&name))))
+        let name = of_file.unwrap_or_else(|| "cornell_spheres".to_owned());
+        let path = self.last_saved.as_ref().filter(|path| extension != "png" || Target::Picture.takes(path));
+        let here = || std::env::current_dir().map_or_else(|_| PathBuf::from(&name), |folder| folder.join(&name));
+        let path = path.cloned().unwrap_or_else(here);
+        let keeps = extension == "png" && Target::Picture.takes(&path);
+        free(&if keeps { path } else { path.with_extension(extension) })
     }
 
     pub(super) fn save_dialog(&mut self, ctx: &egui::Context) {
-        let Some(mut field) = self.save_dialog.take() else { return };
+        let Some(SaveDialog { target, mut field }) = self.save_dialog.take() else { return };
         let (mut open, mut save, mut cancelled) = (true, false, false);
-        egui::Window::new("Save picture")
+        egui::Window::new(target.title())
             .open(&mut open)
             .collapsible(false)
             .resizable(false)
             .anchor(Align2::CENTER_CENTER, [0.0, 0.0])
-            .show(ctx, |ui| (save, cancelled) = dialog_body(ui, &mut field));
+            .show(ctx, |ui| (save, cancelled) = dialog_body(ui, target, &mut field));
         if let Some(path) = field.path().filter(|_| save) {
-            match check_target(&path) {
-                Ok(()) => return self.save_to(path),
-                Err(error) => field.refusal = Some(error.to_string()),
+            match target.check(&path) {
+                Ok(()) => return self.save_target(target, path),
+                Err(error) => field.refusal = Some(error),
             }
         }
         if open && !cancelled {
-            self.save_dialog = Some(field);
+            self.save_dialog = Some(SaveDialog { target, field });
         }
+    }
+
+    fn save_target(&mut self, target: Target, path: PathBuf) {
+        let bytes = match target {
+            Target::Picture => return self.save_to(path),
+            Target::CurvesCsv => self.history.csv(),
+            Target::CurvesSvg => Ok(self.history.svg().into_bytes()),
+        };
+        self.saver.save(path, move |path| {
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            replace(folder(path), &name, &bytes?).map_err(|error| format!("{}: {error}", path.display()))
+        });
     }
 
     /// Saves what is shown.
@@ -52,14 +138,23 @@ impl App {
             self.tell("Not saved: the new picture has no sample everywhere yet. Try again in a moment.".to_owned(), true);
             return;
         }
-        let (Some(frame), Some(wish)) = (&self.shown, self.link.wish()) else { return };
-        let settings = settings_text(&wish.scene, &wish.camera, &wish.settings, self.display, frame.spp);
-        self.saver.save(Request { frame: frame.clone(), display: self.display, settings, path });
+        let (Some(frame), Some(wish)) = (self.shown.clone(), self.link.wish()) else { return };
+        let settings = settings_text(&wish.scene, &wish.camera, &wish.settings, self.look.display, frame.spp);
+        let pixels = self.pixels.clone();
+        self.saver.save(path, move |path| save_shown(&frame, &pixels, &settings, path).map_err(|error| error.to_string()));
+    }
+}
+
+impl Target {
+    /// Whether a file ends as it should.
+    fn takes(self, path: &Path) -> bool {
+        let extension = path.extension().map(|extension| extension.to_string_lossy().to_ascii_lowercase());
+        extension.is_some_and(|extension| self.extensions().contains(&extension.as_str()))
     }
 }
 
 /// The path, or the first of `name-2`, `name-3`, … that is not taken.
-fn free(path: &std::path::Path) -> PathBuf {
+fn free(path: &Path) -> PathBuf {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     // A number that was added here before is counted on.
     let stem = stem.rsplit_once('-').filter(|(_, n)| n.parse::<u32>().is_ok()).map_or(&*stem, |(stem, _)| stem);
@@ -69,25 +164,26 @@ fn free(path: &std::path::Path) -> PathBuf {
 }
 
 /// Whether to save, and whether to close. A file is replaced by the button that says so, never by Enter.
-fn dialog_body(ui: &mut egui::Ui, field: &mut PathField) -> (bool, bool) {
+fn dialog_body(ui: &mut egui::Ui, target: Target, field: &mut PathField) -> (bool, bool) {
     ui.set_width(460.0);
-    ui.label("PNG is the picture as shown; EXR is linear radiance. Both carry the settings.");
+    ui.label(target.explanation());
     ui.add_space(4.0);
     let entered = field.show(ui);
     let exists = field.path().is_some_and(|path| path.is_file());
     field.remark(ui, if exists { "This file exists. Replace it?" } else { "" });
     let (mut save, mut cancel) = (entered && !exists, false);
     ui.horizontal(|ui| {
-        let is_exr = field.path.trim().to_ascii_lowercase().ends_with(".exr");
-        for (name, extension, chosen) in [("PNG", "png", !is_exr), ("EXR", "exr", is_exr)] {
-            if ui.selectable_label(chosen, name).clicked() {
+        let of_picture = if target == Target::Picture { target.extensions() } else { &[] };
+        for extension in of_picture {
+            let chosen = field.path.trim().to_ascii_lowercase().ends_with(&format!(".{extension}"));
+            if ui.selectable_label(chosen, extension.to_uppercase()).clicked() {
                 field.path = PathBuf::from(&field.path).with_extension(extension).display().to_string();
                 field.refusal = None;
             }
         }
         let name = field.path().and_then(|path| path.file_name().map(|name| name.to_string_lossy().into_owned()));
-        field.browse(ui, |dialog| {
-            let dialog = dialog.add_filter("PNG or EXR", &["png", "exr"]);
+        field.browse(ui, move |dialog| {
+            let dialog = dialog.add_filter(target.extensions().join(" or ").to_uppercase(), target.extensions());
             name.into_iter().fold(dialog, rfd::FileDialog::set_file_name).save_file()
         });
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {

@@ -1,26 +1,16 @@
-//! Writing pictures off the UI thread.
+//! Writing files off the UI thread.
 use std::{
-    path::PathBuf,
-    sync::{Arc, mpsc},
+    path::{Path, PathBuf},
+    sync::mpsc,
 };
 
-use noisefall::render::{Display, Frame, image_file::save};
-
-/// A frame and where it goes.
-pub struct Request {
-    pub frame: Arc<Frame>,
-    pub display: Display,
-    pub settings: String,
-    pub path: PathBuf,
-}
-
-/// Where a picture is, or why it is not.
+/// Where a file is, or why it is not.
 type Outcome = Result<PathBuf, String>;
 
 pub struct Saver {
     ctx: egui::Context,
     done: (mpsc::Sender<Outcome>, mpsc::Receiver<Outcome>),
-    /// Pictures being written. The program waits for them before it ends.
+    /// Files being written. The program waits for them before it ends.
     writing: Vec<std::thread::JoinHandle<()>>,
 }
 
@@ -29,18 +19,17 @@ impl Saver {
         Saver { ctx: ctx.clone(), done: mpsc::channel(), writing: Vec::new() }
     }
 
-    pub fn save(&mut self, request: Request) {
+    /// Has a file written.
+    pub fn save(&mut self, path: PathBuf, write: impl FnOnce(&Path) -> Result<(), String> + Send + 'static) {
         let (sender, ctx) = (self.done.0.clone(), self.ctx.clone());
         self.writing.retain(|thread| !thread.is_finished());
         self.writing.push(std::thread::spawn(move || {
-            let Request { frame, display, settings, path } = request;
-            let saved = save(&frame, display, &settings, &path);
-            let _ = sender.send(saved.map(|()| path).map_err(|error| error.to_string()));
+            let _ = sender.send(write(&path).map(|()| path));
             ctx.request_repaint();
         }));
     }
 
-    /// What became of a picture, once.
+    /// What became of a file, once.
     pub fn take(&self) -> Option<Outcome> {
         self.done.1.try_recv().ok()
     }

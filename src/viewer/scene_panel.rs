@@ -19,6 +19,9 @@ impl App {
                 if ui.button("Open…").on_hover_text("Choose a scene file").clicked() {
                     self.open_open_dialog();
                 }
+                if ui.button("Gallery").on_hover_text("The scenes as pictures (F6)").clicked() {
+                    self.gallery.open = true;
+                }
                 let height = self.height_of_list(ui);
                 let combo = ComboBox::from_id_salt("Scene").selected_text(name).width(ui.available_width()).height(height);
                 let combo = combo.truncate().show_ui(ui, |ui| chosen = self.scene_list(ui));
@@ -69,11 +72,14 @@ impl App {
         chosen
     }
 
-    /// Scene files dropped on the window.
-    pub(super) fn open_dropped_file(&mut self) {
+    /// What is dropped on the window: a scene, or a picture to hold this one against.
+    pub(super) fn take_dropped_file(&mut self) {
         let dropped = self.ctx.input(|input| input.raw.dropped_files.first().map(|file| file.path().to_owned()));
-        if let Some(path) = dropped {
-            self.loader.open(Some(path));
+        let Some(path) = dropped else { return };
+        match path.extension().map(|extension| extension.to_string_lossy().to_ascii_lowercase()).as_deref() {
+            Some("exr" | "hdr") => self.loader.read_reference(path),
+            Some("png") => self.tell("A PNG is cut off at white and cannot be a reference: drop an EXR or HDR.".to_owned(), true),
+            _ => self.loader.open(Some(path)),
         }
     }
 }

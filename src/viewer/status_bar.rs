@@ -8,16 +8,13 @@ use noisefall::{
     scene::RenderSettings,
 };
 
-use super::{
-    app::App,
-    look::{AMBER, GREEN, RED},
-};
+use super::{app::App, look::Inks};
 
 impl App {
     pub(super) fn status_bar(&self, ui: &mut egui::Ui) {
         let status = &self.status;
         ui.horizontal(|ui| {
-            let (colour, state) = self.state_text();
+            let (colour, state) = self.state_text(ui);
             let (dot, _) = ui.allocate_exact_size(egui::vec2(10.0, 10.0), egui::Sense::hover());
             ui.painter().circle_filled(dot.center(), 4.5, colour);
             ui.label(RichText::new(state).strong());
@@ -26,7 +23,7 @@ impl App {
             }
             ui.separator();
             if let Err(error) = self.camera.check() {
-                ui.label(RichText::new("this camera cannot take a picture; the last one is shown").color(AMBER))
+                ui.label(RichText::new("this camera cannot take a picture; the last one is shown").color(ui.warning()))
                     .on_hover_text(error.to_string());
                 return;
             }
@@ -46,21 +43,23 @@ impl App {
         });
     }
 
-    fn state_text(&self) -> (Color32, &'static str) {
+    fn state_text(&self, ui: &egui::Ui) -> (Color32, &'static str) {
+        let (good, warning) = (ui.good(), ui.warning());
         match self.status.state {
-            _ if self.loader.is_busy() => (AMBER, "Opening"),
-            _ if self.camera.check().is_err() => (AMBER, "Invalid settings"),
+            _ if self.loader.is_busy() => (warning, "Opening"),
+            _ if self.camera.check().is_err() => (warning, "Invalid settings"),
             State::Idle => (Color32::GRAY, "No scene"),
-            State::Running => (GREEN, "Running"),
-            State::Paused => (AMBER, "Paused"),
-            State::Converged => (GREEN, "Converged"),
-            State::Failed(_) => (RED, "Failed"),
+            State::Running => (good, "Running"),
+            State::Paused => (warning, "Paused"),
+            State::Converged => (good, "Converged"),
+            State::Failed(_) => (ui.bad(), "Failed"),
         }
     }
 
     fn noise_label(&self, ui: &mut egui::Ui) {
         if let Some(why) = self.why_black() {
-            ui.label(RichText::new("no light found yet").color(AMBER)).on_hover_text(format!("All samples are black: {why}"));
+            ui.label(RichText::new("no light found yet").color(ui.warning()))
+                .on_hover_text(format!("All samples are black: {why}"));
             return;
         }
         let text = self.status.relative_noise().map_or_else(|| "–".to_owned(), percent);
@@ -71,26 +70,26 @@ impl App {
     }
 
     fn truth_label(&self, ui: &mut egui::Ui) {
-        if let Some(rel_mse) = self.true_rel_mse {
+        if let Some(rel_mse) = self.against.map(|against| against.rel_mse) {
             ui.label(format!("true error {}", percent(rel_mse.sqrt())))
                 .on_hover_text("Root of relMSE against the exact picture that the scene names");
         } else if let Some(mismatch) = self.mismatch() {
-            ui.label(RichText::new("true error unknown").color(AMBER)).on_hover_text(mismatch);
+            ui.label(RichText::new("true error unknown").color(ui.warning())).on_hover_text(mismatch);
         }
     }
 
     /// Why the picture cannot be held against the one that the scene names.
     fn mismatch(&self) -> Option<String> {
-        self.opened.as_ref()?.truth.as_ref()?.mismatch(self.camera.resolution)
+        self.truth_here()?.mismatch(self.camera.resolution)
     }
 
     fn bias_label(&self, ui: &mut egui::Ui) {
         match self.status.bias(&self.settings) {
             None => ui
-                .label(RichText::new("unbiased").color(GREEN))
+                .label(RichText::new("unbiased").color(ui.good()))
                 .on_hover_text("The picture converges to the solution of the light transport equation"),
             Some(why) => ui
-                .label(RichText::new(format!("biased: {why}")).color(AMBER))
+                .label(RichText::new(format!("biased: {why}")).color(ui.warning()))
                 .on_hover_text("Light reflected more often than that is missing, however long one waits"),
         };
     }
@@ -100,7 +99,7 @@ impl App {
         let Status { invalid_samples, first_invalid, cut_paths, .. } = self.status;
         let mut trouble = |text: String, more: String| {
             ui.separator();
-            ui.label(RichText::new(text).color(RED)).on_hover_text(more);
+            ui.label(RichText::new(text).color(ui.bad())).on_hover_text(more);
         };
         if let Some(at) = first_invalid {
             let size = self.link.wish().map_or([0; 2], |wish| wish.camera.resolution);

@@ -1,6 +1,8 @@
 //! The window itself, driven as a user would: change a control, see the effect.
 mod camera;
 mod fields;
+mod instruments;
+mod manners;
 mod saving;
 mod scenes;
 mod settings;
@@ -24,7 +26,7 @@ use noisefall::{
     scene::{Estimator, Lens, Reuse, Roulette},
 };
 
-use super::{app::App, canvas::Tool};
+use super::{app::App, canvas::Tool, preferences::Preferences};
 
 type Window = Harness<'static, Lazy>;
 
@@ -51,7 +53,10 @@ fn shipped(name: &str) -> PathBuf {
 /// A window in which nothing has happened yet.
 fn open(scene: Option<PathBuf>) -> Window {
     let draw = move |ui: &mut egui::Ui, app: &mut Lazy| {
-        let make = || App::new(ui.ctx(), Threads::new(1, SimdLevel::best()).expect("a thread can be had"), scene.clone());
+        let make = || {
+            let threads = Threads::new(1, SimdLevel::best()).expect("a thread can be had");
+            App::new(ui.ctx(), threads, scene.clone(), Preferences::default())
+        };
         app.0.get_or_insert_with(make).show(ui);
     };
     Harness::builder().with_size(vec2(1280.0, 800.0)).build_ui_state(draw, Lazy(None))
@@ -163,7 +168,7 @@ fn every_single_key_does_what_the_help_says() {
     press(&mut window, Key::CloseBracket);
     press(&mut window, Key::CloseBracket);
     press(&mut window, Key::OpenBracket);
-    assert_eq!(window.state().display.exposure, 0.5);
+    assert_eq!(window.state().look.display.exposure, 0.5);
     press(&mut window, Key::Space);
     assert!(window.state().budget.paused);
     press(&mut window, Key::Space);

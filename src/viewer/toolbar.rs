@@ -1,7 +1,26 @@
 //! The buttons above the picture.
 use egui::{Button, Key};
 
-use super::{app::App, canvas::Tool};
+use super::{app::App, canvas::Tool, dock::Tab, save_dialog::Target};
+
+const TOOLS: [(Tool, &str, &str); 4] = [
+    (Tool::Picture, "Picture", "Drag pans the picture and the wheel magnifies it. Never restarts the render. (P)"),
+    (
+        Tool::Camera,
+        "Camera",
+        "Drag orbits, right-drag pans and the wheel dollies the camera. Every move starts a new picture. (C)",
+    ),
+    (Tool::Region, "Region", "Drag marks a rectangle that is rendered before the rest. Never restarts the render. (G)"),
+    (Tool::Inspect, "Inspect", "Click a pixel to see its samples and the paths they came by. (I)"),
+];
+
+/// Keys that choose a tool.
+const TOOL_KEYS: [(Key, Tool); 4] =
+    [(Key::P, Tool::Picture), (Key::C, Tool::Camera), (Key::G, Tool::Region), (Key::I, Tool::Inspect)];
+
+/// Keys that open an instrument or close it.
+const TAB_KEYS: [(Key, Tab); 4] =
+    [(Key::F2, Tab::Convergence), (Key::F3, Tab::Compare), (Key::F4, Tab::Bounces), (Key::F5, Tab::Path)];
 
 impl App {
     pub(super) fn toolbar(&mut self, ui: &mut egui::Ui) {
@@ -14,13 +33,15 @@ impl App {
                 ui.separator();
                 self.zoom_buttons(ui);
             }
+            ui.separator();
+            self.compare_menu(ui);
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                 if ui.button("Help").on_hover_text("Keyboard and mouse (F1)").clicked() {
                     self.help_open = !self.help_open;
                 }
                 let save = ui.add_enabled(self.can_save(), Button::new("Save…"));
                 if save.on_hover_text("Save the picture as PNG or EXR (Ctrl+S)").clicked() {
-                    self.open_save_dialog();
+                    self.open_save_dialog(Target::Picture);
                 }
             });
         });
@@ -44,11 +65,17 @@ impl App {
     }
 
     fn tool_buttons(&mut self, ui: &mut egui::Ui) {
-        ui.label("Drag moves");
-        ui.selectable_value(&mut self.tool, Tool::Picture, "Picture")
-            .on_hover_text("Drag pans the picture and the wheel magnifies it. Never restarts the render. (P)");
-        ui.selectable_value(&mut self.tool, Tool::Camera, "Camera")
-            .on_hover_text("Drag orbits, right-drag pans and the wheel dollies the camera. Every move starts a new picture. (C)");
+        for (tool, name, doc) in TOOLS {
+            if ui.selectable_value(&mut self.tool, tool, name).on_hover_text(doc).clicked() && tool == Tool::Inspect {
+                self.dock = Some(Tab::Path);
+            }
+        }
+        if self.budget.region.is_some() {
+            let clear = ui.button("Clear region").on_hover_text("Go on with the whole picture (Esc)");
+            if clear.clicked() {
+                self.budget.region = None;
+            }
+        }
     }
 
     fn zoom_buttons(&mut self, ui: &mut egui::Ui) {
@@ -65,13 +92,24 @@ impl App {
     pub(super) fn shortcuts(&mut self, ctx: &egui::Context) {
         let save = egui::KeyboardShortcut::new(egui::Modifiers::COMMAND, Key::S);
         if ctx.input_mut(|input| input.consume_shortcut(&save)) && self.can_save() {
-            self.open_save_dialog();
+            self.open_save_dialog(Target::Picture);
         }
         if ctx.input(|input| input.key_pressed(Key::Escape)) {
-            (self.help_open, self.save_dialog, self.open_dialog) = (false, None, None);
+            self.escape();
         }
         if ctx.input(|input| input.key_pressed(Key::F1)) {
             self.help_open = !self.help_open;
+        }
+        if ctx.input(|input| input.key_pressed(Key::F6)) {
+            self.gallery.open = !self.gallery.open;
+        }
+        if ctx.input(|input| input.key_pressed(Key::F12)) {
+            self.pace.shown = !self.pace.shown;
+        }
+        for (key, tab) in TAB_KEYS {
+            if ctx.input(|input| input.key_pressed(key)) && self.opened.is_some() {
+                self.toggle_tab(tab);
+            }
         }
         if ctx.egui_wants_keyboard_input() || self.opened.is_none() {
             return;
@@ -86,11 +124,19 @@ impl App {
         if pressed(Key::R) {
             self.link.restart();
         }
-        if pressed(Key::P) {
-            self.tool = Tool::Picture;
+        for (key, tool) in TOOL_KEYS {
+            if pressed(key) {
+                self.tool = tool;
+                if tool == Tool::Inspect {
+                    self.dock = Some(Tab::Path);
+                }
+            }
         }
-        if pressed(Key::C) {
-            self.tool = Tool::Camera;
+        if pressed(Key::V) {
+            self.next_view(false);
+        }
+        if ctx.input(|input| input.key_pressed(Key::V) && input.modifiers.shift_only()) {
+            self.next_view(true);
         }
         if pressed(Key::F) {
             self.view.fit();
@@ -100,9 +146,21 @@ impl App {
         }
         // More than one press can fall into a frame.
         let presses = |key| ctx.input(|input| input.num_presses(key)) as f32;
-        self.display.exposure += 0.5 * (presses(Key::CloseBracket) - presses(Key::OpenBracket));
+        self.look.display.exposure += 0.5 * (presses(Key::CloseBracket) - presses(Key::OpenBracket));
         if pressed(Key::Home) {
             self.reset_camera();
+        }
+    }
+
+    /// Closes what lies over the picture: of several things all dialogs first, then messages, then the region.
+    fn escape(&mut self) {
+        let dialogs = self.save_dialog.is_some() || self.open_dialog.is_some();
+        if self.help_open || self.gallery.open || dialogs {
+            (self.help_open, self.gallery.open, self.save_dialog, self.open_dialog) = (false, false, None, None);
+        } else if !self.notices.is_empty() {
+            self.notices.clear();
+        } else if !self.ctx.egui_wants_keyboard_input() {
+            self.budget.region = None;
         }
     }
 }

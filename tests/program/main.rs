@@ -1,4 +1,5 @@
 //! The program as its users meet it: scene files, command line, worker, and the structure of the source.
+mod beside;
 mod command_line;
 mod command_notes;
 mod compare;

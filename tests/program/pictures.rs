@@ -23,7 +23,7 @@ fn a_png_has_the_pixels_of_the_screen_and_the_settings() {
     let mut bytes = vec![0; reader.output_buffer_size().expect("a size")];
     reader.next_frame(&mut bytes).expect("it has pixels");
     let mut shown = Vec::new();
-    to_srgb(&frame(), display, &mut shown);
+    to_srgb(&frame().radiance, display, &mut shown);
     let rgb: Vec<u8> = shown.iter().flat_map(|pixel| pixel[..3].to_vec()).collect();
     assert_eq!(bytes, rgb, "file and screen differ");
     assert!(reader.info().srgb.is_some());

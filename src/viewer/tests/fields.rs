@@ -85,7 +85,7 @@ fn a_picture_is_replaced_only_by_the_button_that_says_so() {
     window.state_mut().last_saved = Some(path.clone());
     window.key_press_modifiers(Modifiers::COMMAND, Key::S);
     window.run_steps(4);
-    let suggested = window.state().save_dialog.as_ref().map(|dialog| dialog.path.clone());
+    let suggested = window.state().save_dialog.as_ref().map(|dialog| dialog.path().to_owned());
     assert_eq!(suggested, Some(folder.path().join("shot-2.png").display().to_string()));
     window.get_by_role(Role::TextInput).set_text_value_accesskit(&path.display().to_string());
     window.run_steps(3);

@@ -15,9 +15,9 @@ fn ctrl_s_saves_what_is_shown_where_the_path_field_says() {
     wait(&mut window, "the file", |app| app.last_saved.is_some());
     let saved = image_file::read(&path).expect("it is a picture");
     assert_eq!([saved.width, saved.height], [96, 64]);
-    assert!(window.state().notice.as_ref().is_some_and(|notice| !notice.is_error));
+    assert!(window.state().notices.iter().any(|notice| !notice.is_error));
     window.state_mut().save_to(folder.path().join("nowhere/shot.png"));
-    wait(&mut window, "the refusal", |app| app.notice.as_ref().is_some_and(|notice| notice.is_error));
+    wait(&mut window, "the refusal", |app| app.notices.iter().any(|notice| notice.is_error));
 }
 
 #[test]

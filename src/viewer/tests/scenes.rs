@@ -53,7 +53,7 @@ fn a_true_picture_of_another_size_is_told() {
     let path = folder.path().join("scene.toml");
     std::fs::write(&path, format!("{}[truth]\nimage = \"true.exr\"\n", &text[..truth])).expect("it is written");
     let mut window = opened(path);
-    wait(&mut window, "the true error", |app| app.true_rel_mse.is_some());
+    wait(&mut window, "the true error", |app| app.against.is_some());
     window.state_mut().camera.resolution = [40, 32];
     wait(&mut window, "another size", |app| app.shown.as_ref().is_some_and(|frame| frame.width == 40));
     window.run_steps(2);
@@ -93,9 +93,9 @@ fn the_list_marks_the_open_scene_however_it_was_named_and_knows_those_from_elsew
     window.key_press(Key::Escape);
     window.run_steps(3);
     let path = changed(&folder, "furnace", "title = \"Furnace\"", "title = \"A furnace of mine\"");
-    window.state_mut().display.exposure = 3.0;
+    window.state_mut().look.display.exposure = 3.0;
     window.state_mut().loader.open(Some(path));
     wait(&mut window, "my scene", |app| app.opened.as_ref().is_some_and(|opened| opened.name == "A furnace of mine"));
-    assert_eq!(window.state().display.exposure, 0.0, "what suited the other scene");
+    assert_eq!(window.state().look.display.exposure, 0.0, "what suited the other scene");
     assert!(window.state().catalogue.iter().any(|entry| entry.name == "A furnace of mine"));
 }

@@ -61,8 +61,8 @@ fn display_settings_zoom_and_target_never_restart() {
         w.get_by_role_and_label(Role::Slider, "Exposure").set_value_accesskit(2.0);
         choose(w, "Tone map", "Reinhard");
     });
-    assert_eq!(window.state().display.exposure, 2.0);
-    assert_eq!(window.state().display.tone_map, ToneMap::Reinhard);
+    assert_eq!(window.state().look.display.exposure, 2.0);
+    assert_eq!(window.state().look.display.tone_map, ToneMap::Reinhard);
     let fitted = window.state().view.drawn_zoom;
     never_restarts(&mut window, |w| scroll(w, [400.0, 400.0], 50.0));
     assert!(window.state().view.drawn_zoom > fitted);

@@ -1,0 +1,47 @@
+//! A part of the picture that is rendered before the rest.
+use crate::integrator::TILE;
+
+/// A rectangle of pixels, from the upper left corner to before the lower right one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Region {
+    pub from: [u32; 2],
+    pub to: [u32; 2],
+}
+
+impl Region {
+    /// The rectangle between two corners, both within it.
+    pub fn between(a: [u32; 2], b: [u32; 2]) -> Region {
+        let of = |choose: fn(u32, u32) -> u32| [0, 1].map(|axis| choose(a[axis], b[axis]));
+        Region { from: of(Ord::min), to: of(Ord::max).map(|x| x + 1) }
+    }
+
+    /// Width and height.
+    pub fn size(&self) -> [u32; 2] {
+        [0, 1].map(|axis| self.to[axis].saturating_sub(self.from[axis]))
+    }
+
+    /// Whether it shares pixels with the rectangle of this size.
+    pub fn meets(&self, origin: [u32; 2], size: [u32; 2]) -> bool {
+        (0..2).all(|axis| self.from[axis] < origin[axis] + size[axis] && origin[axis] < self.to[axis])
+    }
+
+    /// The tiles that it takes, as a rectangle within a picture: those are rendered as a whole.
+    pub fn in_tiles(&self, resolution: [u32; 2]) -> Region {
+        let to = [0, 1].map(|axis| self.to[axis].next_multiple_of(TILE).min(resolution[axis]));
+        Region { from: self.from.map(|x| x / TILE * TILE), to }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn corners_come_in_any_order_and_edges_do_not_overlap() {
+        let region = Region::between([40, 10], [31, 12]);
+        assert_eq!(region, Region { from: [31, 10], to: [41, 13] });
+        assert!(region.meets([0, 0], [32, 32]) && region.meets([32, 0], [32, 32]));
+        assert!(!region.meets([41, 0], [32, 32]) && !region.meets([32, 13], [32, 32]));
+        assert_eq!(region.in_tiles([60, 100]), Region { from: [0, 0], to: [60, 32] });
+    }
+}

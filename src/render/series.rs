@@ -1,0 +1,91 @@
+//! The picture as a series: sums of samples by the number of reflections, and what share of the light each number brings.
+use rayon::prelude::*;
+
+use super::{film::Film, tile::Tile};
+use crate::integrator::{SHARES, TERMS, TILE, Terms};
+
+/// Sums of one tile, kept only while somebody looks at the series.
+pub(super) struct TileSeries {
+    /// A picture of the tile for each term, row by row.
+    sums: [Vec<[f32; 3]>; TERMS],
+    light: [f64; SHARES],
+}
+
+/// What each number of reflections adds to a picture.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Series {
+    /// Mean radiance of light reflected k times, in the last of [`TERMS`] that of all the rest; row by row from the top left.
+    pub terms: Vec<Vec<[f32; 3]>>,
+    /// The part of the picture's luminance that k reflections bring, in the last of [`SHARES`] that of all the rest.
+    pub shares: Vec<f64>,
+}
+
+impl TileSeries {
+    pub fn new(pixels: usize) -> TileSeries {
+        TileSeries { sums: std::array::from_fn(|_| vec![[0.0; 3]; pixels]), light: [0.0; SHARES] }
+    }
+
+    /// Adds a sample of every pixel; `radiance` is all of it by slot = row · [`TILE`] + column.
+    pub fn add(&mut self, [width, height]: [u32; 2], terms: &Terms, radiance: &[[f32; 4]]) {
+        for (k, sums) in self.sums.iter_mut().enumerate() {
+            for (row, sums) in (0..height).zip(sums.chunks_mut(width as usize)) {
+                for (column, sum) in sums.iter_mut().enumerate() {
+                    let slot = (row * TILE) as usize + column;
+                    let term = terms.term(k, slot, radiance[slot]);
+                    // What is no number is dropped here too; the film counts it.
+                    if radiance[slot].iter().all(|c| c.is_finite()) {
+                        (0..3).for_each(|c| sum[c] += term[c]);
+                    }
+                }
+            }
+        }
+        self.light.iter_mut().zip(terms.light()).for_each(|(sum, light)| *sum += light);
+    }
+}
+
+impl Series {
+    /// The series of a film that keeps one.
+    pub(super) fn of_film(film: &Film) -> Option<Series> {
+        film.tiles.first()?.series.as_ref()?;
+        let width = film.resolution[0] as usize;
+        let rows: Vec<&[Tile]> = film.tile_rows().collect();
+        let term = |k: usize| {
+            let mut picture = vec![[0.0; 3]; width * film.resolution[1] as usize];
+            picture.par_chunks_mut(width * TILE as usize).zip(&rows).for_each(|(band, tiles)| {
+                tiles.iter().for_each(|tile| place(tile, k, width, band));
+            });
+            picture
+        };
+        let light =
+            |k: usize| film.tiles.iter().filter_map(|tile| Some(tile.series.as_ref()?.light[k] / f64::from(tile.spp))).sum();
+        let lights: Vec<f64> = (0..SHARES).map(light).collect();
+        let all: f64 = lights.iter().sum();
+        let shares = lights.into_iter().map(|light| if all > 0.0 { light / all } else { 0.0 }).collect();
+        Some(Series { terms: (0..TERMS).map(term).collect(), shares })
+    }
+
+    /// The part of the light that a cap of `n` reflections would lose.
+    pub fn lost_by_cap(&self, n: usize) -> f64 {
+        self.shares.iter().skip(n + 1).sum()
+    }
+
+    /// Mean radiance of light reflected at most `k` times.
+    pub fn up_to(&self, k: usize) -> Vec<[f32; 3]> {
+        let mut sum = self.terms.first().cloned().unwrap_or_default();
+        for term in self.terms.iter().take(k + 1).skip(1) {
+            sum.iter_mut().zip(term).for_each(|(sum, term)| *sum = std::array::from_fn(|c| sum[c] + term[c]));
+        }
+        sum
+    }
+}
+
+/// Writes the means of one term of a tile into its band of the picture.
+fn place(tile: &Tile, k: usize, width: usize, band: &mut [[f32; 3]]) {
+    let Some(series) = &tile.series else { return };
+    let scale = 1.0 / tile.spp as f32;
+    let rows = series.sums[k].chunks(tile.size[0] as usize);
+    for (row, sums) in rows.enumerate() {
+        let start = row * width + tile.origin[0] as usize;
+        band[start..start + sums.len()].iter_mut().zip(sums).for_each(|(mean, sum)| *mean = sum.map(|c| c * scale));
+    }
+}

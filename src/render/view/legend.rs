@@ -1,0 +1,138 @@
+//! What the colours of a view mean.
+use super::{
+    Field, Look, Sources, View,
+    field::{category, map_of},
+};
+use crate::render::colour_map::ColourMap;
+
+/// What stands beside a view.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Legend {
+    pub title: String,
+    /// Where numbers have colours.
+    pub scale: Option<Scale>,
+    /// Colours by name, 8-bit sRGB.
+    pub entries: Vec<([u8; 3], String)>,
+}
+
+/// A scale of numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scale {
+    pub map: ColourMap,
+    /// The numbers at its ends.
+    pub ends: [f32; 2],
+    pub log: bool,
+    pub unit: &'static str,
+}
+
+/// More names than these do not fit.
+const MOST_ENTRIES: usize = 10;
+
+impl Scale {
+    /// Where a number lies, from 0 to 1.
+    pub fn place(&self, x: f32) -> f32 {
+        let [low, high] = self.ends;
+        let place = if self.log { (x.max(f32::MIN_POSITIVE) / low).ln() / (high / low).ln() } else { (x - low) / (high - low) };
+        place.clamp(0.0, 1.0)
+    }
+
+    /// The number at a place from 0 to 1.
+    pub fn number(&self, place: f32) -> f32 {
+        let [low, high] = self.ends;
+        if self.log { low * (high / low).powf(place) } else { low + (high - low) * place }
+    }
+}
+
+impl Legend {
+    pub(super) fn of(look: Look, sources: &Sources, field: &Field) -> Legend {
+        let view = look.view;
+        let title = match field {
+            Field::Missing => missing(view),
+            _ => view.name(),
+        };
+        let mut legend = Legend { title: title.to_owned(), scale: None, entries: Vec::new() };
+        match (view, field) {
+            (View::Materials, Field::Colours(_)) => legend.entries = materials(sources),
+            (_, Field::Numbers(numbers)) => {
+                legend.scale = sources.scale.or_else(|| Some(scale(view, numbers, map_of(view, look.map))));
+            }
+            _ => {}
+        }
+        legend
+    }
+}
+
+/// What to do where a view has nothing to show.
+fn missing(view: View) -> &'static str {
+    match view {
+        View::ZScore => "No truth here: open a scene with [truth], or drop a reference EXR of this size",
+        View::Difference => "Nothing of this size is pinned: press Pin",
+        _ => "Coming …",
+    }
+}
+
+fn scale(view: View, numbers: &[f32], map: ColourMap) -> Scale {
+    let (ends, log, unit) = match view {
+        View::ZScore => ([-4.0, 4.0], false, "σ"),
+        View::Difference => ([-1.0, 1.0], false, "of the pinned radiance"),
+        View::SampleCount => ([0.0, numbers.iter().copied().fold(1.0, f32::max)], false, "samples"),
+        View::StandardError => (decades(numbers), true, "W/(sr·m²)"),
+        View::HitCost => ([0.0, round_up(part_below(numbers, 0.99))], false, "ns a ray"),
+        _ => ([0.0, round_up(part_below(numbers, 1.0))], false, "m"),
+    };
+    Scale { map, ends, log, unit }
+}
+
+/// The number below which this part of the finite ones lies.
+fn part_below(numbers: &[f32], part: f64) -> f32 {
+    let mut finite: Vec<f32> = numbers.iter().copied().filter(|x| x.is_finite()).collect();
+    if finite.is_empty() {
+        return 1.0;
+    }
+    let place = ((finite.len() - 1) as f64 * part) as usize;
+    *finite.select_nth_unstable_by(place, f32::total_cmp).1
+}
+
+/// The next larger of 1, 2 and 5 times a power of ten, so that the scale stays as it is while numbers change a little.
+fn round_up(x: f32) -> f32 {
+    let x = x.max(1e-30);
+    let decade = 10f32.powf(x.log10().floor());
+    [1.0, 2.0, 5.0].into_iter().map(|m| m * decade).find(|candidate| *candidate >= x * 0.999).unwrap_or(10.0 * decade)
+}
+
+/// Powers of ten around all but the outermost of the positive numbers, at least two decades.
+fn decades(numbers: &[f32]) -> [f32; 2] {
+    let positive: Vec<f32> = numbers.iter().copied().filter(|x| *x > 0.0).collect();
+    if positive.is_empty() {
+        return [0.01, 1.0];
+    }
+    let high = part_below(&positive, 0.99).log10().ceil();
+    let low = part_below(&positive, 0.02).log10().floor().min(high - 2.0).max(high - 6.0);
+    [10f32.powf(low), 10f32.powf(high)]
+}
+
+/// The materials that are seen, most seen first.
+fn materials(sources: &Sources) -> Vec<([u8; 3], String)> {
+    let Some(features) = sources.features else { return Vec::new() };
+    let mut seen = vec![0usize; sources.materials.len()];
+    features.material.iter().for_each(|id| seen.get_mut(*id as usize).into_iter().for_each(|count| *count += 1));
+    let mut ids: Vec<usize> = (0..seen.len()).filter(|id| seen[*id] > 0).collect();
+    ids.sort_by_key(|id| std::cmp::Reverse(seen[*id]));
+    ids.into_iter().take(MOST_ENTRIES).map(|id| (category(id as u32), sources.materials[id].clone())).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_and_numbers_are_inverse_and_ends_are_round() {
+        let log = Scale { map: ColourMap::Viridis, ends: [0.01, 100.0], log: true, unit: "" };
+        assert!((log.place(1.0) - 0.5).abs() < 1e-6 && (log.number(0.25) - 0.1).abs() < 1e-6);
+        let linear = Scale { ends: [-4.0, 4.0], log: false, ..log };
+        assert_eq!((linear.place(-9.0), linear.place(0.0), linear.number(0.75)), (0.0, 0.5, 2.0));
+        assert_eq!([0.9, 1.0, 1.2, 3.0, 700.0].map(round_up), [1.0, 1.0, 2.0, 5.0, 1000.0]);
+        assert_eq!(decades(&[0.0, f32::NAN]), [0.01, 1.0]);
+        assert_eq!(decades(&[0.02, 0.5, 30.0, 0.3]), [0.01, 1.0]);
+    }
+}

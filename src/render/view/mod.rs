@@ -1,0 +1,104 @@
+//! What can be looked at besides radiance: noise, numbers of samples, scores, differences, and what a camera ray meets first.
+mod field;
+mod legend;
+mod scores;
+
+use serde::Serialize;
+
+pub use self::{
+    field::Field,
+    legend::{Legend, Scale},
+    scores::Scores,
+};
+use super::{colour_map::ColourMap, display::to_srgb, frame::Frame, tone::Display, truth::Reference};
+use crate::integrator::Features;
+
+/// A way of looking at a picture.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize)]
+pub enum View {
+    #[default]
+    Radiance,
+    StandardError,
+    SampleCount,
+    ZScore,
+    Difference,
+    Normals,
+    Albedo,
+    Depth,
+    HitCost,
+    Materials,
+}
+
+impl View {
+    /// The catalogue: view, name, and one sentence for the window.
+    pub const ALL: [(View, &'static str, &'static str); 10] = [
+        (View::Radiance, "Radiance", "The picture itself: L_o of the equation at every pixel, through exposure and tone map."),
+        (
+            View::StandardError,
+            "Standard error",
+            "How far each pixel's mean is likely to be off, from the variance of its samples.",
+        ),
+        (View::SampleCount, "Sample count", "How many samples N each pixel has: more where they are adaptive, or in a region."),
+        (View::ZScore, "Z-score", "(estimate − truth)/standard error: noise without structure if the picture is right."),
+        (View::Difference, "Difference to pinned", "Radiance less that of the pinned picture, in parts of the pinned one."),
+        (View::Normals, "Normals", "The shading normal n that a camera ray meets first: red is x, green y, blue z."),
+        (View::Albedo, "Albedo", "The colour that the bsdf f has where a camera ray meets it first."),
+        (View::Depth, "Depth", "The distance to x_M, the first surface along a camera ray, in metres."),
+        (View::HitCost, "Hit cost", "How long it takes to find that first surface, in nanoseconds a ray, as measured."),
+        (View::Materials, "Materials", "Which material a camera ray meets first."),
+    ];
+
+    pub fn name(self) -> &'static str {
+        Self::ALL.iter().find(|(view, _, _)| *view == self).map_or("", |(_, name, _)| name)
+    }
+
+    /// Whether it shows what camera rays meet, and not samples.
+    pub fn shows_features(self) -> bool {
+        matches!(self, View::Normals | View::Albedo | View::Depth | View::HitCost | View::Materials)
+    }
+}
+
+/// What views are made of. What is missing is shown as grey.
+#[derive(Clone, Copy)]
+pub struct Sources<'a> {
+    pub frame: &'a Frame,
+    /// The radiance to show in place of the frame's own, as long as that: a term of its series.
+    pub radiance: Option<&'a [[f32; 3]]>,
+    pub truth: Option<&'a Reference>,
+    pub pinned: Option<&'a Frame>,
+    pub features: Option<&'a Features>,
+    /// The scale of another picture that this one is seen beside, in place of its own.
+    pub scale: Option<Scale>,
+    /// By number, for the legend.
+    pub materials: &'a [String],
+}
+
+/// How views are shown.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Look {
+    pub view: View,
+    pub map: ColourMap,
+    pub display: Display,
+}
+
+/// A view as 8-bit sRGB into `pixels`, row by row from the top left, in place of what was there; and what its colours mean.
+pub fn draw(look: Look, sources: &Sources, pixels: &mut Vec<[u8; 4]>) -> Option<Legend> {
+    if look.view == View::Radiance {
+        to_srgb(sources.radiance.unwrap_or(&sources.frame.radiance), look.display, pixels);
+        return None;
+    }
+    let field = Field::of(look.view, sources);
+    let legend = Legend::of(look, sources, &field);
+    pixels.clear();
+    match &field {
+        Field::Missing => pixels.resize(sources.frame.radiance.len(), [96, 96, 96, 255]),
+        Field::Colours(colours) => pixels.extend(colours.iter().map(|[r, g, b]| [*r, *g, *b, 255])),
+        Field::Numbers(numbers) => {
+            let table = legend.scale.as_ref().map_or(look.map, |scale| scale.map).table();
+            let place = |x: f32| legend.scale.as_ref().map_or(0.0, |scale| scale.place(x));
+            let colour = |x: &f32| if x.is_nan() { [96, 96, 96, 255] } else { table[(place(*x) * 255.0).round() as usize] };
+            pixels.extend(numbers.iter().map(colour));
+        }
+    }
+    Some(legend)
+}

@@ -1,0 +1,120 @@
+//! The picture as the series it is, bounce by bounce.
+use egui::{Color32, RichText, Sense, Slider, Ui, vec2};
+use noisefall::{integrator::TERMS, render::Series};
+
+use super::{app::App, look::Inks};
+
+/// Which part of the series is seen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Bounces {
+    pub reflections: usize,
+    /// Light of at most so many reflections.
+    pub up_to: bool,
+}
+
+impl Default for Bounces {
+    /// The first that is more than the lamps.
+    fn default() -> Bounces {
+        Bounces { reflections: 1, up_to: false }
+    }
+}
+
+const LAST: usize = TERMS - 1;
+/// Bars of more reflections than these are one.
+const BARS: usize = 16;
+
+impl App {
+    pub(super) fn bounces_tab(&mut self, ui: &mut Ui) {
+        ui.horizontal(|ui| {
+            let bounces = &mut self.bounces;
+            ui.selectable_value(&mut bounces.up_to, false, "Bounce k alone")
+                .on_hover_text("Tᵏ L_e: light that was reflected exactly k times, term k of the series that solves the equation");
+            ui.selectable_value(&mut bounces.up_to, true, "Bounces up to k")
+                .on_hover_text("L_e + T L_e + … + Tᵏ L_e: the partial sum, which is the picture that a cap of k gives");
+            ui.separator();
+            let label = ui.label("k").on_hover_text("The number of reflections between lamp and eye");
+            ui.add(Slider::new(&mut bounces.reflections, 0..=LAST)).labelled_by(label.id);
+            ui.label(RichText::new(meaning(*bounces)).weak());
+        });
+        let frame = self.frame_beside.clone();
+        let Some(series) = frame.as_ref().and_then(|frame| frame.series.as_ref()) else {
+            ui.add_space(6.0);
+            ui.weak("The terms come with the first sample of every pixel …");
+            return;
+        };
+        ui.add_space(6.0);
+        self.bars(ui, series);
+        ui.add_space(4.0);
+        let k = self.bounces.reflections;
+        let lost = series.lost_by_cap(k);
+        let text = if k == LAST && !self.bounces.up_to {
+            format!("Reflections {LAST} and more bring {} of the light.", percent(series.shares.iter().skip(LAST).sum()))
+        } else {
+            format!(
+                "k = {k} brings {} of the light; up to k it is {}. A cap of {k} would lose {}.",
+                percent(series.shares[k]),
+                percent(1.0 - lost),
+                percent(lost)
+            )
+        };
+        ui.label(RichText::new(text).color(ui.accent()));
+        let spp = frame.as_ref().map_or(0, |frame| frame.spp);
+        ui.weak(format!("After {spp} samples per pixel, with paths of their own. Shares are of the picture's luminance."));
+    }
+
+    /// A bar for the share of each number of reflections; a click chooses it.
+    fn bars(&mut self, ui: &mut Ui, series: &Series) {
+        const HEIGHT: f32 = 64.0;
+        const WIDTH: f32 = 40.0;
+        let most = series.shares.iter().copied().fold(1e-12, f64::max);
+        ui.horizontal(|ui| {
+            ui.spacing_mut().item_spacing.x = 3.0;
+            for k in 0..=BARS {
+                let share = if k < BARS { series.shares[k] } else { series.shares.iter().skip(BARS).sum() };
+                let (rect, response) = ui.allocate_exact_size(vec2(WIDTH, HEIGHT + 32.0), Sense::click());
+                let part = (share / most) as f32;
+                let chosen = k == self.bounces.reflections || (self.bounces.up_to && k < self.bounces.reflections);
+                let colour = if chosen { ui.accent() } else { Color32::GRAY };
+                let base = rect.top() + HEIGHT;
+                let bar = egui::Rect::from_min_max(
+                    egui::pos2(rect.left(), base - HEIGHT * part.clamp(0.0, 1.0)),
+                    egui::pos2(rect.right(), base),
+                );
+                ui.painter().rect_filled(bar, 1.0, colour);
+                let font = egui::FontId::proportional(11.0);
+                let (middle, ink) = (rect.center().x, ui.visuals().text_color());
+                let name = if k < BARS { k.to_string() } else { format!("≥ {BARS}") };
+                let below = |dy: f32| egui::pos2(middle, base + dy);
+                ui.painter().text(below(2.0), egui::Align2::CENTER_TOP, name, font.clone(), ink);
+                ui.painter().text(below(16.0), egui::Align2::CENTER_TOP, short(share), font, ui.visuals().weak_text_color());
+                if response.on_hover_text(format!("{k} reflections: {}", percent(share))).clicked() {
+                    self.bounces.reflections = k.min(LAST);
+                }
+            }
+        });
+    }
+}
+
+/// What is seen, in words.
+fn meaning(Bounces { reflections, up_to }: Bounces) -> String {
+    match (reflections, up_to) {
+        (LAST, true) => "all of the light".to_owned(),
+        (LAST, false) => format!("{LAST} reflections and more"),
+        (0, _) => "lamps and background themselves".to_owned(),
+        (1, false) => "direct light, reflected once".to_owned(),
+        (k, false) => format!("light reflected {k} times"),
+        (k, true) => format!("light reflected at most {k} times"),
+    }
+}
+
+fn percent(x: f64) -> String {
+    if x > 0.0 && x < 1e-4 { "less than 0.01 %".to_owned() } else { format!("{:.2} %", 100.0 * x.max(0.0)) }
+}
+
+fn short(x: f64) -> String {
+    match 100.0 * x {
+        x if x >= 9.95 => format!("{x:.0} %"),
+        x if x >= 0.05 => format!("{x:.1} %"),
+        _ => "–".to_owned(),
+    }
+}

@@ -1,0 +1,164 @@
+//! The plot of errors and its controls.
+use egui::{Color32, RichText, Ui};
+use egui_plot::{AxisHints, GridInput, GridMark, HLine, Legend, Line, LineStyle, Plot, PlotPoints, Points};
+
+use super::history::{Curve, Over, What};
+use crate::viewer::{app::App, look, save_dialog::Target};
+
+/// Distinct for colour-blind readers too, and on dark and light ground (M. Okabe and K. Ito, "Color Universal Design", 2008).
+pub const COLOURS: [Color32; 6] = [
+    Color32::from_rgb(86, 180, 233),
+    Color32::from_rgb(230, 130, 20),
+    Color32::from_rgb(0, 158, 115),
+    Color32::from_rgb(204, 121, 167),
+    Color32::from_rgb(0, 114, 178),
+    Color32::from_rgb(150, 150, 150),
+];
+
+impl App {
+    pub(in crate::viewer) fn convergence(&mut self, ui: &mut Ui) {
+        egui::Panel::right("convergence figures").resizable(false).exact_size(270.0).show(ui, |ui| {
+            egui::ScrollArea::vertical().show(ui, |ui| self.convergence_figures(ui));
+        });
+        self.convergence_plot(ui);
+    }
+
+    fn convergence_figures(&mut self, ui: &mut Ui) {
+        let history = &mut self.history;
+        ui.horizontal(|ui| {
+            ui.selectable_value(&mut history.what, What::Error, "Error").on_hover_text(
+                "Relative error, the root of relMSE: lines as estimated from the samples alone, points as it is against the truth",
+            );
+            ui.selectable_value(&mut history.what, What::Bias, "Bias").on_hover_text(
+                "The mean over the picture less the true one, in standard errors: an unbiased estimate stays within ±2 mostly, \
+                 a biased one leaves it for ever",
+            );
+            ui.separator();
+            ui.selectable_value(&mut history.over, Over::Samples, "over N").on_hover_text("N: samples per pixel");
+            ui.selectable_value(&mut history.over, Over::Seconds, "over time").on_hover_text("Seconds of rendering");
+        });
+        ui.add_space(4.0);
+        let latest = self.link.generation();
+        for (number, curve) in history.curves.iter().enumerate() {
+            let name = history.name(curve);
+            ui.horizontal(|ui| {
+                look::swatch(ui, COLOURS[number % COLOURS.len()]);
+                let text = RichText::new(&name);
+                look::elided(ui, 236.0, if curve.generation == latest { text.strong() } else { text }).on_hover_text(&name);
+            });
+            ui.indent(number, |ui| ui.weak(figures(curve, history.over)));
+        }
+        if history.curves.is_empty() {
+            ui.weak("Curves come with the second sample. Change a setting: the curve of the last one stays.");
+        }
+        ui.add_space(6.0);
+        ui.horizontal(|ui| {
+            let any = !self.history.curves.is_empty();
+            ui.add_enabled_ui(any, |ui| {
+                if ui.button("CSV…").on_hover_text("Save all figures as a table").clicked() {
+                    self.open_save_dialog(Target::CurvesCsv);
+                }
+                if ui.button("SVG…").on_hover_text("Save the plot as a drawing").clicked() {
+                    self.open_save_dialog(Target::CurvesSvg);
+                }
+                if ui.button("Clear").on_hover_text("Forget the curves of earlier settings").clicked() {
+                    self.history.curves.retain(|curve| curve.generation == latest);
+                }
+            });
+        });
+        if self.truth_here().is_none() {
+            ui.add_space(4.0);
+            ui.weak("Drop a reference EXR on the window to see the true error and the bias.");
+        }
+    }
+
+    fn convergence_plot(&self, ui: &mut Ui) {
+        let history = &self.history;
+        let (over, what) = (history.over, history.what);
+        let power = |mark: GridMark, _: &std::ops::RangeInclusive<f64>| label(10f64.powf(mark.value));
+        let plain = |mark: GridMark, _: &std::ops::RangeInclusive<f64>| format!("{:.0}", mark.value);
+        let x = AxisHints::new_x().label(if over == Over::Samples { "samples per pixel N" } else { "seconds" }).formatter(power);
+        let y = AxisHints::new_y().min_thickness(44.0);
+        let y = match what {
+            What::Error => y.label("relative error").formatter(power),
+            What::Bias => y.label("bias in standard errors").formatter(plain),
+        };
+        let plot = Plot::new(("convergence", over == Over::Samples, what == What::Error))
+            .custom_x_axes(vec![x])
+            .custom_y_axes(vec![y])
+            .x_grid_spacer(decades)
+            .legend(Legend::default().position(egui_plot::Corner::LeftBottom))
+            .show_crosshair(false)
+            .allow_scroll(false)
+            .label_formatter(|_| None);
+        let plot = if what == What::Error { plot.y_grid_spacer(decades) } else { plot.include_y(-3.0).include_y(3.0) };
+        plot.show(ui, |plot| {
+            for (number, curve) in history.curves.iter().enumerate() {
+                let (colour, name) = (COLOURS[number % COLOURS.len()], history.name(curve));
+                match what {
+                    What::Error => {
+                        let estimated = logarithms(&curve.errors(over, |moment| moment.estimated));
+                        plot.line(Line::new(name.clone(), estimated).color(colour).width(1.8));
+                        let truth = logarithms(&curve.errors(over, |moment| moment.true_error));
+                        plot.points(Points::new(name, truth).color(colour).radius(2.2));
+                    }
+                    What::Bias => {
+                        let bias = curve.moments.iter().filter_map(|moment| Some([moment.over(over).log10(), moment.bias?]));
+                        plot.line(Line::new(name, PlotPoints::from_iter(bias)).color(colour).width(1.8));
+                    }
+                }
+            }
+            if what == What::Error {
+                let guide = Line::new("ideal: 1/√N", logarithms(&history.guide()));
+                plot.line(guide.color(Color32::GRAY).style(LineStyle::dashed_loose()));
+            } else {
+                for at in [-2.0, 0.0, 2.0] {
+                    plot.hline(HLine::new("", at).color(Color32::GRAY).style(LineStyle::dashed_loose()));
+                }
+            }
+        });
+    }
+}
+
+/// What a curve says in a line.
+fn figures(curve: &Curve, over: Over) -> String {
+    let Some(last) = curve.moments.last() else { return "no samples yet".to_owned() };
+    let percent = |x: f64| format!("{:.2} %", 100.0 * x);
+    let mut text = format!("N {}, {:.1} s, error {}", last.spp, last.seconds, last.estimated.map_or("–".to_owned(), percent));
+    if let Some(error) = last.true_error {
+        text += &format!(", true {}", percent(error));
+    }
+    if let Some(bias) = last.bias {
+        text += &format!(", bias {bias:+.1} σ");
+    }
+    if let Some(slope) = curve.slope(over) {
+        text += &format!(", slope {:.2} ± {:.2}", slope.slope, slope.half_width);
+    }
+    text
+}
+
+fn logarithms(points: &[(f64, f64)]) -> PlotPoints<'static> {
+    PlotPoints::from_iter(points.iter().map(|(x, y)| [x.log10(), y.log10()]))
+}
+
+/// Marks at powers of ten, thinner ones at their multiples.
+fn decades(input: GridInput) -> Vec<GridMark> {
+    let (low, high) = (input.bounds.0.floor() as i32, input.bounds.1.ceil() as i32);
+    // In wide plots multiples would be a grey area.
+    let multiples = if high - low > 8 { 1 } else { 10 };
+    let marks = (low..=high).flat_map(|decade| (1..multiples.max(2)).map(move |m| (decade, m)));
+    marks
+        .map(|(decade, m)| GridMark {
+            value: f64::from(decade) + f64::from(m).log10(),
+            step_size: if m == 1 { 1.0 } else { 0.1 },
+        })
+        .collect()
+}
+
+/// A power of ten as people write it.
+fn label(x: f64) -> String {
+    match x {
+        x if (0.0009..99_999.0).contains(&x) => format!("{}", (x * 1e6).round() / 1e6),
+        x => format!("{x:.0e}"),
+    }
+}

@@ -1,0 +1,50 @@
+//! A path drawn over the picture.
+use egui::{Align2, Color32, FontId, Pos2, Stroke, Ui, vec2};
+use glam::Vec3;
+
+use super::projection::project;
+use crate::viewer::{app::App, canvas::Place, dock::Tab};
+
+const PATH: Color32 = Color32::from_rgb(255, 214, 90);
+const LIGHT: Color32 = Color32::from_rgb(86, 200, 255);
+
+impl App {
+    /// The pixel that is inspected, and the vertices of its path.
+    pub(in crate::viewer) fn draw_path(&self, ui: &Ui, place: &Place) {
+        let Some(pixel) = self.inspector.pixel.filter(|_| self.dock == Some(Tab::Path)) else { return };
+        let painter = ui.painter_at(place.clip);
+        let square = place.of_region(&noisefall::render::Region::between(pixel, pixel)).expand(1.0);
+        painter.rect_stroke(square, 0.0, Stroke::new(1.5, PATH), egui::StrokeKind::Outside);
+        let Some(findings) = self.inspector.findings() else { return };
+        let screen = |p: [f32; 3]| -> Option<Pos2> {
+            let [x, y] = project(&self.camera, Vec3::from(p).as_dvec3())?;
+            Some(place.screen(x, y))
+        };
+        let mut before = square.center();
+        for vertex in &findings.replay.vertices {
+            let Some(at) = vertex.surface.as_ref().and_then(|surface| screen(surface.position)) else {
+                let way = Vec3::from(vertex.origin) + Vec3::from(vertex.direction) * 0.5;
+                if let Some(away) = screen(way.to_array()).filter(|_| vertex.bounce > 0) {
+                    painter.extend(egui::Shape::dashed_line(&[before, away], Stroke::new(1.2, PATH), 5.0, 4.0));
+                }
+                break;
+            };
+            if vertex.bounce > 0 {
+                painter.line_segment([before, at], Stroke::new(3.0, Color32::from_black_alpha(120)));
+                painter.line_segment([before, at], Stroke::new(1.6, PATH));
+            }
+            if let (Some(light), Some(surface)) = (&vertex.light, &vertex.surface) {
+                let seen = light.contribution.iter().any(|c| *c > 0.0);
+                let towards = Vec3::from(surface.position) + Vec3::from(light.direction) * 0.25;
+                if let Some(to) = screen(towards.to_array()) {
+                    let stroke = Stroke::new(1.2, if seen { LIGHT } else { LIGHT.gamma_multiply(0.4) });
+                    painter.extend(egui::Shape::dashed_line(&[at, to], stroke, 3.0, 3.0));
+                }
+            }
+            painter.circle(at, 4.0, PATH, Stroke::new(1.0, Color32::BLACK));
+            let number = vertex.bounce.to_string();
+            painter.text(at + vec2(7.0, -7.0), Align2::LEFT_BOTTOM, number, FontId::proportional(13.0), Color32::WHITE);
+            before = at;
+        }
+    }
+}

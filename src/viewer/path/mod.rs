@@ -1,0 +1,114 @@
+//! The path inspector: the samples of a pixel, and single paths vertex by vertex.
+mod drawing;
+mod findings;
+mod histogram;
+mod projection;
+mod table;
+
+use egui::{RichText, ScrollArea, Ui};
+use noisefall::math::colour::luminance;
+
+pub use self::findings::Inspector;
+use self::findings::{Findings, MOST_SAMPLES};
+use super::{app::App, dock::Tab, look::Inks, number};
+
+impl App {
+    /// A click on the picture.
+    pub(super) fn click(&mut self, pixel: [u32; 2]) {
+        if self.dock == Some(Tab::Path) {
+            self.inspector.look_at(pixel);
+        }
+    }
+
+    /// Has what the inspector shows found, while it is open.
+    pub(super) fn inspect(&mut self) {
+        if let Some(wish) = self.link.wish().filter(|_| self.dock == Some(Tab::Path)) {
+            let spp = self.shown.as_ref().map_or(1, |frame| frame.spp);
+            self.inspector.search(wish, spp);
+        }
+    }
+
+    pub(super) fn path_tab(&mut self, ui: &mut Ui) {
+        let Some(pixel) = self.inspector.pixel else {
+            ui.label("Click a pixel of the picture to see its samples and the paths they came by.");
+            if ui.button("The pixel in the middle").clicked() {
+                let middle = self.camera.resolution.map(|side| side / 2);
+                self.inspector.look_at(middle);
+            }
+            return;
+        };
+        egui::Panel::left("pixel").resizable(false).exact_size(292.0).show(ui, |ui| {
+            ScrollArea::vertical().show(ui, |ui| self.pixel_column(ui, pixel));
+        });
+        let Some(findings) = self.inspector.findings() else {
+            ui.weak("Tracing the samples of this pixel …");
+            return;
+        };
+        let objects = self.link.wish().map_or(&[][..], |wish| &wish.scene.objects);
+        ScrollArea::both().auto_shrink(false).show(ui, |ui| table::show(ui, &findings.replay, objects));
+    }
+
+    fn pixel_column(&mut self, ui: &mut Ui, pixel: [u32; 2]) {
+        let [width, height] = self.camera.resolution;
+        let mut at = pixel;
+        ui.horizontal(|ui| {
+            let label = ui.label("Pixel");
+            for (axis, most) in [(0, width), (1, height)] {
+                let field = number::field(ui, &mut at[axis], 0, 0.0..=f64::from(most.saturating_sub(1)));
+                ui.add(field).labelled_by(label.id);
+            }
+        });
+        if at != pixel {
+            self.inspector.look_at(at);
+        }
+        if let Some((frame, index)) = self.shown.as_ref().and_then(|frame| Some((frame, frame.index_at(pixel)?))) {
+            let y = luminance(frame.radiance[index]);
+            let error = Some(frame.standard_error[index]).filter(|error| error.is_finite());
+            let error = error.map_or_else(String::new, |error| format!(" ± {error:.4}"));
+            ui.label(format!("L = {y:.4}{error}, N = {}", frame.spp_at(index))).on_hover_text(
+                "Luminance of the estimate, its standard error, and the number of samples, of the picture as shown",
+            );
+        }
+        self.sample_choice(ui);
+        let Some(findings) = self.inspector.findings() else { return };
+        if let Some(sample) = histogram::show(ui, findings, self.inspector.sample) {
+            self.inspector.sample = sample;
+        }
+    }
+
+    /// Which sample is seen vertex by vertex.
+    fn sample_choice(&mut self, ui: &mut Ui) {
+        let brightest = self.inspector.findings().map(Findings::brightest);
+        let sample = &mut self.inspector.sample;
+        ui.horizontal(|ui| {
+            let label = ui.label("Sample").on_hover_text("The number of the sample: it and the pixel decide the path, for ever");
+            if ui.add_enabled(*sample > 0, egui::Button::new("◀")).on_hover_text("The sample before").clicked() {
+                *sample -= 1;
+            }
+            let field = number::field(ui, sample, 0, 0.0..=f64::from(u32::MAX));
+            ui.add(field).labelled_by(label.id);
+            if ui.button("▶").on_hover_text("The next sample").clicked() {
+                *sample = sample.saturating_add(1);
+            }
+            if let Some(brightest) = brightest
+                && ui.button("Brightest").on_hover_text("The one that brings most light: where noise comes from").clicked()
+            {
+                *sample = brightest;
+            }
+        });
+    }
+}
+
+/// What is said of paths that are shared.
+fn remark(ui: &mut Ui, alone: Option<[f32; 3]>) {
+    if let Some(alone) = alone {
+        let text =
+            format!("Pixels share what their paths find here. This path alone would have made it {}.", table::colour(alone));
+        ui.label(RichText::new(text).color(ui.warning()));
+    }
+}
+
+/// What fits into the histogram.
+fn count_of(spp: u32) -> u32 {
+    spp.clamp(16, MOST_SAMPLES)
+}

@@ -1,0 +1,134 @@
+//! The terms of a path, a line a vertex, added up as the equation has it.
+use egui::{Grid, RichText, Ui};
+use noisefall::{
+    integrator::{Outcome, Replay, Vertex},
+    scene::Object,
+};
+
+use super::remark;
+use crate::viewer::look::Inks;
+
+/// Columns, and what they say.
+const COLUMNS: [(&str, &str); 14] = [
+    ("k", "Reflections before this vertex"),
+    ("object", "What is met, and of which material"),
+    ("x", "The point met, in metres"),
+    ("β", "Throughput: the product of f cos θ / (p q) so far"),
+    ("L_e", "Radiance emitted here towards the path"),
+    ("w", "MIS weight of the emitted light"),
+    ("+ β w L_e", "What running into it adds to the sample"),
+    ("light sample", "The lamp that was looked for, and whether it is seen"),
+    ("f cos θ_l", "Bsdf and cosine towards it"),
+    ("p_l", "Density of its direction, per solid angle"),
+    ("w_l", "MIS weight of the light sample"),
+    ("+ direct", "What the light sample adds: β f cos θ_l L_e w_l / p_l"),
+    ("ω_i", "The next direction, in the world"),
+    ("f · cos θ / p, q", "Bsdf, cosine, density per solid angle, and roulette's survival probability of that direction"),
+];
+
+pub fn show(ui: &mut Ui, replay: &Replay, objects: &[Object]) {
+    let formula = "L = Σ β (w L_e + w_l f cos θ_l L_e / p_l), β growing by f cos θ / (p q) a vertex";
+    ui.horizontal(|ui| {
+        ui.label(RichText::new(format!("This sample: {}", colour(replay.radiance))).color(ui.accent()).strong());
+        ui.weak(formula);
+    });
+    remark(ui, replay.alone);
+    ui.add_space(2.0);
+    Grid::new("vertices").striped(true).spacing([14.0, 4.0]).show(ui, |ui| {
+        for (name, doc) in COLUMNS {
+            ui.label(RichText::new(name).weak().small()).on_hover_text(doc);
+        }
+        ui.label(RichText::new("Σ").weak().small()).on_hover_text("The sum so far");
+        ui.end_row();
+        for vertex in &replay.vertices {
+            row(ui, vertex, objects);
+        }
+    });
+}
+
+fn row(ui: &mut Ui, vertex: &Vertex, objects: &[Object]) {
+    let cell = |ui: &mut Ui, text: String| ui.label(RichText::new(text).monospace().small());
+    cell(ui, vertex.bounce.to_string());
+    cell(ui, place(vertex, objects));
+    cell(ui, vertex.surface.as_ref().map_or_else(String::new, |surface| vector(surface.position)));
+    cell(ui, colour(vertex.throughput));
+    match &vertex.emission {
+        Some(met) => {
+            cell(ui, colour(met.radiance));
+            cell(ui, format!("{:.3}", met.weight));
+            cell(ui, colour(met.contribution));
+        }
+        None => nothing(ui, 3),
+    }
+    match &vertex.light {
+        Some(light) => {
+            let lamp = light.object.map_or_else(|| "background".to_owned(), |id| name(objects, id));
+            let outcome = match light.outcome {
+                Outcome::Seen => "seen",
+                Outcome::Hidden => "hidden",
+                Outcome::Void => "no use",
+            };
+            cell(ui, format!("{lamp}, {outcome}"));
+            cell(ui, colour(light.f_cos));
+            cell(ui, short(light.pdf));
+            cell(ui, format!("{:.3}", light.weight));
+            cell(ui, colour(light.contribution));
+        }
+        None => nothing(ui, 5),
+    }
+    match &vertex.reflection {
+        Some(next) => {
+            cell(ui, vector(next.direction));
+            let f = match (next.f, next.pdf) {
+                (Some(f), Some(pdf)) if !next.delta => format!("{} · {:.3} / {}", colour(f), next.cos, short(pdf)),
+                _ => format!("δ, weight {}", colour(next.weight)),
+            };
+            let end = match (next.survives, next.goes_on) {
+                (false, _) => ", ended by roulette",
+                (true, false) => ", ends",
+                _ => "",
+            };
+            cell(ui, format!("{f}, q {:.2}{end}", next.survival));
+        }
+        None => nothing(ui, 2),
+    }
+    cell(ui, colour(vertex.radiance));
+    ui.end_row();
+}
+
+fn nothing(ui: &mut Ui, columns: usize) {
+    for _ in 0..columns {
+        ui.weak("–");
+    }
+}
+
+/// What a vertex lies on.
+fn place(vertex: &Vertex, objects: &[Object]) -> String {
+    let Some(object) = vertex.object else { return "leaves the scene".to_owned() };
+    let material = vertex.surface.as_ref().and_then(|surface| surface.material).unwrap_or("black");
+    format!("{} ({material})", name(objects, object))
+}
+
+fn name(objects: &[Object], id: u32) -> String {
+    let name = objects.get(id as usize).map_or("", |object| object.name.as_str());
+    if name.is_empty() { format!("object {}", id + 1) } else { name.to_owned() }
+}
+
+/// A colour in three numbers, or in one where they are the same.
+pub fn colour([r, g, b]: [f32; 3]) -> String {
+    if r == g && g == b { short(r) } else { format!("{} {} {}", short(r), short(g), short(b)) }
+}
+
+fn vector([x, y, z]: [f32; 3]) -> String {
+    format!("{x:.3} {y:.3} {z:.3}")
+}
+
+/// Four digits that count, as short as they can be.
+fn short(x: f32) -> String {
+    match x.abs() {
+        0.0 => "0".to_owned(),
+        0.001..10.0 => format!("{x:.3}"),
+        10.0..1000.0 => format!("{x:.1}"),
+        _ => format!("{x:.1e}"),
+    }
+}

@@ -1,0 +1,62 @@
+//! What the window remembers of its user from one time to the next.
+use std::path::{Path, PathBuf};
+
+use noisefall::file::replace;
+use serde::{Deserialize, Serialize};
+
+const FILE: &str = "window.toml";
+
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Remembered {
+    /// The tour has been seen, or ended.
+    pub toured: bool,
+    /// "dark" or "light"; as the system has it where nothing is said.
+    pub theme: Option<String>,
+}
+
+/// What is remembered, and where. A folder that cannot be read or written is no reason to bother anybody.
+#[derive(Default)]
+pub struct Preferences {
+    pub now: Remembered,
+    folder: Option<PathBuf>,
+}
+
+impl Preferences {
+    /// Those of this user.
+    pub fn of_user() -> Preferences {
+        let folder = directories::ProjectDirs::from("", "", "noisefall").map(|folders| folders.config_dir().to_owned());
+        folder.map_or_else(Preferences::default, |folder| Preferences::in_folder(&folder))
+    }
+
+    pub fn in_folder(folder: &Path) -> Preferences {
+        let text = std::fs::read_to_string(folder.join(FILE)).unwrap_or_default();
+        Preferences { now: toml::from_str(&text).unwrap_or_default(), folder: Some(folder.to_owned()) }
+    }
+
+    /// Changes what is remembered, and writes it down.
+    pub fn change(&mut self, change: impl FnOnce(&mut Remembered)) {
+        let before = self.now.clone();
+        change(&mut self.now);
+        let Some(folder) = self.folder.as_ref().filter(|_| self.now != before) else { return };
+        let text = toml::to_string(&self.now).unwrap_or_default();
+        let _ = std::fs::create_dir_all(folder).and_then(|()| replace(folder, FILE, text.as_bytes()));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_changed_is_found_again_and_nonsense_is_forgotten() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let inner = folder.path().join("noisefall");
+        let mut preferences = Preferences::in_folder(&inner);
+        assert_eq!(preferences.now, Remembered::default());
+        preferences.change(|now| (now.toured, now.theme) = (true, Some("light".to_owned())));
+        assert_eq!(Preferences::in_folder(&inner).now, preferences.now);
+        std::fs::write(inner.join(FILE), "toured = 7").expect("it is written");
+        assert_eq!(Preferences::in_folder(&inner).now, Remembered::default());
+    }
+}

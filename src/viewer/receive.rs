@@ -1,0 +1,153 @@
+//! Taking in what the threads have finished: scenes, pictures, saved files.
+use std::sync::Arc;
+
+use egui::{TextureHandle, TextureOptions};
+use noisefall::{
+    render::{Budget, Frame, truth::Reference},
+    scene::Camera,
+};
+
+use super::{
+    app::App,
+    catalogue,
+    convergence::Moment,
+    darkroom::{Order, Print, Term},
+    dock::Tab,
+    loader::Opened,
+};
+
+impl App {
+    pub(super) fn receive(&mut self) {
+        match self.loader.take() {
+            Some(Ok(opened)) => self.open(opened),
+            Some(Err(report)) => self.scene_error = Some(report),
+            None => {}
+        }
+        match self.loader.take_reference() {
+            Some(Ok((name, reference))) => self.take_reference(name, reference),
+            Some(Err(error)) => self.tell(error, true),
+            None => {}
+        }
+        match self.saver.take() {
+            Some(Ok(path)) => {
+                self.tell(format!("Saved {}", path.display()), false);
+                self.last_saved = Some(path);
+            }
+            Some(Err(error)) => self.tell(format!("Not saved: {error}"), true),
+            None => {}
+        }
+        let beside = self.link.latest_beside();
+        self.status_beside = beside.status;
+        let is_there = self.companion().is_some() && beside.frame.generation == self.link.generation_beside();
+        self.frame_beside = Some(beside.frame).filter(|frame| is_there && !frame.radiance.is_empty());
+        let published = self.link.latest();
+        self.status = published.status;
+        self.order(published.frame);
+        if let Some(print) = self.darkroom.take() {
+            self.hang(print);
+        }
+    }
+
+    /// Has the latest frames developed.
+    fn order(&mut self, frame: Arc<Frame>) {
+        let compare = self.comparison();
+        let beside = self.frame_beside.clone().filter(|_| compare.is_some());
+        let term = self.frame_beside.clone().filter(|_| self.dock == Some(Tab::Bounces));
+        let view = compare.and_then(|compare| compare.view());
+        let pinned = if view.is_some() { beside.clone() } else { self.pinned.clone() };
+        let look = noisefall::render::view::Look { view: view.unwrap_or(self.look.view), ..self.look };
+        let wish = self.link.wish().map(|wish| (wish.scene.clone(), wish.camera));
+        let features = wish.filter(|_| look.view.shows_features()).and_then(|(scene, camera)| self.finder.of(&scene, &camera));
+        self.darkroom.order(Order {
+            truth: self.truth(&frame),
+            term: term.map(|of| Term { of, reflections: self.bounces.reflections, up_to: self.bounces.up_to }),
+            frame,
+            beside,
+            look,
+            pinned,
+            features,
+            materials: self.opened.as_ref().map_or_else(|| Arc::from([]), |opened| opened.materials.clone()),
+            most_side: self.ctx.input(|input| input.max_texture_side),
+        });
+    }
+
+    /// Shows what was developed, and notes its figures.
+    fn hang(&mut self, print: Print) {
+        set(&self.ctx, &mut self.textures[0], "picture", Some(print.image));
+        set(&self.ctx, &mut self.textures[1], "picture beside", print.image_beside);
+        (self.against, self.against_beside) = (print.truth, print.truth_beside);
+        (self.legend, self.scores, self.black) = (print.legend, print.scores, print.black);
+        self.pixels = print.pixels;
+        if let Some(wish) = self.link.wish() {
+            self.history.look_at(&wish.scene, &wish.camera);
+            let frame = &print.frame;
+            if frame.generation == self.link.generation() && !frame.is_coarse() {
+                self.history.record(&wish.settings, frame.generation, Moment::of(frame, print.truth));
+            }
+            let beside =
+                print.beside.as_ref().filter(|frame| frame.generation == self.link.generation_beside() && !frame.is_coarse());
+            if let (Some(frame), Some(compare)) = (beside, self.compare) {
+                self.history.record(&compare.other, frame.generation, Moment::of(frame, print.truth_beside));
+            }
+        }
+        self.shown = Some(print.frame);
+    }
+
+    /// The likeliest reason why what is shown is black, if it is.
+    pub(super) fn why_black(&self) -> Option<String> {
+        let wish = self.link.wish().filter(|_| self.black)?;
+        Some(wish.scene.why_black(&wish.camera, &wish.settings))
+    }
+
+    /// What a frame must converge to.
+    fn truth(&self, frame: &Frame) -> Option<Arc<Reference>> {
+        self.truth_here().filter(|_| frame.generation == self.link.generation())
+    }
+
+    /// What the picture must converge to: what was dropped on the window, or what the scene says, which is known for the scene's own
+    /// camera only.
+    pub(super) fn truth_here(&self) -> Option<Arc<Reference>> {
+        if let Some((_, reference)) = &self.dropped_truth {
+            return Some(reference.clone());
+        }
+        let (opened, wish) = (self.opened.as_ref()?, self.link.wish()?);
+        let of_scene = Camera { resolution: wish.camera.resolution, ..opened.scene.camera };
+        let is_of_scene = wish.camera == of_scene && Arc::ptr_eq(&wish.scene, &opened.scene);
+        opened.truth.clone().filter(|_| is_of_scene)
+    }
+
+    fn take_reference(&mut self, name: String, reference: Arc<Reference>) {
+        if let Some(mismatch) = reference.mismatch(self.camera.resolution) {
+            self.tell(format!("{name}: {mismatch}. Set the resolution to that of the reference."), true);
+        } else {
+            self.tell(format!("The picture is now held against {name}"), false);
+        }
+        self.dropped_truth = Some((name, reference));
+    }
+
+    fn open(&mut self, opened: Opened) {
+        let scene = &opened.scene;
+        if self.opened.as_ref().is_none_or(|before| before.path != opened.path) {
+            // What suited another scene's light says nothing about this one's.
+            self.look.display.exposure = 0.0;
+        }
+        if let Some(path) = &opened.path {
+            catalogue::remember(&mut self.catalogue, &opened.name, path);
+        }
+        self.ctx.send_viewport_cmd(egui::ViewportCommand::Title(format!("{} – Noisefall", opened.name)));
+        (self.camera, self.settings) = (scene.camera, scene.settings);
+        self.budget = Budget { max_spp: scene.spp, steps: self.budget.steps, ..Budget::default() };
+        (self.compare, self.pinned, self.dropped_truth) = (None, None, None);
+        self.scene_error = None;
+        self.view.fit();
+        self.opened = Some(opened);
+    }
+}
+
+/// Puts an image into a texture, or takes it away.
+fn set(ctx: &egui::Context, texture: &mut Option<TextureHandle>, name: &str, image: Option<egui::ColorImage>) {
+    match (texture, image) {
+        (Some(texture), Some(image)) => texture.set(image, TextureOptions::NEAREST),
+        (texture, image) => *texture = image.map(|image| ctx.load_texture(name, image, TextureOptions::NEAREST)),
+    }
+}

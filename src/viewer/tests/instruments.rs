@@ -1,0 +1,203 @@
+//! The instruments: convergence, comparison, bounces, views, region, targets.
+use noisefall::render::view::View as Shown;
+
+use super::*;
+use crate::viewer::{compare::Layout, dock::Tab};
+
+/// A window with a small picture, most of whose height is the picture's.
+fn with_tab(scene: &str, tab: &str) -> Window {
+    let mut window = window(scene);
+    window.get_by_role_and_label(Role::Button, tab).click();
+    window.run_steps(3);
+    window
+}
+
+fn press(window: &mut Window, key: Key) {
+    window.key_press(key);
+    window.run_steps(3);
+}
+
+fn check_box(window: &mut Window, label: &str) {
+    window.get_by_role_and_label(Role::CheckBox, label).click();
+    window.run_steps(2);
+}
+
+#[test]
+fn curves_of_other_settings_stay_and_those_of_other_cameras_go() {
+    let mut window = with_tab("furnace", "Convergence");
+    let grown = |window: &mut Window, curves: usize| {
+        wait(window, "a curve", |app| {
+            app.history.curves.len() == curves && app.history.curves.last().is_some_and(|curve| curve.moments.len() >= 3)
+        });
+    };
+    grown(&mut window, 1);
+    let moment = *window.state().history.curves[0].moments.last().expect("it has some");
+    assert!(moment.estimated.is_some() && moment.true_error.is_some() && moment.bias.is_some(), "{moment:?}");
+    restarts(&mut window, "independent samples", |w| choose(w, "Sampler", "Independent"));
+    grown(&mut window, 2);
+    window.run_steps(2);
+    assert!(window.query_all_by_label("sampler independent").count() > 0, "curves are named by what differs");
+    window.state_mut().camera.fov = 50.0;
+    grown(&mut window, 1);
+}
+
+#[test]
+fn curves_are_saved_as_table_and_as_drawing() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = with_tab("furnace", "Convergence");
+    wait(&mut window, "a curve", |app| app.history.curves.first().is_some_and(|curve| curve.moments.len() >= 3));
+    for (button, name, start) in [("CSV…", "curves.csv", "settings,spp,seconds"), ("SVG…", "plot.svg", "<svg")] {
+        let path = folder.path().join(name);
+        click(&mut window, button);
+        window.get_by_role(Role::TextInput).set_text_value_accesskit(&path.display().to_string());
+        window.run_steps(3);
+        click(&mut window, "Save");
+        wait(&mut window, name, |_| path.is_file());
+        let text = std::fs::read_to_string(&path).expect("it is there");
+        assert!(text.starts_with(start) && text.lines().count() > 3, "{text}");
+    }
+}
+
+#[test]
+fn a_comparison_starts_with_one_click_and_both_sides_converge() {
+    let mut window = window("cornell_spheres");
+    never_restarts(&mut window, |w| {
+        click(w, "Compare with…");
+        click(w, "Path sampling");
+    });
+    assert_eq!(window.state().dock, Some(Tab::Compare));
+    let other = window.state().compare.expect("it compares").other;
+    assert_eq!((other.estimator, window.state().settings.estimator), (Estimator::Path, Estimator::Mis));
+    wait(&mut window, "both", |app| app.status.spp >= 4 && app.status_beside.spp >= 4 && app.textures[1].is_some());
+    window.run_steps(3);
+    assert!(window.query_by_label_contains("times as efficient").is_some());
+    assert_eq!(window.state().history.curves.len(), 2, "each has its curve");
+
+    click(&mut window, "Side by side");
+    assert_eq!(window.state().compare.map(|compare| compare.layout), Some(Layout::SideBySide));
+    click(&mut window, "Difference");
+    wait(&mut window, "the difference", |app| app.legend.as_ref().is_some_and(|legend| legend.title.starts_with("Difference")));
+    click(&mut window, "Wipe");
+    let line = window.state().view.wipe;
+    let tools = window.get_by_label("Fit").rect();
+    let [middle, height] = [(1280.0 - 336.0) / 2.0, tools.bottom() + 100.0];
+    never_restarts(&mut window, |w| drag(w, PointerButton::Primary, [middle, height], [middle - 100.0, height]));
+    assert!(window.state().view.wipe < line - 0.05 && window.state().view.zoom.is_none(), "the line moved, and not the picture");
+
+    let before = window.state().status_beside.generation;
+    click(&mut window, "B");
+    click(&mut window, "Light");
+    wait(&mut window, "the other side anew", |app| app.status_beside.generation > before);
+    let app = window.state();
+    assert_eq!((app.compare.map(|c| c.other.estimator), app.settings.estimator), (Some(Estimator::Light), Estimator::Mis));
+    restarts(&mut window, "the other side alone", |w| click(w, "Keep B"));
+    assert!(window.state().compare.is_none() && window.state().settings.estimator == Estimator::Light);
+}
+
+#[test]
+fn the_picture_is_a_series_and_nothing_is_rendered_for_it_unless_it_is_looked_at() {
+    let mut window = window("furnace");
+    assert_eq!(window.state().status_beside.generation, 0);
+    never_restarts(&mut window, |w| press(w, Key::F4));
+    wait(&mut window, "the series", |app| app.frame_beside.as_ref().is_some_and(|frame| frame.series.is_some()));
+    window.state_mut().bounces.reflections = 2;
+    wait(&mut window, "a term", |app| app.frame_beside.as_ref().is_some_and(|frame| frame.spp >= 8));
+    window.run_steps(5);
+    // Radiance 1 and albedo 0.5: the second term is a quarter everywhere, which has the code 137; an eighth of the light.
+    wait(&mut window, "its pixels", |app| app.pixels.iter().all(|pixel| pixel[..3].iter().all(|c| c.abs_diff(137) < 40)));
+    assert!(window.query_by_label_contains("k = 2 brings 12.").is_some());
+    assert!(window.query_by_label_contains("A cap of 2 would lose 12.").is_some());
+    never_restarts(&mut window, |w| press(w, Key::F4));
+    wait(&mut window, "its end", |app| app.status_beside.generation == 0 && app.frame_beside.is_none());
+}
+
+#[test]
+fn every_view_is_shown_with_a_legend_and_none_restarts() {
+    let mut window = window("furnace");
+    wait(&mut window, "samples", |app| app.status.spp >= 4);
+    never_restarts(&mut window, |w| {
+        for (view, name, _) in Shown::ALL {
+            choose(w, "View", name);
+            assert_eq!(w.state().look.view, view);
+            if view == Shown::Radiance {
+                continue;
+            }
+            if view == Shown::Difference {
+                click(w, "Pin this");
+            }
+            wait(w, name, |app| app.legend.as_ref().is_some_and(|legend| legend.title == name));
+        }
+    });
+    choose(&mut window, "View", "Z-score");
+    wait(&mut window, "scores", |app| app.scores.is_some());
+    choose(&mut window, "View", "Radiance");
+    wait(&mut window, "the picture", |app| app.legend.is_none());
+    press(&mut window, Key::V);
+    assert_eq!(window.state().look.view, Shown::StandardError);
+}
+
+#[test]
+fn a_region_is_dragged_rendered_first_and_cleared() {
+    let mut window = window("cornell_spheres");
+    wait(&mut window, "samples", |app| app.status.spp >= 2);
+    never_restarts(&mut window, |w| {
+        press(w, Key::G);
+        assert_eq!(w.state().tool, Tool::Region);
+        drag(w, PointerButton::Primary, [440.0, 380.0], [500.0, 420.0]);
+    });
+    let region = window.state().budget.region.expect("it is marked");
+    assert!(region.size().iter().all(|side| *side > 0 && *side < 64), "{region:?}");
+    wait(&mut window, "the region", |app| {
+        app.shown.as_ref().is_some_and(|frame| frame.counts.iter().any(|count| *count > frame.spp))
+    });
+    never_restarts(&mut window, |w| press(w, Key::Escape));
+    assert!(window.state().budget.region.is_none());
+    wait(&mut window, "the rest", |app| app.shown.as_ref().is_some_and(|frame| frame.counts.is_empty()));
+}
+
+#[test]
+fn targets_by_time_and_noise_stop_the_render_and_never_restart_it() {
+    let mut window = window("bright_sky");
+    never_restarts(&mut window, |w| {
+        check_box(w, "Stop after");
+        check_box(w, "Stop below");
+    });
+    assert_eq!(window.state().budget.max_time, Some(Duration::from_secs(60)));
+    assert_eq!(window.state().budget.noise, Some(0.01));
+    never_restarts(&mut window, |w| w.state_mut().budget.noise = Some(0.5));
+    wait(&mut window, "the target", |app| app.status.state == State::Converged);
+    assert!(window.state().status.spp >= 64, "before that noise is not believed");
+    never_restarts(&mut window, |w| {
+        check_box(w, "Stop below");
+        w.state_mut().budget.max_time = None;
+    });
+    wait(&mut window, "more", |app| app.status.state == State::Running);
+}
+
+#[test]
+fn a_reference_that_is_dropped_gives_true_error_and_bias() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("reference.exr");
+    let mut window = window("cornell_spheres");
+    assert!(window.state().against.is_none());
+    wait(&mut window, "a picture", |app| app.can_save());
+    window.state_mut().save_to(path.clone());
+    wait(&mut window, "the file", |app| app.last_saved.is_some());
+    window.state_mut().loader.read_reference(path);
+    wait(&mut window, "the true error", |app| app.against.is_some());
+    window.state_mut().settings.seed = 9;
+    wait(&mut window, "another picture", |app| {
+        app.against.is_some_and(|against| against.rel_mse > 0.0 && against.bias.is_some()) && app.status.spp >= 2
+    });
+    window.state_mut().camera.resolution = [64, 64];
+    window.run_steps(3);
+    assert!(window.query_by_label_contains("true error unknown").is_some());
+    std::fs::write(folder.path().join("bad.exr"), "no picture").expect("it is written");
+    window.state_mut().loader.read_reference(folder.path().join("bad.exr"));
+    wait(&mut window, "the refusal", |app| app.notices.iter().any(|notice| notice.is_error));
+    window.run_steps(2);
+    window.get_by_label("Copy").click();
+    window.step();
+    let copied = |command: &egui::OutputCommand| matches!(command, egui::OutputCommand::CopyText(text) if text.contains("bad.exr"));
+    assert!(window.output().platform_output.commands.iter().any(copied), "errors can be copied");
+}

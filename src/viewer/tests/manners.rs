@@ -1,0 +1,130 @@
+//! Manners: rest when there is nothing to do, other threads, coalesced drags, the tour, the gallery.
+use super::*;
+use crate::viewer::{dock::Tab, preferences::Preferences};
+
+#[test]
+fn a_hidden_window_renders_nothing_and_goes_on_when_it_is_seen() {
+    let mut window = window("cornell_spheres");
+    window.state_mut().hide(true);
+    wait_without_frames(&window, |app| app.link.latest().status.state == State::Paused);
+    let samples = window.state().link.latest().status.samples;
+    std::thread::sleep(Duration::from_millis(50));
+    assert_eq!(window.state().link.latest().status.samples, samples, "a hidden window works");
+    wait(&mut window, "more samples", |app| app.status.samples > samples && app.status.state == State::Running);
+}
+
+/// Waits for the worker, while no frame is drawn.
+fn wait_without_frames(window: &Window, condition: impl Fn(&App) -> bool) {
+    let start = Instant::now();
+    while !condition(window.state()) {
+        assert!(start.elapsed() < Duration::from_secs(60), "{:?}", window.state().link.latest().status);
+        std::thread::sleep(Duration::from_millis(2));
+    }
+}
+
+#[test]
+fn nothing_is_drawn_where_nothing_changes() {
+    let mut window = window("bright_sky");
+    window.state_mut().budget.max_spp = Some(2);
+    wait(&mut window, "the target", |app| app.status.state == State::Converged);
+    // What is on its way arrives, then no frame asks for another one.
+    for _ in 0..50 {
+        window.step();
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    assert!(!window.ctx.has_requested_repaint(), "{:?}", window.ctx.repaint_causes());
+}
+
+#[test]
+fn the_number_of_threads_never_changes_the_picture() {
+    let mut window = window("cornell_spheres");
+    never_restarts(&mut window, |w| {
+        w.get_by_role_and_label(Role::Slider, "Threads").set_value_accesskit(2.0);
+        w.run_steps(2);
+    });
+    let samples = window.state().status.samples;
+    wait(&mut window, "more samples", |app| app.status.samples > samples);
+}
+
+#[test]
+fn a_dragged_control_asks_for_the_next_picture_when_it_has_seen_the_last() {
+    let mut window = window("cornell_spheres");
+    let at = window.get_by_role_and_label(Role::Slider, "Field of view").rect().center();
+    window.hover_at(at);
+    window.run_steps(2);
+    window.event(egui::Event::PointerButton {
+        pos: at,
+        button: PointerButton::Primary,
+        pressed: true,
+        modifiers: Modifiers::NONE,
+    });
+    window.run_steps(1);
+    let (first, mut seen) = (window.state().link.generation(), 0);
+    for step in 0..60 {
+        window.hover_at(at + vec2(step as f32, 0.0));
+        window.step();
+        seen += usize::from(window.state().link.generation() > first + seen as u64);
+        assert!(window.state().link.generation() <= window.state().status.generation + 1, "pictures pile up");
+    }
+    window.event(egui::Event::PointerButton { pos: at, button: PointerButton::Primary, pressed: false, modifiers: Modifiers::NONE });
+    let fov = window.state().camera.fov;
+    wait(&mut window, "the last one", |app| app.link.wish().is_some_and(|wish| wish.camera.fov == fov));
+}
+
+#[test]
+fn the_tour_shows_noise_bounces_and_roulette_and_is_not_shown_again() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = window("cornell_spheres");
+    window.state_mut().preferences = Preferences::in_folder(folder.path());
+    click(&mut window, "Take the tour");
+    for (title, tab) in [
+        ("This picture is an estimate", Tab::Convergence),
+        ("Light bounces", Tab::Bounces),
+        ("Roulette ends paths, and takes nothing away", Tab::Compare),
+        ("Now you", Tab::Compare),
+    ] {
+        assert!(window.query_by_label(title).is_some(), "{title}");
+        assert_eq!(window.state().dock, Some(tab));
+        if title.starts_with("Roulette") {
+            click(&mut window, "Compare with a cap of 3");
+            assert!(window.state().compare.is_some());
+        }
+        click(&mut window, if title == "Now you" { "Done" } else { "Next" });
+    }
+    assert!(window.state().tour.is_none());
+    assert!(Preferences::in_folder(folder.path()).now.toured);
+}
+
+#[test]
+fn the_gallery_shows_the_scenes_and_opens_one() {
+    let mut window = window("furnace");
+    window.key_press(Key::F6);
+    window.run_steps(5);
+    assert!(window.query_by_label("Open a file…").is_some());
+    window.get_by_role_and_label(Role::Button, "Bright sky: fast to converge").click();
+    window.run_steps(3);
+    wait(&mut window, "the scene", |app| app.opened.as_ref().is_some_and(|opened| opened.name.starts_with("Bright sky")));
+    assert!(!window.state().gallery.open);
+}
+
+#[test]
+fn frame_times_are_shown() {
+    let mut window = window("furnace");
+    window.key_press(Key::F12);
+    window.run_steps(3);
+    assert!(window.query_by_label_contains("p99").is_some());
+}
+
+#[test]
+fn both_themes_can_be_chosen_and_are_remembered() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = window("furnace");
+    window.state_mut().preferences = Preferences::in_folder(folder.path());
+    for (name, dark) in [("Light", false), ("Dark", true)] {
+        // The estimator "Light" comes first.
+        window.get_all_by_role_and_label(Role::Button, name).last().expect("it is there").click();
+        window.run_steps(4);
+        assert_eq!(window.ctx.global_style().visuals.dark_mode, dark);
+        assert_eq!(Preferences::in_folder(folder.path()).now.theme.as_deref(), Some(name.to_lowercase().as_str()));
+    }
+}

@@ -1,0 +1,48 @@
+//! What concerns the window and the machine, and not the picture.
+use egui::{Slider, ThemePreference, Ui};
+
+use super::{
+    app::App,
+    look::{controls, row},
+};
+
+const THEMES: [(ThemePreference, &str); 3] =
+    [(ThemePreference::System, "System"), (ThemePreference::Dark, "Dark"), (ThemePreference::Light, "Light")];
+
+/// As many as the machine has cores.
+pub fn cores() -> usize {
+    std::thread::available_parallelism().map_or(1, usize::from)
+}
+
+impl App {
+    pub(super) fn window_panel(&mut self, ui: &mut Ui) {
+        controls(ui, "window", |ui| {
+            let doc =
+                "Cores that render; one is left for the rest of the machine at first. Another number never changes the picture.";
+            row(ui, "Threads", doc, |ui, label| {
+                let most = cores().max(self.threads);
+                ui.add(Slider::new(&mut self.threads, 1..=most)).labelled_by(label);
+            });
+            row(ui, "Theme", "Light or dark, or as the system has it.", |ui, _| {
+                ui.horizontal(|ui| {
+                    let mut theme = ui.ctx().options(|options| options.theme_preference);
+                    for (preference, name) in THEMES {
+                        if ui.selectable_value(&mut theme, preference, name).clicked() {
+                            ui.ctx().set_theme(preference);
+                            let named = (preference != ThemePreference::System).then(|| name.to_lowercase());
+                            self.preferences.change(|preferences| preferences.theme = named);
+                        }
+                    }
+                });
+            });
+            row(ui, "Frame times", "How long the window itself takes to draw. (F12)", |ui, label| {
+                ui.checkbox(&mut self.pace.shown, "").labelled_by(label);
+            });
+            row(ui, "Tour", "Noise, bounces and roulette in four short pages.", |ui, _| {
+                if ui.button("Take the tour").clicked() {
+                    self.start_tour();
+                }
+            });
+        });
+    }
+}

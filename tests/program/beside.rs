@@ -1,0 +1,119 @@
+//! A second picture beside the first, the picture as a series, a region before the rest, other threads on the way.
+use std::{
+    sync::Arc,
+    time::{Duration, Instant},
+};
+
+use noisefall::{
+    math::SimdLevel,
+    render::{Beside, Budget, Job, Publish, Published, Region, Renderer, State, pass::Threads},
+    scene::{Camera, Estimator, RenderSettings, Reuse, Scene, built_in, load},
+};
+
+fn renderer() -> Renderer {
+    Renderer::new(Threads::new(2, SimdLevel::best()).expect("threads can be had"), Publish::Live, || {})
+}
+
+fn job(generation: u64, scene: &Arc<Scene>, side: u32) -> Job {
+    let camera = Camera { resolution: [side, side], ..scene.camera };
+    Job { generation, scene: scene.clone(), camera, settings: scene.settings }
+}
+
+/// What is published, when it satisfies a condition. The time limit is for a machine that is busy otherwise.
+fn wait(latest: impl Fn() -> Published, condition: impl Fn(&Published) -> bool) -> Published {
+    let start = Instant::now();
+    loop {
+        let published = latest();
+        if condition(&published) {
+            return published;
+        }
+        assert!(start.elapsed() < Duration::from_secs(60), "it never came: {:?}", published.status);
+        std::thread::sleep(Duration::from_millis(1));
+    }
+}
+
+#[test]
+fn two_pictures_get_the_same_time_and_each_is_what_it_is_alone() {
+    let scene = Arc::new(built_in());
+    let renderer = renderer();
+    let other = RenderSettings { estimator: Estimator::Path, ..scene.settings };
+    renderer.submit(job(1, &scene, 96));
+    renderer.submit_beside(Some(Beside::Picture(Job { settings: other, ..job(2, &scene, 96) })));
+    let beside = wait(|| renderer.latest_beside(), |published| published.status.elapsed > Duration::from_millis(600));
+    let first = renderer.latest();
+    let [a, b] = [first, beside].map(|published| published.status.elapsed.as_secs_f64());
+    // No more than a turn of each apart: a turn lasts a twentieth of the time so far, or 33 ms.
+    assert!((a - b).abs() < 0.2 * a.max(b) + 0.2, "{a} and {b} seconds");
+
+    renderer.set_budget(Budget { max_spp: Some(3), ..Budget::default() });
+    renderer.submit_beside(Some(Beside::Picture(Job { settings: other, ..job(3, &scene, 96) })));
+    let done = |generation| {
+        move |published: &Published| {
+            published.status.generation == generation && published.status.state == State::Converged && published.frame.spp >= 3
+        }
+    };
+    let beside = wait(|| renderer.latest_beside(), done(3));
+    renderer.submit(Job { settings: other, ..job(4, &scene, 96) });
+    let alone = wait(|| renderer.latest(), done(4));
+    assert_eq!(beside.frame.radiance, alone.frame.radiance);
+
+    renderer.submit_beside(None);
+    let gone = wait(|| renderer.latest_beside(), |published| published.status.generation == 0);
+    assert!(gone.frame.radiance.is_empty());
+}
+
+#[test]
+fn the_terms_of_a_furnace_are_powers_of_its_albedo() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/furnace.toml");
+    let scene = Arc::new(load(path.as_ref()).expect("it is shipped"));
+    let renderer = renderer();
+    renderer.set_budget(Budget { max_spp: Some(64), ..Budget::default() });
+    renderer.submit_beside(Some(Beside::Series(job(1, &scene, 64))));
+    let published = wait(|| renderer.latest_beside(), |published| published.frame.spp == 64);
+    let series = published.frame.series.as_ref().expect("it was asked for");
+    // Radiance 1 and albedo 0.5: the k-th term is 2⁻ᵏ. Without roulette before the fourth reflection every sample is exact.
+    for (k, term) in series.terms.iter().enumerate().take(4) {
+        let exact = 0.5f32.powi(k as i32);
+        assert!(term.iter().flatten().all(|x| (x / exact - 1.0).abs() < 1e-4), "{k}: {:?}", term[0]);
+        assert!((series.shares[k] * 2.0 / f64::from(exact) - 1.0).abs() < 0.02, "{k}: {}", series.shares[k]);
+    }
+    assert!((series.shares.iter().sum::<f64>() - 1.0).abs() < 1e-9);
+    assert!((series.lost_by_cap(1) - 0.25).abs() < 0.01, "{}", series.lost_by_cap(1));
+    let whole = series.up_to(series.terms.len() - 1);
+    for (sum, radiance) in whole.iter().flatten().zip(published.frame.radiance.iter().flatten()) {
+        assert!((sum / radiance - 1.0).abs() < 1e-4, "{sum} {radiance}");
+    }
+}
+
+#[test]
+fn a_region_is_rendered_first_and_the_rest_catches_up() {
+    let scene = Arc::new(built_in());
+    let renderer = renderer();
+    let region = Region::between([40, 40], [50, 60]);
+    let budget = Budget { max_spp: Some(40), region: Some(region), ..Budget::default() };
+    renderer.set_budget(budget);
+    renderer.submit(job(1, &scene, 128));
+    let ahead = |published: &Published| published.frame.spp_at(45 * 128 + 45) > published.frame.spp + 4;
+    let published = wait(|| renderer.latest(), ahead);
+    assert_eq!(published.frame.spp_at(0), published.frame.spp, "outside nothing is done before");
+    let done = wait(|| renderer.latest(), |published| published.status.state == State::Converged && published.frame.spp == 40);
+    assert!(done.frame.counts.is_empty(), "all pixels have as many samples in the end");
+
+    renderer.set_budget(Budget { max_spp: Some(40), ..Budget::default() });
+    renderer.submit(job(2, &scene, 128));
+    let even = wait(|| renderer.latest(), |published| published.status.generation == 2 && published.frame.spp == 40);
+    assert_eq!(done.frame.radiance, even.frame.radiance, "in which order samples are taken does not matter");
+}
+
+#[test]
+fn other_threads_go_on_with_the_same_picture() {
+    let scene = Arc::new(built_in());
+    let renderer = renderer();
+    let settings = RenderSettings { reuse: Reuse::Off, ..scene.settings };
+    renderer.submit(Job { settings, ..job(1, &scene, 96) });
+    wait(|| renderer.latest(), |published| published.status.spp >= 2);
+    renderer.set_threads(Threads::new(1, SimdLevel::best()).expect("a thread can be had"));
+    let before = renderer.latest().status;
+    let after = wait(|| renderer.latest(), |published| published.status.spp > before.spp + 2);
+    assert_eq!(after.status.generation, 1);
+}
