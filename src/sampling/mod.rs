@@ -42,7 +42,7 @@ pub const SAMPLERS: [SamplerEntry; 4] = [
         sampler: Sampler::Stratified,
         name: "stratified",
         title: "Stratified",
-        doc: "Every 4ᵏ samples fill a 2ᵏ × 2ᵏ grid once each: random numbers without clumps.",
+        doc: "Every 4^k samples fill a grid of 2^k by 2^k once each: random numbers without clumps.",
     },
     SamplerEntry {
         sampler: Sampler::Sobol,

@@ -132,7 +132,7 @@ impl<'a> Builder<'a> {
         if let Some(start) = self.open.iter().position(|open| open == name.as_ref()) {
             let circle: Vec<String> =
                 self.open[start..].iter().chain([&self.open[start]]).map(|name| format!("`{name}`")).collect();
-            return refused(format!("textures in a circle: {}", circle.join(" → ")), "this closes the circle");
+            return refused(format!("textures in a circle: {}", circle.join(" uses ")), "this closes the circle");
         }
         if self.open.len() >= DEEPEST {
             return refused(format!("textures are nested deeper than {DEEPEST}"), "too deep");

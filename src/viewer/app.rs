@@ -13,6 +13,7 @@ use noisefall::{
 };
 
 use super::{
+    advice::Adviser,
     bounces::Bounces,
     canvas::{self, Pictures, Split, Tool},
     catalogue,
@@ -66,8 +67,6 @@ pub struct App {
     pub(super) against_beside: Option<Against>,
     pub(super) legend: Option<Legend>,
     pub(super) scores: Option<Scores>,
-    /// What the screen shows of `shown`.
-    pub(super) pixels: Vec<[u8; 4]>,
     pub(super) history: History,
     /// No sample of what is shown has found light.
     pub(super) black: bool,
@@ -95,6 +94,7 @@ pub struct App {
     /// The page of the tour that is open.
     pub(super) tour: Option<usize>,
     pub(super) preferences: Preferences,
+    pub(super) adviser: Option<Adviser>,
 }
 
 impl App {
@@ -129,7 +129,6 @@ impl App {
             against_beside: None,
             legend: None,
             scores: None,
-            pixels: Vec::new(),
             history: History::default(),
             black: false,
             textures: [None, None],
@@ -151,6 +150,7 @@ impl App {
             inspector: Inspector::new(ctx),
             tour: None,
             preferences,
+            adviser: None,
         }
     }
 
@@ -173,6 +173,7 @@ impl App {
         self.help(&ctx);
         self.scene_error_window(&ctx);
         self.show_gallery(&ctx);
+        self.show_advice(&ctx);
         self.show_tour(&ctx);
         self.show_notices(&ctx);
         self.show_pace(&ctx);
@@ -191,12 +192,12 @@ impl App {
             ui.add_enabled_ui(self.opened.is_some(), |ui| {
                 section(ui, "Sampling", |ui| self.sampling_panel(ui));
                 section(ui, "Stop", |ui| self.stop_panel(ui));
-                section(ui, "Camera", |ui| self.camera_panel(ui));
                 section(ui, "Display", |ui| self.display_panel(ui));
+                section(ui, "Camera", |ui| self.camera_panel(ui));
+                section(ui, "Window", |ui| self.window_panel(ui));
                 if let Some(opened) = &self.opened {
                     section(ui, "Objects", |ui| objects_panel(ui, &opened.scene));
                 }
-                section(ui, "Window", |ui| self.window_panel(ui));
             });
         });
     }
@@ -243,7 +244,7 @@ impl App {
             self.tell(format!("The threads cannot be had: {error}"), true);
         }
         let Some(opened) = &self.opened else { return };
-        let budget = Budget { paused: self.budget.paused || self.hidden, ..self.budget };
+        let budget = Budget { paused: self.budget.paused || self.hidden || self.is_studying(), ..self.budget };
         let wish = Wish { scene: opened.scene.clone(), camera: self.camera, settings: self.settings };
         // A control that is dragged asks for a new picture at every step; the next one is not asked for before the last is seen.
         let shown = self.shown.as_ref().map_or(0, |frame| frame.generation);

@@ -27,10 +27,11 @@ impl App {
     pub(super) fn bounces_tab(&mut self, ui: &mut Ui) {
         ui.horizontal(|ui| {
             let bounces = &mut self.bounces;
-            ui.selectable_value(&mut bounces.up_to, false, "Bounce k alone")
-                .on_hover_text("Tᵏ L_e: light that was reflected exactly k times, term k of the series that solves the equation");
+            ui.selectable_value(&mut bounces.up_to, false, "Bounce k alone").on_hover_text(
+                "T^k L_e: light that was reflected exactly k times, term k of the series that solves the equation",
+            );
             ui.selectable_value(&mut bounces.up_to, true, "Bounces up to k")
-                .on_hover_text("L_e + T L_e + … + Tᵏ L_e: the partial sum, which is the picture that a cap of k gives");
+                .on_hover_text("L_e + T L_e + … + T^k L_e: the partial sum, which is the picture that a cap of k gives");
             ui.separator();
             let label = ui.label("k").on_hover_text("The number of reflections between lamp and eye");
             ui.add(Slider::new(&mut bounces.reflections, 0..=LAST)).labelled_by(label.id);

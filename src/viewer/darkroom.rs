@@ -132,7 +132,7 @@ impl Darkroom {
     }
 }
 
-fn develop(order: Order) -> Print {
+pub fn develop(order: Order) -> Print {
     let Order { frame, beside, term, look, truth, pinned, features, materials, most_side } = order;
     let truth = truth.as_deref();
     let picture = |frame: &Frame, radiance: Option<&[[f32; 3]]>, scale: Option<Scale>| {

@@ -38,7 +38,7 @@ const KEYS: [(&str, &[(&str, &str)]); 4] = [
         &[
             ("Ctrl+S", "save the picture"),
             ("F1", "this help"),
-            ("F2  F3  F4  F5", "convergence, compare, bounces, path"),
+            ("F2  F3  F4  F5", "convergence, compare, bounces, pixel"),
             ("F6", "the scenes as pictures"),
             ("F12", "how long the window takes to draw"),
             ("Esc", "close"),
@@ -48,15 +48,21 @@ const KEYS: [(&str, &[(&str, &str)]); 4] = [
 
 impl App {
     pub(super) fn help(&mut self, ctx: &egui::Context) {
+        let (mut open, mut tour) = (self.help_open, false);
         egui::Window::new("Keyboard and mouse")
-            .open(&mut self.help_open)
+            .open(&mut open)
             .collapsible(false)
             .resizable(false)
             .anchor(Align2::CENTER_CENTER, [0.0, 0.0])
             .show(ctx, |ui| {
-                let most = ctx.content_rect().height() - 90.0;
+                let most = ctx.content_rect().height() - 130.0;
                 egui::ScrollArea::vertical().max_height(most).min_scrolled_height(most).show(ui, keys);
+                tour = ui.button("Take the tour").on_hover_text("Noise, bounces and roulette in four short pages").clicked();
             });
+        self.help_open = open && !tour;
+        if tour {
+            self.start_tour();
+        }
     }
 }
 

@@ -2,6 +2,7 @@
 //!
 //! Work that could take longer than a frame has a thread of its own: rendering (the worker), the display transform
 //! ([`darkroom`]), reading scenes ([`loader`]), and writing pictures ([`saver`]).
+mod advice;
 mod app;
 mod bounces;
 mod camera_panel;

@@ -42,14 +42,15 @@ impl App {
         self.frame_beside = Some(beside.frame).filter(|frame| is_there && !frame.radiance.is_empty());
         let published = self.link.latest();
         self.status = published.status;
-        self.order(published.frame);
+        let order = self.what_to_develop(published.frame);
+        self.darkroom.order(order);
         if let Some(print) = self.darkroom.take() {
             self.hang(print);
         }
     }
 
-    /// Has the latest frames developed.
-    fn order(&mut self, frame: Arc<Frame>) {
+    /// A frame as the controls say it is seen.
+    pub(super) fn what_to_develop(&mut self, frame: Arc<Frame>) -> Order {
         let compare = self.comparison();
         let beside = self.frame_beside.clone().filter(|_| compare.is_some());
         let term = self.frame_beside.clone().filter(|_| self.dock == Some(Tab::Bounces));
@@ -58,7 +59,7 @@ impl App {
         let look = noisefall::render::view::Look { view: view.unwrap_or(self.look.view), ..self.look };
         let wish = self.link.wish().map(|wish| (wish.scene.clone(), wish.camera));
         let features = wish.filter(|_| look.view.shows_features()).and_then(|(scene, camera)| self.finder.of(&scene, &camera));
-        self.darkroom.order(Order {
+        Order {
             truth: self.truth(&frame),
             term: term.map(|of| Term { of, reflections: self.bounces.reflections, up_to: self.bounces.up_to }),
             frame,
@@ -68,7 +69,7 @@ impl App {
             features,
             materials: self.opened.as_ref().map_or_else(|| Arc::from([]), |opened| opened.materials.clone()),
             most_side: self.ctx.input(|input| input.max_texture_side),
-        });
+        }
     }
 
     /// Shows what was developed, and notes its figures.
@@ -77,7 +78,6 @@ impl App {
         set(&self.ctx, &mut self.textures[1], "picture beside", print.image_beside);
         (self.against, self.against_beside) = (print.truth, print.truth_beside);
         (self.legend, self.scores, self.black) = (print.legend, print.scores, print.black);
-        self.pixels = print.pixels;
         if let Some(wish) = self.link.wish() {
             self.history.look_at(&wish.scene, &wish.camera);
             let frame = &print.frame;
@@ -137,7 +137,7 @@ impl App {
         self.ctx.send_viewport_cmd(egui::ViewportCommand::Title(format!("{} – Noisefall", opened.name)));
         (self.camera, self.settings) = (scene.camera, scene.settings);
         self.budget = Budget { max_spp: scene.spp, steps: self.budget.steps, ..Budget::default() };
-        (self.compare, self.pinned, self.dropped_truth) = (None, None, None);
+        (self.compare, self.pinned, self.dropped_truth, self.adviser) = (None, None, None, None);
         self.scene_error = None;
         self.view.fit();
         self.opened = Some(opened);

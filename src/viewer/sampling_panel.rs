@@ -25,9 +25,9 @@ const ESTIMATORS: [(Estimator, &str, &str); 3] = [
 ];
 
 const DIRECTIONS: [(Directions, &str, &str); 3] = [
-    (Directions::Uniform, "Uniform", "p(ωᵢ) = 1 / 2π: every direction of the hemisphere alike."),
-    (Directions::Cosine, "Cosine", "p(ωᵢ) = cos θ / π: cancels the cosine of the equation, so there is less noise."),
-    (Directions::Bsdf, "BSDF", "p(ωᵢ) in proportion to f cos θ, which at a diffuse surface is the cosine."),
+    (Directions::Uniform, "Uniform", "p(ω_i) = 1 / 2π: every direction of the hemisphere alike."),
+    (Directions::Cosine, "Cosine", "p(ω_i) = cos θ / π: cancels the cosine of the equation, so there is less noise."),
+    (Directions::Bsdf, "BSDF", "p(ω_i) in proportion to f cos θ, which at a diffuse surface is the cosine."),
 ];
 
 const REUSE: [(Reuse, &str, &str); 3] = [
@@ -68,7 +68,7 @@ impl App {
             row(
                 ui,
                 "Directions",
-                "How the next direction ωᵢ is drawn over the hemisphere at a diffuse surface: its density p(ωᵢ).",
+                "How the next direction ω_i is drawn over the hemisphere at a diffuse surface: its density p(ω_i).",
                 |ui, _| {
                     ui.horizontal(|ui| {
                         for (directions, name, doc) in DIRECTIONS {
@@ -120,7 +120,7 @@ impl App {
             row(
                 ui,
                 "Bounce cap",
-                "n, the highest number of reflections counted: the series L_e + T L_e + … is cut after Tⁿ L_e, and the picture is biased.",
+                "n, the highest number of reflections counted: the series L_e + T L_e + … is cut after T^n L_e, and the picture is biased.",
                 |ui, label| {
                     number::optional(
                         ui,
@@ -143,6 +143,12 @@ impl App {
                 },
             );
         });
+        ui.add_space(4.0);
+        let doc =
+            "Try samplers, roulettes and estimators on this picture for some seconds, and offer the most efficient with figures";
+        if ui.button("What should I use here?").on_hover_text(doc).clicked() {
+            self.ask_for_advice();
+        }
     }
 
     /// Which side of a comparison the panel is about.

@@ -10,7 +10,11 @@ use noisefall::{
     },
 };
 
-use super::{app::App, path_field::PathField};
+use super::{
+    app::App,
+    darkroom::{Print, develop},
+    path_field::PathField,
+};
 
 /// What is saved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -140,8 +144,11 @@ impl App {
         }
         let (Some(frame), Some(wish)) = (self.shown.clone(), self.link.wish()) else { return };
         let settings = settings_text(&wish.scene, &wish.camera, &wish.settings, self.look.display, frame.spp);
-        let pixels = self.pixels.clone();
-        self.saver.save(path, move |path| save_shown(&frame, &pixels, &settings, path).map_err(|error| error.to_string()));
+        let order = self.what_to_develop(frame);
+        self.saver.save(path, move |path| {
+            let Print { frame, pixels, .. } = develop(order);
+            save_shown(&frame, &pixels, &settings, path).map_err(|error| error.to_string())
+        });
     }
 }
 

@@ -47,6 +47,7 @@ impl App {
         let (good, warning) = (ui.good(), ui.warning());
         match self.status.state {
             _ if self.loader.is_busy() => (warning, "Opening"),
+            _ if self.is_studying() => (warning, "Studying"),
             _ if self.camera.check().is_err() => (warning, "Invalid settings"),
             State::Idle => (Color32::GRAY, "No scene"),
             State::Running => (good, "Running"),
@@ -139,7 +140,7 @@ impl App {
         let error = if error.is_nan() { String::new() } else { format!(" ± {error:.3}") };
         let y_value = luminance(frame.radiance[index]);
         ui.label(RichText::new(format!("({x}, {y})  RGB {r:.3} {g:.3} {b:.3}  Y {y_value:.3}{error}")).monospace())
-            .on_hover_text("Pixel, its radiance in W·sr⁻¹·m⁻², its luminance and the standard error of that");
+            .on_hover_text("Pixel, its radiance in W/(sr·m²), its luminance and the standard error of that");
     }
 }
 

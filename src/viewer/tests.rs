@@ -1,8 +1,11 @@
 //! The window itself, driven as a user would: change a control, see the effect.
+mod advice;
 mod camera;
 mod fields;
+mod glyphs;
 mod instruments;
 mod manners;
+mod path;
 mod saving;
 mod scenes;
 mod settings;
@@ -27,6 +30,9 @@ use noisefall::{
 };
 
 use super::{app::App, canvas::Tool, preferences::Preferences};
+
+/// As tall as all panels together: what is scrolled out of sight cannot be clicked.
+const SIZE: egui::Vec2 = vec2(1280.0, 1300.0);
 
 type Window = Harness<'static, Lazy>;
 
@@ -59,7 +65,7 @@ fn open(scene: Option<PathBuf>) -> Window {
         };
         app.0.get_or_insert_with(make).show(ui);
     };
-    Harness::builder().with_size(vec2(1280.0, 800.0)).build_ui_state(draw, Lazy(None))
+    Harness::builder().with_size(SIZE).build_ui_state(draw, Lazy(None))
 }
 
 /// A window with a small picture of a scene.
@@ -238,6 +244,15 @@ fn drag(window: &mut Window, button: PointerButton, from: [f32; 2], to: [f32; 2]
     }
     press(window, to, false);
     window.run_steps(2);
+}
+
+fn click_at(window: &mut Window, pos: Pos2) {
+    window.hover_at(pos);
+    window.run_steps(2);
+    for pressed in [true, false] {
+        window.event(egui::Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers: Modifiers::NONE });
+    }
+    window.run_steps(3);
 }
 
 fn scroll(window: &mut Window, at: [f32; 2], by: f32) {

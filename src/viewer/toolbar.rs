@@ -155,6 +155,9 @@ impl App {
     /// Closes what lies over the picture: of several things all dialogs first, then messages, then the region.
     fn escape(&mut self) {
         let dialogs = self.save_dialog.is_some() || self.open_dialog.is_some();
+        if self.adviser.take().is_some() {
+            return;
+        }
         if self.help_open || self.gallery.open || dialogs {
             (self.help_open, self.gallery.open, self.save_dialog, self.open_dialog) = (false, false, None, None);
         } else if !self.notices.is_empty() {

@@ -1,5 +1,5 @@
 //! What concerns the window and the machine, and not the picture.
-use egui::{Slider, ThemePreference, Ui};
+use egui::{ComboBox, Slider, ThemePreference, Ui};
 
 use super::{
     app::App,
@@ -7,7 +7,7 @@ use super::{
 };
 
 const THEMES: [(ThemePreference, &str); 3] =
-    [(ThemePreference::System, "System"), (ThemePreference::Dark, "Dark"), (ThemePreference::Light, "Light")];
+    [(ThemePreference::System, "As the system"), (ThemePreference::Dark, "Dark"), (ThemePreference::Light, "Light")];
 
 /// As many as the machine has cores.
 pub fn cores() -> usize {
@@ -23,26 +23,25 @@ impl App {
                 let most = cores().max(self.threads);
                 ui.add(Slider::new(&mut self.threads, 1..=most)).labelled_by(label);
             });
-            row(ui, "Theme", "Light or dark, or as the system has it.", |ui, _| {
-                ui.horizontal(|ui| {
-                    let mut theme = ui.ctx().options(|options| options.theme_preference);
-                    for (preference, name) in THEMES {
-                        if ui.selectable_value(&mut theme, preference, name).clicked() {
-                            ui.ctx().set_theme(preference);
-                            let named = (preference != ThemePreference::System).then(|| name.to_lowercase());
-                            self.preferences.change(|preferences| preferences.theme = named);
-                        }
-                    }
-                });
-            });
+            row(ui, "Theme", "Light or dark, or as the system has it.", |ui, label| self.theme(ui, label));
             row(ui, "Frame times", "How long the window itself takes to draw. (F12)", |ui, label| {
                 ui.checkbox(&mut self.pace.shown, "").labelled_by(label);
             });
-            row(ui, "Tour", "Noise, bounces and roulette in four short pages.", |ui, _| {
-                if ui.button("Take the tour").clicked() {
-                    self.start_tour();
-                }
-            });
         });
+    }
+
+    fn theme(&mut self, ui: &mut Ui, label: egui::Id) {
+        let mut theme = ui.ctx().options(|options| options.theme_preference);
+        let name = THEMES.iter().find(|(preference, _)| *preference == theme).map_or("", |(_, name)| name);
+        let combo = ComboBox::from_id_salt("Theme").selected_text(name).show_ui(ui, |ui| {
+            for (preference, name) in THEMES {
+                if ui.selectable_value(&mut theme, preference, name).clicked() {
+                    ui.ctx().set_theme(preference);
+                    let named = (preference != ThemePreference::System).then(|| name.to_lowercase());
+                    self.preferences.change(|preferences| preferences.theme = named);
+                }
+            }
+        });
+        combo.response.labelled_by(label);
     }
 }

@@ -100,8 +100,8 @@ fn checkers(pairs: &[(&str, &str)]) -> String {
 fn names_of_textures_must_be_defined_and_go_in_no_circle() {
     refuses_tables(&checkers(&[("a", "b")]), "there is no texture `b`");
     assert!(error(&GOOD.replace("[render]", &(checkers(&[("a", "b")]) + "[render]"))).report().contains("defines `a`"));
-    refuses_tables(&checkers(&[("a", "a")]), "textures in a circle: `a` → `a`");
-    refuses_tables(&checkers(&[("a", "b"), ("b", "c"), ("c", "b")]), "textures in a circle: `b` → `c` → `b`");
+    refuses_tables(&checkers(&[("a", "a")]), "textures in a circle: `a` uses `a`");
+    refuses_tables(&checkers(&[("a", "b"), ("b", "c"), ("c", "b")]), "textures in a circle: `b` uses `c` uses `b`");
     refuses("albedo = 0.8", "albedo = { texture = \"tiles\" }", "there is no texture `tiles`");
     let chain: Vec<String> = (0..200).map(|i| format!("t{i:06}")).collect();
     let pairs: Vec<_> = chain.windows(2).map(|pair| (pair[0].as_str(), pair[1].as_str())).collect();

@@ -82,12 +82,12 @@ impl App {
         let sample = &mut self.inspector.sample;
         ui.horizontal(|ui| {
             let label = ui.label("Sample").on_hover_text("The number of the sample: it and the pixel decide the path, for ever");
-            if ui.add_enabled(*sample > 0, egui::Button::new("◀")).on_hover_text("The sample before").clicked() {
+            if ui.add_enabled(*sample > 0, egui::Button::new("<")).on_hover_text("The sample before").clicked() {
                 *sample -= 1;
             }
             let field = number::field(ui, sample, 0, 0.0..=f64::from(u32::MAX));
             ui.add(field).labelled_by(label.id);
-            if ui.button("▶").on_hover_text("The next sample").clicked() {
+            if ui.button(">").on_hover_text("The next sample").clicked() {
                 *sample = sample.saturating_add(1);
             }
             if let Some(brightest) = brightest

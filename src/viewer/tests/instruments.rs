@@ -2,7 +2,7 @@
 use noisefall::render::view::View as Shown;
 
 use super::*;
-use crate::viewer::{compare::Layout, dock::Tab};
+use crate::viewer::{compare::Layout, darkroom, dock::Tab};
 
 /// A window with a small picture, most of whose height is the picture's.
 fn with_tab(scene: &str, tab: &str) -> Window {
@@ -79,13 +79,13 @@ fn a_comparison_starts_with_one_click_and_both_sides_converge() {
     wait(&mut window, "the difference", |app| app.legend.as_ref().is_some_and(|legend| legend.title.starts_with("Difference")));
     click(&mut window, "Wipe");
     let line = window.state().view.wipe;
-    let tools = window.get_by_label("Fit").rect();
-    let [middle, height] = [(1280.0 - 336.0) / 2.0, tools.bottom() + 100.0];
+    let [middle, height] = [(1280.0 - 336.0) / 2.0, 500.0];
     never_restarts(&mut window, |w| drag(w, PointerButton::Primary, [middle, height], [middle - 100.0, height]));
     assert!(window.state().view.wipe < line - 0.05 && window.state().view.zoom.is_none(), "the line moved, and not the picture");
 
     let before = window.state().status_beside.generation;
-    click(&mut window, "B");
+    window.get_by_role_and_label(Role::Button, "B").click();
+    window.run_steps(3);
     click(&mut window, "Light");
     wait(&mut window, "the other side anew", |app| app.status_beside.generation > before);
     let app = window.state();
@@ -103,8 +103,12 @@ fn the_picture_is_a_series_and_nothing_is_rendered_for_it_unless_it_is_looked_at
     window.state_mut().bounces.reflections = 2;
     wait(&mut window, "a term", |app| app.frame_beside.as_ref().is_some_and(|frame| frame.spp >= 8));
     window.run_steps(5);
-    // Radiance 1 and albedo 0.5: the second term is a quarter everywhere, which has the code 137; an eighth of the light.
-    wait(&mut window, "its pixels", |app| app.pixels.iter().all(|pixel| pixel[..3].iter().all(|c| c.abs_diff(137) < 40)));
+    // Radiance 1 and albedo 0.5: the second term is a quarter, which is an eighth of the light.
+    let order = window.state_mut();
+    let shown = order.shown.clone().expect("it is shown");
+    let print = darkroom::develop(order.what_to_develop(shown));
+    let mean = print.pixels.iter().map(|pixel| f64::from(pixel[1])).sum::<f64>() / print.pixels.len() as f64;
+    assert!((mean - 137.0).abs() < 10.0, "a quarter has the code 137: {mean}");
     assert!(window.query_by_label_contains("k = 2 brings 12.").is_some());
     assert!(window.query_by_label_contains("A cap of 2 would lose 12.").is_some());
     never_restarts(&mut window, |w| press(w, Key::F4));
@@ -190,14 +194,19 @@ fn a_reference_that_is_dropped_gives_true_error_and_bias() {
         app.against.is_some_and(|against| against.rel_mse > 0.0 && against.bias.is_some()) && app.status.spp >= 2
     });
     window.state_mut().camera.resolution = [64, 64];
-    window.run_steps(3);
+    wait(&mut window, "another size", |app| app.against.is_none());
+    window.run_steps(2);
     assert!(window.query_by_label_contains("true error unknown").is_some());
     std::fs::write(folder.path().join("bad.exr"), "no picture").expect("it is written");
     window.state_mut().loader.read_reference(folder.path().join("bad.exr"));
     wait(&mut window, "the refusal", |app| app.notices.iter().any(|notice| notice.is_error));
     window.run_steps(2);
     window.get_by_label("Copy").click();
-    window.step();
-    let copied = |command: &egui::OutputCommand| matches!(command, egui::OutputCommand::CopyText(text) if text.contains("bad.exr"));
-    assert!(window.output().platform_output.commands.iter().any(copied), "errors can be copied");
+    let copied =
+        |command: &egui::OutputCommand| matches!(command, egui::OutputCommand::CopyText(text) if text.contains("bad.exr"));
+    let mut copies = |_| {
+        window.step();
+        window.output().platform_output.commands.iter().any(copied)
+    };
+    assert!((0..4).any(&mut copies), "errors can be copied");
 }

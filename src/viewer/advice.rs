@@ -1,0 +1,149 @@
+//! "What should I use here?": a short study of the scene as it is seen, off the UI thread, while the picture waits.
+use std::{
+    sync::{
+        Arc, Mutex, PoisonError,
+        atomic::{AtomicBool, Ordering},
+        mpsc,
+    },
+    time::Duration,
+};
+
+use egui::{Align2, Grid, ProgressBar, RichText, ScrollArea, Ui};
+use noisefall::{
+    math::SimdLevel,
+    render::pass::Threads,
+    scene::RenderSettings,
+    study::{Advice, Candidate, advise},
+};
+
+use super::{app::App, link::Wish, look::Inks};
+
+const TIME: Duration = Duration::from_secs(8);
+
+/// A study, on its way or done.
+pub struct Adviser {
+    progress: Arc<Mutex<(usize, usize)>>,
+    stopped: Arc<AtomicBool>,
+    result: mpsc::Receiver<Result<Advice, String>>,
+    advice: Option<Result<Advice, String>>,
+}
+
+impl Adviser {
+    fn start(ctx: &egui::Context, wish: &Wish, threads: usize) -> Adviser {
+        let (sender, result) = mpsc::channel();
+        let (progress, stopped) = (Arc::new(Mutex::new((0, 0))), Arc::new(AtomicBool::new(false)));
+        let adviser = Adviser { progress: progress.clone(), stopped: stopped.clone(), result, advice: None };
+        let (ctx, Wish { scene, camera, settings }) = (ctx.clone(), wish.clone());
+        std::thread::spawn(move || {
+            let mut tell = |done, total| {
+                *progress.lock().unwrap_or_else(PoisonError::into_inner) = (done, total);
+                ctx.request_repaint();
+            };
+            let stop = || stopped.load(Ordering::Relaxed);
+            let advice = Threads::new(threads, SimdLevel::best()).map_err(|error| error.to_string()).and_then(|threads| {
+                advise(&scene, &camera, &settings, &threads, TIME, &mut tell, &stop).map_err(|error| error.to_string())
+            });
+            let _ = sender.send(advice);
+            ctx.request_repaint();
+        });
+        adviser
+    }
+
+    fn is_busy(&self) -> bool {
+        self.advice.is_none()
+    }
+}
+
+impl Drop for Adviser {
+    fn drop(&mut self) {
+        self.stopped.store(true, Ordering::Relaxed);
+    }
+}
+
+impl App {
+    pub(super) fn ask_for_advice(&mut self) {
+        if let Some(wish) = self.link.wish() {
+            self.adviser = Some(Adviser::start(&self.ctx, wish, self.threads));
+        }
+    }
+
+    /// Whether a study has the machine, and the picture waits.
+    pub(super) fn is_studying(&self) -> bool {
+        self.adviser.as_ref().is_some_and(Adviser::is_busy)
+    }
+
+    pub(super) fn show_advice(&mut self, ctx: &egui::Context) {
+        let Some(adviser) = &mut self.adviser else { return };
+        if let Ok(advice) = adviser.result.try_recv() {
+            adviser.advice = Some(advice);
+        }
+        let (mut open, mut chosen) = (true, None);
+        egui::Window::new("What should I use here?")
+            .open(&mut open)
+            .collapsible(false)
+            .resizable(false)
+            .anchor(Align2::CENTER_CENTER, [-168.0, 0.0])
+            .show(ctx, |ui| {
+                ui.set_width(520.0);
+                match &adviser.advice {
+                    None => {
+                        ui.label("Each setting that could suit this scene makes a few small pictures. The large one waits.");
+                        let (done, total) = *adviser.progress.lock().unwrap_or_else(PoisonError::into_inner);
+                        let part = if total > 0 { done as f32 / total as f32 } else { 0.0 };
+                        ui.add(ProgressBar::new(part).text(format!("{:.0} %", 100.0 * part)));
+                    }
+                    Some(Err(error)) => drop(ui.label(RichText::new(error).color(ui.bad()))),
+                    Some(Ok(advice)) => chosen = show(ui, advice),
+                }
+            });
+        if let Some(settings) = chosen {
+            self.settings = settings;
+            open = false;
+        }
+        if !open {
+            self.adviser = None;
+        }
+    }
+}
+
+/// Shows what was found. Returns the settings to use, if somebody wants them.
+fn show(ui: &mut Ui, advice: &Advice) -> Option<RenderSettings> {
+    let mut chosen = None;
+    ui.label(RichText::new(advice.verdict()).color(ui.accent()).strong());
+    ui.add_space(6.0);
+    ScrollArea::vertical().max_height(300.0).show(ui, |ui| {
+        Grid::new("candidates").num_columns(4).striped(true).spacing([18.0, 5.0]).show(ui, |ui| {
+            for (heading, doc) in [
+                ("setting", "What differs from what you have"),
+                ("efficiency", "Relative to what you have, and its standard error; efficiency is 1/(relMSE · seconds)"),
+                ("error", "The root of relMSE of one small picture"),
+                ("", ""),
+            ] {
+                ui.label(RichText::new(heading).weak()).on_hover_text(doc);
+            }
+            ui.end_row();
+            for (number, candidate) in advice.candidates.iter().enumerate() {
+                if row(ui, candidate, number == advice.best, number == advice.current) {
+                    chosen = Some(candidate.settings);
+                }
+            }
+        });
+    });
+    chosen
+}
+
+/// A candidate. Whether it is to be used.
+fn row(ui: &mut Ui, candidate: &Candidate, is_best: bool, is_current: bool) -> bool {
+    let name = RichText::new(&candidate.name);
+    ui.label(if is_best { name.strong() } else { name });
+    ui.monospace(if is_current { "1".to_owned() } else { candidate.ratio() });
+    ui.monospace(format!("{:.2} %", 100.0 * candidate.rel_mse.sqrt()));
+    let used = if is_current {
+        ui.weak("in use");
+        false
+    } else {
+        ui.small_button("Use this").on_hover_text("Take these settings over: a new picture starts").clicked()
+    };
+    ui.end_row();
+    used
+}

@@ -1,0 +1,72 @@
+//! The path inspector: what it shows is what the renderer took.
+use noisefall::{
+    integrator::{Batch, TILE, Work, trace},
+    math::colour::luminance,
+    render::sharing::resolved,
+};
+
+use super::*;
+use crate::viewer::dock::Tab;
+
+fn inspecting(scene: &str) -> Window {
+    let mut window = window(scene);
+    window.key_press(Key::I);
+    window.run_steps(3);
+    assert_eq!((window.state().tool, window.state().dock), (Tool::Inspect, Some(Tab::Path)));
+    window
+}
+
+#[test]
+fn a_clicked_pixel_shows_exactly_the_samples_that_the_renderer_took() {
+    for scene in ["cornell_spheres", "glass_and_mirror", "veach_plates"] {
+        let mut window = inspecting(scene);
+        never_restarts(&mut window, |w| {
+            click_at(w, Pos2::new(430.0, 430.0));
+        });
+        let pixel = window.state().inspector.pixel.expect("it was clicked");
+        wait(&mut window, "its samples", |app| app.inspector.findings().is_some());
+        let app = window.state();
+        let findings = app.inspector.findings().expect("they are there");
+        let (scene, camera) = (&app.opened.as_ref().expect("it is open").scene, &app.camera);
+        let rays = scene.rays(camera);
+        let settings = resolved(scene, &rays, &app.settings);
+        // The tile, as the renderer traces it.
+        let origin = pixel.map(|x| x / TILE * TILE);
+        let size = [0, 1].map(|axis| TILE.min(camera.resolution[axis] - origin[axis]));
+        let mut batch = Batch::default();
+        for sample in 0..16 {
+            let work = Work::tile(scene, &rays, &settings, origin, size, sample);
+            trace(SimdLevel::best(), &work, &mut batch, &|| false).expect("nobody interrupts");
+            let [r, g, b, _] = batch.radiance()[((pixel[1] - origin[1]) * TILE + pixel[0] - origin[0]) as usize];
+            assert_eq!(findings.samples[sample as usize].to_bits(), luminance([r, g, b]).to_bits(), "sample {sample}");
+            if sample == 0 {
+                assert_eq!(findings.replay.radiance, [r, g, b], "the path that is shown");
+            }
+        }
+    }
+}
+
+#[test]
+fn one_steps_through_paths_and_the_table_adds_up() {
+    let mut window = inspecting("cornell_spheres");
+    click(&mut window, "The pixel in the middle");
+    assert_eq!(window.state().inspector.pixel, Some([48, 32]));
+    wait(&mut window, "its samples", |app| app.inspector.findings().is_some());
+    for expected in [1, 2] {
+        never_restarts(&mut window, |w| click(w, ">"));
+        assert_eq!(window.state().inspector.sample, expected);
+    }
+    click(&mut window, "Brightest");
+    let brightest = window.state().inspector.findings().expect("they are there").brightest();
+    assert_eq!(window.state().inspector.sample, brightest);
+    wait(&mut window, "that path", |app| {
+        let findings = app.inspector.findings().expect("they are there");
+        let replayed = luminance(findings.replay.radiance);
+        replayed.to_bits() == findings.samples[brightest as usize].to_bits()
+    });
+    window.run_steps(3);
+    assert!(window.query_by_label_contains("This sample:").is_some());
+    let replay = &window.state().inspector.findings().expect("they are there").replay;
+    let last = replay.vertices.last().expect("it has vertices").radiance;
+    assert_eq!(last, replay.alone.unwrap_or(replay.radiance), "the sums end at the sample");
+}
