@@ -125,6 +125,6 @@ fn card(ui: &mut Ui, name: &str, picture: Option<&TextureHandle>) -> bool {
     }
     let text = egui::Rect::from_min_max(frame.left_bottom() + vec2(0.0, 3.0), rect.max);
     let mut below = ui.new_child(egui::UiBuilder::new().max_rect(text));
-    below.add(egui::Label::new(RichText::new(name).small()).selectable(false).wrap());
+    below.add(egui::Label::new(RichText::new(name).size(12.0)).selectable(false).wrap());
     response.on_hover_text(name).clicked()
 }

@@ -13,7 +13,9 @@ use super::{
     convergence::Moment,
     darkroom::{Order, Print, Term},
     dock::Tab,
+    feature_finder::FeatureFinder,
     loader::Opened,
+    path::Inspector,
 };
 
 impl App {
@@ -138,6 +140,8 @@ impl App {
         (self.camera, self.settings) = (scene.camera, scene.settings);
         self.budget = Budget { max_spp: scene.spp, steps: self.budget.steps, ..Budget::default() };
         (self.compare, self.pinned, self.dropped_truth, self.adviser) = (None, None, None, None);
+        // What was found of the scene before would keep it in memory.
+        (self.inspector, self.finder) = (Inspector::new(&self.ctx), FeatureFinder::new(&self.ctx));
         self.scene_error = None;
         self.view.fit();
         self.opened = Some(opened);

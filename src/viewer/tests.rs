@@ -9,6 +9,7 @@ mod path;
 mod saving;
 mod scenes;
 mod settings;
+mod soak;
 
 use std::{
     ops::{Deref, DerefMut},

@@ -155,7 +155,7 @@ impl App {
     /// Closes what lies over the picture: of several things all dialogs first, then messages, then the region.
     fn escape(&mut self) {
         let dialogs = self.save_dialog.is_some() || self.open_dialog.is_some();
-        if self.adviser.take().is_some() {
+        if self.adviser.take().is_some() || self.end_tour() {
             return;
         }
         if self.help_open || self.gallery.open || dialogs {

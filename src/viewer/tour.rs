@@ -63,9 +63,10 @@ impl App {
         }
     }
 
-    fn end_tour(&mut self) {
-        self.tour = None;
-        self.preferences.change(|preferences| preferences.toured = true);
+    /// Whether there was one to end.
+    pub(super) fn end_tour(&mut self) -> bool {
+        self.preferences.change(|preferences| preferences.toured |= self.tour.is_some());
+        self.tour.take().is_some()
     }
 
     pub(super) fn show_tour(&mut self, ctx: &egui::Context) {

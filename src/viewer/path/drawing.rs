@@ -20,10 +20,12 @@ impl App {
             let [x, y] = project(&self.camera, Vec3::from(p).as_dvec3())?;
             Some(place.screen(x, y))
         };
+        // Long enough to tell the direction of a light sample, short enough not to hide the path.
+        let dash = self.opened.as_ref().map_or(0.1, |opened| 0.06 * opened.scene.size) as f32;
         let mut before = square.center();
         for vertex in &findings.replay.vertices {
             let Some(at) = vertex.surface.as_ref().and_then(|surface| screen(surface.position)) else {
-                let way = Vec3::from(vertex.origin) + Vec3::from(vertex.direction) * 0.5;
+                let way = Vec3::from(vertex.origin) + Vec3::from(vertex.direction) * dash;
                 if let Some(away) = screen(way.to_array()).filter(|_| vertex.bounce > 0) {
                     painter.extend(egui::Shape::dashed_line(&[before, away], Stroke::new(1.2, PATH), 5.0, 4.0));
                 }
@@ -35,7 +37,7 @@ impl App {
             }
             if let (Some(light), Some(surface)) = (&vertex.light, &vertex.surface) {
                 let seen = light.contribution.iter().any(|c| *c > 0.0);
-                let towards = Vec3::from(surface.position) + Vec3::from(light.direction) * 0.25;
+                let towards = Vec3::from(surface.position) + Vec3::from(light.direction) * dash;
                 if let Some(to) = screen(towards.to_array()) {
                     let stroke = Stroke::new(1.2, if seen { LIGHT } else { LIGHT.gamma_multiply(0.4) });
                     painter.extend(egui::Shape::dashed_line(&[at, to], stroke, 3.0, 3.0));

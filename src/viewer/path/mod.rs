@@ -45,7 +45,9 @@ impl App {
             return;
         };
         let objects = self.link.wish().map_or(&[][..], |wish| &wish.scene.objects);
-        ScrollArea::both().auto_shrink(false).show(ui, |ui| table::show(ui, &findings.replay, objects));
+        egui::Frame::new().inner_margin(egui::Margin { left: 8, ..egui::Margin::ZERO }).show(ui, |ui| {
+            ScrollArea::both().auto_shrink(false).show(ui, |ui| table::show(ui, &findings.replay, objects));
+        });
     }
 
     fn pixel_column(&mut self, ui: &mut Ui, pixel: [u32; 2]) {

@@ -8,9 +8,12 @@ use noisefall::{
 use super::remark;
 use crate::viewer::look::Inks;
 
+const TEXT: f32 = 12.0;
+
 /// Columns, and what they say.
-const COLUMNS: [(&str, &str); 14] = [
+const COLUMNS: [(&str, &str); 15] = [
     ("k", "Reflections before this vertex"),
+    ("Σ", "The sum of light so far: in the last row, the sample"),
     ("object", "What is met, and of which material"),
     ("x", "The point met, in metres"),
     ("β", "Throughput: the product of f cos θ / (p q) so far"),
@@ -36,9 +39,8 @@ pub fn show(ui: &mut Ui, replay: &Replay, objects: &[Object]) {
     ui.add_space(2.0);
     Grid::new("vertices").striped(true).spacing([14.0, 4.0]).show(ui, |ui| {
         for (name, doc) in COLUMNS {
-            ui.label(RichText::new(name).weak().small()).on_hover_text(doc);
+            ui.label(RichText::new(name).weak()).on_hover_text(doc);
         }
-        ui.label(RichText::new("Σ").weak().small()).on_hover_text("The sum so far");
         ui.end_row();
         for vertex in &replay.vertices {
             row(ui, vertex, objects);
@@ -47,8 +49,9 @@ pub fn show(ui: &mut Ui, replay: &Replay, objects: &[Object]) {
 }
 
 fn row(ui: &mut Ui, vertex: &Vertex, objects: &[Object]) {
-    let cell = |ui: &mut Ui, text: String| ui.label(RichText::new(text).monospace().small());
+    let cell = |ui: &mut Ui, text: String| ui.label(RichText::new(text).monospace().size(TEXT));
     cell(ui, vertex.bounce.to_string());
+    cell(ui, colour(vertex.radiance));
     cell(ui, place(vertex, objects));
     cell(ui, vertex.surface.as_ref().map_or_else(String::new, |surface| vector(surface.position)));
     cell(ui, colour(vertex.throughput));
@@ -92,7 +95,6 @@ fn row(ui: &mut Ui, vertex: &Vertex, objects: &[Object]) {
         }
         None => nothing(ui, 2),
     }
-    cell(ui, colour(vertex.radiance));
     ui.end_row();
 }
 

@@ -1,0 +1,140 @@
+//! Ten thousand random events: no panic, no stale frame, no memory that is lost.
+use rand::{Rng, SeedableRng, rngs::SmallRng, seq::IndexedRandom};
+
+use super::*;
+
+const EVENTS: usize = 10_000;
+/// By then everything has been opened, and tables and textures have their sizes.
+const WARM: usize = 5_000;
+const KEYS: [Key; 30] = [
+    Key::Space,
+    Key::Period,
+    Key::R,
+    Key::P,
+    Key::C,
+    Key::G,
+    Key::I,
+    Key::V,
+    Key::F,
+    Key::Num1,
+    Key::OpenBracket,
+    Key::CloseBracket,
+    Key::Home,
+    Key::W,
+    Key::A,
+    Key::S,
+    Key::D,
+    Key::Q,
+    Key::E,
+    Key::ArrowLeft,
+    Key::ArrowUp,
+    Key::Tab,
+    Key::Enter,
+    Key::F2,
+    Key::F3,
+    Key::F4,
+    Key::F5,
+    Key::F6,
+    Key::F12,
+    Key::Escape,
+];
+
+/// Counts what is allocated, whatever the system makes of it.
+#[global_allocator]
+static MEMORY: cap::Cap<std::alloc::System> = cap::Cap::new(std::alloc::System, usize::MAX);
+
+/// Something a user might do.
+fn event(window: &mut Window, random: &mut SmallRng, at: &mut Pos2) {
+    let button =
+        *[PointerButton::Primary, PointerButton::Primary, PointerButton::Secondary].choose(random).expect("one of three");
+    let press = |pressed, pos| egui::Event::PointerButton { pos, button, pressed, modifiers: Modifiers::NONE };
+    match random.random_range(0..10) {
+        0..4 => {
+            *at = Pos2::new(random.random_range(0.0..SIZE.x), random.random_range(0.0..SIZE.y));
+            window.hover_at(*at);
+        }
+        4..6 => {
+            window.event(press(true, *at));
+            window.event(press(false, *at));
+        }
+        6 => {
+            window.event(press(true, *at));
+            *at += vec2(random.random_range(-80.0..80.0), random.random_range(-80.0..80.0));
+            window.hover_at(*at);
+            window.step();
+            window.event(press(false, *at));
+        }
+        7 => window.event(egui::Event::MouseWheel {
+            unit: egui::MouseWheelUnit::Point,
+            source: egui::MouseWheelSource::Wheel,
+            delta: vec2(0.0, random.random_range(-60.0..60.0)),
+            phase: egui::TouchPhase::Move,
+            modifiers: Modifiers::NONE,
+        }),
+        8 => window.event(egui::Event::Text(random.random_range(0..100).to_string())),
+        _ => window.key_press(*KEYS.choose(random).expect("there are keys")),
+    }
+    window.step();
+}
+
+/// Takes back what no machine could stand, or what a test must not do: huge pictures, slow scenes, dialogs of the system.
+fn tame(window: &mut Window) {
+    let app = window.state_mut();
+    for side in &mut app.camera.resolution {
+        *side = (*side).min(160);
+    }
+    (app.save_dialog, app.open_dialog, app.adviser) = (None, None, None);
+    app.threads = app.threads.min(2);
+}
+
+/// In a program of its own: other tests take memory too.
+#[test]
+fn ten_thousand_random_events_do_no_harm() {
+    let program = std::env::current_exe().expect("this test has a program");
+    let alone = ["--exact", "viewer::tests::soak::alone", "--ignored", "--nocapture"];
+    let output = std::process::Command::new(program).args(alone).output().expect("it runs");
+    let [said, complained] = [&output.stdout, &output.stderr].map(|text| String::from_utf8_lossy(text));
+    assert!(output.status.success() && said.contains("1 passed"), "{said}\n{complained}");
+}
+
+#[test]
+#[ignore = "run by the test above, in a program of its own"]
+fn alone() {
+    let mut window = window("cornell_spheres");
+    let mut random = SmallRng::seed_from_u64(7);
+    let (mut at, mut warm) = (Pos2::ZERO, 0);
+    for number in 0..EVENTS {
+        event(&mut window, &mut random, &mut at);
+        tame(&mut window);
+        if number % 500 == 499 {
+            // The scene may have become another one.
+            window.state_mut().loader.open(Some(shipped("cornell_spheres")));
+            wait(&mut window, "the scene", |app| !app.loader.is_busy());
+            window.state_mut().camera.resolution = [96, 64];
+        }
+        if number == WARM {
+            warm = settled_memory(&mut window);
+        }
+    }
+    let end = settled_memory(&mut window);
+    println!("memory: {} kB after {WARM} events, {} kB after {EVENTS}", warm / 1000, end / 1000);
+    assert!(end < warm + warm / 20, "memory grew from {warm} to {end} bytes");
+    let app = window.state();
+    let shown = app.shown.as_ref().expect("there is a picture");
+    assert_eq!(shown.generation, app.link.generation(), "a stale frame is shown");
+}
+
+/// Bytes in use when what was asked for last is shown.
+fn settled_memory(window: &mut Window) -> usize {
+    window.event(egui::Event::PointerGone);
+    window.state_mut().loader.open(Some(shipped("cornell_spheres")));
+    wait(window, "the scene", |app| !app.loader.is_busy());
+    let app = window.state_mut();
+    app.camera.resolution = [96, 64];
+    (app.budget, app.dock, app.compare) = (noisefall::render::Budget::default(), None, None);
+    wait(window, "the picture", |app| {
+        let shown = app.shown.as_ref().is_some_and(|frame| frame.generation == app.link.generation() && !frame.is_coarse());
+        shown && app.status.spp >= 2
+    });
+    MEMORY.allocated()
+}
