@@ -6,9 +6,11 @@ mod glyphs;
 mod instruments;
 mod manners;
 mod path;
+mod rasteriser;
 mod saving;
 mod scenes;
 mod settings;
+mod snapshots;
 mod soak;
 
 use std::{

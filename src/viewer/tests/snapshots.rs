@@ -1,0 +1,68 @@
+//! What the window looks like in its main states, against pictures in `tests/snapshots`. `UPDATE_SNAPSHOTS=1` makes them anew.
+use egui_kittest::{SnapshotOptions, image_snapshot_options};
+
+use super::{rasteriser::Rasteriser, *};
+use crate::viewer::dock::Tab;
+
+/// Where the figures change with every run: the line at the bottom.
+const STATUS_BAR: u32 = 34;
+
+/// A window as large as the smallest that is meant to be comfortable, with a picture of so many samples.
+fn at_rest(scene: &str, spp: u32, change: impl FnOnce(&mut App)) -> Window {
+    let scene = shipped(scene);
+    let draw = move |ui: &mut egui::Ui, app: &mut Lazy| {
+        let make = || {
+            let threads = Threads::new(1, SimdLevel::best()).expect("a thread can be had");
+            App::new(ui.ctx(), threads, Some(scene.clone()), Preferences::default())
+        };
+        app.0.get_or_insert_with(make).show(ui);
+    };
+    let builder = Harness::builder().with_size(vec2(1280.0, 800.0)).renderer(Rasteriser::default());
+    let mut window = builder.build_ui_state(draw, Lazy(None));
+    wait(&mut window, "the scene", |app| app.opened.is_some());
+    let app = window.state_mut();
+    app.camera.resolution = [60, 60];
+    app.budget.max_spp = Some(spp);
+    change(app);
+    wait(&mut window, "the picture", |app| {
+        let shown = app.shown.as_ref().is_some_and(|frame| frame.spp == spp && frame.width == 60);
+        let beside = app.companion().is_none() || app.frame_beside.as_ref().is_some_and(|frame| frame.spp == spp);
+        shown && beside && (app.inspector.pixel.is_none() || app.inspector.findings().is_some())
+    });
+    // What is on its way arrives.
+    for _ in 0..30 {
+        window.step();
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    window
+}
+
+fn compare(window: &mut Window, name: &str) {
+    let mut picture = window.render().expect("it is drawn");
+    let (width, height) = picture.dimensions();
+    for y in height - STATUS_BAR..height {
+        (0..width).for_each(|x| picture.put_pixel(x, y, image::Rgba([0, 0, 0, 255])));
+    }
+    image_snapshot_options(&picture, name, &SnapshotOptions::default().max_failed_pixels(40));
+}
+
+#[test]
+fn the_window_looks_as_it_did_in_both_themes() {
+    let mut window = at_rest("cornell_spheres", 8, |_| {});
+    compare(&mut window, "converged");
+    window.ctx.set_theme(egui::Theme::Light);
+    window.run_steps(3);
+    compare(&mut window, "converged_light");
+}
+
+#[test]
+fn the_instruments_look_as_they_did() {
+    compare(&mut at_rest("cornell_spheres", 8, |app| app.dock = Some(Tab::Bounces)), "bounces");
+    let inspected = |app: &mut App| {
+        app.dock = Some(Tab::Path);
+        app.inspector.look_at([38, 45]);
+    };
+    compare(&mut at_rest("glass_and_mirror", 16, inspected), "pixel");
+    let scored = |app: &mut App| app.look.view = noisefall::render::view::View::ZScore;
+    compare(&mut at_rest("furnace", 64, scored), "z_score");
+}
