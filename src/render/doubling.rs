@@ -5,6 +5,7 @@
 //! good as the first, E|I_N − I_{N/2}|² = V(N/2) − V(N): see [`remaining`] for how V(N) follows from these differences.
 use super::{
     film::Film,
+    region::Region,
     tile::{Block, Estimate},
 };
 use crate::measure::REL_MSE_FLOOR;
@@ -57,10 +58,17 @@ impl Doubling {
 
 /// The relMSE that a film of this many samples is expected to have; `None` before the second sample.
 pub(super) fn rel_mse_estimate(film: &Film) -> Option<f64> {
-    if film.spp() < 2 {
+    let all = Region { from: [0, 0], to: film.resolution };
+    rel_mse_estimate_in(film, &all)
+}
+
+/// The same of the tiles in a region.
+pub(super) fn rel_mse_estimate_in(film: &Film, region: &Region) -> Option<f64> {
+    if film.spp_in(region)? < 2 {
         return None;
     }
-    let blocks = || film.tiles.iter().flat_map(|tile| &tile.blocks);
+    let tiles = || film.tiles.iter().filter(|tile| tile.lies_in(region));
+    let blocks = || tiles().flat_map(|tile| &tile.blocks);
     let back = |steps: usize| {
         let doubled = blocks().filter(|block| block.spp.ilog2() as usize > steps).map(|block| block.doublings[steps]);
         doubled.fold((0.0, 0.0), |(moved, variance), doubling| (moved + doubling.moved, variance + doubling.variance))
@@ -70,7 +78,7 @@ pub(super) fn rel_mse_estimate(film: &Film) -> Option<f64> {
     // Between doublings nothing is known of Sobol samples but that they are no worse than independent ones.
     let since = |block: &Block| f64::from(1u32 << block.spp.ilog2()) / f64::from(block.spp);
     let now: f64 = blocks().map(|block| block.doublings[0].variance * since(block)).sum();
-    let values = 3.0 * film.resolution.map(f64::from).iter().product::<f64>();
+    let values = 3.0 * tiles().map(|tile| tile.size.map(f64::from).iter().product::<f64>()).sum::<f64>();
     Some(remaining(&doublings) * now / last / values)
 }
 

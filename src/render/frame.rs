@@ -23,7 +23,7 @@ pub struct Frame {
     pub radiance: Vec<[f32; 3]>,
     /// Standard error of the pixel's luminance; NaN before the second sample.
     pub standard_error: Vec<f32>,
-    /// Samples that every pixel has at least.
+    /// Samples that every pixel has at least; on average at most where they are spread by noise.
     pub spp: u32,
     /// Samples of every pixel, row by row; empty where all have `spp`.
     pub counts: Vec<u32>,

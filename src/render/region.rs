@@ -20,6 +20,12 @@ impl Region {
         [0, 1].map(|axis| self.to[axis].saturating_sub(self.from[axis]))
     }
 
+    /// The part of it that lies in a picture; `None` where none does.
+    pub fn within(&self, resolution: [u32; 2]) -> Option<Region> {
+        let to = [0, 1].map(|axis| self.to[axis].min(resolution[axis]));
+        (0..2).all(|axis| self.from[axis] < to[axis]).then_some(Region { from: self.from, to })
+    }
+
     /// Whether it shares pixels with the rectangle of this size.
     pub fn meets(&self, origin: [u32; 2], size: [u32; 2]) -> bool {
         (0..2).all(|axis| self.from[axis] < origin[axis] + size[axis] && origin[axis] < self.to[axis])
@@ -42,6 +48,8 @@ mod tests {
         assert_eq!(region, Region { from: [31, 10], to: [41, 13] });
         assert!(region.meets([0, 0], [32, 32]) && region.meets([32, 0], [32, 32]));
         assert!(!region.meets([41, 0], [32, 32]) && !region.meets([32, 13], [32, 32]));
+        assert_eq!(region.within([35, 100]).map(|part| part.to), Some([35, 13]));
+        assert_eq!(region.within([31, 100]), None);
         assert_eq!(region.in_tiles([60, 100]), Region { from: [0, 0], to: [60, 32] });
     }
 }

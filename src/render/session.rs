@@ -2,6 +2,7 @@
 use std::time::{Duration, Instant};
 
 use super::{
+    doubling::rel_mse_estimate_in,
     film::Film,
     frame::Frame,
     pass::{PassCount, PassJob, Threads},
@@ -36,6 +37,8 @@ pub(super) struct Session {
     rate: Option<f64>,
     steps_done: u64,
     rel_mse_estimate: Option<f64>,
+    /// The same of the region that is rendered before the rest.
+    region_estimate: Option<(Region, f64)>,
     /// Pixels share what their paths find.
     shares: bool,
     last_frame: Option<Instant>,
@@ -75,6 +78,7 @@ impl Session {
             rate,
             steps_done: budget.steps,
             rel_mse_estimate: None,
+            region_estimate: None,
             shares: false,
             last_frame: None,
             stale: false,
@@ -131,11 +135,14 @@ impl Session {
         }
     }
 
-    /// The region to render before the rest, until it has what the budget asks for. Every pixel has its first sample by then.
+    /// The region to render before the rest, until it has the samples or the noise that the budget asks for. Every pixel has its first
+    /// sample by then.
     fn focus(&self, budget: &Budget) -> Option<Region> {
+        let estimate = |region: &Region| self.region_estimate.filter(|(of, _)| of == region).map(|(_, rel_mse)| rel_mse.sqrt());
         let unfinished = |region: &Region| {
-            let spp = self.film.spp_in(region);
-            spp.is_some_and(|spp| spp > 0 && budget.max_spp.is_none_or(|most| spp < most))
+            let Some(spp) = self.film.spp_in(region) else { return false };
+            let low_noise = budget.noise.zip(estimate(region)).is_some_and(|(goal, noise)| noise <= goal);
+            budget.max_spp.is_none_or(|most| spp < most) && !(low_noise && spp >= LEAST_SPP_FOR_NOISE)
         };
         budget.region.filter(|region| self.film.spp() > 0 && unfinished(region))
     }
@@ -241,15 +248,17 @@ impl Session {
         }
         let frame = Frame { elapsed: self.elapsed, ..Frame::of_film(&self.film, self.job.generation, full, full) };
         self.rel_mse_estimate = frame.rel_mse_estimate;
+        let focus = self.film.focus;
+        self.region_estimate = focus.and_then(|region| Some((region, rel_mse_estimate_in(&self.film, &region)?)));
         frame
     }
 
-    pub fn status(&self, state: State) -> Status {
+    pub fn status(&self, budget: &Budget) -> Status {
         Status {
             generation: self.job.generation,
-            state,
+            state: self.state(budget),
             spp: self.film.spp(),
-            region_spp: self.film.focus.map(|_| self.spp_in_focus()),
+            region_spp: self.focus(budget).and_then(|region| self.film.spp_in(&region)),
             samples: self.film.samples(),
             rays: self.count.rays,
             elapsed: self.elapsed,

@@ -5,7 +5,7 @@
 //! is stopped is thrown away and traced again.
 //! A new job starts an empty film; a new budget goes on with the film there is.
 //!
-//! A second picture may be rendered beside the first. Both get the same time: the one that had less goes on.
+//! A second picture may be rendered beside the first. From then on both get the same time: the one that had less goes on.
 use std::{
     sync::{
         Arc, Mutex, MutexGuard, PoisonError,
@@ -165,6 +165,7 @@ impl Renderer {
             seen: 0,
             budget: Budget::default(),
             sessions: [None, None],
+            lead: Duration::ZERO,
         };
         let thread = std::thread::Builder::new().name("worker".to_owned()).spawn(move || worker.run(&notify));
         Renderer { sender, shared, thread: Some(thread.expect("a thread can be started")) }
@@ -229,6 +230,8 @@ struct Worker {
     budget: Budget,
     /// Of the first picture and of the one beside it.
     sessions: [Option<Session>; 2],
+    /// Time that the first picture had had when the other one began.
+    lead: Duration,
 }
 
 impl Worker {
@@ -254,13 +257,15 @@ impl Worker {
         }
     }
 
-    /// The side whose turn it is: of those that are not done, the one that had less time.
+    /// The side whose turn it is: of those that are not done, the one that had less time since both are there.
     fn next(&self) -> Option<usize> {
         let running = |session: &Session| session.state(&self.budget) == State::Running;
         let sides = self.sessions.iter().enumerate().filter_map(|(side, session)| Some((side, session.as_ref()?)));
         let running = sides.filter(|(_, session)| running(session));
         // The first look at a picture goes before the second sample of another one.
-        running.min_by_key(|(_, session)| (!session.is_coarse(), session.elapsed())).map(|(side, _)| side)
+        let leads = [self.lead, Duration::ZERO];
+        let time = |side: usize, session: &Session| session.elapsed().saturating_sub(leads[side]);
+        running.min_by_key(|(side, session)| (!session.is_coarse(), time(*side, session))).map(|(side, _)| side)
     }
 
     /// Makes a frame if one is due, and tells what has changed.
@@ -269,7 +274,7 @@ impl Worker {
         let at_rest = session.state(&self.budget) != State::Running;
         let frame = session.frame_due(self.publish, at_rest).then(|| self.threads.install(|| Arc::new(session.frame())));
         // The frame's noise estimate may itself be what the budget waits for.
-        let status = session.status(session.state(&self.budget));
+        let status = session.status(&self.budget);
         let mut published = lock(&self.shared.published);
         let changed = frame.is_some() || published[side].status != status;
         published[side].status = status;
@@ -315,6 +320,7 @@ impl Worker {
         let sessions = || self.sessions.iter().flatten();
         let rate = sessions().filter(|old| Arc::ptr_eq(&old.job().scene, &job.scene)).find_map(Session::rate);
         let film = self.sessions[side].take().map(Session::into_film);
+        self.lead = self.sessions[0].as_ref().map_or(Duration::ZERO, Session::elapsed);
         self.sessions[side] = Some(match what {
             Beside::Picture(job) => Session::new(job, self.publish, rate, &self.budget, film),
             Beside::Series(job) => Session::of_series(job, rate, &self.budget),

@@ -26,13 +26,15 @@ pub struct Adviser {
     stopped: Arc<AtomicBool>,
     result: mpsc::Receiver<Result<Advice, String>>,
     advice: Option<Result<Advice, String>>,
+    /// What is studied.
+    wish: Wish,
 }
 
 impl Adviser {
     fn start(ctx: &egui::Context, wish: &Wish, threads: usize) -> Adviser {
         let (sender, result) = mpsc::channel();
         let (progress, stopped) = (Arc::new(Mutex::new((0, 0))), Arc::new(AtomicBool::new(false)));
-        let adviser = Adviser { progress: progress.clone(), stopped: stopped.clone(), result, advice: None };
+        let adviser = Adviser { progress: progress.clone(), stopped: stopped.clone(), result, advice: None, wish: wish.clone() };
         let (ctx, Wish { scene, camera, settings }) = (ctx.clone(), wish.clone());
         std::thread::spawn(move || {
             let mut tell = |done, total| {
@@ -62,8 +64,10 @@ impl Drop for Adviser {
 
 impl App {
     pub(super) fn ask_for_advice(&mut self) {
+        let settings = *self.edited();
         if let Some(wish) = self.link.wish() {
-            self.adviser = Some(Adviser::start(&self.ctx, wish, self.threads));
+            let wish = Wish { settings, ..wish.clone() };
+            self.adviser = Some(Adviser::start(&self.ctx, &wish, self.threads));
         }
     }
 
@@ -73,9 +77,17 @@ impl App {
     }
 
     pub(super) fn show_advice(&mut self, ctx: &egui::Context) {
+        let edited = *self.edited();
+        let is_same = |wish: &Wish| wish.settings == edited && wish.camera == self.camera;
+        // Advice is for what was asked about, and for nothing that it has become since.
+        self.adviser = self.adviser.take().filter(|adviser| is_same(&adviser.wish));
         let Some(adviser) = &mut self.adviser else { return };
-        if let Ok(advice) = adviser.result.try_recv() {
-            adviser.advice = Some(advice);
+        match adviser.result.try_recv() {
+            Ok(advice) => adviser.advice = Some(advice),
+            Err(mpsc::TryRecvError::Disconnected) if adviser.advice.is_none() => {
+                adviser.advice = Some(Err("The study failed unexpectedly.".to_owned()));
+            }
+            Err(_) => {}
         }
         let (mut open, mut chosen) = (true, None);
         egui::Window::new("What should I use here?")
@@ -97,7 +109,7 @@ impl App {
                 }
             });
         if let Some(settings) = chosen {
-            self.settings = settings;
+            *self.edited() = settings;
             open = false;
         }
         if !open {

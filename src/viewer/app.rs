@@ -6,7 +6,6 @@ use noisefall::{
     render::{
         Budget, Frame, Region, State, Status,
         pass::Threads,
-        truth::Reference,
         view::{Legend, Look, Scores},
     },
     scene::{Camera, RenderSettings, built_in},
@@ -32,6 +31,7 @@ use super::{
     path::Inspector,
     picture_view::View,
     preferences::Preferences,
+    receive::DroppedTruth,
     save_dialog::SaveDialog,
     saver::Saver,
 };
@@ -54,8 +54,7 @@ pub struct App {
     pub(super) threads: usize,
     pub(super) look: Look,
     pub(super) pinned: Option<Arc<Frame>>,
-    /// A reference that was dropped on the window, and its name.
-    pub(super) dropped_truth: Option<(String, Arc<Reference>)>,
+    pub(super) dropped_truth: Option<DroppedTruth>,
 
     /// What there is.
     pub(super) status: Status,
@@ -77,6 +76,10 @@ pub struct App {
     pub(super) view: View,
     pub(super) dock: Option<Tab>,
     pub(super) hovered: Option<[u32; 2]>,
+    /// It is a pixel of the second picture.
+    pub(super) over_second: bool,
+    /// A field or a list had the keyboard when the last frame ended.
+    pub(super) had_focus: bool,
     /// The region that is being drawn.
     pub(super) marking: Option<Region>,
     pub(super) hidden: bool,
@@ -136,6 +139,8 @@ impl App {
             view: View::default(),
             dock: None,
             hovered: None,
+            over_second: false,
+            had_focus: false,
             marking: None,
             hidden: false,
             help_open: false,
@@ -178,6 +183,7 @@ impl App {
         self.show_notices(&ctx);
         self.show_pace(&ctx);
         self.submit();
+        self.had_focus = ctx.egui_wants_keyboard_input();
         self.pace.record(start.elapsed(), ctx.input(|input| input.time));
     }
 
@@ -206,7 +212,7 @@ impl App {
         let size = self.opened.as_ref().map_or(1.0, |opened| opened.scene.size);
         let keys = self.save_dialog.is_none() && self.open_dialog.is_none() && !self.help_open && !self.gallery.open;
         let output = canvas::show(ui, self.pictures(), self.tool, &mut self.view, &self.camera, size, keys);
-        self.hovered = output.hovered;
+        (self.hovered, self.over_second) = (output.hovered, output.over_second);
         if let Some(camera) = output.camera.filter(|camera| camera.check().is_ok()) {
             self.camera = camera;
         }
@@ -240,16 +246,20 @@ impl App {
 
     /// Asks the worker for what the controls say.
     fn submit(&mut self) {
-        if let Err(error) = self.link.set_threads(self.threads) {
+        let pressed = self.ctx.input(|input| input.pointer.any_down());
+        if !pressed && let Err(error) = self.link.set_threads(self.threads) {
+            self.threads = self.link.threads();
             self.tell(format!("The threads cannot be had: {error}"), true);
         }
+        let [width, height] = self.camera.resolution;
+        self.budget.region = self.budget.region.and_then(|region| region.within([width, height]));
         let Some(opened) = &self.opened else { return };
         let budget = Budget { paused: self.budget.paused || self.hidden || self.is_studying(), ..self.budget };
         let wish = Wish { scene: opened.scene.clone(), camera: self.camera, settings: self.settings };
         // A control that is dragged asks for a new picture at every step; the next one is not asked for before the last is seen.
-        let shown = self.shown.as_ref().map_or(0, |frame| frame.generation);
-        let drags_control = self.ctx.input(|input| input.pointer.any_down()) && self.tool != Tool::Camera;
-        let waits = drags_control && self.link.is_awaited(shown) && self.link.wish() != Some(&wish);
+        let shown = [self.shown.as_ref(), self.frame_beside.as_ref()].map(|frame| frame.map_or(0, |frame| frame.generation));
+        let drags_control = pressed && self.tool != Tool::Camera;
+        let waits = drags_control && self.link.is_awaited(shown) && !self.link.is_asked(&wish, self.companion());
         if waits {
             self.ctx.request_repaint_after(std::time::Duration::from_millis(20));
         } else if self.camera.check().is_ok() {

@@ -48,7 +48,9 @@ impl App {
         ui.add_space(4.0);
         let k = self.bounces.reflections;
         let lost = series.lost_by_cap(k);
-        let text = if k == LAST && !self.bounces.up_to {
+        let text = if k == LAST && self.bounces.up_to {
+            "This is all of the light, as the picture has it.".to_owned()
+        } else if k == LAST {
             format!("Reflections {LAST} and more bring {} of the light.", percent(series.shares.iter().skip(LAST).sum()))
         } else {
             format!(
@@ -88,7 +90,13 @@ impl App {
                 let below = |dy: f32| egui::pos2(middle, base + dy);
                 ui.painter().text(below(2.0), egui::Align2::CENTER_TOP, name, font.clone(), ink);
                 ui.painter().text(below(16.0), egui::Align2::CENTER_TOP, short(share), font, ui.visuals().weak_text_color());
-                if response.on_hover_text(format!("{k} reflections: {}", percent(share))).clicked() {
+                let doc = format!(
+                    "{} reflections: {}",
+                    if k < BARS { k.to_string() } else { format!("{BARS} and more") },
+                    percent(share)
+                );
+                response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &doc));
+                if response.on_hover_text(&doc).clicked() {
                     self.bounces.reflections = k.min(LAST);
                 }
             }

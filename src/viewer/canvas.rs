@@ -46,6 +46,8 @@ pub struct Pictures {
 pub struct CanvasOutput {
     /// The picture's pixel under the pointer.
     pub hovered: Option<[u32; 2]>,
+    /// It is one of the second picture.
+    pub over_second: bool,
     /// The pixel that was clicked.
     pub clicked: Option<[u32; 2]>,
     /// The corner where a drag began and the one where it is, and whether it has ended.
@@ -123,11 +125,13 @@ pub fn show(
         move_picture(ui, &response, tool, view, under.clip);
     }
     let hovered = response.hover_pos().and_then(|at| under.pixel(at));
+    let over_second = response.hover_pos().is_some_and(|at| is_second(at, &pictures, &places, view));
     let flies = keys.then_some(size);
     CanvasOutput {
         hovered,
+        over_second,
         clicked: hovered.filter(|_| response.clicked()),
-        marked: if tool == Tool::Region { marked(ui, &response, &places[0]) } else { None },
+        marked: if tool == Tool::Region && !wiped { marked(ui, &response, &under, view) } else { None },
         camera: flight::moved(ui, &response, tool == Tool::Camera && !wiped, camera, under.rect, flies),
         place: Some(places[0]),
     }
@@ -198,6 +202,17 @@ fn drag_line(ui: &egui::Ui, response: &Response, seen: Rect, view: &mut View) ->
     view.wiping
 }
 
+/// Whether a point of the screen shows the second picture.
+fn is_second(at: Pos2, pictures: &Pictures, places: &[Place], view: &View) -> bool {
+    let seen = places[0].rect.intersect(places[0].clip);
+    match pictures.split {
+        _ if pictures.second.is_none() => false,
+        Split::None => false,
+        Split::Wipe => at.x > seen.left() + view.wipe * seen.width(),
+        Split::SideBySide => places.get(1).is_some_and(|place| place.clip.contains(at)),
+    }
+}
+
 /// Says which picture this is, in its upper left corner.
 fn letter(ui: &egui::Ui, clip: Rect, letter: &str) {
     let at = clip.left_top() + Vec2::splat(8.0);
@@ -208,17 +223,21 @@ fn letter(ui: &egui::Ui, clip: Rect, letter: &str) {
 }
 
 /// The rectangle that is being drawn.
-fn marked(ui: &egui::Ui, response: &Response, place: &Place) -> Option<(Region, bool)> {
+fn marked(ui: &egui::Ui, response: &Response, place: &Place, view: &mut View) -> Option<(Region, bool)> {
     if response.hovered() {
         ui.ctx().set_cursor_icon(CursorIcon::Crosshair);
+    }
+    if response.drag_started_by(PointerButton::Primary) {
+        view.marks_from = ui.input(|input| input.pointer.press_origin()).map(|at| place.nearest_pixel(at));
     }
     let ended = response.drag_stopped_by(PointerButton::Primary);
     if !ended && !response.dragged_by(PointerButton::Primary) {
         return None;
     }
-    let from = ui.input(|input| input.pointer.press_origin()).or(response.interact_pointer_pos())?;
+    // By the time a drag has ended nobody else knows where it began.
+    let from = if ended { view.marks_from.take() } else { view.marks_from };
     let to = response.interact_pointer_pos()?;
-    Some((Region::between(place.nearest_pixel(from), place.nearest_pixel(to)), ended))
+    Some((Region::between(from?, place.nearest_pixel(to)), ended))
 }
 
 fn move_picture(ui: &egui::Ui, response: &Response, tool: Tool, view: &mut View, area: Rect) {

@@ -1,7 +1,7 @@
 //! Two settings of the same scene, seen together and rendered in the same time.
 use egui::{Grid, RichText, Ui};
 use noisefall::{
-    render::{Status, view::View},
+    render::{State, Status, view::View},
     sampling::SAMPLERS,
     scene::{Estimator, RenderSettings, Reuse, Roulette},
 };
@@ -126,6 +126,10 @@ impl App {
             ends |= ui.button("Keep A").on_hover_text("End the comparison").clicked();
             self.compare_menu(ui);
         });
+        if compare.layout == Layout::Wipe {
+            let label = ui.label("Line").on_hover_text("Where the wipe is: drag it in the picture, or here");
+            ui.add(egui::Slider::new(&mut self.view.wipe, 0.0..=1.0).show_value(false)).labelled_by(label.id);
+        }
         self.compare = (!ends).then_some(compare);
         ui.add_space(6.0);
         self.figures_of_both(ui, &compare);
@@ -134,10 +138,10 @@ impl App {
     fn figures_of_both(&self, ui: &mut Ui, compare: &Compare) {
         let of_scene = self.opened.as_ref().map_or_else(RenderSettings::default, |opened| opened.scene.settings);
         let sides = [
-            Side::of("A", name(&self.settings, &of_scene), &self.status, self.against),
-            Side::of("B", name(&compare.other, &of_scene), &self.status_beside, self.against_beside),
+            Side::of("A", name(&self.settings, &of_scene), &self.status, &self.settings, self.against),
+            Side::of("B", name(&compare.other, &of_scene), &self.status_beside, &compare.other, self.against_beside),
         ];
-        Grid::new("A and B").num_columns(7).spacing([18.0, 5.0]).show(ui, |ui| {
+        Grid::new("A and B").num_columns(8).spacing([18.0, 5.0]).show(ui, |ui| {
             for (heading, doc) in HEADINGS {
                 ui.label(RichText::new(heading).weak()).on_hover_text(doc);
             }
@@ -147,7 +151,9 @@ impl App {
             }
         });
         ui.add_space(4.0);
-        if let [Some(a), Some(b)] = sides.each_ref().map(|side| side.efficiency) {
+        if let Some(text) = incomparable(&sides) {
+            ui.label(RichText::new(text).color(ui.warning()));
+        } else if let [Some(a), Some(b)] = sides.each_ref().map(|side| side.efficiency) {
             let (text, more) = verdict(a, b);
             ui.label(RichText::new(text).color(ui.accent())).on_hover_text(more);
         } else {
@@ -156,14 +162,15 @@ impl App {
     }
 }
 
-const HEADINGS: [(&str, &str); 7] = [
+const HEADINGS: [(&str, &str); 8] = [
     ("", ""),
     ("settings", "What differs from how the scene opens"),
     ("N", "Samples per pixel"),
-    ("time", "Seconds of rendering: the same for both"),
+    ("time", "Seconds of rendering: both get the same since the comparison began"),
     ("noise", "Estimated relative error: the root of relMSE"),
     ("true error", "Relative error against the truth, where that is known"),
     ("efficiency", "1/(relMSE · seconds): twice as much is the same error in half the time"),
+    ("converges to", "Whether the expected picture is the solution of the equation"),
 ];
 
 /// The figures of one side.
@@ -175,14 +182,19 @@ struct Side {
     noise: Option<f64>,
     truth: Option<f64>,
     efficiency: Option<f64>,
+    /// Why it converges to another picture, or not at all.
+    trouble: Option<String>,
 }
 
 impl Side {
-    fn of(letter: &'static str, name: String, status: &Status, against: Option<Against>) -> Side {
+    fn of(letter: &'static str, name: String, status: &Status, settings: &RenderSettings, against: Option<Against>) -> Side {
         let seconds = status.elapsed.as_secs_f64();
         // The truth, where it is known, sees bias as well.
         let rel_mse = against.map(|against| against.rel_mse).or(status.rel_mse_estimate).filter(|rel_mse| *rel_mse > 0.0);
+        let failure =
+            if let State::Failed(failure) = &status.state { Some(format!("failed: {}", failure.message)) } else { None };
         Side {
+            trouble: failure.or_else(|| status.bias(settings).map(|why| format!("biased: {why}"))),
             letter,
             name,
             spp: status.spp,
@@ -202,8 +214,21 @@ impl Side {
         ui.monospace(percent(self.noise));
         ui.monospace(percent(self.truth));
         ui.monospace(self.efficiency.map_or_else(|| "–".to_owned(), |x| significant(x)));
+        match &self.trouble {
+            None => ui.label(RichText::new("the solution").color(ui.good())),
+            Some(trouble) => ui.label(RichText::new(trouble).color(ui.warning())),
+        };
         ui.end_row();
     }
+}
+
+/// Why efficiencies say nothing: noise alone does not see that one side converges to another picture.
+fn incomparable(sides: &[Side; 2]) -> Option<String> {
+    let biased = sides.iter().find(|side| side.trouble.is_some() && side.truth.is_none())?;
+    let letter = biased.letter;
+    Some(format!(
+        "{letter} does not converge to the solution: less noise does not make it nearer. The difference shows what is missing."
+    ))
 }
 
 /// Three digits that count.

@@ -1,5 +1,8 @@
 //! The darkroom: frames are developed to screen pixels, and held against the true picture, off the UI thread.
-use std::sync::{Arc, Mutex, PoisonError};
+use std::{
+    panic::{AssertUnwindSafe, catch_unwind},
+    sync::{Arc, Mutex, PoisonError},
+};
 
 use crossbeam_channel::{Sender, unbounded};
 use noisefall::{
@@ -110,7 +113,9 @@ impl Darkroom {
             while let Ok(order) = inbox.recv() {
                 // Only the latest order matters.
                 let order = inbox.try_iter().last().unwrap_or(order);
-                *shelf.lock().unwrap_or_else(PoisonError::into_inner) = Some(develop(order));
+                // A print that fails is not the end of all others.
+                let Ok(print) = catch_unwind(AssertUnwindSafe(|| develop(order))) else { continue };
+                *shelf.lock().unwrap_or_else(PoisonError::into_inner) = Some(print);
                 ctx.request_repaint();
             }
         };

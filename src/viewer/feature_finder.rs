@@ -8,6 +8,7 @@ use std::sync::{
 use noisefall::{
     integrator::{Features, features},
     math::SimdLevel,
+    render::pass::Threads,
     scene::{Camera, Scene},
 };
 
@@ -27,34 +28,44 @@ struct Search {
     given_up: Arc<AtomicBool>,
 }
 
+impl Drop for Search {
+    fn drop(&mut self) {
+        self.given_up.store(true, Ordering::Relaxed);
+    }
+}
+
 impl FeatureFinder {
     pub fn new(ctx: &egui::Context) -> FeatureFinder {
         FeatureFinder { ctx: ctx.clone(), found: None, subject: None, pending: None }
     }
 
     /// The features of a picture, as soon as they are there; those of the one before meanwhile.
-    pub fn of(&mut self, scene: &Arc<Scene>, camera: &Camera) -> Option<Arc<Features>> {
+    pub fn of(&mut self, scene: &Arc<Scene>, camera: &Camera, threads: usize) -> Option<Arc<Features>> {
         let same = |(old, at): &Subject| Arc::ptr_eq(old, scene) && at == camera;
-        if !self.subject.as_ref().is_some_and(same) {
-            self.search(scene, camera);
+        match self.pending.as_ref().map(|search| search.result.try_recv()) {
+            Some(Ok(features)) => (self.found, self.pending) = (Some(Arc::new(features)), None),
+            // The renderer fails at it: the picture's own threads say so.
+            Some(Err(mpsc::TryRecvError::Disconnected)) => self.pending = None,
+            _ => {}
         }
-        if let Some(features) = self.pending.as_ref().and_then(|search| search.result.try_recv().ok()) {
-            (self.found, self.pending) = (Some(Arc::new(features)), None);
+        // A search that is under way is let finish: while the camera is dragged there would never be one that does.
+        if self.pending.is_none() && !self.subject.as_ref().is_some_and(same) {
+            self.search(scene, camera, threads);
         }
         self.found.clone()
     }
 
-    fn search(&mut self, scene: &Arc<Scene>, camera: &Camera) {
-        if let Some(search) = &self.pending {
-            search.given_up.store(true, Ordering::Relaxed);
-        }
+    fn search(&mut self, scene: &Arc<Scene>, camera: &Camera, threads: usize) {
         self.subject = Some((scene.clone(), *camera));
         let (sender, result) = mpsc::channel();
         let given_up = Arc::new(AtomicBool::new(false));
         self.pending = Some(Search { result, given_up: given_up.clone() });
         let (ctx, scene, camera) = (self.ctx.clone(), scene.clone(), *camera);
         std::thread::spawn(move || {
-            let found = features(SimdLevel::best(), &scene, &camera, &|| given_up.load(Ordering::Relaxed));
+            let interrupted = || given_up.load(Ordering::Relaxed);
+            // On threads of their own, so many as render.
+            let Ok(pool) = Threads::new(threads, SimdLevel::best()) else { return };
+            let found = pool.install(|| features(SimdLevel::best(), &scene, &camera, &interrupted));
             if let Some(features) = found {
                 let _ = sender.send(features);
                 ctx.request_repaint();

@@ -23,6 +23,7 @@ pub struct Link {
     beside: Option<Companion>,
     budget: Budget,
     threads: usize,
+    restarts: bool,
     asked: Instant,
 }
 
@@ -70,6 +71,7 @@ impl Link {
             beside: None,
             budget: Budget::default(),
             threads: count,
+            restarts: false,
             asked: Instant::now(),
         }
     }
@@ -80,7 +82,7 @@ impl Link {
             self.renderer.set_budget(budget);
             self.budget = budget;
         }
-        let is_new = self.wish.as_ref() != Some(&wish);
+        let is_new = std::mem::take(&mut self.restarts) || self.wish.as_ref() != Some(&wish);
         if is_new {
             self.generation = self.next();
             self.renderer.submit(wish.job(self.generation));
@@ -102,14 +104,25 @@ impl Link {
         self.latest
     }
 
-    /// Whether what was asked for last is still to appear, for a little while after it was.
-    pub fn is_awaited(&self, shown: u64) -> bool {
-        self.wish.is_some() && shown < self.generation && self.asked.elapsed() < PATIENCE
+    /// Whether what was asked for last is still to appear, for a little while after it was. `shown` are the generations of the
+    /// picture and of the one beside it.
+    pub fn is_awaited(&self, shown: [u64; 2]) -> bool {
+        let beside = self.beside.is_some() && shown[1] < self.generation_beside;
+        (shown[0] < self.generation || beside) && self.asked.elapsed() < PATIENCE
+    }
+
+    /// Whether this is what was asked for last.
+    pub fn is_asked(&self, wish: &Wish, beside: Option<Companion>) -> bool {
+        self.wish.as_ref() == Some(wish) && self.beside == beside
     }
 
     /// The next [`Link::update`] starts over.
     pub fn restart(&mut self) {
-        self.wish = None;
+        self.restarts = true;
+    }
+
+    pub fn threads(&self) -> usize {
+        self.threads
     }
 
     /// Renders on so many threads from now on.

@@ -1,7 +1,8 @@
 //! The window. It says what it wants rendered, shows what comes back, and never waits.
 //!
 //! Work that could take longer than a frame has a thread of its own: rendering (the worker), the display transform
-//! ([`darkroom`]), reading scenes ([`loader`]), and writing pictures ([`saver`]).
+//! ([`darkroom`]), reading scenes ([`loader`]) and their pictures ([`gallery`]), writing files ([`saver`]), what camera rays meet
+//! ([`feature_finder`]), the samples of a pixel ([`path`]), and studies ([`advice`]).
 mod advice;
 mod app;
 mod bounces;
@@ -50,12 +51,12 @@ use std::{
     path::PathBuf,
 };
 
-use app::App;
+pub use app::App;
 use noisefall::{
     math::SimdLevel,
     render::pass::{Threads, panic_message},
 };
-use preferences::Preferences;
+pub use preferences::Preferences;
 
 const NO_WINDOW: &str = "use `noisefall render SCENE -o picture.png` to render without a window";
 

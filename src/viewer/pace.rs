@@ -41,13 +41,18 @@ impl Pace {
 }
 
 impl App {
+    /// The time that this part of the last frames stayed below.
+    pub fn frame_time(&self, part: f64) -> Duration {
+        self.pace.quantile(part)
+    }
+
     /// The overlay with the figures.
     pub(super) fn show_pace(&self, ctx: &egui::Context) {
         if !self.pace.shown {
             return;
         }
         let ms = |time: Duration| time.as_secs_f64() * 1e3;
-        let [half, most] = [0.5, 0.99].map(|part| ms(self.pace.quantile(part)));
+        let [half, most] = [0.5, 0.99].map(|part| ms(self.frame_time(part)));
         let egui::Rect { min, .. } = ctx.content_rect();
         egui::Area::new(egui::Id::unique("pace")).anchor(Align2::LEFT_TOP, [min.x + 10.0, min.y + 44.0]).show(ctx, |ui| {
             egui::Frame::popup(ui.style()).show(ui, |ui| {

@@ -12,13 +12,15 @@ pub struct View {
     /// Where the line between two pictures is, from 0 at the left to 1; and whether it is being dragged.
     pub wipe: f32,
     pub wiping: bool,
+    /// The pixel where a region begins that is being marked.
+    pub marks_from: Option<[u32; 2]>,
 }
 
 const ZOOM_RANGE: std::ops::RangeInclusive<f32> = 0.05..=64.0;
 
 impl Default for View {
     fn default() -> View {
-        View { zoom: None, offset: Vec2::ZERO, drawn_zoom: 0.0, wipe: 0.5, wiping: false }
+        View { zoom: None, offset: Vec2::ZERO, drawn_zoom: 0.0, wipe: 0.5, wiping: false, marks_from: None }
     }
 }
 

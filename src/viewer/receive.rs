@@ -18,6 +18,14 @@ use super::{
     path::Inspector,
 };
 
+/// A reference that was dropped on the window.
+pub struct DroppedTruth {
+    pub name: String,
+    pub reference: Arc<Reference>,
+    /// Whose picture it is taken for: the one when it was dropped.
+    pub camera: Camera,
+}
+
 impl App {
     pub(super) fn receive(&mut self) {
         match self.loader.take() {
@@ -60,7 +68,8 @@ impl App {
         let pinned = if view.is_some() { beside.clone() } else { self.pinned.clone() };
         let look = noisefall::render::view::Look { view: view.unwrap_or(self.look.view), ..self.look };
         let wish = self.link.wish().map(|wish| (wish.scene.clone(), wish.camera));
-        let features = wish.filter(|_| look.view.shows_features()).and_then(|(scene, camera)| self.finder.of(&scene, &camera));
+        let features =
+            wish.filter(|_| look.view.shows_features()).and_then(|(scene, camera)| self.finder.of(&scene, &camera, self.threads));
         Order {
             truth: self.truth(&frame),
             term: term.map(|of| Term { of, reflections: self.bounces.reflections, up_to: self.bounces.up_to }),
@@ -81,14 +90,14 @@ impl App {
         (self.against, self.against_beside) = (print.truth, print.truth_beside);
         (self.legend, self.scores, self.black) = (print.legend, print.scores, print.black);
         if let Some(wish) = self.link.wish() {
-            self.history.look_at(&wish.scene, &wish.camera);
+            self.history.look_at(&wish.scene, &wish.camera, self.truth_here().as_ref());
             let frame = &print.frame;
             if frame.generation == self.link.generation() && !frame.is_coarse() {
                 self.history.record(&wish.settings, frame.generation, Moment::of(frame, print.truth));
             }
             let beside =
                 print.beside.as_ref().filter(|frame| frame.generation == self.link.generation_beside() && !frame.is_coarse());
-            if let (Some(frame), Some(compare)) = (beside, self.compare) {
+            if let (Some(frame), Some(compare)) = (beside, self.compare.filter(|compare| compare.other != wish.settings)) {
                 self.history.record(&compare.other, frame.generation, Moment::of(frame, print.truth_beside));
             }
         }
@@ -109,10 +118,11 @@ impl App {
     /// What the picture must converge to: what was dropped on the window, or what the scene says, which is known for the scene's own
     /// camera only.
     pub(super) fn truth_here(&self) -> Option<Arc<Reference>> {
-        if let Some((_, reference)) = &self.dropped_truth {
-            return Some(reference.clone());
-        }
         let (opened, wish) = (self.opened.as_ref()?, self.link.wish()?);
+        if let Some(dropped) = &self.dropped_truth {
+            let of_camera = Camera { resolution: wish.camera.resolution, ..dropped.camera };
+            return Some(dropped.reference.clone()).filter(|_| of_camera == wish.camera);
+        }
         let of_scene = Camera { resolution: wish.camera.resolution, ..opened.scene.camera };
         let is_of_scene = wish.camera == of_scene && Arc::ptr_eq(&wish.scene, &opened.scene);
         opened.truth.clone().filter(|_| is_of_scene)
@@ -124,7 +134,7 @@ impl App {
         } else {
             self.tell(format!("The picture is now held against {name}"), false);
         }
-        self.dropped_truth = Some((name, reference));
+        self.dropped_truth = Some(DroppedTruth { name, reference, camera: self.camera });
     }
 
     fn open(&mut self, opened: Opened) {

@@ -7,12 +7,13 @@ use noisefall::{
     render::{
         image_file::{check_target, save_shown},
         settings_text::settings_text,
+        view::View,
     },
 };
 
 use super::{
     app::App,
-    darkroom::{Print, develop},
+    darkroom::{Order, Print, develop},
     path_field::PathField,
 };
 
@@ -49,7 +50,7 @@ impl Target {
 
     fn explanation(self) -> &'static str {
         match self {
-            Target::Picture => "PNG is the picture as shown; EXR is linear radiance. Both carry the settings.",
+            Target::Picture => "PNG is the picture as shown, of two the first; EXR is linear radiance. Both carry the settings.",
             Target::CurvesCsv => "CSV: settings, samples, seconds, errors and bias, a line each.",
             Target::CurvesSvg => "SVG: the curves of all settings, for a page or a slide.",
         }
@@ -145,6 +146,7 @@ impl App {
         let (Some(frame), Some(wish)) = (self.shown.clone(), self.link.wish()) else { return };
         let settings = settings_text(&wish.scene, &wish.camera, &wish.settings, self.look.display, frame.spp);
         let order = self.what_to_develop(frame);
+        let settings = with_view(&settings, &order);
         self.saver.save(path, move |path| {
             let Print { frame, pixels, .. } = develop(order);
             save_shown(&frame, &pixels, &settings, path).map_err(|error| error.to_string())
@@ -158,6 +160,19 @@ impl Target {
         let extension = path.extension().map(|extension| extension.to_string_lossy().to_ascii_lowercase());
         extension.is_some_and(|extension| self.extensions().contains(&extension.as_str()))
     }
+}
+
+/// The settings with what of the picture is seen, where that is not all of it.
+fn with_view(settings: &str, order: &Order) -> String {
+    let Ok(serde_json::Value::Object(mut all)) = serde_json::from_str(settings) else { return settings.to_owned() };
+    if order.look.view != View::Radiance {
+        all.insert("view".to_owned(), order.look.view.name().into());
+    }
+    if let Some(term) = &order.term {
+        let relation = if term.up_to { "at most" } else { "exactly" };
+        all.insert("light".to_owned(), format!("reflected {relation} {} times, {} spp", term.reflections, term.of.spp).into());
+    }
+    serde_json::Value::Object(all).to_string()
 }
 
 /// The path, or the first of `name-2`, `name-3`, … that is not taken.

@@ -28,7 +28,8 @@ impl App {
                 return;
             }
             let target = self.budget.max_spp.map_or_else(String::new, |most| format!(" / {most}"));
-            ui.label(format!("{}{target} spp", status.spp)).on_hover_text("Samples per pixel so far, and the target");
+            let region = status.region_spp.map_or_else(String::new, |spp| format!(", {spp} in the region"));
+            ui.label(format!("{}{target} spp{region}", status.spp)).on_hover_text("Samples per pixel so far, and the target");
             ui.separator();
             ui.label(format!("{:.1} M samples/s", status.samples_per_second() / 1e6));
             ui.separator();
@@ -73,7 +74,7 @@ impl App {
     fn truth_label(&self, ui: &mut egui::Ui) {
         if let Some(rel_mse) = self.against.map(|against| against.rel_mse) {
             ui.label(format!("true error {}", percent(rel_mse.sqrt())))
-                .on_hover_text("Root of relMSE against the exact picture that the scene names");
+                .on_hover_text("Root of relMSE against the true picture: the scene's, or the one that was dropped on the window");
         } else if let Some(mismatch) = self.mismatch() {
             ui.label(RichText::new("true error unknown").color(ui.warning())).on_hover_text(mismatch);
         }
@@ -133,7 +134,8 @@ impl App {
     }
 
     fn pixel_label(&self, ui: &mut egui::Ui) {
-        let (Some([x, y]), Some(frame)) = (self.hovered, &self.shown) else { return };
+        let frame = if self.over_second { &self.frame_beside } else { &self.shown };
+        let (Some([x, y]), Some(frame)) = (self.hovered, frame) else { return };
         let Some(index) = frame.index_at([x, y]) else { return };
         let [r, g, b] = frame.radiance[index];
         let error = frame.standard_error[index];

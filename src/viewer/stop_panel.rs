@@ -58,6 +58,7 @@ fn region(ui: &mut Ui, label: egui::Id, region: &mut Option<Region>, [width, hei
             ui.weak("the whole picture");
             return;
         };
+        let before = *region;
         ui.spacing_mut().item_spacing.x = 3.0;
         let most = [f64::from(width), f64::from(height)];
         for (corner, what) in [(&mut region.from, "from"), (&mut region.to, "to")] {
@@ -65,6 +66,9 @@ fn region(ui: &mut Ui, label: egui::Id, region: &mut Option<Region>, [width, hei
                 let field = number::field(ui, &mut corner[axis], 0, 0.0..=most[axis]);
                 ui.add_sized([40.0, 20.0], field).labelled_by(label).on_hover_text(format!("{name} {what}, in pixels"));
             }
+        }
+        if (0..2).any(|axis| region.from[axis] >= region.to[axis]) {
+            *region = before;
         }
     });
 }

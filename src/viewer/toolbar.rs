@@ -55,7 +55,7 @@ impl App {
             self.toggle_pause();
         }
         let step = ui.add_enabled(open, Button::new("Step"));
-        if step.on_hover_text("Pause, and add one sample to every pixel (.)").clicked() {
+        if step.on_hover_text("Pause, and add one sample to every pixel, or to those of the region (.)").clicked() {
             self.step();
         }
         let restart = ui.add_enabled(open, Button::new("Restart"));
@@ -155,6 +155,10 @@ impl App {
     /// Closes what lies over the picture: of several things all dialogs first, then messages, then the region.
     fn escape(&mut self) {
         let dialogs = self.save_dialog.is_some() || self.open_dialog.is_some();
+        // Escape gives the edit of a field up, and nothing else.
+        if self.had_focus {
+            return;
+        }
         if self.adviser.take().is_some() || self.end_tour() {
             return;
         }
@@ -162,7 +166,7 @@ impl App {
             (self.help_open, self.gallery.open, self.save_dialog, self.open_dialog) = (false, false, None, None);
         } else if !self.notices.is_empty() {
             self.notices.clear();
-        } else if !self.ctx.egui_wants_keyboard_input() {
+        } else {
             self.budget.region = None;
         }
     }

@@ -5,6 +5,7 @@ use noisefall::render::{colour_map::ColourMap, view::View};
 use super::{
     app::App,
     look::{controls, row},
+    receive::DroppedTruth,
 };
 
 impl App {
@@ -58,7 +59,7 @@ impl App {
 
     fn truth_row(&mut self, ui: &mut Ui) {
         ui.horizontal(|ui| match (&self.dropped_truth, self.opened.as_ref().and_then(|opened| opened.truth.as_ref())) {
-            (Some((name, _)), _) => {
+            (Some(DroppedTruth { name, .. }), _) => {
                 super::look::elided(ui, 120.0, name.as_str()).on_hover_text(name.as_str());
                 if ui.small_button("Drop").on_hover_text("Go back to what the scene says").clicked() {
                     self.dropped_truth = None;

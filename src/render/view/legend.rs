@@ -66,7 +66,7 @@ impl Legend {
 fn missing(view: View) -> &'static str {
     match view {
         View::ZScore => "No truth here: open a scene with [truth], or drop a reference EXR of this size",
-        View::Difference => "Nothing of this size is pinned: press Pin",
+        View::Difference => "Nothing of this size to compare with: press Pin this, below Display",
         _ => "Coming …",
     }
 }

@@ -39,7 +39,11 @@ impl View {
             "How far each pixel's mean is likely to be off, from the variance of its samples.",
         ),
         (View::SampleCount, "Sample count", "How many samples N each pixel has: more where they are adaptive, or in a region."),
-        (View::ZScore, "Z-score", "(estimate − truth)/standard error: noise without structure if the picture is right."),
+        (
+            View::ZScore,
+            "Z-score",
+            "(estimate - truth)/standard error: noise without structure if right, and at most as wide as the unit normal.",
+        ),
         (View::Difference, "Difference to pinned", "Radiance less that of the pinned picture, in parts of the pinned one."),
         (View::Normals, "Normals", "The shading normal n that a camera ray meets first: red is x, green y, blue z."),
         (View::Albedo, "Albedo", "The colour that the bsdf f has where a camera ray meets it first."),

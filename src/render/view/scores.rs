@@ -1,4 +1,7 @@
-//! How z-scores are distributed, against the unit normal distribution that they have if there is only noise.
+//! How z-scores are distributed, against the unit normal distribution.
+//!
+//! They have it if there is only noise, samples are independent and all colours are of one kind; stratified and Sobol samples are better
+//! than their variance says, and the errors of channels are added as if they always came together: then the distribution is narrower.
 use super::field::scores;
 use crate::render::{frame::Frame, truth::Reference};
 
@@ -19,21 +22,24 @@ impl Scores {
 
     /// Of all pixels that have a standard error; `None` where none has, or the truth is not of this size.
     pub fn of(frame: &Frame, truth: &Reference) -> Option<Scores> {
-        let scores: Vec<f64> = scores(frame, truth)?.into_iter().map(f64::from).filter(|z| z.is_finite()).collect();
-        if scores.is_empty() {
+        let all: Vec<f64> = scores(frame, truth)?.into_iter().map(f64::from).filter(|z| !z.is_nan()).collect();
+        if all.is_empty() {
             return None;
         }
-        let count = scores.len() as f64;
+        // Pixels that are wrong without any noise count as beyond, and have no part in the mean.
+        let (scores, endless): (Vec<f64>, Vec<f64>) = all.iter().partition(|z| z.is_finite());
+        let count = all.len() as f64;
         let mut density = vec![0.0; (2.0 * Self::END / Self::WIDTH).round() as usize];
-        let mut beyond = 0.0;
+        let mut beyond = endless.len() as f64 / count;
         for z in &scores {
             match density.get_mut(((z + Self::END) / Self::WIDTH).floor() as usize) {
                 Some(bin) if *z >= -Self::END => *bin += 1.0 / (count * Self::WIDTH),
                 _ => beyond += 1.0 / count,
             }
         }
-        let mean = scores.iter().sum::<f64>() / count;
-        let deviation = (scores.iter().map(|z| (z - mean).powi(2)).sum::<f64>() / count).sqrt();
+        let finite = scores.len().max(1) as f64;
+        let mean = scores.iter().sum::<f64>() / finite;
+        let deviation = (scores.iter().map(|z| (z - mean).powi(2)).sum::<f64>() / finite).sqrt();
         Some(Scores { density, beyond, mean, deviation })
     }
 

@@ -2,7 +2,7 @@
 use std::sync::Arc;
 
 use noisefall::{
-    render::{Frame, settings_text::options},
+    render::{Frame, settings_text::options, truth::Reference},
     scene::{Camera, RenderSettings, Scene},
     study::{Slope, slope},
 };
@@ -24,11 +24,12 @@ pub struct Moment {
 }
 
 /// What one setting did.
-#[derive(Clone)]
 pub struct Curve {
     pub settings: RenderSettings,
     pub generation: u64,
     pub moments: Vec<Moment>,
+    /// When it grew last, counted in moments.
+    touched: u64,
 }
 
 /// What curves are drawn over.
@@ -54,9 +55,11 @@ pub struct History {
     pub over: Over,
     pub what: What,
     subject: Option<(Arc<Scene>, Camera)>,
+    truth: Option<Arc<Reference>>,
+    clock: u64,
 }
 
-/// The oldest is forgotten where there would be more.
+/// The one that has not grown for the longest time is forgotten where there would be more.
 const MOST_CURVES: usize = 12;
 /// Moments nearer to each other than this factor are not told apart.
 const SPACING: f64 = 1.03;
@@ -89,20 +92,24 @@ impl Curve {
 
     /// How the estimated error falls: the slope over moments that are about doublings, from 4 samples on.
     pub fn slope(&self, over: Over) -> Option<Slope> {
-        let mut doublings: Vec<Moment> = Vec::new();
-        for moment in self.moments.iter().filter(|moment| moment.spp >= 4) {
-            if doublings.last().is_none_or(|last| moment.over(over) >= 1.9 * last.over(over)) {
-                doublings.push(*moment);
+        let mut doublings: Vec<(f64, f64)> = Vec::new();
+        for point in self.errors(over, |moment| moment.estimated.filter(|_| moment.spp >= 4)) {
+            if doublings.last().is_none_or(|last| point.0 >= 1.9 * last.0) {
+                doublings.push(point);
             }
         }
-        let sparse = Curve { moments: doublings, ..self.clone() };
-        slope(&[sparse.errors(over, |moment| moment.estimated)])
+        slope(&[doublings])
     }
 }
 
 impl History {
-    /// Curves of another picture are no curves of this one.
-    pub fn look_at(&mut self, scene: &Arc<Scene>, camera: &Camera) {
+    /// Curves of another picture are no curves of this one, and errors against another truth no errors.
+    pub fn look_at(&mut self, scene: &Arc<Scene>, camera: &Camera, truth: Option<&Arc<Reference>>) {
+        if self.truth.as_ref().map(Arc::as_ptr) != truth.map(Arc::as_ptr) {
+            let moments = self.curves.iter_mut().flat_map(|curve| &mut curve.moments);
+            moments.for_each(|moment| (moment.true_error, moment.bias) = (None, None));
+            self.truth = truth.cloned();
+        }
         let same = |(old, at): &(Arc<Scene>, Camera)| Arc::ptr_eq(old, scene) && at == camera;
         if !self.subject.as_ref().is_some_and(same) {
             self.curves.clear();
@@ -117,12 +124,15 @@ impl History {
             Some(at) => &mut self.curves[at],
             None => {
                 if self.curves.len() == MOST_CURVES {
-                    self.curves.remove(0);
+                    let oldest = (0..MOST_CURVES).min_by_key(|&at| self.curves[at].touched).unwrap_or(0);
+                    self.curves.remove(oldest);
                 }
-                self.curves.push(Curve { settings: *settings, generation, moments: Vec::new() });
+                self.curves.push(Curve { settings: *settings, generation, moments: Vec::new(), touched: 0 });
                 self.curves.last_mut().expect("it was just added")
             }
         };
+        self.clock += 1;
+        curve.touched = self.clock;
         if curve.generation != generation {
             (curve.generation, curve.moments) = (generation, Vec::new());
         }

@@ -58,7 +58,7 @@ impl App {
                 if ui.button("CSV…").on_hover_text("Save all figures as a table").clicked() {
                     self.open_save_dialog(Target::CurvesCsv);
                 }
-                if ui.button("SVG…").on_hover_text("Save the plot as a drawing").clicked() {
+                if ui.button("SVG…").on_hover_text("Save the plot of errors as a drawing").clicked() {
                     self.open_save_dialog(Target::CurvesSvg);
                 }
                 if ui.button("Clear").on_hover_text("Forget the curves of earlier settings").clicked() {
@@ -89,6 +89,7 @@ impl App {
             .x_grid_spacer(decades)
             .legend(Legend::default().position(egui_plot::Corner::LeftBottom))
             .show_crosshair(false)
+            .allow_zoom(false)
             .allow_scroll(false)
             .label_formatter(|_| None);
         let plot = if what == What::Error { plot.y_grid_spacer(decades) } else { plot.include_y(-3.0).include_y(3.0) };
@@ -143,7 +144,8 @@ fn logarithms(points: &[(f64, f64)]) -> PlotPoints<'static> {
 
 /// Marks at powers of ten, thinner ones at their multiples.
 fn decades(input: GridInput) -> Vec<GridMark> {
-    let (low, high) = (input.bounds.0.floor() as i32, input.bounds.1.ceil() as i32);
+    const FARTHEST: f64 = 30.0;
+    let [low, high] = [input.bounds.0.floor(), input.bounds.1.ceil()].map(|end| end.clamp(-FARTHEST, FARTHEST) as i32);
     // In wide plots multiples would be a grey area.
     let multiples = if high - low > 8 { 1 } else { 10 };
     let marks = (low..=high).flat_map(|decade| (1..multiples.max(2)).map(move |m| (decade, m)));

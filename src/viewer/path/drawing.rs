@@ -2,7 +2,7 @@
 use egui::{Align2, Color32, FontId, Pos2, Stroke, Ui, vec2};
 use glam::Vec3;
 
-use super::projection::project;
+use super::{projection::project, table::MOST_VERTICES};
 use crate::viewer::{app::App, canvas::Place, dock::Tab};
 
 const PATH: Color32 = Color32::from_rgb(255, 214, 90);
@@ -23,7 +23,7 @@ impl App {
         // Long enough to tell the direction of a light sample, short enough not to hide the path.
         let dash = self.opened.as_ref().map_or(0.1, |opened| 0.06 * opened.scene.size) as f32;
         let mut before = square.center();
-        for vertex in &findings.replay.vertices {
+        for vertex in findings.replay.vertices.iter().take(MOST_VERTICES) {
             let Some(at) = vertex.surface.as_ref().and_then(|surface| screen(surface.position)) else {
                 let way = Vec3::from(vertex.origin) + Vec3::from(vertex.direction) * dash;
                 if let Some(away) = screen(way.to_array()).filter(|_| vertex.bounce > 0) {

@@ -45,11 +45,13 @@ pub struct Inspector {
     pub sample: u32,
     found: Option<(Question, Findings)>,
     pending: Option<Search>,
+    /// What the renderer fails at.
+    failed: Option<Question>,
 }
 
 impl Inspector {
     pub fn new(ctx: &egui::Context) -> Inspector {
-        Inspector { ctx: ctx.clone(), pixel: None, sample: 0, found: None, pending: None }
+        Inspector { ctx: ctx.clone(), pixel: None, sample: 0, found: None, pending: None, failed: None }
     }
 
     pub fn look_at(&mut self, pixel: [u32; 2]) {
@@ -65,18 +67,21 @@ impl Inspector {
     /// Takes in what has been found, and looks for what is not. The picture has so many samples a pixel.
     pub fn search(&mut self, wish: &Wish, spp: u32) {
         let [width, height] = wish.camera.resolution;
-        let Some(pixel) = self.pixel.filter(|[x, y]| *x < width && *y < height) else {
+        self.pixel = self.pixel.filter(|[x, y]| *x < width && *y < height);
+        let Some(pixel) = self.pixel else {
             self.found = None;
             return;
         };
-        if let Some(findings) = self.pending.as_ref().and_then(|search| search.result.try_recv().ok()) {
-            self.found = self.pending.take().map(|search| (search.question, findings));
-        }
+        self.receive();
         // Twice as many samples are worth another look.
         let count = count_of(spp).next_power_of_two();
         let question = Question { wish: wish.clone(), pixel, sample: self.sample, count };
         let known = |other: &Question| *other == question;
-        if self.found.as_ref().is_some_and(|(found, _)| known(found))
+        if self.found.as_ref().is_some_and(|(found, _)| (&found.wish, found.pixel) != (wish, pixel)) {
+            self.found = None;
+        }
+        if self.failed.as_ref().is_some_and(known)
+            || self.found.as_ref().is_some_and(|(found, _)| known(found))
             || self.pending.as_ref().is_some_and(|search| known(&search.question))
         {
             return;
@@ -86,10 +91,21 @@ impl Inspector {
         self.start(question, samples);
     }
 
-    fn start(&mut self, question: Question, known: Option<Arc<[f32]>>) {
-        if let Some(search) = self.pending.take() {
-            search.given_up.store(true, Ordering::Relaxed);
+    fn receive(&mut self) {
+        let Some(result) = self.pending.as_ref().map(|search| search.result.try_recv()) else { return };
+        match result {
+            Ok(findings) => self.found = self.pending.take().map(|search| (search.question.clone(), findings)),
+            Err(mpsc::TryRecvError::Disconnected) => self.failed = self.pending.take().map(|search| search.question.clone()),
+            Err(mpsc::TryRecvError::Empty) => {}
         }
+    }
+
+    /// Whether the renderer fails at what is looked at.
+    pub fn has_failed(&self) -> bool {
+        self.failed.as_ref().is_some_and(|failed| self.pixel == Some(failed.pixel) && self.sample == failed.sample)
+    }
+
+    fn start(&mut self, question: Question, known: Option<Arc<[f32]>>) {
         let (sender, result) = mpsc::channel();
         let given_up = Arc::new(AtomicBool::new(false));
         self.pending = Some(Search { question: question.clone(), result, given_up: given_up.clone() });
@@ -100,6 +116,12 @@ impl Inspector {
             }
             ctx.request_repaint();
         });
+    }
+}
+
+impl Drop for Search {
+    fn drop(&mut self) {
+        self.given_up.store(true, Ordering::Relaxed);
     }
 }
 

@@ -42,6 +42,7 @@ fn bin(sample: f32, end: f32) -> usize {
 pub fn show(ui: &mut Ui, findings: &Findings, chosen: u32) -> Option<u32> {
     let bins = Bins::of(&findings.samples);
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width() - 6.0, HEIGHT + 18.0), Sense::click());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, "Histogram of the samples"));
     let plot = Rect::from_min_size(rect.min, vec2(rect.width(), HEIGHT));
     let most = bins.counts.iter().copied().max().unwrap_or(1).max(1) as f32;
     let width = plot.width() / BINS as f32;

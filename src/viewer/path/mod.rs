@@ -10,12 +10,15 @@ use noisefall::math::colour::luminance;
 
 pub use self::findings::Inspector;
 use self::findings::{Findings, MOST_SAMPLES};
-use super::{app::App, dock::Tab, look::Inks, number};
+use super::{app::App, canvas::Tool, dock::Tab, look::Inks, number};
 
 impl App {
     /// A click on the picture.
     pub(super) fn click(&mut self, pixel: [u32; 2]) {
-        if self.dock == Some(Tab::Path) {
+        if self.tool == Tool::Inspect {
+            self.dock = Some(Tab::Path);
+        }
+        if self.dock == Some(Tab::Path) && matches!(self.tool, Tool::Inspect | Tool::Picture) {
             self.inspector.look_at(pixel);
         }
     }
@@ -40,6 +43,13 @@ impl App {
         egui::Panel::left("pixel").resizable(false).exact_size(292.0).show(ui, |ui| {
             ScrollArea::vertical().show(ui, |ui| self.pixel_column(ui, pixel));
         });
+        if self.inspector.has_failed() {
+            ui.label(
+                RichText::new("The renderer fails at this sample: please report it, with the command in the line below.")
+                    .color(ui.bad()),
+            );
+            return;
+        }
         let Some(findings) = self.inspector.findings() else {
             ui.weak("Tracing the samples of this pixel …");
             return;
@@ -84,12 +94,12 @@ impl App {
         let sample = &mut self.inspector.sample;
         ui.horizontal(|ui| {
             let label = ui.label("Sample").on_hover_text("The number of the sample: it and the pixel decide the path, for ever");
-            if ui.add_enabled(*sample > 0, egui::Button::new("<")).on_hover_text("The sample before").clicked() {
+            if ui.add_enabled(*sample > 0, egui::Button::new("Previous")).on_hover_text("The sample before").clicked() {
                 *sample -= 1;
             }
             let field = number::field(ui, sample, 0, 0.0..=f64::from(u32::MAX));
             ui.add(field).labelled_by(label.id);
-            if ui.button(">").on_hover_text("The next sample").clicked() {
+            if ui.button("Next").on_hover_text("The next sample").clicked() {
                 *sample = sample.saturating_add(1);
             }
             if let Some(brightest) = brightest

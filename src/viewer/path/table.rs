@@ -9,6 +9,8 @@ use super::remark;
 use crate::viewer::look::Inks;
 
 const TEXT: f32 = 12.0;
+/// More of a path than this nobody reads.
+pub const MOST_VERTICES: usize = 64;
 
 /// Columns, and what they say.
 const COLUMNS: [(&str, &str); 15] = [
@@ -42,10 +44,13 @@ pub fn show(ui: &mut Ui, replay: &Replay, objects: &[Object]) {
             ui.label(RichText::new(name).weak()).on_hover_text(doc);
         }
         ui.end_row();
-        for vertex in &replay.vertices {
+        for vertex in replay.vertices.iter().take(MOST_VERTICES) {
             row(ui, vertex, objects);
         }
     });
+    if replay.vertices.len() > MOST_VERTICES {
+        ui.weak(format!("and {} vertices more", replay.vertices.len() - MOST_VERTICES));
+    }
 }
 
 fn row(ui: &mut Ui, vertex: &Vertex, objects: &[Object]) {

@@ -150,7 +150,10 @@ fn a_region_is_dragged_rendered_first_and_cleared() {
         drag(w, PointerButton::Primary, [440.0, 380.0], [500.0, 420.0]);
     });
     let region = window.state().budget.region.expect("it is marked");
-    assert!(region.size().iter().all(|side| *side > 0 && *side < 64), "{region:?}");
+    // 60 by 40 points of the screen, at so many points a pixel of the picture.
+    let zoom = window.state().view.drawn_zoom;
+    let [width, height] = region.size().map(|side| side as f32 * zoom);
+    assert!((width - 60.0).abs() < 2.0 * zoom && (height - 40.0).abs() < 2.0 * zoom, "{region:?} {zoom}");
     wait(&mut window, "the region", |app| {
         app.shown.as_ref().is_some_and(|frame| frame.counts.iter().any(|count| *count > frame.spp))
     });

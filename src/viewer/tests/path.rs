@@ -53,7 +53,7 @@ fn one_steps_through_paths_and_the_table_adds_up() {
     assert_eq!(window.state().inspector.pixel, Some([48, 32]));
     wait(&mut window, "its samples", |app| app.inspector.findings().is_some());
     for expected in [1, 2] {
-        never_restarts(&mut window, |w| click(w, ">"));
+        never_restarts(&mut window, |w| click(w, "Next"));
         assert_eq!(window.state().inspector.sample, expected);
     }
     click(&mut window, "Brightest");
