@@ -211,6 +211,8 @@ impl App {
     fn canvas(&mut self, ui: &mut egui::Ui) {
         let size = self.opened.as_ref().map_or(1.0, |opened| opened.scene.size);
         let keys = self.save_dialog.is_none() && self.open_dialog.is_none() && !self.help_open && !self.gallery.open;
+        // In an open list, arrows are the list's.
+        let keys = keys && !egui::Popup::is_any_open(ui.ctx());
         let output = canvas::show(ui, self.pictures(), self.tool, &mut self.view, &self.camera, size, keys);
         (self.hovered, self.over_second) = (output.hovered, output.over_second);
         if let Some(camera) = output.camera.filter(|camera| camera.check().is_ok()) {

@@ -111,7 +111,9 @@ pub fn show(
 ) -> CanvasOutput {
     let area = ui.available_rect_before_wrap();
     let response = ui.allocate_rect(area, Sense::click_and_drag());
-    ui.painter_at(area).rect_filled(area, 0.0, ui.visuals().extreme_bg_color);
+    // Not white: a bright picture would have no edge.
+    let ground = if ui.visuals().dark_mode { ui.visuals().extreme_bg_color } else { Color32::from_gray(190) };
+    ui.painter_at(area).rect_filled(area, 0.0, ground);
     let Some(pictures) = pictures else { return CanvasOutput::default() };
 
     let places = place(ui, area, &pictures, view);
@@ -175,6 +177,7 @@ fn draw(ui: &egui::Ui, response: &Response, pictures: &Pictures, places: &[Place
             let line = seen.left() + view.wipe * seen.width();
             paint(&ui.painter_at(clip.with_min_x(line)), second, rect);
             let stroke = egui::Stroke::new(2.0, Color32::from_white_alpha(220));
+            ui.painter_at(clip).vline(line, seen.y_range(), egui::Stroke::new(4.0, Color32::from_black_alpha(140)));
             ui.painter_at(clip).vline(line, seen.y_range(), stroke);
             ui.painter_at(clip).circle_filled(egui::pos2(line, seen.center().y), 5.0, Color32::WHITE);
             letter(ui, clip.with_max_x(line), "A");

@@ -208,7 +208,7 @@ impl Side {
     fn row(&self, ui: &mut Ui) {
         let percent = |x: Option<f64>| x.map_or_else(|| "–".to_owned(), |x| format!("{:.2} %", 100.0 * x));
         ui.strong(self.letter);
-        look::elided(ui, 260.0, self.name.as_str()).on_hover_text(self.name.as_str());
+        look::elided(ui, 330.0, self.name.as_str()).on_hover_text(self.name.as_str());
         ui.monospace(self.spp.to_string());
         ui.monospace(format!("{:.1} s", self.seconds));
         ui.monospace(percent(self.noise));

@@ -10,7 +10,7 @@ const KEYS: [(&str, &[(&str, &str)]); 4] = [
         &[
             ("P", "drag and wheel move the picture"),
             ("Wheel, drag", "magnify, pan"),
-            ("Ctrl+wheel, middle drag", "the same, with either tool"),
+            ("Ctrl+wheel, middle drag", "the same, with any tool"),
             ("F, double-click", "whole picture"),
             ("1", "one picture pixel to one screen pixel"),
             ("[  ]", "half a stop darker, brighter"),

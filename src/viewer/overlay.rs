@@ -42,7 +42,9 @@ fn ground(ui: &Ui, left: f32, bottom: f32, size: Vec2) -> Pos2 {
 fn draw_legend(ui: &Ui, left: f32, bottom: f32, legend: &Legend) {
     const LINE: f32 = 17.0;
     const WIDTH: f32 = 250.0;
-    let title = ui.painter().layout(legend.title.clone(), FontId::proportional(13.0), INK, WIDTH);
+    let unit = legend.scale.as_ref().map_or_else(String::new, |scale| format!(", {}", scale.unit));
+    let title = format!("{}{unit}", legend.title);
+    let title = ui.painter().layout(title, FontId::proportional(13.0), INK, WIDTH);
     let scale = if legend.scale.is_some() { 36.0 } else { 0.0 };
     let height = 14.0 + title.size().y + scale + LINE * legend.entries.len() as f32;
     let corner = ground(ui, left, bottom, vec2(WIDTH + 20.0, height));
@@ -71,7 +73,6 @@ fn bar(ui: &Ui, rect: Rect, scale: &Scale) {
     }
     for (place, align) in [(0.0, Align2::LEFT_TOP), (0.5, Align2::CENTER_TOP), (1.0, Align2::RIGHT_TOP)] {
         let text = number(scale.number(place));
-        let text = if place == 1.0 { format!("{text} {}", scale.unit) } else { text };
         let at = pos2(egui::lerp(rect.x_range(), place), rect.bottom() + 3.0);
         ui.painter().text(at, align, text, FontId::proportional(12.0), INK);
     }
@@ -99,7 +100,8 @@ fn histogram(ui: &Ui, left: f32, bottom: f32, scores: &Scores) -> f32 {
         let place = at(f64::from(z), 0.0) + vec2(0.0, 2.0);
         ui.painter().text(place, Align2::CENTER_TOP, z, FontId::proportional(11.0), INK);
     }
-    let text = format!("mean {:+.3}, deviation {:.3}; line: unit normal", scores.mean, scores.deviation);
+    let beyond = if scores.beyond > 0.0 { format!("; {:.1} % beyond", 100.0 * scores.beyond) } else { String::new() };
+    let text = format!("mean {:+.2}, deviation {:.2}; line: normal{beyond}", scores.mean, scores.deviation);
     let below = plot.left_bottom() + vec2(0.0, 18.0);
     ui.painter().text(below, Align2::LEFT_TOP, text, FontId::proportional(12.0), INK);
     SIZE.y + AROUND.y

@@ -3,7 +3,11 @@ use std::sync::Arc;
 
 use egui::{TextureHandle, TextureOptions};
 use noisefall::{
-    render::{Budget, Frame, truth::Reference},
+    render::{
+        Budget, Frame,
+        truth::Reference,
+        view::{Legend, View},
+    },
     scene::Camera,
 };
 
@@ -88,7 +92,7 @@ impl App {
         set(&self.ctx, &mut self.textures[0], "picture", Some(print.image));
         set(&self.ctx, &mut self.textures[1], "picture beside", print.image_beside);
         (self.against, self.against_beside) = (print.truth, print.truth_beside);
-        (self.legend, self.scores, self.black) = (print.legend, print.scores, print.black);
+        (self.legend, self.scores, self.black) = (print.legend.map(|legend| self.entitled(legend)), print.scores, print.black);
         if let Some(wish) = self.link.wish() {
             self.history.look_at(&wish.scene, &wish.camera, self.truth_here().as_ref());
             let frame = &print.frame;
@@ -102,6 +106,19 @@ impl App {
             }
         }
         self.shown = Some(print.frame);
+    }
+
+    /// A legend under the title that it has here.
+    fn entitled(&self, legend: Legend) -> Legend {
+        let has_scale = legend.scale.is_some();
+        let is_for_scene = self.opened.as_ref().is_some_and(|opened| opened.truth.is_some());
+        let title = match self.comparison().and_then(|compare| compare.view()).unwrap_or(self.look.view) {
+            View::Difference if self.comparison().is_some() && has_scale => "Difference of A and B, in parts of B",
+            View::Difference if self.comparison().is_some() => "The difference comes with the first sample of B",
+            View::ZScore if !has_scale && is_for_scene => "The truth is for the scene's own camera: press Home",
+            _ => return legend,
+        };
+        Legend { title: title.to_owned(), ..legend }
     }
 
     /// The likeliest reason why what is shown is black, if it is.

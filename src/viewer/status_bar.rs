@@ -40,7 +40,13 @@ impl App {
             ui.separator();
             self.bias_label(ui);
             self.trouble_label(ui);
-            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| self.pixel_label(ui));
+            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                // Nothing is written over what stands at the left.
+                const WIDTH: f32 = 330.0;
+                if ui.available_width() > WIDTH {
+                    self.pixel_label(ui);
+                }
+            });
         });
     }
 

@@ -24,7 +24,11 @@ const TAB_KEYS: [(Key, Tab); 4] =
 
 impl App {
     pub(super) fn toolbar(&mut self, ui: &mut egui::Ui) {
-        ui.horizontal(|ui| {
+        const WHOLE: f32 = 910.0;
+        const OF_REGION: f32 = 110.0;
+        let needed = WHOLE + if self.budget.region.is_some() { OF_REGION } else { 0.0 };
+        let is_narrow = ui.available_width() < needed;
+        let contents = |ui: &mut egui::Ui| {
             ui.spacing_mut().button_padding = egui::vec2(8.0, 4.0);
             self.render_buttons(ui);
             ui.separator();
@@ -35,7 +39,8 @@ impl App {
             }
             ui.separator();
             self.compare_menu(ui);
-            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            let end = if is_narrow { *ui.layout() } else { egui::Layout::right_to_left(egui::Align::Center) };
+            ui.with_layout(end, |ui| {
                 if ui.button("Help").on_hover_text("Keyboard and mouse (F1)").clicked() {
                     self.help_open = !self.help_open;
                 }
@@ -44,7 +49,12 @@ impl App {
                     self.open_save_dialog(Target::Picture);
                 }
             });
-        });
+        };
+        if is_narrow {
+            ui.horizontal_wrapped(contents);
+        } else {
+            ui.horizontal(contents);
+        }
     }
 
     fn render_buttons(&mut self, ui: &mut egui::Ui) {

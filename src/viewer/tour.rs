@@ -43,7 +43,7 @@ const PAGES: [Page; 4] = [
     },
     Page {
         title: "Now you",
-        text: "Change the sampler or the estimator and watch both curves. Drag with the tool Camera (C) to move through the scene, \
+        text: "Change the sampler or the estimator and watch the curves (F2). Drag with the tool Camera (C) to move through the scene, \
                click with Inspect (I) to see the paths of a pixel, open the gallery (F6) for other scenes. Everything explains \
                itself when the pointer rests on it; F1 lists the keys.",
         shows: None,

@@ -65,7 +65,8 @@ impl App {
                     self.dropped_truth = None;
                 }
             }
-            (None, Some(_)) => drop(ui.weak("as the scene says")),
+            (None, Some(_)) if self.truth_here().is_some() => drop(ui.weak("as the scene says")),
+            (None, Some(_)) => drop(ui.weak("for the scene's own camera (Home)")),
             (None, None) => drop(ui.weak("none: drop an EXR here").on_hover_text("A picture of the same size, linear")),
         });
     }

@@ -1,6 +1,6 @@
 //! The plot of errors and its controls.
 use egui::{Color32, RichText, Ui};
-use egui_plot::{AxisHints, GridInput, GridMark, HLine, Legend, Line, LineStyle, Plot, PlotPoints, Points};
+use egui_plot::{AxisHints, GridInput, GridMark, HLine, Line, LineStyle, Plot, PlotPoints, Points};
 
 use super::history::{Curve, Over, What};
 use crate::viewer::{app::App, look, save_dialog::Target};
@@ -51,6 +51,10 @@ impl App {
         if history.curves.is_empty() {
             ui.weak("Curves come with the second sample. Change a setting: the curve of the last one stays.");
         }
+        if !history.curves.is_empty() {
+            let root = if history.over == Over::Samples { "1/√N" } else { "1/√time" };
+            ui.weak(format!("Lines: as estimated. Points: against the truth. Dashed: the ideal, {root}."));
+        }
         ui.add_space(6.0);
         ui.horizontal(|ui| {
             let any = !self.history.curves.is_empty();
@@ -87,7 +91,6 @@ impl App {
             .custom_x_axes(vec![x])
             .custom_y_axes(vec![y])
             .x_grid_spacer(decades)
-            .legend(Legend::default().position(egui_plot::Corner::LeftBottom))
             .show_crosshair(false)
             .allow_zoom(false)
             .allow_scroll(false)
@@ -130,7 +133,12 @@ fn figures(curve: &Curve, over: Over) -> String {
         text += &format!(", true {}", percent(error));
     }
     if let Some(bias) = last.bias {
-        text += &format!(", bias {bias:+.1} σ");
+        // Farther out no probability is a number any more.
+        text += &if bias.abs() > 37.0 {
+            format!(", bias beyond {} 37 σ", if bias > 0.0 { "+" } else { "-" })
+        } else {
+            format!(", bias {bias:+.1} σ")
+        };
     }
     if let Some(slope) = curve.slope(over) {
         text += &format!(", slope {:.2} ± {:.2}", slope.slope, slope.half_width);
@@ -154,6 +162,8 @@ fn decades(input: GridInput) -> Vec<GridMark> {
             value: f64::from(decade) + f64::from(m).log10(),
             step_size: if m == 1 { 1.0 } else { 0.1 },
         })
+        // Those beyond would be written beside the plot.
+        .filter(|mark| (input.bounds.0..=input.bounds.1).contains(&mark.value))
         .collect()
 }
 

@@ -45,6 +45,7 @@ impl App {
             }
             painter.circle(at, 4.0, PATH, Stroke::new(1.0, Color32::BLACK));
             let number = vertex.bounce.to_string();
+            painter.text(at + vec2(8.0, -6.0), Align2::LEFT_BOTTOM, &number, FontId::proportional(13.0), Color32::BLACK);
             painter.text(at + vec2(7.0, -7.0), Align2::LEFT_BOTTOM, number, FontId::proportional(13.0), Color32::WHITE);
             before = at;
         }

@@ -73,8 +73,7 @@ impl Inspector {
             return;
         };
         self.receive();
-        // Twice as many samples are worth another look.
-        let count = count_of(spp).next_power_of_two();
+        let count = count_of(spp);
         let question = Question { wish: wish.clone(), pixel, sample: self.sample, count };
         let known = |other: &Question| *other == question;
         if self.found.as_ref().is_some_and(|(found, _)| (&found.wish, found.pixel) != (wish, pixel)) {

@@ -120,7 +120,7 @@ fn remark(ui: &mut Ui, alone: Option<[f32; 3]>) {
     }
 }
 
-/// What fits into the histogram.
+/// How many of the picture's samples the histogram has: a power of two, for twice as many are worth another look.
 fn count_of(spp: u32) -> u32 {
-    spp.clamp(16, MOST_SAMPLES)
+    1 << spp.clamp(1, MOST_SAMPLES).ilog2()
 }

@@ -76,7 +76,9 @@ fn a_comparison_starts_with_one_click_and_both_sides_converge() {
     click(&mut window, "Side by side");
     assert_eq!(window.state().compare.map(|compare| compare.layout), Some(Layout::SideBySide));
     click(&mut window, "Difference");
-    wait(&mut window, "the difference", |app| app.legend.as_ref().is_some_and(|legend| legend.title.starts_with("Difference")));
+    wait(&mut window, "the difference", |app| {
+        app.legend.as_ref().is_some_and(|legend| legend.title.starts_with("Difference of A and B"))
+    });
     click(&mut window, "Wipe");
     let line = window.state().view.wipe;
     let [middle, height] = [(1280.0 - 336.0) / 2.0, 500.0];

@@ -24,7 +24,7 @@ fn a_clicked_pixel_shows_exactly_the_samples_that_the_renderer_took() {
             click_at(w, Pos2::new(430.0, 430.0));
         });
         let pixel = window.state().inspector.pixel.expect("it was clicked");
-        wait(&mut window, "its samples", |app| app.inspector.findings().is_some());
+        wait(&mut window, "its samples", |app| app.inspector.findings().is_some_and(|findings| findings.samples.len() >= 16));
         let app = window.state();
         let findings = app.inspector.findings().expect("they are there");
         let (scene, camera) = (&app.opened.as_ref().expect("it is open").scene, &app.camera);

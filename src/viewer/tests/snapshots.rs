@@ -27,7 +27,10 @@ fn at_rest(scene: &str, spp: u32, change: impl FnOnce(&mut App)) -> Window {
     wait(&mut window, "the picture", |app| {
         let shown = app.shown.as_ref().is_some_and(|frame| frame.spp == spp && frame.width == 60);
         let beside = app.companion().is_none() || app.frame_beside.as_ref().is_some_and(|frame| frame.spp == spp);
-        shown && beside && (app.inspector.pixel.is_none() || app.inspector.findings().is_some())
+        shown
+            && beside
+            && (app.inspector.pixel.is_none()
+                || app.inspector.findings().is_some_and(|findings| findings.samples.len() == spp as usize))
     });
     // What is on its way arrives.
     for _ in 0..30 {
