@@ -213,7 +213,7 @@ impl Side {
         ui.monospace(format!("{:.1} s", self.seconds));
         ui.monospace(percent(self.noise));
         ui.monospace(percent(self.truth));
-        ui.monospace(self.efficiency.map_or_else(|| "–".to_owned(), |x| significant(x)));
+        ui.monospace(self.efficiency.map_or_else(|| "–".to_owned(), significant));
         match &self.trouble {
             None => ui.label(RichText::new("the solution").color(ui.good())),
             Some(trouble) => ui.label(RichText::new(trouble).color(ui.warning())),

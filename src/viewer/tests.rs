@@ -68,7 +68,7 @@ fn open(scene: Option<PathBuf>) -> Window {
         };
         app.0.get_or_insert_with(make).show(ui);
     };
-    Harness::builder().with_size(SIZE).build_ui_state(draw, Lazy(None))
+    Harness::builder().with_size(SIZE).renderer(rasteriser::Blind).build_ui_state(draw, Lazy(None))
 }
 
 /// A window with a small picture of a scene.

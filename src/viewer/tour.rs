@@ -4,13 +4,16 @@ use noisefall::scene::Roulette;
 
 use super::{app::App, dock::Tab, look::Inks};
 
+/// What a button of the tour does.
+type Act = fn(&mut App);
+
 /// A page of the tour, and what it opens in the window.
 struct Page {
     title: &'static str,
     text: &'static str,
     shows: Option<Tab>,
     /// A button that tries it out.
-    tries: Option<(&'static str, fn(&mut App))>,
+    tries: Option<(&'static str, Act)>,
 }
 
 const PAGES: [Page; 4] = [

@@ -90,12 +90,13 @@ impl App {
         let plot = Plot::new(("convergence", over == Over::Samples, what == What::Error))
             .custom_x_axes(vec![x])
             .custom_y_axes(vec![y])
-            .x_grid_spacer(decades)
+            .x_grid_spacer(|input| decades(&input))
             .show_crosshair(false)
             .allow_zoom(false)
             .allow_scroll(false)
             .label_formatter(|_| None);
-        let plot = if what == What::Error { plot.y_grid_spacer(decades) } else { plot.include_y(-3.0).include_y(3.0) };
+        let plot =
+            if what == What::Error { plot.y_grid_spacer(|input| decades(&input)) } else { plot.include_y(-3.0).include_y(3.0) };
         plot.show(ui, |plot| {
             for (number, curve) in history.curves.iter().enumerate() {
                 let (colour, name) = (COLOURS[number % COLOURS.len()], history.name(curve));
@@ -151,7 +152,7 @@ fn logarithms(points: &[(f64, f64)]) -> PlotPoints<'static> {
 }
 
 /// Marks at powers of ten, thinner ones at their multiples.
-fn decades(input: GridInput) -> Vec<GridMark> {
+fn decades(input: &GridInput) -> Vec<GridMark> {
     const FARTHEST: f64 = 30.0;
     let [low, high] = [input.bounds.0.floor(), input.bounds.1.ceil()].map(|end| end.clamp(-FARTHEST, FARTHEST) as i32);
     // In wide plots multiples would be a grey area.

@@ -189,7 +189,7 @@ fn a_reference_that_is_dropped_gives_true_error_and_bias() {
     let path = folder.path().join("reference.exr");
     let mut window = window("cornell_spheres");
     assert!(window.state().against.is_none());
-    wait(&mut window, "a picture", |app| app.can_save());
+    wait(&mut window, "a picture", App::can_save);
     window.state_mut().save_to(path.clone());
     wait(&mut window, "the file", |app| app.last_saved.is_some());
     window.state_mut().loader.read_reference(path);

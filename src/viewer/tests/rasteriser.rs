@@ -51,6 +51,17 @@ impl TestRenderer for Rasteriser {
     }
 }
 
+/// Draws nothing and keeps no texture: what the harness would keep until somebody wants a picture is a lot after thousands of frames.
+pub struct Blind;
+
+impl TestRenderer for Blind {
+    fn handle_delta(&mut self, _: &mut TexturesDelta) {}
+
+    fn render(&mut self, _: &egui::Context, _: &egui::FullOutput) -> Result<RgbaImage, String> {
+        Err("nothing is drawn here".to_owned())
+    }
+}
+
 /// A corner of a triangle, in pixels and parts of the texture.
 #[derive(Clone, Copy)]
 struct Corner {
