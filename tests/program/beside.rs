@@ -7,6 +7,7 @@ use std::{
 use noisefall::{
     math::SimdLevel,
     render::{Beside, Budget, Job, Publish, Published, Region, Renderer, State, pass::Threads},
+    sampling::Directions,
     scene::{Camera, Estimator, RenderSettings, Reuse, Scene, built_in, load},
 };
 
@@ -68,10 +69,12 @@ fn the_terms_of_a_furnace_are_powers_of_its_albedo() {
     let scene = Arc::new(load(path.as_ref()).expect("it is shipped"));
     let renderer = renderer();
     renderer.set_budget(Budget { max_spp: Some(64), ..Budget::default() });
-    renderer.submit_beside(Some(Beside::Series(job(1, &scene, 64))));
+    // By cosine-distributed directions every sample of every term is exact, until roulette begins.
+    let settings = RenderSettings { estimator: Estimator::Path, directions: Directions::Cosine, ..scene.settings };
+    renderer.submit_beside(Some(Beside::Series(Job { settings, ..job(1, &scene, 64) })));
     let published = wait(|| renderer.latest_beside(), |published| published.frame.spp == 64);
     let series = published.frame.series.as_ref().expect("it was asked for");
-    // Radiance 1 and albedo 0.5: the k-th term is 2⁻ᵏ. Without roulette before the fourth reflection every sample is exact.
+    // Radiance 1 and albedo 0.5: the k-th term is 2⁻ᵏ.
     for (k, term) in series.terms.iter().enumerate().take(4) {
         let exact = 0.5f32.powi(k as i32);
         assert!(term.iter().flatten().all(|x| (x / exact - 1.0).abs() < 1e-4), "{k}: {:?}", term[0]);
