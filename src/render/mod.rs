@@ -14,6 +14,7 @@ pub mod film;
 pub mod frame;
 pub mod image_file;
 pub mod pass;
+mod protocol;
 pub mod region;
 pub mod series;
 mod session;
@@ -27,8 +28,9 @@ pub mod worker;
 
 pub use self::{
     frame::Frame,
+    protocol::{Beside, Budget, Job, Publish, Published, State, Status},
     region::Region,
     series::Series,
     tone::{Display, ToneMap},
-    worker::{Beside, Budget, Job, Publish, Published, Renderer, State, Status},
+    worker::Renderer,
 };

@@ -6,9 +6,9 @@ use super::{
     film::Film,
     frame::Frame,
     pass::{PassCount, PassJob, Threads},
+    protocol::{Budget, Job, Publish, State, Status},
     region::Region,
     sharing::resolved,
-    worker::{Budget, Job, Publish, State, Status},
 };
 use crate::scene::{Camera, RenderSettings, Reuse};
 

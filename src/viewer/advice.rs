@@ -1,10 +1,6 @@
 //! "What should I use here?": a short study of the scene as it is seen, off the UI thread, while the picture waits.
 use std::{
-    sync::{
-        Arc, Mutex, PoisonError,
-        atomic::{AtomicBool, Ordering},
-        mpsc,
-    },
+    sync::{Arc, Mutex, PoisonError},
     time::Duration,
 };
 
@@ -16,49 +12,46 @@ use noisefall::{
     study::{Advice, Candidate, advise},
 };
 
-use super::{app::App, link::Wish, look::Inks};
+use super::{app::App, errand::Errand, link::Wish, look::Inks};
 
 const TIME: Duration = Duration::from_secs(8);
 
+type Outcome = Result<Advice, String>;
+
 /// A study, on its way or done.
 pub struct Adviser {
+    /// Pictures made, of how many.
     progress: Arc<Mutex<(usize, usize)>>,
-    stopped: Arc<AtomicBool>,
-    result: mpsc::Receiver<Result<Advice, String>>,
-    advice: Option<Result<Advice, String>>,
+    pending: Option<Errand<Outcome>>,
+    advice: Option<Outcome>,
     /// What is studied.
     wish: Wish,
 }
 
 impl Adviser {
     fn start(ctx: &egui::Context, wish: &Wish, threads: usize) -> Adviser {
-        let (sender, result) = mpsc::channel();
-        let (progress, stopped) = (Arc::new(Mutex::new((0, 0))), Arc::new(AtomicBool::new(false)));
-        let adviser = Adviser { progress: progress.clone(), stopped: stopped.clone(), result, advice: None, wish: wish.clone() };
-        let (ctx, Wish { scene, camera, settings }) = (ctx.clone(), wish.clone());
-        std::thread::spawn(move || {
+        let progress = Arc::new(Mutex::new((0, 0)));
+        let (told, Wish { scene, camera, settings }) = (progress.clone(), wish.clone());
+        let window = ctx.clone();
+        let study = Errand::start(ctx, move |given_up| {
             let mut tell = |done, total| {
-                *progress.lock().unwrap_or_else(PoisonError::into_inner) = (done, total);
-                ctx.request_repaint();
+                *told.lock().unwrap_or_else(PoisonError::into_inner) = (done, total);
+                window.request_repaint();
             };
-            let stop = || stopped.load(Ordering::Relaxed);
-            let advice = Threads::new(threads, SimdLevel::best()).map_err(|error| error.to_string()).and_then(|threads| {
-                advise(&scene, &camera, &settings, &threads, TIME, &mut tell, &stop).map_err(|error| error.to_string())
-            });
-            let _ = sender.send(advice);
-            ctx.request_repaint();
+            let threads = Threads::new(threads, SimdLevel::best()).map_err(|error| error.to_string())?;
+            advise(&scene, &camera, &settings, &threads, TIME, &mut tell, given_up).map_err(|error| error.to_string())
         });
-        adviser
+        Adviser { progress, pending: Some(study), advice: None, wish: wish.clone() }
+    }
+
+    fn receive(&mut self) {
+        if let Some(advice) = Errand::take(&mut self.pending) {
+            self.advice = Some(advice.unwrap_or_else(|_| Err("The study failed unexpectedly.".to_owned())));
+        }
     }
 
     fn is_busy(&self) -> bool {
         self.advice.is_none()
-    }
-}
-
-impl Drop for Adviser {
-    fn drop(&mut self) {
-        self.stopped.store(true, Ordering::Relaxed);
     }
 }
 
@@ -82,13 +75,7 @@ impl App {
         // Advice is for what was asked about, and for nothing that it has become since.
         self.adviser = self.adviser.take().filter(|adviser| is_same(&adviser.wish));
         let Some(adviser) = &mut self.adviser else { return };
-        match adviser.result.try_recv() {
-            Ok(advice) => adviser.advice = Some(advice),
-            Err(mpsc::TryRecvError::Disconnected) if adviser.advice.is_none() => {
-                adviser.advice = Some(Err("The study failed unexpectedly.".to_owned()));
-            }
-            Err(_) => {}
-        }
+        adviser.receive();
         let (mut open, mut chosen) = (true, None);
         egui::Window::new("What should I use here?")
             .open(&mut open)

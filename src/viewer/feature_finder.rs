@@ -1,9 +1,5 @@
 //! What camera rays meet first, found off the UI thread, and only while somebody looks at it.
-use std::sync::{
-    Arc,
-    atomic::{AtomicBool, Ordering},
-    mpsc,
-};
+use std::sync::Arc;
 
 use noisefall::{
     integrator::{Features, features},
@@ -11,6 +7,8 @@ use noisefall::{
     render::pass::Threads,
     scene::{Camera, Scene},
 };
+
+use super::errand::Errand;
 
 /// What features are of.
 type Subject = (Arc<Scene>, Camera);
@@ -20,18 +18,7 @@ pub struct FeatureFinder {
     found: Option<Arc<Features>>,
     /// What they are, or will be, of.
     subject: Option<Subject>,
-    pending: Option<Search>,
-}
-
-struct Search {
-    result: mpsc::Receiver<Features>,
-    given_up: Arc<AtomicBool>,
-}
-
-impl Drop for Search {
-    fn drop(&mut self) {
-        self.given_up.store(true, Ordering::Relaxed);
-    }
+    pending: Option<Errand<Option<Features>>>,
 }
 
 impl FeatureFinder {
@@ -42,11 +29,9 @@ impl FeatureFinder {
     /// The features of a picture, as soon as they are there; those of the one before meanwhile.
     pub fn of(&mut self, scene: &Arc<Scene>, camera: &Camera, threads: usize) -> Option<Arc<Features>> {
         let same = |(old, at): &Subject| Arc::ptr_eq(old, scene) && at == camera;
-        match self.pending.as_ref().map(|search| search.result.try_recv()) {
-            Some(Ok(features)) => (self.found, self.pending) = (Some(Arc::new(features)), None),
-            // The renderer fails at it: the picture's own threads say so.
-            Some(Err(mpsc::TryRecvError::Disconnected)) => self.pending = None,
-            _ => {}
+        // Where the renderer fails, the picture's own threads say so.
+        if let Some(Ok(Some(features))) = Errand::take(&mut self.pending) {
+            self.found = Some(Arc::new(features));
         }
         // A search that is under way is let finish: while the camera is dragged there would never be one that does.
         if self.pending.is_none() && !self.subject.as_ref().is_some_and(same) {
@@ -57,19 +42,11 @@ impl FeatureFinder {
 
     fn search(&mut self, scene: &Arc<Scene>, camera: &Camera, threads: usize) {
         self.subject = Some((scene.clone(), *camera));
-        let (sender, result) = mpsc::channel();
-        let given_up = Arc::new(AtomicBool::new(false));
-        self.pending = Some(Search { result, given_up: given_up.clone() });
-        let (ctx, scene, camera) = (self.ctx.clone(), scene.clone(), *camera);
-        std::thread::spawn(move || {
-            let interrupted = || given_up.load(Ordering::Relaxed);
+        let (scene, camera) = (scene.clone(), *camera);
+        self.pending = Some(Errand::start(&self.ctx, move |given_up| {
             // On threads of their own, so many as render.
-            let Ok(pool) = Threads::new(threads, SimdLevel::best()) else { return };
-            let found = pool.install(|| features(SimdLevel::best(), &scene, &camera, &interrupted));
-            if let Some(features) = found {
-                let _ = sender.send(features);
-                ctx.request_repaint();
-            }
-        });
+            let pool = Threads::new(threads, SimdLevel::best()).ok()?;
+            pool.install(|| features(SimdLevel::best(), &scene, &camera, given_up))
+        }));
     }
 }

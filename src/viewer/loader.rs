@@ -1,15 +1,12 @@
 //! Reading and compiling scenes off the UI thread. The latest request wins.
-use std::{
-    path::PathBuf,
-    sync::{Arc, mpsc},
-};
+use std::{path::PathBuf, sync::Arc};
 
 use noisefall::{
     render::truth::Reference,
     scene::{Scene, built_in, load},
 };
 
-use super::catalogue;
+use super::{catalogue, errand::Errand};
 
 /// What the built-in scene is called.
 pub const BUILT_IN_NAME: &str = "Five-sphere Cornell box (built-in)";
@@ -33,8 +30,8 @@ pub type ReferenceOutcome = Result<(String, Arc<Reference>), String>;
 
 pub struct Loader {
     ctx: egui::Context,
-    pending: Option<mpsc::Receiver<Outcome>>,
-    reference: Option<mpsc::Receiver<ReferenceOutcome>>,
+    pending: Option<Errand<Outcome>>,
+    reference: Option<Errand<ReferenceOutcome>>,
 }
 
 impl Loader {
@@ -44,33 +41,16 @@ impl Loader {
 
     /// Opens a scene file, or the built-in scene.
     pub fn open(&mut self, path: Option<PathBuf>) {
-        let (sender, receiver) = mpsc::channel();
-        let ctx = self.ctx.clone();
-        std::thread::spawn(move || {
-            let _ = sender.send(open(path));
-            ctx.request_repaint();
-        });
-        self.pending = Some(receiver);
+        self.pending = Some(Errand::start(&self.ctx, |_| open(path)));
     }
 
     /// Reads a picture to hold renders against.
     pub fn read_reference(&mut self, path: PathBuf) {
-        let (sender, receiver) = mpsc::channel();
-        let ctx = self.ctx.clone();
-        std::thread::spawn(move || {
+        self.reference = Some(Errand::start(&self.ctx, move |_| {
             let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
             let read = Reference::read(&path).map(|reference| (name, Arc::new(reference)));
-            let _ = sender.send(read.map_err(|error| format!("Not a reference: {error}")));
-            ctx.request_repaint();
-        });
-        self.reference = Some(receiver);
-    }
-
-    /// What became of the last picture that was to be read, once.
-    pub fn take_reference(&mut self) -> Option<ReferenceOutcome> {
-        let outcome = self.reference.as_ref()?.try_recv().ok()?;
-        self.reference = None;
-        Some(outcome)
+            read.map_err(|error| format!("Not a reference: {error}"))
+        }));
     }
 
     pub fn is_busy(&self) -> bool {
@@ -79,13 +59,14 @@ impl Loader {
 
     /// The outcome of the latest request, once.
     pub fn take(&mut self) -> Option<Outcome> {
-        let outcome = match self.pending.as_ref()?.try_recv() {
-            Err(mpsc::TryRecvError::Empty) => return None,
-            Err(mpsc::TryRecvError::Disconnected) => Err("reading the scene failed unexpectedly".to_owned()),
-            Ok(outcome) => outcome,
-        };
-        self.pending = None;
-        Some(outcome)
+        let failed = |_| Err("reading the scene failed unexpectedly".to_owned());
+        Some(Errand::take(&mut self.pending)?.unwrap_or_else(failed))
+    }
+
+    /// What became of the last picture that was to be read, once.
+    pub fn take_reference(&mut self) -> Option<ReferenceOutcome> {
+        let failed = |_| Err("Reading the reference failed unexpectedly".to_owned());
+        Some(Errand::take(&mut self.reference)?.unwrap_or_else(failed))
     }
 }
 

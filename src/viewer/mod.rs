@@ -14,6 +14,7 @@ mod convergence;
 mod darkroom;
 mod display_panel;
 mod dock;
+mod errand;
 mod feature_finder;
 mod flight;
 mod gallery;
@@ -39,6 +40,7 @@ mod saver;
 mod scene_panel;
 mod status_bar;
 mod stop_panel;
+mod submit;
 #[cfg(test)]
 mod tests;
 mod toolbar;

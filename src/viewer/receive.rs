@@ -3,11 +3,7 @@ use std::sync::Arc;
 
 use egui::{TextureHandle, TextureOptions};
 use noisefall::{
-    render::{
-        Budget, Frame,
-        truth::Reference,
-        view::{Legend, View},
-    },
+    render::{Budget, Frame, truth::Reference, view::Look},
     scene::Camera,
 };
 
@@ -70,7 +66,7 @@ impl App {
         let term = self.frame_beside.clone().filter(|_| self.dock == Some(Tab::Bounces));
         let view = compare.and_then(|compare| compare.view());
         let pinned = if view.is_some() { beside.clone() } else { self.pinned.clone() };
-        let look = noisefall::render::view::Look { view: view.unwrap_or(self.look.view), ..self.look };
+        let look = Look { view: view.unwrap_or(self.look.view), ..self.look };
         let wish = self.link.wish().map(|wish| (wish.scene.clone(), wish.camera));
         let features =
             wish.filter(|_| look.view.shows_features()).and_then(|(scene, camera)| self.finder.of(&scene, &camera, self.threads));
@@ -92,7 +88,7 @@ impl App {
         set(&self.ctx, &mut self.textures[0], "picture", Some(print.image));
         set(&self.ctx, &mut self.textures[1], "picture beside", print.image_beside);
         (self.against, self.against_beside) = (print.truth, print.truth_beside);
-        (self.legend, self.scores, self.black) = (print.legend.map(|legend| self.entitled(legend)), print.scores, print.black);
+        (self.legend, self.scores, self.black) = (print.legend, print.scores, print.black);
         if let Some(wish) = self.link.wish() {
             self.history.look_at(&wish.scene, &wish.camera, self.truth_here().as_ref());
             let frame = &print.frame;
@@ -106,19 +102,6 @@ impl App {
             }
         }
         self.shown = Some(print.frame);
-    }
-
-    /// A legend under the title that it has here.
-    fn entitled(&self, legend: Legend) -> Legend {
-        let has_scale = legend.scale.is_some();
-        let is_for_scene = self.opened.as_ref().is_some_and(|opened| opened.truth.is_some());
-        let title = match self.comparison().and_then(|compare| compare.view()).unwrap_or(self.look.view) {
-            View::Difference if self.comparison().is_some() && has_scale => "Difference of A and B, in parts of B",
-            View::Difference if self.comparison().is_some() => "The difference comes with the first sample of B",
-            View::ZScore if !has_scale && is_for_scene => "The truth is for the scene's own camera: press Home",
-            _ => return legend,
-        };
-        Legend { title: title.to_owned(), ..legend }
     }
 
     /// The likeliest reason why what is shown is black, if it is.

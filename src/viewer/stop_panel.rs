@@ -64,7 +64,9 @@ fn region(ui: &mut Ui, label: egui::Id, region: &mut Option<Region>, [width, hei
         for (corner, what) in [(&mut region.from, "from"), (&mut region.to, "to")] {
             for (axis, name) in ["x", "y"].into_iter().enumerate() {
                 let field = number::field(ui, &mut corner[axis], 0, 0.0..=most[axis]);
-                ui.add_sized([40.0, 20.0], field).labelled_by(label).on_hover_text(format!("{name} {what}, in pixels"));
+                let name = format!("{name} {what}, in pixels");
+                let field = ui.add_sized([40.0, 20.0], field).on_hover_text(&name);
+                ui.ctx().accesskit_node_builder(field.id, |node| node.set_label(name));
             }
         }
         if (0..2).any(|axis| region.from[axis] >= region.to[axis]) {

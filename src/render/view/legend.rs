@@ -65,8 +65,10 @@ impl Legend {
 /// What to do where a view has nothing to show.
 fn missing(view: View) -> &'static str {
     match view {
-        View::ZScore => "No truth here: open a scene with [truth], or drop a reference EXR of this size",
-        View::Difference => "Nothing of this size to compare with: press Pin this, below Display",
+        View::ZScore => {
+            "No truth for this: open a scene with [truth] at its own camera (Home), or drop a reference EXR of this size"
+        }
+        View::Difference => "Nothing of this size to take away yet: press Pin this, below Display",
         _ => "Coming …",
     }
 }
@@ -74,7 +76,7 @@ fn missing(view: View) -> &'static str {
 fn scale(view: View, numbers: &[f32], map: ColourMap) -> Scale {
     let (ends, log, unit) = match view {
         View::ZScore => ([-4.0, 4.0], false, "σ"),
-        View::Difference => ([-1.0, 1.0], false, "of the pinned radiance"),
+        View::Difference => ([-1.0, 1.0], false, "in parts of the other"),
         View::SampleCount => ([0.0, numbers.iter().copied().fold(1.0, f32::max)], false, "samples"),
         View::StandardError => (decades(numbers), true, "W/(sr·m²)"),
         View::HitCost => ([0.0, round_up(part_below(numbers, 0.99))], false, "ns a ray"),

@@ -44,7 +44,11 @@ impl View {
             "Z-score",
             "(estimate - truth)/standard error: noise without structure if right, and at most as wide as the unit normal.",
         ),
-        (View::Difference, "Difference to pinned", "Radiance less that of the pinned picture, in parts of the pinned one."),
+        (
+            View::Difference,
+            "Difference",
+            "Radiance less that of the pinned picture, in parts of it; or A less B, while two are compared.",
+        ),
         (View::Normals, "Normals", "The shading normal n that a camera ray meets first: red is x, green y, blue z."),
         (View::Albedo, "Albedo", "The colour that the bsdf f has where a camera ray meets it first."),
         (View::Depth, "Depth", "The distance to x_M, the first surface along a camera ray, in metres."),
@@ -69,6 +73,7 @@ pub struct Sources<'a> {
     /// The radiance to show in place of the frame's own, as long as that: a term of its series.
     pub radiance: Option<&'a [[f32; 3]]>,
     pub truth: Option<&'a Reference>,
+    /// What to take the difference to.
     pub pinned: Option<&'a Frame>,
     pub features: Option<&'a Features>,
     /// The scale of another picture that this one is seen beside, in place of its own.

@@ -28,8 +28,6 @@ pub struct Curve {
     pub settings: RenderSettings,
     pub generation: u64,
     pub moments: Vec<Moment>,
-    /// When it grew last, counted in moments.
-    touched: u64,
 }
 
 /// What curves are drawn over.
@@ -56,10 +54,9 @@ pub struct History {
     pub what: What,
     subject: Option<(Arc<Scene>, Camera)>,
     truth: Option<Arc<Reference>>,
-    clock: u64,
 }
 
-/// The one that has not grown for the longest time is forgotten where there would be more.
+/// The one of the oldest picture is forgotten where there would be more.
 const MOST_CURVES: usize = 12;
 /// Moments nearer to each other than this factor are not told apart.
 const SPACING: f64 = 1.03;
@@ -124,15 +121,13 @@ impl History {
             Some(at) => &mut self.curves[at],
             None => {
                 if self.curves.len() == MOST_CURVES {
-                    let oldest = (0..MOST_CURVES).min_by_key(|&at| self.curves[at].touched).unwrap_or(0);
+                    let oldest = (0..MOST_CURVES).min_by_key(|&at| self.curves[at].generation).unwrap_or(0);
                     self.curves.remove(oldest);
                 }
-                self.curves.push(Curve { settings: *settings, generation, moments: Vec::new(), touched: 0 });
+                self.curves.push(Curve { settings: *settings, generation, moments: Vec::new() });
                 self.curves.last_mut().expect("it was just added")
             }
         };
-        self.clock += 1;
-        curve.touched = self.clock;
         if curve.generation != generation {
             (curve.generation, curve.moments) = (generation, Vec::new());
         }

@@ -1,9 +1,5 @@
 //! The samples of a pixel and one of its paths, traced again off the UI thread.
-use std::sync::{
-    Arc,
-    atomic::{AtomicBool, Ordering},
-    mpsc,
-};
+use std::sync::Arc;
 
 use noisefall::{
     integrator::{Replay, pixel_samples, replay},
@@ -11,16 +7,16 @@ use noisefall::{
     render::sharing::resolved,
 };
 
-use super::count_of;
-use crate::viewer::link::Wish;
+use super::{count_of, histogram::Histogram};
+use crate::viewer::{errand::Errand, link::Wish};
 
 /// More samples do not change what a histogram looks like.
 pub const MOST_SAMPLES: u32 = 4096;
 
 /// What has been found.
 pub struct Findings {
-    /// Luminance of the first samples, by number.
-    pub samples: Arc<[f32]>,
+    /// Of the first samples of the pixel.
+    pub histogram: Arc<Histogram>,
     pub replay: Replay,
 }
 
@@ -33,25 +29,22 @@ struct Question {
     count: u32,
 }
 
-struct Search {
-    question: Question,
-    result: mpsc::Receiver<Findings>,
-    given_up: Arc<AtomicBool>,
-}
-
 pub struct Inspector {
     ctx: egui::Context,
     pub pixel: Option<[u32; 2]>,
     pub sample: u32,
     found: Option<(Question, Findings)>,
-    pending: Option<Search>,
+    /// What is being found; nothing where it was given up.
+    pending: Option<Errand<Option<Findings>>>,
+    /// What it is, or was, about.
+    asked: Option<Question>,
     /// What the renderer fails at.
     failed: Option<Question>,
 }
 
 impl Inspector {
     pub fn new(ctx: &egui::Context) -> Inspector {
-        Inspector { ctx: ctx.clone(), pixel: None, sample: 0, found: None, pending: None, failed: None }
+        Inspector { ctx: ctx.clone(), pixel: None, sample: 0, found: None, pending: None, asked: None, failed: None }
     }
 
     pub fn look_at(&mut self, pixel: [u32; 2]) {
@@ -79,23 +72,23 @@ impl Inspector {
         if self.found.as_ref().is_some_and(|(found, _)| (&found.wish, found.pixel) != (wish, pixel)) {
             self.found = None;
         }
-        if self.failed.as_ref().is_some_and(known)
-            || self.found.as_ref().is_some_and(|(found, _)| known(found))
-            || self.pending.as_ref().is_some_and(|search| known(&search.question))
-        {
+        let pending = self.asked.as_ref().filter(|_| self.pending.is_some());
+        let found = self.found.as_ref().map(|(found, _)| found);
+        if [self.failed.as_ref(), found, pending].into_iter().flatten().any(known) {
             return;
         }
         let same_pixel = |found: &Question| Question { sample: question.sample, ..found.clone() } == question;
-        let samples = self.found.as_ref().filter(|(found, _)| same_pixel(found)).map(|(_, findings)| findings.samples.clone());
-        self.start(question, samples);
+        let histogram =
+            self.found.as_ref().filter(|(found, _)| same_pixel(found)).map(|(_, findings)| findings.histogram.clone());
+        self.asked = Some(question.clone());
+        self.pending = Some(Errand::start(&self.ctx, move |given_up| find(&question, histogram, given_up)));
     }
 
     fn receive(&mut self) {
-        let Some(result) = self.pending.as_ref().map(|search| search.result.try_recv()) else { return };
+        let (Some(result), Some(question)) = (Errand::take(&mut self.pending), &self.asked) else { return };
         match result {
-            Ok(findings) => self.found = self.pending.take().map(|search| (search.question.clone(), findings)),
-            Err(mpsc::TryRecvError::Disconnected) => self.failed = self.pending.take().map(|search| search.question.clone()),
-            Err(mpsc::TryRecvError::Empty) => {}
+            Ok(findings) => self.found = findings.map(|findings| (question.clone(), findings)),
+            Err(_) => self.failed = Some(question.clone()),
         }
     }
 
@@ -103,46 +96,19 @@ impl Inspector {
     pub fn has_failed(&self) -> bool {
         self.failed.as_ref().is_some_and(|failed| self.pixel == Some(failed.pixel) && self.sample == failed.sample)
     }
-
-    fn start(&mut self, question: Question, known: Option<Arc<[f32]>>) {
-        let (sender, result) = mpsc::channel();
-        let given_up = Arc::new(AtomicBool::new(false));
-        self.pending = Some(Search { question: question.clone(), result, given_up: given_up.clone() });
-        let ctx = self.ctx.clone();
-        std::thread::spawn(move || {
-            if let Some(findings) = find(&question, known, &|| given_up.load(Ordering::Relaxed)) {
-                let _ = sender.send(findings);
-            }
-            ctx.request_repaint();
-        });
-    }
 }
 
-impl Drop for Search {
-    fn drop(&mut self) {
-        self.given_up.store(true, Ordering::Relaxed);
-    }
-}
-
-fn find(question: &Question, known: Option<Arc<[f32]>>, given_up: &dyn Fn() -> bool) -> Option<Findings> {
+fn find(question: &Question, known: Option<Arc<Histogram>>, given_up: &dyn Fn() -> bool) -> Option<Findings> {
     let Question { wish: Wish { scene, camera, settings }, pixel, sample, count } = question;
     let rays = scene.rays(camera);
     let settings = resolved(scene, &rays, settings);
     let replay = replay(scene, &rays, &settings, *pixel, *sample);
-    let samples = match known {
-        Some(samples) => samples,
+    let histogram = match known {
+        Some(histogram) => histogram,
         None => {
             let samples = pixel_samples(scene, &rays, &settings, *pixel, 0..*count, given_up)?;
-            samples.into_iter().map(luminance).collect()
+            Arc::new(Histogram::of(samples.into_iter().map(luminance).collect()))
         }
     };
-    Some(Findings { samples, replay })
-}
-
-impl Findings {
-    /// The number of the sample with most light.
-    pub fn brightest(&self) -> u32 {
-        let most = (0..self.samples.len()).max_by(|&a, &b| self.samples[a].total_cmp(&self.samples[b]));
-        most.unwrap_or(0) as u32
-    }
+    Some(Findings { histogram, replay })
 }

@@ -1,36 +1,46 @@
 //! How the samples of a pixel are spread.
 use egui::{Align2, Color32, FontId, Rect, Sense, Stroke, Ui, pos2, vec2};
 
-use super::findings::Findings;
 use crate::viewer::look::Inks;
 
 const BINS: usize = 40;
 const HEIGHT: f32 = 76.0;
 
-/// Bins of luminance; the last one has all that is brighter.
-struct Bins {
+/// Samples by their luminance; the last bin has all that are brighter.
+pub struct Histogram {
+    /// Luminance by number of the sample.
+    pub samples: Vec<f32>,
     counts: [u32; BINS],
     /// Where the last bin begins.
     end: f32,
     mean: f32,
+    /// Part of the samples.
     black: f32,
+    /// The number of the sample with most light.
+    pub brightest: u32,
 }
 
-impl Bins {
-    fn of(samples: &[f32]) -> Bins {
-        let mut sorted = samples.to_vec();
-        sorted.sort_by(f32::total_cmp);
-        let most = sorted.last().copied().unwrap_or(0.0);
+impl Histogram {
+    pub fn of(samples: Vec<f32>) -> Histogram {
+        let mut order: Vec<u32> = (0..samples.len() as u32).collect();
+        order.sort_by(|a, b| samples[*a as usize].total_cmp(&samples[*b as usize]));
+        let at = |place: usize| order.get(place).map_or(0.0, |number| samples[*number as usize]);
+        let most = at(samples.len().saturating_sub(1));
         // A few samples far brighter than all others must not make one bar of these.
-        let usual = sorted.get((sorted.len().max(1) - 1) * 98 / 100).copied().unwrap_or(0.0);
+        let usual = at((samples.len().max(1) - 1) * 98 / 100);
         let end = if usual > 0.0 { usual.min(most) * 1.02 } else { most.max(1e-6) * 1.02 };
         let mut counts = [0; BINS];
-        for sample in samples {
+        for sample in &samples {
             counts[bin(*sample, end)] += 1;
         }
         let count = samples.len().max(1) as f32;
-        let black = sorted.iter().take_while(|sample| **sample <= 0.0).count() as f32 / count;
-        Bins { counts, end, mean: samples.iter().sum::<f32>() / count, black }
+        let black = samples.iter().filter(|sample| **sample <= 0.0).count() as f32 / count;
+        let mean = samples.iter().sum::<f32>() / count;
+        Histogram { counts, end, mean, black, brightest: order.last().copied().unwrap_or(0), samples }
+    }
+
+    fn bin_of(&self, sample: u32) -> Option<usize> {
+        self.samples.get(sample as usize).map(|sample| bin(*sample, self.end))
     }
 }
 
@@ -39,15 +49,14 @@ fn bin(sample: f32, end: f32) -> usize {
 }
 
 /// Draws it. Returns the first sample of a bar that was clicked.
-pub fn show(ui: &mut Ui, findings: &Findings, chosen: u32) -> Option<u32> {
-    let bins = Bins::of(&findings.samples);
+pub fn show(ui: &mut Ui, histogram: &Histogram, chosen: u32) -> Option<u32> {
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width() - 6.0, HEIGHT + 18.0), Sense::click());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, "Histogram of the samples"));
     let plot = Rect::from_min_size(rect.min, vec2(rect.width(), HEIGHT));
-    let most = bins.counts.iter().copied().max().unwrap_or(1).max(1) as f32;
+    let most = histogram.counts.iter().copied().max().unwrap_or(1).max(1) as f32;
     let width = plot.width() / BINS as f32;
-    let chosen_bin = findings.samples.get(chosen as usize).map(|sample| bin(*sample, bins.end));
-    for (number, count) in bins.counts.iter().enumerate() {
+    let chosen_bin = histogram.bin_of(chosen);
+    for (number, count) in histogram.counts.iter().enumerate() {
         // By square root: single samples are seen beside thousands.
         let height = HEIGHT * (*count as f32 / most).sqrt();
         let left = plot.left() + width * number as f32;
@@ -55,19 +64,19 @@ pub fn show(ui: &mut Ui, findings: &Findings, chosen: u32) -> Option<u32> {
         let colour = if chosen_bin == Some(number) { ui.accent() } else { Color32::GRAY };
         ui.painter().rect_filled(bar, 0.0, colour);
     }
-    let mean = plot.left() + plot.width() * (bins.mean / bins.end).min(1.0) * (BINS - 1) as f32 / BINS as f32;
+    let mean = plot.left() + plot.width() * (histogram.mean / histogram.end).min(1.0) * (BINS - 1) as f32 / BINS as f32;
     ui.painter().vline(mean, plot.y_range(), Stroke::new(1.5, ui.warning()));
     let ink = ui.visuals().weak_text_color();
     let text = |at: egui::Pos2, align: Align2, text: String| ui.painter().text(at, align, text, FontId::proportional(11.0), ink);
     text(plot.left_bottom() + vec2(0.0, 3.0), Align2::LEFT_TOP, "0".to_owned());
-    text(plot.right_bottom() + vec2(0.0, 3.0), Align2::RIGHT_TOP, format!("{:.3} and more", bins.end));
-    let count = findings.samples.len();
-    ui.weak(format!("{count} samples, mean {:.4} (line), {:.0} % black", bins.mean, 100.0 * bins.black));
+    text(plot.right_bottom() + vec2(0.0, 3.0), Align2::RIGHT_TOP, format!("{:.3} and more", histogram.end));
+    let count = histogram.samples.len();
+    ui.weak(format!("{count} samples, mean {:.4} (line), {:.0} % black", histogram.mean, 100.0 * histogram.black));
     let under = |at: egui::Pos2| (((at.x - plot.left()) / width) as usize).min(BINS - 1);
     let clicked = response.clicked().then(|| response.interact_pointer_pos()).flatten().map(under);
     response.on_hover_text("Luminance of this pixel's samples; heights by square root. Click a bar for one of its samples.");
     let wanted = clicked?;
-    findings.samples.iter().position(|sample| bin(*sample, bins.end) == wanted).map(|place| place as u32)
+    (0..count as u32).find(|sample| histogram.bin_of(*sample) == Some(wanted))
 }
 
 #[cfg(test)]
@@ -77,9 +86,10 @@ mod tests {
     #[test]
     fn every_sample_is_in_a_bin_and_a_bright_one_alone_at_the_end() {
         let samples: Vec<f32> = (0..99).map(|i| i as f32 * 0.01).chain([1000.0]).collect();
-        let bins = Bins::of(&samples);
-        assert_eq!(bins.counts.iter().sum::<u32>(), 100);
-        assert!(bins.counts[BINS - 1] <= 2 && bins.end < 1.1, "{:?}", bins.counts);
-        assert_eq!(Bins::of(&[0.0; 8]).black, 1.0);
+        let histogram = Histogram::of(samples);
+        assert_eq!(histogram.counts.iter().sum::<u32>(), 100);
+        assert_eq!(histogram.brightest, 99);
+        assert!(histogram.counts[BINS - 1] <= 2 && histogram.end < 1.1, "{:?}", histogram.counts);
+        assert_eq!(Histogram::of(vec![0.0; 8]).black, 1.0);
     }
 }

@@ -9,7 +9,7 @@ use egui::{RichText, ScrollArea, Ui};
 use noisefall::math::colour::luminance;
 
 pub use self::findings::Inspector;
-use self::findings::{Findings, MOST_SAMPLES};
+use self::findings::MOST_SAMPLES;
 use super::{app::App, canvas::Tool, dock::Tab, look::Inks, number};
 
 impl App {
@@ -40,7 +40,7 @@ impl App {
             }
             return;
         };
-        egui::Panel::left("pixel").resizable(false).exact_size(292.0).show(ui, |ui| {
+        egui::Panel::left("pixel").resizable(false).exact_size(312.0).show(ui, |ui| {
             ScrollArea::vertical().show(ui, |ui| self.pixel_column(ui, pixel));
         });
         if self.inspector.has_failed() {
@@ -64,8 +64,9 @@ impl App {
         let [width, height] = self.camera.resolution;
         let mut at = pixel;
         ui.horizontal(|ui| {
-            let label = ui.label("Pixel");
-            for (axis, most) in [(0, width), (1, height)] {
+            ui.label("Pixel");
+            for (axis, name, most) in [(0, "x", width), (1, "y", height)] {
+                let label = ui.weak(name);
                 let field = number::field(ui, &mut at[axis], 0, 0.0..=f64::from(most.saturating_sub(1)));
                 ui.add(field).labelled_by(label.id);
             }
@@ -83,14 +84,14 @@ impl App {
         }
         self.sample_choice(ui);
         let Some(findings) = self.inspector.findings() else { return };
-        if let Some(sample) = histogram::show(ui, findings, self.inspector.sample) {
+        if let Some(sample) = histogram::show(ui, &findings.histogram, self.inspector.sample) {
             self.inspector.sample = sample;
         }
     }
 
     /// Which sample is seen vertex by vertex.
     fn sample_choice(&mut self, ui: &mut Ui) {
-        let brightest = self.inspector.findings().map(Findings::brightest);
+        let brightest = self.inspector.findings().map(|findings| findings.histogram.brightest);
         let sample = &mut self.inspector.sample;
         ui.horizontal(|ui| {
             let label = ui.label("Sample").on_hover_text("The number of the sample: it and the pixel decide the path, for ever");

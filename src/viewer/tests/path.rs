@@ -24,7 +24,9 @@ fn a_clicked_pixel_shows_exactly_the_samples_that_the_renderer_took() {
             click_at(w, Pos2::new(430.0, 430.0));
         });
         let pixel = window.state().inspector.pixel.expect("it was clicked");
-        wait(&mut window, "its samples", |app| app.inspector.findings().is_some_and(|findings| findings.samples.len() >= 16));
+        wait(&mut window, "its samples", |app| {
+            app.inspector.findings().is_some_and(|findings| findings.histogram.samples.len() >= 16)
+        });
         let app = window.state();
         let findings = app.inspector.findings().expect("they are there");
         let (scene, camera) = (&app.opened.as_ref().expect("it is open").scene, &app.camera);
@@ -38,7 +40,7 @@ fn a_clicked_pixel_shows_exactly_the_samples_that_the_renderer_took() {
             let work = Work::tile(scene, &rays, &settings, origin, size, sample);
             trace(SimdLevel::best(), &work, &mut batch, &|| false).expect("nobody interrupts");
             let [r, g, b, _] = batch.radiance()[((pixel[1] - origin[1]) * TILE + pixel[0] - origin[0]) as usize];
-            assert_eq!(findings.samples[sample as usize].to_bits(), luminance([r, g, b]).to_bits(), "sample {sample}");
+            assert_eq!(findings.histogram.samples[sample as usize].to_bits(), luminance([r, g, b]).to_bits(), "sample {sample}");
             if sample == 0 {
                 assert_eq!(findings.replay.radiance, [r, g, b], "the path that is shown");
             }
@@ -57,12 +59,12 @@ fn one_steps_through_paths_and_the_table_adds_up() {
         assert_eq!(window.state().inspector.sample, expected);
     }
     click(&mut window, "Brightest");
-    let brightest = window.state().inspector.findings().expect("they are there").brightest();
+    let brightest = window.state().inspector.findings().expect("they are there").histogram.brightest;
     assert_eq!(window.state().inspector.sample, brightest);
     wait(&mut window, "that path", |app| {
         let findings = app.inspector.findings().expect("they are there");
         let replayed = luminance(findings.replay.radiance);
-        replayed.to_bits() == findings.samples[brightest as usize].to_bits()
+        replayed.to_bits() == findings.histogram.samples[brightest as usize].to_bits()
     });
     window.run_steps(3);
     assert!(window.query_by_label_contains("This sample:").is_some());

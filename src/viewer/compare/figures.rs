@@ -1,0 +1,142 @@
+//! What is known of both sides, and which is better.
+use egui::{Grid, RichText, Ui};
+use noisefall::{
+    render::{State, Status},
+    scene::RenderSettings,
+};
+
+use super::Compare;
+use crate::viewer::{
+    app::App,
+    convergence::name,
+    darkroom::Against,
+    look::{self, Inks},
+};
+
+impl App {
+    pub(super) fn figures_of_both(&self, ui: &mut Ui, compare: &Compare) {
+        let of_scene = self.opened.as_ref().map_or_else(RenderSettings::default, |opened| opened.scene.settings);
+        let sides = [
+            Side::of("A", name(&self.settings, &of_scene), &self.status, &self.settings, self.against),
+            Side::of("B", name(&compare.other, &of_scene), &self.status_beside, &compare.other, self.against_beside),
+        ];
+        Grid::new("A and B").num_columns(8).spacing([18.0, 5.0]).show(ui, |ui| {
+            for (heading, doc) in HEADINGS {
+                ui.label(RichText::new(heading).weak()).on_hover_text(doc);
+            }
+            ui.end_row();
+            for side in &sides {
+                side.row(ui);
+            }
+        });
+        ui.add_space(4.0);
+        if let Some(text) = incomparable(&sides) {
+            ui.label(RichText::new(text).color(ui.warning()));
+        } else if let [Some(a), Some(b)] = sides.each_ref().map(|side| side.efficiency) {
+            let (text, more) = verdict(a, b);
+            ui.label(RichText::new(text).color(ui.accent())).on_hover_text(more);
+        } else {
+            ui.weak("Figures come with the second sample of both.");
+        }
+    }
+}
+
+const HEADINGS: [(&str, &str); 8] = [
+    ("", ""),
+    ("settings", "What differs from how the scene opens"),
+    ("N", "Samples per pixel"),
+    ("time", "Seconds of rendering: both get the same since the comparison began"),
+    ("noise", "Estimated relative error: the root of relMSE"),
+    ("true error", "Relative error against the truth, where that is known"),
+    ("efficiency", "1/(relMSE · seconds): twice as much is the same error in half the time"),
+    ("converges to", "Whether the expected picture is the solution of the equation"),
+];
+
+/// The figures of one side.
+struct Side {
+    letter: &'static str,
+    name: String,
+    spp: u32,
+    seconds: f64,
+    noise: Option<f64>,
+    truth: Option<f64>,
+    efficiency: Option<f64>,
+    /// Why it converges to another picture, or not at all.
+    trouble: Option<String>,
+}
+
+impl Side {
+    fn of(letter: &'static str, name: String, status: &Status, settings: &RenderSettings, against: Option<Against>) -> Side {
+        let seconds = status.elapsed.as_secs_f64();
+        // The truth, where it is known, sees bias as well.
+        let rel_mse = against.map(|against| against.rel_mse).or(status.rel_mse_estimate).filter(|rel_mse| *rel_mse > 0.0);
+        let failure =
+            if let State::Failed(failure) = &status.state { Some(format!("failed: {}", failure.message)) } else { None };
+        Side {
+            trouble: failure.or_else(|| status.bias(settings).map(|why| format!("biased: {why}"))),
+            letter,
+            name,
+            spp: status.spp,
+            seconds,
+            noise: status.relative_noise(),
+            truth: against.map(|against| against.rel_mse.sqrt()),
+            efficiency: rel_mse.filter(|_| status.spp >= 2).map(|rel_mse| 1.0 / (rel_mse * seconds.max(1e-9))),
+        }
+    }
+
+    fn row(&self, ui: &mut Ui) {
+        let percent = |x: Option<f64>| x.map_or_else(|| "–".to_owned(), |x| format!("{:.2} %", 100.0 * x));
+        ui.strong(self.letter);
+        look::elided(ui, 330.0, self.name.as_str()).on_hover_text(self.name.as_str());
+        ui.monospace(self.spp.to_string());
+        ui.monospace(format!("{:.1} s", self.seconds));
+        ui.monospace(percent(self.noise));
+        ui.monospace(percent(self.truth));
+        ui.monospace(self.efficiency.map_or_else(|| "–".to_owned(), significant));
+        match &self.trouble {
+            None => ui.label(RichText::new("the solution").color(ui.good())),
+            Some(trouble) => ui.label(RichText::new(trouble).color(ui.warning())),
+        };
+        ui.end_row();
+    }
+}
+
+/// Why efficiencies say nothing: noise alone does not see that one side converges to another picture.
+fn incomparable(sides: &[Side; 2]) -> Option<String> {
+    let biased = sides.iter().find(|side| side.trouble.is_some() && side.truth.is_none())?;
+    let letter = biased.letter;
+    Some(format!(
+        "{letter} does not converge to the solution: less noise does not make it nearer. The difference shows what is missing."
+    ))
+}
+
+/// Three digits that count.
+fn significant(x: f64) -> String {
+    match x {
+        0.01..10_000.0 => format!("{:.*}", (2.0 - x.log10().floor()).max(0.0) as usize, x),
+        _ => format!("{x:.2e}"),
+    }
+}
+
+/// Which is better, and what that means.
+fn verdict(a: f64, b: f64) -> (String, String) {
+    let (better, ratio) = if a >= b { ("A", a / b) } else { ("B", b / a) };
+    let other = if better == "A" { "B" } else { "A" };
+    if ratio < 1.05 {
+        return ("Both are as good.".to_owned(), "Their efficiencies differ by less than five percent so far.".to_owned());
+    }
+    let text = format!("{better} is {ratio:.2} times as efficient so far.");
+    (text, format!("{other} needs {ratio:.2} times the time for the same error, which falls as 1/√time."))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_verdict_names_the_better_one() {
+        assert!(verdict(2.0, 1.0).0.starts_with("A is 2.00"));
+        assert!(verdict(1.0, 3.0).0.starts_with("B is 3.00"));
+        assert_eq!(verdict(1.0, 1.01).0, "Both are as good.");
+    }
+}
