@@ -195,6 +195,9 @@ fn assert_terms(vertex: &Vertex, settings: &RenderSettings, what: &str) {
         assert!(settings.estimator != Estimator::Path && (0.0..=1.0).contains(&light.weight));
         let seen = light.outcome == Outcome::Seen;
         assert!(seen || light.contribution == [0.0; 3]);
+        // It ends at what stands there: the light itself, or what hides it; a background is nowhere.
+        let ends = if seen { light.object.is_some() } else { light.outcome == Outcome::Hidden };
+        assert_eq!(light.distance.is_some_and(|distance| distance > 0.0), ends, "{what}");
         if seen {
             let scale = light.weight / light.pdf;
             let incident = product(light.radiance.map(|x| x * scale), light.passed);

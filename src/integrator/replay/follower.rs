@@ -132,6 +132,7 @@ impl Follower {
             weight: if sample.pdf.0 > 0.0 { weight.0 } else { 0.0 },
             radiance: sample.radiance.lane(0),
             outcome: Outcome::Void,
+            distance: None,
             passed: BLACK,
             contribution: BLACK,
         };
@@ -141,6 +142,8 @@ impl Follower {
         let media = Inside::read(One, &batch.shadow_media, at).media;
         let (seen, radiance) = arriving(One, work, M(true), &shadow, media);
         light.outcome = if seen.0 { Outcome::Seen } else { Outcome::Hidden };
+        let met = work.scene.shapes.closest(One, M(true), shadow.o, shadow.d, work.time(One, shadow.slot));
+        light.distance = Some(met.t.0).filter(|t| t.is_finite());
         if seen.0 {
             let (_, passed) = arriving(One, work, M(true), &Shadow { radiance: V::splat(One, WHITE), ..shadow }, media);
             light.passed = passed.lane(0);

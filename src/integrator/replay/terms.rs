@@ -75,6 +75,8 @@ pub struct SampledLight {
     /// L_e of the light; where a texture varies it, what that multiplies.
     pub radiance: [f32; 3],
     pub outcome: Outcome,
+    /// To the light, or to what hides it; absent where neither is there, or nobody looked.
+    pub distance: Option<f32>,
     /// What media on the way let pass, times the texture of the light; 0 where the light is not seen.
     pub passed: [f32; 3],
     /// Throughput × transmittance × f cos × radiance × weight/pdf × passed.

@@ -1,6 +1,7 @@
 //! A path drawn over the picture.
 use egui::{Align2, Color32, FontId, Pos2, Stroke, Ui, vec2};
 use glam::Vec3;
+use noisefall::integrator::Outcome;
 
 use super::{projection::project, table::MOST_VERTICES};
 use crate::viewer::{app::App, canvas::Place, dock::Tab};
@@ -20,13 +21,17 @@ impl App {
             let [x, y] = project(&self.camera, Vec3::from(p).as_dvec3())?;
             Some(place.screen(x, y))
         };
-        // Long enough to tell the direction of a light sample, short enough not to hide the path.
-        let dash = self.opened.as_ref().map_or(0.1, |opened| 0.06 * opened.scene.size) as f32;
+        let size = self.opened.as_ref().map_or(1.0, |opened| opened.scene.size) as f32;
+        // What ends behind the camera is seen up to there, or nearly so.
+        let towards = |[o, d]: [[f32; 3]; 2], length: f32| {
+            let end = |part: i32| (Vec3::from(o) + Vec3::from(d) * (length * 0.75f32.powi(part))).to_array();
+            (0..12).find_map(|part| screen(end(part)))
+        };
         let mut before = square.center();
         for vertex in findings.replay.vertices.iter().take(MOST_VERTICES) {
             let Some(at) = vertex.surface.as_ref().and_then(|surface| screen(surface.position)) else {
-                let way = Vec3::from(vertex.origin) + Vec3::from(vertex.direction) * dash;
-                if let Some(away) = screen(way.to_array()).filter(|_| vertex.bounce > 0) {
+                let away = towards([vertex.origin, vertex.direction], 0.06 * size);
+                if let Some(away) = away.filter(|_| vertex.bounce > 0) {
                     painter.extend(egui::Shape::dashed_line(&[before, away], Stroke::new(1.2, PATH), 5.0, 4.0));
                 }
                 break;
@@ -36,9 +41,9 @@ impl App {
                 painter.line_segment([before, at], Stroke::new(1.6, PATH));
             }
             if let (Some(light), Some(surface)) = (&vertex.light, &vertex.surface) {
-                let seen = light.contribution.iter().any(|c| *c > 0.0);
-                let towards = Vec3::from(surface.position) + Vec3::from(light.direction) * dash;
-                if let Some(to) = screen(towards.to_array()) {
+                let seen = light.outcome == Outcome::Seen;
+                let to = towards([surface.position, light.direction], light.distance.unwrap_or(size));
+                if let Some(to) = to.filter(|_| light.outcome != Outcome::Void) {
                     let stroke = Stroke::new(1.2, if seen { LIGHT } else { LIGHT.gamma_multiply(0.4) });
                     painter.extend(egui::Shape::dashed_line(&[at, to], stroke, 3.0, 3.0));
                 }

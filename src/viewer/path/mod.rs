@@ -87,6 +87,7 @@ impl App {
         if let Some(sample) = histogram::show(ui, &findings.histogram, self.inspector.sample) {
             self.inspector.sample = sample;
         }
+        ui.weak("Over the picture: its path in yellow; light samples in blue, faint where hidden.");
     }
 
     /// Which sample is seen vertex by vertex.
