@@ -122,7 +122,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         let replay = failure.replays.then(|| format!("\nreplay: {}", replay_command(arguments, failure.at, &settings, &scene)));
         return Err(format!("the renderer failed: {}{}", failure.message, replay.unwrap_or_default()));
     }
-    let text = settings_text(&scene, &camera, &settings, Display::default(), status.spp);
+    let text = settings_text(&scene, &camera, &settings, Display::default(), status.spp, &[]);
     save_somewhere(output, |path| save(&frame, Display::default(), &text, path))?;
     let rel_mse = reference.and_then(|truth| truth.compare(&frame)).map(|comparison| comparison.rel_mse);
     let replay = status.first_invalid.map(|at| replay_command(arguments, at, &settings, &scene));

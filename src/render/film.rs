@@ -37,6 +37,10 @@ impl Film {
         self.tiles.iter_mut().for_each(Tile::keep_series);
     }
 
+    pub(super) fn has_series(&self) -> bool {
+        self.tiles.first().is_some_and(|tile| tile.series.is_some())
+    }
+
     /// Samples a pixel of the tiles in a region; `None` where it lies outside.
     pub(super) fn spp_in(&self, region: &Region) -> Option<u32> {
         self.tiles.iter().filter(|tile| tile.lies_in(region)).map(|tile| tile.spp).min()

@@ -91,6 +91,8 @@ impl Session {
         let settings = RenderSettings { reuse: Reuse::Off, adaptive: false, ..job.settings };
         let mut session = Session::new(Job { settings, ..job }, Publish::Sparse, rate, budget, None);
         session.film.keep_series();
+        // The picture that it is the series of is there to look at.
+        session.last_frame = Some(Instant::now());
         session
     }
 
@@ -224,6 +226,8 @@ impl Session {
 
     fn interval(&self, publish: Publish) -> Duration {
         match publish {
+            // Many pictures in one are not copied so often.
+            Publish::Live if self.film.has_series() => LONGEST_INTERVAL,
             Publish::Live => (self.elapsed / 20).clamp(SHORTEST_INTERVAL, LONGEST_INTERVAL),
             Publish::Sparse => LONGEST_INTERVAL,
         }
@@ -248,8 +252,10 @@ impl Session {
         }
         let frame = Frame { elapsed: self.elapsed, ..Frame::of_film(&self.film, self.job.generation, full, full) };
         self.rel_mse_estimate = frame.rel_mse_estimate;
-        let focus = self.film.focus;
-        self.region_estimate = focus.and_then(|region| Some((region, rel_mse_estimate_in(&self.film, &region)?)));
+        // A region that has been left keeps the estimate for which it was.
+        if let Some(region) = self.film.focus {
+            self.region_estimate = rel_mse_estimate_in(&self.film, &region).map(|rel_mse| (region, rel_mse));
+        }
         frame
     }
 

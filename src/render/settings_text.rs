@@ -4,9 +4,16 @@ use serde_json::json;
 use super::tone::Display;
 use crate::scene::{Camera, RenderSettings, Scene};
 
-/// One JSON object, in ASCII, with all that a picture depends on.
-pub fn settings_text(scene: &Scene, camera: &Camera, settings: &RenderSettings, display: Display, spp: u32) -> String {
-    let text = json!({
+/// One JSON object, in ASCII, with all that a picture depends on. `remarks` say what of it is shown, where that is not all.
+pub fn settings_text(
+    scene: &Scene,
+    camera: &Camera,
+    settings: &RenderSettings,
+    display: Display,
+    spp: u32,
+    remarks: &[(&str, String)],
+) -> String {
+    let mut text = json!({
         "program": concat!("Noisefall ", env!("CARGO_PKG_VERSION")),
         "title": scene.title,
         "scene": scene.source,
@@ -15,6 +22,9 @@ pub fn settings_text(scene: &Scene, camera: &Camera, settings: &RenderSettings, 
         "display": display,
         "spp": spp,
     });
+    for (name, remark) in remarks {
+        text[*name] = remark.as_str().into();
+    }
     ascii(&text.to_string())
 }
 
@@ -60,10 +70,10 @@ mod tests {
     fn the_text_is_ascii_and_still_says_the_same() {
         let mut scene = built_in();
         scene.title = "ρ = ½, 𝄞".to_owned();
-        let text = settings_text(&scene, &scene.camera, &scene.settings, Display::default(), 3);
+        let text = settings_text(&scene, &scene.camera, &scene.settings, Display::default(), 3, &[("view", "cos θ".to_owned())]);
         assert!(text.is_ascii());
         let back: serde_json::Value = serde_json::from_str(&text).expect("it is JSON");
-        assert_eq!(back["title"], "ρ = ½, 𝄞");
+        assert_eq!((&back["title"], &back["view"]), (&json!("ρ = ½, 𝄞"), &json!("cos θ")));
     }
 
     #[test]

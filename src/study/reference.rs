@@ -158,7 +158,7 @@ impl Converged<'_> {
 
     fn keep(&self, frame: &Frame, settings: &RenderSettings, path: &Path) -> Result<(), StudyError> {
         let Subject { scene, camera, .. } = self.subject;
-        let text = settings_text(scene, camera, settings, Display::default(), frame.spp);
+        let text = settings_text(scene, camera, settings, Display::default(), frame.spp, &[]);
         let failed = |error: image_file::ImageError| StudyError::File { path: path.to_owned(), reason: error.to_string() };
         image_file::save(frame, Display::default(), &text, path).map_err(failed)
     }

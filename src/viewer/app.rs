@@ -1,5 +1,9 @@
 //! The state of the window and its layout. Each panel is a file of its own.
-use std::{path::PathBuf, sync::Arc, time::Instant};
+use std::{
+    path::PathBuf,
+    sync::Arc,
+    time::{Duration, Instant},
+};
 
 use egui::{CentralPanel, Panel, ScrollArea, TextureHandle};
 use noisefall::{
@@ -18,12 +22,12 @@ use super::{
     catalogue,
     compare::Compare,
     convergence::History,
-    darkroom::{Against, Darkroom},
+    darkroom::{Against, Darkroom, Seen},
     dock::Tab,
     feature_finder::FeatureFinder,
     gallery::Gallery,
     link::Link,
-    loader::{Loader, Opened},
+    loader::{DroppedTruth, Loader, Opened},
     look::{section, themes},
     messages::Notice,
     objects_panel::objects_panel,
@@ -31,7 +35,6 @@ use super::{
     path::Inspector,
     picture_view::View,
     preferences::Preferences,
-    receive::DroppedTruth,
     save_dialog::SaveDialog,
     saver::Saver,
 };
@@ -65,6 +68,7 @@ pub struct App {
     pub(super) against: Option<Against>,
     pub(super) against_beside: Option<Against>,
     pub(super) legend: Option<Legend>,
+    pub(super) seen: Seen,
     pub(super) scores: Option<Scores>,
     pub(super) history: History,
     /// No sample of what is shown has found light.
@@ -131,6 +135,7 @@ impl App {
             against: None,
             against_beside: None,
             legend: None,
+            seen: Seen::default(),
             scores: None,
             history: History::default(),
             black: false,
@@ -210,9 +215,8 @@ impl App {
 
     fn canvas(&mut self, ui: &mut egui::Ui) {
         let size = self.opened.as_ref().map_or(1.0, |opened| opened.scene.size);
-        let keys = self.save_dialog.is_none() && self.open_dialog.is_none() && !self.help_open && !self.gallery.open;
         // In an open list, arrows are the list's.
-        let keys = keys && !egui::Popup::is_any_open(ui.ctx());
+        let keys = !self.has_dialog() && !self.help_open && !self.gallery.open && !egui::Popup::is_any_open(ui.ctx());
         let output = canvas::show(ui, self.pictures(), self.tool, &mut self.view, &self.camera, size, keys);
         (self.hovered, self.over_second) = (output.hovered, output.over_second);
         if let Some(camera) = output.camera.filter(|camera| camera.check().is_ok()) {
@@ -253,7 +257,8 @@ impl eframe::App for App {
         self.hide(ctx.input(|input| input.viewport().visible() == Some(false)));
     }
 
-    fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
+    fn ui(&mut self, ui: &mut egui::Ui, frame: &mut eframe::Frame) {
+        frame.info().cpu_usage.into_iter().for_each(|last| self.pace.record_whole(Duration::from_secs_f32(last)));
         self.show(ui);
     }
 }

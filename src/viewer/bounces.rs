@@ -1,6 +1,9 @@
 //! The picture as the series it is, bounce by bounce.
 use egui::{Color32, RichText, Sense, Slider, Ui, vec2};
-use noisefall::{integrator::TERMS, render::Series};
+use noisefall::{
+    integrator::TERMS,
+    render::{Series, view::View},
+};
 
 use super::{app::App, look::Inks};
 
@@ -20,11 +23,25 @@ impl Default for Bounces {
 }
 
 const LAST: usize = TERMS - 1;
+/// Larger pictures would take gigabytes: each pixel has some hundred bytes in the film and as many in a frame.
+const MOST_PIXELS: u64 = 4_200_000;
 /// Bars of more reflections than these are one.
 const BARS: usize = 16;
 
 impl App {
+    /// Whether the picture is small enough to be taken apart.
+    pub(super) fn has_room_for_series(&self) -> bool {
+        self.camera.resolution.map(u64::from).iter().product::<u64>() <= MOST_PIXELS
+    }
+
     pub(super) fn bounces_tab(&mut self, ui: &mut Ui) {
+        if !self.has_room_for_series() {
+            let [width, height] = self.camera.resolution;
+            ui.label(format!(
+                "{width} × {height} pixels are too many to be kept bounce by bounce: choose 4 million or fewer (Camera)."
+            ));
+            return;
+        }
         ui.horizontal(|ui| {
             let bounces = &mut self.bounces;
             ui.selectable_value(&mut bounces.up_to, false, "Bounce k alone").on_hover_text(
@@ -61,6 +78,13 @@ impl App {
             )
         };
         ui.label(RichText::new(text).color(ui.accent()));
+        if !matches!(self.look.view, View::Radiance | View::Difference) {
+            let view = self.look.view.name();
+            ui.label(
+                RichText::new(format!("The view {view} is of the whole picture: choose Radiance to see bounces."))
+                    .color(ui.warning()),
+            );
+        }
         let spp = frame.as_ref().map_or(0, |frame| frame.spp);
         ui.weak(format!("After {spp} samples per pixel, with paths of their own. Shares are of the picture's luminance."));
     }
@@ -76,7 +100,8 @@ impl App {
                 let share = if k < BARS { series.shares[k] } else { series.shares.iter().skip(BARS).sum() };
                 let (rect, response) = ui.allocate_exact_size(vec2(WIDTH, HEIGHT + 32.0), Sense::click());
                 let part = (share / most) as f32;
-                let chosen = k == self.bounces.reflections || (self.bounces.up_to && k < self.bounces.reflections);
+                let term = k.min(LAST);
+                let chosen = term == self.bounces.reflections || (self.bounces.up_to && term < self.bounces.reflections);
                 let colour = if chosen { ui.accent() } else { Color32::GRAY };
                 let base = rect.top() + HEIGHT;
                 let bar = egui::Rect::from_min_max(
@@ -97,7 +122,7 @@ impl App {
                 );
                 response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &doc));
                 if response.on_hover_text(&doc).clicked() {
-                    self.bounces.reflections = k.min(LAST);
+                    self.bounces.reflections = term;
                 }
             }
         });
@@ -112,6 +137,7 @@ fn meaning(Bounces { reflections, up_to }: Bounces) -> String {
         (0, _) => "lamps and background themselves".to_owned(),
         (1, false) => "direct light, reflected once".to_owned(),
         (k, false) => format!("light reflected {k} times"),
+        (1, true) => "lamps, and light reflected once".to_owned(),
         (k, true) => format!("light reflected at most {k} times"),
     }
 }

@@ -121,7 +121,10 @@ pub fn show(
     if response.double_clicked() {
         view.fit();
     }
-    let under = response.hover_pos().and_then(|at| places.iter().find(|place| place.clip.contains(at)));
+    // A drag may leave the picture that it began in.
+    let distance = |place: &&Place, at: Pos2| place.clip.distance_sq_to_pos(at);
+    let pointer = response.interact_pointer_pos().or(response.hover_pos());
+    let under = pointer.and_then(|at| places.iter().min_by(|a, b| distance(a, at).total_cmp(&distance(b, at))));
     let under = *under.unwrap_or(&places[0]);
     if !wiped {
         move_picture(ui, &response, tool, view, under.clip);

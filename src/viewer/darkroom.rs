@@ -4,13 +4,13 @@ use std::{
     sync::{Arc, Mutex, PoisonError},
 };
 
-use crossbeam_channel::{Sender, unbounded};
+use crossbeam_channel::{Receiver, Sender, unbounded};
 use noisefall::{
     integrator::Features,
     render::{
         Frame,
         truth::Reference,
-        view::{Legend, Look, Scale, Scores, Sources, View, draw},
+        view::{Field, Legend, Look, Scale, Scores, Sources, View, draw},
     },
 };
 
@@ -18,8 +18,9 @@ use noisefall::{
 #[derive(Clone)]
 pub struct Order {
     pub frame: Arc<Frame>,
-    /// A second picture, to be seen with the first.
+    /// A second picture, to be seen with the first, or only held against the truth.
     pub beside: Option<Arc<Frame>>,
+    pub shows_beside: bool,
     /// The term of a series to show in place of the frame's own radiance.
     pub term: Option<Term>,
     pub look: Look,
@@ -51,12 +52,24 @@ pub struct Print {
     pub image: egui::ColorImage,
     pub image_beside: Option<egui::ColorImage>,
     pub legend: Option<Legend>,
+    pub seen: Seen,
     /// Where z-scores are shown.
     pub scores: Option<Scores>,
+    /// What errors are to.
+    pub held_against: Option<Arc<Reference>>,
     pub truth: Option<Against>,
     pub truth_beside: Option<Against>,
     /// No sample has found light.
     pub black: bool,
+}
+
+/// What is seen of a frame in place of its radiance, by pixel.
+#[derive(Default)]
+pub struct Seen {
+    /// The numbers of a view.
+    pub numbers: Option<Vec<f32>>,
+    /// Radiance of a term.
+    pub radiance: Option<Vec<[f32; 3]>>,
 }
 
 /// A frame held against the true picture.
@@ -69,6 +82,8 @@ pub struct Against {
 
 pub struct Darkroom {
     orders: Sender<Order>,
+    /// The other end, to take back what is out of date: it holds large pictures.
+    waiting: Receiver<Order>,
     last: Option<Order>,
     ready: Arc<Mutex<Option<Print>>>,
 }
@@ -82,6 +97,7 @@ impl PartialEq for Order {
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.frame, &other.frame)
             && same(self.beside.as_ref(), other.beside.as_ref())
+            && self.shows_beside == other.shows_beside
             && self.look == other.look
             && same(self.truth.as_ref(), other.truth.as_ref())
             && same(self.pinned.as_ref(), other.pinned.as_ref())
@@ -108,11 +124,9 @@ impl Darkroom {
     pub fn new(ctx: &egui::Context) -> Darkroom {
         let (orders, inbox) = unbounded::<Order>();
         let ready = Arc::new(Mutex::new(None));
-        let (ctx, shelf) = (ctx.clone(), ready.clone());
+        let (ctx, shelf, waiting) = (ctx.clone(), ready.clone(), inbox.clone());
         let work = move || {
             while let Ok(order) = inbox.recv() {
-                // Only the latest order matters.
-                let order = inbox.try_iter().last().unwrap_or(order);
                 // A print that fails is not the end of all others.
                 let Ok(print) = catch_unwind(AssertUnwindSafe(|| develop(order))) else { continue };
                 *shelf.lock().unwrap_or_else(PoisonError::into_inner) = Some(print);
@@ -120,13 +134,14 @@ impl Darkroom {
             }
         };
         std::thread::Builder::new().name("darkroom".to_owned()).spawn(work).expect("a thread can be started");
-        Darkroom { orders, last: None, ready }
+        Darkroom { orders, waiting, last: None, ready }
     }
 
     /// Develops this unless it is what was ordered last.
     pub fn order(&mut self, order: Order) {
         if !order.frame.radiance.is_empty() && self.last.as_ref() != Some(&order) {
             self.last = Some(order.clone());
+            self.waiting.try_iter().for_each(drop);
             let _ = self.orders.send(order);
         }
     }
@@ -138,18 +153,21 @@ impl Darkroom {
 }
 
 pub fn develop(order: Order) -> Print {
-    let Order { frame, beside, term, look, truth, pinned, features, materials, most_side } = order;
-    let truth = truth.as_deref();
+    let Order { frame, beside, shows_beside, term, look, truth, pinned, features, materials, most_side } = order;
+    let held_against = truth;
+    let truth = held_against.as_deref();
     let picture = |frame: &Frame, radiance: Option<&[[f32; 3]]>, scale: Option<Scale>| {
         let mut pixels = Vec::new();
         let (pinned, features) = (pinned.as_deref(), features.as_deref());
-        let legend = draw(look, &Sources { frame, radiance, truth, pinned, features, scale, materials: &materials }, &mut pixels);
-        (image(frame, &pixels, most_side), legend, pixels)
+        let shown = draw(look, &Sources { frame, radiance, truth, pinned, features, scale, materials: &materials }, &mut pixels);
+        (image(frame, &pixels, most_side), shown, pixels)
     };
     let radiance = term.as_ref().filter(|term| term.of.radiance.len() == frame.radiance.len()).and_then(Term::radiance);
-    let (image, legend, pixels) = picture(&frame, radiance.as_deref(), None);
+    let (image, shown, pixels) = picture(&frame, radiance.as_deref(), None);
+    let (legend, field) = shown.unzip();
+    let numbers = field.and_then(|field| if let Field::Numbers(numbers) = field { Some(numbers) } else { None });
     let scale = legend.as_ref().and_then(|legend| legend.scale);
-    let image_beside = beside.as_ref().map(|beside| picture(beside, None, scale).0);
+    let image_beside = beside.as_ref().filter(|_| shows_beside).map(|beside| picture(beside, None, scale).0);
     let against = |frame: &Frame| {
         let truth = truth?;
         Some(Against { rel_mse: truth.compare(frame)?.rel_mse, bias: truth.bias(frame) })
@@ -165,7 +183,9 @@ pub fn develop(order: Order) -> Print {
         image,
         image_beside,
         legend,
+        seen: Seen { numbers, radiance },
         scores,
+        held_against,
     }
 }
 

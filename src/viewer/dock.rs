@@ -56,7 +56,7 @@ impl App {
     /// What the open instrument has rendered beside the picture: nothing is, where nobody looks.
     pub(super) fn companion(&self) -> Option<Companion> {
         match self.dock {
-            Some(Tab::Bounces) => Some(Companion::Series),
+            Some(Tab::Bounces) => self.has_room_for_series().then_some(Companion::Series),
             _ => self.compare.map(|compare| Companion::Other(compare.other)),
         }
     }

@@ -15,8 +15,8 @@ type Subject = (Arc<Scene>, Camera);
 
 pub struct FeatureFinder {
     ctx: egui::Context,
-    found: Option<Arc<Features>>,
-    /// What they are, or will be, of.
+    found: Option<(Subject, Arc<Features>)>,
+    /// What was asked for last.
     subject: Option<Subject>,
     pending: Option<Errand<Option<Features>>>,
 }
@@ -26,18 +26,24 @@ impl FeatureFinder {
         FeatureFinder { ctx: ctx.clone(), found: None, subject: None, pending: None }
     }
 
-    /// The features of a picture, as soon as they are there; those of the one before meanwhile.
+    /// The features of a picture, as soon as they are there; those of the same scene from elsewhere meanwhile.
     pub fn of(&mut self, scene: &Arc<Scene>, camera: &Camera, threads: usize) -> Option<Arc<Features>> {
         let same = |(old, at): &Subject| Arc::ptr_eq(old, scene) && at == camera;
-        // Where the renderer fails, the picture's own threads say so.
-        if let Some(Ok(Some(features))) = Errand::take(&mut self.pending) {
-            self.found = Some(Arc::new(features));
+        if let (Some(features), Some(subject)) = (Errand::take(&mut self.pending), &self.subject) {
+            // Where the renderer fails, the picture's own threads say so.
+            self.found = features.ok().flatten().map(|features| (subject.clone(), Arc::new(features)));
         }
         // A search that is under way is let finish: while the camera is dragged there would never be one that does.
         if self.pending.is_none() && !self.subject.as_ref().is_some_and(same) {
             self.search(scene, camera, threads);
         }
-        self.found.clone()
+        let found = self.found.as_ref().filter(|((of, _), _)| Arc::ptr_eq(of, scene));
+        found.map(|(_, features)| features.clone())
+    }
+
+    /// Whether what was found is as this camera sees it.
+    pub fn has(&self, camera: &Camera) -> bool {
+        self.found.as_ref().is_some_and(|((_, at), _)| at == camera)
     }
 
     fn search(&mut self, scene: &Arc<Scene>, camera: &Camera, threads: usize) {

@@ -76,12 +76,16 @@ impl Link {
         }
     }
 
-    /// Asks for what has changed.
-    pub fn update(&mut self, wish: Wish, beside: Option<Companion>, budget: Budget) {
+    /// How far to render what is asked for.
+    pub fn set_budget(&mut self, budget: Budget) {
         if budget != self.budget {
             self.renderer.set_budget(budget);
             self.budget = budget;
         }
+    }
+
+    /// Asks for what has changed.
+    pub fn update(&mut self, wish: Wish, beside: Option<Companion>) {
         let is_new = std::mem::take(&mut self.restarts) || self.wish.as_ref() != Some(&wish);
         if is_new {
             self.generation = self.next();

@@ -3,7 +3,7 @@ use std::{path::PathBuf, sync::Arc};
 
 use noisefall::{
     render::truth::Reference,
-    scene::{Scene, built_in, load},
+    scene::{Camera, Scene, built_in, load},
 };
 
 use super::{catalogue, errand::Errand};
@@ -25,8 +25,16 @@ pub struct Opened {
 /// What became of a request.
 pub type Outcome = Result<Opened, String>;
 
-/// A picture to hold renders against, by its file name.
-pub type ReferenceOutcome = Result<(String, Arc<Reference>), String>;
+/// A picture to hold renders against.
+pub struct DroppedTruth {
+    /// Of its file.
+    pub name: String,
+    pub reference: Arc<Reference>,
+    /// Whose picture it is taken for: the one when it was dropped.
+    pub camera: Camera,
+}
+
+pub type ReferenceOutcome = Result<DroppedTruth, String>;
 
 pub struct Loader {
     ctx: egui::Context,
@@ -44,13 +52,19 @@ impl Loader {
         self.pending = Some(Errand::start(&self.ctx, |_| open(path)));
     }
 
-    /// Reads a picture to hold renders against.
-    pub fn read_reference(&mut self, path: PathBuf) {
+    /// Reads a picture to hold renders by this camera against.
+    pub fn read_reference(&mut self, path: PathBuf, camera: Camera) {
         self.reference = Some(Errand::start(&self.ctx, move |_| {
             let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-            let read = Reference::read(&path).map(|reference| (name, Arc::new(reference)));
+            let read = Reference::read(&path);
+            let read = read.map(|reference| DroppedTruth { name, reference: Arc::new(reference), camera });
             read.map_err(|error| format!("Not a reference: {error}"))
         }));
+    }
+
+    /// What is being read is for another scene.
+    pub fn forget_reference(&mut self) {
+        self.reference = None;
     }
 
     pub fn is_busy(&self) -> bool {

@@ -101,7 +101,7 @@ fn histogram(ui: &Ui, left: f32, bottom: f32, scores: &Scores) -> f32 {
         ui.painter().text(place, Align2::CENTER_TOP, z, FontId::proportional(11.0), INK);
     }
     let beyond = if scores.beyond > 0.0 { format!("; {:.1} % beyond", 100.0 * scores.beyond) } else { String::new() };
-    let text = format!("mean {:+.2}, deviation {:.2}; line: normal{beyond}", scores.mean, scores.deviation);
+    let text = format!("mean {:+.2} (0), deviation {:.2} (1 or less){beyond}", scores.mean, scores.deviation);
     let below = plot.left_bottom() + vec2(0.0, 18.0);
     ui.painter().text(below, Align2::LEFT_TOP, text, FontId::proportional(12.0), INK);
     SIZE.y + AROUND.y

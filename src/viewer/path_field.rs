@@ -46,7 +46,10 @@ impl PathField {
         if field.changed() {
             self.refusal = None;
         }
-        field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter))
+        let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+        // Whoever is refused goes on typing.
+        self.focus = entered;
+        entered
     }
 
     /// What is wrong with the path, or else this remark, in a line that is there even when it is empty.

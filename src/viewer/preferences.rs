@@ -1,5 +1,8 @@
 //! What the window remembers of its user from one time to the next.
-use std::path::{Path, PathBuf};
+use std::{
+    path::{Path, PathBuf},
+    thread::JoinHandle,
+};
 
 use noisefall::file::replace;
 use serde::{Deserialize, Serialize};
@@ -20,6 +23,8 @@ pub struct Remembered {
 pub struct Preferences {
     pub now: Remembered,
     folder: Option<PathBuf>,
+    /// Writes on a thread of its own: folders can be slow.
+    writing: Option<JoinHandle<()>>,
 }
 
 impl Preferences {
@@ -31,16 +36,26 @@ impl Preferences {
 
     pub fn in_folder(folder: &Path) -> Preferences {
         let text = std::fs::read_to_string(folder.join(FILE)).unwrap_or_default();
-        Preferences { now: toml::from_str(&text).unwrap_or_default(), folder: Some(folder.to_owned()) }
+        Preferences { now: toml::from_str(&text).unwrap_or_default(), folder: Some(folder.to_owned()), writing: None }
     }
 
     /// Changes what is remembered, and writes it down.
     pub fn change(&mut self, change: impl FnOnce(&mut Remembered)) {
         let before = self.now.clone();
         change(&mut self.now);
-        let Some(folder) = self.folder.as_ref().filter(|_| self.now != before) else { return };
+        let Some(folder) = self.folder.clone().filter(|_| self.now != before) else { return };
         let text = toml::to_string(&self.now).unwrap_or_default();
-        let _ = std::fs::create_dir_all(folder).and_then(|()| replace(folder, FILE, text.as_bytes()));
+        let earlier = self.writing.take();
+        self.writing = Some(std::thread::spawn(move || {
+            let _ = earlier.map(JoinHandle::join);
+            let _ = std::fs::create_dir_all(&folder).and_then(|()| replace(&folder, FILE, text.as_bytes()));
+        }));
+    }
+}
+
+impl Drop for Preferences {
+    fn drop(&mut self) {
+        let _ = self.writing.take().map(JoinHandle::join);
     }
 }
 
@@ -55,7 +70,9 @@ mod tests {
         let mut preferences = Preferences::in_folder(&inner);
         assert_eq!(preferences.now, Remembered::default());
         preferences.change(|now| (now.toured, now.theme) = (true, Some("light".to_owned())));
-        assert_eq!(Preferences::in_folder(&inner).now, preferences.now);
+        let now = preferences.now.clone();
+        drop(preferences);
+        assert_eq!(Preferences::in_folder(&inner).now, now);
         std::fs::write(inner.join(FILE), "toured = 7").expect("it is written");
         assert_eq!(Preferences::in_folder(&inner).now, Remembered::default());
     }

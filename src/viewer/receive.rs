@@ -9,22 +9,15 @@ use noisefall::{
 
 use super::{
     app::App,
+    canvas::Split,
     catalogue,
     convergence::Moment,
     darkroom::{Order, Print, Term},
     dock::Tab,
     feature_finder::FeatureFinder,
-    loader::Opened,
+    loader::{DroppedTruth, Opened},
     path::Inspector,
 };
-
-/// A reference that was dropped on the window.
-pub struct DroppedTruth {
-    pub name: String,
-    pub reference: Arc<Reference>,
-    /// Whose picture it is taken for: the one when it was dropped.
-    pub camera: Camera,
-}
 
 impl App {
     pub(super) fn receive(&mut self) {
@@ -34,7 +27,7 @@ impl App {
             None => {}
         }
         match self.loader.take_reference() {
-            Some(Ok((name, reference))) => self.take_reference(name, reference),
+            Some(Ok(dropped)) => self.take_reference(dropped),
             Some(Err(error)) => self.tell(error, true),
             None => {}
         }
@@ -67,14 +60,14 @@ impl App {
         let view = compare.and_then(|compare| compare.view());
         let pinned = if view.is_some() { beside.clone() } else { self.pinned.clone() };
         let look = Look { view: view.unwrap_or(self.look.view), ..self.look };
-        let wish = self.link.wish().map(|wish| (wish.scene.clone(), wish.camera));
-        let features =
-            wish.filter(|_| look.view.shows_features()).and_then(|(scene, camera)| self.finder.of(&scene, &camera, self.threads));
+        let features = self.opened.as_ref().filter(|_| look.view.shows_features());
+        let features = features.and_then(|opened| self.finder.of(&opened.scene, &self.camera, self.threads));
         Order {
             truth: self.truth(&frame),
             term: term.map(|of| Term { of, reflections: self.bounces.reflections, up_to: self.bounces.up_to }),
             frame,
             beside,
+            shows_beside: compare.is_some_and(|compare| compare.layout.split() != Split::None),
             look,
             pinned,
             features,
@@ -88,9 +81,9 @@ impl App {
         set(&self.ctx, &mut self.textures[0], "picture", Some(print.image));
         set(&self.ctx, &mut self.textures[1], "picture beside", print.image_beside);
         (self.against, self.against_beside) = (print.truth, print.truth_beside);
-        (self.legend, self.scores, self.black) = (print.legend, print.scores, print.black);
+        (self.legend, self.seen, self.scores, self.black) = (print.legend, print.seen, print.scores, print.black);
         if let Some(wish) = self.link.wish() {
-            self.history.look_at(&wish.scene, &wish.camera, self.truth_here().as_ref());
+            self.history.look_at(&wish.scene, &wish.camera, print.held_against.as_ref());
             let frame = &print.frame;
             if frame.generation == self.link.generation() && !frame.is_coarse() {
                 self.history.record(&wish.settings, frame.generation, Moment::of(frame, print.truth));
@@ -128,13 +121,14 @@ impl App {
         opened.truth.clone().filter(|_| is_of_scene)
     }
 
-    fn take_reference(&mut self, name: String, reference: Arc<Reference>) {
-        if let Some(mismatch) = reference.mismatch(self.camera.resolution) {
+    fn take_reference(&mut self, dropped: DroppedTruth) {
+        let name = &dropped.name;
+        if let Some(mismatch) = dropped.reference.mismatch(dropped.camera.resolution) {
             self.tell(format!("{name}: {mismatch}. Set the resolution to that of the reference."), true);
         } else {
             self.tell(format!("The picture is now held against {name}"), false);
         }
-        self.dropped_truth = Some(DroppedTruth { name, reference, camera: self.camera });
+        self.dropped_truth = Some(dropped);
     }
 
     fn open(&mut self, opened: Opened) {
@@ -150,6 +144,7 @@ impl App {
         (self.camera, self.settings) = (scene.camera, scene.settings);
         self.budget = Budget { max_spp: scene.spp, steps: self.budget.steps, ..Budget::default() };
         (self.compare, self.pinned, self.dropped_truth, self.adviser) = (None, None, None, None);
+        self.loader.forget_reference();
         // What was found of the scene before would keep it in memory.
         (self.inspector, self.finder) = (Inspector::new(&self.ctx), FeatureFinder::new(&self.ctx));
         self.scene_error = None;

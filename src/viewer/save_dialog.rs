@@ -50,7 +50,9 @@ impl Target {
 
     fn explanation(self) -> &'static str {
         match self {
-            Target::Picture => "PNG is the picture as shown, of two the first; EXR is linear radiance. Both carry the settings.",
+            Target::Picture => {
+                "PNG is the picture as shown (of A and B it is A); EXR is linear radiance. Both carry the settings."
+            }
             Target::CurvesCsv => "CSV: settings, samples, seconds, errors and bias, a line each.",
             Target::CurvesSvg => "SVG: the curves of all settings, for a page or a slide.",
         }
@@ -84,7 +86,9 @@ fn folder(path: &Path) -> &Path {
 impl App {
     /// Whether what is shown is the full picture of what the controls say.
     pub(super) fn can_save(&self) -> bool {
-        self.shown.as_ref().is_some_and(|frame| !frame.is_coarse() && frame.generation == self.link.generation())
+        let has_features = !self.look.view.shows_features() || self.finder.has(&self.camera);
+        let Some(frame) = self.shown.as_ref().filter(|_| has_features) else { return false };
+        !frame.is_coarse() && frame.generation == self.link.generation()
     }
 
     pub(super) fn open_save_dialog(&mut self, target: Target) {
@@ -144,9 +148,10 @@ impl App {
             return;
         }
         let (Some(frame), Some(wish)) = (self.shown.clone(), self.link.wish()) else { return };
-        let settings = settings_text(&wish.scene, &wish.camera, &wish.settings, self.look.display, frame.spp);
+        let (wish, spp) = (wish.clone(), frame.spp);
         let order = self.what_to_develop(frame);
-        let settings = with_view(&settings, &order);
+        let remarks = remarks(&order, &path);
+        let settings = settings_text(&wish.scene, &wish.camera, &wish.settings, self.look.display, spp, &remarks);
         self.saver.save(path, move |path| {
             let Print { frame, pixels, .. } = develop(order);
             save_shown(&frame, &pixels, &settings, path).map_err(|error| error.to_string())
@@ -162,17 +167,21 @@ impl Target {
     }
 }
 
-/// The settings with what of the picture is seen, where that is not all of it.
-fn with_view(settings: &str, order: &Order) -> String {
-    let Ok(serde_json::Value::Object(mut all)) = serde_json::from_str(settings) else { return settings.to_owned() };
-    if order.look.view != View::Radiance {
-        all.insert("view".to_owned(), order.look.view.name().into());
+/// What of the picture a file shows, where that is not all of it: an EXR has all of it.
+fn remarks(order: &Order, path: &Path) -> Vec<(&'static str, String)> {
+    let view = order.look.view;
+    let mut remarks = Vec::new();
+    if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("exr")) {
+        return remarks;
     }
-    if let Some(term) = &order.term {
+    if view != View::Radiance {
+        remarks.push(("view", view.name().to_owned()));
+    }
+    if let Some(term) = order.term.as_ref().filter(|_| matches!(view, View::Radiance | View::Difference)) {
         let relation = if term.up_to { "at most" } else { "exactly" };
-        all.insert("light".to_owned(), format!("reflected {relation} {} times, {} spp", term.reflections, term.of.spp).into());
+        remarks.push(("light", format!("reflected {relation} {} times, {} spp", term.reflections, term.of.spp)));
     }
-    serde_json::Value::Object(all).to_string()
+    remarks
 }
 
 /// The path, or the first of `name-2`, `name-3`, … that is not taken.

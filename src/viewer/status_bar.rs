@@ -4,7 +4,7 @@ use std::time::Duration;
 use egui::{Color32, RichText};
 use noisefall::{
     math::colour::luminance,
-    render::{State, Status, pass::SampleId, settings_text::options},
+    render::{State, Status, pass::SampleId, settings_text::options, view::Legend},
     scene::RenderSettings,
 };
 
@@ -143,12 +143,21 @@ impl App {
         let frame = if self.over_second { &self.frame_beside } else { &self.shown };
         let (Some([x, y]), Some(frame)) = (self.hovered, frame) else { return };
         let Some(index) = frame.index_at([x, y]) else { return };
-        let [r, g, b] = frame.radiance[index];
+        let seen = Some(&self.seen).filter(|_| !self.over_second);
+        let number = seen.and_then(|seen| seen.numbers.as_ref()?.get(index)).filter(|number| number.is_finite());
+        if let (Some(number), Some(Legend { title, scale: Some(scale), .. })) = (number, &self.legend) {
+            let text = format!("({x}, {y})  {title} {number:.4} {}", scale.unit);
+            ui.label(RichText::new(text).monospace()).on_hover_text("Pixel, and what the view has for it");
+            return;
+        }
+        // The error of a term alone is not known.
+        let term = seen.and_then(|seen| seen.radiance.as_ref()?.get(index));
         let error = frame.standard_error[index];
-        let error = if error.is_nan() { String::new() } else { format!(" ± {error:.3}") };
-        let y_value = luminance(frame.radiance[index]);
+        let error = if error.is_nan() || term.is_some() { String::new() } else { format!(" ± {error:.3}") };
+        let radiance @ [r, g, b] = *term.unwrap_or(&frame.radiance[index]);
+        let y_value = luminance(radiance);
         ui.label(RichText::new(format!("({x}, {y})  RGB {r:.3} {g:.3} {b:.3}  Y {y_value:.3}{error}")).monospace())
-            .on_hover_text("Pixel, its radiance in W/(sr·m²), its luminance and the standard error of that");
+            .on_hover_text("Pixel, the radiance that is seen there in W/(sr·m²), its luminance and the standard error of that");
     }
 }
 

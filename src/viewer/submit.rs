@@ -16,7 +16,9 @@ impl App {
         let [width, height] = self.camera.resolution;
         self.budget.region = self.budget.region.and_then(|region| region.within([width, height]));
         let Some(opened) = &self.opened else { return };
+        // Even where no picture can be asked for, the last one can be held.
         let budget = Budget { paused: self.budget.paused || self.hidden || self.is_studying(), ..self.budget };
+        self.link.set_budget(budget);
         let wish = Wish { scene: opened.scene.clone(), camera: self.camera, settings: self.settings };
         // A control that is dragged asks for a new picture at every step; the next one is not asked for before the last is seen.
         let shown = [self.shown.as_ref(), self.frame_beside.as_ref()].map(|frame| frame.map_or(0, |frame| frame.generation));
@@ -25,7 +27,7 @@ impl App {
         if waits {
             self.ctx.request_repaint_after(Duration::from_millis(20));
         } else if self.camera.check().is_ok() {
-            self.link.update(wish, self.companion(), budget);
+            self.link.update(wish, self.companion());
         }
     }
 

@@ -128,15 +128,19 @@ fn restarts(window: &mut Window, what: &str, act: impl FnOnce(&mut Window)) {
     wait(window, what, |app| app.shown.as_ref().is_some_and(|frame| frame.generation > before));
 }
 
-/// Does something and makes sure that the render went on.
+/// Does something and makes sure that the render went on, and that of the picture beside it if it is the same.
 fn never_restarts(window: &mut Window, act: impl FnOnce(&mut Window)) {
     let before = generation(window);
+    let beside = |window: &Window| (window.state().companion(), window.state().link.generation_beside());
+    let beside_before = beside(window);
     act(window);
     for _ in 0..20 {
         window.step();
         std::thread::sleep(Duration::from_millis(1));
     }
     assert_eq!(generation(window), before, "the render was restarted");
+    let beside = beside(window);
+    assert!(beside.0 != beside_before.0 || beside.1 == beside_before.1, "what is beside it was restarted");
 }
 
 #[test]

@@ -24,12 +24,13 @@ const TAB_KEYS: [(Key, Tab); 4] =
 
 impl App {
     pub(super) fn toolbar(&mut self, ui: &mut egui::Ui) {
-        const WHOLE: f32 = 910.0;
-        const OF_REGION: f32 = 110.0;
+        const WHOLE: f32 = 880.0;
+        const OF_REGION: f32 = 60.0;
+        const OF_ENDS: f32 = 112.0;
         let needed = WHOLE + if self.budget.region.is_some() { OF_REGION } else { 0.0 };
         let is_narrow = ui.available_width() < needed;
         let contents = |ui: &mut egui::Ui| {
-            ui.spacing_mut().button_padding = egui::vec2(8.0, 4.0);
+            ui.spacing_mut().button_padding = egui::vec2(7.0, 4.0);
             self.render_buttons(ui);
             ui.separator();
             self.tool_buttons(ui);
@@ -38,17 +39,11 @@ impl App {
                 self.zoom_buttons(ui);
             }
             ui.separator();
-            self.compare_menu(ui);
-            let end = if is_narrow { *ui.layout() } else { egui::Layout::right_to_left(egui::Align::Center) };
-            ui.with_layout(end, |ui| {
-                if ui.button("Help").on_hover_text("Keyboard and mouse (F1)").clicked() {
-                    self.help_open = !self.help_open;
-                }
-                let save = ui.add_enabled(self.can_save(), Button::new("Save…"));
-                if save.on_hover_text("Save the picture as PNG or EXR (Ctrl+S)").clicked() {
-                    self.open_save_dialog(Target::Picture);
-                }
-            });
+            self.compare_menu(ui).into_iter().for_each(|other| self.start_comparison(other));
+            if !is_narrow {
+                ui.add_space((ui.available_width() - OF_ENDS).max(0.0));
+            }
+            self.save_and_help(ui);
         };
         if is_narrow {
             ui.horizontal_wrapped(contents);
@@ -57,15 +52,30 @@ impl App {
         }
     }
 
+    fn save_and_help(&mut self, ui: &mut egui::Ui) {
+        let save = ui.add_enabled(self.can_save(), Button::new("Save…"));
+        if save.on_hover_text("Save the picture as PNG or EXR (Ctrl+S)").clicked() {
+            self.open_save_dialog(Target::Picture);
+        }
+        if ui.button("Help").on_hover_text("Keyboard and mouse (F1)").clicked() {
+            self.help_open = !self.help_open;
+        }
+    }
+
     fn render_buttons(&mut self, ui: &mut egui::Ui) {
         let open = self.opened.is_some();
         let label = if self.budget.paused { "Resume" } else { "Pause" };
-        let pause = ui.add_enabled(open, Button::new(label).min_size(egui::vec2(70.0, 0.0)));
+        let pause = ui.add_enabled(open, Button::new(label).min_size(egui::vec2(66.0, 0.0)));
         if pause.on_hover_text("Stop and go on without losing samples (Space)").clicked() {
             self.toggle_pause();
         }
         let step = ui.add_enabled(open, Button::new("Step"));
-        if step.on_hover_text("Pause, and add one sample to every pixel, or to those of the region (.)").clicked() {
+        if step
+            .on_hover_text(
+                "Pause, and take one sample per pixel: of every pixel, of the region, or where noise is if Adaptive is on (.)",
+            )
+            .clicked()
+        {
             self.step();
         }
         let restart = ui.add_enabled(open, Button::new("Restart"));
@@ -81,7 +91,7 @@ impl App {
             }
         }
         if self.budget.region.is_some() {
-            let clear = ui.button("Clear region").on_hover_text("Go on with the whole picture (Esc)");
+            let clear = ui.button("Clear").on_hover_text("Clear the region and go on with the whole picture (Esc)");
             if clear.clicked() {
                 self.budget.region = None;
             }
@@ -121,7 +131,7 @@ impl App {
                 self.toggle_tab(tab);
             }
         }
-        if ctx.egui_wants_keyboard_input() || self.opened.is_none() {
+        if ctx.egui_wants_keyboard_input() || self.has_dialog() || self.opened.is_none() {
             return;
         }
         let pressed = |key| ctx.input(|input| input.key_pressed(key) && !input.modifiers.any());
@@ -162,9 +172,13 @@ impl App {
         }
     }
 
+    /// Whether something waits for an answer: keys are its own then.
+    pub(super) fn has_dialog(&self) -> bool {
+        self.save_dialog.is_some() || self.open_dialog.is_some() || self.scene_error.is_some()
+    }
+
     /// Closes what lies over the picture: of several things all dialogs first, then messages, then the region.
     fn escape(&mut self) {
-        let dialogs = self.save_dialog.is_some() || self.open_dialog.is_some();
         // Escape gives the edit of a field up, and nothing else.
         if self.had_focus {
             return;
@@ -172,8 +186,9 @@ impl App {
         if self.adviser.take().is_some() || self.end_tour() {
             return;
         }
-        if self.help_open || self.gallery.open || dialogs {
-            (self.help_open, self.gallery.open, self.save_dialog, self.open_dialog) = (false, false, None, None);
+        if self.help_open || self.gallery.open || self.has_dialog() {
+            (self.help_open, self.gallery.open, self.scene_error) = (false, false, None);
+            (self.save_dialog, self.open_dialog) = (None, None);
         } else if !self.notices.is_empty() {
             self.notices.clear();
         } else {

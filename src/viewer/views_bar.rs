@@ -4,8 +4,8 @@ use noisefall::render::{colour_map::ColourMap, view::View};
 
 use super::{
     app::App,
+    loader::DroppedTruth,
     look::{controls, row},
-    receive::DroppedTruth,
 };
 
 impl App {

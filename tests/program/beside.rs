@@ -109,6 +109,28 @@ fn a_region_is_rendered_first_and_the_rest_catches_up() {
 }
 
 #[test]
+fn a_region_that_has_reached_the_noise_target_is_not_taken_up_again() {
+    let scene = Arc::new(built_in());
+    let renderer = renderer();
+    let region = Region::between([40, 40], [50, 60]);
+    // Reached after some hundred samples, long before the whole picture reaches it: the lamp's edge is not in the region.
+    renderer.set_budget(Budget { noise: Some(0.01), region: Some(region), ..Budget::default() });
+    renderer.submit(job(1, &scene, 128));
+    wait(|| renderer.latest(), |published| published.status.region_spp.is_some_and(|spp| spp >= 64));
+    let left = wait(|| renderer.latest(), |published| published.status.region_spp.is_none());
+    let inside = |published: &Published| published.frame.spp_at(45 * 128 + 45);
+    let behind = left.frame.spp;
+    wait(
+        || {
+            let now = renderer.latest();
+            assert_eq!(now.status.region_spp, None, "it is rendered before the rest again");
+            now
+        },
+        |published| published.frame.spp >= behind + 32 || published.frame.spp >= inside(&left),
+    );
+}
+
+#[test]
 fn other_threads_go_on_with_the_same_picture() {
     let scene = Arc::new(built_in());
     let renderer = renderer();

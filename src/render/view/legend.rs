@@ -68,7 +68,9 @@ fn missing(view: View) -> &'static str {
         View::ZScore => {
             "No truth for this: open a scene with [truth] at its own camera (Home), or drop a reference EXR of this size"
         }
-        View::Difference => "Nothing of this size to take away yet: press Pin this, below Display",
+        View::Difference => {
+            "Nothing of this size to hold it against yet: the first sample of B, or a picture pinned below Display"
+        }
         _ => "Coming …",
     }
 }
@@ -76,7 +78,7 @@ fn missing(view: View) -> &'static str {
 fn scale(view: View, numbers: &[f32], map: ColourMap) -> Scale {
     let (ends, log, unit) = match view {
         View::ZScore => ([-4.0, 4.0], false, "σ"),
-        View::Difference => ([-1.0, 1.0], false, "in parts of the other"),
+        View::Difference => (around(numbers), false, "parts of the pinned one, or of B"),
         View::SampleCount => ([0.0, numbers.iter().copied().fold(1.0, f32::max)], false, "samples"),
         View::StandardError => (decades(numbers), true, "W/(sr·m²)"),
         View::HitCost => ([0.0, round_up(part_below(numbers, 0.99))], false, "ns a ray"),
@@ -100,6 +102,13 @@ fn round_up(x: f32) -> f32 {
     let x = x.max(1e-30);
     let decade = 10f32.powf(x.log10().floor());
     [1.0, 2.0, 5.0].into_iter().map(|m| m * decade).find(|candidate| *candidate >= x * 0.999).unwrap_or(10.0 * decade)
+}
+
+/// Powers of ten, from a thousandth to one, around nearly all numbers.
+fn around(numbers: &[f32]) -> [f32; 2] {
+    let sizes: Vec<f32> = numbers.iter().map(|x| x.abs()).collect();
+    let end = 10f32.powf(part_below(&sizes, 0.98).max(1e-3).log10().ceil().min(0.0));
+    [-end, end]
 }
 
 /// Powers of ten around all but the outermost of the positive numbers, at least two decades.
@@ -135,6 +144,7 @@ mod tests {
         assert_eq!((linear.place(-9.0), linear.place(0.0), linear.number(0.75)), (0.0, 0.5, 2.0));
         assert_eq!([0.9, 1.0, 1.2, 3.0, 700.0].map(round_up), [1.0, 1.0, 2.0, 5.0, 1000.0]);
         assert_eq!(decades(&[0.0, f32::NAN]), [0.01, 1.0]);
+        assert_eq!([around(&[-0.05, 0.02]), around(&[5.0, -7.0]), around(&[0.0])], [[-0.1, 0.1], [-1.0, 1.0], [-0.001, 0.001]]);
         assert_eq!(decades(&[0.02, 0.5, 30.0, 0.3]), [0.01, 1.0]);
     }
 }

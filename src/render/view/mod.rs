@@ -47,7 +47,7 @@ impl View {
         (
             View::Difference,
             "Difference",
-            "Radiance less that of the pinned picture, in parts of it; or A less B, while two are compared.",
+            "Radiance less that of the pinned picture, in parts of it. (A less B: the layout Difference, under Compare.)",
         ),
         (View::Normals, "Normals", "The shading normal n that a camera ray meets first: red is x, green y, blue z."),
         (View::Albedo, "Albedo", "The colour that the bsdf f has where a camera ray meets it first."),
@@ -90,8 +90,9 @@ pub struct Look {
     pub display: Display,
 }
 
-/// A view as 8-bit sRGB into `pixels`, row by row from the top left, in place of what was there; and what its colours mean.
-pub fn draw(look: Look, sources: &Sources, pixels: &mut Vec<[u8; 4]>) -> Option<Legend> {
+/// A view as 8-bit sRGB into `pixels`, row by row from the top left, in place of what was there; and, except of radiance, what its
+/// colours mean, and of what.
+pub fn draw(look: Look, sources: &Sources, pixels: &mut Vec<[u8; 4]>) -> Option<(Legend, Field)> {
     if look.view == View::Radiance {
         to_srgb(sources.radiance.unwrap_or(&sources.frame.radiance), look.display, pixels);
         return None;
@@ -109,5 +110,5 @@ pub fn draw(look: Look, sources: &Sources, pixels: &mut Vec<[u8; 4]>) -> Option<
             pixels.extend(numbers.iter().map(colour));
         }
     }
-    Some(legend)
+    Some((legend, field))
 }

@@ -30,6 +30,10 @@ impl App {
             }
         });
         ui.add_space(4.0);
+        let [a, b] = sides.each_ref().map(|side| side.seconds);
+        if a.max(b) > 1.3 * a.min(b) + 0.5 {
+            ui.weak("One had time before the comparison began: Restart (R) begins both at once.");
+        }
         if let Some(text) = incomparable(&sides) {
             ui.label(RichText::new(text).color(ui.warning()));
         } else if let [Some(a), Some(b)] = sides.each_ref().map(|side| side.efficiency) {
@@ -69,18 +73,18 @@ impl Side {
     fn of(letter: &'static str, name: String, status: &Status, settings: &RenderSettings, against: Option<Against>) -> Side {
         let seconds = status.elapsed.as_secs_f64();
         // The truth, where it is known, sees bias as well.
+        let trouble = failure_of(status).or_else(|| status.bias(settings).map(|why| format!("biased: {why}")));
+        let tells = trouble.is_none() || against.is_some();
         let rel_mse = against.map(|against| against.rel_mse).or(status.rel_mse_estimate).filter(|rel_mse| *rel_mse > 0.0);
-        let failure =
-            if let State::Failed(failure) = &status.state { Some(format!("failed: {}", failure.message)) } else { None };
         Side {
-            trouble: failure.or_else(|| status.bias(settings).map(|why| format!("biased: {why}"))),
+            trouble,
             letter,
             name,
             spp: status.spp,
             seconds,
             noise: status.relative_noise(),
             truth: against.map(|against| against.rel_mse.sqrt()),
-            efficiency: rel_mse.filter(|_| status.spp >= 2).map(|rel_mse| 1.0 / (rel_mse * seconds.max(1e-9))),
+            efficiency: rel_mse.filter(|_| status.spp >= 2 && tells).map(|rel_mse| 1.0 / (rel_mse * seconds.max(1e-9))),
         }
     }
 
@@ -99,6 +103,10 @@ impl Side {
         };
         ui.end_row();
     }
+}
+
+fn failure_of(status: &Status) -> Option<String> {
+    if let State::Failed(failure) = &status.state { Some(format!("failed: {}", failure.message)) } else { None }
 }
 
 /// Why efficiencies say nothing: noise alone does not see that one side converges to another picture.
@@ -125,8 +133,9 @@ fn verdict(a: f64, b: f64) -> (String, String) {
     if ratio < 1.05 {
         return ("Both are as good.".to_owned(), "Their efficiencies differ by less than five percent so far.".to_owned());
     }
-    let text = format!("{better} is {ratio:.2} times as efficient so far.");
-    (text, format!("{other} needs {ratio:.2} times the time for the same error, which falls as 1/√time."))
+    let ratio = if ratio < 10.0 { format!("{ratio:.1}") } else { format!("{ratio:.0}") };
+    let text = format!("{better} is about {ratio} times as efficient so far.");
+    (text, format!("{other} needs {ratio} times the time for the same error, which falls as 1/√time."))
 }
 
 #[cfg(test)]
@@ -135,8 +144,8 @@ mod tests {
 
     #[test]
     fn the_verdict_names_the_better_one() {
-        assert!(verdict(2.0, 1.0).0.starts_with("A is 2.00"));
-        assert!(verdict(1.0, 3.0).0.starts_with("B is 3.00"));
+        assert!(verdict(2.0, 1.0).0.starts_with("A is about 2.0 "));
+        assert!(verdict(1.0, 3.0).0.starts_with("B is about 3.0 "));
         assert_eq!(verdict(1.0, 1.01).0, "Both are as good.");
     }
 }

@@ -72,17 +72,19 @@ fn alternatives(settings: &RenderSettings) -> Vec<(String, RenderSettings)> {
 }
 
 impl App {
-    /// The menu that starts a comparison with one click.
-    pub(super) fn compare_menu(&mut self, ui: &mut Ui) {
+    /// The menu that starts a comparison with one click: what was chosen.
+    pub(super) fn compare_menu(&self, ui: &mut Ui) -> Option<RenderSettings> {
+        let mut chosen = None;
         let response = ui.menu_button("Compare with…", |ui| {
             for (name, other) in alternatives(&self.settings) {
                 if ui.button(name).clicked() {
-                    self.start_comparison(other);
+                    chosen = Some(other);
                     ui.close();
                 }
             }
         });
         response.response.on_hover_text("Render other settings of this scene in the same time, and see both");
+        chosen
     }
 
     /// The comparison, while its instrument renders.
@@ -108,11 +110,11 @@ impl App {
         let Some(mut compare) = self.compare else {
             ui.horizontal(|ui| {
                 ui.label("Choose what to compare this picture with: both get the same time.");
-                self.compare_menu(ui);
+                self.compare_menu(ui).into_iter().for_each(|other| self.start_comparison(other));
             });
             return;
         };
-        let mut ends = false;
+        let (mut ends, mut chosen) = (false, None);
         ui.horizontal(|ui| {
             for (layout, name, doc) in LAYOUTS {
                 ui.selectable_value(&mut compare.layout, layout, name).on_hover_text(doc);
@@ -125,7 +127,7 @@ impl App {
                 (self.settings, ends) = (compare.other, true);
             }
             ends |= ui.button("Keep A").on_hover_text("End the comparison").clicked();
-            self.compare_menu(ui);
+            chosen = self.compare_menu(ui);
         });
         if compare.layout == Layout::Wipe {
             let label = ui.label("Line").on_hover_text("Where the wipe is: drag it in the picture, or here");
@@ -134,6 +136,7 @@ impl App {
         self.compare = (!ends).then_some(compare);
         ui.add_space(6.0);
         self.figures_of_both(ui, &compare);
+        chosen.into_iter().for_each(|other| self.start_comparison(other));
     }
 }
 

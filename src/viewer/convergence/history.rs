@@ -56,8 +56,8 @@ pub struct History {
     truth: Option<Arc<Reference>>,
 }
 
-/// The one of the oldest picture is forgotten where there would be more.
-const MOST_CURVES: usize = 12;
+/// The one of the oldest picture is forgotten where there would be more than there are colours.
+const MOST_CURVES: usize = super::plot::COLOURS.len();
 /// Moments nearer to each other than this factor are not told apart.
 const SPACING: f64 = 1.03;
 
@@ -145,7 +145,8 @@ impl History {
     /// What a curve is called: by what its settings differ in from those that the scene opens with.
     pub fn name(&self, curve: &Curve) -> String {
         let of_scene = self.subject.as_ref().map_or_else(RenderSettings::default, |(scene, _)| scene.settings);
-        name(&curve.settings, &of_scene)
+        let bias = if curve.settings.bias().is_some() { " (biased)" } else { "" };
+        name(&curve.settings, &of_scene) + bias
     }
 }
 

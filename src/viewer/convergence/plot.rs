@@ -38,13 +38,15 @@ impl App {
             ui.selectable_value(&mut history.over, Over::Seconds, "over time").on_hover_text("Seconds of rendering");
         });
         ui.add_space(4.0);
-        let latest = self.link.generation();
+        let beside = self.compare.map(|_| self.link.generation_beside());
+        let latest = [Some(self.link.generation()), beside];
         for (number, curve) in history.curves.iter().enumerate() {
             let name = history.name(curve);
             ui.horizontal(|ui| {
                 look::swatch(ui, COLOURS[number % COLOURS.len()]);
                 let text = RichText::new(&name);
-                look::elided(ui, 236.0, if curve.generation == latest { text.strong() } else { text }).on_hover_text(&name);
+                look::elided(ui, 236.0, if latest.contains(&Some(curve.generation)) { text.strong() } else { text })
+                    .on_hover_text(&name);
             });
             ui.indent(number, |ui| ui.weak(figures(curve, history.over)));
         }
@@ -53,7 +55,10 @@ impl App {
         }
         if !history.curves.is_empty() {
             let root = if history.over == Over::Samples { "1/√N" } else { "1/√time" };
-            ui.weak(format!("Lines: as estimated. Points: against the truth. Dashed: the ideal, {root}."));
+            ui.weak(match history.what {
+                What::Error => format!("Lines: as estimated. Points: against the truth. Dashed: the ideal, {root}."),
+                What::Bias => "Dashed: 0 and ±2 σ, within which unbiased means mostly stay.".to_owned(),
+            });
         }
         ui.add_space(6.0);
         ui.horizontal(|ui| {
@@ -66,7 +71,7 @@ impl App {
                     self.open_save_dialog(Target::CurvesSvg);
                 }
                 if ui.button("Clear").on_hover_text("Forget the curves of earlier settings").clicked() {
-                    self.history.curves.retain(|curve| curve.generation == latest);
+                    self.history.curves.retain(|curve| latest.contains(&Some(curve.generation)));
                 }
             });
         });
@@ -78,6 +83,12 @@ impl App {
 
     fn convergence_plot(&self, ui: &mut Ui) {
         let history = &self.history;
+        if history.what == What::Bias
+            && !history.curves.iter().flat_map(|curve| &curve.moments).any(|moment| moment.bias.is_some())
+        {
+            ui.label("Bias is known where the truth is: open a scene with [truth], or drop a reference EXR on the window.");
+            return;
+        }
         let (over, what) = (history.over, history.what);
         let power = |mark: GridMark, _: &std::ops::RangeInclusive<f64>| label(10f64.powf(mark.value));
         let plain = |mark: GridMark, _: &std::ops::RangeInclusive<f64>| format!("{:.0}", mark.value);
@@ -97,7 +108,9 @@ impl App {
             .label_formatter(|_| None);
         let plot =
             if what == What::Error { plot.y_grid_spacer(|input| decades(&input)) } else { plot.include_y(-3.0).include_y(3.0) };
-        plot.show(ui, |plot| {
+        // Numbers below the axis may stand out at its end.
+        let room = egui::Frame::new().inner_margin(egui::Margin { right: 14, ..egui::Margin::ZERO });
+        let draw = |plot: &mut egui_plot::PlotUi<'_>| {
             for (number, curve) in history.curves.iter().enumerate() {
                 let (colour, name) = (COLOURS[number % COLOURS.len()], history.name(curve));
                 match what {
@@ -121,7 +134,8 @@ impl App {
                     plot.hline(HLine::new("", at).color(Color32::GRAY).style(LineStyle::dashed_loose()));
                 }
             }
-        });
+        };
+        room.show(ui, |ui| plot.show(ui, draw));
     }
 }
 
@@ -141,8 +155,8 @@ fn figures(curve: &Curve, over: Over) -> String {
             format!(", bias {bias:+.1} σ")
         };
     }
-    if let Some(slope) = curve.slope(over) {
-        text += &format!(", slope {:.2} ± {:.2}", slope.slope, slope.half_width);
+    if let Some(slope) = curve.slope(over).filter(|slope| slope.half_width < 0.5) {
+        text += &format!("\nslope {:.2} ± {:.2}", slope.slope, slope.half_width);
     }
     text
 }

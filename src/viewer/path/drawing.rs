@@ -1,9 +1,12 @@
 //! A path drawn over the picture.
-use egui::{Align2, Color32, FontId, Pos2, Stroke, Ui, vec2};
+use egui::{Align2, Color32, FontId, Pos2, Shape, Stroke, Ui, vec2};
 use glam::Vec3;
 use noisefall::integrator::Outcome;
 
-use super::{projection::project, table::MOST_VERTICES};
+use super::{
+    projection::{clip, project},
+    table::MOST_VERTICES,
+};
 use crate::viewer::{app::App, canvas::Place, dock::Tab};
 
 const PATH: Color32 = Color32::from_rgb(255, 214, 90);
@@ -16,7 +19,7 @@ impl App {
         let painter = ui.painter_at(place.clip);
         let square = place.of_region(&noisefall::render::Region::between(pixel, pixel)).expand(1.0);
         painter.rect_stroke(square, 0.0, Stroke::new(1.5, PATH), egui::StrokeKind::Outside);
-        let Some(findings) = self.inspector.findings() else { return };
+        let Some((_, replay)) = self.inspector.replay() else { return };
         let screen = |p: [f32; 3]| -> Option<Pos2> {
             let [x, y] = project(&self.camera, Vec3::from(p).as_dvec3())?;
             Some(place.screen(x, y))
@@ -27,12 +30,16 @@ impl App {
             let end = |part: i32| (Vec3::from(o) + Vec3::from(d) * (length * 0.75f32.powi(part))).to_array();
             (0..12).find_map(|part| screen(end(part)))
         };
+        let dashed = |ends: [Pos2; 2], stroke: Stroke, dash: f32| {
+            let ends = clip(place.clip, ends);
+            ends.into_iter().for_each(|ends| painter.extend(Shape::dashed_line(&ends, stroke, dash, 0.8 * dash)));
+        };
         let mut before = square.center();
-        for vertex in findings.replay.vertices.iter().take(MOST_VERTICES) {
+        for vertex in replay.vertices.iter().take(MOST_VERTICES) {
             let Some(at) = vertex.surface.as_ref().and_then(|surface| screen(surface.position)) else {
                 let away = towards([vertex.origin, vertex.direction], 0.06 * size);
                 if let Some(away) = away.filter(|_| vertex.bounce > 0) {
-                    painter.extend(egui::Shape::dashed_line(&[before, away], Stroke::new(1.2, PATH), 5.0, 4.0));
+                    dashed([before, away], Stroke::new(1.2, PATH), 5.0);
                 }
                 break;
             };
@@ -45,7 +52,7 @@ impl App {
                 let to = towards([surface.position, light.direction], light.distance.unwrap_or(size));
                 if let Some(to) = to.filter(|_| light.outcome != Outcome::Void) {
                     let stroke = Stroke::new(1.2, if seen { LIGHT } else { LIGHT.gamma_multiply(0.4) });
-                    painter.extend(egui::Shape::dashed_line(&[at, to], stroke, 3.0, 3.0));
+                    dashed([at, to], stroke, 3.5);
                 }
             }
             painter.circle(at, 4.0, PATH, Stroke::new(1.0, Color32::BLACK));

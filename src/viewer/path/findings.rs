@@ -1,6 +1,4 @@
 //! The samples of a pixel and one of its paths, traced again off the UI thread.
-use std::sync::Arc;
-
 use noisefall::{
     integrator::{Replay, pixel_samples, replay},
     math::colour::luminance,
@@ -13,48 +11,90 @@ use crate::viewer::{errand::Errand, link::Wish};
 /// More samples do not change what a histogram looks like.
 pub const MOST_SAMPLES: u32 = 4096;
 
-/// What has been found.
-pub struct Findings {
-    /// Of the first samples of the pixel.
-    pub histogram: Arc<Histogram>,
-    pub replay: Replay,
-}
-
 /// What is looked at.
 #[derive(Clone, PartialEq)]
 struct Question {
     wish: Wish,
     pixel: [u32; 2],
-    sample: u32,
-    count: u32,
+    /// Which sample, or how many.
+    number: u32,
+}
+
+impl Question {
+    /// Whether both are about the samples of the same pixel of the same picture.
+    fn is_near(&self, other: &Question) -> bool {
+        (&self.wish, self.pixel) == (&other.wish, other.pixel)
+    }
+}
+
+/// What is known of a question.
+struct Search<T> {
+    found: Option<(Question, T)>,
+    /// What was asked last.
+    asked: Option<Question>,
+    pending: Option<Errand<Option<T>>>,
+    /// The renderer fails at what was asked last.
+    failed: bool,
+}
+
+impl<T> Default for Search<T> {
+    fn default() -> Search<T> {
+        Search { found: None, asked: None, pending: None, failed: false }
+    }
+}
+
+impl<T: Send + 'static> Search<T> {
+    /// Takes in what has been found, and looks for the answer to this if it is not known. What answers a question near to this stays
+    /// until then; with `patient` it is also waited for.
+    fn ask(
+        &mut self,
+        ctx: &egui::Context,
+        question: &Question,
+        patient: bool,
+        find: impl FnOnce(&Question, &dyn Fn() -> bool) -> Option<T> + Send + 'static,
+    ) {
+        if let (Some(result), Some(asked)) = (Errand::take(&mut self.pending), &self.asked) {
+            self.failed = result.is_err();
+            self.found = result.ok().flatten().map(|found| (asked.clone(), found));
+        }
+        self.found = self.found.take().filter(|(found, _)| found.is_near(question));
+        let waits = |asked: &Question| patient && self.pending.is_some() && asked.is_near(question);
+        if self.asked.as_ref().is_none_or(|asked| asked != question && !waits(asked)) {
+            (self.asked, self.failed) = (Some(question.clone()), false);
+            let question = question.clone();
+            self.pending = Some(Errand::start(ctx, move |given_up| find(&question, given_up)));
+        }
+    }
 }
 
 pub struct Inspector {
     ctx: egui::Context,
     pub pixel: Option<[u32; 2]>,
     pub sample: u32,
-    found: Option<(Question, Findings)>,
-    /// What is being found; nothing where it was given up.
-    pending: Option<Errand<Option<Findings>>>,
-    /// What it is, or was, about.
-    asked: Option<Question>,
-    /// What the renderer fails at.
-    failed: Option<Question>,
+    replay: Search<Replay>,
+    histogram: Search<Histogram>,
 }
 
 impl Inspector {
     pub fn new(ctx: &egui::Context) -> Inspector {
-        Inspector { ctx: ctx.clone(), pixel: None, sample: 0, found: None, pending: None, asked: None, failed: None }
+        Inspector { ctx: ctx.clone(), pixel: None, sample: 0, replay: Search::default(), histogram: Search::default() }
     }
 
     pub fn look_at(&mut self, pixel: [u32; 2]) {
         if self.pixel != Some(pixel) {
-            (self.pixel, self.sample, self.found) = (Some(pixel), 0, None);
+            (self.pixel, self.sample) = (Some(pixel), 0);
+            (self.replay, self.histogram) = Default::default();
         }
     }
 
-    pub fn findings(&self) -> Option<&Findings> {
-        self.found.as_ref().map(|(_, findings)| findings)
+    /// The path of the chosen sample; of the one before while that is traced. With the number of the sample.
+    pub fn replay(&self) -> Option<(u32, &Replay)> {
+        self.replay.found.as_ref().map(|(question, replay)| (question.number, replay))
+    }
+
+    /// Of the first samples of the pixel.
+    pub fn histogram(&self) -> Option<&Histogram> {
+        self.histogram.found.as_ref().map(|(_, histogram)| histogram)
     }
 
     /// Takes in what has been found, and looks for what is not. The picture has so many samples a pixel.
@@ -62,53 +102,33 @@ impl Inspector {
         let [width, height] = wish.camera.resolution;
         self.pixel = self.pixel.filter(|[x, y]| *x < width && *y < height);
         let Some(pixel) = self.pixel else {
-            self.found = None;
+            (self.replay, self.histogram) = Default::default();
             return;
         };
-        self.receive();
-        let count = count_of(spp);
-        let question = Question { wish: wish.clone(), pixel, sample: self.sample, count };
-        let known = |other: &Question| *other == question;
-        if self.found.as_ref().is_some_and(|(found, _)| (&found.wish, found.pixel) != (wish, pixel)) {
-            self.found = None;
-        }
-        let pending = self.asked.as_ref().filter(|_| self.pending.is_some());
-        let found = self.found.as_ref().map(|(found, _)| found);
-        if [self.failed.as_ref(), found, pending].into_iter().flatten().any(known) {
-            return;
-        }
-        let same_pixel = |found: &Question| Question { sample: question.sample, ..found.clone() } == question;
-        let histogram =
-            self.found.as_ref().filter(|(found, _)| same_pixel(found)).map(|(_, findings)| findings.histogram.clone());
-        self.asked = Some(question.clone());
-        self.pending = Some(Errand::start(&self.ctx, move |given_up| find(&question, histogram, given_up)));
+        let question = |number| Question { wish: wish.clone(), pixel, number };
+        self.replay.ask(&self.ctx, &question(self.sample), false, |question, _| Some(path_of(question)));
+        // While a picture grows it would never end to be asked for more samples.
+        self.histogram.ask(&self.ctx, &question(count_of(spp)), true, histogram_of);
     }
 
-    fn receive(&mut self) {
-        let (Some(result), Some(question)) = (Errand::take(&mut self.pending), &self.asked) else { return };
-        match result {
-            Ok(findings) => self.found = findings.map(|findings| (question.clone(), findings)),
-            Err(_) => self.failed = Some(question.clone()),
+    /// What the renderer fails at, in words.
+    pub fn failure(&self) -> Option<&'static str> {
+        match (self.replay.failed, self.histogram.failed) {
+            (true, _) => Some("The renderer fails at this sample"),
+            (_, true) => Some("The renderer fails at a sample of this pixel"),
+            _ => None,
         }
-    }
-
-    /// Whether the renderer fails at what is looked at.
-    pub fn has_failed(&self) -> bool {
-        self.failed.as_ref().is_some_and(|failed| self.pixel == Some(failed.pixel) && self.sample == failed.sample)
     }
 }
 
-fn find(question: &Question, known: Option<Arc<Histogram>>, given_up: &dyn Fn() -> bool) -> Option<Findings> {
-    let Question { wish: Wish { scene, camera, settings }, pixel, sample, count } = question;
+fn path_of(Question { wish: Wish { scene, camera, settings }, pixel, number }: &Question) -> Replay {
     let rays = scene.rays(camera);
-    let settings = resolved(scene, &rays, settings);
-    let replay = replay(scene, &rays, &settings, *pixel, *sample);
-    let histogram = match known {
-        Some(histogram) => histogram,
-        None => {
-            let samples = pixel_samples(scene, &rays, &settings, *pixel, 0..*count, given_up)?;
-            Arc::new(Histogram::of(samples.into_iter().map(luminance).collect()))
-        }
-    };
-    Some(Findings { histogram, replay })
+    replay(scene, &rays, &resolved(scene, &rays, settings), *pixel, *number)
+}
+
+fn histogram_of(question: &Question, given_up: &dyn Fn() -> bool) -> Option<Histogram> {
+    let Question { wish: Wish { scene, camera, settings }, pixel, number } = question;
+    let rays = scene.rays(camera);
+    let samples = pixel_samples(scene, &rays, &resolved(scene, &rays, settings), *pixel, 0..*number, given_up)?;
+    Some(Histogram::of(samples.into_iter().map(luminance).collect()))
 }

@@ -5,7 +5,7 @@ mod histogram;
 mod projection;
 mod table;
 
-use egui::{RichText, ScrollArea, Ui};
+use egui::{RichText, ScrollArea, Ui, scroll_area::ScrollBarVisibility};
 use noisefall::math::colour::luminance;
 
 pub use self::findings::Inspector;
@@ -18,7 +18,7 @@ impl App {
         if self.tool == Tool::Inspect {
             self.dock = Some(Tab::Path);
         }
-        if self.dock == Some(Tab::Path) && matches!(self.tool, Tool::Inspect | Tool::Picture) {
+        if self.dock == Some(Tab::Path) {
             self.inspector.look_at(pixel);
         }
     }
@@ -43,20 +43,20 @@ impl App {
         egui::Panel::left("pixel").resizable(false).exact_size(312.0).show(ui, |ui| {
             ScrollArea::vertical().show(ui, |ui| self.pixel_column(ui, pixel));
         });
-        if self.inspector.has_failed() {
-            ui.label(
-                RichText::new("The renderer fails at this sample: please report it, with the command in the line below.")
-                    .color(ui.bad()),
-            );
+        if let Some(failure) = self.inspector.failure() {
+            let text = format!("{failure}: please report it, with the command in the line below.");
+            ui.label(RichText::new(text).color(ui.bad()));
             return;
         }
-        let Some(findings) = self.inspector.findings() else {
+        let Some((sample, replay)) = self.inspector.replay() else {
             ui.weak("Tracing the samples of this pixel …");
             return;
         };
         let objects = self.link.wish().map_or(&[][..], |wish| &wish.scene.objects);
         egui::Frame::new().inner_margin(egui::Margin { left: 8, ..egui::Margin::ZERO }).show(ui, |ui| {
-            ScrollArea::both().auto_shrink(false).show(ui, |ui| table::show(ui, &findings.replay, objects));
+            table::heading(ui, sample, replay);
+            let bars = ScrollBarVisibility::AlwaysVisible;
+            ScrollArea::both().auto_shrink(false).scroll_bar_visibility(bars).show(ui, |ui| table::show(ui, replay, objects));
         });
     }
 
@@ -83,8 +83,8 @@ impl App {
             );
         }
         self.sample_choice(ui);
-        let Some(findings) = self.inspector.findings() else { return };
-        if let Some(sample) = histogram::show(ui, &findings.histogram, self.inspector.sample) {
+        let Some(histogram) = self.inspector.histogram() else { return };
+        if let Some(sample) = histogram::show(ui, histogram, self.inspector.sample) {
             self.inspector.sample = sample;
         }
         ui.weak("Over the picture: its path in yellow; light samples in blue, faint where hidden.");
@@ -92,7 +92,7 @@ impl App {
 
     /// Which sample is seen vertex by vertex.
     fn sample_choice(&mut self, ui: &mut Ui) {
-        let brightest = self.inspector.findings().map(|findings| findings.histogram.brightest);
+        let brightest = self.inspector.histogram().map(|histogram| histogram.brightest);
         let sample = &mut self.inspector.sample;
         ui.horizontal(|ui| {
             let label = ui.label("Sample").on_hover_text("The number of the sample: it and the pixel decide the path, for ever");
@@ -116,8 +116,10 @@ impl App {
 /// What is said of paths that are shared.
 fn remark(ui: &mut Ui, alone: Option<[f32; 3]>) {
     if let Some(alone) = alone {
-        let text =
-            format!("Pixels share what their paths find here. This path alone would have made it {}.", table::colour(alone));
+        let text = format!(
+            "Pixels share what paths find: this one brought {}, the last Σ. With Share paths on Never both agree.",
+            table::colour(alone)
+        );
         ui.label(RichText::new(text).color(ui.warning()));
     }
 }

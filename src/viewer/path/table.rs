@@ -13,32 +13,41 @@ const TEXT: f32 = 12.0;
 pub const MOST_VERTICES: usize = 64;
 
 /// Columns, and what they say.
-const COLUMNS: [(&str, &str); 15] = [
+const COLUMNS: [(&str, &str); 17] = [
     ("k", "Reflections before this vertex"),
     ("Σ", "The sum of light so far: in the last row, the sample"),
     ("object", "What is met, and of which material"),
     ("x", "The point met, in metres"),
-    ("β", "Throughput: the product of f cos θ / (p q) so far"),
+    ("β", "Throughput: the product of τ f cos θ / (p q) so far"),
+    ("τ", "What media on the way here let pass"),
     ("L_e", "Radiance emitted here towards the path"),
     ("w", "MIS weight of the emitted light"),
-    ("+ β w L_e", "What running into it adds to the sample"),
-    ("light sample", "The lamp that was looked for, and whether it is seen"),
+    ("+ τ β w L_e", "What running into it adds to the sample"),
+    (
+        "light sample",
+        "The lamp that was chosen, and whether it is seen; not tested where it is dark on this side, or nothing of it is reflected",
+    ),
     ("f cos θ_l", "Bsdf and cosine towards it"),
     ("p_l", "Density of its direction, per solid angle"),
     ("w_l", "MIS weight of the light sample"),
-    ("+ direct", "What the light sample adds: β f cos θ_l L_e w_l / p_l"),
+    ("τ_l", "What media on the way to the lamp let pass, times its texture; 0 where it is not seen"),
+    ("+ direct", "What the light sample adds: τ β f cos θ_l L_e τ_l w_l / p_l"),
     ("ω_i", "The next direction, in the world"),
     ("f · cos θ / p, q", "Bsdf, cosine, density per solid angle, and roulette's survival probability of that direction"),
 ];
 
-pub fn show(ui: &mut Ui, replay: &Replay, objects: &[Object]) {
-    let formula = "L = Σ β (w L_e + w_l f cos θ_l L_e / p_l), β growing by f cos θ / (p q) a vertex";
-    ui.horizontal(|ui| {
-        ui.label(RichText::new(format!("This sample: {}", colour(replay.radiance))).color(ui.accent()).strong());
+/// What the table adds up to, and how.
+pub fn heading(ui: &mut Ui, sample: u32, replay: &Replay) {
+    let formula = "L = Σ τ β (w L_e + w_l f cos θ_l L_e τ_l / p_l), β growing by τ f cos θ / (p q) a vertex";
+    ui.horizontal_wrapped(|ui| {
+        ui.label(RichText::new(format!("Sample {sample}: {}", colour(replay.radiance))).color(ui.accent()).strong());
         ui.weak(formula);
     });
     remark(ui, replay.alone);
     ui.add_space(2.0);
+}
+
+pub fn show(ui: &mut Ui, replay: &Replay, objects: &[Object]) {
     Grid::new("vertices").striped(true).spacing([14.0, 4.0]).show(ui, |ui| {
         for (name, doc) in COLUMNS {
             ui.label(RichText::new(name).weak()).on_hover_text(doc);
@@ -60,6 +69,7 @@ fn row(ui: &mut Ui, vertex: &Vertex, objects: &[Object]) {
     cell(ui, place(vertex, objects));
     cell(ui, vertex.surface.as_ref().map_or_else(String::new, |surface| vector(surface.position)));
     cell(ui, colour(vertex.throughput));
+    cell(ui, colour(vertex.transmittance));
     match &vertex.emission {
         Some(met) => {
             cell(ui, colour(met.radiance));
@@ -74,15 +84,16 @@ fn row(ui: &mut Ui, vertex: &Vertex, objects: &[Object]) {
             let outcome = match light.outcome {
                 Outcome::Seen => "seen",
                 Outcome::Hidden => "hidden",
-                Outcome::Void => "no use",
+                Outcome::Void => "not tested",
             };
             cell(ui, format!("{lamp}, {outcome}"));
             cell(ui, colour(light.f_cos));
             cell(ui, short(light.pdf));
             cell(ui, format!("{:.3}", light.weight));
+            cell(ui, colour(light.passed));
             cell(ui, colour(light.contribution));
         }
-        None => nothing(ui, 5),
+        None => nothing(ui, 6),
     }
     match &vertex.reflection {
         Some(next) => {

@@ -85,6 +85,13 @@ fn a_comparison_starts_with_one_click_and_both_sides_converge() {
     never_restarts(&mut window, |w| drag(w, PointerButton::Primary, [middle, height], [middle - 100.0, height]));
     assert!(window.state().view.wipe < line - 0.05 && window.state().view.zoom.is_none(), "the line moved, and not the picture");
 
+    // The menu of the toolbar comes first, that of the tab second.
+    window.get_all_by_label("Compare with…").last().expect("it is there").click();
+    window.run_steps(3);
+    click(&mut window, "No roulette");
+    let other = window.state().compare.expect("it compares").other;
+    assert_eq!((other.roulette, other.estimator), (Roulette::Off, Estimator::Mis), "another comparison");
+
     let before = window.state().status_beside.generation;
     window.get_by_role_and_label(Role::Button, "B").click();
     window.run_steps(3);
@@ -192,7 +199,8 @@ fn a_reference_that_is_dropped_gives_true_error_and_bias() {
     wait(&mut window, "a picture", App::can_save);
     window.state_mut().save_to(path.clone());
     wait(&mut window, "the file", |app| app.last_saved.is_some());
-    window.state_mut().loader.read_reference(path);
+    let camera = window.state().camera;
+    window.state_mut().loader.read_reference(path, camera);
     wait(&mut window, "the true error", |app| app.against.is_some());
     window.state_mut().settings.seed = 9;
     wait(&mut window, "another picture", |app| {
@@ -203,7 +211,7 @@ fn a_reference_that_is_dropped_gives_true_error_and_bias() {
     window.run_steps(2);
     assert!(window.query_by_label_contains("true error unknown").is_some());
     std::fs::write(folder.path().join("bad.exr"), "no picture").expect("it is written");
-    window.state_mut().loader.read_reference(folder.path().join("bad.exr"));
+    window.state_mut().loader.read_reference(folder.path().join("bad.exr"), camera);
     wait(&mut window, "the refusal", |app| app.notices.iter().any(|notice| notice.is_error));
     // Alone, so that it stays where it is when others have had their time.
     window.state_mut().notices.retain(|notice| notice.is_error);

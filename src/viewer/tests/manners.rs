@@ -99,7 +99,7 @@ fn the_tour_shows_noise_bounces_and_roulette_and_is_not_shown_again() {
         click(&mut window, if title == "Now you" { "Done" } else { "Next" });
     }
     assert!(window.state().tour.is_none());
-    assert!(Preferences::in_folder(folder.path()).now.toured);
+    wait(&mut window, "the note of it", |_| Preferences::in_folder(folder.path()).now.toured);
 }
 
 #[test]
@@ -119,7 +119,7 @@ fn frame_times_are_shown() {
     let mut window = window("furnace");
     window.key_press(Key::F12);
     window.run_steps(3);
-    assert!(window.query_by_label_contains("p99").is_some());
+    assert_eq!(window.query_all_by_label_contains("p99").count(), 2, "layout alone, and with drawing");
 }
 
 #[test]
@@ -134,6 +134,7 @@ fn both_themes_can_be_chosen_and_are_remembered() {
         window.get_all_by_role_and_label(Role::Button, name).last().expect("it is there").click();
         window.run_steps(4);
         assert_eq!(window.ctx.global_style().visuals.dark_mode, dark);
-        assert_eq!(Preferences::in_folder(folder.path()).now.theme.as_deref(), Some(name.to_lowercase().as_str()));
+        let noted = || Preferences::in_folder(folder.path()).now.theme.clone();
+        wait(&mut window, "the note of it", |_| noted().as_deref() == Some(name.to_lowercase().as_str()));
     }
 }

@@ -25,10 +25,10 @@ fn a_clicked_pixel_shows_exactly_the_samples_that_the_renderer_took() {
         });
         let pixel = window.state().inspector.pixel.expect("it was clicked");
         wait(&mut window, "its samples", |app| {
-            app.inspector.findings().is_some_and(|findings| findings.histogram.samples.len() >= 16)
+            app.inspector.histogram().is_some_and(|histogram| histogram.samples.len() >= 16) && app.inspector.replay().is_some()
         });
         let app = window.state();
-        let findings = app.inspector.findings().expect("they are there");
+        let histogram = app.inspector.histogram().expect("it is there");
         let (scene, camera) = (&app.opened.as_ref().expect("it is open").scene, &app.camera);
         let rays = scene.rays(camera);
         let settings = resolved(scene, &rays, &app.settings);
@@ -40,9 +40,10 @@ fn a_clicked_pixel_shows_exactly_the_samples_that_the_renderer_took() {
             let work = Work::tile(scene, &rays, &settings, origin, size, sample);
             trace(SimdLevel::best(), &work, &mut batch, &|| false).expect("nobody interrupts");
             let [r, g, b, _] = batch.radiance()[((pixel[1] - origin[1]) * TILE + pixel[0] - origin[0]) as usize];
-            assert_eq!(findings.histogram.samples[sample as usize].to_bits(), luminance([r, g, b]).to_bits(), "sample {sample}");
+            assert_eq!(histogram.samples[sample as usize].to_bits(), luminance([r, g, b]).to_bits(), "sample {sample}");
             if sample == 0 {
-                assert_eq!(findings.replay.radiance, [r, g, b], "the path that is shown");
+                let (number, replay) = app.inspector.replay().expect("it is there");
+                assert_eq!((number, replay.radiance), (0, [r, g, b]), "the path that is shown");
             }
         }
     }
@@ -53,22 +54,23 @@ fn one_steps_through_paths_and_the_table_adds_up() {
     let mut window = inspecting("cornell_spheres");
     click(&mut window, "The pixel in the middle");
     assert_eq!(window.state().inspector.pixel, Some([48, 32]));
-    wait(&mut window, "its samples", |app| app.inspector.findings().is_some());
+    wait(&mut window, "its samples", |app| app.inspector.histogram().is_some());
     for expected in [1, 2] {
         never_restarts(&mut window, |w| click(w, "Next"));
         assert_eq!(window.state().inspector.sample, expected);
     }
     click(&mut window, "Brightest");
-    let brightest = window.state().inspector.findings().expect("they are there").histogram.brightest;
+    let brightest = window.state().inspector.histogram().expect("it is there").brightest;
     assert_eq!(window.state().inspector.sample, brightest);
     wait(&mut window, "that path", |app| {
-        let findings = app.inspector.findings().expect("they are there");
-        let replayed = luminance(findings.replay.radiance);
-        replayed.to_bits() == findings.histogram.samples[brightest as usize].to_bits()
+        let Some((number, replay)) = app.inspector.replay() else { return false };
+        let histogram = app.inspector.histogram().expect("it is there");
+        let replayed = luminance(replay.radiance);
+        number == brightest && replayed.to_bits() == histogram.samples[brightest as usize].to_bits()
     });
     window.run_steps(3);
-    assert!(window.query_by_label_contains("This sample:").is_some());
-    let replay = &window.state().inspector.findings().expect("they are there").replay;
+    assert!(window.query_by_label_contains(&format!("Sample {brightest}:")).is_some());
+    let (_, replay) = window.state().inspector.replay().expect("it is there");
     let last = replay.vertices.last().expect("it has vertices").radiance;
     assert_eq!(last, replay.alone.unwrap_or(replay.radiance), "the sums end at the sample");
 }

@@ -67,3 +67,25 @@ fn exposure_and_tone_map_change_what_is_saved() {
         assert!(pictures[..i].iter().all(|other| *other != pictures[i]), "tone map {i} shows nothing new");
     }
 }
+
+#[test]
+fn an_exr_has_all_of_the_picture_whatever_is_seen_and_whatever_letters_the_scene_has() {
+    let folder = tempfile::tempdir().expect("a folder");
+    // Its notes have letters that EXR does not know.
+    let mut window = window("inside_lit_inside");
+    window.key_press(Key::F4);
+    window.run_steps(2);
+    wait(&mut window, "the series", |app| app.frame_beside.is_some());
+    let text = |window: &mut Window, name: &str| {
+        let path = folder.path().join(name);
+        window.state_mut().save_to(path.clone());
+        wait(window, "the file", |app| app.last_saved.as_ref() == Some(&path));
+        String::from_utf8_lossy(&std::fs::read(&path).expect("it is there")).into_owned()
+    };
+    assert!(!text(&mut window, "whole.exr").contains("reflected exactly"));
+    assert!(text(&mut window, "term.png").contains("reflected exactly 1 times"));
+    window.key_press(Key::V);
+    window.run_steps(3);
+    let noise = text(&mut window, "noise.png");
+    assert!(noise.contains("Standard error") && !noise.contains("reflected exactly"), "no term is shown");
+}

@@ -30,7 +30,7 @@ fn at_rest(scene: &str, spp: u32, change: impl FnOnce(&mut App)) -> Window {
         shown
             && beside
             && (app.inspector.pixel.is_none()
-                || app.inspector.findings().is_some_and(|findings| findings.histogram.samples.len() == spp as usize))
+                || app.inspector.histogram().is_some_and(|histogram| histogram.samples.len() == spp as usize))
     });
     // What is on its way arrives.
     for _ in 0..30 {

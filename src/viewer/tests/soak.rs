@@ -124,6 +124,15 @@ fn soak() {
             wait(&mut window, "the scene", |app| !app.loader.is_busy());
             window.state_mut().camera.resolution = [96, 64];
         }
+        if number % 1000 == 700 {
+            // Whatever the controls say by now, the window comes to show it.
+            window.event(egui::Event::PointerGone);
+            wait(&mut window, "the picture of what was asked for last", |app| {
+                let asked = app.link.wish().is_some_and(|wish| wish.settings == app.settings && wish.camera == app.camera);
+                let fits = asked || app.camera.check().is_err();
+                fits && app.shown.as_ref().is_some_and(|frame| frame.generation == app.link.generation())
+            });
+        }
         if number == WARM {
             warm = settled_memory(&mut window, 0);
         }
@@ -136,7 +145,7 @@ fn soak() {
     assert_eq!(shown.generation, app.link.generation(), "a stale frame is shown");
 }
 
-/// The fewest bytes in use, besides the texture of letters, while the scene is shown as it opens: until there are as few as this,
+/// The fewest bytes in use, besides the texture of letters, while the picture of the scene as it opens is at rest: until there are as few as this,
 /// or for some seconds. Threads that were given up let go of what they looked at when they notice.
 fn settled_memory(window: &mut Window, enough: usize) -> usize {
     const PATIENCE: Duration = Duration::from_secs(5);
@@ -151,10 +160,11 @@ fn settled_memory(window: &mut Window, enough: usize) -> usize {
         wait(window, "threads", |app| app.link.threads() == threads);
     }
     let app = window.state_mut();
-    (app.budget, app.dock, app.compare) = (noisefall::render::Budget::default(), None, None);
+    // At rest there is one frame, and not one more for each that is on its way.
+    let budget = noisefall::render::Budget { max_spp: Some(8), ..Default::default() };
+    (app.budget, app.dock, app.compare) = (budget, None, None);
     wait(window, "the picture", |app| {
-        let shown = app.shown.as_ref().is_some_and(|frame| frame.generation == app.link.generation() && !frame.is_coarse());
-        shown && app.status.spp >= 2
+        app.shown.as_ref().is_some_and(|frame| frame.generation == app.link.generation() && frame.spp == 8)
     });
     let (start, mut least) = (Instant::now(), usize::MAX);
     while start.elapsed() < PATIENCE && least > enough {
