@@ -58,7 +58,7 @@ impl App {
         egui::Window::new("This scene cannot be opened")
             .open(&mut open)
             .collapsible(false)
-            .default_width(760.0)
+            .default_width((ctx.content_rect().width() - 376.0).clamp(300.0, 760.0))
             .anchor(Align2::CENTER_CENTER, [-168.0, 0.0])
             .show(ctx, |ui| {
                 ScrollArea::both().max_height(360.0).show(ui, |ui| {

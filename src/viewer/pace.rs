@@ -68,10 +68,10 @@ impl App {
         let egui::Rect { min, .. } = ctx.content_rect();
         egui::Area::new(egui::Id::unique("pace")).anchor(Align2::LEFT_TOP, [min.x + 10.0, min.y + 44.0]).show(ctx, |ui| {
             egui::Frame::popup(ui.style()).show(ui, |ui| {
-                ui.label(RichText::new("Window frames").strong());
+                ui.label(RichText::new(format!("The last {} frames of the window", self.pace.layout.ring.len())).strong());
                 for (name, times) in [("layout", &self.pace.layout), ("and drawing", &self.pace.whole)] {
                     let [half, most] = [0.5, 0.99].map(|part| times.quantile(part).as_secs_f64() * 1e3);
-                    ui.monospace(format!("{name:<11} p50 {half:6.2} ms   p99 {most:6.2} ms of the last {}", times.ring.len()));
+                    ui.monospace(format!("{name:<11} p50 {half:6.2} ms   p99 {most:6.2} ms"));
                 }
                 ui.monospace(format!("last one {:.0} ms ago; none while nothing changes", self.pace.between * 1e3));
                 ui.monospace(format!("render threads {}, generation {}", self.threads, self.link.generation()));

@@ -24,9 +24,9 @@ const TAB_KEYS: [(Key, Tab); 4] =
 
 impl App {
     pub(super) fn toolbar(&mut self, ui: &mut egui::Ui) {
-        const WHOLE: f32 = 880.0;
-        const OF_REGION: f32 = 60.0;
-        const OF_ENDS: f32 = 112.0;
+        const WHOLE: f32 = 832.0;
+        const OF_REGION: f32 = 56.0;
+        const OF_ENDS: f32 = 104.0;
         let needed = WHOLE + if self.budget.region.is_some() { OF_REGION } else { 0.0 };
         let is_narrow = ui.available_width() < needed;
         let contents = |ui: &mut egui::Ui| {
