@@ -170,8 +170,8 @@ fn settled_memory(window: &mut Window, enough: usize) -> usize {
     while start.elapsed() < PATIENCE && least > enough {
         window.step();
         std::thread::sleep(Duration::from_millis(10));
-        let letters = window.ctx.fonts(|fonts| fonts.font_image_size()).iter().product::<usize>() * size_of::<egui::Color32>();
-        least = least.min(MEMORY.allocated() - letters);
+        let letters = window.ctx.fonts(|fonts| fonts.font_image_size().iter().product::<usize>());
+        least = least.min(MEMORY.allocated() - letters * size_of::<egui::Color32>());
     }
     least
 }
