@@ -145,7 +145,7 @@ fn figures(curve: &Curve, over: Over) -> String {
     let percent = |x: f64| format!("{:.2} %", 100.0 * x);
     let mut text = format!("N {}, {:.1} s, error {}", last.spp, last.seconds, last.estimated.map_or("–".to_owned(), percent));
     if let Some(error) = last.true_error {
-        text += &format!(", true {}", percent(error));
+        text += &format!("\ntrue {}", percent(error));
     }
     if let Some(bias) = last.bias {
         // Farther out no probability is a number any more.
