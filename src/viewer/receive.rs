@@ -15,6 +15,7 @@ use super::{
     darkroom::{Order, Print, Term},
     dock::Tab,
     feature_finder::FeatureFinder,
+    link::Wish,
     loader::{DroppedTruth, Opened},
     path::Inspector,
 };
@@ -60,8 +61,10 @@ impl App {
         let view = compare.and_then(|compare| compare.view());
         let pinned = if view.is_some() { beside.clone() } else { self.pinned.clone() };
         let look = Look { view: view.unwrap_or(self.look.view), ..self.look };
-        let features = self.opened.as_ref().filter(|_| look.view.shows_features());
-        let features = features.and_then(|opened| self.finder.of(&opened.scene, &self.camera, self.threads));
+        // What was asked for last, whose camera has been checked; a scene that has just been opened is asked for in a moment.
+        let is_open = |wish: &&Wish| self.opened.as_ref().is_some_and(|opened| Arc::ptr_eq(&wish.scene, &opened.scene));
+        let wish = self.link.wish().filter(is_open).filter(|_| look.view.shows_features());
+        let features = wish.and_then(|wish| self.finder.of(&wish.scene, &wish.camera, self.threads));
         Order {
             truth: self.truth(&frame),
             term: term.map(|of| Term { of, reflections: self.bounces.reflections, up_to: self.bounces.up_to }),

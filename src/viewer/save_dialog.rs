@@ -86,7 +86,8 @@ fn folder(path: &Path) -> &Path {
 impl App {
     /// Whether what is shown is the full picture of what the controls say.
     pub(super) fn can_save(&self) -> bool {
-        let has_features = !self.look.view.shows_features() || self.finder.has(&self.camera);
+        let is_found = || self.link.wish().is_some_and(|wish| self.finder.has(&wish.camera));
+        let has_features = !self.look.view.shows_features() || is_found();
         let Some(frame) = self.shown.as_ref().filter(|_| has_features) else { return false };
         !frame.is_coarse() && frame.generation == self.link.generation()
     }

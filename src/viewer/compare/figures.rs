@@ -72,8 +72,8 @@ struct Side {
 impl Side {
     fn of(letter: &'static str, name: String, status: &Status, settings: &RenderSettings, against: Option<Against>) -> Side {
         let seconds = status.elapsed.as_secs_f64();
-        // The truth, where it is known, sees bias as well.
         let trouble = failure_of(status).or_else(|| status.bias(settings).map(|why| format!("biased: {why}")));
+        // Noise alone does not see bias; the truth, where it is known, does.
         let tells = trouble.is_none() || against.is_some();
         let rel_mse = against.map(|against| against.rel_mse).or(status.rel_mse_estimate).filter(|rel_mse| *rel_mse > 0.0);
         Side {
