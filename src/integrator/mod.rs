@@ -21,6 +21,8 @@ mod shading;
 mod shadow;
 mod spawn;
 mod surface;
+#[cfg(test)]
+mod tests;
 mod trace;
 mod weight;
 mod work;

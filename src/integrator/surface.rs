@@ -15,7 +15,7 @@ use crate::{
     math::{F, Lanes, M, Pick, U, V},
     scene::{
         Scene,
-        surface::{self, FLIPPED, FRONT, ONE_SIDED, SQUARED, Stage, is_set},
+        surface::{self, FLIPPED, FRONT, ONE_SIDED, SCATTERS_WHERE_BLACK, SQUARED, Stage, is_set},
     },
     texture::TextureCoordinates,
 };
@@ -216,7 +216,7 @@ fn sort<L: Lanes>(
     let faces = mask & reflects;
     let detail = vary(l, work.scene, arrival, faces, &mut hit);
     let detail = Detail { surface: word | front.pick(l.u(FRONT), l.u(0)), ..detail };
-    let reflects = faces & hit.colour.max_component().above(0.0);
+    let reflects = faces & (hit.colour.max_component().above(0.0) | is_set(word, SCATTERS_WHERE_BLACK));
     for stage in &work.scene.surfaces.stages {
         let here = reflects & surface::stage(word).is(*stage as u32);
         if *stage == Stage::Plain {

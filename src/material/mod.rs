@@ -44,7 +44,7 @@ pub use self::{
 /// [`ggx::SMOOTH`] the surface is smooth. Where a texture varies it, it is the largest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Material {
-    /// Reflectances in [0, 1] of red, green and blue. Zero is black: paths end there.
+    /// Reflectances in [0, 1] of red, green and blue.
     Lambertian {
         albedo: [f32; 3],
     },
@@ -86,6 +86,15 @@ pub enum Reflectance {
 }
 
 impl Material {
+    /// Whether it scatters light even where its colour is black: coats and Fresnel's rise towards grazing angles have no colour.
+    pub fn scatters_where_black(&self) -> bool {
+        match self {
+            Material::Lambertian { .. } | Material::Mirror { .. } => false,
+            Material::Conductor { fresnel, .. } => !matches!(fresnel, Reflectance::Constant(_)),
+            Material::Dielectric { .. } | Material::Plastic { .. } => true,
+        }
+    }
+
     /// What the scene file calls the kind.
     pub fn name(&self) -> &'static str {
         match self {

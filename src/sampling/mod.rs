@@ -5,6 +5,8 @@ mod blue_noise;
 mod filter;
 pub mod hash;
 mod independent;
+#[cfg(test)]
+pub(crate) mod readings;
 mod sampler;
 mod sobol;
 mod stratified;

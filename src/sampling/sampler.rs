@@ -108,6 +108,8 @@ impl<L: Lanes> Stream<L> {
     /// One coordinate, in (0, 1).
     #[inline(always)]
     pub fn one(&self, dimension: Dimension) -> F<L> {
+        #[cfg(test)]
+        super::readings::note(self.pixel, dimension.0, 1);
         match self.sampler {
             Sampler::Independent => independent::one(self, dimension.0),
             // In one dimension the (0, 1)-sequence is the progressive stratification.
@@ -119,6 +121,8 @@ impl<L: Lanes> Stream<L> {
     /// Two coordinates, each in (0, 1).
     #[inline(always)]
     pub fn two(&self, dimension: Dimension) -> (F<L>, F<L>) {
+        #[cfg(test)]
+        super::readings::note(self.pixel, dimension.0, 2);
         match self.sampler {
             Sampler::Independent => independent::two(self, dimension.0),
             Sampler::Stratified => stratified::two(self, dimension.0),

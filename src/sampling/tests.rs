@@ -94,20 +94,50 @@ fn every_sampler_is_uniform_in_every_dimension() {
     }
 }
 
+/// Every coordinate that a path reads up to its third surface.
+fn coordinates() -> Vec<(Dimension, usize)> {
+    let camera = [(Dimension::PIXEL, 2), (Dimension::LENS, 2), (Dimension::TIME, 1)];
+    let surface = |bounce| {
+        [
+            (Dimension::direction(bounce), 2),
+            (Dimension::roulette(bounce), 1),
+            (Dimension::lobe(bounce), 1),
+            (Dimension::light_choice(bounce), 1),
+            (Dimension::light(bounce), 2),
+            (Dimension::cell(bounce), 2),
+        ]
+    };
+    camera.into_iter().chain((1..=3).flat_map(surface)).collect()
+}
+
 #[test]
-fn different_dimensions_of_a_sample_are_not_correlated() {
-    const SAMPLES: u32 = 16_384;
+fn no_two_coordinates_of_a_sample_are_correlated() {
+    const SAMPLES: u32 = 8192;
+    const CELLS: usize = 4;
+    let columns = |sampler: Sampler| -> Vec<(String, Vec<u8>)> {
+        let column = |dimension: Dimension, width: usize, axis: usize| {
+            let value = |index: u32| {
+                let stream = stream(sampler, 7, index / 16, index % 16);
+                let (x, y) = if width == 1 { (stream.one(dimension), F(0.0)) } else { stream.two(dimension) };
+                ([x.0, y.0][axis] * CELLS as f32) as u8
+            };
+            (format!("{dimension:?}.{axis}"), (0..SAMPLES).map(value).collect())
+        };
+        coordinates()
+            .into_iter()
+            .flat_map(|(dimension, width)| (0..width).map(move |axis| column(dimension, width, axis)))
+            .collect()
+    };
     for entry in SAMPLERS {
-        let pairs = [(Dimension::PIXEL, Dimension::direction(1)), (Dimension::direction(1), Dimension::direction(2))];
-        for (a, b) in pairs {
-            let mut counts = vec![0.0; 64];
-            for index in 0..SAMPLES {
-                let (x, y) =
-                    (point(entry.sampler, index / 16, index % 16, a)[0], point(entry.sampler, index / 16, index % 16, b)[0]);
-                counts[(x * 8.0) as usize * 8 + (y * 8.0) as usize] += 1.0;
+        let columns = columns(entry.sampler);
+        let pairs = columns.len() * (columns.len() - 1) / 2 * SAMPLERS.len();
+        for (i, (a, of_a)) in columns.iter().enumerate() {
+            for (b, of_b) in &columns[i + 1..] {
+                let mut counts = vec![0.0; CELLS * CELLS];
+                of_a.iter().zip(of_b).for_each(|(x, y)| counts[usize::from(*x) * CELLS + usize::from(*y)] += 1.0);
+                let p = chi_squared(&counts, &vec![f64::from(SAMPLES) / counts.len() as f64; counts.len()]);
+                assert!(p > SIGNIFICANCE / pairs as f64, "{}, {a} and {b}: p = {p}", entry.name);
             }
-            let p = chi_squared(&counts, &vec![f64::from(SAMPLES) / 64.0; 64]);
-            assert!(p > SIGNIFICANCE, "{}, {a:?} and {b:?}: p = {p}", entry.name);
         }
     }
 }

@@ -29,7 +29,7 @@ impl Stage {
 /// Surfaces by primitive. Tables that a scene does not need are empty.
 #[derive(Default)]
 pub struct Surfaces {
-    /// Colour, and the surface's word: `material | stage << 16 | flags`. A black one reflects nothing.
+    /// Colour, and the surface's word: `material | stage << 16 | flags`.
     pub rows: Vec<[f32; 4]>,
     /// α, textures of colour and of α, and the medium inside. An id is stored plus 1, as bits; 0 is none.
     pub varying: Vec<[f32; 4]>,
@@ -55,6 +55,8 @@ pub const ONE_SIDED: u32 = 1 << 21;
 pub const SQUARED: u32 = 1 << 22;
 /// It transmits and emits: no light is looked for from it, as it would find itself, seen from the wrong side.
 pub const SELF_LIT: u32 = 1 << 23;
+/// It scatters light even where its colour is black: see [`crate::material::Material::scatters_where_black`].
+pub const SCATTERS_WHERE_BLACK: u32 = 1 << 24;
 /// Set while rendering where a path met the front.
 pub const FRONT: u32 = 1 << 31;
 /// Materials have 16 bits, media 8: what is beyond is refused by [`Surfaces::check`].
@@ -112,8 +114,12 @@ impl Surfaces {
         };
         let flag = |set: bool, flag: u32| if set { flag } else { 0 };
         let self_lit = stage == Stage::RoughDielectric && object.emission.is_some();
-        let flags =
-            flag(object.flip, FLIPPED) | flag(coating.one_sided, ONE_SIDED) | flag(squared, SQUARED) | flag(self_lit, SELF_LIT);
+        let scatters_where_black = coating.material.scatters_where_black();
+        let flags = flag(object.flip, FLIPPED)
+            | flag(coating.one_sided, ONE_SIDED)
+            | flag(squared, SQUARED)
+            | flag(self_lit, SELF_LIT)
+            | flag(scatters_where_black, SCATTERS_WHERE_BLACK);
         let medium = if self.media.is_empty() { 0 } else { material as u32 + 1 };
         self.textured |= colour_texture.or(alpha_texture).is_some();
         self.rows.push([r, g, b, f32::from_bits(material as u32 | (stage as u32) << STAGE_SHIFT | flags)]);
@@ -122,7 +128,7 @@ impl Surfaces {
             let height = coating.bump.map_or(0.0, |(_, height)| height);
             self.relief.push([id(coating.bump.map(|(id, _)| id)), height, id(coating.normal_map), 0.0]);
         }
-        if [r, g, b] != [0.0; 3] {
+        if scatters_where_black || [r, g, b] != [0.0; 3] {
             self.stages.push(stage);
         }
     }

@@ -3,6 +3,8 @@
 //! Every statement is a z-test at 4σ over seeded samples, or exact where the answer is. σ comes from the closed form where there
 //! is one, else from the samples.
 mod adaptive;
+mod black;
+mod combinations;
 mod determinism;
 mod enclosures;
 mod estimators;
@@ -12,11 +14,13 @@ mod glass;
 mod inside_outside;
 mod lamp;
 mod lens;
+mod limits;
 mod mirrors;
 mod noise;
 mod picture;
 mod plate;
 mod references;
+mod shading_normals;
 mod shape_lamps;
 mod sharing;
 mod space;

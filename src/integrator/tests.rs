@@ -1,0 +1,86 @@
+//! Which random numbers a path reads.
+use std::collections::BTreeMap;
+
+use super::{Batch, Work, trace};
+use crate::{
+    math::SimdLevel,
+    sampling::{Dimension, readings::readings_of},
+    scene::{Estimator, RenderSettings, Reuse, Roulette, Scene, parse},
+};
+
+/// A scene with everything that is left to chance: a lens, motion, lobes, lamps and a picture as background.
+fn scene() -> Scene {
+    let text = format!(
+        "format = 1
+        background.image = '{}/scenes/assets/sky.exr'
+        [camera]
+        eye = [0.0, 0.0, 4.0]
+        look_at = [0.0, 0.0, 0.0]
+        fov = 20.0
+        resolution = [1, 1]
+        lens = {{ radius = 0.1, focus = 3.0 }}
+        shutter = [0.0, 1.0]
+        [materials.coated]
+        plastic = {{ albedo = 0.8, ior = 1.5 }}
+        [[objects]]
+        shape.sphere = {{ center = [0.0, 0.0, 0.0], radius = 2.0 }}
+        material = 'coated'
+        motion = [{{ translate = [0.0, 0.1, 0.0] }}]
+        [[objects]]
+        shape.sphere = {{ center = [0.0, 0.0, 0.0], radius = 9.0 }}
+        material = 'coated'
+        flip = true
+        [[objects]]
+        shape.sphere = {{ center = [0.0, 5.0, 0.0], radius = 0.5 }}
+        emission.radiance = 1.0
+        [[objects]]
+        shape.rectangle = {{ origin = [3.0, 3.0, 3.0], edge_u = [1.0, 0.0, 0.0], edge_v = [0.0, 1.0, 0.0] }}
+        emission.radiance = 1.0",
+        env!("CARGO_MANIFEST_DIR")
+    );
+    parse("inline.toml", text).expect("it is a scene")
+}
+
+#[test]
+fn every_decision_of_a_path_has_coordinates_of_its_own() {
+    let scene = scene();
+    let rays = scene.rays(&scene.camera);
+    let settings = RenderSettings {
+        estimator: Estimator::Mis,
+        roulette: Roulette::Throughput { start: 1 },
+        max_bounces: Some(6),
+        reuse: Reuse::Off,
+        ..RenderSettings::default()
+    };
+    let mut reads: BTreeMap<u32, u32> = BTreeMap::new();
+    for sample in 0..16 {
+        let work = Work::tile(&scene, &rays, &settings, [0, 0], [1, 1], sample);
+        let readings =
+            readings_of(|| trace(SimdLevel::Scalar, &work, &mut Batch::default(), &|| false).expect("nothing interrupts"));
+        let mut once = BTreeMap::new();
+        for (_, coordinate) in readings.into_iter().filter(|(pixel, _)| *pixel == 0) {
+            *once.entry(coordinate).or_insert(0) += 1;
+        }
+        // The time is the same decision for all that moves.
+        once.remove(&Dimension::TIME.0).expect("something moves");
+        let twice: Vec<u32> = once.iter().filter(|(_, count)| **count > 1).map(|(coordinate, _)| *coordinate).collect();
+        assert!(twice.is_empty(), "coordinates {twice:?} decide about more than one thing");
+        once.into_keys().for_each(|coordinate| *reads.entry(coordinate).or_default() += 1);
+    }
+    let all = [
+        (Dimension::PIXEL, 2),
+        (Dimension::LENS, 2),
+        (Dimension::direction(1), 2),
+        (Dimension::roulette(1), 1),
+        (Dimension::lobe(1), 1),
+        (Dimension::light_choice(1), 1),
+        (Dimension::light(1), 2),
+        (Dimension::cell(1), 2),
+        (Dimension::direction(2), 2),
+        (Dimension::roulette(2), 1),
+        (Dimension::lobe(2), 1),
+    ];
+    for (Dimension(first), count) in all {
+        assert!((first..first + count).all(|coordinate| reads.contains_key(&coordinate)), "nothing reads {first}");
+    }
+}

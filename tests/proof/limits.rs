@@ -1,0 +1,209 @@
+//! The picture at an end of a parameter's range is the limit of the pictures towards that end.
+//!
+//! Both pictures use the same random numbers, so that they differ by what the parameter changes and hardly by noise.
+use noisefall::scene::{Estimator, RenderSettings, Roulette, Scene};
+
+use crate::picture::{LUMINANCE, Picture, picture, scene, settings, sigmas_of_most};
+
+/// A value at an end of the range, and one just inside of it.
+struct End {
+    /// What the scene says, with `@` where the value stands.
+    text: &'static str,
+    at: f64,
+    near: f64,
+}
+
+/// How far blocks may differ by what lies between the two values, relative to the radiance of the scene, which is about 1.
+const NEAR: f64 = 3e-3;
+
+const fn end(text: &'static str, at: f64, near: f64) -> End {
+    End { text, at, near }
+}
+
+const SMALL: f64 = 1e-5;
+const WHOLE: f64 = 1.0 - SMALL;
+
+/// Of every kind of material, with parameters as smooth functions of which the picture depends.
+const MATERIALS: [End; 38] = [
+    end("lambertian.albedo = @", 0.0, SMALL),
+    end("lambertian.albedo = @", 1.0, WHOLE),
+    end("mirror.reflectance = @", 0.0, SMALL),
+    end("mirror.reflectance = @", 1.0, WHOLE),
+    end("conductor.f0 = @", 0.0, SMALL),
+    end("conductor.f0 = @", 1.0, WHOLE),
+    end("conductor = { f0 = @, alpha = 0.3 }", 0.0, SMALL),
+    end("conductor = { f0 = @, alpha = 0.3 }", 1.0, WHOLE),
+    end("conductor = { f0 = @, alpha = 0.3, energy_compensation = false }", 0.0, SMALL),
+    end("conductor.reflectance = @", 0.0, SMALL),
+    end("conductor = { reflectance = @, alpha = 0.3 }", 0.0, SMALL),
+    end("conductor = { reflectance = @, alpha = 0.3 }", 1.0, WHOLE),
+    end("conductor = { eta = @, k = 2.0 }", 0.0, SMALL),
+    end("conductor = { eta = @, k = 2.0, alpha = 0.3 }", 0.0, SMALL),
+    end("conductor = { eta = 1.5, k = @, alpha = 0.3 }", 0.0, SMALL),
+    end("conductor = { eta = 1.5, k = @ }", 0.0, SMALL),
+    end("conductor = { eta = @, k = 2.0, alpha = 0.3 }", 1000.0, 999.9),
+    end("conductor = { eta = 1.5, k = @, alpha = 0.3 }", 1000.0, 999.9),
+    end("conductor = { f0 = 0.5, alpha = @ }", 1.0, WHOLE),
+    end("conductor = { f0 = 0.5, roughness = @ }", 1.0, WHOLE),
+    end("dielectric.ior = @", 0.05, 0.050_000_1),
+    end("dielectric.ior = @", 20.0, 19.9999),
+    end("dielectric.ior = @", 1.0, 1.0 + SMALL),
+    end("dielectric = { ior = 1.5, ior_outside = @ }", 1.5, 1.5 + SMALL),
+    end("dielectric = { ior = 1.5, ior_outside = @ }", 0.05, 0.050_000_1),
+    end("dielectric = { ior = 1.5, ior_outside = @ }", 20.0, 19.9999),
+    end("dielectric = { ior = @, alpha = 0.3 }", 1.0, 1.0 + SMALL),
+    end("dielectric = { ior = 1.5, alpha = @ }", 1.0, WHOLE),
+    end("dielectric = { ior = 1.5, transmittance = @ }", 0.0, 1e-30),
+    end("dielectric = { ior = 1.5, transmittance = @ }", 1.0, WHOLE),
+    end("plastic = { albedo = @, ior = 1.5 }", 0.0, SMALL),
+    end("plastic = { albedo = @, ior = 1.5 }", 1.0, WHOLE),
+    end("plastic = { albedo = @, ior = 1.5, alpha = 0.3 }", 0.0, SMALL),
+    end("plastic = { albedo = @, ior = 1.5, alpha = 0.3 }", 1.0, WHOLE),
+    end("plastic = { albedo = 0.0, ior = @ }", 1.0, 1.0 + SMALL),
+    end("plastic = { albedo = 0.5, ior = @, alpha = 0.3 }", 1.0, 1.0 + SMALL),
+    end("plastic = { albedo = 0.5, ior = @ }", 20.0, 19.9999),
+    end("plastic = { albedo = 0.5, ior = 1.5, alpha = @ }", 1.0, WHOLE),
+];
+
+/// From smooth to hardly rough: other lobes, and so other random numbers.
+const SMOOTHNESS: [End; 4] = [
+    end("conductor = { f0 = 0.5, alpha = @ }", 0.0, 0.00101),
+    end("conductor = { f0 = 0.0, roughness = @ }", 0.0, 0.032),
+    end("dielectric = { ior = 1.5, alpha = @ }", 0.0, 0.00101),
+    end("plastic = { albedo = 0.0, ior = 1.5, alpha = @ }", 0.0, 0.00101),
+];
+
+/// Whatever else a scene says, in place of what [`room`] says.
+const REST: [End; 22] = [
+    end("textures.t.checker = { even = @, odd = 0.5, scale = 4.0 }", 0.0, SMALL),
+    end("textures.t.checker = { even = 0.5, odd = @, scale = 4.0 }", 1.0, WHOLE),
+    end("textures.t.noise = { scale = 3.0, octaves = 2, low = @, high = 0.5 }", 0.0, SMALL),
+    end("textures.t.noise = { scale = 3.0, octaves = 2, low = 0.5, high = @ }", 1.0, WHOLE),
+    end("background.radiance = @", 0.0, SMALL),
+    end("background = { image = '$/scenes/assets/sky.exr', scale = @ }", 1e-12, SMALL),
+    end("background = { image = '$/scenes/assets/sky.exr', scale = 0.3, rotate = @ }", 0.0, SMALL),
+    end("background = { image = '$/scenes/assets/sky.exr', scale = 0.3, rotate = @ }", 360.0, SMALL),
+    end("lamp.emission.radiance = @", 1e-12, SMALL),
+    end("lamp.emission = { texture = 't', scale = @ }", 1e-12, SMALL),
+    end("lamp.motion = [{ translate = [@, 0.0, 0.0] }]", 0.0, SMALL),
+    end("lamp.motion = [{ rotate = { axis = [0.3, 1.0, 0.0], degrees = @ } }]", 0.0, 1e-3),
+    end("ball.transform = [{ scale = [1.0, @, 1.0] }]", 1.0, WHOLE),
+    end("ball.transform = [{ rotate = { axis = [0.3, 1.0, 0.0], degrees = @ } }]", 360.0, 1e-3),
+    end("camera.lens = { radius = @, focus = 4.0 }", 0.0, SMALL),
+    end("camera.motion = [{ translate = [@, 0.0, 0.0] }]", 0.0, SMALL),
+    end("camera.filter.tent = { radius = @ }", 0.01, 0.010_01),
+    end("camera.filter.gaussian = { sigma = @ }", 0.01, 0.010_01),
+    end("material.bump = { texture = 't', height = @ }", 0.0, SMALL),
+    end("render.roulette.fixed = @", 1.0, 1.0 - 1e-6),
+    end("render.roulette.throughput = { start = @ }", 1e4, 1e5),
+    end("render.max_bounces = @", 1e5, 1e4),
+];
+
+/// A ball of the material above a textured floor, under a sky and beside a lamp. What `text` says of one of its parts is added to it,
+/// or stands in its place.
+fn room(material: &str, text: &str) -> Scene {
+    let part = |key: &str, otherwise: &str| {
+        text.lines()
+            .find(|line| line.starts_with(&format!("{key}.")))
+            .or(text.starts_with(&format!("{key} ")).then_some(text))
+            .map_or(otherwise.to_owned(), str::to_owned)
+    };
+    let of = |key: &str| text.strip_prefix(&format!("{key}.")).unwrap_or_default();
+    let background = part("background", "background.radiance = 0.5");
+    let texture = part("textures.t", "textures.t.checker = { even = 0.2, odd = 0.7, scale = 3.0 }");
+    let lamp = if of("lamp").starts_with("emission") { "" } else { "emission.radiance = 4.0" };
+    let render = part("render", "");
+    scene(&format!(
+        "{background}
+        {texture}
+        {render}
+        [camera]
+        eye = [0.0, 1.0, 4.0]
+        look_at = [0.0, 0.1, 0.0]
+        fov = 40.0
+        resolution = [24, 24]
+        shutter = [0.0, 1.0]
+        {}
+        [materials.ball]
+        {material}
+        {}
+        [materials.floor]
+        lambertian.albedo.texture = 't'
+        [[objects]]
+        shape.sphere = {{ center = [0.0, 0.0, 0.0], radius = 0.9 }}
+        material = 'ball'
+        {}
+        [[objects]]
+        shape.rectangle = {{ origin = [-4.0, -1.0, 4.0], edge_u = [8.0, 0.0, 0.0], edge_v = [0.0, 0.0, -8.0] }}
+        material = 'floor'
+        [[objects]]
+        shape.sphere = {{ center = [1.5, 1.8, 1.0], radius = 0.5 }}
+        {lamp}
+        {}",
+        of("camera"),
+        of("material"),
+        of("ball"),
+        of("lamp"),
+    ))
+}
+
+fn written(text: &str, value: f64) -> String {
+    let value = if value >= 100.0 && (text.contains("start") || text.contains("bounces")) {
+        format!("{value:.0}")
+    } else {
+        format!("{value:?}")
+    };
+    text.replace('@', &value).replace('$', env!("CARGO_MANIFEST_DIR"))
+}
+
+/// The picture of one seed, by blocks.
+fn rendered(scene: &Scene, estimator: Estimator, from_scene: bool) -> Picture {
+    // Where paths end is left to chance as little as possible: a path more or less would be noise.
+    let own = settings(estimator);
+    let settings = if from_scene {
+        RenderSettings { roulette: scene.settings.roulette, max_bounces: scene.settings.max_bounces, ..own }
+    } else {
+        RenderSettings { roulette: Roulette::Off, max_bounces: Some(8), ..own }
+    };
+    picture(scene, settings, LUMINANCE, 64)
+}
+
+/// The largest difference of blocks of 8 × 8 pixels.
+fn difference(end: &End, room: impl Fn(&str) -> Scene, estimator: Estimator, from_scene: bool) -> f64 {
+    let [at, near] = [end.at, end.near].map(|value| rendered(&room(&written(end.text, value)), estimator, from_scene).blocks(8));
+    let differences = at.iter().zip(&near).map(|(at, near)| (at.mean - near.mean).abs() / (1.0 + near.mean));
+    differences.fold(0.0, |worst, x| if x > worst || x.is_nan() { x } else { worst })
+}
+
+#[test]
+fn materials_at_the_ends_of_their_ranges_are_what_they_approach() {
+    for end in &MATERIALS {
+        for estimator in [Estimator::Path, Estimator::Mis] {
+            let found = difference(end, |material| room(material, ""), estimator, false);
+            assert!(found < NEAR, "{} at {}, {}: {found:.2e}", end.text, end.at, estimator.name());
+        }
+    }
+}
+
+#[test]
+fn the_rest_of_a_scene_is_at_the_ends_of_its_ranges_what_it_approaches() {
+    for end in &REST {
+        let from_scene = end.text.starts_with("render");
+        let found = difference(end, |text| room("plastic = { albedo = 0.4, ior = 1.5 }", text), Estimator::Mis, from_scene);
+        assert!(found < NEAR, "{} at {}: {found:.2e}", end.text, end.at);
+    }
+}
+
+#[test]
+fn smooth_surfaces_are_what_rough_ones_approach() {
+    for end in &SMOOTHNESS {
+        let blocks =
+            [end.at, end.near].map(|value| rendered(&room(&written(end.text, value), ""), Estimator::Mis, false).blocks(8));
+        let [at, near] = &blocks;
+        let allowed = sigmas_of_most(at.len() * SMOOTHNESS.len());
+        for (at, near) in at.iter().zip(near) {
+            let noise = (at.variance_of_mean + near.variance_of_mean).sqrt();
+            assert!((at.mean - near.mean).abs() < allowed * noise + NEAR, "{}: {at:?} and {near:?}", end.text);
+        }
+    }
+}

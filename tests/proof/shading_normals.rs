@@ -1,0 +1,195 @@
+//! Shading normals of bump and normal maps on every shape, against those that follow from where the pixels lie and what their
+//! texture coordinates are.
+//!
+//! The surface shows its own (u, v) as red and green, so that neighbouring pixels say how u and v change over the surface.
+use std::path::PathBuf;
+
+use glam::{DMat2, DVec2, DVec3, Vec3};
+use noisefall::{
+    integrator::{Features, features},
+    math::SimdLevel,
+    render::{Display, Frame, image_file::save},
+    scene::Scene,
+};
+
+use crate::picture::scene;
+
+const SIDE: u32 = 96;
+/// Texels of the pictures.
+const TEXELS: u32 = 64;
+/// Of u and of v on their way across the picture.
+const RISE: DVec2 = DVec2::new(0.5, 0.3);
+/// Metres from black to white.
+const HEIGHT: f64 = 0.4;
+/// What the normal map says everywhere, before it is made unit.
+const TILT: DVec3 = DVec3::new(0.5, 0.25, 0.8);
+
+/// Shapes within 1 m of the origin.
+const SHAPES: [(&str, &str); 10] = [
+    ("sphere", "sphere = { center = [0, 0, 0], radius = 0.9 }"),
+    (
+        "ellipsoid",
+        "sphere = { center = [0, 0, 0], radius = 0.9 } }\ntransform = [{ scale = [0.6, 1.0, 0.8] }, { rotate = { axis = [1, 1, 0], degrees = 30 } }]#",
+    ),
+    ("mirrored sphere", "sphere = { center = [0, 0, 0], radius = 0.9 } }\ntransform = [{ scale = [-1.0, 1.0, 1.0] }]#"),
+    ("cuboid", "cuboid = { min = [-0.6, -0.5, -0.4], max = [0.6, 0.5, 0.4] }"),
+    ("cylinder", "cylinder = { base = [0.1, -0.6, 0], top = [-0.1, 0.6, 0.1], radius = 0.5 }"),
+    ("disk", "disk = { center = [0, 0, 0], normal = [0.2, 0.3, 1.0], radius = 0.9 }"),
+    ("rectangle", "rectangle = { origin = [-0.6, -0.5, 0], edge_u = [1.2, 0, -0.2], edge_v = [0.3, 1.0, 0] }"),
+    ("triangle", "triangle = { a = [-0.8, -0.6, 0], b = [0.8, -0.5, 0.2], c = [0.1, 0.8, -0.1] }"),
+    ("mesh", "mesh = { path = 'MESH' }"),
+    (
+        "stretched mesh",
+        "mesh = { path = 'MESH' } }\ntransform = [{ scale = [1.0, 0.7, -1.0] }, { rotate = { axis = [0, 1, 0], degrees = 170 } }]#",
+    ),
+];
+
+/// Two triangles whose texture coordinates are turned and sheared against their edges.
+const MESH: &str = "v -0.8 -0.7 0\nv 0.8 -0.6 0.1\nv 0.7 0.8 0\nv -0.7 0.6 -0.1\n\
+                    vt 0.2 0.1\nvt 0.9 0.3\nvt 0.7 0.9\nvt 0.1 0.6\nf 1/1 2/2 3/3\nf 1/1 3/3 4/4\n";
+
+/// The files that the scenes name.
+struct Files {
+    folder: tempfile::TempDir,
+}
+
+impl Files {
+    fn new() -> Files {
+        let files = Files { folder: tempfile::tempdir().expect("a folder") };
+        std::fs::write(files.path("mesh.obj"), MESH).expect("it is written");
+        files.picture("uv.exr", |at| [at.x, at.y, 0.0]);
+        files.picture("height.exr", |at| [RISE.dot(at); 3]);
+        let code = TILT.normalize() * 0.5 + 0.5;
+        files.picture("tilt.exr", |_| code.to_array());
+        files
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    /// A picture of a function of (u, v) at the middles of the texels.
+    fn picture(&self, name: &str, colour: impl Fn(DVec2) -> [f64; 3]) {
+        let at = |i: u32| (f64::from(i) + 0.5) / f64::from(TEXELS);
+        let pixel = |i: u32| colour(DVec2::new(at(i % TEXELS), at(i / TEXELS))).map(|c| c as f32);
+        let radiance = (0..TEXELS * TEXELS).map(pixel).collect();
+        let frame = Frame { width: TEXELS, height: TEXELS, full_resolution: [TEXELS; 2], radiance, ..Frame::default() };
+        save(&frame, Display::default(), "{}", &self.path(name)).expect("it is written");
+    }
+
+    /// What parallel rays from (2, 1.5, 3) see of a shape.
+    fn seen(&self, shape: &str, material: &str) -> Features {
+        let path = |name: &str| self.path(name).display().to_string();
+        let shape = shape.replace("MESH", &path("mesh.obj"));
+        let scene: Scene = scene(&format!(
+            "camera = {{ eye = [1.0, 0.7, 3.0], look_at = [0, 0, 0], projection.orthographic.width = 2.0, resolution = [{SIDE}, {SIDE}] }}
+            textures.uv.image = {{ path = '{}', encoding = 'linear' }}
+            textures.height.image = {{ path = '{}', encoding = 'linear' }}
+            [materials.m]
+            lambertian.albedo.texture = 'uv'
+            {}
+            [[objects]]
+            material = 'm'
+            shape = {{ {shape} }}",
+            path("uv.exr"),
+            path("height.exr"),
+            material.replace("TILT", &path("tilt.exr")),
+        ));
+        features(SimdLevel::best(), &scene, &scene.camera, &|| false).expect("nobody interrupts")
+    }
+}
+
+/// A place of the surface, and how it moves with u and v.
+struct Place {
+    pixel: usize,
+    normal: DVec3,
+    /// ∂p/∂u and ∂p/∂v.
+    along: [DVec3; 2],
+    wo: DVec3,
+}
+
+/// The pixels in the middle of a smooth piece of surface, where pictures do not begin or end.
+fn places(seen: &Features) -> Vec<Place> {
+    let wo = DVec3::new(1.0, 0.7, 3.0).normalize();
+    let right = DVec3::Y.cross(wo).normalize();
+    let up = wo.cross(right);
+    let offset = |at: usize| (at as f64 + 0.5) / f64::from(SIDE) * 2.0 - 1.0;
+    let eye = DVec3::new(1.0, 0.7, 3.0);
+    let side = SIDE as usize;
+    let p = |i: usize| eye + right * offset(i % side) - up * offset(i / side) - wo * f64::from(seen.depth[i]);
+    let uv = |i: usize| DVec2::new(seen.albedo[i][0].into(), seen.albedo[i][1].into());
+    let normal = |i: usize| Vec3::from(seen.normal[i]).as_dvec3();
+    let within = |x: DVec2| x.min_element() > 0.05 && x.max_element() < 0.95;
+    let mut all = Vec::new();
+    for y in 1..side - 1 {
+        for x in 1..side - 1 {
+            let i = y * side + x;
+            let [left, right, above, below] = [i - 1, i + 1, i - side, i + side];
+            let is_smooth = |j: usize| seen.object[j] == 0 && within(uv(j)) && normal(i).dot(normal(j)) > 0.99;
+            if ![i, left, right, above, below].into_iter().all(is_smooth) {
+                continue;
+            }
+            let (across, down) = (uv(right) - uv(left), uv(below) - uv(above));
+            // A seam between two pieces of a shape.
+            if across.length().max(down.length()) > 0.2 {
+                continue;
+            }
+            let steps = DMat2::from_cols(across, down);
+            if steps.determinant().abs() < 1e-9 {
+                continue;
+            }
+            let (dx, dy) = (p(right) - p(left), p(below) - p(above));
+            let inverse = steps.inverse();
+            let along = [DVec2::X, DVec2::Y].map(|axis| {
+                let s = inverse * axis;
+                dx * s.x + dy * s.y
+            });
+            all.push(Place { pixel: i, normal: normal(i), along, wo });
+        }
+    }
+    all
+}
+
+/// The exact normals are those that `exact` says, wherever the viewer can see them.
+fn assert_normals(files: &Files, material: &str, exact: impl Fn(&Place) -> DVec3) {
+    for (name, shape) in SHAPES {
+        let (plain, found) = (files.seen(shape, ""), files.seen(shape, material));
+        let mut deviations = Vec::new();
+        for place in places(&plain) {
+            let expected = exact(&place).normalize();
+            if expected.dot(place.wo) < 0.1 || place.normal.dot(place.wo) < 0.3 {
+                continue;
+            }
+            let normal = Vec3::from(found.normal[place.pixel]).as_dvec3();
+            assert!((normal - place.normal).length() > 0.05, "{name}: the texture changes nothing at {}", place.pixel);
+            deviations.push((normal - expected).length());
+        }
+        deviations.sort_by(f64::total_cmp);
+        assert!(deviations.len() > 300, "{name}: only {} pixels are compared", deviations.len());
+        // A few lie next to an edge or a pole, where differences of neighbours are no derivatives.
+        let [typical, most] = [0.5, 0.95].map(|part| deviations[(deviations.len() as f64 * part) as usize]);
+        println!("{name}: {typical:.1e}, {most:.1e} of {}", deviations.len());
+        assert!(typical < 0.01 && most < 0.05, "{name}: {typical:.3} and {most:.3} from the exact normal");
+    }
+}
+
+#[test]
+fn bump_tilts_normals_against_the_slope_of_its_heights() {
+    let files = Files::new();
+    assert_normals(&files, &format!("bump = {{ texture = 'height', height = {HEIGHT} }}"), |place| {
+        let [u, v] = place.along;
+        // The gradient g lies in the surface, and g · ∂p/∂u = ∂h/∂u, g · ∂p/∂v = ∂h/∂v.
+        let metric = DMat2::from_cols(DVec2::new(u.dot(u), u.dot(v)), DVec2::new(u.dot(v), v.dot(v)));
+        let by = metric.inverse() * (RISE * HEIGHT);
+        place.normal - u * by.x - v * by.y
+    });
+}
+
+#[test]
+fn normal_maps_tilt_normals_along_u_and_against_v() {
+    let files = Files::new();
+    assert_normals(&files, "normal_map = 'TILT'", |place| {
+        let [u, v] = place.along.map(DVec3::normalize);
+        u * TILT.x - v * TILT.y + place.normal * TILT.z
+    });
+}
