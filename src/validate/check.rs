@@ -33,6 +33,11 @@ pub fn furnace(albedo: f64) -> Scene {
     ))
 }
 
+/// The largest of values that are not negative; NaN if one is NaN, which must not pass for small.
+pub fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
+    values.into_iter().fold(0.0, |largest, x| if x > largest || x.is_nan() { x } else { largest })
+}
+
 /// A number in (0, 1) for each of eight dimensions of the `i`-th of many.
 pub fn uniform(i: u32, dimension: u32) -> F<One> {
     unit(hash(U(i.wrapping_mul(8).wrapping_add(dimension))))

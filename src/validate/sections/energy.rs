@@ -8,7 +8,7 @@ use crate::{
     scene::Scene,
     validate::{
         Section, Statement, Validation,
-        check::{RED, TABLES, scene, uniform},
+        check::{RED, TABLES, largest, scene, uniform},
         statement::SIGMAS,
     },
 };
@@ -50,7 +50,7 @@ pub fn section(validation: &Validation) -> Section {
             // What tables of lost light may be off by counts as an error.
             let error = whole.variance_of_mean.sqrt().hypot(TABLES / SIGMAS);
             statements.push(Statement::z(format!("{what}: mean over angles"), whole.mean, error, 1.0));
-            let worst = rings.iter().map(|(_, ring)| z(*ring)).fold(0.0, f64::max);
+            let worst = largest(rings.iter().map(|(_, ring)| z(*ring)));
             statements.push(Statement::below(format!("{what}: largest |z| of {} angles", rings.len()), worst, SIGMAS + 0.5));
             if roughnesses.last() == Some(roughness) {
                 curves.push(curve(what, Style::Line, rings.iter().map(|(cos, ring)| (*cos, ring.mean)).collect()));
@@ -126,6 +126,5 @@ fn asymmetry(name: &str, count: u32, bsdf: &impl Bsdf<One>) -> Statement {
         let (there, back) = (f(a, b), f(b, a));
         if there.min(back) > 1e-12 { (there - back).abs() / there.max(back) } else { 0.0 }
     });
-    let worst = worst.fold(0.0, f64::max);
-    Statement::below(format!("{name}: largest relative difference of f when directions are exchanged"), worst, 2e-4)
+    Statement::below(format!("{name}: largest relative difference of f when directions are exchanged"), largest(worst), 2e-4)
 }

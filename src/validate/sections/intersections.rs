@@ -13,7 +13,10 @@ use crate::{
         plot::{Axis, Style, curve, plot},
     },
     sampling::Directions,
-    validate::{Section, Statement, Validation, check::uniform},
+    validate::{
+        Section, Statement, Validation,
+        check::{largest, uniform},
+    },
 };
 
 /// Of cos θ, and of the azimuth.
@@ -32,7 +35,7 @@ pub fn section(validation: &Validation) -> Section {
     }
     let errors = hits(validation);
     for (radius, found) in &errors {
-        let worst = found.iter().copied().fold(0.0, f64::max);
+        let worst = largest(found.iter().copied());
         let what = format!("radius {radius:e} m: largest error of x_M against f64, relative to the longer of ray and radius");
         statements.push(Statement::below(what, worst, 2e-6));
     }

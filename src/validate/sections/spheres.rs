@@ -12,7 +12,10 @@ use crate::{
     report::Figure,
     sampling::Directions,
     scene::{Camera, RenderSettings, Roulette, Scene, parse},
-    validate::{Section, Statement, Validation, check::RED},
+    validate::{
+        Section, Statement, Validation,
+        check::{RED, largest},
+    },
 };
 
 /// Of `outside_lit_outside.toml`.
@@ -34,7 +37,7 @@ pub fn section(validation: &Validation) -> Section {
         scene.camera = Camera { resolution: [SIDE; 2], ..scene.camera };
         let settings = RenderSettings { roulette: Roulette::BY_THROUGHPUT, ..validation.path(Directions::Cosine, 90) };
         let found = picture(&scene, settings, RED, validation.spp(600));
-        let brightest = found.pixels.iter().map(|pixel| pixel.mean).fold(0.0, f64::max);
+        let brightest = largest(found.pixels.iter().map(|pixel| pixel.mean));
         match name {
             "inside_lit_inside" => statements.push(Statement::mean(format!("{title}: the whole picture"), found.whole(), 0.5)),
             "outside_lit_outside" => statements.extend(lit_parts(&scene, &found, title)),

@@ -6,7 +6,7 @@ use super::{
     surfaces::LIMIT,
     trial::ENERGY,
 };
-use crate::validate::{SIGMAS, Section, Statement};
+use crate::validate::{SIGMAS, Section, Statement, check::largest};
 
 /// Of some hundred means one or two may be beyond 4 standard errors by chance.
 const SIGMAS_OF_MANY: f64 = SIGMAS + 0.5;
@@ -121,7 +121,7 @@ fn remark(trials: &[Trial]) -> String {
     let invalid: u64 = trials.iter().map(|trial| trial.outcome.invalid).sum();
     let energy = trials.iter().filter_map(|trial| trial.outcome.energy).reduce(f64::max);
     let energy = energy.map_or(String::new(), |error| format!(" energy exact to {error:.0e};"));
-    let off = trials.iter().map(|trial| trial.outcome.surfaces.worst).fold(0.0, f64::max);
+    let off = largest(trials.iter().map(|trial| trial.outcome.surfaces.worst));
     format!(
         "{} scenes, {} samples, {invalid} invalid;{energy} x_M within {off:.1} εS; slowest {name}, {seconds:.1} s.",
         trials.len(),

@@ -15,6 +15,7 @@ use crate::{
     measure::Mean,
     render::pass::panic_message,
     scene::{CameraRays, RenderSettings, Scene, parse},
+    validate::check::largest,
 };
 
 /// Longer than any scene takes a hundred times over; one that takes longer is given up.
@@ -103,12 +104,12 @@ fn render(scene: &Scene, settings: &RenderSettings, rays: &CameraRays, draft: &D
                 outcome.samples += 1;
                 outcome.invalid += u64::from([r, g, b].iter().any(|x| !x.is_finite() || *x < 0.0));
                 let relative = f64::from(r) / exact;
-                let error = [r, g, b].map(|x| (f64::from(x) / exact - 1.0).abs()).into_iter().fold(0.0, f64::max);
+                let error = largest([r, g, b].map(|x| (f64::from(x) / exact - 1.0).abs()));
                 if error > ENERGY {
                     outcome.off += 1;
                     outcome.first_off.get_or_insert_with(|| format!("--pixel {},{} --sample {sample}", slot % TILE, slot / TILE));
                 }
-                worst = worst.max(error);
+                worst = largest([worst, error]);
                 (sum, square) = (sum + (relative - 1.0), square + (relative - 1.0).powi(2));
             }
             Some(())
