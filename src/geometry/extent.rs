@@ -74,7 +74,7 @@ impl Shape {
     pub fn reach(&self, motion: &Motion) -> f64 {
         let (center, radius) = self.bounding_sphere();
         let reach = center.length() + radius;
-        reach + longest_way(reach, motion)
+        reach + longest_way(reach, motion, 1.0)
     }
 
     /// The shape at [`POSES`] + 1 times, or once if it does not move.
@@ -86,7 +86,7 @@ impl Shape {
     /// No point is ever farther than this from where it is at the nearer one of two poses.
     fn way_between_poses(&self, motion: &Motion) -> f64 {
         let (center, radius) = self.bounding_sphere();
-        longest_way(center.length() + radius, motion) / f64::from(2 * POSES)
+        longest_way(center.length() + radius, motion, 1.0 / f64::from(2 * POSES))
     }
 
     fn extent(&self) -> Extent {
@@ -201,19 +201,20 @@ fn of_box(min: DVec3, max: DVec3, map: &DAffine3) -> Extent {
     Extent::around(map.transform_point3((min + max) / 2.0), reach)
 }
 
-/// The longest way that a point within `reach` of the origin could go if it kept its greatest speed.
-fn longest_way(mut reach: f64, motion: &Motion) -> f64 {
+/// The longest way that a point within `reach` of the origin could go in a part of the time if it kept its greatest speed.
+fn longest_way(mut reach: f64, motion: &Motion, time: f64) -> f64 {
     let size = |matrix: &DMat3| matrix.to_cols_array().iter().map(|x| x * x).sum::<f64>().sqrt();
     let mut way = 0.0;
     for step in &motion.0 {
         // What the step multiplies ways by at most, and the ways that it adds: one that all points go, one by their reach.
         let (factor, of_all, of_reach) = match step {
             Step::Translate(by) => (1.0, by.length(), 0.0),
-            Step::Rotate { turns, .. } => (1.0, 0.0, turns.abs() * TAU),
+            // However often it goes round, it is never farther than on the other side.
+            Step::Rotate { turns, .. } => (1.0, 0.0, (turns.count() * TAU).min(2.0 / time)),
             Step::Scale(factors) => (factors.abs().max_element().max(1.0), 0.0, (*factors - DVec3::ONE).abs().max_element()),
             Step::Matrix(map) => (size(&map.matrix3).max(1.0), map.translation.length(), size(&(map.matrix3 - DMat3::IDENTITY))),
         };
-        way = way * factor + of_all + reach * of_reach;
+        way = way * factor + of_all * time + reach * of_reach * time;
         reach = reach * factor + of_all;
     }
     way

@@ -43,6 +43,7 @@ mod tables;
 #[cfg(test)]
 mod tests;
 mod toward;
+mod turns;
 
 use self::sphere::{sphere_tangents, sphere_uv};
 pub use self::{
@@ -55,6 +56,7 @@ pub use self::{
     sphere_field::sphere_field,
     surface_point::{Coordinates, Place, SurfacePoint},
     toward::Toward,
+    turns::Turns,
 };
 
 /// The primitive id of a ray that meets nothing.

@@ -1,9 +1,10 @@
-//! Transforms, and how they change while the shutter is open.
-use std::f64::consts::TAU;
-
+//! Transforms, and how they change from time 0 to 1.
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 
-use super::pose::{Pose, Rest};
+use super::{
+    pose::{Pose, Rest},
+    turns::Turns,
+};
 use crate::math::{F, Lanes, V};
 
 /// One transform of a list. In motion, a part of it is done at a part of the time: of a way, of an angle, of what a factor
@@ -14,7 +15,7 @@ pub enum Step {
     /// About the unit axis, counter-clockwise seen from its tip; full turns are turned.
     Rotate {
         axis: DVec3,
-        turns: f64,
+        turns: Turns,
     },
     Scale(DVec3),
     Matrix(DAffine3),
@@ -25,7 +26,7 @@ impl Step {
     pub fn at(&self, time: f64) -> DAffine3 {
         match *self {
             Step::Translate(way) => DAffine3::from_translation(way * time),
-            Step::Rotate { axis, turns } => DAffine3::from_quat(DQuat::from_axis_angle(axis, turns * TAU * time)),
+            Step::Rotate { axis, turns } => DAffine3::from_quat(DQuat::from_axis_angle(axis, turns.radians_at(time))),
             Step::Scale(factors) => DAffine3::from_scale(DVec3::ONE + (factors - DVec3::ONE) * time),
             Step::Matrix(map) => DAffine3 {
                 matrix3: DMat3::IDENTITY + (map.matrix3 - DMat3::IDENTITY) * time,
@@ -35,7 +36,7 @@ impl Step {
     }
 }
 
-/// A list of transforms, the first one applied first, that is reached at the end of the shutter's time.
+/// A list of transforms, the first one applied first, that is reached at time 1.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Motion(pub Vec<Step>);
 

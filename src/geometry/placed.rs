@@ -1,4 +1,4 @@
-//! Shapes in a space of their own: meshes and isosurfaces, and whatever moves while the shutter is open.
+//! Shapes in a space of their own: meshes and isosurfaces, and whatever moves.
 use std::sync::Arc;
 
 use fearless_simd::Simd;
@@ -48,7 +48,7 @@ pub(super) struct Meeting<L: Lanes> {
 }
 
 impl Placed {
-    /// `shape` is the whole in the world, when the shutter opens.
+    /// `shape` is the whole in the world, at time 0.
     pub fn new(first: u32, body: Body, still: DAffine3, motion: &Motion, shape: &Shape) -> Placed {
         let is_world = motion.0.is_empty() && still == DAffine3::IDENTITY;
         let (center, radius) = shape.swept_sphere(motion);
@@ -62,7 +62,7 @@ impl Placed {
         live & self.around.near(o, d)
     }
 
-    /// The map into the world when the shutter opens.
+    /// The map into the world at time 0.
     pub fn still(&self) -> &DAffine3 {
         &self.still
     }

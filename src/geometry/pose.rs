@@ -2,9 +2,9 @@
 use glam::{DAffine3, DMat3, DVec3};
 
 use super::Step;
-use crate::math::{F, Lanes, V, round::floor, trig::sin_cos_turns};
+use crate::math::{F, Lanes, V, trig::sin_cos_turns};
 
-/// An affine map and its inverse, rounded: where something is when the shutter opens.
+/// An affine map and its inverse, rounded: where something is at time 0.
 pub(super) struct Rest {
     axes: [[f32; 3]; 3],
     origin: [f32; 3],
@@ -104,8 +104,7 @@ impl<L: Lanes> Partial<L> {
         match step {
             Step::Translate(by) => way = splat(l, *by) * time,
             Step::Rotate { axis, turns } => {
-                let angle = time * *turns as f32;
-                let (sin, cos) = sin_cos_turns(angle - floor(angle).0);
+                let (sin, cos) = sin_cos_turns(turns.at(time));
                 let axis = splat(l, *axis);
                 // O. Rodrigues, 1840: v cos + (k × v) sin + k (k·v)(1 − cos).
                 for e in &mut axes {

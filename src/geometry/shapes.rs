@@ -113,7 +113,7 @@ impl Shapes {
         self.has_elements
     }
 
-    /// Whether some shape moves while the shutter is open.
+    /// Whether some shape moves in the course of time.
     pub fn move_in_time(&self) -> bool {
         self.moves
     }

@@ -35,7 +35,7 @@ pub struct Place<L: Lanes> {
     pub primitive: U<L>,
     /// The triangle of a mesh.
     pub element: U<L>,
-    /// From 0 when the shutter opens to 1 when it closes.
+    /// From 0 to 1, over which motion runs.
     pub time: F<L>,
 }
 

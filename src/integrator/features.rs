@@ -18,7 +18,7 @@ use crate::{
     in_lanes,
     math::{F, Lanes, M, Pick, SimdLevel, V},
     sampling::Filter,
-    scene::{Camera, Legend, RenderSettings, Scene},
+    scene::{Camera, Legend, RenderSettings, Scene, Shutter},
 };
 
 /// A tent without width: all of a pixel's samples lie in its middle.
@@ -49,7 +49,7 @@ pub struct Features {
 /// What a camera would see if it had a pinhole and its shutter closed at once; `None` if it was interrupted. Runs on the threads of
 /// the pool that it is called in. All levels give the same but for the cost.
 pub fn features(level: SimdLevel, scene: &Scene, camera: &Camera, interrupted: &(dyn Fn() -> bool + Sync)) -> Option<Features> {
-    let rays = scene.rays(&Camera { lens: None, shutter: false, filter: MIDDLE, ..*camera });
+    let rays = scene.rays(&Camera { lens: None, shutter: camera.shutter.map(Shutter::at_opening), filter: MIDDLE, ..*camera });
     let settings = RenderSettings::default();
     let [width, height] = camera.resolution;
     let corners = |side: u32| (0..side).step_by(BLOCK as usize);
@@ -145,7 +145,7 @@ fn describe<L: Lanes>(l: L, work: &Work, batch: &Batch, seen: &mut Vec<Option<Se
         }
         // Lanes without a surface look at primitive 0.
         let primitive = hit.pick(primitive, l.u(0));
-        let mut place = Place::of(l, primitive);
+        let mut place = Place { time: work.rays.moment(l), ..Place::of(l, primitive) };
         if scene.shapes.have_elements() {
             place.element = hit.pick(l.load(&batch.element[start..]).bits(), l.u(0));
         }

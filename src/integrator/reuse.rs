@@ -143,7 +143,7 @@ pub(super) fn share<L: Lanes>(l: L, work: &Work, batch: &mut Batch) {
         }
         let mut sums = [V::splat(l, [0.0; 3]); MEMBERS];
         for finder in 0..MEMBERS {
-            let second = Second::read(l, batch, slot(finder));
+            let second = Second::read(l, work, batch, slot(finder));
             if !second.lit.any() {
                 continue;
             }
@@ -176,12 +176,12 @@ impl<L: Lanes> First<L> {
 
 impl<L: Lanes> Second<L> {
     #[inline(always)]
-    fn read(l: L, batch: &Batch, slot: U<L>) -> Self {
+    fn read(l: L, work: &Work, batch: &Batch, slot: U<L>) -> Self {
         let [x, y, z, primitive] = l.rows(&batch.shared.found, slot);
         let [nx, ny, nz, element] = l.rows(&batch.shared.found_normals, slot);
         let [r, g, b, _] = l.rows(&batch.radiance, slot + SLOTS as u32);
         let (n, radiance) = (V { x: nx, y: ny, z: nz }, V { x: r, y: g, z: b });
-        let place = Place { primitive: primitive.bits(), element: element.bits(), time: l.f(0.0) };
+        let place = Place { primitive: primitive.bits(), element: element.bits(), time: work.time(l, slot) };
         let lit = n.max_abs().above(0.0) & radiance.max_component().above(0.0);
         Second { p: V { x, y, z }, n, place, radiance, lit }
     }

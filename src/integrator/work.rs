@@ -152,13 +152,13 @@ impl<'a> Work<'a> {
         !self.scene.surfaces.media.is_empty()
     }
 
-    /// When the samples of slots are taken, from 0 when the shutter opens to 1 when it closes; 0 where nothing moves.
+    /// When the samples of slots are taken, from 0 to 1; 0 where nothing moves.
     #[inline(always)]
     pub(super) fn time<L: Lanes>(&self, l: L, slot: U<L>) -> F<L> {
-        if !self.rays.take_time {
-            return l.f(0.0);
+        if !self.rays.take_time() {
+            return self.rays.moment(l);
         }
-        self.stream(l, slot).one(Dimension::TIME)
+        self.rays.time(l, self.stream(l, slot).one(Dimension::TIME))
     }
 
     /// Whether the choice of a light asks what surfaces reflect it: what that leaves to chance, paths must find.

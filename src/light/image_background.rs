@@ -58,7 +58,7 @@ impl ImageBackground {
         }
         ImageBackground {
             picture: ImageTexture::new(&picture),
-            shift: (0.5 + rotate / 360.0).rem_euclid(1.0) as f32,
+            shift: (0.5 + rotate % 360.0 / 360.0).rem_euclid(1.0) as f32,
             columns,
             rows,
             cells: AliasTable::new(&weights),

@@ -2,6 +2,7 @@
 use glam::DVec3;
 use serde::Serialize;
 
+use super::Shutter;
 use crate::sampling::Filter;
 
 /// Where the picture is taken from. Right-handed world, y usually up.
@@ -17,8 +18,8 @@ pub struct Camera {
     /// Absent: a pinhole.
     pub lens: Option<Lens>,
     pub filter: Filter,
-    /// The shutter stays open while things move, which blurs them; or else all is as when it opens.
-    pub shutter: bool,
+    /// When the picture is taken, which blurs what moves; absent: all is seen as it stands at time 0.
+    pub shutter: Option<Shutter>,
     /// Width and height in pixels.
     pub resolution: [u32; 2],
 }

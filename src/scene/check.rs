@@ -126,6 +126,15 @@ impl Checker<'_> {
         Err(self.0.error(value.span(), message, format!("expected a number from {} to {}", short(least), short(most))))
     }
 
+    /// An angle, of any number of turns.
+    pub fn degrees(&self, what: &str, value: &Spanned<f64>) -> Result<f64, SceneError> {
+        let degrees = *value.as_ref();
+        if degrees.is_finite() {
+            return Ok(degrees);
+        }
+        Err(self.0.error(value.span(), format!("`{what}` is not a finite number: {degrees}"), "expected degrees"))
+    }
+
     /// A path relative to the scene file.
     pub fn path(&self, value: &Spanned<String>) -> PathBuf {
         let folder = Path::new(&self.0.name).parent();

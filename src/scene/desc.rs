@@ -52,7 +52,7 @@ pub struct CameraDesc {
     pub lens: Option<Spanned<LensDesc>>,
     pub filter: Option<Spanned<super::filter::FilterDesc>>,
     pub shutter: Option<Spanned<Exactly<f64, 2>>>,
-    /// What carries the camera while the shutter is open.
+    /// What carries the camera from time 0 to 1.
     #[serde(default)]
     pub motion: Vec<Spanned<TransformDesc>>,
 }

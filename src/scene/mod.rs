@@ -14,6 +14,7 @@ mod named;
 mod rays;
 mod roulette;
 mod settings;
+mod shutter;
 pub mod surface;
 mod textures;
 mod wording;
@@ -36,6 +37,7 @@ pub use self::{
     load::{BUILT_IN, built_in, load, parse},
     rays::CameraRays,
     settings::{Estimator, RenderSettings, Reuse, Roulette},
+    shutter::{Moments, Shutter},
     wording::nearest,
 };
 use crate::{
@@ -71,7 +73,7 @@ pub struct Scene {
     pub size: f64,
     /// What the scene opens with.
     pub camera: Camera,
-    /// What carries the camera while the shutter is open.
+    /// What carries the camera from time 0 to 1.
     pub camera_motion: Motion,
     pub settings: RenderSettings,
     /// By estimator: whether sharing paths between pixels pays, once it has been tried.
@@ -120,7 +122,7 @@ impl Scene {
     pub fn can_share(&self, rays: &CameraRays, settings: &RenderSettings) -> bool {
         settings.directions != Directions::Uniform
             && settings.max_bounces.is_none_or(|cap| cap > 1)
-            && !rays.take_time
+            && !rays.take_time()
             && self.surfaces.media.is_empty()
             && self.surfaces.stages.contains(&surface::Stage::Plain)
     }
@@ -130,17 +132,17 @@ impl Scene {
         self.lights.heed_lobes() && self.surfaces.stages.contains(&surface::Stage::Conductor)
     }
 
-    /// Whether something moves while the shutter is open.
+    /// Whether something moves in the course of time.
     pub fn moves(&self) -> bool {
         self.shapes.move_in_time() || !self.camera_motion.0.is_empty()
     }
 
-    /// The media around a point, as paths carry them: see [`surface::Surfaces::media`].
-    fn media_at(&self, p: DVec3) -> u32 {
+    /// The media around a point at a time, as paths carry them: see [`surface::Surfaces::media`].
+    fn media_at(&self, p: DVec3, time: f64) -> u32 {
         if self.surfaces.media.is_empty() {
             return 0;
         }
-        let mut around: Vec<_> = self.media_around(p).collect();
+        let mut around: Vec<_> = self.media_around(p, time).collect();
         // The outermost first: a medium that fills all but a sphere lies around every one within a sphere.
         let reach = |object: &Object| if object.flip { f64::INFINITY } else { object.shape.bounding_sphere().1 };
         around.sort_by(|a, b| reach(b.1).total_cmp(&reach(a.1)));
@@ -157,7 +159,7 @@ impl Scene {
         if self.lights.is_empty() {
             warnings.push("nothing in this scene emits light: the picture will be black".to_owned());
         }
-        if self.moves() && !self.camera.shutter {
+        if self.moves() && self.camera.shutter.is_none() {
             warnings.push("something moves, but without `shutter` in [camera] it is seen standing still".to_owned());
         }
         if self.shapes.dropped_triangles() > 0 {
@@ -182,15 +184,17 @@ impl Scene {
         let dielectrics = self.objects.iter().filter(|object| object.is_dielectric());
         let step = dielectrics.clone().count().div_ceil(MOST_LOOKED_AT).max(1);
         let middles = dielectrics.step_by(step).map(|object| object.shape.bounding_sphere().0);
-        middles.map(|middle| self.media_around(middle).count()).max().unwrap_or(0)
+        middles.map(|middle| self.media_around(middle, 0.0).count()).max().unwrap_or(0)
     }
 
-    /// The dielectrics whose inside holds a point, with their numbers.
-    fn media_around(&self, p: DVec3) -> impl Iterator<Item = (usize, &Object)> {
-        self.objects
-            .iter()
-            .enumerate()
-            .filter(move |(_, object)| object.is_dielectric() && object.shape.contains(p) != object.flip)
+    /// The dielectrics whose inside holds a point at a time, with their numbers.
+    fn media_around(&self, p: DVec3, time: f64) -> impl Iterator<Item = (usize, &Object)> {
+        let holds = move |object: &Object| {
+            // Where the point is in the pose at time 0.
+            let p = object.motion.at(time).inverse().transform_point3(p);
+            object.shape.contains(p) != object.flip
+        };
+        self.objects.iter().enumerate().filter(move |(_, object)| object.is_dielectric() && holds(object))
     }
 }
 

@@ -1,5 +1,5 @@
 //! The rays of a camera, in lanes.
-use super::{Camera, Scene};
+use super::{Camera, Moments, Scene, Shutter};
 use crate::{
     geometry::Motion,
     math::{F, Lanes, V},
@@ -23,8 +23,8 @@ pub struct CameraRays {
     pub filter: Filter,
     /// The media around the eye: see [`crate::scene::surface::Surfaces::media`].
     pub media: u32,
-    /// Samples are taken at different times.
-    pub take_time: bool,
+    /// When samples are taken.
+    moments: Moments,
     motion: Motion,
 }
 
@@ -59,7 +59,7 @@ impl Camera {
             }),
             filter: self.filter,
             media: 0,
-            take_time: false,
+            moments: Moments::default(),
             motion: Motion::default(),
         }
     }
@@ -68,12 +68,13 @@ impl Camera {
 impl Scene {
     /// The rays of a camera in this scene.
     pub fn rays(&self, camera: &Camera) -> CameraRays {
-        CameraRays {
-            media: self.media_at(camera.eye),
-            take_time: camera.shutter && self.moves(),
-            motion: if camera.shutter { self.camera_motion.clone() } else { Motion::default() },
-            ..camera.rays()
-        }
+        let shutter = camera.shutter.filter(|_| self.moves());
+        let moments = shutter.map(Shutter::moments).unwrap_or_default();
+        // What does not move is not even rounded.
+        let motion = if moments == Moments::default() { Motion::default() } else { self.camera_motion.clone() };
+        let opening = f64::from(moments.start).clamp(0.0, 1.0);
+        let eye = motion.at(opening).transform_point3(camera.eye);
+        CameraRays { media: self.media_at(eye, opening), moments, motion, ..camera.rays() }
     }
 }
 
@@ -87,7 +88,25 @@ impl CameraRays {
         !self.motion.0.is_empty()
     }
 
-    /// A ray of the camera as it stands when the shutter opens, carried to `time`.
+    /// Whether samples are taken at different times.
+    #[inline(always)]
+    pub fn take_time(&self) -> bool {
+        self.moments.length > 0.0
+    }
+
+    /// The time of samples that all show the same pose.
+    #[inline(always)]
+    pub fn moment<L: Lanes>(&self, l: L) -> F<L> {
+        l.f(self.moments.start)
+    }
+
+    /// The time from 0 to 1 of samples at the part `u` of the time that the shutter is open.
+    #[inline(always)]
+    pub fn time<L: Lanes>(&self, l: L, u: F<L>) -> F<L> {
+        (u * self.moments.length + self.moments.start).max(l.f(0.0)).min(l.f(1.0))
+    }
+
+    /// A ray of the camera as it stands at time 0, carried to `time`.
     #[inline(always)]
     pub fn carried<L: Lanes>(&self, l: L, (o, d): (V<L>, V<L>), time: F<L>) -> (V<L>, V<L>) {
         self.motion.carry(l, o, d, time)

@@ -6,7 +6,7 @@ use rand::{Rng, SeedableRng, rngs::SmallRng};
 
 use super::{cases, exact, shapes, unit_vector, v};
 use crate::{
-    geometry::{Expression, Isosurface, MISS, Motion, Nearest, Outline, Shape, Shapes, Step, mesh::generate, sphere_field},
+    geometry::{Expression, Isosurface, MISS, Motion, Nearest, Outline, Shape, Shapes, Step, Turns, mesh::generate, sphere_field},
     math::{F, M, One, U, V},
 };
 
@@ -24,7 +24,7 @@ fn crowd(rng: &mut SmallRng) -> Vec<(Shape, Motion)> {
         let map = DAffine3::from_translation(at) * turn * DAffine3::from_scale(DVec3::splat(rng.random_range(0.1..0.6)));
         let steps = [
             Step::Translate(unit_vector(rng)),
-            Step::Rotate { axis: unit_vector(rng), turns: rng.random_range(-0.3..0.3) },
+            Step::Rotate { axis: unit_vector(rng), turns: Turns::from_degrees(rng.random_range(-108.0..108.0)) },
             Step::Scale(DVec3::new(1.3, 0.8, 1.1)),
             Step::Matrix(DAffine3::from_translation(unit_vector(rng) * 0.1)),
         ];

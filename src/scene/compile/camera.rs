@@ -5,7 +5,7 @@ use toml::Spanned;
 use crate::{
     sampling::Filter,
     scene::{
-        Camera, CameraError, Lens,
+        Camera, CameraError, Lens, Shutter,
         check::Checker,
         desc::{CameraDesc, Exactly, ProjectionDesc},
         diagnostic::SceneError,
@@ -37,7 +37,7 @@ pub fn camera(check: &Checker, desc: &Spanned<CameraDesc>) -> Result<Camera, Sce
         orthographic,
         lens: c.lens.as_ref().map(|lens| Lens { radius: lens.as_ref().radius, focus: lens.as_ref().focus }),
         filter: c.filter.as_ref().map_or(Filter::Box, |filter| filter.as_ref().0),
-        shutter: c.shutter.as_ref().map(|shutter| opens(check, shutter)).transpose()?.unwrap_or(false),
+        shutter: c.shutter.as_ref().map(|times| shutter(check, times)).transpose()?,
         resolution: c.resolution.as_ref().0,
     };
     camera.check().map_err(|error| check.0.error(place(desc, error), error.to_string(), label(error)))?;
@@ -45,14 +45,14 @@ pub fn camera(check: &Checker, desc: &Spanned<CameraDesc>) -> Result<Camera, Sce
     Ok(Camera { lens: camera.lens.filter(|lens| lens.radius > 0.0), ..camera })
 }
 
-/// Whether the shutter is open for some time.
-fn opens(check: &Checker, shutter: &Spanned<Exactly<f64, 2>>) -> Result<bool, SceneError> {
-    let [open, close] = shutter.as_ref().0;
-    if open.is_finite() && close.is_finite() && open <= close {
-        return Ok(open < close);
+fn shutter(check: &Checker, times: &Spanned<Exactly<f64, 2>>) -> Result<Shutter, SceneError> {
+    let [open, close] = times.as_ref().0;
+    if -Shutter::FARTHEST <= open && open <= close && close <= Shutter::FARTHEST {
+        return Ok(Shutter { open, close });
     }
-    let message = format!("the shutter opens at {open} and closes at {close}");
-    Err(check.0.error(shutter.span(), message, "expected two times, the earlier one first"))
+    let message = format!("`shutter` is out of range: it opens at {open} and closes at {close}");
+    let label = format!("expected two times from {0:e} to {1:e}, the earlier one first", -Shutter::FARTHEST, Shutter::FARTHEST);
+    Err(check.0.error(times.span(), message, label))
 }
 
 /// What stands at the key that an error is about.

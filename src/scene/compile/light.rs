@@ -31,11 +31,11 @@ pub fn background(check: &Checker, desc: &Spanned<BackgroundDesc>) -> Result<Opt
             Ok((radiance != [0.0; 3]).then_some(Background::Constant(radiance)))
         }
         (None, Some(image)) => {
-            let rotate = b.rotate.as_ref().map_or(Ok(0.0), |rotate| check.within("rotate", rotate, -3600.0, 3600.0))?;
+            let rotate = b.rotate.as_ref().map_or(Ok(0.0), |rotate| check.degrees("rotate", rotate))?;
             let scale = b.scale.as_ref().map_or(Ok(1.0), |scale| check.within("scale", scale, 1e-12, MOST_SCALE))?;
             let picture = read_light(&check.path(image), Encoding::Srgb)
                 .map_err(|error| check.0.error(image.span(), error.to_string(), "this picture cannot be used"))?;
-            let background = ImageBackground::new(picture, f64::from(rotate), scale);
+            let background = ImageBackground::new(picture, rotate, scale);
             if background.mean_luminance() == 0.0 {
                 return Err(check.0.error(image.span(), "a background of zero power: the picture is black", "it emits nothing"));
             }

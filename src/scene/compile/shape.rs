@@ -6,7 +6,7 @@ use toml::Spanned;
 
 use super::mesh::Meshes;
 use crate::{
-    geometry::{Expression, Isosurface, Motion, Outline, Shape, Step, sphere_field},
+    geometry::{Expression, Isosurface, Motion, Outline, Shape, Step, Turns, sphere_field},
     scene::{
         check::Checker,
         desc::{
@@ -118,7 +118,7 @@ pub fn transform(check: &Checker, list: &[Spanned<TransformDesc>]) -> Result<DAf
     list.iter().try_fold(DAffine3::IDENTITY, |before, entry| Ok(single(check, entry)?.at(1.0) * before))
 }
 
-/// A list of transforms that are reached at the end of the shutter's time.
+/// A list of transforms that are reached at time 1.
 pub fn motion(check: &Checker, list: &[Spanned<TransformDesc>]) -> Result<Motion, SceneError> {
     let motion = Motion(list.iter().map(|entry| single(check, entry)).collect::<Result<_, _>>()?);
     match list.last() {
@@ -135,7 +135,7 @@ fn single(check: &Checker, entry: &Spanned<TransformDesc>) -> Result<Step, Scene
         TransformDesc::Translate(by) => Step::Translate(DVec3::from_array(by.0)),
         TransformDesc::Scale(factors) => Step::Scale(DVec3::from_array(factors.0)),
         TransformDesc::Rotate(rotate) => match DVec3::from_array(rotate.axis.0).try_normalize() {
-            Some(axis) => Step::Rotate { axis, turns: rotate.degrees / 360.0 },
+            Some(axis) => Step::Rotate { axis, turns: Turns::from_degrees(rotate.degrees) },
             None => return error("the axis of rotation has no direction", "it must not be zero"),
         },
         TransformDesc::Matrix(rows) => {

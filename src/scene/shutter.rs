@@ -1,0 +1,65 @@
+//! When a picture is taken, in the time of motion.
+use serde::Serialize;
+
+/// When the shutter is open. Motion runs over the times 0 to 1; before and after them things stay as they are at its ends.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Shutter {
+    pub open: f64,
+    pub close: f64,
+}
+
+impl Shutter {
+    /// Times beyond these are refused: samples of them all would show the ends of the motion.
+    pub const FARTHEST: f64 = 1e6;
+
+    /// A shutter that takes the picture in the moment in which this one opens.
+    pub fn at_opening(self) -> Shutter {
+        Shutter { close: self.open, ..self }
+    }
+
+    /// The moments that its samples are spread over.
+    pub(super) fn moments(self) -> Moments {
+        let [first, last] = [self.open, self.close].map(|time| time.clamp(0.0, 1.0));
+        if first == last {
+            return Moments { start: first as f32, length: 0.0 };
+        }
+        Moments { start: self.open as f32, length: (self.close - self.open) as f32 }
+    }
+}
+
+/// Times from `start` on, evenly over `length`; poses before 0 are the pose at 0, and after 1 that at 1.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Moments {
+    pub start: f32,
+    /// 0 where all samples show the same pose.
+    pub length: f32,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn samples_are_spread_over_the_time_that_the_shutter_is_open() {
+        let moments = |open, close| {
+            let Moments { start, length } = Shutter { open, close }.moments();
+            (start, length)
+        };
+        assert_eq!(moments(0.0, 1.0), (0.0, 1.0));
+        assert_eq!(moments(0.25, 0.75), (0.25, 0.5));
+        assert_eq!(moments(-1.0, 0.5), (-1.0, 1.5), "two thirds of the samples show the beginning");
+        assert_eq!(moments(0.5, 3.0), (0.5, 2.5));
+    }
+
+    #[test]
+    fn one_pose_needs_no_times() {
+        let moments = |open, close| {
+            let Moments { start, length } = Shutter { open, close }.moments();
+            (start, length)
+        };
+        assert_eq!(moments(0.5, 0.5), (0.5, 0.0));
+        assert_eq!(moments(-2.0, 0.0), (0.0, 0.0));
+        assert_eq!(moments(1.0, 2.0), (1.0, 0.0));
+        assert_eq!(Shutter { open: 0.25, close: 0.75 }.at_opening().moments(), Moments { start: 0.25, length: 0.0 });
+    }
+}
