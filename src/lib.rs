@@ -11,6 +11,7 @@ pub mod material;
 pub mod math;
 pub mod measure;
 pub mod model;
+pub mod quote;
 pub mod render;
 pub mod report;
 pub mod sampling;

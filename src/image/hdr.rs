@@ -37,7 +37,7 @@ fn exposure(file: &mut impl BufRead) -> Result<f64, Flaw> {
         if let Some(format) = line.strip_prefix("FORMAT=")
             && format.trim() != "32-bit_rle_rgbe"
         {
-            return Err(Flaw::broken(format!("its pixels are {format}, not 32-bit_rle_rgbe")));
+            return Err(Flaw::broken(format!("its pixels are `{format}`, not 32-bit_rle_rgbe")));
         }
         if let Some(factor) = line.strip_prefix("EXPOSURE=") {
             let factor = factor.trim().parse().ok().filter(|factor| f64::is_normal(*factor) && *factor > 0.0);

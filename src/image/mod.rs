@@ -19,7 +19,7 @@ use std::{
 
 use serde::Deserialize;
 
-use crate::file::open_regular;
+use crate::{file::open_regular, quote};
 
 /// Longer sides are refused.
 pub const LONGEST_SIDE: u64 = 16_384;
@@ -49,7 +49,7 @@ pub enum Encoding {
 
 /// Why a file gave no picture.
 #[derive(Debug, thiserror::Error)]
-#[error("{}: {flaw}", path.display())]
+#[error("{}: {flaw}", quote::path(path))]
 pub struct PictureError {
     pub path: PathBuf,
     pub flaw: Flaw,
@@ -75,7 +75,7 @@ pub enum Flaw {
 impl Flaw {
     /// A file that breaks the rules of its own format.
     fn broken(reason: impl fmt::Display) -> Flaw {
-        Flaw::Unreadable(reason.to_string())
+        Flaw::Unreadable(quote::message(&reason.to_string()))
     }
 }
 

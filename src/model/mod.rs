@@ -7,6 +7,7 @@
 //!
 //! Files are not trusted: a number that a file claims makes no room unless the bytes for it are there.
 mod normals;
+mod number;
 mod obj;
 mod ply;
 #[cfg(test)]
@@ -20,7 +21,7 @@ use std::{
 
 pub use normals::smooth_normals;
 
-use crate::file::open_regular;
+use crate::{file::open_regular, quote};
 
 /// Longer files are refused: 2 GiB. It also keeps every count of vertices and triangles within 32 bits.
 pub const LARGEST_FILE: u64 = 1 << 31;
@@ -39,7 +40,7 @@ pub struct Model {
 
 /// Why a file gave no model.
 #[derive(Debug, thiserror::Error)]
-#[error("{}: {flaw}", path.display())]
+#[error("{}: {flaw}", quote::path(path))]
 pub struct ModelError {
     pub path: PathBuf,
     pub flaw: Flaw,
@@ -117,11 +118,4 @@ fn decode(bytes: &[u8], is_obj: bool) -> Result<Model, Flaw> {
         normals::complete(normals, &model.vertices, &model.triangles);
     }
     Ok(model)
-}
-
-/// A piece of a file for a message: what is long is cut, what is not printable is escaped.
-fn quoted(piece: &[u8]) -> String {
-    const LONGEST: usize = 40;
-    let text = String::from_utf8_lossy(&piece[..piece.len().min(LONGEST)]);
-    format!("`{}{}`", text.escape_debug(), if piece.len() > LONGEST { "…" } else { "" })
 }

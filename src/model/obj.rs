@@ -2,13 +2,16 @@
 //!
 //! Wavefront Technologies, "Appendix B1. Object Files (.obj)", Advanced Visualizer manual, 1995. A corner of a face names a place,
 //! a texture coordinate and a normal apart; each combination that is used becomes a vertex.
-use super::{Flaw, Model, Place, quoted};
+use std::borrow::Cow;
+
+use super::{Flaw, Model, Place, number};
+use crate::quote;
 
 /// Stands for the texture coordinate or the normal that a corner does not have.
 const NONE: u32 = u32::MAX;
 
 pub(super) fn decode(bytes: &[u8]) -> Result<Model, Flaw> {
-    let text = text(bytes)?;
+    let text = &text(bytes)?;
     let lists = Lists::read(text)?;
     let mut faces = Faces::new(&lists);
     let mut before = Counts::default();
@@ -25,23 +28,26 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Model, Flaw> {
     Ok(faces.into_model())
 }
 
-fn text(bytes: &[u8]) -> Result<&str, Flaw> {
-    let text = std::str::from_utf8(bytes).map_err(|error| {
-        let lines = bytes[..error.valid_up_to()].iter().filter(|byte| **byte == b'\n').count();
-        Place::Line(lines + 1).broken("this is not text in UTF-8")
-    })?;
-    Ok(text.strip_prefix('\u{feff}').unwrap_or(text))
+/// Comments and names may be in any encoding that has the characters of ASCII: what is not UTF-8 of them is lost.
+fn text(bytes: &[u8]) -> Result<Cow<'_, str>, Flaw> {
+    if let Some(at) = bytes.iter().position(|byte| *byte == 0) {
+        let lines = bytes[..at].iter().filter(|byte| **byte == b'\n').count();
+        return Err(Place::Line(lines + 1).broken("this is not text, or none whose characters are those of ASCII"));
+    }
+    Ok(String::from_utf8_lossy(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)))
 }
 
 /// The lines with their numbers. One that ends in a backslash goes on in the next.
 struct Lines<'a> {
     rest: &'a str,
     number: usize,
+    /// Of a line. Some old files have carriage returns alone.
+    end: char,
 }
 
 impl<'a> Lines<'a> {
     fn new(text: &'a str) -> Lines<'a> {
-        Lines { rest: text, number: 1 }
+        Lines { rest: text, number: 1, end: if text.contains('\n') { '\n' } else { '\r' } }
     }
 }
 
@@ -52,7 +58,7 @@ impl<'a> Iterator for Lines<'a> {
         let (text, first) = (self.rest, self.number);
         let mut end = 0;
         while end < text.len() {
-            end = text[end..].find('\n').map_or(text.len(), |length| end + length + 1);
+            end = text[end..].find(self.end).map_or(text.len(), |length| end + length + 1);
             self.number += 1;
             // Comments end in backslashes by chance, after the name of a directory.
             if text.starts_with('#') || !text[..end].trim_end_matches(['\r', '\n']).ends_with('\\') {
@@ -65,7 +71,7 @@ impl<'a> Iterator for Lines<'a> {
 }
 
 /// The words of a line before its comment.
-fn words(line: &str) -> impl Iterator<Item = &str> {
+fn words(line: &str) -> impl Iterator<Item = &str> + Clone {
     let line = line.split('#').next().unwrap_or_default();
     line.split_ascii_whitespace().map(|word| word.trim_end_matches('\\')).filter(|word| !word.is_empty())
 }
@@ -87,14 +93,27 @@ impl Lists {
         Ok(lists)
     }
 
-    fn add<'a>(&mut self, mut words: impl Iterator<Item = &'a str>) -> Result<(), String> {
+    fn add<'a>(&mut self, mut words: impl Iterator<Item = &'a str> + Clone) -> Result<(), String> {
         match words.next() {
-            Some("v") => self.places.push(numbers(words, 3)?),
-            Some("vt") => self.uvs.push(numbers(words, 1)?),
-            Some("vn") => self.normals.push(numbers(words, 3)?),
+            Some("v") => self.places.push(place(words)?),
+            Some("vt") => self.uvs.push(numbers(words, 1).map(finite)?),
+            Some("vn") => self.normals.push(numbers(words, 3).map(finite)?),
             _ => {}
         }
         Ok(())
+    }
+}
+
+/// Normals and texture coordinates that could not be computed, as of a triangle without area, are written as numbers that are none.
+fn finite<const N: usize>(numbers: [f32; N]) -> [f32; N] {
+    if numbers.iter().all(|number| number.is_finite()) { numbers } else { [0.0; N] }
+}
+
+fn place<'a>(words: impl Iterator<Item = &'a str> + Clone) -> Result<[f32; 3], String> {
+    let place: [f32; 3] = numbers(words.clone(), 3)?;
+    match place.iter().zip(words).find(|(number, _)| !number.is_finite()) {
+        Some((_, word)) => Err(format!("{} is not a finite number", quote::bytes(word.as_bytes()))),
+        None => Ok(place),
     }
 }
 
@@ -103,11 +122,7 @@ fn numbers<'a, const N: usize>(words: impl Iterator<Item = &'a str>, needed: usi
     let mut numbers = [0.0; N];
     let mut found = 0;
     for (number, word) in numbers.iter_mut().zip(words) {
-        let value: f32 = word.parse().map_err(|_| format!("{} is not a number", quoted(word.as_bytes())))?;
-        if !value.is_finite() {
-            return Err(format!("{} is not a finite number", quoted(word.as_bytes())));
-        }
-        *number = value;
+        *number = number::real(word).ok_or_else(|| format!("{} is not a number", quote::bytes(word.as_bytes())))?;
         found += 1;
     }
     if found < needed { Err(format!("there are {found} numbers, not {needed}")) } else { Ok(numbers) }
@@ -166,7 +181,7 @@ impl<'a> Faces<'a> {
         let uv = index("texture coordinate", self.lists.uvs.len(), before.uvs)?;
         let normal = index("normal", self.lists.normals.len(), before.normals)?;
         if place == NONE || parts.next().is_some() {
-            return Err(format!("{} is not a corner: `vertex/texture coordinate/normal`", quoted(word.as_bytes())));
+            return Err(format!("{} is not a corner: `vertex/texture coordinate/normal`", quote::bytes(word.as_bytes())));
         }
         Ok(Corner { place, uv, normal })
     }
@@ -213,7 +228,7 @@ fn attribute<const N: usize>(corners: &[Corner], list: &[[f32; N]], index: impl 
 
 /// The position in a list of `count`, which the file counts from 1, or back from what it has `before` this line.
 fn position(index: &str, what: &str, count: usize, before: usize) -> Result<u32, String> {
-    let number: i64 = index.parse().map_err(|_| format!("{} is not a {what}'s number", quoted(index.as_bytes())))?;
+    let number: i64 = index.parse().map_err(|_| format!("{} is not a {what}'s number", quote::bytes(index.as_bytes())))?;
     let position = if number < 0 { before as i64 + number } else { number - 1 };
     if (0..count as i64).contains(&position) {
         return Ok(position as u32);

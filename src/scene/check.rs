@@ -9,7 +9,7 @@ use super::{
     diagnostic::{SceneError, SourceText},
     wording::nearest,
 };
-use crate::geometry::Shape;
+use crate::{geometry::Shape, quote};
 
 /// Coordinates and radii beyond these are refused: squares of them would leave the range of f32.
 const LARGEST: f64 = 1e12;
@@ -17,8 +17,8 @@ const SMALLEST_RADIUS: f64 = 1e-12;
 const BRIGHTEST: f64 = 1e15;
 
 /// A number as one would write it: powers of ten only where there are many zeros.
-fn short(x: f64) -> String {
-    if x == 0.0 || (1e-4..1e6).contains(&x.abs()) { x.to_string() } else { format!("{x:e}") }
+pub fn short(x: f64) -> String {
+    if x == 0.0 || !x.is_finite() || (1e-4..1e6).contains(&x.abs()) { x.to_string() } else { format!("{x:e}") }
 }
 
 /// What the channels of a colour may be: from 0 to `most`.
@@ -77,8 +77,8 @@ impl Checker<'_> {
         }
         let message = match radius {
             r if r.is_nan() => "the radius is not a number".to_owned(),
-            r if r < 0.0 => format!("the radius is negative: {r}"),
-            r => format!("the radius is out of range: {r}"),
+            r if r < 0.0 => format!("the radius is negative: {}", short(r)),
+            r => format!("the radius is out of range: {}", short(r)),
         };
         let label = format!("expected a number from {} to {}", short(SMALLEST_RADIUS), short(LARGEST));
         let error = self.0.error(value.span(), message, label);
@@ -95,7 +95,8 @@ impl Checker<'_> {
         if center.abs().max_element() <= LARGEST && (SMALLEST_RADIUS..=LARGEST).contains(&radius) {
             return Ok(());
         }
-        let message = format!("after its transforms the {} reaches {radius:e} m around {center}", shape.name());
+        let [x, y, z] = center.to_array().map(short);
+        let message = format!("after its transforms the {} reaches {} m around {x}, {y}, {z}", shape.name(), short(radius));
         Err(self.0.error(desc.span(), message, format!("expected {SMALLEST_RADIUS:e} to {LARGEST:e} m")))
     }
 
@@ -122,7 +123,7 @@ impl Checker<'_> {
         if (least..=most).contains(&number) {
             return Ok(number as f32);
         }
-        let message = format!("`{what}` is out of range: {number}");
+        let message = format!("`{what}` is out of range: {}", short(number));
         Err(self.0.error(value.span(), message, format!("expected a number from {} to {}", short(least), short(most))))
     }
 
@@ -143,10 +144,16 @@ impl Checker<'_> {
 
     /// The error of a name that stands for nothing; `known` are those that do.
     pub fn not_defined<'k>(&self, kind: &str, name: &Spanned<String>, known: impl Iterator<Item = &'k String>) -> SceneError {
+        /// More are not listed.
+        const MOST: usize = 6;
         let known: Vec<_> = known.map(String::as_str).collect();
         let nearest = nearest(name.as_ref(), known.iter().copied());
-        let known = known.into_iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
-        let help = if known.is_empty() { format!("the scene defines no {kind}s") } else { format!("the scene defines {known}") };
+        let listed = known.iter().take(MOST).map(|name| format!("`{}`", quote::piece(name))).collect::<Vec<_>>().join(", ");
+        let help = match known.len() {
+            0 => format!("the scene defines no {kind}s"),
+            1..=MOST => format!("the scene defines {listed}"),
+            count => format!("the scene defines {listed} and {} more", count - MOST),
+        };
         let label = nearest.map_or_else(|| "not defined".to_owned(), |meant| format!("did you mean `{meant}`?"));
         self.0.error(name.span(), format!("there is no {kind} `{}`", name.as_ref()), label).with_help(help)
     }
@@ -166,7 +173,7 @@ impl Checker<'_> {
             Colour::Rgb(rgb) if rgb.iter().all(|x| (0.0..=range.most).contains(x)) => Ok(rgb.map(|x| x as f32)),
             Colour::Rgb(rgb) => {
                 let wrong = rgb.iter().find(|x| !(0.0..=range.most).contains(*x)).copied().unwrap_or_default();
-                Err(self.0.error(value.span(), format!("`{}` is out of range: {wrong}", range.what), range.expected))
+                Err(self.0.error(value.span(), format!("`{}` is out of range: {}", range.what, short(wrong)), range.expected))
             }
         }
     }

@@ -4,6 +4,7 @@ use std::{fmt, ops::Range, path::Path};
 use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, SourceCode};
 
 use super::excerpt::Excerpt;
+use crate::quote;
 
 /// Why a scene file cannot be used. Displays as one line; [`SceneError::report`] adds the place with a caret.
 #[derive(Debug, Clone)]
@@ -35,16 +36,16 @@ impl SceneError {
     /// An error about a file as a whole.
     pub fn of_file(path: &Path, message: impl Into<String>, help: impl Into<String>) -> SceneError {
         SceneError(Box::new(Details {
-            message: format!("{}: {}", path.display(), message.into()),
+            message: format!("{}: {}", quote::path(path), quote::message(&message.into())),
             label: String::new(),
-            help: Some(help.into()),
+            help: Some(quote::message(&help.into())),
             place: None,
         }))
     }
 
     /// The same error with advice on what to do.
     pub fn with_help(mut self, help: impl Into<String>) -> SceneError {
-        self.0.help = Some(help.into());
+        self.0.help = Some(quote::message(&help.into()));
         self
     }
 
@@ -89,14 +90,14 @@ impl SourceText {
     /// An error at a byte range of the text. `label` stands at the caret.
     pub fn error(&self, span: Range<usize>, message: impl Into<String>, label: impl Into<String>) -> SceneError {
         let end = self.text.len();
-        let start = span.start.min(end);
+        let start = self.text.floor_char_boundary(span.start.min(end));
         let before = &self.text[..start];
         let line = before.matches('\n').count() + 1;
         let column = before.rsplit('\n').next().unwrap_or_default().chars().count() + 1;
-        let excerpt = Excerpt::new(&self.name, &self.text, start..span.end.clamp(start, end));
+        let excerpt = Excerpt::new(&self.name, &self.text, start..self.text.ceil_char_boundary(span.end.clamp(start, end)));
         SceneError(Box::new(Details {
-            message: message.into(),
-            label: label.into(),
+            message: quote::message(&message.into()),
+            label: quote::message(&label.into()),
             help: None,
             place: Some(Place { line_column: (line, column), excerpt }),
         }))

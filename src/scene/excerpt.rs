@@ -1,14 +1,20 @@
 //! The lines of a file around an error. Long ones are cut: a caret far to the right of a window is not seen.
-use std::ops::Range;
+use std::{ops::Range, path::Path};
 
 use miette::{MietteError, MietteSpanContents, NamedSource, SourceCode, SourceSpan, SpanContents};
+
+use crate::quote;
 
 /// Longer lines are cut.
 const LONGEST_LINE: usize = 200;
 /// What is left of a line before an error.
 const BEFORE: usize = 60;
+/// Lines that are kept before and after an error.
+const AROUND: usize = 2;
+/// An error that reaches over more lines is marked in its first one.
+const MOST_LINES: usize = 4;
 
-/// A text with its long lines cut, and a place in it.
+/// The lines around a place in a text, the long ones cut.
 #[derive(Clone, Debug)]
 pub struct Excerpt {
     name: String,
@@ -16,22 +22,33 @@ pub struct Excerpt {
     span: Range<usize>,
     /// The column in characters of the file, less that in bytes of the excerpt.
     shift: isize,
+    /// Lines of the file before the excerpt.
+    lines_before: usize,
 }
 
 impl Excerpt {
     pub fn new(name: &str, text: &str, span: Range<usize>) -> Excerpt {
-        let start = text[..span.start].rfind('\n').map_or(0, |at| at + 1);
+        let (window, span) = around(text, span);
+        let lines_before = text[..window.start].matches('\n').count();
+        let span = span.start - window.start..span.end - window.start;
+        Excerpt { lines_before, ..Excerpt::of_lines(name, &printable(&text[window]), span) }
+    }
+
+    fn of_lines(name: &str, text: &str, span: Range<usize>) -> Excerpt {
+        let name = quote::path(Path::new(name));
+        let start = start_of_line(text, span.start);
         let column = text[start..span.start].chars().count();
         let excerpt = |text: String, line: usize, span: Range<usize>| Excerpt {
-            name: name.to_owned(),
+            name: name.clone(),
             shift: column as isize - (span.start - line) as isize,
-            text: NamedSource::new(name, text),
+            text: NamedSource::new(&name, text),
             span,
+            lines_before: 0,
         };
         if text.lines().all(|line| line.len() <= LONGEST_LINE) {
             return excerpt(text.to_owned(), start, span);
         }
-        let end = text[start..].find('\n').map_or(text.len(), |at| start + at);
+        let end = end_of_line(text, start);
         let line: Vec<char> = text[start..end].chars().collect();
         let from = if line.len() <= LONGEST_LINE { 0 } else { column.saturating_sub(BEFORE) };
         let to = line.len().min(from + LONGEST_LINE);
@@ -60,6 +77,39 @@ impl Excerpt {
     }
 }
 
+/// The lines around a place, and what of the place is marked.
+fn around(text: &str, span: Range<usize>) -> (Range<usize>, Range<usize>) {
+    let line = start_of_line(text, span.start);
+    let many = text.get(span.clone()).is_some_and(|marked| marked.matches('\n').nth(MOST_LINES - 1).is_some());
+    let marked = span.start..if many { end_of_line(text, span.start) } else { span.end };
+    let before = (0..AROUND).fold(line, |start, _| start_of_line(text, start.saturating_sub(1)));
+    let end = end_of_line(text, marked.end);
+    let after = (0..AROUND).fold(end, |end, _| end_of_line(text, text.len().min(end + 1)));
+    (before..after, marked)
+}
+
+fn start_of_line(text: &str, at: usize) -> usize {
+    text[..at].rfind('\n').map_or(0, |at| at + 1)
+}
+
+fn end_of_line(text: &str, at: usize) -> usize {
+    text[at..].find('\n').map_or(text.len(), |length| at + length)
+}
+
+/// The text with what a terminal would obey replaced by characters of as many bytes, so that places stay where they are.
+fn printable(text: &str) -> String {
+    let replaced = |c: char| match c {
+        '\n' | '\t' => c,
+        _ if !quote::acts(c) => c,
+        _ => match c.len_utf8() {
+            1 => ' ',
+            2 => '¿',
+            _ => '\u{fffd}',
+        },
+    };
+    text.chars().map(replaced).collect()
+}
+
 fn shorten(line: &str) -> String {
     match line.char_indices().nth(LONGEST_LINE) {
         Some((at, _)) if line.trim_end().len() > at => {
@@ -81,7 +131,7 @@ impl SourceCode for Excerpt {
             self.name.clone(),
             shown.data(),
             *shown.span(),
-            shown.line(),
+            shown.line() + self.lines_before,
             shown.column().saturating_add_signed(self.shift),
             shown.line_count(),
         )))

@@ -10,6 +10,7 @@ use super::{
 };
 use crate::{
     image::{Encoding, read_light},
+    quote,
     texture::{ImageTexture, Texture, Textures},
 };
 
@@ -131,8 +132,12 @@ impl<'a> Builder<'a> {
         let refused = |message: String, label: &str| Err(self.check.0.error(name.span(), message, label));
         if let Some(start) = self.open.iter().position(|open| open == name.as_ref()) {
             let circle: Vec<String> =
-                self.open[start..].iter().chain([&self.open[start]]).map(|name| format!("`{name}`")).collect();
-            return refused(format!("textures in a circle: {}", circle.join(" uses ")), "this closes the circle");
+                self.open[start..].iter().chain([&self.open[start]]).map(|name| format!("`{}`", quote::piece(name))).collect();
+            let shown = match &circle[..] {
+                [first, second, .., last] if circle.len() > 6 => format!("{first} uses {second} uses … uses {last}"),
+                all => all.join(" uses "),
+            };
+            return refused(format!("textures in a circle: {shown}"), "this closes the circle");
         }
         if self.open.len() >= DEEPEST {
             return refused(format!("textures are nested deeper than {DEEPEST}"), "too deep");

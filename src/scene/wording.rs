@@ -29,8 +29,13 @@ pub fn in_plain_words(source: &SourceText, error: &toml::de::Error) -> SceneErro
 
 /// The candidate that `word` was probably meant to be.
 pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    let most = (word.chars().count() / 3).max(1);
-    let distances = candidates.into_iter().map(|candidate| (strsim::osa_distance(word, candidate), candidate));
+    /// Nobody mistypes longer words, and comparing them takes as long as both are.
+    const LONGEST: usize = 100;
+    let length = word.chars().count();
+    let most = (length / 3).max(1);
+    let comparable = |candidate: &&'a str| length <= LONGEST && candidate.chars().count().abs_diff(length) <= most;
+    let candidates = candidates.into_iter().filter(comparable);
+    let distances = candidates.map(|candidate| (strsim::osa_distance(word, candidate), candidate));
     distances.filter(|(distance, _)| *distance <= most).min().map(|(_, candidate)| candidate)
 }
 

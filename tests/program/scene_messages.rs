@@ -101,3 +101,119 @@ fn a_pipe_is_refused_without_waiting_for_it() {
     let textured = format!("[textures.t]\nimage = {{ path = '{}' }}\n[render]", pipe.display());
     refuses("[render]", &textured, "not a regular file");
 }
+
+/// What is said of `GOOD` with `from` replaced by `to`: few characters, lines of a width that can be read, and none that a terminal
+/// obeys.
+fn short_report(from: &str, to: &str) -> String {
+    let text = GOOD.replacen(from, to, 1);
+    assert_ne!(text, GOOD, "{from} is in the file");
+    let report = error(&text).report();
+    let start: String = to.chars().take(60).collect();
+    assert!(report.chars().count() < 2500, "{start}: {} characters", report.chars().count());
+    assert!(report.lines().all(|line| line.chars().count() < 260), "{start}: {report}");
+    let obeyed = |c: char| c.is_control() && c != '\n' || ('\u{202a}'..='\u{202e}').contains(&c);
+    assert!(!report.contains(obeyed), "{start}: {report:?}");
+    report
+}
+
+#[test]
+fn values_of_megabytes_are_not_repeated() {
+    let long = "m".repeat(1 << 20);
+    let said = |from: &str, to: &str, what: &str| {
+        let report = short_report(from, &to.replace("LONG", &long));
+        assert!(report.contains(what), "{to}: {report}");
+    };
+    said("fov = 40", "fov = \"LONG\"", "`fov`: expected a number");
+    said("fov = 40", "LONG = 40", "unknown key `mmm");
+    said("fov = 40", "\"LONG\" = 40", "unknown key `mmm");
+    said("fov = 40", "fov = 40\n\"LONG\" = 1\n\"LONG\" = 2", "duplicate key");
+    said("fov = 40", "fov = LONG", "");
+    said("fov = 40", &format!("fov = {}", "9".repeat(1 << 20)), "");
+    said("\"stratified\"", "\"LONG\"", "unknown value `mmm");
+    said("{ fixed = 0.75 }", "{ LONG = 0.75 }", "unknown key `mmm");
+    said("{ fixed = 0.75 }", "{ fixed = 0.5, LONG = 1 }", "a second kind of roulette");
+    said("sphere = {", "LONG = {", "unknown kind `mmm");
+    said("material = \"white\"", "material = \"LONG\"", "there is no material `mmm");
+    said("material = \"white\"", "shape.mesh.path = \"LONG\"", "");
+    said("albedo = 0.8", "albedo = { texture = \"LONG\" }", "there is no texture `mmm");
+    said("[render]", "[textures.LONG]\n[render]", "texture `mmm");
+    said("[render]", "[materials.LONG]\n[render]", "material `mmm");
+    said("[render]", "[textures.a]\nimage = { path = \"LONG\" }\n[render]", "mmm: cannot be read");
+    said("[render]", "[background]\nimage = \"LONG.exr\"\n[render]", "cannot be read");
+    said("[render]", "[LONG]\n[render]", "unknown key `mmm");
+    let iso = |expression: &str| {
+        format!("isosurface = {{ expression = \"{expression}\", bounds = {{ min = [0, 0, 0], max = [1, 1, 1] }} }}")
+    };
+    let ball = "sphere = { center = [0.0, 1.0, 0.0], radius = 1.0 }";
+    said(ball, &iso("LONG"), "the expression has 1048576 bytes");
+    said(ball, &iso(&format!("x + {}", "q".repeat(2000))), "");
+    said("name = \"ball\"", "title = \"LONG\"", "unknown key `title`");
+}
+
+#[test]
+fn lists_of_what_there_is_are_cut() {
+    let many = |table: &str, body: &str| -> String {
+        (0..2000).map(|i| format!("[{table}.{}{i}]\n{body}\n", "n".repeat(50))).collect::<String>() + "[render]"
+    };
+    let materials = many("materials", "lambertian = { albedo = 0.5 }");
+    let text = GOOD.replace("material = \"white\"", "material = \"black\"").replacen("[render]", &materials, 1);
+    let report = error(&text).report();
+    assert!(report.contains("and 1995 more") && report.chars().count() < 2500, "{report}");
+    let chain: String = (0..40)
+        .map(|i| format!("[textures.t{i}]\nchecker = {{ even = {{ texture = \"t{}\" }}, odd = 0.5, scale = 2 }}\n", (i + 1) % 40))
+        .collect();
+    let circle = short_report("[render]", &(chain + "[render]"));
+    assert!(circle.contains("textures in a circle: `t0` uses `t1` uses … uses `t0`"), "{circle}");
+}
+
+#[test]
+fn numbers_are_written_with_few_digits() {
+    assert!(short_report("radius = 1.0", "radius = -1e300").contains("the radius is negative: -1e300"));
+    assert!(short_report("albedo = 0.8", "albedo = 1e-300, ior = 3").contains("unknown key"));
+    assert!(short_report("albedo = 0.8", "albedo = 1e300").contains("`albedo` is out of range: 1e300"));
+    assert!(short_report("{ fixed = 0.75 }", "{ fixed = 1e300 }").contains("a survival probability of inf"));
+    assert!(short_report("fov = 40", "fov = 40\nshutter = [0.0, 1e300]").contains("closes at 1e300"));
+    assert!(
+        short_report("material = \"white\"", "material = \"white\"\ntransform = [{ translate = [1e300, 0, 0] }]")
+            .contains("1e300")
+    );
+}
+
+#[test]
+fn nothing_in_a_message_acts_on_a_terminal() {
+    let escape = short_report("fov = 40", "fov = 40 # \u{1b}]0;title\u{7}");
+    assert!(escape.contains("test.toml:"), "{escape}");
+    short_report("[render]", &format!("{}\ntitle = \"\u{1b}[2J\"\n[render]", "# a line\n".repeat(1000)));
+    assert!(
+        short_report("material = \"white\"", "material = \"\\u001b[31mwhite\"")
+            .contains("there is no material `\\u{1b}[31mwhite`")
+    );
+    short_report("material = \"white\"", "material = \"a\u{202e}b\" # \u{9b}31m");
+    short_report("name = \"ball\"", "\"a\\nb\\u0000\" = 1");
+    let scene = parse("test.toml", GOOD.replacen("name = \"ball\"", "name = \"a\\u001b[31m\"", 1)).expect("it is good");
+    assert!(scene.objects.iter().any(|object| object.name == "a\\u{1b}[31m"));
+}
+
+#[test]
+fn of_an_error_over_many_lines_the_first_is_shown_at_its_number() {
+    let before = "# a line\n".repeat(3000);
+    let rows = "[0, 0, 0],\n".repeat(5000);
+    let mesh = format!("mesh = {{ vertices = [{rows}[nan, 0, 0]], triangles = [[0, 1, 2]] }}");
+    let text = GOOD.replacen("[[objects]]", &format!("{before}[[objects]]"), 1);
+    let text = text.replacen("sphere = { center = [0.0, 1.0, 0.0], radius = 1.0 }", &mesh, 1);
+    let error = error(&text);
+    let report = error.report();
+    let line = text[..text.find("mesh =").expect("it is there")].matches('\n').count() + 1;
+    assert_eq!(error.line_column().map(|place| place.0), Some(line));
+    assert!(report.contains("vertex 5000 is not finite") && report.lines().count() < 20, "{report}");
+    assert!(report.contains(&format!("test.toml:{line}:")) && report.contains(&format!(" {line} │ ")), "{report}");
+}
+
+#[test]
+fn a_byte_that_is_no_text_is_pointed_at_wherever_it_is() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("latin1.toml");
+    fs::write(&path, [b"# line\n".repeat(2000), b"title = \"caf\xe9\"".to_vec()].concat()).expect("it is written");
+    let report = load(&path).err().expect("it is no scene").report();
+    assert!(report.contains("latin1.toml:2001:13") && report.contains("2001 │ title"), "{report}");
+}

@@ -23,6 +23,7 @@ mod references;
 mod shading_normals;
 mod shape_lamps;
 mod sharing;
+mod shutter;
 mod space;
 mod statistics;
 mod textured_sphere;

@@ -6,7 +6,9 @@ use rand::{Rng, SeedableRng, rngs::SmallRng};
 
 use super::{cases, exact, shapes, unit_vector, v};
 use crate::{
-    geometry::{Expression, Isosurface, MISS, Motion, Nearest, Outline, Shape, Shapes, Step, Turns, mesh::generate, sphere_field},
+    geometry::{
+        Expression, Isosurface, MISS, Motion, Nearest, Outline, Shape, Shapes, Step, Turns, mesh::generate, sphere_field,
+    },
     math::{F, M, One, U, V},
 };
 

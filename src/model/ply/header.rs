@@ -1,5 +1,6 @@
 //! The header of a PLY file: what follows it, value by value.
-use super::super::{Flaw, Place, quoted};
+use super::super::{Flaw, Place};
+use crate::quote;
 
 /// How values are written.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,7 +24,7 @@ pub enum Kind {
 
 impl Kind {
     fn named(name: &str) -> Option<Kind> {
-        Some(match name {
+        Some(match name.to_ascii_lowercase().as_str() {
             "char" | "int8" => Kind::I8,
             "uchar" | "uint8" => Kind::U8,
             "short" | "int16" => Kind::I16,
@@ -68,46 +69,50 @@ impl Layout {
     }
 }
 
-pub struct Property<'a> {
-    pub name: &'a str,
+pub struct Property {
+    pub name: String,
     pub layout: Layout,
 }
 
-impl Property<'_> {
+impl Property {
     /// Of a face: these are its corners.
     pub fn is_polygon(&self) -> bool {
-        matches!(self.name, "vertex_indices" | "vertex_index")
+        matches!(self.name.as_str(), "vertex_indices" | "vertex_index")
     }
 }
 
-pub struct Element<'a> {
-    pub name: &'a str,
+pub struct Element {
+    pub name: String,
     pub count: u64,
-    pub properties: Vec<Property<'a>>,
+    pub properties: Vec<Property>,
 }
 
-pub struct Header<'a> {
+pub struct Header {
     pub encoding: Encoding,
-    pub elements: Vec<Element<'a>>,
+    pub elements: Vec<Element>,
     /// Where the values begin.
     pub end: usize,
     /// How many there are in the header.
     pub lines: usize,
 }
 
-impl<'a> Header<'a> {
-    pub fn read(bytes: &'a [u8]) -> Result<Header<'a>, Flaw> {
+impl Header {
+    pub fn read(bytes: &[u8]) -> Result<Header, Flaw> {
         let mut header = Header { encoding: Encoding::Text, elements: Vec::new(), end: 0, lines: 0 };
         let mut encoding = None;
-        for line in bytes.split_inclusive(|byte| *byte == b'\n') {
+        let end_of_line = end_of_line(bytes);
+        for line in bytes.split_inclusive(|byte| *byte == end_of_line) {
             header.end += line.len();
             header.lines += 1;
             let place = Place::Line(header.lines);
             let line = line.trim_ascii();
-            // Of the comments, in whatever encoding, no more than the first word is looked at.
-            let words = str::from_utf8(line).unwrap_or_else(|error| str::from_utf8(&line[..error.valid_up_to()]).unwrap_or(""));
+            // Names, in whatever encoding, are only compared, and comments are not even that.
+            let text = String::from_utf8_lossy(line);
             // No line but a comment has more than five.
-            match words.split_ascii_whitespace().take(6).collect::<Vec<_>>()[..] {
+            let mut words: Vec<&str> = text.split_ascii_whitespace().take(6).collect();
+            let keyword = words.first().map(|word| word.to_ascii_lowercase()).unwrap_or_default();
+            words.iter_mut().take(1).for_each(|word| *word = &keyword);
+            match words[..] {
                 ["ply"] if header.lines == 1 => {}
                 ["format", name, "1.0"] => encoding = Some(named_encoding(name).ok_or_else(|| unknown(place, line))?),
                 ["comment" | "obj_info", ..] | [] => {}
@@ -124,38 +129,41 @@ impl<'a> Header<'a> {
         Err(Place::Line(header.lines).broken("the file ends within its header"))
     }
 
-    pub fn element(&self, name: &str) -> Option<&Element<'a>> {
+    pub fn element(&self, name: &str) -> Option<&Element> {
         self.elements.iter().find(|element| element.name == name)
     }
 
-    fn add_element(&mut self, name: &'a str, count: &str) -> Result<(), String> {
-        let count = count.parse().map_err(|_| format!("{} is not a count", quoted(count.as_bytes())))?;
+    fn add_element(&mut self, name: &str, count: &str) -> Result<(), String> {
+        let count = count.parse().map_err(|_| format!("{} is not a count", quote::bytes(count.as_bytes())))?;
         if matches!(name, "vertex" | "face") && self.element(name).is_some() {
             return Err(format!("there is a second element `{name}`"));
         }
-        self.elements.push(Element { name, count, properties: Vec::new() });
+        self.elements.push(Element { name: quote::piece(name), count, properties: Vec::new() });
         Ok(())
     }
 
-    fn add_property(&mut self, words: &[&'a str]) -> Result<(), String> {
+    fn add_property(&mut self, words: &[&str]) -> Result<(), String> {
         let element = self.elements.last_mut().ok_or("a property comes before the first element")?;
-        let kind = |name: &str| Kind::named(name).ok_or_else(|| format!("{} is not a type of values", quoted(name.as_bytes())));
+        let kind =
+            |name: &str| Kind::named(name).ok_or_else(|| format!("{} is not a type of values", quote::bytes(name.as_bytes())));
         let (name, layout) = match *words {
             ["list", count, item, name] => (name, Layout::List(kind(count)?, kind(item)?)),
             [item, name] => (name, Layout::One(kind(item)?)),
             _ => return Err("a property is `property type name` or `property list type type name`".to_owned()),
         };
         if !layout.head().is_whole() && matches!(layout, Layout::List(..)) {
-            return Err(format!("the length of list {} is not of a whole type", quoted(name.as_bytes())));
+            return Err(format!("the length of list {} is not of a whole type", quote::bytes(name.as_bytes())));
         }
-        element.properties.push(Property { name, layout });
+        element.properties.push(Property { name: quote::piece(name), layout });
         Ok(())
     }
 
     /// Vertices have places and faces have corners.
     fn check(&self) -> Result<(), String> {
         if let Some(vertex) = self.element("vertex") {
-            let has = |name: &&str| vertex.properties.iter().any(|p| p.name == *name && matches!(p.layout, Layout::One(_)));
+            let has = |name: &&str| {
+                vertex.properties.iter().any(|p| p.name.eq_ignore_ascii_case(name) && matches!(p.layout, Layout::One(_)))
+            };
             if let Some(name) = ["x", "y", "z"].iter().find(|name| !has(name)) {
                 return Err(format!("element `vertex` has no property `{name}`"));
             }
@@ -174,7 +182,7 @@ impl<'a> Header<'a> {
 }
 
 fn named_encoding(name: &str) -> Option<Encoding> {
-    match name {
+    match name.to_ascii_lowercase().as_str() {
         "ascii" => Some(Encoding::Text),
         "binary_little_endian" => Some(Encoding::Binary { big_endian: false }),
         "binary_big_endian" => Some(Encoding::Binary { big_endian: true }),
@@ -182,6 +190,14 @@ fn named_encoding(name: &str) -> Option<Encoding> {
     }
 }
 
+/// What ends the lines of the header: old files have carriage returns alone.
+fn end_of_line(bytes: &[u8]) -> u8 {
+    match bytes.iter().position(|byte| matches!(byte, b'\r' | b'\n')) {
+        Some(at) if bytes[at] == b'\r' && bytes.get(at + 1) != Some(&b'\n') => b'\r',
+        _ => b'\n',
+    }
+}
+
 fn unknown(place: Place, line: &[u8]) -> Flaw {
-    place.broken(format!("{} is not a line of a PLY 1.0 header", quoted(line)))
+    place.broken(format!("{} is not a line of a PLY 1.0 header", quote::bytes(line)))
 }

@@ -13,8 +13,8 @@ use super::{Flaw, Model};
 
 /// The file says that it is PLY.
 pub(super) fn is_ply(bytes: &[u8]) -> bool {
-    let line = bytes.split(|byte| *byte == b'\n').next();
-    line.is_some_and(|line| line.trim_ascii_end() == b"ply")
+    let line = bytes.split(|byte| matches!(byte, b'\r' | b'\n')).next();
+    line.is_some_and(|line| line.trim_ascii_end().eq_ignore_ascii_case(b"ply"))
 }
 
 pub(super) fn decode(bytes: &[u8]) -> Result<Model, Flaw> {
@@ -31,7 +31,7 @@ fn read(header: &Header, mut values: impl Values) -> Result<Model, Flaw> {
     let vertices = header.element("vertex").map_or(0, |element| element.count);
     for element in &header.elements {
         check_count(element, &values)?;
-        match element.name {
+        match element.name.as_str() {
             "vertex" => read_vertices(element, &mut values, &mut model)?,
             "face" => read_faces(element, vertices, &mut values, &mut model)?,
             _ => skip(element, &mut values)?,
@@ -45,7 +45,7 @@ fn check_count<V: Values>(element: &Element, values: &V) -> Result<(), Flaw> {
     let least = element.properties.iter().map(|property| V::least_bytes(property.layout.head())).sum::<usize>() as u64;
     // A text's last value needs no separator.
     if element.count.saturating_mul(least) > values.left() as u64 + 1 {
-        let (name, count, left) = (element.name, element.count, values.left());
+        let (name, count, left) = (&element.name, element.count, values.left());
         return Err(values.place().broken(format!("the {left} bytes that are left are too few for {count} of element `{name}`")));
     }
     Ok(())
@@ -53,21 +53,22 @@ fn check_count<V: Values>(element: &Element, values: &V) -> Result<(), Flaw> {
 
 /// The place among a vertex's eight numbers of what a property means.
 fn slot(name: &str) -> Option<usize> {
+    let name = name.to_ascii_lowercase();
     let names: [&[&str]; 8] =
         [&["x"], &["y"], &["z"], &["nx"], &["ny"], &["nz"], &["s", "u", "texture_u"], &["t", "v", "texture_v"]];
-    names.iter().position(|names| names.contains(&name))
+    names.iter().position(|names| names.contains(&name.as_str()))
 }
 
 fn read_vertices(element: &Element, values: &mut impl Values, model: &mut Model) -> Result<(), Flaw> {
     let mut is_there = [false; 8];
     // Of properties that mean the same the first counts.
-    let mut wanted = |name| slot(name).filter(|slot| !std::mem::replace(&mut is_there[*slot], true));
-    let slots: Vec<(Layout, Option<usize>)> = element.properties.iter().map(|p| (p.layout, wanted(p.name))).collect();
+    let mut wanted = |name: &str| slot(name).filter(|slot| !std::mem::replace(&mut is_there[*slot], true));
+    let slots: Vec<(Layout, Option<usize>)> = element.properties.iter().map(|p| (p.layout, wanted(&p.name))).collect();
     let mut normals = is_there[3..6].iter().all(|there| *there).then(Vec::new);
     let mut uvs = is_there[6..].iter().all(|there| *there).then(Vec::new);
     let mut vertex = [0.0; 8];
     for index in 0..element.count {
-        read_vertex(&slots, values, &mut vertex).map_err(|flaw| in_element(flaw, element.name, index))?;
+        read_vertex(&slots, values, &mut vertex).map_err(|flaw| in_element(flaw, &element.name, index))?;
         let [x, y, z, nx, ny, nz, u, v] = vertex;
         model.vertices.push([x, y, z]);
         normals.iter_mut().for_each(|normals| normals.push([nx, ny, nz]));
@@ -80,7 +81,15 @@ fn read_vertices(element: &Element, values: &mut impl Values, model: &mut Model)
 fn read_vertex(slots: &[(Layout, Option<usize>)], values: &mut impl Values, vertex: &mut [f32; 8]) -> Result<(), Flaw> {
     for (layout, slot) in slots {
         match (layout, slot) {
-            (Layout::One(kind), Some(slot)) => vertex[*slot] = values.number(*kind)?,
+            (Layout::One(kind), Some(slot)) => {
+                let place = values.place();
+                let number = values.number(*kind)?;
+                // Normals and texture coordinates that could not be computed are written as numbers that are none.
+                if !number.is_finite() && *slot < 3 {
+                    return Err(place.broken(format!("{number} is not a finite number")));
+                }
+                vertex[*slot] = if number.is_finite() { number } else { 0.0 };
+            }
             _ => skip_property(*layout, values)?,
         }
     }
@@ -96,7 +105,7 @@ fn read_faces(element: &Element, vertices: u64, values: &mut impl Values, model:
                 }
                 layout => skip_property(layout, values),
             };
-            read.map_err(|flaw| in_element(flaw, element.name, index))?;
+            read.map_err(|flaw| in_element(flaw, &element.name, index))?;
         }
     }
     Ok(())
@@ -139,7 +148,7 @@ fn skip(element: &Element, values: &mut impl Values) -> Result<(), Flaw> {
     }
     for index in 0..element.count {
         for property in &element.properties {
-            skip_property(property.layout, values).map_err(|flaw| in_element(flaw, element.name, index))?;
+            skip_property(property.layout, values).map_err(|flaw| in_element(flaw, &element.name, index))?;
         }
     }
     Ok(())

@@ -1,8 +1,9 @@
 //! The values of a PLY file one after the other, as text or binary.
 use super::{
-    super::{Flaw, Place, quoted},
+    super::{Flaw, Place, number},
     header::Kind,
 };
+use crate::quote;
 
 pub trait Values {
     /// A value takes no fewer.
@@ -14,7 +15,7 @@ pub trait Values {
     /// Bytes to the end of the file.
     fn left(&self) -> usize;
 
-    /// A finite number.
+    /// A number, which may be infinite or NaN.
     fn number(&mut self, kind: Kind) -> Result<f32, Flaw>;
 
     /// A whole number of a whole kind.
@@ -55,7 +56,7 @@ impl<'a> Text<'a> {
             return Err(self.place().broken(ENDS));
         }
         let value = str::from_utf8(word).ok().and_then(convert);
-        let value = value.ok_or_else(|| self.place().broken(format!("{} is not {what}", quoted(word))))?;
+        let value = value.ok_or_else(|| self.place().broken(format!("{} is not {what}", quote::bytes(word))))?;
         self.rest = rest;
         self.skip_space();
         Ok(value)
@@ -77,11 +78,11 @@ impl Values for Text<'_> {
     }
 
     fn number(&mut self, _: Kind) -> Result<f32, Flaw> {
-        self.word("a finite number", |word| word.parse().ok().filter(|number| f32::is_finite(*number)))
+        self.word("a number", number::real)
     }
 
     fn integer(&mut self, _: Kind) -> Result<i64, Flaw> {
-        self.word("a whole number", |word| word.parse().ok())
+        self.word("a whole number", number::whole)
     }
 
     fn skip(&mut self, _: Kind, count: u64) -> Result<(), Flaw> {
@@ -128,13 +129,11 @@ impl<const BIG_ENDIAN: bool> Values for Binary<'_, BIG_ENDIAN> {
     }
 
     fn number(&mut self, kind: Kind) -> Result<f32, Flaw> {
-        let place = self.place();
-        let number = match kind {
+        Ok(match kind {
             Kind::F32 => f32::from_le_bytes(self.bytes()?),
             Kind::F64 => f64::from_le_bytes(self.bytes()?) as f32,
             kind => self.integer(kind)? as f32,
-        };
-        if number.is_finite() { Ok(number) } else { Err(place.broken(format!("`{number}` is not a finite number"))) }
+        })
     }
 
     fn integer(&mut self, kind: Kind) -> Result<i64, Flaw> {

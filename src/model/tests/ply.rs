@@ -85,6 +85,60 @@ fn comments_may_be_in_any_encoding() {
 }
 
 #[test]
+fn headers_may_be_written_in_any_of_their_ways() {
+    let usual = model(&file("ascii", &mesh(3, 1), b"0 0 0 1 0 0 0 1 0 3 0 1 2\n"));
+    let unusual = "PLY \r\ncomment before the format\r\n  format\tASCII 1.0  \r\nobj_info a\r\n\r\nElement  vertex 3\r\n\
+        property FLOAT32 X\r\nproperty float64 y\r\ncomment in between\r\nproperty\tdouble\tz\r\n\
+        element face 1\r\nproperty list UINT8 int32 vertex_index\r\nobj_info b\r\nEND_HEADER\r\n\
+        0 0 0\r\n1 0 0\r\n0 1 0\r\n3 0 1 2\r\n";
+    assert_eq!(model(unusual.as_bytes()), usual);
+    // A name in Latin-1, of what is skipped; numbers as Fortran and others write them.
+    let named =
+        b"ply\nformat ascii 1.0\nelement caf\xe9 2\nproperty int \xfc\nelement vertex 3\nproperty float x\nproperty float y\n\
+        property list uchar float caf\xe9\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n\
+        7 8\n0 0 2 5 5 0.\n1.d0 0 0 +0\n.0 1.0e+0 1 5 0\n3.0 0 1 2.\n";
+    assert_eq!(model(named), usual);
+}
+
+#[test]
+fn lines_of_the_header_may_end_in_carriage_returns_alone() {
+    let old = |file: Vec<u8>, data: usize| {
+        let (header, data) = file.split_at(file.len() - data);
+        [header.iter().map(|byte| if *byte == b'\n' { b'\r' } else { *byte }).collect(), data.to_vec()].concat()
+    };
+    let text = file("ascii", &mesh(3, 1), b"0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+    assert_eq!(model(&old(text.clone(), 0)), model(&text));
+    // The first byte of the values is that of a line feed: it belongs to them.
+    let list = "element tag 1\nproperty uchar a\n".to_owned() + &mesh(3, 1);
+    let vertices = [0f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0].map(f32::to_le_bytes);
+    let data = [&[b'\n'], vertices.as_flattened(), &[3, 0, 0, 0, 0, 1, 0, 0, 0, 2, 0, 0, 0]].concat();
+    let binary = file("binary_little_endian", &list, &data);
+    assert_eq!(model(&old(binary.clone(), data.len())), model(&binary));
+    assert_eq!(model(&binary), model(&text));
+}
+
+#[test]
+fn normals_and_coordinates_that_are_no_numbers_are_as_if_missing() {
+    let elements = mesh(3, 1).replace(
+        "property float z\n",
+        "property float z\nproperty float nx\nproperty float ny\nproperty float nz\nproperty float u\nproperty float v\n",
+    );
+    let data = b"0 0 0 nan 0 0 0.5 inf\n1 0 0 1 0 0 0 1\n0 1 0 1 0 0 0 1\n3 0 1 2\n";
+    let model = model(&file("ascii", &elements, data));
+    assert_eq!(model.normals, Some(vec![[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [1.0, 0.0, 0.0]]));
+    assert_eq!(model.uvs, Some(vec![[0.5, 0.0], [0.0, 1.0], [0.0, 1.0]]));
+}
+
+#[test]
+fn names_of_megabytes_are_cut() {
+    let long = "n".repeat(1 << 20);
+    let refused = refusal(&file("ascii", &format!("element {long} 5\nproperty int x\n"), b""));
+    assert!(refused.contains("nnn…") && refused.len() < 300, "{} bytes", refused.len());
+    let refused = refusal(&file("ascii", &format!("element vertex 1\nproperty {long} x\n"), b""));
+    assert!(refused.contains("nnn…` is not a type") && refused.len() < 300, "{} bytes", refused.len());
+}
+
+#[test]
 fn broken_headers_are_refused_by_line() {
     let refuses = |lines: &str, reason: &str| assert_eq!(refusal(format!("ply\n{lines}").as_bytes()), reason);
     refuses("", "line 1: the file ends within its header");
@@ -158,9 +212,9 @@ fn values_that_do_not_fit_are_refused_by_place() {
         refusal(&file("ascii", &mesh(3, 1), data.as_bytes()))
     };
     let face = "3 0 1 2";
-    assert_eq!(text("0 nan 0", face), "line 12: vertex 2: `nan` is not a finite number");
-    assert_eq!(text("0 1e99 0", face), "line 12: vertex 2: `1e99` is not a finite number");
-    assert_eq!(text("0 x 0", face), "line 12: vertex 2: `x` is not a finite number");
+    assert_eq!(text("0 nan 0", face), "line 12: vertex 2: NaN is not a finite number");
+    assert_eq!(text("0 1e99 0", face), "line 12: vertex 2: inf is not a finite number");
+    assert_eq!(text("0 x 0", face), "line 12: vertex 2: `x` is not a number");
     assert_eq!(text("0 1 0", "3 0 1 3"), "line 13: face 0: vertex 3 does not exist: there are 3, counted from 0");
     assert_eq!(text("0 1 0", "3 0 1 -1"), "line 13: face 0: vertex -1 does not exist: there are 3, counted from 0");
     assert_eq!(text("0 1 0", "3 0 1 1.5"), "line 13: face 0: `1.5` is not a whole number");
@@ -178,8 +232,8 @@ fn binary_values_that_do_not_fit_are_refused_by_place() {
         let data = [vertices.as_flattened(), &[3], corners.as_flattened()].concat();
         assert_eq!(refusal(&file("binary_big_endian", &mesh(3, 1), &data)), reason);
     };
-    refuses(f32::NAN, 2, "byte 194: vertex 2: `NaN` is not a finite number");
-    refuses(f32::NEG_INFINITY, 2, "byte 194: vertex 2: `-inf` is not a finite number");
+    refuses(f32::NAN, 2, "byte 194: vertex 2: NaN is not a finite number");
+    refuses(f32::NEG_INFINITY, 2, "byte 194: vertex 2: -inf is not a finite number");
     refuses(1.0, 3, "byte 211: face 0: vertex 3 does not exist: there are 3, counted from 0");
     refuses(1.0, -1, "byte 211: face 0: vertex -1 does not exist: there are 3, counted from 0");
 }

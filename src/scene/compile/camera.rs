@@ -6,7 +6,7 @@ use crate::{
     sampling::Filter,
     scene::{
         Camera, CameraError, Lens, Shutter,
-        check::Checker,
+        check::{Checker, short},
         desc::{CameraDesc, Exactly, ProjectionDesc},
         diagnostic::SceneError,
     },
@@ -50,7 +50,7 @@ fn shutter(check: &Checker, times: &Spanned<Exactly<f64, 2>>) -> Result<Shutter,
     if -Shutter::FARTHEST <= open && open <= close && close <= Shutter::FARTHEST {
         return Ok(Shutter { open, close });
     }
-    let message = format!("`shutter` is out of range: it opens at {open} and closes at {close}");
+    let message = format!("`shutter` is out of range: it opens at {} and closes at {}", short(open), short(close));
     let label = format!("expected two times from {0:e} to {1:e}, the earlier one first", -Shutter::FARTHEST, Shutter::FARTHEST);
     Err(check.0.error(times.span(), message, label))
 }

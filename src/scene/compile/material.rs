@@ -5,6 +5,7 @@ use crate::{
     image::Encoding,
     material::{Material, Reflectance},
     math::colour::luminance,
+    quote,
     scene::{
         check::{Checker, ColourRange},
         colour::Colour,
@@ -62,7 +63,7 @@ pub fn coating(
         _ => return Err(check.0.error(desc.span(), format!("material `{name}` says more than one kind"), expected)),
     }
     let mut coating = Coating {
-        name: name.to_owned(),
+        name: quote::piece(name),
         material: Material::Mirror { reflectance: [0.0; 3] },
         colour: WHITE,
         roughness: Roughness::Constant(0.0),

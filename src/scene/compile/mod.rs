@@ -27,7 +27,7 @@ use super::{
     surface::Surfaces,
     textures::NamedTextures,
 };
-use crate::{geometry::Shapes, light::Lights};
+use crate::{geometry::Shapes, light::Lights, quote};
 
 /// The version of the scene format that this program reads.
 pub const FORMAT: i64 = 1;
@@ -58,7 +58,7 @@ pub fn compile(desc: &SceneDesc, source: &SourceText) -> Result<Scene, SceneErro
     let surfaces = Surfaces::new(&objects);
     surfaces.check().map_err(|message| check.0.error(0..1, message, "in this scene"))?;
     let mut scene = Scene {
-        title: desc.title.clone().unwrap_or_default(),
+        title: desc.title.as_deref().map(quote::message).unwrap_or_default(),
         notes: desc.notes.clone().unwrap_or_default(),
         source: source.text.clone(),
         lights: Lights::new(&shapes, &emitters, background, camera.look_at),

@@ -9,8 +9,11 @@ use super::{
     mesh::Meshes,
     shape::{motion, shapes, transform},
 };
-use crate::geometry::Shape;
-use crate::scene::{Object, check::Checker, desc::ObjectDesc, diagnostic::SceneError, textures::NamedTextures};
+use crate::{
+    geometry::Shape,
+    quote,
+    scene::{Object, check::Checker, desc::ObjectDesc, diagnostic::SceneError, textures::NamedTextures},
+};
 
 /// The object that is described, or, of a shape that is many, one each.
 pub fn objects(
@@ -36,8 +39,8 @@ pub fn objects(
     let emission = o.emission.as_ref().map(|e| emission(check, e, o.flip, textures)).transpose()?;
     let many = shapes.len() > 1;
     let name = |number: usize| match &o.name {
-        Some(name) if many => format!("{name} {}", number + 1),
-        name => name.clone().unwrap_or_default(),
+        Some(name) if many => format!("{} {}", quote::piece(name), number + 1),
+        name => name.as_deref().map(quote::piece).unwrap_or_default(),
     };
     let object = |(number, shape): (usize, Shape)| Object {
         name: name(number),

@@ -7,7 +7,7 @@ use crate::{
     image::{Encoding, read},
     scene::{
         RenderSettings, Roulette, Truth,
-        check::Checker,
+        check::{Checker, short},
         desc::{RenderDesc, TruthDesc},
         diagnostic::SceneError,
     },
@@ -18,7 +18,11 @@ pub fn settings(check: &Checker, desc: &RenderDesc) -> Result<(RenderSettings, O
     if let (Roulette::Fixed(p), Some(r)) = (roulette, &desc.roulette)
         && !(Roulette::LEAST..=1.0).contains(&p)
     {
-        return Err(check.0.error(r.span(), format!("a survival probability of {p}"), "expected a number from 0.01 to 1"));
+        return Err(check.0.error(
+            r.span(),
+            format!("a survival probability of {}", short(p.into())),
+            "expected a number from 0.01 to 1",
+        ));
     }
     if let Some(spp) = desc.spp.as_ref().filter(|spp| *spp.as_ref() == 0) {
         return Err(check.0.error(spp.span(), "`spp` is 0", "expected at least 1 sample per pixel"));

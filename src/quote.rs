@@ -1,0 +1,103 @@
+//! What somebody else wrote, in messages: short, and without characters that a terminal or a reader would obey.
+use std::path::Path;
+
+/// A quoted piece is cut after so many characters.
+const LONGEST_PIECE: usize = 60;
+/// A path is cut to so many, of which the last ones say most.
+const LONGEST_PATH: usize = 160;
+/// A whole message.
+const LONGEST_MESSAGE: usize = 500;
+
+/// The beginning of a piece of a file, on one line.
+pub fn piece(text: &str) -> String {
+    cut(text, LONGEST_PIECE)
+}
+
+/// The same between backquotes, of bytes that are meant to be text.
+pub fn bytes(piece: &[u8]) -> String {
+    let start = &piece[..piece.len().min(4 * LONGEST_PIECE)];
+    format!("`{}`", self::piece(&String::from_utf8_lossy(start)))
+}
+
+/// A path, or its end.
+pub fn path(path: &Path) -> String {
+    let text = path.to_string_lossy();
+    let count = text.chars().count();
+    if count <= LONGEST_PATH {
+        return cut(&text, LONGEST_PATH);
+    }
+    let end: String = text.chars().skip(count - LONGEST_PATH).collect();
+    format!("…{}", cut(&end, LONGEST_PATH))
+}
+
+/// A message whose quoted pieces, between backquotes or in double quotes, may be of any length.
+pub fn message(text: &str) -> String {
+    let mut short = String::new();
+    let mut rest = text;
+    while let Some(start) = rest.find(['`', '"']) {
+        let (before, quoted) = rest.split_at(start);
+        let mark = &quoted[..1];
+        let Some(length) = quoted[1..].find(mark) else { break };
+        short += &format!("{before}{mark}{}{mark}", piece(&quoted[1..=length]));
+        rest = &quoted[length + 2..];
+    }
+    cut(&(short + rest), LONGEST_MESSAGE)
+}
+
+/// The characters up to a number of them, with a mark where there are more.
+fn cut(text: &str, most: usize) -> String {
+    let mut short: String = text.chars().take(most).map(printable).collect();
+    if text.chars().nth(most).is_some() {
+        short.push('…');
+    }
+    short
+}
+
+/// The character, or, of one that acts instead of being shown, how Rust writes it.
+fn printable(c: char) -> String {
+    if acts(c) { c.escape_debug().to_string() } else { c.to_string() }
+}
+
+/// Control characters, and those that change the direction of what follows or are not seen.
+pub fn acts(c: char) -> bool {
+    c.is_control()
+        || matches!(c, '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}' | '\u{fff9}'..='\u{fffb}')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pieces_are_cut_between_characters() {
+        assert_eq!(piece("short"), "short");
+        assert_eq!(piece(&"ü".repeat(60)), "ü".repeat(60));
+        assert_eq!(piece(&"ü".repeat(61)), format!("{}…", "ü".repeat(60)));
+        assert_eq!(bytes(b"Jos\xe9"), "`Jos\u{fffd}`");
+        assert_eq!(bytes(&[b'x'; 100_000]), format!("`{}…`", "x".repeat(60)));
+    }
+
+    #[test]
+    fn nothing_that_a_terminal_obeys_is_left() {
+        assert_eq!(piece("a\x1b[31mb\r\n\u{9b}c\u{202e}d\u{feff}\0"), "a\\u{1b}[31mb\\r\\n\\u{9b}c\\u{202e}d\\u{feff}\\0");
+        assert_eq!(piece("ordinary: ρ = ½, “é”, \\ and 🙂"), "ordinary: ρ = ½, “é”, \\ and 🙂");
+        assert_eq!(path(Path::new("a\x07b.toml")), "a\\u{7}b.toml");
+    }
+
+    #[test]
+    fn quoted_pieces_of_messages_are_cut_and_the_rest_is_kept() {
+        let long = "y".repeat(5000);
+        let expected = format!("there is no `{}…`, but \"{}…\"; end", "y".repeat(60), "y".repeat(60));
+        assert_eq!(message(&format!("there is no `{long}`, but \"{long}\"; end")), expected);
+        assert_eq!(message("expected one of `a`, `b` and `c`"), "expected one of `a`, `b` and `c`");
+        assert_eq!(message("a ` alone"), "a ` alone");
+        assert_eq!(message(&long), format!("{}…", "y".repeat(500)));
+    }
+
+    #[test]
+    fn of_long_paths_the_end_is_shown() {
+        let long = format!("{}/scene.toml", "x".repeat(300));
+        let shown = path(Path::new(&long));
+        assert!(shown.starts_with("…x") && shown.ends_with("x/scene.toml") && shown.chars().count() == 161);
+    }
+}
