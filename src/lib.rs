@@ -10,6 +10,7 @@ pub mod light;
 pub mod material;
 pub mod math;
 pub mod measure;
+pub mod memory;
 pub mod model;
 pub mod quote;
 pub mod render;

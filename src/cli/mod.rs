@@ -33,6 +33,9 @@ pub type Failure = String;
 struct Arguments {
     /// Scene file (.toml) to open in the window
     scene: Option<PathBuf>,
+    /// Memory that scenes and pictures may take, such as 4G or 500M [default: half of the machine's]
+    #[arg(long, value_name = "SIZE", global = true, value_parser = options::memory)]
+    memory: Option<u64>,
     #[command(subcommand)]
     command: Option<Command>,
 }
@@ -57,6 +60,7 @@ pub fn run() -> ExitCode {
         return ExitCode::from(WRONG_USAGE);
     }
     let arguments = Arguments::parse();
+    arguments.memory.into_iter().for_each(noisefall::memory::set_limit);
     let succeeded = |()| ExitCode::SUCCESS;
     let done = match arguments.command {
         None => window(arguments.scene).map(succeeded),

@@ -91,6 +91,17 @@ pub fn noise(text: &str) -> Result<f64, String> {
     noise.ok_or_else(|| "expected a number above 0, such as 0.01 for 1 %".to_owned())
 }
 
+/// Bytes, or as many thousands, millions and so on as the letter says.
+pub fn memory(text: &str) -> Result<u64, String> {
+    const UNITS: [(char, f64); 4] = [('K', 1e3), ('M', 1e6), ('G', 1e9), ('T', 1e12)];
+    let upper = text.trim().to_ascii_uppercase();
+    let short = upper.strip_suffix('B').unwrap_or(&upper);
+    let (number, factor) =
+        UNITS.iter().find_map(|(letter, factor)| Some((short.strip_suffix(*letter)?, *factor))).unwrap_or((short, 1.0));
+    let bytes = number.trim_end().parse().ok().map(|number: f64| number * factor).filter(|bytes| (1.0..=1e18).contains(bytes));
+    bytes.map(|bytes| bytes as u64).ok_or_else(|| "expected a size, such as 4G or 500M".to_owned())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -111,5 +122,8 @@ mod tests {
         assert_eq!(bounce_cap("none").map(|cap| cap.0), Ok(None));
         assert_eq!(bounce_cap("0").map(|cap| cap.0), Ok(Some(0)));
         assert_eq!(sampler("stratified"), Ok(Sampler::Stratified));
+        let sizes = ["4G", "500M", "1.5gb", "64 kB", "1000000", "2T"].map(memory);
+        assert_eq!(sizes, [4_000_000_000, 500_000_000, 1_500_000_000, 64_000, 1_000_000, 2_000_000_000_000].map(Ok));
+        assert!(["", "0", "-1G", "nan", "inf", "G", "4X", "1e30", "4 G B"].iter().all(|text| memory(text).is_err()));
     }
 }

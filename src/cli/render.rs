@@ -12,6 +12,7 @@ use noisefall::{
     math::SimdLevel,
     render::{
         Budget, Display, Job, Publish, Published, Renderer, State, Status,
+        film::Film,
         image_file::{check_target, save},
         pass::{SampleId, Threads},
         settings_text::{options, settings_text},
@@ -104,6 +105,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     let Some(output) = &arguments.output else { return Err("no output file".to_owned()) };
     check_target(output).map_err(|error| error.to_string())?;
+    // The worker asks again: here it is no failure of the renderer.
+    drop(Film::reserve(camera.resolution).map_err(|error| error.to_string())?);
     let reference = Reference::of(&scene);
     let mismatch = reference.as_ref().and_then(|truth| truth.mismatch(camera.resolution));
     mismatch.iter().for_each(|mismatch| eprintln!("note: {mismatch}"));

@@ -4,7 +4,7 @@ use std::{path::PathBuf, process::ExitCode, sync::atomic::Ordering, time::Durati
 use indicatif::{ProgressBar, ProgressStyle};
 use noisefall::{
     math::SimdLevel,
-    render::pass::Threads,
+    render::{film::Film, pass::Threads},
     sampling::{Directions, Sampler},
     scene::{Estimator, Roulette},
     study::{CSV, Findings, Lists, Machine, Plan, Progress, Store, Study, StudyError, Subject, html, label, table, verdict},
@@ -78,6 +78,9 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     folder::make(&arguments.output)?;
     let load = |path: &PathBuf| Subject::load(path, arguments.size, arguments.reference.as_deref());
     let subjects = arguments.scenes.iter().map(load).collect::<Result<Vec<_>, _>>().map_err(|error| error.to_string())?;
+    // One film at a time.
+    let largest = subjects.iter().map(|subject| subject.camera.resolution).max_by_key(|[w, h]| u64::from(*w) * u64::from(*h));
+    let _memory = largest.map(Film::reserve).transpose().map_err(|error| error.to_string())?;
     let mut store = Store::open(&arguments.output).map_err(|error| error.to_string())?;
     if store.dropped > 0 {
         eprintln!("note: {} lines of {CSV} belong to runs that are not complete and are left out", store.dropped);

@@ -6,20 +6,26 @@ use ::exr::{
     prelude::{ReadChannels, ReadLayers, read},
 };
 
-use super::{Flaw, Picture, check_size};
+use super::{Flaw, Picture, Pixel, check_size, room};
 
-pub(super) fn decode(mut file: impl BufRead + Seek) -> Result<Picture, Flaw> {
+/// Blocks are unpacked side by side, each in memory of its own.
+const UNPACKING: u64 = 32 << 20;
+
+pub(super) fn decode<P: Pixel>(mut file: impl BufRead + Seek) -> Result<Picture<P>, Flaw> {
     let headers = MetaData::read_from_buffered(&mut file, false).map_err(Flaw::broken)?.headers;
     for header in &headers {
         check_size(header.layer_size.width() as u64, header.layer_size.height() as u64)?;
     }
+    let sizes = headers.iter().map(|header| header.layer_size);
+    let Some(largest) = sizes.max_by_key(|size| size.area()) else { return Err(Flaw::broken("the file has no layers")) };
+    let _room = room::<P>(largest.width() as u32, largest.height() as u32, UNPACKING)?;
     file.rewind()?;
     let image = read()
         .no_deep_data()
         .largest_resolution_level()
         .rgb_channels(
-            |size, _| (size.width(), vec![[0f32; 3]; size.area()]),
-            |(width, pixels), at, (r, g, b): (f32, f32, f32)| pixels[at.y() * *width + at.x()] = [r, g, b],
+            |size, _| (size.width(), vec![P::default(); size.area()]),
+            |(width, pixels), at, (r, g, b): (f32, f32, f32)| pixels[at.y() * *width + at.x()] = P::of([r, g, b]),
         )
         .first_valid_layer()
         .all_attributes()

@@ -4,7 +4,7 @@
 //! taken as they stand, without the half step that Radiance itself adds: then black is 0, and other readers agree.
 use std::io::{BufRead, Read};
 
-use super::{Flaw, Picture, check_size};
+use super::{Flaw, Picture, Pixel, check_size, pixels, room};
 
 /// A line of the header may not be longer.
 const LONGEST_LINE: u64 = 4096;
@@ -13,15 +13,16 @@ const PACKED_WIDTHS: std::ops::RangeInclusive<usize> = 8..=0x7fff;
 
 type Rgbe = [u8; 4];
 
-pub(super) fn decode(mut file: impl BufRead) -> Result<Picture, Flaw> {
+pub(super) fn decode<P: Pixel>(mut file: impl BufRead) -> Result<Picture<P>, Flaw> {
     let exposure = exposure(&mut file)?;
     let (width, height) = size(&text_line(&mut file)?)?;
     check_size(width.into(), height.into())?;
-    let mut radiance = Vec::new();
+    let _room = room::<P>(width, height, 0)?;
+    let mut radiance = pixels(width, height)?;
     let mut row = vec![[0; 4]; width as usize];
     for _ in 0..height {
         read_row(&mut file, &mut row)?;
-        radiance.extend(row.iter().map(|rgbe| linear(*rgbe, exposure)));
+        radiance.extend(row.iter().map(|rgbe| P::of(linear(*rgbe, exposure))));
     }
     Ok(Picture { width, height, radiance })
 }

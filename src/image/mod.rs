@@ -19,7 +19,11 @@ use std::{
 
 use serde::Deserialize;
 
-use crate::{file::open_regular, quote};
+use crate::{
+    file::open_regular,
+    memory::{Reservation, TooMuch, reserve},
+    quote,
+};
 
 /// Longer sides are refused.
 pub const LONGEST_SIDE: u64 = 16_384;
@@ -30,10 +34,37 @@ const BRIGHTEST: f32 = 1e15;
 
 /// A picture in memory, linear Rec. 709, row by row from the top left.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Picture {
+pub struct Picture<P = [f32; 3]> {
     pub width: u32,
     pub height: u32,
-    pub radiance: Vec<[f32; 3]>,
+    pub radiance: Vec<P>,
+}
+
+/// A picture as the renderer looks it up: red, green, blue, and nothing.
+pub type Texels = Picture<[f32; 4]>;
+
+/// How a picture keeps a pixel.
+trait Pixel: Copy + Default {
+    fn of(rgb: [f32; 3]) -> Self;
+}
+
+impl Pixel for [f32; 3] {
+    fn of(rgb: [f32; 3]) -> Self {
+        rgb
+    }
+}
+
+impl Pixel for [f32; 4] {
+    fn of([r, g, b]: [f32; 3]) -> Self {
+        [r, g, b, 0.0]
+    }
+}
+
+impl From<&Picture> for Texels {
+    fn from(picture: &Picture) -> Texels {
+        let radiance = picture.radiance.iter().map(|rgb| Pixel::of(*rgb)).collect();
+        Texels { width: picture.width, height: picture.height, radiance }
+    }
 }
 
 /// How the numbers of a PNG stand for light. The other kinds of file are linear whatever this says.
@@ -68,6 +99,8 @@ pub enum Flaw {
     Empty(u64, u64),
     #[error("the picture is {0} × {1}: a side may have {LONGEST_SIDE} pixels and the whole {MOST_PIXELS}")]
     TooLarge(u64, u64),
+    #[error(transparent)]
+    TooMuch(#[from] TooMuch),
     #[error("the pixel at column {0}, row {1} is no amount of light: it must be a number up to {BRIGHTEST:e}")]
     NotLight(usize, usize),
 }
@@ -87,6 +120,10 @@ impl From<std::io::Error> for Flaw {
 
 /// Reads a picture file of any known kind.
 pub fn read(path: &Path, encoding: Encoding) -> Result<Picture, PictureError> {
+    read_as(path, encoding)
+}
+
+fn read_as<P: Pixel>(path: &Path, encoding: Encoding) -> Result<Picture<P>, PictureError> {
     let file = open_regular(path).map_err(Flaw::from);
     let picture = file.and_then(|file| decode(BufReader::new(file), encoding));
     picture.map_err(|flaw| PictureError { path: path.to_owned(), flaw })
@@ -94,8 +131,8 @@ pub fn read(path: &Path, encoding: Encoding) -> Result<Picture, PictureError> {
 
 /// Reads a picture whose values are amounts of light: numbers, finite and not negative. Small negative values are what other
 /// programs write for colours outside Rec. 709, and become 0.
-pub fn read_light(path: &Path, encoding: Encoding) -> Result<Picture, PictureError> {
-    let mut picture = read(path, encoding)?;
+pub fn read_light(path: &Path, encoding: Encoding) -> Result<Texels, PictureError> {
+    let mut picture: Texels = read_as(path, encoding)?;
     if let Some(at) = picture.radiance.iter().position(|pixel| !pixel.iter().all(|x| *x <= BRIGHTEST)) {
         let flaw = Flaw::NotLight(at % picture.width as usize, at / picture.width as usize);
         return Err(PictureError { path: path.to_owned(), flaw });
@@ -124,7 +161,7 @@ pub fn looks_like(start: &[u8]) -> Option<&'static str> {
     KINDS.iter().find(|(magic, _)| start.starts_with(magic)).map(|(_, kind)| *kind)
 }
 
-fn decode(mut file: impl BufRead + Seek, encoding: Encoding) -> Result<Picture, Flaw> {
+fn decode<P: Pixel>(mut file: impl BufRead + Seek, encoding: Encoding) -> Result<Picture<P>, Flaw> {
     let mut magic = Vec::new();
     (&mut file).take(4).read_to_end(&mut magic)?;
     file.rewind()?;
@@ -145,4 +182,17 @@ fn check_size(width: u64, height: u64) -> Result<(), Flaw> {
         return Err(Flaw::TooLarge(width, height));
     }
     Ok(())
+}
+
+/// Room for the pixels of a picture of a size that has been checked, and for `besides` bytes that are needed to decode it.
+fn room<P>(width: u32, height: u32, besides: u64) -> Result<Reservation, TooMuch> {
+    let pixels = u64::from(width) * u64::from(height);
+    reserve(format_args!("{width} × {height} pixels"), pixels * size_of::<P>() as u64 + besides)
+}
+
+/// An empty list with room for the pixels.
+fn pixels<P>(width: u32, height: u32) -> Result<Vec<P>, Flaw> {
+    let mut list = Vec::new();
+    list.try_reserve_exact(width as usize * height as usize).map_err(Flaw::broken)?;
+    Ok(list)
 }

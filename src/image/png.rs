@@ -3,28 +3,35 @@ use std::io::{BufRead, Seek};
 
 use ::png::{BitDepth, Decoder, Transformations};
 
-use super::{Encoding, Flaw, Picture, check_size};
+use super::{Encoding, Flaw, Picture, Pixel, check_size, pixels, room};
 use crate::math::colour::linear_from_srgb;
 
-pub(super) fn decode(mut file: impl BufRead + Seek, encoding: Encoding) -> Result<Picture, Flaw> {
+pub(super) fn decode<P: Pixel>(mut file: impl BufRead + Seek, encoding: Encoding) -> Result<Picture<P>, Flaw> {
     let (width, height) = claimed_size(&mut file)?;
     check_size(width.into(), height.into())?;
     file.rewind()?;
     let mut decoder = Decoder::new(file);
     decoder.set_transformations(Transformations::EXPAND);
     let mut reader = decoder.read_info().map_err(Flaw::broken)?;
-    let size = reader.output_buffer_size().ok_or_else(|| Flaw::broken("the rows are too long"))?;
-    let mut bytes = vec![0; size];
-    let info = reader.next_frame(&mut bytes).map_err(Flaw::broken)?;
-    let bytes = &bytes[..info.buffer_size()];
-    let channels = info.color_type.samples();
-    let radiance = match info.bit_depth {
-        BitDepth::Sixteen => {
-            let samples: Vec<u16> = bytes.chunks_exact(2).map(|pair| u16::from_be_bytes([pair[0], pair[1]])).collect();
-            pixels(&samples, channels, &linear_values(u16::MAX.into(), encoding))
+    // The rows of a picture in passes are not together before the last one.
+    let in_passes = reader.info().interlaced;
+    let whole = reader.output_buffer_size().ok_or_else(|| Flaw::broken("the rows are too long"))?;
+    let _room = room::<P>(width, height, if in_passes { whole as u64 } else { 0 })?;
+    let mut radiance = pixels(width, height)?;
+    let (colour, depth) = reader.output_color_type();
+    let values = Values { channels: colour.samples(), linear: linear_values(depth, encoding) };
+    if in_passes {
+        let mut bytes = vec![0; whole];
+        let info = reader.next_frame(&mut bytes).map_err(Flaw::broken)?;
+        values.append(&bytes[..info.buffer_size()], &mut radiance);
+    } else {
+        while let Some(row) = reader.next_row().map_err(Flaw::broken)? {
+            values.append(row.data(), &mut radiance);
         }
-        _ => pixels(bytes, channels, &linear_values(u8::MAX.into(), encoding)),
-    };
+    }
+    if radiance.len() != width as usize * height as usize {
+        return Err(Flaw::broken("the file ends within its pixels"));
+    }
     Ok(Picture { width, height, radiance })
 }
 
@@ -40,7 +47,8 @@ fn claimed_size(file: &mut impl BufRead) -> Result<(u32, u32), Flaw> {
 }
 
 /// The linear value of every sample value.
-fn linear_values(most: u32, encoding: Encoding) -> Vec<f32> {
+fn linear_values(depth: BitDepth, encoding: Encoding) -> Vec<f32> {
+    let most = u32::from(if depth == BitDepth::Sixteen { u16::MAX } else { u8::MAX.into() });
     let linear = |sample: u32| {
         let x = f64::from(sample) / f64::from(most);
         (if encoding == Encoding::Srgb { linear_from_srgb(x) } else { x }) as f32
@@ -48,8 +56,30 @@ fn linear_values(most: u32, encoding: Encoding) -> Vec<f32> {
     (0..=most).map(linear).collect()
 }
 
-fn pixels<T: Copy + Into<usize>>(samples: &[T], channels: usize, linear: &[f32]) -> Vec<[f32; 3]> {
-    let value = |sample: T| linear[sample.into()];
-    let pixel = |p: &[T]| if channels < 3 { [value(p[0]); 3] } else { [value(p[0]), value(p[1]), value(p[2])] };
-    samples.chunks_exact(channels).map(pixel).collect()
+/// How samples become light.
+struct Values {
+    channels: usize,
+    /// Of every value that a sample can have: 256, or 65536 where a sample has two bytes.
+    linear: Vec<f32>,
+}
+
+impl Values {
+    /// Adds the pixels that these bytes are.
+    fn append<P: Pixel>(&self, bytes: &[u8], radiance: &mut Vec<P>) {
+        match self.linear.len() {
+            256 => {
+                radiance.extend(bytes.chunks_exact(self.channels).map(|pixel| self.pixel::<P>(|channel| pixel[channel].into())))
+            }
+            _ => {
+                radiance.extend(bytes.chunks_exact(2 * self.channels).map(|pixel| {
+                    self.pixel::<P>(|channel| u16::from_be_bytes([pixel[2 * channel], pixel[2 * channel + 1]]).into())
+                }))
+            }
+        }
+    }
+
+    /// Of fewer than three channels the first is grey.
+    fn pixel<P: Pixel>(&self, sample: impl Fn(usize) -> usize) -> P {
+        P::of([0, 1, 2].map(|channel| self.linear[sample(if self.channels < 3 { 0 } else { channel })]))
+    }
 }

@@ -79,7 +79,8 @@ fn pngs_of_any_depth_and_channels_are_read() {
     assert_eq!(radiance(&png(1, 1, ColorType::GrayscaleAlpha, BitDepth::Eight, &[51, 0])), [[0.2; 3]]);
     assert_eq!(radiance(&png(2, 1, ColorType::Grayscale, BitDepth::One, &[0b0100_0000])), [[0.0; 3], [1.0; 3]]);
     assert_eq!(radiance(&png(1, 1, ColorType::Rgb, BitDepth::Sixteen, &[0, 1, 255, 255, 0, 0])), [[1.0 / 65535.0, 1.0, 0.0]]);
-    let grey = decode(Cursor::new(png(1, 1, ColorType::Grayscale, BitDepth::Eight, &[188])), Encoding::Srgb);
+    let grey: Result<Picture, Flaw> =
+        decode(Cursor::new(png(1, 1, ColorType::Grayscale, BitDepth::Eight, &[188])), Encoding::Srgb);
     assert!((grey.expect("it is a picture").radiance[0][1] - 0.502_886).abs() < 1e-6);
 }
 

@@ -11,7 +11,7 @@ use std::f64::consts::{PI, TAU};
 
 use self::weights::cell_means;
 use crate::{
-    image::Picture,
+    image::Texels,
     math::{
         F, Lanes, Pick, U, V,
         round::floor,
@@ -41,7 +41,7 @@ pub struct ImageBackground {
 impl ImageBackground {
     /// `picture` holds amounts of light ([`crate::image::read_light`]), which `scale` multiplies. `rotate` turns the picture about
     /// +y by degrees, counter-clockwise seen from above.
-    pub fn new(mut picture: Picture, rotate: f64, scale: f32) -> ImageBackground {
+    pub fn new(mut picture: Texels, rotate: f64, scale: f32) -> ImageBackground {
         for pixel in &mut picture.radiance {
             *pixel = pixel.map(|x| x * scale);
         }
@@ -57,7 +57,7 @@ impl ImageBackground {
             weights.fill(1.0);
         }
         ImageBackground {
-            picture: ImageTexture::new(&picture),
+            picture: ImageTexture::new(picture),
             shift: (0.5 + rotate % 360.0 / 360.0).rem_euclid(1.0) as f32,
             columns,
             rows,
@@ -65,6 +65,18 @@ impl ImageBackground {
             bounds,
             mean_luminance: (power / (2.0 * TAU)) as f32,
         }
+    }
+
+    /// The memory that the background of a picture of this size takes, and what is needed to make it.
+    pub fn bytes([width, height]: [u32; 2]) -> u64 {
+        /// Texel; cell, in all tables; and the means over the width of every cell of a row of texels.
+        const TEXEL: u64 = 16;
+        const CELL: u64 = 64;
+        const MEAN: u64 = 8;
+        let (width, height) = (u64::from(width), u64::from(height));
+        let (columns, rows) = (u64::from(MOST_COLUMNS), u64::from(MOST_ROWS));
+        let columns = columns.min(2 * width);
+        TEXEL * width * height + CELL * columns * rows.min(2 * height) + MEAN * columns * height
     }
 
     /// Mean luminance over all directions, by the cells; 0 if and only if the picture is black.

@@ -21,7 +21,11 @@ use std::{
 
 pub use normals::smooth_normals;
 
-use crate::{file::open_regular, quote};
+use crate::{
+    file::open_regular,
+    memory::{Reservation, Size, TooMuch, reserve},
+    quote,
+};
 
 /// Longer files are refused: 2 GiB. It also keeps every count of vertices and triangles within 32 bits.
 pub const LARGEST_FILE: u64 = 1 << 31;
@@ -59,6 +63,8 @@ pub enum Flaw {
     NotAModel,
     #[error("the mesh is empty: it has no faces")]
     Empty,
+    #[error(transparent)]
+    TooMuch(#[from] TooMuch),
     #[error("{0}: {1}")]
     Broken(Place, String),
 }
@@ -89,20 +95,22 @@ impl Place {
 /// Reads a mesh file of any known kind.
 pub fn read(path: &Path) -> Result<Model, ModelError> {
     let is_obj = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("obj"));
-    let model = bytes(path).and_then(|bytes| decode(&bytes, is_obj));
+    let model = bytes(path).and_then(|(bytes, _room)| decode(&bytes, is_obj));
     model.map_err(|flaw| ModelError { path: path.to_owned(), flaw })
 }
 
-fn bytes(path: &Path) -> Result<Vec<u8>, Flaw> {
+/// A file, and the room that it takes.
+fn bytes(path: &Path) -> Result<(Vec<u8>, Reservation), Flaw> {
     let file = open_regular(path)?;
     let length = file.metadata()?.len();
     if length > LARGEST_FILE {
         return Err(Flaw::TooLarge);
     }
+    let room = reserve(format_args!("{} of the file", Size(length)), length)?;
     let mut bytes = Vec::with_capacity(length as usize);
     // The file may grow meanwhile.
     file.take(length).read_to_end(&mut bytes)?;
-    Ok(bytes)
+    Ok((bytes, room))
 }
 
 fn decode(bytes: &[u8], is_obj: bool) -> Result<Model, Flaw> {

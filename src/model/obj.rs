@@ -5,15 +5,22 @@
 use std::borrow::Cow;
 
 use super::{Flaw, Model, Place, number};
-use crate::quote;
+use crate::{
+    memory::{Reservation, reserve},
+    quote,
+};
 
 /// Stands for the texture coordinate or the normal that a corner does not have.
 const NONE: u32 = u32::MAX;
 
 pub(super) fn decode(bytes: &[u8]) -> Result<Model, Flaw> {
+    let mut room = Reservation::none();
     let text = &text(bytes)?;
-    let lists = Lists::read(text)?;
-    let mut faces = Faces::new(&lists);
+    if let Cow::Owned(copy) = text {
+        room.grow("copies of what is not UTF-8", copy.len() as u64)?;
+    }
+    let lists = Lists::read(text, &mut room)?;
+    let mut faces = Faces::new(&lists, room);
     let mut before = Counts::default();
     for (number, line) in Lines::new(text) {
         let mut words = words(line);
@@ -25,7 +32,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Model, Flaw> {
             _ => {}
         }
     }
-    Ok(faces.into_model())
+    faces.into_model()
 }
 
 /// Comments and names may be in any encoding that has the characters of ASCII: what is not UTF-8 of them is lost.
@@ -85,22 +92,22 @@ struct Lists {
 }
 
 impl Lists {
-    fn read(text: &str) -> Result<Lists, Flaw> {
+    fn read(text: &str, room: &mut Reservation) -> Result<Lists, Flaw> {
         let mut lists = Lists::default();
         for (number, line) in Lines::new(text) {
-            lists.add(words(line)).map_err(|reason| Place::Line(number).broken(reason))?;
+            lists.add(words(line), room).map_err(|reason| Place::Line(number).broken(reason))?;
         }
         Ok(lists)
     }
 
-    fn add<'a>(&mut self, mut words: impl Iterator<Item = &'a str> + Clone) -> Result<(), String> {
+    fn add<'a>(&mut self, mut words: impl Iterator<Item = &'a str> + Clone, room: &mut Reservation) -> Result<(), String> {
         match words.next() {
-            Some("v") => self.places.push(place(words)?),
-            Some("vt") => self.uvs.push(numbers(words, 1).map(finite)?),
-            Some("vn") => self.normals.push(numbers(words, 3).map(finite)?),
-            _ => {}
+            Some("v") => room.push(&mut self.places, place(words)?, "vertices"),
+            Some("vt") => room.push(&mut self.uvs, numbers(words, 1).map(finite)?, "texture coordinates"),
+            Some("vn") => room.push(&mut self.normals, numbers(words, 3).map(finite)?, "normals"),
+            _ => Ok(()),
         }
-        Ok(())
+        .map_err(|error| error.to_string())
     }
 }
 
@@ -150,24 +157,28 @@ struct Faces<'a> {
     corners: Vec<Corner>,
     /// Positions in `corners`.
     triangles: Vec<[u32; 3]>,
+    room: Reservation,
 }
 
 impl<'a> Faces<'a> {
-    fn new(lists: &'a Lists) -> Faces<'a> {
-        Faces { lists, corners: Vec::new(), triangles: Vec::new() }
+    fn new(lists: &'a Lists, room: Reservation) -> Faces<'a> {
+        Faces { lists, corners: Vec::new(), triangles: Vec::new(), room }
     }
 
     fn add<'w>(&mut self, before: &Counts, words: impl Iterator<Item = &'w str>) -> Result<(), String> {
         let first = self.corners.len() as u32;
         for word in words {
-            self.corners.push(self.corner(before, word)?);
+            let corner = self.corner(before, word)?;
+            self.room.push(&mut self.corners, corner, "corners").map_err(|error| error.to_string())?;
         }
         let end = self.corners.len() as u32;
         if end - first < 3 {
             return Err(format!("a face has {} corners, not 3 or more", end - first));
         }
-        self.triangles.extend((first + 2..end).map(|corner| [first, corner - 1, corner]));
-        Ok(())
+        let mut triangles = (first + 2..end).map(|corner| [first, corner - 1, corner]);
+        triangles
+            .try_for_each(|triangle| self.room.push(&mut self.triangles, triangle, "triangles"))
+            .map_err(|error| error.to_string())
     }
 
     /// Reads `place`, `place/uv`, `place//normal` or `place/uv/normal`.
@@ -186,14 +197,17 @@ impl<'a> Faces<'a> {
         Ok(Corner { place, uv, normal })
     }
 
-    fn into_model(self) -> Model {
-        let Faces { lists, corners, mut triangles } = self;
+    fn into_model(self) -> Result<Model, Flaw> {
+        /// Bytes of a corner in the lists of distinct ones and of what they have.
+        const CORNER: u64 = 48;
+        let Faces { lists, corners, mut triangles, room: _room } = self;
+        let _more = reserve(format_args!("{} corners", corners.len()), CORNER * corners.len() as u64)?;
         let (distinct, vertices) = distinct(&corners, lists.places.len());
         triangles.as_flattened_mut().iter_mut().for_each(|corner| *corner = vertices[*corner as usize]);
         let uvs = attribute(&distinct, &lists.uvs, |corner| corner.uv);
         let normals = attribute(&distinct, &lists.normals, |corner| corner.normal);
         let vertices = distinct.iter().map(|corner| lists.places[corner.place as usize]).collect();
-        Model { vertices, triangles, normals, uvs }
+        Ok(Model { vertices, triangles, normals, uvs })
     }
 }
 

@@ -1,6 +1,9 @@
 //! The film: what a picture's samples add up to.
 use super::{region::Region, tile::Tile};
-use crate::integrator::TILE;
+use crate::{
+    integrator::{TERMS, TILE},
+    memory::{self, Reservation, TooMuch},
+};
 
 /// Sums of samples over all pixels, in tiles that each belong to one thread at a time.
 pub struct Film {
@@ -20,6 +23,21 @@ impl Film {
         let tile = |x: u32, y: u32| Tile::new([x, y], [TILE.min(width - x), TILE.min(height - y)]);
         let tiles = corners(height).flat_map(|y| corners(width).map(move |x| tile(x, y))).collect();
         Film { resolution, tiles, is_piloted: false, focus: None }
+    }
+
+    /// Room for a picture of this size: the film, the frames that are made of it, and what saving one of them takes.
+    pub fn reserve([width, height]: [u32; 2]) -> Result<Reservation, TooMuch> {
+        /// Of a pixel: sums, squares and means in the film; means and errors in a frame, of which there are two at times; its
+        /// codes, and its file.
+        const PIXEL: u64 = 60 + 2 * 20 + 4 + 24;
+        memory::reserve(format_args!("pictures of {width} × {height} pixels"), PIXEL * u64::from(width) * u64::from(height))
+    }
+
+    /// Room for what each number of reflections adds to a picture of this size.
+    pub(super) fn reserve_series([width, height]: [u32; 2]) -> Result<Reservation, TooMuch> {
+        /// Sums in the film, and means in two frames.
+        const PIXEL: u64 = 3 * 12 * TERMS as u64;
+        memory::reserve(format_args!("bounces of {width} × {height} pixels"), PIXEL * u64::from(width) * u64::from(height))
     }
 
     /// An empty film in the memory of this one, if it has the right size.

@@ -5,12 +5,15 @@ use super::{
     doubling::rel_mse_estimate_in,
     film::Film,
     frame::Frame,
-    pass::{PassCount, PassJob, Threads},
+    pass::{Failure, PassCount, PassJob, SampleId, Threads},
     protocol::{Budget, Job, Publish, State, Status},
     region::Region,
     sharing::resolved,
 };
-use crate::scene::{Camera, RenderSettings, Reuse};
+use crate::{
+    memory::{Reservation, TooMuch},
+    scene::{Camera, RenderSettings, Reuse},
+};
 
 /// Camera samples a second before anything was measured: what a slow machine makes of a simple scene.
 const UNKNOWN_RATE: f64 = 1e6;
@@ -44,6 +47,8 @@ pub(super) struct Session {
     last_frame: Option<Instant>,
     /// There are samples that no frame shows.
     stale: bool,
+    /// What the picture takes, and the series besides.
+    memory: [Option<Reservation>; 2],
 }
 
 /// One sample of every `scale`-th pixel.
@@ -70,7 +75,8 @@ impl Session {
     /// `rate`: camera samples a second that the same scene reached before, if known. `film`: one that is not needed any more.
     pub fn new(job: Job, publish: Publish, rate: Option<f64>, budget: &Budget, film: Option<Film>) -> Session {
         let scale = Coarse::first_scale(&job.camera, rate.unwrap_or(UNKNOWN_RATE));
-        Session {
+        let memory = Film::reserve(job.camera.resolution);
+        let mut session = Session {
             coarse: if publish == Publish::Live { Coarse::new(&job.camera, scale) } else { None },
             film: film.map_or_else(|| Film::new(job.camera.resolution), |film| film.recycled(job.camera.resolution)),
             count: PassCount::default(),
@@ -82,7 +88,21 @@ impl Session {
             shares: false,
             last_frame: None,
             stale: false,
+            memory: [None, None],
             job,
+        };
+        session.keep(0, memory);
+        session
+    }
+
+    /// Keeps room for the picture or the series, or fails where there is none.
+    fn keep(&mut self, which: usize, memory: Result<Reservation, TooMuch>) {
+        match memory {
+            Ok(memory) => self.memory[which] = Some(memory),
+            Err(error) => {
+                let (at, resolution) = (SampleId { pixel: [0, 0], sample: 0 }, self.job.camera.resolution);
+                self.count.failure = Some(Failure { at, replays: false, resolution, message: error.to_string() });
+            }
         }
     }
 
@@ -90,7 +110,10 @@ impl Session {
     pub fn of_series(job: Job, rate: Option<f64>, budget: &Budget) -> Session {
         let settings = RenderSettings { reuse: Reuse::Off, adaptive: false, ..job.settings };
         let mut session = Session::new(Job { settings, ..job }, Publish::Sparse, rate, budget, None);
-        session.film.keep_series();
+        session.keep(1, Film::reserve_series(session.job.camera.resolution));
+        if session.count.failure.is_none() {
+            session.film.keep_series();
+        }
         // The picture that it is the series of is there to look at.
         session.last_frame = Some(Instant::now());
         session

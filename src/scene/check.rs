@@ -1,5 +1,10 @@
 //! Checks of single values of a scene file: each returns the value in the renderer's units or an error at its place.
-use std::path::{Path, PathBuf};
+use std::{
+    cell::RefCell,
+    fmt,
+    ops::Range,
+    path::{Path, PathBuf},
+};
 
 use glam::DVec3;
 use toml::Spanned;
@@ -9,7 +14,7 @@ use super::{
     diagnostic::{SceneError, SourceText},
     wording::nearest,
 };
-use crate::{geometry::Shape, quote};
+use crate::{geometry::Shape, memory::Reservation, quote};
 
 /// Coordinates and radii beyond these are refused: squares of them would leave the range of f32.
 const LARGEST: f64 = 1e12;
@@ -51,10 +56,24 @@ impl ColourRange {
     pub const TEXTURE: ColourRange = ColourRange { what: "colour", ..ColourRange::RADIANCE };
 }
 
-/// Checks against one source text.
-pub struct Checker<'a>(pub &'a SourceText);
+/// Checks against one source text, and counts the memory that the scene is going to take.
+pub struct Checker<'a>(pub &'a SourceText, RefCell<Reservation>);
 
-impl Checker<'_> {
+impl<'a> Checker<'a> {
+    pub fn new(source: &'a SourceText) -> Checker<'a> {
+        Checker(source, RefCell::new(Reservation::none()))
+    }
+
+    /// Room in the scene for `what`, a plural, that the place in the file asks for.
+    pub fn reserve(&self, place: Range<usize>, what: impl fmt::Display, bytes: u64) -> Result<(), SceneError> {
+        self.1.borrow_mut().grow(what, bytes).map_err(|error| self.0.error(place, error.to_string(), "too much memory"))
+    }
+
+    /// All that was asked for.
+    pub fn into_memory(self) -> Reservation {
+        self.1.into_inner()
+    }
+
     pub fn missing<T>(&self, table: &Spanned<T>, key: &str) -> SceneError {
         self.0.error(table.span(), format!("missing key `{key}`"), format!("`{key}` must be given here"))
     }

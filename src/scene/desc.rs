@@ -13,16 +13,10 @@ pub use self::shape::{
 };
 pub use super::colour::Colour;
 
-/// What every version of the format has: a file of another version is told so, whatever else it says.
-#[derive(Deserialize)]
-pub struct Header {
-    pub format: Spanned<i64>,
-}
-
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SceneDesc {
-    /// Checked before the rest is read: see [`Header`].
+    /// Checked before the rest is read.
     #[serde(rename = "format")]
     pub _format: i64,
     pub title: Option<String>,

@@ -1,17 +1,29 @@
 //! Reading a scene file.
 use std::{io::Read, path::Path};
 
+use serde::Deserialize;
+use toml::de::DeTable;
+
 use super::{
     Scene,
     compile::{FORMAT, compile},
-    desc::Header,
+    desc::SceneDesc,
     diagnostic::{SceneError, SourceText},
     wording::in_plain_words,
 };
-use crate::{file::open_regular, image::looks_like};
+use crate::{
+    file::open_regular,
+    image::looks_like,
+    memory::{Size, reserve},
+};
 
 /// Larger files are refused before they are read.
 const LARGEST_FILE: u64 = 64 << 20;
+
+/// Bytes that reading takes of memory for each of the text: while its TOML is parsed, what that says, and the text itself.
+const PARSING: u64 = 100;
+const DESCRIBED: u64 = 24;
+const KEPT: u64 = 2;
 
 /// The scene that the window opens when none is named; also `scenes/cornell_spheres.toml`.
 pub const BUILT_IN: &str = include_str!("../../scenes/cornell_spheres.toml");
@@ -41,14 +53,32 @@ pub fn load(path: &Path) -> Result<Scene, SceneError> {
 /// Compiles the text of a scene file; `name` is what errors call it, and paths in the file are relative to its folder.
 pub fn parse(name: &str, text: String) -> Result<Scene, SceneError> {
     let source = SourceText { name: name.to_owned(), text };
-    if let Ok(Header { format }) = toml::from_str(&source.text)
-        && *format.as_ref() != FORMAT
-    {
-        let message = format!("this is scene format {}, and Noisefall reads format {FORMAT}", format.as_ref());
-        return Err(source.error(format.span(), message, format!("expected {FORMAT}")));
-    }
-    let desc = toml::from_str(&source.text).map_err(|error| in_plain_words(&source, &error))?;
+    let bytes = (PARSING + KEPT) * source.text.len() as u64;
+    let parsing = reserve(format_args!("{} of text", Size(source.text.len() as u64)), bytes).map_err(|error| {
+        SceneError::of_file(Path::new(name), error.to_string(), "keep large meshes in files of their own, as OBJ or PLY")
+    })?;
+    let plain = |error: toml::de::Error| in_plain_words(&source, &error);
+    let table = DeTable::parse(&source.text).map_err(plain)?;
+    check_format(&source, table.get_ref())?;
+    let desc = SceneDesc::deserialize(toml::de::Deserializer::from(table)).map_err(plain)?;
+    // What is described takes less than what was parsed, which is given back by now.
+    drop(parsing);
+    let _described = reserve("the values of the file", DESCRIBED * source.text.len() as u64)
+        .map_err(|error| SceneError::of_file(Path::new(name), error.to_string(), "give more memory"))?;
     compile(&desc, &source)
+}
+
+/// A file of another version is told so, whatever else it says.
+fn check_format(source: &SourceText, table: &DeTable) -> Result<(), SceneError> {
+    let Some((_, value)) = table.iter().find(|(key, _)| key.get_ref() == "format") else { return Ok(()) };
+    let format = value.get_ref().as_integer().and_then(|format| i64::from_str_radix(format.as_str(), format.radix()).ok());
+    match format {
+        Some(format) if format != FORMAT => {
+            let message = format!("this is scene format {format}, and Noisefall reads format {FORMAT}");
+            Err(source.error(value.span(), message, format!("expected {FORMAT}")))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// What the file looks like, as the end of a sentence, if it is no text at all: then none of it can be shown.

@@ -45,6 +45,7 @@ use crate::{
     image::Picture,
     light::{Emission, Lights},
     material::Material,
+    memory::Reservation,
     sampling::Directions,
     texture::Textures,
 };
@@ -82,6 +83,8 @@ pub struct Scene {
     pub truth: Option<Truth>,
     /// How many media lie around the middle of some dielectric.
     pub deepest_media: usize,
+    /// Given back with the scene.
+    pub memory: Reservation,
 }
 
 /// One object as the file describes it.

@@ -82,7 +82,8 @@ impl NamedTextures {
 fn image(check: &Checker, path: &Spanned<String>, encoding: Encoding) -> Result<Texture, SceneError> {
     let picture = read_light(&check.path(path), encoding)
         .map_err(|error| check.0.error(path.span(), error.to_string(), "this picture cannot be used"))?;
-    Ok(Texture::Image(ImageTexture::new(&picture)))
+    check.reserve(path.span(), "the texels of a picture", size_of_val(&picture.radiance[..]) as u64)?;
+    Ok(Texture::Image(ImageTexture::new(picture)))
 }
 
 struct Builder<'a> {

@@ -3,7 +3,7 @@
 //! The picture spans the unit square, u to the right and v downwards from its top left corner; texel centres lie at
 //! ((i + ½)/width, (j + ½)/height).
 use crate::{
-    image::Picture,
+    image::Texels,
     math::{F, Lanes, Pick, U, V, round::floor},
 };
 
@@ -20,14 +20,12 @@ pub enum Edge {
 pub struct ImageTexture {
     width: u32,
     height: u32,
-    /// Red, green, blue; the fourth column is unused.
     texels: Vec<[f32; 4]>,
 }
 
 impl ImageTexture {
-    pub fn new(picture: &Picture) -> ImageTexture {
-        let texels = picture.radiance.iter().map(|[r, g, b]| [*r, *g, *b, 0.0]).collect();
-        ImageTexture { width: picture.width, height: picture.height, texels }
+    pub fn new(picture: Texels) -> ImageTexture {
+        ImageTexture { width: picture.width, height: picture.height, texels: picture.radiance }
     }
 
     /// The colour at (u, v), which may be any numbers: NaN and infinity give some colour of the picture.

@@ -19,7 +19,7 @@ fn picture() -> Picture {
 
 #[test]
 fn images_have_their_texels_at_their_centres_and_repeat() {
-    let image = ImageTexture::new(&picture());
+    let image = ImageTexture::new((&picture()).into());
     let colour = |u: f32, v: f32, edge| image.colour(One, F(u), F(v), edge).lane(0);
     for (i, texel) in picture().radiance.iter().enumerate() {
         let (u, v) = (((i % 3) as f32 + 0.5) / 3.0, ((i / 3) as f32 + 0.5) / 2.0);
@@ -110,7 +110,7 @@ fn lanes_of<L: Lanes>(l: L, set: &Textures, coordinates: &[[f32; 16]; 3], ids: U
 fn every_width_gives_the_same_bits() {
     let mut set = Textures::default();
     let low = set.push(Texture::Noise { scale: 9.0, octaves: 6, low: [0.1, 0.2, 0.3], high: [0.9, 0.5, 0.3] });
-    let image = set.push(Texture::Image(ImageTexture::new(&picture())));
+    let image = set.push(Texture::Image(ImageTexture::new((&picture()).into())));
     set.push(Texture::Checker { even: low, odd: image, scale: 5.0 });
     set.push(Texture::Constant([0.25; 3]));
     for round in 0..200u32 {

@@ -6,12 +6,12 @@ use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use super::{ImageBackground, cell_means};
 use crate::{
-    image::Picture,
+    image::{Picture, Texels},
     math::{F, Lanes, One, SimdLevel, V, colour::luminance},
 };
 
-fn picture(width: u32, height: u32, radiance: impl FnMut(u32) -> [f32; 3]) -> Picture {
-    Picture { width, height, radiance: (0..width * height).map(radiance).collect() }
+fn picture(width: u32, height: u32, radiance: impl FnMut(u32) -> [f32; 3]) -> Texels {
+    (&Picture { width, height, radiance: (0..width * height).map(radiance).collect() }).into()
 }
 
 /// Degrees.
@@ -154,7 +154,7 @@ fn a_black_picture_has_no_light_and_a_density_all_the_same() {
 #[test]
 fn cell_means_are_those_of_the_bilinear_picture() {
     let steps = picture(5, 3, |i| [(i * i % 7) as f32; 3]);
-    let texture = crate::texture::ImageTexture::new(&steps);
+    let texture = crate::texture::ImageTexture::new(steps.clone());
     let means = cell_means(&steps, 4, 8);
     for (cell, mean) in means.iter().enumerate() {
         let at = |i: usize, cell: usize, cells: usize| F::<One>(((cell as f64 + (i as f64 + 0.5) / 64.0) / cells as f64) as f32);

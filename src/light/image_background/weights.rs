@@ -1,12 +1,12 @@
 //! Means of a bilinear picture's luminance over the cells of a grid, exactly: so no cell that has light has the weight 0.
-use crate::{image::Picture, math::colour::LUMINANCE};
+use crate::{image::Texels, math::colour::LUMINANCE};
 
 /// The mean over every cell, row by row. The picture repeats left and right; its top and bottom rows go on beyond it.
-pub(super) fn cell_means(picture: &Picture, columns: usize, rows: usize) -> Vec<f64> {
+pub(super) fn cell_means(picture: &Texels, columns: usize, rows: usize) -> Vec<f64> {
     let (width, height) = (picture.width as usize, picture.height as usize);
     let across = cell_texels(width, columns);
     let down = cell_texels(height, rows);
-    let luminance = |pixel: &[f32; 3]| (0..3).map(|i| f64::from(pixel[i]) * f64::from(LUMINANCE[i])).sum::<f64>();
+    let luminance = |pixel: &[f32; 4]| (0..3).map(|i| f64::from(pixel[i]) * f64::from(LUMINANCE[i])).sum::<f64>();
     // Row by row of texels first, so that no texel is visited twice: the means over the width of every cell.
     let mut narrowed = Vec::with_capacity(columns * height);
     for row in picture.radiance.chunks_exact(width) {

@@ -10,6 +10,7 @@ use self::{
     values::{Binary, Text, Values},
 };
 use super::{Flaw, Model};
+use crate::memory::{Reservation, TooMuch};
 
 /// The file says that it is PLY.
 pub(super) fn is_ply(bytes: &[u8]) -> bool {
@@ -28,12 +29,13 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Model, Flaw> {
 
 fn read(header: &Header, mut values: impl Values) -> Result<Model, Flaw> {
     let mut model = Model::default();
+    let mut room = Reservation::none();
     let vertices = header.element("vertex").map_or(0, |element| element.count);
     for element in &header.elements {
         check_count(element, &values)?;
         match element.name.as_str() {
-            "vertex" => read_vertices(element, &mut values, &mut model)?,
-            "face" => read_faces(element, vertices, &mut values, &mut model)?,
+            "vertex" => read_vertices(element, &mut values, &mut model, &mut room)?,
+            "face" => read_faces(element, vertices, &mut values, &mut model.triangles, &mut room)?,
             _ => skip(element, &mut values)?,
         }
     }
@@ -59,7 +61,7 @@ fn slot(name: &str) -> Option<usize> {
     names.iter().position(|names| names.contains(&name.as_str()))
 }
 
-fn read_vertices(element: &Element, values: &mut impl Values, model: &mut Model) -> Result<(), Flaw> {
+fn read_vertices(element: &Element, values: &mut impl Values, model: &mut Model, room: &mut Reservation) -> Result<(), Flaw> {
     let mut is_there = [false; 8];
     // Of properties that mean the same the first counts.
     let mut wanted = |name: &str| slot(name).filter(|slot| !std::mem::replace(&mut is_there[*slot], true));
@@ -70,9 +72,9 @@ fn read_vertices(element: &Element, values: &mut impl Values, model: &mut Model)
     for index in 0..element.count {
         read_vertex(&slots, values, &mut vertex).map_err(|flaw| in_element(flaw, &element.name, index))?;
         let [x, y, z, nx, ny, nz, u, v] = vertex;
-        model.vertices.push([x, y, z]);
-        normals.iter_mut().for_each(|normals| normals.push([nx, ny, nz]));
-        uvs.iter_mut().for_each(|uvs| uvs.push([u, v]));
+        room.push(&mut model.vertices, [x, y, z], "vertices")?;
+        normals.iter_mut().try_for_each(|normals| room.push(normals, [nx, ny, nz], "normals"))?;
+        uvs.iter_mut().try_for_each(|uvs| room.push(uvs, [u, v], "texture coordinates"))?;
     }
     (model.normals, model.uvs) = (normals, uvs);
     Ok(())
@@ -96,12 +98,19 @@ fn read_vertex(slots: &[(Layout, Option<usize>)], values: &mut impl Values, vert
     Ok(())
 }
 
-fn read_faces(element: &Element, vertices: u64, values: &mut impl Values, model: &mut Model) -> Result<(), Flaw> {
+fn read_faces(
+    element: &Element,
+    vertices: u64,
+    values: &mut impl Values,
+    triangles: &mut Vec<[u32; 3]>,
+    room: &mut Reservation,
+) -> Result<(), Flaw> {
     for index in 0..element.count {
         for property in &element.properties {
             let read = match property.layout {
                 Layout::List(count, kind) if property.is_polygon() => {
-                    read_polygon(count, kind, vertices, values, &mut model.triangles)
+                    let add = |triangle| room.push(triangles, triangle, "triangles");
+                    read_polygon((count, kind), vertices, values, add)
                 }
                 layout => skip_property(layout, values),
             };
@@ -113,11 +122,10 @@ fn read_faces(element: &Element, vertices: u64, values: &mut impl Values, model:
 
 /// Reads a polygon as a fan of triangles around its first corner.
 fn read_polygon(
-    count: Kind,
-    kind: Kind,
+    (count, kind): (Kind, Kind),
     vertices: u64,
     values: &mut impl Values,
-    triangles: &mut Vec<[u32; 3]>,
+    mut add: impl FnMut([u32; 3]) -> Result<(), TooMuch>,
 ) -> Result<(), Flaw> {
     let place = values.place();
     let corners = values.integer(count)?;
@@ -135,7 +143,7 @@ fn read_polygon(
     let (first, mut last) = (corner()?, corner()?);
     for _ in 2..corners {
         let next = corner()?;
-        triangles.push([first, last, next]);
+        add([first, last, next])?;
         last = next;
     }
     Ok(())

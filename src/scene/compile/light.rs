@@ -35,6 +35,8 @@ pub fn background(check: &Checker, desc: &Spanned<BackgroundDesc>) -> Result<Opt
             let scale = b.scale.as_ref().map_or(Ok(1.0), |scale| check.within("scale", scale, 1e-12, MOST_SCALE))?;
             let picture = read_light(&check.path(image), Encoding::Srgb)
                 .map_err(|error| check.0.error(image.span(), error.to_string(), "this picture cannot be used"))?;
+            let bytes = ImageBackground::bytes([picture.width, picture.height]);
+            check.reserve(image.span(), "the texels and cells of a sky", bytes)?;
             let background = ImageBackground::new(picture, rotate, scale);
             if background.mean_luminance() == 0.0 {
                 return Err(check.0.error(image.span(), "a background of zero power: the picture is black", "it emits nothing"));

@@ -16,6 +16,12 @@ use crate::{
     },
 };
 
+/// Bytes of a triangle of a mesh made by formula, its share of vertices and the making of their normals included.
+const MADE_TRIANGLE: u64 = 110;
+/// Bytes of a vertex and of a triangle that are read, and of smooth normals while they are made.
+const VERTEX: u64 = 32;
+const TRIANGLE: u64 = 12;
+const SMOOTHING: u64 = 120;
 /// Triangles of a mesh made by formula.
 const MOST_TRIANGLES: u32 = 50_000_000;
 
@@ -43,10 +49,12 @@ impl Meshes {
             } => Ok(Arc::new(from_lists(check, vertices, triangles, desc.smooth.unwrap_or(false))?)),
             MeshDesc { path: None, vertices: None, triangles: None, knot: Some(knot), heightfield: None, .. } => {
                 let triangles = check.count(&knot.triangles, 18, MOST_TRIANGLES)?;
+                reserve(check, &knot.triangles, triangles.into())?;
                 self.known(Source::Knot { triangles, smooth }, || Ok(shaded(torus_knot(triangles as usize), smooth)))
             }
             MeshDesc { path: None, vertices: None, triangles: None, knot: None, heightfield: Some(field), .. } => {
                 let quads = check.count(&field.quads, 1, (MOST_TRIANGLES / 2).isqrt())?;
+                reserve(check, &field.quads, 2 * u64::from(quads) * u64::from(quads))?;
                 let source = Source::Heightfield { quads, seed: field.seed, smooth };
                 self.known(source, || Ok(shaded(heightfield(quads as usize, field.seed), smooth)))
             }
@@ -71,10 +79,18 @@ impl Meshes {
     }
 }
 
+/// Room for a mesh of so many triangles and half as many vertices while it is made, normals and coordinates included.
+fn reserve(check: &Checker, place: &Spanned<u32>, triangles: u64) -> Result<(), SceneError> {
+    check.reserve(place.span(), format_args!("{triangles} triangles"), MADE_TRIANGLE * triangles)
+}
+
 fn from_file(check: &Checker, path: &Spanned<String>, smooth: bool) -> Result<MeshData, SceneError> {
     let model =
         read(&check.path(path)).map_err(|error| check.0.error(path.span(), error.to_string(), "this mesh cannot be used"))?;
     let Model { vertices, triangles, normals, uvs } = model;
+    let smoothing = if smooth && normals.is_none() { SMOOTHING } else { 0 };
+    let bytes = (VERTEX + smoothing) * vertices.len() as u64 + TRIANGLE * triangles.len() as u64;
+    check.reserve(path.span(), format_args!("{} vertices and {} triangles", vertices.len(), triangles.len()), bytes)?;
     let normals = smooth.then(|| normals.unwrap_or_else(|| smooth_normals(&vertices, &triangles)));
     Ok(MeshData { vertices, triangles, normals: normals.unwrap_or_default(), uvs: uvs.unwrap_or_default() })
 }
@@ -85,6 +101,9 @@ fn from_lists(
     triangles: &Spanned<Vec<Spanned<Exactly<u32, 3>>>>,
     smooth: bool,
 ) -> Result<MeshData, SceneError> {
+    let (vertex_count, triangle_count) = (vertices.as_ref().len(), triangles.as_ref().len());
+    let bytes = (VERTEX + if smooth { SMOOTHING } else { 0 }) * vertex_count as u64 + TRIANGLE * triangle_count as u64;
+    check.reserve(vertices.span(), format_args!("{vertex_count} vertices and {triangle_count} triangles"), bytes)?;
     let points: Vec<[f32; 3]> = vertices.as_ref().iter().map(|vertex| vertex.0.map(|x| x as f32)).collect();
     if let Some(at) = points.iter().position(|vertex| vertex.iter().any(|x| !x.is_finite())) {
         return Err(check.0.error(vertices.span(), format!("vertex {at} is not finite"), "all coordinates must be"));

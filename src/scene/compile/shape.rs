@@ -18,6 +18,8 @@ use crate::{
 
 /// The sine of the angle between edges below which a shape is taken as degenerate.
 const FLATTEST: f64 = 1e-9;
+/// Bytes of a sphere as a shape and as an object.
+const SPHERE: u64 = 1500;
 /// Spheres of a field.
 const MOST_SPHERES: u32 = 1_000_000;
 /// Scales beyond these leave the range of f32.
@@ -29,7 +31,9 @@ pub fn shapes(check: &Checker, desc: &Spanned<ShapeDesc>, meshes: &mut Meshes) -
     let shape = match desc.as_ref() {
         ShapeDesc::SphereField(field) => {
             let (min, size) = bounds(check, &field.bounds.min, &field.bounds.max)?;
-            return Ok(sphere_field(check.count(&field.count, 1, MOST_SPHERES)?, min, size, field.seed));
+            let count = check.count(&field.count, 1, MOST_SPHERES)?;
+            check.reserve(field.count.span(), format_args!("{count} spheres"), SPHERE * u64::from(count))?;
+            return Ok(sphere_field(count, min, size, field.seed));
         }
         ShapeDesc::Sphere(sphere) => {
             Shape::Sphere { center: check.point("center", &sphere.center)?, radius: check.radius(&sphere.radius)? }

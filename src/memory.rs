@@ -1,0 +1,194 @@
+//! How much memory the program may take: counted before it is taken, so that what asks for too much is told so and the machine
+//! stays usable.
+//!
+//! There is one count, because memory belongs to the process, and what takes it lies far apart: readers of files, tables of scenes,
+//! films. It is set once, when the program starts, and everything that is given back counts again.
+use std::{
+    fmt,
+    sync::{
+        OnceLock,
+        atomic::{AtomicU64, Ordering},
+    },
+};
+
+/// What is allowed where the machine does not say how much it has: 8 GB.
+const UNKNOWN: u64 = 8_000_000_000;
+
+/// What may be taken and what is.
+struct Budget {
+    /// 0 until somebody sets it: [`half_of_the_machine`].
+    limit: AtomicU64,
+    taken: AtomicU64,
+}
+
+static OF_PROCESS: Budget = Budget::new(0);
+
+/// Somebody asked for more than is left.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{what} need {}; {} of the {} allowed are left (--memory changes that)", Size(*.needed), Size(*.left), Size(*.limit))]
+pub struct TooMuch {
+    what: String,
+    needed: u64,
+    left: u64,
+    limit: u64,
+}
+
+/// Bytes that are spoken for until this is dropped.
+#[derive(Debug)]
+#[must_use]
+pub struct Reservation {
+    budget: &'static Budget,
+    bytes: u64,
+}
+
+impl fmt::Debug for Budget {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} of {}", Size(self.taken.load(Ordering::Relaxed)), Size(self.limit()))
+    }
+}
+
+/// Allows so many bytes in all.
+pub fn set_limit(bytes: u64) {
+    OF_PROCESS.limit.store(bytes.max(1), Ordering::Relaxed);
+}
+
+/// Room for `what`, a plural, or an error that says how much of how much was asked for.
+pub fn reserve(what: impl fmt::Display, bytes: u64) -> Result<Reservation, TooMuch> {
+    OF_PROCESS.reserve(what, bytes)
+}
+
+impl Budget {
+    const fn new(limit: u64) -> Budget {
+        Budget { limit: AtomicU64::new(limit), taken: AtomicU64::new(0) }
+    }
+
+    fn limit(&self) -> u64 {
+        match self.limit.load(Ordering::Relaxed) {
+            0 => half_of_the_machine(),
+            limit => limit,
+        }
+    }
+
+    fn reserve(&'static self, what: impl fmt::Display, bytes: u64) -> Result<Reservation, TooMuch> {
+        let mut reservation = Reservation { budget: self, bytes: 0 };
+        reservation.grow(what, bytes)?;
+        Ok(reservation)
+    }
+}
+
+impl Reservation {
+    /// Room for nothing yet.
+    pub fn none() -> Reservation {
+        Reservation { budget: &OF_PROCESS, bytes: 0 }
+    }
+
+    /// More room.
+    pub fn grow(&mut self, what: impl fmt::Display, bytes: u64) -> Result<(), TooMuch> {
+        let limit = self.budget.limit();
+        let more = |taken: u64| taken.checked_add(bytes).filter(|taken| *taken <= limit);
+        match self.budget.taken.fetch_update(Ordering::Relaxed, Ordering::Relaxed, more) {
+            Ok(_) => {
+                self.bytes += bytes;
+                Ok(())
+            }
+            Err(taken) => Err(TooMuch { what: what.to_string(), needed: bytes, left: limit.saturating_sub(taken), limit }),
+        }
+    }
+
+    /// Adds to a list that grows as long as there is room; `what` its items are.
+    pub fn push<T>(&mut self, list: &mut Vec<T>, item: T, what: &str) -> Result<(), TooMuch> {
+        const FEWEST: usize = 64;
+        if list.len() == list.capacity() {
+            // While it is copied the old list is there besides: its room is not given back.
+            let capacity = (2 * list.capacity()).max(FEWEST);
+            self.grow(format_args!("{capacity} {what}"), (capacity * size_of::<T>()) as u64)?;
+            list.reserve_exact(capacity - list.len());
+        }
+        list.push(item);
+        Ok(())
+    }
+}
+
+impl Drop for Reservation {
+    fn drop(&mut self) {
+        self.budget.taken.fetch_sub(self.bytes, Ordering::Relaxed);
+    }
+}
+
+/// Bytes as people say them.
+pub struct Size(pub u64);
+
+impl fmt::Display for Size {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            0..1_000 => write!(f, "{} bytes", self.0),
+            1_000..1_000_000 => write!(f, "{:.1} kB", self.0 as f64 / 1e3),
+            1_000_000..1_000_000_000 => write!(f, "{:.1} MB", self.0 as f64 / 1e6),
+            _ => write!(f, "{:.1} GB", self.0 as f64 / 1e9),
+        }
+    }
+}
+
+/// Half of the machine's memory, or of the part of it that the process may use.
+fn half_of_the_machine() -> u64 {
+    static HALF: OnceLock<u64> = OnceLock::new();
+    *HALF.get_or_init(|| {
+        let file = |path: &str| std::fs::read_to_string(path).ok();
+        let groups = ["/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"];
+        let limits = groups.into_iter().filter_map(|path| file(path)?.trim().parse().ok());
+        let all = limits.chain(file("/proc/meminfo").and_then(|text| total(&text))).min();
+        all.map_or(UNKNOWN, |bytes| bytes / 2)
+    })
+}
+
+/// The bytes of a line like `MemTotal:  24000000 kB`.
+fn total(meminfo: &str) -> Option<u64> {
+    let line = meminfo.lines().find_map(|line| line.strip_prefix("MemTotal:"))?;
+    Some(1024 * line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok()?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_given_back_counts_again() {
+        static BUDGET: Budget = Budget::new(1000);
+        let first = BUDGET.reserve("apples", 600).expect("there is room");
+        let error = BUDGET.reserve("pears", 500).expect_err("400 are left");
+        assert_eq!(error, TooMuch { what: "pears".to_owned(), needed: 500, left: 400, limit: 1000 });
+        let second = BUDGET.reserve("pears", 400).expect("they fit exactly");
+        assert!(BUDGET.reserve("plums", 1).is_err() && BUDGET.reserve("plums", u64::MAX).is_err());
+        drop(first);
+        let mut third = BUDGET.reserve("plums", 500).expect("600 are left");
+        assert!(third.grow("plums", 101).is_err());
+        third.grow("plums", 100).expect("100 are left");
+        drop((second, third));
+        assert_eq!(BUDGET.taken.load(Ordering::Relaxed), 0);
+    }
+
+    #[test]
+    fn the_error_says_how_much_of_how_much() {
+        let error = TooMuch { what: "2 × 3 pixels".to_owned(), needed: 3_240_000_000, left: 2_049_000, limit: 4_000_000_000 };
+        let text = "2 × 3 pixels need 3.2 GB; 2.0 MB of the 4.0 GB allowed are left (--memory changes that)";
+        assert_eq!(error.to_string(), text);
+        assert_eq!([Size(999), Size(1_000), Size(999_900)].map(|size| size.to_string()), ["999 bytes", "1.0 kB", "999.9 kB"]);
+    }
+
+    #[test]
+    fn lists_grow_as_far_as_there_is_room() {
+        static BUDGET: Budget = Budget::new(10_000);
+        let (mut list, mut room) = (Vec::new(), BUDGET.reserve("numbers", 0).expect("nothing fits"));
+        let refused = (0..10_000u64).find_map(|i| room.push(&mut list, i, "numbers").err()).expect("they do not fit");
+        // 64, 128, 256 and 512 numbers of 8 bytes are 7680 bytes; 1024 more are too many.
+        assert_eq!((list.len(), list.capacity()), (512, 512));
+        assert_eq!(refused.to_string().split(';').next(), Some("1024 numbers need 8.2 kB"));
+    }
+
+    #[test]
+    fn the_machine_says_what_it_has() {
+        assert_eq!(total("MemFree: 3 kB\nMemTotal:       24576 kB\n"), Some(24_576 * 1024));
+        assert_eq!((total("MemTotal: many"), total("")), (None, None));
+        assert!(half_of_the_machine() > 100_000_000);
+    }
+}

@@ -1,0 +1,179 @@
+//! What is counted before it is taken is what is taken: a test program of its own, in whose processes nothing else takes memory.
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    process::{Command, Output},
+};
+
+use noisefall::{
+    image::{Encoding, read},
+    math::SimdLevel,
+    memory::set_limit,
+    render::{
+        Frame,
+        film::Film,
+        pass::{PassJob, Threads},
+    },
+    scene::load,
+};
+
+/// Counts what is allocated, whatever the system makes of it.
+#[global_allocator]
+static MEMORY: cap::Cap<std::alloc::System> = cap::Cap::new(std::alloc::System, usize::MAX);
+
+/// The file to read, and what may be taken for it.
+const FILE: &str = "NOISEFALL_TEST_FILE";
+const ALLOWED: &str = "NOISEFALL_TEST_ALLOWED";
+
+/// No test of its own: what the others start as a process, to read a scene or a picture, or to render a large picture of it.
+#[test]
+fn probe() {
+    let Ok(file) = std::env::var(FILE).map(PathBuf::from) else { return };
+    if let Some(allowed) = std::env::var(ALLOWED).ok().and_then(|text| text.parse().ok()) {
+        set_limit(allowed);
+    }
+    let before = MEMORY.allocated();
+    let refused = if file.extension().is_some_and(|extension| extension == "toml") {
+        load(&file).map_err(|error| error.report()).and_then(|scene| {
+            let resolution = scene.camera.resolution;
+            if resolution[0] < 1000 {
+                return Ok(());
+            }
+            let _room = Film::reserve(resolution).map_err(|error| error.to_string())?;
+            let threads = Threads::new(2, SimdLevel::best()).expect("threads");
+            let mut film = Film::new(resolution);
+            let job = PassJob { scene: &scene, rays: &scene.rays(&scene.camera), settings: &scene.settings };
+            threads.pass(job, &mut film, 1, &|| false);
+            let frames = [0, 1].map(|generation| Frame::of_film(&film, generation, resolution, resolution));
+            assert_eq!(frames[0].radiance.len(), frames[1].radiance.len());
+            Ok(())
+        })
+    } else {
+        read(&file, Encoding::Srgb).map(drop).map_err(|error| error.to_string())
+    };
+    match refused {
+        Ok(()) => println!("PEAK {} KEPT {}", MEMORY.max_allocated() - before, MEMORY.allocated() - before),
+        Err(message) => println!("REFUSED {message}"),
+    }
+}
+
+/// What a process says that reads this file.
+fn probed(file: &Path, allowed: u64) -> String {
+    let program = std::env::current_exe().expect("this program");
+    let arguments = ["--exact", "probe", "--nocapture", "--test-threads=1"];
+    let Output { stdout, stderr, .. } =
+        Command::new(program).args(arguments).env(FILE, file).env(ALLOWED, allowed.to_string()).output().expect("it runs");
+    format!("{}{}", String::from_utf8_lossy(&stdout), String::from_utf8_lossy(&stderr))
+}
+
+/// The most that reading this file takes is counted before it is taken, and not by much more.
+fn assert_counted(what: &str, file: &Path) {
+    /// What is not counted: a scene without anything, batches of two threads.
+    const UNCOUNTED: u64 = 12_000_000;
+    let said = probed(file, u64::MAX / 2);
+    let figure = |name: &str| said.split(name).nth(1).and_then(|rest| rest.split_whitespace().next()?.parse::<u64>().ok());
+    let peak = figure("PEAK ").unwrap_or_else(|| panic!("{what}: {said}"));
+    assert!(peak > 3 * UNCOUNTED, "{what}: a peak of {peak} bytes tells nothing");
+    // The least that is enough, by halving.
+    let (mut too_little, mut enough) = (0, 16 * peak);
+    while enough - too_little > peak / 64 {
+        let middle = (too_little + enough) / 2;
+        if probed(file, middle).contains("REFUSED") { too_little = middle } else { enough = middle }
+    }
+    println!(
+        "{what}: peak {:.1} MB, counted {:.1} MB, {:.2} of it",
+        peak as f64 / 1e6,
+        enough as f64 / 1e6,
+        enough as f64 / peak as f64
+    );
+    assert!(enough + UNCOUNTED >= peak, "{what}: a peak of {peak} bytes, of which {enough} are counted");
+    assert!(enough <= 4 * peak, "{what}: a peak of {peak} bytes, and {enough} are counted");
+}
+
+fn scene(resolution: u32, objects: &str) -> String {
+    format!(
+        "format = 1\n[camera]\neye = [0, 0, 9]\nlook_at = [0, 0, 0]\nfov = 40\nresolution = [{resolution}, {resolution}]\n\
+         [materials.white]\nlambertian = {{ albedo = 0.5 }}\n{objects}\n[[objects]]\n\
+         shape = {{ sphere = {{ center = [0, 0, 0], radius = 1 }} }}\nemission = {{ radiance = 1 }}\n"
+    )
+}
+
+fn object(shape: &str) -> String {
+    scene(16, &format!("[[objects]]\nshape = {{ {shape} }}\nmaterial = \"white\"\n"))
+}
+
+/// A PNG of a single value, which hardly takes room as a file.
+fn png(path: &Path, side: u32) {
+    let mut encoder = png::Encoder::new(fs::File::create(path).expect("a file"), side, side);
+    encoder.set_color(png::ColorType::Rgb);
+    let mut writer = encoder.write_header().expect("a header");
+    writer.write_image_data(&vec![200; (3 * side * side) as usize]).expect("its pixels");
+}
+
+#[test]
+fn what_is_taken_is_counted() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = |name: &str, text: &str| {
+        fs::write(folder.path().join(name), text).expect("it is written");
+        folder.path().join(name)
+    };
+    png(&folder.path().join("large.png"), 2500);
+    assert_counted("PNG", &folder.path().join("large.png"));
+    let textured = "[textures.t]\nimage = { path = 'large.png' }\n";
+    assert_counted("texture", &file("texture.toml", &scene(16, textured)));
+    assert_counted("sky", &file("sky.toml", &scene(16, "[background]\nimage = 'large.png'\n")));
+
+    assert_counted("knot", &file("knot.toml", &object("mesh = { knot = { triangles = 300000 } }")));
+    assert_counted("hills", &file("hills.toml", &object("mesh = { heightfield = { quads = 400 } }")));
+    let field = "sphere_field = { count = 50000, bounds = { min = [-1, -1, -1], max = [1, 1, 1] } }";
+    assert_counted("spheres", &file("spheres.toml", &object(field)));
+    let lamps = format!("[[objects]]\nshape = {{ {field} }}\nemission = {{ radiance = 1 }}\n");
+    assert_counted("lamps", &file("lamps.toml", &scene(16, &lamps)));
+    let lamp = "[[objects]]\nshape = { mesh = { knot = { triangles = 60000 } } }\nemission = { radiance = 1 }\n";
+    assert_counted("emitting triangles", &file("lamp.toml", &scene(16, lamp)));
+
+    let rows: String = (0..60_000).map(|i| format!("[{},{},{}],", i % 7, i % 11, i % 13)).collect();
+    let triangles: String = (0..60_000).map(|i| format!("[{},{},{}],", i % 997, i % 1009, i % 1013)).collect();
+    let lists = format!("mesh = {{ smooth = true, vertices = [{rows}], triangles = [{triangles}] }}");
+    assert_counted("lists", &file("lists.toml", &object(&lists)));
+    assert_counted("many numbers", &file("numbers.toml", &format!("x = [{}1]", "1,".repeat(1 << 20))));
+    assert_counted("many tables", &file("tables.toml", &"[[o]]\n".repeat(150_000)));
+
+    let vertices: String = (0..200_000).map(|i| format!("v {} {} {}\n", i % 7, i % 11, i % 13)).collect();
+    let faces: String = (1..=199_998).map(|i| format!("f {i} {} {}\n", i + 1, i + 2)).collect();
+    file("large.obj", &(vertices + &faces));
+    assert_counted("OBJ", &file("obj.toml", &object("mesh = { path = 'large.obj' }")));
+    let vertices: String = (0..200_000).map(|i| format!("{} {} {}\n", i % 7, i % 11, i % 13)).collect();
+    let faces: String = (0..199_998).map(|i| format!("3 {i} {} {}\n", i + 1, i + 2)).collect();
+    let header = "ply\nformat ascii 1.0\nelement vertex 200000\nproperty float x\nproperty float y\nproperty float z\n\
+        element face 199998\nproperty list uchar int vertex_indices\nend_header\n";
+    file("large.ply", &format!("{header}{vertices}{faces}"));
+    assert_counted("PLY", &file("ply.toml", &object("mesh = { path = 'large.ply' }")));
+
+    assert_counted("picture", &file("picture.toml", &scene(1200, "")));
+}
+
+#[test]
+fn what_does_not_fit_is_refused_by_its_size() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = |name: &str, text: &str| {
+        fs::write(folder.path().join(name), text).expect("it is written");
+        folder.path().join(name)
+    };
+    let refused = |file: &Path, what: &str| {
+        let said = probed(file, 30_000_000);
+        let plain = said.replace(['\n', '│'], " ").split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(plain.contains(what) && plain.contains("of the 30.0 MB allowed are left (--memory changes that)"), "{said}");
+    };
+    png(&folder.path().join("a.png"), 2000);
+    refused(&folder.path().join("a.png"), "a.png: 2000 × 2000 pixels need 48.0 MB; 30.0 MB");
+    refused(&file("a.toml", &scene(16, "[background]\nimage = 'a.png'\n")), "a.png: 2000 × 2000 pixels need 64.0 MB");
+    refused(&file("b.toml", &object("mesh = { knot = { triangles = 50000000 } }")), "50000000 triangles need");
+    refused(&file("c.toml", &object("mesh = { heightfield = { quads = 5000 } }")), "50000000 triangles need");
+    let field = "sphere_field = { count = 1000000, bounds = { min = [-1, -1, -1], max = [1, 1, 1] } }";
+    refused(&file("d.toml", &object(field)), "1000000 spheres need");
+    refused(&file("e.toml", &format!("x = [{}1]", "1,".repeat(1 << 20))), "2.1 MB of text need");
+    refused(&file("f.toml", &scene(1200, "")), "pictures of 1200 × 1200 pixels need");
+    fs::write(folder.path().join("g.obj"), "v 0 0 0\n".repeat(2_000_000)).expect("it is written");
+    refused(&file("g.toml", &object("mesh = { path = 'g.obj' }")), "g.obj: line");
+}
