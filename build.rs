@@ -1,6 +1,7 @@
 //! Tells the program which commit it was built from, or "unknown" where that cannot be known.
 use std::{path::Path, process::Command};
 
+#[allow(clippy::print_stdout, reason = "this is how a build script speaks to cargo")]
 fn main() {
     println!("cargo:rerun-if-changed=build.rs");
     println!("cargo:rustc-env=NOISEFALL_COMMIT={}", commit().unwrap_or_else(|| "unknown".to_owned()));

@@ -2,6 +2,7 @@
 //!
 //! `cargo bench --bench window`. Frames come at 60 a second, as on a screen; what is timed is what the window's thread
 //! does for one, up to the triangles for the graphics system.
+#![allow(clippy::print_stdout, reason = "figures are printed for those who ask for them")]
 use std::time::{Duration, Instant};
 
 use egui::{Key, vec2};

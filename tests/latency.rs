@@ -1,5 +1,6 @@
 //! How long a change takes to be answered while the machine is fully busy with another picture. A test program of its own, so
 //! that no other test is busy at the same time.
+#![allow(clippy::print_stdout, reason = "figures are printed for those who ask for them")]
 use std::{
     sync::Arc,
     time::{Duration, Instant},

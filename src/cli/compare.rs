@@ -15,7 +15,7 @@ use noisefall::{
     },
 };
 
-use super::{Failure, flip, print};
+use super::{Failure, flip, print, tell};
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -43,7 +43,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         check_target(output).map_err(|error| error.to_string())?;
     }
     if is_png(&arguments.a) != is_png(&arguments.b) {
-        eprintln!("note: a PNG is clipped at 1 and rounded to display codes, an EXR is not: they differ by more than noise");
+        tell("note: a PNG is clipped at 1 and rounded to display codes, an EXR is not: they differ by more than noise");
     }
     let load = |path| read(path).map_err(|error| error.to_string());
     let (a, b) = (load(&arguments.a)?, load(&arguments.b)?);

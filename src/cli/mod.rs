@@ -3,22 +3,27 @@ mod check;
 mod compare;
 mod flip;
 mod folder;
+mod messages;
 mod options;
+mod output;
+mod progress;
 mod render;
 mod replay;
 mod stop;
 mod study;
+mod summary;
 mod validate;
 
 use std::{
     ffi::OsString,
-    io::Write,
     path::{Path, PathBuf},
     process::ExitCode,
 };
 
 use clap::{CommandFactory, Parser, Subcommand};
 use noisefall::scene::{load, nearest};
+
+use messages::{print, tell};
 
 const WRONG_USAGE: u8 = 2;
 
@@ -56,7 +61,7 @@ enum Command {
 
 pub fn run() -> ExitCode {
     if let Some(mistake) = mistaken_command(&std::env::args_os().skip(1).collect::<Vec<_>>()) {
-        eprintln!("{mistake}");
+        tell(&mistake);
         return ExitCode::from(WRONG_USAGE);
     }
     let arguments = Arguments::parse();
@@ -64,14 +69,14 @@ pub fn run() -> ExitCode {
     let succeeded = |()| ExitCode::SUCCESS;
     let done = match arguments.command {
         None => window(arguments.scene).map(succeeded),
-        Some(Command::Render(arguments)) => render::run(&arguments).map(succeeded),
+        Some(Command::Render(arguments)) => render::run(&arguments),
         Some(Command::Compare(arguments)) => compare::run(&arguments).map(succeeded),
         Some(Command::Check(arguments)) => check::run(&arguments).map(succeeded),
         Some(Command::Validate(arguments)) => validate::run(&arguments).map(succeeded),
         Some(Command::Study(arguments)) => study::run(&arguments),
     };
     done.unwrap_or_else(|message| {
-        eprintln!("{message}");
+        tell(&message);
         ExitCode::FAILURE
     })
 }
@@ -90,14 +95,6 @@ fn mistaken_command(arguments: &[OsString]) -> Option<String> {
     // A single word that is near to nothing is rather a scene that is not there.
     let advice = advice.or_else(|| (arguments.len() > 1).then(|| "`noisefall --help` lists them".to_owned()))?;
     Some(format!("there is no command `{word}`; {advice}"))
-}
-
-/// Prints text and ends the line. A reader that has gone away, as in `… | head`, is no failure.
-fn print(text: &str) -> Result<(), Failure> {
-    match writeln!(std::io::stdout(), "{text}") {
-        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(format!("standard output: {error}")),
-        _ => Ok(()),
-    }
 }
 
 /// Where there is no window, what is wrong with the scene is said all the same.

@@ -2,6 +2,7 @@
 use std::time::Duration;
 
 use noisefall::{
+    render::image_file::Format,
     sampling::{Directions, SAMPLERS, Sampler},
     scene::{Estimator, Reuse, Roulette},
 };
@@ -100,6 +101,15 @@ pub fn memory(text: &str) -> Result<u64, String> {
         UNITS.iter().find_map(|(letter, factor)| Some((short.strip_suffix(*letter)?, *factor))).unwrap_or((short, 1.0));
     let bytes = number.trim_end().parse().ok().map(|number: f64| number * factor).filter(|bytes| (1.0..=1e18).contains(bytes));
     bytes.map(|bytes| bytes as u64).ok_or_else(|| "expected a size, such as 4G or 500M".to_owned())
+}
+
+pub fn format(text: &str) -> Result<Format, String> {
+    Format::named(text).ok_or_else(|| "expected png or exr".to_owned())
+}
+
+/// A value of a list, with the spaces and quotes around it that are natural in lists.
+pub fn item<T>(parse: fn(&str) -> Result<T, String>) -> impl Fn(&str) -> Result<T, String> + Clone {
+    move |text| parse(text.trim_matches(|c: char| c.is_whitespace() || matches!(c, '"' | '\'')))
 }
 
 #[cfg(test)]

@@ -1,19 +1,18 @@
 //! `noisefall render`: a picture without a window, by the same worker that serves the window.
 use std::{
-    path::{Path, PathBuf},
-    sync::{Arc, atomic::Ordering},
+    path::PathBuf,
+    process::ExitCode,
+    sync::Arc,
     time::{Duration, Instant},
 };
 
 use clap::ArgGroup;
-use crossbeam_channel::RecvTimeoutError;
-use indicatif::{ProgressBar, ProgressStyle};
 use noisefall::{
     math::SimdLevel,
     render::{
-        Budget, Display, Job, Publish, Published, Renderer, State, Status,
+        Budget, Display, Job, Published, State,
         film::Film,
-        image_file::{check_target, save},
+        image_file::Format,
         pass::{SampleId, Threads},
         settings_text::{options, settings_text},
         truth::Reference,
@@ -23,10 +22,13 @@ use noisefall::{
 };
 
 use super::{
-    Failure,
+    Failure, WRONG_USAGE,
     options::{self as parse, BounceCap},
-    print, replay,
-    stop::stop_signal,
+    output::Output,
+    progress::render,
+    replay,
+    summary::Done,
+    tell,
 };
 
 /// Samples per pixel when neither the command nor the scene says how many.
@@ -41,9 +43,12 @@ const DEFAULT_SPP: u32 = 256;
 pub struct Arguments {
     /// Scene file (.toml)
     scene: PathBuf,
-    /// Picture to write: .png (as shown, sRGB) or .exr (linear radiance)
+    /// Picture to write: .png (as shown, sRGB) or .exr (linear radiance); - for standard output
     #[arg(short, long, required_unless_present = "pixel")]
     output: Option<PathBuf>,
+    /// Format of a picture on standard output: png or exr; a file's name says it
+    #[arg(long, value_name = "FORMAT", value_parser = parse::format, requires = "output")]
+    format: Option<Format>,
     /// Stop after N samples per pixel [default: the scene's, or 256]; of --spp, --time and --noise the last one given counts
     #[arg(long, value_name = "N", value_parser = parse::samples, overrides_with_all = ["time", "noise"])]
     spp: Option<u32>,
@@ -86,31 +91,39 @@ pub struct Arguments {
     /// Replay one path through this pixel instead of rendering
     #[arg(long, value_name = "X,Y", value_parser = parse::pixel, allow_hyphen_values = true, conflicts_with = "output")]
     pixel: Option<[u32; 2]>,
-    /// Which sample of the pixel to replay
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = parse::whole, requires = "pixel")]
-    sample: u32,
-    /// Print one line of JSON last
+    /// Which sample of the pixel to replay [default: 0]
+    #[arg(long, value_name = "N", value_parser = parse::whole, requires = "pixel")]
+    sample: Option<u32>,
+    /// Print one line of JSON last, on standard error where the picture is on standard output
     #[arg(long)]
     json: bool,
 }
 
-pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
+    let output = match arguments.output.as_deref().map(|path| Output::of(path, arguments.format)).transpose() {
+        Ok(output) => output,
+        Err(mistake) => {
+            tell(&mistake);
+            return Ok(ExitCode::from(WRONG_USAGE));
+        }
+    };
     let start = Instant::now();
     let scene = Arc::new(load(&arguments.scene).map_err(|error| error.report())?);
     let camera = Camera { resolution: arguments.size.unwrap_or(scene.camera.resolution), ..scene.camera };
     camera.check().map_err(|error| error.to_string())?;
     let settings = arguments.settings(&scene);
     if let Some(pixel) = arguments.pixel {
-        return replay::run(&scene, &camera, &settings, pixel, arguments.sample, arguments.json);
+        let sample = arguments.sample.unwrap_or(0);
+        return replay::run(&scene, &camera, &settings, pixel, sample, arguments.json).map(|()| ExitCode::SUCCESS);
     }
-    let Some(output) = &arguments.output else { return Err("no output file".to_owned()) };
-    check_target(output).map_err(|error| error.to_string())?;
+    let Some(output) = output else { return Err("no output file".to_owned()) };
+    output.check()?;
     // The worker asks again: here it is no failure of the renderer.
     drop(Film::reserve(camera.resolution).map_err(|error| error.to_string())?);
     let reference = Reference::of(&scene);
     let mismatch = reference.as_ref().and_then(|truth| truth.mismatch(camera.resolution));
-    mismatch.iter().for_each(|mismatch| eprintln!("note: {mismatch}"));
-    scene.warnings().iter().for_each(|warning| eprintln!("note: {warning}"));
+    mismatch.iter().for_each(|mismatch| tell(&format!("note: {mismatch}")));
+    scene.warnings().iter().for_each(|warning| tell(&format!("note: {warning}")));
     let threads = Threads::new(arguments.threads.into(), SimdLevel::best()).map_err(|error| error.to_string())?;
     let thread_count = threads.count();
     let build_seconds = start.elapsed().as_secs_f64();
@@ -125,36 +138,26 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         let replay = failure.replays.then(|| format!("\nreplay: {}", replay_command(arguments, failure.at, &settings, &scene)));
         return Err(format!("the renderer failed: {}{}", failure.message, replay.unwrap_or_default()));
     }
-    let text = settings_text(&scene, &camera, &settings, Display::default(), status.spp, &[]);
-    save_somewhere(output, |path| save(&frame, Display::default(), &text, path))?;
-    let rel_mse = reference.and_then(|truth| truth.compare(&frame)).map(|comparison| comparison.rel_mse);
-    let replay = status.first_invalid.map(|at| replay_command(arguments, at, &settings, &scene));
-    if let Some(replay) = &replay {
-        eprintln!("warning: {} invalid samples were dropped; the first one: {replay}", status.invalid_samples);
+    let text = settings_text(&scene, &camera, &settings, Display::default(), &frame, &[]);
+    let delivered = output.write(&frame, Display::default(), &text)?;
+    if delivered != ExitCode::SUCCESS {
+        return Ok(delivered);
     }
-    let black = frame.is_black();
-    if black {
-        eprintln!("note: the picture is entirely black: {}", scene.why_black(&camera, &settings));
-    }
-    if status.cut_paths > 0 {
-        let longest = settings.last_bounce();
-        eprintln!(
-            "warning: {} paths were cut after {longest} reflections: the picture is biased; use roulette",
-            status.cut_paths
-        );
-    }
-    if arguments.json {
-        let line = serde_json::json!({
-            "scene": arguments.scene, "width": frame.width, "height": frame.height, "spp": status.spp,
-            "threads": thread_count, "seed": settings.seed, "build_seconds": build_seconds, "render_seconds": render_seconds,
-            "paths": status.samples, "rays": status.rays, "invalid_samples": status.invalid_samples,
-            "rel_mse_estimate": status.rel_mse_estimate, "cut_paths": status.cut_paths, "dropped_triangles": scene.shapes.dropped_triangles(), "bias": status.bias(&settings),
-            "reuse": status.shares, "adaptive": status.adapts, "rel_mse": rel_mse, "replay": replay,
-        });
-        print(&line.to_string())
-    } else {
-        print(&summary(output, &status, &settings, render_seconds, rel_mse, black))
-    }
+    let done = Done {
+        output: &output,
+        scene: &scene,
+        scene_path: &arguments.scene,
+        settings: &settings,
+        rel_mse: reference.and_then(|truth| truth.compare(&frame)).map(|comparison| comparison.rel_mse),
+        replay: status.first_invalid.map(|at| replay_command(arguments, at, &settings, &scene)),
+        frame: &frame,
+        status: &status,
+        threads: thread_count,
+        seconds: [build_seconds, render_seconds],
+    };
+    done.notes(&camera).iter().for_each(|note| tell(note));
+    output.report(&if arguments.json { done.json().to_string() } else { done.line() })?;
+    Ok(delivered)
 }
 
 impl Arguments {
@@ -179,85 +182,10 @@ impl Arguments {
     }
 }
 
-/// Renders to the end, with a progress bar where there is a terminal to show it.
-fn render(threads: Threads, job: Job, budget: Budget, quiet: bool) -> Result<Published, Failure> {
-    let (wake, woken) = crossbeam_channel::bounded(1);
-    let renderer = Renderer::new(threads, Publish::Sparse, move || {
-        let _ = wake.try_send(());
-    });
-    renderer.set_budget(budget);
-    renderer.submit(job);
-    let stop = stop_signal("interrupted: saving the picture as it is (once more to give up)")?;
-    let bar = if quiet { ProgressBar::hidden() } else { progress_bar(&budget) };
-    loop {
-        if woken.recv_timeout(Duration::from_millis(200)) == Err(RecvTimeoutError::Disconnected) {
-            return Err("the render thread ended unexpectedly".to_owned());
-        }
-        if stop.load(Ordering::Relaxed) {
-            renderer.set_budget(Budget { paused: true, ..budget });
-        }
-        let published = renderer.latest();
-        show_progress(&bar, &budget, &published.status);
-        if matches!(published.status.state, State::Paused | State::Converged | State::Failed(_)) {
-            bar.finish_and_clear();
-            return Ok(published);
-        }
-    }
-}
-
-fn progress_bar(budget: &Budget) -> ProgressBar {
-    let length = match budget {
-        Budget { max_spp: Some(spp), .. } => u64::from(*spp),
-        Budget { max_time: Some(time), .. } => time.as_millis() as u64,
-        _ => 1000,
-    };
-    let style = ProgressStyle::with_template("{bar:30} {percent:>3} %  {msg}  {elapsed} elapsed, {eta} left");
-    ProgressBar::new(length).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
-}
-
-fn show_progress(bar: &ProgressBar, budget: &Budget, status: &Status) {
-    let position = match (budget.noise, status.relative_noise()) {
-        _ if budget.max_spp.is_some() => u64::from(status.spp),
-        _ if budget.max_time.is_some() => status.elapsed.as_millis() as u64,
-        // Noise falls as the root of time: the square of the ratio is the share of the work that is done.
-        (Some(goal), Some(noise)) => (1000.0 * (goal / noise).powi(2)).min(1000.0) as u64,
-        _ => 0,
-    };
-    bar.set_position(position);
-    bar.set_message(format!("{} spp, {:.1} M samples/s{}", status.spp, status.samples_per_second() / 1e6, noise_text(status)));
-}
-
-fn noise_text(status: &Status) -> String {
-    status.relative_noise().map_or_else(String::new, |noise| format!(", noise {:.2} %", 100.0 * noise))
-}
-
-fn summary(output: &Path, status: &Status, settings: &RenderSettings, seconds: f64, rel_mse: Option<f64>, black: bool) -> String {
-    let bias = status.bias(settings).map_or_else(|| "unbiased".to_owned(), |why| format!("biased: {why}"));
-    let error = rel_mse.map_or_else(String::new, |e| format!(", true error {:.2} %", 100.0 * e.sqrt()));
-    let rate = status.samples as f64 / seconds / 1e6;
-    let noise = if black { ", no light found".to_owned() } else { noise_text(status) };
-    format!("{}: {} spp in {seconds:.2} s ({rate:.1} M samples/s){noise}{error}, {bias}", output.display(), status.spp)
-}
-
 /// The command that traces one sample again.
 fn replay_command(arguments: &Arguments, at: SampleId, settings: &RenderSettings, scene: &Scene) -> String {
     let [x, y] = at.pixel;
     let size = arguments.size.map_or_else(String::new, |[w, h]| format!(" --size {w}x{h}"));
     let options = options(settings, &scene.settings);
     format!("noisefall render {} --pixel {x},{y} --sample {}{size}{options}", arguments.scene.display(), at.sample)
-}
-
-/// A rendered picture must not be lost to a full disk: where the target fails, the folder for temporary files is tried.
-fn save_somewhere(
-    path: &Path,
-    save: impl Fn(&Path) -> Result<(), noisefall::render::image_file::ImageError>,
-) -> Result<(), Failure> {
-    let Err(error) = save(path) else { return Ok(()) };
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let candidates = (0..).map(|i| std::env::temp_dir().join(format!("noisefall-{}-{i}-{name}", std::process::id())));
-    let Some(rescue) = { candidates }.find(|path| !path.exists()) else { return Err(error.to_string()) };
-    match save(&rescue) {
-        Ok(()) => Err(format!("{error}\nthe picture was saved as {} instead", rescue.display())),
-        Err(_) => Err(error.to_string()),
-    }
 }

@@ -4,7 +4,7 @@ use std::sync::{
     atomic::{AtomicBool, Ordering},
 };
 
-use super::Failure;
+use super::{Failure, tell};
 
 /// The status of a program that ended because it was interrupted.
 pub const INTERRUPTED: u8 = 130;
@@ -17,7 +17,7 @@ pub fn stop_signal(message: &'static str) -> Result<Arc<AtomicBool>, Failure> {
         if flag.swap(true, Ordering::Relaxed) {
             std::process::exit(INTERRUPTED.into());
         }
-        eprintln!("{message}");
+        tell(message);
     };
     ctrlc::set_handler(interrupted).map_err(|error| error.to_string())?;
     Ok(stop)

@@ -15,6 +15,7 @@ use super::{
     options::{self as parse, BounceCap},
     print,
     stop::{INTERRUPTED, stop_signal},
+    tell,
 };
 
 const NOTES: &str = "\
@@ -36,19 +37,19 @@ pub struct Arguments {
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
     /// How light is found: path, light, mis
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::estimator, default_value = "path,light,mis")]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::item(parse::estimator), default_value = "path,light,mis")]
     estimators: Vec<Estimator>,
     /// How the next direction is drawn at diffuse surfaces: uniform, cosine, bsdf
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::directions, default_value = "uniform,cosine,bsdf")]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::item(parse::directions), default_value = "uniform,cosine,bsdf")]
     directions: Vec<Directions>,
     /// Where samples lie: independent, stratified, sobol, bluenoise (which is sobol in another order)
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::sampler, default_value = "independent,stratified,sobol")]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::item(parse::sampler), default_value = "independent,stratified,sobol")]
     samplers: Vec<Sampler>,
     /// Russian roulette: off, survival probabilities, throughput
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::roulette, default_value = "off,0.8,throughput")]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::item(parse::roulette), default_value = "off,0.8,throughput")]
     roulette: Vec<Roulette>,
     /// Highest numbers of reflections, none for no cap; what is capped is biased and never the best
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::bounce_cap, default_value = "none")]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::item(parse::bounce_cap), default_value = "none")]
     max_bounces: Vec<BounceCap>,
     /// Largest number of samples per pixel; errors are measured at powers of two up to it
     #[arg(long, value_name = "N", default_value = "256", value_parser = parse::samples)]
@@ -72,10 +73,10 @@ pub struct Arguments {
 
 pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     if arguments.reference.is_some() && arguments.scenes.len() > 1 {
-        eprintln!("--reference is the picture of one scene, and {} are given", arguments.scenes.len());
+        tell(&format!("--reference is the picture of one scene, and {} are given", arguments.scenes.len()));
         return Ok(ExitCode::from(WRONG_USAGE));
     }
-    folder::make(&arguments.output)?;
+    [folder::REPORT, CSV].into_iter().try_for_each(|name| folder::make(&arguments.output, name))?;
     let load = |path: &PathBuf| Subject::load(path, arguments.size, arguments.reference.as_deref());
     let subjects = arguments.scenes.iter().map(load).collect::<Result<Vec<_>, _>>().map_err(|error| error.to_string())?;
     // One film at a time.
@@ -83,7 +84,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let _memory = largest.map(Film::reserve).transpose().map_err(|error| error.to_string())?;
     let mut store = Store::open(&arguments.output).map_err(|error| error.to_string())?;
     if store.dropped > 0 {
-        eprintln!("note: {} lines of {CSV} belong to runs that are not complete and are left out", store.dropped);
+        tell(&format!("note: {} lines of {CSV} belong to runs that are not complete and are left out", store.dropped));
     }
     let threads = Threads::new(arguments.threads.into(), SimdLevel::best()).map_err(|error| error.to_string())?;
     let (plan, machine) = (arguments.plan(), Machine::here(&threads));
@@ -97,7 +98,8 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     match found {
         Ok(findings) => finish(arguments, &findings, &plan, &machine).map(|()| ExitCode::SUCCESS),
         Err(StudyError::Interrupted) => {
-            eprintln!("stopped: {} has {} runs; the same command goes on from there", arguments.output.display(), store.len());
+            let folder = arguments.output.display();
+            tell(&format!("stopped: {folder} has {} runs; the same command goes on from there", store.len()));
             Ok(ExitCode::from(INTERRUPTED))
         }
         Err(error) => Err(error.to_string()),
@@ -141,14 +143,14 @@ impl Display {
             Progress::Planned { runs, found } => {
                 self.bar.set_length((runs - found) as u64);
                 if *found > 0 {
-                    eprintln!("{found} of {runs} runs are there already");
+                    tell(&format!("{found} of {runs} runs are there already"));
                 }
             }
             Progress::Reference { title, share } => {
                 self.bar.set_message(format!("{title}: reference, {:.0} %", 100.0 * share));
                 self.bar.tick();
                 if self.bar.is_hidden() && *share == 1.0 {
-                    eprintln!("{title}: the reference is rendered");
+                    tell(&format!("{title}: the reference is rendered"));
                 }
             }
             Progress::Begun { title, settings } => {
@@ -156,7 +158,7 @@ impl Display {
                 self.bar.tick();
             }
             Progress::Done => self.bar.inc(1),
-            Progress::Combination { title, outcome } if self.bar.is_hidden() => eprintln!("{title}: {outcome}"),
+            Progress::Combination { title, outcome } if self.bar.is_hidden() => tell(&format!("{title}: {outcome}")),
             Progress::Combination { .. } => {}
         }
     }

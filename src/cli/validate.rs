@@ -72,7 +72,7 @@ fn check(arguments: &Arguments) -> Result<(), Failure> {
     {
         return Err(format!("{}: no references (NAME.toml with NAME.txt) in this folder", folder.display()));
     }
-    arguments.output.as_deref().map_or(Ok(()), folder::make)
+    arguments.output.as_deref().map_or(Ok(()), |folder| folder::make(folder, folder::REPORT))
 }
 
 fn failures(section: &Section) -> usize {

@@ -6,6 +6,7 @@ use rayon::prelude::*;
 use super::{
     doubling::rel_mse_estimate,
     film::Film,
+    sample_counts::SampleCounts,
     series::Series,
     tile::{Estimate, Tile},
 };
@@ -74,6 +75,11 @@ impl Frame {
     /// Samples of a pixel, by its index.
     pub fn spp_at(&self, index: usize) -> u32 {
         self.counts.get(index).copied().unwrap_or(self.spp)
+    }
+
+    /// How many samples its pixels have.
+    pub fn sample_counts(&self) -> SampleCounts {
+        SampleCounts::of((0..self.radiance.len()).map(|index| self.spp_at(index)))
     }
 
     /// The pixel of the frame that covers a pixel of the full picture, as an index.

@@ -1,6 +1,6 @@
 //! Pictures on disk: PNG (what the screen shows) and EXR (linear radiance), both with the settings that made them.
 use std::{
-    io::{BufWriter, Write},
+    io::Write,
     path::{Path, PathBuf},
 };
 
@@ -8,7 +8,10 @@ use exr::prelude::{Image, Layer, LayerAttributes, SpecificChannels, Text, Writab
 
 use super::{display::to_srgb, frame::Frame, tone::Display};
 pub use crate::image::Picture;
-use crate::image::{Encoding, PictureError};
+use crate::{
+    file::{self, WriteError},
+    image::{Encoding, PictureError},
+};
 
 /// Where the settings stand in a file.
 pub const SETTINGS_KEY: &str = "noisefall";
@@ -18,99 +21,77 @@ pub const SETTINGS_KEY: &str = "noisefall";
 pub enum ImageError {
     #[error("{}: the name must end in .png (as shown) or .exr (linear)", .0.display())]
     Format(PathBuf),
-    #[error("{}: there is no folder {}", path.display(), folder.display())]
-    NoFolder { path: PathBuf, folder: PathBuf },
-    #[error("{}: cannot be written: {reason}", path.display())]
-    Write { path: PathBuf, reason: String },
+    #[error(transparent)]
+    Write(#[from] WriteError),
+    #[error("the picture cannot be encoded: {0}")]
+    Encode(String),
     #[error(transparent)]
     Read(#[from] PictureError),
 }
 
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Format {
+/// What kind of file a picture becomes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// As shown, sRGB.
     Png,
+    /// Linear radiance.
     Exr,
 }
 
-fn format(path: &Path) -> Result<Format, ImageError> {
-    match path.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase).as_deref() {
-        Some("png") => Ok(Format::Png),
-        Some("exr") => Ok(Format::Exr),
-        _ => Err(ImageError::Format(path.to_owned())),
+impl Format {
+    /// The format that a name asks for by its extension.
+    pub fn of(path: &Path) -> Result<Format, ImageError> {
+        let extension = path.extension().and_then(|extension| extension.to_str());
+        extension.and_then(Format::named).ok_or_else(|| ImageError::Format(path.to_owned()))
+    }
+
+    /// "png" or "exr", in letters of either case.
+    pub fn named(name: &str) -> Option<Format> {
+        [Format::Png, Format::Exr].into_iter().find(|format| format.name().eq_ignore_ascii_case(name))
+    }
+
+    pub fn name(self) -> &'static str {
+        match self {
+            Format::Png => "png",
+            Format::Exr => "exr",
+        }
     }
 }
 
 /// Whether a picture could be written there, as far as can be told before there is one.
 pub fn check_target(path: &Path) -> Result<(), ImageError> {
-    format(path)?;
-    let path = &through_links(path);
-    let folder = folder(path)?;
-    let refused = |reason: String| Err(ImageError::Write { path: path.to_owned(), reason });
-    match std::fs::metadata(path) {
-        Ok(there) if there.is_dir() => return refused("it is a folder".to_owned()),
-        Err(error) if error.kind() != std::io::ErrorKind::NotFound => return refused(error.to_string()),
-        _ => {}
-    }
-    // Made and removed again: a folder that cannot be written to is better known before an hour of rendering than after.
-    temporary(path, &folder).map(drop)
-}
-
-/// What a symbolic link stands for in the end, there or not: a file that is renamed to the link itself would replace it.
-fn through_links(path: &Path) -> PathBuf {
-    const MOST_LINKS: usize = 40;
-    let mut path = path.to_owned();
-    for _ in 0..MOST_LINKS {
-        let Ok(to) = std::fs::read_link(&path) else { break };
-        path = path.parent().map_or_else(|| to.clone(), |folder| folder.join(&to));
-    }
-    path
-}
-
-/// The folder that the file will lie in, which must exist.
-fn folder(path: &Path) -> Result<PathBuf, ImageError> {
-    let parent = path.parent().filter(|folder| !folder.as_os_str().is_empty());
-    let folder = parent.unwrap_or_else(|| Path::new(".")).to_owned();
-    if folder.is_dir() { Ok(folder) } else { Err(ImageError::NoFolder { path: path.to_owned(), folder }) }
+    Format::of(path)?;
+    Ok(file::check(path)?)
 }
 
 /// Writes a frame as PNG or EXR, by the extension. The file appears whole or not at all. `settings` is any text.
 pub fn save(frame: &Frame, display: Display, settings: &str, path: &Path) -> Result<(), ImageError> {
-    let mut pixels = Vec::new();
-    if format(path)? == Format::Png {
-        to_srgb(&frame.radiance, display, &mut pixels);
-    }
-    save_shown(frame, &pixels, settings, path)
+    let bytes = encode(frame, display, settings, Format::of(path)?)?;
+    Ok(file::replace(path, &bytes)?)
 }
 
 /// [`save`] with these pixels in a PNG: what the screen shows of the frame.
 pub fn save_shown(frame: &Frame, pixels: &[[u8; 4]], settings: &str, path: &Path) -> Result<(), ImageError> {
-    let format = format(path)?;
-    let path = &through_links(path);
-    let folder = folder(path)?;
-    let failed = |reason: String| ImageError::Write { path: path.to_owned(), reason };
-    let mut file = temporary(path, &folder)?;
-    {
-        let mut writer = BufWriter::new(file.as_file_mut());
-        match format {
-            Format::Png => write_png([frame.width, frame.height], pixels, settings, &mut writer),
-            Format::Exr => write_exr(frame, settings, &mut writer),
-        }
-        .map_err(failed)?;
-        writer.flush().map_err(|error| failed(error.to_string()))?;
-    }
-    file.as_file().sync_all().map_err(|error| failed(error.to_string()))?;
-    file.persist(path).map_err(|error| failed(error.error.to_string()))?;
-    Ok(())
+    let bytes = encode_shown(frame, pixels, settings, Format::of(path)?)?;
+    Ok(file::replace(path, &bytes)?)
 }
 
-/// A file beside the target that disappears unless it is renamed to it.
-fn temporary(path: &Path, folder: &Path) -> Result<tempfile::NamedTempFile, ImageError> {
-    crate::file::temporary(folder).map_err(|error| {
-        // The crate adds the path of the temporary file, which says nothing to anybody.
-        let reason = error.to_string();
-        let why = reason.split(" at path ").next().unwrap_or_default();
-        ImageError::Write { path: path.to_owned(), reason: why.to_owned() }
-    })
+/// The bytes of a file.
+pub fn encode(frame: &Frame, display: Display, settings: &str, format: Format) -> Result<Vec<u8>, ImageError> {
+    let mut pixels = Vec::new();
+    if format == Format::Png {
+        to_srgb(&frame.radiance, display, &mut pixels);
+    }
+    encode_shown(frame, &pixels, settings, format)
+}
+
+fn encode_shown(frame: &Frame, pixels: &[[u8; 4]], settings: &str, format: Format) -> Result<Vec<u8>, ImageError> {
+    let mut bytes = Vec::new();
+    let encoded = match format {
+        Format::Png => write_png([frame.width, frame.height], pixels, settings, &mut bytes),
+        Format::Exr => write_exr(frame, settings, &mut bytes),
+    };
+    encoded.map(|()| bytes).map_err(ImageError::Encode)
 }
 
 fn write_png([width, height]: [u32; 2], pixels: &[[u8; 4]], settings: &str, to: &mut impl Write) -> Result<(), String> {
@@ -125,7 +106,7 @@ fn write_png([width, height]: [u32; 2], pixels: &[[u8; 4]], settings: &str, to: 
     writer.finish().map_err(|error| error.to_string())
 }
 
-fn write_exr(frame: &Frame, settings: &str, to: &mut impl Write) -> Result<(), String> {
+fn write_exr(frame: &Frame, settings: &str, to: &mut Vec<u8>) -> Result<(), String> {
     let size = (frame.width as usize, frame.height as usize);
     let channels = SpecificChannels::rgb(|at: exr::prelude::Vec2<usize>| {
         let [r, g, b] = frame.radiance[at.y() * size.0 + at.x()];
@@ -138,9 +119,7 @@ fn write_exr(frame: &Frame, settings: &str, to: &mut impl Write) -> Result<(), S
     attributes.other.insert(Text::from(SETTINGS_KEY), AttributeValue::Text(text));
     let layer = Layer::new(size, attributes, exr::prelude::Encoding::FAST_LOSSLESS, channels);
     // The format is written with seeks, which a buffer in memory allows whatever the target is.
-    let mut bytes = std::io::Cursor::new(Vec::new());
-    Image::from_layer(layer).write().to_buffered(&mut bytes).map_err(|error| error.to_string())?;
-    to.write_all(bytes.get_ref()).map_err(|error| error.to_string())
+    Image::from_layer(layer).write().to_buffered(std::io::Cursor::new(to)).map_err(|error| error.to_string())
 }
 
 /// Reads a picture; a PNG is taken as sRGB.

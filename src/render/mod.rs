@@ -16,10 +16,12 @@ pub mod image_file;
 pub mod pass;
 mod protocol;
 pub mod region;
+mod sample_counts;
 pub mod series;
 mod session;
 pub mod settings_text;
 pub mod sharing;
+mod target;
 pub mod tile;
 pub mod tone;
 pub mod truth;
@@ -30,7 +32,9 @@ pub use self::{
     frame::Frame,
     protocol::{Beside, Budget, Job, Publish, Published, State, Status},
     region::Region,
+    sample_counts::SampleCounts,
     series::Series,
+    target::Target,
     tone::{Display, ToneMap},
     worker::Renderer,
 };

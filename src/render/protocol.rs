@@ -5,6 +5,7 @@ use super::{
     frame::Frame,
     pass::{Failure, SampleId},
     region::Region,
+    target::Target,
 };
 use crate::scene::{Camera, RenderSettings, Scene};
 
@@ -31,6 +32,23 @@ pub struct Budget {
     pub region: Option<Region>,
 }
 
+impl Budget {
+    /// The target that a picture with these figures has reached, if it has one.
+    pub fn target(&self, spp: u32, elapsed: Duration, rel_mse_estimate: Option<f64>) -> Option<Target> {
+        let samples = self.max_spp.filter(|most| spp >= *most).map(|_| Target::Samples(spp));
+        let time = self.max_time.filter(|most| elapsed >= *most).map(|_| Target::Time);
+        let noise = self.noise.filter(|goal| is_below(*goal, spp, rel_mse_estimate)).map(Target::Noise);
+        samples.or(time).or(noise).filter(|_| spp > 0)
+    }
+}
+
+/// Whether the noise of a picture is at most `goal`, as far as this can be believed.
+pub(super) fn is_below(goal: f64, spp: u32, rel_mse_estimate: Option<f64>) -> bool {
+    /// Before so many samples pixels that no light has found yet look free of noise.
+    const LEAST_SPP: u32 = 64;
+    spp >= LEAST_SPP && rel_mse_estimate.is_some_and(|rel_mse| rel_mse.sqrt() <= goal)
+}
+
 /// A picture beside the first.
 #[derive(Clone)]
 pub enum Beside {
@@ -49,7 +67,7 @@ pub enum State {
     Running,
     Paused,
     /// A target of the budget is reached.
-    Converged,
+    Done(Target),
     /// The renderer panicked; the picture so far stands.
     Failed(Failure),
 }
@@ -110,4 +128,55 @@ pub enum Publish {
     Live,
     /// Twice a second and at rest, full resolution only: for files.
     Sparse,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_budget_says_which_of_its_targets_is_reached() {
+        let second = Duration::from_secs(1);
+        let budget = |max_spp, max_time, noise| Budget { max_spp, max_time, noise, ..Budget::default() };
+        let samples = budget(Some(5), None, None);
+        assert_eq!(samples.target(4, 100 * second, Some(0.0)), None);
+        assert_eq!(samples.target(5, second, None), Some(Target::Samples(5)));
+        assert_eq!(samples.target(9, second, None), Some(Target::Samples(9)), "what it has, not what was asked for");
+        let time = budget(None, Some(second), None);
+        assert_eq!(time.target(1000, second - Duration::from_nanos(1), Some(0.0)), None);
+        assert_eq!(time.target(1, second, None), Some(Target::Time));
+        assert_eq!(time.target(0, second, None), None, "there is no picture yet");
+        // relMSE is the square of the noise.
+        let noise = budget(None, None, Some(0.1));
+        assert_eq!(noise.target(64, second, Some(0.0099)), Some(Target::Noise(0.1)));
+        assert_eq!(noise.target(64, second, Some(0.0101)), None);
+        assert_eq!(noise.target(63, second, Some(0.0)), None, "too early to be believed");
+        assert_eq!(noise.target(1000, second, None), None);
+        let all = budget(Some(100), Some(second), Some(0.1));
+        assert_eq!(all.target(80, second / 2, Some(0.0)), Some(Target::Noise(0.1)));
+        assert_eq!(all.target(80, second, Some(1.0)), Some(Target::Time));
+        assert_eq!(all.target(100, second / 2, Some(1.0)), Some(Target::Samples(100)));
+        assert_eq!(Budget::default().target(1 << 30, 1_000_000 * second, Some(0.0)), None);
+    }
+
+    #[test]
+    fn figures_follow_from_others() {
+        let status = Status {
+            samples: 3_000_000,
+            elapsed: Duration::from_millis(1500),
+            rel_mse_estimate: Some(0.0004),
+            ..Status::default()
+        };
+        assert_eq!((status.samples_per_second(), status.relative_noise()), (2e6, Some(0.02)));
+    }
+
+    #[test]
+    fn bias_is_told_of_caps_and_of_paths_that_were_cut() {
+        let (whole, cut) = (Status::default(), Status { cut_paths: 3, ..Status::default() });
+        let (uncapped, capped) =
+            (RenderSettings::default(), RenderSettings { max_bounces: Some(2), ..RenderSettings::default() });
+        assert_eq!((whole.bias(&uncapped), cut.bias(&uncapped)), (None, Some("3 paths cut".to_owned())));
+        assert_eq!((whole.bias(&capped), cut.bias(&capped)), (capped.bias(), capped.bias()));
+        assert!(capped.bias().is_some());
+    }
 }

@@ -6,7 +6,7 @@ use super::{
     film::Film,
     frame::Frame,
     pass::{Failure, PassCount, PassJob, SampleId, Threads},
-    protocol::{Budget, Job, Publish, State, Status},
+    protocol::{Budget, Job, Publish, State, Status, is_below},
     region::Region,
     sharing::resolved,
 };
@@ -23,8 +23,6 @@ const FIRST_PICTURE: Duration = Duration::from_millis(10);
 const SHORTEST_INTERVAL: Duration = Duration::from_millis(33);
 const LONGEST_INTERVAL: Duration = Duration::from_millis(500);
 const MOST_SPP_A_PASS: f64 = 1024.0;
-/// Before so many samples a noise target is not believed: pixels that no light has found yet look free of noise.
-const LEAST_SPP_FOR_NOISE: u32 = 64;
 /// A pause waits for the first full sample of a picture, but not longer than this.
 const PATIENCE: Duration = Duration::from_secs(1);
 
@@ -144,15 +142,10 @@ impl Session {
     /// Every picture gets its first sample, paused or not: one wants to see what one has changed.
     pub fn state(&self, budget: &Budget) -> State {
         let spp = self.film.spp();
-        let enough_samples = budget.max_spp.is_some_and(|most| spp >= most);
-        let enough_time = budget.max_time.is_some_and(|most| self.elapsed >= most);
-        let believable = spp >= LEAST_SPP_FOR_NOISE;
-        let low_noise =
-            believable && budget.noise.zip(self.rel_mse_estimate).is_some_and(|(goal, rel_mse)| rel_mse.sqrt() <= goal);
         if let Some(failure) = &self.count.failure {
             State::Failed(failure.clone())
-        } else if spp > 0 && (enough_samples || enough_time || low_noise) {
-            State::Converged
+        } else if let Some(target) = budget.target(spp, self.elapsed, self.rel_mse_estimate) {
+            State::Done(target)
         } else if budget.paused && budget.steps <= self.steps_done && (spp > 0 || self.takes_long()) {
             State::Paused
         } else {
@@ -163,11 +156,11 @@ impl Session {
     /// The region to render before the rest, until it has the samples or the noise that the budget asks for. Every pixel has its first
     /// sample by then.
     fn focus(&self, budget: &Budget) -> Option<Region> {
-        let estimate = |region: &Region| self.region_estimate.filter(|(of, _)| of == region).map(|(_, rel_mse)| rel_mse.sqrt());
+        let estimate = |region: &Region| self.region_estimate.filter(|(of, _)| of == region).map(|(_, rel_mse)| rel_mse);
         let unfinished = |region: &Region| {
             let Some(spp) = self.film.spp_in(region) else { return false };
-            let low_noise = budget.noise.zip(estimate(region)).is_some_and(|(goal, noise)| noise <= goal);
-            budget.max_spp.is_none_or(|most| spp < most) && !(low_noise && spp >= LEAST_SPP_FOR_NOISE)
+            let low_noise = budget.noise.is_some_and(|goal| is_below(goal, spp, estimate(region)));
+            budget.max_spp.is_none_or(|most| spp < most) && !low_noise
         };
         budget.region.filter(|region| self.film.spp() > 0 && unfinished(region))
     }

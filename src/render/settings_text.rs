@@ -1,7 +1,7 @@
 //! The settings of a picture as text: what a file carries, so that it can be traced back and made again.
 use serde_json::json;
 
-use super::tone::Display;
+use super::{frame::Frame, tone::Display};
 use crate::scene::{Camera, RenderSettings, Scene};
 
 /// One JSON object, in ASCII, with all that a picture depends on. `remarks` say what of it is shown, where that is not all.
@@ -10,7 +10,7 @@ pub fn settings_text(
     camera: &Camera,
     settings: &RenderSettings,
     display: Display,
-    spp: u32,
+    frame: &Frame,
     remarks: &[(&str, String)],
 ) -> String {
     let mut text = json!({
@@ -20,7 +20,9 @@ pub fn settings_text(
         "camera": camera,
         "settings": settings,
         "display": display,
-        "spp": spp,
+        "spp": frame.spp,
+        "mean_spp": frame.sample_counts().mean(),
+        "samples": frame.sample_counts().total,
     });
     for (name, remark) in remarks {
         text[*name] = remark.as_str().into();
@@ -64,16 +66,39 @@ pub fn options(settings: &RenderSettings, of_scene: &RenderSettings) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Roulette, built_in};
+    use crate::{
+        render::tone::ToneMap,
+        sampling::{Directions, Sampler},
+        scene::{Estimator, Reuse, Roulette, built_in},
+    };
 
     #[test]
     fn the_text_is_ascii_and_still_says_the_same() {
         let mut scene = built_in();
         scene.title = "ρ = ½, 𝄞".to_owned();
-        let text = settings_text(&scene, &scene.camera, &scene.settings, Display::default(), 3, &[("view", "cos θ".to_owned())]);
+        // Interrupted: two pixels have a sample more.
+        let frame = Frame { spp: 3, radiance: vec![[0.0; 3]; 4], counts: vec![3, 4, 3, 4], ..Frame::default() };
+        let display = Display { exposure: 1.5, tone_map: ToneMap::Reinhard };
+        let settings = RenderSettings { seed: 9, ..scene.settings };
+        let camera = Camera { resolution: [2, 2], ..scene.camera };
+        let text = settings_text(&scene, &camera, &settings, display, &frame, &[("view", "cos θ".to_owned())]);
         assert!(text.is_ascii());
         let back: serde_json::Value = serde_json::from_str(&text).expect("it is JSON");
-        assert_eq!((&back["title"], &back["view"]), (&json!("ρ = ½, 𝄞"), &json!("cos θ")));
+        for (key, value) in [
+            ("title", json!("ρ = ½, 𝄞")),
+            ("view", json!("cos θ")),
+            ("scene", json!(scene.source)),
+            ("camera", json!(camera)),
+            ("settings", json!(settings)),
+            ("display", json!(display)),
+            ("spp", json!(3)),
+            ("mean_spp", json!(3.5)),
+            ("samples", json!(14)),
+        ] {
+            assert_eq!(back[key], value, "{key}");
+        }
+        assert_eq!((&back["camera"]["resolution"], &back["settings"]["seed"]), (&json!([2, 2]), &json!(9)));
+        assert_eq!(back["program"], concat!("Noisefall ", env!("CARGO_PKG_VERSION")));
     }
 
     #[test]
@@ -82,5 +107,36 @@ mod tests {
         assert_eq!(options(&scene, &scene), "");
         let changed = RenderSettings { max_bounces: Some(3), seed: 7, ..scene };
         assert_eq!(options(&changed, &scene), " --max-bounces 3 --seed 7");
+    }
+
+    #[test]
+    fn every_setting_has_its_option() {
+        let scene = RenderSettings {
+            sampler: Sampler::Independent,
+            estimator: Estimator::Mis,
+            directions: Directions::Bsdf,
+            roulette: Roulette::Off,
+            max_bounces: None,
+            reuse: Reuse::Auto,
+            adaptive: false,
+            seed: 0,
+            ..RenderSettings::default()
+        };
+        let other = RenderSettings {
+            sampler: Sampler::Stratified,
+            estimator: Estimator::Light,
+            directions: Directions::Uniform,
+            roulette: Roulette::Fixed(0.5),
+            max_bounces: Some(0),
+            reuse: Reuse::On,
+            adaptive: true,
+            seed: 1,
+            ..RenderSettings::default()
+        };
+        let there = " --sampler stratified --estimator light --directions uniform --roulette 0.5 --max-bounces 0 --reuse on \
+                     --adaptive on --seed 1";
+        let back = " --sampler independent --estimator mis --directions bsdf --roulette off --max-bounces none --reuse auto \
+                    --adaptive off --seed 0";
+        assert_eq!((options(&other, &scene).as_str(), options(&scene, &other).as_str()), (there, back));
     }
 }

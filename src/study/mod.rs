@@ -45,7 +45,7 @@ pub use self::{
     subject::Subject,
     wording::{table, verdict},
 };
-use crate::scene::SceneError;
+use crate::{file::WriteError, scene::SceneError};
 
 /// Why a study ended early.
 #[derive(Debug, thiserror::Error)]
@@ -58,6 +58,8 @@ pub enum StudyError {
     /// A file that cannot be read or written.
     #[error("{}: {reason}", path.display())]
     File { path: PathBuf, reason: String },
+    #[error(transparent)]
+    Write(#[from] WriteError),
     #[error("the renderer failed: {0}")]
     Renderer(String),
     /// Somebody asked to stop; what was complete is in the store.

@@ -158,8 +158,10 @@ impl Converged<'_> {
 
     fn keep(&self, frame: &Frame, settings: &RenderSettings, path: &Path) -> Result<(), StudyError> {
         let Subject { scene, camera, .. } = self.subject;
-        let text = settings_text(scene, camera, settings, Display::default(), frame.spp, &[]);
-        let failed = |error: image_file::ImageError| StudyError::File { path: path.to_owned(), reason: error.to_string() };
-        image_file::save(frame, Display::default(), &text, path).map_err(failed)
+        let text = settings_text(scene, camera, settings, Display::default(), frame, &[]);
+        image_file::save(frame, Display::default(), &text, path).map_err(|error| match error {
+            image_file::ImageError::Write(error) => error.into(),
+            error => StudyError::File { path: path.to_owned(), reason: error.to_string() },
+        })
     }
 }

@@ -1,12 +1,13 @@
 //! What has been measured: `study.csv`, whose runs are found again by their keys. Studies of other scenes and settings stay in it.
 use std::{
     collections::HashMap,
-    io::ErrorKind,
+    fs::File,
+    io::{ErrorKind, Read},
     path::{Path, PathBuf},
 };
 
 use super::{StudyError, measure::Run, row};
-use crate::file::replace;
+use crate::file::{open_regular, replace};
 
 /// The name of the file.
 pub const CSV: &str = "study.csv";
@@ -25,7 +26,11 @@ impl Store {
     pub fn open(folder: &Path) -> Result<Store, StudyError> {
         let path = folder.join(CSV);
         let failed = |reason: String| StudyError::File { path: path.clone(), reason };
-        match std::fs::read(&path) {
+        let read = |mut file: File| {
+            let mut bytes = Vec::new();
+            file.read_to_end(&mut bytes).map(|_| bytes)
+        };
+        match open_regular(&path).and_then(read) {
             Ok(bytes) => Store::read(folder, &bytes).map_err(failed),
             Err(error) if error.kind() == ErrorKind::NotFound => Ok(Store::empty(folder)),
             Err(error) => Err(failed(format!("cannot be read: {error}"))),
@@ -90,9 +95,11 @@ impl Store {
     /// Keeps the lines of a run: they are in the file when this returns.
     pub fn add(&mut self, rows: Vec<row::Row>) -> Result<(), StudyError> {
         rows.into_iter().for_each(|row| self.push(row));
-        let written = self.bytes().and_then(|bytes| replace(&self.folder, CSV, &bytes).map_err(|error| error.to_string()));
         let path = self.folder.join(CSV);
-        written.map_err(|error| StudyError::File { path, reason: format!("cannot be written: {error}") })
+        match self.bytes() {
+            Ok(bytes) => Ok(replace(&path, &bytes)?),
+            Err(reason) => Err(StudyError::File { path, reason }),
+        }
     }
 
     fn bytes(&self) -> Result<Vec<u8>, String> {

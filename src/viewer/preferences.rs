@@ -4,7 +4,7 @@ use std::{
     thread::JoinHandle,
 };
 
-use noisefall::file::replace;
+use noisefall::file::{open_regular, replace};
 use serde::{Deserialize, Serialize};
 
 const FILE: &str = "window.toml";
@@ -35,7 +35,7 @@ impl Preferences {
     }
 
     pub fn in_folder(folder: &Path) -> Preferences {
-        let text = std::fs::read_to_string(folder.join(FILE)).unwrap_or_default();
+        let text = open_regular(&folder.join(FILE)).and_then(std::io::read_to_string).unwrap_or_default();
         Preferences { now: toml::from_str(&text).unwrap_or_default(), folder: Some(folder.to_owned()), writing: None }
     }
 
@@ -48,7 +48,8 @@ impl Preferences {
         let earlier = self.writing.take();
         self.writing = Some(std::thread::spawn(move || {
             let _ = earlier.map(JoinHandle::join);
-            let _ = std::fs::create_dir_all(&folder).and_then(|()| replace(&folder, FILE, text.as_bytes()));
+            let _ = std::fs::create_dir_all(&folder);
+            let _ = replace(&folder.join(FILE), text.as_bytes());
         }));
     }
 }

@@ -3,7 +3,7 @@ use std::sync::Arc;
 
 use egui::{TextureHandle, TextureOptions};
 use noisefall::{
-    render::{Budget, Frame, truth::Reference, view::Look},
+    render::{Budget, Frame, State, truth::Reference, view::Look},
     scene::Camera,
 };
 
@@ -45,7 +45,10 @@ impl App {
         let is_there = self.companion().is_some() && beside.frame.generation == self.link.generation_beside();
         self.frame_beside = Some(beside.frame).filter(|frame| is_there && !frame.radiance.is_empty());
         let published = self.link.latest();
-        self.status = published.status;
+        let before = std::mem::replace(&mut self.status, published.status);
+        if before.state != self.status.state {
+            self.set_title();
+        }
         let order = self.what_to_develop(published.frame);
         self.darkroom.order(order);
         if let Some(print) = self.darkroom.take() {
@@ -143,7 +146,6 @@ impl App {
         if let Some(path) = &opened.path {
             catalogue::remember(&mut self.catalogue, &opened.name, path);
         }
-        self.ctx.send_viewport_cmd(egui::ViewportCommand::Title(format!("{} – Noisefall", opened.name)));
         (self.camera, self.settings) = (scene.camera, scene.settings);
         self.budget = Budget { max_spp: scene.spp, steps: self.budget.steps, ..Budget::default() };
         (self.compare, self.pinned, self.dropped_truth, self.adviser) = (None, None, None, None);
@@ -153,6 +155,14 @@ impl App {
         self.scene_error = None;
         self.view.fit();
         self.opened = Some(opened);
+        self.set_title();
+    }
+
+    /// The window's title says which target is reached: a window that is not looked at is known by its title.
+    fn set_title(&self) {
+        let Some(opened) = &self.opened else { return };
+        let done = if let State::Done(target) = self.status.state { format!(" ({target})") } else { String::new() };
+        self.ctx.send_viewport_cmd(egui::ViewportCommand::Title(format!("{}{done} – Noisefall", opened.name)));
     }
 }
 

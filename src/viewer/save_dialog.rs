@@ -3,7 +3,7 @@ use std::path::{Path, PathBuf};
 
 use egui::{Align2, Button, RichText};
 use noisefall::{
-    file::replace,
+    file::{self, replace},
     render::{
         image_file::{check_target, save_shown},
         settings_text::settings_text,
@@ -71,16 +71,8 @@ impl Target {
         if self == Target::Picture {
             return check_target(path).map_err(|error| error.to_string());
         }
-        match folder(path) {
-            folder if folder.is_dir() => Ok(()),
-            folder => Err(format!("{}: there is no folder {}", path.display(), folder.display())),
-        }
+        file::check(path).map_err(|error| error.to_string())
     }
-}
-
-/// The folder of a file.
-fn folder(path: &Path) -> &Path {
-    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or_else(|| Path::new("."))
 }
 
 impl App {
@@ -136,10 +128,7 @@ impl App {
             Target::CurvesCsv => self.history.csv(),
             Target::CurvesSvg => Ok(self.history.svg().into_bytes()),
         };
-        self.saver.save(path, move |path| {
-            let name = path.file_name().unwrap_or_default().to_string_lossy();
-            replace(folder(path), &name, &bytes?).map_err(|error| format!("{}: {error}", path.display()))
-        });
+        self.saver.save(path, move |path| replace(path, &bytes?).map_err(|error| error.to_string()));
     }
 
     /// Saves what is shown.
@@ -149,10 +138,10 @@ impl App {
             return;
         }
         let (Some(frame), Some(wish)) = (self.shown.clone(), self.link.wish()) else { return };
-        let (wish, spp) = (wish.clone(), frame.spp);
-        let order = self.what_to_develop(frame);
+        let wish = wish.clone();
+        let order = self.what_to_develop(frame.clone());
         let remarks = remarks(&order, &path);
-        let settings = settings_text(&wish.scene, &wish.camera, &wish.settings, self.look.display, spp, &remarks);
+        let settings = settings_text(&wish.scene, &wish.camera, &wish.settings, self.look.display, &frame, &remarks);
         self.saver.save(path, move |path| {
             let Print { frame, pixels, .. } = develop(order);
             save_shown(&frame, &pixels, &settings, path).map_err(|error| error.to_string())

@@ -50,18 +50,19 @@ impl App {
         });
     }
 
-    fn state_text(&self, ui: &egui::Ui) -> (Color32, &'static str) {
+    fn state_text(&self, ui: &egui::Ui) -> (Color32, String) {
         let (good, warning) = (ui.good(), ui.warning());
-        match self.status.state {
+        let (colour, text) = match self.status.state {
             _ if self.loader.is_busy() => (warning, "Opening"),
             _ if self.is_studying() => (warning, "Studying"),
             _ if self.camera.check().is_err() => (warning, "Invalid settings"),
             State::Idle => (Color32::GRAY, "No scene"),
             State::Running => (good, "Running"),
             State::Paused => (warning, "Paused"),
-            State::Converged => (good, "Converged"),
+            State::Done(target) => return (good, sentence(&target.to_string())),
             State::Failed(_) => (ui.bad(), "Failed"),
-        }
+        };
+        (colour, text.to_owned())
     }
 
     fn noise_label(&self, ui: &mut egui::Ui) {
@@ -159,6 +160,12 @@ impl App {
         ui.label(RichText::new(format!("({x}, {y})  RGB {r:.3} {g:.3} {b:.3}  Y {y_value:.3}{error}")).monospace())
             .on_hover_text("Pixel, the radiance that is seen there in W/(sr·m²), its luminance and the standard error of that");
     }
+}
+
+/// With a capital at its beginning.
+fn sentence(text: &str) -> String {
+    let first = text.chars().next().map_or(0, char::len_utf8);
+    text[..first].to_uppercase() + &text[first..]
 }
 
 fn percent(x: f64) -> String {

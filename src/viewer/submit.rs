@@ -44,7 +44,7 @@ impl App {
     }
 
     pub(super) fn step(&mut self) {
-        if self.status.state != State::Converged {
+        if !matches!(self.status.state, State::Done(_)) {
             self.budget.steps += 1;
             self.budget.paused = true;
         }

@@ -27,7 +27,7 @@ use egui_kittest::{
 use glam::DVec3;
 use noisefall::{
     math::SimdLevel,
-    render::{State, ToneMap, image_file, pass::Threads},
+    render::{State, Target, ToneMap, image_file, pass::Threads},
     sampling::{Directions, Filter, Sampler},
     scene::{Estimator, Lens, Reuse, Roulette},
 };

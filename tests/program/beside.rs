@@ -50,7 +50,9 @@ fn two_pictures_get_the_same_time_and_each_is_what_it_is_alone() {
     renderer.submit_beside(Some(Beside::Picture(Job { settings: other, ..job(3, &scene, 96) })));
     let done = |generation| {
         move |published: &Published| {
-            published.status.generation == generation && published.status.state == State::Converged && published.frame.spp >= 3
+            published.status.generation == generation
+                && matches!(published.status.state, State::Done(_))
+                && published.frame.spp >= 3
         }
     };
     let beside = wait(|| renderer.latest_beside(), done(3));
@@ -99,7 +101,8 @@ fn a_region_is_rendered_first_and_the_rest_catches_up() {
     let ahead = |published: &Published| published.frame.spp_at(45 * 128 + 45) > published.frame.spp + 4;
     let published = wait(|| renderer.latest(), ahead);
     assert_eq!(published.frame.spp_at(0), published.frame.spp, "outside nothing is done before");
-    let done = wait(|| renderer.latest(), |published| published.status.state == State::Converged && published.frame.spp == 40);
+    let done =
+        wait(|| renderer.latest(), |published| matches!(published.status.state, State::Done(_)) && published.frame.spp == 40);
     assert!(done.frame.counts.is_empty(), "all pixels have as many samples in the end");
 
     renderer.set_budget(Budget { max_spp: Some(40), ..Budget::default() });

@@ -61,7 +61,7 @@ fn the_first_picture_is_coarse_and_the_next_ones_finer_until_full() {
     let first = wait_for(&renderer, "a first frame", |p| p.frame.generation == 1).frame;
     assert!(first.is_coarse() && first.full_resolution == [1024, 1024]);
     assert!(first.radiance.iter().all(|pixel| *pixel == [0.5; 3]), "a coarse picture has no holes");
-    let last = wait_for(&renderer, "the end", |p| p.status.state == State::Converged);
+    let last = wait_for(&renderer, "the end", |p| matches!(p.status.state, State::Done(_)));
     assert_eq!((last.frame.width, last.frame.spp, last.status.spp), (1024, 2, 2));
     assert!(last.frame.radiance.iter().all(|pixel| *pixel == [0.5; 3]));
 }
@@ -90,7 +90,7 @@ fn uninterrupted(job: Job, spp: u32) -> Vec<[f32; 3]> {
     let renderer = renderer(Publish::Sparse);
     renderer.set_budget(Budget { max_spp: Some(spp), ..Budget::default() });
     renderer.submit(job);
-    wait_for(&renderer, "the end", |p| p.status.state == State::Converged).frame.radiance.clone()
+    wait_for(&renderer, "the end", |p| matches!(p.status.state, State::Done(_))).frame.radiance.clone()
 }
 
 fn noisy() -> Job {
@@ -112,13 +112,13 @@ fn pause_and_resume_lose_nothing() {
     for _ in 0..10 {
         std::thread::sleep(Duration::from_millis(4));
         renderer.set_budget(Budget { paused: true, ..target });
-        let paused = wait_for(&renderer, "the pause", |p| matches!(p.status.state, State::Paused | State::Converged));
+        let paused = wait_for(&renderer, "the pause", |p| matches!(p.status.state, State::Paused | State::Done(_)));
         std::thread::sleep(Duration::from_millis(10));
         assert_eq!(renderer.latest().status.samples, paused.status.samples, "a paused worker works");
         renderer.set_budget(target);
         wait_for(&renderer, "the resumption", |p| p.status.state != State::Paused);
     }
-    let last = wait_for(&renderer, "the end", |p| p.status.state == State::Converged);
+    let last = wait_for(&renderer, "the end", |p| matches!(p.status.state, State::Done(_)));
     assert!(last.frame.radiance == uninterrupted(noisy(), 40), "pausing changed the picture");
 }
 
@@ -127,10 +127,10 @@ fn raising_the_target_goes_on_with_the_samples_there_are() {
     let renderer = renderer(Publish::Live);
     renderer.set_budget(Budget { max_spp: Some(4), ..Budget::default() });
     renderer.submit(noisy());
-    let first = wait_for(&renderer, "the first target", |p| p.status.state == State::Converged);
+    let first = wait_for(&renderer, "the first target", |p| matches!(p.status.state, State::Done(_)));
     assert_eq!(first.status.spp, 4);
     renderer.set_budget(Budget { max_spp: Some(9), ..Budget::default() });
-    let second = wait_for(&renderer, "the second target", |p| p.status.state == State::Converged && p.status.spp == 9);
+    let second = wait_for(&renderer, "the second target", |p| matches!(p.status.state, State::Done(_)) && p.status.spp == 9);
     assert_eq!(second.status.samples, 9 * 320 * 200, "samples were taken twice");
     assert_eq!(second.status.generation, 1);
     assert!(second.frame.radiance == uninterrupted(noisy(), 9));
@@ -159,11 +159,11 @@ fn a_noise_target_is_reached_and_a_time_target_kept() {
     let renderer = renderer(Publish::Live);
     renderer.set_budget(Budget { noise: Some(0.5), ..Budget::default() });
     renderer.submit(noisy());
-    let quiet = wait_for(&renderer, "the noise target", |p| p.status.state == State::Converged);
+    let quiet = wait_for(&renderer, "the noise target", |p| matches!(p.status.state, State::Done(_)));
     assert!(quiet.status.relative_noise().is_some_and(|noise| noise <= 0.5));
     let time = quiet.status.elapsed + Duration::from_millis(100);
     renderer.set_budget(Budget { max_time: Some(time), ..Budget::default() });
-    let timed = wait_for(&renderer, "the time target", |p| p.status.state == State::Converged && p.status.elapsed >= time);
+    let timed = wait_for(&renderer, "the time target", |p| matches!(p.status.state, State::Done(_)) && p.status.elapsed >= time);
     assert!(timed.status.spp >= quiet.status.spp);
 }
 
@@ -174,11 +174,11 @@ fn paths_that_never_end_are_cut_counted_and_reported() {
     let camera = Camera { resolution: [8, 8], ..scene.camera };
     renderer.set_budget(Budget { max_spp: Some(1), ..Budget::default() });
     renderer.submit(Job { generation: 1, scene: scene.clone(), camera, settings });
-    let cut = wait_for(&renderer, "the end", |p| p.status.state == State::Converged);
+    let cut = wait_for(&renderer, "the end", |p| matches!(p.status.state, State::Done(_)));
     assert_eq!(cut.status.cut_paths, 64);
     let settings = RenderSettings { roulette: Roulette::Fixed(0.9), ..settings };
     renderer.submit(Job { generation: 2, scene, camera, settings });
-    let whole = wait_for(&renderer, "the end", |p| p.status.generation == 2 && p.status.state == State::Converged);
+    let whole = wait_for(&renderer, "the end", |p| p.status.generation == 2 && matches!(p.status.state, State::Done(_)));
     assert_eq!(whole.status.cut_paths, 0);
 }
 
@@ -208,7 +208,7 @@ fn samples_that_are_no_numbers_are_dropped_and_counted_with_the_way_to_replay_th
     renderer.set_budget(Budget { max_spp: Some(2), ..Budget::default() });
     let camera = Camera { resolution: [64, 64], ..scene.camera };
     renderer.submit(Job { generation: 1, scene: scene.clone(), camera, settings: scene.settings });
-    let done = wait_for(&renderer, "the end", |p| p.status.state == State::Converged);
+    let done = wait_for(&renderer, "the end", |p| matches!(p.status.state, State::Done(_)));
     assert!(done.status.invalid_samples > 0);
     assert!(done.frame.radiance.iter().flatten().all(|c| c.is_finite()), "the picture stays finite");
     let first = done.status.first_invalid.expect("the first one is known");

@@ -2,6 +2,7 @@
 //!
 //! Every statement is a z-test at 4σ over seeded samples, or exact where the answer is. σ comes from the closed form where there
 //! is one, else from the samples.
+#![allow(clippy::print_stdout, reason = "figures are printed for those who ask for them")]
 mod adaptive;
 mod black;
 mod combinations;

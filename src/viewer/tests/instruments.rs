@@ -181,7 +181,7 @@ fn targets_by_time_and_noise_stop_the_render_and_never_restart_it() {
     assert_eq!(window.state().budget.max_time, Some(Duration::from_secs(60)));
     assert_eq!(window.state().budget.noise, Some(0.01));
     never_restarts(&mut window, |w| w.state_mut().budget.noise = Some(0.5));
-    wait(&mut window, "the target", |app| app.status.state == State::Converged);
+    wait(&mut window, "the target", |app| matches!(app.status.state, State::Done(_)));
     assert!(window.state().status.spp >= 64, "before that noise is not believed");
     never_restarts(&mut window, |w| {
         check_box(w, "Stop below");

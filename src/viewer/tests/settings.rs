@@ -91,13 +91,34 @@ fn pause_step_resume_and_restart_do_so() {
 }
 
 #[test]
-fn a_reached_target_converges_and_a_higher_one_goes_on() {
+fn a_reached_target_is_named_and_a_higher_one_goes_on() {
     let mut window = window("bright_sky");
     window.state_mut().budget.max_spp = Some(3);
     restarts(&mut window, "a restart", |w| click(w, "Restart"));
-    wait(&mut window, "the target", |app| app.status.state == State::Converged);
+    wait(&mut window, "the target", |app| matches!(app.status.state, State::Done(_)));
     assert_eq!(window.state().status.spp, 3);
+    assert!(window.query_by_label("Stopped at 3 spp").is_some());
     never_restarts(&mut window, |w| w.state_mut().budget.max_spp = Some(5));
-    wait(&mut window, "the next target", |app| app.status.spp == 5 && app.status.state == State::Converged);
-    assert!(window.query_by_label("Converged").is_some());
+    let mut titles = Vec::new();
+    let done = |app: &App| app.status.spp == 5 && matches!(app.status.state, State::Done(_));
+    let start = Instant::now();
+    while !done(window.state()) {
+        assert!(start.elapsed() < Duration::from_secs(60), "the next target never came");
+        window.step();
+        titles.extend(window.output().viewport_output[&egui::ViewportId::ROOT].commands.iter().filter_map(
+            |command| match command {
+                egui::ViewportCommand::Title(title) => Some(title.clone()),
+                _ => None,
+            },
+        ));
+    }
+    window.run_steps(1);
+    assert!(window.query_by_label("Stopped at 5 spp").is_some());
+    let last = titles.last().expect("a title");
+    assert!(last.ends_with(" (stopped at 5 spp) – Noisefall"), "{titles:?}");
+    window.state_mut().budget.noise = Some(0.5);
+    never_restarts(&mut window, |w| w.state_mut().budget.max_spp = None);
+    wait(&mut window, "the noise target", |app| app.status.state == State::Done(Target::Noise(0.5)));
+    window.run_steps(1);
+    assert!(window.query_by_label("Noise target 50 % reached").is_some());
 }

@@ -1,0 +1,17 @@
+//! What the commands say. Results go to standard output, everything else to standard error; readers of either may be gone.
+use std::io::{ErrorKind, Write, stderr, stdout};
+
+use super::Failure;
+
+/// Prints text and ends the line. A reader that has gone away, as in `… | head`, is no failure.
+pub fn print(text: &str) -> Result<(), Failure> {
+    match writeln!(stdout(), "{text}") {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(format!("standard output: {error}")),
+        _ => Ok(()),
+    }
+}
+
+/// Says something on standard error. Where that cannot be written there is nobody to say so to.
+pub fn tell(text: &str) {
+    let _ = writeln!(stderr(), "{text}");
+}

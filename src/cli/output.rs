@@ -1,0 +1,168 @@
+//! Where a rendered picture goes: a file, or standard output.
+use std::{
+    fmt,
+    fs::File,
+    io::{ErrorKind, IsTerminal, Read, Write, stdout},
+    path::{Path, PathBuf},
+    process::ExitCode,
+};
+
+use noisefall::{
+    file::WriteError,
+    render::{
+        Display, Frame,
+        image_file::{Format, ImageError, check_target, encode, save},
+    },
+};
+
+use super::{
+    Failure,
+    messages::{print, tell},
+};
+
+/// The name that stands for standard output.
+const STREAM: &str = "-";
+const ADVICE: &str = "`-o - --format png` writes the picture to standard output";
+
+#[derive(Debug, PartialEq)]
+pub enum Output {
+    File(PathBuf),
+    Stream(Format),
+}
+
+impl Output {
+    /// What `-o` and `--format` say together, or why they cannot.
+    pub fn of(path: &Path, format: Option<Format>) -> Result<Output, String> {
+        if path == Path::new(STREAM) {
+            return format.map(Output::Stream).ok_or_else(|| format!("-o {STREAM} needs --format png or --format exr"));
+        }
+        match (Format::of(path), format) {
+            (Ok(by_name), Some(format)) if by_name != format => {
+                let ([name, format], path) = ([by_name, format].map(Format::name), path.display());
+                Err(format!("{path}: the name ends in .{name}, but --format says {format}; leave --format out"))
+            }
+            _ => Ok(Output::File(path.to_owned())),
+        }
+    }
+
+    /// What is wrong with it is better known before an hour of rendering than after.
+    pub fn check(&self) -> Result<(), Failure> {
+        match self {
+            Output::File(path) => check_target(path).map_err(advise),
+            Output::Stream(_) if stdout().is_terminal() => {
+                Err("standard output is a terminal: redirect it to a file, as in `-o - --format png > picture.png`".to_owned())
+            }
+            Output::Stream(_) if is_closed() => Err("standard output is closed: the picture would be lost".to_owned()),
+            Output::Stream(_) => Ok(()),
+        }
+    }
+
+    /// Delivers the picture. A reader of standard output that has gone away needs no message, but it has no picture either.
+    pub fn write(&self, frame: &Frame, display: Display, settings: &str) -> Result<ExitCode, Failure> {
+        let save = |path: &Path| save(frame, display, settings, path);
+        match self {
+            Output::File(path) => match save(path) {
+                Ok(()) => Ok(ExitCode::SUCCESS),
+                Err(error) => {
+                    let name = path.file_name().unwrap_or_default().to_string_lossy();
+                    Err(rescue(&advise(error), &name, save))
+                }
+            },
+            Output::Stream(format) => {
+                let bytes = encode(frame, display, settings, *format).map_err(|error| error.to_string())?;
+                let mut stream = stdout().lock();
+                match stream.write_all(&bytes).and_then(|()| stream.flush()) {
+                    Ok(()) => Ok(ExitCode::SUCCESS),
+                    Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(ExitCode::FAILURE),
+                    Err(error) => Err(rescue(&format!("standard output: {error}"), &format!("picture.{}", format.name()), save)),
+                }
+            }
+        }
+    }
+
+    /// Says something of the picture where it is not in its way.
+    pub fn report(&self, text: &str) -> Result<(), Failure> {
+        match self {
+            Output::File(_) => print(text),
+            Output::Stream(_) => {
+                tell(text);
+                Ok(())
+            }
+        }
+    }
+}
+
+impl fmt::Display for Output {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Output::File(path) => path.display().fmt(f),
+            Output::Stream(_) => "standard output".fmt(f),
+        }
+    }
+}
+
+/// Pictures may be wanted in a stream: how to write into one.
+fn advise(error: ImageError) -> Failure {
+    match error {
+        ImageError::Write(WriteError::NotAFile { .. }) => format!("{error}; {ADVICE}"),
+        error => error.to_string(),
+    }
+}
+
+/// A rendered picture must not be lost to a full disk: the folder for temporary files is tried.
+fn rescue(error: &str, name: &str, save: impl Fn(&Path) -> Result<(), ImageError>) -> Failure {
+    let candidates = (0..).map(|i| std::env::temp_dir().join(format!("noisefall-{}-{i}-{name}", std::process::id())));
+    let saved = { candidates }.find(|path| !path.exists()).filter(|path| save(path).is_ok());
+    saved.map_or_else(|| error.to_owned(), |path| format!("{error}\nthe picture was saved as {} instead", path.display()))
+}
+
+/// Whether standard output was closed when the program started: `/dev/null` is open in its place then, for reading too, which no
+/// `> /dev/null` opens it for.
+#[cfg(unix)]
+fn is_closed() -> bool {
+    use std::os::{fd::AsFd, unix::fs::MetadataExt};
+    let Ok(descriptor) = stdout().as_fd().try_clone_to_owned() else { return true };
+    let mut stream = File::from(descriptor);
+    let devices = [stream.metadata(), std::fs::metadata("/dev/null")].map(|there| there.map(|there| there.rdev()).ok());
+    devices[0].is_some_and(|device| device != 0) && devices[0] == devices[1] && stream.read(&mut [0]).is_ok()
+}
+
+#[cfg(not(unix))]
+fn is_closed() -> bool {
+    false
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn frame() -> Frame {
+        Frame { width: 1, height: 1, full_resolution: [1, 1], radiance: vec![[1.0; 3]], ..Frame::default() }
+    }
+
+    #[test]
+    fn a_name_and_a_format_must_agree() {
+        let of = |path: &str, format| Output::of(Path::new(path), format);
+        assert_eq!(of("-", Some(Format::Exr)), Ok(Output::Stream(Format::Exr)));
+        assert_eq!(of("-", Some(Format::Png)), Ok(Output::Stream(Format::Png)));
+        assert!(of("-", None).is_err_and(|error| error.contains("--format png")));
+        assert_eq!(of("a.PNG", Some(Format::Png)), Ok(Output::File("a.PNG".into())));
+        let contradiction = of("a.png", Some(Format::Exr)).expect_err("it is refused");
+        assert!(contradiction.contains("ends in .png, but --format says exr"), "{contradiction}");
+        // The extension rules: a format does not stand in for it, which `check` refuses.
+        assert!(of("a", Some(Format::Png)).expect("a file").check().is_err_and(|error| error.contains("must end in .png")));
+    }
+
+    #[test]
+    fn a_picture_that_cannot_go_where_it_should_is_saved_elsewhere() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let output = Output::File(folder.path().join("gone/out.exr"));
+        let error = output.write(&frame(), Display::default(), "{}").expect_err("there is no such folder");
+        let (reason, rescued) = error.split_once("\nthe picture was saved as ").expect("it is saved");
+        assert!(reason.contains("there is no folder"), "{error}");
+        let rescued = Path::new(rescued.strip_suffix(" instead").expect("the end of the message"));
+        assert_eq!(noisefall::render::image_file::read(rescued).expect("it is a picture").radiance, [[1.0; 3]]);
+        assert!(rescued.starts_with(std::env::temp_dir()));
+        std::fs::remove_file(rescued).expect("it is there");
+    }
+}

@@ -1,0 +1,56 @@
+//! Rendering to the end, with a progress bar.
+use std::{sync::atomic::Ordering, time::Duration};
+
+use crossbeam_channel::RecvTimeoutError;
+use indicatif::{ProgressBar, ProgressStyle};
+use noisefall::render::{Budget, Job, Publish, Published, Renderer, State, Status, pass::Threads};
+
+use super::{Failure, stop::stop_signal, summary::noise_text};
+
+/// Renders to the end, with a progress bar where there is a terminal to show it.
+pub fn render(threads: Threads, job: Job, budget: Budget, quiet: bool) -> Result<Published, Failure> {
+    let (wake, woken) = crossbeam_channel::bounded(1);
+    let renderer = Renderer::new(threads, Publish::Sparse, move || {
+        let _ = wake.try_send(());
+    });
+    renderer.set_budget(budget);
+    renderer.submit(job);
+    let stop = stop_signal("interrupted: saving the picture as it is (once more to give up)")?;
+    let bar = if quiet { ProgressBar::hidden() } else { progress_bar(&budget) };
+    loop {
+        if woken.recv_timeout(Duration::from_millis(200)) == Err(RecvTimeoutError::Disconnected) {
+            return Err("the render thread ended unexpectedly".to_owned());
+        }
+        if stop.load(Ordering::Relaxed) {
+            renderer.set_budget(Budget { paused: true, ..budget });
+        }
+        let published = renderer.latest();
+        show_progress(&bar, &budget, &published.status);
+        if matches!(published.status.state, State::Paused | State::Done(_) | State::Failed(_)) {
+            bar.finish_and_clear();
+            return Ok(published);
+        }
+    }
+}
+
+fn progress_bar(budget: &Budget) -> ProgressBar {
+    let length = match budget {
+        Budget { max_spp: Some(spp), .. } => u64::from(*spp),
+        Budget { max_time: Some(time), .. } => time.as_millis() as u64,
+        _ => 1000,
+    };
+    let style = ProgressStyle::with_template("{bar:30} {percent:>3} %  {msg}  {elapsed} elapsed, {eta} left");
+    ProgressBar::new(length).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+}
+
+fn show_progress(bar: &ProgressBar, budget: &Budget, status: &Status) {
+    let position = match (budget.noise, status.relative_noise()) {
+        _ if budget.max_spp.is_some() => u64::from(status.spp),
+        _ if budget.max_time.is_some() => status.elapsed.as_millis() as u64,
+        // Noise falls as the root of time: the square of the ratio is the share of the work that is done.
+        (Some(goal), Some(noise)) => (1000.0 * (goal / noise).powi(2)).min(1000.0) as u64,
+        _ => 0,
+    };
+    bar.set_position(position);
+    bar.set_message(format!("{} spp, {:.1} M samples/s{}", status.spp, status.samples_per_second() / 1e6, noise_text(status)));
+}
