@@ -126,9 +126,46 @@ mod tests {
     }
 
     #[test]
+    fn values_at_the_ends_of_their_ranges_are_taken_and_those_beyond_are_not() {
+        assert_eq!((roulette("0.01"), roulette("1")), (Ok(Roulette::Fixed(0.01)), Ok(Roulette::Fixed(1.0))));
+        assert!(roulette("0.0099").is_err() && roulette("1.0001").is_err());
+        assert_eq!((threads("0"), threads("1024")), (Ok(0), Ok(1024)));
+        assert_eq!((samples("1"), samples("4294967295")), (Ok(1), Ok(u32::MAX)));
+        assert_eq!((whole("0"), whole("4294967295")), (Ok(0), Ok(u32::MAX)));
+        assert!(samples("4294967296").is_err() && whole("4294967296").is_err());
+        assert!(seconds("0").is_err() && seconds("nan").is_err() && seconds("1e300").is_err());
+        assert!(noise("inf").is_err() && noise("-0.1").is_err() && bounce_cap("-1").is_err() && bounce_cap("1.5").is_err());
+        assert!(on_or_off("yes").is_err() && reuse("yes").is_err() && format("jpg").is_err() && format(".png").is_err());
+    }
+
+    #[test]
+    fn every_name_is_its_own_value() {
+        assert_eq!(["path", "light", "mis"].map(estimator), [Estimator::Path, Estimator::Light, Estimator::Mis].map(Ok));
+        let kinds = [Directions::Uniform, Directions::Cosine, Directions::Bsdf];
+        assert_eq!(["uniform", "cosine", "bsdf"].map(directions), kinds.map(Ok));
+        assert_eq!(["auto", "on", "off"].map(reuse), [Reuse::Auto, Reuse::On, Reuse::Off].map(Ok));
+        assert_eq!(["on", "off"].map(on_or_off), [true, false].map(Ok));
+        assert_eq!(["png", "EXR"].map(format), [Format::Png, Format::Exr].map(Ok));
+        let samplers = [Sampler::Independent, Sampler::Stratified, Sampler::Sobol, Sampler::BlueNoise];
+        assert_eq!(["independent", "stratified", "sobol", "bluenoise"].map(sampler), samplers.map(Ok));
+        assert_eq!(["off", "throughput"].map(roulette), [Roulette::Off, Roulette::BY_THROUGHPUT].map(Ok));
+    }
+
+    #[test]
+    fn items_of_lists_lose_their_spaces_and_quotes() {
+        let sampler = item(sampler);
+        for text in [" sobol", "sobol\t", "'sobol'", "\"sobol\"", " ' sobol' "] {
+            assert_eq!(sampler(text), Ok(Sampler::Sobol), "{text}");
+        }
+        assert!(sampler("").is_err() && sampler("so bol").is_err());
+    }
+
+    #[test]
     fn values_in_range_are_what_they_say() {
         assert_eq!(roulette("0.5"), Ok(Roulette::Fixed(0.5)));
-        assert_eq!(resolution("640x480"), Ok([640, 480]));
+        assert_eq!(["640x480", "640X480", " 640 × 480 "].map(resolution), [Ok([640, 480]), Ok([640, 480]), Ok([640, 480])]);
+        assert_eq!(pixel("12, 34"), Ok([12, 34]));
+        assert_eq!((seconds("1.5"), noise("0.01")), (Ok(Duration::from_millis(1500)), Ok(0.01)));
         assert_eq!(bounce_cap("none").map(|cap| cap.0), Ok(None));
         assert_eq!(bounce_cap("0").map(|cap| cap.0), Ok(Some(0)));
         assert_eq!(sampler("stratified"), Ok(Sampler::Stratified));

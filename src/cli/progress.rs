@@ -44,13 +44,34 @@ fn progress_bar(budget: &Budget) -> ProgressBar {
 }
 
 fn show_progress(bar: &ProgressBar, budget: &Budget, status: &Status) {
-    let position = match (budget.noise, status.relative_noise()) {
+    bar.set_position(position(budget, status));
+    bar.set_message(format!("{} spp, {:.1} M samples/s{}", status.spp, status.samples_per_second() / 1e6, noise_text(status)));
+}
+
+/// How far the bar is: in samples, in milliseconds, or else in thousandths.
+fn position(budget: &Budget, status: &Status) -> u64 {
+    match (budget.noise, status.relative_noise()) {
         _ if budget.max_spp.is_some() => u64::from(status.spp),
         _ if budget.max_time.is_some() => status.elapsed.as_millis() as u64,
         // Noise falls as the root of time: the square of the ratio is the share of the work that is done.
         (Some(goal), Some(noise)) => (1000.0 * (goal / noise).powi(2)).min(1000.0) as u64,
         _ => 0,
-    };
-    bar.set_position(position);
-    bar.set_message(format!("{} spp, {:.1} M samples/s{}", status.spp, status.samples_per_second() / 1e6, noise_text(status)));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_bar_is_as_far_as_the_render() {
+        let status = Status { spp: 7, elapsed: Duration::from_millis(2500), rel_mse_estimate: Some(0.04), ..Status::default() };
+        let by = |budget: Budget, status: &Status| (position(&budget, status), progress_bar(&budget).length());
+        assert_eq!(by(Budget { max_spp: Some(20), ..Budget::default() }, &status), (7, Some(20)));
+        assert_eq!(by(Budget { max_time: Some(Duration::from_secs(10)), ..Budget::default() }, &status), (2500, Some(10_000)));
+        // Half the noise takes four times the samples.
+        assert_eq!(by(Budget { noise: Some(0.1), ..Budget::default() }, &status), (250, Some(1000)));
+        assert_eq!(by(Budget { noise: Some(0.3), ..Budget::default() }, &status), (1000, Some(1000)));
+        assert_eq!(by(Budget { noise: Some(0.1), ..Budget::default() }, &Status::default()), (0, Some(1000)));
+    }
 }

@@ -22,6 +22,8 @@ mod session;
 pub mod settings_text;
 pub mod sharing;
 mod target;
+#[cfg(test)]
+mod tests;
 pub mod tile;
 pub mod tone;
 pub mod truth;

@@ -293,3 +293,6 @@ impl Session {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

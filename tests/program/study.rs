@@ -81,23 +81,6 @@ fn a_study_that_was_cut_off_goes_on_where_it_was() {
 }
 
 #[test]
-#[cfg(unix)]
-fn an_interrupted_study_keeps_what_it_has_and_says_how_to_go_on() {
-    use std::{io::Read, process::Command};
-    let shell = Shell::new();
-    let mut command = Command::new(env!("CARGO_BIN_EXE_noisefall"));
-    command.args(["study", &scene("bright_sky"), "-o", "out", "--spp", "1000000", "--seconds", "1000", "--size", "64x64"]);
-    let mut child = command.current_dir(shell.path("")).stderr(std::process::Stdio::piped()).spawn().expect("the program starts");
-    std::thread::sleep(std::time::Duration::from_millis(700));
-    let killed = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
-    assert!(killed.is_ok_and(|status| status.success()));
-    assert_eq!(child.wait().expect("it ends").code(), Some(130));
-    let mut told = String::new();
-    child.stderr.take().expect("a pipe").read_to_string(&mut told).expect("text");
-    assert!(told.contains("the same command goes on from there"), "{told}");
-}
-
-#[test]
 fn references_are_files_where_there_are_some() {
     let shell = Shell::new();
     fs::copy(scene("bright_sky"), shell.path("sky.toml")).expect("a scene");
@@ -144,4 +127,26 @@ fn what_cannot_be_studied_is_told_at_once() {
     fails(&[&furnace, "-o", "out", "--max-bounces", "some"], 2, "`none`");
     fails(&[&furnace], 2, "--output");
     fails(&["-o", "out"], 2, "SCENE");
+    fails(&[&furnace, "-o", "out", "--samplers", "sobol,,independent"], 2, "independent, stratified, sobol");
+}
+
+#[test]
+fn lists_may_have_spaces_and_quotes() {
+    let shell = Shell::new();
+    let lists = [
+        ["--estimators", "path, 'mis'"],
+        ["--directions", " \"uniform\" ,cosine "],
+        ["--samplers", "independent, sobol"],
+        ["--roulette", "off, 0.8"],
+        ["--max-bounces", "none, 3"],
+    ];
+    let size = ["study", &scene("furnace"), "-o", "out", "--spp", "1", "--repeats", "1", "--size", "8x8"];
+    let done = shell.run(&[&size[..], &lists.concat()].concat());
+    assert!(done.status.success(), "{}", text(&done.stderr));
+    let csv = fs::read_to_string(shell.path("out/study.csv")).expect("measurements");
+    for both in
+        [[",path,", ",mis,"], [",uniform,", ",cosine,"], [",independent,", ",sobol,"], [",off,", ",0.8,"], [",none,", ",3,"]]
+    {
+        assert!(both.iter().all(|value| csv.contains(value)), "{both:?}: {csv}");
+    }
 }

@@ -6,8 +6,8 @@ use std::{
 
 use noisefall::{
     math::SimdLevel,
-    render::{Budget, Job, Publish, Published, Renderer, State, pass::Threads},
-    scene::{Camera, RenderSettings, Roulette, Scene, parse},
+    render::{Beside, Budget, Job, Publish, Published, Renderer, State, Target, pass::Threads},
+    scene::{Camera, RenderSettings, Reuse, Roulette, Scene, parse},
 };
 
 /// A scene whose whole picture is one colour: a sphere around the camera that emits and reflects nothing.
@@ -73,11 +73,13 @@ fn the_latest_job_wins_and_no_old_pixel_survives() {
     for generation in 1..=200u64 {
         let radiance = generation % 8;
         renderer.submit(job(generation, &scenes[radiance as usize]));
-        if generation % 7 == 0 {
-            std::thread::sleep(Duration::from_millis(3));
-        }
-        let frame = renderer.latest().frame;
+        let frame = match generation % 7 {
+            0 => wait_for(&renderer, "a frame of this job", |p| p.frame.generation == generation).frame,
+            _ => renderer.latest().frame,
+        };
         let expected = (frame.generation % 8 + 1) as f32;
+        assert_eq!(frame.radiance.len(), (frame.width * frame.height) as usize);
+        assert!(generation < 7 || !frame.radiance.is_empty(), "there is a frame from the seventh on");
         assert!(frame.radiance.iter().all(|pixel| *pixel == [expected; 3]), "a pixel of another generation");
     }
     let last = wait_for(&renderer, "the last job", |p| p.frame.generation == 200 && !p.frame.is_coarse());
@@ -103,18 +105,35 @@ fn noisy_as(generation: u64) -> Job {
     Job { generation, camera, settings: scene.settings, scene }
 }
 
+/// Has the worker render something else and waits for it: whatever else it meant to do with the first picture would be done by then.
+fn look_at_another_picture(renderer: &Renderer) {
+    renderer.submit_beside(Some(Beside::Picture(job(1, &plain(0.5, 16)))));
+    let start = Instant::now();
+    while renderer.latest_beside().frame.generation != 1 {
+        assert!(start.elapsed() < Duration::from_secs(60), "the other picture never came");
+        std::thread::sleep(Duration::from_micros(200));
+    }
+    renderer.submit_beside(None);
+    while renderer.latest_beside().frame.generation != 0 {
+        assert!(start.elapsed() < Duration::from_secs(60), "the other picture never went");
+        std::thread::sleep(Duration::from_micros(200));
+    }
+}
+
 #[test]
 fn pause_and_resume_lose_nothing() {
     let renderer = renderer(Publish::Live);
     let target = Budget { max_spp: Some(40), ..Budget::default() };
     renderer.set_budget(target);
     renderer.submit(noisy());
+    let mut samples = 0;
     for _ in 0..10 {
-        std::thread::sleep(Duration::from_millis(4));
+        wait_for(&renderer, "more samples", |p| p.status.samples > samples || matches!(p.status.state, State::Done(_)));
         renderer.set_budget(Budget { paused: true, ..target });
         let paused = wait_for(&renderer, "the pause", |p| matches!(p.status.state, State::Paused | State::Done(_)));
-        std::thread::sleep(Duration::from_millis(10));
-        assert_eq!(renderer.latest().status.samples, paused.status.samples, "a paused worker works");
+        samples = paused.status.samples;
+        look_at_another_picture(&renderer);
+        assert_eq!(renderer.latest().status.samples, samples, "a paused worker works");
         renderer.set_budget(target);
         wait_for(&renderer, "the resumption", |p| p.status.state != State::Paused);
     }
@@ -135,8 +154,9 @@ fn raising_the_target_goes_on_with_the_samples_there_are() {
     assert_eq!(second.status.generation, 1);
     assert!(second.frame.radiance == uninterrupted(noisy(), 9));
     renderer.set_budget(Budget { max_spp: Some(5), ..Budget::default() });
-    std::thread::sleep(Duration::from_millis(20));
-    assert_eq!(renderer.latest().status.spp, 9, "a lower target takes nothing away");
+    look_at_another_picture(&renderer);
+    let lower = renderer.latest().status;
+    assert_eq!((lower.spp, lower.state), (9, State::Done(Target::Samples(9))), "a lower target takes nothing away");
 }
 
 #[test]
@@ -157,14 +177,19 @@ fn a_step_adds_one_sample_a_pixel() {
 #[test]
 fn a_noise_target_is_reached_and_a_time_target_kept() {
     let renderer = renderer(Publish::Live);
-    renderer.set_budget(Budget { noise: Some(0.5), ..Budget::default() });
-    renderer.submit(noisy());
-    let quiet = wait_for(&renderer, "the noise target", |p| matches!(p.status.state, State::Done(_)));
-    assert!(quiet.status.relative_noise().is_some_and(|noise| noise <= 0.5));
+    // Noise is believed from 64 samples on: the target must lie beyond.
+    renderer.set_budget(Budget { max_spp: Some(64), ..Budget::default() });
+    let camera = Camera { resolution: [64, 64], ..noisy().camera };
+    renderer.submit(Job { camera, ..noisy() });
+    let first = wait_for(&renderer, "64 samples", |p| matches!(p.status.state, State::Done(_)) && p.frame.spp == 64);
+    let goal = 0.7 * first.status.relative_noise().expect("an estimate");
+    renderer.set_budget(Budget { noise: Some(goal), ..Budget::default() });
+    let quiet = wait_for(&renderer, "the noise target", |p| p.status.state == State::Done(Target::Noise(goal)));
+    assert!(quiet.status.relative_noise().is_some_and(|noise| noise <= goal) && quiet.status.spp > 64);
     let time = quiet.status.elapsed + Duration::from_millis(100);
     renderer.set_budget(Budget { max_time: Some(time), ..Budget::default() });
-    let timed = wait_for(&renderer, "the time target", |p| matches!(p.status.state, State::Done(_)) && p.status.elapsed >= time);
-    assert!(timed.status.spp >= quiet.status.spp);
+    let timed = wait_for(&renderer, "the time target", |p| p.status.state == State::Done(Target::Time));
+    assert!(timed.status.elapsed >= time && timed.status.spp > quiet.status.spp);
 }
 
 #[test]
@@ -193,6 +218,12 @@ fn a_panic_in_a_pass_becomes_a_status_with_pixel_sample_and_message() {
     let failed = wait_for(&renderer, "the failure", |p| matches!(p.status.state, State::Failed(_)));
     let State::Failed(failure) = failed.status.state else { unreachable!() };
     assert!(failure.message.contains("index out of bounds") && failure.at.sample == 0, "{failure:?}");
+    assert!(failure.replays && failure.at.pixel.iter().zip(failure.resolution).all(|(x, side)| *x < side), "{failure:?}");
+    // It fails alone, as it says.
+    let settings = RenderSettings { reuse: Reuse::Off, ..scene.settings };
+    let rays = scene.rays(&Camera { resolution: failure.resolution, ..camera });
+    let replays = || noisefall::integrator::replay(&scene, &rays, &settings, failure.at.pixel, failure.at.sample);
+    assert!(std::panic::catch_unwind(std::panic::AssertUnwindSafe(replays)).is_err());
     renderer.submit(noisy_as(2));
     wait_for(&renderer, "the next picture", |p| p.frame.generation == 2);
 }

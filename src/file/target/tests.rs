@@ -84,7 +84,11 @@ fn what_is_no_regular_file_is_named_and_left_alone() {
     assert!(made.success());
     let _socket = UnixListener::bind(at("socket")).expect("a socket");
     fs::create_dir(at("folder")).expect("a folder");
-    symlink("/dev/null", at("device")).expect("a link");
+    // Who may not make devices may not replace those of the system either.
+    let made = std::process::Command::new("mknod").arg(at("device")).args(["c", "1", "3"]).output();
+    if !made.is_ok_and(|output| output.status.success()) {
+        symlink("/dev/null", at("device")).expect("a link");
+    }
     for name in ["pipe", "socket", "folder"] {
         symlink(name, at(&format!("link to {name}"))).expect("a link");
     }

@@ -1,0 +1,93 @@
+//! Whose turn it is.
+use super::*;
+use crate::{
+    math::SimdLevel,
+    scene::{Camera, Scene, built_in},
+};
+
+fn worker(publish: Publish) -> Worker {
+    let (_, receiver) = unbounded();
+    Worker {
+        threads: Threads::new(2, SimdLevel::best()).expect("threads can be had"),
+        publish,
+        receiver,
+        shared: Arc::new(Shared { published: Mutex::default(), sent: AtomicU64::new(0) }),
+        seen: 0,
+        budget: Budget::default(),
+        sessions: [None, None],
+        lead: Duration::ZERO,
+    }
+}
+
+fn job(scene: &Arc<Scene>, generation: u64, side: u32) -> Job {
+    let camera = Camera { resolution: [side, side], ..scene.camera };
+    Job { generation, camera, settings: scene.settings, scene: scene.clone() }
+}
+
+fn advance(worker: &mut Worker, side: usize) {
+    let session = worker.sessions[side].as_mut().expect("it is there");
+    session.advance(&worker.threads, &worker.budget, worker.publish, &|| false);
+}
+
+#[test]
+fn of_two_pictures_the_one_that_had_less_time_goes_on_whatever_the_first_had_before() {
+    let scene = Arc::new(built_in());
+    let mut worker = worker(Publish::Sparse);
+    assert_eq!(worker.next(), None);
+    worker.start(0, Beside::Picture(job(&scene, 1, 64)));
+    assert_eq!(worker.next(), Some(0));
+    while worker.sessions[0].as_ref().is_some_and(|session| session.elapsed() < Duration::from_millis(20)) {
+        advance(&mut worker, 0);
+    }
+    let elapsed = |worker: &Worker, side: usize| worker.sessions[side].as_ref().map_or(Duration::ZERO, Session::elapsed);
+    let before = elapsed(&worker, 0);
+    worker.start(1, Beside::Picture(job(&scene, 2, 48)));
+    // One sample of all pixels a turn.
+    worker.budget = Budget { paused: true, steps: 1000, ..Budget::default() };
+    let mut turns = [0, 0];
+    for _ in 0..40 {
+        let had = [elapsed(&worker, 0) - before, elapsed(&worker, 1)];
+        let next = worker.next().expect("neither is done");
+        assert!(had[next] <= had[1 - next], "{next} has had {had:?}");
+        advance(&mut worker, next);
+        turns[next] += 1;
+    }
+    assert!(turns.iter().all(|turns| *turns > 3), "{turns:?}");
+    worker.budget = Budget { max_spp: Some(1), ..Budget::default() };
+    assert_eq!(worker.next(), None, "both have what is asked for");
+}
+
+#[test]
+fn the_first_look_at_a_picture_goes_before_more_samples_of_another() {
+    let scene = Arc::new(built_in());
+    let mut worker = worker(Publish::Live);
+    worker.start(0, Beside::Picture(job(&scene, 1, 512)));
+    worker.start(1, Beside::Picture(job(&scene, 2, 64)));
+    let coarse = |worker: &Worker, side: usize| worker.sessions[side].as_ref().is_some_and(Session::is_coarse);
+    assert!(coarse(&worker, 0) && !coarse(&worker, 1));
+    assert_eq!(worker.next(), Some(0));
+}
+
+#[test]
+fn messages_are_taken_in_order_and_counted() {
+    let scene = Arc::new(built_in());
+    let mut worker = worker(Publish::Sparse);
+    let budget = Budget { max_spp: Some(3), ..Budget::default() };
+    let messages = [
+        Message::Budget(budget),
+        Message::Job(Box::new(job(&scene, 7, 8))),
+        Message::Beside(Some(Box::new(Beside::Series(job(&scene, 8, 16))))),
+        Message::Threads(Threads::new(1, SimdLevel::best()).expect("a thread can be had")),
+    ];
+    for message in messages {
+        assert!(worker.take(message).is_some());
+    }
+    let generation = |worker: &Worker, side: usize| worker.sessions[side].as_ref().map(|session| session.job().generation);
+    assert_eq!((worker.seen, worker.budget, worker.threads.count()), (4, budget, 1));
+    assert_eq!([generation(&worker, 0), generation(&worker, 1)], [Some(7), Some(8)]);
+    lock(&worker.shared.published)[1].status.generation = 8;
+    assert!(worker.take(Message::Beside(None)).is_some());
+    assert_eq!([generation(&worker, 0), generation(&worker, 1)], [Some(7), None]);
+    assert_eq!(lock(&worker.shared.published)[1].status.generation, 0);
+    assert!(worker.take(Message::Quit).is_none());
+}

@@ -1,0 +1,93 @@
+//! Ctrl+C, once and twice.
+#![cfg(target_os = "linux")]
+use std::{
+    fs,
+    io::{BufRead, BufReader, Read},
+    process::{Child, Command, Stdio},
+    time::{Duration, Instant},
+};
+
+use noisefall::render::image_file::{SETTINGS_KEY, read};
+
+use crate::command_line::{Shell, json, scene, text};
+
+/// Starts the program, and waits until it listens to interruptions: before that they end it at once.
+fn start(shell: &Shell, arguments: &[&str]) -> Child {
+    let mut command = shell.command(arguments);
+    let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("the program starts");
+    let began = Instant::now();
+    while !listens(&child) {
+        assert!(began.elapsed() < Duration::from_secs(60), "it never listens");
+        assert!(child.try_wait().expect("its state").is_none(), "it has ended");
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    child
+}
+
+/// Whether a process has a handler for the interruption signal.
+fn listens(child: &Child) -> bool {
+    const INTERRUPTION: u64 = 1 << 1;
+    let status = fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap_or_default();
+    let caught = status.lines().find_map(|line| line.strip_prefix("SigCgt:"));
+    caught.is_some_and(|mask| u64::from_str_radix(mask.trim(), 16).is_ok_and(|mask| mask & INTERRUPTION != 0))
+}
+
+fn interrupt(child: &Child) {
+    let sent = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+    assert!(sent.is_ok_and(|status| status.success()));
+}
+
+#[test]
+fn an_interrupted_render_saves_what_it_has_and_says_how_much_that_is() {
+    let shell = Shell::new();
+    let endless = ["--spp", "100000000", "--size", "200x150", "--json"];
+    let child = start(&shell, &[&["render", &scene("cornell_spheres"), "-o", "out.exr"], &endless[..]].concat());
+    interrupt(&child);
+    let output = child.wait_with_output().expect("it ends");
+    assert!(text(&output.stderr).starts_with("interrupted: saving the picture"), "{}", text(&output.stderr));
+    let line = json(&output);
+    let number = |line: &serde_json::Value, key: &str| line[key].as_f64().unwrap_or_else(|| panic!("{key} in {line}"));
+    assert_eq!(line["stopped_by"], "interruption");
+    assert_eq!((number(&line, "mean_spp") * 200.0 * 150.0).round(), number(&line, "paths"));
+    assert!(number(&line, "spp") >= 1.0 && number(&line, "spp") <= number(&line, "mean_spp"), "{line}");
+    let meta = exr::meta::MetaData::read_from_file(shell.path("out.exr"), false).expect("it has a header");
+    let settings = meta.headers[0].own_attributes.other.get(&exr::meta::attribute::Text::from(SETTINGS_KEY));
+    let Some(exr::meta::attribute::AttributeValue::Text(settings)) = settings else { panic!("no settings") };
+    let settings: serde_json::Value = serde_json::from_str(&settings.to_string()).expect("it is JSON");
+    for (in_file, in_line) in [("spp", "spp"), ("mean_spp", "mean_spp"), ("samples", "paths")] {
+        assert_eq!(number(&settings, in_file), number(&line, in_line), "{in_file}");
+    }
+    assert!(read(&shell.path("out.exr")).expect("a picture").radiance.iter().flatten().all(|c| c.is_finite()));
+}
+
+#[test]
+fn a_second_interruption_ends_a_render_at_once() {
+    let shell = Shell::new();
+    // Paths of thousands of bounces: the first sample of all pixels takes much longer than this test.
+    let slow = "format = 1\n[camera]\neye = [0, 0, 0]\nlook_at = [0, 0, 1]\nfov = 60\nresolution = [8192, 8192]\n\
+                [materials.white]\nlambertian = { albedo = 0.9999 }\n\
+                [[objects]]\nshape = { sphere = { center = [0, 0, 0], radius = 1 } }\nmaterial = \"white\"\n\
+                flip = true\nemission = { radiance = 1 }\n[render]\nroulette = \"off\"\n";
+    fs::write(shell.path("slow.toml"), slow).expect("it is written");
+    let mut child = start(&shell, &["render", "slow.toml", "-o", "out.exr", "--spp", "1"]);
+    interrupt(&child);
+    let mut told = BufReader::new(child.stderr.take().expect("a pipe"));
+    let mut first = String::new();
+    told.read_line(&mut first).expect("text");
+    assert!(first.starts_with("interrupted: saving the picture as it is (once more to give up)"), "{first}");
+    interrupt(&child);
+    assert_eq!(child.wait().expect("it ends").code(), Some(130));
+    assert_eq!(fs::read_dir(shell.path("")).expect("it is there").count(), 1, "only the scene");
+}
+
+#[test]
+fn an_interrupted_study_keeps_what_it_has_and_says_how_to_go_on() {
+    let shell = Shell::new();
+    let long = ["--spp", "1000000", "--seconds", "1000", "--size", "64x64"];
+    let mut child = start(&shell, &[&["study", &scene("bright_sky"), "-o", "out"], &long[..]].concat());
+    interrupt(&child);
+    assert_eq!(child.wait().expect("it ends").code(), Some(130));
+    let mut told = String::new();
+    child.stderr.take().expect("a pipe").read_to_string(&mut told).expect("text");
+    assert!(told.contains("stopped: out has 0 runs; the same command goes on from there"), "{told}");
+}
