@@ -8,27 +8,67 @@ use noisefall::{
     file::open_regular,
     image::{PNG, looks_like},
     math::colour::luminance,
-    measure::{Comparison, Deviations, compare},
+    measure::{Bias, Comparison, Evidence, Floor, compare},
     render::{
         Display, Frame,
-        image_file::{Picture, check_target, read, save},
+        image_file::{Picture, Provenance, check_target, provenance, read, save},
     },
 };
 
-use super::{Failure, flip, print, tell};
+use super::{Failure, flip, options::floor, print, tell};
+
+const NOTES: &str = "\
+The bias is the mean of A − B over pixels and channels. Its standard error comes from the variances of samples that `noisefall render` \
+writes into EXR files, or from the scatter of --repeats; from two pictures alone it cannot be told.
+
+relMSE is the mean over pixels and channels of (a − b)²/(b² + 0.01 · mean b²), or of (a − b)²/(b² + F) with --floor F.";
 
 #[derive(clap::Args)]
+#[command(after_help = NOTES)]
 pub struct Arguments {
     /// Picture (.exr or .png)
     a: PathBuf,
     /// Reference (.exr or .png)
     b: PathBuf,
+    /// Pictures of the same as A with other seeds, whose scatter tells the standard error of the bias of their mean
+    #[arg(long, value_name = "FILE", num_args = 1..)]
+    repeats: Vec<PathBuf>,
+    /// What relMSE adds to the squared reference [default: 0.01 of the mean squared reference]
+    #[arg(long, value_name = "F", value_parser = floor, allow_negative_numbers = true)]
+    floor: Option<Floor>,
     /// Picture of the difference to write: .exr (A less B) or .png (relative luminance, blue for less, red for more)
     #[arg(short, long)]
     output: Option<PathBuf>,
     /// Print one line of JSON
     #[arg(long)]
     json: bool,
+}
+
+/// A file with what it says of itself.
+struct Loaded<'a> {
+    path: &'a Path,
+    picture: Picture,
+    provenance: Provenance,
+}
+
+impl Loaded<'_> {
+    fn read(path: &Path) -> Result<Loaded<'_>, Failure> {
+        let picture = read(path).map_err(|error| error.to_string())?;
+        if let Some(i) = picture.radiance.iter().position(|rgb| rgb.iter().any(|c| !c.is_finite())) {
+            let (x, y) = (i as u32 % picture.width, i as u32 / picture.width);
+            return Err(format!("{}: pixel {x},{y} is not a finite number", path.display()));
+        }
+        Ok(Loaded { path, picture, provenance: provenance(path) })
+    }
+
+    fn must_be_as_large_as(&self, other: &Loaded) -> Result<(), Failure> {
+        let [a, b] = [self, other].map(|of| [of.picture.width, of.picture.height]);
+        if a == b {
+            return Ok(());
+        }
+        let said = |of: &Loaded| format!("{} is {} × {}", of.path.display(), of.picture.width, of.picture.height);
+        Err(format!("the pictures differ in size: {}, {}", said(self), said(other)))
+    }
 }
 
 /// By its first bytes, as pictures are read.
@@ -45,39 +85,23 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     if is_png(&arguments.a) != is_png(&arguments.b) {
         tell("note: a PNG is clipped at 1 and rounded to display codes, an EXR is not: they differ by more than noise");
     }
-    let load = |path| read(path).map_err(|error| error.to_string());
-    let (a, b) = (load(&arguments.a)?, load(&arguments.b)?);
-    if [a.width, a.height] != [b.width, b.height] {
-        return Err(format!(
-            "the pictures differ in size: {} is {} × {}, {} is {} × {}",
-            arguments.a.display(),
-            a.width,
-            a.height,
-            arguments.b.display(),
-            b.width,
-            b.height
-        ));
-    }
-    for (path, picture) in [(&arguments.a, &a), (&arguments.b, &b)] {
-        if let Some(i) = picture.radiance.iter().position(|rgb| rgb.iter().any(|c| !c.is_finite())) {
-            let (x, y) = (i as u32 % picture.width, i as u32 / picture.width);
-            return Err(format!("{}: pixel {x},{y} is not a finite number", path.display()));
-        }
-    }
-    let comparison = compare(&a.radiance, &b.radiance);
-    let (of_a, of_b): (Vec<f64>, Vec<f64>) = (luminances(&a), luminances(&b));
-    let differences: Vec<f64> = of_a.iter().zip(&of_b).map(|(a, b)| a - b).collect();
-    let deviations = Deviations::of(&differences, a.width as usize);
-    let flip = flip::mean_error(&frame(&a, a.radiance.clone()), &frame(&b, b.radiance.clone()));
-    let scale = arguments.output.as_deref().map(|path| write_difference(path, &a, &b)).transpose()?.flatten();
+    let (a, b) = (Loaded::read(&arguments.a)?, Loaded::read(&arguments.b)?);
+    a.must_be_as_large_as(&b)?;
+    let repeats = arguments.repeats.iter().map(|path| Loaded::read(path)).collect::<Result<Vec<_>, _>>()?;
+    repeats.iter().try_for_each(|repeat| repeat.must_be_as_large_as(&b))?;
+    let all: Vec<&Loaded> = std::iter::once(&a).chain(&repeats).collect();
+    must_be_independent(&all)?;
+    let bias = bias(&all, &b);
+    let remarks = remarks(&bias, &all, &b);
+    let floor = arguments.floor.unwrap_or(Floor::DEFAULT);
+    let (a, b) = (&a.picture, &b.picture);
+    let comparison = compare(&a.radiance, &b.radiance, floor);
+    let flip = flip::mean_error(&frame(a, a.radiance.clone()), &frame(b, b.radiance.clone()));
+    let scale = arguments.output.as_deref().map(|path| write_difference(path, a, b, floor)).transpose()?.flatten();
     if arguments.json {
-        let mut line = serde_json::json!(comparison);
-        line["flip"] = serde_json::json!(flip);
-        line["bias_in_standard_errors"] = serde_json::json!(deviations.as_ref().map(|deviations| deviations.of_mean));
-        line["block_z"] = serde_json::json!(deviations.map(|deviations| deviations.of_blocks));
-        return print(&line.to_string());
+        return print(&json(&comparison, flip, &bias, &remarks).to_string());
     }
-    print(&text(&comparison, flip, deviations.as_ref()))?;
+    print(&text(&comparison, flip, &bias, &remarks))?;
     match (&arguments.output, scale) {
         (Some(output), Some(scale)) => {
             print(&format!("{}: full colour is a difference of {:.1} %", output.display(), 100.0 * scale))
@@ -87,17 +111,93 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
 }
 
-fn text(comparison: &Comparison, flip: Option<f64>, deviations: Option<&Deviations>) -> String {
-    let Comparison { rmse, rel_mse, bias } = comparison;
-    let of_mean = deviations.map_or_else(String::new, |deviations| format!("   {:+.2} standard errors", deviations.of_mean));
-    let mut lines =
-        vec![format!("RMSE    {rmse:.6e}"), format!("relMSE  {rel_mse:.6e}"), format!("bias    {bias:+.6e}{of_mean}")];
-    lines.extend(flip.map(|flip| format!("FLIP    {flip:.6}")));
-    if let Some((deviations, (worst, rms))) = deviations.and_then(|d| Some((d, d.worst().zip(d.root_mean_square())?))) {
-        let count = deviations.of_blocks.len();
-        lines.push(format!("blocks  {count} of 32 × 32 pixels: worst z {worst:+.2}, root mean square {rms:.2} (noise alone: 1, where pixels share paths 1.2)"));
+/// Repeats that are the same picture tell nothing of noise, unless there is none: then their seeds differ all the same.
+fn must_be_independent(repeats: &[&Loaded]) -> Result<(), Failure> {
+    for (i, a) in repeats.iter().enumerate() {
+        for b in &repeats[..i] {
+            let seeds = a.provenance.seed.zip(b.provenance.seed);
+            if seeds.map_or(a.picture == b.picture, |(a, b)| a == b) {
+                let (a, b) = (a.path.display(), b.path.display());
+                return Err(format!("{b} and {a} have the same noise: repeats need other seeds (`noisefall render --seed N`)"));
+            }
+        }
     }
+    Ok(())
+}
+
+fn bias(all: &[&Loaded], b: &Loaded) -> Bias {
+    let width = b.picture.width as usize;
+    let of_b = b.provenance.noise.as_ref();
+    if let [a] = all {
+        return Bias::by_samples(&a.picture.radiance, &b.picture.radiance, [a.provenance.noise.as_ref(), of_b], width);
+    }
+    let pictures: Vec<&[[f32; 3]]> = all.iter().map(|of| of.picture.radiance.as_slice()).collect();
+    Bias::by_repeats(&pictures, &b.picture.radiance, of_b, width)
+}
+
+/// What is to be said of the standard error.
+fn remarks(bias: &Bias, all: &[&Loaded], b: &Loaded) -> Vec<String> {
+    let mut remarks = Vec::new();
+    if bias.evidence == Evidence::None {
+        remarks.push(format!(
+            "the standard error is unknown: {} has no variances; render it as EXR, or name --repeats with other seeds",
+            all[0].path.display()
+        ));
+        return remarks;
+    }
+    if bias.has_heavy_tails {
+        remarks.push("the variance is dominated by few samples: the standard error is not to be trusted".to_owned());
+    }
+    if bias.evidence == Evidence::Samples && !bias.is_exact && !all[0].provenance.is_independent {
+        remarks.push("at most: stratified and Sobol samples are better than their variance says".to_owned());
+    }
+    if b.provenance.noise.is_none() {
+        remarks.push(format!("the own error of {} is not known and taken for 0", b.path.display()));
+    } else if all.iter().any(|a| a.provenance.seed.is_some() && a.provenance.seed == b.provenance.seed) && !bias.is_exact {
+        remarks.push("A and B have the same seed, so their noise may be in common and the standard error too large".to_owned());
+    }
+    remarks
+}
+
+fn json(comparison: &Comparison, flip: Option<f64>, bias: &Bias, remarks: &[String]) -> serde_json::Value {
+    let mut line = serde_json::json!(comparison);
+    let known = (!bias.block_z.is_empty()).then_some(&bias.block_z);
+    for (key, value) in [
+        ("bias", serde_json::json!(bias.mean)),
+        ("flip", serde_json::json!(flip)),
+        ("bias_standard_error", serde_json::json!(bias.standard_error)),
+        ("bias_in_standard_errors", serde_json::json!(bias.z)),
+        ("exact_samples", serde_json::json!(bias.is_exact)),
+        ("heavy_tails", serde_json::json!(bias.has_heavy_tails)),
+        ("block_z", serde_json::json!(known)),
+        ("remarks", serde_json::json!(remarks)),
+    ] {
+        line[key] = value;
+    }
+    line
+}
+
+fn text(comparison: &Comparison, flip: Option<f64>, bias: &Bias, remarks: &[String]) -> String {
+    let Comparison { rmse, rel_mse, .. } = comparison;
+    let mut lines = vec![format!("RMSE    {rmse:.6e}"), format!("relMSE  {rel_mse:.6e}"), format!("bias    {}", said(bias))];
+    lines.extend(flip.map(|flip| format!("FLIP    {flip:.6}")));
+    if let Some((worst, rms)) = bias.worst_block().zip(bias.rms_of_blocks()) {
+        let count = bias.block_z.len();
+        lines.push(format!("blocks  {count} of 32 × 32 pixels: worst z {worst:+.2}, root mean square {rms:.2} (noise alone: 1)"));
+    }
+    lines.extend(remarks.iter().map(|remark| format!("note: {remark}")));
     lines.join("\n")
+}
+
+/// The bias and how sure it is, in a line.
+fn said(bias: &Bias) -> String {
+    let mean = bias.mean;
+    match (bias.standard_error, bias.z) {
+        (Some(error), Some(z)) => format!("{mean:+.6e} ± {error:.2e}: {z:+.2} standard errors"),
+        _ if bias.is_exact && mean.abs() > bias.rounding => format!("{mean:+.6e}   exact samples: not noise"),
+        _ if bias.is_exact => format!("{mean:+.6e}   exact samples: no more than rounding"),
+        _ => format!("{mean:+.6e}   standard error unknown"),
+    }
 }
 
 fn luminances(picture: &Picture) -> Vec<f64> {
@@ -110,11 +210,13 @@ fn frame(like: &Picture, radiance: Vec<[f32; 3]>) -> Frame {
 }
 
 /// Writes A less B; as PNG the relative difference of luminances in colours, whose scale is returned.
-fn write_difference(path: &Path, a: &Picture, b: &Picture) -> Result<Option<f64>, Failure> {
+fn write_difference(path: &Path, a: &Picture, b: &Picture, floor: Floor) -> Result<Option<f64>, Failure> {
     let is_png = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("png"));
     let (radiance, scale) = if is_png {
         let pairs = luminances(a).into_iter().zip(luminances(b));
-        let relative: Vec<f64> = pairs.map(|(a, b)| (a - b) / (b.abs() + 0.1)).collect();
+        let floor = floor.of_picture(&b.radiance);
+        let difference = |(a, b): (f64, f64)| if a == b { 0.0 } else { (a - b) / (b * b + floor).sqrt() };
+        let relative: Vec<f64> = pairs.map(difference).collect();
         let mut sizes: Vec<f64> = relative.iter().map(|x| x.abs()).collect();
         sizes.sort_by(f64::total_cmp);
         let scale = sizes[sizes.len() * 99 / 100].max(1e-9);

@@ -2,6 +2,7 @@
 use std::time::Duration;
 
 use noisefall::{
+    measure::Floor,
     render::image_file::Format,
     sampling::{Directions, SAMPLERS, Sampler},
     scene::{Estimator, Reuse, Roulette},
@@ -87,6 +88,12 @@ pub fn seconds(text: &str) -> Result<Duration, String> {
     seconds.and_then(|s| Duration::try_from_secs_f64(s).ok()).ok_or_else(|| "expected a number of seconds above 0".to_owned())
 }
 
+/// What relMSE adds to the squared reference.
+pub fn floor(text: &str) -> Result<Floor, String> {
+    let floor = text.parse::<f64>().ok().filter(|floor| floor.is_finite() && *floor > 0.0);
+    floor.map(Floor::Absolute).ok_or_else(|| "expected a number above 0, such as 0.01".to_owned())
+}
+
 pub fn noise(text: &str) -> Result<f64, String> {
     let noise = text.parse().ok().filter(|noise| *noise > 0.0 && *noise < f64::INFINITY);
     noise.ok_or_else(|| "expected a number above 0, such as 0.01 for 1 %".to_owned())
@@ -119,7 +126,7 @@ mod tests {
     #[test]
     fn values_out_of_range_are_refused() {
         assert!(roulette("0").is_err() && roulette("1.5").is_err() && roulette("nan").is_err() && roulette("x").is_err());
-        assert!(seconds("-1").is_err() && seconds("inf").is_err() && noise("0").is_err() && noise("nan").is_err());
+        assert!(seconds("-1").is_err() && seconds("inf").is_err() && floor("0").is_err() && floor("inf").is_err() && noise("0").is_err() && noise("nan").is_err());
         assert!(whole("-1").is_err() && samples("0").is_err() && samples("1e3").is_err() && threads("1025").is_err());
         assert!(resolution("640").is_err() && resolution("-1x2").is_err() && pixel("1;2").is_err());
         assert!(estimator("bdpt").is_err() && directions("sphere").is_err() && sampler("halton").is_err());
@@ -168,6 +175,7 @@ mod tests {
         assert_eq!((seconds("1.5"), noise("0.01")), (Ok(Duration::from_millis(1500)), Ok(0.01)));
         assert_eq!(bounce_cap("none").map(|cap| cap.0), Ok(None));
         assert_eq!(bounce_cap("0").map(|cap| cap.0), Ok(Some(0)));
+        assert_eq!(floor("0.02"), Ok(Floor::Absolute(0.02)));
         assert_eq!(sampler("stratified"), Ok(Sampler::Stratified));
         let sizes = ["4G", "500M", "1.5gb", "64 kB", "1000000", "2T"].map(memory);
         assert_eq!(sizes, [4_000_000_000, 500_000_000, 1_500_000_000, 64_000, 1_000_000, 2_000_000_000_000].map(Ok));

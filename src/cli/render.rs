@@ -55,7 +55,7 @@ pub struct Arguments {
     /// Stop after so many seconds of rendering
     #[arg(long, value_name = "SECONDS", value_parser = parse::seconds, overrides_with_all = ["spp", "noise"])]
     time: Option<Duration>,
-    /// Stop at this estimated relative noise, the root of relMSE (0.01 is 1 %)
+    /// Stop at this estimated relative noise (0.01 is 1 %): the root of relMSE, the mean of (x − r)²/(r² + 0.01 · mean r²)
     #[arg(long, value_name = "RELATIVE", value_parser = parse::noise, overrides_with_all = ["spp", "time"])]
     noise: Option<f64>,
     /// How light is found: path, light or mis

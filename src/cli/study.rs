@@ -4,6 +4,7 @@ use std::{path::PathBuf, process::ExitCode, sync::atomic::Ordering, time::Durati
 use indicatif::{ProgressBar, ProgressStyle};
 use noisefall::{
     math::SimdLevel,
+    measure::Floor,
     render::{film::Film, pass::Threads},
     sampling::{Directions, Sampler},
     scene::{Estimator, Roulette},
@@ -66,6 +67,9 @@ pub struct Arguments {
     /// Resolution in pixels [default: the reference's, or the scene's made small enough for 256 along the longer side]
     #[arg(long, value_name = "WxH", value_parser = parse::resolution, allow_hyphen_values = true)]
     size: Option<[u32; 2]>,
+    /// What relMSE, the mean of (x − r)²/(r² + F), adds to the squared reference [default: 0.01 of the mean of r²]
+    #[arg(long, value_name = "F", value_parser = parse::floor)]
+    floor: Option<Floor>,
     /// Threads; 0 for one a core
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = parse::threads)]
     threads: u16,
@@ -115,13 +119,16 @@ impl Arguments {
             roulettes: self.roulette.clone(),
             caps: self.max_bounces.iter().map(|cap| cap.0).collect(),
         };
-        Plan { lists, spp: self.spp, time: self.seconds, repeats: self.repeats }
+        Plan { lists, spp: self.spp, time: self.seconds, repeats: self.repeats, floor: self.floor.unwrap_or(Floor::DEFAULT) }
     }
 }
 
 fn finish(arguments: &Arguments, findings: &[Findings], plan: &Plan, machine: &Machine) -> Result<(), Failure> {
     for scene in findings {
         print(&format!("\n{}\n{}\n{}", scene.title, table(scene), verdict(scene)))?;
+        if scene.reference_is_taken_for_exact {
+            print(&format!("The own error of {} is not known and taken for 0.", scene.reference))?;
+        }
     }
     print("")?;
     folder::write_report(&arguments.output, &html(findings, plan, machine))

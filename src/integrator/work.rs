@@ -47,10 +47,6 @@ impl Blocks {
 }
 
 impl Blocks {
-    pub fn is_empty(&self) -> bool {
-        self.count == 0
-    }
-
     pub fn is_full(&self) -> bool {
         self.count == BLOCKS
     }

@@ -33,6 +33,16 @@ pub fn furnace_variance(le: f64, albedo: f64, weight_square: f64) -> f64 {
     mean_square - mean * mean
 }
 
+/// The same with at most `cap` reflections: Xₙ = L_e + ρ w Xₙ₋₁ with X₀ = L_e, so that
+/// E Xₙ² = L_e² + 2 L_e ρ E Xₙ₋₁ + ρ² E w² E Xₙ₋₁².
+pub fn furnace_capped_variance(le: f64, albedo: f64, weight_square: f64, cap: u32) -> f64 {
+    let step = |mean_square: f64, n: u32| {
+        le * le + 2.0 * le * albedo * furnace_capped(le, albedo, n - 1) + albedo * albedo * weight_square * mean_square
+    };
+    let mean_square = (1..=cap).fold(le * le, step);
+    mean_square - furnace_capped(le, albedo, cap).powi(2)
+}
+
 /// Irradiance of a surface by a sphere of constant radiance that is wholly above its horizon: E = π L (r/d)² cos θ, where d is
 /// the distance of the centre and θ its angle to the normal (Moon, "The Scientific Basis of Illuminating Engineering", 1936).
 pub fn sphere_irradiance(radiance: f64, radius: f64, distance: f64, cos: f64) -> f64 {

@@ -1,13 +1,15 @@
 //! Error metrics between pictures, exact solutions that pictures are held against, and what samples say of the means they come from.
-mod blocks;
+mod bias;
 mod error;
 pub mod exact;
 mod means;
 mod moments;
+mod sample_noise;
 
 pub use self::{
-    blocks::Deviations,
-    error::{Comparison, REL_MSE_FLOOR, compare},
+    bias::{Bias, Evidence},
+    error::{Comparison, Floor, compare, mean_square, relative},
     means::{Mean, Measure, Picture, picture},
     moments::{Moments, samples},
+    sample_noise::SampleNoise,
 };

@@ -13,7 +13,7 @@ use super::{
 };
 use crate::{
     integrator::{BLOCK, Interrupted, Segments, TILE, Work},
-    measure::REL_MSE_FLOOR,
+    measure::{Floor, relative},
     sampling::Sampler,
     scene::RenderSettings,
 };
@@ -77,18 +77,23 @@ fn pilot(threads: &Threads, job: PassJob, film: &Film, interrupted: &(dyn Fn() -
     let of_tile = |tile: &Tile| {
         let work = Work::tile(scene, rays, &settings, tile.origin, tile.size, 0);
         threads.trace_counting(&work, interrupted, |radiance, segments| {
-            let of_block = |block| (noise_of_block(tile, block, radiance), cost_of_block(tile, block, &segments));
+            let of_block = |block| (squares_of_block(tile, block, radiance), cost_of_block(tile, block, &segments));
             (0..tile.blocks.len()).map(of_block).collect::<Vec<_>>()
         })
     };
     let tiles = threads.install(|| film.tiles.par_iter().map(of_tile).collect::<Result<Vec<_>, _>>())?;
+    let squares = tiles.iter().flatten().flat_map(|(squares, _)| squares);
+    let (sum, count) = squares.fold((0.0, 0.0), |(sum, count), square| (sum + square.n * square.square_of_mean(), count + square.n));
+    let floor = Floor::DEFAULT.of(sum / (3.0 * f64::max(count, 1.0)));
     let columns = film.resolution[0].div_ceil(BLOCK) as usize;
     let none = vec![0.0; columns * film.resolution[1].div_ceil(BLOCK) as usize];
     let mut pilot = Pilot { columns, noise: [none.clone(), none.clone()], cost: none };
     for (tile, blocks) in film.tiles.iter().zip(tiles) {
-        for (i, (noise, cost)) in blocks.into_iter().enumerate() {
+        for (i, ([a, b, c, d], cost)) in blocks.into_iter().enumerate() {
             let [x, y] = tile.corner(i).map(|x| (x / BLOCK) as usize);
             let place = y * columns + x;
+            // Two pairs of squares that lie across from each other.
+            let noise = [[a, d], [b, c]].map(|pair| pair.iter().map(|square| square.relative_variance(floor)).sum());
             (0..2).for_each(|half| pilot.noise[half][place] = noise[half]);
             pilot.cost[place] = cost;
         }
@@ -105,9 +110,8 @@ fn cost_of_block(tile: &Tile, block: usize, segments: &Segments) -> f64 {
     BESIDES + f64::from(segments.0[(row * TILE / BLOCK + column) as usize]) / (width * height)
 }
 
-/// The relative variance in a block, by two pairs of its squares that lie across from each other. Radiance is by row · [`TILE`] +
-/// column of the tile.
-fn noise_of_block(tile: &Tile, block: usize, radiance: &[[f32; 4]]) -> [f64; 2] {
+/// The four squares of a block, row by row. Radiance is by row · [`TILE`] + column of the tile.
+fn squares_of_block(tile: &Tile, block: usize, radiance: &[[f32; 4]]) -> [Square; 4] {
     let corner = tile.corner(block);
     let [left, top] = [0, 1].map(|axis| corner[axis] - tile.origin[axis]);
     let square = |x: u32, y: u32| {
@@ -115,27 +119,47 @@ fn noise_of_block(tile: &Tile, block: usize, radiance: &[[f32; 4]]) -> [f64; 2] 
         let rows = top..(top + SQUARE).min(tile.size[1]);
         let columns = left..(left + SQUARE).min(tile.size[0]);
         let slots = rows.flat_map(|row| columns.clone().map(move |column| (row * TILE + column) as usize));
-        relative_variance(slots.map(|slot| radiance[slot]))
+        Square::of(slots.map(|slot| radiance[slot]))
     };
-    [square(0, 0) + square(1, 1), square(0, 1) + square(1, 0)]
+    [square(0, 0), square(1, 0), square(0, 1), square(1, 1)]
 }
 
-/// Sum over the channels of the variance of some samples over the square of their mean, as relMSE has it.
-fn relative_variance(samples: impl Iterator<Item = [f32; 4]>) -> f64 {
-    let (mut n, mut sums, mut squares) = (0.0, [0.0; 3], [0.0; 3]);
-    for sample in samples.filter(|sample| sample[..3].iter().all(|x| (0.0..1e18).contains(x))) {
-        n += 1.0;
-        for channel in 0..3 {
-            let x = f64::from(sample[channel]);
-            sums[channel] += x;
-            squares[channel] += x * x;
+/// One sample of each pixel of a square.
+#[derive(Default)]
+struct Square {
+    n: f64,
+    mean: [f64; 3],
+    variance: [f64; 3],
+}
+
+impl Square {
+    fn of(samples: impl Iterator<Item = [f32; 4]>) -> Square {
+        let (mut n, mut sums, mut squares) = (0.0, [0.0; 3], [0.0; 3]);
+        for sample in samples.filter(|sample| sample[..3].iter().all(|x| (0.0..1e18).contains(x))) {
+            n += 1.0;
+            for channel in 0..3 {
+                let x = f64::from(sample[channel]);
+                sums[channel] += x;
+                squares[channel] += x * x;
+            }
         }
+        if n < 2.0 {
+            return Square::default();
+        }
+        let mean = sums.map(|sum: f64| sum / n);
+        let variance = |channel: usize| (squares[channel] - mean[channel] * sums[channel]).max(0.0) / (n - 1.0);
+        Square { n, mean, variance: [0, 1, 2].map(variance) }
     }
-    let relative = |channel: usize| {
-        let mean: f64 = sums[channel] / n;
-        (squares[channel] - mean * sums[channel]).max(0.0) / (n - 1.0) / (mean * mean + REL_MSE_FLOOR)
-    };
-    if n > 1.0 { (0..3).map(relative).sum() } else { 0.0 }
+
+    /// Sum over the channels; the mean of the samples is less noisy than these.
+    fn square_of_mean(&self) -> f64 {
+        self.mean.iter().map(|mean| mean * mean).sum()
+    }
+
+    /// Sum over the channels of the variance of a sample over the square of the mean, as relMSE has it.
+    fn relative_variance(&self, floor: f64) -> f64 {
+        self.mean.iter().zip(self.variance).map(|(mean, variance)| relative(variance, *mean, floor)).sum()
+    }
 }
 
 /// Averages over squares of so many blocks.

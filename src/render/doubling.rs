@@ -3,12 +3,14 @@
 //! For independent samples the sample variance says it all. Stratified and Sobol samples are better than it says, by how much shows
 //! only over the whole picture. Let V(N) be the squared error of the mean of N samples. Where the second half of the samples is as
 //! good as the first, E|I_N − I_{N/2}|² = V(N/2) − V(N): see [`remaining`] for how V(N) follows from these differences.
+use rayon::prelude::*;
+
 use super::{
     film::Film,
     region::Region,
-    tile::{Block, Estimate},
+    tile::{Block, Estimate, Tile},
 };
-use crate::measure::REL_MSE_FLOOR;
+use crate::measure::{Floor, relative};
 
 /// Sums over the pixels and channels of a block, each divided by the square of the radiance as relMSE has it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -27,14 +29,15 @@ const FACTORS: f64 = 0.65;
 
 impl Doubling {
     /// `estimates` are those of the pixels of a block, `before` the means that they had at half as many samples.
-    pub fn new(estimates: &[Estimate], before: &[[f32; 3]]) -> Doubling {
+    /// `floor` is what relMSE adds to the squared radiance.
+    pub fn new(estimates: &[Estimate], before: &[[f32; 3]], floor: f64) -> Doubling {
         let mut doubling = Doubling::default();
-        (0..3).for_each(|channel| doubling.add(channel, estimates, before));
+        (0..3).for_each(|channel| doubling.add(channel, estimates, before, floor));
         doubling
     }
 
     /// Adds one channel. Radiance is smoothed over the block where noise hides it.
-    fn add(&mut self, channel: usize, estimates: &[Estimate], before: &[[f32; 3]]) {
+    fn add(&mut self, channel: usize, estimates: &[Estimate], before: &[[f32; 3]], floor: f64) {
         let mean = |estimate: &Estimate| estimate.mean[channel];
         let variance = |estimate: &Estimate| estimate.variance_of_mean.map_or(0.0, |variance| variance[channel]);
         let count = estimates.len() as f64;
@@ -49,11 +52,31 @@ impl Doubling {
             let (mean, variance) = (mean(estimate), variance(estimate));
             let trust = if variance > 0.0 { signal / (signal + variance) } else { 1.0 };
             let radiance = level + (mean - level) * trust;
-            let scale = 1.0 / (radiance * radiance + REL_MSE_FLOOR);
-            self.moved += (mean - f64::from(before[channel])).powi(2) * scale;
-            self.variance += variance * scale;
+            self.moved += relative((mean - f64::from(before[channel])).powi(2), radiance, floor);
+            self.variance += relative(variance, radiance, floor);
         }
     }
+}
+
+/// Notes how far the blocks have moved whose numbers of samples have just become a power of two. The floor of relMSE is that of the
+/// whole picture, so this waits until all tiles are there: no block takes another sample before.
+pub(super) fn note(film: &mut Film) {
+    let due = || film.tiles.iter().flat_map(|tile| &tile.blocks).filter(|block| block.has_doubled());
+    if let Some(most) = due().map(|block| block.spp).max() {
+        // The first sample has no error yet to be relative to anything.
+        let floor = if most > 1 { Floor::DEFAULT.of(mean_square(film)) } else { 0.0 };
+        film.tiles.par_iter_mut().for_each(|tile| tile.double(floor));
+    }
+}
+
+/// The mean over pixels and channels of the squared radiance, as far as the samples know it.
+///
+/// The square of a mean of samples contains their noise, whose variance is taken off. What stratified samples spare of that is too
+/// much; the squared means of blocks, which are hardly too small, bound it from below.
+fn mean_square(film: &Film) -> f64 {
+    let sums: Vec<[f64; 2]> = film.tiles.par_iter().map(Tile::squares).collect();
+    let [of_pixels, of_blocks] = [0, 1].map(|i| sums.iter().map(|sum| sum[i]).sum::<f64>());
+    of_pixels.max(of_blocks) / (3.0 * film.resolution.map(f64::from).iter().product::<f64>())
 }
 
 /// The relMSE that a film of this many samples is expected to have; `None` before the second sample.
@@ -64,19 +87,19 @@ pub(super) fn rel_mse_estimate(film: &Film) -> Option<f64> {
 
 /// The same of the tiles in a region.
 pub(super) fn rel_mse_estimate_in(film: &Film, region: &Region) -> Option<f64> {
-    if film.spp_in(region)? < 2 {
-        return None;
-    }
     let tiles = || film.tiles.iter().filter(|tile| tile.lies_in(region));
     let blocks = || tiles().flat_map(|tile| &tile.blocks);
+    if blocks().map(|block| block.doubled).min()? < 2 {
+        return None;
+    }
     let back = |steps: usize| {
-        let doubled = blocks().filter(|block| block.spp.ilog2() as usize > steps).map(|block| block.doublings[steps]);
+        let doubled = blocks().filter(|block| block.doubled.ilog2() as usize > steps).map(|block| block.doublings[steps]);
         doubled.fold((0.0, 0.0), |(moved, variance), doubling| (moved + doubling.moved, variance + doubling.variance))
     };
     let doublings: Vec<_> = (0..3).rev().map(back).filter(|(_, variance)| *variance > 0.0).collect();
     let Some((_, last)) = doublings.last() else { return Some(0.0) };
     // Between doublings nothing is known of Sobol samples but that they are no worse than independent ones.
-    let since = |block: &Block| f64::from(1u32 << block.spp.ilog2()) / f64::from(block.spp);
+    let since = |block: &Block| f64::from(block.doubled) / f64::from(block.spp);
     let now: f64 = blocks().map(|block| block.doublings[0].variance * since(block)).sum();
     let values = 3.0 * tiles().map(|tile| tile.size.map(f64::from).iter().product::<f64>()).sum::<f64>();
     Some(remaining(&doublings) * now / last / values)

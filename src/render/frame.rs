@@ -7,10 +7,14 @@ use super::{
     doubling::rel_mse_estimate,
     film::Film,
     sample_counts::SampleCounts,
+    scatter::Parts,
     series::Series,
     tile::{Estimate, Tile},
 };
-use crate::{integrator::TILE, math::colour::luminance};
+use crate::{integrator::TILE, math::colour::luminance, measure::SampleNoise};
+
+// The blocks of [`SampleNoise`] are the tiles.
+const _: () = assert!(SampleNoise::BLOCK == TILE as usize);
 
 /// Linear radiance, row by row from the top left. Immutable once published.
 #[derive(Debug, Default)]
@@ -34,6 +38,8 @@ pub struct Frame {
     pub series: Option<Series>,
     /// Estimated relMSE of the picture: see [`super::doubling`]; `None` before the second sample.
     pub rel_mse_estimate: Option<f64>,
+    /// How noisy its means are by the variance of the samples; `None` before the second sample.
+    pub noise: Option<SampleNoise>,
 }
 
 impl Frame {
@@ -41,21 +47,22 @@ impl Frame {
         let pixels = width as usize * height as usize;
         let mut radiance = vec![[0.0; 3]; pixels];
         let mut standard_error = vec![f32::NAN; pixels];
+        let mut variance = vec![[0.0; 3]; pixels];
         let band = (width * TILE) as usize;
         let rows: Vec<_> = film.tile_rows().collect();
-        radiance.par_chunks_mut(band).zip(standard_error.par_chunks_mut(band)).zip(rows).for_each(
-            |((radiance, error), tiles)| {
-                for tile in tiles {
-                    for row in 0..tile.size[1] as usize {
-                        let start = row * width as usize + tile.origin[0] as usize;
-                        for (i, estimate) in (start..).zip(tile.estimates(row)) {
-                            radiance[i] = estimate.mean.map(|c| c as f32);
-                            error[i] = luminance_error(&estimate);
-                        }
+        let bands = radiance.par_chunks_mut(band).zip(standard_error.par_chunks_mut(band)).zip(variance.par_chunks_mut(band));
+        bands.zip(rows).for_each(|(((radiance, error), variance), tiles)| {
+            for tile in tiles {
+                for row in 0..tile.size[1] as usize {
+                    let start = row * width as usize + tile.origin[0] as usize;
+                    for (i, estimate) in (start..).zip(tile.estimates(row)) {
+                        radiance[i] = estimate.mean.map(|c| c as f32);
+                        error[i] = luminance_error(&estimate);
+                        variance[i] = estimate.variance_of_mean.unwrap_or_default().map(|v| v as f32);
                     }
                 }
-            },
-        );
+            }
+        });
         let rel_mse_estimate = rel_mse_estimate(film);
         Frame {
             generation,
@@ -69,6 +76,7 @@ impl Frame {
             elapsed: Duration::ZERO,
             series: Series::of_film(film),
             rel_mse_estimate,
+            noise: noise(film, variance),
         }
     }
 
@@ -100,6 +108,17 @@ impl Frame {
     pub fn is_coarse(&self) -> bool {
         [self.width, self.height] != self.full_resolution
     }
+}
+
+/// See [`Frame::noise`].
+fn noise(film: &Film, variance: Vec<[f32; 3]>) -> Option<SampleNoise> {
+    let least = film.tiles.iter().flat_map(|tile| &tile.blocks).map(|block| block.spp).min()?;
+    (least > 1).then(|| SampleNoise {
+        width: film.resolution[0],
+        variance,
+        blocks: film.tiles.iter().map(Tile::variance_of_mean).collect(),
+        effective_samples: Parts::effective_count(film.tiles.iter().flat_map(Tile::parts)),
+    })
 }
 
 /// See [`Frame::counts`].

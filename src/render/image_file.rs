@@ -4,9 +4,10 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use exr::prelude::{Image, Layer, LayerAttributes, SpecificChannels, Text, WritableImage, attribute::AttributeValue};
+use exr::prelude::{Image, Layer, LayerAttributes, Text, WritableImage, attribute::AttributeValue};
 
-use super::{display::to_srgb, frame::Frame, tone::Display};
+use super::{display::to_srgb, frame::Frame, noise_layer, tone::Display};
+pub use super::noise_layer::{Provenance, provenance};
 pub use crate::image::Picture;
 use crate::{
     file::{self, WriteError},
@@ -108,15 +109,13 @@ fn write_png([width, height]: [u32; 2], pixels: &[[u8; 4]], settings: &str, to: 
 
 fn write_exr(frame: &Frame, settings: &str, to: &mut Vec<u8>) -> Result<(), String> {
     let size = (frame.width as usize, frame.height as usize);
-    let channels = SpecificChannels::rgb(|at: exr::prelude::Vec2<usize>| {
-        let [r, g, b] = frame.radiance[at.y() * size.0 + at.x()];
-        (r, g, b)
-    });
     let mut attributes = LayerAttributes::named("");
     attributes.layer_name = None;
     attributes.software_name = Some(Text::from("Noisefall"));
     let text = Text::new_or_none(settings).ok_or("the settings are not Latin-1 text, and EXR knows no other")?;
     attributes.other.insert(Text::from(SETTINGS_KEY), AttributeValue::Text(text));
+    noise_layer::add_attributes(frame, &mut attributes);
+    let channels = noise_layer::channels(frame);
     let layer = Layer::new(size, attributes, exr::prelude::Encoding::FAST_LOSSLESS, channels);
     // The format is written with seeks, which a buffer in memory allows whatever the target is.
     Image::from_layer(layer).write().to_buffered(std::io::Cursor::new(to)).map_err(|error| error.to_string())

@@ -6,9 +6,9 @@ use std::{
 
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder, prelude::*};
 
-use super::{adaptive, film::Film, tile::Tile};
+use super::{adaptive, doubling, film::Film, tile::Tile};
 use crate::{
-    integrator::{Batch, Blocks, Interrupted, Segments, Terms, Work, replay, trace, trace_counting, trace_series},
+    integrator::{Batch, Interrupted, Segments, Terms, Work, replay, trace, trace_counting, trace_series},
     math::SimdLevel,
     scene::{CameraRays, RenderSettings, Reuse, Scene},
 };
@@ -101,6 +101,28 @@ impl Threads {
                 return PassCount::default();
             }
         }
+        // All tiles meet where their samples have doubled, for how far they have moved is seen over the whole picture.
+        let mut count = PassCount::default();
+        loop {
+            count = count.merge(self.to_next_doubling(job, film, spp, interrupted));
+            if !film.tiles_in_focus().all(|tile| tile.has_reached(spp)) {
+                return count;
+            }
+            self.pool.install(|| doubling::note(film));
+            if film.tiles_in_focus().all(|tile| tile.spp >= spp) {
+                return count;
+            }
+        }
+    }
+
+    /// Brings a film to `spp` samples a pixel, or to the next power of two.
+    fn to_next_doubling(
+        &self,
+        job: PassJob,
+        film: &mut Film,
+        spp: u32,
+        interrupted: &(dyn Fn() -> bool + Sync),
+    ) -> PassCount {
         let resolution = film.resolution;
         let mut tiles: Vec<&mut Tile> = film.tiles_in_focus().filter(|tile| tile.spp < spp).collect();
         // What takes long begins first, or else one thread would be left with it in the end.
@@ -124,13 +146,9 @@ impl Threads {
         let mut batch = self.batches[thread].lock().unwrap_or_else(PoisonError::into_inner);
         let mut terms = self.terms[thread].lock().unwrap_or_else(PoisonError::into_inner);
         (batch.rays, batch.cut_paths) = (0, 0);
-        while tile.spp < spp && !interrupted() {
+        while !tile.has_reached(spp) && !interrupted() {
             let PassJob { scene, rays, settings } = job;
             let blocks = tile.is_adaptive().then(|| tile.missing(spp));
-            if blocks.as_ref().is_some_and(Blocks::is_empty) {
-                tile.spp = spp;
-                break;
-            }
             let whole = Work::tile(scene, rays, settings, tile.origin, tile.size, tile.spp);
             let work = Work { blocks: blocks.as_ref(), ..whole };
             let traced = catch_unwind(AssertUnwindSafe(|| match &mut tile.series {
@@ -159,6 +177,9 @@ impl Threads {
                     break;
                 }
             }
+        }
+        if tile.is_adaptive() {
+            tile.note_average(spp);
         }
         (count.rays, count.cut_paths) = (batch.rays, batch.cut_paths);
         count

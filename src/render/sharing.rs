@@ -7,7 +7,7 @@ use super::tile::{Estimate, Tile};
 use crate::{
     integrator::{Batch, TILE, Work, trace},
     math::SimdLevel,
-    measure::REL_MSE_FLOOR,
+    measure::{Floor, relative},
     sampling::Sampler,
     scene::{CameraRays, Estimator, RenderSettings, Reuse, Scene},
 };
@@ -49,11 +49,10 @@ fn pays(scene: &Scene, estimator: Estimator) -> bool {
     let tile = |[x, y]: &[f64; 2]| {
         let origin = [(width, x), (height, y)].map(|(side, part)| (f64::from(side) * part) as u32 / TILE * TILE);
         let size = [TILE.min(width - origin[0]), TILE.min(height - origin[1])];
-        let of = |reuse| estimates(scene, &rays, RenderSettings { reuse, ..settings }, Tile::new(origin, size));
-        relative_variances(&of(Reuse::Off), &of(Reuse::On))
+        [Reuse::Off, Reuse::On].map(|reuse| estimates(scene, &rays, RenderSettings { reuse, ..settings }, Tile::new(origin, size)))
     };
-    let variances: Vec<[f64; 2]> = PLACES.par_iter().map(tile).collect();
-    let [without, with] = [0, 1].map(|i| variances.iter().map(|variance| variance[i]).sum::<f64>());
+    let tiles: Vec<[Vec<Estimate>; 2]> = PLACES.par_iter().map(tile).collect();
+    let [without, with] = relative_variances(&tiles);
     let cost = if scene.shapes.are_listed() { COST } else { COST_WITH_TREES };
     without > cost * with
 }
@@ -70,15 +69,18 @@ fn estimates(scene: &Scene, rays: &CameraRays, settings: RenderSettings, mut til
     (0..tile.size[1] as usize).flat_map(|row| tile.estimates(row)).collect()
 }
 
-/// Sums of the variances of both, over the squares of the means of both together as relMSE has it.
-fn relative_variances(without: &[Estimate], with: &[Estimate]) -> [f64; 2] {
+/// Sums over tiles of the variances of both, over the squares of the means of both together as relMSE has it.
+fn relative_variances(tiles: &[[Vec<Estimate>; 2]]) -> [f64; 2] {
+    let pairs = || tiles.iter().flat_map(|[without, with]| without.iter().zip(with));
+    let mean = |(a, b): (&Estimate, &Estimate)| [0, 1, 2].map(|channel| (a.mean[channel] + b.mean[channel]) / 2.0);
+    let squares: f64 = pairs().flat_map(mean).map(|x| x * x).sum();
+    let floor = Floor::DEFAULT.of(squares / (3 * pairs().count()).max(1) as f64);
     let mut sums = [0.0; 2];
-    for (a, b) in without.iter().zip(with) {
-        for channel in 0..3 {
-            let mean = (a.mean[channel] + b.mean[channel]) / 2.0;
+    for (a, b) in pairs() {
+        for (channel, mean) in mean((a, b)).into_iter().enumerate() {
             let variance = |of: &Estimate| of.variance_of_mean.map_or(0.0, |variance| variance[channel]);
-            sums[0] += variance(a) / (mean * mean + REL_MSE_FLOOR);
-            sums[1] += variance(b) / (mean * mean + REL_MSE_FLOOR);
+            sums[0] += relative(variance(a), mean, floor);
+            sums[1] += relative(variance(b), mean, floor);
         }
     }
     sums

@@ -1,5 +1,11 @@
 //! A tile of the film: sums of samples a pixel, and counts a block of pixels.
-use super::{adaptive::UNIFORM, doubling::Doubling, region::Region, series::TileSeries};
+use super::{
+    adaptive::UNIFORM,
+    doubling::Doubling,
+    region::Region,
+    scatter::{Parts, Scatter},
+    series::TileSeries,
+};
 use crate::integrator::{BLOCK, Blocks, TILE};
 
 /// The pixels of one tile, row by row. Sums are f64, so that a millionth sample still counts.
@@ -16,6 +22,8 @@ pub struct Tile {
     before: Vec<[f32; 3]>,
     /// Row by row.
     pub(super) blocks: Vec<Block>,
+    /// Of samples added up over all pixels and channels, where all pixels have the same number of samples.
+    whole: Scatter,
     /// What each number of reflections adds, where somebody looks at that.
     pub(super) series: Option<TileSeries>,
     /// Samples that were not finite, or negative; they count as black.
@@ -25,13 +33,19 @@ pub struct Tile {
 /// Pixels that have the same number of samples.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Block {
-    /// Samples taken of every pixel.
+    /// Samples taken of every pixel; at most twice `doubled`.
     pub spp: u32,
+    /// The power of two of samples at which it was last noted how far the block has moved; 0 before the first sample.
+    pub doubled: u32,
     /// 2 to this power is how many samples are taken for one of the average.
     pub rate: i8,
     /// What was seen when the number of samples had last doubled, and the two times before, the last one first. It doubles at
     /// 2, 4, 8, … samples.
     pub doublings: [Doubling; 3],
+    /// Of samples added up over the pixels and channels of the block.
+    scatter: Scatter,
+    /// Of the variance of its pixels.
+    parts: Parts,
 }
 
 /// Mean of a pixel's samples and the variance of that mean, a channel.
@@ -43,6 +57,16 @@ pub struct Estimate {
 }
 
 impl Block {
+    /// The number of samples is a power of two, and how far the block has moved is yet to be noted.
+    pub fn has_doubled(&self) -> bool {
+        self.spp.is_power_of_two() && self.spp > self.doubled
+    }
+
+    /// The samples to have where the average is `spp`, as far as they may be taken before the next doubling is noted.
+    fn next_goal(&self, spp: u32) -> u32 {
+        self.goal(spp).min(self.doubled.saturating_mul(2).max(1))
+    }
+
     /// The samples to have where the average is `spp`.
     fn goal(&self, spp: u32) -> u32 {
         if spp <= UNIFORM {
@@ -64,6 +88,7 @@ impl Tile {
             sum_of_squares: Vec::new(),
             before: Vec::new(),
             blocks: vec![Block::default(); (columns * rows) as usize],
+            whole: Scatter::default(),
             series: None,
             invalid: 0,
         }
@@ -87,7 +112,7 @@ impl Tile {
 
     /// Takes all samples back.
     pub(super) fn forget(&mut self) {
-        (self.spp, self.invalid, self.series) = (0, 0, None);
+        (self.spp, self.invalid, self.series, self.whole) = (0, 0, None, Scatter::default());
         self.blocks.fill(Block::default());
     }
 
@@ -108,14 +133,27 @@ impl Tile {
         self.blocks.iter().map(|block| u64::from(block.goal(spp).saturating_sub(block.spp))).sum()
     }
 
-    /// Blocks that have not yet the samples to have where the average is `spp`, as many as a batch holds.
+    /// Whether no block can take another sample on the way to the average `spp` before doublings are noted.
+    pub(super) fn has_reached(&self, spp: u32) -> bool {
+        self.blocks.iter().all(|block| block.spp >= block.next_goal(spp))
+    }
+
+    /// The samples of every pixel that has none missing where the average is `spp`.
+    pub(super) fn note_average(&mut self, spp: u32) {
+        if self.distance_to(spp) == 0 {
+            self.spp = spp;
+        }
+    }
+
+    /// Blocks that have not yet the samples to have where the average is `spp`, as many as a batch holds. None gets samples beyond
+    /// the next power of two.
     pub(super) fn missing(&self, spp: u32) -> Blocks {
         let mut missing = Blocks::default();
         for ahead in 0.. {
             let before = missing.iter().count();
             for (block, state) in self.blocks.iter().enumerate() {
                 let sample = state.spp + ahead;
-                if sample < state.goal(spp) && !missing.is_full() {
+                if sample < state.next_goal(spp) && !missing.is_full() {
                     missing.push(self.corner(block), sample);
                 }
             }
@@ -129,11 +167,14 @@ impl Tile {
     /// Adds one sample to every pixel; slot = row · [`TILE`] + column. Returns the first pixel whose sample is invalid.
     pub fn add(&mut self, radiance: &[[f32; 4]]) -> Option<[u32; 2]> {
         self.clear_if_new();
-        let mut invalid = None;
+        let (mut invalid, mut total) = (None, 0.0);
         for block in 0..self.blocks.len() {
             let [x, y] = self.place(block);
-            invalid = invalid.or(self.add_block(block, &radiance[(y * TILE + x) as usize..], TILE as usize));
+            let (sum, found) = self.add_block(block, &radiance[(y * TILE + x) as usize..], TILE as usize);
+            invalid = invalid.or(found);
+            total += sum;
         }
+        self.whole.add(total);
         self.spp += 1;
         invalid
     }
@@ -145,41 +186,46 @@ impl Tile {
         for ((corner, sample), slots) in blocks.iter().zip(radiance.chunks((BLOCK * BLOCK) as usize)) {
             let [column, row] = [0, 1].map(|axis| (corner[axis] - self.origin[axis]) / BLOCK);
             let block = (row * self.size[0].div_ceil(BLOCK) + column) as usize;
-            let found = self.add_block(block, slots, BLOCK as usize);
+            let (_, found) = self.add_block(block, slots, BLOCK as usize);
             invalid = invalid.or(found.map(|pixel| (pixel, sample)));
         }
         invalid
     }
 
-    /// Adds one sample to every pixel of a block; slot = row · `stride` + column.
-    fn add_block(&mut self, block: usize, radiance: &[[f32; 4]], stride: usize) -> Option<[u32; 2]> {
-        let mut first_invalid = None;
+    /// Adds one sample to every pixel of a block; slot = row · `stride` + column. Returns the sum over pixels and channels, and the
+    /// first pixel whose sample is invalid.
+    fn add_block(&mut self, block: usize, radiance: &[[f32; 4]], stride: usize) -> (f64, Option<[u32; 2]>) {
+        let (mut first_invalid, mut total) = (None, 0.0);
+        let (count, mut parts) = (f64::from(self.blocks[block].spp), self.blocks[block].parts);
         let ([left, top], [width, height]) = (self.place(block), self.block_size(self.place(block)));
         for row in 0..height {
             let start = ((top + row) * self.size[0] + left) as usize;
             let pixels = start..start + width as usize;
             let sums = self.sum[pixels.clone()].iter_mut().zip(&mut self.sum_of_squares[pixels]);
             for (column, ((sum, square), sample)) in sums.zip(&radiance[row as usize * stride..]).enumerate() {
-                let [r, g, b, _] = *sample;
+                let mut rgb = [sample[0], sample[1], sample[2]];
                 // One comparison a channel refuses negative numbers, infinities and NaN alike.
-                if ![r, g, b].iter().all(|c| (0.0..=f32::MAX).contains(c)) {
+                if !rgb.iter().all(|c| (0.0..=f32::MAX).contains(c)) {
                     self.invalid += 1;
                     let pixel = [self.origin[0] + left + column as u32, self.origin[1] + top + row];
                     first_invalid = first_invalid.or(Some(pixel));
-                    continue;
+                    rgb = [0.0; 3];
                 }
-                for (channel, value) in [r, g, b].into_iter().enumerate() {
-                    let value = f64::from(value);
-                    sum[channel] += value;
-                    square[channel] += value * value;
+                let rgb = rgb.map(f64::from);
+                let all = rgb[0] + rgb[1] + rgb[2];
+                parts.add(all, count, sum[0] + sum[1] + sum[2]);
+                total += all;
+                for channel in 0..3 {
+                    sum[channel] += rgb[channel];
+                    square[channel] += rgb[channel] * rgb[channel];
                 }
             }
         }
-        self.blocks[block].spp += 1;
-        if self.blocks[block].spp.is_power_of_two() {
-            self.double(block);
-        }
-        first_invalid
+        let state = &mut self.blocks[block];
+        state.spp += 1;
+        state.parts = parts;
+        state.scatter.add(total);
+        (total, first_invalid)
     }
 
     /// Black, before the first sample.
@@ -195,23 +241,78 @@ impl Tile {
         self.before.resize(pixels, [0.0; 3]);
     }
 
-    /// Notes how far a block has moved since it had half as many samples.
-    fn double(&mut self, block: usize) {
-        let ([left, top], [width, height]) = (self.place(block), self.block_size(self.place(block)));
-        let (mut estimates, mut before) = (Vec::new(), Vec::new());
-        for row in top..top + height {
-            let start = (row * self.size[0] + left) as usize;
-            estimates.extend(self.run(start..start + width as usize, self.blocks[block].spp));
-            let means = &mut self.before[start..start + width as usize];
+    /// Notes how far blocks have moved since they had half as many samples, where that is due. `floor` is that of relMSE.
+    pub(super) fn double(&mut self, floor: f64) {
+        for block in 0..self.blocks.len() {
+            if self.blocks[block].has_doubled() {
+                self.double_block(block, floor);
+            }
+        }
+    }
+
+    fn double_block(&mut self, block: usize, floor: f64) {
+        let estimates = self.block_estimates(block);
+        let mut before = Vec::with_capacity(estimates.len());
+        for (row, now) in self.block_rows(block).zip(estimates.chunks(self.block_size(self.place(block))[0] as usize)) {
+            let means = &mut self.before[row];
             before.extend_from_slice(means);
-            let now = &estimates[estimates.len() - means.len()..];
             means.iter_mut().zip(now).for_each(|(mean, estimate)| *mean = estimate.mean.map(|c| c as f32));
         }
         let state = &mut self.blocks[block];
+        state.doubled = state.spp;
         if state.spp > 1 {
             let [last, before_last, _] = state.doublings;
-            state.doublings = [Doubling::new(&estimates, &before), last, before_last];
+            state.doublings = [Doubling::new(&estimates, &before, floor), last, before_last];
         }
+    }
+
+    /// Where the pixels of a block are, row by row.
+    fn block_rows(&self, block: usize) -> impl Iterator<Item = std::ops::Range<usize>> + use<> {
+        let ([left, top], [width, height]) = (self.place(block), self.block_size(self.place(block)));
+        let starts = (top..top + height).map({
+            let columns = self.size[0];
+            move |row| (row * columns + left) as usize
+        });
+        starts.map(move |start| start..start + width as usize)
+    }
+
+    /// The estimates of a block that has a sample, row by row.
+    fn block_estimates(&self, block: usize) -> Vec<Estimate> {
+        self.block_rows(block).flat_map(|row| self.run(row, self.blocks[block].spp)).collect()
+    }
+
+    /// Sums over pixels and channels of two estimates of the squared radiance: of the squares of means without the variance of these,
+    /// and of the squares of the means of blocks.
+    pub(super) fn squares(&self) -> [f64; 2] {
+        let mut sums = [0.0; 2];
+        for block in (0..self.blocks.len()).filter(|block| self.blocks[*block].spp > 0) {
+            let estimates = self.block_estimates(block);
+            for channel in 0..3 {
+                let mut level = 0.0;
+                for Estimate { mean, variance_of_mean } in &estimates {
+                    level += mean[channel];
+                    sums[0] += mean[channel] * mean[channel] - variance_of_mean.map_or(0.0, |variance| variance[channel]);
+                }
+                sums[1] += level * level / estimates.len() as f64;
+            }
+        }
+        sums
+    }
+
+    /// Variance of the mean over the pixels and channels, at least two samples each. Pixels that share paths have noise in common, so
+    /// their samples are added up first; they share none beyond the tile, nor where numbers of samples differ.
+    pub(super) fn variance_of_mean(&self) -> f64 {
+        let values = 3.0 * self.size.map(f64::from).iter().product::<f64>();
+        let of_sums = match self.is_adaptive() {
+            true => self.blocks.iter().map(|block| block.scatter.variance_of_mean()).sum(),
+            false => self.whole.variance_of_mean(),
+        };
+        of_sums / (values * values)
+    }
+
+    /// What the variance of the pixels' means is made of.
+    pub(super) fn parts(&self) -> impl Iterator<Item = Parts> {
+        self.blocks.iter().map(|block| block.parts.of_means(f64::from(block.spp)))
     }
 
     /// The estimates of one row of the tile, which must have a sample; `row` counts from the tile's top.

@@ -66,7 +66,7 @@ impl Study<'_> {
     fn prepare<'a>(&'a self, subject: &'a Subject) -> Result<Prepared<'a>, StudyError> {
         let bench = Bench { scene: &subject.scene, camera: &subject.camera, threads: self.threads, stop: self.stop };
         // What is wrong with it is told before anything is rendered.
-        reference::known(subject)?;
+        reference::known(subject, self.plan.floor)?;
         // The bits of a picture stand for all that it is made of: the scene's meshes and images, and the program itself.
         let picture = trial(bench, &reference::settings(subject))?;
         let [width, height] = subject.camera.resolution.map(u32::to_le_bytes);
@@ -84,9 +84,9 @@ impl Study<'_> {
     fn key(&self, scene: &Prepared, group: &Group, repeat: u32) -> (RenderSettings, String) {
         let settings = RenderSettings { seed: group.settings.seed.wrapping_add(repeat), ..group.settings };
         let Machine { cpu, threads, simd, version, .. } = self.machine;
-        let Plan { spp, time, .. } = self.plan;
+        let Plan { spp, time, floor, .. } = self.plan;
         let reference = reference::identity(scene.subject, *spp);
-        let how = format!("{settings:?} {spp} {time:?} {cpu} {threads} {simd} {version}");
+        let how = format!("{settings:?} {spp} {time:?} {floor:?} {cpu} {threads} {simd} {version}");
         (settings, text(hash(&[&scene.fingerprint.to_le_bytes(), &reference.to_le_bytes(), how.as_bytes()])))
     }
 
@@ -109,6 +109,7 @@ impl Study<'_> {
                 repeat: repeat + 1,
                 reference: &reference,
                 machine: self.machine,
+                floor: self.plan.floor,
                 key: &key,
             };
             store.add(rows(&header, &run))?;
@@ -123,7 +124,7 @@ impl Study<'_> {
 
     fn reference(&self, scene: &Prepared, observe: &mut dyn FnMut(Progress)) -> Result<Reference, StudyError> {
         let Prepared { subject, bench, ref title, fingerprint, .. } = *scene;
-        let converged = Converged { subject, bench, folder: self.folder, fingerprint, spp: self.plan.spp };
+        let converged = Converged { subject, bench, folder: self.folder, fingerprint, spp: self.plan.spp, floor: self.plan.floor };
         converged.reference(&mut |share| observe(Progress::Reference { title, share }))
     }
 
@@ -138,6 +139,7 @@ impl Study<'_> {
             resolution: subject.camera.resolution,
             of_scene: subject.scene.settings,
             reference: reference.name,
+            reference_is_taken_for_exact: reference.is_taken_for_exact,
             limits,
             repeats: self.plan.repeats,
             outcomes,

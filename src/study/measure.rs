@@ -3,7 +3,7 @@ use std::time::{Duration, Instant};
 
 use super::{Plan, StudyError, checkpoints};
 use crate::{
-    measure::compare,
+    measure::{Comparison, compare},
     render::{
         Frame,
         film::Film,
@@ -78,6 +78,20 @@ pub fn measure(bench: Bench, settings: &RenderSettings, plan: &Plan, reference: 
     if counts.as_ref().is_some_and(|(took, _)| *took < plan.time) {
         (counts, film) = (None, film.recycled(bench.camera.resolution));
     }
+    let (run, cut_paths) = follow(plan, |spp| {
+        let (took, count) = counts.take().map_or_else(|| bench.pass(settings, &mut film, spp), Ok)?;
+        Ok((took, count.cut_paths, compare(&bench.frame(&film).radiance, reference, plan.floor)))
+    })?;
+    let bias = settings.bias().or((cut_paths > 0).then(|| format!("{cut_paths} paths cut"))).unwrap_or_default();
+    Ok(Run { invalid_samples: film.invalid_samples(), bias, ..run })
+}
+
+/// The checkpoints of a run as far as the plan says, and the paths that were cut. `to` brings the picture to a number of samples, and says
+/// how long that took, how many paths were cut, and the error.
+pub(super) fn follow(
+    plan: &Plan,
+    mut to: impl FnMut(u32) -> Result<(Duration, u64, Comparison), StudyError>,
+) -> Result<(Run, u64), StudyError> {
     let (mut run, mut elapsed, mut cut_paths) = (Run::default(), Duration::ZERO, 0);
     for spp in checkpoints(plan.spp) {
         // Refused by the rate so far: a doubling that is cut short would be lost.
@@ -85,14 +99,11 @@ pub fn measure(bench: Bench, settings: &RenderSettings, plan: &Plan, reference: 
         if elapsed.as_secs_f64() * f64::from(spp) / f64::from(before) > plan.time.as_secs_f64() {
             break;
         }
-        let (took, count) = counts.take().map_or_else(|| bench.pass(settings, &mut film, spp), Ok)?;
+        let (took, cut, error) = to(spp)?;
         elapsed += took;
-        cut_paths += count.cut_paths;
-        let error = compare(&bench.frame(&film).radiance, reference);
+        cut_paths += cut;
         let seconds = elapsed.as_secs_f64();
         run.checkpoints.push(Checkpoint { spp, seconds, rmse: error.rmse, rel_mse: error.rel_mse, bias: error.bias });
     }
-    run.invalid_samples = film.invalid_samples();
-    run.bias = settings.bias().or((cut_paths > 0).then(|| format!("{cut_paths} paths cut"))).unwrap_or_default();
-    Ok(run)
+    Ok((run, cut_paths))
 }

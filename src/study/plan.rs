@@ -2,6 +2,7 @@
 use std::time::Duration;
 
 use crate::{
+    measure::Floor,
     sampling::{Directions, Sampler},
     scene::{Estimator, RenderSettings, Roulette},
 };
@@ -30,6 +31,8 @@ pub struct Plan {
     pub time: Duration,
     /// Renders of each combination, with different seeds.
     pub repeats: u32,
+    /// Of relMSE.
+    pub floor: Floor,
 }
 
 impl Lists {

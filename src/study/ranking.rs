@@ -20,6 +20,8 @@ pub struct Findings {
     pub of_scene: RenderSettings,
     /// What errors are against.
     pub reference: String,
+    /// Nothing is known of the reference's own error.
+    pub reference_is_taken_for_exact: bool,
     pub limits: Limits,
     pub repeats: u32,
     /// The best first; what cannot be the best comes last.

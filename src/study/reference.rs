@@ -7,8 +7,13 @@ use super::{
     measure::Bench,
 };
 use crate::{
-    measure::compare,
-    render::{Display, Frame, image_file, settings_text::settings_text, truth},
+    measure::{Floor, compare, relative},
+    render::{
+        Display, Frame,
+        image_file::{self, Provenance},
+        settings_text::settings_text,
+        truth,
+    },
     sampling::{Directions, Sampler},
     scene::{Estimator, RenderSettings, Roulette},
 };
@@ -24,8 +29,12 @@ pub struct Reference {
     /// What it is, for a reader.
     pub name: String,
     pub radiance: Vec<[f32; 3]>,
-    /// Its own relMSE, estimated; 0 where it is taken for exact.
+    /// Its own relMSE, estimated; 0 where it is exact or taken for that.
     pub rel_mse: f64,
+    /// It is taken for exact because nothing is known of its own error.
+    pub is_taken_for_exact: bool,
+    /// Of relMSE.
+    pub floor: Floor,
 }
 
 impl Reference {
@@ -41,7 +50,7 @@ impl Reference {
 
     /// What a picture without any light is off by.
     pub fn rel_mse_of_black(&self) -> f64 {
-        compare(&vec![[0.0; 3]; self.radiance.len()], &self.radiance).rel_mse
+        compare(&vec![[0.0; 3]; self.radiance.len()], &self.radiance, self.floor).rel_mse
     }
 }
 
@@ -60,10 +69,28 @@ pub fn settings(subject: &Subject) -> RenderSettings {
 }
 
 /// The reference of a scene that says or has one.
-pub fn known(subject: &Subject) -> Result<Option<Reference>, StudyError> {
+pub fn known(subject: &Subject, floor: Floor) -> Result<Option<Reference>, StudyError> {
     let Some((known, name)) = &subject.known else { return Ok(None) };
-    let reference = Reference { name: name.clone(), radiance: radiance(subject, known), rel_mse: 0.0 };
+    let radiance = radiance(subject, known);
+    let own = if let truth::Reference::Picture(_, provenance) = known { own_rel_mse(&radiance, provenance, floor) } else { None };
+    let is_taken_for_exact = own.is_none() && !subject.is_declared;
+    let reference = Reference { name: name.clone(), radiance, rel_mse: own.unwrap_or(0.0), is_taken_for_exact, floor };
     reference.if_lit(subject).map(Some)
+}
+
+/// The relMSE that a rendered picture has itself, by the variances in its file: as much less as the renderer found its samples to be better
+/// than independent ones.
+fn own_rel_mse(radiance: &[[f32; 3]], provenance: &Provenance, floor: Floor) -> Option<f64> {
+    let noise = provenance.noise.as_ref()?;
+    let by_variance = |floor: Floor| {
+        let floor = floor.of_picture(radiance);
+        let pairs = noise.variance.as_flattened().iter().zip(radiance.as_flattened());
+        let sum: f64 = pairs.map(|(variance, r)| relative(f64::from(*variance), f64::from(*r), floor)).sum();
+        sum / radiance.as_flattened().len() as f64
+    };
+    let bound = by_variance(Floor::DEFAULT);
+    let better = provenance.rel_mse_estimate.filter(|_| bound > 0.0).map_or(1.0, |estimate| (estimate / bound).min(1.0));
+    Some(by_variance(floor) * better)
 }
 
 /// What makes it another reference. `spp` is that of the longest render.
@@ -84,7 +111,7 @@ fn radiance(subject: &Subject, known: &truth::Reference) -> Vec<[f32; 3]> {
             let [width, height] = subject.camera.resolution;
             vec![*radiance; width as usize * height as usize]
         }
-        truth::Reference::Picture(picture) => picture.radiance.clone(),
+        truth::Reference::Picture(picture, _) => picture.radiance.clone(),
     }
 }
 
@@ -97,12 +124,14 @@ pub struct Converged<'a> {
     pub fingerprint: u64,
     /// Samples a pixel of the longest render that is held against it.
     pub spp: u32,
+    /// Of relMSE.
+    pub floor: Floor,
 }
 
 impl Converged<'_> {
     /// The reference of the scene; `done` is told the share of the work that is done, where there is work.
     pub fn reference(&self, done: &mut dyn FnMut(f64)) -> Result<Reference, StudyError> {
-        match known(self.subject)? {
+        match known(self.subject, self.floor)? {
             Some(reference) => Ok(reference),
             None => self.render(done)?.if_lit(self.subject),
         }
@@ -114,9 +143,9 @@ impl Converged<'_> {
         let halves = [self.half(0, &mut |share| done(share / 2.0))?, self.half(1, &mut |share| done(0.5 + share / 2.0))?];
         let mean = |(a, b): (&[f32; 3], &[f32; 3])| [0, 1, 2].map(|c| 0.5 * (a[c] + b[c]));
         let radiance: Vec<[f32; 3]> = halves[0].iter().zip(&halves[1]).map(mean).collect();
-        let rel_mse = compare(&halves[0], &radiance).rel_mse;
+        let rel_mse = compare(&halves[0], &radiance, self.floor).rel_mse;
         let name = format!("a converged render (mis, Sobol, {} samples a pixel)", spp_of_half(self.spp) * 2);
-        Ok(Reference { name, radiance, rel_mse })
+        Ok(Reference { name, radiance, rel_mse, is_taken_for_exact: false, floor: self.floor })
     }
 
     fn file(&self, settings: &RenderSettings) -> PathBuf {

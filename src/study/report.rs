@@ -44,7 +44,7 @@ fn introduction(plan: &Plan) -> Markup {
     markup! {
         p { "Every combination of settings rendered each scene " @if repeats == 1 { "once" } @else { (repeats) " times with different seeds" }
             ", and was compared with a reference whenever its number of samples had doubled. The " b { "error" } " is the root of relMSE, the \
-             mean over pixels and channels of " span.formula { "(x − r)²/(r² + 0.01)" } " for the picture x and the reference r. " b { "Time" } " is that of \
+             mean over pixels and channels of " span.formula { (plan.floor.formula()) } " for the picture x and the reference r. " b { "Time" } " is that of \
              rendering alone. " b { "Efficiency" } " is " span.formula { "1/(relMSE · s)" } " at the end of a run: of two combinations the one of \
              twice the efficiency needs half the time for the same error, where both fall alike." }
         p { "The " b { "slope" } " is how the error falls with the number of samples N: as N to this power. It is −1/2 for independent samples, \
@@ -85,8 +85,9 @@ fn section(number: usize, findings: &Findings) -> Markup {
         section id={ "scene-" (number) } {
             h2 { (findings.title) }
             p.source { (findings.path.display()) ", " (width) " × " (height) " pixels, against " (findings.reference)
-                @if findings.limits.floor > 0.0 { ", whose own error is estimated as " (percent(findings.limits.floor)) } "." }
-            p.formula { white-space: nowrap; } .verdict { (verdict(findings)) }
+                @if findings.limits.floor > 0.0 { ", whose own error is estimated as " (percent(findings.limits.floor)) }
+                @if findings.reference_is_taken_for_exact { ", whose own error is not known and taken for 0" } "." }
+            p.verdict { (verdict(findings)) }
             p { (certainty(findings)) }
             @if let Some(command) = command(findings) { pre { (command) } }
             @if invalid > 0 { p.fails { (invalid) " samples were not finite or negative, and count as black." } }

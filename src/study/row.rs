@@ -2,7 +2,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::{Checkpoint, Machine, Run, Subject, key::is_key, reference::Reference, setting::Setting};
-use crate::scene::RenderSettings;
+use crate::{measure::Floor, scene::RenderSettings};
 
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Row {
@@ -33,6 +33,8 @@ pub struct Row {
     pub reference: String,
     /// The reference's own.
     pub reference_rel_mse: f64,
+    /// What relMSE adds to the squared reference: a number, or a part of the reference's mean squared radiance.
+    pub floor: String,
     pub threads: usize,
     pub simd: String,
     pub cpu: String,
@@ -49,6 +51,7 @@ pub struct Header<'a> {
     pub repeat: u32,
     pub reference: &'a Reference,
     pub machine: &'a Machine,
+    pub floor: Floor,
     pub key: &'a str,
 }
 
@@ -65,7 +68,7 @@ impl Row {
 
 /// The lines of a run.
 pub fn rows(header: &Header, run: &Run) -> Vec<Row> {
-    let Header { subject, settings, repeat, reference, machine, key } = *header;
+    let Header { subject, settings, repeat, reference, machine, floor, key } = *header;
     let [width, height] = subject.camera.resolution;
     let pixels = f64::from(width) * f64::from(height);
     let row = |(i, point): (usize, &Checkpoint)| Row {
@@ -91,6 +94,10 @@ pub fn rows(header: &Header, run: &Run) -> Vec<Row> {
         invalid_samples: run.invalid_samples,
         reference: reference.name.clone(),
         reference_rel_mse: reference.rel_mse,
+        floor: match floor {
+            Floor::Relative(part) => format!("{part} of mean square"),
+            Floor::Absolute(floor) => floor.to_string(),
+        },
         threads: machine.threads,
         simd: machine.simd.clone(),
         cpu: machine.cpu.clone(),

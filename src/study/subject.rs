@@ -3,7 +3,7 @@ use std::path::{Path, PathBuf};
 
 use super::{StudyError, plan::study_size};
 use crate::{
-    render::{image_file, truth},
+    render::truth,
     scene::{Camera, Scene, Truth, load},
 };
 
@@ -16,6 +16,8 @@ pub struct Subject {
     pub camera: Camera,
     /// The picture or radiance that is known, and what to call it; where there is none, a converged render is made.
     pub known: Option<(truth::Reference, String)>,
+    /// What is known is what the scene declares to be true, and not a file that somebody rendered.
+    pub is_declared: bool,
 }
 
 impl Subject {
@@ -25,12 +27,12 @@ impl Subject {
         let unmeasurable = |reason: String| StudyError::Unmeasurable { path: path.to_owned(), reason };
         let known = known(path, &scene, reference)?;
         let own_size = match &known {
-            Some((truth::Reference::Picture(picture), _)) => [picture.width, picture.height],
+            Some((truth::Reference::Picture(picture, _), _)) => [picture.width, picture.height],
             _ => study_size(scene.camera.resolution),
         };
         let camera = Camera { resolution: size.unwrap_or(own_size), ..scene.camera };
         camera.check().map_err(|error| unmeasurable(error.to_string()))?;
-        if let Some((truth::Reference::Picture(picture), name)) = &known
+        if let Some((truth::Reference::Picture(picture, _), name)) = &known
             && own_size != camera.resolution
         {
             let ([width, height], [w, h]) = (camera.resolution, [picture.width, picture.height]);
@@ -39,7 +41,8 @@ impl Subject {
         if scene.lights.is_empty() {
             return Err(unmeasurable("nothing in this scene emits light: there is no error to measure".to_owned()));
         }
-        Ok(Subject { path: path.to_owned(), scene, camera, known })
+        let is_declared = reference.is_none() && scene.truth.is_some();
+        Ok(Subject { path: path.to_owned(), scene, camera, known, is_declared })
     }
 
     /// The scene's title, or the name of its file.
@@ -53,11 +56,9 @@ fn known(path: &Path, scene: &Scene, given: Option<&Path>) -> Result<Option<(tru
     let beside = path.with_extension(REFERENCE_EXTENSION);
     let beside = (scene.truth.is_none() && beside.is_file()).then_some(beside);
     if let Some(file) = given.map(Path::to_owned).or(beside) {
-        let unreadable =
-            |error: image_file::ImageError| StudyError::Unmeasurable { path: path.to_owned(), reason: error.to_string() };
-        let picture = image_file::read(&file).map_err(unreadable)?;
-        let name = format!("the reference {}", file.display());
-        return Ok(Some((truth::Reference::Picture(picture.into()), name)));
+        let reference = truth::Reference::read(&file)
+            .map_err(|error| StudyError::Unmeasurable { path: path.to_owned(), reason: error.to_string() })?;
+        return Ok(Some((reference, format!("the reference {}", file.display()))));
     }
     let name = match &scene.truth {
         Some(Truth::Image(file, _)) => format!("the true picture {}", file.display()),

@@ -1,7 +1,7 @@
 //! Samples spread by noise: the picture is the same, and less noisy.
 use noisefall::{
     math::SimdLevel,
-    measure::compare,
+    measure::{Floor, compare},
     render::{
         film::Film,
         frame::Frame,
@@ -87,7 +87,7 @@ fn where_noise_is_in_one_place_there_is_less_of_it_for_as_many_samples() {
     let truth = with(false, 99, 2048).radiance;
     let of = |adaptive| {
         let pictures: Vec<Picture> = (0..4).map(|seed| with(adaptive, seed, 64)).collect();
-        let error: f64 = pictures.iter().map(|picture| compare(&picture.radiance, &truth).rel_mse).sum();
+        let error: f64 = pictures.iter().map(|picture| compare(&picture.radiance, &truth, Floor::DEFAULT).rel_mse).sum();
         (error, pictures.iter().map(|picture| picture.samples).sum::<u64>())
     };
     let ((uniform, budget), (adaptive, samples)) = (of(false), of(true));

@@ -3,7 +3,7 @@ use std::path::Path;
 
 use noisefall::{
     math::SimdLevel,
-    measure::REL_MSE_FLOOR,
+    measure::{Floor, relative},
     render::{
         film::Film,
         frame::Frame,
@@ -39,12 +39,13 @@ fn estimate_and_truth(scene: &Scene) -> (f64, f64) {
     let frames: Vec<Frame> = (0..SEEDS).map(|seed| frame(&threads, scene, seed, SPP)).collect();
     // The pictures' own mean would be too bright where one of them was lucky.
     let radiance = frame(&threads, scene, SEEDS, 8 * SPP).radiance;
+    let floor = Floor::DEFAULT.of_picture(&radiance);
     let n = f64::from(SEEDS);
     let value = |frame: &Frame, i: usize| f64::from(frame.radiance.as_flattened()[i]);
     let relative_variance = |(i, radiance): (usize, &f32)| {
         let mean = frames.iter().map(|frame| value(frame, i)).sum::<f64>() / n;
         let variance = frames.iter().map(|frame| (value(frame, i) - mean).powi(2)).sum::<f64>() / (n - 1.0);
-        variance / (f64::from(*radiance).powi(2) + REL_MSE_FLOOR)
+        relative(variance, f64::from(*radiance), floor)
     };
     let values = radiance.as_flattened();
     let truth = values.iter().enumerate().map(relative_variance).sum::<f64>() / values.len() as f64;

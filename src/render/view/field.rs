@@ -3,7 +3,7 @@ use super::{Sources, View};
 use crate::{
     integrator::Features,
     math::colour::{luminance, srgb_from_linear},
-    measure::REL_MSE_FLOOR,
+    measure::Floor,
     render::{colour_map::ColourMap, frame::Frame, truth::Reference},
 };
 
@@ -82,9 +82,11 @@ fn difference(sources: &Sources) -> Option<Vec<f32>> {
     let pinned = sources.pinned?;
     let radiance = sources.radiance.unwrap_or(&sources.frame.radiance);
     let same = pinned.radiance.len() == radiance.len() && pinned.width == sources.frame.width;
+    let floor = Floor::DEFAULT.of_picture(&pinned.radiance);
     let relative = |(a, b): (&[f32; 3], &[f32; 3])| {
-        let (a, b) = (luminance(*a), luminance(*b));
-        (a - b) / (b * b + REL_MSE_FLOOR as f32).sqrt()
+        let (a, b) = (f64::from(luminance(*a)), f64::from(luminance(*b)));
+        // Two black pixels of a black picture do not differ.
+        if a == b { 0.0 } else { ((a - b) / (b * b + floor).sqrt()) as f32 }
     };
     same.then(|| radiance.iter().zip(&pinned.radiance).map(relative).collect())
 }

@@ -2,7 +2,7 @@
 use rayon::prelude::*;
 
 use super::rounds::{Picture, Series};
-use crate::{measure::REL_MSE_FLOOR, scene::RenderSettings, study::outcome::ROUNDING};
+use crate::{measure::Floor, scene::RenderSettings, study::outcome::ROUNDING};
 
 /// What was measured of some settings, round by round.
 #[derive(Clone, Debug)]
@@ -12,8 +12,8 @@ pub struct Measured {
     pub rounds: Vec<u32>,
     /// Of the time that each picture took.
     pub log_seconds: Vec<f64>,
-    /// Of each picture from each before it: the mean over pixels and channels of (x − y)²/(m² + 0.01), as relMSE has it, where m is the
-    /// mean of all pictures of all settings.
+    /// Of each picture from each before it: the mean over pixels and channels of (x − y)²/(m² + 0.01 · mean m²), as relMSE has it,
+    /// where m is the mean of all pictures of all settings.
     pub differences: Vec<Vec<f64>>,
     /// How much of m the mean of these pictures has: about 1.
     pub found: f64,
@@ -22,7 +22,9 @@ pub struct Measured {
 /// What the pictures say; all settings must converge to the same.
 pub fn measured(series: &[Series]) -> Vec<Measured> {
     let common = mean(series.iter().flat_map(|series| &series.pictures));
-    let weights: Vec<f64> = common.iter().map(|m| 1.0 / (m * m + REL_MSE_FLOOR)).collect();
+    let floor = Floor::DEFAULT.of(common.iter().map(|m| m * m).sum::<f64>() / common.len().max(1) as f64);
+    // Where nothing found any light, nothing differs.
+    let weights: Vec<f64> = common.iter().map(|m| 1.0 / (m * m + floor).max(f64::MIN_POSITIVE)).collect();
     series.iter().map(|series| Measured::of(series, &common, &weights)).collect()
 }
 

@@ -9,7 +9,6 @@ use super::{
 };
 use crate::{
     math::{One, SimdLevel, U},
-    measure::REL_MSE_FLOOR,
     sampling::{
         Sampler,
         hash::{hash, unit},
@@ -56,9 +55,9 @@ fn known(settings: RenderSettings, rel_mse: f64, seconds: &[f64]) -> Measured {
 fn pictures_that_are_known_have_the_noise_they_have() {
     let found = &measured(&[series(IN_USE, [vec![[1.0; 3]], vec![[2.0; 3]], vec![[6.0; 3]]])])[0];
     // The variance of 1, 2, 6 is 7, and their mean is 3.
-    assert!((found.rel_mse(&[0, 1, 2]) - 7.0 / (9.0 + REL_MSE_FLOOR)).abs() < 1e-12);
+    assert!((found.rel_mse(&[0, 1, 2]) - 7.0 / 9.09).abs() < 1e-12);
     // Half of 5².
-    assert!((found.rel_mse(&[2, 0]) - 12.5 / (9.0 + REL_MSE_FLOOR)).abs() < 1e-12);
+    assert!((found.rel_mse(&[2, 0]) - 12.5 / 9.09).abs() < 1e-12);
     assert!((found.seconds(&[0, 2]) - 2.0).abs() < 1e-12);
     assert!((found.found - 1.0).abs() < 1e-12);
 }
@@ -69,7 +68,7 @@ fn noise_is_estimated_without_bias() {
     // Uniform on an interval of length 0.6: the variance is 0.6²/12.
     let noisy = |round: u32| (0..PIXELS).map(|i| [(0.7 + 0.6 * uniform(round * PIXELS + i)) as f32; 3]).collect();
     let found = &measured(&[series(IN_USE, (0..6).map(noisy))])[0];
-    let exact = 0.03 / (1.0 + REL_MSE_FLOOR);
+    let exact = 0.03 / 1.01;
     // The fourth moment of a uniform number is 1.8 σ⁴, so that Var s² = σ⁴ (1.8 − (n − 3)/(n − 1))/n.
     let standard_error = exact * ((1.8 - 3.0 / 5.0) / 6.0 / f64::from(PIXELS)).sqrt();
     let z = (found.rel_mse(&found.rounds) - exact) / standard_error;

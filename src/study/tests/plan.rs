@@ -3,6 +3,7 @@ use std::time::Duration;
 
 use crate::{
     math::SimdLevel,
+    measure::Floor,
     render::pass::Threads,
     sampling::{Directions, Sampler},
     scene::{Estimator, RenderSettings, Roulette},
@@ -57,7 +58,7 @@ fn a_run_stops_before_a_doubling_that_takes_too_long() {
     let threads = Threads::new(1, SimdLevel::best()).expect("threads");
     let bench = Bench { scene: &subject.scene, camera: &subject.camera, threads: &threads, stop: &|| false };
     let lists = Lists { estimators: vec![], directions: vec![], samplers: vec![], roulettes: vec![], caps: vec![] };
-    let plan = |time| Plan { lists: lists.clone(), spp: 16, time, repeats: 1 };
+    let plan = |time| Plan { lists: lists.clone(), spp: 16, time, repeats: 1, floor: Floor::DEFAULT };
     let reference = [[2.0; 3]; 64];
     let run = |time| measure(bench, &subject.scene.settings, &plan(time), &reference).expect("a run");
     assert_eq!(run(Duration::from_secs(1000)).checkpoints.len(), 5);

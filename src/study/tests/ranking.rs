@@ -27,6 +27,7 @@ fn findings(mut outcomes: Vec<Outcome>) -> Findings {
         resolution: [8, 8],
         of_scene: RenderSettings::default(),
         reference: "the exact radiance".to_owned(),
+        reference_is_taken_for_exact: false,
         limits: Limits { floor: 0.0, black: 1.0 },
         repeats: 2,
         outcomes,

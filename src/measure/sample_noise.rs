@@ -1,0 +1,73 @@
+//! What the samples of a picture say about the noise of its means.
+
+/// The variances of a picture's means, from the variance of its samples.
+///
+/// They are exact for independent samples, and upper bounds for stratified and Sobol samples. Pixels that share paths have noise in
+/// common, so the variance of a mean over pixels is not made of those of the pixels: the samples of a block are added up before their
+/// variance is taken. Blocks have no noise in common.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SampleNoise {
+    pub width: u32,
+    /// Variance of the mean of every pixel, a channel; row by row from the top left.
+    pub variance: Vec<[f32; 3]>,
+    /// Variance of the mean over the pixels and channels of every block of [`SampleNoise::BLOCK`] pixels, row by row. Blocks at the right
+    /// and at the bottom may be smaller.
+    pub blocks: Vec<f64>,
+    /// As many samples of equal weight would make up the variance; it is infinite where nothing varies. Few of them tell that most of the
+    /// variance comes from few samples, and that it is likely to be far off.
+    pub effective_samples: f64,
+}
+
+impl SampleNoise {
+    /// Width and height of a block in pixels.
+    pub const BLOCK: usize = 32;
+
+    /// Variance of the mean over all pixels and channels.
+    pub fn variance_of_mean(&self) -> f64 {
+        let pixels = self.variance.len() as f64;
+        let part = |(block, variance): (usize, &f64)| variance * (self.pixels_of(block) / pixels).powi(2);
+        self.blocks.iter().enumerate().map(part).sum()
+    }
+
+    /// The means of a picture, or of a difference, over the pixels and channels of each block.
+    pub fn block_means(values: &[f64], width: usize) -> Vec<f64> {
+        let band = |rows: &[f64]| {
+            let columns = 0..width.div_ceil(Self::BLOCK);
+            let block = |column: usize| {
+                let runs = rows.chunks(width).map(|row| &row[column * Self::BLOCK..width.min((column + 1) * Self::BLOCK)]);
+                let (sum, count) = runs.flatten().fold((0.0, 0.0), |(sum, count), value| (sum + value, count + 1.0));
+                sum / count
+            };
+            columns.map(block).collect::<Vec<f64>>()
+        };
+        values.chunks(width * Self::BLOCK).flat_map(band).collect()
+    }
+
+    fn pixels_of(&self, block: usize) -> f64 {
+        let [width, height] = [self.width as usize, self.variance.len() / self.width as usize];
+        let columns = width.div_ceil(Self::BLOCK);
+        let side = |place: usize, all: usize| (all - place * Self::BLOCK).min(Self::BLOCK) as f64;
+        side(block % columns, width) * side(block / columns, height)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn blocks_count_by_their_pixels() {
+        // Blocks of 32 × 32, 8 × 32, 32 × 4 and 8 × 4 pixels.
+        let noise = SampleNoise { width: 40, variance: vec![[0.0; 3]; 40 * 36], blocks: vec![1.0, 4.0, 9.0, 16.0], ..Default::default() };
+        let sizes = [32.0 * 32.0, 8.0 * 32.0, 32.0 * 4.0, 8.0 * 4.0];
+        let exact: f64 = sizes.iter().zip(&noise.blocks).map(|(size, variance)| variance * size * size).sum::<f64>() / 1440f64.powi(2);
+        assert!((noise.variance_of_mean() / exact - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn means_of_blocks_are_those_of_their_own_pixels() {
+        let value = |i: usize| [[1.0, 2.0], [3.0, 5.0]][i / 40 / 32][i % 40 / 32] + if i % 2 == 0 { 0.25 } else { -0.25 };
+        let values: Vec<f64> = (0..40 * 36).map(value).collect();
+        assert_eq!(SampleNoise::block_means(&values, 40), [1.0, 2.0, 3.0, 5.0]);
+    }
+}

@@ -1,0 +1,109 @@
+//! The variances of a picture's means in its EXR file: a layer that programs which look for R, G and B alone do not see.
+//!
+//! | channel | what it is |
+//! |---|---|
+//! | `variance.R`, `variance.G`, `variance.B` | variance of the mean of the pixel's samples |
+//! | `variance.block` | variance of the mean over pixels and channels of the block of 32 × 32 pixels that the pixel lies in |
+use std::{
+    io::{BufReader, Seek},
+    path::Path,
+};
+
+use exr::prelude::{
+    AnyChannel, AnyChannels, FlatSamples, LayerAttributes, MetaData, ReadChannels, ReadLayers, ReadSpecificChannel, Text,
+    attribute::AttributeValue, read,
+};
+
+use super::{frame::Frame, image_file::SETTINGS_KEY};
+use crate::{file::open_regular, measure::SampleNoise};
+
+const CHANNELS: [&str; 4] = ["variance.R", "variance.G", "variance.B", "variance.block"];
+const EFFECTIVE_SAMPLES: &str = "noisefall_effective_samples";
+const REL_MSE: &str = "noisefall_rel_mse_estimate";
+
+/// What a file says of how its picture came about.
+#[derive(Clone, Debug, Default)]
+pub struct Provenance {
+    pub noise: Option<SampleNoise>,
+    /// Estimated relMSE: see [`Frame::rel_mse_estimate`].
+    pub rel_mse_estimate: Option<f64>,
+    pub seed: Option<u64>,
+    /// Samples are independent, so that variances are exact and not only bounds.
+    pub is_independent: bool,
+}
+
+/// The channels of a frame, with its variances where it has some.
+pub(super) fn channels(frame: &Frame) -> AnyChannels<FlatSamples> {
+    let plane = |name: &str, values: Vec<f32>| AnyChannel::new(name, FlatSamples::F32(values));
+    let of = |pixels: &[[f32; 3]], c: usize| pixels.iter().map(|rgb| rgb[c]).collect::<Vec<f32>>();
+    let mut planes: Vec<_> = ["R", "G", "B"].iter().enumerate().map(|(c, name)| plane(name, of(&frame.radiance, c))).collect();
+    if let Some(noise) = &frame.noise {
+        let variance: Vec<[f32; 3]> = noise.variance.iter().map(|rgb| rgb.map(|v| kept(f64::from(v)))).collect();
+        planes.extend((0..3).map(|c| plane(CHANNELS[c], of(&variance, c))));
+        let [width, columns] = [frame.width as usize, (frame.width as usize).div_ceil(SampleNoise::BLOCK)];
+        let block = |i: usize| i / width / SampleNoise::BLOCK * columns + i % width / SampleNoise::BLOCK;
+        planes.push(plane(CHANNELS[3], (0..frame.radiance.len()).map(|i| kept(noise.blocks[block(i)])).collect()));
+    }
+    AnyChannels::sort(planes.into())
+}
+
+/// As a number of the file: what varies must not seem exact, however dim it is.
+fn kept(variance: f64) -> f32 {
+    if variance > 0.0 { (variance as f32).clamp(f32::MIN_POSITIVE, f32::MAX) } else { 0.0 }
+}
+
+pub(super) fn add_attributes(frame: &Frame, attributes: &mut LayerAttributes) {
+    let mut add = |name: &str, value: f64| attributes.other.insert(Text::from(name), AttributeValue::F64(value));
+    frame.noise.iter().for_each(|noise| drop(add(EFFECTIVE_SAMPLES, noise.effective_samples)));
+    frame.rel_mse_estimate.iter().for_each(|rel_mse| drop(add(REL_MSE, *rel_mse)));
+}
+
+/// What the file of a picture that has been read says of it; nothing, if it is not an EXR by this program.
+pub fn provenance(path: &Path) -> Provenance {
+    let Ok(mut file) = open_regular(path).map(BufReader::new) else { return Provenance::default() };
+    let Some(header) = MetaData::read_from_buffered(&mut file, false).ok().and_then(|meta| meta.headers.into_iter().next()) else {
+        return Provenance::default();
+    };
+    let attribute = |name: &str| header.own_attributes.other.get(&Text::from(name));
+    let number = |name: &str| if let Some(AttributeValue::F64(x)) = attribute(name) { Some(*x) } else { None };
+    let settings = match attribute(SETTINGS_KEY) {
+        Some(AttributeValue::Text(text)) => serde_json::from_str::<serde_json::Value>(&text.to_string()).unwrap_or_default(),
+        _ => serde_json::Value::Null,
+    };
+    let settings = &settings["settings"];
+    let noise = number(EFFECTIVE_SAMPLES).filter(|_| file.rewind().is_ok()).and_then(|samples| read_noise(file, samples));
+    Provenance {
+        noise,
+        rel_mse_estimate: number(REL_MSE),
+        seed: settings["seed"].as_u64(),
+        is_independent: settings["sampler"] == "independent",
+    }
+}
+
+fn read_noise(file: BufReader<std::fs::File>, effective_samples: f64) -> Option<SampleNoise> {
+    let [r, g, b, block] = CHANNELS;
+    let image = read()
+        .no_deep_data()
+        .largest_resolution_level()
+        .specific_channels()
+        .required(r)
+        .required(g)
+        .required(b)
+        .required(block)
+        .collect_pixels(
+            |size, _| (size.width(), vec![[0f32; 4]; size.area()]),
+            |(width, pixels), at, (r, g, b, block): (f32, f32, f32, f32)| pixels[at.y() * *width + at.x()] = [r, g, b, block],
+        )
+        .first_valid_layer()
+        .all_attributes()
+        .from_buffered(file)
+        .ok()?;
+    let (width, pixels) = image.layer_data.channel_data.pixels;
+    let first_of_blocks = pixels.chunks(width).step_by(SampleNoise::BLOCK).flat_map(|row| row.iter().step_by(SampleNoise::BLOCK));
+    let blocks: Vec<f64> = first_of_blocks.map(|[.., block]| f64::from(*block)).collect();
+    let variance: Vec<[f32; 3]> = pixels.iter().map(|[r, g, b, _]| [*r, *g, *b]).collect();
+    let is_variance = |v: f64| (0.0..=f64::from(f32::MAX)).contains(&v);
+    let all = blocks.iter().copied().chain(variance.as_flattened().iter().map(|v| f64::from(*v)));
+    let are_variances = { all }.all(is_variance) && effective_samples > 0.0;
+    are_variances.then(|| SampleNoise { width: width as u32, variance, blocks, effective_samples })
+}
