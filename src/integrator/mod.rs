@@ -4,6 +4,7 @@
 //! appends to the next. The bounce is the same for a whole batch, so what depends on it (the sampler's dimension, the cap,
 //! whether roulette has begun) is decided once a stage and not once a path.
 mod batch;
+mod collision;
 #[cfg(test)]
 mod fault;
 mod features;
@@ -29,6 +30,7 @@ mod work;
 
 pub use self::{
     batch::Batch,
+    collision::{clear_fraction, is_blind},
     features::{Features, features},
     replay::{MetLight, Outcome, Reflection, Replay, SampledLight, Surface, Vertex, pixel_samples, replay},
     series::{SHARES, TERMS, Terms, trace_series},
