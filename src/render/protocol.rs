@@ -168,6 +168,7 @@ mod tests {
             ..Status::default()
         };
         assert_eq!((status.samples_per_second(), status.relative_noise()), (2e6, Some(0.02)));
+        assert_eq!((Status::default().samples_per_second(), Status::default().relative_noise()), (0.0, None));
     }
 
     #[test]
@@ -177,6 +178,6 @@ mod tests {
             (RenderSettings::default(), RenderSettings { max_bounces: Some(2), ..RenderSettings::default() });
         assert_eq!((whole.bias(&uncapped), cut.bias(&uncapped)), (None, Some("3 paths cut".to_owned())));
         assert_eq!((whole.bias(&capped), cut.bias(&capped)), (capped.bias(), capped.bias()));
-        assert!(capped.bias().is_some());
+        assert!(capped.bias().is_some_and(|why| why.contains('2')));
     }
 }
