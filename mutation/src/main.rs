@@ -1,0 +1,210 @@
+//! Plants faults in a copy of the package, runs the tests against one after the other, and lists those that no test notices.
+//!
+//! All faults are in one build, and an environment variable turns one on (mutant schemata: Untch, Offutt and Harrold 1993).
+mod cargo;
+mod draw;
+mod fault;
+mod finder;
+mod given;
+mod hunt;
+mod journal;
+mod operators;
+mod pace;
+mod package;
+mod process;
+mod report;
+mod schemata;
+mod suite;
+mod survivors;
+
+use std::{
+    collections::{HashMap, HashSet},
+    fs,
+    path::{Path, PathBuf},
+    process::ExitCode,
+    time::Instant,
+};
+
+use clap::Parser;
+use serde::{Deserialize, Serialize, de::DeserializeOwned};
+
+use crate::{draw::Draw, fault::Fault, hunt::Verdict, journal::Journal, pace::Pace, package::Package, suite::Test};
+
+/// What went wrong, in a sentence.
+type Outcome<T> = Result<T, String>;
+
+/// Plants faults in the source, one at a time, and lists those that no test notices.
+///
+/// Start it at the top of the repository. Results are kept in target/mutation: stop it at any time, and the same command goes on.
+#[derive(Parser)]
+struct Options {
+    /// How many faults to draw.
+    #[arg(long, default_value_t = 240)]
+    count: usize,
+    /// Decides which faults are drawn.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Every fault of a file or folder, such as src/render/film.rs, in place of those that are drawn.
+    #[arg(long, value_name = "PATH", conflicts_with = "given")]
+    all_in: Option<String>,
+    /// The faults of mutation/faults.toml in place of those that are drawn.
+    #[arg(long)]
+    given: bool,
+    /// Of the faults, only those that survived when they were tried last, with the tests of now.
+    #[arg(long)]
+    survivors: bool,
+    /// Try only the faults of these numbers, again if they were tried before.
+    #[arg(long, value_name = "N,N", value_delimiter = ',')]
+    only: Vec<u32>,
+    /// List the faults and stop.
+    #[arg(long)]
+    list: bool,
+    /// Faults to try at a time; as many as there are processors if absent.
+    #[arg(long)]
+    jobs: Option<usize>,
+    /// Compile for AVX2 and one lane only, in half of the time.
+    #[arg(long)]
+    few_levels: bool,
+    /// Stop after this long (the build is not interrupted).
+    #[arg(long)]
+    minutes: Option<f64>,
+}
+
+fn main() -> ExitCode {
+    match run(&Options::parse()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("mutation: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(options: &Options) -> Outcome<()> {
+    let pace = Pace::minutes(options.minutes);
+    let top = std::env::current_dir().map_err(|error| error.to_string())?;
+    let mut package = Package::read(&top)?;
+    if options.few_levels {
+        package.leave_levels_out();
+    }
+    if let Some(jobs) = options.jobs {
+        rayon::ThreadPoolBuilder::new().num_threads(jobs).build_global().map_err(|error| error.to_string())?;
+    }
+    let run = Run { options, package, own: top.join("mutation"), workplace: top.join("target/mutation"), start: Instant::now() };
+    let verdicts = run.journal("results.jsonl", run.package.hash());
+    let candidates = run.package.candidates()?;
+    run.say(&format!("{} places for faults", candidates.len()));
+    let explained = survivors::read(&read(&run.own.join("SURVIVORS.md"))?)?;
+    for row in explained.iter().filter(|row| !candidates.iter().any(|fault| row.is(fault))) {
+        eprintln!("SURVIVORS.md explains a fault that cannot be made any more: {}", row.name());
+    }
+    let faults = run.choose(candidates, &verdicts)?;
+    if options.list {
+        for (id, fault) in (1..).zip(&faults) {
+            println!("{id:4} {}:{} {} [{}] {}", fault.file, fault.line, fault.function, fault.operator, fault.change());
+        }
+        return Ok(());
+    }
+    let tests = run.try_all(&faults, &verdicts, &pace)?;
+    let (text, summary) = report::report(&faults, &verdicts.read(), &explained, &tests);
+    let path = run.workplace.join("report.md");
+    fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))?;
+    println!("{summary}\n{}", path.display());
+    Ok(())
+}
+
+struct Run<'a> {
+    options: &'a Options,
+    package: Package,
+    /// Where this tool keeps its tables.
+    own: PathBuf,
+    /// Where copies and results are.
+    workplace: PathBuf,
+    start: Instant,
+}
+
+impl Run<'_> {
+    fn say(&self, what: &str) {
+        eprintln!("{:5.0} s  {what}", self.start.elapsed().as_secs_f64());
+    }
+
+    fn journal<T: Serialize + DeserializeOwned>(&self, name: &str, sources: u64) -> Journal<T> {
+        Journal::new(self.workplace.join(name), sources)
+    }
+
+    /// The faults that were asked for, without those that do not compile.
+    fn choose(&self, mut candidates: Vec<Fault>, verdicts: &Journal<Verdict>) -> Outcome<Vec<Fault>> {
+        let options = self.options;
+        if options.given {
+            candidates = given::read(&read(&self.own.join("faults.toml"))?, &self.package)?;
+        }
+        if let Some(path) = &options.all_in {
+            let path = path.trim_end_matches('/');
+            candidates.retain(|fault| fault.file == path || fault.file.starts_with(&format!("{path}/")));
+        }
+        if options.survivors {
+            let last = verdicts.read_all().into_iter().map(|verdict| (verdict.key, verdict.caught_by.is_none()));
+            let last: HashMap<String, bool> = last.collect();
+            candidates.retain(|fault| last.get(&fault.key()) == Some(&true));
+        }
+        if candidates.is_empty() {
+            return Err("there are no such faults".to_owned());
+        }
+        let takes_all = options.given || options.survivors || options.all_in.is_some();
+        let mut draw = if takes_all { Draw::all(candidates) } else { Draw::new(candidates, options.count, options.seed) };
+        let rejections: Journal<Rejected> = self.journal("rejected.jsonl", self.package.hash());
+        draw.rejected.extend(rejections.read().into_iter().map(|rejected| rejected.key));
+        // A copy of its own, so that the one that was built stays as it is.
+        let copy = self.workplace.join("check");
+        loop {
+            let faults = draw.faults(true);
+            let planted = self.package.write(&copy, &faults)?;
+            let rejected =
+                cargo::build(&copy, &self.workplace.join("build"), &["check", "--lib", "--bins", "--tests"], &planted)?.rejected;
+            self.say(&format!("{} of {} faults do not compile", rejected.len(), faults.len()));
+            if rejected.is_empty() {
+                return Ok(draw.faults(false));
+            }
+            for id in rejected {
+                let rejected = Rejected { key: faults[id as usize - 1].key() };
+                rejections.append(&rejected)?;
+                draw.rejected.insert(rejected.key);
+            }
+        }
+    }
+
+    /// Builds the tests, learns what each reaches, and tries the faults that were not tried before.
+    fn try_all(&self, faults: &[Fault], verdicts: &Journal<Verdict>, pace: &Pace) -> Outcome<Vec<Test>> {
+        let copy = self.workplace.join("tree");
+        let planted = self.package.write(&copy, faults)?;
+        let build = cargo::build(&copy, &self.workplace.join("build"), &["test", "--no-run"], &planted)?;
+        if !build.rejected.is_empty() {
+            return Err(format!("faults that passed the check do not compile: {:?}", build.rejected));
+        }
+        self.say("the tests are built");
+        let baselines = self.journal("baseline.jsonl", Package::read(&copy)?.hash());
+        let Some(tests) = suite::learn(&build.tests, &copy, &baselines, pace)? else {
+            return Err("the time is over before every test has run once; the same command goes on".to_owned());
+        };
+        self.say("every test has run once");
+        let known: HashSet<String> = verdicts.read().into_iter().map(|verdict| verdict.key).collect();
+        let is_left = |id: u32, fault: &Fault| match self.options.only.as_slice() {
+            [] => !known.contains(&fault.key()),
+            only => only.contains(&id),
+        };
+        let left: Vec<(u32, &Fault)> = (1..).zip(faults).filter(|(id, fault)| is_left(*id, fault)).collect();
+        hunt::hunt(&left, &tests, &copy, verdicts, pace)?;
+        self.say("done");
+        Ok(tests)
+    }
+}
+
+/// The key of a fault that does not compile.
+#[derive(Serialize, Deserialize)]
+struct Rejected {
+    key: String,
+}
+
+fn read(path: &Path) -> Outcome<String> {
+    fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))
+}

@@ -1,0 +1,94 @@
+//! The report: what became of every fault, and how many were caught in every folder.
+use std::{
+    collections::{BTreeMap, HashMap},
+    fmt::Write,
+};
+
+use crate::{
+    fault::Fault,
+    hunt::Verdict,
+    suite::Test,
+    survivors::{self, Explained},
+};
+
+/// What became of a fault.
+enum End<'a> {
+    Caught(&'a str, f64),
+    Explained(&'a str),
+    /// How many tests reach it.
+    Survived(usize),
+    Unknown,
+}
+
+/// How many faults came to each end.
+#[derive(Default)]
+struct Count {
+    caught: usize,
+    explained: usize,
+    survived: usize,
+    unknown: usize,
+}
+
+impl Count {
+    fn add(&mut self, end: &End) {
+        *match end {
+            End::Caught(..) => &mut self.caught,
+            End::Explained(_) => &mut self.explained,
+            End::Survived(_) => &mut self.survived,
+            End::Unknown => &mut self.unknown,
+        } += 1;
+    }
+
+    fn row(&self, name: &str) -> String {
+        let Count { caught, explained, survived, unknown } = self;
+        let tried = caught + explained + survived;
+        let share = if tried > 0 { format!("{:.1} %", 100.0 * *caught as f64 / tried as f64) } else { String::new() };
+        format!("| {name} | {tried} | {caught} | {share} | {explained} | {survived} | {unknown} |")
+    }
+}
+
+/// Writes the report as Markdown, and a summary of few lines.
+pub fn report(faults: &[Fault], verdicts: &[Verdict], explained: &[Explained], tests: &[Test]) -> (String, String) {
+    let verdicts: HashMap<&str, &Verdict> = verdicts.iter().map(|verdict| (verdict.key.as_str(), verdict)).collect();
+    let end = |fault: &Fault| match verdicts.get(fault.key().as_str()) {
+        None => End::Unknown,
+        Some(Verdict { caught_by: Some(test), seconds, .. }) => End::Caught(test, *seconds),
+        Some(verdict) => match explained.iter().find(|row| row.is(fault)) {
+            Some(row) => End::Explained(&row.reason),
+            None => End::Survived(verdict.tests),
+        },
+    };
+    let (mut rows, mut all, mut open) = (String::new(), Count::default(), String::new());
+    let mut folders: BTreeMap<&str, Count> = BTreeMap::new();
+    for (id, fault) in (1..).zip(faults) {
+        let end = end(fault);
+        all.add(&end);
+        folders.entry(fault.folder()).or_default().add(&end);
+        let what = match &end {
+            End::Caught(test, seconds) => format!("{test}, {seconds:.1} s"),
+            End::Explained(reason) => format!("explained: {reason}"),
+            End::Survived(0) => "**SURVIVED**: not reached".to_owned(),
+            End::Survived(tests) => format!("**SURVIVED** {tests} tests"),
+            End::Unknown => "not tried yet".to_owned(),
+        };
+        if matches!(end, End::Survived(_)) {
+            open.push_str(&survivors::row_of(fault, ""));
+            open.push('\n');
+        }
+        let change = survivors::code(&fault.change());
+        let Fault { file, line, function, .. } = fault;
+        let _ = writeln!(rows, "| {id} | {file}:{line} | {function} | {change} | {what} |");
+    }
+    let head = "| folder | faults | caught | | explained | survived | not tried |\n|---|---|---|---|---|---|---|\n";
+    let by_folder: String = folders.iter().map(|(folder, count)| format!("{}\n", count.row(folder))).collect();
+    let summary = format!("{head}{by_folder}{}\n", all.row("**all**"));
+    let mut text = format!("# Mutation run\n\n{summary}");
+    for test in tests.iter().filter(|test| !test.baseline.passed) {
+        let _ = writeln!(text, "\nLeft out, for it fails without a fault: `{}`", test.baseline.test);
+    }
+    let _ = write!(text, "\n## Faults\n\n| | place | function | change | caught by |\n|---|---|---|---|---|\n{rows}");
+    if !open.is_empty() {
+        let _ = write!(text, "\n## Rows for SURVIVORS.md\n\nWrite a test, or else the reason.\n\n{open}");
+    }
+    (text, summary)
+}
