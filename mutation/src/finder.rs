@@ -134,7 +134,9 @@ impl Finder<'_> {
         if contains_let(&node.left) || contains_let(&node.right) {
             return;
         }
-        for other in operators::instead_of(&node.op) {
+        let is_never_met = operators::is_never_met(self.text(node));
+        let others = operators::instead_of(&node.op).iter();
+        for other in others.filter(|other| !(is_never_met && is_bound(&node.op, other))) {
             self.replace("operator", node, Self::range(&node.op), other);
         }
     }
@@ -394,6 +396,15 @@ fn look_alike(a: &Expr, b: &Expr) -> bool {
     let is_reference = |value: &Expr| matches!(value, Expr::Reference(_));
     let is_closure = |value: &Expr| matches!(value, Expr::Closure(_));
     ![a, b].into_iter().any(|value| is_text(value) || is_closure(value)) && is_reference(a) == is_reference(b)
+}
+
+/// Whether one comparison includes its bound and the other does not.
+fn is_bound(operator: &BinOp, other: &str) -> bool {
+    match operator {
+        BinOp::Lt(_) | BinOp::Gt(_) => other.ends_with('='),
+        BinOp::Le(_) | BinOp::Ge(_) => !other.ends_with('='),
+        _ => false,
+    }
 }
 
 fn contains_let(node: &Expr) -> bool {

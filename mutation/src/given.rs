@@ -50,6 +50,8 @@ fn find(given: &Given, source: &str) -> Outcome<Fault> {
     let mut whole = Whole { range, form: None };
     whole.visit_file(&parsed);
     let form = whole.form.ok_or_else(|| wrong("has this text, but it is not a whole expression or statement"))?;
+    let is_value = form == Form::Place && !syn::parse_str(faulty).is_ok_and(|faulty| is_place(&faulty));
+    let form = if is_value { Form::Value } else { form };
     let start = source[..whole.range.start].rfind('\n').map_or(0, |at| at + 1);
     Ok(Fault {
         file: file.clone(),
@@ -65,6 +67,11 @@ fn find(given: &Given, source: &str) -> Outcome<Fault> {
     })
 }
 
+/// Whether an expression names a place in memory.
+fn is_place(node: &Expr) -> bool {
+    matches!(node, Expr::Path(_) | Expr::Field(_) | Expr::Index(_))
+}
+
 /// Looks for the expression or statement at a place.
 struct Whole {
     range: std::ops::Range<usize>,
@@ -74,8 +81,7 @@ struct Whole {
 impl<'ast> Visit<'ast> for Whole {
     fn visit_expr(&mut self, node: &'ast Expr) {
         if node.span().byte_range() == self.range {
-            let is_place = matches!(node, Expr::Path(_) | Expr::Field(_) | Expr::Index(_));
-            self.form = self.form.or(Some(if is_place { Form::Place } else { Form::Value }));
+            self.form = self.form.or(Some(if is_place(node) { Form::Place } else { Form::Value }));
         }
         visit::visit_expr(self, node);
     }
@@ -93,7 +99,7 @@ mod tests {
     use super::*;
 
     fn found(original: &str) -> Outcome<Fault> {
-        let given = Given { name: "n".to_owned(), file: "f".to_owned(), original: original.to_owned(), faulty: "0".to_owned() };
+        let given = Given { name: "n".to_owned(), file: "f".to_owned(), original: original.to_owned(), faulty: "x.y".to_owned() };
         find(&given, "fn f() {\n    g(a * 2 + b);\n    h(b);\n    c.d\n}")
     }
 

@@ -177,7 +177,7 @@ impl Run<'_> {
     fn try_all(&self, faults: &[Fault], verdicts: &Journal<Verdict>, pace: &Pace) -> Outcome<Vec<Test>> {
         let copy = self.workplace.join("tree");
         let planted = self.package.write(&copy, faults)?;
-        let build = cargo::build(&copy, &self.workplace.join("build"), &["test", "--no-run"], &planted)?;
+        let build = cargo::build(&copy, &self.workplace.join("build"), &["build", "--tests"], &planted)?;
         if !build.rejected.is_empty() {
             return Err(format!("faults that passed the check do not compile: {:?}", build.rejected));
         }

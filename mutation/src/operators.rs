@@ -31,6 +31,13 @@ pub fn instead_of(operator: &BinOp) -> &'static [&'static str] {
     }
 }
 
+/// Whether the bound of a comparison is a real number that nothing meets, so that it does not matter whether it is included.
+pub fn is_never_met(comparison: &str) -> bool {
+    let numbers = comparison.split(|c: char| !(c.is_ascii_alphanumeric() || c == '.' || c == '_'));
+    let reals = numbers.filter(|number| number.contains('.') && number.starts_with(|c: char| c.is_ascii_digit()));
+    reals.filter_map(|number| number.parse::<f64>().ok()).any(|number| number != 0.0 && number != 1.0)
+}
+
 /// What a literal may be mistaken for. Text has no faults, nor have bit patterns (hexadecimal), of which any is as good.
 pub fn other_literal(literal: &Lit) -> Option<String> {
     match literal {
@@ -68,11 +75,11 @@ const NAMES: &[(&str, &str)] = &[
     ("exp", "ln"),
     ("first", "last"),
     ("floor", "round"),
-    ("ge", "gt"),
+    ("ge", "le"),
     ("height", "width"),
     ("is_none", "is_some"),
     ("is_err", "is_ok"),
-    ("le", "lt"),
+    ("gt", "lt"),
     ("left", "right"),
     ("max", "min"),
     ("max_by", "min_by"),
@@ -205,6 +212,12 @@ mod tests {
         assert_eq!(other_literal(&syn::parse_str("true").expect("a literal")).as_deref(), Some("false"));
         assert_eq!(other_literal(&syn::parse_str("0xffu32").expect("a literal")), None);
         assert_eq!(other_literal(&syn::parse_str("\"a\"").expect("a literal")), None);
+    }
+
+    #[test]
+    fn bounds_that_are_met_are_told_from_others() {
+        assert!(is_never_met("a < 0.25") && is_never_met("x.y >= 1e-3 * 2.5"));
+        assert!(!is_never_met("a < 0.0") && !is_never_met("a.0 < 3") && !is_never_met("a.len() < b.len()"));
     }
 
     #[test]

@@ -24,6 +24,8 @@ enum End<'a> {
 #[derive(Default)]
 struct Count {
     caught: usize,
+    /// Explained as doing the same as the program, so that no test could notice.
+    equivalent: usize,
     explained: usize,
     survived: usize,
     unknown: usize,
@@ -33,6 +35,7 @@ impl Count {
     fn add(&mut self, end: &End) {
         *match end {
             End::Caught(..) => &mut self.caught,
+            End::Explained(reason) if reason.starts_with("equivalent") => &mut self.equivalent,
             End::Explained(_) => &mut self.explained,
             End::Survived(_) => &mut self.survived,
             End::Unknown => &mut self.unknown,
@@ -40,10 +43,10 @@ impl Count {
     }
 
     fn row(&self, name: &str) -> String {
-        let Count { caught, explained, survived, unknown } = self;
+        let Count { caught, equivalent, explained, survived, unknown } = self;
         let tried = caught + explained + survived;
         let share = if tried > 0 { format!("{:.1} %", 100.0 * *caught as f64 / tried as f64) } else { String::new() };
-        format!("| {name} | {tried} | {caught} | {share} | {explained} | {survived} | {unknown} |")
+        format!("| {name} | {tried} | {caught} | {share} | {explained} | {survived} | {equivalent} | {unknown} |")
     }
 }
 
@@ -79,7 +82,8 @@ pub fn report(faults: &[Fault], verdicts: &[Verdict], explained: &[Explained], t
         let Fault { file, line, function, .. } = fault;
         let _ = writeln!(rows, "| {id} | {file}:{line} | {function} | {change} | {what} |");
     }
-    let head = "| folder | faults | caught | | explained | survived | not tried |\n|---|---|---|---|---|---|---|\n";
+    let head =
+        "| folder | faults | caught | | explained | survived | equivalent | not tried |\n|---|---|---|---|---|---|---|---|\n";
     let by_folder: String = folders.iter().map(|(folder, count)| format!("{}\n", count.row(folder))).collect();
     let summary = format!("{head}{by_folder}{}\n", all.row("**all**"));
     let mut text = format!("# Mutation run\n\n{summary}");
@@ -91,4 +95,34 @@ pub fn report(faults: &[Fault], verdicts: &[Verdict], explained: &[Explained], t
         let _ = write!(text, "\n## Rows for SURVIVORS.md\n\nWrite a test, or else the reason.\n\n{open}");
     }
     (text, summary)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::finder;
+
+    #[test]
+    fn every_end_is_counted_and_what_is_open_can_be_pasted() {
+        let faults = finder::faults("src/a/b.rs", "fn f() { g(p + 1 < q, r) }").expect("it is Rust");
+        let verdict = |fault: &Fault, test: Option<&str>| Verdict {
+            key: fault.key(),
+            caught_by: test.map(str::to_owned),
+            seconds: 0.1,
+            tests: 2,
+        };
+        let row = |fault, reason| survivors::row_of(fault, reason);
+        let table = format!("||\n||\n{}\n{}\n", row(&faults[1], "equivalent: both"), row(&faults[2], "too slow"));
+        let explained = survivors::read(&table).expect("it is a table");
+        let verdicts = [
+            verdict(&faults[0], Some("lib::a::t")),
+            verdict(&faults[1], None),
+            verdict(&faults[2], None),
+            verdict(&faults[3], None),
+        ];
+        let (text, summary) = report(&faults, &verdicts, &explained, &[]);
+        let untried = faults.len() - 4;
+        assert!(summary.contains(&format!("| src/a | 3 | 1 | 33.3 % | 1 | 1 | 1 | {untried} |")), "{summary}");
+        assert!(text.ends_with(&format!("{}\n", row(&faults[3], ""))) && text.contains("lib::a::t, 0.1 s"), "{text}");
+    }
 }
