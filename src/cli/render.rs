@@ -47,7 +47,7 @@ pub struct Arguments {
     #[arg(short, long, required_unless_present = "pixel")]
     output: Option<PathBuf>,
     /// Format of a picture on standard output: png or exr; a file's name says it
-    #[arg(long, value_name = "FORMAT", value_parser = parse::format, requires = "output")]
+    #[arg(long, value_name = "FORMAT", value_parser = parse::format, requires = "output", conflicts_with = "pixel")]
     format: Option<Format>,
     /// Stop after N samples per pixel [default: the scene's, or 256]; of --spp, --time and --noise the last one given counts
     #[arg(long, value_name = "N", value_parser = parse::samples, overrides_with_all = ["time", "noise"])]

@@ -64,7 +64,7 @@ fn an_interrupted_render_saves_what_it_has_and_says_how_much_that_is() {
 fn a_second_interruption_ends_a_render_at_once() {
     let shell = Shell::new();
     // Paths of thousands of bounces: the first sample of all pixels takes much longer than this test.
-    let slow = "format = 1\n[camera]\neye = [0, 0, 0]\nlook_at = [0, 0, 1]\nfov = 60\nresolution = [8192, 8192]\n\
+    let slow = "format = 1\n[camera]\neye = [0, 0, 0]\nlook_at = [0, 0, 1]\nfov = 60\nresolution = [2048, 2048]\n\
                 [materials.white]\nlambertian = { albedo = 0.9999 }\n\
                 [[objects]]\nshape = { sphere = { center = [0, 0, 0], radius = 1 } }\nmaterial = \"white\"\n\
                 flip = true\nemission = { radiance = 1 }\n[render]\nroulette = \"off\"\n";

@@ -98,7 +98,7 @@ fn a_reached_target_is_named_and_a_higher_one_goes_on() {
     wait(&mut window, "the target", |app| matches!(app.status.state, State::Done(_)));
     assert_eq!(window.state().status.spp, 3);
     assert!(window.query_by_label("Stopped at 3 spp").is_some());
-    never_restarts(&mut window, |w| w.state_mut().budget.max_spp = Some(5));
+    window.state_mut().budget.max_spp = Some(5);
     let mut titles = Vec::new();
     let done = |app: &App| app.status.spp == 5 && matches!(app.status.state, State::Done(_));
     let start = Instant::now();
