@@ -98,6 +98,104 @@ fn noise_is_continuous_in_range_and_half_on_average() {
     }
 }
 
+/// The change of noise at a point of the lattice, per length along each axis: the gradient that belongs to the point.
+fn gradient(p: [f32; 3]) -> [i32; 3] {
+    const STEP: f32 = 1e-3;
+    [0, 1, 2].map(|axis| {
+        let mut beside = p;
+        beside[axis] += STEP;
+        // One octave is half of the noise above ½.
+        (2.0 * (noise_at(beside, 1) - 0.5) / STEP).round() as i32
+    })
+}
+
+#[test]
+fn gradients_are_the_edges_of_a_cube_alike() {
+    let mut counts = std::collections::BTreeMap::new();
+    for i in 0..16 * 16 * 16 {
+        let found = gradient([i % 16, i / 16 % 16, i / 256].map(|x| x as f32 - 8.0));
+        assert_eq!(found.iter().map(|x| x * x).sum::<i32>(), 2, "{found:?} is no edge");
+        *counts.entry(found).or_insert(0u32) += 1;
+    }
+    // Twelve edges, four of which belong to two of sixteen hashes.
+    assert_eq!(counts.len(), 12);
+    let twice = [[1, 1, 0], [-1, 1, 0], [0, -1, 1], [0, -1, -1]];
+    let expected = |edge: &[i32; 3]| if twice.contains(edge) { 512.0 } else { 256.0 };
+    let chi_squared: f64 = counts.iter().map(|(edge, n)| (f64::from(*n) - expected(edge)).powi(2) / expected(edge)).sum();
+    // 11 degrees of freedom: more than 37.4 once in 10⁴.
+    assert!(chi_squared < 37.4, "{chi_squared}: {counts:?}");
+}
+
+#[test]
+fn noise_between_points_of_the_lattice_is_joined_by_the_quintic() {
+    for i in 0..200 {
+        let corner = [i % 7, i % 11, i % 13].map(|x| x as f32);
+        for axis in 0..3 {
+            let mut next = corner;
+            next[axis] += 1.0;
+            let (a, b) = (gradient(corner)[axis] as f32, gradient(next)[axis] as f32);
+            for t in [0.125f32, 0.25, 0.5, 0.8125] {
+                let mut p = corner;
+                p[axis] += t;
+                let fade = t * t * t * (t * (t * 6.0 - 15.0) + 10.0);
+                let expected = 0.5 + 0.5 * ((1.0 - fade) * a * t + fade * b * (t - 1.0));
+                assert!((noise_at(p, 1) - expected).abs() < 1e-5, "{p:?}: {} is not {expected}", noise_at(p, 1));
+            }
+        }
+    }
+}
+
+#[test]
+fn octaves_are_twice_as_fine_and_half_as_strong() {
+    // At a point of the first lattices the finer one alone is left: its steps there are those of a cell half as large.
+    let fraction = |x: f32, octaves: u32| noise_at([x, 0.3, -0.2], octaves) - noise_at([x, 0.3, -0.2], octaves - 1);
+    for octave in 1..4u32 {
+        let (mut squares, mut product) = (0.0f64, 0.0f64);
+        let lag = 0.125 / f32::powi(2.0, octave as i32);
+        for i in 0..20_000 {
+            let x = i as f32 * 0.37;
+            let (a, b) = (f64::from(fraction(x, octave + 1)), f64::from(fraction(x + lag, octave + 1)));
+            (squares, product) = (squares + a * a, product + a * b);
+        }
+        let deviation = (squares / 20_000.0).sqrt() * f64::from(2u32 << octave);
+        // Of lattice noise: 0.25 ± 0.03 on average over the cell, whatever the octave.
+        assert!((0.2..0.32).contains(&deviation), "octave {octave}: {deviation}");
+        // An eighth of its own cell apart: so much of it is the same.
+        let same = product / squares;
+        assert!((0.85..0.98).contains(&same), "octave {octave}: {same}");
+    }
+    assert_eq!(noise::step(4.0, 1), 1.0 / 64.0);
+    assert_eq!(noise::step(4.0, 3), 1.0 / 256.0);
+}
+
+#[test]
+fn scale_is_the_number_of_cells_to_a_metre() {
+    let scaled = |x: f32| noise::fraction(V::<One> { x: F(x), y: F(0.25), z: F(0.75) }, 4.0, 1).0;
+    let plain = |x: f32| noise::fraction(V::<One> { x: F(4.0 * x), y: F(1.0), z: F(3.0) }, 1.0, 1).0;
+    (0..100).map(|i| i as f32 * 0.03125).for_each(|x| assert_eq!(scaled(x), plain(x)));
+}
+
+#[test]
+fn steps_are_those_of_the_finest_part() {
+    let mut set = Textures::default();
+    let image = set.push(Texture::Image(ImageTexture::new((&picture()).into())));
+    let noise = set.push(Texture::Noise { scale: 2.0, octaves: 3, low: [0.0; 3], high: [1.0, 0.5, 0.25] });
+    let checker = set.push(Texture::Checker { even: image, odd: noise, scale: 8.0 });
+    let constant = set.push(Texture::Constant([0.5, 0.25, 0.125]));
+    let steps = |id: u32| {
+        let steps = set.steps(One, U(id));
+        [steps.u.0, steps.v.0, steps.p.0]
+    };
+    assert_eq!(steps(image), [1.0 / 6.0, 0.25, f32::INFINITY]);
+    assert_eq!(steps(noise), [1.0 / 64.0, 1.0 / 64.0, 1.0 / 128.0]);
+    assert_eq!(steps(checker), [1.0 / 256.0, 1.0 / 256.0, 1.0 / 128.0]);
+    assert_eq!(steps(constant), [1.0 / 64.0, 1.0 / 64.0, f32::INFINITY]);
+    assert_eq!((set.mean(noise), set.maximum(noise)), ([0.5, 0.25, 0.125], [1.0, 0.5, 0.25]));
+    assert_eq!((set.mean(constant), set.maximum(constant)), ([0.5, 0.25, 0.125], [0.5, 0.25, 0.125]));
+    // Of 8 × 8 squares half are even.
+    assert_eq!((set.mean(checker), set.maximum(checker)), ([1.5, 12.625, 0.3125], [5.0, 50.0, 0.5]));
+}
+
 #[inline(always)]
 fn lanes_of<L: Lanes>(l: L, set: &Textures, coordinates: &[[f32; 16]; 3], ids: U<L>) -> Vec<[u32; 3]> {
     let [u, v, z] = [0, 1, 2].map(|axis| l.load(&coordinates[axis]));

@@ -1,0 +1,261 @@
+//! What a file says arrives in the scene: every key with a value that is not its default, and every default.
+use std::fs;
+
+use glam::DVec3;
+use noisefall::{
+    geometry::Shape,
+    light::{Background, Side},
+    material::{Material, Reflectance},
+    math::{F, One, V},
+    sampling::{Directions, Filter, Sampler},
+    scene::{Coating, Estimator, Lens, Object, Reuse, Roughness, Roulette, Scene, Shutter, Truth, parse},
+};
+
+fn compiled(text: &str) -> Scene {
+    let view = "camera = { eye = [0.0, 0.0, 4.0], look_at = [0.0, 0.0, 0.0], fov = 40.0, resolution = [8, 8] }";
+    let text = format!("format = 1\n{}", text.replace("VIEW", view));
+    parse("meanings.toml", text).unwrap_or_else(|error| panic!("{}", error.report()))
+}
+
+fn object(text: &str) -> Object {
+    compiled(&format!("VIEW\n[[objects]]\n{text}")).objects.remove(0)
+}
+
+fn coating(material: &str) -> Coating {
+    let ball = "shape.sphere = { center = [0, 0, 0], radius = 1.0 }";
+    let scene = compiled(&format!("VIEW\n[materials.m]\n{material}\n[[objects]]\n{ball}\nmaterial = 'm'"));
+    scene.objects[0].coating.clone().expect("it has a material")
+}
+
+#[test]
+fn cameras() {
+    let plain = compiled("VIEW").camera;
+    assert_eq!((plain.eye, plain.look_at, plain.up), (DVec3::new(0.0, 0.0, 4.0), DVec3::ZERO, DVec3::Y));
+    assert_eq!((plain.fov, plain.orthographic, plain.lens, plain.shutter), (40.0, None, None, None));
+    assert_eq!((plain.filter, plain.resolution), (Filter::Box, [8, 8]));
+    let scene = compiled(
+        "camera = { eye = [1, 2, 3], look_at = [4, 5, 6], up = [0, 0, 2], fov = 50, resolution = [7, 9], projection = 'perspective', \
+         lens = { radius = 0.25, focus = 3.5 }, shutter = [0.25, 0.75], filter.gaussian.sigma = 0.625, \
+         motion = [{ translate = [1, 2, 3] }] }",
+    );
+    let camera = scene.camera;
+    assert_eq!(
+        [camera.eye, camera.look_at, camera.up].map(|p| p.to_array()),
+        [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [0.0, 0.0, 2.0]]
+    );
+    assert_eq!((camera.fov, camera.resolution), (50.0, [7, 9]));
+    assert_eq!(camera.lens, Some(Lens { radius: 0.25, focus: 3.5 }));
+    assert_eq!(camera.shutter, Some(Shutter { open: 0.25, close: 0.75 }));
+    assert_eq!(camera.filter, Filter::Gaussian { sigma: 0.625 });
+    assert_eq!(scene.camera_motion.at(0.5).translation, DVec3::new(0.5, 1.0, 1.5));
+    let flat =
+        compiled("camera = { eye = [0, 0, 4], look_at = [0, 0, 0], projection.orthographic.width = 3, resolution = [8, 8] }");
+    assert_eq!((flat.camera.orthographic, flat.camera.width_at_look_at()), (Some(3.0), 3.0));
+    let filter = |text: &str| {
+        let camera = "eye = [0, 0, 4], look_at = [0, 0, 0], fov = 40, resolution = [8, 8]";
+        compiled(&format!("camera = {{ {camera}, lens = {{ radius = 0, focus = 1 }}, filter = {text} }}")).camera
+    };
+    assert_eq!(filter("'tent'").filter, Filter::Tent { radius: 1.0 });
+    assert_eq!(filter("'gaussian'").filter, Filter::Gaussian { sigma: 0.5 });
+    assert_eq!(filter("{ tent = { radius = 2.5 } }").filter, Filter::Tent { radius: 2.5 });
+    assert_eq!(filter("'box'").lens, None, "a lens without extent is a pinhole");
+}
+
+#[test]
+fn settings() {
+    let plain = compiled("VIEW");
+    assert_eq!((plain.settings, plain.spp, plain.truth), (Default::default(), None, None));
+    let scene = compiled(
+        "VIEW\n[render]\nestimator = 'light'\ndirections = 'cosine'\nsampler = 'bluenoise'\nmax_bounces = 3\n\
+         roulette = { throughput = { start = 7 } }\nreuse = 'off'\nadaptive = true\nspp = 12\nseed = 99\n[truth]\nradiance = [1, 2, 3]",
+    );
+    let settings = scene.settings;
+    assert_eq!(
+        (settings.estimator, settings.directions, settings.sampler),
+        (Estimator::Light, Directions::Cosine, Sampler::BlueNoise)
+    );
+    assert_eq!((settings.max_bounces, settings.roulette), (Some(3), Roulette::Throughput { start: 7 }));
+    assert_eq!((settings.reuse, settings.adaptive, settings.seed, scene.spp), (Reuse::Off, true, 99, Some(12)));
+    assert_eq!(scene.truth, Some(Truth::Radiance([1.0, 2.0, 3.0])));
+    let roulette = |text: &str| compiled(&format!("VIEW\nrender.roulette = {text}")).settings.roulette;
+    assert_eq!(roulette("'off'"), Roulette::Off);
+    assert_eq!([roulette("'throughput'"), roulette("{ throughput = {} }")], [Roulette::Throughput { start: 4 }; 2]);
+    assert_eq!(roulette("{ fixed = 0.25 }"), Roulette::Fixed(0.25));
+}
+
+#[test]
+fn materials() {
+    let material = |text: &str| coating(text).material;
+    assert_eq!(material("lambertian.albedo = [0.1, 0.2, 0.3]"), Material::Lambertian { albedo: [0.1, 0.2, 0.3] });
+    assert_eq!(material("mirror.reflectance = 0.5"), Material::Mirror { reflectance: [0.5; 3] });
+    let glass = Material::Dielectric { ior: 1.5, ior_outside: 1.0, alpha: 0.0, varies: false, compensated: true };
+    assert_eq!(material("dielectric.ior = 1.5"), glass);
+    let nested = coating(
+        "dielectric = { ior = 1.25, ior_outside = 1.75, roughness = 0.5, transmittance = [0.1, 0.2, 0.3], energy_compensation = false }",
+    );
+    let rough = Material::Dielectric { ior: 1.25, ior_outside: 1.75, alpha: 0.25, varies: false, compensated: false };
+    assert_eq!((nested.material, nested.transmittance, nested.roughness), (rough, [0.1, 0.2, 0.3], Roughness::Constant(0.25)));
+    let gold = Reflectance::Index { eta: [0.1, 0.2, 0.3], k: [3.0, 2.0, 1.0] };
+    assert_eq!(
+        material("conductor = { eta = [0.1, 0.2, 0.3], k = [3, 2, 1], alpha = 0.5 }"),
+        Material::Conductor { fresnel: gold, alpha: 0.5, compensated: true }
+    );
+    let steel = |fresnel| Material::Conductor { fresnel, alpha: 0.0, compensated: false };
+    assert_eq!(material("conductor = { f0 = 0.5, energy_compensation = false }"), steel(Reflectance::Schlick([0.5; 3])));
+    assert_eq!(
+        material("conductor = { reflectance = 0.5, energy_compensation = false }"),
+        steel(Reflectance::Constant([0.5; 3]))
+    );
+    let plastic = material("plastic = { albedo = [0.1, 0.2, 0.3], ior = 1.25, roughness = 0.1 }");
+    assert_eq!(plastic, Material::Plastic { albedo: [0.1, 0.2, 0.3], ior: 1.25, alpha: 0.1f32 * 0.1 });
+    let sides = |text: &str| coating(&format!("lambertian.albedo = 0.5\n{text}")).one_sided;
+    assert_eq!([sides(""), sides("two_sided = true"), sides("two_sided = false")], [false, false, true]);
+    assert_eq!(coating("lambertian.albedo = 0.5").transmittance, [1.0; 3]);
+}
+
+#[test]
+fn textured_materials() {
+    let scene = compiled(
+        "VIEW\ntextures.t.checker = { even = 0.25, odd = [0.5, 0.75, 0.125], scale = 2.0 }
+        materials.m = { conductor = { f0 = { texture = 't' }, roughness = { texture = 't' } }, bump = { texture = 't', height = -0.5 } }
+        [[objects]]
+        shape.sphere = { center = [0, 0, 0], radius = 1.0 }
+        material = 'm'
+        emission = { texture = 't', scale = 4.0 }",
+    );
+    let object = &scene.objects[0];
+    let coating = object.coating.as_ref().expect("it has a material");
+    let mean = [0.375, 0.5, 0.1875];
+    // The largest luminance of the texture, whose root the roughness is.
+    let most = 0.2126f32 * 0.5 + 0.7152 * 0.75 + 0.0722 * 0.25;
+    let Material::Conductor { fresnel: Reflectance::Schlick(f0), alpha, .. } = coating.material else { panic!("{coating:?}") };
+    assert_eq!(f0, mean);
+    assert!((alpha - most * most).abs() < 1e-6, "{alpha}");
+    let Some((texture, height)) = coating.bump else { panic!("{coating:?}") };
+    assert_eq!((height, coating.normal_map), (-0.5, None));
+    assert_eq!(coating.roughness, Roughness::Texture { id: texture, squared: true });
+    let emission = object.emission.expect("it emits");
+    assert_eq!((emission.radiance, emission.mean, emission.texture), ([4.0; 3], mean.map(|x| 4.0 * x), Some(texture)));
+}
+
+#[test]
+fn lights() {
+    let light =
+        |rest: &str| object(&format!("shape.sphere = {{ center = [0, 0, 0], radius = 1 }}\n{rest}")).emission.expect("it emits");
+    let plain = light("emission.radiance = [1, 2, 3]");
+    assert_eq!((plain.radiance, plain.mean, plain.texture, plain.side), ([1.0, 2.0, 3.0], [1.0, 2.0, 3.0], None, Side::Front));
+    assert_eq!(light("emission = { radiance = [1, 2, 3], scale = 2.5 }").radiance, [2.5, 5.0, 7.5]);
+    assert_eq!(light("emission = { radiance = 1, two_sided = true }").side, Side::Both);
+    assert_eq!(light("emission = { radiance = 1 }\nflip = true").side, Side::Back);
+    assert!(matches!(
+        compiled("VIEW\nbackground.radiance = [1, 2, 3]").lights.background,
+        Some(Background::Constant([1.0, 2.0, 3.0]))
+    ));
+    assert!(compiled("VIEW\nbackground.radiance = 0").lights.background.is_none());
+}
+
+#[test]
+fn skies() {
+    // Eight columns of which one is bright; the middle of the picture, between the fourth and the fifth, is towards −z.
+    let folder = tempfile::tempdir().expect("a folder");
+    let pixels: Vec<u8> =
+        (0..8).flat_map(|column| if column == 4 { [128, 128, 128, 129] } else { [128, 128, 128, 122] }).collect();
+    fs::write(folder.path().join("sky.hdr"), [b"#?RADIANCE\n\n-Y 1 +X 8\n".as_slice(), &pixels].concat()).expect("it is written");
+    let name = folder.path().join("sky.toml").display().to_string();
+    let radiance = |rest: &str, degrees: f64| {
+        let view = "camera = { eye = [0, 0, 4], look_at = [0, 0, 0], fov = 40, resolution = [8, 8] }";
+        let text = format!("format = 1\n{view}\nbackground = {{ image = 'sky.hdr'{rest} }}");
+        let scene = parse(&name, text).unwrap_or_else(|error| panic!("{}", error.report()));
+        let Some(Background::Image(sky)) = scene.lights.background else { panic!("it is a picture") };
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        // From −z towards −x, which is counter-clockwise seen from above.
+        sky.radiance(One, V { x: F(-sin as f32), y: F(0.0), z: F(-cos as f32) }).x.0
+    };
+    let close = |a: f32, b: f32| assert!((a - b).abs() < 1e-4 * b, "{a} is not {b}");
+    close(radiance("", -22.5), 1.0);
+    close(radiance(", rotate = 90.0", 67.5), 1.0);
+    close(radiance(", rotate = -720030.0", -52.5), 1.0);
+    close(radiance(", rotate = 1.8e20", -22.5 + 1.8e20 % 360.0), 1.0);
+    close(radiance(", scale = 3.0", -22.5), 3.0);
+    close(radiance(", scale = 3.0", 157.5), 3.0 / 128.0);
+}
+
+#[test]
+fn objects_and_their_transforms() {
+    let plain = object("shape.sphere = { center = [1, 2, 3], radius = 0.5 }");
+    assert_eq!((plain.name.as_str(), plain.flip, plain.motion.0.len(), plain.emission), ("", false, 0, None));
+    assert!(plain.coating.is_none() && plain.shape.bounding_sphere() == (DVec3::new(1.0, 2.0, 3.0), 0.5));
+    let center = |list: &str| {
+        object(&format!("shape.sphere = {{ center = [1, 2, 3], radius = 0.5 }}\ntransform = [{list}]")).shape.bounding_sphere().0
+    };
+    let near = |list: &str, p: [f64; 3]| assert!(center(list).distance(DVec3::from(p)) < 1e-12, "{list}: {}", center(list));
+    near("{ translate = [1, 0, 0] }, { scale = 2 }", [4.0, 4.0, 6.0]);
+    near("{ scale = 2 }, { translate = [1, 0, 0] }", [3.0, 4.0, 6.0]);
+    near("{ rotate = { axis = [0, 5, 0], degrees = 90 } }", [3.0, 2.0, -1.0]);
+    near("{ rotate = { axis = [0, 1, 0], degrees = 15099494490 } }", [3.0, 2.0, -1.0]);
+    near("{ matrix = [[0, 1, 0, 7], [2, 0, 0, 8], [0, 0, 1, 9], [0, 0, 0, 1]] }", [9.0, 10.0, 12.0]);
+    let scaled = object("shape.sphere = { center = [0, 0, 0], radius = 1 }\ntransform = [{ scale = [1, 2, 3] }]");
+    assert!((scaled.shape.bounding_sphere().1 - 3.0).abs() < 1e-5);
+    let moving = object(
+        "shape.sphere = { center = [1, 0, 0], radius = 1 }\nmotion = [{ rotate = { axis = [0, 1, 0], degrees = 90 } }, { translate = [0, 4, 0] }]",
+    );
+    let there = moving.motion.at(0.5).transform_point3(DVec3::X);
+    assert!(there.distance(DVec3::new(0.5f64.sqrt(), 2.0, -(0.5f64.sqrt()))) < 1e-12, "{there}");
+}
+
+#[test]
+fn shapes_and_their_defaults() {
+    let cylinder = "shape.cylinder = { base = [0, 0, 0], top = [0, 2, 0], radius = 1";
+    let capped = |rest: &str| match object(&format!("{cylinder}{rest} }}")).shape {
+        Shape::Cylinder { capped, .. } => capped,
+        _ => panic!("no cylinder"),
+    };
+    assert_eq!([capped(""), capped(", capped = true"), capped(", capped = false")], [true, true, false]);
+    let smooth = |mesh: &str| match object(&format!("shape.mesh = {{ {mesh} }}")).shape {
+        Shape::Mesh { data, .. } => !data.normals.is_empty(),
+        _ => panic!("no mesh"),
+    };
+    let lists = "vertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0]], triangles = [[0, 1, 2]]";
+    assert_eq!([smooth(lists), smooth(&format!("{lists}, smooth = true"))], [false, true]);
+    assert_eq!([smooth("knot = { triangles = 50 }"), smooth("knot = { triangles = 50 }, smooth = false")], [true, false]);
+    assert_eq!([smooth("heightfield = { quads = 2 }"), smooth("heightfield = { quads = 2 }, smooth = false")], [true, false]);
+    let heights = |seed: &str| match object(&format!("shape.mesh = {{ heightfield = {{ quads = 2{seed} }} }}")).shape {
+        Shape::Mesh { data, .. } => data.vertices.clone(),
+        _ => panic!("no mesh"),
+    };
+    assert_eq!(heights(""), heights(", seed = 0"));
+    assert_ne!(heights(""), heights(", seed = 1"));
+    let field = |rest: &str| {
+        let text = format!(
+            "VIEW\n[[objects]]\nname = 'drop'\nshape.sphere_field = {{ count = 12, bounds = {{ min = [1, 1, 1], max = [2, 3, 4] }}{rest} }}"
+        );
+        compiled(&text).objects.iter().map(|object| (object.name.clone(), object.shape.bounding_sphere())).collect::<Vec<_>>()
+    };
+    assert_eq!((field("").len(), field("")[0].0.as_str(), field("")[11].0.as_str()), (12, "drop 1", "drop 12"));
+    assert_eq!(field(""), field(", seed = 0"));
+    assert_ne!(field(""), field(", seed = 1"));
+    let inside = |p: DVec3| p.cmpgt(DVec3::ONE).all() && p.cmplt(DVec3::new(2.0, 3.0, 4.0)).all();
+    assert!(field("").iter().all(|(_, (center, _))| inside(*center)));
+}
+
+#[test]
+fn lights_come_first_and_pieces_know_their_objects() {
+    let scene = compiled(
+        "VIEW
+        [[objects]]
+        name = 'box'
+        shape.cuboid = { min = [0, 0, 0], max = [1, 1, 1] }
+        [[objects]]
+        name = 'lamp'
+        shape.cuboid = { min = [5, 0, 0], max = [6, 1, 1] }
+        emission.radiance = 1.0
+        [[objects]]
+        name = 'ball'
+        shape.sphere = { center = [9, 0, 0], radius = 1.0 }",
+    );
+    let names: Vec<&str> = scene.objects.iter().map(|object| object.name.as_str()).collect();
+    assert_eq!(names, ["lamp", "box", "ball"]);
+    let pieces = scene.objects.iter().map(|object| object.shape.piece_count());
+    let owners: Vec<u32> = pieces.enumerate().flat_map(|(i, count)| vec![i as u32; count]).collect();
+    assert_eq!(scene.owners, owners);
+}
