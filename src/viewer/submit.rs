@@ -8,7 +8,7 @@ use super::{app::App, canvas::Tool, link::Wish};
 impl App {
     /// Asks the worker for what the controls say.
     pub(super) fn submit(&mut self) {
-        let pressed = self.ctx.input(|input| input.pointer.any_down());
+        let (pressed, now) = self.ctx.input(|input| (input.pointer.any_down(), input.time));
         if !pressed && let Err(error) = self.link.set_threads(self.threads) {
             self.threads = self.link.threads();
             self.tell(format!("The threads cannot be had: {error}"), true);
@@ -23,11 +23,11 @@ impl App {
         // A control that is dragged asks for a new picture at every step; the next one is not asked for before the last is seen.
         let shown = [self.shown.as_ref(), self.frame_beside.as_ref()].map(|frame| frame.map_or(0, |frame| frame.generation));
         let drags_control = pressed && self.tool != Tool::Camera;
-        let waits = drags_control && self.link.is_awaited(shown) && !self.link.is_asked(&wish, self.companion());
+        let waits = drags_control && self.link.is_awaited(shown, now) && !self.link.is_asked(&wish, self.companion());
         if waits {
             self.ctx.request_repaint_after(Duration::from_millis(20));
         } else if self.camera.check().is_ok() {
-            self.link.update(wish, self.companion());
+            self.link.update(wish, self.companion(), now);
         }
     }
 

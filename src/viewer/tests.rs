@@ -117,8 +117,9 @@ fn choose(window: &mut Window, combo: &str, item: &str) {
     window.run_steps(3);
 }
 
+/// The number of the picture that was asked for last: known at once, and not only when the worker has taken it up.
 fn generation(window: &Window) -> u64 {
-    window.state().status.generation
+    window.state().link.generation()
 }
 
 /// Does something and waits for a picture of what it asked for.
