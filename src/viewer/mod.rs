@@ -47,6 +47,7 @@ mod toolbar;
 mod tour;
 mod views_bar;
 mod window_panel;
+mod window_system;
 
 use std::{
     panic::{AssertUnwindSafe, catch_unwind},
@@ -64,13 +65,12 @@ const NO_WINDOW: &str = "use `noisefall render SCENE -o picture.png` to render w
 
 /// Opens the window on a scene file, or on the built-in scene. Returns when it is closed.
 pub fn run(scene: Option<PathBuf>) -> Result<(), String> {
-    if !has_display() {
-        return Err(format!("no display was found (neither DISPLAY nor WAYLAND_DISPLAY is set); {NO_WINDOW}"));
-    }
+    let displays = window_system::found();
+    let system = displays.choose().map_err(|why| format!("{why}; {NO_WINDOW}"))?;
     // One core is left for the window and everything else.
     let threads = window_panel::cores().saturating_sub(1).max(1);
     let threads = Threads::new(threads, SimdLevel::best()).map_err(|error| error.to_string())?;
-    let options = eframe::NativeOptions {
+    let mut options = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default()
             .with_title("Noisefall")
             .with_app_id("noisefall")
@@ -79,6 +79,7 @@ pub fn run(scene: Option<PathBuf>) -> Result<(), String> {
         renderer: eframe::Renderer::Glow,
         ..Default::default()
     };
+    window_system::force(system, &mut options);
     let open = || {
         let create = |cc: &eframe::CreationContext| -> Box<dyn eframe::App> {
             // There is a window: from here on a panic is ours, and is shown as usual.
@@ -99,13 +100,7 @@ pub fn run(scene: Option<PathBuf>) -> Result<(), String> {
     let _ = std::panic::take_hook();
     match done {
         Ok(Ok(())) => Ok(()),
-        Ok(Err(error)) => Err(format!("the window cannot be opened: {error}; {NO_WINDOW}")),
-        Err(panic) => Err(format!("the window failed: {}; {NO_WINDOW}", panic_message(&*panic))),
+        Ok(Err(error)) => Err(format!("the window cannot be opened: {}; {NO_WINDOW}", displays.explain(&error))),
+        Err(panic) => Err(format!("the window failed: {}; {NO_WINDOW}", displays.without_source(&panic_message(&*panic)))),
     }
-}
-
-/// On systems where a window needs a display server, whether one is named.
-fn has_display() -> bool {
-    let named = |variable| std::env::var_os(variable).is_some_and(|value| !value.is_empty());
-    !cfg!(all(unix, not(target_os = "macos"))) || named("DISPLAY") || named("WAYLAND_DISPLAY")
 }
