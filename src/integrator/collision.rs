@@ -105,10 +105,7 @@ fn first_crossing(scene: &Scene, origin: DVec3, direction: DVec3) -> Option<Cros
     let outwards = point.n_geometric.dot(d).lt(l.f(0.0));
     let n = outwards.pick(-point.n_geometric, point.n_geometric);
     let V { x, y, z } = point.p + n * point.error;
-    Some(Crossing {
-        distance: f64::from(nearest.t.0),
-        beyond: glam::Vec3::new(x.0, y.0, z.0).as_dvec3(),
-    })
+    Some(Crossing { distance: f64::from(nearest.t.0), beyond: glam::Vec3::new(x.0, y.0, z.0).as_dvec3() })
 }
 
 #[cfg(test)]

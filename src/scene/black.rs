@@ -15,7 +15,8 @@ impl Scene {
             return "nothing in this scene emits light".to_owned();
         }
         if let Some(object) = self.around(camera) {
-            let name = if object.name.is_empty() { "an object without a name" } else { &format!("`{}`", object.name) };
+            let number = self.objects.iter().position(|other| std::ptr::eq(other, object)).map_or(0, |at| at + 1);
+            let name = if object.name.is_empty() { format!("object {number}") } else { format!("`{}`", object.name) };
             return format!("the camera is inside {name}");
         }
         match settings.max_bounces {

@@ -71,8 +71,12 @@ pub struct App {
     pub(super) seen: Seen,
     pub(super) scores: Option<Scores>,
     pub(super) history: History,
-    /// No sample of what is shown has found light.
+    /// What is shown is black.
     pub(super) black: bool,
+    /// Why, and of which generation.
+    pub(super) black_reason: Option<(u64, String)>,
+    /// The last camera whose picture showed something.
+    pub(super) last_seeing: Option<Camera>,
     pub(super) textures: [Option<TextureHandle>; 2],
 
     /// The window itself.
@@ -139,6 +143,8 @@ impl App {
             scores: None,
             history: History::default(),
             black: false,
+            black_reason: None,
+            last_seeing: None,
             textures: [None, None],
             tool: Tool::default(),
             view: View::default(),
@@ -214,10 +220,10 @@ impl App {
     }
 
     fn canvas(&mut self, ui: &mut egui::Ui) {
-        let size = self.opened.as_ref().map_or(1.0, |opened| opened.scene.size);
+        let scene = self.opened.as_ref().map(|opened| opened.scene.clone());
         // In an open list, arrows are the list's.
         let keys = !self.has_dialog() && !self.help_open && !self.gallery.open && !egui::Popup::is_any_open(ui.ctx());
-        let output = canvas::show(ui, self.pictures(), self.tool, &mut self.view, &self.camera, size, keys);
+        let output = canvas::show(ui, self.pictures(), self.tool, &mut self.view, &self.camera, scene.as_deref(), keys);
         (self.hovered, self.over_second) = (output.hovered, output.over_second);
         if let Some(camera) = output.camera.filter(|camera| camera.check().is_ok()) {
             self.camera = camera;
@@ -233,6 +239,7 @@ impl App {
         if let Some(place) = &output.place {
             self.overlay(ui, place);
             self.draw_path(ui, place);
+            self.black_notice(ui, place);
         }
     }
 

@@ -1,6 +1,9 @@
 //! The picture: zoomed, panned, moved through, pointed at. Two pictures lie side by side, or share one place with a line between.
 use egui::{Color32, CursorIcon, Painter, PointerButton, Pos2, Rect, Response, Sense, TextureId, Vec2};
-use noisefall::{render::Region, scene::Camera};
+use noisefall::{
+    render::Region,
+    scene::{Camera, Scene},
+};
 
 use super::{
     flight::{self, wheel_factor},
@@ -98,15 +101,15 @@ impl Place {
     }
 }
 
-/// Draws the pictures into all the room there is and reads what the user does to them. `size` is the scene's, in metres; `keys`
-/// says whether keys move the camera.
+/// Draws the pictures into all the room there is and reads what the user does to them. `scene` is what the camera moves through;
+/// `keys` says whether keys move it.
 pub fn show(
     ui: &mut egui::Ui,
     pictures: Option<Pictures>,
     tool: Tool,
     view: &mut View,
     camera: &Camera,
-    size: f64,
+    scene: Option<&Scene>,
     keys: bool,
 ) -> CanvasOutput {
     let area = ui.available_rect_before_wrap();
@@ -131,13 +134,13 @@ pub fn show(
     }
     let hovered = response.hover_pos().and_then(|at| under.pixel(at));
     let over_second = response.hover_pos().is_some_and(|at| is_second(at, &pictures, &places, view));
-    let flies = keys.then_some(size);
+    let moves = [tool == Tool::Camera && !wiped, keys];
     CanvasOutput {
         hovered,
         over_second,
         clicked: hovered.filter(|_| response.clicked()),
         marked: if tool == Tool::Region && !wiped { marked(ui, &response, &under, view) } else { None },
-        camera: flight::moved(ui, &response, tool == Tool::Camera && !wiped, camera, under.rect, flies),
+        camera: scene.and_then(|scene| flight::moved(ui, &response, moves, camera, under.rect, scene)),
         place: Some(places[0]),
     }
 }
@@ -258,5 +261,45 @@ fn move_picture(ui: &egui::Ui, response: &Response, tool: Tool, view: &mut View,
         if factor != 1.0 {
             view.magnify(factor, pointer - area.center(), pixels_per_point);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn place() -> Place {
+        let rect = Rect::from_min_size(Pos2::new(100.0, 50.0), Vec2::new(300.0, 200.0));
+        Place { clip: rect.shrink(20.0), rect, resolution: Vec2::new(30.0, 10.0) }
+    }
+
+    #[test]
+    fn pixels_and_places_of_the_screen_are_the_same() {
+        let place = place();
+        assert_eq!(place.screen(3.0, 7.0), Pos2::new(130.0, 190.0));
+        assert_eq!(place.pixel(Pos2::new(139.0, 191.0)), Some([3, 7]));
+        for beyond in [[99.0, 60.0], [401.0, 60.0], [110.0, 49.0], [110.0, 251.0]] {
+            assert_eq!(place.pixel(beyond.into()), None);
+        }
+        assert_eq!(place.nearest_pixel(Pos2::new(0.0, 900.0)), [0, 9]);
+        assert_eq!(place.nearest_pixel(Pos2::new(900.0, 0.0)), [29, 0]);
+        let region = Region { from: [3, 1], to: [6, 5] };
+        let rect = Rect::from_min_max(Pos2::new(130.0, 70.0), Pos2::new(160.0, 150.0));
+        assert_eq!(place.of_region(&region), rect);
+    }
+
+    #[test]
+    fn what_lies_right_of_the_line_is_the_second_picture() {
+        let view = View { wipe: 0.25, ..View::default() };
+        let (left, right) = (place(), Place { clip: Rect::from_min_size(Pos2::new(500.0, 50.0), Vec2::splat(200.0)), ..place() });
+        let is_second = |x: f32, split: Split, has_second: bool| {
+            let second = has_second.then_some(TextureId::default());
+            let pictures = Pictures { first: TextureId::default(), second, resolution: [30, 10], split };
+            is_second(Pos2::new(x, 100.0), &pictures, &[left, right], &view)
+        };
+        // What is seen of the first reaches from 120 to 380.
+        assert!(!is_second(184.0, Split::Wipe, true) && is_second(186.0, Split::Wipe, true));
+        assert!(!is_second(186.0, Split::Wipe, false) && !is_second(186.0, Split::None, true));
+        assert!(is_second(510.0, Split::SideBySide, true) && !is_second(186.0, Split::SideBySide, true));
     }
 }

@@ -59,8 +59,8 @@ pub struct Print {
     pub held_against: Option<Arc<Reference>>,
     pub truth: Option<Against>,
     pub truth_beside: Option<Against>,
-    /// No sample has found light.
-    pub black: bool,
+    /// The part of the frame's pixels that have light.
+    pub lit: f32,
 }
 
 /// What is seen of a frame in place of its radiance, by pixel.
@@ -176,7 +176,7 @@ pub fn develop(order: Order) -> Print {
     Print {
         truth: against(&frame),
         truth_beside: beside.as_ref().and_then(|beside| against(beside)),
-        black: frame.is_black(),
+        lit: lit(&frame),
         frame,
         beside,
         pixels,
@@ -187,6 +187,12 @@ pub fn develop(order: Order) -> Print {
         scores,
         held_against,
     }
+}
+
+/// The part of the pixels that have light.
+fn lit(frame: &Frame) -> f32 {
+    let lit = frame.radiance.iter().filter(|radiance| **radiance != [0.0; 3]).count();
+    lit as f32 / frame.radiance.len().max(1) as f32
 }
 
 /// Pixels for a texture.
@@ -200,4 +206,119 @@ fn image(frame: &Frame, pixels: &[[u8; 4]], most_side: usize) -> egui::ColorImag
     let rows = pixels.chunks_exact(width).step_by(step);
     let thinned: Vec<u8> = rows.flat_map(|row| row.iter().step_by(step)).flatten().copied().collect();
     egui::ColorImage::from_rgba_unmultiplied([width.div_ceil(step), height.div_ceil(step)], &thinned)
+}
+
+#[cfg(test)]
+mod tests {
+    use noisefall::render::Series;
+
+    use super::*;
+
+    /// A frame of grey pixels in a row.
+    fn frame(greys: &[f32]) -> Arc<Frame> {
+        let width = greys.len() as u32;
+        let radiance = greys.iter().map(|grey| [*grey; 3]).collect();
+        let standard_error = greys.iter().map(|grey| 0.1 * grey).collect();
+        Arc::new(Frame { width, height: 1, full_resolution: [width, 1], radiance, standard_error, spp: 4, ..Frame::default() })
+    }
+
+    fn order(frame: Arc<Frame>) -> Order {
+        Order {
+            frame,
+            beside: None,
+            shows_beside: false,
+            term: None,
+            look: Look::default(),
+            truth: None,
+            pinned: None,
+            features: None,
+            materials: Arc::from([]),
+            most_side: 1024,
+        }
+    }
+
+    #[test]
+    fn each_picture_is_held_against_the_truth_by_itself() {
+        let (a, b) = (frame(&[1.0, 1.0]), frame(&[2.0, 2.0]));
+        let truth = Some(Arc::new(Reference::Constant([1.0; 3])));
+        let print = develop(Order { beside: Some(b), truth: truth.clone(), ..order(a.clone()) });
+        let [of_a, of_b] = [print.truth, print.truth_beside].map(|against| against.expect("the truth is known").rel_mse);
+        assert!(of_a == 0.0 && of_b > 0.5, "{of_a} {of_b}");
+        assert!(print.image_beside.is_none(), "it is not shown");
+        assert!(print.held_against.as_ref().map(Arc::as_ptr) == truth.as_ref().map(Arc::as_ptr));
+        let print = develop(order(a));
+        assert!(print.truth.is_none() && print.truth_beside.is_none() && print.held_against.is_none());
+    }
+
+    #[test]
+    fn pixels_with_light_are_counted_in_the_first_picture() {
+        let (dark, bright) = (frame(&[0.0, 0.0]), frame(&[0.0, 0.5]));
+        assert_eq!(develop(Order { beside: Some(bright.clone()), shows_beside: true, ..order(dark.clone()) }).lit, 0.0);
+        let print = develop(Order { beside: Some(dark), shows_beside: true, ..order(bright) });
+        assert_eq!(print.lit, 0.5);
+        assert!(print.image.pixels[1] != print.image.pixels[0] && print.image_beside.expect("it is shown").pixels[1].r() == 0);
+    }
+
+    #[test]
+    fn a_term_is_seen_alone_or_with_those_before_it() {
+        let whole = frame(&[0.7, 0.7]);
+        let terms = vec![vec![[0.1; 3]; 2], vec![[0.2; 3]; 2], vec![[0.4; 3]; 2]];
+        let series = Some(Series { terms, shares: vec![0.2, 0.3, 0.5] });
+        let of = Arc::new(Frame { series, ..Frame::default() });
+        let of = Arc::new(Frame { radiance: whole.radiance.clone(), ..Arc::into_inner(of).expect("it is the only one") });
+        let seen = |reflections, up_to| {
+            let term = Some(Term { of: of.clone(), reflections, up_to });
+            develop(Order { term, ..order(whole.clone()) }).seen.radiance.expect("a term is seen")[1][0]
+        };
+        assert_eq!((seen(0, false), seen(1, false), seen(2, false)), (0.1, 0.2, 0.4));
+        assert!((seen(1, true) - 0.3).abs() < 1e-6 && (seen(2, true) - 0.7).abs() < 1e-6);
+        // A series of another size is not of this picture.
+        let small = Arc::new(Frame { radiance: vec![[1.0; 3]], ..Frame::default() });
+        let term = Some(Term { of: small, reflections: 0, up_to: false });
+        assert!(develop(Order { term, ..order(whole) }).seen.radiance.is_none());
+    }
+
+    #[test]
+    fn numbers_of_a_view_are_those_of_its_pixels_and_two_pictures_have_one_scale() {
+        let look = Look { view: View::StandardError, ..Look::default() };
+        let beside = Some(frame(&[1.0, 1.0, 1.0]));
+        let print = develop(Order { look, beside, shows_beside: true, ..order(frame(&[0.5, 1.0, 4.0])) });
+        let numbers = print.seen.numbers.expect("it is a view of numbers");
+        assert!(numbers.iter().zip([0.05, 0.1, 0.4]).all(|(number, error)| (number - error).abs() < 1e-6), "{numbers:?}");
+        let beside = print.image_beside.expect("it is shown");
+        assert_eq!(beside.pixels[0], print.image.pixels[1], "the same number has the same colour");
+        assert!(print.scores.is_none());
+        let look = Look { view: View::ZScore, ..Look::default() };
+        let truth = Some(Arc::new(Reference::Constant([1.0; 3])));
+        assert!(develop(Order { look, truth, ..order(frame(&[0.9, 1.0, 1.1])) }).scores.is_some());
+    }
+
+    #[test]
+    fn what_no_texture_can_hold_is_thinned() {
+        let print = develop(Order { most_side: 2, ..order(frame(&[0.0, 0.2, 0.4, 0.6, 0.8])) });
+        assert_eq!((print.image.size, print.pixels.len()), ([2, 1], 5));
+        assert_eq!(print.image.pixels[1].r(), print.pixels[3][0], "every third pixel");
+        assert_eq!(develop(Order { most_side: 5, ..order(frame(&[0.0; 5])) }).image.size, [5, 1]);
+    }
+
+    #[test]
+    fn an_order_is_another_one_if_anything_in_it_is() {
+        let a = order(frame(&[1.0]));
+        let term = |reflections, up_to| Some(Term { of: a.frame.clone(), reflections, up_to });
+        let (truth, other) = (Arc::new(Reference::Constant([1.0; 3])), frame(&[1.0]));
+        let look = Look { view: View::Depth, ..a.look };
+        for changed in [
+            Order { frame: other.clone(), ..a.clone() },
+            Order { beside: Some(other.clone()), ..a.clone() },
+            Order { shows_beside: true, ..a.clone() },
+            Order { look, ..a.clone() },
+            Order { truth: Some(truth), ..a.clone() },
+            Order { pinned: Some(other), ..a.clone() },
+            Order { term: term(1, false), ..a.clone() },
+        ] {
+            assert!(changed != a && changed == changed.clone());
+        }
+        let with = |term| Order { term, ..a.clone() };
+        assert!(with(term(1, false)) != with(term(2, false)) && with(term(1, false)) != with(term(1, true)));
+    }
 }

@@ -1,23 +1,27 @@
-//! Moving the camera by mouse and keys.
+//! Moving the camera by mouse and keys, as far as it can see where it goes.
 use egui::{Key, Modifiers, PointerButton, Rect, Response};
 use glam::DVec3;
-use noisefall::scene::Camera;
+use noisefall::{
+    integrator::clear_fraction,
+    scene::{Camera, Scene},
+};
 
 use super::navigation;
 
 const RADIANS_PER_POINT: f64 = 0.006;
 /// The part of the scene's size that flight covers in a second.
 const FLIGHT_SPEED: f64 = 0.25;
+/// Orbits are looked at in chords of at most so many radians: these stay nearer to the arc than a camera comes to a surface.
+const CHORD: f64 = 0.05;
 
-/// The camera, if it was moved: by the mouse where that has the camera, by keys in a scene of a size in metres. `rect` is where the
-/// picture lies.
+/// The camera, if it was moved: by the mouse if `by_mouse` is set, by keys if `by_keys` is. `rect` is where the picture lies.
 pub fn moved(
     ui: &egui::Ui,
     response: &Response,
-    by_mouse: bool,
+    [by_mouse, by_keys]: [bool; 2],
     camera: &Camera,
     rect: Rect,
-    flies: Option<f64>,
+    scene: &Scene,
 ) -> Option<Camera> {
     let mut moved = *camera;
     if by_mouse {
@@ -25,18 +29,56 @@ pub fn moved(
         let (x, y) = (f64::from(delta.x), f64::from(delta.y));
         let shift = ui.input(|input| input.modifiers.shift);
         if response.dragged_by(PointerButton::Secondary) || (shift && response.dragged_by(PointerButton::Primary)) {
-            moved = navigation::pan(&moved, x / f64::from(rect.width()), -y / f64::from(rect.width()));
+            let width = f64::from(rect.width());
+            moved = pan(scene, &moved, [x / width, -y / width]);
         } else if response.dragged_by(PointerButton::Primary) {
-            moved = navigation::orbit(&moved, -x * RADIANS_PER_POINT, y * RADIANS_PER_POINT);
+            moved = orbit(scene, &moved, [-x * RADIANS_PER_POINT, y * RADIANS_PER_POINT]);
         }
         if response.hovered() {
-            moved = navigation::dolly(&moved, 1.0 / f64::from(wheel_factor(ui)));
+            moved = dolly(scene, &moved, 1.0 / f64::from(wheel_factor(ui)));
         }
     }
-    if let Some(size) = flies {
-        moved = flight(ui, &moved, size);
+    if by_keys {
+        moved = flight(ui, &moved, scene);
     }
     (moved != *camera).then_some(moved)
+}
+
+/// As much of a move as keeps the camera where it can see: `at(1.0)` is all of it, in so many straight chords.
+fn stopped(scene: &Scene, camera: &Camera, chords: u32, at: impl Fn(f64) -> Camera) -> Camera {
+    let mut eye = camera.eye;
+    for chord in 0..chords {
+        let place = |part: f64| (f64::from(chord) + part) / f64::from(chords);
+        let next = at(place(1.0)).eye;
+        let clear = clear_fraction(scene, eye, next);
+        if clear < 1.0 {
+            return if chord == 0 && clear == 0.0 { *camera } else { at(place(clear)) };
+        }
+        eye = next;
+    }
+    at(1.0)
+}
+
+// Each axis has its own stop: what is stopped by a wall slides along it.
+
+fn orbit(scene: &Scene, camera: &Camera, [right, up]: [f64; 2]) -> Camera {
+    let chords = |angle: f64| (angle.abs() / CHORD).ceil().clamp(1.0, 200.0) as u32;
+    let moved = stopped(scene, camera, chords(right), |part| navigation::orbit(camera, right * part, 0.0));
+    stopped(scene, &moved, chords(up), |part| navigation::orbit(&moved, 0.0, up * part))
+}
+
+fn pan(scene: &Scene, camera: &Camera, [right, up]: [f64; 2]) -> Camera {
+    let moved = stopped(scene, camera, 1, |part| navigation::pan(camera, right * part, 0.0));
+    stopped(scene, &moved, 1, |part| navigation::pan(&moved, 0.0, up * part))
+}
+
+fn dolly(scene: &Scene, camera: &Camera, factor: f64) -> Camera {
+    stopped(scene, camera, 1, |part| navigation::dolly(camera, 1.0 + (factor - 1.0) * part))
+}
+
+fn fly(scene: &Scene, camera: &Camera, by: DVec3) -> Camera {
+    let axes = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| axis * by);
+    axes.iter().fold(*camera, |camera, by| stopped(scene, &camera, 1, |part| navigation::fly(&camera, *by * part)))
 }
 
 pub fn wheel_factor(ui: &egui::Ui) -> f32 {
@@ -45,7 +87,7 @@ pub fn wheel_factor(ui: &egui::Ui) -> f32 {
 }
 
 /// W A S D fly forwards, left, back and right, Q and E down and up; arrows turn. Shift is four times as fast.
-fn flight(ui: &egui::Ui, camera: &Camera, size: f64) -> Camera {
+fn flight(ui: &egui::Ui, camera: &Camera, scene: &Scene) -> Camera {
     if ui.ctx().egui_wants_keyboard_input() {
         return *camera;
     }
@@ -61,6 +103,6 @@ fn flight(ui: &egui::Ui, camera: &Camera, size: f64) -> Camera {
     }
     ui.ctx().request_repaint();
     let speed = if fast { 4.0 } else { 1.0 };
-    let moved = navigation::fly(camera, along * (FLIGHT_SPEED * size * speed * dt));
+    let moved = fly(scene, camera, along * (FLIGHT_SPEED * scene.size * speed * dt));
     navigation::look(&moved, turn[0] * speed.sqrt() * dt, turn[1] * speed.sqrt() * dt)
 }

@@ -5,6 +5,7 @@
 //! ([`feature_finder`]), the samples of a pixel ([`path`]), and studies ([`advice`]).
 mod advice;
 mod app;
+mod black_notice;
 mod bounces;
 mod camera_panel;
 mod canvas;

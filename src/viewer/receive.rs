@@ -87,7 +87,9 @@ impl App {
         set(&self.ctx, &mut self.textures[0], "picture", Some(print.image));
         set(&self.ctx, &mut self.textures[1], "picture beside", print.image_beside);
         (self.against, self.against_beside) = (print.truth, print.truth_beside);
-        (self.legend, self.seen, self.scores, self.black) = (print.legend, print.seen, print.scores, print.black);
+        (self.legend, self.seen, self.scores) = (print.legend, print.seen, print.scores);
+        self.black = self.shows_nothing(print.lit);
+        self.note_blackness(print.frame.generation);
         if let Some(wish) = self.link.wish() {
             self.history.look_at(&wish.scene, &wish.camera, print.held_against.as_ref());
             let frame = &print.frame;
@@ -103,10 +105,28 @@ impl App {
         self.shown = Some(print.frame);
     }
 
+    /// Whether a picture with light in this part of its pixels shows nothing. Out of a closed object one path in a hundred million
+    /// gets by rounding: in there, a few pixels with light are still nothing.
+    pub(super) fn shows_nothing(&self, lit: f32) -> bool {
+        const STRAY: f32 = 0.01;
+        let is_shut_in = || self.link.wish().is_some_and(|wish| wish.scene.around(&wish.camera).is_some());
+        lit == 0.0 || (lit < STRAY && is_shut_in())
+    }
+
+    /// Notes what a picture that has just come says of its camera: that it sees something, or why it sees nothing. To find the
+    /// reason can take as long as to look at all triangles, so it is looked for once a picture.
+    fn note_blackness(&mut self, generation: u64) {
+        let Some(wish) = self.link.wish().filter(|_| generation == self.link.generation()) else { return };
+        if !self.black {
+            (self.last_seeing, self.black_reason) = (Some(wish.camera), None);
+        } else if self.black_reason.as_ref().is_none_or(|(of, _)| *of != generation) {
+            self.black_reason = Some((generation, wish.scene.why_black(&wish.camera, &wish.settings)));
+        }
+    }
+
     /// The likeliest reason why what is shown is black, if it is.
     pub(super) fn why_black(&self) -> Option<String> {
-        let wish = self.link.wish().filter(|_| self.black)?;
-        Some(wish.scene.why_black(&wish.camera, &wish.settings))
+        self.black_reason.as_ref().filter(|_| self.black).map(|(_, reason)| reason.clone())
     }
 
     /// What a frame must converge to.
@@ -152,6 +172,7 @@ impl App {
         self.loader.forget_reference();
         // What was found of the scene before would keep it in memory.
         (self.inspector, self.finder) = (Inspector::new(&self.ctx), FeatureFinder::new(&self.ctx));
+        (self.last_seeing, self.black_reason) = (None, None);
         self.scene_error = None;
         self.view.fit();
         self.opened = Some(opened);

@@ -1,6 +1,7 @@
 //! The window itself, driven as a user would: change a control, see the effect.
 mod advice;
 mod camera;
+mod collision;
 mod fields;
 mod glyphs;
 mod instruments;

@@ -24,18 +24,19 @@ const TAB_KEYS: [(Key, Tab); 4] =
 
 impl App {
     pub(super) fn toolbar(&mut self, ui: &mut egui::Ui) {
-        const WHOLE: f32 = 832.0;
+        const WHOLE: f32 = 865.0;
         const OF_REGION: f32 = 56.0;
         const OF_ENDS: f32 = 104.0;
         let needed = WHOLE + if self.budget.region.is_some() { OF_REGION } else { 0.0 };
         let is_narrow = ui.available_width() < needed;
         let contents = |ui: &mut egui::Ui| {
-            ui.spacing_mut().button_padding = egui::vec2(7.0, 4.0);
+            ui.spacing_mut().button_padding = egui::vec2(6.0, 4.0);
             self.render_buttons(ui);
             ui.separator();
             self.tool_buttons(ui);
+            ui.separator();
+            self.home_button(ui);
             if self.shown.is_some() {
-                ui.separator();
                 self.zoom_buttons(ui);
             }
             ui.separator();
@@ -98,6 +99,13 @@ impl App {
         }
     }
 
+    fn home_button(&mut self, ui: &mut egui::Ui) {
+        let home = ui.add_enabled(self.opened.is_some(), Button::new("Home"));
+        if home.on_hover_text("Go back to the camera that the scene opens with (Home)").clicked() {
+            self.reset_camera();
+        }
+    }
+
     fn zoom_buttons(&mut self, ui: &mut egui::Ui) {
         if ui.button("Fit").on_hover_text("The whole picture (F, or double-click)").clicked() {
             self.view.fit();
@@ -131,10 +139,14 @@ impl App {
                 self.toggle_tab(tab);
             }
         }
+        let pressed = |key| ctx.input(|input| input.key_pressed(key) && !input.modifiers.any());
+        // Whatever has the keyboard: only in text this key is the cursor's.
+        if pressed(Key::Home) && !ctx.text_edit_focused() {
+            self.reset_camera();
+        }
         if ctx.egui_wants_keyboard_input() || self.has_dialog() || self.opened.is_none() {
             return;
         }
-        let pressed = |key| ctx.input(|input| input.key_pressed(key) && !input.modifiers.any());
         if pressed(Key::Space) {
             self.toggle_pause();
         }
@@ -167,9 +179,6 @@ impl App {
         // More than one press can fall into a frame.
         let presses = |key| ctx.input(|input| input.num_presses(key)) as f32;
         self.look.display.exposure += 0.5 * (presses(Key::CloseBracket) - presses(Key::OpenBracket));
-        if pressed(Key::Home) {
-            self.reset_camera();
-        }
     }
 
     /// Whether something waits for an answer: keys are its own then.

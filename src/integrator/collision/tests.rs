@@ -103,7 +103,8 @@ fn a_pane_and_a_door_are_passed_and_the_wall_beside_them_is_not() {
     // What lies behind a pane stops too, and so does a wall thinner than the margin.
     let behind = object("cuboid = { min = [2.0, -50.0, -50.0], max = [2.001, 50.0, 50.0] }", WHITE);
     assert!((way(&scene(&[sky(), pane, behind]), left, right) - 1.996).abs() < 1e-5);
-    let door = |from: &str, to: &str| object(&format!("cuboid = {{ min = [1.0, {from}, -50.0], max = [1.2, {to}, 50.0] }}"), WHITE);
+    let door =
+        |from: &str, to: &str| object(&format!("cuboid = {{ min = [1.0, {from}, -50.0], max = [1.2, {to}, 50.0] }}"), WHITE);
     let door = scene(&[sky(), door("-50.0", "-0.1"), door("0.1", "50.0")]);
     assert_eq!(way(&door, left, right), 3.0);
     assert!(way(&door, [0.0, 0.2, 0.0], [3.0, 0.2, 0.0]) < 1.0);
