@@ -153,3 +153,25 @@ fn short(x: f64) -> String {
         _ => "–".to_owned(),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn terms_are_said_in_words() {
+        let said = |reflections, up_to| meaning(Bounces { reflections, up_to });
+        assert_eq!(said(0, false), said(0, true));
+        assert!(said(1, false).contains("direct") && said(1, true).contains("lamps"));
+        assert!(said(5, false).contains("5 times") && !said(5, false).contains("most"));
+        assert!(said(5, true).contains("at most 5 times"));
+        assert!(said(LAST, true).contains("all") && said(LAST, false).contains("and more"));
+    }
+
+    #[test]
+    fn shares_have_the_digits_that_count() {
+        assert_eq!((percent(0.125).as_str(), percent(0.00005).as_str()), ("12.50 %", "less than 0.01 %"));
+        assert_eq!((percent(0.0).as_str(), percent(-1e-17).as_str()), ("0.00 %", "0.00 %"));
+        assert_eq!([0.123, 0.0996, 0.0123, 0.0005, 0.0004].map(short), ["12 %", "10 %", "1.2 %", "0.1 %", "–"]);
+    }
+}

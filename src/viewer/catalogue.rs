@@ -64,3 +64,31 @@ fn title(path: &Path) -> Option<String> {
 pub fn name(title: &str, path: &Path) -> String {
     if title.is_empty() { path.file_stem().unwrap_or_default().to_string_lossy().replace('_', " ") } else { title.to_owned() }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_scene_is_called_by_its_title_or_else_by_its_file() {
+        assert_eq!(name("A title", Path::new("some/tiny_lamp.toml")), "A title");
+        assert_eq!(name("", Path::new("some/tiny_lamp.toml")), "tiny lamp");
+    }
+
+    #[test]
+    fn a_folder_lists_its_scenes_and_what_is_opened_is_listed_once_under_its_last_name() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).expect("it is written");
+        write("titled.toml", "format = 1\ntitle = \"Zebra\"\n[camera]\ntitle = \"no\"\n");
+        write("plain_one.toml", "format = 1\n[camera]\ntitle = \"no\"\n");
+        write("notes.txt", "title = \"no scene\"");
+        let mut scenes = list(folder.path());
+        scenes.sort_by(|a, b| a.name.cmp(&b.name));
+        assert_eq!(scenes.iter().map(|scene| scene.name.as_str()).collect::<Vec<_>>(), ["Zebra", "plain one"]);
+        remember(&mut scenes, "Another name", &folder.path().join("titled.toml"));
+        assert_eq!((scenes.len(), scenes[0].name.as_str()), (2, "Another name"));
+        remember(&mut scenes, "New", &folder.path().join("new.toml"));
+        assert_eq!((scenes.len(), scenes[2].name.as_str()), (3, "New"));
+        assert!(scenes[2].path.ends_with("new.toml"));
+    }
+}

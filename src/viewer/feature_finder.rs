@@ -56,3 +56,33 @@ impl FeatureFinder {
         }));
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use noisefall::scene::built_in;
+
+    use super::*;
+
+    #[test]
+    fn features_are_of_the_scene_that_is_asked_for_and_known_by_their_camera() {
+        let scene = Arc::new(built_in());
+        let here = Camera { resolution: [8, 8], ..scene.camera };
+        let there = Camera { fov: 20.0, ..here };
+        let mut finder = FeatureFinder::new(&egui::Context::default());
+        let wait = |finder: &mut FeatureFinder, camera: &Camera| {
+            let start = std::time::Instant::now();
+            while !finder.has(camera) {
+                assert!(start.elapsed().as_secs() < 60, "they never came");
+                let _ = finder.of(&scene, camera, 1);
+                std::thread::yield_now();
+            }
+            finder.of(&scene, camera, 1).expect("they are there")
+        };
+        let first = wait(&mut finder, &here);
+        assert!(!finder.has(&there));
+        assert!(finder.of(&scene, &there, 1).is_some_and(|old| Arc::ptr_eq(&old, &first)), "those from elsewhere meanwhile");
+        let second = wait(&mut finder, &there);
+        assert!(finder.has(&there) && !finder.has(&here) && first.depth != second.depth);
+        assert!(finder.of(&Arc::new(built_in()), &there, 1).is_none(), "but not those of another scene");
+    }
+}

@@ -98,3 +98,63 @@ fn parameters(coating: &Coating) -> Vec<String> {
     }
     lines
 }
+
+#[cfg(test)]
+mod tests {
+    use noisefall::scene::parse;
+
+    use super::*;
+
+    /// The objects of a scene, in the order of the text: none of them emits but the last.
+    fn objects(text: &str) -> Vec<Object> {
+        let camera = "format = 1\n[camera]\neye = [0.0, 0.0, 4.0]\nlook_at = [0.0, 0.0, 0.0]\nfov = 40.0\nresolution = [8, 8]\n";
+        parse("scene.toml", format!("{camera}{text}")).expect("it is a scene").objects
+    }
+
+    fn shape(shape: &str) -> String {
+        place(&objects(&format!("[[objects]]\nshape = {{ {shape} }}"))[0])
+    }
+
+    #[test]
+    fn a_shape_says_its_size_and_its_place() {
+        let ball = shape("sphere = { center = [1.0, 2.0, 3.0], radius = 0.5 }");
+        assert!(ball.starts_with("sphere: within 0.5000 m of [1.0000, 2.0000, 3.0000]"), "{ball}");
+        let cuboid = shape("cuboid = { min = [0.0, 0.0, 0.0], max = [1.0, 2.0, 3.0] }");
+        assert!(cuboid.contains("sides 1.0000 × 2.0000 × 3.0000 m"), "{cuboid}");
+        let cylinder = shape("cylinder = { base = [0.0, 0.0, 0.0], top = [0.0, 3.0, 0.0], radius = 0.25, capped = false }");
+        assert!(cylinder.contains("open, radius 0.2500 m, height 3.0000 m"), "{cylinder}");
+        let rectangle = shape("rectangle = { origin = [0.0, 0.0, 0.0], edge_u = [2.0, 0.0, 0.0], edge_v = [0.0, 1.0, 0.0] }");
+        assert!(rectangle.contains("sides 2.0000 × 1.0000 m"), "{rectangle}");
+        let disk = shape("disk = { center = [0.0, 0.0, 0.0], normal = [0.0, 1.0, 0.0], radius = 0.75 }");
+        assert!(disk.contains("half axes 0.7500 × 0.7500 m"), "{disk}");
+    }
+
+    #[test]
+    fn a_material_says_its_kind_and_every_parameter() {
+        let of = |material: &str, rest: &str| {
+            let text = format!(
+                "[materials.mine]\n{material}\n[[objects]]\nshape = {{ sphere = {{ center = [0.0, 0.0, 0.0], radius = 1.0 }} }}\n\
+                 material = \"mine\"\n{rest}"
+            );
+            let object = &objects(&text)[0];
+            (summary(object), details(object))
+        };
+        let (kind, more) =
+            of("plastic = { albedo = [0.1, 0.2, 0.3], ior = 1.4, alpha = 0.25 }", "emission = { radiance = [1.0, 2.0, 3.0] }");
+        assert_eq!(kind, "plastic, lamp");
+        assert_eq!(
+            more,
+            "material `mine`\nalbedo 0.100 0.200 0.300\nindex 1.4 of the coat\nα 0.2500\nemits 1.000 2.000 3.000 W/sr/m² on the mean"
+        );
+        let (kind, more) = of("dielectric = { ior = 1.5, ior_outside = 1.3, transmittance = [0.1, 0.6, 0.4] }", "");
+        assert_eq!(kind, "dielectric");
+        assert!(
+            more.contains("index 1.5 inside, 1.3 outside") && more.contains("transmittance per metre 0.100 0.600 0.400"),
+            "{more}"
+        );
+        let (_, more) = of("conductor = { eta = [0.1, 0.2, 0.3], k = [3.0, 2.0, 1.0] }", "");
+        assert!(more.contains("eta 0.100 0.200 0.300\nk 3.000 2.000 1.000"), "{more}");
+        let black = &objects("[[objects]]\nshape = { sphere = { center = [0.0, 0.0, 0.0], radius = 1.0 } }")[0];
+        assert_eq!((summary(black), details(black)), ("black".to_owned(), "reflects nothing".to_owned()));
+    }
+}

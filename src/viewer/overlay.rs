@@ -115,3 +115,14 @@ fn number(x: f32) -> String {
         _ => format!("{x:.0e}"),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::number;
+
+    #[test]
+    fn numbers_of_a_legend_are_short() {
+        assert_eq!([0.0, 0.25, -12.3456, 0.0104, 9999.0].map(number), ["0", "0.25", "-12.346", "0.01", "9999"]);
+        assert_eq!([0.0003, 123_456.0].map(number), ["3e-4", "1e5"]);
+    }
+}

@@ -80,3 +80,29 @@ impl App {
         });
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quantiles_are_of_the_last_frames() {
+        let mut times = Times::default();
+        assert_eq!(times.quantile(0.5), Duration::ZERO);
+        (1..=100).rev().for_each(|ms| times.record(Duration::from_millis(ms)));
+        assert_eq!([0.5, 0.99, 1.0].map(|part| times.quantile(part).as_millis()), [50, 99, 100]);
+        (0..FRAMES).for_each(|_| times.record(Duration::from_millis(7)));
+        assert_eq!((times.quantile(0.0), times.quantile(1.0)), (Duration::from_millis(7), Duration::from_millis(7)));
+        assert_eq!(times.ring.len(), FRAMES);
+    }
+
+    #[test]
+    fn the_time_between_frames_is_that_of_the_last_two() {
+        let mut pace = Pace::default();
+        pace.record(Duration::ZERO, 5.0);
+        assert_eq!(pace.between, 0.0);
+        pace.record(Duration::ZERO, 5.5);
+        pace.record(Duration::ZERO, 5.75);
+        assert_eq!(pace.between, 0.25);
+    }
+}

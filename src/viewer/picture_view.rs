@@ -57,3 +57,56 @@ impl View {
         self.zoom = Some(zoom);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// At two screen pixels a point.
+    const DENSE: f32 = 2.0;
+
+    fn area() -> Rect {
+        Rect::from_min_size(Pos2::new(10.0, 20.0), Vec2::new(400.0, 300.0))
+    }
+
+    #[test]
+    fn a_picture_fits_whole_and_actual_size_is_a_screen_pixel_each() {
+        let mut view = View::default();
+        let rect = view.rect(area(), Vec2::new(200.0, 100.0), DENSE);
+        assert_eq!((rect.size(), rect.center(), view.drawn_zoom), (Vec2::new(400.0, 200.0), area().center(), 4.0));
+        view.actual_size();
+        let rect = view.rect(area(), Vec2::new(200.0, 100.0), DENSE);
+        assert_eq!((rect.size(), view.drawn_zoom), (Vec2::new(100.0, 50.0), 1.0));
+        view.pan(Vec2::new(30.0, -10.0), DENSE);
+        view.fit();
+        assert_eq!((view.zoom, view.offset), (None, Vec2::ZERO));
+    }
+
+    #[test]
+    fn the_picture_follows_the_pointer() {
+        let mut view = View::default();
+        let before = view.rect(area(), Vec2::new(200.0, 100.0), DENSE);
+        view.pan(Vec2::new(30.0, -10.0), DENSE);
+        let after = view.rect(area(), Vec2::new(200.0, 100.0), DENSE);
+        assert_eq!((after.size(), after.min - before.min), (before.size(), Vec2::new(30.0, -10.0)));
+        // What lies at a place of the screen stays there while it is magnified.
+        let at = Pos2::new(90.0, 77.0);
+        let part = |rect: Rect| (at - rect.min) / rect.size();
+        view.magnify(3.0, at - area().center(), DENSE);
+        let magnified = view.rect(area(), Vec2::new(200.0, 100.0), DENSE);
+        assert_eq!(magnified.size(), 3.0 * after.size());
+        assert!((part(magnified) - part(after)).length() < 2e-3, "{:?} {:?}", part(magnified), part(after));
+        view.magnify(1e9, Vec2::ZERO, DENSE);
+        assert_eq!(view.zoom, Some(64.0));
+        view.rect(area(), Vec2::new(200.0, 100.0), DENSE);
+        view.magnify(1e-9, Vec2::ZERO, DENSE);
+        assert_eq!(view.zoom, Some(0.05));
+    }
+
+    #[test]
+    fn pixels_begin_on_whole_screen_pixels() {
+        let mut view = View { zoom: Some(1.0), offset: Vec2::new(0.3, 0.7), ..View::default() };
+        let min = view.rect(area(), Vec2::new(201.0, 101.0), DENSE).min.to_vec2() * DENSE;
+        assert_eq!(min, min.round());
+    }
+}

@@ -215,3 +215,41 @@ fn dialog_body(ui: &mut egui::Ui, target: Target, field: &mut PathField) -> (boo
     });
     (save, cancel)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_name_that_is_taken_is_numbered_on() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = |name: &str| folder.path().join(name);
+        let write = |name: &str| std::fs::write(path(name), "taken").expect("it is written");
+        assert_eq!(free(&path("shot.png")), path("shot.png"));
+        write("shot.png");
+        assert_eq!(free(&path("shot.png")), path("shot-2.png"));
+        write("shot-2.png");
+        assert_eq!(free(&path("shot.png")), path("shot-3.png"));
+        assert_eq!(free(&path("shot-2.png")), path("shot-3.png"), "a number is counted on, and not added to");
+        write("two-balls.exr");
+        assert_eq!(free(&path("two-balls.exr")), path("two-balls-2.exr"));
+    }
+
+    #[test]
+    fn files_end_as_what_they_are() {
+        let takes = |target: Target, name: &str| target.takes(Path::new(name));
+        assert!(takes(Target::Picture, "a.png") && takes(Target::Picture, "a.EXR") && !takes(Target::Picture, "a.csv"));
+        assert!(takes(Target::CurvesCsv, "a.csv") && !takes(Target::CurvesCsv, "a.svg") && !takes(Target::CurvesCsv, "csv"));
+        assert!(takes(Target::CurvesSvg, "a.svg") && !takes(Target::CurvesSvg, "a.png"));
+    }
+
+    #[test]
+    fn a_folder_that_is_not_there_is_refused_before_anything_is_written() {
+        let folder = tempfile::tempdir().expect("a folder");
+        for (target, name) in [(Target::Picture, "a.png"), (Target::CurvesCsv, "a.csv"), (Target::CurvesSvg, "a.svg")] {
+            assert_eq!(target.check(&folder.path().join(name)), Ok(()));
+            assert!(target.check(&folder.path().join("nowhere").join(name)).is_err_and(|error| error.contains("nowhere")));
+        }
+        assert_eq!(Target::CurvesCsv.check(Path::new("a.csv")), Ok(()), "the current folder is there");
+    }
+}

@@ -181,3 +181,18 @@ fn clock(time: Duration) -> String {
         _ => format!("{}:{:02}:{:02} h", seconds / 3600, seconds / 60 % 60, seconds % 60),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn errors_and_times_are_said_with_the_digits_that_count() {
+        assert_eq!([0.5, 0.0512, 0.000_123].map(percent), ["50.0 %", "5.12 %", "0.012 %"]);
+        assert_eq!(
+            [59.94, 61.0, 3599.0].map(|seconds| clock(Duration::from_secs_f64(seconds))),
+            ["59.9 s", "1:01 min", "59:59 min"]
+        );
+        assert_eq!(clock(Duration::from_secs(2 * 3600 + 3 * 60 + 4)), "2:03:04 h");
+    }
+}

@@ -1,11 +1,13 @@
 //! The window itself, driven as a user would: change a control, see the effect.
 mod advice;
+mod bindings;
 mod camera;
 mod collision;
 mod fields;
 mod glyphs;
 mod instruments;
 mod manners;
+mod mouse;
 mod path;
 mod rasteriser;
 mod saving;
@@ -13,6 +15,7 @@ mod scenes;
 mod settings;
 mod snapshots;
 mod soak;
+mod truth;
 
 use std::{
     ops::{Deref, DerefMut},

@@ -1,6 +1,6 @@
 //! A second picture beside the first, the picture as a series, a region before the rest, other threads on the way.
 use std::{
-    sync::Arc,
+    sync::{Arc, mpsc},
     time::{Duration, Instant},
 };
 
@@ -31,6 +31,68 @@ fn wait(latest: impl Fn() -> Published, condition: impl Fn(&Published) -> bool) 
         assert!(start.elapsed() < Duration::from_secs(60), "it never came: {:?}", published.status);
         std::thread::sleep(Duration::from_millis(1));
     }
+}
+
+/// A worker that goes on when it is told to, and says when it has published something.
+struct Stepwise {
+    // The renderer waits for its worker when it is dropped, so what holds the worker is dropped before.
+    published: mpsc::Receiver<()>,
+    go: mpsc::Sender<()>,
+    renderer: Renderer,
+}
+
+impl Stepwise {
+    fn new() -> Stepwise {
+        let ((publish, published), (go, gone)) = (mpsc::sync_channel(0), mpsc::channel());
+        let threads = Threads::new(2, SimdLevel::best()).expect("threads can be had");
+        let notify = move || {
+            // Nobody looks any more when the test is over.
+            let _ = publish.send(()).map(|()| gone.recv());
+        };
+        Stepwise { published, go, renderer: Renderer::new(threads, Publish::Live, notify) }
+    }
+
+    /// Lets the worker go on until something is published, and holds it there: what is looked at then is its state after one turn.
+    fn times(&self) -> [Duration; 2] {
+        self.published.recv_timeout(Duration::from_secs(60)).expect("something is published");
+        [self.renderer.latest(), self.renderer.latest_beside()].map(|published| published.status.elapsed)
+    }
+
+    fn go_on(&self) {
+        self.go.send(()).expect("the worker waits");
+    }
+}
+
+#[test]
+fn of_two_pictures_the_one_that_had_less_time_since_both_are_there_goes_on() {
+    let scene = Arc::new(built_in());
+    let worker = Stepwise::new();
+    worker.renderer.submit(job(1, &scene, 96));
+    let mut before = [Duration::ZERO; 2];
+    while before[0] < Duration::from_millis(300) {
+        before = worker.times();
+        worker.go_on();
+    }
+    // The worker is held after its last turn alone: the time so far is what the first is ahead.
+    before = worker.times();
+    let lead = before[0];
+    let settings = RenderSettings { estimator: Estimator::Path, ..scene.settings };
+    worker.renderer.submit_beside(Some(Beside::Picture(Job { settings, ..job(2, &scene, 96) })));
+    let mut turns = [0, 0];
+    while turns.iter().sum::<u32>() < 24 {
+        worker.go_on();
+        let after = worker.times();
+        let since = [before[0] - lead, before[1]];
+        // While a picture is coarse its time does not count.
+        let side = (0..2).find(|&side| after[side] > before[side]);
+        if let Some(side) = side {
+            assert_eq!(after[1 - side], before[1 - side], "one at a time");
+            assert!(since[side] <= since[1 - side], "side {side} goes on after {since:?}");
+            turns[side] += 1;
+        }
+        before = after;
+    }
+    assert!(turns[0] > 2 && turns[1] > 2, "{turns:?}");
 }
 
 #[test]

@@ -51,3 +51,69 @@ impl History {
         [low, high].map(|at| (at, y * (x / at).sqrt())).to_vec()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use noisefall::{
+        sampling::Sampler,
+        scene::{RenderSettings, built_in},
+    };
+
+    use super::*;
+    use crate::viewer::convergence::Moment;
+
+    /// Two curves: of the scene's settings and of another sampler's.
+    fn history() -> History {
+        let scene = Arc::new(built_in());
+        let other = RenderSettings { sampler: Sampler::Independent, ..scene.settings };
+        let mut history = History::default();
+        history.look_at(&scene, &scene.camera, None);
+        let moment = |spp, seconds, estimated, true_error, bias| Moment { spp, seconds, estimated, true_error, bias };
+        history.record(&scene.settings, 1, moment(1, 0.5, None, Some(0.25), None));
+        history.record(&scene.settings, 1, moment(16, 2.0, Some(0.125), Some(0.0625), Some(-1.5)));
+        history.record(&other, 2, moment(4, 0.75, Some(0.5), None, None));
+        history.record(&other, 2, moment(64, 12.0, Some(0.0078125), None, Some(2.25)));
+        history
+    }
+
+    #[test]
+    fn the_table_has_every_figure_in_its_own_column() {
+        let table = String::from_utf8(history().csv().expect("it is written")).expect("it is text");
+        let lines: Vec<&str> = table.lines().collect();
+        assert_eq!(
+            lines,
+            [
+                "settings,spp,seconds,estimated_relative_error,true_relative_error,bias_in_standard_errors",
+                "as the scene opens,1,0.5,,2.5e-1,",
+                "as the scene opens,16,2,1.25e-1,6.25e-2,-1.5e0",
+                "sampler independent,4,0.75,5e-1,,",
+                "sampler independent,64,12,7.8125e-3,,2.25e0",
+            ]
+        );
+    }
+
+    #[test]
+    fn the_guide_has_slope_one_half_and_runs_through_the_end_of_the_last_curve() {
+        let mut history = history();
+        // From the first moment with an error to the last of all curves.
+        assert_eq!(history.guide(), [(4.0, 0.0078125 * 4.0), (64.0, 0.0078125)]);
+        history.over = Over::Seconds;
+        let [(from, high), (to, low)] = history.guide()[..] else { panic!("it has two ends") };
+        assert_eq!((from, to, low), (0.75, 12.0, 0.0078125));
+        assert!((high / low - 4.0).abs() < 1e-12, "16 times the time, a quarter of the error");
+        assert_eq!(History::default().guide(), []);
+    }
+
+    #[test]
+    fn the_drawing_is_over_what_the_plot_is_over() {
+        let mut history = history();
+        let over_samples = history.svg();
+        assert!(over_samples.contains("samples per pixel") && over_samples.contains("sampler independent"));
+        history.over = Over::Seconds;
+        let over_seconds = history.svg();
+        assert!(over_seconds.contains("seconds") && !over_seconds.contains("samples per pixel"));
+        assert_ne!(over_samples, over_seconds);
+    }
+}

@@ -156,3 +156,107 @@ pub fn name(settings: &RenderSettings, of_scene: &RenderSettings) -> String {
     let parts: Vec<&str> = differences.split(" --").filter(|part| !part.is_empty()).collect();
     if parts.is_empty() { "as the scene opens".to_owned() } else { parts.join(", ") }
 }
+
+#[cfg(test)]
+mod tests {
+    use noisefall::{sampling::Sampler, scene::built_in};
+
+    use super::*;
+
+    fn moment(spp: u32, error: f64) -> Moment {
+        Moment { spp, seconds: f64::from(spp) * 0.5, estimated: Some(error), true_error: None, bias: None }
+    }
+
+    fn looking_at(scene: &Arc<Scene>) -> History {
+        let mut history = History::default();
+        history.look_at(scene, &scene.camera, None);
+        history
+    }
+
+    #[test]
+    fn a_moment_takes_its_figures_from_the_frame_and_from_the_truth() {
+        let frame =
+            Frame { spp: 7, elapsed: std::time::Duration::from_millis(1500), rel_mse_estimate: Some(0.04), ..Frame::default() };
+        let against = Against { rel_mse: 0.25, bias: Some(-3.0) };
+        let all = Moment::of(&frame, Some(against));
+        assert_eq!((all.spp, all.seconds, all.true_error, all.bias), (7, 1.5, Some(0.5), Some(-3.0)));
+        assert!((all.estimated.expect("it is known") - 0.2).abs() < 1e-12);
+        let alone = Moment::of(&frame, None);
+        assert_eq!((alone.true_error, alone.bias, alone.estimated), (None, None, all.estimated));
+        assert_eq!((all.over(Over::Samples), all.over(Over::Seconds)), (7.0, 1.5));
+    }
+
+    #[test]
+    fn the_slope_is_that_of_the_estimate_from_four_samples_on() {
+        let scene = Arc::new(built_in());
+        let mut history = looking_at(&scene);
+        // Wild before the fourth sample, and −1/2 from there.
+        for (spp, error) in [(1, 9.0), (2, 0.1)].into_iter().chain((2..12).map(|k| (1 << k, 2f64.powf(-0.5 * f64::from(k))))) {
+            history.record(&scene.settings, 1, moment(spp, error));
+        }
+        for over in [Over::Samples, Over::Seconds] {
+            let slope = history.curves[0].slope(over).expect("there are enough moments");
+            assert!((slope.slope + 0.5).abs() < 1e-9 && slope.half_width < 1e-6, "{over:?} {}", slope.slope);
+        }
+    }
+
+    #[test]
+    fn a_new_start_replaces_its_own_curve_and_the_oldest_makes_place() {
+        let scene = Arc::new(built_in());
+        let mut history = looking_at(&scene);
+        history.record(&scene.settings, 1, moment(8, 0.5));
+        history.record(&scene.settings, 1, moment(8, 0.4));
+        history.record(&scene.settings, 1, moment(16, 0.3));
+        assert_eq!(history.curves[0].moments.iter().map(|moment| moment.spp).collect::<Vec<_>>(), [8, 16]);
+        history.record(&scene.settings, 2, moment(1, 0.9));
+        assert_eq!((history.curves.len(), history.curves[0].moments.len(), history.curves[0].generation), (1, 1, 2));
+        let seeded = |seed| RenderSettings { seed, ..scene.settings };
+        for seed in 1..=MOST_CURVES as u32 {
+            history.record(&seeded(seed), u64::from(10 + seed), moment(1, 0.9));
+        }
+        assert_eq!(history.curves.len(), MOST_CURVES);
+        assert!(history.curves.iter().all(|curve| curve.settings != scene.settings), "the oldest is gone");
+        assert!(history.curves.iter().any(|curve| curve.settings == seeded(1)), "and no other");
+    }
+
+    #[test]
+    fn what_was_found_is_forgotten_with_camera_scene_and_truth() {
+        let scene = Arc::new(built_in());
+        let truth = Arc::new(Reference::Constant([1.0; 3]));
+        let with_truth = Moment { true_error: Some(0.1), bias: Some(1.0), ..moment(4, 0.2) };
+        let start = || {
+            let mut history = History::default();
+            history.look_at(&scene, &scene.camera, Some(&truth));
+            history.record(&scene.settings, 1, with_truth);
+            history
+        };
+        let mut same = start();
+        same.look_at(&scene, &scene.camera, Some(&truth));
+        assert_eq!(same.curves[0].moments[0].true_error, Some(0.1));
+        // Another truth: the curve stays, the errors against the old one go, and those against the new one come in their place.
+        same.look_at(&scene, &scene.camera, None);
+        let last = same.curves[0].moments[0];
+        assert_eq!((last.true_error, last.bias, last.estimated), (None, None, Some(0.2)));
+        same.record(&scene.settings, 1, with_truth);
+        assert_eq!(same.curves[0].moments[0].true_error, Some(0.1));
+        let mut moved = start();
+        moved.look_at(&scene, &Camera { fov: 50.0, ..scene.camera }, Some(&truth));
+        assert!(moved.curves.is_empty());
+        let mut other = start();
+        other.look_at(&Arc::new(built_in()), &scene.camera, Some(&truth));
+        assert!(other.curves.is_empty());
+    }
+
+    #[test]
+    fn a_curve_is_named_by_what_differs_and_says_that_it_is_biased() {
+        let scene = Arc::new(built_in());
+        let mut history = looking_at(&scene);
+        let changed = RenderSettings { sampler: Sampler::Independent, max_bounces: Some(3), ..scene.settings };
+        for (generation, settings) in [(1, scene.settings), (2, changed)] {
+            history.record(&settings, generation, moment(1, 0.5));
+        }
+        let names: Vec<String> = history.curves.iter().map(|curve| history.name(curve)).collect();
+        assert_eq!(names[0], "as the scene opens");
+        assert!(names[1].contains("independent") && names[1].contains('3') && names[1].ends_with(" (biased)"), "{}", names[1]);
+    }
+}

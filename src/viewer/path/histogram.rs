@@ -92,4 +92,18 @@ mod tests {
         assert!(histogram.counts[BINS - 1] <= 2 && histogram.end < 1.1, "{:?}", histogram.counts);
         assert_eq!(Histogram::of(vec![0.0; 8]).black, 1.0);
     }
+
+    #[test]
+    fn a_bin_has_the_samples_of_its_range_and_figures_are_of_all() {
+        let histogram = Histogram::of((0..100).map(|i| i as f32).collect());
+        assert!((histogram.end - 97.0 * 1.02).abs() < 1e-4, "{}", histogram.end);
+        for (number, sample) in histogram.samples.iter().enumerate() {
+            let bin = histogram.bin_of(number as u32).expect("it is one of them");
+            let [low, high] = [bin, bin + 1].map(|edge| edge as f32 * histogram.end / (BINS - 1) as f32);
+            assert!(*sample >= low - 1e-3 && (*sample < high + 1e-3 || bin == BINS - 1), "{sample} {low} {high}");
+        }
+        assert_eq!((histogram.mean, histogram.black, histogram.brightest), (49.5, 0.01, 99));
+        assert_eq!(histogram.bin_of(100), None);
+        assert_eq!(Histogram::of(vec![3.0, 9.0, 1.0]).brightest, 1);
+    }
 }

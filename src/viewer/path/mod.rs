@@ -128,3 +128,13 @@ fn remark(ui: &mut Ui, alone: Option<[f32; 3]>) {
 fn count_of(spp: u32) -> u32 {
     1 << spp.clamp(1, MOST_SAMPLES).ilog2()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{MOST_SAMPLES, count_of};
+
+    #[test]
+    fn a_histogram_has_a_power_of_two_of_the_samples_there_are() {
+        assert_eq!([0, 1, 2, 3, 63, 64, 100_000].map(count_of), [1, 1, 2, 2, 32, 64, MOST_SAMPLES]);
+    }
+}

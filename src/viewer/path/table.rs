@@ -150,3 +150,116 @@ fn short(x: f32) -> String {
         _ => format!("{x:.1e}"),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use egui_kittest::{Harness, kittest::NodeT};
+    use noisefall::{
+        integrator::{MetLight, Reflection, SampledLight, Surface},
+        scene::built_in,
+    };
+
+    use super::*;
+
+    /// A vertex all of whose terms are different.
+    fn vertex() -> Vertex {
+        let grey = |x: f32| [x; 3];
+        Vertex {
+            bounce: 3,
+            origin: grey(0.0),
+            direction: grey(0.0),
+            throughput: grey(0.101),
+            transmittance: grey(0.102),
+            distance: Some(1.0),
+            object: Some(1),
+            normal: None,
+            surface: Some(Surface {
+                position: [1.5, 2.5, 3.5],
+                material: Some("lambertian"),
+                front: true,
+                wo: grey(0.0),
+                shading_normal: None,
+            }),
+            emission: Some(MetLight { radiance: grey(0.103), weight: 0.104, contribution: grey(0.105) }),
+            light: Some(SampledLight {
+                direction: grey(0.0),
+                object: Some(0),
+                pdf: 0.107,
+                f_cos: grey(0.106),
+                weight: 0.108,
+                radiance: grey(0.9),
+                outcome: Outcome::Hidden,
+                distance: None,
+                passed: grey(0.109),
+                contribution: grey(0.111),
+            }),
+            reflection: Some(Reflection {
+                direction: [0.1, 0.2, 0.3],
+                delta: false,
+                f: Some(grey(0.112)),
+                cos: 0.113,
+                pdf: Some(0.114),
+                weight: grey(0.9),
+                survival: 0.75,
+                survives: false,
+                goes_on: false,
+                throughput: grey(0.9),
+            }),
+            radiance: grey(0.115),
+        }
+    }
+
+    /// All that is written, row by row.
+    fn written(vertices: Vec<Vertex>) -> Vec<String> {
+        let (scene, replay) = (built_in(), Replay { vertices, ..Replay::default() });
+        let harness = Harness::builder().with_size(egui::vec2(4000.0, 400.0)).build_ui(|ui| show(ui, &replay, &scene.objects));
+        let labels =
+            harness.root().children_recursive().filter(|node| node.accesskit_node().role() == egui::accesskit::Role::Label);
+        labels.filter_map(|label| label.accesskit_node().value()).collect()
+    }
+
+    #[test]
+    fn every_term_stands_below_its_heading() {
+        let texts = written(vec![vertex()]);
+        let (headings, cells) = texts.split_at(COLUMNS.len());
+        assert_eq!(headings, COLUMNS.map(|(name, _)| name));
+        let scene = built_in();
+        assert_eq!(
+            cells,
+            [
+                "3".to_owned(),
+                "0.115".to_owned(),
+                format!("{} (lambertian)", scene.objects[1].name),
+                "1.500 2.500 3.500".to_owned(),
+                "0.101".to_owned(),
+                "0.102".to_owned(),
+                "0.103".to_owned(),
+                "0.104".to_owned(),
+                "0.105".to_owned(),
+                format!("{}, hidden", scene.objects[0].name),
+                "0.106".to_owned(),
+                "0.107".to_owned(),
+                "0.108".to_owned(),
+                "0.109".to_owned(),
+                "0.111".to_owned(),
+                "0.100 0.200 0.300".to_owned(),
+                "0.112 · 0.113 / 0.114, q 0.75, ended by roulette".to_owned(),
+            ]
+        );
+    }
+
+    #[test]
+    fn what_a_vertex_lacks_leaves_its_columns_empty() {
+        let bare = Vertex { surface: None, object: None, emission: None, light: None, reflection: None, ..vertex() };
+        let cells = &written(vec![bare])[COLUMNS.len()..];
+        assert_eq!(cells.len(), COLUMNS.len());
+        assert_eq!(cells[2], "leaves the scene");
+        assert!(cells[6..].iter().all(|cell| cell == "–"), "{cells:?}");
+    }
+
+    #[test]
+    fn numbers_are_short_and_colours_one_number_where_they_are_grey() {
+        assert_eq!([0.0, 0.5, 12.34, 4321.0, 0.000_12].map(short), ["0", "0.500", "12.3", "4.3e3", "1.2e-4"]);
+        assert_eq!((colour([0.5; 3]), colour([0.5, 1.0, 2.0])), ("0.500".to_owned(), "0.500 1.000 2.000".to_owned()));
+    }
+}

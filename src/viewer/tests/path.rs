@@ -74,3 +74,61 @@ fn one_steps_through_paths_and_the_table_adds_up() {
     let last = replay.vertices.last().expect("it has vertices").radiance;
     assert_eq!(last, replay.alone.unwrap_or(replay.radiance), "the sums end at the sample");
 }
+
+#[test]
+fn what_is_inspected_is_of_the_picture_as_it_is_now() {
+    let mut window = inspecting("cornell_spheres");
+    window.state_mut().inspector.look_at([30, 20]);
+    wait(&mut window, "its samples", |app| app.inspector.histogram().is_some() && app.inspector.replay().is_some());
+    // By its fields, each axis for itself; another pixel begins with its first sample.
+    window.state_mut().inspector.sample = 5;
+    for (label, value, expected) in [("x", 31.0, [31, 20]), ("y", 25.0, [31, 25])] {
+        window.get_by_role_and_label(Role::SpinButton, label).set_value_accesskit(value);
+        window.run_steps(3);
+        assert_eq!((window.state().inspector.pixel, window.state().inspector.sample), (Some(expected), 0));
+    }
+    window.get_by_role_and_label(Role::SpinButton, "Sample").set_value_accesskit(3.0);
+    window.run_steps(2);
+    click(&mut window, "Previous");
+    assert_eq!(window.state().inspector.sample, 2);
+    for change in [|app: &mut App| app.settings.seed = 17, |app: &mut App| app.camera.fov = 50.0] {
+        change(window.state_mut());
+        window.run_steps(2);
+        wait(&mut window, "its path", |app| app.inspector.replay().is_some_and(|(number, _)| number == 2));
+        let app = window.state();
+        let scene = &app.opened.as_ref().expect("it is open").scene;
+        let rays = scene.rays(&app.camera);
+        let replay = noisefall::integrator::replay(scene, &rays, &resolved(scene, &rays, &app.settings), [31, 25], 2);
+        assert_eq!(app.inspector.replay().map(|(_, shown)| shown.vertices.clone()), Some(replay.vertices));
+    }
+    // A pixel that the picture has no more is not inspected.
+    window.state_mut().camera.resolution = [31, 25];
+    wait(&mut window, "its end", |app| app.inspector.pixel.is_none() && app.inspector.replay().is_none());
+}
+
+#[test]
+fn a_path_is_drawn_from_its_pixel_over_the_points_that_it_met() {
+    let mut window = inspecting("cornell_spheres");
+    window.state_mut().inspector.look_at([20, 40]);
+    wait(&mut window, "its path", |app| app.inspector.replay().is_some_and(|(_, replay)| replay.vertices.len() > 1));
+    window.run_steps(2);
+    let zoom = window.state().view.drawn_zoom;
+    let mut circles = Vec::new();
+    let mut square = None;
+    for clipped in &window.output().shapes {
+        match &clipped.shape {
+            egui::Shape::Circle(circle) if circle.radius == 4.0 => circles.push(circle.center),
+            egui::Shape::Rect(rect) if (rect.rect.size() - egui::Vec2::splat(zoom + 2.0)).length() < 0.1 => {
+                square = Some(rect.rect);
+            }
+            _ => {}
+        }
+    }
+    let square = square.expect("the pixel is marked");
+    window.hover_at(square.center());
+    window.run_steps(2);
+    assert_eq!(window.state().hovered, Some([20, 40]));
+    assert!(square.expand(1.0).contains(circles[0]), "the first point lies in the pixel: {circles:?} {square:?}");
+    let (_, replay) = window.state().inspector.replay().expect("it is there");
+    assert!(circles.len() >= 2 && circles.len() <= replay.vertices.len());
+}
