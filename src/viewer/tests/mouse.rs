@@ -205,7 +205,7 @@ fn pixels_of_a_comparison_are_those_of_the_side_that_they_lie_on() {
     window.run_steps(3);
     let (a, b) = letters(&window);
     assert!(a < 100.0 && b > 472.0, "{a} {b}");
-    let [left, right] = [238.0, 711.0].map(|x| over(&mut window, x));
+    let [left, right] = [242.0, 707.0].map(|x| over(&mut window, x));
     assert!(!left.0 && right.0 && left.1 == right.1, "the same pixel of both: {left:?} {right:?}");
 }
 
