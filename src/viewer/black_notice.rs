@@ -8,7 +8,7 @@ const MOST_WIDTH: f32 = 420.0;
 const MARGIN: f32 = 18.0;
 const GAP: f32 = 7.0;
 /// As wide as its text needs.
-const BUTTON: Vec2 = Vec2 { x: 290.0, y: 30.0 };
+const BUTTON: Vec2 = Vec2 { x: 274.0, y: 30.0 };
 const TITLE: &str = "No light found yet";
 const BACK: &str = "Back to the last view that showed something";
 
