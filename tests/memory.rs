@@ -11,7 +11,7 @@ use noisefall::{
     math::SimdLevel,
     memory::set_limit,
     render::{
-        Budget, Frame, Job, Publish, Renderer, State,
+        Budget, Frame, Job, Publish, Renderer, State, Target,
         film::Film,
         pass::{PassJob, Threads},
     },
@@ -241,5 +241,5 @@ fn a_picture_that_does_not_fit_fails_in_words() {
     assert!(failure.message.starts_with("pictures of 2000 × 2000 pixels need") && !failure.replays, "{}", failure.message);
     // What did not fit is not counted, and a small picture fits.
     renderer.submit(job(64));
-    assert_eq!(state(64), State::Converged);
+    assert_eq!(state(64), State::Done(Target::Samples(1)));
 }

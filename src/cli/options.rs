@@ -126,7 +126,14 @@ mod tests {
     #[test]
     fn values_out_of_range_are_refused() {
         assert!(roulette("0").is_err() && roulette("1.5").is_err() && roulette("nan").is_err() && roulette("x").is_err());
-        assert!(seconds("-1").is_err() && seconds("inf").is_err() && floor("0").is_err() && floor("inf").is_err() && noise("0").is_err() && noise("nan").is_err());
+        assert!(
+            seconds("-1").is_err()
+                && seconds("inf").is_err()
+                && floor("0").is_err()
+                && floor("inf").is_err()
+                && noise("0").is_err()
+                && noise("nan").is_err()
+        );
         assert!(whole("-1").is_err() && samples("0").is_err() && samples("1e3").is_err() && threads("1025").is_err());
         assert!(resolution("640").is_err() && resolution("-1x2").is_err() && pixel("1;2").is_err());
         assert!(estimator("bdpt").is_err() && directions("sphere").is_err() && sampler("halton").is_err());

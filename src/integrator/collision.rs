@@ -71,7 +71,7 @@ fn view(eye: DVec3, axis: DVec3) -> Camera {
         orthographic: None,
         lens: None,
         filter: Filter::Box,
-        shutter: false,
+        shutter: None,
         resolution: [SIDE, SIDE],
     }
 }

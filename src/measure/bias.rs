@@ -50,7 +50,10 @@ impl Bias {
         let variance = known.iter().map(|noise| noise.variance_of_mean()).sum();
         let blocks = |block: usize| known.iter().map(|noise| noise.blocks[block]).sum();
         let score = |mean: f64, variance: f64, level: f64| mean / (variance + (ROUNDING * level).powi(2)).sqrt();
-        Bias { has_heavy_tails: tails < LEAST_EFFECTIVE_SAMPLES, ..Bias::of(Evidence::Samples, [&of_a, &of_b], width, variance, blocks, score) }
+        Bias {
+            has_heavy_tails: tails < LEAST_EFFECTIVE_SAMPLES,
+            ..Bias::of(Evidence::Samples, [&of_a, &of_b], width, variance, blocks, score)
+        }
     }
 
     /// Of the mean of repeats, at least two, less another picture. `noise` is that of the other one, 0 if it is not known.
@@ -63,9 +66,8 @@ impl Bias {
         let blocks = |block: usize| {
             scatter(&of_blocks.iter().map(|of| of[block]).collect::<Vec<_>>()) + noise.map_or(0.0, |noise| noise.blocks[block])
         };
-        let score = |mean: f64, variance: f64, level: f64| {
-            as_normal(mean / (variance + (ROUNDING * level).powi(2)).sqrt(), count - 1.0)
-        };
+        let score =
+            |mean: f64, variance: f64, level: f64| as_normal(mean / (variance + (ROUNDING * level).powi(2)).sqrt(), count - 1.0);
         let variance = variance + noise.map_or(0.0, SampleNoise::variance_of_mean);
         Bias::of(Evidence::Repeats(repeats.len()), [&of_a, &means(b)], width, variance, blocks, score)
     }
@@ -92,10 +94,16 @@ impl Bias {
             return Bias { is_exact: true, ..known };
         }
         let [of_a, of_b] = [a, b].map(|picture| SampleNoise::block_means(picture, width));
-        let block_z = of_a.iter().zip(&of_b).enumerate().map(|(block, (a, b))| {
-            if a == b { 0.0 } else { score(a - b, blocks(block), a.abs().max(b.abs())) }
-        });
-        Bias { z: Some(if known.mean == 0.0 { 0.0 } else { score(known.mean, variance, level) }), block_z: block_z.collect(), ..known }
+        let block_z = of_a
+            .iter()
+            .zip(&of_b)
+            .enumerate()
+            .map(|(block, (a, b))| if a == b { 0.0 } else { score(a - b, blocks(block), a.abs().max(b.abs())) });
+        Bias {
+            z: Some(if known.mean == 0.0 { 0.0 } else { score(known.mean, variance, level) }),
+            block_z: block_z.collect(),
+            ..known
+        }
     }
 
     /// The block that is furthest off.

@@ -117,7 +117,9 @@ mod tests {
     fn a_black_reference_has_no_relative_error() {
         let black = [[0.0; 3]; 2];
         assert_eq!(compare(&A, &black, Floor::DEFAULT).rel_mse, f64::INFINITY);
-        assert!((compare(&A, &black, Floor::Absolute(0.5)).rel_mse - 2.0 * (4.0 + 1.0 + 0.25 + 9.0 + 0.0625) / 6.0).abs() < 1e-12);
+        assert!(
+            (compare(&A, &black, Floor::Absolute(0.5)).rel_mse - 2.0 * (4.0 + 1.0 + 0.25 + 9.0 + 0.0625) / 6.0).abs() < 1e-12
+        );
     }
 
     #[test]

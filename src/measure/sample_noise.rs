@@ -58,9 +58,11 @@ mod tests {
     #[test]
     fn blocks_count_by_their_pixels() {
         // Blocks of 32 × 32, 8 × 32, 32 × 4 and 8 × 4 pixels.
-        let noise = SampleNoise { width: 40, variance: vec![[0.0; 3]; 40 * 36], blocks: vec![1.0, 4.0, 9.0, 16.0], ..Default::default() };
+        let noise =
+            SampleNoise { width: 40, variance: vec![[0.0; 3]; 40 * 36], blocks: vec![1.0, 4.0, 9.0, 16.0], ..Default::default() };
         let sizes = [32.0 * 32.0, 8.0 * 32.0, 32.0 * 4.0, 8.0 * 4.0];
-        let exact: f64 = sizes.iter().zip(&noise.blocks).map(|(size, variance)| variance * size * size).sum::<f64>() / 1440f64.powi(2);
+        let exact: f64 =
+            sizes.iter().zip(&noise.blocks).map(|(size, variance)| variance * size * size).sum::<f64>() / 1440f64.powi(2);
         assert!((noise.variance_of_mean() / exact - 1.0).abs() < 1e-12);
     }
 

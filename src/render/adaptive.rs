@@ -83,7 +83,8 @@ fn pilot(threads: &Threads, job: PassJob, film: &Film, interrupted: &(dyn Fn() -
     };
     let tiles = threads.install(|| film.tiles.par_iter().map(of_tile).collect::<Result<Vec<_>, _>>())?;
     let squares = tiles.iter().flatten().flat_map(|(squares, _)| squares);
-    let (sum, count) = squares.fold((0.0, 0.0), |(sum, count), square| (sum + square.n * square.square_of_mean(), count + square.n));
+    let (sum, count) =
+        squares.fold((0.0, 0.0), |(sum, count), square| (sum + square.n * square.square_of_mean(), count + square.n));
     let floor = Floor::DEFAULT.of(sum / (3.0 * f64::max(count, 1.0)));
     let columns = film.resolution[0].div_ceil(BLOCK) as usize;
     let none = vec![0.0; columns * film.resolution[1].div_ceil(BLOCK) as usize];

@@ -6,8 +6,8 @@ use std::{
 
 use exr::prelude::{Image, Layer, LayerAttributes, Text, WritableImage, attribute::AttributeValue};
 
-use super::{display::to_srgb, frame::Frame, noise_layer, tone::Display};
 pub use super::noise_layer::{Provenance, provenance};
+use super::{display::to_srgb, frame::Frame, noise_layer, tone::Display};
 pub use crate::image::Picture;
 use crate::{
     file::{self, WriteError},

@@ -61,7 +61,8 @@ pub(super) fn add_attributes(frame: &Frame, attributes: &mut LayerAttributes) {
 /// What the file of a picture that has been read says of it; nothing, if it is not an EXR by this program.
 pub fn provenance(path: &Path) -> Provenance {
     let Ok(mut file) = open_regular(path).map(BufReader::new) else { return Provenance::default() };
-    let Some(header) = MetaData::read_from_buffered(&mut file, false).ok().and_then(|meta| meta.headers.into_iter().next()) else {
+    let Some(header) = MetaData::read_from_buffered(&mut file, false).ok().and_then(|meta| meta.headers.into_iter().next())
+    else {
         return Provenance::default();
     };
     let attribute = |name: &str| header.own_attributes.other.get(&Text::from(name));

@@ -116,13 +116,7 @@ impl Threads {
     }
 
     /// Brings a film to `spp` samples a pixel, or to the next power of two.
-    fn to_next_doubling(
-        &self,
-        job: PassJob,
-        film: &mut Film,
-        spp: u32,
-        interrupted: &(dyn Fn() -> bool + Sync),
-    ) -> PassCount {
+    fn to_next_doubling(&self, job: PassJob, film: &mut Film, spp: u32, interrupted: &(dyn Fn() -> bool + Sync)) -> PassCount {
         let resolution = film.resolution;
         let mut tiles: Vec<&mut Tile> = film.tiles_in_focus().filter(|tile| tile.spp < spp).collect();
         // What takes long begins first, or else one thread would be left with it in the end.

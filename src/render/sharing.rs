@@ -49,7 +49,8 @@ fn pays(scene: &Scene, estimator: Estimator) -> bool {
     let tile = |[x, y]: &[f64; 2]| {
         let origin = [(width, x), (height, y)].map(|(side, part)| (f64::from(side) * part) as u32 / TILE * TILE);
         let size = [TILE.min(width - origin[0]), TILE.min(height - origin[1])];
-        [Reuse::Off, Reuse::On].map(|reuse| estimates(scene, &rays, RenderSettings { reuse, ..settings }, Tile::new(origin, size)))
+        [Reuse::Off, Reuse::On]
+            .map(|reuse| estimates(scene, &rays, RenderSettings { reuse, ..settings }, Tile::new(origin, size)))
     };
     let tiles: Vec<[Vec<Estimate>; 2]> = PLACES.par_iter().map(tile).collect();
     let [without, with] = relative_variances(&tiles);

@@ -124,7 +124,8 @@ impl Study<'_> {
 
     fn reference(&self, scene: &Prepared, observe: &mut dyn FnMut(Progress)) -> Result<Reference, StudyError> {
         let Prepared { subject, bench, ref title, fingerprint, .. } = *scene;
-        let converged = Converged { subject, bench, folder: self.folder, fingerprint, spp: self.plan.spp, floor: self.plan.floor };
+        let converged =
+            Converged { subject, bench, folder: self.folder, fingerprint, spp: self.plan.spp, floor: self.plan.floor };
         converged.reference(&mut |share| observe(Progress::Reference { title, share }))
     }
 

@@ -37,7 +37,8 @@ fn render_furnace(shell: &Shell, file: &str, options: &[&str]) {
 
 /// A picture of one radiance, which says nothing of noise.
 fn save_constant(shell: &Shell, file: &str, radiance: f32) {
-    let frame = Frame { width: 64, height: 64, full_resolution: [64; 2], radiance: vec![[radiance; 3]; 64 * 64], ..Frame::default() };
+    let frame =
+        Frame { width: 64, height: 64, full_resolution: [64; 2], radiance: vec![[radiance; 3]; 64 * 64], ..Frame::default() };
     image_file::save(&frame, Display::default(), "{}", &shell.path(file)).expect("it is saved");
 }
 
@@ -76,7 +77,10 @@ fn samples_that_are_exact_are_no_matter_of_chance() {
     for (file, bias) in [("cap0.exr", -1.0), ("cosine.exr", -0.25)] {
         let line = compare(&shell, &[file, "truth.exr"]);
         assert!((line["bias"].as_f64().unwrap_or(0.0) - bias).abs() < 1e-6, "{line}");
-        assert!(line["exact_samples"] == true && line["bias_in_standard_errors"].is_null() && line["block_z"].is_null(), "{line}");
+        assert!(
+            line["exact_samples"] == true && line["bias_in_standard_errors"].is_null() && line["block_z"].is_null(),
+            "{line}"
+        );
         assert!(said(&shell, &[file, "truth.exr"]).contains("exact samples: not noise"));
     }
     render_furnace(&shell, "full.exr", &["--directions", "cosine"]);
@@ -189,7 +193,10 @@ fn the_floor_of_rel_mse_is_relative_unless_it_is_named() {
     let refused = shell.run(&["compare", "a.exr", "b.exr", "--floor", "-1"]);
     assert!(refused.status.code() == Some(2) && text(&refused.stderr).contains("expected a number above 0"));
     for command in ["compare", "study", "render"] {
-        assert!(text(&shell.run(&[command, "--help"]).stdout).split_whitespace().collect::<String>().contains("0.01"), "{command}");
+        assert!(
+            text(&shell.run(&[command, "--help"]).stdout).split_whitespace().collect::<String>().contains("0.01"),
+            "{command}"
+        );
     }
 }
 
@@ -224,7 +231,8 @@ fn colours_of_a_difference_have_its_sign_and_size() {
     let told = said(&shell, &["a.exr", "b.exr", "-o", "difference.png"]);
     assert!(told.contains("full colour is a difference of 99.5 %"), "{told}");
     let shown = image_file::read(&shell.path("difference.png")).expect("a picture").radiance;
-    let near = |i: usize, exact: [f32; 3]| assert!(shown[i].iter().zip(exact).all(|(a, b)| (a - b).abs() < 0.01), "{i}: {:?}", shown[i]);
+    let near =
+        |i: usize, exact: [f32; 3]| assert!(shown[i].iter().zip(exact).all(|(a, b)| (a - b).abs() < 0.01), "{i}: {:?}", shown[i]);
     near(0, [0.445, 0.017, 0.025]);
     near(30, [1.0; 3]);
     near(60, [0.5085, 0.5625, 0.7225]);
