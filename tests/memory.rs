@@ -81,12 +81,6 @@ fn assert_counted(what: &str, file: &Path) {
         let middle = (too_little + enough) / 2;
         if probed(file, middle).contains("--memory changes that") { too_little = middle } else { enough = middle }
     }
-    println!(
-        "{what}: peak {:.1} MB, counted {:.1} MB, {:.2} of it",
-        peak as f64 / 1e6,
-        enough as f64 / 1e6,
-        enough as f64 / peak as f64
-    );
     assert!(enough + UNCOUNTED >= peak, "{what}: a peak of {peak} bytes, of which {enough} are counted");
     assert!(enough <= 4 * peak, "{what}: a peak of {peak} bytes, and {enough} are counted");
 }

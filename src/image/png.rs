@@ -68,12 +68,12 @@ impl Values {
     fn append<P: Pixel>(&self, bytes: &[u8], radiance: &mut Vec<P>) {
         match self.linear.len() {
             256 => {
-                radiance.extend(bytes.chunks_exact(self.channels).map(|pixel| self.pixel::<P>(|channel| pixel[channel].into())))
+                radiance.extend(bytes.chunks_exact(self.channels).map(|pixel| self.pixel::<P>(|channel| pixel[channel].into())));
             }
             _ => {
                 radiance.extend(bytes.chunks_exact(2 * self.channels).map(|pixel| {
                     self.pixel::<P>(|channel| u16::from_be_bytes([pixel[2 * channel], pixel[2 * channel + 1]]).into())
-                }))
+                }));
             }
         }
     }

@@ -106,5 +106,5 @@ fn read_noise(file: BufReader<std::fs::File>, effective_samples: f64) -> Option<
     let is_variance = |v: f64| (0.0..=f64::from(f32::MAX)).contains(&v);
     let all = blocks.iter().copied().chain(variance.as_flattened().iter().map(|v| f64::from(*v)));
     let are_variances = { all }.all(is_variance) && effective_samples > 0.0;
-    are_variances.then(|| SampleNoise { width: width as u32, variance, blocks, effective_samples })
+    are_variances.then_some(SampleNoise { width: width as u32, variance, blocks, effective_samples })
 }

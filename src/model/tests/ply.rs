@@ -111,7 +111,7 @@ fn lines_of_the_header_may_end_in_carriage_returns_alone() {
     // The first byte of the values is that of a line feed: it belongs to them.
     let list = "element tag 1\nproperty uchar a\n".to_owned() + &mesh(3, 1);
     let vertices = [0f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0].map(f32::to_le_bytes);
-    let data = [&[b'\n'], vertices.as_flattened(), &[3, 0, 0, 0, 0, 1, 0, 0, 0, 2, 0, 0, 0]].concat();
+    let data = [b"\n", vertices.as_flattened(), &[3, 0, 0, 0, 0, 1, 0, 0, 0, 2, 0, 0, 0]].concat();
     let binary = file("binary_little_endian", &list, &data);
     assert_eq!(model(&old(binary.clone(), data.len())), model(&binary));
     assert_eq!(model(&binary), model(&text));
