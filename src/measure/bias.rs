@@ -48,11 +48,15 @@ impl Bias {
         let known: Vec<&SampleNoise> = std::iter::once(noise).chain(of_other).collect();
         let tails: f64 = tails(&known);
         let variance = known.iter().map(|noise| noise.variance_of_mean()).sum();
-        let blocks = |block: usize| known.iter().map(|noise| noise.blocks[block]).sum();
-        let score = |mean: f64, variance: f64, level: f64| mean / (variance + (ROUNDING * level).powi(2)).sqrt();
+        let blocks = |block: usize| {
+            // Of sums of variances that are known by some degrees of freedom: F. E. Satterthwaite 1946.
+            let variance: f64 = known.iter().map(|noise| noise.blocks[block]).sum();
+            let spread: f64 = known.iter().map(|noise| noise.blocks[block].powi(2) / noise.block_degrees).sum();
+            (variance, if spread > 0.0 { variance * variance / spread } else { f64::INFINITY })
+        };
         Bias {
             has_heavy_tails: tails < LEAST_EFFECTIVE_SAMPLES,
-            ..Bias::of(Evidence::Samples, [&of_a, &of_b], width, variance, blocks, score)
+            ..Bias::of(Evidence::Samples, [&of_a, &of_b], width, (variance, f64::INFINITY), blocks)
         }
     }
 
@@ -64,12 +68,11 @@ impl Bias {
         let variance = scatter(&of_repeats.iter().map(|picture| mean(picture)).collect::<Vec<_>>());
         let of_blocks: Vec<Vec<f64>> = of_repeats.iter().map(|picture| SampleNoise::block_means(picture, width)).collect();
         let blocks = |block: usize| {
-            scatter(&of_blocks.iter().map(|of| of[block]).collect::<Vec<_>>()) + noise.map_or(0.0, |noise| noise.blocks[block])
+            let own = scatter(&of_blocks.iter().map(|of| of[block]).collect::<Vec<_>>());
+            (own + noise.map_or(0.0, |noise| noise.blocks[block]), count - 1.0)
         };
-        let score =
-            |mean: f64, variance: f64, level: f64| as_normal(mean / (variance + (ROUNDING * level).powi(2)).sqrt(), count - 1.0);
         let variance = variance + noise.map_or(0.0, SampleNoise::variance_of_mean);
-        Bias::of(Evidence::Repeats(repeats.len()), [&of_a, &means(b)], width, variance, blocks, score)
+        Bias::of(Evidence::Repeats(repeats.len()), [&of_a, &means(b)], width, (variance, count - 1.0), blocks)
     }
 
     fn unknown(mean: f64) -> Bias {
@@ -77,15 +80,13 @@ impl Bias {
         Bias { mean, evidence, standard_error, z, is_exact: false, has_heavy_tails: false, rounding: 0.0, block_z: Vec::new() }
     }
 
-    /// `variance` is that of the mean, `blocks` gives those of the means over blocks; `score` makes a number of standard errors of a mean, its
-    /// variance and the radiance there.
+    /// `variance` is that of the mean, with the degrees of freedom that it is known by; `blocks` gives those of the means over blocks.
     fn of(
         evidence: Evidence,
         [a, b]: [&[f64]; 2],
         width: usize,
-        variance: f64,
-        blocks: impl Fn(usize) -> f64,
-        score: impl Fn(f64, f64, f64) -> f64,
+        (variance, degrees): (f64, f64),
+        blocks: impl Fn(usize) -> (f64, f64),
     ) -> Bias {
         let level = mean(a).abs().max(mean(b).abs());
         let (standard_error, rounding) = (Some(variance.sqrt()), ROUNDING * level);
@@ -94,16 +95,8 @@ impl Bias {
             return Bias { is_exact: true, ..known };
         }
         let [of_a, of_b] = [a, b].map(|picture| SampleNoise::block_means(picture, width));
-        let block_z = of_a
-            .iter()
-            .zip(&of_b)
-            .enumerate()
-            .map(|(block, (a, b))| if a == b { 0.0 } else { score(a - b, blocks(block), a.abs().max(b.abs())) });
-        Bias {
-            z: Some(if known.mean == 0.0 { 0.0 } else { score(known.mean, variance, level) }),
-            block_z: block_z.collect(),
-            ..known
-        }
+        let block_z = of_a.iter().zip(&of_b).enumerate().map(|(block, (a, b))| score(a - b, blocks(block), a.abs().max(b.abs())));
+        Bias { z: Some(score(known.mean, (variance, degrees), level)), block_z: block_z.collect(), ..known }
     }
 
     /// The block that is furthest off.
@@ -144,11 +137,144 @@ fn scatter(values: &[f64]) -> f64 {
     values.iter().map(|x| (x - level).powi(2)).sum::<f64>() / (n - 1.0) / n
 }
 
+/// A mean in standard errors, as the standard normal number that is as unlikely, for a variance that is known by these degrees of freedom.
+fn score(mean: f64, (variance, degrees): (f64, f64), level: f64) -> f64 {
+    if mean == 0.0 { 0.0 } else { as_normal(mean / (variance + (ROUNDING * level).powi(2)).sqrt(), degrees) }
+}
+
 /// The standard normal number that is as unlikely as Student's t.
 fn as_normal(t: f64, degrees: f64) -> f64 {
+    if degrees == f64::INFINITY {
+        return t;
+    }
     let (Ok(student), Ok(normal)) = (StudentsT::new(0.0, 1.0, degrees), Normal::new(0.0, 1.0)) else { return f64::NAN };
     // From the lower tail, where small probabilities keep their digits. Only many repeats make it smaller than any number, and
     // Student's t of many repeats is nearly normal.
     let tail = student.cdf(-t.abs());
     if tail < f64::MIN_POSITIVE { t } else { normal.inverse_cdf(tail).abs().copysign(t) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const WIDTH: usize = 64;
+
+    /// Two blocks of 32 × 32 pixels, of these radiances.
+    fn picture(blocks: [f32; 2]) -> Vec<[f32; 3]> {
+        // The channels differ, and so do pixels, but not the means.
+        (0..WIDTH * 32).map(|i| [0.5, 1.0, 1.5].map(|c| blocks[i % WIDTH / 32] + c - 1.0)).collect()
+    }
+
+    fn noise(blocks: [f64; 2], effective_samples: f64) -> SampleNoise {
+        SampleNoise {
+            width: WIDTH as u32,
+            variance: vec![[9.0; 3]; WIDTH * 32],
+            blocks: blocks.to_vec(),
+            block_degrees: f64::INFINITY,
+            effective_samples,
+        }
+    }
+
+    fn is(found: Option<f64>, exact: f64) {
+        assert!(found.is_some_and(|x| (x - exact).abs() < 1e-4 * exact.abs().max(1.0)), "{found:?} {exact}");
+    }
+
+    #[test]
+    fn variances_of_samples_give_standard_errors() {
+        let (a, b) = (picture([3.0, 5.0]), picture([2.0, 7.0]));
+        let of_a = noise([0.01, 0.03], 1e6);
+        let bias = Bias::by_samples(&a, &b, [Some(&of_a), None], WIDTH);
+        assert_eq!((bias.evidence, bias.is_exact, bias.has_heavy_tails), (Evidence::Samples, false, false));
+        assert!((bias.mean + 0.5).abs() < 1e-6);
+        // Half of each block: (0.01 + 0.03)/4.
+        is(bias.standard_error, 0.1);
+        is(bias.z, -5.0);
+        is(Some(bias.block_z[0]), 10.0);
+        is(Some(bias.block_z[1]), -2.0 / 0.03f64.sqrt());
+        is(bias.worst_block(), -2.0 / 0.03f64.sqrt());
+        is(bias.rms_of_blocks(), ((100.0 + 4.0 / 0.03) / 2.0f64).sqrt());
+        // Noise of both adds up.
+        let both = Bias::by_samples(&a, &b, [Some(&of_a), Some(&noise([0.03, 0.09], 1e6))], WIDTH);
+        is(both.standard_error, 0.2);
+        is(Some(both.block_z[0]), 5.0);
+    }
+
+    #[test]
+    fn blocks_whose_variance_is_little_known_say_less() {
+        let (a, b) = (picture([3.0, 5.0]), picture([2.0, 7.0]));
+        let few = |variance: [f64; 2], block_degrees| SampleNoise { block_degrees, ..noise(variance, 1e6) };
+        let bias = Bias::by_samples(&a, &b, [Some(&few([0.25, 1.0], 3.0)), None], WIDTH);
+        // Student's t of 2 and −2 with three degrees of freedom: 7.0 % lie below −2, as below −1.477 of the normal distribution.
+        assert!((bias.block_z[0] - 1.4766).abs() < 2e-3 && (bias.block_z[1] + 1.4766).abs() < 2e-3, "{:?}", bias.block_z);
+        is(bias.z, -0.5 / (1.25f64 / 4.0).sqrt());
+        // Of equal variances with 3 degrees each, 6.
+        let both = Bias::by_samples(&a, &b, [Some(&few([0.125, 0.5], 3.0)), Some(&few([0.125, 0.5], 3.0))], WIDTH);
+        assert!((both.block_z[0] - as_normal(2.0, 6.0)).abs() < 1e-4, "{:?}", both.block_z);
+    }
+
+    #[test]
+    fn a_difference_alone_is_no_evidence() {
+        let (a, b) = (picture([3.0, 5.0]), picture([2.0, 7.0]));
+        for of_b in [None, Some(&noise([0.1; 2], 1e6))] {
+            let bias = Bias::by_samples(&a, &b, [None, of_b], WIDTH);
+            assert_eq!((bias.evidence, bias.standard_error, bias.z, bias.block_z.len()), (Evidence::None, None, None, 0));
+            assert_eq!((bias.worst_block(), bias.rms_of_blocks()), (None, None));
+            assert!((bias.mean + 0.5).abs() < 1e-6);
+        }
+    }
+
+    #[test]
+    fn what_does_not_vary_is_exact() {
+        let (a, b) = (picture([3.0, 5.0]), picture([2.0, 7.0]));
+        for variance in [0.0, (3e-7f64 * 4.0).powi(2)] {
+            let bias = Bias::by_samples(&a, &b, [Some(&noise([variance; 2], 1e6)), None], WIDTH);
+            assert!(bias.is_exact && bias.z.is_none() && bias.block_z.is_empty() && bias.mean.abs() > bias.rounding);
+        }
+        let same = Bias::by_samples(&a, &a, [Some(&noise([0.0; 2], f64::INFINITY)), None], WIDTH);
+        assert!(same.is_exact && !same.has_heavy_tails && same.mean.abs() <= same.rounding);
+        let noisy = Bias::by_samples(&a, &a, [Some(&noise([0.1; 2], 1e6)), None], WIDTH);
+        assert!(!noisy.is_exact && noisy.z == Some(0.0) && noisy.block_z == [0.0, 0.0]);
+    }
+
+    #[test]
+    fn few_samples_that_make_up_the_variance_are_told() {
+        let a = picture([3.0, 5.0]);
+        let heavy = |first: &SampleNoise, second: Option<&SampleNoise>| {
+            Bias::by_samples(&a, &a, [Some(first), second], WIDTH).has_heavy_tails
+        };
+        assert!(heavy(&noise([0.1; 2], 299.0), None) && !heavy(&noise([0.1; 2], 301.0), None));
+        // What adds little to the variance does not matter.
+        assert!(!heavy(&noise([1e-4; 2], 5.0), Some(&noise([0.1; 2], 1e5))));
+        assert!(heavy(&noise([0.1; 2], 5.0), Some(&noise([0.1; 2], 1e5))));
+    }
+
+    #[test]
+    fn repeats_give_what_the_textbook_does() {
+        let repeats = [[3.0, 5.0], [3.2, 5.4], [3.7, 4.9], [2.9, 5.1]].map(picture);
+        let repeats: Vec<&[[f32; 3]]> = repeats.iter().map(Vec::as_slice).collect();
+        let bias = Bias::by_repeats(&repeats, &picture([2.0, 7.0]), None, WIDTH);
+        assert_eq!(bias.evidence, Evidence::Repeats(4));
+        // Means of pictures are 4, 4.3, 4.3 and 4: 4.15, with the variance 0.03.
+        assert!((bias.mean + 0.35).abs() < 1e-6);
+        is(bias.standard_error, (0.03f64 / 4.0).sqrt());
+        // −4.04 as Student's t with three degrees of freedom.
+        let student = StudentsT::new(0.0, 1.0, 3.0).expect("a distribution");
+        let normal = Normal::new(0.0, 1.0).expect("a distribution");
+        let tail = student.cdf(-0.35 / (0.03f64 / 4.0).sqrt());
+        assert!((normal.cdf(bias.z.unwrap_or(0.0)) / tail - 1.0).abs() < 1e-3, "{:?}", bias.z);
+        is(bias.z, normal.inverse_cdf(tail));
+        assert!(bias.block_z[0] > 2.0 && bias.block_z[1] < -2.0, "{:?}", bias.block_z);
+        let with_noise = Bias::by_repeats(&repeats, &picture([2.0, 7.0]), Some(&noise([0.05, 0.01], 1e6)), WIDTH);
+        is(with_noise.standard_error, (0.03f64 / 4.0 + 0.015).sqrt());
+        assert!(with_noise.block_z[0] < bias.block_z[0]);
+    }
+
+    #[test]
+    fn tails_keep_their_digits() {
+        assert!((as_normal(2.0, 1e9) - 2.0).abs() < 1e-5 && (as_normal(-7.0, 1e9) + 7.0).abs() < 1e-3);
+        // Student's t of one degree: P(t < −1) is a quarter.
+        assert!((as_normal(-1.0, 1.0) + 0.674_489_75).abs() < 1e-6);
+        assert!(as_normal(-1e4, 200.0) < -37.0);
+    }
 }

@@ -139,3 +139,20 @@ pub fn fresnel(ior: f64, theta: f64) -> (f64, f64) {
     let p = (ior * cos - inside) / (ior * cos + inside);
     ((s * s + p * p) / 2.0, inside)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn capped_furnaces_go_from_the_emission_to_the_whole() {
+        // X₁ = 1 + w/2 with w uniform in [0, 2].
+        assert_eq!([furnace_capped(1.0, 0.5, 0), furnace_capped(1.0, 0.5, 1), furnace_capped(2.0, 0.5, 2)], [1.0, 1.5, 3.5]);
+        assert_eq!(furnace_capped_variance(1.0, 0.5, 4.0 / 3.0, 0), 0.0);
+        assert!((furnace_capped_variance(1.0, 0.5, 4.0 / 3.0, 1) - 1.0 / 12.0).abs() < 1e-12);
+        let whole = furnace_variance(1.0, 0.5, 4.0 / 3.0);
+        assert!((furnace_capped_variance(1.0, 0.5, 4.0 / 3.0, 60) / whole - 1.0).abs() < 1e-12);
+        // Without chance there is no variance.
+        assert!((0..9).all(|cap| furnace_capped_variance(3.0, 0.7, 1.0, cap).abs() < 1e-12));
+    }
+}

@@ -126,3 +126,49 @@ impl Picture {
         rows.chunks(side).flat_map(|rows| column_starts().map(|x| block(rows, x)).collect::<Vec<_>>()).collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const A: Mean = Mean { mean: 2.0, variance_of_mean: 0.01 };
+    const B: Mean = Mean { mean: 4.0, variance_of_mean: 0.03 };
+
+    #[test]
+    fn means_of_means_have_the_textbook_variance() {
+        let both = Mean::of([A, B]);
+        assert!((both.mean - 3.0).abs() < 1e-12 && (both.variance_of_mean - 0.01).abs() < 1e-12);
+        assert!((A.z(1.5) - 5.0).abs() < 1e-6 && (A.z_from(B) + 10.0).abs() < 1e-6 && (B.z_from(A) - 10.0).abs() < 1e-6);
+        assert_eq!(Mean { variance_of_mean: 0.0, ..A }.z(2.0), 0.0);
+        // Single precision is wrong by 10⁻⁶ of the exact value.
+        assert!((Mean { mean: 2.0 + 4e-6, variance_of_mean: 0.0 }.z(2.0) - 2.0).abs() < 1e-3);
+    }
+
+    #[test]
+    fn blocks_are_those_of_the_picture_row_by_row() {
+        // 5 × 3 pixels in blocks of 2 × 2, some of them narrower and lower.
+        let pixels = (0..15).map(|i| Mean { mean: f64::from(i), variance_of_mean: 1.0 }).collect();
+        let picture = Picture { width: 5, pixels };
+        let blocks = picture.blocks(2);
+        assert_eq!(blocks.iter().map(|block| block.mean).collect::<Vec<_>>(), [3.0, 5.0, 6.5, 10.5, 12.5, 14.0]);
+        assert_eq!(blocks.iter().map(|block| block.variance_of_mean).collect::<Vec<_>>(), [0.25, 0.25, 0.5, 0.5, 0.5, 1.0]);
+        assert!((picture.whole().mean - 7.0).abs() < 1e-12 && (picture.whole().variance_of_mean - 1.0 / 15.0).abs() < 1e-12);
+    }
+
+    /// The samples of a pixel are those that replaying gives, wherever it lies.
+    #[test]
+    fn pixels_have_the_mean_and_variance_of_their_samples() {
+        let scene = crate::scene::built_in();
+        let scene = Scene { camera: crate::scene::Camera { resolution: [40, 35], ..scene.camera }, ..scene };
+        let settings = RenderSettings { reuse: crate::scene::Reuse::Off, ..scene.settings };
+        let picture = picture(&scene, settings, |radiance| f64::from(radiance[1]), 19);
+        let rays = scene.rays(&scene.camera);
+        for [x, y] in [[0, 0], [39, 3], [5, 34], [33, 33]] {
+            let values = (0..19).map(|n| f64::from(crate::integrator::replay(&scene, &rays, &settings, [x, y], n).radiance[1]));
+            let exact = super::super::Moments::of(values);
+            let found = picture.pixels[(y * 40 + x) as usize];
+            assert!((found.mean / exact.mean - 1.0).abs() < 1e-9, "{x} {y}");
+            assert!((found.variance_of_mean * 19.0 / exact.variance - 1.0).abs() < 1e-9, "{x} {y}");
+        }
+    }
+}

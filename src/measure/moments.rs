@@ -54,3 +54,34 @@ impl Moments {
         (self.variance - exact) / ((self.fourth - self.variance * self.variance) / self.count).sqrt()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn moments_are_the_textbook_ones() {
+        // Deviations −2, −1, 0 and 3.
+        let moments = Moments::of([1.0, 2.0, 3.0, 6.0]);
+        let Moments { count, mean, variance, fourth } = moments;
+        assert_eq!((count, mean), (4.0, 3.0));
+        assert!((variance - 14.0 / 3.0).abs() < 1e-12 && (fourth - 98.0 / 4.0).abs() < 1e-12);
+        assert!((moments.z(2.0) - 1.0 / (14.0f64 / 12.0).sqrt()).abs() < 1e-12);
+        assert!((moments.z_with(4.0, 16.0) + 0.5).abs() < 1e-12);
+        let standard_error = ((24.5 - (14.0f64 / 3.0).powi(2)) / 4.0).sqrt();
+        assert!((moments.z_of_variance(4.0) - (14.0 / 3.0 - 4.0) / standard_error).abs() < 1e-12);
+    }
+
+    #[test]
+    fn samples_are_pixel_after_pixel() {
+        let scene = crate::scene::built_in();
+        let settings = RenderSettings { reuse: crate::scene::Reuse::Off, ..scene.settings };
+        let found = samples(&scene, settings, 3);
+        let rays = scene.rays(&Camera { resolution: [TILE, TILE], ..scene.camera });
+        assert_eq!((found.len(), found[5].len()), ((TILE * TILE) as usize, 3));
+        for ([x, y], n) in [([0, 0], 0), ([7, 2], 1), ([31, 31], 2)] {
+            let exact = crate::integrator::replay(&scene, &rays, &settings, [x, y], n).radiance[0];
+            assert_eq!(found[(y * TILE + x) as usize][n as usize], f64::from(exact));
+        }
+    }
+}

@@ -3,8 +3,7 @@
 /// The variances of a picture's means, from the variance of its samples.
 ///
 /// They are exact for independent samples, and upper bounds for stratified and Sobol samples. Pixels that share paths have noise in
-/// common, so the variance of a mean over pixels is not made of those of the pixels: the samples of a block are added up before their
-/// variance is taken. Blocks have no noise in common.
+/// common, so the variance of a mean over pixels is more than those of the pixels add up to; blocks have none in common.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SampleNoise {
     pub width: u32,
@@ -13,6 +12,9 @@ pub struct SampleNoise {
     /// Variance of the mean over the pixels and channels of every block of [`SampleNoise::BLOCK`] pixels, row by row. Blocks at the right
     /// and at the bottom may be smaller.
     pub blocks: Vec<f64>,
+    /// Degrees of freedom that each of `blocks` is known by: few samples of a whole block, where pixels have noise in common, or those of
+    /// all its pixels, which are as good as infinitely many.
+    pub block_degrees: f64,
     /// As many samples of equal weight would make up the variance; it is infinite where nothing varies. Few of them tell that most of the
     /// variance comes from few samples, and that it is likely to be far off.
     pub effective_samples: f64,

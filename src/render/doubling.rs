@@ -59,24 +59,33 @@ impl Doubling {
 }
 
 /// Notes how far the blocks have moved whose numbers of samples have just become a power of two. The floor of relMSE is that of the
-/// whole picture, so this waits until all tiles are there: no block takes another sample before.
-pub(super) fn note(film: &mut Film) {
-    let due = || film.tiles.iter().flat_map(|tile| &tile.blocks).filter(|block| block.has_doubled());
-    if let Some(most) = due().map(|block| block.spp).max() {
-        // The first sample has no error yet to be relative to anything.
-        let floor = if most > 1 { Floor::DEFAULT.of(mean_square(film)) } else { 0.0 };
-        film.tiles.par_iter_mut().for_each(|tile| tile.double(floor));
-    }
+/// whole picture, so this waits until all tiles are there: no block takes another sample before. Returns whether all is noted; what
+/// was interrupted goes on later.
+pub(super) fn note(film: &mut Film, interrupted: &(dyn Fn() -> bool + Sync)) -> bool {
+    let due = film.tiles.iter().flat_map(|tile| &tile.blocks).filter(|block| block.has_doubled());
+    let Some(most) = due.map(|block| block.spp).max() else { return true };
+    // The first sample has no error yet to be relative to anything.
+    let mean_square = if most > 1 { mean_square(film, interrupted) } else { Some(0.0) };
+    let Some(floor) = mean_square.map(|mean_square| Floor::DEFAULT.of(mean_square)) else { return false };
+    let note = |tile: &mut Tile| {
+        let goes_on = !interrupted();
+        if goes_on {
+            tile.double(floor);
+        }
+        goes_on
+    };
+    film.tiles.par_iter_mut().map(note).reduce(|| true, |a, b| a && b)
 }
 
-/// The mean over pixels and channels of the squared radiance, as far as the samples know it.
+/// The mean over pixels and channels of the squared radiance, as far as the samples know it; `None` if it was interrupted.
 ///
 /// The square of a mean of samples contains their noise, whose variance is taken off. What stratified samples spare of that is too
 /// much; the squared means of blocks, which are hardly too small, bound it from below.
-fn mean_square(film: &Film) -> f64 {
-    let sums: Vec<[f64; 2]> = film.tiles.par_iter().map(Tile::squares).collect();
+fn mean_square(film: &Film, interrupted: &(dyn Fn() -> bool + Sync)) -> Option<f64> {
+    let squares = |tile: &Tile| (!interrupted()).then(|| tile.squares());
+    let sums = film.tiles.par_iter().map(squares).collect::<Option<Vec<[f64; 2]>>>()?;
     let [of_pixels, of_blocks] = [0, 1].map(|i| sums.iter().map(|sum| sum[i]).sum::<f64>());
-    of_pixels.max(of_blocks) / (3.0 * film.resolution.map(f64::from).iter().product::<f64>())
+    Some(of_pixels.max(of_blocks) / (3.0 * film.resolution.map(f64::from).iter().product::<f64>()))
 }
 
 /// The relMSE that a film of this many samples is expected to have; `None` before the second sample.

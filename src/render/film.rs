@@ -9,6 +9,10 @@ use crate::{
 pub struct Film {
     pub(super) resolution: [u32; 2],
     pub tiles: Vec<Tile>,
+    /// All samples up to the next doubling are there, and it is to be noted before there are more.
+    pub(super) is_noting: bool,
+    /// Pixels share what their paths find, and so have noise in common.
+    pub(super) shares: bool,
     /// It has been found out where noise is.
     pub(super) is_piloted: bool,
     /// Samples go here alone.
@@ -22,7 +26,7 @@ impl Film {
         let corners = |side: u32| (0..side).step_by(TILE as usize);
         let tile = |x: u32, y: u32| Tile::new([x, y], [TILE.min(width - x), TILE.min(height - y)]);
         let tiles = corners(height).flat_map(|y| corners(width).map(move |x| tile(x, y))).collect();
-        Film { resolution, tiles, is_piloted: false, focus: None }
+        Film { resolution, tiles, is_noting: false, shares: false, is_piloted: false, focus: None }
     }
 
     /// Room for a picture of this size: the film, the frames that are made of it, and what saving one of them takes.
@@ -46,7 +50,7 @@ impl Film {
             return Film::new(resolution);
         }
         self.tiles.iter_mut().for_each(Tile::forget);
-        (self.is_piloted, self.focus) = (false, None);
+        (self.is_noting, self.shares, self.is_piloted, self.focus) = (false, false, false, None);
         self
     }
 

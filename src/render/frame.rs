@@ -116,7 +116,8 @@ fn noise(film: &Film, variance: Vec<[f32; 3]>) -> Option<SampleNoise> {
     (least > 1).then(|| SampleNoise {
         width: film.resolution[0],
         variance,
-        blocks: film.tiles.iter().map(Tile::variance_of_mean).collect(),
+        blocks: film.tiles.iter().map(|tile| tile.variance_of_mean(film.shares)).collect(),
+        block_degrees: if film.shares { f64::from(least - 1) } else { f64::INFINITY },
         effective_samples: Parts::effective_count(film.tiles.iter().flat_map(Tile::parts)),
     })
 }

@@ -19,6 +19,7 @@ use crate::{file::open_regular, measure::SampleNoise};
 
 const CHANNELS: [&str; 4] = ["variance.R", "variance.G", "variance.B", "variance.block"];
 const EFFECTIVE_SAMPLES: &str = "noisefall_effective_samples";
+const BLOCK_DEGREES: &str = "noisefall_block_degrees";
 const REL_MSE: &str = "noisefall_rel_mse_estimate";
 
 /// What a file says of how its picture came about.
@@ -55,6 +56,7 @@ fn kept(variance: f64) -> f32 {
 pub(super) fn add_attributes(frame: &Frame, attributes: &mut LayerAttributes) {
     let mut add = |name: &str, value: f64| attributes.other.insert(Text::from(name), AttributeValue::F64(value));
     frame.noise.iter().for_each(|noise| drop(add(EFFECTIVE_SAMPLES, noise.effective_samples)));
+    frame.noise.iter().for_each(|noise| drop(add(BLOCK_DEGREES, noise.block_degrees)));
     frame.rel_mse_estimate.iter().for_each(|rel_mse| drop(add(REL_MSE, *rel_mse)));
 }
 
@@ -72,7 +74,12 @@ pub fn provenance(path: &Path) -> Provenance {
         _ => serde_json::Value::Null,
     };
     let settings = &settings["settings"];
-    let noise = number(EFFECTIVE_SAMPLES).filter(|_| file.rewind().is_ok()).and_then(|samples| read_noise(file, samples));
+    let said = number(EFFECTIVE_SAMPLES).zip(number(BLOCK_DEGREES)).filter(|_| file.rewind().is_ok());
+    let noise = said.and_then(|(effective_samples, block_degrees)| {
+        let of_pixels = read_noise(file)?;
+        let is_sound = effective_samples > 0.0 && block_degrees >= 1.0;
+        is_sound.then_some(SampleNoise { effective_samples, block_degrees, ..of_pixels })
+    });
     Provenance {
         noise,
         rel_mse_estimate: number(REL_MSE),
@@ -81,7 +88,7 @@ pub fn provenance(path: &Path) -> Provenance {
     }
 }
 
-fn read_noise(file: BufReader<std::fs::File>, effective_samples: f64) -> Option<SampleNoise> {
+fn read_noise(file: BufReader<std::fs::File>) -> Option<SampleNoise> {
     let [r, g, b, block] = CHANNELS;
     let image = read()
         .no_deep_data()
@@ -105,6 +112,6 @@ fn read_noise(file: BufReader<std::fs::File>, effective_samples: f64) -> Option<
     let variance: Vec<[f32; 3]> = pixels.iter().map(|[r, g, b, _]| [*r, *g, *b]).collect();
     let is_variance = |v: f64| (0.0..=f64::from(f32::MAX)).contains(&v);
     let all = blocks.iter().copied().chain(variance.as_flattened().iter().map(|v| f64::from(*v)));
-    let are_variances = { all }.all(is_variance) && effective_samples > 0.0;
-    are_variances.then_some(SampleNoise { width: width as u32, variance, blocks, effective_samples })
+    let are_variances = { all }.all(is_variance);
+    are_variances.then(|| SampleNoise { width: width as u32, variance, blocks, ..SampleNoise::default() })
 }

@@ -101,15 +101,19 @@ impl Threads {
                 return PassCount::default();
             }
         }
+        film.shares |= job.scene.shares(job.rays, job.settings);
         // All tiles meet where their samples have doubled, for how far they have moved is seen over the whole picture.
         let mut count = PassCount::default();
         loop {
-            count = count.merge(self.to_next_doubling(job, film, spp, interrupted));
-            if !film.tiles_in_focus().all(|tile| tile.has_reached(spp)) {
-                return count;
+            if film.is_noting {
+                film.is_noting = !self.pool.install(|| doubling::note(film, interrupted));
+                if film.is_noting || film.tiles_in_focus().all(|tile| tile.spp >= spp) {
+                    return count;
+                }
             }
-            self.pool.install(|| doubling::note(film));
-            if film.tiles_in_focus().all(|tile| tile.spp >= spp) {
+            count = count.merge(self.to_next_doubling(job, film, spp, interrupted));
+            film.is_noting = film.tiles_in_focus().all(|tile| tile.has_reached(spp));
+            if !film.is_noting {
                 return count;
             }
         }

@@ -49,6 +49,10 @@ impl Parts {
         Parts { sum: self.sum * scale, squares: self.squares * scale * scale }
     }
 
+    pub fn sum(self) -> f64 {
+        self.sum
+    }
+
     /// As many equal parts would have the same sums: infinite where there is none.
     pub fn effective_count(all: impl Iterator<Item = Parts>) -> f64 {
         let all = all.fold(Parts::default(), |a, b| Parts { sum: a.sum + b.sum, squares: a.squares + b.squares });

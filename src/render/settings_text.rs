@@ -107,6 +107,19 @@ mod tests {
         assert_eq!(options(&scene, &scene), "");
         let changed = RenderSettings { max_bounces: Some(3), seed: 7, ..scene };
         assert_eq!(options(&changed, &scene), " --max-bounces 3 --seed 7");
+        assert_eq!(options(&scene, &changed), " --max-bounces none --seed 0");
+        let other = RenderSettings {
+            sampler: Sampler::Stratified,
+            estimator: Estimator::Light,
+            directions: Directions::Uniform,
+            roulette: Roulette::Fixed(0.25),
+            reuse: Reuse::Off,
+            adaptive: true,
+            ..scene
+        };
+        let all = " --sampler stratified --estimator light --directions uniform --roulette 0.25 --reuse off --adaptive on";
+        assert_eq!(options(&other, &scene), all);
+        assert!(options(&scene, &other).ends_with(" --reuse auto --adaptive off"));
     }
 
     #[test]

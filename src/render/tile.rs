@@ -42,8 +42,6 @@ pub(super) struct Block {
     /// What was seen when the number of samples had last doubled, and the two times before, the last one first. It doubles at
     /// 2, 4, 8, … samples.
     pub doublings: [Doubling; 3],
-    /// Of samples added up over the pixels and channels of the block.
-    scatter: Scatter,
     /// Of the variance of its pixels.
     parts: Parts,
 }
@@ -224,7 +222,6 @@ impl Tile {
         let state = &mut self.blocks[block];
         state.spp += 1;
         state.parts = parts;
-        state.scatter.add(total);
         (total, first_invalid)
     }
 
@@ -285,29 +282,27 @@ impl Tile {
     /// and of the squares of the means of blocks.
     pub(super) fn squares(&self) -> [f64; 2] {
         let mut sums = [0.0; 2];
-        for block in (0..self.blocks.len()).filter(|block| self.blocks[*block].spp > 0) {
-            let estimates = self.block_estimates(block);
-            for channel in 0..3 {
-                let mut level = 0.0;
-                for Estimate { mean, variance_of_mean } in &estimates {
-                    level += mean[channel];
-                    sums[0] += mean[channel] * mean[channel] - variance_of_mean.map_or(0.0, |variance| variance[channel]);
-                }
-                sums[1] += level * level / estimates.len() as f64;
+        for (block, state) in self.blocks.iter().enumerate().filter(|(_, state)| state.spp > 0) {
+            let (mut level, mut count) = ([0.0; 3], 0.0);
+            for Estimate { mean, variance_of_mean } in self.block_rows(block).flat_map(|row| self.run(row, state.spp)) {
+                let variance = variance_of_mean.unwrap_or_default();
+                (0..3).for_each(|c| {
+                    level[c] += mean[c];
+                    sums[0] += mean[c] * mean[c] - variance[c];
+                });
+                count += 1.0;
             }
+            sums[1] += level.iter().map(|level| level * level).sum::<f64>() / count;
         }
         sums
     }
 
-    /// Variance of the mean over the pixels and channels, at least two samples each. Pixels that share paths have noise in common, so
-    /// their samples are added up first; they share none beyond the tile, nor where numbers of samples differ.
-    pub(super) fn variance_of_mean(&self) -> f64 {
+    /// Variance of the mean over all pixels and channels, at least two samples each. Pixels have noise in common if they share paths:
+    /// then it is told from how the samples of the whole tile scatter, else from those of each pixel, which say more.
+    pub(super) fn variance_of_mean(&self, shares: bool) -> f64 {
         let values = 3.0 * self.size.map(f64::from).iter().product::<f64>();
-        let of_sums = match self.is_adaptive() {
-            true => self.blocks.iter().map(|block| block.scatter.variance_of_mean()).sum(),
-            false => self.whole.variance_of_mean(),
-        };
-        of_sums / (values * values)
+        let of_sum = if shares { self.whole.variance_of_mean() } else { self.parts().map(Parts::sum).sum() };
+        of_sum / (values * values)
     }
 
     /// What the variance of the pixels' means is made of.

@@ -1,5 +1,7 @@
 //! What reports are made of: one HTML file each, which needs nothing else and prints well; plots as SVG.
 pub mod plot;
+#[cfg(test)]
+mod tests;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 

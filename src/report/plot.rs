@@ -76,10 +76,13 @@ impl Axis {
         candidates.into_iter().find(|places| (2..=MOST_TICKS).contains(&places.len())).unwrap_or(even)
     }
 
-    /// From the least to the greatest place, with a margin.
+    /// From the least to the greatest place, with a margin; some range where there is nothing to show.
     fn range(self, values: impl Iterator<Item = f64>) -> Range<f64> {
         let (min, max) =
             values.filter(|x| x.is_finite()).fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
+        if min > max {
+            return 0.0..1.0;
+        }
         let margin = if max > min { (max - min) * 0.06 } else { min.abs().max(1.0) * 0.1 };
         min - margin..max + margin
     }

@@ -73,15 +73,15 @@ impl App {
         }
         let text = self.status.relative_noise().map_or_else(|| "–".to_owned(), percent);
         ui.label(format!("noise {text}")).on_hover_text(
-            "Estimated relative error: the root of relMSE, from the variance of every pixel's samples. \
-             Stratified and Sobol samples are better than it says; where light is hard to find, it is too low at first.",
+            "Estimated relative error: the root of relMSE, the mean of (x − r)²/(r² + 0.01 · mean r²) over pixels x and their true \
+             radiance r, from how far the picture moves while its samples double. Where light is hard to find, it is too low at first.",
         );
     }
 
     fn truth_label(&self, ui: &mut egui::Ui) {
         if let Some(rel_mse) = self.against.map(|against| against.rel_mse) {
             ui.label(format!("true error {}", percent(rel_mse.sqrt())))
-                .on_hover_text("Root of relMSE against the true picture: the scene's, or the one that was dropped on the window");
+                .on_hover_text("Root of relMSE, the mean of (x − r)²/(r² + 0.01 · mean r²), against the true picture r: the scene's, or the one that was dropped on the window");
         } else if let Some(mismatch) = self.mismatch() {
             ui.label(RichText::new("true error unknown").color(ui.warning())).on_hover_text(mismatch);
         }

@@ -87,7 +87,9 @@ fn a_render_writes_a_picture_and_one_line_of_json() {
     for key in ["scene", "threads", "build_seconds", "render_seconds", "rays", "rel_mse_estimate"] {
         assert!(!line[key].is_null(), "{key} is missing");
     }
-    assert!(line["rel_mse"].as_f64().expect("the scene has a truth") < 0.1);
+    // Sobol samples are better than independent ones, whose relMSE is 1/(2 · 4.04) a sample, but 16 of them are not exact.
+    let rel_mse = line["rel_mse"].as_f64().expect("the scene has a truth");
+    assert!((0.0001..0.0078).contains(&rel_mse), "{rel_mse}");
     assert!(shell.path("out.exr").is_file());
 }
 
@@ -136,8 +138,9 @@ fn options_override_the_scene_and_the_summary_says_what_is_biased() {
 fn of_several_targets_the_last_one_counts() {
     let shell = Shell::new();
     let render = |arguments: &[&str]| {
-        let base = ["render", &scene("bright_sky"), "-o", "out.png", "--size", "32x18", "--json"];
-        json(&shell.run(&[&base[..], arguments].concat()))
+        let base = ["render", &scene("bright_sky"), "-o", "out.png", "--json"];
+        let size: &[&str] = if arguments.contains(&"--size") { &[] } else { &["--size", "32x18"] };
+        json(&shell.run(&[&base[..], size, arguments].concat()))
     };
     let by_samples = render(&["--noise", "0.0001", "--time", "100", "--spp", "64"]);
     assert_eq!((&by_samples["spp"], &by_samples["stopped_by"]), (&64.into(), &"samples".into()));

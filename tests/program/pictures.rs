@@ -1,10 +1,11 @@
 //! Pictures on disk.
 use std::fs;
 
+use noisefall::measure::SampleNoise;
 use noisefall::render::{
     Display, Frame, ToneMap,
     display::to_srgb,
-    image_file::{SETTINGS_KEY, check_target, read, save},
+    image_file::{SETTINGS_KEY, check_target, provenance, read, save},
 };
 
 fn frame() -> Frame {
@@ -41,6 +42,57 @@ fn an_exr_has_the_radiance_bit_for_bit_and_the_settings() {
     let meta = exr::meta::MetaData::read_from_file(&path, false).expect("it has a header");
     let text = meta.headers[0].own_attributes.other.get(&exr::meta::attribute::Text::from(SETTINGS_KEY));
     assert!(format!("{text:?}").contains("settings"));
+}
+
+/// 40 × 36 pixels in four blocks, with variances that differ everywhere.
+fn noisy_frame() -> Frame {
+    let variance: Vec<[f32; 3]> = (0..40 * 36).map(|i| [i as f32, 0.5 * i as f32, 1e-7 * i as f32]).collect();
+    let noise =
+        SampleNoise { width: 40, variance, blocks: vec![0.5, 0.25, 0.125, 4.0], block_degrees: 31.0, effective_samples: 1234.5 };
+    let radiance = (0..40 * 36).map(|i| [i as f32, 1.0, 2.0]).collect();
+    let size = Frame { width: 40, height: 36, full_resolution: [40, 36], ..Frame::default() };
+    Frame { radiance, noise: Some(noise), rel_mse_estimate: Some(0.0625), ..size }
+}
+
+#[test]
+fn an_exr_keeps_the_variances_of_its_means_beside_ordinary_colours() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("picture.exr");
+    let settings = r#"{ "settings": { "sampler": "independent", "seed": 17 } }"#;
+    save(&noisy_frame(), Display::default(), settings, &path).expect("it is saved");
+    assert_eq!(read(&path).expect("it is an EXR").radiance, noisy_frame().radiance);
+    let found = provenance(&path);
+    assert_eq!((found.noise, found.rel_mse_estimate), (noisy_frame().noise, Some(0.0625)));
+    assert_eq!((found.seed, found.is_independent), (Some(17), true));
+    let meta = exr::meta::MetaData::read_from_file(&path, false).expect("it has a header");
+    let names: Vec<String> = meta.headers[0].channels.list.iter().map(|channel| channel.name.to_string()).collect();
+    assert_eq!((meta.headers.len(), names.join(" ")), (1, "B G R variance.B variance.G variance.R variance.block".to_owned()));
+    // What varies does not become exact because single precision ends.
+    let mut dim = noisy_frame();
+    if let Some(noise) = &mut dim.noise {
+        noise.blocks = vec![1e-60, 0.0, 1e60, 1.0];
+    }
+    save(&dim, Display::default(), settings, &path).expect("it is saved");
+    let blocks = provenance(&path).noise.expect("variances").blocks;
+    assert!(blocks[0] > 0.0 && blocks[0] < 1e-30 && blocks[1] == 0.0 && blocks[2] > 1e30 && blocks[2].is_finite(), "{blocks:?}");
+}
+
+#[test]
+fn files_without_variances_say_nothing_of_noise() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name);
+    save(&frame(), Display::default(), r#"{ "settings": { "sampler": "sobol" } }"#, &path("plain.exr")).expect("it is saved");
+    save(&noisy_frame(), Display::default(), "no JSON", &path("text.exr")).expect("it is saved");
+    save(&noisy_frame(), Display::default(), "{}", &path("picture.png")).expect("it is saved");
+    fs::write(path("broken.exr"), &fs::read(path("text.exr")).expect("a file")[..700]).expect("it is written");
+    let plain = provenance(&path("plain.exr"));
+    assert!(plain.noise.is_none() && plain.rel_mse_estimate.is_none() && plain.seed.is_none() && !plain.is_independent);
+    let text = provenance(&path("text.exr"));
+    assert!(text.noise.is_some() && text.seed.is_none() && !text.is_independent);
+    for name in ["picture.png", "broken.exr", "nowhere.exr"] {
+        let found = provenance(&path(name));
+        assert!(found.noise.is_none() && !found.is_independent, "{name}");
+    }
 }
 
 #[test]

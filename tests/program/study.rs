@@ -92,6 +92,30 @@ fn references_are_files_where_there_are_some() {
     assert!(done.status.success(), "{}", text(&done.stderr));
     let csv = fs::read_to_string(shell.path("out/study.csv")).expect("measurements");
     assert!(csv.contains("sky.toml,20,10,") && csv.contains("the reference sky.ref.exr"), "{csv}");
+    // It was rendered here, so its file says how noisy it is.
+    let own = |folder: &str| {
+        let mut table = csv::Reader::from_path(shell.path(folder).join("study.csv")).expect("measurements");
+        let column = table.headers().expect("names").iter().position(|name| name == "reference_rel_mse").expect("a column");
+        let row = table.records().next().expect("a line").expect("a line");
+        row[column].parse::<f64>().expect("a number")
+    };
+    let known = own("out");
+    // 3.3 % at 64 samples on a picture of 64 × 36 pixels.
+    assert!((1e-5..1e-2).contains(&known), "{known}");
+    assert!(!text(&done.stdout).contains("taken for 0"), "{}", text(&done.stdout));
+    let report = |folder: &str| fs::read_to_string(shell.path(folder).join("report.html")).expect("a report");
+    assert!(report("out").contains("sky.ref.exr, whose own error is estimated as"));
+    // By another program, or by an older version of this one.
+    let picture = noisefall::render::image_file::read(&shell.path("sky.ref.exr")).expect("a picture");
+    let frame = noisefall::render::Frame { width: 20, height: 10, radiance: picture.radiance, ..Default::default() };
+    noisefall::render::image_file::save(&frame, Default::default(), "{}", &shell.path("foreign.exr")).expect("it is saved");
+    let foreign =
+        shell.run(&[&["study", "sky.toml", "-o", "foreign", "--reference", "foreign.exr", "--floor", "0.5"], &few[..]].concat());
+    let told = text(&foreign.stdout);
+    assert!(told.contains("The own error of the reference foreign.exr is not known and taken for 0."), "{told}");
+    assert!(report("foreign").contains("whose own error is not known and taken for 0") && own("foreign") == 0.0);
+    let csv = fs::read_to_string(shell.path("foreign/study.csv")).expect("measurements");
+    assert!(csv.contains(",0.5,") && report("foreign").contains("(x − r)²/(r² + 0.5)"), "{csv}");
     fs::copy(shell.path("sky.ref.exr"), shell.path("other.exr")).expect("a picture");
     let other = study(&["--reference", "other.exr", "--size", "16x16"]);
     assert_eq!(other.status.code(), Some(1));

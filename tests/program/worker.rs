@@ -6,7 +6,7 @@ use std::{
 
 use noisefall::{
     math::SimdLevel,
-    render::{Beside, Budget, Job, Publish, Published, Renderer, State, Target, pass::Threads},
+    render::{Beside, Budget, Frame, Job, Publish, Published, Renderer, State, Target, pass::Threads},
     scene::{Camera, RenderSettings, Reuse, Roulette, Scene, parse},
 };
 
@@ -73,18 +73,22 @@ fn the_latest_job_wins_and_no_old_pixel_survives() {
     for generation in 1..=200u64 {
         let radiance = generation % 8;
         renderer.submit(job(generation, &scenes[radiance as usize]));
-        let frame = match generation % 7 {
-            0 => wait_for(&renderer, "a frame of this job", |p| p.frame.generation == generation).frame,
-            _ => renderer.latest().frame,
-        };
-        let expected = (frame.generation % 8 + 1) as f32;
-        assert_eq!(frame.radiance.len(), (frame.width * frame.height) as usize);
-        assert!(generation < 7 || !frame.radiance.is_empty(), "there is a frame from the seventh on");
-        assert!(frame.radiance.iter().all(|pixel| *pixel == [expected; 3]), "a pixel of another generation");
+        match generation % 7 {
+            0 => assert_plain(&wait_for(&renderer, "a frame of this job", |p| p.frame.generation == generation).frame),
+            _ => assert_plain(&renderer.latest().frame),
+        }
     }
     let last = wait_for(&renderer, "the last job", |p| p.frame.generation == 200 && !p.frame.is_coarse());
     assert_eq!(last.status.generation, 200);
-    assert!(last.frame.radiance.iter().all(|pixel| *pixel == [1.0; 3]));
+    assert_plain(&last.frame);
+}
+
+/// All pixels are of the frame's own generation; before the first there are none.
+fn assert_plain(frame: &Frame) {
+    let expected = (frame.generation % 8 + 1) as f32;
+    assert!(frame.radiance.iter().all(|pixel| *pixel == [expected; 3]), "a pixel of another generation");
+    let pixels = (frame.width * frame.height) as usize;
+    assert_eq!((frame.radiance.len(), pixels > 0), (pixels, frame.generation > 0));
 }
 
 /// The picture of a scene with noise after exactly so many samples, without interruption.
@@ -240,7 +244,7 @@ fn samples_that_are_no_numbers_are_dropped_and_counted_with_the_way_to_replay_th
     let camera = Camera { resolution: [64, 64], ..scene.camera };
     renderer.submit(Job { generation: 1, scene: scene.clone(), camera, settings: scene.settings });
     let done = wait_for(&renderer, "the end", |p| matches!(p.status.state, State::Done(_)));
-    assert!(done.status.invalid_samples > 0);
+    assert!(done.status.invalid_samples > 0 && done.frame.radiance.len() == 64 * 64);
     assert!(done.frame.radiance.iter().flatten().all(|c| c.is_finite()), "the picture stays finite");
     let first = done.status.first_invalid.expect("the first one is known");
     let replayed = noisefall::integrator::replay(&scene, &scene.rays(&camera), &scene.settings, first.pixel, first.sample);

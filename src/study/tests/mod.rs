@@ -1,5 +1,8 @@
 //! Fits, ranking, plans and the store, on numbers that are known.
+mod figures;
 mod fit;
 mod plan;
 mod ranking;
+mod reference;
+mod report;
 mod store;

@@ -3,15 +3,15 @@ use std::time::Duration;
 
 use crate::{
     math::SimdLevel,
-    measure::Floor,
+    measure::{Comparison, Floor},
     render::pass::Threads,
     sampling::{Directions, Sampler},
     scene::{Estimator, RenderSettings, Roulette},
     study::{
         Lists, Plan, StudyError, Subject, checkpoints,
-        measure::{Bench, measure},
+        measure::{Bench, follow, measure},
         plan::study_size,
-        trial::group,
+        trial::{group, groups},
     },
 };
 
@@ -66,4 +66,71 @@ fn a_run_stops_before_a_doubling_that_takes_too_long() {
     let stopped = Bench { stop: &|| true, ..bench };
     let ended = measure(stopped, &subject.scene.settings, &plan(Duration::MAX), &reference);
     assert!(matches!(ended, Err(StudyError::Interrupted)));
+}
+
+/// Passes that take 1, 2, 4, … seconds: the time of a checkpoint is that of all passes before it.
+#[test]
+fn the_time_of_a_checkpoint_is_that_of_all_rendering_so_far() {
+    let lists = Lists { estimators: vec![], directions: vec![], samplers: vec![], roulettes: vec![], caps: vec![] };
+    let run = |time| {
+        let plan = Plan { lists: lists.clone(), spp: 12, time: Duration::from_secs(time), repeats: 1, floor: Floor::DEFAULT };
+        follow(&plan, |spp| {
+            let error = f64::from(spp);
+            let comparison = Comparison { rmse: error, rel_mse: 2.0 * error, bias: -error };
+            Ok((Duration::from_secs(u64::from(spp)), u64::from(spp) * 10, comparison))
+        })
+        .expect("nothing fails")
+    };
+    let (all, cut) = run(1000);
+    let seconds: Vec<(u32, f64)> = all.checkpoints.iter().map(|point| (point.spp, point.seconds)).collect();
+    assert_eq!(seconds, [(1, 1.0), (2, 3.0), (4, 7.0), (8, 15.0), (12, 27.0)]);
+    assert_eq!(cut, 270);
+    let last = all.checkpoints[4];
+    assert_eq!((last.rmse, last.rel_mse, last.bias), (12.0, 24.0, -12.0));
+    // After 7 s and 4 samples, 8 samples would be there after 14 s.
+    assert_eq!([14, 13].map(|time| run(time).0.checkpoints.len()), [4, 3]);
+}
+
+fn with_furnace<T>(use_it: impl FnOnce(Bench, &RenderSettings) -> T) -> T {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("scene.toml");
+    std::fs::write(&path, include_str!("../../../scenes/furnace.toml")).expect("it can be written");
+    let subject = Subject::load(&path, Some([8, 8]), None).expect("a scene");
+    let threads = Threads::new(1, SimdLevel::best()).expect("threads");
+    let bench = Bench { scene: &subject.scene, camera: &subject.camera, threads: &threads, stop: &|| false };
+    use_it(bench, &subject.scene.settings)
+}
+
+#[test]
+fn a_run_has_the_errors_of_its_picture_and_says_why_it_is_biased() {
+    with_furnace(|bench, settings| {
+        let lists = Lists { estimators: vec![], directions: vec![], samplers: vec![], roulettes: vec![], caps: vec![] };
+        let plan = |floor| Plan { lists: lists.clone(), spp: 2, time: Duration::MAX, repeats: 1, floor };
+        // Every sample is the partial sum, 1.5.
+        let capped =
+            RenderSettings { max_bounces: Some(1), directions: Directions::Cosine, estimator: Estimator::Path, ..*settings };
+        for (floor, rel_mse) in [(Floor::DEFAULT, 0.25 / 4.04), (Floor::Absolute(1.0), 0.25 / 5.0)] {
+            let run = measure(bench, &capped, &plan(floor), &[[2.0; 3]; 64]).expect("a run");
+            assert_eq!((run.bias.as_str(), run.checkpoints.len()), ("cap at 1", 2));
+            for point in run.checkpoints {
+                assert!(
+                    (point.rel_mse - rel_mse).abs() < 1e-6 && (point.rmse - 0.5).abs() < 1e-6 && (point.bias + 0.5).abs() < 1e-6
+                );
+            }
+        }
+        assert_eq!(measure(bench, settings, &plan(Floor::DEFAULT), &[[2.0; 3]; 64]).expect("a run").bias, "");
+    });
+}
+
+#[test]
+fn pictures_that_are_the_same_are_measured_once_but_never_with_different_caps() {
+    with_furnace(|bench, settings| {
+        // At a diffuse surface `bsdf` is `cosine`; eight reflections tell no caps apart that are higher.
+        let [cosine, bsdf, uniform] = [Directions::Cosine, Directions::Bsdf, Directions::Uniform]
+            .map(|directions| RenderSettings { directions, ..*settings });
+        let capped = RenderSettings { max_bounces: Some(100), ..cosine };
+        let found = groups(bench, &[cosine, uniform, bsdf, capped]).expect("groups");
+        let groups: Vec<(RenderSettings, usize)> = found.iter().map(|group| (group.settings, group.twins.len())).collect();
+        assert_eq!(groups, [(cosine, 1), (uniform, 0), (capped, 0)]);
+    });
 }

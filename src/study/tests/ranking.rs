@@ -1,9 +1,22 @@
 //! What is made of runs.
+use statrs::distribution::{ContinuousCDF, Normal};
+
 use crate::{
-    scene::{Estimator, RenderSettings},
+    math::{One, U},
+    sampling::{
+        Sampler,
+        hash::{hash, unit},
+    },
+    scene::{Estimator, RenderSettings, Roulette},
     study::{
-        Checkpoint, Findings, Outcome, Run, Standing, checkpoints, outcome::Limits, ranking::rank, setting::Setting,
-        trial::Group, verdict,
+        Checkpoint, Findings, Outcome, Run, Standing, checkpoints,
+        outcome::Limits,
+        ranking::rank,
+        setting::Setting,
+        table,
+        trial::Group,
+        verdict,
+        wording::{certainty, command, percent, significant},
     },
 };
 
@@ -53,9 +66,10 @@ fn neither_biased_nor_empty_pictures_win_however_fast() {
     assert_eq!(found.best().map(|best| best.settings.estimator), Some(Estimator::Light));
     assert!((found.ratio(&found.outcomes[1]).expect("a ratio") - 0.5).abs() < 1e-12);
     assert!(verdict(&found).contains(": light, bsdf, sobol, roulette throughput – an error of "), "{}", verdict(&found));
-    // Half the efficiency is within what two repeats with a spread of 20 % can tell apart only if the factor says so.
-    let factor = found.uncertainty().expect("repeats");
-    assert_eq!(found.rivals().count(), usize::from(factor >= 2.0));
+    // Repeats differ by a factor of 1.2, so that log efficiencies have the variance ln² 1.2/2, known to two degrees of freedom. The
+    // difference of two means of two has the same variance, and 95 % of Student's t lie within ±4.3027: a factor of 1.7414.
+    assert!((found.uncertainty().expect("repeats") - 1.7414).abs() < 1e-3, "{:?}", found.uncertainty());
+    assert_eq!(found.rivals().count(), 0);
     assert!(findings(vec![outcome(estimator(Estimator::Path), &[run(0.9, 1.0)])]).best().is_none());
 }
 
@@ -93,4 +107,142 @@ fn without_noise_time_decides() {
     let best = found.best().expect("a best one");
     assert!(best.is_exact() && best.slope.is_none() && best.settings.estimator == Estimator::Mis);
     assert!(verdict(&found).contains("no noise"));
+}
+
+/// A standard normal number.
+fn normal(i: u32) -> f64 {
+    let u = f64::from(unit(hash(U::<One>(i))).0) + 0.5 / f64::from(1u32 << 24);
+    Normal::new(0.0, 1.0).map_or(f64::NAN, |normal| normal.inverse_cdf(u))
+}
+
+/// Log efficiencies that scatter around what is known: the ratio of two combinations lies within the factor in 95 of 100 studies.
+#[test]
+fn the_uncertainty_of_a_ratio_covers_it_as_often_as_it_says() {
+    const STUDIES: u32 = 1500;
+    let samplers = [Sampler::Independent, Sampler::Sobol, Sampler::Stratified];
+    for (repeats, count) in [(2, 2), (2, 3), (4, 2)] {
+        let covered = |study: &u32| {
+            let of = |combination: u32| {
+                let settings = RenderSettings { sampler: samplers[combination as usize], ..RenderSettings::default() };
+                let factor = [1.0, 0.8, 0.7][combination as usize];
+                let log = |repeat: u32| 0.3 * normal(((study * 4 + combination) * 8 + repeat) * 31 + 7 * repeats);
+                let runs: Vec<Run> = (0..repeats).map(|repeat| run(0.01 * f64::exp(log(repeat)) / factor, 1.0)).collect();
+                outcome(settings, &runs)
+            };
+            let found = Findings { repeats, ..findings((0..count).map(of).collect()) };
+            let efficiency =
+                |sampler| found.outcomes.iter().find(|o| o.settings.sampler == sampler).map_or(f64::NAN, Outcome::efficiency);
+            let off = efficiency(samplers[1]) / efficiency(samplers[0]) / 0.8;
+            off.ln().abs() <= found.uncertainty().expect("repeats").ln()
+        };
+        let share = f64::from((0..STUDIES).filter(covered).count() as u32) / f64::from(STUDIES);
+        // 4 standard errors of a share of 0.95 are 0.0225.
+        assert!((share - 0.95).abs() < 0.0225, "{repeats} repeats of {count}: {share}");
+    }
+}
+
+#[test]
+fn what_is_far_worse_says_nothing_of_how_sure_the_first_places_are() {
+    let with = |worse: [f64; 2]| {
+        let sampler = |sampler| RenderSettings { sampler, ..RenderSettings::default() };
+        findings(vec![
+            outcome(sampler(Sampler::Sobol), &[run(0.01, 1.0), run(0.011, 1.0)]),
+            outcome(sampler(Sampler::Stratified), &[run(0.0145, 1.0), run(0.0145, 1.0)]),
+            outcome(sampler(Sampler::Independent), &[run(worse[0], 1.0), run(worse[1], 1.0)]),
+        ])
+    };
+    let (far, near) = (with([0.2, 0.15]), with([0.06, 0.08]));
+    assert!(near.uncertainty() > far.uncertainty(), "{:?} {:?}", near.uncertainty(), far.uncertainty());
+    // 1.1 times the spread in two of four degrees of freedom: exp(4.3027 · ln 1.1/2) = 1.2276 for both near ones.
+    assert!((far.uncertainty().expect("repeats") - 1.2276).abs() < 1e-3, "{:?}", far.uncertainty());
+    assert_eq!((far.rivals().count(), near.rivals().count()), (0, 1));
+}
+
+#[test]
+fn a_setting_is_worth_what_it_is_with_the_best_and_at_its_best() {
+    let of = |estimator, sampler, rel_mse| {
+        let settings = RenderSettings { estimator, sampler, ..RenderSettings::default() };
+        outcome(settings, &[run(rel_mse, 1.0), run(rel_mse, 1.0)])
+    };
+    let mut best = of(Estimator::Mis, Sampler::Sobol, 0.01);
+    best.twins = vec![RenderSettings { roulette: Roulette::Off, ..best.settings }];
+    let found = findings(vec![
+        of(Estimator::Path, Sampler::Independent, 0.05),
+        best,
+        of(Estimator::Path, Sampler::Sobol, 0.1),
+        of(Estimator::Mis, Sampler::Independent, 0.02),
+    ]);
+    let worth = |setting| {
+        let values = found.worth(setting).into_iter();
+        values.map(|worth| (worth.value, worth.alone.unwrap_or(-1.0), worth.at_best.unwrap_or(-1.0))).collect::<Vec<_>>()
+    };
+    let near = |found: &[(String, f64, f64)], exact: &[(&str, f64, f64)]| {
+        let same =
+            |(a, b): (&(String, f64, f64), &(&str, f64, f64))| a.0 == b.0 && (a.1 - b.1).abs() < 1e-9 && (a.2 - b.2).abs() < 1e-9;
+        assert!(found.len() == exact.len() && found.iter().zip(exact).all(same), "{found:?} {exact:?}");
+    };
+    near(&worth(Setting::Estimator), &[("mis", 1.0, 1.0), ("path", 0.1, 0.2)]);
+    near(&worth(Setting::Sampler), &[("sobol", 1.0, 1.0), ("independent", 0.5, 0.5)]);
+    near(&worth(Setting::Roulette), &[("throughput", 1.0, 1.0), ("off", 1.0, 1.0)]);
+    assert!(
+        found.find(&RenderSettings { roulette: Roulette::Off, ..RenderSettings::default() }).is_some_and(|o| o.twins.len() == 1)
+    );
+    assert!(found.find(&RenderSettings { seed: 1, ..RenderSettings::default() }).is_none());
+}
+
+#[test]
+fn an_outcome_is_the_mean_of_its_runs_where_they_end() {
+    let mut second = run(0.02, 3.0);
+    second.invalid_samples = 4;
+    let found = outcome(RenderSettings::default(), &[run(0.01, 1.0), second]);
+    assert_eq!((found.last().spp, found.curve.len(), found.invalid_samples), (16, 5, 4));
+    assert!((found.last().rel_mse - 0.015).abs() < 1e-12 && (found.last().seconds - 2.0).abs() < 1e-12);
+    let exact = [1.0 / (0.01 * 1.0), 1.0 / (0.02 * 3.0)];
+    assert!(found.efficiencies.iter().zip(exact).all(|(a, b)| (a / b - 1.0).abs() < 1e-12), "{:?}", found.efficiencies);
+    assert!((found.efficiency() - (exact[0] * exact[1]).sqrt()).abs() < 1e-9);
+    // Squared errors that fall as 1/N: the slope of the root is −1/2, from 4 samples on.
+    assert!(found.slope.is_some_and(|slope| (slope.slope + 0.5).abs() < 1e-9), "{:?}", found.slope);
+    let mut bent = run(0.01, 1.0);
+    bent.checkpoints.iter_mut().take(2).for_each(|point| point.rel_mse *= 100.0);
+    assert!(outcome(RenderSettings::default(), &[bent]).slope.is_some_and(|slope| (slope.slope + 0.5).abs() < 1e-9));
+    // As many checkpoints as all runs have.
+    let mut short = run(0.01, 1.0);
+    short.checkpoints.truncate(3);
+    assert_eq!(outcome(RenderSettings::default(), &[run(0.01, 1.0), short]).last().spp, 4);
+    // Half the error of a black picture is the limit.
+    let standing = |rel_mse| outcome(RenderSettings::default(), &[run(rel_mse, 1.0)]).standing;
+    assert_eq!([0.499, 0.501].map(standing), [Standing::Sound, Standing::TooNoisy]);
+}
+
+#[test]
+fn findings_in_words_have_their_numbers() {
+    assert_eq!([0.0, 0.012_345, 1.2345, 123.45, 99_999.0].map(significant), ["0.00", "0.0123", "1.23", "123", "99999"]);
+    assert_eq!([1.5e-5, -2.5, 1e9, f64::NAN].map(significant), ["1.50e-5", "-2.50", "1.00e9", "–"]);
+    assert_eq!(percent(0.0004), "2.00 %");
+    let of = |estimator, rel_mse: [f64; 2], seconds| {
+        outcome(self::estimator(estimator), &[run(rel_mse[0], seconds), run(rel_mse[1], seconds)])
+    };
+    let mut found = findings(vec![of(Estimator::Mis, [0.04, 0.04], 0.5), of(Estimator::Path, [0.09, 0.09], 2.0)]);
+    found.of_scene = estimator(Estimator::Path);
+    assert_eq!(
+        verdict(&found),
+        "Best: mis, bsdf, sobol, roulette throughput – an error of 20.0 % after 0.500 s (16 samples a pixel)."
+    );
+    assert_eq!(
+        certainty(&found),
+        "It is 9.00 times as efficient as the next (95 %, by the spread of repeats: 9.00 to 9.00). The scene opens with path, bsdf, \
+         sobol, roulette throughput, which has 0.111 of the efficiency."
+    );
+    assert_eq!(command(&found).as_deref(), Some("noisefall render scene.toml -o picture.exr --estimator mis"));
+    let lines: Vec<String> = table(&found).lines().map(|line| line.split_whitespace().collect::<Vec<_>>().join(" ")).collect();
+    assert_eq!(lines[0], "settings spp s error slope efficiency of best");
+    assert_eq!(lines[1], "mis, bsdf, sobol, roulette throughput 16 0.500 20.0 % −0.50 ± 0.00 50.0 1.00");
+    assert_eq!(lines[2], "path, bsdf, sobol, roulette throughput 16 2.00 30.0 % −0.50 ± 0.00 5.56 0.111");
+    // Two that repeats cannot tell apart.
+    let close = findings(vec![of(Estimator::Mis, [0.04, 0.06], 1.0), of(Estimator::Path, [0.05, 0.06], 1.0)]);
+    assert!(verdict(&close).starts_with("First of 2 that cannot be told apart: mis"), "{}", verdict(&close));
+    assert!(certainty(&close).contains("Within that are also: path, bsdf"), "{}", certainty(&close));
+    let biased = Run { bias: "cap at 2".to_owned(), ..run(0.01, 1.0) };
+    let one = outcome(estimator(Estimator::Light), &[biased]);
+    assert_eq!(one.to_string(), "light, bsdf, sobol, roulette throughput: 10.0 % after 1.00 s, 16 spp, biased: cap at 2");
 }

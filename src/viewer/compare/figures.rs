@@ -50,7 +50,7 @@ const HEADINGS: [(&str, &str); 8] = [
     ("settings", "What differs from how the scene opens"),
     ("N", "Samples per pixel"),
     ("time", "Seconds of rendering: both get the same since the comparison began"),
-    ("noise", "Estimated relative error: the root of relMSE"),
+    ("noise", "Estimated relative error: the root of relMSE, the mean of (x − r)²/(r² + 0.01 · mean r²)"),
     ("true error", "Relative error against the truth, where that is known"),
     ("efficiency", "1/(relMSE · seconds): twice as much is the same error in half the time"),
     ("converges to", "Whether the expected picture is the solution of the equation"),
@@ -142,10 +142,51 @@ fn verdict(a: f64, b: f64) -> (String, String) {
 mod tests {
     use super::*;
 
+    fn side(status: &Status, settings: &RenderSettings, truth: Option<f64>) -> Side {
+        Side::of("A", "a name".to_owned(), status, settings, truth.map(|rel_mse| Against { rel_mse, bias: None }))
+    }
+
+    #[test]
+    fn efficiency_is_one_over_rel_mse_and_seconds() {
+        let elapsed = std::time::Duration::from_millis(2500);
+        let status = Status { spp: 7, elapsed, rel_mse_estimate: Some(0.0016), ..Status::default() };
+        let unbiased = RenderSettings::default();
+        let is =
+            |found: Option<f64>, exact: f64| assert!(found.is_some_and(|x| (x / exact - 1.0).abs() < 1e-12), "{found:?} {exact}");
+        let estimated = side(&status, &unbiased, None);
+        is(estimated.efficiency, 1.0 / (0.0016 * 2.5));
+        is(estimated.noise, 0.04);
+        assert!(estimated.truth.is_none() && estimated.trouble.is_none() && estimated.spp == 7 && estimated.seconds == 2.5);
+        // What is known to be true counts, not what is estimated.
+        let known = side(&status, &unbiased, Some(0.0025));
+        is(known.efficiency, 1.0 / (0.0025 * 2.5));
+        is(known.truth, 0.05);
+        // Noise alone does not see bias, and one sample not even noise.
+        let capped = RenderSettings { max_bounces: Some(2), ..unbiased };
+        assert!(side(&status, &capped, None).efficiency.is_none());
+        is(side(&status, &capped, Some(0.0025)).efficiency, 160.0);
+        assert!(side(&Status { spp: 1, ..status.clone() }, &unbiased, None).efficiency.is_none());
+        assert!(side(&Status { rel_mse_estimate: Some(0.0), ..status.clone() }, &unbiased, None).efficiency.is_none());
+        let of = |settings, truth| [side(&status, &unbiased, truth), side(&status, settings, truth)];
+        assert!(incomparable(&of(&capped, None)).is_some_and(|text| text.starts_with('A')));
+        assert!(incomparable(&of(&capped, Some(0.1))).is_none() && incomparable(&of(&unbiased, None)).is_none());
+    }
+
+    #[test]
+    fn three_digits_count() {
+        assert_eq!(
+            [0.012_34, 1.0, 160.0, 9999.4, 12_345.0, 0.001].map(significant),
+            ["0.0123", "1.00", "160", "9999", "1.23e4", "1.00e-3"]
+        );
+    }
+
     #[test]
     fn the_verdict_names_the_better_one() {
         assert!(verdict(2.0, 1.0).0.starts_with("A is about 2.0 "));
         assert!(verdict(1.0, 3.0).0.starts_with("B is about 3.0 "));
         assert_eq!(verdict(1.0, 1.01).0, "Both are as good.");
+        let (text, more) = verdict(1.0, 12.0);
+        assert!(text.starts_with("B is about 12 ") && more.starts_with("A needs 12 times the time"), "{text} {more}");
+        assert!(verdict(1.06, 1.0).0.starts_with("A is about 1.1 "));
     }
 }

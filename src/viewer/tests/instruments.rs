@@ -182,7 +182,11 @@ fn targets_by_time_and_noise_stop_the_render_and_never_restart_it() {
     assert_eq!(window.state().budget.noise, Some(0.01));
     never_restarts(&mut window, |w| w.state_mut().budget.noise = Some(0.5));
     wait(&mut window, "the target", |app| matches!(app.status.state, State::Done(_)));
-    assert!(window.state().status.spp >= 64, "before that noise is not believed");
+    let (spp, noise) = (window.state().status.spp, window.state().status.relative_noise().expect("samples"));
+    assert!(spp >= 64, "before that noise is not believed");
+    never_restarts(&mut window, |w| w.state_mut().budget.noise = Some(0.6 * noise));
+    wait(&mut window, "less noise", |app| matches!(app.status.state, State::Done(_)) && app.status.spp > spp);
+    assert!(window.state().status.relative_noise().is_some_and(|left| left <= 0.6 * noise && left > 0.1 * noise));
     never_restarts(&mut window, |w| {
         check_box(w, "Stop below");
         w.state_mut().budget.max_time = None;

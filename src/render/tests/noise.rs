@@ -1,0 +1,205 @@
+//! What is told of noise: the estimated relMSE, the variances of means over pixels, and where samples go.
+use std::sync::atomic::{AtomicU32, Ordering};
+
+use crate::{
+    math::SimdLevel,
+    measure::{Moments, exact::furnace_variance},
+    render::{
+        doubling::rel_mse_estimate_in,
+        film::Film,
+        frame::Frame,
+        pass::{PassJob, Threads},
+        region::Region,
+        sharing::resolved,
+    },
+    sampling::{Directions, Sampler},
+    scene::{Camera, Estimator, RenderSettings, Reuse, Roulette, Scene, load, parse},
+};
+
+fn shipped(name: &str) -> Scene {
+    load(format!("{}/scenes/{name}.toml", env!("CARGO_MANIFEST_DIR")).as_ref()).expect("a shipped scene")
+}
+
+fn render(scene: &Scene, settings: &RenderSettings, resolution: [u32; 2], spp: u32) -> Film {
+    let rays = scene.rays(&Camera { resolution, ..scene.camera });
+    let threads = Threads::new(2, SimdLevel::best()).expect("threads");
+    let mut film = Film::new(resolution);
+    threads.pass(PassJob { scene, rays: &rays, settings }, &mut film, spp, &|| false);
+    film
+}
+
+fn frame(film: &Film) -> Frame {
+    let [width, height] = film.resolution;
+    Frame::of_film(film, 0, [width, height], [width, height])
+}
+
+/// Independent samples of the furnace, whose variance is known.
+const UNIFORM: RenderSettings = RenderSettings {
+    estimator: Estimator::Path,
+    sampler: Sampler::Independent,
+    directions: Directions::Uniform,
+    roulette: Roulette::Off,
+    max_bounces: None,
+    reuse: Reuse::Off,
+    adaptive: false,
+    seed: 3,
+    fault: None,
+};
+
+/// The variance of one sample of the furnace over the square of its mean, 2, and 1 % of that.
+fn rel_mse_of_furnace(spp: u32) -> f64 {
+    furnace_variance(1.0, 0.5, 4.0 / 3.0) / (4.0 * 1.01) / f64::from(spp)
+}
+
+#[test]
+fn the_estimate_is_the_variance_of_independent_samples_at_any_number_of_them() {
+    let scene = shipped("furnace");
+    for spp in [2, 3, 4, 7, 8, 15, 16, 40] {
+        let mut ratios = Vec::new();
+        for seed in 0..6 {
+            let found = frame(&render(&scene, &RenderSettings { seed, ..UNIFORM }, [96, 64], spp)).rel_mse_estimate;
+            ratios.push(found.expect("two samples") / rel_mse_of_furnace(spp));
+        }
+        let found = Moments::of(ratios);
+        // Its own scatter says how well it is known, but for what few samples per pixel do to squares of means.
+        let tolerance = 4.0 * (found.variance / 6.0).sqrt() + 0.02;
+        assert!((found.mean - 1.0).abs() < tolerance && tolerance < 0.12, "{spp}: {} ± {tolerance}", found.mean);
+    }
+}
+
+/// A wall that emits 2, the left half of which is a lamp of the same kind that is noisy.
+#[test]
+fn a_region_has_an_estimate_of_its_own_by_the_floor_of_the_whole() {
+    let scene = shipped("furnace");
+    let film = render(&scene, &UNIFORM, [128, 64], 16);
+    let whole = frame(&film).rel_mse_estimate.expect("samples");
+    let all = Region { from: [0, 0], to: [128, 64] };
+    assert_eq!(rel_mse_estimate_in(&film, &all), Some(whole));
+    let half = Region { from: [0, 0], to: [64, 64] };
+    let of_half = rel_mse_estimate_in(&film, &half).expect("samples");
+    assert!(of_half != whole && (of_half / whole - 1.0).abs() < 0.2, "{of_half} {whole}");
+    assert_eq!(rel_mse_estimate_in(&film, &Region { from: [128, 0], to: [140, 9] }), None);
+}
+
+/// A room with its lamp this many times as bright.
+fn room(scale: f32) -> Scene {
+    let text = include_str!("../../../scenes/cornell_spheres.toml");
+    let emission = "emission = { radiance = [15.0, 13.0, 10.5] }";
+    assert!(text.contains(emission));
+    let [r, g, b] = [15.0, 13.0, 10.5].map(|c: f32| f64::from(c * scale));
+    parse("room.toml", text.replace(emission, &format!("emission = {{ radiance = [{r:?}, {g:?}, {b:?}] }}"))).expect("a scene")
+}
+
+#[test]
+fn the_noise_figure_does_not_depend_on_the_unit_of_radiance() {
+    for (adaptive, reuse) in [(false, Reuse::Auto), (true, Reuse::Off)] {
+        let figure = |scale: f32| {
+            let scene = room(scale);
+            let rays = scene.rays(&scene.camera);
+            let settings = resolved(&scene, &rays, &RenderSettings { adaptive, reuse, ..scene.settings });
+            let film = render(&scene, &settings, [64, 48], 24);
+            (frame(&film).rel_mse_estimate.expect("samples"), film.samples(), settings.reuse)
+        };
+        let unit = figure(1.0);
+        for power in [-20, 12] {
+            assert_eq!(figure(2f32.powi(power)), unit, "a power of two changes no bit");
+        }
+        for scale in [1e-3, 1e3] {
+            let (found, samples, reuse) = figure(scale);
+            assert!((found / unit.0 - 1.0).abs() < 1e-3 && (samples, reuse) == (unit.1, unit.2), "{scale}: {found} {unit:?}");
+        }
+    }
+}
+
+/// What is told of noise does not depend on when a render was interrupted, nor on how many threads it has.
+#[test]
+fn interruptions_change_no_bit_of_what_is_told_of_noise() {
+    let scene = room(1.0);
+    let rays = scene.rays(&Camera { resolution: [75, 50], ..scene.camera });
+    for (adaptive, reuse) in [(false, Reuse::On), (true, Reuse::Off)] {
+        let settings = RenderSettings { adaptive, reuse, ..scene.settings };
+        let film = |threads: usize, pause: u32| {
+            let threads = Threads::new(threads, SimdLevel::best()).expect("threads");
+            let (mut film, asked) = (Film::new([75, 50]), AtomicU32::new(0));
+            while film.spp() < 20 {
+                let interrupted = || asked.fetch_add(1, Ordering::Relaxed) % pause == pause - 1;
+                threads.pass(PassJob { scene: &scene, rays: &rays, settings: &settings }, &mut film, 20, &interrupted);
+            }
+            threads.pass(PassJob { scene: &scene, rays: &rays, settings: &settings }, &mut film, 20, &|| false);
+            let Frame { rel_mse_estimate, noise, .. } = frame(&film);
+            (rel_mse_estimate, noise)
+        };
+        let whole = film(1, u32::MAX);
+        assert!(whole.0.is_some() && whole.1.is_some());
+        assert!([(2, 211), (1, 67), (2, 37)].into_iter().all(|(threads, pause)| film(threads, pause) == whole), "{adaptive}");
+    }
+}
+
+#[test]
+fn a_black_picture_has_a_figure_all_the_same() {
+    let scene = shipped("inside_lit_outside");
+    let film = render(&scene, &UNIFORM, [40, 40], 8);
+    assert!(frame(&film).is_black());
+    assert_eq!(frame(&film).rel_mse_estimate, Some(0.0));
+    assert!(frame(&film).noise.is_some_and(|noise| noise.variance_of_mean() == 0.0 && noise.effective_samples == f64::INFINITY));
+}
+
+/// Means over tiles of many pictures scatter as each picture says that they do.
+fn assert_scatter(scene: &Scene, settings: &RenderSettings, spp: u32, what: &str) -> f64 {
+    const SEEDS: u32 = 48;
+    const SIDE: u32 = 128;
+    let (mut means, mut said, mut of_pixels) = (vec![Vec::new(); 16], vec![0.0; 16], 0.0);
+    let (mut wholes, mut said_of_whole) = (Vec::new(), 0.0);
+    for seed in 0..SEEDS {
+        let frame = frame(&render(scene, &RenderSettings { seed, ..*settings }, [SIDE; 2], spp));
+        let values: Vec<f64> = frame.radiance.iter().map(|rgb| rgb.iter().map(|c| f64::from(*c)).sum::<f64>() / 3.0).collect();
+        let noise = frame.noise.expect("samples");
+        let blocks = crate::measure::SampleNoise::block_means(&values, SIDE as usize);
+        means.iter_mut().zip(&blocks).for_each(|(means, mean)| means.push(*mean));
+        said.iter_mut().zip(&noise.blocks).for_each(|(said, variance)| *said += variance / f64::from(SEEDS));
+        wholes.push(blocks.iter().sum::<f64>() / 16.0);
+        said_of_whole += noise.variance_of_mean() / f64::from(SEEDS);
+        let sum: f64 = noise.variance.iter().map(|rgb| rgb.iter().map(|v| f64::from(*v).sqrt()).sum::<f64>().powi(2) / 9.0).sum();
+        of_pixels += sum / f64::from(SIDE.pow(4)) / f64::from(SEEDS);
+    }
+    let ratios: Vec<f64> = means.into_iter().zip(&said).map(|(means, said)| Moments::of(means).variance / said).collect();
+    let found = Moments::of(ratios.iter().copied());
+    let standard_error = (found.variance / found.count).sqrt();
+    assert!(
+        (found.mean - 1.0).abs() < 4.0 * standard_error && standard_error < 0.08,
+        "{what}: {} ± {standard_error}",
+        found.mean
+    );
+    // χ² of 47 degrees of freedom at 4σ.
+    let whole = Moments::of(wholes).variance / said_of_whole;
+    assert!((whole - 1.0).abs() < 4.0 * (2.0 / f64::from(SEEDS - 1)).sqrt(), "{what}: {whole}");
+    said_of_whole / of_pixels
+}
+
+#[test]
+fn means_over_blocks_scatter_as_their_variance_says() {
+    let room = room(1.0);
+    let independent = RenderSettings { sampler: Sampler::Independent, ..room.settings };
+    let alone = assert_scatter(&room, &RenderSettings { reuse: Reuse::Off, ..independent }, 4, "pixels alone");
+    let shared = assert_scatter(&room, &RenderSettings { reuse: Reuse::On, ..independent }, 4, "pixels that share paths");
+    // The channels of a sample come from one path, so what pixels say together is nearly right where they share nothing.
+    assert!((0.8..1.05).contains(&alone) && shared > 1.3 * alone, "{alone} {shared}");
+    let plates = shipped("veach_plates");
+    let adaptive = RenderSettings { sampler: Sampler::Independent, adaptive: true, reuse: Reuse::Off, ..plates.settings };
+    assert_scatter(&plates, &adaptive, 8, "samples spread by noise");
+}
+
+/// Where it pays was measured when sharing was made: README, "Pixels share paths".
+#[test]
+fn paths_are_shared_where_that_pays() {
+    let shares = |name: &str| {
+        let scene = shipped(name);
+        let settings = RenderSettings { reuse: Reuse::Auto, ..scene.settings };
+        resolved(&scene, &scene.rays(&scene.camera), &settings).reuse
+    };
+    assert_eq!(["cornell_box", "cornell_spheres"].map(shares), [Reuse::On; 2]);
+    assert_eq!(["veach_plates", "glass_and_mirror", "bright_sky"].map(shares), [Reuse::Off; 3]);
+    let scene = shipped("cornell_box");
+    let said = |reuse| resolved(&scene, &scene.rays(&scene.camera), &RenderSettings { reuse, ..scene.settings }).reuse;
+    assert_eq!([Reuse::On, Reuse::Off].map(said), [Reuse::On, Reuse::Off]);
+}

@@ -1,0 +1,62 @@
+//! Frames against what they must converge to.
+use std::sync::Arc;
+
+use crate::{
+    measure::SampleNoise,
+    render::{
+        frame::Frame,
+        image_file::{Picture, Provenance},
+        truth::Reference,
+    },
+};
+
+/// 64 × 32 pixels of radiance 1.5, whose two blocks have these variances.
+fn frame(blocks: [f64; 2]) -> Frame {
+    let noise = SampleNoise {
+        width: 64,
+        variance: vec![[0.0; 3]; 64 * 32],
+        blocks: blocks.to_vec(),
+        block_degrees: f64::INFINITY,
+        effective_samples: 1e6,
+    };
+    Frame {
+        width: 64,
+        height: 32,
+        full_resolution: [64, 32],
+        radiance: vec![[1.5; 3]; 64 * 32],
+        noise: Some(noise),
+        ..Frame::default()
+    }
+}
+
+fn picture(radiance: f32, noise: Option<SampleNoise>) -> Reference {
+    let picture = Picture { width: 64, height: 32, radiance: vec![[radiance; 3]; 64 * 32] };
+    Reference::Picture(Arc::new(picture), Arc::new(Provenance { noise, ..Provenance::default() }))
+}
+
+#[test]
+fn a_frame_is_held_against_a_radiance_or_a_picture_of_its_size() {
+    let frame = frame([0.01, 0.03]);
+    for reference in [Reference::Constant([1.0; 3]), picture(1.0, None)] {
+        let found = reference.compare(&frame).expect("the same size");
+        assert!((found.rel_mse - 0.25 / 1.01).abs() < 1e-9 && found.bias == 0.5, "{found:?}");
+        assert_eq!(reference.mismatch([64, 32]), None);
+        // The variance of the mean of two equal blocks is a quarter of the sum of theirs.
+        assert!(reference.bias(&frame).is_some_and(|z| (z - 0.5 / 0.1).abs() < 1e-6));
+    }
+    let other = Frame { width: 32, height: 64, ..frame };
+    assert!(picture(1.0, None).compare(&other).is_none() && picture(1.0, None).bias(&other).is_none());
+    assert!(picture(1.0, None).mismatch([32, 64]).is_some_and(|why| why.contains("64 × 32") && why.contains("32 × 64")));
+    assert_eq!(Reference::Constant([1.0; 3]).mismatch([32, 64]), None);
+    assert!(Reference::Constant([1.0; 3]).compare(&other).is_some());
+}
+
+#[test]
+fn the_noise_of_the_reference_counts_and_what_is_not_known_is_not_claimed() {
+    let noisy = frame([0.01, 0.03]);
+    let reference = picture(1.0, frame([0.05, 0.07]).noise);
+    assert!(reference.bias(&noisy).is_some_and(|z| (z - 0.5 / 0.2).abs() < 1e-6));
+    assert_eq!(reference.bias(&Frame { noise: None, ..noisy }), None);
+    // Without noise a difference is no number of standard errors.
+    assert_eq!(Reference::Constant([1.0; 3]).bias(&frame([0.0; 2])), None);
+}

@@ -1,0 +1,112 @@
+//! Pages, formulas and plots.
+use super::{Figure, formula, page, plot::*};
+
+#[test]
+fn a_letter_behind_an_underscore_is_an_index() {
+    assert_eq!(formula("L_e + ρ L").into_string(), "L<sub>e</sub> + ρ L");
+    assert_eq!(formula("x_Mx_ω y").into_string(), "x<sub>M</sub>x<sub>ω</sub> y");
+    assert_eq!(formula("a < b").into_string(), "a &lt; b");
+    assert_eq!(formula("").into_string(), "");
+}
+
+#[test]
+fn a_page_has_its_title_style_and_body() {
+    let body = Figure { caption: "what L_o is".to_owned(), element: "<svg/>".to_owned() }.markup();
+    let page = page("A & B", ":root { --width: 9rem; }", &body);
+    assert!(page.starts_with("<!DOCTYPE html>") && page.contains("<title>A &amp; B</title>") && page.contains("--width: 9rem"));
+    assert!(page.contains("<figure><svg/><figcaption>what L<sub>o</sub> is</figcaption></figure>"), "{page}");
+}
+
+/// The texts of a drawing.
+fn texts(svg: &str) -> Vec<String> {
+    let parts = svg.split("<text").skip(1).filter_map(|part| part.split_once('>')?.1.split_once("</text>"));
+    parts.map(|(text, _)| text.trim().to_owned()).collect()
+}
+
+fn numbers(element: &str, attribute: &str) -> Vec<f64> {
+    let start = format!(" {attribute}=\"");
+    let parts = element.split(&start).skip(1);
+    parts.filter_map(|part| part.split_once('"')?.0.parse().ok()).collect()
+}
+
+/// The centres of the dots.
+fn dots(svg: &str) -> Vec<[f64; 2]> {
+    let circles = svg.split("<circle").skip(1).filter_map(|part| part.split_once("/>").map(|(circle, _)| circle.to_owned()));
+    circles.map(|circle| [numbers(&circle, "cx")[0], numbers(&circle, "cy")[0]]).collect()
+}
+
+#[test]
+fn points_lie_at_their_logarithms_and_upwards() {
+    let points = vec![(1.0, 0.01), (10.0, 0.1), (1000.0, 10.0)];
+    let svg = svg(BESIDE, Axis::log("samples"), Axis::log("error"), &[curve("a curve", Style::Points, points)]);
+    let dots = dots(&svg);
+    assert_eq!(dots.len(), 3, "{svg}");
+    // A decade, then two, in both directions; SVG counts downwards.
+    for (axis, sign) in [(0, 1.0), (1, -1.0)] {
+        let [first, second] = [dots[1][axis] - dots[0][axis], dots[2][axis] - dots[1][axis]];
+        assert!(sign * first > 20.0 && (second / first - 2.0).abs() < 0.05, "{dots:?}");
+    }
+    let texts = texts(&svg);
+    for label in ["samples", "error", "1", "10", "100", "1000", "0.01", "0.1", "a curve"] {
+        assert!(texts.iter().any(|text| text == label), "{label}: {texts:?}");
+    }
+    assert!(svg.contains("560") && svg.contains("380"));
+}
+
+#[test]
+fn points_of_a_linear_axis_lie_at_their_values() {
+    let points = vec![(0.0, 1.0), (1.0, 2.0), (3.0, 5.0)];
+    let figure = plot("L_o", Axis::linear("x"), Axis::linear("y"), &[curve("c", Style::Points, points)]);
+    let dots = dots(&figure.element);
+    assert!(((dots[2][0] - dots[1][0]) / (dots[1][0] - dots[0][0]) - 2.0).abs() < 0.05, "{dots:?}");
+    assert!(((dots[2][1] - dots[1][1]) / (dots[1][1] - dots[0][1]) - 3.0).abs() < 0.05, "{dots:?}");
+    assert!(figure.caption == "L_o" && figure.element.contains("660"));
+}
+
+#[test]
+fn lines_and_points_of_a_name_share_a_colour_and_guides_are_grey() {
+    let points = || vec![(1.0, 1.0), (2.0, 3.0), (4.0, 9.0)];
+    let of = |name: &str, style| curve(name, style, points());
+    let curves =
+        [of("a", Style::Line), of("a", Style::Points), of("b", Style::Dashed), of("b", Style::Points), of("guide", Style::Guide)];
+    let svg = svg(BESIDE, Axis::log("x"), Axis::log("y"), &curves);
+    let count = |colour: &str| svg.matches(colour).count();
+    // Blue, orange red, and no third colour of curves.
+    assert!(count("#0072B2") > 3 && count("#D55E00") > 3 && count("#009E73") == 0 && count("#969696") > 0, "{svg}");
+    let named = |name: &str| texts(&svg).iter().filter(|text| *text == name).count();
+    assert_eq!([named("a"), named("b"), named("guide")], [1, 1, 1], "each name stands once in the legend");
+}
+
+#[test]
+fn a_single_point_and_none_are_drawn_too() {
+    for points in [vec![(2.0, 2.0)], Vec::new()] {
+        for axis in [Axis::log, Axis::linear] {
+            let count = points.len();
+            let svg = svg(BESIDE, axis("x"), axis("y"), &[curve("c", Style::Points, points.clone())]);
+            assert!(svg.starts_with("<svg") && dots(&svg).len() == count, "{svg}");
+        }
+    }
+}
+
+/// The legend goes where no points are.
+#[test]
+fn the_legend_lies_in_the_emptiest_corner() {
+    let cluster = |x: f64, y: f64| (0..30).map(move |i| (x + f64::from(i % 6) * 0.02, y + f64::from(i / 6) * 0.02));
+    let corners = [(0.0, 0.0), (0.0, 1.0), (1.0, 0.0), (1.0, 1.0)];
+    for empty in 0..4 {
+        let mut points: Vec<(f64, f64)> = Vec::new();
+        corners.iter().enumerate().filter(|(corner, _)| *corner != empty).for_each(|(_, (x, y))| points.extend(cluster(*x, *y)));
+        // The range reaches into the empty corner.
+        points.extend([(0.55, 0.55), (1.1, 0.5), (0.5, 1.1)]);
+        let svg = svg(BESIDE, Axis::linear("x"), Axis::linear("y"), &[curve("the only curve", Style::Points, points)]);
+        let (x, y) = legend_place(&svg);
+        let (right, top) = (x > 280.0, y < 190.0);
+        assert_eq!((right, top), (corners[empty].0 > 0.5, corners[empty].1 > 0.5), "corner {empty}: {x} {y}");
+    }
+}
+
+fn legend_place(svg: &str) -> (f64, f64) {
+    let at = svg.find("the only curve").expect("a legend");
+    let element = &svg[svg[..at].rfind("<text").expect("a text")..at];
+    (numbers(element, "x")[0], numbers(element, "y")[0])
+}

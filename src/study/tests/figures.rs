@@ -1,0 +1,105 @@
+//! Which curves are drawn, and where they lie.
+use crate::{
+    sampling::Sampler,
+    scene::{Estimator, RenderSettings},
+    study::{
+        Checkpoint, Findings, Outcome, Run, checkpoints,
+        figures::{by_setting, overview},
+        outcome::Limits,
+        ranking::rank,
+        setting::Setting,
+        trial::Group,
+    },
+};
+
+fn outcome(settings: RenderSettings, rel_mse: f64, twins: Vec<RenderSettings>) -> Outcome {
+    let point = |n: u32| {
+        let share = f64::from(n) / 16.0;
+        Checkpoint { spp: n, seconds: 4.0 * share, rmse: 1.0, rel_mse: rel_mse / share, bias: 0.0 }
+    };
+    let run = Run { checkpoints: checkpoints(16).into_iter().map(point).collect(), ..Run::default() };
+    Outcome::of(Group { settings, twins }, &[run], Limits { floor: 0.0, black: 1e9 })
+}
+
+fn findings(mut outcomes: Vec<Outcome>, of_scene: RenderSettings) -> Findings {
+    rank(&mut outcomes);
+    Findings {
+        title: String::new(),
+        path: "scene.toml".into(),
+        resolution: [8, 8],
+        of_scene,
+        reference: String::new(),
+        reference_is_taken_for_exact: false,
+        limits: Limits { floor: 0.0, black: 1e9 },
+        repeats: 1,
+        outcomes,
+    }
+}
+
+fn settings(estimator: Estimator, sampler: Sampler) -> RenderSettings {
+    RenderSettings { estimator, sampler, ..RenderSettings::default() }
+}
+
+/// How often each name stands in a drawing.
+fn named(svg: &str, name: &str) -> usize {
+    svg.matches(&format!("\n{name}\n")).count()
+}
+
+#[test]
+fn the_overview_has_the_best_three_the_own_and_the_last() {
+    let all = [Sampler::Sobol, Sampler::Stratified, Sampler::Independent];
+    let of = |(i, sampler): (usize, Sampler)| {
+        [Estimator::Mis, Estimator::Light].map(|estimator| {
+            let rel_mse = 0.01 * (1.0 + i as f64) * if estimator == Estimator::Light { 10.0 } else { 1.0 };
+            outcome(settings(estimator, sampler), rel_mse, Vec::new())
+        })
+    };
+    let outcomes: Vec<Outcome> = all.into_iter().enumerate().flat_map(of).collect();
+    let found = findings(outcomes, settings(Estimator::Light, Sampler::Sobol));
+    let pair = overview(&found).expect("curves");
+    for svg in &pair.elements {
+        let shown = |estimator: &str, sampler: &str| named(svg, &format!("{estimator}, bsdf, {sampler}, roulette throughput"));
+        let counts = ["sobol", "stratified", "independent"].map(|sampler| [shown("mis", sampler), shown("light", sampler)]);
+        assert_eq!(counts, [[1, 1], [1, 0], [1, 1]], "{svg}");
+        assert_eq!(named(svg, "slope −1/2"), 1);
+    }
+    assert!(pair.elements[0].contains("rendering time, s") && pair.elements[1].contains("samples a pixel"));
+    assert!(!pair.caption.contains("Without noise") && !pair.caption.contains("taken off"));
+    let limited = Findings { limits: Limits { floor: 1e-9, black: 1e9 }, ..found };
+    assert!(overview(&limited).expect("curves").caption.contains("The reference's own error is taken off"));
+}
+
+#[test]
+fn a_setting_has_a_curve_for_each_value_and_twins_share_one() {
+    let best = settings(Estimator::Mis, Sampler::Sobol);
+    let twin = RenderSettings { sampler: Sampler::BlueNoise, ..best };
+    let found = findings(
+        vec![
+            outcome(best, 0.01, vec![twin]),
+            outcome(settings(Estimator::Mis, Sampler::Independent), 0.04, Vec::new()),
+            outcome(settings(Estimator::Path, Sampler::Independent), 0.08, Vec::new()),
+            outcome(settings(Estimator::Path, Sampler::Stratified), 0.16, Vec::new()),
+        ],
+        best,
+    );
+    let pair = by_setting(&found, Setting::Sampler).expect("curves");
+    assert_eq!(pair.title, "Sampler");
+    assert!(pair.caption.contains("All other settings as in the best combination: mis, bsdf, sobol"), "{}", pair.caption);
+    // Stratified was measured with another estimator only.
+    let counts = ["sobol = bluenoise", "independent", "stratified"].map(|name| named(&pair.elements[0], name));
+    assert_eq!(counts, [1, 1, 0], "{}", pair.elements[0]);
+    assert!(by_setting(&found, Setting::Roulette).is_none() && by_setting(&found, Setting::Estimator).is_none());
+}
+
+#[test]
+fn what_has_no_noise_is_said_and_not_drawn() {
+    let exact = outcome(settings(Estimator::Mis, Sampler::Sobol), 1e-17, Vec::new());
+    let noisy = outcome(settings(Estimator::Path, Sampler::Sobol), 0.1, Vec::new());
+    let pair = overview(&findings(vec![exact.clone(), noisy], RenderSettings::default())).expect("a curve");
+    assert!(
+        pair.caption.ends_with("Without noise, and so not shown: mis, bsdf, sobol, roulette throughput."),
+        "{}",
+        pair.caption
+    );
+    assert!(overview(&findings(vec![exact], RenderSettings::default())).is_none());
+}
