@@ -205,8 +205,8 @@ mod tests {
         let (a, b) = (picture([3.0, 5.0]), picture([2.0, 7.0]));
         let few = |variance: [f64; 2], block_degrees| SampleNoise { block_degrees, ..noise(variance, 1e6) };
         let bias = Bias::by_samples(&a, &b, [Some(&few([0.25, 1.0], 3.0)), None], WIDTH);
-        // Student's t of 2 and −2 with three degrees of freedom: 7.0 % lie below −2, as below −1.477 of the normal distribution.
-        assert!((bias.block_z[0] - 1.4766).abs() < 2e-3 && (bias.block_z[1] + 1.4766).abs() < 2e-3, "{:?}", bias.block_z);
+        // Student's t of 2 and −2 with three degrees of freedom: 7.0 % lie below −2, as below −1.478 of the normal distribution.
+        assert!((bias.block_z[0] - 1.4783).abs() < 2e-3 && (bias.block_z[1] + 1.4783).abs() < 2e-3, "{:?}", bias.block_z);
         is(bias.z, -0.5 / (1.25f64 / 4.0).sqrt());
         // Of equal variances with 3 degrees each, 6.
         let both = Bias::by_samples(&a, &b, [Some(&few([0.125, 0.5], 3.0)), Some(&few([0.125, 0.5], 3.0))], WIDTH);

@@ -112,8 +112,9 @@ impl Threads {
                 }
             }
             count = count.merge(self.to_next_doubling(job, film, spp, interrupted));
-            film.is_noting = film.tiles_in_focus().all(|tile| tile.has_reached(spp));
-            if !film.is_noting {
+            let is_there = film.tiles_in_focus().all(|tile| tile.has_reached(spp));
+            film.is_noting = is_there;
+            if !is_there {
                 return count;
             }
         }
