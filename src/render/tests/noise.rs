@@ -131,7 +131,7 @@ fn interruptions_change_no_bit_of_what_is_told_of_noise() {
         };
         let whole = film(1, u32::MAX);
         assert!(whole.0.is_some() && whole.1.is_some());
-        assert!([(2, 211), (1, 67), (2, 37)].into_iter().all(|(threads, pause)| film(threads, pause) == whole), "{adaptive}");
+        assert!([(2, 211), (1, 257), (2, 499)].into_iter().all(|(threads, pause)| film(threads, pause) == whole), "{adaptive}");
     }
 }
 
@@ -183,7 +183,7 @@ fn means_over_blocks_scatter_as_their_variance_says() {
     let alone = assert_scatter(&room, &RenderSettings { reuse: Reuse::Off, ..independent }, 4, "pixels alone");
     let shared = assert_scatter(&room, &RenderSettings { reuse: Reuse::On, ..independent }, 4, "pixels that share paths");
     // The channels of a sample come from one path, so what pixels say together is nearly right where they share nothing.
-    assert!((0.8..1.05).contains(&alone) && shared > 1.3 * alone, "{alone} {shared}");
+    assert!((0.9..1.05).contains(&alone) && shared > 1.1 * alone, "{alone} {shared}");
     let plates = shipped("veach_plates");
     let adaptive = RenderSettings { sampler: Sampler::Independent, adaptive: true, reuse: Reuse::Off, ..plates.settings };
     assert_scatter(&plates, &adaptive, 8, "samples spread by noise");
