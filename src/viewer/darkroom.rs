@@ -281,7 +281,7 @@ mod tests {
     #[test]
     fn numbers_of_a_view_are_those_of_its_pixels_and_two_pictures_have_one_scale() {
         let look = Look { view: View::StandardError, ..Look::default() };
-        let beside = Some(frame(&[1.0, 1.0, 1.0]));
+        let beside = Some(frame(&[1.0, 1e4, 1e-4]));
         let print = develop(Order { look, beside, shows_beside: true, ..order(frame(&[0.5, 1.0, 4.0])) });
         let numbers = print.seen.numbers.expect("it is a view of numbers");
         assert!(numbers.iter().zip([0.05, 0.1, 0.4]).all(|(number, error)| (number - error).abs() < 1e-6), "{numbers:?}");

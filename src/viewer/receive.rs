@@ -115,8 +115,11 @@ impl App {
 
     /// Notes what a picture that has just come says of its camera: that it sees something, or why it sees nothing. To find the
     /// reason can take as long as to look at all triangles, so it is looked for once a picture.
-    fn note_blackness(&mut self, generation: u64) {
-        let Some(wish) = self.link.wish().filter(|_| generation == self.link.generation()) else { return };
+    pub(super) fn note_blackness(&mut self, generation: u64) {
+        // A picture of the scene before can come when another one has just been opened, but not been asked for.
+        let is_open = |wish: &&Wish| self.opened.as_ref().is_some_and(|opened| Arc::ptr_eq(&wish.scene, &opened.scene));
+        let is_latest = generation == self.link.generation();
+        let Some(wish) = self.link.wish().filter(|_| is_latest).filter(is_open) else { return };
         if !self.black {
             (self.last_seeing, self.black_reason) = (Some(wish.camera), None);
         } else if self.black_reason.as_ref().is_none_or(|(of, _)| *of != generation) {

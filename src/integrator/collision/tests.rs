@@ -115,6 +115,9 @@ fn a_camera_in_the_dark_gets_out_and_one_in_the_open_goes_round() {
     let scene = scene(&[sky(), object(BALL, WHITE)]);
     assert_eq!(way(&scene, [0.0, 0.0, 0.0], [0.0, 0.0, 2.0]), 2.0);
     assert_eq!(way(&scene, [0.0, 0.0, 0.0], [0.0, 0.0, 0.2]), 0.2);
+    // Out of one dark place into another: both are as good.
+    let nested = self::scene(&[sky(), object(BALL, WHITE), object(&BALL.replace("0.5", "0.25"), WHITE)]);
+    assert_eq!(way(&nested, [0.0, 0.0, 0.375], [0.0, 0.0, 0.0]), 0.375);
     assert_eq!(way(&scene, [0.51, 0.0, 2.0], [0.51, 0.0, -2.0]), 4.0, "past the ball");
     assert_eq!(way(&scene, [0.0, 0.0, 2.0], [0.0, 0.0, 2.0]), 0.0, "no way at all");
     assert_eq!(clear_fraction(&scene, DVec3::Z, DVec3::Z), 1.0);

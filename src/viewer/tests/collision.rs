@@ -158,6 +158,23 @@ fn there_is_no_way_back_where_nothing_was_ever_seen() {
 }
 
 #[test]
+fn a_picture_of_the_scene_before_is_no_view_of_the_one_that_was_opened() {
+    let (mut window, _) = with_camera_tool();
+    let (old, generation) = (window.state().opened.as_ref().map(|opened| opened.scene.clone()), window.state().link.generation());
+    assert!(old.is_some() && window.state().last_seeing.is_some());
+    let app = window.state_mut();
+    app.loader.open(Some(shipped("inside_lit_outside")));
+    let start = Instant::now();
+    // As in a frame in which a scene is opened, and a picture of the one before arrives.
+    while app.opened.as_ref().map(|opened| std::sync::Arc::as_ptr(&opened.scene)) == old.as_ref().map(std::sync::Arc::as_ptr) {
+        assert!(start.elapsed() < Duration::from_secs(60), "the scene never came");
+        app.receive();
+    }
+    app.note_blackness(generation);
+    assert!(app.link.generation() == generation && app.last_seeing.is_none());
+}
+
+#[test]
 fn a_cap_that_leaves_nothing_is_named_without_a_way_back() {
     let mut window = window("cornell_box");
     brightness(&mut window);
