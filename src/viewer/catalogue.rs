@@ -79,7 +79,9 @@ mod tests {
     fn a_folder_lists_its_scenes_and_what_is_opened_is_listed_once_under_its_last_name() {
         let folder = tempfile::tempdir().expect("a folder");
         let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).expect("it is written");
-        write("titled.toml", "format = 1\ntitle = \"Zebra\"\n[camera]\ntitle = \"no\"\n");
+        // Its tables are longer than what is read of it.
+        let long = "x".repeat(2 * LONGEST_HEAD as usize);
+        write("titled.toml", &format!("format = 1\ntitle = \"Zebra\"\n[camera]\ntitle = \"{long}\"\n"));
         write("plain_one.toml", "format = 1\n[camera]\ntitle = \"no\"\n");
         write("notes.txt", "title = \"no scene\"");
         let mut scenes = list(folder.path());
