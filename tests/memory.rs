@@ -79,7 +79,7 @@ fn assert_counted(what: &str, file: &Path) {
     let (mut too_little, mut enough) = (0, 16 * peak);
     while enough - too_little > peak / 64 {
         let middle = (too_little + enough) / 2;
-        if probed(file, middle).contains("--memory changes that") { too_little = middle } else { enough = middle }
+        if probed(file, middle).contains("--memory") { too_little = middle } else { enough = middle }
     }
     assert!(enough + UNCOUNTED >= peak, "{what}: a peak of {peak} bytes, of which {enough} are counted");
     assert!(enough <= 4 * peak, "{what}: a peak of {peak} bytes, and {enough} are counted");

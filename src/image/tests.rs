@@ -84,6 +84,30 @@ fn pngs_of_any_depth_and_channels_are_read() {
     assert!((grey.expect("it is a picture").radiance[0][1] - 0.502_886).abs() < 1e-6);
 }
 
+/// 3 × 2 pixels of 10, 20, … 60, in the passes of Adam7.
+#[rustfmt::skip]
+const IN_PASSES: [u8; 75] = [
+    137, 80, 78, 71, 13, 10, 26, 10, 0, 0, 0, 13, 73, 72, 68, 82, 0, 0, 0, 3, 0, 0, 0, 2,
+    8, 0, 0, 0, 1, 207, 24, 9, 80, 0, 0, 0, 18, 73, 68, 65, 84, 120, 218, 99, 224, 98, 144, 99,
+    16, 97, 208, 48, 178, 1, 0, 2, 178, 0, 211, 229, 163, 165, 171, 0, 0, 0, 0, 73, 69, 78, 68, 174,
+    66, 96, 130,
+];
+
+#[test]
+fn pngs_in_passes_are_read() {
+    let greys: Vec<f32> = read(&IN_PASSES).expect("it is a picture").radiance.iter().map(|pixel| pixel[1] * 255.0).collect();
+    let expected = [10.0, 20.0, 30.0, 40.0, 50.0, 60.0];
+    assert!(greys.len() == 6 && greys.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-4), "{greys:?}");
+    assert!(matches!(read(&IN_PASSES[..IN_PASSES.len() - 20]), Err(Flaw::Unreadable(_))));
+}
+
+#[test]
+fn texels_are_the_same_colours_and_nothing_else() {
+    let bytes = hdr(&format!("{HEADER}\n-Y 1 +X 2\n"), &[128, 64, 0, 129, 7, 7, 7, 0]);
+    let texels: Picture<[f32; 4]> = decode(Cursor::new(bytes), Encoding::Linear).expect("it is a picture");
+    assert_eq!(texels.radiance, [[1.0, 0.5, 0.0, 0.0], [0.0; 4]]);
+}
+
 #[test]
 fn sizes_are_refused_by_the_header_alone() {
     let header = |width: u32, height: u32| {

@@ -67,7 +67,8 @@ fn slice<L: Lanes>(x: F<L>, y: F<L>, z: F<L>, (s, t): (F<L>, F<L>), (column, row
     ab + t * (cd - ab)
 }
 
-/// The dot product of (x, y, z) with one of the twelve vectors from the centre of a cube to its edges, four of them twice.
+/// The dot product of (x, y, z) with one of the twelve vectors from the centre of a cube to its edges, of which the four
+/// without a part along y are chosen two thirds as often as the others.
 #[inline(always)]
 fn ramp<L: Lanes>(hash: U<L>, x: F<L>, y: F<L>, z: F<L>) -> F<L> {
     let h = hash >> 28;

@@ -259,3 +259,67 @@ fn lights_come_first_and_pieces_know_their_objects() {
     let owners: Vec<u32> = pieces.enumerate().flat_map(|(i, count)| vec![i as u32; count]).collect();
     assert_eq!(scene.owners, owners);
 }
+
+#[test]
+fn the_size_of_a_scene_is_that_of_what_is_near() {
+    let ball =
+        |x: f64, radius: f64| format!("[[objects]]\nshape.sphere = {{ center = [{x:?}, 0.0, 0.0], radius = {radius:?} }}\n");
+    let size = |objects: &[String]| compiled(&format!("VIEW\n{}", objects.concat())).size;
+    assert_eq!(size(&[]), 4.0, "the distance that is looked over");
+    assert_eq!(size(&[ball(5.0, 1.0)]), 12.0);
+    assert_eq!(size(&[ball(5.0, 1.0), ball(0.0, 1000.0)]), 12.0, "a sun is no part of it");
+    assert_eq!(size(&[ball(90.0, 1.0)]), 40.0, "ten times the distance at most");
+}
+
+#[test]
+fn warnings() {
+    let shells = |count: usize, tint: &str| {
+        let shell = |i: usize| {
+            format!("[[objects]]\nshape.sphere = {{ center = [0, 0, 0], radius = {}.0 }}\nmaterial = 'glass'\n", i + 1)
+        };
+        let glass = format!("materials.glass.dielectric = {{ ior = 1.5{tint} }}\n");
+        compiled(&format!("VIEW\nbackground.radiance = 1.0\n{glass}{}", (0..count).map(shell).collect::<String>())).warnings()
+    };
+    assert_eq!(shells(5, ", transmittance = 0.5"), ["5 media lie within each other: only the tint of the inner 4 is kept"]);
+    assert_eq!((shells(4, ", transmittance = 0.5").len(), shells(9, "").len()), (0, 0));
+    let moving = |shutter: &str| {
+        let view = format!("camera = {{ eye = [0, 0, 4], look_at = [0, 0, 0], fov = 40, resolution = [8, 8]{shutter} }}");
+        let ball = "[[objects]]\nshape.sphere = { center = [0, 0, 0], radius = 1 }\nmotion = [{ translate = [1, 0, 0] }]";
+        compiled(&format!("{view}\nbackground.radiance = 1\n{ball}")).warnings()
+    };
+    assert_eq!(moving("").len(), 1);
+    assert_eq!((moving(", shutter = [0, 0]").len(), moving(", shutter = [0, 1]").len()), (0, 0));
+    assert_eq!(compiled("VIEW").warnings().len(), 2, "no light, no objects");
+}
+
+#[test]
+fn closed_shapes_know_what_they_hold() {
+    let cube = "mesh = { vertices = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]], \
+        triangles = [[0, 2, 1], [0, 3, 2], [4, 5, 6], [4, 6, 7], [0, 1, 5], [0, 5, 4], [3, 7, 6], [3, 6, 2], [0, 4, 7], [0, 7, 3], \
+        [1, 2, 6], [1, 6, 5]] }";
+    let shapes = [
+        "cuboid = { min = [0, 0, 0], max = [1, 1, 1] }",
+        cube,
+        "isosurface = { expression = 'max(abs(x - 0.5), abs(y - 0.5), abs(z - 0.5)) - 0.5', bounds = { min = [-1, -1, -1], max = [2, 2, 2] } }",
+    ];
+    for shape in shapes {
+        for (list, scale) in [("", 1.0), ("transform = [{ scale = 2 }]", 2.0), ("transform = [{ scale = -2 }]", -2.0)] {
+            let object = object(&format!("shape.{shape}\n{list}"));
+            for (p, inside) in [
+                ([0.5, 0.5, 0.5], true),
+                ([0.1, 0.9, 0.2], true),
+                ([1.1, 0.5, 0.5], false),
+                ([0.5, -0.2, 0.5], false),
+                ([0.9, 0.9, 1.3], false),
+            ] {
+                assert_eq!(object.shape.contains(scale * DVec3::from(p)), inside, "{shape}, {list}, {p:?}");
+            }
+        }
+    }
+    let holds = |shape: &str, p: [f64; 3]| object(&format!("shape.{shape}")).shape.contains(DVec3::from(p));
+    let cylinder = "cylinder = { base = [0, 0, 0], top = [0, 2, 0], radius = 1 }";
+    assert!(holds(cylinder, [0.6, 1.9, 0.6]) && !holds(cylinder, [0.8, 1.0, 0.8]) && !holds(cylinder, [0.0, 2.1, 0.0]));
+    let ball = "sphere = { center = [1, 0, 0], radius = 1 }";
+    assert!(holds(ball, [1.9, 0.0, 0.0]) && !holds(ball, [-0.1, 0.0, 0.0]));
+    assert!(!holds("disk = { center = [0, 0, 0], normal = [0, 1, 0], radius = 1 }", [0.0, 0.0, 0.0]));
+}
