@@ -2,6 +2,7 @@
 mod film;
 mod frame;
 mod noise;
+mod passes;
 mod tile;
 mod truth;
 mod views;

@@ -1,7 +1,7 @@
 //! Passes, films and frames, a sample at a time.
 use std::sync::atomic::{AtomicU32, Ordering};
 
-use super::{
+use super::super::{
     Frame, Region,
     film::Film,
     pass::{Failure, PassCount, PassJob, SampleId, Threads},
