@@ -67,7 +67,7 @@ pub struct Arguments {
     /// Where samples lie: independent, stratified, sobol or bluenoise
     #[arg(long, value_parser = parse::sampler)]
     sampler: Option<Sampler>,
-    /// Highest number of reflections, or none for no cap
+    /// Highest number of bounces (reflections and refractions), or none for no cap
     #[arg(long, value_name = "N|none", value_parser = parse::bounce_cap)]
     max_bounces: Option<BounceCap>,
     /// Russian roulette: off, a survival probability, or throughput

@@ -49,7 +49,7 @@ pub struct Arguments {
     /// Russian roulette: off, survival probabilities, throughput
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::item(parse::roulette), default_value = "off,0.8,throughput")]
     roulette: Vec<Roulette>,
-    /// Highest numbers of reflections, none for no cap; what is capped is biased and never the best
+    /// Highest numbers of bounces, none for no cap; what is capped is biased and never the best
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::item(parse::bounce_cap), default_value = "none")]
     max_bounces: Vec<BounceCap>,
     /// Largest number of samples per pixel; errors are measured at powers of two up to it

@@ -40,7 +40,7 @@ impl Done<'_> {
         if *cut_paths > 0 {
             let longest = self.settings.last_bounce();
             notes.push(format!(
-                "warning: {cut_paths} paths were cut after {longest} reflections: the picture is biased; use roulette"
+                "warning: {cut_paths} paths were cut after {longest} bounces: the picture is biased; use roulette"
             ));
         }
         notes

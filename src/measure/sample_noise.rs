@@ -70,7 +70,8 @@ mod tests {
 
     #[test]
     fn means_of_blocks_are_those_of_their_own_pixels() {
-        let value = |i: usize| [[1.0, 2.0], [3.0, 5.0]][i / 40 / 32][i % 40 / 32] + if i.is_multiple_of(2) { 0.25 } else { -0.25 };
+        let value =
+            |i: usize| [[1.0, 2.0], [3.0, 5.0]][i / 40 / 32][i % 40 / 32] + if i.is_multiple_of(2) { 0.25 } else { -0.25 };
         let values: Vec<f64> = (0..40 * 36).map(value).collect();
         assert_eq!(SampleNoise::block_means(&values, 40), [1.0, 2.0, 3.0, 5.0]);
     }

@@ -37,7 +37,7 @@ impl Film {
         memory::reserve(format_args!("pictures of {width} × {height} pixels"), PIXEL * u64::from(width) * u64::from(height))
     }
 
-    /// Room for what each number of reflections adds to a picture of this size.
+    /// Room for what each number of bounces adds to a picture of this size.
     pub(super) fn reserve_series([width, height]: [u32; 2]) -> Result<Reservation, TooMuch> {
         /// Sums in the film, and means in two frames.
         const PIXEL: u64 = 3 * 12 * TERMS as u64;
@@ -54,7 +54,7 @@ impl Film {
         self
     }
 
-    /// Keeps what each number of reflections adds apart from now on.
+    /// Keeps what each number of bounces adds apart from now on.
     pub(super) fn keep_series(&mut self) {
         self.tiles.iter_mut().for_each(Tile::keep_series);
     }

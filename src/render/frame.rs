@@ -34,7 +34,7 @@ pub struct Frame {
     pub counts: Vec<u32>,
     /// Time spent rendering it.
     pub elapsed: Duration,
-    /// What each number of reflections adds, where that was asked for.
+    /// What each number of bounces adds, where that was asked for.
     pub series: Option<Series>,
     /// Estimated relMSE of the picture: see [`super::doubling`]; `None` before the second sample.
     pub rel_mse_estimate: Option<f64>,

@@ -1,4 +1,4 @@
-//! The picture as a series: sums of samples by the number of reflections, and what share of the light each number brings.
+//! The picture as a series: sums of samples by the number of bounces, and what share of the light each number brings.
 use rayon::prelude::*;
 
 use super::{film::Film, tile::Tile};
@@ -12,12 +12,12 @@ pub(super) struct TileSeries {
     light: [f64; SHARES],
 }
 
-/// What each number of reflections adds to a picture.
+/// What each number of bounces adds to a picture.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Series {
     /// Mean radiance of light reflected k times, in the last of [`TERMS`] that of all the rest; row by row from the top left.
     pub terms: Vec<Vec<[f32; 3]>>,
-    /// The part of the picture's luminance that k reflections bring, in the last of [`SHARES`] that of all the rest.
+    /// The part of the picture's luminance that k bounces bring, in the last of [`SHARES`] that of all the rest.
     pub shares: Vec<f64>,
 }
 
@@ -65,12 +65,12 @@ impl Series {
         Some(Series { terms: (0..TERMS).map(term).collect(), shares })
     }
 
-    /// The part of the light that a cap of `n` reflections would lose.
+    /// The part of the light that a cap of `n` bounces would lose.
     pub fn lost_by_cap(&self, n: usize) -> f64 {
         self.shares.iter().skip(n + 1).sum()
     }
 
-    /// Mean radiance of light reflected at most `k` times.
+    /// Mean radiance of light that bounced at most `k` times.
     pub fn up_to(&self, k: usize) -> Vec<[f32; 3]> {
         let mut sum = self.terms.first().cloned().unwrap_or_default();
         for term in self.terms.iter().take(k + 1).skip(1) {

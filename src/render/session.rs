@@ -104,7 +104,7 @@ impl Session {
         }
     }
 
-    /// One that keeps what each number of reflections adds apart. Pixels share nothing then, and have the same number of samples.
+    /// One that keeps what each number of bounces adds apart. Pixels share nothing then, and have the same number of samples.
     pub fn of_series(job: Job, rate: Option<f64>, budget: &Budget) -> Session {
         let settings = RenderSettings { reuse: Reuse::Off, adaptive: false, ..job.settings };
         let mut session = Session::new(Job { settings, ..job }, Publish::Sparse, rate, budget, None);

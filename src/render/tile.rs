@@ -24,7 +24,7 @@ pub struct Tile {
     pub(super) blocks: Vec<Block>,
     /// Of samples added up over all pixels and channels, where all pixels have the same number of samples.
     whole: Scatter,
-    /// What each number of reflections adds, where somebody looks at that.
+    /// What each number of bounces adds, where somebody looks at that.
     pub(super) series: Option<TileSeries>,
     /// Samples that were not finite, or negative; they count as black.
     pub invalid: u64,

@@ -20,7 +20,7 @@ impl Scene {
             return format!("the camera is inside {name}");
         }
         match settings.max_bounces {
-            Some(0) => "the cap of 0 reflections leaves only what emits, and the camera sees none of it".to_owned(),
+            Some(0) => "the cap of 0 bounces leaves only what emits, and the camera sees none of it".to_owned(),
             _ => "no path found light: it may be shut in, behind the camera, or too small to be found soon".to_owned(),
         }
     }

@@ -10,7 +10,7 @@ pub struct RenderSettings {
     pub sampler: Sampler,
     pub directions: Directions,
     pub roulette: Roulette,
-    /// The highest number of reflections counted; 0 is emitted light only, `None` is no cap.
+    /// The highest number of bounces counted, reflections and refractions alike; 0 is emitted light only, `None` is no cap.
     pub max_bounces: Option<u32>,
     pub reuse: Reuse,
     /// Whether pixels get more samples where a pilot found more noise. Not where they share paths.
@@ -32,7 +32,7 @@ pub enum Fault {
     DroppedCosine,
     /// Survivors of roulette are not weighted.
     NoReweighting,
-    /// One reflection more than the cap allows.
+    /// One bounce more than the cap allows.
     OneBounceMore,
 }
 
@@ -67,11 +67,11 @@ impl Estimator {
 #[serde(rename_all = "lowercase")]
 pub enum Roulette {
     Off,
-    /// Survival probability at every reflection, from [`Roulette::LEAST`] to 1.
+    /// Survival probability at every bounce, from [`Roulette::LEAST`] to 1.
     Fixed(f32),
     /// Survival probability is the throughput's largest component, at most [`Roulette::MOST`].
     Throughput {
-        /// The first reflection at which a path can end.
+        /// The first bounce at which a path can end.
         start: u32,
     },
 }
@@ -81,7 +81,7 @@ impl Roulette {
     pub const MOST: f32 = 0.95;
     /// Lower bound of all survival probabilities: random numbers are multiples of 2⁻²³, which would round smaller ones.
     pub const LEAST: f32 = 0.01;
-    /// The first reflection at which a path can end, where nothing is said.
+    /// The first bounce at which a path can end, where nothing is said.
     pub const FIRST: u32 = 4;
     pub const BY_THROUGHPUT: Roulette = Roulette::Throughput { start: Roulette::FIRST };
 
@@ -131,7 +131,7 @@ impl RenderSettings {
     /// The highest cap that is taken at its word: who asks for long paths gets them, and waits.
     pub const HIGHEST_CAP: u32 = 1 << 17;
 
-    /// The number of reflections after which every path is cut.
+    /// The number of bounces after which every path is cut.
     pub fn last_bounce(&self) -> u32 {
         let last = self.max_bounces.map_or(Self::LONGEST_PATH, |cap| cap.min(Self::HIGHEST_CAP));
         // A mistake may let paths go on for ever.

@@ -8,7 +8,7 @@ use crate::scene::RenderSettings;
 
 /// Samples a pixel of a trial. The first sample of different samplers may be the same point.
 const TRIAL_SPP: u32 = 2;
-/// Reflections of a trial: what settings differ in shows early, and paths in a closed white room would take for ever.
+/// Bounces of a trial: what settings differ in shows early, and paths in a closed white room would take for ever.
 const TRIAL_BOUNCES: u32 = 8;
 
 /// A combination that is measured, and those that are the same picture.

@@ -11,7 +11,7 @@ use super::{app::App, look::Inks};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Bounces {
     pub reflections: usize,
-    /// Light of at most so many reflections.
+    /// Light of at most so many bounces.
     pub up_to: bool,
 }
 
@@ -25,7 +25,7 @@ impl Default for Bounces {
 const LAST: usize = TERMS - 1;
 /// Larger pictures would take gigabytes: each pixel has some hundred bytes in the film and as many in a frame.
 const MOST_PIXELS: u64 = 4_200_000;
-/// Bars of more reflections than these are one.
+/// Bars of more bounces than these are one.
 const BARS: usize = 16;
 
 impl App {
@@ -44,13 +44,13 @@ impl App {
         }
         ui.horizontal(|ui| {
             let bounces = &mut self.bounces;
-            ui.selectable_value(&mut bounces.up_to, false, "Bounce k alone").on_hover_text(
-                "T^k L_e: light that was reflected exactly k times, term k of the series that solves the equation",
-            );
+            ui.selectable_value(&mut bounces.up_to, false, "Bounce k alone")
+                .on_hover_text("T^k L_e: light that bounced exactly k times, term k of the series that solves the equation");
             ui.selectable_value(&mut bounces.up_to, true, "Bounces up to k")
                 .on_hover_text("L_e + T L_e + … + T^k L_e: the partial sum, which is the picture that a cap of k gives");
             ui.separator();
-            let label = ui.label("k").on_hover_text("The number of reflections between lamp and eye");
+            let label =
+                ui.label("k").on_hover_text("The number of bounces between lamp and eye: reflections and refractions alike");
             ui.add(Slider::new(&mut bounces.reflections, 0..=LAST)).labelled_by(label.id);
             ui.label(RichText::new(meaning(*bounces)).weak());
         });
@@ -68,7 +68,7 @@ impl App {
         let text = if k == LAST && self.bounces.up_to {
             "This is all of the light, as the picture has it.".to_owned()
         } else if k == LAST {
-            format!("Reflections {LAST} and more bring {} of the light.", percent(series.shares.iter().skip(LAST).sum()))
+            format!("{LAST} bounces and more bring {} of the light.", percent(series.shares.iter().skip(LAST).sum()))
         } else {
             format!(
                 "k = {k} brings {} of the light; up to k it is {}. A cap of {k} would lose {}.",
@@ -89,7 +89,7 @@ impl App {
         ui.weak(format!("After {spp} samples per pixel, with paths of their own. Shares are of the picture's luminance."));
     }
 
-    /// A bar for the share of each number of reflections; a click chooses it.
+    /// A bar for the share of each number of bounces; a click chooses it.
     fn bars(&mut self, ui: &mut Ui, series: &Series) {
         const HEIGHT: f32 = 64.0;
         const WIDTH: f32 = 40.0;
@@ -115,11 +115,8 @@ impl App {
                 let below = |dy: f32| egui::pos2(middle, base + dy);
                 ui.painter().text(below(2.0), egui::Align2::CENTER_TOP, name, font.clone(), ink);
                 ui.painter().text(below(16.0), egui::Align2::CENTER_TOP, short(share), font, ui.visuals().weak_text_color());
-                let doc = format!(
-                    "{} reflections: {}",
-                    if k < BARS { k.to_string() } else { format!("{BARS} and more") },
-                    percent(share)
-                );
+                let doc =
+                    format!("{} bounces: {}", if k < BARS { k.to_string() } else { format!("{BARS} and more") }, percent(share));
                 response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &doc));
                 if response.on_hover_text(&doc).clicked() {
                     self.bounces.reflections = term;
@@ -133,12 +130,12 @@ impl App {
 fn meaning(Bounces { reflections, up_to }: Bounces) -> String {
     match (reflections, up_to) {
         (LAST, true) => "all of the light".to_owned(),
-        (LAST, false) => format!("{LAST} reflections and more"),
+        (LAST, false) => format!("{LAST} bounces and more"),
         (0, _) => "lamps and background themselves".to_owned(),
-        (1, false) => "direct light, reflected once".to_owned(),
-        (k, false) => format!("light reflected {k} times"),
-        (1, true) => "lamps, and light reflected once".to_owned(),
-        (k, true) => format!("light reflected at most {k} times"),
+        (1, false) => "direct light: one bounce".to_owned(),
+        (k, false) => format!("light after {k} bounces"),
+        (1, true) => "lamps, and light after one bounce".to_owned(),
+        (k, true) => format!("light after at most {k} bounces"),
     }
 }
 
@@ -163,8 +160,8 @@ mod tests {
         let said = |reflections, up_to| meaning(Bounces { reflections, up_to });
         assert_eq!(said(0, false), said(0, true));
         assert!(said(1, false).contains("direct") && said(1, true).contains("lamps"));
-        assert!(said(5, false).contains("5 times") && !said(5, false).contains("most"));
-        assert!(said(5, true).contains("at most 5 times"));
+        assert!(said(5, false).contains("5 bounces") && !said(5, false).contains("most"));
+        assert!(said(5, true).contains("at most 5 bounces"));
         assert!(said(LAST, true).contains("all") && said(LAST, false).contains("and more"));
     }
 

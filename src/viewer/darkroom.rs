@@ -39,7 +39,7 @@ pub struct Term {
     /// A frame with a series.
     pub of: Arc<Frame>,
     pub reflections: usize,
-    /// Light of at most so many reflections.
+    /// Light of at most so many bounces.
     pub up_to: bool,
 }
 

@@ -14,7 +14,7 @@ pub enum Tab {
 const TABS: [(Tab, &str, &str); 4] = [
     (Tab::Convergence, "Convergence", "How the error falls, and how it should. (F2)"),
     (Tab::Compare, "Compare", "Two settings of this scene in the same time. (F3)"),
-    (Tab::Bounces, "Bounces", "The picture by numbers of reflections. (F4)"),
+    (Tab::Bounces, "Bounces", "The picture by numbers of bounces. (F4)"),
     (Tab::Path, "Pixel", "A pixel's samples, and single paths vertex by vertex. (F5)"),
 ];
 

@@ -38,7 +38,7 @@ pub struct Wish {
 pub enum Companion {
     /// The picture by other settings.
     Other(RenderSettings),
-    /// The picture by numbers of reflections.
+    /// The picture by numbers of bounces.
     Series,
 }
 

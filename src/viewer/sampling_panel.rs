@@ -112,7 +112,7 @@ impl App {
                 },
             );
             if let Roulette::Fixed(q) = &mut settings.roulette {
-                row(ui, "Survival", "The probability q with which a path goes on after a reflection.", |ui, label| {
+                row(ui, "Survival", "The probability q with which a path goes on after a bounce.", |ui, label| {
                     let slider = number::slider(ui, q, 3, 0.05..=1.0);
                     ui.add(slider).labelled_by(label);
                 });
@@ -120,17 +120,9 @@ impl App {
             row(
                 ui,
                 "Bounce cap",
-                "n, the highest number of reflections counted: the series L_e + T L_e + … is cut after T^n L_e, and the picture is biased.",
+                "n, the highest number of bounces counted, reflections and refractions alike: the series L_e + T L_e + … is cut after T^n L_e, and the picture is biased.",
                 |ui, label| {
-                    number::optional(
-                        ui,
-                        label,
-                        &mut settings.max_bounces,
-                        ("no cap", "reflections"),
-                        DEFAULT_CAP,
-                        0,
-                        0.0..=4096.0,
-                    );
+                    number::optional(ui, label, &mut settings.max_bounces, ("no cap", "bounces"), DEFAULT_CAP, 0, 0.0..=4096.0);
                 },
             );
             row(
@@ -166,7 +158,7 @@ impl App {
 fn roulette(ui: &mut Ui, label: Id, roulette: &mut Roulette) {
     let kinds = [
         (Roulette::Off, "Off", "Paths end at the cap, or when they carry nothing any more."),
-        (Roulette::Fixed(DEFAULT_SURVIVAL), "Fixed probability", "The same survival probability q at every reflection."),
+        (Roulette::Fixed(DEFAULT_SURVIVAL), "Fixed probability", "The same survival probability q at every bounce."),
         (Roulette::BY_THROUGHPUT, "By throughput", "Paths that carry little die early: q is the throughput β."),
     ];
     let is_chosen = |roulette: &Roulette, kind: &Roulette| std::mem::discriminant(roulette) == std::mem::discriminant(kind);

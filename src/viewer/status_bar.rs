@@ -99,7 +99,7 @@ impl App {
                 .on_hover_text("The picture converges to the solution of the light transport equation"),
             Some(why) => ui
                 .label(RichText::new(format!("biased: {why}")).color(ui.warning()))
-                .on_hover_text("Light reflected more often than that is missing, however long one waits"),
+                .on_hover_text("Light that bounces more often than that is missing, however long one waits"),
         };
     }
 
@@ -117,7 +117,7 @@ impl App {
         }
         if cut_paths > 0 {
             let longest = self.link.wish().map_or(RenderSettings::LONGEST_PATH, |wish| wish.settings.last_bounce());
-            let text = format!("paths cut after {longest} reflections");
+            let text = format!("paths cut after {longest} bounces");
             trouble(text, "Choose a roulette: then paths end by themselves".to_owned());
         }
         if let State::Failed(failure) = &self.status.state {

@@ -84,7 +84,7 @@ fn efficiency_is_told_from_noise_and_time() {
     assert!((best.relative - 4.0).abs() < 1e-9 && best.standard_error < 1e-9, "{best:?}");
     assert!((best.efficiency / advice.current().efficiency - 4.0).abs() < 1e-9);
     assert_eq!(advice.current().relative, 1.0);
-    let verdict = "Sobol (Owen), roulette by throughput from reflection 4 on: 4.000 ± 0.000 times as efficient as what you have.";
+    let verdict = "Sobol (Owen), roulette by throughput from bounce 4 on: 4.000 ± 0.000 times as efficient as what you have.";
     assert_eq!(advice.verdict(), verdict);
 }
 

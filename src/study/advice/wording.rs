@@ -26,7 +26,7 @@ fn roulette(roulette: Roulette) -> String {
     match roulette {
         Roulette::Off => "no roulette".to_owned(),
         Roulette::Fixed(survival) => format!("roulette fixed at {survival}"),
-        Roulette::Throughput { start } => format!("roulette by throughput from reflection {start} on"),
+        Roulette::Throughput { start } => format!("roulette by throughput from bounce {start} on"),
     }
 }
 

@@ -27,7 +27,7 @@ pub fn section(validation: &Validation) -> Section {
              with means over its area, however emission and albedo are distributed. Averaged over the wall, that is over all \
              directions from the middle, the radiance is H again. Here 5 × 5 cells of albedo 0.9 and 0.2 and 3 × 3 cells of emission \
              0.25 and 2 alternate.",
-            "Two mirrors that face each other, both of reflectance r and shining with L_e, show L_e Σ rᵏ: with a cap of n reflections \
+            "Two mirrors that face each other, both of reflectance r and shining with L_e, show L_e Σ rᵏ: with a cap of n bounces \
              the partial sum, and every single sample is that number. Here r = 0.75 and L_e = 1.",
             "A pane of glass lets (1 − R)² Σ R²ᵏ = (1 − R)/(1 + R) through, with R the mean of Fresnel's R_s and R_p at the angle of the light. The renderer carries no polarisation: every face \
              sees unpolarised light. Real glass polarises, and with s and p followed apart lets up to 4 % more through (0.871 in place of \

@@ -47,10 +47,10 @@ pub fn section(validation: &Validation) -> Section {
     }
     Section {
         title: "Truncation is biased, roulette is not",
-        claim: "A cap of n reflections gives the partial sum of the series and nothing else; Russian roulette gives all of it at \
+        claim: "A cap of n bounces gives the partial sum of the series and nothing else; Russian roulette gives all of it at \
                 any survival probability.",
         derivation: &[
-            "The k-th reflection carries L_e ρᵏ, so that a cap of n leaves L_e (1 − ρⁿ⁺¹)/(1 − ρ): the picture is too dark by \
+            "The k-th bounce carries L_e ρᵏ, so that a cap of n leaves L_e (1 − ρⁿ⁺¹)/(1 − ρ): the picture is too dark by \
              L_e ρⁿ⁺¹/(1 − ρ), however many samples are taken.",
             "A path that survives with probability q and is then weighted by 1/q has the mean q · X/q = X of the endless path. With \
              cosine directions the weight is 1/q or 0, E w² = 1/q, and by the formula of section 2 the variance is \

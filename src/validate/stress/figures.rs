@@ -18,9 +18,9 @@ pub fn figures(trials: &[Trial]) -> Vec<Figure> {
     }
     if known().any(|trial| trial.draft.cap.is_some_and(|cap| cap > 1000)) {
         let at = |trial: &Trial| Some((f64::from(trial.draft.cap?), trial.outcome.energy?.max(NONE)));
-        let caption = "Relative errors of energy by the number of reflections; none at all is drawn at 10⁻⁹. What is lost once stays lost: a leak \
+        let caption = "Relative errors of energy by the number of bounces; none at all is drawn at 10⁻⁹. What is lost once stays lost: a leak \
                        or a drift would grow to the right.";
-        figures.push(scatter(caption, Axis::log("reflections"), Axis::log("error of energy"), trials, at, |_| ENERGY));
+        figures.push(scatter(caption, Axis::log("bounces"), Axis::log("error of energy"), trials, at, |_| ENERGY));
     } else if known().any(|trial| trial.draft.size != 1.0) {
         let at = |trial: &Trial| Some((trial.draft.size, trial.outcome.energy?.max(NONE)));
         let caption = "The largest relative error of a sample of each scene, by the size of what it is about; none at all is drawn at 10⁻⁹.";

@@ -65,7 +65,7 @@ fn alternatives(settings: &RenderSettings) -> Vec<(String, RenderSettings)> {
     for (reuse, title) in [(Reuse::On, "Shared paths"), (Reuse::Off, "Paths of their own")] {
         all.push(of(title, RenderSettings { reuse, ..*settings }));
     }
-    all.push(of("A cap of 3 reflections", RenderSettings { max_bounces: Some(3), ..*settings }));
+    all.push(of("A cap of 3 bounces", RenderSettings { max_bounces: Some(3), ..*settings }));
     all.push(of("Another seed", RenderSettings { seed: settings.seed.wrapping_add(1), ..*settings }));
     all.retain(|(_, changed)| changed != settings);
     all

@@ -14,7 +14,7 @@ pub const MOST_VERTICES: usize = 64;
 
 /// Columns, and what they say.
 const COLUMNS: [(&str, &str); 17] = [
-    ("k", "Reflections before this vertex"),
+    ("k", "Bounces before this vertex"),
     ("Σ", "The sum of light so far: in the last row, the sample"),
     ("object", "What is met, and of which material"),
     ("x", "The point met, in metres"),

@@ -218,7 +218,7 @@ fn a_bar_of_the_bounces_is_clicked_and_says_its_share() {
     for k in [3usize, 0, 2] {
         let bar = window
             .get_all_by_role(Role::Button)
-            .find(|bar| bar.accesskit_node().label().is_some_and(|label| label.starts_with(&format!("{k} reflections: "))));
+            .find(|bar| bar.accesskit_node().label().is_some_and(|label| label.starts_with(&format!("{k} bounces: "))));
         bar.expect("it has a bar").click();
         window.run_steps(3);
         assert_eq!(window.state().bounces.reflections, k);

@@ -82,10 +82,10 @@ fn an_exr_has_all_of_the_picture_whatever_is_seen_and_whatever_letters_the_scene
         wait(window, "the file", |app| app.last_saved.as_ref() == Some(&path));
         String::from_utf8_lossy(&std::fs::read(&path).expect("it is there")).into_owned()
     };
-    assert!(!text(&mut window, "whole.exr").contains("reflected exactly"));
-    assert!(text(&mut window, "term.png").contains("reflected exactly 1 times"));
+    assert!(!text(&mut window, "whole.exr").contains("exactly 1 bounce"));
+    assert!(text(&mut window, "term.png").contains("exactly 1 bounce,"));
     window.key_press(Key::V);
     window.run_steps(3);
     let noise = text(&mut window, "noise.png");
-    assert!(noise.contains("Standard error") && !noise.contains("reflected exactly"), "no term is shown");
+    assert!(noise.contains("Standard error") && !noise.contains("exactly 1 bounce"), "no term is shown");
 }

@@ -11,13 +11,10 @@ use crate::validate::stress::{
 };
 
 pub const FAMILIES: [Family; 3] = [
-    Family { name: "white-rooms", what: "white rooms, up to 10⁵ reflections", scenes: 32, draft: white_rooms },
-    Family { name: "mirror-rooms", what: "rooms of perfect mirrors, up to 10⁵ reflections", scenes: 32, draft: mirror_rooms },
+    Family { name: "white-rooms", what: "white rooms, up to 10⁵ bounces", scenes: 32, draft: white_rooms },
+    Family { name: "mirror-rooms", what: "rooms of perfect mirrors, up to 10⁵ bounces", scenes: 32, draft: mirror_rooms },
     Family {
-        name: "glass-rooms",
-        what: "rooms of albedo 1 − 2⁻⁷ with clear balls, 10⁴ reflections",
-        scenes: 16,
-        draft: glass_rooms,
+        name: "glass-rooms", what: "rooms of albedo 1 − 2⁻⁷ with clear balls, 10⁴ bounces", scenes: 16, draft: glass_rooms
     },
 ];
 

@@ -72,15 +72,15 @@ pub const GROUPS: [Group; 7] = [
         families: &matter::FAMILIES,
     },
     Group {
-        title: "A hundred thousand reflections",
+        title: "A hundred thousand bounces",
         claim: "In closed rooms that absorb nothing paths stay inside for ever: neither energy nor the place of rays drifts.",
         derivation: &[
-            "With ρ = 1 and L_e = 1 every reflection adds exactly 1: a cap of n gives n + 1, in f32 without any rounding up to 2²⁴. One \
+            "With ρ = 1 and L_e = 1 every bounce adds exactly 1: a cap of n gives n + 1, in f32 without any rounding up to 2²⁴. One \
              lost path, one missed wall or one weight that is not 1 shows in the sum. With mirrors a path is a billiard that keeps all \
              its angles, grazing ones too.",
             "With ρ = 1 − 2⁻⁷ and clear balls of glass within the sum is 2⁷, however often light enters and leaves glass on its way.",
         ],
-        source: "Paths without a cap are cut after 4096 reflections; a cap above that is taken at its word.",
+        source: "Paths without a cap are cut after 4096 bounces; a cap above that is taken at its word.",
         families: &long::FAMILIES,
     },
     Group {
@@ -91,7 +91,7 @@ pub const GROUPS: [Group; 7] = [
             "A coordinate of 10⁷ m has a last digit of ε · 10⁷ m = 1.2 m. Where two surfaces meet at an edge, a point that is rounded to \
              such a digit may come to lie behind the other one, and its path gets out. That happens within about a digit of the edge, \
              so that the part of the light which is lost is at most in proportion to εS/d with d the size of the detail; ten times that \
-             is allowed to paths of up to 60 reflections.",
+             is allowed to paths of up to 60 bounces.",
             "Rays start off their surface by a bound on rounding, some 40 digits. Where two surfaces meet at an acute angle, that step may \
              lead through the other one: the detail then is the height above a floor from which the camera looks into the crease.",
             "An ellipsoid thinner than the last digit cannot say which of its sides was met. Cuboids and cylinders can: they are solved \
