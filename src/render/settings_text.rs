@@ -151,5 +151,15 @@ mod tests {
         let back = " --sampler independent --estimator mis --directions bsdf --roulette off --max-bounces none --reuse auto \
                     --adaptive off --seed 0";
         assert_eq!((options(&other, &scene).as_str(), options(&scene, &other).as_str()), (there, back));
+        // Each by itself: no other one's difference is asked for.
+        let reused = RenderSettings { reuse: Reuse::On, ..scene };
+        let adaptive = RenderSettings { adaptive: true, ..scene };
+        let sampled = RenderSettings { sampler: Sampler::Stratified, ..scene };
+        let estimated = RenderSettings { estimator: Estimator::Light, ..scene };
+        let directed = RenderSettings { directions: Directions::Uniform, ..scene };
+        let ended = RenderSettings { roulette: Roulette::Fixed(0.5), ..scene };
+        let alone = [reused, adaptive, sampled, estimated, directed, ended].map(|one| options(&one, &scene));
+        let words = ["reuse on", "adaptive on", "sampler stratified", "estimator light", "directions uniform", "roulette 0.5"];
+        assert_eq!(alone, words.map(|option| format!(" --{option}")));
     }
 }

@@ -66,9 +66,12 @@ fn permissions_of_a_replaced_file_are_kept_and_those_of_a_new_one_are_usual() {
     let mode = |path: &Path| fs::metadata(path).expect("it is there").permissions().mode() & 0o777;
     let [path, new, usual] = ["private", "new", "usual"].map(|name| folder.path().join(name));
     fs::write(&path, "old").expect("it is written");
-    fs::set_permissions(&path, fs::Permissions::from_mode(0o600)).expect("they can be set");
-    replace(&path, b"new").expect("it is replaced");
-    assert_eq!(mode(&path), 0o600);
+    // Two, of which no mask makes both.
+    for kept in [0o600, 0o646] {
+        fs::set_permissions(&path, fs::Permissions::from_mode(kept)).expect("they can be set");
+        replace(&path, b"new").expect("it is replaced");
+        assert_eq!(mode(&path), kept);
+    }
     fs::write(&usual, "").expect("it is written");
     replace(&new, b"new").expect("it is written");
     assert_eq!(mode(&new), mode(&usual));
