@@ -81,7 +81,7 @@ fn a_picture_that_nobody_reads_is_a_failure_without_a_word() {
         let output = shell.command(&words).stdout(unread()).output().expect("it starts");
         assert_eq!((output.status.code(), text(&output.stderr).as_str()), (Some(1), ""));
     }
-    let closed = "exec \"$0\" render \"$1\" -o - --format png >&-";
+    let closed = "exec \"$0\" render \"$1\" -o - --format png --spp 1 --size 8x8 >&-";
     let mut command = std::process::Command::new("sh");
     command.args(["-c", closed, env!("CARGO_BIN_EXE_noisefall"), &scene("furnace")]);
     let output = command.current_dir(shell.path("")).output().expect("it starts");
@@ -116,7 +116,7 @@ fn what_cannot_be_written_to_standard_output_is_told_and_a_picture_is_kept_elsew
 fn a_picture_is_not_written_to_a_terminal() {
     let shell = Shell::new();
     let terminal = fs::File::options().read(true).write(true).open("/dev/ptmx").expect("a terminal");
-    let words = ["render", &scene("furnace"), "-o", "-", "--format", "png"];
+    let words = ["render", &scene("furnace"), "-o", "-", "--format", "png", "--spp", "1", "--size", "8x8"];
     let mut child = shell.command(&words).stdout(terminal).stderr(Stdio::piped()).spawn().expect("it starts");
     assert_eq!(child.wait().expect("it ends").code(), Some(1));
     let mut told = String::new();
