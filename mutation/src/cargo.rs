@@ -29,13 +29,10 @@ pub fn build(folder: &Path, target: &Path, arguments: &[&str], planted: &BTreeMa
         match message["reason"].as_str() {
             Some("compiler-message") if message["message"]["level"] == "error" => {
                 let spans = spans(&message["message"]);
-                let found =
-                    spans.iter().flat_map(|(file, bytes)| planted.get(file).map(|planted| planted.at(bytes)).unwrap_or_default());
-                let found: Vec<u32> = found.collect();
-                let summary = message["message"]["message"].as_str().unwrap_or_default();
+                let found = blamed(&spans, planted);
                 if found.is_empty() && !spans.is_empty() {
                     let text = message["message"]["rendered"].as_str().unwrap_or_default();
-                    return Err(format!("the copy does not compile, and no fault is to blame: {summary}\n{text}"));
+                    return Err(format!("the copy does not compile, and no fault is to blame:\n{text}"));
                 }
                 build.rejected.extend(found);
             }
@@ -56,7 +53,14 @@ pub fn build(folder: &Path, target: &Path, arguments: &[&str], planted: &BTreeMa
     Ok(build)
 }
 
-/// Where an error lies: its primary places, else all of them, with the places of macros that they come from.
+/// The faults where an error lies, else the nearest one of the file.
+fn blamed(spans: &[(String, Range<usize>)], planted: &BTreeMap<String, Planted>) -> Vec<u32> {
+    let files = spans.iter().filter_map(|(file, bytes)| Some((planted.get(file)?, bytes)));
+    let there: Vec<u32> = files.clone().flat_map(|(planted, bytes)| planted.at(bytes)).collect();
+    if there.is_empty() { files.filter_map(|(planted, bytes)| planted.nearest(bytes.start)).take(1).collect() } else { there }
+}
+
+/// Where an error lies: its primary places, and those of the macros that they come from.
 fn spans(message: &Value) -> Vec<(String, Range<usize>)> {
     let all: Vec<&Value> = message["spans"].as_array().into_iter().flatten().collect();
     let primary = all.iter().copied().filter(|span| span["is_primary"] == true);

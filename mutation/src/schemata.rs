@@ -53,6 +53,12 @@ impl Planted {
             }
         }
     }
+
+    /// The fault that is nearest to a byte. What it changes of types may come out elsewhere in the function.
+    pub fn nearest(&self, byte: usize) -> Option<u32> {
+        let distance = |place: &Range<usize>| place.start.saturating_sub(byte) + byte.saturating_sub(place.end);
+        self.places.iter().min_by_key(|(place, _)| distance(place)).map(|(_, id)| *id)
+    }
 }
 
 #[cfg(test)]
@@ -76,6 +82,7 @@ mod tests {
         };
         assert_eq!((at("b.y"), at("a - b.x"), at("g(")), (vec![3], vec![2], vec![1]));
         assert_eq!(planted.at(&(0..planted.text.len())).len(), 3);
+        assert_eq!((planted.at(&(0..2)), planted.nearest(1)), (Vec::new(), Some(1)));
     }
 
     #[test]
