@@ -92,7 +92,7 @@ pub struct Arguments {
     #[arg(long, value_name = "X,Y", value_parser = parse::pixel, allow_hyphen_values = true, conflicts_with = "output")]
     pixel: Option<[u32; 2]>,
     /// Which sample of the pixel to replay [default: 0]
-    #[arg(long, value_name = "N", value_parser = parse::whole, requires = "pixel")]
+    #[arg(long, value_name = "N", value_parser = parse::whole, requires = "pixel", conflicts_with = "output")]
     sample: Option<u32>,
     /// Print one line of JSON last, on standard error where the picture is on standard output
     #[arg(long)]

@@ -114,11 +114,12 @@ fn write_exr(frame: &Frame, settings: &str, to: &mut Vec<u8>) -> Result<(), Stri
     attributes.software_name = Some(Text::from("Noisefall"));
     let text = Text::new_or_none(settings).ok_or("the settings are not Latin-1 text, and EXR knows no other")?;
     attributes.other.insert(Text::from(SETTINGS_KEY), AttributeValue::Text(text));
-    noise_layer::add_attributes(frame, &mut attributes);
     let channels = noise_layer::channels(frame);
     let layer = Layer::new(size, attributes, exr::prelude::Encoding::FAST_LOSSLESS, channels);
+    let mut image = Image::from_layer(layer);
+    noise_layer::add_figures(frame, &mut image.attributes);
     // The format is written with seeks, which a buffer in memory allows whatever the target is.
-    Image::from_layer(layer).write().to_buffered(std::io::Cursor::new(to)).map_err(|error| error.to_string())
+    image.write().to_buffered(std::io::Cursor::new(to)).map_err(|error| error.to_string())
 }
 
 /// Reads a picture; a PNG is taken as sRGB.

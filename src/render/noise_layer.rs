@@ -10,7 +10,7 @@ use std::{
 };
 
 use exr::prelude::{
-    AnyChannel, AnyChannels, FlatSamples, LayerAttributes, MetaData, ReadChannels, ReadLayers, ReadSpecificChannel, Text,
+    AnyChannel, AnyChannels, FlatSamples, ImageAttributes, MetaData, ReadChannels, ReadLayers, ReadSpecificChannel, Text,
     attribute::AttributeValue, read,
 };
 
@@ -18,9 +18,12 @@ use super::{frame::Frame, image_file::SETTINGS_KEY};
 use crate::{file::open_regular, measure::SampleNoise};
 
 const CHANNELS: [&str; 4] = ["variance.R", "variance.G", "variance.B", "variance.block"];
-const EFFECTIVE_SAMPLES: &str = "noisefall_effective_samples";
-const BLOCK_DEGREES: &str = "noisefall_block_degrees";
-const REL_MSE: &str = "noisefall_rel_mse_estimate";
+/// One attribute for all figures, and a group of attributes of its own: within a group they are written in any order, and the same
+/// picture is to be the same file.
+const FIGURES_KEY: &str = "noisefall_noise";
+const EFFECTIVE_SAMPLES: &str = "effective_samples";
+const BLOCK_DEGREES: &str = "block_degrees";
+const REL_MSE: &str = "rel_mse_estimate";
 
 /// What a file says of how its picture came about.
 #[derive(Clone, Debug, Default)]
@@ -53,11 +56,18 @@ fn kept(variance: f64) -> f32 {
     if variance > 0.0 { (variance as f32).clamp(f32::MIN_POSITIVE, f32::MAX) } else { 0.0 }
 }
 
-pub(super) fn add_attributes(frame: &Frame, attributes: &mut LayerAttributes) {
-    let mut add = |name: &str, value: f64| attributes.other.insert(Text::from(name), AttributeValue::F64(value));
-    frame.noise.iter().for_each(|noise| drop(add(EFFECTIVE_SAMPLES, noise.effective_samples)));
-    frame.noise.iter().for_each(|noise| drop(add(BLOCK_DEGREES, noise.block_degrees)));
-    frame.rel_mse_estimate.iter().for_each(|rel_mse| drop(add(REL_MSE, *rel_mse)));
+/// Adds what the noise layer does not say: `name=value` each, with spaces between.
+pub(super) fn add_figures(frame: &Frame, attributes: &mut ImageAttributes) {
+    let noise = frame.noise.as_ref();
+    let figures = [
+        (EFFECTIVE_SAMPLES, noise.map(|noise| noise.effective_samples)),
+        (BLOCK_DEGREES, noise.map(|noise| noise.block_degrees)),
+        (REL_MSE, frame.rel_mse_estimate),
+    ];
+    let text = figures.iter().filter_map(|(name, value)| Some(format!("{name}={:?}", (*value)?))).collect::<Vec<_>>().join(" ");
+    if !text.is_empty() {
+        attributes.other.insert(Text::from(FIGURES_KEY), AttributeValue::Text(Text::from(text.as_str())));
+    }
 }
 
 /// What the file of a picture that has been read says of it; nothing, if it is not an EXR by this program.
@@ -67,9 +77,15 @@ pub fn provenance(path: &Path) -> Provenance {
     else {
         return Provenance::default();
     };
-    let attribute = |name: &str| header.own_attributes.other.get(&Text::from(name));
-    let number = |name: &str| if let Some(AttributeValue::F64(x)) = attribute(name) { Some(*x) } else { None };
-    let settings = match attribute(SETTINGS_KEY) {
+    let text = |value: Option<&AttributeValue>| {
+        if let Some(AttributeValue::Text(text)) = value { text.to_string() } else { String::new() }
+    };
+    let figures = text(header.shared_attributes.other.get(&Text::from(FIGURES_KEY)));
+    let number = |name: &str| {
+        let value = figures.split(' ').find_map(|figure| figure.strip_prefix(name)?.strip_prefix('='));
+        value.and_then(|value| value.parse::<f64>().ok())
+    };
+    let settings = match header.own_attributes.other.get(&Text::from(SETTINGS_KEY)) {
         Some(AttributeValue::Text(text)) => serde_json::from_str::<serde_json::Value>(&text.to_string()).unwrap_or_default(),
         _ => serde_json::Value::Null,
     };

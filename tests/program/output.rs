@@ -35,7 +35,8 @@ fn a_format_and_a_name_that_disagree_are_wrong_usage() {
         (&["-o", "-", "--format", "jpg"], "expected png or exr"),
         (&["--pixel", "1,1", "--format", "png"], "cannot be used with"),
         (&["--format", "png"], "--output"),
-        (&["-o", "out.png", "--sample", "5"], "--pixel"),
+        (&["-o", "out.png", "--sample", "5"], "cannot be used with"),
+        (&["--sample", "5"], "--pixel"),
     ] {
         let output = shell.run(&[&["render", &furnace], rest].concat());
         assert_eq!(output.status.code(), Some(2), "{rest:?}");

@@ -25,6 +25,8 @@ const MOST_SPHERES: u32 = 1_000_000;
 /// Scales beyond these leave the range of f32.
 const SMALLEST_SCALE: f64 = 1e-12;
 const LARGEST_SCALE: f64 = 1e12;
+/// Of lengths, so that the ends of the range lie within it.
+const ROUNDING: f64 = 1e-12;
 
 /// The shape that is described, or the many.
 pub fn shapes(check: &Checker, desc: &Spanned<ShapeDesc>, meshes: &mut Meshes) -> Result<Vec<Shape>, SceneError> {
@@ -157,7 +159,7 @@ fn single(check: &Checker, entry: &Spanned<TransformDesc>) -> Result<Step, Scene
     }
     let [a, b, c] = [map.matrix3.x_axis, map.matrix3.y_axis, map.matrix3.z_axis];
     let lengths = [a.length(), b.length(), c.length()];
-    if lengths.iter().any(|length| !(SMALLEST_SCALE..=LARGEST_SCALE).contains(length))
+    if lengths.iter().any(|length| !(SMALLEST_SCALE * (1.0 - ROUNDING)..=LARGEST_SCALE * (1.0 + ROUNDING)).contains(length))
         || map.matrix3.determinant().abs() <= FLATTEST * lengths.iter().product::<f64>()
     {
         return error("the transform cannot be inverted", "it flattens space, or scales it beyond 1e-12 to 1e12");
