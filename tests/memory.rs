@@ -138,10 +138,10 @@ fn what_is_taken_is_counted() {
     let faces: String = (1..=199_998).map(|i| format!("f {i} {} {}\n", i + 1, i + 2)).collect();
     file("large.obj", &(vertices + &faces));
     assert_counted("OBJ", &file("obj.toml", &object("mesh = { path = 'large.obj' }")));
-    let vertices: String = (0..200_000).map(|i| format!("{} {} {}\n", i % 7, i % 11, i % 13)).collect();
-    let faces: String = (0..199_998).map(|i| format!("3 {i} {} {}\n", i + 1, i + 2)).collect();
-    let header = "ply\nformat ascii 1.0\nelement vertex 200000\nproperty float x\nproperty float y\nproperty float z\n\
-        element face 199998\nproperty list uchar int vertex_indices\nend_header\n";
+    let vertices: String = (0..300_000).map(|i| format!("{} {} {}\n", i % 7, i % 11, i % 13)).collect();
+    let faces: String = (0..299_998).map(|i| format!("3 {i} {} {}\n", i + 1, i + 2)).collect();
+    let header = "ply\nformat ascii 1.0\nelement vertex 300000\nproperty float x\nproperty float y\nproperty float z\n\
+        element face 299998\nproperty list uchar int vertex_indices\nend_header\n";
     file("large.ply", &format!("{header}{vertices}{faces}"));
     assert_counted("PLY", &file("ply.toml", &object("mesh = { path = 'large.ply' }")));
 

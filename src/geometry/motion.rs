@@ -25,6 +25,9 @@ impl Step {
     /// The transform at the time from 0, where it is the identity, to 1, where it is complete.
     pub fn at(&self, time: f64) -> DAffine3 {
         match *self {
+            // As steps from 1, small factors would lose their digits.
+            Step::Scale(factors) if time == 1.0 => DAffine3::from_scale(factors),
+            Step::Matrix(map) if time == 1.0 => map,
             Step::Translate(way) => DAffine3::from_translation(way * time),
             Step::Rotate { axis, turns } => DAffine3::from_quat(DQuat::from_axis_angle(axis, turns.radians_at(time))),
             Step::Scale(factors) => DAffine3::from_scale(DVec3::ONE + (factors - DVec3::ONE) * time),

@@ -80,7 +80,7 @@ pub fn provenance(path: &Path) -> Provenance {
     let text = |value: Option<&AttributeValue>| {
         if let Some(AttributeValue::Text(text)) = value { text.to_string() } else { String::new() }
     };
-    let figures = text(header.shared_attributes.other.get(&Text::from(FIGURES_KEY)));
+    let figures = text(header.own_attributes.other.get(&Text::from(FIGURES_KEY)));
     let number = |name: &str| {
         let value = figures.split(' ').find_map(|figure| figure.strip_prefix(name)?.strip_prefix('='));
         value.and_then(|value| value.parse::<f64>().ok())
