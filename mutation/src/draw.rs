@@ -13,6 +13,8 @@ pub struct Draw {
     order: Vec<Fault>,
     /// How many each folder is to have; all if absent.
     quotas: Option<BTreeMap<String, usize>>,
+    /// Those that are always among them.
+    pub given: Vec<Fault>,
     /// Keys of those that do not compile.
     pub rejected: HashSet<String>,
 }
@@ -20,7 +22,7 @@ pub struct Draw {
 impl Draw {
     /// Draws all of them.
     pub fn all(candidates: Vec<Fault>) -> Draw {
-        Draw { order: candidates, quotas: None, rejected: HashSet::new() }
+        Draw { order: candidates, quotas: None, given: Vec::new(), rejected: HashSet::new() }
     }
 
     pub fn new(mut candidates: Vec<Fault>, count: usize, seed: u64) -> Draw {
@@ -35,7 +37,7 @@ impl Draw {
             let weight = 1.0 / kinds[&(fault.folder().to_owned(), fault.operator)].sqrt();
             (-random.next().ln() / weight * 1e12) as u64
         });
-        Draw { order: candidates, quotas: Some(quotas), rejected: HashSet::new() }
+        Draw { order: candidates, quotas: Some(quotas), given: Vec::new(), rejected: HashSet::new() }
     }
 
     /// The faults drawn so far; with `spare`, some more of each folder in place of those that will not compile.
@@ -45,7 +47,7 @@ impl Draw {
         let quota = |quota: usize| if spare { quota + quota / 2 + 2 } else { quota };
         let mut left: HashMap<&str, usize> = quotas.iter().map(|(folder, &count)| (folder.as_str(), quota(count))).collect();
         let mut functions: HashMap<(&str, &str), usize> = HashMap::new();
-        let mut drawn = Vec::new();
+        let mut drawn = self.given.clone();
         for fault in compiling {
             let left = left.entry(fault.folder()).or_default();
             let in_function = functions.entry((&fault.file, &fault.function)).or_default();

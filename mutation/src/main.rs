@@ -38,7 +38,7 @@ type Outcome<T> = Result<T, String>;
 /// Start it at the top of the repository. Results are kept in target/mutation: stop it at any time, and the same command goes on.
 #[derive(Parser)]
 struct Options {
-    /// How many faults to draw.
+    /// How many faults to draw, besides those of mutation/faults.toml.
     #[arg(long, default_value_t = 240)]
     count: usize,
     /// Decides which faults are drawn.
@@ -47,7 +47,7 @@ struct Options {
     /// Every fault of a file or folder, such as src/render/film.rs, in place of those that are drawn.
     #[arg(long, value_name = "PATH", conflicts_with = "given")]
     all_in: Option<String>,
-    /// The faults of mutation/faults.toml in place of those that are drawn.
+    /// The faults of mutation/faults.toml alone.
     #[arg(long)]
     given: bool,
     /// Of the faults, only those that survived when they were tried last, with the tests of now.
@@ -135,8 +135,9 @@ impl Run<'_> {
     /// The faults that were asked for, without those that do not compile.
     fn choose(&self, mut candidates: Vec<Fault>, verdicts: &Journal<Verdict>) -> Outcome<Vec<Fault>> {
         let options = self.options;
+        let given = given::read(&read(&self.own.join("faults.toml"))?, &self.package)?;
         if options.given {
-            candidates = given::read(&read(&self.own.join("faults.toml"))?, &self.package)?;
+            candidates = given.clone();
         }
         if let Some(path) = &options.all_in {
             let path = path.trim_end_matches('/');
@@ -152,6 +153,7 @@ impl Run<'_> {
         }
         let takes_all = options.given || options.survivors || options.all_in.is_some();
         let mut draw = if takes_all { Draw::all(candidates) } else { Draw::new(candidates, options.count, options.seed) };
+        draw.given = if takes_all { Vec::new() } else { given };
         let rejections: Journal<Rejected> = self.journal("rejected.jsonl", self.package.hash());
         draw.rejected.extend(rejections.read().into_iter().map(|rejected| rejected.key));
         // A copy of its own, so that the one that was built stays as it is.
