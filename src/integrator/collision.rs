@@ -25,7 +25,7 @@ const MOST_CROSSINGS: usize = 64;
 const SIDE: u32 = 16;
 const SAMPLES: u32 = 2;
 /// Longer paths would take longer than a frame of the window.
-const MOST_REFLECTIONS: u32 = 16;
+const MOST_BOUNCES: u32 = 16;
 
 /// The part of the straight way between two places that a camera can go before a surface stops it, from 0 to 1.
 pub fn clear_fraction(scene: &Scene, from: DVec3, to: DVec3) -> f64 {
@@ -49,7 +49,7 @@ pub fn clear_fraction(scene: &Scene, from: DVec3, to: DVec3) -> f64 {
 
 /// Whether no light arrives at a place from anywhere, as far as some thousand paths can tell.
 pub fn is_blind(scene: &Scene, place: DVec3) -> bool {
-    let settings = RenderSettings { max_bounces: Some(MOST_REFLECTIONS), ..RenderSettings::default() };
+    let settings = RenderSettings { max_bounces: Some(MOST_BOUNCES), ..RenderSettings::default() };
     let mut batch = Batch::default();
     let mut sees_light = |axis: DVec3, sample: u32| {
         let rays = scene.rays(&view(place, axis));

@@ -10,29 +10,29 @@ use crate::{
     math::{SimdLevel, colour::luminance},
 };
 
-/// Terms that are told apart: 0, 1, … reflections, and in the last one all the rest.
+/// Terms that are told apart: 0, 1, … bounces, and in the last one all the rest.
 pub const TERMS: usize = 8;
-/// Numbers of reflections whose share of the light is told apart, and in the last one all the rest.
+/// Numbers of bounces whose share of the light is told apart, and in the last one all the rest.
 pub const SHARES: usize = 64;
 
 /// The terms of a batch. Made once, used for every tile.
 #[derive(Default)]
 pub struct Terms {
-    /// By slot, the radiance of at most so many reflections.
+    /// By slot, the radiance of at most so many bounces.
     up_to: [Vec<[f32; 4]>; TERMS - 1],
-    /// Of all slots together, the luminance of at most so many reflections.
+    /// Of all slots together, the luminance of at most so many bounces.
     light: Vec<f64>,
 }
 
 impl Observer for Terms {
     fn at_surfaces(&mut self, _: &Work, batch: &Batch) {
-        // Lights sampled at the surface before have just as many reflections as what is run into here.
-        let reflections = batch.bounce as usize;
-        if let Some(up_to) = self.up_to.get_mut(reflections) {
+        // Lights sampled at the surface before have just as many bounces as what is run into here.
+        let bounces = batch.bounce as usize;
+        if let Some(up_to) = self.up_to.get_mut(bounces) {
             up_to.clear();
             up_to.extend_from_slice(batch.radiance());
         }
-        if reflections < SHARES - 1 {
+        if bounces < SHARES - 1 {
             self.light.push(light(batch));
         }
     }
@@ -45,7 +45,7 @@ fn light(batch: &Batch) -> f64 {
 }
 
 impl Terms {
-    /// The term of `k` reflections at a slot; `whole` is the radiance of all of them there.
+    /// The term of `k` bounces at a slot; `whole` is the radiance of all of them there.
     pub fn term(&self, k: usize, slot: usize, whole: [f32; 4]) -> [f32; 3] {
         let up_to = |k: usize| self.up_to.get(k).and_then(|radiance| radiance.get(slot)).unwrap_or(&whole);
         let [r, g, b, _] = *up_to(k);
@@ -55,7 +55,7 @@ impl Terms {
         }
     }
 
-    /// The luminance of all slots that each number of reflections brings.
+    /// The luminance of all slots that each number of bounces brings.
     pub fn light(&self) -> [f64; SHARES] {
         let up_to = |k: usize| self.light.get(k).or(self.light.last()).copied().unwrap_or(0.0);
         std::array::from_fn(|k| if k == 0 { up_to(0) } else { up_to(k) - up_to(k - 1) })

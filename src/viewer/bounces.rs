@@ -10,7 +10,7 @@ use super::{app::App, look::Inks};
 /// Which part of the series is seen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Bounces {
-    pub reflections: usize,
+    pub k: usize,
     /// Light of at most so many bounces.
     pub up_to: bool,
 }
@@ -18,7 +18,7 @@ pub struct Bounces {
 impl Default for Bounces {
     /// The first that is more than the lamps.
     fn default() -> Bounces {
-        Bounces { reflections: 1, up_to: false }
+        Bounces { k: 1, up_to: false }
     }
 }
 
@@ -51,7 +51,7 @@ impl App {
             ui.separator();
             let label =
                 ui.label("k").on_hover_text("The number of bounces between lamp and eye: reflections and refractions alike");
-            ui.add(Slider::new(&mut bounces.reflections, 0..=LAST)).labelled_by(label.id);
+            ui.add(Slider::new(&mut bounces.k, 0..=LAST)).labelled_by(label.id);
             ui.label(RichText::new(meaning(*bounces)).weak());
         });
         let frame = self.frame_beside.clone();
@@ -63,7 +63,7 @@ impl App {
         ui.add_space(6.0);
         self.bars(ui, series);
         ui.add_space(4.0);
-        let k = self.bounces.reflections;
+        let k = self.bounces.k;
         let lost = series.lost_by_cap(k);
         let text = if k == LAST && self.bounces.up_to {
             "This is all of the light, as the picture has it.".to_owned()
@@ -101,7 +101,7 @@ impl App {
                 let (rect, response) = ui.allocate_exact_size(vec2(WIDTH, HEIGHT + 32.0), Sense::click());
                 let part = (share / most) as f32;
                 let term = k.min(LAST);
-                let chosen = term == self.bounces.reflections || (self.bounces.up_to && term < self.bounces.reflections);
+                let chosen = term == self.bounces.k || (self.bounces.up_to && term < self.bounces.k);
                 let colour = if chosen { ui.accent() } else { Color32::GRAY };
                 let base = rect.top() + HEIGHT;
                 let bar = egui::Rect::from_min_max(
@@ -119,7 +119,7 @@ impl App {
                     format!("{} bounces: {}", if k < BARS { k.to_string() } else { format!("{BARS} and more") }, percent(share));
                 response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &doc));
                 if response.on_hover_text(&doc).clicked() {
-                    self.bounces.reflections = term;
+                    self.bounces.k = term;
                 }
             }
         });
@@ -127,8 +127,8 @@ impl App {
 }
 
 /// What is seen, in words.
-fn meaning(Bounces { reflections, up_to }: Bounces) -> String {
-    match (reflections, up_to) {
+fn meaning(Bounces { k, up_to }: Bounces) -> String {
+    match (k, up_to) {
         (LAST, true) => "all of the light".to_owned(),
         (LAST, false) => format!("{LAST} bounces and more"),
         (0, _) => "lamps and background themselves".to_owned(),
@@ -157,7 +157,7 @@ mod tests {
 
     #[test]
     fn terms_are_said_in_words() {
-        let said = |reflections, up_to| meaning(Bounces { reflections, up_to });
+        let said = |k, up_to| meaning(Bounces { k, up_to });
         assert_eq!(said(0, false), said(0, true));
         assert!(said(1, false).contains("direct") && said(1, true).contains("lamps"));
         assert!(said(5, false).contains("5 bounces") && !said(5, false).contains("most"));

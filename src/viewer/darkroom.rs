@@ -38,7 +38,7 @@ pub struct Order {
 pub struct Term {
     /// A frame with a series.
     pub of: Arc<Frame>,
-    pub reflections: usize,
+    pub k: usize,
     /// Light of at most so many bounces.
     pub up_to: bool,
 }
@@ -108,7 +108,7 @@ impl PartialEq for Order {
 
 impl PartialEq for Term {
     fn eq(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.of, &other.of) && (self.reflections, self.up_to) == (other.reflections, other.up_to)
+        Arc::ptr_eq(&self.of, &other.of) && (self.k, self.up_to) == (other.k, other.up_to)
     }
 }
 
@@ -116,7 +116,7 @@ impl Term {
     /// Mean radiance of that light.
     fn radiance(&self) -> Option<Vec<[f32; 3]>> {
         let series = self.of.series.as_ref()?;
-        Some(if self.up_to { series.up_to(self.reflections) } else { series.terms.get(self.reflections)?.clone() })
+        Some(if self.up_to { series.up_to(self.k) } else { series.terms.get(self.k)?.clone() })
     }
 }
 
@@ -266,15 +266,15 @@ mod tests {
         let series = Some(Series { terms, shares: vec![0.2, 0.3, 0.5] });
         let of = Arc::new(Frame { series, ..Frame::default() });
         let of = Arc::new(Frame { radiance: whole.radiance.clone(), ..Arc::into_inner(of).expect("it is the only one") });
-        let seen = |reflections, up_to| {
-            let term = Some(Term { of: of.clone(), reflections, up_to });
+        let seen = |k, up_to| {
+            let term = Some(Term { of: of.clone(), k, up_to });
             develop(Order { term, ..order(whole.clone()) }).seen.radiance.expect("a term is seen")[1][0]
         };
         assert_eq!((seen(0, false), seen(1, false), seen(2, false)), (0.1, 0.2, 0.4));
         assert!((seen(1, true) - 0.3).abs() < 1e-6 && (seen(2, true) - 0.7).abs() < 1e-6);
         // A series of another size is not of this picture.
         let small = Arc::new(Frame { radiance: vec![[1.0; 3]], ..Frame::default() });
-        let term = Some(Term { of: small, reflections: 0, up_to: false });
+        let term = Some(Term { of: small, k: 0, up_to: false });
         assert!(develop(Order { term, ..order(whole) }).seen.radiance.is_none());
     }
 
@@ -304,7 +304,7 @@ mod tests {
     #[test]
     fn an_order_is_another_one_if_anything_in_it_is() {
         let a = order(frame(&[1.0]));
-        let term = |reflections, up_to| Some(Term { of: a.frame.clone(), reflections, up_to });
+        let term = |k, up_to| Some(Term { of: a.frame.clone(), k, up_to });
         let (truth, other) = (Arc::new(Reference::Constant([1.0; 3])), frame(&[1.0]));
         let look = Look { view: View::Depth, ..a.look };
         for changed in [

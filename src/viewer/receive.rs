@@ -70,7 +70,7 @@ impl App {
         let features = wish.and_then(|wish| self.finder.of(&wish.scene, &wish.camera, self.threads));
         Order {
             truth: self.truth(&frame),
-            term: term.map(|of| Term { of, reflections: self.bounces.reflections, up_to: self.bounces.up_to }),
+            term: term.map(|of| Term { of, k: self.bounces.k, up_to: self.bounces.up_to }),
             frame,
             beside,
             shows_beside: compare.is_some_and(|compare| compare.layout.split() != Split::None),

@@ -169,8 +169,8 @@ fn remarks(order: &Order, path: &Path) -> Vec<(&'static str, String)> {
     }
     if let Some(term) = order.term.as_ref().filter(|_| matches!(view, View::Radiance | View::Difference)) {
         let relation = if term.up_to { "at most" } else { "exactly" };
-        let bounces = if term.reflections == 1 { "bounce" } else { "bounces" };
-        remarks.push(("light", format!("{relation} {} {bounces}, {} spp", term.reflections, term.of.spp)));
+        let bounces = if term.k == 1 { "bounce" } else { "bounces" };
+        remarks.push(("light", format!("{relation} {} {bounces}, {} spp", term.k, term.of.spp)));
     }
     remarks
 }

@@ -31,7 +31,7 @@ const PAGES: [Page; 4] = [
                what each of these brings. Cut the series short, by a bounce cap, and light is missing for ever: the picture is \
                biased, and the window says so.",
         shows: Some(Tab::Bounces),
-        tries: Some(("Show bounce 2 alone", |app| (app.bounces.reflections, app.bounces.up_to) = (2, false))),
+        tries: Some(("Show bounce 2 alone", |app| (app.bounces.k, app.bounces.up_to) = (2, false))),
     },
     Page {
         title: "Roulette ends paths, and takes nothing away",

@@ -376,7 +376,7 @@ fn threads_and_tour_do_what_they_say() {
     restarts(&mut window, "a start over", |w| click(w, "Start over"));
     click(&mut window, "Next");
     click(&mut window, "Show bounce 2 alone");
-    assert_eq!((window.state().bounces.reflections, window.state().bounces.up_to), (2, false));
+    assert_eq!((window.state().bounces.k, window.state().bounces.up_to), (2, false));
     click(&mut window, "Back");
     assert_eq!((window.state().tour, window.state().dock), (Some(0), Some(Tab::Convergence)));
     click(&mut window, "End tour");

@@ -109,7 +109,7 @@ fn the_picture_is_a_series_and_nothing_is_rendered_for_it_unless_it_is_looked_at
     assert_eq!(window.state().status_beside.generation, 0);
     never_restarts(&mut window, |w| press(w, Key::F4));
     wait(&mut window, "the series", |app| app.frame_beside.as_ref().is_some_and(|frame| frame.series.is_some()));
-    window.state_mut().bounces.reflections = 2;
+    window.state_mut().bounces.k = 2;
     wait(&mut window, "a term", |app| app.frame_beside.as_ref().is_some_and(|frame| frame.spp >= 8));
     window.run_steps(5);
     // Radiance 1 and albedo 0.5: the second term is a quarter, which is an eighth of the light.

@@ -221,7 +221,7 @@ fn a_bar_of_the_bounces_is_clicked_and_says_its_share() {
             .find(|bar| bar.accesskit_node().label().is_some_and(|label| label.starts_with(&format!("{k} bounces: "))));
         bar.expect("it has a bar").click();
         window.run_steps(3);
-        assert_eq!(window.state().bounces.reflections, k);
+        assert_eq!(window.state().bounces.k, k);
     }
     let names: Vec<String> = painted(&window).into_iter().map(|(text, _)| text).collect();
     assert!(names.contains(&"≥ 16".to_owned()) && names.contains(&"50 %".to_owned()), "half of the light is emitted: {names:?}");
