@@ -1,5 +1,9 @@
 //! What stands between a change and the screen: the first coarse picture, one full pass, the frame, the display transform.
-use std::{hint::black_box, sync::Arc};
+use std::{
+    hint::black_box,
+    sync::Arc,
+    time::{Duration, Instant},
+};
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use noisefall::{
@@ -10,7 +14,7 @@ use noisefall::{
         film::Film,
         pass::{PassJob, Threads},
     },
-    scene::{Camera, RenderSettings, built_in, load},
+    scene::{Camera, RenderSettings, Scene, built_in, load, parse},
 };
 
 const RESOLUTION: [u32; 2] = [1280, 720];
@@ -53,6 +57,42 @@ fn first_picture(c: &mut Criterion) {
     }
 }
 
+/// From a change to the finished picture of 16 × 16 pixels that it asks for, while paths of thousands of bounces render on all cores.
+fn leaves_what_is_heavy(c: &mut Criterion) {
+    let sphere = |albedo: f64, resolution: [u32; 2]| {
+        let text = format!(
+            "format = 1\ncamera = {{ eye = [0, 0, 0], look_at = [0, 0, 1], fov = 60, resolution = {resolution:?} }}\n\
+             materials.wall.lambertian.albedo = {albedo:?}\n[[objects]]\nshape.sphere = {{ center = [0, 0, 0], radius = 1 }}\n\
+             material = 'wall'\nflip = true\nemission.radiance = 1\n[render]\nroulette = 'off'\n"
+        );
+        Arc::new(parse("sphere.toml", text).expect("it is good"))
+    };
+    let (heavy, light) = (sphere(0.9999, RESOLUTION), sphere(0.0, [16, 16]));
+    let renderer = Renderer::new(Threads::new(0, SimdLevel::best()).expect("threads can be had"), Publish::Live, || {});
+    let mut generation = 0;
+    let mut submit = |scene: &Arc<Scene>| {
+        generation += 1;
+        renderer.submit(Job { generation, scene: scene.clone(), camera: scene.camera, settings: scene.settings });
+        generation
+    };
+    c.bench_function("16 x 16, a change while a heavy picture renders, all cores", |b| {
+        b.iter_custom(|count| {
+            let mut sum = Duration::ZERO;
+            for _ in 0..count {
+                submit(&heavy);
+                std::thread::sleep(Duration::from_millis(15));
+                let start = Instant::now();
+                let asked = submit(&light);
+                while renderer.latest().frame.generation != asked {
+                    std::thread::sleep(Duration::from_micros(50));
+                }
+                sum += start.elapsed();
+            }
+            sum
+        });
+    });
+}
+
 fn one_pass(c: &mut Criterion) {
     let scene = built_in();
     let threads = Threads::new(0, SimdLevel::best()).expect("threads can be had");
@@ -84,5 +124,5 @@ fn display_transform(c: &mut Criterion) {
     }
 }
 
-criterion_group!(benches, first_picture, one_pass, frame_of_film, display_transform);
+criterion_group!(benches, first_picture, leaves_what_is_heavy, one_pass, frame_of_film, display_transform);
 criterion_main!(benches);

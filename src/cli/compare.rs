@@ -2,6 +2,7 @@
 use std::{
     io::Read,
     path::{Path, PathBuf},
+    process::ExitCode,
 };
 
 use noisefall::{
@@ -11,11 +12,16 @@ use noisefall::{
     measure::{Bias, Comparison, Evidence, Floor, compare},
     render::{
         Display, Frame,
-        image_file::{Picture, Provenance, check_target, provenance, read, save},
+        image_file::{Format, Picture, Provenance, provenance, read},
     },
 };
 
-use super::{Failure, flip, options::floor, print, tell};
+use super::{
+    Failure, flip,
+    options::{floor, format},
+    output::Output,
+    print, tell, wrong_usage,
+};
 
 const NOTES: &str = "\
 The bias is the mean of A − B over pixels and channels. Its standard error comes from the variances of samples that `noisefall render` \
@@ -36,10 +42,14 @@ pub struct Arguments {
     /// What relMSE adds to the squared reference [default: 0.01 of the mean squared reference]
     #[arg(long, value_name = "F", value_parser = floor, allow_negative_numbers = true)]
     floor: Option<Floor>,
-    /// Picture of the difference to write: .exr (A less B) or .png (relative luminance, blue for less, red for more)
+    /// Picture of the difference to write: .exr (A less B) or .png (relative luminance, blue for less, red for more); - for
+    /// standard output
     #[arg(short, long)]
     output: Option<PathBuf>,
-    /// Print one line of JSON
+    /// Format of a picture on standard output: png or exr; a file's name says it
+    #[arg(long, value_name = "FORMAT", value_parser = format, requires = "output")]
+    format: Option<Format>,
+    /// Print one line of JSON, on standard error where the picture is on standard output
     #[arg(long)]
     json: bool,
 }
@@ -78,10 +88,12 @@ fn is_png(path: &Path) -> bool {
     read.is_ok() && looks_like(&start) == Some(PNG)
 }
 
-pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    if let Some(output) = &arguments.output {
-        check_target(output).map_err(|error| error.to_string())?;
-    }
+pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
+    let output = match arguments.output.as_deref().map(|path| Output::of(path, arguments.format)).transpose() {
+        Ok(output) => output,
+        Err(mistake) => return Ok(wrong_usage(&mistake)),
+    };
+    output.as_ref().map_or(Ok(()), Output::check)?;
     if is_png(&arguments.a) != is_png(&arguments.b) {
         tell("note: a PNG is clipped at 1 and rounded to display codes, an EXR is not: they differ by more than noise");
     }
@@ -97,18 +109,20 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let (a, b) = (&a.picture, &b.picture);
     let comparison = compare(&a.radiance, &b.radiance, floor);
     let flip = flip::mean_error(&frame(a, a.radiance.clone()), &frame(b, b.radiance.clone()));
-    let scale = arguments.output.as_deref().map(|path| write_difference(path, a, b, floor)).transpose()?.flatten();
-    if arguments.json {
-        return print(&json(&comparison, flip, &bias, &remarks).to_string());
+    let mut lines = vec![if arguments.json {
+        json(&comparison, flip, &bias, &remarks).to_string()
+    } else {
+        text(&comparison, flip, &bias, &remarks)
+    }];
+    let Some(output) = output else { return print(&lines[0]).map(|()| ExitCode::SUCCESS) };
+    let (difference, scale) = difference(output.format(), a, b, floor);
+    let delivered = output.write(&difference, Display::default(), "{}")?;
+    if !arguments.json {
+        let said = scale.map_or("A less B".to_owned(), |scale| format!("full colour is a difference of {:.1} %", 100.0 * scale));
+        lines.push(format!("{output}: {said}"));
     }
-    print(&text(&comparison, flip, &bias, &remarks))?;
-    match (&arguments.output, scale) {
-        (Some(output), Some(scale)) => {
-            print(&format!("{}: full colour is a difference of {:.1} %", output.display(), 100.0 * scale))
-        }
-        (Some(output), None) => print(&format!("{}: A less B", output.display())),
-        (None, _) => Ok(()),
-    }
+    output.report(&lines.join("\n"))?;
+    Ok(delivered)
 }
 
 /// Repeats that are the same picture tell nothing of noise, unless there is none: then their seeds differ all the same.
@@ -209,24 +223,20 @@ fn frame(like: &Picture, radiance: Vec<[f32; 3]>) -> Frame {
     Frame { width, height, full_resolution: [width, height], radiance, ..Frame::default() }
 }
 
-/// Writes A less B; as PNG the relative difference of luminances in colours, whose scale is returned.
-fn write_difference(path: &Path, a: &Picture, b: &Picture, floor: Floor) -> Result<Option<f64>, Failure> {
-    let is_png = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("png"));
-    let (radiance, scale) = if is_png {
-        let pairs = luminances(a).into_iter().zip(luminances(b));
-        let floor = floor.of_picture(&b.radiance);
-        let difference = |(a, b): (f64, f64)| if a == b { 0.0 } else { (a - b) / (b * b + floor).sqrt() };
-        let relative: Vec<f64> = pairs.map(difference).collect();
-        let mut sizes: Vec<f64> = relative.iter().map(|x| x.abs()).collect();
-        sizes.sort_by(f64::total_cmp);
-        let scale = sizes[sizes.len() * 99 / 100].max(1e-9);
-        (relative.iter().map(|x| diverging(x / scale)).collect(), Some(scale))
-    } else {
+/// A less B; for a PNG the relative difference of luminances in colours, and their scale.
+fn difference(format: Option<Format>, a: &Picture, b: &Picture, floor: Floor) -> (Frame, Option<f64>) {
+    if format != Some(Format::Png) {
         let pairs = a.radiance.iter().zip(&b.radiance);
-        (pairs.map(|(a, b)| std::array::from_fn(|c| a[c] - b[c])).collect(), None)
-    };
-    save(&frame(a, radiance), Display::default(), "{}", path).map_err(|error| error.to_string())?;
-    Ok(scale)
+        return (frame(a, pairs.map(|(a, b)| std::array::from_fn(|c| a[c] - b[c])).collect()), None);
+    }
+    let pairs = luminances(a).into_iter().zip(luminances(b));
+    let floor = floor.of_picture(&b.radiance);
+    let relative = |(a, b): (f64, f64)| if a == b { 0.0 } else { (a - b) / (b * b + floor).sqrt() };
+    let relative: Vec<f64> = pairs.map(relative).collect();
+    let mut sizes: Vec<f64> = relative.iter().map(|x| x.abs()).collect();
+    sizes.sort_by(f64::total_cmp);
+    let scale = sizes[sizes.len() * 99 / 100].max(1e-9);
+    (frame(a, relative.iter().map(|x| diverging(x / scale)).collect()), Some(scale))
 }
 
 /// From blue at −1 by white to red at 1, which colour-blind readers tell apart as well; linear display light.

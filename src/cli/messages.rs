@@ -1,5 +1,8 @@
 //! What the commands say. Results go to standard output, everything else to standard error; readers of either may be gone.
-use std::io::{ErrorKind, Write, stderr, stdout};
+use std::{
+    io::{ErrorKind, Write, stderr, stdout},
+    process::ExitCode,
+};
 
 use super::Failure;
 
@@ -14,4 +17,11 @@ pub fn print(text: &str) -> Result<(), Failure> {
 /// Says something on standard error. Where that cannot be written there is nobody to say so to.
 pub fn tell(text: &str) {
     let _ = writeln!(stderr(), "{text}");
+}
+
+/// Says why a command cannot be understood, and with which code the program then ends.
+pub fn wrong_usage(mistake: &str) -> ExitCode {
+    const WRONG_USAGE: u8 = 2;
+    tell(mistake);
+    ExitCode::from(WRONG_USAGE)
 }

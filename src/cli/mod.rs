@@ -23,9 +23,7 @@ use std::{
 use clap::{CommandFactory, Parser, Subcommand};
 use noisefall::scene::{load, nearest};
 
-use messages::{print, tell};
-
-const WRONG_USAGE: u8 = 2;
+use messages::{print, tell, wrong_usage};
 
 /// Why a command failed: one message, of one or several lines.
 pub type Failure = String;
@@ -61,8 +59,7 @@ enum Command {
 
 pub fn run() -> ExitCode {
     if let Some(mistake) = mistaken_command(&std::env::args_os().skip(1).collect::<Vec<_>>()) {
-        tell(&mistake);
-        return ExitCode::from(WRONG_USAGE);
+        return wrong_usage(&mistake);
     }
     let arguments = Arguments::parse();
     arguments.memory.into_iter().for_each(noisefall::memory::set_limit);
@@ -70,7 +67,7 @@ pub fn run() -> ExitCode {
     let done = match arguments.command {
         None => window(arguments.scene).map(succeeded),
         Some(Command::Render(arguments)) => render::run(&arguments),
-        Some(Command::Compare(arguments)) => compare::run(&arguments).map(succeeded),
+        Some(Command::Compare(arguments)) => compare::run(&arguments),
         Some(Command::Check(arguments)) => check::run(&arguments).map(succeeded),
         Some(Command::Validate(arguments)) => validate::run(&arguments).map(succeeded),
         Some(Command::Study(arguments)) => study::run(&arguments),

@@ -45,6 +45,14 @@ impl Output {
         }
     }
 
+    /// None for a file whose name asks for no format, which [`Output::check`] refuses.
+    pub fn format(&self) -> Option<Format> {
+        match self {
+            Output::File(path) => Format::of(path).ok(),
+            Output::Stream(format) => Some(*format),
+        }
+    }
+
     /// What is wrong with it is better known before an hour of rendering than after.
     pub fn check(&self) -> Result<(), Failure> {
         match self {

@@ -13,8 +13,8 @@ use noisefall::{
         Budget, Display, Job, Published, State,
         film::Film,
         image_file::Format,
-        pass::{SampleId, Threads},
-        settings_text::{options, settings_text},
+        pass::Threads,
+        settings_text::{replay_command, settings_text},
         truth::Reference,
     },
     sampling::{Directions, Sampler},
@@ -22,13 +22,13 @@ use noisefall::{
 };
 
 use super::{
-    Failure, WRONG_USAGE,
+    Failure,
     options::{self as parse, BounceCap},
     output::Output,
     progress::render,
     replay,
     summary::Done,
-    tell,
+    tell, wrong_usage,
 };
 
 /// Samples per pixel when neither the command nor the scene says how many.
@@ -102,10 +102,7 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let output = match arguments.output.as_deref().map(|path| Output::of(path, arguments.format)).transpose() {
         Ok(output) => output,
-        Err(mistake) => {
-            tell(&mistake);
-            return Ok(ExitCode::from(WRONG_USAGE));
-        }
+        Err(mistake) => return Ok(wrong_usage(&mistake)),
     };
     let start = Instant::now();
     let scene = Arc::new(load(&arguments.scene).map_err(|error| error.report())?);
@@ -134,8 +131,9 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let Published { frame, status } = render(threads, job, budget, arguments.json)?;
     let render_seconds = start.elapsed().as_secs_f64();
 
+    let replayed = |at| replay_command(&arguments.scene, &scene, camera.resolution, &settings, at);
     if let State::Failed(failure) = &status.state {
-        let replay = failure.replays.then(|| format!("\nreplay: {}", replay_command(arguments, failure.at, &settings, &scene)));
+        let replay = failure.replays.then(|| format!("\nreplay: {}", replayed(failure.at)));
         return Err(format!("the renderer failed: {}{}", failure.message, replay.unwrap_or_default()));
     }
     let text = settings_text(&scene, &camera, &settings, Display::default(), &frame, &[]);
@@ -149,7 +147,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         scene_path: &arguments.scene,
         settings: &settings,
         rel_mse: reference.and_then(|truth| truth.compare(&frame)).map(|comparison| comparison.rel_mse),
-        replay: status.first_invalid.map(|at| replay_command(arguments, at, &settings, &scene)),
+        replay: status.first_invalid.map(replayed),
         frame: &frame,
         status: &status,
         threads: thread_count,
@@ -180,14 +178,6 @@ impl Arguments {
         let max_spp = by_samples.then(|| self.spp.or(scene.spp).unwrap_or(DEFAULT_SPP));
         Budget { max_spp, max_time: self.time, noise: self.noise, ..Budget::default() }
     }
-}
-
-/// The command that traces one sample again.
-fn replay_command(arguments: &Arguments, at: SampleId, settings: &RenderSettings, scene: &Scene) -> String {
-    let [x, y] = at.pixel;
-    let size = arguments.size.map_or_else(String::new, |[w, h]| format!(" --size {w}x{h}"));
-    let options = options(settings, &scene.settings);
-    format!("noisefall render {} --pixel {x},{y} --sample {}{size}{options}", arguments.scene.display(), at.sample)
 }
 
 #[cfg(test)]
@@ -251,14 +241,5 @@ mod tests {
         }
         scene.spp = None;
         assert_eq!(arguments("").budget(&scene), budget(Some(256), None, None));
-    }
-
-    #[test]
-    fn a_sample_is_replayed_with_all_that_it_depends_on() {
-        let scene = built_in();
-        let arguments = arguments("--size 64x32 --seed 7");
-        let settings = arguments.settings(&scene);
-        let command = replay_command(&arguments, SampleId { pixel: [5, 6], sample: 9 }, &settings, &scene);
-        assert_eq!(command, "noisefall render a.toml --pixel 5,6 --sample 9 --size 64x32 --seed 7");
     }
 }

@@ -12,11 +12,11 @@ use noisefall::{
 };
 
 use super::{
-    Failure, WRONG_USAGE, folder,
+    Failure, folder,
     options::{self as parse, BounceCap},
     print,
     stop::{INTERRUPTED, stop_signal},
-    tell,
+    tell, wrong_usage,
 };
 
 const NOTES: &str = "\
@@ -77,8 +77,8 @@ pub struct Arguments {
 
 pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     if arguments.reference.is_some() && arguments.scenes.len() > 1 {
-        tell(&format!("--reference is the picture of one scene, and {} are given", arguments.scenes.len()));
-        return Ok(ExitCode::from(WRONG_USAGE));
+        let mistake = format!("--reference is the picture of one scene, and {} are given", arguments.scenes.len());
+        return Ok(wrong_usage(&mistake));
     }
     [folder::REPORT, CSV].into_iter().try_for_each(|name| folder::make(&arguments.output, name))?;
     let load = |path: &PathBuf| Subject::load(path, arguments.size, arguments.reference.as_deref());

@@ -1,7 +1,9 @@
 //! The settings of a picture as text: what a file carries, so that it can be traced back and made again.
+use std::path::Path;
+
 use serde_json::json;
 
-use super::{frame::Frame, tone::Display};
+use super::{frame::Frame, pass::SampleId, tone::Display};
 use crate::scene::{Camera, RenderSettings, Scene};
 
 /// One JSON object, in ASCII, with all that a picture depends on. `remarks` say what of it is shown, where that is not all.
@@ -63,6 +65,22 @@ pub fn options(settings: &RenderSettings, of_scene: &RenderSettings) -> String {
     options
 }
 
+/// The command that traces one sample of a picture again, for a shell. It knows the camera of the scene only.
+pub fn replay_command(
+    path: &Path,
+    scene: &Scene,
+    [width, height]: [u32; 2],
+    settings: &RenderSettings,
+    SampleId { pixel: [x, y], sample }: SampleId,
+) -> String {
+    let path = path.to_string_lossy();
+    let path = shlex::try_quote(&path).unwrap_or_else(|_| path.clone());
+    let differs = [width, height] != scene.camera.resolution;
+    let size = if differs { format!(" --size {width}x{height}") } else { String::new() };
+    let options = options(settings, &scene.settings);
+    format!("noisefall render {path} --pixel {x},{y} --sample {sample}{size}{options}")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -99,6 +117,17 @@ mod tests {
         }
         assert_eq!((&back["camera"]["resolution"], &back["settings"]["seed"]), (&json!([2, 2]), &json!(9)));
         assert_eq!(back["program"], concat!("Noisefall ", env!("CARGO_PKG_VERSION")));
+    }
+
+    #[test]
+    fn a_sample_is_replayed_with_all_that_it_depends_on() {
+        let (scene, at) = (built_in(), SampleId { pixel: [5, 6], sample: 9 });
+        let command = |path: &str, size, settings| replay_command(path.as_ref(), &scene, size, &settings, at);
+        let settings = RenderSettings { seed: 7, ..scene.settings };
+        let same = command("a.toml", scene.camera.resolution, scene.settings);
+        assert_eq!(same, "noisefall render a.toml --pixel 5,6 --sample 9");
+        let other = command("a room/it's.toml", [64, 32], settings);
+        assert_eq!(other, "noisefall render \"a room/it's.toml\" --pixel 5,6 --sample 9 --size 64x32 --seed 7");
     }
 
     #[test]

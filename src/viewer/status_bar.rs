@@ -1,10 +1,10 @@
 //! The line below the picture: how far the render is, how sure, and what is under the pointer.
-use std::time::Duration;
+use std::{path::Path, time::Duration};
 
 use egui::{Color32, RichText};
 use noisefall::{
     math::colour::luminance,
-    render::{State, Status, pass::SampleId, settings_text::options, view::Legend},
+    render::{State, Status, pass::SampleId, settings_text::replay_command, view::Legend},
     scene::RenderSettings,
 };
 
@@ -131,13 +131,11 @@ impl App {
         }
     }
 
-    /// The command that traces one sample again; it knows the scene's camera only.
-    fn replay_command(&self, SampleId { pixel: [x, y], sample }: SampleId, [width, height]: [u32; 2]) -> String {
+    fn replay_command(&self, at: SampleId, size: [u32; 2]) -> String {
         let Some(wish) = self.link.wish() else { return String::new() };
-        let file = self.opened.as_ref().and_then(|opened| opened.path.as_ref());
-        let file = file.map_or_else(|| "scenes/cornell_spheres.toml".to_owned(), |path| path.display().to_string());
-        let options = options(&wish.settings, &wish.scene.settings);
-        format!("noisefall render {file} --pixel {x},{y} --sample {sample} --size {width}x{height}{options}")
+        let file = self.opened.as_ref().and_then(|opened| opened.path.as_deref());
+        let file = file.unwrap_or(Path::new("scenes/cornell_spheres.toml"));
+        replay_command(file, &wish.scene, size, &wish.settings, at)
     }
 
     fn pixel_label(&self, ui: &mut egui::Ui) {

@@ -1,4 +1,6 @@
 //! `noisefall compare`: error, bias with its standard error, FLIP and pictures of the difference.
+use std::fs;
+
 use noisefall::{
     measure::exact::{furnace, furnace_capped, furnace_capped_variance},
     render::{Display, Frame, image_file},
@@ -216,6 +218,11 @@ fn differences_are_written_as_numbers_and_as_colours() {
     let (a, b, difference) = (read("a.exr"), read("b.exr"), read("difference.exr"));
     let exact = |(a, b): (&[f32; 3], &[f32; 3])| [0, 1, 2].map(|c| a[c] - b[c]);
     assert!(a.iter().zip(&b).map(exact).eq(difference) && a != b);
+    let streamed = shell.run(&["compare", "a.exr", "b.exr", "-o", "-", "--format", "exr"]);
+    assert!(streamed.status.success() && text(&streamed.stderr).contains("standard output: A less B"));
+    assert!(fs::read(shell.path("difference.exr")).is_ok_and(|bytes| bytes == streamed.stdout));
+    let unnamed = shell.run(&["compare", "a.exr", "b.exr", "-o", "-"]);
+    assert!(unnamed.status.code() == Some(2) && text(&unnamed.stderr).contains("needs --format"));
     let refused = shell.run(&["compare", "a.exr", "b.exr", "-o", "nowhere/difference.png"]);
     assert!(refused.status.code() == Some(1) && text(&refused.stderr).contains("there is no folder"));
 }

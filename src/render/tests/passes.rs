@@ -88,6 +88,22 @@ fn a_pass_counts_every_segment_and_takes_no_sample_twice() {
 }
 
 #[test]
+fn a_pass_is_left_within_its_paths() {
+    // White walls and no roulette: a path has thousands of bounces, and the pass would take minutes.
+    let text = "format = 1\ncamera = { eye = [0, 0, 0], look_at = [0, 0, 1], fov = 60, resolution = [512, 512] }\n\
+                materials.white.lambertian.albedo = 0.9999\n[[objects]]\nshape.sphere = { center = [0, 0, 0], radius = 1 }\n\
+                material = 'white'\nflip = true\nemission.radiance = 1\n[render]\nroulette = 'off'\n";
+    let scene = parse("endless.toml", text.to_owned()).expect("it is good");
+    let mut film = Film::new([512, 512]);
+    let asked = AtomicU32::new(0);
+    let soon = || asked.fetch_add(1, Ordering::Relaxed) > 60;
+    let count = pass(&scene, &mut film, 1, &threads(2), &soon);
+    assert_eq!((film.samples(), count.cut_paths), (0, 0));
+    // Both tiles that were begun notice, and so does each that was to come.
+    assert!(asked.load(Ordering::Relaxed) < 60 + 2 * 512, "{asked:?}");
+}
+
+#[test]
 fn counts_of_tiles_are_added_and_the_first_of_their_faults_is_kept() {
     let id = |x, sample| SampleId { pixel: [x, 0], sample };
     let failure = |x| Failure { at: id(x, 0), replays: true, resolution: [9, 9], message: format!("at {x}") };
