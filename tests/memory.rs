@@ -75,14 +75,9 @@ fn assert_counted(what: &str, file: &Path) {
     let figure = |name: &str| said.split(name).nth(1).and_then(|rest| rest.split_whitespace().next()?.parse::<u64>().ok());
     let peak = figure("PEAK ").unwrap_or_else(|| panic!("{what}: {said}"));
     assert!(peak > 3 * UNCOUNTED, "{what}: a peak of {peak} bytes tells nothing");
-    // The least that is enough, by halving.
-    let (mut too_little, mut enough) = (0, 16 * peak);
-    while enough - too_little > peak / 64 {
-        let middle = (too_little + enough) / 2;
-        if probed(file, middle).contains("--memory") { too_little = middle } else { enough = middle }
-    }
-    assert!(enough + UNCOUNTED >= peak, "{what}: a peak of {peak} bytes, of which {enough} are counted");
-    assert!(enough <= 4 * peak, "{what}: a peak of {peak} bytes, and {enough} are counted");
+    let is_refused = |allowed| probed(file, allowed).contains("--memory");
+    assert!(is_refused(peak - UNCOUNTED), "{what}: of a peak of {peak} bytes {UNCOUNTED} or more are not counted");
+    assert!(!is_refused(4 * peak), "{what}: of a peak of {peak} bytes four times as many are counted");
 }
 
 fn scene(resolution: u32, objects: &str) -> String {

@@ -141,7 +141,7 @@ flip = true
 #[test]
 fn a_variance_that_few_samples_make_up_is_not_trusted() {
     let shell = Shell::new();
-    std::fs::write(shell.path("room.toml"), ROOM).expect("a scene");
+    fs::write(shell.path("room.toml"), ROOM).expect("a scene");
     let plain = ["--sampler", "independent", "--estimator", "path", "--reuse", "off", "--directions", "cosine"];
     save_constant(&shell, "truth.exr", 4.0);
     let heavy = |roulette: &str| {

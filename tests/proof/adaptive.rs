@@ -53,7 +53,7 @@ fn plates() -> Scene {
 /// Short renders, in which what the first samples happen to be would matter most, were it asked.
 #[test]
 fn adaptive_samples_give_the_same_picture() {
-    const RENDERS: u32 = 150;
+    const RENDERS: u32 = 90;
     let threads = Threads::new(2, SimdLevel::best()).expect("two threads can be had");
     for (scene, sampler, what) in
         [(scene(ROOM), Sampler::Independent, "independent samples"), (plates(), Sampler::Sobol, "Sobol samples")]
@@ -84,7 +84,7 @@ fn where_noise_is_in_one_place_there_is_less_of_it_for_as_many_samples() {
         let settings = RenderSettings { adaptive, seed, ..settings(Estimator::Mis) };
         render(&threads, &plates, &settings, spp)
     };
-    let truth = with(false, 99, 2048).radiance;
+    let truth = with(false, 99, 1024).radiance;
     let of = |adaptive| {
         let pictures: Vec<Picture> = (0..4).map(|seed| with(adaptive, seed, 64)).collect();
         let error: f64 = pictures.iter().map(|picture| compare(&picture.radiance, &truth, Floor::DEFAULT).rel_mse).sum();

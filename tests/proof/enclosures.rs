@@ -72,7 +72,7 @@ fn a_closed_room_of_any_shape_is_a_furnace() {
         for directions in [Directions::Uniform, Directions::Cosine] {
             // Light samples alone have no finite variance in corners, where walls come as near to each other as one likes.
             for estimator in [Estimator::Path, Estimator::Mis] {
-                let found = picture(&room, RenderSettings { directions, ..settings(estimator) }, RED, 64);
+                let found = picture(&room, RenderSettings { directions, ..settings(estimator) }, RED, 36);
                 let what = format!("{what}, {}, {directions:?}", estimator.name());
                 println!("{what}: {:.2} σ", found.whole().z(furnace(LE, ALBEDO)));
                 assert_within(found.whole().z(furnace(LE, ALBEDO)), &what);
