@@ -65,6 +65,12 @@ struct Options {
     /// Compile for AVX2 and one lane only, in half of the time.
     #[arg(long)]
     few_levels: bool,
+    /// Leave out tests that take longer than so many seconds: a fault that only they notice seems to survive.
+    #[arg(long, value_name = "SECONDS", default_value_t = f64::INFINITY)]
+    longest: f64,
+    /// Try faults that SURVIVORS.md explains, too.
+    #[arg(long)]
+    explained: bool,
     /// Stop after this long (the build is not interrupted).
     #[arg(long)]
     minutes: Option<f64>,
@@ -105,7 +111,8 @@ fn run(options: &Options) -> Outcome<()> {
         }
         return Ok(());
     }
-    let tests = run.try_all(&faults, &verdicts, &pace)?;
+    let is_explained = |fault: &Fault| !options.explained && explained.iter().any(|row| row.is(fault));
+    let tests = run.try_all(&faults, &verdicts, is_explained, &pace)?;
     let (text, summary) = report::report(&faults, &verdicts.read(), &explained, &tests);
     let path = run.workplace.join("report.md");
     fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))?;
@@ -175,8 +182,14 @@ impl Run<'_> {
         }
     }
 
-    /// Builds the tests, learns what each reaches, and tries the faults that were not tried before.
-    fn try_all(&self, faults: &[Fault], verdicts: &Journal<Verdict>, pace: &Pace) -> Outcome<Vec<Test>> {
+    /// Builds the tests, learns what each reaches, and tries the faults that are not explained and were not tried before.
+    fn try_all(
+        &self,
+        faults: &[Fault],
+        verdicts: &Journal<Verdict>,
+        is_explained: impl Fn(&Fault) -> bool,
+        pace: &Pace,
+    ) -> Outcome<Vec<Test>> {
         let copy = self.workplace.join("tree");
         let planted = self.package.write(&copy, faults)?;
         let build = cargo::build(&copy, &self.workplace.join("build"), &["build", "--tests"], &planted)?;
@@ -185,13 +198,14 @@ impl Run<'_> {
         }
         self.say("the tests are built");
         let baselines = self.journal("baseline.jsonl", Package::read(&copy)?.hash());
-        let Some(tests) = suite::learn(&build.tests, &copy, &baselines, pace)? else {
+        let Some(mut tests) = suite::learn(&build.tests, &copy, &baselines, pace)? else {
             return Err("the time is over before every test has run once; the same command goes on".to_owned());
         };
         self.say("every test has run once");
+        tests.retain(|test| test.baseline.seconds <= self.options.longest);
         let known: HashSet<String> = verdicts.read().into_iter().map(|verdict| verdict.key).collect();
         let is_left = |id: u32, fault: &Fault| match self.options.only.as_slice() {
-            [] => !known.contains(&fault.key()),
+            [] => !known.contains(&fault.key()) && !is_explained(fault),
             only => only.contains(&id),
         };
         let left: Vec<(u32, &Fault)> = (1..).zip(faults).filter(|(id, fault)| is_left(*id, fault)).collect();

@@ -53,13 +53,11 @@ impl Count {
 /// Writes the report as Markdown, and a summary of few lines.
 pub fn report(faults: &[Fault], verdicts: &[Verdict], explained: &[Explained], tests: &[Test]) -> (String, String) {
     let verdicts: HashMap<&str, &Verdict> = verdicts.iter().map(|verdict| (verdict.key.as_str(), verdict)).collect();
-    let end = |fault: &Fault| match verdicts.get(fault.key().as_str()) {
-        None => End::Unknown,
-        Some(Verdict { caught_by: Some(test), seconds, .. }) => End::Caught(test, *seconds),
-        Some(verdict) => match explained.iter().find(|row| row.is(fault)) {
-            Some(row) => End::Explained(&row.reason),
-            None => End::Survived(verdict.tests),
-        },
+    let end = |fault: &Fault| match (verdicts.get(fault.key().as_str()), explained.iter().find(|row| row.is(fault))) {
+        (Some(Verdict { caught_by: Some(test), seconds, .. }), _) => End::Caught(test, *seconds),
+        (_, Some(row)) => End::Explained(&row.reason),
+        (Some(verdict), None) => End::Survived(verdict.tests),
+        (None, None) => End::Unknown,
     };
     let (mut rows, mut all, mut open) = (String::new(), Count::default(), String::new());
     let mut folders: BTreeMap<&str, Count> = BTreeMap::new();

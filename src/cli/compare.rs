@@ -220,7 +220,7 @@ fn luminances(picture: &Picture) -> Vec<f64> {
 
 fn frame(like: &Picture, radiance: Vec<[f32; 3]>) -> Frame {
     let (width, height) = (like.width, like.height);
-    Frame { width, height, full_resolution: [width, height], radiance, ..Frame::default() }
+    Frame { width, height, radiance, ..Frame::default() }
 }
 
 /// A less B; for a PNG the relative difference of luminances in colours, and their scale.
