@@ -1,7 +1,7 @@
 //! Pictures made by hand, byte by byte.
 use std::io::Cursor;
 
-use super::{Encoding, Flaw, Picture, decode};
+use super::{Encoding, Flaw, Picture, Texels, decode};
 
 fn read(bytes: &[u8]) -> Result<Picture, Flaw> {
     decode(Cursor::new(bytes), Encoding::Linear)
@@ -30,6 +30,9 @@ fn a_plain_hdr_has_its_mantissas_times_powers_of_two() {
     let picture = read(&bytes).expect("it is a picture");
     assert_eq!((picture.width, picture.height), (1, 2));
     assert_eq!(picture.radiance, [[0.5, 0.25, 0.0], [0.0; 3]]);
+    // Factors are multiplied, and may be small.
+    let bytes = hdr(&format!("{HEADER}EXPOSURE=0.5\nEXPOSURE=0.25\n\n-Y 1 +X 1\n"), &[128, 64, 0, 129]);
+    assert_eq!(read(&bytes).expect("it is a picture").radiance, [[8.0, 4.0, 0.0]]);
 }
 
 #[test]
@@ -106,6 +109,9 @@ fn texels_are_the_same_colours_and_nothing_else() {
     let bytes = hdr(&format!("{HEADER}\n-Y 1 +X 2\n"), &[128, 64, 0, 129, 7, 7, 7, 0]);
     let texels: Picture<[f32; 4]> = decode(Cursor::new(bytes), Encoding::Linear).expect("it is a picture");
     assert_eq!(texels.radiance, [[1.0, 0.5, 0.0, 0.0], [0.0; 4]]);
+    let picture = Picture { width: 2, height: 1, radiance: vec![[1.0, 0.5, 0.0], [0.0; 3]] };
+    let copied = Texels::from(&picture);
+    assert_eq!((copied.width, copied.height, copied.radiance), (2, 1, texels.radiance));
 }
 
 #[test]

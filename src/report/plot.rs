@@ -77,7 +77,7 @@ impl Axis {
     }
 
     /// From the least to the greatest place, with a margin; some range where there is nothing to show.
-    fn range(self, values: impl Iterator<Item = f64>) -> Range<f64> {
+    pub(super) fn range(self, values: impl Iterator<Item = f64>) -> Range<f64> {
         let (min, max) =
             values.filter(|x| x.is_finite()).fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
         if min > max {
@@ -216,7 +216,7 @@ fn between(curve: &Curve) -> impl Iterator<Item = (f64, f64)> {
 }
 
 /// About the width and height of the legend, as parts of the plot's.
-fn legend_size(curves: &[Curve], size: (u32, u32)) -> (f64, f64) {
+pub(super) fn legend_size(curves: &[Curve], size: (u32, u32)) -> (f64, f64) {
     const LETTER: f64 = 7.0;
     const LINE: f64 = 18.0;
     let mut names: Vec<&str> = curves.iter().map(|curve| curve.name.as_str()).collect();

@@ -110,3 +110,31 @@ fn legend_place(svg: &str) -> (f64, f64) {
     let element = &svg[svg[..at].rfind("<text").expect("a text")..at];
     (numbers(element, "x")[0], numbers(element, "y")[0])
 }
+
+#[test]
+fn labels_are_short_however_large_or_small_the_values_are() {
+    let labels = |values: [f64; 2]| {
+        let points = values.map(|y| (1.0, y)).to_vec();
+        texts(&svg(BESIDE, Axis::linear("x"), Axis::linear("y"), &[curve("c", Style::Points, points)]))
+    };
+    assert!(labels([0.0, 40_000.0]).iter().any(|label| label == "4e4"));
+    assert!(labels([0.0, 0.0004]).iter().any(|label| label == "4e-4"));
+    assert!(labels([-9_000.0, 9_000.0]).iter().any(|label| label == "5000"));
+}
+
+/// Around a value that stands alone the axis goes a tenth of it to both sides, or a tenth of 1 where it is smaller.
+#[test]
+fn an_axis_of_one_value_has_room_around_it() {
+    for (value, least, most) in [(0.0, -0.1, 0.1), (50.0, 45.0, 55.0), (-0.01, -0.11, 0.09)] {
+        let range = Axis::linear("y").range([value].into_iter());
+        assert!((range.start - least).abs() < 1e-9 && (range.end - most).abs() < 1e-9, "{value}: {range:?}");
+    }
+}
+
+#[test]
+fn curves_of_one_name_take_one_line_of_the_legend() {
+    let curves = |names: &[&str]| -> Vec<Curve> { names.iter().map(|name| curve(*name, Style::Line, Vec::new())).collect() };
+    let height = |names: &[&str]| legend_size(&curves(names), BESIDE).1;
+    assert_eq!(height(&["a", "a", "b"]), height(&["a", "b"]));
+    assert!(height(&["a", "b"]) > height(&["a"]));
+}

@@ -70,3 +70,20 @@ fn fair_coins(weights: &[f64]) -> (Vec<f64>, Vec<usize>) {
     let thresholds = rest.iter().zip(weights).map(threshold).collect();
     (thresholds, aliases)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A coin falls on midpoints of multiples: chances are exact, and what has no weight has none.
+    #[test]
+    fn thresholds_are_multiples_of_the_coin_and_0_where_the_weight_is_0() {
+        let weights = [0.0, 0.3, 1e-12, 2.0, 0.7, 0.0, 0.1, 0.111];
+        let (thresholds, aliases) = fair_coins(&weights);
+        for (cell, threshold) in thresholds.iter().enumerate() {
+            assert_eq!((threshold / COIN).fract(), 0.0, "{cell}");
+            assert_eq!(*threshold > 0.0, weights[cell] > 0.0, "{cell}");
+            assert!(weights[aliases[cell]] > 0.0, "{cell} gives way to what has no weight");
+        }
+    }
+}

@@ -109,3 +109,25 @@ impl<S: Simd> WideSlabs<S> {
         ((near - self.near_origin[AXIS]) * self.inverse[AXIS], (far - self.far_origin[AXIS]) * self.inverse[AXIS])
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::One;
+
+    /// 7 u (A + B) with u = ε/2, A the farthest that the scene is from the origin along the axis, B that along any, and the rounding of
+    /// the moved origin.
+    #[test]
+    fn boxes_are_widened_by_what_rounding_may_do_along_each_axis() {
+        let bounds = Bounds { min: [-3.0, 1.0, -50.0], max: [5.0, 40.0, 7.0] };
+        let (o, d) = ([2.0f32, -6.0, 9.0], [0.3f32, -0.6, 0.2]);
+        let slabs = Slabs::new(One, V::splat(One, o), V::splat(One, d), &bounds);
+        let reach = [5.0f32, 46.0, 59.0];
+        for axis in 0..3 {
+            let wider = (3.5 * (reach[axis] + 59.0) + o[axis].abs()) * f32::EPSILON * d[axis].signum();
+            let off = [slabs.near_origin[axis][0] - (o[axis] + wider), slabs.far_origin[axis][0] - (o[axis] - wider)];
+            assert!(off.iter().all(|off| off.abs() <= f32::EPSILON * o[axis].abs()), "{axis}: {off:?} of {wider}");
+            assert_eq!(slabs.inverse[axis][0], 1.0 / d[axis]);
+        }
+    }
+}

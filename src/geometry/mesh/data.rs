@@ -66,3 +66,17 @@ impl MeshData {
         self.triangles.iter().filter(crosses).count() % 2 == 1
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn boxes_of_what_is_far_apart_are_apart() {
+        let vertices = vec![[-4.0, 1.0, 2.0], [-4.0, 1.25, 2.0], [4.0, 9.0, 6.0], [4.0, 9.0, 5.5]];
+        let data = MeshData { vertices, triangles: vec![[0, 1, 2], [1, 2, 3]], normals: Vec::new(), uvs: Vec::new() };
+        let boxes = data.boxes();
+        let found: Vec<_> = boxes.iter().map(|bounds| (bounds.min, bounds.max)).collect();
+        assert_eq!(found, [([-4.0, 1.0, 2.0], [-4.0, 1.25, 2.0]), ([4.0, 9.0, 5.5], [4.0, 9.0, 6.0])]);
+    }
+}

@@ -6,7 +6,7 @@ use rand::{Rng, SeedableRng, rngs::SmallRng};
 
 use super::{Case, exact, kinds, lane, place, shapes, transforms, unit_vector, v};
 use crate::{
-    geometry::{MISS, Nearest, Shapes},
+    geometry::{MISS, Nearest, Outline, Shape, Shapes},
     math::{F, M, One, U, V},
 };
 
@@ -94,6 +94,20 @@ fn directions_cover_what_is_seen_of_a_shape_as_their_density_says() {
             if case.shape.contains(center) {
                 assert_match(&case, center + unit_vector(&mut rng) * size * 0.05, &mut rng);
             }
+        }
+    }
+}
+
+/// From the plane of a flat shape nothing of it is seen.
+#[test]
+fn nothing_has_a_density_where_a_flat_shape_is_seen_from_its_edge() {
+    let edges = [DVec3::X, DVec3::Y];
+    for outline in [Outline::Parallelogram, Outline::Triangle, Outline::Ellipse] {
+        let shapes = shapes(&[Shape::Flat { origin: DVec3::ZERO, edges, outline, mirrored: false }]);
+        let x = V { x: F(3.0), y: F(0.5), z: F(0.0) };
+        assert_eq!(shapes.toward(One, &place(0), x, (F(0.4), F(0.3))).pdf.0, 0.0);
+        for d in [[-1.0, 0.0, 0.0], [-1.0, 0.1, 0.2]] {
+            assert_eq!(shapes.pdf_toward(One, &place(0), x, V::splat(One, d)).0, 0.0);
         }
     }
 }
