@@ -99,5 +99,8 @@ mod tests {
         let long = format!("{}/scene.toml", "x".repeat(300));
         let shown = path(Path::new(&long));
         assert!(shown.starts_with("…x") && shown.ends_with("x/scene.toml") && shown.chars().count() == 161);
+        assert_eq!(shown, format!("…{}/scene.toml", "x".repeat(149)));
+        assert_eq!(path(Path::new(&"y".repeat(160))), "y".repeat(160));
+        assert_eq!(path(Path::new(&"y".repeat(161))), format!("…{}", "y".repeat(160)));
     }
 }

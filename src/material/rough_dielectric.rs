@@ -36,7 +36,7 @@ impl<'a, L: Lanes> RoughDielectric<'a, L> {
         let [inside_over_outside, offset, textured, _] = l.rows(&materials.rows, Materials::first_row(at.material));
         let eta = at.front.pick(inside_over_outside, 1.0 / inside_over_outside);
         let table = LossTable { rows: &materials.tables, offset: offset.bits(), textured: textured.above(0.0) };
-        let alpha = at.alpha.max(l.f(ggx::SMOOTH)).min(l.f(1.0));
+        let alpha = at.alpha.max(l.f(ggx::SMOOTH));
         let losses = if materials.compensated_dielectrics { Some(table) } else { None };
         RoughDielectric::new(l, eta, alpha, at.front, losses)
     }

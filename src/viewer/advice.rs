@@ -55,6 +55,11 @@ impl Adviser {
     }
 }
 
+/// How far something is of which the whole is not known at first.
+fn part_of(done: usize, whole: usize) -> f32 {
+    if whole > 0 { done as f32 / whole as f32 } else { 0.0 }
+}
+
 impl App {
     pub(super) fn ask_for_advice(&mut self) {
         let settings = *self.edited();
@@ -88,7 +93,7 @@ impl App {
                     None => {
                         ui.label("Each setting that could suit this scene makes a few small pictures. The large one waits.");
                         let (done, total) = *adviser.progress.lock().unwrap_or_else(PoisonError::into_inner);
-                        let part = if total > 0 { done as f32 / total as f32 } else { 0.0 };
+                        let part = part_of(done, total);
                         ui.add(ProgressBar::new(part).text(format!("{:.0} %", 100.0 * part)));
                     }
                     Some(Err(error)) => drop(ui.label(RichText::new(error).color(ui.bad()))),
@@ -145,4 +150,14 @@ fn row(ui: &mut Ui, candidate: &Candidate, is_best: bool, is_current: bool) -> b
     };
     ui.end_row();
     used
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_is_done_of_what_is_not_known() {
+        assert_eq!([part_of(0, 0), part_of(0, 8), part_of(2, 8), part_of(8, 8)], [0.0, 0.0, 0.25, 1.0]);
+    }
 }

@@ -68,8 +68,7 @@ const NO_WINDOW: &str = "use `noisefall render SCENE -o picture.png` to render w
 pub fn run(scene: Option<PathBuf>) -> Result<(), String> {
     let displays = window_system::found();
     let system = displays.choose().map_err(|why| format!("{why}; {NO_WINDOW}"))?;
-    // One core is left for the window and everything else.
-    let threads = window_panel::cores().saturating_sub(1).max(1);
+    let threads = window_panel::all_but_one(window_panel::cores());
     let threads = Threads::new(threads, SimdLevel::best()).map_err(|error| error.to_string())?;
     let mut options = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default()

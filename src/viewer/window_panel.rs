@@ -14,6 +14,11 @@ pub fn cores() -> usize {
     std::thread::available_parallelism().map_or(1, usize::from)
 }
 
+/// Of so many cores, those that render at first: one is left for the window and everything else.
+pub fn all_but_one(cores: usize) -> usize {
+    cores.saturating_sub(1).max(1)
+}
+
 impl App {
     pub(super) fn window_panel(&mut self, ui: &mut Ui) {
         controls(ui, "window", |ui| {
@@ -43,5 +48,15 @@ impl App {
             }
         });
         combo.response.labelled_by(label);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_core_is_left_unless_it_is_the_only_one() {
+        assert_eq!([0, 1, 2, 16].map(all_but_one), [1, 1, 1, 15]);
     }
 }

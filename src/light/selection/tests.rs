@@ -2,7 +2,7 @@
 use glam::{DMat3, DVec3};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
-use super::{FEW, Selection};
+use super::{FEW, Item, Selection, outstanding};
 use crate::{
     geometry::{MISS, Motion, Outline, Place, Shape, Shapes},
     light::{Emission, Emitters, LightCoordinates, Lobe, Receiver, Side},
@@ -261,4 +261,19 @@ fn what_can_contribute_can_be_chosen() {
         }
     }
     assert!(contributions > 40_000, "{contributions}");
+}
+
+#[test]
+fn lights_that_all_others_could_hide_behind_stay_outside_of_the_tree() {
+    let mut random = Random(3);
+    let item = |random: &mut Random, light: u32, radius: f32| {
+        let center = random.point(1.0).as_vec3();
+        Item { center, radius, power: 1.0, axis: glam::Vec3::ZERO, two_sided: false, light }
+    };
+    let mut items: Vec<Item> = (0..100).map(|light| item(&mut random, light, 0.01)).collect();
+    assert_eq!(outstanding(&mut items), 0);
+    items[7].radius = 1.5;
+    items[40].radius = 30.0;
+    assert_eq!(outstanding(&mut items), 2);
+    assert_eq!([items[98].light, items[99].light], [7, 40]);
 }

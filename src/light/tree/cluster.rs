@@ -178,3 +178,40 @@ impl<L: Lanes> Seen<L> {
 fn unhalf<L: Lanes>(x: U<L>) -> F<L> {
     x.to_real() * (1.0 / HALF) - 1.0
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        math::One,
+        sampling::hash::{hash, unit},
+    };
+
+    /// A quarter of the bound cos(θ − β), which is 1 where the sphere reaches over the normal, and three quarters of cos θ.
+    #[test]
+    fn what_a_cluster_may_send_falls_off_with_the_angle_at_the_receiver() {
+        for i in 0..200 {
+            let u = |k: u32| f64::from(unit(hash(U::<One>(8 * i + k))).0);
+            let (radius, distance, theta, power) = (0.1 + u(0), 0.2 + 3.0 * u(1), std::f64::consts::PI * u(2), 1.0 + u(3));
+            let item = Item {
+                center: Vec3::new(0.0, (distance * theta.cos()) as f32, (distance * theta.sin()) as f32),
+                radius: radius as f32,
+                power: power as f32,
+                axis: Vec3::ZERO,
+                two_sided: false,
+                light: 0,
+            };
+            let at = Receiver { p: V::splat(One, [0.0; 3]), n: V::splat(One, [0.0, 1.0, 0.0]), transmits: M(false), lobe: None };
+            let found = f64::from(Cluster::of_all(One, &rows(&[item], 0)).weight(One, &at, false).0);
+            let bound = if radius < distance {
+                let beta = (radius / distance).asin();
+                if theta > beta { ((theta - beta).cos() + 1e-3).clamp(0.0, 1.0) } else { 1.0 }
+            } else {
+                1.0
+            };
+            let centre = (distance * theta.cos() / distance.max(radius)).max(0.0);
+            let exact = power / distance.powi(2).max(0.25 * radius.powi(2)) * (0.25 * bound + 0.75 * centre);
+            assert!((found - exact).abs() < 1e-4 * power + 1e-3 * exact, "{i}: {found} {exact}, {radius} {distance} {theta}");
+        }
+    }
+}

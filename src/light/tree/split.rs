@@ -133,3 +133,19 @@ pub(super) fn groups(items: &mut [Item], most: usize) -> Vec<usize> {
     }
     groups.into_iter().map(|group| group.0).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// At x = 0, 1/2 and 1 the measure of the cone is 1, 3.57 and 4 times π.
+    #[test]
+    fn the_cost_of_a_group_is_its_power_extent_and_cone() {
+        let group = |along: f32| Group { count: 2, power: 3.0, along: Vec3::X * along, low: Vec3::ZERO, high: Vec3::splat(2.0) };
+        for (along, cone) in [(3.0, 1.0), (1.5, 3.57), (0.0, 4.0)] {
+            let cost = group(along).cost();
+            assert!((cost / (3.0 * 12.0) - cone).abs() < 1e-4, "{along}: {cost}");
+        }
+        assert_eq!(Group { power: 0.0, ..group(0.0) }.cost(), 0.0);
+    }
+}

@@ -1,6 +1,6 @@
 //! The white furnace: how much light comes back in all.
 use super::{
-    super::{Bsdf, Material},
+    super::{Bsdf, Local, Material, Materials, Plastic},
     cases::{Any, COSINES, cases},
     lattice, viewer,
 };
@@ -9,7 +9,7 @@ use crate::{
         albedo::{Albedo, LOSS},
         ggx,
     },
-    math::{F, One, U},
+    math::{F, M, One, U, V},
 };
 
 /// Directional albedo in red, by a lattice of samples of each lobe.
@@ -84,5 +84,23 @@ fn the_table_of_lost_light_is_interpolated_within_four_ten_thousandths() {
         }
         let loss = loss / 28_657.0;
         assert!((f64::from(table.0) - loss).abs() < 4e-4, "{} {}: {} {loss}", alpha.0, wo.z.0, table.0);
+    }
+}
+
+/// A coloured surface is in each channel a grey one of that value.
+#[test]
+fn channels_know_nothing_of_each_other() {
+    const COLOUR: [f32; 3] = [0.8, 0.3, 0.1];
+    for alpha in [0.0, 0.3] {
+        let plastic = |albedo: [f32; 3]| {
+            let materials = Materials::new(&[Material::Plastic { albedo, ior: 1.5, alpha }]);
+            let at = Local { material: U(0), colour: V::splat(One, albedo), alpha: F(alpha), front: M(true) };
+            let f = Plastic::at(One, &materials, &at).eval(viewer(0.7), viewer(0.4)).0;
+            [f.x.0, f.y.0, f.z.0]
+        };
+        let coloured = plastic(COLOUR);
+        for channel in 0..3 {
+            assert_eq!(coloured[channel], plastic([COLOUR[channel]; 3])[channel], "{alpha} {channel}");
+        }
     }
 }

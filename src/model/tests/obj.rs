@@ -26,6 +26,22 @@ fn faces_count_from_the_first_vertex_or_back_from_the_last() {
 }
 
 #[test]
+fn coordinates_and_normals_count_back_from_the_line_too() {
+    let text = "vt 0 0\nvt 1 0\nvn 0 0 1\nvn 1 0 0\nf 1/-1/-1 2/-2/-2 3/-1/-2\nvt 0.5 0.5\nvn 0 1 0\nf 1/-1/-1 2/-2/-3 3/-3/-2\n";
+    let model = model(&square(text));
+    let [none, right, middle] = [[0.0, 0.0], [1.0, 0.0], [0.5, 0.5]];
+    let [x, y, z] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let of = |triangle: usize| {
+        let corners = model.triangles[triangle].map(|id| id as usize);
+        let uvs = model.uvs.as_ref().expect("coordinates");
+        let normals = model.normals.as_ref().expect("normals");
+        (corners.map(|id| uvs[id]), corners.map(|id| normals[id]))
+    };
+    assert_eq!(of(0), ([right, none, right], [x, z, z]));
+    assert_eq!(of(1), ([middle, right, none], [y, z, x]));
+}
+
+#[test]
 fn faces_may_come_before_their_vertices() {
     assert_eq!(model(format!("f 1 2 3\n{SQUARE}").as_bytes()), model(&square("f 1 2 3\n")));
 }

@@ -180,7 +180,10 @@ fn figures_are_those_of_the_whole_picture_so_far() {
 #[test]
 fn a_pass_ends_when_its_time_is_up() {
     let mut session = session([64, 64], Publish::Sparse, Some(1e9));
-    session.advance(&threads(), &to(1), Publish::Sparse, NEVER);
+    session.rate = Some(1.0);
+    let at_once = Budget { max_time: Some(Duration::from_nanos(1)), ..Budget::default() };
+    session.advance(&threads(), &at_once, Publish::Sparse, NEVER);
+    assert_eq!(session.film.spp(), 1, "the first sample has the time that it takes");
     let time = session.elapsed() + Duration::from_nanos(1);
     // As fast as it is thought to be it would take a thousand samples of every pixel.
     session.rate = Some(f64::INFINITY);

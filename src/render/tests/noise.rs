@@ -136,6 +136,25 @@ fn interruptions_change_no_bit_of_what_is_told_of_noise() {
 }
 
 #[test]
+fn an_interrupted_pilot_is_sent_again() {
+    let scene = shipped("veach_plates");
+    let rays = scene.rays(&Camera { resolution: [75, 50], ..scene.camera });
+    let settings = RenderSettings { adaptive: true, reuse: Reuse::Off, ..scene.settings };
+    let threads = Threads::new(2, SimdLevel::best()).expect("threads");
+    let film = |at: u32| {
+        let (mut film, asked) = (Film::new([75, 50]), AtomicU32::new(0));
+        while film.spp() < 8 {
+            let interrupted = || asked.fetch_add(1, Ordering::Relaxed) == at;
+            threads.pass(PassJob { scene: &scene, rays: &rays, settings: &settings }, &mut film, 8, &interrupted);
+        }
+        assert!(film.is_adaptive());
+        frame(&film).radiance
+    };
+    let whole = film(u32::MAX);
+    assert!([0, 3, 20].into_iter().all(|at| film(at) == whole));
+}
+
+#[test]
 fn a_black_picture_has_a_figure_all_the_same() {
     let scene = shipped("inside_lit_outside");
     let film = render(&scene, &UNIFORM, [40, 40], 8);

@@ -146,6 +146,11 @@ fn views_of_surfaces_have_their_colours() {
     // 16 pixels of the features are white, 15 red.
     assert_eq!(legend.entries, [(white, "white".to_owned()), (red, "red".to_owned())]);
     assert!(legend.scale.is_none() && legend.title == View::Materials.name());
+    let mut swapped = self::features();
+    swapped.material.iter_mut().filter(|id| **id < 2).for_each(|id| *id = 1 - *id);
+    let all = Sources { features: Some(&swapped), ..sources(&frame, &names) };
+    let (legend, _) = draw(Look { view: View::Materials, ..Look::default() }, &all, &mut Vec::new()).expect("a legend");
+    assert_eq!(legend.entries, [(red, "red".to_owned()), (white, "white".to_owned())], "the most seen comes first");
     let mut pixels = Vec::new();
     let missing = draw(Look { view: View::Albedo, ..Look::default() }, &sources(&frame, &names), &mut pixels);
     assert!(matches!(missing, Some((_, Field::Missing))) && pixels == [GREY; 8]);

@@ -86,6 +86,8 @@ fn efficiency_is_told_from_noise_and_time() {
     assert_eq!(advice.current().relative, 1.0);
     let verdict = "Sobol (Owen), roulette by throughput from bounce 4 on: 4.000 ± 0.000 times as efficient as what you have.";
     assert_eq!(advice.verdict(), verdict);
+    let exactly_as_good = Candidate { relative: 1.0, standard_error: 0.0, ..advice.candidates[0].clone() };
+    assert_eq!(exactly_as_good.ratio(), "1.00 ± 0.00");
 }
 
 #[test]

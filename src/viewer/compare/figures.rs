@@ -30,8 +30,7 @@ impl App {
             }
         });
         ui.add_space(4.0);
-        let [a, b] = sides.each_ref().map(|side| side.seconds);
-        if a.max(b) > 1.3 * a.min(b) + 0.5 {
+        if began_apart(sides.each_ref().map(|side| side.seconds)) {
             ui.weak("One had time before the comparison began: Restart (R) begins both at once.");
         }
         if let Some(text) = incomparable(&sides) {
@@ -43,6 +42,11 @@ impl App {
             ui.weak("Figures come with the second sample of both.");
         }
     }
+}
+
+/// Whether one picture had clearly more seconds than the other.
+fn began_apart([a, b]: [f64; 2]) -> bool {
+    a.max(b) > 1.3 * a.min(b) + 0.5
 }
 
 const HEADINGS: [(&str, &str); 8] = [
@@ -144,6 +148,13 @@ mod tests {
 
     fn side(status: &Status, settings: &RenderSettings, truth: Option<f64>) -> Side {
         Side::of("A", "a name".to_owned(), status, settings, truth.map(|rel_mse| Against { rel_mse, bias: None }))
+    }
+
+    #[test]
+    fn a_head_start_counts_where_it_is_large() {
+        for (seconds, apart) in [([10.0, 13.4], false), ([13.6, 10.0], true), ([0.1, 0.6], false), ([0.7, 0.1], true)] {
+            assert_eq!(began_apart(seconds), apart, "{seconds:?}");
+        }
     }
 
     #[test]

@@ -159,5 +159,8 @@ mod tests {
         for (i, (_, one)) in all.iter().enumerate() {
             assert!(*one != settings && all[..i].iter().all(|(_, other)| other != one));
         }
+        let place = |name: &str| all.iter().position(|(other, _)| other.starts_with(name)).unwrap_or(usize::MAX);
+        let order = ["Path", "Independent", "No roulette", "Roulette of 0.8", "Shared", "A cap", "Another seed"].map(place);
+        assert!(order.is_sorted() && order[6] == all.len() - 1, "{order:?}");
     }
 }

@@ -189,3 +189,27 @@ fn label(x: f64) -> String {
         x => format!("{x:.0e}"),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_of_the_grid_are_powers_of_ten_and_where_there_is_room_their_multiples() {
+        let marks = |low: f64, high: f64| -> Vec<(f64, f64)> {
+            let marks = decades(&GridInput { bounds: (low, high), base_step_size: 1.0 });
+            marks.iter().map(|mark| (10f64.powf(mark.value).round(), mark.step_size)).collect()
+        };
+        // From 5 to 20.
+        assert_eq!(marks(0.69, 1.31), [(5.0, 0.1), (6.0, 0.1), (7.0, 0.1), (8.0, 0.1), (9.0, 0.1), (10.0, 1.0), (20.0, 0.1)]);
+        assert_eq!(marks(-0.1, 9.1).len(), 10);
+    }
+
+    #[test]
+    fn labels_are_plain_where_they_are_short() {
+        assert_eq!([0.01, 0.3, 2.0, 50_000.0].map(label), ["0.01", "0.3", "2", "50000"]);
+        assert_eq!([1e-4, 1e5].map(label), ["1e-4", "1e5"]);
+        // Of a power of ten that rounding has missed.
+        assert_eq!(label(10f64.powf(-0.300_000_000_000_000_04) * 2.0), "1.002374");
+    }
+}

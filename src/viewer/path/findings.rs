@@ -132,3 +132,20 @@ fn histogram_of(question: &Question, given_up: &dyn Fn() -> bool) -> Option<Hist
     let samples = pixel_samples(scene, &rays, &resolved(scene, &rays, settings), *pixel, 0..*number, given_up)?;
     Some(Histogram::of(samples.into_iter().map(luminance).collect()))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_failure_is_told_of_the_sample_that_is_looked_at_first() {
+        let failure = |of_sample, of_another| {
+            let mut inspector = Inspector::new(&egui::Context::default());
+            (inspector.replay.failed, inspector.histogram.failed) = (of_sample, of_another);
+            inspector.failure()
+        };
+        assert_eq!(failure(false, false), None);
+        assert!([true, false].into_iter().all(|other| failure(true, other).is_some_and(|text| text.ends_with("at this sample"))));
+        assert!(failure(false, true).is_some_and(|text| text.ends_with("at a sample of this pixel")));
+    }
+}

@@ -59,6 +59,17 @@ fn curves_are_saved_as_table_and_as_drawing() {
 }
 
 #[test]
+fn tabs_say_what_they_are_about() {
+    let mut window = with_tab("furnace", "Compare");
+    assert!(window.query_by_label_contains("both get the same time").is_some());
+    window.get_by_role_and_label(Role::Button, "Convergence").click();
+    wait(&mut window, "a curve", |app| app.history.curves.first().is_some_and(|curve| curve.moments.len() > 1));
+    assert!(window.query_by_label_contains("Dashed: 1/√N").is_some());
+    click(&mut window, "over time");
+    assert!(window.query_by_label_contains("Dashed: 1/√time").is_some());
+}
+
+#[test]
 fn a_comparison_starts_with_one_click_and_both_sides_converge() {
     let mut window = window("cornell_spheres");
     never_restarts(&mut window, |w| {
@@ -143,6 +154,9 @@ fn every_view_is_shown_with_a_legend_and_none_restarts() {
     });
     choose(&mut window, "View", "Z-score");
     wait(&mut window, "scores", |app| app.scores.is_some());
+    window.hover_at(Pos2::new((1280.0 - 336.0) / 2.0, 500.0));
+    window.run_steps(3);
+    assert!(window.query_by_label_contains(")  Z-score ").is_some(), "the line below says what the view shows there");
     choose(&mut window, "View", "Radiance");
     wait(&mut window, "the picture", |app| app.legend.is_none());
     press(&mut window, Key::V);
