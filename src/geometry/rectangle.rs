@@ -70,7 +70,7 @@ impl<L: Lanes> SphericalRectangle<L> {
         let square = self.height * self.height;
         let [x0, x1] = self.x;
         let [y0, y1] = self.y;
-        // The strip from x₀ to x has the solid angle φ − start (equation 11).
+        // The strip from x₀ to x has the solid angle φ − start.
         let (sin, cos) = sin_cos_turns(u.0 * self.angle + self.start);
         let side = 1.0 / (square + y0 * y0);
         let b0 = -y0 * side.sqrt();
@@ -78,7 +78,7 @@ impl<L: Lanes> SphericalRectangle<L> {
         let f = (cos * b0 - b1) / sin;
         let x = self.height / (f * f - square * side).max(f.splat(f32::MIN_POSITIVE)).sqrt();
         let x = x.copysign(f).max(x0).min(x1);
-        // And along the strip, uniform in the sine of the elevation (equation 13).
+        // And along the strip, uniform in the sine of the elevation.
         let from_edge = square + x * x;
         let (low, high) = (y0 / (from_edge + y0 * y0).sqrt(), y1 / (from_edge + y1 * y1).sqrt());
         let h = low + u.1 * (high - low);

@@ -1,5 +1,5 @@
 //! The sample as the series it is: what is emitted, what was reflected once, twice, and so on (J. Kajiya, "The Rendering Equation",
-//! SIGGRAPH 1986, equation 14: L = Σₖ Tᵏ Lₑ).
+//! SIGGRAPH 1986: L = Σₖ Tᵏ Lₑ).
 use super::{
     batch::Batch,
     trace::{Interrupted, Observer, trace_in},

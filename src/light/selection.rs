@@ -1,8 +1,8 @@
 //! Which light a point looks at.
 //!
-//! A light is chosen with a probability proportional to the irradiance it could cause at the point at most if nothing stood in
-//! between, of varying light to its mean: E ≤ π L sin²θ · max(cos) over its cone of half angle θ (Shirley et al. 1996, section 4,
-//! for what a good choice is). Few lights are weighed one by one; of many all but those of outstanding size form a tree.
+//! A light is chosen with a probability proportional to an estimate of the irradiance it could cause at the point if nothing stood in
+//! between, of varying light to its mean: E ≈ π L sin²θ · max(cos) over its cone of half angle θ (Shirley et al. 1996 say
+//! what a good choice is). Few lights are weighed one by one; of many all but those of outstanding size form a tree.
 #[cfg(test)]
 mod tests;
 

@@ -1,4 +1,4 @@
-//! What the choice of a light knows of an emitting primitive: a bound on the irradiance it causes.
+//! What the choice of a light knows of an emitting primitive: an estimate of the irradiance it causes at most.
 use glam::DVec3;
 
 use super::{Receiver, bound::Bound};
@@ -41,7 +41,7 @@ impl Source {
         Source { extent, front: bound.front, back: bound.back }
     }
 
-    /// A bound on the irradiance from this light, over π: E ≤ L A cos θ_i cos θ_e/d². Of lobes, what they may reflect of it.
+    /// An estimate of the irradiance from this light at most, over π: E ≈ L A cos θ_i cos θ_e/d², a bound where the light is far away. Of lobes, what they may reflect of it.
     #[inline(always)]
     pub fn weight<L: Lanes>(&self, l: L, at: &Receiver<L>) -> F<L> {
         match &self.extent {

@@ -1,8 +1,7 @@
 //! Exact solutions of the light transport equation, and the variances of its estimators where they have a closed form.
 //!
 //! The furnace is a closed sphere whose inside emits L_e and reflects ρ diffusely. By symmetry the radiance L is the same
-//! everywhere, so that L = L_e + ρ L (the "furnace test": see J. Arvo, "The Irradiance Jacobian", 1994, for uniform
-//! enclosures). Every bounce k therefore carries L_e ρᵏ, whatever the shape of the room.
+//! everywhere, so that L = L_e + ρ L (the "furnace test"). Every bounce k therefore carries L_e ρᵏ, whatever the shape of the room.
 
 use glam::DVec3;
 

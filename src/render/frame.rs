@@ -26,7 +26,8 @@ pub struct Frame {
     pub full_resolution: [u32; 2],
     /// Linear Rec. 709.
     pub radiance: Vec<[f32; 3]>,
-    /// Standard error of the pixel's luminance; NaN before the second sample.
+    /// Upper bound of the standard error of the pixel's luminance, as if its channels were fully correlated; NaN before the second
+    /// sample.
     pub standard_error: Vec<f32>,
     /// Samples that every pixel has at least; on average at most where they are spread by noise.
     pub spp: u32,

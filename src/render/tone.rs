@@ -28,7 +28,11 @@ impl ToneMap {
     /// The catalogue: tone map, name, and one sentence for the window.
     pub const ALL: [(ToneMap, &'static str, &'static str); 4] = [
         (ToneMap::None, "None (sRGB)", "Radiance as it is; what is brighter than the screen is cut off."),
-        (ToneMap::Reinhard, "Reinhard", "Divides by one plus the luminance: nothing is cut, highlights are pale."),
+        (
+            ToneMap::Reinhard,
+            "Reinhard",
+            "Divides by one plus the luminance: no grey is cut off, only the strongest colours are; highlights are pale.",
+        ),
         (ToneMap::Aces, "ACES-like", "A filmic curve: contrast in the middle, a soft shoulder."),
         (ToneMap::FalseColour, "False colour", "Luminance in colours, from 0.001 (violet) to 1000 (yellow), logarithmic."),
     ];

@@ -50,7 +50,7 @@ pub const SAMPLERS: [SamplerEntry; 4] = [
         sampler: Sampler::Sobol,
         name: "sobol",
         title: "Sobol (Owen)",
-        doc: "Owen-scrambled Sobol points: evenly spread in both dimensions and every projection. Least error.",
+        doc: "Owen-scrambled Sobol points: evenly spread in every pair of dimensions that belong together. Mostly the least error.",
     },
     SamplerEntry {
         sampler: Sampler::BlueNoise,

@@ -159,7 +159,11 @@ fn roulette(ui: &mut Ui, label: Id, roulette: &mut Roulette) {
     let kinds = [
         (Roulette::Off, "Off", "Paths end at the cap, or when they carry nothing any more."),
         (Roulette::Fixed(DEFAULT_SURVIVAL), "Fixed probability", "The same survival probability q at every bounce."),
-        (Roulette::BY_THROUGHPUT, "By throughput", "Paths that carry little die early: q is the throughput β."),
+        (
+            Roulette::BY_THROUGHPUT,
+            "By throughput",
+            "Paths that carry little die early: from the fourth bounce on, q is the throughput β, between 0.01 and 0.95.",
+        ),
     ];
     let is_chosen = |roulette: &Roulette, kind: &Roulette| std::mem::discriminant(roulette) == std::mem::discriminant(kind);
     let name = kinds.iter().find(|(kind, _, _)| is_chosen(roulette, kind)).map_or("", |(_, name, _)| name);

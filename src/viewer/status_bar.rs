@@ -156,7 +156,7 @@ impl App {
         let radiance @ [r, g, b] = *term.unwrap_or(&frame.radiance[index]);
         let y_value = luminance(radiance);
         ui.label(RichText::new(format!("({x}, {y})  RGB {r:.3} {g:.3} {b:.3}  Y {y_value:.3}{error}")).monospace())
-            .on_hover_text("Pixel, the radiance that is seen there in W/(sr·m²), its luminance and the standard error of that");
+            .on_hover_text("Pixel, the radiance that is seen there in W/(sr·m²), its luminance and the most that the standard error of that can be");
     }
 }
 

@@ -3,7 +3,7 @@
 //! A node costs its area, a leaf its area times [`LEAF_COST`], as the chance that a ray meets it. The cheapest way to have up to
 //! k trees under a branch follows from the cheapest ways under its two sides: C(k) = min over i of C_left(i) + C_right(k − i), or
 //! one tree, a node over the cheapest eight. (Dynamic programming after H. Ylitalo et al., "Efficient incoherent ray traversal on
-//! GPUs through compressed wide BVHs", HPG 2017, section 3.2.) Taking the largest children apart until there are eight, as is
+//! GPUs through compressed wide BVHs", HPG 2017.) Taking the largest children apart until there are eight, as is
 //! common, leaves half of the places empty, mostly at the bottom, where the nodes are many.
 use super::{
     LEAF, Node, WIDTH,

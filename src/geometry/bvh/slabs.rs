@@ -9,7 +9,7 @@
 //!
 //! With A and B the largest |a| and |b| in the box of everything, boxes that are wider by 7 u (A + B) on each side therefore contain
 //! all hits, with room for products of roundings. They are widened once a ray, by moving the origin the other way for near
-//! and for far planes (S. Woop, C. Benthin and I. Wald, "Watertight Ray/Triangle Intersection", JCGT 2013, section 3.3), which
+//! and for far planes (S. Woop, C. Benthin and I. Wald, "Watertight Ray/Triangle Intersection", JCGT 2013), which
 //! costs nothing per box; rounding the moved origin takes another u |oᵢ|. A slab test alone would do with 1 + 2γ₃ on the far side
 //! (T. Ize, "Robust BVH Ray Traversal", JCGT 2013), but would lose hits that exist by the rounding of vertices only, and with
 //! them the tightness of a mesh.

@@ -1,6 +1,6 @@
 //! The cone of directions in which a sphere is seen, for sampling it by solid angle.
 //!
-//! K. Shirley et al., "Monte Carlo Techniques for Direct Lighting Calculations" (1996), section 3.2, in anchored form: with the
+//! P. Shirley et al., "Monte Carlo Techniques for Direct Lighting Calculations" (1996), in anchored form: with the
 //! curvature k and m(x), c(x) of [`super`], |m| is the distance from the centre in radii and k c = |m|² − 1, so that the cone of
 //! a sphere that nearly touches x, or is tiny and far, has no cancellation.
 use std::f32::consts::TAU;

@@ -36,13 +36,13 @@ impl View {
         (
             View::StandardError,
             "Standard error",
-            "How far each pixel's mean is likely to be off, from the variance of its samples.",
+            "How far the luminance of each pixel's mean is likely to be off at most, from the variances of its samples.",
         ),
         (View::SampleCount, "Sample count", "How many samples N each pixel has: more where they are adaptive, or in a region."),
         (
             View::ZScore,
             "Z-score",
-            "(estimate - truth)/standard error: noise without structure if right, and at most as wide as the unit normal.",
+            "(estimate - truth)/standard error: noise without structure if right, as wide as the unit normal where samples are independent and light is not rare.",
         ),
         (
             View::Difference,

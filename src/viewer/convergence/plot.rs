@@ -56,7 +56,9 @@ impl App {
         if !history.curves.is_empty() {
             let root = if history.over == Over::Samples { "1/√N" } else { "1/√time" };
             ui.weak(match history.what {
-                What::Error => format!("Lines: as estimated. Points: against the truth. Dashed: the ideal, {root}."),
+                What::Error => {
+                    format!("Lines: as estimated. Points: against the truth. Dashed: {root}, the rate of independent samples.")
+                }
                 What::Bias => "Dashed: 0 and ±2 σ, within which unbiased means mostly stay.".to_owned(),
             });
         }
@@ -127,7 +129,7 @@ impl App {
                 }
             }
             if what == What::Error {
-                let guide = Line::new("ideal: 1/√N", logarithms(&history.guide()));
+                let guide = Line::new("independent: 1/√N", logarithms(&history.guide()));
                 plot.line(guide.color(Color32::GRAY).style(LineStyle::dashed_loose()));
             } else {
                 for at in [-2.0, 0.0, 2.0] {
