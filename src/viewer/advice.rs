@@ -12,7 +12,12 @@ use noisefall::{
     study::{Advice, Candidate, advise},
 };
 
-use super::{app::App, errand::Errand, link::Wish, look::Inks};
+use super::{
+    app::App,
+    errand::Errand,
+    link::Wish,
+    look::{Inks, over_the_picture},
+};
 
 const TIME: Duration = Duration::from_secs(8);
 
@@ -86,7 +91,7 @@ impl App {
             .open(&mut open)
             .collapsible(false)
             .resizable(false)
-            .anchor(Align2::CENTER_CENTER, [-168.0, 0.0])
+            .anchor(Align2::CENTER_CENTER, over_the_picture(0.0))
             .show(ctx, |ui| {
                 ui.set_width(520.0);
                 match &adviser.advice {

@@ -28,7 +28,7 @@ use super::{
     gallery::Gallery,
     link::Link,
     loader::{DroppedTruth, Loader, Opened},
-    look::{section, themes},
+    look::{PANEL_WIDTH, section, themes},
     messages::Notice,
     objects_panel::objects_panel,
     pace::Pace,
@@ -180,7 +180,7 @@ impl App {
         self.receive();
         self.inspect();
         Panel::bottom("status").show(ui, |ui| self.status_bar(ui));
-        Panel::right("settings").resizable(false).exact_size(336.0).show(ui, |ui| self.panels(ui));
+        Panel::right("settings").resizable(false).exact_size(PANEL_WIDTH).show(ui, |ui| self.panels(ui));
         Panel::top("toolbar").show(ui, |ui| self.toolbar(ui));
         self.dock(ui);
         CentralPanel::no_frame().show(ui, |ui| self.canvas(ui));

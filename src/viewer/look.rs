@@ -1,6 +1,14 @@
 //! What all panels look like.
 use egui::{CollapsingHeader, Color32, RichText};
 
+/// Of the panel at the right.
+pub(super) const PANEL_WIDTH: f32 = 336.0;
+
+/// For what lies in the middle of the picture instead of the window's: how far it is moved, so far above where it would lie.
+pub(super) fn over_the_picture(lift: f32) -> [f32; 2] {
+    [-0.5 * PANEL_WIDTH, -lift]
+}
+
 /// A part of the side panel that can be folded away.
 pub(super) fn section(ui: &mut egui::Ui, title: &str, contents: impl FnOnce(&mut egui::Ui)) {
     ui.separator();

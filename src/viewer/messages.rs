@@ -3,7 +3,10 @@ use std::time::Duration;
 
 use egui::{Align2, RichText, ScrollArea};
 
-use super::{app::App, look::Inks};
+use super::{
+    app::App,
+    look::{Inks, over_the_picture},
+};
 
 /// A message. Good news go away by themselves; errors stay until they are closed, and can be copied.
 pub struct Notice {
@@ -34,7 +37,7 @@ impl App {
             return;
         }
         let mut closed = None;
-        egui::Area::new(egui::Id::unique("notices")).anchor(Align2::CENTER_BOTTOM, [-168.0, -64.0]).show(ctx, |ui| {
+        egui::Area::new(egui::Id::unique("notices")).anchor(Align2::CENTER_BOTTOM, over_the_picture(64.0)).show(ctx, |ui| {
             for (number, notice) in self.notices.iter().enumerate() {
                 egui::Frame::popup(ui.style()).show(ui, |ui| {
                     if show_notice(ui, notice) {
@@ -59,7 +62,7 @@ impl App {
             .open(&mut open)
             .collapsible(false)
             .default_width((ctx.content_rect().width() - 376.0).clamp(300.0, 760.0))
-            .anchor(Align2::CENTER_CENTER, [-168.0, 0.0])
+            .anchor(Align2::CENTER_CENTER, over_the_picture(0.0))
             .show(ctx, |ui| {
                 ScrollArea::both().max_height(360.0).show(ui, |ui| {
                     ui.add(egui::Label::new(RichText::new(report).monospace()).extend());

@@ -271,7 +271,7 @@ fn lights_that_all_others_could_hide_behind_stay_outside_of_the_tree() {
         Item { center, radius, power: 1.0, axis: glam::Vec3::ZERO, two_sided: false, light }
     };
     let mut items: Vec<Item> = (0..100).map(|light| item(&mut random, light, 0.01)).collect();
-    assert_eq!(outstanding(&mut items), 0);
+    assert_eq!(outstanding(&mut items.clone()), 0);
     items[7].radius = 1.5;
     items[40].radius = 30.0;
     assert_eq!(outstanding(&mut items), 2);

@@ -130,7 +130,7 @@ fn remark(trials: &[Trial]) -> String {
 }
 
 /// Large numbers as one would say them.
-fn count(n: u64) -> String {
+pub(super) fn count(n: u64) -> String {
     match n {
         0..10_000 => n.to_string(),
         10_000..1_000_000 => format!("{} thousand", n / 1000),

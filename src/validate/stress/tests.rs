@@ -23,6 +23,12 @@ fn mistakes_of_the_integrator_are_noticed_and_their_scenes_kept() {
 }
 
 #[test]
+fn large_numbers_are_said_in_words() {
+    let said = [9_999, 12_999, 3_440_000].map(super::statements::count);
+    assert_eq!(said, ["9999", "12 thousand", "3.4 million"]);
+}
+
+#[test]
 fn scenes_are_functions_of_family_and_number() {
     for family in GROUPS.iter().flat_map(|group| group.families) {
         let text = |number: u32| (family.draft)(&mut Dice::new(family.name, number)).text;

@@ -106,6 +106,27 @@ fn what_is_inspected_is_of_the_picture_as_it_is_now() {
     wait(&mut window, "its end", |app| app.inspector.pixel.is_none() && app.inspector.replay().is_none());
 }
 
+/// The light that a surface sends to the sky goes nowhere: a dashed line says in which direction.
+#[test]
+fn a_path_that_leaves_the_scene_ends_in_a_dashed_line() {
+    let mut window = inspecting("bright_sky");
+    let [width, height] = window.state().camera.resolution;
+    window.state_mut().inspector.look_at([width / 2, height - 2]);
+    for sample in 0..64 {
+        window.state_mut().inspector.sample = sample;
+        wait(&mut window, "its path", |app| app.inspector.replay().is_some_and(|(number, _)| number == sample));
+        let (_, replay) = window.state().inspector.replay().expect("it is there");
+        if replay.vertices.len() == 2 && replay.vertices[1].surface.is_none() {
+            break;
+        }
+    }
+    let (_, replay) = window.state().inspector.replay().expect("it is there");
+    assert!(replay.vertices.len() == 2 && replay.vertices[1].surface.is_none(), "one of the first samples leaves at once");
+    window.run_steps(2);
+    let is_dash = |shape: &egui::Shape| matches!(shape, egui::Shape::LineSegment { stroke, .. } if stroke.width == 1.2);
+    assert!(window.output().shapes.iter().any(|clipped| is_dash(&clipped.shape)));
+}
+
 #[test]
 fn a_path_is_drawn_from_its_pixel_over_the_points_that_it_met() {
     let mut window = inspecting("cornell_spheres");

@@ -99,3 +99,18 @@ fn the_list_marks_the_open_scene_however_it_was_named_and_knows_those_from_elsew
     assert_eq!(window.state().look.display.exposure, 0.0, "what suited the other scene");
     assert!(window.state().catalogue.iter().any(|entry| entry.name == "A furnace of mine"));
 }
+
+/// Messages lie in the middle of the picture, beside the panel and above the tabs.
+#[test]
+fn messages_lie_over_the_picture() {
+    let mut window = window("furnace");
+    window.state_mut().tell("something to say".to_owned(), true);
+    window.run_steps(3);
+    let notice = window.get_by_label("something to say").rect();
+    assert!((notice.center().x - (SIZE.x - 336.0) / 2.0).abs() < 60.0, "{notice:?}");
+    assert!((SIZE.y - 120.0..SIZE.y - 60.0).contains(&notice.bottom()), "{notice:?}");
+    window.state_mut().scene_error = Some("it is broken".to_owned());
+    window.run_steps(3);
+    let report = window.get_by_label("it is broken").rect();
+    assert!(report.right() < SIZE.x - 336.0 && report.left() > 0.0, "{report:?}");
+}
