@@ -84,10 +84,12 @@ impl Package {
         let mut lines = self.text(name).lines().peekable();
         while let Some(line) = lines.next() {
             let is_other = |line: &str| line.contains(".as_sse4_2()") || line.contains(".as_avx512()");
-            if line.trim().starts_with("#[cfg(") && lines.peek().is_some_and(|next| is_other(next) && next.contains("=>")) {
-                // A whole arm, which ends where its braces do.
+            let next = lines.peek().filter(|next| line.trim().starts_with("#[cfg(") && is_other(next));
+            if let Some(next) = next {
+                // A line, or a whole arm, which ends where its braces do.
                 let indent = line.len() - line.trim_start().len();
-                lines.by_ref().find(|line| line.trim() == "}" && line.len() - line.trim_start().len() == indent);
+                let is_arm = next.contains("=>");
+                lines.by_ref().find(|line| !is_arm || line.trim() == "}" && line.len() - line.trim_start().len() == indent);
             } else if !is_other(line) {
                 kept.push_str(line);
                 kept.push('\n');
