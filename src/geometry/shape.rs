@@ -23,7 +23,7 @@ pub enum Shape {
         outline: Outline,
         origin: DVec3,
         edges: [DVec3; 2],
-        /// The front is the side of edges[1] × edges[0].
+        /// The front is the side of `edges[1] × edges[0]`.
         mirrored: bool,
     },
     /// origin + `edges` x with x in [0, 1]³.

@@ -120,7 +120,7 @@ pub struct Batch {
     pub(super) bounce: u32,
     /// Rays traced: path segments and shadow rays.
     pub rays: u64,
-    /// Paths cut at [`RenderSettings::last_bounce`] without a cap that says so.
+    /// Paths cut at [`crate::scene::RenderSettings::last_bounce`] without a cap that says so.
     pub cut_paths: u64,
 }
 

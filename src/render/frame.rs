@@ -37,7 +37,7 @@ pub struct Frame {
     pub elapsed: Duration,
     /// What each number of bounces adds, where that was asked for.
     pub series: Option<Series>,
-    /// Estimated relMSE of the picture: see [`super::doubling`]; `None` before the second sample.
+    /// Estimated relMSE of the picture: see `render/doubling.rs`; `None` before the second sample.
     pub rel_mse_estimate: Option<f64>,
     /// How noisy its means are by the variance of the samples; `None` before the second sample.
     pub noise: Option<SampleNoise>,

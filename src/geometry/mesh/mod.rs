@@ -118,7 +118,7 @@ impl Mesh {
         Mesh { bvh, blocks, triangles, vertices, normals, is_smooth, has_uvs, dropped: data.triangles.len() - kept.len() }
     }
 
-    /// The first triangle along o + td with 0 < t < `t_max`: t, or `t_max` if there is none, and the triangle's number or [`NONE`].
+    /// The first triangle along o + td with 0 < t < `t_max`: t, or `t_max` if there is none, and the triangle's number or `NONE`.
     /// Both sides count. d need not be of unit length. Lanes with a `t_max` of 0 cost next to nothing.
     #[inline(always)]
     pub fn closest<L: Lanes>(&self, l: L, o: V<L>, d: V<L>, t_max: F<L>) -> (F<L>, U<L>) {
