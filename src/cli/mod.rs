@@ -3,6 +3,7 @@ mod check;
 mod compare;
 mod flip;
 mod folder;
+mod meant;
 mod messages;
 mod options;
 mod output;
@@ -53,7 +54,7 @@ enum Command {
     Validate(validate::Arguments),
     /// Run time against error for every combination of settings, as a report
     Study(study::Arguments),
-    /// Read and check scene files; render nothing
+    /// Read and check scene files, without a picture
     Check(check::Arguments),
 }
 
@@ -61,7 +62,7 @@ pub fn run() -> ExitCode {
     if let Some(mistake) = mistaken_command(&std::env::args_os().skip(1).collect::<Vec<_>>()) {
         return wrong_usage(&mistake);
     }
-    let arguments = Arguments::parse();
+    let arguments = Arguments::try_parse().unwrap_or_else(|error| meant::with_advice(error, &Arguments::command()).exit());
     arguments.memory.into_iter().for_each(noisefall::memory::set_limit);
     let succeeded = |()| ExitCode::SUCCESS;
     let done = match arguments.command {

@@ -22,6 +22,8 @@ pub struct Done<'a> {
     pub seconds: [f64; 2],
     /// Against the true picture, if there is one.
     pub rel_mse: Option<f64>,
+    /// Why the picture cannot be a sample of the true one, if it cannot.
+    pub contradiction: Option<String>,
     /// The command that traces the first invalid sample again.
     pub replay: Option<String>,
 }
@@ -42,6 +44,10 @@ impl Done<'_> {
             notes.push(format!(
                 "warning: {cut_paths} paths were cut after {longest} bounces: the picture is biased; use roulette"
             ));
+        }
+        if let Some(contradiction) = &self.contradiction {
+            let why = self.status.bias(self.settings).map_or_else(String::new, |why| format!(" (it is biased: {why})"));
+            notes.push(format!("warning: {contradiction}{why}"));
         }
         notes
     }
@@ -139,6 +145,7 @@ mod tests {
             threads: 3,
             seconds: [0.25, 0.5],
             rel_mse: Some(0.0004),
+            contradiction: None,
             replay: Some("noisefall render a.toml --pixel 1,0".to_owned()),
         };
         Said { json: done.json(), line: done.line(), notes: done.notes(&scene.camera) }

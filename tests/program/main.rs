@@ -16,4 +16,5 @@ mod shapes;
 mod study;
 mod textures;
 mod validate;
+mod warnings;
 mod worker;

@@ -55,7 +55,15 @@ fn fov(check: &Checker, desc: &Spanned<CameraDesc>, orthographic: Option<f64>) -
 }
 
 fn checked(check: &Checker, desc: &Spanned<CameraDesc>, camera: Camera) -> Result<Camera, SceneError> {
-    camera.check().map_err(|error| check.0.error(place(desc, error), error.to_string(), label(error)))?;
+    camera.check().map_err(|error| {
+        let told = check.0.error(place(desc, error), error.to_string(), label(error));
+        let is_default = error == CameraError::UpIsForward && desc.as_ref().up.is_none();
+        if is_default {
+            told.with_help("`up` is [0, 1, 0] where it is not given: give another, such as [0, 0, -1]")
+        } else {
+            told
+        }
+    })?;
     // A lens without extent is a pinhole.
     Ok(Camera { lens: camera.lens.filter(|lens| lens.radius > 0.0), ..camera })
 }

@@ -1,7 +1,7 @@
 //! From what a file says to what the renderer runs on: names become numbers, values are checked, tables are built.
 use std::{
     collections::{BTreeMap, HashSet},
-    sync::Arc,
+    sync::{Arc, OnceLock},
 };
 
 mod camera;
@@ -137,6 +137,7 @@ fn build(parts: Parts, desc: &SceneDesc, check: Checker) -> Result<Scene, SceneE
         spp,
         truth,
         deepest_media: 0,
+        warned: OnceLock::new(),
         memory: check.into_memory(),
     };
     scene.deepest_media = scene.count_deepest_media();
