@@ -1,6 +1,7 @@
 //! The command line. Exit status 0 done, 1 failed with a message on standard error, 2 wrong usage, 130 interrupted.
 mod check;
 mod compare;
+mod figures;
 mod flip;
 mod folder;
 mod meant;

@@ -3,10 +3,27 @@ use std::time::Duration;
 
 use noisefall::{
     measure::Floor,
-    render::image_file::Format,
+    render::{Display, ToneMap, image_file::Format},
     sampling::{Directions, SAMPLERS, Sampler},
     scene::{Estimator, Reuse, Roulette},
 };
+
+/// How a PNG shows radiance.
+#[derive(clap::Args)]
+pub struct DisplayOptions {
+    /// Exposure of a PNG in stops: radiance is multiplied by 2 to this power
+    #[arg(long, value_name = "STOPS", value_parser = exposure, allow_negative_numbers = true, default_value_t = 0.0)]
+    exposure: f32,
+    /// Tone map of a PNG: none (cuts off at 1), reinhard, aces or false-colour (luminance, logarithmic)
+    #[arg(long, value_name = "MAP", value_parser = tone, default_value = "none")]
+    tone: ToneMap,
+}
+
+impl DisplayOptions {
+    pub fn display(&self) -> Display {
+        Display { exposure: self.exposure, tone_map: self.tone }
+    }
+}
 
 pub fn estimator(text: &str) -> Result<Estimator, String> {
     Estimator::ALL.into_iter().find(|e| e.name() == text).ok_or_else(|| "expected path, light or mis".to_owned())
@@ -110,6 +127,22 @@ pub fn memory(text: &str) -> Result<u64, String> {
     bytes.map(|bytes| bytes as u64).ok_or_else(|| "expected a size, such as 4G or 500M".to_owned())
 }
 
+/// In stops.
+pub fn exposure(text: &str) -> Result<f32, String> {
+    let stops = text.parse().ok().filter(|stops: &f32| stops.abs() <= 100.0);
+    stops.ok_or_else(|| "expected stops, from -100 to 100, such as -1.5".to_owned())
+}
+
+pub fn tone(text: &str) -> Result<ToneMap, String> {
+    match text {
+        "none" => Ok(ToneMap::None),
+        "reinhard" => Ok(ToneMap::Reinhard),
+        "aces" => Ok(ToneMap::Aces),
+        "false-colour" | "false-color" => Ok(ToneMap::FalseColour),
+        _ => Err("expected none, reinhard, aces or false-colour".to_owned()),
+    }
+}
+
 pub fn format(text: &str) -> Result<Format, String> {
     Format::named(text).ok_or_else(|| "expected png or exr".to_owned())
 }
@@ -149,6 +182,7 @@ mod tests {
         assert!(samples("4294967296").is_err() && whole("4294967296").is_err());
         assert!(seconds("0").is_err() && seconds("nan").is_err() && seconds("1e300").is_err());
         assert!(noise("inf").is_err() && noise("-0.1").is_err() && bounce_cap("-1").is_err() && bounce_cap("1.5").is_err());
+        assert!(exposure("nan").is_err() && exposure("101").is_err() && tone("filmic").is_err());
         assert!(on_or_off("yes").is_err() && reuse("yes").is_err() && format("jpg").is_err() && format(".png").is_err());
     }
 
@@ -162,6 +196,9 @@ mod tests {
         assert_eq!(["png", "EXR"].map(format), [Format::Png, Format::Exr].map(Ok));
         let samplers = [Sampler::Independent, Sampler::Stratified, Sampler::Sobol, Sampler::BlueNoise];
         assert_eq!(["independent", "stratified", "sobol", "bluenoise"].map(sampler), samplers.map(Ok));
+        let maps = [ToneMap::None, ToneMap::Reinhard, ToneMap::Aces, ToneMap::FalseColour];
+        assert_eq!(["none", "reinhard", "aces", "false-colour"].map(tone), maps.map(Ok));
+        assert_eq!(["-1.5", "2"].map(exposure), [Ok(-1.5), Ok(2.0)]);
         assert_eq!(["off", "throughput"].map(roulette), [Roulette::Off, Roulette::BY_THROUGHPUT].map(Ok));
     }
 

@@ -23,7 +23,7 @@ use noisefall::{
 
 use super::{
     Failure,
-    options::{self as parse, BounceCap},
+    options::{self as parse, BounceCap, DisplayOptions},
     output::Output,
     progress::render,
     replay,
@@ -88,6 +88,8 @@ pub struct Arguments {
     /// Resolution in pixels
     #[arg(long, value_name = "WxH", value_parser = parse::resolution, allow_hyphen_values = true)]
     size: Option<[u32; 2]>,
+    #[command(flatten)]
+    display: DisplayOptions,
     /// Replay one path through this pixel instead of rendering
     #[arg(long, value_name = "X,Y", value_parser = parse::pixel, allow_hyphen_values = true, conflicts_with = "output")]
     pixel: Option<[u32; 2]>,
@@ -115,6 +117,9 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     }
     let Some(output) = output else { return Err("no output file".to_owned()) };
     output.check()?;
+    if output.format() == Some(Format::Exr) && arguments.display.display() != Display::default() {
+        tell("note: an EXR has the radiance as it is; --exposure and --tone change a PNG only");
+    }
     // The worker asks again: here it is no failure of the renderer.
     drop(Film::reserve(camera.resolution).map_err(|error| error.to_string())?);
     let reference = Reference::of(&scene);
@@ -136,8 +141,9 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         let replay = failure.replays.then(|| format!("\nreplay: {}", replayed(failure.at)));
         return Err(format!("the renderer failed: {}{}", failure.message, replay.unwrap_or_default()));
     }
-    let text = settings_text(&scene, &camera, &settings, Display::default(), &frame, &[]);
-    let delivered = output.write(&frame, Display::default(), &text)?;
+    let display = arguments.display.display();
+    let text = settings_text(&scene, &camera, &settings, display, &frame, &[]);
+    let delivered = output.write(&frame, display, &text)?;
     if delivered != ExitCode::SUCCESS {
         return Ok(delivered);
     }
@@ -146,7 +152,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         scene: &scene,
         scene_path: &arguments.scene,
         settings: &settings,
-        rel_mse: reference.as_ref().and_then(|truth| truth.compare(&frame)).map(|comparison| comparison.rel_mse),
+        error: reference.as_ref().and_then(|truth| truth.compare(&frame).zip(truth.bias(&frame))),
         contradiction: reference.and_then(|truth| truth.contradiction(&frame)),
         replay: status.first_invalid.map(replayed),
         frame: &frame,

@@ -1,5 +1,10 @@
 //! `noisefall study`: run time against error for every combination of settings.
-use std::{path::PathBuf, process::ExitCode, sync::atomic::Ordering, time::Duration};
+use std::{
+    path::PathBuf,
+    process::ExitCode,
+    sync::atomic::Ordering,
+    time::{Duration, Instant},
+};
 
 use indicatif::{ProgressBar, ProgressStyle};
 use noisefall::{
@@ -7,7 +12,7 @@ use noisefall::{
     measure::Floor,
     render::{film::Film, pass::Threads},
     sampling::{Directions, Sampler},
-    scene::{Estimator, Roulette},
+    scene::{Estimator, Reuse, Roulette},
     study::{CSV, Findings, Lists, Machine, Plan, Progress, Store, Study, StudyError, Subject, html, label, table, verdict},
 };
 
@@ -52,6 +57,12 @@ pub struct Arguments {
     /// Highest numbers of bounces, none for no cap; what is capped is biased and never the best
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::item(parse::bounce_cap), default_value = "none")]
     max_bounces: Vec<BounceCap>,
+    /// Whether neighbouring pixels share what their paths find: auto, on, off [default: as the scene has it]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::item(parse::reuse))]
+    reuse: Vec<Reuse>,
+    /// Whether pixels get more samples where there is more noise: on, off [default: as the scene has it]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::item(parse::on_or_off))]
+    adaptive: Vec<bool>,
     /// Largest number of samples per pixel; errors are measured at powers of two up to it
     #[arg(long, value_name = "N", default_value = "256", value_parser = parse::samples)]
     spp: u32,
@@ -118,6 +129,8 @@ impl Arguments {
             samplers: self.samplers.clone(),
             roulettes: self.roulette.clone(),
             caps: self.max_bounces.iter().map(|cap| cap.0).collect(),
+            reuses: self.reuse.clone(),
+            adaptive: self.adaptive.clone(),
         };
         Plan { lists, spp: self.spp, time: self.seconds, repeats: self.repeats, floor: self.floor.unwrap_or(Floor::DEFAULT) }
     }
@@ -134,15 +147,21 @@ fn finish(arguments: &Arguments, findings: &[Findings], plan: &Plan, machine: &M
     folder::write_report(&arguments.output, &html(findings, plan, machine))
 }
 
+/// Without a terminal the reference is told of in such parts.
+const REFERENCE_STEP: f64 = 0.25;
+
 /// A bar where there is a terminal, else a line for each combination.
 struct Display {
     bar: ProgressBar,
+    /// When the reference that is being rendered was begun, and what share of it was last told.
+    reference: Option<(Instant, f64)>,
 }
 
 impl Display {
     fn new() -> Display {
         let style = ProgressStyle::with_template("{bar:30} {pos}/{len} runs  {msg}  {elapsed} elapsed, {eta} left");
-        Display { bar: ProgressBar::new(0).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar())) }
+        let bar = ProgressBar::new(0).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+        Display { bar, reference: None }
     }
 
     fn show(&mut self, progress: &Progress) {
@@ -154,10 +173,16 @@ impl Display {
                 }
             }
             Progress::Reference { title, share } => {
-                self.bar.set_message(format!("{title}: reference, {:.0} %", 100.0 * share));
+                let (begun, told) = self.reference.get_or_insert((Instant::now(), 0.0));
+                let left = begun.elapsed().as_secs_f64() * (1.0 - share) / share.max(1e-3);
+                self.bar.set_message(format!("{title}: reference, {:.0} %, {left:.0} s left", 100.0 * share));
                 self.bar.tick();
-                if self.bar.is_hidden() && *share == 1.0 {
-                    tell(&format!("{title}: the reference is rendered"));
+                if self.bar.is_hidden() && (share - *told >= REFERENCE_STEP || *share == 1.0) {
+                    *told = *share;
+                    tell(&format!("{title}: {:.0} % of the reference, {left:.0} s left", 100.0 * share));
+                }
+                if *share == 1.0 {
+                    self.reference = None;
                 }
             }
             Progress::Begun { title, settings } => {

@@ -62,14 +62,8 @@ impl Reference {
         Some(compare(&frame.radiance, &self.radiance_of(frame)?, Floor::DEFAULT))
     }
 
-    /// How far the mean of a frame is from the true one, in standard errors that the variances of samples give; `None` where these are
-    /// not known, and where samples are exact.
-    pub fn bias(&self, frame: &Frame) -> Option<f64> {
-        self.bias_of(frame)?.z
-    }
-
-    /// The mean of a frame less the true one; `None` where the frame has another resolution.
-    fn bias_of(&self, frame: &Frame) -> Option<Bias> {
+    /// How far the mean of a frame is from the true one; `None` where the frame has another resolution.
+    pub fn bias(&self, frame: &Frame) -> Option<Bias> {
         let truth = self.radiance_of(frame)?;
         let of_truth = if let Reference::Picture(_, provenance) = self { provenance.noise.as_ref() } else { None };
         Some(Bias::by_samples(&frame.radiance, &truth, [frame.noise.as_ref(), of_truth], frame.width as usize))
@@ -79,7 +73,7 @@ impl Reference {
     pub fn contradiction(&self, frame: &Frame) -> Option<String> {
         /// Standard errors. Once in two million pictures by chance.
         const MOST: f64 = 5.0;
-        let bias = self.bias_of(frame).filter(|bias| !bias.has_heavy_tails && !frame.is_black())?;
+        let bias = self.bias(frame).filter(|bias| !bias.has_heavy_tails && !frame.is_black())?;
         let off = match bias.z {
             Some(z) if z.abs() > MOST => format!("by {:.1} standard errors", z.abs()),
             None if bias.is_exact && bias.mean.abs() > bias.rounding => "although its samples have no noise".to_owned(),

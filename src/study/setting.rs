@@ -1,5 +1,5 @@
 //! The settings that are studied, by name: as axes of plots and columns of tables.
-use crate::scene::RenderSettings;
+use crate::{render::settings_text::on_or_off, scene::RenderSettings};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Setting {
@@ -8,10 +8,20 @@ pub enum Setting {
     Sampler,
     Roulette,
     Cap,
+    Reuse,
+    Adaptive,
 }
 
 impl Setting {
-    pub const ALL: [Setting; 5] = [Setting::Estimator, Setting::Directions, Setting::Sampler, Setting::Roulette, Setting::Cap];
+    pub const ALL: [Setting; 7] = [
+        Setting::Estimator,
+        Setting::Directions,
+        Setting::Sampler,
+        Setting::Roulette,
+        Setting::Cap,
+        Setting::Reuse,
+        Setting::Adaptive,
+    ];
 
     pub fn name(self) -> &'static str {
         match self {
@@ -20,6 +30,8 @@ impl Setting {
             Setting::Sampler => "sampler",
             Setting::Roulette => "roulette",
             Setting::Cap => "bounce cap",
+            Setting::Reuse => "sharing",
+            Setting::Adaptive => "adaptive",
         }
     }
 
@@ -31,6 +43,8 @@ impl Setting {
             Setting::Sampler => settings.sampler.entry().name.to_owned(),
             Setting::Roulette => settings.roulette.name(),
             Setting::Cap => settings.max_bounces.map_or_else(|| "none".to_owned(), |cap| cap.to_string()),
+            Setting::Reuse => settings.reuse.name().to_owned(),
+            Setting::Adaptive => on_or_off(settings.adaptive).to_owned(),
         }
     }
 
@@ -43,17 +57,25 @@ impl Setting {
             Setting::Sampler => changed.sampler = from.sampler,
             Setting::Roulette => changed.roulette = from.roulette,
             Setting::Cap => changed.max_bounces = from.max_bounces,
+            Setting::Reuse => changed.reuse = from.reuse,
+            Setting::Adaptive => changed.adaptive = from.adaptive,
         }
         changed
     }
 }
 
-/// All settings in one line; a cap only where there is one.
+/// All settings in one line; cap, sharing and adaptive samples only where they are not as usual.
 pub fn label(settings: &RenderSettings) -> String {
-    let shown = |setting: &Setting| *setting != Setting::Cap || settings.max_bounces.is_some();
+    let usual = RenderSettings::default();
+    let shown = |setting: &Setting| match setting {
+        Setting::Cap | Setting::Reuse | Setting::Adaptive => setting.value(settings) != setting.value(&usual),
+        _ => true,
+    };
     let value = |setting: Setting| match setting {
         Setting::Roulette => format!("roulette {}", setting.value(settings)),
         Setting::Cap => format!("cap {}", setting.value(settings)),
+        Setting::Reuse => format!("sharing {}", setting.value(settings)),
+        Setting::Adaptive => format!("adaptive {}", setting.value(settings)),
         _ => setting.value(settings),
     };
     let values: Vec<String> = Setting::ALL.into_iter().filter(shown).map(value).collect();

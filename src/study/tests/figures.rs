@@ -15,10 +15,10 @@ use crate::{
 fn outcome(settings: RenderSettings, rel_mse: f64, twins: Vec<RenderSettings>) -> Outcome {
     let point = |n: u32| {
         let share = f64::from(n) / 16.0;
-        Checkpoint { spp: n, seconds: 4.0 * share, rmse: 1.0, rel_mse: rel_mse / share, bias: 0.0 }
+        Checkpoint { spp: n, seconds: 4.0 * share, rmse: 1.0, rel_mse: rel_mse / share, bias: 0.0, bias_standard_error: None }
     };
     let run = Run { checkpoints: checkpoints(16).into_iter().map(point).collect(), ..Run::default() };
-    Outcome::of(Group { settings, twins }, &[run], Limits { floor: 0.0, black: 1e9 })
+    Outcome::of(Group { settings, twins }, &[run], Limits { floor: 0.0, black: 1e9, variance_of_mean: 0.0 })
 }
 
 fn findings(mut outcomes: Vec<Outcome>, of_scene: RenderSettings) -> Findings {
@@ -30,7 +30,7 @@ fn findings(mut outcomes: Vec<Outcome>, of_scene: RenderSettings) -> Findings {
         of_scene,
         reference: String::new(),
         reference_is_taken_for_exact: false,
-        limits: Limits { floor: 0.0, black: 1e9 },
+        limits: Limits { floor: 0.0, black: 1e9, variance_of_mean: 0.0 },
         repeats: 1,
         outcomes,
     }
@@ -65,7 +65,7 @@ fn the_overview_has_the_best_three_the_own_and_the_last() {
     }
     assert!(pair.elements[0].contains("rendering time, s") && pair.elements[1].contains("samples a pixel"));
     assert!(!pair.caption.contains("Without noise") && !pair.caption.contains("taken off"));
-    let limited = Findings { limits: Limits { floor: 1e-9, black: 1e9 }, ..found };
+    let limited = Findings { limits: Limits { floor: 1e-9, black: 1e9, variance_of_mean: 0.0 }, ..found };
     assert!(overview(&limited).expect("curves").caption.contains("The reference's own error is taken off"));
 }
 
