@@ -8,6 +8,8 @@ use noisefall::{
     scene::{Estimator, Reuse, Roulette},
 };
 
+use super::replay::Which;
+
 /// How a PNG shows radiance.
 #[derive(clap::Args)]
 pub struct DisplayOptions {
@@ -84,6 +86,20 @@ pub fn pixel(text: &str) -> Result<[u32; 2], String> {
 fn pair(text: &str, separators: &[char]) -> Option<[u32; 2]> {
     let (a, b) = text.split_once(separators)?;
     Some([a.trim().parse().ok()?, b.trim().parse().ok()?])
+}
+
+/// A number, two with a `-` between them, or `lit`.
+pub fn which(text: &str) -> Result<Which, String> {
+    let expected = || "expected a number, a range such as 0-9999, or `lit`".to_owned();
+    let number = |text: &str| text.trim().parse::<u32>().map_err(|_| expected());
+    match text.split_once('-') {
+        _ if text == "lit" => Ok(Which::Lit),
+        None => Ok(Which::One(number(text)?)),
+        Some((first, last)) => match (number(first)?, number(last)?) {
+            (first, last) if first <= last => Ok(Which::Range(first, last)),
+            _ => Err(expected()),
+        },
+    }
 }
 
 pub fn whole(text: &str) -> Result<u32, String> {
@@ -184,6 +200,15 @@ mod tests {
         assert!(noise("inf").is_err() && noise("-0.1").is_err() && bounce_cap("-1").is_err() && bounce_cap("1.5").is_err());
         assert!(exposure("nan").is_err() && exposure("101").is_err() && tone("filmic").is_err());
         assert!(on_or_off("yes").is_err() && reuse("yes").is_err() && format("jpg").is_err() && format(".png").is_err());
+    }
+
+    #[test]
+    fn samples_are_numbers_ranges_or_the_first_lit() {
+        assert_eq!(
+            ["7", "0-9999", " 3 - 3", "lit"].map(which),
+            [Which::One(7), Which::Range(0, 9999), Which::Range(3, 3), Which::Lit].map(Ok)
+        );
+        assert!(["", "-", "-1", "9-3", "1-", "first", "1-2-3", "4294967296"].iter().all(|text| which(text).is_err()));
     }
 
     #[test]

@@ -89,7 +89,7 @@ pub struct Scene {
     /// How many media lie around the middle of some dielectric.
     pub deepest_media: usize,
     /// See [`Scene::warnings`].
-    warned: OnceLock<Vec<String>>,
+    pub warned: OnceLock<Vec<String>>,
     /// Given back with the scene.
     pub memory: Reservation,
 }

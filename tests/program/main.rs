@@ -11,6 +11,7 @@ mod meanings;
 mod output;
 mod pictures;
 mod ranges;
+mod replay;
 mod scene_files;
 mod scene_messages;
 mod shapes;
