@@ -5,6 +5,7 @@ use toml::de::DeTable;
 
 use super::{
     Scene,
+    carried::load_carried,
     compile::{FORMAT, compile},
     describe::{Described, describe},
     diagnostic::{SceneError, SourceText},
@@ -36,12 +37,19 @@ pub fn built_in() -> Scene {
     parse("cornell_spheres.toml", BUILT_IN.to_owned()).expect("the built-in scene is valid: a test compiles it")
 }
 
-/// Reads and compiles a scene file.
+/// Reads and compiles a scene file, or the scene that a picture carries.
 pub fn load(path: &Path) -> Result<Scene, SceneError> {
+    if let Some(carried) = load_carried(path) {
+        return carried;
+    }
     let bytes = read(path)?;
     if let Some(kind) = not_text(&bytes) {
         let message = format!("this is not a text file{kind}");
-        return Err(SceneError::of_file(path, message, "a scene is one TOML file, saved as UTF-8 text"));
+        return Err(SceneError::of_file(
+            path,
+            message,
+            "a scene is one TOML file, saved as UTF-8 text, or a PNG or EXR that Noisefall has written with its scene",
+        ));
     }
     let name = path.display().to_string();
     let text = String::from_utf8(bytes).map_err(|error| {

@@ -1,6 +1,7 @@
 //! The scene: what a file says, checked and compiled to what the renderer runs on.
 mod black;
 mod camera;
+mod carried;
 mod check;
 mod colour;
 mod compile;

@@ -77,7 +77,6 @@ impl App {
         let Some(path) = dropped else { return };
         match path.extension().map(|extension| extension.to_string_lossy().to_ascii_lowercase()).as_deref() {
             Some("exr" | "hdr") => self.loader.read_reference(path, self.camera),
-            Some("png") => self.tell("A PNG is cut off at white and cannot be a reference: drop an EXR or HDR.".to_owned(), true),
             _ => self.loader.open(Some(path)),
         }
     }
