@@ -4,6 +4,7 @@ mod compare;
 mod figures;
 mod flip;
 mod folder;
+mod lists;
 mod meant;
 mod messages;
 mod options;
@@ -11,6 +12,7 @@ mod output;
 mod progress;
 mod render;
 mod replay;
+mod sheet;
 mod stop;
 mod study;
 mod summary;
@@ -55,6 +57,8 @@ enum Command {
     Validate(validate::Arguments),
     /// Run time against error for every combination of settings, as a report
     Study(study::Arguments),
+    /// One labelled picture of several settings
+    Sheet(sheet::Arguments),
     /// Read and check scene files, without a picture
     Check(check::Arguments),
 }
@@ -73,6 +77,7 @@ pub fn run() -> ExitCode {
         Some(Command::Check(arguments)) => check::run(&arguments).map(succeeded),
         Some(Command::Validate(arguments)) => validate::run(&arguments).map(succeeded),
         Some(Command::Study(arguments)) => study::run(&arguments),
+        Some(Command::Sheet(arguments)) => sheet::run(&arguments),
     };
     done.unwrap_or_else(|message| {
         tell(&message);

@@ -12,14 +12,14 @@ use noisefall::{
     measure::Floor,
     render::{film::Film, pass::Threads},
     sampling::{Directions, Sampler},
-    scene::{Estimator, Reuse, Roulette},
+    scene::{Estimator, Roulette},
     study::{CSV, Findings, Lists, Machine, Plan, Progress, Store, Study, StudyError, Subject, html, label, table, verdict},
 };
 
 use super::{
     Failure, folder,
-    options::{self as parse, BounceCap},
-    print,
+    lists::ListOptions,
+    options as parse, print,
     stop::{INTERRUPTED, stop_signal},
     tell, wrong_usage,
 };
@@ -27,6 +27,9 @@ use super::{
 const NOTES: &str = "\
 Each combination of the lists renders each scene several times, and is compared with a reference whenever its samples have doubled: the \
 scene's [truth], else the picture NAME.ref.exr beside NAME.toml, else a converged render that is made first and kept in DIR.
+
+Without lists these are combined: --estimators path,light,mis --directions uniform,cosine,bsdf --samplers \
+independent,stratified,sobol --roulette off,0.8,throughput --max-bounces none, with sharing and adaptive samples as the scene has them.
 
 DIR gets study.csv, a line for every measurement, and report.html: error against time and samples, slopes, efficiencies, and the best \
 settings for each scene. What DIR has already is not measured again, so an interrupted study goes on where it was.
@@ -42,27 +45,8 @@ pub struct Arguments {
     /// Folder for study.csv, report.html and references, made if it is not there
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
-    /// How light is found: path, light, mis
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::item(parse::estimator), default_value = "path,light,mis")]
-    estimators: Vec<Estimator>,
-    /// How the next direction is drawn at diffuse surfaces: uniform, cosine, bsdf
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::item(parse::directions), default_value = "uniform,cosine,bsdf")]
-    directions: Vec<Directions>,
-    /// Where samples lie: independent, stratified, sobol, bluenoise (which is sobol in another order)
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::item(parse::sampler), default_value = "independent,stratified,sobol")]
-    samplers: Vec<Sampler>,
-    /// Russian roulette: off, survival probabilities, throughput
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::item(parse::roulette), default_value = "off,0.8,throughput")]
-    roulette: Vec<Roulette>,
-    /// Highest numbers of bounces, none for no cap; what is capped is biased and never the best
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::item(parse::bounce_cap), default_value = "none")]
-    max_bounces: Vec<BounceCap>,
-    /// Whether neighbouring pixels share what their paths find: auto, on, off [default: as the scene has it]
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::item(parse::reuse))]
-    reuse: Vec<Reuse>,
-    /// Whether pixels get more samples where there is more noise: on, off [default: as the scene has it]
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::item(parse::on_or_off))]
-    adaptive: Vec<bool>,
+    #[command(flatten)]
+    lists: ListOptions,
     /// Largest number of samples per pixel; errors are measured at powers of two up to it
     #[arg(long, value_name = "N", default_value = "256", value_parser = parse::samples)]
     spp: u32,
@@ -123,15 +107,15 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
 
 impl Arguments {
     fn plan(&self) -> Plan {
-        let lists = Lists {
-            estimators: self.estimators.clone(),
-            directions: self.directions.clone(),
-            samplers: self.samplers.clone(),
-            roulettes: self.roulette.clone(),
-            caps: self.max_bounces.iter().map(|cap| cap.0).collect(),
-            reuses: self.reuse.clone(),
-            adaptive: self.adaptive.clone(),
+        let usual = Lists {
+            estimators: Estimator::ALL.to_vec(),
+            directions: Directions::ALL.to_vec(),
+            samplers: vec![Sampler::Independent, Sampler::Stratified, Sampler::Sobol],
+            roulettes: vec![Roulette::Off, Roulette::Fixed(0.8), Roulette::BY_THROUGHPUT],
+            caps: vec![None],
+            ..Lists::default()
         };
+        let lists = self.lists.lists(usual);
         Plan { lists, spp: self.spp, time: self.seconds, repeats: self.repeats, floor: self.floor.unwrap_or(Floor::DEFAULT) }
     }
 }

@@ -66,18 +66,42 @@ impl Setting {
 
 /// All settings in one line; cap, sharing and adaptive samples only where they are not as usual.
 pub fn label(settings: &RenderSettings) -> String {
-    let usual = RenderSettings::default();
-    let shown = |setting: &Setting| match setting {
-        Setting::Cap | Setting::Reuse | Setting::Adaptive => setting.value(settings) != setting.value(&usual),
-        _ => true,
-    };
-    let value = |setting: Setting| match setting {
-        Setting::Roulette => format!("roulette {}", setting.value(settings)),
-        Setting::Cap => format!("cap {}", setting.value(settings)),
-        Setting::Reuse => format!("sharing {}", setting.value(settings)),
-        Setting::Adaptive => format!("adaptive {}", setting.value(settings)),
-        _ => setting.value(settings),
-    };
-    let values: Vec<String> = Setting::ALL.into_iter().filter(shown).map(value).collect();
-    values.join(", ")
+    let shown = |setting: &Setting| setting.is_always_told() || !setting.is_usual(settings);
+    joined(Setting::ALL.into_iter().filter(shown), settings)
+}
+
+/// What some settings have in common, and what is different about each, in one line each.
+pub fn differing_labels(all: &[RenderSettings]) -> (String, Vec<String>) {
+    let Some(first) = all.first() else { return (String::new(), Vec::new()) };
+    let differs = |setting: &Setting| all.iter().any(|settings| setting.value(settings) != setting.value(first));
+    let is_common = |setting: &Setting| !differs(setting) && (setting.is_always_told() || !setting.is_usual(first));
+    let common = joined(Setting::ALL.into_iter().filter(is_common), first);
+    (common, all.iter().map(|settings| joined(Setting::ALL.into_iter().filter(differs), settings)).collect())
+}
+
+fn joined(settings: impl Iterator<Item = Setting>, of: &RenderSettings) -> String {
+    settings.map(|setting| setting.words(of)).collect::<Vec<_>>().join(", ")
+}
+
+impl Setting {
+    fn is_always_told(self) -> bool {
+        !matches!(self, Setting::Cap | Setting::Reuse | Setting::Adaptive)
+    }
+
+    fn is_usual(self, settings: &RenderSettings) -> bool {
+        self.value(settings) == self.value(&RenderSettings::default())
+    }
+
+    /// The value, with the name where that is not plain.
+    fn words(self, settings: &RenderSettings) -> String {
+        let value = self.value(settings);
+        match self {
+            Setting::Roulette => format!("roulette {value}"),
+            Setting::Cap if settings.max_bounces.is_none() => "no cap".to_owned(),
+            Setting::Cap => format!("cap {value}"),
+            Setting::Reuse => format!("sharing {value}"),
+            Setting::Adaptive => format!("adaptive {value}"),
+            _ => value,
+        }
+    }
 }

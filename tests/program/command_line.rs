@@ -60,6 +60,7 @@ fn every_command_has_help() {
         &["check", "--help"],
         &["validate", "--help"],
         &["study", "--help"],
+        &["sheet", "--help"],
     ] {
         let output = shell.run(arguments);
         assert!(output.status.success() && text(&output.stdout).contains("Usage: noisefall"));

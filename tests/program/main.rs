@@ -15,6 +15,7 @@ mod replay;
 mod scene_files;
 mod scene_messages;
 mod shapes;
+mod sheet;
 mod study;
 mod textures;
 mod validate;

@@ -131,7 +131,22 @@ fn what_is_no_picture_is_refused() {
 fn a_picture_opens_as_the_scene_that_it_shows() {
     use super::command_line::{Shell, json, scene, text};
     let shell = Shell::new();
-    let made = ["--spp", "4", "--size", "24x16", "--seed", "9", "--estimator", "path", "--roulette", "0.5", "--max-bounces", "7", "--reuse", "off"];
+    let made = [
+        "--spp",
+        "4",
+        "--size",
+        "24x16",
+        "--seed",
+        "9",
+        "--estimator",
+        "path",
+        "--roulette",
+        "0.5",
+        "--max-bounces",
+        "7",
+        "--reuse",
+        "off",
+    ];
     for name in ["depth_of_field", "furnace", "motion_blur"] {
         for picture in ["a.png", "a.exr"] {
             let render = |from: &str, to: &str, options: &[&str]| {

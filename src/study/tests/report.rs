@@ -6,7 +6,7 @@ use crate::{
     sampling::{Directions, Sampler},
     scene::{Estimator, RenderSettings, Reuse, Roulette, parse},
     study::{
-        Checkpoint, Findings, Lists, Machine, Outcome, Plan, Run, Subject, checkpoints, html, label,
+        Checkpoint, Findings, Lists, Machine, Outcome, Plan, Run, Subject, checkpoints, differing_labels, html, label,
         outcome::Limits,
         ranking::rank,
         reference::Reference,
@@ -111,6 +111,14 @@ fn settings_have_names_and_take_values_over() {
     }
     assert_eq!(label(&b), "light, uniform, independent, roulette 0.5, cap 7, sharing on, adaptive on");
     assert_eq!(label(&a), "mis, bsdf, sobol, roulette throughput");
+    let capped = RenderSettings { max_bounces: Some(2), sampler: Sampler::Independent, ..a };
+    let (common, each) = differing_labels(&[a, capped]);
+    assert_eq!(
+        (common.as_str(), &each[..]),
+        ("mis, bsdf, roulette throughput", &["sobol, no cap".to_owned(), "independent, cap 2".to_owned()][..])
+    );
+    let on = RenderSettings { reuse: Reuse::On, ..a };
+    assert_eq!(differing_labels(&[on]), ("mis, bsdf, sobol, roulette throughput, sharing on".to_owned(), vec![String::new()]));
 }
 
 #[test]
