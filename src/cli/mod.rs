@@ -1,6 +1,7 @@
 //! The command line. Exit status 0 done, 1 failed with a message on standard error, 2 wrong usage, 130 interrupted.
 mod check;
 mod compare;
+mod evidence;
 mod figures;
 mod flip;
 mod folder;
@@ -57,6 +58,8 @@ enum Command {
     Validate(validate::Arguments),
     /// Run time against error for every combination of settings, as a report
     Study(study::Arguments),
+    /// The chapter of a report for a scene: pictures, convergence, bias, comparisons at equal time
+    Evidence(evidence::Arguments),
     /// One labelled picture of several settings
     Sheet(sheet::Arguments),
     /// Read and check scene files, without a picture
@@ -77,6 +80,7 @@ pub fn run() -> ExitCode {
         Some(Command::Check(arguments)) => check::run(&arguments).map(succeeded),
         Some(Command::Validate(arguments)) => validate::run(&arguments).map(succeeded),
         Some(Command::Study(arguments)) => study::run(&arguments),
+        Some(Command::Evidence(arguments)) => evidence::run(&arguments),
         Some(Command::Sheet(arguments)) => sheet::run(&arguments),
     };
     done.unwrap_or_else(|message| {

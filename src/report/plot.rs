@@ -137,6 +137,25 @@ pub fn curve(name: impl Into<String>, style: Style, points: Vec<(f64, f64)>) -> 
     Curve { name: name.into(), style, points }
 }
 
+/// A plot that can be written in several formats.
+pub struct Plot {
+    pub size: (u32, u32),
+    pub x: Axis,
+    pub y: Axis,
+    pub curves: Vec<Curve>,
+}
+
+impl Plot {
+    pub fn svg(&self) -> String {
+        svg(self.size, self.x, self.y, &self.curves)
+    }
+
+    /// With twice as many pixels a side.
+    pub fn png(&self) -> Result<Vec<u8>, String> {
+        png(self.size, self.x, self.y, &self.curves)
+    }
+}
+
 /// [`svg`] in a figure of its own.
 pub fn plot(caption: impl Into<String>, x: Axis, y: Axis, curves: &[Curve]) -> Figure {
     Figure { caption: caption.into(), element: svg(ALONE, x, y, curves) }
@@ -149,8 +168,7 @@ pub fn svg(size: (u32, u32), x: Axis, y: Axis, curves: &[Curve]) -> String {
     drawn.map_or_else(|error| format!("<p>this plot could not be drawn: {error}</p>"), |()| svg)
 }
 
-/// The same as PNG, with twice as many pixels a side.
-pub fn png(size: (u32, u32), x: Axis, y: Axis, curves: &[Curve]) -> Result<Vec<u8>, String> {
+fn png(size: (u32, u32), x: Axis, y: Axis, curves: &[Curve]) -> Result<Vec<u8>, String> {
     const SCALE: u32 = 2;
     let size = (size.0 * SCALE, size.1 * SCALE);
     let mut pixels = vec![255; 3 * size.0 as usize * size.1 as usize];

@@ -95,7 +95,7 @@ impl Study<'_> {
     fn scene(&self, scene: Prepared, store: &mut Store, observe: &mut dyn FnMut(Progress)) -> Result<Findings, StudyError> {
         let reference = self.reference(&scene, observe)?;
         let Reference { rel_mse: floor, variance_of_mean, .. } = reference;
-        let limits = Limits { floor, black: reference.rel_mse_of_black(), variance_of_mean };
+        let limits = Limits { floor, black: reference.rel_mse_of_black(), variance_of_mean, mean: reference.mean() };
         let mut runs: Vec<Vec<Run>> = vec![Vec::new(); scene.groups.len()];
         for (number, (group, repeat)) in self.runs(&scene).enumerate() {
             let of_group = &mut runs[number % scene.groups.len()];

@@ -9,6 +9,7 @@
 //! What has been measured is kept line by line in the store and never measured again: see [`Study::run`].
 mod advice;
 mod driver;
+mod evidence;
 mod figures;
 mod fit;
 mod key;
@@ -33,6 +34,7 @@ use std::path::PathBuf;
 pub use self::{
     advice::{Advice, Candidate, advise},
     driver::{Progress, Study},
+    evidence::{Chapter, EvidencePlan, collect},
     fit::{Slope, slope},
     machine::Machine,
     measure::{Bench, Checkpoint, Run},

@@ -51,6 +51,8 @@ pub struct Outcome {
     pub bias: String,
     /// How far the mean of the picture is from that of the reference.
     pub mean_error: MeanError,
+    /// Of each run: samples a pixel, and the variance of the picture's mean that the samples give.
+    pub variances: Vec<Vec<(f64, f64)>>,
     /// What became of the settings: whether pixels shared paths, and samples went where noise was.
     pub shares: bool,
     pub adapts: bool,
@@ -70,6 +72,8 @@ pub struct Limits {
     pub black: f64,
     /// The variance of the reference's mean; 0 where it is exact or not known.
     pub variance_of_mean: f64,
+    /// The reference's mean radiance over pixels and channels.
+    pub mean: f64,
 }
 
 impl Outcome {
@@ -94,6 +98,7 @@ impl Outcome {
             standing,
             bias,
             mean_error: mean_error(runs, limits.variance_of_mean),
+            variances: runs.iter().map(variances).collect(),
             shares: runs[0].shares,
             adapts: runs[0].adapts,
             efficiencies: runs_of_points.iter().filter_map(efficiency).collect(),
@@ -136,6 +141,12 @@ fn comparable(runs: &[Run], floor: f64) -> usize {
     let shared = if runs.iter().all(is_exact) { 1 } else { runs.iter().map(|run| run.checkpoints.len()).min().unwrap_or(1) };
     let is_clear = |i: usize| runs.iter().all(|run| run.checkpoints[i].rel_mse >= 2.0 * floor);
     (0..shared).rev().find(|i| is_clear(*i)).map_or(1, |last| last + 1)
+}
+
+fn variances(run: &Run) -> Vec<(f64, f64)> {
+    let known = run.checkpoints.iter().filter(|point| point.spp >= LEAST_SPP_OF_FIT);
+    let of = |point: &Checkpoint| Some((f64::from(point.spp), point.bias_standard_error?.powi(2)));
+    known.filter_map(of).filter(|(_, variance)| *variance > 0.0).collect()
 }
 
 /// Of the mean over runs, which are independent.

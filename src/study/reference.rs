@@ -50,6 +50,12 @@ impl Reference {
         Err(StudyError::Unmeasurable { path: subject.path.clone(), reason })
     }
 
+    /// Over pixels and channels.
+    pub fn mean(&self) -> f64 {
+        let all = self.radiance.as_flattened();
+        all.iter().map(|c| f64::from(*c)).sum::<f64>() / all.len().max(1) as f64
+    }
+
     /// What a picture without any light is off by.
     pub fn rel_mse_of_black(&self) -> f64 {
         compare(&vec![[0.0; 3]; self.radiance.len()], &self.radiance, self.floor).rel_mse

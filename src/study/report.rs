@@ -103,7 +103,7 @@ fn figure(pair: &Pair) -> Markup {
     markup! {
         h3 { (pair.title) }
         figure.pair {
-            div { @for element in &pair.elements { (PreEscaped(element)) } }
+            div { @for plot in &pair.plots { (PreEscaped(plot.svg())) } }
             figcaption { (pair.caption) }
         }
     }

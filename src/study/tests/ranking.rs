@@ -36,7 +36,7 @@ fn run(rel_mse: f64, seconds: f64) -> Run {
 }
 
 fn outcome(settings: RenderSettings, runs: &[Run]) -> Outcome {
-    Outcome::of(Group { settings, twins: Vec::new() }, runs, Limits { floor: 0.0, black: 1.0, variance_of_mean: 0.0 })
+    Outcome::of(Group { settings, twins: Vec::new() }, runs, Limits { floor: 0.0, black: 1.0, variance_of_mean: 0.0, mean: 1.0 })
 }
 
 fn findings(mut outcomes: Vec<Outcome>) -> Findings {
@@ -48,7 +48,7 @@ fn findings(mut outcomes: Vec<Outcome>) -> Findings {
         of_scene: RenderSettings::default(),
         reference: "the exact radiance".to_owned(),
         reference_is_taken_for_exact: false,
-        limits: Limits { floor: 0.0, black: 1.0, variance_of_mean: 0.0 },
+        limits: Limits { floor: 0.0, black: 1.0, variance_of_mean: 0.0, mean: 1.0 },
         repeats: 2,
         outcomes,
     }
@@ -88,7 +88,7 @@ fn the_bias_of_runs_is_known_as_well_as_they_and_the_reference_are() {
         run
     };
     let of = |runs: &[Run], variance_of_mean| {
-        let limits = Limits { floor: 0.0, black: 1.0, variance_of_mean };
+        let limits = Limits { floor: 0.0, black: 1.0, variance_of_mean, mean: 1.0 };
         let group = Group { settings: RenderSettings::default(), twins: Vec::new() };
         mean_error(Outcome::of(group, runs, limits).mean_error)
     };
@@ -118,7 +118,7 @@ fn the_error_of_the_reference_is_taken_off_and_ends_the_curve() {
     // relMSE 0.16, 0.08, 0.04, 0.02, 0.01 plus that of the reference.
     let mut measured = run(0.01, 1.0);
     measured.checkpoints.iter_mut().for_each(|point| point.rel_mse += 0.015);
-    let found = Outcome::of(group, &[measured], Limits { floor: 0.015, black: 1.0, variance_of_mean: 0.0 });
+    let found = Outcome::of(group, &[measured], Limits { floor: 0.015, black: 1.0, variance_of_mean: 0.0, mean: 1.0 });
     assert_eq!(found.last().spp, 8);
     assert!((found.last().rel_mse - 0.02).abs() < 1e-12);
     assert!((found.efficiency() - 1.0 / (0.02 * 0.5)).abs() < 1e-9);

@@ -124,7 +124,7 @@ fn settings_have_names_and_take_values_over() {
 #[test]
 fn a_report_says_what_was_found_and_against_what() {
     let unbiased = |rel_mse, seconds| Run { bias: String::new(), invalid_samples: 0, ..points(rel_mse, seconds) };
-    let limits = Limits { floor: 0.0, black: 1.0, variance_of_mean: 0.0 };
+    let limits = Limits { floor: 0.0, black: 1.0, variance_of_mean: 0.0, mean: 1.0 };
     let outcome = |sampler, runs: &[Run]| {
         let settings = RenderSettings { sampler, ..RenderSettings::default() };
         Outcome::of(Group { settings, twins: Vec::new() }, runs, limits)
