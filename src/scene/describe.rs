@@ -13,7 +13,8 @@ use toml::{
 use super::{
     desc::SceneDesc,
     diagnostic::{SceneError, SourceText},
-    wording::in_plain_words,
+    meant::is_known_by_one_value,
+    wording::{expected_table, in_plain_words},
 };
 
 /// In longer texts the first error is all that is looked for: reading again takes time and memory.
@@ -58,6 +59,10 @@ pub fn describe(mut table: Spanned<DeTable>, source: &SourceText) -> Described {
         }
         return described;
     }
+    while let Some((key, span)) = list_for_table(table.get_ref()) {
+        described.errors.push(expected_table(source, &key, &span));
+        leave_out("", table.get_mut(), &span, &mut described.damage);
+    }
     for _ in 0..SceneError::MOST {
         let error = match SceneDesc::deserialize(toml::de::Deserializer::from(table.clone())) {
             Ok(desc) => {
@@ -76,6 +81,21 @@ pub fn describe(mut table: Spanned<DeTable>, source: &SourceText) -> Described {
         }
     }
     described
+}
+
+/// A list where a table belongs, which the reader would take for the values of the table in their order.
+fn list_for_table(table: &DeTable) -> Option<(String, Range<usize>)> {
+    fn within(value: &DeValue) -> Option<(String, Range<usize>)> {
+        match value {
+            DeValue::Table(table) => list_for_table(table),
+            DeValue::Array(array) => array.iter().find_map(|value| within(value.get_ref())),
+            _ => None,
+        }
+    }
+    table.iter().find_map(|(key, value)| {
+        let is_list = is_known_by_one_value(key.get_ref()) && value.get_ref().is_array();
+        if is_list { Some((key.get_ref().to_string(), value.span())) } else { within(value.get_ref()) }
+    })
 }
 
 /// Takes the key or the value at a place out of a table, which has this name, or of those in it, and notes all tables around it.

@@ -64,6 +64,11 @@ pub fn remark(word: &str, meant: &str) -> Option<&'static str> {
     }
 }
 
+/// Whether this is the key of a table for which its one value may be written by mistake.
+pub fn is_known_by_one_value(key: &str) -> bool {
+    TABLES.iter().any(|(table, _)| *table == key)
+}
+
 /// How to write a value that stands where its table is expected.
 pub fn table_around(key: &str, value: &str) -> Option<String> {
     let is_text = value.starts_with(['"', '\'']);

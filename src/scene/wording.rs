@@ -127,6 +127,14 @@ fn wrong_kind(source: &SourceText, span: &Range<usize>, message: &str) -> Option
     })
 }
 
+/// The error of a list where the table of this key belongs.
+pub fn expected_table(source: &SourceText, key: &str, span: &Range<usize>) -> SceneError {
+    let text = text_at(source, span);
+    let meant = table_around(key, text).filter(|_| text.chars().count() <= LONGEST_FOUND);
+    let label = meant.map_or_else(|| "expected a table { … }".to_owned(), |meant| format!("write {meant}"));
+    source.error(span.clone(), format!("`{key}`: expected a table {{ … }}, found a list"), label)
+}
+
 /// What is said of the likeliest mistakes.
 fn advice(key: Option<&str>, found: &str, text: &str) -> Option<String> {
     match key {

@@ -54,7 +54,8 @@ pub fn by_setting(findings: &Findings, setting: Setting) -> Option<Pair> {
     if shown.len() > 1 { pair(capitalised(setting.name()), caption, &shown) } else { None }
 }
 
-fn capitalised(name: &str) -> String {
+/// With a capital at its beginning.
+pub fn capitalised(name: &str) -> String {
     let mut letters = name.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }

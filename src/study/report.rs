@@ -199,7 +199,7 @@ fn row(place: usize, outcome: &Outcome, shown: &[Setting], findings: &Findings) 
 }
 
 /// The value of a setting, and those that would give the same picture.
-fn values(setting: Setting, outcome: &Outcome) -> String {
+pub fn values(setting: Setting, outcome: &Outcome) -> String {
     let only_this_differs = |twin: &&_| setting.with(twin, &outcome.settings) == outcome.settings;
     let same = outcome.twins.iter().filter(only_this_differs).map(|twin| setting.value(twin));
     let values: Vec<String> = std::iter::once(setting.value(&outcome.settings)).chain(same).collect();

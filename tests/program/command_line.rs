@@ -61,6 +61,7 @@ fn every_command_has_help() {
         &["validate", "--help"],
         &["study", "--help"],
         &["sheet", "--help"],
+        &["evidence", "--help"],
     ] {
         let output = shell.run(arguments);
         assert!(output.status.success() && text(&output.stdout).contains("Usage: noisefall"));

@@ -4,6 +4,7 @@ mod closed_streams;
 mod command_line;
 mod command_notes;
 mod compare;
+mod evidence;
 mod figures;
 mod interruption;
 mod layers;

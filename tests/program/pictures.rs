@@ -191,7 +191,7 @@ fn pictures_whose_scene_cannot_be_used_are_told() {
     for (text, says) in [
         ("{}".to_owned(), "not a text file: it looks like"),
         ("no JSON".to_owned(), "not a text file: it looks like"),
-        (carried("format = 1\ncamera = 3", camera(), off()), "files that it names are looked for beside the picture"),
+        (carried("format = 1\ncamera = 3", camera(), off()), "the picture carries this scene"),
         (
             carried(&scene.source.replace("[render]", "[textures.a]\nimage = { path = \"b.png\" }\n[render]"), camera(), off()),
             "b.png",

@@ -10,8 +10,10 @@ use crate::{
     scene::RenderSettings,
     study::{
         Findings, Machine, Outcome, StudyError, Subject,
+        figures::capitalised,
         fit::{Slope, slope},
         measure::Bench,
+        report::values,
         wording::{self, mean_error, significant},
     },
 };
@@ -100,7 +102,7 @@ impl Exhibits<'_> {
         let row = |outcome: &Outcome| {
             let fitted = |fit: Option<Slope>| wording::slope(fit);
             vec![
-                Setting::Sampler.value(&outcome.settings),
+                values(Setting::Sampler, outcome),
                 wording::error(outcome),
                 fitted(outcome.slope),
                 fitted(slope(&outcome.variances)),
@@ -128,7 +130,7 @@ impl Exhibits<'_> {
             let found = outcome.mean_error;
             let most = found.mean.abs() + NORMAL_95 * found.standard_error;
             vec![
-                setting.value(&outcome.settings),
+                values(setting, outcome),
                 mean_error(found),
                 format!("{} %", significant(100.0 * found.mean / mean)).replace('-', "−"),
                 format!("{} %", significant(100.0 * most / mean)),
@@ -140,8 +142,8 @@ impl Exhibits<'_> {
         Table {
             name: name.to_owned(),
             caption: format!(
-                "Mean of the picture less that of {}, ± its standard error; the same as a part of the mean; and the largest bias that \
-                 95 % confidence leaves ({}).",
+                "Mean of the picture less that of {}, ± its standard error (of stratified and Sobol samples at most so \
+                 large); the same as a part of the mean; and the largest bias that 95 % confidence leaves ({}).",
                 findings.reference,
                 self.circumstances()
             ),
@@ -163,7 +165,7 @@ impl Exhibits<'_> {
             let interval = ratio.zip(factor).map(|(ratio, factor)| [ratio / factor, ratio * factor].map(significant));
             let last = outcome.last();
             vec![
-                setting.value(&outcome.settings),
+                values(setting, outcome),
                 last.spp.to_string(),
                 significant(last.seconds),
                 wording::error(outcome),
@@ -175,9 +177,9 @@ impl Exhibits<'_> {
         Table {
             name: format!("equal_time_{}", setting.name()),
             caption: format!(
-                "What each {} reaches ({}). Efficiency is 1/(relMSE · s), as a part of the best, with the 95 % interval that the runs give: of \
+                "{} at equal time ({}). Efficiency is 1/(relMSE · s), as a part of the best, with the 95 % interval that the runs give: of \
                  two the one of twice the efficiency needs half the time for the same error.",
-                setting.name(),
+                capitalised(setting.name()),
                 self.circumstances()
             ),
             columns: [Column::text(setting.name())]

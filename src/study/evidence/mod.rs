@@ -25,7 +25,7 @@ use crate::{
 const CAPS: [Option<u32>; 5] = [Some(0), Some(1), Some(2), Some(5), None];
 const REPEATS: u32 = 3;
 /// Parts of the time: for the runs of all studies, and for pictures. The rest is for the reference, and for trials.
-const FOR_RUNS: f64 = 0.5;
+const FOR_RUNS: f64 = 0.6;
 const FOR_PICTURES: f64 = 0.1;
 /// Samples a pixel of the longest runs.
 const SPP: std::ops::RangeInclusive<u32> = 16..=4096;
@@ -108,7 +108,7 @@ pub fn collect(
     Ok(Chapter::new(Exhibits { subject, findings: &findings, pictures, spp, repeats: REPEATS, machine }))
 }
 
-/// The power of two of samples that a run of this time has.
+/// The power of two that is nearest to the samples of a run of this time.
 fn longest(bench: Bench, time: Duration) -> Result<u32, StudyError> {
     let mut film = bench.film();
     let settings = bench.scene.settings;
@@ -117,5 +117,5 @@ fn longest(bench: Bench, time: Duration) -> Result<u32, StudyError> {
     bench.pass(&settings, &mut film, 3)?;
     let per_sample = begun.elapsed().as_secs_f64() / 2.0;
     let samples = (time.as_secs_f64() / per_sample.max(1e-9)).clamp(f64::from(*SPP.start()), f64::from(*SPP.end()));
-    Ok(1 << (samples as u32).ilog2())
+    Ok(1 << samples.log2().round() as u32)
 }
