@@ -192,10 +192,7 @@ fn pictures_whose_scene_cannot_be_used_are_told() {
         ("{}".to_owned(), "not a text file: it looks like"),
         ("no JSON".to_owned(), "not a text file: it looks like"),
         (carried("format = 1\ncamera = 3", camera(), off()), "the picture carries this scene"),
-        (
-            carried(&scene.source.replace("[render]", "[textures.a]\nimage = { path = \"b.png\" }\n[render]"), camera(), off()),
-            "b.png",
-        ),
+        (carried(&with_texture, camera(), off()), "b.png"),
         (carried(&scene.source, blind, off()), "the camera of the picture cannot be used"),
         (carried(&scene.source, camera(), serde_json::json!({ "fixed": 0.0 })), "a survival probability of 0"),
     ] {
