@@ -1,7 +1,11 @@
-//! `noisefall check`: scene files are read and compiled, nothing is rendered.
+//! `noisefall check`: scene files are read and compiled; a small picture is rendered only to be held against the `[truth]` of a scene.
 use std::path::PathBuf;
 
-use noisefall::scene::load;
+use noisefall::{
+    math::SimdLevel,
+    render::{pass::Threads, truth},
+    scene::load,
+};
 
 use super::{Failure, print};
 
@@ -24,7 +28,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
                     n => format!("{n} objects"),
                 };
                 print(&format!("{}: ok, {objects}, {width} × {height}", path.display()))?;
-                for warning in scene.warnings() {
+                let threads = Threads::new(0, SimdLevel::best()).map_err(|error| error.to_string())?;
+                for warning in scene.warnings().iter().chain(&truth::contradiction(&scene, &threads)) {
                     print(&format!("{}: note: {warning}", path.display()))?;
                 }
             }

@@ -16,8 +16,10 @@ use noisefall::{
     },
 };
 
+use serde_json::json;
+
 use super::{
-    Failure, flip,
+    Failure, figures, flip,
     options::{floor, format},
     output::Output,
     print, tell, wrong_usage,
@@ -174,21 +176,10 @@ fn remarks(bias: &Bias, all: &[&Loaded], b: &Loaded) -> Vec<String> {
 }
 
 fn json(comparison: &Comparison, flip: Option<f64>, bias: &Bias, remarks: &[String]) -> serde_json::Value {
-    let mut line = serde_json::json!(comparison);
+    let mut figures = figures::error(Some(comparison), Some(bias));
     let known = (!bias.block_z.is_empty()).then_some(&bias.block_z);
-    for (key, value) in [
-        ("bias", serde_json::json!(bias.mean)),
-        ("flip", serde_json::json!(flip)),
-        ("bias_standard_error", serde_json::json!(bias.standard_error)),
-        ("bias_in_standard_errors", serde_json::json!(bias.z)),
-        ("exact_samples", serde_json::json!(bias.is_exact)),
-        ("heavy_tails", serde_json::json!(bias.has_heavy_tails)),
-        ("block_z", serde_json::json!(known)),
-        ("remarks", serde_json::json!(remarks)),
-    ] {
-        line[key] = value;
-    }
-    line
+    figures.extend(figures::named([("flip", json!(flip)), ("block_z", json!(known)), ("remarks", json!(remarks))]));
+    figures.into()
 }
 
 fn text(comparison: &Comparison, flip: Option<f64>, bias: &Bias, remarks: &[String]) -> String {

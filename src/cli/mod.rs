@@ -1,14 +1,19 @@
 //! The command line. Exit status 0 done, 1 failed with a message on standard error, 2 wrong usage, 130 interrupted.
 mod check;
 mod compare;
+mod evidence;
+mod figures;
 mod flip;
 mod folder;
+mod lists;
+mod meant;
 mod messages;
 mod options;
 mod output;
 mod progress;
 mod render;
 mod replay;
+mod sheet;
 mod stop;
 mod study;
 mod summary;
@@ -53,7 +58,11 @@ enum Command {
     Validate(validate::Arguments),
     /// Run time against error for every combination of settings, as a report
     Study(study::Arguments),
-    /// Read and check scene files; render nothing
+    /// The chapter of a report for a scene: pictures, convergence, bias, comparisons at equal time
+    Evidence(evidence::Arguments),
+    /// One labelled picture of several settings
+    Sheet(sheet::Arguments),
+    /// Read and check scene files, without a picture
     Check(check::Arguments),
 }
 
@@ -61,7 +70,7 @@ pub fn run() -> ExitCode {
     if let Some(mistake) = mistaken_command(&std::env::args_os().skip(1).collect::<Vec<_>>()) {
         return wrong_usage(&mistake);
     }
-    let arguments = Arguments::parse();
+    let arguments = Arguments::try_parse().unwrap_or_else(|error| meant::with_advice(error, &Arguments::command()).exit());
     arguments.memory.into_iter().for_each(noisefall::memory::set_limit);
     let succeeded = |()| ExitCode::SUCCESS;
     let done = match arguments.command {
@@ -71,6 +80,8 @@ pub fn run() -> ExitCode {
         Some(Command::Check(arguments)) => check::run(&arguments).map(succeeded),
         Some(Command::Validate(arguments)) => validate::run(&arguments).map(succeeded),
         Some(Command::Study(arguments)) => study::run(&arguments),
+        Some(Command::Evidence(arguments)) => evidence::run(&arguments),
+        Some(Command::Sheet(arguments)) => sheet::run(&arguments),
     };
     done.unwrap_or_else(|message| {
         tell(&message);

@@ -3,10 +3,29 @@ use std::time::Duration;
 
 use noisefall::{
     measure::Floor,
-    render::image_file::Format,
+    render::{Display, ToneMap, image_file::Format},
     sampling::{Directions, SAMPLERS, Sampler},
     scene::{Estimator, Reuse, Roulette},
 };
+
+use super::replay::Which;
+
+/// How a PNG shows radiance.
+#[derive(clap::Args)]
+pub struct DisplayOptions {
+    /// Exposure of a PNG in stops: radiance is multiplied by 2 to this power
+    #[arg(long, value_name = "STOPS", value_parser = exposure, allow_negative_numbers = true, default_value_t = 0.0)]
+    exposure: f32,
+    /// Tone map of a PNG: none (cuts off at 1), reinhard, aces or false-colour (luminance, logarithmic)
+    #[arg(long, value_name = "MAP", value_parser = tone, default_value = "none")]
+    tone: ToneMap,
+}
+
+impl DisplayOptions {
+    pub fn display(&self) -> Display {
+        Display { exposure: self.exposure, tone_map: self.tone }
+    }
+}
 
 pub fn estimator(text: &str) -> Result<Estimator, String> {
     Estimator::ALL.into_iter().find(|e| e.name() == text).ok_or_else(|| "expected path, light or mis".to_owned())
@@ -69,6 +88,20 @@ fn pair(text: &str, separators: &[char]) -> Option<[u32; 2]> {
     Some([a.trim().parse().ok()?, b.trim().parse().ok()?])
 }
 
+/// A number, two with a `-` between them, or `lit`.
+pub fn which(text: &str) -> Result<Which, String> {
+    let expected = || "expected a number, a range such as 0-9999, or `lit`".to_owned();
+    let number = |text: &str| text.trim().parse::<u32>().map_err(|_| expected());
+    match text.split_once('-') {
+        _ if text == "lit" => Ok(Which::Lit),
+        None => Ok(Which::One(number(text)?)),
+        Some((first, last)) => match (number(first)?, number(last)?) {
+            (first, last) if first <= last => Ok(Which::Range(first, last)),
+            _ => Err(expected()),
+        },
+    }
+}
+
 pub fn whole(text: &str) -> Result<u32, String> {
     text.parse().map_err(|_| format!("expected a whole number from 0 to {}", u32::MAX))
 }
@@ -110,6 +143,22 @@ pub fn memory(text: &str) -> Result<u64, String> {
     bytes.map(|bytes| bytes as u64).ok_or_else(|| "expected a size, such as 4G or 500M".to_owned())
 }
 
+/// In stops.
+pub fn exposure(text: &str) -> Result<f32, String> {
+    let stops = text.parse().ok().filter(|stops: &f32| stops.abs() <= 100.0);
+    stops.ok_or_else(|| "expected stops, from -100 to 100, such as -1.5".to_owned())
+}
+
+pub fn tone(text: &str) -> Result<ToneMap, String> {
+    match text {
+        "none" => Ok(ToneMap::None),
+        "reinhard" => Ok(ToneMap::Reinhard),
+        "aces" => Ok(ToneMap::Aces),
+        "false-colour" | "false-color" => Ok(ToneMap::FalseColour),
+        _ => Err("expected none, reinhard, aces or false-colour".to_owned()),
+    }
+}
+
 pub fn format(text: &str) -> Result<Format, String> {
     Format::named(text).ok_or_else(|| "expected png or exr".to_owned())
 }
@@ -149,7 +198,17 @@ mod tests {
         assert!(samples("4294967296").is_err() && whole("4294967296").is_err());
         assert!(seconds("0").is_err() && seconds("nan").is_err() && seconds("1e300").is_err());
         assert!(noise("inf").is_err() && noise("-0.1").is_err() && bounce_cap("-1").is_err() && bounce_cap("1.5").is_err());
+        assert!(exposure("nan").is_err() && exposure("101").is_err() && tone("filmic").is_err());
         assert!(on_or_off("yes").is_err() && reuse("yes").is_err() && format("jpg").is_err() && format(".png").is_err());
+    }
+
+    #[test]
+    fn samples_are_numbers_ranges_or_the_first_lit() {
+        assert_eq!(
+            ["7", "0-9999", " 3 - 3", "lit"].map(which),
+            [Which::One(7), Which::Range(0, 9999), Which::Range(3, 3), Which::Lit].map(Ok)
+        );
+        assert!(["", "-", "-1", "9-3", "1-", "first", "1-2-3", "4294967296"].iter().all(|text| which(text).is_err()));
     }
 
     #[test]
@@ -162,6 +221,9 @@ mod tests {
         assert_eq!(["png", "EXR"].map(format), [Format::Png, Format::Exr].map(Ok));
         let samplers = [Sampler::Independent, Sampler::Stratified, Sampler::Sobol, Sampler::BlueNoise];
         assert_eq!(["independent", "stratified", "sobol", "bluenoise"].map(sampler), samplers.map(Ok));
+        let maps = [ToneMap::None, ToneMap::Reinhard, ToneMap::Aces, ToneMap::FalseColour];
+        assert_eq!(["none", "reinhard", "aces", "false-colour"].map(tone), maps.map(Ok));
+        assert_eq!(["-1.5", "2"].map(exposure), [Ok(-1.5), Ok(2.0)]);
         assert_eq!(["off", "throughput"].map(roulette), [Roulette::Off, Roulette::BY_THROUGHPUT].map(Ok));
     }
 

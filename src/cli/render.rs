@@ -23,10 +23,10 @@ use noisefall::{
 
 use super::{
     Failure,
-    options::{self as parse, BounceCap},
+    options::{self as parse, BounceCap, DisplayOptions},
     output::Output,
     progress::render,
-    replay,
+    replay::{self, Form, Which},
     summary::Done,
     tell, wrong_usage,
 };
@@ -88,12 +88,21 @@ pub struct Arguments {
     /// Resolution in pixels
     #[arg(long, value_name = "WxH", value_parser = parse::resolution, allow_hyphen_values = true)]
     size: Option<[u32; 2]>,
+    #[command(flatten)]
+    display: DisplayOptions,
     /// Replay one path through this pixel instead of rendering
     #[arg(long, value_name = "X,Y", value_parser = parse::pixel, allow_hyphen_values = true, conflicts_with = "output")]
     pixel: Option<[u32; 2]>,
-    /// Which sample of the pixel to replay [default: 0]
-    #[arg(long, value_name = "N", value_parser = parse::whole, requires = "pixel", conflicts_with = "output")]
-    sample: Option<u32>,
+    /// Which sample of the pixel to replay: a number, `lit` for the first that finds light, or with --csv a range such as 0-9999
+    /// [default: 0]
+    #[arg(long, value_name = "N", value_parser = parse::which, requires = "pixel", conflicts_with = "output")]
+    sample: Option<Which>,
+    /// Print the path as LaTeX: the nested sum with its numbers
+    #[arg(long, requires = "pixel", conflicts_with_all = ["json", "csv"])]
+    latex: bool,
+    /// Table of samples of the pixel, with the mean and the variance so far; - for standard output
+    #[arg(long, value_name = "FILE", requires = "pixel", conflicts_with = "json")]
+    csv: Option<PathBuf>,
     /// Print one line of JSON last, on standard error where the picture is on standard output
     #[arg(long)]
     json: bool,
@@ -110,11 +119,14 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     camera.check().map_err(|error| error.to_string())?;
     let settings = arguments.settings(&scene);
     if let Some(pixel) = arguments.pixel {
-        let sample = arguments.sample.unwrap_or(0);
-        return replay::run(&scene, &camera, &settings, pixel, sample, arguments.json).map(|()| ExitCode::SUCCESS);
+        let which = arguments.sample.unwrap_or(Which::One(0));
+        return replay::run(&scene, &camera, &settings, pixel, which, arguments.form()).map(|()| ExitCode::SUCCESS);
     }
     let Some(output) = output else { return Err("no output file".to_owned()) };
     output.check()?;
+    if output.format() == Some(Format::Exr) && arguments.display.display() != Display::default() {
+        tell("note: an EXR has the radiance as it is; --exposure and --tone change a PNG only");
+    }
     // The worker asks again: here it is no failure of the renderer.
     drop(Film::reserve(camera.resolution).map_err(|error| error.to_string())?);
     let reference = Reference::of(&scene);
@@ -136,8 +148,9 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         let replay = failure.replays.then(|| format!("\nreplay: {}", replayed(failure.at)));
         return Err(format!("the renderer failed: {}{}", failure.message, replay.unwrap_or_default()));
     }
-    let text = settings_text(&scene, &camera, &settings, Display::default(), &frame, &[]);
-    let delivered = output.write(&frame, Display::default(), &text)?;
+    let display = arguments.display.display();
+    let text = settings_text(&scene, &camera, &settings, display, &frame, &[]);
+    let delivered = output.write(&frame, display, &text)?;
     if delivered != ExitCode::SUCCESS {
         return Ok(delivered);
     }
@@ -146,7 +159,8 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         scene: &scene,
         scene_path: &arguments.scene,
         settings: &settings,
-        rel_mse: reference.and_then(|truth| truth.compare(&frame)).map(|comparison| comparison.rel_mse),
+        error: reference.as_ref().and_then(|truth| truth.compare(&frame).zip(truth.bias(&frame))),
+        contradiction: reference.and_then(|truth| truth.contradiction(&frame)),
         replay: status.first_invalid.map(replayed),
         frame: &frame,
         status: &status,
@@ -170,6 +184,15 @@ impl Arguments {
             reuse: self.reuse.unwrap_or(of_scene.reuse),
             adaptive: self.adaptive.unwrap_or(of_scene.adaptive),
             seed: self.seed.unwrap_or(of_scene.seed),
+        }
+    }
+
+    fn form(&self) -> Form<'_> {
+        match &self.csv {
+            Some(path) => Form::Csv(path),
+            None if self.latex => Form::Latex,
+            None if self.json => Form::Json,
+            None => Form::Text,
         }
     }
 

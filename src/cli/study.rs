@@ -1,5 +1,10 @@
 //! `noisefall study`: run time against error for every combination of settings.
-use std::{path::PathBuf, process::ExitCode, sync::atomic::Ordering, time::Duration};
+use std::{
+    path::PathBuf,
+    process::ExitCode,
+    sync::atomic::Ordering,
+    time::{Duration, Instant},
+};
 
 use indicatif::{ProgressBar, ProgressStyle};
 use noisefall::{
@@ -13,8 +18,8 @@ use noisefall::{
 
 use super::{
     Failure, folder,
-    options::{self as parse, BounceCap},
-    print,
+    lists::ListOptions,
+    options as parse, print,
     stop::{INTERRUPTED, stop_signal},
     tell, wrong_usage,
 };
@@ -22,6 +27,9 @@ use super::{
 const NOTES: &str = "\
 Each combination of the lists renders each scene several times, and is compared with a reference whenever its samples have doubled: the \
 scene's [truth], else the picture NAME.ref.exr beside NAME.toml, else a converged render that is made first and kept in DIR.
+
+Without lists these are combined: --estimators path,light,mis --directions uniform,cosine,bsdf --samplers \
+independent,stratified,sobol --roulette off,0.8,throughput --max-bounces none, with sharing and adaptive samples as the scene has them.
 
 DIR gets study.csv, a line for every measurement, and report.html: error against time and samples, slopes, efficiencies, and the best \
 settings for each scene. What DIR has already is not measured again, so an interrupted study goes on where it was.
@@ -37,21 +45,8 @@ pub struct Arguments {
     /// Folder for study.csv, report.html and references, made if it is not there
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
-    /// How light is found: path, light, mis
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::item(parse::estimator), default_value = "path,light,mis")]
-    estimators: Vec<Estimator>,
-    /// How the next direction is drawn at diffuse surfaces: uniform, cosine, bsdf
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::item(parse::directions), default_value = "uniform,cosine,bsdf")]
-    directions: Vec<Directions>,
-    /// Where samples lie: independent, stratified, sobol, bluenoise (which is sobol in another order)
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::item(parse::sampler), default_value = "independent,stratified,sobol")]
-    samplers: Vec<Sampler>,
-    /// Russian roulette: off, survival probabilities, throughput
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::item(parse::roulette), default_value = "off,0.8,throughput")]
-    roulette: Vec<Roulette>,
-    /// Highest numbers of bounces, none for no cap; what is capped is biased and never the best
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::item(parse::bounce_cap), default_value = "none")]
-    max_bounces: Vec<BounceCap>,
+    #[command(flatten)]
+    lists: ListOptions,
     /// Largest number of samples per pixel; errors are measured at powers of two up to it
     #[arg(long, value_name = "N", default_value = "256", value_parser = parse::samples)]
     spp: u32,
@@ -112,13 +107,15 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
 
 impl Arguments {
     fn plan(&self) -> Plan {
-        let lists = Lists {
-            estimators: self.estimators.clone(),
-            directions: self.directions.clone(),
-            samplers: self.samplers.clone(),
-            roulettes: self.roulette.clone(),
-            caps: self.max_bounces.iter().map(|cap| cap.0).collect(),
+        let usual = Lists {
+            estimators: Estimator::ALL.to_vec(),
+            directions: Directions::ALL.to_vec(),
+            samplers: vec![Sampler::Independent, Sampler::Stratified, Sampler::Sobol],
+            roulettes: vec![Roulette::Off, Roulette::Fixed(0.8), Roulette::BY_THROUGHPUT],
+            caps: vec![None],
+            ..Lists::default()
         };
+        let lists = self.lists.lists(usual);
         Plan { lists, spp: self.spp, time: self.seconds, repeats: self.repeats, floor: self.floor.unwrap_or(Floor::DEFAULT) }
     }
 }
@@ -134,15 +131,21 @@ fn finish(arguments: &Arguments, findings: &[Findings], plan: &Plan, machine: &M
     folder::write_report(&arguments.output, &html(findings, plan, machine))
 }
 
+/// Without a terminal the reference is told of in such parts.
+const REFERENCE_STEP: f64 = 0.25;
+
 /// A bar where there is a terminal, else a line for each combination.
 struct Display {
     bar: ProgressBar,
+    /// When the reference that is being rendered was begun, and what share of it was last told.
+    reference: Option<(Instant, f64)>,
 }
 
 impl Display {
     fn new() -> Display {
         let style = ProgressStyle::with_template("{bar:30} {pos}/{len} runs  {msg}  {elapsed} elapsed, {eta} left");
-        Display { bar: ProgressBar::new(0).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar())) }
+        let bar = ProgressBar::new(0).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+        Display { bar, reference: None }
     }
 
     fn show(&mut self, progress: &Progress) {
@@ -154,10 +157,16 @@ impl Display {
                 }
             }
             Progress::Reference { title, share } => {
-                self.bar.set_message(format!("{title}: reference, {:.0} %", 100.0 * share));
+                let (begun, told) = self.reference.get_or_insert((Instant::now(), 0.0));
+                let left = begun.elapsed().as_secs_f64() * (1.0 - share) / share.max(1e-3);
+                self.bar.set_message(format!("{title}: reference, {:.0} %, {left:.0} s left", 100.0 * share));
                 self.bar.tick();
-                if self.bar.is_hidden() && *share == 1.0 {
-                    tell(&format!("{title}: the reference is rendered"));
+                if self.bar.is_hidden() && (share - *told >= REFERENCE_STEP || *share == 1.0) {
+                    *told = *share;
+                    tell(&format!("{title}: {:.0} % of the reference, {left:.0} s left", 100.0 * share));
+                }
+                if *share == 1.0 {
+                    self.reference = None;
                 }
             }
             Progress::Begun { title, settings } => {

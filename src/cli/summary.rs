@@ -2,12 +2,14 @@
 use std::path::Path;
 
 use noisefall::{
+    math::SimdLevel,
+    measure::{Bias, Comparison},
     render::{Frame, State, Status},
     scene::{Camera, RenderSettings, Scene},
 };
 use serde_json::{Value, json};
 
-use super::output::Output;
+use super::{figures, output::Output};
 
 /// A rendered picture and its figures.
 pub struct Done<'a> {
@@ -21,7 +23,9 @@ pub struct Done<'a> {
     /// To build the scene, and to render.
     pub seconds: [f64; 2],
     /// Against the true picture, if there is one.
-    pub rel_mse: Option<f64>,
+    pub error: Option<(Comparison, Bias)>,
+    /// Why the picture cannot be a sample of the true one, if it cannot.
+    pub contradiction: Option<String>,
     /// The command that traces the first invalid sample again.
     pub replay: Option<String>,
 }
@@ -43,6 +47,10 @@ impl Done<'_> {
                 "warning: {cut_paths} paths were cut after {longest} bounces: the picture is biased; use roulette"
             ));
         }
+        if let Some(contradiction) = &self.contradiction {
+            let why = self.status.bias(self.settings).map_or_else(String::new, |why| format!(" (it is biased: {why})"));
+            notes.push(format!("warning: {contradiction}{why}"));
+        }
         notes
     }
 
@@ -51,7 +59,8 @@ impl Done<'_> {
         let [_, seconds] = self.seconds;
         let rate = self.status.samples as f64 / seconds / 1e6;
         let noise = if self.frame.is_black() { ", no light found".to_owned() } else { noise_text(self.status) };
-        let error = self.rel_mse.map_or_else(String::new, |rel_mse| format!(", true error {:.2} %", 100.0 * rel_mse.sqrt()));
+        let error = self.error.as_ref().map(|(error, _)| format!(", true error {:.2} %", 100.0 * error.rel_mse.sqrt()));
+        let error = error.unwrap_or_default();
         let bias = self.status.bias(self.settings).map_or_else(|| "unbiased".to_owned(), |why| format!("biased: {why}"));
         let end = match &self.status.state {
             State::Done(target) => target.to_string(),
@@ -62,23 +71,49 @@ impl Done<'_> {
 
     pub fn json(&self) -> Value {
         let (frame, status) = (self.frame, self.status);
-        let [build_seconds, render_seconds] = self.seconds;
+        let [build_seconds, seconds] = self.seconds;
         let stopped_by = match &status.state {
             State::Done(target) => target.name(),
             _ => "interruption",
         };
-        json!({
+        let (comparison, bias) = self.error.as_ref().map(|(comparison, bias)| (comparison, bias)).unzip();
+        let mut figures = figures::settings(self.settings);
+        figures.extend(figures::error(comparison, bias));
+        figures.extend(figures::named([
             // A name need not be text.
-            "scene": self.scene_path.to_string_lossy(), "width": frame.width, "height": frame.height,
-            "spp": status.spp, "mean_spp": frame.sample_counts().mean(), "stopped_by": stopped_by,
-            "threads": self.threads, "seed": self.settings.seed,
-            "build_seconds": build_seconds, "render_seconds": render_seconds,
-            "paths": status.samples, "rays": status.rays, "invalid_samples": status.invalid_samples,
-            "rel_mse_estimate": status.rel_mse_estimate, "cut_paths": status.cut_paths,
-            "dropped_triangles": self.scene.shapes.dropped_triangles(), "bias": status.bias(self.settings),
-            "reuse": status.shares, "adaptive": status.adapts, "rel_mse": self.rel_mse, "replay": self.replay,
-        })
+            ("scene", json!(self.scene_path.to_string_lossy())),
+            ("width", json!(frame.width)),
+            ("height", json!(frame.height)),
+            ("spp", json!(status.spp)),
+            ("mean_spp", json!(frame.sample_counts().mean())),
+            ("stopped_by", json!(stopped_by)),
+            ("threads", json!(self.threads)),
+            ("simd", json!(SimdLevel::best().name())),
+            ("version", json!(env!("CARGO_PKG_VERSION"))),
+            ("commit", json!(env!("NOISEFALL_COMMIT"))),
+            ("shares", json!(status.shares)),
+            ("adapts", json!(status.adapts)),
+            ("build_seconds", json!(build_seconds)),
+            ("seconds", json!(seconds)),
+            ("paths", json!(status.samples)),
+            ("paths_per_second", json!(status.samples as f64 / seconds)),
+            ("rays", json!(status.rays)),
+            ("mean", json!(mean(&frame.radiance))),
+            ("rel_mse_estimate", json!(status.rel_mse_estimate)),
+            ("biased", json!(status.bias(self.settings))),
+            ("cut_paths", json!(status.cut_paths)),
+            ("dropped_triangles", json!(self.scene.shapes.dropped_triangles())),
+            ("invalid_samples", json!(status.invalid_samples)),
+            ("replay", json!(self.replay)),
+        ]));
+        figures.into()
     }
+}
+
+/// The mean radiance of a picture, by channel.
+fn mean(radiance: &[[f32; 3]]) -> [f64; 3] {
+    let count = radiance.len().max(1) as f64;
+    [0, 1, 2].map(|c| radiance.iter().map(|rgb| f64::from(rgb[c])).sum::<f64>() / count)
 }
 
 /// ", noise 2.50 %".
@@ -92,7 +127,7 @@ mod tests {
 
     use noisefall::{
         render::{Target, image_file::Format},
-        scene::built_in,
+        scene::{Roulette, built_in},
     };
 
     use super::*;
@@ -129,6 +164,7 @@ mod tests {
 
     fn said(status: &Status, frame: &Frame, settings: RenderSettings) -> Said {
         let (scene, output) = (built_in(), Output::File("out.png".into()));
+        let comparison = Comparison { rmse: 0.125, rel_mse: 0.0004, bias: 9.0 };
         let done = Done {
             output: &output,
             scene: &scene,
@@ -138,7 +174,8 @@ mod tests {
             status,
             threads: 3,
             seconds: [0.25, 0.5],
-            rel_mse: Some(0.0004),
+            error: Some((comparison, Bias::by_samples(&[[1.0; 3]; 4], &[[3.0; 3]; 4], [None, None], 4))),
+            contradiction: None,
             replay: Some("noisefall render a.toml --pixel 1,0".to_owned()),
         };
         Said { json: done.json(), line: done.line(), notes: done.notes(&scene.camera) }
@@ -150,16 +187,22 @@ mod tests {
         let of_time = status(State::Done(Target::Time));
         let line = said(&of_time, &frame(1.0), settings).json;
         let expected = json!({
-            "scene": "a.toml", "width": 4, "height": 1, "spp": 2, "mean_spp": 2.5, "stopped_by": "time", "threads": 3, "seed": 8,
-            "build_seconds": 0.25, "render_seconds": 0.5, "paths": 10, "rays": 77, "invalid_samples": 4, "rel_mse_estimate": 0.0009,
-            "cut_paths": 6, "dropped_triangles": 0, "bias": settings.bias(), "reuse": true, "adaptive": false, "rel_mse": 0.0004,
-            "replay": "noisefall render a.toml --pixel 1,0",
+            "scene": "a.toml", "width": 4, "height": 1, "spp": 2, "mean_spp": 2.5, "stopped_by": "time", "threads": 3,
+            "simd": SimdLevel::best().name(), "version": env!("CARGO_PKG_VERSION"), "commit": env!("NOISEFALL_COMMIT"),
+            "estimator": "mis", "directions": "bsdf", "sampler": "sobol", "roulette": "throughput", "roulette_start": 4,
+            "max_bounces": 5, "reuse": "auto", "shares": true, "adaptive": "off", "adapts": false, "seed": 8,
+            "build_seconds": 0.25, "seconds": 0.5, "paths": 10, "paths_per_second": 20.0, "rays": 77, "mean": [1.0, 1.0, 1.0],
+            "rel_mse_estimate": 0.0009, "biased": "cap at 5", "cut_paths": 6, "dropped_triangles": 0, "invalid_samples": 4,
+            "rmse": 0.125, "rel_mse": 0.0004, "bias": -2.0, "bias_standard_error": null, "bias_in_standard_errors": null,
+            "exact_samples": false, "heavy_tails": false, "replay": "noisefall render a.toml --pixel 1,0",
         });
         assert_eq!(line, expected);
-        assert!(line["bias"].is_string());
         let other = Status { shares: false, adapts: true, cut_paths: 0, ..status(State::Paused) };
-        let line = said(&other, &frame(1.0), RenderSettings::default()).json;
-        assert_eq!((&line["reuse"], &line["adaptive"], &line["bias"]), (&json!(false), &json!(true), &Value::Null));
+        let adaptive = RenderSettings { adaptive: true, roulette: Roulette::Fixed(0.5), ..RenderSettings::default() };
+        let line = said(&other, &frame(1.0), adaptive).json;
+        let keys = ["shares", "adapts", "adaptive", "roulette", "roulette_start", "max_bounces", "biased"];
+        let values = [json!(false), json!(true), json!("on"), json!("0.5"), Value::Null, Value::Null, Value::Null];
+        assert_eq!(keys.map(|key| line[key].clone()), values);
         assert_eq!(line["stopped_by"], "interruption");
     }
 

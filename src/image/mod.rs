@@ -5,6 +5,7 @@
 //! | PNG | `png.rs` | 8 or 16 bits a channel, sRGB or linear; alpha is ignored |
 //! | OpenEXR | `exr.rs` | linear; the layer's R, G and B |
 //! | Radiance HDR | `hdr.rs` | linear; a common exponent a pixel |
+mod carried;
 mod exr;
 mod hdr;
 mod png;
@@ -19,6 +20,7 @@ use std::{
 
 use serde::Deserialize;
 
+pub use self::carried::{SETTINGS_KEY, carried_text};
 use crate::{
     file::open_regular,
     memory::{Reservation, TooMuch, reserve},

@@ -32,7 +32,7 @@ pub use self::{
     batch::Batch,
     collision::{clear_fraction, is_blind},
     features::{Features, features},
-    replay::{MetLight, Outcome, Reflection, Replay, SampledLight, Surface, Vertex, pixel_samples, replay},
+    replay::{End, MetLight, Outcome, Reflection, Replay, SampledLight, Surface, Vertex, pixel_samples, replay},
     series::{SHARES, TERMS, Terms, trace_series},
     trace::{Interrupted, Segments, trace, trace_counting},
     work::{BLOCK, BLOCKS, Blocks, TILE, Work},

@@ -107,12 +107,19 @@ impl<'a, L: Lanes, K: Kind> Shading<'a, L, K> {
         LightEstimate { shadow, may_contribute, sample, wi, f_cos, weight }
     }
 
+    /// The random numbers that the next direction and its lobe are drawn by.
+    #[inline(always)]
+    pub fn coordinates(&self, l: L) -> ((F<L>, F<L>), F<L>) {
+        let lobe = if K::LOBES { self.stream.one(Dimension::lobe(self.reflection)) } else { l.f(0.0) };
+        (self.stream.two(Dimension::direction(self.reflection)), lobe)
+    }
+
     /// The next direction. What is shared is weighted by the albedo of each pixel that gets it, and not here.
     #[inline(always)]
     pub fn reflect(&self, l: L, work: &Work, shares: bool) -> Reflected<L> {
         let Shading { hit, vertex, bsdf, stream, reflection, .. } = self;
-        let lobe = if K::LOBES { stream.one(Dimension::lobe(*reflection)) } else { l.f(0.0) };
-        let sample = bsdf.sample(vertex.wo, stream.two(Dimension::direction(*reflection)), lobe);
+        let (u, lobe) = self.coordinates(l);
+        let sample = bsdf.sample(vertex.wo, u, lobe);
         #[cfg(test)]
         let sample =
             BsdfSample { weight: super::fault::spoil(work.settings.fault, *reflection, sample.weight, sample.wi.z), ..sample };

@@ -1,5 +1,7 @@
 //! What every kind of reflection can do, in lanes.
-use crate::math::{F, Lanes, M, Pick, V};
+use serde::Serialize;
+
+use crate::math::{F, Lanes, M, One, Pick, V};
 
 /// A bsdf with its parameters at some surface points, one point a lane.
 ///
@@ -12,6 +14,35 @@ pub trait Bsdf<L: Lanes>: Copy {
 
     /// Draws the next direction from the point `u` of the unit square; `lobe` in (0, 1) chooses between lobes.
     fn sample(&self, wo: V<L>, u: (F<L>, F<L>), lobe: F<L>) -> BsdfSample<L>;
+}
+
+/// The lobe that a direction was sampled from, for a reader.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct ChosenLobe {
+    pub name: &'static str,
+    /// Probability of choosing it.
+    pub probability: f32,
+}
+
+/// Tells which lobe a direction comes from. The renderer has no use for that, so one lane is enough.
+pub trait Lobes: Bsdf<One> {
+    /// The lobe that [`Bsdf::sample`] draws from, given the same.
+    fn chosen(&self, wo: V<One>, u: (F<One>, F<One>), lobe: F<One>) -> ChosenLobe;
+}
+
+impl ChosenLobe {
+    pub(super) fn only(name: &'static str) -> ChosenLobe {
+        ChosenLobe { name, probability: 1.0 }
+    }
+
+    /// The first lobe where `lobe` is below its probability, else the second.
+    pub(super) fn of_two(names: [&'static str; 2], probability: f32, lobe: F<One>) -> ChosenLobe {
+        if lobe.0 < probability {
+            ChosenLobe { name: names[0], probability }
+        } else {
+            ChosenLobe { name: names[1], probability: 1.0 - probability }
+        }
+    }
 }
 
 /// A next direction at a surface.

@@ -8,12 +8,12 @@ use std::f32::consts::FRAC_1_PI;
 
 use super::{
     albedo::Albedo,
-    bsdf::{Bsdf, BsdfSample},
+    bsdf::{Bsdf, BsdfSample, ChosenLobe, Lobes},
     fresnel::ConductorFresnel,
     ggx, grazing,
     materials::{Local, Materials},
 };
-use crate::math::{F, Lanes, M, Pick, V};
+use crate::math::{F, Lanes, M, One, Pick, V};
 
 pub struct Conductor<L: Lanes> {
     l: L,
@@ -99,5 +99,11 @@ impl<L: Lanes> Bsdf<L> for Conductor<L> {
         }
         let (f, pdf) = self.eval_with(wo, wi, loss);
         BsdfSample::of(wi, f, pdf)
+    }
+}
+
+impl Lobes for Conductor<One> {
+    fn chosen(&self, wo: V<One>, _: (F<One>, F<One>), lobe: F<One>) -> ChosenLobe {
+        ChosenLobe::of_two(["further scattering between microfacets", "microfacet reflection"], self.loss(wo.z).0, lobe)
     }
 }

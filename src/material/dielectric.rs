@@ -1,10 +1,10 @@
 //! The smooth dielectric: mirror reflection and refraction.
 use super::{
-    bsdf::{Bsdf, BsdfSample},
+    bsdf::{Bsdf, BsdfSample, ChosenLobe, Lobes},
     fresnel,
     materials::{Local, Materials},
 };
-use crate::math::{F, Lanes, M, Pick, V};
+use crate::math::{F, Lanes, M, One, Pick, V};
 
 /// The smooth interface between two transparent media.
 ///
@@ -55,4 +55,10 @@ impl<L: Lanes> Bsdf<L> for Dielectric<L> {
 #[inline(always)]
 fn everywhere<L: Lanes>(like: F<L>) -> M<L> {
     like.splat(0.0).below(1.0)
+}
+
+impl Lobes for Dielectric<One> {
+    fn chosen(&self, wo: V<One>, _: (F<One>, F<One>), lobe: F<One>) -> ChosenLobe {
+        ChosenLobe::of_two(["mirror reflection", "refraction"], fresnel::dielectric(wo.z, self.eta).0.0, lobe)
+    }
 }

@@ -1,9 +1,9 @@
 //! The ideal diffuse surface: f = ρ/π in all directions of the hemisphere.
 use std::f32::consts::FRAC_1_PI;
 
-use super::bsdf::{Bsdf, BsdfSample};
+use super::bsdf::{Bsdf, BsdfSample, ChosenLobe, Lobes};
 use crate::{
-    math::{F, Lanes, Pick, V},
+    math::{F, Lanes, One, Pick, V},
     sampling::Directions,
 };
 
@@ -26,5 +26,11 @@ impl<L: Lanes> Bsdf<L> for Lambertian<L> {
         let wi = self.directions.sample(u);
         let weight = self.albedo * self.directions.lambertian_weight(wi.z);
         BsdfSample { wi, weight, pdf: self.directions.pdf(wi.z), delta: wi.z.below(0.0) }
+    }
+}
+
+impl Lobes for Lambertian<One> {
+    fn chosen(&self, _: V<One>, _: (F<One>, F<One>), _: F<One>) -> ChosenLobe {
+        ChosenLobe::only("diffuse reflection")
     }
 }

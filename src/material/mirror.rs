@@ -1,10 +1,10 @@
 //! The smooth mirror: a delta lobe times a metal's Fresnel reflectance.
 use super::{
-    bsdf::{Bsdf, BsdfSample},
+    bsdf::{Bsdf, BsdfSample, ChosenLobe, Lobes},
     fresnel::ConductorFresnel,
     materials::{Local, Materials},
 };
-use crate::math::{F, Lanes, V};
+use crate::math::{F, Lanes, One, V};
 
 pub struct Mirror<L: Lanes> {
     fresnel: ConductorFresnel<L>,
@@ -37,5 +37,11 @@ impl<L: Lanes> Bsdf<L> for Mirror<L> {
         let wi = V { x: -wo.x, y: -wo.y, z: wo.z };
         let zero = wo.z.splat(0.0);
         BsdfSample { wi, weight: self.fresnel.reflectance(wo.z), pdf: zero, delta: zero.ge(zero) }
+    }
+}
+
+impl Lobes for Mirror<One> {
+    fn chosen(&self, _: V<One>, _: (F<One>, F<One>), _: F<One>) -> ChosenLobe {
+        ChosenLobe::only("mirror reflection")
     }
 }

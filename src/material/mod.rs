@@ -30,7 +30,7 @@ mod rough_dielectric;
 mod tests;
 
 pub use self::{
-    bsdf::{Bsdf, BsdfSample},
+    bsdf::{Bsdf, BsdfSample, ChosenLobe, Lobes},
     conductor::Conductor,
     dielectric::Dielectric,
     lambertian::Lambertian,

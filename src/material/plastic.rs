@@ -10,13 +10,13 @@ use std::f32::consts::FRAC_1_PI;
 
 use super::{
     albedo::Albedo,
-    bsdf::{Bsdf, BsdfSample},
+    bsdf::{Bsdf, BsdfSample, ChosenLobe, Lobes},
     fresnel::dielectric,
     ggx,
     materials::{Local, Materials},
 };
 use crate::{
-    math::{F, Lanes, M, Pick, V},
+    math::{F, Lanes, M, One, Pick, V},
     sampling::Directions,
 };
 
@@ -122,5 +122,12 @@ impl<L: Lanes> Bsdf<L> for Plastic<'_, L> {
         let delta = coat & !self.rough;
         let mirror = (1.0 - transmission) / chance;
         BsdfSample { weight: delta.pick(V { x: mirror, y: mirror, z: mirror }, sample.weight), delta, ..sample }
+    }
+}
+
+impl Lobes for Plastic<'_, One> {
+    fn chosen(&self, wo: V<One>, _: (F<One>, F<One>), lobe: F<One>) -> ChosenLobe {
+        let coat = if self.rough.0 { "rough coat" } else { "smooth coat" };
+        ChosenLobe::of_two([coat, "diffuse base"], self.coat_chance(self.transmission(wo.z)).0, lobe)
     }
 }

@@ -3,13 +3,13 @@
 //! Walter, Marschner, Li and Torrance, "Microfacet Models for Refraction through Rough Surfaces", EGSR 2007, with GGX facets
 //! drawn as the viewer sees them, and with the light of further bounces between facets given back ([`super::missing_energy`]).
 use super::{
-    bsdf::{Bsdf, BsdfSample},
+    bsdf::{Bsdf, BsdfSample, ChosenLobe, Lobes},
     dielectric::Dielectric,
     fresnel, ggx,
     materials::{Local, Materials},
     missing_energy::{LossTable, MissingEnergy},
 };
-use crate::math::{F, Lanes, M, Pick, V};
+use crate::math::{F, Lanes, M, One, Pick, V};
 
 /// Interfaces whose indices differ by less are handled as smooth: what passes bends by less than this even at the roughest
 /// facet, too little for a half vector in f32, and would see the facets only through their masking, which is an artefact there.
@@ -152,5 +152,22 @@ impl<L: Lanes> Bsdf<L> for RoughDielectric<'_, L> {
             pdf,
             delta: faint,
         }
+    }
+}
+
+impl Lobes for RoughDielectric<'_, One> {
+    fn chosen(&self, wo: V<One>, u: (F<One>, F<One>), lobe: F<One>) -> ChosenLobe {
+        if self.faint().0 {
+            return Dielectric { eta: self.eta }.chosen(wo, u, lobe);
+        }
+        let lost = self.missing.as_ref().map_or(0.0, |missing| missing.loss(wo.z, wo.z.below(0.0)).here.0);
+        if lobe.0 < lost {
+            return ChosenLobe { name: "further scattering between microfacets", probability: lost };
+        }
+        let m = ggx::sample_visible_normal(self.alpha, wo, u);
+        let (reflectance, _) = fresnel::dielectric(wo.dot(m).max(F(0.0)), self.eta);
+        let rest = F((lobe.0 - lost) / (1.0 - lost));
+        let chosen = ChosenLobe::of_two(["microfacet reflection", "microfacet refraction"], reflectance.0, rest);
+        ChosenLobe { probability: chosen.probability * (1.0 - lost), ..chosen }
     }
 }

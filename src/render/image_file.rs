@@ -8,14 +8,11 @@ use exr::prelude::{Image, Layer, LayerAttributes, Text, WritableImage, attribute
 
 pub use super::noise_layer::{Provenance, provenance};
 use super::{display::to_srgb, frame::Frame, noise_layer, tone::Display};
-pub use crate::image::Picture;
+pub use crate::image::{Picture, SETTINGS_KEY};
 use crate::{
     file::{self, WriteError},
     image::{Encoding, PictureError},
 };
-
-/// Where the settings stand in a file.
-pub const SETTINGS_KEY: &str = "noisefall";
 
 /// Why a picture could not be written or read.
 #[derive(Debug, thiserror::Error)]

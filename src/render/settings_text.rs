@@ -60,9 +60,14 @@ pub fn options(settings: &RenderSettings, of_scene: &RenderSettings) -> String {
     let cap = settings.max_bounces.map_or_else(|| "none".to_owned(), |cap| cap.to_string());
     option(settings.max_bounces != of_scene.max_bounces, "max-bounces", cap);
     option(settings.reuse != of_scene.reuse, "reuse", settings.reuse.name().to_owned());
-    option(settings.adaptive != of_scene.adaptive, "adaptive", if settings.adaptive { "on" } else { "off" }.to_owned());
+    option(settings.adaptive != of_scene.adaptive, "adaptive", on_or_off(settings.adaptive).to_owned());
     option(settings.seed != of_scene.seed, "seed", settings.seed.to_string());
     options
+}
+
+/// How command line and tables write a switch.
+pub fn on_or_off(on: bool) -> &'static str {
+    if on { "on" } else { "off" }
 }
 
 /// The command that traces one sample of a picture again, for a shell. It knows the camera of the scene only.

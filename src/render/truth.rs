@@ -2,12 +2,15 @@
 use std::{borrow::Cow, path::Path, sync::Arc};
 
 use super::{
+    film::Film,
     frame::Frame,
     image_file::{ImageError, Picture, Provenance, provenance, read},
+    pass::{PassJob, Threads},
 };
 use crate::{
     measure::{Bias, Comparison, Floor, compare},
-    scene::{Scene, Truth},
+    sampling::Sampler,
+    scene::{Camera, RenderSettings, Reuse, Roulette, Scene, Truth},
 };
 
 /// What a scene's picture is held against. It holds for the camera that the scene opens with.
@@ -59,11 +62,54 @@ impl Reference {
         Some(compare(&frame.radiance, &self.radiance_of(frame)?, Floor::DEFAULT))
     }
 
-    /// How far the mean of a frame is from the true one, in standard errors that the variances of samples give; `None` where these are
-    /// not known, and where samples are exact.
-    pub fn bias(&self, frame: &Frame) -> Option<f64> {
+    /// How far the mean of a frame is from the true one; `None` where the frame has another resolution.
+    pub fn bias(&self, frame: &Frame) -> Option<Bias> {
         let truth = self.radiance_of(frame)?;
         let of_truth = if let Reference::Picture(_, provenance) = self { provenance.noise.as_ref() } else { None };
-        Bias::by_samples(&frame.radiance, &truth, [frame.noise.as_ref(), of_truth], frame.width as usize).z
+        Some(Bias::by_samples(&frame.radiance, &truth, [frame.noise.as_ref(), of_truth], frame.width as usize))
     }
+
+    /// What to say where a frame cannot be a sample of the true picture: its mean is off by more than chance explains.
+    pub fn contradiction(&self, frame: &Frame) -> Option<String> {
+        /// Standard errors. Once in two million pictures by chance.
+        const MOST: f64 = 5.0;
+        let bias = self.bias(frame).filter(|bias| !bias.has_heavy_tails && !frame.is_black())?;
+        let off = match bias.z {
+            Some(z) if z.abs() > MOST => format!("by {:.1} standard errors", z.abs()),
+            None if bias.is_exact && bias.mean.abs() > bias.rounding => "although its samples have no noise".to_owned(),
+            _ => return None,
+        };
+        let more = if bias.mean > 0.0 { "more" } else { "less" };
+        Some(format!("the picture has {:.3e} {more} radiance on average than [truth] says, {off}", bias.mean.abs()))
+    }
+}
+
+/// What is wrong with the truth that a scene names, as far as a small picture by independent samples can tell.
+pub fn contradiction(scene: &Scene, threads: &Threads) -> Option<String> {
+    /// Where the truth is the same everywhere, and any resolution will do.
+    const LONGER_SIDE: u32 = 48;
+    const MOST_PIXELS: u64 = 1 << 17;
+    const SPP: u32 = 64;
+    let reference = Reference::of(scene)?;
+    let [width, height] = scene.camera.resolution;
+    let resolution = match &reference {
+        Reference::Picture(picture, _) => [picture.width, picture.height],
+        Reference::Constant(_) => [width, height].map(|side| (side * LONGER_SIDE / width.max(height)).max(1)),
+    };
+    if resolution.map(u64::from).iter().product::<u64>() > MOST_PIXELS {
+        return None;
+    }
+    let camera = Camera { resolution, ..scene.camera };
+    let settings = RenderSettings {
+        sampler: Sampler::Independent,
+        roulette: Roulette::BY_THROUGHPUT,
+        max_bounces: None,
+        reuse: Reuse::Off,
+        adaptive: false,
+        ..scene.settings
+    };
+    let (rays, mut film) = (scene.rays(&camera), Film::new(resolution));
+    let count = threads.pass(PassJob { scene, rays: &rays, settings: &settings }, &mut film, SPP, &|| false);
+    let frame = threads.install(|| Frame::of_film(&film, 0, resolution, resolution));
+    if count.cut_paths == 0 && count.failure.is_none() { reference.contradiction(&frame) } else { None }
 }

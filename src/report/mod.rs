@@ -1,5 +1,9 @@
 //! What reports are made of: one HTML file each, which needs nothing else and prints well; plots as SVG.
+mod font;
+pub mod picture;
 pub mod plot;
+pub mod sheet;
+pub mod table;
 #[cfg(test)]
 mod tests;
 

@@ -1,15 +1,16 @@
-//! Plots as SVG.
+//! Plots as SVG and PNG.
 use std::ops::Range;
 
 use plotters::{
     coord::{
+        Shift,
         ranged1d::{DefaultFormatting, KeyPointHint, Ranged},
         types::RangedCoordf64,
     },
     prelude::*,
 };
 
-use super::Figure;
+use super::{Figure, font, picture::rgb_png};
 
 /// Distinct for colour-blind readers too (M. Okabe and K. Ito, "Color Universal Design", 2008).
 const COLOURS: [RGBColor; 6] = [
@@ -136,6 +137,25 @@ pub fn curve(name: impl Into<String>, style: Style, points: Vec<(f64, f64)>) -> 
     Curve { name: name.into(), style, points }
 }
 
+/// A plot that can be written in several formats.
+pub struct Plot {
+    pub size: (u32, u32),
+    pub x: Axis,
+    pub y: Axis,
+    pub curves: Vec<Curve>,
+}
+
+impl Plot {
+    pub fn svg(&self) -> String {
+        svg(self.size, self.x, self.y, &self.curves)
+    }
+
+    /// With twice as many pixels a side.
+    pub fn png(&self) -> Result<Vec<u8>, String> {
+        png(self.size, self.x, self.y, &self.curves)
+    }
+}
+
 /// [`svg`] in a figure of its own.
 pub fn plot(caption: impl Into<String>, x: Axis, y: Axis, curves: &[Curve]) -> Figure {
     Figure { caption: caption.into(), element: svg(ALONE, x, y, curves) }
@@ -144,19 +164,45 @@ pub fn plot(caption: impl Into<String>, x: Axis, y: Axis, curves: &[Curve]) -> F
 /// Curves over each other, in the colours of their order; points and lines of the same name share one.
 pub fn svg(size: (u32, u32), x: Axis, y: Axis, curves: &[Curve]) -> String {
     let mut svg = String::new();
-    let drawn = draw(&mut svg, size, x, y, curves);
+    let drawn = draw(SVGBackend::with_string(&mut svg, size).into_drawing_area(), 1, x, y, curves);
     drawn.map_or_else(|error| format!("<p>this plot could not be drawn: {error}</p>"), |()| svg)
 }
 
-fn draw(svg: &mut String, size: (u32, u32), x: Axis, y: Axis, curves: &[Curve]) -> Result<(), Box<dyn std::error::Error>> {
+fn png(size: (u32, u32), x: Axis, y: Axis, curves: &[Curve]) -> Result<Vec<u8>, String> {
+    const SCALE: u32 = 2;
+    let size = (size.0 * SCALE, size.1 * SCALE);
+    let mut pixels = vec![255; 3 * size.0 as usize * size.1 as usize];
+    let area = BitMapBackend::with_buffer(&mut pixels, size).into_drawing_area();
+    draw(area, SCALE, x, y, curves).map_err(|error| error.to_string())?;
+    rgb_png([size.0, size.1], &pixels)
+}
+
+/// All lengths are multiplied by `scale`.
+fn draw<B: DrawingBackend>(
+    area: DrawingArea<B, Shift>,
+    scale: u32,
+    x: Axis,
+    y: Axis,
+    curves: &[Curve],
+) -> Result<(), Box<dyn std::error::Error>>
+where
+    B::ErrorType: 'static,
+{
+    font::register();
+    let size = area.dim_in_pixel();
+    let size = (size.0 / scale, size.1 / scale);
+    let small = ("sans-serif", 13 * scale);
     let all = || curves.iter().flat_map(|curve| curve.points.iter().copied());
-    let area = SVGBackend::with_string(svg, size).into_drawing_area();
     let (xs, ys) = (x.range(all().map(|(a, _)| x.place(a))), y.range(all().map(|(_, b)| y.place(b))));
     let within = |(a, b): (f64, f64)| (part(&xs, x.place(a)), part(&ys, y.place(b)));
     let corner = emptiest_corner(curves.iter().flat_map(|curve| between(curve).map(within)), legend_size(curves, size));
     let (xs, ys) = (Scale::new(x, xs), Scale::new(y, ys));
     let labels = [xs.ticks.len(), ys.ticks.len()];
-    let mut chart = ChartBuilder::on(&area).margin(8).x_label_area_size(42).y_label_area_size(64).build_cartesian_2d(xs, ys)?;
+    let mut chart = ChartBuilder::on(&area)
+        .margin(8 * scale)
+        .x_label_area_size(42 * scale)
+        .y_label_area_size(64 * scale)
+        .build_cartesian_2d(xs, ys)?;
     chart
         .configure_mesh()
         .x_desc(x.label)
@@ -167,8 +213,8 @@ fn draw(svg: &mut String, size: (u32, u32), x: Axis, y: Axis, curves: &[Curve]) 
         .bold_line_style(RGBColor(225, 225, 225))
         .x_label_formatter(&|place| x.text(*place))
         .y_label_formatter(&|place| y.text(*place))
-        .label_style(("sans-serif", 13))
-        .axis_desc_style(("sans-serif", 14))
+        .label_style(small)
+        .axis_desc_style(("sans-serif", 14 * scale))
         .draw()?;
     let mut names: Vec<&str> = Vec::new();
     for curve in curves {
@@ -176,22 +222,23 @@ fn draw(svg: &mut String, size: (u32, u32), x: Axis, y: Axis, curves: &[Curve]) 
         let number = known.unwrap_or(names.len());
         let colour = if curve.style == Style::Guide { GREY } else { COLOURS[number % COLOURS.len()] };
         let places = curve.points.iter().map(|&(a, b)| (x.place(a), y.place(b)));
-        let line = colour.stroke_width(2);
+        let line = colour.stroke_width(2 * scale);
         let series = match curve.style {
             Style::Line => chart.draw_series(LineSeries::new(places, line))?,
-            Style::Dashed | Style::Guide => chart.draw_series(DashedLineSeries::new(places, 5, 4, line))?,
-            Style::Points => chart.draw_series(places.map(|place| Circle::new(place, 3, colour.filled())))?,
+            Style::Dashed | Style::Guide => chart.draw_series(DashedLineSeries::new(places, 5 * scale, 4 * scale, line))?,
+            Style::Points => chart.draw_series(places.map(|place| Circle::new(place, 3 * scale, colour.filled())))?,
         };
         if known.is_none() {
             names.push(&curve.name);
-            series.label(&curve.name).legend(move |(x, y)| PathElement::new([(x, y), (x + 16, y)], line));
+            series.label(&curve.name).legend(move |(x, y)| PathElement::new([(x, y), (x + 16 * scale as i32, y)], line));
         }
     }
     chart
         .configure_series_labels()
         .background_style(WHITE.mix(0.85))
         .border_style(RGBColor(200, 200, 200))
-        .label_font(("sans-serif", 13))
+        .label_font(small)
+        .legend_area_size(30 * scale)
         .position(corner)
         .draw()?;
     area.present()?;

@@ -15,9 +15,11 @@ impl Scene {
             return "nothing in this scene emits light".to_owned();
         }
         if let Some(object) = self.around(camera) {
-            let number = self.objects.iter().position(|other| std::ptr::eq(other, object)).map_or(0, |at| at + 1);
-            let name = if object.name.is_empty() { format!("object {number}") } else { format!("`{}`", object.name) };
-            return format!("the camera is inside {name}");
+            let emits = object.emits_outwards_only();
+            return format!(
+                "the camera is inside {}",
+                if emits { self.emitter_from_inside(object) } else { self.name_of(object) }
+            );
         }
         match settings.max_bounces {
             Some(0) => "the cap of 0 bounces leaves only what emits, and the camera sees none of it".to_owned(),

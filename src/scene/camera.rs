@@ -1,12 +1,12 @@
 //! The camera: where it stands, what it looks at, and what its lens and its pixels do.
 use glam::DVec3;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::Shutter;
 use crate::sampling::Filter;
 
 /// Where the picture is taken from. Right-handed world, y usually up.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Camera {
     pub eye: DVec3,
     pub look_at: DVec3,
@@ -25,7 +25,7 @@ pub struct Camera {
 }
 
 /// A thin lens: an open disk around the eye that brings the plane at distance `focus` into focus.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Lens {
     /// Metres.
     pub radius: f64,

@@ -6,7 +6,11 @@ use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, So
 use super::excerpt::Excerpt;
 use crate::quote;
 
-/// Why a scene file cannot be used. Displays as one line; [`SceneError::report`] adds the place with a caret.
+/// More errors of one file are counted, not shown.
+const MOST_SHOWN: usize = 20;
+
+/// Why a scene file cannot be used: its first error, and those behind it. Displays as one line; [`SceneError::report`] adds the places with
+/// a caret each.
 #[derive(Debug, Clone)]
 pub struct SceneError(Box<Details>);
 
@@ -16,6 +20,8 @@ struct Details {
     label: String,
     help: Option<String>,
     place: Option<Place>,
+    /// The further errors of the file.
+    others: Vec<SceneError>,
 }
 
 #[derive(Debug, Clone)]
@@ -33,6 +39,9 @@ pub struct SourceText {
 }
 
 impl SceneError {
+    /// More errors of a file are not looked for: each costs a look at the whole text.
+    pub const MOST: usize = 40;
+
     /// An error about a file as a whole.
     pub fn of_file(path: &Path, message: impl Into<String>, help: impl Into<String>) -> SceneError {
         SceneError(Box::new(Details {
@@ -40,7 +49,23 @@ impl SceneError {
             label: String::new(),
             help: Some(quote::message(&help.into())),
             place: None,
+            others: Vec::new(),
         }))
+    }
+
+    /// All errors of a file as one, in the order of their places, each said once; `None` where there is none.
+    pub fn of_all(mut errors: Vec<SceneError>) -> Option<SceneError> {
+        errors.sort_by_key(SceneError::line_column);
+        errors.dedup_by(|a, b| a.line_column() == b.line_column() && a.0.message == b.0.message);
+        let mut errors = errors.into_iter();
+        let mut first = errors.next()?;
+        first.0.others.extend(errors);
+        Some(first)
+    }
+
+    /// How many errors there are.
+    pub fn count(&self) -> usize {
+        1 + self.0.others.len()
     }
 
     /// The same error with advice on what to do.
@@ -49,17 +74,27 @@ impl SceneError {
         self
     }
 
-    /// Line and column, both from 1, of the place in the file, when the error has one.
+    /// Line and column, both from 1, of the place of the first error in the file, when it has one.
     pub fn line_column(&self) -> Option<(usize, usize)> {
         self.0.place.as_ref().map(|place| place.line_column)
     }
 
-    /// The whole message, several lines of plain text: what, file:line:column, the line with a caret, what to do.
+    /// The whole message, several lines of plain text for each error: what, file:line:column, the line with a caret, what to do.
     pub fn report(&self) -> String {
+        let errors = std::iter::once(self).chain(&self.0.others);
+        let mut reports: Vec<String> = errors.take(MOST_SHOWN).map(SceneError::report_of_first).collect();
+        if self.count() > MOST_SHOWN {
+            reports.push(format!("and {} more errors", self.count() - MOST_SHOWN));
+        }
+        reports.join("\n\n")
+    }
+
+    fn report_of_first(&self) -> String {
         let mut text = String::new();
         let handler = GraphicalReportHandler::new_themed(GraphicalTheme::unicode_nocolor()).with_width(88);
-        if handler.render_report(&mut text, self).is_err() {
-            text = self.to_string();
+        let alone = SceneError(Box::new(Details { others: Vec::new(), ..(*self.0).clone() }));
+        if handler.render_report(&mut text, &alone).is_err() {
+            text = alone.to_string();
         }
         text.trim_end().to_owned()
     }
@@ -67,7 +102,11 @@ impl SceneError {
 
 impl fmt::Display for SceneError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.0.message)
+        match self.count() {
+            1 => f.write_str(&self.0.message),
+            2 => write!(f, "{} (and another error)", self.0.message),
+            count => write!(f, "{} (and {} more errors)", self.0.message, count - 1),
+        }
     }
 }
 
@@ -100,6 +139,7 @@ impl SourceText {
             label: quote::message(&label.into()),
             help: None,
             place: Some(Place { line_column: (line, column), excerpt }),
+            others: Vec::new(),
         }))
     }
 }

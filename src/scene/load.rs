@@ -1,14 +1,15 @@
 //! Reading a scene file.
 use std::{io::Read, path::Path};
 
-use serde::Deserialize;
 use toml::de::DeTable;
 
 use super::{
     Scene,
+    carried::load_carried,
     compile::{FORMAT, compile},
-    desc::SceneDesc,
+    describe::{Described, describe},
     diagnostic::{SceneError, SourceText},
+    syntax::{Slips, slips},
     wording::in_plain_words,
 };
 use crate::{
@@ -19,6 +20,9 @@ use crate::{
 
 /// Larger files are refused before they are read.
 const LARGEST_FILE: u64 = 64 << 20;
+
+/// Of longer texts that are not TOML only the first error is told.
+const LONGEST_SCANNED: usize = 1 << 18;
 
 /// Bytes that reading takes of memory for each of the text: while its TOML is parsed, what that says, and the text itself.
 const PARSING: u64 = 115;
@@ -33,12 +37,19 @@ pub fn built_in() -> Scene {
     parse("cornell_spheres.toml", BUILT_IN.to_owned()).expect("the built-in scene is valid: a test compiles it")
 }
 
-/// Reads and compiles a scene file.
+/// Reads and compiles a scene file, or the scene that a picture carries.
 pub fn load(path: &Path) -> Result<Scene, SceneError> {
+    if let Some(carried) = load_carried(path) {
+        return carried;
+    }
     let bytes = read(path)?;
     if let Some(kind) = not_text(&bytes) {
         let message = format!("this is not a text file{kind}");
-        return Err(SceneError::of_file(path, message, "a scene is one TOML file, saved as UTF-8 text"));
+        return Err(SceneError::of_file(
+            path,
+            message,
+            "a scene is one TOML file, saved as UTF-8 text, or a PNG or EXR that Noisefall has written with its scene",
+        ));
     }
     let name = path.display().to_string();
     let text = String::from_utf8(bytes).map_err(|error| {
@@ -57,15 +68,39 @@ pub fn parse(name: &str, text: String) -> Result<Scene, SceneError> {
     let parsing = reserve(format_args!("{} of text", Size(source.text.len() as u64)), bytes).map_err(|error| {
         SceneError::of_file(Path::new(name), error.to_string(), "keep large meshes in files of their own, as OBJ or PLY")
     })?;
-    let plain = |error: toml::de::Error| in_plain_words(&source, &error);
-    let table = DeTable::parse(&source.text).map_err(plain)?;
+    let table = DeTable::parse(&source.text).map_err(|first| not_toml(&source, &first))?;
     check_format(&source, table.get_ref())?;
-    let desc = SceneDesc::deserialize(toml::de::Deserializer::from(table)).map_err(plain)?;
+    let Described { desc, damage, mut errors } = describe(table, &source);
     // What is described takes less than what was parsed, which is given back by now.
     drop(parsing);
     let _described = reserve("the values of the file", DESCRIBED * source.text.len() as u64)
         .map_err(|error| SceneError::of_file(Path::new(name), error.to_string(), "give more memory"))?;
-    compile(&desc, &source)
+    match desc.map(|desc| compile(&desc, &source, &damage)) {
+        Some(Ok(scene)) if errors.is_empty() => return Ok(scene),
+        Some(Err(more)) => errors.extend(more),
+        _ => {}
+    }
+    let nothing = || SceneError::of_file(Path::new(name), "this is no scene", "a scene is one TOML file");
+    Err(SceneError::of_all(errors).unwrap_or_else(nothing))
+}
+
+/// All errors of a text that is not TOML: what can be told from the text itself, and what the reader says of other lines; `first` is what it
+/// says first.
+fn not_toml(source: &SourceText, first: &toml::de::Error) -> SceneError {
+    if source.text.len() > LONGEST_SCANNED {
+        return in_plain_words(source, first);
+    }
+    let Slips { errors: mut all, unbalanced } = slips(source);
+    if !unbalanced {
+        for error in DeTable::parse_recoverable(&source.text).1.into_iter().take(SceneError::MOST) {
+            let error = in_plain_words(source, &error);
+            let line = |error: &SceneError| error.line_column().map(|place| place.0);
+            if all.iter().all(|known| line(known) != line(&error)) {
+                all.push(error);
+            }
+        }
+    }
+    SceneError::of_all(all).unwrap_or_else(|| in_plain_words(source, first))
 }
 
 /// A file of another version is told so, whatever else it says.

@@ -1,22 +1,28 @@
 //! The scene: what a file says, checked and compiled to what the renderer runs on.
 mod black;
 mod camera;
+mod carried;
 mod check;
 mod colour;
 mod compile;
 mod desc;
+mod describe;
 mod diagnostic;
+mod errors;
 mod excerpt;
 mod filter;
 mod legend;
 mod load;
+mod meant;
 mod named;
 mod rays;
 mod roulette;
 mod settings;
 mod shutter;
 pub mod surface;
+mod syntax;
 mod textures;
+mod warnings;
 mod wording;
 
 use std::{
@@ -83,6 +89,8 @@ pub struct Scene {
     pub truth: Option<Truth>,
     /// How many media lie around the middle of some dielectric.
     pub deepest_media: usize,
+    /// See [`Scene::warnings`].
+    pub warned: OnceLock<Vec<String>>,
     /// Given back with the scene.
     pub memory: Reservation,
 }
@@ -154,28 +162,6 @@ impl Scene {
             self.surfaces.varying[primitive][3].to_bits()
         };
         around.iter().fold(0, |stack, (id, _)| stack << 8 | medium(*id))
-    }
-
-    /// Things that are legal but probably not meant, for the window and the command line.
-    pub fn warnings(&self) -> Vec<String> {
-        let mut warnings = Vec::new();
-        if self.lights.is_empty() {
-            warnings.push("nothing in this scene emits light: the picture will be black".to_owned());
-        }
-        if self.moves() && self.camera.shutter.is_none() {
-            warnings.push("something moves, but without `shutter` in [camera] it is seen standing still".to_owned());
-        }
-        if self.shapes.dropped_triangles() > 0 {
-            warnings.push(format!("{} triangles without area were left out", self.shapes.dropped_triangles()));
-        }
-        if self.objects.is_empty() {
-            warnings.push("this scene has no objects".to_owned());
-        }
-        let depth = self.deepest_media;
-        if depth > MOST_NESTED {
-            warnings.push(format!("{depth} media lie within each other: only the tint of the inner {MOST_NESTED} is kept"));
-        }
-        warnings
     }
 
     /// How many media lie around the middle of some dielectric, its own included; 0 where none is tinted.

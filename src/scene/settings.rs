@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use crate::sampling::{Directions, Sampler};
 
 /// The settings of a render. Together with scene, camera, pixel and sample index they determine every sample.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct RenderSettings {
     pub estimator: Estimator,
     pub sampler: Sampler,
@@ -63,7 +63,7 @@ impl Estimator {
 }
 
 /// Russian roulette: ending paths at random and weighting the survivors, so that the mean stays right.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Roulette {
     Off,

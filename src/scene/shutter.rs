@@ -1,8 +1,8 @@
 //! When a picture is taken, in the time of motion.
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// When the shutter is open. Motion runs over the times 0 to 1; before and after them things stay as they are at its ends.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Shutter {
     pub open: f64,
     pub close: f64,

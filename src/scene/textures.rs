@@ -7,6 +7,7 @@ use super::{
     check::{Checker, ColourRange},
     desc::{CheckerDesc, Colour, NoiseDesc, TextureDesc},
     diagnostic::SceneError,
+    errors::Errors,
 };
 use crate::{
     image::{Encoding, read_light},
@@ -32,12 +33,20 @@ pub struct NamedTextures {
 }
 
 impl NamedTextures {
-    pub fn compile(check: &Checker, descs: &BTreeMap<String, Spanned<TextureDesc>>) -> Result<NamedTextures, SceneError> {
+    /// What is wrong goes to `errors`, and a grey takes its place: what refers to it is looked at all the same.
+    pub fn compile(check: &Checker, descs: &BTreeMap<String, Spanned<TextureDesc>>, errors: &mut Errors) -> NamedTextures {
         let mut builder = Builder { check, descs, textures: Textures::default(), ids: BTreeMap::new(), open: Vec::new() };
+        errors.left_out("textures").for_each(|name| builder.stand_in(name));
         for (name, desc) in descs {
-            builder.texture(name, desc)?;
+            if errors.are_many() {
+                break;
+            }
+            let built = builder.texture(name, desc);
+            if errors.keep(desc, built).is_none() {
+                builder.stand_in(name);
+            }
         }
-        Ok(NamedTextures { textures: builder.textures, ids: builder.ids })
+        NamedTextures { textures: builder.textures, ids: builder.ids }
     }
 
     /// The id of a texture by its name.
@@ -96,6 +105,13 @@ struct Builder<'a> {
 }
 
 impl<'a> Builder<'a> {
+    /// Grey in place of a texture whose error is known.
+    fn stand_in(&mut self, name: &str) {
+        self.open.clear();
+        let grey = self.textures.push(Texture::Constant([0.5; 3]));
+        self.ids.insert(name.to_owned(), grey);
+    }
+
     fn texture(&mut self, name: &'a str, desc: &'a Spanned<TextureDesc>) -> Result<u32, SceneError> {
         if let Some(id) = self.ids.get(name) {
             return Ok(*id);
@@ -142,6 +158,9 @@ impl<'a> Builder<'a> {
         }
         if self.open.len() >= DEEPEST {
             return refused(format!("textures are nested deeper than {DEEPEST}"), "too deep");
+        }
+        if let Some(id) = self.ids.get(name.as_ref()) {
+            return Ok(*id);
         }
         let (name, desc) =
             self.descs.get_key_value(name.as_ref()).ok_or_else(|| self.check.not_defined("texture", name, self.descs.keys()))?;

@@ -1,16 +1,28 @@
 //! What the TOML reader says, in the words of this program: serde speaks of maps, sequences, structs and variants.
 use std::ops::Range;
 
-use super::diagnostic::{SceneError, SourceText};
+use super::{
+    diagnostic::{SceneError, SourceText},
+    meant::{remark, synonym, table_around},
+};
 
 /// Longer texts of a file are not repeated in a message.
 const LONGEST_FOUND: usize = 40;
 /// What the reader says of wrong TOML, by its beginning, and how we say it.
-const SYNTAX: [(&str, &str); 4] = [
+const SYNTAX: [(&str, &str); 13] = [
     ("string values must be quoted", "text must stand in quotes"),
     ("extra `=`", "there is one `=` too many"),
     ("floating-point number overflowed", "the number is too large"),
     ("invalid basic string", "the text in quotes does not end"),
+    ("invalid literal string", "the text in quotes does not end"),
+    ("unexpected key or value, expected newline", "a value ends with its line: there is something behind it"),
+    ("missing comma between key-value pairs", "a `,` is missing between two keys"),
+    ("missing comma between array elements", "a `,` is missing between two values"),
+    ("extra comma", "there is one `,` too many"),
+    ("key with no value", "this key has no value: write key = value"),
+    ("missing assignment", "a `=` is missing between a key and its value"),
+    ("invalid float", "this is not a number"),
+    ("invalid integer", "this is not a number"),
 ];
 
 /// The error of a text that is not a scene, at its place.
@@ -23,7 +35,7 @@ pub fn in_plain_words(source: &SourceText, error: &toml::de::Error) -> SceneErro
         .or_else(|| wrong_form(source, &span, &message))
         .unwrap_or_else(|| {
             let words = SYNTAX.iter().find(|(theirs, _)| message.starts_with(theirs)).map(|(_, ours)| (*ours).to_owned());
-            source.error(span, words.unwrap_or(message), "the file cannot be understood from here on")
+            source.error(span, words.unwrap_or(message), "this cannot be understood")
         })
 }
 
@@ -65,12 +77,17 @@ fn unknown(source: &SourceText, span: &Range<usize>, message: &str) -> Option<Sc
 }
 
 fn unknown_word(source: &SourceText, span: &Range<usize>, what: &str, word: &str, known: &[&str]) -> SceneError {
-    let label = match nearest(word, known.iter().copied()) {
+    let meant = synonym(word, known).or_else(|| nearest(word, known.iter().copied()));
+    let label = match meant {
         Some(meant) => format!("did you mean `{meant}`?"),
         None => format!("there is no such {what} here"),
     };
     let list = known.iter().map(|word| format!("`{word}`")).collect::<Vec<_>>().join(", ");
     let help = if known.len() > 1 { format!("expected one of {list}") } else { format!("expected {list}") };
+    let help = match meant.and_then(|meant| remark(word, meant)) {
+        Some(remark) => format!("{remark}; {help}"),
+        None => help,
+    };
     source.error(span.clone(), format!("unknown {what} `{word}`"), label).with_help(help)
 }
 
@@ -91,11 +108,31 @@ fn wrong_kind(source: &SourceText, span: &Range<usize>, message: &str) -> Option
     };
     let key = key_before(source, span.start);
     let place = key.map_or_else(String::new, |key| format!("`{key}`: "));
-    let error = source.error(span.clone(), format!("{place}expected {expected}, found {found}"), format!("expected {expected}"));
-    Some(match advice(key, &found, text_at(source, span)) {
+    let message = format!("{place}expected {expected}, found {found}");
+    let text = text_at(source, span);
+    let meant = match key {
+        _ if text.chars().count() > LONGEST_FOUND => None,
+        // Where colours may be textures.
+        Some(key) if key != "radiance" && expected.starts_with("a colour") && text.starts_with(['"', '\'']) => {
+            Some(format!("{{ texture = {text} }}"))
+        }
+        Some(key) => table_around(key, text),
+        None => None,
+    };
+    let label = meant.map_or_else(|| format!("expected {expected}"), |meant| format!("write {meant}"));
+    let error = source.error(span.clone(), message, label);
+    Some(match advice(key, &found, text) {
         Some(help) => error.with_help(help),
         None => error,
     })
+}
+
+/// The error of a list where the table of this key belongs.
+pub fn expected_table(source: &SourceText, key: &str, span: &Range<usize>) -> SceneError {
+    let text = text_at(source, span);
+    let meant = table_around(key, text).filter(|_| text.chars().count() <= LONGEST_FOUND);
+    let label = meant.map_or_else(|| "expected a table { … }".to_owned(), |meant| format!("write {meant}"));
+    source.error(span.clone(), format!("`{key}`: expected a table {{ … }}, found a list"), label)
 }
 
 /// What is said of the likeliest mistakes.

@@ -9,6 +9,7 @@ use super::{
     ranking::rank,
     reference::{self, Converged, Reference},
     row::{Header, rows},
+    subject::titles,
     trial::{Group, groups, trial},
 };
 use crate::{render::pass::Threads, scene::RenderSettings};
@@ -55,7 +56,8 @@ impl Study<'_> {
         store: &mut Store,
         observe: &mut dyn FnMut(Progress),
     ) -> Result<Vec<Findings>, StudyError> {
-        let prepared = subjects.iter().map(|subject| self.prepare(subject)).collect::<Result<Vec<_>, _>>()?;
+        let titled = subjects.iter().zip(titles(subjects));
+        let prepared = titled.map(|(subject, title)| self.prepare(subject, title)).collect::<Result<Vec<_>, _>>()?;
         let keys = prepared.iter().flat_map(|scene| self.runs(scene).map(|(group, repeat)| self.key(scene, group, repeat).1));
         let keys: Vec<String> = keys.collect();
         let found = keys.iter().filter(|key| store.run(key).is_some()).count();
@@ -63,7 +65,7 @@ impl Study<'_> {
         prepared.into_iter().map(|scene| self.scene(scene, store, observe)).collect()
     }
 
-    fn prepare<'a>(&'a self, subject: &'a Subject) -> Result<Prepared<'a>, StudyError> {
+    fn prepare<'a>(&'a self, subject: &'a Subject, title: String) -> Result<Prepared<'a>, StudyError> {
         let bench = Bench { scene: &subject.scene, camera: &subject.camera, threads: self.threads, stop: self.stop };
         // What is wrong with it is told before anything is rendered.
         reference::known(subject, self.plan.floor)?;
@@ -72,7 +74,7 @@ impl Study<'_> {
         let [width, height] = subject.camera.resolution.map(u32::to_le_bytes);
         let fingerprint = hash(&[subject.scene.source.as_bytes(), &width, &height, &picture.to_le_bytes()]);
         let groups = groups(bench, &self.plan.lists.combinations(subject.scene.settings))?;
-        Ok(Prepared { subject, bench, title: subject.title(), fingerprint, groups })
+        Ok(Prepared { subject, bench, title, fingerprint, groups })
     }
 
     /// Repeat by repeat, so that what slows the machine for a while slows all combinations, and shows as spread.
@@ -92,7 +94,8 @@ impl Study<'_> {
 
     fn scene(&self, scene: Prepared, store: &mut Store, observe: &mut dyn FnMut(Progress)) -> Result<Findings, StudyError> {
         let reference = self.reference(&scene, observe)?;
-        let limits = Limits { floor: reference.rel_mse, black: reference.rel_mse_of_black() };
+        let Reference { rel_mse: floor, variance_of_mean, .. } = reference;
+        let limits = Limits { floor, black: reference.rel_mse_of_black(), variance_of_mean, mean: reference.mean() };
         let mut runs: Vec<Vec<Run>> = vec![Vec::new(); scene.groups.len()];
         for (number, (group, repeat)) in self.runs(&scene).enumerate() {
             let of_group = &mut runs[number % scene.groups.len()];

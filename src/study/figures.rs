@@ -4,7 +4,7 @@ use super::{
     ranking::Findings,
     setting::{Setting, label},
 };
-use crate::report::plot::{Axis, BESIDE, Curve, Style, curve, svg};
+use crate::report::plot::{Axis, BESIDE, Curve, Plot, Style, curve};
 
 /// How many of the first places the overview shows.
 const FIRST_PLACES: usize = 3;
@@ -13,7 +13,7 @@ const FIRST_PLACES: usize = 3;
 pub struct Pair {
     pub title: String,
     pub caption: String,
-    pub elements: [String; 2],
+    pub plots: [Plot; 2],
 }
 
 /// The first places, what the scene opens with, and the last place that is ranked.
@@ -54,7 +54,8 @@ pub fn by_setting(findings: &Findings, setting: Setting) -> Option<Pair> {
     if shown.len() > 1 { pair(capitalised(setting.name()), caption, &shown) } else { None }
 }
 
-fn capitalised(name: &str) -> String {
+/// With a capital at its beginning.
+pub fn capitalised(name: &str) -> String {
     let mut letters = name.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
@@ -74,11 +75,11 @@ fn pair(title: String, mut caption: String, shown: &[(String, &Outcome)]) -> Opt
         }
         curves.retain(|curve| !curve.points.is_empty());
         curves.extend(guide(&curves));
-        (!curves.is_empty()).then(|| svg(BESIDE, x, Axis::log("error (root of relMSE)"), &curves))
+        (!curves.is_empty()).then(|| Plot { size: BESIDE, x, y: Axis::log("error (root of relMSE)"), curves })
     };
     let by_time = draw(Axis::log("rendering time, s"), |point| point.seconds)?;
     let by_samples = draw(Axis::log("samples a pixel"), |point| f64::from(point.spp))?;
-    Some(Pair { title, caption, elements: [by_time, by_samples] })
+    Some(Pair { title, caption, plots: [by_time, by_samples] })
 }
 
 /// How independent samples fall: from the start of the first curve, as long as the first curve.

@@ -23,6 +23,8 @@ pub struct Checkpoint {
     pub rmse: f64,
     pub rel_mse: f64,
     pub bias: f64,
+    /// Of `bias`, as the variance of the samples gives it; `None` before the second sample.
+    pub bias_standard_error: Option<f64>,
 }
 
 /// One render of one combination.
@@ -33,6 +35,9 @@ pub struct Run {
     pub invalid_samples: u64,
     /// Why the picture does not converge to the solution; empty when it does.
     pub bias: String,
+    /// Pixels shared paths, and samples went where noise was: what became of the settings.
+    pub shares: bool,
+    pub adapts: bool,
 }
 
 /// What renders: a scene before a camera, threads, and somebody who may stop it.
@@ -80,17 +85,21 @@ pub fn measure(bench: Bench, settings: &RenderSettings, plan: &Plan, reference: 
     }
     let (run, cut_paths) = follow(plan, |spp| {
         let (took, count) = counts.take().map_or_else(|| bench.pass(settings, &mut film, spp), Ok)?;
-        Ok((took, count.cut_paths, compare(&bench.frame(&film).radiance, reference, plan.floor)))
+        let frame = bench.frame(&film);
+        let standard_error = frame.noise.as_ref().map(|noise| noise.variance_of_mean().sqrt());
+        Ok((took, count.cut_paths, compare(&frame.radiance, reference, plan.floor), standard_error))
     })?;
     let bias = settings.bias().or((cut_paths > 0).then(|| format!("{cut_paths} paths cut"))).unwrap_or_default();
-    Ok(Run { invalid_samples: film.invalid_samples(), bias, ..run })
+    let rays = bench.scene.rays(bench.camera);
+    let shares = bench.scene.shares(&rays, &resolved(bench.scene, &rays, settings));
+    Ok(Run { invalid_samples: film.invalid_samples(), bias, shares, adapts: film.is_adaptive(), ..run })
 }
 
 /// The checkpoints of a run as far as the plan says, and the paths that were cut. `to` brings the picture to a number of samples, and says
-/// how long that took, how many paths were cut, and the error.
+/// how long that took, how many paths were cut, the error, and the standard error of its mean.
 pub(super) fn follow(
     plan: &Plan,
-    mut to: impl FnMut(u32) -> Result<(Duration, u64, Comparison), StudyError>,
+    mut to: impl FnMut(u32) -> Result<(Duration, u64, Comparison, Option<f64>), StudyError>,
 ) -> Result<(Run, u64), StudyError> {
     let (mut run, mut elapsed, mut cut_paths) = (Run::default(), Duration::ZERO, 0);
     for spp in checkpoints(plan.spp) {
@@ -99,11 +108,12 @@ pub(super) fn follow(
         if elapsed.as_secs_f64() * f64::from(spp) / f64::from(before) > plan.time.as_secs_f64() {
             break;
         }
-        let (took, cut, error) = to(spp)?;
+        let (took, cut, error, bias_standard_error) = to(spp)?;
         elapsed += took;
         cut_paths += cut;
         let seconds = elapsed.as_secs_f64();
-        run.checkpoints.push(Checkpoint { spp, seconds, rmse: error.rmse, rel_mse: error.rel_mse, bias: error.bias });
+        let Comparison { rmse, rel_mse, bias } = error;
+        run.checkpoints.push(Checkpoint { spp, seconds, rmse, rel_mse, bias, bias_standard_error });
     }
     Ok((run, cut_paths))
 }

@@ -9,6 +9,7 @@
 //! What has been measured is kept line by line in the store and never measured again: see [`Study::run`].
 mod advice;
 mod driver;
+mod evidence;
 mod figures;
 mod fit;
 mod key;
@@ -33,14 +34,15 @@ use std::path::PathBuf;
 pub use self::{
     advice::{Advice, Candidate, advise},
     driver::{Progress, Study},
+    evidence::{Chapter, EvidencePlan, collect},
     fit::{Slope, slope},
     machine::Machine,
-    measure::{Checkpoint, Run},
+    measure::{Bench, Checkpoint, Run},
     outcome::{Outcome, Standing},
-    plan::{Lists, Plan, checkpoints},
+    plan::{Lists, Plan, checkpoints, study_size},
     ranking::Findings,
     report::html,
-    setting::label,
+    setting::{differing_labels, label},
     store::{CSV, Store},
     subject::Subject,
     wording::{table, verdict},

@@ -31,6 +31,15 @@ pub struct Point {
     pub rel_mse: f64,
 }
 
+/// The mean of the picture less that of the reference, over all pixels and channels, at the last checkpoint of every run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MeanError {
+    pub mean: f64,
+    /// By the variances of samples, and of the reference's where it is known; NaN before the second sample. At most so large where samples
+    /// are better than independent ones.
+    pub standard_error: f64,
+}
+
 /// A combination with its measurements.
 #[derive(Clone, Debug)]
 pub struct Outcome {
@@ -40,6 +49,13 @@ pub struct Outcome {
     pub standing: Standing,
     /// Why it is biased; empty where it is not.
     pub bias: String,
+    /// How far the mean of the picture is from that of the reference.
+    pub mean_error: MeanError,
+    /// Of each run: samples a pixel, and the variance of the picture's mean that the samples give.
+    pub variances: Vec<Vec<(f64, f64)>>,
+    /// What became of the settings: whether pixels shared paths, and samples went where noise was.
+    pub shares: bool,
+    pub adapts: bool,
     /// Means over the runs without the reference's own error, as far as they are clear of it; never empty.
     pub curve: Vec<Point>,
     /// 1/(relMSE · seconds) of each run where the curve ends.
@@ -54,6 +70,10 @@ pub struct Outcome {
 pub struct Limits {
     pub floor: f64,
     pub black: f64,
+    /// The variance of the reference's mean; 0 where it is exact or not known.
+    pub variance_of_mean: f64,
+    /// The reference's mean radiance over pixels and channels.
+    pub mean: f64,
 }
 
 impl Outcome {
@@ -77,6 +97,10 @@ impl Outcome {
             twins,
             standing,
             bias,
+            mean_error: mean_error(runs, limits.variance_of_mean),
+            variances: runs.iter().map(variances).collect(),
+            shares: runs[0].shares,
+            adapts: runs[0].adapts,
             efficiencies: runs_of_points.iter().filter_map(efficiency).collect(),
             slope: slope(&runs_of_points.iter().map(|run| fitted(run)).collect::<Vec<_>>()),
             curve,
@@ -117,6 +141,21 @@ fn comparable(runs: &[Run], floor: f64) -> usize {
     let shared = if runs.iter().all(is_exact) { 1 } else { runs.iter().map(|run| run.checkpoints.len()).min().unwrap_or(1) };
     let is_clear = |i: usize| runs.iter().all(|run| run.checkpoints[i].rel_mse >= 2.0 * floor);
     (0..shared).rev().find(|i| is_clear(*i)).map_or(1, |last| last + 1)
+}
+
+fn variances(run: &Run) -> Vec<(f64, f64)> {
+    let known = run.checkpoints.iter().filter(|point| point.spp >= LEAST_SPP_OF_FIT);
+    let of = |point: &Checkpoint| Some((f64::from(point.spp), point.bias_standard_error?.powi(2)));
+    known.filter_map(of).filter(|(_, variance)| *variance > 0.0).collect()
+}
+
+/// Of the mean over runs, which are independent.
+fn mean_error(runs: &[Run], variance_of_reference: f64) -> MeanError {
+    let last: Vec<&Checkpoint> = runs.iter().filter_map(|run| run.checkpoints.last()).collect();
+    let count = last.len() as f64;
+    let variances = last.iter().map(|point| point.bias_standard_error.map_or(f64::NAN, |error| error * error));
+    let variance = variances.sum::<f64>() / (count * count) + variance_of_reference;
+    MeanError { mean: last.iter().map(|point| point.bias).sum::<f64>() / count, standard_error: variance.sqrt() }
 }
 
 /// Without the error of the reference, which is independent; no less than that, below which nothing is known.

@@ -4,14 +4,14 @@ use std::time::Duration;
 use crate::{
     measure::Floor,
     sampling::{Directions, Sampler},
-    scene::{Estimator, RenderSettings, Roulette},
+    scene::{Estimator, RenderSettings, Reuse, Roulette},
 };
 
 /// The longer side of a picture, in pixels, where nobody says how large it should be.
 const LONGER_SIDE: u32 = 256;
 
-/// The values of each setting, all of which are combined.
-#[derive(Clone, Debug)]
+/// The values of each setting, all of which are combined. Of an empty list what the scene opens with is taken.
+#[derive(Clone, Debug, Default)]
 pub struct Lists {
     pub estimators: Vec<Estimator>,
     pub directions: Vec<Directions>,
@@ -19,6 +19,8 @@ pub struct Lists {
     pub roulettes: Vec<Roulette>,
     /// `None` is no cap.
     pub caps: Vec<Option<u32>>,
+    pub reuses: Vec<Reuse>,
+    pub adaptive: Vec<bool>,
 }
 
 /// How far each combination is taken.
@@ -36,25 +38,35 @@ pub struct Plan {
 }
 
 impl Lists {
-    /// All combinations, each once; what is not in the lists is as in `base`.
+    /// All combinations, each once.
     pub fn combinations(&self, base: RenderSettings) -> Vec<RenderSettings> {
-        let mut all = Vec::new();
-        for &estimator in &self.estimators {
-            for &directions in &self.directions {
-                for &sampler in &self.samplers {
-                    for &roulette in &self.roulettes {
-                        for &max_bounces in &self.caps {
-                            let settings = RenderSettings { estimator, directions, sampler, roulette, max_bounces, ..base };
-                            if !all.contains(&settings) {
-                                all.push(settings);
-                            }
-                        }
-                    }
-                }
-            }
-        }
+        let mut all = vec![base];
+        combine(&mut all, &self.estimators, |estimator, of| RenderSettings { estimator, ..of });
+        combine(&mut all, &self.directions, |directions, of| RenderSettings { directions, ..of });
+        combine(&mut all, &self.samplers, |sampler, of| RenderSettings { sampler, ..of });
+        combine(&mut all, &self.roulettes, |roulette, of| RenderSettings { roulette, ..of });
+        combine(&mut all, &self.caps, |max_bounces, of| RenderSettings { max_bounces, ..of });
+        combine(&mut all, &self.reuses, |reuse, of| RenderSettings { reuse, ..of });
+        combine(&mut all, &self.adaptive, |adaptive, of| RenderSettings { adaptive, ..of });
         all
     }
+}
+
+/// Each of the settings with each of the values, each once.
+fn combine<V: Copy>(all: &mut Vec<RenderSettings>, values: &[V], with: impl Fn(V, RenderSettings) -> RenderSettings) {
+    if values.is_empty() {
+        return;
+    }
+    let mut combined = Vec::new();
+    for settings in std::mem::take(all) {
+        for value in values {
+            let settings = with(*value, settings);
+            if !combined.contains(&settings) {
+                combined.push(settings);
+            }
+        }
+    }
+    *all = combined;
 }
 
 /// Where the error is measured: powers of two, and the last number.

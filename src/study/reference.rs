@@ -7,7 +7,7 @@ use super::{
     measure::Bench,
 };
 use crate::{
-    measure::{Floor, compare, relative},
+    measure::{Floor, SampleNoise, compare, relative},
     render::{
         Display, Frame,
         image_file::{self, Provenance},
@@ -31,6 +31,8 @@ pub struct Reference {
     pub radiance: Vec<[f32; 3]>,
     /// Its own relMSE, estimated; 0 where it is exact or taken for that.
     pub rel_mse: f64,
+    /// The variance of its mean over pixels and channels, by that of its samples; likewise 0.
+    pub variance_of_mean: f64,
     /// It is taken for exact because nothing is known of its own error.
     pub is_taken_for_exact: bool,
     /// Of relMSE.
@@ -46,6 +48,12 @@ impl Reference {
         let why = subject.scene.why_black(&subject.camera, &settings(subject));
         let reason = format!("{} is entirely black ({why}): there is no error to measure", self.name);
         Err(StudyError::Unmeasurable { path: subject.path.clone(), reason })
+    }
+
+    /// Over pixels and channels.
+    pub fn mean(&self) -> f64 {
+        let all = self.radiance.as_flattened();
+        all.iter().map(|c| f64::from(*c)).sum::<f64>() / all.len().max(1) as f64
     }
 
     /// What a picture without any light is off by.
@@ -72,9 +80,17 @@ pub fn settings(subject: &Subject) -> RenderSettings {
 pub fn known(subject: &Subject, floor: Floor) -> Result<Option<Reference>, StudyError> {
     let Some((known, name)) = &subject.known else { return Ok(None) };
     let radiance = radiance(subject, known);
-    let own = if let truth::Reference::Picture(_, provenance) = known { own_rel_mse(&radiance, provenance, floor) } else { None };
-    let is_taken_for_exact = own.is_none() && !subject.is_declared;
-    let reference = Reference { name: name.clone(), radiance, rel_mse: own.unwrap_or(0.0), is_taken_for_exact, floor };
+    let provenance = if let truth::Reference::Picture(_, provenance) = known { Some(provenance) } else { None };
+    let own = provenance.and_then(|provenance| own_rel_mse(&radiance, provenance, floor));
+    let noise = provenance.and_then(|provenance| provenance.noise.as_ref());
+    let reference = Reference {
+        name: name.clone(),
+        radiance,
+        rel_mse: own.unwrap_or(0.0),
+        variance_of_mean: noise.map_or(0.0, SampleNoise::variance_of_mean),
+        is_taken_for_exact: own.is_none() && !subject.is_declared,
+        floor,
+    };
     reference.if_lit(subject).map(Some)
 }
 
@@ -142,10 +158,12 @@ impl Converged<'_> {
     fn render(&self, done: &mut dyn FnMut(f64)) -> Result<Reference, StudyError> {
         let halves = [self.half(0, &mut |share| done(share / 2.0))?, self.half(1, &mut |share| done(0.5 + share / 2.0))?];
         let mean = |(a, b): (&[f32; 3], &[f32; 3])| [0, 1, 2].map(|c| 0.5 * (a[c] + b[c]));
-        let radiance: Vec<[f32; 3]> = halves[0].iter().zip(&halves[1]).map(mean).collect();
-        let rel_mse = compare(&halves[0], &radiance, self.floor).rel_mse;
+        let [(a, of_a), (b, of_b)] = &halves;
+        let radiance: Vec<[f32; 3]> = a.iter().zip(b).map(mean).collect();
+        let rel_mse = compare(a, &radiance, self.floor).rel_mse;
+        let variance_of_mean = (of_a + of_b) / 4.0;
         let name = format!("a converged render (mis, Sobol, {} samples a pixel)", spp_of_half(self.spp) * 2);
-        Ok(Reference { name, radiance, rel_mse, is_taken_for_exact: false, floor: self.floor })
+        Ok(Reference { name, radiance, rel_mse, variance_of_mean, is_taken_for_exact: false, floor: self.floor })
     }
 
     fn file(&self, settings: &RenderSettings) -> PathBuf {
@@ -159,18 +177,21 @@ impl Converged<'_> {
         self.folder.join(format!("reference-{stem}-{key}.exr"))
     }
 
-    /// One half, from its file if that is there and whole.
-    fn half(&self, number: u32, done: &mut dyn FnMut(f64)) -> Result<Vec<[f32; 3]>, StudyError> {
+    /// One half with the variance of its mean, from its file if that is there and whole.
+    fn half(&self, number: u32, done: &mut dyn FnMut(f64)) -> Result<(Vec<[f32; 3]>, f64), StudyError> {
         let settings = settings(self.subject);
         let settings = RenderSettings { seed: settings.seed.wrapping_add(number), ..settings };
         let path = self.file(&settings);
         let resolution = self.bench.camera.resolution;
         match image_file::read(&path) {
-            Ok(kept) if [kept.width, kept.height] == resolution => Ok(kept.radiance),
+            Ok(kept) if [kept.width, kept.height] == resolution => {
+                let noise = image_file::provenance(&path).noise;
+                Ok((kept.radiance, noise.map_or(0.0, |noise| noise.variance_of_mean())))
+            }
             _ => {
                 let frame = self.render_half(&settings, done)?;
                 self.keep(&frame, &settings, &path)?;
-                Ok(frame.radiance)
+                Ok((frame.radiance, frame.noise.map_or(0.0, |noise| noise.variance_of_mean())))
             }
         }
     }

@@ -6,9 +6,9 @@ use super::{
     figures::{Pair, by_setting, overview},
     ranking::Worth,
     setting::Setting,
-    wording::{certainty, command, error, percent, significant, slope, verdict},
+    wording::{certainty, command, error, mean_error, percent, significant, slope, verdict},
 };
-use crate::report;
+use crate::{report, scene::Reuse};
 
 const STYLE: &str = "
 :root { --width: 72rem; }
@@ -103,7 +103,7 @@ fn figure(pair: &Pair) -> Markup {
     markup! {
         h3 { (pair.title) }
         figure.pair {
-            div { @for element in &pair.elements { (PreEscaped(element)) } }
+            div { @for plot in &pair.plots { (PreEscaped(plot.svg())) } }
             figcaption { (pair.caption) }
         }
     }
@@ -137,8 +137,7 @@ fn worth(findings: &Findings) -> Markup {
 
 fn ranking(findings: &Findings) -> Markup {
     let outcomes = &findings.outcomes;
-    let capped = outcomes.iter().any(|outcome| outcome.settings.max_bounces.is_some());
-    let shown: Vec<Setting> = Setting::ALL.into_iter().filter(|setting| *setting != Setting::Cap || capped).collect();
+    let shown = Setting::ALL;
     let twins: usize = outcomes.iter().map(|outcome| outcome.twins.len()).sum();
     let table = |rows: &[Outcome], first: usize| {
         markup! {
@@ -155,7 +154,8 @@ fn ranking(findings: &Findings) -> Markup {
             details { summary { "the other " (outcomes.len() - ROWS) } (table(&outcomes[ROWS..], ROWS + 1)) }
         }
         p.source {
-            "± is the standard error of the efficiency, from the repeats. What is biased, or too noisy (its relMSE is more than half of that of a \
+            "± is the standard error of the efficiency, from the repeats. The bias is the mean of picture less reference at the end of the \
+             runs, with its standard error by the variance of the samples: for stratified and Sobol samples at most so large. What is biased, or too noisy (its relMSE is more than half of that of a \
              black picture), is not ranked and comes last."
             @if twins > 0 { " Values joined by = give the same picture, bit for bit in a trial, and were measured once: that spared "
                 (twins) " of " (outcomes.len() + twins) " combinations." }
@@ -168,7 +168,7 @@ fn heading(shown: &[Setting]) -> Markup {
         tr {
             th.n { "" }
             @for setting in shown { th { (setting.name()) } }
-            th.n { "samples" } th.n { "s" } th.n { "error" } th.n { "slope" } th.n { "efficiency" } th.n { "±" } th.n { "of the best" } th {}
+            th.n { "samples" } th.n { "s" } th.n { "error" } th.n { "slope" } th.n { "efficiency" } th.n { "±" } th.n { "of the best" } th.n { "bias" } th {}
         }
     }
 }
@@ -192,17 +192,29 @@ fn row(place: usize, outcome: &Outcome, shown: &[Setting], findings: &Findings) 
             td.n { (significant(outcome.efficiency())) }
             td.n { @if spread.is_finite() { (format!("{spread:.0} %")) } @else { "–" } }
             td.n { (findings.ratio(outcome).map_or_else(|| "–".to_owned(), significant)) }
+            td.n { (mean_error(outcome.mean_error)) }
             td { (remark(outcome)) }
         }
     }
 }
 
 /// The value of a setting, and those that would give the same picture.
-fn values(setting: Setting, outcome: &Outcome) -> String {
+pub fn values(setting: Setting, outcome: &Outcome) -> String {
     let only_this_differs = |twin: &&_| setting.with(twin, &outcome.settings) == outcome.settings;
     let same = outcome.twins.iter().filter(only_this_differs).map(|twin| setting.value(twin));
     let values: Vec<String> = std::iter::once(setting.value(&outcome.settings)).chain(same).collect();
-    values.join(" = ")
+    let became = match setting {
+        Setting::Reuse if outcome.settings.reuse == Reuse::Auto => {
+            if outcome.shares {
+                ": on"
+            } else {
+                ": off"
+            }
+        }
+        Setting::Adaptive if outcome.settings.adaptive && !outcome.adapts => ": without effect",
+        _ => "",
+    };
+    values.join(" = ") + became
 }
 
 /// Why a combination is not ranked.

@@ -14,6 +14,12 @@ pub struct Row {
     pub sampler: String,
     pub roulette: String,
     pub max_bounces: String,
+    pub reuse: String,
+    /// Pixels shared paths.
+    pub shares: bool,
+    pub adaptive: String,
+    /// Samples went where noise was.
+    pub adapts: bool,
     /// From 1.
     pub repeat: u32,
     pub seed: u32,
@@ -27,6 +33,8 @@ pub struct Row {
     pub rmse: f64,
     pub rel_mse: f64,
     pub bias: f64,
+    /// Of the bias, but for the reference's own error; empty before the second sample.
+    pub bias_standard_error: Option<f64>,
     /// Why the picture does not converge to the solution; empty when it does.
     pub biased: String,
     pub invalid_samples: u64,
@@ -61,8 +69,8 @@ impl Row {
     }
 
     fn point(&self) -> Checkpoint {
-        let Row { spp, seconds, rmse, rel_mse, bias, .. } = *self;
-        Checkpoint { spp, seconds, rmse, rel_mse, bias }
+        let Row { spp, seconds, rmse, rel_mse, bias, bias_standard_error, .. } = *self;
+        Checkpoint { spp, seconds, rmse, rel_mse, bias, bias_standard_error }
     }
 }
 
@@ -80,6 +88,10 @@ pub fn rows(header: &Header, run: &Run) -> Vec<Row> {
         sampler: Setting::Sampler.value(settings),
         roulette: Setting::Roulette.value(settings),
         max_bounces: Setting::Cap.value(settings),
+        reuse: Setting::Reuse.value(settings),
+        shares: run.shares,
+        adaptive: Setting::Adaptive.value(settings),
+        adapts: run.adapts,
         repeat,
         seed: settings.seed,
         checkpoint: i + 1,
@@ -90,6 +102,7 @@ pub fn rows(header: &Header, run: &Run) -> Vec<Row> {
         rmse: point.rmse,
         rel_mse: point.rel_mse,
         bias: point.bias,
+        bias_standard_error: point.bias_standard_error,
         biased: run.bias.clone(),
         invalid_samples: run.invalid_samples,
         reference: reference.name.clone(),
@@ -113,5 +126,6 @@ pub fn run(rows: &[Row]) -> Option<Run> {
     let first = rows.first()?;
     let complete = rows.len() == first.checkpoints && (1..).zip(rows).all(|(place, row)| row.checkpoint == place);
     let checkpoints = rows.iter().map(Row::point).collect();
-    complete.then(|| Run { checkpoints, invalid_samples: first.invalid_samples, bias: first.biased.clone() })
+    let Row { invalid_samples, shares, adapts, .. } = *first;
+    complete.then(|| Run { checkpoints, invalid_samples, bias: first.biased.clone(), shares, adapts })
 }

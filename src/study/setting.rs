@@ -1,5 +1,5 @@
 //! The settings that are studied, by name: as axes of plots and columns of tables.
-use crate::scene::RenderSettings;
+use crate::{render::settings_text::on_or_off, scene::RenderSettings};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Setting {
@@ -8,10 +8,20 @@ pub enum Setting {
     Sampler,
     Roulette,
     Cap,
+    Reuse,
+    Adaptive,
 }
 
 impl Setting {
-    pub const ALL: [Setting; 5] = [Setting::Estimator, Setting::Directions, Setting::Sampler, Setting::Roulette, Setting::Cap];
+    pub const ALL: [Setting; 7] = [
+        Setting::Estimator,
+        Setting::Directions,
+        Setting::Sampler,
+        Setting::Roulette,
+        Setting::Cap,
+        Setting::Reuse,
+        Setting::Adaptive,
+    ];
 
     pub fn name(self) -> &'static str {
         match self {
@@ -20,6 +30,8 @@ impl Setting {
             Setting::Sampler => "sampler",
             Setting::Roulette => "roulette",
             Setting::Cap => "bounce cap",
+            Setting::Reuse => "sharing",
+            Setting::Adaptive => "adaptive",
         }
     }
 
@@ -31,6 +43,8 @@ impl Setting {
             Setting::Sampler => settings.sampler.entry().name.to_owned(),
             Setting::Roulette => settings.roulette.name(),
             Setting::Cap => settings.max_bounces.map_or_else(|| "none".to_owned(), |cap| cap.to_string()),
+            Setting::Reuse => settings.reuse.name().to_owned(),
+            Setting::Adaptive => on_or_off(settings.adaptive).to_owned(),
         }
     }
 
@@ -43,19 +57,51 @@ impl Setting {
             Setting::Sampler => changed.sampler = from.sampler,
             Setting::Roulette => changed.roulette = from.roulette,
             Setting::Cap => changed.max_bounces = from.max_bounces,
+            Setting::Reuse => changed.reuse = from.reuse,
+            Setting::Adaptive => changed.adaptive = from.adaptive,
         }
         changed
     }
 }
 
-/// All settings in one line; a cap only where there is one.
+/// All settings in one line; cap, sharing and adaptive samples only where they are not as usual.
 pub fn label(settings: &RenderSettings) -> String {
-    let shown = |setting: &Setting| *setting != Setting::Cap || settings.max_bounces.is_some();
-    let value = |setting: Setting| match setting {
-        Setting::Roulette => format!("roulette {}", setting.value(settings)),
-        Setting::Cap => format!("cap {}", setting.value(settings)),
-        _ => setting.value(settings),
-    };
-    let values: Vec<String> = Setting::ALL.into_iter().filter(shown).map(value).collect();
-    values.join(", ")
+    let shown = |setting: &Setting| setting.is_always_told() || !setting.is_usual(settings);
+    joined(Setting::ALL.into_iter().filter(shown), settings)
+}
+
+/// What some settings have in common, and what is different about each, in one line each.
+pub fn differing_labels(all: &[RenderSettings]) -> (String, Vec<String>) {
+    let Some(first) = all.first() else { return (String::new(), Vec::new()) };
+    let differs = |setting: &Setting| all.iter().any(|settings| setting.value(settings) != setting.value(first));
+    let is_common = |setting: &Setting| !differs(setting) && (setting.is_always_told() || !setting.is_usual(first));
+    let common = joined(Setting::ALL.into_iter().filter(is_common), first);
+    (common, all.iter().map(|settings| joined(Setting::ALL.into_iter().filter(differs), settings)).collect())
+}
+
+fn joined(settings: impl Iterator<Item = Setting>, of: &RenderSettings) -> String {
+    settings.map(|setting| setting.words(of)).collect::<Vec<_>>().join(", ")
+}
+
+impl Setting {
+    fn is_always_told(self) -> bool {
+        !matches!(self, Setting::Cap | Setting::Reuse | Setting::Adaptive)
+    }
+
+    fn is_usual(self, settings: &RenderSettings) -> bool {
+        self.value(settings) == self.value(&RenderSettings::default())
+    }
+
+    /// The value, with the name where that is not plain.
+    fn words(self, settings: &RenderSettings) -> String {
+        let value = self.value(settings);
+        match self {
+            Setting::Roulette => format!("roulette {value}"),
+            Setting::Cap if settings.max_bounces.is_none() => "no cap".to_owned(),
+            Setting::Cap => format!("cap {value}"),
+            Setting::Reuse => format!("sharing {value}"),
+            Setting::Adaptive => format!("adaptive {value}"),
+            _ => value,
+        }
+    }
 }

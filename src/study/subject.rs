@@ -52,6 +52,16 @@ impl Subject {
     }
 }
 
+/// What to call scenes that are studied together: those of one title by their files too.
+pub fn titles(subjects: &[Subject]) -> Vec<String> {
+    let titles: Vec<String> = subjects.iter().map(Subject::title).collect();
+    let told_apart = |(title, subject): (&String, &Subject)| {
+        let is_alone = titles.iter().filter(|other| *other == title).count() == 1;
+        if is_alone { title.clone() } else { format!("{title} ({})", subject.path.display()) }
+    };
+    titles.iter().zip(subjects).map(told_apart).collect()
+}
+
 fn known(path: &Path, scene: &Scene, given: Option<&Path>) -> Result<Option<(truth::Reference, String)>, StudyError> {
     let beside = path.with_extension(REFERENCE_EXTENSION);
     let beside = (scene.truth.is_none() && beside.is_file()).then_some(beside);

@@ -22,8 +22,9 @@ pub struct Group {
 pub fn groups(bench: Bench, combinations: &[RenderSettings]) -> Result<Vec<Group>, StudyError> {
     let mut pictures = Vec::new();
     for settings in combinations {
-        // Equal for a while does not mean that a cap is never reached: pictures with different caps never count as the same.
-        pictures.push((trial(bench, settings)?, settings.max_bounces));
+        // Equal for a while does not mean that a cap is never reached, nor that samples are never spread by noise: pictures that differ in
+        // these never count as the same.
+        pictures.push((trial(bench, settings)?, settings.max_bounces, settings.adaptive));
     }
     Ok(group(&pictures, combinations, &bench.scene.settings))
 }

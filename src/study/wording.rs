@@ -1,7 +1,7 @@
 //! What was found, in sentences and numbers, for report and terminal alike.
 use std::fmt;
 
-use super::{Findings, Outcome, Slope, Standing, setting::label};
+use super::{Findings, Outcome, Slope, Standing, outcome::MeanError, setting::label};
 use crate::render::settings_text::options;
 
 /// Three digits.
@@ -26,6 +26,21 @@ pub fn error(outcome: &Outcome) -> String {
 
 pub fn slope(slope: Option<Slope>) -> String {
     slope.map_or_else(|| "–".to_owned(), |Slope { slope, half_width }| format!("{slope:.2} ± {half_width:.2}").replace('-', "−"))
+}
+
+/// A mean with its standard error, both to the second digit of the latter.
+pub fn mean_error(MeanError { mean, standard_error }: MeanError) -> String {
+    if !(standard_error > 0.0 && standard_error.is_finite()) {
+        return format!("{mean:+.1e}").replace('-', "−");
+    }
+    let power = standard_error.log10().floor() as i32 - 1;
+    match power {
+        -6..0 => {
+            let digits = power.unsigned_abs() as usize;
+            format!("{mean:+.digits$} ± {standard_error:.digits$}").replace('-', "−")
+        }
+        _ => format!("{mean:+.1e} ± {standard_error:.1e}").replace('-', "−"),
+    }
 }
 
 /// Which settings are best, in one sentence.

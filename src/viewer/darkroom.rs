@@ -170,7 +170,7 @@ pub fn develop(order: Order) -> Print {
     let image_beside = beside.as_ref().filter(|_| shows_beside).map(|beside| picture(beside, None, scale).0);
     let against = |frame: &Frame| {
         let truth = truth?;
-        Some(Against { rel_mse: truth.compare(frame)?.rel_mse, bias: truth.bias(frame) })
+        Some(Against { rel_mse: truth.compare(frame)?.rel_mse, bias: truth.bias(frame)?.z })
     };
     let scores = truth.filter(|_| look.view == View::ZScore).and_then(|truth| Scores::of(&frame, truth));
     Print {

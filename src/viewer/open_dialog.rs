@@ -35,14 +35,14 @@ impl App {
 /// Whether to open, and whether to close.
 fn dialog_body(ui: &mut egui::Ui, field: &mut PathField) -> (bool, bool) {
     ui.set_width(460.0);
-    ui.label("A scene is one TOML file. It can also be dropped on the window.");
+    ui.label("A scene is one TOML file, or a picture that Noisefall has saved. It can also be dropped on the window.");
     ui.add_space(4.0);
     let (mut chosen, mut cancelled) = (field.show(ui), false);
     field.remark(ui, "");
     ui.horizontal(|ui| {
         let folder = field.path().and_then(|path| path.parent().map(ToOwned::to_owned));
         field.browse(ui, |dialog| {
-            let dialog = dialog.add_filter("Noisefall scene", &["toml"]);
+            let dialog = dialog.add_filter("Noisefall scene or picture", &["toml", "png", "exr"]);
             folder.into_iter().fold(dialog, rfd::FileDialog::set_directory).pick_file()
         });
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {

@@ -35,10 +35,9 @@ impl App {
             if !opened.scene.notes.is_empty() {
                 ui.label(RichText::new(&opened.scene.notes).weak());
             }
-            let mut warnings = opened.scene.warnings();
-            if !opened.scene.lights.is_empty() {
-                warnings.extend(self.why_black());
-            }
+            let mut warnings = opened.scene.warnings().to_vec();
+            let why_black = if opened.scene.lights.is_empty() { None } else { self.why_black() };
+            warnings.extend(why_black.filter(|why| !warnings.contains(why)));
             for warning in warnings {
                 ui.label(RichText::new(format!("Note: {warning}.")).color(ui.visuals().warn_fg_color));
             }
@@ -78,7 +77,6 @@ impl App {
         let Some(path) = dropped else { return };
         match path.extension().map(|extension| extension.to_string_lossy().to_ascii_lowercase()).as_deref() {
             Some("exr" | "hdr") => self.loader.read_reference(path, self.camera),
-            Some("png") => self.tell("A PNG is cut off at white and cannot be a reference: drop an EXR or HDR.".to_owned(), true),
             _ => self.loader.open(Some(path)),
         }
     }

@@ -60,6 +60,8 @@ fn every_command_has_help() {
         &["check", "--help"],
         &["validate", "--help"],
         &["study", "--help"],
+        &["sheet", "--help"],
+        &["evidence", "--help"],
     ] {
         let output = shell.run(arguments);
         assert!(output.status.success() && text(&output.stdout).contains("Usage: noisefall"));
@@ -84,7 +86,7 @@ fn a_render_writes_a_picture_and_one_line_of_json() {
     {
         assert_eq!(line[key], value, "{key}");
     }
-    for key in ["scene", "threads", "build_seconds", "render_seconds", "rays", "rel_mse_estimate"] {
+    for key in ["scene", "threads", "build_seconds", "seconds", "rays", "rel_mse_estimate"] {
         assert!(!line[key].is_null(), "{key} is missing");
     }
     // Sobol samples are better than independent ones, whose relMSE is 1/(2 · 4.04) a sample, but 16 of them are not exact.
@@ -151,7 +153,7 @@ fn of_several_targets_the_last_one_counts() {
     assert_eq!(by_noise["stopped_by"], "noise");
     assert!(rel_mse(&by_noise).sqrt() <= goal && by_noise["spp"].as_u64() > Some(64), "{by_noise}");
     let by_time = render(&["--spp", "3", "--time", "0.2"]);
-    assert!(by_time["render_seconds"].as_f64() >= Some(0.2) && by_time["stopped_by"] == "time", "{by_time}");
+    assert!(by_time["seconds"].as_f64() >= Some(0.2) && by_time["stopped_by"] == "time", "{by_time}");
 }
 
 #[test]

@@ -278,14 +278,16 @@ fn warnings() {
             format!("[[objects]]\nshape.sphere = {{ center = [0, 0, 0], radius = {}.0 }}\nmaterial = 'glass'\n", i + 1)
         };
         let glass = format!("materials.glass.dielectric = {{ ior = 1.5{tint} }}\n");
-        compiled(&format!("VIEW\nbackground.radiance = 1.0\n{glass}{}", (0..count).map(shell).collect::<String>())).warnings()
+        compiled(&format!("VIEW\nbackground.radiance = 1.0\n{glass}{}", (0..count).map(shell).collect::<String>()))
+            .warnings()
+            .to_vec()
     };
     assert_eq!(shells(5, ", transmittance = 0.5"), ["5 media lie within each other: only the tint of the inner 4 is kept"]);
     assert_eq!((shells(4, ", transmittance = 0.5").len(), shells(9, "").len()), (0, 0));
     let moving = |shutter: &str| {
         let view = format!("camera = {{ eye = [0, 0, 4], look_at = [0, 0, 0], fov = 40, resolution = [8, 8]{shutter} }}");
-        let ball = "[[objects]]\nshape.sphere = { center = [0, 0, 0], radius = 1 }\nmotion = [{ translate = [1, 0, 0] }]";
-        compiled(&format!("{view}\nbackground.radiance = 1\n{ball}")).warnings()
+        let ball = "[[objects]]\nshape.sphere = { center = [0, 0, 0], radius = 1 }\nemission.radiance = 1\nmotion = [{ translate = [1, 0, 0] }]";
+        compiled(&format!("{view}\nbackground.radiance = 1\n{ball}")).warnings().to_vec()
     };
     assert_eq!(moving("").len(), 1);
     assert_eq!((moving(", shutter = [0, 0]").len(), moving(", shutter = [0, 1]").len()), (0, 0));

@@ -125,3 +125,82 @@ fn what_is_no_picture_is_refused() {
         assert!(read(&path).expect_err("it is refused").to_string().contains(name));
     }
 }
+
+/// Both kinds of picture open wherever a scene does, as the picture they are: camera and settings too.
+#[test]
+fn a_picture_opens_as_the_scene_that_it_shows() {
+    use super::command_line::{Shell, json, scene, text};
+    let shell = Shell::new();
+    let made = [
+        "--spp",
+        "4",
+        "--size",
+        "24x16",
+        "--seed",
+        "9",
+        "--estimator",
+        "path",
+        "--roulette",
+        "0.5",
+        "--max-bounces",
+        "7",
+        "--reuse",
+        "off",
+    ];
+    for name in ["depth_of_field", "furnace", "motion_blur"] {
+        for picture in ["a.png", "a.exr"] {
+            let render = |from: &str, to: &str, options: &[&str]| {
+                let done = shell.run(&[&["render", from, "-o", to, "--json"], options].concat());
+                json(&done)
+            };
+            let first = render(&scene(name), picture, &made);
+            let again = render(picture, "again.exr", &["--spp", "4"]);
+            for key in ["width", "height", "seed", "estimator", "roulette", "max_bounces", "mean"] {
+                assert_eq!(first[key], again[key], "{name} {picture}: {key}");
+            }
+            assert!(text(&shell.run(&["check", picture]).stdout).contains(": ok, "));
+        }
+        // The scene is carried on.
+        assert!(text(&shell.run(&["check", "again.exr"]).stdout).contains("24 × 16"));
+    }
+    let study =
+        ["study", "a.png", "-o", "study", "--spp", "2", "--estimators", "mis", "--directions", "bsdf", "--samplers", "sobol"];
+    let done = shell.run(&[&study[..], &["--roulette", "throughput", "--seconds", "1000"]].concat());
+    assert!(done.status.success(), "{}", text(&done.stderr));
+}
+
+#[test]
+fn pictures_whose_scene_cannot_be_used_are_told() {
+    use noisefall::{
+        render::{Display, Frame},
+        scene::load,
+    };
+    let folder = tempfile::tempdir().expect("a folder");
+    let frame = Frame { width: 1, height: 1, full_resolution: [1, 1], radiance: vec![[1.0; 3]], ..Frame::default() };
+    let scene = noisefall::scene::built_in();
+    let carried = |scene_text: &str, camera: serde_json::Value, roulette: serde_json::Value| {
+        let mut settings = serde_json::json!(scene.settings);
+        settings["roulette"] = roulette;
+        serde_json::json!({ "scene": scene_text, "camera": camera, "settings": settings }).to_string()
+    };
+    let camera = || serde_json::json!(scene.camera);
+    let mut blind = camera();
+    blind["fov"] = 0.0.into();
+    let off = || serde_json::json!("off");
+    let with_texture = scene.source.replacen("[[objects]]", "[textures.a]\nimage = { path = \"b.png\" }\n[[objects]]", 1);
+    for (text, says) in [
+        ("{}".to_owned(), "not a text file: it looks like"),
+        ("no JSON".to_owned(), "not a text file: it looks like"),
+        (carried("format = 1\ncamera = 3", camera(), off()), "the picture carries this scene"),
+        (carried(&with_texture, camera(), off()), "b.png"),
+        (carried(&scene.source, blind, off()), "the camera of the picture cannot be used"),
+        (carried(&scene.source, camera(), serde_json::json!({ "fixed": 0.0 })), "a survival probability of 0"),
+    ] {
+        for name in ["a.png", "a.exr"] {
+            let path = folder.path().join(name);
+            save(&frame, Display::default(), &text, &path).expect("it is saved");
+            let report = load(&path).err().unwrap_or_else(|| panic!("{text} is used")).report();
+            assert!(report.contains(says), "{says}: {report}");
+        }
+    }
+}

@@ -86,7 +86,7 @@ fn every_shipped_scene_compiles_says_what_it_shows_and_emits_light() {
     for path in shipped_scenes() {
         let scene = load(&path).unwrap_or_else(|error| panic!("{}", error.report()));
         assert!(!scene.title.is_empty() && !scene.notes.is_empty(), "{} says nothing", path.display());
-        assert_eq!(scene.warnings(), Vec::<String>::new(), "{}", path.display());
+        assert_eq!(scene.warnings(), [] as [String; 0], "{}", path.display());
         count += 1;
     }
     assert!(count >= 9);

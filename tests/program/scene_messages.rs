@@ -43,6 +43,118 @@ fn what_was_probably_meant_is_named() {
     refuses("material = \"white\"", "material = \"whit\"", "did you mean `white`?");
 }
 
+/// What is typed, of `GOOD`, and what is said of it.
+const MEANT: [(&str, &str, &str); 38] = [
+    ("spp = 64", "samples = 64", "did you mean `spp`?"),
+    ("max_bounces = 5", "depth = 5", "did you mean `max_bounces`?"),
+    ("sampler = \"stratified\"", "integrator = \"mis\"", "did you mean `estimator`?"),
+    ("{ radiance = [1.0, 2.0, 3.0] }", "10.0", "write { radiance = 10.0 }"),
+    ("{ radiance = [1.0, 2.0, 3.0] }", "[1.0, 2.0, 3.0]", "write { radiance = [1.0, 2.0, 3.0] }"),
+    ("{ radiance = [1.0, 2.0, 3.0] }", "{ power = 60.0 }", "did you mean `radiance`?"),
+    ("{ radiance = [1.0, 2.0, 3.0] }", "{ power = 60.0 }", "has Φ/(π A)"),
+    ("{ radiance = [1.0, 2.0, 3.0] }", "{ intensity = 60.0 }", "did you mean `radiance`?"),
+    ("{ radiance = [1.0, 2.0, 3.0] }", "{ color = 60.0 }", "did you mean `radiance`?"),
+    ("albedo = 0.8", "albedo = \"tiles\"", "write { texture = \"tiles\" }"),
+    ("albedo = 0.8", "color = 0.8", "did you mean `albedo`?"),
+    ("lambertian = { albedo = 0.8 }", "lambertian = 0.8", "write { albedo = 0.8 }"),
+    ("lambertian = { albedo = 0.8 }", "lambert = { albedo = 0.8 }", "did you mean `lambertian`?"),
+    ("lambertian = { albedo = 0.8 }", "diffuse = { albedo = 0.8 }", "did you mean `lambertian`?"),
+    ("lambertian = { albedo = 0.8 }", "glass = { ior = 1.5 }", "did you mean `dielectric`?"),
+    ("lambertian = { albedo = 0.8 }", "metal = { roughness = 0.3 }", "did you mean `conductor`?"),
+    ("lambertian = { albedo = 0.8 }", "dielectric = { eta = 1.5 }", "did you mean `ior`?"),
+    ("{ fixed = 0.75 }", "0.9", "write { fixed = 0.9 }"),
+    ("sphere = {", "box = {", "did you mean `cuboid`?"),
+    ("eye = [0.0, 1.0, 4.0]", "position = [0.0, 1.0, 4.0]", "did you mean `eye`?"),
+    ("fov = 40", "fov = 40;", "leave it out: a value ends with its line"),
+    ("radius = 1.0 }", "radius = 1.0; }", "there is no `;` in a scene file"),
+    ("eye = [0.0, 1.0, 4.0]", "eye = (0.0, 1.0, 4.0)", "write [ … ]"),
+    ("fov = 40", "fov: 40", "write `=`"),
+    ("center = [", "center: [", "write `=`"),
+    ("fov = 40", "fov = 40 // degrees", "a comment begins with `#`"),
+    ("fov = 40", "fov = 40 deg", "text must stand in quotes"),
+    ("radius = 1.0 } }", "radius = 1.0 }", "this `{` is not closed"),
+    ("radius = 1.0 } }", "radius = 1.0", "`} }` are missing"),
+    ("radius = 1.0 } }", "radius = 1.0 } } }", "there is one `}` too many"),
+    ("albedo = 0.8 }", "albedo = 0.8", "`}` is missing"),
+    ("4.0]", "4.0", "`]` is missing"),
+    ("4.0]", "4.0}", "`[` is closed by `}`"),
+    ("[camera]", "[camera", "`]` is missing"),
+    ("[[objects]]", "[[objects]", "`]` is missing"),
+    ("\"ball\"", "\"ball", "the text in quotes does not end"),
+    ("\"white\"", "white", "text must stand in quotes"),
+    ("radiance = 2.0", "radiance = 2,0", "a value ends with its line"),
+];
+
+#[test]
+fn what_others_write_is_told_in_the_words_of_the_format() {
+    for (line, by, says) in MEANT {
+        refuses(line, by, says);
+        let said = error(&GOOD.replacen(line, by, 1));
+        assert_eq!(said.count(), 1, "{by}: one slip is one error:\n{}", said.report());
+    }
+}
+
+#[test]
+fn all_errors_of_a_file_are_told_in_the_order_of_its_lines() {
+    let all = |text: &str, says: &[(usize, &str)]| {
+        let error = error(text);
+        let report = error.report();
+        let lines = report.lines().filter_map(|line| line.split_once("test.toml:")?.1.split(':').next()?.parse::<usize>().ok());
+        assert_eq!(lines.collect::<Vec<_>>(), says.iter().map(|(line, _)| *line).collect::<Vec<_>>(), "{report}");
+        says.iter().for_each(|(_, what)| assert!(report.contains(what), "{what}: {report}"));
+        assert_eq!((error.count(), error.line_column().map(|place| place.0)), (says.len(), Some(says[0].0)));
+    };
+    // Of form and of value, in tables that have one each; what follows from them is not told.
+    let wrong = GOOD
+        .replace("fov = 40", "fov = \"wide\"")
+        .replace("eye = [0.0", "eye = [1e300")
+        .replace("albedo = 0.8", "albedo = 1.8")
+        .replace("radius = 1.0", "radios = 1.0")
+        .replace("spp = 64", "samples = 64")
+        .replace("{ fixed = 0.75 }", "{ fixed = 2.0 }")
+        .replace("radiance = 2.0", "radiance = -2.0");
+    let two_balls = "[[objects]]\nshape = { sphere = { center = [0, 0, 0], radius = -1 } }\nmaterial = \"wite\"\n[render]";
+    all(
+        &wrong.replace("[render]", two_balls),
+        &[
+            (5, "`fov`: expected a number"),
+            (8, "`albedo` is out of range"),
+            (11, "did you mean `radius`?"),
+            (15, "the radius is negative"),
+            (16, "did you mean `white`?"),
+            (20, "a survival probability of 2"),
+            (22, "did you mean `spp`?"),
+            (25, "`radiance` is out of range: -2"),
+        ],
+    );
+    // A material or texture that is wrong is named all the same.
+    all(&GOOD.replace("lambertian", "lambert"), &[(8, "did you mean `lambertian`?")]);
+    all(&GOOD.replace("{ albedo = 0.8 }", "{ albedo = { texture = \"t\" } }\n[textures.t]\nchecker = 3"), &[(10, "a table")]);
+    // Of what is not TOML: a line each.
+    let slips = GOOD.replace("fov = 40", "fov = 40;").replace("eye = [0.0, 1.0, 4.0]", "eye = (0, 1, 4)");
+    all(&slips.replace("= \"ball\"", ": \"ball\""), &[(3, "write [ … ]"), (5, "no `;`"), (10, "write `=`")]);
+    let braces = GOOD.replace("radius = 1.0 } }", "radius = 1.0 }").replace("resolution = [32, 24]", "resolution = [32, 24");
+    all(&braces, &[(6, "`]` is missing"), (11, "`}` is missing")]);
+    // Many are counted.
+    let many = "[[objects]]\nshape = { sphere = { center = [0, 0, 0], radius = -1 } }\n".repeat(1000);
+    let report = error(&GOOD.replace("[render]", &format!("{many}[render]"))).report();
+    assert!(report.matches("the radius is negative").count() == 20 && report.contains("more errors"), "{report}");
+}
+
+#[test]
+fn what_is_legal_in_several_lines_is_no_slip() {
+    let lines = GOOD
+        .replace(
+            "center = [0.0, 1.0, 0.0], radius = 1.0 }",
+            "\n  center = [\n 0.0,\n 1.0, # (x; y)\n 0.0\n],\n  radius = 1.0,\n}",
+        )
+        .replace("name = \"ball\"", "name = \"a (ball); it's: {\"\ntransform = [\n{ scale = 1 },\n]");
+    let lines = lines.replace("[camera]", "notes = \"\"\"\nA (note); with {\nx = 3\n[camera]\n\"\"\"\n[camera]");
+    parse("test.toml", lines.clone()).unwrap_or_else(|error| panic!("{}", error.report()));
+    let with_slip = error(&lines.replace("spp = 64", "spp = 64;"));
+    assert!(with_slip.count() == 1 && with_slip.report().contains("no `;`"), "{}", with_slip.report());
+}
+
 #[test]
 fn what_is_not_toml_is_refused_at_its_place() {
     refuses("fov = 40", "fov = = 40", "");

@@ -81,6 +81,39 @@ fn a_study_that_was_cut_off_goes_on_where_it_was() {
 }
 
 #[test]
+fn sharing_and_adaptive_samples_are_listed_and_scenes_of_one_title_told_apart() {
+    let shell = Shell::new();
+    fs::copy(scene("cornell_box"), shell.path("other.toml")).expect("a scene");
+    let few =
+        ["--estimators", "mis", "--directions", "bsdf", "--samplers", "independent", "--roulette", "throughput", "--spp", "4"];
+    let lists = ["--reuse", "on,off", "--adaptive", "on,off", "--size", "16x16", "--seconds", "1000", "--repeats", "1"];
+    let shipped = scene("cornell_box");
+    let done = shell.run(&[&["study", "other.toml", &shipped, "-o", "out"], &few[..], &lists].concat());
+    assert!(done.status.success(), "{}", text(&done.stderr));
+    // Without a terminal the reference is told of in quarters.
+    assert!(text(&done.stderr).matches(" % of the reference, ").count() >= 8, "{}", text(&done.stderr));
+    let mut table = csv::Reader::from_path(shell.path("out/study.csv")).expect("measurements");
+    let header = table.headers().expect("names").clone();
+    let column = |name: &str| header.iter().position(|column| column == name).expect("a column");
+    let columns = ["reuse", "shares", "adaptive", "spp", "bias_standard_error"].map(column);
+    let rows: Vec<[String; 5]> =
+        table.records().map(|row| columns.map(|at| row.as_ref().expect("a line")[at].to_owned())).collect();
+    for (reuse, shares) in [("on", "true"), ("off", "false")] {
+        for adaptive in ["on", "off"] {
+            assert!(rows.iter().any(|row| row[..3] == [reuse, shares, adaptive]), "{reuse} {adaptive}: {rows:?}");
+        }
+    }
+    // The standard error is known from the second sample on, and falls.
+    let even = || rows.iter().filter(|row| row[2] == "off");
+    assert!(even().all(|row| (row[3] == "1") == row[4].is_empty()), "{rows:?}");
+    let report = fs::read_to_string(shell.path("out/report.html")).expect("a report");
+    assert!(report.contains("(other.toml)</h2>") && report.contains("cornell_box.toml)</h2>"), "{report}");
+    assert!(
+        report.contains("<th>sharing</th>") && report.contains("<th>adaptive</th>") && report.contains("sharing on, adaptive on")
+    );
+}
+
+#[test]
 fn references_are_files_where_there_are_some() {
     let shell = Shell::new();
     fs::copy(scene("bright_sky"), shell.path("sky.toml")).expect("a scene");

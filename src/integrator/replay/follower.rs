@@ -13,7 +13,7 @@ use crate::{
         trace::Observer,
         work::{SLOTS, Work},
     },
-    material::Bsdf,
+    material::{Bsdf, Lobes},
     math::{F, Lanes, M, One, U, V},
     scene::surface::Stage,
 };
@@ -106,7 +106,10 @@ impl Follower {
     }
 
     /// The terms of the stage of a kind, if the surface is of that kind.
-    fn shade<K: Kind>(&mut self, work: &Work, batch: &Batch) {
+    fn shade<K: Kind>(&mut self, work: &Work, batch: &Batch)
+    where
+        for<'a> K::Bsdf<'a, One>: Lobes,
+    {
         let (hits, details) = (&batch.hits[K::STAGE as usize], &batch.details[K::STAGE as usize]);
         let Some(at) = self.find(hits, |at| Hit::read(One, hits, at).slot) else { return };
         let shading = Shading::<One, K>::read(One, work, (hits, details), at, batch.bounce + 1);
@@ -154,14 +157,20 @@ impl Follower {
 }
 
 /// The next direction.
-fn reflection<K: Kind>(work: &Work, batch: &Batch, shading: &Shading<One, K>) -> Reflection {
+fn reflection<'a, K: Kind>(work: &Work, batch: &Batch, shading: &Shading<'a, One, K>) -> Reflection
+where
+    K::Bsdf<'a, One>: Lobes,
+{
     let Reflected { sample, survival, path, goes_on } = shading.reflect(One, work, shares_first::<K>(work, batch.bounce));
     let delta = sample.delta.0;
+    let (u, lobe) = shading.coordinates(One);
     let cos = sample.wi.z.abs();
     let (f_cos, _) = shading.bsdf.eval(shading.vertex.wo, sample.wi);
     let f = if cos.0 > 0.0 { f_cos * (1.0 / cos) } else { f_cos };
     Reflection {
         direction: path.d.lane(0),
+        lobe: shading.bsdf.chosen(shading.vertex.wo, u, lobe),
+        refracted: sample.wi.z.0 < 0.0,
         delta,
         f: (!delta).then(|| f.lane(0)),
         cos: cos.0,

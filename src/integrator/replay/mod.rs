@@ -11,7 +11,7 @@ use serde::Serialize;
 use self::follower::Follower;
 pub use self::{
     samples::pixel_samples,
-    terms::{MetLight, Outcome, Reflection, SampledLight, Surface, Vertex},
+    terms::{End, MetLight, Outcome, Reflection, SampledLight, Surface, Vertex},
 };
 use super::{
     batch::Batch,
@@ -33,6 +33,8 @@ pub struct Replay {
     /// The contributions of their emission and of their light samples, added in this order, make the radiance, or `alone` where
     /// pixels share.
     pub vertices: Vec<Vertex>,
+    /// Why there is no further vertex.
+    pub end: End,
 }
 
 /// Replays sample number `sample` of a pixel.
@@ -48,7 +50,26 @@ pub fn replay(scene: &Scene, rays: &CameraRays, settings: &RenderSettings, pixel
     let finished = trace_in(One, &work, &mut batch, &|| false, &mut follower);
     debug_assert_eq!(finished, Ok(()));
     let alone = work.shares().then_some(follower.radiance);
-    Replay { radiance: radiance_at(&batch, [x, y]), alone, vertices: follower.vertices }
+    let end = follower.vertices.last().map_or(End::default(), |last| end_at(scene, settings, last));
+    Replay { radiance: radiance_at(&batch, [x, y]), alone, vertices: follower.vertices, end }
+}
+
+/// Why a vertex is the last one.
+fn end_at(scene: &Scene, settings: &RenderSettings, last: &Vertex) -> End {
+    let (Some(object), Some(surface)) = (last.object, &last.surface) else { return End::LeftScene };
+    let coating = scene.objects[object as usize].coating.as_ref();
+    match &last.reflection {
+        Some(Reflection { weight, .. }) if *weight == [0.0; 3] => End::NoWeight,
+        Some(Reflection { survives: false, survival, .. }) if *survival < 1.0 => End::Roulette,
+        Some(_) => End::Normals,
+        None if last.bounce < settings.last_bounce() => match coating {
+            None => End::NoMaterial,
+            Some(coating) if coating.one_sided && !surface.front => End::BlackFromBehind,
+            Some(_) => End::Black,
+        },
+        None if settings.max_bounces.is_some() => End::Cap,
+        None => End::TooLong,
+    }
 }
 
 /// What takes a sample of a pixel, and the pixel's column and row in it: what is shared needs the paths of the whole tile.

@@ -5,6 +5,8 @@
 //! positions are in metres, directions are unit vectors of the world, densities are per solid angle.
 use serde::Serialize;
 
+use crate::material::ChosenLobe;
+
 /// One segment of a path and the surface at its end.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Vertex {
@@ -32,6 +34,47 @@ pub struct Vertex {
     pub reflection: Option<Reflection>,
     /// The sum of radiance after this vertex.
     pub radiance: [f32; 3],
+}
+
+/// Why a path has no further vertex.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum End {
+    /// No surface lies ahead.
+    #[default]
+    LeftScene,
+    /// The cap on bounces.
+    Cap,
+    /// It was cut without a cap: it has bounced too often.
+    TooLong,
+    Roulette,
+    /// The object has no material.
+    NoMaterial,
+    /// Only its front reflects, and the path arrived behind it.
+    BlackFromBehind,
+    /// The surface reflects nothing here.
+    Black,
+    /// Nothing would come of the next direction: its weight is zero.
+    NoWeight,
+    /// The next direction is above the surface by one of the shading and the geometric normal, but not by the other.
+    Normals,
+}
+
+impl End {
+    /// As the end of a sentence that begins with the path.
+    pub fn name(self) -> &'static str {
+        match self {
+            End::LeftScene => "leaves the scene: there is no surface ahead",
+            End::Cap => "ends at the cap on bounces",
+            End::TooLong => "is cut: it has bounced too often",
+            End::Roulette => "is ended by roulette",
+            End::NoMaterial => "ends at an object without material",
+            End::BlackFromBehind => "ends behind a surface that only its front reflects",
+            End::Black => "ends at a surface that is black here",
+            End::NoWeight => "ends: the next direction has no weight",
+            End::Normals => "ends: the next direction is below the surface by its geometric normal",
+        }
+    }
 }
 
 /// A surface point.
@@ -98,6 +141,9 @@ pub enum Outcome {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Reflection {
     pub direction: [f32; 3],
+    pub lobe: ChosenLobe,
+    /// It leads to the other side of the surface.
+    pub refracted: bool,
     /// The direction comes from a delta lobe (mirror reflection or refraction), whose bsdf and density are no numbers.
     pub delta: bool,
     /// f(ω_o, ω_i) of the lobes that are not delta.

@@ -9,38 +9,61 @@ use crate::{
         check::{Checker, short},
         desc::{CameraDesc, Exactly, ProjectionDesc},
         diagnostic::SceneError,
+        errors::Errors,
     },
 };
 
 /// What an orthographic camera has in place of an angle; it takes no part in anything.
 const NO_FOV: f64 = 40.0;
 
-pub fn camera(check: &Checker, desc: &Spanned<CameraDesc>) -> Result<Camera, SceneError> {
+/// None where something is wrong.
+pub fn camera(check: &Checker, desc: &Spanned<CameraDesc>, errors: &mut Errors) -> Option<Camera> {
     let c = desc.as_ref();
     let orthographic = match c.projection.as_ref().map(Spanned::as_ref) {
         Some(ProjectionDesc::Orthographic { width }) => Some(*width),
         Some(ProjectionDesc::Perspective) | None => None,
     };
-    let fov = match (&c.fov, orthographic) {
-        (Some(fov), None) => *fov.as_ref(),
-        (None, Some(_)) => NO_FOV,
-        (None, None) => return Err(check.missing(desc, "fov")),
-        (Some(fov), Some(_)) => {
-            return Err(check.0.error(fov.span(), "an orthographic camera has no `fov`", "remove it, or the projection"));
-        }
-    };
+    let fov = errors.keep(desc, fov(check, desc, orthographic));
+    let eye = errors.keep(desc, check.point("eye", &c.eye));
+    let look_at = errors.keep(desc, check.point("look_at", &c.look_at));
+    let up = errors.keep(desc, c.up.as_ref().map_or(Ok(DVec3::Y), |up| check.point("up", up)));
+    let shutter = errors.keep(desc, c.shutter.as_ref().map(|times| shutter(check, times)).transpose());
     let camera = Camera {
-        eye: check.point("eye", &c.eye)?,
-        look_at: check.point("look_at", &c.look_at)?,
-        up: c.up.as_ref().map_or(Ok(DVec3::Y), |up| check.point("up", up))?,
-        fov,
+        eye: eye?,
+        look_at: look_at?,
+        up: up?,
+        fov: fov?,
         orthographic,
         lens: c.lens.as_ref().map(|lens| Lens { radius: lens.as_ref().radius, focus: lens.as_ref().focus }),
         filter: c.filter.as_ref().map_or(Filter::Box, |filter| filter.as_ref().0),
-        shutter: c.shutter.as_ref().map(|times| shutter(check, times)).transpose()?,
+        shutter: shutter?,
         resolution: c.resolution.as_ref().0,
     };
-    camera.check().map_err(|error| check.0.error(place(desc, error), error.to_string(), label(error)))?;
+    errors.keep(desc, checked(check, desc, camera))
+}
+
+/// The angle of view: of perspective cameras only.
+fn fov(check: &Checker, desc: &Spanned<CameraDesc>, orthographic: Option<f64>) -> Result<f64, SceneError> {
+    match (&desc.as_ref().fov, orthographic) {
+        (Some(fov), None) => Ok(*fov.as_ref()),
+        (None, Some(_)) => Ok(NO_FOV),
+        (None, None) => Err(check.missing(desc, "fov")),
+        (Some(fov), Some(_)) => {
+            Err(check.0.error(fov.span(), "an orthographic camera has no `fov`", "remove it, or the projection"))
+        }
+    }
+}
+
+fn checked(check: &Checker, desc: &Spanned<CameraDesc>, camera: Camera) -> Result<Camera, SceneError> {
+    camera.check().map_err(|error| {
+        let told = check.0.error(place(desc, error), error.to_string(), label(error));
+        let is_default = error == CameraError::UpIsForward && desc.as_ref().up.is_none();
+        if is_default {
+            told.with_help("`up` is [0, 1, 0] where it is not given: give another, such as [0, 0, -1]")
+        } else {
+            told
+        }
+    })?;
     // A lens without extent is a pinhole.
     Ok(Camera { lens: camera.lens.filter(|lens| lens.radius > 0.0), ..camera })
 }

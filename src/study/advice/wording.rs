@@ -16,7 +16,9 @@ pub fn difference(settings: &RenderSettings, in_use: &RenderSettings) -> String 
         Setting::Estimator => format!("estimator {}", settings.estimator.name()),
         Setting::Sampler => settings.sampler.entry().title.to_owned(),
         Setting::Roulette => roulette(settings.roulette),
-        Setting::Directions | Setting::Cap => format!("{} {}", setting.name(), setting.value(settings)),
+        Setting::Directions | Setting::Cap | Setting::Reuse | Setting::Adaptive => {
+            format!("{} {}", setting.name(), setting.value(settings))
+        }
     };
     let words: Vec<String> = differing(settings, in_use).into_iter().map(word).collect();
     if words.is_empty() { "what you have".to_owned() } else { words.join(", ") }

@@ -15,10 +15,10 @@ use crate::{
 fn outcome(settings: RenderSettings, rel_mse: f64, twins: Vec<RenderSettings>) -> Outcome {
     let point = |n: u32| {
         let share = f64::from(n) / 16.0;
-        Checkpoint { spp: n, seconds: 4.0 * share, rmse: 1.0, rel_mse: rel_mse / share, bias: 0.0 }
+        Checkpoint { spp: n, seconds: 4.0 * share, rmse: 1.0, rel_mse: rel_mse / share, bias: 0.0, bias_standard_error: None }
     };
     let run = Run { checkpoints: checkpoints(16).into_iter().map(point).collect(), ..Run::default() };
-    Outcome::of(Group { settings, twins }, &[run], Limits { floor: 0.0, black: 1e9 })
+    Outcome::of(Group { settings, twins }, &[run], Limits { floor: 0.0, black: 1e9, variance_of_mean: 0.0, mean: 1.0 })
 }
 
 fn findings(mut outcomes: Vec<Outcome>, of_scene: RenderSettings) -> Findings {
@@ -30,7 +30,7 @@ fn findings(mut outcomes: Vec<Outcome>, of_scene: RenderSettings) -> Findings {
         of_scene,
         reference: String::new(),
         reference_is_taken_for_exact: false,
-        limits: Limits { floor: 0.0, black: 1e9 },
+        limits: Limits { floor: 0.0, black: 1e9, variance_of_mean: 0.0, mean: 1.0 },
         repeats: 1,
         outcomes,
     }
@@ -57,15 +57,15 @@ fn the_overview_has_the_best_three_the_own_and_the_last() {
     let outcomes: Vec<Outcome> = all.into_iter().enumerate().flat_map(of).collect();
     let found = findings(outcomes, settings(Estimator::Light, Sampler::Sobol));
     let pair = overview(&found).expect("curves");
-    for svg in &pair.elements {
+    for svg in &pair.plots.each_ref().map(|plot| plot.svg()) {
         let shown = |estimator: &str, sampler: &str| named(svg, &format!("{estimator}, bsdf, {sampler}, roulette throughput"));
         let counts = ["sobol", "stratified", "independent"].map(|sampler| [shown("mis", sampler), shown("light", sampler)]);
         assert_eq!(counts, [[1, 1], [1, 0], [1, 1]], "{svg}");
         assert_eq!(named(svg, "slope −1/2"), 1);
     }
-    assert!(pair.elements[0].contains("rendering time, s") && pair.elements[1].contains("samples a pixel"));
+    assert!(pair.plots[0].svg().contains("rendering time, s") && pair.plots[1].svg().contains("samples a pixel"));
     assert!(!pair.caption.contains("Without noise") && !pair.caption.contains("taken off"));
-    let limited = Findings { limits: Limits { floor: 1e-9, black: 1e9 }, ..found };
+    let limited = Findings { limits: Limits { floor: 1e-9, black: 1e9, variance_of_mean: 0.0, mean: 1.0 }, ..found };
     assert!(overview(&limited).expect("curves").caption.contains("The reference's own error is taken off"));
 }
 
@@ -86,8 +86,8 @@ fn a_setting_has_a_curve_for_each_value_and_twins_share_one() {
     assert_eq!(pair.title, "Sampler");
     assert!(pair.caption.contains("All other settings as in the best combination: mis, bsdf, sobol"), "{}", pair.caption);
     // Stratified was measured with another estimator only.
-    let counts = ["sobol = bluenoise", "independent", "stratified"].map(|name| named(&pair.elements[0], name));
-    assert_eq!(counts, [1, 1, 0], "{}", pair.elements[0]);
+    let counts = ["sobol = bluenoise", "independent", "stratified"].map(|name| named(&pair.plots[0].svg(), name));
+    assert_eq!(counts, [1, 1, 0], "{}", pair.plots[0].svg());
     assert!(by_setting(&found, Setting::Roulette).is_none() && by_setting(&found, Setting::Estimator).is_none());
 }
 

@@ -6,7 +6,7 @@ use crate::{
     measure::{Comparison, Floor},
     render::pass::Threads,
     sampling::{Directions, Sampler},
-    scene::{Estimator, RenderSettings, Roulette},
+    scene::{Estimator, RenderSettings, Reuse, Roulette},
     study::{
         Lists, Plan, StudyError, Subject, checkpoints,
         measure::{Bench, follow, measure},
@@ -39,10 +39,15 @@ fn lists_are_combined_each_value_once() {
         samplers: vec![Sampler::Sobol, Sampler::Independent],
         roulettes: vec![Roulette::Off, Roulette::Fixed(0.8), Roulette::Fixed(0.8)],
         caps: vec![None],
+        reuses: vec![Reuse::On, Reuse::Off],
+        ..Lists::default()
     };
     let all = lists.combinations(RenderSettings { seed: 3, ..RenderSettings::default() });
-    assert_eq!(all.len(), 2 * 2 * 2);
-    assert!(all.iter().all(|settings| settings.seed == 3));
+    assert_eq!(all.len(), 2 * 2 * 2 * 2);
+    assert!(all.iter().all(|settings| settings.seed == 3 && !settings.adaptive));
+    assert_eq!(Lists { adaptive: vec![false, true], ..Lists::default() }.combinations(all[0]).len(), 2);
+    assert_eq!(Lists::default().combinations(all[5]), [all[5]]);
+    let all: Vec<RenderSettings> = all.into_iter().filter(|settings| settings.reuse == Reuse::On).collect();
     // Equal pictures are one group, of which what the scene opens with is measured.
     let groups = group(&["a", "b", "a", "b", "c", "c", "c", "c"], &all, &all[2]);
     assert_eq!(groups.iter().map(|group| group.twins.len()).collect::<Vec<_>>(), [1, 1, 3]);
@@ -57,7 +62,7 @@ fn a_run_stops_before_a_doubling_that_takes_too_long() {
     let subject = Subject::load(&path, Some([8, 8]), None).expect("a scene");
     let threads = Threads::new(1, SimdLevel::best()).expect("threads");
     let bench = Bench { scene: &subject.scene, camera: &subject.camera, threads: &threads, stop: &|| false };
-    let lists = Lists { estimators: vec![], directions: vec![], samplers: vec![], roulettes: vec![], caps: vec![] };
+    let lists = Lists::default();
     let plan = |time| Plan { lists: lists.clone(), spp: 16, time, repeats: 1, floor: Floor::DEFAULT };
     let reference = [[2.0; 3]; 64];
     let run = |time| measure(bench, &subject.scene.settings, &plan(time), &reference).expect("a run");
@@ -71,13 +76,13 @@ fn a_run_stops_before_a_doubling_that_takes_too_long() {
 /// Passes that take 1, 2, 4, … seconds: the time of a checkpoint is that of all passes before it.
 #[test]
 fn the_time_of_a_checkpoint_is_that_of_all_rendering_so_far() {
-    let lists = Lists { estimators: vec![], directions: vec![], samplers: vec![], roulettes: vec![], caps: vec![] };
+    let lists = Lists::default();
     let run = |time| {
         let plan = Plan { lists: lists.clone(), spp: 12, time: Duration::from_secs(time), repeats: 1, floor: Floor::DEFAULT };
         follow(&plan, |spp| {
             let error = f64::from(spp);
             let comparison = Comparison { rmse: error, rel_mse: 2.0 * error, bias: -error };
-            Ok((Duration::from_secs(u64::from(spp)), u64::from(spp) * 10, comparison))
+            Ok((Duration::from_secs(u64::from(spp)), u64::from(spp) * 10, comparison, Some(3.0 * error)))
         })
         .expect("nothing fails")
     };
@@ -86,7 +91,7 @@ fn the_time_of_a_checkpoint_is_that_of_all_rendering_so_far() {
     assert_eq!(seconds, [(1, 1.0), (2, 3.0), (4, 7.0), (8, 15.0), (12, 27.0)]);
     assert_eq!(cut, 270);
     let last = all.checkpoints[4];
-    assert_eq!((last.rmse, last.rel_mse, last.bias), (12.0, 24.0, -12.0));
+    assert_eq!((last.rmse, last.rel_mse, last.bias, last.bias_standard_error), (12.0, 24.0, -12.0, Some(36.0)));
     // After 7 s and 4 samples, 8 samples would be there after 14 s.
     assert_eq!([14, 13].map(|time| run(time).0.checkpoints.len()), [4, 3]);
 }
@@ -104,7 +109,7 @@ fn with_furnace<T>(use_it: impl FnOnce(Bench, &RenderSettings) -> T) -> T {
 #[test]
 fn a_run_has_the_errors_of_its_picture_and_says_why_it_is_biased() {
     with_furnace(|bench, settings| {
-        let lists = Lists { estimators: vec![], directions: vec![], samplers: vec![], roulettes: vec![], caps: vec![] };
+        let lists = Lists::default();
         let plan = |floor| Plan { lists: lists.clone(), spp: 2, time: Duration::MAX, repeats: 1, floor };
         // Every sample is the partial sum, 1.5.
         let capped =

@@ -16,20 +16,27 @@ use crate::{
         table,
         trial::Group,
         verdict,
-        wording::{certainty, command, percent, significant},
+        wording::{certainty, command, mean_error, percent, significant},
     },
 };
 
 fn run(rel_mse: f64, seconds: f64) -> Run {
     let point = |n: u32| {
         let [share, all] = [f64::from(n), 16.0];
-        Checkpoint { spp: n, seconds: seconds * share / all, rmse: 1.0, rel_mse: rel_mse * all / share, bias: 0.0 }
+        Checkpoint {
+            spp: n,
+            seconds: seconds * share / all,
+            rmse: 1.0,
+            rel_mse: rel_mse * all / share,
+            bias: 0.0,
+            bias_standard_error: None,
+        }
     };
     Run { checkpoints: checkpoints(16).into_iter().map(point).collect(), ..Run::default() }
 }
 
 fn outcome(settings: RenderSettings, runs: &[Run]) -> Outcome {
-    Outcome::of(Group { settings, twins: Vec::new() }, runs, Limits { floor: 0.0, black: 1.0 })
+    Outcome::of(Group { settings, twins: Vec::new() }, runs, Limits { floor: 0.0, black: 1.0, variance_of_mean: 0.0, mean: 1.0 })
 }
 
 fn findings(mut outcomes: Vec<Outcome>) -> Findings {
@@ -41,7 +48,7 @@ fn findings(mut outcomes: Vec<Outcome>) -> Findings {
         of_scene: RenderSettings::default(),
         reference: "the exact radiance".to_owned(),
         reference_is_taken_for_exact: false,
-        limits: Limits { floor: 0.0, black: 1.0 },
+        limits: Limits { floor: 0.0, black: 1.0, variance_of_mean: 0.0, mean: 1.0 },
         repeats: 2,
         outcomes,
     }
@@ -74,6 +81,26 @@ fn neither_biased_nor_empty_pictures_win_however_fast() {
 }
 
 #[test]
+fn the_bias_of_runs_is_known_as_well_as_they_and_the_reference_are() {
+    let with = |bias: f64, error: Option<f64>| {
+        let mut run = run(0.01, 1.0);
+        run.checkpoints.iter_mut().for_each(|point| (point.bias, point.bias_standard_error) = (bias, error));
+        run
+    };
+    let of = |runs: &[Run], variance_of_mean| {
+        let limits = Limits { floor: 0.0, black: 1.0, variance_of_mean, mean: 1.0 };
+        let group = Group { settings: RenderSettings::default(), twins: Vec::new() };
+        mean_error(Outcome::of(group, runs, limits).mean_error)
+    };
+    let runs = [with(0.5, Some(0.03)), with(0.3, Some(0.04))];
+    assert_eq!(of(&runs, 0.0), "+0.400 ± 0.025");
+    assert_eq!(of(&runs, 0.06 * 0.06 - 0.025 * 0.025), "+0.400 ± 0.060");
+    assert_eq!(of(&[with(-2e-3, Some(1.5e-4))], 0.0), "−0.00200 ± 0.00015");
+    assert_eq!(of(&[with(-2e-9, Some(1.5e-10))], 0.0), "−2.0e−9 ± 1.5e−10");
+    assert_eq!(of(&[with(-0.5, None)], 0.0), "−5.0e−1");
+}
+
+#[test]
 fn equal_repeats_leave_no_doubt() {
     let clear = |rel_mse| [run(rel_mse, 1.0), run(rel_mse, 1.0)];
     let found =
@@ -91,7 +118,7 @@ fn the_error_of_the_reference_is_taken_off_and_ends_the_curve() {
     // relMSE 0.16, 0.08, 0.04, 0.02, 0.01 plus that of the reference.
     let mut measured = run(0.01, 1.0);
     measured.checkpoints.iter_mut().for_each(|point| point.rel_mse += 0.015);
-    let found = Outcome::of(group, &[measured], Limits { floor: 0.015, black: 1.0 });
+    let found = Outcome::of(group, &[measured], Limits { floor: 0.015, black: 1.0, variance_of_mean: 0.0, mean: 1.0 });
     assert_eq!(found.last().spp, 8);
     assert!((found.last().rel_mse - 0.02).abs() < 1e-12);
     assert!((found.efficiency() - 1.0 / (0.02 * 0.5)).abs() < 1e-9);

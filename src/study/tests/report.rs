@@ -4,9 +4,9 @@ use std::time::Duration;
 use crate::{
     measure::Floor,
     sampling::{Directions, Sampler},
-    scene::{Estimator, RenderSettings, Roulette, parse},
+    scene::{Estimator, RenderSettings, Reuse, Roulette, parse},
     study::{
-        Checkpoint, Findings, Lists, Machine, Outcome, Plan, Run, Subject, checkpoints, html, label,
+        Checkpoint, Findings, Lists, Machine, Outcome, Plan, Run, Subject, checkpoints, differing_labels, html, label,
         outcome::Limits,
         ranking::rank,
         reference::Reference,
@@ -25,9 +25,22 @@ fn machine() -> Machine {
 fn points(rel_mse: f64, seconds: f64) -> Run {
     let point = |n: u32| {
         let share = f64::from(n) / 16.0;
-        Checkpoint { spp: n, seconds: seconds * share, rmse: 0.25, rel_mse: rel_mse / share, bias: -0.125 }
+        Checkpoint {
+            spp: n,
+            seconds: seconds * share,
+            rmse: 0.25,
+            rel_mse: rel_mse / share,
+            bias: -0.125,
+            bias_standard_error: Some(0.03),
+        }
     };
-    Run { checkpoints: checkpoints(16).into_iter().map(point).collect(), invalid_samples: 3, bias: "cap at 2".to_owned() }
+    Run {
+        checkpoints: checkpoints(16).into_iter().map(point).collect(),
+        invalid_samples: 3,
+        bias: "cap at 2".to_owned(),
+        shares: true,
+        adapts: true,
+    }
 }
 
 #[test]
@@ -41,6 +54,8 @@ fn lines_of_a_run_say_all_that_it_depends_on() {
         sampler: Sampler::Stratified,
         roulette: Roulette::Off,
         max_bounces: Some(2),
+        reuse: Reuse::Off,
+        adaptive: true,
         seed: 9,
         ..RenderSettings::default()
     };
@@ -49,6 +64,7 @@ fn lines_of_a_run_say_all_that_it_depends_on() {
         name: "a picture".to_owned(),
         radiance: vec![[1.0; 3]; 200],
         rel_mse: 0.01,
+        variance_of_mean: 0.0,
         is_taken_for_exact: false,
         floor,
     };
@@ -61,7 +77,9 @@ fn lines_of_a_run_say_all_that_it_depends_on() {
     assert_eq!((row.width, row.height, row.repeat, row.seed, row.checkpoint, row.checkpoints, row.spp), (20, 10, 2, 9, 4, 5, 8));
     let names = [&row.estimator, &row.directions, &row.sampler, &row.roulette, &row.max_bounces, &row.floor, &row.scene];
     assert_eq!(names, ["light", "cosine", "stratified", "off", "2", "0.5", "a/scene.toml"]);
+    assert_eq!((row.reuse.as_str(), row.shares, row.adaptive.as_str(), row.adapts), ("off", true, "on", true));
     assert_eq!((row.seconds, row.rel_mse, row.rmse, row.bias), (4.0, 0.04, 0.25, -0.125));
+    assert_eq!(row.bias_standard_error, Some(0.03));
     assert_eq!((row.paths_per_second, row.reference_rel_mse, row.invalid_samples), (20.0 * 10.0 * 8.0 / 4.0, 0.01, 3));
     assert_eq!(
         [&row.biased, &row.reference, &row.simd, &row.cpu, &row.version, &row.commit, &row.key],
@@ -78,6 +96,8 @@ fn settings_have_names_and_take_values_over() {
         sampler: Sampler::Independent,
         roulette: Roulette::Fixed(0.5),
         max_bounces: Some(7),
+        reuse: Reuse::On,
+        adaptive: true,
         seed: 3,
         ..a
     };
@@ -89,14 +109,22 @@ fn settings_have_names_and_take_values_over() {
         }
         assert_eq!(changed.seed, a.seed);
     }
-    assert_eq!(label(&b), "light, uniform, independent, roulette 0.5, cap 7");
+    assert_eq!(label(&b), "light, uniform, independent, roulette 0.5, cap 7, sharing on, adaptive on");
     assert_eq!(label(&a), "mis, bsdf, sobol, roulette throughput");
+    let capped = RenderSettings { max_bounces: Some(2), sampler: Sampler::Independent, ..a };
+    let (common, each) = differing_labels(&[a, capped]);
+    assert_eq!(
+        (common.as_str(), &each[..]),
+        ("mis, bsdf, roulette throughput", &["sobol, no cap".to_owned(), "independent, cap 2".to_owned()][..])
+    );
+    let on = RenderSettings { reuse: Reuse::On, ..a };
+    assert_eq!(differing_labels(&[on]), ("mis, bsdf, sobol, roulette throughput, sharing on".to_owned(), vec![String::new()]));
 }
 
 #[test]
 fn a_report_says_what_was_found_and_against_what() {
     let unbiased = |rel_mse, seconds| Run { bias: String::new(), invalid_samples: 0, ..points(rel_mse, seconds) };
-    let limits = Limits { floor: 0.0, black: 1.0 };
+    let limits = Limits { floor: 0.0, black: 1.0, variance_of_mean: 0.0, mean: 1.0 };
     let outcome = |sampler, runs: &[Run]| {
         let settings = RenderSettings { sampler, ..RenderSettings::default() };
         Outcome::of(Group { settings, twins: Vec::new() }, runs, limits)
@@ -118,7 +146,7 @@ fn a_report_says_what_was_found_and_against_what() {
         repeats: 2,
         outcomes: outcomes.clone(),
     };
-    let lists = Lists { estimators: vec![], directions: vec![], samplers: vec![], roulettes: vec![], caps: vec![] };
+    let lists = Lists::default();
     let plan = |floor| Plan { lists: lists.clone(), spp: 16, time: Duration::from_millis(1500), repeats: 2, floor };
     let page = html(&[findings(limits, true)], &plan(Floor::DEFAULT), &machine());
     for said in [
@@ -137,10 +165,13 @@ fn a_report_says_what_was_found_and_against_what() {
     }
     // The best is first: ±10 % between its repeats is a standard error of ln 1.21/2.
     let row = &page[page.find("class=\"first\"").expect("a first row")..];
-    let cells: Vec<&str> = row.split("</td>").take(13).map(|cell| cell.rsplit('>').next().unwrap_or("")).collect();
-    assert_eq!(cells[..8], ["1", "mis", "bsdf", "sobol", "throughput", "16", "1.00", "10.5 %"], "{cells:?}");
-    assert!(cells[8].starts_with("−0.50 ± "), "{cells:?}");
-    assert_eq!(cells[9..12], ["90.9", "10 %", "1.00"], "{cells:?}");
+    let cells: Vec<&str> = row.split("</td>").take(16).map(|cell| cell.rsplit('>').next().unwrap_or("")).collect();
+    let settings = ["mis", "bsdf", "sobol", "throughput", "none", "auto: on", "off"];
+    assert_eq!((cells[0], &cells[1..8]), ("1", &settings[..]), "{cells:?}");
+    assert_eq!(cells[8..11], ["16", "1.00", "10.5 %"], "{cells:?}");
+    assert!(cells[11].starts_with("−0.50 ± "), "{cells:?}");
+    // Two runs of 0.03 each are known together to 0.03/√2.
+    assert_eq!(cells[12..16], ["90.9", "10 %", "1.00", "−0.125 ± 0.021"], "{cells:?}");
     assert_eq!(page.matches("<figure").count(), 2, "the overview, and the samplers");
     let noisy = html(&[findings(Limits { floor: 0.0004, ..limits }, false)], &plan(Floor::Absolute(0.01)), &machine());
     assert!(

@@ -72,7 +72,8 @@ pub struct Inspector {
     pub pixel: Option<[u32; 2]>,
     pub sample: u32,
     replay: Search<Replay>,
-    histogram: Search<Histogram>,
+    /// With the radiance of the samples.
+    histogram: Search<(Histogram, Vec<[f32; 3]>)>,
 }
 
 impl Inspector {
@@ -94,7 +95,12 @@ impl Inspector {
 
     /// Of the first samples of the pixel.
     pub fn histogram(&self) -> Option<&Histogram> {
-        self.histogram.found.as_ref().map(|(_, histogram)| histogram)
+        self.histogram.found.as_ref().map(|(_, (histogram, _))| histogram)
+    }
+
+    /// The first samples of the pixel.
+    pub fn samples(&self) -> Option<&[[f32; 3]]> {
+        self.histogram.found.as_ref().map(|(_, (_, samples))| samples.as_slice())
     }
 
     /// Takes in what has been found, and looks for what is not. The picture has so many samples a pixel.
@@ -126,11 +132,11 @@ fn path_of(Question { wish: Wish { scene, camera, settings }, pixel, number }: &
     replay(scene, &rays, &resolved(scene, &rays, settings), *pixel, *number)
 }
 
-fn histogram_of(question: &Question, given_up: &dyn Fn() -> bool) -> Option<Histogram> {
+fn histogram_of(question: &Question, given_up: &dyn Fn() -> bool) -> Option<(Histogram, Vec<[f32; 3]>)> {
     let Question { wish: Wish { scene, camera, settings }, pixel, number } = question;
     let rays = scene.rays(camera);
     let samples = pixel_samples(scene, &rays, &resolved(scene, &rays, settings), *pixel, 0..*number, given_up)?;
-    Some(Histogram::of(samples.into_iter().map(luminance).collect()))
+    Some((Histogram::of(samples.iter().map(|rgb| luminance(*rgb)).collect()), samples))
 }
 
 #[cfg(test)]

@@ -1,4 +1,5 @@
 //! The path inspector: the samples of a pixel, and single paths vertex by vertex.
+mod copying;
 mod drawing;
 mod findings;
 mod histogram;
@@ -88,6 +89,7 @@ impl App {
             self.inspector.sample = sample;
         }
         ui.weak("Over the picture: its path in yellow; light samples in blue, faint where hidden.");
+        self.copy_buttons(ui);
     }
 
     /// Which sample is seen vertex by vertex.

@@ -43,6 +43,7 @@ pub fn heading(ui: &mut Ui, sample: u32, replay: &Replay) {
         ui.label(RichText::new(format!("Sample {sample}: {}", colour(replay.radiance))).color(ui.accent()).strong());
         ui.weak(formula);
     });
+    ui.weak(format!("The path {}.", replay.end.name()));
     remark(ui, replay.alone);
     ui.add_space(2.0);
 }
@@ -107,7 +108,8 @@ fn row(ui: &mut Ui, vertex: &Vertex, objects: &[Object]) {
                 (true, false) => ", ends",
                 _ => "",
             };
-            cell(ui, format!("{f}, q {:.2}{end}", next.survival));
+            let lobe = format!("{}, chosen with probability {}", next.lobe.name, short(next.lobe.probability));
+            ui.label(RichText::new(format!("{f}, q {:.2}{end}", next.survival)).monospace().size(TEXT)).on_hover_text(lobe);
         }
         None => nothing(ui, 2),
     }
@@ -156,6 +158,7 @@ mod tests {
     use egui_kittest::{Harness, kittest::NodeT};
     use noisefall::{
         integrator::{MetLight, Reflection, SampledLight, Surface},
+        material::ChosenLobe,
         scene::built_in,
     };
 
@@ -195,6 +198,8 @@ mod tests {
             }),
             reflection: Some(Reflection {
                 direction: [0.1, 0.2, 0.3],
+                lobe: ChosenLobe { name: "a lobe", probability: 0.5 },
+                refracted: false,
                 delta: false,
                 f: Some(grey(0.112)),
                 cos: 0.113,

@@ -128,6 +128,24 @@ fn a_path_that_leaves_the_scene_ends_in_a_dashed_line() {
 }
 
 #[test]
+fn what_is_inspected_can_be_copied() {
+    let mut window = inspecting("cornell_spheres");
+    window.state_mut().inspector.look_at([30, 20]);
+    wait(&mut window, "its samples", |app| app.inspector.histogram().is_some() && app.inspector.replay().is_some());
+    for (button, says) in [
+        ("Path", "pixel 30,20, sample 0: radiance "),
+        ("LaTeX", "\\begin{align*}"),
+        ("Samples", "sample,red,green,blue,luminance,mean,variance\n0,"),
+    ] {
+        window.get_by_label(button).click();
+        window.step();
+        let copied =
+            |command: &egui::OutputCommand| matches!(command, egui::OutputCommand::CopyText(text) if text.contains(says));
+        assert!(window.output().platform_output.commands.iter().any(copied), "{button}");
+    }
+}
+
+#[test]
 fn a_path_is_drawn_from_its_pixel_over_the_points_that_it_met() {
     let mut window = inspecting("cornell_spheres");
     window.state_mut().inspector.look_at([20, 40]);

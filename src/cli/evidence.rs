@@ -1,0 +1,90 @@
+//! `noisefall evidence`: the chapter of a report for one's own scene.
+use std::{path::PathBuf, process::ExitCode, sync::atomic::Ordering, time::Duration};
+
+use indicatif::{ProgressBar, ProgressStyle};
+use noisefall::{
+    file::replace,
+    math::SimdLevel,
+    render::{film::Film, pass::Threads},
+    study::{CSV, EvidencePlan, Machine, Store, StudyError, Subject, collect},
+};
+
+use super::{
+    Failure, folder,
+    options::{self as parse, DisplayOptions},
+    print,
+    stop::{INTERRUPTED, stop_signal},
+    tell,
+};
+
+const NOTES: &str = "\
+DIR gets report.html, every figure as SVG and PNG, every table as CSV and LaTeX, and study.csv with all measurements. What DIR has \
+already is not measured again.
+
+Example: noisefall evidence my_scene.toml -o evidence --time 180";
+
+#[derive(clap::Args)]
+#[command(after_help = NOTES)]
+pub struct Arguments {
+    /// Scene file (.toml), or a picture that carries its scene
+    scene: PathBuf,
+    /// Folder for the report and its files, made if it is not there
+    #[arg(short, long, value_name = "DIR")]
+    output: PathBuf,
+    /// About how long it takes
+    #[arg(long, value_name = "SECONDS", default_value = "180", value_parser = parse::seconds)]
+    time: Duration,
+    /// Picture that the scene must converge to (.exr), in place of its truth
+    #[arg(long, value_name = "FILE")]
+    reference: Option<PathBuf>,
+    /// Resolution in pixels [default: the reference's, or the scene's made small enough for 256 along the longer side]
+    #[arg(long, value_name = "WxH", value_parser = parse::resolution, allow_hyphen_values = true)]
+    size: Option<[u32; 2]>,
+    #[command(flatten)]
+    display: DisplayOptions,
+    /// Threads; 0 for one a core
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = parse::threads)]
+    threads: u16,
+}
+
+pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
+    let folder = &arguments.output;
+    [folder::REPORT, CSV].into_iter().try_for_each(|name| folder::make(folder, name))?;
+    let subject = Subject::load(&arguments.scene, arguments.size, arguments.reference.as_deref());
+    let subject = subject.map_err(|error| error.to_string())?;
+    let _memory = Film::reserve(subject.camera.resolution).map_err(|error| error.to_string())?;
+    let mut store = Store::open(folder).map_err(|error| error.to_string())?;
+    let threads = Threads::new(arguments.threads.into(), SimdLevel::best()).map_err(|error| error.to_string())?;
+    let machine = Machine::here(&threads);
+    let stop = stop_signal("interrupted: what has been measured is kept (once more to end at once)")?;
+    let stopped = || stop.load(Ordering::Relaxed);
+    let plan = EvidencePlan { time: arguments.time, display: arguments.display.display() };
+    let bar = progress_bar();
+    let mut told = String::new();
+    let mut observe = |what: &str, share: f64| {
+        bar.set_position((1000.0 * share) as u64);
+        bar.set_message(what.to_owned());
+        if bar.is_hidden() && told != what {
+            what.clone_into(&mut told);
+            tell(&format!("{:.0} %: {what}", 100.0 * share));
+        }
+    };
+    let chapter = collect(&plan, subject, (folder, &mut store), (&threads, &machine), &stopped, &mut observe);
+    bar.finish_and_clear();
+    let chapter = match chapter {
+        Err(StudyError::Interrupted) => return Ok(ExitCode::from(INTERRUPTED)),
+        chapter => chapter.map_err(|error| error.to_string())?,
+    };
+    chapter.failures.iter().for_each(|failure| tell(&format!("warning: {failure}")));
+    for (name, bytes) in &chapter.files {
+        replace(&folder.join(name), bytes).map_err(|error| error.to_string())?;
+    }
+    print(&format!("{}: {} figures and tables", folder.display(), chapter.files.len()))?;
+    folder::write_report(folder, &chapter.html)?;
+    Ok(ExitCode::SUCCESS)
+}
+
+fn progress_bar() -> ProgressBar {
+    let style = ProgressStyle::with_template("{bar:30} {percent:>3} %  {msg}  {elapsed} elapsed, {eta} left");
+    ProgressBar::new(1000).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+}

@@ -1,0 +1,43 @@
+//! The names of figures: the same in `render --json`, `compare --json` and `study.csv`. `docs/figures.schema.json` describes them.
+use noisefall::{
+    measure::{Bias, Comparison},
+    render::settings_text::on_or_off,
+    scene::{RenderSettings, Roulette},
+};
+use serde_json::{Map, Value, json};
+
+pub type Figures = Map<String, Value>;
+
+/// Figures of their names.
+pub fn named<const N: usize>(pairs: [(&str, Value); N]) -> Figures {
+    pairs.into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
+}
+
+/// All that a sample depends on besides scene and camera, in the words of the command line.
+pub fn settings(settings: &RenderSettings) -> Figures {
+    let start = if let Roulette::Throughput { start } = settings.roulette { Some(start) } else { None };
+    named([
+        ("estimator", json!(settings.estimator.name())),
+        ("directions", json!(settings.directions.name())),
+        ("sampler", json!(settings.sampler.entry().name)),
+        ("roulette", json!(settings.roulette.name())),
+        ("roulette_start", json!(start)),
+        ("max_bounces", json!(settings.max_bounces)),
+        ("reuse", json!(settings.reuse.name())),
+        ("adaptive", json!(on_or_off(settings.adaptive))),
+        ("seed", json!(settings.seed)),
+    ])
+}
+
+/// How far a picture is from its reference; all null where there is none.
+pub fn error(comparison: Option<&Comparison>, bias: Option<&Bias>) -> Figures {
+    named([
+        ("rmse", json!(comparison.map(|comparison| comparison.rmse))),
+        ("rel_mse", json!(comparison.map(|comparison| comparison.rel_mse))),
+        ("bias", json!(bias.map(|bias| bias.mean))),
+        ("bias_standard_error", json!(bias.and_then(|bias| bias.standard_error))),
+        ("bias_in_standard_errors", json!(bias.and_then(|bias| bias.z))),
+        ("exact_samples", json!(bias.map(|bias| bias.is_exact))),
+        ("heavy_tails", json!(bias.map(|bias| bias.has_heavy_tails))),
+    ])
+}

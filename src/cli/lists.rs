@@ -1,0 +1,51 @@
+//! Lists of settings, all of which are combined.
+use noisefall::{
+    sampling::{Directions, Sampler},
+    scene::{Estimator, Reuse, Roulette},
+    study::Lists,
+};
+
+use super::options::{self as parse, BounceCap};
+
+#[derive(clap::Args)]
+pub struct ListOptions {
+    /// How light is found: path, light, mis
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::item(parse::estimator))]
+    estimators: Vec<Estimator>,
+    /// How the next direction is drawn at diffuse surfaces: uniform, cosine, bsdf
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::item(parse::directions))]
+    directions: Vec<Directions>,
+    /// Where samples lie: independent, stratified, sobol, bluenoise (which is sobol in another order)
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::item(parse::sampler))]
+    samplers: Vec<Sampler>,
+    /// Russian roulette: off, survival probabilities, throughput
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::item(parse::roulette))]
+    roulette: Vec<Roulette>,
+    /// Highest numbers of bounces, none for no cap; what is capped is biased
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::item(parse::bounce_cap))]
+    max_bounces: Vec<BounceCap>,
+    /// Whether neighbouring pixels share what their paths find: auto, on, off
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::item(parse::reuse))]
+    reuse: Vec<Reuse>,
+    /// Whether pixels get more samples where there is more noise: on, off
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::item(parse::on_or_off))]
+    adaptive: Vec<bool>,
+}
+
+impl ListOptions {
+    /// The lists; where one is not given, that of `usual`.
+    pub fn lists(&self, usual: Lists) -> Lists {
+        fn given<T: Clone>(list: &[T], usual: Vec<T>) -> Vec<T> {
+            if list.is_empty() { usual } else { list.to_vec() }
+        }
+        Lists {
+            estimators: given(&self.estimators, usual.estimators),
+            directions: given(&self.directions, usual.directions),
+            samplers: given(&self.samplers, usual.samplers),
+            roulettes: given(&self.roulette, usual.roulettes),
+            caps: given(&self.max_bounces.iter().map(|cap| cap.0).collect::<Vec<_>>(), usual.caps),
+            reuses: given(&self.reuse, usual.reuses),
+            adaptive: given(&self.adaptive, usual.adaptive),
+        }
+    }
+}

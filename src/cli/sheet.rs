@@ -1,0 +1,122 @@
+//! `noisefall sheet`: one labelled picture of several settings.
+use std::{path::PathBuf, process::ExitCode, sync::atomic::Ordering, time::Duration};
+
+use indicatif::{ProgressBar, ProgressStyle};
+use noisefall::{
+    file::{check, replace},
+    math::SimdLevel,
+    memory::reserve,
+    render::{display::to_srgb, film::Film, image_file::Format, pass::Threads},
+    report::sheet::{Cell, sheet},
+    scene::{Camera, RenderSettings, load},
+    study::{Bench, Lists, StudyError, differing_labels, study_size},
+};
+
+use super::{
+    Failure,
+    lists::ListOptions,
+    options::{self as parse, DisplayOptions},
+    print,
+    stop::{INTERRUPTED, stop_signal},
+    tell, wrong_usage,
+};
+
+const NOTES: &str = "\
+Each combination of the lists is a picture; a list that is not given is as the scene has it. All pictures have the same seed.
+
+Example: noisefall sheet scenes/cornell_box.toml -o sheet.png --spp 1,4,16,64 --estimators path,mis";
+
+#[derive(clap::Args)]
+#[command(after_help = NOTES)]
+pub struct Arguments {
+    /// Scene file (.toml), or a picture that carries its scene
+    scene: PathBuf,
+    /// Picture to write (.png)
+    #[arg(short, long, value_name = "FILE")]
+    output: PathBuf,
+    /// Samples per pixel
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::item(parse::samples), default_value = "16")]
+    spp: Vec<u32>,
+    #[command(flatten)]
+    lists: ListOptions,
+    /// Resolution of each picture [default: the scene's made small enough for 256 along the longer side]
+    #[arg(long, value_name = "WxH", value_parser = parse::resolution, allow_hyphen_values = true)]
+    size: Option<[u32; 2]>,
+    /// Pictures side by side [default: as many as there are numbers of samples, or four]
+    #[arg(long, value_name = "N", value_parser = parse::samples)]
+    columns: Option<u32>,
+    /// Seed of the random numbers
+    #[arg(long, value_name = "N", value_parser = parse::whole)]
+    seed: Option<u32>,
+    #[command(flatten)]
+    display: DisplayOptions,
+    /// Threads; 0 for one a core
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = parse::threads)]
+    threads: u16,
+}
+
+pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
+    if Format::of(&arguments.output).ok() != Some(Format::Png) {
+        return Ok(wrong_usage(&format!("{}: a sheet is a PNG: the name must end in .png", arguments.output.display())));
+    }
+    check(&arguments.output).map_err(|error| error.to_string())?;
+    let scene = load(&arguments.scene).map_err(|error| error.report())?;
+    let camera = Camera { resolution: arguments.size.unwrap_or(study_size(scene.camera.resolution)), ..scene.camera };
+    camera.check().map_err(|error| error.to_string())?;
+    let base = RenderSettings { seed: arguments.seed.unwrap_or(scene.settings.seed), ..scene.settings };
+    let combinations = arguments.lists.lists(Lists::default()).combinations(base);
+    let mut spp = arguments.spp.clone();
+    spp.sort_unstable();
+    spp.dedup();
+    let [width, height] = camera.resolution;
+    let pictures = (combinations.len() * spp.len()) as u64;
+    // The cells, and the sheet with its margins.
+    let _memory =
+        reserve(format_args!("{pictures} pictures of {width} × {height}"), pictures * u64::from(width) * u64::from(height) * 10)
+            .and_then(|cells| Film::reserve(camera.resolution).map(|film| (cells, film)))
+            .map_err(|error| error.to_string())?;
+    let threads = Threads::new(arguments.threads.into(), SimdLevel::best()).map_err(|error| error.to_string())?;
+    let stop = stop_signal("interrupted: no sheet is written")?;
+    let stopped = || stop.load(Ordering::Relaxed);
+    let bench = Bench { scene: &scene, camera: &camera, threads: &threads, stop: &stopped };
+    match cells(arguments, &bench, &combinations, &spp) {
+        Ok(cells) => {
+            let (common, _) = differing_labels(&combinations);
+            let title = [scene.title.clone(), common].into_iter().filter(|line| !line.is_empty()).collect::<Vec<_>>();
+            let columns = arguments.columns.unwrap_or(if spp.len() > 1 { spp.len() as u32 } else { 4 });
+            let png = threads.install(|| sheet(camera.resolution, columns, &title, &cells))?;
+            replace(&arguments.output, &png).map_err(|error| error.to_string())?;
+            print(&format!("{}: {pictures} pictures of {width} × {height}", arguments.output.display()))?;
+            Ok(ExitCode::SUCCESS)
+        }
+        Err(StudyError::Interrupted) => Ok(ExitCode::from(INTERRUPTED)),
+        Err(error) => Err(error.to_string()),
+    }
+}
+
+/// The pictures: for each combination one for each number of samples, of which the smaller are on the way to the larger.
+fn cells(arguments: &Arguments, bench: &Bench, combinations: &[RenderSettings], spp: &[u32]) -> Result<Vec<Cell>, StudyError> {
+    let style = ProgressStyle::with_template("{bar:30} {pos}/{len} pictures  {elapsed} elapsed, {eta} left");
+    let bar = ProgressBar::new((combinations.len() * spp.len()) as u64);
+    bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+    let (_, labels) = differing_labels(combinations);
+    let mut cells = Vec::new();
+    for (settings, label) in combinations.iter().zip(labels) {
+        let (mut film, mut elapsed) = (bench.film(), Duration::ZERO);
+        for spp in spp {
+            let (took, count) = bench.pass(settings, &mut film, *spp)?;
+            elapsed += took;
+            if count.cut_paths > 0 {
+                tell(&format!("warning: {label}: {} paths were cut: the picture is biased; use roulette", count.cut_paths));
+            }
+            let mut pixels = Vec::new();
+            to_srgb(&bench.frame(&film).radiance, arguments.display.display(), &mut pixels);
+            let figures = format!("{spp} spp, {:.2} s", elapsed.as_secs_f64());
+            let lines = [label.clone(), figures].into_iter().filter(|line| !line.is_empty()).collect();
+            cells.push(Cell { lines, pixels });
+            bar.inc(1);
+        }
+    }
+    bar.finish_and_clear();
+    Ok(cells)
+}

@@ -1,0 +1,158 @@
+//! A path in words and numbers: the settings, the nested sum, why it ended, and every vertex.
+use super::path_formula;
+use crate::{
+    integrator::{MetLight, Outcome, Reflection, Replay, SampledLight, Surface, Vertex},
+    render::settings_text::on_or_off,
+    scene::{Camera, RenderSettings, Roulette, Scene},
+};
+
+/// Which path it is, and how it was traced.
+#[derive(Clone, Copy)]
+pub struct PathId<'a> {
+    pub scene: &'a Scene,
+    pub camera: &'a Camera,
+    pub settings: &'a RenderSettings,
+    pub pixel: [u32; 2],
+    pub sample: u32,
+}
+
+/// All of it as text.
+pub fn text(id: &PathId, replay: &Replay) -> String {
+    let mut text = format!("{}\n\n{}\n", heading(id, replay), path_formula::text(replay));
+    for vertex in &replay.vertices {
+        text += &format!("{}\n", block(id.scene, vertex));
+    }
+    text += &format!("\nThe path {}.", replay.end.name());
+    if let Some(alone) = replay.alone {
+        text += &format!(
+            "\nThis path alone would have made it {}: pixels share what their paths find (--reuse off: none does).",
+            three(alone)
+        );
+    }
+    text
+}
+
+/// The nested sum for a document, with the settings as comments.
+pub fn latex(id: &PathId, replay: &Replay) -> String {
+    let heading = heading(id, replay);
+    let comments: String = heading.lines().map(|line| format!("% {line}\n")).collect();
+    format!("{comments}% The path {}.\n{}", replay.end.name(), path_formula::latex(replay))
+}
+
+fn heading(PathId { scene, camera, settings, pixel: [x, y], sample }: &PathId, replay: &Replay) -> String {
+    let [width, height] = camera.resolution;
+    let roulette = match settings.roulette {
+        Roulette::Throughput { start } => format!("throughput from bounce {start} on"),
+        other => other.name(),
+    };
+    let cap = settings.max_bounces.map_or_else(|| "none".to_owned(), |cap| cap.to_string());
+    let title = if scene.title.is_empty() { String::new() } else { format!("\n  scene           {}", scene.title) };
+    format!(
+        "pixel {x},{y}, sample {sample}: radiance {}{title}\n  \
+         settings        estimator {}, directions {}, sampler {}, seed {}\n  \
+         {:15} roulette {roulette}, max_bounces {cap}\n  \
+         {:15} reuse {}, adaptive {}, {width} × {height} pixels",
+        three(replay.radiance),
+        settings.estimator.name(),
+        settings.directions.name(),
+        settings.sampler.entry().name,
+        settings.seed,
+        "",
+        "",
+        settings.reuse.name(),
+        on_or_off(settings.adaptive),
+    )
+}
+
+/// What is printed of a vertex: a title, and a line or more a term.
+fn block(scene: &Scene, vertex: &Vertex) -> String {
+    let mut text = title(scene, vertex);
+    let mut term = |name: &str, value: &str| text += &format!("\n  {name:<15} {value}");
+    term("throughput", &three(vertex.throughput));
+    if vertex.transmittance != [1.0; 3] {
+        term("media let pass", &three(vertex.transmittance));
+    }
+    if let Some(Surface { position, wo, shading_normal, .. }) = &vertex.surface {
+        term("position", &place(*position));
+        term("to the viewer", &place(*wo));
+        shading_normal.iter().for_each(|n| term("normal", &place(*n)));
+    }
+    if let Some(MetLight { radiance, weight, contribution }) = &vertex.emission {
+        term("emission", &format!("Le {}, weight {}", three(*radiance), number(*weight)));
+        term("", &format!("adds {}", three(*contribution)));
+    }
+    vertex.light.iter().for_each(|light| light_sample(scene, light, &mut term));
+    vertex.reflection.iter().for_each(|reflection| next(reflection, &mut term));
+    term("radiance so far", &three(vertex.radiance));
+    text
+}
+
+fn title(scene: &Scene, vertex: &Vertex) -> String {
+    let (Some(id), Some(distance), Some(surface)) = (vertex.object, vertex.distance, &vertex.surface) else {
+        return format!("\nvertex {}: leaves the scene", vertex.bounce);
+    };
+    let (material, side) = (surface.material.unwrap_or("black"), if surface.front { "front" } else { "back" });
+    format!("\nvertex {}: {}, {material}, {side}, {} m away", vertex.bounce, name(scene, id), number(distance))
+}
+
+fn light_sample(scene: &Scene, light: &SampledLight, term: &mut impl FnMut(&str, &str)) {
+    let aim = light.object.map_or("the background", |id| name(scene, id));
+    term("light sample", &format!("{aim}, p {}", number(light.pdf)));
+    term("", &format!("ω {}", place(light.direction)));
+    term("", &format!("Le {}, weight {}", three(light.radiance), number(light.weight)));
+    term("", &format!("f cos {}", three(light.f_cos)));
+    if light.outcome == Outcome::Seen && light.passed != [1.0; 3] {
+        term("", &format!("× {} by media and texture", three(light.passed)));
+    }
+    term(
+        "",
+        &match light.outcome {
+            Outcome::Seen => format!("is seen, adds {}", three(light.contribution)),
+            Outcome::Hidden => "is hidden".to_owned(),
+            Outcome::Void => "cannot be reflected or is dark".to_owned(),
+        },
+    );
+}
+
+fn next(reflection: &Reflection, term: &mut impl FnMut(&str, &str)) {
+    term("next direction", &format!("ω {}", place(reflection.direction)));
+    let side = if reflection.refracted { "refracted" } else { "reflected" };
+    let chosen = reflection.lobe.probability;
+    let chance = if chosen < 1.0 { format!(", chosen with probability {}", number(chosen)) } else { String::new() };
+    term("", &format!("{side}: {}{chance}", reflection.lobe.name));
+    match (reflection.f, reflection.pdf) {
+        (Some(f), Some(pdf)) => {
+            term("", &format!("f {}, p {}", three(f), number(pdf)));
+            term("", &format!("cos θ {}, f cos/p {}", number(reflection.cos), three(reflection.weight)));
+        }
+        _ => term("", &format!("delta lobe, weight {}", three(reflection.weight))),
+    }
+    let played = if reflection.survival < 1.0 { format!("survival {}, ", number(reflection.survival)) } else { String::new() };
+    let end = match reflection {
+        Reflection { goes_on: true, throughput, .. } => format!("goes on with {}", three(*throughput)),
+        Reflection { survives: false, survival, .. } if *survival < 1.0 => "ended by roulette".to_owned(),
+        _ => "ends: nothing would come of it".to_owned(),
+    };
+    term("", &format!("{played}{end}"));
+}
+
+fn name(scene: &Scene, object: u32) -> &str {
+    match scene.objects[object as usize].name.as_str() {
+        "" => "(unnamed)",
+        name => name,
+    }
+}
+
+fn three(values: [f32; 3]) -> String {
+    values.map(number).join(" ")
+}
+
+/// A point or a direction.
+fn place([x, y, z]: [f32; 3]) -> String {
+    format!("{x:.5} {y:.5} {z:.5}")
+}
+
+/// Five decimals, or as many digits where these would be few or the number long.
+fn number(x: f32) -> String {
+    if x == 0.0 || (1e-3..1e4).contains(&x.abs()) { format!("{x:.5}") } else { format!("{x:.4e}") }
+}

@@ -1,0 +1,43 @@
+//! Scenes that pictures carry: a PNG or an EXR that Noisefall has written opens as the scene it shows.
+use std::path::Path;
+
+use serde::Deserialize;
+
+use super::{Camera, RenderSettings, Roulette, Scene, diagnostic::SceneError, load::parse};
+use crate::{
+    file::open_regular,
+    image::{carried_text, looks_like},
+};
+
+/// What a picture says of itself.
+#[derive(Deserialize)]
+struct Carried {
+    /// The text of the scene file.
+    scene: String,
+    camera: Camera,
+    settings: RenderSettings,
+}
+
+/// The scene that a file carries if it is a picture, with the camera and the settings of that picture; `None` if there is none in it.
+pub fn load_carried(path: &Path) -> Option<Result<Scene, SceneError>> {
+    let start = &mut [0; 8];
+    std::io::Read::read_exact(&mut open_regular(path).ok()?, start).ok()?;
+    looks_like(start)?;
+    let carried: Carried = serde_json::from_str(&carried_text(open_regular(path).ok()?)?).ok()?;
+    Some(open(path, carried))
+}
+
+fn open(path: &Path, carried: Carried) -> Result<Scene, SceneError> {
+    let mut scene = parse(&path.display().to_string(), carried.scene).map_err(|error| {
+        error.with_help("the picture carries this scene: files that it names are looked for beside the picture")
+    })?;
+    let unusable = |what: String| SceneError::of_file(path, what, "open the scene file in place of the picture");
+    carried.camera.check().map_err(|error| unusable(format!("the camera of the picture cannot be used: {error}")))?;
+    if let Roulette::Fixed(p) = carried.settings.roulette
+        && !(Roulette::LEAST..=1.0).contains(&p)
+    {
+        return Err(unusable(format!("the picture names a survival probability of {p}")));
+    }
+    (scene.camera, scene.settings) = (carried.camera, carried.settings);
+    Ok(scene)
+}

@@ -1,0 +1,156 @@
+//! Things that are legal but probably not meant, for the window and the command line.
+use glam::DVec3;
+
+use super::{MOST_NESTED, Object, Scene};
+use crate::{
+    geometry::{MISS, Outline, Shape},
+    light::Side,
+    math::{Lanes, One, V},
+};
+
+/// A surface in front of a lamp, at less than this part of the lamp's radius, lets hardly any of its light out.
+const HAIRS_BREADTH: f64 = 0.01;
+/// Lamps that are looked at.
+const MOST_LAMPS: usize = 256;
+/// Objects that are called by name.
+const MOST_NAMED: usize = 3;
+/// Angles of view below this number of degrees are more likely radians.
+const RADIANS: f64 = 3.2;
+/// The sine of the angle between `up` and the direction of view below which the picture stands at random.
+const NEARLY_PARALLEL: f64 = 0.02;
+
+impl Scene {
+    /// One sentence each, without its end.
+    pub fn warnings(&self) -> &[String] {
+        self.warned.get_or_init(|| [self.warnings_of_scene(), self.warnings_of_objects(), self.warnings_of_camera()].concat())
+    }
+
+    fn warnings_of_scene(&self) -> Vec<String> {
+        let mut warnings = Vec::new();
+        if self.lights.is_empty() {
+            warnings.push("nothing in this scene emits light: the picture will be black".to_owned());
+        }
+        if self.moves() && self.camera.shutter.is_none() {
+            warnings.push("something moves, but without `shutter` in [camera] it is seen standing still".to_owned());
+        }
+        if self.shapes.dropped_triangles() > 0 {
+            warnings.push(format!("{} triangles without area were left out", self.shapes.dropped_triangles()));
+        }
+        if self.objects.is_empty() {
+            warnings.push("this scene has no objects".to_owned());
+        }
+        let depth = self.deepest_media;
+        if depth > MOST_NESTED {
+            warnings.push(format!("{depth} media lie within each other: only the tint of the inner {MOST_NESTED} is kept"));
+        }
+        warnings
+    }
+
+    fn warnings_of_objects(&self) -> Vec<String> {
+        let mut warnings = Vec::new();
+        let bare = self.names(|object| object.coating.is_none() && object.emission.is_none());
+        if let Some((bare, have)) = bare {
+            warnings.push(format!("{bare} {have} neither `material` nor `emission`, and will be black"));
+        }
+        if let Some((flipped, have)) = self.names(|object| object.flip && object.is_dielectric()) {
+            warnings.push(format!(
+                "{flipped} {have} `flip` on a dielectric: `ior` and `ior_outside` change sides, and the medium fills what is around"
+            ));
+        }
+        for (lamp, wall) in self.covered_lamps() {
+            warnings.push(format!(
+                "the lamp {} faces {} at a hair's breadth and lights nothing else: turn it by `flip = true`, or move it away",
+                self.name_of(lamp),
+                self.name_of(wall)
+            ));
+        }
+        warnings
+    }
+
+    fn warnings_of_camera(&self) -> Vec<String> {
+        let mut warnings = Vec::new();
+        let camera = &self.camera;
+        if let Some(emitter) = self.around(camera).filter(|object| object.emits_outwards_only()) {
+            warnings.push(format!("the camera is inside {}", self.emitter_from_inside(emitter)));
+        }
+        if camera.orthographic.is_none() && camera.fov < RADIANS {
+            let (fov, degrees) = (camera.fov, camera.fov.to_degrees());
+            warnings.push(format!("`fov` is in degrees, and {fov} is a narrow view: {fov} radians would be {degrees:.1}"));
+        }
+        let [_, _, forward] = camera.axes();
+        if forward.cross(camera.up.normalize()).length() < NEARLY_PARALLEL {
+            warnings.push("`up` is nearly parallel to the direction of view: the picture may stand at any angle".to_owned());
+        }
+        warnings
+    }
+
+    /// Lamps whose emitting side is covered, and what covers them.
+    fn covered_lamps(&self) -> impl Iterator<Item = (&Object, &Object)> {
+        let lamps = self.objects.iter().enumerate().take_while(|(_, object)| object.emission.is_some());
+        lamps.take(MOST_LAMPS).filter_map(|(number, lamp)| Some((lamp, self.cover(number, lamp)?)))
+    }
+
+    /// What covers a flat lamp that stands still.
+    fn cover(&self, number: usize, lamp: &Object) -> Option<&Object> {
+        let Shape::Flat { outline, origin, edges: [u, v], mirrored } = &lamp.shape else { return None };
+        let side = lamp.emission.map(|emission| emission.side).filter(|side| *side != Side::Both)?;
+        let turns = *mirrored != (side == Side::Back);
+        let normal = u.cross(*v).try_normalize()? * if turns { -1.0 } else { 1.0 };
+        let above = normal * HAIRS_BREADTH * lamp.shape.bounding_sphere().1;
+        // From above the lamp back to it: what is met first is not the lamp if something lies between.
+        let cover = |(a, b): (f64, f64)| {
+            let met = self.first_object(*origin + *u * a + *v * b + above, -normal)?;
+            (met != number && lamp.motion.0.is_empty()).then(|| &self.objects[met]).filter(|object| !object.is_dielectric())
+        };
+        let covers: Option<Vec<&Object>> = places(*outline).into_iter().map(cover).collect();
+        covers?.first().copied()
+    }
+
+    /// The number of the first object along a ray, as things are at time 0.
+    fn first_object(&self, origin: DVec3, direction: DVec3) -> Option<usize> {
+        let l = One;
+        let [o, d] = [origin, direction].map(|v| V::splat(l, v.as_vec3().to_array()));
+        let nearest = self.shapes.closest(l, l.first(1), o, d, l.f(0.0));
+        (nearest.primitive.0 != MISS).then(|| self.owners[nearest.primitive.0 as usize] as usize)
+    }
+
+    /// The first of the objects of which something holds by name, and the verb that goes with so many of them.
+    fn names(&self, holds: impl Fn(&&Object) -> bool) -> Option<(String, &'static str)> {
+        let count = self.objects.iter().filter(&holds).count();
+        let named: Vec<String> = self.objects.iter().filter(&holds).take(MOST_NAMED).map(|object| self.name_of(object)).collect();
+        let shown = named.join(", ");
+        match count {
+            0 => None,
+            1 => Some((shown, "has")),
+            _ if count > MOST_NAMED => Some((format!("{shown} and {} more objects", count - MOST_NAMED), "have")),
+            _ => Some((shown, "have")),
+        }
+    }
+
+    /// What to call an object.
+    pub(super) fn name_of(&self, object: &Object) -> String {
+        let number = self.objects.iter().position(|other| std::ptr::eq(other, object)).map_or(0, |at| at + 1);
+        if object.name.is_empty() { format!("object {number}") } else { format!("`{}`", object.name) }
+    }
+
+    /// An emitter that is dark inside, and what to do about it.
+    pub(super) fn emitter_from_inside(&self, emitter: &Object) -> String {
+        format!("{}, which emits outwards only: `flip = true` turns its front inwards", self.name_of(emitter))
+    }
+}
+
+impl Object {
+    /// Whether it emits, and nothing of that from its inside.
+    pub(super) fn emits_outwards_only(&self) -> bool {
+        self.emission.is_some_and(|emission| emission.side == Side::Front)
+    }
+}
+
+/// Places all over a flat shape, in its coordinates.
+fn places(outline: Outline) -> [(f64, f64); 5] {
+    match outline {
+        Outline::Parallelogram => [(0.5, 0.5), (0.1, 0.1), (0.9, 0.1), (0.1, 0.9), (0.9, 0.9)],
+        Outline::Triangle => [(0.3, 0.3), (0.1, 0.1), (0.8, 0.1), (0.1, 0.8), (0.45, 0.45)],
+        Outline::Ellipse => [(0.0, 0.0), (0.8, 0.0), (-0.8, 0.0), (0.0, 0.8), (0.0, -0.8)],
+    }
+}

@@ -1,0 +1,54 @@
+//! The files of the chapter.
+use base64::{Engine, engine::general_purpose::STANDARD};
+
+use super::{
+    exhibits::{Exhibits, Picture},
+    page,
+};
+use crate::report::{plot::Plot, table::Table};
+
+/// What is written: a page, and every figure and table of it by itself.
+pub struct Chapter {
+    pub html: String,
+    /// Names and contents.
+    pub files: Vec<(String, Vec<u8>)>,
+    /// What could not be drawn.
+    pub failures: Vec<String>,
+}
+
+impl Chapter {
+    pub fn new(exhibits: Exhibits) -> Chapter {
+        let (tables, plots) = (exhibits.tables(), exhibits.plots());
+        let mut chapter = Chapter { html: page::html(&exhibits, &tables, &plots), files: Vec::new(), failures: Vec::new() };
+        tables.iter().for_each(|table| chapter.add_table(table));
+        plots.iter().for_each(|(name, _, plot)| chapter.add_plot(name, plot));
+        exhibits.pictures.iter().for_each(|picture| chapter.add_picture(picture));
+        chapter
+    }
+
+    fn add_table(&mut self, table: &Table) {
+        self.add(format!("{}.csv", table.name), table.csv());
+        self.add(format!("{}.tex", table.name), Ok(table.latex().into_bytes()));
+    }
+
+    fn add_plot(&mut self, name: &str, plot: &Plot) {
+        self.add(format!("{name}.svg"), Ok(plot.svg().into_bytes()));
+        self.add(format!("{name}.png"), plot.png());
+    }
+
+    fn add_picture(&mut self, picture: &Picture) {
+        self.add(format!("{}.png", picture.name), Ok(picture.png.clone()));
+    }
+
+    fn add(&mut self, name: String, bytes: Result<Vec<u8>, String>) {
+        match bytes {
+            Ok(bytes) => self.files.push((name, bytes)),
+            Err(error) => self.failures.push(format!("{name}: {error}")),
+        }
+    }
+}
+
+/// A PNG as an element of a page.
+pub fn img(png: &[u8]) -> String {
+    format!("<img src=\"data:image/png;base64,{}\" alt=\"\">", STANDARD.encode(png))
+}

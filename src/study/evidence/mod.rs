@@ -1,0 +1,121 @@
+//! The chapter of a report for one's own scene: what converges, how fast, and how sure that is.
+//!
+//! Each question is a small [`Study`] of one setting, all others as the scene has them and without a cap; measurements are kept in the
+//! folder as those of any other study.
+mod chapter;
+mod exhibits;
+mod page;
+
+use std::{
+    path::Path,
+    time::{Duration, Instant},
+};
+
+pub use self::chapter::Chapter;
+use self::exhibits::{Exhibits, pictures};
+use super::{Findings, Lists, Machine, Plan, Progress, Store, Study, StudyError, Subject, measure::Bench, setting::Setting};
+use crate::{
+    measure::Floor,
+    render::{Display, pass::Threads},
+    sampling::{Directions, Sampler},
+    scene::{Estimator, Roulette},
+};
+
+/// Caps that are shown and measured.
+const CAPS: [Option<u32>; 5] = [Some(0), Some(1), Some(2), Some(5), None];
+const REPEATS: u32 = 3;
+/// Parts of the time: for the runs of all studies, and for pictures. The rest is for the reference, and for trials.
+const FOR_RUNS: f64 = 0.6;
+const FOR_PICTURES: f64 = 0.1;
+/// Samples a pixel of the longest runs.
+const SPP: std::ops::RangeInclusive<u32> = 16..=4096;
+
+/// How long it may take, and how its pictures are shown.
+pub struct EvidencePlan {
+    pub time: Duration,
+    pub display: Display,
+}
+
+/// A question, and the setting that it is about.
+struct Topic {
+    setting: Setting,
+    lists: Lists,
+}
+
+fn topics() -> [Topic; 5] {
+    let uncapped = || Lists { caps: vec![None], ..Lists::default() };
+    let roulettes = vec![Roulette::Off, Roulette::Fixed(0.5), Roulette::Fixed(0.8), Roulette::BY_THROUGHPUT];
+    let samplers = vec![Sampler::Independent, Sampler::Stratified, Sampler::Sobol];
+    let directions = vec![Directions::Uniform, Directions::Cosine, Directions::Bsdf];
+    [
+        Topic { setting: Setting::Cap, lists: Lists { caps: CAPS.to_vec(), ..Lists::default() } },
+        Topic { setting: Setting::Roulette, lists: Lists { roulettes, ..uncapped() } },
+        Topic { setting: Setting::Directions, lists: Lists { directions, ..uncapped() } },
+        Topic { setting: Setting::Estimator, lists: Lists { estimators: Estimator::ALL.to_vec(), ..uncapped() } },
+        Topic { setting: Setting::Sampler, lists: Lists { samplers, ..uncapped() } },
+    ]
+}
+
+/// Measures everything. `observe` is told what is going on, and the share of it that is done.
+pub fn collect(
+    plan: &EvidencePlan,
+    subject: Subject,
+    (folder, store): (&Path, &mut Store),
+    (threads, machine): (&Threads, &Machine),
+    stop: &(dyn Fn() -> bool + Sync),
+    observe: &mut dyn FnMut(&str, f64),
+) -> Result<Chapter, StudyError> {
+    let subjects = [subject];
+    let [subject] = &subjects;
+    let bench = Bench { scene: &subject.scene, camera: &subject.camera, threads, stop };
+    let topics = topics();
+    let runs = topics.iter().map(|topic| topic.lists.combinations(subject.scene.settings).len()).sum::<usize>() as u32 * REPEATS;
+    let study_plan = |lists: Lists, spp: u32| Plan {
+        lists,
+        spp,
+        time: plan.time.mul_f64(2.0 * FOR_RUNS / f64::from(runs)),
+        repeats: REPEATS,
+        floor: Floor::DEFAULT,
+    };
+    observe("trying out how long a sample takes", 0.0);
+    let spp = longest(bench, plan.time.mul_f64(FOR_RUNS / f64::from(runs)))?;
+    let mut findings: Vec<(Setting, Findings)> = Vec::new();
+    let mut done = 0;
+    for topic in topics {
+        let about = format!("{} of {}", topic.setting.name(), subject.title());
+        let plan = study_plan(topic.lists, spp);
+        let study = Study { plan: &plan, folder, threads, machine, stop };
+        let found = study.run(&subjects, store, &mut |progress| {
+            let share = match progress {
+                Progress::Reference { share, .. } => (1.0 - FOR_RUNS - FOR_PICTURES) * share,
+                Progress::Planned { found, .. } => {
+                    done += found as u32;
+                    return;
+                }
+                Progress::Done => {
+                    done += 1;
+                    1.0 - FOR_RUNS - FOR_PICTURES + FOR_RUNS * f64::from(done.min(runs)) / f64::from(runs)
+                }
+                Progress::Begun { .. } | Progress::Combination { .. } => return,
+            };
+            observe(if share < 1.0 - FOR_RUNS - FOR_PICTURES { "reference" } else { &about }, share);
+        })?;
+        findings.extend(found.into_iter().map(|findings| (topic.setting, findings)));
+    }
+    observe("pictures", 1.0 - FOR_PICTURES);
+    let pictures = pictures(bench, spp, plan.display)?;
+    observe("pictures", 1.0);
+    Ok(Chapter::new(Exhibits { subject, findings: &findings, pictures, spp, repeats: REPEATS, machine }))
+}
+
+/// The power of two that is nearest to the samples of a run of this time.
+fn longest(bench: Bench, time: Duration) -> Result<u32, StudyError> {
+    let mut film = bench.film();
+    let settings = bench.scene.settings;
+    bench.pass(&settings, &mut film, 1)?;
+    let begun = Instant::now();
+    bench.pass(&settings, &mut film, 3)?;
+    let per_sample = begun.elapsed().as_secs_f64() / 2.0;
+    let samples = (time.as_secs_f64() / per_sample.max(1e-9)).clamp(f64::from(*SPP.start()), f64::from(*SPP.end()));
+    Ok(1 << samples.log2().round() as u32)
+}

@@ -1,0 +1,50 @@
+//! The chapter as a page.
+use maud::{Markup, html as markup};
+
+use super::{chapter::img, exhibits::Exhibits};
+use crate::report::{self, Figure, plot::Plot, table::Table};
+
+const STYLE: &str = "
+:root { --width: 60rem; }
+td { white-space: nowrap; }
+figure table { width: auto; }
+";
+
+/// One page that opens offline.
+pub fn html(exhibits: &Exhibits, tables: &[Table], plots: &[(String, String, Plot)]) -> String {
+    let (subject, machine) = (exhibits.subject, exhibits.machine);
+    let title = subject.title();
+    let picture = |number: usize| {
+        let picture = &exhibits.pictures[number];
+        Figure { caption: picture.caption.clone(), element: img(&picture.png) }.markup()
+    };
+    let of = |prefix: &str| -> Markup {
+        markup! {
+            @for (_, caption, plot) in plots.iter().filter(|(name, ..)| name.starts_with(prefix)) {
+                (Figure { caption: caption.clone(), element: plot.svg() }.markup())
+            }
+        }
+    };
+    let tables_of = |prefix: &str| -> Markup {
+        markup! { @for table in tables.iter().filter(|table| table.name.starts_with(prefix)) { (table.markup()) } }
+    };
+    let content = markup! {
+        h1 { "Evidence: " (title) }
+        p.source { (subject.path.display()) ", " (exhibits.circumstances()) ". noisefall " (machine.version) ", commit " (machine.commit) ", "
+            (machine.date) " UTC, " (machine.threads) " threads, " (machine.simd) ", " (machine.cpu) "." }
+        p { "Every figure stands beside this page as SVG and PNG, every table as CSV and as a LaTeX tabular, all measurements in study.csv." }
+        h2 { "The picture converges" }
+        (picture(0)) (tables_of("convergence")) (of("error_by_sampler")) (of("variance"))
+        h2 { "Bounces, and what a cap leaves out" }
+        (picture(1)) (tables_of("bias_of_caps"))
+        h2 { "Roulette has no bias" }
+        (tables_of("bias_of_roulette")) (of("error_by_roulette")) (tables_of("equal_time_roulette"))
+        h2 { "Directions at equal time" }
+        (tables_of("equal_time_directions")) (of("error_by_directions"))
+        h2 { "Estimators at equal time" }
+        (tables_of("equal_time_estimator")) (of("error_by_estimator"))
+        h2 { "Samplers at equal time" }
+        (tables_of("equal_time_sampler"))
+    };
+    report::page(&format!("Evidence: {title}"), STYLE, &content)
+}

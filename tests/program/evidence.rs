@@ -1,0 +1,45 @@
+//! `noisefall evidence`: a chapter whose numbers are right, and whose files are all there.
+use std::{collections::BTreeSet, fs};
+
+use super::command_line::{Shell, scene, text};
+
+#[test]
+fn the_chapter_of_the_furnace_finds_what_is_known_of_it() {
+    let shell = Shell::new();
+    let run = || shell.run(&["evidence", &scene("furnace"), "-o", "out", "--time", "3", "--size", "16x16"]);
+    let done = run();
+    assert!(done.status.success(), "{}", text(&done.stderr));
+    let read = |name: &str| fs::read_to_string(shell.path("out").join(name)).unwrap_or_else(|error| panic!("{name}: {error}"));
+    // Every table in both forms, every figure too, and all of them on the page.
+    let names: BTreeSet<String> = fs::read_dir(shell.path("out"))
+        .expect("a folder")
+        .map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned())
+        .collect();
+    let with = |extension: &str| -> BTreeSet<&str> { names.iter().filter_map(|name| name.strip_suffix(extension)).collect() };
+    let tables: BTreeSet<&str> = with(".csv").into_iter().filter(|name| *name != "study").collect();
+    assert_eq!(tables, with(".tex"));
+    assert!(with(".svg").len() >= 5 && with(".svg").is_subset(&with(".png")), "{names:?}");
+    assert!(tables.contains("equal_time_estimator") && with(".png").contains("pictures_by_cap"), "{names:?}");
+    let page = read("report.html");
+    assert_eq!((page.matches("<table").count(), page.matches("<svg").count()), (tables.len(), with(".svg").len()));
+    assert_eq!(page.matches("<img").count(), 2);
+    for outside in ["http://", "https://", "<script", "<link"] {
+        assert!(!page.replace("http://www.w3.org/2000/svg", "").contains(outside), "{outside}");
+    }
+    // L_e/(1 − ρ) = 2, of which a cap of k leaves out 1/2^k.
+    let rows: Vec<Vec<String>> =
+        read("bias_of_caps.csv").lines().skip(1).map(|line| line.split(',').map(str::to_owned).collect()).collect();
+    for (row, (cap, exact)) in rows.iter().zip([("0", -1.0), ("1", -0.5), ("2", -0.25), ("5", -1.0 / 32.0), ("none", 0.0)]) {
+        let (bias, error) = row[1].split_once(" ± ").unwrap_or((&row[1], "1e-6"));
+        let [bias, error] = [bias, error].map(|number| number.parse::<f64>().unwrap_or(f64::NAN));
+        assert!(row[0] == cap && (bias - exact).abs() <= 5.0 * error + 1e-3, "{row:?}");
+    }
+    assert_eq!(rows.len(), 5);
+    assert!(read("bias_of_roulette.tex").contains("\\begin{tabular}{lrrr}"));
+    // What is there already is not measured again.
+    let csv = read("study.csv");
+    let again = run();
+    assert!(again.status.success() && read("study.csv").starts_with(&csv), "{}", text(&again.stderr));
+    let none = shell.run(&["evidence", &scene("outside_lit_inside"), "-o", "dark", "--time", "1", "--size", "8x8"]);
+    assert!(none.status.code() == Some(1) && text(&none.stderr).contains("entirely black"), "{}", text(&none.stderr));
+}

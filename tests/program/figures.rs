@@ -1,0 +1,147 @@
+//! What commands print for other programs is what `docs/figures.schema.json` says.
+use std::fs;
+
+use serde_json::{Value, json};
+
+use super::command_line::{Shell, json as last_line, scene, text};
+
+const SCHEMA: &str = include_str!("../../docs/figures.schema.json");
+
+/// The names that a kind of output must have, in their order.
+fn required(schema: &Value, kind: &str) -> Vec<String> {
+    let names = schema["$defs"][kind]["required"].as_array().unwrap_or_else(|| panic!("{kind} is described"));
+    names.iter().map(|name| name.as_str().expect("a name").to_owned()).collect()
+}
+
+/// Holds a value against what the schema says of its name: type, type of items, and words that it may be.
+fn check(schema: &Value, name: &str, value: &Value) {
+    let figure = &schema["$defs"]["figures"]["properties"][name];
+    assert!(figure["description"].is_string(), "{name} is not described");
+    let is = |kind: &str| match kind {
+        "string" => value.is_string(),
+        "integer" => value.is_u64() || value.is_i64(),
+        "number" => value.is_number(),
+        "boolean" => value.is_boolean(),
+        "array" => value.as_array().is_some_and(|items| {
+            items.iter().all(|item| if figure["items"]["type"] == "number" { item.is_number() } else { item.is_string() })
+        }),
+        _ => value.is_null(),
+    };
+    let kinds = figure["type"].as_array().cloned().unwrap_or_else(|| vec![figure["type"].clone()]);
+    assert!(kinds.iter().any(|kind| is(kind.as_str().expect("a type"))), "{name}: {value} is none of {kinds:?}");
+    let words = figure["enum"].as_array();
+    assert!(words.is_none_or(|words| words.contains(value)), "{name}: {value} is not listed");
+}
+
+#[test]
+fn every_figure_is_described_and_every_described_figure_is_there() {
+    let shell = Shell::new();
+    let schema: Value = serde_json::from_str(SCHEMA).expect("the schema is JSON");
+    let furnace = scene("furnace");
+    let render = |arguments: &[&str]| {
+        last_line(&shell.run(&[&["render", &furnace, "-o", "a.exr", "--size", "8x8", "--json"], arguments].concat()))
+    };
+    let lines = [
+        ("render", render(&["--spp", "2", "--max-bounces", "3", "--roulette", "0.5"])),
+        ("render", render(&["--time", "0.05"])),
+        (
+            "render",
+            last_line(&shell.run(&["render", &scene("cornell_box"), "-o", "b.exr", "--size", "8x8", "--spp", "1", "--json"])),
+        ),
+        ("compare", last_line(&shell.run(&["compare", "a.exr", "a.exr", "--json"]))),
+        ("compare", last_line(&shell.run(&["compare", "a.exr", "b.exr", "--json"]))),
+    ];
+    for (kind, line) in lines {
+        let mut expected = required(&schema, kind);
+        expected.sort();
+        let mut names: Vec<&String> = line.as_object().expect("an object").keys().collect();
+        names.sort();
+        assert_eq!(names, expected.iter().collect::<Vec<_>>(), "{kind}");
+        line.as_object().expect("an object").iter().for_each(|(name, value)| check(&schema, name, value));
+    }
+}
+
+#[test]
+fn the_columns_of_a_study_are_described_in_their_order() {
+    let shell = Shell::new();
+    let schema: Value = serde_json::from_str(SCHEMA).expect("the schema is JSON");
+    let few = [
+        "--estimators",
+        "mis",
+        "--directions",
+        "bsdf",
+        "--samplers",
+        "sobol",
+        "--roulette",
+        "off,0.8",
+        "--max-bounces",
+        "none,2",
+    ];
+    let done = shell
+        .run(&[&["study", &scene("furnace"), "-o", "out", "--spp", "2", "--size", "8x8", "--repeats", "1"], &few[..]].concat());
+    assert!(done.status.success(), "{}", text(&done.stderr));
+    let csv = fs::read(shell.path("out/study.csv")).expect("measurements");
+    let mut table = csv::Reader::from_reader(&csv[..]);
+    let columns: Vec<String> = table.headers().expect("names").iter().map(str::to_owned).collect();
+    assert_eq!(columns, required(&schema, "study"));
+    for row in table.records() {
+        for (name, cell) in columns.iter().zip(row.expect("a line").iter()) {
+            let types = schema["$defs"]["figures"]["properties"][name]["type"].to_string();
+            let value = match cell {
+                "" | "none" if types.contains("null") => Value::Null,
+                _ if types.contains("string") => json!(cell),
+                _ => serde_json::from_str(cell).unwrap_or_else(|error| panic!("{name}: {cell}: {error}")),
+            };
+            check(&schema, name, &value);
+        }
+    }
+}
+
+/// One setting at a time: its word is what the command line takes.
+#[test]
+fn settings_stand_under_the_names_of_their_options() {
+    let shell = Shell::new();
+    let furnace = scene("furnace");
+    for (name, word) in [
+        ("estimator", "light"),
+        ("directions", "cosine"),
+        ("sampler", "stratified"),
+        ("roulette", "0.5"),
+        ("reuse", "off"),
+        ("adaptive", "on"),
+    ] {
+        let option = format!("--{name}");
+        let line =
+            last_line(&shell.run(&["render", &furnace, "-o", "a.png", "--spp", "1", "--size", "4x4", "--json", &option, word]));
+        assert_eq!(line[name], word, "{line}");
+    }
+    let exact = ["--directions", "cosine", "--estimator", "path", "--max-bounces", "1"];
+    let line = last_line(
+        &shell.run(&[&["render", &furnace, "-o", "a.png", "--spp", "2", "--size", "4x4", "--json"], &exact[..]].concat()),
+    );
+    // Every sample is the partial sum, 1.5 of 2.
+    assert_eq!((&line["mean"], &line["bias"]), (&json!([1.5, 1.5, 1.5]), &json!(-0.5)));
+    assert_eq!((&line["biased"], &line["exact_samples"]), (&json!("cap at 1"), &json!(true)));
+}
+
+#[test]
+fn exposure_and_tone_map_change_a_png_and_not_an_exr() {
+    let shell = Shell::new();
+    let furnace = scene("furnace");
+    let render = |file: &str, options: &[&str]| {
+        let fixed =
+            ["render", &furnace, "-o", file, "--spp", "1", "--size", "4x4", "--directions", "cosine", "--max-bounces", "0"];
+        let done = shell.run(&[&fixed[..], options].concat());
+        assert!(done.status.success(), "{}", text(&done.stderr));
+        let picture = noisefall::render::image_file::read(&shell.path(file)).expect("a picture");
+        (f64::from(picture.radiance[5][1]), text(&done.stderr))
+    };
+    // Every pixel is 1. A code of 8 bits is known to 1 %.
+    let near = |x: f64, exact: f64| assert!((x / exact - 1.0).abs() < 0.01, "{x} {exact}");
+    near(render("a.png", &[]).0, 1.0);
+    near(render("b.png", &["--exposure", "-1"]).0, 0.5);
+    near(render("c.png", &["--tone", "reinhard"]).0, 0.5);
+    near(render("d.png", &["--tone", "reinhard", "--exposure", "1"]).0, 2.0 / 3.0);
+    let (radiance, notes) = render("e.exr", &["--exposure", "-1"]);
+    assert!(radiance == 1.0 && notes.contains("change a PNG only"), "{radiance} {notes}");
+}

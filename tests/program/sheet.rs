@@ -1,0 +1,28 @@
+//! `noisefall sheet`: pictures of several settings in one.
+use super::command_line::{Shell, scene, text};
+
+#[test]
+fn a_sheet_has_a_picture_for_each_combination() {
+    let shell = Shell::new();
+    let furnace = scene("furnace");
+    let sheet = |file: &str, options: &[&str]| {
+        let done = shell.run(&[&["sheet", &furnace, "-o", file, "--size", "220x10"], options].concat());
+        assert!(done.status.success(), "{}", text(&done.stderr));
+        (noisefall::render::image_file::read(&shell.path(file)).expect("a picture"), text(&done.stdout))
+    };
+    let two = ["--spp", "1,2", "--estimators", "path,mis", "--max-bounces", "0", "--exposure", "-1"];
+    let (picture, said) = sheet("a.png", &two);
+    assert!(said.contains("4 pictures of 220 × 10"), "{said}");
+    // Every pixel of the pictures is 1, by half a stop of exposure 0.5: four of 2200 pixels, and hardly any of the ink.
+    let grey = picture.radiance.iter().filter(|rgb| rgb.iter().all(|c| (c - 0.5).abs() < 0.01)).count();
+    assert!((4 * 2200..4 * 2200 + 200).contains(&grey), "{grey}");
+    let dark = picture.radiance.iter().filter(|rgb| rgb[1] < 0.2).count();
+    assert!(dark > 200, "there are labels: {dark}");
+    // Side by side as there are numbers of samples: two columns of two.
+    let (row, _) = sheet("row.png", &[&two[..], &["--columns", "4"]].concat());
+    assert!(row.width > 2 * picture.width - 40 && row.height < picture.height);
+    let wrong = shell.run(&["sheet", &furnace, "-o", "a.exr"]);
+    assert!(wrong.status.code() == Some(2) && text(&wrong.stderr).contains("must end in .png"), "{}", text(&wrong.stderr));
+    let large = shell.run(&["sheet", &furnace, "-o", "a.png", "--size", "9000x3000", "--memory", "100M"]);
+    assert!(large.status.code() == Some(1) && text(&large.stderr).contains("9000 × 3000"), "{}", text(&large.stderr));
+}

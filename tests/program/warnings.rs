@@ -1,0 +1,114 @@
+//! What is legal and probably not meant is told, and nothing else.
+use std::fs;
+
+use noisefall::scene::parse;
+
+use super::{
+    command_line::{Shell, scene, text},
+    scene_files::GOOD,
+};
+
+/// The warnings of `GOOD` with something replaced.
+fn warnings(from: &str, to: &str) -> Vec<String> {
+    let text = GOOD.replacen(from, to, 1);
+    assert!(from == to || text != GOOD, "{from}");
+    let scene = parse("test.toml", text).unwrap_or_else(|error| panic!("{}", error.report()));
+    scene.warnings().to_vec()
+}
+
+#[test]
+fn each_slip_has_its_warning() {
+    let lamp = "emission = { radiance = [1.0, 2.0, 3.0] }";
+    let glass = "lambertian = { albedo = 0.8 }\n[materials.glass]\ndielectric = { ior = 1.5 }";
+    for (from, to, says) in [
+        ("material = \"white\"\nemission = { radiance = [1.0, 2.0, 3.0] }", "", "`ball` has neither `material` nor `emission`"),
+        ("eye = [0.0, 1.0, 4.0]", "eye = [0.1, 1.0, 0.2]", "inside `ball`, which emits outwards only: `flip = true`"),
+        ("fov = 40", "fov = 0.7", "0.7 radians would be 40.1"),
+        ("look_at = [0, 1, 0]", "look_at = [0, -30, 3.9]", "`up` is nearly parallel to the direction of view"),
+    ] {
+        let said = warnings(from, to);
+        assert!(said.iter().any(|warning| warning.contains(says)), "{to}: {said:?}");
+    }
+    let flipped = GOOD.replacen("lambertian = { albedo = 0.8 }", glass, 1);
+    let flipped =
+        flipped.replacen(lamp, "flip = true\n[[objects]]\nshape = { sphere = { center = [9, 0, 0], radius = 1 } }\nEM", 1);
+    let flipped = flipped.replacen("\"white\"", "\"glass\"", 1).replacen("EM", lamp, 1);
+    let said = parse("test.toml", flipped).unwrap_or_else(|error| panic!("{}", error.report())).warnings().to_vec();
+    assert!(said.len() == 1 && said[0].contains("`ball` has `flip` on a dielectric"), "{said:?}");
+    // What is meant that way is not warned of.
+    assert_eq!(warnings("eye = [0.0, 1.0, 4.0]", "eye = [0.1, 1.0, 0.2]").len(), 1);
+    assert_eq!(warnings(lamp, &format!("{lamp}\nflip = true")), Vec::<String>::new());
+    assert_eq!(warnings("fov = 40", "fov = 3.5"), Vec::<String>::new());
+}
+
+/// A lamp at a distance below a ceiling of the same shape, with its front up or down.
+fn ceiling(shape: &str, above: f64, lamp: &str) -> Vec<String> {
+    let ceiling = shape.replace('Y', &format!("{:?}", 2.0 + above));
+    let objects = format!(
+        "[[objects]]\nname = \"lamp\"\nshape = {{ {} }}\nemission = {{ {lamp}\n\
+         [[objects]]\nname = \"ceiling\"\nshape = {{ {ceiling} }}\nmaterial = \"white\"\n[render]",
+        shape.replace('Y', "2.0")
+    );
+    warnings("[render]", &objects)
+}
+
+#[test]
+fn a_lamp_against_a_wall_is_told_whatever_its_shape_and_side() {
+    let shapes = [
+        // Their fronts are below.
+        "rectangle = { origin = [0, Y, 0], edge_u = [1, 0, 0], edge_v = [0, 0, 1] }",
+        "triangle = { a = [0, Y, 0], b = [1, Y, 0], c = [0, Y, 1] }",
+        "disk = { center = [0, Y, 0], normal = [0, -1, 0], radius = 1 }",
+    ];
+    for shape in shapes {
+        let up = ceiling(shape, 1e-3, "radiance = 1 }\nflip = true");
+        assert!(up.len() == 1 && up[0].contains("the lamp `lamp` faces `ceiling` at a hair's breadth"), "{shape}: {up:?}");
+        assert_eq!(ceiling(shape, 1e-3, "radiance = 1 }"), Vec::<String>::new(), "{shape}: it faces the room");
+        assert_eq!(ceiling(shape, 1e-3, "radiance = 1, two_sided = true }"), Vec::<String>::new(), "{shape}");
+        assert_eq!(ceiling(shape, 0.1, "radiance = 1 }\nflip = true"), Vec::<String>::new(), "{shape}: an uplight");
+        let down = ceiling(shape, -1e-3, "radiance = 1 }");
+        assert!(down.len() == 1 && down[0].contains("faces `ceiling`"), "{shape}: {down:?}");
+    }
+}
+
+#[test]
+fn a_truth_that_the_picture_contradicts_is_told_by_check_and_after_a_render() {
+    let shell = Shell::new();
+    let furnace = fs::read_to_string(scene("furnace")).expect("it is shipped");
+    let with_truth = |truth: &str| {
+        fs::write(shell.path("a.toml"), furnace.replace("[truth]\nradiance = 2.0", &format!("[truth]\n{truth}")))
+            .expect("written");
+        let checked = text(&shell.run(&["check", "a.toml"]).stdout);
+        let rendered = shell.run(&["render", "a.toml", "-o", "a.png", "--spp", "64", "--size", "32x32"]);
+        let told = |text: &str| text.contains("than [truth] says, by ");
+        (told(&checked), told(&text(&rendered.stderr)), checked)
+    };
+    assert_eq!(with_truth("radiance = 2.0").0, false);
+    // 64 samples of 48 × 48 pixels know the mean to 0.1 %.
+    for wrong in ["radiance = 2.05", "radiance = 1.95", "radiance = 0.0"] {
+        let (checked, rendered, said) = with_truth(wrong);
+        assert!(checked && rendered, "{wrong}: {said}");
+    }
+    let capped = shell.run(&["render", &scene("furnace"), "-o", "a.png", "--spp", "64", "--size", "32x32", "--max-bounces", "2"]);
+    let said = text(&capped.stderr);
+    assert!(said.contains("less radiance on average than [truth]") && said.contains("(it is biased: cap at 2)"), "{said}");
+}
+
+#[test]
+fn options_of_other_renderers_are_translated() {
+    let shell = Shell::new();
+    let furnace = scene("furnace");
+    for (option, meant) in [
+        ("--samples", "--spp"),
+        ("--samples=5", "--spp"),
+        ("--max-depth", "--max-bounces"),
+        ("--resolution", "--size"),
+        ("--integrator", "--estimator"),
+    ] {
+        let output = shell.run(&["render", &furnace, "-o", "a.png", option, "5"]);
+        let said = text(&output.stderr);
+        assert!(output.status.code() == Some(2) && said.contains(&format!("'{meant}'")), "{option}: {said}");
+    }
+    let said = text(&shell.run(&["study", &furnace, "-o", "study", "--integrator", "mis"]).stderr);
+    assert!(said.contains("'--estimators'"), "{said}");
+}
