@@ -143,7 +143,7 @@ fn score(mean: f64, (variance, degrees): (f64, f64), level: f64) -> f64 {
 }
 
 /// The standard normal number that is as unlikely as Student's t.
-fn as_normal(t: f64, degrees: f64) -> f64 {
+pub fn as_normal(t: f64, degrees: f64) -> f64 {
     if degrees == f64::INFINITY {
         return t;
     }

@@ -8,6 +8,7 @@ mod desc;
 mod diagnostic;
 mod excerpt;
 mod filter;
+mod infinite_variance;
 mod legend;
 mod load;
 mod named;

@@ -6,7 +6,7 @@ use crate::{
 };
 
 fn quick(fault: Option<Fault>) -> Validation {
-    Validation { fault, ..Validation::new(Effort::Quick, "tests/references".into()) }
+    Validation { fault, ..Validation::new(Effort::Quick, None, 0) }
 }
 
 #[test]
