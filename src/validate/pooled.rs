@@ -3,7 +3,7 @@ use statrs::distribution::{ChiSquared, ContinuousCDF, Normal};
 
 use super::{
     SIGMAS, Section, Statement,
-    statement::{SIGNIFICANCE, chance_beyond},
+    chance::{SIGNIFICANCE, chance_beyond},
 };
 use crate::report::{
     Figure,
