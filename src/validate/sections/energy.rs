@@ -48,7 +48,7 @@ pub fn section(validation: &Validation) -> Section {
             let what = if roughnesses.len() > 1 { format!("{name}, roughness {roughness}") } else { name.to_owned() };
             let whole = Mean::of(rings.iter().map(|(_, ring)| *ring));
             // Without roughness there are no tables.
-            let tolerance = if *roughness > 0.0 { TABLES } else { 1e-6 };
+            let tolerance = if *roughness > 0.0 { TABLES } else { 1e-5 };
             statements.push(Statement::near(format!("{what}: mean over angles"), whole, 1.0, tolerance));
             let scores: Vec<f64> = rings.iter().map(|(_, ring)| z(*ring, tolerance)).collect();
             let sigma = largest(rings.iter().map(|(_, ring)| error(*ring, tolerance)));
