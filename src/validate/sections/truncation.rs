@@ -111,23 +111,22 @@ fn roulettes(found: &[(f64, f64)], exact: f64) -> Figure {
     plot(caption, Axis::linear("survival probability q"), Axis::linear("radiance"), &curves)
 }
 
-/// Paths by the number of walls after which they end.
+/// Paths by the number of walls after which they end; those that are too long to be told apart are counted together.
 fn survivals(values: &[Vec<f64>], q: f64) -> Statement {
     const LONGEST: usize = 40;
-    let (mut sum, mut term, mut worth) = (0.0, 1.0, Vec::new());
-    for _ in 0..LONGEST {
+    let (mut worth, mut sum, mut term) = (Vec::new(), 0.0, 1.0);
+    while worth.len() < LONGEST && term > 1e-4 * sum {
         sum += term;
         term *= ALBEDO / q;
         worth.push(sum);
     }
-    let mut counts = vec![0.0; LONGEST + 1];
+    let mut counts = vec![0.0; worth.len() + 1];
     for value in values.iter().flatten() {
-        let length = worth.iter().position(|worth| (value / worth - 1.0).abs() < 1e-4);
-        counts[length.unwrap_or(LONGEST)] += 1.0;
+        counts[worth.partition_point(|worth| *worth < value * (1.0 - 2e-5))] += 1.0;
     }
     let total: f64 = counts.iter().sum();
-    let mut expected: Vec<f64> = (0..LONGEST as i32).map(|k| (1.0 - q) * q.powi(k) * total).collect();
-    expected.push(q.powi(LONGEST as i32) * total);
+    let share = |k: usize| q.powi(k as i32) * if k < worth.len() { 1.0 - q } else { 1.0 };
+    let expected: Vec<f64> = (0..counts.len()).map(|k| share(k) * total).collect();
     Statement::chi_squared(format!("survival {q}: lengths of paths against (1 − q) qᵏ"), &counts, &expected)
 }
 
