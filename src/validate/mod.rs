@@ -2,6 +2,7 @@
 //!
 //! Each section makes one claim, derives the exact answer, and holds measurements against it in [`Statement`]s. All samples are
 //! seeded and the same on every machine, so that a verdict is, too.
+mod cells;
 mod chance;
 mod check;
 mod files;

@@ -52,7 +52,7 @@ pub fn section(validation: &Validation) -> Section {
     let mut statements = Vec::new();
     for subject in subjects() {
         let mut row = |name: &str, settings: &dyn Fn() -> RenderSettings| {
-            let means: Vec<f64> = (0..repeats).map(|_| subject.mean(&threads, settings(), validation.spp(24))).collect();
+            let means: Vec<f64> = (0..repeats).map(|_| subject.mean(&threads, settings(), validation.spp(48))).collect();
             statements.push(Statement::repeated(format!("{}, {name}", subject.name), &means, subject.mean_exact()));
         };
         for (name, change) in ALONE {

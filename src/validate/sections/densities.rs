@@ -1,7 +1,7 @@
 //! Sampled directions against the densities that they are divided by.
 use std::f64::consts::TAU;
 
-use glam::{DMat3, DVec3, Vec3};
+use glam::{DVec3, Vec3};
 
 use crate::{
     geometry::{MISS, Motion, Nearest, Place, Shape, Shapes},
@@ -9,11 +9,9 @@ use crate::{
     math::{F, M, One, U, V},
     report::plot::{Axis, Style, curve, plot},
     sampling::Directions,
-    validate::{Section, Statement, Validation, microfacets::direction},
+    validate::{Section, Statement, Validation, cells::Cells, microfacets::direction},
 };
 
-/// Cells by the angle to an axis, and around it.
-const CELLS: [usize; 2] = [12, 8];
 /// Points of a cell, along each side, at which densities are summed up; those of lamps end at an outline.
 const STEPS: usize = 64;
 const STEPS_OF_LAMPS: usize = 160;
@@ -79,45 +77,6 @@ fn hemisphere(validation: &Validation, directions: Directions) -> (Statement, Po
     (statement, (0..BINS[0]).map(frequency).collect(), (0..=BINS[0]).map(density).collect())
 }
 
-/// Cells around an axis, half of which lie within the angle 2 atan `width`.
-struct Cells {
-    frame: DMat3,
-    width: f64,
-    steps: usize,
-}
-
-impl Cells {
-    fn around(axis: DVec3, width: f64) -> Cells {
-        let (a, b) = axis.any_orthonormal_pair();
-        Cells { frame: DMat3::from_cols(a, b, axis), width, steps: STEPS }
-    }
-
-    /// With t = tan(γ/2) for the angle γ to the axis, a cell is a part of a = t/(t + width).
-    fn cell(&self, w: DVec3) -> usize {
-        let w = self.frame.transpose() * w;
-        let t = ((1.0 - w.z).max(0.0) / (1.0 + w.z).max(1e-12)).sqrt();
-        let a = t / (t + self.width);
-        let turn = (w.y.atan2(w.x) / TAU).rem_euclid(1.0);
-        let [a, b] = [0, 1].map(|k| (([a, turn][k] * CELLS[k] as f64) as usize).min(CELLS[k] - 1));
-        a * CELLS[1] + b
-    }
-
-    /// The density integrated over every cell.
-    fn probabilities(&self, density: &impl Fn(DVec3) -> f64) -> Vec<f64> {
-        let steps = self.steps;
-        let [down, around] = CELLS.map(|n| (n * steps) as f64);
-        let point = |cell: usize, step: usize| {
-            let a = ((cell / CELLS[1] * steps + step / steps) as f64 + 0.5) / down;
-            let turn = ((cell % CELLS[1] * steps + step % steps) as f64 + 0.5) / around;
-            let t = self.width * a / (1.0 - a);
-            // dω = 4t dt/(1 + t²)² dφ.
-            let area = TAU * 4.0 * t * self.width / ((1.0 - a) * (1.0 + t * t)).powi(2);
-            density(self.frame * direction((1.0 - t * t) / (1.0 + t * t), TAU * turn)) * area / (down * around)
-        };
-        (0..CELLS[0] * CELLS[1]).map(|cell| (0..steps * steps).map(|step| point(cell, step)).sum()).collect()
-    }
-}
-
 /// Samples against their density: `grids` are those of the sides z > 0 and z < 0, of which the last may be missing.
 fn compared(
     validation: &Validation,
@@ -127,7 +86,7 @@ fn compared(
     density: impl Fn(DVec3) -> f64,
 ) -> Statement {
     let (count, random) = (validation.spp(300) * 1000, validation.random());
-    let size = CELLS[0] * CELLS[1];
+    let size = Cells::COUNT;
     let side = |w: DVec3| usize::from(grids.len() > 1 && w.z < 0.0);
     let mut counts = vec![0.0; grids.len() * size + 1];
     for i in 0..count {
@@ -137,7 +96,7 @@ fn compared(
     }
     let mut expected: Vec<f64> = Vec::new();
     for (k, grid) in grids.iter().enumerate() {
-        expected.extend(grid.probabilities(&|w: DVec3| if side(w) == k { density(w) } else { 0.0 }));
+        expected.extend(grid.integrals(&|w: DVec3| if side(w) == k { density(w) } else { 0.0 }));
     }
     expected.push((1.0 - expected.iter().sum::<f64>()).max(0.0));
     let expected: Vec<f64> = expected.iter().map(|p| p * f64::from(count)).collect();
@@ -155,13 +114,7 @@ fn wide(v: V<One>) -> DVec3 {
 /// A bsdf seen at cosine `mu`; `eta` is the index beyond the surface where light passes.
 fn of_bsdf(validation: &Validation, what: &str, bsdf: &impl Bsdf<One>, (mu, width): (f64, f64), eta: Option<f64>) -> Statement {
     let wo = direction(mu, 0.6);
-    let mirrored = DVec3::new(-wo.x, -wo.y, wo.z);
-    let mut grids = vec![Cells::around(if eta.is_none() && width >= 1.0 { DVec3::Z } else { mirrored }, width)];
-    if let Some(eta) = eta {
-        let across = DVec3::new(-wo.x, -wo.y, 0.0) / eta;
-        let refracted = across - DVec3::Z * (1.0 - across.length_squared()).max(0.01).sqrt();
-        grids.push(Cells::around(refracted.normalize(), width));
-    }
+    let grids = Cells::of_lobes(wo, width, eta, STEPS);
     let sample = |u, lobe| {
         let sample = bsdf.sample(lanes(wo), u, lobe);
         (!sample.delta.0 && sample.pdf.0 > 0.0 && sample.weight.x.0 > 0.0).then(|| wide(sample.wi))
@@ -240,7 +193,7 @@ fn lamps(validation: &Validation) -> Vec<Statement> {
         };
         let density = |w: DVec3| if is_met(lanes(w)) { f64::from(all.pdf_toward(One, &place, o, lanes(w)).0) } else { 0.0 };
         let width = (0.5 * (radius / center.length()).min(1.0).asin()).tan();
-        let grid = Cells { steps: STEPS_OF_LAMPS, ..Cells::around(center.normalize(), width) };
+        let grid = Cells::around(center.normalize(), width, STEPS_OF_LAMPS);
         compared(validation, format!("towards a {name}"), &[grid], sample, density)
     };
     shapes.iter().map(of).collect()

@@ -49,7 +49,7 @@ pub fn section(validation: &Validation) -> Section {
         for estimator in Estimator::ALL {
             let settings = RenderSettings { max_bounces: Some(1), ..validation.settings(estimator) };
             let start = Instant::now();
-            let found = picture(scene, settings, RED, validation.spp(400)).whole();
+            let found = picture(scene, settings, RED, validation.spp(4000)).whole();
             let seconds = start.elapsed().as_secs_f64();
             statements.push(Statement::mean(format!("{what}, {}", estimator.name()), found, ALBEDO / PI * irradiance));
             costs.push((what.to_owned(), estimator, found, seconds));

@@ -35,7 +35,7 @@ pub fn section(validation: &Validation) -> Section {
     ] {
         for estimator in Estimator::ALL {
             let settings = RenderSettings { max_bounces: Some(1), ..validation.settings(estimator) };
-            let found = picture(&scene, settings, RED, validation.spp(400)).whole();
+            let found = picture(&scene, settings, RED, validation.spp(2000)).whole();
             let exact = ALBEDO / PI * irradiance;
             statements.push(Statement::mean(format!("{what}, {}", estimator.name()), found, exact));
         }
@@ -112,5 +112,5 @@ fn lens(validation: &Validation) -> Statement {
         emission.radiance = 8.5",
     );
     let settings = RenderSettings { roulette: Roulette::BY_THROUGHPUT, ..validation.settings(Estimator::Mis) };
-    Statement::mean("closed sphere through a lens", picture(&scene, settings, RED, validation.spp(400)).whole(), 0.5)
+    Statement::mean("closed sphere through a lens", picture(&scene, settings, RED, validation.spp(2000)).whole(), 0.5)
 }

@@ -98,7 +98,7 @@ fn interface(validation: &Validation, eta: f64) -> Vec<Statement> {
         if exact >= 1.0 {
             continue;
         }
-        let count = validation.spp(100) * 5000;
+        let count = validation.spp(200) * 10_000;
         let reflected = (0..count).filter(|i| glass.sample(wo, (F(0.5), F(0.5)), random.at(*i, 0)).wi.z.0 > 0.0).count() as f64;
         let n = f64::from(count);
         let error = (exact * (1.0 - exact) / n).sqrt();
@@ -132,7 +132,7 @@ fn pane(degrees: f64) -> Scene {
 fn plates(validation: &Validation) -> Vec<Statement> {
     let plate = |degrees: f64| {
         let (r, _) = exact::fresnel(IOR, degrees.to_radians());
-        let found = picture(&pane(degrees), validation.settings(Estimator::Path), RED, validation.spp(300)).whole();
+        let found = picture(&pane(degrees), validation.settings(Estimator::Path), RED, validation.spp(3000)).whole();
         Statement::mean(format!("a pane of index {IOR} transmits, at {degrees}°"), found, (1.0 - r) / (1.0 + r))
     };
     [0.0, 30.0, 56.31, 75.0, 85.0].map(plate).into()
@@ -162,7 +162,7 @@ fn tinted(validation: &Validation) -> Vec<Statement> {
         let outside = r + (1.0 - r).powi(2) * a / (1.0 - r * a);
         let inside = IOR * IOR * (1.0 - r) * a.sqrt() / (1.0 - r * a);
         for (scene, exact, place) in [(&on_axis, outside, "from outside"), (&middle, inside, "from its middle")] {
-            let found = picture(scene, validation.settings(Estimator::Path), measure, validation.spp(300)).whole();
+            let found = picture(scene, validation.settings(Estimator::Path), measure, validation.spp(2000)).whole();
             statements.push(Statement::mean(format!("a ball that lets {transmittance} a metre pass, {place}"), found, exact));
         }
     }
@@ -176,7 +176,7 @@ fn inside(validation: &Validation) -> Vec<Statement> {
     let smooth = picture(&ball(camera, "roughness = 0.0", 1.0), validation.settings(Estimator::Path), RED, validation.spp(100));
     let worst = largest(smooth.pixels.iter().map(|pixel| (pixel.mean / n2 - 1.0).abs()));
     let rough =
-        picture(&ball(camera, "roughness = 0.5", 1.0), validation.settings(Estimator::Path), RED, validation.spp(600)).whole();
+        picture(&ball(camera, "roughness = 0.5", 1.0), validation.settings(Estimator::Path), RED, validation.spp(2000)).whole();
     vec![
         Statement::below("from within clear glass: largest relative error of a pixel against n²", worst, 1e-5),
         Statement::near("from within rough glass: radiance", rough, n2, TABLES * n2),

@@ -88,7 +88,7 @@ fn integrating_sphere(validation: &Validation) -> Vec<Statement> {
             let up = if at[1] == 0 { [0, 1, 0] } else { [0, 0, 1] };
             let scene = sphere(&format!("look_at = {at:?}, up = {up:?}, fov = 90.0, resolution = [{SIDE}, {SIDE}]"));
             let settings = RenderSettings { roulette: Roulette::BY_THROUGHPUT, ..validation.settings(estimator) };
-            for (i, pixel) in picture(&scene, settings, RED, validation.spp(200)).pixels.iter().enumerate() {
+            for (i, pixel) in picture(&scene, settings, RED, validation.spp(600)).pixels.iter().enumerate() {
                 let place = |x: u32| (f64::from(x) + 0.5) / f64::from(SIDE) * 2.0 - 1.0;
                 let (x, y) = (place(i as u32 % SIDE), place(i as u32 / SIDE));
                 let weight = (1.0 + x * x + y * y).powf(-1.5);

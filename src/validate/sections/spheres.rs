@@ -35,7 +35,7 @@ pub fn section(validation: &Validation) -> Section {
         let mut scene = shipped(name);
         scene.camera = Camera { resolution: [SIDE; 2], ..scene.camera };
         for estimator in Estimator::ALL {
-            let found = pixels(validation, &scene, estimator, 300);
+            let found = pixels(validation, &scene, estimator, if estimator == Estimator::Path { 1500 } else { 300 });
             let what = format!("{title}, {}", estimator.name());
             match name {
                 "inside_lit_inside" => statements.push(Statement::mean(what, found.whole(), 0.5)),
@@ -99,7 +99,7 @@ fn lit(validation: &Validation, estimator: Estimator, what: &str) -> [Statement;
     const BLOCK: usize = 8;
     let (scene, exact) = lit_ball();
     // Paths find the lamp with one sample in twelve.
-    let found = pixels(validation, &scene, estimator, if estimator == Estimator::Path { 4000 } else { 400 });
+    let found = pixels(validation, &scene, estimator, if estimator == Estimator::Path { 9000 } else { 900 });
     let known: Vec<(usize, Mean, f64)> =
         found.pixels.iter().zip(&exact).enumerate().filter_map(|(i, (pixel, exact))| Some((i, *pixel, (*exact)?))).collect();
     let mean = |part: &[&(usize, Mean, f64)]| {
