@@ -13,7 +13,7 @@ use crate::{
 pub const RED: Measure = |radiance| f64::from(radiance[0]);
 
 /// What tables of lost light and their interpolation may lose or add.
-pub const TABLES: f64 = 5e-4;
+pub const TABLES: f64 = 1e-3;
 
 /// The scene of a file that says this after its version.
 pub fn scene(text: &str) -> Scene {
