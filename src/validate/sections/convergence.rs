@@ -20,7 +20,7 @@ pub fn section(validation: &Validation) -> Section {
     for albedo in ALBEDOS {
         let scene = check::furnace(albedo);
         let exact = furnace(1.0, albedo);
-        let found = samples(&scene, validation.path(Directions::Uniform), validation.spp(3000));
+        let found = samples(&scene, validation.path(Directions::Uniform), validation.spp(1600));
         let variance = furnace_variance(1.0, albedo, 4.0 / 3.0);
         let what = format!("ρ = {albedo}, uniform directions");
         if has_third_moment(albedo) {
