@@ -7,7 +7,7 @@ use noisefall::{
 
 use super::{
     app::App,
-    look::{controls, row},
+    look::{Inks, controls, row},
     number,
 };
 
@@ -110,10 +110,11 @@ impl App {
                 "Roulette",
                 "Ends paths at random with probability 1 − q and weights the survivors by 1/q: shorter paths, no bias.",
                 |ui, label| {
-                    ui.horizontal(|ui| {
+                    // Below, and not beside, as above.
+                    ui.vertical(|ui| {
                         roulette(ui, label, &mut settings.roulette);
                         if let Some(caution) = &caution {
-                            ui.colored_label(ui.visuals().warn_fg_color, "⚠ variance").on_hover_text(caution);
+                            ui.colored_label(ui.warning(), "infinite variance?").on_hover_text(caution);
                         }
                     });
                 },
