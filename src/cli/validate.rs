@@ -71,9 +71,7 @@ fn write(output: &Path, sections: &[Section], suite: Suite, effort: Effort, seed
     let rows = csv(sections).map_err(|error| format!("{}: {error}", FILES[1]))?;
     folder::write(output, FILES[1], &rows, "rows")?;
     folder::write(output, FILES[2], &format!("{:#}\n", json(sections, suite, effort, seed)), "rows")?;
-    let figures = output.join(FIGURES);
-    std::fs::create_dir_all(&figures).map_err(|error| format!("{}: cannot be made: {}", figures.display(), error.kind()))?;
-    let drawings = drawings(sections);
+    let (figures, drawings) = (output.join(FIGURES), drawings(sections));
     for (name, svg) in &drawings {
         replace(&figures.join(name), svg.as_bytes()).map_err(|error| error.to_string())?;
     }
@@ -95,7 +93,10 @@ fn check(arguments: &Arguments) -> Result<(), Failure> {
     {
         return Err(format!("{}: no references (NAME.toml with NAME.txt) in this folder", folder.display()));
     }
-    let make = |folder: &Path| FILES.iter().try_for_each(|name| folder::make(folder, name));
+    let make = |folder: &Path| {
+        FILES.iter().try_for_each(|name| folder::make(folder, name))?;
+        folder::make(&folder.join(FIGURES), "section-01-1.svg")
+    };
     arguments.output.as_deref().map_or(Ok(()), make)
 }
 

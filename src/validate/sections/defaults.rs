@@ -48,11 +48,11 @@ const TOGETHER: [(&str, Change); 4] = [
 
 pub fn section(validation: &Validation) -> Section {
     let threads = Threads::new(0, SimdLevel::best()).expect("threads can be had");
-    let repeats = if validation.effort == Effort::Full { 16 } else { 6 };
+    let repeats = if validation.effort == Effort::Full { 16 } else { 8 };
     let mut statements = Vec::new();
     for subject in subjects() {
         let mut row = |name: &str, settings: &dyn Fn() -> RenderSettings| {
-            let means: Vec<f64> = (0..repeats).map(|_| subject.mean(&threads, settings(), validation.spp(48))).collect();
+            let means: Vec<f64> = (0..repeats).map(|_| subject.mean(&threads, settings(), validation.spp(48).max(16))).collect();
             statements.push(Statement::repeated(format!("{}, {name}", subject.name), &means, subject.mean_exact()));
         };
         for (name, change) in ALONE {

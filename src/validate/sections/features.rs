@@ -13,12 +13,13 @@ use crate::{
     scene::{Estimator, RenderSettings, Roulette, Scene},
     validate::{
         Section, Statement, Validation,
-        check::{RED, scene},
+        check::{RED, largest, scene},
     },
 };
 
 pub fn section(validation: &Validation) -> Section {
-    let mut statements = vec![room(validation)];
+    let mut statements = vec![room(validation), checkered_lamp(validation)];
+    statements.extend(turned_away(validation));
     let corners = corners();
     let triangles = format!(
         "shape.mesh = {{ vertices = {:?}, triangles = [[0, 1, 2], [0, 2, 3]] }}\nflip = {}",
@@ -49,6 +50,8 @@ pub fn section(validation: &Validation) -> Section {
              within rounding of an edge may be lost, which costs less than 10⁻⁶ of the light. The small rectangle of the section on direct \
              light as two triangles of a mesh has the same irradiance. A disk of radius r at the height h has E = π L r²/(r² + h²) under its \
              middle. Irradiances of lamps that do not hide each other add up; 300 of them are chosen from a light tree.",
+            "Of a checkered lamp, seen so that its squares are 2 × 2 pixels each, every pixel has the radiance of its square. The small \
+             rectangle turned away from the ground lights it not at all.",
             "A lens mixes rays from its points. Where all of the picture has one radiance, it changes nothing: 0.5 within the closed \
              sphere.",
         ],
@@ -79,6 +82,39 @@ fn room(validation: &Validation) -> Statement {
     );
     let found = picture(&scene, validation.path(Directions::Cosine), RED, validation.spp(200)).whole();
     Statement::within("furnace of twelve triangles: mean of the picture", found.mean, 2.0, 2e-6)
+}
+
+/// Squares of two radiances whose edges are those of pixels.
+fn checkered_lamp(validation: &Validation) -> Statement {
+    let scene = scene(
+        "camera = { eye = [0.0, 0.0, 1.0], look_at = [0.0, 0.0, 0.0], projection.orthographic.width = 1.0, resolution = [8, 8] }
+        textures.squares.checker = { even = 1.0, odd = 0.25, scale = 4.0 }
+        [[objects]]
+        shape.rectangle = { origin = [-0.5, -0.5, 0.0], edge_u = [1.0, 0.0, 0.0], edge_v = [0.0, 1.0, 0.0] }
+        emission.texture = 'squares'",
+    );
+    let found = picture(&scene, validation.path(Directions::Cosine), RED, validation.spp(400));
+    let exact = |i: usize| if (i % 8 / 2 + i / 8 / 2).is_multiple_of(2) { 1.0 } else { 0.25 };
+    let worst = largest(found.pixels.iter().enumerate().map(|(i, pixel)| (pixel.mean - exact(i)).abs()));
+    Statement::below("checkered lamp: largest error of a pixel", worst, 1e-5)
+}
+
+/// A lamp with its back to the ground.
+fn turned_away(validation: &Validation) -> Vec<Statement> {
+    let [origin, u, v] = RECTANGLES[0].1;
+    let back = DVec3::from_array(u).cross(DVec3::from_array(v)).dot(DVec3::from_array(origin)) < 0.0;
+    let scene = lit(&format!("shape.rectangle = {{ origin = {origin:?}, edge_u = {u:?}, edge_v = {v:?} }}\nflip = {back}"));
+    let dark = |estimator: Estimator| {
+        let settings = RenderSettings { max_bounces: Some(1), ..validation.settings(estimator) };
+        let found = picture(&scene, settings, RED, validation.spp(400));
+        let bright = found.pixels.iter().filter(|pixel| pixel.mean != 0.0).count();
+        Statement::never(
+            format!("rectangle turned away, {}: pixels that are not black", estimator.name()),
+            bright as u32,
+            found.pixels.len() as u32,
+        )
+    };
+    Estimator::ALL.map(dark).into()
 }
 
 /// Small spheres all over the sky above a point, and their irradiance there.
