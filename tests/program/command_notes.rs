@@ -36,7 +36,11 @@ fn roulette_that_leaves_no_finite_variance_is_told() {
         text(&shell.run(&[&["render", &scene("furnace")][..], &options].concat()).stderr)
     };
     // The walls reflect one half.
-    assert!(notes("0.2").contains("note: survival of 0.2") && notes("0.2").contains("the variance is infinite"), "{}", notes("0.2"));
+    assert!(
+        notes("0.2").contains("note: survival of 0.2") && notes("0.2").contains("the variance is infinite"),
+        "{}",
+        notes("0.2")
+    );
     assert!(notes("0.3").is_empty() && notes("off").is_empty() && notes("throughput").is_empty(), "{}", notes("0.3"));
 }
 

@@ -80,7 +80,7 @@ fn hemisphere(validation: &Validation, directions: Directions) -> (Statement, Po
 /// Samples against their density: `grids` are those of the sides z > 0 and z < 0, of which the last may be missing.
 fn compared(
     validation: &Validation,
-    what: String,
+    what: &str,
     grids: &[Cells],
     sample: impl Fn((F<One>, F<One>), F<One>) -> Option<DVec3>,
     density: impl Fn(DVec3) -> f64,
@@ -120,7 +120,7 @@ fn of_bsdf(validation: &Validation, what: &str, bsdf: &impl Bsdf<One>, (mu, widt
         (!sample.delta.0 && sample.pdf.0 > 0.0 && sample.weight.x.0 > 0.0).then(|| wide(sample.wi))
     };
     let density = |w: DVec3| f64::from(bsdf.eval(lanes(wo), lanes(w)).1.0);
-    compared(validation, format!("{what}, cos θ_o = {mu}"), &grids, sample, density)
+    compared(validation, &format!("{what}, cos θ_o = {mu}"), &grids, sample, density)
 }
 
 fn surfaces(validation: &Validation) -> Vec<Statement> {
@@ -194,7 +194,7 @@ fn lamps(validation: &Validation) -> Vec<Statement> {
         let density = |w: DVec3| if is_met(lanes(w)) { f64::from(all.pdf_toward(One, &place, o, lanes(w)).0) } else { 0.0 };
         let width = (0.5 * (radius / center.length()).min(1.0).asin()).tan();
         let grid = Cells::around(center.normalize(), width, STEPS_OF_LAMPS);
-        compared(validation, format!("towards a {name}"), &[grid], sample, density)
+        compared(validation, &format!("towards a {name}"), &[grid], sample, density)
     };
     shapes.iter().map(of).collect()
 }

@@ -174,7 +174,7 @@ impl Kind {
         // The whole field, where there are many shapes; near the surface, where one is very large.
         let (center, radius) = if self.shapes.len() > 1 { (DVec3::ZERO, 1.7) } else { (center, radius) };
         let on = point_at(piece, [at(1), at(2)]);
-        let beside = if i % 2 == 0 { 0.0 } else { radius * 2.0 * 10f64.powf(-5.3 * at(3).powi(2)) };
+        let beside = if i.is_multiple_of(2) { 0.0 } else { radius * 2.0 * 10f64.powf(-5.3 * at(3).powi(2)) };
         let target = on + unit(at(4), at(5)) * beside;
         let reach = if i % 4 < 2 { radius.min(10.0) * 10.0 * at(6) } else { radius * (0.1 + 3.0 * at(6)) };
         let start = if i % 4 < 2 { DVec3::ZERO } else { center };
