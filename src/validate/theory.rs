@@ -12,7 +12,7 @@ const CHAPTER: [(&str, &[&str]); 5] = [
              from x along ω′. An opaque surface has f = 0 unless ω and ω′ lie on the same side: there the integral is over the hemisphere \
              of n. Glass sends light through, so that ω′ runs over the whole sphere S² and the cosine counts by its size. Smooth mirrors and \
              glass have f with delta functions; their part of the integral is a sum over one or two directions.",
-            "A ray that meets nothing brings the radiance of the background, L(x′, −ω′) = L_b(ω′). On the way the medium lets pass \
+            "A ray that meets nothing brings the radiance of the background, L(x′, −ω′) = L_b(ω′), which from here on counts as a part of L_e. On the way the medium lets pass \
              τ(x, x′) = t^|x − x′|, t being what a metre of it lets pass (Beer’s law); it does not scatter. Where light crosses from an index \
              n_i to n_o, its solid angle changes, and radiance with it by (n_o/n_i)²: not L but L/n² is kept. f of glass contains that factor.",
         ],
@@ -32,11 +32,14 @@ const CHAPTER: [(&str, &[&str]); 5] = [
     (
         "Where surfaces absorb nothing",
         &[
-            "With ρ = 1 somewhere (glass, perfect mirrors, white walls) ‖T‖ may be 1. It is enough that ‖Tᵐ‖ < 1 for some m: that from \
-             everywhere some part of the light is absorbed or leaves within m bounces, at least ε of it. Then Σ Tᵏ still converges, and \
-             the solution is unique. A ball of glass in the open is of this kind.",
-            "A closed room all of whose surfaces have ρ = 1 is not. There T 1 = 1, so that with L any L + c n² is a solution where there is \
-             one. With L_e = 0 all constants are; with L_e > 0 none is, for in balance the absorbed power, which is 0, would have to be the \
+            "With ρ = 1 somewhere (glass, perfect mirrors, white walls) ‖T‖ may be 1. If ‖Tᵐ‖ < 1 for some m, because from everywhere at \
+             least a part ε of the light is absorbed or leaves within m bounces, the series still converges and the solution is unique.",
+            "Without such a bound the partial sums of an L_e ≥ 0 still grow with every term, so that Σ Tᵏ L_e is the least of all solutions \
+             that are not negative, wherever it is finite; it is what paths converge to. Clear glass is of this kind: near the critical \
+             angle light stays for as long as one likes, and what is totally reflected for ever neither came from outside nor is seen \
+             from there.",
+            "A closed room all of whose surfaces have ρ = 1 is not. There T n² = n²: with a solution L, L + c n² is one for any c. With L_e = 0 \
+             every c n² is; with L_e > 0 none is, for in balance the absorbed power, which is 0, would have to be the \
              emitted one: the partial sums grow without bound. The scene format allows such a room; its picture does not converge, and \
              paths in it end at 4096 bounces or by roulette.",
         ],
@@ -52,8 +55,8 @@ const CHAPTER: [(&str, &[&str]); 5] = [
              place of f τ cos θ′: its series must converge, too. In the furnace of section 1 the condition is ρ² E w² < q, w being the weight \
              of a direction, E w² = 1 for cosine directions and 4/3 for uniform ones. With q ≤ ρ² the mean is still right, but the variance is \
              infinite: rare samples of enormous weight carry it, the error falls more slowly than 1/√N, and no standard error can be \
-             trusted. Section 3 shows that. Roulette by throughput has no such limit in the furnace, for it never makes a throughput larger than \
-             it was and that of survivors is about 1. The program notes a fixed q that is too low for the albedos of a scene.",
+             trusted. Section 3 shows that. Roulette by throughput has no such limit in the furnace: its survivors have a throughput of about 1, so that \
+             weights do not pile up. The program notes a fixed q that is too low for the albedos of a scene.",
         ],
     ),
     (
