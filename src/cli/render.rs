@@ -132,7 +132,8 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let reference = Reference::of(&scene);
     let mismatch = reference.as_ref().and_then(|truth| truth.mismatch(camera.resolution));
     mismatch.iter().for_each(|mismatch| tell(&format!("note: {mismatch}")));
-    scene.warnings().iter().for_each(|warning| tell(&format!("note: {warning}")));
+    let infinite = scene.infinite_variance(&settings);
+    scene.warnings().iter().chain(&infinite).for_each(|warning| tell(&format!("note: {warning}")));
     let threads = Threads::new(arguments.threads.into(), SimdLevel::best()).map_err(|error| error.to_string())?;
     let thread_count = threads.count();
     let build_seconds = start.elapsed().as_secs_f64();

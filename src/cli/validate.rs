@@ -4,17 +4,23 @@ use std::{
     time::Instant,
 };
 
-use noisefall::validate::{Effort, KeptScene, Section, Suite, Validation, html, reference_names};
+use noisefall::{
+    file::replace,
+    validate::{Effort, KeptScene, Section, Suite, Validation, csv, drawings, html, json, reference_names},
+};
 
 use super::{Failure, folder, print};
 
-const REFERENCES: &str = "tests/references";
 /// The folder beside the report that scenes which fail go to.
 const KEPT: &str = "stress";
+/// The folder beside the report that figures go to.
+const FIGURES: &str = "figures";
+/// The files beside the report.
+const FILES: [&str; 3] = [folder::REPORT, "report.csv", "report.json"];
 
 #[derive(clap::Args)]
 pub struct Arguments {
-    /// Folder for the report, made if it is not there
+    /// Folder for report.html, report.csv, report.json and the figures as SVG, made if it is not there
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
     /// Fewer samples or scenes: under half a minute
@@ -23,18 +29,20 @@ pub struct Arguments {
     /// Adversarial scenes by the hundred in place of exact solutions; those that fail are written to DIR/stress
     #[arg(long, conflicts_with = "references")]
     stress: bool,
-    /// Folder of reference scenes with block means [default: tests/references, if it is there]
+    /// Folder of reference scenes with block means [default: those that the program carries]
     #[arg(long, value_name = "DIR")]
     references: Option<PathBuf>,
+    /// Other random numbers for every measurement
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = super::options::whole, conflicts_with = "stress")]
+    seed: u32,
 }
 
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     check(arguments)?;
-    let references = arguments.references.clone().unwrap_or_else(|| REFERENCES.into());
     let effort = if arguments.quick { Effort::Quick } else { Effort::Full };
     let start = Instant::now();
     let suite = if arguments.stress { Suite::Stress } else { Suite::Exact };
-    let validation = Validation::new(effort, references);
+    let validation = Validation::new(effort, arguments.references.clone(), arguments.seed);
     let mut lines = Vec::new();
     let done = |number: usize, section: &Section| lines.push(show(number, section, suite));
     let (sections, kept) = match suite {
@@ -43,7 +51,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     };
     lines.into_iter().collect::<Result<Vec<()>, Failure>>()?;
     if let Some(output) = &arguments.output {
-        folder::write_report(output, &html(&sections, suite, effort))?;
+        write(output, &sections, suite, effort, arguments.seed)?;
         keep(&output.join(KEPT), &kept)?;
     } else {
         print("no report was written: -o DIR says where to")?;
@@ -55,6 +63,19 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         return Err(format!("{failed} of {statements} statements fail ({seconds:.0} s)"));
     }
     print(&format!("all {statements} statements hold ({seconds:.0} s)"))
+}
+
+/// Writes the report, its rows and its figures.
+fn write(output: &Path, sections: &[Section], suite: Suite, effort: Effort, seed: u32) -> Result<(), Failure> {
+    folder::write_report(output, &html(sections, suite, effort, seed))?;
+    let rows = csv(sections).map_err(|error| format!("{}: {error}", FILES[1]))?;
+    folder::write(output, FILES[1], &rows, "rows")?;
+    folder::write(output, FILES[2], &format!("{:#}\n", json(sections, suite, effort, seed)), "rows")?;
+    let (figures, drawings) = (output.join(FIGURES), drawings(sections));
+    for (name, svg) in &drawings {
+        replace(&figures.join(name), svg.as_bytes()).map_err(|error| error.to_string())?;
+    }
+    print(&format!("{} figures: {}", drawings.len(), figures.display()))
 }
 
 /// Writes the scenes that fail, if there are any.
@@ -72,7 +93,11 @@ fn check(arguments: &Arguments) -> Result<(), Failure> {
     {
         return Err(format!("{}: no references (NAME.toml with NAME.txt) in this folder", folder.display()));
     }
-    arguments.output.as_deref().map_or(Ok(()), |folder| folder::make(folder, folder::REPORT))
+    let make = |folder: &Path| {
+        FILES.iter().try_for_each(|name| folder::make(folder, name))?;
+        folder::make(&folder.join(FIGURES), "section-01-1.svg")
+    };
+    arguments.output.as_deref().map_or(Ok(()), make)
 }
 
 fn failures(section: &Section) -> usize {

@@ -143,7 +143,7 @@ fn score(mean: f64, (variance, degrees): (f64, f64), level: f64) -> f64 {
 }
 
 /// The standard normal number that is as unlikely as Student's t.
-fn as_normal(t: f64, degrees: f64) -> f64 {
+pub fn as_normal(t: f64, degrees: f64) -> f64 {
     let (Ok(student), Ok(normal)) = (StudentsT::new(0.0, 1.0, degrees), Normal::new(0.0, 1.0)) else { return f64::NAN };
     // From the lower tail, where small probabilities keep their digits. Only many repeats make it smaller than any number, and
     // Student's t of many repeats is nearly normal.

@@ -35,6 +35,19 @@ impl Figure {
     pub fn markup(&self) -> Markup {
         html! { figure { (PreEscaped(&self.element)) figcaption { (formula(&self.caption)) } } }
     }
+
+    /// The figure as a file of its own: plots as they are, pictures within an SVG of their size; `None` of tables.
+    pub fn svg(&self) -> Option<String> {
+        if self.element.starts_with("<svg") {
+            return Some(self.element.clone());
+        }
+        let after = |key: &str| self.element.split_once(key)?.1.split_once('\'').map(|(value, _)| value);
+        let (width, height, source) = (after("width='")?, after("height='")?, after("src='")?);
+        Some(format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\"><image width=\"{width}\" \
+             height=\"{height}\" style=\"image-rendering: pixelated\" href=\"{source}\"/></svg>"
+        ))
+    }
 }
 
 /// A whole page; `style` is what only this report has, `--width` of `:root` at least.

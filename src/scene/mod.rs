@@ -11,6 +11,7 @@ mod diagnostic;
 mod errors;
 mod excerpt;
 mod filter;
+mod infinite_variance;
 mod legend;
 mod load;
 mod meant;

@@ -38,13 +38,24 @@ pub fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
     values.into_iter().fold(0.0, |largest, x| if x > largest || x.is_nan() { x } else { largest })
 }
 
-/// A number in (0, 1) for each of eight dimensions of the `i`-th of many.
-pub fn uniform(i: u32, dimension: u32) -> F<One> {
-    unit(hash(U(i.wrapping_mul(8).wrapping_add(dimension))))
+/// The random numbers of one measurement.
+#[derive(Clone, Copy)]
+pub struct Random(u32);
+
+impl Random {
+    /// A number in (0, 1) for each of eight dimensions of the `i`-th of many.
+    pub fn at(self, i: u32, dimension: u32) -> F<One> {
+        unit(hash(hash(U(i.wrapping_mul(8).wrapping_add(dimension))) ^ self.0))
+    }
+
+    /// The point of the unit square and the number that choose a direction.
+    pub fn direction(self, i: u32) -> ((F<One>, F<One>), F<One>) {
+        ((self.at(i, 0), self.at(i, 1)), self.at(i, 2))
+    }
 }
 
 impl Validation {
-    /// Independent samples without cap or roulette; estimators that are compared share no random numbers.
+    /// Independent samples without cap or roulette, and random numbers that no other measurement has.
     pub fn settings(&self, estimator: Estimator) -> RenderSettings {
         RenderSettings {
             estimator,
@@ -54,15 +65,19 @@ impl Validation {
             max_bounces: None,
             reuse: Reuse::Off,
             adaptive: false,
-            seed: 29 + estimator as u32,
+            seed: self.next_seed(),
             #[cfg(test)]
             fault: self.fault,
         }
     }
 
-    /// The path estimator with these directions. Measurements that stand side by side have numbers, and no random numbers in common.
-    pub fn path(&self, directions: Directions, number: u32) -> RenderSettings {
-        RenderSettings { directions, seed: 1000 + number, ..self.settings(Estimator::Path) }
+    /// The path estimator with these directions.
+    pub fn path(&self, directions: Directions) -> RenderSettings {
+        RenderSettings { directions, ..self.settings(Estimator::Path) }
+    }
+
+    pub fn random(&self) -> Random {
+        Random(self.next_seed())
     }
 
     /// Moments of the red of `full` samples (fewer in a quick run) of each of 1024 pixels.

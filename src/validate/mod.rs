@@ -2,26 +2,39 @@
 //!
 //! Each section makes one claim, derives the exact answer, and holds measurements against it in [`Statement`]s. All samples are
 //! seeded and the same on every machine, so that a verdict is, too.
+mod cells;
+mod chance;
 mod check;
+mod files;
+mod microfacets;
+mod pooled;
 mod report;
 mod sections;
 mod statement;
 mod stress;
 #[cfg(test)]
 mod tests;
+mod theory;
 
-use std::path::PathBuf;
+use std::{
+    path::PathBuf,
+    sync::atomic::{AtomicU32, Ordering},
+};
 
 use self::statement::SIGMAS;
 pub use self::{
+    files::{csv, drawings, json},
     report::html,
     sections::{Agreement, agreement, reference_names},
-    statement::Statement,
+    statement::{Noticed, Statement},
     stress::KeptScene,
 };
-use crate::report::Figure;
 #[cfg(test)]
 use crate::scene::Fault;
+use crate::{
+    report::Figure,
+    sampling::hash::{GOLDEN, hash_one},
+};
 
 /// What is held against what.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,15 +50,18 @@ pub enum Suite {
 pub enum Effort {
     /// Under half a minute on two cores.
     Quick,
-    /// Some minutes.
+    /// Under three minutes on two cores.
     Full,
 }
 
 /// What to validate, and how thoroughly.
 pub struct Validation {
     effort: Effort,
-    /// Where reference images are looked for.
-    references: PathBuf,
+    /// A folder of pictures by other renderers; those that the program carries if there is none.
+    references: Option<PathBuf>,
+    seed: u32,
+    /// The number of the next measurement: the section in the upper half.
+    measurement: AtomicU32,
     #[cfg(test)]
     fault: Option<Fault>,
 }
@@ -76,22 +92,41 @@ impl Section {
 
 impl Validation {
     /// All sections in their order; `done` is shown each when it is finished.
-    pub fn run(&self, mut done: impl FnMut(usize, &Section)) -> Vec<Section> {
-        let section = |(i, run): (usize, &fn(&Validation) -> Section)| {
-            let section = run(self);
-            done(i + 1, &section);
-            section
-        };
-        sections::ALL.iter().enumerate().map(section).collect()
+    pub fn run(&self, done: impl FnMut(usize, &Section)) -> Vec<Section> {
+        self.run_these(&sections::ALL, done)
     }
 
-    pub fn new(effort: Effort, references: PathBuf) -> Validation {
+    /// These sections, and what all their statements say together.
+    fn run_these(&self, these: &[fn(&Validation) -> Section], mut done: impl FnMut(usize, &Section)) -> Vec<Section> {
+        let mut sections = Vec::new();
+        for (i, run) in (0..).zip(these) {
+            self.measurement.store(i << 16, Ordering::Relaxed);
+            let section = run(self);
+            done(sections.len() + 1, &section);
+            sections.push(section);
+        }
+        let all = pooled::section(&sections);
+        done(sections.len() + 1, &all);
+        sections.push(all);
+        sections
+    }
+
+    pub fn new(effort: Effort, references: Option<PathBuf>, seed: u32) -> Validation {
         Validation {
             effort,
             references,
+            seed,
+            measurement: AtomicU32::new(0),
             #[cfg(test)]
             fault: None,
         }
+    }
+
+    /// The seed of the next measurement: no two of a report have the same.
+    fn next_seed(&self) -> u32 {
+        let number = self.measurement.fetch_add(1, Ordering::Relaxed);
+        // Both maps are one-to-one.
+        hash_one(number.wrapping_mul(GOLDEN).wrapping_add(hash_one(self.seed)))
     }
 
     /// What a full run takes `full` samples for.

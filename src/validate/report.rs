@@ -1,12 +1,13 @@
 //! The report as one HTML file, which needs nothing else and prints well.
 use maud::{Markup, html as markup};
 
-use super::{Effort, Section, Statement, Suite};
+use super::{Effort, Section, Statement, Suite, theory};
 use crate::report::{self, formula};
 
 /// What only this report has.
 const STYLE: &str = "
-:root { --width: 50rem; }
+:root { --width: 58rem; }
+h3 { font-size: 1.02rem; margin: 1.4rem 0 .2rem; }
 td.s { white-space: nowrap; }
 .claim { font-size: 1.06rem; font-weight: 600; }
 .derivation { border-left: 3px solid #bbb; padding-left: 1rem; }
@@ -14,7 +15,7 @@ figure:has(img) { display: inline-block; margin: .6rem .8rem .6rem 0; }
 ";
 
 /// The report of all sections.
-pub fn html(sections: &[Section], suite: Suite, effort: Effort) -> String {
+pub fn html(sections: &[Section], suite: Suite, effort: Effort, seed: u32) -> String {
     let statements: usize = sections.iter().map(|section| section.statements.len()).sum();
     let run = sections.iter().filter(|section| section.was_run()).count();
     let failed: usize = sections.iter().flat_map(|section| &section.statements).filter(|statement| !statement.holds).count();
@@ -22,9 +23,9 @@ pub fn html(sections: &[Section], suite: Suite, effort: Effort) -> String {
         h1 { (suite.question()) }
         p { (formula(suite.answer())) " " (statements) " statements of " (run) " sections. "
             @if failed == 0 { span.holds { "All hold." } } @else { span.fails { (failed) " fail." } } }
-        p.source { "noisefall " (env!("CARGO_PKG_VERSION")) ", " @if effort == Effort::Quick { "a quick run" } @else { "a full run" } ". "
-            (suite.conditions()) }
+        p.source { "noisefall " (env!("CARGO_PKG_VERSION")) ", " "a " (effort.name()) " run, seed " (seed) ". " (suite.conditions()) }
         (contents(sections))
+        @if suite == Suite::Exact { (theory::chapter()) }
         @for (i, section) in sections.iter().enumerate() { (body(i + 1, section)) }
     };
     report::page("Noisefall: validation", STYLE, &content)
@@ -41,7 +42,7 @@ impl Suite {
     fn answer(self) -> &'static str {
         match self {
             Suite::Exact => {
-                "L(x, ω_o) = L_e(x, ω_o) + ∫ f(x, ω_i, ω_o) L(x_M(x, ω_i), −ω_i) cos θ_i dω_i, where x_M is the first surface point \
+                "L(x, ω_o) = L_e(x, ω_o) + ∫ f(x, ω_o, ω_i) L(x_M(x, ω_i), −ω_i) |cos θ_i| dω_i, where x_M is the first surface point \
                  seen from x along ω_i: solved by Monte Carlo integration and held against exact solutions in"
             }
             Suite::Stress => {
@@ -55,8 +56,11 @@ impl Suite {
     fn conditions(self) -> &'static str {
         match self {
             Suite::Exact => {
-                "A statement with chance in it fails beyond 4 standard errors, unless its row says otherwise. All samples are seeded and \
-                 the same on every machine; only the times of section 7 differ."
+                "A statement with chance in it fails beyond 4 standard errors, unless its row says otherwise. The column “notices” has the \
+                 smallest bias that would fail it with a probability of 95 %: (4 + 1.645) standard errors, or the tolerance; in per cent \
+                 of the exact number, of a share or of a probability, else in units of what is measured. * marks statements about \
+                 samples that one before is about too. All samples are seeded and the same on every machine; only the times of direct \
+                 light differ. The folder has all rows as report.csv and report.json, and the figures as SVG."
             }
             Suite::Stress => {
                 "A scene is named by its family and number and is the same on every machine; only times differ. Those that fail are \
@@ -94,7 +98,7 @@ fn body(number: usize, section: &Section) -> Markup {
             }
             @if !section.statements.is_empty() {
                 table {
-                    thead { tr { th { "statement" } th.n { "measured" } th.n { "± standard error" } th.n { "exact" } th { "statistic" } th { "verdict" } } }
+                    thead { tr { th { "statement" } th.n { "measured" } th.n { "± standard error" } th.n { "exact" } th { "statistic" } th.n { "notices" } th { "verdict" } } }
                     tbody { @for statement in &section.statements { (row(statement)) } }
                 }
             }
@@ -106,11 +110,12 @@ fn row(statement: &Statement) -> Markup {
     let error = if statement.error > 0.0 { format!("{:.1e}", statement.error) } else { "–".to_owned() };
     markup! {
         tr {
-            td { (formula(&statement.what)) }
+            td { (formula(&statement.what)) @if statement.shares_samples { " *" } }
             td.n { (number(statement.measured)) }
             td.n { (error) }
             td.n { @if let Some(exact) = statement.exact { (number(exact)) } }
             td.s { (statement.statistic) }
+            td.n { (statement.notices) }
             td { (verdict(statement.holds)) }
         }
     }

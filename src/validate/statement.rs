@@ -1,11 +1,18 @@
 //! Single statements: a measured number, the exact one, and whether they agree.
+use std::fmt;
+
+use serde::Serialize;
+
+use super::chance::chance_beyond;
 use crate::measure::{Mean, Moments};
 
 /// Deviations beyond so many standard errors refute a statement: one in 16000 does by chance, but seeds do not change.
 pub const SIGMAS: f64 = 4.0;
+/// A bias so many standard errors beyond the threshold is noticed with a probability of 95 %.
+pub(super) const POWER: f64 = 1.644_853_6;
 
 /// One measured number against what it must be.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Statement {
     pub what: String,
     pub measured: f64,
@@ -16,28 +23,84 @@ pub struct Statement {
     /// The test and its outcome.
     pub statistic: String,
     pub holds: bool,
+    /// The smallest bias of `measured` that fails the statement with a probability of 95 %.
+    pub notices: Noticed,
+    /// The deviation, where it is a standard normal number if the statement is true.
+    pub z: Option<f64>,
+    /// The probability that the statement fails although it is true.
+    pub chance: f64,
+    /// A statement before is about the same samples.
+    pub shares_samples: bool,
+}
+
+/// The smallest bias that a statement notices.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Noticed {
+    /// As a part of the exact number.
+    Relative(f64),
+    /// In units of the measured number.
+    Absolute(f64),
+}
+
+impl Noticed {
+    pub(super) fn of(bias: f64, exact: f64) -> Noticed {
+        if exact == 0.0 { Noticed::Absolute(bias) } else { Noticed::Relative(bias / exact.abs()) }
+    }
+}
+
+impl fmt::Display for Noticed {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Noticed::Relative(part) if *part >= 1e-5 => write!(f, "{:.3} %", 100.0 * part),
+            Noticed::Relative(part) => write!(f, "{:.0e} %", 100.0 * part),
+            Noticed::Absolute(bias) => write!(f, "{bias:.1e}"),
+        }
+    }
 }
 
 impl Statement {
+    /// A statement without chance, that holds.
+    pub(super) fn plain(what: impl Into<String>, measured: f64, statistic: String) -> Statement {
+        Statement {
+            what: what.into(),
+            measured,
+            error: 0.0,
+            exact: None,
+            statistic,
+            holds: true,
+            notices: Noticed::Absolute(f64::NAN),
+            z: None,
+            chance: 0.0,
+            shares_samples: false,
+        }
+    }
+
     /// A z-test.
     pub fn z(what: impl Into<String>, measured: f64, error: f64, exact: f64) -> Statement {
         let z = if measured == exact { 0.0 } else { (measured - exact) / error };
         Statement {
-            what: what.into(),
-            measured,
             error,
             exact: Some(exact),
-            statistic: format!("z = {z:+.2}"),
             holds: z.abs() < SIGMAS,
+            notices: Noticed::of((SIGMAS + POWER) * error, exact),
+            z: Some(z),
+            chance: chance_beyond(SIGMAS),
+            ..Statement::plain(what, measured, format!("z = {z:+.2}"))
         }
     }
 
     /// The z-test of a mean by the variance of its own samples.
     pub fn mean(what: impl Into<String>, found: Mean, exact: f64) -> Statement {
-        let z = found.z(exact);
-        let error = found.variance_of_mean.sqrt();
-        let statistic = format!("z = {z:+.2}");
-        Statement { what: what.into(), measured: found.mean, error, exact: Some(exact), statistic, holds: z.abs() < SIGMAS }
+        let (error, z) = (found.variance_of_mean.sqrt(), found.z(exact));
+        // Where rounding is as large as the noise, the deviation is narrower than the normal distribution.
+        let is_noise = error > 1e-5 * exact.abs();
+        Statement {
+            statistic: format!("z = {z:+.2}"),
+            holds: z.abs() < SIGMAS,
+            z: is_noise.then_some(z),
+            ..Statement::z(what, found.mean, error, exact)
+        }
     }
 
     /// The z-test of the mean of samples whose variance is known.
@@ -54,20 +117,60 @@ impl Statement {
     /// Without chance: within a tolerance, which is what rounding may do.
     pub fn within(what: impl Into<String>, measured: f64, exact: f64, tolerance: f64) -> Statement {
         let difference = (measured - exact).abs();
-        let statistic = format!("|Δ| = {difference:.1e} ≤ {tolerance:.0e}");
-        Statement { what: what.into(), measured, error: 0.0, exact: Some(exact), statistic, holds: difference <= tolerance }
+        Statement {
+            exact: Some(exact),
+            holds: difference <= tolerance,
+            notices: Noticed::of(tolerance, exact),
+            ..Statement::plain(what, measured, format!("|Δ| = {difference:.1e} ≤ {tolerance:.0e}"))
+        }
+    }
+
+    /// Within a known error of the method, as far as noise lets one see.
+    pub fn near(what: impl Into<String>, found: Mean, exact: f64, tolerance: f64) -> Statement {
+        let (difference, error) = ((found.mean - exact).abs(), found.variance_of_mean.sqrt());
+        Statement {
+            error,
+            exact: Some(exact),
+            holds: difference <= tolerance + SIGMAS * error,
+            notices: Noticed::of(tolerance + (SIGMAS + POWER) * error, exact),
+            chance: chance_beyond(SIGMAS),
+            ..Statement::plain(what, found.mean, format!("|Δ| = {difference:.1e} ≤ {tolerance:.0e} + 4σ"))
+        }
     }
 
     /// Nothing may be found where something is counted.
     pub fn none(what: impl Into<String>, count: u32) -> Statement {
-        let statistic = "must be 0".to_owned();
-        Statement { what: what.into(), measured: f64::from(count), error: 0.0, exact: Some(0.0), statistic, holds: count == 0 }
+        let statement = Statement::plain(what, f64::from(count), "must be 0".to_owned());
+        Statement { exact: Some(0.0), holds: count == 0, notices: Noticed::Absolute(1.0), ..statement }
+    }
+
+    /// The share of `of` tries in which something happens that must not; from 3/n on one of n is met with 95 %.
+    pub fn never(what: impl Into<String>, count: u32, of: u32) -> Statement {
+        let share = f64::from(count) / f64::from(of);
+        let statistic = format!("{count} of {of}, must be 0");
+        let holds = count == 0 && of > 0;
+        let notices = Noticed::Relative(3.0 / f64::from(of));
+        Statement { exact: Some(0.0), holds, notices, ..Statement::plain(what, share, statistic) }
     }
 
     /// Must be less than a limit.
     pub fn below(what: impl Into<String>, measured: f64, limit: f64) -> Statement {
         let text = if limit.abs() < 1e-3 { format!("{limit:.0e}") } else { limit.to_string() };
-        let statistic = format!("must be < {text}");
-        Statement { what: what.into(), measured, error: 0.0, exact: None, statistic, holds: measured < limit }
+        let statement = Statement::plain(what, measured, format!("must be < {text}"));
+        Statement { holds: measured < limit, notices: Noticed::Absolute(limit - measured), ..statement }
+    }
+
+    /// The largest of standard normal numbers; a bias of a single one with the relative standard error `sigma` is noticed from the limit on.
+    pub fn largest_z(what: impl Into<String>, scores: &[f64], limit: f64, sigma: f64) -> Statement {
+        let worst = scores.iter().fold(0.0, |worst: f64, z| if z.abs() > worst || z.is_nan() { z.abs() } else { worst });
+        let chance = 1.0 - (1.0 - chance_beyond(limit)).powf(scores.len() as f64);
+        let statement = Statement::plain(what, worst, format!("largest of {}, must be < {limit}", scores.len()));
+        let notices = Noticed::Relative((limit + POWER) * sigma);
+        Statement { holds: worst < limit && !scores.is_empty(), notices, chance, ..statement }
+    }
+
+    /// The same, where a statement before is about the same samples.
+    pub fn of_the_same(self) -> Statement {
+        Statement { shares_samples: true, ..self }
     }
 }

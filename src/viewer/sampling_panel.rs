@@ -7,7 +7,7 @@ use noisefall::{
 
 use super::{
     app::App,
-    look::{controls, row},
+    look::{Inks, controls, row},
     number,
 };
 
@@ -42,6 +42,8 @@ impl App {
         let edits_other = self.compare.is_some_and(|compare| compare.edits_other);
         let status = if edits_other { &self.status_beside } else { &self.status };
         let (spp, shares) = (status.spp, status.shares);
+        let edited = *self.edited();
+        let caution = self.opened.as_ref().and_then(|opened| opened.scene.infinite_variance(&edited));
         let settings = self.edited();
         controls(ui, "sampling", |ui| {
             row(ui, "Estimator", "How light L_o is found at x_M. All converge to the same picture.", |ui, _| {
@@ -108,7 +110,13 @@ impl App {
                 "Roulette",
                 "Ends paths at random with probability 1 − q and weights the survivors by 1/q: shorter paths, no bias.",
                 |ui, label| {
-                    roulette(ui, label, &mut settings.roulette);
+                    // Below, and not beside, as above.
+                    ui.vertical(|ui| {
+                        roulette(ui, label, &mut settings.roulette);
+                        if let Some(caution) = &caution {
+                            ui.colored_label(ui.warning(), "infinite variance?").on_hover_text(caution);
+                        }
+                    });
                 },
             );
             if let Roulette::Fixed(q) = &mut settings.roulette {

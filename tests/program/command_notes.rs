@@ -29,6 +29,22 @@ fn a_black_picture_is_told_with_its_likely_cause() {
 }
 
 #[test]
+fn roulette_that_leaves_no_finite_variance_is_told() {
+    let shell = Shell::new();
+    let notes = |roulette: &str| {
+        let options = ["-o", "out.png", "--spp", "2", "--size", "8x8", "--roulette", roulette];
+        text(&shell.run(&[&["render", &scene("furnace")][..], &options].concat()).stderr)
+    };
+    // The walls reflect one half.
+    assert!(
+        notes("0.2").contains("note: survival of 0.2") && notes("0.2").contains("the variance is infinite"),
+        "{}",
+        notes("0.2")
+    );
+    assert!(notes("0.3").is_empty() && notes("off").is_empty() && notes("throughput").is_empty(), "{}", notes("0.3"));
+}
+
+#[test]
 fn a_true_picture_of_another_size_or_kind_is_told() {
     let shell = Shell::new();
     let furnace = std::fs::read_to_string(scene("furnace")).expect("it is shipped");

@@ -10,18 +10,27 @@ fn references() -> String {
 #[test]
 fn a_quick_validation_holds_and_writes_a_report_that_needs_nothing_else() {
     let shell = Shell::new();
-    let done = shell.run(&["validate", "--quick", "-o", "new/report", "--references", &references()]);
+    let done = shell.run(&["validate", "--quick", "-o", "new/report"]);
     let shown = text(&done.stdout);
     assert!(done.status.success(), "{shown}{}", text(&done.stderr));
-    assert!(shown.contains("11  holds") && shown.contains("statements hold"), "{shown}");
+    assert!(shown.contains("17  holds") && shown.contains("statements hold") && !shown.contains("not run"), "{shown}");
     let report = fs::read_to_string(shell.path("new/report/report.html")).expect("a report");
-    assert_eq!(report.matches("<section").count(), 11);
-    assert!(report.matches("<svg").count() >= 7 && report.contains("data:image/png;base64,"));
+    assert_eq!(report.matches("<section").count(), 17);
+    assert!(report.matches("<svg").count() >= 12 && report.contains("data:image/png;base64,"));
     for outside in ["http://", "https://", "src=\"/", "<script", "<link"] {
         let elsewhere = report.replace("http://www.w3.org/2000/svg", "");
         assert!(!elsewhere.contains(outside), "{outside}");
     }
     assert!(!report.contains("✗"), "no verdict is red");
+    let rows = fs::read_to_string(shell.path("new/report/report.csv")).expect("rows");
+    let json: serde_json::Value =
+        serde_json::from_str(&fs::read_to_string(shell.path("new/report/report.json")).expect("JSON")).expect("JSON");
+    let sections = json["sections"].as_array().expect("sections");
+    let statements: usize = sections.iter().map(|section| section["statements"].as_array().map_or(0, Vec::len)).sum();
+    assert_eq!((sections.len(), csv::Reader::from_reader(rows.as_bytes()).records().count()), (17, statements));
+    assert!(shown.contains(&format!("all {statements} statements hold")), "{shown}");
+    let drawn = fs::read_dir(shell.path("new/report/figures")).expect("figures").count();
+    assert_eq!(drawn, report.matches("<figure").count() - 1, "all but the table of times");
 }
 
 #[test]

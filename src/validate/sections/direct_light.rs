@@ -1,4 +1,4 @@
-//! 7. Direct light.
+//! Direct light.
 use std::{f64::consts::PI, time::Instant};
 
 use glam::DVec3;
@@ -17,19 +17,19 @@ use crate::{
     },
 };
 
-const ALBEDO: f64 = 0.8;
+pub const ALBEDO: f64 = 0.8;
 const LAMP: f64 = 0.3;
 /// Angles of a spherical lamp from the zenith: high, partly set, just before it is gone.
 const DEGREES: [f64; 5] = [0.0, 45.0, 75.0, 90.0, 103.0];
 /// Origin and two edges: small and far, and so large and near that its solid angle is sampled rather than its area.
-const RECTANGLES: [(&str, [[f64; 3]; 3]); 3] = [
+pub const RECTANGLES: [(&str, [[f64; 3]; 3]); 3] = [
     ("small rectangle", [[0.3, 1.0, -0.2], [0.3, 0.0, 0.0], [0.0, 0.0, 0.3]]),
     ("large rectangle, near", [[-0.8, 0.4, -0.7], [1.6, 0.0, 0.0], [0.0, 0.0, 1.2]]),
     ("rectangle that the horizon cuts", [[0.5, -0.7, -0.4], [0.0, 0.0, 1.0], [0.0, 1.2, 0.0]]),
 ];
 
 /// A point of level ground, seen so closely that all pixels show the same, and a lamp.
-fn lit(lamp: &str) -> Scene {
+pub fn lit(lamp: &str) -> Scene {
     scene(&format!(
         "camera = {{ eye = [0.0, 1.0, 2.0], look_at = [0.0, 0.0, 0.0], fov = 0.001, resolution = [32, 32] }}
         materials.ground.lambertian.albedo = {ALBEDO}
@@ -49,7 +49,7 @@ pub fn section(validation: &Validation) -> Section {
         for estimator in Estimator::ALL {
             let settings = RenderSettings { max_bounces: Some(1), ..validation.settings(estimator) };
             let start = Instant::now();
-            let found = picture(scene, settings, RED, validation.spp(400)).whole();
+            let found = picture(scene, settings, RED, validation.spp(4000)).whole();
             let seconds = start.elapsed().as_secs_f64();
             statements.push(Statement::mean(format!("{what}, {}", estimator.name()), found, ALBEDO / PI * irradiance));
             costs.push((what.to_owned(), estimator, found, seconds));

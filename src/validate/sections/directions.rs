@@ -1,4 +1,4 @@
-//! 4. Cosine against uniform directions.
+//! Cosine against uniform directions.
 use crate::{
     sampling::Directions,
     scene::{RenderSettings, Scene},
@@ -10,7 +10,7 @@ const ALBEDO: f64 = 0.8;
 const LAMPS: [f64; 4] = [0.3, 0.6, 0.9, 1.0];
 
 /// A point of the ground, seen so closely that all pixels show the same, under a sphere of radiance 1, or the whole sky.
-fn ground(sine: f64) -> Scene {
+pub fn ground(sine: f64) -> Scene {
     let light = if sine < 1.0 {
         format!("[[objects]]\nshape.sphere = {{ center = [0.0, 1.0, 0.0], radius = {sine:?} }}\nemission.radiance = 1.0")
     } else {
@@ -28,7 +28,7 @@ fn ground(sine: f64) -> Scene {
 
 pub fn section(validation: &Validation) -> Section {
     let mut statements = Vec::new();
-    for (number, sine) in (80..).zip(LAMPS) {
+    for sine in LAMPS {
         let scene = ground(sine);
         let cos = (1.0 - sine * sine).sqrt();
         let mean = ALBEDO * sine * sine;
@@ -36,16 +36,16 @@ pub fn section(validation: &Validation) -> Section {
         let squares = [ALBEDO * ALBEDO * sine * sine, 4.0 / 3.0 * ALBEDO * ALBEDO * (1.0 - cos.powi(3))];
         let mut found = Vec::new();
         for (directions, square) in [Directions::Cosine, Directions::Uniform].into_iter().zip(squares) {
-            let settings = RenderSettings { max_bounces: Some(1), ..validation.path(directions, number) };
+            let settings = RenderSettings { max_bounces: Some(1), ..validation.path(directions) };
             let moments = validation.moments(&scene, settings, 1200);
             let name = format!("lamp to {:.1}°, {directions:?} directions", sine.asin().to_degrees()).to_lowercase();
             let variance = square - mean * mean;
             if variance < 1e-9 {
                 statements.push(Statement::within(format!("{name}: mean"), moments.mean, mean, 1e-6));
-                statements.push(Statement::within(format!("{name}: variance"), moments.variance, 0.0, 1e-10));
+                statements.push(Statement::within(format!("{name}: variance"), moments.variance, 0.0, 1e-10).of_the_same());
             } else {
                 statements.push(Statement::mean_with(format!("{name}: mean"), &moments, mean, variance));
-                statements.push(Statement::variance(format!("{name}: variance"), &moments, variance));
+                statements.push(Statement::variance(format!("{name}: variance"), &moments, variance).of_the_same());
             }
             found.push((moments, variance));
         }
@@ -56,7 +56,7 @@ pub fn section(validation: &Validation) -> Section {
             let relative = |m: &crate::measure::Moments| (m.fourth / (m.variance * m.variance) - 1.0) / m.count;
             let error = ratio * (relative(cosine) + relative(uniform)).sqrt();
             let what = format!("lamp to {:.1}°: variance of uniform over that of cosine directions", sine.asin().to_degrees());
-            statements.push(Statement::z(what, ratio, error, exact_uniform / exact_cosine));
+            statements.push(Statement::z(what, ratio, error, exact_uniform / exact_cosine).of_the_same());
         }
     }
     Section {
@@ -70,7 +70,7 @@ pub fn section(validation: &Validation) -> Section {
             "Under a whole sky the first variance is 0 and the second ρ²/3. For a small lamp overhead the ratio tends to 2: cosine \
              directions go there twice as often.",
         ],
-        source: "Both densities over the hemisphere integrate to 1; section 6 tests them.",
+        source: "Both densities over the hemisphere integrate to 1; the section on sampled directions tests them.",
         statements,
         figures: Vec::new(),
         remark: None,

@@ -1,4 +1,4 @@
-//! 10. Independence from threads, instructions, order and pauses.
+//! Independence from threads, instructions, order and pauses.
 use std::{
     hash::{DefaultHasher, Hash, Hasher},
     sync::atomic::{AtomicU32, Ordering},

@@ -1,157 +1,243 @@
-//! 6. Hemisphere sampling and x_M themselves.
-use std::f64::consts::PI;
+//! x_M itself: what rays meet, and what they do not.
+use std::sync::Arc;
 
-use glam::DVec3;
-use statrs::distribution::{ChiSquared, ContinuousCDF};
+use glam::{DAffine3, DMat3, DVec3};
+use rayon::prelude::*;
 
 use crate::{
-    geometry::{MISS, Motion, Nearest, Shape, Shapes},
-    material::{Bsdf, Lambertian},
+    geometry::{
+        Expression, Isosurface, MISS, Motion, Nearest, Outline, Shape, Shapes,
+        mesh::generate,
+        oracle::{Meeting, meetings, pieces, point_at},
+        sphere_field,
+    },
     math::{F, M, One, U, V},
     report::{
         Figure,
         plot::{Axis, Style, curve, plot},
     },
-    sampling::Directions,
     validate::{
         Section, Statement, Validation,
-        check::{largest, uniform},
+        check::{Random, largest},
     },
 };
 
-/// Of cos θ, and of the azimuth.
-const BINS: [usize; 2] = [24, 8];
-/// A χ² test refutes below this.
-const SIGNIFICANCE: f64 = 1e-4;
+/// A ray that this many last digits aside would do otherwise may do either.
+const DIGITS: f64 = 8.0;
+/// The largest error of x_M, in last digits.
+const MOST_DIGITS: f64 = 8.0;
+/// 2⁻²³.
+const EPSILON: f64 = f32::EPSILON as f64;
+/// Rays that may do either, at most.
+const MOST_CLOSE: f64 = 0.01;
+
+/// A surface, the pieces that f64 knows it by, and how many rays are tried of as many for simple ones.
+struct Kind {
+    name: String,
+    shapes: Vec<Shape>,
+    pieces: Vec<Shape>,
+    divisor: u32,
+}
 
 pub fn section(validation: &Validation) -> Section {
-    let (mut statements, mut curves) = (Vec::new(), Vec::new());
-    for directions in [Directions::Uniform, Directions::Cosine] {
-        let (statement, histogram, density) = hemisphere(validation, directions);
-        statements.push(statement);
-        let name = format!("{directions:?} directions").to_lowercase();
-        curves.push(curve(name.clone(), Style::Points, histogram));
-        curves.push(curve(name, Style::Line, density));
+    let kinds = kinds();
+    let tries: Vec<(u32, Random)> =
+        kinds.iter().map(|kind| (validation.spp(200_000) / kind.divisor, validation.random())).collect();
+    let found: Vec<Tally> = kinds.par_iter().zip(&tries).map(|(kind, (count, random))| kind.tally(*count, *random)).collect();
+    let mut statements = Vec::new();
+    for (kind, tally) in kinds.iter().zip(&found) {
+        statements.extend(tally.statements(&kind.name));
     }
-    let errors = hits(validation);
-    for (radius, found) in &errors {
-        let worst = largest(found.iter().copied());
-        let what = format!("radius {radius:e} m: largest error of x_M against f64, relative to the longer of ray and radius");
-        statements.push(Statement::below(what, worst, 2e-6));
-    }
-    let caption = "Directions by cos θ: measured frequencies (points) against the densities 2 cos θ and 1.";
+    let errors = kinds.iter().zip(&found).filter(|(kind, _)| kind.name.starts_with("sphere of"));
+    let errors: Vec<_> = errors.map(|(kind, tally)| (kind.name.clone(), tally.errors.clone())).collect();
     Section {
-        title: "Hemisphere sampling and x_M themselves",
-        claim: "Sampled directions have the density that they are divided by, and a ray finds the point x_M that it should.",
+        title: "Hits and misses: x_M itself",
+        claim: "A ray finds the point x_M that it should, on every kind of surface, and nothing where there is nothing.",
         derivation: &[
-            "Over the hemisphere, dω = dμ dφ with μ = cos θ. A uniform direction has the density 1/(2π), so that μ is uniform in \
-             [0, 1]; a cosine-distributed one has μ/π, so that μ has the density 2μ. The azimuth φ is uniform in both.",
-            "x_M(x, ω) = x + tω with the smallest t > 0 for which |x + tω − c| = R. It is solved in f64 and compared with what the \
-             renderer finds in f32, from outside and inside, for spheres from a micrometre to 1000 kilometres.",
+            "x_M(x, ω) = x + tω with the smallest t > 0 at which the ray meets the surface. Every ray is also solved in f64 by textbook formulas \
+             in code of their own: quadrics by their quadratic equation, flat shapes and the triangles of meshes by their plane. Half of the rays \
+             are aimed at a point of the surface, half at one beside it, at distances from 10⁻⁵ to twice its size; they start inside, \
+             outside, near and far.",
+            "No ray is left out. With S the sum of the coordinates on its way, εS is their last digit in f32. If a meeting in f64 would be there \
+             for all rays that are 8 εS aside, the ray must hit; if none is there for any of them, it must miss. The rest passes within \
+             rounding of an edge, of a tangent or of where it starts, and may do either; their share has a limit.",
+            "The error of x_M is the difference of both distances times the cosine, that is, from the surface, in units of εS. Spheres have \
+             radii from a micrometre to 1000 kilometres. The isosurface is a sphere by its formula.",
         ],
-        source: "χ² over 24 × 8 cells at the significance 10⁻⁴. For the sphere in f32: E. Haines et al., “Precision Improvements for \
-                 Ray/Sphere Intersection”, Ray Tracing Gems, 2019.",
+        source: "For the sphere in f32: E. Haines et al., “Precision Improvements for Ray/Sphere Intersection”, Ray Tracing Gems, 2019.",
         statements,
-        figures: vec![plot(caption, Axis::linear("cos θ"), Axis::linear("density"), &curves), error_figure(&errors)],
+        figures: vec![error_figure(&errors)],
         remark: None,
     }
 }
 
-type Points = Vec<(f64, f64)>;
-
-fn hemisphere(validation: &Validation, directions: Directions) -> (Statement, Points, Points) {
-    let count = validation.spp(3_000) * 1000;
-    let bsdf = Lambertian { albedo: V::splat(One, [1.0; 3]), directions };
-    let mut bins = vec![0u32; BINS[0] * BINS[1]];
-    for i in 0..count {
-        let wi = bsdf.sample(V::splat(One, [0.0, 0.0, 1.0]), (uniform(i, 0), uniform(i, 1)), F(0.5)).wi;
-        let turn = (f64::from(wi.y.0).atan2(f64::from(wi.x.0)) / (2.0 * PI)).rem_euclid(1.0);
-        let place = [f64::from(wi.z.0), turn].into_iter().zip(BINS).map(|(x, n)| ((x * n as f64) as usize).min(n - 1));
-        let [a, b] = place.collect::<Vec<_>>()[..] else { unreachable!("two coordinates") };
-        bins[a * BINS[1] + b] += 1;
-    }
-    let edge = |a: usize| a as f64 / BINS[0] as f64;
-    let below = |mu: f64| if directions == Directions::Uniform { mu } else { mu * mu };
-    let share = |a: usize| below(edge(a + 1)) - below(edge(a));
-    let expected = |a: usize| f64::from(count) * share(a) / BINS[1] as f64;
-    let chi2: f64 =
-        bins.iter().enumerate().map(|(i, n)| (f64::from(*n) - expected(i / BINS[1])).powi(2) / expected(i / BINS[1])).sum();
-    let degrees = (BINS[0] * BINS[1] - 1) as f64;
-    let p = 1.0 - ChiSquared::new(degrees).map_or(0.0, |distribution| distribution.cdf(chi2));
-    let statement = Statement {
-        what: format!("{count} {directions:?} directions against their density: χ²").to_lowercase(),
-        measured: chi2,
-        error: (2.0 * degrees).sqrt(),
-        exact: Some(degrees),
-        statistic: format!("p = {p:.3}, must be > 1e-4"),
-        holds: p > SIGNIFICANCE,
-    };
-    let frequency = |a: usize| {
-        let n: u32 = bins[a * BINS[1]..(a + 1) * BINS[1]].iter().sum();
-        ((edge(a) + edge(a + 1)) / 2.0, f64::from(n) / f64::from(count) * BINS[0] as f64)
-    };
-    let density = |a: usize| (edge(a), if directions == Directions::Uniform { 1.0 } else { 2.0 * edge(a) });
-    (statement, (0..BINS[0]).map(frequency).collect(), (0..=BINS[0]).map(density).collect())
-}
-
-/// Errors of hits by radius, relative to the longer of the ray's way and the radius.
-fn hits(validation: &Validation) -> Vec<(f64, Vec<f64>)> {
-    let count = validation.spp(60_000);
-    let of = |radius: f64| {
+fn kinds() -> Vec<Kind> {
+    let simple =
+        |name: &str, shape: Shape| Kind { name: name.to_owned(), pieces: pieces(&shape), shapes: vec![shape], divisor: 1 };
+    let flat = |outline, origin, edges| Shape::Flat { outline, origin, edges, mirrored: false };
+    let sphere = |radius: f64| {
         let center = DVec3::new(0.0, -radius, 0.0);
-        let shape = Shape::Sphere { center, radius };
-        let shapes = Shapes::new(std::iter::once((&shape, &Motion::default())), DVec3::ZERO);
-        let error = |i: u32| {
-            let unit = |dimension: u32| {
-                let (z, turn) =
-                    (2.0 * f64::from(uniform(i, dimension).0) - 1.0, 2.0 * PI * f64::from(uniform(i, dimension + 1).0));
-                let r = (1.0 - z * z).sqrt();
-                DVec3::new(r * turn.cos(), z, r * turn.sin())
-            };
-            // From inside and outside, within ten radii of the point where the scene is anchored, towards a point near the sphere.
-            let o = (unit(0) * radius.min(10.0) * 10.0 * f64::from(uniform(i, 4).0)).as_vec3();
-            let target = center + unit(2) * radius * f64::from(uniform(i, 5).0).sqrt();
-            let d = (target - o.as_dvec3()).normalize().as_vec3();
-            error_of_hit(&shapes, center, radius, o.as_dvec3(), d.as_dvec3())
-        };
-        (radius, (0..count).filter_map(error).collect())
+        simple(&format!("sphere of {radius:e} m"), Shape::Sphere { center, radius })
     };
-    [1e-6, 1e-3, 1.0, 1e3, 1e6].into_iter().map(of).collect()
+    let turn = DAffine3::from_axis_angle(DVec3::new(1.0, 2.0, 3.0).normalize(), 1.1);
+    let stretch = turn * DAffine3::from_scale(DVec3::new(0.5, 1.6, 1.0));
+    let ball = Shape::Sphere { center: DVec3::ZERO, radius: 1.0 };
+    let cuboid = Shape::Cuboid { origin: DVec3::new(-0.5, -0.7, -0.3), edges: DMat3::from_diagonal(DVec3::new(1.1, 1.3, 0.7)) };
+    let cylinder =
+        |capped| Shape::cylinder(DVec3::new(0.0, -0.6, 0.1), DVec3::new(0.2, 0.7, 0.0), 0.4, capped).transformed(&turn);
+    let mesh = |name: &str, data| Kind { divisor: 10, ..simple(name, Shape::mesh(Arc::new(data))) };
+    let field = sphere_field(60, DVec3::splat(-1.0), DVec3::splat(2.0), 1);
+    let expression = Expression::parse("x^2 + y^2 + z^2 - 1").expect("an expression");
+    let isosurface = Isosurface::new(expression, [-1.1; 3], [1.1; 3]);
+    let isosurface = Shape::Isosurface { surface: Arc::new(isosurface), map: DAffine3::IDENTITY };
+    let mut kinds: Vec<Kind> = [1e-6, 1e-3, 1.0, 1e3, 1e6].map(sphere).into();
+    kinds.extend([
+        simple("ellipsoid", ball.transformed(&stretch)),
+        simple(
+            "rectangle",
+            flat(Outline::Parallelogram, DVec3::new(-0.7, -0.4, 0.1), [DVec3::new(1.5, 0.1, 0.0), DVec3::new(-0.06, 0.9, 0.3)]),
+        ),
+        simple(
+            "triangle",
+            flat(Outline::Triangle, DVec3::new(-0.5, -0.5, 0.2), [DVec3::new(1.2, 0.1, -0.1), DVec3::new(0.3, 1.0, 0.2)]),
+        ),
+        simple("disk", Shape::disk(DVec3::new(0.1, 0.0, -0.1), DVec3::new(1.0, 2.0, -0.5).normalize(), 0.7)),
+        simple("cuboid", cuboid.clone()),
+        simple("cuboid, turned and stretched", cuboid.transformed(&stretch)),
+        simple("cylinder with caps", cylinder(true)),
+        simple("cylinder without caps", cylinder(false)),
+        mesh("mesh: knot", generate::torus_knot(300)),
+        mesh("mesh: hills", generate::heightfield(12, 1)),
+        Kind { name: "field of spheres".to_owned(), pieces: field.clone(), shapes: field, divisor: 4 },
+        Kind { name: "isosurface".to_owned(), shapes: vec![isosurface], pieces: vec![ball], divisor: 4 },
+    ]);
+    kinds
 }
 
-/// The difference of both distances, weighed by how steeply the ray meets the surface; none where either has none.
-fn error_of_hit(shapes: &Shapes, center: DVec3, radius: f64, o: DVec3, d: DVec3) -> Option<f64> {
-    let d = d.normalize();
-    let splat = |v: DVec3| V::splat(One, v.as_vec3().to_array());
-    let Nearest { t, primitive: U(primitive), .. } = shapes.closest(One, M(true), splat(o), splat(d), F(0.0));
-    let to_center = center - o;
-    let along = to_center.dot(d);
-    let miss = to_center - d * along;
-    let square = (radius - miss.length()) * (radius + miss.length());
-    let half = square.max(0.0).sqrt();
-    let inside = to_center.length() < radius;
-    let exact = if inside { along + half } else { along - half };
-    let cos = half / radius;
-    if primitive == MISS || square <= 0.0 || exact <= 0.0 || cos < 0.05 {
-        return None;
+/// What rays did.
+#[derive(Default)]
+struct Tally {
+    must_hit: u32,
+    must_miss: u32,
+    close: u32,
+    /// Surfaces that were passed, and meetings where there is nothing.
+    wrong: u32,
+    /// Of x_M, in εS.
+    errors: Vec<f64>,
+}
+
+impl Tally {
+    fn statements(&self, name: &str) -> [Statement; 3] {
+        let sure = self.must_hit + self.must_miss;
+        let what = format!("{name}: {} rays that must hit and {} that must miss, wrong", self.must_hit, self.must_miss);
+        let enough = self.must_hit.min(self.must_miss) > sure / 50;
+        let never = Statement::never(what, self.wrong, sure);
+        [
+            Statement { holds: never.holds && enough, ..never },
+            Statement::below(
+                format!("{name}: share of rays within rounding of both ({})", self.close),
+                f64::from(self.close) / f64::from(sure + self.close),
+                MOST_CLOSE,
+            )
+            .of_the_same(),
+            Statement::below(format!("{name}: largest error of x_M, in εS"), largest(self.errors.iter().copied()), MOST_DIGITS)
+                .of_the_same(),
+        ]
     }
-    // A position of f32 may lie on the other side of a surface that is nearer than its last digit.
-    let near = (to_center.length() - radius).abs() < 1e-5 * radius.max(o.length());
-    (!near).then(|| (f64::from(t.0) - exact).abs() * cos / exact.max(radius.min(o.length())))
 }
 
-fn error_figure(errors: &[(f64, Vec<f64>)]) -> Figure {
-    let of = |(radius, found): &(f64, Vec<f64>)| {
+/// A meeting in f64, and what rounding may move it by, aside and along.
+struct Known {
+    meeting: Meeting,
+    /// εS.
+    digit: f64,
+    along: f64,
+}
+
+impl Kind {
+    fn tally(&self, count: u32, random: Random) -> Tally {
+        let shapes = Shapes::new(self.shapes.iter().map(|shape| (shape, &STILL)), DVec3::ZERO);
+        let mut tally = Tally::default();
+        for i in 0..count {
+            let (o, d) = self.ray(i, random);
+            self.judge(&shapes, o, d, &mut tally);
+        }
+        tally
+    }
+
+    /// The `i`-th ray, in numbers of f32.
+    fn ray(&self, i: u32, random: Random) -> (DVec3, DVec3) {
+        let at = |dimension: u32| f64::from(random.at(i, dimension).0);
+        let unit = |a: f64, b: f64| point_at(&Shape::Sphere { center: DVec3::ZERO, radius: 1.0 }, [a, b]);
+        let piece = &self.pieces[((at(0) * self.pieces.len() as f64) as usize).min(self.pieces.len() - 1)];
+        let (center, radius) = self.shapes[0].bounding_sphere();
+        // The whole field, where there are many shapes; near the surface, where one is very large.
+        let (center, radius) = if self.shapes.len() > 1 { (DVec3::ZERO, 1.7) } else { (center, radius) };
+        let on = point_at(piece, [at(1), at(2)]);
+        let beside = if i.is_multiple_of(2) { 0.0 } else { radius * 2.0 * 10f64.powf(-5.3 * at(3).powi(2)) };
+        let target = on + unit(at(4), at(5)) * beside;
+        let reach = if i % 4 < 2 { radius.min(10.0) * 10.0 * at(6) } else { radius * (0.1 + 3.0 * at(6)) };
+        let start = if i % 4 < 2 { DVec3::ZERO } else { center };
+        let o = (start + unit(at(7), at(3)) * reach).as_vec3();
+        let d = (target - o.as_dvec3()).try_normalize().unwrap_or(DVec3::Y).as_vec3();
+        (o.as_dvec3(), d.as_dvec3())
+    }
+
+    /// All meetings of the ray in f64, misses by a little included.
+    fn known(&self, o: DVec3, d: DVec3) -> Vec<Known> {
+        let of = |piece: &Shape| {
+            let (center, radius) = piece.bounding_sphere();
+            // Spheres are anchored near the origin, other shapes are as large as they are.
+            let own = if matches!(piece, Shape::Sphere { .. }) && radius > 10.0 { 0.0 } else { radius + center.length() };
+            let known = move |meeting: Meeting| {
+                let digit = EPSILON * (o.length() + (o + d * meeting.t).length() + meeting.t.abs() + own);
+                Known { digit, along: DIGITS * digit / meeting.cos.max(1e-9), meeting }
+            };
+            meetings(piece, o, d, f64::INFINITY).into_iter().map(known)
+        };
+        self.pieces.iter().flat_map(of).collect()
+    }
+
+    fn judge(&self, shapes: &Shapes, o: DVec3, d: DVec3, tally: &mut Tally) {
+        let splat = |v: DVec3| V::splat(One, v.as_vec3().to_array());
+        let Nearest { t, primitive: U(primitive), .. } = shapes.closest(One, M(true), splat(o), splat(d), F(0.0));
+        let found = (primitive != MISS).then_some(f64::from(t.0));
+        let known = self.known(o, d);
+        let sure = |known: &&Known| known.meeting.clearance > DIGITS * known.digit && known.meeting.t > known.along;
+        let possible = |known: &&Known| known.meeting.clearance > -DIGITS * known.digit && known.meeting.t > -known.along;
+        let first = known.iter().filter(sure).min_by(|a, b| a.meeting.t.total_cmp(&b.meeting.t));
+        let is_there = |t: f64| known.iter().filter(possible).any(|known| (known.meeting.t - t).abs() <= known.along);
+        if let Some(first) = first {
+            tally.must_hit += 1;
+            let met = found.filter(|t| *t <= first.meeting.t + first.along && is_there(*t));
+            tally.wrong += u32::from(met.is_none());
+            if let Some(t) = met.filter(|t| (t - first.meeting.t).abs() <= first.along) {
+                tally.errors.push((t - first.meeting.t).abs() * first.meeting.cos / first.digit);
+            }
+        } else if known.iter().any(|known| possible(&known)) {
+            tally.close += 1;
+            tally.wrong += u32::from(found.is_some_and(|t| !is_there(t)));
+        } else {
+            tally.must_miss += 1;
+            tally.wrong += u32::from(found.is_some());
+        }
+    }
+}
+
+static STILL: Motion = Motion(Vec::new());
+
+fn error_figure(errors: &[(String, Vec<f64>)]) -> Figure {
+    let of = |(name, found): &(String, Vec<f64>)| {
         let mut sorted = found.clone();
         sorted.sort_by(f64::total_cmp);
         let at = |i: usize| {
             let share = i as f64 / 200.0;
             let place = (share * sorted.len().saturating_sub(1) as f64) as usize;
-            (share, sorted.get(place).copied().unwrap_or(0.0) / f64::from(f32::EPSILON))
+            (share, sorted.get(place).copied().unwrap_or(0.0))
         };
-        curve(format!("radius {radius:e} m"), Style::Line, (0..=200).map(at).collect())
+        curve(name.clone(), Style::Line, (0..=200).map(at).collect())
     };
     let curves: Vec<_> = errors.iter().map(of).collect();
-    let caption = "Errors of x_M in units of the last digit of f32 (2⁻²³), sorted.";
-    plot(caption, Axis::linear("share of rays"), Axis::linear("error / ε"), &curves)
+    let caption = "Errors of x_M in units of εS, the last digit of the coordinates on the way, sorted.";
+    plot(caption, Axis::linear("share of rays"), Axis::linear("error / εS"), &curves)
 }

@@ -1,4 +1,4 @@
-//! 5. Camera and lamp inside or outside of a sphere.
+//! Camera and lamp inside or outside of a sphere.
 use base64::{Engine, prelude::BASE64_STANDARD};
 use glam::DVec3;
 
@@ -10,10 +10,9 @@ use crate::{
         picture,
     },
     report::Figure,
-    sampling::Directions,
-    scene::{Camera, RenderSettings, Roulette, Scene, parse},
+    scene::{Camera, Estimator, RenderSettings, Roulette, Scene, parse},
     validate::{
-        Section, Statement, Validation,
+        SIGMAS, Section, Statement, Validation,
         check::{RED, largest},
     },
 };
@@ -32,31 +31,39 @@ const CASES: [(&str, &str, &str); 4] = [
 
 pub fn section(validation: &Validation) -> Section {
     let (mut statements, mut figures) = (Vec::new(), Vec::new());
-    for (name, title, text) in CASES {
-        let mut scene = parse(name, text.to_owned()).expect("a shipped scene compiles");
+    for (name, title, _) in CASES {
+        let mut scene = shipped(name);
         scene.camera = Camera { resolution: [SIDE; 2], ..scene.camera };
-        let settings = RenderSettings { roulette: Roulette::BY_THROUGHPUT, ..validation.path(Directions::Cosine, 90) };
-        let found = picture(&scene, settings, RED, validation.spp(600));
-        let brightest = largest(found.pixels.iter().map(|pixel| pixel.mean));
-        match name {
-            "inside_lit_inside" => statements.push(Statement::mean(format!("{title}: the whole picture"), found.whole(), 0.5)),
-            "outside_lit_outside" => statements.extend(lit_parts(&scene, &found, title)),
-            _ => statements.push(Statement::within(format!("{title}: the brightest pixel"), brightest, 0.0, 0.0)),
+        for estimator in Estimator::ALL {
+            let found = pixels(validation, &scene, estimator, if estimator == Estimator::Path { 1500 } else { 300 });
+            let what = format!("{title}, {}", estimator.name());
+            match name {
+                "inside_lit_inside" => statements.push(Statement::mean(what, found.whole(), 0.5)),
+                "outside_lit_outside" => statements.extend(lit(validation, estimator, &what)),
+                _ => {
+                    let bright = found.pixels.iter().filter(|pixel| pixel.mean != 0.0).count() as u32;
+                    statements.push(Statement::never(format!("{what}: pixels that are not black"), bright, SIDE * SIDE));
+                }
+            }
+            if estimator == Estimator::Mis {
+                figures.push(Figure { caption: title.to_owned(), element: element(&found, title) });
+            }
         }
-        figures.push(Figure { caption: title.to_owned(), element: element(&found, title) });
     }
     Section {
         title: "Camera and lamp inside or outside of a sphere",
         claim: "No light passes a closed opaque sphere, from either side; where camera and lamp are on the same side, the light is \
-                the exact one.",
+                the exact one. By paths, by shadow rays and by both.",
         derivation: &[
             "Inside: a lamp of radius r in the middle of a sphere of radius R fills the share F = (r/R)² of the cosine-weighted \
              hemisphere of every wall point, the wall itself the rest. The radiance B of the wall is B = ρ (L F + B (1 − F)), here \
              with ρ = 1/2, L = 8.5 and F = 1/16: B = 1/2 everywhere.",
             "Outside: where the whole lamp is above the horizon, a ball shows (ρ/π) E = ρ L (r/d)² cos θ, d being the distance of \
              the lamp's centre and θ its angle from the normal (Lambert's ball). Here the ball is the unit sphere with ρ = 0.8, the lamp \
-             lies at (1.7, 1.4, 1) with r = 0.5 and L = 8; pixels in which the lamp dips below the horizon are left out.",
-            "With a wall between lamp and camera nothing arrives: each pixel is exactly 0, for no ray may step through a surface.",
+             lies at (1.7, 1.4, 1) with r = 0.5 and L = 8. Where the lamp dips below the horizon pixels are left out; the others are \
+             summed over a picture of the lit side, each against its own exact mean.",
+            "With a wall between lamp and camera nothing arrives: each pixel is exactly 0, for no ray may step through a surface. The \
+             estimators “light” and “mis” send shadow rays to the lamp from every point of the wall.",
         ],
         source: "Form factor of a concentric sphere; P. Moon, “The Scientific Basis of Illuminating Engineering”, 1936.",
         statements,
@@ -65,22 +72,54 @@ pub fn section(validation: &Validation) -> Section {
     }
 }
 
-/// The pixels in which the whole lamp is above the horizon, in four parts from top to bottom.
-fn lit_parts(scene: &Scene, found: &Picture, title: &str) -> Vec<Statement> {
-    let exact = |pixel: usize| {
-        let place = [pixel as u32 % SIDE, pixel as u32 / SIDE];
-        mean_over_pixel(&scene.camera, place, |o, d| lamberts_ball(ALBEDO, LAMP, o, d))
+/// Roulette by throughput: in a closed sphere paths would go on for long.
+fn pixels(validation: &Validation, scene: &Scene, estimator: Estimator, full: u32) -> Picture {
+    let settings = RenderSettings { roulette: Roulette::BY_THROUGHPUT, ..validation.settings(estimator) };
+    picture(scene, settings, RED, validation.spp(full))
+}
+
+/// One of the four scenes.
+pub fn shipped(name: &str) -> Scene {
+    let text = CASES.iter().find(|case| case.0 == name).map_or("", |case| case.2);
+    parse(name, text.to_owned()).expect("a shipped scene compiles")
+}
+
+/// A view of the side of the ball that the lamp shines on, and the exact means of its pixels where they are known.
+pub fn lit_ball() -> (Scene, Vec<Option<f64>>) {
+    let scene = shipped("outside_lit_outside");
+    let toward = LAMP.center.normalize();
+    let camera = Camera { eye: DVec3::new(0.0, 1.0, 4.0), look_at: toward * 0.9, fov: 14.0, resolution: [64; 2], ..scene.camera };
+    let exact = |pixel: u32| mean_over_pixel(&camera, [pixel % 64, pixel / 64], |o, d| lamberts_ball(ALBEDO, LAMP, o, d));
+    let exact = (0..64 * 64).map(exact).collect();
+    (Scene { camera, ..scene }, exact)
+}
+
+/// All lit pixels, and the blocks that they lie in.
+fn lit(validation: &Validation, estimator: Estimator, what: &str) -> [Statement; 2] {
+    const BLOCK: usize = 8;
+    let (scene, exact) = lit_ball();
+    // Paths find the lamp with one sample in twelve.
+    let found = pixels(validation, &scene, estimator, if estimator == Estimator::Path { 9000 } else { 900 });
+    let known: Vec<(usize, Mean, f64)> =
+        found.pixels.iter().zip(&exact).enumerate().filter_map(|(i, (pixel, exact))| Some((i, *pixel, (*exact)?))).collect();
+    let mean = |part: &[&(usize, Mean, f64)]| {
+        let exact = part.iter().map(|(_, _, exact)| exact).sum::<f64>() / part.len() as f64;
+        (Mean::of(part.iter().map(|(_, mean, _)| *mean)), exact)
     };
-    let lit: Vec<(Mean, f64)> = found.pixels.iter().enumerate().filter_map(|(i, pixel)| Some((*pixel, exact(i)?))).collect();
-    let parts = lit.chunks(lit.len().div_ceil(4)).enumerate().map(|(i, part)| {
-        let exact = part.iter().map(|(_, exact)| exact).sum::<f64>() / part.len() as f64;
-        Statement::mean(
-            format!("{title}: lit part {} of 4 of the ball", i + 1),
-            Mean::of(part.iter().map(|(mean, _)| *mean)),
-            exact,
-        )
-    });
-    parts.collect()
+    let block = |i: usize| (i / found.width / BLOCK, i % found.width / BLOCK);
+    let mut blocks: Vec<(usize, usize)> = known.iter().map(|(i, ..)| block(*i)).collect();
+    blocks.sort_unstable();
+    blocks.dedup();
+    let of_block = |at: &(usize, usize)| mean(&known.iter().filter(|(i, ..)| block(*i) == *at).collect::<Vec<_>>());
+    let means: Vec<(Mean, f64)> = blocks.iter().map(of_block).collect();
+    let scores: Vec<f64> = means.iter().map(|(mean, exact)| mean.z(*exact)).collect();
+    let sigma = largest(means.iter().map(|(mean, exact)| mean.variance_of_mean.sqrt() / exact));
+    let (whole, exact) = mean(&known.iter().collect::<Vec<_>>());
+    [
+        Statement::mean(format!("{what}: {} lit pixels", known.len()), whole, exact),
+        Statement::largest_z(format!("{what}: largest |z| of blocks of 8 × 8 pixels"), &scores, SIGMAS + 1.0, sigma)
+            .of_the_same(),
+    ]
 }
 
 /// The picture as it is in the report.

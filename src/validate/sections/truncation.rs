@@ -1,6 +1,10 @@
-//! 3. Truncation is biased, roulette is not.
+//! Truncation is biased, roulette is not.
 use crate::{
-    measure::exact::{furnace, furnace_capped, furnace_variance},
+    measure::{
+        Moments,
+        exact::{furnace, furnace_capped, furnace_variance},
+        picture, samples,
+    },
     report::{
         Figure,
         plot::{Axis, Style, curve, plot},
@@ -20,7 +24,7 @@ pub fn section(validation: &Validation) -> Section {
     let mut statements = Vec::new();
     let mut capped = Vec::new();
     for cap in 0..=CAPS {
-        let settings = RenderSettings { max_bounces: Some(cap), ..validation.path(Directions::Uniform, 40 + cap) };
+        let settings = RenderSettings { max_bounces: Some(cap), ..validation.path(Directions::Uniform) };
         let found = validation.moments(&scene, settings, 2500);
         let partial = furnace_capped(1.0, ALBEDO, cap);
         capped.push((f64::from(cap), found.mean));
@@ -33,34 +37,50 @@ pub fn section(validation: &Validation) -> Section {
         if cap <= 6 {
             let bias = (found.mean - exact) / error;
             let what = format!("cap at {cap}: its bias is beyond doubt, in standard errors from {exact}");
-            statements.push(Statement::below(what, bias, -4.0));
+            statements.push(Statement::below(what, bias, -4.0).of_the_same());
         }
     }
     let (mut survived, mut cost) = (Vec::new(), Vec::new());
-    for (number, q) in (60..).zip(SURVIVALS) {
-        let settings = RenderSettings { roulette: Roulette::Fixed(q as f32), ..validation.path(Directions::Cosine, number) };
-        let found = validation.moments(&scene, settings, 2500);
+    for q in SURVIVALS {
+        let settings = RenderSettings { roulette: Roulette::Fixed(q as f32), ..validation.path(Directions::Cosine) };
+        let values = samples(&scene, settings, validation.spp(2500));
+        let found = Moments::of(values.iter().flatten().copied());
         survived.push((q, found.mean));
         cost.push((q, found.variance / (1.0 - q)));
-        let variance = furnace_variance(1.0, ALBEDO, 1.0 / q);
-        statements.push(Statement::mean_with(format!("roulette, survival {q}"), &found, exact, variance));
+        let (variance, what) = (furnace_variance(1.0, ALBEDO, 1.0 / q), format!("roulette, survival {q}"));
+        // E|X|³ is finite while ρ³ E w³ = ρ³/q² < 1.
+        if ALBEDO.powi(3) < q * q {
+            statements.push(Statement::mean_with(what, &found, exact, variance));
+        } else {
+            statements.push(Statement::catoni(what, values.iter().flatten().copied(), exact, variance));
+        }
+        statements.push(survivals(&values, q).of_the_same());
     }
+    let settings = RenderSettings { roulette: Roulette::BY_THROUGHPUT, ..validation.path(Directions::Uniform) };
+    let by_throughput = picture(&scene, settings, check::RED, validation.spp(1500)).whole();
+    statements.push(Statement::mean("roulette by throughput, uniform directions", by_throughput, exact));
     Section {
         title: "Truncation is biased, roulette is not",
-        claim: "A cap of n bounces gives the partial sum of the series and nothing else; Russian roulette gives all of it at \
-                any survival probability.",
+        claim: "A cap of n bounces gives the partial sum of the series and nothing else; Russian roulette gives all of it, \
+                with a finite variance while q > ρ².",
         derivation: &[
             "The k-th bounce carries L_e ρᵏ, so that a cap of n leaves L_e (1 − ρⁿ⁺¹)/(1 − ρ): the picture is too dark by \
              L_e ρⁿ⁺¹/(1 − ρ), however many samples are taken.",
+            "With cosine directions and fixed roulette a path that ends after its k-th wall is worth Σ (ρ/q)ⁱ up to i = k, and that has the \
+             probability (1 − q) qᵏ: the numbers of paths of each length are held against that distribution by χ², which assumes nothing of \
+             moments.",
             "A path that survives with probability q and is then weighted by 1/q has the mean q · X/q = X of the endless path. With \
              cosine directions the weight is 1/q or 0, E w² = 1/q, and by the formula of section 2 the variance is \
-             (L_e² + 2 L_e ρ L)/(1 − ρ²/q) − L², finite while q > ρ²; with uniform directions E w² = 4/(3q), finite while q > 4ρ²/3. A path has 1/(1 − q) segments on the mean: \
-             that is its cost.",
+             (L_e² + 2 L_e ρ L)/(1 − ρ²/q) − L², finite while q > ρ²; with uniform directions E w² = 4/(3q), finite while q > 4ρ²/3. A path has 1/(1 − q) \
+             segments on the mean: that is its cost. For q = 0.3 the third moment is infinite (ρ³ > q²); that row has Catoni’s bound, as in \
+             section 1.",
+            "At q ≤ ρ² = 0.25 the estimate is still unbiased, but of infinite variance: the last figure shows the variance of the samples so \
+             far for q = 0.2. It jumps whenever a rare sample comes and never settles; no error can be stated, so that there is no row.",
         ],
         source: "J. Arvo and D. Kirk, “Particle Transport and Image Synthesis”, SIGGRAPH 1990. ρ = 0.5, L_e = 1. The biases of caps at 7 and 8 \
                  are too small for this number of samples to be plain.",
         statements,
-        figures: vec![caps(&capped, exact), roulettes(&survived, exact), costs(cost)],
+        figures: vec![caps(&capped, exact), roulettes(&survived, exact), costs(cost), running_variances(validation)],
         remark: None,
     }
 }
@@ -87,8 +107,52 @@ fn roulettes(found: &[(f64, f64)], exact: f64) -> Figure {
         curve("exact ± 1 %", Style::Dashed, vec![(0.3, exact * 1.01), (0.9, exact * 1.01)]),
         curve("exact ± 1 %", Style::Dashed, vec![(0.3, exact * 0.99), (0.9, exact * 0.99)]),
     ];
-    let caption = "The estimate against the survival probability: within its standard error (in the table) of the exact line at all of them.";
+    let caption = "The estimate against the survival probability; the table has the standard errors.";
     plot(caption, Axis::linear("survival probability q"), Axis::linear("radiance"), &curves)
+}
+
+/// Paths by the number of walls after which they end; those that are too long to be told apart are counted together.
+fn survivals(values: &[Vec<f64>], q: f64) -> Statement {
+    const LONGEST: usize = 40;
+    let (mut worth, mut sum, mut term) = (Vec::new(), 0.0, 1.0);
+    while worth.len() < LONGEST && term > 1e-4 * sum {
+        sum += term;
+        term *= ALBEDO / q;
+        worth.push(sum);
+    }
+    let mut counts = vec![0.0; worth.len() + 1];
+    for value in values.iter().flatten() {
+        counts[worth.partition_point(|worth| *worth < value * (1.0 - 2e-5))] += 1.0;
+    }
+    let total: f64 = counts.iter().sum();
+    let share = |k: usize| q.powi(k as i32) * if k < worth.len() { 1.0 - q } else { 1.0 };
+    let expected: Vec<f64> = (0..counts.len()).map(|k| share(k) * total).collect();
+    Statement::chi_squared(format!("survival {q}: lengths of paths against (1 − q) qᵏ"), &counts, &expected)
+}
+
+/// Variances of the samples so far, where it exists and where it does not.
+fn running_variances(validation: &Validation) -> Figure {
+    let mut curves = Vec::new();
+    for q in [0.2, 0.4] {
+        let settings = RenderSettings { roulette: Roulette::Fixed(q as f32), ..validation.path(Directions::Cosine) };
+        let values: Vec<f64> = samples(&check::furnace(ALBEDO), settings, validation.spp(2000)).into_iter().flatten().collect();
+        let (mut sum, mut square, mut points) = (0.0, 0.0, Vec::new());
+        let mut next = 100.0;
+        for (n, x) in (1..).zip(&values) {
+            (sum, square) = (sum + x, square + x * x);
+            let n = f64::from(n);
+            if n >= next {
+                points.push((n, (square - sum * sum / n) / (n - 1.0)));
+                next = n * 1.05;
+            }
+        }
+        curves.push(curve(format!("q = {q}"), Style::Line, points));
+    }
+    let exact = furnace_variance(1.0, ALBEDO, 1.0 / 0.4);
+    curves.push(curve("exact for q = 0.4", Style::Dashed, vec![(100.0, exact), (1e6, exact)]));
+    let caption = "The variance of the first N samples with ρ = 0.5: for q = 0.4 it settles at the exact one, for q = 0.2 ≤ ρ² it grows \
+                   without end.";
+    plot(caption, Axis::log("samples N"), Axis::log("variance of the samples"), &curves)
 }
 
 /// Variance times segments: what a unit of precision costs.

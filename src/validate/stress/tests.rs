@@ -6,7 +6,7 @@ use crate::{
 };
 
 fn quick(fault: Fault) -> Validation {
-    Validation { fault: Some(fault), ..Validation::new(Effort::Quick, "tests/references".into()) }
+    Validation { fault: Some(fault), ..Validation::new(Effort::Quick, None, 0) }
 }
 
 #[test]

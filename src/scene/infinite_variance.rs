@@ -1,0 +1,115 @@
+//! Settings by which the variance of the estimate may be infinite.
+use super::{Object, RenderSettings, Roulette, Scene, textures::ColourSource};
+use crate::{material::Material, sampling::Directions};
+
+impl Scene {
+    /// What is to be said of settings whose samples may have no finite variance in this scene; `None` where they have.
+    ///
+    /// Between surfaces of albedo ρ the mean square of a sample is a series in ρ² E w²/q: q is the probability to survive roulette, and E w²
+    /// the mean square of the weight of a direction, 4/3 for uniform ones at diffuse surfaces and 1 otherwise. A cap ends the series, and
+    /// roulette by throughput keeps throughputs of about 1. Glass hands light on and keeps none, so that it does not count.
+    pub fn infinite_variance(&self, settings: &RenderSettings) -> Option<String> {
+        let survival = match settings.roulette {
+            Roulette::Off => 1.0,
+            Roulette::Fixed(survival) => survival,
+            Roulette::Throughput { .. } => return None,
+        };
+        let is_uniform = settings.directions == Directions::Uniform;
+        // Without roulette weights of 1 never grow.
+        if settings.max_bounces.is_some() || (survival == 1.0 && !is_uniform) {
+            return None;
+        }
+        let square = |object: &Object| {
+            let weight_square = if is_uniform && object.is_diffuse() { 4.0 / 3.0 } else { 1.0 };
+            self.albedo(object).powi(2) * weight_square
+        };
+        let most = self.objects.iter().filter(|object| !object.is_dielectric()).map(square).fold(0.0, f32::max);
+        if survival > most {
+            return None;
+        }
+        let advice = if most < 1.0 && survival < 1.0 {
+            format!("take more than {most:.2}, or roulette by throughput")
+        } else if is_uniform && survival == 1.0 {
+            "take cosine directions, or roulette by throughput".to_owned()
+        } else {
+            "take roulette by throughput".to_owned()
+        };
+        let what = if survival < 1.0 {
+            format!("survival of {survival} in roulette, at most ρ² E w² = {most:.2} here")
+        } else {
+            format!("uniform directions without roulette, with ρ² E w² = {most:.2} here")
+        };
+        Some(format!(
+            "{what}: where light stays among such surfaces the variance is infinite, and noise figures mean nothing; {advice}"
+        ))
+    }
+
+    /// The largest albedo of an object, in any channel.
+    fn albedo(&self, object: &Object) -> f32 {
+        let Some(coating) = &object.coating else { return 0.0 };
+        let colour = match coating.colour {
+            ColourSource::Constant(colour) => colour,
+            ColourSource::Texture(id) => self.textures.maximum(id),
+        };
+        colour.into_iter().fold(0.0, f32::max).min(1.0)
+    }
+}
+
+impl Object {
+    fn is_diffuse(&self) -> bool {
+        self.coating.as_ref().is_some_and(|coating| matches!(coating.material, Material::Lambertian { .. }))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::parse;
+
+    fn scene(material: &str) -> Scene {
+        let text = format!(
+            "format = 1\ncamera = {{ eye = [0.0, 0.0, 0.0], look_at = [1.0, 0.0, 0.0], fov = 50.0, resolution = [8, 8] }}\n\
+             materials.wall.{material}\ntextures.tiles.checker = {{ even = 0.2, odd = 0.9, scale = 2.0 }}\n\
+             [[objects]]\nshape.sphere = {{ center = [0.0, 0.0, 0.0], radius = 1.0 }}\nmaterial = 'wall'\nemission.radiance = 1.0"
+        );
+        parse("test", text).expect("a scene")
+    }
+
+    fn said(material: &str, settings: RenderSettings) -> Option<String> {
+        scene(material).infinite_variance(&settings)
+    }
+
+    #[test]
+    fn survival_at_most_the_square_of_the_albedo_is_told() {
+        let fixed = |q: f32| RenderSettings { roulette: Roulette::Fixed(q), ..Default::default() };
+        for (material, most) in [
+            ("lambertian = { albedo = [0.1, 0.8, 0.2] }", 0.64),
+            ("lambertian = { albedo = { texture = 'tiles' } }", 0.81),
+            ("mirror = { reflectance = 0.7 }", 0.49),
+            ("conductor = { f0 = 0.6, roughness = 0.3 }", 0.36),
+            ("dielectric = { ior = 1.5 }", 0.0),
+        ] {
+            assert_eq!(said(material, fixed(most + 0.01)), None, "{material}");
+            let warning = said(material, fixed(most - 0.01));
+            assert_eq!(warning.is_some(), most > 0.0, "{material}");
+            assert!(warning.is_none_or(|text| text.contains(&format!("more than {most}")) && text.contains("infinite")));
+        }
+        let white = said("lambertian = { albedo = 1.0 }", fixed(0.99)).expect("no survival is enough");
+        assert!(white.ends_with("take roulette by throughput"), "{white}");
+    }
+
+    #[test]
+    fn uniform_directions_count_and_caps_end_it() {
+        let settings = |roulette, directions| RenderSettings { roulette, directions, ..Default::default() };
+        let grey = "lambertian = { albedo = 0.9 }";
+        assert!(said(grey, settings(Roulette::Off, Directions::Uniform)).is_some_and(|text| text.contains("cosine directions")));
+        assert_eq!(said(grey, settings(Roulette::Off, Directions::Cosine)), None);
+        assert_eq!(said("lambertian = { albedo = 0.86 }", settings(Roulette::Off, Directions::Uniform)), None);
+        assert_eq!(said("mirror = { reflectance = 0.9 }", settings(Roulette::Off, Directions::Uniform)), None);
+        assert!(said("lambertian = { albedo = 0.8 }", settings(Roulette::Fixed(0.7), Directions::Uniform)).is_some());
+        assert_eq!(said("lambertian = { albedo = 0.8 }", settings(Roulette::Fixed(0.7), Directions::Cosine)), None);
+        assert_eq!(said(grey, settings(Roulette::BY_THROUGHPUT, Directions::Uniform)), None);
+        let capped = RenderSettings { max_bounces: Some(9), ..settings(Roulette::Fixed(0.2), Directions::Uniform) };
+        assert_eq!(said(grey, capped), None);
+    }
+}

@@ -1,0 +1,211 @@
+//! Tests that know more of chance than a standard error: Student's t, χ², and one that needs no normal distribution.
+use statrs::{
+    distribution::{ChiSquared, ContinuousCDF, StudentsT},
+    function::erf::erfc,
+};
+
+use super::{
+    Noticed, Statement,
+    statement::{POWER, SIGMAS},
+};
+use crate::measure::{Moments, as_normal};
+
+/// A χ² or Kolmogorov–Smirnov test refutes below this.
+pub const SIGNIFICANCE: f64 = 1e-4;
+
+/// The probability that a standard normal number is farther from 0.
+pub fn chance_beyond(sigmas: f64) -> f64 {
+    erfc(sigmas / std::f64::consts::SQRT_2)
+}
+
+impl Statement {
+    /// Student's t-test of independent measurements of the same number, whatever samples each was made of. Rounding in f32 counts as
+    /// an error too.
+    pub fn repeated(what: impl Into<String>, found: &[f64], exact: f64) -> Statement {
+        let (mean, error) = mean_and_error(found);
+        let rounded = error.hypot(1e-6 * exact);
+        let degrees = found.len() as f64 - 1.0;
+        let t = (mean - exact) / rounded;
+        let z = as_normal(t, degrees);
+        Statement {
+            error,
+            exact: Some(exact),
+            holds: z.abs() < SIGMAS,
+            notices: Noticed::of((quantile(SIGMAS, degrees) + POWER) * rounded, exact),
+            z: (error > 1e-5 * exact.abs()).then_some(z),
+            chance: chance_beyond(SIGMAS),
+            ..Statement::plain(what, mean, format!("t = {t:+.2} of {degrees}"))
+        }
+    }
+
+    /// As [`Statement::repeated`], where the number must be below a limit: it fails if it is beyond doubt that it is not.
+    pub fn repeated_below(what: impl Into<String>, found: &[f64], limit: f64) -> Statement {
+        let ((mean, error), degrees) = (mean_and_error(found), found.len() as f64 - 1.0);
+        let sure = quantile(SIGMAS, degrees) * error;
+        Statement {
+            error,
+            holds: mean - sure < limit,
+            notices: Noticed::Absolute(limit - mean + sure + POWER * error),
+            chance: chance_beyond(SIGMAS) / 2.0,
+            ..Statement::plain(what, mean, format!("must be < {limit} + {sure:.1e}"))
+        }
+    }
+
+    /// Counts against expectations of the same sum. The smallest bias is the root mean square of the relative error of the
+    /// probabilities, each weighed by itself.
+    pub fn chi_squared(what: impl Into<String>, observed: &[f64], expected: &[f64]) -> Statement {
+        let (chi2, degrees) = chi_squared(observed, expected);
+        let distribution = ChiSquared::new(degrees).ok();
+        let p = distribution.map_or(0.0, |distribution| distribution.sf(chi2));
+        let threshold = distribution.map_or(f64::NAN, |distribution| distribution.inverse_cdf(1.0 - SIGNIFICANCE));
+        // A noncentral χ² of λ has the mean k + λ and the variance 2(k + 2λ).
+        let beyond = |lambda: f64| degrees + lambda - POWER * (2.0 * (degrees + 2.0 * lambda)).sqrt() - threshold;
+        let (mut low, mut high) = (0.0, 100.0 * threshold);
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            *(if beyond(middle) < 0.0 { &mut low } else { &mut high }) = middle;
+        }
+        Statement {
+            error: (2.0 * degrees).sqrt(),
+            exact: Some(degrees),
+            holds: p > SIGNIFICANCE,
+            notices: Noticed::Relative((high / expected.iter().sum::<f64>()).sqrt()),
+            chance: SIGNIFICANCE,
+            ..Statement::plain(what, chi2, format!("χ²: p = {p:.3}, must be > 1e-4"))
+        }
+    }
+
+    /// Catoni's test of the mean of samples of known variance, which needs no further moment: with ψ(x) = ± log(1 + |x| + x²/2) and
+    /// E exp ψ(a(X − μ)) ≤ 1 + a²σ²/2, the sum of ψ exceeds N a²σ²/2 + ln(2/δ) with a probability of at most δ/2 on either side.
+    pub fn catoni(what: impl Into<String>, samples: impl Iterator<Item = f64>, exact: f64, variance: f64) -> Statement {
+        let samples: Vec<f64> = samples.collect();
+        let (count, chance) = (samples.len() as f64, chance_beyond(SIGMAS));
+        let level = (2.0 / chance).ln();
+        let scale = (2.0 * level / (count * variance)).sqrt();
+        let psi = |x: f64| (1.0 + x.abs() + x * x / 2.0).ln().copysign(x);
+        let sum: f64 = samples.iter().map(|x| psi(scale * (x - exact))).sum();
+        let error = (variance / count).sqrt();
+        Statement {
+            error,
+            exact: Some(exact),
+            holds: sum.abs() < 2.0 * level,
+            notices: Noticed::of(((2.0 * level).sqrt() + POWER) * error, exact),
+            chance,
+            ..Statement::plain(what, samples.iter().sum::<f64>() / count, format!("Catoni: |{sum:.1}| < {:.1}", 2.0 * level))
+        }
+    }
+}
+
+/// The mean of independent numbers, and its standard error.
+fn mean_and_error(found: &[f64]) -> (f64, f64) {
+    let moments = Moments::of(found.iter().copied());
+    (moments.mean, (moments.variance / moments.count).sqrt())
+}
+
+/// What Student's t exceeds as rarely as a standard normal number exceeds `sigmas`.
+fn quantile(sigmas: f64, degrees: f64) -> f64 {
+    StudentsT::new(0.0, 1.0, degrees).map_or(f64::NAN, |student| -student.inverse_cdf(chance_beyond(sigmas) / 2.0))
+}
+
+/// χ² and its degrees of freedom; cells of few expectations are taken together.
+fn chi_squared(observed: &[f64], expected: &[f64]) -> (f64, f64) {
+    const FEW: f64 = 10.0;
+    let (mut chi2, mut cells, mut rest) = (0.0, 0.0, [0.0; 2]);
+    for (o, e) in observed.iter().zip(expected) {
+        if *e < FEW {
+            rest = [rest[0] + o, rest[1] + e];
+        } else {
+            chi2 += (o - e) * (o - e) / e;
+            cells += 1.0;
+        }
+    }
+    if rest != [0.0; 2] {
+        chi2 += (rest[0] - rest[1]).powi(2) / rest[1].max(1.0);
+        cells += 1.0;
+    }
+    (chi2, (cells - 1.0f64).max(1.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::measure::Mean;
+
+    /// Numbers of mean 2 and variance 9, as many above as below.
+    fn spread(shift: f64, count: usize) -> impl Iterator<Item = f64> {
+        (0..count).map(move |i| 2.0 + shift + if i % 2 == 0 { 3.0 } else { -3.0 })
+    }
+
+    fn relative(statement: &Statement) -> f64 {
+        let Noticed::Relative(part) = statement.notices else { panic!("{statement:?}") };
+        part
+    }
+
+    #[test]
+    fn students_t_of_few_numbers_is_wide() {
+        let found = [1.0, 2.0, 3.0, 4.0];
+        let statement = Statement::repeated("t", &found, 2.0);
+        assert!((statement.measured - 2.5).abs() < 1e-12 && (statement.error - (5.0f64 / 12.0).sqrt()).abs() < 1e-9);
+        assert!(statement.statistic.starts_with("t = +0.77 of 3"), "{}", statement.statistic);
+        // 4 standard errors are as rare as 32.6 of Student's t with 3 degrees of freedom.
+        assert!((quantile(SIGMAS, 3.0) - 32.6).abs() < 0.2, "{}", quantile(SIGMAS, 3.0));
+        let exact = |t: f64| Statement::repeated("t", &found, 2.5 - t * (5.0f64 / 12.0).sqrt()).holds;
+        assert!(exact(32.0) && !exact(33.5) && exact(-32.0) && !exact(-33.5));
+        let below = |t: f64| Statement::repeated_below("t", &found, 2.5 - t * (5.0f64 / 12.0).sqrt()).holds;
+        assert!(below(32.0) && !below(33.5) && below(-33.5));
+        assert!(Statement::repeated("exact", &[2.0; 5], 2.0).holds && !Statement::repeated("exact", &[2.0; 5], 2.001).holds);
+    }
+
+    #[test]
+    fn catonis_bound_is_about_as_sharp_as_four_standard_errors() {
+        let count = 100_000;
+        let of = |shift: f64| Statement::catoni("mean", spread(shift, count), 2.0, 9.0);
+        let noticed = relative(&of(0.0)) * 2.0;
+        let error = 3.0 / (count as f64).sqrt();
+        assert!((noticed / error - 6.2).abs() < 0.1, "{}", noticed / error);
+        assert!(of(0.0).holds && of(4.0 * error).holds);
+        assert!(!of(noticed).holds && !of(-noticed).holds && !of(5.0 * error).holds);
+        // A single wild sample, which would spoil a mean, says little.
+        let wild = spread(0.0, count).chain(std::iter::once(1e6));
+        assert!(Statement::catoni("mean", wild, 2.0, 9.0).holds);
+    }
+
+    #[test]
+    fn counts_that_are_off_fail_and_few_are_taken_together() {
+        let expected: Vec<f64> = (0..101).map(|_| 1000.0).collect();
+        let off = |part: f64| -> Vec<f64> { (0..101).map(|i| 1000.0 * (1.0 + if i % 2 == 0 { part } else { -part })).collect() };
+        let statement = Statement::chi_squared("counts", &expected, &expected);
+        assert!(statement.holds && statement.exact == Some(100.0));
+        // χ² of 100 degrees of freedom exceeds 161.3 with the probability 10⁻⁴.
+        assert!(Statement::chi_squared("counts", &off(0.039), &expected).holds);
+        assert!(!Statement::chi_squared("counts", &off(0.041), &expected).holds);
+        // With noise of the samples' own a misfit is noticed for sure from χ² = 161.3 − 100 and some on.
+        let noticed = relative(&statement);
+        assert!((noticed * noticed * 101_000.0 - 102.0).abs() < 3.0, "{}", noticed * noticed * 101_000.0);
+        let few = Statement::chi_squared("few", &[100.0, 3.0, 0.0, 5.0], &[100.0, 4.0, 3.0, 1.0]);
+        assert_eq!((few.exact, few.measured), (Some(1.0), 0.0));
+        assert!(!Statement::chi_squared("none expected", &[1000.0, 30.0], &[1030.0, 0.0]).holds);
+    }
+
+    #[test]
+    fn what_a_row_notices_fails_it() {
+        let mean = |mean: f64| Mean { mean, variance_of_mean: 1e-4 };
+        for (what, row) in [
+            ("z", (|x| Statement::z("", x, 0.01, 2.0)) as fn(f64) -> Statement),
+            ("mean", |x| Statement::mean("", Mean { mean: x, variance_of_mean: 1e-4 }, 2.0)),
+            ("near", |x| Statement::near("", Mean { mean: x, variance_of_mean: 1e-4 }, 2.0, 0.1)),
+            ("within", |x| Statement::within("", x, 2.0, 0.1)),
+        ] {
+            let noticed = 2.0 * relative(&row(2.0));
+            assert!(row(2.0).holds && !row(2.0 + 1.001 * noticed).holds && !row(2.0 - 1.001 * noticed).holds, "{what}");
+        }
+        assert!(Statement::near("", mean(2.13), 2.0, 0.1).holds && !Statement::near("", mean(2.15), 2.0, 0.1).holds);
+        assert!(Statement::never("", 0, 10).holds && !Statement::never("", 1, 10).holds && !Statement::never("", 0, 0).holds);
+        assert!(
+            Statement::largest_z("", &[1.0, -3.9], 4.0, 0.1).holds && !Statement::largest_z("", &[1.0, -4.1], 4.0, 0.1).holds
+        );
+        for empty in [&[][..], &[f64::NAN], &[0.0, f64::NAN, 1.0]] {
+            assert!(!Statement::largest_z("", empty, 4.0, 0.1).holds, "{empty:?}");
+        }
+    }
+}

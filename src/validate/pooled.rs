@@ -1,0 +1,157 @@
+//! The last section: what all statements say together.
+use statrs::distribution::{ChiSquared, ContinuousCDF, Normal};
+
+use super::{
+    SIGMAS, Section, Statement,
+    chance::{SIGNIFICANCE, chance_beyond},
+};
+use crate::report::{
+    Figure,
+    plot::{Axis, Style, curve, plot},
+};
+
+pub fn section(sections: &[Section]) -> Section {
+    let all = || sections.iter().flat_map(|section| &section.statements);
+    let mut scores: Vec<f64> = all().filter(|statement| !statement.shares_samples).filter_map(|statement| statement.z).collect();
+    scores.sort_by(f64::total_cmp);
+    let family: f64 = 1.0 - all().map(|statement| 1.0 - statement.chance).product::<f64>();
+    let sharing = all().filter(|statement| statement.shares_samples).count();
+    let largest = scores.iter().fold(0.0, |largest: f64, z| largest.max(z.abs()));
+    // The largest of n is below this with the probability ½.
+    let median = Normal::standard().inverse_cdf((1.0 + 0.5f64.powf(1.0 / scores.len().max(1) as f64)) / 2.0);
+    Section {
+        title: "All statements together",
+        claim: "The deviations of the whole report are as large as chance makes them: neither larger, nor smaller.",
+        derivation: &[
+            "If the exact numbers and the standard errors are right, the z of independent measurements are standard normal numbers. A single \
+             one says little; a bias that is too small for each, or standard errors that are all too large, shows in their distribution. \
+             Every measurement has random numbers of its own; statements that share samples with one before (marked *) are left out, and \
+             so are those whose test is not normal: tolerances, counts, χ², bounds.",
+            "A statement with chance in it fails by chance with a probability of its own, 6.3 · 10⁻⁵ at 4 standard errors. Of independent \
+             statements at least one does with 1 − Π(1 − pᵢ).",
+        ],
+        source: "The distance of Kolmogorov and Smirnov, with the probability as M. A. Stephens, 1970, approximates it; Z. Šidák, 1967.",
+        statements: statements(&scores),
+        figures: if scores.is_empty() { Vec::new() } else { vec![histogram(&scores), quantiles(&scores)] },
+        remark: Some(format!(
+            "{} statements, of which {sharing} share samples with one before; {} z-scores are pooled. The largest |z| is {largest:.2}; \
+             half of all sets of as many normal numbers have one above {median:.2}. A correct program fails this report with \
+             probability {:.1} % for a seed that nobody has tried.",
+            all().count(),
+            scores.len(),
+            100.0 * family
+        )),
+    }
+}
+
+fn statements(scores: &[f64]) -> Vec<Statement> {
+    let n = scores.len() as f64;
+    if scores.len() < 8 {
+        return Vec::new();
+    }
+    let normal = Normal::standard();
+    let at = |(i, z): (usize, &f64)| {
+        let below = normal.cdf(*z);
+        (below - i as f64 / n).max((i as f64 + 1.0) / n - below)
+    };
+    let distance = scores.iter().enumerate().map(at).fold(0.0, f64::max);
+    let p = kolmogorov((n.sqrt() + 0.12 + 0.11 / n.sqrt()) * distance);
+    let squares: f64 = scores.iter().map(|z| z * z).sum();
+    let tail = ChiSquared::new(n).map_or(0.0, |chi2| 2.0 * chi2.cdf(squares).min(chi2.sf(squares)));
+    let rms = Statement::z("root mean square of z", (squares / n).sqrt(), (0.5 / n).sqrt(), 1.0);
+    let ks = Statement::below("Kolmogorov–Smirnov distance of all z from the normal distribution", distance, 2.2 / n.sqrt());
+    vec![
+        Statement {
+            statistic: format!("p = {p:.3}, must be > 1e-4"),
+            holds: p > SIGNIFICANCE,
+            chance: SIGNIFICANCE,
+            shares_samples: true,
+            ..ks
+        },
+        Statement {
+            statistic: format!("χ² = {squares:.0}, p = {tail:.3}, must be > 1e-4"),
+            holds: tail > SIGNIFICANCE,
+            chance: SIGNIFICANCE,
+            z: None,
+            ..rms.of_the_same()
+        },
+        Statement { z: None, ..Statement::z("mean of z", scores.iter().sum::<f64>() / n, n.sqrt().recip(), 0.0).of_the_same() },
+        Statement::largest_z("largest |z|", scores, limit(scores.len()), 0.0).of_the_same(),
+    ]
+}
+
+/// What the largest of `count` exceeds as rarely as a single one exceeds [`SIGMAS`], rounded up.
+fn limit(count: usize) -> f64 {
+    let single = 1.0 - (1.0 - chance_beyond(SIGMAS)).powf(1.0 / count as f64);
+    (Normal::standard().inverse_cdf(1.0 - single / 2.0) * 100.0).ceil() / 100.0
+}
+
+/// The probability that the distance is larger than x/√n.
+fn kolmogorov(x: f64) -> f64 {
+    let term = |k: i32| 2.0 * (-1f64).powi(k - 1) * (-2.0 * f64::from(k * k) * x * x).exp();
+    if x < 0.2 { 1.0 } else { (1..40).map(term).sum::<f64>().clamp(0.0, 1.0) }
+}
+
+fn histogram(scores: &[f64]) -> Figure {
+    const BINS: usize = 18;
+    const END: f64 = 4.5;
+    let width = 2.0 * END / BINS as f64;
+    let mut counts = [0.0; BINS];
+    for z in scores {
+        counts[(((z + END) / width).clamp(0.0, BINS as f64 - 1.0)) as usize] += 1.0;
+    }
+    let share = |count: f64| count / scores.len() as f64 / width;
+    let steps = (0..BINS).flat_map(|bin| [0.0, 1.0].map(|side| ((bin as f64 + side) * width - END, share(counts[bin]))));
+    let density = |i: u32| {
+        let x = END * (f64::from(i) / 60.0 - 1.0);
+        (x, (-x * x / 2.0).exp() / std::f64::consts::TAU.sqrt())
+    };
+    let curves = [
+        curve("z of the report", Style::Line, steps.collect()),
+        curve("unit normal", Style::Dashed, (0..=120).map(density).collect()),
+    ];
+    plot("All z-scores of the report against the unit normal density.", Axis::linear("z"), Axis::linear("density"), &curves)
+}
+
+fn quantiles(scores: &[f64]) -> Figure {
+    let expected = |i: usize| Normal::standard().inverse_cdf((i as f64 + 0.5) / scores.len() as f64);
+    let points: Vec<(f64, f64)> = scores.iter().enumerate().map(|(i, z)| (expected(i), *z)).collect();
+    let end = points.iter().fold(3.0, |end: f64, (x, _)| end.max(x.abs()));
+    let curves =
+        [curve("z of the report", Style::Points, points), curve("unit normal", Style::Dashed, vec![(-end, -end), (end, end)])];
+    let caption = "The same, sorted, against the quantiles of the unit normal distribution: a bias moves points off the line, wrong \
+                   standard errors turn it.";
+    plot(caption, Axis::linear("quantile of the unit normal"), Axis::linear("z"), &curves)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Normal numbers by their quantiles, moved and stretched.
+    fn scores(shift: f64, stretch: f64) -> Vec<f64> {
+        let normal = Normal::standard();
+        (0..300).map(|i| shift + stretch * normal.inverse_cdf((f64::from(i) + 0.5) / 300.0)).collect()
+    }
+
+    fn fails(shift: f64, stretch: f64) -> Vec<bool> {
+        statements(&scores(shift, stretch)).iter().map(|statement| !statement.holds).collect()
+    }
+
+    #[test]
+    fn scores_that_are_not_normal_are_noticed() {
+        assert_eq!(fails(0.0, 1.0), [false; 4]);
+        assert_eq!(fails(0.4, 1.0)[..3], [true, false, true], "a bias of 0.4 standard errors in all");
+        assert_eq!(fails(0.0, 0.5)[..2], [true, true], "standard errors twice too large");
+        assert_eq!(fails(0.0, 2.0), [true, true, false, true], "standard errors too small");
+    }
+
+    #[test]
+    fn tails_are_those_of_the_tables() {
+        // 1.36 and 1.63 are the limits at 5 % and 1 %.
+        assert!((kolmogorov(1.358) - 0.05).abs() < 1e-3 && (kolmogorov(1.628) - 0.01).abs() < 1e-3);
+        assert!(
+            (chance_beyond(4.0) - 6.334e-5).abs() < 1e-8 && (limit(1) - 4.0).abs() < 0.011 && (limit(300) - 5.19).abs() < 0.011
+        );
+    }
+}

@@ -1,0 +1,155 @@
+//! The settings that the program opens with.
+use super::{
+    direct_light::{self, lit},
+    rooms::wall_of_sphere,
+    spheres::{lit_ball, shipped},
+};
+use crate::{
+    math::SimdLevel,
+    measure::exact::horizon_sphere_irradiance,
+    render::{
+        film::Film,
+        pass::{PassJob, Threads},
+        sharing::resolved,
+    },
+    sampling::Sampler,
+    scene::{Camera, Estimator, RenderSettings, Reuse, Roulette, Scene},
+    validate::{Effort, Section, Statement, Validation, check::scene},
+};
+
+/// A scene, and the exact means of the pixels in which they are known.
+struct Subject {
+    name: &'static str,
+    scene: Scene,
+    exact: Vec<Option<f64>>,
+}
+
+/// What is changed about the settings that are compared.
+type Change = fn(RenderSettings) -> RenderSettings;
+
+/// Each default alone, in place of what is plain.
+const ALONE: [(&str, Change); 7] = [
+    ("plain: path, independent, cosine, q = 0.9", |plain| plain),
+    ("plain but MIS", |plain| RenderSettings { estimator: Estimator::Mis, ..plain }),
+    ("plain but Sobol", |plain| RenderSettings { sampler: Sampler::Sobol, ..plain }),
+    ("plain but bsdf directions", |plain| RenderSettings { directions: RenderSettings::default().directions, ..plain }),
+    ("plain but roulette by throughput", |plain| RenderSettings { roulette: Roulette::BY_THROUGHPUT, ..plain }),
+    ("plain but shared paths", |plain| RenderSettings { reuse: Reuse::On, ..plain }),
+    ("plain but adaptive", |plain| RenderSettings { adaptive: true, ..plain }),
+];
+
+/// All defaults, and what else the program may choose or is asked for.
+const TOGETHER: [(&str, Change); 4] = [
+    ("all defaults", |defaults| defaults),
+    ("all defaults, shared paths", |defaults| RenderSettings { reuse: Reuse::On, ..defaults }),
+    ("all defaults, adaptive, nothing shared", |defaults| RenderSettings { adaptive: true, reuse: Reuse::Off, ..defaults }),
+    ("all defaults, blue noise", |defaults| RenderSettings { sampler: Sampler::BlueNoise, ..defaults }),
+];
+
+pub fn section(validation: &Validation) -> Section {
+    let threads = Threads::new(0, SimdLevel::best()).expect("threads can be had");
+    let repeats = if validation.effort == Effort::Full { 16 } else { 8 };
+    let mut statements = Vec::new();
+    for subject in subjects() {
+        let mut row = |name: &str, settings: &dyn Fn() -> RenderSettings| {
+            let means: Vec<f64> = (0..repeats).map(|_| subject.mean(&threads, settings(), validation.spp(48).max(16))).collect();
+            statements.push(Statement::repeated(format!("{}, {name}", subject.name), &means, subject.mean_exact()));
+        };
+        for (name, change) in ALONE {
+            let plain = || RenderSettings { roulette: Roulette::Fixed(0.9), ..validation.settings(Estimator::Path) };
+            row(name, &|| change(plain()));
+        }
+        for (name, change) in TOGETHER {
+            row(name, &|| change(defaults(validation)));
+        }
+    }
+    Section {
+        title: "The program as it opens",
+        claim: "The settings that the program opens with, all together and each by itself, give the exact means.",
+        derivation: &[
+            "The defaults are MIS, Sobol points, directions by bsdf, roulette by throughput from the fourth bounce on, and paths shared among \
+             pixels where a trial says that it pays; adaptive sampling can be asked for. They render here as the program does, in \
+             passes over a film, after the same decisions.",
+            "A wall of the textured integrating sphere shows L_e + ρ H with H of the section on that room. Under a lamp that is partly set the \
+             ground shows (ρ/π) E. Within the closed sphere the wall shows 0.5, and a clear ball of glass in a field of 1 shows 1. Of \
+             Lambert’s ball the lit pixels are summed.",
+            "Such samples are not independent of each other, so that their variance says little. The mean of a picture is taken for several seeds; these means \
+             are independent, and their scatter gives the standard error (Student’s t).",
+        ],
+        source: "P. Bekaert, M. Sbert and J. Halton, “Accelerating Path Tracing by Re-Using Paths”, 2002, for shared paths.",
+        statements,
+        figures: Vec::new(),
+        remark: None,
+    }
+}
+
+fn defaults(validation: &Validation) -> RenderSettings {
+    let measured = validation.settings(Estimator::Mis);
+    RenderSettings {
+        seed: measured.seed,
+        #[cfg(test)]
+        fault: measured.fault,
+        ..RenderSettings::default()
+    }
+}
+
+impl Subject {
+    fn constant(name: &'static str, scene: Scene, exact: f64) -> Subject {
+        let [width, height] = scene.camera.resolution;
+        Subject { name, exact: vec![Some(exact); (width * height) as usize], scene }
+    }
+
+    fn mean_exact(&self) -> f64 {
+        let known: Vec<f64> = self.exact.iter().copied().flatten().collect();
+        known.iter().sum::<f64>() / known.len() as f64
+    }
+
+    /// The mean of red over the known pixels of one picture.
+    fn mean(&self, threads: &Threads, settings: RenderSettings, spp: u32) -> f64 {
+        let [width, height] = self.scene.camera.resolution;
+        let rays = self.scene.rays(&self.scene.camera);
+        let settings = threads.install(|| resolved(&self.scene, &rays, &settings));
+        let mut film = Film::new([width, height]);
+        let job = PassJob { scene: &self.scene, rays: &rays, settings: &settings };
+        // Passes end where the number of samples has doubled.
+        while film.spp() < spp && threads.pass(job, &mut film, spp, &|| false).failure.is_none() {}
+        let (mut sum, mut count) = (0.0, 0.0);
+        for tile in &film.tiles {
+            for row in 0..tile.size[1] {
+                for (column, estimate) in (0..).zip(tile.estimates(row as usize)) {
+                    let place = (tile.origin[1] + row) * width + tile.origin[0] + column;
+                    if self.exact[place as usize].is_some() {
+                        sum += estimate.mean[0];
+                        count += 1.0;
+                    }
+                }
+            }
+        }
+        sum / count
+    }
+}
+
+fn subjects() -> Vec<Subject> {
+    let (sin, cos) = 75f64.to_radians().sin_cos();
+    let lamp = lit(&format!("shape.sphere = {{ center = [{sin:?}, {cos:?}, 0.0], radius = 0.3 }}"));
+    let irradiance = horizon_sphere_irradiance(1.0, 0.3, 1.0, cos);
+    let inside = shipped("inside_lit_inside");
+    let inside = Scene { camera: Camera { resolution: [64; 2], ..inside.camera }, ..inside };
+    let glass = scene(
+        "camera = { eye = [0.0, 0.5, 4.0], look_at = [0.0, 0.0, 0.0], fov = 30.0, resolution = [64, 64] }
+        background.radiance = 1.0
+        materials.glass.dielectric = { ior = 1.5 }
+        [[objects]]
+        shape.sphere = { center = [0.0, 0.0, 0.0], radius = 1.0 }
+        material = 'glass'",
+    );
+    let (ball, exact) = lit_ball();
+    let (sphere, wall) = wall_of_sphere();
+    vec![
+        Subject::constant("textured integrating sphere", sphere, wall),
+        Subject::constant("ground under a lamp", lamp, direct_light::ALBEDO / std::f64::consts::PI * irradiance),
+        Subject::constant("closed sphere", inside, 0.5),
+        Subject::constant("clear ball", glass, 1.0),
+        Subject { name: "Lambert’s ball", scene: ball, exact },
+    ]
+}

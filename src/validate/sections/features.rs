@@ -1,0 +1,151 @@
+//! Meshes, lenses, disks and many lamps, as far as they are known exactly.
+use std::f64::consts::PI;
+
+use glam::DVec3;
+
+use super::direct_light::{ALBEDO, RECTANGLES, lit};
+use crate::{
+    measure::{
+        exact::{horizon_sphere_irradiance, polygon_irradiance},
+        picture,
+    },
+    sampling::Directions,
+    scene::{Estimator, RenderSettings, Roulette, Scene},
+    validate::{
+        Section, Statement, Validation,
+        check::{RED, largest, scene},
+    },
+};
+
+pub fn section(validation: &Validation) -> Section {
+    let mut statements = vec![room(validation), checkered_lamp(validation)];
+    statements.extend(turned_away(validation));
+    let corners = corners();
+    let triangles = format!(
+        "shape.mesh = {{ vertices = {:?}, triangles = [[0, 1, 2], [0, 2, 3]] }}\nflip = {}",
+        corners.map(|corner| corner.to_array()),
+        (corners[1] - corners[0]).cross(corners[3] - corners[0]).dot(corners[0]) > 0.0
+    );
+    let disk = "shape.disk = { center = [0.0, 1.2, 0.0], normal = [0.0, -1.0, 0.0], radius = 0.5 }";
+    let (lamps, irradiance) = many_lamps();
+    for (what, scene, irradiance) in [
+        ("rectangle as a mesh", lit(&triangles), polygon_irradiance(1.0, &corners)),
+        // π L r²/(r² + h²) under its middle.
+        ("disk overhead", lit(disk), PI * 0.25 / (0.25 + 1.44)),
+        ("300 spheres", lamps, irradiance),
+    ] {
+        for estimator in Estimator::ALL {
+            let settings = RenderSettings { max_bounces: Some(1), ..validation.settings(estimator) };
+            let found = picture(&scene, settings, RED, validation.spp(1200)).whole();
+            let exact = ALBEDO / PI * irradiance;
+            statements.push(Statement::mean(format!("{what}, {}", estimator.name()), found, exact));
+        }
+    }
+    statements.push(lens(validation));
+    Section {
+        title: "Meshes, lenses, many lamps",
+        claim: "Other ways to say the same scene give the same light: triangles for faces, hundreds of lamps for one, a lens for a point.",
+        derivation: &[
+            "A box of twelve triangles whose inside emits 1 and reflects 1/2 is a furnace: every sample is 2. A path that meets a wall \
+             within rounding of an edge may be lost, which costs less than 10⁻⁶ of the light. The small rectangle of the section on direct \
+             light as two triangles of a mesh has the same irradiance. A disk of radius r at the height h has E = π L r²/(r² + h²) under its \
+             middle. Irradiances of lamps that do not hide each other add up; 300 of them are chosen from a light tree.",
+            "Of a checkered lamp, seen so that its squares are 2 × 2 pixels each, every pixel has the radiance of its square. The small \
+             rectangle turned away from the ground lights it not at all.",
+            "A lens mixes rays from its points. Where all of the picture has one radiance, it changes nothing: 0.5 within the closed \
+             sphere.",
+        ],
+        source: "Form factors of parallel disks; J. H. Lambert, 1760; P. Moon, 1936.",
+        statements,
+        figures: Vec::new(),
+        remark: None,
+    }
+}
+
+/// Of the small rectangle of the section on direct light.
+fn corners() -> [DVec3; 4] {
+    let [origin, u, v] = RECTANGLES[0].1.map(DVec3::from_array);
+    [origin, origin + u, origin + u + v, origin + v]
+}
+
+fn room(validation: &Validation) -> Statement {
+    let scene = scene(
+        "camera = { eye = [0.1, 0.2, -0.3], look_at = [1.0, 0.9, 0.8], fov = 100.0, resolution = [64, 64] }
+        materials.wall.lambertian.albedo = 0.5
+        [[objects]]
+        shape.mesh.vertices = [[-1.0, -1.0, -1.0], [1.0, -1.0, -1.0], [1.0, 1.0, -1.0], [-1.0, 1.0, -1.0], \
+        [-1.0, -1.0, 1.0], [1.0, -1.0, 1.0], [1.0, 1.0, 1.0], [-1.0, 1.0, 1.0]]
+        shape.mesh.triangles = [[0, 1, 2], [0, 2, 3], [4, 6, 5], [4, 7, 6], [0, 4, 5], [0, 5, 1], \
+        [3, 2, 6], [3, 6, 7], [0, 3, 7], [0, 7, 4], [1, 5, 6], [1, 6, 2]]
+        material = 'wall'
+        emission = { radiance = 1.0, two_sided = true }",
+    );
+    let found = picture(&scene, validation.path(Directions::Cosine), RED, validation.spp(200)).whole();
+    Statement::within("furnace of twelve triangles: mean of the picture", found.mean, 2.0, 2e-6)
+}
+
+/// Squares of two radiances whose edges are those of pixels.
+fn checkered_lamp(validation: &Validation) -> Statement {
+    let scene = scene(
+        "camera = { eye = [0.0, 0.0, 1.0], look_at = [0.0, 0.0, 0.0], projection.orthographic.width = 1.0, resolution = [8, 8] }
+        textures.squares.checker = { even = 1.0, odd = 0.25, scale = 4.0 }
+        [[objects]]
+        shape.rectangle = { origin = [-0.5, -0.5, 0.0], edge_u = [1.0, 0.0, 0.0], edge_v = [0.0, 1.0, 0.0] }
+        emission.texture = 'squares'",
+    );
+    let found = picture(&scene, validation.path(Directions::Cosine), RED, validation.spp(400));
+    let exact = |i: usize| if (i % 8 / 2 + i / 8 / 2).is_multiple_of(2) { 1.0 } else { 0.25 };
+    let worst = largest(found.pixels.iter().enumerate().map(|(i, pixel)| (pixel.mean - exact(i)).abs()));
+    Statement::below("checkered lamp: largest error of a pixel", worst, 1e-5)
+}
+
+/// A lamp with its back to the ground.
+fn turned_away(validation: &Validation) -> Vec<Statement> {
+    let [origin, u, v] = RECTANGLES[0].1;
+    let back = DVec3::from_array(u).cross(DVec3::from_array(v)).dot(DVec3::from_array(origin)) < 0.0;
+    let scene = lit(&format!("shape.rectangle = {{ origin = {origin:?}, edge_u = {u:?}, edge_v = {v:?} }}\nflip = {back}"));
+    let dark = |estimator: Estimator| {
+        let settings = RenderSettings { max_bounces: Some(1), ..validation.settings(estimator) };
+        let found = picture(&scene, settings, RED, validation.spp(400));
+        let bright = found.pixels.iter().filter(|pixel| pixel.mean != 0.0).count();
+        Statement::never(
+            format!("rectangle turned away, {}: pixels that are not black", estimator.name()),
+            bright as u32,
+            found.pixels.len() as u32,
+        )
+    };
+    Estimator::ALL.map(dark).into()
+}
+
+/// Small spheres all over the sky above a point, and their irradiance there.
+fn many_lamps() -> (Scene, f64) {
+    const COUNT: usize = 300;
+    const RADIUS: f64 = 0.02;
+    let mut irradiance = 0.0;
+    let lamp = |i: usize| {
+        // Even over the upper part of the hemisphere, none in front of another.
+        let cos = 0.08 + 0.9 * (i as f64 + 0.5) / COUNT as f64;
+        let (sin, turn) = ((1.0 - cos * cos).sqrt(), 2.399_963_23 * i as f64);
+        let center = [sin * turn.cos(), cos, sin * turn.sin()];
+        irradiance += horizon_sphere_irradiance(1.0, RADIUS, 1.0, cos);
+        format!("shape.sphere = {{ center = {center:?}, radius = {RADIUS} }}")
+    };
+    let lamps: Vec<String> = (0..COUNT).map(lamp).collect();
+    (lit(&lamps.join("\nemission.radiance = 1.0\n[[objects]]\n")), irradiance)
+}
+
+fn lens(validation: &Validation) -> Statement {
+    let scene = scene(
+        "camera = { eye = [0.0, 0.0, 0.5], look_at = [0.0, 0.0, 1.0], fov = 80.0, resolution = [32, 32], \
+         lens = { radius = 0.1, focus = 0.3 } }
+        materials.wall.lambertian.albedo = 0.5
+        [[objects]]
+        shape.sphere = { center = [0.0, 0.0, 0.0], radius = 1.0 }
+        material = 'wall'
+        [[objects]]
+        shape.sphere = { center = [0.0, 0.0, 0.0], radius = 0.25 }
+        emission.radiance = 8.5",
+    );
+    let settings = RenderSettings { roulette: Roulette::BY_THROUGHPUT, ..validation.settings(Estimator::Mis) };
+    Statement::mean("closed sphere through a lens", picture(&scene, settings, RED, validation.spp(2000)).whole(), 0.5)
+}
