@@ -1,22 +1,14 @@
 //! Tests that know more of chance than a standard error: Student's t, χ², and one that needs no normal distribution.
-use statrs::{
-    distribution::{ChiSquared, ContinuousCDF, StudentsT},
-    function::erf::erfc,
-};
+use statrs::distribution::{ChiSquared, ContinuousCDF, StudentsT};
 
 use super::{
     Noticed, Statement,
-    statement::{POWER, SIGMAS},
+    statement::{POWER, SIGMAS, chance_beyond},
 };
 use crate::measure::{Moments, as_normal};
 
 /// A χ² or Kolmogorov–Smirnov test refutes below this.
 pub const SIGNIFICANCE: f64 = 1e-4;
-
-/// The probability that a standard normal number is farther from 0.
-pub fn chance_beyond(sigmas: f64) -> f64 {
-    erfc(sigmas / std::f64::consts::SQRT_2)
-}
 
 impl Statement {
     /// Student's t-test of independent measurements of the same number, whatever samples each was made of. Rounding in f32 counts as

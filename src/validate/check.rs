@@ -1,7 +1,9 @@
 //! What sections measure with: scenes from text, settings whose only chance is in the samples, sums over pictures.
+use glam::{DVec3, Vec3};
+
 use super::Validation;
 use crate::{
-    math::{F, One, U},
+    math::{F, One, U, V},
     measure::{Measure, Moments, samples},
     sampling::{
         Directions, Sampler,
@@ -36,6 +38,16 @@ pub fn furnace(albedo: f64) -> Scene {
 /// The largest of values that are not negative; NaN if one is NaN, which must not pass for small.
 pub fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
     values.into_iter().fold(0.0, |largest, x| if x > largest || x.is_nan() { x } else { largest })
+}
+
+/// A direction in numbers of f32, in one lane.
+pub fn lanes(v: DVec3) -> V<One> {
+    V::splat(One, v.as_vec3().to_array())
+}
+
+/// The direction of one lane in f64.
+pub fn wide(v: V<One>) -> DVec3 {
+    Vec3::from(v.lane(0)).as_dvec3()
 }
 
 /// The random numbers of one measurement.

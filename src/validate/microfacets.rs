@@ -155,4 +155,12 @@ mod tests {
         let through = over_hemisphere(|wi| refraction(alpha, wo, -wi, 1.5) * 1.5f64.powi(2) * wi.z);
         assert!((interface_albedo(alpha, mu, 1.5) / (plain + through) - 1.0).abs() < 2e-3);
     }
+
+    #[test]
+    fn little_is_masked_where_facets_are_level_with_the_view() {
+        for alpha in [0.05, 0.3] {
+            assert!((1.0 - albedo(alpha, 1.0, |_| 1.0)) / (alpha * alpha) < 2.0, "{alpha}");
+        }
+        assert!(g1(0.3, direction(1.0, 0.0)) == 1.0 && g1(1.0, direction(0.5, 0.0)) == 2.0 / 3.0);
+    }
 }

@@ -1,10 +1,7 @@
 //! The last section: what all statements say together.
 use statrs::distribution::{ChiSquared, ContinuousCDF, Normal};
 
-use super::{
-    SIGMAS, Section, Statement,
-    chance::{SIGNIFICANCE, chance_beyond},
-};
+use super::{SIGMAS, Section, Statement, chance::SIGNIFICANCE, statement::chance_beyond};
 use crate::report::{
     Figure,
     plot::{Axis, Style, curve, plot},

@@ -2,8 +2,8 @@
 use std::fmt;
 
 use serde::Serialize;
+use statrs::function::erf::erfc;
 
-use super::chance::chance_beyond;
 use crate::measure::{Mean, Moments};
 
 /// Deviations beyond so many standard errors refute a statement: one in 16000 does by chance, but seeds do not change.
@@ -57,6 +57,11 @@ impl fmt::Display for Noticed {
             Noticed::Absolute(bias) => write!(f, "{bias:.1e}"),
         }
     }
+}
+
+/// The probability that a standard normal number is farther from 0.
+pub fn chance_beyond(sigmas: f64) -> f64 {
+    erfc(sigmas / std::f64::consts::SQRT_2)
 }
 
 impl Statement {

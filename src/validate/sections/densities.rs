@@ -1,7 +1,7 @@
 //! Sampled directions against the densities that they are divided by.
 use std::f64::consts::TAU;
 
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 
 use crate::{
     geometry::{MISS, Motion, Nearest, Place, Shape, Shapes},
@@ -9,7 +9,12 @@ use crate::{
     math::{F, M, One, U, V},
     report::plot::{Axis, Style, curve, plot},
     sampling::Directions,
-    validate::{Section, Statement, Validation, cells::Cells, microfacets::direction},
+    validate::{
+        Section, Statement, Validation,
+        cells::Cells,
+        check::{lanes, wide},
+        microfacets::direction,
+    },
 };
 
 /// Points of a cell, along each side, at which densities are summed up; those of lamps end at an outline.
@@ -101,14 +106,6 @@ fn compared(
     expected.push((1.0 - expected.iter().sum::<f64>()).max(0.0));
     let expected: Vec<f64> = expected.iter().map(|p| p * f64::from(count)).collect();
     Statement::chi_squared(format!("{what}: {count} directions against their pdf"), &counts, &expected)
-}
-
-fn lanes(v: DVec3) -> V<One> {
-    V::splat(One, v.as_vec3().to_array())
-}
-
-fn wide(v: V<One>) -> DVec3 {
-    Vec3::from(v.lane(0)).as_dvec3()
 }
 
 /// A bsdf seen at cosine `mu`; `eta` is the index beyond the surface where light passes.

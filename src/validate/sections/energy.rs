@@ -12,7 +12,7 @@ use crate::{
     validate::{
         Section, Statement, Validation,
         cells::Cells,
-        check::{RED, Random, TABLES, largest, scene},
+        check::{RED, Random, TABLES, lanes, largest, scene},
         microfacets::direction,
         statement::SIGMAS,
     },
@@ -141,7 +141,6 @@ fn farthest_albedo(kind: &str, roughness: f64) -> (f64, f64) {
 fn albedo(bsdf: &impl Bsdf<One>, alpha: f32, mu: f64, eta: Option<f64>) -> f64 {
     const STEPS: usize = 40;
     let wo = direction(mu, 0.6);
-    let lanes = |v: DVec3| V::splat(One, v.as_vec3().to_array());
     let side = |grid: usize, w: DVec3| (w.z < 0.0) == (grid == 1);
     let reflected = |w: DVec3| {
         let scale = if w.z < 0.0 { eta.unwrap_or(0.0).powi(2) } else { 1.0 };

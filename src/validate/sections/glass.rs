@@ -7,7 +7,7 @@ use crate::{
     scene::{Estimator, Scene},
     validate::{
         Section, Statement, Validation,
-        check::{RED, TABLES, largest, scene},
+        check::{RED, TABLES, largest, scene, wide},
         microfacets::dielectric,
     },
 };
@@ -52,10 +52,6 @@ pub fn section(validation: &Validation) -> Section {
     }
 }
 
-fn wide(v: V<One>) -> [f64; 3] {
-    v.lane(0).map(f64::from)
-}
-
 /// Single samples of a smooth interface.
 fn interface(validation: &Validation, eta: f64) -> Vec<Statement> {
     let (count, random) = (validation.spp(20_000), validation.random());
@@ -67,10 +63,10 @@ fn interface(validation: &Validation, eta: f64) -> Vec<Statement> {
     let critical = (1.0 - eta * eta).max(0.0).sqrt();
     for i in 0..count {
         let wo = view(i);
-        let out = wide(wo);
+        let out = wide(wo).to_array();
         for lobe in [1e-7, 0.999_999_9] {
             let sample = glass.sample(wo, (F(0.5), F(0.5)), F(lobe));
-            let wi = wide(sample.wi);
+            let wi = wide(sample.wi).to_array();
             let index = if wi[2] < 0.0 { eta } else { 1.0 };
             let length = wi.iter().map(|x| x * x).sum::<f64>();
             bend.extend([(wi[0] * index + out[0]).abs(), (wi[1] * index + out[1]).abs(), (length - 1.0).abs()]);

@@ -11,7 +11,7 @@ use crate::{
     sampling::Directions,
     validate::{
         Section, Statement, Validation,
-        check::{RED, Random, largest},
+        check::{RED, Random, lanes, largest, wide},
         microfacets::{albedo, average, dielectric, direction, interface_albedo, metal, over_hemisphere, reflection, refraction},
     },
 };
@@ -59,14 +59,6 @@ pub fn section(validation: &Validation) -> Section {
         figures: Vec::new(),
         remark: None,
     }
-}
-
-fn lanes(v: DVec3) -> V<One> {
-    V::splat(One, v.as_vec3().to_array())
-}
-
-fn wide(v: V<One>) -> DVec3 {
-    glam::Vec3::from(v.lane(0)).as_dvec3()
 }
 
 fn local(colour: f32, alpha: f64, front: bool) -> Local<One> {
@@ -255,19 +247,4 @@ fn black_plastic(validation: &Validation) -> Statement {
     let disk = PI / 4.0;
     let exact = disk * average(2000, |mu| dielectric(mu, IOR).0) + 1.0 - disk;
     Statement::mean("black plastic: mean of a picture with its ball and the field around it", found, exact)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::validate::microfacets::g1;
-
-    /// Masking is known where facets are level with the view.
-    #[test]
-    fn the_albedo_of_perfect_facets_is_one_less_what_is_masked() {
-        for alpha in [0.05, 0.3] {
-            assert!((albedo(alpha, 1.0, |_| 1.0) - 1.0).abs() < alpha * alpha, "{alpha}");
-        }
-        assert!(g1(0.3, direction(1.0, 0.0)) == 1.0 && g1(1.0, direction(0.5, 0.0)) == 2.0 / 3.0);
-    }
 }

@@ -8,7 +8,7 @@ use crate::{
         pass::{PassJob, Threads},
     },
     scene::{Estimator, RenderSettings, Roulette, Scene, load, parse},
-    validate::{Effort, Section, Statement, Validation, chance::chance_beyond},
+    validate::{Effort, Section, Statement, Validation, statement::chance_beyond},
 };
 
 /// Pixels along a block.
