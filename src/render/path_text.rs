@@ -36,7 +36,8 @@ pub fn text(id: &PathId, replay: &Replay) -> String {
 pub fn latex(id: &PathId, replay: &Replay) -> String {
     let heading = heading(id, replay);
     let comments: String = heading.lines().map(|line| format!("% {line}\n")).collect();
-    format!("{comments}% The path {}.\n{}", replay.end.name(), path_formula::latex(replay))
+    let shared = replay.alone.map_or("", |_| "% Pixels share what their paths find: the sum is that of this path alone.\n");
+    format!("{comments}% The path {}.\n{shared}{}", replay.end.name(), path_formula::latex(replay))
 }
 
 fn heading(PathId { scene, camera, settings, pixel: [x, y], sample }: &PathId, replay: &Replay) -> String {

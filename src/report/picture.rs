@@ -1,4 +1,5 @@
 //! Pictures of reports as PNG.
+use base64::{Engine, engine::general_purpose::STANDARD};
 
 /// A PNG of 8 bits a channel, sRGB, row by row from the top left.
 pub fn rgb_png([width, height]: [u32; 2], rgb: &[u8]) -> Result<Vec<u8>, String> {
@@ -11,4 +12,9 @@ pub fn rgb_png([width, height]: [u32; 2], rgb: &[u8]) -> Result<Vec<u8>, String>
     writer.write_image_data(rgb).map_err(|error| error.to_string())?;
     writer.finish().map_err(|error| error.to_string())?;
     Ok(bytes)
+}
+
+/// A PNG as an element of a page.
+pub fn img(png: &[u8]) -> String {
+    format!("<img src=\"data:image/png;base64,{}\" alt=\"\">", STANDARD.encode(png))
 }

@@ -1,6 +1,4 @@
 //! The files of the chapter.
-use base64::{Engine, engine::general_purpose::STANDARD};
-
 use super::{
     exhibits::{Exhibits, Picture},
     page,
@@ -46,9 +44,4 @@ impl Chapter {
             Err(error) => self.failures.push(format!("{name}: {error}")),
         }
     }
-}
-
-/// A PNG as an element of a page.
-pub fn img(png: &[u8]) -> String {
-    format!("<img src=\"data:image/png;base64,{}\" alt=\"\">", STANDARD.encode(png))
 }

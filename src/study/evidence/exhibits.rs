@@ -1,5 +1,4 @@
 //! What the chapter is made of: findings, pictures, and the tables that follow from them.
-use super::{CAPS, Setting};
 use crate::{
     render::{Display, display::to_srgb},
     report::{
@@ -10,14 +9,17 @@ use crate::{
     scene::RenderSettings,
     study::{
         Findings, Machine, Outcome, StudyError, Subject,
-        figures::capitalised,
-        fit::{Slope, slope},
+        figures::{by_setting, capitalised},
+        fit::slope,
         measure::Bench,
         report::values,
+        setting::{Setting, label},
         wording::{self, mean_error, significant},
     },
 };
 
+/// Caps that are shown and measured.
+pub const CAPS: [Option<u32>; 5] = [Some(0), Some(1), Some(2), Some(5), None];
 /// Two-sided 95 % of the normal distribution.
 const NORMAL_95: f64 = 1.96;
 
@@ -65,7 +67,7 @@ pub fn pictures(bench: Bench, spp: u32, display: Display) -> Result<[Picture; 2]
         let png = bench.threads.install(|| sheet(bench.camera.resolution, 3, &[], cells)).map_err(StudyError::Renderer)?;
         Ok::<_, StudyError>(Picture { name, caption, png })
     };
-    let how = super::super::label(&settings);
+    let how = label(&settings);
     Ok([
         of("pictures_by_samples", format!("The picture as the samples a pixel grow: {how}, no cap."), &growing)?,
         of(
@@ -100,12 +102,11 @@ impl Exhibits<'_> {
     /// How error and variance fall.
     fn convergence(&self, findings: &Findings) -> Table {
         let row = |outcome: &Outcome| {
-            let fitted = |fit: Option<Slope>| wording::slope(fit);
             vec![
                 values(Setting::Sampler, outcome),
                 wording::error(outcome),
-                fitted(outcome.slope),
-                fitted(slope(&outcome.variances)),
+                wording::slope(outcome.slope),
+                wording::slope(slope(&outcome.variances)),
             ]
         };
         Table {
@@ -195,7 +196,7 @@ impl Exhibits<'_> {
     pub fn plots(&self) -> Vec<(String, String, Plot)> {
         let mut plots = Vec::new();
         for setting in [Setting::Sampler, Setting::Directions, Setting::Estimator, Setting::Roulette] {
-            let pair = self.of(setting).and_then(|findings| super::super::figures::by_setting(findings, setting));
+            let pair = self.of(setting).and_then(|findings| by_setting(findings, setting));
             if let Some(pair) = pair {
                 for (name, plot) in ["time", "samples"].into_iter().zip(pair.plots) {
                     let caption =

@@ -12,7 +12,7 @@ use std::{
 };
 
 pub use self::chapter::Chapter;
-use self::exhibits::{Exhibits, pictures};
+use self::exhibits::{CAPS, Exhibits, pictures};
 use super::{Findings, Lists, Machine, Plan, Progress, Store, Study, StudyError, Subject, measure::Bench, setting::Setting};
 use crate::{
     measure::Floor,
@@ -21,8 +21,6 @@ use crate::{
     scene::{Estimator, Roulette},
 };
 
-/// Caps that are shown and measured.
-const CAPS: [Option<u32>; 5] = [Some(0), Some(1), Some(2), Some(5), None];
 const REPEATS: u32 = 3;
 /// Parts of the time: for the runs of all studies, and for pictures. The rest is for the reference, and for trials.
 const FOR_RUNS: f64 = 0.6;

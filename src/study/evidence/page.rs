@@ -1,8 +1,8 @@
 //! The chapter as a page.
 use maud::{Markup, html as markup};
 
-use super::{chapter::img, exhibits::Exhibits};
-use crate::report::{self, Figure, plot::Plot, table::Table};
+use super::exhibits::Exhibits;
+use crate::report::{self, Figure, picture::img, plot::Plot, table::Table};
 
 const STYLE: &str = "
 :root { --width: 60rem; }
