@@ -164,7 +164,7 @@ pub fn plot(caption: impl Into<String>, x: Axis, y: Axis, curves: &[Curve]) -> F
 /// Curves over each other, in the colours of their order; points and lines of the same name share one.
 pub fn svg(size: (u32, u32), x: Axis, y: Axis, curves: &[Curve]) -> String {
     let mut svg = String::new();
-    let drawn = draw(SVGBackend::with_string(&mut svg, size).into_drawing_area(), 1, x, y, curves);
+    let drawn = draw(&SVGBackend::with_string(&mut svg, size).into_drawing_area(), 1, x, y, curves);
     drawn.map_or_else(|error| format!("<p>this plot could not be drawn: {error}</p>"), |()| svg)
 }
 
@@ -172,14 +172,14 @@ fn png(size: (u32, u32), x: Axis, y: Axis, curves: &[Curve]) -> Result<Vec<u8>, 
     const SCALE: u32 = 2;
     let size = (size.0 * SCALE, size.1 * SCALE);
     let mut pixels = vec![255; 3 * size.0 as usize * size.1 as usize];
-    let area = BitMapBackend::with_buffer(&mut pixels, size).into_drawing_area();
-    draw(area, SCALE, x, y, curves).map_err(|error| error.to_string())?;
+    let drawn = draw(&BitMapBackend::with_buffer(&mut pixels, size).into_drawing_area(), SCALE, x, y, curves);
+    drawn.map_err(|error| error.to_string())?;
     rgb_png([size.0, size.1], &pixels)
 }
 
 /// All lengths are multiplied by `scale`.
 fn draw<B: DrawingBackend>(
-    area: DrawingArea<B, Shift>,
+    area: &DrawingArea<B, Shift>,
     scale: u32,
     x: Axis,
     y: Axis,
@@ -198,7 +198,7 @@ where
     let corner = emptiest_corner(curves.iter().flat_map(|curve| between(curve).map(within)), legend_size(curves, size));
     let (xs, ys) = (Scale::new(x, xs), Scale::new(y, ys));
     let labels = [xs.ticks.len(), ys.ticks.len()];
-    let mut chart = ChartBuilder::on(&area)
+    let mut chart = ChartBuilder::on(area)
         .margin(8 * scale)
         .x_label_area_size(42 * scale)
         .y_label_area_size(64 * scale)

@@ -25,7 +25,7 @@ impl<'d> Errors<'d> {
         result
             .map_err(|error| {
                 if !self.damage.reaches(table) {
-                    self.found.push(error)
+                    self.found.push(error);
                 }
             })
             .ok()

@@ -83,7 +83,7 @@ fn a_truth_that_the_picture_contradicts_is_told_by_check_and_after_a_render() {
         let told = |text: &str| text.contains("than [truth] says, by ");
         (told(&checked), told(&text(&rendered.stderr)), checked)
     };
-    assert_eq!(with_truth("radiance = 2.0").0, false);
+    assert!(!with_truth("radiance = 2.0").0);
     // 64 samples of 48 × 48 pixels know the mean to 0.1 %.
     for wrong in ["radiance = 2.05", "radiance = 1.95", "radiance = 0.0"] {
         let (checked, rendered, said) = with_truth(wrong);

@@ -15,9 +15,9 @@ pub struct Chapter {
 }
 
 impl Chapter {
-    pub fn new(exhibits: Exhibits) -> Chapter {
+    pub fn new(exhibits: &Exhibits) -> Chapter {
         let (tables, plots) = (exhibits.tables(), exhibits.plots());
-        let mut chapter = Chapter { html: page::html(&exhibits, &tables, &plots), files: Vec::new(), failures: Vec::new() };
+        let mut chapter = Chapter { html: page::html(exhibits, &tables, &plots), files: Vec::new(), failures: Vec::new() };
         tables.iter().for_each(|table| chapter.add_table(table));
         plots.iter().for_each(|(name, _, plot)| chapter.add_plot(name, plot));
         exhibits.pictures.iter().for_each(|picture| chapter.add_picture(picture));

@@ -103,7 +103,7 @@ pub fn collect(
     observe("pictures", 1.0 - FOR_PICTURES);
     let pictures = pictures(bench, spp, plan.display)?;
     observe("pictures", 1.0);
-    Ok(Chapter::new(Exhibits { subject, findings: &findings, pictures, spp, repeats: REPEATS, machine }))
+    Ok(Chapter::new(&Exhibits { subject, findings: &findings, pictures, spp, repeats: REPEATS, machine }))
 }
 
 /// The power of two that is nearest to the samples of a run of this time.

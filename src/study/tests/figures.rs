@@ -1,5 +1,6 @@
 //! Which curves are drawn, and where they lie.
 use crate::{
+    report::plot::Plot,
     sampling::Sampler,
     scene::{Estimator, RenderSettings},
     study::{
@@ -57,7 +58,7 @@ fn the_overview_has_the_best_three_the_own_and_the_last() {
     let outcomes: Vec<Outcome> = all.into_iter().enumerate().flat_map(of).collect();
     let found = findings(outcomes, settings(Estimator::Light, Sampler::Sobol));
     let pair = overview(&found).expect("curves");
-    for svg in &pair.plots.each_ref().map(|plot| plot.svg()) {
+    for svg in &pair.plots.each_ref().map(Plot::svg) {
         let shown = |estimator: &str, sampler: &str| named(svg, &format!("{estimator}, bsdf, {sampler}, roulette throughput"));
         let counts = ["sobol", "stratified", "independent"].map(|sampler| [shown("mis", sampler), shown("light", sampler)]);
         assert_eq!(counts, [[1, 1], [1, 0], [1, 1]], "{svg}");
