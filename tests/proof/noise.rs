@@ -1,4 +1,5 @@
-//! The figure for the remaining noise against the error that pictures really have, on every scene that comes with the program.
+//! The figure for the remaining noise against the error that pictures really have: on every scene that comes with the program, and in
+//! rooms made at random from 4 to 1024 spp. And what stopping by this figure does to the mean.
 use std::path::Path;
 
 use noisefall::{
@@ -10,8 +11,13 @@ use noisefall::{
         pass::{PassJob, Threads},
         sharing::resolved,
     },
-    scene::{Camera, RenderSettings, Scene, load},
+    sampling::{Directions, Sampler},
+    scene::{Camera, Estimator, RenderSettings, Reuse, Roulette, Scene, load},
 };
+use rand::{Rng, SeedableRng, rngs::SmallRng};
+use rayon::prelude::*;
+
+use crate::{picture::scene, statistics::Moments};
 
 const SPP: u32 = 128;
 const SEEDS: u32 = 6;
@@ -22,24 +28,23 @@ const FACTOR: f64 = 1.25;
 /// where errors fall faster than is believed.
 const WORSE: [(&str, f64); 3] = [("veach_plates", 1.5), ("outside_lit_outside", 1.45), ("motion_blur", 1.4)];
 
-fn frame(threads: &Threads, scene: &Scene, seed: u32, spp: u32) -> Frame {
-    let [width, height] = scene.camera.resolution;
-    let resolution = [64, (64 * height).div_ceil(width)];
+/// One picture at each of these numbers of samples.
+fn frames<const N: usize>(threads: &Threads, scene: &Scene, resolution: [u32; 2], seed: u32, spp: [u32; N]) -> [Frame; N] {
     let rays = scene.rays(&Camera { resolution, ..scene.camera });
     let settings = RenderSettings { seed, ..resolved(scene, &rays, &scene.settings) };
     let mut film = Film::new(resolution);
-    threads.pass(PassJob { scene, rays: &rays, settings: &settings }, &mut film, spp, &|| false);
-    Frame::of_film(&film, 0, resolution, resolution)
+    let mut done = 0;
+    spp.map(|spp| {
+        threads.pass(PassJob { scene, rays: &rays, settings: &settings }, &mut film, spp - done, &|| false);
+        done = spp;
+        Frame::of_film(&film, 0, resolution, resolution)
+    })
 }
 
-/// Estimated and true relMSE, means over seeds.
-fn estimate_and_truth(scene: &Scene) -> (f64, f64) {
-    let threads = Threads::new(0, SimdLevel::best()).expect("threads can be had");
-    let frames: Vec<Frame> = (0..SEEDS).map(|seed| frame(&threads, scene, seed, SPP)).collect();
-    // The pictures' own mean would be too bright where one of them was lucky.
-    let radiance = frame(&threads, scene, SEEDS, 8 * SPP).radiance;
-    let floor = Floor::DEFAULT.of_picture(&radiance);
-    let n = f64::from(SEEDS);
+/// Estimated and true relMSE, means over pictures that differ by their seeds only.
+fn estimate_and_truth(frames: &[&Frame], radiance: &[[f32; 3]]) -> (f64, f64) {
+    let floor = Floor::DEFAULT.of_picture(radiance);
+    let n = frames.len() as f64;
     let value = |frame: &Frame, i: usize| f64::from(frame.radiance.as_flattened()[i]);
     let relative_variance = |(i, radiance): (usize, &f32)| {
         let mean = frames.iter().map(|frame| value(frame, i)).sum::<f64>() / n;
@@ -53,6 +58,7 @@ fn estimate_and_truth(scene: &Scene) -> (f64, f64) {
 
 #[test]
 fn the_noise_figure_is_the_error() {
+    let threads = Threads::new(0, SimdLevel::best()).expect("threads can be had");
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
     let mut names: Vec<_> = std::fs::read_dir(&folder).expect("the scenes").map(|entry| entry.expect("a file").path()).collect();
     names.retain(|path| path.extension().is_some_and(|extension| extension == "toml"));
@@ -61,7 +67,12 @@ fn the_noise_figure_is_the_error() {
     for path in names {
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let scene = load(&path).unwrap_or_else(|error| panic!("{name}: {error:?}"));
-        let (estimate, truth) = estimate_and_truth(&scene);
+        let [width, height] = scene.camera.resolution;
+        let picture = |seed, spp| frames(&threads, &scene, [64, (64 * height).div_ceil(width)], seed, [spp]);
+        let pictures: Vec<[Frame; 1]> = (0..SEEDS).map(|seed| picture(seed, SPP)).collect();
+        // The pictures' own mean would be too bright where one of them was lucky.
+        let [reference] = picture(SEEDS, 8 * SPP);
+        let (estimate, truth) = estimate_and_truth(&pictures.iter().flatten().collect::<Vec<_>>(), &reference.radiance);
         let ratio = if truth > 0.0 { (estimate / truth).sqrt() } else { 1.0 + estimate };
         println!("{name:24} error {:.3} %, figure over error {ratio:.2}", 100.0 * truth.sqrt());
         let factor = WORSE.iter().find(|(worse, _)| *worse == name).map_or(FACTOR, |(_, factor)| *factor);
@@ -70,4 +81,111 @@ fn the_noise_figure_is_the_error() {
         }
     }
     assert!(wrong.is_empty(), "figure over error: {}", wrong.join(", "));
+}
+
+/// A room that nobody chose: balls of all materials under a lamp of some size.
+fn room(dice: &mut SmallRng) -> String {
+    let mut within = |least: f64, most: f64| least + (most - least) * dice.random::<f64>();
+    let mut text = format!(
+        "camera = {{ eye = [{:?}, {:?}, 4.0], look_at = [0.0, 0.7, 0.0], fov = {:?}, resolution = [16, 16] }}\n\
+         background = {{ radiance = {:?} }}\n\
+         materials.walls.lambertian = {{ albedo = {:?} }}\n\
+         [[objects]]\nshape.sphere = {{ center = [0.0, -1000.0, 0.0], radius = 1000.0 }}\nmaterial = 'walls'\n\
+         [[objects]]\nshape.sphere = {{ center = [0.0, 0.0, -1002.0], radius = 1000.0 }}\nmaterial = 'walls'\n",
+        within(-1.5, 1.5),
+        within(0.5, 2.0),
+        within(30.0, 60.0),
+        within(-0.5, 0.5).max(0.0),
+        within(0.0, 0.9),
+    );
+    for ball in 0..3 {
+        let roughness = within(0.0, 1.0);
+        let material = match within(0.0, 5.0) as u32 {
+            0 => format!("conductor = {{ f0 = 0.9, roughness = {roughness:?} }}"),
+            1 => format!("plastic = {{ albedo = [0.7, 0.3, 0.1], roughness = {roughness:?} }}"),
+            2 => "dielectric = { ior = 1.5 }".to_owned(),
+            3 => format!("rough_dielectric = {{ ior = 1.5, roughness = {:?} }}", 0.1 + 0.9 * roughness),
+            _ => format!("lambertian = {{ albedo = {roughness:?} }}"),
+        };
+        let radius = within(0.2, 0.7);
+        text += &format!(
+            "materials.ball_{ball}.{material}\n\
+             [[objects]]\nshape.sphere = {{ center = [{:?}, {radius:?}, {:?}], radius = {radius:?} }}\nmaterial = 'ball_{ball}'\n",
+            f64::from(ball) * 1.4 - 1.4,
+            within(-0.5, 0.5),
+        );
+    }
+    let radius = 10_f64.powf(within(-1.3, -0.2));
+    text + &format!(
+        "[[objects]]\nshape.sphere = {{ center = [{:?}, 2.2, {:?}], radius = {radius:?} }}\nmaterial = 'walls'\n\
+         emission = {{ radiance = {:?} }}\n",
+        within(-1.0, 1.0),
+        within(-1.0, 1.0),
+        1.0 / (radius * radius),
+    )
+}
+
+#[test]
+fn the_noise_figure_holds_in_rooms_made_at_random() {
+    const ROOMS: usize = 10;
+    const COUNTS: [u32; 5] = [4, 16, 64, 256, 1024];
+    let threads = Threads::new(0, SimdLevel::best()).expect("threads can be had");
+    let mut dice = SmallRng::seed_from_u64(1);
+    let mut ratios = [(); COUNTS.len()].map(|()| Vec::new());
+    for _ in 0..ROOMS {
+        let scene = scene(&room(&mut dice));
+        let series: Vec<_> = (0..SEEDS).map(|seed| frames(&threads, &scene, [16, 16], seed, COUNTS)).collect();
+        let mut radiance = vec![[0.0; 3]; 256];
+        for frame in series.iter().filter_map(|frames| frames.last()) {
+            let sums = radiance.as_flattened_mut().iter_mut().zip(frame.radiance.as_flattened());
+            sums.for_each(|(sum, value)| *sum += value / SEEDS as f32);
+        }
+        for (i, ratios) in ratios.iter_mut().enumerate() {
+            let (estimate, truth) = estimate_and_truth(&series.iter().map(|frames| &frames[i]).collect::<Vec<_>>(), &radiance);
+            ratios.push((estimate / truth).sqrt());
+        }
+    }
+    for (spp, mut ratios) in COUNTS.into_iter().zip(ratios) {
+        ratios.sort_by(f64::total_cmp);
+        let mean = (ratios.iter().map(|ratio| ratio.ln()).sum::<f64>() / ROOMS as f64).exp();
+        println!("{spp:5} spp: figure over error {mean:.2}, {:.2} to {:.2}", ratios[0], ratios[ROOMS - 1]);
+    }
+}
+
+/// Where a render ends that stops at a noise target depends on its samples, and so its mean is not that of a fixed number of samples.
+/// The fewer the pixels, the more the ends differ: here they are four.
+#[test]
+fn what_stopping_at_a_noise_target_does_to_the_mean() {
+    const SIDE: u32 = 2;
+    const GOAL: f64 = 0.05;
+    const RENDERS: u32 = 4000;
+    let scene = load(concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/furnace.toml").as_ref()).expect("a shipped scene compiles");
+    let rays = scene.rays(&Camera { resolution: [SIDE; 2], ..scene.camera });
+    let render = |seed| {
+        let settings = RenderSettings {
+            seed,
+            estimator: Estimator::Path,
+            sampler: Sampler::Independent,
+            directions: Directions::Cosine,
+            roulette: Roulette::Fixed(0.6),
+            reuse: Reuse::Off,
+            adaptive: false,
+            ..scene.settings
+        };
+        let mut film = Film::new([SIDE; 2]);
+        let threads = Threads::new(1, SimdLevel::best()).expect("a thread can be had");
+        loop {
+            threads.pass(PassJob { scene: &scene, rays: &rays, settings: &settings }, &mut film, 64, &|| false);
+            let frame = Frame::of_film(&film, 0, [SIDE; 2], [SIDE; 2]);
+            if frame.rel_mse_estimate.is_some_and(|rel_mse| rel_mse.sqrt() <= GOAL) {
+                let values = frame.radiance.as_flattened();
+                return (values.iter().map(|value| f64::from(*value)).sum::<f64>() / values.len() as f64 / 2.0, frame.spp);
+            }
+        }
+    };
+    let ends: Vec<_> = (0..RENDERS).into_par_iter().map(render).collect();
+    let means = Moments::of(ends.iter().map(|(mean, _)| *mean));
+    let (least, most) = ends.iter().fold((u32::MAX, 0), |(least, most), (_, spp)| (least.min(*spp), most.max(*spp)));
+    let error = (means.variance / f64::from(RENDERS)).sqrt();
+    println!("stops at {least} to {most} spp; the mean is {:+.5} ± {error:.5} off", means.mean - 1.0);
 }

@@ -17,7 +17,7 @@ impl App {
         let id = PathId { scene: &wish.scene, camera: &wish.camera, settings: &wish.settings, pixel, sample };
         ui.horizontal_wrapped(|ui| {
             ui.label("Copy");
-            if ui.button("Path").on_hover_text("Copies the path as text: settings, nested sum, every term").clicked() {
+            if ui.button("Text").on_hover_text("Copies the path as text: settings, nested sum, every term").clicked() {
                 ui.ctx().copy_text(path_text::text(&id, replay));
             }
             if ui.button("LaTeX").on_hover_text("Copies the nested sum with its numbers as LaTeX").clicked() {

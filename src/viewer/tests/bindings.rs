@@ -344,7 +344,7 @@ impl egui::DroppedFile for Dropped {
 }
 
 #[test]
-fn a_dropped_file_is_a_scene_a_reference_or_refused() {
+fn a_dropped_file_is_a_scene_a_picture_with_its_scene_or_a_reference() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = window("cornell_spheres");
     let drop_file = |window: &mut Window, path: PathBuf| {
@@ -352,17 +352,24 @@ fn a_dropped_file_is_a_scene_a_reference_or_refused() {
         window.step();
     };
     wait(&mut window, "a full picture", App::can_save);
-    let reference = folder.path().join("reference.EXR");
-    window.state_mut().save_to(reference.clone());
-    wait(&mut window, "the file", |app| app.last_saved.is_some());
+    let [reference, picture] = ["reference.EXR", "picture.png"].map(|name| {
+        let path = folder.path().join(name);
+        window.state_mut().save_to(path.clone());
+        wait(&mut window, "the file", |app| app.last_saved.as_ref() == Some(&path));
+        path
+    });
     drop_file(&mut window, reference);
     wait(&mut window, "the reference", |app| app.dropped_truth.is_some());
     assert_eq!(window.state().dropped_truth.as_ref().map(|truth| truth.camera), Some(window.state().camera));
-    drop_file(&mut window, folder.path().join("shot.png"));
-    assert!(window.state().notices.last().is_some_and(|notice| notice.is_error && notice.text.contains("PNG")));
     drop_file(&mut window, shipped("furnace"));
     wait(&mut window, "the scene", |app| app.opened.as_ref().is_some_and(|opened| opened.name == "Furnace"));
     assert!(window.state().dropped_truth.is_none(), "it was of the other scene");
+    drop_file(&mut window, picture.clone());
+    wait(&mut window, "the scene of the picture", |app| {
+        app.opened.as_ref().is_some_and(|opened| opened.path.as_ref() == Some(&picture))
+    });
+    let of_picture = window.state().opened.as_ref().map(|opened| opened.scene.objects.len());
+    assert_eq!(of_picture, load(&shipped("cornell_spheres")).ok().map(|scene| scene.objects.len()));
 }
 
 #[test]

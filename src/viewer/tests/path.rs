@@ -133,7 +133,7 @@ fn what_is_inspected_can_be_copied() {
     window.state_mut().inspector.look_at([30, 20]);
     wait(&mut window, "its samples", |app| app.inspector.histogram().is_some() && app.inspector.replay().is_some());
     for (button, says) in [
-        ("Path", "pixel 30,20, sample 0: radiance "),
+        ("Text", "pixel 30,20, sample 0: radiance "),
         ("LaTeX", "\\begin{align*}"),
         ("Samples", "sample,red,green,blue,luminance,mean,variance\n0,"),
     ] {
