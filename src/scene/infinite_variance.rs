@@ -1,18 +1,22 @@
 //! Settings by which the variance of the estimate may be infinite.
 use super::{Object, RenderSettings, Roulette, Scene, textures::ColourSource};
-use crate::{material::Material, sampling::Directions};
+use crate::{
+    material::{Material, Reflectance},
+    sampling::Directions,
+};
 
 impl Scene {
     /// What is to be said of settings whose samples may have no finite variance in this scene; `None` where they have.
     ///
     /// Between surfaces of albedo ρ the mean square of a sample is a series in ρ² E w²/q: q is the probability to survive roulette, and E w²
-    /// the mean square of the weight of a direction, 4/3 for uniform ones at diffuse surfaces and 1 otherwise. A cap ends the series, and
-    /// roulette by throughput keeps throughputs of about 1. Glass hands light on and keeps none, so that it does not count.
+    /// the mean square of the weight of a direction, 4/3 for uniform ones at diffuse surfaces and 1 otherwise. Roulette by throughput
+    /// keeps throughputs of about 1 as long as its upper bound q = [`Roulette::MOST`] is enough. A cap ends the series. Glass hands
+    /// light on and keeps none, so that it does not count.
     pub fn infinite_variance(&self, settings: &RenderSettings) -> Option<String> {
         let survival = match settings.roulette {
             Roulette::Off => 1.0,
             Roulette::Fixed(survival) => survival,
-            Roulette::Throughput { .. } => return None,
+            Roulette::Throughput { .. } => Roulette::MOST,
         };
         let is_uniform = settings.directions == Directions::Uniform;
         // Without roulette weights of 1 never grow.
@@ -27,29 +31,35 @@ impl Scene {
         if survival > most {
             return None;
         }
-        let advice = if most < 1.0 && survival < 1.0 {
+        let is_fixed = matches!(settings.roulette, Roulette::Fixed(_));
+        let advice = if is_fixed && most < Roulette::MOST {
             format!("take more than {most:.2}, or roulette by throughput")
-        } else if is_uniform && survival == 1.0 {
-            "take cosine directions, or roulette by throughput".to_owned()
+        } else if is_uniform {
+            "take cosine directions".to_owned()
         } else {
-            "take roulette by throughput".to_owned()
+            "take no roulette".to_owned()
         };
-        let what = if survival < 1.0 {
-            format!("survival of {survival} in roulette, at most ρ² E w² = {most:.2} here")
-        } else {
-            format!("uniform directions without roulette, with ρ² E w² = {most:.2} here")
+        let what = match settings.roulette {
+            Roulette::Fixed(survival) if survival < 1.0 => format!("survival of {survival} in roulette"),
+            Roulette::Throughput { .. } => format!("survival of at most {survival} in roulette by throughput"),
+            _ => "paths without roulette".to_owned(),
         };
         Some(format!(
-            "{what}: where light stays among such surfaces the variance is infinite, and noise figures mean nothing; {advice}"
+            "{what}, at surfaces with ρ² E w² = {most:.2}: where light stays among these the variance is infinite, and noise figures mean \
+             nothing; {advice}"
         ))
     }
 
-    /// The largest albedo of an object, in any channel.
+    /// The largest albedo of an object, in any channel; of a metal, where light meets it head on.
     fn albedo(&self, object: &Object) -> f32 {
         let Some(coating) = &object.coating else { return 0.0 };
-        let colour = match coating.colour {
-            ColourSource::Constant(colour) => colour,
-            ColourSource::Texture(id) => self.textures.maximum(id),
+        let colour = match (coating.material, coating.colour) {
+            (Material::Conductor { fresnel: Reflectance::Index { eta, k }, .. }, _) => [0, 1, 2].map(|c| {
+                let square = k[c].powi(2);
+                ((eta[c] - 1.0).powi(2) + square) / ((eta[c] + 1.0).powi(2) + square)
+            }),
+            (_, ColourSource::Constant(colour)) => colour,
+            (_, ColourSource::Texture(id)) => self.textures.maximum(id),
         };
         colour.into_iter().fold(0.0, f32::max).min(1.0)
     }
@@ -87,6 +97,8 @@ mod tests {
             ("lambertian = { albedo = { texture = 'tiles' } }", 0.81),
             ("mirror = { reflectance = 0.7 }", 0.49),
             ("conductor = { f0 = 0.6, roughness = 0.3 }", 0.36),
+            // Gold reflects 0.967 of red light.
+            ("conductor = { eta = [0.143, 0.374, 1.442], k = [3.983, 2.386, 1.603] }", 0.93),
             ("dielectric = { ior = 1.5 }", 0.0),
         ] {
             assert_eq!(said(material, fixed(most + 0.01)), None, "{material}");
@@ -95,7 +107,16 @@ mod tests {
             assert!(warning.is_none_or(|text| text.contains(&format!("more than {most}")) && text.contains("infinite")));
         }
         let white = said("lambertian = { albedo = 1.0 }", fixed(0.99)).expect("no survival is enough");
-        assert!(white.ends_with("take roulette by throughput"), "{white}");
+        assert!(white.ends_with("take no roulette"), "{white}");
+    }
+
+    #[test]
+    fn roulette_by_throughput_is_bounded_and_so_are_the_albedos_that_it_can_bear() {
+        let settings = |directions| RenderSettings { directions, ..Default::default() };
+        let told =
+            |albedo: f32, directions| said(&format!("lambertian = {{ albedo = {albedo} }}"), settings(directions)).is_some();
+        assert_eq!([0.97, 0.98, 1.0].map(|albedo| told(albedo, Directions::Cosine)), [false, true, true]);
+        assert_eq!([0.84, 0.85].map(|albedo| told(albedo, Directions::Uniform)), [false, true]);
     }
 
     #[test]
@@ -108,7 +129,6 @@ mod tests {
         assert_eq!(said("mirror = { reflectance = 0.9 }", settings(Roulette::Off, Directions::Uniform)), None);
         assert!(said("lambertian = { albedo = 0.8 }", settings(Roulette::Fixed(0.7), Directions::Uniform)).is_some());
         assert_eq!(said("lambertian = { albedo = 0.8 }", settings(Roulette::Fixed(0.7), Directions::Cosine)), None);
-        assert_eq!(said(grey, settings(Roulette::BY_THROUGHPUT, Directions::Uniform)), None);
         let capped = RenderSettings { max_bounces: Some(9), ..settings(Roulette::Fixed(0.2), Directions::Uniform) };
         assert_eq!(said(grey, capped), None);
     }

@@ -23,10 +23,10 @@ impl Statement {
             error,
             exact: Some(exact),
             holds: z.abs() < SIGMAS,
-            notices: Noticed::of((quantile(SIGMAS, degrees) + POWER) * rounded, exact),
+            notices: Noticed::of(noticed(degrees) * rounded, exact),
             z: (error > 1e-5 * exact.abs()).then_some(z),
             chance: chance_beyond(SIGMAS),
-            ..Statement::plain(what, mean, format!("t = {t:+.2} of {degrees}"))
+            ..Statement::plain(what, mean, format!("t = {t:+.2} of {degrees}, |t| < {:.1}", quantile(SIGMAS, degrees)))
         }
     }
 
@@ -37,7 +37,7 @@ impl Statement {
         Statement {
             error,
             holds: mean - sure < limit,
-            notices: Noticed::Absolute(limit - mean + sure + POWER * error),
+            notices: Noticed::Absolute(limit - mean + noticed(degrees) * error),
             chance: chance_beyond(SIGMAS) / 2.0,
             ..Statement::plain(what, mean, format!("must be < {limit} + {sure:.1e}"))
         }
@@ -61,7 +61,7 @@ impl Statement {
             error: (2.0 * degrees).sqrt(),
             exact: Some(degrees),
             holds: p > SIGNIFICANCE,
-            notices: Noticed::Relative((high / expected.iter().sum::<f64>()).sqrt()),
+            notices: Noticed::Each((high / expected.iter().sum::<f64>()).sqrt()),
             chance: SIGNIFICANCE,
             ..Statement::plain(what, chi2, format!("χ²: p = {p:.3}, must be > 1e-4"))
         }
@@ -99,6 +99,13 @@ fn quantile(sigmas: f64, degrees: f64) -> f64 {
     StudentsT::new(0.0, 1.0, degrees).map_or(f64::NAN, |student| -student.inverse_cdf(chance_beyond(sigmas) / 2.0))
 }
 
+/// The bias, in standard errors, that Student's t-test notices with a probability of 95 %: the standard error is an estimate, too,
+/// whose mean and variance are about 1 − 1/(4ν) and 1/(2ν) of the true one.
+fn noticed(degrees: f64) -> f64 {
+    let threshold = quantile(SIGMAS, degrees);
+    threshold * (1.0 - 0.25 / degrees) + POWER * (1.0 + threshold * threshold / (2.0 * degrees)).sqrt()
+}
+
 /// χ² and its degrees of freedom; cells of few expectations are taken together.
 fn chi_squared(observed: &[f64], expected: &[f64]) -> (f64, f64) {
     const FEW: f64 = 10.0;
@@ -129,7 +136,7 @@ mod tests {
     }
 
     fn relative(statement: &Statement) -> f64 {
-        let Noticed::Relative(part) = statement.notices else { panic!("{statement:?}") };
+        let (Noticed::Relative(part) | Noticed::Each(part)) = statement.notices else { panic!("{statement:?}") };
         part
     }
 
@@ -143,6 +150,8 @@ mod tests {
         assert!((quantile(SIGMAS, 3.0) - 32.6).abs() < 0.2, "{}", quantile(SIGMAS, 3.0));
         let exact = |t: f64| Statement::repeated("t", &found, 2.5 - t * (5.0f64 / 12.0).sqrt()).holds;
         assert!(exact(32.0) && !exact(33.5) && exact(-32.0) && !exact(-33.5));
+        // The noncentral t of 7 degrees of freedom and δ = 12.3 is below 8.5 with a probability of 5 %, that of 15 and 7.7 below 5.5.
+        assert!((noticed(7.0) - 12.3).abs() < 0.1 && (noticed(15.0) - 7.7).abs() < 0.1, "{} {}", noticed(7.0), noticed(15.0));
         let below = |t: f64| Statement::repeated_below("t", &found, 2.5 - t * (5.0f64 / 12.0).sqrt()).holds;
         assert!(below(32.0) && !below(33.5) && below(-33.5));
         assert!(Statement::repeated("exact", &[2.0; 5], 2.0).holds && !Statement::repeated("exact", &[2.0; 5], 2.001).holds);

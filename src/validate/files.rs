@@ -26,16 +26,17 @@ pub fn csv(sections: &[Section]) -> Result<String, csv::Error> {
         "z",
         "holds",
         "notices",
-        "notices_relative_to_exact",
+        "notices_as",
         "chance_to_fail",
         "shares_samples",
     ])?;
     for (number, section) in (1..).zip(sections) {
         for statement in &section.statements {
             let optional = |x: Option<f64>| x.map_or(String::new(), |x| x.to_string());
-            let (notices, is_relative) = match statement.notices {
-                Noticed::Relative(part) => (part, true),
-                Noticed::Absolute(bias) => (bias, false),
+            let (notices, notices_as) = match statement.notices {
+                Noticed::Relative(part) => (part, "part of exact"),
+                Noticed::Absolute(bias) => (bias, "absolute"),
+                Noticed::Each(part) => (part, "part of each"),
             };
             writer.write_record([
                 i32::to_string(&number),
@@ -48,7 +49,7 @@ pub fn csv(sections: &[Section]) -> Result<String, csv::Error> {
                 optional(statement.z),
                 statement.holds.to_string(),
                 notices.to_string(),
-                is_relative.to_string(),
+                notices_as.to_owned(),
                 statement.chance.to_string(),
                 statement.shares_samples.to_string(),
             ])?;

@@ -1,7 +1,11 @@
 //! The last section: what all statements say together.
 use statrs::distribution::{ChiSquared, ContinuousCDF, Normal};
 
-use super::{SIGMAS, Section, Statement, chance::SIGNIFICANCE, statement::chance_beyond};
+use super::{
+    Noticed, SIGMAS, Section, Statement,
+    chance::SIGNIFICANCE,
+    statement::{POWER, chance_beyond},
+};
 use crate::report::{
     Figure,
     plot::{Axis, Style, curve, plot},
@@ -11,7 +15,9 @@ pub fn section(sections: &[Section]) -> Section {
     let all = || sections.iter().flat_map(|section| &section.statements);
     let mut scores: Vec<f64> = all().filter(|statement| !statement.shares_samples).filter_map(|statement| statement.z).collect();
     scores.sort_by(f64::total_cmp);
+    let own = statements(&scores);
     let family: f64 = 1.0 - all().map(|statement| 1.0 - statement.chance).product::<f64>();
+    let family = 1.0 - (1.0 - family) * own.iter().map(|statement| 1.0 - statement.chance).product::<f64>();
     let sharing = all().filter(|statement| statement.shares_samples).count();
     let largest = scores.iter().fold(0.0, |largest: f64, z| largest.max(z.abs()));
     // The largest of n is below this with the probability ½.
@@ -28,10 +34,10 @@ pub fn section(sections: &[Section]) -> Section {
              statements at least one does with 1 − Π(1 − pᵢ).",
         ],
         source: "The distance of Kolmogorov and Smirnov, with the probability as M. A. Stephens, 1970, approximates it; Z. Šidák, 1967.",
-        statements: statements(&scores),
+        statements: own,
         figures: if scores.is_empty() { Vec::new() } else { vec![histogram(&scores), quantiles(&scores)] },
         remark: Some(format!(
-            "{} statements, of which {sharing} share samples with one before; {} z-scores are pooled. The largest |z| is {largest:.2}; \
+            "{} statements before, of which {sharing} share samples with one before; {} z-scores are pooled. The largest |z| is {largest:.2}; \
              half of all sets of as many normal numbers have one above {median:.2}. A correct program fails this report with \
              probability {:.1} % for a seed that nobody has tried.",
             all().count(),
@@ -73,7 +79,11 @@ fn statements(scores: &[f64]) -> Vec<Statement> {
             ..rms.of_the_same()
         },
         Statement { z: None, ..Statement::z("mean of z", scores.iter().sum::<f64>() / n, n.sqrt().recip(), 0.0).of_the_same() },
-        Statement::largest_z("largest |z|", scores, limit(scores.len()), 0.0).of_the_same(),
+        // A bias of any single statement, in its standard errors.
+        Statement {
+            notices: Noticed::Absolute(limit(scores.len()) + POWER),
+            ..Statement::largest_z("largest |z|", scores, limit(scores.len()), 1.0).of_the_same()
+        },
     ]
 }
 

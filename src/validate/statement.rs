@@ -41,6 +41,8 @@ pub enum Noticed {
     Relative(f64),
     /// In units of the measured number.
     Absolute(f64),
+    /// As a part of each of the numbers that were taken together.
+    Each(f64),
 }
 
 impl Noticed {
@@ -52,8 +54,8 @@ impl Noticed {
 impl fmt::Display for Noticed {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Noticed::Relative(part) if *part >= 1e-5 => write!(f, "{:.3} %", 100.0 * part),
-            Noticed::Relative(part) => write!(f, "{:.0e} %", 100.0 * part),
+            Noticed::Relative(part) | Noticed::Each(part) if *part >= 1e-5 => write!(f, "{:.3} %", 100.0 * part),
+            Noticed::Relative(part) | Noticed::Each(part) => write!(f, "{:.0e} %", 100.0 * part),
             Noticed::Absolute(bias) => write!(f, "{bias:.1e}"),
         }
     }
@@ -154,7 +156,7 @@ impl Statement {
         let share = f64::from(count) / f64::from(of);
         let statistic = format!("{count} of {of}, must be 0");
         let holds = count == 0 && of > 0;
-        let notices = Noticed::Relative(3.0 / f64::from(of));
+        let notices = Noticed::Absolute(3.0 / f64::from(of));
         Statement { exact: Some(0.0), holds, notices, ..Statement::plain(what, share, statistic) }
     }
 
@@ -170,7 +172,7 @@ impl Statement {
         let worst = scores.iter().fold(0.0, |worst: f64, z| if z.abs() > worst || z.is_nan() { z.abs() } else { worst });
         let chance = 1.0 - (1.0 - chance_beyond(limit)).powf(scores.len() as f64);
         let statement = Statement::plain(what, worst, format!("largest of {}, must be < {limit}", scores.len()));
-        let notices = Noticed::Relative((limit + POWER) * sigma);
+        let notices = Noticed::Each((limit + POWER) * sigma);
         Statement { holds: worst < limit && !scores.is_empty(), notices, chance, ..statement }
     }
 

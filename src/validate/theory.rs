@@ -55,8 +55,9 @@ const CHAPTER: [(&str, &[&str]); 5] = [
              place of f τ cos θ′: its series must converge, too. In the furnace of section 1 the condition is ρ² E w² < q, w being the weight \
              of a direction, E w² = 1 for cosine directions and 4/3 for uniform ones. With q ≤ ρ² the mean is still right, but the variance is \
              infinite: rare samples of enormous weight carry it, the error falls more slowly than 1/√N, and no standard error can be \
-             trusted. Section 3 shows that. Roulette by throughput has no such limit in the furnace: its survivors have a throughput of about 1, so that \
-             weights do not pile up. The program notes a fixed q that is too low for the albedos of a scene.",
+             trusted. Section 3 shows that. Roulette by throughput leaves its survivors a throughput of about 1, so that weights do not pile up; but it \
+             survives with 0.95 at most, and so has the same limit with q = 0.95: albedos below 0.97 for cosine directions and 0.84 for \
+             uniform ones. The program notes settings that are beyond it for the albedos of a scene.",
         ],
     ),
     (
@@ -64,7 +65,8 @@ const CHAPTER: [(&str, &[&str]); 5] = [
         &[
             "Statements hold at the parameters that they name. They say nothing of what is in no section: textures and skies from image files, \
              bump and normal maps, smooth normals, motion, pixel filters other than the box, instances, files of meshes, the window. \
-             The tests of the program cover these, and `validate --stress` renders them at random. Noise figures and stops by noise \
+             The tests of the program cover these, and `validate --stress` renders \
+             meshes by formula, bump, motion and filters at random. Noise figures and stops by noise \
              are not covered either. For every row the report says how large a bias it would notice: what is smaller may be there.",
         ],
     ),

@@ -33,10 +33,8 @@ fn frames<const N: usize>(threads: &Threads, scene: &Scene, resolution: [u32; 2]
     let rays = scene.rays(&Camera { resolution, ..scene.camera });
     let settings = RenderSettings { seed, ..resolved(scene, &rays, &scene.settings) };
     let mut film = Film::new(resolution);
-    let mut done = 0;
     spp.map(|spp| {
-        threads.pass(PassJob { scene, rays: &rays, settings: &settings }, &mut film, spp - done, &|| false);
-        done = spp;
+        threads.pass(PassJob { scene, rays: &rays, settings: &settings }, &mut film, spp, &|| false);
         Frame::of_film(&film, 0, resolution, resolution)
     })
 }
@@ -104,7 +102,7 @@ fn room(dice: &mut SmallRng) -> String {
             0 => format!("conductor = {{ f0 = 0.9, roughness = {roughness:?} }}"),
             1 => format!("plastic = {{ albedo = [0.7, 0.3, 0.1], roughness = {roughness:?} }}"),
             2 => "dielectric = { ior = 1.5 }".to_owned(),
-            3 => format!("rough_dielectric = {{ ior = 1.5, roughness = {:?} }}", 0.1 + 0.9 * roughness),
+            3 => format!("dielectric = {{ ior = 1.5, roughness = {:?} }}", 0.1 + 0.9 * roughness),
             _ => format!("lambertian = {{ albedo = {roughness:?} }}"),
         };
         let radius = within(0.2, 0.7);
@@ -174,14 +172,15 @@ fn what_stopping_at_a_noise_target_does_to_the_mean() {
         };
         let mut film = Film::new([SIDE; 2]);
         let threads = Threads::new(1, SimdLevel::best()).expect("a thread can be had");
-        loop {
-            threads.pass(PassJob { scene: &scene, rays: &rays, settings: &settings }, &mut film, 64, &|| false);
+        for spp in (1..).map(|pass| 64 * pass) {
+            threads.pass(PassJob { scene: &scene, rays: &rays, settings: &settings }, &mut film, spp, &|| false);
             let frame = Frame::of_film(&film, 0, [SIDE; 2], [SIDE; 2]);
             if frame.rel_mse_estimate.is_some_and(|rel_mse| rel_mse.sqrt() <= GOAL) {
                 let values = frame.radiance.as_flattened();
-                return (values.iter().map(|value| f64::from(*value)).sum::<f64>() / values.len() as f64 / 2.0, frame.spp);
+                return (values.iter().map(|value| f64::from(*value)).sum::<f64>() / values.len() as f64 / 2.0, spp);
             }
         }
+        unreachable!("noise falls")
     };
     let ends: Vec<_> = (0..RENDERS).into_par_iter().map(render).collect();
     let means = Moments::of(ends.iter().map(|(mean, _)| *mean));

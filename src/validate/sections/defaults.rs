@@ -52,8 +52,11 @@ pub fn section(validation: &Validation) -> Section {
     let mut statements = Vec::new();
     for subject in subjects() {
         let mut row = |name: &str, settings: &dyn Fn() -> RenderSettings| {
-            let means: Vec<f64> = (0..repeats).map(|_| subject.mean(&threads, settings(), validation.spp(48).max(16))).collect();
-            statements.push(Statement::repeated(format!("{}, {name}", subject.name), &means, subject.mean_exact()));
+            let means: Option<Vec<f64>> =
+                (0..repeats).map(|_| subject.mean(&threads, settings(), validation.spp(48).max(16))).collect();
+            if let Some(means) = means {
+                statements.push(Statement::repeated(format!("{}, {name}", subject.name), &means, subject.mean_exact()));
+            }
         };
         for (name, change) in ALONE {
             let plain = || RenderSettings { roulette: Roulette::Fixed(0.9), ..validation.settings(Estimator::Path) };
@@ -69,7 +72,8 @@ pub fn section(validation: &Validation) -> Section {
         derivation: &[
             "The defaults are MIS, Sobol points, directions by bsdf, roulette by throughput from the fourth bounce on, and paths shared among \
              pixels where a trial says that it pays; adaptive sampling can be asked for. They render here as the program does, in \
-             passes over a film, after the same decisions.",
+             passes over a film, after the same decisions. Sharing and adaptive sampling have rows where the program does them: glass, for one, \
+             shares nothing, and where noise is alike everywhere there is nothing to adapt to.",
             "A wall of the textured integrating sphere shows L_e + ρ H with H of the section on that room. Under a lamp that is partly set the \
              ground shows (ρ/π) E. Within the closed sphere the wall shows 0.5, and a clear ball of glass in a field of 1 shows 1. Of \
              Lambert’s ball the lit pixels are summed.",
@@ -104,15 +108,19 @@ impl Subject {
         known.iter().sum::<f64>() / known.len() as f64
     }
 
-    /// The mean of red over the known pixels of one picture.
-    fn mean(&self, threads: &Threads, settings: RenderSettings, spp: u32) -> f64 {
+    /// The mean of red over the known pixels of one picture; `None` where the program does not what the settings ask for.
+    fn mean(&self, threads: &Threads, settings: RenderSettings, spp: u32) -> Option<f64> {
         let [width, height] = self.scene.camera.resolution;
         let rays = self.scene.rays(&self.scene.camera);
+        let asked = settings;
         let settings = threads.install(|| resolved(&self.scene, &rays, &settings));
         let mut film = Film::new([width, height]);
         let job = PassJob { scene: &self.scene, rays: &rays, settings: &settings };
         // Passes end where the number of samples has doubled.
         while film.spp() < spp && threads.pass(job, &mut film, spp, &|| false).failure.is_none() {}
+        if (asked.reuse == Reuse::On && !self.scene.shares(&rays, &settings)) || (asked.adaptive && !film.is_adaptive()) {
+            return None;
+        }
         let (mut sum, mut count) = (0.0, 0.0);
         for tile in &film.tiles {
             for row in 0..tile.size[1] {
@@ -125,7 +133,7 @@ impl Subject {
                 }
             }
         }
-        sum / count
+        Some(sum / count)
     }
 }
 

@@ -154,6 +154,13 @@ struct Known {
     along: f64,
 }
 
+impl Known {
+    /// Of a meeting at `t`, from the surface, in εS.
+    fn error(&self, t: f64) -> f64 {
+        (t - self.meeting.t).abs() * self.meeting.cos / self.digit
+    }
+}
+
 impl Kind {
     fn tally(&self, count: u32, random: Random) -> Tally {
         let shapes = Shapes::new(self.shapes.iter().map(|shape| (shape, &STILL)), DVec3::ZERO);
@@ -211,9 +218,15 @@ impl Kind {
             tally.must_hit += 1;
             let met = found.filter(|t| *t <= first.meeting.t + first.along && is_there(*t));
             tally.wrong += u32::from(met.is_none());
-            if let Some(t) = met.filter(|t| (t - first.meeting.t).abs() <= first.along) {
-                tally.errors.push((t - first.meeting.t).abs() * first.meeting.cos / first.digit);
-            }
+            // What is wrong has the error to where it should be.
+            let near = |t: f64| {
+                known
+                    .iter()
+                    .filter(possible)
+                    .filter(move |known| known.meeting.t <= first.meeting.t)
+                    .map(move |known| known.error(t))
+            };
+            tally.errors.extend(found.and_then(|t| near(t).min_by(f64::total_cmp)));
         } else if known.iter().any(|known| possible(&known)) {
             tally.close += 1;
             tally.wrong += u32::from(found.is_some_and(|t| !is_there(t)));

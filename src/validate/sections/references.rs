@@ -1,6 +1,8 @@
 //! Agreement with pictures by independent renderers.
 use std::{fs, path::Path};
 
+use statrs::distribution::{ChiSquared, ContinuousCDF};
+
 use crate::{
     math::SimdLevel,
     render::{
@@ -15,6 +17,8 @@ use crate::{
 const BLOCK: u32 = 16;
 /// Some 800 block means a scene: beyond this one in 10⁵ is by chance.
 const MOST_SIGMAS: f64 = 4.5;
+/// Of the root mean square of their deviations: beyond it are two in 10⁶ by chance, if three channels are one number.
+const MOST_RMS: f64 = 1.2;
 const UNREAD: &str = "its block means cannot be read";
 
 macro_rules! carried {
@@ -117,12 +121,18 @@ fn rows(validation: &Validation, reference: &Reference) -> Vec<Statement> {
     match compared(reference, settings, validation.spp(800).max(200)) {
         Ok(Agreement { worst, rms, count, sigma }) => {
             let largest = Statement::largest_z(what(format!("largest |z| of {count} block means")), &[worst], MOST_SIGMAS, sigma);
+            // Channels of a block have their noise in common.
+            let blocks = count as f64 / 3.0;
+            let chance_of_rms = ChiSquared::new(blocks).map_or(f64::NAN, |chi2| chi2.sf(MOST_RMS * MOST_RMS * blocks));
             // As the largest of many.
             let chance = count as f64 * chance_beyond(MOST_SIGMAS);
             let statistic = format!("largest of {count}, must be < {MOST_SIGMAS}");
             vec![
                 Statement { chance, statistic, ..largest },
-                Statement::below(what("root mean square of z".to_owned()), rms, 1.1).of_the_same(),
+                Statement {
+                    chance: chance_of_rms,
+                    ..Statement::below(what("root mean square of z".to_owned()), rms, MOST_RMS).of_the_same()
+                },
             ]
         }
         Err(reason) => vec![Statement { statistic: String::new(), ..Statement::below(what(reason), f64::NAN, 0.0) }],
