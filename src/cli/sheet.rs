@@ -7,7 +7,7 @@ use noisefall::{
     math::SimdLevel,
     memory::reserve,
     render::{display::to_srgb, film::Film, image_file::Format, pass::Threads},
-    report::sheet::{Cell, sheet},
+    report::sheet::{self, Cell},
     scene::{Camera, RenderSettings, load},
     study::{Bench, Lists, StudyError, differing_labels, study_size},
 };
@@ -70,6 +70,8 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     spp.dedup();
     let [width, height] = camera.resolution;
     let pictures = (combinations.len() * spp.len()) as u64;
+    let columns = arguments.columns.unwrap_or(if spp.len() > 1 { spp.len() as u32 } else { 4 });
+    sheet::check(camera.resolution, columns, u32::try_from(pictures).unwrap_or(u32::MAX))?;
     // The cells, and the sheet with its margins.
     let _memory =
         reserve(format_args!("{pictures} pictures of {width} × {height}"), pictures * u64::from(width) * u64::from(height) * 10)
@@ -83,8 +85,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         Ok(cells) => {
             let (common, _) = differing_labels(&combinations);
             let title = [scene.title.clone(), common].into_iter().filter(|line| !line.is_empty()).collect::<Vec<_>>();
-            let columns = arguments.columns.unwrap_or(if spp.len() > 1 { spp.len() as u32 } else { 4 });
-            let png = threads.install(|| sheet(camera.resolution, columns, &title, &cells))?;
+            let png = threads.install(|| sheet::sheet(camera.resolution, columns, &title, &cells))?;
             replace(&arguments.output, &png).map_err(|error| error.to_string())?;
             print(&format!("{}: {pictures} pictures of {width} × {height}", arguments.output.display()))?;
             Ok(ExitCode::SUCCESS)

@@ -26,7 +26,7 @@ impl Reference {
     pub fn of(scene: &Scene) -> Option<Reference> {
         match scene.truth.as_ref()? {
             Truth::Radiance(radiance) => Some(Reference::Constant(*radiance)),
-            Truth::Image(_, picture) => Some(Reference::Picture(picture.clone(), Arc::default())),
+            Truth::Image(path, picture) => Some(Reference::Picture(picture.clone(), Arc::new(provenance(path)))),
         }
     }
 
@@ -88,17 +88,15 @@ impl Reference {
 pub fn contradiction(scene: &Scene, threads: &Threads) -> Option<String> {
     /// Where the truth is the same everywhere, and any resolution will do.
     const LONGER_SIDE: u32 = 48;
-    const MOST_PIXELS: u64 = 1 << 17;
-    const SPP: u32 = 64;
+    /// Of the whole picture.
+    const SAMPLES: u64 = 1 << 23;
     let reference = Reference::of(scene)?;
     let [width, height] = scene.camera.resolution;
     let resolution = match &reference {
         Reference::Picture(picture, _) => [picture.width, picture.height],
         Reference::Constant(_) => [width, height].map(|side| (side * LONGER_SIDE / width.max(height)).max(1)),
     };
-    if resolution.map(u64::from).iter().product::<u64>() > MOST_PIXELS {
-        return None;
-    }
+    let spp = (SAMPLES / resolution.map(u64::from).iter().product::<u64>()).clamp(2, 64) as u32;
     let camera = Camera { resolution, ..scene.camera };
     let settings = RenderSettings {
         sampler: Sampler::Independent,
@@ -109,7 +107,7 @@ pub fn contradiction(scene: &Scene, threads: &Threads) -> Option<String> {
         ..scene.settings
     };
     let (rays, mut film) = (scene.rays(&camera), Film::new(resolution));
-    let count = threads.pass(PassJob { scene, rays: &rays, settings: &settings }, &mut film, SPP, &|| false);
+    let count = threads.pass(PassJob { scene, rays: &rays, settings: &settings }, &mut film, spp, &|| false);
     let frame = threads.install(|| Frame::of_film(&film, 0, resolution, resolution));
     if count.cut_paths == 0 && count.failure.is_none() { reference.contradiction(&frame) } else { None }
 }

@@ -32,12 +32,13 @@ struct Layout {
 }
 
 impl Layout {
-    fn new(picture: [u32; 2], columns: u32, title: &[String], cells: &[Cell]) -> Result<Layout, String> {
-        let lines = cells.iter().map(|cell| cell.lines.len()).max().unwrap_or(0) as u32;
-        let columns = columns.clamp(1, cells.len().max(1) as u32);
-        let rows = (cells.len() as u32).div_ceil(columns);
+    /// Of `count` pictures with so many lines each, and of the title.
+    fn new(picture: [u32; 2], columns: u32, count: u32, lines: [u32; 2]) -> Result<Layout, String> {
+        let [lines, of_title] = lines;
+        let columns = columns.clamp(1, count.max(1));
+        let rows = count.div_ceil(columns);
         let cell = [picture[0].max(LEAST_WIDTH) + MARGIN, picture[1] + LINE * lines + 2 * MARGIN];
-        let head = if title.is_empty() { MARGIN } else { LINE * title.len() as u32 + 2 * MARGIN };
+        let head = if of_title == 0 { MARGIN } else { LINE * of_title + 2 * MARGIN };
         let [width, height] =
             [u64::from(columns) * u64::from(cell[0]) + u64::from(MARGIN), u64::from(rows) * u64::from(cell[1]) + u64::from(head)];
         if width * height > MOST_PIXELS {
@@ -53,9 +54,19 @@ impl Layout {
     }
 }
 
+/// Whether a sheet of `count` pictures is small enough; an error says how large it would be.
+pub fn check(picture: [u32; 2], columns: u32, count: u32) -> Result<(), String> {
+    Layout::new(picture, columns, count, [2, 2]).map(|_| ())
+}
+
+fn layout(picture: [u32; 2], columns: u32, title: &[String], cells: &[Cell]) -> Result<Layout, String> {
+    let lines = cells.iter().map(|cell| cell.lines.len()).max().unwrap_or(0);
+    Layout::new(picture, columns, cells.len() as u32, [lines as u32, title.len() as u32])
+}
+
 /// A PNG of pictures of this size, in so many columns, below a title.
 pub fn sheet(picture: [u32; 2], columns: u32, title: &[String], cells: &[Cell]) -> Result<Vec<u8>, String> {
-    let layout = Layout::new(picture, columns, title, cells)?;
+    let layout = layout(picture, columns, title, cells)?;
     let [width, height] = layout.size;
     let mut rgb = vec![255; 3 * width as usize * height as usize];
     for (number, cell) in (0..).zip(cells) {
@@ -104,7 +115,7 @@ mod tests {
         let mut reader = png::Decoder::new(std::io::Cursor::new(bytes)).read_info().expect("a PNG");
         let mut rgb = vec![0; reader.output_buffer_size().expect("a size")];
         let info = reader.next_frame(&mut rgb).expect("pixels");
-        let layout = Layout::new([300, 10], 2, &["A scene".to_owned()], &cells).expect("a layout");
+        let layout = layout([300, 10], 2, &["A scene".to_owned()], &cells).expect("a layout");
         assert_eq!([info.width, info.height], layout.size);
         let at = |x: u32, y: u32| &rgb[3 * (y * info.width + x) as usize..][..3];
         for (number, colour) in [(0, 10), (1, 20), (2, 30)] {
@@ -115,6 +126,7 @@ mod tests {
             let ink = below.filter(|(x, y)| at(*x, *y)[0] < 128).count();
             assert_eq!(ink > 20, number < 2, "{ink} dark pixels below picture {number}");
         }
-        assert!(Layout::new([16_384, 16_384], 2, &[], &cells).is_err_and(|error| error.contains("--size")));
+        assert!(check([4096, 4096], 2, 6).is_ok());
+        assert!(check([4096, 4096], 2, 9).is_err_and(|error| error.contains("--size")));
     }
 }
