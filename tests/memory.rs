@@ -11,7 +11,7 @@ use noisefall::{
     math::SimdLevel,
     memory::set_limit,
     render::{
-        Budget, Frame, Job, Publish, Renderer, State, Target,
+        Beside, Budget, Frame, Job, Publish, Renderer, State, Target,
         film::Film,
         pass::{PassJob, Threads},
     },
@@ -221,8 +221,8 @@ fn a_picture_that_does_not_fit_fails_in_words() {
     renderer.submit(job(2000));
     let state = |generation: u64| loop {
         wait.recv().expect("the worker is there");
-        let status = renderer.latest().status;
-        if status.generation == generation && status.state != State::Running {
+        let both = [renderer.latest(), renderer.latest_beside()].map(|published| published.status);
+        if let Some(status) = both.into_iter().find(|of| of.generation == generation && of.state != State::Running) {
             return status.state;
         }
     };
@@ -231,4 +231,8 @@ fn a_picture_that_does_not_fit_fails_in_words() {
     // What did not fit is not counted, and a small picture fits.
     renderer.submit(job(64));
     assert_eq!(state(64), State::Done(Target::Samples(1)));
+    // Of each of eight terms, 12 bytes a pixel in the film and in two frames.
+    renderer.submit_beside(Some(Beside::Series(job(160))));
+    let State::Failed(failure) = state(160) else { panic!("it is rendered") };
+    assert!(failure.message.starts_with("bounces of 160 × 160 pixels need 7.4 MB;"), "{}", failure.message);
 }

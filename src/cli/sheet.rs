@@ -121,3 +121,31 @@ fn cells(arguments: &Arguments, bench: &Bench, combinations: &[RenderSettings], 
     bar.finish_and_clear();
     Ok(cells)
 }
+
+#[cfg(test)]
+mod tests {
+    use clap::Parser;
+    use noisefall::scene::{Reuse, built_in};
+
+    use super::*;
+
+    #[derive(Parser)]
+    struct Program {
+        #[command(flatten)]
+        arguments: Arguments,
+    }
+
+    /// The last sample takes hardly any of the time.
+    #[test]
+    fn the_seconds_of_a_picture_are_those_of_all_its_samples() {
+        let arguments = Program::parse_from(["sheet", "a.toml", "-o", "a.png"]).arguments;
+        let (scene, threads) = (built_in(), Threads::new(1, SimdLevel::best()).expect("a thread"));
+        let camera = Camera { resolution: [40, 40], ..scene.camera };
+        let settings = RenderSettings { reuse: Reuse::Off, ..scene.settings };
+        let bench = Bench { scene: &scene, camera: &camera, threads: &threads, stop: &|| false };
+        let cells = cells(&arguments, &bench, &[settings], &[64, 65]).expect("two pictures");
+        let seconds: Vec<f64> =
+            cells.iter().filter_map(|cell| cell.lines.last()?.split_once(" spp, ")?.1.strip_suffix(" s")?.parse().ok()).collect();
+        assert!(seconds.len() == 2 && seconds[1] >= seconds[0], "{seconds:?}");
+    }
+}

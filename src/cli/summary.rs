@@ -152,7 +152,7 @@ mod tests {
     }
 
     fn frame(radiance: f32) -> Frame {
-        let (radiance, counts) = (vec![[radiance; 3]; 4], vec![2, 3, 2, 3]);
+        let (radiance, counts) = (vec![[radiance, 2.0 * radiance, 4.0 * radiance]; 4], vec![2, 3, 2, 3]);
         Frame { width: 4, height: 1, full_resolution: [4, 1], radiance, spp: 2, counts, ..Frame::default() }
     }
 
@@ -191,7 +191,7 @@ mod tests {
             "simd": SimdLevel::best().name(), "version": env!("CARGO_PKG_VERSION"), "commit": env!("NOISEFALL_COMMIT"),
             "estimator": "mis", "directions": "bsdf", "sampler": "sobol", "roulette": "throughput", "roulette_start": 4,
             "max_bounces": 5, "reuse": "auto", "shares": true, "adaptive": "off", "adapts": false, "seed": 8,
-            "build_seconds": 0.25, "seconds": 0.5, "paths": 10, "paths_per_second": 20.0, "rays": 77, "mean": [1.0, 1.0, 1.0],
+            "build_seconds": 0.25, "seconds": 0.5, "paths": 10, "paths_per_second": 20.0, "rays": 77, "mean": [1.0, 2.0, 4.0],
             "rel_mse_estimate": 0.0009, "biased": "cap at 5", "cut_paths": 6, "dropped_triangles": 0, "invalid_samples": 4,
             "rmse": 0.125, "rel_mse": 0.0004, "bias": -2.0, "bias_standard_error": null, "bias_in_standard_errors": null,
             "exact_samples": false, "heavy_tails": false, "replay": "noisefall render a.toml --pixel 1,0",

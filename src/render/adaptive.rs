@@ -239,4 +239,13 @@ mod tests {
         let chance: [fn(usize) -> f64; 2] = [|i| if i % 5 == 0 { 100.0 } else { 1.0 }, |i| if i % 7 == 1 { 100.0 } else { 1.0 }];
         assert!(gain(chance, |_| 1.0) < 1.0);
     }
+
+    #[test]
+    fn a_block_costs_the_segments_of_its_own_pixels() {
+        // Its blocks are three in a row, the last one 3 pixels wide, and of the second row 5 high.
+        let tile = Tile::new([64, 32], [19, 13]);
+        let mut segments = Segments::default();
+        (segments.0[1], segments.0[4], segments.0[6]) = (64, 80, 45);
+        assert_eq!([0, 1, 3, 5].map(|block| cost_of_block(&tile, block, &segments)), [0.5, 1.5, 2.5, 3.5]);
+    }
 }

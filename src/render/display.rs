@@ -185,5 +185,6 @@ mod tests {
         assert_eq!(show(0.0, ToneMap::Reinhard), [code(0.25 / (1.0 + y)), 0, 255, 255]);
         let aces = |c: f64| c * (2.51 * c + 0.03) / (c * (2.43 * c + 0.59) + 0.14);
         assert_eq!(show(0.0, ToneMap::Aces), [code(aces(0.25)), 0, code(aces(2.0)), 255]);
+        assert_eq!(show(1.0, ToneMap::Aces), [code(aces(0.5)), 0, code(aces(4.0)), 255]);
     }
 }

@@ -269,6 +269,29 @@ mod tests {
         assert_eq!(latex.matches('{').count(), latex.matches('}').count(), "{latex}");
     }
 
+    /// By hand: 0.25 · 3 + 2 + 0.35/0.8 · 0.9 · 0.6/0.5 · 4.
+    #[test]
+    fn roulette_light_samples_media_and_delta_lobes_have_their_places() {
+        let level = |transmittance, (weight, radiance), light, factor| Level {
+            transmittance: [transmittance; 3],
+            emission: (weight, [radiance; 3]),
+            light: [light; 3],
+            factor,
+        };
+        let factor = |f_cos_pdf, weight, survival| Some(Factor { f_cos_pdf, weight: [weight; 3], survival });
+        let levels = [
+            level(1.0, (0.25, 3.0), 2.0, factor(Some(([0.2; 3], 0.7, 0.4)), 0.35, 0.8)),
+            level(0.9, (1.0, 0.0), 0.0, factor(None, 0.6, 0.5)),
+            level(1.0, (1.0, 4.0), 0.0, None),
+        ];
+        assert_eq!(
+            symbols(&TEXT, &levels),
+            "τ₀ (w₀ L_e(x₀) + D₀ + f₀ cos θ₀/(p₀ q₀) (τ₁ (w₁ L_e(x₁) + D₁ + f₁ cos θ₁/(p₁ q₁) (…))))"
+        );
+        let sum = "0.25 · 3 + 2 + 0.2 · 0.7/(0.4 · 0.8) (\n      0.9 · (0 + 0.6/0.5 (\n        4)))";
+        assert_eq!((numbers(&TEXT, &levels).as_str(), TEXT.colour(value(&levels)).as_str()), (sum, "4.64"));
+    }
+
     #[test]
     fn numbers_have_five_digits_that_count() {
         let numbers = [0.0, 1.0, 0.5, 1.0 / 3.0, 123.456, 0.0012345678, 1e-7, 98765.4, -2.5].map(short);

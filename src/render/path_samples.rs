@@ -61,4 +61,12 @@ mod tests {
         near(number(3, 5), 3.0);
         near(number(3, 6), 7.0);
     }
+
+    #[test]
+    fn every_channel_has_its_column() {
+        let mut table = SampleTable::default();
+        table.extend(4, &[[0.5, 0.25, 2.0]]);
+        let y = f64::from(luminance([0.5, 0.25, 2.0]));
+        assert_eq!(table.csv(), format!("{COLUMNS}\n4,0.5,0.25,2,{y},{y},\n"));
+    }
 }

@@ -157,3 +157,60 @@ fn place([x, y, z]: [f32; 3]) -> String {
 fn number(x: f32) -> String {
     if x == 0.0 || (1e-3..1e4).contains(&x.abs()) { format!("{x:.5}") } else { format!("{x:.4e}") }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Reuse, built_in};
+
+    /// The first path through the middle of the built-in scene that has a light sample, and its vertex.
+    fn lit(scene: &Scene, settings: &RenderSettings) -> Vertex {
+        let rays = scene.rays(&scene.camera);
+        let middle = scene.camera.resolution.map(|side| side / 2);
+        let paths = (0..100).map(|sample| crate::integrator::replay(scene, &rays, settings, middle, sample));
+        paths
+            .flat_map(|path| path.vertices)
+            .find(|vertex| vertex.light.is_some() && vertex.reflection.is_some())
+            .expect("a light sample")
+    }
+
+    #[test]
+    fn a_vertex_says_its_side_its_light_sample_and_how_the_path_goes_on() {
+        let scene = built_in();
+        let mut vertex = lit(&scene, &RenderSettings { reuse: Reuse::Off, ..scene.settings });
+        let mut told = |front, outcome, [goes_on, survives]: [bool; 2]| {
+            let (Some(surface), Some(light), Some(next)) = (&mut vertex.surface, &mut vertex.light, &mut vertex.reflection)
+            else {
+                panic!("it has all of them")
+            };
+            (surface.front, light.outcome, light.radiance, light.contribution) = (front, outcome, [7.0; 3], [0.5, 2.0, 3.0]);
+            (next.goes_on, next.survives, next.survival, next.throughput) = (goes_on, survives, 0.25, [0.75; 3]);
+            block(&scene, &vertex)
+        };
+        for (front, outcome, [goes_on, survives], parts) in [
+            (true, Outcome::Seen, [true, true], [", front, ", "is seen, adds 0.50000 2.00000 3.00000", "goes on with 0.75000 "]),
+            (false, Outcome::Hidden, [false, false], [", back, ", "is hidden", "survival 0.25000, ended by roulette"]),
+            (
+                true,
+                Outcome::Void,
+                [false, true],
+                [", front, ", "cannot be reflected or is dark", "ends: nothing would come of it"],
+            ),
+        ] {
+            let told = told(front, outcome, [goes_on, survives]);
+            parts.iter().for_each(|part| assert!(told.contains(part), "{part}: {told}"));
+        }
+    }
+
+    #[test]
+    fn what_a_path_alone_would_have_made_is_told_beside_what_is_shared() {
+        let scene = built_in();
+        let settings = RenderSettings { roulette: Roulette::Throughput { start: 3 }, ..scene.settings };
+        let id = PathId { scene: &scene, camera: &scene.camera, settings: &settings, pixel: [5, 6], sample: 7 };
+        let replay = Replay { radiance: [1.0, 2.0, 3.0], alone: Some([4.0, 5.0, 6.0]), ..Replay::default() };
+        let said = text(&id, &replay);
+        assert!(said.starts_with("pixel 5,6, sample 7: radiance 1.00000 2.00000 3.00000\n"), "{said}");
+        assert!(said.contains("This path alone would have made it 4.00000 5.00000 6.00000: pixels share"), "{said}");
+        assert!(said.contains("roulette throughput from bounce 3 on, max_bounces none"), "{said}");
+    }
+}

@@ -171,8 +171,10 @@ fn a_path_can_be_replayed() {
         assert!(!vertex[field].is_null(), "{field}: {vertex}");
     }
     assert!(vertex["emission"]["weight"] == 1.0 && vertex["reflection"]["survival"] == 1.0, "{vertex}");
-    let outside = shell.run(&["render", &scene("furnace"), "--pixel", "9999,4"]);
-    assert!(outside.status.code() == Some(1) && text(&outside.stderr).contains("outside the picture"));
+    for pixel in ["8,4", "4,6"] {
+        let outside = shell.run(&["render", &scene("furnace"), "--size", "8x6", "--pixel", pixel]);
+        assert!(outside.status.code() == Some(1) && text(&outside.stderr).contains("outside the picture of 8 × 6"), "{pixel}");
+    }
 }
 
 #[test]
@@ -229,5 +231,6 @@ fn pictures_of_different_sizes_are_not_compared() {
         assert!(shell.run(&["render", &scene("furnace"), "-o", file, "--spp", "1", "--size", size]).status.success());
     }
     let output = shell.run(&["compare", "a.png", "b.png"]);
-    assert!(output.status.code() == Some(1) && text(&output.stderr).contains("differ in size"));
+    assert_eq!(output.status.code(), Some(1));
+    assert_eq!(text(&output.stderr), "the pictures differ in size: a.png is 8 × 8, b.png is 8 × 9\n");
 }

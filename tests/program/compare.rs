@@ -48,6 +48,23 @@ fn z(line: &Value) -> f64 {
     line["bias_in_standard_errors"].as_f64().unwrap_or_else(|| panic!("{line}"))
 }
 
+/// Of a picture with variances against one without: the text has the numbers of the JSON, each after its name.
+fn assert_text_agrees(told: &str, line: &Value) {
+    let number = |name: &str| line[name].as_f64().unwrap_or_else(|| panic!("{name}: {line}"));
+    let z: Vec<f64> = line["block_z"].as_array().expect("blocks").iter().filter_map(Value::as_f64).collect();
+    let worst = z.iter().copied().max_by(|a, b| a.abs().total_cmp(&b.abs())).expect("a block");
+    let rms = (z.iter().map(|z| z * z).sum::<f64>() / z.len() as f64).sqrt();
+    let [bias, error, z] = ["bias", "bias_standard_error", "bias_in_standard_errors"].map(&number);
+    for part in [
+        format!("RMSE    {:.6e}\nrelMSE  {:.6e}\n", number("rmse"), number("rel_mse")),
+        format!("bias    {bias:+.6e} ± {error:.2e}: {z:+.2} standard errors\n"),
+        format!(" of 32 × 32 pixels: worst z {worst:+.2}, root mean square {rms:.2} (noise alone: 1)\n"),
+        "note: the own error of truth.exr is not known and taken for 0\n".to_owned(),
+    ] {
+        assert!(told.contains(&part), "{part}: {told}");
+    }
+}
+
 /// One in 30000 by chance.
 const SIGMAS: f64 = 4.0;
 
@@ -67,6 +84,7 @@ fn the_bias_of_a_capped_furnace_is_as_many_standard_errors_as_closed_form_says()
         // Each of the four blocks has a quarter of the samples: twice the standard error.
         assert!(blocks.len() == 4 && blocks.iter().all(|z| (z.as_f64().unwrap_or(0.0) / exact - 0.5).abs() < 0.03), "{line}");
         assert_eq!((&line["heavy_tails"], &line["exact_samples"]), (&Value::Bool(false), &Value::Bool(false)));
+        assert_text_agrees(&said(&shell, &["capped.exr", "truth.exr"]), &line);
     }
 }
 
@@ -98,7 +116,8 @@ fn two_pictures_alone_say_nothing_of_the_standard_error_and_repeats_do() {
     let alone = compare(&shell, &["a.png", "b.png"]);
     assert!(alone["bias_standard_error"].is_null() && alone["bias_in_standard_errors"].is_null() && alone["block_z"].is_null());
     let told = said(&shell, &["a.png", "b.png"]);
-    assert!(told.contains("standard error unknown") && told.contains("--repeats with other seeds"), "{told}");
+    assert!(told.contains("standard error unknown") && told.contains("unknown: a.png has no variances; render it"), "{told}");
+    assert!(told.contains("or name --repeats with other seeds"), "{told}");
     let repeated = compare(&shell, &["a.png", "b.png", "--repeats", "c.png", "d.png", "e.png"]);
     assert!(repeated["bias_standard_error"].as_f64().is_some_and(|error| error > 0.0), "{repeated}");
     assert!(z(&repeated).abs() < SIGMAS && repeated["block_z"].as_array().map(Vec::len) == Some(16), "{repeated}");
@@ -227,11 +246,22 @@ fn differences_are_written_as_numbers_and_as_colours() {
     assert!(refused.status.code() == Some(1) && text(&refused.stderr).contains("there is no folder"));
 }
 
-/// Radiance 2, 1 and 0.5 against 1: relative luminances differ by 1, 0 and −0.5 over √1.01, and the largest has full colour.
+#[test]
+fn a_pixel_that_is_no_number_is_named_by_column_and_row() {
+    let shell = Shell::new();
+    let mut frame = Frame { width: 5, height: 2, full_resolution: [5, 2], radiance: vec![[1.0; 3]; 10], ..Frame::default() };
+    frame.radiance[5 + 3][1] = f32::NAN;
+    image_file::save(&frame, Display::default(), "{}", &shell.path("a.exr")).expect("it is saved");
+    let refused = shell.run(&["compare", "a.exr", "a.exr"]);
+    assert_eq!(refused.status.code(), Some(1));
+    assert_eq!(text(&refused.stderr), "a.exr: pixel 3,1 is not a finite number\n");
+}
+
+/// Luminance 2, 1 and 0.5 against 1: it differs by 1, 0 and −0.5 over √1.01, and the largest difference has full colour.
 #[test]
 fn colours_of_a_difference_have_its_sign_and_size() {
     let shell = Shell::new();
-    let radiance: Vec<[f32; 3]> = (0..64 * 64).map(|i| [[2.0, 1.0, 0.5][i % 64 / 22]; 3]).collect();
+    let radiance: Vec<[f32; 3]> = (0..64 * 64).map(|i| [[2.0; 3], [0.0, 1.0 / 0.7152, 0.0], [0.5; 3]][i % 64 / 22]).collect();
     let frame = Frame { width: 64, height: 64, full_resolution: [64; 2], radiance, ..Frame::default() };
     image_file::save(&frame, Display::default(), "{}", &shell.path("a.exr")).expect("it is saved");
     save_constant(&shell, "b.exr", 1.0);

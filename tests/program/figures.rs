@@ -1,6 +1,7 @@
 //! What commands print for other programs is what `docs/figures.schema.json` says.
 use std::fs;
 
+use noisefall::math::colour::linear_from_srgb;
 use serde_json::{Value, json};
 
 use super::command_line::{Shell, json as last_line, scene, text};
@@ -142,6 +143,12 @@ fn exposure_and_tone_map_change_a_png_and_not_an_exr() {
     near(render("b.png", &["--exposure", "-1"]).0, 0.5);
     near(render("c.png", &["--tone", "reinhard"]).0, 0.5);
     near(render("d.png", &["--tone", "reinhard", "--exposure", "1"]).0, 2.0 / 3.0);
+    near(
+        render("d.png", &["--tone", "aces", "--exposure", "1"]).0,
+        2.0 * (2.51 * 2.0 + 0.03) / (2.0 * (2.43 * 2.0 + 0.59) + 0.14),
+    );
+    // A million times as bright: the yellow end of the scale.
+    near(render("d.png", &["--tone", "false-colour", "--exposure", "20"]).0, linear_from_srgb(231.0 / 255.0));
     let (radiance, notes) = render("e.exr", &["--exposure", "-1"]);
     assert!(radiance == 1.0 && notes.contains("change a PNG only"), "{radiance} {notes}");
 }

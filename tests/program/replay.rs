@@ -6,7 +6,7 @@ use noisefall::integrator::End;
 use super::command_line::{Shell, json, scene, text};
 
 fn replay(shell: &Shell, name: &str, options: &[&str]) -> String {
-    let output = shell.run(&[&["render", &scene(name), "--pixel", "20,30", "--size", "64x64"], options].concat());
+    let output = shell.run(&[&["render", &scene(name), "--pixel", "20,30", "--size", "64x48"], options].concat());
     assert!(output.status.success(), "{}", text(&output.stderr));
     text(&output.stdout)
 }
@@ -15,13 +15,19 @@ fn replay(shell: &Shell, name: &str, options: &[&str]) -> String {
 fn a_path_is_told_with_settings_nested_sum_and_end() {
     let shell = Shell::new();
     let exact = ["--estimator", "path", "--directions", "cosine", "--roulette", "off", "--max-bounces", "2", "--sample", "5"];
+    let exact = [&exact[..], &["--reuse", "off", "--adaptive", "on"]].concat();
     let said = replay(&shell, "furnace", &exact);
     for part in [
         "pixel 20,30, sample 5: radiance 1.75",
         "estimator path, directions cosine, sampler sobol, seed 0",
         "roulette off, max_bounces 2",
+        "reuse off, adaptive on, 64 × 48 pixels",
         "L = L_e(x₀) + f₀ cos θ₀/p₀ (L_e(x₁) + f₁ cos θ₁/p₁ (…))",
         "  = 1.75",
+        "throughput      0.25000 0.25000 0.25000",
+        "emission        Le 1.00000 1.00000 1.00000, weight 1.00000",
+        "adds 0.25000 0.25000 0.25000",
+        "radiance so far 1.75000 1.75000 1.75000",
         "reflected: diffuse reflection",
         "The path ends at the cap on bounces.",
     ] {
@@ -114,14 +120,14 @@ fn samples_come_as_a_table_in_one_process_and_the_first_lit_one_is_found() {
     assert_eq!((rows.len(), rows[0][0], rows[4989][0]), (4990, 10.0, 4999.0));
     let mean = rows.iter().map(|row| row[4]).sum::<f64>() / 4990.0;
     assert!((rows[4989][5] - mean).abs() <= 1e-9 * mean.abs(), "{mean} {:?}", rows[4989]);
-    let done = shell.run(
-        &[
-            &["render", &scene("tiny_lamp"), "--pixel", "20,30", "--size", "64x64", "--sample", "0-9", "--csv", "a.csv"],
-            &small[..],
-        ]
-        .concat(),
-    );
-    assert!(done.status.success() && fs::read_to_string(shell.path("a.csv")).expect("a table").lines().count() == 11);
+    let written = |sampler: &str| {
+        let few = ["--pixel", "20,30", "--sample", "0-9", "--csv", "a.csv", "--reuse", "off", "--sampler", sampler];
+        let done = shell.run(&[&["render", &scene("tiny_lamp")], &few[..]].concat());
+        assert!(done.status.success() && fs::read_to_string(shell.path("a.csv")).expect("a table").lines().count() == 11);
+        text(&done.stderr)
+    };
+    assert_eq!(written("independent"), "");
+    assert!(written("sobol").starts_with("note: these samples are not independent"));
 
     let line = |sample: &str| {
         let output = shell.run(

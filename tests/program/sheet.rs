@@ -10,7 +10,7 @@ fn a_sheet_has_a_picture_for_each_combination() {
         assert!(done.status.success(), "{}", text(&done.stderr));
         (noisefall::render::image_file::read(&shell.path(file)).expect("a picture"), text(&done.stdout))
     };
-    let two = ["--spp", "1,2", "--estimators", "path,mis", "--max-bounces", "0", "--exposure", "-1"];
+    let two = ["--spp", "2,1,2", "--estimators", "path,mis", "--max-bounces", "0", "--exposure", "-1"];
     let (picture, said) = sheet("a.png", &two);
     assert!(said.contains("4 pictures of 220 × 10"), "{said}");
     // Every pixel of the pictures is 1, by half a stop of exposure 0.5: four of 2200 pixels, and hardly any of the ink.
@@ -28,4 +28,23 @@ fn a_sheet_has_a_picture_for_each_combination() {
     assert!(huge.status.code() == Some(1) && text(&huge.stderr).contains("make the pictures smaller"), "{}", text(&huge.stderr));
     let large = shell.run(&["sheet", &furnace, "-o", "a.png", "--size", "9000x3000", "--memory", "100M"]);
     assert!(large.status.code() == Some(1) && text(&large.stderr).contains("9000 × 3000"), "{}", text(&large.stderr));
+}
+
+#[test]
+fn another_seed_gives_other_pictures() {
+    let shell = Shell::new();
+    let furnace = scene("furnace");
+    // The picture is red, and ink, which says how long it took, is grey.
+    let red =
+        std::fs::read_to_string(&furnace).expect("it is shipped").replace("radiance = 1.0 }", "radiance = [1.0, 0.5, 0.5] }");
+    std::fs::write(shell.path("red.toml"), red).expect("it is written");
+    let few = ["--size", "8x8", "--spp", "1", "--max-bounces", "2", "--exposure", "-2"];
+    let picture = |seed: &str| {
+        let done = shell.run(&[&["sheet", "red.toml", "-o", "a.png", "--seed", seed], &few[..]].concat());
+        assert!(done.status.success(), "{}", text(&done.stderr));
+        let sheet = noisefall::render::image_file::read(&shell.path("a.png")).expect("a picture").radiance;
+        sheet.into_iter().filter(|rgb| rgb[0] != rgb[1]).collect::<Vec<_>>()
+    };
+    let first = picture("1");
+    assert!(first.len() == 64 && first == picture("1") && first != picture("2"), "{first:?}");
 }

@@ -33,6 +33,18 @@ fn before_the_second_sample_there_is_no_standard_error() {
     assert!(frame.standard_error[31].is_finite() && frame.standard_error[32].is_nan());
 }
 
+/// By the scatter of whole samples: with one degree of freedom fewer than the tile has that has the fewest.
+#[test]
+fn blocks_that_share_paths_are_known_by_the_fewest_samples() {
+    let mut film = Film::new([33, 2]);
+    film.tiles.iter_mut().zip([3, 5]).for_each(|(tile, spp)| add(tile, 0..spp));
+    let mut degrees = |shares| {
+        film.shares = shares;
+        Frame::of_film(&film, 0, [33, 2], [33, 2]).noise.expect("three samples").block_degrees
+    };
+    assert_eq!([false, true].map(&mut degrees), [f64::INFINITY, 2.0]);
+}
+
 #[test]
 fn a_pixel_of_the_picture_is_found_in_a_coarse_frame() {
     let frame = Frame { width: 5, height: 3, full_resolution: [10, 9], ..Frame::default() };

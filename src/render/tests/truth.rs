@@ -2,12 +2,15 @@
 use std::sync::Arc;
 
 use crate::{
+    math::SimdLevel,
     measure::SampleNoise,
     render::{
         frame::Frame,
         image_file::{Picture, Provenance},
-        truth::Reference,
+        pass::Threads,
+        truth::{Reference, contradiction},
     },
+    scene::parse,
 };
 
 /// 64 × 32 pixels of radiance 1.5, whose two blocks have these variances.
@@ -60,4 +63,31 @@ fn the_noise_of_the_reference_counts_and_what_is_not_known_is_not_claimed() {
     assert_eq!((unknown.mean, unknown.standard_error, unknown.z), (0.5, None, None));
     // Without noise a difference is no number of standard errors.
     assert_eq!(Reference::Constant([1.0; 3]).bias(&frame([0.0; 2])).and_then(|bias| bias.z), None);
+}
+
+#[test]
+fn a_frame_contradicts_the_truth_where_noise_cannot_explain_the_difference() {
+    let said = |truth: f32, frame: &Frame| Reference::Constant([truth; 3]).contradiction(frame).unwrap_or_default();
+    assert!(
+        said(1.0, &frame([0.01; 2])).ends_with("5.000e-1 more radiance on average than [truth] says, by 7.1 standard errors")
+    );
+    let exact = frame([0.0; 2]);
+    assert!(
+        said(2.0, &exact).ends_with("5.000e-1 less radiance on average than [truth] says, although its samples have no noise")
+    );
+    let mut heavy = frame([0.01; 2]);
+    heavy.noise.as_mut().expect("it has noise").effective_samples = 20.0;
+    let black = Frame { radiance: vec![[0.0; 3]; 64 * 32], ..frame([0.01; 2]) };
+    for (truth, frame) in [(1.5, exact), (1.0, frame([0.1; 2])), (1.0, heavy), (1.0, black)] {
+        assert_eq!(said(truth, &frame), "");
+    }
+}
+
+/// The truth is that of the equation, whatever the scene's own cap leaves out.
+#[test]
+fn a_scene_is_held_against_its_truth_without_its_cap() {
+    let mut scene = parse("furnace.toml", include_str!("../../../scenes/furnace.toml").to_owned()).expect("a scene");
+    (scene.camera.resolution, scene.settings.max_bounces) = ([48, 8], Some(1));
+    let threads = Threads::new(1, SimdLevel::best()).expect("a thread");
+    assert_eq!(contradiction(&scene, &threads), None);
 }

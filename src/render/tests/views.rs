@@ -179,6 +179,38 @@ fn numbers_have_the_colours_of_their_scale() {
 }
 
 #[test]
+fn a_scale_has_the_unit_of_its_view_and_what_is_missing_is_asked_for() {
+    let (frame, features) = (Frame { counts: (0..8).collect(), ..frame() }, features());
+    let truth = Reference::Constant([2.0; 3]);
+    let all = Sources { features: Some(&features), truth: Some(&truth), pinned: Some(&frame), ..sources(&frame, &[]) };
+    let legend = |view, sources: &Sources| draw(Look { view, ..Look::default() }, sources, &mut Vec::new()).expect("a legend").0;
+    for (view, unit, high) in [
+        (View::StandardError, "W/(sr·m²)", 1.0),
+        (View::SampleCount, "samples", 7.0),
+        (View::ZScore, "σ", 4.0),
+        (View::Difference, "parts of the pinned one, or of B", 0.001),
+        (View::Depth, "m", 50.0),
+        (View::HitCost, "ns a ray", 50.0),
+    ] {
+        let scale = legend(view, &all).scale.expect("a scale");
+        assert_eq!((scale.unit, scale.ends[1]), (unit, high), "{view:?}");
+    }
+    let missing = [View::ZScore, View::Difference, View::Depth].map(|view| legend(view, &sources(&frame, &[])).title);
+    let starts = ["No truth for this", "Nothing of this size", "Coming"];
+    assert!(missing.iter().zip(starts).all(|(title, start)| title.starts_with(start)), "{missing:?}");
+}
+
+#[test]
+fn colours_are_compared_by_luminance() {
+    let one = |radiance| Frame { width: 1, height: 1, radiance: vec![radiance], standard_error: vec![0.25], ..Frame::default() };
+    let (green, pinned, truth) = (one([0.0, 1.0, 0.0]), one([1.0, 0.0, 0.0]), Reference::Constant([0.0, 0.0, 1.0]));
+    let all = Sources { truth: Some(&truth), pinned: Some(&pinned), ..sources(&green, &[]) };
+    is(&numbers(View::ZScore, &all), &[(0.7152 - 0.0722) / 0.25]);
+    // The mean square of red, green and blue is a third: 1 % of that is the floor.
+    is(&numbers(View::Difference, &all), &[(0.7152 - 0.2126) / (0.2126f32.powi(2) + 0.01 / 3.0).sqrt()]);
+}
+
+#[test]
 fn every_pixel_of_a_large_picture_has_its_own_code() {
     let radiance: Vec<[f32; 3]> = (0..1300).map(|i| [i as f32 / 1300.0, 1.0 - i as f32 / 1300.0, 0.25]).collect();
     for tone_map in [ToneMap::None, ToneMap::Reinhard, ToneMap::Aces, ToneMap::FalseColour] {
