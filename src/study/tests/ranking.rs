@@ -13,7 +13,7 @@ use crate::{
         outcome::Limits,
         ranking::rank,
         setting::Setting,
-        table,
+        slope, table,
         trial::Group,
         verdict,
         wording::{certainty, command, mean_error, percent, significant},
@@ -29,7 +29,7 @@ fn run(rel_mse: f64, seconds: f64) -> Run {
             rmse: 1.0,
             rel_mse: rel_mse * all / share,
             bias: 0.0,
-            bias_standard_error: None,
+            bias_standard_error: Some(0.1 / share.sqrt()),
         }
     };
     Run { checkpoints: checkpoints(16).into_iter().map(point).collect(), ..Run::default() }
@@ -183,6 +183,9 @@ fn what_is_far_worse_says_nothing_of_how_sure_the_first_places_are() {
     // 1.1 times the spread in two of four degrees of freedom: exp(4.3027 · ln 1.1/2) = 1.2276 for both near ones.
     assert!((far.uncertainty().expect("repeats") - 1.2276).abs() < 1e-3, "{:?}", far.uncertainty());
     assert_eq!((far.rivals().count(), near.rivals().count()), (0, 1));
+    // 0.0145/√(0.01 · 0.011) = 1.3825, divided and multiplied by the factor.
+    let said = "It is 1.38 times as efficient as the next (95 %, by the spread of repeats: 1.13 to 1.70).";
+    assert_eq!(certainty(&far), said);
 }
 
 #[test]
@@ -230,8 +233,17 @@ fn an_outcome_is_the_mean_of_its_runs_where_they_end() {
     // Squared errors that fall as 1/N: the slope of the root is −1/2, from 4 samples on.
     assert!(found.slope.is_some_and(|slope| (slope.slope + 0.5).abs() < 1e-9), "{:?}", found.slope);
     let mut bent = run(0.01, 1.0);
-    bent.checkpoints.iter_mut().take(2).for_each(|point| point.rel_mse *= 100.0);
-    assert!(outcome(RenderSettings::default(), &[bent]).slope.is_some_and(|slope| (slope.slope + 0.5).abs() < 1e-9));
+    for point in &mut bent.checkpoints[..2] {
+        (point.rel_mse, point.bias_standard_error) = (100.0 * point.rel_mse, Some(9.0));
+    }
+    // Nothing varied in 8 samples, of which there is no logarithm.
+    bent.checkpoints[3].bias_standard_error = Some(0.0);
+    let bent = outcome(RenderSettings::default(), &[bent, run(0.01, 1.0)]);
+    assert!(bent.slope.is_some_and(|slope| (slope.slope + 0.5).abs() < 1e-9));
+    // The variance of the mean is the square of a standard error that falls as 1/√N.
+    for known in [found, bent] {
+        assert!(slope(&known.variances).is_some_and(|slope| (slope.slope + 1.0).abs() < 1e-9), "{:?}", known.variances);
+    }
     // As many checkpoints as all runs have.
     let mut short = run(0.01, 1.0);
     short.checkpoints.truncate(3);

@@ -369,7 +369,7 @@ fn a_dropped_file_is_a_scene_a_picture_with_its_scene_or_a_reference() {
         app.opened.as_ref().is_some_and(|opened| opened.path.as_ref() == Some(&picture))
     });
     let of_picture = window.state().opened.as_ref().map(|opened| opened.scene.objects.len());
-    assert_eq!(of_picture, load(&shipped("cornell_spheres")).ok().map(|scene| scene.objects.len()));
+    assert_eq!(of_picture, noisefall::scene::load(&shipped("cornell_spheres")).ok().map(|scene| scene.objects.len()));
 }
 
 #[test]
