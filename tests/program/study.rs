@@ -37,6 +37,12 @@ fn a_study_writes_measurements_and_a_report_that_needs_nothing_else() {
     assert!(csv.starts_with("scene,width,height,estimator,"), "{csv}");
     // 1, 2, 4, 8 and 11 samples, twice each.
     assert!(csv.lines().count() > 1 && (csv.lines().count() - 1).is_multiple_of(5 * 2), "{csv}");
+    let mut table = csv::Reader::from_reader(csv.as_bytes());
+    let header = table.headers().expect("names").clone();
+    let numbers = ["repeat", "seed"].map(|name| header.iter().position(|column| column == name).expect("a column"));
+    let of_repeats: BTreeSet<[String; 2]> =
+        table.records().map(|row| numbers.map(|at| row.as_ref().expect("a line")[at].to_owned())).collect();
+    assert_eq!(of_repeats, [["1", "0"], ["2", "1"]].map(|pair| pair.map(str::to_owned)).into());
     assert!(csv.contains(",cap at 1,") && csv.contains(",the exact radiance,") && csv.contains("a converged render"), "{csv}");
 
     let report = fs::read_to_string(shell.path("new/study/report.html")).expect("a report");

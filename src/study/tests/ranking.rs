@@ -123,6 +123,11 @@ fn the_error_of_the_reference_is_taken_off_and_ends_the_curve() {
     assert!((found.last().rel_mse - 0.02).abs() < 1e-12);
     assert!((found.efficiency() - 1.0 / (0.02 * 0.5)).abs() < 1e-9);
     assert!(found.log_efficiency().variance.is_nan());
+    // Below that of the reference nothing is known.
+    let limits = Limits { floor: 0.2, black: 1.0, variance_of_mean: 0.0, mean: 1.0 };
+    let group = Group { settings: RenderSettings::default(), twins: Vec::new() };
+    let unclear = Outcome::of(group, &[run(0.01, 1.0)], limits);
+    assert_eq!((unclear.last().spp, unclear.last().rel_mse), (1, 0.2));
 }
 
 #[test]
@@ -249,8 +254,10 @@ fn an_outcome_is_the_mean_of_its_runs_where_they_end() {
     short.checkpoints.truncate(3);
     assert_eq!(outcome(RenderSettings::default(), &[run(0.01, 1.0), short]).last().spp, 4);
     // Half the error of a black picture is the limit.
-    let standing = |rel_mse| outcome(RenderSettings::default(), &[run(rel_mse, 1.0)]).standing;
-    assert_eq!([0.499, 0.501].map(standing), [Standing::Sound, Standing::TooNoisy]);
+    let limits = Limits { floor: 0.0, black: 0.4, variance_of_mean: 0.0, mean: 1.0 };
+    let group = || Group { settings: RenderSettings::default(), twins: Vec::new() };
+    let standing = |rel_mse| Outcome::of(group(), &[run(rel_mse, 1.0)], limits).standing;
+    assert_eq!([0.199, 0.201].map(standing), [Standing::Sound, Standing::TooNoisy]);
 }
 
 #[test]
@@ -280,8 +287,16 @@ fn findings_in_words_have_their_numbers() {
     // Two that repeats cannot tell apart.
     let close = findings(vec![of(Estimator::Mis, [0.04, 0.06], 1.0), of(Estimator::Path, [0.05, 0.06], 1.0)]);
     assert!(verdict(&close).starts_with("First of 2 that cannot be told apart: mis"), "{}", verdict(&close));
-    assert!(certainty(&close).contains("Within that are also: path, bsdf"), "{}", certainty(&close));
+    // Two variances, ln² 1.5/2 and ln² 1.2/2, with a degree of freedom each.
+    assert_eq!(
+        certainty(&close),
+        "By the spread of repeats, ratios of efficiencies are known to a factor of 2.60 (95 %). Within that are also: path, bsdf, \
+         sobol, roulette throughput."
+    );
     let biased = Run { bias: "cap at 2".to_owned(), ..run(0.01, 1.0) };
     let one = outcome(estimator(Estimator::Light), &[biased]);
     assert_eq!(one.to_string(), "light, bsdf, sobol, roulette throughput: 10.0 % after 1.00 s, 16 spp, biased: cap at 2");
+    // What is biased is no rival.
+    let alone = findings(vec![of(Estimator::Mis, [0.04, 0.04], 1.0), one]);
+    assert_eq!(certainty(&alone), "No other combination is ranked.");
 }
