@@ -8,6 +8,24 @@ fn cells(csv: &str) -> Vec<Vec<String>> {
     csv.lines().skip(1).map(|line| line.split(',').map(str::to_owned).collect()).collect()
 }
 
+/// Bias and the largest one that is left are percentages of a mean of 2, within what the digits of the numbers leave open.
+fn assert_parts_of_2(row: &[String], bias: f64, error: f64) {
+    let parts = [&row[2], &row[3]].map(|part| part.strip_suffix(" %").and_then(|part| part.parse::<f64>().ok()));
+    let open = |part: f64| 10.0 * error + 0.01 * part.abs() + 1e-3;
+    for (part, exact) in parts.into_iter().zip([50.0 * bias, 50.0 * (bias.abs() + 1.96 * error)]) {
+        assert!(part.is_some_and(|part| (part - exact).abs() <= open(part)), "{row:?}");
+    }
+}
+
+/// Samples and seconds, and an efficiency within an interval that is the same factor wide on both sides.
+fn assert_interval(row: &[String]) {
+    assert!(row[1].parse::<u32>().is_ok_and(u32::is_power_of_two) && row[2].parse::<f64>().is_ok(), "{row:?}");
+    let ratio = row[4].parse::<f64>().expect("an efficiency");
+    let (low, high) = row[5].split_once(" to ").expect("an interval");
+    let [low, high] = [low, high].map(|end| end.parse::<f64>().expect("a number"));
+    assert!(low <= ratio && ratio <= high && (low * high / (ratio * ratio) - 1.0).abs() < 0.03, "{row:?}");
+}
+
 #[test]
 fn the_chapter_of_the_furnace_finds_what_is_known_of_it() {
     let shell = Shell::new();
@@ -41,22 +59,11 @@ fn the_chapter_of_the_furnace_finds_what_is_known_of_it() {
         let (bias, error) = row[1].split_once(" ± ").unwrap_or((&row[1], "1e-6"));
         let [bias, error] = [bias, error].map(|number| number.parse::<f64>().unwrap_or(f64::NAN));
         assert!(row[0] == cap && (bias - exact).abs() <= 5.0 * error + 1e-3, "{row:?}");
-        // Of the mean of 2, within what the digits of bias and error leave open.
-        let parts = [&row[2], &row[3]].map(|part| part.strip_suffix(" %").and_then(|part| part.parse::<f64>().ok()));
-        let open = |part: f64| 10.0 * error + 0.01 * part.abs() + 1e-3;
-        for (part, exact) in parts.into_iter().zip([50.0 * bias, 50.0 * (bias.abs() + 1.96 * error)]) {
-            assert!(part.is_some_and(|part| (part - exact).abs() <= open(part)), "{row:?}");
-        }
+        assert_parts_of_2(row, bias, error);
     }
     assert_eq!(rows.len(), 5);
     assert!(read("bias_of_roulette.tex").contains("\\begin{tabular}{lrrr}"));
-    for row in cells(&read("equal_time_sampler.csv")) {
-        let ratio = row[4].parse::<f64>().expect("an efficiency");
-        let (low, high) = row[5].split_once(" to ").expect("an interval");
-        let [low, high] = [low, high].map(|end| end.parse::<f64>().expect("a number"));
-        assert!(low <= ratio && ratio <= high && (low * high / (ratio * ratio) - 1.0).abs() < 0.03, "{row:?}");
-        assert!(row[1].parse::<u32>().is_ok_and(u32::is_power_of_two) && row[2].parse::<f64>().is_ok(), "{row:?}");
-    }
+    cells(&read("equal_time_sampler.csv")).iter().for_each(|row| assert_interval(row));
     // The corner of the picture without reflections shows radiance 1: as white, and two stops darker.
     let corner = || {
         let sheet = noisefall::render::image_file::read(&shell.path("out/pictures_by_cap.png")).expect("a picture");

@@ -121,6 +121,11 @@ fn settings_have_names_and_take_values_over() {
     assert_eq!(differing_labels(&[on]), ("mis, bsdf, sobol, roulette throughput, sharing on".to_owned(), vec![String::new()]));
 }
 
+/// What stands in a row, all of whose cells end like this.
+fn first_cells<'a>(row: &'a str, end: &str) -> Vec<&'a str> {
+    row.split(end).take(16).map(|cell| cell.rsplit('>').next().unwrap_or("")).collect()
+}
+
 #[test]
 fn a_report_says_what_was_found_and_against_what() {
     let unbiased = |rel_mse, seconds| Run { bias: String::new(), invalid_samples: 0, ..points(rel_mse, seconds) };
@@ -167,11 +172,11 @@ fn a_report_says_what_was_found_and_against_what() {
         assert!(page.contains(said) != (said == "First of 1"), "{said}: {page}");
     }
     let table = &page[page.find("All combinations").expect("the ranking")..];
-    let headings: Vec<&str> = table.split("</th>").take(16).map(|cell| cell.rsplit('>').next().unwrap_or("")).collect();
+    let headings = first_cells(table, "</th>");
     assert_eq!(headings[8..], ["samples", "s", "error", "slope", "efficiency", "±", "of the best", "bias"], "{headings:?}");
     // The best is first: ±10 % between its repeats is a standard error of ln 1.21/2.
     let row = &page[page.find("class=\"first\"").expect("a first row")..];
-    let cells: Vec<&str> = row.split("</td>").take(16).map(|cell| cell.rsplit('>').next().unwrap_or("")).collect();
+    let cells = first_cells(row, "</td>");
     let settings = ["mis", "bsdf", "sobol", "throughput", "none", "auto: on", "off"];
     assert_eq!((cells[0], &cells[1..8]), ("1", &settings[..]), "{cells:?}");
     assert_eq!(cells[8..11], ["16", "1.00", "10.5 %"], "{cells:?}");
