@@ -8,6 +8,7 @@ use std::{
 
 use noisefall::{
     image::{Encoding, read},
+    integrator::{Features, features},
     math::SimdLevel,
     memory::set_limit,
     render::{
@@ -46,7 +47,10 @@ fn probe() {
             let job = PassJob { scene: &scene, rays: &scene.rays(&scene.camera), settings: &scene.settings };
             threads.pass(job, &mut film, 1, &|| false);
             let frames = [0, 1].map(|generation| Frame::of_film(&film, generation, resolution, resolution));
-            assert_eq!(frames[0].radiance.len(), frames[1].radiance.len());
+            let _more_room = Features::reserve(resolution).map_err(|error| error.to_string())?;
+            let seen =
+                threads.install(|| features(SimdLevel::best(), &scene, &scene.camera, &|| false)).expect("nobody interrupts");
+            assert!(frames.iter().all(|frame| frame.radiance.len() == seen.depth.len()));
             Ok(())
         })
     } else {
@@ -191,17 +195,22 @@ fn every_command_takes_the_option() {
     assert!(status == Some(2) && said.contains("expected a size, such as 4G or 500M"), "{said}");
     let (status, said) = run(&["compare", &output, &output, "--memory", "1M"]);
     assert!(status == Some(1) && said.contains("1500 × 1500 pixels need"), "{said}");
-    let (status, said) = run(&[
-        "study",
-        &file,
-        "-o",
-        &folder.path().join("study").display().to_string(),
-        "--size",
-        "2000x2000",
-        "--memory",
-        "90M",
-    ]);
-    assert!(status == Some(1) && said.contains("pictures of 2000 × 2000 pixels need"), "{said}");
+    let (status, said) = run(&["compare", &output, &output, "--memory", "100M"]);
+    assert!(status == Some(1) && said.contains("2 pictures of 1500 × 1500 pixels and their difference need"), "{said}");
+    let of_size = |command: &str, side: u32, memory: &str| {
+        let [folder, size] = [folder.path().join(command).display().to_string(), format!("{side}x{side}")];
+        run(&[command, &file, "-o", &folder, "--size", &size, "--memory", memory])
+    };
+    for (command, side, memory, what) in [
+        ("study", 2000, "90M", "pictures of 2000 × 2000"),
+        // A film of 128 bytes a pixel, three pictures of 12, and for the chapter 12 of 10 and another film.
+        ("study", 1000, "150M", "references of 1000 × 1000"),
+        ("evidence", 1000, "110M", "12 pictures of 1000 × 1000"),
+        ("evidence", 1000, "360M", "pictures of 1000 × 1000"),
+    ] {
+        let (status, said) = of_size(command, side, memory);
+        assert!(status == Some(1) && said.contains(&format!("{what} pixels need")), "{command} in {memory}: {said}");
+    }
 }
 
 #[test]

@@ -10,6 +10,7 @@ use noisefall::{
     image::{PNG, looks_like},
     math::colour::luminance,
     measure::{Bias, Comparison, Evidence, Floor, compare},
+    memory::{Reservation, TooMuch, reserve},
     render::{
         Display, Frame,
         image_file::{Format, Picture, Provenance, provenance, read},
@@ -101,6 +102,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     }
     let (a, b) = (Loaded::read(&arguments.a)?, Loaded::read(&arguments.b)?);
     a.must_be_as_large_as(&b)?;
+    let _memory = room(&a.picture, 2 + arguments.repeats.len()).map_err(|error| error.to_string())?;
     let repeats = arguments.repeats.iter().map(|path| Loaded::read(path)).collect::<Result<Vec<_>, _>>()?;
     repeats.iter().try_for_each(|repeat| repeat.must_be_as_large_as(&b))?;
     let all: Vec<&Loaded> = std::iter::once(&a).chain(&repeats).collect();
@@ -125,6 +127,17 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     }
     output.report(&lines.join("\n"))?;
     Ok(delivered)
+}
+
+/// Room for so many pictures of this size with what is made of them.
+fn room(like: &Picture, pictures: usize) -> Result<Reservation, TooMuch> {
+    /// Of a pixel: radiance, variances and mean.
+    const PICTURE: u64 = 12 + 12 + 8;
+    /// Of a pixel: two frames with their codes, the difference and what colours it.
+    const DIFFERENCE: u64 = 2 * (12 + 7) + 12 + 36;
+    let [width, height] = [like.width, like.height].map(u64::from);
+    let bytes = (PICTURE * pictures as u64 + DIFFERENCE + flip::BYTES_OF_PIXEL) * width * height;
+    reserve(format_args!("{pictures} pictures of {width} × {height} pixels and their difference"), bytes)
 }
 
 /// Repeats that are the same picture tell nothing of noise, unless there is none: then their seeds differ all the same.

@@ -5,8 +5,8 @@ use indicatif::{ProgressBar, ProgressStyle};
 use noisefall::{
     file::replace,
     math::SimdLevel,
-    render::{film::Film, pass::Threads},
-    study::{CSV, EvidencePlan, Machine, Store, StudyError, Subject, collect},
+    render::pass::Threads,
+    study::{CSV, EvidencePlan, Machine, Store, StudyError, Subject, collect, reserve_chapter},
 };
 
 use super::{
@@ -52,7 +52,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     [folder::REPORT, CSV].into_iter().try_for_each(|name| folder::make(folder, name))?;
     let subject = Subject::load(&arguments.scene, arguments.size, arguments.reference.as_deref());
     let subject = subject.map_err(|error| error.to_string())?;
-    let _memory = Film::reserve(subject.camera.resolution).map_err(|error| error.to_string())?;
+    let _memory = reserve_chapter(&subject).map_err(|error| error.to_string())?;
     let mut store = Store::open(folder).map_err(|error| error.to_string())?;
     let threads = Threads::new(arguments.threads.into(), SimdLevel::best()).map_err(|error| error.to_string())?;
     let machine = Machine::here(&threads);

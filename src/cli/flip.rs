@@ -5,6 +5,12 @@ use noisefall::render::Frame;
 #[cfg(feature = "flip")]
 use noisefall::render::{Display, display::to_srgb};
 
+/// What finding the error takes: two pictures in colours that are as far apart as they look, each with what filters make of it.
+#[cfg(feature = "flip")]
+pub const BYTES_OF_PIXEL: u64 = 8 * 12;
+#[cfg(not(feature = "flip"))]
+pub const BYTES_OF_PIXEL: u64 = 0;
+
 /// The mean error from 0 to 1 at 67 pixels a degree, of the pictures as the screen shows them; `None` in a program built without FLIP.
 #[cfg(feature = "flip")]
 pub fn mean_error(picture: &Frame, reference: &Frame) -> Option<f64> {

@@ -10,10 +10,12 @@ use indicatif::{ProgressBar, ProgressStyle};
 use noisefall::{
     math::SimdLevel,
     measure::Floor,
-    render::{film::Film, pass::Threads},
+    render::pass::Threads,
     sampling::{Directions, Sampler},
     scene::{Estimator, Roulette},
-    study::{CSV, Findings, Lists, Machine, Plan, Progress, Store, Study, StudyError, Subject, html, label, table, verdict},
+    study::{
+        CSV, Findings, Lists, Machine, Plan, Progress, Store, Study, StudyError, Subject, html, label, reserve, table, verdict,
+    },
 };
 
 use super::{
@@ -78,9 +80,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     [folder::REPORT, CSV].into_iter().try_for_each(|name| folder::make(&arguments.output, name))?;
     let load = |path: &PathBuf| Subject::load(path, arguments.size, arguments.reference.as_deref());
     let subjects = arguments.scenes.iter().map(load).collect::<Result<Vec<_>, _>>().map_err(|error| error.to_string())?;
-    // One film at a time.
-    let largest = subjects.iter().map(|subject| subject.camera.resolution).max_by_key(|[w, h]| u64::from(*w) * u64::from(*h));
-    let _memory = largest.map(Film::reserve).transpose().map_err(|error| error.to_string())?;
+    let _memory = reserve(&subjects).map_err(|error| error.to_string())?;
     let mut store = Store::open(&arguments.output).map_err(|error| error.to_string())?;
     if store.dropped > 0 {
         tell(&format!("note: {} lines of {CSV} belong to runs that are not complete and are left out", store.dropped));

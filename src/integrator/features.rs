@@ -17,6 +17,7 @@ use crate::{
     geometry::{MISS, Place},
     in_lanes,
     math::{F, Lanes, M, Pick, SimdLevel, V},
+    memory::{self, Reservation, TooMuch},
     sampling::Filter,
     scene::{Camera, Legend, RenderSettings, Scene, Shutter},
 };
@@ -67,6 +68,13 @@ pub fn features(level: SimdLevel, scene: &Scene, camera: &Camera, interrupted: &
 }
 
 impl Features {
+    /// Room for those of a picture of this size.
+    pub fn reserve([width, height]: [u32; 2]) -> Result<Reservation, TooMuch> {
+        /// Of a pixel: what is kept, and before that what its block has seen.
+        const PIXEL: u64 = 40 + 40;
+        memory::reserve(format_args!("features of {width} × {height} pixels"), PIXEL * u64::from(width) * u64::from(height))
+    }
+
     /// Of a camera that looks past everything.
     fn empty([width, height]: [u32; 2]) -> Features {
         let pixels = width as usize * height as usize;

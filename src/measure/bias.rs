@@ -159,8 +159,8 @@ mod tests {
 
     /// Two blocks of 32 × 32 pixels, of these radiances.
     fn picture(blocks: [f32; 2]) -> Vec<[f32; 3]> {
-        // The channels differ, and so do pixels, but not the means.
-        (0..WIDTH * 32).map(|i| [0.5, 1.0, 1.5].map(|c| blocks[i % WIDTH / 32] + c - 1.0)).collect()
+        // No channel is the mean of all.
+        (0..WIDTH * 32).map(|i| [0.25, 1.25, 1.5].map(|c| c * blocks[i % WIDTH / 32])).collect()
     }
 
     fn noise(blocks: [f64; 2], effective_samples: f64) -> SampleNoise {
@@ -227,7 +227,13 @@ mod tests {
         for variance in [0.0, (3e-7f64 * 4.0).powi(2)] {
             let bias = Bias::by_samples(&a, &b, [Some(&noise([variance; 2], 1e6)), None], WIDTH);
             assert!(bias.is_exact && bias.z.is_none() && bias.block_z.is_empty() && bias.mean.abs() > bias.rounding);
+            // A part of the brighter mean, which is 4.5.
+            is(Some(1e6 * bias.rounding), 4.5);
         }
+        // A variance that is hardly more than rounding has that of rounding besides, of the brighter picture or block.
+        let bias = Bias::by_samples(&a, &b, [Some(&noise([2.0 * 9e-6f64.powi(2); 2], 1e6)), None], WIDTH);
+        is(bias.z, -0.5 / 9e-6f64.hypot(4.5e-6));
+        is(Some(bias.block_z[0]), 1.0 / (9e-6 * 2f64.sqrt()).hypot(3e-6));
         let same = Bias::by_samples(&a, &a, [Some(&noise([0.0; 2], f64::INFINITY)), None], WIDTH);
         assert!(same.is_exact && !same.has_heavy_tails && same.mean.abs() <= same.rounding);
         let noisy = Bias::by_samples(&a, &a, [Some(&noise([0.1; 2], 1e6)), None], WIDTH);
@@ -261,10 +267,12 @@ mod tests {
         let tail = student.cdf(-0.35 / (0.03f64 / 4.0).sqrt());
         assert!((normal.cdf(bias.z.unwrap_or(0.0)) / tail - 1.0).abs() < 1e-3, "{:?}", bias.z);
         is(bias.z, normal.inverse_cdf(tail));
-        assert!(bias.block_z[0] > 2.0 && bias.block_z[1] < -2.0, "{:?}", bias.block_z);
+        // Means of the first block are 3, 3.2, 3.7 and 2.9: 3.2, with the variance 0.38/3.
+        is(Some(bias.block_z[0]), as_normal(1.2 / (0.38f64 / 12.0).sqrt(), 3.0));
+        assert!(bias.block_z[1] < -2.0, "{:?}", bias.block_z);
         let with_noise = Bias::by_repeats(&repeats, &picture([2.0, 7.0]), Some(&noise([0.05, 0.01], 1e6)), WIDTH);
         is(with_noise.standard_error, (0.03f64 / 4.0 + 0.015).sqrt());
-        assert!(with_noise.block_z[0] < bias.block_z[0]);
+        is(Some(with_noise.block_z[0]), as_normal(1.2 / (0.38f64 / 12.0 + 0.05).sqrt(), 3.0));
     }
 
     #[test]

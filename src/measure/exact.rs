@@ -122,7 +122,7 @@ fn above_horizon(polygon: &[DVec3]) -> Vec<DVec3> {
         if a.y >= 0.0 {
             clipped.push(*a);
         }
-        if (a.y > 0.0) != (b.y > 0.0) {
+        if a.y * b.y < 0.0 {
             clipped.push(*a + (b - *a) * (a.y / (a.y - b.y)));
         }
     }
@@ -153,5 +153,43 @@ mod tests {
         assert!((furnace_capped_variance(1.0, 0.5, 4.0 / 3.0, 60) / whole - 1.0).abs() < 1e-12);
         // Without chance there is no variance.
         assert!((0..9).all(|cap| furnace_capped_variance(3.0, 0.7, 1.0, cap).abs() < 1e-12));
+    }
+
+    #[test]
+    fn pixels_are_where_the_camera_has_them() {
+        let of_scene = crate::scene::built_in().camera;
+        let camera = Camera { resolution: [4, 2], fov: 90.0, ..of_scene };
+        let [right, up, forward] = camera.axes();
+        // What is linear on the image plane has the mean of the centre. The picture is 2 wide and 1 high at a distance of 1.
+        for ([x, y], centre) in [([0, 0], [-0.75, 0.25]), ([3, 0], [0.75, 0.25]), ([2, 1], [0.25, -0.25])] {
+            for (axis, exact) in [right, up].into_iter().zip(centre) {
+                let place = |d: DVec3| d.dot(axis) / d.dot(forward);
+                let mean = mean_over_pixel(&camera, [x, y], |_, d| Some(place(d)));
+                assert!(mean.is_some_and(|mean| (mean - exact).abs() < 1e-12), "{x},{y}: {mean:?} {exact}");
+                let in_part = mean_over_pixel(&camera, [x, y], |_, d| (place(d) < exact).then_some(1.0));
+                assert_eq!(in_part, None, "{x},{y}");
+            }
+        }
+    }
+
+    #[test]
+    fn lamberts_ball_is_not_known_where_the_lamp_sets() {
+        let lamp = Lamp { center: DVec3::new(0.0, 0.0, 3.0), radius: 0.5, radiance: 2.0 };
+        let at = |height: f64| {
+            let p = DVec3::new((1.0 - height * height).sqrt(), 0.0, height);
+            lamberts_ball(0.5, lamp, 5.0 * p, -p)
+        };
+        // The lamp's centre is 3h − 1 above the horizon of a point of height h, and √(10 − 6h) away.
+        let exact = 0.5 * 2.0 * (0.5f64.powi(2) / 5.5) * (1.25 / 5.5f64.sqrt());
+        assert!(at(0.75).is_some_and(|radiance| (radiance / exact - 1.0).abs() < 1e-12), "{:?} {exact}", at(0.75));
+        assert_eq!([1.25, 0.75, -0.5].map(|above| at((1.0 + above) / 3.0).is_some()), [true, true, false]);
+        assert_eq!(at(1.25 / 3.0), None, "its lower half has set");
+    }
+
+    #[test]
+    fn what_is_below_the_ground_does_not_light_it() {
+        let wall = |bottom: f64| [(-1.0, bottom), (1.0, bottom), (1.0, 2.0), (-1.0, 2.0)].map(|(x, y)| DVec3::new(x, y, 1.5));
+        let [whole, upper] = [-3.0, 0.0].map(|bottom| polygon_irradiance(2.0, &wall(bottom)));
+        assert!((whole / upper - 1.0).abs() < 1e-12 && upper > 0.1, "{whole} {upper}");
     }
 }

@@ -34,7 +34,7 @@ use std::path::PathBuf;
 pub use self::{
     advice::{Advice, Candidate, advise},
     driver::{Progress, Study},
-    evidence::{Chapter, EvidencePlan, collect},
+    evidence::{Chapter, EvidencePlan, collect, reserve_chapter},
     fit::{Slope, slope},
     machine::Machine,
     measure::{Bench, Checkpoint, Run},
@@ -44,7 +44,7 @@ pub use self::{
     report::html,
     setting::{differing_labels, label},
     store::{CSV, Store},
-    subject::Subject,
+    subject::{Subject, reserve},
     wording::{table, verdict},
 };
 use crate::{file::WriteError, scene::SceneError};

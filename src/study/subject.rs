@@ -3,7 +3,8 @@ use std::path::{Path, PathBuf};
 
 use super::{StudyError, plan::study_size};
 use crate::{
-    render::truth,
+    memory::{self, Reservation, TooMuch},
+    render::{film::Film, truth},
     scene::{Camera, Scene, Truth, load},
 };
 
@@ -50,6 +51,19 @@ impl Subject {
         let stem = self.path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         if self.scene.title.is_empty() { stem } else { self.scene.title.clone() }
     }
+}
+
+/// Room to measure these, one after the other: for a film, and for what pictures are held against.
+pub fn reserve(subjects: &[Subject]) -> Result<[Reservation; 2], TooMuch> {
+    /// Of a pixel of a picture.
+    const PIXEL: u64 = 12;
+    let pixels = |subject: &&Subject| subject.camera.resolution.map(u64::from).iter().product::<u64>();
+    let largest = subjects.iter().max_by_key(pixels);
+    let [width, height] = largest.map_or([0; 2], |subject| subject.camera.resolution);
+    // Files are kept; of a reference there are besides the radiance two halves, or a copy whose bits are hashed.
+    let files: u64 = subjects.iter().filter(|subject| subject.known.is_some()).map(|subject| pixels(&subject)).sum();
+    let bytes = PIXEL * (files + 3 * largest.map_or(0, |subject| pixels(&subject)));
+    Ok([Film::reserve([width, height])?, memory::reserve(format_args!("references of {width} × {height} pixels"), bytes)?])
 }
 
 /// What to call scenes that are studied together: those of one title by their files too.

@@ -4,6 +4,7 @@ use std::sync::Arc;
 use noisefall::{
     integrator::{Features, features},
     math::SimdLevel,
+    memory::Reservation,
     render::pass::Threads,
     scene::{Camera, Scene},
 };
@@ -15,10 +16,16 @@ type Subject = (Arc<Scene>, Camera);
 
 pub struct FeatureFinder {
     ctx: egui::Context,
-    found: Option<(Subject, Arc<Features>)>,
+    found: Option<Found>,
     /// What was asked for last.
     subject: Option<Subject>,
-    pending: Option<Errand<Option<Features>>>,
+    pending: Option<Errand<Option<(Features, Reservation)>>>,
+}
+
+struct Found {
+    subject: Subject,
+    features: Arc<Features>,
+    _memory: Reservation,
 }
 
 impl FeatureFinder {
@@ -31,28 +38,32 @@ impl FeatureFinder {
         let same = |(old, at): &Subject| Arc::ptr_eq(old, scene) && at == camera;
         if let (Some(features), Some(subject)) = (Errand::take(&mut self.pending), &self.subject) {
             // Where the renderer fails, the picture's own threads say so.
-            self.found = features.ok().flatten().map(|features| (subject.clone(), Arc::new(features)));
+            let found = features.ok().flatten();
+            self.found =
+                found.map(|(features, _memory)| Found { subject: subject.clone(), features: Arc::new(features), _memory });
         }
         // A search that is under way is let finish: while the camera is dragged there would never be one that does.
         if self.pending.is_none() && !self.subject.as_ref().is_some_and(same) {
             self.search(scene, camera, threads);
         }
-        let found = self.found.as_ref().filter(|((of, _), _)| Arc::ptr_eq(of, scene));
-        found.map(|(_, features)| features.clone())
+        let found = self.found.as_ref().filter(|found| Arc::ptr_eq(&found.subject.0, scene));
+        found.map(|found| found.features.clone())
     }
 
     /// Whether what was found is as this camera sees it.
     pub fn has(&self, camera: &Camera) -> bool {
-        self.found.as_ref().is_some_and(|((_, at), _)| at == camera)
+        self.found.as_ref().is_some_and(|found| found.subject.1 == *camera)
     }
 
     fn search(&mut self, scene: &Arc<Scene>, camera: &Camera, threads: usize) {
         self.subject = Some((scene.clone(), *camera));
         let (scene, camera) = (scene.clone(), *camera);
         self.pending = Some(Errand::start(&self.ctx, move |given_up| {
+            let room = Features::reserve(camera.resolution).ok()?;
             // On threads of their own, so many as render.
             let pool = Threads::new(threads, SimdLevel::best()).ok()?;
-            pool.install(|| features(SimdLevel::best(), &scene, &camera, given_up))
+            let found = pool.install(|| features(SimdLevel::best(), &scene, &camera, given_up))?;
+            Some((found, room))
         }));
     }
 }

@@ -1,5 +1,5 @@
 //! `noisefall study`: a table of measurements and a report, which an interruption does not spoil.
-use std::fs;
+use std::{collections::BTreeSet, fs};
 
 use crate::command_line::{Shell, scene, text};
 
@@ -37,6 +37,12 @@ fn a_study_writes_measurements_and_a_report_that_needs_nothing_else() {
     assert!(csv.starts_with("scene,width,height,estimator,"), "{csv}");
     // 1, 2, 4, 8 and 11 samples, twice each.
     assert!(csv.lines().count() > 1 && (csv.lines().count() - 1).is_multiple_of(5 * 2), "{csv}");
+    let mut table = csv::Reader::from_reader(csv.as_bytes());
+    let header = table.headers().expect("names").clone();
+    let numbers = ["repeat", "seed"].map(|name| header.iter().position(|column| column == name).expect("a column"));
+    let of_repeats: BTreeSet<[String; 2]> =
+        table.records().map(|row| numbers.map(|at| row.as_ref().expect("a line")[at].to_owned())).collect();
+    assert_eq!(of_repeats, [["1", "0"], ["2", "1"]].map(|pair| pair.map(str::to_owned)).into());
     assert!(csv.contains(",cap at 1,") && csv.contains(",the exact radiance,") && csv.contains("a converged render"), "{csv}");
 
     let report = fs::read_to_string(shell.path("new/study/report.html")).expect("a report");
@@ -92,6 +98,7 @@ fn sharing_and_adaptive_samples_are_listed_and_scenes_of_one_title_told_apart() 
     assert!(done.status.success(), "{}", text(&done.stderr));
     // Without a terminal the reference is told of in quarters.
     assert!(text(&done.stderr).matches(" % of the reference, ").count() >= 8, "{}", text(&done.stderr));
+    assert_eq!(text(&done.stderr).matches(": 100 % of the reference, 0 s left").count(), 2, "{}", text(&done.stderr));
     let mut table = csv::Reader::from_path(shell.path("out/study.csv")).expect("measurements");
     let header = table.headers().expect("names").clone();
     let column = |name: &str| header.iter().position(|column| column == name).expect("a column");
@@ -149,6 +156,10 @@ fn references_are_files_where_there_are_some() {
     assert!(report("foreign").contains("whose own error is not known and taken for 0") && own("foreign") == 0.0);
     let csv = fs::read_to_string(shell.path("foreign/study.csv")).expect("measurements");
     assert!(csv.contains(",0.5,") && report("foreign").contains("(x − r)²/(r² + 0.5)"), "{csv}");
+    // Even where the scene says what is true, it says nothing of a file.
+    let declared = ["study", &scene("furnace"), "-o", "declared", "--reference", "foreign.exr", "--max-bounces", "1"];
+    let told = text(&shell.run(&[&declared[..], &few[..]].concat()).stdout);
+    assert!(told.contains("The own error of the reference foreign.exr is not known and taken for 0."), "{told}");
     fs::copy(shell.path("sky.ref.exr"), shell.path("other.exr")).expect("a picture");
     let other = study(&["--reference", "other.exr", "--size", "16x16"]);
     assert_eq!(other.status.code(), Some(1));
@@ -185,6 +196,19 @@ fn what_cannot_be_studied_is_told_at_once() {
     fails(&[&furnace], 2, "--output");
     fails(&["-o", "out"], 2, "SCENE");
     fails(&[&furnace, "-o", "out", "--samplers", "sobol,,independent"], 2, "independent, stratified, sobol");
+}
+
+#[test]
+fn without_lists_the_usual_ones_are_combined() {
+    let shell = Shell::new();
+    let done = shell.run(&["study", &scene("furnace"), "-o", "out", "--spp", "1", "--repeats", "1", "--size", "8x8"]);
+    assert!(done.status.success(), "{}", text(&done.stderr));
+    let report = fs::read_to_string(shell.path("out/report.html")).expect("a report");
+    let worth = report.split("What each setting is worth").nth(1).and_then(|rest| rest.split("</table>").next());
+    let worth = worth.expect("a table of values");
+    let values: BTreeSet<&str> = worth.split("<td>").skip(1).filter_map(|cell| cell.split('<').next()).collect();
+    let usual = "path light mis uniform cosine bsdf independent stratified sobol off 0.8 throughput";
+    assert_eq!(values, usual.split(' ').collect(), "{worth}");
 }
 
 #[test]

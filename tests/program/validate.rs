@@ -31,6 +31,29 @@ fn a_quick_validation_holds_and_writes_a_report_that_needs_nothing_else() {
     assert!(shown.contains(&format!("all {statements} statements hold")), "{shown}");
     let drawn = fs::read_dir(shell.path("new/report/figures")).expect("figures").count();
     assert_eq!(drawn, report.matches("<figure").count() - 1, "all but the table of times");
+    a_reference_that_differs_fails_the_validation(&shell);
+    // By other random numbers: all statements of section 2 are about the variance of samples.
+    let measured = |folder: &str| -> Vec<String> {
+        let mut rows = csv::Reader::from_path(shell.path(folder).join("report.csv")).expect("rows");
+        let rows = rows.records().map(|row| row.expect("a row")).filter(|row| &row[0] == "2");
+        rows.map(|row| row[3].to_owned()).collect()
+    };
+    let (first, second) = (measured("new/report"), measured("wrong/report"));
+    assert!(first.len() == second.len() && first.len() > 5, "{first:?} {second:?}");
+    assert!(first.iter().zip(&second).all(|(first, second)| first != second), "{first:?} {second:?}");
+}
+
+fn a_reference_that_differs_fails_the_validation(shell: &Shell) {
+    fs::create_dir(shell.path("wrong")).expect("a folder");
+    for name in ["furnace_enclosure.toml", "furnace_enclosure.txt"] {
+        let kept = fs::read_to_string(Path::new(&references()).join(name)).expect("a reference");
+        // One block a fifth too bright.
+        fs::write(shell.path("wrong").join(name), kept.replacen("\n2 2 2", "\n2.4 2 2", 1)).expect("it can be written");
+    }
+    let done = shell.run(&["validate", "--quick", "--references", "wrong", "--seed", "1", "-o", "wrong/report"]);
+    assert_eq!(done.status.code(), Some(1), "{}", text(&done.stdout));
+    assert!(text(&done.stderr).contains("statements fail"), "{}", text(&done.stderr));
+    assert!(text(&done.stdout).contains("furnace enclosure: largest |z|"), "{}", text(&done.stdout));
 }
 
 #[test]
@@ -44,21 +67,6 @@ fn scenes_under_stress_hold_and_are_reported() {
     assert_eq!(report.matches("<section").count(), 7);
     assert!(report.matches("<svg").count() >= 5 && !report.contains("✗"));
     assert!(!shell.path("report/stress").exists(), "nothing fails, nothing is kept");
-}
-
-#[test]
-fn a_reference_that_differs_fails_the_validation() {
-    let shell = Shell::new();
-    fs::create_dir(shell.path("wrong")).expect("a folder");
-    for name in ["furnace_enclosure.toml", "furnace_enclosure.txt"] {
-        let kept = fs::read_to_string(Path::new(&references()).join(name)).expect("a reference");
-        // One block a fifth too bright.
-        fs::write(shell.path("wrong").join(name), kept.replacen("\n2 2 2", "\n2.4 2 2", 1)).expect("it can be written");
-    }
-    let done = shell.run(&["validate", "--quick", "--references", "wrong"]);
-    assert_eq!(done.status.code(), Some(1), "{}", text(&done.stdout));
-    assert!(text(&done.stderr).contains("statements fail"), "{}", text(&done.stderr));
-    assert!(text(&done.stdout).contains("furnace enclosure: largest |z|"), "{}", text(&done.stdout));
 }
 
 #[test]

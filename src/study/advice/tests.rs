@@ -102,6 +102,9 @@ fn what_chance_explains_is_as_good() {
     let verdict = advice.verdict();
     assert!(verdict.starts_with("What you have is as good: the best of the others, Sobol (Owen), "), "{verdict}");
     assert!(verdict.ends_with(" times as efficient, which may be chance."), "{verdict}");
+    // 95 % of Student's t with three degrees of freedom lie within ±3.182.
+    let by_errors = |count: f64| Candidate { relative: f64::exp(0.1 * count), standard_error: 0.1, ..candidate.clone() };
+    assert_eq!([3.1, 3.2].map(|count| by_errors(count).is_clearly_better()), [false, true]);
     // Nor is a gain worth a change that is sure, but small.
     let small = rank(&[known(IN_USE, 0.0103, &[1.0; 4]), known(ADVISED, 0.01, &[1.0; 4])], SPP);
     assert_eq!(small.best, small.current);
@@ -144,6 +147,7 @@ fn who_finds_no_light_is_not_praised_for_little_noise() {
     let advice = rank(&measured(&[series(IN_USE, (0..4).map(dark)), series(ADVISED, (0..4).map(lit))]), SPP);
     assert_eq!((advice.best, advice.best().relative), (0, f64::INFINITY));
     assert!(advice.verdict().contains("what you have finds hardly any"), "{}", advice.verdict());
+    assert_eq!([0.49, 0.51].map(|found| Measured { found, ..known(IN_USE, 0.01, &[1.0]) }.is_sound()), [false, true]);
 }
 
 #[test]
@@ -213,6 +217,7 @@ fn advice_comes_to_an_end_and_keeps_the_cap() {
     assert!(advice.candidates.len() >= 7 + 3, "{}", advice.candidates.len());
     assert!(advice.candidates.iter().all(|candidate| candidate.settings.max_bounces == Some(3) && candidate.settings.seed == 7));
     assert_eq!(advice.current().settings, in_use);
+    assert!(advice.candidates.iter().all(|candidate| candidate.rel_mse > 0.0), "rounds have seeds of their own");
     assert!(advice.verdict().ends_with(" All that was tried has your cap at 3, and misses what lies beyond it."));
 }
 

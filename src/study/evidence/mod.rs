@@ -13,10 +13,14 @@ use std::{
 
 pub use self::chapter::Chapter;
 use self::exhibits::{CAPS, Exhibits, pictures};
-use super::{Findings, Lists, Machine, Plan, Progress, Store, Study, StudyError, Subject, measure::Bench, setting::Setting};
+use super::{
+    Findings, Lists, Machine, Plan, Progress, Store, Study, StudyError, Subject, measure::Bench, setting::Setting,
+    subject::reserve,
+};
 use crate::{
     measure::Floor,
-    render::{Display, pass::Threads},
+    memory::{self, Reservation, TooMuch},
+    render::{Display, film::Film, pass::Threads},
     sampling::{Directions, Sampler},
     scene::{Estimator, Roulette},
 };
@@ -52,6 +56,18 @@ fn topics() -> [Topic; 5] {
         Topic { setting: Setting::Estimator, lists: Lists { estimators: Estimator::ALL.to_vec(), ..uncapped() } },
         Topic { setting: Setting::Sampler, lists: Lists { samplers, ..uncapped() } },
     ]
+}
+
+/// Room for the chapter: what is measured, and at last two films with the pictures of two sheets.
+pub fn reserve_chapter(subject: &Subject) -> Result<[Reservation; 4], TooMuch> {
+    /// Of a pixel of a picture: its codes, and its part of a sheet with margins.
+    const PIXEL: u64 = 10;
+    let [width, height] = subject.camera.resolution;
+    let count = SPP.end().ilog2() as usize / 2 + 1 + CAPS.len();
+    let bytes = PIXEL * count as u64 * u64::from(width) * u64::from(height);
+    let cells = memory::reserve(format_args!("{count} pictures of {width} × {height} pixels"), bytes)?;
+    let [film, reference] = reserve(std::slice::from_ref(subject))?;
+    Ok([film, reference, Film::reserve([width, height])?, cells])
 }
 
 /// Measures everything. `observe` is told what is going on, and the share of it that is done.

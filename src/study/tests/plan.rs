@@ -124,6 +124,13 @@ fn a_run_has_the_errors_of_its_picture_and_says_why_it_is_biased() {
             }
         }
         assert_eq!(measure(bench, settings, &plan(Floor::DEFAULT), &[[2.0; 3]; 64]).expect("a run").bias, "");
+        // By uniform directions a sample is 1 + cos θ, of the variance 1/12. That of 64 pairs is known to 0.15 of itself, so that its root
+        // lies within these bounds at 4σ.
+        let (directions, sampler, reuse) = (Directions::Uniform, Sampler::Independent, Reuse::Off);
+        let noisy = RenderSettings { directions, sampler, reuse, ..capped };
+        let errors = measure(bench, &noisy, &plan(Floor::DEFAULT), &[[2.0; 3]; 64]).expect("a run").checkpoints;
+        let ratio = errors[1].bias_standard_error.map_or(f64::NAN, |error| error / (1.0 / 12.0 / 128.0f64).sqrt());
+        assert!(errors[0].bias_standard_error.is_none() && (0.63..1.27).contains(&ratio), "{ratio}");
     });
 }
 

@@ -13,7 +13,7 @@ use crate::{
         outcome::Limits,
         ranking::rank,
         setting::Setting,
-        table,
+        slope, table,
         trial::Group,
         verdict,
         wording::{certainty, command, mean_error, percent, significant},
@@ -29,7 +29,7 @@ fn run(rel_mse: f64, seconds: f64) -> Run {
             rmse: 1.0,
             rel_mse: rel_mse * all / share,
             bias: 0.0,
-            bias_standard_error: None,
+            bias_standard_error: Some(0.1 / share.sqrt()),
         }
     };
     Run { checkpoints: checkpoints(16).into_iter().map(point).collect(), ..Run::default() }
@@ -123,6 +123,11 @@ fn the_error_of_the_reference_is_taken_off_and_ends_the_curve() {
     assert!((found.last().rel_mse - 0.02).abs() < 1e-12);
     assert!((found.efficiency() - 1.0 / (0.02 * 0.5)).abs() < 1e-9);
     assert!(found.log_efficiency().variance.is_nan());
+    // Below that of the reference nothing is known.
+    let limits = Limits { floor: 0.2, black: 1.0, variance_of_mean: 0.0, mean: 1.0 };
+    let group = Group { settings: RenderSettings::default(), twins: Vec::new() };
+    let unclear = Outcome::of(group, &[run(0.01, 1.0)], limits);
+    assert_eq!((unclear.last().spp, unclear.last().rel_mse), (1, 0.2));
 }
 
 #[test]
@@ -183,6 +188,9 @@ fn what_is_far_worse_says_nothing_of_how_sure_the_first_places_are() {
     // 1.1 times the spread in two of four degrees of freedom: exp(4.3027 · ln 1.1/2) = 1.2276 for both near ones.
     assert!((far.uncertainty().expect("repeats") - 1.2276).abs() < 1e-3, "{:?}", far.uncertainty());
     assert_eq!((far.rivals().count(), near.rivals().count()), (0, 1));
+    // 0.0145/√(0.01 · 0.011) = 1.3825, divided and multiplied by the factor.
+    let said = "It is 1.38 times as efficient as the next (95 %, by the spread of repeats: 1.13 to 1.70).";
+    assert_eq!(certainty(&far), said);
 }
 
 #[test]
@@ -230,15 +238,26 @@ fn an_outcome_is_the_mean_of_its_runs_where_they_end() {
     // Squared errors that fall as 1/N: the slope of the root is −1/2, from 4 samples on.
     assert!(found.slope.is_some_and(|slope| (slope.slope + 0.5).abs() < 1e-9), "{:?}", found.slope);
     let mut bent = run(0.01, 1.0);
-    bent.checkpoints.iter_mut().take(2).for_each(|point| point.rel_mse *= 100.0);
-    assert!(outcome(RenderSettings::default(), &[bent]).slope.is_some_and(|slope| (slope.slope + 0.5).abs() < 1e-9));
+    for point in &mut bent.checkpoints[..2] {
+        (point.rel_mse, point.bias_standard_error) = (100.0 * point.rel_mse, Some(9.0));
+    }
+    // Nothing varied in 8 samples, of which there is no logarithm.
+    bent.checkpoints[3].bias_standard_error = Some(0.0);
+    let bent = outcome(RenderSettings::default(), &[bent, run(0.01, 1.0)]);
+    assert!(bent.slope.is_some_and(|slope| (slope.slope + 0.5).abs() < 1e-9));
+    // The variance of the mean is the square of a standard error that falls as 1/√N.
+    for known in [found, bent] {
+        assert!(slope(&known.variances).is_some_and(|slope| (slope.slope + 1.0).abs() < 1e-9), "{:?}", known.variances);
+    }
     // As many checkpoints as all runs have.
     let mut short = run(0.01, 1.0);
     short.checkpoints.truncate(3);
     assert_eq!(outcome(RenderSettings::default(), &[run(0.01, 1.0), short]).last().spp, 4);
     // Half the error of a black picture is the limit.
-    let standing = |rel_mse| outcome(RenderSettings::default(), &[run(rel_mse, 1.0)]).standing;
-    assert_eq!([0.499, 0.501].map(standing), [Standing::Sound, Standing::TooNoisy]);
+    let limits = Limits { floor: 0.0, black: 0.4, variance_of_mean: 0.0, mean: 1.0 };
+    let group = || Group { settings: RenderSettings::default(), twins: Vec::new() };
+    let standing = |rel_mse| Outcome::of(group(), &[run(rel_mse, 1.0)], limits).standing;
+    assert_eq!([0.199, 0.201].map(standing), [Standing::Sound, Standing::TooNoisy]);
 }
 
 #[test]
@@ -268,8 +287,16 @@ fn findings_in_words_have_their_numbers() {
     // Two that repeats cannot tell apart.
     let close = findings(vec![of(Estimator::Mis, [0.04, 0.06], 1.0), of(Estimator::Path, [0.05, 0.06], 1.0)]);
     assert!(verdict(&close).starts_with("First of 2 that cannot be told apart: mis"), "{}", verdict(&close));
-    assert!(certainty(&close).contains("Within that are also: path, bsdf"), "{}", certainty(&close));
+    // Two variances, ln² 1.5/2 and ln² 1.2/2, with a degree of freedom each.
+    assert_eq!(
+        certainty(&close),
+        "By the spread of repeats, ratios of efficiencies are known to a factor of 2.60 (95 %). Within that are also: path, bsdf, \
+         sobol, roulette throughput."
+    );
     let biased = Run { bias: "cap at 2".to_owned(), ..run(0.01, 1.0) };
     let one = outcome(estimator(Estimator::Light), &[biased]);
     assert_eq!(one.to_string(), "light, bsdf, sobol, roulette throughput: 10.0 % after 1.00 s, 16 spp, biased: cap at 2");
+    // What is biased is no rival.
+    let alone = findings(vec![of(Estimator::Mis, [0.04, 0.04], 1.0), one]);
+    assert_eq!(certainty(&alone), "No other combination is ranked.");
 }

@@ -42,20 +42,22 @@ fn rendered(variance: Option<f32>, rel_mse_estimate: Option<f64>) -> truth::Refe
 fn the_own_error_of_a_reference_is_what_its_file_says_of_it() {
     let own = |reference, is_declared, floor| {
         let found = known(&subject(Some(reference), is_declared), floor).expect("it is lit").expect("it is known");
-        (found.rel_mse, found.is_taken_for_exact)
+        (found.rel_mse, found.is_taken_for_exact, found.variance_of_mean)
     };
-    let near =
-        |(found, taken): (f64, bool), exact: f64| assert!((found - exact).abs() < 1e-7 && !taken, "{found} {exact} {taken}");
+    let near = |(found, taken, variance): (f64, bool, f64), exact: f64| {
+        assert!((found - exact).abs() < 1e-7 && !taken, "{found} {exact} {taken}");
+        assert!((variance - 0.0404).abs() < 1e-8, "that of its only block, whatever the floor: {variance}");
+    };
     near(own(rendered(Some(0.0404), None), false, Floor::DEFAULT), 0.01);
     near(own(rendered(Some(0.0404), None), false, Floor::Absolute(0.04)), 0.01);
     near(own(rendered(Some(0.0404), None), false, Floor::Absolute(4.08)), 0.005);
     // Its samples were five times as good as independent ones; worse than that they cannot have been.
     near(own(rendered(Some(0.0404), Some(0.002)), false, Floor::DEFAULT), 0.002);
     near(own(rendered(Some(0.0404), Some(0.5)), false, Floor::DEFAULT), 0.01);
-    assert_eq!(own(rendered(None, None), false, Floor::DEFAULT), (0.0, true));
+    assert_eq!(own(rendered(None, None), false, Floor::DEFAULT), (0.0, true, 0.0));
     // What the scene declares to be true is exact.
-    assert_eq!(own(rendered(None, None), true, Floor::DEFAULT), (0.0, false));
-    assert_eq!(own(truth::Reference::Constant([2.0; 3]), true, Floor::DEFAULT), (0.0, false));
+    assert_eq!(own(rendered(None, None), true, Floor::DEFAULT), (0.0, false, 0.0));
+    assert_eq!(own(truth::Reference::Constant([2.0; 3]), true, Floor::DEFAULT), (0.0, false, 0.0));
 }
 
 #[test]
@@ -98,12 +100,16 @@ fn a_converged_render_knows_its_own_error_and_is_kept() {
     // A quarter of the mean square of the difference.
     let quarter = compare(&halves[0], &found.radiance, Floor::DEFAULT).rel_mse;
     assert!((found.rel_mse / quarter - 1.0).abs() < 1e-6 && found.rel_mse > 0.0 && !found.is_taken_for_exact);
+    let noises = files.iter().map(|file| crate::render::image_file::provenance(file).noise.expect("variances"));
+    let of_mean = noises.map(|noise| noise.variance_of_mean()).sum::<f64>() / 4.0;
+    let is_known = |variance: f64| (variance / of_mean - 1.0).abs() < 1e-6;
+    assert!(is_known(found.variance_of_mean), "{} {of_mean}", found.variance_of_mean);
     // And about that of the true error: 256 pixels of noise, more even than chance.
     let truth = compare(&found.radiance, &[[2.0; 3]; 256], Floor::DEFAULT).rel_mse;
     assert!((0.6..1.6).contains(&(found.rel_mse / truth)), "{} {truth}", found.rel_mse);
     assert_ne!(settings(&subject).seed, subject.scene.settings.seed);
     // What is there is not rendered again; for longer renders it is too short.
     let (again, shares) = reference(4);
-    assert!(shares.is_empty() && again.radiance == found.radiance);
+    assert!(shares.is_empty() && again.radiance == found.radiance && is_known(again.variance_of_mean));
     assert!(!reference(8).1.is_empty());
 }

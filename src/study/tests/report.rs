@@ -121,18 +121,24 @@ fn settings_have_names_and_take_values_over() {
     assert_eq!(differing_labels(&[on]), ("mis, bsdf, sobol, roulette throughput, sharing on".to_owned(), vec![String::new()]));
 }
 
+/// What stands in a row, all of whose cells end like this.
+fn first_cells<'a>(row: &'a str, end: &str) -> Vec<&'a str> {
+    row.split(end).take(16).map(|cell| cell.rsplit('>').next().unwrap_or("")).collect()
+}
+
 #[test]
 fn a_report_says_what_was_found_and_against_what() {
     let unbiased = |rel_mse, seconds| Run { bias: String::new(), invalid_samples: 0, ..points(rel_mse, seconds) };
     let limits = Limits { floor: 0.0, black: 1.0, variance_of_mean: 0.0, mean: 1.0 };
-    let outcome = |sampler, runs: &[Run]| {
-        let settings = RenderSettings { sampler, ..RenderSettings::default() };
+    let outcome = |estimator, sampler, runs: &[Run]| {
+        let settings = RenderSettings { estimator, sampler, ..RenderSettings::default() };
         Outcome::of(Group { settings, twins: Vec::new() }, runs, limits)
     };
     let mut outcomes = vec![
-        outcome(Sampler::Independent, &[unbiased(0.04, 1.0), unbiased(0.05, 1.0)]),
-        outcome(Sampler::Sobol, &[unbiased(0.01, 1.0), unbiased(0.0121, 1.0)]),
-        outcome(Sampler::Stratified, &[points(0.01, 0.1)]),
+        outcome(Estimator::Mis, Sampler::Independent, &[unbiased(0.04, 1.0), unbiased(0.05, 1.0)]),
+        outcome(Estimator::Mis, Sampler::Sobol, &[unbiased(0.01, 1.0), unbiased(0.0121, 1.0)]),
+        outcome(Estimator::Mis, Sampler::Stratified, &[points(0.01, 0.1)]),
+        outcome(Estimator::Path, Sampler::Independent, &[unbiased(0.22, 1.0), unbiased(0.22, 1.0)]),
     ];
     rank(&mut outcomes);
     let findings = |limits, reference_is_taken_for_exact| Findings {
@@ -160,12 +166,17 @@ fn a_report_says_what_was_found_and_against_what() {
         "up to 16 samples a pixel; no doubling that would end after 1.50 s",
         "3 samples were not finite or negative, and count as black.",
         "biased: cap at 2",
+        // It was tried with another sampler than the best one alone, and has √(0.01 · 0.0121)/0.22 of its efficiency.
+        "<td>path</td><td class=\"n\">–</td><td class=\"n\">0.0500</td>",
     ] {
         assert!(page.contains(said) != (said == "First of 1"), "{said}: {page}");
     }
+    let table = &page[page.find("All combinations").expect("the ranking")..];
+    let headings = first_cells(table, "</th>");
+    assert_eq!(headings[8..], ["samples", "s", "error", "slope", "efficiency", "±", "of the best", "bias"], "{headings:?}");
     // The best is first: ±10 % between its repeats is a standard error of ln 1.21/2.
     let row = &page[page.find("class=\"first\"").expect("a first row")..];
-    let cells: Vec<&str> = row.split("</td>").take(16).map(|cell| cell.rsplit('>').next().unwrap_or("")).collect();
+    let cells = first_cells(row, "</td>");
     let settings = ["mis", "bsdf", "sobol", "throughput", "none", "auto: on", "off"];
     assert_eq!((cells[0], &cells[1..8]), ("1", &settings[..]), "{cells:?}");
     assert_eq!(cells[8..11], ["16", "1.00", "10.5 %"], "{cells:?}");

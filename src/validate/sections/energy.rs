@@ -193,8 +193,28 @@ fn asymmetry(name: &str, (count, random): (u32, Random), bsdf: &impl Bsdf<One>) 
     let worst = (0..count).map(|i| {
         let (a, b) = (direction(2 * i), direction(2 * i + 1));
         let f = |wo: V<One>, wi: V<One>| f64::from(bsdf.eval(wo, wi).0.x.0) / f64::from(wi.z.0);
-        let (there, back) = (f(a, b), f(b, a));
-        if there.min(back) > 1e-12 { (there - back).abs() / there.max(back) } else { 0.0 }
+        relative_difference(f(a, b), f(b, a))
     });
     Statement::below(format!("{name}: largest relative difference of f when directions are exchanged"), largest(worst), 2e-4)
+}
+
+/// As a part of the larger one; 0 where one is hardly anything.
+fn relative_difference(a: f64, b: f64) -> f64 {
+    // Of NaN and a number `min` and `max` are the number.
+    if (a + b).is_nan() {
+        return f64::NAN;
+    }
+    if a.min(b) > 1e-12 { (a - b).abs() / a.max(b) } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn differences_are_parts_of_the_larger_number_and_nan_is_not_0() {
+        assert_eq!([(3.0, 4.0), (4.0, 3.0), (0.0, 1e-13)].map(|(a, b)| relative_difference(a, b)), [0.25, 0.25, 0.0]);
+        let nan = [(f64::NAN, f64::NAN), (f64::NAN, 1.0), (0.0, f64::NAN)].map(|(a, b)| relative_difference(a, b));
+        assert!(nan.iter().all(|x| x.is_nan()) && largest([0.1, nan[0], 0.2]).is_nan(), "{nan:?}");
+    }
 }
