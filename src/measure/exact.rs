@@ -12,12 +12,12 @@ pub fn furnace(le: f64, albedo: f64) -> f64 {
     le / (1.0 - albedo)
 }
 
-/// The part of [`furnace`] that at most `cap` reflections carry: L_e (1 − ρⁿ⁺¹) / (1 − ρ).
+/// The part of [`furnace`] that at most `cap` bounces carry: L_e (1 − ρⁿ⁺¹) / (1 − ρ).
 pub fn furnace_capped(le: f64, albedo: f64, cap: u32) -> f64 {
     furnace(le, albedo) * (1.0 - albedo.powi(cap as i32 + 1))
 }
 
-/// Variance of one sample X of the furnace when every reflection multiplies the throughput by a random weight w, independent of
+/// Variance of one sample X of the furnace when every bounce multiplies the throughput by a random weight w, independent of
 /// the others, of mean 1 and mean square `weight_square`.
 ///
 /// X = L_e + ρ w X′ with X′ distributed as X and independent of w, hence with L = L_e/(1 − ρ)
@@ -32,7 +32,7 @@ pub fn furnace_variance(le: f64, albedo: f64, weight_square: f64) -> f64 {
     mean_square - mean * mean
 }
 
-/// The same with at most `cap` reflections: Xₙ = L_e + ρ w Xₙ₋₁ with X₀ = L_e, so that
+/// The same with at most `cap` bounces: Xₙ = L_e + ρ w Xₙ₋₁ with X₀ = L_e, so that
 /// E Xₙ² = L_e² + 2 L_e ρ E Xₙ₋₁ + ρ² E w² E Xₙ₋₁².
 pub fn furnace_capped_variance(le: f64, albedo: f64, weight_square: f64, cap: u32) -> f64 {
     let step = |mean_square: f64, n: u32| {

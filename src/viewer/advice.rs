@@ -159,7 +159,26 @@ fn row(ui: &mut Ui, candidate: &Candidate, is_best: bool, is_current: bool) -> b
 
 #[cfg(test)]
 mod tests {
+    use egui_kittest::{Harness, kittest::Queryable};
+
     use super::*;
+
+    #[test]
+    fn a_candidate_has_its_ratio_and_the_root_of_its_rel_mse() {
+        let candidate = Candidate {
+            settings: RenderSettings::default(),
+            name: String::new(),
+            efficiency: 1.0,
+            relative: 2.0,
+            standard_error: 0.1,
+            rel_mse: 0.0025,
+            seconds: 1.0,
+            spp: 4,
+            rounds: 8,
+        };
+        let harness = Harness::builder().build_ui(|ui| assert!(!row(ui, &candidate, true, false)));
+        assert!(harness.query_by_label("5.00 %").is_some() && harness.query_by_label("2.00 ± 0.20").is_some());
+    }
 
     #[test]
     fn nothing_is_done_of_what_is_not_known() {

@@ -76,6 +76,12 @@ mod tests {
     }
 
     #[test]
+    fn shipped_scenes_are_in_the_order_of_their_names() {
+        let names: Vec<String> = find().into_iter().map(|entry| entry.name.to_lowercase()).collect();
+        assert!(names.len() > 20 && names.is_sorted(), "{names:?}");
+    }
+
+    #[test]
     fn a_folder_lists_its_scenes_and_what_is_opened_is_listed_once_under_its_last_name() {
         let folder = tempfile::tempdir().expect("a folder");
         let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).expect("it is written");

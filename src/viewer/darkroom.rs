@@ -307,6 +307,8 @@ mod tests {
         let term = |k, up_to| Some(Term { of: a.frame.clone(), k, up_to });
         let (truth, other) = (Arc::new(Reference::Constant([1.0; 3])), frame(&[1.0]));
         let look = Look { view: View::Depth, ..a.look };
+        let (normal, albedo, depth, object) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let features = Features { width: 0, height: 0, normal, albedo, depth, object, material: Vec::new(), cost: Vec::new() };
         for changed in [
             Order { frame: other.clone(), ..a.clone() },
             Order { beside: Some(other.clone()), ..a.clone() },
@@ -314,6 +316,7 @@ mod tests {
             Order { look, ..a.clone() },
             Order { truth: Some(truth), ..a.clone() },
             Order { pinned: Some(other), ..a.clone() },
+            Order { features: Some(Arc::new(features)), ..a.clone() },
             Order { term: term(1, false), ..a.clone() },
         ] {
             assert!(changed != a && changed == changed.clone());

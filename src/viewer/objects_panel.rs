@@ -118,7 +118,9 @@ mod tests {
     #[test]
     fn a_shape_says_its_size_and_its_place() {
         let ball = shape("sphere = { center = [1.0, 2.0, 3.0], radius = 0.5 }");
-        assert!(ball.starts_with("sphere: within 0.5000 m of [1.0000, 2.0000, 3.0000]"), "{ball}");
+        assert_eq!(ball, "sphere: within 0.5000 m of [1.0000, 2.0000, 3.0000]");
+        let moving = shape("sphere = { center = [1.0, 2.0, 3.0], radius = 0.5 } }\nmotion = [{ translate = [1.0, 0.0, 0.0] }] #");
+        assert!(moving.ends_with("\nmoves while the shutter is open"), "{moving}");
         let cuboid = shape("cuboid = { min = [0.0, 0.0, 0.0], max = [1.0, 2.0, 3.0] }");
         assert!(cuboid.contains("sides 1.0000 × 2.0000 × 3.0000 m"), "{cuboid}");
         let cylinder = shape("cylinder = { base = [0.0, 0.0, 0.0], top = [0.0, 3.0, 0.0], radius = 0.25, capped = false }");
@@ -154,6 +156,11 @@ mod tests {
         );
         let (_, more) = of("conductor = { eta = [0.1, 0.2, 0.3], k = [3.0, 2.0, 1.0] }", "");
         assert!(more.contains("eta 0.100 0.200 0.300\nk 3.000 2.000 1.000"), "{more}");
+        let (_, more) = of(
+            "lambertian = { albedo = 0.5 }\nbump = { texture = \"t\", height = 0.1 }",
+            "[textures.t]\nchecker = { even = 0.1, odd = 0.5, scale = 4.0 }",
+        );
+        assert_eq!(more, "material `mine`\nalbedo 0.500 0.500 0.500\nbump map");
         let black = &objects("[[objects]]\nshape = { sphere = { center = [0.0, 0.0, 0.0], radius = 1.0 } }")[0];
         assert_eq!((summary(black), details(black)), ("black".to_owned(), "reflects nothing".to_owned()));
     }

@@ -219,7 +219,36 @@ fn dialog_body(ui: &mut egui::Ui, target: Target, field: &mut PathField) -> (boo
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
+    use noisefall::render::{Frame, view::Look};
+
     use super::*;
+    use crate::viewer::darkroom::Term;
+
+    #[test]
+    fn a_png_says_what_of_the_picture_it_shows_and_an_exr_shows_all() {
+        let said = |view, (k, up_to), path: &str| {
+            let frame = Arc::new(Frame { spp: 9, ..Frame::default() });
+            let order = Order {
+                term: Some(Term { of: frame.clone(), k, up_to }),
+                frame,
+                beside: None,
+                shows_beside: false,
+                look: Look { view, ..Look::default() },
+                truth: None,
+                pinned: None,
+                features: None,
+                materials: Arc::from([]),
+                most_side: 1,
+            };
+            remarks(&order, Path::new(path)).into_iter().map(|(_, text)| text).collect::<Vec<_>>()
+        };
+        assert_eq!(said(View::Radiance, (3, true), "a.png"), ["at most 3 bounces, 9 spp"]);
+        assert_eq!(said(View::Radiance, (1, false), "a.png"), ["exactly 1 bounce, 9 spp"]);
+        assert_eq!(said(View::Depth, (1, false), "a.png"), [View::Depth.name()], "no term is seen");
+        assert!(said(View::Radiance, (3, true), "a.EXR").is_empty());
+    }
 
     #[test]
     fn a_name_that_is_taken_is_numbered_on() {

@@ -6,6 +6,7 @@ mod collision;
 mod fields;
 mod glyphs;
 mod instruments;
+mod labels;
 mod manners;
 mod mouse;
 mod path;

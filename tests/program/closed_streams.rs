@@ -18,7 +18,7 @@ fn unread() -> Stdio {
 /// Commands, what they say on standard error, and the status they end with.
 fn commands() -> Vec<(Vec<String>, i32)> {
     let furnace = scene("furnace");
-    let commands: [(&[&str], i32); 13] = [
+    let commands: [(&[&str], i32); 15] = [
         (&["render", "nowhere.toml", "-o", "out.png"], 1),
         (&["render", &furnace, "-o", "nowhere/out.png"], 1),
         (&["render", &furnace, "-o", "-"], 2),
@@ -31,6 +31,8 @@ fn commands() -> Vec<(Vec<String>, i32)> {
         (&["study", "nowhere.toml", "-o", "out"], 1),
         (&["study", &furnace, &furnace, "-o", "out", "--reference", "a.exr"], 2),
         (&["render", &furnace, "-o", "black.png", "--spp", "1", "--size", "8x8", "--max-bounces", "0"], 0),
+        (&["sheet", &furnace, "-o", "sheet.png", "--spp", "1", "--size", "8x8"], 0),
+        (&["render", &furnace, "--pixel", "1,1", "--size", "8x8"], 0),
         (&["--help"], 0),
     ];
     commands.into_iter().map(|(words, code)| (words.iter().map(ToString::to_string).collect(), code)).collect()
@@ -47,7 +49,7 @@ fn commands_whose_readers_are_gone_end_with_the_status_of_their_work() {
         assert_eq!(quiet.status.code(), Some(code), "{words:?}");
         assert!(code != 0 || text(&quiet.stderr).is_empty(), "{words:?}: {}", text(&quiet.stderr));
     }
-    assert!(shell.path("black.png").is_file());
+    assert!(["black.png", "sheet.png"].iter().all(|name| shell.path(name).is_file()));
 }
 
 #[test]

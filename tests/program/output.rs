@@ -58,7 +58,8 @@ fn every_writer_replaces_files_whole() {
     let shell = Shell::new();
     fs::create_dir(shell.path("study")).expect("a folder");
     fs::create_dir(shell.path("validation")).expect("a folder");
-    let names = ["out.png", "out.exr", "difference.png", "study/report.html", "validation/report.html"];
+    let names =
+        ["out.png", "out.exr", "difference.png", "sheet.png", "samples.csv", "study/report.html", "validation/report.html"];
     names.iter().for_each(|name| second_name(&shell, name));
     // What a killed process left behind.
     let leftover = |name: &str| {
@@ -72,6 +73,8 @@ fn every_writer_replaces_files_whole() {
         [&["render", &furnace, "-o", "out.png"], &SMALL[..]].concat(),
         [&["render", &furnace, "-o", "out.exr"], &SMALL[..]].concat(),
         vec!["compare", "out.exr", "out.exr", "-o", "difference.png"],
+        vec!["sheet", &furnace, "-o", "sheet.png", "--spp", "1", "--size", "8x8"],
+        vec!["render", &furnace, "--pixel", "1,1", "--size", "8x8", "--csv", "samples.csv"],
         [&["study", &furnace, "-o", "study", "--size", "8x8"], &few[..]].concat(),
         vec!["validate", "--quick", "--stress", "-o", "validation"],
     ] {
@@ -101,7 +104,7 @@ fn no_writer_replaces_what_is_no_regular_file_and_none_waits_for_it() {
     for folder in ["report", "csv"] {
         fs::create_dir(shell.path(folder)).expect("a folder");
     }
-    let pipes = ["pipe.png", "pipe.exr", "report/report.html", "csv/study.csv"];
+    let pipes = ["pipe.png", "pipe.exr", "pipe.csv", "report/report.html", "csv/study.csv"];
     for pipe in pipes {
         let made = std::process::Command::new("mkfifo").arg(shell.path(pipe)).status();
         assert!(made.expect("mkfifo starts").success());
@@ -115,6 +118,10 @@ fn no_writer_replaces_what_is_no_regular_file_and_none_waits_for_it() {
         (vec!["validate", "--quick", "-o", "report"], "report/report.html: cannot be written: it is a named pipe"),
         (vec!["study", &furnace, "-o", "report"], "report/report.html: cannot be written: it is a named pipe"),
         (vec!["study", &furnace, "-o", "csv"], "csv/study.csv: cannot be written: it is a named pipe"),
+        (vec!["evidence", &furnace, "-o", "report"], "report/report.html: cannot be written: it is a named pipe"),
+        (vec!["evidence", &furnace, "-o", "csv"], "csv/study.csv: cannot be written: it is a named pipe"),
+        (vec!["sheet", &furnace, "-o", "pipe.png"], "pipe.png: cannot be written: it is a named pipe"),
+        (vec!["render", &furnace, "--pixel", "1,1", "--csv", "pipe.csv"], "pipe.csv: cannot be written: it is a named pipe"),
     ] {
         let output = shell.run(&command);
         assert_eq!(output.status.code(), Some(1), "{command:?}");

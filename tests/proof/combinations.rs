@@ -26,7 +26,10 @@ enum Feature {
     ImageSky,
     ConstantSky,
     Bump,
+    NormalMap,
     NormalsOfMesh,
+    Instances,
+    Isosurface,
     Metal,
     Plastic,
     RoughGlass,
@@ -37,7 +40,7 @@ enum Feature {
 
 use Feature::*;
 
-const ALL: [Feature; 18] = [
+const ALL: [Feature; 21] = [
     MovingLamp,
     MovingBall,
     MovingCamera,
@@ -49,7 +52,10 @@ const ALL: [Feature; 18] = [
     ImageSky,
     ConstantSky,
     Bump,
+    NormalMap,
     NormalsOfMesh,
+    Instances,
+    Isosurface,
     Metal,
     Plastic,
     RoughGlass,
@@ -61,9 +67,9 @@ const ALL: [Feature; 18] = [
 /// A scene has at most one of them.
 const EXCLUSIVE: [[Feature; 2]; 2] = [[ImageSky, ConstantSky], [MovingLamp, StretchedLamp]];
 
-/// Sets of at most six features, in which every two are together once.
+/// Sets of at most seven features, in which every two are together once.
 fn sets() -> Vec<Vec<Feature>> {
-    const MOST: usize = 6;
+    const MOST: usize = 7;
     let fits = |set: &[Feature], feature: Feature| {
         !set.contains(&feature)
             && !EXCLUSIVE.iter().any(|pair| pair.contains(&feature) && set.iter().any(|other| pair.contains(other)))
@@ -144,6 +150,20 @@ fn with(set: &[Feature]) -> Scene {
             materials[0]
         ));
     }
+    if has(Instances) {
+        for (degrees, place) in [(90, [0.95, -0.5, 1.8]), (20, [0.6, 0.6, 1.6])] {
+            object(&format!(
+                "shape.mesh.knot.triangles = 200\ntransform = [{{ scale = 0.3 }}, {{ rotate = {{ axis = [1, 0, 0], degrees = {degrees} }} }}, {{ translate = {place:?} }}]\nmaterial = '{}'",
+                materials[0]
+            ));
+        }
+    }
+    if has(Isosurface) {
+        object(&format!(
+            "shape.isosurface = {{ expression = 'x^2 + y^2 + z^2 - 0.09 + 0.01*sin(20*x)', bounds = {{ min = [-0.35, -0.35, -0.35], max = [0.35, 0.35, 0.35] }} }}\ntransform = [{{ translate = [-0.8, -0.45, 1.8] }}]\nmaterial = '{}'",
+            materials[0]
+        ));
+    }
     object("shape.rectangle = { origin = [-3, -0.85, 3], edge_u = [6, 0, 0], edge_v = [0, 0, -6] }\nmaterial = 'floor'");
     scene(&format!(
         "{sky}
@@ -158,7 +178,7 @@ fn with(set: &[Feature]) -> Scene {
         {}
         {}
         [materials]
-        white.lambertian.albedo = [0.7, 0.6, 0.8]
+        white = {{ lambertian.albedo = [0.7, 0.6, 0.8]{} }}
         metal.conductor = {{ f0 = 0.8, alpha = 0.3 }}
         plastic.plastic = {{ albedo = [0.3, 0.5, 0.7], ior = 1.5, alpha = 0.3 }}
         rough.dielectric = {{ ior = 1.5, alpha = 0.4 }}
@@ -167,6 +187,7 @@ fn with(set: &[Feature]) -> Scene {
         {objects}",
         on(Lens, "lens = { radius = 0.1, focus = 4.0 }"),
         on(MovingCamera, "motion = [{ translate = [0.3, 0.1, 0.0] }]"),
+        on(NormalMap, &format!(", normal_map = '{}/scenes/assets/bricks_normal.png'", env!("CARGO_MANIFEST_DIR"))),
         on(Bump, ", bump = { texture = 'waves', height = 0.4 }"),
     ))
 }

@@ -1,7 +1,7 @@
 //! The picture at an end of a parameter's range is the limit of the pictures towards that end.
 //!
 //! Both pictures use the same random numbers, so that they differ by what the parameter changes and hardly by noise.
-use noisefall::scene::{Estimator, RenderSettings, Roulette, Scene};
+use noisefall::scene::{Estimator, RenderSettings, Roulette, Scene, parse};
 
 use crate::picture::{LUMINANCE, Picture, picture, scene, settings, sigmas_of_most};
 
@@ -24,23 +24,32 @@ const SMALL: f64 = 1e-5;
 const WHOLE: f64 = 1.0 - SMALL;
 
 /// Of every kind of material, with parameters as smooth functions of which the picture depends.
-const MATERIALS: [End; 38] = [
+const MATERIALS: [End; 54] = [
     end("lambertian.albedo = @", 0.0, SMALL),
     end("lambertian.albedo = @", 1.0, WHOLE),
+    end("lambertian.albedo = [@, 0.6, 0.3]", 0.0, SMALL),
+    end("lambertian.albedo = [@, 0.6, 0.3]", 1.0, WHOLE),
     end("mirror.reflectance = @", 0.0, SMALL),
     end("mirror.reflectance = @", 1.0, WHOLE),
+    end("mirror.reflectance = [0.8, @, 0.3]", 0.0, SMALL),
     end("conductor.f0 = @", 0.0, SMALL),
     end("conductor.f0 = @", 1.0, WHOLE),
     end("conductor = { f0 = @, alpha = 0.3 }", 0.0, SMALL),
     end("conductor = { f0 = @, alpha = 0.3 }", 1.0, WHOLE),
+    end("conductor = { f0 = [0.9, @, 0.4], alpha = 0.3 }", 0.0, SMALL),
+    end("conductor = { f0 = [0.9, @, 0.4], alpha = 0.3 }", 1.0, WHOLE),
     end("conductor = { f0 = @, alpha = 0.3, energy_compensation = false }", 0.0, SMALL),
     end("conductor.reflectance = @", 0.0, SMALL),
+    end("conductor.reflectance = @", 1.0, WHOLE),
     end("conductor = { reflectance = @, alpha = 0.3 }", 0.0, SMALL),
     end("conductor = { reflectance = @, alpha = 0.3 }", 1.0, WHOLE),
     end("conductor = { eta = @, k = 2.0 }", 0.0, SMALL),
     end("conductor = { eta = @, k = 2.0, alpha = 0.3 }", 0.0, SMALL),
     end("conductor = { eta = 1.5, k = @, alpha = 0.3 }", 0.0, SMALL),
     end("conductor = { eta = 1.5, k = @ }", 0.0, SMALL),
+    end("conductor = { eta = @, k = 2.0 }", 1000.0, 999.9),
+    end("conductor = { eta = 1.5, k = @ }", 1000.0, 999.9),
+    end("conductor = { eta = [0.2, 0.9, @], k = [3.9, 2.4, 1.8], alpha = 0.3 }", 0.0, SMALL),
     end("conductor = { eta = @, k = 2.0, alpha = 0.3 }", 1000.0, 999.9),
     end("conductor = { eta = 1.5, k = @, alpha = 0.3 }", 1000.0, 999.9),
     end("conductor = { f0 = 0.5, alpha = @ }", 1.0, WHOLE),
@@ -53,24 +62,33 @@ const MATERIALS: [End; 38] = [
     end("dielectric = { ior = 1.5, ior_outside = @ }", 20.0, 19.9999),
     end("dielectric = { ior = @, alpha = 0.3 }", 1.0, 1.0 + SMALL),
     end("dielectric = { ior = 1.5, alpha = @ }", 1.0, WHOLE),
+    end("dielectric = { ior = 1.5, roughness = @ }", 1.0, WHOLE),
+    end("dielectric = { ior = 1.5, alpha = @, energy_compensation = false }", 1.0, WHOLE),
     end("dielectric = { ior = 1.5, transmittance = @ }", 0.0, 1e-30),
     end("dielectric = { ior = 1.5, transmittance = @ }", 1.0, WHOLE),
+    end("dielectric = { ior = 1.5, transmittance = [0.4, @, 0.9] }", 0.0, 1e-30),
+    end("dielectric = { ior = 1.5, transmittance = [0.4, @, 0.9] }", 1.0, WHOLE),
     end("plastic = { albedo = @, ior = 1.5 }", 0.0, SMALL),
     end("plastic = { albedo = @, ior = 1.5 }", 1.0, WHOLE),
+    end("plastic = { albedo = [0.2, @, 0.6], ior = 1.5 }", 0.0, SMALL),
+    end("plastic = { albedo = [0.2, @, 0.6], ior = 1.5 }", 1.0, WHOLE),
     end("plastic = { albedo = @, ior = 1.5, alpha = 0.3 }", 0.0, SMALL),
     end("plastic = { albedo = @, ior = 1.5, alpha = 0.3 }", 1.0, WHOLE),
     end("plastic = { albedo = 0.0, ior = @ }", 1.0, 1.0 + SMALL),
     end("plastic = { albedo = 0.5, ior = @, alpha = 0.3 }", 1.0, 1.0 + SMALL),
     end("plastic = { albedo = 0.5, ior = @ }", 20.0, 19.9999),
     end("plastic = { albedo = 0.5, ior = 1.5, alpha = @ }", 1.0, WHOLE),
+    end("plastic = { albedo = 0.5, ior = 1.5, roughness = @ }", 1.0, WHOLE),
 ];
 
 /// From smooth to hardly rough: other lobes, and so other random numbers.
-const SMOOTHNESS: [End; 4] = [
+const SMOOTHNESS: [End; 6] = [
     end("conductor = { f0 = 0.5, alpha = @ }", 0.0, 0.00101),
     end("conductor = { f0 = 0.0, roughness = @ }", 0.0, 0.032),
     end("dielectric = { ior = 1.5, alpha = @ }", 0.0, 0.00101),
+    end("dielectric = { ior = 1.5, roughness = @ }", 0.0, 0.032),
     end("plastic = { albedo = 0.0, ior = 1.5, alpha = @ }", 0.0, 0.00101),
+    end("plastic = { albedo = 0.0, ior = 1.5, roughness = @ }", 0.0, 0.032),
 ];
 
 /// Whatever else a scene says, in place of what [`room`] says.
@@ -181,6 +199,34 @@ fn materials_at_the_ends_of_their_ranges_are_what_they_approach() {
         for estimator in [Estimator::Path, Estimator::Mis] {
             let found = difference(end, |material| room(material, ""), estimator, false);
             assert!(found < NEAR, "{} at {}, {}: {found:.2e}", end.text, end.at, estimator.name());
+        }
+    }
+}
+
+/// The keys that a table of a material has: a key that it lacks is answered with them.
+fn keys(table: &str) -> Vec<String> {
+    let camera = "camera = { eye = [0, 0, 4], look_at = [0, 0, 0], fov = 40.0, resolution = [8, 8] }";
+    let Err(error) = parse("keys.toml", format!("format = 1\n{camera}\nmaterials.m.{table}zzz = 1")) else {
+        panic!("{table} has a key `zzz`")
+    };
+    let report = error.report();
+    let (_, listed) = report.split_once("help: expected ").unwrap_or_else(|| panic!("{table}: {report}"));
+    listed.split('`').skip(1).step_by(2).map(str::to_owned).collect()
+}
+
+#[test]
+fn every_parameter_of_every_kind_of_material_has_an_end_here() {
+    let texts: Vec<&str> = MATERIALS.iter().chain(&SMOOTHNESS).chain(&REST).map(|end| end.text).collect();
+    let mut kinds = keys("");
+    // Of all kinds: a picture has no ends, and nothing lies between those of a switch.
+    kinds.retain(|kind| !["normal_map", "two_sided"].contains(&kind.as_str()));
+    assert!(kinds.len() >= 6, "{kinds:?}");
+    for kind in kinds {
+        let parameters = keys(&format!("{kind}."));
+        assert!(!parameters.is_empty(), "{kind}");
+        for parameter in parameters.into_iter().filter(|parameter| parameter != "texture") {
+            let says = |text: &str| text.contains(&format!("{parameter} = @")) || text.contains(&format!("{parameter} = false"));
+            assert!(texts.iter().any(|text| text.contains(&kind) && says(text)), "{kind}.{parameter} is nowhere at its ends");
         }
     }
 }

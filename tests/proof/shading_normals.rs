@@ -25,7 +25,7 @@ const HEIGHT: f64 = 0.4;
 const TILT: DVec3 = DVec3::new(0.5, 0.25, 0.8);
 
 /// Shapes within 1 m of the origin.
-const SHAPES: [(&str, &str); 10] = [
+const SHAPES: [(&str, &str); 13] = [
     ("sphere", "sphere = { center = [0, 0, 0], radius = 0.9 }"),
     (
         "ellipsoid",
@@ -37,7 +37,16 @@ const SHAPES: [(&str, &str); 10] = [
     ("disk", "disk = { center = [0, 0, 0], normal = [0.2, 0.3, 1.0], radius = 0.9 }"),
     ("rectangle", "rectangle = { origin = [-0.6, -0.5, 0], edge_u = [1.2, 0, -0.2], edge_v = [0.3, 1.0, 0] }"),
     ("triangle", "triangle = { a = [-0.8, -0.6, 0], b = [0.8, -0.5, 0.2], c = [0.1, 0.8, -0.1] }"),
+    (
+        "isosurface",
+        "isosurface = { expression = 'x^2 + 2*y^2 + 1.5*z^2 - 0.6', bounds = { min = [-0.9, -0.9, -0.9], max = [0.9, 0.9, 0.9] } }",
+    ),
+    (
+        "stretched isosurface",
+        "isosurface = { expression = 'x^2 + 2*y^2 + 1.5*z^2 - 0.6', bounds = { min = [-0.9, -0.9, -0.9], max = [0.9, 0.9, 0.9] } } }\ntransform = [{ scale = [1.0, 0.7, -1.0] }, { rotate = { axis = [0, 1, 0], degrees = 170 } }]#",
+    ),
     ("mesh", "mesh = { path = 'MESH' }"),
+    ("smooth mesh", "mesh = { path = 'SMOOTH' }"),
     (
         "stretched mesh",
         "mesh = { path = 'MESH' } }\ntransform = [{ scale = [1.0, 0.7, -1.0] }, { rotate = { axis = [0, 1, 0], degrees = 170 } }]#",
@@ -48,6 +57,12 @@ const SHAPES: [(&str, &str); 10] = [
 const MESH: &str = "v -0.8 -0.7 0\nv 0.8 -0.6 0.1\nv 0.7 0.8 0\nv -0.7 0.6 -0.1\n\
                     vt 0.2 0.1\nvt 0.9 0.3\nvt 0.7 0.9\nvt 0.1 0.6\nf 1/1 2/2 3/3\nf 1/1 3/3 4/4\n";
 
+/// The same with normals of its own.
+fn smooth_mesh() -> String {
+    let (places, _) = MESH.split_once("f ").expect("it has faces");
+    format!("{places}vn 0.3 0.1 1\nvn -0.3 0.2 1\nvn -0.2 -0.3 1\nvn 0.2 -0.1 1\nf 1/1/1 2/2/2 3/3/3\nf 1/1/1 3/3/3 4/4/4\n")
+}
+
 /// The files that the scenes name.
 struct Files {
     folder: tempfile::TempDir,
@@ -56,7 +71,9 @@ struct Files {
 impl Files {
     fn new() -> Files {
         let files = Files { folder: tempfile::tempdir().expect("a folder") };
-        std::fs::write(files.path("mesh.obj"), MESH).expect("it is written");
+        for (name, text) in [("mesh.obj", MESH), ("smooth.obj", &smooth_mesh())] {
+            std::fs::write(files.path(name), text).expect("it is written");
+        }
         files.picture("uv.exr", |at| [at.x, at.y, 0.0]);
         files.picture("height.exr", |at| [RISE.dot(at); 3]);
         let code = TILT.normalize() * 0.5 + 0.5;
@@ -80,7 +97,7 @@ impl Files {
     /// What parallel rays from (2, 1.5, 3) see of a shape.
     fn seen(&self, shape: &str, material: &str) -> Features {
         let path = |name: &str| self.path(name).display().to_string();
-        let shape = shape.replace("MESH", &path("mesh.obj"));
+        let shape = shape.replace("MESH", &path("mesh.obj")).replace("SMOOTH", &path("smooth.obj"));
         let scene: Scene = scene(&format!(
             "camera = {{ eye = [1.0, 0.7, 3.0], look_at = [0, 0, 0], projection.orthographic.width = 2.0, resolution = [{SIDE}, {SIDE}] }}
             textures.uv.image = {{ path = '{}', encoding = 'linear' }}

@@ -258,7 +258,7 @@ fn colours_are_those_of_the_maps_and_even_between() {
 
 /// The terms of every pixel, in tiles that do not fill the picture, add up to the picture and to those before.
 #[test]
-fn a_series_is_the_picture_by_numbers_of_reflections() {
+fn a_series_is_the_picture_by_numbers_of_bounces() {
     let scene = built_in();
     let resolution = [75, 40];
     let rays = scene.rays(&Camera { resolution, ..scene.camera });

@@ -111,6 +111,7 @@ mod tests {
         let mut history = history();
         let over_samples = history.svg();
         assert!(over_samples.contains("samples per pixel") && over_samples.contains("sampler independent"));
+        assert_eq!(over_samples.matches("<circle").count(), 2, "points are true: two of them");
         history.over = Over::Seconds;
         let over_seconds = history.svg();
         assert!(over_seconds.contains("seconds") && !over_seconds.contains("samples per pixel"));

@@ -206,8 +206,11 @@ mod tests {
         let mut history = looking_at(&scene);
         history.record(&scene.settings, 1, moment(8, 0.5));
         history.record(&scene.settings, 1, moment(8, 0.4));
-        history.record(&scene.settings, 1, moment(16, 0.3));
-        assert_eq!(history.curves[0].moments.iter().map(|moment| moment.spp).collect::<Vec<_>>(), [8, 16]);
+        for spp in [16, 100, 102, 104] {
+            history.record(&scene.settings, 1, moment(spp, 0.3));
+        }
+        let kept: Vec<u32> = history.curves[0].moments.iter().map(|moment| moment.spp).collect();
+        assert_eq!(kept, [8, 16, 100, 104], "and none that is too near to the one before");
         history.record(&scene.settings, 2, moment(1, 0.9));
         assert_eq!((history.curves.len(), history.curves[0].moments.len(), history.curves[0].generation), (1, 1, 2));
         let seeded = |seed| RenderSettings { seed, ..scene.settings };

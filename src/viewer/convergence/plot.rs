@@ -194,7 +194,21 @@ fn label(x: f64) -> String {
 
 #[cfg(test)]
 mod tests {
+    use noisefall::scene::RenderSettings;
+
     use super::*;
+    use crate::viewer::convergence::Moment;
+
+    #[test]
+    fn a_curve_says_its_last_figures_each_by_its_name() {
+        let last = Moment { spp: 16, seconds: 2.0, estimated: Some(0.125), true_error: Some(0.0625), bias: Some(-1.5) };
+        let curve = |bias| {
+            let moments = vec![Moment { spp: 8, seconds: 1.0, ..last }, Moment { bias: Some(bias), ..last }];
+            figures(&Curve { settings: RenderSettings::default(), generation: 1, moments }, Over::Samples)
+        };
+        assert_eq!(curve(-1.5), "N 16, 2.0 s, error 12.50 %\ntrue 6.25 %, bias -1.5 σ");
+        assert!(curve(40.0).ends_with(", bias beyond + 37 σ") && curve(-40.0).ends_with(", bias beyond - 37 σ"));
+    }
 
     #[test]
     fn lines_of_the_grid_are_powers_of_ten_and_where_there_is_room_their_multiples() {

@@ -37,7 +37,10 @@ pub fn clip(rect: Rect, [from, to]: [Pos2; 2]) -> Option<[Pos2; 2]> {
 
 #[cfg(test)]
 mod tests {
-    use noisefall::scene::built_in;
+    use noisefall::{
+        math::{F, One},
+        scene::built_in,
+    };
 
     use super::*;
 
@@ -52,15 +55,26 @@ mod tests {
         assert_eq!(clip([f32::NAN, 5.0], [5.0, 5.0]), None);
     }
 
+    fn camera(orthographic: Option<f64>) -> Camera {
+        let (eye, look_at) = (DVec3::new(1.0, 2.0, 3.0), DVec3::ZERO);
+        Camera { eye, look_at, fov: 40.0, orthographic, resolution: [300, 200], ..built_in().camera }
+    }
+
+    #[test]
+    fn what_a_ray_of_the_camera_meets_lies_where_it_went_through() {
+        for orthographic in [None, Some(3.0)] {
+            let camera = camera(orthographic);
+            let (o, d) = built_in().rays(&camera).through(One, F(30.0), F(170.0));
+            let met = o + d * 5.0;
+            let met = DVec3::new(met.x.0.into(), met.y.0.into(), met.z.0.into());
+            let [x, y] = project(&camera, met).expect("it is in front");
+            assert!((x - 30.0).abs() < 1e-2 && (y - 170.0).abs() < 1e-2, "{orthographic:?}: {x} {y}");
+        }
+    }
+
     #[test]
     fn what_is_looked_at_lies_in_the_middle_and_edges_at_the_edge() {
-        let camera = Camera {
-            eye: DVec3::new(1.0, 2.0, 3.0),
-            look_at: DVec3::ZERO,
-            fov: 40.0,
-            resolution: [300, 200],
-            ..built_in().camera
-        };
+        let camera = camera(None);
         let [x, y] = project(&camera, DVec3::ZERO).expect("it is in front");
         assert!((x - 150.0).abs() < 1e-3 && (y - 100.0).abs() < 1e-3);
         let [right, _, forward] = camera.axes();

@@ -263,6 +263,19 @@ mod tests {
     }
 
     #[test]
+    fn a_light_sample_says_what_became_of_it_and_a_mirror_its_weight() {
+        let cells = |outcome| {
+            let light = vertex().light.map(|light| SampledLight { object: None, outcome, ..light });
+            let reflection = vertex().reflection.map(|next| Reflection { delta: true, survives: true, ..next });
+            let cells = written(vec![Vertex { light, reflection, ..vertex() }]).split_off(COLUMNS.len());
+            [cells[9].clone(), cells[16].clone()]
+        };
+        let next = "δ, weight 0.900, q 0.75, ends";
+        assert_eq!(cells(Outcome::Seen), ["background, seen", next]);
+        assert_eq!(cells(Outcome::Void), ["background, not tested", next]);
+    }
+
+    #[test]
     fn numbers_are_short_and_colours_one_number_where_they_are_grey() {
         assert_eq!([0.0, 0.5, 12.34, 4321.0, 0.000_12].map(short), ["0", "0.500", "12.3", "4.3e3", "1.2e-4"]);
         assert_eq!((colour([0.5; 3]), colour([0.5, 1.0, 2.0])), ("0.500".to_owned(), "0.500 1.000 2.000".to_owned()));

@@ -315,6 +315,8 @@ fn another_scene_takes_everything_over_and_the_same_one_keeps_the_exposure() {
     let other = RenderSettings { seed: 8, ..app.settings };
     app.start_comparison(other);
     app.inspector.look_at([3, 4]);
+    app.scene_error = Some("the file before it was broken".to_owned());
+    assert!(app.last_seeing.is_some());
     app.loader.open(Some(path.clone()));
     wait(&mut window, "my scene", |app| app.settings.seed == 3);
     let app = window.state();
@@ -322,6 +324,7 @@ fn another_scene_takes_everything_over_and_the_same_one_keeps_the_exposure() {
     assert_eq!((app.camera, app.settings), (scene.camera, scene.settings));
     assert_eq!(app.budget, noisefall::render::Budget { max_spp: Some(5), steps: 7, ..Default::default() });
     assert!(app.compare.is_none() && app.pinned.is_none() && app.inspector.pixel.is_none() && app.view.zoom.is_none());
+    assert!(app.scene_error.is_none() && app.last_seeing.is_none());
     assert_eq!(app.look.display.exposure, 0.0);
     window.state_mut().look.display.exposure = 1.5;
     window.state_mut().settings.seed = 9;
@@ -445,6 +448,7 @@ fn the_menu_of_comparisons_changes_what_it_names() {
         ("Roulette of 0.8", RenderSettings { roulette: Roulette::Fixed(0.8), ..of }),
         ("Shared paths", RenderSettings { reuse: Reuse::On, ..of }),
         ("Paths of their own", RenderSettings { reuse: Reuse::Off, ..of }),
+        ("A cap of 3 bounces", RenderSettings { max_bounces: Some(3), ..of }),
         ("Another seed", RenderSettings { seed: of.seed + 1, ..of }),
     ] {
         window.get_all_by_label("Compare with…").next().expect("the toolbar has it").click();

@@ -1,4 +1,6 @@
 //! Manners: rest when there is nothing to do, other threads, coalesced drags, the tour, the gallery.
+use noisefall::scene::RenderSettings;
+
 use super::*;
 use crate::viewer::{dock::Tab, preferences::Preferences};
 
@@ -98,8 +100,12 @@ fn the_tour_shows_noise_bounces_and_roulette_and_is_not_shown_again() {
         assert!(window.query_by_label(title).is_some(), "{title}");
         assert_eq!(window.state().dock, Some(tab));
         if title.starts_with("Roulette") {
+            window.state_mut().settings.roulette = Roulette::Off;
             click(&mut window, "Compare with a cap of 3");
-            assert!(window.state().compare.is_some());
+            let app = window.state();
+            let capped = RenderSettings { max_bounces: Some(3), ..app.settings };
+            assert_eq!(app.compare.map(|compare| compare.other), Some(capped));
+            assert_eq!(app.settings.roulette, Roulette::BY_THROUGHPUT);
         }
         click(&mut window, if title == "Now you" { "Done" } else { "Next" });
     }
@@ -132,14 +138,16 @@ fn both_themes_can_be_chosen_and_are_remembered() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = window("furnace");
     window.state_mut().preferences = Preferences::in_folder(folder.path());
-    for (name, dark) in [("Light", false), ("Dark", true)] {
+    for (name, dark, remembered) in
+        [("Light", Some(false), Some("light")), ("Dark", Some(true), Some("dark")), ("As the system", None, None)]
+    {
         window.get_by_role_and_label(Role::ComboBox, "Theme").click();
         window.run_steps(3);
         // The estimator "Light" is in the window too.
         window.get_all_by_role_and_label(Role::Button, name).last().expect("it is there").click();
         window.run_steps(4);
-        assert_eq!(window.ctx.global_style().visuals.dark_mode, dark);
+        assert!(dark.is_none_or(|dark| window.ctx.global_style().visuals.dark_mode == dark), "{name}");
         let noted = || Preferences::in_folder(folder.path()).now.theme.clone();
-        wait(&mut window, "the note of it", |_| noted().as_deref() == Some(name.to_lowercase().as_str()));
+        wait(&mut window, "the note of it", |_| noted().as_deref() == remembered);
     }
 }

@@ -173,6 +173,8 @@ fn keys_fly_and_turn_and_shift_is_faster() {
         let angle = turned.axes()[2].dot(start.axes()[axis]) * sign;
         assert!(turned.eye == start.eye && (angle - 0.1f64.sin()).abs() < 1e-3, "{key:?} {angle}");
     }
+    let angle = held(&mut window, Key::ArrowRight, Modifiers::SHIFT).axes()[2].dot(start.axes()[0]);
+    assert!((angle - 0.2f64.sin()).abs() < 1e-3, "Shift turns twice as far: {angle}");
 }
 
 #[test]
