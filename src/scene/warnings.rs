@@ -122,7 +122,11 @@ impl Scene {
         match count {
             0 => None,
             1 => Some((shown, "has")),
-            _ if count > MOST_NAMED => Some((format!("{shown} and {} more objects", count - MOST_NAMED), "have")),
+            _ if count > MOST_NAMED => {
+                let more = count - MOST_NAMED;
+                let objects = if more == 1 { "object" } else { "objects" };
+                Some((format!("{shown} and {more} more {objects}"), "have"))
+            }
             _ => Some((shown, "have")),
         }
     }

@@ -177,10 +177,26 @@ fn scale_is_the_number_of_cells_to_a_metre() {
 }
 
 #[test]
+fn noise_goes_from_its_low_colour_to_its_high_one() {
+    let mut set = Textures::default();
+    let (low, high) = ([0.1, 0.9, 0.3], [0.8, 0.2, 0.3]);
+    let id = set.push(Texture::Noise { scale: 1.0, octaves: 2, low, high });
+    let mut most = 0.5f32;
+    for i in 0..50 {
+        let (u, v) = (0.37 * i as f32, 0.3 + 0.11 * i as f32);
+        let t = noise_at([u, v, 0.0], 2);
+        let found = set.colour(One, U(id), M(true), &at(u, v)).lane(0);
+        assert!((0..3).all(|k| (found[k] - (low[k] + (high[k] - low[k]) * t)).abs() < 1e-5), "{t}: {found:?}");
+        most = most.max(t);
+    }
+    assert!(most > 0.55, "one of them is not in the middle: {most}");
+}
+
+#[test]
 fn steps_are_those_of_the_finest_part() {
     let mut set = Textures::default();
     let image = set.push(Texture::Image(ImageTexture::new((&picture()).into())));
-    let noise = set.push(Texture::Noise { scale: 2.0, octaves: 3, low: [0.0; 3], high: [1.0, 0.5, 0.25] });
+    let noise = set.push(Texture::Noise { scale: 2.0, octaves: 3, low: [0.0, 0.75, 0.0], high: [1.0, 0.5, 0.25] });
     let checker = set.push(Texture::Checker { even: image, odd: noise, scale: 8.0 });
     let constant = set.push(Texture::Constant([0.5, 0.25, 0.125]));
     let steps = |id: u32| {
@@ -191,10 +207,10 @@ fn steps_are_those_of_the_finest_part() {
     assert_eq!(steps(noise), [1.0 / 64.0, 1.0 / 64.0, 1.0 / 128.0]);
     assert_eq!(steps(checker), [1.0 / 256.0, 1.0 / 256.0, 1.0 / 128.0]);
     assert_eq!(steps(constant), [1.0 / 64.0, 1.0 / 64.0, f32::INFINITY]);
-    assert_eq!((set.mean(noise), set.maximum(noise)), ([0.5, 0.25, 0.125], [1.0, 0.5, 0.25]));
+    assert_eq!((set.mean(noise), set.maximum(noise)), ([0.5, 0.625, 0.125], [1.0, 0.75, 0.25]));
     assert_eq!((set.mean(constant), set.maximum(constant)), ([0.5, 0.25, 0.125], [0.5, 0.25, 0.125]));
     // Of 8 × 8 squares half are even.
-    assert_eq!((set.mean(checker), set.maximum(checker)), ([1.5, 12.625, 0.3125], [5.0, 50.0, 0.5]));
+    assert_eq!((set.mean(checker), set.maximum(checker)), ([1.5, 12.8125, 0.3125], [5.0, 50.0, 0.5]));
 }
 
 #[inline(always)]

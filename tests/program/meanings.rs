@@ -1,5 +1,5 @@
 //! What a file says arrives in the scene: every key with a value that is not its default, and every default.
-use std::fs;
+use std::{fs, sync::Arc};
 
 use glam::DVec3;
 use noisefall::{
@@ -236,6 +236,41 @@ fn shapes_and_their_defaults() {
     assert_ne!(field(""), field(", seed = 1"));
     let inside = |p: DVec3| p.cmpgt(DVec3::ONE).all() && p.cmplt(DVec3::new(2.0, 3.0, 4.0)).all();
     assert!(field("").iter().all(|(_, (center, _))| inside(*center)));
+}
+
+#[test]
+fn meshes_that_are_made_alike_are_one() {
+    let is_shared = |one: &str, other: &str| {
+        let scene = compiled(&format!("VIEW\n[[objects]]\nshape.mesh = {{ {one} }}\n[[objects]]\nshape.mesh = {{ {other} }}"));
+        let [Shape::Mesh { data: one, .. }, Shape::Mesh { data: other, .. }] = [&scene.objects[0].shape, &scene.objects[1].shape]
+        else {
+            panic!("no mesh")
+        };
+        Arc::ptr_eq(one, other)
+    };
+    let (knot, hills) = ("knot = { triangles = 50 }", "heightfield = { quads = 2, seed = 1 }");
+    assert!(is_shared(knot, knot) && is_shared(hills, hills) && !is_shared(knot, hills));
+    assert!(!is_shared(knot, "knot = { triangles = 60 }") && !is_shared(knot, &format!("{knot}, smooth = false")));
+    assert!(
+        !is_shared(hills, "heightfield = { quads = 2, seed = 2 }") && !is_shared(hills, "heightfield = { quads = 3, seed = 1 }")
+    );
+}
+
+#[test]
+fn pictures_of_colours_go_through_the_curve_of_srgb_and_normal_maps_do_not() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/assets/bricks_normal.png");
+    let scene = compiled(&format!(
+        "VIEW\ntextures.a.image.path = '{path}'\ntextures.b.image = {{ path = '{path}', encoding = 'linear' }}
+        materials.m = {{ lambertian.albedo = 0.5, normal_map = '{path}' }}
+        [[objects]]
+        shape.sphere = {{ center = [0, 0, 0], radius = 1 }}
+        material = 'm'"
+    ));
+    let map = scene.objects[0].coating.as_ref().and_then(|coating| coating.normal_map).expect("it has one");
+    let [colours, numbers, normals] = [0, 1, map].map(|id| scene.textures.mean(id)[0]);
+    // Means of the red of all pixels, by a reader of its own.
+    assert!((colours - 0.225_73).abs() < 1e-4 && (numbers - 0.501_63).abs() < 1e-4, "{colours} {numbers}");
+    assert_eq!(normals, numbers);
 }
 
 #[test]

@@ -136,6 +136,9 @@ fn what_is_missing_is_named() {
 fn names_must_be_defined() {
     refuses("material = \"white\"", "material = \"whit\"", "there is no material `whit`");
     assert!(error(&GOOD.replace("material = \"white\"", "material = \"x\"")).report().contains("defines `white`"));
+    let more: String = (0..7).map(|i| format!("[materials.m{i}]\nmirror = {{ reflectance = 0.5 }}\n")).collect();
+    let many = GOOD.replace("[[objects]]", &format!("{more}[[objects]]")).replace("material = \"white\"", "material = \"x\"");
+    assert!(error(&many).report().contains("`m4`, `m5` and 2 more"), "of eight");
 }
 
 #[test]

@@ -35,6 +35,15 @@ fn each_slip_has_its_warning() {
     let flipped = flipped.replacen("\"white\"", "\"glass\"", 1).replacen("EM", lamp, 1);
     let said = parse("test.toml", flipped).unwrap_or_else(|error| panic!("{}", error.report())).warnings().to_vec();
     assert!(said.len() == 1 && said[0].contains("`ball` has `flip` on a dielectric"), "{said:?}");
+    let bare = "[[objects]]\nshape = { sphere = { center = [9, 0, 0], radius = 1 } }\n";
+    for (count, who) in [
+        (2, "object 2, object 3 have"),
+        (4, "object 2, object 3, object 4 and 1 more object have"),
+        (5, "and 2 more objects have"),
+    ] {
+        let said = warnings("[render]", &format!("{}[render]", bare.repeat(count)));
+        assert!(said.len() == 1 && said[0].contains(who), "{said:?}");
+    }
     // What is meant that way is not warned of.
     assert_eq!(warnings("eye = [0.0, 1.0, 4.0]", "eye = [0.1, 1.0, 0.2]").len(), 1);
     assert_eq!(warnings(lamp, &format!("{lamp}\nflip = true")), Vec::<String>::new());

@@ -2,10 +2,10 @@
 use rand::{Rng, SeedableRng, rngs::SmallRng};
 
 use super::super::{
-    bsdf::Bsdf,
+    bsdf::{Bsdf, Lobes},
     dielectric::Dielectric,
     dielectric_albedo::textured_rows,
-    ggx,
+    fresnel, ggx,
     missing_energy::LossTable,
     rough_dielectric::RoughDielectric,
     tests::dielectric_fixtures::{COSINES, ETAS, ROUGHNESSES, combine, dot, interfaces, rough, rows_of, view, wide},
@@ -29,6 +29,20 @@ fn smooth_refraction_obeys_snell_and_loses_nothing() {
                 assert!((wi[0] * index + wo[0]).abs() < 1e-6 && (wi[1] * index + wo[1]).abs() < 1e-6);
                 assert!((f64::from(sample.weight.x.0) * index * index - 1.0).abs() < 1e-6);
             }
+        }
+    }
+}
+
+#[test]
+fn a_lobe_is_called_as_the_direction_that_it_gives() {
+    for eta in ETAS {
+        let (glass, wo, u) = (Dielectric { eta: F(eta) }, view(0.3), (F(0.5), F(0.5)));
+        let reflects = fresnel::dielectric(wo.z, F::<One>(eta)).0.0;
+        for step in 0..100 {
+            let lobe = F((step as f32 + 0.5) / 100.0);
+            let (passes, chosen) = (glass.sample(wo, u, lobe).wi.z.0 < 0.0, glass.chosen(wo, u, lobe));
+            let expected = if passes { ("refraction", 1.0 - reflects) } else { ("mirror reflection", reflects) };
+            assert_eq!((chosen.name, chosen.probability), expected, "{eta} {step}");
         }
     }
 }

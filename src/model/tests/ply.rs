@@ -130,6 +130,21 @@ fn normals_and_coordinates_that_are_no_numbers_are_as_if_missing() {
 }
 
 #[test]
+fn coordinates_go_by_any_of_their_names_and_the_first_counts() {
+    let uvs = |names: &str| {
+        let names: Vec<&str> = names.split(' ').collect();
+        let properties: String = names.iter().map(|name| format!("property float {name}\n")).collect();
+        let elements = mesh(3, 1).replace("property float z\n", &format!("property float z\n{properties}"));
+        let more = " 9".repeat(names.len() - 2);
+        let vertices = ["0 0 0 0.5 0.25", "1 0 0 0 1", "0 1 0 0 1"].map(|vertex| format!("{vertex}{more}\n")).concat();
+        model(&file("ascii", &elements, format!("{vertices}3 0 1 2\n").as_bytes())).uvs
+    };
+    for names in ["s t", "u v", "texture_u texture_v", "S T u v"] {
+        assert_eq!(uvs(names), Some(vec![[0.5, 0.25], [0.0, 1.0], [0.0, 1.0]]), "{names}");
+    }
+}
+
+#[test]
 fn names_of_megabytes_are_cut() {
     let long = "n".repeat(1 << 20);
     let refused = refusal(&file("ascii", &format!("element {long} 5\nproperty int x\n"), b""));

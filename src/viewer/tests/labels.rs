@@ -63,7 +63,7 @@ fn the_line_at_the_bottom_has_every_figure_in_its_unit() {
 fn a_pixel_has_its_own_estimate_and_samples() {
     let mut app = app();
     (app.shown, app.inspector.pixel) = (Some(frame()), Some([1, 0]));
-    assert_says(&said(&mut app, |app, ui| app.path_tab(ui)), &["L = 0.1860 ± 0.0500, N = 5"]);
+    assert_says(&said(&mut app, App::path_tab), &["L = 0.1860 ± 0.0500, N = 5"]);
 }
 
 #[test]
@@ -73,7 +73,7 @@ fn a_bounce_says_what_it_brings_what_there_is_up_to_it_and_what_a_cap_loses() {
     let series = Some(Series { terms: Vec::new(), shares });
     app.frame_beside = Some(Arc::new(Frame { spp: 7, series, ..Frame::default() }));
     app.bounces.k = 2;
-    let texts = said(&mut app, |app, ui| app.bounces_tab(ui));
+    let texts = said(&mut app, App::bounces_tab);
     assert_says(&texts, &["k = 2 brings 12.00 % of the light; up to k it is 82.00 %. A cap of 2 would lose 18.00 %."]);
 }
 
@@ -86,7 +86,7 @@ fn each_side_of_a_comparison_has_its_own_figures_in_their_columns() {
     }
     (app.against, app.against_beside) = (against(0.0025), against(0.01));
     app.start_comparison(RenderSettings { max_bounces: Some(2), ..app.settings });
-    let texts = said(&mut app, |app, ui| app.compare_tab(ui));
+    let texts = said(&mut app, App::compare_tab);
     for row in [
         ["A", "as the scene opens", "7", "2.5 s", "4.00 %", "5.00 %", "160", "the solution"],
         ["B", "max-bounces 2", "9", "3.5 s", "2.00 %", "10.00 %", "28.6", "biased: cap at 2"],
@@ -132,7 +132,7 @@ fn frame_times_are_those_of_layout_and_of_all() {
 fn a_pinned_picture_has_the_samples_of_its_own() {
     let mut app = app();
     (app.shown, app.pinned) = (Some(frame()), Some(Arc::new(Frame { spp: 12, ..Frame::default() })));
-    assert_says(&said(&mut app, |app, ui| app.view_rows(ui)), &["12 spp"]);
+    assert_says(&said(&mut app, App::view_rows), &["12 spp"]);
 }
 
 #[test]
