@@ -15,7 +15,6 @@ use noisefall::{
     scene::{Camera, Estimator, RenderSettings, Reuse, Roulette, Scene, load},
 };
 use rand::{Rng, SeedableRng, rngs::SmallRng};
-use rayon::prelude::*;
 
 use crate::{picture::scene, statistics::Moments};
 
@@ -84,17 +83,19 @@ fn the_noise_figure_is_the_error() {
 /// A room that nobody chose: balls of all materials under a lamp of some size.
 fn room(dice: &mut SmallRng) -> String {
     let mut within = |least: f64, most: f64| least + (most - least) * dice.random::<f64>();
-    let mut text = format!(
+    let mut materials = format!(
         "camera = {{ eye = [{:?}, {:?}, 4.0], look_at = [0.0, 0.7, 0.0], fov = {:?}, resolution = [16, 16] }}\n\
          background = {{ radiance = {:?} }}\n\
-         materials.walls.lambertian = {{ albedo = {:?} }}\n\
-         [[objects]]\nshape.sphere = {{ center = [0.0, -1000.0, 0.0], radius = 1000.0 }}\nmaterial = 'walls'\n\
-         [[objects]]\nshape.sphere = {{ center = [0.0, 0.0, -1002.0], radius = 1000.0 }}\nmaterial = 'walls'\n",
+         materials.walls.lambertian = {{ albedo = {:?} }}\n",
         within(-1.5, 1.5),
         within(0.5, 2.0),
         within(30.0, 60.0),
         within(-0.5, 0.5).max(0.0),
         within(0.0, 0.9),
+    );
+    let mut objects = String::from(
+        "[[objects]]\nshape.sphere = { center = [0.0, -1000.0, 0.0], radius = 1000.0 }\nmaterial = 'walls'\n\
+         [[objects]]\nshape.sphere = { center = [0.0, 0.0, -1002.0], radius = 1000.0 }\nmaterial = 'walls'\n",
     );
     for ball in 0..3 {
         let roughness = within(0.0, 1.0);
@@ -106,21 +107,22 @@ fn room(dice: &mut SmallRng) -> String {
             _ => format!("lambertian = {{ albedo = {roughness:?} }}"),
         };
         let radius = within(0.2, 0.7);
-        text += &format!(
-            "materials.ball_{ball}.{material}\n\
-             [[objects]]\nshape.sphere = {{ center = [{:?}, {radius:?}, {:?}], radius = {radius:?} }}\nmaterial = 'ball_{ball}'\n",
+        materials += &format!("materials.ball_{ball}.{material}\n");
+        objects += &format!(
+            "[[objects]]\nshape.sphere = {{ center = [{:?}, {radius:?}, {:?}], radius = {radius:?} }}\nmaterial = 'ball_{ball}'\n",
             f64::from(ball) * 1.4 - 1.4,
             within(-0.5, 0.5),
         );
     }
     let radius = 10_f64.powf(within(-1.3, -0.2));
-    text + &format!(
+    objects += &format!(
         "[[objects]]\nshape.sphere = {{ center = [{:?}, 2.2, {:?}], radius = {radius:?} }}\nmaterial = 'walls'\n\
          emission = {{ radiance = {:?} }}\n",
         within(-1.0, 1.0),
         within(-1.0, 1.0),
         1.0 / (radius * radius),
-    )
+    );
+    materials + &objects
 }
 
 #[test]
@@ -159,6 +161,7 @@ fn what_stopping_at_a_noise_target_does_to_the_mean() {
     const RENDERS: u32 = 4000;
     let scene = load(concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/furnace.toml").as_ref()).expect("a shipped scene compiles");
     let rays = scene.rays(&Camera { resolution: [SIDE; 2], ..scene.camera });
+    let threads = Threads::new(1, SimdLevel::best()).expect("a thread can be had");
     let render = |seed| {
         let settings = RenderSettings {
             seed,
@@ -171,7 +174,6 @@ fn what_stopping_at_a_noise_target_does_to_the_mean() {
             ..scene.settings
         };
         let mut film = Film::new([SIDE; 2]);
-        let threads = Threads::new(1, SimdLevel::best()).expect("a thread can be had");
         for spp in (1..).map(|pass| 64 * pass) {
             threads.pass(PassJob { scene: &scene, rays: &rays, settings: &settings }, &mut film, spp, &|| false);
             let frame = Frame::of_film(&film, 0, [SIDE; 2], [SIDE; 2]);
@@ -182,7 +184,7 @@ fn what_stopping_at_a_noise_target_does_to_the_mean() {
         }
         unreachable!("noise falls")
     };
-    let ends: Vec<_> = (0..RENDERS).into_par_iter().map(render).collect();
+    let ends: Vec<_> = (0..RENDERS).map(render).collect();
     let means = Moments::of(ends.iter().map(|(mean, _)| *mean));
     let (least, most) = ends.iter().fold((u32::MAX, 0), |(least, most), (_, spp)| (least.min(*spp), most.max(*spp)));
     let error = (means.variance / f64::from(RENDERS)).sqrt();
