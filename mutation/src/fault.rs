@@ -12,7 +12,7 @@ pub enum Form {
     Statement,
 }
 
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Fault {
     /// Relative to the package, with `/` on every system.
     pub file: String,

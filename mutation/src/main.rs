@@ -160,7 +160,7 @@ impl Run<'_> {
         }
         let takes_all = options.given || options.survivors || options.all_in.is_some();
         let mut draw = if takes_all { Draw::all(candidates) } else { Draw::new(candidates, options.count, options.seed) };
-        draw.given = if takes_all { Vec::new() } else { given };
+        draw.given = if takes_all { Vec::new() } else { given.clone() };
         let rejections: Journal<Rejected> = self.journal("rejected.jsonl", self.package.hash());
         draw.rejected.extend(rejections.read().into_iter().map(|rejected| rejected.key));
         // A copy of its own, so that the one that was built stays as it is.
@@ -174,8 +174,13 @@ impl Run<'_> {
             if rejected.is_empty() {
                 return Ok(draw.faults(false));
             }
-            for id in rejected {
-                let rejected = Rejected { key: faults[id as usize - 1].key() };
+            let rejected: Vec<&Fault> = rejected.into_iter().map(|id| &faults[id as usize - 1]).collect();
+            // Others are drawn in place of faults that were drawn.
+            if let Some(fault) = rejected.iter().find(|fault| given.contains(fault)) {
+                return Err(format!("a fault of faults.toml does not compile: {}", fault.key()));
+            }
+            for fault in rejected {
+                let rejected = Rejected { key: fault.key() };
                 rejections.append(&rejected)?;
                 draw.rejected.insert(rejected.key);
             }
