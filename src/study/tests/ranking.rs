@@ -20,14 +20,16 @@ use crate::{
     },
 };
 
-fn run(rel_mse: f64, seconds: f64) -> Run {
+/// 16 samples a pixel of a picture whose mean square is 4.
+pub(super) fn run(rel_mse: f64, seconds: f64) -> Run {
     let point = |n: u32| {
         let [share, all] = [f64::from(n), 16.0];
+        let rel_mse = rel_mse * all / share;
         Checkpoint {
             spp: n,
             seconds: seconds * share / all,
-            rmse: 1.0,
-            rel_mse: rel_mse * all / share,
+            rmse: 2.0 * rel_mse.sqrt(),
+            rel_mse,
             bias: 0.0,
             bias_standard_error: Some(0.1 / share.sqrt()),
         }
@@ -35,11 +37,11 @@ fn run(rel_mse: f64, seconds: f64) -> Run {
     Run { checkpoints: checkpoints(16).into_iter().map(point).collect(), ..Run::default() }
 }
 
-fn outcome(settings: RenderSettings, runs: &[Run]) -> Outcome {
+pub(super) fn outcome(settings: RenderSettings, runs: &[Run]) -> Outcome {
     Outcome::of(Group { settings, twins: Vec::new() }, runs, Limits { floor: 0.0, black: 1.0, variance_of_mean: 0.0, mean: 1.0 })
 }
 
-fn findings(mut outcomes: Vec<Outcome>) -> Findings {
+pub(super) fn findings(mut outcomes: Vec<Outcome>) -> Findings {
     rank(&mut outcomes);
     Findings {
         title: "A scene".to_owned(),
@@ -117,11 +119,18 @@ fn the_error_of_the_reference_is_taken_off_and_ends_the_curve() {
     let group = Group { settings: RenderSettings::default(), twins: Vec::new() };
     // relMSE 0.16, 0.08, 0.04, 0.02, 0.01 plus that of the reference.
     let mut measured = run(0.01, 1.0);
-    measured.checkpoints.iter_mut().for_each(|point| point.rel_mse += 0.015);
+    for point in &mut measured.checkpoints {
+        point.rel_mse += 0.015;
+        point.rmse = 2.0 * point.rel_mse.sqrt();
+    }
     let found = Outcome::of(group, &[measured], Limits { floor: 0.015, black: 1.0, variance_of_mean: 0.0, mean: 1.0 });
     assert_eq!(found.last().spp, 8);
     assert!((found.last().rel_mse - 0.02).abs() < 1e-12);
     assert!((found.efficiency() - 1.0 / (0.02 * 0.5)).abs() < 1e-9);
+    // The variance has the same part taken off: 4 · 0.04 after 4 samples, 4 · 0.02 after 8.
+    let near = |point: (f64, f64), exact: (f64, f64)| point.0 == exact.0 && (point.1 - exact.1).abs() < 1e-12;
+    let [variances] = &found.variances[..] else { panic!("{:?}", found.variances) };
+    assert!(variances.len() == 2 && near(variances[0], (4.0, 0.16)) && near(variances[1], (8.0, 0.08)), "{variances:?}");
     assert!(found.log_efficiency().variance.is_nan());
     // Below that of the reference nothing is known.
     let limits = Limits { floor: 0.2, black: 1.0, variance_of_mean: 0.0, mean: 1.0 };
@@ -191,6 +200,10 @@ fn what_is_far_worse_says_nothing_of_how_sure_the_first_places_are() {
     // 0.0145/√(0.01 · 0.011) = 1.3825, divided and multiplied by the factor.
     let said = "It is 1.38 times as efficient as the next (95 %, by the spread of repeats: 1.13 to 1.70).";
     assert_eq!(certainty(&far), said);
+    // The best is 1 by definition; 1/1.3825 divided and multiplied by the factor; and 0.01049/√(0.2 · 0.15) is too far.
+    let intervals: Vec<Option<[f64; 2]>> = far.outcomes.iter().map(|outcome| far.interval(outcome)).collect();
+    let [None, Some([low, high]), None] = intervals[..] else { panic!("{intervals:?}") };
+    assert!((low - 0.5892).abs() < 1e-3 && (high - 0.8880).abs() < 1e-3, "{low} {high}");
 }
 
 #[test]
@@ -239,13 +252,11 @@ fn an_outcome_is_the_mean_of_its_runs_where_they_end() {
     assert!(found.slope.is_some_and(|slope| (slope.slope + 0.5).abs() < 1e-9), "{:?}", found.slope);
     let mut bent = run(0.01, 1.0);
     for point in &mut bent.checkpoints[..2] {
-        (point.rel_mse, point.bias_standard_error) = (100.0 * point.rel_mse, Some(9.0));
+        (point.rel_mse, point.rmse) = (100.0 * point.rel_mse, 100.0 * point.rmse);
     }
-    // Nothing varied in 8 samples, of which there is no logarithm.
-    bent.checkpoints[3].bias_standard_error = Some(0.0);
     let bent = outcome(RenderSettings::default(), &[bent, run(0.01, 1.0)]);
     assert!(bent.slope.is_some_and(|slope| (slope.slope + 0.5).abs() < 1e-9));
-    // The variance of the mean is the square of a standard error that falls as 1/√N.
+    // So is that of the mean squared error −1.
     for known in [found, bent] {
         assert!(slope(&known.variances).is_some_and(|slope| (slope.slope + 1.0).abs() < 1e-9), "{:?}", known.variances);
     }
