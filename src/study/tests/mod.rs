@@ -1,4 +1,5 @@
 //! Fits, ranking, plans and the store, on numbers that are known.
+mod evidence;
 mod figures;
 mod fit;
 mod plan;
