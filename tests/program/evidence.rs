@@ -7,13 +7,36 @@ use std::{
 use super::command_line::{Shell, scene, text};
 
 /// The tables of a folder by name: their headings and rows.
-fn tables(shell: &Shell, names: &BTreeSet<&str>) -> BTreeMap<String, Vec<Vec<String>>> {
+fn tables(shell: &Shell, names: &BTreeSet<String>) -> BTreeMap<String, Vec<Vec<String>>> {
     let read = |name: &str| {
         let path = shell.path("out").join(format!("{name}.csv"));
         let mut reader = csv::ReaderBuilder::new().has_headers(false).from_path(path).expect("a table");
         reader.records().map(|row| row.expect("a line").iter().map(str::to_owned).collect()).collect()
     };
-    names.iter().map(|name| ((*name).to_owned(), read(name))).collect()
+    names.iter().map(|name| (name.clone(), read(name))).collect()
+}
+
+/// Every table is there in both forms, every plot too, and all of them are on the page. Returns the names of the tables.
+fn check_files(shell: &Shell, stdout: &str) -> BTreeSet<String> {
+    let names: BTreeSet<String> = fs::read_dir(shell.path("out"))
+        .expect("a folder")
+        .map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned())
+        .collect();
+    let with = |extension: &str| -> BTreeSet<&str> { names.iter().filter_map(|name| name.strip_suffix(extension)).collect() };
+    let tables: BTreeSet<&str> = with(".csv").into_iter().filter(|name| *name != "study").collect();
+    assert_eq!(tables, with(".tex"));
+    assert!(with(".svg").len() >= 5 && with(".svg").is_subset(&with(".png")), "{names:?}");
+    assert!(tables.contains("equal_time_estimator") && with(".png").contains("pictures_by_cap"), "{names:?}");
+    // All but the page and the measurements.
+    let count = format!("out: {} files of figures and tables", names.len() - 2);
+    assert!(stdout.contains(&count), "{count}: {stdout} {names:?}");
+    let page = fs::read_to_string(shell.path("out/report.html")).expect("a page");
+    assert_eq!((page.matches("<table").count(), page.matches("<svg").count()), (tables.len(), with(".svg").len()));
+    assert_eq!(page.matches("<img").count(), 2);
+    for outside in ["http://", "https://", "<script", "<link"] {
+        assert!(!page.replace("http://www.w3.org/2000/svg", "").contains(outside), "{outside}");
+    }
+    tables.into_iter().map(str::to_owned).collect()
 }
 
 #[test]
@@ -23,27 +46,8 @@ fn the_chapter_of_the_furnace_finds_what_is_known_of_it() {
     let done = run();
     assert!(done.status.success(), "{}", text(&done.stderr));
     let read = |name: &str| fs::read_to_string(shell.path("out").join(name)).unwrap_or_else(|error| panic!("{name}: {error}"));
-    // Every table in both forms, every plot too, and all of them on the page.
-    let names: BTreeSet<String> = fs::read_dir(shell.path("out"))
-        .expect("a folder")
-        .map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned())
-        .collect();
-    let with = |extension: &str| -> BTreeSet<&str> { names.iter().filter_map(|name| name.strip_suffix(extension)).collect() };
-    let of_tables: BTreeSet<&str> = with(".csv").into_iter().filter(|name| *name != "study").collect();
-    assert_eq!(of_tables, with(".tex"));
-    assert!(with(".svg").len() >= 5 && with(".svg").is_subset(&with(".png")), "{names:?}");
-    assert!(of_tables.contains("equal_time_estimator") && with(".png").contains("pictures_by_cap"), "{names:?}");
-    // All but the page and the measurements.
-    let count = format!("out: {} files of figures and tables", names.len() - 2);
-    assert!(text(&done.stdout).contains(&count), "{count}: {} {names:?}", text(&done.stdout));
-    let page = read("report.html");
-    assert_eq!((page.matches("<table").count(), page.matches("<svg").count()), (of_tables.len(), with(".svg").len()));
-    assert_eq!(page.matches("<img").count(), 2);
-    for outside in ["http://", "https://", "<script", "<link"] {
-        assert!(!page.replace("http://www.w3.org/2000/svg", "").contains(outside), "{outside}");
-    }
     // Every cell is a number but for the first one of a row and the remark.
-    let tables = tables(&shell, &of_tables);
+    let tables = tables(&shell, &check_files(&shell, &text(&done.stdout)));
     for (name, rows) in &tables {
         let numbers = rows[1..].iter().flat_map(|row| &row[1..row.len() - 1]);
         for cell in numbers.filter(|cell| !cell.is_empty()) {

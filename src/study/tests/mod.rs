@@ -2,6 +2,7 @@
 mod evidence;
 mod figures;
 mod fit;
+mod outcome;
 mod plan;
 mod ranking;
 mod reference;
