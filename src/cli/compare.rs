@@ -114,7 +114,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let comparison = compare(&a.radiance, &b.radiance, floor);
     let flip = flip::mean_error(&frame(a, a.radiance.clone()), &frame(b, b.radiance.clone()));
     let mut lines = vec![if arguments.json {
-        json(&comparison, flip, &bias, &remarks).to_string()
+        json((&comparison, floor), flip, &bias, &remarks).to_string()
     } else {
         text(&comparison, flip, &bias, &remarks)
     }];
@@ -188,10 +188,11 @@ fn remarks(bias: &Bias, all: &[&Loaded], b: &Loaded) -> Vec<String> {
     remarks
 }
 
-fn json(comparison: &Comparison, flip: Option<f64>, bias: &Bias, remarks: &[String]) -> serde_json::Value {
+fn json((comparison, floor): (&Comparison, Floor), flip: Option<f64>, bias: &Bias, remarks: &[String]) -> serde_json::Value {
     let mut figures = figures::error(Some(comparison), Some(bias));
     let known = (!bias.block_z.is_empty()).then_some(&bias.block_z);
     figures.extend(figures::named([("flip", json!(flip)), ("block_z", json!(known)), ("remarks", json!(remarks))]));
+    figures.insert("floor".to_owned(), json!(floor.to_string()));
     figures.into()
 }
 
@@ -218,13 +219,8 @@ fn said(bias: &Bias) -> String {
     }
 }
 
-fn luminances(picture: &Picture) -> Vec<f64> {
-    picture.radiance.iter().map(|rgb| f64::from(luminance(*rgb))).collect()
-}
-
 fn frame(like: &Picture, radiance: Vec<[f32; 3]>) -> Frame {
-    let (width, height) = (like.width, like.height);
-    Frame { width, height, radiance, ..Frame::default() }
+    Frame { width: like.width, height: like.height, radiance, ..Frame::default() }
 }
 
 /// A less B; for a PNG the relative difference of luminances in colours, and their scale.
@@ -233,7 +229,8 @@ fn difference(format: Option<Format>, a: &Picture, b: &Picture, floor: Floor) ->
         let pairs = a.radiance.iter().zip(&b.radiance);
         return (frame(a, pairs.map(|(a, b)| std::array::from_fn(|c| a[c] - b[c])).collect()), None);
     }
-    let pairs = luminances(a).into_iter().zip(luminances(b));
+    let luminance = |rgb: &[f32; 3]| f64::from(luminance(*rgb));
+    let pairs = a.radiance.iter().map(luminance).zip(b.radiance.iter().map(luminance));
     let floor = floor.of_picture(&b.radiance);
     let relative = |(a, b): (f64, f64)| if a == b { 0.0 } else { (a - b) / (b * b + floor).sqrt() };
     let relative: Vec<f64> = pairs.map(relative).collect();

@@ -18,8 +18,8 @@ use super::{
 };
 
 const NOTES: &str = "\
-DIR gets report.html, every figure as SVG and PNG, every table as CSV and LaTeX, and study.csv with all measurements. What DIR has \
-already is not measured again.
+DIR gets report.html, every plot as SVG and PNG, every sheet of pictures as PNG, every table as CSV and LaTeX, and study.csv with all \
+measurements. What DIR has already is not measured again.
 
 Example: noisefall evidence my_scene.toml -o evidence --time 180";
 
@@ -79,7 +79,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     for (name, bytes) in &chapter.files {
         replace(&folder.join(name), bytes).map_err(|error| error.to_string())?;
     }
-    print(&format!("{}: {} figures and tables", folder.display(), chapter.files.len()))?;
+    print(&format!("{}: {} files of figures and tables", folder.display(), chapter.files.len()))?;
     folder::write_report(folder, &chapter.html)?;
     Ok(ExitCode::SUCCESS)
 }

@@ -1,4 +1,6 @@
 //! How far a picture is from another.
+use std::fmt;
+
 use serde::Serialize;
 
 /// What relMSE adds to the squared reference, so that dark pixels do not outweigh all others.
@@ -44,6 +46,16 @@ impl Floor {
         match self {
             Floor::Relative(part) => format!("(x − r)²/(r² + {part} · mean r²)"),
             Floor::Absolute(floor) => format!("(x − r)²/(r² + {floor})"),
+        }
+    }
+}
+
+/// In a word, for tables and other programs: a number, or a part of the reference's mean squared radiance.
+impl fmt::Display for Floor {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Floor::Relative(part) => write!(f, "{part} of mean square"),
+            Floor::Absolute(floor) => write!(f, "{floor}"),
         }
     }
 }
@@ -126,5 +138,6 @@ mod tests {
     fn formulas_say_their_floor() {
         assert_eq!(Floor::DEFAULT.formula(), "(x − r)²/(r² + 0.01 · mean r²)");
         assert_eq!(Floor::Absolute(0.01).formula(), "(x − r)²/(r² + 0.01)");
+        assert_eq!([Floor::DEFAULT, Floor::Absolute(0.02)].map(|floor| floor.to_string()), ["0.01 of mean square", "0.02"]);
     }
 }

@@ -39,12 +39,13 @@ impl Table {
         }
     }
 
-    /// Numbers with a hyphen for a minus, as programs read them.
+    /// As programs read it: numbers have a hyphen for a minus, and a cell with a dash for what is not known is empty.
     pub fn csv(&self) -> Result<Vec<u8>, String> {
         let mut writer = csv::Writer::from_writer(Vec::new());
         writer.write_record(self.columns.iter().map(|column| &column.name)).map_err(|error| error.to_string())?;
         for row in &self.rows {
-            writer.write_record(row.iter().map(|cell| cell.replace('−', "-"))).map_err(|error| error.to_string())?;
+            let cells = row.iter().map(|cell| if cell == "–" { String::new() } else { cell.replace('−', "-") });
+            writer.write_record(cells).map_err(|error| error.to_string())?;
         }
         writer.into_inner().map_err(|error| error.to_string())
     }
@@ -92,17 +93,17 @@ mod tests {
             name: "caps".to_owned(),
             caption: "Bias of caps".to_owned(),
             columns: vec![Column::text("cap & more"), Column::number("bias")],
-            rows: vec![vec!["none, 50 %".to_owned(), "−0.5 ± 0.1".to_owned()], vec!["a_b".to_owned(), "1".to_owned()]],
+            rows: vec![vec!["none, 50 %".to_owned(), "−0.5 ± 0.1".to_owned()], vec!["a_b".to_owned(), "–".to_owned()]],
         };
         let csv = String::from_utf8(table.csv().expect("CSV")).expect("text");
-        assert_eq!(csv, "cap & more,bias\n\"none, 50 %\",-0.5 ± 0.1\na_b,1\n");
+        assert_eq!(csv, "cap & more,bias\n\"none, 50 %\",-0.5 ± 0.1\na_b,\n");
         let latex = table.latex();
         assert!(latex.starts_with("% Bias of caps\n\\begin{tabular}{lr}\n"), "{latex}");
         assert!(
             latex.contains("cap \\& more & bias \\\\\n") && latex.contains("none, 50 \\% & $-$0.5 $\\pm$ 0.1 \\\\\n"),
             "{latex}"
         );
-        assert!(latex.contains("  a\\_b & 1 \\\\\n"), "{latex}");
+        assert!(latex.contains("  a\\_b & -- \\\\\n"), "{latex}");
         let html = table.markup().into_string();
         assert!(html.contains("<th class=\"n\">bias</th>") && html.contains("<td class=\"n\">−0.5 ± 0.1</td>"), "{html}");
     }

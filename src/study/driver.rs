@@ -58,11 +58,26 @@ impl Study<'_> {
     ) -> Result<Vec<Findings>, StudyError> {
         let titled = subjects.iter().zip(titles(subjects));
         let prepared = titled.map(|(subject, title)| self.prepare(subject, title)).collect::<Result<Vec<_>, _>>()?;
-        let keys = prepared.iter().flat_map(|scene| self.runs(scene).map(|(group, repeat)| self.key(scene, group, repeat).1));
-        let keys: Vec<String> = keys.collect();
-        let found = keys.iter().filter(|key| store.run(key).is_some()).count();
-        observe(Progress::Planned { runs: keys.len(), found });
+        let runs = prepared.iter().map(|scene| self.runs(scene).count()).sum();
+        observe(Progress::Planned { runs, found: prepared.iter().map(|scene| self.found(scene, store)).sum() });
         prepared.into_iter().map(|scene| self.scene(scene, store, observe)).collect()
+    }
+
+    /// Of these numbers of samples a pixel that with which the store has the most runs of this study. None where it has none: `spp` is a
+    /// part of every key, and what has been measured would be measured again with another one.
+    pub fn spp_in(
+        &self,
+        store: &Store,
+        subject: &Subject,
+        candidates: impl Iterator<Item = u32>,
+    ) -> Result<Option<u32>, StudyError> {
+        if store.is_empty() {
+            return Ok(None);
+        }
+        let scene = self.prepare(subject, subject.title())?;
+        let found = |spp: u32| Study { plan: &Plan { spp, ..self.plan.clone() }, ..*self }.found(&scene, store);
+        let most = candidates.map(|spp| (found(spp), spp)).max();
+        Ok(most.filter(|(found, _)| *found > 0).map(|(_, spp)| spp))
     }
 
     fn prepare<'a>(&'a self, subject: &'a Subject, title: String) -> Result<Prepared<'a>, StudyError> {
@@ -80,6 +95,11 @@ impl Study<'_> {
     /// Repeat by repeat, so that what slows the machine for a while slows all combinations, and shows as spread.
     fn runs<'s>(&self, scene: &'s Prepared) -> impl Iterator<Item = (&'s Group, u32)> {
         (0..self.plan.repeats).flat_map(|repeat| scene.groups.iter().map(move |group| (group, repeat)))
+    }
+
+    /// How many runs of a scene the store has.
+    fn found(&self, scene: &Prepared, store: &Store) -> usize {
+        self.runs(scene).filter(|(group, repeat)| store.run(&self.key(scene, group, *repeat).1).is_some()).count()
     }
 
     /// The settings of a run with its seed, and what it is found by.

@@ -51,7 +51,8 @@ pub struct Outcome {
     pub bias: String,
     /// How far the mean of the picture is from that of the reference.
     pub mean_error: MeanError,
-    /// Of each run: samples a pixel, and the variance of the picture's mean that the samples give.
+    /// Of each run: samples a pixel, and the mean squared error over pixels and channels, W²·sr⁻²·m⁻⁴, without the reference's own
+    /// part. E (x − μ)² = V x + (E x − μ)²: of an unbiased estimate that is the variance of a pixel.
     pub variances: Vec<Vec<(f64, f64)>>,
     /// What became of the settings: whether pixels shared paths, and samples went where noise was.
     pub shares: bool,
@@ -98,7 +99,7 @@ impl Outcome {
             standing,
             bias,
             mean_error: mean_error(runs, limits.variance_of_mean),
-            variances: runs.iter().map(variances).collect(),
+            variances: runs.iter().map(|run| variances(&run.checkpoints[..length], limits.floor)).collect(),
             shares: runs[0].shares,
             adapts: runs[0].adapts,
             efficiencies: runs_of_points.iter().filter_map(efficiency).collect(),
@@ -111,6 +112,20 @@ impl Outcome {
     /// Where the curve ends.
     pub fn last(&self) -> Point {
         self.curve[self.curve.len() - 1]
+    }
+
+    /// Samples a pixel and relMSE after a rendering time in seconds: where measured points are joined by straight lines between
+    /// logarithms, as power laws are. `None` before the first point and after the last one.
+    pub fn after(&self, seconds: f64) -> Option<(f64, f64)> {
+        let before = self.curve.iter().rposition(|point| point.seconds <= seconds)?;
+        let a = self.curve[before];
+        if a.seconds == seconds {
+            return Some((a.spp.into(), a.rel_mse));
+        }
+        let b = self.curve.get(before + 1)?;
+        let part = (seconds / a.seconds).ln() / (b.seconds / a.seconds).ln();
+        let between = |from: f64, to: f64| from * (to / from).powf(part);
+        Some((between(a.spp.into(), b.spp.into()), between(a.rel_mse.max(ROUNDING), b.rel_mse.max(ROUNDING))))
     }
 
     /// Whether what is left is rounding.
@@ -143,10 +158,10 @@ fn comparable(runs: &[Run], floor: f64) -> usize {
     (0..shared).rev().find(|i| is_clear(*i)).map_or(1, |last| last + 1)
 }
 
-fn variances(run: &Run) -> Vec<(f64, f64)> {
-    let known = run.checkpoints.iter().filter(|point| point.spp >= LEAST_SPP_OF_FIT);
-    let of = |point: &Checkpoint| Some((f64::from(point.spp), point.bias_standard_error?.powi(2)));
-    known.filter_map(of).filter(|(_, variance)| *variance > 0.0).collect()
+/// What is left of rmse² where the reference's own error is taken off: as much as of relMSE.
+fn variances(checkpoints: &[Checkpoint], floor: f64) -> Vec<(f64, f64)> {
+    let noisy = checkpoints.iter().filter(|point| tells_a_slope(point.spp, point.rel_mse));
+    noisy.map(|point| (f64::from(point.spp), point.rmse.powi(2) * clear_of(point.rel_mse, floor) / point.rel_mse)).collect()
 }
 
 /// Of the mean over runs, which are independent.
@@ -169,8 +184,12 @@ fn mean(points: impl Iterator<Item = Point>) -> Point {
     Point { spp: points[0].spp, seconds: mean(|point| point.seconds), rel_mse: mean(|point| point.rel_mse) }
 }
 
+fn tells_a_slope(spp: u32, rel_mse: f64) -> bool {
+    spp >= LEAST_SPP_OF_FIT && rel_mse > ROUNDING
+}
+
 /// Samples and errors that a slope can be fitted to.
 fn fitted(run: &[Point]) -> Vec<(f64, f64)> {
-    let noisy = run.iter().filter(|point| point.spp >= LEAST_SPP_OF_FIT && point.rel_mse > ROUNDING);
+    let noisy = run.iter().filter(|point| tells_a_slope(point.spp, point.rel_mse));
     noisy.map(|point| (f64::from(point.spp), point.rel_mse.sqrt())).collect()
 }

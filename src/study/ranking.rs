@@ -64,10 +64,29 @@ impl Findings {
         self.ratio(outcome).filter(|_| outcome.standing == Standing::Sound)
     }
 
+    /// [`Findings::ratio`] of what counts for how sure the ratios are.
+    fn ratio_near_best(&self, outcome: &Outcome) -> Option<f64> {
+        self.ranked_ratio(outcome).filter(|ratio| *ratio >= NEAR)
+    }
+
+    /// The ends of the 95 % interval of [`Findings::ratio`]: the ratio divided and multiplied by [`Findings::uncertainty`]. None of the
+    /// best itself, whose ratio is 1 by definition, and of what is not among those whose spread is known.
+    pub fn interval(&self, outcome: &Outcome) -> Option<[f64; 2]> {
+        let is_best = self.best().is_some_and(|best| best.settings == outcome.settings);
+        let ratio = self.ratio_near_best(outcome).filter(|_| !is_best)?;
+        self.uncertainty().map(|factor| [ratio / factor, ratio * factor])
+    }
+
+    /// The shortest rendering time in seconds of those that can be the best and have noise: after it the error of all of them is known.
+    pub fn equal_time(&self) -> Option<f64> {
+        let noisy = self.outcomes.iter().filter(|outcome| outcome.standing == Standing::Sound && !outcome.is_exact());
+        noisy.map(|outcome| outcome.last().seconds).reduce(f64::min)
+    }
+
     /// The factor that the ratio of two efficiencies is known to, at 95 %: from the spread of log efficiencies over repeats, taken
     /// to be the same for all combinations near the best. None for a single repeat.
     pub fn uncertainty(&self) -> Option<f64> {
-        let near = self.outcomes.iter().filter(|outcome| self.ranked_ratio(outcome).is_some_and(|ratio| ratio >= NEAR));
+        let near = self.outcomes.iter().filter(|outcome| self.ratio_near_best(outcome).is_some());
         let (mut squares, mut degrees) = (0.0, 0.0);
         for moments in near.map(Outcome::log_efficiency).filter(|moments| moments.count > 1.0) {
             squares += moments.variance * (moments.count - 1.0);

@@ -217,8 +217,8 @@ pub fn values(setting: Setting, outcome: &Outcome) -> String {
     values.join(" = ") + became
 }
 
-/// Why a combination is not ranked.
-fn remark(outcome: &Outcome) -> String {
+/// Why a combination is not ranked; empty where it is.
+pub fn remark(outcome: &Outcome) -> String {
     match outcome.standing {
         Standing::Sound => String::new(),
         Standing::TooNoisy => "too noisy".to_owned(),

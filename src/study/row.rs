@@ -107,10 +107,7 @@ pub fn rows(header: &Header, run: &Run) -> Vec<Row> {
         invalid_samples: run.invalid_samples,
         reference: reference.name.clone(),
         reference_rel_mse: reference.rel_mse,
-        floor: match floor {
-            Floor::Relative(part) => format!("{part} of mean square"),
-            Floor::Absolute(floor) => floor.to_string(),
-        },
+        floor: floor.to_string(),
         threads: machine.threads,
         simd: machine.simd.clone(),
         cpu: machine.cpu.clone(),

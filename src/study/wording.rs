@@ -25,21 +25,35 @@ pub fn error(outcome: &Outcome) -> String {
 }
 
 pub fn slope(slope: Option<Slope>) -> String {
-    slope.map_or_else(|| "–".to_owned(), |Slope { slope, half_width }| format!("{slope:.2} ± {half_width:.2}").replace('-', "−"))
+    slope.map_or_else(|| "–".to_owned(), |slope| exponent(slope).join(" ± "))
 }
 
-/// A mean with its standard error, both to the second digit of the latter.
-pub fn mean_error(MeanError { mean, standard_error }: MeanError) -> String {
+/// An exponent, and half the width of its interval.
+pub fn exponent(Slope { slope, half_width }: Slope) -> [String; 2] {
+    [format!("{slope:.2}").replace('-', "−"), format!("{half_width:.2}")]
+}
+
+/// A mean with its standard error where that is known.
+pub fn mean_error(error: MeanError) -> String {
+    match mean_and_error(error) {
+        (mean, Some(standard_error)) => format!("{mean} ± {standard_error}"),
+        (mean, None) => mean,
+    }
+}
+
+/// A mean and its standard error where that is known, both to the second digit of the latter.
+pub fn mean_and_error(MeanError { mean, standard_error }: MeanError) -> (String, Option<String>) {
+    let minus = |text: String| text.replace('-', "−");
     if !(standard_error > 0.0 && standard_error.is_finite()) {
-        return format!("{mean:+.1e}").replace('-', "−");
+        return (minus(format!("{mean:+.1e}")), None);
     }
     let power = standard_error.log10().floor() as i32 - 1;
     match power {
         -6..0 => {
             let digits = power.unsigned_abs() as usize;
-            format!("{mean:+.digits$} ± {standard_error:.digits$}").replace('-', "−")
+            (minus(format!("{mean:+.digits$}")), Some(format!("{standard_error:.digits$}")))
         }
-        _ => format!("{mean:+.1e} ± {standard_error:.1e}").replace('-', "−"),
+        _ => (minus(format!("{mean:+.1e}")), Some(minus(format!("{standard_error:.1e}")))),
     }
 }
 

@@ -206,6 +206,9 @@ fn the_floor_of_rel_mse_is_relative_unless_it_is_named() {
     }
     let rel_mse = |arguments: &[&str]| compare(&shell, arguments)["rel_mse"].as_f64();
     let is = |found: Option<f64>, exact: f64| assert!(found.is_some_and(|x| (x / exact - 1.0).abs() < 1e-9), "{found:?} {exact}");
+    let floor = |arguments: &[&str]| compare(&shell, arguments)["floor"].as_str().map(str::to_owned);
+    assert_eq!(floor(&["a.exr", "b.exr"]).as_deref(), Some("0.01 of mean square"));
+    assert_eq!(floor(&["a.exr", "b.exr", "--floor", "0.5"]).as_deref(), Some("0.5"));
     is(rel_mse(&["a.exr", "b.exr"]), 1.0 / 4.04);
     is(rel_mse(&["a.exr", "b.exr", "--floor", "0.01"]), 1.0 / 4.01);
     is(rel_mse(&["a.exr", "black.exr", "--floor", "0.5"]), 18.0);

@@ -3,8 +3,10 @@
 //! Each question is a small [`Study`] of one setting, all others as the scene has them and without a cap; measurements are kept in the
 //! folder as those of any other study.
 mod chapter;
-mod exhibits;
+pub(super) mod exhibits;
 mod page;
+mod plots;
+mod tables;
 
 use std::{
     path::Path,
@@ -92,7 +94,9 @@ pub fn collect(
         floor: Floor::DEFAULT,
     };
     observe("trying out how long a sample takes", 0.0);
-    let spp = longest(bench, plan.time.mul_f64(FOR_RUNS / f64::from(runs)))?;
+    let first = study_plan(topics[0].lists.clone(), *SPP.end());
+    let first = Study { plan: &first, folder, threads, machine, stop };
+    let spp = samples(&first, subject, store, plan.time.mul_f64(FOR_RUNS / f64::from(runs)))?;
     let mut findings: Vec<(Setting, Findings)> = Vec::new();
     let mut done = 0;
     for topic in topics {
@@ -120,6 +124,15 @@ pub fn collect(
     let pictures = pictures(bench, spp, plan.display)?;
     observe("pictures", 1.0);
     Ok(Chapter::new(&Exhibits { subject, findings: &findings, pictures, spp, repeats: REPEATS, machine }))
+}
+
+/// Samples a pixel of the longest runs: as many as those that the store has of this study, since a stopwatch may round to another power of
+/// two than it did before; else as many as a run of this time has.
+fn samples(study: &Study, subject: &Subject, store: &Store, time: Duration) -> Result<u32, StudyError> {
+    let candidates = (SPP.start().ilog2()..=SPP.end().ilog2()).map(|power| 1 << power);
+    let Study { threads, stop, .. } = *study;
+    let bench = Bench { scene: &subject.scene, camera: &subject.camera, threads, stop };
+    study.spp_in(store, subject, candidates)?.map_or_else(|| longest(bench, time), Ok)
 }
 
 /// The power of two that is nearest to the samples of a run of this time.

@@ -30,14 +30,15 @@ pub fn html(exhibits: &Exhibits, tables: &[Table], plots: &[(String, String, Plo
     };
     let content = markup! {
         h1 { "Evidence: " (title) }
-        p.source { (subject.path.display()) ", " (exhibits.circumstances()) ". noisefall " (machine.version) ", commit " (machine.commit) ", "
+        p.source { (subject.path.display()) ", " (exhibits.extent()) ". noisefall " (machine.version) ", commit " (machine.commit) ", "
             (machine.date) " UTC, " (machine.threads) " threads, " (machine.simd) ", " (machine.cpu) "." }
-        p { "Every figure stands beside this page as SVG and PNG, every table as CSV and as a LaTeX tabular, all measurements in study.csv." }
-        h2 { "The picture converges" }
+        p { "Beside this page stand every plot as SVG and PNG, every sheet of pictures as PNG, every table as CSV and as a LaTeX tabular, \
+             and all measurements in study.csv." }
+        h2 { "Error against the number of samples" }
         (picture(0)) (tables_of("convergence")) (of("error_by_sampler")) (of("variance"))
         h2 { "Bounces, and what a cap leaves out" }
         (picture(1)) (tables_of("bias_of_caps"))
-        h2 { "Roulette has no bias" }
+        h2 { "Roulette" }
         (tables_of("bias_of_roulette")) (of("error_by_roulette")) (tables_of("equal_time_roulette"))
         h2 { "Directions at equal time" }
         (tables_of("equal_time_directions")) (of("error_by_directions"))

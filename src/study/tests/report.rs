@@ -16,7 +16,7 @@ use crate::{
     },
 };
 
-fn machine() -> Machine {
+pub(super) fn machine() -> Machine {
     let [cpu, simd, os, version, commit, date] =
         ["a processor", "AVX2", "an OS", "1.2.3", "abc", "2026-01-02"].map(str::to_owned);
     Machine { cpu, cores: 4, threads: 3, simd, os, version, commit, date }

@@ -1,0 +1,139 @@
+//! The tables of a chapter, on numbers that are known, and how far its runs are taken.
+use std::time::Duration;
+
+use super::{
+    ranking::{findings, outcome, run},
+    report::machine,
+};
+use crate::{
+    math::SimdLevel,
+    measure::Floor,
+    render::{pass::Threads, truth},
+    sampling::Sampler,
+    scene::{Camera, RenderSettings, Roulette, parse},
+    study::{
+        Findings, Lists, Plan, Run, Store, Study, Subject,
+        evidence::exhibits::{Exhibits, Picture},
+        setting::Setting,
+    },
+};
+
+/// A furnace of albedo 0.5, and what is true of it.
+fn furnace() -> Subject {
+    let scene = parse("scene.toml", include_str!("../../../scenes/furnace.toml").to_owned()).expect("a scene");
+    let camera = Camera { resolution: [8, 8], ..scene.camera };
+    let known = Some((truth::Reference::Constant([2.0; 3]), "the exact radiance".to_owned()));
+    Subject { path: "scene.toml".into(), scene, camera, known, is_declared: true }
+}
+
+#[test]
+fn between_checkpoints_a_power_law_is_followed_exactly() {
+    // n samples after n/16 s have the relMSE 0.16/n.
+    let found = outcome(RenderSettings::default(), &[run(0.01, 1.0)]);
+    for seconds in [1.0 / 16.0, 0.1, 0.25, 0.3, 0.999, 1.0] {
+        let (samples, rel_mse) = found.after(seconds).expect("it was measured");
+        assert!((samples / (16.0 * seconds) - 1.0).abs() < 1e-12 && (rel_mse * seconds / 0.01 - 1.0).abs() < 1e-12, "{seconds}");
+    }
+    assert_eq!([0.06, 1.001].map(|seconds| found.after(seconds)), [None; 2]);
+}
+
+/// By roulette: the best; one of an eighth of its efficiency; one that begins after 4 s and whose survival is less than ρ²; and one with
+/// bias that takes the shortest time.
+fn roulettes() -> Findings {
+    let with = |roulette, run: Run| outcome(RenderSettings { roulette, ..RenderSettings::default() }, &[run.clone(), run]);
+    let mut best = run(0.01, 1.0);
+    best.checkpoints.iter_mut().for_each(|point| point.bias = -0.01);
+    findings(vec![
+        with(Roulette::Fixed(0.5), run(0.04, 2.0)),
+        with(Roulette::Fixed(0.2), run(0.01, 64.0)),
+        with(Roulette::BY_THROUGHPUT, Run { bias: "7 paths cut".to_owned(), ..run(0.01, 0.5) }),
+        with(Roulette::Off, best),
+    ])
+}
+
+fn with_exhibits<T>(findings: Findings, setting: Setting, use_them: impl FnOnce(&Exhibits) -> T) -> T {
+    let (subject, machine) = (furnace(), machine());
+    let pictures = ["a", "b"].map(|name| Picture { name, caption: String::new(), png: Vec::new() });
+    let findings = &[(setting, findings)][..];
+    use_them(&Exhibits { subject: &subject, findings, pictures, spp: 16, repeats: 2, machine: &machine })
+}
+
+#[test]
+fn equal_time_is_the_same_time_for_all_and_intervals_are_of_those_near_the_best() {
+    with_exhibits(roulettes(), Setting::Roulette, |exhibits| {
+        let table = exhibits.tables().into_iter().find(|table| table.name == "equal_time_roulette").expect("a table");
+        let names: Vec<&str> = table.columns.iter().map(|column| column.name.as_str()).collect();
+        assert_eq!(names, ["roulette", "samples after T", "error after T, %", "efficiency", "from", "to", "remark"]);
+        // After 1 s: 16 samples and √0.01; 8 samples and √0.08. Efficiencies are 100, 12.5, 1/0.64 and 200.
+        assert_eq!(
+            table.rows,
+            [
+                ["off", "16.0", "10.0", "1.00", "–", "–", ""],
+                ["0.5", "8.00", "28.3", "0.125", "0.125", "0.125", ""],
+                ["0.2", "–", "–", "0.0156", "–", "–", "variance may be infinite"],
+                ["throughput", "–", "–", "2.00", "–", "–", "biased: 7 paths cut"],
+            ]
+        );
+        let held = "(mis, bsdf, sobol; no paths shared by pixels; 8 × 8 pixels, up to 16 samples a pixel, 2 runs each; against the \
+                    exact radiance)";
+        assert!(table.caption.contains("T = 1.00 s") && table.caption.contains(held), "{}", table.caption);
+        assert!(table.latex().starts_with(&format!("% {}\n", table.caption)));
+        let csv = String::from_utf8(table.csv().expect("CSV")).expect("text");
+        assert!(csv.contains("\n0.2,,,0.0156,,,variance may be infinite\n"), "{csv}");
+    });
+}
+
+#[test]
+fn a_bias_is_told_in_standard_errors_and_bounded_where_the_variance_is_finite() {
+    with_exhibits(roulettes(), Setting::Roulette, |exhibits| {
+        let table = exhibits.tables().into_iter().find(|table| table.name == "bias_of_roulette").expect("a table");
+        let names: Vec<&str> = table.columns.iter().map(|column| column.name.as_str()).collect();
+        let numbers = ["bias", "standard error", "z", "of the mean, %", "excluded beyond, %"];
+        assert_eq!((names[0], &names[1..6], names[6]), ("roulette", &numbers[..], "remark"));
+        // Two runs of 0.1/√16 each are known together to 0.025/√2 = 0.01768; 0.01 + 1.96 · 0.01768 = 0.0446.
+        assert_eq!(table.rows[0], ["off", "−0.010", "0.018", "−0.566", "−1.00", "4.46", ""]);
+        assert_eq!(table.rows[2], ["0.2", "+0.000", "0.018", "0.00", "0.00", "–", "variance may be infinite"]);
+    });
+}
+
+#[test]
+fn exponents_and_their_widths_are_cells_of_their_own() {
+    let independent = RenderSettings { sampler: Sampler::Independent, ..RenderSettings::default() };
+    let found = findings(vec![
+        outcome(RenderSettings::default(), &[run(0.01, 1.0), run(0.01, 1.0)]),
+        outcome(independent, &[run(1e-16, 1.0), run(1e-16, 1.0)]),
+    ]);
+    with_exhibits(found, Setting::Sampler, |exhibits| {
+        let table = &exhibits.tables()[0];
+        assert_eq!(table.name, "convergence");
+        assert_eq!(table.rows[0], ["independent", "1", "–", "–", "–", "–", "–", "no noise"]);
+        assert_eq!(table.rows[1], ["sobol", "16", "10.0", "−0.50", "0.00", "−1.00", "0.00", ""]);
+        let (name, caption, plot) = exhibits.plots().pop().expect("plots");
+        assert!(name == "variance" && caption.contains("mean squared error") && plot.y.label.contains("variance of a pixel"));
+        // 4 · 0.01 after 16 samples.
+        let last = plot.curves[0].points.last().expect("points");
+        assert!(last.0 == 16.0 && (last.1 - 0.04).abs() < 1e-12, "{last:?}");
+    });
+}
+
+#[test]
+fn runs_are_taken_as_far_as_those_that_are_there() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (subject, machine) = (furnace(), machine());
+    let threads = Threads::new(1, SimdLevel::best()).expect("threads");
+    let plan = |spp, seconds| {
+        let (lists, time) = (Lists::default(), Duration::from_secs(seconds));
+        Plan { lists, spp, time, repeats: 1, floor: Floor::DEFAULT }
+    };
+    let [measured, again, longer] = [plan(4, 1000), plan(8, 1000), plan(8, 2000)];
+    let study = Study { plan: &measured, folder: folder.path(), threads: &threads, machine: &machine, stop: &|| false };
+    let found = |store: &Store, plan: &Plan| {
+        Study { plan, ..study }.spp_in(store, &subject, [2, 4, 8].into_iter()).expect("it can be looked up")
+    };
+    let mut store = Store::open(folder.path()).expect("an empty store");
+    assert_eq!(found(&store, &again), None);
+    study.run(std::slice::from_ref(&subject), &mut store, &mut |_| {}).expect("it can be measured");
+    assert_eq!(found(&store, &again), Some(4));
+    // Whoever gives it another time wants other runs.
+    assert_eq!(found(&store, &longer), None);
+}
