@@ -101,7 +101,7 @@ fn room(dice: &mut SmallRng) -> String {
         let roughness = within(0.0, 1.0);
         let material = match within(0.0, 5.0) as u32 {
             0 => format!("conductor = {{ f0 = 0.9, roughness = {roughness:?} }}"),
-            1 => format!("plastic = {{ albedo = [0.7, 0.3, 0.1], roughness = {roughness:?} }}"),
+            1 => format!("plastic = {{ albedo = [0.7, 0.3, 0.1], ior = 1.5, roughness = {roughness:?} }}"),
             2 => "dielectric = { ior = 1.5 }".to_owned(),
             3 => format!("dielectric = {{ ior = 1.5, roughness = {:?} }}", 0.1 + 0.9 * roughness),
             _ => format!("lambertian = {{ albedo = {roughness:?} }}"),
