@@ -61,7 +61,7 @@ impl Exhibits<'_> {
         Table {
             name: name.to_owned(),
             caption: format!(
-                "Bias: the mean of the picture less that of the reference, W·sr⁻¹·m⁻², and its standard error by the variance of the \
+                "Bias: the mean of the picture less that of the reference, W/(sr m²), and its standard error by the variance of the \
                  samples (of stratified and Sobol samples at most so large); z, the bias in standard errors, {UNKNOWN} where samples \
                  do not vary; the bias as a part of the mean, and the largest one that 95 % confidence leaves, {UNKNOWN} where the \
                  variance may be infinite ({}).",
