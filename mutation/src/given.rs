@@ -29,18 +29,18 @@ struct Given {
     faulty: String,
 }
 
-/// Reads the faults of a TOML text and finds their places.
-pub fn read(text: &str, package: &Package) -> Outcome<Vec<Fault>> {
-    let table: Table = toml::from_str(text).map_err(|error| format!("faults.toml: {error}"))?;
-    let found: Vec<Outcome<Fault>> = table.fault.iter().map(|given| find(given, package.text(&given.file))).collect();
-    let errors: Vec<String> = found.iter().filter_map(|fault| fault.as_ref().err().cloned()).collect();
+/// Reads the faults of a TOML text, of a table with this name, and finds their places.
+pub fn read(text: &str, table: &str, package: &Package) -> Outcome<Vec<Fault>> {
+    let faults: Table = toml::from_str(text).map_err(|error| format!("{table}: {error}"))?;
+    let found: Vec<Outcome<Fault>> = faults.fault.iter().map(|given| find(given, package.text(&given.file))).collect();
+    let errors: Vec<String> = found.iter().filter_map(|fault| Some(format!("{table}, {}", fault.as_ref().err()?))).collect();
     if errors.is_empty() { found.into_iter().collect() } else { Err(errors.join("\n")) }
 }
 
 fn find(given: &Given, source: &str) -> Outcome<Fault> {
     let Given { name, file, original, faulty } = given;
     let original = original.trim();
-    let wrong = |reason: &str| format!("faults.toml, \"{name}\": {file} {reason}: {original}");
+    let wrong = |reason: &str| format!("\"{name}\": {file} {reason}: {original}");
     let mut places = source.match_indices(original).map(|(at, _)| at..at + original.len());
     let range = places.next().ok_or_else(|| wrong("does not have this text any more"))?;
     if places.next().is_some() {

@@ -50,6 +50,12 @@ struct Options {
     /// The faults of mutation/faults.toml alone.
     #[arg(long)]
     given: bool,
+    /// A table of faults in the place of mutation/faults.toml.
+    #[arg(long, value_name = "FILE", requires = "given")]
+    faults: Option<PathBuf>,
+    /// Run only the tests whose name contains this text. Their verdicts are kept apart from those of all tests.
+    #[arg(long, value_name = "TEXT")]
+    tests: Option<String>,
     /// Of the faults, only those that survived when they were tried last, with the tests of now.
     #[arg(long)]
     survivors: bool,
@@ -97,7 +103,7 @@ fn run(options: &Options) -> Outcome<()> {
         rayon::ThreadPoolBuilder::new().num_threads(jobs).build_global().map_err(|error| error.to_string())?;
     }
     let run = Run { options, package, own: top.join("mutation"), workplace: top.join("target/mutation"), start: Instant::now() };
-    let verdicts = run.journal("results.jsonl", run.package.hash());
+    let verdicts = run.journal(&run.named("results", "jsonl"), run.package.hash());
     let candidates = run.package.candidates()?;
     run.say(&format!("{} places for faults", candidates.len()));
     let explained = survivors::read(&read(&run.own.join("SURVIVORS.md"))?)?;
@@ -114,7 +120,7 @@ fn run(options: &Options) -> Outcome<()> {
     let is_explained = |fault: &Fault| !options.explained && explained.iter().any(|row| row.is(fault));
     let tests = run.try_all(&faults, &verdicts, is_explained, &pace)?;
     let (text, summary) = report::report(&faults, &verdicts.read(), &explained, &tests);
-    let path = run.workplace.join("report.md");
+    let path = run.workplace.join(run.named("report", "md"));
     fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))?;
     println!("{summary}\n{}", path.display());
     Ok(())
@@ -135,6 +141,19 @@ impl Run<'_> {
         eprintln!("{:5.0} s  {what}", self.start.elapsed().as_secs_f64());
     }
 
+    /// A file for what the tests that run have found: runs with other tests have another one.
+    fn named(&self, stem: &str, extension: &str) -> String {
+        match &self.options.tests {
+            Some(tests) => format!("{stem}-{}.{extension}", in_file_name(tests)),
+            None => format!("{stem}.{extension}"),
+        }
+    }
+
+    /// The table of faults that somebody wrote by hand.
+    fn table(&self) -> PathBuf {
+        self.options.faults.clone().unwrap_or_else(|| self.own.join("faults.toml"))
+    }
+
     fn journal<T: Serialize + DeserializeOwned>(&self, name: &str, sources: u64) -> Journal<T> {
         Journal::new(self.workplace.join(name), sources)
     }
@@ -142,7 +161,8 @@ impl Run<'_> {
     /// The faults that were asked for, without those that do not compile.
     fn choose(&self, mut candidates: Vec<Fault>, verdicts: &Journal<Verdict>) -> Outcome<Vec<Fault>> {
         let options = self.options;
-        let given = given::read(&read(&self.own.join("faults.toml"))?, &self.package)?;
+        let table = self.table();
+        let given = given::read(&read(&table)?, &table.display().to_string(), &self.package)?;
         if options.given {
             candidates = given.clone();
         }
@@ -177,7 +197,7 @@ impl Run<'_> {
             let rejected: Vec<&Fault> = rejected.into_iter().map(|id| &faults[id as usize - 1]).collect();
             // Others are drawn in place of faults that were drawn.
             if let Some(fault) = rejected.iter().find(|fault| given.contains(fault)) {
-                return Err(format!("a fault of faults.toml does not compile: {}", fault.key()));
+                return Err(format!("a fault of {} does not compile: {}", table.display(), fault.key()));
             }
             for fault in rejected {
                 let rejected = Rejected { key: fault.key() };
@@ -203,7 +223,8 @@ impl Run<'_> {
         }
         self.say("the tests are built");
         let baselines = self.journal("baseline.jsonl", Package::read(&copy)?.hash());
-        let Some(mut tests) = suite::learn(&build.tests, &copy, &baselines, pace)? else {
+        let wanted = self.options.tests.as_deref().unwrap_or_default();
+        let Some(mut tests) = suite::learn(&build.tests, wanted, &copy, &baselines, pace)? else {
             return Err("the time is over before every test has run once; the same command goes on".to_owned());
         };
         self.say("every test has run once");
@@ -226,6 +247,34 @@ struct Rejected {
     key: String,
 }
 
+/// A text as a part of the name of a file, other ones for other texts: bytes that are neither letters nor digits are escaped.
+fn in_file_name(text: &str) -> String {
+    let escaped = |byte: u8| match byte {
+        b'0'..=b'9' | b'a'..=b'z' | b'A'..=b'Z' | b'_' => char::from(byte).to_string(),
+        _ => format!("%{byte:02x}"),
+    };
+    text.bytes().map(escaped).collect()
+}
+
 fn read(path: &Path) -> Outcome<String> {
     fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn other_texts_have_other_file_names() {
+        assert_eq!(in_file_name("validate::a_quick"), "validate%3a%3aa_quick");
+        assert_eq!(["a::b", "a__b", "a%3a%3ab"].map(in_file_name), ["a%3a%3ab", "a__b", "a%253a%253ab"]);
+    }
+
+    #[test]
+    fn another_table_stands_for_the_given_faults_only() {
+        let parse = |arguments: &[&str]| Options::try_parse_from([&["mutation"], arguments].concat());
+        assert!(parse(&["--faults", "a.toml"]).is_err());
+        let options = parse(&["--given", "--faults", "a.toml", "--tests", "b"]).expect("it is allowed");
+        assert_eq!((options.faults, options.tests), (Some("a.toml".into()), Some("b".to_owned())));
+    }
 }

@@ -54,27 +54,29 @@ impl Test {
     }
 }
 
-/// The tests in executables, by the name of their target.
-fn list(executables: &[(String, PathBuf)]) -> Outcome<Vec<(String, PathBuf, String)>> {
+/// The tests in executables whose name contains a text, by the name of their target.
+fn list(executables: &[(String, PathBuf)], wanted: &str) -> Outcome<Vec<(String, PathBuf, String)>> {
     let mut tests = Vec::new();
     for (target, executable) in executables {
         let wrong = |error| format!("{} cannot be started: {error}", executable.display());
         let output = Command::new(executable).args(["--list", "--format", "terse"]).output().map_err(wrong)?;
         let names = String::from_utf8_lossy(&output.stdout).into_owned();
-        let names = names.lines().filter_map(|line| line.strip_suffix(": test"));
+        let names = names.lines().filter_map(|line| line.strip_suffix(": test")).filter(|name| name.contains(wanted));
         tests.extend(names.map(|name| (target.clone(), executable.clone(), name.to_owned())));
     }
-    Ok(tests)
+    if tests.is_empty() { Err(format!("there is no test whose name contains \"{wanted}\"")) } else { Ok(tests) }
 }
 
-/// Runs every test alone that the journal does not know yet. Returns none if there is no time left for all of them.
+/// Runs every test alone whose name contains `wanted` and that the journal does not know yet. Returns none if there is no time left
+/// for all of them.
 pub fn learn(
     executables: &[(String, PathBuf)],
+    wanted: &str,
     folder: &Path,
     journal: &Journal<Baseline>,
     pace: &Pace,
 ) -> Outcome<Option<Vec<Test>>> {
-    let tests = list(executables)?;
+    let tests = list(executables, wanted)?;
     let known: HashMap<String, Baseline> = journal.read().into_iter().map(|known| (known.test.clone(), known)).collect();
     let missing = tests.iter().filter(|(target, _, name)| !known.contains_key(&format!("{target}::{name}"))).count();
     eprintln!("{} tests, {missing} of them to run once without a fault", tests.len());
