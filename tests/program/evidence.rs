@@ -42,8 +42,10 @@ fn check_files(shell: &Shell, stdout: &str) -> BTreeSet<String> {
 #[test]
 fn the_chapter_of_the_furnace_finds_what_is_known_of_it() {
     let shell = Shell::new();
-    let run = || shell.run(&["evidence", &scene("furnace"), "-o", "out", "--time", "3", "--size", "16x16"]);
-    let done = run();
+    let run = |more: &[&str]| {
+        shell.run(&[&["evidence", &scene("furnace"), "-o", "out", "--time", "3", "--size", "16x16"], more].concat())
+    };
+    let done = run(&[]);
     assert!(done.status.success(), "{}", text(&done.stderr));
     let read = |name: &str| fs::read_to_string(shell.path("out").join(name)).unwrap_or_else(|error| panic!("{name}: {error}"));
     // Every cell is a number but for the first one of a row and the remark.
@@ -64,10 +66,17 @@ fn the_chapter_of_the_furnace_finds_what_is_known_of_it() {
     }
     assert_eq!(rows.len(), 1 + exact.len());
     assert!(read("bias_of_roulette.tex").contains("\\begin{tabular}{lrrrrrl}"));
-    // What is there already is not measured again, whatever a stopwatch says.
+    // The corner of the first picture of caps shows radiance 1.
+    let corner = || {
+        let sheet = noisefall::render::image_file::read(&shell.path("out/pictures_by_cap.png")).expect("a picture");
+        sheet.radiance[12 * sheet.width as usize + 12][0]
+    };
+    assert!((corner() - 1.0).abs() < 2e-3, "{}", corner());
+    // What is there already is not measured again, whatever a stopwatch says, but shown as it is asked for.
     let csv = read("study.csv");
-    let again = run();
+    let again = run(&["--exposure", "-2"]);
     assert!(again.status.success() && read("study.csv") == csv, "{}", text(&again.stderr));
+    assert!((corner() - 0.25).abs() < 2e-3, "{}", corner());
     let none = shell.run(&["evidence", &scene("outside_lit_inside"), "-o", "dark", "--time", "1", "--size", "8x8"]);
     assert!(none.status.code() == Some(1) && text(&none.stderr).contains("entirely black"), "{}", text(&none.stderr));
 }

@@ -68,7 +68,7 @@ fn the_noise_figure_is_the_error() {
         let picture = |seed, spp| frames(&threads, &scene, [64, (64 * height).div_ceil(width)], seed, [spp]);
         let pictures: Vec<[Frame; 1]> = (0..SEEDS).map(|seed| picture(seed, SPP)).collect();
         // The pictures' own mean would be too bright where one of them was lucky.
-        let [reference] = picture(SEEDS, 8 * SPP);
+        let [reference] = picture(SEEDS, 4 * SPP);
         let (estimate, truth) = estimate_and_truth(&pictures.iter().flatten().collect::<Vec<_>>(), &reference.radiance);
         let ratio = if truth > 0.0 { (estimate / truth).sqrt() } else { 1.0 + estimate };
         println!("{name:24} error {:.3} %, figure over error {ratio:.2}", 100.0 * truth.sqrt());

@@ -205,6 +205,7 @@ fn assert_terms(vertex: &Vertex, settings: &RenderSettings, what: &str) {
         }
     }
     if let Some(reflection) = &vertex.reflection {
+        assert!((0.0..=1.0001).contains(&reflection.cos), "{} of {what}", reflection.cos);
         let weighted = product(arriving, reflection.weight.map(|x| x / reflection.survival));
         if reflection.goes_on {
             near(reflection.throughput, weighted, 1e-5);

@@ -1,6 +1,6 @@
 //! How the error falls, live: a curve for every setting that was tried, over each other.
 mod export;
-mod history;
+pub(super) mod history;
 mod plot;
 
 pub use self::history::{History, Moment, name};

@@ -91,6 +91,8 @@ mod tests {
         assert_eq!(histogram.brightest, 99);
         assert!(histogram.counts[BINS - 1] <= 2 && histogram.end < 1.1, "{:?}", histogram.counts);
         assert_eq!(Histogram::of(vec![0.0; 8]).black, 1.0);
+        let one_of_many = Histogram::of((0..100).map(|i| if i == 7 { 5.0 } else { 0.0 }).collect());
+        assert!((one_of_many.end - 5.1).abs() < 1e-5 && one_of_many.counts[0] == 99, "{}", one_of_many.end);
     }
 
     #[test]

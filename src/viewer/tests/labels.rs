@@ -119,6 +119,20 @@ fn lines_are_estimates_points_are_true_and_clear_keeps_the_curve_that_grows() {
 }
 
 #[test]
+fn where_no_truth_is_known_the_plot_of_bias_says_what_it_needs() {
+    let mut app = app();
+    let scene = app.opened.as_ref().expect("it is open").scene.clone();
+    app.history.look_at(&scene, &scene.camera, None);
+    app.history.what = crate::viewer::convergence::history::What::Bias;
+    let needs = |texts: &[String]| texts.iter().any(|text| text.starts_with("Bias is known where the truth is"));
+    for (spp, bias, is_known) in [(1, None, false), (4, Some(0.1), true), (16, None, true)] {
+        let moment = Moment { spp, seconds: 1.0, estimated: Some(0.5), true_error: None, bias };
+        app.history.record(&scene.settings, 5, moment);
+        assert_eq!(needs(&said(&mut app, App::convergence)), !is_known, "{spp}");
+    }
+}
+
+#[test]
 fn frame_times_are_those_of_layout_and_of_all() {
     let mut app = app();
     app.pace.shown = true;

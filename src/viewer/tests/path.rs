@@ -123,7 +123,8 @@ fn a_path_that_leaves_the_scene_ends_in_a_dashed_line() {
     let (_, replay) = window.state().inspector.replay().expect("it is there");
     assert!(replay.vertices.len() == 2 && replay.vertices[1].surface.is_none(), "one of the first samples leaves at once");
     window.run_steps(2);
-    let is_dash = |shape: &egui::Shape| matches!(shape, egui::Shape::LineSegment { stroke, .. } if stroke.width == 1.2);
+    let yellow = egui::Color32::from_rgb(255, 214, 90);
+    let is_dash = |shape: &egui::Shape| matches!(shape, egui::Shape::LineSegment { stroke, .. } if stroke.width == 1.2 && stroke.color == yellow);
     assert!(window.output().shapes.iter().any(|clipped| is_dash(&clipped.shape)));
 }
 
