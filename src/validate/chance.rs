@@ -205,6 +205,9 @@ mod tests {
         assert!(
             Statement::largest_z("", &[1.0, -3.9], 4.0, 0.1).holds && !Statement::largest_z("", &[1.0, -4.1], 4.0, 0.1).holds
         );
+        assert_eq!(Statement::largest_z("", &[0.25, -0.5], 4.0, 0.1).measured, 0.5);
+        let shown = [Noticed::Relative(1e-3), Noticed::Each(2e-7), Noticed::Absolute(0.5)].map(|noticed| noticed.to_string());
+        assert_eq!(shown, ["0.100 %", "2e-5 %", "5.0e-1"]);
         for empty in [&[][..], &[f64::NAN], &[0.0, f64::NAN, 1.0]] {
             assert!(!Statement::largest_z("", empty, 4.0, 0.1).holds, "{empty:?}");
         }
