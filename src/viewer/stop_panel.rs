@@ -29,7 +29,7 @@ impl App {
             row(
                 ui,
                 "Stop below",
-                "The relative error, as estimated, below which it stops; not believed before 64 samples per pixel. Never restarts.",
+                "The relative error, as estimated, below which it stops; not believed before 64 samples per pixel. Where it stops depends on the samples, which biases the mean by far less than the target. Never restarts.",
                 |ui, label| {
                     let mut percent = budget.noise.map(|noise| 100.0 * noise);
                     number::optional(ui, label, &mut percent, ("never", "% noise"), DEFAULT_PERCENT, 3, 0.001..=100.0);
