@@ -31,6 +31,11 @@ pub struct Picture {
     pub png: Vec<u8>,
 }
 
+/// 1, 4, 16 and so on.
+fn quadrupling(most: u32) -> impl Iterator<Item = u32> {
+    (0..u32::BITS / 2).map(|power| 1 << (2 * power)).take_while(move |samples| *samples <= most)
+}
+
 /// Pictures as samples grow, and as bounces do.
 pub fn pictures(bench: Bench, spp: u32, display: Display) -> Result<[Picture; 2], StudyError> {
     /// Of the pictures of caps.
@@ -43,7 +48,7 @@ pub fn pictures(bench: Bench, spp: u32, display: Display) -> Result<[Picture; 2]
     };
     let mut film = bench.film();
     let mut growing = Vec::new();
-    for samples in (0..u32::BITS / 2).map(|power| 1 << (2 * power)).take_while(|samples| *samples <= spp) {
+    for samples in quadrupling(spp) {
         bench.pass(&settings, &mut film, samples)?;
         growing.push(Cell { lines: vec![format!("N = {samples}")], pixels: shown(&film) });
     }
@@ -109,5 +114,14 @@ fn sharing(findings: &Findings) -> &'static str {
         (false, _) => "no paths shared by pixels",
         (true, true) => "paths shared by neighbouring pixels",
         (true, false) => "paths shared by neighbouring pixels with some of these settings",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn samples_quadruple_from_picture_to_picture() {
+        assert_eq!(super::quadrupling(100).collect::<Vec<_>>(), [1, 4, 16, 64]);
+        assert_eq!(super::quadrupling(4096).last(), Some(4096));
     }
 }
