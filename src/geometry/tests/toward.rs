@@ -98,7 +98,7 @@ fn directions_cover_what_is_seen_of_a_shape_as_their_density_says() {
     }
 }
 
-/// From the plane of a flat shape nothing of it is seen.
+/// From the plane of a flat shape nothing of it is seen, from above its front.
 #[test]
 fn nothing_has_a_density_where_a_flat_shape_is_seen_from_its_edge() {
     let edges = [DVec3::X, DVec3::Y];
@@ -111,6 +111,10 @@ fn nothing_has_a_density_where_a_flat_shape_is_seen_from_its_edge() {
         assert_eq!(shapes.toward(One, &place(0), x, (F(0.4), F(0.3))).pdf.0, 0.0);
         for d in [[-1.0, 0.0, 0.0], [-1.0, 0.1, 0.2]] {
             assert_eq!(shapes.pdf_toward(One, &place(0), x, V::splat(One, d)).0, 0.0);
+        }
+        for z in [0.5, -0.5] {
+            let near = V { x: F(0.2), y: F(0.3), z: F(z) };
+            assert_eq!(shapes.toward(One, &place(0), near, (F(0.4), F(0.3))).front.0, z > 0.0, "its front is above");
         }
     }
 }
