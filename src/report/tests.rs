@@ -117,6 +117,15 @@ fn the_legend_lies_in_the_emptiest_corner() {
     }
 }
 
+/// Its width is a part of the plot's: a quarter for these letters, where a point lies a third away from the right.
+#[test]
+fn the_legend_lies_beside_points_that_it_does_not_reach() {
+    let points = vec![(0.0, 0.5), (1.0, 0.5), (0.7, 1.0), (0.5, 0.0)];
+    let svg = svg(BESIDE, Axis::linear("x"), Axis::linear("y"), &[curve("the only curve", Style::Points, points)]);
+    let (x, y) = legend_place(&svg);
+    assert!(x > 280.0 && y < 190.0, "{x} {y}");
+}
+
 fn legend_place(svg: &str) -> (f64, f64) {
     let at = svg.find("the only curve").expect("a legend");
     let element = &svg[svg[..at].rfind("<text").expect("a text")..at];

@@ -110,6 +110,12 @@ fn materials() {
     assert_eq!(plastic, Material::Plastic { albedo: [0.1, 0.2, 0.3], ior: 1.25, alpha: 0.1f32 * 0.1 });
     let sides = |text: &str| coating(&format!("lambertian.albedo = 0.5\n{text}")).one_sided;
     assert_eq!([sides(""), sides("two_sided = true"), sides("two_sided = false")], [false, false, true]);
+    let is_plain = |two_sided: bool| {
+        let ball = "[[objects]]\nshape.sphere = { center = [0, 0, 0], radius = 1.0 }\nmaterial =";
+        let [a, b] = ["a", "b"].map(|name| format!("[materials.{name}]\nlambertian.albedo = 0.5"));
+        compiled(&format!("VIEW\n{a}\n{b}\ntwo_sided = {two_sided}\n{ball} 'a'\n{ball} 'b'")).is_plain()
+    };
+    assert!(is_plain(true) && !is_plain(false), "one surface that reflects from one side is enough");
     assert_eq!(coating("lambertian.albedo = 0.5").transmittance, [1.0; 3]);
 }
 

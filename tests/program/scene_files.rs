@@ -144,7 +144,9 @@ fn names_must_be_defined() {
 #[test]
 fn numbers_out_of_range_are_refused() {
     refuses("radius = 1.0", "radius = -1.0", "the radius is negative");
+    refuses("radius = 1.0", "radius = -1.0", "keep the radius positive");
     refuses("radius = 1.0", "radius = 0.0", "the radius is out of range");
+    assert!(!error(&GOOD.replace("radius = 1.0", "radius = 0.0")).report().contains("keep the radius positive"));
     refuses("radius = 1.0", "radius = nan", "the radius is not a number");
     refuses("radius = 1.0", "radius = inf", "the radius is out of range");
     refuses("albedo = 0.8", "albedo = 1.01", "`albedo` is out of range: 1.01");

@@ -92,6 +92,9 @@ fn what_others_write_is_told_in_the_words_of_the_format() {
         let said = error(&GOOD.replacen(line, by, 1));
         assert_eq!(said.count(), 1, "{by}: one slip is one error:\n{}", said.report());
     }
+    // What is pointed at is the bracket, and not a place between two characters.
+    let bracket = error(&GOOD.replacen("4.0]", "4.0}", 1)).report();
+    assert!(bracket.contains('┬') && !bracket.contains('▲'), "{bracket}");
 }
 
 #[test]
@@ -133,6 +136,9 @@ fn all_errors_of_a_file_are_told_in_the_order_of_its_lines() {
     // Of what is not TOML: a line each.
     let slips = GOOD.replace("fov = 40", "fov = 40;").replace("eye = [0.0, 1.0, 4.0]", "eye = (0, 1, 4)");
     all(&slips.replace("= \"ball\"", ": \"ball\""), &[(3, "write [ … ]"), (5, "no `;`"), (10, "write `=`")]);
+    // Of much that is not TOML: the first.
+    let long = format!("{}# {}\n", slips.replace("= \"ball\"", ": \"ball\""), "x".repeat(1 << 18));
+    assert_eq!(error(&long).count(), 1);
     let braces = GOOD.replace("radius = 1.0 } }", "radius = 1.0 }").replace("resolution = [32, 24]", "resolution = [32, 24");
     all(&braces, &[(6, "`]` is missing"), (11, "`}` is missing")]);
     // Many are counted.

@@ -4,7 +4,7 @@ use noisefall::{
     scene::{Scene, parse},
 };
 
-use crate::scene_files::{GOOD, refuses};
+use crate::scene_files::{GOOD, error, refuses};
 
 const BALL: &str = "sphere = { center = [0.0, 1.0, 0.0], radius = 1.0 }";
 
@@ -56,8 +56,12 @@ fn transforms_apply_first_to_last() {
     let (center, radius) = scene.objects[0].shape.bounding_sphere();
     assert!(center.distance(glam::DVec3::new(-2.0, 2.0, 0.0)) < 1e-12 && (radius - 2.0).abs() < 1e-12, "{center} {radius}");
     assert_eq!(scene.objects[0].shape.name(), "sphere");
-    let stretched = with("transform = [ { scale = [1.0, 2.0, 1.0] } ]");
-    assert!(matches!(stretched.objects[0].shape, Shape::Ellipsoid { .. }));
+    // The sheared axes have the length 1.
+    let sheared = |x: f64| format!("matrix = [[1, {x:?}, 0, 0], [0, 0.8, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]");
+    for change in ["scale = [1.0, 2.0, 1.0]".to_owned(), sheared(0.6), sheared(-0.6)] {
+        let scene = with(&format!("transform = [ {{ {change} }} ]"));
+        assert!(matches!(scene.objects[0].shape, Shape::Ellipsoid { .. }), "{change}");
+    }
 }
 
 #[test]
@@ -85,6 +89,9 @@ fn isosurfaces_that_cannot_be_are_refused() {
     shape(&iso("x^2 + (y^2", "1, 1, 1"), ")");
     shape(&iso("", "1, 1, 1"), "empty");
     shape(&iso("x^2 + y^2 - 1", "1, -2, 1"), "inverted or empty in y");
+    let text = GOOD.replacen(BALL, &iso("x^2 + y^2 + w", "1, 1, 1"), 1);
+    let before = text.lines().nth(10).and_then(|line| line.find("w\"")).expect("the unknown name is there");
+    assert_eq!(error(&text).line_column(), Some((11, before + 1)), "the name itself is pointed at");
 }
 
 #[test]
@@ -95,6 +102,9 @@ fn motions_that_cannot_be_are_refused() {
     motion("{ scale = -1.0 }", "the motion cannot be inverted");
     motion("{ scale = 0.0 }", "cannot be inverted");
     motion("{ matrix = [[-1, 0, 0, 0], [0, -1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]] }", "the motion cannot be inverted");
+    let steps = "material = \"white\"\nmotion = [\n{ translate = [1, 0, 0] },\n{ scale = -1.0 },\n]";
+    let of_steps = error(&GOOD.replacen("material = \"white\"", steps, 1));
+    assert_eq!(of_steps.line_column().map(|place| place.0), Some(15), "the last step: {}", of_steps.report());
     refuses("fov = 40", "fov = 40\nshutter = [1.0, 0.0]", "the earlier one first");
     refuses("fov = 40", "fov = 40\nshutter = [0.0, nan]", "two times");
 }

@@ -47,26 +47,26 @@ impl Forest {
     /// Over two branches that are done.
     pub fn over(bounds: &Extent, sides: [u32; 2], branches: &[Branch]) -> Forest {
         let [left, right] = sides.map(|side| &branches[side as usize].forest.costs);
-        let mut forest = Forest { sides, costs: [f32::INFINITY; WIDTH], shares: [[0; 2]; WIDTH], children: [0; 2] };
+        let (mut costs, mut shares) = ([f32::INFINITY; WIDTH], [[0; 2]; WIDTH]);
         for trees in 2..=WIDTH {
             for share in 1..trees {
                 let cost = left[share - 1] + right[trees - share - 1];
                 // The first is taken even if areas overflow.
-                if share == 1 || cost < forest.costs[trees - 1] {
-                    forest.costs[trees - 1] = cost;
-                    forest.shares[trees - 1] = [share as u8, (trees - share) as u8];
+                if share == 1 || cost < costs[trees - 1] {
+                    costs[trees - 1] = cost;
+                    shares[trees - 1] = [share as u8, (trees - share) as u8];
                 }
             }
         }
-        forest.children = forest.shares[WIDTH - 1];
-        forest.costs[0] = bounds.half_area() + forest.costs[WIDTH - 1];
+        let children = shares[WIDTH - 1];
+        costs[0] = bounds.half_area() + costs[WIDTH - 1];
         for trees in 1..WIDTH {
-            if forest.costs[trees] >= forest.costs[trees - 1] {
-                forest.costs[trees] = forest.costs[trees - 1];
-                forest.shares[trees] = forest.shares[trees - 1];
+            if costs[trees] >= costs[trees - 1] {
+                costs[trees] = costs[trees - 1];
+                shares[trees] = shares[trees - 1];
             }
         }
-        forest
+        Forest { sides, costs, shares, children }
     }
 }
 

@@ -57,6 +57,17 @@ fn meets(bounds: &Bounds, o: [f32; 3], d: [f32; 3]) -> bool {
     near <= far
 }
 
+/// Distances that double, so that each split takes one point off: down to the level from which halves alone fit below.
+#[test]
+fn a_tree_that_grows_too_deep_is_finished_by_halves() {
+    let point = |k: i32| Bounds { min: [-(0.5f32.powi(k)), 0.0, 0.0], max: [-(0.5f32.powi(k)), 0.0, 0.0] };
+    let (_, order) = Bvh::build::<4>((0..46).map(point));
+    let mut sizes: Vec<usize> = order.chunks(4).map(|leaf| leaf.iter().filter(|&&item| item != NONE).count()).collect();
+    sizes.sort_unstable();
+    // With two levels left a side holds 8, and 12 points are left: they are halved, and halved again.
+    assert_eq!(sizes, [vec![1; 34], vec![3; 4]].concat());
+}
+
 #[test]
 fn every_box_that_is_met_is_shown() {
     let mut rng = SmallRng::seed_from_u64(1);

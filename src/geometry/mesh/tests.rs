@@ -226,6 +226,12 @@ fn nothing_and_next_to_nothing() {
     assert_eq!(first(&single, ray, f32::INFINITY), (1.0, 0));
     assert_eq!(first(&single, ([0.0, 0.0, -3.0], [0.0, 0.0, 2.0]), f32::INFINITY), (1.5, 0));
     assert_eq!(first(&single, ([0.0, 0.0, -3.0], [0.0, 0.0, -2.0]), f32::INFINITY).1, NONE);
+    // Edges and corners belong to the triangle, from both sides.
+    for [x, y] in [[0.0, -1.0], [0.5, 0.0], [-0.5, 0.0], [-1.0, -1.0], [1.0, -1.0], [0.0, 1.0]] {
+        for z in [1.0, -1.0] {
+            assert_eq!(first(&single, ([x, y, z], [0.0, 0.0, -z]), f32::INFINITY), (1.0, 0), "{x} {y} {z}");
+        }
+    }
     assert_eq!(first(&single, ray, 1.0), (1.0, NONE));
     assert_eq!(first(&single, ray, 1.0 + f32::EPSILON), (1.0, 0));
     for d in [[0.0; 3], [f32::NAN; 3], [f32::INFINITY, 0.0, 0.0]] {
@@ -294,6 +300,15 @@ fn bits<L: Lanes>(l: L, mesh: &Mesh, rays: &[Ray]) -> Vec<[u32; 6]> {
         }
     }
     all
+}
+
+#[test]
+fn hills_stand_on_a_grid() {
+    let data = generate::heightfield(2, 1);
+    let places: Vec<[f32; 2]> = data.vertices.iter().map(|[x, _, z]| [*x, *z]).collect();
+    let column = |x: f32| [[x, 1.0], [x, 0.0], [x, -1.0]];
+    assert_eq!(places, [column(-1.0), column(0.0), column(1.0)].concat());
+    assert_eq!((data.uvs.len(), data.normals.len(), data.triangles.len()), (9, 9, 8));
 }
 
 #[test]

@@ -1,13 +1,16 @@
 //! Many shapes of every kind, still and in motion: what is found by the tree is what is found by trying each.
 use std::sync::Arc;
 
-use glam::{DAffine3, DVec3};
+use glam::{DAffine3, DMat3, DVec3};
 use rand::{Rng, SeedableRng, rngs::SmallRng};
 
 use super::{cases, exact, shapes, unit_vector, v};
 use crate::{
     geometry::{
-        Expression, Isosurface, MISS, Motion, Nearest, Outline, Shape, Shapes, Step, Turns, mesh::generate, sphere_field,
+        Expression, Isosurface, MISS, Motion, Nearest, Outline, Shape, Shapes, Step, Turns,
+        mesh::generate,
+        pose::{Pose, Rest},
+        sphere_field,
     },
     math::{F, M, One, U, V},
 };
@@ -34,6 +37,14 @@ fn crowd(rng: &mut SmallRng) -> Vec<(Shape, Motion)> {
         crowd.push((kinds[i % kinds.len()].transformed(&map), motion));
     }
     crowd
+}
+
+/// What it may be off by has a size and no sign.
+#[test]
+fn a_map_and_the_opposite_one_round_alike() {
+    let turn = DMat3::from_axis_angle(DVec3::new(1.0, 2.0, 3.0).normalize(), 1.1);
+    let rounding = |matrix| Pose::new(One, &Rest::new(&DAffine3::from_mat3(matrix)), &[], F(0.0)).rounding(v(DVec3::ONE)).0;
+    assert_eq!(rounding(-turn), rounding(turn));
 }
 
 /// Distance and the place in the list of the nearest of shapes that are asked one by one.

@@ -1,11 +1,11 @@
 //! x_M: the first surface along a ray.
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 use rand::{Rng, SeedableRng, rngs::SmallRng};
 
 use super::{Case, cases, exact, lane, place, point, unit_vector, v};
 use crate::{
     geometry::{
-        MISS, Nearest, Shape, Shapes,
+        MISS, Nearest, Outline, Shape, Shapes,
         oracle::{meetings, point_at},
     },
     math::{F, M, One, U, V},
@@ -16,6 +16,19 @@ const ROUNDING: f64 = 32.0 * f32::EPSILON as f64;
 fn closest(shapes: &Shapes, o: V<One>, d: V<One>) -> Option<f64> {
     let Nearest { t, primitive: U(primitive), .. } = shapes.closest(One, M(true), o, d, F(0.0));
     (primitive != MISS).then_some(lane(t))
+}
+
+#[test]
+fn points_of_the_oracle_lie_at_their_angles() {
+    let axes = DMat3::from_diagonal(DVec3::new(2.0, 3.0, 5.0));
+    let quarter = |piece: &Shape| point_at(piece, [0.5, 0.25]);
+    let near = |a: DVec3, b: DVec3| assert!(a.distance(b) < 1e-12, "{a} {b}");
+    near(quarter(&Shape::Sphere { center: DVec3::X, radius: 3.0 }), DVec3::new(1.0, 3.0, 0.0));
+    near(quarter(&Shape::Ellipsoid { center: DVec3::X, axes }), DVec3::new(1.0, 3.0, 0.0));
+    near(quarter(&Shape::Cylinder { base: DVec3::X, axes, capped: false }), DVec3::new(1.0, 3.0, 2.5));
+    let edges = [axes.x_axis, axes.y_axis];
+    let ellipse = Shape::Flat { outline: Outline::Ellipse, origin: DVec3::X, edges, mirrored: false };
+    near(quarter(&ellipse), DVec3::new(1.0, 3.0 * 0.5f64.sqrt(), 0.0));
 }
 
 /// A ray must find the first meeting, unless that is an edge or a tangent within rounding, and nothing that is not there.

@@ -1,12 +1,12 @@
 //! Directions towards primitives against their density.
-use std::f64::consts::PI;
+use std::{f64::consts::PI, sync::Arc};
 
 use glam::DVec3;
 use rand::{Rng, SeedableRng, rngs::SmallRng};
 
 use super::{Case, exact, kinds, lane, place, shapes, transforms, unit_vector, v};
 use crate::{
-    geometry::{MISS, Nearest, Outline, Shape, Shapes},
+    geometry::{MISS, MeshData, Nearest, Outline, Shape, Shapes},
     math::{F, M, One, U, V},
 };
 
@@ -98,16 +98,23 @@ fn directions_cover_what_is_seen_of_a_shape_as_their_density_says() {
     }
 }
 
-/// From the plane of a flat shape nothing of it is seen.
+/// From the plane of a flat shape nothing of it is seen, from above its front.
 #[test]
 fn nothing_has_a_density_where_a_flat_shape_is_seen_from_its_edge() {
     let edges = [DVec3::X, DVec3::Y];
-    for outline in [Outline::Parallelogram, Outline::Triangle, Outline::Ellipse] {
-        let shapes = shapes(&[Shape::Flat { origin: DVec3::ZERO, edges, outline, mirrored: false }]);
+    let flat = |outline| Shape::Flat { origin: DVec3::ZERO, edges, outline, mirrored: false };
+    let vertices = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    let mesh = Shape::mesh(Arc::new(MeshData { vertices, triangles: vec![[0, 1, 2]], ..MeshData::default() }));
+    for shape in [flat(Outline::Parallelogram), flat(Outline::Triangle), flat(Outline::Ellipse), mesh] {
+        let shapes = shapes(&[shape]);
         let x = V { x: F(3.0), y: F(0.5), z: F(0.0) };
         assert_eq!(shapes.toward(One, &place(0), x, (F(0.4), F(0.3))).pdf.0, 0.0);
         for d in [[-1.0, 0.0, 0.0], [-1.0, 0.1, 0.2]] {
             assert_eq!(shapes.pdf_toward(One, &place(0), x, V::splat(One, d)).0, 0.0);
+        }
+        for z in [0.5, -0.5] {
+            let near = V { x: F(0.2), y: F(0.3), z: F(z) };
+            assert_eq!(shapes.toward(One, &place(0), near, (F(0.4), F(0.3))).front.0, z > 0.0, "its front is above");
         }
     }
 }

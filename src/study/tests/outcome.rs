@@ -72,6 +72,8 @@ fn an_outcome_is_the_mean_of_its_runs_where_they_end() {
     for known in [found, bent] {
         assert!(slope(&known.variances).is_some_and(|slope| (slope.slope + 1.0).abs() < 1e-9), "{:?}", known.variances);
     }
+    // Of 8, 4, 2, 1 and ½ · 10⁻¹² after 1, 2, 4, 8 and 16 samples, what is not above 10⁻¹² is rounding.
+    assert_eq!(outcome(RenderSettings::default(), &[run(5e-13, 1.0)]).variances[0].len(), 1);
     // As many checkpoints as all runs have.
     let mut short = run(0.01, 1.0);
     short.checkpoints.truncate(3);

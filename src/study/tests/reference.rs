@@ -17,7 +17,7 @@ use crate::{
     },
 };
 
-const SIZE: [u32; 2] = [16, 16];
+const SIZE: [u32; 2] = [32, 8];
 
 fn subject(known: Option<truth::Reference>, is_declared: bool) -> Subject {
     let scene = parse("scene.toml", include_str!("../../../scenes/furnace.toml").to_owned()).expect("a scene");

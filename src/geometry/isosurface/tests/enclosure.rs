@@ -88,6 +88,20 @@ fn values_and_slopes_lie_in_enclosures() {
     assert!(known * 2 > all, "{known} of {all}");
 }
 
+/// Half of how far the function is from its tangent at an end of the range, and a fifth of that more.
+#[test]
+fn lines_lie_as_near_to_their_functions_as_they_can() {
+    let piece = Piece { o: v(DVec3::ZERO), d: v(DVec3::X), middle: 1.0, half: 0.125 };
+    for text in ["1/x", "sqrt(x)", "exp(x)", "log(x)", "sin(x)", "cos(x)"] {
+        let expression = Expression::parse(text).expect("an expression");
+        let f = piece.enclosure(&expression);
+        let exact = |s: f64| value(&expression, piece.point(s));
+        let off = |s: f64| (exact(s) - exact(0.0) - f64::from(f.b.0) * s).abs();
+        let least = 0.5 * off(-1.0).max(off(1.0));
+        assert!((0.99..1.2).contains(&(f64::from(f.r.0) / least)), "{text}: {} for {least}", f.r.0);
+    }
+}
+
 #[test]
 fn enclosures_of_shapes_shrink_with_the_square_of_the_piece() {
     let mut rng = SmallRng::seed_from_u64(4);
