@@ -99,3 +99,14 @@ fn replayed(settings: &RenderSettings) -> u32 {
     };
     [[0, 0], [37, 25], [74, 49], [64, 31], [12, 40], [3, 17], [50, 8]].map(differs).iter().sum()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_hash_is_that_of_a_picture() {
+        let of = |seed: u32| hash(&RenderSettings { seed, ..RenderSettings::default() }, 2, SimdLevel::best(), u32::MAX);
+        assert!(of(1) == of(1) && of(1) != of(2));
+    }
+}

@@ -137,3 +137,36 @@ pub(super) fn count(n: u64) -> String {
         _ => format!("{:.1} million", n as f64 / 1e6),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{super::families::random, *};
+    use crate::validate::stress::{
+        draft::{Draft, Expected},
+        surfaces::Comparison,
+        trial::Outcome,
+    };
+
+    #[test]
+    fn the_worst_of_all_scenes_counts_and_is_named() {
+        let trial = |name: &str, worst: f64| Trial {
+            family: &random::FAMILIES[0],
+            name: name.to_owned(),
+            text: String::new(),
+            draft: Draft::of(String::new(), Expected::Valid),
+            outcome: Outcome {
+                surfaces: Comparison { rays: 3, worst, ..Comparison::default() },
+                z: Some(-worst),
+                ..Outcome::default()
+            },
+        };
+        let all = [trial("good", 1.0), trial("bad", 1e9), trial("fair", 5.0)];
+        let all: Vec<&Trial> = all.iter().collect();
+        let of_rays = rays(&all);
+        let of_means = means(&all).expect("they have means");
+        for worst in [&of_rays[1], &of_means] {
+            assert!(worst.measured == 1e9 && worst.what.contains("(bad)") && !worst.holds, "{worst:?}");
+        }
+        assert!(of_rays[0].what.contains("9 rays") && of_rays[0].holds);
+    }
+}

@@ -3,7 +3,7 @@ mod contact;
 mod limits;
 mod long;
 mod matter;
-mod random;
+pub mod random;
 mod refused;
 mod rooms;
 mod scales;
