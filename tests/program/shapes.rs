@@ -23,6 +23,7 @@ fn with(line: &str) -> Scene {
 
 #[test]
 fn degenerate_shapes_are_refused() {
+    shape("cuboid = { min = [0.0, 0.0, 0.0], max = [-1.0, 1.0, 1.0] }", "inverted or empty in x: 0 to -1");
     shape("cuboid = { min = [0.0, 0.0, 0.0], max = [1.0, -1.0, 1.0] }", "inverted or empty in y: 0 to -1");
     shape("cuboid = { min = [0.0, 0.0, 0.0], max = [1.0, 1.0, 0.0] }", "inverted or empty in z");
     shape("cuboid = { min = [0.0, 0.0, nan], max = [1.0, 1.0, 1.0] }", "`min` is not a position");

@@ -157,3 +157,15 @@ fn clusters_find_what_single_spheres_find() {
         assert!(hits > 500, "{hits}");
     }
 }
+
+#[test]
+fn the_sphere_around_a_sheared_box_ends_at_its_farthest_corner_whichever_it_is() {
+    for [s, t] in [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]] {
+        let edges = DMat3::from_cols(DVec3::X, DVec3::new(0.5 * s, 1.0, 0.0), DVec3::new(0.5 * t, 0.2 * s * t, 1.0));
+        let origin = DVec3::new(1.0, 2.0, 3.0);
+        let (center, radius) = Shape::Cuboid { origin, edges }.bounding_sphere();
+        let corner = |i: i32| origin + edges * DVec3::new(f64::from(i & 1), f64::from(i >> 1 & 1), f64::from(i >> 2));
+        let farthest = (0..8).map(|i| corner(i).distance(center)).fold(0.0, f64::max);
+        assert!((radius - farthest).abs() < 1e-12, "{radius} {farthest}");
+    }
+}

@@ -81,7 +81,7 @@ fn faces_may_come_first_and_lines_end_in_two_characters() {
 fn comments_may_be_in_any_encoding() {
     let elements = [b"comment Jos\xe9\n", mesh(3, 1).as_bytes()].concat();
     let start = b"ply\nformat ascii 1.0\n".as_slice();
-    assert_eq!(model(&[start, &elements, b"end_header\n0 0 0 1 0 0 0 1 0 3 0 1 2"].concat()).triangles, [[0, 1, 2]]);
+    assert_eq!(model(&[start, &elements, b"end_header\n\n 0 0 0 1 0 0 0 1 0 3 0 1 2"].concat()).triangles, [[0, 1, 2]]);
 }
 
 #[test]

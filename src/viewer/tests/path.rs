@@ -126,6 +126,11 @@ fn a_path_that_leaves_the_scene_ends_in_a_dashed_line() {
     let yellow = egui::Color32::from_rgb(255, 214, 90);
     let is_dash = |shape: &egui::Shape| matches!(shape, egui::Shape::LineSegment { stroke, .. } if stroke.width == 1.2 && stroke.color == yellow);
     assert!(window.output().shapes.iter().any(|clipped| is_dash(&clipped.shape)));
+    // Where the camera's own ray meets nothing there is no point to draw it from.
+    window.state_mut().inspector.look_at([width / 2, 0]);
+    wait(&mut window, "a path of the sky", |app| app.inspector.replay().is_some_and(|(_, replay)| replay.vertices.len() == 1));
+    window.run_steps(2);
+    assert!(!window.output().shapes.iter().any(|clipped| is_dash(&clipped.shape)));
 }
 
 #[test]
