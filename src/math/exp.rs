@@ -1,7 +1,7 @@
-//! Powers of two by our own polynomial, so that every processor gives the same bits.
+//! Powers of two by a polynomial instead of the standard library, so that every processor gives the same bits.
 use super::{lanes::Lanes, number::F, round::floor};
 
-/// 2ˣ for x ≤ 0, within 2e-7 of its size; what is below 2⁻¹²⁶ becomes that.
+/// 2ˣ for x ≤ 0, with a relative error below 2e-7; smaller values than 2⁻¹²⁶ are clamped to it.
 #[inline(always)]
 pub fn exp2_of_negative<L: Lanes>(x: F<L>) -> F<L> {
     let (whole, bits) = floor(x.max(x.splat(-126.0)));

@@ -1,11 +1,11 @@
-//! Lanes: several numbers that are computed side by side by one instruction.
+//! Lanes: several numbers that one instruction processes in parallel.
 //!
-//! A *lane configuration* is a zero-sized token, [`X16`], [`X4`] or [`One`], that names how many numbers travel together and
-//! which instructions the processor is known to have. Code generic over [`Lanes`] reads like scalar code and compiles to any of
-//! them. Every operation here is exactly rounded (IEEE 754) and nothing is contracted or reassociated, so all configurations
-//! give the same bits.
+//! A *lane configuration* is a zero-sized token, [`X16`], [`X4`] or [`One`]. It fixes the number of lanes and proves that the
+//! processor has the instructions. Code generic over [`Lanes`] reads like scalar code and compiles to any of them. Every
+//! operation is exactly rounded (IEEE 754) and nothing is contracted or reassociated, so all configurations give the same bits.
 //!
-//! This file alone knows the SIMD crate; the operators on top of it are in [`super::number`].
+//! The operators are in [`super::number`]. Of the kernel, only the tests of one ray against eight boxes or triangles use vectors
+//! of the SIMD crate directly (`geometry/bvh/slabs.rs`, `geometry/mesh/block.rs`).
 use fearless_simd::{
     Bytes, ExtractToken, Fallback, Select, Simd, SimdBase, SimdFloat, SimdInt, SimdMask, f32x4, f32x16, mask32x4, mask32x16,
     u32x4, u32x16,
@@ -43,21 +43,21 @@ pub trait Lanes: ExtractToken + Copy + Send + Sync + 'static {
     fn mul(a: Self::Real, b: Self::Real) -> Self::Real;
     fn div(a: Self::Real, b: Self::Real) -> Self::Real;
     fn neg(a: Self::Real) -> Self::Real;
-    /// The smaller one; `b` when the two cannot be compared.
+    /// The smaller value; `b` if either is NaN.
     fn min(a: Self::Real, b: Self::Real) -> Self::Real;
-    /// The larger one; `b` when the two cannot be compared.
+    /// The larger value; `b` if either is NaN.
     fn max(a: Self::Real, b: Self::Real) -> Self::Real;
     fn abs(a: Self::Real) -> Self::Real;
     fn sqrt(a: Self::Real) -> Self::Real;
     fn copysign(a: Self::Real, sign: Self::Real) -> Self::Real;
     fn lt(a: Self::Real, b: Self::Real) -> Self::Mask;
     fn le(a: Self::Real, b: Self::Real) -> Self::Mask;
-    /// The lanes set in `keep`, moved to the front; what follows them is unspecified.
+    /// The lanes set in `keep`, moved to the front; the other lanes are unspecified.
     fn compress(a: Self::Real, keep: Self::Mask) -> Self::Real;
 
     fn bits(a: Self::Real) -> Self::Int;
     fn from_bits(a: Self::Int) -> Self::Real;
-    /// The nearest real.
+    /// Converts to the nearest real.
     fn to_real(a: Self::Int) -> Self::Real;
 
     fn add_int(a: Self::Int, b: Self::Int) -> Self::Int;
@@ -293,7 +293,7 @@ macro_rules! simd_lanes {
 simd_lanes!(X4, 4, f32x4<S>, u32x4<S>, mask32x4<S>, "Four lanes: the width of SSE and NEON.");
 simd_lanes!(X16, 16, f32x16<S>, u32x16<S>, mask32x16<S>, "Sixteen lanes: one AVX-512 register, or two of AVX2.");
 
-/// One lane of plain numbers: the scalar path, for replaying a single sample and for tests.
+/// One lane of plain numbers: the scalar code path, for replays of single samples and for tests.
 #[derive(Clone, Copy)]
 pub struct One;
 

@@ -1,7 +1,7 @@
-//! Which instructions this processor has, found at run time: one release binary runs everywhere.
+//! Detection of the processor's instruction set at run time, so that one release binary runs everywhere.
 use fearless_simd::Level;
 
-/// The vector instructions a render uses. All give the same picture, bit for bit.
+/// The vector instructions of a render. All levels give the same image, bit for bit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SimdLevel {
     /// One lane, no vector instructions.
@@ -15,8 +15,8 @@ pub enum SimdLevel {
 }
 
 impl SimdLevel {
-    /// The levels this processor can run, slowest first. Unit tests of the library are compiled for AVX2 and one lane only, in half of
-    /// the time; those of whole pictures have all levels.
+    /// The levels that this processor supports, slowest first. Unit tests of the library are compiled for AVX2 and one lane only,
+    /// which halves their build time; tests of whole images have all levels.
     pub fn available() -> Vec<SimdLevel> {
         let level = Level::new();
         let mut all = vec![SimdLevel::Scalar];
@@ -39,7 +39,7 @@ impl SimdLevel {
         all
     }
 
-    /// What a reader calls it.
+    /// The usual name of the instruction set.
     pub fn name(self) -> &'static str {
         match self {
             SimdLevel::Scalar => "none",
@@ -55,8 +55,8 @@ impl SimdLevel {
     }
 }
 
-/// `in_lanes!(level, l => call(l, …))`: the call with the lane configuration of a [`SimdLevel`]. A level the processor does not
-/// have falls back to one lane.
+/// Calls a function with the lane configuration of a [`SimdLevel`]: `in_lanes!(level, l => call(l, …))`. Falls back to one lane
+/// if the processor lacks the level.
 #[macro_export]
 macro_rules! in_lanes {
     ($level:expr, $l:ident => $call:expr) => {{

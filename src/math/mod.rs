@@ -1,4 +1,4 @@
-//! Numbers, vectors and frames in lanes, and colour. Nothing here knows what light is.
+//! Numbers, vectors and frames in lanes, and colour: mathematics without light transport.
 pub mod colour;
 pub mod exp;
 pub mod frame;

@@ -3,11 +3,11 @@ use std::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Shl, Shr, Sub};
 
 use super::lanes::{Lanes, MAX_LANES};
 
-/// Reals (f32), one a lane.
+/// Reals (f32), one per lane.
 pub struct F<L: Lanes>(pub L::Real);
-/// Unsigned integers (u32, wrapping arithmetic), one a lane.
+/// Unsigned integers (u32, wrapping arithmetic), one per lane.
 pub struct U<L: Lanes>(pub L::Int);
-/// Truth values, one a lane.
+/// Truth values, one per lane.
 pub struct M<L: Lanes>(pub L::Mask);
 
 macro_rules! copy {
@@ -110,7 +110,7 @@ impl<L: Lanes> BitOr for M<L> {
     }
 }
 
-/// Where one is set and the other is not.
+/// Lanes that are set in exactly one of the two masks.
 impl<L: Lanes> BitXor for M<L> {
     type Output = Self;
     #[inline(always)]
@@ -183,7 +183,7 @@ impl<L: Lanes> F<L> {
     pub fn store(self, to: &mut [f32]) {
         L::store(self.0, to);
     }
-    /// The lanes as an array; only the first `L::N` entries mean something.
+    /// The lanes as an array; only the first `L::N` entries are valid.
     #[inline(always)]
     pub fn to_array(self) -> [f32; MAX_LANES] {
         let mut a = [0.0; MAX_LANES];
@@ -215,7 +215,7 @@ impl<L: Lanes> U<L> {
     pub fn below(self, k: u32) -> M<L> {
         M(L::lt_int(self.0, L::splat_int(self.0, k)))
     }
-    /// The lanes as an array; only the first `L::N` entries mean something.
+    /// The lanes as an array; only the first `L::N` entries are valid.
     #[inline(always)]
     pub fn to_array(self) -> [u32; MAX_LANES] {
         let mut a = [0; MAX_LANES];

@@ -1,11 +1,11 @@
-//! From reals to integers.
+//! Rounding of reals to integers.
 use super::{
     lanes::Lanes,
     number::{F, Pick, U},
 };
 
-/// The greatest integer not above x, as a real and in two's complement. Exact for |x| ≤ 2²²; what lies beyond is taken as ±2²²,
-/// and NaN as 2²².
+/// The greatest integer not above x, as a real and in two's complement. Exact for |x| ≤ 2²²; larger values are clamped to ±2²²,
+/// and NaN gives 2²².
 #[inline(always)]
 pub fn floor<L: Lanes>(x: F<L>) -> (F<L>, U<L>) {
     // Among the reals near 1.5 · 2²³ neighbours are 1 apart: adding it rounds, and leaves the integer in the last bits.

@@ -1,4 +1,4 @@
-//! Functions of our own against the standard library in f64.
+//! Sine, exponential and rounding against the standard library in f64.
 use std::f64::consts::TAU;
 
 use super::{

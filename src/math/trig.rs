@@ -1,4 +1,4 @@
-//! Sine and cosine by our own polynomials, so that every processor gives the same bits.
+//! Sine and cosine by polynomials instead of the standard library, so that every processor gives the same bits.
 use std::f32::consts::{FRAC_PI_4, TAU};
 
 use super::{

@@ -6,7 +6,7 @@ use super::{
     number::{F, M, Pick},
 };
 
-/// A 3-vector a lane. Colours use the same type: x, y, z are linear red, green, blue.
+/// A 3-vector per lane. Colours use the same type: x, y, z are linear red, green, blue.
 pub struct V<L: Lanes> {
     pub x: F<L>,
     pub y: F<L>,
@@ -74,7 +74,7 @@ impl<L: Lanes> V<L> {
     pub fn dot(self, b: Self) -> F<L> {
         self.x * b.x + (self.y * b.y + self.z * b.z)
     }
-    /// Dot product with one vector that all lanes share.
+    /// Dot product with one vector, the same for all lanes.
     #[inline(always)]
     pub fn dot_with(self, b: [f32; 3]) -> F<L> {
         self.x * b[0] + (self.y * b[1] + self.z * b[2])
