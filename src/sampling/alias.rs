@@ -1,12 +1,12 @@
-//! The alias method: one of many cells by its weight, in constant time.
+//! The alias method: samples a cell in proportion to its weight, in constant time.
 //!
-//! M. D. Vose, "A Linear Algorithm for Generating Random Numbers with a Given Distribution", IEEE TSE 17(9), 1991. Every entry
-//! keeps its own cell or gives way to another, its alias, at the toss of a coin.
+//! M. D. Vose, "A Linear Algorithm for Generating Random Numbers with a Given Distribution", IEEE TSE 17(9), 1991. The toss of a
+//! coin selects either the entry's own cell or another, its alias.
 use crate::math::{F, Lanes, Pick, U, round::floor};
 
-/// Coins are midpoints of the multiples of this: so is every threshold, and chances are exact.
+/// Thresholds are multiples of this number, and coins are the midpoints between multiples, so probabilities are exact.
 const COIN: f64 = 1.0 / 8_388_608.0;
-/// Added to an index, it makes the bits of a real that holds the index in its mantissa.
+/// Combined with an index, these bits are a real number with the index in its mantissa.
 const INDEX_BITS: u32 = 0x4b00_0000;
 const INDEX_MASK: u32 = 0x007f_ffff;
 
@@ -17,7 +17,7 @@ pub struct AliasTable {
 }
 
 impl AliasTable {
-    /// The number of weights is a power of two up to 2²³; no weight is negative and one is positive.
+    /// Builds a table. The number of weights is a power of two up to 2²³; no weight is negative, and at least one is positive.
     pub fn new(weights: &[f64]) -> AliasTable {
         let count = weights.len();
         assert!(count.is_power_of_two() && count <= 1 << 23, "{count} cells");
@@ -35,7 +35,7 @@ impl AliasTable {
         AliasTable { rows: (0..count).map(row).collect() }
     }
 
-    /// A cell and its probability, for an index and a coin that are [unit](super::hash::unit) random numbers.
+    /// Samples a cell, and returns it with its probability. The index and the coin are [unit](super::hash::unit) random numbers.
     #[inline(always)]
     pub fn sample<L: Lanes>(&self, l: L, (index, coin): (F<L>, F<L>)) -> (U<L>, F<L>) {
         let (_, entry) = floor(index * self.rows.len() as f32);
@@ -51,7 +51,7 @@ impl AliasTable {
     }
 }
 
-/// For every cell the chance to be kept, positive where the weight is, and the cell that it otherwise gives way to.
+/// Returns for every cell the probability of keeping it, positive where its weight is positive, and its alias.
 fn fair_coins(weights: &[f64]) -> (Vec<f64>, Vec<usize>) {
     let mean = weights.iter().sum::<f64>() / weights.len() as f64;
     let mut rest: Vec<f64> = weights.iter().map(|weight| weight / mean).collect();

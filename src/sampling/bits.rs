@@ -11,8 +11,8 @@ pub fn reverse<L: Lanes>(x: U<L>) -> U<L> {
     (x >> 16) | (x << 16)
 }
 
-/// A random nested permutation of bits in which each bit is flipped depending on the *lower* ones: Owen's scrambling of the
-/// number whose reversed bits are given and returned.
+/// Owen scrambling of a number with reversed bits: a random nested permutation in which each bit is flipped depending on the
+/// *lower* ones.
 ///
 /// S. Laine and T. Karras, "Stratified Sampling for Stochastic Transparency" (2011), with the constants of
 /// N. Vegdahl, "Building a Better LK Hash" (2021).
@@ -35,7 +35,7 @@ pub fn sobol_reversed<L: Lanes>(x: U<L>) -> U<L> {
     x ^ ((x & 0xffff_0000) >> 16)
 }
 
-/// The lower half of the bits of `x`, which has no others, moved apart to the even places: the inverse of [`even_bits`].
+/// Spreads the lower half of the bits of `x` to the even bits: the inverse of [`even_bits`]. The upper half of `x` must be 0.
 #[inline(always)]
 pub fn spread_bits<L: Lanes>(x: U<L>) -> U<L> {
     let x = (x | (x << 8)) & 0x00ff_00ff;
@@ -44,7 +44,7 @@ pub fn spread_bits<L: Lanes>(x: U<L>) -> U<L> {
     (x | (x << 1)) & 0x5555_5555
 }
 
-/// The even bits of `x`, moved together into the lower half: one coordinate of a Morton code.
+/// Gathers the even bits of `x` in the lower half: one coordinate of a Morton code.
 #[inline(always)]
 pub fn even_bits<L: Lanes>(x: U<L>) -> U<L> {
     let x = x & 0x5555_5555;

@@ -1,11 +1,11 @@
-//! Sobol points whose error is blue noise over the picture while samples are few: neighbouring pixels err in opposite directions,
-//! and what the eye averages has less noise than any pixel.
+//! Sobol points whose error is blue noise over the image at low sample counts. Neighbouring pixels err in opposite directions, so
+//! an average over pixels, such as the eye takes, has less noise than its pixels.
 //!
 //! The first samples of all pixels are one Owen-scrambled Sobol sequence along the Z-curve (A. G. M. Ahmed and P. Wonka,
 //! "Screen-Space Blue-Noise Diffusion of Monte Carlo Sampling Error via Hierarchical Ordering of Pixels", SIGGRAPH Asia 2020).
-//! Theirs needs the number of samples beforehand; here every pixel's own sequence is shifted, by exclusive or, so that its first
-//! point falls where the curve wants it. That keeps all strata of the pixel, so that it converges as Sobol points do, and the
-//! order over the picture fades as samples are added. Beyond the third surface paths differ too much for any order to last.
+//! Their method needs the number of samples in advance. Here an exclusive or shifts every pixel's own sequence so that its first
+//! point is that of the curve. The shift preserves all strata of the pixel, which therefore converges like Sobol points, and the
+//! blue noise fades as samples are added. Beyond the third surface, paths differ too much for blue noise.
 use super::{
     Dimension,
     bits::{reverse, spread_bits},
@@ -36,7 +36,7 @@ pub(super) fn two<L: Lanes>(stream: &Stream<L>, dimension: Dimension) -> (F<L>, 
     (unit(reverse(x ^ first_x ^ curve_x)), unit(reverse(y ^ first_y ^ curve_y)))
 }
 
-/// The point of the sequence that all pixels share, with reversed bits, at the pixels' places along the Z-curve.
+/// The points of the shared sequence at the pixels' positions on the Z-curve, with reversed bits.
 #[inline(always)]
 fn on_curve<L: Lanes>(stream: &Stream<L>, dimension: u32) -> [U<L>; 2] {
     let place = spread_bits(stream.pixel & 0xffff) | (spread_bits(stream.pixel >> 16) << 1);

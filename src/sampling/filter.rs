@@ -1,5 +1,5 @@
-//! Pixel filters by importance sampling: a sample's place in the picture is drawn from the filter itself, so that every sample
-//! has weight 1, belongs to one pixel only, and pixels stay independent.
+//! Pixel filters by importance sampling. The filter is the pdf of a sample's position in the image, so every sample has weight 1
+//! and belongs to one pixel only, and pixels stay independent.
 //!
 //! M. Ernst, M. Stamminger and G. Greiner, "Filter Importance Sampling", IEEE Symposium on Interactive Ray Tracing, 2006.
 use std::sync::LazyLock;
@@ -8,26 +8,26 @@ use serde::{Deserialize, Serialize};
 
 use crate::math::{F, Lanes, Pick, round::floor};
 
-/// How a pixel weighs the light around its centre; separable, of integral 1. Lengths are in pixels.
+/// The weight of the light around the centre of a pixel; separable, with integral 1. Lengths are in pixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Filter {
-    /// The mean over the pixel's own square.
+    /// The mean over the square of the pixel.
     #[default]
     Box,
     /// Falls linearly to 0 at `radius`.
     Tent { radius: f32 },
-    /// A normal distribution, cut off at [`Filter::GAUSSIAN_REACH`] standard deviations.
+    /// A normal distribution, truncated at [`Filter::GAUSSIAN_REACH`] standard deviations.
     Gaussian { sigma: f32 },
 }
 
 impl Filter {
     pub const TENT: Filter = Filter::Tent { radius: 1.0 };
     pub const GAUSSIAN: Filter = Filter::Gaussian { sigma: 0.5 };
-    /// Where the Gaussian ends, in standard deviations: 0.27 % of it lie beyond.
+    /// Extent of the Gaussian in standard deviations; it excludes 0.27 % of the distribution.
     pub const GAUSSIAN_REACH: f64 = 3.0;
 
-    /// The place of a sample, from the left (upper) edge of its pixel.
+    /// The position of a sample, measured from the left (upper) edge of its pixel.
     #[inline(always)]
     pub fn place<L: Lanes>(self, l: L, u: F<L>) -> F<L> {
         match self {
@@ -46,8 +46,8 @@ fn tent<L: Lanes>(u: F<L>) -> F<L> {
     u.below(0.5).pick(left, right)
 }
 
-/// The inverse of the cut normal distribution of deviation 1: between [`STEPS`] places of equal probability the density is taken
-/// as constant.
+/// The inverse of the truncated normal distribution with standard deviation 1. The density is taken as constant in each of
+/// [`STEPS`] steps of equal probability.
 #[inline(always)]
 fn gaussian<L: Lanes>(l: L, u: F<L>) -> F<L> {
     let at = u * STEPS as f32;
@@ -64,7 +64,7 @@ static GAUSSIAN: LazyLock<Vec<[f32; 4]>> = LazyLock::new(|| {
     edges.windows(2).map(|edge| [edge[0] as f32, (edge[1] - edge[0]) as f32, 0.0, 0.0]).collect()
 });
 
-/// By bisection of the sum of the density over a fine grid.
+/// Bisects the sum of the density over a fine grid.
 fn inverse_gaussian(p: f64) -> f64 {
     const CELLS: usize = 1 << 14;
     static SUMS: LazyLock<Vec<f64>> = LazyLock::new(|| {
@@ -89,7 +89,7 @@ mod tests {
     use super::*;
     use crate::math::One;
 
-    /// The part of a filter that lies left of `x`, measured from the pixel's left edge.
+    /// The integral of a filter left of `x`, which is measured from the pixel's left edge.
     fn distribution(filter: Filter, x: f64) -> f64 {
         let from_center = x - 0.5;
         match filter {

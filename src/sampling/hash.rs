@@ -1,7 +1,7 @@
 //! Counter-based random numbers: integer hashes in lanes.
 use crate::math::{F, Lanes, U};
 
-/// The odd integer nearest 2³²/φ: consecutive multiples of it are spread as evenly as can be.
+/// The odd integer nearest 2³²/φ, whose consecutive multiples are evenly spread.
 pub const GOLDEN: u32 = 0x9e37_79b9;
 
 /// A 32-bit permutation that avalanches every bit. Constants: C. Wellons, "Prospecting for hash functions" (2018), `lowbias32`.

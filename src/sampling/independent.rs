@@ -1,4 +1,4 @@
-//! Independent uniform random numbers: the plain Monte-Carlo method, whose error the theory of means describes exactly.
+//! Independent uniform random numbers: plain Monte Carlo integration, whose variance is known exactly.
 use super::{
     hash::{GOLDEN, hash, unit},
     sampler::Stream,

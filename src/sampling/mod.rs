@@ -1,4 +1,4 @@
-//! Points of the unit cube and warps of them to directions, each with its density.
+//! Points of the unit cube and their warps to directions, each with its pdf.
 pub mod alias;
 mod bits;
 mod blue_noise;
@@ -21,14 +21,14 @@ pub use self::{
     warp::Directions,
 };
 
-/// One row of the catalogue of samplers.
+/// A row of the catalogue of samplers.
 pub struct SamplerEntry {
     pub sampler: Sampler,
-    /// What the scene file and the command line call it.
+    /// Name in the scene file and on the command line.
     pub name: &'static str,
-    /// What the window calls it.
+    /// Name in the window.
     pub title: &'static str,
-    /// One sentence for the window.
+    /// Explanation in one sentence, for the window.
     pub doc: &'static str,
 }
 

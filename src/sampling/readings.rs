@@ -1,4 +1,4 @@
-//! Which coordinates are read, for tests: every decision of a path must have coordinates of its own.
+//! A record of the coordinates that are read, for tests: every decision of a path must have its own coordinates.
 use std::cell::RefCell;
 
 use crate::math::{Lanes, U};
@@ -10,14 +10,14 @@ thread_local! {
     static READINGS: RefCell<Option<Vec<Reading>>> = const { RefCell::new(None) };
 }
 
-/// What the first lane reads from now on, for as long as `work` takes on this thread.
+/// Runs `work`, and returns the coordinates that the first lane reads on this thread.
 pub fn readings_of(work: impl FnOnce()) -> Vec<Reading> {
     READINGS.set(Some(Vec::new()));
     work();
     READINGS.take().unwrap_or_default()
 }
 
-/// Notes `count` coordinates from `dimension` on.
+/// Records `count` coordinates, starting at `dimension`.
 pub(super) fn note<L: Lanes>(pixel: U<L>, dimension: u32, count: u32) {
     READINGS.with_borrow_mut(|readings| {
         if let Some(readings) = readings {

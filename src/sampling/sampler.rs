@@ -1,7 +1,7 @@
-//! A path is one point of the infinite-dimensional unit cube. A sampler says which points a pixel's samples are.
+//! Samplers. A path is a point of the infinite-dimensional unit cube; a sampler determines the points of a pixel's samples.
 //!
-//! Every coordinate is a pure function of (seed, pixel, sample index, dimension): a sample can be revisited at any time, in any
-//! order, on any thread, and has the same coordinates. The dimension follows the depth of the path, so that all paths use the
+//! Every coordinate is a pure function of (seed, pixel, sample index, dimension): a sample can be repeated at any time, in any
+//! order and on any thread, and has the same coordinates. The dimension follows the depth of the path, so that all paths use the
 //! same coordinate for the same decision.
 use serde::{Deserialize, Serialize};
 
@@ -14,7 +14,7 @@ use super::{
 };
 use crate::math::{F, Lanes, U};
 
-/// Which points the samples of a pixel are. All are unbiased; they differ in how fast the error falls.
+/// The point set of a pixel's samples. All samplers are unbiased; they differ in how fast the error falls.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Sampler {
@@ -42,16 +42,16 @@ impl Dimension {
     pub const PIXEL: Dimension = Dimension(0);
     /// The point on the lens (two).
     pub const LENS: Dimension = Dimension(2);
-    /// When between the opening and the closing of the shutter (one).
+    /// The time between the opening and the closing of the shutter (one).
     pub const TIME: Dimension = Dimension(4);
     const PER_BOUNCE: u32 = 16;
 
-    /// Whether the coordinate decides about the camera or one of the first three surfaces.
+    /// Whether the coordinate belongs to the camera or one of the first three surfaces.
     pub(super) fn is_near(self) -> bool {
         self.0 < 4 * Self::PER_BOUNCE
     }
 
-    /// The direction in which the path goes on at its `bounce`-th surface, counted from 1 (two).
+    /// The direction of the path after its `bounce`-th surface, counted from 1 (two).
     pub fn direction(bounce: u32) -> Dimension {
         Dimension(Self::PER_BOUNCE * bounce)
     }
@@ -61,12 +61,12 @@ impl Dimension {
         Dimension(Self::PER_BOUNCE * bounce + 2)
     }
 
-    /// Which lobe of the bsdf the direction comes from (one).
+    /// The lobe of the BSDF that the direction is sampled from (one).
     pub fn lobe(bounce: u32) -> Dimension {
         Dimension(Self::PER_BOUNCE * bounce + 3)
     }
 
-    /// Which light is sampled at the `bounce`-th surface (one).
+    /// The choice of the light at the `bounce`-th surface (one).
     pub fn light_choice(bounce: u32) -> Dimension {
         Dimension(Self::PER_BOUNCE * bounce + 4)
     }
@@ -82,7 +82,7 @@ impl Dimension {
     }
 }
 
-/// The coordinates of a sample of some pixels, one pixel a lane.
+/// The coordinates of a sample for several pixels, one pixel per lane.
 #[derive(Clone, Copy)]
 pub struct Stream<L: Lanes> {
     sampler: Sampler,
@@ -96,7 +96,7 @@ pub struct Stream<L: Lanes> {
 }
 
 impl<L: Lanes> Stream<L> {
-    /// `pixel` packs y·2¹⁶ + x, so that a pixel keeps its numbers when the resolution changes.
+    /// Creates the stream. `pixel` is y·2¹⁶ + x, so a pixel keeps its random numbers when the resolution changes.
     #[inline(always)]
     pub fn new(sampler: Sampler, seed: u32, pixel: U<L>, index: U<L>) -> Self {
         // A factor of its own for every seed: by addition alone one seed's noise would be another's, moved aside.
@@ -137,7 +137,7 @@ impl<L: Lanes> Stream<L> {
         Stream { index: self.splat(0), reversed: self.splat(0), ..*self }
     }
 
-    /// A hash of pixel and sample; for one pixel no two samples share it.
+    /// A hash of pixel and sample, distinct for every sample of a pixel.
     #[inline(always)]
     pub(super) fn sample_key(&self) -> U<L> {
         hash(self.pixel_key + self.index * GOLDEN)

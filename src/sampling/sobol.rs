@@ -1,4 +1,5 @@
-//! Owen-scrambled Sobol points: (0, 2)-sequences in base 2, shuffled and scrambled anew for every pixel and pair of dimensions.
+//! Owen-scrambled Sobol points: (0, 2)-sequences in base 2 with their own shuffle and scramble for every pixel and pair of
+//! dimensions.
 //!
 //! B. Burley, "Practical Hash-based Owen Scrambling", JCGT 9(4), 2020: padding by shuffled index, scrambling by hash.
 use super::{
@@ -8,13 +9,13 @@ use super::{
 };
 use crate::math::{F, Lanes, U};
 
-/// Every 2ᵏ consecutive samples have one in each of 2ᵏ equal intervals.
+/// Of every 2ᵏ consecutive samples, one lies in each of 2ᵏ equal intervals.
 #[inline(always)]
 pub(super) fn one<L: Lanes>(stream: &Stream<L>, dimension: u32) -> F<L> {
     unit(reverse(one_reversed(stream, dimension)))
 }
 
-/// Every 2ᵏ consecutive samples have one in each of the 2ᵏ equal rectangles, of whatever shape 2ⁱ × 2ᵏ⁻ⁱ.
+/// Of every 2ᵏ consecutive samples, one lies in each of the 2ᵏ equal rectangles of any grid of 2ⁱ × 2ᵏ⁻ⁱ.
 #[inline(always)]
 pub(super) fn two<L: Lanes>(stream: &Stream<L>, dimension: u32) -> (F<L>, F<L>) {
     let [x, y] = two_reversed(stream, dimension);
@@ -35,7 +36,7 @@ pub(super) fn two_reversed<L: Lanes>(stream: &Stream<L>, dimension: u32) -> [U<L
     scrambled(stream.reversed_index(), stream.dimension_key(dimension))
 }
 
-/// The Sobol points of indices with reversed bits, shuffled and scrambled by a key; their own bits are reversed too.
+/// Sobol points, shuffled and scrambled by a key. The bits of both the indices and the points are reversed.
 #[inline(always)]
 pub(super) fn scrambled<L: Lanes>(index: U<L>, key: U<L>) -> [U<L>; 2] {
     let shuffled = reverse(owen_reversed(index, key));

@@ -1,7 +1,8 @@
 //! Progressive stratification: every 4ᵏ consecutive samples fill the 2ᵏ × 2ᵏ cells of the square once each, for every k at once.
 //!
-//! Progressive jittered sampling (Christensen et al., "Progressive Multi-Jittered Sample Sequences", EGSR 2018),
-//! built by Owen's scrambling of a Morton-ordered van der Corput sequence: no table, any number of samples, any order.
+//! Progressive jittered sampling (Christensen et al., "Progressive Multi-Jittered Sample Sequences", EGSR 2018), implemented by
+//! Owen scrambling of a van der Corput sequence in Morton order: it needs no table, and allows any number of samples in any
+//! order.
 use super::{
     bits::{even_bits, owen_reversed, reverse},
     hash::{hash, unit},

@@ -1,4 +1,4 @@
-//! Samplers and warps: distributions against densities, strata, and coordinates that do not depend on the order of visits.
+//! Samplers and warps: distributions against pdfs, strata, and coordinates that do not depend on the order of evaluation.
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use super::{Dimension, Directions, SAMPLERS, Sampler, Stream};
@@ -201,7 +201,8 @@ fn blue_noise_has_all_strata_of_sobol_points() {
     }
 }
 
-/// Variance over blocks of 4 × 4 pixels of the mean of smooth integrands at one sample a pixel, over that of independent samples.
+/// Variance of the mean of smooth integrands over blocks of 4 × 4 pixels at one sample per pixel, relative to independent
+/// samples.
 fn variance_of_blocks(sampler: Sampler, dimension: Dimension) -> f64 {
     const BLOCKS: u32 = 32;
     const SIDE: u32 = 4;

@@ -1,21 +1,21 @@
-//! Warps of the unit square to directions, with their densities.
+//! Warps of the unit square to directions, with their pdfs.
 //!
-//! Directions are in the local frame, z along the normal; densities are per solid angle.
+//! Directions are in the local frame with z along the normal; pdfs are per solid angle.
 use std::f32::consts::{FRAC_1_PI, TAU};
 
 use serde::{Deserialize, Serialize};
 
 use crate::math::{F, Lanes, Pick, V, trig::sin_cos_eighth};
 
-/// How the next direction is drawn over the hemisphere at a diffuse vertex.
+/// How the next direction is sampled over the hemisphere at a diffuse vertex.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Directions {
-    /// All directions alike: p(ω) = 1/2π.
+    /// Uniformly: p(ω) = 1/2π.
     Uniform,
     /// In proportion to the cosine: p(ω) = cos θ/π.
     Cosine,
-    /// In proportion to bsdf times cosine, which at a diffuse surface is the cosine.
+    /// In proportion to BSDF times cosine; at a diffuse surface this is the cosine.
     #[default]
     Bsdf,
 }
@@ -23,7 +23,7 @@ pub enum Directions {
 impl Directions {
     pub const ALL: [Directions; 3] = [Directions::Uniform, Directions::Cosine, Directions::Bsdf];
 
-    /// What the scene file and the command line call it.
+    /// Name in the scene file and on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Directions::Uniform => "uniform",
@@ -41,7 +41,7 @@ impl Directions {
         }
     }
 
-    /// Density of a direction at cosine `cos > 0` to the normal, per solid angle.
+    /// Pdf per solid angle of a direction with the cosine `cos > 0` to the normal.
     #[inline(always)]
     pub fn pdf<L: Lanes>(self, cos: F<L>) -> F<L> {
         match self {
@@ -62,9 +62,9 @@ impl Directions {
 
 /// Uniform over the unit disk: x, y and the squared radius.
 ///
-/// Squares around the centre become circles, so that neighbours stay neighbours and strata stay compact (P. Shirley and K. Chiu,
-/// "A Low Distortion Map Between Disk and Square", Journal of Graphics Tools 2(3), 1997). No coordinate in (0, 1) that a sampler
-/// gives is exactly ½, so that the centre is never divided by.
+/// Maps squares around the centre to circles, so that neighbours stay neighbours and strata stay compact (P. Shirley and K. Chiu,
+/// "A Low Distortion Map Between Disk and Square", Journal of Graphics Tools 2(3), 1997). No sampler returns a coordinate of
+/// exactly ½, so there is no division by zero at the centre.
 #[inline(always)]
 pub fn disk<L: Lanes>((u, v): (F<L>, F<L>)) -> (F<L>, F<L>, F<L>) {
     let (a, b) = (u * 2.0 - 1.0, v * 2.0 - 1.0);
@@ -83,8 +83,8 @@ pub fn triangle<L: Lanes>((a, b): (F<L>, F<L>)) -> (F<L>, F<L>) {
     (low.pick(s, a - t), low.pick(b - s, t))
 }
 
-/// Uniform over the cap of unit directions around z whose heights are at least 1 − `height`; 1 is the hemisphere, 2 the sphere.
-/// By Archimedes the height is uniform.
+/// Uniform over the spherical cap around z with z ≥ 1 − `height`: 1 is the hemisphere, 2 the sphere. By Archimedes' theorem z is
+/// uniform.
 #[inline(always)]
 pub fn cap<L: Lanes>(height: F<L>, u: (F<L>, F<L>)) -> V<L> {
     let (x, y, r2) = disk(u);
@@ -94,7 +94,7 @@ pub fn cap<L: Lanes>(height: F<L>, u: (F<L>, F<L>)) -> V<L> {
     V { x: x * stretch, y: y * stretch, z: 1.0 - below }
 }
 
-/// Uniform over the disk, lifted to the hemisphere (Malley): the density is cos θ/π.
+/// Uniform over the disk, projected up to the hemisphere (Malley's method): the pdf is cos θ/π.
 #[inline(always)]
 pub fn cosine_hemisphere<L: Lanes>(u: (F<L>, F<L>)) -> V<L> {
     let (x, y, r2) = disk(u);
