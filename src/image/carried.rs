@@ -1,4 +1,4 @@
-//! The text that pictures by this program carry: the scene, and the settings that made them.
+//! Metadata of images by this program: their scene and settings.
 use std::{
     fs::File,
     io::{BufRead, BufReader, Seek},
@@ -12,10 +12,10 @@ use ::png::Decoder;
 
 use super::{PNG, looks_like};
 
-/// Where the text stands in a file.
+/// Key of the text chunk or attribute.
 pub const SETTINGS_KEY: &str = "noisefall";
 
-/// The text of a PNG or an EXR, if it carries some: only headers are read.
+/// The text of a PNG or EXR file, if it has one. Reads only headers.
 pub fn carried_text(file: File) -> Option<String> {
     let mut file = BufReader::new(file);
     let is_png = looks_like(file.fill_buf().ok()?) == Some(PNG);

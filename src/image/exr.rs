@@ -8,7 +8,7 @@ use ::exr::{
 
 use super::{Flaw, Picture, Pixel, check_size, room};
 
-/// Blocks are unpacked side by side, each in memory of its own.
+/// Blocks are decompressed in parallel, each in its own memory.
 const UNPACKING: u64 = 32 << 20;
 
 pub(super) fn decode<P: Pixel>(mut file: impl BufRead + Seek) -> Result<Picture<P>, Flaw> {

@@ -1,14 +1,14 @@
-//! Radiance HDR: three mantissas of 8 bits and the exponent they share, packed by runs.
+//! Radiance HDR: three mantissas of 8 bits with a common exponent, run-length encoded.
 //!
-//! G. Ward, "Real Pixels", Graphics Gems II, 1991, and the Radiance file format notes ("Picture File Format"). The mantissas are
-//! taken as they stand, without the half step that Radiance itself adds: then black is 0, and other readers agree.
+//! G. Ward, "Real Pixels", Graphics Gems II, 1991, and the Radiance file format notes ("Picture File Format"). Mantissas are used
+//! without the half step that Radiance itself adds: black is then 0, and other readers agree.
 use std::io::{BufRead, Read};
 
 use super::{Flaw, Picture, Pixel, check_size, pixels, room};
 
-/// A line of the header may not be longer.
+/// Maximum length of a header line.
 const LONGEST_LINE: u64 = 4096;
-/// Widths that can have packed channels.
+/// Widths with run-length encoded channels.
 const PACKED_WIDTHS: std::ops::RangeInclusive<usize> = 8..=0x7fff;
 
 type Rgbe = [u8; 4];
@@ -27,7 +27,7 @@ pub(super) fn decode<P: Pixel>(mut file: impl BufRead) -> Result<Picture<P>, Fla
     Ok(Picture { width, height, radiance })
 }
 
-/// Reads the header to its empty line: the factor by which the values were multiplied.
+/// Reads the header up to its empty line, and returns the factor by which the values were multiplied.
 fn exposure(file: &mut impl BufRead) -> Result<f64, Flaw> {
     let mut exposure = 1.0;
     loop {
@@ -84,7 +84,8 @@ fn read_row(file: &mut impl BufRead, row: &mut [Rgbe]) -> Result<(), Flaw> {
     }
 }
 
-/// One channel of a row in runs: a byte above 128 repeats the next one, another says how many follow as they are.
+/// Reads one run-length encoded channel of a row: a byte above 128 repeats the next byte; any other is the number of literal
+/// bytes that follow.
 fn read_channel(file: &mut impl BufRead, row: &mut [Rgbe], channel: usize) -> Result<(), Flaw> {
     let mut done = 0;
     while done < row.len() {
@@ -99,8 +100,8 @@ fn read_channel(file: &mut impl BufRead, row: &mut [Rgbe], channel: usize) -> Re
     Ok(())
 }
 
-/// A row pixel by pixel, `first` already read. Mantissas 1, 1, 1 repeat the last pixel as often as the exponent says;
-/// such repetitions in a row are the digits, to base 256, of one count.
+/// Reads a row pixel by pixel; `first` has been read already. Mantissas 1, 1, 1 repeat the previous pixel; the exponent is the
+/// count. Consecutive repetitions are the digits of one count in base 256.
 fn read_pixels(file: &mut impl BufRead, first: Rgbe, row: &mut [Rgbe]) -> Result<(), Flaw> {
     let (mut done, mut digit, mut next) = (0usize, 0, first);
     loop {

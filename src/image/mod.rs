@@ -1,10 +1,10 @@
-//! Decoding of picture files to linear light. What a file is, its first bytes say, not its name.
+//! Decoding of image files to linear light. The first bytes of a file determine its format, not its name.
 //!
-//! | kind | file | values |
+//! | format | file | values |
 //! |---|---|---|
-//! | PNG | `png.rs` | 8 or 16 bits a channel, sRGB or linear; alpha is ignored |
+//! | PNG | `png.rs` | 8 or 16 bits per channel, sRGB or linear; alpha is ignored |
 //! | OpenEXR | `exr.rs` | linear; the layer's R, G and B |
-//! | Radiance HDR | `hdr.rs` | linear; a common exponent a pixel |
+//! | Radiance HDR | `hdr.rs` | linear; one common exponent per pixel |
 mod carried;
 mod exr;
 mod hdr;
@@ -27,14 +27,14 @@ use crate::{
     quote,
 };
 
-/// Longer sides are refused.
+/// Maximum width and height in pixels.
 pub const LONGEST_SIDE: u64 = 16_384;
-/// Pictures of more pixels are refused.
+/// Maximum number of pixels.
 pub const MOST_PIXELS: u64 = 1 << 27;
-/// The brightest value that counts as light.
+/// Maximum radiance.
 const BRIGHTEST: f32 = 1e15;
 
-/// A picture in memory, linear Rec. 709, row by row from the top left.
+/// An image in memory: linear Rec. 709, row by row from the top left.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Picture<P = [f32; 3]> {
     pub width: u32,
@@ -42,10 +42,10 @@ pub struct Picture<P = [f32; 3]> {
     pub radiance: Vec<P>,
 }
 
-/// A picture as the renderer looks it up: red, green, blue, and nothing.
+/// An image for lookups by the renderer: red, green, blue, and padding.
 pub type Texels = Picture<[f32; 4]>;
 
-/// How a picture keeps a pixel.
+/// The in-memory format of a pixel.
 trait Pixel: Copy + Default {
     fn of(rgb: [f32; 3]) -> Self;
 }
@@ -69,18 +69,18 @@ impl From<&Picture> for Texels {
     }
 }
 
-/// How the numbers of a PNG stand for light. The other kinds of file are linear whatever this says.
+/// The transfer function of a PNG. The other formats are always linear.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Encoding {
-    /// Through the sRGB curve: colours.
+    /// The sRGB curve: for colours.
     #[default]
     Srgb,
-    /// In proportion: heights, normals, masks.
+    /// Linear: for heights, normals, masks.
     Linear,
 }
 
-/// Why a file gave no picture.
+/// Error of reading an image file.
 #[derive(Debug, thiserror::Error)]
 #[error("{}: {flaw}", quote::path(path))]
 pub struct PictureError {
@@ -108,7 +108,7 @@ pub enum Flaw {
 }
 
 impl Flaw {
-    /// A file that breaks the rules of its own format.
+    /// The file violates its own format.
     fn broken(reason: impl fmt::Display) -> Flaw {
         Flaw::Unreadable(quote::message(&reason.to_string()))
     }
@@ -120,7 +120,7 @@ impl From<std::io::Error> for Flaw {
     }
 }
 
-/// Reads a picture file of any known kind.
+/// Reads an image file of any supported format.
 pub fn read(path: &Path, encoding: Encoding) -> Result<Picture, PictureError> {
     read_as(path, encoding)
 }
@@ -131,8 +131,8 @@ fn read_as<P: Pixel>(path: &Path, encoding: Encoding) -> Result<Picture<P>, Pict
     picture.map_err(|flaw| PictureError { path: path.to_owned(), flaw })
 }
 
-/// Reads a picture whose values are amounts of light: numbers, finite and not negative. Small negative values are what other
-/// programs write for colours outside Rec. 709, and become 0.
+/// Reads an image of radiances, which must be finite and not negative. Small negative values become 0: other programs write them
+/// for colours outside Rec. 709.
 pub fn read_light(path: &Path, encoding: Encoding) -> Result<Texels, PictureError> {
     let mut picture: Texels = read_as(path, encoding)?;
     if let Some(at) = picture.radiance.iter().position(|pixel| !pixel.iter().all(|x| *x <= BRIGHTEST)) {
@@ -145,10 +145,10 @@ pub fn read_light(path: &Path, encoding: Encoding) -> Result<Texels, PictureErro
     Ok(picture)
 }
 
-/// What [`looks_like`] says of a PNG.
+/// The result of [`looks_like`] for a PNG.
 pub const PNG: &str = "a PNG picture";
 
-/// What a file that begins with these bytes looks like, of the kinds that are mistaken for one another.
+/// Guesses the format of a file from its first bytes, among formats that are often confused.
 pub fn looks_like(start: &[u8]) -> Option<&'static str> {
     const KINDS: [(&[u8], &str); 8] = [
         (b"\x89PNG", PNG),
@@ -175,7 +175,7 @@ fn decode<P: Pixel>(mut file: impl BufRead + Seek, encoding: Encoding) -> Result
     }
 }
 
-/// Refuses by the size that a header claims, before room is made for it.
+/// Checks the size that a header claims, before memory is allocated for it.
 fn check_size(width: u64, height: u64) -> Result<(), Flaw> {
     if width == 0 || height == 0 {
         return Err(Flaw::Empty(width, height));
@@ -186,13 +186,13 @@ fn check_size(width: u64, height: u64) -> Result<(), Flaw> {
     Ok(())
 }
 
-/// Room for the pixels of a picture of a size that has been checked, and for `besides` bytes that are needed to decode it.
+/// Reserves memory for the pixels of an image whose size has been checked, and for `besides` bytes to decode it.
 fn room<P>(width: u32, height: u32, besides: u64) -> Result<Reservation, TooMuch> {
     let pixels = u64::from(width) * u64::from(height);
     reserve(format_args!("{width} × {height} pixels"), pixels * size_of::<P>() as u64 + besides)
 }
 
-/// An empty list with room for the pixels.
+/// An empty list with capacity for the pixels.
 fn pixels<P>(width: u32, height: u32) -> Result<Vec<P>, Flaw> {
     let mut list = Vec::new();
     list.try_reserve_exact(width as usize * height as usize).map_err(Flaw::broken)?;

@@ -56,15 +56,15 @@ fn linear_values(depth: BitDepth, encoding: Encoding) -> Vec<f32> {
     (0..=most).map(linear).collect()
 }
 
-/// How samples become light.
+/// Conversion of samples to linear light.
 struct Values {
     channels: usize,
-    /// Of every value that a sample can have: 256, or 65536 where a sample has two bytes.
+    /// One entry for every value of a sample: 256, or 65536 for samples of two bytes.
     linear: Vec<f32>,
 }
 
 impl Values {
-    /// Adds the pixels that these bytes are.
+    /// Decodes these bytes and appends their pixels.
     fn append<P: Pixel>(&self, bytes: &[u8], radiance: &mut Vec<P>) {
         match self.linear.len() {
             256 => {
@@ -78,7 +78,7 @@ impl Values {
         }
     }
 
-    /// Of fewer than three channels the first is grey.
+    /// With fewer than three channels, the first is grey.
     fn pixel<P: Pixel>(&self, sample: impl Fn(usize) -> usize) -> P {
         P::of([0, 1, 2].map(|channel| self.linear[sample(if self.channels < 3 { 0 } else { channel })]))
     }

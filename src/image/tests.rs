@@ -1,4 +1,4 @@
-//! Pictures made by hand, byte by byte.
+//! Hand-made image files, byte by byte.
 use std::io::Cursor;
 
 use super::{Encoding, Flaw, Picture, Texels, decode};
