@@ -1,11 +1,11 @@
-//! Reading of mesh files.
+//! Readers of mesh files.
 //!
-//! | kind | file | told by |
+//! | format | file | recognised by |
 //! |---|---|---|
-//! | PLY | `ply/` | its first line, `ply`, whatever the file is called |
-//! | Wavefront OBJ | `obj.rs` | its name; the format has no first bytes of its own |
+//! | PLY | `ply/` | its first line, `ply`, whatever the name of the file |
+//! | Wavefront OBJ | `obj.rs` | its name; the format has no signature |
 //!
-//! Files are not trusted: a number that a file claims makes no room unless the bytes for it are there.
+//! Files are not trusted: a count in a file allocates memory only if the file has the bytes for it.
 mod normals;
 mod number;
 mod obj;
@@ -27,22 +27,22 @@ use crate::{
     quote,
 };
 
-/// Longer files are refused: 2 GiB. It also keeps every count of vertices and triangles within 32 bits.
+/// Maximum file size, 2 GiB. It also keeps counts of vertices and triangles within 32 bits.
 pub const LARGEST_FILE: u64 = 1 << 31;
 
-/// A triangle mesh as its file has it. Triangles without area are kept.
+/// A triangle mesh as read from its file. Degenerate triangles are kept.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Model {
     pub vertices: Vec<[f32; 3]>,
-    /// Three vertices each, counter-clockwise seen from the front.
+    /// Vertices of each triangle, counter-clockwise seen from the front.
     pub triangles: Vec<[u32; 3]>,
-    /// Of length 1, one a vertex.
+    /// Unit vectors, one per vertex.
     pub normals: Option<Vec<[f32; 3]>>,
-    /// One a vertex, with v as the file has it: upwards, by the custom of both formats.
+    /// One per vertex, with v as in the file: upwards by the convention of both formats.
     pub uvs: Option<Vec<[f32; 2]>>,
 }
 
-/// Why a file gave no model.
+/// Error of reading a mesh file.
 #[derive(Debug, thiserror::Error)]
 #[error("{}: {flaw}", quote::path(path))]
 pub struct ModelError {
@@ -75,13 +75,13 @@ impl From<std::io::Error> for Flaw {
     }
 }
 
-/// Where in a file.
+/// Position in a file.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum Place {
-    /// Of a text, counted from 1.
+    /// Line of a text file, counted from 1.
     #[error("line {0}")]
     Line(usize),
-    /// Of a binary file, counted from 0.
+    /// Offset in a binary file, counted from 0.
     #[error("byte {0}")]
     Byte(usize),
 }
@@ -92,14 +92,14 @@ impl Place {
     }
 }
 
-/// Reads a mesh file of any known kind.
+/// Reads a mesh file of any supported format.
 pub fn read(path: &Path) -> Result<Model, ModelError> {
     let is_obj = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("obj"));
     let model = bytes(path).and_then(|(bytes, _room)| decode(&bytes, is_obj));
     model.map_err(|flaw| ModelError { path: path.to_owned(), flaw })
 }
 
-/// A file, and the room that it takes.
+/// Reads a file, and reserves memory for it.
 fn bytes(path: &Path) -> Result<(Vec<u8>, Reservation), Flaw> {
     let file = open_regular(path)?;
     let length = file.metadata()?.len();

@@ -1,19 +1,19 @@
-//! Normals of vertices, for meshes whose files have none or not enough.
+//! Vertex normals, for meshes whose files have none or too few.
 use std::collections::HashMap;
 
 use glam::{DVec3, Vec3};
 
-/// A sum of weighted unit vectors shorter than this part of its weights is what rounding left of vectors that cancel.
+/// A sum of weighted unit vectors shorter than this fraction of the weights is the rounding error of vectors that cancel.
 const CANCELLED: f64 = 1e-6;
 
-/// Unit normals of the vertices: of the triangles around each, weighted by their angles there.
+/// Computes unit vertex normals from the surrounding triangles, weighted by their angles at the vertex.
 ///
 /// G. Thürmer and C. Wüthrich, "Computing vertex normals from polygonal facets", Journal of Graphics Tools 3(1), 1998. Unlike
-/// weights by area these do not change when a flat face is cut otherwise.
+/// weights by area, these do not depend on how a flat face is triangulated.
 ///
-/// Vertices in the same place share a normal: files repeat a vertex where its texture coordinates differ, and such a seam must
-/// not show in the shading. A vertex whose triangles cancel, as on both sides of a sheet, has the normal of one of them; a vertex
-/// of no triangle with an area has +y.
+/// Vertices at the same position share a normal: files repeat a vertex where its texture coordinates differ, and such a seam must
+/// not be visible in the shading. A vertex whose triangle normals cancel, such as on both sides of a sheet, gets the normal of
+/// one of them. A vertex with only degenerate triangles gets +y.
 pub fn smooth_normals(vertices: &[[f32; 3]], triangles: &[[u32; 3]]) -> Vec<[f32; 3]> {
     let places = places(vertices);
     let mut sums = vec![(DVec3::ZERO, 0.0); vertices.len()];
@@ -35,7 +35,7 @@ pub fn smooth_normals(vertices: &[[f32; 3]], triangles: &[[u32; 3]]) -> Vec<[f32
     places.iter().map(of_place).collect()
 }
 
-/// Makes the normals of a file unit vectors. Those that it left out, which are zero, become smooth ones.
+/// Normalises the normals of a file. Missing normals, which are zero, become smooth ones.
 pub(super) fn complete(normals: &mut [[f32; 3]], vertices: &[[f32; 3]], triangles: &[[u32; 3]]) {
     let unit = |normal: [f32; 3]| DVec3::from(normal.map(f64::from)).try_normalize().map(|unit| unit.as_vec3().to_array());
     let mut smooth = None;
@@ -45,7 +45,7 @@ pub(super) fn complete(normals: &mut [[f32; 3]], vertices: &[[f32; 3]], triangle
     }
 }
 
-/// For each vertex the first one in the same place.
+/// Returns for each vertex the first one at the same position.
 fn places(vertices: &[[f32; 3]]) -> Vec<u32> {
     let mut firsts = HashMap::with_capacity(vertices.len());
     // Adding zero makes −0 the same as 0.
@@ -53,7 +53,8 @@ fn places(vertices: &[[f32; 3]]) -> Vec<u32> {
     vertices.iter().enumerate().map(first).collect()
 }
 
-/// Calls for each corner of the triangles that have an area: its vertex, the triangle's unit normal, the angle.
+/// Calls a function for each corner of the triangles that are not degenerate, with its vertex, the triangle's unit normal and the
+/// angle.
 fn for_each_corner(vertices: &[[f32; 3]], triangles: &[[u32; 3]], mut call: impl FnMut(usize, DVec3, f64)) {
     for triangle in triangles {
         let corners = triangle.map(|vertex| vertex as usize);

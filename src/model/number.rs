@@ -1,25 +1,25 @@
-//! Numbers as mesh files write them: what other readers take is taken.
+//! Numbers in mesh files, in every notation that other readers accept.
 use std::borrow::Cow;
 
-/// The number of a word, which may be infinite or none at all (NaN); nothing where the word is no number.
+/// Parses a real number, which may be infinite or NaN. `None` if the word is not a number.
 ///
-/// Besides what Rust reads: exponents after `d`, as Fortran writes them, and numbers whose exponent begins with its sign, as in
-/// `3.1+e2`, which readers after the manner of C's `strtod` end before that sign.
+/// Accepts Rust's notation, exponents after `d` as in Fortran, and a sign before the exponent, as in `3.1+e2`, where readers like
+/// C's `strtod` stop before the sign.
 pub fn real(word: &str) -> Option<f32> {
     let word = if word.contains(['d', 'D']) { Cow::from(word.replace(['d', 'D'], "e")) } else { Cow::from(word) };
     word.parse().ok().or_else(|| mantissa(&word)?.parse().ok())
 }
 
-/// The number before a sign and an exponent in the wrong order.
+/// The number before a misplaced sign and exponent.
 fn mantissa(word: &str) -> Option<&str> {
     let at = word.find("+e").or_else(|| word.find("-e")).or_else(|| word.find("+E")).or_else(|| word.find("-E"))?;
     let digits = &word[at + 2..];
     (!digits.is_empty() && digits.bytes().all(|digit| digit.is_ascii_digit())).then_some(&word[..at])
 }
 
-/// The whole number of a word, written with or without a point.
+/// Parses a whole number, with or without a decimal point.
 pub fn whole(word: &str) -> Option<i64> {
-    /// All whole numbers up to this one are numbers of f64.
+    /// f64 represents all whole numbers up to this one.
     const MOST: f64 = 9_007_199_254_740_992.0;
     let real = || word.parse().ok().filter(|x: &f64| x.fract() == 0.0 && x.abs() <= MOST).map(|x| x as i64);
     word.parse().ok().or_else(real)

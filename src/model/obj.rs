@@ -1,7 +1,7 @@
-//! Wavefront OBJ: the polygons of a text, whatever groups, objects and materials they belong to.
+//! Wavefront OBJ: reads all polygons, and ignores groups, objects and materials.
 //!
-//! Wavefront Technologies, "Appendix B1. Object Files (.obj)", Advanced Visualizer manual, 1995. A corner of a face names a place,
-//! a texture coordinate and a normal apart; each combination that is used becomes a vertex.
+//! Wavefront Technologies, "Appendix B1. Object Files (.obj)", Advanced Visualizer manual, 1995. A corner of a face refers to a
+//! position, a texture coordinate and a normal separately; each distinct combination becomes a vertex.
 use std::borrow::Cow;
 
 use super::{Flaw, Model, Place, number};
@@ -10,7 +10,7 @@ use crate::{
     quote,
 };
 
-/// Stands for the texture coordinate or the normal that a corner does not have.
+/// Marks a missing texture coordinate or normal of a corner.
 const NONE: u32 = u32::MAX;
 
 pub(super) fn decode(bytes: &[u8]) -> Result<Model, Flaw> {
@@ -35,7 +35,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Model, Flaw> {
     faces.into_model()
 }
 
-/// Comments and names may be in any encoding that has the characters of ASCII: what is not UTF-8 of them is lost.
+/// Decodes the file. Comments and names may be in any superset of ASCII; bytes that are not UTF-8 are replaced.
 fn text(bytes: &[u8]) -> Result<Cow<'_, str>, Flaw> {
     if let Some(at) = bytes.iter().position(|byte| *byte == 0) {
         let lines = bytes[..at].iter().filter(|byte| **byte == b'\n').count();
@@ -44,11 +44,11 @@ fn text(bytes: &[u8]) -> Result<Cow<'_, str>, Flaw> {
     Ok(String::from_utf8_lossy(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)))
 }
 
-/// The lines with their numbers. One that ends in a backslash goes on in the next.
+/// The lines with their numbers. A backslash at its end continues a line.
 struct Lines<'a> {
     rest: &'a str,
     number: usize,
-    /// Of a line. Some old files have carriage returns alone.
+    /// End of a line. Some old files have only carriage returns.
     end: char,
 }
 
@@ -77,13 +77,13 @@ impl<'a> Iterator for Lines<'a> {
     }
 }
 
-/// The words of a line before its comment.
+/// Splits a line into words, up to its comment.
 fn words(line: &str) -> impl Iterator<Item = &str> + Clone {
     let line = line.split('#').next().unwrap_or_default();
     line.split_ascii_whitespace().map(|word| word.trim_end_matches('\\')).filter(|word| !word.is_empty())
 }
 
-/// What the corners of faces refer to.
+/// Positions, texture coordinates and normals that the corners of faces refer to.
 #[derive(Default)]
 struct Lists {
     places: Vec<[f32; 3]>,
@@ -111,7 +111,8 @@ impl Lists {
     }
 }
 
-/// Normals and texture coordinates that could not be computed, as of a triangle without area, are written as numbers that are none.
+/// Replaces NaN and infinity, which exporters write for normals and texture coordinates that they could not compute, such as
+/// those of a degenerate triangle.
 fn finite<const N: usize>(numbers: [f32; N]) -> [f32; N] {
     if numbers.iter().all(|number| number.is_finite()) { numbers } else { [0.0; N] }
 }
@@ -124,7 +125,7 @@ fn place<'a>(words: impl Iterator<Item = &'a str> + Clone) -> Result<[f32; 3], S
     }
 }
 
-/// The first N numbers, of which the file may leave out those after the first few; they are 0. More, as weights, are ignored.
+/// Reads N numbers. Those after the first `needed` are optional and 0 by default; further ones, such as weights, are ignored.
 fn numbers<'a, const N: usize>(words: impl Iterator<Item = &'a str>, needed: usize) -> Result<[f32; N], String> {
     let mut numbers = [0.0; N];
     let mut found = 0;
@@ -135,7 +136,7 @@ fn numbers<'a, const N: usize>(words: impl Iterator<Item = &'a str>, needed: usi
     if found < needed { Err(format!("there are {found} numbers, not {needed}")) } else { Ok(numbers) }
 }
 
-/// How many of each there are before a line.
+/// Numbers of elements before a line.
 #[derive(Default)]
 struct Counts {
     places: usize,
@@ -143,7 +144,7 @@ struct Counts {
     normals: usize,
 }
 
-/// What makes a vertex: positions in the lists.
+/// A corner of a face: indices into the lists.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Corner {
     place: u32,
@@ -153,9 +154,9 @@ struct Corner {
 
 struct Faces<'a> {
     lists: &'a Lists,
-    /// Of all faces, one after the other.
+    /// Corners of all faces, consecutively.
     corners: Vec<Corner>,
-    /// Positions in `corners`.
+    /// Indices into `corners`.
     triangles: Vec<[u32; 3]>,
     room: Reservation,
 }
@@ -198,7 +199,7 @@ impl<'a> Faces<'a> {
     }
 
     fn into_model(self) -> Result<Model, Flaw> {
-        /// Bytes of a corner in the lists of distinct ones and of what they have.
+        /// Bytes per corner in the lists of distinct corners and their attributes.
         const CORNER: u64 = 48;
         let Faces { lists, corners, mut triangles, room: _room } = self;
         let _more = reserve(format_args!("{} corners", corners.len()), CORNER * corners.len() as u64)?;
@@ -211,9 +212,9 @@ impl<'a> Faces<'a> {
     }
 }
 
-/// The distinct corners in the order of their places, and for each corner its position among them.
+/// Returns the distinct corners in the order of their positions, and for each corner its index among them.
 ///
-/// By sorting, which no file can make slow as it could a hash table.
+/// It sorts, because no file can make sorting as slow as it could make a hash table.
 fn distinct(corners: &[Corner], places: usize) -> (Vec<Corner>, Vec<u32>) {
     let mut distinct = corners.to_vec();
     distinct.sort_unstable();
@@ -234,13 +235,14 @@ fn distinct(corners: &[Corner], places: usize) -> (Vec<Corner>, Vec<u32>) {
     (distinct, positions)
 }
 
-/// What each corner has of a list, zeros where it has nothing; `None` where none has anything.
+/// Looks up an attribute of each corner, 0 where it is missing; `None` if all corners lack it.
 fn attribute<const N: usize>(corners: &[Corner], list: &[[f32; N]], index: impl Fn(&Corner) -> u32) -> Option<Vec<[f32; N]>> {
     let value = |corner| list.get(index(corner) as usize).copied().unwrap_or([0.0; N]);
     corners.iter().any(|corner| index(corner) != NONE).then(|| corners.iter().map(value).collect())
 }
 
-/// The position in a list of `count`, which the file counts from 1, or back from what it has `before` this line.
+/// Resolves an index into a list of `count`. The file counts from 1, or with negative numbers back from the `before` elements of
+/// earlier lines.
 fn position(index: &str, what: &str, count: usize, before: usize) -> Result<u32, String> {
     let number: i64 = index.parse().map_err(|_| format!("{} is not a {what}'s number", quote::bytes(index.as_bytes())))?;
     let position = if number < 0 { before as i64 + number } else { number - 1 };

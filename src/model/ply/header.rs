@@ -1,15 +1,15 @@
-//! The header of a PLY file: what follows it, value by value.
+//! The header of a PLY file, which declares the layout of its values.
 use super::super::{Flaw, Place};
 use crate::quote;
 
-/// How values are written.
+/// Encoding of the values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Encoding {
     Text,
     Binary { big_endian: bool },
 }
 
-/// Of one value.
+/// Type of a value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Kind {
     I8,
@@ -41,7 +41,7 @@ impl Kind {
         !matches!(self, Kind::F32 | Kind::F64)
     }
 
-    /// Its bytes when binary.
+    /// Size of a binary value in bytes.
     pub fn size(self) -> usize {
         match self {
             Kind::I8 | Kind::U8 => 1,
@@ -52,16 +52,16 @@ impl Kind {
     }
 }
 
-/// Of a property.
+/// Layout of a property.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Layout {
     One(Kind),
-    /// How many there are, and those.
+    /// Types of the count and of the items.
     List(Kind, Kind),
 }
 
 impl Layout {
-    /// The value that is there in any case.
+    /// The type of the first value, which is always present.
     pub fn head(self) -> Kind {
         match self {
             Layout::One(kind) | Layout::List(kind, _) => kind,
@@ -75,7 +75,7 @@ pub struct Property {
 }
 
 impl Property {
-    /// Of a face: these are its corners.
+    /// Whether this property lists the corners of a face.
     pub fn is_polygon(&self) -> bool {
         matches!(self.name.as_str(), "vertex_indices" | "vertex_index")
     }
@@ -90,9 +90,9 @@ pub struct Element {
 pub struct Header {
     pub encoding: Encoding,
     pub elements: Vec<Element>,
-    /// Where the values begin.
+    /// Offset of the first value.
     pub end: usize,
-    /// How many there are in the header.
+    /// Number of lines in the header.
     pub lines: usize,
 }
 
@@ -158,7 +158,7 @@ impl Header {
         Ok(())
     }
 
-    /// Vertices have places and faces have corners.
+    /// Checks that vertices have positions and faces have corners.
     fn check(&self) -> Result<(), String> {
         if let Some(vertex) = self.element("vertex") {
             let has = |name: &&str| {
@@ -190,7 +190,7 @@ fn named_encoding(name: &str) -> Option<Encoding> {
     }
 }
 
-/// What ends the lines of the header: old files have carriage returns alone.
+/// The end of header lines: old files have only carriage returns.
 fn end_of_line(bytes: &[u8]) -> u8 {
     match bytes.iter().position(|byte| matches!(byte, b'\r' | b'\n')) {
         Some(at) if bytes[at] == b'\r' && bytes.get(at + 1) != Some(&b'\n') => b'\r',

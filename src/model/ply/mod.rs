@@ -1,7 +1,7 @@
-//! PLY: vertices and polygons in a text or binary, in the layout that the header declares.
+//! PLY: vertices and polygons as text or binary, in the layout that the header declares.
 //!
-//! G. Turk, "The PLY Polygon File Format", Stanford, 1994. Unknown elements and properties are skipped. Values of a text may be
-//! spread over lines at will.
+//! G. Turk, "The PLY Polygon File Format", Stanford, 1994. Unknown elements and properties are skipped. Values of a text file may
+//! be spread over lines in any way.
 mod header;
 mod values;
 
@@ -12,7 +12,7 @@ use self::{
 use super::{Flaw, Model};
 use crate::memory::{Reservation, TooMuch};
 
-/// The file says that it is PLY.
+/// Whether the file begins with the signature of PLY.
 pub(super) fn is_ply(bytes: &[u8]) -> bool {
     let line = bytes.split(|byte| matches!(byte, b'\r' | b'\n')).next();
     line.is_some_and(|line| line.trim_ascii_end().eq_ignore_ascii_case(b"ply"))
@@ -42,7 +42,7 @@ fn read(header: &Header, mut values: impl Values) -> Result<Model, Flaw> {
     Ok(model)
 }
 
-/// Refuses what cannot be in the rest of the file, before room is made for it or time spent on it.
+/// Rejects counts that do not fit into the rest of the file, before memory or time is spent on them.
 fn check_count<V: Values>(element: &Element, values: &V) -> Result<(), Flaw> {
     let least = element.properties.iter().map(|property| V::least_bytes(property.layout.head())).sum::<usize>() as u64;
     // A text's last value needs no separator.
@@ -53,7 +53,7 @@ fn check_count<V: Values>(element: &Element, values: &V) -> Result<(), Flaw> {
     Ok(())
 }
 
-/// The place among a vertex's eight numbers of what a property means.
+/// The index of a property among a vertex's eight numbers.
 fn slot(name: &str) -> Option<usize> {
     let name = name.to_ascii_lowercase();
     let names: [&[&str]; 8] =
@@ -174,7 +174,7 @@ fn skip_property(layout: Layout, values: &mut impl Values) -> Result<(), Flaw> {
     }
 }
 
-/// Says in which element it was, counted from 0.
+/// Adds the element to an error, counted from 0.
 fn in_element(flaw: Flaw, name: &str, index: u64) -> Flaw {
     match flaw {
         Flaw::Broken(place, reason) => place.broken(format!("{name} {index}: {reason}")),

@@ -1,4 +1,4 @@
-//! The values of a PLY file one after the other, as text or binary.
+//! Readers of the values of a PLY file, as text or binary.
 use super::{
     super::{Flaw, Place, number},
     header::Kind,
@@ -6,10 +6,10 @@ use super::{
 use crate::quote;
 
 pub trait Values {
-    /// A value takes no fewer.
+    /// Minimum number of bytes per value.
     fn least_bytes(kind: Kind) -> usize;
 
-    /// Where the next value is looked for.
+    /// Position of the next value.
     fn place(&self) -> Place;
 
     /// Bytes to the end of the file.
@@ -18,7 +18,7 @@ pub trait Values {
     /// A number, which may be infinite or NaN.
     fn number(&mut self, kind: Kind) -> Result<f32, Flaw>;
 
-    /// A whole number of a whole kind.
+    /// A whole number of an integer type.
     fn integer(&mut self, kind: Kind) -> Result<i64, Flaw>;
 
     fn skip(&mut self, kind: Kind, count: u64) -> Result<(), Flaw>;
@@ -48,7 +48,7 @@ impl<'a> Text<'a> {
         }
     }
 
-    /// The next word, converted, and then on to the one after it.
+    /// Converts the next word and advances.
     fn word<T>(&mut self, what: &str, convert: impl Fn(&str) -> Option<T>) -> Result<T, Flaw> {
         let length = self.rest.iter().position(u8::is_ascii_whitespace).unwrap_or(self.rest.len());
         let (word, rest) = self.rest.split_at(length);
@@ -90,7 +90,7 @@ impl Values for Text<'_> {
     }
 }
 
-/// Values side by side.
+/// Contiguous binary values.
 pub struct Binary<'a, const BIG_ENDIAN: bool> {
     rest: &'a [u8],
     length: usize,
@@ -101,7 +101,7 @@ impl<'a, const BIG_ENDIAN: bool> Binary<'a, BIG_ENDIAN> {
         Binary { rest: &bytes[start..], length: bytes.len() }
     }
 
-    /// The next bytes, the least significant one first.
+    /// The next bytes in little-endian order.
     fn bytes<const N: usize>(&mut self) -> Result<[u8; N], Flaw> {
         let Some((bytes, rest)) = self.rest.split_first_chunk::<N>() else {
             return Err(Place::Byte(self.length).broken(ENDS));

@@ -1,4 +1,4 @@
-//! Files changed at random: whatever they are, they are read or refused.
+//! Randomly modified files: each is read or rejected, without a panic.
 use rand::{Rng, SeedableRng, rngs::SmallRng};
 
 use super::super::{Model, decode};
@@ -43,7 +43,7 @@ fn binary_ply(big_endian: bool) -> Vec<u8> {
     file
 }
 
-/// A few bytes changed, put in, taken out or repeated, pieces of what such files contain put in, or the end cut off.
+/// Changes, inserts, removes or repeats a few bytes, inserts typical pieces of such files, or truncates the file.
 fn mutated(file: &[u8], random: &mut SmallRng) -> Vec<u8> {
     const PIECES: [&[u8]; 12] =
         [b"9", b"000000000", b"-", b" ", b"\n", b"nan", b"/", b"\\\n", b"uint", b"list ", b"\xff\xff\xff\xff", b"f "];
@@ -63,7 +63,7 @@ fn mutated(file: &[u8], random: &mut SmallRng) -> Vec<u8> {
     file
 }
 
-/// What the renderer relies on.
+/// Checks what the renderer relies on.
 fn check(model: &Model) {
     let count = model.vertices.len();
     assert!(!model.triangles.is_empty());

@@ -1,4 +1,4 @@
-//! Mesh files made by hand, and files that are none.
+//! Hand-made mesh files, and invalid ones.
 mod hostile;
 mod normals;
 mod obj;
@@ -11,7 +11,7 @@ use std::{
 
 use super::{LARGEST_FILE, Model, decode, read};
 
-/// What is wrong with an OBJ file, or with a PLY file, whose first line shows it to be one.
+/// The error of an OBJ file, or of a PLY file if the first line says so.
 fn refusal(bytes: &[u8]) -> String {
     decode(bytes, true).expect_err("it is broken").to_string()
 }
