@@ -1,7 +1,7 @@
-//! Checker: squares of two textures in turn. The square at u = v = 0 is even.
+//! Checker: alternating squares of two textures. The square at u = v = 0 is even.
 use crate::math::{F, Lanes, M, round::floor};
 
-/// Whether (u, v) lies on an even square, `scale` squares to the unit.
+/// Whether (u, v) lies on an even square, with `scale` squares per unit.
 #[inline(always)]
 pub fn is_even<L: Lanes>(u: F<L>, v: F<L>, scale: f32) -> M<L> {
     let (_, column) = floor(u * scale);
@@ -9,7 +9,7 @@ pub fn is_even<L: Lanes>(u: F<L>, v: F<L>, scale: f32) -> M<L> {
     ((column ^ row) & 1).is(0)
 }
 
-/// The part of the unit square that is even.
+/// The area of the even squares in the unit square.
 pub fn even_share(scale: f32) -> f32 {
     let scale = f64::from(scale);
     let whole = scale.floor();
@@ -19,7 +19,8 @@ pub fn even_share(scale: f32) -> f32 {
     (e * e + (1.0 - e) * (1.0 - e)) as f32
 }
 
-/// As a height a checker is all cliffs: in finite differences over 1/32 of a square they become slopes of that width.
+/// Step of finite differences, 1/32 of a square. A checker as a height field consists of cliffs, which become slopes of that
+/// width.
 pub fn step(scale: f32) -> f32 {
     1.0 / (32.0 * scale)
 }

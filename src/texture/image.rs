@@ -1,22 +1,22 @@
-//! Image: the texels of a picture, joined bilinearly.
+//! Image: the texels of an image with bilinear interpolation.
 //!
-//! The picture spans the unit square, u to the right and v downwards from its top left corner; texel centres lie at
-//! ((i + ½)/width, (j + ½)/height).
+//! The image spans the unit square, with u to the right and v downwards from its top left corner; texel centres lie at ((i +
+//! ½)/width, (j + ½)/height).
 use crate::{
     image::Texels,
     math::{F, Lanes, Pick, U, V, round::floor},
 };
 
-/// What lies beyond the top and bottom of a picture. Left and right it always repeats.
+/// Continuation beyond the top and bottom of an image. Horizontally it always repeats.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Edge {
-    /// The picture again.
+    /// Repeats the image.
     Repeat,
-    /// Its first and its last row.
+    /// Continues the first and the last row.
     Clamp,
 }
 
-/// A picture as a table of texels.
+/// An image as a table of texels.
 pub struct ImageTexture {
     width: u32,
     height: u32,
@@ -28,7 +28,7 @@ impl ImageTexture {
         ImageTexture { width: picture.width, height: picture.height, texels: picture.radiance }
     }
 
-    /// The colour at (u, v), which may be any numbers: NaN and infinity give some colour of the picture.
+    /// The colour at (u, v). Any numbers are allowed: NaN and infinity give some colour of the image.
     #[inline(always)]
     pub fn colour<L: Lanes>(&self, l: L, u: F<L>, v: F<L>, edge: Edge) -> V<L> {
         let (left, right, x) = neighbours(u - floor(u).0, self.width, Edge::Repeat);
@@ -50,7 +50,7 @@ impl ImageTexture {
         V { x: ax, y: ay, z: az } * (1.0 - t) + V { x: bx, y: by, z: bz } * t
     }
 
-    /// The mean over the unit square, which for repeated bilinear texels is the mean texel.
+    /// The mean over the unit square; for repeated bilinear texels this is the mean texel.
     pub fn mean(&self) -> [f32; 3] {
         let sum = |channel: usize| self.texels.iter().map(|texel| f64::from(texel[channel])).sum::<f64>();
         [0, 1, 2].map(|channel| (sum(channel) / self.texels.len() as f64) as f32)
@@ -69,7 +69,7 @@ impl ImageTexture {
     }
 }
 
-/// The two texels between whose centres `t` in [0, 1] lies on an axis of `size` texels, and how far it is from the first.
+/// The two texels whose centres enclose `t` in [0, 1] on an axis of `size` texels, and the fraction from the first to the second.
 #[inline(always)]
 fn neighbours<L: Lanes>(t: F<L>, size: u32, edge: Edge) -> (U<L>, U<L>, F<L>) {
     // NaN becomes 1: whatever a lane holds, the texels exist.

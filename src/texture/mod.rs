@@ -1,12 +1,12 @@
 //! Textures: colours that vary over a surface.
 //!
-//! | kind | file | varies over | parameters |
+//! | type | file | varies over | parameters |
 //! |---|---|---|---|
-//! | image | `image.rs` | u, v | a picture, repeated |
+//! | image | `image.rs` | u, v | an image, repeated |
 //! | checker | `checker.rs` | u, v | two textures, cells per unit of u and v |
-//! | noise | `noise.rs` | the position in the world | cells per metre, octaves, two colours |
+//! | noise | `noise.rs` | the world-space position | cells per metre, octaves, two colours |
 //!
-//! A new kind is one file, one variant of [`Texture`] with its arms in [`Textures`], and one row here.
+//! A new type is one file, one variant of [`Texture`] with its arms in [`Textures`], and one row here.
 pub mod checker;
 pub mod image;
 pub mod noise;
@@ -35,13 +35,13 @@ pub enum Texture {
     },
 }
 
-/// Where a texture is looked up.
+/// The point of a texture lookup.
 #[derive(Clone, Copy)]
 pub struct TextureCoordinates<L: Lanes> {
-    /// Surface coordinates, [0, 1) on shapes of this program; meshes may go beyond.
+    /// Surface coordinates, in [0, 1) on analytic shapes; meshes may exceed it.
     pub u: F<L>,
     pub v: F<L>,
-    /// Position in the world, metres.
+    /// World-space position, metres.
     pub p: V<L>,
 }
 
@@ -53,7 +53,7 @@ pub struct Steps<L: Lanes> {
     pub p: F<L>,
 }
 
-/// The textures of a scene; a texture's id is its place.
+/// The textures of a scene; a texture's id is its index.
 #[derive(Default)]
 pub struct Textures {
     textures: Vec<Texture>,
@@ -63,7 +63,7 @@ pub struct Textures {
 }
 
 impl Textures {
-    /// Adds a texture and returns its id. The textures that it refers to must be there already.
+    /// Adds a texture and returns its id. Textures that it refers to must have been added before.
     pub fn push(&mut self, texture: Texture) -> u32 {
         let (mean, maximum, steps) = self.summary(&texture);
         self.means.push(mean);
@@ -75,7 +75,7 @@ impl Textures {
 
     /// Mean and maximum of the colour, and the row of `steps`.
     fn summary(&self, texture: &Texture) -> ([f32; 3], [f32; 3], [f32; 4]) {
-        /// Of u and v, where the texture itself asks for no finer one.
+        /// The largest step in u and v, if the texture itself needs no finer one.
         const COARSEST: f32 = 1.0 / 64.0;
         let either = |a: [f32; 3], b: [f32; 3], op: fn(f32, f32) -> f32| [op(a[0], b[0]), op(a[1], b[1]), op(a[2], b[2])];
         match texture {
@@ -123,23 +123,24 @@ impl Textures {
         colour
     }
 
-    /// The luminance of the colour, for use as a height: its slope is the difference over [steps](Self::steps) in u and v, at
-    /// coordinates whose `p` moves along.
+    /// The luminance of the colour, as a height. Its slope is the difference over [steps](Self::steps) in u and v, where `p`
+    /// moves with them.
     #[inline(always)]
     pub fn height<L: Lanes>(&self, l: L, id: U<L>, mask: M<L>, at: &TextureCoordinates<L>) -> F<L> {
         self.colour(l, id, mask, at).dot_with(LUMINANCE)
     }
 
-    /// How far to go for a finite difference: half a texel of an image, 1/32 of a cell of a checker, 1/16 of a cell of the finest
-    /// octave of noise, and the least of them where textures nest. Every id must be a texture's.
+    /// Steps of finite differences: half a texel of an image, 1/32 of a cell of a checker, 1/16 of a cell of the finest octave of
+    /// noise, and the minimum of nested textures. Every id must be valid.
     #[inline(always)]
     pub fn steps<L: Lanes>(&self, l: L, id: U<L>) -> Steps<L> {
         let [u, v, p, _] = l.rows(&self.steps, id);
         Steps { u, v, p }
     }
 
-    /// The mean colour: exact over the unit square for images and checkers of constants; for noise the expectation over its random
-    /// gradients; a checker of other textures weights their means by its areas. Zero only where the colour is zero everywhere.
+    /// The mean colour. It is exact over the unit square for images and checkers of constants. For noise it is the expectation
+    /// over random gradients; for a checker of textures, their means weighted by area. It is zero only if the colour is zero
+    /// everywhere.
     pub fn mean(&self, id: u32) -> [f32; 3] {
         self.means[id as usize]
     }

@@ -1,13 +1,13 @@
-//! Noise: a random smooth function of the position in the world, the same in every direction and place.
+//! Noise: a random smooth function of the world-space position, statistically the same at every position and in every direction.
 //!
-//! K. Perlin, "Improving Noise", SIGGRAPH 2002: gradients along the twelve edges of a cube at the points of a lattice, joined by
-//! quintic curves. The gradients are chosen by an integer hash of the point instead of a table of permutations.
+//! K. Perlin, "Improving Noise", SIGGRAPH 2002: gradients towards the twelve edges of a cube at the points of a lattice, with
+//! quintic interpolation. An integer hash of the point selects the gradient, in place of a permutation table.
 use crate::{
     math::{F, Lanes, Pick, U, V, round::floor},
     sampling::hash::{GOLDEN, hash},
 };
 
-/// A number in [0, 1], ½ on average, that varies with the position p: the fractal sum ½ + ½ Σ 2⁻ⁱ n(2ⁱ `scale` p), clamped.
+/// The fractal sum ½ + ½ Σ 2⁻ⁱ n(2ⁱ `scale` p) at the position p, clamped to [0, 1]; ½ on average.
 #[inline(always)]
 pub fn fraction<L: Lanes>(p: V<L>, scale: f32, octaves: u32) -> F<L> {
     // Lattices of all octaves would meet at the origin, where noise is 0 at every point of them: each is moved aside.
@@ -40,7 +40,7 @@ fn lattice_noise<L: Lanes>(p: V<L>, octave: u32) -> F<L> {
     near + r * (far - near)
 }
 
-/// Place within a cell of the lattice and the number of the cell. Farther than 2²² cells from the origin noise is constant.
+/// The position within a cell of the lattice, and the cell's number. Noise is constant farther than 2²² cells from the origin.
 #[inline(always)]
 fn cell<L: Lanes>(x: F<L>) -> (F<L>, U<L>) {
     let (start, number) = floor(x);
@@ -54,7 +54,7 @@ fn fade<L: Lanes>(x: F<L>) -> F<L> {
     x * x * x * (x * (x * 6.0 - 15.0) + 10.0)
 }
 
-/// The noise of the four corners of a cell that lie in one layer, whose hash is `key`.
+/// The noise of the four corners of a cell in one layer, whose hash is `key`.
 #[inline(always)]
 fn slice<L: Lanes>(x: F<L>, y: F<L>, z: F<L>, (s, t): (F<L>, F<L>), (column, row): (U<L>, U<L>), key: U<L>) -> F<L> {
     let upper = hash(row + key);
@@ -67,8 +67,8 @@ fn slice<L: Lanes>(x: F<L>, y: F<L>, z: F<L>, (s, t): (F<L>, F<L>), (column, row
     ab + t * (cd - ab)
 }
 
-/// The dot product of (x, y, z) with one of the twelve vectors from the centre of a cube to its edges, of which the four
-/// without a part along y are chosen two thirds as often as the others.
+/// The dot product of (x, y, z) with one of the twelve vectors from the centre of a cube to its edges. The four vectors with y =
+/// 0 are chosen two thirds as often as the others.
 #[inline(always)]
 fn ramp<L: Lanes>(hash: U<L>, x: F<L>, y: F<L>, z: F<L>) -> F<L> {
     let h = hash >> 28;

@@ -1,4 +1,4 @@
-//! Values where they are known, continuity, means, and lanes of different textures.
+//! Known values, continuity, means, and lanes with different textures.
 use super::{Edge, ImageTexture, Texture, TextureCoordinates, Textures, checker, noise};
 use crate::{
     image::Picture,
@@ -98,7 +98,7 @@ fn noise_is_continuous_in_range_and_half_on_average() {
     }
 }
 
-/// The change of noise at a point of the lattice, per length along each axis: the gradient that belongs to the point.
+/// The gradient of noise at a point of the lattice.
 fn gradient(p: [f32; 3]) -> [i32; 3] {
     const STEP: f32 = 1e-3;
     [0, 1, 2].map(|axis| {
