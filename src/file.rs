@@ -1,11 +1,11 @@
-//! Opening files that somebody else names, and writing files whole or not at all.
+//! File access: opens files that a user names, and replaces files atomically.
 mod target;
 
 use std::{fs::File, io, path::Path};
 
 pub use target::{WriteError, check, replace};
 
-/// Opens a file for reading, and nothing else: a pipe would be waited for, perhaps for ever.
+/// Opens a regular file for reading. Anything else is an error: reading from a pipe could wait for ever.
 pub fn open_regular(path: &Path) -> io::Result<File> {
     let kind = path.metadata()?.file_type();
     let what = if kind.is_dir() { " but a folder" } else { "" };

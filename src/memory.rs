@@ -1,8 +1,8 @@
-//! How much memory the program may take: counted before it is taken, so that what asks for too much is told so and the machine
-//! stays usable.
+//! The memory limit of the program. Memory is reserved before it is allocated, so that large requests fail with a message and the
+//! machine stays usable.
 //!
-//! There is one count, because memory belongs to the process, and what takes it lies far apart: readers of files, tables of scenes,
-//! films. It is set once, when the program starts, and everything that is given back counts again.
+//! There is one global budget, because memory belongs to the process and its users are far apart: readers of files, tables of
+//! scenes, films. The limit is set once at startup. A dropped reservation returns its bytes.
 use std::{
     fmt,
     sync::{
@@ -11,19 +11,19 @@ use std::{
     },
 };
 
-/// What is allowed where the machine does not say how much it has: 8 GB.
+/// Limit if the memory of the machine is unknown: 8 GB.
 const UNKNOWN: u64 = 8_000_000_000;
 
-/// What may be taken and what is.
+/// The limit, and the bytes that are reserved.
 struct Budget {
-    /// 0 until somebody sets it: [`half_of_the_machine`].
+    /// 0 until it is set; then [`half_of_the_machine`] by default.
     limit: AtomicU64,
     taken: AtomicU64,
 }
 
 static OF_PROCESS: Budget = Budget::new(0);
 
-/// Somebody asked for more than is left.
+/// Error of a reservation that exceeds the limit.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{what} need {}; {} of the {} allowed are left (--memory changes that)", Size(*.needed), Size(*.left), Size(*.limit))]
 pub struct TooMuch {
@@ -33,7 +33,7 @@ pub struct TooMuch {
     limit: u64,
 }
 
-/// Bytes that are spoken for until this is dropped.
+/// Bytes that are reserved until this is dropped.
 #[derive(Debug)]
 #[must_use]
 pub struct Reservation {
@@ -47,12 +47,12 @@ impl fmt::Debug for Budget {
     }
 }
 
-/// Allows so many bytes in all.
+/// Sets the limit in bytes.
 pub fn set_limit(bytes: u64) {
     OF_PROCESS.limit.store(bytes.max(1), Ordering::Relaxed);
 }
 
-/// Room for `what`, a plural, or an error that says how much of how much was asked for.
+/// Reserves memory for `what`, a plural noun. The error gives the requested bytes and the limit.
 pub fn reserve(what: impl fmt::Display, bytes: u64) -> Result<Reservation, TooMuch> {
     OF_PROCESS.reserve(what, bytes)
 }
@@ -77,12 +77,12 @@ impl Budget {
 }
 
 impl Reservation {
-    /// Room for nothing yet.
+    /// An empty reservation.
     pub fn none() -> Reservation {
         Reservation { budget: &OF_PROCESS, bytes: 0 }
     }
 
-    /// More room.
+    /// Reserves further bytes.
     pub fn grow(&mut self, what: impl fmt::Display, bytes: u64) -> Result<(), TooMuch> {
         let limit = self.budget.limit();
         let more = |taken: u64| taken.checked_add(bytes).filter(|taken| *taken <= limit);
@@ -95,7 +95,7 @@ impl Reservation {
         }
     }
 
-    /// Adds to a list that grows as long as there is room; `what` its items are.
+    /// Appends to a list, and reserves its growth. `what` names the items.
     pub fn push<T>(&mut self, list: &mut Vec<T>, item: T, what: &str) -> Result<(), TooMuch> {
         const FEWEST: usize = 64;
         if list.len() == list.capacity() {
@@ -115,7 +115,7 @@ impl Drop for Reservation {
     }
 }
 
-/// Bytes as people say them.
+/// A number of bytes, displayed with a unit.
 pub struct Size(pub u64);
 
 impl fmt::Display for Size {
@@ -129,7 +129,7 @@ impl fmt::Display for Size {
     }
 }
 
-/// Half of the machine's memory, or of the part of it that the process may use.
+/// Half of the machine's memory, or of the process's share of it.
 fn half_of_the_machine() -> u64 {
     static HALF: OnceLock<u64> = OnceLock::new();
     *HALF.get_or_init(|| {
@@ -141,7 +141,7 @@ fn half_of_the_machine() -> u64 {
     })
 }
 
-/// The bytes of a line like `MemTotal:  24000000 kB`.
+/// Parses the bytes of a line like `MemTotal:  24000000 kB`.
 fn total(meminfo: &str) -> Option<u64> {
     let line = meminfo.lines().find_map(|line| line.strip_prefix("MemTotal:"))?;
     Some(1024 * line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok()?)

@@ -1,25 +1,25 @@
-//! What somebody else wrote, in messages: short, and without characters that a terminal or a reader would obey.
+//! Quotes of foreign text in messages: shortened, and without control characters.
 use std::path::Path;
 
-/// A quoted piece is cut after so many characters.
+/// Maximum number of characters of a quoted piece.
 const LONGEST_PIECE: usize = 60;
-/// A path is cut to so many, of which the last ones say most.
+/// Maximum number of characters of a path; the last ones are kept, which say most.
 const LONGEST_PATH: usize = 160;
-/// A whole message.
+/// Maximum number of characters of a message.
 const LONGEST_MESSAGE: usize = 500;
 
-/// The beginning of a piece of a file, on one line.
+/// The beginning of a text, on one line.
 pub fn piece(text: &str) -> String {
     cut(text, LONGEST_PIECE)
 }
 
-/// The same between backquotes, of bytes that are meant to be text.
+/// The beginning of bytes that should be text, between backquotes.
 pub fn bytes(piece: &[u8]) -> String {
     let start = &piece[..piece.len().min(4 * LONGEST_PIECE)];
     format!("`{}`", self::piece(&String::from_utf8_lossy(start)))
 }
 
-/// A path, or its end.
+/// A path, or its end if it is long.
 pub fn path(path: &Path) -> String {
     let text = path.to_string_lossy();
     let count = text.chars().count();
@@ -30,7 +30,7 @@ pub fn path(path: &Path) -> String {
     format!("…{}", cut(&end, LONGEST_PATH))
 }
 
-/// A message whose quoted pieces, between backquotes or in double quotes, may be of any length.
+/// Shortens the quoted pieces of a message, between backquotes or double quotes.
 pub fn message(text: &str) -> String {
     let mut short = String::new();
     let mut rest = text;
@@ -44,7 +44,7 @@ pub fn message(text: &str) -> String {
     cut(&(short + rest), LONGEST_MESSAGE)
 }
 
-/// The characters up to a number of them, with a mark where there are more.
+/// Truncates a text to a number of characters and marks the cut.
 fn cut(text: &str, most: usize) -> String {
     let mut short: String = text.chars().take(most).map(printable).collect();
     if text.chars().nth(most).is_some() {
@@ -53,12 +53,12 @@ fn cut(text: &str, most: usize) -> String {
     short
 }
 
-/// The character, or, of one that acts instead of being shown, how Rust writes it.
+/// The character, or Rust's escape sequence if it is a control character.
 fn printable(c: char) -> String {
     if acts(c) { c.escape_debug().to_string() } else { c.to_string() }
 }
 
-/// Control characters, and those that change the direction of what follows or are not seen.
+/// Whether a character is a control character, changes the text direction, or is invisible.
 pub fn acts(c: char) -> bool {
     c.is_control()
         || matches!(c, '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}' | '\u{fff9}'..='\u{fffb}')

@@ -1,7 +1,7 @@
-//! Writes files: each appears whole or not at all, and nothing but a regular file is ever replaced.
+//! Atomic writes: a file appears whole or not at all, and only regular files are ever replaced.
 //!
-//! Bytes go to a file beside the target, are brought to the disk, and are then renamed. That file is locked while it is written;
-//! one that is not locked was left behind by a process that was killed, and the next write to the same name removes it.
+//! The bytes are written to a temporary file beside the target, synced to disk, and renamed. The temporary file is locked while
+//! it is written. One without a lock was left behind by a killed process, and the next write to the same name removes it.
 use std::{
     ffi::{OsStr, OsString},
     fs::{self, File, FileType, TryLockError},
@@ -12,12 +12,12 @@ use std::{
 
 use tempfile::NamedTempFile;
 
-/// What the name of a temporary file has besides that of its target: `.picture.png.noisefall-AbC123.part`.
+/// Marks the name of a temporary file: `.picture.png.noisefall-AbC123.part`.
 const MARK: &str = ".noisefall-";
 const SUFFIX: &str = ".part";
 const RANDOM_LETTERS: usize = 6;
 
-/// Why a file cannot be written.
+/// Error of writing a file.
 #[derive(Debug, thiserror::Error)]
 pub enum WriteError {
     #[error("{}: there is no folder {}", path.display(), folder.display())]
@@ -28,13 +28,13 @@ pub enum WriteError {
     Failed { path: PathBuf, reason: String },
 }
 
-/// Whether a file could be written there, as far as this can be known before there are bytes.
+/// Checks whether a file can be written to this path, as far as this is known before there are bytes.
 pub fn check(path: &Path) -> Result<(), WriteError> {
     // Made and removed again: a folder that cannot be written to is better known before an hour of rendering than after.
     Target::of(path)?.temporary().map(drop).map_err(|error| failed(path, &error))
 }
 
-/// Replaces a file, or leaves it as it is if that fails. Symbolic links are written through.
+/// Replaces a file, or leaves it unchanged on failure. Symbolic links are followed.
 pub fn replace(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
     let target = Target::of(path)?;
     let write = || {
@@ -53,7 +53,7 @@ fn failed(path: &Path, error: &io::Error) -> WriteError {
     WriteError::Failed { path: path.to_owned(), reason }
 }
 
-/// What keeps its bytes through a loss of power, once it has been told to.
+/// A writer whose bytes survive a loss of power after a sync.
 trait Durable: Write {
     fn sync(&self) -> io::Result<()>;
 }
@@ -64,7 +64,7 @@ impl Durable for File {
     }
 }
 
-/// A rename must not reach the disk before the bytes do.
+/// Writes and syncs the bytes, so that a rename cannot reach the disk before them.
 fn fill(file: &mut impl Durable, bytes: &[u8]) -> io::Result<()> {
     file.write_all(bytes)?;
     file.sync()
@@ -72,7 +72,7 @@ fn fill(file: &mut impl Durable, bytes: &[u8]) -> io::Result<()> {
 
 /// A file to write.
 struct Target {
-    /// Without symbolic links at its end: a rename to a link would replace the link.
+    /// The path with symbolic links resolved: a rename to a link would replace the link.
     path: PathBuf,
     folder: PathBuf,
     name: OsString,
@@ -140,7 +140,7 @@ impl Target {
     }
 }
 
-/// What there is in place of a regular file.
+/// Names the type of a file that is not regular.
 fn other_than_a_file(kind: FileType) -> Option<&'static str> {
     #[cfg(unix)]
     {
@@ -160,7 +160,7 @@ fn other_than_a_file(kind: FileType) -> Option<&'static str> {
     }
 }
 
-/// What a symbolic link stands for in the end, there or not.
+/// Resolves symbolic links to their final target, which need not exist.
 fn through_links(path: &Path) -> PathBuf {
     const MOST_LINKS: usize = 40;
     let mut path = path.to_owned();
@@ -171,7 +171,7 @@ fn through_links(path: &Path) -> PathBuf {
     path
 }
 
-/// What the names of temporary files of a target begin with. Names must not be longer than 255 bytes, so that of a long one is cut.
+/// The prefix of temporary files of a target. It is truncated for long names, because names have at most 255 bytes.
 fn prefix(name: &OsStr) -> OsString {
     const LONGEST: usize = 200;
     const KEPT_LETTERS: usize = 40;

@@ -1,4 +1,4 @@
-//! Whatever happens, there is the old file or the new one, and nothing else beside it.
+//! Whatever fails, either the old file or the new one exists, and no other file beside it.
 use super::*;
 
 fn folder() -> tempfile::TempDir {
@@ -12,7 +12,7 @@ fn names(folder: &Path) -> Vec<String> {
     names
 }
 
-/// Notes in which order it is used.
+/// Records the order of calls.
 #[derive(Default)]
 struct Recorder {
     calls: std::cell::RefCell<Vec<&'static str>>,
