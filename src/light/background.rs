@@ -1,4 +1,4 @@
-//! The background: light from every direction that meets no surface.
+//! The background: radiance along rays that hit no surface.
 use std::f32::consts::FRAC_1_PI;
 
 use super::{ImageBackground, Receiver};
@@ -9,7 +9,7 @@ use crate::{
 
 /// Radiance in W·sr⁻¹·m⁻², linear Rec. 709.
 pub enum Background {
-    /// The same from everywhere.
+    /// The same radiance from all directions.
     Constant([f32; 3]),
     Image(ImageBackground),
 }
@@ -24,8 +24,9 @@ impl Background {
         }
     }
 
-    /// A unit direction and its density per solid angle. Of a constant background it is drawn in proportion to the cosine, where
-    /// the surface transmits from either side alike; of a picture by its light. Only a picture reads `cell`.
+    /// Samples a unit direction, and returns it with its pdf per solid angle. A constant background is sampled in proportion to
+    /// the cosine, on both sides of the surface alike if it transmits; an image is sampled by its radiance. Only an image reads
+    /// `cell`.
     #[inline(always)]
     pub(super) fn sample<L: Lanes>(&self, l: L, at: &Receiver<L>, cell: (F<L>, F<L>), u: (F<L>, F<L>)) -> (V<L>, F<L>) {
         match self {
@@ -40,7 +41,7 @@ impl Background {
         }
     }
 
-    /// The density of [`Background::sample`] at the unit direction `wi`.
+    /// The pdf of [`Background::sample`] at the unit direction `wi`, per solid angle.
     #[inline(always)]
     pub(super) fn pdf<L: Lanes>(&self, l: L, at: &Receiver<L>, wi: V<L>) -> F<L> {
         match self {

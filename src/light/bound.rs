@@ -1,4 +1,4 @@
-//! What the choice of a light knows of an emitting piece: where it is, how much it may send, and to which side.
+//! Bounds of an emitting piece for light selection: its position, power and emitting side.
 use std::f64::consts::PI;
 
 use glam::DVec3;
@@ -9,7 +9,7 @@ use crate::{
     math::colour::luminance,
 };
 
-/// An emitting piece of a shape, within a sphere.
+/// Bounds of an emitting piece of a shape: a sphere, its size and its sides.
 pub(super) struct Bound {
     pub center: DVec3,
     pub radius: f64,
@@ -24,7 +24,7 @@ pub(super) struct Bound {
 }
 
 impl Bound {
-    /// Of a piece wherever it moves.
+    /// Bounds a piece over its whole motion.
     pub fn new(piece: &Shape, motion: &Motion, emission: &Emission) -> Bound {
         let moves = !motion.0.is_empty();
         let (center, radius) = piece.swept_sphere(motion);

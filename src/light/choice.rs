@@ -1,7 +1,7 @@
-//! Choosing a light and a direction towards it.
+//! Samples a light and a direction towards it.
 //!
-//! A light is chosen with a probability proportional to an estimate of the irradiance it could cause at the point if nothing stood in
-//! between, of varying light to its mean: E ≈ π L sin²θ · max(cos) over its cone of half angle θ (Shirley et al. 1996 say what a good choice is).
+//! A light is chosen in proportion to an estimate of its unoccluded irradiance at the point, E ≈ π L sin²θ · max(cos) over its
+//! cone of half angle θ; textured emitters count with their mean radiance (Shirley et al. 1996 discuss good choices).
 use glam::DVec3;
 
 use super::{
@@ -15,57 +15,58 @@ use crate::{
     math::{F, Lanes, M, Pick, U, V},
 };
 
-/// All lights of a scene: the emitting primitives 0, 1, 2, …, of meshes every triangle, and the background.
+/// All lights of a scene: the emitting primitives 0, 1, 2, …, every triangle of emitting meshes, and the background.
 #[derive(Default)]
 pub struct Lights {
     pub emitters: Emitters,
     /// Absent when black.
     pub background: Option<Background>,
     selection: Selection,
-    /// How many there are besides the background.
+    /// Number of lights without the background.
     count: usize,
-    /// Primitive and triangle of every light, as bits; empty where a light's number is its primitive.
+    /// Primitive and triangle of every light, as bits; empty if every light's number is its primitive.
     places: Vec<[f32; 4]>,
-    /// The first light of every emitting primitive; likewise.
+    /// The first light of every emitting primitive; empty under the same condition.
     firsts: Vec<[f32; 4]>,
 }
 
-/// A point that light is looked for from.
+/// A point for which lights are sampled.
 #[derive(Clone, Copy)]
 pub struct Receiver<L: Lanes> {
     pub p: V<L>,
     /// Unit normal on the side of the viewer.
     pub n: V<L>,
-    /// Lanes where light may come from both sides of the surface.
+    /// Lanes whose surface receives light from both sides.
     pub transmits: M<L>,
-    /// What reflects it; none where all is diffuse or not asked.
+    /// The glossy lobe at the point; `None` if surfaces are diffuse or the selection does not use lobes.
     pub lobe: Option<Lobe<L>>,
 }
 
 /// The random numbers of a light sample.
 pub struct LightCoordinates<L: Lanes> {
-    /// Which light; read where there are several.
+    /// Selects the light; read if there are several.
     pub choice: F<L>,
-    /// Which cell of a picture; read where the background is one.
+    /// Selects the cell of a background image; read if there is one.
     pub cell: (F<L>, F<L>),
-    /// Where on the light.
+    /// Selects the point on the light.
     pub place: (F<L>, F<L>),
 }
 
-/// A direction in which light may come.
+/// A direction towards a light.
 pub struct LightSample<L: Lanes> {
     pub wi: V<L>,
-    /// Radiance that arrives if nothing stands in between.
+    /// Unoccluded radiance that arrives.
     pub radiance: V<L>,
-    /// Density of `wi`, per solid angle, the probability of choosing the light included; 0 where there is no light.
+    /// Pdf of `wi` per solid angle, including the probability of choosing the light; 0 if there is no light.
     pub pdf: F<L>,
-    /// What a ray along `wi` must meet first for the light to arrive: the [light](Lights::light_at) of this number, or [`MISS`] for
-    /// the background.
+    /// The first hit along `wi` must be the [light](Lights::light_at) of this number, or [`MISS`] for the background, for the
+    /// light to arrive.
     pub target: U<L>,
 }
 
 impl Lights {
-    /// `emitters` are the emitting pieces of the shapes, which are their first primitives, and how they move.
+    /// Collects the lights. `emitters` are the emitting pieces of the shapes, which are their first primitives, with their
+    /// motion.
     pub fn new(shapes: &Shapes, emitters: &[(Shape, Motion, Emission)], background: Option<Background>, near: DVec3) -> Lights {
         let mut lights = Lights {
             emitters: Emitters::new(&emitters.iter().map(|(.., emission)| *emission).collect::<Vec<_>>()),
@@ -108,7 +109,7 @@ impl Lights {
         emits.pick(first.bits() + element, primitive.is(MISS).pick(primitive, l.u(MISS - 1)))
     }
 
-    /// Primitive and triangle of lights.
+    /// Looks up the primitive and triangle of lights.
     #[inline(always)]
     pub fn place<L: Lanes>(&self, l: L, light: U<L>, time: F<L>) -> Place<L> {
         if self.places.is_empty() {
@@ -122,17 +123,17 @@ impl Lights {
         self.count == 0 && self.background.is_none()
     }
 
-    /// Whether there is a choice to make.
+    /// Whether there are several lights.
     pub fn are_several(&self) -> bool {
         self.count + usize::from(self.background.is_some()) > 1
     }
 
-    /// Whether the choice asks for [`Receiver::lobe`].
+    /// Whether the selection uses [`Receiver::lobe`].
     pub fn heed_lobes(&self) -> bool {
         self.are_several() && self.selection.is_without_tree()
     }
 
-    /// Whether the background is a picture, of which a cell is chosen.
+    /// Whether the background is an image, which is sampled by cells.
     pub fn have_cells(&self) -> bool {
         matches!(self.background, Some(Background::Image(_)))
     }
@@ -171,8 +172,8 @@ impl Lights {
         sample
     }
 
-    /// The density with which [`Lights::sample`] draws the direction `wi`, in which lie the given places or, for their primitive is
-    /// [`MISS`], the background.
+    /// The pdf of [`Lights::sample`] for the direction `wi` per solid angle. `target` is the first hit along `wi`, with the
+    /// primitive [`MISS`] for the background.
     #[inline(always)]
     pub fn pdf<L: Lanes>(&self, l: L, shapes: &Shapes, at: &Receiver<L>, wi: V<L>, target: &Place<L>) -> F<L> {
         let sky = target.primitive.is(MISS);
@@ -198,7 +199,7 @@ impl Lights {
         density * self.selection.probability(l, at, emits, light)
     }
 
-    /// A light and the probability of its choice.
+    /// Chooses a light, and returns it with its probability.
     #[inline(always)]
     fn choose<L: Lanes>(&self, l: L, at: &Receiver<L>, u: &LightCoordinates<L>) -> (U<L>, F<L>) {
         if !self.are_several() {

@@ -7,7 +7,7 @@ use crate::{
 /// The side of a surface that emits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
-    /// The one the normal points to.
+    /// The side of the normal.
     Front,
     Back,
     Both,
@@ -16,16 +16,16 @@ pub enum Side {
 /// Emission of a surface, W·sr⁻¹·m⁻², linear Rec. 709.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Emission {
-    /// Radiance; where there is a texture, what multiplies it.
+    /// Radiance; with a texture, its factor.
     pub radiance: [f32; 3],
-    /// Mean radiance; of a texture over its unit square.
+    /// Mean radiance; with a texture, over its unit square.
     pub mean: [f32; 3],
-    /// Id of the texture that it varies by.
+    /// Id of its texture.
     pub texture: Option<u32>,
     pub side: Side,
 }
 
-/// The emission of all primitives. Emitting primitives come first, so that one comparison tells them from the others.
+/// The emission of all primitives. Emitting primitives come first, so one comparison distinguishes them from the others.
 #[derive(Default)]
 pub struct Emitters {
     /// Radiance, and the sign of the emitting side (0: both).
@@ -58,27 +58,27 @@ impl Emitters {
         self.rows.is_empty()
     }
 
-    /// The lanes whose primitive emits from one side at least.
+    /// The lanes whose primitive emits from at least one side.
     #[inline(always)]
     pub fn emits<L: Lanes>(&self, primitive: U<L>) -> M<L> {
         primitive.below(self.rows.len() as u32)
     }
 
-    /// Emitted radiance in the lanes of `emits`, and those of them that see an emitting side; `cos` is the cosine between the
-    /// front normal and the direction to the viewer.
+    /// The emitted radiance in the lanes of `emits`, and the mask of those that see an emitting side. `cos` is the cosine between
+    /// the front normal and the direction to the viewer.
     #[inline(always)]
     pub fn radiance<L: Lanes>(&self, l: L, emits: M<L>, primitive: U<L>, cos: F<L>) -> (V<L>, M<L>) {
         let [x, y, z, side] = l.rows(&self.rows, emits.pick(primitive, l.u(0)));
         (V { x, y, z }, emits & (side * cos).ge(l.f(0.0)))
     }
 
-    /// Whether some emission varies over its surface.
+    /// Whether any emission is textured.
     pub fn vary(&self) -> bool {
         !self.textures.is_empty()
     }
 
-    /// What the texture of emission multiplies radiance by in the lanes of `emits`; 1 where there is none. Only where some
-    /// [vary](Emitters::vary).
+    /// The factor by which the texture multiplies radiance in the lanes of `emits`; 1 without a texture. To be called only if
+    /// some [vary](Emitters::vary).
     #[inline(always)]
     pub fn variation<L: Lanes>(
         &self,

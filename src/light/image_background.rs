@@ -1,8 +1,8 @@
-//! The background as a picture of all directions, equirectangular: columns are azimuths, rows are polar angles.
+//! The background as an equirectangular image of all directions: columns are azimuths, rows are polar angles.
 //!
-//! World space, y up. The top edge (v = 0) is straight up, the bottom edge straight down, and the middle column (u = ½) faces −z,
-//! with +x to its right: the picture as a camera that looks along −z sees it. It is sampled by an alias table over equal cells of
-//! u and v, by the light that comes through each; within a cell the density is constant per solid angle.
+//! World space has y up. The top edge (v = 0) is straight up, the bottom edge straight down, and the middle column (u = ½) faces
+//! −z with +x to its right, as seen by a camera that looks along −z. An alias table over equal cells of u and v samples a cell by
+//! its radiance times solid angle; within a cell the pdf is constant per solid angle.
 #[cfg(test)]
 mod tests;
 mod weights;
@@ -24,23 +24,23 @@ use crate::{
 const MOST_COLUMNS: u32 = 1024;
 const MOST_ROWS: u32 = 512;
 
-/// A picture at infinity. Radiance in W·sr⁻¹·m⁻², linear Rec. 709.
+/// An image at infinity. Radiance in W·sr⁻¹·m⁻², linear Rec. 709.
 pub struct ImageBackground {
     picture: ImageTexture,
-    /// What must be added to an azimuth, in turns from −z towards +x, to get u; in [0, 1).
+    /// Offset from an azimuth, in turns from −z towards +x, to u; in [0, 1).
     shift: f32,
     /// Numbers of cells, powers of two.
     columns: u32,
     rows: u32,
     cells: AliasTable,
-    /// A row of cells: see [`row_bounds`].
+    /// Bounds of each row of cells: see [`row_bounds`].
     bounds: Vec<[f32; 4]>,
     mean_luminance: f32,
 }
 
 impl ImageBackground {
-    /// `picture` holds amounts of light ([`crate::image::read_light`]), which `scale` multiplies. `rotate` turns the picture about
-    /// +y by degrees, counter-clockwise seen from above.
+    /// Builds the background. `picture` holds radiances ([`crate::image::read_light`]), which are multiplied by `scale`. `rotate`
+    /// turns the image about +y by degrees, counter-clockwise seen from above.
     pub fn new(mut picture: Texels, rotate: f64, scale: f32) -> ImageBackground {
         for pixel in &mut picture.radiance {
             *pixel = pixel.map(|x| x * scale);
@@ -67,9 +67,9 @@ impl ImageBackground {
         }
     }
 
-    /// The memory that the background of a picture of this size takes, and what is needed to make it.
+    /// Memory in bytes of the background for an image of this size, including that of building it.
     pub fn bytes([width, height]: [u32; 2]) -> u64 {
-        /// Texel; cell, in all tables; and the means over the width of every cell of a row of texels.
+        /// Bytes of a texel; of a cell in all tables; and of the means of a row of texels over the width of every cell.
         const TEXEL: u64 = 16;
         const CELL: u64 = 64;
         const MEAN: u64 = 8;
@@ -79,7 +79,7 @@ impl ImageBackground {
         TEXEL * width * height + CELL * columns * rows.min(2 * height) + MEAN * columns * height
     }
 
-    /// Mean luminance over all directions, by the cells; 0 if and only if the picture is black.
+    /// Mean luminance over all directions, computed from the cells; 0 if and only if the image is black.
     pub fn mean_luminance(&self) -> f32 {
         self.mean_luminance
     }
@@ -91,7 +91,8 @@ impl ImageBackground {
         self.picture.colour(l, u, v, Edge::Clamp)
     }
 
-    /// A unit direction and its density per solid angle. `cell` chooses the cell, by index and coin; `u` is the place in it.
+    /// Samples a unit direction, and returns it with its pdf per solid angle. `cell` selects the cell, by index and coin; `u`
+    /// selects the point in it.
     #[inline(always)]
     pub fn sample<L: Lanes>(&self, l: L, cell: (F<L>, F<L>), u: (F<L>, F<L>)) -> (V<L>, F<L>) {
         let (cell, probability) = self.cells.sample(l, cell);
@@ -106,7 +107,7 @@ impl ImageBackground {
         (V { x: r * sin, y, z: -(r * cos) }, probability * density)
     }
 
-    /// Density of [`sample`](Self::sample) at the unit direction `d`, per solid angle.
+    /// Pdf of [`sample`](Self::sample) at the unit direction `d`, per solid angle.
     #[inline(always)]
     pub fn pdf<L: Lanes>(&self, l: L, d: V<L>) -> F<L> {
         let (u, v) = self.picture_from_world(d);
@@ -125,14 +126,14 @@ impl ImageBackground {
     }
 }
 
-/// Which of `count` equal parts of [0, 1] holds `t`.
+/// The index of the one of `count` equal parts of [0, 1] that contains `t`.
 #[inline(always)]
 fn place<L: Lanes>(t: F<L>, count: u32) -> U<L> {
     floor((t * count as f32).min(t.splat((count - 1) as f32))).1
 }
 
-/// For a row of cells: where sin²(θ/2) begins, θ from the pole that the row is nearer to, and how far it extends; 1 if that pole is
-/// the upper one and −1 if not; and the reciprocal of the solid angle of a cell. Rows are an even number.
+/// Bounds of a row of cells: start and extent of sin²(θ/2), with θ measured from the nearer pole; 1 for the upper pole and −1 for
+/// the lower one; and the reciprocal of the solid angle of a cell. The number of rows is even.
 fn row_bounds(row: u32, rows: u32, columns: u32) -> [f32; 4] {
     let upper = row < rows / 2;
     let from_pole = if upper { row } else { rows - 1 - row };

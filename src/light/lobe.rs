@@ -1,21 +1,21 @@
-//! How much of a light a glossy surface reflects to the viewer: what the choice of a light knows of microfacets.
+//! Light selection at glossy surfaces: estimates how much of a light the microfacets reflect to the viewer.
 use crate::math::{F, Lanes, Pick, V};
 
-/// The lobe of a conductor; with an `alpha` of 0 there is none.
+/// The lobe of a conductor; `alpha` = 0 means none.
 #[derive(Clone, Copy)]
 pub struct Lobe<L: Lanes> {
-    /// Unit, towards the viewer.
+    /// Unit direction to the viewer.
     pub wo: V<L>,
-    /// Width of the distribution of slopes.
+    /// Width α of the GGX distribution.
     pub alpha: F<L>,
 }
 
 impl<L: Lanes> Lobe<L> {
-    /// What stands for f cos θᵢ π, on average over a light within the angle of sine² `sin_squared` around `axis`, where `facing` is
-    /// about its cosine at the surface. Where there is no lobe that is `facing`.
+    /// Estimates the average of f cos θᵢ π over a light within the angle of squared sine `sin_squared` around `axis`. `facing` is
+    /// roughly its cosine at the surface, and the result without a lobe.
     ///
-    /// For the microfacets' density D that of GGX is taken (Walter et al. 2007, equation 33), wider by as much as the directions
-    /// to points of the light differ; and some of the cosine, for what is scattered more than once.
+    /// The density D of microfacets is that of GGX (Walter et al. 2007, equation 33), widened by the angular extent of the light.
+    /// A small multiple of the cosine accounts for multiple scattering.
     #[inline(always)]
     pub(super) fn reflected(&self, n: V<L>, axis: V<L>, sin_squared: F<L>, facing: F<L>) -> F<L> {
         const SCATTERED: f32 = 0.05;
@@ -31,7 +31,7 @@ impl<L: Lanes> Lobe<L> {
         self.alpha.above(0.0).pick(lobe + facing * SCATTERED, facing)
     }
 
-    /// The same for light from everywhere.
+    /// The same for light from all directions.
     #[inline(always)]
     pub(super) fn of_sky(&self) -> F<L> {
         const LEAST: f32 = 0.02;

@@ -1,12 +1,12 @@
 //! Light sources: surfaces that emit, and the background.
 //!
-//! | kind | file | what it is |
+//! | type | file | description |
 //! |---|---|---|
-//! | emission | `emission.rs` | radiance from one or both sides of a surface, constant or by a texture |
-//! | background | `background.rs` | constant radiance from all directions that meet no surface |
-//! | image background | `image_background.rs` | a picture of all directions, sampled by its light |
+//! | emission | `emission.rs` | radiance from one or both sides of a surface, constant or textured |
+//! | background | `background.rs` | constant radiance from all directions |
+//! | image background | `image_background.rs` | an image of all directions, sampled by its radiance |
 //!
-//! Which one a point looks at is chosen by `selection.rs`, among many with the light tree of `tree.rs`.
+//! `selection.rs` selects a light for a point, with the light tree of `tree.rs` if there are many.
 pub mod background;
 mod bound;
 mod choice;

@@ -1,8 +1,8 @@
-//! Which light a point looks at.
+//! Light selection.
 //!
-//! A light is chosen with a probability proportional to an estimate of the irradiance it could cause at the point if nothing stood in
-//! between, of varying light to its mean: E ≈ π L sin²θ · max(cos) over its cone of half angle θ (Shirley et al. 1996 say
-//! what a good choice is). Few lights are weighed one by one; of many all but those of outstanding size form a tree.
+//! A light is chosen in proportion to an estimate of its unoccluded irradiance at the point, E ≈ π L sin²θ · max(cos) over its
+//! cone of half angle θ; textured emitters count with their mean radiance (Shirley et al. 1996 discuss good choices). A few
+//! lights are weighted one by one. Many lights form a tree, except those of outstanding size.
 #[cfg(test)]
 mod tests;
 
@@ -21,31 +21,31 @@ use crate::{
     sampling::hash::GOLDEN,
 };
 
-/// Such a choice is made without a large table of weights.
+/// Up to this number of candidates, the choice needs no large table of weights.
 const VERY_FEW: usize = 8;
-/// As many lights are weighed one by one, and no more. Time × relMSE of 64 lamps is 1.1 to 1.4 times better so, of 96 it is as good
-/// either way, and of 128 up to 1.15 times better with the tree.
+/// Maximum number of lights that are weighted one by one. Compared with the tree, time × relMSE is 1.1 to 1.4 times better for 64
+/// lamps, equal for 96, and up to 1.15 times worse for 128.
 const FEW: usize = 64;
-/// Of more than that, at most so many of outstanding size are.
+/// If there are more lights, maximum number of those of outstanding size that are weighted one by one.
 const LARGE: usize = 16;
-/// Number of heads of the tree. With twice as many a choice takes 15 to 50 % longer, and its variance, a tenth or so of that of a
-/// light sample, mostly falls by a third.
+/// Number of heads of the tree. With twice as many, a choice takes 15 to 50 % longer, and its variance, about a tenth of that of
+/// a light sample, mostly falls by a third.
 const HEADS: usize = 32;
 const MOST_CANDIDATES: usize = if FEW > LARGE + HEADS { FEW } else { LARGE + HEADS };
 
-/// The candidates of a choice: the background, the lights that are weighed one by one, and the heads of the tree.
+/// The candidates of a choice: the background, the lights that are weighted one by one, and the heads of the tree.
 #[derive(Default)]
 pub(super) struct Selection {
     /// Mean luminance of the background.
     sky: f32,
     sources: Vec<Source>,
     tree: Tree,
-    /// Of sources and heads, as in the tree.
+    /// Words of sources and heads, as in the tree.
     words: Vec<u32>,
 }
 
 impl Selection {
-    /// `lights` are the shapes that emit, and how they move. `near` is where the scene happens.
+    /// Builds the selection. `lights` are the emitting shapes with their motion. `near` is a point near the middle of the scene.
     pub fn new(lights: &[(Shape, Motion, Emission)], sky: f32, near: DVec3) -> Selection {
         let bound = |light: usize| Bound::new(&lights[light].0, &lights[light].1, &lights[light].2);
         let (single, tree) = if lights.len() <= FEW {
@@ -70,7 +70,7 @@ impl Selection {
         self.tree.is_empty()
     }
 
-    /// What the background weighs.
+    /// The weight of the background.
     #[inline(always)]
     fn sky<L: Lanes>(&self, l: L, at: &Receiver<L>) -> F<L> {
         match &at.lobe {
@@ -79,7 +79,7 @@ impl Selection {
         }
     }
 
-    /// A light or [`MISS`] for the background, and the probability of this choice.
+    /// Chooses a light, or [`MISS`] for the background, and returns it with its probability.
     #[simd]
     pub fn choose<L: Lanes>(&self, l: L, at: &Receiver<L>, u: &LightCoordinates<L>) -> (U<L>, F<L>) {
         let chosen = if self.words.len() <= VERY_FEW {
@@ -96,7 +96,7 @@ impl Selection {
         (sky.pick(word, light_of_word(word)), pmf)
     }
 
-    /// `MOST` is a bound on the number of candidates.
+    /// Chooses a candidate. `MOST` is an upper bound on their number.
     #[inline(always)]
     fn choose_candidate<L: Lanes, const MOST: usize>(&self, l: L, at: &Receiver<L>, u: F<L>) -> Chosen<L> {
         let mut weights = [l.f(0.0); MOST];
@@ -120,7 +120,8 @@ impl Selection {
         Chosen { word, pmf, u: ((place - begin) / chosen).max(l.f(0.0)).min(l.f(1.0 - f32::EPSILON)) }
     }
 
-    /// The probability with which [`Selection::choose`] chooses a light of the lanes that `emits`, and in the others the background.
+    /// The probability that [`Selection::choose`] chooses the light `target` in the lanes of `emits`, and the background in the
+    /// others.
     #[simd]
     pub fn probability<L: Lanes>(&self, l: L, at: &Receiver<L>, emits: M<L>, target: U<L>) -> F<L> {
         let light = emits.pick(target, l.u(0));
@@ -138,7 +139,7 @@ impl Selection {
         if self.tree.is_empty() { pmf } else { self.tree.follow(l, at, emits, word, trail, pmf) }
     }
 
-    /// Of a source or a head.
+    /// The weight of a source or a head.
     #[inline(always)]
     fn weight<L: Lanes>(&self, l: L, at: &Receiver<L>, candidate: usize) -> F<L> {
         match self.sources.get(candidate) {
@@ -153,12 +154,12 @@ struct Chosen<L: Lanes> {
     /// [`MISS`] for the background.
     word: U<L>,
     pmf: F<L>,
-    /// What is left of the random number, uniform in (0, 1).
+    /// The remainder of the random number, uniform in (0, 1).
     u: F<L>,
 }
 
-/// Moves lights that all others could hide behind to the end, and returns how many there are: a node of the tree would be as
-/// large as they are.
+/// Moves lights as large as the space around all others to the end, and returns their number: any node of the tree with one of
+/// them would be as large.
 fn outstanding(items: &mut [Item]) -> usize {
     let begin = items.len() - LARGE.min(items.len());
     let by_size = |a: &Item, b: &Item| a.radius.total_cmp(&b.radius).then(a.light.cmp(&b.light));

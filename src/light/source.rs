@@ -1,4 +1,4 @@
-//! What the choice of a light knows of an emitting primitive: an estimate of the irradiance it causes at most.
+//! An emitting primitive in light selection: estimates an upper bound of its irradiance.
 use glam::DVec3;
 
 use super::{Receiver, bound::Bound};
@@ -10,7 +10,7 @@ use crate::{
 /// An emitting primitive.
 pub(super) struct Source {
     extent: Extent,
-    /// Luminance of its front and of its back.
+    /// Luminance of the front and of the back.
     front: f32,
     back: f32,
 }
@@ -27,7 +27,7 @@ enum Extent {
 }
 
 impl Source {
-    /// Of a piece of a [`Shape`] and what bounds it. `near` is where the scene happens.
+    /// Builds a source from a piece of a [`Shape`] and its bounds. `near` is a point near the middle of the scene.
     pub fn new(piece: &Shape, bound: &Bound, near: DVec3) -> Source {
         let extent = match piece {
             Shape::Sphere { center, radius } if !bound.moves => Extent::Sphere(Sphere::new(*center, *radius, near)),
@@ -41,7 +41,8 @@ impl Source {
         Source { extent, front: bound.front, back: bound.back }
     }
 
-    /// An estimate of the irradiance from this light at most, over π: E ≈ L A cos θ_i cos θ_e/d², a bound where the light is far away. Of lobes, what they may reflect of it.
+    /// Estimates an upper bound of the irradiance from this light, divided by π: E ≈ L A cos θ_i cos θ_e/d², which is a bound if
+    /// the light is far away. For lobes, estimates the light that they reflect.
     #[inline(always)]
     pub fn weight<L: Lanes>(&self, l: L, at: &Receiver<L>) -> F<L> {
         match &self.extent {
@@ -72,7 +73,7 @@ impl Source {
     }
 }
 
-/// What of the light is reflected, over what a diffuse surface would reflect of it if it stood overhead.
+/// The reflected light, relative to that of a diffuse surface with the light overhead.
 #[inline(always)]
 fn reflected<L: Lanes>(at: &Receiver<L>, axis: V<L>, sin_squared: F<L>, facing: F<L>) -> F<L> {
     // Not `map_or`, whose closure would be compiled without the instructions of `L`.
@@ -82,7 +83,7 @@ fn reflected<L: Lanes>(at: &Receiver<L>, axis: V<L>, sin_squared: F<L>, facing: 
     }
 }
 
-/// A bound on the cosine at the receiver of all directions within the angle of sine `sin` around `axis`.
+/// An upper bound of the cosine at the receiver for all directions within the angle of sine `sin` around `axis`.
 #[inline(always)]
 fn facing<L: Lanes>(l: L, at: &Receiver<L>, axis: V<L>, sin: F<L>) -> F<L> {
     // Not quite 0 for a light that only just lies below the horizon: rounding may see it.

@@ -1,4 +1,4 @@
-//! Light samples against their densities.
+//! Light samples against their pdfs.
 use glam::DVec3;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 

@@ -1,12 +1,12 @@
-//! The light tree: thousands of lights as nodes that lead to others, so that a light is found in a few steps.
+//! The light tree: a hierarchy over thousands of lights, which selects one in a few steps.
 //!
-//! A. Conty Estevez and C. Kulla, "Importance Sampling of Many Lights with Adaptive Tree Splitting" (2018), made for lanes: nodes
-//! have up to eight ways, weighed against each other, in place of three levels of two with looser bounds; and the way down
-//! begins not at a root but at one of a number of *heads*, which are weighed one by one, since all lanes look at the same heads.
+//! A. Conty Estevez and C. Kulla, "Importance Sampling of Many Lights with Adaptive Tree Splitting" (2018), adapted to lanes.
+//! Nodes have up to eight children, in place of three binary levels with looser bounds. The traversal starts not at a root but at
+//! one of several *heads*, which are weighted one by one, because all lanes look at the same heads.
 //!
-//! On one core with AVX-512, choosing one of 500, 4000 and 10⁶ lamps takes 75, 95 and 175 ns, with normals 105, 130 and 230;
-//! weighing 4000 one by one took 8 to 12 µs. Direct light has 1.1 to 1.25 times the relMSE that this gave, where all lamps alike
-//! give 2.5 to 7 times. The tree of a million triangles is built in 0.7 s, and has about 60 bytes for each.
+//! On one core with AVX-512, choosing one of 500, 4000 and 10⁶ lamps takes 75, 95 and 175 ns, and with normals 105, 130 and 230
+//! ns; weighting 4000 one by one took 8 to 12 µs. The relMSE of direct light is 1.1 to 1.25 times that of weighting one by one;
+//! uniform choice gives 2.5 to 7 times. The tree of a million triangles is built in 0.7 s and takes about 60 bytes per triangle.
 mod build;
 mod cluster;
 mod split;
@@ -19,44 +19,44 @@ use crate::{
     sampling::hash::{GOLDEN, hash, unit},
 };
 
-/// A node leads to at most so many others, which takes so many bits to say.
+/// Maximum number of children of a node, and the bits of a child's index.
 const WAYS: usize = 1 << BITS;
 const BITS: u32 = 3;
 const LAST: u32 = WAYS as u32 - 1;
 
-/// The word of a node that is a light.
+/// The word of a node that is a single light.
 pub(super) fn word_of_light(light: u32) -> u32 {
     light << BITS
 }
 
-/// The light of words that say one.
+/// The light of words that stand for single lights.
 #[inline(always)]
 pub(super) fn light_of_word<L: Lanes>(word: U<L>) -> U<L> {
     word >> BITS
 }
 
-/// A light tree. Words of nodes hold a light, or the first of the ways and in the last bits their number less 1.
+/// A light tree. The word of a node holds a light, or its first child and in the last bits the number of children minus 1.
 #[derive(Default)]
 pub(super) struct Tree {
     heads: Vec<Rows>,
-    /// Two rows a node; the ways of a node follow each other.
+    /// Two rows per node; the children of a node are consecutive.
     nodes: Vec<[f32; 4]>,
-    /// By light: the candidate of the choice that it is or lies below, and the trail from there.
+    /// For each light: its candidate, which is the light itself or its head, and the trail from there.
     places: Vec<[f32; 4]>,
-    /// Some lights have normals.
+    /// Whether some lights have normals.
     oriented: bool,
 }
 
-/// How a choice goes on below a head.
+/// The state of a traversal below a head.
 #[derive(Clone, Copy)]
 pub(super) struct Descent<L: Lanes> {
-    /// Lanes that the choice has led to a head.
+    /// Lanes that have chosen a head.
     pub inside: M<L>,
     /// Words of the heads.
     pub word: U<L>,
     /// Uniform in (0, 1).
     pub u: F<L>,
-    /// Any bits from which to draw another number where `u` has been used up.
+    /// Bits for another random number when the digits of `u` are used up.
     pub bits: U<L>,
     /// Probability of the head.
     pub pmf: F<L>,
@@ -77,14 +77,14 @@ impl Tree {
         Cluster::of_all(l, &self.heads[head]).weight(l, at, self.oriented)
     }
 
-    /// The candidate and the trail of a light.
+    /// Looks up the candidate and the trail of a light.
     #[inline(always)]
     pub fn place<L: Lanes>(&self, l: L, light: U<L>) -> (U<L>, U<L>) {
         let [candidate, trail, ..] = l.rows(&self.places, light);
         (candidate.bits(), trail.bits())
     }
 
-    /// Goes down to a light: its word, and its probability.
+    /// Descends to a light, and returns its word and its probability.
     #[inline(always)]
     pub fn descend<L: Lanes>(&self, l: L, at: &Receiver<L>, from: &Descent<L>) -> (U<L>, F<L>) {
         // A number has 23 bits. Where a path through the tree has used up 10 of them, others are drawn in their place: the first
@@ -124,7 +124,7 @@ impl Tree {
         }
     }
 
-    /// The probability of going down from heads of the given words by trails, starting with `pmf`.
+    /// The probability of descending from heads of the given words along trails, starting with `pmf`.
     #[inline(always)]
     pub fn follow<L: Lanes>(&self, l: L, at: &Receiver<L>, inside: M<L>, head: U<L>, trail: U<L>, pmf: F<L>) -> F<L> {
         let (mut word, mut trail, mut pmf) = (head, trail, pmf);
@@ -146,7 +146,7 @@ impl Tree {
         }
     }
 
-    /// What the nodes of these words in the lanes of `inner` lead to.
+    /// The children of these nodes in the lanes of `inner`.
     #[inline(always)]
     fn ways<L: Lanes>(&self, l: L, at: &Receiver<L>, inner: M<L>, word: U<L>) -> Ways<L> {
         let word = inner.pick(word, l.u(0));
@@ -173,7 +173,7 @@ impl Tree {
     }
 }
 
-/// What nodes lead to.
+/// The children of nodes, with their probabilities.
 struct Ways<L: Lanes> {
     weights: [F<L>; WAYS],
     words: [U<L>; WAYS],

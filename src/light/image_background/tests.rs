@@ -1,4 +1,4 @@
-//! Sampling against density, density against light, and which way the picture faces.
+//! Sampling against the pdf, the pdf against radiance, and the orientation of the image.
 use std::f64::consts::{PI, TAU};
 
 use rand::{Rng, SeedableRng, rngs::SmallRng};
@@ -17,7 +17,7 @@ fn picture(width: u32, height: u32, radiance: impl FnMut(u32) -> [f32; 3]) -> Te
 /// Degrees.
 const ROTATE: f64 = 75.0;
 
-/// Noise with a sun, in a picture whose sides are no powers of two.
+/// Noise with a sun, in an image whose sides are not powers of two.
 fn sky(width: u32, height: u32) -> ImageBackground {
     let mut random = SmallRng::seed_from_u64(3);
     let sun = height / 5 * width + width / 3;
@@ -30,7 +30,7 @@ fn direction(theta: f64, phi: f64) -> V<One> {
     V { x: F(x as f32), y: F(y as f32), z: F(z as f32) }
 }
 
-/// Midpoints of the 2²³ cells of (0, 1), as samplers give them.
+/// Midpoints of the 2²³ cells of (0, 1), like those of the samplers.
 fn unit(random: &mut SmallRng) -> F<One> {
     F(((f64::from(random.random_range(0..1u32 << 23)) + 0.5) / f64::from(1 << 23)) as f32)
 }

@@ -1,7 +1,7 @@
-//! Means of a bilinear picture's luminance over the cells of a grid, exactly: so no cell that has light has the weight 0.
+//! Exact means of a bilinear image's luminance over the cells of a grid, so that no cell with light has the weight 0.
 use crate::{image::Texels, math::colour::LUMINANCE};
 
-/// The mean over every cell, row by row. The picture repeats left and right; its top and bottom rows go on beyond it.
+/// The mean over every cell, row by row. The image repeats horizontally; its top and bottom rows continue beyond the edge.
 pub(super) fn cell_means(picture: &Texels, columns: usize, rows: usize) -> Vec<f64> {
     let (width, height) = (picture.width as usize, picture.height as usize);
     let across = cell_texels(width, columns);
@@ -24,7 +24,7 @@ pub(super) fn cell_means(picture: &Texels, columns: usize, rows: usize) -> Vec<f
     means
 }
 
-/// For every one of `cells` equal cells of an axis of `size` texels: the texels that reach into it, with their shares of its mean.
+/// For each of `cells` equal cells of an axis of `size` texels, the texels that contribute to its mean, with their weights.
 fn cell_texels(size: usize, cells: usize) -> Vec<Vec<(isize, f64)>> {
     let width = size as f64 / cells as f64;
     let texels = |cell: usize| {
@@ -39,7 +39,7 @@ fn cell_texels(size: usize, cells: usize) -> Vec<Vec<(isize, f64)>> {
     (0..cells).map(texels).collect()
 }
 
-/// ∫ max(0, 1 − |s|) ds from −∞ to t: a texel's part in a linear interpolation falls off like that.
+/// ∫ max(0, 1 − |s|) ds from −∞ to t, the integral of a texel's weight in linear interpolation.
 fn hat_integral(t: f64) -> f64 {
     match t.clamp(-1.0, 1.0) {
         t if t < 0.0 => 0.5 * (1.0 + t) * (1.0 + t),

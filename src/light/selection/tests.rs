@@ -1,4 +1,4 @@
-//! The choice among few and many lights, against itself and against what lights give.
+//! Selection among few and many lights, against its own probabilities and against irradiance.
 use glam::{DMat3, DVec3};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
@@ -54,7 +54,7 @@ impl Set {
         Selection::new(&lights, self.sky, DVec3::ZERO)
     }
 
-    /// Of all lights, and last of the background.
+    /// Probabilities of all lights, and last of the background.
     fn pmf(&self, selection: &Selection, at: &Receiver<One>) -> Vec<f64> {
         let lights = (0..self.shapes.len() as u32).map(|light| selection.probability(One, at, M(true), U(light)));
         lights.chain([selection.probability(One, at, M(false), U(MISS))]).map(|pmf| f64::from(pmf.0)).collect()
@@ -121,7 +121,7 @@ fn vector(v: DVec3) -> V<One> {
     V { x, y, z }
 }
 
-/// Among the lights, close to one of them, in the middle of one, or far away.
+/// A point among the lights, close to one of them, inside one, or far away.
 fn receiver(random: &mut Random, set: &Set) -> Receiver<One> {
     let light = &set.shapes[(random.next() * set.shapes.len() as f64) as usize];
     let (center, radius) = light.bounding_sphere();

@@ -8,11 +8,11 @@ use super::{
     word_of_light,
 };
 
-/// Levels below a head; the trail of a light has some bits for each.
+/// Maximum number of levels below a head; the trail of a light has [`BITS`] bits for each.
 const MOST_LEVELS: u32 = 32 / BITS;
 
 impl Tree {
-    /// Over these lights. `single` are those outside the tree, the first candidates of the choice; the heads follow.
+    /// Builds the tree. `single` are the lights outside the tree, which are the first candidates; the heads follow.
     pub fn new(items: &mut [Item], single: &[u32], heads: usize) -> Tree {
         let mut tree = Tree {
             heads: Vec::new(),
@@ -34,7 +34,7 @@ impl Tree {
         tree
     }
 
-    /// Adds what lies below a node of these lights, and returns the word of the node.
+    /// Adds the subtree below a node of these lights, and returns the word of the node.
     fn grow(&mut self, items: &mut [Item], place: Place) -> u32 {
         if let [item] = items {
             self.places[item.light as usize] = [f32::from_bits(place.candidate), f32::from_bits(place.trail), 0.0, 0.0];
@@ -61,7 +61,7 @@ impl Tree {
     }
 }
 
-/// Where the building is.
+/// The current position of the build.
 #[derive(Clone, Copy)]
 struct Place {
     candidate: u32,

@@ -1,16 +1,16 @@
-//! Splitting lights into two groups: the surface-area orientation heuristic over bins.
+//! Splits lights into two groups by the surface area orientation heuristic over bins.
 use glam::Vec3;
 
 use super::cluster::Item;
 
 const BINS: usize = 12;
 
-/// What a group would cost: power × extent² × the measure of its cone.
+/// A group of lights, and its cost: power × extent² × the measure of its cone.
 #[derive(Clone, Copy)]
 struct Group {
     count: usize,
     power: f32,
-    /// Sum of power times normal.
+    /// Sum of power × normal.
     along: Vec3,
     low: Vec3,
     high: Vec3,
@@ -47,7 +47,7 @@ impl Group {
     }
 }
 
-/// Reorders two or more lights so that two groups follow each other, and returns their sizes and costs; neither is empty.
+/// Reorders two or more lights into two consecutive groups, and returns their sizes and costs. Neither group is empty.
 fn split(items: &mut [Item]) -> [(usize, f32); 2] {
     let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
     for item in items.iter() {
@@ -77,16 +77,16 @@ fn split(items: &mut [Item]) -> [(usize, f32); 2] {
     [(lower, best.cost[0]), (items.len() - lower, best.cost[1])]
 }
 
-/// Between which bins to split.
+/// A split between two bins.
 struct Cut {
-    /// Of both groups.
+    /// Costs of both groups.
     cost: [f32; 2],
     axis: usize,
     /// The first bin of the upper group.
     first: usize,
 }
 
-/// Sets `best` to the cheapest cut between these bins if it is cheaper.
+/// Sets `best` to the cheapest split between these bins, if it is cheaper.
 fn best_cut(bins: &[Group], axis: usize, best: &mut Cut) {
     let mut above = [0.0; BINS];
     let mut upper = Group::NONE;
@@ -104,7 +104,7 @@ fn best_cut(bins: &[Group], axis: usize, best: &mut Cut) {
     }
 }
 
-/// Moves what is `lower` to the front, and counts it.
+/// Moves items that are `lower` to the front, and returns their number.
 fn partition(items: &mut [Item], lower: impl Fn(&Item) -> bool) -> usize {
     let mut count = 0;
     for i in 0..items.len() {
@@ -116,7 +116,8 @@ fn partition(items: &mut [Item], lower: impl Fn(&Item) -> bool) -> usize {
     count
 }
 
-/// Splits the costliest group again and again, until there are `most` groups or all are single lights. Returns their sizes.
+/// Repeatedly splits the group with the highest cost, until there are `most` groups or all are single lights. Returns their
+/// sizes.
 pub(super) fn groups(items: &mut [Item], most: usize) -> Vec<usize> {
     if items.len() <= most {
         return vec![1; items.len()];
