@@ -1,9 +1,9 @@
-//! Which rays come near: a sphere around a thing, tested in all lanes.
+//! Bounding spheres, tested in all lanes.
 use glam::DVec3;
 
 use crate::math::{Lanes, M, V};
 
-/// A sphere around something.
+/// A bounding sphere.
 pub(super) struct Around {
     center: [f32; 3],
     radius_squared: f32,
@@ -16,7 +16,7 @@ impl Around {
         Around { center: center.as_vec3().to_array(), radius_squared: (radius * radius * SLACK) as f32 }
     }
 
-    /// The lanes whose ray o + td, d of unit length, may meet what is in it.
+    /// The lanes whose ray o + td, d of unit length, may hit the contents of the sphere.
     #[inline(always)]
     pub fn near<L: Lanes>(&self, o: V<L>, d: V<L>) -> M<L> {
         // Of the distance of the centre: how far it may be off, squared, and more.

@@ -1,6 +1,6 @@
-//! Boxes with sides along the axes.
+//! Axis-aligned bounding boxes.
 
-/// An axis-parallel box: all points p with `min` ≤ p ≤ `max` in each component. It may be flat, or a point.
+/// An axis-aligned box: all points p with `min` ≤ p ≤ `max` in each component. It may be flat, or a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounds {
     pub min: [f32; 3],
@@ -8,7 +8,7 @@ pub struct Bounds {
 }
 
 impl Bounds {
-    /// The box of nothing: the union with it changes nothing.
+    /// The empty box, the neutral element of unions.
     pub const EMPTY: Bounds = Bounds { min: [f32::INFINITY; 3], max: [f32::NEG_INFINITY; 3] };
 
     /// The smallest box around the points.
@@ -16,7 +16,7 @@ impl Bounds {
         points.into_iter().fold(Bounds::EMPTY, |bounds, p| bounds.union(&Bounds { min: p, max: p }))
     }
 
-    /// The smallest box around both.
+    /// The smallest box around two boxes.
     pub fn union(&self, other: &Bounds) -> Bounds {
         Bounds {
             min: std::array::from_fn(|axis| self.min[axis].min(other.min[axis])),
@@ -24,7 +24,7 @@ impl Bounds {
         }
     }
 
-    /// Whether no point lies inside.
+    /// Whether the box contains no point.
     pub fn is_empty(&self) -> bool {
         !(0..3).all(|axis| self.min[axis] <= self.max[axis])
     }
@@ -34,7 +34,7 @@ impl Bounds {
         std::array::from_fn(|axis| (self.max[axis] - self.min[axis]).max(0.0))
     }
 
-    /// Area of the six sides.
+    /// Area of the six faces.
     pub fn surface_area(&self) -> f32 {
         let [x, y, z] = self.size();
         2.0 * (x * y + y * z + z * x)

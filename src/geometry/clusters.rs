@@ -1,5 +1,5 @@
-//! Spheres of a list that are near each other, which are passed by together where no lane's ray comes near. Pictures
-//! of fields of 64 take 1.8 times as long with a tree, of 128 1.5 times, of 256 as long, of 512 0.9 times.
+//! Clusters of nearby spheres in a list, which are skipped together if no lane's ray comes near. With a tree instead, images of
+//! fields of 64 spheres take 1.8 times as long, of 128 1.5 times, of 256 as long, and of 512 0.9 times.
 use glam::DVec3;
 
 use super::{
@@ -9,11 +9,11 @@ use super::{
     objects::{Kind, Object},
 };
 
-/// The most spheres of a cluster (4 are slower).
+/// Maximum number of spheres of a cluster (4 is slower).
 const SIZE: usize = 8;
-/// Fewer spheres are not worth a cluster.
+/// Minimum number of spheres of a cluster.
 const FEWEST: usize = 3;
-/// Among fewer spheres no clusters are looked for.
+/// Minimum number of spheres of a scene for clusters.
 const MANY: usize = 16;
 
 /// Spheres, each with its primitive, in the order of primitives.
@@ -22,7 +22,7 @@ pub(super) struct Cluster {
     pub members: Vec<(u32, Sphere)>,
 }
 
-/// Takes the spheres that form clusters out of the objects. `near` is where the scene happens.
+/// Removes the spheres that form clusters from the objects. `near` is a point in the middle of the scene.
 pub(super) fn take_clusters(objects: &mut Vec<Object>, near: DVec3) -> Vec<Cluster> {
     let spheres: Vec<usize> = (0..objects.len()).filter(|&object| sphere(&objects[object]).is_some()).collect();
     if spheres.len() < MANY {

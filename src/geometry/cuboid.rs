@@ -1,13 +1,13 @@
 //! The cuboid, or any parallelepiped: three pairs of parallel planes, tested as one shape.
 //!
-//! T. Kay and J. Kajiya, "Ray Tracing Complex Scenes", SIGGRAPH 1986. What a ray meets is one of the six faces, each a
-//! parallelogram with a primitive id of its own: see [`super::Shape::pieces`].
+//! T. Kay and J. Kajiya, "Ray Tracing Complex Scenes", SIGGRAPH 1986. A ray hits one of the six faces; each is a parallelogram
+//! with its own primitive id: see [`super::Shape::pieces`].
 use glam::{DMat3, DVec3};
 
 use super::fraction::Fraction;
 use crate::math::{Lanes, Pick, U, V};
 
-/// The cuboid at one of its corners: the distances of its points from there, in edges, are in [0, 1].
+/// The cuboid, anchored at one of its corners: its points have coordinates in [0, 1] along the edges from there.
 #[derive(Clone, Copy, Debug)]
 pub struct Cuboid {
     anchor: [f32; 3],
@@ -33,7 +33,7 @@ impl Cuboid {
         Cuboid { anchor: anchor.as_vec3().to_array(), slabs, faces }
     }
 
-    /// The nearest meeting of o + td with t > 0, and the number of the face it lies on.
+    /// The nearest intersection of o + td with t > 0, and the number of its face.
     #[inline(always)]
     pub(super) fn intersect<L: Lanes>(&self, l: L, o: V<L>, d: V<L>) -> (Fraction<L>, U<L>) {
         // Slower than this a ray does not cross a slab in any scene; and nothing is divided by 0.
@@ -61,8 +61,8 @@ impl Cuboid {
     }
 }
 
-/// A face in f64: its corner, and edges whose product points outwards. Pictures stand upright on the sides, with the second edge
-/// upwards, which is −z on top and z on the bottom.
+/// A face in f64: its corner, and edges whose cross product points outwards. Images stand upright on the sides; the second edge
+/// points upwards, and to −z on the top and z on the bottom.
 pub(super) fn face(origin: DVec3, edges: &DMat3, number: usize) -> (DVec3, [DVec3; 2]) {
     let (axis, far) = (number / 2, number % 2 == 1);
     let [x, y, z] = [edges.x_axis, edges.y_axis, edges.z_axis];

@@ -1,11 +1,11 @@
-//! How large shapes are: spheres and boxes around them, at rest and in motion.
+//! Bounding spheres and boxes of shapes, static and in motion.
 use std::f64::consts::TAU;
 
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 
 use super::{Motion, Outline, Shape, Step, bounds::Bounds};
 
-/// Times, one less, at which motion is looked at for how far it reaches.
+/// Number of intervals at whose ends motion is evaluated to bound it.
 const POSES: u32 = 128;
 
 /// A box in f64.
@@ -30,7 +30,7 @@ impl Extent {
         Extent { min: self.min.min(other.min), max: self.max.max(other.max) }
     }
 
-    /// In f32, and wider than all roundings of what is in it.
+    /// Rounds to f32, and widens by more than the rounding of the contents.
     fn widened(&self, by: f64) -> Bounds {
         const OF_SIZE: f64 = 4e-6;
         const OF_PLACE: f64 = 4.0 * f32::EPSILON as f64;
@@ -43,13 +43,13 @@ impl Extent {
 }
 
 impl Shape {
-    /// A box around the shape wherever the motion takes it, rounding included.
+    /// The bounding box of the shape over its whole motion, including rounding.
     pub(super) fn bounds(&self, motion: &Motion) -> Bounds {
         let all = self.poses(motion).map(|pose| pose.extent()).fold(Extent::EMPTY, |all, extent| all.union(&extent));
         all.widened(self.way_between_poses(motion) + self.rounding())
     }
 
-    /// Centre and radius of a sphere around the shape wherever the motion takes it, rounding included if it does.
+    /// Centre and radius of the bounding sphere over the whole motion, including rounding if it moves.
     pub fn swept_sphere(&self, motion: &Motion) -> (DVec3, f64) {
         if motion.0.is_empty() {
             return self.bounding_sphere();
@@ -61,7 +61,7 @@ impl Shape {
         (center, radius + self.way_between_poses(motion) + rounding + self.rounding())
     }
 
-    /// By how much the way from a space of its own into the world may round.
+    /// Upper bound of the rounding error of the transform from local to world space.
     fn rounding(&self) -> f64 {
         const ROUNDINGS: f64 = 8.0 * f32::EPSILON as f64;
         match self {
@@ -70,20 +70,20 @@ impl Shape {
         }
     }
 
-    /// The farthest that any point of the shape could come from the origin in motion.
+    /// Upper bound of the distance of any point of the moving shape from the origin.
     pub fn reach(&self, motion: &Motion) -> f64 {
         let (center, radius) = self.bounding_sphere();
         let reach = center.length() + radius;
         reach + longest_way(reach, motion, 1.0)
     }
 
-    /// The shape at [`POSES`] + 1 times, or once if it does not move.
+    /// The shape at [`POSES`] + 1 times, or once if it is static.
     fn poses(&self, motion: &Motion) -> impl Iterator<Item = Shape> {
         let last = if motion.0.is_empty() { 0 } else { POSES };
         (0..=last).map(|i| self.transformed(&motion.at(f64::from(i) / f64::from(POSES))))
     }
 
-    /// No point is ever farther than this from where it is at the nearer one of two poses.
+    /// Upper bound of the distance of a point from its position at the nearer one of two poses.
     fn way_between_poses(&self, motion: &Motion) -> f64 {
         let (center, radius) = self.bounding_sphere();
         longest_way(center.length() + radius, motion, 1.0 / f64::from(2 * POSES))
@@ -116,7 +116,7 @@ impl Shape {
         }
     }
 
-    /// Centre and radius of a sphere around the shape.
+    /// Centre and radius of a bounding sphere.
     pub fn bounding_sphere(&self) -> (DVec3, f64) {
         match self {
             Shape::Sphere { center, radius } => (*center, *radius),
@@ -150,14 +150,14 @@ impl Shape {
         }
     }
 
-    /// How far it reaches along the axes of the world, from any of its points to another.
+    /// Extent along the world axes.
     pub(super) fn size(&self) -> DVec3 {
         let Extent { min, max } = self.extent();
         max - min
     }
 }
 
-/// A sphere around what a map makes of boxes.
+/// A bounding sphere of the images of boxes under a map.
 fn around(boxes: &[Bounds], map: &DAffine3) -> (DVec3, f64) {
     let corners = boxes.iter().flat_map(|Bounds { min, max }| {
         (0..8).map(|corner| {
@@ -170,7 +170,7 @@ fn around(boxes: &[Bounds], map: &DAffine3) -> (DVec3, f64) {
     (center, corners.map(|corner| corner.distance(center)).fold(0.0, f64::max))
 }
 
-/// The longest of the images of unit vectors: the largest singular value, never too small and by 10⁻⁶ too large at most.
+/// The largest singular value, the length of the longest image of a unit vector; never too small, and too large by at most 10⁻⁶.
 fn longest(axes: &DMat3) -> f64 {
     // The greatest eigenvalue λ of G = AᵀA is below the n-th root of the trace of Gⁿ, which is below 3 λⁿ; n is 2²⁰.
     const SQUARINGS: i32 = 20;
@@ -188,20 +188,20 @@ fn longest(axes: &DMat3) -> f64 {
     (log / 2f64.powi(SQUARINGS + 1)).exp()
 }
 
-/// How far the image of the unit sphere reaches along the axes of the world.
+/// Half the extent of the image of the unit sphere along the world axes.
 fn ellipse_reach(axes: &DMat3) -> DVec3 {
     let rows = axes.transpose();
     DVec3::new(rows.x_axis.length(), rows.y_axis.length(), rows.z_axis.length())
 }
 
-/// The box around what a map makes of a box.
+/// The bounding box of the image of a box under a map.
 fn of_box(min: DVec3, max: DVec3, map: &DAffine3) -> Extent {
     let half = map.matrix3 * DMat3::from_diagonal((max - min) / 2.0);
     let reach = half.x_axis.abs() + half.y_axis.abs() + half.z_axis.abs();
     Extent::around(map.transform_point3((min + max) / 2.0), reach)
 }
 
-/// The longest way that a point within `reach` of the origin could go in a part of the time if it kept its greatest speed.
+/// Upper bound of the path length of a point within `reach` of the origin in a fraction of the time, at its greatest speed.
 fn longest_way(mut reach: f64, motion: &Motion, time: f64) -> f64 {
     let size = |matrix: &DMat3| matrix.to_cols_array().iter().map(|x| x * x).sum::<f64>().sqrt();
     let mut way = 0.0;

@@ -1,4 +1,4 @@
-//! Flat shapes: parallelogram, triangle and ellipse, told apart by their outline only.
+//! Flat shapes: parallelogram, triangle and ellipse, which differ only in their outline.
 //!
 //! The plane is anchored like [`super::sphere`], with curvature 0: a point q on it near the scene and the unit normal n.
 use glam::{DMat3, DVec3, Vec3};
@@ -18,7 +18,7 @@ pub struct Flat {
 }
 
 impl Flat {
-    /// The shape of [`super::Shape::Flat`]; anchored about where it comes nearest to `near`.
+    /// Builds the shape of [`super::Shape::Flat`], anchored at about its point nearest to `near`.
     pub fn new(outline: Outline, origin: DVec3, edges: [DVec3; 2], mirrored: bool, near: DVec3) -> Flat {
         let across = edges[0].cross(edges[1]);
         let n = if mirrored { -across } else { across }.normalize();
@@ -38,7 +38,7 @@ impl Flat {
     }
 
     /// The rows of the table: gradients of u and v with their values at the anchor, and the edges, with the outline and the area.
-    /// The outline of a rectangle, which is more than a parallelogram, is −1 if it is large from `near`, where the scene happens.
+    /// The outline is −1 for a rectangle with a large solid angle from `near`, a point in the middle of the scene.
     pub(super) fn rows(&self, edges: [DVec3; 2], near: DVec3) -> [[f32; 4]; 4] {
         let area = edges[0].cross(edges[1]).length() * self.outline.area();
         let [a, b] = [edges[0].as_vec3(), edges[1].as_vec3()];
@@ -50,8 +50,8 @@ impl Flat {
         [self.u, self.v, [a.x, a.y, a.z, outline], [b.x, b.y, b.z, area as f32]]
     }
 
-    /// How far the height over this piece, and its coordinates u and v, may be off where the closed shape that it belongs to is met:
-    /// sums of products with ways within the shape, which reaches so far along the axes of the world.
+    /// Upper bounds of the error of the height over this piece, and of its coordinates u and v, where a ray hits its closed
+    /// shape. They are sums of products with vectors within the shape, whose extent along the world axes is `extent`.
     pub(super) fn roundings(&self, extent: DVec3) -> [f32; 4] {
         const ROUNDINGS: f64 = 4.0 * f32::EPSILON as f64;
         let of = |g: [f32; 3]| (Vec3::from(g).as_dvec3().abs().dot(extent) * ROUNDINGS) as f32;
@@ -59,7 +59,7 @@ impl Flat {
         [of(self.normal), of([ux, uy, uz]), of([vx, vy, vz]), 0.0]
     }
 
-    /// The meeting of o + td, t > 0, as a fraction; NaN where there is none.
+    /// The intersection with o + td, t > 0, as a fraction; NaN if there is none.
     #[inline(always)]
     pub(super) fn intersect<L: Lanes>(&self, o: V<L>, d: V<L>) -> Fraction<L> {
         let from_anchor = o - self.anchor;
@@ -81,13 +81,13 @@ impl Flat {
     }
 }
 
-/// Of an outline in the rows.
+/// Tests an outline as stored in the rows.
 #[inline(always)]
 pub(super) fn is_rectangle<L: Lanes>(outline: F<L>) -> M<L> {
     outline.below(0.0)
 }
 
-/// Of an outline in the rows.
+/// Tests an outline as stored in the rows.
 #[inline(always)]
 pub(super) fn is_ellipse<L: Lanes>(outline: F<L>) -> M<L> {
     outline.above(Outline::Triangle as u32 as f32)
@@ -103,8 +103,8 @@ fn coordinate<L: Lanes>(row: &[f32; 4], from_anchor: V<L>) -> F<L> {
     gradient(row, from_anchor) + row[3]
 }
 
-/// A point of a piece of a closed shape, moved inside the outline by as much as keeps it on the inner side of the pieces that it
-/// meets at its edge, though they round otherwise: see [`Flat::roundings`] for the row of these.
+/// Moves a point of a piece of a closed shape inside the outline, far enough to stay on the inner side of the adjacent pieces,
+/// whose rounding differs: see [`Flat::roundings`] for the row of bounds.
 #[inline(always)]
 pub(super) fn within_outline<L: Lanes>(
     rows: &[[F<L>; 4]; 4],

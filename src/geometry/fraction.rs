@@ -1,7 +1,7 @@
-//! Distances as fractions, so that they can be compared without dividing.
+//! Distances as fractions, which can be compared without division.
 use crate::math::{F, Lanes, M, Pick};
 
-/// A distance as a fraction with a denominator that is not negative; NaN where there is no meeting.
+/// A distance as a fraction with a denominator that is not negative; NaN if there is no intersection.
 #[derive(Clone, Copy)]
 pub(super) struct Fraction<L: Lanes> {
     pub numerator: F<L>,
@@ -25,7 +25,7 @@ impl<L: Lanes> Fraction<L> {
         (self.numerator * other.denominator).lt(other.numerator * self.denominator)
     }
 
-    /// Where both are the same distance, which is finite.
+    /// Lanes in which both are the same finite distance.
     #[inline(always)]
     pub fn equals(&self, other: &Self) -> M<L> {
         let (a, b) = (self.numerator * other.denominator, other.numerator * self.denominator);
@@ -37,7 +37,7 @@ impl<L: Lanes> Fraction<L> {
         self.numerator / self.denominator
     }
 
-    /// Itself in the lanes of `mask`, elsewhere no meeting.
+    /// Keeps the lanes of `mask`; the others become NaN.
     #[inline(always)]
     pub fn only(self, mask: M<L>) -> Self {
         Fraction { numerator: mask.pick(self.numerator, self.numerator.splat(f32::NAN)), ..self }

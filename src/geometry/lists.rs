@@ -1,10 +1,10 @@
-//! Analytic shapes that stand still, as a ray runs through them: a list a kind.
+//! Static analytic shapes, in a list for each type, which every ray tests one by one.
 use glam::DVec3;
 
 use super::{MISS, Shape, Sphere, clusters::Cluster, cuboid::Cuboid, flat::Flat, fraction::Fraction, quadric::Quadric};
 use crate::math::{F, Lanes, Pick, U, V};
 
-/// Shapes, each with its primitive id, or that of its first piece. Kinds that there are none of cost nothing.
+/// Shapes, each with its primitive id or that of its first piece. Absent types cost nothing.
 #[derive(Default)]
 pub(super) struct Lists {
     spheres: Vec<(u32, Sphere)>,
@@ -17,7 +17,7 @@ pub(super) struct Lists {
     cylinders: Vec<(u32, Quadric)>,
 }
 
-/// A shape of [`Lists`] by its place.
+/// A shape of [`Lists`] by its index.
 #[derive(Clone, Copy)]
 pub(super) enum Listed {
     Sphere(u32),
@@ -28,7 +28,7 @@ pub(super) enum Listed {
 }
 
 impl Lists {
-    /// Adds an analytic shape, whose first piece is primitive `first`. `near` is where the scene happens.
+    /// Adds an analytic shape, whose first piece is primitive `first`. `near` is a point in the middle of the scene.
     pub fn push(&mut self, first: u32, shape: &Shape, near: DVec3) -> Listed {
         match shape {
             Shape::Sphere { center, radius } => {
@@ -51,24 +51,24 @@ impl Lists {
         }
     }
 
-    /// Spheres beside those that are added one by one.
+    /// Sets the clusters of spheres, in addition to single ones.
     pub fn set_clusters(&mut self, clusters: Vec<Cluster>) {
         self.clusters = clusters;
     }
 
-    /// Whether there are none but spheres.
+    /// Whether all shapes are spheres.
     pub fn are_spheres(&self) -> bool {
         self.flats.is_empty() && self.cuboids.is_empty() && self.quadrics.is_empty() && self.cylinders.is_empty()
     }
 
-    /// [`Lists::closest`] where there are only spheres.
+    /// [`Lists::closest`] for lists with only spheres.
     #[inline(always)]
     pub fn closest_sphere<L: Lanes>(&self, l: L, o: V<L>, d: V<L>) -> (F<L>, U<L>) {
         let nearest = self.nearest_sphere(l, o, d);
         (nearest.t.value(), nearest.primitive)
     }
 
-    /// Among the spheres.
+    /// The nearest intersection with a sphere.
     #[inline(always)]
     fn nearest_sphere<L: Lanes>(&self, l: L, o: V<L>, d: V<L>) -> Nearest<L> {
         let mut nearest = Nearest::none(l);
@@ -113,7 +113,7 @@ impl Lists {
         (nearest.t.value(), nearest.primitive)
     }
 
-    /// Distance to one shape, NaN where it is not met, and the primitive.
+    /// Distance to one shape, NaN for a miss, and the primitive.
     #[inline(always)]
     pub fn meet<L: Lanes>(&self, l: L, which: Listed, o: V<L>, d: V<L>) -> (F<L>, U<L>) {
         let (t, primitive) = match which {
@@ -149,7 +149,7 @@ fn append<T>(list: &mut Vec<(u32, T)>, first: u32, shape: T) -> u32 {
     list.len() as u32 - 1
 }
 
-/// The nearest meeting so far.
+/// The nearest intersection so far.
 struct Nearest<L: Lanes> {
     t: Fraction<L>,
     primitive: U<L>,
@@ -167,7 +167,7 @@ impl<L: Lanes> Nearest<L> {
         self.t = nearer.pick(t, self.t);
         self.primitive = nearer.pick(primitive, self.primitive);
     }
-    /// The same where primitives do not come in their order: of surfaces that coincide the first one is met.
+    /// The same for primitives in any order: of coincident surfaces, the one with the lowest id counts.
     #[inline(always)]
     fn meet_in_any_order(&mut self, l: L, t: Fraction<L>, primitive: u32) {
         let is_first = t.equals(&self.t) & !self.primitive.below(primitive.saturating_add(1));

@@ -1,21 +1,21 @@
-//! Shapes: where a ray first meets one, and the point, normal and coordinates there.
+//! Shapes: the first hit of a ray, and the point, normal and surface coordinates there.
 //!
-//! A smooth piece of surface has a number, its *primitive id*; what it is made of and whether it emits is looked up by that
-//! number elsewhere.
+//! Each smooth piece of surface has a number, its *primitive id*. Its material and emission are looked up by that number
+//! elsewhere.
 //!
-//! | kind | file | pieces | front |
+//! | type | file | pieces | front |
 //! |---|---|---|---|
 //! | sphere | `sphere.rs` | 1 | outside |
 //! | ellipsoid, a stretched sphere | `quadric.rs` | 1 | outside |
-//! | rectangle, triangle, disk | `flat.rs` | 1 | where the normal points |
+//! | rectangle, triangle, disk | `flat.rs` | 1 | side of the normal |
 //! | cuboid | `cuboid.rs` | 6 | outside |
 //! | cylinder | `quadric.rs` | 1, with caps 3 | outside |
 //! | mesh | `mesh/` | 1, its triangles are *elements* | counter-clockwise |
 //! | isosurface | `isosurface/` | 1 | where the function is positive |
 //!
-//! A ray runs through the few and large shapes of `lists.rs`, past clusters of spheres that none of its register comes near
-//! (`clusters.rs`), and down a tree over the many (`objects.rs`); what it met is looked up
-//! in `tables.rs`. Meshes, isosurfaces and what moves have a space of their own (`placed.rs`). All together are [`Shapes`].
+//! A ray tests the few and large shapes of `lists.rs` one by one, skips clusters of spheres that no ray of its register comes
+//! near (`clusters.rs`), and descends a tree over the others (`objects.rs`). The surface that it hits is looked up in
+//! `tables.rs`. Meshes, isosurfaces and moving shapes have a local space (`placed.rs`). [`Shapes`] holds all of them.
 mod around;
 mod bounds;
 mod bvh;
@@ -59,5 +59,5 @@ pub use self::{
     turns::Turns,
 };
 
-/// The primitive id of a ray that meets nothing.
+/// The primitive id of a ray that hits nothing.
 pub const MISS: u32 = u32::MAX;

@@ -1,4 +1,4 @@
-//! Transforms, and how they change from time 0 to 1.
+//! Transforms, and their interpolation from time 0 to 1.
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 
 use super::{
@@ -7,12 +7,11 @@ use super::{
 };
 use crate::math::{F, Lanes, V};
 
-/// One transform of a list. In motion, a part of it is done at a part of the time: of a way, of an angle, of what a factor
-/// exceeds 1 by, of the difference of a matrix from the identity.
+/// One transform of a list. In motion, translation, angle, scale factor − 1 and matrix − identity grow linearly with time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Step {
     Translate(DVec3),
-    /// About the unit axis, counter-clockwise seen from its tip; full turns are turned.
+    /// Rotation about the unit axis, counter-clockwise seen from its tip. Full turns count in motion.
     Rotate {
         axis: DVec3,
         turns: Turns,
@@ -22,7 +21,7 @@ pub enum Step {
 }
 
 impl Step {
-    /// The transform at the time from 0, where it is the identity, to 1, where it is complete.
+    /// The transform at a time from 0, where it is the identity, to 1, where it is complete.
     pub fn at(&self, time: f64) -> DAffine3 {
         match *self {
             // As steps from 1, small factors would lose their digits.
@@ -39,7 +38,7 @@ impl Step {
     }
 }
 
-/// A list of transforms, the first one applied first, that is reached at time 1.
+/// A list of transforms, applied first to last, that is complete at time 1.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Motion(pub Vec<Step>);
 
@@ -48,14 +47,14 @@ impl Motion {
         self.0.iter().fold(DAffine3::IDENTITY, |before, step| step.at(time) * before)
     }
 
-    /// A ray o + td carried to `time`, with d of unit length.
+    /// Transforms a ray o + td to `time`, with d of unit length.
     #[inline(always)]
     pub fn carry<L: Lanes>(&self, l: L, o: V<L>, d: V<L>, time: F<L>) -> (V<L>, V<L>) {
         let pose = Pose::new(l, &Rest::IDENTITY, &self.0, time);
         (pose.point_to_world(o), pose.vector_to_world(d).normalized())
     }
 
-    /// Whether it can be inverted at all times, at many of which it is tried.
+    /// Whether the transform is invertible at all times; tests many of them.
     pub fn is_invertible(&self) -> bool {
         const TIMES: u32 = 256;
         let determinant = |i: u32| self.at(f64::from(i) / f64::from(TIMES)).matrix3.determinant();

@@ -1,7 +1,7 @@
-//! Many objects: a tree over them, down which rays go one at a time.
+//! The tree over objects, which rays descend one at a time.
 //!
-//! Shapes in a list are tested against all lanes at once, which for one of a few costs less than a step in a tree; of many, a
-//! tree finds the few that a ray comes near. Which shapes are for which is decided here.
+//! A list tests a shape against all lanes at once. For a few shapes this costs less than a step in a tree; among many, a tree
+//! finds the few near a ray. This module decides which shapes go where.
 use fearless_simd::Simd;
 use fearless_simd_macros::simd;
 use glam::DVec3;
@@ -15,13 +15,13 @@ use super::{
 };
 use crate::math::{F, Lanes, M, MAX_LANES, One, U, V};
 
-/// What a step down a tree costs, in tests of lanes against a flat shape: where the sum of [`Kind::cost`] is less, a tree is slower
+/// The cost of a tree, in tests of all lanes against a flat shape: if the sum of [`Kind::cost`] is less, a tree is slower
 /// (measured with 16 lanes on fields of 4 to 512 spheres, and of 4 to 128 cuboids, cylinders and meshes).
 const COST_OF_TREE: f32 = 64.0;
-/// What would be met by more than one in so many rays is not for the tree.
+/// Objects that more than one in this number of rays would hit are not in the tree.
 const SHARE: f32 = 12.0;
 
-/// Something to find, and where it is.
+/// An object to find, with its bounds.
 pub(super) struct Object<'a> {
     pub bounds: Bounds,
     pub kind: Kind<'a>,
@@ -31,12 +31,12 @@ pub(super) struct Object<'a> {
 pub(super) enum Kind<'a> {
     /// An analytic shape, whose first piece is primitive `first`.
     Analytic { first: u32, shape: &'a Shape },
-    /// By its place among the placed shapes.
+    /// Index among the placed shapes.
     Placed(u32),
 }
 
 impl Kind<'_> {
-    /// Of a test of all lanes, in those of a flat shape.
+    /// The cost of a test of all lanes, relative to a flat shape.
     fn cost(self) -> f32 {
         match self {
             Kind::Analytic { shape: Shape::Cylinder { capped: true, .. }, .. } => 4.0,
@@ -52,7 +52,7 @@ impl Kind<'_> {
 /// A tree over objects.
 pub(super) struct Objects {
     bvh: Bvh,
-    /// By leaf.
+    /// The item of each leaf.
     items: Vec<Item>,
     lists: Lists,
 }
@@ -63,7 +63,8 @@ enum Item {
     Placed(u32),
 }
 
-/// The objects for lists and those for a tree, each in their order: of surfaces that coincide the first one is met.
+/// Splits objects into those for lists and those for a tree. Both keep their order, because of coincident surfaces the first one
+/// counts.
 pub(super) fn few_and_many(objects: Vec<Object>) -> [Vec<Object>; 2] {
     let mut many = are_small(&objects);
     leave_out_far(&objects, &mut many);
@@ -76,7 +77,7 @@ pub(super) fn few_and_many(objects: Vec<Object>) -> [Vec<Object>; 2] {
     [few, many]
 }
 
-/// Which objects are met by less than one in [`SHARE`] of the rays that come near to the smaller ones.
+/// Marks objects that less than one in [`SHARE`] of the rays near the smaller ones would hit.
 fn are_small(objects: &[Object]) -> Vec<bool> {
     let area = |object: usize| objects[object].bounds.surface_area();
     let mut by_area: Vec<usize> = (0..objects.len()).collect();
@@ -93,7 +94,8 @@ fn are_small(objects: &[Object]) -> Vec<bool> {
     small
 }
 
-/// Takes back a few objects that lie far outside the crowd, as a sun does: boxes are widened by what rounds over the whole tree.
+/// Removes a few objects far outside all others, such as a sun, from the tree, because boxes are widened by the rounding error
+/// over the whole tree.
 fn leave_out_far(objects: &[Object], many: &mut [bool]) {
     const FAR: f32 = 16.0;
     const MOST: usize = 8;
@@ -119,7 +121,7 @@ fn leave_out_far(objects: &[Object], many: &mut [bool]) {
 }
 
 impl Objects {
-    /// `near` is where the scene happens.
+    /// Builds the tree. `near` is a point in the middle of the scene.
     pub fn new(objects: &[Object], near: DVec3) -> Objects {
         let (bvh, order) = Bvh::build::<1>(objects.iter().map(|object| object.bounds));
         let mut lists = Lists::default();
@@ -137,7 +139,7 @@ impl Objects {
         self.bvh.bounds()
     }
 
-    /// Replaces `nearest` by what is nearer along o + td, d of unit length, in the lanes of `live`.
+    /// Updates `nearest` with nearer hits along o + td, d of unit length, in the lanes of `live`.
     #[simd]
     pub fn closest<L: Lanes>(
         &self,
@@ -177,7 +179,7 @@ impl Objects {
     }
 }
 
-/// What one ray has met so far.
+/// The nearest hit of one ray so far.
 struct Found<'a> {
     objects: &'a Objects,
     placed: &'a [Placed],

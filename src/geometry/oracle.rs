@@ -1,23 +1,23 @@
-//! Where rays meet shapes, by textbook formulas in f64: what the kernel is held against, and shares no line with.
+//! Reference intersections by textbook formulas in f64. The kernel is tested against them and shares no code with them.
 use std::f64::consts::PI;
 
 use glam::{DMat3, DVec3, Vec3};
 
 use super::{Outline, Shape};
 
-/// A meeting of a ray and a piece.
+/// An intersection of a ray with a piece.
 #[derive(Clone, Copy, Debug)]
 pub struct Meeting {
     pub t: f64,
-    /// How far it lies within the outline of the piece, of its size; negative outside.
+    /// Distance inside the outline of the piece, relative to its size; negative outside.
     pub margin: f64,
     /// |cos θ| to the normal.
     pub cos: f64,
-    /// Metres by which the ray could be moved aside and would still meet the piece.
+    /// Distance in metres by which the ray could shift sideways and still hit the piece.
     pub clearance: f64,
 }
 
-/// All meetings of o + td with the pieces of a shape, those that miss the outline by less than `slack` included.
+/// All intersections of o + td with the pieces of a shape, including those that miss the outline by less than `slack`.
 pub fn meetings(shape: &Shape, o: DVec3, d: DVec3, slack: f64) -> Vec<Meeting> {
     let mut found: Vec<Meeting> = pieces(shape).iter().flat_map(|piece| meetings_of(piece, o, d)).collect();
     found.retain(|meeting| meeting.margin > -slack && meeting.t.is_finite());
@@ -25,7 +25,7 @@ pub fn meetings(shape: &Shape, o: DVec3, d: DVec3, slack: f64) -> Vec<Meeting> {
     found
 }
 
-/// The pieces that are flat or quadrics: of a mesh its triangles, of an isosurface none.
+/// The flat and quadric pieces: the triangles of a mesh, none of an isosurface.
 pub fn pieces(shape: &Shape) -> Vec<Shape> {
     match shape {
         Shape::Mesh { data, map, .. } => {
@@ -41,7 +41,7 @@ pub fn pieces(shape: &Shape) -> Vec<Shape> {
     }
 }
 
-/// How far a point lies from a piece, in metres: of quadrics and disks to first order.
+/// The distance of a point from a piece, in metres; to first order for quadrics and disks.
 pub fn distance(piece: &Shape, p: DVec3) -> f64 {
     match piece {
         Shape::Sphere { center, radius } => (p.distance(*center) - radius).abs(),
@@ -111,7 +111,7 @@ fn meetings_of(piece: &Shape, o: DVec3, d: DVec3) -> Vec<Meeting> {
     }
 }
 
-/// Coordinates along both edges, and metres above their plane.
+/// Coordinates along both edges, and height above their plane in metres.
 fn in_plane(origin: DVec3, [e, f]: [DVec3; 2], p: DVec3) -> DVec3 {
     DMat3::from_cols(e, f, e.cross(f).normalize()).inverse() * (p - origin)
 }
@@ -155,7 +155,7 @@ fn quadric(origin: DVec3, axes: DMat3, cylinder: bool, o: DVec3, d: DVec3) -> Ve
     vec![meeting(w / a), meeting(c / w)]
 }
 
-/// A length that no radius of the quadric falls below.
+/// A lower bound of the radii of the quadric.
 fn thinnest(axes: DMat3, cylinder: bool) -> f64 {
     let g = axes.inverse();
     let norm = |i: usize| g.row(i).length_squared();

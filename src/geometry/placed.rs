@@ -1,4 +1,4 @@
-//! Shapes in a space of their own: meshes and isosurfaces, and whatever moves.
+//! Shapes in local space: meshes, isosurfaces and all that move.
 use std::sync::Arc;
 
 use fearless_simd::Simd;
@@ -19,7 +19,7 @@ use super::{
 };
 use crate::math::{F, Lanes, M, Pick, U, V};
 
-/// A shape with its way into the world.
+/// A shape with its transform to world space.
 pub(super) struct Placed {
     /// Its first primitive.
     pub first: u32,
@@ -27,9 +27,9 @@ pub(super) struct Placed {
     still: DAffine3,
     rest: Rest,
     motion: Vec<Step>,
-    /// The local space is the world's.
+    /// Local space is world space.
     is_world: bool,
-    /// Around it, wherever it moves.
+    /// Bounding sphere over its whole motion.
     around: Around,
 }
 
@@ -39,16 +39,16 @@ pub(super) enum Body {
     Shape(Box<Tables>, Box<Lists>),
 }
 
-/// What a ray met of a placed shape: distance in the world, place in the body, triangle.
+/// The intersection of a ray with a placed shape: distance in world space, position in the body, triangle.
 pub(super) struct Meeting<L: Lanes> {
-    /// NaN or infinite where there is none.
+    /// NaN or infinite if there is none.
     pub t: F<L>,
     pub piece: U<L>,
     pub element: U<L>,
 }
 
 impl Placed {
-    /// `shape` is the whole in the world, at time 0.
+    /// Places a body. `shape` is the whole shape in world space at time 0.
     pub fn new(first: u32, body: Body, still: DAffine3, motion: &Motion, shape: &Shape) -> Placed {
         let is_world = motion.0.is_empty() && still == DAffine3::IDENTITY;
         let (center, radius) = shape.swept_sphere(motion);
@@ -56,13 +56,13 @@ impl Placed {
         Placed { first, body, still, rest, motion: motion.0.clone(), is_world, around }
     }
 
-    /// The lanes whose ray may meet it.
+    /// The lanes whose ray may hit it.
     #[inline(always)]
     pub fn near<L: Lanes>(&self, live: M<L>, o: V<L>, d: V<L>) -> M<L> {
         live & self.around.near(o, d)
     }
 
-    /// The map into the world at time 0.
+    /// The map to world space at time 0.
     pub fn still(&self) -> &DAffine3 {
         &self.still
     }
@@ -72,13 +72,13 @@ impl Placed {
         Pose::new(l, &self.rest, &self.motion, time)
     }
 
-    /// The first meeting of o + td, d of unit length, with 0 < t < `limit`. Lanes with a limit of 0 cost next to nothing.
+    /// The first intersection with o + td, d of unit length, with 0 < t < `limit`. Lanes with a limit of 0 cost almost nothing.
     #[simd]
     pub fn closest<L: Lanes>(&self, l: L, ray: (V<L>, V<L>), time: F<L>, limit: F<L>) -> Meeting<L> {
         self.meet(l, l.token(), &mut Stack::default(), ray, time, limit)
     }
 
-    /// The same; a mesh is met by the instructions of `s`, whatever the lanes.
+    /// The same; a mesh is tested with the instructions of `s`, for any lanes.
     #[inline(always)]
     pub fn meet<L: Lanes, S: Simd>(
         &self,
@@ -117,7 +117,7 @@ impl Placed {
         }
     }
 
-    /// The surface at a point `p` of the world.
+    /// The surface at a point `p` in world space.
     #[simd]
     pub fn surface_point<L: Lanes>(&self, l: L, place: &Place<L>, p: V<L>) -> SurfacePoint<L> {
         if self.is_world {
@@ -150,7 +150,7 @@ impl Placed {
         }
     }
 
-    /// Surface coordinates of a point, and the directions in which they grow.
+    /// Surface coordinates of a point, and the directions of their gradients.
     #[simd]
     pub fn coordinates<L: Lanes>(&self, l: L, place: &Place<L>, point: &SurfacePoint<L>) -> (Coordinates<L>, [V<L>; 2]) {
         let pose = self.pose(l, place.time);
@@ -194,7 +194,7 @@ impl Placed {
         Toward { wi, pdf: local.pdf * stretch(&pose, wi), front: local.front }
     }
 
-    /// The density of [`Placed::toward`].
+    /// The pdf of [`Placed::toward`] per solid angle.
     #[simd]
     pub fn pdf_toward<L: Lanes>(&self, l: L, place: &Place<L>, x: V<L>, wi: V<L>) -> F<L> {
         let pose = self.pose(l, place.time);
@@ -213,7 +213,8 @@ impl Placed {
     }
 }
 
-/// What a density over directions in the local space becomes in the world: |det G| / |G ω|³ with G the map into it.
+/// The factor from a pdf per solid angle in local space to one in world space: |det G| / |G ω|³, where G is the map to local
+/// space.
 #[inline(always)]
 fn stretch<L: Lanes>(pose: &Pose<L>, wi: V<L>) -> F<L> {
     let square = pose.vector_to_local(wi).length_squared();

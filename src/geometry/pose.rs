@@ -1,10 +1,10 @@
-//! Ways between the space of a shape and the world, in lanes, at the time of each.
+//! Transforms between local and world space, in lanes, each at its own time.
 use glam::{DAffine3, DMat3, DVec3};
 
 use super::Step;
 use crate::math::{F, Lanes, V, trig::sin_cos_turns};
 
-/// An affine map and its inverse, rounded: where something is at time 0.
+/// The transform at time 0: an affine map and its inverse, rounded.
 pub(super) struct Rest {
     axes: [[f32; 3]; 3],
     origin: [f32; 3],
@@ -34,7 +34,7 @@ pub(super) struct Pose<L: Lanes> {
 }
 
 impl<L: Lanes> Pose<L> {
-    /// Where something is at `time`.
+    /// The transform at `time`.
     #[inline(always)]
     pub fn new(l: L, rest: &Rest, motion: &[Step], time: F<L>) -> Self {
         let mut axes = three(l, &rest.axes);
@@ -73,13 +73,13 @@ impl<L: Lanes> Pose<L> {
         self.vector_to_world(p) + self.origin
     }
 
-    /// The image of a covector, as a normal is: of another length.
+    /// The image of a covector such as a normal, not normalised.
     #[inline(always)]
     pub fn normal_to_world(&self, n: V<L>) -> V<L> {
         self.rows[0] * n.x + (self.rows[1] * n.y + self.rows[2] * n.z)
     }
 
-    /// How far [`Pose::point_to_local`] may be off at `p`, in the local space: the sum over its coordinates.
+    /// Upper bound of the error of [`Pose::point_to_local`] at `p`, summed over the local coordinates.
     #[inline(always)]
     pub fn rounding(&self, p: V<L>) -> F<L> {
         // Each coordinate is rounded as the differences to the origin, the products and two sums.
@@ -90,7 +90,7 @@ impl<L: Lanes> Pose<L> {
     }
 }
 
-/// A part of a [`Step`] in lanes.
+/// A fraction of a [`Step`] in lanes.
 struct Partial<L: Lanes> {
     axes: [V<L>; 3],
     way: V<L>,

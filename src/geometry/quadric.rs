@@ -1,8 +1,8 @@
 //! Ellipsoid and the side of a cylinder: the unit sphere and the unit cylinder under an affine map, anchored like
 //! [`super::sphere`].
 //!
-//! A point x has the local coordinates y = G (x − q) from the anchor q, which itself lies at m. Without their third components
-//! in case of the cylinder, c(x) = |y|² + 2 y·m vanishes on the surface, and ∇c/2 = Gᵀ(m + y).
+//! A point x has the local coordinates y = G (x − q) from the anchor q, which itself lies at m. For the cylinder, the third
+//! components are dropped. Then c(x) = |y|² + 2 y·m vanishes on the surface, and ∇c/2 = Gᵀ(m + y).
 use std::f32::consts::TAU;
 
 use glam::{DVec2, DVec3};
@@ -18,7 +18,7 @@ pub struct Quadric {
 }
 
 impl Quadric {
-    /// An ellipsoid or the side of a cylinder, which may have caps. Anchored near `near`.
+    /// Builds an ellipsoid or the side of a cylinder, which may have caps, anchored near `near`.
     pub fn new(piece: &Shape, capped: bool, near: DVec3) -> Quadric {
         let (origin, axes, cylinder) = match piece {
             Shape::Ellipsoid { center, axes } => (*center, axes, false),
@@ -54,7 +54,7 @@ impl Quadric {
         self.rows
     }
 
-    /// The nearest meeting of o + td with t > 0; NaN where there is none.
+    /// The nearest intersection with o + td with t > 0; NaN if there is none.
     #[inline(always)]
     pub(super) fn intersect<L: Lanes>(&self, l: L, o: V<L>, d: V<L>) -> Fraction<L> {
         let [near, far] = self.splat(l).meetings(o, d);
@@ -62,7 +62,7 @@ impl Quadric {
         first.only(first.numerator.above(0.0))
     }
 
-    /// The same for a capped cylinder, with the number of its piece.
+    /// The same for a capped cylinder, with the number of the piece.
     #[inline(always)]
     pub(super) fn intersect_solid<L: Lanes>(&self, l: L, o: V<L>, d: V<L>) -> (Fraction<L>, U<L>) {
         self.splat(l).meet_solid(l, o, d)
@@ -75,7 +75,8 @@ impl Quadric {
     }
 }
 
-/// How a ray crosses a quadric: ways along it in local units, its speed in them per metre, height and climb per unit.
+/// The crossing of a ray with a quadric: distances along the ray in local units, its speed in them per metre, height and slope
+/// per unit.
 struct Crossing<L: Lanes> {
     ways: [F<L>; 2],
     speed: F<L>,
@@ -86,12 +87,12 @@ struct Crossing<L: Lanes> {
 /// Quadrics in lanes.
 pub(super) struct Local<L: Lanes> {
     g: [V<L>; 3],
-    /// Place of the anchor.
+    /// Local position of the anchor.
     pub m: V<L>,
     anchor: V<L>,
     pub is_cylinder: M<L>,
     is_capped: M<L>,
-    /// What the third component counts: 0 for a cylinder.
+    /// Weight of the third component: 0 for a cylinder.
     weight: F<L>,
 }
 
@@ -114,19 +115,19 @@ impl<L: Lanes> Local<L> {
         V { x: self.g[0].dot(v), y: self.g[1].dot(v), z: self.g[2].dot(v) }
     }
 
-    /// The local coordinates of x from the anchor.
+    /// The local coordinates of x relative to the anchor.
     #[inline(always)]
     pub fn local(&self, x: V<L>) -> V<L> {
         self.linear(x - self.anchor)
     }
 
-    /// Without the third component of cylinders.
+    /// Drops the third component of cylinders.
     #[inline(always)]
     fn across(&self, v: V<L>) -> V<L> {
         V { z: v.z * self.weight, ..v }
     }
 
-    /// Both meetings of o + td in the order of t, NaN where there are none; t may be negative.
+    /// Both intersections with o + td in the order of t, NaN if there are none; t may be negative.
     #[inline(always)]
     pub fn meetings(&self, o: V<L>, d: V<L>) -> [Fraction<L>; 2] {
         let Crossing { ways, speed, z, climb } = self.crossing(o, d);
@@ -137,7 +138,7 @@ impl<L: Lanes> Local<L> {
         ]
     }
 
-    /// Where a ray meets the sphere, or the cylinder without its ends.
+    /// Intersects a ray with the sphere, or with the infinite cylinder.
     #[inline(always)]
     fn crossing(&self, o: V<L>, d: V<L>) -> Crossing<L> {
         let (y, e) = (self.local(o), self.linear(d));
@@ -157,9 +158,9 @@ impl<L: Lanes> Local<L> {
         Crossing { ways, speed, z: self.m.z + y.z, climb: e.z / speed }
     }
 
-    /// The first meeting of o + td with a capped cylinder, t > 0, and its piece: 0 is the side, 1 the base, 2 the top.
+    /// The first intersection of o + td with a capped cylinder, t > 0, and its piece: 0 is the side, 1 the base, 2 the top.
     ///
-    /// Side and caps are met in one frame, so that no rounding opens a gap between them.
+    /// Side and caps are intersected in the same frame, so that no rounding opens a gap between them.
     #[inline(always)]
     fn meet_solid(&self, l: L, o: V<L>, d: V<L>) -> (Fraction<L>, U<L>) {
         // Along the axis a ray crosses the side far away.
@@ -179,19 +180,19 @@ impl<L: Lanes> Local<L> {
         (Fraction { numerator: outside.pick(enter, leave), denominator: speed }.only(meets), piece)
     }
 
-    /// Whether the surface reaches the height `z`.
+    /// Whether the height `z` lies between the ends of the surface.
     #[inline(always)]
     fn is_within(&self, z: F<L>) -> M<L> {
         (z.ge(z.splat(0.0)) & z.splat(1.0).ge(z)) | !self.is_cylinder
     }
 
-    /// The place of x on the unit sphere or around the unit cylinder, with its height.
+    /// The position of x on the unit sphere or the unit cylinder, in local coordinates.
     #[inline(always)]
     pub fn place(&self, x: V<L>) -> V<L> {
         self.m + self.local(x)
     }
 
-    /// Gᵀ of the place without the height of cylinders: along the outward normal.
+    /// Gᵀ times the position, without the height of cylinders: along the outward normal.
     #[inline(always)]
     pub fn gradient(&self, place: V<L>) -> V<L> {
         self.g[0] * place.x + (self.g[1] * place.y + self.g[2] * (place.z * self.weight))
@@ -206,7 +207,7 @@ impl<L: Lanes> Local<L> {
         [bc * scale, ca * scale, ab * scale]
     }
 
-    /// (∂x/∂u, ∂x/∂v) at a place, for the coordinates of [`super::Shapes::coordinates`].
+    /// (∂x/∂u, ∂x/∂v) at a position, for the coordinates of [`super::Shapes::coordinates`].
     #[inline(always)]
     pub fn tangents(&self, place: V<L>) -> (V<L>, V<L>) {
         let zero = place.x.splat(0.0);
@@ -223,7 +224,7 @@ impl<L: Lanes> Local<L> {
         self.g[0].dot(self.g[1].cross(self.g[2])).abs()
     }
 
-    /// The point of the surface next to `p`, which lies on it but for rounding.
+    /// The point of the surface nearest to `p`, which is off the surface only by rounding.
     #[inline(always)]
     pub fn surface_point(&self, p: V<L>) -> SurfacePoint<L> {
         // Half of the rounding of c as `meetings` evaluates it is, as for a sphere, at most 36 ε max|yᵢ|, and each yᵢ has one of
@@ -242,7 +243,7 @@ impl<L: Lanes> Local<L> {
         SurfacePoint { p: self.is_capped.pick(self.between_caps(p, error), p), n_geometric, error }
     }
 
-    /// A point of the side moved between the caps by as much as keeps it there, however they round.
+    /// Moves a point of the side between the caps, far enough to stay there despite rounding.
     #[inline(always)]
     fn between_caps(&self, p: V<L>, error: F<L>) -> V<L> {
         let z = self.place(p).z;

@@ -1,8 +1,8 @@
-//! Directions towards a rectangle that are uniform over the solid angle in which it is seen.
+//! Solid-angle sampling of rectangles.
 //!
 //! C. Ureña, M. Fajardo and A. King, "An Area-Preserving Parametrization for Spherical Rectangles", Computer Graphics Forum
-//! 32(4), 2013. Angles between the sides are taken from their tangents rather than their cosines, and 1 − x² is not computed
-//! where x² is close to 1, so that f32 is enough however near the point is to the rectangle or its plane.
+//! 32(4), 2013. Angles between the sides are computed from tangents rather than cosines, and 1 − x² is never computed for x²
+//! close to 1, so f32 suffices at any distance from the rectangle or its plane.
 use std::f32::consts::TAU;
 
 use crate::math::{
@@ -10,20 +10,21 @@ use crate::math::{
     trig::{sin_cos_turns, turns_of},
 };
 
-/// A rectangle is sampled by its area where that, as it is seen from its nearest point, is less than so many steradian: it is as
-/// good there, and costs less.
+/// A rectangle is sampled by area if its area over the squared distance of its nearest point is less than this, in steradians:
+/// that is as good and costs less.
 const NEAR: f32 = 1.0;
-/// And where its solid angle is less than so many turns (2π steradian), of which it is known to within 3e-7 only.
+/// It is also sampled by area if its solid angle is less than this number of turns (2π steradians), because the error of the
+/// solid angle is 3e-7 turns.
 const LEAST: f32 = 0.04;
 
-/// A rectangle as seen from a point: the foot of the perpendicular from there on its plane is the origin.
+/// A rectangle as seen from a point. The origin is the foot of the perpendicular from the point to the plane.
 pub(super) struct SphericalRectangle<L: Lanes> {
     /// Least and greatest coordinates along the edges, in metres.
     x: [F<L>; 2],
     y: [F<L>; 2],
-    /// Of the point over the plane, without sign.
+    /// Distance of the point from the plane.
     height: F<L>,
-    /// Where the solid angle starts to be counted, in turns.
+    /// Offset of the solid angle, in turns.
     start: F<L>,
     /// The solid angle in turns.
     angle: F<L>,
@@ -32,8 +33,8 @@ pub(super) struct SphericalRectangle<L: Lanes> {
 }
 
 impl<L: Lanes> SphericalRectangle<L> {
-    /// Of lanes at rectangles, those that are better sampled by solid angle than by area, if there may be any, and how they see them.
-    /// `place` has the coordinates of the point in edges, `height` is that over the plane.
+    /// Returns the lanes of `rectangles` that are better sampled by solid angle than by area, if there may be any, with their
+    /// spherical rectangles. `place` has the coordinates of the point in edges, and `height` is that over the plane.
     #[inline(always)]
     pub fn of_near(rectangles: M<L>, edges: [V<L>; 2], place: [F<L>; 2], height: F<L>) -> Option<(M<L>, Self)> {
         if !rectangles.any() {
@@ -64,7 +65,7 @@ impl<L: Lanes> SphericalRectangle<L> {
         1.0 / (self.angle * TAU)
     }
 
-    /// From the foot of the perpendicular to a place in the rectangle.
+    /// Samples a point of the rectangle, relative to the foot of the perpendicular.
     #[inline(always)]
     pub fn sample(&self, u: (F<L>, F<L>)) -> V<L> {
         let square = self.height * self.height;
@@ -99,7 +100,7 @@ fn is_near<L: Lanes>(edges: [V<L>; 2], place: [F<L>; 2], height: F<L>) -> M<L> {
     (cubed * (NEAR * NEAR)).lt(squares[0] * squares[1] * (height * height))
 }
 
-/// The angle at a corner of the spherical rectangle, or what it lacks to a half turn, in turns: arccos of `product` over the
+/// The angle at a corner of the spherical rectangle, or its supplement to half a turn, in turns: arccos of `product` over the
 /// distances of the two sides.
 #[inline(always)]
 fn corner_angle<L: Lanes>(height: F<L>, x: F<L>, y: F<L>, product: F<L>) -> F<L> {
@@ -114,7 +115,8 @@ mod tests {
     use super::*;
     use crate::math::One;
 
-    /// Solid angle of a polygon and the integral of the unit direction over it (Lambert's formula), from its unit corners.
+    /// Solid angle of a polygon, and the integral of the unit direction over it (Lambert's formula), from unit vectors to its
+    /// corners.
     fn exact(corners: [DVec3; 4]) -> (f64, DVec3) {
         let triangle = |a: DVec3, b: DVec3, c: DVec3| {
             // A. van Oosterom and J. Strackee, "The Solid Angle of a Plane Triangle", 1983.

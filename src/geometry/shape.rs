@@ -1,4 +1,4 @@
-//! Shapes as a scene describes them: in world space, in f64, placed by transforms.
+//! Shapes of scene descriptions: in world space, in f64, after their transforms.
 use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DVec3};
@@ -6,7 +6,7 @@ use glam::{DAffine3, DMat3, DVec3};
 use super::{Isosurface, MeshData, bounds::Bounds, cuboid::face};
 use crate::math::{One, V};
 
-/// A shape. Every kind but the sphere is closed under affine maps, and a sphere becomes an ellipsoid.
+/// A shape. Every type except the sphere is closed under affine maps, and a sphere becomes an ellipsoid.
 #[derive(Clone, Debug)]
 pub enum Shape {
     Sphere {
@@ -37,7 +37,7 @@ pub enum Shape {
         axes: DMat3,
         capped: bool,
     },
-    /// What `map` makes of the triangles; they may be shared with other shapes.
+    /// The image of the triangles under `map`. They may be shared with other shapes.
     Mesh {
         data: Arc<MeshData>,
         /// [Around](MeshData::boxes) the data.
@@ -50,7 +50,7 @@ pub enum Shape {
     },
 }
 
-/// Where a flat shape ends, in its coordinates.
+/// The outline of a flat shape, in its coordinates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outline {
     /// u and v in [0, 1].
@@ -78,7 +78,7 @@ impl Shape {
         Shape::Cylinder { base, axes: DMat3::from_cols(a * radius, b * radius, top - base), capped }
     }
 
-    /// The same shape after a map that is invertible. The front stays the front, whether the map mirrors or not.
+    /// The image of the shape under an invertible map. The front stays the front, even if the map mirrors.
     pub fn transformed(&self, map: &DAffine3) -> Shape {
         let point = |p: &DVec3| map.transform_point3(*p);
         let linear = map.matrix3;
@@ -105,7 +105,7 @@ impl Shape {
         }
     }
 
-    /// The smooth pieces of the surface, a primitive each.
+    /// The smooth pieces of the surface, one primitive each.
     pub fn pieces(&self) -> Vec<Shape> {
         match self {
             Shape::Cuboid { origin, edges } => {
@@ -135,7 +135,7 @@ impl Shape {
         }
     }
 
-    /// What the scene file calls it.
+    /// Name in the scene file.
     pub fn name(&self) -> &'static str {
         match self {
             Shape::Sphere { .. } => "sphere",
@@ -150,7 +150,7 @@ impl Shape {
         }
     }
 
-    /// Whether a point lies inside; nothing lies inside a surface that is open.
+    /// Whether a point lies inside; always false for an open surface.
     pub fn contains(&self, p: DVec3) -> bool {
         match self {
             Shape::Sphere { center, radius } => p.distance(*center) < *radius,
@@ -189,7 +189,7 @@ impl Outline {
     }
 }
 
-/// The factor by which the map scales all lengths alike, if it does.
+/// The scale factor of a similarity; `None` for other maps.
 fn similarity(linear: &DMat3) -> Option<f64> {
     let gram = linear.transpose() * *linear;
     let square = (gram.x_axis.x + gram.y_axis.y + gram.z_axis.z) / 3.0;

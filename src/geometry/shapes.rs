@@ -20,29 +20,29 @@ use crate::math::{F, Lanes, M, Pick, U, V};
 pub struct Shapes {
     tables: Tables,
     placed: Vec<Placed>,
-    /// What every ray is tested against: analytic shapes, and the places of others among the placed ones.
+    /// Shapes that every ray tests: analytic ones, and indices of placed ones.
     lists: Lists,
     loops: Vec<u32>,
-    /// What rays find by a tree.
+    /// Shapes in a tree.
     objects: Option<Objects>,
-    /// Meshes are among them, whose triangles are elements.
+    /// Whether there are meshes, whose triangles are elements.
     has_elements: bool,
     moves: bool,
-    /// Triangles without area, which were left out.
+    /// Number of degenerate triangles, which are left out.
     dropped: usize,
 }
 
-/// What rays meet.
+/// The nearest hits of rays.
 pub struct Nearest<L: Lanes> {
     pub t: F<L>,
-    /// Or [`super::MISS`].
+    /// Primitive id, or [`super::MISS`].
     pub primitive: U<L>,
     /// The triangle of a mesh.
     pub element: U<L>,
 }
 
 impl Shapes {
-    /// The pieces of the shapes are numbered in their order. `near` is where the scene happens.
+    /// Builds all shapes. Their pieces are numbered in order. `near` is a point in the middle of the scene.
     pub fn new<'a>(shapes: impl Iterator<Item = (&'a Shape, &'a Motion)> + Clone, near: DVec3) -> Shapes {
         let mut meshes = Meshes::new(shapes.clone());
         let mut all = Shapes::default();
@@ -65,7 +65,7 @@ impl Shapes {
         all
     }
 
-    /// Adds the pieces of a shape, but not where rays find them.
+    /// Adds the pieces of a shape to the tables, but not to lists or trees.
     fn push<'a>(&mut self, shape: &'a Shape, motion: &Motion, meshes: &mut Meshes, near: DVec3) -> Kind<'a> {
         let first = self.tables.len() as u32;
         let (body, still) = match shape {
@@ -113,12 +113,12 @@ impl Shapes {
         self.has_elements
     }
 
-    /// Whether some shape moves in the course of time.
+    /// Whether any shape moves.
     pub fn move_in_time(&self) -> bool {
         self.moves
     }
 
-    /// Triangles without area, which were left out.
+    /// Number of degenerate triangles, which are left out.
     pub fn dropped_triangles(&self) -> usize {
         self.dropped
     }
@@ -134,29 +134,29 @@ impl Shapes {
         self.objects.as_ref().map_or(0.0, |objects| objects.bounds().size().into_iter().fold(0.0, f32::max))
     }
 
-    /// Whether there are none but spheres that stand still, and few.
+    /// Whether there are only static spheres, and few.
     pub fn are_spheres(&self) -> bool {
         self.placed.is_empty() && self.objects.is_none() && self.lists.are_spheres()
     }
 
-    /// Whether rays run through lists only, and not through trees.
+    /// Whether there are only lists, and no trees.
     pub fn are_listed(&self) -> bool {
         self.objects.is_none() && self.loops.is_empty()
     }
 
-    /// Whether all surfaces stand still and are spheres, or open and flat.
+    /// Whether all surfaces are static spheres, or static, open and flat.
     pub fn are_simple(&self) -> bool {
         self.placed.is_empty() && self.tables.are_simple()
     }
 
-    /// [`Shapes::closest`] where all [are spheres](Shapes::are_spheres).
+    /// [`Shapes::closest`] for scenes whose shapes all [are spheres](Shapes::are_spheres).
     #[inline(always)]
     pub fn closest_sphere<L: Lanes>(&self, l: L, o: V<L>, d: V<L>) -> Nearest<L> {
         let (t, primitive) = self.lists.closest_sphere(l, o, d);
         Nearest { t, primitive, element: l.u(0) }
     }
 
-    /// [`Shapes::surface_point`] where all [are simple](Shapes::are_simple).
+    /// [`Shapes::surface_point`] for scenes whose shapes all [are simple](Shapes::are_simple).
     #[inline(always)]
     pub fn simple_point<L: Lanes>(&self, l: L, primitive: U<L>, p: V<L>) -> SurfacePoint<L> {
         self.tables.simple_point(l, primitive, p)
@@ -220,7 +220,7 @@ impl Shapes {
         (along_u, along_v)
     }
 
-    /// The normal that a smooth mesh is shaded with, elsewhere the geometric one.
+    /// The shading normal of a smooth mesh, otherwise the geometric normal.
     #[inline(always)]
     pub fn smooth_normal<L: Lanes>(&self, l: L, place: &Place<L>, point: &SurfacePoint<L>) -> V<L> {
         let mut normal = point.n_geometric;
@@ -231,7 +231,7 @@ impl Shapes {
         normal
     }
 
-    /// A direction from `x` towards the given places, from the point `u` of the unit square.
+    /// Samples a direction from `x` towards the given primitives, with the point `u` of the unit square.
     #[inline(always)]
     pub fn toward<L: Lanes>(&self, l: L, place: &Place<L>, x: V<L>, u: (F<L>, F<L>)) -> Toward<L> {
         let mut toward = self.tables.toward(l, place.primitive, x, u);
@@ -242,7 +242,7 @@ impl Shapes {
         toward
     }
 
-    /// The density of [`Shapes::toward`] at the unit direction `wi`, in which the given places lie.
+    /// The pdf of [`Shapes::toward`] per solid angle at the unit direction `wi`, in which the given primitives lie.
     #[inline(always)]
     pub fn pdf_toward<L: Lanes>(&self, l: L, place: &Place<L>, x: V<L>, wi: V<L>) -> F<L> {
         let mut pdf = self.tables.pdf_toward(l, place.primitive, x, wi);
@@ -263,7 +263,7 @@ impl Shapes {
     }
 }
 
-/// Lanes at placed shapes, one shape after the other.
+/// Iterates over placed shapes, with the lanes at each.
 struct AtPlaced<L: Lanes> {
     l: L,
     index: U<L>,
@@ -271,7 +271,7 @@ struct AtPlaced<L: Lanes> {
 }
 
 impl<L: Lanes> AtPlaced<L> {
-    /// The next shape and the lanes that are at it.
+    /// The next shape, and the lanes at it.
     #[inline(always)]
     fn next<'a>(&mut self, shapes: &'a Shapes) -> Option<(M<L>, &'a Placed)> {
         if !self.rest.any() {
@@ -283,7 +283,7 @@ impl<L: Lanes> AtPlaced<L> {
         Some((here, &shapes.placed[index as usize]))
     }
 
-    /// The places of these lanes; the others are at the first primitive and element of the same shape.
+    /// The places of these lanes; the others get the first primitive and element of the same shape.
     #[inline(always)]
     fn within(&self, here: M<L>, place: &Place<L>) -> Place<L> {
         let primitive = place.primitive.to_array()[here.bits().trailing_zeros() as usize];
@@ -295,9 +295,9 @@ impl<L: Lanes> AtPlaced<L> {
     }
 }
 
-/// Meshes by their data, built once for all that show them.
+/// Meshes by their data, built once for all their instances.
 struct Meshes {
-    /// How many shapes show the data, and the mesh if it has been built in its own space.
+    /// Number of instances of the data, and the mesh if it has been built in local space.
     known: HashMap<*const MeshData, (usize, Option<Arc<Mesh>>)>,
 }
 
@@ -314,7 +314,7 @@ impl Meshes {
         Meshes { known }
     }
 
-    /// The mesh, and the map from its space to the world. A mesh that is shown once is built in the world.
+    /// The mesh, and the map from local to world space. A mesh with a single instance is built in world space.
     fn build(&mut self, data: &Arc<MeshData>, map: &DAffine3) -> (Arc<Mesh>, DAffine3) {
         let (uses, mesh) = self.known.entry(Arc::as_ptr(data)).or_insert((1, None));
         if *uses == 1 {

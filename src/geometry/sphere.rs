@@ -1,11 +1,11 @@
 //! The sphere, in *anchored* form: a point q on it near the scene, the outward unit normal n there, and the curvature k = 1/R.
 //!
-//! With m(x) = n + k(x − q), which at a point of the sphere is its normal, and
-//! c(x) = k|x − q|² + 2(x − q)·n, which is about twice the distance from the sphere, a ray o + td meets it where
-//! k t² + 2 b t + c(o) = 0 with b = m(o)·d. Neither the centre nor R² appears, so nothing large is subtracted: a wall of radius
-//! 10⁶ is as exact as a plane, and k = 0 is one. The discriminant is taken at the point of the ray nearest the anchor, so that a
-//! ball of radius 10⁻⁶ seen from far away is exact too. (The second is the idea of E. Haines et al., "Precision Improvements for
-//! Ray/Sphere Intersection", Ray Tracing Gems, 2019, chapter 7, moved to the anchor.)
+//! Let m(x) = n + k(x − q), the normal at points of the sphere, and c(x) = k|x − q|² + 2(x − q)·n, about twice the distance from
+//! the sphere. A ray o + td hits the sphere where k t² + 2 b t + c(o) = 0 with b = m(o)·d. Neither the centre nor R² appears, so
+//! nothing large is subtracted: a wall of radius 10⁶ is as exact as a plane, and k = 0 is one. The discriminant is taken at the
+//! point of the ray nearest the anchor, so that a ball of radius 10⁻⁶ seen from far away is exact too. (The second is the idea of
+//! E. Haines et al., "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems, 2019, chapter 7, moved to the
+//! anchor.)
 mod cone;
 mod coordinates;
 #[cfg(test)]
@@ -28,7 +28,7 @@ pub struct Sphere {
 }
 
 impl Sphere {
-    /// Anchors the sphere at its point nearest to `near`, which should lie where the scene happens.
+    /// Anchors the sphere at its point nearest to `near`, which should lie in the middle of the scene.
     pub fn new(center: DVec3, radius: f64, near: DVec3) -> Sphere {
         let n = (near - center).try_normalize().unwrap_or(DVec3::Y).as_vec3();
         // The rounded normal is taken as the exact one, so that anchor, normal and radius describe one sphere.
@@ -36,8 +36,8 @@ impl Sphere {
         Sphere { anchor: anchor.as_vec3().to_array(), normal: n.to_array(), curvature: (1.0 / radius) as f32 }
     }
 
-    /// The nearest meeting of o + td, d of unit length, with t > 0, as a fraction; NaN where there is none. `None` if there is none in
-    /// any lane.
+    /// The nearest intersection with o + td, d of unit length, with t > 0, as a fraction; NaN if there is none. `None` if no lane
+    /// has one.
     #[inline(always)]
     pub(super) fn intersect<L: Lanes>(&self, o: V<L>, d: V<L>) -> Option<Fraction<L>> {
         let from_anchor = o - self.anchor;
@@ -64,7 +64,7 @@ impl Sphere {
         Some(Fraction { numerator: meets.pick(numerator, w.splat(f32::NAN)), denominator })
     }
 
-    /// The directions in which this sphere is seen from `x`.
+    /// The cone of directions from `x` to this sphere.
     #[inline(always)]
     pub fn seen_from<L: Lanes>(&self, l: L, x: V<L>) -> Cone<L> {
         let [[qx, qy, qz, k], [nx, ny, nz, _]] = self.rows();
@@ -78,7 +78,7 @@ impl Sphere {
     }
 }
 
-/// The point of the sphere with these rows that is nearest to `p`, which lies on it but for rounding.
+/// The point of the sphere with these rows that is nearest to `p`, which is off the surface only by rounding.
 #[inline(always)]
 pub(super) fn surface_point<L: Lanes>(
     [qx, qy, qz, curvature]: [F<L>; 4],

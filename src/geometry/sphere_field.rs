@@ -1,17 +1,17 @@
-//! Many spheres by formula, for scenes, tests and benchmarks.
+//! Procedural fields of spheres, for scenes, tests and benchmarks.
 use glam::{DVec3, UVec3};
 
 use super::Shape;
 use crate::sampling::hash::{GOLDEN, hash_one};
 
-/// Cells for each sphere, so that no rows are seen.
+/// Cells per sphere, so that no rows are visible.
 const CELLS: f64 = 2.0;
-/// Radii as parts of the largest that fits into a cell.
+/// Minimum radius, as a fraction of the largest that fits into a cell.
 const LEAST_RADIUS: f64 = 0.4;
 const MOST_RADIUS: f64 = 0.95;
 
-/// `count` spheres in the box from `min` on, none of which touch: each has a cell of a grid to itself, where its radius and its
-/// place follow from its number and `seed`.
+/// Generates `count` disjoint spheres in the box that starts at `min`. Each has its own cell of a grid; its number and `seed`
+/// determine its radius and its position there.
 pub fn sphere_field(count: u32, min: DVec3, size: DVec3, seed: u32) -> Vec<Shape> {
     let grid = grid(count, size);
     let cell = size / grid.as_dvec3();
@@ -35,7 +35,7 @@ pub fn sphere_field(count: u32, min: DVec3, size: DVec3, seed: u32) -> Vec<Shape
     (0..count).map(sphere).collect()
 }
 
-/// A grid of about [`CELLS`] times `count` cells, and not fewer, that are about cubes.
+/// A grid of at least [`CELLS`] times `count` cells, which are roughly cubes.
 fn grid(count: u32, size: DVec3) -> UVec3 {
     let count = f64::from(count) * CELLS;
     let mut edge = (size.element_product() / count).cbrt();

@@ -1,4 +1,4 @@
-//! What a path needs to know of the surface point it meets.
+//! The surface point at a hit.
 use crate::math::{F, Lanes, M, Pick, U, V};
 
 /// A point of a surface in lanes.
@@ -7,7 +7,7 @@ pub struct SurfacePoint<L: Lanes> {
     pub p: V<L>,
     /// Unit geometric normal on the front side.
     pub n_geometric: V<L>,
-    /// How far along the normal a ray that starts at `p` must be moved to be strictly on that side of the surface.
+    /// Offset along the normal that puts the origin of a ray from `p` strictly on that side of the surface.
     pub error: F<L>,
 }
 
@@ -24,23 +24,23 @@ impl<L: Lanes> Pick<SurfacePoint<L>> for M<L> {
 
 /// Surface coordinates.
 pub struct Coordinates<L: Lanes> {
-    /// To the right and downwards as pictures are read, [0, 1] on shapes that are not meshes.
+    /// To the right and downwards, as images are stored; [0, 1] on shapes other than meshes.
     pub u: F<L>,
     pub v: F<L>,
 }
 
-/// Where on the shapes of a scene a point lies.
+/// A reference to a primitive, its triangle and a time.
 #[derive(Clone, Copy)]
 pub struct Place<L: Lanes> {
     pub primitive: U<L>,
     /// The triangle of a mesh.
     pub element: U<L>,
-    /// From 0 to 1, over which motion runs.
+    /// Time of motion, from 0 to 1.
     pub time: F<L>,
 }
 
 impl<L: Lanes> Place<L> {
-    /// On primitives that neither have elements nor move.
+    /// A reference to primitives that neither have elements nor move.
     #[inline(always)]
     pub fn of(l: L, primitive: U<L>) -> Self {
         Place { primitive, element: l.u(0), time: l.f(0.0) }

@@ -1,4 +1,4 @@
-//! What rays meet of analytic shapes: rows by primitive. How they are met is in [`super::lists`].
+//! Surface data of analytic shapes: rows by primitive. [`super::lists`] has the intersection tests.
 use glam::DVec3;
 
 use super::{
@@ -10,47 +10,47 @@ use super::{
 };
 use crate::math::{F, Lanes, M, Pick, U, V, trig::turns_of};
 
-/// The kind of a primitive, in the last two bits of its tag; the rest is its place in the table of the kind.
+/// The type of a primitive, in the last two bits of its tag; the rest is its index in the table of the type.
 pub(super) const SPHERE: u32 = 0;
 pub(super) const FLAT: u32 = 1;
 pub(super) const QUADRIC: u32 = 2;
-/// Not in these tables: see [`super::placed`].
+/// The primitive is not in these tables: see [`super::placed`].
 pub(super) const PLACED: u32 = 3;
 
-/// Analytic shapes by primitive. Kinds that there are none of cost nothing.
+/// Analytic shapes by primitive. Absent types cost nothing.
 #[derive(Default)]
 pub(super) struct Tables {
-    /// By primitive: the anchor and the curvature; the normal there and the tag.
+    /// For each primitive, the anchor and the curvature; the normal there and the tag.
     pub(super) anchors: Vec<[f32; 4]>,
     pub(super) normals: Vec<[f32; 4]>,
-    /// Four rows each: see [`Flat::rows`] and [`Quadric::rows`].
+    /// Four rows per primitive: see [`Flat::rows`] and [`Quadric::rows`].
     pub(super) flat_rows: Vec<[f32; 4]>,
     quadric_rows: Vec<[f32; 4]>,
-    /// Of flats: see [`Flat::roundings`]; 0 where they are not part of a closed shape.
+    /// For flat pieces, see [`Flat::roundings`]; 0 if they do not belong to a closed shape.
     roundings: Vec<[f32; 4]>,
-    /// Some are made of several pieces that enclose a space.
+    /// Whether any shape has several pieces that enclose a volume.
     have_closed: bool,
 }
 
 impl Tables {
-    /// How many primitives there are.
+    /// Number of primitives.
     pub fn len(&self) -> usize {
         self.anchors.len()
     }
 
-    /// A primitive that is elsewhere.
+    /// Adds a primitive of a placed shape.
     pub fn push_placed(&mut self, index: usize) {
         self.anchors.push([0.0; 4]);
         self.normals.push([0.0, 1.0, 0.0, tag(PLACED, index)]);
     }
 
-    /// Where a primitive is, if it is elsewhere.
+    /// The index of the placed shape, if the primitive belongs to one.
     pub fn placed_at(&self, primitive: u32) -> Option<usize> {
         let tag = self.normals[primitive as usize][3].to_bits();
         (tag & 3 == PLACED).then_some((tag >> 2) as usize)
     }
 
-    /// Adds an analytic shape, whose pieces get the next numbers. `near` is where the scene happens.
+    /// Adds an analytic shape, whose pieces get the next numbers. `near` is a point in the middle of the scene.
     pub fn push_shape(&mut self, shape: &Shape, near: DVec3) {
         let closed = shape.piece_count() > 1;
         self.have_closed |= closed;
@@ -83,12 +83,12 @@ impl Tables {
         l.rows(&self.normals, primitive)[3].bits()
     }
 
-    /// Whether all surfaces are spheres or open and flat, which are as spheres of curvature 0.
+    /// Whether all surfaces are spheres, or open and flat, which are treated as spheres of curvature 0.
     pub fn are_simple(&self) -> bool {
         self.quadric_rows.is_empty() && !self.have_closed
     }
 
-    /// [`Tables::surface_point`] where all are [simple](Tables::are_simple).
+    /// [`Tables::surface_point`] if all surfaces are [simple](Tables::are_simple).
     #[inline(always)]
     pub fn simple_point<L: Lanes>(&self, l: L, primitive: U<L>, p: V<L>) -> SurfacePoint<L> {
         sphere::surface_point(l.rows(&self.anchors, primitive), l.rows(&self.normals, primitive), p)
@@ -153,7 +153,7 @@ impl Tables {
         (along_u, along_v)
     }
 
-    /// The lanes at flat primitives, if there are any, and the way to `p`.
+    /// The lanes at flat primitives, if there are any, and the vector to `p`.
     #[inline(always)]
     pub(super) fn flat<L: Lanes>(&self, l: L, tag: U<L>, primitive: U<L>, p: V<L>) -> Option<AtFlat<L>> {
         let here = (tag & 3).is(FLAT);
@@ -190,11 +190,11 @@ pub(super) fn coordinate<L: Lanes>([x, y, z, at_anchor]: [F<L>; 4], from_anchor:
 pub(super) struct AtFlat<L: Lanes> {
     pub here: M<L>,
     pub rows: [[F<L>; 4]; 4],
-    /// The way from the anchor to a point.
+    /// Vector from the anchor to a point.
     pub from_anchor: V<L>,
 }
 
-/// The rows of the lanes in `here`; the others get those of the first entry.
+/// The rows of the lanes in `here`; the others get the first entry.
 #[inline(always)]
 fn four_rows<L: Lanes>(l: L, table: &[[f32; 4]], here: M<L>, tag: U<L>) -> [[F<L>; 4]; 4] {
     let first = here.pick((tag >> 2) << 2, l.u(0));

@@ -1,7 +1,7 @@
-//! Directions from a point towards a primitive, for light samples, with their densities per solid angle.
+//! Sampling of directions from a point towards a primitive, for light samples, with pdfs per solid angle.
 //!
-//! Spheres and ellipsoids are sampled by the cone in which they are seen, rectangles that are seen large by their solid angle, other
-//! flat shapes and cylinders by their area. An affine map A takes a density over directions p' to p(ω) = p' |det A| / |A ω|³.
+//! Spheres and ellipsoids are sampled by the cone that they subtend, large rectangles by solid angle, other flat shapes and
+//! cylinders by area. An affine map A transforms a pdf p' over directions to p(ω) = p' |det A| / |A ω|³.
 use std::f32::consts::TAU;
 
 use super::{
@@ -17,13 +17,13 @@ use crate::{
     sampling::warp::{disk, triangle},
 };
 
-/// A direction towards a primitive.
+/// A sampled direction towards a primitive.
 pub struct Toward<L: Lanes> {
     /// Unit.
     pub wi: V<L>,
-    /// 0 where there is none.
+    /// Pdf per solid angle; 0 if there is no direction.
     pub pdf: F<L>,
-    /// The front of the primitive is what is seen first along it.
+    /// Lanes whose direction hits the front of the primitive first.
     pub front: M<L>,
 }
 
@@ -35,13 +35,13 @@ impl<L: Lanes> Pick<Toward<L>> for M<L> {
 }
 
 impl Tables {
-    /// The cone in which given primitives are seen from `x`; only for spheres.
+    /// The cone of directions from `x` to the given primitives; only for spheres.
     #[inline(always)]
     fn cone<L: Lanes>(&self, l: L, primitive: U<L>, x: V<L>) -> Cone<L> {
         Cone::of_sphere(l.rows(&self.anchors, primitive), l.rows(&self.normals, primitive), x)
     }
 
-    /// A direction from `x` towards the given primitives, from the point `u` of the unit square.
+    /// Samples a direction from `x` towards the given primitives, with the point `u` of the unit square.
     #[inline(always)]
     pub fn toward<L: Lanes>(&self, l: L, primitive: U<L>, x: V<L>, u: (F<L>, F<L>)) -> Toward<L> {
         let tag = self.tag(l, primitive);
@@ -59,7 +59,7 @@ impl Tables {
         toward
     }
 
-    /// The density of [`Tables::toward`] at the unit direction `wi`, in which the given primitives lie.
+    /// The pdf of [`Tables::toward`] per solid angle at the unit direction `wi`, in which the given primitives lie.
     #[inline(always)]
     pub fn pdf_toward<L: Lanes>(&self, l: L, primitive: U<L>, x: V<L>, wi: V<L>) -> F<L> {
         let tag = self.tag(l, primitive);
@@ -76,14 +76,14 @@ impl Tables {
     }
 }
 
-/// Flat shapes as seen from points.
+/// Flat shapes, seen from points.
 struct SeenFlat<L: Lanes> {
     rows: [[F<L>; 4]; 4],
     from_anchor: V<L>,
     n: V<L>,
-    /// Of the point over the plane.
+    /// Height of the point over the plane.
     height: F<L>,
-    /// Rectangles that are sampled by their solid angle, if there are any.
+    /// Rectangles that are sampled by solid angle, if there are any.
     spherical: Option<(M<L>, SphericalRectangle<L>)>,
 }
 
@@ -123,7 +123,7 @@ impl<L: Lanes> SeenFlat<L> {
         exists.pick(pdf, l.f(0.0))
     }
 
-    /// To a point that is uniform over the area.
+    /// The vector to a uniformly sampled point of the area.
     #[inline(always)]
     fn uniform_over_area(&self, u: (F<L>, F<L>)) -> V<L> {
         let [to_u, to_v, a, b] = self.rows;
@@ -162,7 +162,7 @@ fn toward_quadric<L: Lanes>(l: L, quadric: &Local<L>, x: V<L>, u: (F<L>, F<L>)) 
     }
 }
 
-/// The cone in which the unit sphere is seen in local space.
+/// The cone of directions to the unit sphere, in local space.
 #[inline(always)]
 fn seen_from<L: Lanes>(l: L, quadric: &Local<L>, x: V<L>) -> Cone<L> {
     let (zero, one) = (l.f(0.0), l.f(1.0));
@@ -176,8 +176,8 @@ fn stretch<L: Lanes>(quadric: &Local<L>, wi: V<L>) -> F<L> {
     quadric.determinant() / (square * square.sqrt())
 }
 
-/// Uniform in angle and height: t²/(2π |∂x/∂φ × ∂x/∂z · ω|), summed over both places that the direction meets, for either may have
-/// been the one drawn; and whether the front is met first.
+/// The pdf of points that are uniform in angle and height: t²/(2π |∂x/∂φ × ∂x/∂z · ω|), summed over both intersections with the
+/// direction, because either may have been sampled; and whether the front is hit first.
 #[inline(always)]
 fn cylinder_pdf<L: Lanes>(l: L, quadric: &Local<L>, x: V<L>, wi: V<L>) -> (F<L>, M<L>) {
     let [near, far] = quadric.meetings(x, wi);
@@ -186,7 +186,7 @@ fn cylinder_pdf<L: Lanes>(l: L, quadric: &Local<L>, x: V<L>, wi: V<L>) -> (F<L>,
     (of_near + of_far, (met_near & front_near) | (!met_near & front_far))
 }
 
-/// Of the place at distance `t`: its density, whether it is one, and whether its front is seen.
+/// For the intersection at distance `t`: its pdf, whether it exists, and whether its front is visible.
 #[inline(always)]
 fn density_of_place<L: Lanes>(l: L, quadric: &Local<L>, x: V<L>, wi: V<L>, t: F<L>) -> (F<L>, M<L>, M<L>) {
     let nearing = quadric.gradient(quadric.place(x + wi * t)).dot(wi);

@@ -1,4 +1,4 @@
-//! Angles of rotation, whole turns apart from what is left of them: so that no number of turns costs digits.
+//! Angles of rotation, with whole turns stored apart from the fraction, so that no number of turns loses digits.
 use std::f64::consts::TAU;
 
 use crate::math::{F, Lanes, U, round::floor};
@@ -6,17 +6,17 @@ use crate::math::{F, Lanes, U, round::floor};
 /// Degrees of a turn.
 const TURN: f64 = 360.0;
 
-/// An angle, which may be many turns: in motion they are all turned.
+/// An angle of any number of turns, all of which count in motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Turns {
-    /// Modulo 2³²: times are multiples of 2⁻³², by which 2³² turns are none.
+    /// Whole turns modulo 2³²: times are multiples of 2⁻³², so 2³² turns have no effect.
     whole: i32,
-    /// What is left of the turns, between −1 and 1.
+    /// Fraction of a turn, between −1 and 1.
     part: f64,
 }
 
 impl Turns {
-    /// Exact up to the division by 360; not finite where `degrees` are not.
+    /// Converts degrees. Exact except for the division by 360; not finite if `degrees` is not.
     pub fn from_degrees(degrees: f64) -> Turns {
         const TURNS: f64 = (1u64 << 32) as f64;
         // Remainders are exact, and so is the quotient of a multiple.
@@ -24,12 +24,12 @@ impl Turns {
         Turns { whole: ((few - few % TURN) / TURN) as i64 as i32, part: degrees % TURN / TURN }
     }
 
-    /// The angle at a part of the time, in radians and less than two turns.
+    /// The angle at a fraction of the time, in radians and less than two turns.
     pub fn radians_at(self, time: f64) -> f64 {
         self.part * TAU * time + (f64::from(self.whole) * time).fract() * TAU
     }
 
-    /// All turns together.
+    /// The total number of turns.
     pub fn count(self) -> f64 {
         (f64::from(self.whole) + self.part).abs()
     }
@@ -47,7 +47,7 @@ impl Turns {
     }
 }
 
-/// Numbers in [0, 1] times 2³², without what is left of it.
+/// Numbers in [0, 1] times 2³², rounded down.
 #[inline(always)]
 fn fixed_point<L: Lanes>(x: F<L>) -> U<L> {
     let scaled = x * 65_536.0;
@@ -61,7 +61,7 @@ mod tests {
     use super::*;
     use crate::math::One;
 
-    /// How far two angles in turns are apart, whole turns not counted.
+    /// The difference of two angles in turns, modulo whole turns.
     fn distance(a: f64, b: f64) -> f64 {
         (a - b - (a - b).round()).abs()
     }

@@ -1,19 +1,19 @@
-//! Where to split a set of boxes: the surface area heuristic over bins.
+//! Splits a set of boxes by the surface area heuristic over bins.
 //!
-//! A split costs area(left)·leaves(left) + area(right)·leaves(right): the chance that a ray which meets the parent meets a
-//! part, times the work there (D. MacDonald and S. Booth, "Heuristics for ray tracing using space subdivision", 1990).
-//! Candidates are planes between bins of box centres (I. Wald, "On fast construction of SAH-based bounding volume
-//! hierarchies", 2007).
+//! The cost of a split is area(left)·leaves(left) + area(right)·leaves(right): the probability that a ray through the parent hits
+//! a part, times the work there (D. MacDonald and S. Booth, "Heuristics for ray tracing using space subdivision", 1990).
+//! Candidates are planes between bins of box centres (I. Wald, "On fast construction of SAH-based bounding volume hierarchies",
+//! 2007).
 use glam::Vec4;
 
-/// The most bins along an axis.
+/// Maximum number of bins along an axis.
 const BINS: usize = 32;
-/// The fewest.
+/// Minimum number of bins along an axis.
 const FEWEST: usize = 16;
-/// Items for which there is a bin, up to [`BINS`] of them.
+/// Number of items per bin, up to [`BINS`] bins.
 const ITEMS_PER_BIN: usize = 4;
 
-/// A box as the builder computes with it, four floats at a time; `w` means nothing.
+/// A box for computations of four floats at a time; `w` is unused.
 #[derive(Clone, Copy)]
 pub(super) struct Extent {
     pub min: Vec4,
@@ -29,7 +29,7 @@ impl Extent {
         self.max = self.max.max(max);
     }
 
-    /// Half the area of the six sides.
+    /// Half the area of the six faces.
     #[inline(always)]
     pub fn half_area(&self) -> f32 {
         let size = self.max - self.min;
@@ -59,7 +59,7 @@ impl Bin {
     }
 }
 
-/// Numbers the bins along the three axes.
+/// Maps centres to bins along the three axes.
 #[derive(Clone, Copy)]
 pub(super) struct Grid {
     base: Vec4,
@@ -96,7 +96,7 @@ pub(super) struct Plane {
     pub right: Extent,
 }
 
-/// The cheapest plane for boxes given by (minimum, maximum); none if all centres fall into one bin along every axis.
+/// The plane of lowest cost for boxes given by (minimum, maximum); `None` if all centres fall into one bin along every axis.
 pub(super) fn cheapest_plane<const LEAF_SIZE: usize>(boxes: impl Iterator<Item = (Vec4, Vec4)>, grid: &Grid) -> Option<Plane> {
     let mut bins = [[Bin::EMPTY; BINS]; 3];
     for (min, max) in boxes {

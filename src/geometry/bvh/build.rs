@@ -1,4 +1,4 @@
-//! Building: a binary tree from the top, which `collapse.rs` makes one of eight children a node.
+//! Builds a binary tree top-down, which `collapse.rs` turns into one with eight children per node.
 use glam::Vec4;
 
 use super::{
@@ -8,13 +8,13 @@ use super::{
 };
 use crate::geometry::bounds::Bounds;
 
-/// The number of a place in a leaf that holds nothing.
+/// Marks an empty slot of a leaf.
 pub const NONE: u32 = u32::MAX;
 
-/// The most branches between the root and a leaf. Where splits by the heuristic would lead further, items are halved instead.
+/// Maximum number of branches between the root and a leaf. If splits by the heuristic would go deeper, items are halved instead.
 pub(super) const MAX_DEPTH: usize = 36;
 
-/// The box of an item, with the item's number in `min.w`, so that sorting moves 32 bytes.
+/// The box of an item, with the item's number in `min.w`, so that sorting moves only 32 bytes.
 #[derive(Clone, Copy)]
 pub(super) struct Item {
     min: Vec4,
@@ -22,7 +22,8 @@ pub(super) struct Item {
 }
 
 impl Item {
-    /// The bits for number 0. Computing with the bits of small integers, which are subnormal reals, takes a hundred times as long.
+    /// Offset of the bits of numbers. The bits of small integers are subnormal reals, with which computation takes a hundred
+    /// times as long.
     const ZERO: u32 = 1 << 29;
 
     fn new(number: usize, bounds: &Bounds) -> Item {
@@ -41,7 +42,7 @@ impl Item {
     }
 }
 
-/// A run of items that go under one branch.
+/// A range of items below one branch.
 #[derive(Clone, Copy)]
 struct Part {
     start: usize,
@@ -72,8 +73,8 @@ struct Builder<const LEAF_SIZE: usize> {
 }
 
 impl Bvh {
-    /// A tree over boxes, none of which may be empty or infinite, and the numbers of the boxes in its leaves: leaf k holds
-    /// `order[k * LEAF_SIZE..][..LEAF_SIZE]`, of which the last ones may be [`NONE`].
+    /// Builds a tree over boxes, none of which may be empty or infinite, and returns it with the numbers of the boxes in its
+    /// leaves: leaf k holds `order[k * LEAF_SIZE..][..LEAF_SIZE]`, of which the last ones may be [`NONE`].
     pub fn build<const LEAF_SIZE: usize>(boxes: impl ExactSizeIterator<Item = Bounds>) -> (Bvh, Vec<u32>) {
         let count = boxes.len();
         let mut items = Vec::with_capacity(count);
@@ -88,7 +89,7 @@ impl Bvh {
 }
 
 impl<const LEAF_SIZE: usize> Builder<LEAF_SIZE> {
-    /// Adds the branch for `part`, under which there may be `levels` more levels, and what lies under it. Returns its place.
+    /// Adds the branch for `part` and its subtree, which may have up to `levels` levels. Returns its index.
     fn grow(&mut self, part: Part, levels: usize) -> u32 {
         let place = self.branches.len();
         let mut branch = Branch::leaf(part.bounds, part.start as u32, part.len() as u32);
@@ -116,7 +117,7 @@ impl<const LEAF_SIZE: usize> Builder<LEAF_SIZE> {
         self.halve(part)
     }
 
-    /// Brings the items left of the plane to the front.
+    /// Moves the items left of the plane to the front.
     fn partition(&mut self, part: Part, grid: &Grid, plane: &Plane) -> [Part; 2] {
         let items = &mut self.items[..part.end];
         let (mut left, mut right) = (Extent::EMPTY, Extent::EMPTY);
@@ -138,7 +139,7 @@ impl<const LEAF_SIZE: usize> Builder<LEAF_SIZE> {
         ]
     }
 
-    /// Two parts with as many items, along the axis on which the centres spread most.
+    /// Splits into two halves along the axis with the largest extent of centres.
     fn halve(&mut self, part: Part) -> [Part; 2] {
         let axis = (part.centers.max - part.centers.min).truncate().max_position();
         let middle = part.start + part.len() / 2;

@@ -1,27 +1,27 @@
-//! From a binary tree to one of eight children a node, at the lowest cost.
+//! Collapses a binary tree to one with eight children per node, at the lowest cost.
 //!
-//! A node costs its area, a leaf its area times [`LEAF_COST`], as the chance that a ray meets it. The cheapest way to have up to
-//! k trees under a branch follows from the cheapest ways under its two sides: C(k) = min over i of C_left(i) + C_right(k − i), or
-//! one tree, a node over the cheapest eight. (Dynamic programming after H. Ylitalo et al., "Efficient incoherent ray traversal on
-//! GPUs through compressed wide BVHs", HPG 2017.) Taking the largest children apart until there are eight, as is
-//! common, leaves half of the places empty, mostly at the bottom, where the nodes are many.
+//! The cost of a node is its area, and that of a leaf its area times [`LEAF_COST`], because the area is proportional to the
+//! probability of a hit. The cheapest forest of up to k trees under a branch follows from those under its two sides: C(k) = min
+//! over i of C_left(i) + C_right(k − i), or one tree, a node over the cheapest eight. (Dynamic programming after H. Ylitalo et
+//! al., "Efficient incoherent ray traversal on GPUs through compressed wide BVHs", HPG 2017.) The usual method, splitting the
+//! largest children until there are eight, leaves half of the slots empty, mostly at the bottom, where most nodes are.
 use super::{
     LEAF, Node, WIDTH,
     bins::Extent,
     build::{Item, NONE},
 };
 
-/// What a leaf costs, where a node costs 1.
+/// Cost of a leaf relative to a node.
 const LEAF_COST: f32 = 1.0;
 
-/// The cheapest ways to have trees under a branch; entry k − 1 is for up to k trees.
+/// The cheapest forests under a branch; entry k − 1 is for up to k trees.
 #[derive(Clone, Copy)]
 pub(super) struct Forest {
     sides: [u32; 2],
     costs: [f32; WIDTH],
-    /// How many of the trees are for each side; [0, 0] where the branch stays one tree.
+    /// Number of trees of each side; [0, 0] if the branch stays one tree.
     shares: [[u8; 2]; WIDTH],
-    /// How the eight children are shared if the branch is a node.
+    /// Number of the eight children of each side, if the branch is a node.
     children: [u8; 2],
 }
 
@@ -31,7 +31,7 @@ pub(super) struct Branch {
     bounds: Extent,
     first: u32,
     count: u32,
-    /// Of a leaf, costs alone.
+    /// For a leaf, only costs.
     pub forest: Forest,
 }
 
@@ -44,7 +44,7 @@ impl Branch {
 }
 
 impl Forest {
-    /// Over two branches that are done.
+    /// Combines two finished branches.
     pub fn over(bounds: &Extent, sides: [u32; 2], branches: &[Branch]) -> Forest {
         let [left, right] = sides.map(|side| &branches[side as usize].forest.costs);
         let (mut costs, mut shares) = ([f32::INFINITY; WIDTH], [[0; 2]; WIDTH]);
@@ -70,7 +70,7 @@ impl Forest {
     }
 }
 
-/// The wide tree as it grows.
+/// The wide tree during construction.
 pub(super) struct Collapse<'a> {
     branches: &'a [Branch],
     items: &'a [Item],
@@ -79,14 +79,14 @@ pub(super) struct Collapse<'a> {
     order: Vec<u32>,
 }
 
-/// The places of branches that become the children of a node.
+/// Indices of the branches that become the children of a node.
 struct Children {
     places: [u32; WIDTH],
     count: usize,
 }
 
 impl Collapse<'_> {
-    /// Nodes, the root first (none for no items), and the numbers of the items in leaves.
+    /// Returns the nodes, with the root first (none if there are no items), and the numbers of the items in leaves.
     pub fn of(branches: &[Branch], items: &[Item], leaf_size: usize) -> (Vec<Node>, Vec<u32>) {
         let mut collapse = Collapse { branches, items, leaf_size, nodes: Vec::new(), order: Vec::new() };
         let mut children = Children { places: [0; WIDTH], count: 0 };
@@ -102,7 +102,7 @@ impl Collapse<'_> {
         (collapse.nodes, collapse.order)
     }
 
-    /// Appends the trees under both sides of a branch, so many of each.
+    /// Appends `shares` trees from both sides of a branch.
     fn gather(&self, sides: [u32; 2], shares: [u8; 2], into: &mut Children) {
         for (side, share) in sides.into_iter().zip(shares) {
             let forest = &self.branches[side as usize].forest;
@@ -116,7 +116,7 @@ impl Collapse<'_> {
         }
     }
 
-    /// Adds a node and all under it, and returns its number.
+    /// Adds a node and its subtree, and returns its number.
     fn node(&mut self, children: &Children) -> u32 {
         let number = self.nodes.len();
         let mut node = Node::EMPTY;

@@ -1,13 +1,13 @@
-//! A tree of boxes over boxes, eight children a node: finds the few things a ray could meet among many.
+//! A bounding volume hierarchy with eight children per node: finds the few items that a ray may hit.
 //!
 //! | part | file |
 //! |---|---|
-//! | building, by the surface area heuristic | `build.rs`, `bins.rs`, `collapse.rs` |
-//! | the ray against eight boxes at once, conservatively | `slabs.rs` |
-//! | descending, near boxes first | `traverse.rs` |
+//! | construction by the surface area heuristic | `build.rs`, `bins.rs`, `collapse.rs` |
+//! | conservative test of a ray against eight boxes at once | `slabs.rs` |
+//! | traversal, near boxes first | `traverse.rs` |
 //!
-//! What a leaf holds is the caller's: triangles of a mesh or objects of a scene. Leaves are numbered 0, 1, 2, …, and the tree
-//! says which of the caller's items each holds ([`Bvh::build`]).
+//! The caller owns the contents of leaves: triangles of a mesh or objects of a scene. Leaves are numbered 0, 1, 2, …, and
+//! [`Bvh::build`] returns the caller's items in each.
 mod bins;
 mod build;
 mod collapse;
@@ -26,14 +26,14 @@ use super::bounds::Bounds;
 /// Children of a node.
 const WIDTH: usize = 8;
 
-/// Set in the reference to a child that is a leaf; the other bits number leaves or nodes.
+/// Marks references to leaves; the other bits are the number of the leaf or node.
 const LEAF: u32 = 1 << 31;
 
-/// Eight boxes and what is in them. A place that is not used has the empty box, which no ray meets.
+/// Eight boxes with references to their contents. Unused slots have the empty box, which no ray hits.
 #[derive(Clone, Copy)]
 #[repr(align(64))]
 struct Node {
-    /// By axis, then minima and maxima.
+    /// By axis, then by minimum and maximum.
     bounds: [[[f32; WIDTH]; 2]; 3],
     children: [u32; WIDTH],
 }
@@ -51,7 +51,7 @@ impl Node {
 
 /// A tree of boxes.
 pub struct Bvh {
-    /// The root first.
+    /// Nodes, with the root first.
     nodes: Vec<Node>,
     bounds: Bounds,
 }

@@ -1,21 +1,21 @@
-//! A ray against eight boxes at once, by slabs, so that rounding never loses a hit.
+//! Slab test of a ray against eight boxes at once, in which rounding never loses a hit.
 //!
-//! What must not be lost are the hits that the tests in the leaves *report*, rounding included. With o the origin and d the
-//! direction of the ray, z the axis of d's largest component, u = ε/2, and for a point of the scene a its distance from o along
-//! axis i and b that along z:
-//! * the test of triangles (`mesh/block.rs`) is exact for vertices that are off by u (2|a| + 4|b|) along i and u |b| along z;
+//! The test must not lose hits that the tests in the leaves *report*, including their rounding. Let o be the origin and d the
+//! direction of the ray, z the axis of d's largest component, and u = ε/2. For a point of the scene, let a be its distance from o
+//! along axis i, and b that along z:
+//! * the triangle test (`mesh/block.rs`) is exact for vertices with an error of u (2|a| + 4|b|) along i and u |b| along z;
 //! * the distance it returns is rounded by u, which along i is u |a|;
 //! * a slab test rounds a difference, a reciprocal and a product: 3 u |a|.
 //!
-//! With A and B the largest |a| and |b| in the box of everything, boxes that are wider by 7 u (A + B) on each side therefore contain
-//! all hits, with room for products of roundings. They are widened once a ray, by moving the origin the other way for near
-//! and for far planes (S. Woop, C. Benthin and I. Wald, "Watertight Ray/Triangle Intersection", JCGT 2013), which
-//! costs nothing per box; rounding the moved origin takes another u |oᵢ|. A slab test alone would do with 1 + 2γ₃ on the far side
-//! (T. Ize, "Robust BVH Ray Traversal", JCGT 2013), but would lose hits that exist by the rounding of vertices only, and with
-//! them the tightness of a mesh.
+//! Let A and B be the largest |a| and |b| in the box around all items. Boxes widened by 7 u (A + B) on each side therefore
+//! contain all hits, with a margin for products of roundings. They are widened once per ray, by shifting the origin in opposite
+//! directions for near and far planes (S. Woop, C. Benthin and I. Wald, "Watertight Ray/Triangle Intersection", JCGT 2013), which
+//! costs nothing per box; rounding the shifted origin adds u |oᵢ|. For the slab test alone a factor of 1 + 2γ₃ on the far side
+//! would suffice (T. Ize, "Robust BVH Ray Traversal", JCGT 2013), but it would lose hits that exist only by the rounding of
+//! vertices, and meshes would no longer be watertight.
 //!
-//! A component of d below 2⁻²⁶ of the largest is taken as that, with its sign: over the length of the scene this moves the ray by
-//! less than u B/4, and no infinity or NaN can come up.
+//! A component of d below 2⁻²⁶ of the largest is clamped to it, keeping its sign. Over the length of the scene this shifts the
+//! ray by less than u B/4, and no infinity or NaN can occur.
 use fearless_simd::{Simd, SimdBase, SimdMask, f32x8};
 
 use super::{Node, WIDTH};
@@ -24,7 +24,7 @@ use crate::{
     math::{F, Lanes, MAX_LANES, V},
 };
 
-/// What the test of boxes needs to know of the rays o + td of several lanes; by axis, then lane.
+/// The rays o + td of several lanes, prepared for the test of boxes; by axis, then lane.
 pub struct Slabs {
     near_origin: [[f32; MAX_LANES]; 3],
     far_origin: [[f32; MAX_LANES]; 3],
@@ -33,7 +33,7 @@ pub struct Slabs {
 }
 
 impl Slabs {
-    /// For boxes inside `bounds`. d need not be of unit length, but neither it nor its square may be 0 or infinite.
+    /// Prepares rays for boxes inside `bounds`. d need not be of unit length, but neither it nor its square may be 0 or infinite.
     #[inline(always)]
     pub fn new<L: Lanes>(l: L, o: V<L>, d: V<L>, bounds: &Bounds) -> Slabs {
         const ETA: f32 = 3.5 * f32::EPSILON;
@@ -83,12 +83,12 @@ pub(super) struct WideSlabs<S: Simd> {
     near_origin: [f32x8<S>; 3],
     far_origin: [f32x8<S>; 3],
     inverse: [f32x8<S>; 3],
-    /// By axis, 1 where d is negative, so that its near planes are the maxima.
+    /// By axis, 1 if d is negative and the near planes are the maxima.
     negative: [usize; 3],
 }
 
 impl<S: Simd> WideSlabs<S> {
-    /// Distances at which the ray enters the node's boxes, greater than 0, and as bits which of them it meets before `t_max`.
+    /// Distances greater than 0 at which the ray enters the node's boxes, and as bits the boxes that it hits before `t_max`.
     #[inline(always)]
     pub fn meet(&self, s: S, node: &Node, t_max: f32) -> ([f32; WIDTH], u32) {
         // The least positive number: 0 has two signs, and which one comes first would be up to the processor.

@@ -1,4 +1,4 @@
-//! Every box that a ray meets is shown.
+//! A traversal visits every box that a ray hits.
 use fearless_simd::{Fallback, Simd};
 use rand::{Rng, SeedableRng, rngs::SmallRng};
 
@@ -21,7 +21,7 @@ fn boxes(count: usize, rng: &mut SmallRng) -> Vec<Bounds> {
     boxes
 }
 
-/// Marks the items of the leaves it is shown.
+/// Marks the items of the visited leaves.
 struct Marks<'a> {
     order: &'a [u32],
     shown: Vec<bool>,
@@ -42,7 +42,7 @@ impl<S: Simd> Leaves<S> for Marks<'_> {
     }
 }
 
-/// Whether the ray meets the box, in f64.
+/// Whether the ray hits the box, in f64.
 fn meets(bounds: &Bounds, o: [f32; 3], d: [f32; 3]) -> bool {
     let (mut near, mut far) = (0.0f64, f64::INFINITY);
     for axis in 0..3 {

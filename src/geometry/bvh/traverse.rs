@@ -1,22 +1,22 @@
-//! Descending through the tree, near boxes first.
+//! Traversal of the tree, near boxes first.
 use fearless_simd::Simd;
 
 use super::{Bvh, LEAF, Node, Slabs, WIDTH, build::MAX_DEPTH};
 
-/// What leaves hold. A trait rather than a closure, which would be compiled without the instructions of `S`.
+/// The contents of leaves. This is a trait because a closure would be compiled without the instructions of `S`.
 pub trait Leaves<S: Simd> {
-    /// Tests what leaf `leaf` holds against the ray, keeps what is nearest, and returns the distance before which to go on
-    /// looking: `t_max` or less. To be `#[inline(always)]`.
+    /// Tests the contents of leaf `leaf` against the ray, keeps the nearest hit, and returns the distance at which the search
+    /// ends: `t_max` or less. Implementations should be `#[inline(always)]`.
     fn meet(&mut self, s: S, leaf: u32, t_max: f32) -> f32;
 
-    /// Any words of the leaf, one of each cache line: reading them early lets them come from memory while nearer boxes are
-    /// looked at, as a prefetch would, which safe code has not.
+    /// Any words of the leaf, one from each cache line. Reading them early acts as a prefetch, which safe code lacks: memory
+    /// responds while nearer boxes are tested.
     fn touch(&self, leaf: u32) -> u32;
 }
 
-/// Boxes that are still to be looked at, the nearest of a node last. May be used again for the next ray.
+/// Boxes that are still to be visited, the nearest of a node last. It can be reused for the next ray.
 pub struct Stack {
-    /// Distance (bits of a positive f32, which are in the order of the numbers) above the reference to the child.
+    /// Distance (the bits of positive f32 sort like their values) in the upper half, reference to the child in the lower half.
     entries: [u64; Stack::SIZE],
     len: usize,
 }
@@ -24,14 +24,14 @@ pub struct Stack {
 impl Stack {
     const SIZE: usize = 256;
 
-    /// An index that cannot be out of range: the depth of the tree is bounded, and so is `len`.
+    /// Indexes modulo the size, which needs no bounds check. The depth of the tree is bounded, so the index never wraps.
     #[inline(always)]
     fn at(&mut self, place: usize) -> &mut u64 {
         const { assert!(MAX_DEPTH * (WIDTH - 1) < Stack::SIZE) };
         &mut self.entries[place % Stack::SIZE]
     }
 
-    /// Puts an entry above those at `base` and higher that are farther.
+    /// Inserts an entry above the farther ones from `base` upwards.
     #[inline(always)]
     fn insert(&mut self, base: usize, entry: u64) {
         let mut place = self.len;
@@ -43,7 +43,7 @@ impl Stack {
         self.len += 1;
     }
 
-    /// The topmost reference with a distance not beyond `t_max`.
+    /// Pops the topmost reference whose distance is at most `t_max`.
     #[inline(always)]
     fn pop(&mut self, t_max: f32) -> Option<u32> {
         while self.len > 0 {
@@ -64,14 +64,14 @@ impl Default for Stack {
     }
 }
 
-/// The entry of the lowest place in `met`.
+/// The entry of the lowest set bit in `met`.
 #[inline(always)]
 fn entry(near: &[f32; WIDTH], node: &Node, met: u32) -> u64 {
     let place = met.trailing_zeros() as usize % WIDTH;
     u64::from(near[place].to_bits()) << 32 | u64::from(node.children[place])
 }
 
-/// Shows `leaves` every leaf whose box the ray of lane `lane` meets before the distance that `leaves` returned last, at first
+/// Passes to `leaves` every leaf whose box the ray of lane `lane` hits before the distance that `leaves` returned last, initially
 /// `t_max` > 0. Returns that distance.
 #[inline(always)]
 pub fn traverse<S: Simd>(

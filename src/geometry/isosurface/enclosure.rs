@@ -1,25 +1,25 @@
-//! Enclosures of a function and its derivative over a segment: a straight line and how far the function may be from it.
+//! Bounds of a function and its derivative over a segment: a straight line and the maximum distance of the function from it.
 //!
-//! With s in [−1, 1] along the segment, f(s) = a + b s + e(s), where |e| ≤ r, and q is a Lipschitz constant of e: |e′| ≤ q
-//! wherever there is a derivative. So f lies in a ± (|b| + r) and f′ in b ± q. Unlike intervals, whose width shrinks like that
-//! of the segment, r shrinks like its square, and one line holds both f and f′. (Affine arithmetic with a single symbol, as in
-//! A. Knoll et al., "Fast Ray Tracing of Arbitrary Implicit Surfaces with Interval and Affine Arithmetic", Computer Graphics
-//! Forum 28, 2009; the bound q of the derivative is added here.)
+//! Let s be in [−1, 1] along the segment. Then f(s) = a + b s + e(s), where |e| ≤ r, and q is a Lipschitz constant of e: |e′| ≤ q
+//! wherever the derivative exists. So f lies in a ± (|b| + r) and f′ in b ± q. The width of an interval shrinks like the segment,
+//! but r shrinks like its square, and one line bounds both f and f′. (Affine arithmetic with a single symbol, as in A. Knoll et
+//! al., "Fast Ray Tracing of Arbitrary Implicit Surfaces with Interval and Affine Arithmetic", Computer Graphics Forum 28, 2009;
+//! the bound q of the derivative is added here.)
 //!
-//! The bounds are rigorous. With u = ε/2, each rounded operation is off by at most u times its result, or by less than the
-//! smallest normal number where it underflows; those of a and b are added to r and q. Those of r and q themselves, which are
-//! sums and products of positive numbers with at most 12 roundings in a row, are covered by [`WIDEN`]. Overflow makes r infinite
-//! or NaN, of which nothing can be concluded, as comparisons with it are false.
+//! The bounds are rigorous. With u = ε/2, the error of each rounded operation is at most u times its result, or less than the
+//! smallest normal number if it underflows; the errors of a and b are added to r and q. Those of r and q themselves, which are
+//! sums and products of positive numbers with at most 12 successive roundings, are covered by [`WIDEN`]. Overflow makes r
+//! infinite or NaN, which proves nothing, because comparisons with it are false.
 use super::tape::Quantity;
 use crate::math::{F, Lanes, M, Pick};
 
-/// A rounding, and what its own bound may lose in being computed.
+/// A rounding error, including the rounding of its own bound.
 const ROUNDING: f32 = 0.51 * f32::EPSILON;
-/// Two of them.
+/// Two rounding errors.
 const TWO_ROUNDINGS: f32 = 1.02 * f32::EPSILON;
-/// 16 roundings of what is positive.
+/// Covers 16 roundings of positive numbers.
 pub(super) const WIDEN: f32 = 1.0 + 8.0 * f32::EPSILON;
-/// What may be lost in underflow.
+/// Error of underflow.
 const UNDERFLOW: f32 = f32::MIN_POSITIVE;
 
 /// f(s) = a + b s + e(s) for s in [−1, 1]; |e| ≤ r, |e′| ≤ q.
@@ -77,19 +77,19 @@ impl<L: Lanes> Enclosure<L> {
         Enclosure { a, b, r: (of_middle + of_slope) * WIDEN, q: of_slope }
     }
 
-    /// How far the function may be from a.
+    /// Maximum distance of the function from a.
     #[inline(always)]
     pub fn reach(&self) -> F<L> {
         (self.b.abs() + self.r) * WIDEN
     }
 
-    /// Nowhere zero. Then it has the sign of a.
+    /// Lanes whose function is nowhere zero; it then has the sign of a.
     #[inline(always)]
     pub fn has_no_zero(&self) -> M<L> {
         self.reach().lt(self.a.abs())
     }
 
-    /// Strictly monotone.
+    /// Lanes whose function is strictly monotone.
     #[inline(always)]
     pub fn is_monotone(&self) -> M<L> {
         self.q.lt(self.b.abs())
@@ -125,7 +125,7 @@ impl<L: Lanes> Enclosure<L> {
         self.map(&Line { at_middle: w - depth, slope, error, bend: slope.abs() + 1.0 })
     }
 
-    /// The extreme of two where either may be: half their sum and, up or down, half their distance.
+    /// The minimum or maximum of two where either is possible: half their sum plus or minus half their distance.
     #[inline(always)]
     fn extreme(&self, b: &Self, sign: f32) -> Self {
         let difference = self.subtract(b);

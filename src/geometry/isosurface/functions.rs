@@ -1,4 +1,5 @@
-//! Exponential, logarithm, sine and cosine of any number by our own polynomials, so that every processor gives the same bits.
+//! Exponential, logarithm, sine and cosine of any number by polynomials instead of the standard library, so that every processor
+//! gives the same bits.
 //!
 //! exp and log are the polynomials of S. Moshier's Cephes library (single/expf.c, single/logf.c). The bounds below are checked
 //! by `tests/functions.rs`; the enclosures in `enclosure.rs` rely on them.
@@ -6,7 +7,7 @@ use crate::math::{F, Lanes, Pick, round::floor, trig::sin_cos_eighth};
 
 /// |exp computed − exp| ≤ this · exp, plus [`EXP_END`].
 pub(super) const EXP_ERROR: f32 = 2.0e-7;
-/// What exp computed does not fall below.
+/// Lower bound of the computed exp.
 pub(super) const EXP_END: f32 = 1.25e-38;
 /// |log computed − log| ≤ this · (1 + |log|)
 pub(super) const LOG_ERROR: f32 = 1.2e-7;
@@ -56,8 +57,8 @@ pub(super) fn log<L: Lanes>(x: F<L>) -> F<L> {
     t + p + exponent * LN_2_HIGH
 }
 
-/// (sin x, cos x). The argument is taken as a number of quarter turns, so that its rounding costs up to ε|x|; beyond 6·10⁶
-/// nothing is left, and they are (0, 1).
+/// (sin x, cos x). The argument is converted to quarter turns, so its rounding error is up to ε|x|; beyond 6·10⁶ no digits
+/// remain, and the result is (0, 1).
 #[inline(always)]
 pub(super) fn sin_cos<L: Lanes>(x: F<L>) -> (F<L>, F<L>) {
     const FARTHEST: f32 = 4_194_000.0;

@@ -1,10 +1,11 @@
-//! Expressions as a graph: equal parts are the same node, constants are folded, and what is known to do nothing is left out.
+//! Expressions as a graph: equal subexpressions are the same node, constants are folded, and operations without effect are
+//! dropped.
 use std::collections::HashMap;
 
 use super::functions;
 use crate::math::{F, One};
 
-/// What a node does with its operands.
+/// The operation of a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Op {
     X,
@@ -25,7 +26,7 @@ pub(super) enum Op {
     Minimum,
     Maximum,
     Exponential,
-    /// log of a, or of the smallest normal number when that is more.
+    /// log of the larger of a and the smallest normal number.
     Logarithm,
     Sine,
     Cosine,
@@ -41,14 +42,14 @@ impl Op {
     }
 }
 
-/// The place of a node in its graph; operands come before what uses them.
+/// The index of a node in its graph; operands precede their users.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(super) struct Id(pub usize);
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) struct Node {
     pub op: Op,
-    /// The operands; those the operation does not have are node 0.
+    /// The operands; unused ones are node 0.
     pub operands: [Id; 2],
     constant_bits: u64,
 }
@@ -71,7 +72,7 @@ impl Graph {
         &self.nodes
     }
 
-    /// Whether a constant came out as infinite or undefined in f32.
+    /// Whether a constant is infinite or NaN in f32.
     pub fn has_infinite_constant(&self) -> bool {
         self.infinite_constant
     }
@@ -180,7 +181,7 @@ impl Graph {
         self.multiply(a, inverse)
     }
 
-    /// a^n by repeated squaring, so that even powers are known not to be negative.
+    /// a^n by repeated squaring, so that even powers are provably not negative.
     pub fn integer_power(&mut self, a: Id, n: i32) -> Id {
         match n {
             0 => self.constant(1.0),
@@ -218,7 +219,7 @@ impl Graph {
         }
     }
 
-    /// The smaller or the larger one.
+    /// The minimum or the maximum.
     pub fn extreme(&mut self, op: Op, a: Id, b: Id) -> Id {
         match (self.value(a), self.value(b)) {
             (Some(x), Some(y)) => self.constant(if op == Op::Minimum { x.min(y) } else { x.max(y) }),
@@ -228,7 +229,7 @@ impl Graph {
     }
 }
 
-/// A function of a constant, with the bits that the lanes would give: the system's sine may differ from machine to machine.
+/// A function of a constant, with the same bits as in lanes: the system's sine may differ between machines.
 fn fold(op: Op, x: f64) -> f64 {
     let of = F::<One>(x as f32);
     match op {

@@ -74,7 +74,7 @@ impl<L: Lanes, const N: usize> Quantity<L> for Jet<L, N> {
         let inverse = 1.0 / self.value;
         self.chain(inverse, -(inverse * inverse))
     }
-    /// The derivative where a ≤ 0 is 0.
+    /// The derivative is 0 for a ≤ 0.
     #[inline(always)]
     fn square_root(&self) -> Self {
         let zero = self.value.splat(0.0);
@@ -108,7 +108,7 @@ impl<L: Lanes, const N: usize> Quantity<L> for Jet<L, N> {
         let value = functions::exp(self.value);
         self.chain(value, value)
     }
-    /// The derivative where a is not above 0 is 0.
+    /// The derivative is 0 unless a > 0.
     #[inline(always)]
     fn logarithm(&self) -> Self {
         let derivative = self.value.above(0.0).pick(1.0 / self.value, self.value.splat(0.0));

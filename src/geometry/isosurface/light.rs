@@ -1,4 +1,4 @@
-//! Coordinates of an isosurface, and directions towards one that emits.
+//! Surface coordinates of an isosurface, and directions towards an emitting one.
 use super::Isosurface;
 use crate::{
     geometry::{Cone, Coordinates, Toward, sphere_tangents, sphere_uv},
@@ -6,8 +6,8 @@ use crate::{
 };
 
 impl Isosurface {
-    /// Longitude and latitude seen from the middle of the box, as those of a sphere, and the directions along the surface in
-    /// which they grow. Continuous but for the half-plane from the middle towards +x and the vertical through it.
+    /// Longitude and latitude around the middle of the box, like those of a sphere, and their tangents along the surface. They
+    /// are continuous except at the half-plane from the middle towards +x and at the vertical axis through the middle.
     #[inline(always)]
     pub fn coordinates<L: Lanes>(&self, l: L, p: V<L>) -> (Coordinates<L>, [V<L>; 2]) {
         // Where the surface is seen from the middle along itself, its directions are not followed further than this.
@@ -23,7 +23,7 @@ impl Isosurface {
         (Coordinates { u, v }, [along_u - r * (along_u.dot(n) / across), along_v - r * (along_v.dot(n) / across)])
     }
 
-    /// The cone of the sphere around the box, seen from `x`.
+    /// The cone of directions from `x` to the sphere around the box.
     #[inline(always)]
     fn cone<L: Lanes>(&self, l: L, x: V<L>) -> Cone<L> {
         let half = [0, 1, 2].map(|axis| 0.5 * (self.max[axis] - self.min[axis]));
@@ -34,7 +34,7 @@ impl Isosurface {
         Cone::of_sphere([l.f(mx), l.f(my + radius), l.f(mz), l.f(1.0 / radius)], [zero, one, zero, zero], x)
     }
 
-    /// A direction into the sphere around the box. What of the surface is met there, if any, only the ray can tell.
+    /// Samples a direction towards the sphere around the box. Only the ray can tell whether it hits the surface.
     #[inline(always)]
     pub fn toward<L: Lanes>(&self, l: L, x: V<L>, u: (F<L>, F<L>)) -> Toward<L> {
         let cone = self.cone(l, x);
@@ -45,7 +45,7 @@ impl Isosurface {
         Toward { wi, pdf: met.pick(cone.pdf(), l.f(0.0)), front: point.n_geometric.dot(wi).below(0.0) }
     }
 
-    /// The density of [`Isosurface::toward`].
+    /// The pdf of [`Isosurface::toward`] per solid angle.
     #[inline(always)]
     pub fn pdf_toward<L: Lanes>(&self, l: L, x: V<L>) -> F<L> {
         self.cone(l, x).pdf()

@@ -1,8 +1,8 @@
-//! The straight line that a function is near to over the range c ± w, and how near: what [`Enclosure::map`] needs.
+//! Linear approximations of functions over the range c ± w with their errors, for [`Enclosure::map`].
 //!
-//! Each line is the tangent at c. By Taylor's theorem the function lies on one side of it, or nearly; half of how far it may be
-//! away is added to the line, the other half is the error. Where the range is too wide for that, or reaches a pole or the end of
-//! where the function is defined, the line is level, in the middle of all values the function may have.
+//! Each line is the tangent at c. By Taylor's theorem the function lies on one side of it, or nearly. Half of its maximum
+//! distance is added to the line; the other half is the error. If the range is too wide, or reaches a pole or the end of the
+//! domain, the line is constant, in the middle of the range of the function.
 //!
 //! [`Enclosure::map`]: super::enclosure::Enclosure::map
 use super::{
@@ -11,12 +11,12 @@ use super::{
 };
 use crate::math::{F, Lanes, Pick};
 
-/// Eight roundings: more than any line here sums up.
+/// Eight rounding errors: more than any line here accumulates.
 const ROUNDINGS: f32 = 4.0 * f32::EPSILON;
 /// log of the smallest normal number, where [`log`] ends.
 const LOWEST_LOG: f32 = -87.336_55;
 
-/// 1/x = 1/c − (x − c)/c² + (x − c)²/(c²x). Over a range with 0 nothing is known.
+/// 1/x = 1/c − (x − c)/c² + (x − c)²/(c²x). A range that contains 0 has no bound.
 #[inline(always)]
 pub(super) fn reciprocal<L: Lanes>(c: F<L>, w: F<L>) -> Line<L> {
     let size = c.abs();

@@ -1,19 +1,19 @@
-//! The first place along a ray where f changes its sign.
+//! The first point along a ray where f changes its sign.
 //!
-//! The segment of the ray in the box is walked through from its start, by pieces that grow by half when something is known of
-//! one and halve when not. Over a piece the [`Enclosure`] of f tells
+//! The march covers the segment of the ray in the box from its start, in pieces that grow by half after a decision and are halved
+//! otherwise. Over a piece, the [`Enclosure`] of f shows one of these:
 //!
-//! * that f has no zero: go on;
-//! * that f is monotone, and its sign at the end: if that is the sign f had so far, there is none either; if not, exactly one,
-//!   which [`refine`] closes in on;
-//! * or neither: try half of the piece.
+//! * f has no zero: the march continues;
+//! * f is monotone, and its sign at the end is known: if that is the sign so far, there is no zero either; otherwise there is
+//!   exactly one, which [`refine`] finds;
+//! * neither: the march tries half of the piece.
 //!
-//! So no change of sign is stepped over, except two of them within 2⁻²² of the segment, or between which |f| stays below its own
-//! rounding: pieces are not halved further then, but passed, and the sign f has after them is compared with that before. A touch
-//! without change of sign is no meeting. Poles across which the sign changes are.
+//! So no change of sign is skipped, except two of them within 2⁻²² of the segment, or two between which |f| stays below its own
+//! rounding. Such pieces are not halved further but passed, and the sign of f after them is compared with that before. A zero
+//! without a change of sign is not a hit. A pole with a change of sign is.
 //!
-//! Where f starts is not a meeting: as long as rounding hides its sign, it has none, and the first that is known is what later
-//! ones are compared with.
+//! The start of the segment is not a hit: while rounding hides the sign of f, it has none, and later signs are compared with the
+//! first known one.
 use fearless_simd_macros::simd;
 
 use super::{
@@ -23,23 +23,23 @@ use super::{
 };
 use crate::math::{F, Lanes, M, Pick, V};
 
-/// The shortest piece, as a fraction of the segment.
+/// Length of the shortest piece, as a fraction of the segment.
 const SHORTEST: f32 = 1.0 / 4_194_304.0;
-/// After this many pieces the shortest becomes twice as long with every [`COARSER`] further ones, so that after 22 times it is
-/// the whole segment. What is smaller than the pieces is then sampled, not proven.
+/// After this many pieces, the shortest length doubles with every [`COARSER`] further ones, so after 22 times it is the whole
+/// segment. Features smaller than the pieces are then sampled, without proof.
 const PATIENCE: u32 = 512;
 const COARSER: u32 = 32;
-/// No ray takes more pieces. Only one whose segment is so short that its pieces underflow is not at its end then: it misses.
+/// Maximum number of pieces. Only a ray whose segment is so short that its pieces underflow does not reach its end; it misses.
 const MOST_PIECES: u32 = PATIENCE + 24 * COARSER;
-/// Pieces shorter than this fraction are looked at for whether rounding hides f, and all after this many.
+/// Pieces shorter than this fraction are tested for whether rounding hides f, and so are all after [`SUSPICIOUS_MANY`] pieces.
 const SUSPICIOUS: f32 = 1.0 / 512.0;
 const SUSPICIOUS_MANY: u32 = 64;
-/// Rounding hides f where |f| is below this many times the bound on the rounding.
+/// Rounding hides f if |f| is below this multiple of the bound of the rounding.
 const HIDDEN: f32 = 4.0;
-/// The most steps of [`refine`]: Newton's alone, then alternating with halving, 24 of which leave nothing.
+/// Steps of [`refine`] by Newton's method alone; further ones alternate with bisection, of which 24 steps exhaust f32.
 const NEWTON_STEPS: u32 = 8;
 const STEPS: u32 = 56;
-/// The rounding of a place, as a fraction of its coordinates.
+/// The rounding of a position, as a fraction of its coordinates.
 const RESOLUTION: f32 = 0.5 * f32::EPSILON;
 
 type Registers<L> = [Enclosure<L>; REGISTERS];
@@ -51,7 +51,7 @@ pub(super) struct Segment<L: Lanes> {
     pub end: F<L>,
 }
 
-/// Where f changes its sign: between `from` and `to`, and about at `guess`; f has the sign of `side` before.
+/// A change of sign of f, between `from` and `to` and about at `guess`; f has the sign of `side` before it.
 struct Bracket<L: Lanes> {
     from: F<L>,
     to: F<L>,
@@ -59,11 +59,11 @@ struct Bracket<L: Lanes> {
     side: F<L>,
 }
 
-/// What an enclosure tells of a piece.
+/// The conclusion from an enclosure of a piece.
 struct Verdict<L: Lanes> {
-    /// f is nowhere 0.
+    /// Lanes where f is nowhere 0.
     sure: M<L>,
-    /// That, or f is monotone and its sign at the end known.
+    /// Lanes where f is nowhere 0, or monotone with a known sign at the end.
     decided: M<L>,
     /// The sign of f at the end, where decided: ±1.
     sign: F<L>,
@@ -91,7 +91,8 @@ impl<L: Lanes> Segment<L> {
         run(l, tape, registers)
     }
 
-    /// Pieces around `middle`, enclosed by `f`, in which f is about as small as its rounding, so that no further halving helps.
+    /// Lanes whose piece around `middle`, enclosed by `f`, has values of f about as small as their rounding, so that further
+    /// halving does not help.
     #[inline(always)]
     fn rounding_hides(&self, l: L, tape: &Tape, middle: F<L>, f: &Enclosure<L>, registers: &mut Registers<L>) -> M<L> {
         let point = self.enclose(l, tape, middle, l.f(0.0), registers);
@@ -99,7 +100,7 @@ impl<L: Lanes> Segment<L> {
     }
 }
 
-/// The smallest t at which f changes its sign, for the rays of `live`; NaN where there is none.
+/// The smallest t at which f changes its sign, for the rays of `live`; NaN if there is none.
 #[simd]
 pub(super) fn first_change<L: Lanes>(l: L, tape: &Tape, segment: &Segment<L>, live: M<L>) -> F<L> {
     let zero = l.f(0.0);
@@ -159,7 +160,7 @@ impl<L: Lanes> Pick<Bracket<L>> for M<L> {
     }
 }
 
-/// Newton's method, kept between ends at which the signs of f differ, until a step is below the rounding of the place.
+/// Newton's method, bracketed by ends at which the signs of f differ, until a step is below the rounding of the position.
 #[simd]
 fn refine<L: Lanes>(l: L, tape: &Tape, segment: &Segment<L>, found: M<L>, bracket: Bracket<L>) -> F<L> {
     let mut registers = [Jet::<L, 1>::constant(l, 0.0); REGISTERS];

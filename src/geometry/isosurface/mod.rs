@@ -1,18 +1,18 @@
-//! The isosurface: where a function of x, y and z given as text changes its sign. Inside is where it is negative.
+//! The isosurface: the set where a function of x, y and z, given as text, changes its sign. The inside is where it is negative.
 //!
 //! | | |
 //! |---|---|
-//! | `token.rs`, `names.rs`, `parse.rs`, `graph.rs` | text → tokens → a graph without repetition |
-//! | `tape.rs` | graph → a list of operations, run for sixteen rays at once |
+//! | `token.rs`, `names.rs`, `parse.rs`, `graph.rs` | text → tokens → a graph without duplicates |
+//! | `tape.rs` | graph → a list of operations, evaluated for up to sixteen rays at once |
 //! | `jet.rs` | values with derivatives |
 //! | `enclosure.rs`, `lines.rs` | rigorous bounds of value and derivative over a segment |
 //! | `functions.rs` | exp, log, sin and cos |
 //! | `march.rs` | the first change of sign along a ray |
 //! | `surface.rs` | point, normal and error bound |
-//! | `light.rs` | coordinates; directions towards one that emits |
+//! | `light.rs` | surface coordinates; directions towards an emitting surface |
 //!
-//! f is evaluated in f32, with its constants rounded to f32. It is defined everywhere: √a of a < 0 is 0, and log a ends at that
-//! of the smallest normal number.
+//! f is evaluated in f32, with its constants rounded to f32. It is defined everywhere: √a is 0 for a < 0, and log a is at least
+//! that of the smallest normal number.
 mod enclosure;
 mod functions;
 mod graph;
@@ -51,7 +51,7 @@ impl Expression {
     }
 }
 
-/// The part of a surface f = 0 that lies in a box; open where the box cuts it. Its front is where f > 0.
+/// The part of a surface f = 0 inside a box; open where the box cuts it. Its front is the side with f > 0.
 #[derive(Clone, Debug)]
 pub struct Isosurface {
     expression: Expression,
@@ -66,13 +66,13 @@ impl Isosurface {
         (self.min, self.max)
     }
 
-    /// `min` must be below `max`, and all of it finite.
+    /// Builds an isosurface. `min` must be below `max`, and both finite.
     pub fn new(expression: Expression, min: [f32; 3], max: [f32; 3]) -> Isosurface {
         let middle = [0, 1, 2].map(|axis| 0.5 * min[axis] + 0.5 * max[axis]);
         Isosurface { expression, min, max, middle }
     }
 
-    /// The nearest meeting of o + td, d of unit length, with 0 < t < `limit`; NaN where there is none.
+    /// The nearest intersection with o + td, d of unit length, with 0 < t < `limit`; NaN if there is none.
     #[inline(always)]
     pub fn intersect<L: Lanes>(&self, l: L, o: V<L>, d: V<L>, limit: F<L>) -> F<L> {
         let (enter, leave) = self.inside_box(l, o, d);
@@ -86,7 +86,7 @@ impl Isosurface {
         first_change(l, &self.expression.tape, &segment, live) + enter
     }
 
-    /// Where the ray enters the box, or 0 if it starts in it, and where it leaves.
+    /// The distances at which the ray enters the box, or 0 if it starts inside, and leaves it.
     #[inline(always)]
     fn inside_box<L: Lanes>(&self, l: L, o: V<L>, d: V<L>) -> (F<L>, F<L>) {
         let (mut enter, mut leave) = (l.f(0.0), l.f(f32::INFINITY));
@@ -102,7 +102,7 @@ impl Isosurface {
         (enter, leave)
     }
 
-    /// The surface at a point `p` that lies on it but for rounding.
+    /// The surface at a point `p`, which is off the surface only by rounding.
     #[inline(always)]
     pub fn surface_point<L: Lanes>(&self, l: L, p: V<L>) -> SurfacePoint<L> {
         surface::surface_point(l, &self.expression.tape, p)

@@ -1,14 +1,14 @@
-//! The names that an expression may use, and what was meant by others.
+//! The names in expressions, and suggestions for unknown ones.
 use std::ops::Range;
 
 use super::parse::ParseError;
 
-/// What is known by name, and with how many arguments.
+/// Functions and their numbers of arguments.
 pub(super) const FUNCTIONS: [(&str, usize); 9] =
     [("sin", 1), ("cos", 1), ("tan", 1), ("exp", 1), ("log", 1), ("sqrt", 1), ("abs", 1), ("min", 2), ("max", 2)];
 const VARIABLES: [&str; 4] = ["x", "y", "z", "pi"];
 
-/// What to say of a name that is not known.
+/// The error for an unknown name, with a suggestion.
 pub(super) fn unknown(name: &str, at: Range<usize>) -> ParseError {
     let names = VARIABLES.into_iter().chain(FUNCTIONS.map(|(name, _)| name));
     let written = name.to_ascii_lowercase();
@@ -22,7 +22,7 @@ pub(super) fn unknown(name: &str, at: Range<usize>) -> ParseError {
     ParseError::new(at, format!("\"{name}\" is not known"), label)
 }
 
-/// How many letters must be put in, left out or changed (Levenshtein's distance).
+/// Levenshtein distance: the number of letters to insert, delete or change.
 fn distance(a: &str, b: &str) -> usize {
     let mut row: Vec<usize> = (0..=b.chars().count()).collect();
     for (i, x) in a.chars().enumerate() {

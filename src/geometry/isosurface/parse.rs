@@ -1,4 +1,4 @@
-//! From the text of an expression to its graph, by recursive descent.
+//! Parses the text of an expression to its graph, by recursive descent.
 //!
 //! ```text
 //! sum     = product { ("+" | "-") product }
@@ -15,20 +15,20 @@ use super::{
     token::{Token, Tokens},
 };
 
-/// The longest text, in bytes.
+/// Maximum length of the text, in bytes.
 const LONGEST: usize = 4096;
-/// How deep parentheses, signs and powers may be nested.
+/// Maximum nesting of parentheses, signs and powers.
 const DEEPEST: usize = 64;
-/// The highest integer power.
+/// Maximum integer power.
 const HIGHEST_POWER: f64 = 64.0;
 
-/// Why a text is not an expression, and where.
+/// A syntax error, with its position.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ParseError {
-    /// The bytes of the text that are wrong; empty, at its end, when something is missing there.
+    /// The erroneous bytes of the text; empty and at the end if something is missing there.
     pub at: Range<usize>,
     pub message: String,
-    /// What to write at the place.
+    /// Label at the position.
     pub label: String,
 }
 
@@ -157,7 +157,7 @@ impl Parser<'_> {
         }
     }
 
-    /// The parenthesis that closes the one at `open`.
+    /// Parses the parenthesis that closes the one at `open`.
     fn close(&mut self, open: Range<usize>) -> Result<(), ParseError> {
         if self.tokens.take_symbol(&[')']).is_some() {
             return Ok(());
@@ -190,7 +190,7 @@ impl Parser<'_> {
         }
     }
 
-    /// The parenthesis after the name of a function.
+    /// Parses the parenthesis after the name of a function.
     fn open(&mut self, name: &str, at: Range<usize>) -> Result<Range<usize>, ParseError> {
         let open = self.tokens.here();
         match self.tokens.take_symbol(&['(']) {
@@ -214,7 +214,7 @@ impl Parser<'_> {
         }
     }
 
-    /// The smallest or largest of two or more.
+    /// Parses the minimum or maximum of two or more arguments.
     fn extreme(&mut self, op: Op, name: &str, at: Range<usize>) -> Parsed {
         let open = self.open(name, at.clone())?;
         let mut value = self.sum()?;

@@ -1,4 +1,4 @@
-//! Points and normals of an isosurface, and how far to move away from it.
+//! Points and normals of an isosurface, and offsets of rays that leave it.
 use fearless_simd_macros::simd;
 
 use super::{
@@ -11,14 +11,14 @@ use crate::{
     math::{F, Lanes, M, Pick, V},
 };
 
-/// The rounding of a point p + n·error that is moved off the surface, in units of its largest coordinate.
+/// The rounding of a point p + n·error off the surface, relative to its largest coordinate.
 const ROUNDINGS_OF_X: f32 = 4.0 * f32::EPSILON;
-/// How often the error bound is doubled where its proof fails.
+/// Maximum number of times that the error bound is doubled if its proof fails.
 const DOUBLINGS: u32 = 6;
 
-/// The point of f = 0 near `p`, one step of Newton's method along the gradient away.
+/// The point of f = 0 near `p`, by one step of Newton's method along the gradient.
 ///
-/// Where the gradient vanishes or is not finite, as at the tip of a cone, the point stays, and its normal is +y.
+/// If the gradient vanishes or is not finite, such as at the tip of a cone, the point stays, and its normal is +y.
 #[simd]
 pub(super) fn surface_point<L: Lanes>(l: L, tape: &Tape, p: V<L>) -> SurfacePoint<L> {
     let mut registers = [Jet::<L, 3>::constant(l, 0.0); REGISTERS];
@@ -52,10 +52,10 @@ pub(super) fn value<L: Lanes>(l: L, tape: &Tape, p: V<L>) -> F<L> {
     run(l, tape, &mut registers).value
 }
 
-/// How far along ±n from p the sign of f is beyond doubt: the enclosure of f over p ± δn shows it at both ends by three times the
-/// rounding of f, of which one is that of the evaluation there and one that of the enclosure here. The first δ tried is twice
-/// what |f(p)| and the rounding come to over the `steepness`. At a crease, where the gradient is not that of both sides, there may
-/// be no proof; it is kept then, and a ray that starts there has no side until it has left what rounding hides.
+/// The offset along ±n from p at which the sign of f is certain: the enclosure of f over p ± δn proves it at both ends with a
+/// margin of three times the rounding of f, one for the evaluation there and one for the enclosure here. The first δ is twice the
+/// sum of |f(p)| and the rounding over the `steepness`. At a crease, where the gradient is not that of both sides, there may be
+/// no proof. The offset is kept then, and a ray that starts there has no side until f exceeds its rounding.
 #[inline(always)]
 fn clearance<L: Lanes>(l: L, tape: &Tape, p: V<L>, n: V<L>, steepness: F<L>, known: M<L>) -> F<L> {
     let mut registers = [Enclosure::constant(l, 0.0); REGISTERS];

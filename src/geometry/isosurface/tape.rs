@@ -1,4 +1,4 @@
-//! An expression as a list of operations over registers, run for sixteen rays at once.
+//! An expression as a list of operations on registers, evaluated for up to sixteen rays at once.
 //!
 //! The same tape runs over any [`Quantity`]: values with derivatives ([`super::jet::Jet`]) or enclosures over a segment of a ray
 //! ([`super::enclosure::Enclosure`]).
@@ -10,12 +10,12 @@ use super::{
 };
 use crate::math::Lanes;
 
-/// How many registers there are. The first three hold x, y and z.
+/// Number of registers. The first three hold x, y and z.
 pub(super) const REGISTERS: usize = 32;
-/// The most operations of a tape.
+/// Maximum number of operations.
 const LONGEST: usize = 256;
 
-/// What a tape computes with.
+/// A type that a tape can compute with.
 pub(super) trait Quantity<L: Lanes>: Copy {
     fn constant(l: L, value: f32) -> Self;
     fn add_constant(&self, by: f32) -> Self;
@@ -50,7 +50,7 @@ pub(super) struct Tape {
 }
 
 impl Tape {
-    /// The operations that the node `root` needs. `text` is for messages only.
+    /// Compiles the operations that the node `root` needs. `text` is for messages only.
     pub fn new(graph: &Graph, root: Id, text: &str) -> Result<Tape, ParseError> {
         let whole = |message: &str, label: &str| ParseError::new(0..text.len(), message, label);
         if graph.value(root).is_some() {
@@ -92,7 +92,7 @@ fn axis(op: Op) -> Option<u8> {
     }
 }
 
-/// For each node the last one that uses it, or none where `root` does not need it.
+/// For each node, the last one that uses it; `None` if `root` does not need it.
 fn last_uses(graph: &Graph, root: Id) -> Vec<Option<usize>> {
     let mut last = vec![None; graph.nodes().len()];
     last[root.0] = Some(usize::MAX);
@@ -107,14 +107,14 @@ fn last_uses(graph: &Graph, root: Id) -> Vec<Option<usize>> {
     last
 }
 
-/// Which registers are free, and where the value of each node is.
+/// The free registers, and the register of each node.
 struct Registers {
     free: Vec<u8>,
     of: Vec<u8>,
 }
 
 impl Registers {
-    /// None when no register is left.
+    /// Allocates a register for a node; `None` if there is none left.
     fn allocate(&mut self, node: &Node, id: usize, last_uses: &[Option<usize>]) -> Option<Instruction> {
         let operands = node.operands.map(|operand| self.of[operand.0]);
         let used = &node.operands[..node.op.operands()];
@@ -130,7 +130,7 @@ impl Registers {
     }
 }
 
-/// The value of the expression at the x, y and z in the first three registers, which stay. The others may hold anything.
+/// Evaluates the expression at the x, y and z in the first three registers, which are preserved. The others may hold anything.
 #[simd]
 pub(super) fn run<L: Lanes, Q: Quantity<L>>(l: L, tape: &Tape, registers: &mut [Q; REGISTERS]) -> Q {
     const MASK: usize = REGISTERS - 1;

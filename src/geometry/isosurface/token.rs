@@ -22,7 +22,7 @@ impl fmt::Display for Token<'_> {
     }
 }
 
-/// The tokens of a text with their places, read one after the other.
+/// The tokens of a text with their positions.
 pub(super) struct Tokens<'a> {
     tokens: Vec<(Token<'a>, Range<usize>)>,
     next: usize,
@@ -75,12 +75,12 @@ impl<'a> Tokens<'a> {
         }
     }
 
-    /// Where the next token is, or the end of the text.
+    /// The position of the next token, or the end of the text.
     pub fn here(&self) -> Range<usize> {
         self.tokens.get(self.next).map_or(self.end..self.end, |(_, at)| at.clone())
     }
 
-    /// Where the token before ends.
+    /// The end of the previous token.
     pub fn last_end(&self) -> usize {
         self.next.checked_sub(1).map_or(0, |last| self.tokens[last].1.end)
     }

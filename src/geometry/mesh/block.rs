@@ -1,43 +1,43 @@
-//! One ray against several triangles: first at once, then those it seems to meet one by one and without doubt.
+//! One ray against several triangles: first all at once, then the possible hits one by one and exactly.
 //!
-//! The test of S. Woop, C. Benthin and I. Wald, "Watertight Ray/Triangle Intersection", JCGT 2013: the vertices are moved so
-//! that the ray starts at the origin, and sheared so that it runs along the axis z of d's largest component. What remains is
-//! whether the origin lies in a triangle of the plane: u = c × b, v = a × c and w = b × a have one sign. A vertex is rounded
-//! in the same way in whatever triangle it stands, and an edge function is the exact negative of the neighbour's, so that a
-//! ray that runs into an edge or vertex of a closed mesh meets at least one of the triangles there.
+//! The test of S. Woop, C. Benthin and I. Wald, "Watertight Ray/Triangle Intersection", JCGT 2013: the vertices are translated so
+//! that the ray starts at the origin, and sheared so that it runs along the axis z of d's largest component. The remaining
+//! question is whether the origin lies in a triangle of the plane: u = c × b, v = a × c and w = b × a have one sign. A vertex is
+//! rounded in the same way in all its triangles, and an edge function is the exact negative of the neighbour's, so a ray that
+//! hits an edge or vertex of a closed mesh hits at least one of the triangles there.
 //!
-//! In f32 a product's rounding is monotonic: u computed is never on the wrong side of 0, but may be 0. So the first stage,
-//! which lets 0 pass on either side, loses nothing. The second, for the one or two triangles a ray that pass, has products of
-//! two f32 exactly and so the signs of u, v and w: it meets what the sheared triangle really covers and nothing else. Its
-//! distance is the mean of the vertices', weighted by u, v and w.
+//! In f32 a product's rounding is monotonic: u computed is never on the wrong side of 0, but may be 0. So the first stage, which
+//! accepts 0 on either side, loses nothing. The second stage handles the one or two remaining triangles per ray. It computes
+//! products of two f32 exactly and so has the signs of u, v and w: it hits exactly the sheared triangle. Its distance is the mean
+//! of the vertices' distances, weighted by u, v and w.
 //!
-//! So the test is exact but for the rounding of vertices. With a and b the distances of one from the ray's origin along x and z,
-//! s the slope of the ray and u = ε/2, its place fl(fl(a) − fl(fl(s) fl(b))) is off by u |a| + 3 u |s b| + u (|a| + |b|), which
-//! is at most u (2 |a| + 4 |b|), as |s| ≤ 1; that along z by u |b|.
+//! So the test is exact except for the rounding of vertices. Let a and b be the distances of a vertex from the ray's origin along
+//! x and z, s the slope of the ray, and u = ε/2. The error of its position fl(fl(a) − fl(fl(s) fl(b))) is u |a| + 3 u |s b| + u
+//! (|a| + |b|), which is at most u (2 |a| + 4 |b|), because |s| ≤ 1; the error along z is u |b|.
 use fearless_simd::{Simd, SimdBase, SimdMask, f32x8};
 
 use crate::math::{Lanes, M, MAX_LANES, Pick, V};
 
-/// Triangles of a block.
+/// Number of triangles in a block.
 pub(super) const SIZE: usize = 8;
 
-/// Vertices of up to [`SIZE`] triangles, side by side; NaN where there is none.
+/// Vertices of up to [`SIZE`] triangles, side by side; NaN in unused slots.
 #[derive(Clone, Copy)]
 #[repr(align(32))]
 pub(super) struct Block {
-    /// By corner, then axis.
+    /// By vertex, then axis.
     corners: [[[f32; SIZE]; 3]; 3],
     /// The number of its first triangle.
     pub first: u32,
 }
 
-/// What the test of triangles needs to know of the rays o + td of several lanes.
+/// The rays o + td of several lanes, prepared for the test of triangles.
 pub(super) struct Shears {
     /// The axis of the largest component of d.
     z: [u32; MAX_LANES],
     /// The origin, along the axes that follow z, and z last.
     origin: [[f32; MAX_LANES]; 3],
-    /// How far the ray moves along the first two for a step along z.
+    /// Distance along the first two axes per unit along z.
     slope: [[f32; MAX_LANES]; 2],
     /// The component of d along z.
     depth: [f32; MAX_LANES],
@@ -106,7 +106,7 @@ impl Block {
         Block { corners, first }
     }
 
-    /// Words of its cache lines.
+    /// A word of each cache line.
     #[inline(always)]
     pub fn touch(&self) -> u32 {
         let [a, b, c] = &self.corners;
@@ -135,7 +135,7 @@ pub(super) struct Sheared<S: Simd> {
 }
 
 impl<S: Simd> Sheared<S> {
-    /// The triangles that the line of the ray seems to meet, as bits; all that it does meet are among them.
+    /// The triangles that the line of the ray may hit, as bits; they include all that it hits.
     #[inline(always)]
     pub fn candidates(&self, s: S) -> u32 {
         let [[ax, ay, _], [bx, by, _], [cx, cy, _]] = self.corners;
@@ -147,7 +147,7 @@ impl<S: Simd> Sheared<S> {
         inside.to_bitmask() as u32
     }
 
-    /// Distance to the triangle at `place`, in units of d; NaN if the line of the ray does not meet it.
+    /// Distance to the triangle in slot `place`, in units of d; NaN if the line of the ray misses it.
     #[inline(always)]
     pub fn distance(&self, place: usize, ray: &Shear) -> f32 {
         let [ax, ay, az] = self.vertex(0, place);

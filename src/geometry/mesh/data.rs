@@ -1,4 +1,4 @@
-//! What a mesh is made of, before it is given a tree.
+//! Vertices and triangles of a mesh, before its tree is built.
 use glam::{DAffine3, DVec3, Vec3};
 
 use crate::geometry::bounds::Bounds;
@@ -9,15 +9,15 @@ pub struct MeshData {
     pub vertices: Vec<[f32; 3]>,
     /// Counter-clockwise seen from the front.
     pub triangles: Vec<[u32; 3]>,
-    /// For shading, of any length.
+    /// Shading normals of any length.
     pub normals: Vec<[f32; 3]>,
     /// v is upwards.
     pub uvs: Vec<[f32; 2]>,
 }
 
 impl MeshData {
-    /// Boxes around the vertices in each cell of a coarse grid: what an affine map makes of the mesh is hardly smaller than what it
-    /// makes of them.
+    /// Bounding boxes of the vertices in each cell of a coarse grid. Their images under an affine map bound the image of the mesh
+    /// tightly.
     pub fn boxes(&self) -> Vec<Bounds> {
         const CELLS: usize = 4;
         let all = Bounds::of_points(self.vertices.iter().copied());
@@ -34,7 +34,7 @@ impl MeshData {
         boxes
     }
 
-    /// In another space. The front stays the front, whether the map mirrors or not.
+    /// The image of the mesh under a map. The front stays the front, even if the map mirrors.
     pub fn transformed(&self, map: &DAffine3) -> MeshData {
         if *map == DAffine3::IDENTITY {
             return self.clone();
@@ -52,7 +52,7 @@ impl MeshData {
         }
     }
 
-    /// Whether a point lies inside a closed mesh: a ray from there crosses it an odd number of times.
+    /// Whether a point lies inside a closed mesh, that is, whether a ray from it crosses the mesh an odd number of times.
     pub fn contains(&self, p: DVec3) -> bool {
         // No edge or corner of a mesh made by hand lies in this direction.
         let d = DVec3::new(0.577_215, 0.691_417, 0.432_294);

@@ -1,4 +1,4 @@
-//! Meshes made by formula, for tests, benchmarks and scenes.
+//! Procedural meshes, for tests, benchmarks and scenes.
 use std::f32::consts::TAU;
 
 use glam::{Vec3, vec3};
@@ -10,8 +10,8 @@ use crate::{
     texture::noise::fraction,
 };
 
-/// Closes the grid of `columns` × `rows` quads whose corners `vertex(i, j)` gives, i below `columns`, j below `rows`, in both
-/// directions, as a torus is closed. Counter-clockwise where i runs to the right and j up.
+/// The triangles of a grid of `columns` × `rows` quads that wraps around in both directions, like a torus. They are
+/// counter-clockwise if columns run to the right and rows upwards.
 fn torus_grid(columns: usize, rows: usize) -> Vec<[u32; 3]> {
     let at = |i: usize, j: usize| ((i % columns) * rows + j % rows) as u32;
     let quads = (0..columns).flat_map(|i| (0..rows).map(move |j| (i, j)));
@@ -23,7 +23,7 @@ fn torus_grid(columns: usize, rows: usize) -> Vec<[u32; 3]> {
         .collect()
 }
 
-/// A closed tube along the (2, 3) torus knot, about 1.7 wide, with bumps: near to `triangles` triangles. The front is outside.
+/// A closed bumpy tube along the (2, 3) torus knot, about 1.7 wide, with about `triangles` triangles. The front is outside.
 pub fn torus_knot(triangles: usize) -> MeshData {
     // The tube is about 16 times as long as it is around; twice as many quads go along it as around it squared.
     let rows = ((triangles as f64 / 16.0).sqrt().round() as usize).max(3);
@@ -60,7 +60,7 @@ fn bumps(u: f32, v: f32) -> f32 {
     1.0 + 0.15 * (23.0 * u).sin() * (7.0 * v).sin() + 0.06 * (91.0 * u + 3.0 * v).sin() * (31.0 * v).cos()
 }
 
-/// Hills over the square |x|, |z| ≤ 1 about y = 0, of 2·`quads`² triangles; `seed` chooses which. The front is above.
+/// Hills over the square |x|, |z| ≤ 1 around y = 0, with 2·`quads`² triangles; `seed` selects them. The front is above.
 pub fn heightfield(quads: usize, seed: u32) -> MeshData {
     let side = quads + 1;
     let mut data = MeshData::default();
@@ -77,7 +77,7 @@ pub fn heightfield(quads: usize, seed: u32) -> MeshData {
     data
 }
 
-/// Six octaves of noise, within ±0.32; every seed is another plane through it.
+/// Six octaves of noise, within ±0.32; every seed is another slice through it.
 fn hills(u: f32, v: f32, seed: u32) -> f32 {
     let plane = seed as f32 * 0.618 + 0.37;
     0.64 * (fraction(V::splat(One, [u, v, plane]), 4.0, 6).0 - 0.5)

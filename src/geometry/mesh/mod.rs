@@ -3,11 +3,11 @@
 //! | part | file |
 //! |---|---|
 //! | a ray against several triangles at once | `block.rs` |
-//! | the point where it met one | `surface.rs` |
+//! | the surface point at a hit | `surface.rs` |
 //! | coordinates and smooth normals there | `shading.rs` |
 //! | directions towards one that emits | `toward.rs` |
-//! | what a mesh is made from | `data.rs` |
-//! | meshes made by formula | `generate.rs` |
+//! | vertices and triangles | `data.rs` |
+//! | procedural meshes | `generate.rs` |
 mod block;
 mod data;
 pub mod generate;
@@ -34,7 +34,7 @@ use super::{
 };
 use crate::math::{F, Lanes, MAX_LANES, One, U, V};
 
-/// Coordinates beyond this could overflow when they are multiplied.
+/// Limit of coordinates: products of larger ones could overflow.
 const LARGEST: f32 = 1e11;
 
 /// A triangle mesh with its tree. A triangle's front is the side from which its vertices run counter-clockwise.
@@ -52,7 +52,7 @@ pub struct Mesh {
     dropped: usize,
 }
 
-/// The nearest meeting so far, and how to find nearer ones in the leaves.
+/// The nearest intersection so far; tests leaves for nearer ones.
 struct Nearest<'a> {
     blocks: &'a [Block],
     ray: Shear,
@@ -89,7 +89,7 @@ struct Rays {
 }
 
 impl Rays {
-    /// Rays o + td towards what lies in `bounds`.
+    /// Prepares rays o + td towards the contents of `bounds`.
     #[inline(always)]
     fn new<L: Lanes>(l: L, o: V<L>, d: V<L>, bounds: &Bounds) -> Rays {
         Rays { slabs: Slabs::new(l, o, d, bounds), shears: Shears::new(l, o, d) }
@@ -97,7 +97,7 @@ impl Rays {
 }
 
 impl Mesh {
-    /// Leaves out triangles without area and those with coordinates that are not finite or beyond 10¹¹.
+    /// Builds a mesh. Drops degenerate triangles, and those with coordinates that are not finite or beyond 10¹¹.
     pub fn new(data: &MeshData) -> Mesh {
         let corners = |triangle: [u32; 3]| triangle.map(|vertex| data.vertices[vertex as usize]);
         let kept: Vec<[u32; 3]> = data.triangles.iter().copied().filter(|&triangle| has_area(corners(triangle))).collect();
@@ -119,13 +119,13 @@ impl Mesh {
     }
 
     /// The first triangle along o + td with 0 < t < `t_max`: t, or `t_max` if there is none, and the triangle's number or `NONE`.
-    /// Both sides count. d need not be of unit length. Lanes with a `t_max` of 0 cost next to nothing.
+    /// Both sides count. d need not be of unit length. Lanes with a `t_max` of 0 cost almost nothing.
     #[inline(always)]
     pub fn closest<L: Lanes>(&self, l: L, o: V<L>, d: V<L>, t_max: F<L>) -> (F<L>, U<L>) {
         self.closest_by(l, l.token(), &mut Stack::default(), (o, d), t_max)
     }
 
-    /// The same, with boxes and triangles tested by the instructions of `s`, whatever the lanes.
+    /// The same; boxes and triangles are tested with the instructions of `s`, for any lanes.
     #[inline(always)]
     pub fn closest_by<L: Lanes, S: Simd>(
         &self,
@@ -166,7 +166,7 @@ impl Mesh {
         self.bvh.bounds()
     }
 
-    /// Triangles, which are numbered 0, 1, …, in an order of the mesh's own.
+    /// Number of triangles, which are numbered 0, 1, … in the mesh's own order.
     pub fn len(&self) -> usize {
         self.triangles.len()
     }
@@ -175,7 +175,7 @@ impl Mesh {
         self.triangles.is_empty()
     }
 
-    /// Whether it is shaded with normals that vary over its triangles.
+    /// Whether it has interpolated normals.
     pub fn is_smooth(&self) -> bool {
         self.is_smooth
     }
@@ -184,7 +184,7 @@ impl Mesh {
         self.has_uvs
     }
 
-    /// How many triangles were left out.
+    /// Number of dropped triangles.
     pub fn dropped(&self) -> usize {
         self.dropped
     }
@@ -213,7 +213,7 @@ fn rows(data: &MeshData) -> (Vec<[f32; 4]>, Vec<[f32; 4]>) {
     (vertices, normals.collect())
 }
 
-/// Whether the triangle has a normal in f32, and coordinates to compute with.
+/// Whether the triangle has a normal in f32, and coordinates within the limit.
 fn has_area(corners: [[f32; 3]; 3]) -> bool {
     let fine = corners.as_flattened().iter().all(|x| x.abs() <= LARGEST);
     let [a, b, c] = corners.map(|corner| V::splat(One, corner));

@@ -1,4 +1,4 @@
-//! Coordinates and smooth normals between the vertices of a mesh.
+//! Interpolated coordinates and normals of a mesh.
 use super::Mesh;
 use crate::{
     geometry::Coordinates,
@@ -6,8 +6,8 @@ use crate::{
 };
 
 impl Mesh {
-    /// Coordinates at a point `p` of a triangle, and the directions in which they grow. A mesh that has none is given those in
-    /// which every triangle is half of the unit square.
+    /// Coordinates at a point `p` of a triangle, and their tangents. Without coordinates in the mesh, every triangle is half of
+    /// the unit square.
     #[inline(always)]
     pub fn coordinates<L: Lanes>(&self, l: L, triangle: U<L>, p: V<L>) -> (Coordinates<L>, [V<L>; 2]) {
         // Triangles of less area in u and v than this, of their own, have no directions of theirs.
@@ -30,7 +30,7 @@ impl Mesh {
         (Coordinates { u, v: 1.0 - v }, [along_u, -along_v])
     }
 
-    /// The normal between those of the vertices, on the front side; not of unit length.
+    /// The interpolated normal on the front side; not of unit length.
     #[inline(always)]
     pub fn smooth_normal<L: Lanes>(&self, l: L, triangle: U<L>, p: V<L>) -> V<L> {
         let point = self.surface_point(l, triangle, p);

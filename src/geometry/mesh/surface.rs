@@ -1,4 +1,4 @@
-//! The surface of a mesh where a ray met it.
+//! The surface of a mesh at a hit.
 use super::Mesh;
 use crate::math::{F, Lanes, U, V};
 
@@ -7,13 +7,13 @@ pub struct MeshPoint<L: Lanes> {
     pub p: V<L>,
     /// Unit geometric normal on the front side, from which the vertices run counter-clockwise.
     pub n_geometric: V<L>,
-    /// How far along the normal a ray that starts at `p` must be moved to be strictly on that side of the triangle.
+    /// Offset along the normal that puts the origin of a ray from `p` strictly on that side of the triangle.
     pub error: F<L>,
     /// Weights of the second and the third vertex.
     pub barycentrics: [F<L>; 2],
 }
 
-/// What is given at the vertices, in between.
+/// Interpolated vertex attributes.
 pub struct Attributes<L: Lanes> {
     /// Not of unit length.
     pub normal: V<L>,
@@ -56,7 +56,7 @@ pub(super) fn scaled_area_squared<L: Lanes>(a: V<L>, b: V<L>, c: V<L>) -> F<L> {
 }
 
 impl Mesh {
-    /// The surface at a point `p` that lies on a given triangle but for rounding.
+    /// The surface at a point `p`, which is off a given triangle only by rounding.
     #[inline(always)]
     pub fn surface_point<L: Lanes>(&self, l: L, triangle: U<L>, p: V<L>) -> MeshPoint<L> {
         // Adding up what can bring a ray back to its triangle, with u = ε/2 and R the size of the triangle:
@@ -86,7 +86,7 @@ impl Mesh {
         MeshPoint { p, n_geometric: normal * (1.0 / length), error, barycentrics: [beta, gamma] }
     }
 
-    /// Normal and coordinates at a point with these barycentrics. Only for a mesh that has normals or coordinates.
+    /// Normal and coordinates at a point with these barycentric coordinates. Only for a mesh with normals or coordinates.
     #[inline(always)]
     pub fn attributes<L: Lanes>(&self, l: L, triangle: U<L>, [beta, gamma]: [F<L>; 2]) -> Attributes<L> {
         let [a, b, c, _] = l.rows(&self.triangles, triangle);

@@ -1,4 +1,4 @@
-//! Against brute force and an oracle in f64.
+//! Meshes against brute force and a reference in f64.
 mod surface;
 mod watertight;
 
@@ -102,7 +102,7 @@ fn rays(mesh: &Mesh, count: usize, rng: &mut SmallRng) -> Vec<Ray> {
     rays
 }
 
-/// The least distance over all triangles, one after the other.
+/// The minimum distance over all triangles, tested one by one.
 fn brute_force(mesh: &Mesh, ray: Ray) -> f32 {
     let (o, d) = in_columns(One, &[ray]);
     let shear = Shears::new(One, o, d).lane(0);
@@ -132,7 +132,7 @@ fn traced<L: Lanes>(l: L, mesh: &Mesh, rays: &[Ray]) -> Vec<(f32, u32)> {
     hits
 }
 
-/// The rays in lanes; those left over repeat the last one.
+/// The rays in lanes; unused lanes repeat the last one.
 fn in_columns<L: Lanes>(l: L, rays: &[Ray]) -> (V<L>, V<L>) {
     let mut columns = [[0.0; MAX_LANES]; 6];
     for lane in 0..MAX_LANES {
@@ -177,7 +177,7 @@ fn no_hit_is_lost_at_any_scale_or_place() {
     }
 }
 
-/// Distance and the smallest barycentric coordinate, where the ray meets the plane of the triangle ahead.
+/// Distance and smallest barycentric coordinate, where the ray hits the plane of the triangle.
 fn oracle(corners: [[f32; 3]; 3], (o, d): Ray) -> Option<(f64, f64, f64)> {
     let [a, b, c] = corners.map(|corner| Vec3::from(corner).as_dvec3());
     let (o, d) = (Vec3::from(o).as_dvec3(), Vec3::from(d).as_dvec3());
@@ -285,7 +285,7 @@ fn every_level_gives_the_same_bits() {
     }
 }
 
-/// Bits of all that is known of the points the rays meet.
+/// Bits of all data of the hits.
 fn bits<L: Lanes>(l: L, mesh: &Mesh, rays: &[Ray]) -> Vec<[u32; 6]> {
     let mut all = Vec::new();
     for rays in rays.chunks_exact(L::N) {

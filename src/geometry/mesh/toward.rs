@@ -1,4 +1,4 @@
-//! Directions towards triangles of a mesh that emits, uniform over their area.
+//! Directions towards triangles of an emitting mesh, uniform over their area.
 use super::Mesh;
 use crate::{
     geometry::Toward,
@@ -17,13 +17,13 @@ impl Mesh {
         Toward { wi, pdf, front }
     }
 
-    /// The density of [`Mesh::toward`].
+    /// The pdf of [`Mesh::toward`] per solid angle.
     #[inline(always)]
     pub fn pdf_toward<L: Lanes>(&self, l: L, triangle: U<L>, x: V<L>, wi: V<L>) -> F<L> {
         self.density(l, triangle, x, wi).0
     }
 
-    /// t²/(A |cos θ|) with 2A n = (b − a) × (c − a), and whether the front is seen.
+    /// The pdf t²/(A |cos θ|) with 2A n = (b − a) × (c − a), and whether the front is visible.
     #[inline(always)]
     fn density<L: Lanes>(&self, l: L, triangle: U<L>, x: V<L>, wi: V<L>) -> (F<L>, M<L>) {
         let [a, b, c] = self.positions(l, triangle);

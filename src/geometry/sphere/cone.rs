@@ -1,8 +1,8 @@
-//! The cone of directions in which a sphere is seen, for sampling it by solid angle.
+//! The cone of directions towards a sphere, to sample it by solid angle.
 //!
-//! P. Shirley et al., "Monte Carlo Techniques for Direct Lighting Calculations" (1996), in anchored form: with the
-//! curvature k and m(x), c(x) of [`super`], |m| is the distance from the centre in radii and k c = |m|² − 1, so that the cone of
-//! a sphere that nearly touches x, or is tiny and far, has no cancellation.
+//! P. Shirley et al., "Monte Carlo Techniques for Direct Lighting Calculations" (1996), in anchored form. With the curvature k
+//! and m(x), c(x) of [`super`], |m| is the distance from the centre in radii and k c = |m|² − 1, so there is no cancellation for
+//! a sphere that almost touches x, or is tiny and far away.
 use std::f32::consts::TAU;
 
 use crate::{
@@ -10,20 +10,20 @@ use crate::{
     sampling::warp::cap,
 };
 
-/// The directions in which a sphere is seen from a point: a cone from outside, all directions from inside.
+/// The directions from a point to a sphere: a cone from outside, all directions from inside.
 pub struct Cone<L: Lanes> {
-    /// Unit, towards the centre.
+    /// Unit direction to the centre.
     pub axis: V<L>,
     /// One less the cosine of the half angle; 2 from inside.
     pub one_less_cos: F<L>,
     /// Square of the sine of the half angle; 1 from inside.
     pub sin_squared: F<L>,
-    /// The point sees the sphere from outside, and so its front.
+    /// Lanes whose point is outside the sphere, and so sees its front.
     pub outside: M<L>,
 }
 
 impl<L: Lanes> Cone<L> {
-    /// `anchor` and `normal` are the rows of the sphere.
+    /// Builds the cone from the two rows of a sphere.
     #[inline(always)]
     pub(in crate::geometry) fn of_sphere([qx, qy, qz, k]: [F<L>; 4], [nx, ny, nz, _]: [F<L>; 4], x: V<L>) -> Cone<L> {
         // The square of the smallest distance from the centre, in radii, from which the direction to it is computed.
@@ -43,13 +43,13 @@ impl<L: Lanes> Cone<L> {
         Cone { axis, one_less_cos, sin_squared, outside }
     }
 
-    /// Density of the directions of the cone, per solid angle: all are alike.
+    /// The constant pdf of directions in the cone, per solid angle.
     #[inline(always)]
     pub fn pdf(&self) -> F<L> {
         1.0 / (self.one_less_cos * TAU)
     }
 
-    /// A unit direction of the cone.
+    /// Samples a unit direction in the cone.
     #[inline(always)]
     pub fn sample(&self, u: (F<L>, F<L>)) -> V<L> {
         Frame::new(self.axis).world_from_local(cap(self.one_less_cos, u))

@@ -1,8 +1,8 @@
 //! Surface coordinates of a sphere, from its outward unit normal n in world space, y up.
 //!
-//! u is the azimuth from +x towards −z, in turns, and v the angle from +y in half turns: n = (sin πv cos 2πu, cos πv,
-//! −sin πv sin 2πu). Both lie in [0, 1]; u is below 1, and v = 0 is the top: from outside a picture is seen as it is, u to the
-//! right. ∂p/∂v × ∂p/∂u points outwards.
+//! u is the azimuth from +x towards −z, in turns, and v the angle from +y in half turns: n = (sin πv cos 2πu, cos πv, −sin πv sin
+//! 2πu). Both lie in [0, 1]; u is below 1, and v = 0 is the top. From outside, an image is not mirrored, with u to the right.
+//! ∂p/∂v × ∂p/∂u points outwards.
 use std::f32::consts::{PI, TAU};
 
 use crate::math::{F, Lanes, Pick, V, trig::turns_of};
@@ -15,8 +15,8 @@ pub fn sphere_uv<L: Lanes>(n: V<L>) -> (F<L>, F<L>) {
     (turns_of(n.x, -n.z), turns_of(n.y, r) * 2.0)
 }
 
-/// (∂p/∂u, ∂p/∂v) in metres. Within 10⁻⁶ of a pole, where ∂p/∂u vanishes, its length is kept at what it is there; at the pole
-/// itself u is 0. So neither is ever zero, and they are always at right angles.
+/// (∂p/∂u, ∂p/∂v) in metres. Since ∂p/∂u vanishes at the poles, its length is clamped within 10⁻⁶ of a pole; at the pole itself u
+/// is 0. So neither is ever zero, and they are always perpendicular.
 #[inline(always)]
 pub fn sphere_tangents<L: Lanes>(n: V<L>, radius: F<L>) -> (V<L>, V<L>) {
     const POLE: f32 = 1e-6;

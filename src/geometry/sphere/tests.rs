@@ -1,4 +1,4 @@
-//! x_M on spheres from 10⁻⁶ to 10⁶ in radius, against an oracle in f64.
+//! x_M on spheres with radii from 10⁻⁶ to 10⁶, against a reference in f64.
 use glam::DVec3;
 use rand::{Rng, SeedableRng, rngs::SmallRng};
 
@@ -56,8 +56,8 @@ fn point_on(sphere: &Sphere, p: V<One>) -> SurfacePoint<One> {
     surface_point(anchor.map(F), normal.map(F), p)
 }
 
-/// A ray must agree with the oracle as far as f32 can know: an error of the discriminant of a few roundings of the distance in
-/// radii moves the hit by that over 2 cos θ.
+/// A ray must agree with the reference within the precision of f32: an error of the discriminant of a few roundings of the
+/// distance in radii shifts the hit by that over 2 cos θ.
 fn assert_agrees(sphere: &Sphere, o: V<One>, d: V<One>, what: &str) {
     let radius = 1.0 / f64::from(sphere.curvature);
     let distance = (exact(o) - DVec3::from_array(sphere.anchor.map(f64::from))).length();

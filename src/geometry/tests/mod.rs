@@ -1,4 +1,4 @@
-//! Every kind of shape, placed by every kind of transform, against oracles in f64.
+//! Every type of shape under every kind of transform, against references in f64.
 mod coordinates;
 mod objects;
 mod rays;
@@ -12,7 +12,7 @@ use rand::{Rng, rngs::SmallRng};
 use super::{Motion, Outline, Place, Shape, Shapes, oracle::point_at};
 use crate::math::{F, One, U, V};
 
-/// A shape and what it is.
+/// A shape with a description.
 pub struct Case {
     pub name: String,
     pub shape: Shape,

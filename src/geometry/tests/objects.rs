@@ -1,4 +1,4 @@
-//! Many shapes of every kind, still and in motion: what is found by the tree is what is found by trying each.
+//! Many shapes of every type, static and moving: the tree finds the same hits as brute force.
 use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DVec3};
@@ -47,7 +47,7 @@ fn a_map_and_the_opposite_one_round_alike() {
     assert_eq!(rounding(-turn), rounding(turn));
 }
 
-/// Distance and the place in the list of the nearest of shapes that are asked one by one.
+/// Distance to the nearest shape by brute force.
 fn one_by_one(alone: &[Shapes], o: V<One>, d: V<One>, time: f32) -> Option<f32> {
     let meet = |shapes: &Shapes| shapes.closest(One, M(true), o, d, F(time));
     let distances = alone.iter().map(meet).filter(|nearest| nearest.primitive.0 != MISS).map(|nearest| nearest.t.0);

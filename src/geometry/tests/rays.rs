@@ -31,7 +31,7 @@ fn points_of_the_oracle_lie_at_their_angles() {
     near(quarter(&ellipse), DVec3::new(1.0, 3.0 * 0.5f64.sqrt(), 0.0));
 }
 
-/// A ray must find the first meeting, unless that is an edge or a tangent within rounding, and nothing that is not there.
+/// A ray must find the first intersection, unless that is an edge or a tangent within rounding, and no false one.
 fn assert_agrees(case: &Case, shapes: &Shapes, o: V<One>, d: V<One>, what: &str) {
     let size = case.size();
     let found = closest(shapes, o, d);

@@ -1,4 +1,4 @@
-//! Directions towards primitives against their density.
+//! Directions towards primitives against their pdf.
 use std::{f64::consts::PI, sync::Arc};
 
 use glam::DVec3;
@@ -12,7 +12,7 @@ use crate::{
 
 const SAMPLES: usize = 30_000;
 
-/// Functions of directions whose integrals over what is seen of a shape are compared.
+/// Functions of directions, whose integrals over the solid angle of a shape are compared.
 fn measures(d: DVec3) -> [f64; 4] {
     [1.0, 0.5 + 0.5 * d.x, d.y * d.y, 0.5 + 0.5 * (5.0 * d.z + 2.0 * d.x).sin()]
 }

@@ -45,7 +45,7 @@ impl Piece {
     }
 }
 
-/// Whether the enclosure says anything.
+/// Checks an enclosure, and returns whether it bounds anything.
 fn assert_contains(expression: &Expression, piece: &Piece, rng: &mut SmallRng, what: &str) -> bool {
     let f = piece.enclosure(expression);
     let [a, b, r, q] = [f.a, f.b, f.r, f.q].map(|x| f64::from(x.0));

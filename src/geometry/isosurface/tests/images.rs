@@ -1,4 +1,4 @@
-//! No holes: the pixels that shapes cover.
+//! Shapes have no holes: tests the pixels that they cover.
 use glam::DVec3;
 
 use super::{SHAPES, exact, first_sampled_change, inside_box, intersect, shape, v, value};

@@ -14,7 +14,7 @@ use crate::{
     math::{F, Lanes, One, SimdLevel, V},
 };
 
-/// How far f may be from 0 at a hit: some hundred roundings of numbers about 1.
+/// Tolerance of f at a hit: some hundred roundings of numbers around 1.
 const ZERO: f64 = 1e-5;
 
 /// The bound on the rounding of f in f32.
@@ -26,7 +26,7 @@ fn rounding(shape: &Isosurface, p: DVec3) -> f64 {
     run(One, &shape.expression.tape, &mut registers).r.0.into()
 }
 
-/// What is found must be a change of sign, and none may be before it.
+/// A hit must be a change of sign, with none before it.
 fn assert_agrees(shape: &Isosurface, reach: f32, o: V<One>, d: V<One>, what: &str) {
     let found = intersect(shape, o, d);
     let (o, d) = (exact(o), exact(d));

@@ -1,4 +1,4 @@
-//! The isosurface against oracles in f64.
+//! The isosurface against references in f64.
 mod enclosure;
 mod exact;
 mod functions;
@@ -42,7 +42,7 @@ fn exact(v: V<One>) -> DVec3 {
     DVec3::new(v.x.0.into(), v.y.0.into(), v.z.0.into())
 }
 
-/// f in f64, with the constants that the tape has.
+/// f in f64, with the constants of the tape.
 fn value(expression: &Expression, p: DVec3) -> f64 {
     let mut registers = [Exact(0.0); REGISTERS];
     registers[..3].copy_from_slice(&p.to_array().map(Exact));

@@ -1,4 +1,4 @@
-//! Closed meshes let nothing out.
+//! No ray leaves a closed mesh.
 use glam::{Vec3, vec3};
 use rand::{Rng, SeedableRng, rngs::SmallRng};
 use rayon::prelude::*;
@@ -8,7 +8,7 @@ use super::{
     bumpy_ball, closest, point, unit,
 };
 
-/// Rays from a point inside, at random and at vertices and edges, that leave a closed mesh unseen.
+/// Number of rays from a point inside, at random and at vertices and edges, that leave a closed mesh without a hit.
 fn leaks(mesh: &Mesh, inside: Vec3, count: usize, seed: u64) -> usize {
     let mut rng = SmallRng::seed_from_u64(seed);
     let mut rays = Vec::with_capacity(count);
