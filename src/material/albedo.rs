@@ -1,10 +1,10 @@
-//! How much light a rough surface reflects in all, by the cosine μ of the viewer's angle and the width α.
+//! Directional albedo of rough surfaces, as a function of the cosine μ of the viewer's angle and the width α.
 //!
-//! A table holds a function of (μ, α) over cells that are even in x = μ(1 + α)/(μ + α) and in √α. As α falls, what happens at
-//! μ ~ α becomes a function of μ/α alone, and so of x: the same cells suit every α. A cell's row has the values at its four
-//! corners, so that a lookup is one gather.
+//! A table holds a function of (μ, α) over cells that are uniform in x = μ(1 + α)/(μ + α) and in √α. For small α, the function at
+//! μ ~ α depends on μ/α alone, and so on x: the same cells suit every α. A cell's row has the values at its four corners, so a
+//! lookup is one gather.
 //!
-//! Averages are those of the interpolated function, not of the true one: what they normalise integrates to 1 for every α.
+//! Averages are those of the interpolated function, not of the true one, so normalised functions integrate to 1 for every α.
 use std::sync::LazyLock;
 
 use super::{
@@ -13,10 +13,11 @@ use super::{
 };
 use crate::math::{F, Lanes, SimdLevel, U, round::floor};
 
-/// 1 − E(μ, α) of perfectly reflecting microfacets, the light that single scattering loses to shadowing; and its average.
+/// Table of 1 − E(μ, α) of perfectly reflecting microfacets, the light that single scattering loses to shadowing, with its
+/// average.
 pub static LOSS: LazyLock<Vec<[f32; 4]>> = LazyLock::new(|| build(SimdLevel::best(), None));
 
-/// A line of a table: α fixed, lane by lane.
+/// A line of a table: α is fixed, per lane.
 pub struct Albedo<'a, L: Lanes> {
     table: &'a [[f32; 4]],
     /// Row of the line's first cell.
@@ -24,7 +25,7 @@ pub struct Albedo<'a, L: Lanes> {
     /// Row of the line's average.
     average: U<L>,
     alpha: F<L>,
-    /// Where α lies between the line's lower and upper ends.
+    /// Position of α between the lower and upper ends of the line.
     t: F<L>,
 }
 
@@ -37,7 +38,7 @@ impl<L: Lanes> Clone for Albedo<'_, L> {
 impl<L: Lanes> Copy for Albedo<'_, L> {}
 
 impl<'a, L: Lanes> Albedo<'a, L> {
-    /// In the table that begins at row `first` of `table`; α from [`SMOOTH`] to 1.
+    /// Looks up a line in the table that begins at row `first` of `table`; α is from [`SMOOTH`] to 1.
     #[inline(always)]
     pub fn at(table: &'a [[f32; 4]], first: U<L>, alpha: F<L>) -> Self {
         let root = SMOOTH.sqrt();
@@ -56,7 +57,7 @@ impl<'a, L: Lanes> Albedo<'a, L> {
         low + (high - low) * self.t
     }
 
-    /// 2 ∫₀¹ of the function, or of the light that it leaves, × μ dμ: a cubic in Newton's form on thirds of the line.
+    /// 2 ∫₀¹ of the function, or of the remaining light, × μ dμ: a cubic in Newton's form on thirds of the line.
     #[inline(always)]
     pub fn average(&self, l: L) -> F<L> {
         let [a, b, c, d] = l.rows(self.table, self.average);
@@ -65,7 +66,7 @@ impl<'a, L: Lanes> Albedo<'a, L> {
     }
 }
 
-/// The cell of `x` in [0, cells] and where in it `x` lies, 0 to 1.
+/// The cell of `x` in [0, cells], and the position of `x` in it from 0 to 1.
 #[inline(always)]
 pub(super) fn cell<L: Lanes>(x: F<L>, cells: usize) -> (U<L>, F<L>) {
     let (whole, index) = floor(x.max(x.splat(0.0)).min(x.splat((cells - 1) as f32)));

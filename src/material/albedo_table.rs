@@ -1,4 +1,4 @@
-//! Building the tables of [`super::albedo`] by quadrature.
+//! Builds the tables of [`super::albedo`] by quadrature.
 use fearless_simd_macros::simd;
 
 use super::{
@@ -10,18 +10,19 @@ use crate::{
     math::{F, Lanes, MAX_LANES, One, Pick, SimdLevel, V},
 };
 
-/// Cells in x: their ends fill registers.
+/// Number of cells in x; their ends fill registers.
 pub const ACROSS: usize = 2 * MAX_LANES - 1;
-/// Cells in √α.
+/// Number of cells in √α.
 pub const DOWN: usize = 64;
 
 /// The values at the ends of the cells in x.
 type Line = [f32; ACROSS + 1];
 
-/// Rows of corners of the cells, then a row for the average over each line of cells.
+/// Builds a table: rows with the corners of the cells, then a row for the average over each line of cells.
 ///
-/// Without `coat` the function is 1 − E(μ, α) of perfectly reflecting microfacets, and the average is its own. With a coat of
-/// that index, it is E(μ, α)/F(μ), which unlike E varies with μ/α alone at small α, and the average is that of 1 − E.
+/// Without `coat`, the function is 1 − E(μ, α) of perfectly reflecting microfacets, and the average is that of the function. With
+/// a coat of that index, the function is E(μ, α)/F(μ), which unlike E depends on μ/α alone at small α, and the average is that of
+/// 1 − E.
 pub fn build(level: SimdLevel, coat: Option<f32>) -> Vec<[f32; 4]> {
     let points = lattice();
     let lines: Vec<Line> = (0..=DOWN)
@@ -42,7 +43,7 @@ fn width(y: f64) -> f64 {
     (root + (1.0 - root) * y / DOWN as f64).powi(2)
 }
 
-/// Points of the unit square with weights: a Fibonacci lattice, denser towards u.0 = 1, the steepest microfacets.
+/// Points of the unit square with weights: a Fibonacci lattice, denser towards u.0 = 1, where the microfacets are steepest.
 fn lattice() -> Vec<[f32; 3]> {
     const POINTS: u32 = 1597;
     const STEP: u32 = 987;
@@ -82,7 +83,7 @@ fn line<L: Lanes>(l: L, lattice: &[[f32; 3]], alpha: f32, coat: Option<f32>, val
     }
 }
 
-/// The average on the way from one line to the next, a cubic in Newton's form through thirds of the way.
+/// The average between one line and the next, as a cubic in Newton's form through thirds of the interval.
 fn cubic(j: usize, low: &Line, high: &Line, coat: Option<f32>) -> [f32; 4] {
     let at = |third: u32| {
         let t = f64::from(third) / 3.0;
@@ -96,8 +97,8 @@ fn cubic(j: usize, low: &Line, high: &Line, coat: Option<f32>) -> [f32; 4] {
     [a, b - a, (c - 2.0 * b + a) / 2.0, (d - 3.0 * c + 3.0 * b - a) / 6.0].map(|x| x as f32)
 }
 
-/// 2 ∫₀¹ of the interpolated loss, or of the light the coat lets through, × μ dμ; by the midpoint rule in ⁴√μ, for which the
-/// smallest α are wide.
+/// 2 ∫₀¹ of the interpolated loss, or of the light that the coat transmits, × μ dμ, by the midpoint rule in ⁴√μ, which resolves
+/// the smallest α.
 fn average(line: &Line, alpha: f64, coat: Option<f32>) -> f64 {
     const STEPS: u32 = 512;
     let mut sum = 0.0;

@@ -1,9 +1,9 @@
-//! Rough metal: GGX microfacets, with the light of further scattering between them given back.
+//! Rough metal: GGX microfacets with compensation for multiple scattering.
 //!
 //! Kulla and Conty, "Revisiting Physically Based Shading at Imageworks", 2017: a lobe (1 − E(ω_o))(1 − E(ω_i))/(π(1 − E_avg))
-//! returns what single scattering loses, E being the albedo of perfectly reflecting microfacets. It is reciprocal, and lossless
-//! when the metal is. Light that scatters k times has met Fresnel's reflectance k times and had the chance 1 − E_avg of each
-//! further meeting, which sums to F_avg² E_avg/(1 − F_avg(1 − E_avg)) for k ≥ 2.
+//! restores the light that single scattering loses, where E is the albedo of perfectly reflecting microfacets. It is reciprocal,
+//! and lossless if the metal is. Light that scatters k times is reflected k times by Fresnel's reflectance and hits a further
+//! facet each time with probability 1 − E_avg, which sums to F_avg² E_avg/(1 − F_avg(1 − E_avg)) for k ≥ 2.
 use std::f32::consts::FRAC_1_PI;
 
 use super::{
@@ -19,10 +19,10 @@ pub struct Conductor<L: Lanes> {
     l: L,
     fresnel: ConductorFresnel<L>,
     pub alpha: F<L>,
-    /// Lanes that give the lost light back.
+    /// Lanes with energy compensation.
     compensated: M<L>,
     loss: Albedo<'static, L>,
-    /// Of the light lost by single scattering, the part that is returned, over π times its average.
+    /// The restored fraction of the light that single scattering loses, divided by π times the average loss.
     returned: V<L>,
 }
 
@@ -57,15 +57,15 @@ impl<L: Lanes> Conductor<L> {
         Conductor { l, fresnel, alpha, compensated, loss, returned }
     }
 
-    /// 1 − E(μ); 0 in lanes that lose it for good.
+    /// 1 − E(μ); 0 in lanes without compensation.
     #[inline(always)]
     fn loss(&self, mu: F<L>) -> F<L> {
         let none = mu.splat(0.0);
         if self.compensated.any() { self.compensated.pick(self.loss.value(self.l, mu), none) } else { none }
     }
 
-    /// [`Bsdf::eval`] where 1 − E(ω_o) is known. The lobe of further scattering is chosen with that probability, and sampled
-    /// where it is bright: cosines would find its rim rarely, with weights of 1/α.
+    /// [`Bsdf::eval`] for a known 1 − E(ω_o). The lobe of multiple scattering is chosen with that probability, and sampled where
+    /// it is bright: cosine sampling would rarely find its rim, with weights of 1/α.
     #[inline(always)]
     fn eval_with(&self, wo: V<L>, wi: V<L>, loss: F<L>) -> (V<L>, F<L>) {
         let zero = wo.z.splat(0.0);

@@ -8,10 +8,10 @@ use crate::math::{F, Lanes, M, One, Pick, V};
 
 /// The smooth interface between two transparent media.
 ///
-/// Radiance that passes is scaled by 1/η², for it spreads or narrows with the solid angle (Veach 1997, section 5.2); what enters
-/// and leaves again keeps its radiance.
+/// Transmitted radiance is scaled by 1/η², because refraction changes its solid angle (Veach 1997, section 5.2). Light that
+/// enters and leaves again keeps its radiance.
 pub struct Dielectric<L: Lanes> {
-    /// The index of refraction beyond the surface over that on the side of the viewer.
+    /// Relative index of refraction: that beyond the surface over that on the side of the viewer.
     pub eta: F<L>,
 }
 
@@ -38,7 +38,7 @@ impl<L: Lanes> Bsdf<L> for Dielectric<L> {
         (V { x: zero, y: zero, z: zero }, zero)
     }
 
-    /// Reflects with the probability of the reflectance, so that the weight is 1 apart from the scale of radiance.
+    /// Reflects with a probability equal to the reflectance, so the weight is 1 apart from the scale of radiance.
     #[inline(always)]
     fn sample(&self, wo: V<L>, _: (F<L>, F<L>), lobe: F<L>) -> BsdfSample<L> {
         let (reflectance, cos_t) = fresnel::dielectric(wo.z, self.eta);

@@ -1,8 +1,8 @@
-//! Light that single scattering loses at a rough dielectric, tabulated when the scene is compiled.
+//! Tables of the light that single scattering loses at a rough dielectric, computed when the scene is compiled.
 //!
-//! The model of [`super::rough_dielectric`] follows light to its first facet only; what the Smith term then masks is lost. The
-//! part that is lost, 1 − E(μ) seen at cosine μ, is all that the compensation of [`super::missing_energy`] needs. It has two
-//! sides: looking from outside and from inside.
+//! The model of [`super::rough_dielectric`] follows light only to its first facet, and loses the light that the Smith term masks
+//! afterwards. The compensation of [`super::missing_energy`] needs only the lost fraction, 1 − E(μ) at cosine μ, for both sides:
+//! from outside and from inside.
 use std::ops::Range;
 
 use rayon::prelude::*;
@@ -12,14 +12,14 @@ use crate::math::{F, One, trig::sin_cos_turns};
 
 /// Cells over the cosine of one side at one roughness.
 pub const CELLS: usize = 128;
-/// About half of the cells lie below this multiple of α: few enough are left at grazing angles, where the loss is smooth, to
-/// resolve its bump as wide as α at the critical angle.
+/// About half of the cells lie below this multiple of α. The others suffice for grazing angles, where the loss is smooth, and to
+/// resolve its bump of width α at the critical angle.
 pub const HALF: f32 = 16.0;
-/// Rows of one roughness: outside, then inside.
+/// Number of rows of one roughness: outside, then inside.
 pub const LEVEL_ROWS: usize = 2 * CELLS;
-/// Roughnesses of the table of a textured material, evenly spaced in ⁴√α over [`ALPHAS`].
+/// Number of roughnesses in the table of a textured material, evenly spaced in ⁴√α over [`ALPHAS`].
 pub const LEVELS: usize = 48;
-/// Roughnesses between which a texture may vary.
+/// Range of textured roughnesses.
 pub const ALPHAS: Range<f32> = SMOOTH..1.0;
 
 /// Rows of a material of one roughness: [loss at the near end of the cell, at its far end, mean loss of the side over α², mean
@@ -33,7 +33,7 @@ pub fn uniform_rows(eta: f32, alpha: f32) -> Vec<[f32; 4]> {
 
 /// Rows of a material whose roughness is textured: those of [`uniform_rows`] for all [`LEVELS`], the smoothest first.
 ///
-/// The rules are coarser than for one roughness, as the error between two levels is greater.
+/// The quadrature is coarser than for one roughness, because the error between two levels is larger.
 pub fn textured_rows(eta: f32) -> Vec<[f32; 4]> {
     let rules = Rules { thin: Lattice::new(610, 377), dense: Lattice::new(2584, 1597) };
     let [first, last] = [ALPHAS.start, ALPHAS.end].map(|alpha| f64::from(alpha).sqrt().sqrt());
@@ -59,9 +59,8 @@ impl Level {
         Level { eta, alpha, loss: [side(eta), side(1.0 / eta)] }
     }
 
-    /// The share of the mean loss that crosses the interface is that of light which meets a smooth interface from all
-    /// directions, as far as the side that loses less allows: times n² it is the same for both sides, so that the compensation is
-    /// reciprocal.
+    /// The fraction of the mean loss that crosses the interface is the transmittance of a smooth interface for diffuse light,
+    /// limited by the side that loses less. Times n² it is equal for both sides, so the compensation is reciprocal.
     fn rows(&self) -> Vec<[f32; 4]> {
         let mean = [self.mean(0), self.mean(1)];
         let crossing = mean[0].min(mean[1]) * mean_transmittance(self.eta);
@@ -74,7 +73,7 @@ impl Level {
         side(0).chain(side(1)).collect()
     }
 
-    /// ∫ (1 − E(μ)) 2μ dμ of the loss as lanes interpolate it.
+    /// ∫ (1 − E(μ)) 2μ dμ of the interpolated loss.
     fn mean(&self, side: usize) -> f64 {
         let cell = |(k, ends): (usize, &[f64])| {
             let at = |t: f64| {
@@ -87,23 +86,23 @@ impl Level {
     }
 }
 
-/// The cosine at place `x` in [0, 1] of a table for roughness `alpha`. The loss is a function of μ/α while both are small, so
-/// half of the cells lie below a multiple of α; [`super::missing_energy`] has the inverse.
+/// The cosine at position `x` in [0, 1] of a table for roughness `alpha`. The loss depends on μ/α if both are small, so half of
+/// the cells lie below a multiple of α; [`super::missing_energy`] has the inverse.
 fn cosine(x: f64, alpha: f64) -> f64 {
     let half = f64::from(HALF) * alpha;
     half * x / (1.0 + half - x)
 }
 
-/// Derivative of [`cosine`] by the place.
+/// Derivative of [`cosine`] with respect to the position.
 fn stretch(x: f64, alpha: f64) -> f64 {
     let half = f64::from(HALF) * alpha;
     let rest = 1.0 + half - x;
     half * (1.0 + half) / (rest * rest)
 }
 
-/// What part of light that arrives from all directions alike passes a smooth interface: ∫ (1 − F(μ)) 2μ dμ.
+/// Transmittance of a smooth interface for diffuse light: ∫ (1 − F(μ)) 2μ dμ.
 ///
-/// From the denser side n² times less passes, for as much light passes either way in equilibrium.
+/// From the denser side it is n² times smaller, because the same power passes in both directions in equilibrium.
 fn mean_transmittance(eta: f64) -> f64 {
     let up = eta.max(1.0 / eta);
     let from_thin = mean_over_unit(1024, |mu| 2.0 * mu * (1.0 - fresnel(mu, up).0));
@@ -115,21 +114,22 @@ fn mean_over_unit(count: usize, at: impl Fn(f64) -> f64) -> f64 {
     (0..count).map(|i| at((i as f64 + 0.5) / count as f64)).sum::<f64>() / count as f64
 }
 
-/// The rules for looking into the denser medium and out of it; there total reflection leaves a kink that asks for more points.
+/// Quadrature rules for looking into the denser medium and out of it, where total internal reflection causes a kink that needs
+/// more points.
 struct Rules {
     thin: Lattice,
     dense: Lattice,
 }
 
-/// A Fibonacci lattice on the square of height in the cap and azimuth, with the height eased in and out so that the integrand
-/// is periodic (Sloan and Joe, "Lattice Methods for Multiple Integration", 1994).
+/// A Fibonacci lattice on the square of height in the cap and azimuth, with a change of variable in the height that makes the
+/// integrand periodic (Sloan and Joe, "Lattice Methods for Multiple Integration", 1994).
 struct Lattice {
     /// Height in [0, 1], cosine of the azimuth, weight.
     points: Vec<[f64; 3]>,
 }
 
 impl Lattice {
-    /// `count` and `step` are neighbours among the Fibonacci numbers.
+    /// Builds a lattice; `count` and `step` are consecutive Fibonacci numbers.
     fn new(count: usize, step: usize) -> Lattice {
         let point = |i: usize| {
             let t = (i as f64 + 0.5) / count as f64;
@@ -149,7 +149,7 @@ struct Side<'a> {
 }
 
 impl Side<'_> {
-    /// 1 − E(μ): the mean over the visible normals of what is masked on the way out.
+    /// 1 − E(μ): the mean of the masked fraction on the way out, over the visible normals.
     ///
     /// The visible normals are those that mirror the view, both with the roughness stretched away, to a direction uniform on
     /// the cap of the sphere above −μ (Dupuy and Benyoub, "Sampling Visible GGX Normals with Spherical Caps", 2023, section
@@ -169,7 +169,7 @@ impl Side<'_> {
         self.rule.points.iter().map(lost).sum()
     }
 
-    /// The part lost at one facet, whose cosine is `cos` to the viewer and `m` to the normal.
+    /// The fraction lost at one facet, whose cosine is `cos` to the viewer and `m` to the normal.
     fn masked(&self, cos: f64, m: f64, mu: f64) -> f64 {
         let (reflectance, cos_t) = fresnel(cos, self.eta);
         let reflected = 2.0 * cos * m - mu;
@@ -177,7 +177,7 @@ impl Side<'_> {
         reflectance * self.shadow(reflected) + (1.0 - reflectance) * self.shadow(refracted)
     }
 
-    /// 1 − G₁ at cosine `mu` (Walter et al. 2007, equation 34); everything is lost below the horizon.
+    /// 1 − G₁ at cosine `mu` (Walter et al. 2007, equation 34); 1 below the horizon.
     fn shadow(&self, mu: f64) -> f64 {
         if mu <= 0.0 {
             return 1.0;

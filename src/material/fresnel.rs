@@ -33,10 +33,10 @@ pub fn dielectric_average(eta: f32) -> f32 {
     average(|cos| dielectric(F::<One>(cos), F(eta)).0.0)
 }
 
-/// Reflectance of a metal of index η + ik relative to the outside, one colour channel.
+/// Reflectance of a metal with index η + ik relative to the outside, for one colour channel.
 ///
-/// Born and Wolf, Principles of Optics, 7th ed., section 14.2, in the real form of Lagarde, "Memo on Fresnel equations", 2013:
-/// a² + b² = |(η + ik)² − sin²θ|, a the real part of its root.
+/// Born and Wolf, Principles of Optics, 7th ed., section 14.2, in the real form of Lagarde, "Memo on Fresnel equations", 2013: a²
+/// + b² = |(η + ik)² − sin²θ|, where a is the real part of its root.
 #[inline(always)]
 fn conductor<L: Lanes>(cos: F<L>, eta: F<L>, k: F<L>) -> F<L> {
     let cos2 = cos * cos;
@@ -53,11 +53,11 @@ fn conductor<L: Lanes>(cos: F<L>, eta: F<L>, k: F<L>) -> F<L> {
     0.5 * (r_s + r_p)
 }
 
-/// How metals reflect, lane by lane: a constant, Schlick's approximation, or Fresnel's equations with a complex index.
+/// Fresnel reflectance of metals, per lane: constant, Schlick's approximation, or Fresnel's equations with a complex index.
 pub struct ConductorFresnel<L: Lanes> {
-    /// Reflectance at normal incidence, for lanes without an index.
+    /// Reflectance at normal incidence in lanes without an index.
     f0: V<L>,
-    /// 1 where f0 rises towards grazing incidence after Schlick, 0 where it is constant.
+    /// 1 for Schlick's approximation, 0 for a constant.
     rise: F<L>,
     indexed: M<L>,
     eta: V<L>,
@@ -90,7 +90,7 @@ pub(super) fn rows(reflectance: &Reflectance) -> [[f32; 4]; 3] {
 }
 
 impl<L: Lanes> ConductorFresnel<L> {
-    /// From the rows `first`, `first + 1`, `first + 2` of `table`; `colour` is the reflectance at normal incidence of lanes
+    /// Reads the rows `first`, `first + 1`, `first + 2` of `table`; `colour` is the reflectance at normal incidence in lanes
     /// without an index.
     #[inline(always)]
     pub(super) fn read(l: L, table: &[[f32; 4]], first: U<L>, colour: V<L>) -> Self {
@@ -107,7 +107,7 @@ impl<L: Lanes> ConductorFresnel<L> {
         ConductorFresnel { f0: colour, rise: mode, indexed, eta, k, average: V { x: red, y: green, z: blue } }
     }
 
-    /// Reflectance at cos θ ≥ 0 between direction and (micro)normal.
+    /// Reflectance for the cosine cos θ ≥ 0 between direction and (micro)normal.
     #[inline(always)]
     pub fn reflectance(&self, cos: F<L>) -> V<L> {
         let schlick = self.schlick(schlick_rise(cos));
@@ -145,7 +145,8 @@ fn schlick_rise<L: Lanes>(cos: F<L>) -> F<L> {
     x2 * x2 * x
 }
 
-/// 2 ∫₀¹ F(μ) μ dμ, by the midpoint rule in s = √μ: total reflection of dielectrics has its kink, grazing incidence its slope.
+/// 2 ∫₀¹ F(μ) μ dμ, by the midpoint rule in s = √μ, because of the kink at total internal reflection and the slope at grazing
+/// incidence.
 fn average(reflectance: impl Fn(f32) -> f32) -> f32 {
     const STEPS: u32 = 1024;
     let mut sum = 0.0;

@@ -1,16 +1,16 @@
 //! The isotropic GGX distribution of microfacet normals with Smith's shadowing.
 //!
 //! Walter et al., "Microfacet Models for Refraction through Rough Surfaces", 2007. Directions are in the local frame, α is the
-//! width of the distribution of slopes. Squared sines are formed from x and y, never as 1 − cos², so that all holds in f32 from
-//! α = 1e-3 to 1.
+//! width of the distribution of slopes. Squared sines are computed from x and y, never as 1 − cos², so f32 suffices from α = 1e-3
+//! to 1.
 //!
-//! Single scattering takes the separable G = G1(ω_o) G1(ω_i), as Mitsuba's rough conductor does, so that references agree; the
-//! height-correlated form would be some brighter at grazing angles.
+//! Single scattering uses the separable G = G1(ω_o) G1(ω_i), like Mitsuba's rough conductor, so that references agree; the
+//! height-correlated form would be slightly brighter at grazing angles.
 use std::f32::consts::FRAC_1_PI;
 
 use crate::math::{F, Lanes, V, trig::sin_cos_turns};
 
-/// Below this width a surface is treated as smooth: f32 directions are too coarse for a narrower peak.
+/// Minimum width of a rough surface. f32 directions are too coarse for a narrower peak, so smaller widths are treated as smooth.
 pub const SMOOTH: f32 = 1e-3;
 
 /// Density of microfacet area over normals `h`, h.z ≥ 0: ∫ D(h) h.z dh = 1 (Walter et al. 2007, equation 33).
@@ -21,7 +21,7 @@ pub fn d<L: Lanes>(alpha: F<L>, h: V<L>) -> F<L> {
     FRAC_1_PI / (alpha2 * (e * e))
 }
 
-/// Fraction of microfacets that is visible from direction `w`, on either side of the surface (Walter et al. 2007, equation 34).
+/// Fraction of microfacets visible from direction `w`, on either side of the surface (Walter et al. 2007, equation 34).
 #[inline(always)]
 pub fn g1<L: Lanes>(alpha: F<L>, w: V<L>) -> F<L> {
     w.z.abs() * g1_over_cos(alpha, w)
@@ -34,10 +34,10 @@ pub fn g1_over_cos<L: Lanes>(alpha: F<L>, w: V<L>) -> F<L> {
     2.0 / (w.z.abs() + (slope2 + w.z * w.z).sqrt())
 }
 
-/// A microfacet normal seen from `wo` (wo.z > 0), with the density of [`visible_normal_pdf`]; u.0 < 1.
+/// Samples a microfacet normal visible from `wo` (wo.z > 0), with the pdf of [`visible_normal_pdf`]; u.0 < 1.
 ///
-/// Dupuy and Benyoub, "Sampling Visible GGX Normals with Spherical Caps", 2023, listing 3: on the sphere to which the
-/// stretching by α takes the microfacets, reflections of `wo` are uniform over a cap.
+/// Dupuy and Benyoub, "Sampling Visible GGX Normals with Spherical Caps", 2023, listing 3: stretching by α maps the microfacets
+/// to a sphere, on which reflections of `wo` are uniform over a cap.
 #[inline(always)]
 pub fn sample_visible_normal<L: Lanes>(alpha: F<L>, wo: V<L>, u: (F<L>, F<L>)) -> V<L> {
     let stretched = V { x: wo.x * alpha, y: wo.y * alpha, z: wo.z }.normalized();
@@ -51,22 +51,22 @@ pub fn sample_visible_normal<L: Lanes>(alpha: F<L>, wo: V<L>, u: (F<L>, F<L>)) -
     V { x: x * alpha, y: y * alpha, z }.normalized()
 }
 
-/// Density of [`sample_visible_normal`] per solid angle of `h`: G1(ω_o) max(0, ω_o·h) D(h) / cos θ_o (Heitz, "Sampling the GGX
+/// Pdf of [`sample_visible_normal`] per solid angle of `h`: G1(ω_o) max(0, ω_o·h) D(h) / cos θ_o (Heitz, "Sampling the GGX
 /// Distribution of Visible Normals", 2018, equation 3).
 #[inline(always)]
 pub fn visible_normal_pdf<L: Lanes>(alpha: F<L>, wo: V<L>, h: V<L>) -> F<L> {
     g1_over_cos(alpha, wo) * wo.dot(h).max(wo.z.splat(0.0)) * d(alpha, h)
 }
 
-/// A direction reflected by a visible microfacet; below the surface where the microfacet throws light at others.
+/// Samples a direction reflected by a visible microfacet; below the surface if the microfacet reflects light to other facets.
 #[inline(always)]
 pub fn sample_reflection<L: Lanes>(alpha: F<L>, wo: V<L>, u: (F<L>, F<L>)) -> V<L> {
     let h = sample_visible_normal(alpha, wo, u);
     h * (2.0 * wo.dot(h)) - wo
 }
 
-/// Density of [`sample_reflection`] per solid angle of the reflected direction, `h` halfway between it and `wo`. Times G1(ω_i)
-/// it is f |cos θ_i| of perfectly reflecting microfacets.
+/// Pdf of [`sample_reflection`] per solid angle of the reflected direction; `h` is halfway between it and `wo`. Multiplied by
+/// G1(ω_i), it is f |cos θ_i| of perfectly reflecting microfacets.
 #[inline(always)]
 pub fn reflection_pdf<L: Lanes>(alpha: F<L>, wo: V<L>, h: V<L>) -> F<L> {
     0.25 * (g1_over_cos(alpha, wo) * d(alpha, h))

@@ -1,12 +1,13 @@
-//! Directions at which shadowing loses light: cosines around α, and a tail like 1/μ² above.
+//! Sampling of directions in which shadowing loses light: cosines around α, and a tail like 1/μ² above.
 //!
-//! The loss is roughly μ/(a² + μ²) per cosine, a = 2α. Its distribution has no inverse in terms of roots; but half and half,
-//! μ/(a² + μ²)^½ and μ/(a² + μ²)^(3/2) have, and their geometric mean is that function: their mean is nowhere far below it.
+//! The loss is roughly μ/(a² + μ²) per cosine, with a = 2α. The inverse of its distribution needs more than roots. Those of μ/(a²
+//! + μ²)^½ and μ/(a² + μ²)^(3/2) do not; that function is their geometric mean, so an equal mixture of both is nowhere much
+//! smaller.
 use std::f32::consts::TAU;
 
 use crate::math::{F, Lanes, Pick, V, trig::sin_cos_turns};
 
-/// A direction of the hemisphere; `half` in [0, 1) chooses between the distributions.
+/// Samples a direction of the hemisphere; `half` in [0, 1) chooses between the distributions.
 #[inline(always)]
 pub fn sample<L: Lanes>(alpha: F<L>, u: (F<L>, F<L>), half: F<L>) -> V<L> {
     let a = 2.0 * alpha;
@@ -24,7 +25,7 @@ pub fn sample<L: Lanes>(alpha: F<L>, u: (F<L>, F<L>), half: F<L>) -> V<L> {
     V { x: r * cos, y: r * sin, z }
 }
 
-/// Density of [`sample`] at cosine `mu` ≥ 0, per solid angle.
+/// Pdf of [`sample`] at cosine `mu` ≥ 0, per solid angle.
 #[inline(always)]
 pub fn pdf<L: Lanes>(alpha: F<L>, mu: F<L>) -> F<L> {
     let a = 2.0 * alpha;

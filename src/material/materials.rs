@@ -2,7 +2,7 @@
 use super::{Material, albedo, albedo_table, dielectric_albedo, fresnel, ggx::SMOOTH, missing_energy, rough_dielectric::FAINT};
 use crate::math::{F, Lanes, M, SimdLevel, U, V};
 
-/// Which shading a material needs.
+/// The type of BSDF that a material needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum BsdfKind {
     Lambertian,
@@ -13,21 +13,21 @@ pub enum BsdfKind {
     Plastic,
 }
 
-/// What a bsdf depends on besides its material, lane by lane.
+/// Local parameters of a BSDF, per lane.
 pub struct Local<L: Lanes> {
     /// Number of the material in [`Materials`].
     pub material: U<L>,
-    /// Albedo, or reflectance at normal incidence, at the point; white for kinds without.
+    /// Albedo, or reflectance at normal incidence, at the point; white for types without.
     pub colour: V<L>,
-    /// Width of the distribution of microfacet slopes; those of rough kinds are kept from [`SMOOTH`] up.
+    /// Width α of the GGX distribution; at least [`SMOOTH`] for rough types.
     pub alpha: F<L>,
-    /// The viewer is on the side of the geometric normal.
+    /// Lanes whose viewer is on the side of the geometric normal.
     pub front: M<L>,
 }
 
 /// Constants of the materials, by number.
 ///
-/// | kind | row 0 | row 1 | row 2 |
+/// | type | row 0 | row 1 | row 2 |
 /// |---|---|---|---|
 /// | mirror, conductor | average Fresnel of an index, mode | η, compensated | k, – |
 /// | dielectric | inside over outside index, table, roughness varies, – | – | – |
@@ -38,9 +38,9 @@ pub struct Local<L: Lanes> {
 pub struct Materials {
     pub(super) rows: Vec<[f32; 4]>,
     pub(super) tables: Vec<[f32; 4]>,
-    /// Of compensated conductors; empty when there is none.
+    /// Table of compensated conductors; empty if there are none.
     pub(super) loss: &'static [[f32; 4]],
-    /// Some dielectric is compensated.
+    /// Whether any dielectric is compensated.
     pub(super) compensated_dielectrics: bool,
     kinds: Vec<BsdfKind>,
 }
@@ -118,7 +118,7 @@ impl Materials {
         table
     }
 
-    /// The first row of the table of an interface. Without an interface nothing is given back.
+    /// The first row of the table of an interface. `None` has no compensation.
     fn interface(&mut self, interface: Option<Interface>, known: &mut KnownTables) -> u32 {
         if let Some((_, table)) = known.interfaces.iter().find(|(of, _)| *of == interface) {
             return *table;
@@ -139,10 +139,10 @@ impl Materials {
     }
 }
 
-/// Index of refraction and roughness, which is absent where it varies.
+/// Index of refraction and roughness, which is `None` if it is textured.
 type Interface = (f32, Option<f32>);
 
-/// What the tables made so far are of, and their first rows.
+/// Keys of the existing tables, with their first rows.
 #[derive(Default)]
 struct KnownTables {
     coats: Vec<(f32, u32)>,
@@ -150,7 +150,7 @@ struct KnownTables {
 }
 
 impl Material {
-    /// Which shading it needs; smooth below the roughness [`SMOOTH`].
+    /// The type of BSDF; smooth below the roughness [`SMOOTH`].
     pub fn kind(&self) -> BsdfKind {
         match *self {
             Material::Lambertian { .. } => BsdfKind::Lambertian,

@@ -1,11 +1,11 @@
-//! The lobes that give back what single scattering loses at a rough dielectric.
+//! Energy compensation of rough dielectrics: lobes that restore the light that single scattering loses.
 //!
-//! Kulla and Conty, "Revisiting Physically Based Shading at Imageworks", SIGGRAPH 2017 course, for dielectrics: with loss
-//! ℓ(μ) = 1 − E(μ) and its cosine-weighted mean ℓ̄ on either side, and X the mean loss that crosses,
+//! Kulla and Conty, "Revisiting Physically Based Shading at Imageworks", SIGGRAPH 2017 course, extended to dielectrics. With the
+//! loss ℓ(μ) = 1 − E(μ), its cosine-weighted mean ℓ̄ on either side, and the mean loss X that crosses,
 //!
 //! f_reflected = (ℓ̄ − X)/ℓ̄² · ℓ(μ_o) ℓ(μ_i)/π,  f_transmitted = X/(ℓ̄ ℓ̄') · ℓ(μ_o) ℓ'(μ_i)/π  (primes: the far side).
 //!
-//! The two together reflect ℓ(μ_o), for ∫ ℓ(μ) μ dω = π ℓ̄. Their split is ours: see [`super::dielectric_albedo`].
+//! Together they scatter ℓ(μ_o), because ∫ ℓ(μ) μ dω = π ℓ̄. Their ratio is our own choice: see [`super::dielectric_albedo`].
 use std::f32::consts::{FRAC_1_PI, PI};
 
 use super::{
@@ -14,42 +14,42 @@ use super::{
 };
 use crate::math::{F, Lanes, M, Pick, U, V, trig::sin_cos_turns};
 
-/// Where lanes find what their materials lose.
+/// Tables of the losses of materials, per lane.
 pub struct LossTable<'a, L: Lanes> {
     /// Rows of all materials, from [`super::dielectric_albedo`].
     pub rows: &'a [[f32; 4]],
     /// First row of the lane's material.
     pub offset: U<L>,
-    /// Lanes whose material has rows for every roughness.
+    /// Lanes whose material has rows for all roughnesses.
     pub textured: M<L>,
 }
 
-/// Rows of a material of one roughness that loses its light for good.
+/// Rows of a material of one roughness without compensation.
 pub fn nothing_missing() -> Vec<[f32; 4]> {
     vec![[0.0, 0.0, 1.0, 0.0]; LEVEL_ROWS]
 }
 
-/// The lost light of some surface points of known roughness.
+/// The lost light of surface points with known roughness.
 pub struct MissingEnergy<'a, L: Lanes> {
     l: L,
     rows: &'a [[f32; 4]],
-    /// First row of the roughness; the next roughness follows `step` rows later, weighed by `blend`.
+    /// First row of the roughness; the next roughness is `step` rows later, with weight `blend`.
     first: U<L>,
     step: U<L>,
     blend: F<L>,
     blends: bool,
     alpha: F<L>,
-    /// The viewer is on the outside of the interface.
+    /// Lanes whose viewer is outside the interface.
     outside: M<L>,
 }
 
-/// What is lost at one cosine.
+/// The loss at one cosine.
 pub struct Loss<L: Lanes> {
     /// 1 − E(μ).
     pub here: F<L>,
-    /// Mean over the cosines of this side, over α².
+    /// Mean over the cosines of this side, divided by α².
     mean: F<L>,
-    /// Part of the mean that goes to the other side, over α².
+    /// Part of the mean that goes to the other side, divided by α².
     exchanged: F<L>,
 }
 
@@ -81,7 +81,7 @@ impl<'a, L: Lanes> MissingEnergy<'a, L> {
         MissingEnergy { l, rows, first, step, blend, blends: textured.any(), alpha, outside }
     }
 
-    /// Loss towards a direction at cosine `cos` to the normal, on the far side of the interface where `through`.
+    /// Loss in a direction with cosine `cos` to the normal, on the far side of the interface in the lanes of `through`.
     #[inline(always)]
     pub fn loss(&self, cos: F<L>, through: M<L>) -> Loss<L> {
         let half = self.alpha * HALF;
@@ -92,7 +92,7 @@ impl<'a, L: Lanes> MissingEnergy<'a, L> {
         Loss { here: near + (far - near) * t, mean, exchanged }
     }
 
-    /// A row, blended between two roughnesses where they vary.
+    /// A row, interpolated between two roughnesses if they are textured.
     #[inline(always)]
     fn row(&self, at: U<L>) -> [F<L>; 4] {
         let [a, b, c, d] = self.l.rows(self.rows, at);
@@ -104,8 +104,8 @@ impl<'a, L: Lanes> MissingEnergy<'a, L> {
         [a + (p - a) * w, b + (q - b) * w, c + (r - c) * w, d + (s - d) * w]
     }
 
-    /// f |cos θ_i| without the scale of radiance, and the density of [`MissingEnergy::sample`], for the loss towards the viewer
-    /// and the height of ω_i.
+    /// f |cos θ_i| without the scale of radiance, and the pdf of [`MissingEnergy::sample`], for the loss towards the viewer and
+    /// the z component of ω_i.
     #[inline(always)]
     pub fn eval(&self, viewer: &Loss<L>, height: F<L>) -> (F<L>, F<L>) {
         let (through, cos) = (height.below(0.0), height.abs());
@@ -116,7 +116,7 @@ impl<'a, L: Lanes> MissingEnergy<'a, L> {
         (share * viewer.here * there.here / mean * cos * FRAC_1_PI, share * self.pdf(cos))
     }
 
-    /// A direction from the point `u` of the unit square; `lobe` in (0, 1) chooses the side.
+    /// Samples a direction with the point `u` of the unit square; `lobe` in (0, 1) chooses the side.
     #[inline(always)]
     pub fn sample(&self, viewer: &Loss<L>, u: (F<L>, F<L>), lobe: F<L>) -> V<L> {
         let (start, end) = self.radii();
@@ -132,11 +132,11 @@ impl<'a, L: Lanes> MissingEnergy<'a, L> {
         V { x: sin * cos_phi, y: sin * sin_phi, z: through.pick(-cos, cos) }
     }
 
-    /// Density of a direction within its side, at cosine `cos`.
+    /// Pdf of a direction within its side, at cosine `cos`.
     ///
-    /// The loss falls about as 1/(μ² + α²): most of it is lost at grazing angles. In s = √(μ² + α²) the density is the mean of a
-    /// uniform one and one uniform in 1/s, whose inverse needs no more than a square root. It is at least a fifth of what the
-    /// loss asks for, at least a ninth where the indices are almost equal.
+    /// The loss falls roughly as 1/(μ² + α²): most of it is at grazing angles. In s = √(μ² + α²), the pdf is the mean of one
+    /// uniform in s and one uniform in 1/s, whose inverse needs only a square root. It is at least a fifth of the ideal pdf, or a
+    /// ninth if the indices are almost equal.
     #[inline(always)]
     fn pdf(&self, cos: F<L>) -> F<L> {
         let (start, end) = self.radii();

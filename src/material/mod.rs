@@ -1,15 +1,15 @@
 //! Materials: how a surface reflects.
 //!
-//! | kind | file | what it is |
+//! | type | file | description |
 //! |---|---|---|
 //! | lambertian | `lambertian.rs` | ideal diffuse reflection |
 //! | mirror | `mirror.rs` | smooth metal or a mirror of constant reflectance: a delta lobe |
-//! | conductor | `conductor.rs` | rough metal: GGX reflection, with the light of further scattering given back |
+//! | conductor | `conductor.rs` | rough metal: GGX reflection, with energy compensation |
 //! | dielectric | `dielectric.rs` | smooth interface: delta lobes of reflection and refraction |
-//! | rough dielectric | `rough_dielectric.rs` | microfacets that reflect and refract, with the light of further scattering given back |
+//! | rough dielectric | `rough_dielectric.rs` | microfacets that reflect and refract, with energy compensation |
 //! | plastic | `plastic.rs` | diffuse base under a clear coat, smooth (delta lobe) or rough (GGX) |
 //!
-//! All reflect from both sides. Roughness is the width α of the GGX distribution (`ggx.rs`); the tables that account for all light
+//! All reflect from both sides. Roughness is the width α of the GGX distribution (`ggx.rs`). The tables for energy compensation
 //! are in `albedo.rs` for reflection and in `missing_energy.rs` for interfaces.
 mod albedo;
 mod albedo_table;
@@ -40,8 +40,8 @@ pub use self::{
     rough_dielectric::RoughDielectric,
 };
 
-/// What a surface is made of. `alpha` is the width of the GGX distribution, the square of artists' roughness, in [0, 1]; below
-/// [`ggx::SMOOTH`] the surface is smooth. Where a texture varies it, it is the largest.
+/// A material. `alpha` is the width of the GGX distribution, the square of perceptual roughness, in [0, 1]; below [`ggx::SMOOTH`]
+/// the surface is smooth. If it is textured, it is the maximum.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Material {
     /// Reflectances in [0, 1] of red, green and blue.
@@ -56,17 +56,17 @@ pub enum Material {
         ior: f32,
         ior_outside: f32,
         alpha: f32,
-        /// A texture varies the roughness.
+        /// Whether the roughness is textured.
         varies: bool,
         compensated: bool,
     },
-    /// `compensated`: with light that scatters more than once between microfacets.
+    /// `compensated`: with multiple scattering between microfacets.
     Conductor {
         fresnel: Reflectance,
         alpha: f32,
         compensated: bool,
     },
-    /// The albedo is that of the base without its coat; the index of the coat is at least 1.
+    /// `albedo` is that of the base without its coat; the index of the coat is at least 1.
     Plastic {
         albedo: [f32; 3],
         ior: f32,
@@ -74,7 +74,7 @@ pub enum Material {
     },
 }
 
-/// How much a metal reflects, channel by channel.
+/// Reflectance of a metal, per channel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reflectance {
     /// The same at every angle.
@@ -86,7 +86,8 @@ pub enum Reflectance {
 }
 
 impl Material {
-    /// Whether it scatters light even where its colour is black: coats and Fresnel's rise towards grazing angles have no colour.
+    /// Whether it scatters light even if its colour is black: coats and the rise of Fresnel reflectance towards grazing angles do
+    /// not depend on the colour.
     pub fn scatters_where_black(&self) -> bool {
         match self {
             Material::Lambertian { .. } | Material::Mirror { .. } => false,
@@ -95,7 +96,7 @@ impl Material {
         }
     }
 
-    /// What the scene file calls the kind.
+    /// Name of the type in the scene file.
     pub fn name(&self) -> &'static str {
         match self {
             Material::Lambertian { .. } => "lambertian",

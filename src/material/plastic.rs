@@ -1,11 +1,11 @@
 //! A diffuse base under a clear coat, smooth or rough.
 //!
-//! Light that the coat does not reflect enters, T(μ) = 1 − E(μ), scatters at the base, and tries to leave until it is absorbed
-//! or does: f = ρ T(ω_o) T(ω_i) / (π η² (1 − ρ R)), R the coat's average reflectance from inside. Reciprocity of the interface
-//! ties R to the average T_avg of T over diffuse light from outside, η²(1 − R) = T_avg (Egan and Hilgeman, "Optical Properties of
-//! Inhomogeneous Materials", 1979), so that the denominator is π (η²(1 − ρ) + ρ T_avg): the term is reciprocal, and lossless for
-//! ρ = 1 with any coat. E is Fresnel's reflectance of a smooth coat and the directional albedo of a GGX coat; the light that
-//! single scattering in the coat loses is thereby given to the base.
+//! Light that the coat does not reflect enters, T(μ) = 1 − E(μ), and scatters between base and coat until it leaves or is
+//! absorbed: f = ρ T(ω_o) T(ω_i) / (π η² (1 − ρ R)), where R is the coat's average reflectance from inside. Reciprocity of the
+//! interface relates R to the average T_avg of T over diffuse light from outside, η²(1 − R) = T_avg (Egan and Hilgeman, "Optical
+//! Properties of Inhomogeneous Materials", 1979), so the denominator is π (η²(1 − ρ) + ρ T_avg). The term is reciprocal, and
+//! lossless for ρ = 1 with any coat. E is Fresnel's reflectance of a smooth coat, or the directional albedo of a GGX coat, so
+//! light that single scattering in the coat loses goes to the base.
 use std::f32::consts::FRAC_1_PI;
 
 use super::{
@@ -23,7 +23,7 @@ use crate::{
 pub struct Plastic<'a, L: Lanes> {
     l: L,
     ior: F<L>,
-    /// Lanes with a GGX coat; the coat of the others is a delta lobe.
+    /// Lanes with a GGX coat; the others have a delta lobe.
     rough: M<L>,
     alpha: F<L>,
     /// E/F of the rough coats.
@@ -81,7 +81,7 @@ impl<'a, L: Lanes> Plastic<'a, L> {
         coat / (coat + self.brightest * transmission).max(coat.splat(f32::MIN_POSITIVE))
     }
 
-    /// [`Bsdf::eval`] where T(ω_o) and the chance of the coat are known.
+    /// [`Bsdf::eval`] for known T(ω_o) and probability of the coat.
     #[inline(always)]
     fn eval_with(&self, wo: V<L>, wi: V<L>, transmission: F<L>, chance: F<L>) -> (V<L>, F<L>) {
         let zero = wo.z.splat(0.0);

@@ -1,7 +1,7 @@
 //! The rough dielectric: microfacets that reflect and refract.
 //!
 //! Walter, Marschner, Li and Torrance, "Microfacet Models for Refraction through Rough Surfaces", EGSR 2007, with GGX facets
-//! drawn as the viewer sees them, and with the light of further bounces between facets given back ([`super::missing_energy`]).
+//! sampled by visible normals, and with energy compensation ([`super::missing_energy`]).
 use super::{
     bsdf::{Bsdf, BsdfSample, ChosenLobe, Lobes},
     dielectric::Dielectric,
@@ -11,11 +11,12 @@ use super::{
 };
 use crate::math::{F, Lanes, M, One, Pick, V};
 
-/// Interfaces whose indices differ by less are handled as smooth: what passes bends by less than this even at the roughest
-/// facet, too little for a half vector in f32, and would see the facets only through their masking, which is an artefact there.
+/// Interfaces whose indices differ by less are treated as smooth. Even at the roughest facet they refract light by a smaller
+/// angle than this, too small for a half vector in f32, and the facets would be visible only through their masking, which is an
+/// artefact there.
 pub const FAINT: f32 = 1e-3;
 
-/// The rough interface between two transparent media; radiance that passes is scaled by 1/η² as in [`Dielectric`].
+/// The rough interface between two transparent media; transmitted radiance is scaled by 1/η² as in [`Dielectric`].
 pub struct RoughDielectric<'a, L: Lanes> {
     eta: F<L>,
     alpha: F<L>,
@@ -41,8 +42,8 @@ impl<'a, L: Lanes> RoughDielectric<'a, L> {
         RoughDielectric::new(l, eta, alpha, at.front, losses)
     }
 
-    /// `eta` is the index beyond the surface over that on the side of the viewer, who is `outside` in the lanes of the mask;
-    /// `alpha` is from [`ggx::SMOOTH`] to 1. Without a table only single scattering is left.
+    /// `eta` is the index beyond the surface over that on the side of the viewer, who is outside in the lanes of `outside`.
+    /// `alpha` is from [`ggx::SMOOTH`] to 1. Without a table, there is only single scattering.
     #[inline(always)]
     pub(super) fn new(l: L, eta: F<L>, alpha: F<L>, outside: M<L>, losses: Option<LossTable<'a, L>>) -> Self {
         #[expect(clippy::manual_map, reason = "a closure would not be compiled for the instructions of the lanes")]
@@ -53,13 +54,13 @@ impl<'a, L: Lanes> RoughDielectric<'a, L> {
         RoughDielectric { eta, alpha, missing }
     }
 
-    /// The index beyond the surface over that on the side of the viewer.
+    /// The relative index: that beyond the surface over that on the side of the viewer.
     #[inline(always)]
     pub fn eta(&self) -> F<L> {
         self.eta
     }
 
-    /// Lanes whose interface is handled as smooth.
+    /// Lanes whose interface is treated as smooth.
     #[inline(always)]
     fn faint(&self) -> M<L> {
         (self.eta - 1.0).abs().below(FAINT)
@@ -71,10 +72,11 @@ impl<'a, L: Lanes> RoughDielectric<'a, L> {
         wi.z.below(0.0).pick(1.0 / (self.eta * self.eta), self.eta.splat(1.0))
     }
 
-    /// f |cos θ_i| of single scattering without the scale of radiance, and its density.
+    /// f |cos θ_i| of single scattering without the scale of radiance, and its pdf.
     ///
-    /// The half vector and the density of ω_i for that of facets are those of Walter et al. 2007, equations 13, 14, 16 and 17:
-    /// reflection is refraction with an index of 1 apart from the sign. What leaves the visible facet unmasked is G₁(ω_i).
+    /// The half vector and the Jacobian from facets to ω_i are those of Walter et al. 2007, equations 13, 14, 16 and 17:
+    /// reflection is refraction with an index of 1, apart from the sign. G₁(ω_i) is the fraction that leaves the visible facet
+    /// unmasked.
     #[inline(always)]
     fn single(&self, wo: V<L>, wi: V<L>) -> (F<L>, F<L>) {
         let through = wi.z.below(0.0);
@@ -96,7 +98,7 @@ impl<'a, L: Lanes> RoughDielectric<'a, L> {
         (pdf * ggx::g1(self.alpha, wi), pdf)
     }
 
-    /// A direction from a facet that the viewer sees, and whether it is on the side where it belongs.
+    /// Samples a direction via a visible facet, and tells whether it is on the correct side.
     #[inline(always)]
     fn sample_single(&self, wo: V<L>, u: (F<L>, F<L>), lobe: F<L>) -> (V<L>, M<L>) {
         let m = ggx::sample_visible_normal(self.alpha, wo, u);
@@ -110,7 +112,7 @@ impl<'a, L: Lanes> RoughDielectric<'a, L> {
         (wi, reflects.pick(wi.z, -wi.z).above(0.0))
     }
 
-    /// A direction from all lobes that are not delta, and whether it exists.
+    /// Samples a direction from all lobes that are not delta, and tells whether it exists.
     #[inline(always)]
     fn sample_wi(&self, wo: V<L>, u: (F<L>, F<L>), lobe: F<L>) -> (V<L>, M<L>) {
         let Some(missing) = &self.missing else {

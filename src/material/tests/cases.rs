@@ -19,7 +19,7 @@ pub struct Case {
     pub alpha: f32,
     pub material: Material,
     pub directions: Directions,
-    /// All light must come back.
+    /// Whether the albedo must be 1.
     pub lossless: bool,
     materials: Materials,
 }
@@ -68,7 +68,7 @@ pub fn cases() -> Vec<Case> {
     all
 }
 
-/// A bsdf of any kind.
+/// A BSDF of any type.
 #[derive(Clone, Copy)]
 pub enum Any<'a> {
     Lambertian(Lambertian<One>),
@@ -97,13 +97,13 @@ impl Bsdf<One> for Any<'_> {
     }
 }
 
-/// `Local` for any lanes, for the materials of [`mixed`].
+/// [`Local`] parameters for the materials of [`mixed`], for any lanes.
 pub fn local<L: Lanes>(material: U<L>, colour: V<L>, alpha: F<L>) -> Local<L> {
     let front = alpha.ge(alpha);
     Local { material, colour, alpha, front }
 }
 
-/// Conductors and plastics next to each other, four of each.
+/// Conductors and plastics, four of each.
 pub fn mixed() -> [Vec<Material>; 2] {
     let alpha = 0.2;
     let conductor = |fresnel, compensated| Material::Conductor { fresnel, alpha, compensated };
@@ -114,7 +114,7 @@ pub fn mixed() -> [Vec<Material>; 2] {
     ]
 }
 
-/// The colour that a texture may replace; white for kinds without.
+/// The colour that a texture may replace; white for types without.
 fn colour(material: &Material) -> [f32; 3] {
     match *material {
         Material::Lambertian { albedo } | Material::Plastic { albedo, .. } => albedo,

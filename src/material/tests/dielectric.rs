@@ -69,7 +69,7 @@ fn equal_indices_let_everything_pass_straight() {
     }
 }
 
-/// Mean weight of samples, the scale of radiance taken out: over `u` on a lattice, over `lobe` exactly.
+/// Mean weight of samples without the scale of radiance, over `u` on a lattice and over `lobe` exactly.
 fn albedo(bsdf: &RoughDielectric<'_, One>, eta: f32, wo: V<One>, [count, step]: [u32; 2]) -> f64 {
     let ease = |t: f64| (t * t * (3.0 - 2.0 * t)) as f32;
     let slope = |t: f64| 6.0 * t * (1.0 - t);
@@ -85,7 +85,7 @@ fn albedo(bsdf: &RoughDielectric<'_, One>, eta: f32, wo: V<One>, [count, step]: 
     (0..count).map(point).sum::<f64>() / f64::from(count)
 }
 
-/// ∫ of a weight that changes only when the direction does, by halving.
+/// Integrates a weight that changes only with the direction, by bisection.
 fn mean_of_steps(at: &impl Fn(f64) -> ([f32; 3], f64), [from, to]: [f64; 2], [low, high]: [([f32; 3], f64); 2]) -> f64 {
     if low.0 == high.0 || to - from < 1e-4 {
         return (to - from) * 0.5 * (low.1 + high.1);
@@ -188,7 +188,7 @@ fn rough_surfaces_are_reciprocal() {
     }
 }
 
-/// Bits of sixteen samples, of materials that differ from lane to lane.
+/// Bits of sixteen samples, with a different material in each lane.
 fn sample_bits<L: Lanes>(l: L, rows: &[[f32; 4]]) -> Vec<u32> {
     let spread = |from: usize, phase: usize| -> F<L> {
         let values: Vec<f32> = (from..from + L::N).map(|i| ((i * 7 + phase * 5) % 16) as f32 / 16.0 + 0.03).collect();

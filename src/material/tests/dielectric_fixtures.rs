@@ -1,4 +1,4 @@
-//! Interfaces and directions that the tests of dielectrics share.
+//! Interfaces and directions for the tests of dielectrics.
 use std::{collections::HashMap, sync::LazyLock};
 
 use super::super::{dielectric_albedo::uniform_rows, missing_energy::LossTable, rough_dielectric::RoughDielectric};
@@ -10,7 +10,7 @@ pub(super) const ETAS: [f32; 7] = [1.0 / 2.4, 1.0 / 1.5, 1.0 / 1.33, 1.0001, 1.3
 pub(super) const ROUGHNESSES: [f32; 6] = [0.001, 0.01, 0.1, 0.3, 0.6, 1.0];
 pub(super) const COSINES: [f32; 5] = [1.0, 0.8, 0.4, 0.1, 0.02];
 
-/// Interfaces that are not faint, at all roughnesses of `roughnesses`.
+/// Interfaces that are not faint, at all of these roughnesses.
 pub(super) fn interfaces(roughnesses: &[f32]) -> Vec<(f32, f32)> {
     let etas = ETAS.iter().filter(|&&eta| eta != 1.0001);
     etas.flat_map(|&eta| roughnesses.iter().map(move |&alpha| (eta, alpha))).collect()
@@ -33,7 +33,7 @@ pub(super) fn rows_of(eta: f32, alpha: f32) -> &'static [[f32; 4]] {
     &ROWS[&key(eta, alpha)]
 }
 
-/// The interface seen from its thinner side, outside, where `eta` > 1, from inside otherwise.
+/// The interface seen from outside, its thinner side, if `eta` > 1, and from inside otherwise.
 pub(super) fn rough(eta: f32, alpha: f32, rows: Option<&[[f32; 4]]>) -> RoughDielectric<'_, One> {
     let table = rows.map(|rows| LossTable { rows, offset: U(0), textured: M(false) });
     RoughDielectric::new(One, F(eta), F(alpha), M(eta > 1.0), table)

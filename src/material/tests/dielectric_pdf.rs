@@ -1,4 +1,4 @@
-//! Samples of rough dielectrics against their densities.
+//! Samples of rough dielectrics against their pdfs.
 use rand::{Rng, SeedableRng, rngs::SmallRng};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
@@ -16,7 +16,7 @@ fn narrow(d: Direction) -> V<One> {
     V::splat(One, d.map(|x| x as f32))
 }
 
-/// Fails where counts are too unlikely under expectations; bins of few are taken together.
+/// Fails if counts are too unlikely under expectations; sparse bins are merged.
 fn check_counts(observed: &[f64], expected: &[f64], tests: usize, name: &str) {
     let few = |(_, e): &(&f64, &f64)| **e < 8.0;
     let term = |(o, e): (&f64, &f64)| (o - e) * (o - e) / e;
@@ -30,7 +30,7 @@ fn check_counts(observed: &[f64], expected: &[f64], tests: usize, name: &str) {
     assert!(p > SIGNIFICANCE / tests as f64, "{name}: p = {p}, {statistic} of {many}");
 }
 
-/// A grid over the half vectors, finer where facets are more, that is as narrow as the lobes of the smoothest facets.
+/// A grid over the half vectors, finer where facets are denser, as narrow as the lobes of the smoothest facets.
 struct HalfVectors {
     eta: f64,
     alpha: f64,
@@ -54,7 +54,7 @@ impl HalfVectors {
         (usize::from(wi[2] < 0.0) * Self::DOWN + down.min(Self::DOWN - 1)) * Self::AROUND + around
     }
 
-    /// The direction that the facet at (x, y) of the unit square sends on, by reflection or refraction.
+    /// The direction of light from the facet at (x, y) of the unit square, by reflection or refraction.
     fn direction(&self, x: f64, y: f64, through: bool) -> Option<Direction> {
         let tan = self.alpha * x / (1.0 - x);
         let (sin_phi, cos_phi) = ((y - 0.5) * std::f64::consts::TAU).sin_cos();

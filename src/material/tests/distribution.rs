@@ -1,4 +1,4 @@
-//! Samples against densities.
+//! Samples against pdfs.
 use std::f64::consts::TAU;
 
 use rand::{Rng, SeedableRng, rngs::SmallRng};
@@ -14,7 +14,7 @@ use crate::math::{F, One, V};
 /// Probability of the worst statistic of all cases together.
 const SIGNIFICANCE: f64 = 1e-4;
 
-/// Bins of the normals halfway between viewer and light, by slope and azimuth: sharp lobes fill as many as wide ones.
+/// Bins of half vectors by slope and azimuth: sharp lobes fill as many as wide ones.
 struct Grid {
     alpha: f64,
     wo: [f64; 3],
@@ -76,7 +76,7 @@ impl Grid {
     }
 }
 
-/// Probability of a chi² as large as that of counts against expectations; bins that expect little are taken together.
+/// Probability of a chi² as large as that of counts against expectations; sparse bins are merged.
 fn chi_squared(observed: &[f64], expected: &[f64]) -> f64 {
     let (mut statistic, mut bins, mut rest) = (0.0, 0.0, [0.0; 2]);
     for (o, e) in observed.iter().zip(expected) {
@@ -120,8 +120,8 @@ fn directions_are_distributed_as_their_pdf() {
     }
 }
 
-/// No sample may be worth much more than others: rare ones of great weight would have to make up for what samples miss. The largest
-/// weights, 4.13, are those of thin coats seen at grazing angles.
+/// Upper bound of sample weights: rare samples of large weight would mean that sampling misses light. The largest weights, 4.13,
+/// occur for thin coats at grazing angles.
 const MOST_WEIGHT: f32 = 4.5;
 
 #[test]

@@ -1,4 +1,4 @@
-//! The white furnace: how much light comes back in all.
+//! The white furnace: total reflected and transmitted light.
 use super::{
     super::{Bsdf, Local, Material, Materials, Plastic},
     cases::{Any, COSINES, cases},
@@ -26,7 +26,7 @@ fn albedo(bsdf: &Any<'_>, cos: f32) -> f64 {
     whole
 }
 
-/// Where the numbers that choose a lobe go over from one to the next, and 1: octaves towards both ends that differ, bisected.
+/// The numbers at which the chosen lobe changes, and 1: found by bisection of octaves towards both ends.
 fn ends_of_lobes(bsdf: &Any<'_>, cos: f32) -> Vec<f32> {
     let direction = |lobe: f32| bsdf.sample(viewer(cos), (F(0.3), F(0.6)), F(lobe)).wi.lane(0);
     let low = (1..=40).rev().map(|k| 0.5f32.powi(k));

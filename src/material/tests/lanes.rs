@@ -1,4 +1,4 @@
-//! The same bits in any number of lanes.
+//! BSDFs have the same bits in any number of lanes.
 use fearless_simd_macros::simd;
 
 use super::{
@@ -17,7 +17,7 @@ fn column(k: u32) -> Vec<f32> {
     (0..POINTS as u32).map(|i| ((i * 40_503 + 7919 * k * (i + 1)) % 65_521) as f32 / 65_521.0 + 1e-6).collect()
 }
 
-/// Everything a bsdf answers, for all points.
+/// All results of a BSDF, for all points.
 #[simd]
 fn answers<L: Lanes>(l: L, plastic: bool, materials: &Materials, columns: &[Vec<f32>], out: &mut Vec<u32>) {
     for start in (0..POINTS).step_by(L::N) {

@@ -1,4 +1,4 @@
-//! Every kind of bsdf against what holds for all: samples against densities, weights, reciprocity, energy, lanes.
+//! Every BSDF against the properties of all BSDFs: samples against pdfs, weights, reciprocity, energy, lanes.
 mod cases;
 mod dielectric;
 mod dielectric_fixtures;
