@@ -1,4 +1,4 @@
-//! The queues of one thread, through which the paths of a batch travel.
+//! The queues of one thread, which hold the paths of a batch between stages.
 use super::{queue::Queue, reuse::Shared, work::SLOTS};
 use crate::{
     math::{F, Lanes, M, MAX_LANES, One, U, V},
@@ -12,38 +12,38 @@ record! {
         o: V,
         /// Unit.
         d: V,
-        /// Product of f cos/p and of the roulette's weights so far.
+        /// Product of f cos/p and of the roulette weights so far.
         throughput: V,
         slot: U,
     }
 }
 
 record! {
-    /// Where a path comes from, for the weight of a light that it runs into: see [`super::weight`].
+    /// The previous vertex of a path, for the MIS weight of an emitter hit: see [`super::weight`].
     Past {
         /// Shading normal on the viewer's side.
         n: V,
-        /// Density of the path's direction, per solid angle.
+        /// Pdf of the path's direction, per solid angle.
         pdf: F,
         flags: U,
     }
 }
 
 record! {
-    /// The [`crate::light::Lobe`] that a path's direction comes from. Kept beside [`Past`] where the choice of a light asks for it.
+    /// The [`crate::light::Lobe`] of the previous vertex. Stored beside [`Past`] if light selection uses lobes.
     Gloss {
         wo: V,
         alpha: F,
     }
 }
 
-/// Flag of [`Past`]: no light sample could have had the direction.
+/// Flag of [`Past`]: the direction comes from a delta lobe, so no light sample could have had it.
 pub(super) const DELTA: u32 = 1;
-/// Flag of [`Past`]: light was looked for on both sides of the surface.
+/// Flag of [`Past`]: lights were sampled on both sides of the surface.
 pub(super) const TRANSMITS: u32 = 2;
 
 record! {
-    /// The media that a path is in, innermost in the lowest byte. Kept beside paths and light samples in scenes with media.
+    /// The media around a path, innermost in the lowest byte. Stored beside paths and light samples in scenes with media.
     Inside {
         media: U,
     }
@@ -52,7 +52,7 @@ record! {
 record! {
     /// A path at a surface that reflects.
     Hit {
-        /// Where the next ray starts: the surface point, moved off the surface by its error.
+        /// Origin of the next ray: the surface point, offset from the surface by its error.
         p: V,
         /// Unit geometric normal on the side the path arrived from.
         n: V,
@@ -64,16 +64,16 @@ record! {
 }
 
 record! {
-    /// What shading needs to know besides where a surface is more than diffuse.
+    /// Further data for shading of surfaces that are more than diffuse.
     Detail {
         /// Unit, towards the viewer.
         wo: V,
         /// Unit shading normal on the side the path arrived from.
         n: V,
         alpha: F,
-        /// How far [`Hit::p`] was moved.
+        /// Offset of [`Hit::p`] from the surface.
         error: F,
-        /// Word of the surface (see [`crate::scene::surface`]), with its flag `FRONT` where the path arrived at the front.
+        /// Word of the surface (see [`crate::scene::surface`]), with its flag `FRONT` if the path arrived at the front.
         surface: U,
         /// Media on the side the path arrived from, and the one inside the surface.
         media: U,
@@ -82,31 +82,31 @@ record! {
 }
 
 record! {
-    /// A light sample that is seen if the first surface along its ray is the target.
+    /// A light sample, visible if the first surface along its ray is the target.
     Shadow {
         o: V,
         d: V,
-        /// What it adds to its pixel then.
+        /// Its contribution to the pixel if it is visible.
         radiance: V,
         target: U,
         slot: U,
     }
 }
 
-/// The queues of a thread. Made once, used for every tile.
+/// The queues of a thread. Allocated once, reused for every tile.
 pub struct Batch {
-    /// Paths of this bounce and of the next, in turn.
+    /// Paths of this bounce and of the next, alternating.
     pub(super) paths: [Queue; 2],
-    /// Kept beside `paths` when lights are sampled.
+    /// Stored beside `paths` if lights are sampled.
     pub(super) pasts: [Queue; 2],
-    /// Kept beside `pasts` in scenes with conductors and several lights.
+    /// Stored beside `pasts` in scenes with conductors and several lights.
     pub(super) glosses: [Queue; 2],
-    /// A queue for every kind of bsdf.
+    /// A queue for every type of BSDF.
     pub(super) hits: [Queue; Stage::COUNT],
-    /// Kept beside `hits` for kinds that read it.
+    /// Stored beside `hits` for types that read it.
     pub(super) details: [Queue; Stage::COUNT],
     pub(super) shadows: Queue,
-    /// Kept beside `paths` and `shadows` in scenes with media.
+    /// Stored beside `paths` and `shadows` in scenes with media.
     pub(super) path_media: [Queue; 2],
     pub(super) shadow_media: Queue,
     /// Distance and primitive id of the first surface of every path of this bounce.
@@ -114,13 +114,13 @@ pub struct Batch {
     pub(super) primitive: Vec<f32>,
     /// The triangle in scenes with meshes.
     pub(super) element: Vec<f32>,
-    /// Radiance gathered so far, a slot; then what paths found that is to be shared.
+    /// Radiance so far, per slot; then radiance to be shared, per slot.
     pub(super) radiance: Vec<[f32; 4]>,
     pub(super) shared: Shared,
     pub(super) bounce: u32,
-    /// Rays traced: path segments and shadow rays.
+    /// Rays traced: path segments, shadow rays and visibility rays of path reuse.
     pub rays: u64,
-    /// Paths cut at [`crate::scene::RenderSettings::last_bounce`] without a cap that says so.
+    /// Paths cut at [`crate::scene::RenderSettings::last_bounce`] in the absence of a cap.
     pub cut_paths: u64,
 }
 
@@ -148,8 +148,8 @@ impl Default for Batch {
 }
 
 impl Batch {
-    /// After a trace: the radiance of every pixel of a tile, at row · [`super::TILE`] + column, or of [`super::Blocks`], one block
-    /// after the other, at row · [`super::BLOCK`] + column of the block.
+    /// The radiance of every pixel after a trace: of a tile, at row · [`super::TILE`] + column, or of [`super::Blocks`], block by
+    /// block, at row · [`super::BLOCK`] + column of the block.
     pub fn radiance(&self) -> &[[f32; 4]] {
         &self.radiance[..SLOTS]
     }

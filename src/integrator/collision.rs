@@ -1,12 +1,12 @@
-//! Camera collision: a camera that is moved stops short of a surface behind which nothing can be seen.
+//! Camera collision: a moving camera stops short of a surface if nothing is visible behind it.
 //!
-//! A place is *blind* if no light arrives there from any direction. To find out, [`is_blind`] traces some thousand paths from it as
-//! the renderer does, spread over all directions; one that finds light is enough. A move is stopped by the first surface that has a
-//! blind place right behind it. So a camera stays out of solid walls and balls, passes panes of glass and sheets between two lit
-//! rooms, and enters a closed box that is lit inside. A camera that is in a blind place already moves freely: it must get out again.
+//! A position is *blind* if no light arrives there from any direction. [`is_blind`] traces some thousand paths from it in all
+//! directions, like the renderer; one that finds light is enough. A move stops at the first surface with a blind position right
+//! behind it. So a camera stays out of solid walls and balls, passes through panes of glass and sheets between two lit rooms, and
+//! enters a closed box that is lit inside. A camera at a blind position moves freely, because it must get out again.
 //!
-//! This costs one ray a surface on the way, and paths only where the way passes through a surface: about a millisecond if the place
-//! behind it is blind, less if it is not.
+//! The cost is one ray per surface on the way, and paths only if the way crosses a surface: about a millisecond if the position
+//! behind it is blind, and less otherwise.
 use glam::DVec3;
 
 use super::{batch::Batch, trace::trace, work::Work};
@@ -17,17 +17,17 @@ use crate::{
     scene::{Camera, RenderSettings, Scene},
 };
 
-/// The distance that is kept from a surface, in parts of the size of the scene.
+/// Minimum distance from a surface, as a fraction of the size of the scene.
 const MARGIN: f64 = 1e-3;
-/// Surfaces that are looked at on the way of one move.
+/// Maximum number of surfaces on the way of one move.
 const MOST_CROSSINGS: usize = 64;
-/// All directions are six pictures, 90° wide, of so many pixels a side and so many samples a pixel.
+/// Six images of 90° cover all directions; this is their width and height, and the number of samples per pixel.
 const SIDE: u32 = 16;
 const SAMPLES: u32 = 2;
-/// Longer paths would take longer than a frame of the window.
+/// Bounce cap: longer paths would take longer than a frame of the window.
 const MOST_BOUNCES: u32 = 16;
 
-/// The part of the straight way between two places that a camera can go before a surface stops it, from 0 to 1.
+/// The fraction from 0 to 1 of the straight way between two positions that a camera can move before a surface stops it.
 pub fn clear_fraction(scene: &Scene, from: DVec3, to: DVec3) -> f64 {
     let (length, margin) = (from.distance(to), MARGIN * scene.size);
     let Some(direction) = (to - from).try_normalize() else { return 1.0 };
@@ -47,7 +47,7 @@ pub fn clear_fraction(scene: &Scene, from: DVec3, to: DVec3) -> f64 {
     1.0
 }
 
-/// Whether no light arrives at a place from anywhere, as far as some thousand paths can tell.
+/// Whether no light arrives at a position, according to some thousand paths.
 pub fn is_blind(scene: &Scene, place: DVec3) -> bool {
     let settings = RenderSettings { max_bounces: Some(MOST_BOUNCES), ..RenderSettings::default() };
     let mut batch = Batch::default();
@@ -76,22 +76,22 @@ fn view(eye: DVec3, axis: DVec3) -> Camera {
     }
 }
 
-/// Where a ray meets a surface.
+/// A crossing of a ray with a surface.
 struct Crossing {
     distance: f64,
-    /// The next place on the ray that is strictly behind the surface.
+    /// The next position on the ray strictly behind the surface.
     beyond: DVec3,
 }
 
 impl Crossing {
-    /// A place behind the surface: as far as the margin, but before the next surface.
+    /// A position behind the surface: at the margin, but before the next surface.
     fn behind(&self, scene: &Scene, direction: DVec3, margin: f64) -> DVec3 {
         let room = first_crossing(scene, self.beyond, direction).map_or(f64::INFINITY, |next| next.distance);
         self.beyond + direction * margin.min(0.5 * room)
     }
 }
 
-/// The first surface along a ray, of things as they are when the shutter opens.
+/// The first surface along a ray, at the time when the shutter opens.
 fn first_crossing(scene: &Scene, origin: DVec3, direction: DVec3) -> Option<Crossing> {
     let l = One;
     let [o, d] = [origin, direction].map(|v| V::splat(l, v.as_vec3().to_array()));

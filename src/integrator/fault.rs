@@ -1,10 +1,10 @@
-//! Mistakes that tests inject to prove that the validation notices them. Not part of the program.
+//! Faults that tests inject to prove that the validation notices them. Not part of the program.
 use crate::{
     math::{F, Lanes, V},
     scene::Fault,
 };
 
-/// The weight of the direction of a path's `reflection`-th reflection at cosine `cos` with its mistake.
+/// The weight of the direction of a path's `reflection`-th reflection at cosine `cos`, with the injected fault.
 #[inline(always)]
 pub(super) fn spoil<L: Lanes>(fault: Option<Fault>, reflection: u32, weight: V<L>, cos: F<L>) -> V<L> {
     match fault {

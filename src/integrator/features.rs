@@ -1,6 +1,6 @@
-//! What a camera sees first, without noise: normals, colours, distances, objects, and how long it takes to find them.
+//! Features of the first hits, without noise: normals, colours, distances, objects, and the cost of finding them.
 //!
-//! The first stages of the renderer, `spawn → intersect → surface`, on blocks of pixels whose rays go through their middles.
+//! It runs the first stages of the renderer, `spawn → intersect → surface`, on blocks of pixels with rays through pixel centres.
 use std::time::{Duration, Instant};
 
 use fearless_simd_macros::simd;
@@ -22,33 +22,34 @@ use crate::{
     scene::{Camera, Legend, RenderSettings, Scene, Shutter},
 };
 
-/// A tent without width: all of a pixel's samples lie in its middle.
+/// A tent without width: all samples of a pixel lie at its centre.
 const MIDDLE: Filter = Filter::Tent { radius: 0.0 };
 
-/// The rays of a block are traced so often, and the shortest time counts: what else the machine does only adds to the others.
+/// Number of times that the rays of a block are traced. The shortest time counts, because other load on the machine only adds
+/// time.
 const REPETITIONS: u32 = 4;
 
-/// What is seen through the middles of the pixels, row by row from the top left.
+/// Features at the pixel centres, row by row from the top left.
 pub struct Features {
     pub width: u32,
     pub height: u32,
-    /// Unit normals that surfaces are shaded with, in the world, on the viewer's side; zero where the ray leaves the scene.
+    /// Unit shading normals in world space, on the viewer's side; zero if the ray leaves the scene.
     pub normal: Vec<[f32; 3]>,
-    /// What the bsdf is scaled by, textures included: white for kinds without a colour, zero where nothing is reflected or met.
+    /// Scale of the BSDF including textures: white for types without a colour, zero if nothing is reflected or hit.
     pub albedo: Vec<[f32; 3]>,
-    /// Metres along the ray; infinite where it leaves the scene.
+    /// Metres along the ray; infinite if it leaves the scene.
     pub depth: Vec<f32>,
-    /// Places in [`Scene::objects`], or [`MISS`].
+    /// Indices into [`Scene::objects`], or [`MISS`].
     pub object: Vec<u32>,
-    /// Places in [`Legend::names`], or [`MISS`].
+    /// Indices into [`Legend::names`], or [`MISS`].
     pub material: Vec<u32>,
-    /// Nanoseconds that it takes a thread to find what a ray meets first, on average over blocks of 8 × 8 pixels. This is measured and
-    /// never twice the same.
+    /// Nanoseconds that a thread takes to find the first hit of a ray, averaged over blocks of 8 × 8 pixels. This is a
+    /// measurement, and not reproducible.
     pub cost: Vec<f32>,
 }
 
-/// What a camera would see if it had a pinhole and its shutter closed at once; `None` if it was interrupted. Runs on the threads of
-/// the pool that it is called in. All levels give the same but for the cost.
+/// Computes the features for the camera with a pinhole and an instantaneous shutter; `None` if it was interrupted. Runs on the
+/// threads of the calling pool. All levels give the same result except for the cost.
 pub fn features(level: SimdLevel, scene: &Scene, camera: &Camera, interrupted: &(dyn Fn() -> bool + Sync)) -> Option<Features> {
     let rays = scene.rays(&Camera { lens: None, shutter: camera.shutter.map(Shutter::at_opening), filter: MIDDLE, ..*camera });
     let settings = RenderSettings::default();
@@ -68,14 +69,14 @@ pub fn features(level: SimdLevel, scene: &Scene, camera: &Camera, interrupted: &
 }
 
 impl Features {
-    /// Room for those of a picture of this size.
+    /// Reserves memory for the features of an image of this size.
     pub fn reserve([width, height]: [u32; 2]) -> Result<Reservation, TooMuch> {
-        /// Of a pixel: what is kept, and before that what its block has seen.
+        /// Bytes per pixel: of the result, and of its block before that.
         const PIXEL: u64 = 40 + 40;
         memory::reserve(format_args!("features of {width} × {height} pixels"), PIXEL * u64::from(width) * u64::from(height))
     }
 
-    /// Of a camera that looks past everything.
+    /// Features of a camera that sees nothing.
     fn empty([width, height]: [u32; 2]) -> Features {
         let pixels = width as usize * height as usize;
         Features {
@@ -90,7 +91,7 @@ impl Features {
         }
     }
 
-    /// Puts the block with its upper left corner at a pixel in its place.
+    /// Copies the block with its upper left corner at a pixel to its position.
     fn put(&mut self, [x, y]: [u32; 2], block: &Block, legend: &Legend) {
         let wide = BLOCK.min(self.width - x) as usize;
         for (slot, seen) in block.seen.iter().enumerate() {
@@ -106,13 +107,13 @@ impl Features {
     }
 }
 
-/// What the rays of a block of pixels meet, row by row, and what finding it costs each.
+/// Hits of a block of pixels, row by row, and the cost per ray.
 struct Block {
     seen: Vec<Option<Seen>>,
     cost: f32,
 }
 
-/// One pixel of [`Features`] where a surface is met.
+/// One pixel of [`Features`] with a hit.
 #[derive(Clone, Copy)]
 struct Seen {
     normal: [f32; 3],
@@ -137,7 +138,7 @@ fn look<L: Lanes>(l: L, work: &Work, batch: &mut Batch) -> Block {
     Block { cost: nanoseconds / seen.len() as f32, seen }
 }
 
-/// What the paths of a batch have met, in their order.
+/// Describes the hits of the paths of a batch, in order.
 #[simd]
 fn describe<L: Lanes>(l: L, work: &Work, batch: &Batch, seen: &mut Vec<Option<Seen>>) {
     let (scene, paths) = (work.scene, batch.current());
@@ -171,7 +172,7 @@ fn describe<L: Lanes>(l: L, work: &Work, batch: &Batch, seen: &mut Vec<Option<Se
     }
 }
 
-/// Normal on the viewer's side and colour of the surfaces that the paths of `hit` meet after `t` metres.
+/// Shading normal on the viewer's side and colour of the surfaces that the paths in `hit` reach after `t` metres.
 #[inline(always)]
 fn shading<L: Lanes>(l: L, scene: &Scene, hit: M<L>, path: &Path<L>, place: Place<L>, t: F<L>) -> (V<L>, V<L>) {
     let point = scene.shapes.surface_point(l, &place, path.o + path.d * t);

@@ -1,4 +1,4 @@
-//! Second stage: x_M, the first surface along every path. One instance is compiled for scenes of spheres alone.
+//! Second stage: finds x_M, the first surface along every path. A separate instance is compiled for scenes of spheres alone.
 use fearless_simd_macros::simd;
 
 use super::{

@@ -1,41 +1,41 @@
-//! The kinds of bsdf as the shading stage sees them: one instance of the stage is compiled for each.
+//! The types of BSDF in the shading stage, which is compiled once for each.
 use crate::{
     material::{self, Bsdf, Lambertian, Local, Materials},
     math::{F, Lanes, M, Pick},
     scene::{RenderSettings, surface::Stage},
 };
 
-/// A kind of bsdf and what its shading needs. What it does not need is not compiled.
+/// A type of BSDF and the needs of its shading. Code that it does not need is not compiled.
 pub(super) trait Kind {
     type Bsdf<'a, L: Lanes>: Bsdf<L>;
     const STAGE: Stage;
-    /// It depends on the direction to the viewer, has parameters besides its colour, or a shading normal of its own.
+    /// Whether it depends on the direction to the viewer, has parameters besides its colour, or has its own shading normal.
     const DETAILED: bool = true;
-    /// It has more than delta lobes, so that sampled lights can contribute.
+    /// Whether it has lobes that are not delta, so that sampled lights can contribute.
     const SEES_LIGHTS: bool = true;
-    /// It has several lobes to choose from.
+    /// Whether it has several lobes to choose from.
     const LOBES: bool = true;
     const TRANSMITS: bool = false;
 
-    /// It has one lobe, for which the choice of a light is better made.
+    /// Whether it has a single lobe, which light selection can use.
     const GLOSSY: bool = false;
 
     fn at<'a, L: Lanes>(l: L, materials: &'a Materials, settings: &RenderSettings, at: &Local<L>) -> Self::Bsdf<'a, L>;
 
-    /// The width of the lobe; 0 where there is none.
+    /// The width of the lobe; 0 without one.
     #[inline(always)]
     fn alpha<L: Lanes>(l: L, _bsdf: &Self::Bsdf<'_, L>) -> F<L> {
         l.f(0.0)
     }
 
-    /// What roulette multiplies the throughput by before it judges it. `z` is the height of the next direction.
+    /// The factor of the throughput for Russian roulette. `z` is the height of the next direction.
     #[inline(always)]
     fn roulette_scale<L: Lanes>(_bsdf: &Self::Bsdf<'_, L>, _front: M<L>, z: F<L>) -> F<L> {
         z.splat(1.0)
     }
 }
 
-/// Diffuse, with the geometric normal and nothing that varies but the colour.
+/// Diffuse, with the geometric normal; only the colour varies.
 pub(super) struct Plain;
 
 impl Kind for Plain {
@@ -50,7 +50,7 @@ impl Kind for Plain {
     }
 }
 
-/// Diffuse, with a normal of its own or in a medium.
+/// Diffuse, with its own shading normal or in a medium.
 pub(super) struct Diffuse;
 
 impl Kind for Diffuse {
@@ -114,8 +114,8 @@ kinds! {
     }
 }
 
-/// The square of the index that a path is in over the one outside the surface it leaves: radiance has that much more to give once
-/// it is outside again. `eta` is the index beyond the surface over that on the viewer's side.
+/// The squared ratio of the indices inside and outside, for paths that stay or go inside: their radiance grows by this factor
+/// once they are outside again. `eta` is the index beyond the surface over that on the viewer's side.
 #[inline(always)]
 fn uncompressed<L: Lanes>(eta: F<L>, front: M<L>, z: F<L>) -> F<L> {
     let inside = front ^ z.above(0.0);

@@ -2,10 +2,10 @@
 use super::work::Work;
 use crate::math::{F, Lanes, U, V, exp::exp2_of_negative};
 
-/// Longer ways are not told apart: what they let pass is 0, or all.
+/// Maximum distance. Over longer ones the transmittance is 0 or 1.
 const FARTHEST: f32 = 1e30;
 
-/// What the innermost of `media` lets pass over a way of `t` metres.
+/// Transmittance of the innermost of `media` over `t` metres.
 #[inline(always)]
 pub(super) fn transmittance<L: Lanes>(l: L, work: &Work, media: U<L>, t: F<L>) -> V<L> {
     let [r, g, b, _] = l.rows(&work.scene.surfaces.media, media & 0xff);
@@ -13,7 +13,7 @@ pub(super) fn transmittance<L: Lanes>(l: L, work: &Work, media: U<L>, t: F<L>) -
     V { x: exp2_of_negative(-(r * way)), y: exp2_of_negative(-(g * way)), z: exp2_of_negative(-(b * way)) }
 }
 
-/// The media around a path that passes through a surface: into its medium, or out of the innermost.
+/// The media around a path after it passes through a surface, into its medium or out of the innermost.
 #[inline(always)]
 pub(super) fn beyond<L: Lanes>(media: U<L>, medium: U<L>, enters: crate::math::M<L>) -> U<L> {
     use crate::math::Pick;

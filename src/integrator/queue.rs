@@ -1,10 +1,10 @@
-//! Queues of records in structure-of-arrays form: one dense column of f32 a scalar field.
+//! Queues of records as structures of arrays: one dense column of f32 per scalar field.
 //!
-//! A stage reads a queue a register at a time and appends what survives to the next one, compressed, so that lanes stay full
-//! however paths diverge.
+//! A stage reads a queue one register at a time and appends the surviving records to the next queue, compressed, so lanes stay
+//! full even if paths diverge.
 use crate::math::{F, Lanes, M, MAX_LANES, U, V};
 
-/// Columns of numbers. What they mean is known to the record type that made the queue.
+/// Columns of numbers. The record type that made the queue knows their meaning.
 pub struct Queue {
     columns: Vec<f32>,
     stride: usize,
@@ -46,11 +46,11 @@ impl Queue {
     }
 }
 
-/// What a record can hold.
+/// A field of a record.
 pub trait Field<L: Lanes>: Copy {
     const COLUMNS: usize;
     fn read(l: L, queue: &Queue, column: usize, at: usize) -> Self;
-    /// Writes the lanes of `keep`, moved together, or all when `whole`.
+    /// Writes the lanes of `keep`, compressed, or all if `whole`.
     fn append(self, keep: M<L>, whole: bool, queue: &mut Queue, column: usize);
 }
 
@@ -119,7 +119,7 @@ macro_rules! record {
                 $crate::integrator::queue::Queue::new(Self::COLUMNS, capacity)
             }
 
-            /// The records from place `at` on, one a lane.
+            /// Reads the records from index `at` on, one per lane.
             #[inline(always)]
             pub fn read(l: L, queue: &$crate::integrator::queue::Queue, at: usize) -> Self {
                 use $crate::integrator::queue::Field;

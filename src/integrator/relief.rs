@@ -6,12 +6,12 @@ use crate::{
     texture::{TextureCoordinates, Textures},
 };
 
-/// The shading normal on the front of the surface at `point`: in the lanes of `mask` `n`, on the front, tilted by the textures in its row of
+/// The shading normal on the front of the surface at `point`: in the lanes of `mask`, `n` tilted by the textures in its row of
 /// [`crate::scene::surface::Surfaces::relief`].
 ///
-/// A height h moves the surface to p + h n; without the small terms that bend n itself, its normal is n − ∇h (J. Blinn,
-/// "Simulation of Wrinkled Surfaces", SIGGRAPH 1978). A normal map holds (x, y, z)/2 + ½ of the normal, x along ∂p/∂u, y against
-/// ∂p/∂v (up in the picture) and z along n.
+/// A height h displaces the surface to p + h n; without the small terms from the curvature of n, its normal is n − ∇h (J. Blinn,
+/// "Simulation of Wrinkled Surfaces", SIGGRAPH 1978). A normal map holds (x, y, z)/2 + ½ of the normal, with x along ∂p/∂u, y
+/// against ∂p/∂v (up in the image) and z along n.
 #[inline(always)]
 pub(super) fn shading_normal<L: Lanes>(
     l: L,
@@ -70,7 +70,7 @@ fn gradient<L: Lanes>(
     along_u * ((vv * by_u - uv * by_v) * scale) + along_v * ((uu * by_v - uv * by_u) * scale)
 }
 
-/// A step from `x` that does not reach 1, where `x` itself lies below.
+/// A step from `x` that stays below 1 if `x` is below 1.
 #[inline(always)]
 fn within<L: Lanes>(x: F<L>, step: F<L>) -> F<L> {
     (x + step).below(1.0).pick(step, -step)

@@ -1,10 +1,10 @@
-//! Last stage: what paths find beyond the first surface is shared among the pixels of a group.
+//! Last stage: shares path suffixes between neighbouring pixels.
 //!
 //! P. Bekaert, M. Sbert and J. Halton, "Accelerating Path Tracing by Re-using Paths", Eurographics Workshop on Rendering 2002.
-//! The path of pixel j meets a diffuse surface at xⱼ and, by a sampled direction, another at yⱼ, which sends the radiance Lⱼ in all
-//! directions alike. Any pixel i of the group could have found yⱼ, with the density pᵢ(yⱼ) over areas, and takes it into account by
-//! the balance heuristic: it adds ρᵢ Lⱼ pᵢ(yⱼ)/Σₖ pₖ(yⱼ). Where yⱼ is not seen from xᵢ, pᵢ is 0. The weights of a path add up to 1:
-//! its light is divided among the pixels, so that nothing of it is lost and only the noise of the pixels falls.
+//! The path of pixel j hits a diffuse surface at xⱼ and, in a sampled direction, another at yⱼ, which reflects the radiance Lⱼ
+//! equally in all directions. Any pixel i of the group could have found yⱼ, with the pdf pᵢ(yⱼ) per area, and weights it by the
+//! balance heuristic: it adds ρᵢ Lⱼ pᵢ(yⱼ)/Σₖ pₖ(yⱼ). If yⱼ is not visible from xᵢ, pᵢ is 0. The weights of a path add up to 1:
+//! its light is divided among the pixels, so none is lost, and only the noise decreases.
 use fearless_simd_macros::simd;
 
 use super::{
@@ -17,24 +17,24 @@ use crate::{
     sampling::hash::hash_one,
 };
 
-/// A group is so many pixels wide and high.
+/// Width and height of a group in pixels.
 const WIDTH: u32 = 4;
 const HEIGHT: u32 = 4;
-/// The pixels of a group. A visibility ray for each but one is what a sample costs more.
+/// Number of pixels in a group. A sample costs one additional visibility ray for each pixel but one.
 const MEMBERS: usize = (WIDTH * HEIGHT) as usize;
-/// The slots of a batch are the first members of all groups, then the second members, and so on.
+/// Number of groups in a batch. Its slots are the first members of all groups, then the second members, and so on.
 const GROUPS: usize = SLOTS / MEMBERS;
 
 /// The surface points that are shared, by slot.
 pub(super) struct Shared {
-    /// The first surfaces: where rays start, and 1 in lanes that share; normals; albedos.
+    /// The first surfaces: origins of rays, with 1 in lanes that share; normals; albedos.
     points: Vec<[f32; 4]>,
     normals: Vec<[f32; 4]>,
     albedos: Vec<[f32; 4]>,
-    /// The second ones: where they are, and the primitive; normals, zero where there is none, and the triangle.
+    /// The second surfaces: positions and primitives; normals, zero if there is none, and triangles.
     found: Vec<[f32; 4]>,
     found_normals: Vec<[f32; 4]>,
-    /// What comes out, row by row of the tile.
+    /// The resulting radiance, row by row of the tile.
     pub(super) radiance: Vec<[f32; 4]>,
 }
 
@@ -52,7 +52,7 @@ impl Default for Shared {
     }
 }
 
-/// Column and row of slots within their tile. Groups lie elsewhere in every sample, or else their edges would show.
+/// Column and row of slots within their tile. Groups are shifted in every sample, so that their edges are not visible.
 #[inline(always)]
 pub(super) fn place<L: Lanes>(slot: U<L>, sample: u32) -> (U<L>, U<L>) {
     let (member, group) = (slot >> GROUPS.trailing_zeros(), slot & (GROUPS as u32 - 1));
@@ -68,13 +68,13 @@ impl Shared {
         self.found_normals.fill([0.0; 4]);
     }
 
-    /// Times the albedo of the first surface, where that is shared.
+    /// Multiplies by the albedo of the first surface, if that is shared.
     pub fn weighted(&self, slot: usize, colour: [f32; 3]) -> [f32; 3] {
         let shares = self.points[slot][3] > 0.0;
         [0, 1, 2].map(|c| if shares { colour[c] * self.albedos[slot][c] } else { colour[c] })
     }
 
-    /// Keeps the first surface of paths.
+    /// Stores the first surface of paths.
     #[inline(always)]
     pub fn keep_first<L: Lanes>(&mut self, l: L, lanes: M<L>, hit: &Hit<L>) {
         put(lanes, hit.slot, hit.p, l.f(1.0), &mut self.points);
@@ -91,7 +91,7 @@ impl Shared {
         (l.rows(&self.points, slot)[3].above(0.0), V { x: r, y: g, z: b })
     }
 
-    /// Keeps the second surface of paths, and has what they find from there on gathered apart.
+    /// Stores the second surface of paths, and redirects the radiance from there on to separate slots.
     #[inline(always)]
     pub fn keep_second<L: Lanes>(&mut self, lanes: M<L>, place: &Place<L>, hit: &mut Hit<L>) {
         put(lanes, hit.slot, hit.p, place.primitive.as_real_bits(), &mut self.found);
@@ -113,7 +113,7 @@ fn put<L: Lanes>(lanes: M<L>, slot: U<L>, V { x, y, z }: V<L>, w: F<L>, rows: &m
     }
 }
 
-/// A first surface.
+/// The first surface of a path.
 #[derive(Clone, Copy)]
 struct First<L: Lanes> {
     p: V<L>,
@@ -121,17 +121,17 @@ struct First<L: Lanes> {
     shares: M<L>,
 }
 
-/// A second surface.
+/// The second surface of a path.
 struct Second<L: Lanes> {
     p: V<L>,
     n: V<L>,
     place: Place<L>,
     radiance: V<L>,
-    /// Lanes where there is light to share.
+    /// Lanes with light to share.
     lit: M<L>,
 }
 
-/// Adds to the radiance of every slot what it gets of its group, and brings the slots into the order of rows.
+/// Adds the shared light of its group to the radiance of every slot, and sorts the slots into rows.
 #[simd]
 pub(super) fn share<L: Lanes>(l: L, work: &Work, batch: &mut Batch) {
     let none = First { p: V::splat(l, [0.0; 3]), n: V::splat(l, [0.0; 3]), shares: l.first(0) };
@@ -186,8 +186,8 @@ impl<L: Lanes> Second<L> {
         Second { p: V { x, y, z }, n, place, radiance, lit }
     }
 
-    /// Density over areas, times π, with which a cosine-distributed direction from a first surface finds this place; 0 where it
-    /// is not seen. The finder itself sees it.
+    /// Pdf per area, times π, with which a cosine-distributed direction from a first surface finds this point; 0 if it is not
+    /// visible. For the finder itself it is visible.
     #[inline(always)]
     fn density_from(&self, l: L, work: &Work, first: &First<L>, is_finder: bool, rays: &mut u64) -> F<L> {
         // Rounding must not take its own find away from a path that grazes.
@@ -211,7 +211,7 @@ impl<L: Lanes> Second<L> {
         seen.pick(leaving * arriving / distance_squared, l.f(0.0))
     }
 
-    /// Whether a ray meets this place first.
+    /// Whether a ray hits this point first.
     #[inline(always)]
     fn is_met(&self, l: L, work: &Work, o: V<L>, d: V<L>, distance: F<L>, lanes: M<L>) -> M<L> {
         // Of a surface that is not convex a ray may meet another part first.
@@ -224,7 +224,7 @@ impl<L: Lanes> Second<L> {
     }
 }
 
-/// Writes what the slots get to their places in the tile.
+/// Writes the shared light of the slots to their pixels in the tile.
 #[inline(always)]
 fn finish<L: Lanes>(l: L, work: &Work, batch: &mut Batch, slot: U<L>, shares: M<L>, sum: V<L>) {
     let [r, g, b, _] = l.rows(&batch.radiance, slot);

@@ -1,22 +1,22 @@
 //! Russian roulette (Arvo and Kirk, "Particle Transport and Image Synthesis", SIGGRAPH 1990).
 //!
-//! A path survives with probability p and is then weighted by 1/p: the mean is that of the endless path, at finite cost.
+//! A path survives with probability p and is then weighted by 1/p: the mean is that of the infinite path, at finite cost.
 use crate::{
     math::{F, Lanes, M, V},
     sampling::{Dimension, Stream},
     scene::Roulette,
 };
 
-/// What roulette makes of paths.
+/// The result of Russian roulette.
 pub(super) struct Survival<L: Lanes> {
     pub alive: M<L>,
-    /// Of the survivors.
+    /// Throughput of the survivors.
     pub throughput: V<L>,
-    /// With which they survive; 1 where no roulette is played.
+    /// Survival probability; 1 without roulette.
     pub probability: F<L>,
 }
 
-/// The paths that survive their `reflection`-th reflection. Roulette by throughput judges the throughput times `scale`.
+/// Plays Russian roulette after the `reflection`-th reflection. Roulette by throughput uses the throughput times `scale`.
 #[inline(always)]
 pub(super) fn survive<L: Lanes>(
     l: L,

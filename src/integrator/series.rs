@@ -1,5 +1,5 @@
-//! The sample as the series it is: what is emitted, what was reflected once, twice, and so on (J. Kajiya, "The Rendering Equation",
-//! SIGGRAPH 1986: L = Σₖ Tᵏ Lₑ).
+//! The terms of a sample by number of bounces: emitted light, light reflected once, twice, and so on, the Neumann series L = Σₖ
+//! Tᵏ Lₑ (J. Kajiya, "The Rendering Equation", SIGGRAPH 1986).
 use super::{
     batch::Batch,
     trace::{Interrupted, Observer, trace_in},
@@ -10,17 +10,17 @@ use crate::{
     math::{SimdLevel, colour::luminance},
 };
 
-/// Terms that are told apart: 0, 1, … bounces, and in the last one all the rest.
+/// Number of separate terms: 0, 1, … bounces; the last one is the sum of all others.
 pub const TERMS: usize = 8;
-/// Numbers of bounces whose share of the light is told apart, and in the last one all the rest.
+/// Number of separate shares of the light by bounces; the last one is the sum of all others.
 pub const SHARES: usize = 64;
 
-/// The terms of a batch. Made once, used for every tile.
+/// The terms of a batch. Allocated once, reused for every tile.
 #[derive(Default)]
 pub struct Terms {
-    /// By slot, the radiance of at most so many bounces.
+    /// Radiance of at most k bounces, per slot.
     up_to: [Vec<[f32; 4]>; TERMS - 1],
-    /// Of all slots together, the luminance of at most so many bounces.
+    /// Luminance of at most k bounces, summed over all slots.
     light: Vec<f64>,
 }
 
@@ -38,14 +38,14 @@ impl Observer for Terms {
     }
 }
 
-/// The luminance of all slots together.
+/// The luminance summed over all slots.
 fn light(batch: &Batch) -> f64 {
     let luminances = batch.radiance().iter().map(|[r, g, b, _]| f64::from(luminance([*r, *g, *b])));
     luminances.filter(|y| y.is_finite()).sum()
 }
 
 impl Terms {
-    /// The term of `k` bounces at a slot; `whole` is the radiance of all of them there.
+    /// The term of `k` bounces at a slot; `whole` is its total radiance.
     pub fn term(&self, k: usize, slot: usize, whole: [f32; 4]) -> [f32; 3] {
         let up_to = |k: usize| self.up_to.get(k).and_then(|radiance| radiance.get(slot)).unwrap_or(&whole);
         let [r, g, b, _] = *up_to(k);
@@ -55,14 +55,14 @@ impl Terms {
         }
     }
 
-    /// The luminance of all slots that each number of bounces brings.
+    /// The luminance of each number of bounces, summed over all slots.
     pub fn light(&self) -> [f64; SHARES] {
         let up_to = |k: usize| self.light.get(k).or(self.light.last()).copied().unwrap_or(0.0);
         std::array::from_fn(|k| if k == 0 { up_to(0) } else { up_to(k) - up_to(k - 1) })
     }
 }
 
-/// [`super::trace`] of a whole tile in which pixels share nothing, with its terms.
+/// [`super::trace`] of a whole tile without path reuse, with its terms.
 pub fn trace_series(
     level: SimdLevel,
     work: &Work,

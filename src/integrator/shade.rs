@@ -1,4 +1,5 @@
-//! Stage of a kind of bsdf: light samples at every hit, the next direction of every path, and whether it survives.
+//! Fourth stage, once per BSDF type: samples a light at every hit, samples the next direction of every path, and plays Russian
+//! roulette.
 use fearless_simd_macros::simd;
 
 use super::{

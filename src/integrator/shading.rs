@@ -1,5 +1,5 @@
-//! What shading computes at hits: a light sample, the next direction, and whether the path survives. [`super::shade`] queues what
-//! comes of it; [`super::replay`] writes down its terms.
+//! The computations of shading: a light sample, the next direction, and Russian roulette. [`super::shade`] queues the results;
+//! [`super::replay`] records the terms.
 use super::{
     batch::{Detail, Hit, Path, Shadow},
     kinds::Kind,
@@ -20,21 +20,21 @@ use crate::{
     },
 };
 
-/// A register of hits of a kind.
+/// A register of hits of one BSDF type.
 pub(super) struct Shading<'a, L: Lanes, K: Kind> {
     pub live: M<L>,
     pub hit: Hit<L>,
     pub vertex: Vertex<L>,
     pub bsdf: K::Bsdf<'a, L>,
     stream: Stream<L>,
-    /// How many reflections their paths have with this one.
+    /// Number of reflections of the paths, including this one.
     reflection: u32,
 }
 
-/// A light sample and what it is made of: [`Shadow::radiance`] is throughput × f cos × radiance × weight/pdf.
+/// A light sample and its terms: [`Shadow::radiance`] is throughput × f cos × radiance × weight/pdf.
 pub(super) struct LightEstimate<L: Lanes> {
     pub shadow: Shadow<L>,
-    /// Where there is something to be seen, and it would be reflected.
+    /// Lanes whose light would be reflected if it is visible.
     pub may_contribute: M<L>,
     pub sample: LightSample<L>,
     /// The direction of the sample in the local frame.
@@ -44,7 +44,7 @@ pub(super) struct LightEstimate<L: Lanes> {
     pub weight: F<L>,
 }
 
-/// A next direction and what it does to the path.
+/// A next direction, and its effect on the path.
 pub(super) struct Reflected<L: Lanes> {
     pub sample: BsdfSample<L>,
     pub survival: Survival<L>,
@@ -52,14 +52,14 @@ pub(super) struct Reflected<L: Lanes> {
     pub goes_on: M<L>,
 }
 
-/// Whether the hits of a kind at a bounce are first surfaces whose finds are shared.
+/// Whether the hits of a type at a bounce are first surfaces that share their paths.
 #[inline(always)]
 pub(super) fn shares_first<K: Kind>(work: &Work, bounce: u32) -> bool {
     K::STAGE == Stage::Plain && bounce == 0 && work.shares()
 }
 
 impl<'a, L: Lanes, K: Kind> Shading<'a, L, K> {
-    /// The hits from place `start` on.
+    /// Reads the hits from index `start` on.
     #[inline(always)]
     pub fn read(l: L, work: &Work<'a>, (hits, details): (&Queue, &Queue), start: usize, reflection: u32) -> Self {
         let live = l.first(hits.len() - start);
@@ -77,7 +77,7 @@ impl<'a, L: Lanes, K: Kind> Shading<'a, L, K> {
         Shading { live, hit, vertex, bsdf, stream, reflection }
     }
 
-    /// Next-event estimation: a sample of a light, weighted, and where it may contribute.
+    /// Next-event estimation: samples a light, weights it, and tells where it may contribute.
     #[inline(always)]
     pub fn sample_light(&self, l: L, work: &Work) -> LightEstimate<L> {
         let Shading { hit, vertex, bsdf, stream, reflection, .. } = self;
@@ -107,14 +107,14 @@ impl<'a, L: Lanes, K: Kind> Shading<'a, L, K> {
         LightEstimate { shadow, may_contribute, sample, wi, f_cos, weight }
     }
 
-    /// The random numbers that the next direction and its lobe are drawn by.
+    /// The random numbers for the next direction and its lobe.
     #[inline(always)]
     pub fn coordinates(&self, l: L) -> ((F<L>, F<L>), F<L>) {
         let lobe = if K::LOBES { self.stream.one(Dimension::lobe(self.reflection)) } else { l.f(0.0) };
         (self.stream.two(Dimension::direction(self.reflection)), lobe)
     }
 
-    /// The next direction. What is shared is weighted by the albedo of each pixel that gets it, and not here.
+    /// Samples the next direction. Shared paths are weighted later, by the albedo of each pixel that uses them.
     #[inline(always)]
     pub fn reflect(&self, l: L, work: &Work, shares: bool) -> Reflected<L> {
         let Shading { hit, vertex, bsdf, stream, reflection, .. } = self;
@@ -146,7 +146,7 @@ impl<'a, L: Lanes, K: Kind> Shading<'a, L, K> {
         Reflected { sample, survival, path, goes_on }
     }
 
-    /// What the choice of a light asks for.
+    /// The lobe for light selection.
     #[inline(always)]
     pub fn lobe(&self, l: L) -> Lobe<L> {
         let Vertex { frame, n, wo, .. } = &self.vertex;
@@ -155,14 +155,14 @@ impl<'a, L: Lanes, K: Kind> Shading<'a, L, K> {
     }
 }
 
-/// A surface point that is shaded.
+/// A surface point to shade.
 pub(super) struct Vertex<L: Lanes> {
     frame: Frame<L>,
     /// Shading normal on the viewer's side.
     pub n: V<L>,
-    /// Towards the viewer, in the local frame.
+    /// Direction to the viewer, in the local frame.
     pub wo: V<L>,
-    /// How far the origin of rays was moved off the surface.
+    /// Offset of the origin of rays from the surface.
     error: F<L>,
     local: Local<L>,
     /// See [`surface::SELF_LIT`].
@@ -173,7 +173,7 @@ pub(super) struct Vertex<L: Lanes> {
 }
 
 impl<L: Lanes> Vertex<L> {
-    /// Where shading and geometric normal are one and the direction to the viewer does not matter.
+    /// Builds a vertex whose shading normal is the geometric one, and which does not need the direction to the viewer.
     #[inline(always)]
     fn plain(l: L, hit: &Hit<L>) -> Self {
         let local = Local { material: l.u(0), colour: hit.colour, alpha: l.f(0.0), front: l.first(L::N) };
@@ -210,14 +210,14 @@ impl<L: Lanes> Vertex<L> {
         }
     }
 
-    /// The media that a direction of height `z` leads into.
+    /// The media beyond the surface in a direction of height `z`.
     #[inline(always)]
     pub fn media_towards(&self, z: F<L>) -> U<L> {
         z.below(0.0).pick(beyond(self.media, self.medium, self.local.front), self.media)
     }
 
-    /// Where a ray in the world direction `d` starts, and whether it leaves on the side that the shading normal says; `z` is its
-    /// height over that normal. Light that would leak through the surface because the two normals differ is left out.
+    /// The origin of a ray in the world-space direction `d`, and whether it leaves on the side of the shading normal; `z` is its
+    /// height over that normal. Light that would leak through the surface because the two normals differ is dropped.
     #[inline(always)]
     fn leave<K: Kind>(&self, hit: &Hit<L>, d: V<L>, z: F<L>) -> (V<L>, M<L>) {
         if !K::DETAILED {

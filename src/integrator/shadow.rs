@@ -1,7 +1,7 @@
-//! Stage after shading: which light samples are seen.
+//! Fifth stage: tests which light samples are visible.
 //!
-//! A sample counts if the first surface along its ray is the very light it was drawn from: no distance is compared, so no
-//! tolerance is needed.
+//! A sample counts if the first surface along its ray is the light that it was sampled from. No distances are compared, so there
+//! is no tolerance.
 use fearless_simd_macros::simd;
 
 use super::{
@@ -33,8 +33,8 @@ pub(super) fn shadow<L: Lanes>(l: L, work: &Work, batch: &mut Batch) {
     shadow_media.clear();
 }
 
-/// The light samples in the lanes of `live` that are seen, and what of their radiance arrives through the `media` they set out in
-/// and from the textures of their lights.
+/// The visible light samples in the lanes of `live`, and their radiance after the transmittance of `media`, in which they start,
+/// and the textures of their lights.
 #[inline(always)]
 pub(super) fn arriving<L: Lanes>(l: L, work: &Work, live: M<L>, shadow: &Shadow<L>, media: U<L>) -> (M<L>, V<L>) {
     let scene = work.scene;

@@ -1,4 +1,4 @@
-//! First stage: camera rays through points drawn from the pixels' filters.
+//! First stage: generates camera rays through points sampled from the pixel filter.
 use fearless_simd_macros::simd;
 
 use super::{

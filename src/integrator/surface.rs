@@ -1,4 +1,4 @@
-//! Third stage: what paths meet. Adds emission and background; sorts the paths whose surface reflects by kind of bsdf.
+//! Third stage: adds emission and background, and sorts the paths at reflecting surfaces by BSDF type.
 use fearless_simd_macros::simd;
 
 use super::{
@@ -20,10 +20,11 @@ use crate::{
     texture::TextureCoordinates,
 };
 
-/// Viewers lower than this over a shading normal see the geometric one instead.
+/// Minimum height of the viewer over a shading normal; below it, the geometric normal is used.
 const GRAZING: f32 = 1e-3;
 
-/// `last`: nothing is reflected any more. `VARIED` is compiled for scenes whose surfaces are not all plain.
+/// Runs the stage. `last`: this is the last bounce, and nothing is reflected. `VARIED` is compiled for scenes whose surfaces are
+/// not all plain.
 #[simd]
 pub(super) fn surfaces<L: Lanes, const VARIED: bool>(l: L, work: &Work, batch: &mut Batch, last: bool) {
     let scene = work.scene;
@@ -104,17 +105,17 @@ pub(super) fn surfaces<L: Lanes, const VARIED: bool>(l: L, work: &Work, batch: &
     }
 }
 
-/// Where paths meet a surface.
+/// Surface interactions of paths.
 #[derive(Clone, Copy)]
 pub(super) struct Met<L: Lanes> {
     pub place: Place<L>,
     pub point: SurfacePoint<L>,
-    /// Between the front normal and the direction to the viewer.
+    /// Cosine between the front normal and the direction to the viewer.
     pub cos: F<L>,
 }
 
-/// Where the paths of the lanes of `hit` meet the primitives at distance `t`. The others look at primitive 0 and are to be masked
-/// out.
+/// The interactions of the paths in the lanes of `hit` with their primitives at distance `t`. The other lanes use primitive 0 and
+/// must be masked.
 #[inline(always)]
 pub(super) fn meet<L: Lanes, const VARIED: bool>(
     l: L,
@@ -138,7 +139,7 @@ pub(super) fn meet<L: Lanes, const VARIED: bool>(
     Met { place, point, cos: -point.n_geometric.dot(path.d) }
 }
 
-/// Radiance emitted towards the viewer in the lanes of `emits`, and those of them that see an emitting side.
+/// The radiance emitted towards the viewer in the lanes of `emits`, and the mask of those that see an emitting side.
 #[inline(always)]
 pub(super) fn emitted<L: Lanes, const VARIED: bool>(l: L, scene: &Scene, emits: M<L>, met: &Met<L>) -> (V<L>, M<L>) {
     let emitters = &scene.lights.emitters;
@@ -149,9 +150,9 @@ pub(super) fn emitted<L: Lanes, const VARIED: bool>(l: L, scene: &Scene, emits: 
     (le, seen)
 }
 
-/// The weight of light that the paths of a register, read from `start` on, run into at a place; see [`weight_of_met_light`].
+/// The MIS weight of emitter hits of the paths of a register, read from `start` on; see [`weight_of_met_light`].
 ///
-/// The place is passed by value, or else it would be kept in memory for scenes that never ask.
+/// The place is passed by value; otherwise it would be kept in memory even for scenes that do not need it.
 #[inline(always)]
 pub(super) fn weight<L: Lanes>(
     l: L,
@@ -171,7 +172,7 @@ pub(super) fn weight<L: Lanes>(
     weight_of_met_light(l, work, &past, lobe, path.o, path.d, &place)
 }
 
-/// What the texture of emission multiplies radiance by at a point.
+/// The factor of textured emission at a point.
 #[inline(always)]
 pub(super) fn emission_texture<L: Lanes>(l: L, scene: &Scene, emits: M<L>, place: &Place<L>, point: &SurfacePoint<L>) -> V<L> {
     let Coordinates { u, v } = scene.shapes.coordinates(l, place, point);
@@ -183,16 +184,16 @@ pub(super) fn emission_texture<L: Lanes>(l: L, scene: &Scene, emits: M<L>, place
 pub(super) struct Arrival<L: Lanes> {
     pub d: V<L>,
     pub met: Met<L>,
-    /// What the paths are in.
+    /// Media around the paths.
     pub media: U<L>,
     /// See [`surface`].
     pub word: U<L>,
-    /// What is queued where the surface is a plain one.
+    /// The record for plain surfaces.
     pub plain: Hit<L>,
 }
 
 impl<L: Lanes> Arrival<L> {
-    /// Whether the paths are at the front, and whether the surface reflects on the side where they are.
+    /// Whether the paths are at the front, and whether the surface reflects on their side.
     #[inline(always)]
     pub fn sides(&self) -> (M<L>, M<L>) {
         let front = self.met.cos.above(0.0) ^ is_set(self.word, FLIPPED);
@@ -200,7 +201,7 @@ impl<L: Lanes> Arrival<L> {
     }
 }
 
-/// Queues the paths of `mask` whose surface reflects, by shading stage.
+/// Queues the paths of `mask` at reflecting surfaces, by shading stage.
 #[inline(always)]
 fn sort<L: Lanes>(
     l: L,
@@ -228,7 +229,7 @@ fn sort<L: Lanes>(
     }
 }
 
-/// What varies over the surface: sets the colour of the hit, and returns its details.
+/// Evaluates textures: sets the colour of the hit, and returns its details.
 #[inline(always)]
 pub(super) fn vary<L: Lanes>(l: L, scene: &Scene, arrival: &Arrival<L>, mask: M<L>, hit: &mut Hit<L>) -> Detail<L> {
     let Scene { surfaces, textures, .. } = scene;

@@ -1,4 +1,4 @@
-//! Which random numbers a path reads.
+//! The random numbers that a path reads.
 use std::collections::BTreeMap;
 
 use super::{Batch, Work, trace};
@@ -8,7 +8,7 @@ use crate::{
     scene::{Estimator, RenderSettings, Reuse, Roulette, Scene, parse},
 };
 
-/// A scene with everything that is left to chance: a lens, motion, lobes, lamps and a picture as background.
+/// A scene that samples everything: a lens, motion, lobes, lamps and a background image.
 fn scene() -> Scene {
     let text = format!(
         "format = 1

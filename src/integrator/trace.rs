@@ -1,4 +1,4 @@
-//! The path loop: a batch runs bounce by bounce through the stages until no path is left.
+//! The path loop: runs a batch through the stages, bounce by bounce, until no path is left.
 use fearless_simd_macros::simd;
 
 use super::{
@@ -18,30 +18,31 @@ use crate::{
     math::{Lanes, One, SimdLevel},
 };
 
-/// Looks at a batch between the stages; `()` does not.
+/// Observes a batch between the stages; `()` does nothing.
 pub trait Observer {
-    /// Every path has met its surface and what reflects is queued.
+    /// Called after the surface stage: paths at reflecting surfaces are queued.
     fn at_surfaces(&mut self, _work: &Work, _batch: &Batch) {}
 
-    /// What reflects is shaded: light samples and the paths of the next bounce are queued.
+    /// Called after shading: light samples and the paths of the next bounce are queued.
     fn at_shaded(&mut self, _work: &Work, _batch: &Batch) {}
 }
 
 impl Observer for () {}
 
-/// The batch was interrupted: its radiance is worthless.
+/// The batch was interrupted before it finished; discard its radiance.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Interrupted;
 
-/// Traces one sample of every pixel of a tile; the result is [`Batch::radiance`]. `interrupted` is asked before every bounce.
+/// Traces one sample of every pixel of a tile; the result is [`Batch::radiance`]. Calls `interrupted` before every bounce.
 ///
-/// The estimate is the sum over bounces k of throughput × emitted radiance at the k-th surface, which is the light transport
-/// equation with its integral replaced, again and again, by one sampled direction (Kajiya 1986; equation (9) of the brief).
+/// The estimate is the sum over bounces k of throughput × emitted radiance at the k-th surface: the rendering equation (Kajiya
+/// 1986, equation 1), with one sampled direction in place of the integral at every surface. Light samples replace the emission at
+/// the next surface or are combined with it by multiple importance sampling (Veach 1997, chapter 9).
 pub fn trace(level: SimdLevel, work: &Work, batch: &mut Batch, interrupted: &dyn Fn() -> bool) -> Result<(), Interrupted> {
     in_lanes!(level, l => trace_in(l, work, batch, interrupted, &mut ()))
 }
 
-/// Path segments, by block of the tile.
+/// Number of path segments, without shadow rays, per block of the tile.
 #[derive(Default)]
 pub struct Segments(pub [u32; BLOCKS]);
 
@@ -56,7 +57,7 @@ impl Observer for Segments {
     }
 }
 
-/// [`trace`] of a tile, which also says how long the paths of its blocks are.
+/// [`trace`] of a tile, which also counts the path segments of its blocks.
 pub fn trace_counting(
     level: SimdLevel,
     work: &Work,
@@ -108,7 +109,7 @@ pub(super) fn trace_in<L: Lanes, O: Observer>(
     Ok(())
 }
 
-/// The shading stages that the scene has.
+/// Runs the shading stages of the scene.
 #[inline(always)]
 fn shade_all<L: Lanes>(l: L, work: &Work, batch: &mut Batch) {
     let next = ((batch.bounce + 1) & 1) as usize;

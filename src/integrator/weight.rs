@@ -1,4 +1,4 @@
-//! How much of the light that a path runs into is counted, when lights are sampled as well.
+//! Multiple importance sampling: the weight of emitter hits if lights are sampled as well.
 use fearless_simd_macros::simd;
 
 use super::{
@@ -12,16 +12,16 @@ use crate::{
     scene::Estimator,
 };
 
-/// The power heuristic with exponent 2 (Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997, equation
-/// 9.14): the weight of a sample of density `pdf` that another strategy would have drawn with density `other`.
+/// The power heuristic with exponent 2 (Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997, equation 9.14):
+/// the weight of a sample with pdf `pdf`, whose pdf by another strategy is `other`.
 #[inline(always)]
 pub(super) fn power_heuristic<L: Lanes>(pdf: F<L>, other: F<L>) -> F<L> {
     let ratio = other / pdf;
     1.0 / (1.0 + ratio * ratio)
 }
 
-/// The weight of light met by paths that left `o` in the direction `d` and ran into `target`, whose primitive
-/// may be [`crate::geometry::MISS`].
+/// The weight of the emitter hits of paths from `o` in the direction `d` at `target`, whose primitive may be
+/// [`crate::geometry::MISS`].
 #[simd]
 pub(super) fn weight_of_met_light<L: Lanes>(
     l: L,

@@ -1,4 +1,4 @@
-//! What a batch computes: one sample of each pixel of a tile, or of some blocks of pixels.
+//! The work of a batch: one sample of each pixel of a tile, or of some blocks of pixels.
 use super::reuse;
 use crate::{
     math::{F, Lanes, M, U},
@@ -6,16 +6,16 @@ use crate::{
     scene::{CameraRays, Estimator, RenderSettings, Scene},
 };
 
-/// A tile is at most this many pixels wide and high.
+/// Maximum width and height of a tile in pixels.
 pub const TILE: u32 = 32;
 /// A batch has a slot for every pixel of a tile.
 pub(super) const SLOTS: usize = (TILE * TILE) as usize;
-/// A block is at most this many pixels wide and high.
+/// Maximum width and height of a block in pixels.
 pub const BLOCK: u32 = 8;
-/// So many blocks make up a tile, and so many fit into a batch.
+/// Number of blocks in a tile, which is also the capacity of a batch.
 pub const BLOCKS: usize = SLOTS / (BLOCK * BLOCK) as usize;
 
-/// What a batch computes: sample number `sample` of the pixels of one tile, or else a sample of the pixels of some blocks.
+/// The work of a batch: sample index `sample` of the pixels of one tile, or a sample of the pixels of some blocks.
 #[derive(Clone, Copy)]
 pub struct Work<'a> {
     pub scene: &'a Scene,
@@ -26,20 +26,20 @@ pub struct Work<'a> {
     /// Width and height of the tile, at most [`TILE`].
     pub size: [u32; 2],
     pub sample: u32,
-    /// The blocks of the tile to compute in its place. Not where pixels share paths, which takes whole tiles.
+    /// Blocks of the tile to compute instead of the whole tile. Always `None` with path reuse, which needs whole tiles.
     pub blocks: Option<&'a Blocks>,
 }
 
-/// Up to [`BLOCKS`] blocks, each at a sample number of its own.
+/// Up to [`BLOCKS`] blocks, each with its own sample index.
 #[derive(Default)]
 pub struct Blocks {
-    /// Bits of a row: the pixel in the upper left corner, y·2¹⁶ + x, and the sample number.
+    /// Bits of a row: the pixel in the upper left corner, y·2¹⁶ + x, and the sample index.
     rows: [[f32; 4]; BLOCKS],
     count: usize,
 }
 
 impl Blocks {
-    /// Adds the block with its upper left corner at this pixel.
+    /// Adds the block whose upper left corner is at this pixel.
     pub fn push(&mut self, [x, y]: [u32; 2], sample: u32) {
         self.rows[self.count] = [(y << 16) + x, sample, 0, 0].map(f32::from_bits);
         self.count += 1;
@@ -51,7 +51,7 @@ impl Blocks {
         self.count == BLOCKS
     }
 
-    /// Corners and sample numbers.
+    /// Corners and sample indices of the blocks.
     pub fn iter(&self) -> impl Iterator<Item = ([u32; 2], u32)> {
         self.rows[..self.count].iter().map(|[corner, sample, ..]| {
             let corner = corner.to_bits();
@@ -61,7 +61,7 @@ impl Blocks {
 }
 
 impl<'a> Work<'a> {
-    /// A sample of a whole tile.
+    /// The work of a sample of a whole tile.
     pub fn tile(
         scene: &'a Scene,
         rays: &'a CameraRays,
@@ -73,7 +73,7 @@ impl<'a> Work<'a> {
         Work { scene, rays, settings, origin, size, sample, blocks: None }
     }
 
-    /// The corners of what is computed, its width and height, and the sample number.
+    /// The tile or its blocks: corners, width and height, and sample indices.
     pub fn parts(&self) -> Vec<([u32; 2], [u32; 2], u32)> {
         let Some(blocks) = self.blocks else { return vec![(self.origin, self.size, self.sample)] };
         let end = [0, 1].map(|axis| self.origin[axis] + self.size[axis]);
@@ -81,7 +81,7 @@ impl<'a> Work<'a> {
         blocks.iter().map(|(corner, sample)| (corner, size(corner), sample)).collect()
     }
 
-    /// The slots to fill, from 0 on.
+    /// Number of slots to fill.
     pub(super) fn slots(&self) -> u32 {
         match self.blocks {
             Some(blocks) => blocks.count as u32 * BLOCK * BLOCK,
@@ -90,7 +90,7 @@ impl<'a> Work<'a> {
         }
     }
 
-    /// The pixels of slots, packed as the sampler wants them: y·2¹⁶ + x.
+    /// The pixels of slots in the format of the sampler: y·2¹⁶ + x.
     #[inline(always)]
     pub(super) fn pixel<L: Lanes>(&self, l: L, slot: U<L>) -> U<L> {
         if let Some(blocks) = self.blocks {
@@ -119,7 +119,7 @@ impl<'a> Work<'a> {
         Stream::new(sampler, seed, self.pixel(l, slot), l.u(self.sample))
     }
 
-    /// The same sample of all pixels of the tile that this begins in.
+    /// The same sample of all pixels of the tile in which this work begins.
     pub(super) fn whole_tile(self) -> Self {
         let origin = self.origin.map(|x| x / TILE * TILE);
         let size = [0, 1].map(|axis| TILE.min(self.rays.resolution[axis] - origin[axis]));
@@ -142,13 +142,13 @@ impl<'a> Work<'a> {
         self.scene.shares(self.rays, self.settings)
     }
 
-    /// Whether media tint what passes through them.
+    /// Whether there are absorbing media.
     #[inline(always)]
     pub(super) fn has_media(&self) -> bool {
         !self.scene.surfaces.media.is_empty()
     }
 
-    /// When the samples of slots are taken, from 0 to 1; 0 where nothing moves.
+    /// The times of the samples of slots, from 0 to 1; 0 if nothing moves.
     #[inline(always)]
     pub(super) fn time<L: Lanes>(&self, l: L, slot: U<L>) -> F<L> {
         if !self.rays.take_time() {
@@ -157,13 +157,13 @@ impl<'a> Work<'a> {
         self.rays.time(l, self.stream(l, slot).one(Dimension::TIME))
     }
 
-    /// Whether the choice of a light asks what surfaces reflect it: what that leaves to chance, paths must find.
+    /// Whether light selection uses lobes; emitter hits then need them for their pdf.
     #[inline(always)]
     pub(super) fn heeds_lobes(&self) -> bool {
         self.settings.estimator == Estimator::Mis && self.scene.heeds_lobes()
     }
 
-    /// Whether light is looked for besides being run into.
+    /// Whether lights are sampled, in addition to emitter hits.
     #[inline(always)]
     pub(super) fn samples_lights(&self) -> bool {
         self.settings.estimator != Estimator::Path && !self.scene.lights.is_empty()
@@ -171,7 +171,7 @@ impl<'a> Work<'a> {
 }
 
 impl Blocks {
-    /// Corners and sample numbers of the blocks of slots.
+    /// Corners and sample indices of the blocks of slots.
     #[inline(always)]
     fn rows<L: Lanes>(&self, l: L, slot: U<L>) -> [U<L>; 2] {
         // Lanes past the end may say anything.
@@ -181,7 +181,7 @@ impl Blocks {
     }
 }
 
-/// Row and column of slots within their block, packed as pixels are.
+/// Row and column of slots within their block, packed like pixels.
 #[inline(always)]
 fn in_block<L: Lanes>(slot: U<L>) -> U<L> {
     const BITS: u32 = BLOCK.trailing_zeros();

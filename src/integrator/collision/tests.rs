@@ -1,4 +1,4 @@
-//! What stops a camera, and what does not.
+//! Surfaces that stop a camera, and surfaces that do not.
 use std::path::Path;
 
 use super::*;
@@ -32,7 +32,7 @@ const BALL: &str = "sphere = { center = [0.0, 0.0, 0.0], radius = 0.5 }";
 /// At x = ±1, as high and wide as the sky.
 const WALL: &str = "cuboid = { min = [1.0, -50.0, -50.0], max = [1.2, 50.0, 50.0] }";
 
-/// How far a camera comes from one place towards another, in metres.
+/// Distance in metres that a camera moves from one position towards another.
 fn way(scene: &Scene, from: [f64; 3], to: [f64; 3]) -> f64 {
     let [from, to] = [from, to].map(DVec3::from);
     clear_fraction(scene, from, to) * from.distance(to)

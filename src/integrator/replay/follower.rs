@@ -1,4 +1,4 @@
-//! Writes down the path of one slot while a batch is traced at one lane.
+//! Records the path of one slot while a batch is traced with one lane.
 use super::terms::{MetLight, Outcome, Reflection, SampledLight, Surface, Vertex};
 use crate::{
     geometry::{MISS, Place},
@@ -49,7 +49,7 @@ impl Follower {
         Follower { slot, radiance: BLACK, vertices: Vec::new() }
     }
 
-    /// Where the slot is in a queue, if it is there.
+    /// The index of the slot in a queue, if it is there.
     fn find(&self, queue: &Queue, slot: impl Fn(usize) -> U<One>) -> Option<usize> {
         (0..queue.len()).find(|at| slot(*at).0 % SLOTS as u32 == self.slot)
     }
@@ -59,7 +59,7 @@ impl Follower {
         self.radiance = [0, 1, 2].map(|c| self.radiance[c] + contribution[c]);
     }
 
-    /// The path at place `at` of its queue meets a surface or leaves the scene.
+    /// Records the path at index `at` of its queue, which hits a surface or leaves the scene.
     fn arrive<const VARIED: bool>(&mut self, work: &Work, batch: &Batch, at: usize) -> Vertex {
         let path = Path::read(One, batch.current(), at);
         let t = One.load(&batch.t[at..]);
@@ -93,7 +93,7 @@ impl Follower {
         }
     }
 
-    /// Geometric and shading normal where the surface reflects.
+    /// Geometric and shading normal, if the surface reflects.
     fn normals(&self, work: &Work, batch: &Batch) -> Option<([f32; 3], [f32; 3])> {
         let of_stage = |stage: &Stage| {
             let hits = &batch.hits[*stage as usize];
@@ -105,7 +105,7 @@ impl Follower {
         work.scene.surfaces.stages.iter().find_map(of_stage)
     }
 
-    /// The terms of the stage of a kind, if the surface is of that kind.
+    /// Records the terms of a shading stage, if the surface is of its type.
     fn shade<K: Kind>(&mut self, work: &Work, batch: &Batch)
     where
         for<'a> K::Bsdf<'a, One>: Lobes,
@@ -122,7 +122,7 @@ impl Follower {
         }
     }
 
-    /// The light sample, and what becomes of it if it was queued.
+    /// The light sample, and its outcome if it was queued.
     fn light<K: Kind>(&self, work: &Work, batch: &Batch, shading: &Shading<One, K>) -> SampledLight {
         let LightEstimate { sample, f_cos, weight, .. } = shading.sample_light(One, work);
         let target = sample.target.0;
@@ -183,7 +183,7 @@ where
     }
 }
 
-/// The throughput of a path on its way to a bounce. The albedo of the first surface is left out of what is shared only.
+/// The throughput of a path before a bounce. In the queues, shared paths lack the albedo of their first surface.
 fn carried(work: &Work, batch: &Batch, bounce: u32, path: &Path<One>) -> [f32; 3] {
     let throughput = path.throughput.lane(0);
     if bounce == 1 && work.shares() {
@@ -192,13 +192,13 @@ fn carried(work: &Work, batch: &Batch, bounce: u32, path: &Path<One>) -> [f32; 3
     own(batch, path.slot, throughput)
 }
 
-/// What the path's own pixel would get of what is gathered in a slot.
+/// The contribution of a slot to the path's own pixel.
 fn own(batch: &Batch, slot: U<One>, colour: [f32; 3]) -> [f32; 3] {
     let slot = slot.0 as usize;
     if slot < SLOTS { colour } else { batch.shared.weighted(slot - SLOTS, colour) }
 }
 
-/// Emitted radiance that a path runs into, and where.
+/// Emitted radiance at a hit, and its position.
 fn light_met<const VARIED: bool>(work: &Work, path: &Path<One>, met: Option<Met<One>>) -> Option<(V<One>, Place<One>)> {
     let lights = &work.scene.lights;
     let Some(met) = met else {
@@ -212,7 +212,7 @@ fn light_met<const VARIED: bool>(work: &Work, path: &Path<One>, met: Option<Met<
     seen.0.then_some((radiance, met.place))
 }
 
-/// How much is counted of the light that the path at place `at` of its queue runs into.
+/// The MIS weight of the emitter hit by the path at index `at` of its queue.
 fn weight_of_met(work: &Work, batch: &Batch, at: usize, path: &Path<One>, place: Place<One>) -> F<One> {
     let current = (batch.bounce & 1) as usize;
     if batch.bounce == 0 || !work.samples_lights() {

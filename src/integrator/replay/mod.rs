@@ -1,7 +1,8 @@
-//! One sample again, vertex by vertex: exactly the one the renderer took, because samples are pure functions of their number.
+//! Replays one sample vertex by vertex. It is exactly the sample of the renderer, because samples are pure functions of their
+//! index.
 //!
-//! The path is traced at one lane and a [`Follower`] looks at the queues between the stages. What no queue holds it computes by the
-//! functions that the stages call, so that every term is the one that the estimator used, bit for bit.
+//! The path is traced with one lane, and a [`Follower`] reads the queues between the stages. It computes all other terms with the
+//! functions of the stages, so every term is that of the estimator, bit for bit.
 mod follower;
 mod samples;
 mod terms;
@@ -28,12 +29,12 @@ use crate::{
 pub struct Replay {
     /// The sample's estimate of the pixel's radiance.
     pub radiance: [f32; 3],
-    /// What the path alone would have made of it, where pixels share what their paths find.
+    /// The estimate by this path alone, if pixels share paths.
     pub alone: Option<[f32; 3]>,
-    /// The contributions of their emission and of their light samples, added in this order, make the radiance, or `alone` where
-    /// pixels share.
+    /// Vertices in order. The contributions of their emission and of their light samples add up to the radiance, or to `alone` if
+    /// pixels share paths.
     pub vertices: Vec<Vertex>,
-    /// Why there is no further vertex.
+    /// Reason of the end of the path.
     pub end: End,
 }
 
@@ -54,7 +55,7 @@ pub fn replay(scene: &Scene, rays: &CameraRays, settings: &RenderSettings, pixel
     Replay { radiance: radiance_at(&batch, [x, y]), alone, vertices: follower.vertices, end }
 }
 
-/// Why a vertex is the last one.
+/// The reason why a vertex is the last one.
 fn end_at(scene: &Scene, settings: &RenderSettings, last: &Vertex) -> End {
     let (Some(object), Some(surface)) = (last.object, &last.surface) else { return End::LeftScene };
     let coating = scene.objects[object as usize].coating.as_ref();
@@ -72,7 +73,7 @@ fn end_at(scene: &Scene, settings: &RenderSettings, last: &Vertex) -> End {
     }
 }
 
-/// What takes a sample of a pixel, and the pixel's column and row in it: what is shared needs the paths of the whole tile.
+/// The work that takes a sample of a pixel, and the pixel's column and row in it. Path reuse needs the paths of the whole tile.
 fn work_of<'a>(
     scene: &'a Scene,
     rays: &'a CameraRays,
@@ -85,7 +86,7 @@ fn work_of<'a>(
     (work, [0, 1].map(|axis| pixel[axis] - work.origin[axis]))
 }
 
-/// The radiance of a pixel of a tile that was traced.
+/// The radiance of a pixel of a traced tile.
 fn radiance_at(batch: &Batch, [x, y]: [u32; 2]) -> [f32; 3] {
     let [r, g, b, _] = batch.radiance()[(y * TILE + x) as usize];
     [r, g, b]

@@ -1,4 +1,4 @@
-//! Many samples of one pixel: how they are spread says more of its noise than their mean.
+//! Many samples of one pixel: their distribution says more about its noise than their mean.
 use std::ops::Range;
 
 use super::{radiance_at, work_of};
@@ -12,9 +12,9 @@ use crate::{
     scene::{CameraRays, RenderSettings, Scene},
 };
 
-/// The radiance of the samples of these numbers of a pixel, bit for bit those that the renderer takes. `None` when interrupted.
+/// The radiance of these samples of a pixel, bit for bit as in the renderer. `None` if interrupted.
 ///
-/// A batch takes one sample in each of its blocks, so that all together fill a register; where paths are shared it takes one.
+/// A batch takes one sample in each of its blocks, so that registers are full; with path reuse it takes one sample.
 pub fn pixel_samples(
     scene: &Scene,
     rays: &CameraRays,
