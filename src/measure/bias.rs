@@ -1,47 +1,48 @@
-//! The mean of the difference of two pictures, with the standard error that its noise gives it.
+//! The bias: the mean difference of two images, with its standard error.
 use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 
 use super::SampleNoise;
 
-/// Single precision has an error of its own, by this part of the radiance, whatever the samples are.
+/// Relative error of single precision, independent of the samples.
 const ROUNDING: f64 = 1e-6;
-/// Where fewer samples make up a variance, it is likely to be far too small: the samples that are rare have not come yet.
+/// Minimum effective number of samples of a variance. With fewer, the variance is probably far too small, because rare samples
+/// have not occurred yet.
 const LEAST_EFFECTIVE_SAMPLES: f64 = 300.0;
 
-/// What a standard error is known from.
+/// The source of a standard error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Evidence {
-    /// Nothing: only the two pictures are known, and their difference contains the bias itself.
+    /// None: only the two images are known, and their difference contains the bias itself.
     None,
     /// The variances of samples.
     Samples,
-    /// The scatter of so many pictures of the same by other seeds.
+    /// The scatter of this number of images of the same scene with other seeds.
     Repeats(usize),
 }
 
-/// How far one picture is from another on average over pixels and channels.
+/// The mean difference of two images over pixels and channels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bias {
     pub mean: f64,
     pub evidence: Evidence,
-    /// Of the mean; `None` where there is no evidence.
+    /// Standard error of the mean; `None` without evidence.
     pub standard_error: Option<f64>,
-    /// The mean in standard errors, as the standard normal number that is as unlikely; `None` without evidence, and where samples are
-    /// exact.
+    /// The mean in standard errors, converted to a standard normal number of equal probability; `None` without evidence, and if
+    /// samples are exact.
     pub z: Option<f64>,
-    /// There is no noise but rounding: a difference is no matter of chance.
+    /// Whether there is no noise except rounding, so that a difference is not due to chance.
     pub is_exact: bool,
-    /// Few samples make up most of the variance: the standard error is not to be trusted.
+    /// Whether few samples make up most of the variance, so that the standard error is unreliable.
     pub has_heavy_tails: bool,
-    /// What rounding alone may add to the mean.
+    /// Upper bound of the effect of rounding on the mean.
     pub rounding: f64,
-    /// The means over blocks of 32 × 32 pixels in standard errors, row by row; empty where `z` is `None`.
+    /// The means over blocks of 32 × 32 pixels in standard errors, row by row; empty if `z` is `None`.
     pub block_z: Vec<f64>,
 }
 
 impl Bias {
-    /// Of one picture less another, of the same size and independent noise. Where the noise of the other one is not known it is taken
-    /// for 0.
+    /// The bias of one image minus another of the same size with independent noise. If the noise of the other one is unknown, it
+    /// is assumed to be 0.
     pub fn by_samples(a: &[[f32; 3]], b: &[[f32; 3]], [noise, of_other]: [Option<&SampleNoise>; 2], width: usize) -> Bias {
         let [of_a, of_b] = [means(a), means(b)];
         let Some(noise) = noise else { return Bias::unknown(difference(&of_a, &of_b)) };
@@ -60,7 +61,8 @@ impl Bias {
         }
     }
 
-    /// Of the mean of repeats, at least two, less another picture. `noise` is that of the other one, 0 if it is not known.
+    /// The bias of the mean of at least two repeats minus another image. `noise` is that of the other image, assumed to be 0 if
+    /// unknown.
     pub fn by_repeats(repeats: &[&[[f32; 3]]], b: &[[f32; 3]], noise: Option<&SampleNoise>, width: usize) -> Bias {
         let of_repeats: Vec<Vec<f64>> = repeats.iter().map(|picture| means(picture)).collect();
         let count = repeats.len() as f64;
@@ -80,7 +82,7 @@ impl Bias {
         Bias { mean, evidence, standard_error, z, is_exact: false, has_heavy_tails: false, rounding: 0.0, block_z: Vec::new() }
     }
 
-    /// `variance` is that of the mean, with the degrees of freedom that it is known by; `blocks` gives those of the means over blocks.
+    /// `variance` is that of the mean, with its degrees of freedom; `blocks` gives those of the means over blocks.
     fn of(
         evidence: Evidence,
         [a, b]: [&[f64]; 2],
@@ -99,19 +101,19 @@ impl Bias {
         Bias { z: Some(score(known.mean, (variance, degrees), level)), block_z: block_z.collect(), ..known }
     }
 
-    /// The block that is furthest off.
+    /// The z-score of the block with the largest deviation.
     pub fn worst_block(&self) -> Option<f64> {
         self.block_z.iter().copied().max_by(|a, b| a.abs().total_cmp(&b.abs()))
     }
 
-    /// Root of the mean square of the scores of blocks: 1 if there is only noise.
+    /// Root mean square of the z-scores of blocks: 1 if there is only noise.
     pub fn rms_of_blocks(&self) -> Option<f64> {
         let n = self.block_z.len() as f64;
         (n > 0.0).then(|| (self.block_z.iter().map(|z| z * z).sum::<f64>() / n).sqrt())
     }
 }
 
-/// How many samples of equal weight would make up the sum of the pictures' variances: Σ(v²/n) adds up over independent pictures.
+/// The effective number of samples in the sum of the images' variances: Σ(v²/n) adds up over independent images.
 fn tails(noises: &[&SampleNoise]) -> f64 {
     let variances = || noises.iter().map(|noise| (noise.variance_of_mean(), noise.effective_samples)).filter(|(v, _)| *v > 0.0);
     let all: f64 = variances().map(|(variance, _)| variance).sum();
@@ -137,12 +139,13 @@ fn scatter(values: &[f64]) -> f64 {
     values.iter().map(|x| (x - level).powi(2)).sum::<f64>() / (n - 1.0) / n
 }
 
-/// A mean in standard errors, as the standard normal number that is as unlikely, for a variance that is known by these degrees of freedom.
+/// A mean in standard errors, converted to a standard normal number of equal probability, for a variance with these degrees of
+/// freedom.
 fn score(mean: f64, (variance, degrees): (f64, f64), level: f64) -> f64 {
     if mean == 0.0 { 0.0 } else { as_normal(mean / (variance + (ROUNDING * level).powi(2)).sqrt(), degrees) }
 }
 
-/// The standard normal number that is as unlikely as Student's t.
+/// The standard normal number with the same probability as Student's t.
 pub fn as_normal(t: f64, degrees: f64) -> f64 {
     let (Ok(student), Ok(normal)) = (StudentsT::new(0.0, 1.0, degrees), Normal::new(0.0, 1.0)) else { return f64::NAN };
     // From the lower tail, where small probabilities keep their digits. Only many repeats make it smaller than any number, and

@@ -1,18 +1,18 @@
-//! How far a picture is from another.
+//! Error metrics between images.
 use std::fmt;
 
 use serde::Serialize;
 
-/// What relMSE adds to the squared reference, so that dark pixels do not outweigh all others.
+/// The constant that relMSE adds to the squared reference, so that dark pixels do not dominate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Floor {
-    /// This part of the reference's mean squared radiance: relMSE is the same in every unit of radiance.
+    /// This fraction of the reference's mean squared radiance: relMSE does not depend on the unit of radiance.
     Relative(f64),
-    /// The same number for every picture, as some other programs have it.
+    /// The same number for every image, as in some other programs.
     Absolute(f64),
 }
 
-/// Errors of a picture against a reference.
+/// Errors of an image against a reference.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Comparison {
     /// Root of the mean over pixels and channels of (x − ref)².
@@ -25,10 +25,10 @@ pub struct Comparison {
 }
 
 impl Floor {
-    /// The floor of every figure that does not name another one.
+    /// The default floor.
     pub const DEFAULT: Floor = Floor::Relative(0.01);
 
-    /// The number to add where the reference has this mean squared radiance.
+    /// The number to add for a reference with this mean squared radiance.
     pub fn of(self, mean_square: f64) -> f64 {
         match self {
             Floor::Relative(part) => part * mean_square,
@@ -41,7 +41,7 @@ impl Floor {
         self.of(mean_square(reference))
     }
 
-    /// The formula of relMSE, for readers.
+    /// The formula of relMSE, for display.
     pub fn formula(self) -> String {
         match self {
             Floor::Relative(part) => format!("(x − r)²/(r² + {part} · mean r²)"),
@@ -50,7 +50,7 @@ impl Floor {
     }
 }
 
-/// In a word, for tables and other programs: a number, or a part of the reference's mean squared radiance.
+/// In a word, for tables and other programs: a number, or a fraction of the reference's mean squared radiance.
 impl fmt::Display for Floor {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -66,12 +66,12 @@ pub fn mean_square(picture: &[[f32; 3]]) -> f64 {
     sum / (3 * picture.len()).max(1) as f64
 }
 
-/// A squared error, or a variance, relative to the squared radiance and a floor; 0 where there is no error.
+/// A squared error, or a variance, relative to the squared radiance plus a floor; 0 if there is no error.
 pub fn relative(squared: f64, radiance: f64, floor: f64) -> f64 {
     if squared == 0.0 { 0.0 } else { squared / (radiance * radiance + floor) }
 }
 
-/// Compares pixel by pixel. `reference` gives linear radiance; the two must be equally long.
+/// Compares two images of linear radiance pixel by pixel. They must have the same length.
 pub fn compare(picture: &[[f32; 3]], reference: &[[f32; 3]], floor: Floor) -> Comparison {
     assert_eq!(picture.len(), reference.len(), "pictures of different sizes have no error");
     let floor = floor.of_picture(reference);

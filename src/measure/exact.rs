@@ -1,7 +1,7 @@
-//! Exact solutions of the light transport equation, and the variances of its estimators where they have a closed form.
+//! Exact solutions of the light transport equation, and closed forms of the variances of its estimators.
 //!
-//! The furnace is a closed sphere whose inside emits L_e and reflects ρ diffusely. By symmetry the radiance L is the same
-//! everywhere, so that L = L_e + ρ L (the "furnace test"). Every bounce k therefore carries L_e ρᵏ, whatever the shape of the room.
+//! The furnace is a closed sphere whose inside emits L_e and reflects diffusely with albedo ρ. By symmetry the radiance L is the
+//! same everywhere, so L = L_e + ρ L (the "furnace test"). Every bounce k therefore carries L_e ρᵏ, for any shape of the room.
 
 use glam::DVec3;
 
@@ -12,13 +12,13 @@ pub fn furnace(le: f64, albedo: f64) -> f64 {
     le / (1.0 - albedo)
 }
 
-/// The part of [`furnace`] that at most `cap` bounces carry: L_e (1 − ρⁿ⁺¹) / (1 − ρ).
+/// The radiance of [`furnace`] with at most n = `cap` bounces: L_e (1 − ρⁿ⁺¹) / (1 − ρ).
 pub fn furnace_capped(le: f64, albedo: f64, cap: u32) -> f64 {
     furnace(le, albedo) * (1.0 - albedo.powi(cap as i32 + 1))
 }
 
-/// Variance of one sample X of the furnace when every bounce multiplies the throughput by a random weight w, independent of
-/// the others, of mean 1 and mean square `weight_square`.
+/// Variance of one sample X of the furnace if every bounce multiplies the throughput by an independent random weight w with mean
+/// 1 and mean square `weight_square`.
 ///
 /// X = L_e + ρ w X′ with X′ distributed as X and independent of w, hence with L = L_e/(1 − ρ)
 /// E X² = L_e² + 2 L_e ρ L + ρ² E w² E X², that is E X² = (L_e² + 2 L_e ρ L) / (1 − ρ² E w²), finite only while ρ² E w² < 1.
@@ -42,8 +42,8 @@ pub fn furnace_capped_variance(le: f64, albedo: f64, weight_square: f64, cap: u3
     mean_square - furnace_capped(le, albedo, cap).powi(2)
 }
 
-/// Irradiance of a surface by a sphere of constant radiance that is wholly above its horizon: E = π L (r/d)² cos θ, where d is
-/// the distance of the centre and θ its angle to the normal (Moon, "The Scientific Basis of Illuminating Engineering", 1936).
+/// Irradiance of a surface from a sphere of constant radiance entirely above its horizon: E = π L (r/d)² cos θ, where d is the
+/// distance of the centre and θ its angle to the normal (Moon, "The Scientific Basis of Illuminating Engineering", 1936).
 pub fn sphere_irradiance(radiance: f64, radius: f64, distance: f64, cos: f64) -> f64 {
     std::f64::consts::PI * radiance * (radius / distance).powi(2) * cos
 }
@@ -56,8 +56,8 @@ pub struct Lamp {
     pub radiance: f64,
 }
 
-/// The radiance of a diffuse unit sphere around the origin where the ray o + td first meets it from outside: ρ/π times the
-/// [irradiance](sphere_irradiance) by the lamp. None elsewhere, and where the lamp dips below the horizon.
+/// The radiance of a diffuse unit sphere around the origin where the ray o + td first hits it from outside: ρ/π times the
+/// [irradiance](sphere_irradiance) from the lamp. `None` for a miss, and where the lamp is partly below the horizon.
 pub fn lamberts_ball(albedo: f64, lamp: Lamp, o: DVec3, d: DVec3) -> Option<f64> {
     let b = o.dot(d);
     let discriminant = b * b - (o.length_squared() - 1.0);
@@ -69,8 +69,8 @@ pub fn lamberts_ball(albedo: f64, lamp: Lamp, o: DVec3, d: DVec3) -> Option<f64>
     above_horizon.then(|| albedo / std::f64::consts::PI * sphere_irradiance(lamp.radiance, lamp.radius, distance, cos))
 }
 
-/// The mean of an exact radiance of rays o + td over a pixel of a pinhole camera, by the midpoint rule; none where it is not known
-/// all over the pixel.
+/// The mean of an exact radiance of rays o + td over a pixel of a pinhole camera, by the midpoint rule; `None` if it is unknown
+/// anywhere in the pixel.
 pub fn mean_over_pixel(camera: &Camera, [x, y]: [u32; 2], radiance: impl Fn(DVec3, DVec3) -> Option<f64>) -> Option<f64> {
     const SUB: u32 = 8;
     let [right, up, forward] = camera.axes();
@@ -85,8 +85,9 @@ pub fn mean_over_pixel(camera: &Camera, [x, y]: [u32; 2], radiance: impl Fn(DVec
     sum.map(|sum| sum / f64::from(SUB * SUB))
 }
 
-/// Irradiance by a sphere that the horizon may cut, `cos` being that of the angle θ of its centre from the normal. Between
-/// [`sphere_irradiance`] while all of it is up and 0 when all of it has set, that is for |cos θ| < r/d, with h = d/r:
+/// Irradiance from a sphere that the horizon may cut; `cos` is the cosine of the angle θ of its centre from the normal. It is
+/// [`sphere_irradiance`] if the sphere is entirely above the horizon, and 0 if it is below. In between, for |cos θ| < r/d, with h
+/// = d/r:
 ///
 ///   E = L { [cos θ acos(−y cot θ) − y √(sin²θ − y² cos²θ)]/h² + atan(√(1 − h² cos²θ)/y) },  y = √(h² − 1)
 ///
@@ -103,8 +104,9 @@ pub fn horizon_sphere_irradiance(radiance: f64, radius: f64, distance: f64, cos:
     radiance * ((cos * (-y * cos / sin).acos() - y * set) / (h * h) + (set / y).atan())
 }
 
-/// Irradiance at the origin, whose normal is the y axis, by a polygon of constant radiance: E = L/2 Σ θᵢ Γᵢ · n over its edges, θᵢ
-/// being the angle in which an edge is seen and Γᵢ the normal of the plane through it (J. H. Lambert, "Photometria", 1760).
+/// Irradiance at the origin, with the y axis as normal, from a polygon of constant radiance: E = L/2 Σ θᵢ Γᵢ · n over its edges,
+/// where θᵢ is the angle that an edge subtends and Γᵢ the normal of the plane through it and the origin (J. H. Lambert,
+/// "Photometria", 1760).
 pub fn polygon_irradiance(radiance: f64, polygon: &[DVec3]) -> f64 {
     let polygon = above_horizon(polygon);
     let edge = |i: usize| {
@@ -114,7 +116,7 @@ pub fn polygon_irradiance(radiance: f64, polygon: &[DVec3]) -> f64 {
     radiance / 2.0 * (0..polygon.len()).map(edge).sum::<f64>().abs()
 }
 
-/// The part of a polygon that is not below the ground.
+/// The part of a polygon above the horizon.
 fn above_horizon(polygon: &[DVec3]) -> Vec<DVec3> {
     let mut clipped = Vec::new();
     for (i, a) in polygon.iter().enumerate() {
@@ -129,8 +131,8 @@ fn above_horizon(polygon: &[DVec3]) -> Vec<DVec3> {
     clipped
 }
 
-/// What a smooth face of glass reflects of unpolarised light that comes at the angle θ from the thinner side, and the cosine of the
-/// angle within (A. Fresnel, 1823).
+/// Reflectance of a smooth glass surface for unpolarised light at the angle θ from the thinner side, and the cosine of the angle
+/// inside (A. Fresnel, 1823).
 pub fn fresnel(ior: f64, theta: f64) -> (f64, f64) {
     let (cos, sin) = (theta.cos(), theta.sin());
     let inside = (1.0 - (sin / ior).powi(2)).sqrt();

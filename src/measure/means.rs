@@ -1,4 +1,4 @@
-//! Whole pictures: every pixel's samples as a mean with its variance.
+//! Whole images: the mean of every pixel's samples, with its variance.
 use std::cell::RefCell;
 
 use rayon::prelude::*;
@@ -9,10 +9,10 @@ use crate::{
     scene::{RenderSettings, Scene},
 };
 
-/// The colours of a sample as one number.
+/// Reduces the colour of a sample to one number.
 pub type Measure = fn([f32; 4]) -> f64;
 
-/// The samples of one pixel, or means of pixels, as far as z-tests need them.
+/// Statistics of the samples of one pixel, or of means of pixels, for z-tests.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Mean {
     pub mean: f64,
@@ -31,32 +31,32 @@ impl Mean {
         Mean { mean: sum.mean / count, variance_of_mean: sum.variance_of_mean / (count * count) }
     }
 
-    /// Deviation from an exact value, in standard errors; 0 where there is none. Single precision has an error of its own, which
-    /// shows where there is hardly any noise.
+    /// Deviation from an exact value, in standard errors; 0 if there is none. The error of single precision is added, because it
+    /// matters if there is hardly any noise.
     pub fn z(self, exact: f64) -> f64 {
         const ROUNDING: f64 = 1e-6;
         let difference = self.mean - exact;
         if difference == 0.0 { 0.0 } else { difference / (self.variance_of_mean + (ROUNDING * exact).powi(2)).sqrt() }
     }
 
-    /// Deviation from an independent mean of the same.
+    /// Deviation from an independent mean of the same quantity.
     pub fn z_from(self, other: Mean) -> f64 {
         Mean { variance_of_mean: self.variance_of_mean + other.variance_of_mean, ..self }.z(other.mean)
     }
 }
 
-/// A picture at the resolution of the scene's camera, row by row.
+/// An image at the resolution of the scene's camera, row by row.
 pub struct Picture {
     pub width: usize,
     pub pixels: Vec<Mean>,
 }
 
 thread_local! {
-    /// Making one takes longer than a small picture.
+    /// Reused, because allocating a batch takes longer than a small image.
     static BATCH: RefCell<Batch> = RefCell::default();
 }
 
-/// Means of `spp` samples a pixel, a sample as a number by `measure`.
+/// Means of `spp` samples per pixel, each reduced to a number by `measure`.
 ///
 /// # Panics
 /// If a sample is negative or not finite.
@@ -117,7 +117,7 @@ impl Picture {
         Mean::of(self.pixels.iter().copied())
     }
 
-    /// The means over squares of so many pixels, row by row.
+    /// The means over squares of `side` × `side` pixels, row by row.
     pub fn blocks(&self, side: usize) -> Vec<Mean> {
         let rows: Vec<&[Mean]> = self.pixels.chunks(self.width).collect();
         let column_starts = || (0..self.width).step_by(side);

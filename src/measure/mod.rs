@@ -1,4 +1,4 @@
-//! Error metrics between pictures, exact solutions that pictures are held against, and what samples say of the means they come from.
+//! Error metrics between images, exact solutions of scenes, and statistics of samples.
 mod bias;
 mod error;
 pub mod exact;

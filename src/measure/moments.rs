@@ -7,7 +7,7 @@ use crate::{
     scene::{Camera, RenderSettings, Scene},
 };
 
-/// Red of `spp` samples of each of 32 × 32 pixels, pixel after pixel.
+/// The red channel of `spp` samples of each of 32 × 32 pixels, pixel by pixel.
 pub fn samples(scene: &Scene, settings: RenderSettings, spp: u32) -> Vec<Vec<f64>> {
     let camera = Camera { resolution: [TILE, TILE], ..scene.camera };
     let rays = scene.rays(&camera);
@@ -39,17 +39,17 @@ impl Moments {
         Moments { count, mean, variance: central(2) / (count - 1.0), fourth: central(4) / count }
     }
 
-    /// Deviation of the mean from an exact value, in standard errors by the samples' own variance.
+    /// Deviation of the mean from an exact value, in standard errors from the variance of the samples.
     pub fn z(&self, exact: f64) -> f64 {
         self.z_with(exact, self.variance)
     }
 
-    /// Deviation of the mean from an exact value, in standard errors by a known variance.
+    /// Deviation of the mean from an exact value, in standard errors from a known variance.
     pub fn z_with(&self, exact: f64, variance: f64) -> f64 {
         (self.mean - exact) / (variance / self.count).sqrt()
     }
 
-    /// Deviation of the variance from an exact one, in its standard errors: Var s² = (μ₄ − σ⁴)/n for large n.
+    /// Deviation of the variance from an exact value, in standard errors: Var s² = (μ₄ − σ⁴)/n for large n.
     pub fn z_of_variance(&self, exact: f64) -> f64 {
         (self.variance - exact) / ((self.fourth - self.variance * self.variance) / self.count).sqrt()
     }

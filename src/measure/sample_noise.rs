@@ -1,22 +1,22 @@
-//! What the samples of a picture say about the noise of its means.
+//! The noise of an image's means, from the variance of its samples.
 
-/// The variances of a picture's means, from the variance of its samples.
+/// The variances of an image's means, from the variance of its samples.
 ///
-/// They are exact for independent samples, and upper bounds for stratified and Sobol samples. Pixels that share paths have noise in
-/// common, so the variance of a mean over pixels is more than those of the pixels add up to; blocks have none in common.
+/// They are exact for independent samples, and upper bounds for stratified and Sobol samples. The noise of pixels that share
+/// paths is correlated, so the variance of a mean over pixels is larger than without correlation; blocks are uncorrelated.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SampleNoise {
     pub width: u32,
-    /// Variance of the mean of every pixel, a channel; row by row from the top left.
+    /// Variance of the mean of every pixel, per channel; row by row from the top left.
     pub variance: Vec<[f32; 3]>,
     /// Variance of the mean over the pixels and channels of every block of [`SampleNoise::BLOCK`] pixels, row by row. Blocks at the right
     /// and at the bottom may be smaller.
     pub blocks: Vec<f64>,
-    /// Degrees of freedom that each of `blocks` is known by: few samples of a whole block, where pixels have noise in common, or those of
-    /// all its pixels, which are as good as infinitely many.
+    /// Degrees of freedom of each of `blocks`: few if they come from samples of a whole block, because its pixels are correlated;
+    /// practically infinite if they come from the samples of all its pixels.
     pub block_degrees: f64,
-    /// As many samples of equal weight would make up the variance; it is infinite where nothing varies. Few of them tell that most of the
-    /// variance comes from few samples, and that it is likely to be far off.
+    /// Effective number of samples in the variance; infinite if nothing varies. A small number means that most of the variance
+    /// comes from few samples, and that it is probably inaccurate.
     pub effective_samples: f64,
 }
 
@@ -31,7 +31,7 @@ impl SampleNoise {
         self.blocks.iter().enumerate().map(part).sum()
     }
 
-    /// The means of a picture, or of a difference, over the pixels and channels of each block.
+    /// The means of an image, or of a difference, over the pixels and channels of each block.
     pub fn block_means(values: &[f64], width: usize) -> Vec<f64> {
         let band = |rows: &[f64]| {
             let columns = 0..width.div_ceil(Self::BLOCK);
