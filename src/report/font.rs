@@ -3,7 +3,7 @@ use std::sync::Once;
 
 use plotters::style::{FontStyle, register_font};
 
-/// Makes the font known to plots. What cannot be drawn without it says so.
+/// Registers the font for plots. Drawing fails with an error if this does not succeed.
 pub fn register() {
     static ONCE: Once = Once::new();
     ONCE.call_once(|| {

@@ -1,4 +1,4 @@
-//! What reports are made of: one HTML file each, which needs nothing else and prints well; plots as SVG.
+//! Building blocks of reports. Each report is one self-contained HTML file that prints well, with plots as SVG.
 mod font;
 pub mod picture;
 pub mod plot;
@@ -9,7 +9,7 @@ mod tests;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-/// What all reports look like.
+/// The style of all reports.
 const STYLE: &str = "
 :root { color-scheme: light; }
 body { font: 16px/1.5 system-ui, sans-serif; color: #1b1b1b; background: #fff; max-width: var(--width); margin: 2rem auto; padding: 0 1rem; }
@@ -24,7 +24,7 @@ figcaption { font-size: .86rem; color: #444; }
 @media print { body { font-size: 11pt; margin: 0; --width: none; } section { break-inside: auto; } figure, tr { break-inside: avoid; } }
 ";
 
-/// A picture or a plot with what it shows.
+/// An image or a plot with its caption.
 pub struct Figure {
     pub caption: String,
     /// An `svg` or `img` element.
@@ -36,7 +36,7 @@ impl Figure {
         html! { figure { (PreEscaped(&self.element)) figcaption { (formula(&self.caption)) } } }
     }
 
-    /// The figure as a file of its own: plots as they are, pictures within an SVG of their size; `None` of tables.
+    /// The figure as a separate file: plots as they are, images inside an SVG of their size; `None` for tables.
     pub fn svg(&self) -> Option<String> {
         if self.element.starts_with("<svg") {
             return Some(self.element.clone());
@@ -50,7 +50,7 @@ impl Figure {
     }
 }
 
-/// A whole page; `style` is what only this report has, `--width` of `:root` at least.
+/// A whole page; `style` is specific to this report, and must set at least `--width` of `:root`.
 pub fn page(title: &str, style: &str, body: &Markup) -> String {
     let page = html! {
         (DOCTYPE)
@@ -67,7 +67,7 @@ pub fn page(title: &str, style: &str, body: &Markup) -> String {
     page.into_string()
 }
 
-/// Text with a letter behind an underscore as its index.
+/// Text in which a letter after an underscore becomes a subscript.
 pub fn formula(text: &str) -> Markup {
     let mut parts = text.split('_');
     let first = parts.next().unwrap_or_default();

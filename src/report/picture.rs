@@ -1,7 +1,7 @@
-//! Pictures of reports as PNG.
+//! Images of reports as PNG.
 use base64::{Engine, engine::general_purpose::STANDARD};
 
-/// A PNG of 8 bits a channel, sRGB, row by row from the top left.
+/// A PNG with 8 bits per channel, sRGB, row by row from the top left.
 pub fn rgb_png([width, height]: [u32; 2], rgb: &[u8]) -> Result<Vec<u8>, String> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, width, height);

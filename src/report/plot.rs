@@ -12,7 +12,7 @@ use plotters::{
 
 use super::{Figure, font, picture::rgb_png};
 
-/// Distinct for colour-blind readers too (M. Okabe and K. Ito, "Color Universal Design", 2008).
+/// Colours that are distinct for colour-blind readers too (M. Okabe and K. Ito, "Color Universal Design", 2008).
 const COLOURS: [RGBColor; 6] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
@@ -21,15 +21,15 @@ const COLOURS: [RGBColor; 6] = [
     RGBColor(86, 180, 233),
     RGBColor(60, 60, 60),
 ];
-/// More labels on an axis than these would crowd it.
+/// Maximum number of labels on an axis.
 const MOST_TICKS: usize = 8;
 const GREY: RGBColor = RGBColor(150, 150, 150);
-/// Width and height of a plot that stands alone, in pixels.
+/// Width and height of a single plot, in pixels.
 const ALONE: (u32, u32) = (660, 340);
-/// Of two that stand side by side.
+/// Width and height of each of two plots side by side, in pixels.
 pub const BESIDE: (u32, u32) = (560, 380);
 
-/// An axis; on a logarithmic one all values must be positive.
+/// An axis; values on a logarithmic axis must be positive.
 #[derive(Clone, Copy)]
 pub struct Axis {
     pub label: &'static str,
@@ -62,7 +62,7 @@ impl Axis {
         if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
     }
 
-    /// Where the range of places has labels: on a logarithmic axis at powers of ten, and at 2 and 5 times these where there is room.
+    /// Positions of the labels in a range: on a logarithmic axis at powers of ten, and at 2 and 5 times these if there is space.
     fn ticks(self, range: &Range<f64>) -> Vec<f64> {
         let even = RangedCoordf64::from(range.clone()).key_points(MOST_TICKS);
         if !self.log {
@@ -77,7 +77,7 @@ impl Axis {
         candidates.into_iter().find(|places| (2..=MOST_TICKS).contains(&places.len())).unwrap_or(even)
     }
 
-    /// From the least to the greatest place, with a margin; some range where there is nothing to show.
+    /// The range of positions with a margin; an arbitrary range if there are no values.
     pub(super) fn range(self, values: impl Iterator<Item = f64>) -> Range<f64> {
         let (min, max) =
             values.filter(|x| x.is_finite()).fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
@@ -89,7 +89,7 @@ impl Axis {
     }
 }
 
-/// The places of an axis, with its labels where we want them.
+/// The positions of an axis, with our own choice of labels.
 struct Scale {
     places: RangedCoordf64,
     ticks: Vec<f64>,
@@ -123,7 +123,7 @@ pub enum Style {
     Line,
     Dashed,
     Points,
-    /// A dashed line that is no measurement: grey, and last in the order.
+    /// A dashed line that is not a measurement: grey, and last in the order.
     Guide,
 }
 
@@ -150,18 +150,18 @@ impl Plot {
         svg(self.size, self.x, self.y, &self.curves)
     }
 
-    /// With twice as many pixels a side.
+    /// The plot as PNG, with twice as many pixels per side.
     pub fn png(&self) -> Result<Vec<u8>, String> {
         png(self.size, self.x, self.y, &self.curves)
     }
 }
 
-/// [`svg`] in a figure of its own.
+/// [`svg`] in a figure.
 pub fn plot(caption: impl Into<String>, x: Axis, y: Axis, curves: &[Curve]) -> Figure {
     Figure { caption: caption.into(), element: svg(ALONE, x, y, curves) }
 }
 
-/// Curves over each other, in the colours of their order; points and lines of the same name share one.
+/// Curves on common axes, coloured by their order; points and lines with the same name share a colour.
 pub fn svg(size: (u32, u32), x: Axis, y: Axis, curves: &[Curve]) -> String {
     let mut svg = String::new();
     let drawn = draw(&SVGBackend::with_string(&mut svg, size).into_drawing_area(), 1, x, y, curves);
@@ -177,7 +177,7 @@ fn png(size: (u32, u32), x: Axis, y: Axis, curves: &[Curve]) -> Result<Vec<u8>, 
     rgb_png([size.0, size.1], &pixels)
 }
 
-/// All lengths are multiplied by `scale`.
+/// Draws the plot, with all lengths multiplied by `scale`.
 fn draw<B: DrawingBackend>(
     area: &DrawingArea<B, Shift>,
     scale: u32,
@@ -245,12 +245,12 @@ where
     Ok(())
 }
 
-/// Where in a range, from 0 to 1.
+/// Position in a range, from 0 to 1.
 fn part(range: &Range<f64>, x: f64) -> f64 {
     (x - range.start) / (range.end - range.start)
 }
 
-/// The points of a curve, and such between them as its line runs through.
+/// The points of a curve, and points between them along its line.
 fn between(curve: &Curve) -> impl Iterator<Item = (f64, f64)> {
     const STEPS: u32 = 8;
     let geometric = |a: f64, b: f64, t: f64| if a > 0.0 && b > 0.0 { a * (b / a).powf(t) } else { a + (b - a) * t };
@@ -262,7 +262,7 @@ fn between(curve: &Curve) -> impl Iterator<Item = (f64, f64)> {
     curve.points.iter().copied().chain(inner)
 }
 
-/// About the width and height of the legend, as parts of the plot's.
+/// Approximate width and height of the legend, relative to the plot.
 pub(super) fn legend_size(curves: &[Curve], size: (u32, u32)) -> (f64, f64) {
     const LETTER: f64 = 7.0;
     const LINE: f64 = 18.0;
@@ -273,7 +273,7 @@ pub(super) fn legend_size(curves: &[Curve], size: (u32, u32)) -> (f64, f64) {
     (width / f64::from(size.0), height / f64::from(size.1))
 }
 
-/// Where a legend of this size hides the least.
+/// The corner in which a legend of this size hides the fewest points.
 fn emptiest_corner(places: impl Iterator<Item = (f64, f64)>, (width, height): (f64, f64)) -> SeriesLabelPosition {
     const CORNERS: [(SeriesLabelPosition, f64, f64); 4] = [
         (SeriesLabelPosition::UpperRight, 1.0, 1.0),

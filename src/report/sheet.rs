@@ -1,38 +1,38 @@
-//! Labelled pictures side by side, as one PNG.
+//! Sheets of labelled images, as one PNG.
 use plotters::prelude::*;
 
 use super::{font, picture::rgb_png};
 
-/// Between pictures, and around them.
+/// Margin between and around images, in pixels.
 const MARGIN: u32 = 12;
 const LINE: u32 = 18;
 const FONT: u32 = 15;
-/// Labels need so much room, however small the pictures are.
+/// Minimum width of a cell, for its labels.
 const LEAST_WIDTH: u32 = 200;
-/// Larger sheets are refused.
+/// Maximum number of pixels of a sheet.
 const MOST_PIXELS: u64 = 1 << 27;
 
-/// A picture and the lines below it.
+/// An image with lines of text below it.
 pub struct Cell {
     pub lines: Vec<String>,
-    /// As shown, row by row.
+    /// Display pixels, row by row.
     pub pixels: Vec<[u8; 4]>,
 }
 
-/// Where things are.
+/// The layout of a sheet.
 struct Layout {
     columns: u32,
-    /// Of a picture.
+    /// Size of an image.
     picture: [u32; 2],
-    /// Of a picture with its lines and a margin.
+    /// Size of an image with its lines and a margin.
     cell: [u32; 2],
-    /// Of the title with its margin.
+    /// Height of the title with its margin.
     head: u32,
     size: [u32; 2],
 }
 
 impl Layout {
-    /// Of `count` pictures with so many lines each, and of the title.
+    /// The layout of `count` images; `lines` are the lines of each and of the title.
     fn new(picture: [u32; 2], columns: u32, count: u32, lines: [u32; 2]) -> Result<Layout, String> {
         let [lines, of_title] = lines;
         let columns = columns.clamp(1, count.max(1));
@@ -47,14 +47,14 @@ impl Layout {
         Ok(Layout { columns, picture, cell, head, size: [width as u32, height as u32] })
     }
 
-    /// The upper left corner of a picture.
+    /// The upper left corner of an image.
     fn corner(&self, number: u32) -> [u32; 2] {
         let (column, row) = (number % self.columns, number / self.columns);
         [MARGIN + column * self.cell[0], self.head + row * self.cell[1]]
     }
 }
 
-/// Whether a sheet of `count` pictures is small enough; an error says how large it would be.
+/// Checks the size of a sheet of `count` images; the error gives the size.
 pub fn check(picture: [u32; 2], columns: u32, count: u32) -> Result<(), String> {
     Layout::new(picture, columns, count, [2, 2]).map(|_| ())
 }
@@ -64,7 +64,7 @@ fn layout(picture: [u32; 2], columns: u32, title: &[String], cells: &[Cell]) -> 
     Layout::new(picture, columns, cells.len() as u32, [lines as u32, title.len() as u32])
 }
 
-/// A PNG of pictures of this size, in so many columns, below a title.
+/// A PNG with images of this size in `columns` columns, below a title.
 pub fn sheet(picture: [u32; 2], columns: u32, title: &[String], cells: &[Cell]) -> Result<Vec<u8>, String> {
     let layout = layout(picture, columns, title, cells)?;
     let [width, height] = layout.size;

@@ -1,9 +1,9 @@
 //! Tables of reports, as HTML, CSV and LaTeX.
 use maud::{Markup, html};
 
-/// Cells are text as it is shown; the columns that hold numbers are set to the right.
+/// A table. Cells are displayed text; columns of numbers are right-aligned.
 pub struct Table {
-    /// Of its files.
+    /// Base name of its files.
     pub name: String,
     pub caption: String,
     pub columns: Vec<Column>,
@@ -39,7 +39,7 @@ impl Table {
         }
     }
 
-    /// As programs read it: numbers have a hyphen for a minus, and a cell with a dash for what is not known is empty.
+    /// The table as CSV for programs: numbers have a hyphen as minus sign, and cells with a dash, for unknown values, are empty.
     pub fn csv(&self) -> Result<Vec<u8>, String> {
         let mut writer = csv::Writer::from_writer(Vec::new());
         writer.write_record(self.columns.iter().map(|column| &column.name)).map_err(|error| error.to_string())?;
@@ -50,7 +50,7 @@ impl Table {
         writer.into_inner().map_err(|error| error.to_string())
     }
 
-    /// A `tabular`, to be read into a document by `\input`.
+    /// A LaTeX `tabular`, for `\input` in a document.
     pub fn latex(&self) -> String {
         let columns: String = self.columns.iter().map(|column| if column.is_number { 'r' } else { 'l' }).collect();
         let line = |cells: Vec<String>| format!("  {} \\\\\n", cells.join(" & "));
@@ -63,7 +63,7 @@ impl Table {
     }
 }
 
-/// Text for LaTeX.
+/// Escapes text for LaTeX.
 fn escaped(text: &str) -> String {
     let mut escaped = String::new();
     for c in text.chars() {
