@@ -1,9 +1,9 @@
-//! Adaptive sampling: more samples where there is more noise, as a pilot says whose samples are thrown away.
+//! Adaptive sampling: more samples where there is more noise, according to a pilot whose samples are discarded.
 //!
-//! A block of pixels with the relative variance V, whose samples take the time c, should have samples in proportion to √(V/c). Were
-//! V estimated from the samples of the picture itself, pixels whose first samples happen to be dark would get fewer of them, and
-//! the mean would be biased (D. Kirk and J. Arvo, "Unbiased Sampling Techniques for Image Synthesis", SIGGRAPH 1991). From a pilot
-//! with other random numbers, numbers of samples are as good as constants.
+//! A block of pixels with relative variance V and time c per sample should have samples in proportion to √(V/c). If V were
+//! estimated from the samples of the image itself, pixels with dark first samples would get fewer samples, and the mean would be
+//! biased (D. Kirk and J. Arvo, "Unbiased Sampling Techniques for Image Synthesis", SIGGRAPH 1991). A pilot with other random
+//! numbers makes sample counts independent of the samples.
 use rayon::prelude::*;
 
 use super::{
@@ -18,27 +18,27 @@ use crate::{
     scene::RenderSettings,
 };
 
-/// So many samples every pixel has.
+/// Minimum number of samples of every pixel.
 pub(super) const UNIFORM: u32 = 4;
-/// Powers of two of the rates at most and at least.
+/// Exponents of the minimum and maximum rate, to base two.
 const RATES: [i32; 2] = [-2, 4];
-/// The pilot tells noise from squares of so many pixels, a quarter of a block.
+/// Width and height of the squares from which the pilot estimates noise; four make up a block.
 const SQUARE: u32 = BLOCK / 2;
-/// Noise that every block is taken to have, by the average: a pilot may have missed it.
+/// Minimum noise of a block relative to the average, because a pilot may miss it.
 const LEAST: f64 = 0.05;
-/// Makes another seed of the picture's.
+/// Derives the pilot's seed from that of the image.
 const PILOT: u32 = 0x51ed_270b;
 
-/// What a block of the picture is like, row by row.
+/// Noise and cost of the blocks of an image, row by row.
 struct Pilot {
     columns: usize,
-    /// Relative variances of a sample, as two halves of the pilot have them.
+    /// Relative variances of a sample, from two halves of the pilot.
     noise: [Vec<f64>; 2],
-    /// How long a sample takes, in path segments.
+    /// Cost of a sample, in path segments.
     cost: Vec<f64>,
 }
 
-/// Has samples spread by noise over a film from now on, if the settings want it and the pilot does not advise against it.
+/// Enables adaptive sampling of a film, if the settings ask for it and the pilot does not advise against it.
 pub(super) fn spread(
     threads: &Threads,
     job: PassJob,
@@ -104,14 +104,14 @@ fn pilot(threads: &Threads, job: PassJob, film: &Film, interrupted: &(dyn Fn() -
 
 /// Path segments of a pixel.
 fn cost_of_block(tile: &Tile, block: usize, segments: &Segments) -> f64 {
-    /// Of making the ray and adding to the film.
+    /// Cost of generating the camera ray and of adding to the film.
     const BESIDES: f64 = 0.5;
     let [column, row] = [0, 1].map(|axis| (tile.corner(block)[axis] - tile.origin[axis]) / BLOCK);
     let [width, height] = tile.block_size(tile.place(block)).map(f64::from);
     BESIDES + f64::from(segments.0[(row * TILE / BLOCK + column) as usize]) / (width * height)
 }
 
-/// The four squares of a block, row by row. Radiance is by row · [`TILE`] + column of the tile.
+/// The four squares of a block, row by row. `radiance` is indexed by row · [`TILE`] + column of the tile.
 fn squares_of_block(tile: &Tile, block: usize, radiance: &[[f32; 4]]) -> [Square; 4] {
     let corner = tile.corner(block);
     let [left, top] = [0, 1].map(|axis| corner[axis] - tile.origin[axis]);
@@ -152,18 +152,18 @@ impl Square {
         Square { n, mean, variance: [0, 1, 2].map(variance) }
     }
 
-    /// Sum over the channels; the mean of the samples is less noisy than these.
+    /// The squared mean, summed over the channels; the mean is less noisy than the samples.
     fn square_of_mean(&self) -> f64 {
         self.mean.iter().map(|mean| mean * mean).sum()
     }
 
-    /// Sum over the channels of the variance of a sample over the square of the mean, as relMSE has it.
+    /// The variance of a sample over the squared mean with the floor of relMSE, summed over the channels.
     fn relative_variance(&self, floor: f64) -> f64 {
         self.mean.iter().zip(self.variance).map(|(mean, variance)| relative(variance, *mean, floor)).sum()
     }
 }
 
-/// Averages over squares of so many blocks.
+/// Averages over squares of `width` × `width` blocks.
 fn smooth(noise: &[f64], columns: usize, width: usize) -> Vec<f64> {
     let rows = noise.len() / columns;
     let mut smooth = vec![0.0; noise.len()];
@@ -178,7 +178,8 @@ fn smooth(noise: &[f64], columns: usize, width: usize) -> Vec<f64> {
 }
 
 impl Pilot {
-    /// By what factor relMSE × time falls if one half says where samples are to go, and the other one what noise there really is.
+    /// The factor by which relMSE × time falls if one half of the pilot distributes samples, evaluated with the noise of the
+    /// other half.
     fn gain_by(&self, smoothed: &[Vec<f64>; 2]) -> f64 {
         let gain = |half: usize| {
             let (needs, noise) = (self.needs(&smoothed[half]), &self.noise[1 - half]);
@@ -190,14 +191,14 @@ impl Pilot {
         (gain(0) * gain(1)).sqrt()
     }
 
-    /// What is in proportion to the samples that blocks of such noise should have.
+    /// Values proportional to the ideal sample counts of blocks with this noise.
     fn needs(&self, noise: &[f64]) -> Vec<f64> {
         let least = LEAST * noise.iter().sum::<f64>() / noise.len() as f64;
         noise.iter().zip(&self.cost).map(|(noise, cost)| ((noise + least) / cost).sqrt().max(f64::MIN_POSITIVE)).collect()
     }
 }
 
-/// Powers of two in proportion to the needs, such that the average is at most 1: Sobol points are best at powers of two.
+/// Powers of two in proportion to `needs`, with an average of at most 1. Sobol points are best at powers of two.
 fn rates(needs: &[f64]) -> Vec<i8> {
     let [lowest, highest] = RATES.map(f64::from);
     let at = |scale: f64| needs.iter().map(move |need| (need.log2() + scale).round().clamp(lowest, highest));

@@ -1,4 +1,4 @@
-//! Colours for numbers that colour-blind readers tell apart as well: lightness rises with the number, or away from the middle.
+//! Colour maps for numbers, suitable for colour-blind readers: lightness increases with the number, or away from the middle.
 use serde::Serialize;
 
 /// A scale of colours for numbers from 0 to 1.
@@ -54,13 +54,13 @@ const DIVERGING: Points = [
 ];
 
 impl ColourMap {
-    /// The maps to choose from for numbers without a sign, and one sentence for the window.
+    /// The maps for unsigned numbers, each with one sentence for the window.
     pub const CHOICE: [(ColourMap, &'static str, &'static str); 2] = [
         (ColourMap::Viridis, "Viridis", "Violet to yellow, evenly lighter: readable in grey and with any colour vision."),
         (ColourMap::Cividis, "Cividis", "Blue to yellow: looks the same with red-green deficiency."),
     ];
 
-    /// The colour of a number from 0 to 1; 8-bit sRGB. What is no number is grey.
+    /// The colour of a number from 0 to 1, in 8-bit sRGB. NaN is grey.
     pub fn of(self, at: f32) -> [u8; 3] {
         if at.is_nan() {
             return [96; 3];
@@ -76,7 +76,7 @@ impl ColourMap {
         std::array::from_fn(|c| (points[i][c] + (points[i + 1][c] - points[i][c]) * t).round() as u8)
     }
 
-    /// The map at 256 equidistant places, opaque.
+    /// The map at 256 equidistant points, opaque.
     pub fn table(self) -> [[u8; 4]; 256] {
         std::array::from_fn(|i| {
             let [r, g, b] = self.of(i as f32 / 255.0);

@@ -15,8 +15,8 @@ use crate::{
     },
 };
 
-/// The picture as 8-bit sRGB with an opaque fourth channel, row by row from the top left, into `pixels` instead of what was
-/// there. (Memory that is used again is half the time of a picture.)
+/// Converts an image to 8-bit sRGB with an opaque fourth channel, row by row from the top left, and replaces the contents of
+/// `pixels`. (Reusing its memory halves the time.)
 pub fn to_srgb(radiance: &[[f32; 3]], display: Display, pixels: &mut Vec<[u8; 4]>) {
     let scale = display.exposure.exp2();
     pixels.clear();
@@ -31,8 +31,8 @@ pub fn to_srgb(radiance: &[[f32; 3]], display: Display, pixels: &mut Vec<[u8; 4]
     }
 }
 
-/// Appends the sRGB codes of what `tone` makes of the radiance. Light and codes of a block take turns in short loops that the
-/// compiler can vectorise, which a loop over pixels is not.
+/// Applies `tone` to the radiance and appends sRGB codes. Light and codes of a block are computed in separate short loops, which
+/// the compiler can vectorise; it cannot vectorise a loop over pixels.
 #[inline(always)]
 fn encode(radiance: &[[f32; 3]], pixels: &mut Vec<[u8; 4]>, tone: impl Fn([f32; 3]) -> [f32; 3]) {
     const BLOCK: usize = 512;
@@ -58,19 +58,20 @@ fn encode_block<L: Lanes>(_: L, table: &SrgbTable, light: &[f32], codes: &mut [u
 static SRGB: LazyLock<SrgbTable> = LazyLock::new(SrgbTable::new);
 static FALSE_COLOURS: LazyLock<FalseColours> = LazyLock::new(FalseColours::new);
 
-/// The sRGB code of a linear value by table, exactly as rounding the formula gives it.
+/// A table for the sRGB code of a linear value, exactly as the rounded formula.
 ///
-/// The upper bits of a float name a bucket so narrow that at most one code begins within it. The bucket's entry is its first code
-/// times 2¹⁵, plus what the lower 15 bits lack to the place where the next code begins: adding them carries over just then.
+/// The upper bits of a float select a bucket in which at most one code begins. The bucket's entry is its first code times 2¹⁵,
+/// plus the complement of the lower 15 bits at which the next code begins, so that adding the lower bits carries over exactly
+/// there.
 struct SrgbTable {
     entries: Box<[u32; ENTRIES]>,
 }
 
-/// More than there are buckets, for a power of two needs no check of the index.
+/// More than the number of buckets, because a power of two needs no bounds check.
 const ENTRIES: usize = 4096;
 
 impl SrgbTable {
-    /// Buckets of 256 to the octave.
+    /// Selects 256 buckets per octave.
     const SHIFT: u32 = 15;
     /// Below this everything is code 0: half a code is 1.5e-4.
     const LOWEST: f32 = 1.0 / 8192.0;
@@ -113,12 +114,12 @@ fn next_code_from(code: u8) -> f32 {
 
 /// Luminance from 10⁻³ to 10³ on a logarithmic scale through the colours of viridis.
 struct FalseColours {
-    /// More than there are buckets, for a power of two needs no check of the index.
+    /// More than the number of buckets, because a power of two needs no bounds check.
     colours: Box<[[u8; 4]; 1024]>,
 }
 
 impl FalseColours {
-    /// Buckets of 32 to the octave.
+    /// Selects 32 buckets per octave.
     const SHIFT: u32 = 18;
     const LOWEST: f32 = 1e-3;
     const HIGHEST: f32 = 1e3;

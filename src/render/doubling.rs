@@ -1,8 +1,9 @@
-//! How far a picture still is from the one it converges to, told from how far it moves while its samples double.
+//! Estimates the remaining error from the change of the image as the sample count doubles.
 //!
-//! For independent samples the sample variance says it all. Stratified and Sobol samples are better than it says, by how much shows
-//! only over the whole picture. Let V(N) be the squared error of the mean of N samples. Where the second half of the samples is as
-//! good as the first, E|I_N − I_{N/2}|² = V(N/2) − V(N): see [`remaining`] for how V(N) follows from these differences.
+//! For independent samples, the sample variance is sufficient. The error of stratified and Sobol samples is smaller, by a factor
+//! that shows only over the whole image. Let V(N) be the squared error of the mean of N samples. If the second half of the
+//! samples is as good as the first, E|I_N − I_{N/2}|² = V(N/2) − V(N): see [`remaining`] for the derivation of V(N) from these
+//! differences.
 use rayon::prelude::*;
 
 use super::{
@@ -12,32 +13,32 @@ use super::{
 };
 use crate::measure::{Floor, relative};
 
-/// Sums over the pixels and channels of a block, each divided by the square of the radiance as relMSE has it.
+/// Sums over the pixels and channels of a block, each divided by the squared radiance with the floor of relMSE.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Doubling {
-    /// Of the squared difference of the means of N and of N/2 samples.
+    /// Sum of the squared difference of the means of N and of N/2 samples.
     moved: f64,
-    /// Of the variance of the mean of N samples, by the sample variance.
+    /// Sum of the variance of the mean of N samples, from the sample variance.
     variance: f64,
 }
 
-/// At least this share of the last move remains, as far as is believed.
+/// Lower bound of the remaining error, as a fraction of the last move.
 const LEAST: f64 = 0.15;
 
-/// The weight of the law of factors in the mean of both. Every other shipped scene would have 0.68, and the figure of the others is then
-/// off by 11 % (root mean square), as it is with the best weight for these, 0.84: the choice hardly matters.
+/// The weight of the law of factors in the mean of both laws. A fit to every other shipped scene gives 0.68, and the error of the
+/// estimate in the others is then 11 % (root mean square), as with the best weight for these, 0.84: the choice hardly matters.
 const FACTORS: f64 = 0.65;
 
 impl Doubling {
-    /// `estimates` are those of the pixels of a block, `before` the means that they had at half as many samples.
-    /// `floor` is what relMSE adds to the squared radiance.
+    /// `estimates` are those of the pixels of a block, and `before` their means at half as many samples. `floor` is the constant
+    /// that relMSE adds to the squared radiance.
     pub fn new(estimates: &[Estimate], before: &[[f32; 3]], floor: f64) -> Doubling {
         let mut doubling = Doubling::default();
         (0..3).for_each(|channel| doubling.add(channel, estimates, before, floor));
         doubling
     }
 
-    /// Adds one channel. Radiance is smoothed over the block where noise hides it.
+    /// Adds one channel. Radiance is smoothed over the block if noise hides it.
     fn add(&mut self, channel: usize, estimates: &[Estimate], before: &[[f32; 3]], floor: f64) {
         let mean = |estimate: &Estimate| estimate.mean[channel];
         let variance = |estimate: &Estimate| estimate.variance_of_mean.map_or(0.0, |variance| variance[channel]);
@@ -59,9 +60,9 @@ impl Doubling {
     }
 }
 
-/// Notes how far the blocks have moved whose numbers of samples have just become a power of two. The floor of relMSE is that of the
-/// whole picture, so this waits until all tiles are there: no block takes another sample before. Returns whether all is noted; what
-/// was interrupted goes on later.
+/// Records the moves of blocks whose sample counts have just become a power of two. The floor of relMSE is that of the whole
+/// image, so this waits until all tiles are ready: no block takes another sample before. Returns whether it is complete; after an
+/// interruption it continues later.
 pub(super) fn note(film: &mut Film, interrupted: &(dyn Fn() -> bool + Sync)) -> bool {
     let due = film.tiles.iter().flat_map(|tile| &tile.blocks).filter(|block| block.has_doubled());
     let Some(most) = due.map(|block| block.spp).max() else { return true };
@@ -78,10 +79,10 @@ pub(super) fn note(film: &mut Film, interrupted: &(dyn Fn() -> bool + Sync)) -> 
     film.tiles.par_iter_mut().map(note).reduce(|| true, |a, b| a && b)
 }
 
-/// The mean over pixels and channels of the squared radiance, as far as the samples know it; `None` if it was interrupted.
+/// Estimates the mean over pixels and channels of the squared radiance from the samples; `None` if it was interrupted.
 ///
-/// The square of a mean of samples contains their noise, whose variance is taken off. What stratified samples spare of that is too
-/// much; the squared means of blocks, which are hardly too small, bound it from below.
+/// The square of a mean of samples contains their noise, whose variance is subtracted. For stratified samples this subtracts too
+/// much; the squared means of blocks, which are hardly too small, are a lower bound.
 fn mean_square(film: &Film, interrupted: &(dyn Fn() -> bool + Sync)) -> Option<f64> {
     let squares = |tile: &Tile| (!interrupted()).then(|| tile.squares());
     let sums = film.tiles.par_iter().map(squares).collect::<Option<Vec<[f64; 2]>>>()?;
@@ -89,13 +90,13 @@ fn mean_square(film: &Film, interrupted: &(dyn Fn() -> bool + Sync)) -> Option<f
     Some(of_pixels.max(of_blocks) / (3.0 * film.resolution.map(f64::from).iter().product::<f64>()))
 }
 
-/// The relMSE that a film of this many samples is expected to have; `None` before the second sample.
+/// The expected relMSE of a film; `None` before the second sample.
 pub(super) fn rel_mse_estimate(film: &Film) -> Option<f64> {
     let all = Region { from: [0, 0], to: film.resolution };
     rel_mse_estimate_in(film, &all)
 }
 
-/// The same of the tiles in a region.
+/// The same for the tiles in a region.
 pub(super) fn rel_mse_estimate_in(film: &Film, region: &Region) -> Option<f64> {
     let tiles = || film.tiles.iter().filter(|tile| tile.lies_in(region));
     let blocks = || tiles().flat_map(|tile| &tile.blocks);
@@ -115,10 +116,10 @@ pub(super) fn rel_mse_estimate_in(film: &Film, region: &Region) -> Option<f64> {
     Some(remaining(&doublings) * now / last / values)
 }
 
-/// V(N) from the moves mₖ = V(2ᵏ⁻¹) − V(2ᵏ) and the sample variances at the doublings so far: the geometric mean of two laws, of which
-/// one mostly says too much and the other too little.
+/// V(N) from the moves mₖ = V(2ᵏ⁻¹) − V(2ᵏ) and the sample variances at the doublings so far: the geometric mean of two laws, of
+/// which one mostly gives too much and the other too little.
 ///
-/// Moves are counted in units of sample variances, which fall as 1/N and which chance moves in the same way.
+/// Moves are measured in units of sample variances, which fall as 1/N and fluctuate in the same way.
 fn remaining(doublings: &[(f64, f64)]) -> f64 {
     let Some((_, variance)) = doublings.last() else { return 0.0 };
     let q = |steps: usize| {
@@ -131,15 +132,16 @@ fn remaining(doublings: &[(f64, f64)]) -> f64 {
     variance * within(by_two_powers(moves)).powf(1.0 - FACTORS) * within(by_factors(moves)).powf(FACTORS)
 }
 
-/// What remains after the moves [mₖ, mₖ₋₁, mₖ₋₂] if V = a/N + b/N²: what independent and what well stratified coordinates leave.
+/// The remaining error after the moves [mₖ, mₖ₋₁, mₖ₋₂] if V = a/N + b/N², the errors of independent and of well stratified
+/// coordinates.
 ///
-/// m = a/N + 3b/N², so that two moves say what a and b are: V(N) = (5 mₖ − mₖ₋₁)/3, or from one doubling before
-/// V(N) = (5 mₖ₋₁ − mₖ₋₂)/3 − mₖ; the mean of both is taken, for (0, 2)-sequences are better at even powers of two than at odd ones.
+/// m = a/N + 3b/N², so two moves determine a and b: V(N) = (5 mₖ − mₖ₋₁)/3, or from one doubling before V(N) = (5 mₖ₋₁ − mₖ₋₂)/3
+/// − mₖ; the result is the mean of both, because (0, 2)-sequences are better at even powers of two than at odd ones.
 fn by_two_powers([last, before, first]: [f64; 3]) -> f64 {
     (2.0 * last + 4.0 * before - first) / 6.0
 }
 
-/// What remains if V falls in turn by a factor ρ and by a factor ρ'.
+/// The remaining error if V falls alternately by a factor ρ and by a factor ρ'.
 ///
 /// With r₁ = mₖ/mₖ₋₁ and r₂ = mₖ/mₖ₋₂ = ρρ' it follows that ρ = r₂(1 + r₁)/(r₁ + r₂), and V(N) = mₖ ρ/(1 − ρ).
 fn by_factors([last, before, first]: [f64; 3]) -> f64 {

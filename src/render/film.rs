@@ -1,4 +1,4 @@
-//! The film: what a picture's samples add up to.
+//! The film: the sums of an image's samples.
 use super::{region::Region, tile::Tile};
 use crate::{
     integrator::{TERMS, TILE},
@@ -9,18 +9,18 @@ use crate::{
 pub struct Film {
     pub(super) resolution: [u32; 2],
     pub tiles: Vec<Tile>,
-    /// All samples up to the next doubling are there, and it is to be noted before there are more.
+    /// Whether all samples up to the next doubling are there, which must be recorded before there are more.
     pub(super) is_noting: bool,
-    /// Pixels share what their paths find, and so have noise in common.
+    /// Whether pixels share paths, so that their noise is correlated.
     pub(super) shares: bool,
-    /// It has been found out where noise is.
+    /// Whether a pilot has measured the noise.
     pub(super) is_piloted: bool,
-    /// Samples go here alone.
+    /// The region that gets all samples.
     pub(super) focus: Option<Region>,
 }
 
 impl Film {
-    /// An empty film. Its memory is taken by the first sample, tile by tile on the threads that render.
+    /// An empty film. The render threads allocate its memory with the first sample, tile by tile.
     pub fn new(resolution: [u32; 2]) -> Film {
         let [width, height] = resolution;
         let corners = |side: u32| (0..side).step_by(TILE as usize);
@@ -29,22 +29,22 @@ impl Film {
         Film { resolution, tiles, is_noting: false, shares: false, is_piloted: false, focus: None }
     }
 
-    /// Room for a picture of this size: the film, the frames that are made of it, and what saving one of them takes.
+    /// Reserves memory for an image of this size: the film, its frames, and saving one of them.
     pub fn reserve([width, height]: [u32; 2]) -> Result<Reservation, TooMuch> {
-        /// Of a pixel: sums, squares and means in the film; means and errors in a frame, of which there are two at times; its
-        /// codes, and its file.
+        /// Bytes per pixel: sums, squares and means in the film; means and errors in up to two frames; display codes; and the
+        /// file.
         const PIXEL: u64 = 60 + 2 * 20 + 4 + 24;
         memory::reserve(format_args!("pictures of {width} × {height} pixels"), PIXEL * u64::from(width) * u64::from(height))
     }
 
-    /// Room for what each number of bounces adds to a picture of this size.
+    /// Reserves memory for the series by bounces of an image of this size.
     pub(super) fn reserve_series([width, height]: [u32; 2]) -> Result<Reservation, TooMuch> {
-        /// Sums in the film, and means in two frames.
+        /// Bytes per pixel: sums in the film, and means in two frames.
         const PIXEL: u64 = 3 * 12 * TERMS as u64;
         memory::reserve(format_args!("bounces of {width} × {height} pixels"), PIXEL * u64::from(width) * u64::from(height))
     }
 
-    /// An empty film in the memory of this one, if it has the right size.
+    /// An empty film in the memory of this one, if its size is right.
     pub fn recycled(mut self, resolution: [u32; 2]) -> Film {
         if self.resolution != resolution {
             return Film::new(resolution);
@@ -54,7 +54,7 @@ impl Film {
         self
     }
 
-    /// Keeps what each number of bounces adds apart from now on.
+    /// Starts to store the contribution of each number of bounces separately.
     pub(super) fn keep_series(&mut self) {
         self.tiles.iter_mut().for_each(Tile::keep_series);
     }
@@ -63,22 +63,22 @@ impl Film {
         self.tiles.first().is_some_and(|tile| tile.series.is_some())
     }
 
-    /// Samples a pixel of the tiles in a region; `None` where it lies outside.
+    /// Samples per pixel of the tiles in a region; `None` if it lies outside.
     pub(super) fn spp_in(&self, region: &Region) -> Option<u32> {
         self.tiles.iter().filter(|tile| tile.lies_in(region)).map(|tile| tile.spp).min()
     }
 
-    /// Samples a pixel: of every pixel, or on average at most where they are spread by noise.
+    /// Samples per pixel; with adaptive sampling, an upper bound of the average.
     pub fn spp(&self) -> u32 {
         self.tiles.iter().map(|tile| tile.spp).min().unwrap_or(0)
     }
 
-    /// Samples of all pixels together.
+    /// Total number of samples.
     pub fn samples(&self) -> u64 {
         self.tiles.iter().map(Tile::samples).sum()
     }
 
-    /// Whether samples are spread by noise.
+    /// Whether sampling is adaptive.
     pub fn is_adaptive(&self) -> bool {
         self.tiles.iter().any(Tile::is_adaptive)
     }
@@ -87,7 +87,7 @@ impl Film {
         self.tiles.iter().map(|tile| tile.invalid).sum()
     }
 
-    /// The tiles that samples go to.
+    /// The tiles that get samples.
     pub(super) fn tiles_in_focus(&mut self) -> impl Iterator<Item = &mut Tile> {
         let focus = self.focus;
         self.tiles.iter_mut().filter(move |tile| focus.is_none_or(|region| tile.lies_in(&region)))

@@ -1,4 +1,4 @@
-//! A frame: the picture at one moment, as others may look at it while the render goes on.
+//! A frame: a snapshot of the image, for use while the render continues.
 use std::time::Duration;
 
 use rayon::prelude::*;
@@ -22,24 +22,24 @@ pub struct Frame {
     pub generation: u64,
     pub width: u32,
     pub height: u32,
-    /// The resolution of the picture this frame is a view of; larger than the frame's own while the picture is coarse.
+    /// The full resolution of the image; larger than that of the frame while the image is coarse.
     pub full_resolution: [u32; 2],
     /// Linear Rec. 709.
     pub radiance: Vec<[f32; 3]>,
     /// Upper bound of the standard error of the pixel's luminance, as if its channels were fully correlated; NaN before the second
     /// sample.
     pub standard_error: Vec<f32>,
-    /// Samples that every pixel has at least; on average at most where they are spread by noise.
+    /// Minimum number of samples per pixel; with adaptive sampling, an upper bound of the average.
     pub spp: u32,
-    /// Samples of every pixel, row by row; empty where all have `spp`.
+    /// Samples of every pixel, row by row; empty if all have `spp`.
     pub counts: Vec<u32>,
     /// Time spent rendering it.
     pub elapsed: Duration,
-    /// What each number of bounces adds, where that was asked for.
+    /// The series by number of bounces, if requested.
     pub series: Option<Series>,
-    /// Estimated relMSE of the picture: see `render/doubling.rs`; `None` before the second sample.
+    /// Estimated relMSE of the image: see `render/doubling.rs`; `None` before the second sample.
     pub rel_mse_estimate: Option<f64>,
-    /// How noisy its means are by the variance of the samples; `None` before the second sample.
+    /// Noise of the means from the variance of the samples; `None` before the second sample.
     pub noise: Option<SampleNoise>,
 }
 
@@ -86,12 +86,12 @@ impl Frame {
         self.counts.get(index).copied().unwrap_or(self.spp)
     }
 
-    /// How many samples its pixels have.
+    /// Sample counts of the pixels.
     pub fn sample_counts(&self) -> SampleCounts {
         SampleCounts::of((0..self.radiance.len()).map(|index| self.spp_at(index)))
     }
 
-    /// The pixel of the frame that covers a pixel of the full picture, as an index.
+    /// The index of the pixel of the frame that covers a pixel of the full image.
     pub fn index_at(&self, [x, y]: [u32; 2]) -> Option<usize> {
         let [w, h] = self.full_resolution;
         if x >= w || y >= h {
@@ -134,7 +134,8 @@ fn counts(film: &Film) -> Vec<u32> {
     rows.collect::<Vec<_>>().concat()
 }
 
-/// The channels of a sample come from one path: their errors are added as if fully correlated, which is an upper bound.
+/// Standard error of the luminance. The channels of a sample come from one path: their errors are added as if fully correlated,
+/// which is an upper bound.
 fn luminance_error(estimate: &Estimate) -> f32 {
     estimate.variance_of_mean.map_or(f32::NAN, |variance| luminance(variance.map(|v| (v as f32).sqrt())))
 }

@@ -1,4 +1,4 @@
-//! Pictures on disk: PNG (what the screen shows) and EXR (linear radiance), both with the settings that made them.
+//! Image files: PNG (as displayed) and EXR (linear radiance), both with the settings of the render.
 use std::{
     io::Write,
     path::{Path, PathBuf},
@@ -14,7 +14,7 @@ use crate::{
     image::{Encoding, PictureError},
 };
 
-/// Why a picture could not be written or read.
+/// Error of reading or writing an image.
 #[derive(Debug, thiserror::Error)]
 pub enum ImageError {
     #[error("{}: the name must end in .png (as shown) or .exr (linear)", .0.display())]
@@ -27,23 +27,23 @@ pub enum ImageError {
     Read(#[from] PictureError),
 }
 
-/// What kind of file a picture becomes.
+/// Format of an image file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
-    /// As shown, sRGB.
+    /// As displayed, sRGB.
     Png,
     /// Linear radiance.
     Exr,
 }
 
 impl Format {
-    /// The format that a name asks for by its extension.
+    /// The format of a file name by its extension.
     pub fn of(path: &Path) -> Result<Format, ImageError> {
         let extension = path.extension().and_then(|extension| extension.to_str());
         extension.and_then(Format::named).ok_or_else(|| ImageError::Format(path.to_owned()))
     }
 
-    /// "png" or "exr", in letters of either case.
+    /// Parses "png" or "exr", in upper or lower case.
     pub fn named(name: &str) -> Option<Format> {
         [Format::Png, Format::Exr].into_iter().find(|format| format.name().eq_ignore_ascii_case(name))
     }
@@ -56,7 +56,7 @@ impl Format {
     }
 }
 
-/// Whether a picture could be written there, as far as can be told before there is one.
+/// Checks whether an image can be written to this path, as far as this is known before there is one.
 pub fn check_target(path: &Path) -> Result<(), ImageError> {
     Format::of(path)?;
     Ok(file::check(path)?)
@@ -68,13 +68,13 @@ pub fn save(frame: &Frame, display: Display, settings: &str, path: &Path) -> Res
     Ok(file::replace(path, &bytes)?)
 }
 
-/// [`save`] with these pixels in a PNG: what the screen shows of the frame.
+/// [`save`] with these pixels in a PNG: the frame as displayed.
 pub fn save_shown(frame: &Frame, pixels: &[[u8; 4]], settings: &str, path: &Path) -> Result<(), ImageError> {
     let bytes = encode_shown(frame, pixels, settings, Format::of(path)?)?;
     Ok(file::replace(path, &bytes)?)
 }
 
-/// The bytes of a file.
+/// Encodes a frame to the bytes of a file.
 pub fn encode(frame: &Frame, display: Display, settings: &str, format: Format) -> Result<Vec<u8>, ImageError> {
     let mut pixels = Vec::new();
     if format == Format::Png {
@@ -119,7 +119,7 @@ fn write_exr(frame: &Frame, settings: &str, to: &mut Vec<u8>) -> Result<(), Stri
     image.write().to_buffered(std::io::Cursor::new(to)).map_err(|error| error.to_string())
 }
 
-/// Reads a picture; a PNG is taken as sRGB.
+/// Reads an image; a PNG is taken as sRGB.
 pub fn read(path: &Path) -> Result<Picture, ImageError> {
     Ok(crate::image::read(path, Encoding::Srgb)?)
 }

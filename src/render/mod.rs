@@ -1,11 +1,11 @@
-//! Rendering: passes over a film on all threads, the worker that runs them, pictures for screen and file.
+//! Rendering: passes over a film on all threads, the worker that runs them, images for screen and file.
 //!
 //! ```text
 //!   window or command line                 worker thread                    rayon threads
 //!   Job, Budget ──────── channel ───────▶  Session: coarse films, film  ──▶ pass over tiles
 //!   Frame, Status ◀── Mutex<Published> ──  one frame when it is due     ◀── sums, counts
 //! ```
-//! The window says what it wants and never waits; see [`worker`].
+//! The window states what it wants and never waits; see [`worker`].
 mod adaptive;
 pub mod colour_map;
 pub mod display;

@@ -1,9 +1,9 @@
-//! The variances of a picture's means in its EXR file: a layer that programs which look for R, G and B alone do not see.
+//! The variances of an image's means in its EXR file, in a layer that programs which read only R, G and B ignore.
 //!
-//! | channel | what it is |
+//! | channel | contents |
 //! |---|---|
 //! | `variance.R`, `variance.G`, `variance.B` | variance of the mean of the pixel's samples |
-//! | `variance.block` | variance of the mean over pixels and channels of the block of 32 × 32 pixels that the pixel lies in |
+//! | `variance.block` | variance of the mean over pixels and channels of the pixel's block of 32 × 32 pixels |
 use std::{
     io::{BufReader, Seek},
     path::Path,
@@ -18,25 +18,25 @@ use super::{frame::Frame, image_file::SETTINGS_KEY};
 use crate::{file::open_regular, measure::SampleNoise};
 
 const CHANNELS: [&str; 4] = ["variance.R", "variance.G", "variance.B", "variance.block"];
-/// One attribute for all figures, and a group of attributes of its own: within a group they are written in any order, and the same
-/// picture is to be the same file.
+/// Key of the one attribute with all figures, in its own group of attributes. The order within a group is arbitrary, and the same
+/// image should give the same file.
 const FIGURES_KEY: &str = "noisefall_noise";
 const EFFECTIVE_SAMPLES: &str = "effective_samples";
 const BLOCK_DEGREES: &str = "block_degrees";
 const REL_MSE: &str = "rel_mse_estimate";
 
-/// What a file says of how its picture came about.
+/// Metadata of a file about the render of its image.
 #[derive(Clone, Debug, Default)]
 pub struct Provenance {
     pub noise: Option<SampleNoise>,
     /// Estimated relMSE: see [`Frame::rel_mse_estimate`].
     pub rel_mse_estimate: Option<f64>,
     pub seed: Option<u64>,
-    /// Samples are independent, so that variances are exact and not only bounds.
+    /// Whether samples are independent, so that variances are exact and not only upper bounds.
     pub is_independent: bool,
 }
 
-/// The channels of a frame, with its variances where it has some.
+/// The channels of a frame, with its variances if it has any.
 pub(super) fn channels(frame: &Frame) -> AnyChannels<FlatSamples> {
     let plane = |name: &str, values: Vec<f32>| AnyChannel::new(name, FlatSamples::F32(values));
     let of = |pixels: &[[f32; 3]], c: usize| pixels.iter().map(|rgb| rgb[c]).collect::<Vec<f32>>();
@@ -51,12 +51,12 @@ pub(super) fn channels(frame: &Frame) -> AnyChannels<FlatSamples> {
     AnyChannels::sort(planes.into())
 }
 
-/// As a number of the file: what varies must not seem exact, however dim it is.
+/// Converts a variance for the file; a positive one must not become 0.
 fn kept(variance: f64) -> f32 {
     if variance > 0.0 { (variance as f32).clamp(f32::MIN_POSITIVE, f32::MAX) } else { 0.0 }
 }
 
-/// Adds what the noise layer does not say: `name=value` each, with spaces between.
+/// Adds the figures that the noise layer lacks, as `name=value` separated by spaces.
 pub(super) fn add_figures(frame: &Frame, attributes: &mut ImageAttributes) {
     let noise = frame.noise.as_ref();
     let figures = [
@@ -70,7 +70,7 @@ pub(super) fn add_figures(frame: &Frame, attributes: &mut ImageAttributes) {
     }
 }
 
-/// What the file of a picture that has been read says of it; nothing, if it is not an EXR by this program.
+/// The metadata of an image file; empty unless it is an EXR by this program.
 pub fn provenance(path: &Path) -> Provenance {
     let Ok(mut file) = open_regular(path).map(BufReader::new) else { return Provenance::default() };
     let Some(header) = MetaData::read_from_buffered(&mut file, false).ok().and_then(|meta| meta.headers.into_iter().next())

@@ -1,4 +1,4 @@
-//! A pass: all tiles of a film brought to a number of samples, on all threads.
+//! A pass: brings all tiles of a film to a number of samples, on all threads.
 use std::{
     panic::{AssertUnwindSafe, catch_unwind},
     sync::{Mutex, PoisonError},
@@ -13,16 +13,16 @@ use crate::{
     scene::{CameraRays, RenderSettings, Reuse, Scene},
 };
 
-/// The threads that render, each with its queues.
+/// The render threads, each with its queues.
 pub struct Threads {
     pool: ThreadPool,
     batches: Vec<Mutex<Batch>>,
-    /// For films that keep the series.
+    /// Buffers for films with a series.
     terms: Vec<Mutex<Terms>>,
     level: SimdLevel,
 }
 
-/// What a pass renders.
+/// The input of a pass.
 #[derive(Clone, Copy)]
 pub struct PassJob<'a> {
     pub scene: &'a Scene,
@@ -30,20 +30,20 @@ pub struct PassJob<'a> {
     pub settings: &'a RenderSettings,
 }
 
-/// What a pass did besides adding samples.
+/// Figures of a pass.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PassCount {
-    /// Path segments traced.
+    /// Rays traced: path segments, shadow rays and visibility rays of path reuse.
     pub rays: u64,
     /// Paths cut because they were too long.
     pub cut_paths: u64,
     /// The first invalid sample.
     pub invalid: Option<SampleId>,
-    /// A sample that could not be computed at all.
+    /// A sample whose computation failed.
     pub failure: Option<Failure>,
 }
 
-/// One sample: a pixel and a number, enough to replay it.
+/// Identifies one sample by its pixel and index, for a replay.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct SampleId {
     pub pixel: [u32; 2],
@@ -53,11 +53,11 @@ pub struct SampleId {
 /// The renderer panicked.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Failure {
-    /// The sample, or the first one of the tile where none fails alone.
+    /// The sample, or the first one of the tile if none fails alone.
     pub at: SampleId,
-    /// The sample fails when it is replayed.
+    /// Whether the sample fails when it is replayed.
     pub replays: bool,
-    /// Of the picture, which may have been a coarse one.
+    /// Resolution of the image, which may have been a coarse one.
     pub resolution: [u32; 2],
     pub message: String,
 }
@@ -79,7 +79,7 @@ impl Threads {
         self.pool.install(task)
     }
 
-    /// Traces a tile, on a thread of the pool: the radiance of its pixels, and how long paths are.
+    /// Traces a tile on a thread of the pool; `result` gets the radiance of its pixels and the path segments.
     pub(super) fn trace_counting<T>(
         &self,
         work: &Work,
@@ -91,8 +91,8 @@ impl Threads {
         trace_counting(self.level, work, &mut batch, interrupted).map(|segments| result(batch.radiance(), segments))
     }
 
-    /// Brings a film to `spp` samples a pixel, or stops between two bounces when `interrupted` says so. A tile that was interrupted
-    /// goes on later as if nothing had happened.
+    /// Brings a film to `spp` samples per pixel, or stops between two bounces if `interrupted` returns true. An interrupted tile
+    /// continues later as if nothing had happened.
     pub fn pass(&self, job: PassJob, film: &mut Film, spp: u32, interrupted: &(dyn Fn() -> bool + Sync)) -> PassCount {
         if spp > adaptive::UNIFORM {
             // A pilot that fails is given up: the samples of the picture will fail as well, and it is known which.
@@ -120,7 +120,7 @@ impl Threads {
         }
     }
 
-    /// Brings a film to `spp` samples a pixel, or to the next power of two.
+    /// Brings a film to `spp` samples per pixel, or to the next power of two.
     fn to_next_doubling(&self, job: PassJob, film: &mut Film, spp: u32, interrupted: &(dyn Fn() -> bool + Sync)) -> PassCount {
         let resolution = film.resolution;
         let mut tiles: Vec<&mut Tile> = film.tiles_in_focus().filter(|tile| tile.spp < spp).collect();
@@ -209,7 +209,7 @@ fn find_failure(work: &Work) -> Option<SampleId> {
     work.parts().into_iter().flat_map(samples).find(fails)
 }
 
-/// What a panic said.
+/// The message of a panic.
 pub fn panic_message(panic: &(dyn std::any::Any + Send)) -> String {
     let text = panic.downcast_ref::<String>().cloned();
     text.or_else(|| panic.downcast_ref::<&str>().map(|s| (*s).to_owned())).unwrap_or_else(|| "unknown panic".to_owned())

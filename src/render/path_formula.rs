@@ -1,10 +1,11 @@
-//! A path as the nested sum that its estimate is, with its numbers: as text and as LaTeX.
+//! The estimate of a path as a nested sum with its numbers, as text and as LaTeX.
 //!
-//! L = τ₀ (w₀ L_e(x₀) + D₀ + f₀ cos θ₀/(p₀ q₀) · τ₁ (w₁ L_e(x₁) + D₁ + …)), D the light sample of a vertex, τ what media let pass on the way to
-//! it, w the weight of emitted light, q the probability of surviving roulette. What is 1 is left out.
+//! L = τ₀ (w₀ L_e(x₀) + D₀ + f₀ cos θ₀/(p₀ q₀) · τ₁ (w₁ L_e(x₁) + D₁ + …)), where D is the light sample of a vertex, τ the
+//! transmittance on the way to it, w the weight of emitted light, and q the survival probability of roulette. Factors of 1 are
+//! omitted.
 use crate::integrator::{Outcome, Replay, Vertex};
 
-/// Vertices of the formula that stands without numbers.
+/// Number of vertices in the formula without numbers.
 const SHOWN: usize = 2;
 
 type Colour = [f64; 3];
@@ -12,19 +13,19 @@ type Colour = [f64; 3];
 /// The terms of one vertex.
 struct Level {
     transmittance: Colour,
-    /// Weight and radiance; zero where nothing emits.
+    /// Weight and radiance; zero if nothing emits.
     emission: (f64, Colour),
     /// D.
     light: Colour,
-    /// To the next vertex, where there is one.
+    /// The factor of the next vertex, if there is one.
     factor: Option<Factor>,
 }
 
-/// What the radiance of the next vertex is multiplied by.
+/// The factor of the radiance of the next vertex.
 struct Factor {
-    /// The bsdf, the cosine and the density; of a delta lobe there are none.
+    /// BSDF, cosine and pdf; `None` for a delta lobe.
     f_cos_pdf: Option<(Colour, f64, f64)>,
-    /// f cos/p, of a delta lobe too.
+    /// f cos/p, also of a delta lobe.
     weight: Colour,
     survival: f64,
 }
@@ -49,7 +50,7 @@ fn level(vertex: &Vertex) -> Level {
     Level { transmittance: wide(vertex.transmittance), emission, light, factor }
 }
 
-/// What the nested sum comes to.
+/// The value of the nested sum.
 fn value(levels: &[Level]) -> Colour {
     levels.iter().rev().fold([0.0; 3], |next, level| {
         let of = |c: usize| {
@@ -61,15 +62,15 @@ fn value(levels: &[Level]) -> Colour {
     })
 }
 
-/// How the formula is written.
+/// The notation of the formula.
 struct Writer {
     times: &'static str,
-    /// Around what a vertex adds up to.
+    /// Brackets around the sum of a vertex.
     brackets: [&'static str; 2],
-    /// Before the next vertex, which begins a line.
+    /// The line break before the next vertex.
     line: fn(usize) -> String,
     number: fn(f64) -> String,
-    /// A symbol of a vertex.
+    /// Formats the symbol of a vertex.
     index: fn(&str, usize) -> String,
     tau: &'static str,
     cos: &'static str,
@@ -104,7 +105,7 @@ const LATEX: Writer = Writer {
     fraction: |above, below| format!("\\frac{{{above}}}{{{below}}}"),
 };
 
-/// The formula, then its numbers, then what they come to, each on a line or more of its own.
+/// The formula, then its numbers, then its value, each on separate lines.
 pub fn text(replay: &Replay) -> String {
     let [symbols, numbers, sum] = parts(&TEXT, replay);
     format!("L = {symbols}\n  = {numbers}\n  = {sum}")
@@ -122,7 +123,7 @@ fn parts(writer: &Writer, replay: &Replay) -> [String; 3] {
 }
 
 impl Writer {
-    /// One number where all channels agree.
+    /// Formats a colour; as one number if all channels are equal.
     fn colour(&self, rgb: Colour) -> String {
         let [r, g, b] = rgb.map(self.number);
         if r == g && g == b { r } else { format!("({r}, {g}, {b})") }
@@ -167,7 +168,7 @@ fn numbers(writer: &Writer, levels: &[Level]) -> String {
     text + &writer.brackets[1].repeat(open)
 }
 
-/// The sum without numbers, of the first vertices and of the terms that this path has.
+/// The sum without numbers, for the first vertices and the terms of this path.
 fn symbols(writer: &Writer, levels: &[Level]) -> String {
     let lights = levels.iter().any(|level| level.light != [0.0; 3] || level.emission.0 != 1.0);
     let roulette = levels.iter().filter_map(|level| level.factor.as_ref()).any(|factor| factor.survival < 1.0);
@@ -192,7 +193,7 @@ fn symbols(writer: &Writer, levels: &[Level]) -> String {
     text + dots + &writer.brackets[1].repeat(open)
 }
 
-/// Five digits that count.
+/// Five significant digits.
 pub fn short(x: f64) -> String {
     match x.abs() {
         0.0 => "0".to_owned(),

@@ -1,10 +1,10 @@
-//! The samples of a pixel as a table, with the mean and the variance of those so far.
+//! The samples of a pixel as a table, with their running mean and variance.
 use crate::{math::colour::luminance, sampling::Sampler};
 
 /// The names of the columns.
 const COLUMNS: &str = "sample,red,green,blue,luminance,mean,variance";
 
-/// The lines of a table of samples, one after the other: mean and variance are those of the luminance, by B. P. Welford (1962).
+/// A table of samples. Mean and variance are those of the luminance, by the method of B. P. Welford (1962).
 #[derive(Default)]
 pub struct SampleTable {
     count: f64,
@@ -14,7 +14,7 @@ pub struct SampleTable {
 }
 
 impl SampleTable {
-    /// Adds the samples from number `first` on.
+    /// Adds the samples from index `first` on.
     pub fn extend(&mut self, first: u32, samples: &[[f32; 3]]) {
         for (number, rgb) in (u64::from(first)..).zip(samples) {
             let y = f64::from(luminance(*rgb));
@@ -34,7 +34,7 @@ impl SampleTable {
     }
 }
 
-/// What a reader of the variance should know of a sampler.
+/// A note on the variance with a sampler.
 pub fn remark(sampler: Sampler) -> Option<&'static str> {
     (sampler != Sampler::Independent)
         .then_some("these samples are not independent: their mean is better known than the variance over their number says")

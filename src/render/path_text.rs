@@ -1,4 +1,4 @@
-//! A path in words and numbers: the settings, the nested sum, why it ended, and every vertex.
+//! A path as text: the settings, the nested sum, the reason of its end, and every vertex.
 use super::path_formula;
 use crate::{
     integrator::{MetLight, Outcome, Reflection, Replay, SampledLight, Surface, Vertex},
@@ -6,7 +6,7 @@ use crate::{
     scene::{Camera, RenderSettings, Roulette, Scene},
 };
 
-/// Which path it is, and how it was traced.
+/// The path and its settings.
 #[derive(Clone, Copy)]
 pub struct PathId<'a> {
     pub scene: &'a Scene,
@@ -16,7 +16,7 @@ pub struct PathId<'a> {
     pub sample: u32,
 }
 
-/// All of it as text.
+/// The whole report as text.
 pub fn text(id: &PathId, replay: &Replay) -> String {
     let mut text = format!("{}\n\n{}\n", heading(id, replay), path_formula::text(replay));
     for vertex in &replay.vertices {
@@ -65,7 +65,7 @@ fn heading(PathId { scene, camera, settings, pixel: [x, y], sample }: &PathId, r
     )
 }
 
-/// What is printed of a vertex: a title, and a line or more a term.
+/// The text of a vertex: a title, and at least one line per term.
 fn block(scene: &Scene, vertex: &Vertex) -> String {
     let mut text = title(scene, vertex);
     let mut term = |name: &str, value: &str| text += &format!("\n  {name:<15} {value}");
@@ -153,7 +153,7 @@ fn place([x, y, z]: [f32; 3]) -> String {
     format!("{x:.5} {y:.5} {z:.5}")
 }
 
-/// Five decimals, or as many digits where these would be few or the number long.
+/// Five decimals, or five significant digits if the number is very small or large.
 fn number(x: f32) -> String {
     if x == 0.0 || (1e-3..1e4).contains(&x.abs()) { format!("{x:.5}") } else { format!("{x:.4e}") }
 }

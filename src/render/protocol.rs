@@ -1,4 +1,4 @@
-//! What the window or the command line says to the worker, and what it answers.
+//! The messages between the window or the command line and the worker.
 use std::{sync::Arc, time::Duration};
 
 use super::{
@@ -9,7 +9,7 @@ use super::{
 };
 use crate::scene::{Camera, RenderSettings, Scene};
 
-/// A picture to render. Another generation is another picture.
+/// An image to render. Each generation is a different image.
 #[derive(Clone)]
 pub struct Job {
     pub generation: u64,
@@ -18,22 +18,22 @@ pub struct Job {
     pub settings: RenderSettings,
 }
 
-/// How far to render it. A change goes on with the samples there are.
+/// How far to render it. A change continues with the existing samples.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Budget {
     pub paused: bool,
-    /// Single passes asked for so far while paused: a count that only grows.
+    /// Number of single passes requested so far while paused; it only grows.
     pub steps: u64,
     pub max_spp: Option<u32>,
     pub max_time: Option<Duration>,
     /// Relative noise at which to stop: the root of the estimated relMSE.
     pub noise: Option<f64>,
-    /// What to render before the rest, until it has `max_spp` samples.
+    /// Region to render before the rest, until it has `max_spp` samples.
     pub region: Option<Region>,
 }
 
 impl Budget {
-    /// The target that a picture with these figures has reached, if it has one.
+    /// The target that an image with these figures has reached, if any.
     pub fn target(&self, spp: u32, elapsed: Duration, rel_mse_estimate: Option<f64>) -> Option<Target> {
         let samples = self.max_spp.filter(|most| spp >= *most).map(|_| Target::Samples(spp));
         let time = self.max_time.filter(|most| elapsed >= *most).map(|_| Target::Time);
@@ -42,23 +42,23 @@ impl Budget {
     }
 }
 
-/// Whether the noise of a picture is at most `goal`, as far as this can be believed.
+/// Whether the estimated noise of an image is reliably at most `goal`.
 pub(super) fn is_below(goal: f64, spp: u32, rel_mse_estimate: Option<f64>) -> bool {
-    /// Before so many samples pixels that no light has found yet look free of noise.
+    /// Minimum number of samples. With fewer, pixels that no light has reached yet look free of noise.
     const LEAST_SPP: u32 = 64;
     spp >= LEAST_SPP && rel_mse_estimate.is_some_and(|rel_mse| rel_mse.sqrt() <= goal)
 }
 
-/// A picture beside the first.
+/// A second image beside the first.
 #[derive(Clone)]
 pub enum Beside {
-    /// Another one, as of the same scene by other settings.
+    /// A different image, such as the same scene with other settings.
     Picture(Job),
-    /// The same one as a [`super::Series`]: only full frames.
+    /// The same image as a [`super::Series`]; only full frames.
     Series(Job),
 }
 
-/// What the worker is doing.
+/// State of the worker.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum State {
     /// No job yet.
@@ -66,13 +66,13 @@ pub enum State {
     Idle,
     Running,
     Paused,
-    /// A target of the budget is reached.
+    /// The render has reached a target of the budget.
     Done(Target),
-    /// The renderer panicked; the picture so far stands.
+    /// The renderer panicked; the image so far is kept.
     Failed(Failure),
 }
 
-/// Figures of the render, and what the worker is doing.
+/// Figures of the render, and the state of the worker.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Status {
     pub generation: u64,
@@ -82,24 +82,24 @@ pub struct Status {
     pub region_spp: Option<u32>,
     /// Camera samples taken.
     pub samples: u64,
-    /// Path segments traced.
+    /// Rays traced: path segments, shadow rays and visibility rays of path reuse.
     pub rays: u64,
-    /// Time spent rendering this picture.
+    /// Render time of this image.
     pub elapsed: Duration,
     pub rel_mse_estimate: Option<f64>,
-    /// Pixels share what their paths find.
+    /// Whether pixels share paths.
     pub shares: bool,
-    /// Samples are spread by noise.
+    /// Whether sampling is adaptive.
     pub adapts: bool,
-    /// Samples dropped because they were not finite or negative.
+    /// Samples dropped because they were negative or not finite.
     pub invalid_samples: u64,
     pub first_invalid: Option<SampleId>,
-    /// Paths cut at [`RenderSettings::last_bounce`] without a cap that says so.
+    /// Paths cut at [`RenderSettings::last_bounce`] in the absence of a cap.
     pub cut_paths: u64,
 }
 
 impl Status {
-    /// Why the expected picture differs from the solution of the equation; `None` when it does not.
+    /// The reason why the estimate is biased; `None` if it is not.
     pub fn bias(&self, settings: &RenderSettings) -> Option<String> {
         settings.bias().or((self.cut_paths > 0).then(|| format!("{} paths cut", self.cut_paths)))
     }
@@ -114,19 +114,19 @@ impl Status {
     }
 }
 
-/// The latest picture and figures.
+/// The latest frame and figures.
 #[derive(Clone, Default)]
 pub struct Published {
     pub frame: Arc<Frame>,
     pub status: Status,
 }
 
-/// When frames are made.
+/// When frames are published.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Publish {
-    /// A coarse one at once, then as the picture grows: for looking on.
+    /// A coarse frame at once, then at growing intervals: for display.
     Live,
-    /// Twice a second and at rest, full resolution only: for files.
+    /// Twice a second and at the end, at full resolution only: for files.
     Sparse,
 }
 

@@ -1,7 +1,7 @@
-//! A part of the picture that is rendered before the rest.
+//! A region of the image that is rendered before the rest.
 use crate::integrator::TILE;
 
-/// A rectangle of pixels, from the upper left corner to before the lower right one.
+/// A rectangle of pixels, from the upper left corner up to, and excluding, the lower right one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Region {
     pub from: [u32; 2],
@@ -9,7 +9,7 @@ pub struct Region {
 }
 
 impl Region {
-    /// The rectangle between two corners, both within it.
+    /// The rectangle between two corners, both included.
     pub fn between(a: [u32; 2], b: [u32; 2]) -> Region {
         let of = |choose: fn(u32, u32) -> u32| [0, 1].map(|axis| choose(a[axis], b[axis]));
         Region { from: of(Ord::min), to: of(Ord::max).map(|x| x + 1) }
@@ -20,18 +20,18 @@ impl Region {
         [0, 1].map(|axis| self.to[axis].saturating_sub(self.from[axis]))
     }
 
-    /// The part of it that lies in a picture; `None` where none does.
+    /// The part inside an image; `None` if there is none.
     pub fn within(&self, resolution: [u32; 2]) -> Option<Region> {
         let to = [0, 1].map(|axis| self.to[axis].min(resolution[axis]));
         (0..2).all(|axis| self.from[axis] < to[axis]).then_some(Region { from: self.from, to })
     }
 
-    /// Whether it shares pixels with the rectangle of this size.
+    /// Whether it overlaps the rectangle of this origin and size.
     pub fn meets(&self, origin: [u32; 2], size: [u32; 2]) -> bool {
         (0..2).all(|axis| self.from[axis] < origin[axis] + size[axis] && origin[axis] < self.to[axis])
     }
 
-    /// The tiles that it takes, as a rectangle within a picture: those are rendered as a whole.
+    /// The rectangle of the tiles that it touches in an image; tiles are rendered as a whole.
     pub fn in_tiles(&self, resolution: [u32; 2]) -> Region {
         let to = [0, 1].map(|axis| self.to[axis].next_multiple_of(TILE).min(resolution[axis]));
         Region { from: self.from.map(|x| x / TILE * TILE), to }

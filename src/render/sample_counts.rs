@@ -1,20 +1,20 @@
-//! How many samples the pixels of a picture have: not all as many where the render was interrupted or follows the noise.
+//! Sample counts of the pixels of an image, which differ after an interruption and with adaptive sampling.
 use std::fmt;
 
-/// Figures of the numbers of samples of pixels.
+/// Statistics of sample counts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SampleCounts {
-    /// Of the pixel that has the fewest.
+    /// Minimum over the pixels.
     pub least: u32,
-    /// Of the pixel that has the most.
+    /// Maximum over the pixels.
     pub most: u32,
-    /// Of all pixels together.
+    /// Sum over the pixels.
     pub total: u64,
     pub pixels: u64,
 }
 
 impl SampleCounts {
-    /// Of the pixels with these numbers of samples.
+    /// Computes the statistics of these sample counts.
     pub fn of(counts: impl Iterator<Item = u32>) -> SampleCounts {
         let start = SampleCounts { least: u32::MAX, ..SampleCounts::default() };
         let all = counts.fold(start, |all, count| SampleCounts {

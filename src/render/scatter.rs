@@ -1,7 +1,6 @@
-//! How samples scatter: what the variances of means over pixels are made of.
+//! The scatter of samples, from which variances of means over pixels are computed.
 
-/// Numbers that come one by one, as their mean and the sum of their squared deviations from it (B. P. Welford 1962). Equal numbers
-/// deviate by exactly 0.
+/// Running mean and sum of squared deviations (B. P. Welford 1962). Equal numbers deviate by exactly 0.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Scatter {
     count: f64,
@@ -17,15 +16,17 @@ impl Scatter {
         self.squares += deviation * (x - self.mean);
     }
 
-    /// Of at least two numbers.
+    /// Variance of the mean of at least two numbers.
     pub fn variance_of_mean(&self) -> f64 {
         self.squares / (self.count * (self.count - 1.0))
     }
 }
 
-/// Of how many samples the variance of a mean consists: each adds a part to it, and here are the sums of the parts and of their squares.
+/// The effective number of samples in a variance. Each sample adds a part to the variance; these are the sums of the parts and of
+/// their squares.
 ///
-/// The n-th sample of a pixel, x, adds (x − m)² (n − 1)/n to the sum of squared deviations, m being the mean of those before it.
+/// The n-th sample of a pixel, x, adds (x − m)² (n − 1)/n to the sum of squared deviations, where m is the mean of the samples
+/// before it.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Parts {
     sum: f64,
@@ -43,7 +44,7 @@ impl Parts {
         }
     }
 
-    /// The parts of pixels that have `count` samples, as those of the variance of the pixels' means.
+    /// Converts the parts of pixels with `count` samples to those of the variance of the pixels' means.
     pub fn of_means(&self, count: f64) -> Parts {
         let scale = 1.0 / (count * (count - 1.0));
         Parts { sum: self.sum * scale, squares: self.squares * scale * scale }
@@ -53,7 +54,7 @@ impl Parts {
         self.sum
     }
 
-    /// As many equal parts would have the same sums: infinite where there is none.
+    /// The number of equal parts with the same sums; infinite if there are none.
     pub fn effective_count(all: impl Iterator<Item = Parts>) -> f64 {
         let all = all.fold(Parts::default(), |a, b| Parts { sum: a.sum + b.sum, squares: a.squares + b.squares });
         if all.squares > 0.0 { all.sum * all.sum / all.squares } else { f64::INFINITY }

@@ -1,23 +1,23 @@
-//! The picture as a series: sums of samples by the number of bounces, and what share of the light each number brings.
+//! The image as a series: sums of samples by number of bounces, and the share of the light of each number.
 use rayon::prelude::*;
 
 use super::{film::Film, tile::Tile};
 use crate::integrator::{SHARES, TERMS, TILE, Terms};
 
-/// Sums of one tile, kept only while somebody looks at the series. In single precision, for there are many: after a million samples
-/// their means are off by some 10⁻⁴.
+/// Sums of one tile, stored only while the series is shown. They are in single precision to save memory: after a million samples,
+/// the error of their means is about 10⁻⁴.
 pub(super) struct TileSeries {
-    /// A picture of the tile for each term, row by row.
+    /// Sums for each term, row by row.
     sums: [Vec<[f32; 3]>; TERMS],
     light: [f64; SHARES],
 }
 
-/// What each number of bounces adds to a picture.
+/// The contribution of each number of bounces to an image.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Series {
-    /// Mean radiance of light reflected k times, in the last of [`TERMS`] that of all the rest; row by row from the top left.
+    /// Mean radiance of light reflected k times, row by row from the top left; the last of [`TERMS`] is the sum of all others.
     pub terms: Vec<Vec<[f32; 3]>>,
-    /// The part of the picture's luminance that k bounces bring, in the last of [`SHARES`] that of all the rest.
+    /// Fraction of the image's luminance with k bounces; the last of [`SHARES`] is the sum of all others.
     pub shares: Vec<f64>,
 }
 
@@ -26,7 +26,7 @@ impl TileSeries {
         TileSeries { sums: std::array::from_fn(|_| vec![[0.0; 3]; pixels]), light: [0.0; SHARES] }
     }
 
-    /// Adds a sample of every pixel; `radiance` is all of it by slot = row · [`TILE`] + column.
+    /// Adds a sample of every pixel; `radiance` is the total by slot = row · [`TILE`] + column.
     pub fn add(&mut self, [width, height]: [u32; 2], terms: &Terms, radiance: &[[f32; 4]]) {
         for (k, sums) in self.sums.iter_mut().enumerate() {
             for (row, sums) in (0..height).zip(sums.chunks_mut(width as usize)) {
@@ -45,7 +45,7 @@ impl TileSeries {
 }
 
 impl Series {
-    /// The series of a film that keeps one.
+    /// The series of a film, if it stores one.
     pub(super) fn of_film(film: &Film) -> Option<Series> {
         film.tiles.first()?.series.as_ref()?;
         let width = film.resolution[0] as usize;
@@ -65,7 +65,7 @@ impl Series {
         Some(Series { terms: (0..TERMS).map(term).collect(), shares })
     }
 
-    /// The part of the light that a cap of `n` bounces would lose.
+    /// The fraction of the light that a cap of `n` bounces would lose.
     pub fn lost_by_cap(&self, n: usize) -> f64 {
         self.shares.iter().skip(n + 1).sum()
     }
@@ -80,7 +80,7 @@ impl Series {
     }
 }
 
-/// Writes the means of one term of a tile into its band of the picture.
+/// Writes the means of one term of a tile to its band of the image.
 fn place(tile: &Tile, k: usize, width: usize, band: &mut [[f32; 3]]) {
     let Some(series) = &tile.series else { return };
     let scale = 1.0 / tile.spp as f32;

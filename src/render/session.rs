@@ -1,4 +1,4 @@
-//! One picture on its way: its films, from coarse to full, and how large the next pass should be.
+//! The render of one image: its films, from coarse to full, and the size of the next pass.
 use std::time::{Duration, Instant};
 
 use super::{
@@ -15,37 +15,37 @@ use crate::{
     scene::{Camera, RenderSettings, Reuse},
 };
 
-/// Camera samples a second before anything was measured: what a slow machine makes of a simple scene.
+/// Camera samples per second before the first measurement: those of a slow machine with a simple scene.
 const UNKNOWN_RATE: f64 = 1e6;
-/// How long the first, coarse picture may take to render: less than the time between two moves of a dragged camera.
+/// Time limit of the first, coarse image: less than the time between two moves of a dragged camera.
 const FIRST_PICTURE: Duration = Duration::from_millis(10);
-/// Between two frames: from 30 a second to 2, as the picture ages and changes less.
+/// Interval between two frames: from 30 per second to 2, because an old image changes less.
 const SHORTEST_INTERVAL: Duration = Duration::from_millis(33);
 const LONGEST_INTERVAL: Duration = Duration::from_millis(500);
 const MOST_SPP_A_PASS: f64 = 1024.0;
-/// A pause waits for the first full sample of a picture, but not longer than this.
+/// A pause waits for the first full sample of an image, but at most for this time.
 const PATIENCE: Duration = Duration::from_secs(1);
 
-/// A job and what has been rendered of it.
+/// A job and its films.
 pub(super) struct Session {
     job: Job,
-    /// The picture at a lower resolution, to look at until the full one has a sample everywhere.
+    /// The image at a lower resolution, for display until the full one has a sample everywhere.
     coarse: Option<Coarse>,
     film: Film,
     count: PassCount,
     elapsed: Duration,
-    /// Camera samples a second, as measured last.
+    /// Last measured camera samples per second.
     rate: Option<f64>,
     steps_done: u64,
     rel_mse_estimate: Option<f64>,
-    /// The same of the region that is rendered before the rest.
+    /// The same for the region that is rendered before the rest.
     region_estimate: Option<(Region, f64)>,
-    /// Pixels share what their paths find.
+    /// Whether pixels share paths.
     shares: bool,
     last_frame: Option<Instant>,
-    /// There are samples that no frame shows.
+    /// Whether there are samples that no frame shows.
     stale: bool,
-    /// What the picture takes, and the series besides.
+    /// Memory of the image, and of the series.
     memory: [Option<Reservation>; 2],
 }
 
@@ -62,7 +62,7 @@ impl Coarse {
         (scale > 1).then(|| Coarse { scale, camera: Camera { resolution, ..*full }, film: Film::new(resolution) })
     }
 
-    /// The scale at which the first picture is there in time.
+    /// The scale at which the first image meets its time limit.
     fn first_scale(camera: &Camera, rate: f64) -> u32 {
         let pixels = camera.resolution.map(f64::from).iter().product::<f64>();
         (pixels / (rate * FIRST_PICTURE.as_secs_f64())).sqrt().ceil() as u32
@@ -70,7 +70,7 @@ impl Coarse {
 }
 
 impl Session {
-    /// `rate`: camera samples a second that the same scene reached before, if known. `film`: one that is not needed any more.
+    /// Starts a session. `rate`: known camera samples per second of the same scene. `film`: an old film to reuse.
     pub fn new(job: Job, publish: Publish, rate: Option<f64>, budget: &Budget, film: Option<Film>) -> Session {
         let scale = Coarse::first_scale(&job.camera, rate.unwrap_or(UNKNOWN_RATE));
         let memory = Film::reserve(job.camera.resolution);
@@ -93,7 +93,7 @@ impl Session {
         session
     }
 
-    /// Keeps room for the picture or the series, or fails where there is none.
+    /// Keeps the reservation for the image or the series, or fails if there is none.
     fn keep(&mut self, which: usize, memory: Result<Reservation, TooMuch>) {
         match memory {
             Ok(memory) => self.memory[which] = Some(memory),
@@ -104,7 +104,8 @@ impl Session {
         }
     }
 
-    /// One that keeps what each number of bounces adds apart. Pixels share nothing then, and have the same number of samples.
+    /// A session that stores the contribution of each number of bounces separately. Its pixels do not share paths, and have the
+    /// same number of samples.
     pub fn of_series(job: Job, rate: Option<f64>, budget: &Budget) -> Session {
         let settings = RenderSettings { reuse: Reuse::Off, adaptive: false, ..job.settings };
         let mut session = Session::new(Job { settings, ..job }, Publish::Sparse, rate, budget, None);
@@ -125,12 +126,12 @@ impl Session {
         self.film
     }
 
-    /// Whether the next frame is a small one.
+    /// Whether the next frame is a coarse one.
     pub fn is_coarse(&self) -> bool {
         self.coarse.is_some()
     }
 
-    /// Time spent rendering it.
+    /// Render time.
     pub fn elapsed(&self) -> Duration {
         self.elapsed
     }
@@ -139,7 +140,7 @@ impl Session {
         self.rate
     }
 
-    /// Every picture gets its first sample, paused or not: one wants to see what one has changed.
+    /// The state for a budget. Every image gets its first sample, even if paused, so that the user sees the effect of a change.
     pub fn state(&self, budget: &Budget) -> State {
         let spp = self.film.spp();
         if let Some(failure) = &self.count.failure {
@@ -153,8 +154,8 @@ impl Session {
         }
     }
 
-    /// The region to render before the rest, until it has the samples or the noise that the budget asks for. Every pixel has its first
-    /// sample by then.
+    /// The region to render before the rest, until it reaches the samples or the noise of the budget. Every pixel has its first
+    /// sample before.
     fn focus(&self, budget: &Budget) -> Option<Region> {
         let estimate = |region: &Region| self.region_estimate.filter(|(of, _)| of == region).map(|(_, rel_mse)| rel_mse);
         let unfinished = |region: &Region| {
@@ -165,12 +166,12 @@ impl Session {
         budget.region.filter(|region| self.film.spp() > 0 && unfinished(region))
     }
 
-    /// Samples of every pixel that samples go to now.
+    /// Samples of every pixel that currently gets samples.
     fn spp_in_focus(&self) -> u32 {
         self.film.focus.and_then(|region| self.film.spp_in(&region)).unwrap_or_else(|| self.film.spp())
     }
 
-    /// The first sample is not there yet, and there has been something to look at for a while.
+    /// Whether the first sample is incomplete although a coarse image has been visible for a while.
     fn takes_long(&self) -> bool {
         self.last_frame.is_some_and(|coarse| coarse.elapsed() > PATIENCE)
     }
@@ -229,7 +230,7 @@ impl Session {
         }
     }
 
-    /// As many samples as fit between two frames.
+    /// The number of samples that fit between two frames.
     fn spp_of_pass(&self, budget: &Budget, publish: Publish) -> u32 {
         let resolution = self.job.camera.resolution;
         let size = self.film.focus.map_or(resolution, |region| region.in_tiles(resolution).size());
@@ -257,7 +258,7 @@ impl Session {
         self.stale && complete && (at_rest || waited || self.coarse.is_some())
     }
 
-    /// The picture so far. A coarse one makes place for the next finer one.
+    /// The image so far. A coarse film is replaced by the next finer one.
     pub fn frame(&mut self) -> Frame {
         self.stale = false;
         self.last_frame = Some(Instant::now());

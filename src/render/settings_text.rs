@@ -1,4 +1,4 @@
-//! The settings of a picture as text: what a file carries, so that it can be traced back and made again.
+//! The settings of an image as text: metadata from which a file can be traced and reproduced.
 use std::path::Path;
 
 use serde_json::json;
@@ -6,7 +6,8 @@ use serde_json::json;
 use super::{frame::Frame, pass::SampleId, tone::Display};
 use crate::scene::{Camera, RenderSettings, Scene};
 
-/// One JSON object, in ASCII, with all that a picture depends on. `remarks` say what of it is shown, where that is not all.
+/// One JSON object in ASCII with all that an image depends on. `remarks` say which part of the image is shown, if that is not
+/// all.
 pub fn settings_text(
     scene: &Scene,
     camera: &Camera,
@@ -45,7 +46,7 @@ fn ascii(json: &str) -> String {
     text
 }
 
-/// The options of `noisefall render` that turn the settings a scene opens with into these.
+/// The options of `noisefall render` that turn the settings of a scene into these.
 pub fn options(settings: &RenderSettings, of_scene: &RenderSettings) -> String {
     let mut options = String::new();
     let mut option = |differs: bool, name: &str, value: String| {
@@ -65,12 +66,12 @@ pub fn options(settings: &RenderSettings, of_scene: &RenderSettings) -> String {
     options
 }
 
-/// How command line and tables write a switch.
+/// A switch as written on the command line and in tables.
 pub fn on_or_off(on: bool) -> &'static str {
     if on { "on" } else { "off" }
 }
 
-/// The command that traces one sample of a picture again, for a shell. It knows the camera of the scene only.
+/// The shell command that replays one sample of an image. It supports only the camera of the scene.
 pub fn replay_command(
     path: &Path,
     scene: &Scene,

@@ -1,4 +1,4 @@
-//! Whether sharing paths between pixels pays in a scene, by a trial of a few tiles with and without.
+//! Decides whether path reuse pays in a scene, by a trial of a few tiles with and without it. The trial cannot be interrupted.
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use rayon::prelude::*;
@@ -12,19 +12,19 @@ use crate::{
     scene::{CameraRays, Estimator, RenderSettings, Reuse, Scene},
 };
 
-/// Tiles lie at these places of the picture.
+/// Positions of the tiles in the image.
 const PLACES: [[f64; 2]; 5] = [[0.25, 0.25], [0.75, 0.25], [0.5, 0.5], [0.25, 0.75], [0.75, 0.75]];
-/// Samples of each pixel, with and without sharing.
+/// Samples per pixel, with and without sharing.
 const SPP: u32 = 4;
-/// How much longer a sample takes with sharing at most: in scenes whose rays run through lists of shapes, and through trees. As
-/// measured, it is 1.7 to 2.2 times and 1.1 to 1.5 times.
+/// Cost of a sample with sharing relative to one without: in scenes of lists, and in scenes with trees. Measured costs are 1.7 to
+/// 2.2 and 1.1 to 1.5.
 const COST: f64 = 2.1;
 const COST_WITH_TREES: f64 = 1.4;
-/// Not the seed of any picture that is likely to be asked for.
+/// A seed that no image is likely to have.
 const SEED: u32 = 0x7f4a_7c15;
 
-/// The same settings, with [`Reuse::Auto`] decided. Where sharing is possible, the answer depends on scene and estimator only, and is
-/// found once.
+/// The same settings, with [`Reuse::Auto`] resolved. If sharing is possible, the decision depends only on scene and estimator,
+/// and is made once.
 pub fn resolved(scene: &Scene, rays: &CameraRays, settings: &RenderSettings) -> RenderSettings {
     let pays = || {
         let known = &scene.sharing_pays[settings.estimator as usize];
@@ -58,7 +58,7 @@ fn pays(scene: &Scene, estimator: Estimator) -> bool {
     without > cost * with
 }
 
-/// What a few samples of a tile say.
+/// Estimates from a few samples of a tile.
 fn estimates(scene: &Scene, rays: &CameraRays, settings: RenderSettings, mut tile: Tile) -> Vec<Estimate> {
     let mut batch = Batch::default();
     for sample in 0..SPP {
@@ -70,7 +70,7 @@ fn estimates(scene: &Scene, rays: &CameraRays, settings: RenderSettings, mut til
     (0..tile.size[1] as usize).flat_map(|row| tile.estimates(row)).collect()
 }
 
-/// Sums over tiles of the variances of both, over the squares of the means of both together as relMSE has it.
+/// Sums over tiles of the variances of both, relative to the squared common means with the floor of relMSE.
 fn relative_variances(tiles: &[[Vec<Estimate>; 2]]) -> [f64; 2] {
     let pairs = || tiles.iter().flat_map(|[without, with]| without.iter().zip(with));
     let mean = |(a, b): (&Estimate, &Estimate)| [0, 1, 2].map(|channel| (a.mean[channel] + b.mean[channel]) / 2.0);

@@ -1,14 +1,14 @@
-//! Targets: why a render stops.
+//! Targets: reasons to stop a render.
 use std::fmt;
 
-/// Why a render is done.
+/// The target that a render has reached.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Target {
-    /// Every pixel has the samples that were asked for; it may have more. How many it has.
+    /// Every pixel has at least the requested samples; the number that it has.
     Samples(u32),
-    /// The time is over that was given.
+    /// The time limit.
     Time,
-    /// The noise is at most this.
+    /// The estimated noise is at most this.
     Noise(f64),
 }
 

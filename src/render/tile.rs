@@ -1,4 +1,4 @@
-//! A tile of the film: sums of samples a pixel, and counts a block of pixels.
+//! A tile of the film: sums of samples per pixel, and counts per block of pixels.
 use super::{
     adaptive::UNIFORM,
     doubling::Doubling,
@@ -8,7 +8,7 @@ use super::{
 };
 use crate::integrator::{BLOCK, Blocks, TILE};
 
-/// The pixels of one tile, row by row. Sums are f64, so that a millionth sample still counts.
+/// The pixels of one tile, row by row. Sums are f64, so that the millionth sample still counts.
 pub struct Tile {
     /// Pixel coordinates of the upper left corner.
     pub origin: [u32; 2],
@@ -18,15 +18,15 @@ pub struct Tile {
     pub spp: u32,
     sum: Vec<[f64; 3]>,
     sum_of_squares: Vec<[f64; 3]>,
-    /// The means when the number of samples was last a power of two.
+    /// The means at the last power of two of samples.
     before: Vec<[f32; 3]>,
     /// Row by row.
     pub(super) blocks: Vec<Block>,
-    /// Of samples added up over all pixels and channels, where all pixels have the same number of samples.
+    /// Scatter of samples summed over all pixels and channels, if all pixels have the same number of samples.
     whole: Scatter,
-    /// What each number of bounces adds, where somebody looks at that.
+    /// The series by number of bounces, if it is shown.
     pub(super) series: Option<TileSeries>,
-    /// Samples that were not finite, or negative; they count as black.
+    /// Samples that were negative or not finite; they count as black.
     pub invalid: u64,
 }
 
@@ -35,18 +35,17 @@ pub struct Tile {
 pub(super) struct Block {
     /// Samples taken of every pixel; at most twice `doubled`.
     pub spp: u32,
-    /// The power of two of samples at which it was last noted how far the block has moved; 0 before the first sample.
+    /// The power of two of samples at which the last move of the block was recorded; 0 before the first sample.
     pub doubled: u32,
-    /// 2 to this power is how many samples are taken for one of the average.
+    /// Samples relative to the average, as an exponent to base 2.
     pub rate: i8,
-    /// What was seen when the number of samples had last doubled, and the two times before, the last one first. It doubles at
-    /// 2, 4, 8, … samples.
+    /// Records of the last three doublings of the number of samples, latest first. Doublings are at 2, 4, 8, … samples.
     pub doublings: [Doubling; 3],
-    /// Of the variance of its pixels.
+    /// Parts of the variance of its pixels.
     parts: Parts,
 }
 
-/// Mean of a pixel's samples and the variance of that mean, a channel.
+/// Mean of a pixel's samples and the variance of that mean, per channel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
     pub mean: [f64; 3],
@@ -55,17 +54,17 @@ pub struct Estimate {
 }
 
 impl Block {
-    /// The number of samples is a power of two, and how far the block has moved is yet to be noted.
+    /// Whether the number of samples is a power of two whose move is not recorded yet.
     pub fn has_doubled(&self) -> bool {
         self.spp.is_power_of_two() && self.spp > self.doubled
     }
 
-    /// The samples to have where the average is `spp`, as far as they may be taken before the next doubling is noted.
+    /// The target number of samples for an average of `spp`, limited to the next doubling.
     fn next_goal(&self, spp: u32) -> u32 {
         self.goal(spp).min(self.doubled.saturating_mul(2).max(1))
     }
 
-    /// The samples to have where the average is `spp`.
+    /// The target number of samples for an average of `spp`.
     fn goal(&self, spp: u32) -> u32 {
         if spp <= UNIFORM {
             return spp;
@@ -92,7 +91,7 @@ impl Tile {
         }
     }
 
-    /// Keeps the terms of samples apart from now on.
+    /// Starts to store the terms of samples separately.
     pub(super) fn keep_series(&mut self) {
         self.series = Some(TileSeries::new((self.size[0] * self.size[1]) as usize));
     }
@@ -108,7 +107,7 @@ impl Tile {
         (0..self.size[0]).map(move |column| blocks[(column / BLOCK) as usize].spp)
     }
 
-    /// Takes all samples back.
+    /// Discards all samples.
     pub(super) fn forget(&mut self) {
         (self.spp, self.invalid, self.series, self.whole) = (0, 0, None, Scatter::default());
         self.blocks.fill(Block::default());
@@ -126,25 +125,25 @@ impl Tile {
         self.blocks.iter().any(|block| block.rate != 0)
     }
 
-    /// How many samples [`Tile::missing`] would name, were it not limited.
+    /// The number of samples that [`Tile::missing`] would return without its limits.
     pub(super) fn distance_to(&self, spp: u32) -> u64 {
         self.blocks.iter().map(|block| u64::from(block.goal(spp).saturating_sub(block.spp))).sum()
     }
 
-    /// Whether no block can take another sample on the way to the average `spp` before doublings are noted.
+    /// Whether no block can take another sample towards the average `spp` before doublings are recorded.
     pub(super) fn has_reached(&self, spp: u32) -> bool {
         self.blocks.iter().all(|block| block.spp >= block.next_goal(spp))
     }
 
-    /// The samples of every pixel that has none missing where the average is `spp`.
+    /// Updates `spp` if no samples are missing for the average `spp`.
     pub(super) fn note_average(&mut self, spp: u32) {
         if self.distance_to(spp) == 0 {
             self.spp = spp;
         }
     }
 
-    /// Blocks that have not yet the samples to have where the average is `spp`, as many as a batch holds. None gets samples beyond
-    /// the next power of two.
+    /// Blocks with missing samples for the average `spp`, up to the capacity of a batch. None gets samples beyond the next power
+    /// of two.
     pub(super) fn missing(&self, spp: u32) -> Blocks {
         let mut missing = Blocks::default();
         for ahead in 0.. {
@@ -177,7 +176,7 @@ impl Tile {
         invalid
     }
 
-    /// Adds samples of blocks, one block after the other; slot = row · [`BLOCK`] + column. Returns the first one that is invalid.
+    /// Adds samples of blocks, block by block; slot = row · [`BLOCK`] + column. Returns the first invalid one.
     pub(super) fn add_blocks(&mut self, blocks: &Blocks, radiance: &[[f32; 4]]) -> Option<([u32; 2], u32)> {
         self.clear_if_new();
         let mut invalid = None;
@@ -225,7 +224,7 @@ impl Tile {
         (total, first_invalid)
     }
 
-    /// Black, before the first sample.
+    /// Resets all pixels to black before the first sample.
     fn clear_if_new(&mut self) {
         if self.blocks.iter().any(|block| block.spp > 0) {
             return;
@@ -238,7 +237,7 @@ impl Tile {
         self.before.resize(pixels, [0.0; 3]);
     }
 
-    /// Notes how far blocks have moved since they had half as many samples, where that is due. `floor` is that of relMSE.
+    /// Records the moves of blocks since they had half as many samples, if due. `floor` is that of relMSE.
     pub(super) fn double(&mut self, floor: f64) {
         for block in 0..self.blocks.len() {
             if self.blocks[block].has_doubled() {
@@ -263,7 +262,7 @@ impl Tile {
         }
     }
 
-    /// Where the pixels of a block are, row by row.
+    /// Index ranges of the pixels of a block, row by row.
     fn block_rows(&self, block: usize) -> impl Iterator<Item = std::ops::Range<usize>> + use<> {
         let ([left, top], [width, height]) = (self.place(block), self.block_size(self.place(block)));
         let starts = (top..top + height).map({
@@ -278,8 +277,8 @@ impl Tile {
         self.block_rows(block).flat_map(|row| self.run(row, self.blocks[block].spp)).collect()
     }
 
-    /// Sums over pixels and channels of two estimates of the squared radiance: of the squares of means without the variance of these,
-    /// and of the squares of the means of blocks.
+    /// Sums over pixels and channels of two estimates of the squared radiance: squares of means minus their variance, and squares
+    /// of the means of blocks.
     pub(super) fn squares(&self) -> [f64; 2] {
         let mut sums = [0.0; 2];
         for (block, state) in self.blocks.iter().enumerate().filter(|(_, state)| state.spp > 0) {
@@ -297,15 +296,16 @@ impl Tile {
         sums
     }
 
-    /// Variance of the mean over all pixels and channels, at least two samples each. Pixels have noise in common if they share paths:
-    /// then it is told from how the samples of the whole tile scatter, else from those of each pixel, which say more.
+    /// Variance of the mean over all pixels and channels, at least two samples each. If pixels share paths, their noise is
+    /// correlated, and the variance comes from the scatter of samples of the whole tile; otherwise it comes from each pixel,
+    /// which is more precise.
     pub(super) fn variance_of_mean(&self, shares: bool) -> f64 {
         let values = 3.0 * self.size.map(f64::from).iter().product::<f64>();
         let of_sum = if shares { self.whole.variance_of_mean() } else { self.parts().map(Parts::sum).sum() };
         of_sum / (values * values)
     }
 
-    /// What the variance of the pixels' means is made of.
+    /// The parts of the variance of the pixels' means.
     pub(super) fn parts(&self) -> impl Iterator<Item = Parts> {
         self.blocks.iter().map(|block| block.parts.of_means(f64::from(block.spp)))
     }
@@ -321,7 +321,7 @@ impl Tile {
         })
     }
 
-    /// The estimates of some pixels with so many samples.
+    /// The estimates of some pixels with `spp` samples.
     fn run(&self, pixels: std::ops::Range<usize>, spp: u32) -> impl Iterator<Item = Estimate> {
         let n = f64::from(spp.max(1));
         let (per_sample, per_degree) = (1.0 / n, 1.0 / (n - 1.0));

@@ -1,22 +1,22 @@
-//! Tone maps: how radiance, which has no upper bound, becomes display light in [0, 1].
+//! Tone maps, from radiance, which has no upper bound, to display light in [0, 1].
 use serde::Serialize;
 
 use crate::math::colour::luminance;
 
-/// How the picture is shown. None of this touches the render.
+/// Display settings, which do not affect the render.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Display {
-    /// In stops: radiance is multiplied by 2 to this power.
+    /// Exposure in stops: radiance is multiplied by 2 to this power.
     pub exposure: f32,
     pub tone_map: ToneMap,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub enum ToneMap {
-    /// Cut at 1.
+    /// Clips at 1.
     #[default]
     None,
-    /// c / (1 + Y), Y the luminance: Reinhard et al., "Photographic Tone Reproduction", SIGGRAPH 2002, equation 3.
+    /// c / (1 + Y), where Y is the luminance: Reinhard et al., "Photographic Tone Reproduction", SIGGRAPH 2002, equation 3.
     Reinhard,
     /// A filmic curve: the rational fit to the ACES reference transform of K. Narkowicz (2015).
     Aces,
@@ -49,7 +49,7 @@ pub(super) fn reinhard(rgb: [f32; 3]) -> [f32; 3] {
     rgb.map(|c| c * scale)
 }
 
-/// Linear display light of linear radiance; above 1 it is cut off.
+/// Linear display light of linear radiance, clipped at 1.
 #[inline(always)]
 pub(super) fn aces(rgb: [f32; 3]) -> [f32; 3] {
     rgb.map(|c| c * (2.51 * c + 0.03) / (c * (2.43 * c + 0.59) + 0.14))

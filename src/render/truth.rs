@@ -1,4 +1,4 @@
-//! The picture that a render must converge to: as the scene says, or one by another program.
+//! The reference that a render must converge to: from the scene, or by another program.
 use std::{borrow::Cow, path::Path, sync::Arc};
 
 use super::{
@@ -13,16 +13,16 @@ use crate::{
     scene::{Camera, RenderSettings, Reuse, Roulette, Scene, Truth},
 };
 
-/// What a scene's picture is held against. It holds for the camera that the scene opens with.
+/// The reference of a scene. It is valid for the camera of the scene file.
 pub enum Reference {
     /// The same radiance at every pixel, at any resolution.
     Constant([f32; 3]),
-    /// A picture of one resolution, and what its file says of its own noise: nothing, if it is exact.
+    /// An image of one resolution, with the metadata of its file about its own noise; none if it is exact.
     Picture(Arc<Picture>, Arc<Provenance>),
 }
 
 impl Reference {
-    /// The scene's reference, if it names one.
+    /// The scene's reference, if it has one.
     pub fn of(scene: &Scene) -> Option<Reference> {
         match scene.truth.as_ref()? {
             Truth::Radiance(radiance) => Some(Reference::Constant(*radiance)),
@@ -30,12 +30,12 @@ impl Reference {
         }
     }
 
-    /// A picture in a file.
+    /// Reads an image file as a reference.
     pub fn read(path: &Path) -> Result<Reference, ImageError> {
         Ok(Reference::Picture(Arc::new(read(path)?), Arc::new(provenance(path))))
     }
 
-    /// Why pictures of this resolution cannot be held against the reference, if they cannot.
+    /// The reason why images of this resolution cannot be compared with the reference, if they cannot.
     pub fn mismatch(&self, [width, height]: [u32; 2]) -> Option<String> {
         match self {
             Reference::Picture(p, _) if [p.width, p.height] != [width, height] => {
@@ -46,7 +46,7 @@ impl Reference {
         }
     }
 
-    /// What every pixel of a frame should be, if the frame has the reference's resolution.
+    /// The exact radiance of every pixel of a frame, if the frame has the reference's resolution.
     pub fn radiance_of(&self, frame: &Frame) -> Option<Cow<'_, [[f32; 3]]>> {
         match self {
             Reference::Constant(radiance) => Some(vec![*radiance; frame.radiance.len()].into()),
@@ -62,16 +62,16 @@ impl Reference {
         Some(compare(&frame.radiance, &self.radiance_of(frame)?, Floor::DEFAULT))
     }
 
-    /// How far the mean of a frame is from the true one; `None` where the frame has another resolution.
+    /// The bias of a frame against the reference; `None` if the frame has another resolution.
     pub fn bias(&self, frame: &Frame) -> Option<Bias> {
         let truth = self.radiance_of(frame)?;
         let of_truth = if let Reference::Picture(_, provenance) = self { provenance.noise.as_ref() } else { None };
         Some(Bias::by_samples(&frame.radiance, &truth, [frame.noise.as_ref(), of_truth], frame.width as usize))
     }
 
-    /// What to say where a frame cannot be a sample of the true picture: its mean is off by more than chance explains.
+    /// A message if a frame contradicts the reference: its mean is off by more than chance explains.
     pub fn contradiction(&self, frame: &Frame) -> Option<String> {
-        /// Standard errors. Once in two million pictures by chance.
+        /// Limit in standard errors. By chance, one in two million images exceeds it.
         const MOST: f64 = 5.0;
         let bias = self.bias(frame).filter(|bias| !bias.has_heavy_tails && !frame.is_black())?;
         let off = match bias.z {
@@ -84,11 +84,11 @@ impl Reference {
     }
 }
 
-/// What is wrong with the truth that a scene names, as far as a small picture by independent samples can tell.
+/// A message if a small image with independent samples contradicts the `[truth]` of a scene.
 pub fn contradiction(scene: &Scene, threads: &Threads) -> Option<String> {
-    /// Where the truth is the same everywhere, and any resolution will do.
+    /// Longer side of the image if the truth is constant, so that any resolution is valid.
     const LONGER_SIDE: u32 = 48;
-    /// Of the whole picture.
+    /// Samples of the whole image.
     const SAMPLES: u64 = 1 << 23;
     let reference = Reference::of(scene)?;
     let [width, height] = scene.camera.resolution;

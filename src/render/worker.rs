@@ -1,11 +1,12 @@
-//! The worker: a thread that renders what was asked for last and publishes frames.
+//! The worker: a thread that renders the latest request and publishes frames.
 //!
-//! Others say what they *want* ([`Job`], [`Budget`]); the worker takes the latest and forgets the rest. Whatever arrives while
-//! it renders stops the pass between two bounces, so an answer never takes longer than that, some ten microseconds. A batch that
-//! is stopped is thrown away and traced again.
-//! A new job starts an empty film; a new budget goes on with the film there is.
+//! Others state what they *want* ([`Job`], [`Budget`]); the worker takes the latest request and drops earlier ones. A message
+//! stops the pass between two bounces of a batch, which take some ten microseconds in a simple scene and longer where rays
+//! descend trees. The interrupted batch is discarded and traced again. The trial that decides about path reuse, once per scene
+//! and estimator, and the reuse stage of a batch cannot be interrupted. A new job starts an empty film; a new budget continues
+//! the current film.
 //!
-//! A second picture may be rendered beside the first. From then on both get the same time: the one that had less goes on.
+//! A second image can be rendered beside the first. From then on both get the same time: the one that had less is next.
 use std::{
     sync::{
         Arc, Mutex, MutexGuard, PoisonError,
@@ -31,9 +32,9 @@ enum Message {
     Quit,
 }
 
-/// What both sides see.
+/// State shared with the worker.
 struct Shared {
-    /// Of the first picture and of the one beside it.
+    /// For the first image and the one beside it.
     published: Mutex<[Published; 2]>,
     /// Messages sent so far.
     sent: AtomicU64,
@@ -65,17 +66,17 @@ impl Renderer {
         Renderer { sender, shared, thread: Some(thread.expect("a thread can be started")) }
     }
 
-    /// Renders this instead of what came before.
+    /// Renders this instead of earlier requests.
     pub fn submit(&self, job: Job) {
         self.send(Message::Job(Box::new(job)));
     }
 
-    /// Renders this beside the first picture, or nothing.
+    /// Renders this beside the first image, or nothing.
     pub fn submit_beside(&self, beside: Option<Beside>) {
         self.send(Message::Beside(beside.map(Box::new)));
     }
 
-    /// Goes on with these threads.
+    /// Continues with these threads.
     pub fn set_threads(&self, threads: Threads) {
         self.send(Message::Threads(threads));
     }
@@ -89,7 +90,7 @@ impl Renderer {
         lock(&self.shared.published)[0].clone()
     }
 
-    /// The same of the picture beside it.
+    /// The same for the image beside it.
     pub fn latest_beside(&self) -> Published {
         lock(&self.shared.published)[1].clone()
     }
@@ -122,9 +123,9 @@ struct Worker {
     /// Messages received so far.
     seen: u64,
     budget: Budget,
-    /// Of the first picture and of the one beside it.
+    /// For the first image and the one beside it.
     sessions: [Option<Session>; 2],
-    /// Time that the first picture had had when the other one began.
+    /// Render time of the first image when the other one began.
     lead: Duration,
 }
 
@@ -151,7 +152,7 @@ impl Worker {
         }
     }
 
-    /// The side whose turn it is: of those that are not done, the one that had less time since both are there.
+    /// The next side: of those that are not done, the one with less time since both exist.
     fn next(&self) -> Option<usize> {
         let running = |session: &Session| session.state(&self.budget) == State::Running;
         let sides = self.sessions.iter().enumerate().filter_map(|(side, session)| Some((side, session.as_ref()?)));
@@ -162,7 +163,7 @@ impl Worker {
         running.min_by_key(|(side, session)| (!session.is_coarse(), time(*side, session))).map(|(side, _)| side)
     }
 
-    /// Makes a frame if one is due, and tells what has changed.
+    /// Makes a frame if one is due, and notifies of changes.
     fn publish(&mut self, side: usize, notify: &dyn Fn()) {
         let Some(session) = &mut self.sessions[side] else { return };
         let at_rest = session.state(&self.budget) != State::Running;

@@ -1,4 +1,4 @@
-//! How large passes are, what comes first, and when it is enough.
+//! The size of passes, their order, and their end.
 use std::sync::Arc;
 
 use super::*;

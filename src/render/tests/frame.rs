@@ -1,4 +1,4 @@
-//! What frames say of pixels.
+//! Pixels of frames.
 use super::*;
 use crate::render::{film::Film, frame::Frame};
 

@@ -1,4 +1,4 @@
-//! Film, frames and what is told of their noise, on samples that are known.
+//! Film, frames and their noise estimates, with known samples.
 mod film;
 mod frame;
 mod noise;

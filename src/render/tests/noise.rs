@@ -1,4 +1,4 @@
-//! What is told of noise: the estimated relMSE, the variances of means over pixels, and where samples go.
+//! Noise: the estimated relMSE, the variances of means over pixels, and adaptive sampling.
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use crate::{
@@ -208,7 +208,7 @@ fn means_over_blocks_scatter_as_their_variance_says() {
     assert_scatter(&plates, &adaptive, 8, "samples spread by noise");
 }
 
-/// Where it pays was measured when sharing was made: README, "Pixels share paths".
+/// Measurements have shown where it pays: `docs/architecture.md`, "Path reuse".
 #[test]
 fn paths_are_shared_where_that_pays() {
     let shares = |name: &str| {

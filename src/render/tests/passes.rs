@@ -1,4 +1,4 @@
-//! Passes, films and frames, a sample at a time.
+//! Passes, films and frames, sample by sample.
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use super::super::{

@@ -1,4 +1,4 @@
-//! Frames against what they must converge to.
+//! Frames against their references.
 use std::sync::Arc;
 
 use crate::{

@@ -1,4 +1,4 @@
-//! Views, pixel by pixel, and what the screen shows of them.
+//! Views, pixel by pixel, and their display.
 use std::sync::Arc;
 
 use crate::{

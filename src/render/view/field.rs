@@ -1,4 +1,4 @@
-//! What a view shows, pixel by pixel.
+//! The values of a view, pixel by pixel.
 use super::{Sources, View};
 use crate::{
     integrator::Features,
@@ -7,9 +7,9 @@ use crate::{
     render::{colour_map::ColourMap, frame::Frame, truth::Reference},
 };
 
-/// A view before it has colours, row by row from the top left.
+/// The values of a view before they become colours, row by row from the top left.
 pub enum Field {
-    /// What it needs is not there.
+    /// The data of the view is missing.
     Missing,
     /// Numbers for a scale; NaN is grey.
     Numbers(Vec<f32>),
@@ -41,7 +41,7 @@ impl Field {
         }
     }
 
-    /// A coarse frame shows every so manieth pixel of the features.
+    /// The features for a view; a coarse frame shows every n-th pixel.
     fn of_features(view: View, frame: &Frame, features: &Features) -> Field {
         let [width, height] = [frame.width, frame.height];
         let scaled = |at: u32, from: u32, to: u32| (u64::from(at) * u64::from(to) / u64::from(from.max(1))) as usize;
@@ -67,7 +67,8 @@ impl Field {
     }
 }
 
-/// The luminance less the true one, in standard errors; NaN before the second sample, 0 where neither differs nor varies.
+/// The luminance minus the exact one, in standard errors; NaN before the second sample, 0 if there is neither difference nor
+/// variance.
 pub fn scores(frame: &Frame, truth: &Reference) -> Option<Vec<f32>> {
     let score = |((radiance, truth), error): ((&[f32; 3], &[f32; 3]), &f32)| {
         let difference = luminance(*radiance) - luminance(*truth);
@@ -77,7 +78,7 @@ pub fn scores(frame: &Frame, truth: &Reference) -> Option<Vec<f32>> {
     Some(frame.radiance.iter().zip(truth.iter()).zip(&frame.standard_error).map(score).collect())
 }
 
-/// The luminance less that of the pinned picture, in parts of it; what is nearly black counts as relMSE has it.
+/// The relative difference of luminance from the pinned image, with the floor of relMSE for dark pixels.
 fn difference(sources: &Sources) -> Option<Vec<f32>> {
     let pinned = sources.pinned?;
     let radiance = sources.radiance.unwrap_or(&sources.frame.radiance);
@@ -91,7 +92,7 @@ fn difference(sources: &Sources) -> Option<Vec<f32>> {
     same.then(|| radiance.iter().zip(&pinned.radiance).map(relative).collect())
 }
 
-/// What numbers of a view without a sign are shown by; those with one have a map of their own.
+/// The colour map of a view: `chosen` for unsigned numbers; signed ones have their own map.
 pub(super) fn map_of(view: View, chosen: ColourMap) -> ColourMap {
     if matches!(view, View::ZScore | View::Difference) { ColourMap::Diverging } else { chosen }
 }

@@ -1,15 +1,15 @@
-//! What the colours of a view mean.
+//! Legends of views.
 use super::{
     Field, Look, Sources, View,
     field::{category, map_of},
 };
 use crate::render::colour_map::ColourMap;
 
-/// What stands beside a view.
+/// The legend of a view.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Legend {
     pub title: String,
-    /// Where numbers have colours.
+    /// The scale of numbers, if any.
     pub scale: Option<Scale>,
     /// Colours by name, 8-bit sRGB.
     pub entries: Vec<([u8; 3], String)>,
@@ -25,18 +25,18 @@ pub struct Scale {
     pub unit: &'static str,
 }
 
-/// More names than these do not fit.
+/// Maximum number of names.
 const MOST_ENTRIES: usize = 10;
 
 impl Scale {
-    /// Where a number lies, from 0 to 1.
+    /// The position of a number, from 0 to 1.
     pub fn place(&self, x: f32) -> f32 {
         let [low, high] = self.ends;
         let place = if self.log { (x.max(f32::MIN_POSITIVE) / low).ln() / (high / low).ln() } else { (x - low) / (high - low) };
         place.clamp(0.0, 1.0)
     }
 
-    /// The number at a place from 0 to 1.
+    /// The number at a position from 0 to 1.
     pub fn number(&self, place: f32) -> f32 {
         let [low, high] = self.ends;
         if self.log { low * (high / low).powf(place) } else { low + (high - low) * place }
@@ -62,7 +62,7 @@ impl Legend {
     }
 }
 
-/// What to do where a view has nothing to show.
+/// Advice for a view without data.
 fn missing(view: View) -> &'static str {
     match view {
         View::ZScore => {
@@ -87,7 +87,7 @@ fn scale(view: View, numbers: &[f32], map: ColourMap) -> Scale {
     Scale { map, ends, log, unit }
 }
 
-/// The number below which this part of the finite ones lies.
+/// The quantile of the finite numbers.
 fn part_below(numbers: &[f32], part: f64) -> f32 {
     let mut finite: Vec<f32> = numbers.iter().copied().filter(|x| x.is_finite()).collect();
     if finite.is_empty() {
@@ -122,7 +122,7 @@ fn decades(numbers: &[f32]) -> [f32; 2] {
     [10f32.powf(low), 10f32.powf(high)]
 }
 
-/// The materials that are seen, most seen first.
+/// The visible materials, largest area first.
 fn materials(sources: &Sources) -> Vec<([u8; 3], String)> {
     let Some(features) = sources.features else { return Vec::new() };
     let mut seen = vec![0usize; sources.materials.len()];

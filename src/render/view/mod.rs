@@ -1,4 +1,4 @@
-//! What can be looked at besides radiance: noise, numbers of samples, scores, differences, and what a camera ray meets first.
+//! Views besides radiance: noise, sample counts, z-scores, differences, and features of first hits.
 mod field;
 mod legend;
 mod scores;
@@ -13,7 +13,7 @@ pub use self::{
 use super::{colour_map::ColourMap, display::to_srgb, frame::Frame, tone::Display, truth::Reference};
 use crate::integrator::Features;
 
-/// A way of looking at a picture.
+/// A quantity to display.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize)]
 pub enum View {
     #[default]
@@ -60,29 +60,29 @@ impl View {
         Self::ALL.iter().find(|(view, _, _)| *view == self).map_or("", |(_, name, _)| name)
     }
 
-    /// Whether it shows what camera rays meet, and not samples.
+    /// Whether it shows features of first hits, and not samples.
     pub fn shows_features(self) -> bool {
         matches!(self, View::Normals | View::Albedo | View::Depth | View::HitCost | View::Materials)
     }
 }
 
-/// What views are made of. What is missing is shown as grey.
+/// The data of views. Missing data is shown as grey.
 #[derive(Clone, Copy)]
 pub struct Sources<'a> {
     pub frame: &'a Frame,
-    /// The radiance to show in place of the frame's own, as long as that: a term of its series.
+    /// Radiance to show in place of the frame's own, of the same length: a term of its series.
     pub radiance: Option<&'a [[f32; 3]]>,
     pub truth: Option<&'a Reference>,
-    /// What to take the difference to.
+    /// The pinned image of the difference.
     pub pinned: Option<&'a Frame>,
     pub features: Option<&'a Features>,
-    /// The scale of another picture that this one is seen beside, in place of its own.
+    /// The scale of another image beside this one, in place of its own.
     pub scale: Option<Scale>,
-    /// By number, for the legend.
+    /// Names by number, for the legend.
     pub materials: &'a [String],
 }
 
-/// How views are shown.
+/// Display settings of views.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Look {
     pub view: View,
@@ -90,8 +90,8 @@ pub struct Look {
     pub display: Display,
 }
 
-/// A view as 8-bit sRGB into `pixels`, row by row from the top left, in place of what was there; and, except of radiance, what its
-/// colours mean, and of what.
+/// Draws a view as 8-bit sRGB, row by row from the top left, and replaces the contents of `pixels`. Returns its legend and
+/// values, except for radiance.
 pub fn draw(look: Look, sources: &Sources, pixels: &mut Vec<[u8; 4]>) -> Option<(Legend, Field)> {
     if look.view == View::Radiance {
         to_srgb(sources.radiance.unwrap_or(&sources.frame.radiance), look.display, pixels);

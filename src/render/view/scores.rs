@@ -1,16 +1,17 @@
-//! How z-scores are distributed, against the unit normal distribution.
+//! The distribution of z-scores, against the unit normal distribution.
 //!
-//! They have it if there is only noise, samples are independent and all colours are of one kind; stratified and Sobol samples are better
-//! than their variance says, and the errors of channels are added as if they always came together: then the distribution is narrower.
+//! They follow it if there is only noise, samples are independent, and colour channels are fully correlated. The distribution is
+//! narrower for stratified and Sobol samples, whose error is smaller than their variance suggests, and for uncorrelated channels,
+//! whose errors are added as if they were correlated.
 use super::field::scores;
 use crate::render::{frame::Frame, truth::Reference};
 
 /// A histogram of z-scores.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scores {
-    /// Parts of the scores a unit, by bins of width [`Scores::WIDTH`] from −[`Scores::END`] to [`Scores::END`].
+    /// Density of the scores in bins of width [`Scores::WIDTH`] from −[`Scores::END`] to [`Scores::END`].
     pub density: Vec<f64>,
-    /// Part of the scores beyond the ends.
+    /// Fraction of the scores beyond the ends.
     pub beyond: f64,
     pub mean: f64,
     pub deviation: f64,
@@ -20,7 +21,7 @@ impl Scores {
     pub const END: f64 = 5.0;
     pub const WIDTH: f64 = 0.2;
 
-    /// Of all pixels that have a standard error; `None` where none has, or the truth is not of this size.
+    /// The histogram of all pixels with a standard error; `None` if there are none, or if the reference has another size.
     pub fn of(frame: &Frame, truth: &Reference) -> Option<Scores> {
         let all: Vec<f64> = scores(frame, truth)?.into_iter().map(f64::from).filter(|z| !z.is_nan()).collect();
         if all.is_empty() {

@@ -1,4 +1,4 @@
-//! Whose turn it is.
+//! Alternation between two images.
 use super::*;
 use crate::{
     math::SimdLevel,
