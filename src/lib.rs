@@ -1,7 +1,8 @@
-//! Noisefall: the light transport equation, solved by Monte-Carlo path tracing while one watches.
+//! Noisefall: an interactive progressive path tracer, which solves the light transport equation by Monte Carlo integration.
 //!
-//! The library is the renderer; the window and the command line are in the binary. Folders depend downwards only:
-//! `validate`, `study` → `report`, `render`, `measure` → `integrator` → `scene` → `light` → `material`, `geometry` → `texture` → `sampling`, `image`, `model` → `math`.
+//! The library is the renderer; the window and the command line are in the binary. Folders depend downwards only: `validate`,
+//! `study` → `report`, `render` → `measure` → `integrator` → `scene` → `light` → `material`, `geometry` → `texture` → `sampling`,
+//! `image`, `model` → `math`. See `docs/architecture.md`.
 pub mod file;
 pub mod geometry;
 pub mod image;

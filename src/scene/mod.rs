@@ -1,4 +1,4 @@
-//! The scene: what a file says, checked and compiled to what the renderer runs on.
+//! The scene: scene files, checked and compiled to the renderer's data.
 mod black;
 mod camera;
 mod carried;
@@ -63,7 +63,8 @@ const MOST_NESTED: usize = 4;
 /// Dielectrics that are looked at for media within each other.
 const MOST_LOOKED_AT: usize = 256;
 
-/// A compiled scene. Immutable; shared between threads.
+/// A compiled scene, shared between threads. It does not change, except that two values are computed at their first use and then
+/// kept: whether path reuse pays, and the warnings. Both depend on the scene alone.
 pub struct Scene {
     pub title: String,
     /// The text of the scene file.

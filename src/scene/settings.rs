@@ -36,15 +36,15 @@ pub enum Fault {
     OneBounceMore,
 }
 
-/// How light is found. All estimators converge to the same picture.
+/// How direct light is estimated. All estimators converge to the same image; they differ in noise.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Estimator {
-    /// Only by paths that run into it: equation (9) of the brief, as it stands.
+    /// Only by emitter hits of paths: plain path tracing (Kajiya 1986).
     Path,
-    /// Only by sampling the lights (next-event estimation), but for what is seen directly or by mirrors.
+    /// Only by sampling lights (next-event estimation), except for lights seen directly or by specular paths.
     Light,
-    /// By both, each weighted by how likely it was to find what it found (Veach 1997, power heuristic).
+    /// By both, combined by multiple importance sampling with the power heuristic (Veach 1997, equation 9.14).
     #[default]
     Mis,
 }
