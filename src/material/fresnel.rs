@@ -35,8 +35,8 @@ pub fn dielectric_average(eta: f32) -> f32 {
 
 /// Reflectance of a metal with index η + ik relative to the outside, for one colour channel.
 ///
-/// Born and Wolf, Principles of Optics, 7th ed., section 14.2, in the real form of Lagarde, "Memo on Fresnel equations", 2013: a²
-/// + b² = |(η + ik)² − sin²θ|, where a is the real part of its root.
+/// Born and Wolf, Principles of Optics, 7th ed., section 14.2, in the real form of Lagarde, "Memo on Fresnel equations", 2013:
+/// a² + b² = |(η + ik)² − sin²θ|, where a is the real part of its root.
 #[inline(always)]
 fn conductor<L: Lanes>(cos: F<L>, eta: F<L>, k: F<L>) -> F<L> {
     let cos2 = cos * cos;

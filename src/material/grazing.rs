@@ -1,8 +1,8 @@
 //! Sampling of directions in which shadowing loses light: cosines around α, and a tail like 1/μ² above.
 //!
-//! The loss is roughly μ/(a² + μ²) per cosine, with a = 2α. The inverse of its distribution needs more than roots. Those of μ/(a²
-//! + μ²)^½ and μ/(a² + μ²)^(3/2) do not; that function is their geometric mean, so an equal mixture of both is nowhere much
-//! smaller.
+//! The loss is roughly μ/(a² + μ²) per cosine, with a = 2α. The inverse of its distribution needs more than roots. Those of
+//! μ/(a² + μ²)^½ and μ/(a² + μ²)^(3/2) need only roots. The loss is their geometric mean, so an equal mixture of both is nowhere
+//! much smaller.
 use std::f32::consts::TAU;
 
 use crate::math::{F, Lanes, Pick, V, trig::sin_cos_turns};
