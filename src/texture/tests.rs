@@ -240,3 +240,17 @@ fn every_width_gives_the_same_bits() {
         }
     }
 }
+
+#[test]
+fn noise_is_constant_where_cells_have_no_numbers_any_more() {
+    let (mut least, mut most) = (1.0f32, 0.0f32);
+    for i in 0..64 {
+        let [y, z] = [0.3 + 0.37 * (i % 8) as f32, 0.6 + 0.29 * (i / 8) as f32];
+        for sign in [1.0, -1.0] {
+            let [near, far] = [5e6, 1e9].map(|x| noise_at([sign * x, y, z], 1));
+            assert_eq!(near, far);
+            (least, most) = (least.min(near), most.max(near));
+        }
+    }
+    assert!(least > 0.0 && most < 1.0 && most - least > 0.2, "{least} {most}");
+}

@@ -122,3 +122,11 @@ fn a_camera_in_the_dark_gets_out_and_one_in_the_open_goes_round() {
     assert_eq!(way(&scene, [0.0, 0.0, 2.0], [0.0, 0.0, 2.0]), 0.0, "no way at all");
     assert_eq!(clear_fraction(&scene, DVec3::Z, DVec3::Z), 1.0);
 }
+
+#[test]
+fn a_ball_is_left_aslant_no_farther_than_its_wall() {
+    let furnace = shipped("furnace");
+    // At a height of 0.6 the wall of the unit sphere is 0.8 away.
+    let stop = way(&furnace, [0.0, 0.6, 0.0], [3.0, 0.6, 0.0]);
+    assert!((stop - (0.8 - 1e-3 * furnace.size)).abs() < 1e-5, "{stop}");
+}

@@ -221,3 +221,22 @@ fn every_width_gives_the_same_bits() {
         }
     }
 }
+
+#[test]
+fn the_poles_have_the_density_of_the_rows_that_end_there() {
+    // The lowest of four rows is nine times as bright: means of rows of cells are 1, 1, 2 and 8.
+    let sky = ImageBackground::new(picture(8, 4, |i| [if i >= 24 { 9.0 } else { 1.0 }; 3]), 30.0, 1.0);
+    let height = |row: u32| (PI * f64::from(row) / 4.0).cos() - (PI * f64::from(row + 1) / 4.0).cos();
+    let light: f64 = [1.0, 1.0, 2.0, 8.0].iter().zip(0..).map(|(mean, row)| mean * TAU * height(row)).sum();
+    for (y, mean) in [(1.0, 1.0), (-1.0, 8.0)] {
+        let found = f64::from(sky.pdf(One, V { x: F(0.0), y: F(y), z: F(0.0) }).0);
+        assert!((found * light / mean - 1.0).abs() < 1e-4, "{y}: {found}");
+    }
+}
+
+#[test]
+fn the_memory_of_a_sky_is_that_of_its_texels_and_cells() {
+    // Texels of 16 bytes; cells, twice as many a side at most, of 64; and a mean for every cell of a row of texels.
+    assert_eq!(ImageBackground::bytes([37, 19]), 16 * 37 * 19 + 64 * 74 * 38 + 8 * 74 * 19);
+    assert_eq!(ImageBackground::bytes([5000, 3000]), 16 * 5000 * 3000 + 64 * 1024 * 512 + 8 * 1024 * 3000);
+}
