@@ -249,4 +249,58 @@ mod tests {
         (segments.0[1], segments.0[4], segments.0[6]) = (64, 80, 45);
         assert_eq!([0, 1, 3, 5].map(|block| cost_of_block(&tile, block, &segments)), [0.5, 1.5, 2.5, 3.5]);
     }
+
+    fn square(values: &[f32]) -> Square {
+        Square::of(values.iter().map(|x| [*x, 2.0, 0.0, 0.0]))
+    }
+
+    #[test]
+    fn squares_have_mean_and_variance_of_what_is_light() {
+        let four = square(&[1.0, 2.0, 3.0, 4.0]);
+        assert_eq!((four.n, four.mean, four.variance), (4.0, [2.5, 2.0, 0.0], [5.0 / 3.0, 0.0, 0.0]));
+        assert_eq!(four.square_of_mean(), 6.25 + 4.0);
+        assert!((four.relative_variance(0.75) - 5.0 / 3.0 / 7.0).abs() < 1e-12);
+        let odd = square(&[1.0, f32::NAN, -1.0, f32::INFINITY, 1e19, 3.0]);
+        assert_eq!((odd.n, odd.mean[0], odd.variance[0]), (2.0, 2.0, 2.0));
+        assert_eq!((square(&[5.0]).n, square(&[5.0]).mean), (0.0, [0.0; 3]), "one sample says nothing of noise");
+    }
+
+    #[test]
+    fn the_squares_of_a_block_are_quarters_of_its_own_pixels() {
+        // Its last block is 3 pixels wide and 5 high.
+        let tile = Tile::new([64, 32], [19, 13]);
+        let radiance: Vec<[f32; 4]> =
+            (0..TILE * TILE).map(|slot| [(slot % TILE + 100 * (slot / TILE)) as f32, 0.0, 0.0, 0.0]).collect();
+        let squares = |block: usize| squares_of_block(&tile, block, &radiance).map(|square| (square.n, square.mean[0]));
+        assert_eq!(squares(1), [(16.0, 159.5), (16.0, 163.5), (16.0, 559.5), (16.0, 563.5)]);
+        assert_eq!(squares(5), [(12.0, 967.0), (0.0, 0.0), (3.0, 1217.0), (0.0, 0.0)]);
+    }
+
+    #[test]
+    fn noise_is_smoothed_over_squares_of_blocks() {
+        let noise: Vec<f64> = (1..10).map(f64::from).collect();
+        assert_eq!(smooth(&noise, 3, 1), noise);
+        assert_eq!(smooth(&noise, 3, 2), [3.0, 3.0, 4.5, 3.0, 3.0, 4.5, 7.5, 7.5, 9.0]);
+    }
+
+    #[test]
+    fn one_half_says_where_samples_go_and_the_other_what_that_gains() {
+        let noise = [vec![3.0, 1.0], vec![1.0, 3.0]];
+        let pilot = Pilot { columns: 2, noise: noise.clone(), cost: vec![1.0, 4.0] };
+        // A twentieth of the mean noise, 2, is added.
+        assert_eq!(pilot.needs(&noise[0]), [3.1f64.sqrt(), (1.1f64 / 4.0).sqrt()]);
+        let gain = |a: f64, b: f64, noise: [f64; 2]| {
+            let (a, b) = (a.sqrt(), (b / 4.0).sqrt());
+            4.0 * 5.0 / ((noise[0] / a + noise[1] / b) * (a + 4.0 * b))
+        };
+        let exact = (gain(3.1, 1.1, [1.0, 3.0]) * gain(1.1, 3.1, [3.0, 1.0])).sqrt();
+        assert!((pilot.gain_by(&noise) / exact - 1.0).abs() < 1e-12, "{} {exact}", pilot.gain_by(&noise));
+    }
+
+    #[test]
+    fn no_block_has_more_than_sixteen_or_less_than_a_quarter_of_the_average() {
+        let with = |need: f64| [vec![1.0; 63], vec![need]].concat();
+        assert_eq!(rates(&with(100.0)), [vec![-1; 63], vec![4]].concat());
+        assert_eq!(rates(&with(1e-6)), [vec![0; 63], vec![-2]].concat());
+    }
 }

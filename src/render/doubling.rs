@@ -184,4 +184,27 @@ mod tests {
         assert_eq!(remaining(&[(0.0, 0.0)]), 0.0);
         assert_eq!(remaining(&[]), 0.0);
     }
+
+    #[test]
+    fn what_remains_is_a_mean_of_both_laws_within_its_bounds() {
+        // In units of variances: (2·½ + 4·2 − 4)/6 and ½ ρ/(1 − ρ), ρ = (1/8)(5/4)/(3/8).
+        let once = remaining(&[(0.1, 0.2)]);
+        assert!((once - 0.2 * (5.0f64 / 6.0).powf(0.35) * (5.0f64 / 14.0).powf(0.65)).abs() < 1e-12, "{once}");
+        // The law of powers of two says less than nothing: 15 % of the last move.
+        let least = remaining(&[(4.0, 4.0), (0.2, 2.0), (1.0, 1.0)]);
+        assert!((least - 0.15f64.powf(0.35) * 0.4f64.powf(0.65)).abs() < 1e-12, "{least}");
+        // It says 1.7: more than the larger of the last two moves.
+        let most = remaining(&[(0.0, 1.0), (1.0, 1.0), (1.2, 1.0)]);
+        let factors = 1.2 * (0.25 * 1.6 / 0.85) / (1.0 - 0.25 * 1.6 / 0.85);
+        let powers = ((2.0 * 1.2 + 4.0 * 2.0) / 6.0f64).min(1.2);
+        assert!((most - powers.powf(0.35) * f64::min(factors, 1.2).powf(0.65)).abs() < 1e-12, "{most}");
+    }
+
+    #[test]
+    fn moves_and_variances_are_relative_to_radiance_smoothed_over_the_block() {
+        let estimate = |red: f64| Estimate { mean: [red, 0.0, 0.0], variance_of_mean: Some([0.5, 0.0, 0.0]) };
+        // Level 2, spread 1, noise ½: half of the difference from the level is believed, which leaves 1.5 and 2.5.
+        let found = Doubling::new(&[estimate(1.0), estimate(3.0)], &[[0.0; 3], [2.5, 0.0, 0.0]], 0.25);
+        assert!((found.moved - (1.0 / 2.5 + 0.25 / 6.5)).abs() < 1e-12 && (found.variance - 0.5 / 2.5 - 0.5 / 6.5).abs() < 1e-12);
+    }
 }

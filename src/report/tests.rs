@@ -159,3 +159,17 @@ fn curves_of_one_name_take_one_line_of_the_legend() {
     assert_eq!(height(&["a", "a", "b"]), height(&["a", "b"]));
     assert!(height(&["a", "b"]) > height(&["a"]));
 }
+
+#[test]
+fn axes_have_their_own_titles_and_scales() {
+    let points = vec![(1.0, 1.0), (10.0, 2.0), (100.0, 4.0)];
+    let figure = plot("", Axis::log("along the bottom"), Axis::linear("up the side"), &[curve("c", Style::Points, points)]);
+    let is_turned = |label: &str| {
+        let at = figure.element.find(label).expect("a title");
+        figure.element[figure.element[..at].rfind("<text").expect("a text")..at].contains("rotate")
+    };
+    assert!(!is_turned("along the bottom") && is_turned("up the side"));
+    let dots = dots(&figure.element);
+    let ratio = |axis: usize| (dots[2][axis] - dots[1][axis]) / (dots[1][axis] - dots[0][axis]);
+    assert!((ratio(0) - 1.0).abs() < 0.05 && (ratio(1) - 2.0).abs() < 0.05, "{dots:?}");
+}

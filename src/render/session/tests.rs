@@ -191,3 +191,19 @@ fn a_pass_ends_when_its_time_is_up() {
     assert!(session.elapsed() >= time && session.film.spp() == 1, "{} spp", session.film.spp());
     assert_eq!(session.state(&Budget { max_time: Some(time), ..Budget::default() }), State::Done(Target::Time));
 }
+
+#[test]
+fn a_pause_waits_for_the_first_sample_but_not_for_long() {
+    let mut session = session([40, 40], Publish::Sparse, None);
+    let paused = Budget { paused: true, ..Budget::default() };
+    let ago = |time| Instant::now().checked_sub(time);
+    for (seen, state) in [(None, State::Running), (ago(PATIENCE / 4), State::Running), (ago(2 * PATIENCE), State::Paused)] {
+        session.last_frame = seen;
+        assert_eq!(session.state(&paused), state, "{seen:?}");
+    }
+    session.advance(&threads(), &paused, Publish::Sparse, NEVER);
+    assert_eq!(session.film.spp(), 0, "a sample that takes long is left");
+    session.last_frame = ago(Duration::ZERO);
+    session.advance(&threads(), &paused, Publish::Sparse, NEVER);
+    assert_eq!(session.film.spp(), 1);
+}

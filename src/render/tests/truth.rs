@@ -91,3 +91,13 @@ fn a_scene_is_held_against_its_truth_without_its_cap() {
     let threads = Threads::new(1, SimdLevel::best()).expect("a thread");
     assert_eq!(contradiction(&scene, &threads), None);
 }
+
+#[test]
+fn blocks_are_those_of_the_frame_that_lie_side_by_side() {
+    let mut uneven = frame([0.01, 0.04]);
+    (0..32).for_each(|row| uneven.radiance[row * 64 + 32..][..32].fill([2.5; 3]));
+    for reference in [Reference::Constant([1.0; 3]), picture(1.0, None)] {
+        let scores = reference.bias(&uneven).expect("the same size").block_z;
+        assert!(scores.len() == 2 && (scores[0] - 5.0).abs() < 1e-4 && (scores[1] - 7.5).abs() < 1e-4, "{scores:?}");
+    }
+}
