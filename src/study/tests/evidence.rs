@@ -6,14 +6,14 @@ use super::{
     report::machine,
 };
 use crate::{
-    math::SimdLevel,
+    math::{SimdLevel, colour::srgb_from_linear},
     measure::Floor,
-    render::{pass::Threads, truth},
-    sampling::Sampler,
-    scene::{Camera, RenderSettings, Roulette, parse},
+    render::{Display, pass::Threads, truth},
+    sampling::{Directions, Sampler},
+    scene::{Camera, Estimator, RenderSettings, Roulette, parse},
     study::{
-        Findings, Lists, Plan, Run, Store, Study, Subject,
-        evidence::exhibits::{Exhibits, Picture},
+        Bench, Findings, Lists, Plan, Run, Store, Study, Subject,
+        evidence::exhibits::{Exhibits, Picture, pictures},
         setting::Setting,
     },
 };
@@ -136,4 +136,42 @@ fn runs_are_taken_as_far_as_those_that_are_there() {
     assert_eq!(found(&store, &again), Some(4));
     // Whoever gives it another time wants other runs.
     assert_eq!(found(&store, &longer), None);
+}
+
+/// In squares of one colour: where the first is, and how many pixels have it.
+fn squares(png: &[u8], code: u8) -> (Option<[usize; 2]>, usize) {
+    let mut reader = png::Decoder::new(std::io::Cursor::new(png)).read_info().expect("a PNG");
+    let mut rgb = vec![0; reader.output_buffer_size().expect("a size")];
+    let [width, height] =
+        reader.next_frame(&mut rgb).map(|info| [info.width, info.height].map(|side| side as usize)).expect("pixels");
+    let is = |x: usize, y: usize| rgb[3 * (y * width + x)..][..3] == [code; 3];
+    let begins = |x: usize, y: usize| (0..64).all(|i| is(x + i % 8, y + i / 8));
+    let places = (0..=height - 8).flat_map(|y| (0..=width - 8).map(move |x| [x, y]));
+    (places.clone().find(|[x, y]| begins(*x, *y)), places.filter(|[x, y]| begins(*x, *y)).count())
+}
+
+#[test]
+fn the_sheets_of_a_chapter_show_growing_samples_and_caps_in_their_order() {
+    let mut subject = furnace();
+    // Every sample of these is the partial sum of the series: 1, 1½, 1¾, … and 2.
+    let exact = RenderSettings { max_bounces: Some(1), ..RenderSettings::default() };
+    let (estimator, directions, roulette) = (Estimator::Path, Directions::Cosine, Roulette::Off);
+    subject.scene.settings = RenderSettings { estimator, directions, roulette, sampler: Sampler::Independent, ..exact };
+    let threads = Threads::new(1, SimdLevel::best()).expect("threads");
+    let bench = Bench { scene: &subject.scene, camera: &subject.camera, threads: &threads, stop: &|| false };
+    let [by_samples, by_cap] = pictures(bench, 4, Display { exposure: -2.0, ..Display::default() }).expect("two sheets");
+    let code = |radiance: f64| (srgb_from_linear(radiance / 4.0) * 255.0).round() as u8;
+    assert_eq!((by_samples.name, by_cap.name), ("pictures_by_samples", "pictures_by_cap"));
+    assert!(
+        by_samples.caption.ends_with("without a cap: path, cosine, independent, roulette off; 8 × 8 pixels."),
+        "{}",
+        by_samples.caption
+    );
+    assert!(by_cap.caption.starts_with("The picture by caps on bounces, 4 samples a pixel: path, "), "{}", by_cap.caption);
+    // After 1 and after 4 samples.
+    assert_eq!(squares(&by_samples.png, code(2.0)).1, 2);
+    let places = [1.0, 1.5, 1.75, 1.968_75, 2.0].map(|radiance| squares(&by_cap.png, code(radiance)).0.expect("it is shown"));
+    let [[a, top], [b, second], [c, third], [d, below], [e, last]] = places;
+    assert!(a < b && b < c && [second, third] == [top; 2], "three in a row: {places:?}");
+    assert!(d == a && e == b && below > top && last == below, "and two below: {places:?}");
 }

@@ -47,3 +47,10 @@ fn intervals_cover_the_slope_of_independent_samples() {
     // 4 standard errors of a share of 0.95 are 0.044.
     assert!((share - 0.95).abs() < 0.045, "{share}");
 }
+
+/// By hand: of ½, 0.3 and 0.28 after 4, 8 and 16 samples, each less half of the one before, over √¾.
+#[test]
+fn the_interval_of_three_points_is_that_of_students_t_of_one_degree() {
+    let found = slope(&[vec![(4.0, 0.5), (8.0, 0.3), (16.0, 0.28)]]).expect("points");
+    assert!((found.slope + 0.418_250_634).abs() < 1e-6 && (found.half_width - 3.136_851).abs() < 1e-4, "{found:?}");
+}

@@ -84,3 +84,18 @@ fn an_outcome_is_the_mean_of_its_runs_where_they_end() {
     let standing = |rel_mse| Outcome::of(group(), &[run(rel_mse, 1.0)], limits).standing;
     assert_eq!([0.199, 0.201].map(standing), [Standing::Sound, Standing::TooNoisy]);
 }
+
+#[test]
+fn a_curve_ends_where_one_of_its_runs_comes_near_to_the_reference() {
+    // Two runs of 0.32 and 0.16 after one sample, with 0.015 of the reference in both.
+    let with_own = |rel_mse: f64| {
+        let mut run = run(rel_mse, 1.0);
+        run.checkpoints.iter_mut().for_each(|point| point.rel_mse += 0.015);
+        run
+    };
+    let group = Group { settings: RenderSettings::default(), twins: Vec::new() };
+    let limits = Limits { floor: 0.015, black: 1.0, variance_of_mean: 0.0, mean: 1.0 };
+    let found = Outcome::of(group, &[with_own(0.02), with_own(0.01)], limits);
+    assert_eq!((found.last().spp, found.variances.iter().map(Vec::len).collect::<Vec<_>>()), (8, vec![2, 2]));
+    assert!((found.last().rel_mse - 0.03).abs() < 1e-12, "{:?}", found.last());
+}
