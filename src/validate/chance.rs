@@ -172,6 +172,20 @@ mod tests {
     }
 
     #[test]
+    fn catonis_sum_is_that_of_its_formula() {
+        // Of 100 samples with variance 1, all 10 too large: a = √(2 ln(2/δ)/100), ψ = ln(1 + 10a + 50a²).
+        let level = (2.0 / chance_beyond(SIGMAS)).ln();
+        let scale = (2.0 * level / 100.0).sqrt();
+        let sum = 100.0 * (1.0 + 10.0 * scale + 50.0 * scale * scale).ln();
+        let above = Statement::catoni("mean", std::iter::repeat_n(12.0, 100), 2.0, 1.0);
+        assert_eq!(above.statistic, format!("Catoni: |{sum:.1}| < {:.1}", 2.0 * level));
+        assert_eq!((above.measured, above.error, above.exact, above.chance), (12.0, 0.1, Some(2.0), chance_beyond(SIGMAS)));
+        let below = Statement::catoni("mean", std::iter::repeat_n(-8.0, 100), 2.0, 1.0);
+        assert_eq!(below.statistic, format!("Catoni: |-{sum:.1}| < {:.1}", 2.0 * level));
+        assert!(!above.holds && !below.holds);
+    }
+
+    #[test]
     fn counts_that_are_off_fail_and_few_are_taken_together() {
         let expected: Vec<f64> = (0..101).map(|_| 1000.0).collect();
         let off = |part: f64| -> Vec<f64> { (0..101).map(|i| 1000.0 * (1.0 + if i % 2 == 0 { part } else { -part })).collect() };

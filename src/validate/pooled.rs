@@ -161,4 +161,36 @@ mod tests {
             (chance_beyond(4.0) - 6.334e-5).abs() < 1e-8 && (limit(1) - 4.0).abs() < 0.011 && (limit(300) - 5.19).abs() < 0.011
         );
     }
+
+    #[test]
+    fn the_remark_counts_what_is_pooled_and_how_likely_a_failure_is() {
+        let z = |z: f64| Statement { z: Some(z), chance: 0.01, ..Statement::plain("z", 0.0, String::new()) };
+        let statements = vec![z(0.5), z(-1.5), z(3.0).of_the_same(), Statement::below("limit", 0.0, 1.0)];
+        let first = Section { title: "T", claim: "", derivation: &[], source: "", statements, figures: Vec::new(), remark: None };
+        let all = section(&[first]);
+        assert!(all.statements.is_empty(), "two scores have no distribution");
+        let remark = all.remark.expect("a remark");
+        assert!(
+            remark.starts_with("4 statements before, of which 1 share samples with one before; 2 z-scores are pooled."),
+            "{remark}"
+        );
+        // Of two normal numbers both are within ±z with ½ where Φ(z) = (1 + √½)/2: 1.05. And 1 − 0.99³ is 3.0 %.
+        assert!(remark.contains("largest |z| is 1.50;") && remark.contains("one above 1.05."), "{remark}");
+        assert!(remark.contains("with probability 3.0 %"), "{remark}");
+        assert_eq!(all.figures.len(), 2);
+    }
+
+    #[test]
+    fn scores_have_the_figures_of_their_quantiles() {
+        let found = statements(&scores(0.1, 1.0));
+        let [_, rms, mean, largest] = &found[..] else { panic!("{found:?}") };
+        assert!(
+            (mean.measured - 0.1).abs() < 1e-9 && (mean.error - 1.0 / 300f64.sqrt()).abs() < 1e-12 && mean.exact == Some(0.0)
+        );
+        assert!((rms.measured - 1.0).abs() < 0.02 && (rms.error - (0.5 / 300f64).sqrt()).abs() < 1e-12 && rms.exact == Some(1.0));
+        // The quantile of 299.5/300.
+        assert!((largest.measured - 0.1 - 2.935).abs() < 2e-3, "{}", largest.measured);
+        assert!(found.iter().all(|statement| statement.shares_samples && statement.z.is_none()));
+        assert!((found[0].chance, found[1].chance) == (1e-4, 1e-4) && found[2].chance == chance_beyond(4.0));
+    }
 }

@@ -254,3 +254,64 @@ fn error_figure(errors: &[(String, Vec<f64>)]) -> Figure {
     let caption = "Errors of x_M in units of εS, the last digit of the coordinates on the way, sorted.";
     plot(caption, Axis::linear("share of rays"), Axis::linear("error / εS"), &curves)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::validate::Effort;
+
+    #[test]
+    fn a_kind_of_surface_fails_by_each_of_its_counts() {
+        let holds = |must_hit, must_miss, close, wrong, error: f64| {
+            Tally { must_hit, must_miss, close, wrong, errors: vec![0.5, error, 1.0] }.statements("ball").map(|row| row.holds)
+        };
+        assert_eq!(holds(100, 100, 1, 0, 7.9), [true; 3]);
+        assert_eq!(holds(100, 100, 1, 1, 7.9), [false, true, true]);
+        assert_eq!(holds(100, 100, 3, 0, 7.9), [true, false, true], "of 203 rays 3 are more than a hundredth");
+        assert_eq!(holds(100, 100, 1, 0, 8.1), [true, true, false]);
+        assert_eq!(holds(100, 100, 1, 0, f64::NAN), [true, true, false]);
+        assert_eq!(
+            [holds(1000, 10, 0, 0, 1.0)[0], holds(10, 1000, 0, 0, 1.0)[0]],
+            [false; 2],
+            "hits alone, or misses alone, say little"
+        );
+        let rows = Tally { must_hit: 60, must_miss: 39, close: 1, wrong: 2, errors: vec![3.0, 5.0] }.statements("ball");
+        assert_eq!(rows.each_ref().map(|row| row.measured), [2.0 / 99.0, 0.01, 5.0]);
+        assert_eq!(rows.map(|row| row.shares_samples), [false, true, true]);
+    }
+
+    #[test]
+    fn a_surface_that_is_not_where_f64_has_it_is_noticed() {
+        let ball = |radius: f64| Shape::Sphere { center: DVec3::ZERO, radius };
+        let tally = |found: f64, exact: f64| {
+            let kind = Kind { name: String::new(), shapes: vec![ball(found)], pieces: vec![ball(exact)], divisor: 1 };
+            kind.tally(2000, Validation::new(Effort::Quick, None, 0).random())
+        };
+        let same = tally(1.0, 1.0);
+        assert_eq!((same.must_hit + same.must_miss + same.close, same.wrong), (2000, 0));
+        assert!(
+            same.must_hit > 500 && same.must_miss > 100 && same.close < 20,
+            "{} {} {}",
+            same.must_hit,
+            same.must_miss,
+            same.close
+        );
+        assert!(largest(same.errors.iter().copied()) < MOST_DIGITS);
+        for (found, exact) in [(1.0, 1.001), (1.001, 1.0)] {
+            let other = tally(found, exact);
+            assert!(other.wrong > 500 && largest(other.errors) > MOST_DIGITS, "{found} {exact}: {}", other.wrong);
+        }
+        // Nothing is met where there is something, and something where there is nothing.
+        let judged = |found: [f64; 3], exact: [f64; 3]| {
+            let at = |center: [f64; 3]| Shape::Sphere { center: center.into(), radius: 1.0 };
+            let kind = Kind { name: String::new(), shapes: vec![at(found)], pieces: vec![at(exact)], divisor: 1 };
+            let (shapes, mut tally) =
+                (Shapes::new(kind.shapes.iter().map(|shape| (shape, &STILL)), DVec3::ZERO), Tally::default());
+            kind.judge(&shapes, DVec3::new(0.0, 0.0, 5.0), DVec3::NEG_Z, &mut tally);
+            (tally.must_hit, tally.must_miss, tally.wrong)
+        };
+        let (here, elsewhere) = ([0.0; 3], [9.0, 0.0, 0.0]);
+        assert_eq!([judged(here, here), judged(elsewhere, elsewhere)], [(1, 0, 0), (0, 1, 0)]);
+        assert_eq!([judged(elsewhere, here), judged(here, elsewhere)], [(1, 0, 1), (0, 1, 1)]);
+    }
+}

@@ -215,3 +215,54 @@ fn rendered(scene: &Scene, settings: &RenderSettings, spp: u32) -> Vec<Block> {
     }
     blocks
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// All pixels of two blocks have radiance 0.5 in every sample.
+    const SCENE: &str = "format = 1\ncamera = { eye = [0, 0, 0], look_at = [0, 0, 1], fov = 60, resolution = [32, 16] }\n\
+                         [background]\nradiance = 0.5\n";
+
+    fn write(folder: &Path, name: &str, means: &str) {
+        fs::write(folder.join(name).with_extension("toml"), SCENE).expect("it is written");
+        fs::write(folder.join(name).with_extension("txt"), means).expect("it is written");
+    }
+
+    #[test]
+    fn a_quick_run_takes_the_first_reference_and_a_full_one_all() {
+        let folder = tempfile::tempdir().expect("a folder");
+        for name in ["b_room", "a_sky", "c_box"] {
+            write(folder.path(), name, "0.5 0.5 0.5 0.01 0.01 0.01\n0.5 0.5 0.5 0.01 0.01 0.01\n");
+        }
+        fs::write(folder.path().join("d_alone.toml"), SCENE).expect("it is written");
+        let run = |effort| section(&Validation::new(effort, Some(folder.path().to_owned()), 0));
+        let [quick, full] = [Effort::Quick, Effort::Full].map(run);
+        assert_eq!(quick.remark.as_deref(), Some("A quick run: 1 of 3 references."));
+        assert_eq!(full.remark.as_deref(), Some("3 references."));
+        assert!(quick.was_run() && quick.statements.iter().all(|statement| statement.what.starts_with("a sky: ")));
+        assert_eq!(full.statements.len(), 3 * quick.statements.len());
+        assert!(quick.holds() && full.holds());
+    }
+
+    #[test]
+    fn blocks_are_held_against_their_own_means_and_errors() {
+        let folder = tempfile::tempdir().expect("a folder");
+        write(folder.path(), "sky", "# red, green, blue\n0.4 0.5 0.5 0.05 0.1 0.1\n0.5 0.5 0.5 0.1 0.1 0.1\n");
+        let found = agreement(&folder.path().join("sky.toml"), |scene| scene.settings, 2).expect("it can be compared");
+        assert_eq!(found.count, 6);
+        assert!((found.worst - 2.0).abs() < 1e-4 && (found.rms - (4.0f64 / 6.0).sqrt()).abs() < 1e-4);
+        assert!((found.sigma - 0.2).abs() < 1e-6, "of 0.125 and five times 0.2 the fourth: {}", found.sigma);
+        write(folder.path(), "sky", "0.5 0.5 0.5 0.1 0.1 0.1\n");
+        let short = agreement(&folder.path().join("sky.toml"), |scene| scene.settings, 2).err();
+        assert_eq!(short.as_deref(), Some("2 blocks, but the reference has 1"));
+    }
+
+    #[test]
+    fn a_line_is_three_means_and_three_standard_errors() {
+        let found = blocks("# a remark\n1 2 3 0.5 0.25 2\n").expect("a block");
+        assert_eq!(found, [[[1.0, 0.25], [2.0, 0.0625], [3.0, 4.0]]]);
+        assert!(["1 2 3 4 5", "1 2 3 4 5 6 7", "1 2 3 4 5 x", ""].map(blocks)[..3].iter().all(Option::is_none));
+        assert_eq!(blocks("").map(|blocks| blocks.len()), Some(0));
+    }
+}

@@ -58,3 +58,34 @@ impl Dice {
         self.direction() * self.unit().cbrt()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_keep_to_their_ranges_and_fill_them() {
+        let mut dice = Dice::new("a family", 3);
+        let mut of = |draw: &dyn Fn(&mut Dice) -> f64| -> Vec<f64> { (0..4000).map(|_| draw(&mut dice)).collect() };
+        // The mean of a uniform number is known to 1/√(12 · 4000) of its range.
+        let fills = |values: &[f64], low: f64, high: f64| {
+            let mean = values.iter().sum::<f64>() / values.len() as f64;
+            let part = (mean - low) / (high - low);
+            assert!(
+                values.iter().all(|x| (low..=high).contains(x)) && (part - 0.5).abs() < 4.0 / (12.0f64 * 4000.0).sqrt(),
+                "{part}"
+            );
+        };
+        fills(&of(&Dice::unit), 0.0, 1.0);
+        fills(&of(&|dice| dice.within(-3.0, 5.0)), -3.0, 5.0);
+        fills(&of(&|dice| dice.decade(-6.0, 2.0).log10()), -6.0, 2.0);
+        fills(&of(&|dice| f64::from(dice.pick(&[0u8, 1, 2, 3, 4]))), 0.0, 4.0);
+        fills(&of(&|dice| dice.direction().z), -1.0, 1.0);
+        fills(&of(&|dice| dice.direction().x), -1.0, 1.0);
+        fills(&of(&|dice| dice.in_ball().length().powi(3)), 0.0, 1.0);
+        let share = of(&|dice| f64::from(u8::from(dice.chance(0.3)))).iter().sum::<f64>() / 4000.0;
+        assert!((share - 0.3).abs() < 4.0 * (0.21f64 / 4000.0).sqrt(), "{share}");
+        assert!(of(&|dice| dice.direction().length()).iter().all(|length| (length - 1.0).abs() < 1e-6));
+        assert!((0..5).all(|count| of(&|dice| dice.below(5) as f64).contains(&f64::from(count))));
+    }
+}

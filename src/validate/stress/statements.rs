@@ -169,4 +169,50 @@ mod tests {
         }
         assert!(of_rays[0].what.contains("9 rays") && of_rays[0].holds);
     }
+
+    fn trial(expected: Expected, outcome: Outcome) -> Trial {
+        let (family, name) = (&random::FAMILIES[0], "it".to_owned());
+        Trial { family, name, text: String::new(), draft: Draft::of(String::new(), expected), outcome }
+    }
+
+    #[test]
+    fn every_invariant_is_broken_beyond_its_limit_and_kept_below() {
+        let said = |outcome: Outcome| breaks(&trial(Expected::Within { radiance: 1.0, loss: 0.25 }, outcome)).unwrap_or_default();
+        let energy =
+            |energy| said(Outcome { energy: Some(energy), off: 7, first_off: Some("here".to_owned()), ..Outcome::default() });
+        assert_eq!([energy(0.9e-4), energy(1.1e-4)], ["", "energy off by up to 1.1e-4 in 7 samples, first here"]);
+        let lost = |lost| said(Outcome { lost: Some(lost), ..Outcome::default() });
+        assert_eq!([lost(0.24), lost(0.26)], ["", "2.6e-1 of the light is lost, 2.5e-1 may be"]);
+        let z = |z| said(Outcome { z: Some(z), ..Outcome::default() });
+        assert_eq!([z(4.4), z(-4.4), z(-4.6)], ["", "", "mean off by -4.6 standard errors"]);
+        assert!(
+            [energy(f64::NAN), lost(f64::NAN), z(f64::NAN)].iter().all(|said| !said.is_empty()),
+            "what is no number is no success"
+        );
+        assert_eq!(said(Outcome { invalid: 3, ..Outcome::default() }), "3 invalid samples");
+        assert_eq!(said(Outcome { trouble: Some("panics".to_owned()), invalid: 3, ..Outcome::default() }), "panics");
+        let missed = Comparison { first: Some("a surface is missed".to_owned()), ..Comparison::default() };
+        assert_eq!(said(Outcome { surfaces: missed, ..Outcome::default() }), "a surface is missed");
+        // Only of rooms that may lose some light is that asked.
+        assert_eq!(breaks(&trial(Expected::Valid, Outcome { lost: Some(1.0), ..Outcome::default() })), None);
+    }
+
+    #[test]
+    fn rows_fail_with_the_scenes_that_break_them() {
+        let within = Expected::Within { radiance: 1.0, loss: 0.25 };
+        let good = trial(within, Outcome { energy: Some(1e-5), lost: Some(0.125), samples: 100, ..Outcome::default() });
+        let bad = trial(within, Outcome { energy: Some(1.0), lost: Some(0.5), invalid: 1, samples: 23, ..Outcome::default() });
+        let escaped = Comparison { rays: 5, escaped: 1, missed: 2, self_hits: 4, ..Comparison::default() };
+        let out =
+            trial(within, Outcome { surfaces: escaped, refused: true, trouble: Some("no end".to_owned()), ..Outcome::default() });
+        let row = |statement: Option<Statement>| statement.map(|row| (row.measured, row.holds)).expect("a row");
+        assert_eq!([energy(&[&good]), losses(&[&good])].map(row), [(1e-5, true), (0.5, true)]);
+        assert_eq!([energy(&[&good, &bad]), losses(&[&good, &bad])].map(row), [(1.0, false), (2.0, false)]);
+        let of_samples = samples(good.family, &[&good, &bad, &out]);
+        assert!((of_samples.measured, of_samples.holds) == (2.0, false), "{of_samples:?}");
+        assert!(of_samples.what.contains("3 scenes, 1 of them refused clearly, 123 samples"), "{}", of_samples.what);
+        assert_eq!(row(Some(samples(good.family, &[&good]))), (0.0, true));
+        assert_eq!(row(rays(&[&good, &out]).into_iter().next()), (7.0, false));
+        assert!(rays(&[&good]).is_empty(), "no ray was looked at");
+    }
 }

@@ -192,3 +192,74 @@ fn is_self_hit(known: &Known, ray: Ray, t: f64) -> bool {
     let next = known.faces.iter().flat_map(|face| meetings(face, ray.o, ray.d, 1e-3)).map(|meeting| meeting.t).find(|t| *t > 0.0);
     next.is_none_or(|next| t < 0.5 * next)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::validate::check::scene;
+
+    fn with_world(shape: &str, look: impl Fn(&World)) {
+        let scene = scene(&format!(
+            "camera = {{ eye = [0.0, 0.0, 3.0], look_at = [0.0, 0.0, 0.0], fov = 40.0, resolution = [8, 8] }}\n\
+             [[objects]]\nshape.{shape}\nemission = {{ radiance = 1.0, two_sided = true }}"
+        ));
+        look(&World::new(&scene).expect("it is small"));
+    }
+
+    fn ray(o: [f64; 3], d: [f64; 3]) -> Ray {
+        Ray { o: o.into(), d: d.into(), from: None }
+    }
+
+    const BALL: &str = "sphere = { center = [0.0, 0.0, 0.0], radius = 1.0 }";
+
+    #[test]
+    fn a_surface_in_front_of_what_was_met_was_missed() {
+        with_world(BALL, |world| {
+            let ahead = ray([0.0, 0.0, 3.0], [0.0, 0.0, -1.0]);
+            assert_eq!([1.0, 2.0, 2.001, f64::INFINITY].map(|t| world.passes_a_surface(ahead, t)), [false, false, true, true]);
+            // Inside, the far side counts, and the side that the ray comes from does not.
+            assert_eq!([1.0, 2.5].map(|t| world.passes_a_surface(ray([0.0; 3], [0.0, 0.0, 1.0]), t)), [false, true]);
+            let beside = |x: f64| world.passes_a_surface(ray([x, 0.0, 3.0], [0.0, 0.0, -1.0]), f64::INFINITY);
+            assert_eq!([0.9, 1.0 - 1e-7, 1.1].map(beside), [true, false, false], "at the rim rounding decides");
+        });
+    }
+
+    #[test]
+    fn rays_are_judged_by_what_they_meet_and_closed_rooms_let_none_out() {
+        with_world(BALL, |world| {
+            let mut found = Comparison::default();
+            let met = world.judge(ray([0.0, 0.0, 3.0], [0.0, 0.0, -1.0]), true, &mut found);
+            assert!(met.is_some_and(|(primitive, _)| primitive == 0) && found.first.is_none() && found.worst < 1.0);
+            assert_eq!(world.judge(ray([0.0, 0.0, 3.0], [0.0, 0.0, 1.0]), false, &mut found), None);
+            assert_eq!((found.rays, found.escaped), (2, 0));
+            world.judge(ray([0.0, 0.0, 3.0], [0.0, 0.0, 1.0]), true, &mut found);
+            assert_eq!((found.rays, found.escaped, found.missed, found.self_hits), (3, 1, 0, 0));
+            assert!(found.first.is_some_and(|first| first.starts_with("a ray gets out")));
+        });
+    }
+
+    #[test]
+    fn a_flat_shape_is_never_met_twice_and_a_ball_only_where_it_ends() {
+        let inwards = ray([0.0, 0.0, 1.0], [0.0, 0.0, -1.0]);
+        with_world(BALL, |world| {
+            assert_eq!([1e-4, 0.9, 1.1, 2.0].map(|t| is_self_hit(&world.known[0], inwards, t)), [true, true, false, false]);
+        });
+        with_world("disk = { center = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0], radius = 1.0 }", |world| {
+            assert!(is_self_hit(&world.known[0], inwards, 1.0));
+        });
+    }
+
+    #[test]
+    fn rounding_is_in_proportion_to_all_coordinates_on_the_way() {
+        let disk = "disk = { center = [0.0, 3.0, 4.0], normal = [0.0, 0.0, 1.0], radius = 2.0 }";
+        with_world(disk, |world| {
+            let scale = world.scale(&world.known[0].faces[0], DVec3::X * 10.0, DVec3::Y * 100.0, 1000.0);
+            // Origin, point, distance, what is looked at (0), and the shape: 5 away and 2 large.
+            assert!((scale - 1117.0).abs() < 1e-4, "{scale}");
+        });
+        with_world("sphere = { center = [0.0, 0.0, 0.0], radius = 1e6 }", |world| {
+            let scale = world.scale(&world.known[0].faces[0], DVec3::X, DVec3::Y, 1.0);
+            assert!(scale < 3.001, "a sphere is anchored near the scene: {scale}");
+        });
+    }
+}
