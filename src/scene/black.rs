@@ -27,3 +27,51 @@ impl Scene {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::scene::{Camera, RenderSettings, Scene, parse};
+
+    /// Balls around the origin, each of a radius and with more of its own, under a sky that is lit.
+    fn scene(balls: &[(&str, f64, &str)]) -> Scene {
+        let ball = |(name, radius, more): &(&str, f64, &str)| {
+            format!("[[objects]]\nname = '{name}'\nshape.sphere = {{ center = [0.0, 0.0, 0.0], radius = {radius:?} }}\n{more}\n")
+        };
+        let text = format!(
+            "format = 1\ncamera = {{ eye = [0, 0, 0], look_at = [0, 0, 1], fov = 60, resolution = [8, 8] }}\nbackground.radiance = 1\n\
+             materials.white.lambertian.albedo = 0.5\nmaterials.glass.dielectric.ior = 1.5\n{}",
+            balls.iter().map(ball).collect::<String>()
+        );
+        parse("balls.toml", text).expect("it is a scene")
+    }
+
+    #[test]
+    fn the_innermost_opaque_ball_is_what_shuts_the_camera_in() {
+        let around = |balls: &[(&str, f64, &str)]| {
+            let scene = scene(balls);
+            scene.around(&scene.camera).map(|object| object.name.clone())
+        };
+        let [white, glass, turned] = ["material = 'white'", "material = 'glass'", "material = 'white'\nflip = true"];
+        let balls = [("large", 3.0, white), ("small", 1.0, white), ("middle", 2.0, white)];
+        assert_eq!(around(&balls).as_deref(), Some("small"));
+        assert_eq!(around(&[("large", 3.0, white), ("glass", 1.0, glass), ("turned", 2.0, turned)]).as_deref(), Some("large"));
+        assert_eq!(around(&[("glass", 1.0, glass), ("turned", 2.0, turned)]), None);
+    }
+
+    #[test]
+    fn the_likeliest_reason_for_black_is_told_first() {
+        let lamp = "emission.radiance = 1";
+        let said = |balls: &[(&str, f64, &str)], camera: fn(Camera) -> Camera, max_bounces| {
+            let scene = scene(balls);
+            scene.why_black(&camera(scene.camera), &RenderSettings { max_bounces, ..scene.settings })
+        };
+        let (here, outside) = (|camera| camera, |camera| Camera { eye: glam::DVec3::Z * 9.0, ..camera });
+        assert_eq!(said(&[("ball", 1.0, "material = 'white'")], here, Some(0)), "the camera is inside `ball`");
+        let of_lamp = said(&[("lamp", 1.0, lamp)], here, None);
+        assert!(of_lamp.starts_with("the camera is inside `lamp`, which emits outwards only: `flip = true`"), "{of_lamp}");
+        let both = said(&[("lamp", 1.0, "emission = { radiance = 1, two_sided = true }")], here, None);
+        assert_eq!(both, "the camera is inside `lamp`");
+        assert!(said(&[("lamp", 1.0, lamp)], outside, Some(0)).starts_with("the cap of 0 bounces"));
+        assert!(said(&[("lamp", 1.0, lamp)], outside, Some(1)).starts_with("no path found light"));
+    }
+}

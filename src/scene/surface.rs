@@ -184,3 +184,104 @@ pub fn stage<L: Lanes>(word: U<L>) -> U<L> {
 pub fn is_set<L: Lanes>(word: U<L>, flag: u32) -> M<L> {
     !(word & flag).is(0)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        sampling::Directions,
+        scene::{RenderSettings, Scene, parse},
+    };
+
+    /// Balls of these materials, each with more of its own.
+    fn scene(balls: &[(&str, &str)]) -> Scene {
+        let ball = |(i, (material, more)): (usize, &(&str, &str))| {
+            format!(
+                "[materials.m{i}]\n{material}\n[[objects]]\nshape.sphere = {{ center = [{i}, 0, 0], radius = 0.25 }}\nmaterial = 'm{i}'\n{more}\n"
+            )
+        };
+        let text = format!(
+            "format = 1\ncamera = {{ eye = [0, 0, 9], look_at = [0, 0, 0], fov = 60, resolution = [8, 8] }}\nbackground.radiance = 1\n\
+             textures.squares.checker = {{ even = 0.2, odd = 0.4, scale = 2 }}\n{}",
+            balls.iter().enumerate().map(ball).collect::<String>()
+        );
+        parse("balls.toml", text).unwrap_or_else(|error| panic!("{}", error.report()))
+    }
+
+    const WHITE: &str = "lambertian.albedo = 0.5";
+
+    #[test]
+    fn every_kind_of_bsdf_has_its_stage() {
+        let stages = |material: &str| scene(&[(material, "")]).surfaces.stages;
+        for (material, stage) in [
+            (WHITE, Stage::Plain),
+            ("lambertian.albedo = 0.5\nbump = { texture = 'squares', height = 0.01 }", Stage::Diffuse),
+            ("mirror.reflectance = 0.5", Stage::Mirror),
+            ("conductor = { f0 = 0.5, roughness = 0.5 }", Stage::Conductor),
+            ("dielectric.ior = 1.5", Stage::Dielectric),
+            ("dielectric = { ior = 1.5, roughness = 0.5 }", Stage::RoughDielectric),
+            ("plastic = { albedo = 0.5, ior = 1.5 }", Stage::Plastic),
+        ] {
+            assert_eq!(stages(material), [stage], "{material}");
+        }
+        assert_eq!(stages("lambertian.albedo = 0"), [], "black paint needs none");
+        assert_eq!(stages("plastic = { albedo = 0, ior = 1.5 }"), [Stage::Plastic]);
+    }
+
+    #[test]
+    fn flags_say_what_is_turned_one_sided_squared_or_lit_by_itself() {
+        let word = |material: &str, more: &str| scene(&[(material, more)]).surfaces.rows[0][3].to_bits();
+        let flags = |material: &str, more: &str| word(material, more) & !(STAGE_MASK << STAGE_SHIFT) & !0xffff;
+        let rough = "dielectric = { ior = 1.5, roughness = 0.5 }";
+        assert_eq!(flags(WHITE, ""), 0);
+        assert_eq!(flags(WHITE, "flip = true"), FLIPPED);
+        assert_eq!(flags("lambertian.albedo = 0.5\ntwo_sided = false", ""), ONE_SIDED);
+        assert_eq!(flags("conductor = { reflectance = 0.5, roughness = { texture = 'squares' } }", "") & SQUARED, SQUARED);
+        assert_eq!(flags("conductor = { reflectance = 0.5, alpha = { texture = 'squares' } }", "") & SQUARED, 0);
+        assert_eq!(flags(rough, "emission.radiance = 1") & SELF_LIT, SELF_LIT);
+        assert_eq!([flags(rough, "") & SELF_LIT, flags(WHITE, "emission.radiance = 1") & SELF_LIT], [0; 2]);
+        assert_eq!(flags("plastic = { albedo = 0.5, ior = 1.5 }", "") & SCATTERS_WHERE_BLACK, SCATTERS_WHERE_BLACK);
+        let two = scene(&[(WHITE, ""), ("mirror.reflectance = 0.5", "")]).surfaces;
+        assert_eq!([0, 1].map(|row| two.rows[row][3].to_bits()), [0, 1 | (Stage::Mirror as u32) << STAGE_SHIFT]);
+    }
+
+    #[test]
+    fn media_are_octaves_a_metre_and_the_first_is_empty() {
+        let tinted = "dielectric = { ior = 1.5, transmittance = [0.5, 0.125, 0.0] }";
+        let surfaces = scene(&[(WHITE, ""), (tinted, "")]).surfaces;
+        assert_eq!(surfaces.media, [[0.0; 4], [0.0; 4], [1.0, 3.0, 1e30, 0.0]]);
+        assert_eq!([0, 1].map(|row| surfaces.varying[row][3].to_bits()), [1, 2]);
+        assert!(scene(&[("dielectric.ior = 1.5", "")]).surfaces.media.is_empty());
+    }
+
+    #[test]
+    fn plain_is_a_scene_of_diffuse_constant_two_sided_colour() {
+        let is_plain = |balls: &[(&str, &str)]| scene(balls).surfaces.plain;
+        assert!(is_plain(&[(WHITE, ""), (WHITE, "flip = true")]));
+        for other in [
+            "mirror.reflectance = 0.5",
+            "lambertian.albedo = 0.5\ntwo_sided = false",
+            "lambertian.albedo = { texture = 'squares' }",
+        ] {
+            assert!(!is_plain(&[(WHITE, ""), (other, "")]), "{other}");
+        }
+    }
+
+    #[test]
+    fn paths_can_be_shared_from_diffuse_surfaces_in_empty_space_beyond_one_bounce() {
+        let can = |scene: &Scene, change: fn(&mut RenderSettings)| {
+            let mut settings = RenderSettings::default();
+            change(&mut settings);
+            scene.can_share(&scene.rays(&scene.camera), &settings)
+        };
+        let white = scene(&[(WHITE, "")]);
+        assert!(can(&white, |_| ()) && can(&white, |settings| settings.directions = Directions::Cosine));
+        assert!(!can(&white, |settings| settings.directions = Directions::Uniform));
+        assert!(
+            !can(&white, |settings| settings.max_bounces = Some(1)) && can(&white, |settings| settings.max_bounces = Some(2))
+        );
+        assert!(!can(&scene(&[("mirror.reflectance = 0.5", "")]), |_| ()));
+        assert!(can(&scene(&[(WHITE, ""), ("mirror.reflectance = 0.5", "")]), |_| ()));
+        assert!(!can(&scene(&[(WHITE, ""), ("dielectric = { ior = 1.5, transmittance = 0.5 }", "")]), |_| ()));
+    }
+}
