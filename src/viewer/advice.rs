@@ -184,4 +184,31 @@ mod tests {
     fn nothing_is_done_of_what_is_not_known() {
         assert_eq!([part_of(0, 0), part_of(0, 8), part_of(2, 8), part_of(8, 8)], [0.0, 0.0, 0.25, 1.0]);
     }
+
+    #[test]
+    fn what_is_in_use_has_no_button_and_what_is_chosen_is_the_row_of_its_button() {
+        let candidate = |seed, rel_mse, relative| Candidate {
+            settings: RenderSettings { seed, ..RenderSettings::default() },
+            name: format!("seed {seed}"),
+            efficiency: relative,
+            relative,
+            standard_error: 0.1,
+            rel_mse,
+            seconds: 1.0,
+            spp: 4,
+            rounds: 8,
+        };
+        let candidates = vec![candidate(1, 0.0001, 3.0), candidate(2, 0.0004, 2.0), candidate(3, 0.0009, 1.0)];
+        let advice = Advice { candidates, best: 0, current: 2 };
+        let mut chosen = None;
+        let mut harness = Harness::builder().build_ui(|ui| chosen = chosen.or(show(ui, &advice)));
+        let said = |text: &str| harness.query_by_label(text).is_some();
+        assert!(said("in use") && said("1") && said("1.00 %") && said("2.00 %") && said("3.00 %"));
+        let buttons: Vec<_> = harness.query_all_by_label("Use this").collect();
+        assert_eq!(buttons.len(), 2);
+        buttons[1].click();
+        harness.run_steps(3);
+        drop(harness);
+        assert_eq!(chosen.map(|settings| settings.seed), Some(2));
+    }
 }

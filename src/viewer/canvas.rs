@@ -302,4 +302,35 @@ mod tests {
         assert!(!is_second(186.0, Split::Wipe, false) && !is_second(186.0, Split::None, true));
         assert!(is_second(510.0, Split::SideBySide, true) && !is_second(186.0, Split::SideBySide, true));
     }
+
+    /// What is seen of each of two pictures of 200 × 100 pixels, in points.
+    fn seen(split: Split, wipe: f32) -> [Option<Rect>; 2] {
+        let camera = noisefall::scene::built_in().camera;
+        let mut view = View { wipe, ..View::default() };
+        let second = Some(TextureId::User(2));
+        let pictures = Pictures { first: TextureId::User(1), second, resolution: [200, 100], split };
+        let draw = |ui: &mut egui::Ui| {
+            show(ui, Some(pictures), Tool::Picture, &mut view, &camera, None, false);
+        };
+        let harness = egui_kittest::Harness::builder().with_size(Vec2::new(800.0, 400.0)).build_ui(draw);
+        [1, 2].map(|id| {
+            let of = harness.output().shapes.iter().find(|clipped| clipped.shape.texture_id() == TextureId::User(id))?;
+            Some(of.clip_rect.intersect(of.shape.visual_bounding_rect()))
+        })
+    }
+
+    #[test]
+    fn two_pictures_lie_left_and_right_of_the_line_or_side_by_side() {
+        let [Some(whole), None] = seen(Split::None, 0.25) else { panic!("only the first is seen") };
+        assert!((whole.width() - 2.0 * whole.height()).abs() < 2.0 && whole.width() > 700.0, "{whole:?}");
+        for wipe in [0.25, 0.75] {
+            let [Some(first), Some(second)] = seen(Split::Wipe, wipe) else { panic!("both are seen") };
+            assert_eq!((first, second.right(), second.y_range()), (whole, whole.right(), whole.y_range()));
+            assert!((second.left() - whole.left() - wipe * whole.width()).abs() < 1.5, "{wipe}: {second:?}");
+        }
+        let [Some(first), Some(second)] = seen(Split::SideBySide, 0.25) else { panic!("both are seen") };
+        assert!(
+            (first.width() - second.width()).abs() < 1.5 && first.right() < second.left() && first.width() < 0.52 * whole.width()
+        );
+    }
 }

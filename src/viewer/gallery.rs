@@ -23,6 +23,12 @@ pub struct Gallery {
 }
 
 impl Gallery {
+    /// How many pictures have been read.
+    #[cfg(test)]
+    pub fn count(&self) -> usize {
+        self.pictures.len()
+    }
+
     /// Has the pictures read, once, and takes in those that are there.
     fn receive(&mut self, ctx: &egui::Context, scenes: impl Iterator<Item = PathBuf>) {
         let arriving = self.arriving.get_or_insert_with(|| {

@@ -228,4 +228,15 @@ mod tests {
         // Of a power of ten that rounding has missed.
         assert_eq!(label(10f64.powf(-0.300_000_000_000_000_04) * 2.0), "1.002374");
     }
+
+    #[test]
+    fn the_grid_reaches_to_its_last_decade_and_no_farther_than_numbers_do() {
+        let marks = |low: f64, high: f64| decades(&GridInput { bounds: (low, high), base_step_size: 1.0 });
+        let decade = marks(0.0, 1.0);
+        assert_eq!((decade.len(), decade.last().map(|mark| (mark.value, mark.step_size))), (10, Some((1.0, 1.0))));
+        assert!(decade[1..9].iter().all(|mark| mark.step_size == 0.1));
+        assert_eq!([marks(0.0, 8.0).len(), marks(0.0, 9.0).len()], [8 * 9 + 1, 10]);
+        let far = marks(-400.0, 400.0);
+        assert_eq!((far.len(), far[0].value), (61, -30.0));
+    }
 }

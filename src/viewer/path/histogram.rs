@@ -108,4 +108,33 @@ mod tests {
         assert_eq!(histogram.bin_of(100), None);
         assert_eq!(Histogram::of(vec![3.0, 9.0, 1.0]).brightest, 1);
     }
+
+    #[test]
+    fn bars_are_as_high_as_the_roots_of_their_counts() {
+        let samples = [vec![0.1; 16], vec![0.5; 4], vec![1.0]].concat();
+        let histogram = Histogram::of(samples);
+        let harness = egui_kittest::Harness::builder().with_size(vec2(500.0, 300.0)).build_ui(|ui| {
+            show(ui, &histogram, 3);
+        });
+        let shapes = || harness.output().shapes.iter().map(|clipped| &clipped.shape);
+        let rect = |shape: &egui::Shape| match shape {
+            egui::Shape::Rect(rect) if rect.rect.height() > 1.0 && rect.rect.width() < 20.0 => Some((rect.rect, rect.fill)),
+            _ => None,
+        };
+        let mut bars: Vec<(Rect, Color32)> = shapes().filter_map(rect).collect();
+        bars.sort_by(|a, b| a.0.left().total_cmp(&b.0.left()));
+        // The last bin begins at 0.51: of 39 bins before it the samples are in the eighth and in the last.
+        let heights: Vec<f32> = bars.iter().map(|(rect, _)| rect.height()).collect();
+        assert!(heights.len() == 3 && heights.iter().zip([76.0, 38.0, 19.0]).all(|(a, b)| (a - b).abs() < 0.1), "{heights:?}");
+        assert!(bars.iter().all(|(rect, _)| rect.bottom() == bars[0].0.bottom()), "{bars:?}");
+        let width = bars[2].0.left() - bars[1].0.left();
+        assert!((bars[1].0.left() - bars[0].0.left() - 31.0 * width).abs() < 0.1, "{bars:?}");
+        assert!(bars[0].1 != Color32::GRAY && bars[1].1 == Color32::GRAY, "that of the chosen sample");
+        let line = shapes().find_map(|shape| match shape {
+            egui::Shape::LineSegment { points, stroke } if stroke.width == 1.5 => Some(points[0].x),
+            _ => None,
+        });
+        let mean = bars[0].0.left() + width * (4.6 / 21.0 / 0.51 * 39.0 - 7.0);
+        assert!(line.is_some_and(|x| (x - mean).abs() < 1.0), "{line:?} {mean}");
+    }
 }

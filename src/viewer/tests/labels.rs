@@ -10,7 +10,7 @@ use super::*;
 use crate::viewer::{convergence::Moment, darkroom::Against, loader::Opened, save_dialog::Target as File};
 
 /// An app whose fields nobody changes: it shows what it is told.
-fn app() -> App {
+pub(super) fn app() -> App {
     let threads = Threads::new(1, SimdLevel::best()).expect("a thread can be had");
     let mut app = App::new(&egui::Context::default(), threads, None, Preferences::default());
     let (scene, materials) = (Arc::new(built_in()), Arc::from([]));
@@ -93,6 +93,10 @@ fn each_side_of_a_comparison_has_its_own_figures_in_their_columns() {
     ] {
         assert!(texts.windows(row.len()).any(|cells| cells == row), "{row:?} is not in {texts:?}");
     }
+    assert_says(&texts, &["A is about 5.6 times as efficient so far."]);
+    std::mem::swap(&mut app.against, &mut app.against_beside);
+    // 1/(0.01 · 2.5) and 1/(0.0025 · 3.5).
+    assert_says(&said(&mut app, App::compare_tab), &["B is about 2.9 times as efficient so far."]);
 }
 
 #[test]

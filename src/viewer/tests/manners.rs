@@ -2,7 +2,7 @@
 use noisefall::scene::RenderSettings;
 
 use super::*;
-use crate::viewer::{dock::Tab, preferences::Preferences};
+use crate::viewer::{dock::Tab, link::Companion, preferences::Preferences};
 
 #[test]
 fn a_hidden_window_renders_nothing_and_goes_on_when_it_is_seen() {
@@ -10,7 +10,13 @@ fn a_hidden_window_renders_nothing_and_goes_on_when_it_is_seen() {
     window.state_mut().hide(true);
     wait_without_frames(&window, |app| app.link.latest().status.state == State::Paused);
     let samples = window.state().link.latest().status.samples;
-    std::thread::sleep(Duration::from_millis(50));
+    // The worker takes its orders in their order: when it has rendered another picture's first sample, which a pause does not hold back,
+    // whatever else it meant to do with this one would be done.
+    let app = window.state_mut();
+    let wish = app.link.wish().cloned().expect("it was asked for");
+    let other = RenderSettings { seed: 5, ..wish.settings };
+    app.link.update(wish, Some(Companion::Other(other)), 0.0);
+    wait_without_frames(&window, |app| app.link.latest_beside().frame.generation == app.link.generation_beside());
     assert_eq!(window.state().link.latest().status.samples, samples, "a hidden window works");
     wait(&mut window, "more samples", |app| app.status.samples > samples && app.status.state == State::Running);
 }

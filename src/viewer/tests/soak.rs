@@ -111,10 +111,11 @@ fn soak() {
     let (mut at, mut warm) = (Pos2::ZERO, 0);
     // The pictures of the gallery are read once.
     window.state_mut().gallery.open = true;
-    for _ in 0..100 {
-        window.step();
-        std::thread::sleep(Duration::from_millis(10));
-    }
+    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("assets").join("gallery");
+    let has_picture = |scene: &PathBuf| scene.file_stem().is_some_and(|name| folder.join(name).with_extension("png").is_file());
+    wait(&mut window, "the gallery", |app| {
+        app.gallery.count() == app.catalogue.iter().filter(|entry| has_picture(&entry.path)).count()
+    });
     for number in 0..EVENTS {
         event(&mut window, &mut random, &mut at);
         tame(&mut window);
