@@ -32,8 +32,8 @@ pub(super) fn survive<L: Lanes>(
             let p = (throughput.max_component() * scale).min(l.f(Roulette::MOST)).max(l.f(Roulette::LEAST));
             play(reflection, stream, throughput, p)
         }
-        // Without roulette a path ends when its throughput has become zero.
-        _ => Survival { alive: throughput.max_component().above(0.0), throughput, probability: l.f(1.0) },
+        // Below the normal numbers an albedo above 1/2 rounds the throughput back to what it was: such a path would never end.
+        _ => Survival { alive: throughput.max_component().above(f32::MIN_POSITIVE), throughput, probability: l.f(1.0) },
     }
 }
 

@@ -84,3 +84,34 @@ fn every_decision_of_a_path_has_coordinates_of_its_own() {
         assert!((first..first + count).all(|coordinate| reads.contains_key(&coordinate)), "nothing reads {first}");
     }
 }
+
+/// An albedo above 1/2 rounds the smallest number to itself: throughputs would stay there until paths are cut.
+#[test]
+fn paths_without_roulette_end_by_themselves() {
+    for albedo in [0.3, 0.5, 0.75, 0.97] {
+        let scene = parse(
+            "inline.toml",
+            format!(
+                "format = 1
+                camera = {{ eye = [0.1, 0.2, 0.3], look_at = [1.0, 0.0, 0.0], fov = 60.0, resolution = [8, 8] }}
+                materials.wall.lambertian.albedo = {albedo}
+                [[objects]]
+                shape.sphere = {{ center = [0.0, 0.0, 0.0], radius = 1.0 }}
+                material = 'wall'
+                emission.radiance = 1.0
+                flip = true"
+            ),
+        )
+        .expect("it is a scene");
+        let rays = scene.rays(&scene.camera);
+        for estimator in Estimator::ALL {
+            let roulette = Roulette::Off;
+            let settings =
+                RenderSettings { estimator, roulette, max_bounces: None, reuse: Reuse::Off, ..RenderSettings::default() };
+            let mut batch = Batch::default();
+            let work = Work::tile(&scene, &rays, &settings, [0, 0], [8, 8], 0);
+            trace(SimdLevel::best(), &work, &mut batch, &|| false).expect("nothing interrupts");
+            assert_eq!(batch.cut_paths, 0, "{albedo} {estimator:?}");
+        }
+    }
+}

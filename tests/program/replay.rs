@@ -57,6 +57,8 @@ fn why_a_path_ends_is_told() {
     };
     let named = "material = \"wall\"";
     let white = wall("{ lambertian = { albedo = 0.8 } }", named);
+    let closed = "materials.wall.lambertian.albedo = 0.8\n[[objects]]\nshape.sphere = { center = [0, 0, 0], radius = 9 }\n\
+                  material = \"wall\"\nflip = true\nemission.radiance = 1";
     for (expected, text, options) in [
         (End::LeftScene, "background.radiance = 1", &[][..]),
         (End::LeftScene, &white, &["--roulette", "off"]),
@@ -69,6 +71,7 @@ fn why_a_path_ends_is_told() {
         ),
         (End::Black, &wall("{ lambertian = { albedo = 0.0 } }", named), &[]),
         (End::Roulette, &white, &["--roulette", "0.01"]),
+        (End::Vanished, &closed, &["--roulette", "off", "--estimator", "path"]),
     ] {
         let name = serde_json::json!(expected);
         assert_eq!(end(text, options), name.as_str().unwrap_or_default(), "{text} {options:?}");

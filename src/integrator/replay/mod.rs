@@ -62,6 +62,7 @@ fn end_at(scene: &Scene, settings: &RenderSettings, last: &Vertex) -> End {
     match &last.reflection {
         Some(Reflection { weight, .. }) if *weight == [0.0; 3] => End::NoWeight,
         Some(Reflection { survives: false, survival, .. }) if *survival < 1.0 => End::Roulette,
+        Some(Reflection { survives: false, .. }) => End::Vanished,
         Some(_) => End::Normals,
         None if last.bounce < settings.last_bounce() => match coating {
             None => End::NoMaterial,

@@ -55,6 +55,8 @@ pub enum End {
     Black,
     /// The weight of the next direction is zero.
     NoWeight,
+    /// Without roulette: its throughput is below the normal numbers of f32.
+    Vanished,
     /// The next direction is above the surface by one of the shading and the geometric normal, but not by the other.
     Normals,
 }
@@ -71,6 +73,7 @@ impl End {
             End::BlackFromBehind => "ends behind a surface that only its front reflects",
             End::Black => "ends at a surface that is black here",
             End::NoWeight => "ends: the next direction has no weight",
+            End::Vanished => "ends: its throughput is below the smallest normal number of single precision",
             End::Normals => "ends: the next direction is below the surface by its geometric normal",
         }
     }

@@ -40,13 +40,11 @@ pub fn section(validation: &Validation) -> Section {
         title: "The estimate converges to the algebraic solution",
         claim: "In a closed room that emits L_e and reflects ρ alike everywhere, the picture is L_e/(1 − ρ).",
         derivation: &[
-            "By symmetry the radiance L is the same everywhere and in all directions, so that the integral over the hemisphere is \
-             ρ L and the equation becomes L = L_e + ρ L, that is L = L_e/(1 − ρ): no discretisation, no approximation.",
+            "By symmetry the radiance L is the same at every point and in every direction. The integral over the hemisphere is then ρ L, and the equation becomes L = L_e + ρ L, so L = L_e/(1 − ρ): no discretisation, no approximation.",
             "A path of uniform directions multiplies its throughput by ρ · 2 cos θ at every wall, of mean ρ; a path of \
              cosine-distributed directions by ρ itself, so that every single sample is the geometric series. No path is capped here: \
-             it ends when its throughput has become 0 in f32, which leaves out less than can be represented.",
-            "E|X|³ is finite while ρ³ E w³ = 2ρ³ < 1. For ρ = 0.8 it is not, and how soon the mean of N samples is normal is not known. Its row \
-             has a bound by O. Catoni that needs the variance only, holds for every N and is about as sharp.",
+             it ends when its throughput falls below 1.2 · 10⁻³⁸, the smallest normal number of f32, which is far below the rounding of the sum.",
+            "E|X|³ is finite while ρ³ E w³ = 2ρ³ < 1. For ρ = 0.8 it is infinite, and it is unknown how fast the distribution of the mean of N samples approaches the normal one. That row uses a bound by O. Catoni, which needs only the variance, holds for every N and is about as sharp.",
         ],
         source: "The furnace test. Camera inside a sphere, L_e = 1. O. Catoni, “Challenging the empirical mean and empirical variance”, 2012; the \
                  variance is that of section 2.",
