@@ -67,14 +67,31 @@ pub fn page(title: &str, style: &str, body: &Markup) -> String {
     page.into_string()
 }
 
-/// Text in which a letter after an underscore becomes a subscript.
+/// Text with indices: what follows an underscore behind a single letter, which is a letter, or a word in lower case as in `E_avg`.
+/// Other underscores, as in names of files, stay.
 pub fn formula(text: &str) -> Markup {
     let mut parts = text.split('_');
-    let first = parts.next().unwrap_or_default();
+    let mut before = parts.next().unwrap_or_default();
     html! {
-        (first)
+        (before)
         @for part in parts {
-            @if let Some(index) = part.chars().next() { sub { (index) } (&part[index.len_utf8()..]) }
+            @let (index, rest) = part.split_at(if ends_in_a_symbol(before) { index_length(part) } else { 0 });
+            @if index.is_empty() { "_" } @else { sub { (index) } }
+            (rest)
+            @let _ = before = rest;
         }
     }
+}
+
+/// Whether the last letter is that of a quantity and not of a word: Greek, or alone.
+fn ends_in_a_symbol(text: &str) -> bool {
+    let mut letters = text.chars().rev();
+    let last = letters.next().filter(|letter| letter.is_alphabetic());
+    last.is_some_and(|letter| !letter.is_ascii() || !letters.next().is_some_and(|before| before.is_ascii_alphabetic()))
+}
+
+/// Bytes of the index that a text begins with.
+fn index_length(text: &str) -> usize {
+    let word = text.len() - text.trim_start_matches(|letter: char| letter.is_ascii_lowercase()).len();
+    if word > 0 { word } else { text.chars().next().map_or(0, char::len_utf8) }
 }

@@ -5,6 +5,10 @@ use super::{Figure, formula, page, plot::*};
 fn a_letter_behind_an_underscore_is_an_index() {
     assert_eq!(formula("L_e + ρ L").into_string(), "L<sub>e</sub> + ρ L");
     assert_eq!(formula("x_Mx_ω y").into_string(), "x<sub>M</sub>x<sub>ω</sub> y");
+    assert_eq!(formula("∫ f dω_i").into_string(), "∫ f dω<sub>i</sub>");
+    assert_eq!(formula("F_avg² E_avg/(1 − E_avg)").into_string(), "F<sub>avg</sub>² E<sub>avg</sub>/(1 − E<sub>avg</sub>)");
+    assert_eq!(formula("against cornell_box.exr and max_bounces").into_string(), "against cornell_box.exr and max_bounces");
+    assert_eq!(formula("a_").into_string(), "a_");
     assert_eq!(formula("a < b").into_string(), "a &lt; b");
     assert_eq!(formula("").into_string(), "");
 }
