@@ -6,9 +6,6 @@ use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, So
 use super::excerpt::Excerpt;
 use crate::quote;
 
-/// More errors of one file are counted, not shown.
-const MOST_SHOWN: usize = 20;
-
 /// Why a scene file cannot be used: its first error, and those behind it. Displays as one line; [`SceneError::report`] adds the places with
 /// a caret each.
 #[derive(Debug, Clone)]
@@ -39,7 +36,7 @@ pub struct SourceText {
 }
 
 impl SceneError {
-    /// More errors of a file are not looked for: each costs a look at the whole text.
+    /// More errors of a file are neither looked for, since each costs a look at the whole text, nor shown.
     pub const MOST: usize = 40;
 
     /// An error about a file as a whole.
@@ -82,9 +79,9 @@ impl SceneError {
     /// The whole message, several lines of plain text for each error: what, file:line:column, the line with a caret, what to do.
     pub fn report(&self) -> String {
         let errors = std::iter::once(self).chain(&self.0.others);
-        let mut reports: Vec<String> = errors.take(MOST_SHOWN).map(SceneError::report_of_first).collect();
-        if self.count() > MOST_SHOWN {
-            reports.push(format!("and {} more errors", self.count() - MOST_SHOWN));
+        let mut reports: Vec<String> = errors.take(SceneError::MOST).map(SceneError::report_of_first).collect();
+        if self.count() >= SceneError::MOST {
+            reports.push(format!("These are the first {} errors; the file may have more errors.", SceneError::MOST));
         }
         reports.join("\n\n")
     }
