@@ -14,6 +14,7 @@ use noisefall::{
 use super::{
     app::App,
     darkroom::{Order, Print, develop},
+    path::Form,
     path_field::PathField,
 };
 
@@ -23,6 +24,8 @@ pub enum Target {
     Picture,
     CurvesCsv,
     CurvesSvg,
+    /// What the path inspector shows.
+    Path,
 }
 
 /// Asks where something goes.
@@ -45,6 +48,7 @@ impl Target {
             Target::Picture => "Save picture",
             Target::CurvesCsv => "Save figures",
             Target::CurvesSvg => "Save plot",
+            Target::Path => "Save path",
         }
     }
 
@@ -55,6 +59,7 @@ impl Target {
             }
             Target::CurvesCsv => "CSV: settings, samples, seconds, errors and bias, a line each.",
             Target::CurvesSvg => "SVG: the curves of all settings, for a page or a slide.",
+            Target::Path => "TXT is the path in words and numbers, TEX its nested sum; CSV has the samples of the pixel.",
         }
     }
 
@@ -64,12 +69,16 @@ impl Target {
             Target::Picture => &["png", "exr"],
             Target::CurvesCsv => &["csv"],
             Target::CurvesSvg => &["svg"],
+            Target::Path => &["txt", "tex", "csv"],
         }
     }
 
     fn check(self, path: &Path) -> Result<(), String> {
         if self == Target::Picture {
             return check_target(path).map_err(|error| error.to_string());
+        }
+        if self == Target::Path && !self.takes(path) {
+            return Err("The name must end in .txt, .tex or .csv.".to_owned());
         }
         file::check(path).map_err(|error| error.to_string())
     }
@@ -127,6 +136,11 @@ impl App {
             Target::Picture => return self.save_to(path),
             Target::CurvesCsv => self.history.csv(),
             Target::CurvesSvg => Ok(self.history.svg().into_bytes()),
+            Target::Path => {
+                let extension = path.extension().unwrap_or_default().to_string_lossy();
+                let text = Form::of_extension(&extension).and_then(|form| self.inspected(form));
+                text.map(String::into_bytes).ok_or_else(|| "No path is traced yet. Try again in a moment.".to_owned())
+            }
         };
         self.saver.save(path, move |path| replace(path, &bytes?).map_err(|error| error.to_string()));
     }
@@ -195,8 +209,8 @@ fn dialog_body(ui: &mut egui::Ui, target: Target, field: &mut PathField) -> (boo
     field.remark(ui, if exists { "This file exists. Replace it?" } else { "" });
     let (mut save, mut cancel) = (entered && !exists, false);
     ui.horizontal(|ui| {
-        let of_picture = if target == Target::Picture { target.extensions() } else { &[] };
-        for extension in of_picture {
+        let choice = if target.extensions().len() > 1 { target.extensions() } else { &[] };
+        for extension in choice {
             let chosen = field.path.trim().to_ascii_lowercase().ends_with(&format!(".{extension}"));
             if ui.selectable_label(chosen, extension.to_uppercase()).clicked() {
                 field.path = PathBuf::from(&field.path).with_extension(extension).display().to_string();
@@ -271,6 +285,10 @@ mod tests {
         assert!(takes(Target::Picture, "a.png") && takes(Target::Picture, "a.EXR") && !takes(Target::Picture, "a.csv"));
         assert!(takes(Target::CurvesCsv, "a.csv") && !takes(Target::CurvesCsv, "a.svg") && !takes(Target::CurvesCsv, "csv"));
         assert!(takes(Target::CurvesSvg, "a.svg") && !takes(Target::CurvesSvg, "a.png"));
+        for extension in Target::Path.extensions() {
+            assert!(takes(Target::Path, &format!("a.{extension}")) && Form::of_extension(extension).is_some());
+        }
+        assert!(!takes(Target::Path, "a.png") && Target::Path.check(Path::new("a.png")).is_err());
     }
 
     #[test]

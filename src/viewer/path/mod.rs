@@ -9,6 +9,7 @@ mod table;
 use egui::{RichText, ScrollArea, Ui, scroll_area::ScrollBarVisibility};
 use noisefall::math::colour::luminance;
 
+pub(super) use self::copying::Form;
 pub use self::findings::Inspector;
 use self::findings::MOST_SAMPLES;
 use super::{app::App, canvas::Tool, dock::Tab, look::Inks, number};

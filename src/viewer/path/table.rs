@@ -104,8 +104,8 @@ fn row(ui: &mut Ui, vertex: &Vertex, objects: &[Object]) {
                 _ => format!("δ, weight {}", colour(next.weight)),
             };
             let end = match (next.survives, next.goes_on) {
-                (false, _) => ", ended by roulette",
-                (true, false) => ", ends",
+                (false, _) if next.survival < 1.0 => ", ended by roulette",
+                (_, false) => ", ends",
                 _ => "",
             };
             let lobe = format!("{}, chosen with probability {}", next.lobe.name, short(next.lobe.probability));

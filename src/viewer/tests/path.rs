@@ -152,6 +152,29 @@ fn what_is_inspected_can_be_copied() {
 }
 
 #[test]
+fn what_is_inspected_can_be_saved() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = inspecting("cornell_spheres");
+    window.state_mut().inspector.look_at([30, 20]);
+    wait(&mut window, "its samples", |app| app.inspector.histogram().is_some() && app.inspector.replay().is_some());
+    for (name, says) in [
+        ("path.txt", "pixel 30,20, sample 0: radiance "),
+        ("path.tex", "\\begin{align*}"),
+        ("path.csv", "sample,red,green,blue,luminance,mean,variance\n0,"),
+    ] {
+        let path = folder.path().join(name);
+        click(&mut window, "Save as…");
+        window.run_steps(3);
+        window.get_by_role(Role::TextInput).set_text_value_accesskit(&path.display().to_string());
+        window.run_steps(3);
+        click(&mut window, "Save");
+        wait(&mut window, "the file", |_| path.is_file());
+        let saved = std::fs::read_to_string(&path).expect("it is there");
+        assert!(saved.contains(says) && window.state().save_dialog.is_none(), "{name}: {saved}");
+    }
+}
+
+#[test]
 fn a_path_is_drawn_from_its_pixel_over_the_points_that_it_met() {
     let mut window = inspecting("cornell_spheres");
     window.state_mut().inspector.look_at([20, 40]);
