@@ -8,7 +8,7 @@ use super::{
     pass::{PassJob, Threads},
 };
 use crate::{
-    measure::{Bias, Comparison, Floor, compare},
+    measure::{Bias, Comparison, Floor, SampleNoise, compare},
     sampling::Sampler,
     scene::{Camera, RenderSettings, Reuse, Roulette, Scene, Truth},
 };
@@ -69,7 +69,7 @@ impl Reference {
         Some(Bias::by_samples(&frame.radiance, &truth, [frame.noise.as_ref(), of_truth], frame.width as usize))
     }
 
-    /// A message if a frame contradicts the reference: its mean is off by more than chance explains.
+    /// What to say where a frame cannot be a sample of the true picture: its mean, or that of a block, is off by more than chance explains.
     pub fn contradiction(&self, frame: &Frame) -> Option<String> {
         /// Limit in standard errors. By chance, one in two million images exceeds it.
         const MOST: f64 = 5.0;
@@ -77,14 +77,32 @@ impl Reference {
         let off = match bias.z {
             Some(z) if z.abs() > MOST => format!("by {:.1} standard errors", z.abs()),
             None if bias.is_exact && bias.mean.abs() > bias.rounding => "although its samples have no noise".to_owned(),
-            _ => return None,
+            _ => return contradiction_of_block(&bias, frame.width as usize),
         };
         let more = if bias.mean > 0.0 { "more" } else { "less" };
         Some(format!("the picture has {:.3e} {more} radiance on average than [truth] says, {off}", bias.mean.abs()))
     }
 }
 
-/// A message if a small image with independent samples contradicts the `[truth]` of a scene.
+/// What to say where the mean of the picture is right and that of a block is not: of a picture that is turned, mirrored or of another view.
+fn contradiction_of_block(bias: &Bias, width: usize) -> Option<String> {
+    /// Standard errors. Those of a block are less sure than those of the picture.
+    const MOST: f64 = 10.0;
+    let (block, z) = bias.block_z.iter().enumerate().max_by(|(_, a), (_, b)| a.abs().total_cmp(&b.abs()))?;
+    let columns = width.div_ceil(SampleNoise::BLOCK);
+    let [x, y] = [block % columns, block / columns].map(|place| place * SampleNoise::BLOCK);
+    let more = if *z > 0.0 { "more" } else { "less" };
+    (z.abs() > MOST).then(|| {
+        format!(
+            "the block of {0} × {0} pixels from {x},{y} on has {more} radiance than [truth] says, by {1:.1} standard errors, though the \
+             mean of the picture agrees",
+            SampleNoise::BLOCK,
+            z.abs()
+        )
+    })
+}
+
+/// What is wrong with the truth that a scene names, as far as a small picture by independent samples can tell.
 pub fn contradiction(scene: &Scene, threads: &Threads) -> Option<String> {
     /// Longer side of the image if the truth is constant, so that any resolution is valid.
     const LONGER_SIDE: u32 = 48;

@@ -83,6 +83,22 @@ fn a_frame_contradicts_the_truth_where_noise_cannot_explain_the_difference() {
     }
 }
 
+#[test]
+fn a_mirrored_truth_is_contradicted_by_its_blocks() {
+    let halves = |left: f32, right: f32| (0..64 * 32).map(|i| [if i % 64 < 32 { left } else { right }; 3]).collect::<Vec<_>>();
+    let said = |variance: f64, radiance: Vec<[f32; 3]>| {
+        let truth = Picture { width: 64, height: 32, radiance: halves(1.0, 2.0) };
+        let reference = Reference::Picture(Arc::new(truth), Arc::new(Provenance::default()));
+        reference.contradiction(&Frame { radiance, ..frame([variance; 2]) }).unwrap_or_default()
+    };
+    assert!(
+        said(0.0025, halves(2.0, 1.0)).contains("block of 32 × 32 pixels from 0,0 on has more radiance"),
+        "{}",
+        said(0.0025, halves(2.0, 1.0))
+    );
+    assert_eq!((said(0.0025, halves(1.0, 2.0)), said(0.02, halves(2.0, 1.0))), (String::new(), String::new()));
+}
+
 /// The truth is that of the equation, whatever the scene's own cap leaves out.
 #[test]
 fn a_scene_is_held_against_its_truth_without_its_cap() {
