@@ -7,7 +7,7 @@ mod moments;
 mod sample_noise;
 
 pub use self::{
-    bias::{Bias, Evidence, as_normal},
+    bias::{Bias, Evidence, LEAST_EFFECTIVE_SAMPLES, as_normal},
     error::{Comparison, Floor, compare, mean_square, relative},
     means::{Mean, Measure, Picture, picture},
     moments::{Moments, samples},

@@ -3,7 +3,7 @@ use std::time::{Duration, Instant};
 
 use super::{Plan, StudyError, checkpoints};
 use crate::{
-    measure::{Comparison, compare},
+    measure::{Comparison, SampleNoise, compare},
     render::{
         Frame,
         film::Film,
@@ -25,6 +25,21 @@ pub struct Checkpoint {
     pub bias: f64,
     /// Of `bias`, as the variance of the samples gives it; `None` before the second sample.
     pub bias_standard_error: Option<f64>,
+    /// How many samples of equal weight would make up that variance; see [`SampleNoise::effective_samples`].
+    pub effective_samples: Option<f64>,
+}
+
+/// What the samples say of the noise of a picture's mean.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct NoiseOfMean {
+    pub standard_error: f64,
+    pub effective_samples: f64,
+}
+
+impl NoiseOfMean {
+    fn of(noise: &SampleNoise) -> NoiseOfMean {
+        NoiseOfMean { standard_error: noise.variance_of_mean().sqrt(), effective_samples: noise.effective_samples }
+    }
 }
 
 /// One render of one combination.
@@ -86,8 +101,8 @@ pub fn measure(bench: Bench, settings: &RenderSettings, plan: &Plan, reference: 
     let (run, cut_paths) = follow(plan, |spp| {
         let (took, count) = counts.take().map_or_else(|| bench.pass(settings, &mut film, spp), Ok)?;
         let frame = bench.frame(&film);
-        let standard_error = frame.noise.as_ref().map(|noise| noise.variance_of_mean().sqrt());
-        Ok((took, count.cut_paths, compare(&frame.radiance, reference, plan.floor), standard_error))
+        let noise = frame.noise.as_ref().map(NoiseOfMean::of);
+        Ok((took, count.cut_paths, compare(&frame.radiance, reference, plan.floor), noise))
     })?;
     let bias = settings.bias().or((cut_paths > 0).then(|| format!("{cut_paths} paths cut"))).unwrap_or_default();
     let rays = bench.scene.rays(bench.camera);
@@ -96,10 +111,10 @@ pub fn measure(bench: Bench, settings: &RenderSettings, plan: &Plan, reference: 
 }
 
 /// The checkpoints of a run as far as the plan says, and the paths that were cut. `to` brings the picture to a number of samples, and says
-/// how long that took, how many paths were cut, the error, and the standard error of its mean.
+/// how long that took, how many paths were cut, the error, and the noise of its mean.
 pub(super) fn follow(
     plan: &Plan,
-    mut to: impl FnMut(u32) -> Result<(Duration, u64, Comparison, Option<f64>), StudyError>,
+    mut to: impl FnMut(u32) -> Result<(Duration, u64, Comparison, Option<NoiseOfMean>), StudyError>,
 ) -> Result<(Run, u64), StudyError> {
     let (mut run, mut elapsed, mut cut_paths) = (Run::default(), Duration::ZERO, 0);
     for spp in checkpoints(plan.spp) {
@@ -108,12 +123,14 @@ pub(super) fn follow(
         if elapsed.as_secs_f64() * f64::from(spp) / f64::from(before) > plan.time.as_secs_f64() {
             break;
         }
-        let (took, cut, error, bias_standard_error) = to(spp)?;
+        let (took, cut, error, noise) = to(spp)?;
         elapsed += took;
         cut_paths += cut;
         let seconds = elapsed.as_secs_f64();
         let Comparison { rmse, rel_mse, bias } = error;
-        run.checkpoints.push(Checkpoint { spp, seconds, rmse, rel_mse, bias, bias_standard_error });
+        let [bias_standard_error, effective_samples] =
+            [noise.map(|noise| noise.standard_error), noise.map(|noise| noise.effective_samples)];
+        run.checkpoints.push(Checkpoint { spp, seconds, rmse, rel_mse, bias, bias_standard_error, effective_samples });
     }
     Ok((run, cut_paths))
 }

@@ -4,7 +4,10 @@ use super::{
     measure::{Checkpoint, Run},
     trial::Group,
 };
-use crate::{measure::Moments, scene::RenderSettings};
+use crate::{
+    measure::{LEAST_EFFECTIVE_SAMPLES, Moments},
+    scene::RenderSettings,
+};
 
 /// A relMSE below this is rounding of single precision, not noise.
 pub const ROUNDING: f64 = 1e-12;
@@ -38,6 +41,8 @@ pub struct MeanError {
     /// By the variances of samples, and of the reference's where it is known; NaN before the second sample. At most so large where samples
     /// are better than independent ones.
     pub standard_error: f64,
+    /// Few samples make up most of the variance: it is likely to be too small.
+    pub has_heavy_tails: bool,
 }
 
 /// A combination with its measurements.
@@ -168,9 +173,15 @@ fn variances(checkpoints: &[Checkpoint], floor: f64) -> Vec<(f64, f64)> {
 fn mean_error(runs: &[Run], variance_of_reference: f64) -> MeanError {
     let last: Vec<&Checkpoint> = runs.iter().filter_map(|run| run.checkpoints.last()).collect();
     let count = last.len() as f64;
-    let variances = last.iter().map(|point| point.bias_standard_error.map_or(f64::NAN, |error| error * error));
-    let variance = variances.sum::<f64>() / (count * count) + variance_of_reference;
-    MeanError { mean: last.iter().map(|point| point.bias).sum::<f64>() / count, standard_error: variance.sqrt() }
+    let of_samples = |point: &Checkpoint| point.bias_standard_error.map_or(f64::NAN, |error| error * error);
+    let all: f64 = last.iter().map(|point| of_samples(point)).sum();
+    // Of independent pictures Σ v²/n adds up, n being the effective samples.
+    let squares: f64 = last.iter().filter_map(|point| Some(of_samples(point).powi(2) / point.effective_samples?)).sum();
+    MeanError {
+        mean: last.iter().map(|point| point.bias).sum::<f64>() / count,
+        standard_error: (all / (count * count) + variance_of_reference).sqrt(),
+        has_heavy_tails: squares * LEAST_EFFECTIVE_SAMPLES > all * all,
+    }
 }
 
 /// Without the error of the reference, which is independent; no less than that, below which nothing is known.

@@ -69,17 +69,19 @@ impl Findings {
         self.ranked_ratio(outcome).filter(|ratio| *ratio >= NEAR)
     }
 
-    /// The ends of the 95 % interval of [`Findings::ratio`]: the ratio divided and multiplied by [`Findings::uncertainty`]. None of the
-    /// best itself, whose ratio is 1 by definition, and of what is not among those whose spread is known.
+    /// The ends of the 95 % interval of [`Findings::ratio`]: the ratio divided and multiplied by [`Findings::uncertainty`], or by a factor
+    /// of its own where it is far from the best. None of the best itself, whose ratio is 1 by definition, and of what is biased.
     pub fn interval(&self, outcome: &Outcome) -> Option<[f64; 2]> {
-        let is_best = self.best().is_some_and(|best| best.settings == outcome.settings);
-        let ratio = self.ratio_near_best(outcome).filter(|_| !is_best)?;
-        self.uncertainty().map(|factor| [ratio / factor, ratio * factor])
+        let best = self.best().filter(|best| best.settings != outcome.settings)?;
+        let ratio = self.ratio(outcome).filter(|_| outcome.standing != Standing::Biased)?;
+        let is_near = self.ratio_near_best(outcome).is_some();
+        let factor = if is_near { self.uncertainty() } else { uncertainty_of_two(outcome, best) };
+        factor.map(|factor| [ratio / factor, ratio * factor])
     }
 
-    /// The shortest rendering time in seconds of those that can be the best and have noise: after it the error of all of them is known.
+    /// The shortest rendering time in seconds of those that are unbiased and have noise: after it the error of all of them is known.
     pub fn equal_time(&self) -> Option<f64> {
-        let noisy = self.outcomes.iter().filter(|outcome| outcome.standing == Standing::Sound && !outcome.is_exact());
+        let noisy = self.outcomes.iter().filter(|outcome| outcome.standing != Standing::Biased && !outcome.is_exact());
         noisy.map(|outcome| outcome.last().seconds).reduce(f64::min)
     }
 
@@ -116,5 +118,17 @@ impl Findings {
             }
         }
         if values.len() > 1 { values } else { Vec::new() }
+    }
+}
+
+/// The factor that the ratio of the efficiencies of two is known to, at 95 %, each by its own spread over repeats: the test of B. L. Welch,
+/// 1947. None for a single repeat.
+fn uncertainty_of_two(a: &Outcome, b: &Outcome) -> Option<f64> {
+    let parts = [a, b].map(Outcome::log_efficiency).map(|moments| (moments.variance / moments.count, moments.count - 1.0));
+    let variance: f64 = parts.iter().map(|(variance, _)| variance).sum();
+    let spread: f64 = parts.iter().map(|(variance, degrees)| variance * variance / degrees).sum();
+    match variance {
+        0.0 => Some(1.0),
+        _ => (spread > 0.0).then(|| (student_95(variance * variance / spread) * variance.sqrt()).exp()),
     }
 }

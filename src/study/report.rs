@@ -45,11 +45,8 @@ fn introduction(plan: &Plan) -> Markup {
         p { "Every combination of settings rendered each scene " @if repeats == 1 { "once" } @else { (repeats) " times with different seeds" }
             ", and was compared with a reference whenever its number of samples had doubled. The " b { "error" } " is the root of relMSE, the \
              mean over pixels and channels of " span.formula { (plan.floor.formula()) } " for the picture x and the reference r. " b { "Time" } " is that of \
-             rendering alone. " b { "Efficiency" } " is " span.formula { "1/(relMSE · s)" } " at the end of a run: of two combinations the one of \
-             twice the efficiency needs half the time for the same error, where both fall alike." }
-        p { "The " b { "slope" } " is how the error falls with the number of samples N: as N to this power. It is −1/2 for independent samples, \
-             and steeper where samples are spread evenly. It is a least-squares fit from 4 samples on with its 95 % confidence interval, which \
-             allows for successive points having samples in common." }
+             rendering alone. " b { "Efficiency" } " is " span.formula { "1/(relMSE · s)" } " at the end of a run: twice the efficiency means the same error in half the time, as long as both errors fall at the same rate." }
+        p { "The " b { "slope" } " is the power of the number of samples N with which the error falls: −1/2 for independent samples, steeper for stratified and Sobol samples. It is a least-squares fit from 4 samples on, with a 95 % confidence interval that accounts for the samples that successive points share." }
     }
 }
 
@@ -60,7 +57,7 @@ fn circumstances(plan: &Plan, machine: &Machine) -> Markup {
             tr { th { "processor" } td { (machine.cpu) } }
             tr { th { "used" } td { (count(machine.threads, "thread")) " on " (count(machine.cores, "core")) ", SIMD: " (machine.simd) } }
             tr { th { "system" } td { (machine.os) } }
-            tr { th { "each run" } td { "up to " (plan.spp) " samples a pixel; no doubling that would end after "
+            tr { th { "each run" } td { "up to " (plan.spp) " samples a pixel; a doubling is skipped if it would end after "
                 (significant(plan.time.as_secs_f64())) " s" } }
         }
     }
@@ -129,8 +126,7 @@ fn worth(findings: &Findings) -> Markup {
                     (row(if i == 0 { setting.name() } else { "" }, worth))
                 } } }
             }
-            p.source { "Efficiency as a part of the best: with this value and all other settings as in the best combination, and with this \
-                        value and whatever other settings are best with it. A dash is for what is not ranked, or has noise where the best has none." }
+            p.source { "Efficiency relative to the best: with this value and all other settings as in the best combination, and with this value and the other settings that are best with it. A dash marks combinations that are not ranked, or have noise where the best has none." }
         }
     }
 }
@@ -155,9 +151,8 @@ fn ranking(findings: &Findings) -> Markup {
         }
         p.source {
             "± is the standard error of the efficiency, from the repeats. The bias is the mean of picture less reference at the end of the \
-             runs, with its standard error by the variance of the samples: for stratified and Sobol samples at most so large. What is biased, or too noisy (its relMSE is more than half of that of a \
-             black picture), is not ranked and comes last."
-            @if twins > 0 { " Values joined by = give the same picture, bit for bit in a trial, and were measured once: that spared "
+             runs, with its standard error by the variance of the samples: an upper bound for stratified and Sobol samples. Combinations that are biased, or too noisy (a relMSE above half of that of a black picture), are not ranked and come last."
+            @if twins > 0 { " Values joined by = gave the same picture bit for bit in a trial and were measured once, which saved "
                 (twins) " of " (outcomes.len() + twins) " combinations." }
         }
     }

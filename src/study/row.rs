@@ -35,6 +35,8 @@ pub struct Row {
     pub bias: f64,
     /// Of the bias, but for the reference's own error; empty before the second sample.
     pub bias_standard_error: Option<f64>,
+    /// How many samples of equal weight would make up the variance; few of them tell of heavy tails.
+    pub effective_samples: Option<f64>,
     /// Why the picture does not converge to the solution; empty when it does.
     pub biased: String,
     pub invalid_samples: u64,
@@ -69,8 +71,8 @@ impl Row {
     }
 
     fn point(&self) -> Checkpoint {
-        let Row { spp, seconds, rmse, rel_mse, bias, bias_standard_error, .. } = *self;
-        Checkpoint { spp, seconds, rmse, rel_mse, bias, bias_standard_error }
+        let Row { spp, seconds, rmse, rel_mse, bias, bias_standard_error, effective_samples, .. } = *self;
+        Checkpoint { spp, seconds, rmse, rel_mse, bias, bias_standard_error, effective_samples }
     }
 }
 
@@ -103,6 +105,7 @@ pub fn rows(header: &Header, run: &Run) -> Vec<Row> {
         rel_mse: point.rel_mse,
         bias: point.bias,
         bias_standard_error: point.bias_standard_error,
+        effective_samples: point.effective_samples,
         biased: run.bias.clone(),
         invalid_samples: run.invalid_samples,
         reference: reference.name.clone(),

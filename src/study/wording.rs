@@ -42,7 +42,7 @@ pub fn mean_error(error: MeanError) -> String {
 }
 
 /// A mean and its standard error where that is known, both to the second digit of the latter.
-pub fn mean_and_error(MeanError { mean, standard_error }: MeanError) -> (String, Option<String>) {
+pub fn mean_and_error(MeanError { mean, standard_error, .. }: MeanError) -> (String, Option<String>) {
     let minus = |text: String| text.replace('-', "−");
     if !(standard_error > 0.0 && standard_error.is_finite()) {
         return (minus(format!("{mean:+.1e}")), None);
@@ -60,7 +60,8 @@ pub fn mean_and_error(MeanError { mean, standard_error }: MeanError) -> (String,
 /// Which settings are best, in one sentence.
 pub fn verdict(findings: &Findings) -> String {
     let Some(best) = findings.best() else {
-        return "None is unbiased and clearly nearer to the reference than a black picture: more samples are needed.".to_owned();
+        return "No combination is unbiased and clearly closer to the reference than a black picture: take more samples."
+            .to_owned();
     };
     let (last, settings) = (best.last(), label(&best.settings));
     let place = match findings.rivals().count() {
@@ -83,14 +84,14 @@ pub fn certainty(findings: &Findings) -> String {
         (_, None) if best.is_exact() => "All others have noise.".to_owned(),
         (_, None) => "No other combination is ranked.".to_owned(),
         (None, Some(lead)) => {
-            format!("It is {} times as efficient as the next; how sure that is, one repeat cannot tell.", significant(lead))
+            format!("It is {} times as efficient as the next; a single repeat gives no confidence interval.", significant(lead))
         }
         (Some(factor), Some(lead)) if findings.rivals().next().is_none() => {
             let [low, lead, high] = [lead / factor, lead, lead * factor].map(significant);
             format!("It is {lead} times as efficient as the next (95 %, by the spread of repeats: {low} to {high}).")
         }
         (Some(factor), Some(_)) => format!(
-            "By the spread of repeats, ratios of efficiencies are known to a factor of {} (95 %). Within that are also: {}.",
+            "By the spread of repeats, ratios of efficiencies are known to a factor of {} (95 %). These cannot be told apart from it: {}.",
             significant(factor),
             some_of(findings.rivals().map(|outcome| label(&outcome.settings)).collect())
         ),

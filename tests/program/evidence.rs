@@ -67,6 +67,15 @@ fn the_chapter_of_the_furnace_finds_what_is_known_of_it() {
         assert!(row[0] == cap && (bias - exact).abs() <= 5.0 * error + 1e-3, "{row:?}");
     }
     assert_eq!(rows.len(), 1 + exact.len());
+    // Pixels share nothing in any comparison but that of sharing.
+    let csv = read("study.csv");
+    let column = |name: &str| csv.lines().next().and_then(|line| line.split(',').position(|column| column == name));
+    let [reuse, adaptive] = ["reuse", "adaptive"].map(|name| column(name).expect("a column"));
+    let mut lines = csv::Reader::from_reader(csv.as_bytes());
+    let settings: BTreeSet<[String; 2]> =
+        lines.records().map(|line| [reuse, adaptive].map(|at| line.as_ref().expect("a line")[at].to_owned())).collect();
+    assert!(settings.iter().all(|[reuse, adaptive]| reuse != "auto" && adaptive == "off"), "{settings:?}");
+    assert!(tables.contains_key("equal_time_sharing"));
     assert!(read("bias_of_roulette.tex").contains("\\begin{tabular}{lrrrrrl}"));
     // The corner of the first picture of caps shows radiance 1.
     let corner = || {

@@ -4,7 +4,7 @@ use crate::{
     report::sheet::{Cell, sheet},
     scene::RenderSettings,
     study::{
-        Findings, Machine, Outcome, StudyError, Subject, differing_labels,
+        Findings, Machine, Outcome, Standing, StudyError, Subject, differing_labels,
         measure::Bench,
         report,
         setting::{Setting, label},
@@ -97,13 +97,27 @@ impl Exhibits<'_> {
 
     /// What a reader must know of a row before its numbers.
     pub fn remark(&self, outcome: &Outcome) -> String {
-        let is_infinite = self.subject.scene.infinite_variance(&outcome.settings).is_some();
+        let of_standing = match outcome.standing {
+            Standing::TooNoisy => "error near that of a black picture".to_owned(),
+            _ => report::remark(outcome),
+        };
+        let said = |holds: bool, remark: &str| if holds { remark.to_owned() } else { String::new() };
         let remarks = [
-            report::remark(outcome),
-            if outcome.is_exact() { "no noise".to_owned() } else { String::new() },
-            if is_infinite { "variance may be infinite".to_owned() } else { String::new() },
+            of_standing,
+            said(outcome.is_exact(), "no noise"),
+            said(self.has_infinite_variance(outcome), "variance may be infinite"),
+            said(outcome.mean_error.has_heavy_tails, "heavy tails"),
         ];
         remarks.into_iter().filter(|remark| !remark.is_empty()).collect::<Vec<_>>().join("; ")
+    }
+
+    fn has_infinite_variance(&self, outcome: &Outcome) -> bool {
+        self.subject.scene.infinite_variance(&outcome.settings).is_some()
+    }
+
+    /// Whether the variance that samples show bounds anything: not where it may be infinite, nor where few samples make up most of it.
+    pub fn trusts_variance(&self, outcome: &Outcome) -> bool {
+        !self.has_infinite_variance(outcome) && !outcome.mean_error.has_heavy_tails
     }
 }
 

@@ -1,7 +1,7 @@
 //! The chapter of a report for one's own scene: what converges, how fast, and how sure that is.
 //!
-//! Each question is a small [`Study`] of one setting, all others as the scene has them and without a cap; measurements are kept in the
-//! folder as those of any other study.
+//! Each question is a small [`Study`] of one setting, all others as the scene has them, without a cap, sharing or adaptive samples;
+//! measurements are kept in the folder as those of any other study.
 mod chapter;
 pub(super) mod exhibits;
 mod page;
@@ -24,7 +24,7 @@ use crate::{
     memory::{self, Reservation, TooMuch},
     render::{Display, film::Film, pass::Threads},
     sampling::{Directions, Sampler},
-    scene::{Estimator, Roulette},
+    scene::{Estimator, Reuse, Roulette},
 };
 
 const REPEATS: u32 = 3;
@@ -46,17 +46,21 @@ struct Topic {
     lists: Lists,
 }
 
-fn topics() -> [Topic; 5] {
-    let uncapped = || Lists { caps: vec![None], ..Lists::default() };
+/// Pixels share nothing and have equally many samples but where that is the question: a setting that lets `Reuse::Auto` decide otherwise
+/// would be compared with and without sharing, and not with the others.
+fn topics() -> [Topic; 6] {
+    let alone = || Lists { reuses: vec![Reuse::Off], adaptive: vec![false], ..Lists::default() };
+    let uncapped = || Lists { caps: vec![None], ..alone() };
     let roulettes = vec![Roulette::Off, Roulette::Fixed(0.5), Roulette::Fixed(0.8), Roulette::BY_THROUGHPUT];
     let samplers = vec![Sampler::Independent, Sampler::Stratified, Sampler::Sobol];
     let directions = vec![Directions::Uniform, Directions::Cosine, Directions::Bsdf];
     [
-        Topic { setting: Setting::Cap, lists: Lists { caps: CAPS.to_vec(), ..Lists::default() } },
+        Topic { setting: Setting::Cap, lists: Lists { caps: CAPS.to_vec(), ..alone() } },
         Topic { setting: Setting::Roulette, lists: Lists { roulettes, ..uncapped() } },
         Topic { setting: Setting::Directions, lists: Lists { directions, ..uncapped() } },
         Topic { setting: Setting::Estimator, lists: Lists { estimators: Estimator::ALL.to_vec(), ..uncapped() } },
         Topic { setting: Setting::Sampler, lists: Lists { samplers, ..uncapped() } },
+        Topic { setting: Setting::Reuse, lists: Lists { reuses: vec![Reuse::Off, Reuse::On], ..uncapped() } },
     ]
 }
 

@@ -32,7 +32,7 @@ pub fn html(exhibits: &Exhibits, tables: &[Table], plots: &[(String, String, Plo
         h1 { "Evidence: " (title) }
         p.source { (subject.path.display()) ", " (exhibits.extent()) ". noisefall " (machine.version) ", commit " (machine.commit) ", "
             (machine.date) " UTC, " (machine.threads) " threads, " (machine.simd) ", " (machine.cpu) "." }
-        p { "Beside this page stand every plot as SVG and PNG, every sheet of pictures as PNG, every table as CSV and as a LaTeX tabular, \
+        p { "The same folder has every plot as SVG and PNG, every sheet of pictures as PNG, every table as CSV and as a LaTeX tabular, \
              and all measurements in study.csv." }
         h2 { "Error against the number of samples" }
         (picture(0)) (tables_of("convergence")) (of("error_by_sampler")) (of("variance"))
@@ -46,6 +46,9 @@ pub fn html(exhibits: &Exhibits, tables: &[Table], plots: &[(String, String, Plo
         (tables_of("equal_time_estimator")) (of("error_by_estimator"))
         h2 { "Samplers at equal time" }
         (tables_of("equal_time_sampler"))
+        h2 { "Paths shared by neighbouring pixels, at equal time" }
+        p { "All other comparisons on this page are made without sharing and without adaptive sampling." }
+        (tables_of("equal_time_sharing"))
     };
     report::page(&format!("Evidence: {title}"), STYLE, &content)
 }

@@ -17,6 +17,9 @@ use crate::{
 const NORMAL_95: f64 = 1.96;
 /// A cell of what is not known.
 const UNKNOWN: &str = "–";
+/// Why rows have no intervals.
+const UNTRUSTED: &str =
+    "No interval is given where the variance may be infinite, nor where few samples make up most of it (heavy tails)";
 
 impl Exhibits<'_> {
     /// All tables, in the order of the chapter.
@@ -24,7 +27,7 @@ impl Exhibits<'_> {
         let convergence = self.of(Setting::Sampler).map(|findings| self.convergence(findings));
         let bias = [(Setting::Cap, "bias_of_caps"), (Setting::Roulette, "bias_of_roulette")];
         let bias = bias.into_iter().filter_map(|(setting, name)| Some(self.bias(setting, name, self.of(setting)?)));
-        let equal_time = [Setting::Directions, Setting::Estimator, Setting::Sampler, Setting::Roulette];
+        let equal_time = [Setting::Directions, Setting::Estimator, Setting::Sampler, Setting::Roulette, Setting::Reuse];
         let equal_time = equal_time.into_iter().filter_map(|setting| Some(self.equal_time(setting, self.of(setting)?)));
         convergence.into_iter().chain(bias).chain(equal_time).collect()
     }
@@ -33,8 +36,9 @@ impl Exhibits<'_> {
     fn convergence(&self, findings: &Findings) -> Table {
         let row = |outcome: &Outcome| {
             let last = outcome.last();
-            let [of_error, error_width] = exponents(outcome.slope);
-            let [of_variance, variance_width] = exponents(slope(&outcome.variances));
+            let is_bounded = self.trusts_variance(outcome);
+            let [of_error, error_width] = exponents(outcome.slope, is_bounded);
+            let [of_variance, variance_width] = exponents(slope(&outcome.variances), is_bounded);
             let (name, remark) = (values(Setting::Sampler, outcome), self.remark(outcome));
             let error = if outcome.is_exact() { UNKNOWN.to_owned() } else { error_in_percent(last.rel_mse) };
             vec![name, last.spp.to_string(), error, of_error, error_width, of_variance, variance_width, remark]
@@ -43,10 +47,10 @@ impl Exhibits<'_> {
         Table {
             name: "convergence".to_owned(),
             caption: format!(
-                "Error, the root of relMSE, after so many samples a pixel N, and the exponents of N by which it and the variance of a \
-                 pixel fall, ± half the width of their 95 % intervals. The variance is measured: it is the mean squared error over \
-                 pixels and channels, without the reference's own. Independent samples have −1/2 and −1, samples that are spread \
-                 evenly less ({}).",
+                "Error (the root of relMSE) after N samples a pixel, and the exponents of N with which the error and the variance of a \
+                 pixel fall, ± half the width of their 95 % intervals. The variance is measured as the mean squared error over pixels \
+                 and channels, less the error of the reference. Independent samples give −1/2 and −1; stratified and Sobol samples \
+                 can fall faster. {UNTRUSTED} ({}).",
                 self.circumstances(findings)
             ),
             columns: columns(Setting::Sampler, &numbers),
@@ -61,10 +65,9 @@ impl Exhibits<'_> {
         Table {
             name: name.to_owned(),
             caption: format!(
-                "Bias: the mean of the picture less that of the reference, W/(sr m²), and its standard error by the variance of the \
-                 samples (of stratified and Sobol samples at most so large); z, the bias in standard errors, {UNKNOWN} where samples \
-                 do not vary; the bias as a part of the mean, and the largest one that 95 % confidence leaves, {UNKNOWN} where the \
-                 variance may be infinite ({}).",
+                "Bias: the mean of the picture minus the mean of the reference, W/(sr m²), with the standard error that the variance of \
+                 the samples gives (an upper bound for stratified and Sobol samples); z, the bias in standard errors; the bias \
+                 relative to the mean; and the bound that 95 % of such intervals keep: a larger bias is excluded. {UNTRUSTED} ({}).",
                 self.circumstances(findings)
             ),
             columns: columns(setting, &["bias", "standard error", "z", "of the mean, %", "excluded beyond, %"]),
@@ -75,18 +78,18 @@ impl Exhibits<'_> {
     fn row_of_bias(&self, setting: Setting, outcome: &Outcome, mean: f64) -> Vec<String> {
         let found = outcome.mean_error;
         let (bias, standard_error) = mean_and_error(found);
+        let is_trusted = self.trusts_variance(outcome);
         // Below the rounding of single precision a difference is no matter of chance.
-        let z = (found.standard_error > ROUNDING.sqrt() * mean).then(|| number(found.mean / found.standard_error));
+        let has_noise = found.standard_error > ROUNDING.sqrt() * mean;
+        let z = (is_trusted && has_noise).then(|| number(found.mean / found.standard_error));
         let most = found.mean.abs() + NORMAL_95 * found.standard_error;
-        // What the samples say of an infinite variance bounds nothing.
-        let is_finite = self.subject.scene.infinite_variance(&outcome.settings).is_none();
         vec![
             values(setting, outcome),
             bias,
-            known(standard_error),
+            known(standard_error.filter(|_| is_trusted)),
             known(z),
             number(100.0 * found.mean / mean),
-            known(is_finite.then(|| number(100.0 * most / mean))),
+            known(is_trusted.then(|| number(100.0 * most / mean))),
             self.remark(outcome),
         ]
     }
@@ -96,7 +99,7 @@ impl Exhibits<'_> {
         let time = findings.equal_time();
         let row = |outcome: &Outcome| {
             let reached = time.and_then(|seconds| outcome.after(seconds)).filter(|_| !outcome.is_exact());
-            let interval = findings.interval(outcome);
+            let interval = findings.interval(outcome).filter(|_| self.trusts_variance(outcome));
             vec![
                 values(setting, outcome),
                 known(reached.map(|(samples, _)| number(samples))),
@@ -118,21 +121,20 @@ impl Exhibits<'_> {
     fn caption_of_equal_time(&self, setting: Setting, findings: &Findings, time: Option<f64>) -> String {
         let name = capitalised(setting.name());
         let time = time.map_or_else(
-            || format!("{name}: none has noise without being biased or too noisy, and there is no time T to compare at."),
+            || format!("{name}: no setting has noise without bias, so there is no time T at which to compare."),
             |seconds| {
                 format!(
-                    "{name} after the same rendering time T = {} s, the shortest of those that are neither biased nor too noisy: samples \
-                     a pixel and error, the root of relMSE, on straight lines between the logarithms of what was measured ({UNKNOWN} \
-                     where T is before or after all of it).",
+                    "{name} after the same rendering time T = {} s, at which the fastest of the unbiased settings ends: samples a pixel \
+                     and error (the root of relMSE), interpolated between measured points on logarithmic axes ({UNKNOWN} where T is \
+                     outside of what was measured).",
                     significant(seconds)
                 )
             },
         );
         format!(
-            "{time} Efficiency is 1/(relMSE · s) at the end of the runs, as a part of the best, and the ends of its 95 % interval by the \
-             spread of the runs ({UNKNOWN} for the best itself, and for what is biased, too noisy or has less than a tenth of its \
-             efficiency); of two the one of twice the efficiency needs half the time for the same error where both errors fall alike \
-             ({}).",
+            "{time} Efficiency is 1/(relMSE · s) at the end of the runs, relative to the best, with its 95 % interval by the spread of \
+             the runs ({UNKNOWN} for the best itself and for biased settings). Twice the efficiency means the same error in half the \
+             time, as long as both errors fall at the same rate. {UNTRUSTED} ({}).",
             self.circumstances(findings)
         )
     }
@@ -158,6 +160,8 @@ fn error_in_percent(rel_mse: f64) -> String {
     number(100.0 * rel_mse.sqrt())
 }
 
-fn exponents(slope: Option<Slope>) -> [String; 2] {
-    slope.map_or_else(|| [UNKNOWN; 2].map(str::to_owned), exponent)
+/// An exponent and half the width of its interval, where there is one.
+fn exponents(slope: Option<Slope>, is_bounded: bool) -> [String; 2] {
+    let Some([exponent, width]) = slope.map(exponent) else { return [UNKNOWN; 2].map(str::to_owned) };
+    [exponent, known(is_bounded.then_some(width))]
 }

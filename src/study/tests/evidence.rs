@@ -8,8 +8,8 @@ use super::{
 use crate::{
     math::{SimdLevel, colour::srgb_from_linear},
     measure::Floor,
-    render::{Display, pass::Threads, truth},
-    sampling::{Directions, Sampler},
+    render::{pass::Threads, truth},
+    sampling::Sampler,
     scene::{Camera, Estimator, RenderSettings, Roulette, parse},
     study::{
         Bench, Findings, Lists, Plan, Run, Store, Study, Subject,
@@ -92,8 +92,56 @@ fn a_bias_is_told_in_standard_errors_and_bounded_where_the_variance_is_finite() 
         assert_eq!((names[0], &names[1..6], names[6]), ("roulette", &numbers[..], "remark"));
         // Two runs of 0.1/√16 each are known together to 0.025/√2 = 0.01768; 0.01 + 1.96 · 0.01768 = 0.0446.
         assert_eq!(table.rows[0], ["off", "−0.010", "0.018", "−0.566", "−1.00", "4.46", ""]);
-        assert_eq!(table.rows[2], ["0.2", "+0.000", "0.018", "0.00", "0.00", "–", "variance may be infinite"]);
+        assert_eq!(table.rows[2], ["0.2", "+0.000", "–", "–", "0.00", "–", "variance may be infinite"]);
     });
+}
+
+/// `light` is the best, `mis` has heavy tails, and the error of `path` is still near that of a black picture.
+fn estimators() -> Findings {
+    let with = |estimator, runs: [Run; 2]| outcome(RenderSettings { estimator, ..RenderSettings::default() }, &runs);
+    let heavy = || {
+        let mut run = run(0.02, 1.0);
+        run.checkpoints.iter_mut().for_each(|point| point.effective_samples = Some(100.0));
+        run
+    };
+    findings(vec![
+        with(Estimator::Path, [run(0.8, 0.5), run(0.6, 0.5)]),
+        with(Estimator::Light, [run(0.01, 1.0), run(0.01, 1.0)]),
+        with(Estimator::Mis, [heavy(), heavy()]),
+    ])
+}
+
+#[test]
+fn what_is_noisy_is_compared_too_and_heavy_tails_have_no_interval() {
+    with_exhibits(estimators(), Setting::Estimator, |exhibits| {
+        let table = exhibits.tables().into_iter().find(|table| table.name == "equal_time_estimator").expect("a table");
+        assert!(table.caption.contains("T = 0.500 s"), "{}", table.caption);
+        let row = |name: &str| table.rows.iter().find(|row| row[0] == name).expect("a row").clone();
+        assert_eq!(row("light"), ["light", "8.00", "14.1", "1.00", "–", "–", ""]);
+        assert_eq!(row("mis"), ["mis", "8.00", "20.0", "0.500", "–", "–", "heavy tails"]);
+        let path = row("path");
+        assert_eq!(
+            (&path[1..4], path[6].as_str()),
+            (&["16.0", "83.7", "0.0289"].map(str::to_owned)[..], "error near that of a black picture")
+        );
+        let [low, high] = [&path[4], &path[5]].map(|cell| cell.parse::<f64>().expect("a number"));
+        assert!(low < 0.0289 && high > 0.0289, "{path:?}");
+    });
+}
+
+#[test]
+fn tails_of_two_runs_are_judged_together() {
+    let with = |samples: [f64; 2]| {
+        let runs = samples.map(|count| {
+            let mut run = run(0.01, 1.0);
+            run.checkpoints.iter_mut().for_each(|point| point.effective_samples = Some(count));
+            run
+        });
+        outcome(RenderSettings::default(), &runs).mean_error.has_heavy_tails
+    };
+    // Two equal variances of n samples each are as good as 2n.
+    assert!(with([149.0; 2]) && !with([151.0; 2]) && with([1e6, 70.0]) && !with([1e6, 80.0]));
+    assert!(!with([f64::INFINITY; 2]));
 }
 
 #[test]

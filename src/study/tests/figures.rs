@@ -16,7 +16,15 @@ use crate::{
 fn outcome(settings: RenderSettings, rel_mse: f64, twins: Vec<RenderSettings>) -> Outcome {
     let point = |n: u32| {
         let share = f64::from(n) / 16.0;
-        Checkpoint { spp: n, seconds: 4.0 * share, rmse: 1.0, rel_mse: rel_mse / share, bias: 0.0, bias_standard_error: None }
+        Checkpoint {
+            spp: n,
+            seconds: 4.0 * share,
+            rmse: 1.0,
+            rel_mse: rel_mse / share,
+            bias: 0.0,
+            bias_standard_error: None,
+            effective_samples: None,
+        }
     };
     let run = Run { checkpoints: checkpoints(16).into_iter().map(point).collect(), ..Run::default() };
     Outcome::of(Group { settings, twins }, &[run], Limits { floor: 0.0, black: 1e9, variance_of_mean: 0.0, mean: 1.0 })

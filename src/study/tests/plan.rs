@@ -9,7 +9,7 @@ use crate::{
     scene::{Estimator, RenderSettings, Reuse, Roulette},
     study::{
         Lists, Plan, StudyError, Subject, checkpoints,
-        measure::{Bench, follow, measure},
+        measure::{Bench, NoiseOfMean, follow, measure},
         plan::study_size,
         trial::{group, groups},
     },
@@ -82,7 +82,8 @@ fn the_time_of_a_checkpoint_is_that_of_all_rendering_so_far() {
         follow(&plan, |spp| {
             let error = f64::from(spp);
             let comparison = Comparison { rmse: error, rel_mse: 2.0 * error, bias: -error };
-            Ok((Duration::from_secs(u64::from(spp)), u64::from(spp) * 10, comparison, Some(3.0 * error)))
+            let noise = NoiseOfMean { standard_error: 3.0 * error, effective_samples: 5.0 * error };
+            Ok((Duration::from_secs(u64::from(spp)), u64::from(spp) * 10, comparison, Some(noise)))
         })
         .expect("nothing fails")
     };
@@ -91,6 +92,7 @@ fn the_time_of_a_checkpoint_is_that_of_all_rendering_so_far() {
     assert_eq!(seconds, [(1, 1.0), (2, 3.0), (4, 7.0), (8, 15.0), (12, 27.0)]);
     assert_eq!(cut, 270);
     let last = all.checkpoints[4];
+    assert_eq!(last.effective_samples, Some(60.0));
     assert_eq!((last.rmse, last.rel_mse, last.bias, last.bias_standard_error), (12.0, 24.0, -12.0, Some(36.0)));
     // After 7 s and 4 samples, 8 samples would be there after 14 s.
     assert_eq!([14, 13].map(|time| run(time).0.checkpoints.len()), [4, 3]);

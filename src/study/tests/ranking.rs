@@ -10,6 +10,7 @@ use crate::{
     scene::{Estimator, RenderSettings, Roulette},
     study::{
         Checkpoint, Findings, Outcome, Run, Standing, checkpoints,
+        fit::student_95,
         outcome::Limits,
         ranking::rank,
         setting::Setting,
@@ -32,6 +33,7 @@ pub(super) fn run(rel_mse: f64, seconds: f64) -> Run {
             rel_mse,
             bias: 0.0,
             bias_standard_error: Some(0.1 / share.sqrt()),
+            effective_samples: Some(1e4 * share),
         }
     };
     Run { checkpoints: checkpoints(16).into_iter().map(point).collect(), ..Run::default() }
@@ -155,10 +157,21 @@ fn what_is_far_worse_says_nothing_of_how_sure_the_first_places_are() {
     // 0.0145/√(0.01 · 0.011) = 1.3825, divided and multiplied by the factor.
     let said = "It is 1.38 times as efficient as the next (95 %, by the spread of repeats: 1.13 to 1.70).";
     assert_eq!(certainty(&far), said);
-    // The best is 1 by definition; 1/1.3825 divided and multiplied by the factor; and 0.01049/√(0.2 · 0.15) is too far.
+    // The best is 1 by definition; 1/1.3825 divided and multiplied by the factor.
     let intervals: Vec<Option<[f64; 2]>> = far.outcomes.iter().map(|outcome| far.interval(outcome)).collect();
-    let [None, Some([low, high]), None] = intervals[..] else { panic!("{intervals:?}") };
+    let [None, Some([low, high]), Some([lowest, highest])] = intervals[..] else { panic!("{intervals:?}") };
     assert!((low - 0.5892).abs() < 1e-3 && (high - 0.8880).abs() < 1e-3, "{low} {high}");
+    // What is far is known by its own spread and that of the best. The logarithms of two numbers of the ratio q have a mean of the variance
+    // ln² q/4: ln² (4/3)/4 + ln² 1.1/4 = 0.022961, to 0.022961²/(0.020690² + 0.002271²) = 1.217 degrees of freedom.
+    let ratio = (0.01f64 * 0.011).sqrt() / (0.2f64 * 0.15).sqrt();
+    let factor = (student_95(1.2172) * 0.022_961f64.sqrt()).exp();
+    assert!(
+        (highest / (ratio * factor) - 1.0).abs() < 1e-2 && (lowest / (ratio / factor) - 1.0).abs() < 1e-2,
+        "{lowest} {highest}"
+    );
+    let biased =
+        outcome(RenderSettings { seed: 7, ..RenderSettings::default() }, &[Run { bias: "cut".to_owned(), ..run(0.2, 1.0) }]);
+    assert_eq!(far.interval(&biased), None);
 }
 
 #[test]
@@ -223,7 +236,7 @@ fn findings_in_words_have_their_numbers() {
     // Two variances, ln² 1.5/2 and ln² 1.2/2, with a degree of freedom each.
     assert_eq!(
         certainty(&close),
-        "By the spread of repeats, ratios of efficiencies are known to a factor of 2.60 (95 %). Within that are also: path, bsdf, \
+        "By the spread of repeats, ratios of efficiencies are known to a factor of 2.60 (95 %). These cannot be told apart from it: path, bsdf, \
          sobol, roulette throughput."
     );
     let biased = Run { bias: "cap at 2".to_owned(), ..run(0.01, 1.0) };

@@ -32,6 +32,7 @@ fn points(rel_mse: f64, seconds: f64) -> Run {
             rel_mse: rel_mse / share,
             bias: -0.125,
             bias_standard_error: Some(0.03),
+            effective_samples: Some(500.0),
         }
     };
     Run {
@@ -79,7 +80,7 @@ fn lines_of_a_run_say_all_that_it_depends_on() {
     assert_eq!(names, ["light", "cosine", "stratified", "off", "2", "0.5", "a/scene.toml"]);
     assert_eq!((row.reuse.as_str(), row.shares, row.adaptive.as_str(), row.adapts), ("off", true, "on", true));
     assert_eq!((row.seconds, row.rel_mse, row.rmse, row.bias), (4.0, 0.04, 0.25, -0.125));
-    assert_eq!(row.bias_standard_error, Some(0.03));
+    assert_eq!((row.bias_standard_error, row.effective_samples), (Some(0.03), Some(500.0)));
     assert_eq!((row.paths_per_second, row.reference_rel_mse, row.invalid_samples), (20.0 * 10.0 * 8.0 / 4.0, 0.01, 3));
     assert_eq!(
         [&row.biased, &row.reference, &row.simd, &row.cpu, &row.version, &row.commit, &row.key],
