@@ -54,7 +54,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         write(output, &sections, suite, effort, arguments.seed)?;
         keep(&output.join(KEPT), &kept)?;
     } else {
-        print("no report was written: -o DIR says where to")?;
+        print("no report was written: add -o DIR to get one")?;
     }
     let statements: usize = sections.iter().map(|section| section.statements.len()).sum();
     let failed: usize = sections.iter().map(failures).sum();

@@ -24,22 +24,17 @@ pub fn section(sections: &[Section]) -> Section {
     let median = Normal::standard().inverse_cdf((1.0 + 0.5f64.powf(1.0 / scores.len().max(1) as f64)) / 2.0);
     Section {
         title: "All statements together",
-        claim: "The deviations of the whole report are as large as chance makes them: neither larger, nor smaller.",
+        claim: "The deviations in the whole report have the size that chance predicts: neither larger nor smaller.",
         derivation: &[
-            "If the exact numbers and the standard errors are right, the z of independent measurements are standard normal numbers. A single \
-             one says little; a bias that is too small for each, or standard errors that are all too large, shows in their distribution. \
-             Every measurement has random numbers of its own; statements that share samples with one before (marked *) are left out, and \
-             so are those whose test is not normal: tolerances, counts, χ², bounds.",
-            "A statement with chance in it fails by chance with a probability of its own, 6.3 · 10⁻⁵ at 4 standard errors. Of independent \
-             statements at least one does with 1 − Π(1 − pᵢ).",
+            "If the exact numbers and the standard errors are right, the z of independent measurements are standard normal numbers. A single z says little. A bias too small for any single row, or standard errors that are all too large, shows in their distribution. Every measurement uses its own random numbers. Statements that share samples with an earlier one (marked *) are left out, as are those whose test statistic is not normal: tolerances, counts, χ², bounds.",
+            "A correct program fails a statistical statement with a known probability pᵢ, 6.3 · 10⁻⁵ at 4 standard errors. At least one of several independent statements fails with probability 1 − Π(1 − pᵢ).",
         ],
         source: "The distance of Kolmogorov and Smirnov, with the probability as M. A. Stephens, 1970, approximates it; Z. Šidák, 1967.",
         statements: own,
         figures: if scores.is_empty() { Vec::new() } else { vec![histogram(&scores), quantiles(&scores)] },
         remark: Some(format!(
-            "{} statements before, of which {sharing} share samples with one before; {} z-scores are pooled. The largest |z| is {largest:.2}; \
-             half of all sets of as many normal numbers have one above {median:.2}. A correct program fails this report with \
-             probability {:.1} % for a seed that nobody has tried.",
+            "The sections above have {} statements, {sharing} of which share samples with an earlier one; {} z-scores are pooled. The largest |z| is {largest:.2}; \
+             in half of all sets of this many normal numbers the largest exceeds {median:.2}. With a seed that nobody has tried, a correct program fails this report with probability {:.1} %.",
             all().count(),
             scores.len(),
             100.0 * family

@@ -43,12 +43,10 @@ impl Suite {
         match self {
             Suite::Exact => {
                 "L(x, ω_o) = L_e(x, ω_o) + ∫ f(x, ω_o, ω_i) L(x_M(x, ω_i), −ω_i) |cos θ_i| dω_i, where x_M is the first surface point \
-                 seen from x along ω_i: solved by Monte Carlo integration and held against exact solutions in"
+                 seen from x along ω_i: solved by Monte Carlo integration and compared with exact solutions in"
             }
             Suite::Stress => {
-                "Random and adversarial scenes, each read, compiled and rendered as a user's file would be: no sample may be negative or \
-                 not finite, energy that is known must be kept, x_M must be what f64 says, no scene may hang, and what cannot be rendered \
-                 must be refused clearly. Held in"
+                "Random and adversarial scenes, each read, compiled and rendered like a user's file. No sample may be negative or not finite, known energy must be conserved, x_M must agree with double precision, no scene may hang, and a scene that cannot be rendered must be refused with a clear message:"
             }
         }
     }
@@ -56,15 +54,10 @@ impl Suite {
     fn conditions(self) -> &'static str {
         match self {
             Suite::Exact => {
-                "A statement with chance in it fails beyond 4 standard errors, unless its row says otherwise. The column “notices” has the \
-                 smallest bias that would fail it with a probability of 95 %: (4 + 1.645) standard errors, or the tolerance; in per cent \
-                 of the exact number, of a share or of a probability, else in units of what is measured. * marks statements about \
-                 samples that one before is about too. All samples are seeded and the same on every machine; only the times of direct \
-                 light differ. The folder has all rows as report.csv and report.json, and the figures as SVG."
+                "A statistical statement fails when it deviates by more than 4 standard errors, unless its row says otherwise. The column “notices” gives the smallest bias that would make it fail with 95 % probability: (4 + 1.645) standard errors, or the tolerance, in per cent of the exact number, of a share or of a probability, otherwise in the unit of the measured number. * marks statements that reuse the samples of an earlier statement. All samples are seeded and identical on every machine; only the times of direct light differ. The same folder has all rows as report.csv and report.json, and the figures as SVG."
             }
             Suite::Stress => {
-                "A scene is named by its family and number and is the same on every machine; only times differ. Those that fail are \
-                 written to the folder stress beside this report."
+                "A family and a number name a scene, which is the same on every machine; only times differ. Scenes that fail are written to the folder “stress” next to this report."
             }
         }
     }

@@ -70,15 +70,11 @@ pub fn section(validation: &Validation) -> Section {
         title: "The program as it opens",
         claim: "The settings that the program opens with, all together and each by itself, give the exact means.",
         derivation: &[
-            "The defaults are MIS, Sobol points, directions by bsdf, roulette by throughput from the fourth bounce on, and paths shared among \
-             pixels where a trial says that it pays; adaptive sampling can be asked for. They render here as the program does, in \
-             passes over a film, after the same decisions. Sharing and adaptive sampling have rows where the program does them: glass, for one, \
-             shares nothing, and where noise is alike everywhere there is nothing to adapt to.",
+            "The defaults are MIS, Sobol points, directions by bsdf, roulette by throughput from the fourth bounce on, and paths shared among pixels where a trial shows that it pays; adaptive sampling is optional. These rows render like the program itself, in passes over a film and after the same decisions. Sharing and adaptive sampling have rows where the program applies them: glass, for example, shares nothing, and where the noise is uniform there is nothing to adapt to.",
             "A wall of the textured integrating sphere shows L_e + ρ H with H of the section on that room. Under a lamp that is partly set the \
              ground shows (ρ/π) E. Within the closed sphere the wall shows 0.5, and a clear ball of glass in a field of 1 shows 1. Of \
              Lambert’s ball the lit pixels are summed.",
-            "Such samples are not independent of each other, so that their variance says little. The mean of a picture is taken for several seeds; these means \
-             are independent, and their scatter gives the standard error (Student’s t).",
+            "These samples are not independent of each other, so their variance does not give the standard error. The picture is rendered with several seeds; the means are independent, and their scatter gives the standard error (Student’s t).",
         ],
         source: "P. Bekaert, M. Sbert and J. Halton, “Accelerating Path Tracing by Re-Using Paths”, 2002, for shared paths.",
         statements,

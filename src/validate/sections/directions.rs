@@ -61,14 +61,12 @@ pub fn section(validation: &Validation) -> Section {
     }
     Section {
         title: "Cosine against uniform directions",
-        claim: "Both find the same light; how much more noise uniform directions have is known exactly.",
+        claim: "Both give the same mean; the ratio of their variances is known exactly.",
         derivation: &[
-            "Ground of albedo ρ lies under a lamp of radiance 1 that fills the sky from the zenith to the angle α. It sends back \
-             L = (ρ/π) ∫ cos θ dω = ρ sin²α. Here ρ = 0.8 and sin α = 0.3, 0.6, 0.9 and 1.",
+            "Ground of albedo ρ lies under a lamp of radiance 1 that fills the sky from the zenith to the angle α. It reflects L = (ρ/π) ∫ cos θ dω = ρ sin²α. Here ρ = 0.8 and sin α = 0.3, 0.6, 0.9 and 1.",
             "Cosine directions, p = cos θ/π, have the samples f cos θ/p = ρ inside the lamp and 0 outside: E X² = ρ² sin²α. Uniform \
              directions, p = 1/(2π), have 2ρ cos θ inside: E X² = 4ρ² ∫ μ² dμ from cos α to 1 = (4/3) ρ² (1 − cos³α).",
-            "Under a whole sky the first variance is 0 and the second ρ²/3. For a small lamp overhead the ratio tends to 2: cosine \
-             directions go there twice as often.",
+            "Under a whole sky the first variance is 0 and the second ρ²/3. For a small lamp overhead the ratio tends to 2: there cosine sampling has twice the density.",
         ],
         source: "Both densities over the hemisphere integrate to 1; the section on sampled directions tests them.",
         statements,

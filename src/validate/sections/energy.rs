@@ -70,12 +70,11 @@ pub fn section(validation: &Validation) -> Section {
     statements.extend(reciprocity(validation));
     Section {
         title: "Energy",
-        claim: "What absorbs nothing is invisible in a uniform field: no angle, no roughness makes or loses light. And light can go \
-                back the way it came.",
+        claim: "A surface that absorbs nothing is invisible in a uniform field: light is neither gained nor lost at any angle or roughness. And f is reciprocal.",
         derivation: &[
             "In a field of radiance 1 from all directions a lossless surface sends L/n² = 1 into every direction, 1 outside and n² \
              inside of glass: a ball of it, whatever it is made of, cannot be told from the background. At the edge of the ball it is seen at grazing \
-             angles. A glass ball reflects and refracts many times on the way; all of it adds up to 1.",
+             angles. Light is reflected and refracted many times in a glass ball; all contributions add up to 1.",
             "Rough surfaces lose the light that microfacets scatter more than once, unless it is given back: that part comes from \
              tables, which interpolate between cells. A metal may gain or lose some 3 · 10⁻⁴ by that; pictures of rough surfaces \
              therefore allow 10⁻³ besides the noise, and say that they notice no less; rows by quadrature, which has no noise, say how much it is. Smooth ones allow rounding.",

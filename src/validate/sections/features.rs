@@ -44,16 +44,13 @@ pub fn section(validation: &Validation) -> Section {
     statements.push(lens(validation));
     Section {
         title: "Meshes, lenses, many lamps",
-        claim: "Other ways to say the same scene give the same light: triangles for faces, hundreds of lamps for one, a lens for a point.",
+        claim: "The same scene described in another way gives the same light: triangles in place of faces, hundreds of lamps in place of one, a lens in place of a pinhole.",
         derivation: &[
-            "A box of twelve triangles whose inside emits 1 and reflects 1/2 is a furnace: every sample is 2. A path that meets a wall \
-             within rounding of an edge may be lost, which costs less than 10⁻⁶ of the light. The small rectangle of the section on direct \
+            "A box of twelve triangles whose inside emits 1 and reflects 1/2 is a furnace: every sample is 2. A path that hits a wall within rounding of an edge continues from a rounded point that may lie outside; such losses must cost less than 10⁻⁶ of the light. The small rectangle of the section on direct \
              light as two triangles of a mesh has the same irradiance. A disk of radius r at the height h has E = π L r²/(r² + h²) under its \
-             middle. Irradiances of lamps that do not hide each other add up; 300 of them are chosen from a light tree.",
-            "Of a checkered lamp, seen so that its squares are 2 × 2 pixels each, every pixel has the radiance of its square. The small \
-             rectangle turned away from the ground lights it not at all.",
-            "A lens mixes rays from its points. Where all of the picture has one radiance, it changes nothing: 0.5 within the closed \
-             sphere.",
+             middle. The irradiances of lamps that do not occlude each other add up; with 300 lamps the light tree chooses among them.",
+            "A checkered lamp is seen such that each square covers 2 × 2 pixels: every pixel has the radiance of its square. The small rectangle, turned away from the ground, does not light it.",
+            "A lens averages over rays from all of its points. Where the radiance is the same everywhere, that changes nothing: 0.5 inside the closed sphere.",
         ],
         source: "Form factors of parallel disks; J. H. Lambert, 1760; P. Moon, 1936.",
         statements,

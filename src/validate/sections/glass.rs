@@ -39,11 +39,11 @@ pub fn section(validation: &Validation) -> Section {
             "A pane of glass lets (1 − R)² Σ R²ᵏ = (1 − R)/(1 + R) through. The renderer carries no polarisation: every face \
              sees unpolarised light. Real glass polarises, and with s and p followed apart lets up to 4 % more through (0.871 in place of \
              0.862 at 56.31°).",
-            "Rays through the middle of a ball meet its surface at right angles, R = ((n − 1)/(n + 1))². A crossing lets a = t²ʳ pass. In a field of \
+            "Rays through the centre of a ball hit its surface at normal incidence, R = ((n − 1)/(n + 1))². A crossing lets a = t²ʳ pass. In a field of \
              radiance 1 the ball shows R + (1 − R)² a/(1 − R a) from outside, and its middle sees n² (1 − R) √a/(1 − R a).",
             "Without absorption L/n² = 1 everywhere in a field of 1, so that from within a clear ball everything has the radiance n², \
              wherever one stands from where all directions get out (nearer to the middle than r/n), smooth or rough.",
-            "Reciprocity across an interface: f(ω_i → ω_o)/n_o² = f(ω_o → ω_i)/n_i². Rough glass is asked both ways.",
+            "Reciprocity across an interface: f(ω_i → ω_o)/n_o² = f(ω_o → ω_i)/n_i². It is tested with rough glass in both directions.",
         ],
         source: "A. Fresnel, 1823; G. G. Stokes, 1862, for a pile of plates; A. Beer, 1852; E. Veach, 1997, for n².",
         statements,

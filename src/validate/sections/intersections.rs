@@ -52,16 +52,11 @@ pub fn section(validation: &Validation) -> Section {
     let errors: Vec<_> = errors.map(|(kind, tally)| (kind.name.clone(), tally.errors.clone())).collect();
     Section {
         title: "Hits and misses: x_M itself",
-        claim: "A ray finds the point x_M that it should, on every kind of surface, and nothing where there is nothing.",
+        claim: "On every kind of surface a ray finds the right point x_M, and it finds nothing where there is nothing.",
         derivation: &[
-            "x_M(x, ω) = x + tω with the smallest t > 0 at which the ray meets the surface. Every ray is also solved in f64 by textbook formulas \
-             in code of their own: quadrics by their quadratic equation, flat shapes and the triangles of meshes by their plane. Half of the rays \
-             are aimed at a point of the surface, half at one beside it, at distances from 10⁻⁵ to twice its size; they start inside, \
-             outside, near and far.",
-            "No ray is left out. With S the sum of the coordinates on its way, εS is their last digit in f32. If a meeting in f64 would be there \
-             for all rays that are 8 εS aside, the ray must hit; if none is there for any of them, it must miss. The rest passes within \
-             rounding of an edge, of a tangent or of where it starts, and may do either; their share has a limit.",
-            "The error of x_M is the difference of both distances times the cosine, that is, from the surface, in units of εS. Spheres have \
+            "x_M(x, ω) = x + tω with the smallest t > 0 at which the ray meets the surface. Separate code solves every ray in double precision by textbook formulas: quadrics by the quadratic equation, flat shapes and triangles of meshes by their plane. Half of the rays aim at a point on the surface, half at a point off it, at distances from 10⁻⁵ to twice its size. Rays start inside, outside, near and far.",
+            "No ray is left out. With S the sum of the coordinates along the ray, εS is their last digit in f32. If all rays displaced by up to 8 εS hit in f64, the ray must hit; if none of them does, it must miss. The remaining rays pass within rounding of an edge, a tangent or their own origin and may do either; their share is limited.",
+            "The error of x_M is the difference of the two distances times the cosine, which is the distance to the surface, in units of εS. Spheres have \
              radii from a micrometre to 1000 kilometres. The isosurface is a sphere by its formula.",
         ],
         source: "For the sphere in f32: E. Haines et al., “Precision Improvements for Ray/Sphere Intersection”, Ray Tracing Gems, 2019.",

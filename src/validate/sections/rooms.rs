@@ -15,9 +15,9 @@ pub fn section(validation: &Validation) -> Section {
     statements.extend(mirrors(validation));
     Section {
         title: "Integrating sphere and mirrors",
-        claim: "Light is mixed by a sphere and counted by mirrors as their closed forms say.",
+        claim: "An integrating sphere and a pair of mirrors agree with their closed forms.",
         derivation: &[
-            "All points of a sphere see each other alike: the irradiance is the same everywhere, and E/π = H = mean(L_e)/(1 − mean(ρ)) \
+            "Every point of a sphere sees every other point with the same form factor: the irradiance is the same everywhere, and E/π = H = mean(L_e)/(1 − mean(ρ)) \
              with means over its area, however emission and albedo are distributed. Averaged over the wall, that is over all \
              directions from the middle, the radiance is H again. Here 5 × 5 cells of albedo 0.9 and 0.2 and 3 × 3 cells of emission \
              0.25 and 2 alternate.",

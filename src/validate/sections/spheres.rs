@@ -52,8 +52,7 @@ pub fn section(validation: &Validation) -> Section {
     }
     Section {
         title: "Camera and lamp inside or outside of a sphere",
-        claim: "No light passes a closed opaque sphere, from either side; where camera and lamp are on the same side, the light is \
-                the exact one. By paths, by shadow rays and by both.",
+        claim: "No light passes through a closed opaque sphere from either side; where camera and lamp are on the same side, the radiance is exact. This holds for paths, for shadow rays and for both together.",
         derivation: &[
             "Inside: a lamp of radius r in the middle of a sphere of radius R fills the share F = (r/R)² of the cosine-weighted \
              hemisphere of every wall point, the wall itself the rest. The radiance B of the wall is B = ρ (L F + B (1 − F)), here \
@@ -62,7 +61,7 @@ pub fn section(validation: &Validation) -> Section {
              the lamp's centre and θ its angle from the normal (Lambert's ball). Here the ball is the unit sphere with ρ = 0.8, the lamp \
              lies at (1.7, 1.4, 1) with r = 0.5 and L = 8. Where the lamp dips below the horizon pixels are left out; the others are \
              summed over a picture of the lit side, each against its own exact mean.",
-            "With a wall between lamp and camera nothing arrives: each pixel is exactly 0, for no ray may step through a surface. The \
+            "With a wall between lamp and camera no light arrives: every pixel is exactly 0, because no ray may pass through a surface. The \
              estimators “light” and “mis” send shadow rays to the lamp from every point of the wall.",
         ],
         source: "Form factor of a concentric sphere; P. Moon, “The Scientific Basis of Illuminating Engineering”, 1936.",

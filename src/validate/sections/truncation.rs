@@ -63,11 +63,9 @@ pub fn section(validation: &Validation) -> Section {
     statements.push(Statement::mean("roulette by throughput, uniform directions", by_throughput, exact));
     Section {
         title: "Truncation is biased, roulette is not",
-        claim: "A cap of n bounces gives the partial sum of the series and nothing else; Russian roulette gives all of it, \
-                with a finite variance while q > ρ².",
+        claim: "A cap of n bounces gives the partial sum of the series; Russian roulette gives the whole series, with finite variance as long as q > ρ².",
         derivation: &[
-            "The k-th bounce carries L_e ρᵏ, so that a cap of n leaves L_e (1 − ρⁿ⁺¹)/(1 − ρ): the picture is too dark by \
-             L_e ρⁿ⁺¹/(1 − ρ), however many samples are taken.",
+            "The k-th bounce contributes L_e ρᵏ, so a cap of n bounces gives L_e (1 − ρⁿ⁺¹)/(1 − ρ): the picture is too dark by L_e ρⁿ⁺¹/(1 − ρ), no matter how many samples are taken.",
             "With cosine directions and fixed roulette a path that ends after its k-th wall is worth Σ (ρ/q)ⁱ up to i = k, and that has the \
              probability (1 − q) qᵏ: the numbers of paths of each length are held against that distribution by χ², which assumes nothing of \
              moments.",
@@ -76,11 +74,9 @@ pub fn section(validation: &Validation) -> Section {
              (L_e² + 2 L_e ρ L)/(1 − ρ²/q) − L², finite while q > ρ²; with uniform directions E w² = 4/(3q), finite while q > 4ρ²/3. A path has 1/(1 − q) \
              segments on the mean: that is its cost. For q = 0.3 the third moment is infinite (ρ³ > q²); that row has Catoni’s bound, as in \
              section 1.",
-            "At q ≤ ρ² = 0.25 the estimate is still unbiased, but of infinite variance: the last figure shows the variance of the samples so \
-             far for q = 0.2. It jumps whenever a rare sample comes and never settles; no error can be stated, so that there is no row.",
+            "For q ≤ ρ² = 0.25 the estimate is still unbiased, but its variance is infinite. The last figure shows the running sample variance for q = 0.2: it jumps with every rare sample and never settles. No standard error can be given, so there is no row.",
         ],
-        source: "J. Arvo and D. Kirk, “Particle Transport and Image Synthesis”, SIGGRAPH 1990. ρ = 0.5, L_e = 1. Caps have a row for their bias \
-                 where it is more than 8 standard errors of so many samples.",
+        source: "J. Arvo and D. Kirk, “Particle Transport and Image Synthesis”, SIGGRAPH 1990. ρ = 0.5, L_e = 1. The bias of a cap has a row where it exceeds 8 standard errors at this number of samples.",
         statements,
         figures: vec![caps(&capped, exact), roulettes(&survived, exact), costs(cost), running_variances(validation)],
         remark: None,

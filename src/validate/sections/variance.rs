@@ -79,14 +79,12 @@ pub fn section(validation: &Validation) -> Section {
     }
     Section {
         title: "Error falls as 1/√N",
-        claim: "The mean of N independent samples has 1/N of the variance of one, which is known in closed form, and its error against the exact \
-                value falls as 1/√N; with every other sampler it falls at least as fast, to the same value.",
+        claim: "The variance of one sample is known in closed form, and the mean of N independent samples has 1/N of it: its error against the exact value falls as 1/√N. With every other sampler the error falls at least as fast, and the mean tends to the same value.",
         derivation: &[
             "A sample is X = L_e + ρ w X′ with the weight w = 2 cos θ of a uniform direction, E w = 1, E w² = 4/3, and X′ \
              distributed as X but independent of w. Hence E X² = L_e² + 2 L_e ρ L + ρ² (4/3) E X², which gives \
              Var X = (L_e² + 2 L_e ρ L)/(1 − 4ρ²/3) − L², finite while ρ² < 3/4. Here ρ = 0.5 and L_e = 1.",
-            "With one reflection only, X = L_e (1 + 2ρ cos θ) and Var X = 4ρ² L_e² (1/3 − 1/4) = ρ² L_e²/3. Independent samples \
-             add their variances; samples that avoid each other need not, and for a smooth integrand they fall faster.",
+            "With one reflection only, X = L_e (1 + 2ρ cos θ) and Var X = 4ρ² L_e² (1/3 − 1/4) = ρ² L_e²/3. The variances of independent samples add. Stratified samples are not independent, and for a smooth integrand their error falls faster.",
             "Errors are the root mean square over 1024 pixels of the estimate less the exact value, not its own mean: a sampler that \
              converges to something else flattens out. Three integrands: one reflection (smooth, in two dimensions), a lamp that covers part of the \
              sky (discontinuous), and 20 reflections (smooth, in 40 dimensions). Slopes of log error over log N are fitted to each of \
