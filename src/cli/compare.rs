@@ -181,7 +181,7 @@ fn remarks(bias: &Bias, all: &[&Loaded], b: &Loaded) -> Vec<String> {
         remarks.push("at most: stratified and Sobol samples are better than their variance says".to_owned());
     }
     if b.provenance.noise.is_none() {
-        remarks.push(format!("the own error of {} is not known and taken for 0", b.path.display()));
+        remarks.push(format!("the error of {} itself is unknown and assumed to be 0", b.path.display()));
     } else if all.iter().any(|a| a.provenance.seed.is_some() && a.provenance.seed == b.provenance.seed) && !bias.is_exact {
         remarks.push("A and B have the same seed, so their noise may be in common and the standard error too large".to_owned());
     }

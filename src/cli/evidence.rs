@@ -19,7 +19,7 @@ use super::{
 
 const NOTES: &str = "\
 DIR gets report.html, every plot as SVG and PNG, every sheet of pictures as PNG, every table as CSV and LaTeX, and study.csv with all \
-measurements. What DIR has already is not measured again.
+measurements. Measurements that DIR already has are not repeated.
 
 Example: noisefall evidence my_scene.toml -o evidence --time 180";
 
@@ -31,10 +31,10 @@ pub struct Arguments {
     /// Folder for the report and its files, made if it is not there
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
-    /// About how long it takes
+    /// Approximate duration
     #[arg(long, value_name = "SECONDS", default_value = "180", value_parser = parse::seconds)]
     time: Duration,
-    /// Picture that the scene must converge to (.exr), in place of its truth
+    /// Reference picture (.exr) to compare with, in place of the scene's own
     #[arg(long, value_name = "FILE")]
     reference: Option<PathBuf>,
     /// Resolution in pixels [default: the reference's, or the scene's made small enough for 256 along the longer side]
@@ -56,7 +56,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let mut store = Store::open(folder).map_err(|error| error.to_string())?;
     let threads = Threads::new(arguments.threads.into(), SimdLevel::best()).map_err(|error| error.to_string())?;
     let machine = Machine::here(&threads);
-    let stop = stop_signal("interrupted: what has been measured is kept (once more to end at once)")?;
+    let stop = stop_signal("interrupted: measurements so far are kept (interrupt again to stop at once)")?;
     let stopped = || stop.load(Ordering::Relaxed);
     let plan = EvidencePlan { time: arguments.time, display: arguments.display.display() };
     let bar = progress_bar();

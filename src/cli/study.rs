@@ -83,11 +83,11 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let _memory = reserve(&subjects).map_err(|error| error.to_string())?;
     let mut store = Store::open(&arguments.output).map_err(|error| error.to_string())?;
     if store.dropped > 0 {
-        tell(&format!("note: {} lines of {CSV} belong to runs that are not complete and are left out", store.dropped));
+        tell(&format!("note: {} lines of {CSV} belong to incomplete runs and are ignored", store.dropped));
     }
     let threads = Threads::new(arguments.threads.into(), SimdLevel::best()).map_err(|error| error.to_string())?;
     let (plan, machine) = (arguments.plan(), Machine::here(&threads));
-    let stop = stop_signal("interrupted: what has been measured is kept (once more to end at once)")?;
+    let stop = stop_signal("interrupted: measurements so far are kept (interrupt again to stop at once)")?;
     let stopped = || stop.load(Ordering::Relaxed);
     let study = Study { plan: &plan, folder: &arguments.output, threads: &threads, machine: &machine, stop: &stopped };
 
@@ -98,7 +98,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         Ok(findings) => finish(arguments, &findings, &plan, &machine).map(|()| ExitCode::SUCCESS),
         Err(StudyError::Interrupted) => {
             let folder = arguments.output.display();
-            tell(&format!("stopped: {folder} has {} runs; the same command goes on from there", store.len()));
+            tell(&format!("stopped: {folder} has {} runs; repeat the command to continue", store.len()));
             Ok(ExitCode::from(INTERRUPTED))
         }
         Err(error) => Err(error.to_string()),
@@ -124,7 +124,7 @@ fn finish(arguments: &Arguments, findings: &[Findings], plan: &Plan, machine: &M
     for scene in findings {
         print(&format!("\n{}\n{}\n{}", scene.title, table(scene), verdict(scene)))?;
         if scene.reference_is_taken_for_exact {
-            print(&format!("The own error of {} is not known and taken for 0.", scene.reference))?;
+            print(&format!("The error of {} itself is unknown and assumed to be 0.", scene.reference))?;
         }
     }
     print("")?;
@@ -153,7 +153,7 @@ impl Display {
             Progress::Planned { runs, found } => {
                 self.bar.set_length((runs - found) as u64);
                 if *found > 0 {
-                    tell(&format!("{found} of {runs} runs are there already"));
+                    tell(&format!("{found} of {runs} runs are already measured"));
                 }
             }
             Progress::Reference { title, share } => {

@@ -45,8 +45,7 @@ impl Scene {
             _ => "paths without roulette".to_owned(),
         };
         Some(format!(
-            "{what}, at surfaces with ρ² E w² = {most:.2}: where light stays among these the variance is infinite, and noise figures mean \
-             nothing; {advice}"
+            "{what}, at surfaces with ρ² E w² = {most:.2}: where light stays among these surfaces, the variance is infinite and noise figures cannot be trusted; {advice}"
         ))
     }
 

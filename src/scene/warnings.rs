@@ -59,7 +59,7 @@ impl Scene {
         }
         for (lamp, wall) in self.covered_lamps() {
             warnings.push(format!(
-                "the lamp {} faces {} at a hair's breadth and lights nothing else: turn it by `flip = true`, or move it away",
+                "the lamp {} faces {} from almost no distance and lights nothing else: turn it by `flip = true`, or move it away",
                 self.name_of(lamp),
                 self.name_of(wall)
             ));

@@ -30,7 +30,7 @@ pub fn overview(findings: &Findings) -> Option<Pair> {
     }
     let mut caption = "The best combinations, what the scene opens with, and the last of those that are ranked.".to_owned();
     if findings.limits.floor > 0.0 {
-        caption.push_str(" The reference's own error is taken off, and curves end where they come near to it.");
+        caption.push_str(" The error of the reference is subtracted, and a curve ends where it comes close to that error.");
     }
     pair("Error against time and samples".to_owned(), caption, &shown)
 }
@@ -63,7 +63,7 @@ pub fn capitalised(name: &str) -> String {
 fn pair(title: String, mut caption: String, shown: &[(String, &Outcome)]) -> Option<Pair> {
     let exact: Vec<&str> = shown.iter().filter(|(_, outcome)| outcome.is_exact()).map(|(name, _)| name.as_str()).collect();
     if !exact.is_empty() {
-        caption.push_str(&format!(" Without noise, and so not shown: {}.", exact.join("; ")));
+        caption.push_str(&format!(" Not shown because they have no noise: {}.", exact.join("; ")));
     }
     let draw = |x: Axis, place: fn(&Point) -> f64| {
         let mut curves = Vec::new();

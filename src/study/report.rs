@@ -82,12 +82,12 @@ fn section(number: usize, findings: &Findings) -> Markup {
         section id={ "scene-" (number) } {
             h2 { (findings.title) }
             p.source { (findings.path.display()) ", " (width) " × " (height) " pixels, against " (findings.reference)
-                @if findings.limits.floor > 0.0 { ", whose own error is estimated as " (percent(findings.limits.floor)) }
-                @if findings.reference_is_taken_for_exact { ", whose own error is not known and taken for 0" } "." }
+                @if findings.limits.floor > 0.0 { ", which itself has an estimated error of " (percent(findings.limits.floor)) }
+                @if findings.reference_is_taken_for_exact { ", whose own error is unknown and assumed to be 0" } "." }
             p.verdict { (verdict(findings)) }
             p { (certainty(findings)) }
             @if let Some(command) = command(findings) { pre { (command) } }
-            @if invalid > 0 { p.fails { (invalid) " samples were not finite or negative, and count as black." } }
+            @if invalid > 0 { p.fails { (invalid) " samples were negative or not finite and count as black." } }
             @if let Some(pair) = overview(findings) { (figure(&pair)) }
             (worth(findings))
             @for pair in Setting::ALL.into_iter().filter_map(|setting| by_setting(findings, setting)) { (figure(&pair)) }

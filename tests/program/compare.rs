@@ -59,7 +59,7 @@ fn assert_text_agrees(told: &str, line: &Value) {
         format!("RMSE    {:.6e}\nrelMSE  {:.6e}\n", number("rmse"), number("rel_mse")),
         format!("bias    {bias:+.6e} ± {error:.2e}: {z:+.2} standard errors\n"),
         format!(" of 32 × 32 pixels: worst z {worst:+.2}, root mean square {rms:.2} (noise alone: 1)\n"),
-        "note: the own error of truth.exr is not known and taken for 0\n".to_owned(),
+        "note: the error of truth.exr itself is unknown and assumed to be 0\n".to_owned(),
     ] {
         assert!(told.contains(&part), "{part}: {told}");
     }

@@ -89,5 +89,5 @@ fn an_interrupted_study_keeps_what_it_has_and_says_how_to_go_on() {
     assert_eq!(child.wait().expect("it ends").code(), Some(130));
     let mut told = String::new();
     child.stderr.take().expect("a pipe").read_to_string(&mut told).expect("text");
-    assert!(told.contains("stopped: out has 0 runs; the same command goes on from there"), "{told}");
+    assert!(told.contains("stopped: out has 0 runs; repeat the command to continue"), "{told}");
 }

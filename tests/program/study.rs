@@ -61,11 +61,11 @@ fn the_same_study_again_measures_nothing_and_another_one_is_kept_beside_it() {
     let (first, runs) = (csv(), (csv().lines().count() - 1) / 5);
 
     let again = study(&shell, &[&scene("bright_sky")]);
-    assert!(text(&again.stderr).contains(&format!("{runs} of {runs} runs are there already")), "{}", text(&again.stderr));
+    assert!(text(&again.stderr).contains(&format!("{runs} of {runs} runs are already measured")), "{}", text(&again.stderr));
     assert_eq!(csv(), first);
 
     let larger = study(&shell, &[&scene("bright_sky"), "--threads", "3"]);
-    assert!(larger.status.success() && !text(&larger.stderr).contains("there already"), "{}", text(&larger.stderr));
+    assert!(larger.status.success() && !text(&larger.stderr).contains("already measured"), "{}", text(&larger.stderr));
     assert!(csv().starts_with(&first) && csv().len() > first.len());
 }
 
@@ -82,7 +82,7 @@ fn a_study_that_was_cut_off_goes_on_where_it_was() {
     let again = study(&shell, &[&scene("furnace")]);
     let told = text(&again.stderr);
     assert!(again.status.success() && told.contains("note: 2 lines of study.csv belong to runs that are not complete"), "{told}");
-    assert!(told.contains(&format!("{} of {runs} runs are there already", runs - 1)), "{told}");
+    assert!(told.contains(&format!("{} of {runs} runs are already measured", runs - 1)), "{told}");
     assert_eq!(fs::read_to_string(&path).expect("measurements").lines().count(), lines);
 }
 
@@ -142,9 +142,9 @@ fn references_are_files_where_there_are_some() {
     let known = own("out");
     // 3.3 % at 64 samples on a picture of 64 × 36 pixels.
     assert!((1e-5..1e-2).contains(&known), "{known}");
-    assert!(!text(&done.stdout).contains("taken for 0"), "{}", text(&done.stdout));
+    assert!(!text(&done.stdout).contains("assumed to be 0"), "{}", text(&done.stdout));
     let report = |folder: &str| fs::read_to_string(shell.path(folder).join("report.html")).expect("a report");
-    assert!(report("out").contains("sky.ref.exr, whose own error is estimated as"));
+    assert!(report("out").contains("sky.ref.exr, which itself has an estimated error of"));
     // By another program, or by an older version of this one.
     let picture = noisefall::render::image_file::read(&shell.path("sky.ref.exr")).expect("a picture");
     let frame = noisefall::render::Frame { width: 20, height: 10, radiance: picture.radiance, ..Default::default() };
@@ -152,14 +152,14 @@ fn references_are_files_where_there_are_some() {
     let foreign =
         shell.run(&[&["study", "sky.toml", "-o", "foreign", "--reference", "foreign.exr", "--floor", "0.5"], &few[..]].concat());
     let told = text(&foreign.stdout);
-    assert!(told.contains("The own error of the reference foreign.exr is not known and taken for 0."), "{told}");
-    assert!(report("foreign").contains("whose own error is not known and taken for 0") && own("foreign") == 0.0);
+    assert!(told.contains("The error of the reference foreign.exr itself is unknown and assumed to be 0."), "{told}");
+    assert!(report("foreign").contains("whose own error is unknown and assumed to be 0") && own("foreign") == 0.0);
     let csv = fs::read_to_string(shell.path("foreign/study.csv")).expect("measurements");
     assert!(csv.contains(",0.5,") && report("foreign").contains("(x − r)²/(r² + 0.5)"), "{csv}");
     // Even where the scene says what is true, it says nothing of a file.
     let declared = ["study", &scene("furnace"), "-o", "declared", "--reference", "foreign.exr", "--max-bounces", "1"];
     let told = text(&shell.run(&[&declared[..], &few[..]].concat()).stdout);
-    assert!(told.contains("The own error of the reference foreign.exr is not known and taken for 0."), "{told}");
+    assert!(told.contains("The error of the reference foreign.exr itself is unknown and assumed to be 0."), "{told}");
     fs::copy(shell.path("sky.ref.exr"), shell.path("other.exr")).expect("a picture");
     let other = study(&["--reference", "other.exr", "--size", "16x16"]);
     assert_eq!(other.status.code(), Some(1));

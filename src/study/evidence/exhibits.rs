@@ -65,9 +65,9 @@ pub fn pictures(bench: Bench, spp: u32, display: Display) -> Result<[Picture; 2]
     };
     let [width, height] = bench.camera.resolution;
     let how = format!("{}; {width} × {height} pixels", label(&settings));
-    let by_cap = format!("The picture by caps on bounces, {} samples a pixel: {how}.", spp.min(SPP_OF_CAPS));
+    let by_cap = format!("The picture with different caps on bounces, {} samples a pixel: {how}.", spp.min(SPP_OF_CAPS));
     Ok([
-        of("pictures_by_samples", format!("The picture as the samples a pixel grow, without a cap: {how}."), &growing)?,
+        of("pictures_by_samples", format!("The picture after N samples a pixel, without a cap: {how}."), &growing)?,
         of("pictures_by_cap", by_cap, &capped)?,
     ])
 }

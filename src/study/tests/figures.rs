@@ -80,7 +80,7 @@ fn the_overview_has_the_best_three_the_own_and_the_last() {
     assert!(pair.plots[0].svg().contains("rendering time, s") && pair.plots[1].svg().contains("samples a pixel"));
     assert!(!pair.caption.contains("Without noise") && !pair.caption.contains("taken off"));
     let limited = Findings { limits: Limits { floor: 1e-9, black: 1e9, variance_of_mean: 0.0, mean: 1.0 }, ..found };
-    assert!(overview(&limited).expect("curves").caption.contains("The reference's own error is taken off"));
+    assert!(overview(&limited).expect("curves").caption.contains("The error of the reference is subtracted"));
 }
 
 #[test]
@@ -120,7 +120,7 @@ fn what_has_no_noise_is_said_and_not_drawn() {
     let noisy = outcome(settings(Estimator::Path, Sampler::Sobol), 0.1, Vec::new());
     let pair = overview(&findings(vec![exact.clone(), noisy], RenderSettings::default())).expect("a curve");
     assert!(
-        pair.caption.ends_with("Without noise, and so not shown: mis, bsdf, sobol, roulette throughput."),
+        pair.caption.ends_with("Not shown because they have no noise: mis, bsdf, sobol, roulette throughput."),
         "{}",
         pair.caption
     );

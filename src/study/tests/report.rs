@@ -159,13 +159,13 @@ fn a_report_says_what_was_found_and_against_what() {
     for said in [
         "(x − r)²/(r² + 0.01 · mean r²)",
         "A scene &amp; more",
-        "8 × 9 pixels, against the reference sky.exr, whose own error is not known and taken for 0.",
+        "8 × 9 pixels, against the reference sky.exr, whose own error is unknown and assumed to be 0.",
         "First of 1",
         "rendered each scene 2 times with different seeds",
         "a processor",
         "3 threads on 4 cores, SIMD: AVX2",
         "up to 16 samples a pixel; no doubling that would end after 1.50 s",
-        "3 samples were not finite or negative, and count as black.",
+        "3 samples were negative or not finite and count as black.",
         "biased: cap at 2",
         // It was tried with another sampler than the best one alone, and has √(0.01 · 0.0121)/0.22 of its efficiency.
         "<td>path</td><td class=\"n\">–</td><td class=\"n\">0.0500</td>",
@@ -187,7 +187,7 @@ fn a_report_says_what_was_found_and_against_what() {
     assert_eq!(page.matches("<figure").count(), 2, "the overview, and the samplers");
     let noisy = html(&[findings(Limits { floor: 0.0004, ..limits }, false)], &plan(Floor::Absolute(0.01)), &machine());
     assert!(
-        noisy.contains("sky.exr, whose own error is estimated as 2.00 %.") && noisy.contains("(x − r)²/(r² + 0.01)"),
+        noisy.contains("sky.exr, which itself has an estimated error of 2.00 %.") && noisy.contains("(x − r)²/(r² + 0.01)"),
         "{noisy}"
     );
 }
