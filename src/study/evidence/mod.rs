@@ -24,7 +24,7 @@ use crate::{
     memory::{self, Reservation, TooMuch},
     render::{Display, film::Film, pass::Threads},
     sampling::{Directions, Sampler},
-    scene::{Estimator, Reuse, Roulette},
+    scene::{Estimator, RenderSettings, Reuse, Roulette},
 };
 
 const REPEATS: u32 = 3;
@@ -139,14 +139,16 @@ fn samples(study: &Study, subject: &Subject, store: &Store, time: Duration) -> R
     study.spp_in(store, subject, candidates)?.map_or_else(|| longest(bench, time), Ok)
 }
 
-/// The power of two that is nearest to the samples of a run of this time.
+/// The power of two that is nearest to the samples of a run of this time, by the settings that most runs have.
 fn longest(bench: Bench, time: Duration) -> Result<u32, StudyError> {
+    /// The first sample takes memory and fills caches.
+    const SAMPLES: [u32; 2] = [1, 9];
     let mut film = bench.film();
-    let settings = bench.scene.settings;
-    bench.pass(&settings, &mut film, 1)?;
+    let settings = RenderSettings { reuse: Reuse::Off, adaptive: false, max_bounces: None, ..bench.scene.settings };
+    bench.pass(&settings, &mut film, SAMPLES[0])?;
     let begun = Instant::now();
-    bench.pass(&settings, &mut film, 3)?;
-    let per_sample = begun.elapsed().as_secs_f64() / 2.0;
+    bench.pass(&settings, &mut film, SAMPLES[1])?;
+    let per_sample = begun.elapsed().as_secs_f64() / f64::from(SAMPLES[1] - SAMPLES[0]);
     let samples = (time.as_secs_f64() / per_sample.max(1e-9)).clamp(f64::from(*SPP.start()), f64::from(*SPP.end()));
     Ok(1 << samples.log2().round() as u32)
 }
