@@ -77,29 +77,39 @@ impl Reference {
         let off = match bias.z {
             Some(z) if z.abs() > MOST => format!("by {:.1} standard errors", z.abs()),
             None if bias.is_exact && bias.mean.abs() > bias.rounding => "although its samples have no noise".to_owned(),
-            _ => return contradiction_of_block(&bias, frame.width as usize),
+            _ => return self.contradiction_of_block(frame, &bias),
         };
         let more = if bias.mean > 0.0 { "more" } else { "less" };
         Some(format!("the picture has {:.3e} {more} radiance on average than [truth] says, {off}", bias.mean.abs()))
     }
-}
 
-/// What to say where the mean of the picture is right and that of a block is not: of a picture that is turned, mirrored or of another view.
-fn contradiction_of_block(bias: &Bias, width: usize) -> Option<String> {
-    /// Standard errors. Those of a block are less sure than those of the picture.
-    const MOST: f64 = 10.0;
-    let (block, z) = bias.block_z.iter().enumerate().max_by(|(_, a), (_, b)| a.abs().total_cmp(&b.abs()))?;
-    let columns = width.div_ceil(SampleNoise::BLOCK);
-    let [x, y] = [block % columns, block / columns].map(|place| place * SampleNoise::BLOCK);
-    let more = if *z > 0.0 { "more" } else { "less" };
-    (z.abs() > MOST).then(|| {
-        format!(
-            "the block of {0} × {0} pixels from {x},{y} on has {more} radiance than [truth] says, by {1:.1} standard errors, though the \
-             mean of the picture agrees",
+    /// The same where the mean of the picture is right and that of a block is not: of a picture that is turned, mirrored or of another view.
+    fn contradiction_of_block(&self, frame: &Frame, bias: &Bias) -> Option<String> {
+        /// Standard errors: those of a block are less sure than those of the picture.
+        const MOST: f64 = 10.0;
+        /// Of the picture's mean; less may be light that a block has not found yet.
+        const LEAST_PART: f64 = 0.1;
+        /// For each block.
+        const EFFECTIVE_SAMPLES: f64 = 100.0;
+        let (truth, width) = (self.radiance_of(frame)?, frame.width as usize);
+        let are_known = frame.noise.as_ref()?.effective_samples >= EFFECTIVE_SAMPLES * bias.block_z.len() as f64;
+        let mean = |rgb: &[f32; 3]| rgb.iter().map(|c| f64::from(*c)).sum::<f64>() / 3.0;
+        let level = truth.iter().map(mean).sum::<f64>() / truth.len().max(1) as f64;
+        let differences: Vec<f64> = frame.radiance.iter().zip(truth.iter()).map(|(x, r)| mean(x) - mean(r)).collect();
+        let blocks = bias.block_z.iter().zip(SampleNoise::block_means(&differences, width)).enumerate();
+        let large = blocks.filter(|(_, (z, difference))| z.abs() > MOST && difference.abs() > LEAST_PART * level);
+        let (block, (z, difference)) =
+            large.max_by(|(_, (a, _)), (_, (b, _))| a.abs().total_cmp(&b.abs())).filter(|_| are_known)?;
+        let columns = width.div_ceil(SampleNoise::BLOCK);
+        let [x, y] = [block % columns, block / columns].map(|place| place * SampleNoise::BLOCK);
+        let more = if difference > 0.0 { "more" } else { "less" };
+        Some(format!(
+            "the block of {0} × {0} pixels from {x},{y} on has {more} radiance than [truth] says, by {1:.1} standard errors, though the mean of \
+             the picture agrees",
             SampleNoise::BLOCK,
             z.abs()
-        )
-    })
+        ))
+    }
 }
 
 /// What is wrong with the truth that a scene names, as far as a small picture by independent samples can tell.
