@@ -25,7 +25,8 @@ pub struct Checkpoint {
     pub bias: f64,
     /// Of `bias`, as the variance of the samples gives it; `None` before the second sample.
     pub bias_standard_error: Option<f64>,
-    /// How many samples of equal weight would make up that variance; see [`SampleNoise::effective_samples`].
+    /// How many samples of equal weight would make up that variance, as in [`SampleNoise::effective_samples`]; `None` before the second
+    /// sample, and where nothing varies.
     pub effective_samples: Option<f64>,
 }
 
@@ -128,8 +129,8 @@ pub(super) fn follow(
         cut_paths += cut;
         let seconds = elapsed.as_secs_f64();
         let Comparison { rmse, rel_mse, bias } = error;
-        let [bias_standard_error, effective_samples] =
-            [noise.map(|noise| noise.standard_error), noise.map(|noise| noise.effective_samples)];
+        let bias_standard_error = noise.map(|noise| noise.standard_error);
+        let effective_samples = noise.map(|noise| noise.effective_samples).filter(|count| count.is_finite());
         run.checkpoints.push(Checkpoint { spp, seconds, rmse, rel_mse, bias, bias_standard_error, effective_samples });
     }
     Ok((run, cut_paths))

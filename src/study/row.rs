@@ -35,7 +35,7 @@ pub struct Row {
     pub bias: f64,
     /// Of the bias, but for the reference's own error; empty before the second sample.
     pub bias_standard_error: Option<f64>,
-    /// How many samples of equal weight would make up the variance; few of them tell of heavy tails.
+    /// How many samples of equal weight would make up the variance: few mean heavy tails. Empty where nothing varies.
     pub effective_samples: Option<f64>,
     /// Why the picture does not converge to the solution; empty when it does.
     pub biased: String,

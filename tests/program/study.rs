@@ -47,7 +47,11 @@ fn a_study_writes_measurements_and_a_report_that_needs_nothing_else() {
 
     let report = fs::read_to_string(shell.path("new/study/report.html")).expect("a report");
     assert_eq!(report.matches("<section").count(), 2);
-    assert!(report.matches("<svg").count() >= 8 && report.contains("biased: cap at 1") && report.contains("whose own error"));
+    assert!(
+        report.matches("<svg").count() >= 8
+            && report.contains("biased: cap at 1")
+            && report.contains("which itself has an estimated error")
+    );
     for outside in ["http://", "https://", "src=", "<script", "<link"] {
         assert!(!report.replace("http://www.w3.org/2000/svg", "").contains(outside), "{outside}");
     }
@@ -81,7 +85,7 @@ fn a_study_that_was_cut_off_goes_on_where_it_was() {
     fs::write(&path, &whole[..cut]).expect("it can be written");
     let again = study(&shell, &[&scene("furnace")]);
     let told = text(&again.stderr);
-    assert!(again.status.success() && told.contains("note: 2 lines of study.csv belong to runs that are not complete"), "{told}");
+    assert!(again.status.success() && told.contains("note: 2 lines of study.csv belong to incomplete runs"), "{told}");
     assert!(told.contains(&format!("{} of {runs} runs are already measured", runs - 1)), "{told}");
     assert_eq!(fs::read_to_string(&path).expect("measurements").lines().count(), lines);
 }
