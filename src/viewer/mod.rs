@@ -1,53 +1,17 @@
-//! The window. It says what it wants rendered, shows what comes back, and never waits.
+//! The window. It requests pictures, displays what is published, and never waits.
 //!
-//! Work that could take longer than a frame has a thread of its own: rendering (the worker), the display transform
-//! ([`darkroom`]), reading scenes ([`loader`]) and their pictures ([`gallery`]), writing files ([`saver`]), what camera rays meet
-//! ([`feature_finder`]), the samples of a pixel ([`path`]), and studies ([`advice`]).
-mod advice;
+//! From the top down: [`app`] joins all parts; [`panels`] and [`dialogs`] show what they are given and return requests;
+//! [`instruments`] lie below the picture, which is the [`canvas`]; work that could take longer than a frame runs on threads of
+//! [`background`]; [`widgets`] are shared. Arrows between these folders point down (`tests/program/layers.rs`).
 mod app;
-mod black_notice;
-mod bounces;
-mod camera_panel;
+mod background;
 mod canvas;
-mod catalogue;
-mod compare;
-mod convergence;
-mod darkroom;
-mod display_panel;
-mod dock;
-mod errand;
-mod feature_finder;
-mod flight;
-mod gallery;
-mod help;
-mod link;
-mod loader;
-mod look;
-mod messages;
-mod navigation;
-mod number;
-mod objects_panel;
-mod open_dialog;
-mod overlay;
-mod pace;
-mod path;
-mod path_field;
-mod picture_view;
-mod preferences;
-mod receive;
-mod sampling_panel;
-mod save_dialog;
-mod saver;
-mod scene_panel;
-mod status_bar;
-mod stop_panel;
-mod submit;
+mod dialogs;
+mod instruments;
+mod panels;
 #[cfg(test)]
 mod tests;
-mod toolbar;
-mod tour;
-mod views_bar;
-mod window_panel;
+mod widgets;
 mod window_system;
 
 use std::{
@@ -56,11 +20,12 @@ use std::{
 };
 
 pub use app::App;
+pub use background::preferences::Preferences;
 use noisefall::{
     math::SimdLevel,
     render::pass::{Threads, panic_message},
 };
-pub use preferences::Preferences;
+use panels::window::{all_but_one, cores};
 
 const NO_WINDOW: &str = "use `noisefall render SCENE -o picture.png` to render without a window";
 
@@ -68,7 +33,7 @@ const NO_WINDOW: &str = "use `noisefall render SCENE -o picture.png` to render w
 pub fn run(scene: Option<PathBuf>) -> Result<(), String> {
     let displays = window_system::found();
     let system = displays.choose().map_err(|why| format!("{why}; {NO_WINDOW}"))?;
-    let threads = window_panel::all_but_one(window_panel::cores());
+    let threads = all_but_one(cores());
     let threads = Threads::new(threads, SimdLevel::best()).map_err(|error| error.to_string())?;
     let mut options = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default()

@@ -1,5 +1,7 @@
 //! Folders depend downwards only.
-use std::{fs, path::Path};
+use std::fs;
+
+use crate::imports::{imports, source, source_files};
 
 /// From the top down; folders of one line do not know each other.
 const LAYERS: [&[&str]; 9] = [
@@ -14,13 +16,11 @@ const LAYERS: [&[&str]; 9] = [
     &["sampling", "image", "model"],
 ];
 
+/// The folders of the window, from the top down.
+const VIEWER: [&[&str]; 6] = [&["app"], &["panels", "dialogs"], &["instruments"], &["canvas"], &["background"], &["widgets"]];
+
 fn level(folder: &str) -> Option<usize> {
     LAYERS.iter().position(|layer| layer.contains(&folder)).or((folder == "math").then_some(LAYERS.len()))
-}
-
-fn source_files(folder: &Path) -> Vec<std::path::PathBuf> {
-    let entries = fs::read_dir(folder).expect("the folder can be read").map(|entry| entry.expect("an entry").path());
-    entries.flat_map(|path| if path.is_dir() { source_files(&path) } else { vec![path] }).collect()
 }
 
 /// The folders that a file names behind `crate::`, in `use crate::{a, b}` too.
@@ -53,7 +53,7 @@ fn folders_used(text: &str) -> Vec<String> {
 
 #[test]
 fn arrows_between_folders_point_down() {
-    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let source = source();
     let mut arrows = 0;
     for file in source_files(&source) {
         let folder = file.strip_prefix(&source).expect("it lies in src").components().next().expect("it has a name");
@@ -74,4 +74,25 @@ fn arrows_between_folders_point_down() {
 #[test]
 fn groups_of_imports_are_understood() {
     assert_eq!(folders_used("use crate::{a::{x, y}, b, c::z};\nuse crate::d::e;"), ["a", "b", "c", "d"]);
+}
+
+#[test]
+fn arrows_between_folders_of_the_window_point_down() {
+    let mut arrows = 0;
+    let folder = |module: &[String]| (module.first()? == "viewer").then(|| module.get(1).cloned())?;
+    for (module, used) in imports() {
+        let name = module.join("/");
+        for used in used {
+            if module[..1] == ["viewer"] {
+                assert!(used[..1] != ["cli"], "{name} knows the command line");
+            }
+            let (Some(from), Some(to)) = (folder(&module), folder(&used)) else { continue };
+            let level = |folder: &str| VIEWER.iter().position(|layer| layer.contains(&folder));
+            arrows += 1;
+            if from != to {
+                assert!(level(&from) < level(&to), "{name} uses {to}, which is not below {from}");
+            }
+        }
+    }
+    assert!(arrows > 100, "the search finds arrows: {arrows}");
 }

@@ -1,11 +1,13 @@
 //! The program as its users meet it: scene files, command line, worker, and the structure of the source.
 mod beside;
+mod circles;
 mod closed_streams;
 mod command_line;
 mod command_notes;
 mod compare;
 mod evidence;
 mod figures;
+mod imports;
 mod interruption;
 mod layers;
 mod meanings;

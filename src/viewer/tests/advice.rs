@@ -4,12 +4,12 @@ use super::*;
 #[test]
 fn advice_is_asked_for_given_with_figures_and_taken() {
     let mut window = window("cornell_spheres");
-    window.state_mut().settings.estimator = Estimator::Path;
-    window.state_mut().settings.sampler = Sampler::Independent;
-    wait(&mut window, "a picture", |app| app.status.spp >= 1);
+    window.state_mut().session.settings.estimator = Estimator::Path;
+    window.state_mut().session.settings.sampler = Sampler::Independent;
+    wait(&mut window, "a picture", |app| app.results.status.spp >= 1);
     click(&mut window, "What should I use here?");
     assert!(window.state().is_studying());
-    wait(&mut window, "the pause", |app| app.link.latest().status.state == State::Paused);
+    wait(&mut window, "the pause", |app| app.background.worker.latest().status.state == State::Paused);
     wait(&mut window, "the advice", |app| !app.is_studying());
     window.run_steps(3);
     assert!(window.query_by_label_contains("as efficient as what you have").is_some());
@@ -18,11 +18,11 @@ fn advice_is_asked_for_given_with_figures_and_taken() {
         w.run_steps(3);
     });
     assert_ne!(
-        window.state().settings.estimator,
+        window.state().session.settings.estimator,
         Estimator::Path,
         "lights that are looked for are found a hundred times as soon"
     );
-    assert!(window.state().adviser.is_none());
+    assert!(window.state().background.adviser.is_none());
 }
 
 #[test]
@@ -31,7 +31,7 @@ fn escape_ends_a_study_and_the_picture_goes_on() {
     click(&mut window, "What should I use here?");
     window.key_press(Key::Escape);
     window.run_steps(3);
-    assert!(window.state().adviser.is_none());
-    let samples = window.state().status.samples;
-    wait(&mut window, "more samples", |app| app.status.samples > samples);
+    assert!(window.state().background.adviser.is_none());
+    let samples = window.state().results.status.samples;
+    wait(&mut window, "more samples", |app| app.results.status.samples > samples);
 }

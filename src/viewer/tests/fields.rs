@@ -19,9 +19,9 @@ fn a_field_that_is_only_looked_into_changes_nothing() {
     let mut window = window("cornell_spheres");
     let odd = DVec3::new(-0.123_456_789, 1.364_251, 12_345.678_912);
     restarts(&mut window, "an eye of many decimals", |w| {
-        w.state_mut().camera.eye = odd;
-        w.state_mut().camera.lens = Some(Lens { radius: 0.012_345_6, focus: 4.417_23 });
-        w.state_mut().camera.fov = 0.5;
+        w.state_mut().session.camera.eye = odd;
+        w.state_mut().session.camera.lens = Some(Lens { radius: 0.012_345_6, focus: 4.417_23 });
+        w.state_mut().session.camera.fov = 0.5;
         w.run_steps(3);
     });
     for (label, place) in [("Eye", 0), ("Eye", 1), ("Eye", 2), ("Lens radius", 0), ("Focus", 0), ("Seed", 0), ("Resolution", 0)] {
@@ -39,7 +39,7 @@ fn a_field_that_is_only_looked_into_changes_nothing() {
         w.key_press(Key::Escape);
         w.run_steps(3);
     });
-    assert_eq!((window.state().camera.eye, window.state().camera.fov), (odd, 0.5));
+    assert_eq!((window.state().session.camera.eye, window.state().session.camera.fov), (odd, 0.5));
 }
 
 #[test]
@@ -58,7 +58,7 @@ fn a_typed_number_counts_when_it_is_entered_and_escape_gives_it_up() {
         w.key_press(Key::Enter);
         w.run_steps(3);
     });
-    assert_eq!(window.state().camera.eye.y, 2.5);
+    assert_eq!(window.state().session.camera.eye.y, 2.5);
 }
 
 #[test]
@@ -72,8 +72,10 @@ fn a_scene_can_be_opened_by_its_path() {
     window.get_by_role(Role::TextInput).set_text_value_accesskit(&shipped("bright_sky").display().to_string());
     window.run_steps(3);
     click(&mut window, "Open");
-    assert!(window.state().open_dialog.is_none());
-    wait(&mut window, "the other scene", |app| app.opened.as_ref().is_some_and(|opened| opened.name.starts_with("Bright sky")));
+    assert!(window.state().dialogs.open.is_none());
+    wait(&mut window, "the other scene", |app| {
+        app.session.opened.as_ref().is_some_and(|opened| opened.name.starts_with("Bright sky"))
+    });
 }
 
 #[test]
@@ -82,10 +84,10 @@ fn a_picture_is_replaced_only_by_the_button_that_says_so() {
     let path = folder.path().join("shot.png");
     std::fs::write(&path, "what was there").expect("it is written");
     let mut window = window("furnace");
-    window.state_mut().last_saved = Some(path.clone());
+    window.state_mut().window.last_saved = Some(path.clone());
     window.key_press_modifiers(Modifiers::COMMAND, Key::S);
     window.run_steps(4);
-    let suggested = window.state().save_dialog.as_ref().map(|dialog| dialog.path().to_owned());
+    let suggested = window.state().dialogs.save.as_ref().map(|dialog| dialog.path().to_owned());
     assert_eq!(suggested, Some(folder.path().join("shot-2.png").display().to_string()));
     window.get_by_role(Role::TextInput).set_text_value_accesskit(&path.display().to_string());
     window.run_steps(3);
@@ -94,9 +96,9 @@ fn a_picture_is_replaced_only_by_the_button_that_says_so() {
     window.run_steps(2);
     window.key_press(Key::Enter);
     window.run_steps(3);
-    assert!(window.state().save_dialog.is_some(), "Enter replaces nothing");
-    window.state_mut().last_saved = None;
+    assert!(window.state().dialogs.save.is_some(), "Enter replaces nothing");
+    window.state_mut().window.last_saved = None;
     click(&mut window, "Replace");
-    wait(&mut window, "the file", |app| app.last_saved.is_some());
+    wait(&mut window, "the file", |app| app.window.last_saved.is_some());
     assert!(image_file::read(&path).is_ok());
 }

@@ -2,7 +2,8 @@
 use noisefall::render::view::View as Shown;
 
 use super::*;
-use crate::viewer::{compare::Layout, darkroom, dock::Tab};
+use crate::viewer::background::display_image::render;
+use crate::viewer::instruments::{compare::comparison::CompareLayout, tabs::InstrumentTab};
 
 /// A window with a small picture, most of whose height is the picture's.
 fn with_tab(scene: &str, tab: &str) -> Window {
@@ -27,17 +28,18 @@ fn curves_of_other_settings_stay_and_those_of_other_cameras_go() {
     let mut window = with_tab("furnace", "Convergence");
     let grown = |window: &mut Window, curves: usize| {
         wait(window, "a curve", |app| {
-            app.history.curves.len() == curves && app.history.curves.last().is_some_and(|curve| curve.moments.len() >= 3)
+            app.instruments.history.curves.len() == curves
+                && app.instruments.history.curves.last().is_some_and(|curve| curve.moments.len() >= 3)
         });
     };
     grown(&mut window, 1);
-    let moment = *window.state().history.curves[0].moments.last().expect("it has some");
+    let moment = *window.state().instruments.history.curves[0].moments.last().expect("it has some");
     assert!(moment.estimated.is_some() && moment.true_error.is_some() && moment.bias.is_some(), "{moment:?}");
     restarts(&mut window, "independent samples", |w| choose(w, "Sampler", "Independent"));
     grown(&mut window, 2);
     window.run_steps(2);
     assert!(window.query_all_by_label("sampler independent").count() > 0, "curves are named by what differs");
-    window.state_mut().camera.fov = 50.0;
+    window.state_mut().session.camera.fov = 50.0;
     grown(&mut window, 1);
 }
 
@@ -45,7 +47,7 @@ fn curves_of_other_settings_stay_and_those_of_other_cameras_go() {
 fn curves_are_saved_as_table_and_as_drawing() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = with_tab("furnace", "Convergence");
-    wait(&mut window, "a curve", |app| app.history.curves.first().is_some_and(|curve| curve.moments.len() >= 3));
+    wait(&mut window, "a curve", |app| app.instruments.history.curves.first().is_some_and(|curve| curve.moments.len() >= 3));
     for (button, name, start) in [("CSV…", "curves.csv", "settings,spp,seconds"), ("SVG…", "plot.svg", "<svg")] {
         let path = folder.path().join(name);
         click(&mut window, button);
@@ -63,7 +65,7 @@ fn tabs_say_what_they_are_about() {
     let mut window = with_tab("furnace", "Compare");
     assert!(window.query_by_label_contains("both get the same time").is_some());
     window.get_by_role_and_label(Role::Button, "Convergence").click();
-    wait(&mut window, "a curve", |app| app.history.curves.first().is_some_and(|curve| curve.moments.len() > 1));
+    wait(&mut window, "a curve", |app| app.instruments.history.curves.first().is_some_and(|curve| curve.moments.len() > 1));
     assert!(window.query_by_label_contains("Dashed: 1/√N").is_some());
     click(&mut window, "over time");
     assert!(window.query_by_label_contains("Dashed: 1/√time").is_some());
@@ -76,113 +78,121 @@ fn a_comparison_starts_with_one_click_and_both_sides_converge() {
         click(w, "Compare with…");
         click(w, "Path sampling");
     });
-    assert_eq!(window.state().dock, Some(Tab::Compare));
-    let other = window.state().compare.expect("it compares").other;
-    assert_eq!((other.estimator, window.state().settings.estimator), (Estimator::Path, Estimator::Mis));
-    wait(&mut window, "both", |app| app.status.spp >= 4 && app.status_beside.spp >= 4 && app.textures[1].is_some());
+    assert_eq!(window.state().window.tab, Some(InstrumentTab::Compare));
+    let other = window.state().session.comparison.expect("it compares").other;
+    assert_eq!((other.estimator, window.state().session.settings.estimator), (Estimator::Path, Estimator::Mis));
+    wait(&mut window, "both", |app| {
+        app.results.status.spp >= 4 && app.results.second_status.spp >= 4 && app.results.textures[1].is_some()
+    });
     window.run_steps(3);
     assert!(window.query_by_label_contains("times as efficient").is_some());
-    assert_eq!(window.state().history.curves.len(), 2, "each has its curve");
+    assert_eq!(window.state().instruments.history.curves.len(), 2, "each has its curve");
 
     click(&mut window, "Side by side");
-    assert_eq!(window.state().compare.map(|compare| compare.layout), Some(Layout::SideBySide));
+    assert_eq!(window.state().session.comparison.map(|compare| compare.layout), Some(CompareLayout::SideBySide));
     click(&mut window, "Difference");
     wait(&mut window, "the difference", |app| {
-        app.legend.as_ref().is_some_and(|legend| legend.title == "Difference" && legend.scale.is_some())
+        app.results.legend.as_ref().is_some_and(|legend| legend.title == "Difference" && legend.scale.is_some())
     });
     click(&mut window, "Wipe");
-    let line = window.state().view.wipe;
+    let line = window.state().window.view.wipe;
     let [middle, height] = [(1280.0 - 336.0) / 2.0, 500.0];
     never_restarts(&mut window, |w| drag(w, PointerButton::Primary, [middle, height], [middle - 100.0, height]));
-    assert!(window.state().view.wipe < line - 0.05 && window.state().view.zoom.is_none(), "the line moved, and not the picture");
+    assert!(
+        window.state().window.view.wipe < line - 0.05 && window.state().window.view.zoom.is_none(),
+        "the line moved, and not the picture"
+    );
 
     // The menu of the toolbar comes first, that of the tab second.
     window.get_all_by_label("Compare with…").last().expect("it is there").click();
     window.run_steps(3);
     click(&mut window, "No roulette");
-    let other = window.state().compare.expect("it compares").other;
+    let other = window.state().session.comparison.expect("it compares").other;
     assert_eq!((other.roulette, other.estimator), (Roulette::Off, Estimator::Mis), "another comparison");
 
-    let before = window.state().status_beside.generation;
+    let before = window.state().results.second_status.generation;
     window.get_by_role_and_label(Role::Button, "B").click();
     window.run_steps(3);
     click(&mut window, "Light");
-    wait(&mut window, "the other side anew", |app| app.status_beside.generation > before);
+    wait(&mut window, "the other side anew", |app| app.results.second_status.generation > before);
     let app = window.state();
-    assert_eq!((app.compare.map(|c| c.other.estimator), app.settings.estimator), (Some(Estimator::Light), Estimator::Mis));
+    assert_eq!(
+        (app.session.comparison.map(|c| c.other.estimator), app.session.settings.estimator),
+        (Some(Estimator::Light), Estimator::Mis)
+    );
     restarts(&mut window, "the other side alone", |w| click(w, "Keep B"));
-    assert!(window.state().compare.is_none() && window.state().settings.estimator == Estimator::Light);
+    assert!(window.state().session.comparison.is_none() && window.state().session.settings.estimator == Estimator::Light);
 }
 
 #[test]
 fn the_picture_is_a_series_and_nothing_is_rendered_for_it_unless_it_is_looked_at() {
     let mut window = window("furnace");
-    assert_eq!(window.state().status_beside.generation, 0);
+    assert_eq!(window.state().results.second_status.generation, 0);
     never_restarts(&mut window, |w| press(w, Key::F4));
-    wait(&mut window, "the series", |app| app.frame_beside.as_ref().is_some_and(|frame| frame.series.is_some()));
-    window.state_mut().bounces.k = 2;
-    wait(&mut window, "a term", |app| app.frame_beside.as_ref().is_some_and(|frame| frame.spp >= 8));
+    wait(&mut window, "the series", |app| app.results.second_frame.as_ref().is_some_and(|frame| frame.series.is_some()));
+    window.state_mut().session.bounces.k = 2;
+    wait(&mut window, "a term", |app| app.results.second_frame.as_ref().is_some_and(|frame| frame.spp >= 8));
     window.run_steps(5);
     // Radiance 1 and albedo 0.5: the second term is a quarter, which is an eighth of the light.
-    let order = window.state_mut();
-    let shown = order.shown.clone().expect("it is shown");
-    let print = darkroom::develop(order.what_to_develop(shown));
-    let mean = print.pixels.iter().map(|pixel| f64::from(pixel[1])).sum::<f64>() / print.pixels.len() as f64;
+    let app = window.state_mut();
+    let shown = app.results.shown.clone().expect("it is shown");
+    let image = render(app.display_request(shown));
+    let mean = image.pixels.iter().map(|pixel| f64::from(pixel[1])).sum::<f64>() / image.pixels.len() as f64;
     assert!((mean - 137.0).abs() < 10.0, "a quarter has the code 137: {mean}");
     assert!(window.query_by_label_contains("k = 2 brings 12.").is_some());
     assert!(window.query_by_label_contains("A cap of 2 would lose 12.").is_some());
     never_restarts(&mut window, |w| press(w, Key::F4));
-    wait(&mut window, "its end", |app| app.status_beside.generation == 0 && app.frame_beside.is_none());
+    wait(&mut window, "its end", |app| app.results.second_status.generation == 0 && app.results.second_frame.is_none());
 }
 
 #[test]
 fn every_view_is_shown_with_a_legend_and_none_restarts() {
     let mut window = window("furnace");
-    wait(&mut window, "samples", |app| app.status.spp >= 4);
+    wait(&mut window, "samples", |app| app.results.status.spp >= 4);
     never_restarts(&mut window, |w| {
         for (view, name, _) in Shown::ALL {
             choose(w, "View", name);
-            assert_eq!(w.state().look.view, view);
+            assert_eq!(w.state().session.look.view, view);
             if view == Shown::Radiance {
                 continue;
             }
             if view == Shown::Difference {
                 click(w, "Pin this");
             }
-            wait(w, name, |app| app.legend.as_ref().is_some_and(|legend| legend.title == name));
+            wait(w, name, |app| app.results.legend.as_ref().is_some_and(|legend| legend.title == name));
         }
     });
     choose(&mut window, "View", "Z-score");
-    wait(&mut window, "scores", |app| app.scores.is_some());
+    wait(&mut window, "scores", |app| app.results.scores.is_some());
     window.hover_at(Pos2::new((1280.0 - 336.0) / 2.0, 500.0));
     window.run_steps(3);
     assert!(window.query_by_label_contains(")  Z-score ").is_some(), "the line below says what the view shows there");
     choose(&mut window, "View", "Radiance");
-    wait(&mut window, "the picture", |app| app.legend.is_none());
+    wait(&mut window, "the picture", |app| app.results.legend.is_none());
     press(&mut window, Key::V);
-    assert_eq!(window.state().look.view, Shown::StandardError);
+    assert_eq!(window.state().session.look.view, Shown::StandardError);
 }
 
 #[test]
 fn a_region_is_dragged_rendered_first_and_cleared() {
     let mut window = window("cornell_spheres");
-    wait(&mut window, "samples", |app| app.status.spp >= 2);
+    wait(&mut window, "samples", |app| app.results.status.spp >= 2);
     never_restarts(&mut window, |w| {
         press(w, Key::G);
-        assert_eq!(w.state().tool, Tool::Region);
+        assert_eq!(w.state().window.tool, Tool::Region);
         drag(w, PointerButton::Primary, [440.0, 380.0], [500.0, 420.0]);
     });
-    let region = window.state().budget.region.expect("it is marked");
+    let region = window.state().session.budget.region.expect("it is marked");
     // 60 by 40 points of the screen, at so many points a pixel of the picture.
-    let zoom = window.state().view.drawn_zoom;
+    let zoom = window.state().window.view.drawn_zoom;
     let [width, height] = region.size().map(|side| side as f32 * zoom);
     assert!((width - 60.0).abs() < 2.0 * zoom && (height - 40.0).abs() < 2.0 * zoom, "{region:?} {zoom}");
     wait(&mut window, "the region", |app| {
-        app.shown.as_ref().is_some_and(|frame| frame.counts.iter().any(|count| *count > frame.spp))
+        app.results.shown.as_ref().is_some_and(|frame| frame.counts.iter().any(|count| *count > frame.spp))
     });
     never_restarts(&mut window, |w| press(w, Key::Escape));
-    assert!(window.state().budget.region.is_none());
-    wait(&mut window, "the rest", |app| app.shown.as_ref().is_some_and(|frame| frame.counts.is_empty()));
+    assert!(window.state().session.budget.region.is_none());
+    wait(&mut window, "the rest", |app| app.results.shown.as_ref().is_some_and(|frame| frame.counts.is_empty()));
 }
 
 #[test]
@@ -192,20 +202,20 @@ fn targets_by_time_and_noise_stop_the_render_and_never_restart_it() {
         check_box(w, "Stop after");
         check_box(w, "Stop below");
     });
-    assert_eq!(window.state().budget.max_time, Some(Duration::from_secs(60)));
-    assert_eq!(window.state().budget.noise, Some(0.01));
-    never_restarts(&mut window, |w| w.state_mut().budget.noise = Some(0.5));
-    wait(&mut window, "the target", |app| matches!(app.status.state, State::Done(_)));
-    let (spp, noise) = (window.state().status.spp, window.state().status.relative_noise().expect("samples"));
+    assert_eq!(window.state().session.budget.max_time, Some(Duration::from_secs(60)));
+    assert_eq!(window.state().session.budget.noise, Some(0.01));
+    never_restarts(&mut window, |w| w.state_mut().session.budget.noise = Some(0.5));
+    wait(&mut window, "the target", |app| matches!(app.results.status.state, State::Done(_)));
+    let (spp, noise) = (window.state().results.status.spp, window.state().results.status.relative_noise().expect("samples"));
     assert!(spp >= 64, "before that noise is not believed");
-    never_restarts(&mut window, |w| w.state_mut().budget.noise = Some(0.6 * noise));
-    wait(&mut window, "less noise", |app| matches!(app.status.state, State::Done(_)) && app.status.spp > spp);
-    assert!(window.state().status.relative_noise().is_some_and(|left| left <= 0.6 * noise && left > 0.1 * noise));
+    never_restarts(&mut window, |w| w.state_mut().session.budget.noise = Some(0.6 * noise));
+    wait(&mut window, "less noise", |app| matches!(app.results.status.state, State::Done(_)) && app.results.status.spp > spp);
+    assert!(window.state().results.status.relative_noise().is_some_and(|left| left <= 0.6 * noise && left > 0.1 * noise));
     never_restarts(&mut window, |w| {
         check_box(w, "Stop below");
-        w.state_mut().budget.max_time = None;
+        w.state_mut().session.budget.max_time = None;
     });
-    wait(&mut window, "more", |app| app.status.state == State::Running);
+    wait(&mut window, "more", |app| app.results.status.state == State::Running);
 }
 
 #[test]
@@ -213,26 +223,27 @@ fn a_reference_that_is_dropped_gives_true_error_and_bias() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("reference.exr");
     let mut window = window("cornell_spheres");
-    assert!(window.state().against.is_none());
+    assert!(window.state().results.comparison.is_none());
     wait(&mut window, "a picture", App::can_save);
     window.state_mut().save_to(path.clone());
-    wait(&mut window, "the file", |app| app.last_saved.is_some());
-    let camera = window.state().camera;
-    window.state_mut().loader.read_reference(path, camera);
-    wait(&mut window, "the true error", |app| app.against.is_some());
-    window.state_mut().settings.seed = 9;
+    wait(&mut window, "the file", |app| app.window.last_saved.is_some());
+    let camera = window.state().session.camera;
+    window.state_mut().background.loader.read_reference(path, camera);
+    wait(&mut window, "the true error", |app| app.results.comparison.is_some());
+    window.state_mut().session.settings.seed = 9;
     wait(&mut window, "another picture", |app| {
-        app.against.is_some_and(|against| against.rel_mse > 0.0 && against.bias.is_some()) && app.status.spp >= 2
+        app.results.comparison.is_some_and(|against| against.rel_mse > 0.0 && against.bias.is_some())
+            && app.results.status.spp >= 2
     });
-    window.state_mut().camera.resolution = [64, 64];
-    wait(&mut window, "another size", |app| app.against.is_none());
+    window.state_mut().session.camera.resolution = [64, 64];
+    wait(&mut window, "another size", |app| app.results.comparison.is_none());
     window.run_steps(2);
     assert!(window.query_by_label_contains("true error unknown").is_some());
     std::fs::write(folder.path().join("bad.exr"), "no picture").expect("it is written");
-    window.state_mut().loader.read_reference(folder.path().join("bad.exr"), camera);
-    wait(&mut window, "the refusal", |app| app.notices.iter().any(|notice| notice.is_error));
+    window.state_mut().background.loader.read_reference(folder.path().join("bad.exr"), camera);
+    wait(&mut window, "the refusal", |app| app.dialogs.notices.0.iter().any(|notice| notice.is_error));
     // Alone, so that it stays where it is when others have had their time.
-    window.state_mut().notices.retain(|notice| notice.is_error);
+    window.state_mut().dialogs.notices.0.retain(|notice| notice.is_error);
     window.run_steps(4);
     window.get_by_label("Copy").click();
     let copied =

@@ -7,14 +7,17 @@ use noisefall::{
 };
 
 use super::*;
-use crate::viewer::{convergence::Moment, darkroom::Against, loader::Opened, save_dialog::Target as File};
+use crate::viewer::background::{catalogue::SceneRequest, display_image::ReferenceComparison, loader::OpenedScene};
+use crate::viewer::dialogs::save_target::SaveTarget as File;
+use crate::viewer::instruments::{convergence::history::Moment, convergence::history::Quantity, tabs::InstrumentTab};
+use crate::viewer::panels::{views, views::ReferenceSource};
 
 /// An app whose fields nobody changes: it shows what it is told.
 pub(super) fn app() -> App {
     let threads = Threads::new(1, SimdLevel::best()).expect("a thread can be had");
     let mut app = App::new(&egui::Context::default(), threads, None, Preferences::default());
     let (scene, materials) = (Arc::new(built_in()), Arc::from([]));
-    app.opened = Some(Opened { scene, name: String::new(), path: None, truth: None, materials });
+    app.session.opened = Some(OpenedScene { scene, name: String::new(), path: None, truth: None, materials });
     app
 }
 
@@ -48,12 +51,12 @@ fn frame() -> Arc<Frame> {
 #[test]
 fn the_line_at_the_bottom_has_every_figure_in_its_unit() {
     let mut app = app();
-    let status = &mut app.status;
+    let status = &mut app.results.status;
     (status.spp, status.samples, status.elapsed) = (7, 5_000_000, Duration::from_secs(2));
     (status.region_spp, status.rel_mse_estimate) = (Some(12), Some(0.0016));
-    app.budget.max_spp = Some(64);
-    app.against = Some(Against { rel_mse: 0.0025, bias: None });
-    (app.shown, app.hovered) = (Some(frame()), Some([1, 0]));
+    app.session.budget.max_spp = Some(64);
+    app.results.comparison = Some(ReferenceComparison { rel_mse: 0.0025, bias: None });
+    (app.results.shown, app.window.hovered) = (Some(frame()), Some([1, 0]));
     let texts = said(&mut app, |app, ui| app.status_bar(ui));
     assert_says(&texts, &["7 / 64 spp, 12 in the region", "2.5 M samples/s", "2.0 s", "noise 4.00 %", "true error 5.00 %"]);
     assert_says(&texts, &["(1, 0)  RGB 0.100 0.200 0.300  Y 0.186 ± 0.050"]);
@@ -62,8 +65,8 @@ fn the_line_at_the_bottom_has_every_figure_in_its_unit() {
 #[test]
 fn a_pixel_has_its_own_estimate_and_samples() {
     let mut app = app();
-    (app.shown, app.inspector.pixel) = (Some(frame()), Some([1, 0]));
-    assert_says(&said(&mut app, App::path_tab), &["L = 0.1860 ± 0.0500, N = 5"]);
+    (app.results.shown, app.instruments.path.pixel) = (Some(frame()), Some([1, 0]));
+    assert_says(&said(&mut app, |app, ui| app.instrument(ui, InstrumentTab::Path)), &["L = 0.1860 ± 0.0500, N = 5"]);
 }
 
 #[test]
@@ -71,22 +74,24 @@ fn a_bounce_says_what_it_brings_what_there_is_up_to_it_and_what_a_cap_loses() {
     let mut app = app();
     let shares = [0.5, 0.2, 0.12].into_iter().chain([0.01; 18]).collect();
     let series = Some(Series { terms: Vec::new(), shares });
-    app.frame_beside = Some(Arc::new(Frame { spp: 7, series, ..Frame::default() }));
-    app.bounces.k = 2;
-    let texts = said(&mut app, App::bounces_tab);
+    app.results.second_frame = Some(Arc::new(Frame { spp: 7, series, ..Frame::default() }));
+    app.session.bounces.k = 2;
+    let texts = said(&mut app, |app, ui| app.instrument(ui, InstrumentTab::Bounces));
     assert_says(&texts, &["k = 2 brings 12.00 % of the light; up to k it is 82.00 %. A cap of 2 would lose 18.00 %."]);
 }
 
 #[test]
 fn each_side_of_a_comparison_has_its_own_figures_in_their_columns() {
     let mut app = app();
-    let against = |rel_mse| Some(Against { rel_mse, bias: None });
-    for (status, spp, milliseconds, rel_mse) in [(&mut app.status, 7, 2500, 0.0016), (&mut app.status_beside, 9, 3500, 0.0004)] {
+    let against = |rel_mse| Some(ReferenceComparison { rel_mse, bias: None });
+    for (status, spp, milliseconds, rel_mse) in
+        [(&mut app.results.status, 7, 2500, 0.0016), (&mut app.results.second_status, 9, 3500, 0.0004)]
+    {
         (status.spp, status.elapsed, status.rel_mse_estimate) = (spp, Duration::from_millis(milliseconds), Some(rel_mse));
     }
-    (app.against, app.against_beside) = (against(0.0025), against(0.01));
-    app.start_comparison(RenderSettings { max_bounces: Some(2), ..app.settings });
-    let texts = said(&mut app, App::compare_tab);
+    (app.results.comparison, app.results.second_comparison) = (against(0.0025), against(0.01));
+    app.start_comparison(RenderSettings { max_bounces: Some(2), ..app.session.settings });
+    let texts = said(&mut app, |app, ui| app.instrument(ui, InstrumentTab::Compare));
     for row in [
         ["A", "as the scene opens", "7", "2.5 s", "4.00 %", "5.00 %", "160", "the solution"],
         ["B", "max-bounces 2", "9", "3.5 s", "2.00 %", "10.00 %", "28.6", "biased: cap at 2"],
@@ -94,63 +99,72 @@ fn each_side_of_a_comparison_has_its_own_figures_in_their_columns() {
         assert!(texts.windows(row.len()).any(|cells| cells == row), "{row:?} is not in {texts:?}");
     }
     assert_says(&texts, &["A is about 5.6 times as efficient so far."]);
-    std::mem::swap(&mut app.against, &mut app.against_beside);
+    std::mem::swap(&mut app.results.comparison, &mut app.results.second_comparison);
     // 1/(0.01 · 2.5) and 1/(0.0025 · 3.5).
-    assert_says(&said(&mut app, App::compare_tab), &["B is about 2.9 times as efficient so far."]);
+    assert_says(
+        &said(&mut app, |app, ui| app.instrument(ui, InstrumentTab::Compare)),
+        &["B is about 2.9 times as efficient so far."],
+    );
 }
 
 #[test]
 fn lines_are_estimates_points_are_true_and_clear_keeps_the_curve_that_grows() {
     let mut app = app();
-    let scene = app.opened.as_ref().expect("it is open").scene.clone();
-    app.history.look_at(&scene, &scene.camera, None);
+    let scene = app.session.opened.as_ref().expect("it is open").scene.clone();
+    app.instruments.history.look_at(&scene, &scene.camera, None);
     let other = RenderSettings { seed: 5, ..scene.settings };
-    for (settings, generation) in [(other, 5), (scene.settings, app.link.generation())] {
+    for (settings, generation) in [(other, 5), (scene.settings, app.background.worker.generation())] {
         for (spp, true_error) in [(1, None), (4, Some(0.25)), (16, None)] {
             let estimated = Some(0.5 / f64::from(spp));
-            app.history.record(&settings, generation, Moment { spp, seconds: 1.0, estimated, true_error, bias: None });
+            app.instruments.history.record(
+                &settings,
+                generation,
+                Moment { spp, seconds: 1.0, estimated, true_error, bias: None },
+            );
         }
     }
-    let mut harness = Harness::builder().with_size(SIZE).build_ui(|ui| app.convergence(ui));
+    let mut harness = Harness::builder().with_size(SIZE).build_ui(|ui| app.instrument(ui, InstrumentTab::Convergence));
     let is_point = |shape: &egui::Shape| matches!(shape, egui::Shape::Circle(circle) if circle.radius == 2.2);
     let points = harness.output().shapes.iter().filter(|clipped| is_point(&clipped.shape)).count();
     assert_eq!(points, 2, "one of each curve");
     harness.get_by_label("Clear").click();
     harness.run_steps(3);
     drop(harness);
-    let left: Vec<u64> = app.history.curves.iter().map(|curve| curve.generation).collect();
-    assert_eq!(left, [app.link.generation()]);
+    let left: Vec<u64> = app.instruments.history.curves.iter().map(|curve| curve.generation).collect();
+    assert_eq!(left, [app.background.worker.generation()]);
 }
 
 #[test]
 fn where_no_truth_is_known_the_plot_of_bias_says_what_it_needs() {
     let mut app = app();
-    let scene = app.opened.as_ref().expect("it is open").scene.clone();
-    app.history.look_at(&scene, &scene.camera, None);
-    app.history.what = crate::viewer::convergence::history::What::Bias;
+    let scene = app.session.opened.as_ref().expect("it is open").scene.clone();
+    app.instruments.history.look_at(&scene, &scene.camera, None);
+    app.instruments.history.what = Quantity::Bias;
     let needs = |texts: &[String]| texts.iter().any(|text| text.starts_with("Bias is known where the truth is"));
     for (spp, bias, is_known) in [(1, None, false), (4, Some(0.1), true), (16, None, true)] {
         let moment = Moment { spp, seconds: 1.0, estimated: Some(0.5), true_error: None, bias };
-        app.history.record(&scene.settings, 5, moment);
-        assert_eq!(needs(&said(&mut app, App::convergence)), !is_known, "{spp}");
+        app.instruments.history.record(&scene.settings, 5, moment);
+        assert_eq!(needs(&said(&mut app, |app, ui| app.instrument(ui, InstrumentTab::Convergence))), !is_known, "{spp}");
     }
 }
 
 #[test]
 fn frame_times_are_those_of_layout_and_of_all() {
     let mut app = app();
-    app.pace.shown = true;
-    app.pace.record(Duration::from_millis(5), 0.0);
-    app.pace.record_whole(Duration::from_millis(9));
-    let texts = said(&mut app, |app, ui| app.show_pace(ui.ctx()));
+    app.frame_times.shown = true;
+    app.frame_times.record(Duration::from_millis(5), 0.0);
+    app.frame_times.record_whole(Duration::from_millis(9));
+    let texts = said(&mut app, |app, ui| app.frame_times.show(ui.ctx(), 1, 0));
     assert_says(&texts, &["layout      p50   5.00 ms   p99   5.00 ms", "and drawing p50   9.00 ms   p99   9.00 ms"]);
 }
 
 #[test]
 fn a_pinned_picture_has_the_samples_of_its_own() {
-    let mut app = app();
-    (app.shown, app.pinned) = (Some(frame()), Some(Arc::new(Frame { spp: 12, ..Frame::default() })));
-    assert_says(&said(&mut app, App::view_rows), &["12 spp"]);
+    let mut pinned = Some(Arc::new(Frame { spp: 12, ..Frame::default() }));
+    let rows = |app: &mut App, ui: &mut egui::Ui| {
+        views::rows(ui, &mut app.session.look.map, Some(&frame()), &mut pinned, &ReferenceSource::None);
+    };
+    assert_says(&said(&mut app(), rows), &["12 spp"]);
 }
 
 #[test]
@@ -162,9 +176,9 @@ fn a_name_is_suggested_after_the_last_file_of_its_kind() {
         ("shots/shot.png", File::CurvesSvg, "shots/shot.svg"),
         ("shots/curves.csv", File::Picture, "cornell_spheres.png"),
     ] {
-        (app.last_saved, app.save_dialog) = (Some(PathBuf::from(last)), None);
+        (app.window.last_saved, app.dialogs.save) = (Some(PathBuf::from(last)), None);
         app.open_save_dialog(target);
-        let path = app.save_dialog.as_ref().map(|dialog| PathBuf::from(dialog.path()));
+        let path = app.dialogs.save.as_ref().map(|dialog| PathBuf::from(dialog.path()));
         assert!(path.as_ref().is_some_and(|path| path.ends_with(suggested)), "{path:?}");
     }
 }
@@ -173,9 +187,9 @@ fn a_name_is_suggested_after_the_last_file_of_its_kind() {
 fn a_file_is_looked_for_where_the_open_scene_lies() {
     let mut app = app();
     let path = shipped("furnace").canonicalize().expect("it is there");
-    app.opened.as_mut().expect("it is open").path = Some(path.clone());
-    app.open_open_dialog();
-    let start = app.open_dialog.map(|field| field.path);
+    app.session.opened.as_mut().expect("it is open").path = Some(path.clone());
+    app.open_scene(SceneRequest::Browse);
+    let start = app.dialogs.open.map(|field| field.path);
     let folder = path.parent().expect("it lies in one").join("");
     assert_eq!(start, Some(folder.display().to_string()), "a name can be typed behind it");
 }

@@ -9,7 +9,7 @@ use noisefall::render::{
 };
 
 use super::{labels::app, *};
-use crate::viewer::canvas::Place;
+use crate::viewer::{canvas::picture_area::PictureArea, instruments::tabs::InstrumentTab};
 
 /// All that a part of the window paints.
 fn painted(mut part: impl FnMut(&mut egui::Ui)) -> Vec<Shape> {
@@ -48,7 +48,7 @@ fn near(found: f32, exact: f32) {
 }
 
 /// A picture of 64 × 64 pixels, five points each.
-const PLACE: Place = Place {
+const AREA: PictureArea = PictureArea {
     clip: Rect::from_min_max(pos2(100.0, 100.0), pos2(420.0, 420.0)),
     rect: Rect::from_min_max(pos2(100.0, 100.0), pos2(420.0, 420.0)),
     resolution: vec2(64.0, 64.0),
@@ -59,8 +59,8 @@ fn a_legend_has_its_colours_from_left_to_right_with_their_numbers_below() {
     let mut app = app();
     let scale = Scale { map: ColourMap::Viridis, ends: [1.0, 100.0], log: true, unit: "m" };
     let entries = vec![([200, 10, 20], "first".to_owned()), ([20, 210, 30], "second".to_owned())];
-    app.legend = Some(Legend { title: "Depth".to_owned(), scale: Some(scale), entries });
-    let shapes = painted(|ui| app.overlay(ui, &PLACE));
+    app.results.legend = Some(Legend { title: "Depth".to_owned(), scale: Some(scale), entries });
+    let shapes = painted(|ui| app.overlays(ui, &AREA));
     let colour = |place: f32| {
         let [r, g, b] = ColourMap::Viridis.of(place);
         Color32::from_rgb(r, g, b)
@@ -92,8 +92,8 @@ fn scores_are_bars_at_their_places_under_the_normal_curve() {
     let mut app = app();
     let mut density = vec![0.0; 50];
     (density[30], density[10]) = (0.5, 0.25);
-    app.scores = Some(Scores { density, beyond: 0.05, mean: 0.1, deviation: 1.2 });
-    let shapes = painted(|ui| app.overlay(ui, &PLACE));
+    app.results.scores = Some(Scores { density, beyond: 0.05, mean: 0.1, deviation: 1.2 });
+    let shapes = painted(|ui| app.overlays(ui, &AREA));
     let blue = Color32::from_rgb(86, 180, 233);
     let bars: Vec<Rect> =
         fills(&shapes).into_iter().filter(|(rect, fill)| *fill == blue && rect.height() > 1.0).map(|bar| bar.0).collect();
@@ -121,9 +121,9 @@ fn scores_are_bars_at_their_places_under_the_normal_curve() {
 #[test]
 fn a_region_is_framed_with_the_tiles_that_it_takes() {
     let mut app = app();
-    app.budget.region = Some(Region { from: [10, 40], to: [20, 50] });
-    let frames = |app: &App| {
-        let shapes = painted(|ui| app.overlay(ui, &PLACE));
+    app.session.budget.region = Some(Region { from: [10, 40], to: [20, 50] });
+    let frames = |app: &mut App| {
+        let shapes = painted(|ui| app.overlays(ui, &AREA));
         let frame = |shape: &Shape| match shape {
             Shape::Rect(rect) if rect.stroke.width > 0.0 => Some((rect.stroke.width, rect.rect)),
             _ => None,
@@ -132,10 +132,10 @@ fn a_region_is_framed_with_the_tiles_that_it_takes() {
     };
     let rect = |from: [f32; 2], to: [f32; 2]| Rect::from_min_max(from.into(), to.into());
     let region = rect([150.0, 300.0], [200.0, 350.0]);
-    assert_eq!(frames(&app), [(1.0, rect([100.0, 260.0], [260.0, 420.0])), (2.5, region), (1.5, region)]);
+    assert_eq!(frames(&mut app), [(1.0, rect([100.0, 260.0], [260.0, 420.0])), (2.5, region), (1.5, region)]);
     // What is being drawn is seen in place of what was.
-    app.marking = Some(Region { from: [0, 0], to: [2, 2] });
-    assert_eq!(frames(&app)[2], (1.5, rect([100.0, 100.0], [110.0, 110.0])));
+    app.window.marking = Some(Region { from: [0, 0], to: [2, 2] });
+    assert_eq!(frames(&mut app)[2], (1.5, rect([100.0, 100.0], [110.0, 110.0])));
 }
 
 #[test]
@@ -143,10 +143,10 @@ fn bars_of_bounces_are_as_high_as_their_shares() {
     let mut app = app();
     let shares = [0.5, 0.25].into_iter().chain([0.01; 14]).chain([0.02; 5]).collect();
     let series = Some(Series { terms: Vec::new(), shares });
-    app.frame_beside = Some(Arc::new(Frame { spp: 7, series, ..Frame::default() }));
+    app.results.second_frame = Some(Arc::new(Frame { spp: 7, series, ..Frame::default() }));
     for (up_to, chosen) in [(false, vec![1]), (true, vec![0, 1])] {
-        (app.bounces.k, app.bounces.up_to) = (1, up_to);
-        let shapes = painted(|ui| app.bounces_tab(ui));
+        (app.session.bounces.k, app.session.bounces.up_to) = (1, up_to);
+        let shapes = painted(|ui| app.instrument(ui, InstrumentTab::Bounces));
         // Of what is as wide, numbers in fields stand elsewhere.
         let mut bars: Vec<_> = fills(&shapes).into_iter().filter(|(rect, _)| (rect.width() - 40.0).abs() < 0.1).collect();
         let base = bars.iter().find(|(rect, _)| rect.height() > 60.0).expect("the highest bar").0.bottom();

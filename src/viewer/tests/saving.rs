@@ -12,12 +12,12 @@ fn ctrl_s_saves_what_is_shown_where_the_path_field_says() {
     field.set_text_value_accesskit(&path.display().to_string());
     window.run_steps(3);
     click(&mut window, "Save");
-    wait(&mut window, "the file", |app| app.last_saved.is_some());
+    wait(&mut window, "the file", |app| app.window.last_saved.is_some());
     let saved = image_file::read(&path).expect("it is a picture");
     assert_eq!([saved.width, saved.height], [96, 64]);
-    assert!(window.state().notices.iter().any(|notice| !notice.is_error));
+    assert!(window.state().dialogs.notices.0.iter().any(|notice| !notice.is_error));
     window.state_mut().save_to(folder.path().join("nowhere/shot.png"));
-    wait(&mut window, "the refusal", |app| app.notices.iter().any(|notice| notice.is_error));
+    wait(&mut window, "the refusal", |app| app.dialogs.notices.0.iter().any(|notice| notice.is_error));
 }
 
 #[test]
@@ -28,11 +28,11 @@ fn a_path_that_cannot_be_written_to_is_refused_in_the_dialog() {
     window.get_by_role(Role::TextInput).set_text_value_accesskit("/nowhere/at/all.png");
     window.run_steps(3);
     click(&mut window, "Save");
-    assert!(window.state().save_dialog.is_some(), "the dialog stays");
+    assert!(window.state().dialogs.save.is_some(), "the dialog stays");
     assert!(window.query_by_label_contains("there is no folder").is_some());
     window.key_press(Key::Escape);
     window.run_steps(2);
-    assert!(window.state().save_dialog.is_none());
+    assert!(window.state().dialogs.save.is_none());
 }
 
 #[test]
@@ -45,7 +45,7 @@ fn saving_never_moves_the_camera() {
         w.key_down(Key::S);
         w.run_steps(3);
     });
-    assert!(window.state().save_dialog.is_some());
+    assert!(window.state().dialogs.save.is_some());
 }
 
 #[test]
@@ -53,14 +53,14 @@ fn exposure_and_tone_map_change_what_is_saved() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = window("bright_sky");
     click(&mut window, "Pause");
-    wait(&mut window, "the pause", |app| app.status.state == State::Paused && app.can_save());
+    wait(&mut window, "the pause", |app| app.results.status.state == State::Paused && app.can_save());
     let mut pictures = Vec::new();
     for (i, map) in ["None (sRGB)", "Reinhard", "ACES-like", "False colour"].into_iter().enumerate() {
         choose(&mut window, "Tone map", map);
         let path = folder.path().join(format!("{i}.png"));
-        window.state_mut().last_saved = None;
+        window.state_mut().window.last_saved = None;
         window.state_mut().save_to(path.clone());
-        wait(&mut window, "the file", |app| app.last_saved.is_some());
+        wait(&mut window, "the file", |app| app.window.last_saved.is_some());
         pictures.push(image_file::read(&path).expect("it is a picture").radiance);
     }
     for i in 1..pictures.len() {
@@ -75,11 +75,11 @@ fn an_exr_has_all_of_the_picture_whatever_is_seen_and_whatever_letters_the_scene
     let mut window = window("inside_lit_inside");
     window.key_press(Key::F4);
     window.run_steps(2);
-    wait(&mut window, "the series", |app| app.frame_beside.is_some());
+    wait(&mut window, "the series", |app| app.results.second_frame.is_some());
     let text = |window: &mut Window, name: &str| {
         let path = folder.path().join(name);
         window.state_mut().save_to(path.clone());
-        wait(window, "the file", |app| app.last_saved.as_ref() == Some(&path));
+        wait(window, "the file", |app| app.window.last_saved.as_ref() == Some(&path));
         String::from_utf8_lossy(&std::fs::read(&path).expect("it is there")).into_owned()
     };
     assert!(!text(&mut window, "whole.exr").contains("exactly 1 bounce"));

@@ -12,9 +12,9 @@ fn changed(folder: &tempfile::TempDir, scene: &str, this: &str, that: &str) -> P
 
 fn opened(path: PathBuf) -> Window {
     let mut window = open(Some(path));
-    wait(&mut window, "the scene", |app| app.opened.is_some());
-    window.state_mut().camera.resolution = [48, 32];
-    wait(&mut window, "a picture", |app| app.shown.as_ref().is_some_and(|frame| frame.width == 48));
+    wait(&mut window, "the scene", |app| app.session.opened.is_some());
+    window.state_mut().session.camera.resolution = [48, 32];
+    wait(&mut window, "a picture", |app| app.results.shown.as_ref().is_some_and(|frame| frame.width == 48));
     window
 }
 
@@ -32,7 +32,7 @@ fn a_long_name_of_an_object_does_not_widen_the_panel() {
 #[test]
 fn a_black_picture_is_told_with_its_likely_cause() {
     let mut window = opened(shipped("inside_lit_outside"));
-    wait(&mut window, "samples", |app| app.status.spp >= 2 && app.black);
+    wait(&mut window, "samples", |app| app.results.status.spp >= 2 && app.results.black);
     window.run_steps(2);
     assert!(window.query_by_label("no light found yet").is_some() && window.query_by_label_contains("noise").is_none());
     assert!(window.query_by_label("Note: the camera is inside `wall`.").is_some());
@@ -47,15 +47,15 @@ fn a_true_picture_of_another_size_is_told() {
     let mut first = opened(shipped("furnace"));
     wait(&mut first, "a full picture", App::can_save);
     first.state_mut().save_to(folder.path().join("true.exr"));
-    wait(&mut first, "the file", |app| app.last_saved.is_some());
+    wait(&mut first, "the file", |app| app.window.last_saved.is_some());
     let text = std::fs::read_to_string(shipped("furnace")).expect("it is shipped");
     let truth = text.find("[truth]").expect("it has one");
     let path = folder.path().join("scene.toml");
     std::fs::write(&path, format!("{}[truth]\nimage = \"true.exr\"\n", &text[..truth])).expect("it is written");
     let mut window = opened(path);
-    wait(&mut window, "the true error", |app| app.against.is_some());
-    window.state_mut().camera.resolution = [40, 32];
-    wait(&mut window, "another size", |app| app.shown.as_ref().is_some_and(|frame| frame.width == 40));
+    wait(&mut window, "the true error", |app| app.results.comparison.is_some());
+    window.state_mut().session.camera.resolution = [40, 32];
+    wait(&mut window, "another size", |app| app.results.shown.as_ref().is_some_and(|frame| frame.width == 40));
     window.run_steps(2);
     assert!(window.query_by_label("true error unknown").is_some());
 }
@@ -63,16 +63,16 @@ fn a_true_picture_of_another_size_is_told() {
 #[test]
 fn a_camera_that_cannot_be_leaves_the_last_picture_as_it_is() {
     let mut window = window("cornell_spheres");
-    let shape = |window: &Window| window.state().view.drawn_zoom;
+    let shape = |window: &Window| window.state().window.view.drawn_zoom;
     let before = shape(&window);
     never_restarts(&mut window, |w| {
-        let camera = &mut w.state_mut().camera;
+        let camera = &mut w.state_mut().session.camera;
         (camera.resolution, camera.look_at) = ([64, 640], camera.eye);
     });
     assert_eq!(shape(&window), before);
     assert!(window.query_by_label("Invalid settings").is_some() && window.query_by_label("unbiased").is_none());
     never_restarts(&mut window, |w| {
-        let camera = &mut w.state_mut().camera;
+        let camera = &mut w.state_mut().session.camera;
         (camera.look_at, camera.up) = (DVec3::ZERO, DVec3::ZERO);
     });
     assert!(window.query_by_label_contains("`up` is zero").is_some());
@@ -93,10 +93,10 @@ fn the_list_marks_the_open_scene_however_it_was_named_and_knows_those_from_elsew
     window.key_press(Key::Escape);
     window.run_steps(3);
     let path = changed(&folder, "furnace", "title = \"Furnace\"", "title = \"A furnace of mine\"");
-    window.state_mut().look.display.exposure = 3.0;
-    window.state_mut().loader.open(Some(path));
-    wait(&mut window, "my scene", |app| app.opened.as_ref().is_some_and(|opened| opened.name == "A furnace of mine"));
-    assert_eq!(window.state().look.display.exposure, 0.0, "what suited the other scene");
+    window.state_mut().session.look.display.exposure = 3.0;
+    window.state_mut().background.loader.open(Some(path));
+    wait(&mut window, "my scene", |app| app.session.opened.as_ref().is_some_and(|opened| opened.name == "A furnace of mine"));
+    assert_eq!(window.state().session.look.display.exposure, 0.0, "what suited the other scene");
     assert!(window.state().catalogue.iter().any(|entry| entry.name == "A furnace of mine"));
 }
 
@@ -109,7 +109,7 @@ fn messages_lie_over_the_picture() {
     let notice = window.get_by_label("something to say").rect();
     assert!((notice.center().x - (SIZE.x - 336.0) / 2.0).abs() < 60.0, "{notice:?}");
     assert!((SIZE.y - 120.0..SIZE.y - 60.0).contains(&notice.bottom()), "{notice:?}");
-    window.state_mut().scene_error = Some("it is broken".to_owned());
+    window.state_mut().dialogs.scene_error = Some("it is broken".to_owned());
     window.run_steps(3);
     let report = window.get_by_label("it is broken").rect();
     assert!(report.right() < SIZE.x - 336.0 && report.left() > 0.0, "{report:?}");

@@ -5,28 +5,28 @@ use super::*;
 fn every_setting_of_the_estimate_starts_a_new_picture() {
     let mut window = window("cornell_spheres");
     restarts(&mut window, "stratified", |w| choose(w, "Sampler", "Stratified"));
-    assert_eq!(window.state().settings.sampler, Sampler::Stratified);
+    assert_eq!(window.state().session.settings.sampler, Sampler::Stratified);
     restarts(&mut window, "light sampling alone", |w| click(w, "Light"));
-    assert_eq!(window.state().settings.estimator, Estimator::Light);
+    assert_eq!(window.state().session.settings.estimator, Estimator::Light);
     restarts(&mut window, "paths alone", |w| click(w, "Path"));
-    assert_eq!(window.state().settings.estimator, Estimator::Path);
+    assert_eq!(window.state().session.settings.estimator, Estimator::Path);
     restarts(&mut window, "uniform directions", |w| click(w, "Uniform"));
-    assert_eq!(window.state().settings.directions, Directions::Uniform);
+    assert_eq!(window.state().session.settings.directions, Directions::Uniform);
     restarts(&mut window, "cosine directions", |w| click(w, "Cosine"));
     restarts(&mut window, "shared paths", |w| click(w, "Always"));
-    assert_eq!(window.state().settings.reuse, Reuse::On);
+    assert_eq!(window.state().session.settings.reuse, Reuse::On);
     restarts(&mut window, "adaptive samples", |w| {
         w.get_by_role_and_label(Role::CheckBox, "Adaptive").click();
         w.run_steps(2);
     });
-    assert!(window.state().settings.adaptive);
+    assert!(window.state().session.settings.adaptive);
     restarts(&mut window, "fixed roulette", |w| choose(w, "Roulette", "Fixed probability"));
-    assert!(matches!(window.state().settings.roulette, Roulette::Fixed(_)));
+    assert!(matches!(window.state().session.settings.roulette, Roulette::Fixed(_)));
     restarts(&mut window, "another survival probability", |w| {
         w.get_by_role_and_label(Role::Slider, "Survival").set_value_accesskit(0.5);
         w.run_steps(2);
     });
-    assert_eq!(window.state().settings.roulette, Roulette::Fixed(0.5));
+    assert_eq!(window.state().session.settings.roulette, Roulette::Fixed(0.5));
     assert!(window.query_by_label("infinite variance?").is_some(), "walls of albedo 0.75 keep more than 0.5 of the square");
     restarts(&mut window, "no roulette", |w| choose(w, "Roulette", "Off"));
     assert!(window.query_by_label("infinite variance?").is_none(), "weights of cosine directions never grow");
@@ -39,14 +39,14 @@ fn every_setting_of_the_estimate_starts_a_new_picture() {
         w.get_by_role_and_label(Role::SpinButton, "Seed").set_value_accesskit(42.0);
         w.run_steps(2);
     });
-    assert_eq!(window.state().settings.seed, 42);
+    assert_eq!(window.state().session.settings.seed, 42);
 }
 
 #[test]
 fn no_row_is_wider_than_the_panel() {
     for (scene, says) in [("cornell_spheres", "in use here"), ("veach_plates", "not in use here")] {
         let mut window = window(scene);
-        wait(&mut window, "samples", |app| app.status.spp >= 1);
+        wait(&mut window, "samples", |app| app.results.status.spp >= 1);
         window.run_steps(3);
         let note = window.get_by_label(says).rect();
         let label = window.get_by_label("Share paths").rect();
@@ -63,46 +63,46 @@ fn display_settings_zoom_and_target_never_restart() {
         w.get_by_role_and_label(Role::Slider, "Exposure").set_value_accesskit(2.0);
         choose(w, "Tone map", "Reinhard");
     });
-    assert_eq!(window.state().look.display.exposure, 2.0);
-    assert_eq!(window.state().look.display.tone_map, ToneMap::Reinhard);
-    let fitted = window.state().view.drawn_zoom;
+    assert_eq!(window.state().session.look.display.exposure, 2.0);
+    assert_eq!(window.state().session.look.display.tone_map, ToneMap::Reinhard);
+    let fitted = window.state().window.view.drawn_zoom;
     never_restarts(&mut window, |w| scroll(w, [400.0, 400.0], 50.0));
-    assert!(window.state().view.drawn_zoom > fitted);
+    assert!(window.state().window.view.drawn_zoom > fitted);
     never_restarts(&mut window, |w| drag(w, PointerButton::Primary, [400.0, 400.0], [300.0, 400.0]));
-    assert!(window.state().view.offset.x > 0.0);
+    assert!(window.state().window.view.offset.x > 0.0);
     never_restarts(&mut window, |w| click(w, "1:1"));
-    assert_eq!(window.state().view.drawn_zoom, 1.0);
+    assert_eq!(window.state().window.view.drawn_zoom, 1.0);
     never_restarts(&mut window, |w| {
         w.get_by_role_and_label(Role::CheckBox, "Stop at").click();
         w.run_steps(2);
     });
-    assert_eq!(window.state().budget.max_spp, Some(1024));
+    assert_eq!(window.state().session.budget.max_spp, Some(1024));
 }
 
 #[test]
 fn pause_step_resume_and_restart_do_so() {
     let mut window = window("cornell_spheres");
     click(&mut window, "Pause");
-    wait(&mut window, "the pause", |app| app.status.state == State::Paused);
-    let paused = window.state().status.clone();
+    wait(&mut window, "the pause", |app| app.results.status.state == State::Paused);
+    let paused = window.state().results.status.clone();
     window.key_press(Key::Period);
-    wait(&mut window, "a step", |app| app.status.spp == paused.spp + 1);
+    wait(&mut window, "a step", |app| app.results.status.spp == paused.spp + 1);
     never_restarts(&mut window, |w| click(w, "Resume"));
-    wait(&mut window, "more samples", |app| app.status.spp > paused.spp + 2);
+    wait(&mut window, "more samples", |app| app.results.status.spp > paused.spp + 2);
     restarts(&mut window, "a restart", |w| click(w, "Restart"));
 }
 
 #[test]
 fn a_reached_target_is_named_and_a_higher_one_goes_on() {
     let mut window = window("bright_sky");
-    window.state_mut().budget.max_spp = Some(3);
+    window.state_mut().session.budget.max_spp = Some(3);
     restarts(&mut window, "a restart", |w| click(w, "Restart"));
-    wait(&mut window, "the target", |app| matches!(app.status.state, State::Done(_)));
-    assert_eq!(window.state().status.spp, 3);
+    wait(&mut window, "the target", |app| matches!(app.results.status.state, State::Done(_)));
+    assert_eq!(window.state().results.status.spp, 3);
     assert!(window.query_by_label("Stopped at 3 spp").is_some());
-    window.state_mut().budget.max_spp = Some(5);
+    window.state_mut().session.budget.max_spp = Some(5);
     let mut titles = Vec::new();
-    let done = |app: &App| app.status.spp == 5 && matches!(app.status.state, State::Done(_));
+    let done = |app: &App| app.results.status.spp == 5 && matches!(app.results.status.state, State::Done(_));
     let start = Instant::now();
     while !done(window.state()) {
         assert!(start.elapsed() < Duration::from_secs(60), "the next target never came");
@@ -118,9 +118,9 @@ fn a_reached_target_is_named_and_a_higher_one_goes_on() {
     assert!(window.query_by_label("Stopped at 5 spp").is_some());
     let last = titles.last().expect("a title");
     assert!(last.ends_with(" (stopped at 5 spp) – Noisefall"), "{titles:?}");
-    window.state_mut().budget.noise = Some(0.5);
-    never_restarts(&mut window, |w| w.state_mut().budget.max_spp = None);
-    wait(&mut window, "the noise target", |app| app.status.state == State::Done(Target::Noise(0.5)));
+    window.state_mut().session.budget.noise = Some(0.5);
+    never_restarts(&mut window, |w| w.state_mut().session.budget.max_spp = None);
+    wait(&mut window, "the noise target", |app| app.results.status.state == State::Done(Target::Noise(0.5)));
     window.run_steps(1);
     assert!(window.query_by_label("Noise target 50 % reached").is_some());
 }

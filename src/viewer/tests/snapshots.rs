@@ -2,7 +2,7 @@
 use egui_kittest::{SnapshotOptions, image_snapshot_options};
 
 use super::{rasteriser::Rasteriser, *};
-use crate::viewer::dock::Tab;
+use crate::viewer::instruments::tabs::InstrumentTab;
 
 /// Where the figures change with every run: the line at the bottom.
 const STATUS_BAR: u32 = 34;
@@ -19,18 +19,18 @@ fn at_rest(scene: &str, spp: u32, change: impl FnOnce(&mut App)) -> Window {
     };
     let builder = Harness::builder().with_size(vec2(1280.0, 800.0)).renderer(Rasteriser::default());
     let mut window = builder.build_ui_state(draw, Lazy(None));
-    wait(&mut window, "the scene", |app| app.opened.is_some());
+    wait(&mut window, "the scene", |app| app.session.opened.is_some());
     let app = window.state_mut();
-    app.camera.resolution = [60, 60];
-    app.budget.max_spp = Some(spp);
+    app.session.camera.resolution = [60, 60];
+    app.session.budget.max_spp = Some(spp);
     change(app);
     wait(&mut window, "the picture", |app| {
-        let shown = app.shown.as_ref().is_some_and(|frame| frame.spp == spp && frame.width == 60);
-        let beside = app.companion().is_none() || app.frame_beside.as_ref().is_some_and(|frame| frame.spp == spp);
+        let shown = app.results.shown.as_ref().is_some_and(|frame| frame.spp == spp && frame.width == 60);
+        let beside = app.second_view().is_none() || app.results.second_frame.as_ref().is_some_and(|frame| frame.spp == spp);
         shown
             && beside
-            && (app.inspector.pixel.is_none()
-                || app.inspector.histogram().is_some_and(|histogram| histogram.samples.len() == spp as usize))
+            && (app.instruments.path.pixel.is_none()
+                || app.instruments.path.histogram().is_some_and(|histogram| histogram.samples.len() == spp as usize))
     });
     // What is on its way arrives.
     for _ in 0..30 {
@@ -60,12 +60,12 @@ fn the_window_looks_as_it_did_in_both_themes() {
 
 #[test]
 fn the_instruments_look_as_they_did() {
-    compare(&mut at_rest("cornell_spheres", 8, |app| app.dock = Some(Tab::Bounces)), "bounces");
+    compare(&mut at_rest("cornell_spheres", 8, |app| app.window.tab = Some(InstrumentTab::Bounces)), "bounces");
     let inspected = |app: &mut App| {
-        app.dock = Some(Tab::Path);
-        app.inspector.look_at([38, 45]);
+        app.window.tab = Some(InstrumentTab::Path);
+        app.instruments.path.look_at([38, 45]);
     };
     compare(&mut at_rest("glass_and_mirror", 16, inspected), "pixel");
-    let scored = |app: &mut App| app.look.view = noisefall::render::view::View::ZScore;
+    let scored = |app: &mut App| app.session.look.view = noisefall::render::view::View::ZScore;
     compare(&mut at_rest("furnace", 64, scored), "z_score");
 }

@@ -81,11 +81,11 @@ fn event(window: &mut Window, random: &mut SmallRng, at: &mut Pos2) {
 /// Takes back what no machine could stand, or what a test must not do: huge pictures, slow scenes, dialogs of the system.
 fn tame(window: &mut Window) {
     let app = window.state_mut();
-    for side in &mut app.camera.resolution {
+    for side in &mut app.session.camera.resolution {
         *side = (*side).min(160);
     }
-    (app.save_dialog, app.open_dialog, app.adviser) = (None, None, None);
-    app.threads = app.threads.min(2);
+    (app.dialogs.save, app.dialogs.open, app.background.adviser) = (None, None, None);
+    app.session.threads = app.session.threads.min(2);
 }
 
 /// Says to the test below that it is the program of its own.
@@ -110,28 +110,32 @@ fn soak() {
     let mut random = SmallRng::seed_from_u64(7);
     let (mut at, mut warm) = (Pos2::ZERO, 0);
     // The pictures of the gallery are read once.
-    window.state_mut().gallery.open = true;
+    window.state_mut().dialogs.gallery.open = true;
     let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("assets").join("gallery");
     let has_picture = |scene: &PathBuf| scene.file_stem().is_some_and(|name| folder.join(name).with_extension("png").is_file());
     wait(&mut window, "the gallery", |app| {
-        app.gallery.count() == app.catalogue.iter().filter(|entry| has_picture(&entry.path)).count()
+        app.dialogs.gallery.count() == app.catalogue.iter().filter(|entry| has_picture(&entry.path)).count()
     });
     for number in 0..EVENTS {
         event(&mut window, &mut random, &mut at);
         tame(&mut window);
         if number % 500 == 499 {
             // The scene may have become another one.
-            window.state_mut().loader.open(Some(shipped("cornell_spheres")));
-            wait(&mut window, "the scene", |app| !app.loader.is_busy());
-            window.state_mut().camera.resolution = [96, 64];
+            window.state_mut().background.loader.open(Some(shipped("cornell_spheres")));
+            wait(&mut window, "the scene", |app| !app.background.loader.is_busy());
+            window.state_mut().session.camera.resolution = [96, 64];
         }
         if number % 1000 == 700 {
             // Whatever the controls say by now, the window comes to show it.
             window.event(egui::Event::PointerGone);
             wait(&mut window, "the picture of what was asked for last", |app| {
-                let asked = app.link.wish().is_some_and(|wish| wish.settings == app.settings && wish.camera == app.camera);
-                let fits = asked || app.camera.check().is_err();
-                fits && app.shown.as_ref().is_some_and(|frame| frame.generation == app.link.generation())
+                let asked = app
+                    .background
+                    .worker
+                    .request()
+                    .is_some_and(|request| request.settings == app.session.settings && request.camera == app.session.camera);
+                let fits = asked || app.session.camera.check().is_err();
+                fits && app.results.shown.as_ref().is_some_and(|frame| frame.generation == app.background.worker.generation())
             });
         }
         if number == WARM {
@@ -142,8 +146,8 @@ fn soak() {
     println!("memory: {} kB after {WARM} events, {} kB after {EVENTS}", warm / 1000, end / 1000);
     assert!(end < warm + warm / 20, "memory grew from {warm} to {end} bytes");
     let app = window.state();
-    let shown = app.shown.as_ref().expect("there is a picture");
-    assert_eq!(shown.generation, app.link.generation(), "a stale frame is shown");
+    let shown = app.results.shown.as_ref().expect("there is a picture");
+    assert_eq!(shown.generation, app.background.worker.generation(), "a stale frame is shown");
 }
 
 /// The fewest bytes in use, besides the texture of letters, while the picture of the scene as it opens is at rest: until there are as few as this,
@@ -152,20 +156,20 @@ fn settled_memory(window: &mut Window, enough: usize) -> usize {
     const PATIENCE: Duration = Duration::from_secs(5);
     window.event(egui::Event::PointerGone);
     // What camera rays meet is kept for as long as the scene is.
-    window.state_mut().look = Look::default();
-    window.state_mut().loader.open(Some(shipped("cornell_spheres")));
-    wait(window, "the scene", |app| !app.loader.is_busy());
+    window.state_mut().session.look = Look::default();
+    window.state_mut().background.loader.open(Some(shipped("cornell_spheres")));
+    wait(window, "the scene", |app| !app.background.loader.is_busy());
     // Threads have buffers that are as large as they were needed once: new threads, new buffers.
     for threads in [2, 1] {
-        window.state_mut().threads = threads;
-        wait(window, "threads", |app| app.link.threads() == threads);
+        window.state_mut().session.threads = threads;
+        wait(window, "threads", |app| app.background.worker.threads() == threads);
     }
     let app = window.state_mut();
     // At rest there is one frame, and not one more for each that is on its way.
     let budget = noisefall::render::Budget { max_spp: Some(8), ..Default::default() };
-    (app.budget, app.dock, app.compare) = (budget, None, None);
+    (app.session.budget, app.window.tab, app.session.comparison) = (budget, None, None);
     wait(window, "the picture", |app| {
-        app.shown.as_ref().is_some_and(|frame| frame.generation == app.link.generation() && frame.spp == 8)
+        app.results.shown.as_ref().is_some_and(|frame| frame.generation == app.background.worker.generation() && frame.spp == 8)
     });
     let (start, mut least) = (Instant::now(), usize::MAX);
     while start.elapsed() < PATIENCE && least > enough {

@@ -1,0 +1,74 @@
+//! Joins the canvas and its overlays with the state of the window.
+use egui::{TextureHandle, Ui};
+use noisefall::{render::view::View, scene::Camera};
+
+use super::state::App;
+use crate::viewer::canvas::{
+    black_notice, drawing::Pictures, drawing::Split, interaction, interaction::Tool, overlay, picture_area::PictureArea,
+};
+use crate::viewer::instruments::{compare::comparison::CompareLayout, path::drawing, tabs::InstrumentTab};
+
+impl App {
+    pub fn canvas(&mut self, ui: &mut Ui) {
+        let (pictures, session, window) = (self.pictures(), &mut self.session, &mut self.window);
+        let scene = session.opened.as_ref().map(|opened| opened.scene.as_ref());
+        // In an open list, arrows are the list's.
+        let has_window = self.dialogs.wait() || self.dialogs.help || self.dialogs.gallery.open;
+        let keys = !has_window && !egui::Popup::is_any_open(ui.ctx());
+        let output = interaction::show(ui, pictures, window.tool, &mut window.view, &session.camera, scene, keys);
+        (window.hovered, window.over_second) = (output.hovered, output.over_second);
+        if let Some(camera) = output.camera.filter(|camera| camera.check().is_ok()) {
+            session.camera = camera;
+        }
+        window.marking = output.marked.map(|(region, _)| region);
+        if let Some((region, true)) = output.marked {
+            session.budget.region = Some(region);
+            window.marking = None;
+        }
+        if let Some(pixel) = output.clicked {
+            self.click(pixel);
+        }
+        if let Some(area) = &output.area {
+            self.overlays(ui, area);
+        }
+    }
+
+    /// The pictures that the canvas draws.
+    fn pictures(&self) -> Option<Pictures> {
+        let [first, second] = self.results.textures.each_ref().map(|texture| texture.as_ref().map(TextureHandle::id));
+        // The picture keeps its own shape until another one is there, which may be never: settings can be impossible.
+        let resolution = self.results.shown.as_ref().map_or(self.session.camera.resolution, |frame| frame.full_resolution);
+        let split = self.comparison().map_or(Split::None, |comparison| comparison.layout.split());
+        Some(Pictures { first: first?, second: second.filter(|_| split != Split::None), resolution, split })
+    }
+
+    /// A click on the picture.
+    fn click(&mut self, pixel: [u32; 2]) {
+        if self.window.tool == Tool::Inspect {
+            self.window.tab = Some(InstrumentTab::Path);
+        }
+        if self.window.tab == Some(InstrumentTab::Path) {
+            self.instruments.path.look_at(pixel);
+        }
+    }
+
+    pub fn overlays(&mut self, ui: &mut Ui, area: &PictureArea) {
+        let (session, results) = (&self.session, &self.results);
+        let region = self.window.marking.or(session.budget.region);
+        overlay::show(ui, area, region, results.scores.as_ref(), results.legend.as_ref());
+        if self.window.tab == Some(InstrumentTab::Path) {
+            let size = session.opened.as_ref().map_or(1.0, |opened| opened.scene.size) as f32;
+            drawing::draw(ui, area, &self.instruments.path, &session.camera, size);
+        }
+        let is_full = results.shown.as_ref().is_some_and(|frame| !frame.is_coarse());
+        // A notice would hide the other picture of a wipe.
+        let is_alone = self.comparison().is_none_or(|comparison| comparison.layout == CompareLayout::SideBySide);
+        let shows_radiance = session.look.view == View::Radiance;
+        let Some(why) = results.why_black().filter(|_| is_full && shows_radiance && is_alone) else { return };
+        let back = results.last_seeing.map(|last| Camera { resolution: session.camera.resolution, ..last });
+        let back = back.filter(|back| *back != session.camera);
+        if black_notice::show(ui, area, why, back.is_some()) {
+            self.session.camera = back.unwrap_or(self.session.camera);
+        }
+    }
+}

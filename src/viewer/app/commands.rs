@@ -1,0 +1,133 @@
+//! Commands of the toolbar and of single keys.
+use egui::{Context, Key, KeyboardShortcut, Modifiers, Ui};
+
+use super::state::App;
+use crate::viewer::canvas::interaction::Tool;
+use crate::viewer::dialogs::save_target::SaveTarget;
+use crate::viewer::instruments::tabs::InstrumentTab;
+use crate::viewer::panels::{toolbar::Command, toolbar::Toolbar, views};
+
+const SAVE: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::S);
+
+const COMMAND_KEYS: [(Key, Command); 9] = [
+    (Key::Space, Command::TogglePause),
+    (Key::Period, Command::Step),
+    (Key::R, Command::Restart),
+    (Key::P, Command::ChooseTool(Tool::Picture)),
+    (Key::C, Command::ChooseTool(Tool::Camera)),
+    (Key::G, Command::ChooseTool(Tool::Region)),
+    (Key::I, Command::ChooseTool(Tool::Inspect)),
+    (Key::F, Command::Fit),
+    (Key::Num1, Command::ActualSize),
+];
+
+/// Keys that open an instrument or close it.
+const TAB_KEYS: [(Key, InstrumentTab); 4] = [
+    (Key::F2, InstrumentTab::Convergence),
+    (Key::F3, InstrumentTab::Compare),
+    (Key::F4, InstrumentTab::Bounces),
+    (Key::F5, InstrumentTab::Path),
+];
+
+impl App {
+    pub fn toolbar(&mut self, ui: &mut Ui) {
+        let bar = Toolbar {
+            is_open: self.session.opened.is_some(),
+            is_paused: self.session.budget.paused,
+            has_region: self.session.budget.region.is_some(),
+            can_save: self.can_save(),
+            tool: self.window.tool,
+            zoom: self.results.shown.as_ref().map(|_| self.window.view.drawn_zoom),
+            settings: &self.session.settings,
+        };
+        bar.show(ui).into_iter().for_each(|command| self.perform(command));
+    }
+
+    fn perform(&mut self, command: Command) {
+        match command {
+            Command::TogglePause => self.session.budget.paused = !self.session.budget.paused,
+            Command::Step => self.step(),
+            Command::Restart => self.background.worker.restart(),
+            Command::ChooseTool(tool) => {
+                self.window.tool = tool;
+                if tool == Tool::Inspect {
+                    self.window.tab = Some(InstrumentTab::Path);
+                }
+            }
+            Command::ClearRegion => self.session.budget.region = None,
+            Command::ResetCamera => self.session.reset_camera(),
+            Command::Fit => self.window.view.fit(),
+            Command::ActualSize => self.window.view.actual_size(),
+            Command::Compare(other) => self.start_comparison(other),
+            Command::Save => self.open_save_dialog(SaveTarget::Picture),
+            Command::Help => self.dialogs.help = !self.dialogs.help,
+        }
+    }
+
+    /// Single keys, unless text is being typed; and Ctrl+S.
+    pub fn shortcuts(&mut self, ctx: &Context) {
+        if ctx.input_mut(|input| input.consume_shortcut(&SAVE)) && self.can_save() {
+            self.perform(Command::Save);
+        }
+        let key = |key| ctx.input(|input| input.key_pressed(key));
+        if key(Key::Escape) {
+            self.escape();
+        }
+        for (code, shown) in [
+            (Key::F1, &mut self.dialogs.help),
+            (Key::F6, &mut self.dialogs.gallery.open),
+            (Key::F12, &mut self.frame_times.shown),
+        ] {
+            *shown ^= key(code);
+        }
+        for (code, tab) in TAB_KEYS {
+            if key(code) && self.session.opened.is_some() {
+                self.toggle_tab(tab);
+            }
+        }
+        let pressed = |key| ctx.input(|input| input.key_pressed(key) && !input.modifiers.any());
+        // Whatever has the keyboard: only in text this key is the cursor's.
+        if pressed(Key::Home) && !ctx.text_edit_focused() {
+            self.session.reset_camera();
+        }
+        if ctx.egui_wants_keyboard_input() || self.dialogs.wait() || self.session.opened.is_none() {
+            return;
+        }
+        for (code, command) in COMMAND_KEYS {
+            if pressed(code) {
+                self.perform(command);
+            }
+        }
+        let look = &mut self.session.look;
+        for (is_pressed, back) in
+            [(pressed(Key::V), false), (ctx.input(|input| input.key_pressed(Key::V) && input.modifiers.shift_only()), true)]
+        {
+            if is_pressed {
+                look.view = views::next(look.view, back);
+            }
+        }
+        // More than one press can fall into a frame.
+        let presses = |key| ctx.input(|input| input.num_presses(key)) as f32;
+        look.display.exposure += 0.5 * (presses(Key::CloseBracket) - presses(Key::OpenBracket));
+    }
+
+    /// Closes what lies over the picture: of several things all dialogs first, then messages, then the region.
+    fn escape(&mut self) {
+        // Escape gives the edit of a field up, and nothing else.
+        if self.window.had_focus {
+            return;
+        }
+        if self.background.adviser.take().is_some() || self.end_tour() {
+            return;
+        }
+        let dialogs = &mut self.dialogs;
+        if dialogs.help || dialogs.gallery.open || dialogs.wait() {
+            (dialogs.help, dialogs.gallery.open, dialogs.scene_error) = (false, false, None);
+            (dialogs.save, dialogs.open) = (None, None);
+        } else if !dialogs.notices.0.is_empty() {
+            dialogs.notices.0.clear();
+        } else {
+            self.session.budget.region = None;
+        }
+    }
+}

@@ -1,0 +1,69 @@
+//! Joins the windows over the picture with the state of the window.
+use noisefall::scene::{RenderSettings, Roulette};
+
+use super::state::App;
+use crate::viewer::dialogs::{
+    advice, help, open, save, scene_error,
+    tour::{self, TourRequest},
+};
+
+impl App {
+    pub fn show_dialogs(&mut self, ctx: &egui::Context) {
+        let saved = save::show(ctx, &mut self.dialogs.save);
+        saved.into_iter().for_each(|(target, path)| self.save_target(target, path));
+        let opened = open::show(ctx, &mut self.dialogs.open);
+        opened.into_iter().for_each(|path| self.background.loader.open(Some(path)));
+        if help::show(ctx, &mut self.dialogs.help) {
+            self.start_tour();
+        }
+        if scene_error::show(ctx, &mut self.dialogs.scene_error, self.session.opened.is_some()) {
+            self.background.loader.open(None);
+        }
+        let request = self.dialogs.gallery.show(ctx, &self.catalogue);
+        request.into_iter().for_each(|request| self.open_scene(request));
+        self.show_advice(ctx);
+        if let Some(page) = self.dialogs.tour.filter(|_| self.results.shown.is_some()) {
+            tour::show(ctx, page).into_iter().for_each(|request| self.follow_tour(request));
+        }
+        self.dialogs.notices.show(ctx);
+    }
+
+    /// Whether a study has the machine, and the picture waits.
+    pub fn is_studying(&self) -> bool {
+        self.background.adviser.as_ref().is_some_and(|adviser| adviser.is_busy())
+    }
+
+    fn show_advice(&mut self, ctx: &egui::Context) {
+        let (edited, camera, adviser) = (*self.session.edited(), self.session.camera, &mut self.background.adviser);
+        // Advice is for the picture that it was asked for, and for none that has changed since.
+        adviser.take_if(|adviser| adviser.request.settings != edited || adviser.request.camera != camera);
+        advice::show(ctx, adviser).into_iter().for_each(|settings| *self.session.edited() = settings);
+    }
+
+    pub fn start_tour(&mut self) {
+        self.follow_tour(TourRequest::GoTo(0));
+    }
+
+    fn follow_tour(&mut self, request: TourRequest) {
+        match request {
+            TourRequest::GoTo(page) => {
+                self.dialogs.tour = Some(page);
+                self.window.tab = tour::tab_of(page).or(self.window.tab);
+            }
+            TourRequest::End => _ = self.end_tour(),
+            TourRequest::Restart => self.background.worker.restart(),
+            TourRequest::ShowSecondBounce => (self.session.bounces.k, self.session.bounces.up_to) = (2, false),
+            TourRequest::CompareWithCap => {
+                self.session.settings.roulette = Roulette::BY_THROUGHPUT;
+                self.start_comparison(RenderSettings { max_bounces: Some(3), ..self.session.settings });
+            }
+            TourRequest::OpenGallery => self.dialogs.gallery.open = true,
+        }
+    }
+
+    /// Ends the tour. Returns whether it was open.
+    pub fn end_tour(&mut self) -> bool {
+        self.preferences.change(|saved| saved.toured |= self.dialogs.tour.is_some());
+        self.dialogs.tour.take().is_some()
+    }
+}

@@ -1,0 +1,109 @@
+//! Joins the instruments below the picture with the state of the window. At most one is open.
+use egui::{Align, Layout, Panel, Ui};
+use noisefall::scene::RenderSettings;
+
+use super::state::App;
+use crate::viewer::background::render_worker::SecondView;
+use crate::viewer::dialogs::save_target::SaveTarget;
+use crate::viewer::instruments::{
+    bounces, compare::comparison::CompareLayout, compare::comparison::Comparison, compare::figures::SideStatus,
+    compare::tab as compare, convergence::plot, convergence::plot::CurveFile, path::tab as path, tabs, tabs::InstrumentTab,
+};
+use crate::viewer::panels::views;
+
+const HEIGHT: f32 = 250.0;
+
+impl App {
+    /// Shows the row of tabs and the open instrument.
+    pub fn dock(&mut self, ui: &mut Ui) {
+        Panel::bottom("tabs").show(ui, |ui| {
+            ui.horizontal(|ui| {
+                tabs::show(ui, self.window.tab).into_iter().for_each(|tab| self.toggle_tab(tab));
+                ui.with_layout(Layout::right_to_left(Align::Center), |ui| views::choice(ui, &mut self.session.look.view));
+            });
+        });
+        let Some(tab) = self.window.tab else { return };
+        let most = (ui.available_height() - 160.0).max(120.0);
+        Panel::bottom("instrument").resizable(true).default_size(HEIGHT.min(most)).max_size(most).show(ui, |ui| {
+            // The contents fill the panel, whose height is the user's.
+            let room = ui.available_size();
+            ui.set_min_size(room);
+            self.instrument(ui, tab);
+        });
+    }
+
+    pub fn instrument(&mut self, ui: &mut Ui, tab: InstrumentTab) {
+        let resolution = self.session.camera.resolution;
+        match tab {
+            InstrumentTab::Convergence => self.convergence_tab(ui),
+            InstrumentTab::Compare => self.compare_tab(ui),
+            InstrumentTab::Bounces => {
+                let (frame, view) = (self.results.second_frame.as_deref(), self.session.look.view);
+                bounces::show(ui, &mut self.session.bounces, frame, view, resolution);
+            }
+            InstrumentTab::Path => {
+                let (request, frame) = (self.background.worker.request(), self.results.shown.as_deref());
+                if path::show(ui, &mut self.instruments.path, request, frame, resolution) {
+                    self.open_save_dialog(SaveTarget::Path);
+                }
+            }
+        }
+    }
+
+    fn convergence_tab(&mut self, ui: &mut Ui) {
+        let worker = &self.background.worker;
+        let latest = [Some(worker.generation()), self.session.comparison.map(|_| worker.second_generation())];
+        let has_reference = self.reference().is_some();
+        let file = plot::show(ui, &mut self.instruments.history, latest, has_reference);
+        file.into_iter().for_each(|file| match file {
+            CurveFile::Csv => self.open_save_dialog(SaveTarget::CurvesCsv),
+            CurveFile::Svg => self.open_save_dialog(SaveTarget::CurvesSvg),
+        });
+    }
+
+    fn compare_tab(&mut self, ui: &mut Ui) {
+        let (session, results) = (&mut self.session, &self.results);
+        let of_scene = session.opened.as_ref().map_or_else(RenderSettings::default, |opened| opened.scene.settings);
+        let sides = [
+            SideStatus { status: &results.status, comparison: results.comparison },
+            SideStatus { status: &results.second_status, comparison: results.second_comparison },
+        ];
+        let wipe = &mut self.window.view.wipe;
+        let other = compare::show(ui, &mut session.settings, &mut session.comparison, wipe, &of_scene, sides);
+        other.into_iter().for_each(|other| self.start_comparison(other));
+    }
+
+    pub fn toggle_tab(&mut self, tab: InstrumentTab) {
+        self.window.tab = (self.window.tab != Some(tab)).then_some(tab);
+    }
+
+    pub fn start_comparison(&mut self, other: RenderSettings) {
+        let layout = self.session.comparison.map_or(CompareLayout::Wipe, |comparison| comparison.layout);
+        self.session.comparison = Some(Comparison { other, layout, edits_other: false });
+        self.window.tab = Some(InstrumentTab::Compare);
+    }
+
+    /// The comparison, while its instrument renders.
+    pub fn comparison(&self) -> Option<Comparison> {
+        self.session.comparison.filter(|_| self.window.tab != Some(InstrumentTab::Bounces))
+    }
+
+    /// The second view of the open instrument: none is rendered unless it is displayed.
+    pub fn second_view(&self) -> Option<SecondView> {
+        match self.window.tab {
+            Some(InstrumentTab::Bounces) => {
+                bounces::has_room_for_series(self.session.camera.resolution).then_some(SecondView::Series)
+            }
+            _ => self.session.comparison.map(|comparison| SecondView::Other(comparison.other)),
+        }
+    }
+
+    /// Traces what the path inspector shows, while it is open.
+    pub fn inspect(&mut self) {
+        let is_open = self.window.tab == Some(InstrumentTab::Path);
+        if let Some(request) = self.background.worker.request().filter(|_| is_open) {
+            let spp = self.results.shown.as_ref().map_or(1, |frame| frame.spp);
+            self.instruments.path.search(request, spp);
+        }
+    }
+}

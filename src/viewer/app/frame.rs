@@ -1,0 +1,41 @@
+//! One frame of the window: keys, results, panels, picture, dialogs, and the next request.
+use std::time::{Duration, Instant};
+
+use egui::{CentralPanel, Panel};
+
+use super::state::App;
+use crate::viewer::widgets::style::PANEL_WIDTH;
+
+impl App {
+    /// Lays out one frame.
+    pub fn show(&mut self, ui: &mut egui::Ui) {
+        let start = Instant::now();
+        let ctx = ui.ctx().clone();
+        self.window.hidden = false;
+        self.shortcuts(&ctx);
+        self.take_dropped_file();
+        self.receive();
+        self.inspect();
+        Panel::bottom("status").show(ui, |ui| self.status_bar(ui));
+        Panel::right("settings").resizable(false).exact_size(PANEL_WIDTH).show(ui, |ui| self.side_panel(ui));
+        Panel::top("toolbar").show(ui, |ui| self.toolbar(ui));
+        self.dock(ui);
+        CentralPanel::no_frame().show(ui, |ui| self.canvas(ui));
+        self.show_dialogs(&ctx);
+        self.frame_times.show(&ctx, self.session.threads, self.background.worker.generation());
+        self.submit();
+        self.window.had_focus = ctx.egui_wants_keyboard_input();
+        self.frame_times.record(start.elapsed(), ctx.input(|input| input.time));
+    }
+}
+
+impl eframe::App for App {
+    fn logic(&mut self, ctx: &egui::Context, _frame: &mut eframe::Frame) {
+        self.hide(ctx.input(|input| input.viewport().visible() == Some(false)));
+    }
+
+    fn ui(&mut self, ui: &mut egui::Ui, frame: &mut eframe::Frame) {
+        frame.info().cpu_usage.into_iter().for_each(|last| self.frame_times.record_whole(Duration::from_secs_f32(last)));
+        self.show(ui);
+    }
+}

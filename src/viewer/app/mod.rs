@@ -1,0 +1,17 @@
+//! The window as a whole. It joins panels, instruments and dialogs with the work in the background.
+mod canvas;
+mod commands;
+mod dialogs;
+mod display;
+mod dock;
+mod frame;
+mod receive;
+mod results;
+mod saving;
+mod session;
+mod side_panel;
+mod state;
+mod submit;
+mod window_state;
+
+pub use self::state::App;

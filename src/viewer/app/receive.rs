@@ -1,0 +1,117 @@
+//! Receives what the threads have finished: scenes, references, frames, images, saved files.
+use noisefall::render::{Budget, State};
+
+use super::state::App;
+use crate::viewer::background::{
+    catalogue, display_image::DisplayImage, feature_finder::FeatureFinder, loader::DroppedReference, loader::OpenedScene,
+};
+use crate::viewer::instruments::{convergence::history::Moment, path::inspector::PathInspector};
+
+impl App {
+    pub fn receive(&mut self) {
+        match self.background.loader.take() {
+            Some(Ok(opened)) => self.open(opened),
+            Some(Err(report)) => self.dialogs.scene_error = Some(report),
+            None => {}
+        }
+        match self.background.loader.take_reference() {
+            Some(Ok(dropped)) => self.take_reference(dropped),
+            Some(Err(error)) => self.tell(error, true),
+            None => {}
+        }
+        match self.background.saver.take() {
+            Some(Ok(path)) => {
+                self.tell(format!("Saved {}", path.display()), false);
+                self.window.last_saved = Some(path);
+            }
+            Some(Err(error)) => self.tell(format!("Not saved: {error}"), true),
+            None => {}
+        }
+        let worker = &self.background.worker;
+        let second = worker.latest_second();
+        self.results.second_status = second.status;
+        let is_there = self.second_view().is_some() && second.frame.generation == worker.second_generation();
+        self.results.second_frame = Some(second.frame).filter(|frame| is_there && !frame.radiance.is_empty());
+        let published = worker.latest();
+        let before = std::mem::replace(&mut self.results.status, published.status);
+        if before.state != self.results.status.state {
+            self.set_title();
+        }
+        let request = self.display_request(published.frame);
+        self.background.display.request(request);
+        if let Some(image) = self.background.display.take() {
+            self.take_image(image);
+        }
+    }
+
+    /// Puts an image on the screen, and records its figures.
+    fn take_image(&mut self, image: DisplayImage) {
+        self.results.black = self.shows_nothing(image.lit);
+        self.note_blackness(image.frame.generation);
+        let (worker, history) = (&self.background.worker, &mut self.instruments.history);
+        if let Some(request) = worker.request() {
+            history.look_at(&request.scene, &request.camera, image.reference.as_ref());
+            let frame = &image.frame;
+            if frame.generation == worker.generation() && !frame.is_coarse() {
+                history.record(&request.settings, frame.generation, Moment::of(frame, image.comparison));
+            }
+            let is_latest = |generation| generation == worker.second_generation();
+            let second = image.second.as_ref().filter(|frame| is_latest(frame.generation) && !frame.is_coarse());
+            let other = self.session.comparison.map(|comparison| comparison.other).filter(|other| *other != request.settings);
+            if let (Some(frame), Some(other)) = (second, other) {
+                history.record(&other, frame.generation, Moment::of(frame, image.second_comparison));
+            }
+        }
+        self.results.show(&self.ctx, image);
+    }
+
+    fn take_reference(&mut self, dropped: DroppedReference) {
+        let name = &dropped.name;
+        if let Some(mismatch) = dropped.reference.mismatch(dropped.camera.resolution) {
+            self.tell(format!("{name}: {mismatch}. Set the resolution to that of the reference."), true);
+        } else {
+            self.tell(format!("The picture is now held against {name}"), false);
+        }
+        self.session.dropped_reference = Some(dropped);
+    }
+
+    fn open(&mut self, opened: OpenedScene) {
+        let (session, results, scene) = (&mut self.session, &mut self.results, &opened.scene);
+        if session.opened.as_ref().is_none_or(|before| before.path != opened.path) {
+            // What suited another scene's light says nothing about this one's.
+            session.look.display.exposure = 0.0;
+        }
+        if let Some(path) = &opened.path {
+            catalogue::remember(&mut self.catalogue, &opened.name, path);
+        }
+        (session.camera, session.settings) = (scene.camera, scene.settings);
+        session.budget = Budget { max_spp: scene.spp, steps: session.budget.steps, ..Budget::default() };
+        (session.comparison, session.pinned, session.dropped_reference) = (None, None, None);
+        self.background.adviser = None;
+        self.background.loader.forget_reference();
+        // What was found of the scene before would keep it in memory.
+        (self.instruments.path, self.background.features) = (PathInspector::new(&self.ctx), FeatureFinder::new(&self.ctx));
+        (results.last_seeing, results.black_reason) = (None, None);
+        self.dialogs.scene_error = None;
+        self.window.view.fit();
+        session.opened = Some(opened);
+        self.set_title();
+    }
+
+    /// The window's title says which target is reached: a window that is not looked at is known by its title.
+    fn set_title(&self) {
+        let Some(opened) = &self.session.opened else { return };
+        let done = if let State::Done(target) = self.results.status.state { format!(" ({target})") } else { String::new() };
+        self.ctx.send_viewport_cmd(egui::ViewportCommand::Title(format!("{}{done} – Noisefall", opened.name)));
+    }
+
+    /// Opens a file that was dropped on the window: a scene, or a reference for this one.
+    pub fn take_dropped_file(&mut self) {
+        let dropped = self.ctx.input(|input| input.raw.dropped_files.first().map(|file| file.path().to_owned()));
+        let Some(path) = dropped else { return };
+        match path.extension().map(|extension| extension.to_string_lossy().to_ascii_lowercase()).as_deref() {
+            Some("exr" | "hdr") => self.background.loader.read_reference(path, self.session.camera),
+            _ => self.background.loader.open(Some(path)),
+        }
+    }
+}

@@ -1,0 +1,59 @@
+//! What the renderer and the display pipeline have delivered.
+use std::sync::Arc;
+
+use egui::{Context, TextureHandle, TextureOptions};
+use noisefall::{
+    render::{
+        Frame, Status,
+        view::{Legend, Scores},
+    },
+    scene::Camera,
+};
+
+use crate::viewer::background::display_image::{DisplayImage, PixelValues, ReferenceComparison};
+
+#[derive(Default)]
+pub struct Results {
+    pub status: Status,
+    pub second_status: Status,
+    /// The frame on the screen.
+    pub shown: Option<Arc<Frame>>,
+    /// The latest frame of the second view.
+    pub second_frame: Option<Arc<Frame>>,
+    pub comparison: Option<ReferenceComparison>,
+    pub second_comparison: Option<ReferenceComparison>,
+    pub legend: Option<Legend>,
+    pub values: PixelValues,
+    pub scores: Option<Scores>,
+    /// The picture on the screen is black.
+    pub black: bool,
+    /// Why it is black, and its generation.
+    pub black_reason: Option<(u64, String)>,
+    /// The last camera whose picture was not black.
+    pub last_seeing: Option<Camera>,
+    pub textures: [Option<TextureHandle>; 2],
+}
+
+impl Results {
+    /// Takes over an image for the screen.
+    pub fn show(&mut self, ctx: &Context, image: DisplayImage) {
+        set(ctx, &mut self.textures[0], "picture", Some(image.image));
+        set(ctx, &mut self.textures[1], "picture beside", image.second_image);
+        (self.comparison, self.second_comparison) = (image.comparison, image.second_comparison);
+        (self.legend, self.values, self.scores) = (image.legend, image.values, image.scores);
+        self.shown = Some(image.frame);
+    }
+
+    /// The likeliest reason why the picture on the screen is black, if it is.
+    pub fn why_black(&self) -> Option<&str> {
+        self.black_reason.as_ref().filter(|_| self.black).map(|(_, reason)| reason.as_str())
+    }
+}
+
+/// Puts an image into a texture, or takes it away.
+fn set(ctx: &Context, texture: &mut Option<TextureHandle>, name: &str, image: Option<egui::ColorImage>) {
+    match (texture, image) {
+        (Some(texture), Some(image)) => texture.set(image, TextureOptions::NEAREST),
+        (texture, image) => *texture = image.map(|image| ctx.load_texture(name, image, TextureOptions::NEAREST)),
+    }
+}

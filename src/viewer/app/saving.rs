@@ -1,0 +1,104 @@
+//! Saves the picture, the curves or a path to a file.
+use std::path::{Path, PathBuf};
+
+use noisefall::{
+    file::replace,
+    render::{image_file::save_shown, settings_text::settings_text, view::View},
+};
+
+use super::state::App;
+use crate::viewer::background::{display_image::DisplayImage, display_image::render, display_request::DisplayRequest};
+use crate::viewer::dialogs::{save::SaveDialog, save_target::SaveTarget};
+use crate::viewer::instruments::path::copying::{PathForm, written};
+
+impl App {
+    /// Whether the screen shows the full picture that the controls describe.
+    pub fn can_save(&self) -> bool {
+        let worker = &self.background.worker;
+        let is_found = || worker.request().is_some_and(|request| self.background.features.has(&request.camera));
+        let has_features = !self.session.look.view.shows_features() || is_found();
+        let Some(frame) = self.results.shown.as_ref().filter(|_| has_features) else { return false };
+        !frame.is_coarse() && frame.generation == worker.generation()
+    }
+
+    pub fn open_save_dialog(&mut self, target: SaveTarget) {
+        if self.dialogs.save.is_none() {
+            self.dialogs.save = Some(SaveDialog::new(target, self.session.path(), self.window.last_saved.as_deref()));
+        }
+    }
+
+    pub fn save_target(&mut self, target: SaveTarget, path: PathBuf) {
+        let bytes = match target {
+            SaveTarget::Picture => return self.save_to(path),
+            SaveTarget::CurvesCsv => self.instruments.history.csv(),
+            SaveTarget::CurvesSvg => Ok(self.instruments.history.svg().into_bytes()),
+            SaveTarget::Path => {
+                let extension = path.extension().unwrap_or_default().to_string_lossy();
+                let form = PathForm::of_extension(&extension).zip(self.background.worker.request());
+                let text = form.and_then(|(form, request)| written(&self.instruments.path, request, form));
+                text.map(String::into_bytes).ok_or_else(|| "No path is traced yet. Try again in a moment.".to_owned())
+            }
+        };
+        self.background.saver.save(path, move |path| replace(path, &bytes?).map_err(|error| error.to_string()));
+    }
+
+    /// Saves the picture on the screen.
+    pub fn save_to(&mut self, path: PathBuf) {
+        if !self.can_save() {
+            self.tell("Not saved: the new picture has no sample everywhere yet. Try again in a moment.".to_owned(), true);
+            return;
+        }
+        let of_worker = self.background.worker.request().cloned();
+        let (Some(frame), Some(of)) = (self.results.shown.clone(), of_worker) else { return };
+        let request = self.display_request(frame.clone());
+        let remarks = remarks(&request, &path);
+        let display = self.session.look.display;
+        let settings = settings_text(&of.scene, &of.camera, &of.settings, display, &frame, &remarks);
+        self.background.saver.save(path, move |path| {
+            let DisplayImage { frame, pixels, .. } = render(request);
+            save_shown(&frame, &pixels, &settings, path).map_err(|error| error.to_string())
+        });
+    }
+}
+
+/// Settings that say which part of the picture a PNG shows. An EXR has all of it.
+fn remarks(request: &DisplayRequest, path: &Path) -> Vec<(&'static str, String)> {
+    let view = request.look.view;
+    let mut remarks = Vec::new();
+    if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("exr")) {
+        return remarks;
+    }
+    if view != View::Radiance {
+        remarks.push(("view", view.name().to_owned()));
+    }
+    if let Some(term) = request.term.as_ref().filter(|_| matches!(view, View::Radiance | View::Difference)) {
+        let relation = if term.up_to { "at most" } else { "exactly" };
+        let bounces = if term.k == 1 { "bounce" } else { "bounces" };
+        remarks.push(("light", format!("{relation} {} {bounces}, {} spp", term.k, term.of.spp)));
+    }
+    remarks
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use noisefall::render::{Frame, view::Look};
+
+    use super::*;
+    use crate::viewer::background::display_request::{BounceTerm, tests::request};
+
+    #[test]
+    fn a_png_says_what_of_the_picture_it_shows_and_an_exr_shows_all() {
+        let said = |view, (k, up_to), path: &str| {
+            let frame = Arc::new(Frame { spp: 9, ..Frame::default() });
+            let term = Some(BounceTerm { of: frame.clone(), k, up_to });
+            let request = DisplayRequest { term, look: Look { view, ..Look::default() }, ..request(frame) };
+            remarks(&request, Path::new(path)).into_iter().map(|(_, text)| text).collect::<Vec<_>>()
+        };
+        assert_eq!(said(View::Radiance, (3, true), "a.png"), ["at most 3 bounces, 9 spp"]);
+        assert_eq!(said(View::Radiance, (1, false), "a.png"), ["exactly 1 bounce, 9 spp"]);
+        assert_eq!(said(View::Depth, (1, false), "a.png"), [View::Depth.name()], "no term is seen");
+        assert!(said(View::Radiance, (3, true), "a.EXR").is_empty());
+    }
+}

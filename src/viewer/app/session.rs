@@ -1,0 +1,61 @@
+//! What the user has asked for.
+use std::{path::Path, sync::Arc};
+
+use noisefall::{
+    render::{Budget, Frame, view::Look},
+    scene::{Camera, RenderSettings, built_in},
+};
+
+use crate::viewer::background::{loader::DroppedReference, loader::OpenedScene};
+use crate::viewer::instruments::{bounces::Bounces, compare::comparison::Comparison};
+
+pub struct Session {
+    pub opened: Option<OpenedScene>,
+    pub camera: Camera,
+    pub settings: RenderSettings,
+    pub comparison: Option<Comparison>,
+    pub bounces: Bounces,
+    pub budget: Budget,
+    pub threads: usize,
+    pub look: Look,
+    pub pinned: Option<Arc<Frame>>,
+    pub dropped_reference: Option<DroppedReference>,
+}
+
+impl Session {
+    pub fn new(threads: usize) -> Session {
+        // A placeholder: the loader opens a scene within a moment.
+        let scene = built_in();
+        Session {
+            opened: None,
+            camera: scene.camera,
+            settings: scene.settings,
+            comparison: None,
+            bounces: Bounces::default(),
+            budget: Budget::default(),
+            threads,
+            look: Look::default(),
+            pinned: None,
+            dropped_reference: None,
+        }
+    }
+
+    /// The settings that the sampling panel shows and changes.
+    pub fn edited(&mut self) -> &mut RenderSettings {
+        match &mut self.comparison {
+            Some(comparison) if comparison.edits_other => &mut comparison.other,
+            _ => &mut self.settings,
+        }
+    }
+
+    pub fn reset_camera(&mut self) {
+        if let Some(opened) = &self.opened {
+            self.camera = opened.scene.camera;
+        }
+    }
+
+    /// The file of the open scene.
+    pub fn path(&self) -> Option<&Path> {
+        self.opened.as_ref().and_then(|opened| opened.path.as_deref())
+    }
+}

@@ -1,0 +1,109 @@
+//! Joins the panels at the right and at the bottom with the state of the window.
+use egui::{ScrollArea, Ui};
+
+use super::state::App;
+use crate::viewer::background::{adviser::Adviser, catalogue::SceneRequest, render_worker::RenderRequest};
+use crate::viewer::dialogs::open;
+use crate::viewer::panels::{
+    camera, display, objects, sampling, scene, status_bar::Pixel, status_bar::StatusBar, stop, views, views::ReferenceSource,
+    window,
+};
+use crate::viewer::widgets::style::section;
+
+impl App {
+    pub fn side_panel(&mut self, ui: &mut Ui) {
+        // The bar has room of its own: it would lie over what is at the right.
+        let scroll = &mut ui.spacing_mut().scroll;
+        scroll.floating_allocated_width = scroll.bar_width;
+        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            ui.add_space(4.0);
+            let request = scene::show(ui, self.session.opened.as_ref(), &self.catalogue, self.results.why_black());
+            request.into_iter().for_each(|request| self.open_scene(request));
+            ui.add_space(4.0);
+            ui.add_enabled_ui(self.session.opened.is_some(), |ui| {
+                section(ui, "Sampling", |ui| self.sampling_panel(ui));
+                section(ui, "Stop", |ui| stop::show(ui, &mut self.session.budget, self.session.camera.resolution));
+                section(ui, "Display", |ui| self.display_panel(ui));
+                section(ui, "Camera", |ui| {
+                    let scene = self.session.opened.as_ref().map(|opened| opened.scene.as_ref());
+                    if camera::show(ui, &mut self.session.camera, scene) {
+                        self.session.reset_camera();
+                    }
+                });
+                section(ui, "Window", |ui| {
+                    let theme = window::show(ui, &mut self.session.threads, &mut self.frame_times.shown);
+                    theme.into_iter().for_each(|theme| self.preferences.change(|saved| saved.theme = theme));
+                });
+                if let Some(opened) = &self.session.opened {
+                    section(ui, "Objects", |ui| objects::show(ui, &opened.scene));
+                }
+            });
+        });
+    }
+
+    pub fn open_scene(&mut self, request: SceneRequest) {
+        match request {
+            SceneRequest::Open(path) => self.background.loader.open(path),
+            SceneRequest::Browse => self.dialogs.open = Some(open::path_field(self.session.path())),
+            SceneRequest::Gallery => self.dialogs.gallery.open = true,
+        }
+    }
+
+    fn sampling_panel(&mut self, ui: &mut Ui) {
+        if let Some(comparison) = &mut self.session.comparison {
+            sampling::side_choice(ui, &mut comparison.edits_other);
+        }
+        let edits_second = self.session.comparison.is_some_and(|comparison| comparison.edits_other);
+        let status = if edits_second { &self.results.second_status } else { &self.results.status };
+        let edited = *self.session.edited();
+        let caution = self.session.opened.as_ref().and_then(|opened| opened.scene.infinite_variance(&edited));
+        if sampling::show(ui, self.session.edited(), status, caution.as_deref()) {
+            self.ask_for_advice();
+        }
+    }
+
+    fn ask_for_advice(&mut self) {
+        let settings = *self.session.edited();
+        if let Some(request) = self.background.worker.request() {
+            let request = RenderRequest { settings, ..request.clone() };
+            self.background.adviser = Some(Adviser::start(&self.ctx, &request, self.session.threads));
+        }
+    }
+
+    pub fn display_panel(&mut self, ui: &mut Ui) {
+        display::show(ui, &mut self.session.look.display);
+        let of_scene = self.session.opened.as_ref().and_then(|opened| opened.truth.as_ref());
+        let reference = match (&self.session.dropped_reference, of_scene) {
+            (Some(dropped), _) => ReferenceSource::Dropped(&dropped.name),
+            (None, Some(_)) if self.reference().is_some() => ReferenceSource::Scene,
+            (None, Some(_)) => ReferenceSource::SceneElsewhere,
+            (None, None) => ReferenceSource::None,
+        };
+        let shown = self.results.shown.as_ref();
+        if views::rows(ui, &mut self.session.look.map, shown, &mut self.session.pinned, &reference) {
+            self.session.dropped_reference = None;
+        }
+    }
+
+    pub fn status_bar(&self, ui: &mut Ui) {
+        let (session, results, over_second) = (&self.session, &self.results, self.window.over_second);
+        let frame = if over_second { &results.second_frame } else { &results.shown };
+        let values = Some(&results.values).filter(|_| !over_second);
+        let pixel = |at| Some(Pixel { at, frame: frame.as_ref()?, values, legend: results.legend.as_ref() });
+        let bar = StatusBar {
+            opened: session.opened.as_ref(),
+            is_opening: self.background.loader.is_busy(),
+            is_studying: self.is_studying(),
+            camera: &session.camera,
+            settings: &session.settings,
+            budget: &session.budget,
+            status: &results.status,
+            request: self.background.worker.request(),
+            why_black: results.why_black(),
+            comparison: results.comparison,
+            mismatch: self.reference().and_then(|reference| reference.mismatch(session.camera.resolution)),
+            pixel: self.window.hovered.and_then(pixel),
+        };
+        bar.show(ui);
+    }
+}

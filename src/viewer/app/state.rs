@@ -1,0 +1,75 @@
+//! The state of the window.
+use std::path::PathBuf;
+
+use noisefall::render::pass::Threads;
+
+use super::{results::Results, session::Session, window_state::Dialogs, window_state::WindowState};
+use crate::viewer::background::{
+    adviser::Adviser, catalogue, catalogue::CatalogueEntry, display_pipeline::DisplayPipeline, feature_finder::FeatureFinder,
+    loader::Loader, preferences::Preferences, render_worker::RenderWorkerHandle, saver::Saver,
+};
+use crate::viewer::instruments::{convergence::history::History, path::inspector::PathInspector};
+use crate::viewer::panels::frame_times::FrameTimes;
+use crate::viewer::widgets::palette::set_themes;
+
+pub struct App {
+    pub ctx: egui::Context,
+    pub session: Session,
+    pub results: Results,
+    pub window: WindowState,
+    pub instruments: Instruments,
+    pub dialogs: Dialogs,
+    pub background: Background,
+    pub catalogue: Vec<CatalogueEntry>,
+    pub preferences: Preferences,
+    pub frame_times: FrameTimes,
+}
+
+/// The instruments that remember something.
+pub struct Instruments {
+    pub history: History,
+    pub path: PathInspector,
+}
+
+/// The work that is done on other threads.
+pub struct Background {
+    pub worker: RenderWorkerHandle,
+    pub display: DisplayPipeline,
+    pub loader: Loader,
+    pub saver: Saver,
+    pub features: FeatureFinder,
+    pub adviser: Option<Adviser>,
+}
+
+impl App {
+    pub fn new(ctx: &egui::Context, threads: Threads, scene: Option<PathBuf>, preferences: Preferences) -> App {
+        set_themes(ctx, preferences.now.theme.as_deref());
+        let session = Session::new(threads.count());
+        let mut background = Background {
+            worker: RenderWorkerHandle::new(threads, ctx),
+            display: DisplayPipeline::new(ctx),
+            loader: Loader::new(ctx),
+            saver: Saver::new(ctx),
+            features: FeatureFinder::new(ctx),
+            adviser: None,
+        };
+        background.loader.open(scene);
+        App {
+            ctx: ctx.clone(),
+            session,
+            results: Results::default(),
+            window: WindowState::default(),
+            instruments: Instruments { history: History::default(), path: PathInspector::new(ctx) },
+            dialogs: Dialogs::default(),
+            background,
+            catalogue: catalogue::find(),
+            preferences,
+            frame_times: FrameTimes::default(),
+        }
+    }
+
+    /// Shows a message over the picture.
+    pub fn tell(&mut self, text: String, is_error: bool) {
+        self.dialogs.notices.add(text, is_error, self.ctx.input(|input| input.time));
+    }
+}

@@ -1,0 +1,111 @@
+//! The scenes that can be opened with one click: the files of the nearest `scenes/` folder, and those opened from elsewhere.
+use std::{
+    fs::File,
+    io::Read,
+    path::{Path, PathBuf},
+};
+
+/// Bytes that are read for a title, which stands at the beginning of a file.
+const LONGEST_HEAD: u64 = 16 << 10;
+
+/// A scene file and its title.
+pub struct CatalogueEntry {
+    pub name: String,
+    /// Absolute and without links, so that each file has one path.
+    pub path: PathBuf,
+}
+
+/// An action that a list of scenes asks for.
+#[derive(Debug, PartialEq)]
+pub enum SceneRequest {
+    /// Opens a file, or the built-in scene.
+    Open(Option<PathBuf>),
+    Browse,
+    Gallery,
+}
+
+/// The shipped scenes, sorted by name.
+pub fn find() -> Vec<CatalogueEntry> {
+    let mut scenes = folder().map_or_else(Vec::new, |folder| list(&folder));
+    scenes.sort_by_cached_key(|entry| entry.name.to_lowercase());
+    scenes
+}
+
+/// Lists a scene that was opened under its present name.
+pub fn remember(scenes: &mut Vec<CatalogueEntry>, name: &str, path: &Path) {
+    let path = in_full(path);
+    match scenes.iter_mut().find(|entry| entry.path == path) {
+        Some(entry) => name.clone_into(&mut entry.name),
+        None => scenes.push(CatalogueEntry { name: name.to_owned(), path }),
+    }
+}
+
+pub fn in_full(path: &Path) -> PathBuf {
+    path.canonicalize().unwrap_or_else(|_| path.to_owned())
+}
+
+/// `scenes/` in the current folder, or in one above the program's own (a build lies in `target/release` of its project).
+fn folder() -> Option<PathBuf> {
+    let program = std::env::current_exe().ok();
+    let above = program.iter().flat_map(|program| program.ancestors().skip(1));
+    let candidates = std::iter::once(Path::new(".")).chain(above);
+    candidates.map(|folder| folder.join("scenes")).find(|folder| folder.is_dir())
+}
+
+fn list(folder: &Path) -> Vec<CatalogueEntry> {
+    let Ok(entries) = std::fs::read_dir(folder) else { return Vec::new() };
+    let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
+    let scenes = paths.filter(|path| path.is_file() && path.extension().is_some_and(|extension| extension == "toml"));
+    scenes.map(|path| CatalogueEntry { name: name(&title(&path).unwrap_or_default(), &path), path: in_full(&path) }).collect()
+}
+
+/// Reads the title of a scene file, which stands before its first table.
+fn title(path: &Path) -> Option<String> {
+    let mut head = Vec::new();
+    File::open(path).ok()?.take(LONGEST_HEAD).read_to_end(&mut head).ok()?;
+    let head = String::from_utf8_lossy(&head);
+    let end = head.find("\n[").unwrap_or(head.len());
+    let table: toml::Table = head[..end].parse().ok()?;
+    Some(table.get("title")?.as_str()?.to_owned())
+}
+
+/// The name of a scene: its title, or else its file name (`tiny_lamp.toml` is "tiny lamp").
+pub fn name(title: &str, path: &Path) -> String {
+    if title.is_empty() { path.file_stem().unwrap_or_default().to_string_lossy().replace('_', " ") } else { title.to_owned() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_scene_is_called_by_its_title_or_else_by_its_file() {
+        assert_eq!(name("A title", Path::new("some/tiny_lamp.toml")), "A title");
+        assert_eq!(name("", Path::new("some/tiny_lamp.toml")), "tiny lamp");
+    }
+
+    #[test]
+    fn shipped_scenes_are_in_the_order_of_their_names() {
+        let names: Vec<String> = find().into_iter().map(|entry| entry.name.to_lowercase()).collect();
+        assert!(names.len() > 20 && names.is_sorted(), "{names:?}");
+    }
+
+    #[test]
+    fn a_folder_lists_its_scenes_and_what_is_opened_is_listed_once_under_its_last_name() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).expect("it is written");
+        // Its tables are longer than what is read of it.
+        let long = "x".repeat(2 * LONGEST_HEAD as usize);
+        write("titled.toml", &format!("format = 1\ntitle = \"Zebra\"\n[camera]\ntitle = \"{long}\"\n"));
+        write("plain_one.toml", "format = 1\n[camera]\ntitle = \"no\"\n");
+        write("notes.txt", "title = \"no scene\"");
+        let mut scenes = list(folder.path());
+        scenes.sort_by(|a, b| a.name.cmp(&b.name));
+        assert_eq!(scenes.iter().map(|scene| scene.name.as_str()).collect::<Vec<_>>(), ["Zebra", "plain one"]);
+        remember(&mut scenes, "Another name", &folder.path().join("titled.toml"));
+        assert_eq!((scenes.len(), scenes[0].name.as_str()), (2, "Another name"));
+        remember(&mut scenes, "New", &folder.path().join("new.toml"));
+        assert_eq!((scenes.len(), scenes[2].name.as_str()), (3, "New"));
+        assert!(scenes[2].path.ends_with("new.toml"));
+    }
+}

@@ -1,0 +1,174 @@
+//! Turns frames into screen pixels and compares them with the reference.
+use std::sync::Arc;
+
+use noisefall::render::{
+    Frame,
+    truth::Reference,
+    view::{Field, Legend, Scale, Scores, Sources, View, draw},
+};
+
+use super::display_request::{BounceTerm, DisplayRequest};
+
+/// A frame ready to be shown.
+pub struct DisplayImage {
+    pub frame: Arc<Frame>,
+    pub second: Option<Arc<Frame>>,
+    /// Display pixels row by row, as a PNG stores them.
+    pub pixels: Vec<[u8; 4]>,
+    pub image: egui::ColorImage,
+    pub second_image: Option<egui::ColorImage>,
+    pub legend: Option<Legend>,
+    pub values: PixelValues,
+    /// Known in the view of z-scores.
+    pub scores: Option<Scores>,
+    /// The reference of the comparisons.
+    pub reference: Option<Arc<Reference>>,
+    pub comparison: Option<ReferenceComparison>,
+    pub second_comparison: Option<ReferenceComparison>,
+    /// The part of the frame's pixels that have light.
+    pub lit: f32,
+}
+
+/// The values that a view displays in place of the radiance, by pixel.
+#[derive(Default)]
+pub struct PixelValues {
+    /// The numbers of a view.
+    pub numbers: Option<Vec<f32>>,
+    /// Radiance of a term.
+    pub radiance: Option<Vec<[f32; 3]>>,
+}
+
+/// A frame compared with its reference.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ReferenceComparison {
+    pub rel_mse: f64,
+    /// Bias of the mean over the picture, in standard errors.
+    pub bias: Option<f64>,
+}
+
+/// Renders the pixels of a request.
+pub fn render(request: DisplayRequest) -> DisplayImage {
+    let DisplayRequest { frame, second, shows_second, term, look, reference, pinned, features, materials, most_side } = request;
+    let truth = reference.as_deref();
+    let picture = |frame: &Frame, radiance: Option<&[[f32; 3]]>, scale: Option<Scale>| {
+        let mut pixels = Vec::new();
+        let (pinned, features) = (pinned.as_deref(), features.as_deref());
+        let shown = draw(look, &Sources { frame, radiance, truth, pinned, features, scale, materials: &materials }, &mut pixels);
+        (image(frame, &pixels, most_side), shown, pixels)
+    };
+    let radiance = term.as_ref().filter(|term| term.of.radiance.len() == frame.radiance.len()).and_then(BounceTerm::radiance);
+    let (image, shown, pixels) = picture(&frame, radiance.as_deref(), None);
+    let (legend, field) = shown.unzip();
+    let numbers = field.and_then(|field| if let Field::Numbers(numbers) = field { Some(numbers) } else { None });
+    let scale = legend.as_ref().and_then(|legend| legend.scale);
+    let second_image = second.as_ref().filter(|_| shows_second).map(|second| picture(second, None, scale).0);
+    let compare = |frame: &Frame| {
+        let truth = truth?;
+        Some(ReferenceComparison { rel_mse: truth.compare(frame)?.rel_mse, bias: truth.bias(frame)?.z })
+    };
+    let scores = truth.filter(|_| look.view == View::ZScore).and_then(|truth| Scores::of(&frame, truth));
+    DisplayImage {
+        comparison: compare(&frame),
+        second_comparison: second.as_ref().and_then(|second| compare(second)),
+        lit: lit(&frame),
+        frame,
+        second,
+        pixels,
+        image,
+        second_image,
+        legend,
+        values: PixelValues { numbers, radiance },
+        scores,
+        reference,
+    }
+}
+
+/// The part of the pixels that have light.
+fn lit(frame: &Frame) -> f32 {
+    let lit = frame.radiance.iter().filter(|radiance| **radiance != [0.0; 3]).count();
+    lit as f32 / frame.radiance.len().max(1) as f32
+}
+
+/// Pixels for a texture.
+fn image(frame: &Frame, pixels: &[[u8; 4]], most_side: usize) -> egui::ColorImage {
+    let [width, height] = [frame.width, frame.height].map(|side| side as usize);
+    let step = width.max(height).div_ceil(most_side.max(1)).max(1);
+    if step == 1 {
+        return egui::ColorImage::from_rgba_unmultiplied([width, height], pixels.as_flattened());
+    }
+    // Every `step`-th pixel of what no texture can hold whole.
+    let rows = pixels.chunks_exact(width).step_by(step);
+    let thinned: Vec<u8> = rows.flat_map(|row| row.iter().step_by(step)).flatten().copied().collect();
+    egui::ColorImage::from_rgba_unmultiplied([width.div_ceil(step), height.div_ceil(step)], &thinned)
+}
+
+#[cfg(test)]
+mod tests {
+    use noisefall::render::{Series, view::Look};
+
+    use super::{super::display_request::tests::frame, super::display_request::tests::request, *};
+
+    #[test]
+    fn each_picture_is_held_against_the_truth_by_itself() {
+        let (a, b) = (frame(&[1.0, 1.0]), frame(&[2.0, 2.0]));
+        let truth = Some(Arc::new(Reference::Constant([1.0; 3])));
+        let shown = render(DisplayRequest { second: Some(b), reference: truth.clone(), ..request(a.clone()) });
+        let [of_a, of_b] = [shown.comparison, shown.second_comparison].map(|known| known.expect("the truth is known").rel_mse);
+        assert!(of_a == 0.0 && of_b > 0.5, "{of_a} {of_b}");
+        assert!(shown.second_image.is_none(), "it is not shown");
+        assert!(shown.reference.as_ref().map(Arc::as_ptr) == truth.as_ref().map(Arc::as_ptr));
+        let shown = render(request(a));
+        assert!(shown.comparison.is_none() && shown.second_comparison.is_none() && shown.reference.is_none());
+    }
+
+    #[test]
+    fn pixels_with_light_are_counted_in_the_first_picture() {
+        let (dark, bright) = (frame(&[0.0, 0.0]), frame(&[0.0, 0.5]));
+        assert_eq!(render(DisplayRequest { second: Some(bright.clone()), shows_second: true, ..request(dark.clone()) }).lit, 0.0);
+        let shown = render(DisplayRequest { second: Some(dark), shows_second: true, ..request(bright) });
+        assert_eq!(shown.lit, 0.5);
+        assert!(shown.image.pixels[1] != shown.image.pixels[0] && shown.second_image.expect("it is shown").pixels[1].r() == 0);
+    }
+
+    #[test]
+    fn a_term_is_seen_alone_or_with_those_before_it() {
+        let whole = frame(&[0.7, 0.7]);
+        let terms = vec![vec![[0.1; 3]; 2], vec![[0.2; 3]; 2], vec![[0.4; 3]; 2]];
+        let series = Some(Series { terms, shares: vec![0.2, 0.3, 0.5] });
+        let of = Arc::new(Frame { series, ..Frame::default() });
+        let of = Arc::new(Frame { radiance: whole.radiance.clone(), ..Arc::into_inner(of).expect("it is the only one") });
+        let seen = |k, up_to| {
+            let term = Some(BounceTerm { of: of.clone(), k, up_to });
+            render(DisplayRequest { term, ..request(whole.clone()) }).values.radiance.expect("a term is seen")[1][0]
+        };
+        assert_eq!((seen(0, false), seen(1, false), seen(2, false)), (0.1, 0.2, 0.4));
+        assert!((seen(1, true) - 0.3).abs() < 1e-6 && (seen(2, true) - 0.7).abs() < 1e-6);
+        // A series of another size is not of this picture.
+        let small = Arc::new(Frame { radiance: vec![[1.0; 3]], ..Frame::default() });
+        let term = Some(BounceTerm { of: small, k: 0, up_to: false });
+        assert!(render(DisplayRequest { term, ..request(whole) }).values.radiance.is_none());
+    }
+
+    #[test]
+    fn numbers_of_a_view_are_those_of_its_pixels_and_two_pictures_have_one_scale() {
+        let look = Look { view: View::StandardError, ..Look::default() };
+        let second = Some(frame(&[1.0, 1e4, 1e-4]));
+        let shown = render(DisplayRequest { look, second, shows_second: true, ..request(frame(&[0.5, 1.0, 4.0])) });
+        let numbers = shown.values.numbers.expect("it is a view of numbers");
+        assert!(numbers.iter().zip([0.05, 0.1, 0.4]).all(|(number, error)| (number - error).abs() < 1e-6), "{numbers:?}");
+        let second = shown.second_image.expect("it is shown");
+        assert_eq!(second.pixels[0], shown.image.pixels[1], "the same number has the same colour");
+        assert!(shown.scores.is_none());
+        let look = Look { view: View::ZScore, ..Look::default() };
+        let truth = Some(Arc::new(Reference::Constant([1.0; 3])));
+        assert!(render(DisplayRequest { look, reference: truth, ..request(frame(&[0.9, 1.0, 1.1])) }).scores.is_some());
+    }
+
+    #[test]
+    fn what_no_texture_can_hold_is_thinned() {
+        let shown = render(DisplayRequest { most_side: 2, ..request(frame(&[0.0, 0.2, 0.4, 0.6, 0.8])) });
+        assert_eq!((shown.image.size, shown.pixels.len()), ([2, 1], 5));
+        assert_eq!(shown.image.pixels[1].r(), shown.pixels[3][0], "every third pixel");
+        assert_eq!(render(DisplayRequest { most_side: 5, ..request(frame(&[0.0; 5])) }).image.size, [5, 1]);
+    }
+}

@@ -1,0 +1,122 @@
+//! A request to turn frames into screen pixels.
+use std::sync::Arc;
+
+use noisefall::{
+    integrator::Features,
+    render::{Frame, truth::Reference, view::Look},
+};
+
+/// Frames and how they are displayed.
+#[derive(Clone)]
+pub struct DisplayRequest {
+    pub frame: Arc<Frame>,
+    /// The frame of the second view: displayed if `shows_second`, and compared with the reference.
+    pub second: Option<Arc<Frame>>,
+    pub shows_second: bool,
+    /// The term of a series to show in place of the frame's own radiance.
+    pub term: Option<BounceTerm>,
+    pub look: Look,
+    /// The picture that the frame converges to, if it is known.
+    pub reference: Option<Arc<Reference>>,
+    pub pinned: Option<Arc<Frame>>,
+    pub features: Option<Arc<Features>>,
+    pub materials: Arc<[String]>,
+    /// Textures cannot be larger.
+    pub most_side: usize,
+}
+
+/// A term or a partial sum of a picture's series over bounces.
+#[derive(Clone)]
+pub struct BounceTerm {
+    /// A frame with a series.
+    pub of: Arc<Frame>,
+    pub k: usize,
+    /// Light of at most so many bounces.
+    pub up_to: bool,
+}
+
+/// Whether both are the same thing in memory, or neither is there.
+fn same<T>(a: Option<&Arc<T>>, b: Option<&Arc<T>>) -> bool {
+    a.map(Arc::as_ptr) == b.map(Arc::as_ptr)
+}
+
+impl PartialEq for DisplayRequest {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.frame, &other.frame)
+            && same(self.second.as_ref(), other.second.as_ref())
+            && self.shows_second == other.shows_second
+            && self.look == other.look
+            && same(self.reference.as_ref(), other.reference.as_ref())
+            && same(self.pinned.as_ref(), other.pinned.as_ref())
+            && same(self.features.as_ref(), other.features.as_ref())
+            && self.term == other.term
+    }
+}
+
+impl PartialEq for BounceTerm {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.of, &other.of) && (self.k, self.up_to) == (other.k, other.up_to)
+    }
+}
+
+impl BounceTerm {
+    /// Mean radiance of that light.
+    pub fn radiance(&self) -> Option<Vec<[f32; 3]>> {
+        let series = self.of.series.as_ref()?;
+        Some(if self.up_to { series.up_to(self.k) } else { series.terms.get(self.k)?.clone() })
+    }
+}
+
+#[cfg(test)]
+pub mod tests {
+    use noisefall::render::view::View;
+
+    use super::*;
+
+    /// A frame of grey pixels in a row.
+    pub fn frame(greys: &[f32]) -> Arc<Frame> {
+        let width = greys.len() as u32;
+        let radiance = greys.iter().map(|grey| [*grey; 3]).collect();
+        let standard_error = greys.iter().map(|grey| 0.1 * grey).collect();
+        Arc::new(Frame { width, height: 1, full_resolution: [width, 1], radiance, standard_error, spp: 4, ..Frame::default() })
+    }
+
+    pub fn request(frame: Arc<Frame>) -> DisplayRequest {
+        DisplayRequest {
+            frame,
+            second: None,
+            shows_second: false,
+            term: None,
+            look: Look::default(),
+            reference: None,
+            pinned: None,
+            features: None,
+            materials: Arc::from([]),
+            most_side: 1024,
+        }
+    }
+
+    #[test]
+    fn a_request_differs_if_anything_in_it_does() {
+        let a = request(frame(&[1.0]));
+        let term = |k, up_to| Some(BounceTerm { of: a.frame.clone(), k, up_to });
+        let (reference, other) = (Arc::new(Reference::Constant([1.0; 3])), frame(&[1.0]));
+        let look = Look { view: View::Depth, ..a.look };
+        let (normal, albedo, depth, object) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let features = Features { width: 0, height: 0, normal, albedo, depth, object, material: Vec::new(), cost: Vec::new() };
+        for changed in [
+            DisplayRequest { frame: other.clone(), ..a.clone() },
+            DisplayRequest { second: Some(other.clone()), ..a.clone() },
+            DisplayRequest { shows_second: true, ..a.clone() },
+            DisplayRequest { look, ..a.clone() },
+            DisplayRequest { reference: Some(reference), ..a.clone() },
+            DisplayRequest { pinned: Some(other), ..a.clone() },
+            DisplayRequest { features: Some(Arc::new(features)), ..a.clone() },
+            DisplayRequest { term: term(1, false), ..a.clone() },
+        ] {
+            assert!(changed != a && changed == changed.clone());
+        }
+        let with = |term| DisplayRequest { term, ..a.clone() };
+        assert!(with(term(1, false)) != with(term(2, false)) && with(term(1, false)) != with(term(1, true)));
+    }
+}

@@ -1,0 +1,99 @@
+//! Finds the first surfaces that camera rays meet, off the UI thread, and only while a view shows them.
+use std::sync::Arc;
+
+use noisefall::{
+    integrator::{Features, features},
+    math::SimdLevel,
+    memory::Reservation,
+    render::pass::Threads,
+    scene::{Camera, Scene},
+};
+
+use super::background_task::BackgroundTask;
+
+/// The scene and the camera of features.
+type Viewpoint = (Arc<Scene>, Camera);
+
+pub struct FeatureFinder {
+    ctx: egui::Context,
+    found: Option<Found>,
+    /// The viewpoint that was asked for last.
+    viewpoint: Option<Viewpoint>,
+    pending: Option<BackgroundTask<Option<(Features, Reservation)>>>,
+}
+
+struct Found {
+    viewpoint: Viewpoint,
+    features: Arc<Features>,
+    _memory: Reservation,
+}
+
+impl FeatureFinder {
+    pub fn new(ctx: &egui::Context) -> FeatureFinder {
+        FeatureFinder { ctx: ctx.clone(), found: None, viewpoint: None, pending: None }
+    }
+
+    /// The features of a picture as soon as they are known; until then, those of the same scene from another camera.
+    pub fn of(&mut self, scene: &Arc<Scene>, camera: &Camera, threads: usize) -> Option<Arc<Features>> {
+        let same = |(old, at): &Viewpoint| Arc::ptr_eq(old, scene) && at == camera;
+        if let (Some(features), Some(viewpoint)) = (BackgroundTask::take(&mut self.pending), &self.viewpoint) {
+            // Where the renderer fails, the picture's own threads say so.
+            let found = features.ok().flatten();
+            self.found =
+                found.map(|(features, _memory)| Found { viewpoint: viewpoint.clone(), features: Arc::new(features), _memory });
+        }
+        // A running search is left to finish: otherwise none would ever finish while the camera is dragged.
+        if self.pending.is_none() && !self.viewpoint.as_ref().is_some_and(same) {
+            self.search(scene, camera, threads);
+        }
+        let found = self.found.as_ref().filter(|found| Arc::ptr_eq(&found.viewpoint.0, scene));
+        found.map(|found| found.features.clone())
+    }
+
+    /// Whether the features are those of this camera.
+    pub fn has(&self, camera: &Camera) -> bool {
+        self.found.as_ref().is_some_and(|found| found.viewpoint.1 == *camera)
+    }
+
+    fn search(&mut self, scene: &Arc<Scene>, camera: &Camera, threads: usize) {
+        self.viewpoint = Some((scene.clone(), *camera));
+        let (scene, camera) = (scene.clone(), *camera);
+        self.pending = Some(BackgroundTask::start(&self.ctx, move |cancelled| {
+            let room = Features::reserve(camera.resolution).ok()?;
+            // On a pool of its own, with as many threads as render.
+            let pool = Threads::new(threads, SimdLevel::best()).ok()?;
+            let found = pool.install(|| features(SimdLevel::best(), &scene, &camera, cancelled))?;
+            Some((found, room))
+        }));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use noisefall::scene::built_in;
+
+    use super::*;
+
+    #[test]
+    fn features_are_of_the_scene_that_is_asked_for_and_known_by_their_camera() {
+        let scene = Arc::new(built_in());
+        let here = Camera { resolution: [8, 8], ..scene.camera };
+        let there = Camera { fov: 20.0, ..here };
+        let mut finder = FeatureFinder::new(&egui::Context::default());
+        let wait = |finder: &mut FeatureFinder, camera: &Camera| {
+            let start = std::time::Instant::now();
+            while !finder.has(camera) {
+                assert!(start.elapsed().as_secs() < 60, "they never came");
+                let _ = finder.of(&scene, camera, 1);
+                std::thread::yield_now();
+            }
+            finder.of(&scene, camera, 1).expect("they are there")
+        };
+        let first = wait(&mut finder, &here);
+        assert!(!finder.has(&there));
+        assert!(finder.of(&scene, &there, 1).is_some_and(|old| Arc::ptr_eq(&old, &first)), "those from elsewhere meanwhile");
+        let second = wait(&mut finder, &there);
+        assert!(finder.has(&there) && !finder.has(&here) && first.depth != second.depth);
+        assert!(finder.of(&Arc::new(built_in()), &there, 1).is_none(), "but not those of another scene");
+    }
+}

@@ -1,0 +1,148 @@
+//! Reading and compiling scenes off the UI thread. The latest request wins.
+use std::{path::PathBuf, sync::Arc};
+
+use noisefall::{
+    render::truth::Reference,
+    scene::{Camera, Scene, built_in, load},
+};
+
+use super::{background_task::BackgroundTask, catalogue};
+
+/// The name of the built-in scene.
+pub const BUILT_IN_NAME: &str = "Five-sphere Cornell box (built-in)";
+
+/// A scene ready to be shown.
+pub struct OpenedScene {
+    pub scene: Arc<Scene>,
+    pub name: String,
+    pub path: Option<PathBuf>,
+    /// The reference that the scene names, for its own camera.
+    pub truth: Option<Arc<Reference>>,
+    /// Names of the materials by number.
+    pub materials: Arc<[String]>,
+}
+
+/// The result of opening a scene.
+pub type OpenResult = Result<OpenedScene, String>;
+
+/// A reference picture that was dropped on the window.
+pub struct DroppedReference {
+    /// Name of its file.
+    pub name: String,
+    pub reference: Arc<Reference>,
+    /// The camera when it was dropped: the reference is of its picture.
+    pub camera: Camera,
+}
+
+pub type ReferenceResult = Result<DroppedReference, String>;
+
+pub struct Loader {
+    ctx: egui::Context,
+    pending: Option<BackgroundTask<OpenResult>>,
+    reference: Option<BackgroundTask<ReferenceResult>>,
+}
+
+impl Loader {
+    pub fn new(ctx: &egui::Context) -> Loader {
+        Loader { ctx: ctx.clone(), pending: None, reference: None }
+    }
+
+    /// Opens a scene file, or the built-in scene.
+    pub fn open(&mut self, path: Option<PathBuf>) {
+        self.pending = Some(BackgroundTask::start(&self.ctx, |_| open(path)));
+    }
+
+    /// Reads a reference for pictures by this camera.
+    pub fn read_reference(&mut self, path: PathBuf, camera: Camera) {
+        self.reference = Some(BackgroundTask::start(&self.ctx, move |_| {
+            let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+            let read = Reference::read(&path);
+            let read = read.map(|reference| DroppedReference { name, reference: Arc::new(reference), camera });
+            read.map_err(|error| format!("Not a reference: {error}"))
+        }));
+    }
+
+    /// Drops the reference that is being read: it is for another scene.
+    pub fn forget_reference(&mut self) {
+        self.reference = None;
+    }
+
+    pub fn is_busy(&self) -> bool {
+        self.pending.is_some()
+    }
+
+    /// The outcome of the latest request, once.
+    pub fn take(&mut self) -> Option<OpenResult> {
+        let failed = |_| Err("reading the scene failed unexpectedly".to_owned());
+        Some(BackgroundTask::take(&mut self.pending)?.unwrap_or_else(failed))
+    }
+
+    /// The outcome of reading the last reference, once.
+    pub fn take_reference(&mut self) -> Option<ReferenceResult> {
+        let failed = |_| Err("Reading the reference failed unexpectedly".to_owned());
+        Some(BackgroundTask::take(&mut self.reference)?.unwrap_or_else(failed))
+    }
+}
+
+fn open(path: Option<PathBuf>) -> OpenResult {
+    let Some(path) = path else {
+        let scene = built_in();
+        let materials = scene.legend().names.into();
+        return Ok(OpenedScene { name: BUILT_IN_NAME.to_owned(), scene: Arc::new(scene), path: None, truth: None, materials });
+    };
+    let scene = load(&path).map_err(|error| error.report())?;
+    let truth = Reference::of(&scene).map(Arc::new);
+    let name = catalogue::name(&scene.title, &path);
+    let materials = scene.legend().names.into();
+    Ok(OpenedScene { scene: Arc::new(scene), name, path: Some(path), truth, materials })
+}
+
+#[cfg(test)]
+mod tests {
+    use std::{
+        path::Path,
+        time::{Duration, Instant},
+    };
+
+    use super::*;
+
+    fn wait<T>(mut take: impl FnMut() -> Option<T>) -> T {
+        let start = Instant::now();
+        loop {
+            if let Some(found) = take() {
+                return found;
+            }
+            assert!(start.elapsed() < Duration::from_secs(60), "it never came");
+            std::thread::sleep(Duration::from_millis(1));
+        }
+    }
+
+    #[test]
+    fn the_latest_request_wins_and_an_error_names_its_file() {
+        let mut loader = Loader::new(&egui::Context::default());
+        loader.open(Some("no/such/scene.toml".into()));
+        loader.open(None);
+        assert!(loader.is_busy());
+        let opened = wait(|| loader.take()).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!((opened.name.as_str(), opened.path, opened.truth.is_none()), (BUILT_IN_NAME, None, true));
+        assert_eq!(opened.materials.len(), opened.scene.legend().names.len());
+        assert!(!loader.is_busy() && loader.take().is_none());
+        loader.open(Some("no/such/scene.toml".into()));
+        assert!(wait(|| loader.take()).is_err_and(|error| error.contains("scene.toml")));
+        let furnace = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/furnace.toml");
+        loader.open(Some(furnace.clone()));
+        let opened = wait(|| loader.take()).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!((opened.name.as_str(), opened.path, opened.truth.is_some()), ("Furnace", Some(furnace), true));
+    }
+
+    #[test]
+    fn a_reference_that_is_read_for_another_scene_is_forgotten() {
+        let mut loader = Loader::new(&egui::Context::default());
+        let camera = built_in().camera;
+        loader.read_reference("no/such/picture.exr".into(), camera);
+        assert!(wait(|| loader.take_reference()).is_err_and(|error| error.contains("Not a reference")));
+        loader.read_reference("no/such/picture.exr".into(), camera);
+        loader.forget_reference();
+        assert!(loader.reference.is_none() && loader.take_reference().is_none());
+    }
+}

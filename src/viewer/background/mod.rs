@@ -1,0 +1,12 @@
+//! Work off the UI thread: rendering, display, files, studies. Nothing here knows a widget.
+pub mod adviser;
+pub mod background_task;
+pub mod catalogue;
+pub mod display_image;
+pub mod display_pipeline;
+pub mod display_request;
+pub mod feature_finder;
+pub mod loader;
+pub mod preferences;
+pub mod render_worker;
+pub mod saver;

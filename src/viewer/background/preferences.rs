@@ -1,0 +1,80 @@
+//! Preferences that the window keeps from one run to the next.
+use std::{
+    path::{Path, PathBuf},
+    thread::JoinHandle,
+};
+
+use noisefall::file::{open_regular, replace};
+use serde::{Deserialize, Serialize};
+
+const FILE: &str = "window.toml";
+
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct SavedState {
+    /// The tour was seen or ended.
+    pub toured: bool,
+    /// "dark" or "light"; `None` follows the system.
+    pub theme: Option<String>,
+}
+
+/// The saved state and its folder. A folder that cannot be read or written is not reported.
+#[derive(Default)]
+pub struct Preferences {
+    pub now: SavedState,
+    folder: Option<PathBuf>,
+    /// Writes on a thread of its own: folders can be slow.
+    writing: Option<JoinHandle<()>>,
+}
+
+impl Preferences {
+    /// Reads the preferences of this user.
+    pub fn of_user() -> Preferences {
+        let folder = directories::ProjectDirs::from("", "", "noisefall").map(|folders| folders.config_dir().to_owned());
+        folder.map_or_else(Preferences::default, |folder| Preferences::in_folder(&folder))
+    }
+
+    pub fn in_folder(folder: &Path) -> Preferences {
+        let text = open_regular(&folder.join(FILE)).and_then(std::io::read_to_string).unwrap_or_default();
+        Preferences { now: toml::from_str(&text).unwrap_or_default(), folder: Some(folder.to_owned()), writing: None }
+    }
+
+    /// Changes the state and saves it.
+    pub fn change(&mut self, change: impl FnOnce(&mut SavedState)) {
+        let before = self.now.clone();
+        change(&mut self.now);
+        let Some(folder) = self.folder.clone().filter(|_| self.now != before) else { return };
+        let text = toml::to_string(&self.now).unwrap_or_default();
+        let earlier = self.writing.take();
+        self.writing = Some(std::thread::spawn(move || {
+            let _ = earlier.map(JoinHandle::join);
+            let _ = std::fs::create_dir_all(&folder);
+            let _ = replace(&folder.join(FILE), text.as_bytes());
+        }));
+    }
+}
+
+impl Drop for Preferences {
+    fn drop(&mut self) {
+        let _ = self.writing.take().map(JoinHandle::join);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_changed_is_found_again_and_nonsense_is_forgotten() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let inner = folder.path().join("noisefall");
+        let mut preferences = Preferences::in_folder(&inner);
+        assert_eq!(preferences.now, SavedState::default());
+        preferences.change(|now| (now.toured, now.theme) = (true, Some("light".to_owned())));
+        let now = preferences.now.clone();
+        drop(preferences);
+        assert_eq!(Preferences::in_folder(&inner).now, now);
+        std::fs::write(inner.join(FILE), "toured = 7").expect("it is written");
+        assert_eq!(Preferences::in_folder(&inner).now, SavedState::default());
+    }
+}

@@ -1,0 +1,233 @@
+//! Handle to the render worker. It compares each request with the last one; a difference starts a new generation.
+use std::sync::Arc;
+
+use noisefall::{
+    math::SimdLevel,
+    render::{Beside, Budget, Job, Publish, Published, Renderer, pass::Threads},
+    scene::{Camera, RenderSettings, Scene},
+};
+
+/// Seconds to wait for the last picture before the next one is requested, while a control is dragged.
+const PATIENCE: f64 = 0.1;
+
+pub struct RenderWorkerHandle {
+    renderer: Renderer,
+    /// Generation of the last request, for either view.
+    latest: u64,
+    generation: u64,
+    second_generation: u64,
+    request: Option<RenderRequest>,
+    second: Option<SecondView>,
+    budget: Budget,
+    threads: usize,
+    restarts: bool,
+    /// Time of the last request, in seconds of the window's clock.
+    asked: f64,
+}
+
+/// Everything a picture depends on. Display settings are not in it, so they cannot restart a render.
+#[derive(Clone)]
+pub struct RenderRequest {
+    pub scene: Arc<Scene>,
+    pub camera: Camera,
+    pub settings: RenderSettings,
+}
+
+/// The second view of the same scene and camera.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SecondView {
+    /// The picture rendered with other settings.
+    Other(RenderSettings),
+    /// The picture split by the number of bounces.
+    Series,
+}
+
+impl PartialEq for RenderRequest {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.scene, &other.scene) && self.camera == other.camera && self.settings == other.settings
+    }
+}
+
+impl RenderRequest {
+    fn job(&self, generation: u64) -> Job {
+        let RenderRequest { scene, camera, settings } = self.clone();
+        Job { generation, scene, camera, settings }
+    }
+}
+
+impl RenderWorkerHandle {
+    pub fn new(threads: Threads, ctx: &egui::Context) -> RenderWorkerHandle {
+        let ctx = ctx.clone();
+        let count = threads.count();
+        let renderer = Renderer::new(threads, Publish::Live, move || ctx.request_repaint());
+        RenderWorkerHandle {
+            renderer,
+            latest: 0,
+            generation: 0,
+            second_generation: 0,
+            request: None,
+            second: None,
+            budget: Budget::default(),
+            threads: count,
+            restarts: false,
+            asked: 0.0,
+        }
+    }
+
+    /// Sets when rendering stops.
+    pub fn set_budget(&mut self, budget: Budget) {
+        if budget != self.budget {
+            self.renderer.set_budget(budget);
+            self.budget = budget;
+        }
+    }
+
+    /// Requests what has changed. `now` is the time of the window's clock.
+    pub fn update(&mut self, request: RenderRequest, second: Option<SecondView>, now: f64) {
+        let is_new = std::mem::take(&mut self.restarts) || self.request.as_ref() != Some(&request);
+        if is_new {
+            self.generation = self.next(now);
+            self.renderer.submit(request.job(self.generation));
+        }
+        if self.second != second || (is_new && second.is_some()) {
+            self.second_generation = self.next(now);
+            self.renderer.submit_beside(second.map(|second| match second {
+                SecondView::Other(settings) => Beside::Picture(Job { settings, ..request.job(self.second_generation) }),
+                SecondView::Series => Beside::Series(request.job(self.second_generation)),
+            }));
+            self.second = second;
+        }
+        self.request = Some(request);
+    }
+
+    fn next(&mut self, now: f64) -> u64 {
+        self.asked = now;
+        self.latest += 1;
+        self.latest
+    }
+
+    /// Whether the last request is still to be shown and younger than [`PATIENCE`]. `shown` are the generations on the screen.
+    pub fn is_awaited(&self, shown: [u64; 2], now: f64) -> bool {
+        let second = self.second.is_some() && shown[1] < self.second_generation;
+        (shown[0] < self.generation || second) && now - self.asked < PATIENCE
+    }
+
+    /// Whether this equals the last request.
+    pub fn is_asked(&self, request: &RenderRequest, second: Option<SecondView>) -> bool {
+        self.request.as_ref() == Some(request) && self.second == second
+    }
+
+    /// The next [`RenderWorkerHandle::update`] restarts rendering.
+    pub fn restart(&mut self) {
+        self.restarts = true;
+    }
+
+    pub fn threads(&self) -> usize {
+        self.threads
+    }
+
+    /// Sets the number of threads to render on.
+    pub fn set_threads(&mut self, count: usize) -> Result<(), String> {
+        if count != self.threads {
+            let threads = Threads::new(count, SimdLevel::best()).map_err(|error| error.to_string())?;
+            self.renderer.set_threads(threads);
+            self.threads = count;
+        }
+        Ok(())
+    }
+
+    /// The generation of the first view's last request.
+    pub fn generation(&self) -> u64 {
+        self.generation
+    }
+
+    pub fn second_generation(&self) -> u64 {
+        self.second_generation
+    }
+
+    pub fn latest(&self) -> Published {
+        self.renderer.latest()
+    }
+
+    pub fn latest_second(&self) -> Published {
+        self.renderer.latest_beside()
+    }
+
+    /// The time of the last request.
+    #[cfg(test)]
+    pub fn asked(&self) -> f64 {
+        self.asked
+    }
+
+    /// The last request for the first view.
+    pub fn request(&self) -> Option<&RenderRequest> {
+        self.request.as_ref()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use noisefall::scene::built_in;
+
+    use super::*;
+
+    fn worker() -> (RenderWorkerHandle, RenderRequest) {
+        let scene = built_in();
+        let camera = Camera { resolution: [8, 8], ..scene.camera };
+        let request = RenderRequest { settings: scene.settings, scene: Arc::new(scene), camera };
+        (
+            RenderWorkerHandle::new(Threads::new(1, SimdLevel::best()).expect("a thread can be had"), &egui::Context::default()),
+            request,
+        )
+    }
+
+    #[test]
+    fn what_was_asked_for_is_awaited_until_it_is_shown_or_patience_ends() {
+        let (mut worker, request) = worker();
+        worker.update(request.clone(), None, 10.0);
+        assert_eq!((worker.generation(), worker.second_generation()), (1, 0));
+        assert!(worker.is_awaited([0, 0], 10.0 + 0.9 * PATIENCE));
+        assert!(!worker.is_awaited([0, 0], 10.0 + 1.1 * PATIENCE), "for a little while only");
+        assert!(!worker.is_awaited([1, 0], 10.0));
+        // Nothing new is nothing to wait for, and the time counts from what was asked last.
+        worker.update(request.clone(), None, 20.0);
+        assert_eq!(worker.generation(), 1);
+        let other = SecondView::Other(RenderSettings { seed: 5, ..request.settings });
+        worker.update(request.clone(), Some(other), 30.0);
+        assert_eq!((worker.generation(), worker.second_generation()), (1, 2));
+        assert!(worker.is_awaited([1, 0], 30.0) && !worker.is_awaited([1, 2], 30.0), "the picture beside is awaited too");
+        worker.update(request, None, 40.0);
+        assert!(!worker.is_awaited([1, 0], 40.0), "but not when it is gone");
+    }
+
+    #[test]
+    fn only_what_a_picture_depends_on_starts_a_new_one() {
+        let (mut worker, request) = worker();
+        worker.update(request.clone(), None, 0.0);
+        assert!(worker.is_asked(&request, None) && !worker.is_asked(&request, Some(SecondView::Series)));
+        worker.set_budget(Budget { max_spp: Some(3), ..Budget::default() });
+        worker.update(request.clone(), None, 0.0);
+        assert_eq!(worker.generation(), 1);
+        let of_settings = RenderRequest { settings: RenderSettings { seed: 1, ..request.settings }, ..request.clone() };
+        let of_camera = RenderRequest { camera: Camera { fov: 20.0, ..request.camera }, ..request.clone() };
+        let of_scene = RenderRequest { scene: Arc::new(built_in()), ..request.clone() };
+        for (changed, generation) in [(of_settings, 2), (of_camera, 3), (of_scene, 4)] {
+            assert!(!worker.is_asked(&changed, None));
+            worker.update(changed, None, 0.0);
+            assert_eq!(worker.generation(), generation);
+        }
+        worker.update(request.clone(), None, 0.0);
+        worker.restart();
+        worker.update(request.clone(), None, 0.0);
+        worker.update(request.clone(), None, 0.0);
+        assert_eq!(worker.generation(), 6, "it starts over once");
+        // What is beside the picture starts over with it, and anew with other settings.
+        let other = |seed| Some(SecondView::Other(RenderSettings { seed, ..request.settings }));
+        worker.update(request.clone(), other(1), 0.0);
+        worker.update(request.clone(), other(2), 0.0);
+        assert_eq!((worker.generation(), worker.second_generation()), (6, 8));
+        worker.restart();
+        worker.update(request.clone(), other(2), 0.0);
+        assert_eq!((worker.generation(), worker.second_generation()), (9, 10));
+    }
+}

@@ -1,0 +1,77 @@
+//! The window that lists keys and mouse.
+use egui::{Align2, RichText};
+
+const KEYS: [(&str, &[(&str, &str)]); 4] = [
+    ("Render", &[("Space", "pause, resume"), (".", "one more sample per pixel, then pause"), ("R", "start over")]),
+    (
+        "Picture",
+        &[
+            ("P", "drag and wheel move the picture"),
+            ("Wheel, drag", "magnify, pan"),
+            ("Ctrl+wheel, middle drag", "the same, with any tool"),
+            ("F, double-click", "whole picture"),
+            ("1", "one picture pixel to one screen pixel"),
+            ("[  ]", "half a stop darker, brighter"),
+            ("V, Shift+V", "the next view, the one before"),
+            ("G", "drag marks what is rendered first; Esc clears it"),
+            ("I", "a click shows a pixel's samples and paths"),
+        ],
+    ),
+    (
+        "Camera",
+        &[
+            ("C", "drag and wheel move the camera"),
+            ("Drag", "orbit"),
+            ("Right drag, Shift+drag", "pan"),
+            ("Wheel", "dolly"),
+            ("W A S D", "fly forwards, left, back, right"),
+            ("Q  E", "fly down, up"),
+            ("Arrows", "turn"),
+            ("Shift", "fly and turn faster"),
+            ("Home", "the scene's camera"),
+        ],
+    ),
+    (
+        "Window",
+        &[
+            ("Ctrl+S", "save the picture"),
+            ("F1", "this help"),
+            ("F2  F3  F4  F5", "convergence, compare, bounces, pixel"),
+            ("F6", "the scenes as pictures"),
+            ("F12", "how long the window takes to draw"),
+            ("Esc", "close"),
+        ],
+    ),
+];
+
+/// Shows the keys while `is_open` is set. Returns whether the tour is to start.
+pub fn show(ctx: &egui::Context, is_open: &mut bool) -> bool {
+    let (mut open, mut tour) = (*is_open, false);
+    egui::Window::new("Keyboard and mouse")
+        .open(&mut open)
+        .collapsible(false)
+        .resizable(false)
+        .anchor(Align2::CENTER_CENTER, [0.0, 0.0])
+        .show(ctx, |ui| {
+            let most = ctx.content_rect().height() - 130.0;
+            egui::ScrollArea::vertical().max_height(most).min_scrolled_height(most).show(ui, keys);
+            tour = ui.button("Take the tour").on_hover_text("Noise, bounces and roulette in four short pages").clicked();
+        });
+    *is_open = open && !tour;
+    tour
+}
+
+fn keys(ui: &mut egui::Ui) {
+    egui::Grid::new("help").num_columns(2).spacing([24.0, 5.0]).show(ui, |ui| {
+        for (group, keys) in KEYS {
+            ui.label(RichText::new(group).strong());
+            ui.end_row();
+            for (key, does) in keys {
+                ui.label(RichText::new(*key).monospace());
+                ui.label(*does);
+                ui.end_row();
+            }
+            ui.end_row();
+        }
+    });
+}

@@ -1,0 +1,10 @@
+//! Windows over the picture: dialogs, messages, help, the gallery and the tour.
+pub mod advice;
+pub mod gallery;
+pub mod help;
+pub mod notices;
+pub mod open;
+pub mod save;
+pub mod save_target;
+pub mod scene_error;
+pub mod tour;

@@ -1,0 +1,81 @@
+//! The dialog that saves the picture, the curves or a path.
+use std::path::{Path, PathBuf};
+
+use egui::{Align2, Button, RichText};
+
+use super::save_target::{SaveTarget, suggested_path};
+use crate::viewer::widgets::path_field::PathField;
+
+/// Asks where to save a file.
+pub struct SaveDialog {
+    target: SaveTarget,
+    field: PathField,
+}
+
+impl SaveDialog {
+    /// A dialog that suggests a path after the last file or after the scene.
+    pub fn new(target: SaveTarget, scene: Option<&Path>, last_saved: Option<&Path>) -> SaveDialog {
+        let path = suggested_path(target, scene, last_saved).display().to_string();
+        SaveDialog { target, field: PathField::new(path, "path/to/file") }
+    }
+
+    /// The text of the field.
+    #[cfg(test)]
+    pub fn path(&self) -> &str {
+        &self.field.path
+    }
+}
+
+/// Shows the dialog until it is answered. Returns what to save, and where.
+pub fn show(ctx: &egui::Context, dialog: &mut Option<SaveDialog>) -> Option<(SaveTarget, PathBuf)> {
+    let SaveDialog { target, mut field } = dialog.take()?;
+    let (mut open, mut save, mut cancelled) = (true, false, false);
+    egui::Window::new(target.title())
+        .open(&mut open)
+        .collapsible(false)
+        .resizable(false)
+        .anchor(Align2::CENTER_CENTER, [0.0, 0.0])
+        .show(ctx, |ui| (save, cancelled) = dialog_body(ui, target, &mut field));
+    if let Some(path) = field.path().filter(|_| save) {
+        match target.check(&path) {
+            Ok(()) => return Some((target, path)),
+            Err(error) => field.refusal = Some(error),
+        }
+    }
+    if open && !cancelled {
+        *dialog = Some(SaveDialog { target, field });
+    }
+    None
+}
+
+/// Returns whether to save, and whether to close. A file is replaced by the button that says so, never by Enter.
+fn dialog_body(ui: &mut egui::Ui, target: SaveTarget, field: &mut PathField) -> (bool, bool) {
+    ui.set_width(460.0);
+    ui.label(target.explanation());
+    ui.add_space(4.0);
+    let entered = field.show(ui);
+    let exists = field.path().is_some_and(|path| path.is_file());
+    field.remark(ui, if exists { "This file exists. Replace it?" } else { "" });
+    let (mut save, mut cancel) = (entered && !exists, false);
+    ui.horizontal(|ui| {
+        let choice = if target.extensions().len() > 1 { target.extensions() } else { &[] };
+        for extension in choice {
+            let chosen = field.path.trim().to_ascii_lowercase().ends_with(&format!(".{extension}"));
+            if ui.selectable_label(chosen, extension.to_uppercase()).clicked() {
+                field.path = PathBuf::from(&field.path).with_extension(extension).display().to_string();
+                field.refusal = None;
+            }
+        }
+        let name = field.path().and_then(|path| path.file_name().map(|name| name.to_string_lossy().into_owned()));
+        field.browse(ui, move |dialog| {
+            let dialog = dialog.add_filter(target.extensions().join(" or ").to_uppercase(), target.extensions());
+            name.into_iter().fold(dialog, rfd::FileDialog::set_file_name).save_file()
+        });
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            let name = RichText::new(if exists { "Replace" } else { "Save" }).strong();
+            save |= ui.add_enabled(field.path().is_some(), Button::new(name)).clicked();
+            cancel = ui.button("Cancel").clicked();
+        });
+    });
+    (save, cancel)
+}

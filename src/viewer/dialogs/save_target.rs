@@ -1,0 +1,134 @@
+//! Files to save, and their names.
+use std::path::{Path, PathBuf};
+
+use noisefall::{file, render::image_file::check_target};
+
+/// The content of a file to save.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SaveTarget {
+    Picture,
+    CurvesCsv,
+    CurvesSvg,
+    /// What the path inspector shows.
+    Path,
+}
+
+impl SaveTarget {
+    pub fn title(self) -> &'static str {
+        match self {
+            SaveTarget::Picture => "Save picture",
+            SaveTarget::CurvesCsv => "Save figures",
+            SaveTarget::CurvesSvg => "Save plot",
+            SaveTarget::Path => "Save path",
+        }
+    }
+
+    pub fn explanation(self) -> &'static str {
+        match self {
+            SaveTarget::Picture => {
+                "PNG is the picture as shown (of A and B it is A); EXR is linear radiance. Both carry the settings."
+            }
+            SaveTarget::CurvesCsv => "CSV: settings, samples, seconds, errors and bias, a line each.",
+            SaveTarget::CurvesSvg => "SVG: the curves of all settings, for a page or a slide.",
+            SaveTarget::Path => "TXT is the path in words and numbers, TEX its nested sum; CSV has the samples of the pixel.",
+        }
+    }
+
+    /// The extensions of its files.
+    pub fn extensions(self) -> &'static [&'static str] {
+        match self {
+            SaveTarget::Picture => &["png", "exr"],
+            SaveTarget::CurvesCsv => &["csv"],
+            SaveTarget::CurvesSvg => &["svg"],
+            SaveTarget::Path => &["txt", "tex", "csv"],
+        }
+    }
+
+    pub fn check(self, path: &Path) -> Result<(), String> {
+        if self == SaveTarget::Picture {
+            return check_target(path).map_err(|error| error.to_string());
+        }
+        if self == SaveTarget::Path && !self.takes(path) {
+            return Err("The name must end in .txt, .tex or .csv.".to_owned());
+        }
+        file::check(path).map_err(|error| error.to_string())
+    }
+
+    /// Whether a file has one of the extensions.
+    pub fn takes(self, path: &Path) -> bool {
+        let extension = path.extension().map(|extension| extension.to_string_lossy().to_ascii_lowercase());
+        extension.is_some_and(|extension| self.extensions().contains(&extension.as_str()))
+    }
+}
+
+/// A path that is not taken, named after the last file of this scene or after the scene.
+pub fn suggested_path(target: SaveTarget, scene: Option<&Path>, last_saved: Option<&Path>) -> PathBuf {
+    let extension = target.extensions()[0];
+    let of_file = scene.and_then(|path| path.file_stem()?.to_str().map(str::to_owned));
+    let name = of_file.unwrap_or_else(|| "cornell_spheres".to_owned());
+    let path = last_saved.filter(|path| extension != "png" || SaveTarget::Picture.takes(path));
+    let here = || std::env::current_dir().map_or_else(|_| PathBuf::from(&name), |folder| folder.join(&name));
+    let path = path.map_or_else(here, Path::to_owned);
+    let keeps = extension == "png" && SaveTarget::Picture.takes(&path);
+    free(&if keeps { path } else { path.with_extension(extension) })
+}
+
+/// The path, or the first of `name-2`, `name-3`, … that is not taken.
+fn free(path: &Path) -> PathBuf {
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    // A number that was added here before is counted on.
+    let stem = stem.rsplit_once('-').filter(|(_, n)| n.parse::<u32>().is_ok()).map_or(&*stem, |(stem, _)| stem);
+    let extension = path.extension().unwrap_or_default().to_string_lossy();
+    let numbered = (2..10_000).map(|n| path.with_file_name(format!("{stem}-{n}.{extension}")));
+    std::iter::once(path.to_owned()).chain(numbered).find(|path| !path.exists()).unwrap_or_else(|| path.to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::viewer::instruments::path::copying::PathForm;
+
+    #[test]
+    fn a_name_that_is_taken_is_numbered_on() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = |name: &str| folder.path().join(name);
+        let write = |name: &str| std::fs::write(path(name), "taken").expect("it is written");
+        assert_eq!(free(&path("shot.png")), path("shot.png"));
+        write("shot.png");
+        assert_eq!(free(&path("shot.png")), path("shot-2.png"));
+        write("shot-2.png");
+        assert_eq!(free(&path("shot.png")), path("shot-3.png"));
+        assert_eq!(free(&path("shot-2.png")), path("shot-3.png"), "a number is counted on, and not added to");
+        write("two-balls.exr");
+        assert_eq!(free(&path("two-balls.exr")), path("two-balls-2.exr"));
+    }
+
+    #[test]
+    fn files_end_as_what_they_are() {
+        let takes = |target: SaveTarget, name: &str| target.takes(Path::new(name));
+        assert!(
+            takes(SaveTarget::Picture, "a.png") && takes(SaveTarget::Picture, "a.EXR") && !takes(SaveTarget::Picture, "a.csv")
+        );
+        assert!(
+            takes(SaveTarget::CurvesCsv, "a.csv")
+                && !takes(SaveTarget::CurvesCsv, "a.svg")
+                && !takes(SaveTarget::CurvesCsv, "csv")
+        );
+        assert!(takes(SaveTarget::CurvesSvg, "a.svg") && !takes(SaveTarget::CurvesSvg, "a.png"));
+        for extension in SaveTarget::Path.extensions() {
+            assert!(takes(SaveTarget::Path, &format!("a.{extension}")) && PathForm::of_extension(extension).is_some());
+        }
+        assert!(!takes(SaveTarget::Path, "a.png") && SaveTarget::Path.check(Path::new("a.png")).is_err());
+    }
+
+    #[test]
+    fn a_folder_that_is_not_there_is_refused_before_anything_is_written() {
+        let folder = tempfile::tempdir().expect("a folder");
+        for (target, name) in [(SaveTarget::Picture, "a.png"), (SaveTarget::CurvesCsv, "a.csv"), (SaveTarget::CurvesSvg, "a.svg")]
+        {
+            assert_eq!(target.check(&folder.path().join(name)), Ok(()));
+            assert!(target.check(&folder.path().join("nowhere").join(name)).is_err_and(|error| error.contains("nowhere")));
+        }
+        assert_eq!(SaveTarget::CurvesCsv.check(Path::new("a.csv")), Ok(()), "the current folder is there");
+    }
+}

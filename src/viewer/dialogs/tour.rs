@@ -1,0 +1,101 @@
+//! The tour on first run: noise, bounces and roulette, shown on the picture itself.
+use egui::{Align2, Button, RichText};
+
+use crate::viewer::{instruments::tabs::InstrumentTab, widgets::palette::Palette};
+
+/// An action that a page asks for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TourRequest {
+    GoTo(usize),
+    End,
+    Restart,
+    ShowSecondBounce,
+    /// Compares roulette with a cap of 3 bounces.
+    CompareWithCap,
+    OpenGallery,
+}
+
+/// A page of the tour, and what it opens in the window.
+struct Page {
+    title: &'static str,
+    text: &'static str,
+    shows: Option<InstrumentTab>,
+    /// A button that tries it out.
+    tries: (&'static str, TourRequest),
+}
+
+const PAGES: [Page; 4] = [
+    Page {
+        title: "This picture is an estimate",
+        text: "Every pixel is the mean of N random light paths. The samples scatter, and the mean comes nearer to the solution of \
+               the light transport equation as 1/√N: four times the samples, half the noise. The curve below shows it, live; the \
+               line at the bottom of the window says how far it has come.",
+        shows: Some(InstrumentTab::Convergence),
+        tries: ("Start over", TourRequest::Restart),
+    },
+    Page {
+        title: "Light bounces",
+        text: "The solution is a series: light straight from the lamps, light reflected once, twice, and so on. The bars below are \
+               what each of these brings. Cut the series short, by a bounce cap, and light is missing for ever: the picture is \
+               biased, and the window says so.",
+        shows: Some(InstrumentTab::Bounces),
+        tries: ("Show bounce 2 alone", TourRequest::ShowSecondBounce),
+    },
+    Page {
+        title: "Roulette ends paths, and takes nothing away",
+        text: "Instead of a cap, a path ends at random: it survives with probability q, and survivors count 1/q times as much. The \
+               mean stays exactly right, at finite cost. Compare it with a cap of 3: what differs is the missing light.",
+        shows: Some(InstrumentTab::Compare),
+        tries: ("Compare with a cap of 3", TourRequest::CompareWithCap),
+    },
+    Page {
+        title: "Now you",
+        text: "Change the sampler or the estimator and watch the curves (F2). Drag with the tool Camera (C) to move through the scene, \
+               click with Inspect (I) to see the paths of a pixel, open the gallery (F6) for other scenes. Everything explains \
+               itself when the pointer rests on it; F1 lists the keys.",
+        shows: None,
+        tries: ("Open the gallery", TourRequest::OpenGallery),
+    },
+];
+
+/// The instrument that a page shows.
+pub fn tab_of(page: usize) -> Option<InstrumentTab> {
+    PAGES[page].shows
+}
+
+/// Shows a page.
+pub fn show(ctx: &egui::Context, number: usize) -> Option<TourRequest> {
+    let page = &PAGES[number];
+    let mut request = None;
+    egui::Window::new("Tour").title_bar(false).collapsible(false).resizable(false).anchor(Align2::LEFT_TOP, [14.0, 48.0]).show(
+        ctx,
+        |ui| {
+            ui.set_width(380.0);
+            ui.label(RichText::new(page.title).heading().color(ui.accent()));
+            ui.add_space(4.0);
+            ui.label(page.text);
+            ui.add_space(6.0);
+            let (name, asked) = page.tries;
+            if ui.button(name).clicked() {
+                request = Some(asked);
+            }
+            ui.add_space(6.0);
+            ui.horizontal(|ui| {
+                ui.weak(format!("{} of {}", number + 1, PAGES.len()));
+                ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                    let last = number + 1 == PAGES.len();
+                    if ui.add(Button::new(RichText::new(if last { "Done" } else { "Next" }).strong())).clicked() {
+                        request = Some(if last { TourRequest::End } else { TourRequest::GoTo(number + 1) });
+                    }
+                    if ui.add_enabled(number > 0, Button::new("Back")).clicked() {
+                        request = Some(TourRequest::GoTo(number - 1));
+                    }
+                    if !last && ui.button("End tour").clicked() {
+                        request = Some(TourRequest::End);
+                    }
+                });
+            });
+        },
+    );
+    request
+}

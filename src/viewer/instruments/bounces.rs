@@ -1,0 +1,170 @@
+//! The bounces instrument: the picture as a series, term by term.
+use egui::{Color32, RichText, Sense, Slider, Ui, vec2};
+use noisefall::{
+    integrator::TERMS,
+    render::{Frame, Series, view::View},
+};
+
+use crate::viewer::widgets::palette::Palette;
+
+/// The part of the series that is displayed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Bounces {
+    pub k: usize,
+    /// All light of at most `k` bounces, and not of exactly `k`.
+    pub up_to: bool,
+}
+
+impl Default for Bounces {
+    /// The first term beyond the lamps themselves.
+    fn default() -> Bounces {
+        Bounces { k: 1, up_to: false }
+    }
+}
+
+const LAST: usize = TERMS - 1;
+/// Larger pictures would take gigabytes: a pixel takes about a hundred bytes in the film and as many in a frame.
+const MOST_PIXELS: u64 = 4_200_000;
+/// The last bar counts this many bounces and more.
+const BARS: usize = 16;
+
+/// Whether a picture is small enough to be split into its series.
+pub fn has_room_for_series(resolution: [u32; 2]) -> bool {
+    resolution.map(u64::from).iter().product::<u64>() <= MOST_PIXELS
+}
+
+/// Shows the bars and the choice of a term. `frame` has the series; `view` is the view of the canvas.
+pub fn show(ui: &mut Ui, bounces: &mut Bounces, frame: Option<&Frame>, view: View, resolution: [u32; 2]) {
+    if !has_room_for_series(resolution) {
+        let [width, height] = resolution;
+        ui.label(format!(
+            "{width} × {height} pixels are too many to be kept bounce by bounce: choose 4 million or fewer (Camera)."
+        ));
+        return;
+    }
+    ui.horizontal(|ui| {
+        ui.selectable_value(&mut bounces.up_to, false, "Bounce k alone")
+            .on_hover_text("T^k L_e: light that bounced exactly k times, term k of the series that solves the equation");
+        ui.selectable_value(&mut bounces.up_to, true, "Bounces up to k")
+            .on_hover_text("L_e + T L_e + … + T^k L_e: the partial sum, which is the picture that a cap of k gives");
+        ui.separator();
+        let label = ui.label("k").on_hover_text("The number of bounces between lamp and eye: reflections and refractions alike");
+        ui.add(Slider::new(&mut bounces.k, 0..=LAST)).labelled_by(label.id);
+        ui.label(RichText::new(meaning(*bounces)).weak());
+    });
+    let Some((frame, series)) = frame.and_then(|frame| Some((frame, frame.series.as_ref()?))) else {
+        ui.add_space(6.0);
+        ui.weak("The terms come with the first sample of every pixel …");
+        return;
+    };
+    ui.add_space(6.0);
+    bars(ui, series, bounces);
+    ui.add_space(4.0);
+    let k = bounces.k;
+    let lost = series.lost_by_cap(k);
+    let text = if k == LAST && bounces.up_to {
+        "This is all of the light, as the picture has it.".to_owned()
+    } else if k == LAST {
+        format!("{LAST} bounces and more bring {} of the light.", percent(series.shares.iter().skip(LAST).sum()))
+    } else {
+        format!(
+            "k = {k} brings {} of the light; up to k it is {}. A cap of {k} would lose {}.",
+            percent(series.shares[k]),
+            percent(1.0 - lost),
+            percent(lost)
+        )
+    };
+    ui.label(RichText::new(text).color(ui.accent()));
+    if !matches!(view, View::Radiance | View::Difference) {
+        let view = view.name();
+        ui.label(
+            RichText::new(format!("The view {view} is of the whole picture: choose Radiance to see bounces."))
+                .color(ui.warning()),
+        );
+    }
+    let spp = frame.spp;
+    ui.weak(format!("After {spp} samples per pixel, with paths of their own. Shares are of the picture's luminance."));
+}
+
+/// Draws a bar for the share of each number of bounces; a click chooses the term.
+fn bars(ui: &mut Ui, series: &Series, bounces: &mut Bounces) {
+    const HEIGHT: f32 = 64.0;
+    const WIDTH: f32 = 40.0;
+    let most = series.shares.iter().copied().fold(1e-12, f64::max);
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 3.0;
+        for k in 0..=BARS {
+            let share = if k < BARS { series.shares[k] } else { series.shares.iter().skip(BARS).sum() };
+            let (rect, response) = ui.allocate_exact_size(vec2(WIDTH, HEIGHT + 32.0), Sense::click());
+            let part = (share / most) as f32;
+            let term = k.min(LAST);
+            let chosen = term == bounces.k || (bounces.up_to && term < bounces.k);
+            let colour = if chosen { ui.accent() } else { Color32::GRAY };
+            let base = rect.top() + HEIGHT;
+            let bar = egui::Rect::from_min_max(
+                egui::pos2(rect.left(), base - HEIGHT * part.clamp(0.0, 1.0)),
+                egui::pos2(rect.right(), base),
+            );
+            ui.painter().rect_filled(bar, 1.0, colour);
+            let font = egui::FontId::proportional(11.0);
+            let (middle, ink) = (rect.center().x, ui.visuals().text_color());
+            let name = if k < BARS { k.to_string() } else { format!("≥ {BARS}") };
+            let below = |dy: f32| egui::pos2(middle, base + dy);
+            ui.painter().text(below(2.0), egui::Align2::CENTER_TOP, name, font.clone(), ink);
+            ui.painter().text(below(16.0), egui::Align2::CENTER_TOP, short(share), font, ui.visuals().weak_text_color());
+            let doc =
+                format!("{} bounces: {}", if k < BARS { k.to_string() } else { format!("{BARS} and more") }, percent(share));
+            response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &doc));
+            if response.on_hover_text(&doc).clicked() {
+                bounces.k = term;
+            }
+        }
+    });
+}
+
+/// The displayed part in words.
+fn meaning(Bounces { k, up_to }: Bounces) -> String {
+    match (k, up_to) {
+        (LAST, true) => "all of the light".to_owned(),
+        (LAST, false) => format!("{LAST} bounces and more"),
+        (0, _) => "lamps and background themselves".to_owned(),
+        (1, false) => "direct light: one bounce".to_owned(),
+        (k, false) => format!("light after {k} bounces"),
+        (1, true) => "lamps, and light after one bounce".to_owned(),
+        (k, true) => format!("light after at most {k} bounces"),
+    }
+}
+
+fn percent(x: f64) -> String {
+    if x > 0.0 && x < 1e-4 { "less than 0.01 %".to_owned() } else { format!("{:.2} %", 100.0 * x.max(0.0)) }
+}
+
+fn short(x: f64) -> String {
+    match 100.0 * x {
+        x if x >= 9.95 => format!("{x:.0} %"),
+        x if x >= 0.05 => format!("{x:.1} %"),
+        _ => "–".to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn terms_are_said_in_words() {
+        let said = |k, up_to| meaning(Bounces { k, up_to });
+        assert_eq!(said(0, false), said(0, true));
+        assert!(said(1, false).contains("direct") && said(1, true).contains("lamps"));
+        assert!(said(5, false).contains("5 bounces") && !said(5, false).contains("most"));
+        assert!(said(5, true).contains("at most 5 bounces"));
+        assert!(said(LAST, true).contains("all") && said(LAST, false).contains("and more"));
+    }
+
+    #[test]
+    fn shares_have_the_digits_that_count() {
+        assert_eq!((percent(0.125).as_str(), percent(0.00005).as_str()), ("12.50 %", "less than 0.01 %"));
+        assert_eq!((percent(0.0).as_str(), percent(-1e-17).as_str()), ("0.00 %", "0.00 %"));
+        assert_eq!([0.123, 0.0996, 0.0123, 0.0005, 0.0004].map(short), ["12 %", "10 %", "1.2 %", "0.1 %", "–"]);
+    }
+}

@@ -1,0 +1,39 @@
+//! A comparison of two settings.
+use noisefall::{render::view::View, scene::RenderSettings};
+
+use crate::viewer::canvas::drawing::Split;
+
+/// Settings B, rendered beside those of the picture, which are A.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Comparison {
+    pub other: RenderSettings,
+    pub layout: CompareLayout,
+    /// The sampling panel edits B, and not A.
+    pub edits_other: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum CompareLayout {
+    Wipe,
+    SideBySide,
+    /// A less B.
+    Difference,
+}
+
+impl CompareLayout {
+    /// How the canvas is divided.
+    pub fn split(self) -> Split {
+        match self {
+            CompareLayout::Wipe => Split::Wipe,
+            CompareLayout::SideBySide => Split::SideBySide,
+            CompareLayout::Difference => Split::None,
+        }
+    }
+}
+
+impl Comparison {
+    /// The view that displays both at once, where one does.
+    pub fn view(&self) -> Option<View> {
+        (self.layout == CompareLayout::Difference).then_some(View::Difference)
+    }
+}

@@ -1,0 +1,204 @@
+//! The figures of both sides, and which is more efficient.
+use egui::{Grid, RichText, Ui};
+use noisefall::{
+    render::{State, Status},
+    scene::RenderSettings,
+};
+
+use crate::viewer::background::display_image::ReferenceComparison;
+use crate::viewer::instruments::convergence::history::name;
+use crate::viewer::widgets::{palette::Palette, style};
+
+/// What is known of one side.
+#[derive(Clone, Copy)]
+pub struct SideStatus<'a> {
+    pub status: &'a Status,
+    pub comparison: Option<ReferenceComparison>,
+}
+
+/// Shows the figures of both sides, and which is more efficient.
+pub fn show(ui: &mut Ui, [a, b]: [&RenderSettings; 2], of_scene: &RenderSettings, [of_a, of_b]: [SideStatus; 2]) {
+    let sides = [Side::of("A", name(a, of_scene), a, of_a), Side::of("B", name(b, of_scene), b, of_b)];
+    Grid::new("A and B").num_columns(8).spacing([18.0, 5.0]).show(ui, |ui| {
+        for (heading, doc) in HEADINGS {
+            ui.label(RichText::new(heading).weak()).on_hover_text(doc);
+        }
+        ui.end_row();
+        for side in &sides {
+            side.row(ui);
+        }
+    });
+    ui.add_space(4.0);
+    if began_apart(sides.each_ref().map(|side| side.seconds)) {
+        ui.weak("One had time before the comparison began: Restart (R) begins both at once.");
+    }
+    if let Some(text) = incomparable(&sides) {
+        ui.label(RichText::new(text).color(ui.warning()));
+    } else if let [Some(a), Some(b)] = sides.each_ref().map(|side| side.efficiency) {
+        let (text, more) = verdict(a, b);
+        ui.label(RichText::new(text).color(ui.accent())).on_hover_text(more);
+    } else {
+        ui.weak("Figures come with the second sample of both.");
+    }
+}
+
+/// Whether one picture had clearly more seconds than the other.
+fn began_apart([a, b]: [f64; 2]) -> bool {
+    a.max(b) > 1.3 * a.min(b) + 0.5
+}
+
+const HEADINGS: [(&str, &str); 8] = [
+    ("", ""),
+    ("settings", "What differs from how the scene opens"),
+    ("N", "Samples per pixel"),
+    ("time", "Seconds of rendering: both get the same since the comparison began"),
+    ("noise", "Estimated relative error: the root of relMSE, the mean of (x − r)²/(r² + 0.01 · mean r²)"),
+    ("true error", "Relative error against the truth, where that is known"),
+    ("efficiency", "1/(relMSE · seconds): twice as much is the same error in half the time"),
+    ("converges to", "Whether the expected picture is the solution of the equation"),
+];
+
+/// The figures of one side.
+struct Side {
+    letter: &'static str,
+    name: String,
+    spp: u32,
+    seconds: f64,
+    noise: Option<f64>,
+    truth: Option<f64>,
+    efficiency: Option<f64>,
+    /// Why it converges to another picture, or not at all.
+    trouble: Option<String>,
+}
+
+impl Side {
+    fn of(letter: &'static str, name: String, settings: &RenderSettings, known: SideStatus) -> Side {
+        let SideStatus { status, comparison } = known;
+        let seconds = status.elapsed.as_secs_f64();
+        let trouble = failure_of(status).or_else(|| status.bias(settings).map(|why| format!("biased: {why}")));
+        // Noise alone does not see bias; the truth, where it is known, does.
+        let tells = trouble.is_none() || comparison.is_some();
+        let rel_mse =
+            comparison.map(|comparison| comparison.rel_mse).or(status.rel_mse_estimate).filter(|rel_mse| *rel_mse > 0.0);
+        Side {
+            trouble,
+            letter,
+            name,
+            spp: status.spp,
+            seconds,
+            noise: status.relative_noise(),
+            truth: comparison.map(|comparison| comparison.rel_mse.sqrt()),
+            efficiency: rel_mse.filter(|_| status.spp >= 2 && tells).map(|rel_mse| 1.0 / (rel_mse * seconds.max(1e-9))),
+        }
+    }
+
+    fn row(&self, ui: &mut Ui) {
+        let percent = |x: Option<f64>| x.map_or_else(|| "–".to_owned(), |x| format!("{:.2} %", 100.0 * x));
+        ui.strong(self.letter);
+        style::elided(ui, 330.0, self.name.as_str()).on_hover_text(self.name.as_str());
+        ui.monospace(self.spp.to_string());
+        ui.monospace(format!("{:.1} s", self.seconds));
+        ui.monospace(percent(self.noise));
+        ui.monospace(percent(self.truth));
+        ui.monospace(self.efficiency.map_or_else(|| "–".to_owned(), significant));
+        match &self.trouble {
+            None => ui.label(RichText::new("the solution").color(ui.good())),
+            Some(trouble) => ui.label(RichText::new(trouble).color(ui.warning())),
+        };
+        ui.end_row();
+    }
+}
+
+fn failure_of(status: &Status) -> Option<String> {
+    if let State::Failed(failure) = &status.state { Some(format!("failed: {}", failure.message)) } else { None }
+}
+
+/// Why efficiencies say nothing: noise alone does not see that one side converges to another picture.
+fn incomparable(sides: &[Side; 2]) -> Option<String> {
+    let biased = sides.iter().find(|side| side.trouble.is_some() && side.truth.is_none())?;
+    let letter = biased.letter;
+    Some(format!(
+        "{letter} does not converge to the solution: less noise does not make it nearer. The difference shows what is missing."
+    ))
+}
+
+/// Three digits that count.
+fn significant(x: f64) -> String {
+    match x {
+        0.01..10_000.0 => format!("{:.*}", (2.0 - x.log10().floor()).max(0.0) as usize, x),
+        _ => format!("{x:.2e}"),
+    }
+}
+
+/// Which is better, and what that means.
+fn verdict(a: f64, b: f64) -> (String, String) {
+    let (better, ratio) = if a >= b { ("A", a / b) } else { ("B", b / a) };
+    let other = if better == "A" { "B" } else { "A" };
+    if ratio < 1.05 {
+        return ("Both are as good.".to_owned(), "Their efficiencies differ by less than five percent so far.".to_owned());
+    }
+    let ratio = if ratio < 10.0 { format!("{ratio:.1}") } else { format!("{ratio:.0}") };
+    let text = format!("{better} is about {ratio} times as efficient so far.");
+    (text, format!("{other} needs {ratio} times the time for the same error, which falls as 1/√time."))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn side(status: &Status, settings: &RenderSettings, truth: Option<f64>) -> Side {
+        let comparison = truth.map(|rel_mse| ReferenceComparison { rel_mse, bias: None });
+        Side::of("A", "a name".to_owned(), settings, SideStatus { status, comparison })
+    }
+
+    #[test]
+    fn a_head_start_counts_where_it_is_large() {
+        for (seconds, apart) in [([10.0, 13.4], false), ([13.6, 10.0], true), ([0.1, 0.6], false), ([0.7, 0.1], true)] {
+            assert_eq!(began_apart(seconds), apart, "{seconds:?}");
+        }
+    }
+
+    #[test]
+    fn efficiency_is_one_over_rel_mse_and_seconds() {
+        let elapsed = std::time::Duration::from_millis(2500);
+        let status = Status { spp: 7, elapsed, rel_mse_estimate: Some(0.0016), ..Status::default() };
+        let unbiased = RenderSettings::default();
+        let is =
+            |found: Option<f64>, exact: f64| assert!(found.is_some_and(|x| (x / exact - 1.0).abs() < 1e-12), "{found:?} {exact}");
+        let estimated = side(&status, &unbiased, None);
+        is(estimated.efficiency, 1.0 / (0.0016 * 2.5));
+        is(estimated.noise, 0.04);
+        assert!(estimated.truth.is_none() && estimated.trouble.is_none() && estimated.spp == 7 && estimated.seconds == 2.5);
+        // What is known to be true counts, not what is estimated.
+        let known = side(&status, &unbiased, Some(0.0025));
+        is(known.efficiency, 1.0 / (0.0025 * 2.5));
+        is(known.truth, 0.05);
+        // Noise alone does not see bias, and one sample not even noise.
+        let capped = RenderSettings { max_bounces: Some(2), ..unbiased };
+        assert!(side(&status, &capped, None).efficiency.is_none());
+        is(side(&status, &capped, Some(0.0025)).efficiency, 160.0);
+        assert!(side(&Status { spp: 1, ..status.clone() }, &unbiased, None).efficiency.is_none());
+        assert!(side(&Status { rel_mse_estimate: Some(0.0), ..status.clone() }, &unbiased, None).efficiency.is_none());
+        let of = |settings, truth| [side(&status, &unbiased, truth), side(&status, settings, truth)];
+        assert!(incomparable(&of(&capped, None)).is_some_and(|text| text.starts_with('A')));
+        assert!(incomparable(&of(&capped, Some(0.1))).is_none() && incomparable(&of(&unbiased, None)).is_none());
+    }
+
+    #[test]
+    fn three_digits_count() {
+        assert_eq!(
+            [0.012_34, 1.0, 160.0, 9999.4, 12_345.0, 0.001].map(significant),
+            ["0.0123", "1.00", "160", "9999", "1.23e4", "1.00e-3"]
+        );
+    }
+
+    #[test]
+    fn the_verdict_names_the_better_one() {
+        assert!(verdict(2.0, 1.0).0.starts_with("A is about 2.0 "));
+        assert!(verdict(1.0, 3.0).0.starts_with("B is about 3.0 "));
+        assert_eq!(verdict(1.0, 1.01).0, "Both are as good.");
+        let (text, more) = verdict(1.0, 12.0);
+        assert!(text.starts_with("B is about 12 ") && more.starts_with("A needs 12 times the time"), "{text} {more}");
+        assert!(verdict(1.06, 1.0).0.starts_with("A is about 1.1 "));
+    }
+}

@@ -1,0 +1,66 @@
+//! The menu of settings to compare with.
+use egui::Ui;
+use noisefall::{
+    sampling::SAMPLERS,
+    scene::{Estimator, RenderSettings, Reuse, Roulette},
+};
+
+/// Shows the menu that starts a comparison with one click. Returns the settings of B.
+pub fn show(ui: &mut Ui, settings: &RenderSettings) -> Option<RenderSettings> {
+    let mut chosen = None;
+    let response = ui.menu_button("Compare with…", |ui| {
+        for (name, other) in alternatives(settings) {
+            if ui.button(name).clicked() {
+                chosen = Some(other);
+                ui.close();
+            }
+        }
+    });
+    response.response.on_hover_text("Render other settings of this scene in the same time, and see both");
+    chosen
+}
+
+/// The settings with one change each, and the names of the changes.
+fn alternatives(settings: &RenderSettings) -> Vec<(String, RenderSettings)> {
+    let of = |name: &str, changed: RenderSettings| (name.to_owned(), changed);
+    let mut all = Vec::new();
+    for (estimator, title) in [(Estimator::Path, "Path sampling"), (Estimator::Light, "Light sampling"), (Estimator::Mis, "MIS")]
+    {
+        all.push(of(title, RenderSettings { estimator, ..*settings }));
+    }
+    for entry in &SAMPLERS {
+        all.push((format!("{} samples", entry.title), RenderSettings { sampler: entry.sampler, ..*settings }));
+    }
+    for (roulette, title) in [
+        (Roulette::Off, "No roulette"),
+        (Roulette::Fixed(0.8), "Roulette of 0.8"),
+        (Roulette::BY_THROUGHPUT, "Roulette by throughput"),
+    ] {
+        all.push(of(title, RenderSettings { roulette, ..*settings }));
+    }
+    for (reuse, title) in [(Reuse::On, "Shared paths"), (Reuse::Off, "Paths of their own")] {
+        all.push(of(title, RenderSettings { reuse, ..*settings }));
+    }
+    all.push(of("A cap of 3 bounces", RenderSettings { max_bounces: Some(3), ..*settings }));
+    all.push(of("Another seed", RenderSettings { seed: settings.seed.wrapping_add(1), ..*settings }));
+    all.retain(|(_, changed)| changed != settings);
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn alternatives_differ_from_the_settings_and_from_each_other() {
+        let settings = RenderSettings::default();
+        let all = alternatives(&settings);
+        assert!(all.len() > 8);
+        for (i, (_, one)) in all.iter().enumerate() {
+            assert!(*one != settings && all[..i].iter().all(|(_, other)| other != one));
+        }
+        let place = |name: &str| all.iter().position(|(other, _)| other.starts_with(name)).unwrap_or(usize::MAX);
+        let order = ["Path", "Independent", "No roulette", "Roulette of 0.8", "Shared", "A cap", "Another seed"].map(place);
+        assert!(order.is_sorted() && order[6] == all.len() - 1, "{order:?}");
+    }
+}

@@ -1,0 +1,52 @@
+//! The tab of the comparison: its layout, its two settings and their figures.
+use egui::Ui;
+use noisefall::scene::RenderSettings;
+
+use super::{comparison::CompareLayout, comparison::Comparison, figures, figures::SideStatus, menu};
+use crate::viewer::widgets::style::choices;
+
+const LAYOUTS: [(CompareLayout, &str, &str); 3] = [
+    (CompareLayout::Wipe, "Wipe", "A at the left of a line, B at the right of it: drag the line"),
+    (CompareLayout::SideBySide, "Side by side", "The same part of both pictures"),
+    (CompareLayout::Difference, "Difference", "A less B, in parts of B: noise of both, and nothing else where both are unbiased"),
+];
+
+/// Shows the comparison, or the menu that starts one. Swapping or keeping a side changes both settings. Returns settings to compare
+/// with from now on.
+pub fn show(
+    ui: &mut Ui,
+    settings: &mut RenderSettings,
+    comparison: &mut Option<Comparison>,
+    wipe: &mut f32,
+    of_scene: &RenderSettings,
+    sides: [SideStatus; 2],
+) -> Option<RenderSettings> {
+    let Some(mut compare) = *comparison else {
+        let row = ui.horizontal(|ui| {
+            ui.label("Choose what to compare this picture with: both get the same time.");
+            menu::show(ui, settings)
+        });
+        return row.inner;
+    };
+    let (mut ends, mut chosen) = (false, None);
+    ui.horizontal(|ui| {
+        choices(ui, &mut compare.layout, &LAYOUTS);
+        ui.separator();
+        if ui.button("Swap").on_hover_text("A becomes B, and B becomes A").clicked() {
+            std::mem::swap(settings, &mut compare.other);
+        }
+        if ui.button("Keep B").on_hover_text("Go on with the settings of B alone").clicked() {
+            (*settings, ends) = (compare.other, true);
+        }
+        ends |= ui.button("Keep A").on_hover_text("End the comparison").clicked();
+        chosen = menu::show(ui, settings);
+    });
+    if compare.layout == CompareLayout::Wipe {
+        let label = ui.label("Line").on_hover_text("Where the wipe is: drag it in the picture, or here");
+        ui.add(egui::Slider::new(wipe, 0.0..=1.0).show_value(false)).labelled_by(label.id);
+    }
+    *comparison = (!ends).then_some(compare);
+    ui.add_space(6.0);
+    figures::show(ui, [settings, &compare.other], of_scene, sides);
+    chosen
+}

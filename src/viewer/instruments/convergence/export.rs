@@ -1,0 +1,120 @@
+//! The curves as files: CSV of every figure, SVG of the plot.
+use noisefall::report::plot::{Axis, Style, curve, svg};
+
+use super::history::{Curve, History, HorizontalAxis};
+
+const SIZE: (u32, u32) = (900, 540);
+
+impl History {
+    /// One line a moment, with a heading. What is not known is empty.
+    pub fn csv(&self) -> Result<Vec<u8>, String> {
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        let heading =
+            ["settings", "spp", "seconds", "estimated_relative_error", "true_relative_error", "bias_in_standard_errors"];
+        let failed = |error: csv::Error| error.to_string();
+        writer.write_record(heading).map_err(failed)?;
+        for curve in &self.curves {
+            let name = self.name(curve);
+            for moment in &curve.moments {
+                let text = |x: Option<f64>| x.map_or_else(String::new, |x| format!("{x:e}"));
+                let [estimated, truth, bias] = [moment.estimated, moment.true_error, moment.bias].map(text);
+                let row = [name.clone(), moment.spp.to_string(), moment.seconds.to_string(), estimated, truth, bias];
+                writer.write_record(row).map_err(failed)?;
+            }
+        }
+        writer.into_inner().map_err(|error| error.to_string())
+    }
+
+    /// The plot of errors.
+    pub fn svg(&self) -> String {
+        let x = match self.over {
+            HorizontalAxis::Samples => "samples per pixel",
+            HorizontalAxis::Seconds => "seconds",
+        };
+        let estimated = |c: &Curve| curve(self.name(c), Style::Line, c.errors(self.over, |moment| moment.estimated));
+        let truth = |c: &Curve| curve(self.name(c), Style::Points, c.errors(self.over, |moment| moment.true_error));
+        let mut curves: Vec<_> =
+            self.curves.iter().flat_map(|c| [estimated(c), truth(c)]).filter(|c| !c.points.is_empty()).collect();
+        curves.push(curve("ideal: slope -1/2", Style::Guide, self.guide()));
+        let drawing = svg(SIZE, Axis::log(x), Axis::log("relative error (root of relMSE; points: true)"), &curves);
+        // Its letters are black, and viewers may be dark.
+        drawing.replacen('>', "><rect width=\"100%\" height=\"100%\" fill=\"white\"/>", 1)
+    }
+
+    /// Two ends of the line that errors of independent samples follow, through the end of the last curve.
+    pub fn guide(&self) -> Vec<(f64, f64)> {
+        let points = self.curves.iter().map(|curve| curve.errors(self.over, |moment| moment.estimated));
+        let points: Vec<Vec<(f64, f64)>> = points.filter(|points| points.len() > 1).collect();
+        let Some(&(x, y)) = points.last().and_then(|points| points.last()) else { return Vec::new() };
+        let all = || points.iter().flatten().map(|point| point.0);
+        let [low, high] = [all().fold(f64::INFINITY, f64::min), all().fold(0.0, f64::max)];
+        [low, high].map(|at| (at, y * (x / at).sqrt())).to_vec()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use noisefall::{
+        sampling::Sampler,
+        scene::{RenderSettings, built_in},
+    };
+
+    use super::*;
+    use crate::viewer::instruments::convergence::history::Moment;
+
+    /// Two curves: of the scene's settings and of another sampler's.
+    fn history() -> History {
+        let scene = Arc::new(built_in());
+        let other = RenderSettings { sampler: Sampler::Independent, ..scene.settings };
+        let mut history = History::default();
+        history.look_at(&scene, &scene.camera, None);
+        let moment = |spp, seconds, estimated, true_error, bias| Moment { spp, seconds, estimated, true_error, bias };
+        history.record(&scene.settings, 1, moment(1, 0.5, None, Some(0.25), None));
+        history.record(&scene.settings, 1, moment(16, 2.0, Some(0.125), Some(0.0625), Some(-1.5)));
+        history.record(&other, 2, moment(4, 0.75, Some(0.5), None, None));
+        history.record(&other, 2, moment(64, 12.0, Some(0.0078125), None, Some(2.25)));
+        history
+    }
+
+    #[test]
+    fn the_table_has_every_figure_in_its_own_column() {
+        let table = String::from_utf8(history().csv().expect("it is written")).expect("it is text");
+        let lines: Vec<&str> = table.lines().collect();
+        assert_eq!(
+            lines,
+            [
+                "settings,spp,seconds,estimated_relative_error,true_relative_error,bias_in_standard_errors",
+                "as the scene opens,1,0.5,,2.5e-1,",
+                "as the scene opens,16,2,1.25e-1,6.25e-2,-1.5e0",
+                "sampler independent,4,0.75,5e-1,,",
+                "sampler independent,64,12,7.8125e-3,,2.25e0",
+            ]
+        );
+    }
+
+    #[test]
+    fn the_guide_has_slope_one_half_and_runs_through_the_end_of_the_last_curve() {
+        let mut history = history();
+        // From the first moment with an error to the last of all curves.
+        assert_eq!(history.guide(), [(4.0, 0.0078125 * 4.0), (64.0, 0.0078125)]);
+        history.over = HorizontalAxis::Seconds;
+        let [(from, high), (to, low)] = history.guide()[..] else { panic!("it has two ends") };
+        assert_eq!((from, to, low), (0.75, 12.0, 0.0078125));
+        assert!((high / low - 4.0).abs() < 1e-12, "16 times the time, a quarter of the error");
+        assert_eq!(History::default().guide(), []);
+    }
+
+    #[test]
+    fn the_drawing_is_over_what_the_plot_is_over() {
+        let mut history = history();
+        let over_samples = history.svg();
+        assert!(over_samples.contains("samples per pixel") && over_samples.contains("sampler independent"));
+        assert_eq!(over_samples.matches("<circle").count(), 2, "points are true: two of them");
+        history.over = HorizontalAxis::Seconds;
+        let over_seconds = history.svg();
+        assert!(over_seconds.contains("seconds") && !over_seconds.contains("samples per pixel"));
+        assert_ne!(over_samples, over_seconds);
+    }
+}

@@ -1,0 +1,5 @@
+//! The convergence instrument: error and bias over samples or time, a curve for each setting that was tried.
+pub mod colours;
+mod export;
+pub mod history;
+pub mod plot;

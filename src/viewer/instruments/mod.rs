@@ -1,0 +1,6 @@
+//! Instruments below the picture: convergence, comparison, bounces, paths of a pixel.
+pub mod bounces;
+pub mod compare;
+pub mod convergence;
+pub mod path;
+pub mod tabs;

@@ -1,0 +1,167 @@
+//! Traces the samples of a pixel and one of its paths again, off the UI thread.
+use noisefall::{
+    integrator::{Replay, pixel_samples, replay},
+    math::colour::luminance,
+    render::sharing::resolved,
+};
+
+use super::histogram::Histogram;
+use crate::viewer::background::{background_task::BackgroundTask, render_worker::RenderRequest};
+
+/// More samples do not change what a histogram looks like.
+const MOST_SAMPLES: u32 = 4096;
+
+/// The sample, or the samples, to trace again.
+#[derive(Clone, PartialEq)]
+struct Question {
+    request: RenderRequest,
+    pixel: [u32; 2],
+    /// The index of the sample, or the number of samples.
+    number: u32,
+}
+
+impl Question {
+    /// Whether both are about the samples of the same pixel of the same picture.
+    fn is_near(&self, other: &Question) -> bool {
+        (&self.request, self.pixel) == (&other.request, other.pixel)
+    }
+}
+
+/// A background search, its last question and its last answer.
+struct Search<T> {
+    found: Option<(Question, T)>,
+    /// The last question.
+    asked: Option<Question>,
+    pending: Option<BackgroundTask<Option<T>>>,
+    /// The renderer failed at the last question.
+    failed: bool,
+}
+
+impl<T> Default for Search<T> {
+    fn default() -> Search<T> {
+        Search { found: None, asked: None, pending: None, failed: false }
+    }
+}
+
+impl<T: Send + 'static> Search<T> {
+    /// Receives an answer, and searches for that of a new question. Until then an answer near to it stays; a `patient` question also
+    /// waits for a running search that is near to it.
+    fn ask(
+        &mut self,
+        ctx: &egui::Context,
+        question: &Question,
+        patient: bool,
+        find: impl FnOnce(&Question, &dyn Fn() -> bool) -> Option<T> + Send + 'static,
+    ) {
+        if let (Some(result), Some(asked)) = (BackgroundTask::take(&mut self.pending), &self.asked) {
+            self.failed = result.is_err();
+            self.found = result.ok().flatten().map(|found| (asked.clone(), found));
+        }
+        self.found = self.found.take().filter(|(found, _)| found.is_near(question));
+        let waits = |asked: &Question| patient && self.pending.is_some() && asked.is_near(question);
+        if self.asked.as_ref().is_none_or(|asked| asked != question && !waits(asked)) {
+            (self.asked, self.failed) = (Some(question.clone()), false);
+            let question = question.clone();
+            self.pending = Some(BackgroundTask::start(ctx, move |cancelled| find(&question, cancelled)));
+        }
+    }
+}
+
+pub struct PathInspector {
+    ctx: egui::Context,
+    pub pixel: Option<[u32; 2]>,
+    pub sample: u32,
+    replay: Search<Replay>,
+    /// With the radiance of the samples.
+    histogram: Search<(Histogram, Vec<[f32; 3]>)>,
+}
+
+impl PathInspector {
+    pub fn new(ctx: &egui::Context) -> PathInspector {
+        PathInspector { ctx: ctx.clone(), pixel: None, sample: 0, replay: Search::default(), histogram: Search::default() }
+    }
+
+    pub fn look_at(&mut self, pixel: [u32; 2]) {
+        if self.pixel != Some(pixel) {
+            (self.pixel, self.sample) = (Some(pixel), 0);
+            (self.replay, self.histogram) = Default::default();
+        }
+    }
+
+    /// The path of the chosen sample; of the one before while that is traced. With the number of the sample.
+    pub fn replay(&self) -> Option<(u32, &Replay)> {
+        self.replay.found.as_ref().map(|(question, replay)| (question.number, replay))
+    }
+
+    /// Of the first samples of the pixel.
+    pub fn histogram(&self) -> Option<&Histogram> {
+        self.histogram.found.as_ref().map(|(_, (histogram, _))| histogram)
+    }
+
+    /// The first samples of the pixel.
+    pub fn samples(&self) -> Option<&[[f32; 3]]> {
+        self.histogram.found.as_ref().map(|(_, (_, samples))| samples.as_slice())
+    }
+
+    /// Takes in what has been found, and looks for what is not. The picture has so many samples a pixel.
+    pub fn search(&mut self, request: &RenderRequest, spp: u32) {
+        let [width, height] = request.camera.resolution;
+        self.pixel = self.pixel.filter(|[x, y]| *x < width && *y < height);
+        let Some(pixel) = self.pixel else {
+            (self.replay, self.histogram) = Default::default();
+            return;
+        };
+        let question = |number| Question { request: request.clone(), pixel, number };
+        self.replay.ask(&self.ctx, &question(self.sample), false, |question, _| Some(path_of(question)));
+        // While a picture grows it would never end to be asked for more samples.
+        self.histogram.ask(&self.ctx, &question(count_of(spp)), true, histogram_of);
+    }
+
+    /// What the renderer failed at, in words.
+    pub fn failure(&self) -> Option<&'static str> {
+        match (self.replay.failed, self.histogram.failed) {
+            (true, _) => Some("The renderer fails at this sample"),
+            (_, true) => Some("The renderer fails at a sample of this pixel"),
+            _ => None,
+        }
+    }
+}
+
+/// The number of samples in the histogram: a power of two, so that it is traced again only when the samples have doubled.
+fn count_of(spp: u32) -> u32 {
+    1 << spp.clamp(1, MOST_SAMPLES).ilog2()
+}
+
+fn path_of(Question { request: RenderRequest { scene, camera, settings }, pixel, number }: &Question) -> Replay {
+    let rays = scene.rays(camera);
+    replay(scene, &rays, &resolved(scene, &rays, settings), *pixel, *number)
+}
+
+fn histogram_of(question: &Question, cancelled: &dyn Fn() -> bool) -> Option<(Histogram, Vec<[f32; 3]>)> {
+    let Question { request: RenderRequest { scene, camera, settings }, pixel, number } = question;
+    let rays = scene.rays(camera);
+    let samples = pixel_samples(scene, &rays, &resolved(scene, &rays, settings), *pixel, 0..*number, cancelled)?;
+    Some((Histogram::of(samples.iter().map(|rgb| luminance(*rgb)).collect()), samples))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_failure_is_told_of_the_sample_that_is_looked_at_first() {
+        let failure = |of_sample, of_another| {
+            let mut inspector = PathInspector::new(&egui::Context::default());
+            (inspector.replay.failed, inspector.histogram.failed) = (of_sample, of_another);
+            inspector.failure()
+        };
+        assert_eq!(failure(false, false), None);
+        assert!([true, false].into_iter().all(|other| failure(true, other).is_some_and(|text| text.ends_with("at this sample"))));
+        assert!(failure(false, true).is_some_and(|text| text.ends_with("at a sample of this pixel")));
+    }
+
+    #[test]
+    fn a_histogram_has_a_power_of_two_of_the_samples_there_are() {
+        assert_eq!([0, 1, 2, 3, 63, 64, 100_000].map(count_of), [1, 1, 2, 2, 32, 64, MOST_SAMPLES]);
+    }
+}

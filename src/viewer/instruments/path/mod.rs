@@ -1,0 +1,8 @@
+//! The path inspector: the samples of a pixel, and single paths vertex by vertex.
+pub mod copying;
+pub mod drawing;
+mod histogram;
+pub mod inspector;
+mod projection;
+pub mod tab;
+mod table;

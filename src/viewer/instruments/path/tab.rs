@@ -1,0 +1,110 @@
+//! The tab of the path inspector: a pixel, its samples, and the vertices of one path.
+use egui::{RichText, ScrollArea, Ui, scroll_area::ScrollBarVisibility};
+use noisefall::{math::colour::luminance, render::Frame};
+
+use super::{copying, histogram, inspector::PathInspector, table};
+use crate::viewer::background::render_worker::RenderRequest;
+use crate::viewer::widgets::{number, palette::Palette};
+
+/// Shows what the inspector has traced. `request` is the last one to the renderer, `frame` the displayed picture.
+/// Returns whether to save the path or its samples.
+pub fn show(
+    ui: &mut Ui,
+    inspector: &mut PathInspector,
+    request: Option<&RenderRequest>,
+    frame: Option<&Frame>,
+    resolution: [u32; 2],
+) -> bool {
+    let Some(pixel) = inspector.pixel else {
+        ui.label("Click a pixel of the picture to see its samples and the paths they came by.");
+        if ui.button("The pixel in the middle").clicked() {
+            inspector.look_at(resolution.map(|side| side / 2));
+        }
+        return false;
+    };
+    let mut saves = false;
+    egui::Panel::left("pixel").resizable(false).exact_size(312.0).show(ui, |ui| {
+        ScrollArea::vertical().show(ui, |ui| {
+            pixel_choice(ui, inspector, pixel, resolution);
+            if let Some(frame) = frame {
+                estimate(ui, frame, pixel);
+            }
+            saves = sample_column(ui, inspector, request);
+        });
+    });
+    if let Some(failure) = inspector.failure() {
+        let text = format!("{failure}: please report it, with the command in the line below.");
+        ui.label(RichText::new(text).color(ui.bad()));
+        return saves;
+    }
+    let Some((sample, replay)) = inspector.replay() else {
+        ui.weak("Tracing the samples of this pixel …");
+        return saves;
+    };
+    let objects = request.map_or(&[][..], |request| &request.scene.objects);
+    egui::Frame::new().inner_margin(egui::Margin { left: 8, ..egui::Margin::ZERO }).show(ui, |ui| {
+        table::heading(ui, sample, replay);
+        let bars = ScrollBarVisibility::AlwaysVisible;
+        ScrollArea::both().auto_shrink(false).scroll_bar_visibility(bars).show(ui, |ui| table::show(ui, replay, objects));
+    });
+    saves
+}
+
+fn pixel_choice(ui: &mut Ui, inspector: &mut PathInspector, pixel: [u32; 2], [width, height]: [u32; 2]) {
+    let mut at = pixel;
+    ui.horizontal(|ui| {
+        ui.label("Pixel");
+        for (axis, name, most) in [(0, "x", width), (1, "y", height)] {
+            let label = ui.weak(name);
+            let field = number::field(ui, &mut at[axis], 0, 0.0..=f64::from(most.saturating_sub(1)));
+            ui.add(field).labelled_by(label.id);
+        }
+    });
+    if at != pixel {
+        inspector.look_at(at);
+    }
+}
+
+/// Shows the estimate of the pixel.
+fn estimate(ui: &mut Ui, frame: &Frame, pixel: [u32; 2]) {
+    if let Some(index) = frame.index_at(pixel) {
+        let y = luminance(frame.radiance[index]);
+        let error = Some(frame.standard_error[index]).filter(|error| error.is_finite());
+        let error = error.map_or_else(String::new, |error| format!(" ± {error:.4}"));
+        ui.label(format!("L = {y:.4}{error}, N = {}", frame.spp_at(index)))
+            .on_hover_text("Luminance of the estimate, its standard error, and the number of samples, of the picture as shown");
+    }
+}
+
+/// Shows the samples of the pixel. Returns whether to save them or the path.
+fn sample_column(ui: &mut Ui, inspector: &mut PathInspector, request: Option<&RenderRequest>) -> bool {
+    sample_choice(ui, inspector);
+    let Some(histogram) = inspector.histogram() else { return false };
+    if let Some(sample) = histogram::show(ui, histogram, inspector.sample) {
+        inspector.sample = sample;
+    }
+    ui.weak("Over the picture: its path in yellow; light samples in blue, faint where hidden.");
+    request.is_some_and(|request| copying::show(ui, inspector, request))
+}
+
+/// Chooses the sample whose path is shown.
+fn sample_choice(ui: &mut Ui, inspector: &mut PathInspector) {
+    let brightest = inspector.histogram().map(|histogram| histogram.brightest);
+    let sample = &mut inspector.sample;
+    ui.horizontal(|ui| {
+        let label = ui.label("Sample").on_hover_text("The number of the sample: it and the pixel decide the path, for ever");
+        if ui.add_enabled(*sample > 0, egui::Button::new("Previous")).on_hover_text("The sample before").clicked() {
+            *sample -= 1;
+        }
+        let field = number::field(ui, sample, 0, 0.0..=f64::from(u32::MAX));
+        ui.add(field).labelled_by(label.id);
+        if ui.button("Next").on_hover_text("The next sample").clicked() {
+            *sample = sample.saturating_add(1);
+        }
+        if let Some(brightest) = brightest
+            && ui.button("Brightest").on_hover_text("The one that brings most light: where noise comes from").clicked()
+        {
+            *sample = brightest;
+        }
+    });
+}

@@ -1,0 +1,121 @@
+//! The panel of the camera's numbers.
+use egui::{Button, RichText};
+use glam::DVec3;
+use noisefall::{
+    sampling::Filter,
+    scene::{Camera, Lens, Scene},
+};
+
+use crate::viewer::widgets::{
+    number,
+    style::{controls, row},
+};
+
+/// Returns whether the camera is to be reset to that of the scene.
+pub fn show(ui: &mut egui::Ui, camera: &mut Camera, scene: Option<&Scene>) -> bool {
+    let speed = scene.map_or(0.01, |scene| scene.size * 0.002);
+    controls(ui, "camera", |ui| {
+        row(ui, "Eye", "Where the camera stands, in metres: x, y (up), z.", |ui, label| {
+            point(ui, label, &mut camera.eye, speed);
+        });
+        row(ui, "Look at", "The point in the middle of the picture.", |ui, label| {
+            point(ui, label, &mut camera.look_at, speed);
+        });
+        row(ui, "Up", "The direction that is up in the picture.", |ui, label| point(ui, label, &mut camera.up, 0.01));
+        projection(ui, camera);
+        if camera.orthographic.is_none() {
+            lens(ui, camera, speed);
+        }
+        row(ui, "Pixel filter", "How a pixel weighs the light around its centre.", |ui, _| filter(ui, &mut camera.filter));
+        row(ui, "Resolution", "Width and height in pixels.", |ui, label| {
+            ui.horizontal(|ui| {
+                let [width, height] = &mut camera.resolution;
+                let range = 1.0..=f64::from(Camera::MOST_SIDE);
+                let side = number::field(ui, width, 0, range.clone());
+                ui.add(side).labelled_by(label).on_hover_text("Width");
+                ui.label("×");
+                let side = number::field(ui, height, 0, range);
+                ui.add(side).labelled_by(label).on_hover_text("Height");
+            });
+        });
+    });
+    if let Err(error) = camera.check() {
+        ui.label(RichText::new(error.to_string()).color(ui.visuals().error_fg_color));
+    }
+    ui.add_space(5.0);
+    let moved = scene.is_some_and(|scene| scene.camera != *camera);
+    let reset = ui.add_enabled(moved, Button::new("Back to the scene's camera"));
+    reset.on_hover_text("The camera the scene opened with (Home)").clicked()
+}
+
+fn projection(ui: &mut egui::Ui, camera: &mut Camera) {
+    row(ui, "Projection", "Rays through one point, or all parallel.", |ui, _| {
+        ui.horizontal(|ui| {
+            if ui.selectable_label(camera.orthographic.is_none(), "Perspective").clicked() {
+                camera.orthographic = None;
+            }
+            if ui.selectable_label(camera.orthographic.is_some(), "Orthographic").clicked() && camera.orthographic.is_none() {
+                *camera = Camera { orthographic: Some(camera.width_at_look_at()), lens: None, ..*camera };
+            }
+        });
+    });
+    match &mut camera.orthographic {
+        None => row(ui, "Field of view", "The full angle across the picture's width.", |ui, label| {
+            let slider = number::slider(ui, &mut camera.fov, 2, 1.0..=170.0).suffix("°");
+            ui.add(slider).labelled_by(label);
+        }),
+        Some(width) => row(ui, "Width", "What the picture shows from left to right, in metres.", |ui, label| {
+            let speed = 0.005 * *width;
+            let field = number::field(ui, width, 3, 1e-9..=1e9).speed(speed).suffix(" m");
+            ui.add(field).labelled_by(label);
+        }),
+    }
+}
+
+fn lens(ui: &mut egui::Ui, camera: &mut Camera, speed: f64) {
+    let distance = camera.eye.distance(camera.look_at);
+    let mut lens = camera.lens.unwrap_or(Lens { radius: 0.0, focus: distance });
+    row(ui, "Lens radius", "In metres. A wide lens blurs what is not in focus; 0 is a pinhole.", |ui, label| {
+        let radius = number::field(ui, &mut lens.radius, 4, 0.0..=1e9).speed(0.05 * speed).suffix(" m");
+        ui.add(radius).labelled_by(label);
+    });
+    if lens.radius > 0.0 {
+        row(ui, "Focus", "Distance of the plane in focus, in metres.", |ui, label| {
+            ui.horizontal(|ui| {
+                let focus = number::field(ui, &mut lens.focus, 3, 1e-9..=1e12).speed(speed).suffix(" m");
+                ui.add(focus).labelled_by(label);
+                if ui.button("Look-at point").on_hover_text("Focus on the point in the middle of the picture").clicked() {
+                    lens.focus = distance;
+                }
+            });
+        });
+    }
+    camera.lens = (lens.radius > 0.0).then_some(lens);
+}
+
+fn filter(ui: &mut egui::Ui, filter: &mut Filter) {
+    const KINDS: [(Filter, &str, &str); 3] = [
+        (Filter::Box, "Box", "The mean over the pixel's own square: sharpest."),
+        (Filter::TENT, "Tent", "Falls linearly over one pixel: smoother edges."),
+        (Filter::GAUSSIAN, "Gaussian", "A bell of half a pixel's deviation: smoothest."),
+    ];
+    ui.horizontal(|ui| {
+        for (kind, name, doc) in KINDS {
+            let chosen = std::mem::discriminant(filter) == std::mem::discriminant(&kind);
+            let response = ui.selectable_label(chosen, name).on_hover_text(doc);
+            if response.clicked() && !chosen {
+                *filter = kind;
+            }
+        }
+    });
+}
+
+fn point(ui: &mut egui::Ui, label: egui::Id, p: &mut DVec3, speed: f64) {
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 4.0;
+        for coordinate in [&mut p.x, &mut p.y, &mut p.z] {
+            let value = number::field(ui, coordinate, 3, -1e12..=1e12).speed(speed);
+            ui.add_sized([62.0, 20.0], value).labelled_by(label);
+        }
+    });
+}

@@ -1,0 +1,24 @@
+//! Exposure and tone map. Neither restarts the render.
+use egui::{ComboBox, Slider, Ui};
+use noisefall::render::{Display, ToneMap};
+
+use crate::viewer::widgets::style::{controls, row};
+
+pub fn show(ui: &mut Ui, display: &mut Display) {
+    controls(ui, "display", |ui| {
+        row(ui, "Exposure", "In stops: one more is twice as bright. Keys [ and ].", |ui, label| {
+            let slider = Slider::new(&mut display.exposure, -10.0..=10.0).step_by(0.1).fixed_decimals(1).suffix(" EV");
+            ui.add(slider).labelled_by(label);
+        });
+        row(ui, "Tone map", "How radiance, which has no upper bound, becomes display light.", |ui, label| {
+            let tone_map = &mut display.tone_map;
+            let combo = ComboBox::from_id_salt("Tone map").selected_text(tone_map.name()).show_ui(ui, |ui| {
+                for (map, name, doc) in ToneMap::ALL {
+                    ui.selectable_value(tone_map, map, name).on_hover_text(doc);
+                }
+            });
+            combo.response.labelled_by(label);
+        });
+    });
+    ui.add_space(8.0);
+}

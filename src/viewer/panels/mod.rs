@@ -1,0 +1,12 @@
+//! Panels: each shows what it is given, and returns what was asked for.
+pub mod camera;
+pub mod display;
+pub mod frame_times;
+pub mod objects;
+pub mod sampling;
+pub mod scene;
+pub mod status_bar;
+pub mod stop;
+pub mod toolbar;
+pub mod views;
+pub mod window;

@@ -1,0 +1,167 @@
+//! The panel that lists the objects of the scene with their materials and emission.
+use egui::{Grid, RichText, Ui};
+use glam::DVec3;
+use noisefall::{
+    geometry::{Outline, Shape},
+    material::{Material, Reflectance},
+    scene::{Coating, Object, Roughness, Scene},
+};
+
+use crate::viewer::widgets::style::elided;
+
+/// Together, with what is between them, as wide as the panel.
+const NAME_WIDTH: f32 = 156.0;
+const KIND_WIDTH: f32 = 136.0;
+/// More rows than these nobody reads.
+const MOST_ROWS: usize = 100;
+
+pub fn show(ui: &mut Ui, scene: &Scene) {
+    Grid::new("objects").num_columns(2).spacing([12.0, 4.0]).show(ui, |ui| {
+        for (i, object) in scene.objects.iter().take(MOST_ROWS).enumerate() {
+            let name = if object.name.is_empty() { format!("object {}", i + 1) } else { object.name.clone() };
+            elided(ui, NAME_WIDTH, name).on_hover_text(place(object));
+            elided(ui, KIND_WIDTH, RichText::new(summary(object)).weak()).on_hover_text(details(object));
+            ui.end_row();
+        }
+    });
+    if scene.objects.len() > MOST_ROWS {
+        ui.weak(format!("and {} more", scene.objects.len() - MOST_ROWS));
+    }
+}
+
+/// What shape, how large, and where.
+fn place(object: &Object) -> String {
+    let (center, radius) = object.shape.bounding_sphere();
+    let edges = |edges: &[DVec3]| edges.iter().map(|edge| format!("{:.4}", edge.length())).collect::<Vec<_>>().join(" × ");
+    let size = match &object.shape {
+        Shape::Ellipsoid { axes, .. } => format!("half axes {} m, ", edges(&[axes.x_axis, axes.y_axis, axes.z_axis])),
+        Shape::Flat { outline: Outline::Ellipse, edges: axes, .. } => format!("half axes {} m, ", edges(axes)),
+        Shape::Flat { edges: sides, .. } => format!("sides {} m, ", edges(sides)),
+        Shape::Cuboid { edges: sides, .. } => format!("sides {} m, ", edges(&[sides.x_axis, sides.y_axis, sides.z_axis])),
+        Shape::Cylinder { axes, capped, .. } => {
+            let ends = if *capped { "" } else { "open, " };
+            format!("{ends}radius {:.4} m, height {:.4} m, ", axes.x_axis.length(), axes.z_axis.length())
+        }
+        Shape::Mesh { data, .. } => format!("{} triangles, ", data.triangles.len()),
+        Shape::Sphere { .. } | Shape::Isosurface { .. } => String::new(),
+    };
+    let moves = if object.motion.0.is_empty() { "" } else { "\nmoves while the shutter is open" };
+    format!("{}: {size}within {radius:.4} m of {center:.4}{moves}", object.shape.name())
+}
+
+/// Kind of material, and whether it is a lamp.
+fn summary(object: &Object) -> String {
+    let material = object.coating.as_ref().map_or("black", |coating| coating.material.name());
+    if object.emission.is_some() { format!("{material}, lamp") } else { material.to_owned() }
+}
+
+/// All parameters, a line each.
+fn details(object: &Object) -> String {
+    let mut lines = Vec::new();
+    if let Some(coating) = &object.coating {
+        lines.push(format!("material `{}`", coating.name));
+        lines.extend(parameters(coating));
+    }
+    if let Some(emission) = &object.emission {
+        let [r, g, b] = emission.mean;
+        lines.push(format!("emits {r:.3} {g:.3} {b:.3} W/sr/m² on the mean"));
+    }
+    if lines.is_empty() { "reflects nothing".to_owned() } else { lines.join("\n") }
+}
+
+fn parameters(coating: &Coating) -> Vec<String> {
+    let colour = |name: &str, [r, g, b]: [f32; 3]| format!("{name} {r:.3} {g:.3} {b:.3}");
+    let mut lines = match coating.material {
+        Material::Lambertian { albedo } => vec![colour("albedo", albedo)],
+        Material::Mirror { reflectance } => vec![colour("reflectance", reflectance)],
+        Material::Dielectric { ior, ior_outside, .. } => vec![format!("index {ior} inside, {ior_outside} outside")],
+        Material::Conductor { fresnel, .. } => match fresnel {
+            Reflectance::Constant(reflectance) => vec![colour("reflectance", reflectance)],
+            Reflectance::Schlick(f0) => vec![colour("f0", f0)],
+            Reflectance::Index { eta, k } => vec![colour("eta", eta), colour("k", k)],
+        },
+        Material::Plastic { albedo, ior, .. } => vec![colour("albedo", albedo), format!("index {ior} of the coat")],
+    };
+    match coating.roughness {
+        Roughness::Constant(alpha) if alpha > 0.0 => lines.push(format!("α {alpha:.4}")),
+        Roughness::Constant(_) => {}
+        Roughness::Texture { .. } => lines.push("α by a texture".to_owned()),
+    }
+    if coating.transmittance != [1.0; 3] {
+        lines.push(colour("transmittance per metre", coating.transmittance));
+    }
+    if coating.bump.is_some() {
+        lines.push("bump map".to_owned());
+    }
+    if coating.normal_map.is_some() {
+        lines.push("normal map".to_owned());
+    }
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use noisefall::scene::parse;
+
+    use super::*;
+
+    /// The objects of a scene, in the order of the text: none of them emits but the last.
+    fn objects(text: &str) -> Vec<Object> {
+        let camera = "format = 1\n[camera]\neye = [0.0, 0.0, 4.0]\nlook_at = [0.0, 0.0, 0.0]\nfov = 40.0\nresolution = [8, 8]\n";
+        parse("scene.toml", format!("{camera}{text}")).expect("it is a scene").objects
+    }
+
+    fn shape(shape: &str) -> String {
+        place(&objects(&format!("[[objects]]\nshape = {{ {shape} }}"))[0])
+    }
+
+    #[test]
+    fn a_shape_says_its_size_and_its_place() {
+        let ball = shape("sphere = { center = [1.0, 2.0, 3.0], radius = 0.5 }");
+        assert_eq!(ball, "sphere: within 0.5000 m of [1.0000, 2.0000, 3.0000]");
+        let moving = shape("sphere = { center = [1.0, 2.0, 3.0], radius = 0.5 } }\nmotion = [{ translate = [1.0, 0.0, 0.0] }] #");
+        assert!(moving.ends_with("\nmoves while the shutter is open"), "{moving}");
+        let cuboid = shape("cuboid = { min = [0.0, 0.0, 0.0], max = [1.0, 2.0, 3.0] }");
+        assert!(cuboid.contains("sides 1.0000 × 2.0000 × 3.0000 m"), "{cuboid}");
+        let cylinder = shape("cylinder = { base = [0.0, 0.0, 0.0], top = [0.0, 3.0, 0.0], radius = 0.25, capped = false }");
+        assert!(cylinder.contains("open, radius 0.2500 m, height 3.0000 m"), "{cylinder}");
+        let rectangle = shape("rectangle = { origin = [0.0, 0.0, 0.0], edge_u = [2.0, 0.0, 0.0], edge_v = [0.0, 1.0, 0.0] }");
+        assert!(rectangle.contains("sides 2.0000 × 1.0000 m"), "{rectangle}");
+        let disk = shape("disk = { center = [0.0, 0.0, 0.0], normal = [0.0, 1.0, 0.0], radius = 0.75 }");
+        assert!(disk.contains("half axes 0.7500 × 0.7500 m"), "{disk}");
+    }
+
+    #[test]
+    fn a_material_says_its_kind_and_every_parameter() {
+        let of = |material: &str, rest: &str| {
+            let text = format!(
+                "[materials.mine]\n{material}\n[[objects]]\nshape = {{ sphere = {{ center = [0.0, 0.0, 0.0], radius = 1.0 }} }}\n\
+                 material = \"mine\"\n{rest}"
+            );
+            let object = &objects(&text)[0];
+            (summary(object), details(object))
+        };
+        let (kind, more) =
+            of("plastic = { albedo = [0.1, 0.2, 0.3], ior = 1.4, alpha = 0.25 }", "emission = { radiance = [1.0, 2.0, 3.0] }");
+        assert_eq!(kind, "plastic, lamp");
+        assert_eq!(
+            more,
+            "material `mine`\nalbedo 0.100 0.200 0.300\nindex 1.4 of the coat\nα 0.2500\nemits 1.000 2.000 3.000 W/sr/m² on the mean"
+        );
+        let (kind, more) = of("dielectric = { ior = 1.5, ior_outside = 1.3, transmittance = [0.1, 0.6, 0.4] }", "");
+        assert_eq!(kind, "dielectric");
+        assert!(
+            more.contains("index 1.5 inside, 1.3 outside") && more.contains("transmittance per metre 0.100 0.600 0.400"),
+            "{more}"
+        );
+        let (_, more) = of("conductor = { eta = [0.1, 0.2, 0.3], k = [3.0, 2.0, 1.0] }", "");
+        assert!(more.contains("eta 0.100 0.200 0.300\nk 3.000 2.000 1.000"), "{more}");
+        let (_, more) = of(
+            "lambertian = { albedo = 0.5 }\nbump = { texture = \"t\", height = 0.1 }",
+            "[textures.t]\nchecker = { even = 0.1, odd = 0.5, scale = 4.0 }",
+        );
+        assert_eq!(more, "material `mine`\nalbedo 0.500 0.500 0.500\nbump map");
+        let black = &objects("[[objects]]\nshape = { sphere = { center = [0.0, 0.0, 0.0], radius = 1.0 } }")[0];
+        assert_eq!((summary(black), details(black)), ("black".to_owned(), "reflects nothing".to_owned()));
+    }
+}

@@ -1,0 +1,79 @@
+//! The panel that names the open scene and lists the others.
+use std::path::PathBuf;
+
+use egui::{Align, Button, ComboBox, Layout, RichText, vec2};
+
+use crate::viewer::background::{
+    catalogue::{CatalogueEntry, SceneRequest, in_full},
+    loader::{BUILT_IN_NAME, OpenedScene},
+};
+
+/// The height of a row of the list: more than its text needs, so that all are alike.
+const ROW: f32 = 26.0;
+
+/// Shows the list of scenes, and the notes and warnings of the open one.
+pub fn show(
+    ui: &mut egui::Ui,
+    opened: Option<&OpenedScene>,
+    catalogue: &[CatalogueEntry],
+    why_black: Option<&str>,
+) -> Option<SceneRequest> {
+    let name = opened.map_or("Choose a scene", |opened| opened.name.as_str()).to_owned();
+    let mut request = None;
+    ui.horizontal(|ui| {
+        let label = ui.label("Scene");
+        // From the right, so that the button has its place and a long title is cut by what is left.
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            if ui.button("Open…").on_hover_text("Choose a scene file").clicked() {
+                request = Some(SceneRequest::Browse);
+            }
+            if ui.button("Gallery").on_hover_text("The scenes as pictures (F6)").clicked() {
+                request = Some(SceneRequest::Gallery);
+            }
+            let height = list_height(ui, catalogue.len());
+            let combo = ComboBox::from_id_salt("Scene").selected_text(name).width(ui.available_width()).height(height);
+            let combo = combo.truncate().show_ui(ui, |ui| scene_list(ui, opened, catalogue));
+            combo.response.labelled_by(label.id);
+            request = combo.inner.flatten().map(SceneRequest::Open).or(request.take());
+        });
+    });
+    if let Some(opened) = opened {
+        if !opened.scene.notes.is_empty() {
+            ui.label(RichText::new(&opened.scene.notes).weak());
+        }
+        let mut warnings = opened.scene.warnings().to_vec();
+        let why_black = why_black.filter(|_| !opened.scene.lights.is_empty()).map(str::to_owned);
+        warnings.extend(why_black.filter(|why| !warnings.contains(why)));
+        for warning in warnings {
+            ui.label(RichText::new(format!("Note: {warning}.")).color(ui.visuals().warn_fg_color));
+        }
+    }
+    request
+}
+
+/// The height of the list: of all its rows, or of as many whole ones as fit.
+fn list_height(ui: &egui::Ui, scenes: usize) -> f32 {
+    const AROUND: f32 = 110.0;
+    let fit = ((ui.ctx().content_rect().height() - AROUND) / ROW).floor().max(3.0);
+    ROW * fit.min(scenes as f32 + 1.0)
+}
+
+/// The scenes to choose from; `Some(None)` is the built-in one.
+fn scene_list(ui: &mut egui::Ui, opened: Option<&OpenedScene>, catalogue: &[CatalogueEntry]) -> Option<Option<PathBuf>> {
+    // Rows touch: a click between two of them would close the list and choose nothing.
+    ui.spacing_mut().item_spacing.y = 0.0;
+    let row = |marked, name: &str| Button::selectable(marked, name.to_owned()).min_size(vec2(0.0, ROW));
+    let open = opened.map(|opened| opened.path.as_deref().map(in_full));
+    let mut chosen = None;
+    if ui.add(row(open == Some(None), BUILT_IN_NAME)).clicked() {
+        chosen = Some(None);
+    }
+    for entry in catalogue {
+        let is_open = open.as_ref().is_some_and(|open| open.as_ref() == Some(&entry.path));
+        let label = ui.add(row(is_open, &entry.name));
+        if label.on_hover_text(entry.path.display().to_string()).clicked() {
+            chosen = Some(Some(entry.path.clone()));
+        }
+    }
+    chosen
+}

@@ -1,0 +1,220 @@
+//! The line below the picture: progress, noise, bias, and the pixel under the pointer.
+use std::{path::Path, time::Duration};
+
+use egui::{Color32, RichText};
+use noisefall::{
+    math::colour::luminance,
+    render::{Budget, Frame, State, Status, pass::SampleId, settings_text::replay_command, view::Legend},
+    scene::{Camera, RenderSettings},
+};
+
+use crate::viewer::background::{
+    display_image::PixelValues, display_image::ReferenceComparison, loader::OpenedScene, render_worker::RenderRequest,
+};
+use crate::viewer::widgets::palette::Palette;
+
+/// The figures of the line.
+pub struct StatusBar<'a> {
+    pub opened: Option<&'a OpenedScene>,
+    pub is_opening: bool,
+    pub is_studying: bool,
+    pub camera: &'a Camera,
+    pub settings: &'a RenderSettings,
+    pub budget: &'a Budget,
+    pub status: &'a Status,
+    /// The last request to the renderer.
+    pub request: Option<&'a RenderRequest>,
+    pub why_black: Option<&'a str>,
+    pub comparison: Option<ReferenceComparison>,
+    /// Why the picture cannot be compared with the reference of the scene.
+    pub mismatch: Option<String>,
+    pub pixel: Option<Pixel<'a>>,
+}
+
+/// The pixel under the pointer.
+#[derive(Clone, Copy)]
+pub struct Pixel<'a> {
+    pub at: [u32; 2],
+    pub frame: &'a Frame,
+    /// What the view displays in place of the radiance.
+    pub values: Option<&'a PixelValues>,
+    pub legend: Option<&'a Legend>,
+}
+
+impl StatusBar<'_> {
+    pub fn show(&self, ui: &mut egui::Ui) {
+        let status = self.status;
+        ui.horizontal(|ui| {
+            let (colour, state) = self.state_text(ui);
+            let (dot, _) = ui.allocate_exact_size(egui::vec2(10.0, 10.0), egui::Sense::hover());
+            ui.painter().circle_filled(dot.center(), 4.5, colour);
+            ui.label(RichText::new(state).strong());
+            if self.opened.is_none() {
+                return;
+            }
+            ui.separator();
+            if let Err(error) = self.camera.check() {
+                ui.label(RichText::new("this camera cannot take a picture; the last one is shown").color(ui.warning()))
+                    .on_hover_text(error.to_string());
+                return;
+            }
+            let target = self.budget.max_spp.map_or_else(String::new, |most| format!(" / {most}"));
+            let region = status.region_spp.map_or_else(String::new, |spp| format!(", {spp} in the region"));
+            ui.label(format!("{}{target} spp{region}", status.spp)).on_hover_text("Samples per pixel so far, and the target");
+            ui.separator();
+            ui.label(format!("{:.1} M samples/s", status.samples_per_second() / 1e6));
+            ui.separator();
+            ui.label(clock(status.elapsed)).on_hover_text("Time spent rendering this picture");
+            ui.separator();
+            self.noise_label(ui);
+            self.truth_label(ui);
+            ui.separator();
+            self.bias_label(ui);
+            self.trouble_label(ui);
+            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                // Nothing is written over what stands at the left.
+                const WIDTH: f32 = 330.0;
+                if ui.available_width() > WIDTH {
+                    self.pixel_label(ui);
+                }
+            });
+        });
+    }
+
+    fn state_text(&self, ui: &egui::Ui) -> (Color32, String) {
+        let (good, warning) = (ui.good(), ui.warning());
+        let (colour, text) = match self.status.state {
+            _ if self.is_opening => (warning, "Opening"),
+            _ if self.is_studying => (warning, "Studying"),
+            _ if self.camera.check().is_err() => (warning, "Invalid settings"),
+            State::Idle => (Color32::GRAY, "No scene"),
+            State::Running => (good, "Running"),
+            State::Paused => (warning, "Paused"),
+            State::Done(target) => return (good, sentence(&target.to_string())),
+            State::Failed(_) => (ui.bad(), "Failed"),
+        };
+        (colour, text.to_owned())
+    }
+
+    fn noise_label(&self, ui: &mut egui::Ui) {
+        if let Some(why) = self.why_black {
+            ui.label(RichText::new("no light found yet").color(ui.warning()))
+                .on_hover_text(format!("All samples are black: {why}"));
+            return;
+        }
+        let text = self.status.relative_noise().map_or_else(|| "–".to_owned(), percent);
+        ui.label(format!("noise {text}")).on_hover_text(
+            "Estimated relative error: the root of relMSE, the mean of (x − r)²/(r² + 0.01 · mean r²) over pixels x and their true \
+             radiance r, from how far the picture moves while its samples double. Where light is hard to find, it is too low at first.",
+        );
+    }
+
+    fn truth_label(&self, ui: &mut egui::Ui) {
+        if let Some(rel_mse) = self.comparison.map(|comparison| comparison.rel_mse) {
+            ui.label(format!("true error {}", percent(rel_mse.sqrt())))
+                .on_hover_text("Root of relMSE, the mean of (x − r)²/(r² + 0.01 · mean r²), against the true picture r: the scene's, or the one that was dropped on the window");
+        } else if let Some(mismatch) = &self.mismatch {
+            ui.label(RichText::new("true error unknown").color(ui.warning())).on_hover_text(mismatch);
+        }
+    }
+
+    fn bias_label(&self, ui: &mut egui::Ui) {
+        match self.status.bias(self.settings) {
+            None => ui
+                .label(RichText::new("unbiased").color(ui.good()))
+                .on_hover_text("The picture converges to the solution of the light transport equation"),
+            Some(why) => ui
+                .label(RichText::new(format!("biased: {why}")).color(ui.warning()))
+                .on_hover_text("Light that bounces more often than that is missing, however long one waits"),
+        };
+    }
+
+    /// Reports what must not be overlooked.
+    fn trouble_label(&self, ui: &mut egui::Ui) {
+        let Status { invalid_samples, first_invalid, cut_paths, .. } = *self.status;
+        let mut trouble = |text: String, more: String| {
+            ui.separator();
+            ui.label(RichText::new(text).color(ui.bad())).on_hover_text(more);
+        };
+        if let Some(at) = first_invalid {
+            let size = self.request.map_or([0; 2], |request| request.camera.resolution);
+            let command = self.replay_command(at, size);
+            trouble(format!("{invalid_samples} invalid samples"), format!("Replay the first: {command}"));
+        }
+        if cut_paths > 0 {
+            let longest = self.request.map_or(RenderSettings::LONGEST_PATH, |request| request.settings.last_bounce());
+            let text = format!("paths cut after {longest} bounces");
+            trouble(text, "Choose a roulette: then paths end by themselves".to_owned());
+        }
+        if let State::Failed(failure) = &self.status.state {
+            let [x, y] = failure.at.pixel;
+            let (place, advice) = if failure.replays {
+                ("pixel", format!("Replay it: {}", self.replay_command(failure.at, failure.resolution)))
+            } else {
+                ("the tile at", "None of its samples fails alone".to_owned())
+            };
+            trouble(format!("{place} {x},{y}, sample {}: {}", failure.at.sample, failure.message), advice);
+        }
+    }
+
+    fn replay_command(&self, at: SampleId, size: [u32; 2]) -> String {
+        let Some(request) = self.request else { return String::new() };
+        let file = self.opened.and_then(|opened| opened.path.as_deref());
+        let file = file.unwrap_or(Path::new("scenes/cornell_spheres.toml"));
+        replay_command(file, &request.scene, size, &request.settings, at)
+    }
+
+    fn pixel_label(&self, ui: &mut egui::Ui) {
+        let Some(Pixel { at: [x, y], frame, values, legend }) = self.pixel else { return };
+        let Some(index) = frame.index_at([x, y]) else { return };
+        let number = values.and_then(|values| values.numbers.as_ref()?.get(index)).filter(|number| number.is_finite());
+        if let (Some(number), Some(Legend { title, scale: Some(scale), .. })) = (number, legend) {
+            let text = format!("({x}, {y})  {title} {number:.4} {}", scale.unit);
+            ui.label(RichText::new(text).monospace()).on_hover_text("Pixel, and what the view has for it");
+            return;
+        }
+        // The error of a term alone is not known.
+        let term = values.and_then(|values| values.radiance.as_ref()?.get(index));
+        let error = frame.standard_error[index];
+        let error = if error.is_nan() || term.is_some() { String::new() } else { format!(" ± {error:.3}") };
+        let radiance @ [r, g, b] = *term.unwrap_or(&frame.radiance[index]);
+        let y_value = luminance(radiance);
+        ui.label(RichText::new(format!("({x}, {y})  RGB {r:.3} {g:.3} {b:.3}  Y {y_value:.3}{error}")).monospace())
+            .on_hover_text("Pixel, the radiance that is seen there in W/(sr·m²), its luminance and the most that the standard error of that can be");
+    }
+}
+
+/// The text with a capital at its beginning.
+fn sentence(text: &str) -> String {
+    let first = text.chars().next().map_or(0, char::len_utf8);
+    text[..first].to_uppercase() + &text[first..]
+}
+
+fn percent(x: f64) -> String {
+    let digits = if x < 0.001 { 3 } else { usize::from(x < 0.1) + 1 };
+    format!("{:.digits$} %", 100.0 * x)
+}
+
+fn clock(time: Duration) -> String {
+    let seconds = time.as_secs();
+    match seconds {
+        0..60 => format!("{:.1} s", time.as_secs_f64()),
+        60..3600 => format!("{}:{:02} min", seconds / 60, seconds % 60),
+        _ => format!("{}:{:02}:{:02} h", seconds / 3600, seconds / 60 % 60, seconds % 60),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn errors_and_times_are_said_with_the_digits_that_count() {
+        assert_eq!([0.5, 0.0512, 0.000_123].map(percent), ["50.0 %", "5.12 %", "0.012 %"]);
+        assert_eq!(
+            [59.94, 61.0, 3599.0].map(|seconds| clock(Duration::from_secs_f64(seconds))),
+            ["59.9 s", "1:01 min", "59:59 min"]
+        );
+        assert_eq!(clock(Duration::from_secs(2 * 3600 + 3 * 60 + 4)), "2:03:04 h");
+    }
+}

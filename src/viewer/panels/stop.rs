@@ -1,0 +1,67 @@
+//! The panel of stopping targets and of the region. None of them restarts the render.
+use std::time::Duration;
+
+use egui::Ui;
+use noisefall::render::{Budget, Region};
+
+use crate::viewer::widgets::{
+    number,
+    style::{controls, row},
+};
+
+const DEFAULT_SPP: u32 = 1024;
+const DEFAULT_SECONDS: f64 = 60.0;
+const DEFAULT_PERCENT: f64 = 1.0;
+
+pub fn show(ui: &mut Ui, budget: &mut Budget, resolution: [u32; 2]) {
+    controls(ui, "stop", |ui| {
+        row(ui, "Stop at", "N, the samples per pixel at which the render stops. Changing it never restarts.", |ui, label| {
+            number::optional(ui, label, &mut budget.max_spp, ("never", "spp"), DEFAULT_SPP, 0, 1.0..=16_777_216.0);
+        });
+        row(ui, "Stop after", "The time of rendering after which it stops. Changing it never restarts.", |ui, label| {
+            let mut seconds = budget.max_time.map(|time| time.as_secs_f64());
+            number::optional(ui, label, &mut seconds, ("never", "seconds"), DEFAULT_SECONDS, 1, 0.1..=1e7);
+            budget.max_time = seconds.map(Duration::from_secs_f64);
+        });
+        row(
+            ui,
+            "Stop below",
+            "The relative error, as estimated, below which it stops; not believed before 64 samples per pixel. Where it stops depends on the samples, which biases the mean by far less than the target. Never restarts.",
+            |ui, label| {
+                let mut percent = budget.noise.map(|noise| 100.0 * noise);
+                number::optional(ui, label, &mut percent, ("never", "% noise"), DEFAULT_PERCENT, 3, 0.001..=100.0);
+                budget.noise = percent.map(|percent| percent / 100.0);
+            },
+        );
+        row(ui, "Region", "What is rendered before the rest, in whole tiles: drag it with the tool Region (G).", |ui, label| {
+            region(ui, label, &mut budget.region, resolution);
+        });
+    });
+}
+
+fn region(ui: &mut Ui, label: egui::Id, region: &mut Option<Region>, [width, height]: [u32; 2]) {
+    ui.horizontal(|ui| {
+        let mut present = region.is_some();
+        if ui.checkbox(&mut present, "").labelled_by(label).changed() {
+            *region = present.then(|| Region::between([width / 4, height / 4], [width * 3 / 4, height * 3 / 4]));
+        }
+        let Some(region) = region else {
+            ui.weak("the whole picture");
+            return;
+        };
+        let before = *region;
+        ui.spacing_mut().item_spacing.x = 3.0;
+        let most = [f64::from(width), f64::from(height)];
+        for (corner, what) in [(&mut region.from, "from"), (&mut region.to, "to")] {
+            for (axis, name) in ["x", "y"].into_iter().enumerate() {
+                let field = number::field(ui, &mut corner[axis], 0, 0.0..=most[axis]);
+                let name = format!("{name} {what}, in pixels");
+                let field = ui.add_sized([40.0, 20.0], field).on_hover_text(&name);
+                ui.ctx().accesskit_node_builder(field.id, |node| node.set_label(name));
+            }
+        }
+        if (0..2).any(|axis| region.from[axis] >= region.to[axis]) {
+            *region = before;
+        }
+    });
+}

@@ -1,0 +1,118 @@
+//! The buttons above the picture.
+use egui::{Button, Ui};
+use noisefall::scene::RenderSettings;
+
+use crate::viewer::{canvas::interaction::Tool, instruments::compare::menu};
+
+/// An action that a button or a key asks for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Command {
+    TogglePause,
+    Step,
+    Restart,
+    ChooseTool(Tool),
+    ClearRegion,
+    ResetCamera,
+    Fit,
+    ActualSize,
+    Compare(RenderSettings),
+    Save,
+    Help,
+}
+
+/// The state that the buttons show.
+pub struct Toolbar<'a> {
+    pub is_open: bool,
+    pub is_paused: bool,
+    pub has_region: bool,
+    pub can_save: bool,
+    pub tool: Tool,
+    /// Screen pixels per picture pixel, if there is a picture.
+    pub zoom: Option<f32>,
+    pub settings: &'a RenderSettings,
+}
+
+const TOOLS: [(Tool, &str, &str); 4] = [
+    (Tool::Picture, "Picture", "Drag pans the picture and the wheel magnifies it. Never restarts the render. (P)"),
+    (
+        Tool::Camera,
+        "Camera",
+        "Drag orbits, right-drag pans and the wheel dollies the camera. Every move starts a new picture. (C)",
+    ),
+    (Tool::Region, "Region", "Drag marks a rectangle that is rendered before the rest. Never restarts the render. (G)"),
+    (Tool::Inspect, "Inspect", "Click a pixel to see its samples and the paths they came by. (I)"),
+];
+
+impl Toolbar<'_> {
+    pub fn show(&self, ui: &mut Ui) -> Option<Command> {
+        const WHOLE: f32 = 865.0;
+        const OF_REGION: f32 = 56.0;
+        const OF_ENDS: f32 = 104.0;
+        let needed = WHOLE + if self.has_region { OF_REGION } else { 0.0 };
+        let is_narrow = ui.available_width() < needed;
+        let contents = |ui: &mut Ui| {
+            let mut command = None;
+            let mut asks = |asked: Option<Command>| command = asked.or(command);
+            ui.spacing_mut().button_padding = egui::vec2(6.0, 4.0);
+            asks(self.render_buttons(ui));
+            ui.separator();
+            asks(self.tool_buttons(ui));
+            ui.separator();
+            let home = ui.add_enabled(self.is_open, Button::new("Home"));
+            let doc = "Go back to the camera that the scene opens with (Home)";
+            asks(home.on_hover_text(doc).clicked().then_some(Command::ResetCamera));
+            if let Some(zoom) = self.zoom {
+                asks(zoom_buttons(ui, zoom));
+            }
+            ui.separator();
+            asks(menu::show(ui, self.settings).map(Command::Compare));
+            if !is_narrow {
+                ui.add_space((ui.available_width() - OF_ENDS).max(0.0));
+            }
+            let save = ui.add_enabled(self.can_save, Button::new("Save…"));
+            let doc = "Save the picture as PNG or EXR (Ctrl+S)";
+            asks(save.on_hover_text(doc).clicked().then_some(Command::Save));
+            asks(ui.button("Help").on_hover_text("Keyboard and mouse (F1)").clicked().then_some(Command::Help));
+            command
+        };
+        if is_narrow { ui.horizontal_wrapped(contents).inner } else { ui.horizontal(contents).inner }
+    }
+
+    fn render_buttons(&self, ui: &mut Ui) -> Option<Command> {
+        let label = if self.is_paused { "Resume" } else { "Pause" };
+        let step = "Pause, and take one sample per pixel: of every pixel, of the region, or where noise is if Adaptive is on (.)";
+        let buttons = [
+            (
+                Button::new(label).min_size(egui::vec2(66.0, 0.0)),
+                "Stop and go on without losing samples (Space)",
+                Command::TogglePause,
+            ),
+            (Button::new("Step"), step, Command::Step),
+            (Button::new("Restart"), "Throw all samples away and start over (R)", Command::Restart),
+        ];
+        let clicked = buttons
+            .map(|(button, doc, command)| ui.add_enabled(self.is_open, button).on_hover_text(doc).clicked().then_some(command));
+        clicked.into_iter().flatten().next()
+    }
+
+    fn tool_buttons(&self, ui: &mut Ui) -> Option<Command> {
+        let mut command = None;
+        for (tool, name, doc) in TOOLS {
+            if ui.selectable_label(self.tool == tool, name).on_hover_text(doc).clicked() {
+                command = Some(Command::ChooseTool(tool));
+            }
+        }
+        let doc = "Clear the region and go on with the whole picture (Esc)";
+        if self.has_region && ui.button("Clear").on_hover_text(doc).clicked() {
+            command = Some(Command::ClearRegion);
+        }
+        command
+    }
+}
+
+fn zoom_buttons(ui: &mut Ui, zoom: f32) -> Option<Command> {
+    let fits = ui.button("Fit").on_hover_text("The whole picture (F, or double-click)").clicked();
+    let is_actual = ui.button("1:1").on_hover_text("One picture pixel to one screen pixel (1)").clicked();
+    ui.weak(format!("{:.0} %", 100.0 * zoom));
+    fits.then_some(Command::Fit).or(is_actual.then_some(Command::ActualSize))
+}

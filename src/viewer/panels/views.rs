@@ -1,0 +1,93 @@
+//! The choice of a view, and what a picture is compared with.
+use std::sync::Arc;
+
+use egui::{ComboBox, Ui};
+use noisefall::render::{Frame, colour_map::ColourMap, view::View};
+
+use crate::viewer::widgets::style::{choices, controls, elided, row};
+
+/// The reference of the picture.
+pub enum ReferenceSource<'a> {
+    /// A file that was dropped on the window.
+    Dropped(&'a str),
+    Scene,
+    /// The scene has one, for another camera.
+    SceneElsewhere,
+    None,
+}
+
+/// The list of views.
+pub fn choice(ui: &mut Ui, view: &mut View) {
+    let combo = ComboBox::from_id_salt("View").selected_text(view.name()).width(150.0).height(400.0).show_ui(ui, |ui| {
+        for (of, name, doc) in View::ALL {
+            ui.selectable_value(view, of, name).on_hover_text(doc);
+        }
+    });
+    let label = ui.label("View").on_hover_text("What of the picture is shown. Never restarts the render. (V: the next one)");
+    combo.response.labelled_by(label.id);
+}
+
+/// Shows the rows of the display panel about views. Returns whether the dropped reference is to be forgotten.
+pub fn rows(
+    ui: &mut Ui,
+    map: &mut ColourMap,
+    shown: Option<&Arc<Frame>>,
+    pinned: &mut Option<Arc<Frame>>,
+    reference: &ReferenceSource,
+) -> bool {
+    let mut drops = false;
+    controls(ui, "views", |ui| {
+        row(
+            ui,
+            "Colours",
+            "How views that are numbers get colours; differences and scores have a scale of their own.",
+            |ui, _| {
+                choices(ui, map, &ColourMap::CHOICE);
+            },
+        );
+        row(
+            ui,
+            "Pinned",
+            "A picture to hold others against: the view Difference shows radiance less the pinned one.",
+            |ui, _| {
+                ui.horizontal(|ui| {
+                    let can = shown.is_some_and(|frame| !frame.is_coarse());
+                    if ui.add_enabled(can, egui::Button::new("Pin this")).clicked() {
+                        *pinned = shown.cloned();
+                    }
+                    match pinned {
+                        Some(pinned) => drop(ui.weak(format!("{} spp", pinned.spp))),
+                        None => drop(ui.weak("nothing yet")),
+                    }
+                });
+            },
+        );
+        row(ui, "Truth", "What the picture must converge to, for the true error and z-scores.", |ui, _| {
+            drops = reference_row(ui, reference);
+        });
+    });
+    drops
+}
+
+fn reference_row(ui: &mut Ui, reference: &ReferenceSource) -> bool {
+    let row = ui.horizontal(|ui| {
+        match reference {
+            ReferenceSource::Dropped(name) => {
+                elided(ui, 120.0, *name).on_hover_text(*name);
+                return ui.small_button("Drop").on_hover_text("Go back to what the scene says").clicked();
+            }
+            ReferenceSource::Scene => ui.weak("as the scene says"),
+            ReferenceSource::SceneElsewhere => ui.weak("for the scene's own camera (Home)"),
+            ReferenceSource::None => ui.weak("none: drop an EXR here").on_hover_text("A picture of the same size, linear"),
+        };
+        false
+    });
+    row.inner
+}
+
+/// The view after this one, or before it.
+pub fn next(view: View, back: bool) -> View {
+    let count = View::ALL.len();
+    let at = View::ALL.iter().position(|(other, _, _)| *other == view).unwrap_or(0);
+    View::ALL[(at + if back { count - 1 } else { 1 }) % count].0
+}

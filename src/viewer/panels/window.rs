@@ -1,0 +1,60 @@
+//! Settings of the window and the machine; none of them changes the picture.
+use egui::{ComboBox, Slider, ThemePreference, Ui};
+
+use crate::viewer::widgets::style::{controls, row};
+
+const THEMES: [(ThemePreference, &str); 3] =
+    [(ThemePreference::System, "As the system"), (ThemePreference::Dark, "Dark"), (ThemePreference::Light, "Light")];
+
+/// The number of cores of this machine.
+pub fn cores() -> usize {
+    std::thread::available_parallelism().map_or(1, usize::from)
+}
+
+/// The number of cores that render at first: one is left for the window and other programs.
+pub fn all_but_one(cores: usize) -> usize {
+    cores.saturating_sub(1).max(1)
+}
+
+/// Returns the theme that was chosen, by the name to save: none for that of the system.
+pub fn show(ui: &mut Ui, threads: &mut usize, shows_frame_times: &mut bool) -> Option<Option<String>> {
+    let mut chosen = None;
+    controls(ui, "window", |ui| {
+        let doc =
+            "Cores that render; one is left for the rest of the machine at first. Another number never changes the picture.";
+        row(ui, "Threads", doc, |ui, label| {
+            let most = cores().max(*threads);
+            ui.add(Slider::new(threads, 1..=most)).labelled_by(label);
+        });
+        row(ui, "Theme", "Light or dark, or as the system has it.", |ui, label| chosen = theme(ui, label));
+        row(ui, "Frame times", "How long the window itself takes to draw. (F12)", |ui, label| {
+            ui.checkbox(shows_frame_times, "").labelled_by(label);
+        });
+    });
+    chosen
+}
+
+fn theme(ui: &mut Ui, label: egui::Id) -> Option<Option<String>> {
+    let (mut chosen, mut theme) = (None, ui.ctx().options(|options| options.theme_preference));
+    let name = THEMES.iter().find(|(preference, _)| *preference == theme).map_or("", |(_, name)| name);
+    let combo = ComboBox::from_id_salt("Theme").selected_text(name).show_ui(ui, |ui| {
+        for (preference, name) in THEMES {
+            if ui.selectable_value(&mut theme, preference, name).clicked() {
+                ui.ctx().set_theme(preference);
+                chosen = Some((preference != ThemePreference::System).then(|| name.to_lowercase()));
+            }
+        }
+    });
+    combo.response.labelled_by(label);
+    chosen
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_core_is_left_unless_it_is_the_only_one() {
+        assert_eq!([0, 1, 2, 16].map(all_but_one), [1, 1, 1, 15]);
+    }
+}

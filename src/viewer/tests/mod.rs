@@ -1,0 +1,283 @@
+//! The window itself, driven as a user would: change a control, see the effect.
+mod advice;
+mod bindings;
+mod camera;
+mod collision;
+mod fields;
+mod glyphs;
+mod instruments;
+mod labels;
+mod manners;
+mod mouse;
+mod painted;
+mod path;
+mod rasteriser;
+mod saving;
+mod scenes;
+mod settings;
+mod snapshots;
+mod soak;
+mod truth;
+
+use std::{
+    ops::{Deref, DerefMut},
+    path::PathBuf,
+    time::{Duration, Instant},
+};
+
+use egui::{Key, Modifiers, PointerButton, Pos2, accesskit::Role, vec2};
+use egui_kittest::{
+    Harness,
+    kittest::{NodeT, Queryable},
+};
+use glam::DVec3;
+use noisefall::{
+    math::SimdLevel,
+    render::{State, Target, ToneMap, image_file, pass::Threads},
+    sampling::{Directions, Filter, Sampler},
+    scene::{Estimator, Lens, Reuse, Roulette},
+};
+
+use super::{app::App, background::preferences::Preferences, canvas::interaction::Tool};
+
+/// As tall as all panels together: what is scrolled out of sight cannot be clicked.
+const SIZE: egui::Vec2 = vec2(1280.0, 1300.0);
+
+type Window = Harness<'static, Lazy>;
+
+/// The app, made in the first frame: it needs the context that the harness makes.
+struct Lazy(Option<App>);
+
+impl Deref for Lazy {
+    type Target = App;
+    fn deref(&self) -> &App {
+        self.0.as_ref().expect("the harness has drawn a frame")
+    }
+}
+
+impl DerefMut for Lazy {
+    fn deref_mut(&mut self) -> &mut App {
+        self.0.as_mut().expect("the harness has drawn a frame")
+    }
+}
+
+fn shipped(name: &str) -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("scenes").join(format!("{name}.toml"))
+}
+
+/// A window in which nothing has happened yet.
+fn open(scene: Option<PathBuf>) -> Window {
+    let draw = move |ui: &mut egui::Ui, app: &mut Lazy| {
+        let make = || {
+            let threads = Threads::new(1, SimdLevel::best()).expect("a thread can be had");
+            App::new(ui.ctx(), threads, scene.clone(), Preferences::default())
+        };
+        app.0.get_or_insert_with(make).show(ui);
+    };
+    Harness::builder().with_size(SIZE).renderer(rasteriser::Blind).build_ui_state(draw, Lazy(None))
+}
+
+/// A window with a small picture of a scene.
+fn window(scene: &str) -> Window {
+    let mut window = open(Some(shipped(scene)));
+    wait(&mut window, "the scene", |app| app.session.opened.is_some());
+    window.state_mut().session.camera.resolution = [96, 64];
+    wait(&mut window, "a picture", |app| app.results.shown.as_ref().is_some_and(|frame| frame.width == 96));
+    window
+}
+
+/// Frames of the window until a condition holds. The time limit is for a machine that is busy otherwise.
+fn wait(window: &mut Window, what: &str, condition: impl Fn(&App) -> bool) {
+    let start = Instant::now();
+    while !condition(window.state()) {
+        assert!(start.elapsed() < Duration::from_secs(60), "{what} never came; {:?}", window.state().results.status);
+        std::thread::sleep(Duration::from_millis(2));
+        window.step();
+    }
+}
+
+#[test]
+fn the_objects_of_the_scene_are_listed_with_their_materials() {
+    let window = window("cornell_spheres");
+    assert!(window.query_by_label("black, lamp").is_some());
+    assert_eq!(window.query_all_by_label("lambertian").count(), 7);
+}
+
+#[test]
+fn a_long_title_does_not_push_the_panel_out_of_the_window() {
+    let mut window = window("truncation");
+    window.run_steps(3);
+    let (label, button) = (window.get_by_label("Scene").rect(), window.get_by_label("Open…").rect());
+    assert!(label.left() > 1280.0 - 336.0 && button.right() < 1280.0, "{label:?} {button:?}");
+}
+
+fn click(window: &mut Window, label: &str) {
+    window.get_by_label(label).click();
+    window.run_steps(3);
+}
+
+fn choose(window: &mut Window, combo: &str, item: &str) {
+    window.get_by_role_and_label(Role::ComboBox, combo).click();
+    window.run_steps(3);
+    window.get_by_role_and_label(Role::Button, item).click();
+    window.run_steps(3);
+}
+
+/// The number of the picture that was asked for last: known at once, and not only when the worker has taken it up.
+fn generation(window: &Window) -> u64 {
+    window.state().background.worker.generation()
+}
+
+/// Does something and waits for a picture of what it asked for.
+fn restarts(window: &mut Window, what: &str, act: impl FnOnce(&mut Window)) {
+    let before = generation(window);
+    act(window);
+    wait(window, what, |app| app.results.shown.as_ref().is_some_and(|frame| frame.generation > before));
+}
+
+/// Does something and makes sure that the render went on, and that of the second view if it is the same.
+fn never_restarts(window: &mut Window, act: impl FnOnce(&mut Window)) {
+    let before = generation(window);
+    let second = |window: &Window| (window.state().second_view(), window.state().background.worker.second_generation());
+    let second_before = second(window);
+    act(window);
+    // A new picture is asked for in the frame that finds that it is wanted.
+    window.run_steps(20);
+    assert_eq!(generation(window), before, "the render was restarted");
+    let second = second(window);
+    assert!(second.0 != second_before.0 || second.1 == second_before.1, "the second view was restarted");
+}
+
+#[test]
+fn the_built_in_scene_appears_and_refines() {
+    let mut window = open(None);
+    wait(&mut window, "a first picture", |app| app.results.shown.is_some());
+    wait(&mut window, "samples", |app| app.results.status.spp >= 2);
+    assert_eq!(window.state().results.status.state, State::Running);
+    assert!(window.query_by_label("Running").is_some() && window.query_by_label("unbiased").is_some());
+}
+
+#[test]
+fn the_pixel_under_the_pointer_is_read_out() {
+    let mut window = window("furnace");
+    window.hover_at(Pos2::new(400.0, 400.0));
+    window.run_steps(2);
+    assert!(window.state().window.hovered.is_some());
+    assert!(
+        window.get_all_by_role(Role::Label).any(|label| label.accesskit_node().value().is_some_and(|text| text.contains("RGB")))
+    );
+}
+
+#[test]
+fn every_single_key_does_what_the_help_says() {
+    let mut window = window("cornell_spheres");
+    let press = |window: &mut Window, key| {
+        window.key_press(key);
+        window.run_steps(3);
+    };
+    press(&mut window, Key::C);
+    assert_eq!(window.state().window.tool, Tool::Camera);
+    press(&mut window, Key::P);
+    assert_eq!(window.state().window.tool, Tool::Picture);
+    press(&mut window, Key::Num1);
+    assert_eq!(window.state().window.view.drawn_zoom, 1.0);
+    press(&mut window, Key::F);
+    assert!(window.state().window.view.zoom.is_none());
+    press(&mut window, Key::CloseBracket);
+    press(&mut window, Key::CloseBracket);
+    press(&mut window, Key::OpenBracket);
+    assert_eq!(window.state().session.look.display.exposure, 0.5);
+    press(&mut window, Key::Space);
+    assert!(window.state().session.budget.paused);
+    press(&mut window, Key::Space);
+    assert!(!window.state().session.budget.paused);
+    restarts(&mut window, "a restart", |w| press(w, Key::R));
+    for (key, axis, sign) in
+        [(Key::A, 0, -1.0), (Key::D, 0, 1.0), (Key::Q, 1, -1.0), (Key::E, 1, 1.0), (Key::S, 2, -1.0), (Key::W, 2, 1.0)]
+    {
+        let before = window.state().session.camera;
+        restarts(&mut window, "flight", |w| {
+            w.key_down(key);
+            w.run_steps(3);
+            w.key_up(key);
+            w.run_steps(1);
+        });
+        let moved = window.state().session.camera.eye - before.eye;
+        assert!(moved.dot(before.axes()[axis]) * sign > 0.0, "{key:?}");
+    }
+}
+
+#[test]
+fn a_bad_scene_shows_its_diagnostic_and_the_window_lives_on() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("bad.toml");
+    std::fs::write(&path, "format = 1\ncamera = 3\n").expect("it is written");
+    let mut window = open(Some(path));
+    wait(&mut window, "the diagnostic", |app| app.dialogs.scene_error.is_some());
+    assert!(window.state().dialogs.scene_error.as_ref().is_some_and(|report| report.contains("bad.toml:2:10")));
+    window.run_steps(3);
+    click(&mut window, "Open the built-in scene");
+    wait(&mut window, "the built-in scene", |app| app.session.opened.is_some() && app.results.shown.is_some());
+}
+
+#[test]
+fn scenes_are_chosen_from_the_list() {
+    let mut window = window("furnace");
+    assert!(window.state().catalogue.iter().any(|entry| entry.name.starts_with("Tiny lamp")));
+    window.get_by_role_and_label(Role::ComboBox, "Scene").click();
+    window.run_steps(3);
+    click(&mut window, "Bright sky: fast to converge");
+    wait(&mut window, "the other scene", |app| {
+        app.session.opened.as_ref().is_some_and(|opened| opened.name.starts_with("Bright sky"))
+    });
+}
+
+#[test]
+fn f1_shows_the_keys_and_escape_hides_them() {
+    let mut window = window("furnace");
+    window.key_press(Key::F1);
+    window.run_steps(3);
+    assert!(window.query_by_label("fly down, up").is_some());
+    window.key_press(Key::Escape);
+    window.run_steps(3);
+    assert!(window.query_by_label("fly down, up").is_none());
+}
+
+fn drag(window: &mut Window, button: PointerButton, from: [f32; 2], to: [f32; 2]) {
+    let [from, to] = [from, to].map(Pos2::from);
+    let press = |window: &Window, pos, pressed| {
+        window.event(egui::Event::PointerButton { pos, button, pressed, modifiers: Modifiers::NONE });
+    };
+    window.hover_at(from);
+    window.run_steps(2);
+    press(window, from, true);
+    window.run_steps(1);
+    for part in 1..=4 {
+        window.hover_at(from + (to - from) * (part as f32 / 4.0));
+        window.run_steps(1);
+    }
+    press(window, to, false);
+    window.run_steps(2);
+}
+
+fn click_at(window: &mut Window, pos: Pos2) {
+    window.hover_at(pos);
+    window.run_steps(2);
+    for pressed in [true, false] {
+        window.event(egui::Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers: Modifiers::NONE });
+    }
+    window.run_steps(3);
+}
+
+fn scroll(window: &mut Window, at: [f32; 2], by: f32) {
+    window.hover_at(at.into());
+    window.run_steps(2);
+    window.event(egui::Event::MouseWheel {
+        unit: egui::MouseWheelUnit::Point,
+        source: egui::MouseWheelSource::Wheel,
+        delta: vec2(0.0, by),
+        phase: egui::TouchPhase::Move,
+        modifiers: Modifiers::NONE,
+    });
+    window.run_steps(10);
+}

@@ -1,0 +1,58 @@
+//! The layout that all panels share.
+use egui::{CollapsingHeader, Color32, RichText};
+
+/// Width of the side panel in points.
+pub const PANEL_WIDTH: f32 = 336.0;
+
+/// Offset of a window that is anchored over the picture, and not over the side panel; `lift` moves it up.
+pub fn over_the_picture(lift: f32) -> [f32; 2] {
+    [-0.5 * PANEL_WIDTH, -lift]
+}
+
+/// A section of the side panel that folds.
+pub fn section(ui: &mut egui::Ui, title: &str, contents: impl FnOnce(&mut egui::Ui)) {
+    ui.separator();
+    CollapsingHeader::new(RichText::new(title).strong()).default_open(true).show_unindented(ui, |ui| {
+        ui.add_space(2.0);
+        contents(ui);
+        ui.add_space(4.0);
+    });
+}
+
+/// A grid of labels and controls; all panels have their controls at the same place.
+pub fn controls(ui: &mut egui::Ui, name: &str, rows: impl FnOnce(&mut egui::Ui)) {
+    const LABEL_WIDTH: f32 = 96.0;
+    ui.spacing_mut().slider_width = 120.0;
+    egui::Grid::new(name).num_columns(2).min_col_width(LABEL_WIDTH).spacing([8.0, 8.0]).show(ui, rows);
+}
+
+/// One row: a label that explains itself, and a control that screen readers know by it.
+pub fn row(ui: &mut egui::Ui, label: &str, doc: &str, control: impl FnOnce(&mut egui::Ui, egui::Id)) {
+    let label = ui.label(label).on_hover_text(doc);
+    control(ui, label.id);
+    ui.end_row();
+}
+
+/// Buttons in a row, one of which is chosen: values with their names and tooltips.
+pub fn choices<T: Copy + PartialEq>(ui: &mut egui::Ui, chosen: &mut T, all: &[(T, &str, &str)]) {
+    ui.horizontal(|ui| {
+        for (value, name, doc) in all {
+            ui.selectable_value(chosen, *value, *name).on_hover_text(*doc);
+        }
+    });
+}
+
+/// Text cut to a width; a tooltip says all of it.
+pub fn elided(ui: &mut egui::Ui, width: f32, text: impl Into<egui::WidgetText>) -> egui::Response {
+    ui.scope(|ui| {
+        ui.set_max_width(width);
+        ui.add(egui::Label::new(text).truncate())
+    })
+    .inner
+}
+
+/// A square of a colour, before what it stands for.
+pub fn swatch(ui: &mut egui::Ui, colour: Color32) {
+    let (rect, _) = ui.allocate_exact_size(egui::vec2(11.0, 11.0), egui::Sense::hover());
+    ui.painter().rect_filled(rect, 2.0, colour);
+}

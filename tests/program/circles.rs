@@ -1,0 +1,70 @@
+//! No file and no folder imports itself by way of others.
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::imports::{Imports, Module, imports};
+
+/// Folders with circles that are still to be mended.
+const TO_MEND: [&str; 0] = [];
+
+/// The imports between the files and folders that lie in a folder.
+fn within(folder: &[String], imports: &Imports) -> BTreeMap<String, BTreeSet<String>> {
+    let part = |module: &Module| -> Option<String> {
+        Some(module.strip_prefix(folder)?.first().map_or_else(|| "mod".to_owned(), Clone::clone))
+    };
+    let mut parts: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
+    for (from, used) in imports {
+        let Some(from) = part(from) else { continue };
+        let to = used.iter().filter_map(part).filter(|to| *to != from);
+        parts.entry(from.clone()).or_default().extend(to);
+    }
+    parts
+}
+
+/// A way along the arrows that ends where it began.
+fn circle(arrows: &BTreeMap<String, BTreeSet<String>>) -> Option<Vec<String>> {
+    let mut left = arrows.clone();
+    // Whatever imports nothing that is left is in no circle.
+    while let Some(end) = left.iter().find(|(_, to)| !to.iter().any(|to| left.contains_key(to))).map(|(end, _)| end.clone()) {
+        left.remove(&end);
+    }
+    let mut way = vec![left.keys().next()?.clone()];
+    loop {
+        let next = left[way.last()?].iter().find(|to| left.contains_key(*to))?.clone();
+        if let Some(start) = way.iter().position(|name| *name == next) {
+            return Some(way.split_off(start));
+        }
+        way.push(next);
+    }
+}
+
+#[test]
+fn nothing_imports_itself_by_way_of_others() {
+    let imports = imports();
+    let folders: BTreeSet<Module> = imports.keys().flat_map(|module| (0..=module.len()).map(|n| module[..n].to_vec())).collect();
+    let mut wrong = Vec::new();
+    for folder in &folders {
+        let (name, found) = (folder.join("/"), circle(&within(folder, &imports)));
+        if TO_MEND.contains(&name.as_str()) {
+            assert!(found.is_some(), "{name} is mended: take it off the list");
+        } else if let Some(circle) = found {
+            wrong.push(format!("{name}: {}", circle.join(" -> ")));
+        }
+    }
+    assert!(imports.values().map(BTreeSet::len).sum::<usize>() > 500, "the search finds imports");
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn a_circle_is_found_behind_what_is_none() {
+    let arrows = |arrows: &[(&str, &str)]| {
+        let mut all: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
+        for (from, to) in arrows {
+            all.entry((*from).to_owned()).or_default().insert((*to).to_owned());
+            all.entry((*to).to_owned()).or_default();
+        }
+        all
+    };
+    assert_eq!(circle(&arrows(&[("a", "b"), ("b", "c"), ("a", "c")])), None);
+    let found = circle(&arrows(&[("a", "b"), ("b", "c"), ("c", "d"), ("d", "b"), ("d", "e")]));
+    assert_eq!(found, Some(["b", "c", "d"].map(str::to_owned).to_vec()));
+}
