@@ -5,7 +5,8 @@ use super::SampleNoise;
 
 /// Relative error of single precision, independent of the samples.
 const ROUNDING: f64 = 1e-6;
-/// Where fewer samples make up a variance, it is likely to be far too small: the samples that are rare have not come yet.
+/// Minimum effective number of samples of a variance. With fewer, the variance is probably far too small, because rare samples
+/// have not occurred yet.
 pub const LEAST_EFFECTIVE_SAMPLES: f64 = 300.0;
 
 /// The source of a standard error.

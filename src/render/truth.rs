@@ -69,7 +69,7 @@ impl Reference {
         Some(Bias::by_samples(&frame.radiance, &truth, [frame.noise.as_ref(), of_truth], frame.width as usize))
     }
 
-    /// What to say where a frame cannot be a sample of the true picture: its mean, or that of a block, is off by more than chance explains.
+    /// A message if a frame contradicts the reference: its mean, or that of a block, is off by more than chance explains.
     pub fn contradiction(&self, frame: &Frame) -> Option<String> {
         /// Limit in standard errors. By chance, one in two million images exceeds it.
         const MOST: f64 = 5.0;
@@ -112,7 +112,7 @@ impl Reference {
     }
 }
 
-/// What is wrong with the truth that a scene names, as far as a small picture by independent samples can tell.
+/// A message if a small image with independent samples contradicts the `[truth]` of a scene.
 pub fn contradiction(scene: &Scene, threads: &Threads) -> Option<String> {
     /// Longer side of the image if the truth is constant, so that any resolution is valid.
     const LONGER_SIDE: u32 = 48;

@@ -8,8 +8,8 @@ use super::{
 use crate::{
     math::{SimdLevel, colour::srgb_from_linear},
     measure::Floor,
-    render::{pass::Threads, truth},
-    sampling::Sampler,
+    render::{Display, pass::Threads, truth},
+    sampling::{Directions, Sampler},
     scene::{Camera, Estimator, RenderSettings, Roulette, parse},
     study::{
         Bench, Findings, Lists, Plan, Run, Store, Study, Subject,
