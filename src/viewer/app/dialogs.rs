@@ -2,6 +2,7 @@
 use noisefall::scene::{RenderSettings, Roulette};
 
 use super::state::App;
+use crate::viewer::background::adviser::Adviser;
 use crate::viewer::dialogs::{
     advice, help, open, save, scene_error,
     tour::{self, TourRequest},
@@ -30,7 +31,7 @@ impl App {
 
     /// Whether a study has the machine, and the picture waits.
     pub fn is_studying(&self) -> bool {
-        self.background.adviser.as_ref().is_some_and(|adviser| adviser.is_busy())
+        self.background.adviser.as_ref().is_some_and(Adviser::is_busy)
     }
 
     fn show_advice(&mut self, ctx: &egui::Context) {

@@ -70,7 +70,7 @@ impl FrameTimes {
                     ui.monospace(format!("{name:<11} p50 {half:6.2} ms   p99 {most:6.2} ms"));
                 }
                 ui.monospace(format!("last one {:.0} ms ago; none while nothing changes", self.between * 1e3));
-                ui.monospace(format!("render threads {}, generation {}", threads, generation));
+                ui.monospace(format!("render threads {threads}, generation {generation}"));
                 ui.weak("F12 hides this");
             });
         });
