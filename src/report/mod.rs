@@ -71,14 +71,17 @@ pub fn page(title: &str, style: &str, body: &Markup) -> String {
 /// Other underscores, as in names of files, stay.
 pub fn formula(text: &str) -> Markup {
     let mut parts = text.split('_');
-    let mut before = parts.next().unwrap_or_default();
+    let first = parts.next().unwrap_or_default();
+    let pieces = parts.scan(first, |before, part| {
+        let piece = part.split_at(if ends_in_a_symbol(before) { index_length(part) } else { 0 });
+        *before = piece.1;
+        Some(piece)
+    });
     html! {
-        (before)
-        @for part in parts {
-            @let (index, rest) = part.split_at(if ends_in_a_symbol(before) { index_length(part) } else { 0 });
+        (first)
+        @for (index, rest) in pieces {
             @if index.is_empty() { "_" } @else { sub { (index) } }
             (rest)
-            @let _ = before = rest;
         }
     }
 }

@@ -71,7 +71,7 @@ fn why_a_path_ends_is_told() {
         ),
         (End::Black, &wall("{ lambertian = { albedo = 0.0 } }", named), &[]),
         (End::Roulette, &white, &["--roulette", "0.01"]),
-        (End::Vanished, &closed, &["--roulette", "off", "--estimator", "path"]),
+        (End::Vanished, closed, &["--roulette", "off", "--estimator", "path"]),
     ] {
         let name = serde_json::json!(expected);
         assert_eq!(end(text, options), name.as_str().unwrap_or_default(), "{text} {options:?}");
