@@ -16,19 +16,19 @@ fn paths_per_second(c: &mut Criterion) {
     let mut camera = scene.camera;
     camera.resolution = [256, 256];
     let rays = scene.rays(&camera);
-    for sampler in noisefall::sampling::SAMPLERS {
+    for sampler in noisefall::sampling::Sampler::ALL {
         for level in SimdLevel::available() {
             let settings = RenderSettings {
                 estimator: Estimator::Path,
                 max_bounces: Some(8),
                 reuse: Reuse::Off,
                 roulette: Roulette::BY_THROUGHPUT,
-                sampler: sampler.sampler,
+                sampler,
                 ..RenderSettings::default()
             };
             let threads = Threads::new(1, level).expect("one thread can be had");
             group.throughput(Throughput::Elements(256 * 256));
-            group.bench_function(format!("{} {level:?}", sampler.name), |b| {
+            group.bench_function(format!("{} {level:?}", sampler.name()), |b| {
                 let mut film = Film::new(camera.resolution);
                 let mut spp = 0;
                 b.iter(|| {

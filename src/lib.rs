@@ -1,8 +1,8 @@
 //! Noisefall: an interactive progressive path tracer, which solves the light transport equation by Monte Carlo integration.
 //!
-//! The library is the renderer; the window and the command line are in the binary. Folders depend downwards only: `validate`,
-//! `study` → `report`, `render` → `measure` → `integrator` → `scene` → `light` → `material`, `geometry` → `texture` → `sampling`,
-//! `image`, `model` → `math`. See `docs/architecture.md`.
+//! The library is the renderer; the window and the command line are in the binary. Folders depend downwards only:
+//! `validate`, `study` → `report`, `render`, `measure` → `integrator` → `scene` → `light` → `material`, `geometry` → `texture` → `sampling`, `image`, `model` → `math`.
+pub mod declare;
 pub mod file;
 pub mod geometry;
 pub mod image;
@@ -18,6 +18,7 @@ pub mod render;
 pub mod report;
 pub mod sampling;
 pub mod scene;
+pub mod shape;
 pub mod study;
 pub mod texture;
 pub mod validate;

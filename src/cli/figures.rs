@@ -19,7 +19,7 @@ pub fn settings(settings: &RenderSettings) -> Figures {
     named([
         ("estimator", json!(settings.estimator.name())),
         ("directions", json!(settings.directions.name())),
-        ("sampler", json!(settings.sampler.entry().name)),
+        ("sampler", json!(settings.sampler.name())),
         ("roulette", json!(settings.roulette.name())),
         ("roulette_start", json!(start)),
         ("max_bounces", json!(settings.max_bounces)),

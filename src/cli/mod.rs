@@ -26,7 +26,7 @@ use std::{
 };
 
 use clap::{CommandFactory, Parser, Subcommand};
-use noisefall::scene::{load, nearest};
+use noisefall::{declare::nearest, scene::load};
 
 use messages::{print, tell, wrong_usage};
 

@@ -4,7 +4,7 @@ use std::time::Duration;
 use noisefall::{
     measure::Floor,
     render::{Display, ToneMap, image_file::Format},
-    sampling::{Directions, SAMPLERS, Sampler},
+    sampling::{Directions, Sampler},
     scene::{Estimator, Reuse, Roulette},
 };
 
@@ -48,9 +48,9 @@ pub fn reuse(text: &str) -> Result<Reuse, String> {
 }
 
 pub fn sampler(text: &str) -> Result<Sampler, String> {
-    let found = SAMPLERS.iter().find(|entry| entry.name == text);
-    let names = || SAMPLERS.map(|entry| entry.name).join(", ");
-    found.map(|entry| entry.sampler).ok_or_else(|| format!("expected one of {}", names()))
+    let found = Sampler::ALL.into_iter().find(|sampler| sampler.name() == text);
+    let names = || Sampler::ALL.map(Sampler::name).join(", ");
+    found.ok_or_else(|| format!("expected one of {}", names()))
 }
 
 /// `None` is no cap.

@@ -18,8 +18,6 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use serde::Deserialize;
-
 pub use self::carried::{SETTINGS_KEY, carried_text};
 use crate::{
     file::open_regular,
@@ -69,9 +67,8 @@ impl From<&Picture> for Texels {
     }
 }
 
-/// The transfer function of a PNG. The other formats are always linear.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "lowercase")]
+/// How the numbers of a PNG stand for light. The other kinds of file are linear whatever this says.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Encoding {
     /// The sRGB curve: for colours.
     #[default]
@@ -80,7 +77,14 @@ pub enum Encoding {
     Linear,
 }
 
-/// Error of reading an image file.
+crate::words! {
+    Encoding {
+        Srgb: "srgb", "sRGB", "Through the sRGB curve: colours.";
+        Linear: "linear", "Linear", "In proportion: heights, normals, masks.";
+    }
+}
+
+/// Why a file gave no picture.
 #[derive(Debug, thiserror::Error)]
 #[error("{}: {flaw}", quote::path(path))]
 pub struct PictureError {

@@ -1,9 +1,9 @@
 //! The queues of one thread, which hold the paths of a batch between stages.
 use super::{queue::Queue, reuse::Shared, work::SLOTS};
 use crate::{
+    material::Stage,
     math::{F, Lanes, M, MAX_LANES, One, U, V},
     record,
-    scene::surface::Stage,
 };
 
 record! {

@@ -9,7 +9,6 @@ mod collision;
 mod fault;
 mod features;
 mod intersect;
-mod kinds;
 mod media;
 pub mod queue;
 mod relief;

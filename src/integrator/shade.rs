@@ -4,17 +4,17 @@ use fearless_simd_macros::simd;
 
 use super::{
     batch::{Batch, DELTA, Gloss, Inside, Past, TRANSMITS},
-    kinds::Kind,
     shading::{LightEstimate, Reflected, Shading, shares_first},
     work::Work,
 };
 use crate::{
     light::Lobe,
+    material::Shade,
     math::{Lanes, Pick},
 };
 
 #[simd]
-pub(super) fn shade<L: Lanes, K: Kind>(l: L, work: &Work, batch: &mut Batch) {
+pub(super) fn shade<L: Lanes, K: Shade>(l: L, work: &Work, batch: &mut Batch) {
     let Batch { paths, pasts, glosses, path_media, hits, details, shadows, shadow_media, shared, bounce, .. } = batch;
     let (hits, details) = (&hits[K::STAGE as usize], &details[K::STAGE as usize]);
     let reflection = *bounce + 1;

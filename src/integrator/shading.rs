@@ -2,7 +2,6 @@
 //! [`super::replay`] records the terms.
 use super::{
     batch::{Detail, Hit, Path, Shadow},
-    kinds::Kind,
     media::beyond,
     queue::Queue,
     roulette::{Survival, survive},
@@ -11,17 +10,14 @@ use super::{
 };
 use crate::{
     light::{LightCoordinates, LightSample, Lobe, Receiver},
-    material::{Bsdf, BsdfSample, Local},
+    material::{Bsdf, BsdfSample, Local, Shade, Stage},
     math::{F, Frame, Lanes, M, Pick, U, V},
     sampling::{Dimension, Stream},
-    scene::{
-        Estimator,
-        surface::{self, Stage},
-    },
+    scene::{Estimator, surface},
 };
 
-/// A register of hits of one BSDF type.
-pub(super) struct Shading<'a, L: Lanes, K: Kind> {
+/// A register of hits of a kind.
+pub(super) struct Shading<'a, L: Lanes, K: Shade> {
     pub live: M<L>,
     pub hit: Hit<L>,
     pub vertex: Vertex<L>,
@@ -54,12 +50,12 @@ pub(super) struct Reflected<L: Lanes> {
 
 /// Whether the hits of a type at a bounce are first surfaces that share their paths.
 #[inline(always)]
-pub(super) fn shares_first<K: Kind>(work: &Work, bounce: u32) -> bool {
+pub(super) fn shares_first<K: Shade>(work: &Work, bounce: u32) -> bool {
     K::STAGE == Stage::Plain && bounce == 0 && work.shares()
 }
 
-impl<'a, L: Lanes, K: Kind> Shading<'a, L, K> {
-    /// Reads the hits from index `start` on.
+impl<'a, L: Lanes, K: Shade> Shading<'a, L, K> {
+    /// The hits from place `start` on.
     #[inline(always)]
     pub fn read(l: L, work: &Work<'a>, (hits, details): (&Queue, &Queue), start: usize, reflection: u32) -> Self {
         let live = l.first(hits.len() - start);
@@ -73,7 +69,7 @@ impl<'a, L: Lanes, K: Kind> Shading<'a, L, K> {
         } else {
             Vertex::plain(l, &hit)
         };
-        let bsdf = K::at(l, &work.scene.surfaces.materials, work.settings, &vertex.local);
+        let bsdf = K::at(l, &work.scene.surfaces.materials, work.settings.directions, &vertex.local);
         Shading { live, hit, vertex, bsdf, stream, reflection }
     }
 
@@ -219,7 +215,7 @@ impl<L: Lanes> Vertex<L> {
     /// The origin of a ray in the world-space direction `d`, and whether it leaves on the side of the shading normal; `z` is its
     /// height over that normal. Light that would leak through the surface because the two normals differ is dropped.
     #[inline(always)]
-    fn leave<K: Kind>(&self, hit: &Hit<L>, d: V<L>, z: F<L>) -> (V<L>, M<L>) {
+    fn leave<K: Shade>(&self, hit: &Hit<L>, d: V<L>, z: F<L>) -> (V<L>, M<L>) {
         if !K::DETAILED {
             // What lies below has no weight.
             return (hit.p, self.local.front);

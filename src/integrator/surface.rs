@@ -12,10 +12,11 @@ use super::{
 use crate::{
     geometry::{Coordinates, MISS, Place, SurfacePoint},
     light::Lobe,
+    material::Stage,
     math::{F, Lanes, M, Pick, U, V},
     scene::{
         Scene,
-        surface::{self, FLIPPED, FRONT, ONE_SIDED, SCATTERS_WHERE_BLACK, SQUARED, Stage, is_set},
+        surface::{self, FLIPPED, FRONT, ONE_SIDED, SCATTERS_WHERE_BLACK, SQUARED, is_set},
     },
     texture::TextureCoordinates,
 };

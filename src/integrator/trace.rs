@@ -4,7 +4,6 @@ use fearless_simd_macros::simd;
 use super::{
     batch::{Batch, Path},
     intersect::intersect,
-    kinds::in_kind,
     queue::Queue,
     reuse::share,
     shade::shade,
@@ -15,6 +14,7 @@ use super::{
 };
 use crate::{
     in_lanes,
+    material::in_stage,
     math::{Lanes, One, SimdLevel},
 };
 
@@ -118,6 +118,6 @@ fn shade_all<L: Lanes>(l: L, work: &Work, batch: &mut Batch) {
     batch.glosses[next].clear();
     batch.path_media[next].clear();
     for stage in &work.scene.surfaces.stages {
-        in_kind!(stage, K => shade::<L, K>(l, work, batch));
+        in_stage!(stage, K => shade::<L, K>(l, work, batch));
     }
 }

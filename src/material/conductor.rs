@@ -7,15 +7,94 @@
 use std::f32::consts::FRAC_1_PI;
 
 use super::{
+    Bsdf, BsdfSample, ChosenLobe, Compile, CompiledMaterial, Lobes, Local, MaterialCompiler, Materials, Roughness, Shade, Stage,
     albedo::Albedo,
-    bsdf::{Bsdf, BsdfSample, ChosenLobe, Lobes},
-    fresnel::ConductorFresnel,
+    fresnel::{ConductorFresnel, ConductorRow, Reflectance},
     ggx, grazing,
-    materials::{Local, Materials},
 };
-use crate::math::{F, Lanes, M, One, Pick, V};
+use crate::{
+    declare::{Declare, Kind, Parameter, Parameters, Problem},
+    math::{F, Lanes, M, One, Pick, V},
+    sampling::Directions,
+};
 
-pub struct Conductor<L: Lanes> {
+/// Metal as a scene describes it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Conductor {
+    pub fresnel: Reflectance,
+    pub roughness: Roughness,
+    /// Light that scatters more than once between microfacets is given back.
+    pub energy_compensation: bool,
+}
+
+impl Default for Conductor {
+    fn default() -> Self {
+        Conductor { fresnel: Reflectance::default(), roughness: Roughness::SMOOTH, energy_compensation: true }
+    }
+}
+
+impl Conductor {
+    /// One of constant roughness.
+    pub fn new(fresnel: Reflectance, alpha: f32, energy_compensation: bool) -> Conductor {
+        Conductor { fresnel, roughness: Roughness::alpha(alpha), energy_compensation }
+    }
+}
+
+/// Of conductors and dielectrics.
+pub(super) const ENERGY_COMPENSATION: Parameter =
+    Parameter::new("energy_compensation", "Whether light that scatters more than once between microfacets is given back.");
+
+impl Kind for Conductor {
+    const KIND: Parameter = Parameter::new("conductor", "Metal, smooth or rough: GGX microfacets with Fresnel's reflectance.")
+        .aliases("metal metallic gold copper rough_conductor")
+        .advice("such as conductor = { f0 = [1.0, 0.78, 0.34], roughness = 0.3 }");
+}
+
+impl Declare for Conductor {
+    fn parameters(&mut self, p: &mut dyn Parameters) {
+        p.one_of(&mut self.fresnel);
+        p.one_of(&mut self.roughness);
+        p.flag(&ENERGY_COMPENSATION, &mut self.energy_compensation);
+    }
+}
+
+impl Compile for Conductor {
+    fn compile(&self, compiler: &mut MaterialCompiler) -> Result<CompiledMaterial, Problem> {
+        let (alpha, most) = compiler.alpha(&self.roughness)?;
+        if self.energy_compensation {
+            compiler.tables.need_loss();
+        }
+        let row = ConductorRow::new(&self.fresnel, self.energy_compensation)?;
+        let colour = self.fresnel.colour(compiler)?;
+        let stage = if most < ggx::SMOOTH { Stage::Mirror } else { Stage::Conductor };
+        let plain = CompiledMaterial::new(stage, colour, compiler);
+        Ok(CompiledMaterial {
+            alpha,
+            rows: row.pack(),
+            scatters_where_black: !matches!(self.fresnel, Reflectance::Constant(_)),
+            albedo: self.fresnel.head_on().unwrap_or(plain.albedo),
+            ..plain
+        })
+    }
+}
+
+impl Shade for Conductor {
+    type Bsdf<'a, L: Lanes> = ConductorBsdf<L>;
+    const STAGE: Stage = Stage::Conductor;
+    const GLOSSY: bool = true;
+
+    #[inline(always)]
+    fn at<L: Lanes>(l: L, materials: &Materials, _: Directions, at: &Local<L>) -> ConductorBsdf<L> {
+        ConductorBsdf::at(l, materials, at)
+    }
+
+    #[inline(always)]
+    fn alpha<L: Lanes>(_l: L, bsdf: &ConductorBsdf<L>) -> F<L> {
+        bsdf.alpha
+    }
+}
+
+pub struct ConductorBsdf<L: Lanes> {
     l: L,
     fresnel: ConductorFresnel<L>,
     pub alpha: F<L>,
@@ -26,23 +105,21 @@ pub struct Conductor<L: Lanes> {
     returned: V<L>,
 }
 
-impl<L: Lanes> Clone for Conductor<L> {
+impl<L: Lanes> Clone for ConductorBsdf<L> {
     #[inline(always)]
     fn clone(&self) -> Self {
         *self
     }
 }
-impl<L: Lanes> Copy for Conductor<L> {}
+impl<L: Lanes> Copy for ConductorBsdf<L> {}
 
-impl<L: Lanes> Conductor<L> {
+impl<L: Lanes> ConductorBsdf<L> {
     #[inline(always)]
-    pub fn at(l: L, materials: &Materials, at: &Local<L>) -> Self {
-        let first = Materials::first_row(at.material);
-        let fresnel = ConductorFresnel::read(l, &materials.rows, first, at.colour);
-        let [_, _, _, compensated] = l.rows(&materials.rows, first + 1);
-        let compensated = compensated.above(0.0);
+    fn at(l: L, materials: &Materials, at: &Local<L>) -> Self {
+        let fresnel = ConductorFresnel::read(l, materials, at.material, at.colour);
+        let compensated = ConductorRow::read_compensated(l, materials, at.material);
         let alpha = at.alpha.max(l.f(ggx::SMOOTH));
-        let loss = Albedo::at(materials.loss, l.u(0), alpha);
+        let loss = Albedo::at(materials.tables.loss, l.u(0), alpha);
         let mut returned = V::splat(l, [0.0; 3]);
         if compensated.any() {
             let lost = loss.average(l);
@@ -54,7 +131,7 @@ impl<L: Lanes> Conductor<L> {
                 z: f.z * f.z * scale / (1.0 - f.z * lost),
             };
         }
-        Conductor { l, fresnel, alpha, compensated, loss, returned }
+        ConductorBsdf { l, fresnel, alpha, compensated, loss, returned }
     }
 
     /// 1 − E(μ); 0 in lanes without compensation.
@@ -83,7 +160,7 @@ impl<L: Lanes> Conductor<L> {
     }
 }
 
-impl<L: Lanes> Bsdf<L> for Conductor<L> {
+impl<L: Lanes> Bsdf<L> for ConductorBsdf<L> {
     #[inline(always)]
     fn eval(&self, wo: V<L>, wi: V<L>) -> (V<L>, F<L>) {
         self.eval_with(wo, wi, self.loss(wo.z))
@@ -102,7 +179,7 @@ impl<L: Lanes> Bsdf<L> for Conductor<L> {
     }
 }
 
-impl Lobes for Conductor<One> {
+impl Lobes for ConductorBsdf<One> {
     fn chosen(&self, wo: V<One>, _: (F<One>, F<One>), lobe: F<One>) -> ChosenLobe {
         ChosenLobe::of_two(["further scattering between microfacets", "microfacet reflection"], self.loss(wo.z).0, lobe)
     }

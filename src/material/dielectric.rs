@@ -1,37 +1,163 @@
 //! The smooth dielectric: mirror reflection and refraction.
+pub use super::rough_dielectric::RoughDielectric;
 use super::{
-    bsdf::{Bsdf, BsdfSample, ChosenLobe, Lobes},
-    fresnel,
-    materials::{Local, Materials},
+    Bsdf, BsdfSample, ChosenLobe, Compile, CompiledMaterial, Lobes, Local, MaterialCompiler, Materials, Roughness, Shade, Stage,
+    conductor::ENERGY_COMPENSATION, fresnel, ggx, rough_dielectric::FAINT,
 };
-use crate::math::{F, Lanes, M, One, Pick, V};
+use crate::{
+    declare::{Declare, Kind, Parameter, Parameters, Problem, Range},
+    math::{F, Lanes, M, One, Pick, U, V},
+    sampling::Directions,
+};
+
+/// Glass as a scene describes it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Dielectric {
+    /// On the side against the normal.
+    pub ior: f64,
+    /// On the side of the normal.
+    pub ior_outside: f64,
+    pub roughness: Roughness,
+    /// What a metre of the interior lets pass.
+    pub transmittance: [f64; 3],
+    /// Light that scatters more than once between microfacets is given back.
+    pub energy_compensation: bool,
+}
+
+impl Default for Dielectric {
+    fn default() -> Self {
+        Dielectric {
+            ior: 1.5,
+            ior_outside: 1.0,
+            roughness: Roughness::SMOOTH,
+            transmittance: [1.0; 3],
+            energy_compensation: true,
+        }
+    }
+}
+
+impl Dielectric {
+    /// One of constant roughness, in a medium of index 1.
+    pub fn new(ior: f32, alpha: f32, energy_compensation: bool) -> Dielectric {
+        Dielectric { ior: f64::from(ior), roughness: Roughness::alpha(alpha), energy_compensation, ..Dielectric::default() }
+    }
+}
+
+impl Kind for Dielectric {
+    const KIND: Parameter =
+        Parameter::new("dielectric", "Glass, water: an interface that reflects and refracts, smooth or rough.")
+            .aliases("glass refractive water transparent")
+            .advice("such as dielectric = { ior = 1.5 }");
+}
+
+impl Declare for Dielectric {
+    fn parameters(&mut self, p: &mut dyn Parameters) {
+        const IOR: Parameter = Parameter::new("ior", "Index of refraction inside.")
+            .symbol("η")
+            .required()
+            .aliases("eta index index_of_refraction refraction");
+        const IOR_OUTSIDE: Parameter =
+            Parameter::new("ior_outside", "Index of refraction on the side of the normal.").symbol("η'");
+        const TRANSMITTANCE: Parameter =
+            Parameter::new("transmittance", "Part of the light that passes a metre of the interior.")
+                .symbol("T")
+                .unit("1/m")
+                .aliases("tint absorption");
+        p.number(&IOR, &mut self.ior, Range::INDEX);
+        p.number(&IOR_OUTSIDE, &mut self.ior_outside, Range::INDEX);
+        p.one_of(&mut self.roughness);
+        let range = Range::UNIT.expected("every channel must lie in [0, 1]: what a metre of the interior lets pass");
+        p.colour(&TRANSMITTANCE, &mut self.transmittance, range);
+        p.flag(&ENERGY_COMPENSATION, &mut self.energy_compensation);
+    }
+}
+
+impl Compile for Dielectric {
+    fn compile(&self, compiler: &mut MaterialCompiler) -> Result<CompiledMaterial, Problem> {
+        let (alpha, most) = compiler.alpha(&self.roughness)?;
+        let eta = self.ior as f32 / self.ior_outside as f32;
+        let mut row = DielectricRow { eta, table: 0, varies: false };
+        let mut stage = Stage::Dielectric;
+        if most >= ggx::SMOOTH {
+            let varies = matches!(alpha, super::AlphaSource::Texture { .. });
+            let compensated = self.energy_compensation && (eta - 1.0).abs() >= FAINT;
+            row.table = compiler.tables.interface(compensated.then_some((eta, if varies { None } else { Some(most) })));
+            row.varies = varies && compensated;
+            stage = Stage::RoughDielectric;
+        }
+        let inside = Some(self.transmittance.map(|x| x as f32));
+        Ok(CompiledMaterial { alpha, inside, rows: row.pack(), ..CompiledMaterial::colourless(stage) })
+    }
+}
+
+/// The constants of an interface.
+pub(super) struct DielectricRow {
+    /// Index inside over that outside.
+    eta: f32,
+    /// First row of the table of what is lost.
+    table: u32,
+    /// The table has rows for every roughness.
+    varies: bool,
+}
+
+impl DielectricRow {
+    fn pack(&self) -> [[f32; 4]; 3] {
+        [[self.eta, f32::from_bits(self.table), f32::from(u8::from(self.varies)), 0.0], [0.0; 4], [0.0; 4]]
+    }
+
+    /// The index beyond the surface over that on the side of the viewer, the table, and whether roughness varies.
+    #[inline(always)]
+    pub fn read<L: Lanes>(l: L, materials: &Materials, at: &Local<L>) -> (F<L>, U<L>, M<L>) {
+        let [inside_over_outside, table, varies, _] = materials.row(l, at.material, 0);
+        (at.front.pick(inside_over_outside, 1.0 / inside_over_outside), table.bits(), varies.above(0.0))
+    }
+}
+
+impl Shade for Dielectric {
+    type Bsdf<'a, L: Lanes> = DielectricBsdf<L>;
+    const STAGE: Stage = Stage::Dielectric;
+    const SEES_LIGHTS: bool = false;
+    const TRANSMITS: bool = true;
+
+    #[inline(always)]
+    fn at<L: Lanes>(l: L, materials: &Materials, _: Directions, at: &Local<L>) -> DielectricBsdf<L> {
+        let (eta, _, _) = DielectricRow::read(l, materials, at);
+        DielectricBsdf { eta }
+    }
+
+    #[inline(always)]
+    fn roulette_scale<L: Lanes>(bsdf: &DielectricBsdf<L>, front: M<L>, z: F<L>) -> F<L> {
+        uncompressed(bsdf.eta, front, z)
+    }
+}
+
+/// The square of the index that a path is in over the one outside the surface it leaves: radiance has that much more to give once
+/// it is outside again. `eta` is the index beyond the surface over that on the viewer's side.
+#[inline(always)]
+pub(super) fn uncompressed<L: Lanes>(eta: F<L>, front: M<L>, z: F<L>) -> F<L> {
+    let inside = front ^ z.above(0.0);
+    let ratio = front.pick(eta, 1.0 / eta);
+    inside.pick(ratio * ratio, z.splat(1.0))
+}
 
 /// The smooth interface between two transparent media.
 ///
-/// Transmitted radiance is scaled by 1/η², because refraction changes its solid angle (Veach 1997, section 5.2). Light that
-/// enters and leaves again keeps its radiance.
-pub struct Dielectric<L: Lanes> {
-    /// Relative index of refraction: that beyond the surface over that on the side of the viewer.
+/// Radiance that passes is scaled by 1/η², for it spreads or narrows with the solid angle (Veach 1997, section 5.2); what enters
+/// and leaves again keeps its radiance.
+pub struct DielectricBsdf<L: Lanes> {
+    /// The index of refraction beyond the surface over that on the side of the viewer.
     pub eta: F<L>,
 }
 
-impl<L: Lanes> Clone for Dielectric<L> {
+impl<L: Lanes> Clone for DielectricBsdf<L> {
     #[inline(always)]
     fn clone(&self) -> Self {
         *self
     }
 }
-impl<L: Lanes> Copy for Dielectric<L> {}
+impl<L: Lanes> Copy for DielectricBsdf<L> {}
 
-impl<L: Lanes> Dielectric<L> {
-    #[inline(always)]
-    pub fn at(l: L, materials: &Materials, at: &Local<L>) -> Self {
-        let [inside_over_outside, ..] = l.rows(&materials.rows, Materials::first_row(at.material));
-        Dielectric { eta: at.front.pick(inside_over_outside, 1.0 / inside_over_outside) }
-    }
-}
-
-impl<L: Lanes> Bsdf<L> for Dielectric<L> {
+impl<L: Lanes> Bsdf<L> for DielectricBsdf<L> {
     #[inline(always)]
     fn eval(&self, wo: V<L>, _: V<L>) -> (V<L>, F<L>) {
         let zero = wo.z.splat(0.0);
@@ -57,7 +183,7 @@ fn everywhere<L: Lanes>(like: F<L>) -> M<L> {
     like.splat(0.0).below(1.0)
 }
 
-impl Lobes for Dielectric<One> {
+impl Lobes for DielectricBsdf<One> {
     fn chosen(&self, wo: V<One>, _: (F<One>, F<One>), lobe: F<One>) -> ChosenLobe {
         ChosenLobe::of_two(["mirror reflection", "refraction"], fresnel::dielectric(wo.z, self.eta).0.0, lobe)
     }

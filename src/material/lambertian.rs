@@ -1,19 +1,85 @@
 //! The ideal diffuse surface: f = ρ/π in all directions of the hemisphere.
 use std::f32::consts::FRAC_1_PI;
 
-use super::bsdf::{Bsdf, BsdfSample, ChosenLobe, Lobes};
+use super::{Bsdf, BsdfSample, ChosenLobe, Compile, CompiledMaterial, Lobes, Local, MaterialCompiler, Materials, Shade, Stage};
 use crate::{
+    declare::{Declare, Kind, Parameter, Parameters, Problem, Range, Textured},
     math::{F, Lanes, One, Pick, V},
     sampling::Directions,
 };
 
+/// A diffuse surface as a scene describes it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Lambertian {
+    pub albedo: Textured,
+}
+
+impl Default for Lambertian {
+    fn default() -> Self {
+        Lambertian { albedo: Textured::grey(0.8) }
+    }
+}
+
+const ALBEDO: Parameter = Parameter::new("albedo", "Part of the light that is reflected, in each channel.")
+    .symbol("ρ")
+    .required()
+    .aliases("color colour rho reflectance kd Kd rgb base_color");
+
+impl Kind for Lambertian {
+    const KIND: Parameter = Parameter::new("lambertian", "Ideal diffuse reflection: the same radiance in all directions.")
+        .aliases("lambert diffuse matte oren_nayar")
+        .advice("such as lambertian = { albedo = 0.8 }");
+}
+
+impl Declare for Lambertian {
+    fn parameters(&mut self, p: &mut dyn Parameters) {
+        p.textured(&ALBEDO, &mut self.albedo, Range::REFLECTANCE);
+    }
+}
+
+impl Compile for Lambertian {
+    fn compile(&self, compiler: &mut MaterialCompiler) -> Result<CompiledMaterial, Problem> {
+        let albedo = compiler.colour(&ALBEDO, &self.albedo, &Range::REFLECTANCE)?;
+        Ok(CompiledMaterial::new(Stage::Plain, albedo, compiler))
+    }
+}
+
+/// Diffuse, with the geometric normal and nothing that varies but the colour.
+pub struct Plain;
+
+impl Shade for Plain {
+    type Bsdf<'a, L: Lanes> = LambertianBsdf<L>;
+    const STAGE: Stage = Stage::Plain;
+    const DETAILED: bool = false;
+    const LOBES: bool = false;
+
+    #[inline(always)]
+    fn at<L: Lanes>(_: L, _: &Materials, directions: Directions, at: &Local<L>) -> LambertianBsdf<L> {
+        LambertianBsdf { albedo: at.colour, directions }
+    }
+}
+
+/// Diffuse, with a normal of its own or in a medium.
+pub struct Diffuse;
+
+impl Shade for Diffuse {
+    type Bsdf<'a, L: Lanes> = LambertianBsdf<L>;
+    const STAGE: Stage = Stage::Diffuse;
+    const LOBES: bool = false;
+
+    #[inline(always)]
+    fn at<L: Lanes>(_: L, _: &Materials, directions: Directions, at: &Local<L>) -> LambertianBsdf<L> {
+        LambertianBsdf { albedo: at.colour, directions }
+    }
+}
+
 #[derive(Clone, Copy)]
-pub struct Lambertian<L: Lanes> {
+pub struct LambertianBsdf<L: Lanes> {
     pub albedo: V<L>,
     pub directions: Directions,
 }
 
-impl<L: Lanes> Bsdf<L> for Lambertian<L> {
+impl<L: Lanes> Bsdf<L> for LambertianBsdf<L> {
     #[inline(always)]
     fn eval(&self, _wo: V<L>, wi: V<L>) -> (V<L>, F<L>) {
         let zero = wi.z.splat(0.0);
@@ -29,7 +95,7 @@ impl<L: Lanes> Bsdf<L> for Lambertian<L> {
     }
 }
 
-impl Lobes for Lambertian<One> {
+impl Lobes for LambertianBsdf<One> {
     fn chosen(&self, _: V<One>, _: (F<One>, F<One>), _: F<One>) -> ChosenLobe {
         ChosenLobe::only("diffuse reflection")
     }

@@ -1,31 +1,73 @@
 //! The smooth mirror: a delta lobe times a metal's Fresnel reflectance.
 use super::{
-    bsdf::{Bsdf, BsdfSample, ChosenLobe, Lobes},
+    Bsdf, BsdfSample, ChosenLobe, Compile, CompiledMaterial, Lobes, Local, MaterialCompiler, Materials, Shade, Stage,
     fresnel::ConductorFresnel,
-    materials::{Local, Materials},
 };
-use crate::math::{F, Lanes, One, V};
+use crate::{
+    declare::{Declare, Kind, Parameter, Parameters, Problem, Range, Textured},
+    math::{F, Lanes, One, V},
+    sampling::Directions,
+};
 
-pub struct Mirror<L: Lanes> {
+/// A mirror as a scene describes it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mirror {
+    pub reflectance: Textured,
+}
+
+impl Default for Mirror {
+    fn default() -> Self {
+        Mirror { reflectance: Textured::grey(0.9) }
+    }
+}
+
+const REFLECTANCE: Parameter = Parameter::new("reflectance", "Part of the light that is reflected, the same at every angle.")
+    .symbol("r")
+    .required()
+    .aliases("color colour albedo rgb");
+
+impl Kind for Mirror {
+    const KIND: Parameter = Parameter::new("mirror", "A smooth mirror.").aliases("specular perfect_mirror reflective");
+}
+
+impl Declare for Mirror {
+    fn parameters(&mut self, p: &mut dyn Parameters) {
+        p.textured(&REFLECTANCE, &mut self.reflectance, Range::REFLECTANCE);
+    }
+}
+
+impl Compile for Mirror {
+    fn compile(&self, compiler: &mut MaterialCompiler) -> Result<CompiledMaterial, Problem> {
+        let reflectance = compiler.colour(&REFLECTANCE, &self.reflectance, &Range::REFLECTANCE)?;
+        Ok(CompiledMaterial::new(Stage::Mirror, reflectance, compiler))
+    }
+}
+
+impl Shade for Mirror {
+    type Bsdf<'a, L: Lanes> = MirrorBsdf<L>;
+    const STAGE: Stage = Stage::Mirror;
+    const SEES_LIGHTS: bool = false;
+    const LOBES: bool = false;
+
+    #[inline(always)]
+    fn at<L: Lanes>(l: L, materials: &Materials, _: Directions, at: &Local<L>) -> MirrorBsdf<L> {
+        MirrorBsdf { fresnel: ConductorFresnel::read(l, materials, at.material, at.colour) }
+    }
+}
+
+pub struct MirrorBsdf<L: Lanes> {
     fresnel: ConductorFresnel<L>,
 }
 
-impl<L: Lanes> Clone for Mirror<L> {
+impl<L: Lanes> Clone for MirrorBsdf<L> {
     #[inline(always)]
     fn clone(&self) -> Self {
         *self
     }
 }
-impl<L: Lanes> Copy for Mirror<L> {}
+impl<L: Lanes> Copy for MirrorBsdf<L> {}
 
-impl<L: Lanes> Mirror<L> {
-    #[inline(always)]
-    pub fn at(l: L, materials: &Materials, at: &Local<L>) -> Self {
-        Mirror { fresnel: ConductorFresnel::read(l, &materials.rows, Materials::first_row(at.material), at.colour) }
-    }
-}
-
-impl<L: Lanes> Bsdf<L> for Mirror<L> {
+impl<L: Lanes> Bsdf<L> for MirrorBsdf<L> {
     #[inline(always)]
     fn eval(&self, wo: V<L>, _wi: V<L>) -> (V<L>, F<L>) {
         let zero = wo.z.splat(0.0);
@@ -40,7 +82,7 @@ impl<L: Lanes> Bsdf<L> for Mirror<L> {
     }
 }
 
-impl Lobes for Mirror<One> {
+impl Lobes for MirrorBsdf<One> {
     fn chosen(&self, _: V<One>, _: (F<One>, F<One>), _: F<One>) -> ChosenLobe {
         ChosenLobe::only("mirror reflection")
     }

@@ -1,109 +1,120 @@
-//! Materials: how a surface reflects.
+//! Materials: how a surface scatters light.
 //!
-//! | type | file | description |
-//! |---|---|---|
-//! | lambertian | `lambertian.rs` | ideal diffuse reflection |
-//! | mirror | `mirror.rs` | smooth metal or a mirror of constant reflectance: a delta lobe |
-//! | conductor | `conductor.rs` | rough metal: GGX reflection, with energy compensation |
-//! | dielectric | `dielectric.rs` | smooth interface: delta lobes of reflection and refraction |
-//! | rough dielectric | `rough_dielectric.rs` | microfacets that reflect and refract, with energy compensation |
-//! | plastic | `plastic.rs` | diffuse base under a clear coat, smooth (delta lobe) or rough (GGX) |
+//! A kind is one file and one line of the catalogue below. The line names the description, which stands in the file with its parameters,
+//! and the stages of the kernel that shade it. A stage is compiled once a SIMD level, with nothing in it that its kind does not need.
 //!
-//! All reflect from both sides. Roughness is the width α of the GGX distribution (`ggx.rs`). The tables for energy compensation
-//! are in `albedo.rs` for reflection and in `missing_energy.rs` for interfaces.
+//! Roughness is the width α of the GGX distribution (`ggx.rs`); the tables that account for all light are in `albedo.rs` for reflection
+//! and in `missing_energy.rs` for interfaces.
 mod albedo;
 mod albedo_table;
 mod bsdf;
-mod conductor;
-mod dielectric;
+mod compiled;
+pub mod conductor;
+pub mod dielectric;
 mod dielectric_albedo;
 pub mod fresnel;
 pub mod ggx;
 mod grazing;
-mod lambertian;
+pub mod lambertian;
 mod materials;
-mod mirror;
+pub mod mirror;
 mod missing_energy;
-mod plastic;
-mod rough_dielectric;
+pub mod plastic;
+pub mod rough_dielectric;
+mod roughness;
+mod shade;
+mod tables;
 #[cfg(test)]
 mod tests;
 
 pub use self::{
     bsdf::{Bsdf, BsdfSample, ChosenLobe, Lobes},
+    compiled::{AlphaSource, CompiledMaterial, MaterialCompiler},
     conductor::Conductor,
-    dielectric::Dielectric,
-    lambertian::Lambertian,
-    materials::{BsdfKind, Local, Materials},
+    dielectric::{Dielectric, DielectricBsdf},
+    fresnel::Reflectance,
+    lambertian::{Lambertian, LambertianBsdf},
+    materials::{Local, Materials},
     mirror::Mirror,
     plastic::Plastic,
-    rough_dielectric::RoughDielectric,
+    rough_dielectric::{RoughDielectric, RoughDielectricBsdf},
+    roughness::Roughness,
+    shade::Shade,
 };
+use crate::declare::{Path, Problem};
 
-/// A material. `alpha` is the width of the GGX distribution, the square of perceptual roughness, in [0, 1]; below [`ggx::SMOOTH`]
-/// the surface is smooth. If it is textured, it is the maximum.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Material {
-    /// Reflectances in [0, 1] of red, green and blue.
-    Lambertian {
-        albedo: [f32; 3],
-    },
-    Mirror {
-        reflectance: [f32; 3],
-    },
-    /// Refractive indices of the side against the normal and of the side of the normal.
-    Dielectric {
-        ior: f32,
-        ior_outside: f32,
-        alpha: f32,
-        /// Whether the roughness is textured.
-        varies: bool,
-        compensated: bool,
-    },
-    /// `compensated`: with multiple scattering between microfacets.
-    Conductor {
-        fresnel: Reflectance,
-        alpha: f32,
-        compensated: bool,
-    },
-    /// `albedo` is that of the base without its coat; the index of the coat is at least 1.
-    Plastic {
-        albedo: [f32; 3],
-        ior: f32,
-        alpha: f32,
-    },
+macro_rules! materials {
+    ($($module:ident::$Material:ident => $($Stage:ident)+),+ $(,)?) => {
+        crate::catalogue! {
+            /// A material as a scene describes it.
+            pub enum Material: Compile, "material" { $($module::$Material),+ }
+        }
+
+        /// A stage of the kernel that shades surfaces.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+        pub enum Stage {
+            $($($Stage),+),+
+        }
+
+        impl Stage {
+            pub const ALL: &'static [Stage] = &[$($(Stage::$Stage),+),+];
+        }
+
+        /// `in_stage!(stage, K => call::<K>(…))`: the call with the [`Shade`] of a [`Stage`].
+        macro_rules! in_stage {
+            ($stage:expr, $kind:ident => $call:expr) => {
+                match $stage {
+                    $($($crate::material::Stage::$Stage => {
+                        type $kind = $crate::material::$module::$Stage;
+                        $call
+                    })+)+
+                }
+            };
+        }
+    };
 }
 
-/// Reflectance of a metal, per channel.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Reflectance {
-    /// The same at every angle.
-    Constant([f32; 3]),
-    /// Schlick's approximation from the reflectance at normal incidence.
-    Schlick([f32; 3]),
-    /// Fresnel's equations with the complex index η + ik relative to the outside.
-    Index { eta: [f32; 3], k: [f32; 3] },
+materials! {
+    lambertian::Lambertian => Plain Diffuse,
+    mirror::Mirror => Mirror,
+    conductor::Conductor => Conductor,
+    dielectric::Dielectric => Dielectric RoughDielectric,
+    plastic::Plastic => Plastic,
+}
+pub(crate) use in_stage;
+
+impl Stage {
+    pub const COUNT: usize = Stage::ALL.len();
+
+    /// Whether light passes to the other side.
+    pub fn transmits(self) -> bool {
+        in_stage!(self, K => K::TRANSMITS)
+    }
+
+    /// Whether sampled lights can contribute.
+    pub fn sees_lights(self) -> bool {
+        in_stage!(self, K => K::SEES_LIGHTS)
+    }
+
+    /// Whether it is ideally diffuse.
+    pub fn is_diffuse(self) -> bool {
+        matches!(self, Stage::Plain | Stage::Diffuse)
+    }
+
+    /// Whether lights are better chosen by what the lobe reflects of them.
+    pub fn is_glossy(self) -> bool {
+        in_stage!(self, K => K::GLOSSY)
+    }
+}
+
+/// A kind of material: from its description to what the kernel reads.
+pub trait Compile {
+    fn compile(&self, compiler: &mut MaterialCompiler) -> Result<CompiledMaterial, Problem>;
 }
 
 impl Material {
-    /// Whether it scatters light even if its colour is black: coats and the rise of Fresnel reflectance towards grazing angles do
-    /// not depend on the colour.
-    pub fn scatters_where_black(&self) -> bool {
-        match self {
-            Material::Lambertian { .. } | Material::Mirror { .. } => false,
-            Material::Conductor { fresnel, .. } => !matches!(fresnel, Reflectance::Constant(_)),
-            Material::Dielectric { .. } | Material::Plastic { .. } => true,
-        }
-    }
-
-    /// Name of the type in the scene file.
-    pub fn name(&self) -> &'static str {
-        match self {
-            Material::Lambertian { .. } => "lambertian",
-            Material::Mirror { .. } => "mirror",
-            Material::Dielectric { .. } => "dielectric",
-            Material::Conductor { .. } => "conductor",
-            Material::Plastic { .. } => "plastic",
-        }
+    /// Checks the textures that the material names, and makes the tables that it needs.
+    pub fn compile(&self, compiler: &mut MaterialCompiler) -> Result<CompiledMaterial, Problem> {
+        self.kind().compile(compiler).map_err(|problem| problem.within(&Path::of(self.name())))
     }
 }

@@ -9,18 +9,108 @@
 use std::f32::consts::FRAC_1_PI;
 
 use super::{
+    Bsdf, BsdfSample, ChosenLobe, Compile, CompiledMaterial, Lobes, Local, MaterialCompiler, Materials, Roughness, Shade, Stage,
     albedo::Albedo,
-    bsdf::{Bsdf, BsdfSample, ChosenLobe, Lobes},
-    fresnel::dielectric,
+    fresnel::{dielectric, dielectric_average},
     ggx,
-    materials::{Local, Materials},
 };
 use crate::{
-    math::{F, Lanes, M, One, Pick, V},
+    declare::{Declare, Kind, Parameter, Parameters, Problem, Range, Textured},
+    math::{F, Lanes, M, One, Pick, U, V},
     sampling::Directions,
 };
 
-pub struct Plastic<'a, L: Lanes> {
+/// Plastic as a scene describes it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plastic {
+    /// Of the base without its coat.
+    pub albedo: Textured,
+    /// Of the coat, at least 1.
+    pub ior: f64,
+    pub roughness: Roughness,
+}
+
+impl Default for Plastic {
+    fn default() -> Self {
+        Plastic { albedo: Textured::grey(0.5), ior: 1.5, roughness: Roughness::SMOOTH }
+    }
+}
+
+impl Plastic {
+    /// One of constant albedo and roughness.
+    pub fn new(albedo: [f32; 3], ior: f32, alpha: f32) -> Plastic {
+        Plastic { albedo: albedo.into(), ior: f64::from(ior), roughness: Roughness::alpha(alpha) }
+    }
+}
+
+const ALBEDO: Parameter = Parameter::new("albedo", "Part of the light that the base reflects, without its coat.")
+    .symbol("ρ")
+    .required()
+    .aliases("color colour rho reflectance kd Kd rgb base_color");
+
+impl Kind for Plastic {
+    const KIND: Parameter =
+        Parameter::new("plastic", "A diffuse base under a clear coat, smooth or rough.").aliases("glossy coated paint varnish");
+}
+
+impl Declare for Plastic {
+    fn parameters(&mut self, p: &mut dyn Parameters) {
+        const IOR: Parameter = Parameter::new("ior", "Index of refraction of the coat.")
+            .symbol("η")
+            .required()
+            .aliases("eta index index_of_refraction refraction");
+        p.textured(&ALBEDO, &mut self.albedo, Range::REFLECTANCE);
+        p.number(&IOR, &mut self.ior, Range::linear(1.0, 20.0));
+        p.one_of(&mut self.roughness);
+    }
+}
+
+impl Compile for Plastic {
+    fn compile(&self, compiler: &mut MaterialCompiler) -> Result<CompiledMaterial, Problem> {
+        let (alpha, most) = compiler.alpha(&self.roughness)?;
+        let albedo = compiler.colour(&ALBEDO, &self.albedo, &Range::REFLECTANCE)?;
+        let ior = self.ior as f32;
+        let table = (most >= ggx::SMOOTH).then(|| compiler.tables.coat(ior));
+        let row = PlasticRow { ior, smooth: 1.0 - dielectric_average(ior), table };
+        let plain = CompiledMaterial::new(Stage::Plastic, albedo, compiler);
+        Ok(CompiledMaterial { alpha, rows: row.pack(), scatters_where_black: true, ..plain })
+    }
+}
+
+/// The constants of a plastic.
+struct PlasticRow {
+    ior: f32,
+    /// T_avg of a smooth coat.
+    smooth: f32,
+    /// First row of the table of a rough coat.
+    table: Option<u32>,
+}
+
+impl PlasticRow {
+    fn pack(&self) -> [[f32; 4]; 3] {
+        let rough = f32::from(u8::from(self.table.is_some()));
+        [[self.ior, self.smooth, f32::from_bits(self.table.unwrap_or(0)), rough], [0.0; 4], [0.0; 4]]
+    }
+
+    /// Index, T_avg of a smooth coat, table, and whether the coat is rough.
+    #[inline(always)]
+    fn read<L: Lanes>(l: L, materials: &Materials, material: U<L>) -> (F<L>, F<L>, U<L>, M<L>) {
+        let [ior, smooth, table, rough] = materials.row(l, material, 0);
+        (ior, smooth, table.bits(), rough.above(0.0))
+    }
+}
+
+impl Shade for Plastic {
+    type Bsdf<'a, L: Lanes> = PlasticBsdf<'a, L>;
+    const STAGE: Stage = Stage::Plastic;
+
+    #[inline(always)]
+    fn at<'a, L: Lanes>(l: L, materials: &'a Materials, _: Directions, at: &Local<L>) -> PlasticBsdf<'a, L> {
+        PlasticBsdf::at(l, materials, at)
+    }
+}
+
+pub struct PlasticBsdf<'a, L: Lanes> {
     l: L,
     ior: F<L>,
     /// Lanes with a GGX coat; the others have a delta lobe.
@@ -34,21 +124,20 @@ pub struct Plastic<'a, L: Lanes> {
     brightest: F<L>,
 }
 
-impl<L: Lanes> Clone for Plastic<'_, L> {
+impl<L: Lanes> Clone for PlasticBsdf<'_, L> {
     #[inline(always)]
     fn clone(&self) -> Self {
         *self
     }
 }
-impl<L: Lanes> Copy for Plastic<'_, L> {}
+impl<L: Lanes> Copy for PlasticBsdf<'_, L> {}
 
-impl<'a, L: Lanes> Plastic<'a, L> {
+impl<'a, L: Lanes> PlasticBsdf<'a, L> {
     #[inline(always)]
-    pub fn at(l: L, materials: &'a Materials, at: &Local<L>) -> Self {
-        let [ior, smooth_average, table, rough] = l.rows(&materials.rows, Materials::first_row(at.material));
-        let rough = rough.above(0.0);
+    fn at(l: L, materials: &'a Materials, at: &Local<L>) -> Self {
+        let (ior, smooth_average, table, rough) = PlasticRow::read(l, materials, at.material);
         let alpha = at.alpha.max(l.f(ggx::SMOOTH));
-        let coat = Albedo::at(&materials.tables, table.bits(), alpha);
+        let coat = Albedo::at(&materials.tables.rows, table, alpha);
         let mut average = smooth_average;
         if rough.any() {
             average = rough.pick(coat.average(l), average);
@@ -60,7 +149,7 @@ impl<'a, L: Lanes> Plastic<'a, L> {
             y: rho.y / (ior2 * (1.0 - rho.y) + rho.y * average),
             z: rho.z / (ior2 * (1.0 - rho.z) + rho.z * average),
         };
-        Plastic { l, ior, rough, alpha, coat, base, brightest: base.max_component() * average }
+        PlasticBsdf { l, ior, rough, alpha, coat, base, brightest: base.max_component() * average }
     }
 
     /// T(μ).
@@ -100,7 +189,7 @@ impl<'a, L: Lanes> Plastic<'a, L> {
     }
 }
 
-impl<L: Lanes> Bsdf<L> for Plastic<'_, L> {
+impl<L: Lanes> Bsdf<L> for PlasticBsdf<'_, L> {
     #[inline(always)]
     fn eval(&self, wo: V<L>, wi: V<L>) -> (V<L>, F<L>) {
         let transmission = self.transmission(wo.z);
@@ -125,7 +214,7 @@ impl<L: Lanes> Bsdf<L> for Plastic<'_, L> {
     }
 }
 
-impl Lobes for Plastic<'_, One> {
+impl Lobes for PlasticBsdf<'_, One> {
     fn chosen(&self, wo: V<One>, _: (F<One>, F<One>), lobe: F<One>) -> ChosenLobe {
         let coat = if self.rough.0 { "rough coat" } else { "smooth coat" };
         ChosenLobe::of_two([coat, "diffuse base"], self.coat_chance(self.transmission(wo.z)).0, lobe)

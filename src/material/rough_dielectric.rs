@@ -3,43 +3,63 @@
 //! Walter, Marschner, Li and Torrance, "Microfacet Models for Refraction through Rough Surfaces", EGSR 2007, with GGX facets
 //! sampled by visible normals, and with energy compensation ([`super::missing_energy`]).
 use super::{
-    bsdf::{Bsdf, BsdfSample, ChosenLobe, Lobes},
-    dielectric::Dielectric,
+    Bsdf, BsdfSample, ChosenLobe, Lobes, Local, Materials, Shade, Stage,
+    dielectric::{DielectricBsdf, DielectricRow, uncompressed},
     fresnel, ggx,
-    materials::{Local, Materials},
     missing_energy::{LossTable, MissingEnergy},
 };
-use crate::math::{F, Lanes, M, One, Pick, V};
+use crate::{
+    math::{F, Lanes, M, One, Pick, V},
+    sampling::Directions,
+};
+
+/// The stage of rough dielectrics.
+pub struct RoughDielectric;
+
+impl Shade for RoughDielectric {
+    type Bsdf<'a, L: Lanes> = RoughDielectricBsdf<'a, L>;
+    const STAGE: Stage = Stage::RoughDielectric;
+    const TRANSMITS: bool = true;
+
+    #[inline(always)]
+    fn at<'a, L: Lanes>(l: L, materials: &'a Materials, _: Directions, at: &Local<L>) -> RoughDielectricBsdf<'a, L> {
+        RoughDielectricBsdf::at(l, materials, at)
+    }
+
+    #[inline(always)]
+    fn roulette_scale<L: Lanes>(bsdf: &RoughDielectricBsdf<L>, front: M<L>, z: F<L>) -> F<L> {
+        uncompressed(bsdf.eta(), front, z)
+    }
+}
 
 /// Interfaces whose indices differ by less are treated as smooth. Even at the roughest facet they refract light by a smaller
 /// angle than this, too small for a half vector in f32, and the facets would be visible only through their masking, which is an
 /// artefact there.
 pub const FAINT: f32 = 1e-3;
 
-/// The rough interface between two transparent media; transmitted radiance is scaled by 1/η² as in [`Dielectric`].
-pub struct RoughDielectric<'a, L: Lanes> {
+/// The rough interface between two transparent media; radiance that passes is scaled by 1/η² as in [`DielectricBsdf`].
+pub struct RoughDielectricBsdf<'a, L: Lanes> {
     eta: F<L>,
     alpha: F<L>,
     missing: Option<MissingEnergy<'a, L>>,
 }
 
-impl<L: Lanes> Clone for RoughDielectric<'_, L> {
+impl<L: Lanes> Clone for RoughDielectricBsdf<'_, L> {
     #[inline(always)]
     fn clone(&self) -> Self {
         *self
     }
 }
-impl<L: Lanes> Copy for RoughDielectric<'_, L> {}
+impl<L: Lanes> Copy for RoughDielectricBsdf<'_, L> {}
 
-impl<'a, L: Lanes> RoughDielectric<'a, L> {
+impl<'a, L: Lanes> RoughDielectricBsdf<'a, L> {
     #[inline(always)]
-    pub fn at(l: L, materials: &'a Materials, at: &Local<L>) -> Self {
-        let [inside_over_outside, offset, textured, _] = l.rows(&materials.rows, Materials::first_row(at.material));
-        let eta = at.front.pick(inside_over_outside, 1.0 / inside_over_outside);
-        let table = LossTable { rows: &materials.tables, offset: offset.bits(), textured: textured.above(0.0) };
+    fn at(l: L, materials: &'a Materials, at: &Local<L>) -> Self {
+        let (eta, offset, textured) = DielectricRow::read(l, materials, at);
+        let table = LossTable { rows: &materials.tables.rows, offset, textured };
         let alpha = at.alpha.max(l.f(ggx::SMOOTH));
-        let losses = if materials.compensated_dielectrics { Some(table) } else { None };
-        RoughDielectric::new(l, eta, alpha, at.front, losses)
+        let losses = if materials.tables.compensates_dielectrics { Some(table) } else { None };
+        RoughDielectricBsdf::new(l, eta, alpha, at.front, losses)
     }
 
     /// `eta` is the index beyond the surface over that on the side of the viewer, who is outside in the lanes of `outside`.
@@ -51,7 +71,7 @@ impl<'a, L: Lanes> RoughDielectric<'a, L> {
             Some(table) => Some(MissingEnergy::new(l, alpha, outside, table)),
             None => None,
         };
-        RoughDielectric { eta, alpha, missing }
+        RoughDielectricBsdf { eta, alpha, missing }
     }
 
     /// The relative index: that beyond the surface over that on the side of the viewer.
@@ -125,7 +145,7 @@ impl<'a, L: Lanes> RoughDielectric<'a, L> {
     }
 }
 
-impl<L: Lanes> Bsdf<L> for RoughDielectric<'_, L> {
+impl<L: Lanes> Bsdf<L> for RoughDielectricBsdf<'_, L> {
     #[inline(always)]
     fn eval(&self, wo: V<L>, wi: V<L>) -> (V<L>, F<L>) {
         let (mut f, mut pdf) = self.single(wo, wi);
@@ -147,7 +167,7 @@ impl<L: Lanes> Bsdf<L> for RoughDielectric<'_, L> {
         let (f, pdf) = self.eval(wo, wi);
         let weight = (exists & pdf.above(0.0)).pick(f.x / pdf, zero);
         let faint = self.faint();
-        let smooth = Dielectric { eta: self.eta }.sample(wo, u, lobe);
+        let smooth = DielectricBsdf { eta: self.eta }.sample(wo, u, lobe);
         BsdfSample {
             wi: faint.pick(smooth.wi, wi),
             weight: faint.pick(smooth.weight, V { x: weight, y: weight, z: weight }),
@@ -157,10 +177,10 @@ impl<L: Lanes> Bsdf<L> for RoughDielectric<'_, L> {
     }
 }
 
-impl Lobes for RoughDielectric<'_, One> {
+impl Lobes for RoughDielectricBsdf<'_, One> {
     fn chosen(&self, wo: V<One>, u: (F<One>, F<One>), lobe: F<One>) -> ChosenLobe {
         if self.faint().0 {
-            return Dielectric { eta: self.eta }.chosen(wo, u, lobe);
+            return DielectricBsdf { eta: self.eta }.chosen(wo, u, lobe);
         }
         let lost = self.missing.as_ref().map_or(0.0, |missing| missing.loss(wo.z, wo.z.below(0.0)).here.0);
         if lobe.0 < lost {

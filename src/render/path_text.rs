@@ -56,7 +56,7 @@ fn heading(PathId { scene, camera, settings, pixel: [x, y], sample }: &PathId, r
         three(replay.radiance),
         settings.estimator.name(),
         settings.directions.name(),
-        settings.sampler.entry().name,
+        settings.sampler.name(),
         settings.seed,
         "",
         "",

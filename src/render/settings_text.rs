@@ -54,7 +54,7 @@ pub fn options(settings: &RenderSettings, of_scene: &RenderSettings) -> String {
             options.push_str(&format!(" --{name} {value}"));
         }
     };
-    option(settings.sampler != of_scene.sampler, "sampler", settings.sampler.entry().name.to_owned());
+    option(settings.sampler != of_scene.sampler, "sampler", settings.sampler.name().to_owned());
     option(settings.estimator != of_scene.estimator, "estimator", settings.estimator.name().to_owned());
     option(settings.directions != of_scene.directions, "directions", settings.directions.name().to_owned());
     option(settings.roulette != of_scene.roulette, "roulette", settings.roulette.name());

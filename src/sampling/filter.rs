@@ -6,7 +6,10 @@ use std::sync::LazyLock;
 
 use serde::{Deserialize, Serialize};
 
-use crate::math::{F, Lanes, Pick, round::floor};
+use crate::{
+    declare::{Declare, OneOf, Parameter, Parameters, Range},
+    math::{F, Lanes, Pick, round::floor},
+};
 
 /// The weight of the light around the centre of a pixel; separable, with integral 1. Lengths are in pixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -38,6 +41,54 @@ impl Filter {
     }
 }
 
+const TENT: Parameter = Parameter::new("tent", "Falls linearly to 0.");
+const GAUSSIAN: Parameter = Parameter::new("gaussian", "A normal distribution, cut off at three standard deviations.");
+
+impl OneOf for Filter {
+    const WHAT: &'static str = "filter";
+
+    fn alternatives() -> Vec<Self> {
+        vec![Filter::Box, Filter::TENT, Filter::GAUSSIAN]
+    }
+
+    fn place(&self) -> usize {
+        match self {
+            Filter::Box => 0,
+            Filter::Tent { .. } => 1,
+            Filter::Gaussian { .. } => 2,
+        }
+    }
+
+    fn name(&self) -> &'static str {
+        match self {
+            Filter::Box => "box",
+            Filter::Tent { .. } => TENT.key,
+            Filter::Gaussian { .. } => GAUSSIAN.key,
+        }
+    }
+
+    fn chosen(&mut self, p: &mut dyn Parameters) {
+        match self {
+            Filter::Box => {}
+            Filter::Tent { .. } => p.table(&TENT, self),
+            Filter::Gaussian { .. } => p.table(&GAUSSIAN, self),
+        }
+    }
+}
+
+impl Declare for Filter {
+    fn parameters(&mut self, p: &mut dyn Parameters) {
+        const RADIUS: Parameter = Parameter::new("radius", "Where the tent ends.").unit("pixels").required();
+        const SIGMA: Parameter = Parameter::new("sigma", "Standard deviation.").symbol("σ").unit("pixels").required();
+        const WIDTHS: Range = Range::log(0.01, 16.0);
+        match self {
+            Filter::Box => {}
+            Filter::Tent { radius } => p.single(&RADIUS, radius, WIDTHS),
+            Filter::Gaussian { sigma } => p.single(&SIGMA, sigma, WIDTHS),
+        }
+    }
+}
+
 /// The inverse of the distribution function of 1 − |x| on [−1, 1].
 #[inline(always)]
 fn tent<L: Lanes>(u: F<L>) -> F<L> {
@@ -52,14 +103,14 @@ fn tent<L: Lanes>(u: F<L>) -> F<L> {
 fn gaussian<L: Lanes>(l: L, u: F<L>) -> F<L> {
     let at = u * STEPS as f32;
     let (step, row) = floor(at);
-    let [start, width, ..] = l.rows(&GAUSSIAN, row);
+    let [start, width, ..] = l.rows(&QUANTILES, row);
     start + width * (at - step)
 }
 
 const STEPS: usize = 1024;
 
 /// Start and width of every step.
-static GAUSSIAN: LazyLock<Vec<[f32; 4]>> = LazyLock::new(|| {
+static QUANTILES: LazyLock<Vec<[f32; 4]>> = LazyLock::new(|| {
     let edges: Vec<f64> = (0..=STEPS).map(|i| inverse_gaussian(i as f64 / STEPS as f64)).collect();
     edges.windows(2).map(|edge| [edge[0] as f32, (edge[1] - edge[0]) as f32, 0.0, 0.0]).collect()
 });

@@ -6,7 +6,6 @@
 use serde::{Deserialize, Serialize};
 
 use super::{
-    SAMPLERS,
     bits::reverse,
     blue_noise,
     hash::{GOLDEN, hash, hash_one},
@@ -26,10 +25,12 @@ pub enum Sampler {
     BlueNoise,
 }
 
-impl Sampler {
-    /// The row of this sampler in the catalogue.
-    pub fn entry(self) -> &'static super::SamplerEntry {
-        SAMPLERS.iter().find(|entry| entry.sampler == self).expect("every sampler stands in the catalogue")
+crate::words! {
+    Sampler {
+        Independent: "independent", "Independent", "Uniform random numbers: the plain Monte-Carlo method. Error falls as 1/√N.";
+        Stratified: "stratified", "Stratified", "Every 4^k samples fill a grid of 2^k by 2^k once each: random numbers without clumps.";
+        Sobol: "sobol", "Sobol (Owen)", "Owen-scrambled Sobol points: evenly spread in every pair of dimensions that belong together. Mostly the least error.";
+        BlueNoise: "bluenoise", "Sobol, blue noise", "Sobol points ordered over the picture so that the noise of few samples is fine-grained.";
     }
 }
 

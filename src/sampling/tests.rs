@@ -1,7 +1,7 @@
 //! Samplers and warps: distributions against pdfs, strata, and coordinates that do not depend on the order of evaluation.
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
-use super::{Dimension, Directions, SAMPLERS, Sampler, Stream};
+use super::{Dimension, Directions, Sampler, Stream};
 use crate::math::{F, One, U, colour};
 
 /// Every test statistic here must have at least this probability; seeds are fixed.
@@ -77,19 +77,19 @@ fn the_weight_of_a_direction_is_cos_over_pi_times_pdf() {
 fn every_sampler_is_uniform_in_every_dimension() {
     const BINS: usize = 64;
     const PIXELS: u32 = 4096;
-    for entry in SAMPLERS {
+    for sampler in Sampler::ALL {
         for dimension in [Dimension::PIXEL, Dimension::direction(1), Dimension::direction(9)] {
             let (mut pairs, mut single) = (vec![0.0; BINS], vec![0.0; BINS]);
             for pixel in 0..PIXELS {
                 // One sample a pixel: samples of one pixel are not independent, and chi² is for independent ones.
-                let [x, y] = point(entry.sampler, pixel, pixel % 13, dimension);
+                let [x, y] = point(sampler, pixel, pixel % 13, dimension);
                 pairs[(x * 8.0) as usize * 8 + (y * 8.0) as usize] += 1.0;
-                let u = stream(entry.sampler, 7, pixel, pixel % 13).one(Dimension::roulette(2));
+                let u = stream(sampler, 7, pixel, pixel % 13).one(Dimension::roulette(2));
                 single[(u.0 * BINS as f32) as usize] += 1.0;
             }
             let expected = vec![f64::from(PIXELS) / BINS as f64; BINS];
             let p = chi_squared(&pairs, &expected).min(chi_squared(&single, &expected));
-            assert!(p > SIGNIFICANCE, "{} in {dimension:?}: p = {p}", entry.name);
+            assert!(p > SIGNIFICANCE, "{} in {dimension:?}: p = {p}", sampler.name());
         }
     }
 }
@@ -128,15 +128,15 @@ fn no_two_coordinates_of_a_sample_are_correlated() {
             .flat_map(|(dimension, width)| (0..width).map(move |axis| column(dimension, width, axis)))
             .collect()
     };
-    for entry in SAMPLERS {
-        let columns = columns(entry.sampler);
-        let pairs = columns.len() * (columns.len() - 1) / 2 * SAMPLERS.len();
+    for sampler in Sampler::ALL {
+        let columns = columns(sampler);
+        let pairs = columns.len() * (columns.len() - 1) / 2 * Sampler::ALL.len();
         for (i, (a, of_a)) in columns.iter().enumerate() {
             for (b, of_b) in &columns[i + 1..] {
                 let mut counts = vec![0.0; CELLS * CELLS];
                 of_a.iter().zip(of_b).for_each(|(x, y)| counts[usize::from(*x) * CELLS + usize::from(*y)] += 1.0);
                 let p = chi_squared(&counts, &vec![f64::from(SAMPLES) / counts.len() as f64; counts.len()]);
-                assert!(p > SIGNIFICANCE / pairs as f64, "{}, {a} and {b}: p = {p}", entry.name);
+                assert!(p > SIGNIFICANCE / pairs as f64, "{}, {a} and {b}: p = {p}", sampler.name());
             }
         }
     }
@@ -144,20 +144,20 @@ fn no_two_coordinates_of_a_sample_are_correlated() {
 
 #[test]
 fn a_pixel_revisited_out_of_order_has_the_same_numbers() {
-    for entry in SAMPLERS {
-        let visit = |index: u32| point(entry.sampler, 77, index, Dimension::direction(3)).map(f64::to_bits);
+    for sampler in Sampler::ALL {
+        let visit = |index: u32| point(sampler, 77, index, Dimension::direction(3)).map(f64::to_bits);
         let forwards: Vec<_> = (0..1000).map(visit).collect();
         let mut backwards: Vec<_> = (0..1000).rev().map(visit).collect();
         backwards.reverse();
         assert_eq!(forwards, backwards);
-        assert!(forwards.windows(2).all(|pair| pair[0] != pair[1]), "{} repeats itself", entry.name);
+        assert!(forwards.windows(2).all(|pair| pair[0] != pair[1]), "{} repeats itself", sampler.name());
     }
 }
 
 #[test]
 fn another_seed_or_pixel_gives_other_numbers() {
-    for entry in SAMPLERS {
-        let at = |seed, pixel| stream(entry.sampler, seed, pixel, 5).one(Dimension::roulette(1)).0;
+    for sampler in Sampler::ALL {
+        let at = |seed, pixel| stream(sampler, seed, pixel, 5).one(Dimension::roulette(1)).0;
         assert_ne!(at(0, 0), at(1, 0));
         assert_ne!(at(0, 0), at(0, 1));
     }

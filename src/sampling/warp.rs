@@ -20,18 +20,15 @@ pub enum Directions {
     Bsdf,
 }
 
-impl Directions {
-    pub const ALL: [Directions; 3] = [Directions::Uniform, Directions::Cosine, Directions::Bsdf];
-
-    /// Name in the scene file and on the command line.
-    pub fn name(self) -> &'static str {
-        match self {
-            Directions::Uniform => "uniform",
-            Directions::Cosine => "cosine",
-            Directions::Bsdf => "bsdf",
-        }
+crate::words! {
+    Directions {
+        Uniform: "uniform", "Uniform", "Over the hemisphere alike, p(ω) = 1/2π: more noise, the same picture.";
+        Cosine: "cosine", "Cosine", "In proportion to cos θ, p(ω) = cos θ/π.";
+        Bsdf: "bsdf", "Bsdf", "In proportion to f cos θ, which at a diffuse surface is the cosine.";
     }
+}
 
+impl Directions {
     /// A unit direction with z > 0.
     #[inline(always)]
     pub fn sample<L: Lanes>(self, u: (F<L>, F<L>)) -> V<L> {

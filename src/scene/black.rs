@@ -4,7 +4,7 @@ use super::{Camera, Object, RenderSettings, Scene};
 impl Scene {
     /// The innermost object that shuts the camera in: opaque, and with its front outwards, so that only its inside is seen.
     pub fn around(&self, camera: &Camera) -> Option<&Object> {
-        let shuts_in = |object: &&Object| !object.flip && !object.is_dielectric() && object.shape.contains(camera.eye);
+        let shuts_in = |object: &&Object| !object.flip && !self.has_inside(object) && object.shape.contains(camera.eye);
         let size = |object: &Object| object.shape.bounding_sphere().1;
         self.objects.iter().filter(shuts_in).min_by(|a, b| size(a).total_cmp(&size(b)))
     }

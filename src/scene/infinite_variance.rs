@@ -1,9 +1,6 @@
 //! Settings by which the variance of the estimate may be infinite.
-use super::{Object, RenderSettings, Roulette, Scene, textures::ColourSource};
-use crate::{
-    material::{Material, Reflectance},
-    sampling::Directions,
-};
+use super::{MaterialInstance, RenderSettings, Roulette, Scene};
+use crate::sampling::Directions;
 
 impl Scene {
     /// What is to be said of settings whose samples may have no finite variance in this scene; `None` where they have.
@@ -23,11 +20,11 @@ impl Scene {
         if settings.max_bounces.is_some() || (survival == 1.0 && !is_uniform) {
             return None;
         }
-        let square = |object: &Object| {
-            let weight_square = if is_uniform && object.is_diffuse() { 4.0 / 3.0 } else { 1.0 };
-            self.albedo(object).powi(2) * weight_square
+        let square = |material: &MaterialInstance| {
+            let weight_square = if is_uniform && material.compiled.stage.is_diffuse() { 4.0 / 3.0 } else { 1.0 };
+            material.compiled.albedo.powi(2) * weight_square
         };
-        let most = self.objects.iter().filter(|object| !object.is_dielectric()).map(square).fold(0.0, f32::max);
+        let most = self.objects.iter().filter_map(|object| self.material(object)).map(square).fold(0.0, f32::max);
         if survival > most {
             return None;
         }
@@ -47,26 +44,6 @@ impl Scene {
         Some(format!(
             "{what}, at surfaces with ρ² E w² = {most:.2}: where light stays among these surfaces, the variance is infinite and noise figures cannot be trusted; {advice}"
         ))
-    }
-
-    /// The largest albedo of an object, in any channel; of a metal, where light meets it head on.
-    fn albedo(&self, object: &Object) -> f32 {
-        let Some(coating) = &object.coating else { return 0.0 };
-        let colour = match (coating.material, coating.colour) {
-            (Material::Conductor { fresnel: Reflectance::Index { eta, k }, .. }, _) => [0, 1, 2].map(|c| {
-                let square = k[c].powi(2);
-                ((eta[c] - 1.0).powi(2) + square) / ((eta[c] + 1.0).powi(2) + square)
-            }),
-            (_, ColourSource::Constant(colour)) => colour,
-            (_, ColourSource::Texture(id)) => self.textures.maximum(id),
-        };
-        colour.into_iter().fold(0.0, f32::max).min(1.0)
-    }
-}
-
-impl Object {
-    fn is_diffuse(&self) -> bool {
-        self.coating.as_ref().is_some_and(|coating| matches!(coating.material, Material::Lambertian { .. }))
     }
 }
 

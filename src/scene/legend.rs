@@ -13,13 +13,12 @@ pub struct Legend {
 }
 
 impl Scene {
-    pub fn legend<'s>(&'s self) -> Legend {
-        let mut numbers: HashMap<Option<&'s str>, u32> = HashMap::new();
+    pub fn legend(&self) -> Legend {
+        let mut numbers: HashMap<Option<u32>, u32> = HashMap::new();
         let mut names = Vec::new();
-        let number = |object: &'s Object| {
-            let name = object.coating.as_ref().map(|coating| coating.name.as_str());
-            *numbers.entry(name).or_insert_with(|| {
-                names.push(name.unwrap_or("black").to_owned());
+        let number = |object: &Object| {
+            *numbers.entry(object.material).or_insert_with(|| {
+                names.push(self.material(object).map_or("black", |material| material.name.as_str()).to_owned());
                 names.len() as u32 - 1
             })
         };

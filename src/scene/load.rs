@@ -6,9 +6,11 @@ use toml::de::DeTable;
 use super::{
     Scene,
     carried::load_carried,
-    compile::{FORMAT, compile},
-    describe::{Described, describe},
+    compile::compile,
+    description::{FORMAT, SceneDescription},
     diagnostic::{SceneError, SourceText},
+    locate::locate,
+    read::read as read_description,
     syntax::{Slips, slips},
     wording::in_plain_words,
 };
@@ -69,16 +71,21 @@ pub fn parse(name: &str, text: String) -> Result<Scene, SceneError> {
         SceneError::of_file(Path::new(name), error.to_string(), "keep large meshes in files of their own, as OBJ or PLY")
     })?;
     let table = DeTable::parse(&source.text).map_err(|first| not_toml(&source, &first))?;
+    if table.get_ref().is_empty() {
+        return Err(source.error(0..0, "the file is empty; a scene begins with `format = 1`", "nothing is said"));
+    }
     check_format(&source, table.get_ref())?;
-    let Described { desc, damage, mut errors } = describe(table, &source);
+    let mut description = SceneDescription::default();
+    let (damage, mut errors) = read_description(&mut description, &table, &source);
     // What is described takes less than what was parsed, which is given back by now.
-    drop(parsing);
+    drop((table, parsing));
     let _described = reserve("the values of the file", DESCRIBED * source.text.len() as u64)
         .map_err(|error| SceneError::of_file(Path::new(name), error.to_string(), "give more memory"))?;
-    match desc.map(|desc| compile(&desc, &source, &damage)) {
-        Some(Ok(scene)) if errors.is_empty() => return Ok(scene),
-        Some(Err(more)) => errors.extend(more),
-        _ => {}
+    let folder = Path::new(name).parent().unwrap_or(Path::new(""));
+    match compile(&description, &source.text, folder, &damage) {
+        Ok(scene) if errors.is_empty() => return Ok(scene),
+        Ok(_) => {}
+        Err(problems) => errors.extend(locate(problems, &source)),
     }
     let nothing = || SceneError::of_file(Path::new(name), "this is no scene", "a scene is one TOML file");
     Err(SceneError::of_all(errors).unwrap_or_else(nothing))
@@ -108,7 +115,7 @@ fn check_format(source: &SourceText, table: &DeTable) -> Result<(), SceneError> 
     let Some((_, value)) = table.iter().find(|(key, _)| key.get_ref() == "format") else { return Ok(()) };
     let format = value.get_ref().as_integer().and_then(|format| i64::from_str_radix(format.as_str(), format.radix()).ok());
     match format {
-        Some(format) if format != FORMAT => {
+        Some(format) if format != i64::from(FORMAT) => {
             let message = format!("this is scene format {format}, and Noisefall reads format {FORMAT}");
             Err(source.error(value.span(), message, format!("expected {FORMAT}")))
         }

@@ -2,27 +2,22 @@
 mod black;
 mod camera;
 mod carried;
-mod check;
-mod colour;
 mod compile;
-mod desc;
-mod describe;
+mod damage;
+pub mod description;
 mod diagnostic;
-mod errors;
 mod excerpt;
-mod filter;
 mod infinite_variance;
 mod legend;
 mod load;
-mod meant;
-mod named;
+mod locate;
 mod rays;
-mod roulette;
+mod read;
 mod settings;
 mod shutter;
 pub mod surface;
 mod syntax;
-mod textures;
+mod values;
 mod warnings;
 mod wording;
 
@@ -38,20 +33,19 @@ pub use self::settings::Fault;
 use self::surface::Surfaces;
 pub use self::{
     camera::{Camera, CameraError, Lens},
-    compile::{Coating, Roughness},
+    compile::MaterialInstance,
     diagnostic::SceneError,
     legend::Legend,
     load::{BUILT_IN, built_in, load, parse},
     rays::CameraRays,
     settings::{Estimator, RenderSettings, Reuse, Roulette},
     shutter::{Moments, Shutter},
-    wording::nearest,
 };
 use crate::{
     geometry::{Motion, Shape, Shapes},
     image::Picture,
     light::{Emission, Lights},
-    material::Material,
+    material::Stage,
     memory::Reservation,
     sampling::Directions,
     texture::Textures,
@@ -74,6 +68,7 @@ pub struct Scene {
     pub surfaces: Surfaces,
     pub textures: Textures,
     pub lights: Lights,
+    pub materials: Vec<MaterialInstance>,
     /// The objects in the order of their primitive ids, emitting ones first.
     pub objects: Vec<Object>,
     /// The place of the object that a primitive is a piece of.
@@ -105,8 +100,8 @@ pub struct Object {
     pub motion: Motion,
     /// The normal points inwards.
     pub flip: bool,
-    /// `None` is black.
-    pub coating: Option<Coating>,
+    /// The number of its material in [`Scene::materials`]; `None` is black.
+    pub material: Option<u32>,
     pub emission: Option<Emission>,
 }
 
@@ -137,12 +132,12 @@ impl Scene {
             && settings.max_bounces.is_none_or(|cap| cap > 1)
             && !rays.take_time()
             && self.surfaces.media.is_empty()
-            && self.surfaces.stages.contains(&surface::Stage::Plain)
+            && self.surfaces.stages.contains(&Stage::Plain)
     }
 
     /// Whether lights are chosen by what glossy surfaces reflect of them.
     pub fn heeds_lobes(&self) -> bool {
-        self.lights.heed_lobes() && self.surfaces.stages.contains(&surface::Stage::Conductor)
+        self.lights.heed_lobes() && self.surfaces.stages.iter().any(|stage| stage.is_glossy())
     }
 
     /// Whether something moves in the course of time.
@@ -172,7 +167,7 @@ impl Scene {
             return 0;
         }
         // Of a crowd some are looked at: each is held against all.
-        let dielectrics = self.objects.iter().filter(|object| object.is_dielectric());
+        let dielectrics = self.objects.iter().filter(|object| self.has_inside(object));
         let step = dielectrics.clone().count().div_ceil(MOST_LOOKED_AT).max(1);
         let middles = dielectrics.step_by(step).map(|object| object.shape.bounding_sphere().0);
         middles.map(|middle| self.media_around(middle, 0.0).count()).max().unwrap_or(0)
@@ -185,13 +180,18 @@ impl Scene {
             let p = object.motion.at(time).inverse().transform_point3(p);
             object.shape.contains(p) != object.flip
         };
-        self.objects.iter().enumerate().filter(move |(_, object)| object.is_dielectric() && holds(object))
+        self.objects.iter().enumerate().filter(move |(_, object)| self.has_inside(object) && holds(object))
     }
 }
 
-impl Object {
-    /// Whether light passes into it.
-    pub fn is_dielectric(&self) -> bool {
-        self.coating.as_ref().is_some_and(|coating| matches!(coating.material, Material::Dielectric { .. }))
+impl Scene {
+    /// What an object is made of; `None` is black.
+    pub fn material(&self, object: &Object) -> Option<&MaterialInstance> {
+        object.material.map(|number| &self.materials[number as usize])
+    }
+
+    /// Whether light passes into an object.
+    pub fn has_inside(&self, object: &Object) -> bool {
+        self.material(object).is_some_and(|material| material.compiled.inside.is_some())
     }
 }

@@ -1,7 +1,10 @@
 //! What the user can choose about the estimate: everything a sample depends on besides scene and camera.
 use serde::{Deserialize, Serialize};
 
-use crate::sampling::{Directions, Sampler};
+use crate::{
+    declare::{CountRange, Declare, Form, OneOf, Parameter, Parameters, Range},
+    sampling::{Directions, Sampler},
+};
 
 /// The settings of a render. Together with scene, camera, pixel and sample index they determine every sample.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -49,16 +52,11 @@ pub enum Estimator {
     Mis,
 }
 
-impl Estimator {
-    pub const ALL: [Estimator; 3] = [Estimator::Path, Estimator::Light, Estimator::Mis];
-
-    /// What the scene file and the command line call it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Estimator::Path => "path",
-            Estimator::Light => "light",
-            Estimator::Mis => "mis",
-        }
+crate::words! {
+    Estimator {
+        Path: "path", "Path", "Only paths that run into lights.";
+        Light: "light", "Light", "Only samples of the lights (next-event estimation), but for what is seen directly or in mirrors.";
+        Mis: "mis", "MIS", "Both, each weighted by how likely it was to find what it found (Veach 1997).";
     }
 }
 
@@ -95,6 +93,52 @@ impl Roulette {
     }
 }
 
+impl OneOf for Roulette {
+    const WHAT: &'static str = "roulette";
+
+    fn alternatives() -> Vec<Self> {
+        vec![Roulette::Off, Roulette::Fixed(0.8), Roulette::BY_THROUGHPUT]
+    }
+
+    fn place(&self) -> usize {
+        match self {
+            Roulette::Off => 0,
+            Roulette::Fixed(_) => 1,
+            Roulette::Throughput { .. } => 2,
+        }
+    }
+
+    fn name(&self) -> &'static str {
+        match self {
+            Roulette::Off => "off",
+            Roulette::Fixed(_) => FIXED.key,
+            Roulette::Throughput { .. } => THROUGHPUT.key,
+        }
+    }
+
+    fn chosen(&mut self, p: &mut dyn Parameters) {
+        match self {
+            Roulette::Off => {}
+            Roulette::Fixed(survival) => p.single(&FIXED, survival, Range::linear(0.01, 1.0)),
+            Roulette::Throughput { start } => p.table(&THROUGHPUT, &mut Start(start)),
+        }
+    }
+}
+
+const FIXED: Parameter = Parameter::new("fixed", "Survival probability at every bounce.").symbol("q").required();
+const THROUGHPUT: Parameter =
+    Parameter::new("throughput", "Survival probability is the throughput's largest component, at most 0.95.");
+
+/// The values of [`Roulette::Throughput`].
+struct Start<'a>(&'a mut u32);
+
+impl Declare for Start<'_> {
+    fn parameters(&mut self, p: &mut dyn Parameters) {
+        const START: Parameter = Parameter::new("start", "The first bounce at which a path can end.");
+        p.count(&START, self.0, CountRange::ANY);
+    }
+}
+
 impl Default for Roulette {
     fn default() -> Self {
         Roulette::BY_THROUGHPUT
@@ -112,16 +156,46 @@ pub enum Reuse {
     Off,
 }
 
-impl Reuse {
-    pub const ALL: [Reuse; 3] = [Reuse::Auto, Reuse::On, Reuse::Off];
+crate::words! {
+    Reuse {
+        Auto: "auto", "Auto", "Where a short trial says that it pays.";
+        On: "on", "On", "Wherever neighbouring pixels can share.";
+        Off: "off", "Off", "Every pixel on its own.";
+    }
+}
 
-    /// What the scene file and the command line call it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Reuse::Auto => "auto",
-            Reuse::On => "on",
-            Reuse::Off => "off",
-        }
+impl Declare for RenderSettings {
+    fn parameters(&mut self, p: &mut dyn Parameters) {
+        const ESTIMATOR: Parameter =
+            Parameter::new("estimator", "How light is found; all estimators converge to the same picture.")
+                .aliases("integrator method nee");
+        const DIRECTIONS: Parameter = Parameter::new("directions", "How the next direction is drawn at a diffuse surface.")
+            .symbol("p(ω)")
+            .aliases("sampling importance_sampling distribution");
+        const SAMPLER: Parameter = Parameter::new("sampler", "Which points of the unit cube the samples of a pixel are.");
+        const MAX_BOUNCES: Parameter = Parameter::new(
+            "max_bounces",
+            "Longest paths, in bounces; a cap makes the picture darker than it is. No cap where it is absent.",
+        )
+        .symbol("k")
+        .aliases("depth max_depth bounces max_bounce maxdepth")
+        .advice("leave it out for no cap");
+        const ROULETTE: Parameter =
+            Parameter::new("roulette", "Ends paths at random and weights the survivors, so that the mean stays right.")
+                .aliases("russian_roulette rr");
+        const REUSE: Parameter =
+            Parameter::new("reuse", "Whether neighbouring pixels share path suffixes (Bekaert, Sbert and Halton 2002).")
+                .aliases("sharing share");
+        const ADAPTIVE: Parameter = Parameter::new("adaptive", "Whether pixels get more samples where a pilot found more noise.");
+        const SEED: Parameter = Parameter::new("seed", "Other seeds give other noise.");
+        p.word(&ESTIMATOR, &mut self.estimator);
+        p.word(&DIRECTIONS, &mut self.directions);
+        p.word(&SAMPLER, &mut self.sampler);
+        p.optional(&MAX_BOUNCES, &mut self.max_bounces, || 8, |p, cap| p.count(&MAX_BOUNCES, cap, CountRange::ANY));
+        p.optional_choice(&ROULETTE, Form::NameOrTable, &mut self.roulette);
+        p.word(&REUSE, &mut self.reuse);
+        p.flag(&ADAPTIVE, &mut self.adaptive);
+        p.count(&SEED, &mut self.seed, CountRange::ANY);
     }
 }
 

@@ -1,30 +1,11 @@
 //! What the primitives' surfaces are, as tables for the kernel, and which shading stages they need.
-use super::{
-    Object,
-    compile::{Coating, Roughness},
-    textures::ColourSource,
-};
+use super::{MaterialInstance, Object};
 use crate::{
     geometry::Shape,
-    material::{BsdfKind, Materials},
+    material::{AlphaSource, Materials, Stage},
     math::{Lanes, M, U},
+    texture::ColourSource,
 };
-
-/// The shading stages: one for every kind of bsdf, and one for diffuse surfaces of which nothing but the colour matters.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Stage {
-    Plain,
-    Diffuse,
-    Mirror,
-    Conductor,
-    Dielectric,
-    RoughDielectric,
-    Plastic,
-}
-
-impl Stage {
-    pub const COUNT: usize = Stage::Plastic as usize + 1;
-}
 
 /// Surfaces by primitive. Tables that a scene does not need are empty.
 #[derive(Default)]
@@ -65,25 +46,19 @@ const MOST_MEDIA: usize = 1 << 8;
 
 impl Surfaces {
     /// Surfaces of the pieces of the objects in their order.
-    pub fn new(objects: &[Object]) -> Surfaces {
-        let mut coatings: Vec<&Coating> = Vec::new();
-        for coating in objects.iter().filter_map(|object| object.coating.as_ref()) {
-            if !coatings.contains(&coating) {
-                coatings.push(coating);
-            }
-        }
-        let materials: Vec<_> = coatings.iter().map(|coating| coating.material).collect();
-        let has_media = coatings.iter().any(|coating| coating.transmittance != [1.0; 3]);
-        let has_relief = coatings.iter().any(|coating| coating.bump.or(coating.normal_map.map(|id| (id, 0.0))).is_some());
-        let mut surfaces = Surfaces { materials: Materials::new(&materials), ..Surfaces::default() };
+    pub fn new(objects: &[Object], instances: &[MaterialInstance], materials: Materials) -> Surfaces {
+        let inside = |instance: &MaterialInstance| instance.compiled.inside.unwrap_or([1.0; 3]);
+        let has_media = instances.iter().any(|instance| inside(instance) != [1.0; 3]);
+        let has_relief = instances.iter().any(|instance| instance.bump.is_some() || instance.normal_map.is_some());
+        let mut surfaces = Surfaces { materials, ..Surfaces::default() };
         if has_media {
             surfaces.media.push([0.0; 4]);
-            surfaces.media.extend(coatings.iter().map(|coating| octaves_per_metre(coating.transmittance)));
+            surfaces.media.extend(instances.iter().map(|instance| octaves_per_metre(inside(instance))));
         }
         for object in objects {
-            let material = object.coating.as_ref().and_then(|coating| coatings.iter().position(|known| *known == coating));
+            let instance = object.material.map(|number| (number, &instances[number as usize]));
             for _ in 0..object.shape.piece_count() {
-                surfaces.push(object, material, has_relief);
+                surfaces.push(object, instance, has_relief);
             }
         }
         surfaces.stages.sort_unstable();
@@ -92,8 +67,8 @@ impl Surfaces {
         surfaces
     }
 
-    fn push(&mut self, object: &Object, material: Option<usize>, has_relief: bool) {
-        let (Some(coating), Some(material)) = (&object.coating, material) else {
+    fn push(&mut self, object: &Object, instance: Option<(u32, &MaterialInstance)>, has_relief: bool) {
+        let Some((number, instance)) = instance else {
             self.rows.push([0.0; 4]);
             self.varying.push([0.0; 4]);
             if has_relief {
@@ -101,48 +76,43 @@ impl Surfaces {
             }
             return;
         };
-        let is_smooth = matches!(&object.shape, Shape::Mesh { data, .. } if !data.normals.is_empty());
-        let stage = self.stage(coating, material, is_smooth);
-        let id = |texture: Option<u32>| f32::from_bits(texture.map_or(0, |id| id + 1));
-        let ([r, g, b], colour_texture) = match coating.colour {
+        let compiled = &instance.compiled;
+        let stage = self.stage(object, instance);
+        let (colour, colour_texture) = match compiled.colour {
             ColourSource::Constant(colour) => (colour, None),
             ColourSource::Texture(id) => ([1.0; 3], Some(id)),
         };
-        let (alpha, alpha_texture, squared) = match coating.roughness {
-            Roughness::Constant(alpha) => (alpha, None, false),
-            Roughness::Texture { id, squared } => (1.0, Some(id), squared),
+        let (alpha, alpha_texture, squared) = match compiled.alpha {
+            AlphaSource::Constant(alpha) => (alpha, None, false),
+            AlphaSource::Texture { id, squared } => (1.0, Some(id), squared),
         };
         let flag = |set: bool, flag: u32| if set { flag } else { 0 };
-        let self_lit = stage == Stage::RoughDielectric && object.emission.is_some();
-        let scatters_where_black = coating.material.scatters_where_black();
+        let self_lit = stage.transmits() && stage.sees_lights() && object.emission.is_some();
         let flags = flag(object.flip, FLIPPED)
-            | flag(coating.one_sided, ONE_SIDED)
+            | flag(instance.one_sided, ONE_SIDED)
             | flag(squared, SQUARED)
             | flag(self_lit, SELF_LIT)
-            | flag(scatters_where_black, SCATTERS_WHERE_BLACK);
-        let medium = if self.media.is_empty() { 0 } else { material as u32 + 1 };
+            | flag(compiled.scatters_where_black, SCATTERS_WHERE_BLACK);
+        let medium = if self.media.is_empty() || compiled.inside.is_none() { 0 } else { number + 1 };
         self.textured |= colour_texture.or(alpha_texture).is_some();
-        self.rows.push([r, g, b, f32::from_bits(material as u32 | (stage as u32) << STAGE_SHIFT | flags)]);
-        self.varying.push([alpha, id(colour_texture), id(alpha_texture), f32::from_bits(medium)]);
+        self.rows.push(SurfaceRow { colour, word: number | (stage as u32) << STAGE_SHIFT | flags }.pack());
+        self.varying.push(VaryingRow { alpha, colour_texture, alpha_texture, medium }.pack());
         if has_relief {
-            let height = coating.bump.map_or(0.0, |(_, height)| height);
-            self.relief.push([id(coating.bump.map(|(id, _)| id)), height, id(coating.normal_map), 0.0]);
+            let (heights, height) = instance.bump.map_or((None, 0.0), |(id, height)| (Some(id), height));
+            self.relief.push([texture_bits(heights), height, texture_bits(instance.normal_map), 0.0]);
         }
-        if scatters_where_black || [r, g, b] != [0.0; 3] {
+        if compiled.scatters_where_black || colour != [0.0; 3] {
             self.stages.push(stage);
         }
     }
 
-    fn stage(&self, coating: &Coating, material: usize, is_smooth: bool) -> Stage {
-        let has_normals = coating.bump.is_some() || coating.normal_map.is_some();
-        match self.materials.kind(material) {
-            BsdfKind::Lambertian if has_normals || is_smooth || !self.media.is_empty() => Stage::Diffuse,
-            BsdfKind::Lambertian => Stage::Plain,
-            BsdfKind::Mirror => Stage::Mirror,
-            BsdfKind::Conductor => Stage::Conductor,
-            BsdfKind::Dielectric => Stage::Dielectric,
-            BsdfKind::RoughDielectric => Stage::RoughDielectric,
-            BsdfKind::Plastic => Stage::Plastic,
+    /// Diffuse surfaces need more than their plain stage where normals vary or there are media.
+    fn stage(&self, object: &Object, instance: &MaterialInstance) -> Stage {
+        let is_smooth = matches!(&object.shape, Shape::Mesh { data, .. } if !data.normals.is_empty());
+        let has_normals = instance.bump.is_some() || instance.normal_map.is_some();
+        match instance.compiled.stage {
+            Stage::Plain if has_normals || is_smooth || !self.media.is_empty() => Stage::Diffuse,
+            stage => stage,
         }
     }
 
@@ -162,6 +132,40 @@ impl Surfaces {
         }
         Ok(())
     }
+}
+
+/// What a row of [`Surfaces::rows`] says.
+struct SurfaceRow {
+    colour: [f32; 3],
+    /// `material | stage << 16 | flags`.
+    word: u32,
+}
+
+impl SurfaceRow {
+    fn pack(&self) -> [f32; 4] {
+        let [r, g, b] = self.colour;
+        [r, g, b, f32::from_bits(self.word)]
+    }
+}
+
+/// What a row of [`Surfaces::varying`] says.
+struct VaryingRow {
+    alpha: f32,
+    colour_texture: Option<u32>,
+    alpha_texture: Option<u32>,
+    /// The medium inside, as a place in [`Surfaces::media`].
+    medium: u32,
+}
+
+impl VaryingRow {
+    fn pack(&self) -> [f32; 4] {
+        [self.alpha, texture_bits(self.colour_texture), texture_bits(self.alpha_texture), f32::from_bits(self.medium)]
+    }
+}
+
+/// An id plus 1, as bits; 0 is none.
+fn texture_bits(texture: Option<u32>) -> f32 {
+    f32::from_bits(texture.map_or(0, |id| id + 1))
 }
 
 /// −log₂ of what a metre lets pass; black lets nothing pass, but at no distance everything.

@@ -48,11 +48,11 @@ impl Scene {
 
     fn warnings_of_objects(&self) -> Vec<String> {
         let mut warnings = Vec::new();
-        let bare = self.names(|object| object.coating.is_none() && object.emission.is_none());
+        let bare = self.names(|object| object.material.is_none() && object.emission.is_none());
         if let Some((bare, have)) = bare {
             warnings.push(format!("{bare} {have} neither `material` nor `emission`, and will be black"));
         }
-        if let Some((flipped, have)) = self.names(|object| object.flip && object.is_dielectric()) {
+        if let Some((flipped, have)) = self.names(|object| object.flip && self.has_inside(object)) {
             warnings.push(format!(
                 "{flipped} {have} `flip` on a dielectric: `ior` and `ior_outside` change sides, and the medium fills what is around"
             ));
@@ -100,7 +100,7 @@ impl Scene {
         // From above the lamp back to it: what is met first is not the lamp if something lies between.
         let cover = |(a, b): (f64, f64)| {
             let met = self.first_object(*origin + *u * a + *v * b + above, -normal)?;
-            (met != number && lamp.motion.0.is_empty()).then(|| &self.objects[met]).filter(|object| !object.is_dielectric())
+            (met != number && lamp.motion.0.is_empty()).then(|| &self.objects[met]).filter(|object| !self.has_inside(object))
         };
         let covers: Option<Vec<&Object>> = places(*outline).into_iter().map(cover).collect();
         covers?.first().copied()

@@ -1,14 +1,14 @@
-//! What the TOML reader says, in the words of this program: serde speaks of maps, sequences, structs and variants.
+//! What is said of files that cannot be read.
 use std::ops::Range;
 
-use super::{
-    diagnostic::{SceneError, SourceText},
-    meant::{remark, synonym, table_around},
-};
+use toml::de::DeValue;
+
+use super::diagnostic::{SceneError, SourceText};
+use crate::declare::{Entry, Looks, Parameter, Word, nearest};
 
 /// Longer texts of a file are not repeated in a message.
 const LONGEST_FOUND: usize = 40;
-/// What the reader says of wrong TOML, by its beginning, and how we say it.
+/// What the TOML reader says of wrong syntax, by its beginning, and how we say it.
 const SYNTAX: [(&str, &str); 13] = [
     ("string values must be quoted", "text must stand in quotes"),
     ("extra `=`", "there is one `=` too many"),
@@ -25,185 +25,95 @@ const SYNTAX: [(&str, &str); 13] = [
     ("invalid integer", "this is not a number"),
 ];
 
-/// The error of a text that is not a scene, at its place.
+/// The error of a text that is not TOML, at its place.
 pub fn in_plain_words(source: &SourceText, error: &toml::de::Error) -> SceneError {
     let span = error.span().unwrap_or(0..0);
     let message = error.message().replace('\n', ": ");
-    missing(source, &span, &message)
-        .or_else(|| unknown(source, &span, &message))
-        .or_else(|| wrong_kind(source, &span, &message))
-        .or_else(|| wrong_form(source, &span, &message))
-        .unwrap_or_else(|| {
-            let words = SYNTAX.iter().find(|(theirs, _)| message.starts_with(theirs)).map(|(_, ours)| (*ours).to_owned());
-            source.error(span, words.unwrap_or(message), "this cannot be understood")
-        })
-}
-
-/// The candidate that `word` was probably meant to be.
-pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    /// Nobody mistypes longer words, and comparing them takes as long as both are.
-    const LONGEST: usize = 100;
-    let length = word.chars().count();
-    let most = (length / 3).max(1);
-    let comparable = |candidate: &&'a str| length <= LONGEST && candidate.chars().count().abs_diff(length) <= most;
-    let candidates = candidates.into_iter().filter(comparable);
-    let distances = candidates.map(|candidate| (strsim::osa_distance(word, candidate), candidate));
-    distances.filter(|(distance, _)| *distance <= most).min().map(|(_, candidate)| candidate)
-}
-
-fn missing(source: &SourceText, span: &Range<usize>, message: &str) -> Option<SceneError> {
-    let key = message.strip_prefix("missing field `")?.strip_suffix('`')?;
-    let says_nothing = source.text.lines().map(str::trim).all(|line| line.is_empty() || line.starts_with('#'));
-    if says_nothing {
-        return Some(source.error(0..0, "the file is empty; a scene begins with `format = 1`", "nothing is said"));
+    if message == "duplicate key" {
+        let key = text_at(source, &span);
+        let error = source.error(span.clone(), format!("duplicate key `{key}`"), "this is the second time");
+        return error.with_help("a key can be given once; of several objects each begins with `[[objects]]`");
     }
-    let given = if key == "format" { "format = 1" } else { key };
-    Some(source.error(span.clone(), format!("missing key `{key}`"), format!("`{given}` must be given here")))
+    if message.starts_with("string values must be quoted") && text_at(source, &span).trim().is_empty() {
+        return source.error(span, "a value is missing", "after the `=`");
+    }
+    let words = SYNTAX.iter().find(|(theirs, _)| message.starts_with(theirs)).map(|(_, ours)| (*ours).to_owned());
+    source.error(span, words.unwrap_or(message), "this cannot be understood")
 }
 
-fn unknown(source: &SourceText, span: &Range<usize>, message: &str) -> Option<SceneError> {
-    let (what, rest) = if let Some(rest) = message.strip_prefix("unknown field `") {
-        ("key", rest)
-    } else if let Some(rest) = message.strip_prefix("unknown variant `") {
-        (if text_at(source, span).starts_with(['"', '\'']) { "value" } else { "kind" }, rest)
-    } else {
-        let (word, known) = message.strip_prefix("unexpected keys in table: ")?.split_once(", available keys: ")?;
-        return Some(unknown_word(source, span, "key", word, &known.split(", ").collect::<Vec<_>>()));
-    };
-    let (word, expected) = rest.split_once("`, ")?;
-    // What is expected stands between backquotes: every second piece.
-    let known: Vec<&str> = expected.split('`').skip(1).step_by(2).collect();
-    Some(unknown_word(source, span, what, word, &known))
-}
-
-fn unknown_word(source: &SourceText, span: &Range<usize>, what: &str, word: &str, known: &[&str]) -> SceneError {
-    let meant = synonym(word, known).or_else(|| nearest(word, known.iter().copied()));
+/// The error of a word that is not known at its place.
+pub fn unknown(source: &SourceText, span: Range<usize>, what: &str, word: &str, known: &[Entry]) -> SceneError {
+    let keys = || known.iter().map(|entry| entry.parameter.key);
+    let by_alias = known.iter().find(|entry| entry.parameter.is_alias(word)).map(|entry| entry.parameter);
+    let meant = by_alias.map(|parameter| parameter.key).or_else(|| nearest(word, keys()));
     let label = match meant {
         Some(meant) => format!("did you mean `{meant}`?"),
         None => format!("there is no such {what} here"),
     };
-    let list = known.iter().map(|word| format!("`{word}`")).collect::<Vec<_>>().join(", ");
-    let help = if known.len() > 1 { format!("expected one of {list}") } else { format!("expected {list}") };
-    let help = match meant.and_then(|meant| remark(word, meant)) {
-        Some(remark) => format!("{remark}; {help}"),
+    let mut listed: Vec<String> = Vec::new();
+    for key in keys().map(|key| format!("`{key}`")) {
+        if !listed.contains(&key) {
+            listed.push(key);
+        }
+    }
+    let one_of = if listed.len() > 1 { "expected one of" } else { "expected" };
+    let help = format!("{one_of} {}", listed.join(", "));
+    let help = match by_alias.map(|parameter| parameter.advice).filter(|advice| !advice.is_empty()) {
+        Some(advice) => format!("{advice}; {help}"),
         None => help,
     };
-    source.error(span.clone(), format!("unknown {what} `{word}`"), label).with_help(help)
+    source.error(span, format!("unknown {what} `{word}`"), label).with_help(help)
 }
 
-/// A value of another type than the key has.
-fn wrong_kind(source: &SourceText, span: &Range<usize>, message: &str) -> Option<SceneError> {
-    let (found, expected) = match message.split_once(", expected ")? {
-        (found, "struct variant" | "newtype variant") if found.contains("unit variant") => {
-            let name = text_at(source, span).trim_matches(['"', '\'']);
-            return Some(source.error(span.clone(), format!("`{name}` needs a value"), format!("write {{ {name} = … }}")));
-        }
-        (found, expected) => (found, plain_expected(expected)),
-    };
-    let found = if let Some(length) = found.strip_prefix("invalid length ") {
-        format!("{length} values")
-    } else {
-        let found = found.strip_prefix("invalid type: ").or_else(|| found.strip_prefix("invalid value: "))?;
-        plain_found(found, text_at(source, span))
-    };
-    let key = key_before(source, span.start);
-    let place = key.map_or_else(String::new, |key| format!("`{key}`: "));
-    let message = format!("{place}expected {expected}, found {found}");
-    let text = text_at(source, span);
-    let meant = match key {
-        _ if text.chars().count() > LONGEST_FOUND => None,
-        // Where colours may be textures.
-        Some(key) if key != "radiance" && expected.starts_with("a colour") && text.starts_with(['"', '\'']) => {
-            Some(format!("{{ texture = {text} }}"))
-        }
-        Some(key) => table_around(key, text),
-        None => None,
-    };
-    let label = meant.map_or_else(|| format!("expected {expected}"), |meant| format!("write {meant}"));
-    let error = source.error(span.clone(), message, label);
-    Some(match advice(key, &found, text) {
-        Some(help) => error.with_help(help),
-        None => error,
-    })
+/// A word as a reader expects it.
+pub fn expected_word(word: &Word) -> Entry {
+    Entry { parameter: Parameter::new(word.name, word.doc), looks: Looks::Text }
 }
 
-/// The error of a list where the table of this key belongs.
-pub fn expected_table(source: &SourceText, key: &str, span: &Range<usize>) -> SceneError {
-    let text = text_at(source, span);
-    let meant = table_around(key, text).filter(|_| text.chars().count() <= LONGEST_FOUND);
-    let label = meant.map_or_else(|| "expected a table { … }".to_owned(), |meant| format!("write {meant}"));
-    source.error(span.clone(), format!("`{key}`: expected a table {{ … }}, found a list"), label)
+/// How a value that stands in the place of a table is written, if the first value of that table looks like it.
+pub fn suggestion(value: &DeValue, text: &str, known: &[Entry]) -> Option<String> {
+    if text.chars().count() > LONGEST_FOUND {
+        return None;
+    }
+    if let Some(name) = value.as_str()
+        && known.iter().any(|entry| entry.parameter.key == name)
+    {
+        return Some(format!("{{ {name} = … }}"));
+    }
+    let fits = |entry: &&Entry| match value {
+        DeValue::Integer(_) | DeValue::Float(_) => matches!(entry.looks, Looks::Number | Looks::Colour),
+        DeValue::Array(_) => entry.looks == Looks::Colour,
+        DeValue::String(_) => entry.looks == Looks::Text,
+        _ => false,
+    };
+    let required = || known.iter().filter(|entry| entry.parameter.is_required);
+    let first = if required().count() == 1 { required().next() } else { known.first() };
+    first.filter(fits).map(|entry| format!("{{ {} = {text} }}", entry.parameter.key))
 }
 
-/// What is said of the likeliest mistakes.
-fn advice(key: Option<&str>, found: &str, text: &str) -> Option<String> {
-    match key {
-        Some("max_bounces") => Some("leave it out for no cap".to_owned()),
-        None if found == "a table" && text.starts_with('[') => {
-            Some(format!("each of several has its own table: write `[{text}]`"))
-        }
-        _ => None,
+/// What a value is, with its text where that is short.
+pub fn found(value: &DeValue, text: &str) -> String {
+    let is_short = text.chars().count() <= LONGEST_FOUND;
+    match value {
+        DeValue::String(_) if is_short => format!("the text {text}"),
+        DeValue::Integer(_) | DeValue::Float(_) | DeValue::Boolean(_) if is_short => text.to_owned(),
+        _ => kind_of(value).to_owned(),
     }
 }
 
-/// A table or a name where the other was expected, or a table of too many kinds.
-fn wrong_form(source: &SourceText, span: &Range<usize>, message: &str) -> Option<SceneError> {
-    let error = |message: &str, label: &str| Some(source.error(span.clone(), message, label));
-    match message {
-        "duplicate key" => {
-            let key = text_at(source, span);
-            let error = source.error(span.clone(), format!("duplicate key `{key}`"), "this is the second time");
-            Some(error.with_help("a key can be given once; of several objects each begins with `[[objects]]`"))
-        }
-        "wanted string or table" => error("expected a name in quotes, or a table { … }", "neither of them"),
-        _ if message.starts_with("a second kind") => error(message, "remove one of them"),
-        _ if message.starts_with("wanted exactly 1 element") => {
-            error("expected a table that says exactly one kind", "one of the kinds must be given here")
-        }
-        _ if message.starts_with("string values must be quoted") && text_at(source, span).trim().is_empty() => {
-            error("a value is missing", "after the `=`")
-        }
-        _ => None,
-    }
-}
-
-fn plain_expected(expected: &str) -> &str {
-    match expected {
-        "u32" | "u64" => "a whole number, 0 or more",
-        "i64" => "a whole number",
-        "f32" | "f64" => "a number",
-        "a string" => "text in quotes",
-        "a boolean" => "true or false",
-        "a sequence" => "a list [ … ]",
-        "enum" => "a table { … } that says one kind",
-        "a map" => "a table { … }",
-        _ if expected.starts_with("struct ") => "a table { … }",
-        _ => expected,
-    }
-}
-
-/// `found` is serde's word for the value, `text` how the file writes it.
-fn plain_found(found: &str, text: &str) -> String {
-    match found.split_once(' ').map_or(found, |(kind, _)| kind) {
-        "string" if text.chars().count() > LONGEST_FOUND => "text".to_owned(),
-        "string" => format!("the text {text}"),
-        "map" if text.starts_with(|c: char| c.is_ascii_digit()) => "a date".to_owned(),
-        "map" => "a table".to_owned(),
-        "sequence" => "a list".to_owned(),
-        _ if text.chars().count() <= LONGEST_FOUND => text.to_owned(),
-        _ => "something else".to_owned(),
+/// What kind of value it is.
+pub fn kind_of(value: &DeValue) -> &'static str {
+    match value {
+        DeValue::String(_) => "text",
+        DeValue::Integer(_) | DeValue::Float(_) => "a number",
+        DeValue::Boolean(_) => "true or false",
+        DeValue::Datetime(_) => "a date",
+        DeValue::Array(_) => "a list",
+        DeValue::Table(_) => "a table",
     }
 }
 
 /// The text of a span.
-fn text_at<'a>(source: &'a SourceText, span: &Range<usize>) -> &'a str {
+pub fn text_at<'a>(source: &'a SourceText, span: &Range<usize>) -> &'a str {
     source.text.get(span.clone()).unwrap_or_default()
-}
-
-/// The key whose value begins at `start`.
-fn key_before(source: &SourceText, start: usize) -> Option<&str> {
-    let before = source.text.get(..start)?.trim_end().strip_suffix('=')?.trim_end();
-    let is_key = |c: char| c.is_alphanumeric() || matches!(c, '_' | '-');
-    let key = &before[before.trim_end_matches(is_key).len()..];
-    (!key.is_empty()).then_some(key)
 }

@@ -40,7 +40,7 @@ impl Setting {
         match self {
             Setting::Estimator => settings.estimator.name().to_owned(),
             Setting::Directions => settings.directions.name().to_owned(),
-            Setting::Sampler => settings.sampler.entry().name.to_owned(),
+            Setting::Sampler => settings.sampler.name().to_owned(),
             Setting::Roulette => settings.roulette.name(),
             Setting::Cap => settings.max_bounces.map_or_else(|| "none".to_owned(), |cap| cap.to_string()),
             Setting::Reuse => settings.reuse.name().to_owned(),

@@ -1,5 +1,76 @@
-//! Checker: alternating squares of two textures. The square at u = v = 0 is even.
-use crate::math::{F, Lanes, M, round::floor};
+//! Checker: squares of two textures in turn. The square at u = v = 0 is even.
+use super::{Found, Pattern, Summary, TextureCompiler, TextureCoordinates, Textures, Texturing};
+use crate::{
+    declare::{Declare, Kind, Parameter, Parameters, Problem, Range, Textured},
+    math::{F, Lanes, M, Pick, round::floor},
+};
+
+/// A checker as a scene describes it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Checker {
+    pub even: Textured,
+    pub odd: Textured,
+    /// Squares per unit of u and of v.
+    pub scale: f64,
+}
+
+impl Default for Checker {
+    fn default() -> Self {
+        Checker { even: Textured::grey(0.8), odd: Textured::grey(0.2), scale: 8.0 }
+    }
+}
+
+impl Kind for Checker {
+    const KIND: Parameter =
+        Parameter::new("checker", "Squares of two colours in turn, over u and v.").aliases("checkerboard chess");
+}
+
+impl Declare for Checker {
+    fn parameters(&mut self, p: &mut dyn Parameters) {
+        const EVEN: Parameter = Parameter::new("even", "The squares of the corner u = v = 0.").required().aliases("color0 a");
+        const ODD: Parameter = Parameter::new("odd", "The other squares.").required().aliases("color1 b");
+        const SCALE: Parameter = Parameter::new("scale", "Squares along each side of the unit square.").required();
+        p.textured(&EVEN, &mut self.even, Range::RADIANCE);
+        p.textured(&ODD, &mut self.odd, Range::RADIANCE);
+        p.number(&SCALE, &mut self.scale, Range::log(1e-6, 1e5));
+    }
+}
+
+impl Texturing for Checker {
+    type Pattern = Squares;
+
+    fn compile(&self, compiler: &mut TextureCompiler) -> Result<Squares, Problem> {
+        let (even, odd) = (compiler.part("even", &self.even)?, compiler.part("odd", &self.odd)?);
+        Ok(Squares { even, odd, scale: self.scale as f32 })
+    }
+}
+
+/// A checker as the renderer looks it up.
+pub struct Squares {
+    /// Ids of other textures.
+    pub even: u32,
+    pub odd: u32,
+    pub scale: f32,
+}
+
+impl Pattern for Squares {
+    fn summary(&self, textures: &Textures) -> Summary {
+        let (even, odd) = (textures.summary_of(self.even), textures.summary_of(self.odd));
+        let share = even_share(self.scale);
+        let step = step(self.scale);
+        let [[eu, ev, ep], [ou, ov, op]] = [even.steps, odd.steps];
+        Summary {
+            mean: [0, 1, 2].map(|channel| even.mean[channel] * share + odd.mean[channel] * (1.0 - share)),
+            maximum: [0, 1, 2].map(|channel| f32::max(even.maximum[channel], odd.maximum[channel])),
+            steps: [eu.min(ou).min(step), ev.min(ov).min(step), ep.min(op)],
+        }
+    }
+
+    #[inline(always)]
+    fn apply<L: Lanes>(&self, l: L, here: M<L>, at: &TextureCoordinates<L>, found: &mut Found<L>) {
+        found.id = here.pick(is_even(at.u, at.v, self.scale).pick(l.u(self.even), l.u(self.odd)), found.id);
+    }
+}
 
 /// Whether (u, v) lies on an even square, with `scale` squares per unit.
 #[inline(always)]

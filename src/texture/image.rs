@@ -1,13 +1,61 @@
 //! Image: the texels of an image with bilinear interpolation.
 //!
-//! The image spans the unit square, with u to the right and v downwards from its top left corner; texel centres lie at ((i +
-//! ½)/width, (j + ½)/height).
+//! The picture spans the unit square, u to the right and v downwards from its top left corner; texel centres lie at
+//! ((i + ½)/width, (j + ½)/height).
+use super::{Found, Pattern, Summary, TextureCompiler, TextureCoordinates, Textures, Texturing};
 use crate::{
-    image::Texels,
-    math::{F, Lanes, Pick, U, V, round::floor},
+    declare::{Declare, Kind, Parameter, Parameters, Problem, Value},
+    image::{Encoding, Texels, read_light},
+    math::{F, Lanes, M, Pick, U, V, round::floor},
 };
 
-/// Continuation beyond the top and bottom of an image. Horizontally it always repeats.
+/// A picture file as a scene describes it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Image {
+    pub path: String,
+    pub encoding: Encoding,
+}
+
+impl Kind for Image {
+    const KIND: Parameter =
+        Parameter::new("image", "A picture over the unit square of u and v, repeated.").aliases("bitmap imagemap file");
+}
+
+impl Declare for Image {
+    fn parameters(&mut self, p: &mut dyn Parameters) {
+        const PATH: Parameter =
+            Parameter::new("path", "PNG, EXR or HDR, beside the scene.").required().aliases("file filename src");
+        const ENCODING: Parameter =
+            Parameter::new("encoding", "How the numbers of a PNG stand for light; EXR and HDR are linear.");
+        p.value(&PATH, Value::File(&mut self.path));
+        p.word(&ENCODING, &mut self.encoding);
+    }
+}
+
+impl Texturing for Image {
+    type Pattern = ImageTexture;
+
+    fn compile(&self, compiler: &mut TextureCompiler) -> Result<ImageTexture, Problem> {
+        let resources = compiler.resources;
+        let picture = read_light(&resources.path(&self.path), self.encoding)
+            .map_err(|error| Problem::at("path", error.to_string(), "this picture cannot be used"))?;
+        resources.reserve("path", "the texels of a picture", size_of_val(&picture.radiance[..]) as u64)?;
+        Ok(ImageTexture::new(picture))
+    }
+}
+
+impl Pattern for ImageTexture {
+    fn summary(&self, _: &Textures) -> Summary {
+        Summary { mean: self.mean(), maximum: self.maximum(), steps: [self.step_u(), self.step_v(), f32::INFINITY] }
+    }
+
+    #[inline(always)]
+    fn apply<L: Lanes>(&self, l: L, here: M<L>, at: &TextureCoordinates<L>, found: &mut Found<L>) {
+        found.colour = here.pick(self.colour(l, at.u, at.v, Edge::Repeat), found.colour);
+    }
+}
+
+/// What lies beyond the top and bottom of a picture. Left and right it always repeats.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Edge {
     /// Repeats the image.

@@ -1,38 +1,100 @@
 //! Textures: colours that vary over a surface.
 //!
-//! | type | file | varies over | parameters |
-//! |---|---|---|---|
-//! | image | `image.rs` | u, v | an image, repeated |
-//! | checker | `checker.rs` | u, v | two textures, cells per unit of u and v |
-//! | noise | `noise.rs` | the world-space position | cells per metre, octaves, two colours |
-//!
-//! A new type is one file, one variant of [`Texture`] with its arms in [`Textures`], and one row here.
+//! A kind is one file and one line of the catalogue below. Its file holds the description, with its parameters, and the [`Pattern`] that
+//! the renderer looks up.
 pub mod checker;
+mod compiler;
+mod constant;
 pub mod image;
 pub mod noise;
 #[cfg(test)]
 mod tests;
 
-pub use self::image::{Edge, ImageTexture};
-use crate::math::{F, Lanes, M, Pick, U, V, colour::LUMINANCE};
+pub use self::{
+    compiler::{ColourSource, TextureCompiler},
+    constant::Constant,
+    image::{Edge, ImageTexture},
+};
+use crate::{
+    declare::{Declare, Kind, Parameters, Problem},
+    math::{F, Lanes, M, U, V, colour::LUMINANCE},
+};
 
-/// One texture. Colours are linear Rec. 709.
-pub enum Texture {
-    Constant([f32; 3]),
-    Image(ImageTexture),
-    /// `even` and `odd` are ids of other textures; `scale` is the number of cells per unit of u and of v.
-    Checker {
-        even: u32,
-        odd: u32,
-        scale: f32,
-    },
-    /// `scale` is the number of cells of the first octave per metre.
-    Noise {
-        scale: f32,
-        octaves: u32,
-        low: [f32; 3],
-        high: [f32; 3],
-    },
+macro_rules! textures {
+    ($($module:ident::$Kind:ident),+ $(,)?) => {
+        crate::catalogue! {
+            /// A texture as a scene describes it.
+            pub enum TextureKind: Declare, "texture" { $($module::$Kind),+ }
+        }
+
+        impl TextureKind {
+            /// The texture as the renderer looks it up.
+            fn compile(&self, compiler: &mut TextureCompiler) -> Result<Texture, Problem> {
+                match self {
+                    $(TextureKind::$Kind(kind) => kind.compile(compiler).map(Texture::$Kind)),+
+                }
+            }
+        }
+
+        /// A texture as the renderer looks it up. Colours are linear Rec. 709.
+        pub enum Texture {
+            Constant(Constant),
+            $($Kind(<$module::$Kind as Texturing>::Pattern)),+
+        }
+
+        /// `in_texture!(texture, pattern => call(pattern))`: the call with the pattern of a texture.
+        macro_rules! in_texture {
+            ($texture:expr, $pattern:ident => $call:expr) => {
+                match $texture {
+                    Texture::Constant($pattern) => $call,
+                    $(Texture::$Kind($pattern) => $call),+
+                }
+            };
+        }
+    };
+}
+
+textures! {
+    image::Image,
+    checker::Checker,
+    noise::Noise,
+}
+
+/// A kind of texture.
+pub trait Texturing: Kind {
+    type Pattern: Pattern;
+
+    /// The texture as the renderer looks it up.
+    fn compile(&self, compiler: &mut TextureCompiler) -> Result<Self::Pattern, Problem>;
+}
+
+/// How a texture varies.
+pub trait Pattern {
+    /// What is known of it besides its colours; `textures` holds those that it refers to.
+    fn summary(&self, textures: &Textures) -> Summary;
+
+    /// Writes the colour, or the texture to look up in its place, in the lanes `here`.
+    fn apply<L: Lanes>(&self, l: L, here: M<L>, at: &TextureCoordinates<L>, found: &mut Found<L>);
+}
+
+/// What a look-up knows so far.
+pub struct Found<L: Lanes> {
+    /// The texture that is still to be looked up.
+    pub id: U<L>,
+    pub colour: V<L>,
+}
+
+/// What the renderer knows of a texture besides its colours.
+pub struct Summary {
+    pub mean: [f32; 3],
+    pub maximum: [f32; 3],
+    /// In u, in v, and in metres: see [`Steps`].
+    pub steps: [f32; 3],
+}
+
+impl Summary {
+    /// Steps of u and v where the texture itself asks for no finer ones.
+    pub const COARSEST: f32 = 1.0 / 64.0;
 }
 
 /// The point of a texture lookup.
@@ -65,62 +127,31 @@ pub struct Textures {
 impl Textures {
     /// Adds a texture and returns its id. Textures that it refers to must have been added before.
     pub fn push(&mut self, texture: Texture) -> u32 {
-        let (mean, maximum, steps) = self.summary(&texture);
+        let Summary { mean, maximum, steps: [u, v, p] } = in_texture!(&texture, pattern => pattern.summary(self));
         self.means.push(mean);
         self.maxima.push(maximum);
-        self.steps.push(steps);
+        self.steps.push([u, v, p, 0.0]);
         self.textures.push(texture);
         self.textures.len() as u32 - 1
     }
 
-    /// Mean and maximum of the colour, and the row of `steps`.
-    fn summary(&self, texture: &Texture) -> ([f32; 3], [f32; 3], [f32; 4]) {
-        /// The largest step in u and v, if the texture itself needs no finer one.
-        const COARSEST: f32 = 1.0 / 64.0;
-        let either = |a: [f32; 3], b: [f32; 3], op: fn(f32, f32) -> f32| [op(a[0], b[0]), op(a[1], b[1]), op(a[2], b[2])];
-        match texture {
-            Texture::Constant(colour) => (*colour, *colour, [COARSEST, COARSEST, f32::INFINITY, 0.0]),
-            Texture::Image(image) => (image.mean(), image.maximum(), [image.step_u(), image.step_v(), f32::INFINITY, 0.0]),
-            Texture::Checker { even, odd, scale } => {
-                let (even, odd) = (*even as usize, *odd as usize);
-                let share = checker::even_share(*scale);
-                let [[eu, ev, ep, _], [ou, ov, op, _]] = [self.steps[even], self.steps[odd]];
-                let step = checker::step(*scale);
-                let steps = [eu.min(ou).min(step), ev.min(ov).min(step), ep.min(op), 0.0];
-                let mean = either(self.means[even].map(|x| x * share), self.means[odd].map(|x| x * (1.0 - share)), |a, b| a + b);
-                (mean, either(self.maxima[even], self.maxima[odd], f32::max), steps)
-            }
-            Texture::Noise { scale, octaves, low, high } => {
-                let mean = either(*low, *high, |a, b| 0.5 * (a + b));
-                (mean, either(*low, *high, f32::max), [COARSEST, COARSEST, noise::step(*scale, *octaves), 0.0])
-            }
-        }
+    fn summary_of(&self, id: u32) -> Summary {
+        let [u, v, p, _] = self.steps[id as usize];
+        Summary { mean: self.mean(id), maximum: self.maximum(id), steps: [u, v, p] }
     }
 
-    /// The colours of the textures `id` in the lanes of the mask; black in the others.
+    /// The colour of the textures `id` in the lanes of the mask; black in the others.
     #[inline(always)]
     pub fn colour<L: Lanes>(&self, l: L, id: U<L>, mask: M<L>, at: &TextureCoordinates<L>) -> V<L> {
-        let mut id = id;
-        let mut colour = V::splat(l, [0.0; 3]);
-        // What a checker refers to stands before it: going backwards, one pass follows any nesting.
+        let mut found = Found { id, colour: V::splat(l, [0.0; 3]) };
+        // What a texture refers to stands before it: going backwards, one pass follows any nesting.
         for k in (0..self.textures.len()).rev() {
-            let here = mask & id.is(k as u32);
-            if !here.any() {
-                continue;
-            }
-            match &self.textures[k] {
-                Texture::Constant(constant) => colour = here.pick(V::splat(l, *constant), colour),
-                Texture::Image(image) => colour = here.pick(image.colour(l, at.u, at.v, Edge::Repeat), colour),
-                Texture::Checker { even, odd, scale } => {
-                    id = here.pick(checker::is_even(at.u, at.v, *scale).pick(l.u(*even), l.u(*odd)), id);
-                }
-                Texture::Noise { scale, octaves, low, high } => {
-                    let t = noise::fraction(at.p, *scale, *octaves);
-                    colour = here.pick(V::splat(l, *low) * (1.0 - t) + V::splat(l, *high) * t, colour);
-                }
+            let here = mask & found.id.is(k as u32);
+            if here.any() {
+                in_texture!(&self.textures[k], pattern => pattern.apply(l, here, at, &mut found));
             }
         }
-        colour
+        found.colour
     }
 
     /// The luminance of the colour, as a height. Its slope is the difference over [steps](Self::steps) in u and v, where `p`
@@ -156,5 +187,12 @@ impl Textures {
 
     pub fn is_empty(&self) -> bool {
         self.textures.is_empty()
+    }
+}
+
+/// A named texture of a scene.
+impl Declare for TextureKind {
+    fn parameters(&mut self, p: &mut dyn Parameters) {
+        p.one_of(self);
     }
 }

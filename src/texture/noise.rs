@@ -1,13 +1,83 @@
 //! Noise: a random smooth function of the world-space position, statistically the same at every position and in every direction.
 //!
-//! K. Perlin, "Improving Noise", SIGGRAPH 2002: gradients towards the twelve edges of a cube at the points of a lattice, with
-//! quintic interpolation. An integer hash of the point selects the gradient, in place of a permutation table.
+//! K. Perlin, "Improving Noise", SIGGRAPH 2002: gradients along the twelve edges of a cube at the points of a lattice, joined by
+//! quintic curves. The gradients are chosen by an integer hash of the point instead of a table of permutations.
+use super::{Found, Pattern, Summary, TextureCompiler, TextureCoordinates, Textures, Texturing};
 use crate::{
-    math::{F, Lanes, Pick, U, V, round::floor},
+    declare::{CountRange, Declare, Kind, Parameter, Parameters, Problem, Range},
+    math::{F, Lanes, M, Pick, U, V, round::floor},
     sampling::hash::{GOLDEN, hash},
 };
 
-/// The fractal sum ½ + ½ Σ 2⁻ⁱ n(2ⁱ `scale` p) at the position p, clamped to [0, 1]; ½ on average.
+/// Noise as a scene describes it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Noise {
+    /// Cells of the first octave per metre.
+    pub scale: f64,
+    pub octaves: u32,
+    pub low: [f64; 3],
+    pub high: [f64; 3],
+}
+
+impl Default for Noise {
+    fn default() -> Self {
+        Noise { scale: 4.0, octaves: 4, low: [0.1; 3], high: [0.9; 3] }
+    }
+}
+
+impl Kind for Noise {
+    const KIND: Parameter = Parameter::new("noise", "Perlin noise of the position in the world, between two colours.")
+        .aliases("perlin fbm turbulence");
+}
+
+impl Declare for Noise {
+    fn parameters(&mut self, p: &mut dyn Parameters) {
+        const SCALE: Parameter = Parameter::new("scale", "Cells of the first octave per metre.").unit("1/m").required();
+        const OCTAVES: Parameter =
+            Parameter::new("octaves", "Layers of noise, each of twice the frequency and half the amplitude.").required();
+        const LOW: Parameter = Parameter::new("low", "The colour at 0.").required();
+        const HIGH: Parameter = Parameter::new("high", "The colour at 1.").required();
+        p.number(&SCALE, &mut self.scale, Range::log(1e-6, 1e5));
+        p.count(&OCTAVES, &mut self.octaves, CountRange::new(1, 16));
+        p.colour(&LOW, &mut self.low, Range::RADIANCE);
+        p.colour(&HIGH, &mut self.high, Range::RADIANCE);
+    }
+}
+
+impl Texturing for Noise {
+    type Pattern = Clouds;
+
+    fn compile(&self, _: &mut TextureCompiler) -> Result<Clouds, Problem> {
+        let [low, high] = [self.low, self.high].map(|colour| colour.map(|x| x as f32));
+        Ok(Clouds { scale: self.scale as f32, octaves: self.octaves, low, high })
+    }
+}
+
+/// Noise as the renderer looks it up.
+pub struct Clouds {
+    pub scale: f32,
+    pub octaves: u32,
+    pub low: [f32; 3],
+    pub high: [f32; 3],
+}
+
+impl Pattern for Clouds {
+    fn summary(&self, _: &Textures) -> Summary {
+        Summary {
+            mean: [0, 1, 2].map(|channel| 0.5 * (self.low[channel] + self.high[channel])),
+            maximum: [0, 1, 2].map(|channel| f32::max(self.low[channel], self.high[channel])),
+            steps: [Summary::COARSEST, Summary::COARSEST, step(self.scale, self.octaves)],
+        }
+    }
+
+    #[inline(always)]
+    fn apply<L: Lanes>(&self, l: L, here: M<L>, at: &TextureCoordinates<L>, found: &mut Found<L>) {
+        let t = fraction(at.p, self.scale, self.octaves);
+        found.colour = here.pick(V::splat(l, self.low) * (1.0 - t) + V::splat(l, self.high) * t, found.colour);
+    }
+}
+
+/// A number in [0, 1], ½ on average, that varies with the position p: the fractal sum ½ + ½ Σ 2⁻ⁱ n(2ⁱ `scale` p), clamped.
 #[inline(always)]
 pub fn fraction<L: Lanes>(p: V<L>, scale: f32, octaves: u32) -> F<L> {
     // Lattices of all octaves would meet at the origin, where noise is 0 at every point of them: each is moved aside.

@@ -1,5 +1,9 @@
-//! Known values, continuity, means, and lanes with different textures.
-use super::{Edge, ImageTexture, Texture, TextureCoordinates, Textures, checker, noise};
+//! Values where they are known, continuity, means, and lanes of different textures.
+use super::{
+    Constant, Edge, ImageTexture, Texture, TextureCoordinates, Textures,
+    checker::{self, Squares},
+    noise::{self, Clouds},
+};
 use crate::{
     image::Picture,
     math::{F, Lanes, M, One, SimdLevel, U, V},
@@ -56,9 +60,9 @@ fn checkers_alternate_and_know_their_share() {
 #[test]
 fn nested_checkers_are_followed() {
     let mut set = Textures::default();
-    let [black, red, green] = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(|c| set.push(Texture::Constant(c)));
-    let fine = set.push(Texture::Checker { even: red, odd: green, scale: 4.0 });
-    let coarse = set.push(Texture::Checker { even: fine, odd: black, scale: 2.0 });
+    let [black, red, green] = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(|c| set.push(Texture::Constant(Constant(c))));
+    let fine = set.push(Texture::Checker(Squares { even: red, odd: green, scale: 4.0 }));
+    let coarse = set.push(Texture::Checker(Squares { even: fine, odd: black, scale: 2.0 }));
     let colour = |u, v| set.colour(One, U(coarse), M(true), &at(u, v)).lane(0);
     assert_eq!([colour(0.1, 0.1), colour(0.3, 0.1), colour(0.6, 0.1)], [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0; 3]]);
     assert_eq!(set.mean(coarse), [0.25, 0.25, 0.0]);
@@ -180,7 +184,7 @@ fn scale_is_the_number_of_cells_to_a_metre() {
 fn noise_goes_from_its_low_colour_to_its_high_one() {
     let mut set = Textures::default();
     let (low, high) = ([0.1, 0.9, 0.3], [0.8, 0.2, 0.3]);
-    let id = set.push(Texture::Noise { scale: 1.0, octaves: 2, low, high });
+    let id = set.push(Texture::Noise(Clouds { scale: 1.0, octaves: 2, low, high }));
     let mut most = 0.5f32;
     for i in 0..50 {
         let (u, v) = (0.37 * i as f32, 0.3 + 0.11 * i as f32);
@@ -196,9 +200,9 @@ fn noise_goes_from_its_low_colour_to_its_high_one() {
 fn steps_are_those_of_the_finest_part() {
     let mut set = Textures::default();
     let image = set.push(Texture::Image(ImageTexture::new((&picture()).into())));
-    let noise = set.push(Texture::Noise { scale: 2.0, octaves: 3, low: [0.0, 0.75, 0.0], high: [1.0, 0.5, 0.25] });
-    let checker = set.push(Texture::Checker { even: image, odd: noise, scale: 8.0 });
-    let constant = set.push(Texture::Constant([0.5, 0.25, 0.125]));
+    let noise = set.push(Texture::Noise(Clouds { scale: 2.0, octaves: 3, low: [0.0, 0.75, 0.0], high: [1.0, 0.5, 0.25] }));
+    let checker = set.push(Texture::Checker(Squares { even: image, odd: noise, scale: 8.0 }));
+    let constant = set.push(Texture::Constant(Constant([0.5, 0.25, 0.125])));
     let steps = |id: u32| {
         let steps = set.steps(One, U(id));
         [steps.u.0, steps.v.0, steps.p.0]
@@ -224,10 +228,10 @@ fn lanes_of<L: Lanes>(l: L, set: &Textures, coordinates: &[[f32; 16]; 3], ids: U
 #[test]
 fn every_width_gives_the_same_bits() {
     let mut set = Textures::default();
-    let low = set.push(Texture::Noise { scale: 9.0, octaves: 6, low: [0.1, 0.2, 0.3], high: [0.9, 0.5, 0.3] });
+    let low = set.push(Texture::Noise(Clouds { scale: 9.0, octaves: 6, low: [0.1, 0.2, 0.3], high: [0.9, 0.5, 0.3] }));
     let image = set.push(Texture::Image(ImageTexture::new((&picture()).into())));
-    set.push(Texture::Checker { even: low, odd: image, scale: 5.0 });
-    set.push(Texture::Constant([0.25; 3]));
+    set.push(Texture::Checker(Squares { even: low, odd: image, scale: 5.0 }));
+    set.push(Texture::Constant(Constant([0.25; 3])));
     for round in 0..200u32 {
         let coordinates = [1u32, 2, 3].map(|axis| {
             std::array::from_fn(|lane| crate::sampling::hash::hash_one(64 * round + 4 * lane as u32 + axis) as f32 / 4.0e9)

@@ -3,12 +3,14 @@ use std::{fs, sync::Arc};
 
 use glam::DVec3;
 use noisefall::{
+    declare::Textured,
     geometry::Shape,
     light::{Background, Side},
-    material::{Material, Reflectance},
+    material::{AlphaSource, Conductor, Dielectric, Lambertian, Material, Mirror, Plastic, Reflectance, Roughness, Stage},
     math::{F, One, V},
     sampling::{Directions, Filter, Sampler},
-    scene::{Coating, Estimator, Lens, Object, Reuse, Roughness, Roulette, Scene, Shutter, Truth, parse},
+    scene::{Estimator, Lens, MaterialInstance, Object, Reuse, Roulette, Scene, Shutter, Truth, parse},
+    texture::ColourSource,
 };
 
 fn compiled(text: &str) -> Scene {
@@ -21,10 +23,10 @@ fn object(text: &str) -> Object {
     compiled(&format!("VIEW\n[[objects]]\n{text}")).objects.remove(0)
 }
 
-fn coating(material: &str) -> Coating {
+fn instance(material: &str) -> MaterialInstance {
     let ball = "shape.sphere = { center = [0, 0, 0], radius = 1.0 }";
     let scene = compiled(&format!("VIEW\n[materials.m]\n{material}\n[[objects]]\n{ball}\nmaterial = 'm'"));
-    scene.objects[0].coating.clone().expect("it has a material")
+    scene.material(&scene.objects[0]).cloned().expect("it has a material")
 }
 
 #[test]
@@ -85,30 +87,44 @@ fn settings() {
 
 #[test]
 fn materials() {
-    let material = |text: &str| coating(text).material;
-    assert_eq!(material("lambertian.albedo = [0.1, 0.2, 0.3]"), Material::Lambertian { albedo: [0.1, 0.2, 0.3] });
-    assert_eq!(material("mirror.reflectance = 0.5"), Material::Mirror { reflectance: [0.5; 3] });
-    let glass = Material::Dielectric { ior: 1.5, ior_outside: 1.0, alpha: 0.0, varies: false, compensated: true };
-    assert_eq!(material("dielectric.ior = 1.5"), glass);
-    let nested = coating(
+    let material = |text: &str| instance(text).material;
+    let grey = Textured::grey(0.5);
+    let rgb = Textured::Constant([0.1, 0.2, 0.3]);
+    assert_eq!(material("lambertian.albedo = [0.1, 0.2, 0.3]"), Lambertian { albedo: rgb.clone() }.into());
+    assert_eq!(material("mirror.reflectance = 0.5"), Mirror { reflectance: grey.clone() }.into());
+    let glass = Dielectric {
+        ior: 1.5,
+        ior_outside: 1.0,
+        roughness: Roughness::SMOOTH,
+        transmittance: [1.0; 3],
+        energy_compensation: true,
+    };
+    assert_eq!(material("dielectric.ior = 1.5"), glass.into());
+    let nested = instance(
         "dielectric = { ior = 1.25, ior_outside = 1.75, roughness = 0.5, transmittance = [0.1, 0.2, 0.3], energy_compensation = false }",
     );
-    let rough = Material::Dielectric { ior: 1.25, ior_outside: 1.75, alpha: 0.25, varies: false, compensated: false };
-    assert_eq!((nested.material, nested.transmittance, nested.roughness), (rough, [0.1, 0.2, 0.3], Roughness::Constant(0.25)));
+    let rough = Dielectric {
+        ior: 1.25,
+        ior_outside: 1.75,
+        roughness: Roughness::Roughness(Textured::Constant(0.5)),
+        transmittance: [0.1, 0.2, 0.3],
+        energy_compensation: false,
+    };
+    assert_eq!((nested.material, nested.compiled.inside), (rough.into(), Some([0.1, 0.2, 0.3])));
+    assert_eq!(nested.compiled.alpha, AlphaSource::Constant(0.25));
     let gold = Reflectance::Index { eta: [0.1, 0.2, 0.3], k: [3.0, 2.0, 1.0] };
     assert_eq!(
         material("conductor = { eta = [0.1, 0.2, 0.3], k = [3, 2, 1], alpha = 0.5 }"),
-        Material::Conductor { fresnel: gold, alpha: 0.5, compensated: true }
+        Conductor { fresnel: gold, roughness: Roughness::alpha(0.5), energy_compensation: true }.into()
     );
-    let steel = |fresnel| Material::Conductor { fresnel, alpha: 0.0, compensated: false };
-    assert_eq!(material("conductor = { f0 = 0.5, energy_compensation = false }"), steel(Reflectance::Schlick([0.5; 3])));
-    assert_eq!(
-        material("conductor = { reflectance = 0.5, energy_compensation = false }"),
-        steel(Reflectance::Constant([0.5; 3]))
-    );
-    let plastic = material("plastic = { albedo = [0.1, 0.2, 0.3], ior = 1.25, roughness = 0.1 }");
-    assert_eq!(plastic, Material::Plastic { albedo: [0.1, 0.2, 0.3], ior: 1.25, alpha: 0.1f32 * 0.1 });
-    let sides = |text: &str| coating(&format!("lambertian.albedo = 0.5\n{text}")).one_sided;
+    let steel = |fresnel| Material::from(Conductor { fresnel, roughness: Roughness::SMOOTH, energy_compensation: false });
+    assert_eq!(material("conductor = { f0 = 0.5, energy_compensation = false }"), steel(Reflectance::Schlick(grey.clone())));
+    assert_eq!(material("conductor = { reflectance = 0.5, energy_compensation = false }"), steel(Reflectance::Constant(grey)));
+    let plastic = instance("plastic = { albedo = [0.1, 0.2, 0.3], ior = 1.25, roughness = 0.1 }");
+    let roughness = Roughness::Roughness(Textured::Constant(0.1));
+    assert_eq!(plastic.material, Plastic { albedo: rgb, ior: 1.25, roughness }.into());
+    assert_eq!(plastic.compiled.alpha, AlphaSource::Constant(0.1f32 * 0.1));
+    let sides = |text: &str| instance(&format!("lambertian.albedo = 0.5\n{text}")).one_sided;
     assert_eq!([sides(""), sides("two_sided = true"), sides("two_sided = false")], [false, false, true]);
     let is_plain = |two_sided: bool| {
         let ball = "[[objects]]\nshape.sphere = { center = [0, 0, 0], radius = 1.0 }\nmaterial =";
@@ -116,7 +132,7 @@ fn materials() {
         compiled(&format!("VIEW\n{a}\n{b}\ntwo_sided = {two_sided}\n{ball} 'a'\n{ball} 'b'")).is_plain()
     };
     assert!(is_plain(true) && !is_plain(false), "one surface that reflects from one side is enough");
-    assert_eq!(coating("lambertian.albedo = 0.5").transmittance, [1.0; 3]);
+    assert_eq!(instance("lambertian.albedo = 0.5").compiled.inside, None);
 }
 
 #[test]
@@ -130,16 +146,14 @@ fn textured_materials() {
         emission = { texture = 't', scale = 4.0 }",
     );
     let object = &scene.objects[0];
-    let coating = object.coating.as_ref().expect("it has a material");
+    let instance = scene.material(object).expect("it has a material");
     let mean = [0.375, 0.5, 0.1875];
-    // The largest luminance of the texture, whose root the roughness is.
-    let most = 0.2126f32 * 0.5 + 0.7152 * 0.75 + 0.0722 * 0.25;
-    let Material::Conductor { fresnel: Reflectance::Schlick(f0), alpha, .. } = coating.material else { panic!("{coating:?}") };
-    assert_eq!(f0, mean);
-    assert!((alpha - most * most).abs() < 1e-6, "{alpha}");
-    let Some((texture, height)) = coating.bump else { panic!("{coating:?}") };
-    assert_eq!((height, coating.normal_map), (-0.5, None));
-    assert_eq!(coating.roughness, Roughness::Texture { id: texture, squared: true });
+    let Some((texture, height)) = instance.bump else { panic!("{instance:?}") };
+    assert_eq!((height, instance.normal_map), (-0.5, None));
+    assert_eq!(instance.compiled.colour, ColourSource::Texture(texture));
+    assert_eq!(instance.compiled.alpha, AlphaSource::Texture { id: texture, squared: true });
+    // The root of the largest luminance of the texture is well above what counts as smooth.
+    assert_eq!((instance.compiled.stage, scene.textures.mean(texture)), (Stage::Conductor, mean));
     let emission = object.emission.expect("it emits");
     assert_eq!((emission.radiance, emission.mean, emission.texture), ([4.0; 3], mean.map(|x| 4.0 * x), Some(texture)));
 }
@@ -190,7 +204,7 @@ fn skies() {
 fn objects_and_their_transforms() {
     let plain = object("shape.sphere = { center = [1, 2, 3], radius = 0.5 }");
     assert_eq!((plain.name.as_str(), plain.flip, plain.motion.0.len(), plain.emission), ("", false, 0, None));
-    assert!(plain.coating.is_none() && plain.shape.bounding_sphere() == (DVec3::new(1.0, 2.0, 3.0), 0.5));
+    assert!(plain.material.is_none() && plain.shape.bounding_sphere() == (DVec3::new(1.0, 2.0, 3.0), 0.5));
     let center = |list: &str| {
         object(&format!("shape.sphere = {{ center = [1, 2, 3], radius = 0.5 }}\ntransform = [{list}]")).shape.bounding_sphere().0
     };
@@ -272,7 +286,7 @@ fn pictures_of_colours_go_through_the_curve_of_srgb_and_normal_maps_do_not() {
         shape.sphere = {{ center = [0, 0, 0], radius = 1 }}
         material = 'm'"
     ));
-    let map = scene.objects[0].coating.as_ref().and_then(|coating| coating.normal_map).expect("it has one");
+    let map = scene.material(&scene.objects[0]).and_then(|material| material.normal_map).expect("it has one");
     let [colours, numbers, normals] = [0, 1, map].map(|id| scene.textures.mean(id)[0]);
     // Means of the red of all pixels, by a reader of its own.
     assert!((colours - 0.225_73).abs() < 1e-4 && (numbers - 0.501_63).abs() < 1e-4, "{colours} {numbers}");

@@ -9,7 +9,7 @@ use noisefall::{
         frame::Frame,
         pass::{PassJob, Threads},
     },
-    sampling::{Directions, SAMPLERS, Sampler},
+    sampling::{Directions, Sampler},
     scene::{Camera, Estimator, RenderSettings, Reuse, Roulette, Scene, built_in},
 };
 
@@ -52,13 +52,13 @@ fn bits(film: &Film) -> Vec<[u32; 4]> {
 #[test]
 fn the_film_is_the_same_for_every_number_of_threads_and_every_simd_level() {
     let scene = built_in();
-    for (entry, reuse) in SAMPLERS.iter().flat_map(|entry| SHARING.map(|reuse| (entry, reuse))) {
-        let settings = settings(entry.sampler, reuse);
+    for (sampler, reuse) in Sampler::ALL.into_iter().flat_map(|sampler| SHARING.map(|reuse| (sampler, reuse))) {
+        let settings = settings(sampler, reuse);
         let reference = bits(&film(&scene, 1, SimdLevel::Scalar, &settings, SPP));
         for level in SimdLevel::available() {
             for threads in [1, 2, 4] {
                 let bits = bits(&film(&scene, threads, level, &settings, SPP));
-                assert!(bits == reference, "{}, {reuse:?}, {level:?}, {threads}", entry.name);
+                assert!(bits == reference, "{}, {reuse:?}, {level:?}, {threads}", sampler.name());
             }
         }
     }
@@ -86,8 +86,8 @@ fn an_interrupted_pass_goes_on_as_if_nothing_had_happened() {
 fn replayed_samples_add_up_to_the_film() {
     let scene = built_in();
     let rays = scene.rays(&camera(&scene));
-    for (entry, reuse) in SAMPLERS.iter().flat_map(|entry| SHARING.map(|reuse| (entry, reuse))) {
-        let settings = settings(entry.sampler, reuse);
+    for (sampler, reuse) in Sampler::ALL.into_iter().flat_map(|sampler| SHARING.map(|reuse| (sampler, reuse))) {
+        let settings = settings(sampler, reuse);
         let film = film(&scene, 2, SimdLevel::best(), &settings, 3);
         let frame = Frame::of_film(&film, 0, RESOLUTION, RESOLUTION);
         for [x, y] in [[0, 0], [37, 25], [74, 49], [64, 31], [12, 40]] {
@@ -98,7 +98,7 @@ fn replayed_samples_add_up_to_the_film() {
                 assert_eq!(replay.vertices.last().map(|vertex| vertex.radiance), Some(own));
                 (0..3).for_each(|c| sum[c] += f64::from(replay.radiance[c]));
             }
-            assert_eq!(frame.radiance[(y * RESOLUTION[0] + x) as usize], sum.map(|s| (s / 3.0) as f32), "{}", entry.name);
+            assert_eq!(frame.radiance[(y * RESOLUTION[0] + x) as usize], sum.map(|s| (s / 3.0) as f32), "{}", sampler.name());
         }
     }
 }

@@ -156,7 +156,7 @@ fn the_renderer_meets_the_same_surfaces() {
             assert_eq!(first.object.unwrap_or(MISS), found.object[pixel], "{name} at {x}, {y}");
             assert_eq!(first.distance.unwrap_or(f32::INFINITY), found.depth[pixel], "{name} at {x}, {y}");
             let Some(object) = first.object else { continue };
-            let material = scene.objects[object as usize].coating.as_ref().map_or("black", |coating| &coating.name);
+            let material = scene.material(&scene.objects[object as usize]).map_or("black", |material| &material.name);
             assert_eq!(scene.legend().names[found.material[pixel] as usize], material);
             let n = world(found.normal[pixel]);
             assert!((n.length() - 1.0).abs() < 1e-5 && n.dot(world(first.direction)) < 0.0, "{name} at {x}, {y}: {n}");

@@ -6,7 +6,7 @@ use std::{f32::consts::PI, path::Path};
 use noisefall::{
     integrator::{Batch, Outcome, Replay, TILE, Vertex, Work, pixel_samples, replay, trace},
     math::SimdLevel,
-    sampling::SAMPLERS,
+    sampling::Sampler,
     scene::{Camera, CameraRays, Estimator, RenderSettings, Reuse, Roulette, Scene, load},
 };
 
@@ -70,8 +70,8 @@ fn all_settings(seed: u32) -> Vec<RenderSettings> {
     for estimator in Estimator::ALL {
         for (roulette, max_bounces) in endings {
             let settings = RenderSettings { estimator, roulette, max_bounces, seed, ..RenderSettings::default() };
-            all.extend(SAMPLERS.iter().map(|entry| RenderSettings { sampler: entry.sampler, reuse: Reuse::Off, ..settings }));
-            let sampler = SAMPLERS[all.len() / 5 % SAMPLERS.len()].sampler;
+            all.extend(Sampler::ALL.into_iter().map(|sampler| RenderSettings { sampler, reuse: Reuse::Off, ..settings }));
+            let sampler = Sampler::ALL[all.len() / 5 % Sampler::ALL.len()];
             all.push(RenderSettings { sampler, reuse: Reuse::On, ..settings });
         }
     }

@@ -4,7 +4,6 @@ use crate::{
     geometry::{MISS, Place},
     integrator::{
         batch::{Batch, Detail, Hit, Inside, Path, Shadow},
-        kinds::{Kind, in_kind},
         media::transmittance,
         queue::Queue,
         shading::{LightEstimate, Reflected, Shading, shares_first},
@@ -13,9 +12,8 @@ use crate::{
         trace::Observer,
         work::{SLOTS, Work},
     },
-    material::{Bsdf, Lobes},
+    material::{Bsdf, Lobes, Shade, Stage, in_stage},
     math::{F, Lanes, M, One, U, V},
-    scene::surface::Stage,
 };
 
 const BLACK: [f32; 3] = [0.0; 3];
@@ -39,7 +37,7 @@ impl Observer for Follower {
 
     fn at_shaded(&mut self, work: &Work, batch: &Batch) {
         for stage in &work.scene.surfaces.stages {
-            in_kind!(stage, K => self.shade::<K>(work, batch));
+            in_stage!(stage, K => self.shade::<K>(work, batch));
         }
     }
 }
@@ -105,8 +103,8 @@ impl Follower {
         work.scene.surfaces.stages.iter().find_map(of_stage)
     }
 
-    /// Records the terms of a shading stage, if the surface is of its type.
-    fn shade<K: Kind>(&mut self, work: &Work, batch: &Batch)
+    /// The terms of the stage of a kind, if the surface is of that kind.
+    fn shade<K: Shade>(&mut self, work: &Work, batch: &Batch)
     where
         for<'a> K::Bsdf<'a, One>: Lobes,
     {
@@ -122,8 +120,8 @@ impl Follower {
         }
     }
 
-    /// The light sample, and its outcome if it was queued.
-    fn light<K: Kind>(&self, work: &Work, batch: &Batch, shading: &Shading<One, K>) -> SampledLight {
+    /// The light sample, and what becomes of it if it was queued.
+    fn light<K: Shade>(&self, work: &Work, batch: &Batch, shading: &Shading<One, K>) -> SampledLight {
         let LightEstimate { sample, f_cos, weight, .. } = shading.sample_light(One, work);
         let target = sample.target.0;
         let place = |light: u32| work.scene.lights.place(One, U(light), F(0.0));
@@ -157,7 +155,7 @@ impl Follower {
 }
 
 /// The next direction.
-fn reflection<'a, K: Kind>(work: &Work, batch: &Batch, shading: &Shading<'a, One, K>) -> Reflection
+fn reflection<'a, K: Shade>(work: &Work, batch: &Batch, shading: &Shading<'a, One, K>) -> Reflection
 where
     K::Bsdf<'a, One>: Lobes,
 {
@@ -225,7 +223,7 @@ fn surface(work: &Work, object: u32, path: &Path<One>, met: &Met<One>, shading_n
     let object = &work.scene.objects[object as usize];
     Surface {
         position: met.point.p.lane(0),
-        material: object.coating.as_ref().map(|coating| coating.material.name()),
+        material: work.scene.material(object).map(|material| material.material.name()),
         front: (met.cos.0 > 0.0) != object.flip,
         wo: (-path.d).lane(0),
         shading_normal,

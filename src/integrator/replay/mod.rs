@@ -58,15 +58,15 @@ pub fn replay(scene: &Scene, rays: &CameraRays, settings: &RenderSettings, pixel
 /// The reason why a vertex is the last one.
 fn end_at(scene: &Scene, settings: &RenderSettings, last: &Vertex) -> End {
     let (Some(object), Some(surface)) = (last.object, &last.surface) else { return End::LeftScene };
-    let coating = scene.objects[object as usize].coating.as_ref();
+    let material = scene.material(&scene.objects[object as usize]);
     match &last.reflection {
         Some(Reflection { weight, .. }) if *weight == [0.0; 3] => End::NoWeight,
         Some(Reflection { survives: false, survival, .. }) if *survival < 1.0 => End::Roulette,
         Some(Reflection { survives: false, .. }) => End::Vanished,
         Some(_) => End::Normals,
-        None if last.bounce < settings.last_bounce() => match coating {
+        None if last.bounce < settings.last_bounce() => match material {
             None => End::NoMaterial,
-            Some(coating) if coating.one_sided && !surface.front => End::BlackFromBehind,
+            Some(material) if material.one_sided && !surface.front => End::BlackFromBehind,
             Some(_) => End::Black,
         },
         None if settings.max_bounces.is_some() => End::Cap,

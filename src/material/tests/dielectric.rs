@@ -3,11 +3,11 @@ use rand::{Rng, SeedableRng, rngs::SmallRng};
 
 use super::super::{
     bsdf::{Bsdf, Lobes},
-    dielectric::Dielectric,
+    dielectric::DielectricBsdf,
     dielectric_albedo::textured_rows,
     fresnel, ggx,
     missing_energy::LossTable,
-    rough_dielectric::RoughDielectric,
+    rough_dielectric::RoughDielectricBsdf,
     tests::dielectric_fixtures::{COSINES, ETAS, ROUGHNESSES, combine, dot, interfaces, rough, rows_of, view, wide},
 };
 use crate::{
@@ -20,7 +20,7 @@ fn smooth_refraction_obeys_snell_and_loses_nothing() {
     for eta in ETAS {
         for step in 1..=1000 {
             let wo = view(step as f32 / 1000.0);
-            let glass = Dielectric { eta: F(eta) };
+            let glass = DielectricBsdf { eta: F(eta) };
             for lobe in [0.0, 0.999_999_94] {
                 let sample = glass.sample(wo, (F(0.5), F(0.5)), F(lobe));
                 let [wo, wi] = [wide(wo), wide(sample.wi)];
@@ -36,7 +36,7 @@ fn smooth_refraction_obeys_snell_and_loses_nothing() {
 #[test]
 fn a_lobe_is_called_as_the_direction_that_it_gives() {
     for eta in ETAS {
-        let (glass, wo, u) = (Dielectric { eta: F(eta) }, view(0.3), (F(0.5), F(0.5)));
+        let (glass, wo, u) = (DielectricBsdf { eta: F(eta) }, view(0.3), (F(0.5), F(0.5)));
         let reflects = fresnel::dielectric(wo.z, F::<One>(eta)).0.0;
         for step in 0..100 {
             let lobe = F((step as f32 + 0.5) / 100.0);
@@ -52,7 +52,7 @@ fn total_reflection_begins_at_the_critical_angle() {
     for eta in ETAS.into_iter().filter(|&eta| eta < 1.0) {
         let critical = (1.0 - f64::from(eta) * f64::from(eta)).sqrt();
         let passes =
-            |cos: f64| Dielectric { eta: F(eta) }.sample(view(cos as f32), (F(0.5), F(0.5)), F(0.999_999_9)).wi.z.0 < 0.0;
+            |cos: f64| DielectricBsdf { eta: F(eta) }.sample(view(cos as f32), (F(0.5), F(0.5)), F(0.999_999_9)).wi.z.0 < 0.0;
         assert!(passes(critical + 1e-6) && !passes(critical - 1e-6), "{eta}");
         assert!((1..100).all(|step| !passes(critical * f64::from(step) / 100.0)), "{eta}");
     }
@@ -62,15 +62,15 @@ fn total_reflection_begins_at_the_critical_angle() {
 fn equal_indices_let_everything_pass_straight() {
     for cos in COSINES {
         let (wo, u) = (view(cos), (F(0.3), F(0.7)));
-        for sample in [Dielectric { eta: F(1.0) }.sample(wo, u, F(1e-9)), rough(1.0, 0.5, None).sample(wo, u, F(1e-9))] {
+        for sample in [DielectricBsdf { eta: F(1.0) }.sample(wo, u, F(1e-9)), rough(1.0, 0.5, None).sample(wo, u, F(1e-9))] {
             let off = combine(wide(sample.wi), 1.0, wide(wo), 1.0);
             assert!(dot(off, off) < 1e-12 && sample.weight.x.0 == 1.0 && sample.delta.0);
         }
     }
 }
 
-/// Mean weight of samples without the scale of radiance, over `u` on a lattice and over `lobe` exactly.
-fn albedo(bsdf: &RoughDielectric<'_, One>, eta: f32, wo: V<One>, [count, step]: [u32; 2]) -> f64 {
+/// Mean weight of samples, the scale of radiance taken out: over `u` on a lattice, over `lobe` exactly.
+fn albedo(bsdf: &RoughDielectricBsdf<'_, One>, eta: f32, wo: V<One>, [count, step]: [u32; 2]) -> f64 {
     let ease = |t: f64| (t * t * (3.0 - 2.0 * t)) as f32;
     let slope = |t: f64| 6.0 * t * (1.0 - t);
     let point = |i: u32| {
@@ -132,7 +132,7 @@ fn textured_roughness_loses_nothing() {
             for (cos, outside) in COSINES.into_iter().flat_map(|cos| [(cos, true), (cos, false)]) {
                 let eta = if outside { inside } else { 1.0 / inside };
                 let table = LossTable { rows: &rows, offset: U(0), textured: M(true) };
-                let bsdf = RoughDielectric::new(One, F(eta), F(alpha), M(outside), Some(table));
+                let bsdf = RoughDielectricBsdf::new(One, F(eta), F(alpha), M(outside), Some(table));
                 let error = (albedo(&bsdf, eta, view(cos), [6765, 4181]) - 1.0).abs();
                 if error > worst.0 {
                     worst = (error, format!("{eta} {alpha} {cos}"));
@@ -199,7 +199,7 @@ fn sample_bits<L: Lanes>(l: L, rows: &[[f32; 4]]) -> Vec<u32> {
         let outside = spread(from, 1).above(0.5);
         let eta: F<L> = outside.pick(l.f(1.5), l.f(1.0 / 1.5));
         let table = LossTable { rows, offset: l.u(0), textured: outside };
-        let bsdf = RoughDielectric::new(l, eta, spread(from, 2), outside, Some(table));
+        let bsdf = RoughDielectricBsdf::new(l, eta, spread(from, 2), outside, Some(table));
         let z = spread(from, 3).min(l.f(1.0));
         let wo = V { x: (1.0 - z * z).sqrt(), y: l.f(0.0), z };
         let sample = bsdf.sample(wo, (spread(from, 4), spread(from, 5)), spread(from, 6));

@@ -1,7 +1,7 @@
 //! Interfaces and directions for the tests of dielectrics.
 use std::{collections::HashMap, sync::LazyLock};
 
-use super::super::{dielectric_albedo::uniform_rows, missing_energy::LossTable, rough_dielectric::RoughDielectric};
+use super::super::{dielectric_albedo::uniform_rows, missing_energy::LossTable, rough_dielectric::RoughDielectricBsdf};
 use crate::math::{F, M, One, U, V};
 
 pub(super) type Direction = [f64; 3];
@@ -33,10 +33,10 @@ pub(super) fn rows_of(eta: f32, alpha: f32) -> &'static [[f32; 4]] {
     &ROWS[&key(eta, alpha)]
 }
 
-/// The interface seen from outside, its thinner side, if `eta` > 1, and from inside otherwise.
-pub(super) fn rough(eta: f32, alpha: f32, rows: Option<&[[f32; 4]]>) -> RoughDielectric<'_, One> {
+/// The interface seen from its thinner side, outside, where `eta` > 1, from inside otherwise.
+pub(super) fn rough(eta: f32, alpha: f32, rows: Option<&[[f32; 4]]>) -> RoughDielectricBsdf<'_, One> {
     let table = rows.map(|rows| LossTable { rows, offset: U(0), textured: M(false) });
-    RoughDielectric::new(One, F(eta), F(alpha), M(eta > 1.0), table)
+    RoughDielectricBsdf::new(One, F(eta), F(alpha), M(eta > 1.0), table)
 }
 
 pub(super) fn view(cos: f32) -> V<One> {

@@ -4,7 +4,7 @@ use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use super::super::{
     bsdf::Bsdf,
-    rough_dielectric::RoughDielectric,
+    rough_dielectric::RoughDielectricBsdf,
     tests::dielectric_fixtures::{COSINES, Direction, ROUGHNESSES, combine, dot, interfaces, rough, rows_of, view, wide},
 };
 use crate::math::{F, One, V};
@@ -71,7 +71,7 @@ impl HalfVectors {
     }
 
     /// The pdf at (x, y) times the solid angle that the square maps to, by differences.
-    fn density(&self, bsdf: &RoughDielectric<'_, One>, x: f64, y: f64, through: bool) -> f64 {
+    fn density(&self, bsdf: &RoughDielectricBsdf<'_, One>, x: f64, y: f64, through: bool) -> f64 {
         const STEP: f64 = 1e-6;
         let [middle, right, up] = [(x, y), (x + STEP, y), (x, y + STEP)].map(|(x, y)| self.direction(x, y, through));
         let (Some(middle), Some(right), Some(up)) = (middle, right, up) else { return 0.0 };
@@ -81,7 +81,7 @@ impl HalfVectors {
     }
 
     /// The pdf integrated over all bins.
-    fn probabilities(&self, bsdf: &RoughDielectric<'_, One>) -> Vec<f64> {
+    fn probabilities(&self, bsdf: &RoughDielectricBsdf<'_, One>) -> Vec<f64> {
         let [steps_down, steps_around] = Self::STEPS;
         let (across, around) = ((Self::DOWN * steps_down) as f64, (Self::AROUND * steps_around) as f64);
         let mut all = vec![0.0; 2 * Self::DOWN * Self::AROUND];
@@ -119,7 +119,7 @@ fn facets_are_distributed_as_their_pdf_and_all_samples_that_exist_are_in_it() {
 
 /// The whole sphere in bins of z and azimuth, finer towards the poles.
 mod sphere {
-    use super::{Bsdf, Direction, One, RoughDielectric, V, narrow};
+    use super::{Bsdf, Direction, One, RoughDielectricBsdf, V, narrow};
 
     pub const DOWN: usize = 16;
     pub const AROUND: usize = 8;
@@ -133,7 +133,7 @@ mod sphere {
         (usize::from(z < 0.0) * half + down) * AROUND + ((turn * AROUND as f64) as usize).min(AROUND - 1)
     }
 
-    pub fn probability(bsdf: &RoughDielectric<'_, One>, wo: V<One>, bin: usize) -> f64 {
+    pub fn probability(bsdf: &RoughDielectricBsdf<'_, One>, wo: V<One>, bin: usize) -> f64 {
         let half = DOWN / 2;
         let (down, turn) = (bin / AROUND, bin % AROUND);
         let mut sum = 0.0;

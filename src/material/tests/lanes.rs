@@ -2,12 +2,13 @@
 use fearless_simd_macros::simd;
 
 use super::{
-    super::{Bsdf, Conductor, Material, Materials, Plastic, albedo_table::build},
+    super::{Bsdf, Conductor, Material, Materials, Plastic, Shade, albedo_table::build},
     cases::{local, mixed},
 };
 use crate::{
     in_lanes,
     math::{F, Lanes, MAX_LANES, SimdLevel, V},
+    sampling::Directions,
 };
 
 const POINTS: usize = 16 * MAX_LANES;
@@ -29,9 +30,9 @@ fn answers<L: Lanes>(l: L, plastic: bool, materials: &Materials, columns: &[Vec<
         let at = local(number, V { x: read.at(1), y: read.at(2), z: read.at(3) }, read.at(4));
         let u = (read.at(5), read.at(6));
         let (values, pdf) = if plastic {
-            answer(&Plastic::at(l, materials, &at), wo, u, read.at(7))
+            answer(&Plastic::at(l, materials, Directions::Bsdf, &at), wo, u, read.at(7))
         } else {
-            answer(&Conductor::at(l, materials, &at), wo, u, read.at(7))
+            answer(&Conductor::at(l, materials, Directions::Bsdf, &at), wo, u, read.at(7))
         };
         for lane in 0..L::N {
             out.extend(values.map(|v| v.lane(lane).map(f32::to_bits)).as_flattened());

@@ -1,81 +1,62 @@
-//! The camera of a scene file.
+//! The camera of a description.
 use glam::DVec3;
-use toml::Spanned;
 
 use crate::{
-    sampling::Filter,
+    declare::{Problem, short},
     scene::{
-        Camera, CameraError, Lens, Shutter,
-        check::{Checker, short},
-        desc::{CameraDesc, Exactly, ProjectionDesc},
-        diagnostic::SceneError,
-        errors::Errors,
+        Camera, CameraError, Shutter,
+        description::{CameraDescription, Projection},
     },
 };
 
 /// What an orthographic camera has in place of an angle; it takes no part in anything.
 const NO_FOV: f64 = 40.0;
 
-/// None where something is wrong.
-pub fn camera(check: &Checker, desc: &Spanned<CameraDesc>, errors: &mut Errors) -> Option<Camera> {
-    let c = desc.as_ref();
-    let orthographic = match c.projection.as_ref().map(Spanned::as_ref) {
-        Some(ProjectionDesc::Orthographic { width }) => Some(*width),
-        Some(ProjectionDesc::Perspective) | None => None,
+pub fn camera(described: &CameraDescription) -> Result<Camera, Problem> {
+    let orthographic = match described.projection {
+        Projection::Orthographic(orthographic) => Some(orthographic.width),
+        Projection::Perspective => None,
     };
-    let fov = errors.keep(desc, fov(check, desc, orthographic));
-    let eye = errors.keep(desc, check.point("eye", &c.eye));
-    let look_at = errors.keep(desc, check.point("look_at", &c.look_at));
-    let up = errors.keep(desc, c.up.as_ref().map_or(Ok(DVec3::Y), |up| check.point("up", up)));
-    let shutter = errors.keep(desc, c.shutter.as_ref().map(|times| shutter(check, times)).transpose());
     let camera = Camera {
-        eye: eye?,
-        look_at: look_at?,
-        up: up?,
-        fov: fov?,
+        eye: described.eye,
+        look_at: described.look_at,
+        up: described.up.unwrap_or(DVec3::Y),
+        fov: fov(described.fov, orthographic)?,
         orthographic,
-        lens: c.lens.as_ref().map(|lens| Lens { radius: lens.as_ref().radius, focus: lens.as_ref().focus }),
-        filter: c.filter.as_ref().map_or(Filter::Box, |filter| filter.as_ref().0),
-        shutter: shutter?,
-        resolution: c.resolution.as_ref().0,
+        lens: described.lens,
+        filter: described.filter,
+        shutter: described.shutter.map(shutter).transpose()?,
+        resolution: described.resolution,
     };
-    errors.keep(desc, checked(check, desc, camera))
-}
-
-/// The angle of view: of perspective cameras only.
-fn fov(check: &Checker, desc: &Spanned<CameraDesc>, orthographic: Option<f64>) -> Result<f64, SceneError> {
-    match (&desc.as_ref().fov, orthographic) {
-        (Some(fov), None) => Ok(*fov.as_ref()),
-        (None, Some(_)) => Ok(NO_FOV),
-        (None, None) => Err(check.missing(desc, "fov")),
-        (Some(fov), Some(_)) => {
-            Err(check.0.error(fov.span(), "an orthographic camera has no `fov`", "remove it, or the projection"))
-        }
-    }
-}
-
-fn checked(check: &Checker, desc: &Spanned<CameraDesc>, camera: Camera) -> Result<Camera, SceneError> {
     camera.check().map_err(|error| {
-        let told = check.0.error(place(desc, error), error.to_string(), label(error));
-        let is_default = error == CameraError::UpIsForward && desc.as_ref().up.is_none();
-        if is_default {
-            told.with_help("`up` is [0, 1, 0] where it is not given: give another, such as [0, 0, -1]")
+        let problem = Problem::at(key(error), error.to_string(), label(error));
+        if error == CameraError::UpIsForward && described.up.is_none() {
+            problem.help("`up` is [0, 1, 0] where it is not given: give another, such as [0, 0, -1]")
         } else {
-            told
+            problem
         }
     })?;
     // A lens without extent is a pinhole.
     Ok(Camera { lens: camera.lens.filter(|lens| lens.radius > 0.0), ..camera })
 }
 
-fn shutter(check: &Checker, times: &Spanned<Exactly<f64, 2>>) -> Result<Shutter, SceneError> {
-    let [open, close] = times.as_ref().0;
+/// The angle of view: of perspective cameras only.
+fn fov(fov: Option<f64>, orthographic: Option<f64>) -> Result<f64, Problem> {
+    match (fov, orthographic) {
+        (Some(fov), None) => Ok(fov),
+        (None, Some(_)) => Ok(NO_FOV),
+        (None, None) => Err(Problem::at("", "missing key `fov`", "`fov` must be given here")),
+        (Some(_), Some(_)) => Err(Problem::at("fov", "an orthographic camera has no `fov`", "remove it, or the projection")),
+    }
+}
+
+fn shutter([open, close]: [f64; 2]) -> Result<Shutter, Problem> {
     if -Shutter::FARTHEST <= open && open <= close && close <= Shutter::FARTHEST {
         return Ok(Shutter { open, close });
     }
     let message = format!("`shutter` is out of range: it opens at {} and closes at {}", short(open), short(close));
     let label = format!("expected two times from {0:e} to {1:e}, the earlier one first", -Shutter::FARTHEST, Shutter::FARTHEST);
-    Err(check.0.error(times.span(), message, label))
+    Err(Problem::at("shutter", message, label))
 }
 
 /// What stands at the key that an error is about.
@@ -94,16 +75,14 @@ fn label(error: CameraError) -> &'static str {
 }
 
 /// The key that an error is about.
-fn place(desc: &Spanned<CameraDesc>, error: CameraError) -> std::ops::Range<usize> {
-    let c = desc.as_ref();
-    let key = match error {
-        CameraError::Resolution => Some(c.resolution.span()),
-        CameraError::Fov | CameraError::NotFinite => c.fov.as_ref().map(Spanned::span),
-        CameraError::NoDirection => Some(c.look_at.span()),
-        CameraError::UpIsForward | CameraError::UpIsZero => Some(c.up.as_ref().unwrap_or(&c.look_at).span()),
-        CameraError::Width => c.projection.as_ref().map(Spanned::span),
-        CameraError::LensRadius | CameraError::Focus | CameraError::LensOrthographic => c.lens.as_ref().map(Spanned::span),
-        CameraError::Filter => c.filter.as_ref().map(Spanned::span),
-    };
-    key.unwrap_or_else(|| desc.span())
+fn key(error: CameraError) -> &'static str {
+    match error {
+        CameraError::Resolution => "resolution",
+        CameraError::Fov | CameraError::NotFinite => "fov",
+        CameraError::NoDirection => "look_at",
+        CameraError::UpIsForward | CameraError::UpIsZero => "up",
+        CameraError::Width => "projection",
+        CameraError::LensRadius | CameraError::Focus | CameraError::LensOrthographic => "lens",
+        CameraError::Filter => "filter",
+    }
 }

@@ -1,194 +1,82 @@
-//! Materials of a scene file.
-use toml::Spanned;
+//! Materials of a description.
+use std::collections::BTreeMap;
 
+use super::{Numbers, Problems};
 use crate::{
-    image::Encoding,
-    material::{Material, Reflectance},
-    math::colour::luminance,
+    declare::{Path, Problem},
+    image::{Encoding, read_light},
+    material::{CompiledMaterial, Material, Materials},
     quote,
-    scene::{
-        check::{Checker, ColourRange},
-        colour::Colour,
-        desc::{BumpDesc, ConductorDesc, DielectricDesc, MaterialDesc, PlasticDesc},
-        diagnostic::SceneError,
-        textures::{ColourSource, NamedTextures},
-    },
+    scene::description::MaterialDescription,
+    texture::{ImageTexture, Texture, TextureCompiler},
 };
-
-/// The width α of the distribution of microfacet slopes.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Roughness {
-    Constant(f32),
-    /// α, or where `squared` its root, is the texture's luminance.
-    Texture {
-        id: u32,
-        squared: bool,
-    },
-}
 
 /// A material and what varies about it over the surface.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Coating {
+pub struct MaterialInstance {
     pub name: String,
     pub material: Material,
-    /// Albedo or reflectance.
-    pub colour: ColourSource,
-    pub roughness: Roughness,
+    pub compiled: CompiledMaterial,
     /// Texture of heights and its scale, metres.
     pub bump: Option<(u32, f32)>,
     /// Texture of normals.
     pub normal_map: Option<u32>,
     /// Black from behind.
     pub one_sided: bool,
-    /// What a metre of the interior lets pass; white where there is none.
-    pub transmittance: [f32; 3],
 }
 
-const WHITE: ColourSource = ColourSource::Constant([1.0; 3]);
-const LEAST_IOR: f64 = 0.05;
-const MOST_IOR: f64 = 20.0;
+/// All materials that can be used, and their numbers by name.
+pub fn materials(
+    described: &BTreeMap<String, MaterialDescription>,
+    textures: &mut TextureCompiler,
+    tables: &mut Materials,
+    problems: &mut Problems,
+) -> (Vec<MaterialInstance>, Numbers) {
+    let mut instances = Vec::new();
+    // Without a number: what is wrong with it has been said, and objects may name it.
+    let mut numbers: Numbers = problems.damage.names("materials").map(|name| (name.to_owned(), None)).collect();
+    for (name, material) in described {
+        if problems.are_many() {
+            break;
+        }
+        let instance = instance(name, material, textures, tables);
+        let number = problems.keep(&Path::of("materials").key(name), instance).map(|instance| {
+            let number = tables.push(&instance.compiled);
+            instances.push(instance);
+            number
+        });
+        numbers.insert(name.clone(), number);
+    }
+    (instances, numbers)
+}
 
-pub fn coating(
-    check: &Checker,
+fn instance(
     name: &str,
-    desc: &Spanned<MaterialDesc>,
-    textures: &mut NamedTextures,
-) -> Result<Coating, SceneError> {
-    let m = desc.as_ref();
-    let kinds = [m.lambertian.is_some(), m.mirror.is_some(), m.dielectric.is_some(), m.conductor.is_some(), m.plastic.is_some()];
-    let expected = "expected one of `lambertian`, `mirror`, `dielectric`, `conductor` and `plastic`";
-    match kinds.into_iter().filter(|given| *given).count() {
-        0 => return Err(check.0.error(desc.span(), format!("material `{name}` says no kind"), expected)),
-        1 => {}
-        _ => return Err(check.0.error(desc.span(), format!("material `{name}` says more than one kind"), expected)),
+    described: &MaterialDescription,
+    textures: &mut TextureCompiler,
+    tables: &mut Materials,
+) -> Result<MaterialInstance, Problem> {
+    let bump = described.bump.as_ref().map(|bump| Ok((textures.id("bump.texture", &bump.texture)?, bump.height as f32)));
+    let normal_map = described.normal_map.as_ref().map(|path| normal_map(path, textures));
+    let compiled = tables.compile(&described.kind, textures)?;
+    if compiled.stage.transmits() && described.two_sided == Some(false) {
+        return Err(Problem::at("two_sided", format!("a {} has two sides", described.kind.name()), "remove this"));
     }
-    let mut coating = Coating {
+    Ok(MaterialInstance {
         name: quote::piece(name),
-        material: Material::Mirror { reflectance: [0.0; 3] },
-        colour: WHITE,
-        roughness: Roughness::Constant(0.0),
-        bump: m.bump.as_ref().map(|bump| self::bump(check, bump, textures)).transpose()?,
-        normal_map: m.normal_map.as_ref().map(|path| textures.picture(check, path, Encoding::Linear)).transpose()?,
-        one_sided: m.two_sided.as_ref().is_some_and(|two_sided| !*two_sided.as_ref()),
-        transmittance: [1.0; 3],
-    };
-    if let Some(lambertian) = &m.lambertian {
-        coating.colour = textures.colour_or_texture(check, &ColourRange::ALBEDO, &lambertian.albedo)?;
-        coating.material = Material::Lambertian { albedo: textures.typical(coating.colour) };
-    } else if let Some(mirror) = &m.mirror {
-        coating.colour = textures.colour_or_texture(check, &ColourRange::REFLECTANCE, &mirror.reflectance)?;
-        coating.material = Material::Mirror { reflectance: textures.typical(coating.colour) };
-    } else if let Some(dielectric) = &m.dielectric {
-        self::dielectric(check, dielectric, textures, &mut coating)?;
-        if let Some(two_sided) = m.two_sided.as_ref().filter(|two_sided| !*two_sided.as_ref()) {
-            return Err(check.0.error(two_sided.span(), "a dielectric has two sides", "remove this"));
-        }
-    } else if let Some(conductor) = &m.conductor {
-        self::conductor(check, conductor, textures, &mut coating)?;
-    } else if let Some(plastic) = &m.plastic {
-        self::plastic(check, plastic, textures, &mut coating)?;
-    }
-    Ok(coating)
+        material: described.kind.clone(),
+        compiled,
+        bump: bump.transpose()?,
+        normal_map: normal_map.transpose()?,
+        one_sided: described.two_sided == Some(false),
+    })
 }
 
-fn dielectric(check: &Checker, d: &DielectricDesc, textures: &NamedTextures, coating: &mut Coating) -> Result<(), SceneError> {
-    coating.roughness = roughness(check, d.roughness.as_ref(), d.alpha.as_ref(), textures)?;
-    if let Some(transmittance) = &d.transmittance {
-        coating.transmittance = check.colour(&ColourRange::TRANSMITTANCE, transmittance)?;
-    }
-    coating.material = Material::Dielectric {
-        ior: check.within("ior", &d.ior, LEAST_IOR, MOST_IOR)?,
-        ior_outside: d.ior_outside.as_ref().map_or(Ok(1.0), |ior| check.within("ior_outside", ior, LEAST_IOR, MOST_IOR))?,
-        alpha: coating.roughness.largest(textures),
-        varies: matches!(coating.roughness, Roughness::Texture { .. }),
-        compensated: d.energy_compensation.unwrap_or(true),
-    };
-    Ok(())
-}
-
-fn conductor(
-    check: &Checker,
-    desc: &Spanned<ConductorDesc>,
-    textures: &NamedTextures,
-    coating: &mut Coating,
-) -> Result<(), SceneError> {
-    let c = desc.as_ref();
-    coating.roughness = roughness(check, c.roughness.as_ref(), c.alpha.as_ref(), textures)?;
-    let fresnel = match (&c.eta, &c.k, &c.f0, &c.reflectance) {
-        (Some(eta), Some(k), None, None) => {
-            let (eta_value, k_value) = (check.colour(&ColourRange::INDEX, eta)?, check.colour(&ColourRange::INDEX, k)?);
-            if eta_value.iter().zip(k_value).any(|(eta, k)| *eta == 0.0 && k == 0.0) {
-                return Err(check.0.error(eta.span(), "`eta` and `k` are both 0", "no metal has such an index"));
-            }
-            Reflectance::Index { eta: eta_value, k: k_value }
-        }
-        (None, None, Some(f0), None) => {
-            coating.colour = textures.colour_or_texture(check, &ColourRange::F0, f0)?;
-            Reflectance::Schlick(textures.typical(coating.colour))
-        }
-        (None, None, None, Some(reflectance)) => {
-            coating.colour = textures.colour_or_texture(check, &ColourRange::REFLECTANCE, reflectance)?;
-            Reflectance::Constant(textures.typical(coating.colour))
-        }
-        _ => {
-            let message = "a conductor must say `eta` and `k`, or `f0`, or `reflectance`";
-            return Err(check.0.error(desc.span(), message, "exactly one of these"));
-        }
-    };
-    let compensated = c.energy_compensation.unwrap_or(true);
-    coating.material = Material::Conductor { fresnel, alpha: coating.roughness.largest(textures), compensated };
-    Ok(())
-}
-
-fn plastic(check: &Checker, p: &PlasticDesc, textures: &NamedTextures, coating: &mut Coating) -> Result<(), SceneError> {
-    coating.roughness = roughness(check, p.roughness.as_ref(), p.alpha.as_ref(), textures)?;
-    coating.colour = textures.colour_or_texture(check, &ColourRange::ALBEDO, &p.albedo)?;
-    coating.material = Material::Plastic {
-        albedo: textures.typical(coating.colour),
-        ior: check.within("ior", &p.ior, 1.0, MOST_IOR)?,
-        alpha: coating.roughness.largest(textures),
-    };
-    Ok(())
-}
-
-/// α, given directly or as its root, the roughness. Smooth when neither is given.
-fn roughness(
-    check: &Checker,
-    roughness: Option<&Spanned<Colour>>,
-    alpha: Option<&Spanned<Colour>>,
-    textures: &NamedTextures,
-) -> Result<Roughness, SceneError> {
-    let (value, range, squared) = match (roughness, alpha) {
-        (None, None) => return Ok(Roughness::Constant(0.0)),
-        (Some(roughness), None) => (roughness, &ColourRange::ROUGHNESS, true),
-        (None, Some(alpha)) => (alpha, &ColourRange::ALPHA, false),
-        (Some(_), Some(alpha)) => {
-            let message = "both `roughness` and `alpha` are given";
-            return Err(check.0.error(alpha.span(), message, "α is the square of the roughness: one is enough"));
-        }
-    };
-    match textures.colour_or_texture(check, range, value)? {
-        ColourSource::Constant([r, g, b]) if r != g || g != b => {
-            Err(check.0.error(value.span(), format!("`{}` is a colour", range.what), "expected one number"))
-        }
-        ColourSource::Constant([r, ..]) => Ok(Roughness::Constant(if squared { r * r } else { r })),
-        ColourSource::Texture(id) => Ok(Roughness::Texture { id, squared }),
-    }
-}
-
-impl Roughness {
-    /// The largest α, which decides whether the surface is rough at all.
-    fn largest(self, textures: &NamedTextures) -> f32 {
-        match self {
-            Roughness::Constant(alpha) => alpha,
-            Roughness::Texture { id, squared } => {
-                let most = luminance(textures.textures.maximum(id));
-                if squared { most * most } else { most }
-            }
-        }
-    }
-}
-
-fn bump(check: &Checker, desc: &BumpDesc, textures: &NamedTextures) -> Result<(u32, f32), SceneError> {
-    Ok((textures.id(check, &desc.texture)?, check.within("height", &desc.height, -1e6, 1e6)?))
+/// A texture without a name, of normals.
+fn normal_map(path: &str, textures: &mut TextureCompiler) -> Result<u32, Problem> {
+    let resources = textures.resources;
+    let picture = read_light(&resources.path(path), Encoding::Linear)
+        .map_err(|error| Problem::at("normal_map", error.to_string(), "this picture cannot be used"))?;
+    resources.reserve("normal_map", "the texels of a picture", size_of_val(&picture.radiance[..]) as u64)?;
+    Ok(textures.push(Texture::Image(ImageTexture::new(picture))))
 }

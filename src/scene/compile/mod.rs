@@ -1,151 +1,173 @@
-//! From what a file says to what the renderer runs on: names become numbers, values are checked, tables are built.
-use std::{
-    collections::{BTreeMap, HashSet},
-    sync::{Arc, OnceLock},
-};
-
+//! From a description to what the renderer runs on: names become numbers, values are checked, tables are built.
 mod camera;
 mod light;
 mod material;
-mod mesh;
 mod object;
-mod settings;
-mod shape;
 
-pub use self::material::{Coating, Roughness};
-use self::{
-    camera::camera,
-    light::background,
-    material::coating,
-    mesh::Meshes,
-    object::objects,
-    settings::{settings, truth},
-    shape::motion,
+use std::{
+    collections::{BTreeMap, HashSet},
+    path::Path as FilePath,
+    sync::{Arc, OnceLock},
 };
+
+pub use self::material::MaterialInstance;
+use self::{camera::camera, light::background, material::materials, object::objects};
 use super::{
     Camera, Object, RenderSettings, Scene, Truth,
-    check::Checker,
-    desc::SceneDesc,
-    describe::Damage,
-    diagnostic::{SceneError, SourceText},
-    errors::Errors,
+    damage::Damage,
+    description::{RenderDescription, SceneDescription, TruthDescription},
     surface::Surfaces,
-    textures::NamedTextures,
 };
 use crate::{
+    declare::{Path, Problem, Resources},
     geometry::{Motion, Shape, Shapes},
+    image::{Encoding, read},
     light::{Background, Lights},
+    material::Materials,
     quote,
+    texture::{TextureCompiler, Textures},
 };
 
-/// The version of the scene format that this program reads.
-pub const FORMAT: i64 = 1;
-
-/// Checks a description and builds the scene, or says what is wrong with it: nothing more where `damage` is to blame. Errors point into
-/// `source`, which is the text that `desc` was read from.
-pub fn compile(desc: &SceneDesc, source: &SourceText, damage: &Damage) -> Result<Scene, Vec<SceneError>> {
-    let check = Checker::new(source);
-    let mut errors = Errors::new(damage);
-    let parts = parts(&check, desc, &mut errors);
-    match (parts, errors.into_found()) {
-        (Some(parts), found) if found.is_empty() => build(parts, desc, check).map_err(|error| vec![error]),
-        (_, found) => Err(found),
+/// Checks a description and builds the scene, or says what is wrong with it: nothing that follows from `damage`. `source` is the text of
+/// the scene file, and files are looked for in `folder`.
+pub fn compile(description: &SceneDescription, source: &str, folder: &FilePath, damage: &Damage) -> Result<Scene, Vec<Problem>> {
+    let resources = Resources::new(folder);
+    let mut problems = Problems { damage, found: Vec::new() };
+    let parts = Parts::new(description, &resources, &mut problems);
+    match parts {
+        Some(parts) if problems.found.is_empty() => parts.build(description, source, resources).map_err(|problem| vec![problem]),
+        _ => Err(problems.found),
     }
 }
 
-/// What the tables of a file say, each by itself.
+/// Collects what is wrong: a problem in one table does not keep the others from being looked at.
+struct Problems<'d> {
+    damage: &'d Damage,
+    found: Vec<Problem>,
+}
+
+impl Problems<'_> {
+    /// More are not looked for.
+    const MOST: usize = super::diagnostic::SceneError::MOST;
+
+    /// The value, or `None` where its problem is kept. What is wrong with a table that something was left out of is no news.
+    fn keep<T>(&mut self, table: &Path, result: Result<T, Problem>) -> Option<T> {
+        result
+            .map_err(|problem| {
+                if !self.damage.reaches(table) {
+                    self.found.push(problem.within(table));
+                }
+            })
+            .ok()
+    }
+
+    fn are_many(&self) -> bool {
+        self.found.len() >= Self::MOST
+    }
+}
+
+/// What the tables of a description say, each by itself.
 struct Parts {
     camera: Camera,
     camera_motion: Motion,
     background: Option<Background>,
-    textures: NamedTextures,
+    textures: Textures,
+    materials: Vec<MaterialInstance>,
+    tables: Materials,
     objects: Vec<Object>,
     settings: RenderSettings,
     spp: Option<u32>,
     truth: Option<Truth>,
 }
 
-/// All tables are looked at, whatever is wrong with one of them.
-fn parts(check: &Checker, desc: &SceneDesc, errors: &mut Errors) -> Option<Parts> {
-    let camera = camera(check, &desc.camera, errors);
-    let camera_motion = errors.keep(&desc.camera, motion(check, &desc.camera.as_ref().motion));
-    let background = desc.background.as_ref().and_then(|b| errors.keep(b, background(check, b)));
-    let mut textures = NamedTextures::compile(check, &desc.textures, errors);
-    // Without a coating: what is wrong with it has been said, and objects may name it.
-    let left_out = errors.left_out("materials").map(|name| (name.to_owned(), None));
-    let mut coatings: BTreeMap<String, Option<Coating>> = left_out.collect();
-    for (name, material) in &desc.materials {
-        if errors.are_many() {
-            return None;
-        }
-        let coating = coating(check, name, material, &mut textures);
-        coatings.insert(name.clone(), errors.keep(material, coating));
+impl Parts {
+    /// All tables are looked at, whatever is wrong with one of them.
+    fn new(description: &SceneDescription, resources: &Resources, problems: &mut Problems) -> Option<Parts> {
+        let at = Path::of;
+        let camera = problems.keep(&at("camera"), camera(&description.camera));
+        let camera_motion = crate::shape::motion(&description.camera.motion).map_err(|problem| problem.within(&at("motion")));
+        let camera_motion = problems.keep(&at("camera"), camera_motion);
+        let background =
+            description.background.as_ref().map(|described| problems.keep(&at("background"), background(described, resources)));
+        let mut wrong = Vec::new();
+        let mut textures = TextureCompiler::new(resources, &description.textures, problems.damage.names("textures"), &mut wrong);
+        wrong.retain(|problem| !problems.damage.reaches(&Path(problem.path.0.iter().take(2).cloned().collect())));
+        problems.found.extend(wrong);
+        let mut tables = Materials::default();
+        let (materials, numbers) = materials(&description.materials, &mut textures, &mut tables, problems);
+        let objects = objects(&description.objects, &numbers, &textures, resources, problems);
+        let RenderDescription { settings, spp } = description.render;
+        let truth = description.truth.as_ref().map(|described| problems.keep(&at("truth"), truth(described, resources)));
+        Some(Parts {
+            camera: camera?,
+            camera_motion: camera_motion?,
+            background: background.flatten().flatten(),
+            textures: textures.textures,
+            materials,
+            tables,
+            objects,
+            settings,
+            spp,
+            truth: truth.flatten(),
+        })
     }
-    let mut meshes = Meshes::default();
-    let mut objects: Vec<Object> = Vec::new();
-    for object in &desc.objects {
-        objects.extend(self::objects(check, object, &coatings, &textures, &mut meshes, errors));
-        if errors.are_many() {
-            return None;
-        }
+
+    /// The scene of its parts.
+    fn build(self, description: &SceneDescription, source: &str, resources: Resources) -> Result<Scene, Problem> {
+        let Parts { camera, camera_motion, background, textures, materials, tables, objects, settings, spp, truth } = self;
+        reserve_tables(&resources, &objects)?;
+        let owners = objects.iter().enumerate().flat_map(|(i, o)| vec![i as u32; o.shape.piece_count()]).collect();
+        let shapes = Shapes::new(objects.iter().map(|o| (&o.shape, &o.motion)), camera.look_at);
+        let emitting = objects.iter().map_while(|o| o.emission.map(|emission| (o, emission)));
+        let emitters: Vec<_> = emitting
+            .flat_map(|(o, emission)| o.shape.pieces().into_iter().map(move |piece| (piece, o.motion.clone(), emission)))
+            .collect();
+        let surfaces = Surfaces::new(&objects, &materials, tables);
+        surfaces.check().map_err(|message| Problem::at("", message, "in this scene"))?;
+        let mut scene = Scene {
+            title: quote::message(&description.title),
+            notes: description.notes.clone(),
+            source: source.to_owned(),
+            lights: Lights::new(&shapes, &emitters, background, camera.look_at),
+            shapes,
+            camera_motion,
+            owners,
+            surfaces,
+            textures,
+            size: size(&objects, &camera),
+            materials,
+            objects,
+            camera,
+            settings,
+            sharing_pays: Default::default(),
+            spp,
+            truth,
+            deepest_media: 0,
+            warned: OnceLock::new(),
+            memory: resources.into_memory(),
+        };
+        scene.deepest_media = scene.count_deepest_media();
+        Ok(scene)
     }
-    // A stable sort: emitting primitives first, as the table of emitters wants it.
-    objects.sort_by_key(|object| object.emission.is_none());
-    let settings = errors.keep_at(&(0..0), settings(check, &desc.render));
-    let truth = desc.truth.as_ref().and_then(|t| errors.keep(t, truth(check, t)));
-    let (settings, spp) = settings?;
-    Some(Parts {
-        camera: camera?,
-        camera_motion: camera_motion?,
-        background: background.flatten(),
-        textures,
-        objects,
-        settings,
-        spp,
-        truth,
-    })
 }
 
-/// The scene of its parts.
-fn build(parts: Parts, desc: &SceneDesc, check: Checker) -> Result<Scene, SceneError> {
-    let Parts { camera, camera_motion, background, textures, objects, settings, spp, truth } = parts;
-    let source = check.0;
-    reserve_tables(&check, &objects)?;
-    let owners = objects.iter().enumerate().flat_map(|(i, o)| vec![i as u32; o.shape.piece_count()]).collect();
-    let shapes = Shapes::new(objects.iter().map(|o| (&o.shape, &o.motion)), camera.look_at);
-    let emitting = objects.iter().map_while(|o| o.emission.map(|emission| (o, emission)));
-    let emitters: Vec<_> = emitting
-        .flat_map(|(o, emission)| o.shape.pieces().into_iter().map(move |piece| (piece, o.motion.clone(), emission)))
-        .collect();
-    let surfaces = Surfaces::new(&objects);
-    surfaces.check().map_err(|message| check.0.error(0..1, message, "in this scene"))?;
-    let mut scene = Scene {
-        title: desc.title.as_deref().map(quote::message).unwrap_or_default(),
-        notes: desc.notes.clone().unwrap_or_default(),
-        source: source.text.clone(),
-        lights: Lights::new(&shapes, &emitters, background, camera.look_at),
-        shapes,
-        camera_motion,
-        owners,
-        surfaces,
-        textures: textures.textures,
-        size: size(&objects, &camera),
-        objects,
-        camera,
-        settings,
-        sharing_pays: Default::default(),
-        spp,
-        truth,
-        deepest_media: 0,
-        warned: OnceLock::new(),
-        memory: check.into_memory(),
-    };
-    scene.deepest_media = scene.count_deepest_media();
-    Ok(scene)
+/// The numbers of materials by their names; `None` for those that are wrong.
+type Numbers = BTreeMap<String, Option<u32>>;
+
+fn truth(description: &TruthDescription, resources: &Resources) -> Result<Truth, Problem> {
+    match description {
+        TruthDescription::Radiance(radiance) => Ok(Truth::Radiance(radiance.map(|x| x as f32))),
+        TruthDescription::Image(image) => {
+            let path = resources.path(image);
+            let picture = read(&path, Encoding::Srgb)
+                .map_err(|error| Problem::at("image", error.to_string(), "this picture cannot be used"))?;
+            Ok(Truth::Image(path, Arc::new(picture)))
+        }
+    }
 }
 
 /// Room for what the renderer looks objects up in: trees, and lights.
-fn reserve_tables(check: &Checker, objects: &[Object]) -> Result<(), SceneError> {
+fn reserve_tables(resources: &Resources, objects: &[Object]) -> Result<(), Problem> {
     /// Bytes of an object that is not a mesh: in the tree of objects, in tables, and while those are built.
     const OBJECT: u64 = 1000;
     /// Of a triangle in the tree of its mesh, and while that is built.
@@ -166,10 +188,9 @@ fn reserve_tables(check: &Checker, objects: &[Object]) -> Result<(), SceneError>
         };
         lights += if object.emission.is_some() { count } else { 0 };
     }
-    let nowhere = || 0..1;
-    check.reserve(nowhere(), format_args!("{} objects", objects.len()), OBJECT * objects.len() as u64)?;
-    check.reserve(nowhere(), format_args!("{triangles} triangles"), TRIANGLE * triangles)?;
-    check.reserve(nowhere(), format_args!("{lights} lights"), LIGHT * lights)
+    resources.reserve("", format_args!("{} objects", objects.len()), OBJECT * objects.len() as u64)?;
+    resources.reserve("", format_args!("{triangles} triangles"), TRIANGLE * triangles)?;
+    resources.reserve("", format_args!("{lights} lights"), LIGHT * lights)
 }
 
 /// The extent that a person would call the size of the scene: of the objects that are not themselves far larger than the

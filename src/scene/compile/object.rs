@@ -1,74 +1,103 @@
-//! Objects of a scene file.
-use std::collections::BTreeMap;
-
-use toml::Spanned;
-
-use super::{
-    light::emission,
-    material::Coating,
-    mesh::Meshes,
-    shape::{motion, shapes, transform},
-};
+//! Objects of a description.
+use super::{Numbers, Problems, light::emission};
 use crate::{
+    declare::{Family, Path, Problem, Resources, short},
     geometry::{Motion, Shape},
     quote,
-    scene::{Object, check::Checker, desc::ObjectDesc, diagnostic::SceneError, errors::Errors, textures::NamedTextures},
+    scene::{Object, description::ObjectDescription},
+    shape::{ShapeBuilder, motion, product},
+    texture::TextureCompiler,
 };
 
-/// The object that is described, or, of a shape that is many, one each; none where something is wrong.
+/// Shapes that are smaller or larger, or farther away, cannot be told from nothing in f32.
+const LARGEST: f64 = 1e12;
+const SMALLEST: f64 = 1e-12;
+
+/// The objects that are described, emitting ones first. A shape that is many makes an object each.
 pub fn objects(
-    check: &Checker,
-    desc: &Spanned<ObjectDesc>,
-    coatings: &BTreeMap<String, Option<Coating>>,
-    textures: &NamedTextures,
-    meshes: &mut Meshes,
-    errors: &mut Errors,
+    described: &[ObjectDescription],
+    materials: &Numbers,
+    textures: &TextureCompiler,
+    resources: &Resources,
+    problems: &mut Problems,
 ) -> Vec<Object> {
-    let o = desc.as_ref();
-    let shapes = errors.keep(desc, placed(check, o, meshes));
-    let coating = match &o.material {
-        None => Some(None),
-        Some(name) => {
-            let known = coatings.get(name.as_ref()).cloned();
-            errors.keep(desc, known.ok_or_else(|| check.not_defined("material", name, coatings.keys())))
+    let mut shapes = ShapeBuilder::new(resources);
+    let mut objects: Vec<Object> = Vec::new();
+    for (place, object) in described.iter().enumerate() {
+        if problems.are_many() {
+            break;
         }
-    };
-    let moved = |shapes: &[Shape]| moved(check, o, shapes);
-    let motion = shapes.as_deref().and_then(|shapes| errors.keep(desc, moved(shapes)));
-    let emission = o.emission.as_ref().map(|e| emission(check, e, o.flip, textures)).transpose();
-    let emission = errors.keep(desc, emission);
-    let (Some(shapes), Some(coating), Some(motion), Some(emission)) = (shapes, coating, motion, emission) else {
-        return Vec::new();
-    };
+        let at = Path::of("objects").item(place);
+        objects.extend(these(object, &at, materials, textures, &mut shapes, problems));
+    }
+    // A stable sort: emitting primitives first, as the table of emitters wants it.
+    objects.sort_by_key(|object| object.emission.is_none());
+    objects
+}
+
+/// The object, or, of a shape that is many, one each; none where something is wrong.
+fn these(
+    o: &ObjectDescription,
+    at: &Path,
+    materials: &Numbers,
+    textures: &TextureCompiler,
+    builder: &mut ShapeBuilder,
+    problems: &mut Problems,
+) -> Vec<Object> {
+    let shapes = problems.keep(at, placed(o, builder));
+    let material = o.material.as_ref().map(|name| {
+        let unknown = || Problem::not_defined("material", Family::Material, name, materials.keys());
+        problems.keep(at, materials.get(name).copied().ok_or_else(unknown)).flatten()
+    });
+    let motion = shapes.as_deref().and_then(|shapes| problems.keep(at, moved(o, shapes)));
+    let emission = o.emission.as_ref().map(|described| {
+        let emission = emission(described, o.flip, textures).map_err(|problem| problem.within(&Path::of("emission")));
+        problems.keep(at, emission)
+    });
+    // What is wrong has been said: nothing is rendered then.
+    let (Some(shapes), Some(motion)) = (shapes, motion) else { return Vec::new() };
     let many = shapes.len() > 1;
-    let name = |number: usize| match &o.name {
-        Some(name) if many => format!("{} {}", quote::piece(name), number + 1),
-        name => name.as_deref().map(quote::piece).unwrap_or_default(),
-    };
+    let name = |number: usize| if many { format!("{} {}", quote::piece(&o.name), number + 1) } else { quote::piece(&o.name) };
     let object = |(number, shape): (usize, Shape)| Object {
-        name: name(number),
+        name: if o.name.is_empty() { String::new() } else { name(number) },
         shape,
         motion: motion.clone(),
         flip: o.flip,
-        coating: coating.clone(),
-        emission,
+        material: material.flatten(),
+        emission: emission.flatten(),
     };
     shapes.into_iter().enumerate().map(object).collect()
 }
 
 /// The shapes where the transforms put them.
-fn placed(check: &Checker, o: &ObjectDesc, meshes: &mut Meshes) -> Result<Vec<Shape>, SceneError> {
-    let map = transform(check, &o.transform)?;
-    let shapes: Vec<Shape> = shapes(check, &o.shape, meshes)?.iter().map(|shape| shape.transformed(&map)).collect();
-    shapes.iter().try_for_each(|shape| check.extent(shape, &o.shape))?;
+fn placed(o: &ObjectDescription, builder: &mut ShapeBuilder) -> Result<Vec<Shape>, Problem> {
+    let map = product(&o.transform).map_err(|problem| problem.within(&Path::of("transform")))?;
+    let built = builder.build(&o.shape).map_err(|problem| problem.within(&Path::of("shape")))?;
+    let shapes: Vec<Shape> = built.iter().map(|shape| shape.transformed(&map)).collect();
+    shapes.iter().try_for_each(extent)?;
     Ok(shapes)
 }
 
+/// Shapes after their transforms: neither too small nor too large or far away.
+fn extent(shape: &Shape) -> Result<(), Problem> {
+    let (center, radius) = shape.bounding_sphere();
+    if center.abs().max_element() <= LARGEST && (SMALLEST..=LARGEST).contains(&radius) {
+        return Ok(());
+    }
+    let [x, y, z] = center.to_array().map(short);
+    let message = format!("after its transforms the {} reaches {} m around {x}, {y}, {z}", shape.name(), short(radius));
+    Err(Problem::at("shape", message, format!("expected {SMALLEST:e} to {LARGEST:e} m")))
+}
+
 /// What carries the shapes from time 0 to 1.
-fn moved(check: &Checker, o: &ObjectDesc, shapes: &[Shape]) -> Result<Motion, SceneError> {
-    let motion = motion(check, &o.motion)?;
-    if let Some(last) = o.motion.last() {
-        shapes.iter().try_for_each(|shape| check.reach(shape.reach(&motion), last))?;
+fn moved(o: &ObjectDescription, shapes: &[Shape]) -> Result<Motion, Problem> {
+    let motion = motion(&o.motion).map_err(|problem| problem.within(&Path::of("motion")))?;
+    if let Some(last) = o.motion.len().checked_sub(1) {
+        let reach = shapes.iter().map(|shape| shape.reach(&motion)).fold(0.0, f64::max);
+        if reach > 4.0 * LARGEST || reach.is_nan() {
+            let message = format!("in motion it comes as far as {reach:e} m from the origin");
+            return Err(Problem::at(&format!("motion.{last}"), message, format!("expected at most {LARGEST:e} m")));
+        }
     }
     Ok(motion)
 }

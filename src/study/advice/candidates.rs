@@ -1,7 +1,7 @@
 //! Which settings are tried, in two stages: not all combinations, for who waits for advice does not wait long.
 use super::Advice;
 use crate::{
-    sampling::SAMPLERS,
+    sampling::Sampler,
     scene::{Estimator, RenderSettings, Roulette},
     study::setting::Setting,
 };
@@ -11,7 +11,7 @@ const ROULETTES: [Roulette; 4] =
     [Roulette::Throughput { start: 2 }, Roulette::BY_THROUGHPUT, Roulette::Throughput { start: 8 }, Roulette::Fixed(0.8)];
 
 /// The settings in use besides each sampler.
-pub const MOST_OF_SECOND_STAGE: usize = 1 + SAMPLERS.len();
+pub const MOST_OF_SECOND_STAGE: usize = 1 + Sampler::ALL.len();
 
 /// The settings in use, then those with another roulette or another estimator.
 pub fn first_stage(in_use: &RenderSettings) -> Vec<RenderSettings> {
@@ -22,7 +22,7 @@ pub fn first_stage(in_use: &RenderSettings) -> Vec<RenderSettings> {
 
 /// The settings in use, then `base` with each sampler.
 pub fn second_stage(in_use: &RenderSettings, base: &RenderSettings) -> Vec<RenderSettings> {
-    each_once(in_use, SAMPLERS.map(|entry| RenderSettings { sampler: entry.sampler, ..*base }))
+    each_once(in_use, Sampler::ALL.map(|sampler| RenderSettings { sampler, ..*base }))
 }
 
 fn each_once(first: &RenderSettings, others: impl IntoIterator<Item = RenderSettings>) -> Vec<RenderSettings> {

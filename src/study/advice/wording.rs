@@ -14,7 +14,7 @@ pub fn differing(settings: &RenderSettings, in_use: &RenderSettings) -> Vec<Sett
 pub fn difference(settings: &RenderSettings, in_use: &RenderSettings) -> String {
     let word = |setting| match setting {
         Setting::Estimator => format!("estimator {}", settings.estimator.name()),
-        Setting::Sampler => settings.sampler.entry().title.to_owned(),
+        Setting::Sampler => settings.sampler.word().title.to_owned(),
         Setting::Roulette => roulette(settings.roulette),
         Setting::Directions | Setting::Cap | Setting::Reuse | Setting::Adaptive => {
             format!("{} {}", setting.name(), setting.value(settings))

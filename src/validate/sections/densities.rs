@@ -5,7 +5,7 @@ use glam::DVec3;
 
 use crate::{
     geometry::{MISS, Motion, Nearest, Place, Shape, Shapes},
-    material::{Bsdf, Conductor, Lambertian, Local, Material, Materials, Plastic, Reflectance, RoughDielectric},
+    material::{Bsdf, Conductor, Dielectric, LambertianBsdf, Local, Materials, Plastic, Reflectance, RoughDielectric, Shade},
     math::{F, M, One, U, V},
     report::plot::{Axis, Style, curve, plot},
     sampling::Directions,
@@ -59,7 +59,7 @@ type Points = Vec<(f64, f64)>;
 fn hemisphere(validation: &Validation, directions: Directions) -> (Statement, Points, Points) {
     const BINS: [usize; 2] = [24, 8];
     let (count, random) = (validation.spp(1_500) * 1000, validation.random());
-    let bsdf = Lambertian { albedo: V::splat(One, [1.0; 3]), directions };
+    let bsdf = LambertianBsdf { albedo: V::splat(One, [1.0; 3]), directions };
     let mut counts = vec![0.0; BINS[0] * BINS[1]];
     for i in 0..count {
         let (u, lobe) = random.direction(i);
@@ -129,32 +129,32 @@ fn surfaces(validation: &Validation) -> Vec<Statement> {
     };
     let mut statements = Vec::new();
     for directions in [Directions::Uniform, Directions::Cosine] {
-        let bsdf = Lambertian { albedo: V::splat(One, [0.8; 3]), directions };
+        let bsdf = LambertianBsdf { albedo: V::splat(One, [0.8; 3]), directions };
         statements.push(of_bsdf(validation, &format!("lambertian, {}", directions.name()), &bsdf, (0.6, 1.0), None));
     }
     for alpha in ALPHAS {
-        let gold = Reflectance::Index { eta: [0.143, 0.374, 1.442], k: [3.983, 2.386, 1.603] };
-        let metal = Materials::new(&[Material::Conductor { fresnel: gold, alpha: alpha as f32, compensated: true }]);
-        let plastic = Materials::new(&[Material::Plastic { albedo: [0.8; 3], ior: 1.5, alpha: alpha as f32 }]);
-        let glass = Material::Dielectric { ior: 1.5, ior_outside: 1.0, alpha: alpha as f32, varies: false, compensated: true };
+        let gold = Reflectance::index([0.143, 0.374, 1.442], [3.983, 2.386, 1.603]);
+        let metal = Materials::new(&[Conductor::new(gold, alpha as f32, true).into()]);
+        let plastic = Materials::new(&[Plastic::new([0.8; 3], 1.5, alpha as f32).into()]);
+        let glass = Dielectric::new(1.5, alpha as f32, true).into();
         let glass = Materials::new(&[glass]);
         let at = (0.6, alpha.min(0.6));
         statements.push(of_bsdf(
             validation,
             &format!("metal, α = {alpha}"),
-            &Conductor::at(One, &metal, &local(alpha, true)),
+            &Conductor::at(One, &metal, Directions::Bsdf, &local(alpha, true)),
             at,
             None,
         ));
         statements.push(of_bsdf(
             validation,
             &format!("plastic, α = {alpha}"),
-            &Plastic::at(One, &plastic, &local(alpha, true)),
+            &Plastic::at(One, &plastic, Directions::Bsdf, &local(alpha, true)),
             at,
             None,
         ));
         for front in [true, false] {
-            let bsdf = RoughDielectric::at(One, &glass, &local(alpha, front));
+            let bsdf = RoughDielectric::at(One, &glass, Directions::Bsdf, &local(alpha, front));
             let what = format!("rough glass from {}, α = {alpha}", if front { "outside" } else { "inside" });
             // From inside below the critical angle, for there is nothing refracted beyond.
             let at = (if front { 0.4 } else { 0.9 }, at.1);

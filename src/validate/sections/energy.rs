@@ -3,7 +3,8 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::{
-    material::{Bsdf, Conductor, Local, Material, Materials, Plastic, Reflectance, RoughDielectric},
+    declare::Textured,
+    material::{Bsdf, Conductor, Dielectric, Local, Materials, Plastic, Reflectance, RoughDielectric, Shade},
     math::{F, M, One, U, V},
     measure::{Mean, Picture, picture},
     report::plot::{Axis, Style, curve, plot},
@@ -121,16 +122,21 @@ fn farthest_albedo(kind: &str, roughness: f64) -> (f64, f64) {
     let alpha = (roughness * roughness) as f32;
     let front = !kind.ends_with("inside");
     let material = match kind {
-        "perfect metal" => Material::Conductor { fresnel: Reflectance::Constant([1.0; 3]), alpha, compensated: true },
-        "white plastic" => Material::Plastic { albedo: [1.0; 3], ior: 1.5, alpha },
-        _ => Material::Dielectric { ior: 1.5, ior_outside: 1.0, alpha, varies: false, compensated: true },
+        "perfect metal" => Conductor::new(Reflectance::Constant(Textured::grey(1.0)), alpha, true).into(),
+        "white plastic" => Plastic::new([1.0; 3], 1.5, alpha).into(),
+        _ => Dielectric::new(1.5, alpha, true).into(),
     };
     let materials = Materials::new(&[material]);
     let at = Local { material: U(0), colour: V::splat(One, [1.0; 3]), alpha: F(alpha), front: M(front) };
     let of = |mu: f64| match kind {
-        "perfect metal" => albedo(&Conductor::at(One, &materials, &at), alpha, mu, None),
-        "white plastic" => albedo(&Plastic::at(One, &materials, &at), alpha, mu, None),
-        _ => albedo(&RoughDielectric::at(One, &materials, &at), alpha, mu, Some(if front { 1.5 } else { 1.0 / 1.5 })),
+        "perfect metal" => albedo(&Conductor::at(One, &materials, Directions::Bsdf, &at), alpha, mu, None),
+        "white plastic" => albedo(&Plastic::at(One, &materials, Directions::Bsdf, &at), alpha, mu, None),
+        _ => albedo(
+            &RoughDielectric::at(One, &materials, Directions::Bsdf, &at),
+            alpha,
+            mu,
+            Some(if front { 1.5 } else { 1.0 / 1.5 }),
+        ),
     };
     let gains = [1.0, 0.8, 0.6, 0.4, 0.2, 0.1].map(|mu| (of(mu) - 1.0, mu));
     gains.into_iter().max_by(|a, b| a.0.abs().total_cmp(&b.0.abs())).unwrap_or_default()
@@ -172,17 +178,14 @@ fn rings(found: &Picture) -> Vec<(f64, Mean)> {
 
 fn reciprocity(validation: &Validation) -> Vec<Statement> {
     let alpha = 0.25;
-    let gold = Reflectance::Index { eta: [0.143, 0.374, 1.442], k: [3.983, 2.386, 1.603] };
-    let materials = Materials::new(&[
-        Material::Conductor { fresnel: gold, alpha, compensated: true },
-        Material::Plastic { albedo: [0.8, 0.3, 0.1], ior: 1.5, alpha },
-    ]);
+    let gold = Reflectance::index([0.143, 0.374, 1.442], [3.983, 2.386, 1.603]);
+    let materials = Materials::new(&[Conductor::new(gold, alpha, true).into(), Plastic::new([0.8, 0.3, 0.1], 1.5, alpha).into()]);
     let at =
         |material: u32| Local { material: U(material), colour: V::splat(One, [0.8, 0.3, 0.1]), alpha: F(alpha), front: M(true) };
     let count = validation.spp(20_000);
     vec![
-        asymmetry("gold", (count, validation.random()), &Conductor::at(One, &materials, &at(0))),
-        asymmetry("plastic", (count, validation.random()), &Plastic::at(One, &materials, &at(1))),
+        asymmetry("gold", (count, validation.random()), &Conductor::at(One, &materials, Directions::Bsdf, &at(0))),
+        asymmetry("plastic", (count, validation.random()), &Plastic::at(One, &materials, Directions::Bsdf, &at(1))),
     ]
 }
 

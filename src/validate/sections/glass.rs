@@ -1,6 +1,6 @@
 //! Glass and media.
 use crate::{
-    material::{Bsdf, Dielectric, Local, Material, Materials, RoughDielectric, fresnel},
+    material::{Bsdf, Dielectric, DielectricBsdf, Local, Materials, RoughDielectric, Shade, fresnel},
     math::{F, M, One, U, V},
     measure::{Measure, exact, picture},
     sampling::Directions,
@@ -55,7 +55,7 @@ pub fn section(validation: &Validation) -> Section {
 /// Single samples of a smooth interface.
 fn interface(validation: &Validation, eta: f64) -> Vec<Statement> {
     let (count, random) = (validation.spp(20_000), validation.random());
-    let glass = Dielectric { eta: F(eta as f32) };
+    let glass = DielectricBsdf { eta: F(eta as f32) };
     let side = if eta > 1.0 { format!("into n = {eta:.1}") } else { format!("out of n = {:.1}", 1.0 / eta) };
     let view = |i: u32| Directions::Uniform.sample(random.direction(i).0);
     let (mut bend, mut scale, mut reflectance) = (Vec::new(), Vec::new(), Vec::new());
@@ -182,11 +182,16 @@ fn inside(validation: &Validation) -> Vec<Statement> {
 /// The largest relative difference between f/n² there and back.
 fn reciprocity(validation: &Validation) -> Statement {
     let (alpha, ior) = (0.3, IOR as f32);
-    let glass = Material::Dielectric { ior, ior_outside: 1.0, alpha, varies: false, compensated: true };
+    let glass = Dielectric::new(ior, alpha, true).into();
     let materials = Materials::new(&[glass]);
     let white = V::splat(One, [1.0; 3]);
     let at = |front: bool| {
-        RoughDielectric::at(One, &materials, &Local { material: U(0), colour: white, alpha: F(alpha), front: M(front) })
+        RoughDielectric::at(
+            One,
+            &materials,
+            Directions::Bsdf,
+            &Local { material: U(0), colour: white, alpha: F(alpha), front: M(front) },
+        )
     };
     let sides = [at(true), at(false)];
     let random = validation.random();

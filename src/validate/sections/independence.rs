@@ -12,7 +12,7 @@ use crate::{
         frame::Frame,
         pass::{PassJob, Threads},
     },
-    sampling::SAMPLERS,
+    sampling::Sampler,
     scene::{Camera, Estimator, RenderSettings, Roulette, built_in},
     validate::{Section, Statement, Validation},
 };
@@ -23,11 +23,10 @@ const SPP: u32 = 4;
 pub fn section(validation: &Validation) -> Section {
     let mut statements = Vec::new();
     let mut hashes = Vec::new();
-    for entry in SAMPLERS {
-        let settings =
-            RenderSettings { sampler: entry.sampler, roulette: Roulette::BY_THROUGHPUT, ..validation.settings(Estimator::Mis) };
+    for sampler in Sampler::ALL {
+        let settings = RenderSettings { sampler, roulette: Roulette::BY_THROUGHPUT, ..validation.settings(Estimator::Mis) };
         let reference = hash(&settings, 1, SimdLevel::Scalar, u32::MAX);
-        hashes.push(format!("{} {reference:016x}", entry.name));
+        hashes.push(format!("{} {reference:016x}", sampler.name()));
         let mut others = 0;
         for level in SimdLevel::available() {
             for threads in [1, 2, 4] {
@@ -35,12 +34,12 @@ pub fn section(validation: &Validation) -> Section {
             }
         }
         let what =
-            format!("{}: pictures that differ in any bit, over 1, 2, 4 threads × {:?}", entry.name, SimdLevel::available());
+            format!("{}: pictures that differ in any bit, over 1, 2, 4 threads × {:?}", sampler.name(), SimdLevel::available());
         statements.push(Statement::none(what, others));
         let paused = u32::from(hash(&settings, 2, SimdLevel::best(), 37) != reference);
-        let what = format!("{}: pictures that differ after hundreds of pauses in the middle of paths", entry.name);
+        let what = format!("{}: pictures that differ after hundreds of pauses in the middle of paths", sampler.name());
         statements.push(Statement::none(what, paused));
-        let what = format!("{}: pixels that differ when their samples are replayed alone, last first", entry.name);
+        let what = format!("{}: pixels that differ when their samples are replayed alone, last first", sampler.name());
         statements.push(Statement::none(what, replayed(&settings)));
     }
     Section {

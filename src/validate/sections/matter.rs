@@ -5,7 +5,10 @@ use glam::DVec3;
 
 use super::energy::ball;
 use crate::{
-    material::{Bsdf, Conductor, Lambertian, Local, Material, Materials, Mirror, Plastic, Reflectance, RoughDielectric, ggx},
+    declare::Textured,
+    material::{
+        Bsdf, Conductor, Dielectric, LambertianBsdf, Local, Materials, Mirror, Plastic, Reflectance, RoughDielectric, Shade, ggx,
+    },
     math::{F, M, One, U, V},
     measure::{Moments, picture},
     sampling::Directions,
@@ -89,7 +92,7 @@ fn worst(pairs: impl Iterator<Item = (f64, f64)>) -> f64 {
 fn diffuse(validation: &Validation) -> Vec<Statement> {
     let mut statements = Vec::new();
     for directions in Directions::ALL {
-        let bsdf = Lambertian { albedo: V::splat(One, [0.6; 3]), directions };
+        let bsdf = LambertianBsdf { albedo: V::splat(One, [0.6; 3]), directions };
         let wo = direction(0.7, 0.0);
         let what = |text: &str| format!("lambertian, {} directions: {text}", directions.name());
         let reflected = over_hemisphere(|wi| f64::from(bsdf.eval(lanes(wo), lanes(wi)).0.x.0));
@@ -111,9 +114,9 @@ fn diffuse(validation: &Validation) -> Vec<Statement> {
 
 /// Directions and weights of a smooth metal.
 fn mirror(validation: &Validation) -> Statement {
-    let fresnel = Reflectance::Index { eta: GOLD.0, k: GOLD.1 };
-    let materials = Materials::new(&[Material::Conductor { fresnel, alpha: 0.0, compensated: true }]);
-    let gold = Mirror::at(One, &materials, &local(1.0, 0.0, true));
+    let fresnel = Reflectance::index(GOLD.0, GOLD.1);
+    let materials = Materials::new(&[Conductor::new(fresnel, 0.0, true).into()]);
+    let gold = Mirror::at(One, &materials, Directions::Bsdf, &local(1.0, 0.0, true));
     let random = validation.random();
     let error = |i: u32| {
         let wo = Directions::Uniform.sample(random.direction(i).0);
@@ -130,9 +133,9 @@ fn mirror(validation: &Validation) -> Statement {
 /// Rough metals: with all that is lost at a second facet, and with what is given back.
 fn metals(validation: &Validation, alpha: f64) -> Vec<Statement> {
     let what = |text: &str| format!("metal, α = {alpha}: {text}");
-    let metal_of = |fresnel, compensated| Materials::new(&[Material::Conductor { fresnel, alpha: alpha as f32, compensated }]);
-    let perfect = metal_of(Reflectance::Constant([1.0; 3]), false);
-    let single = Conductor::at(One, &perfect, &local(1.0, alpha, true));
+    let metal_of = |fresnel, compensated| Materials::new(&[Conductor::new(fresnel, alpha as f32, compensated).into()]);
+    let perfect = metal_of(Reflectance::Constant(Textured::grey(1.0)), false);
+    let single = Conductor::at(One, &perfect, Directions::Bsdf, &local(1.0, alpha, true));
     let random = validation.random();
     // In u = tan²/(α² + tan²) cos θ dω is π α² cos⁴θ/(1 − u)² du.
     let area = (0..1000).map(|i| {
@@ -154,8 +157,8 @@ fn metals(validation: &Validation, alpha: f64) -> Vec<Statement> {
         let samples = (validation.spp(600) * 1000, validation.random());
         statements.push(sampled(what(&format!("albedo at cos θ = {mu}")), samples, &single, mu, 1.0, exact));
     }
-    let gold = metal_of(Reflectance::Index { eta: GOLD.0, k: GOLD.1 }, true);
-    let whole = Conductor::at(One, &gold, &local(1.0, alpha, true));
+    let gold = metal_of(Reflectance::index(GOLD.0, GOLD.1), true);
+    let whole = Conductor::at(One, &gold, Directions::Bsdf, &local(1.0, alpha, true));
     let red = |cos: f64| metal(cos, f64::from(GOLD.0[0]), f64::from(GOLD.1[0]));
     let lost = COSINES.map(|mu| 1.0 - albedo(alpha, mu, |_| 1.0));
     let mean_lost = average(96, |mu| 1.0 - albedo(alpha, mu, |_| 1.0));
@@ -184,10 +187,9 @@ fn grid(bsdf: &impl Bsdf<One>, exact: impl Fn(usize, usize, DVec3, DVec3) -> f64
 /// Rough glass without what is given back, seen from outside (η > 1) and from inside.
 fn interfaces(validation: &Validation, eta: f64) -> Vec<Statement> {
     let alpha = 0.3;
-    let glass =
-        Material::Dielectric { ior: IOR as f32, ior_outside: 1.0, alpha: alpha as f32, varies: false, compensated: false };
+    let glass = Dielectric::new(IOR as f32, alpha as f32, false).into();
     let materials = Materials::new(&[glass]);
-    let bsdf = RoughDielectric::at(One, &materials, &local(1.0, alpha, eta > 1.0));
+    let bsdf = RoughDielectric::at(One, &materials, Directions::Bsdf, &local(1.0, alpha, eta > 1.0));
     let side = if eta > 1.0 { "from outside" } else { "from inside" };
     let what = |text: &str| format!("rough glass, α = {alpha}, {side}: {text}");
     let random = validation.random();
@@ -230,9 +232,9 @@ fn beyond_digits(found: f64, w: DVec3, exact: impl Fn(DVec3) -> f64) -> f64 {
 fn coats() -> Vec<Statement> {
     let (rho, coat) = (0.8, |cos: f64| dielectric(cos, IOR).0);
     let of = |alpha: f64| {
-        let material = Material::Plastic { albedo: [rho as f32; 3], ior: IOR as f32, alpha: alpha as f32 };
+        let material = Plastic::new([rho as f32; 3], IOR as f32, alpha as f32).into();
         let materials = Materials::new(&[material]);
-        let bsdf = Plastic::at(One, &materials, &local(rho as f32, alpha, true));
+        let bsdf = Plastic::at(One, &materials, Directions::Bsdf, &local(rho as f32, alpha, true));
         let is_rough = alpha > 0.0;
         let passes = |mu: f64| 1.0 - if is_rough { albedo(alpha, mu, coat) } else { coat(mu) };
         let through = COSINES.map(passes);

@@ -10,7 +10,7 @@ use crate::{
         Figure,
         plot::{Axis, Curve, Style, curve, plot},
     },
-    sampling::{Directions, SAMPLERS, Sampler},
+    sampling::{Directions, Sampler},
     scene::{RenderSettings, Scene},
     validate::{Effort, Section, Statement, Validation, check},
 };
@@ -67,13 +67,13 @@ pub fn section(validation: &Validation) -> Section {
     let mut figures = Vec::new();
     for integrand in integrands() {
         let mut curves = Vec::new();
-        for entry in SAMPLERS {
-            let errors = errors(validation, &integrand, entry.sampler);
-            statements.extend(convergence(&integrand, entry.sampler, entry.name, &errors));
+        for sampler in Sampler::ALL {
+            let errors = errors(validation, &integrand, sampler);
+            statements.extend(convergence(&integrand, sampler, sampler.name(), &errors));
             let points: Vec<_> =
                 errors.counts.iter().zip(errors.mean_squares()).map(|(n, mse)| (f64::from(*n), mse.sqrt())).collect();
-            curves.push(curve(entry.name, Style::Points, points.clone()));
-            curves.push(curve(entry.name, Style::Line, points));
+            curves.push(curve(sampler.name(), Style::Points, points.clone()));
+            curves.push(curve(sampler.name(), Style::Line, points));
         }
         figures.push(figure(&integrand, curves));
     }

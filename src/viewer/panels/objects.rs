@@ -2,9 +2,9 @@
 use egui::{Grid, RichText, Ui};
 use glam::DVec3;
 use noisefall::{
+    declare::{OneOf, lines_of},
     geometry::{Outline, Shape},
-    material::{Material, Reflectance},
-    scene::{Coating, Object, Roughness, Scene},
+    scene::{Object, Scene},
 };
 
 use crate::viewer::widgets::style::elided;
@@ -20,7 +20,7 @@ pub fn show(ui: &mut Ui, scene: &Scene) {
         for (i, object) in scene.objects.iter().take(MOST_ROWS).enumerate() {
             let name = if object.name.is_empty() { format!("object {}", i + 1) } else { object.name.clone() };
             elided(ui, NAME_WIDTH, name).on_hover_text(place(object));
-            elided(ui, KIND_WIDTH, RichText::new(summary(object)).weak()).on_hover_text(details(object));
+            elided(ui, KIND_WIDTH, RichText::new(summary(scene, object)).weak()).on_hover_text(details(scene, object));
             ui.end_row();
         }
     });
@@ -50,53 +50,29 @@ fn place(object: &Object) -> String {
 }
 
 /// Kind of material, and whether it is a lamp.
-fn summary(object: &Object) -> String {
-    let material = object.coating.as_ref().map_or("black", |coating| coating.material.name());
+fn summary(scene: &Scene, object: &Object) -> String {
+    let material = scene.material(object).map_or("black", |material| material.material.name());
     if object.emission.is_some() { format!("{material}, lamp") } else { material.to_owned() }
 }
 
 /// All parameters, a line each.
-fn details(object: &Object) -> String {
+fn details(scene: &Scene, object: &Object) -> String {
     let mut lines = Vec::new();
-    if let Some(coating) = &object.coating {
-        lines.push(format!("material `{}`", coating.name));
-        lines.extend(parameters(coating));
+    if let Some(material) = scene.material(object) {
+        lines.push(format!("material `{}`", material.name));
+        lines.extend(lines_of(|p| material.material.clone().chosen(p)));
+        if material.bump.is_some() {
+            lines.push("bump map".to_owned());
+        }
+        if material.normal_map.is_some() {
+            lines.push("normal map".to_owned());
+        }
     }
     if let Some(emission) = &object.emission {
         let [r, g, b] = emission.mean;
         lines.push(format!("emits {r:.3} {g:.3} {b:.3} W/sr/m² on the mean"));
     }
     if lines.is_empty() { "reflects nothing".to_owned() } else { lines.join("\n") }
-}
-
-fn parameters(coating: &Coating) -> Vec<String> {
-    let colour = |name: &str, [r, g, b]: [f32; 3]| format!("{name} {r:.3} {g:.3} {b:.3}");
-    let mut lines = match coating.material {
-        Material::Lambertian { albedo } => vec![colour("albedo", albedo)],
-        Material::Mirror { reflectance } => vec![colour("reflectance", reflectance)],
-        Material::Dielectric { ior, ior_outside, .. } => vec![format!("index {ior} inside, {ior_outside} outside")],
-        Material::Conductor { fresnel, .. } => match fresnel {
-            Reflectance::Constant(reflectance) => vec![colour("reflectance", reflectance)],
-            Reflectance::Schlick(f0) => vec![colour("f0", f0)],
-            Reflectance::Index { eta, k } => vec![colour("eta", eta), colour("k", k)],
-        },
-        Material::Plastic { albedo, ior, .. } => vec![colour("albedo", albedo), format!("index {ior} of the coat")],
-    };
-    match coating.roughness {
-        Roughness::Constant(alpha) if alpha > 0.0 => lines.push(format!("α {alpha:.4}")),
-        Roughness::Constant(_) => {}
-        Roughness::Texture { .. } => lines.push("α by a texture".to_owned()),
-    }
-    if coating.transmittance != [1.0; 3] {
-        lines.push(colour("transmittance per metre", coating.transmittance));
-    }
-    if coating.bump.is_some() {
-        lines.push("bump map".to_owned());
-    }
-    if coating.normal_map.is_some() {
-        lines.push("normal map".to_owned());
-    }
-    lines
 }
 
 #[cfg(test)]
@@ -107,8 +83,12 @@ mod tests {
 
     /// The objects of a scene, in the order of the text: none of them emits but the last.
     fn objects(text: &str) -> Vec<Object> {
+        scene(text).objects
+    }
+
+    fn scene(text: &str) -> Scene {
         let camera = "format = 1\n[camera]\neye = [0.0, 0.0, 4.0]\nlook_at = [0.0, 0.0, 0.0]\nfov = 40.0\nresolution = [8, 8]\n";
-        parse("scene.toml", format!("{camera}{text}")).expect("it is a scene").objects
+        parse("scene.toml", format!("{camera}{text}")).expect("it is a scene")
     }
 
     fn shape(shape: &str) -> String {
@@ -138,30 +118,28 @@ mod tests {
                 "[materials.mine]\n{material}\n[[objects]]\nshape = {{ sphere = {{ center = [0.0, 0.0, 0.0], radius = 1.0 }} }}\n\
                  material = \"mine\"\n{rest}"
             );
-            let object = &objects(&text)[0];
-            (summary(object), details(object))
+            let scene = scene(&text);
+            (summary(&scene, &scene.objects[0]), details(&scene, &scene.objects[0]))
         };
         let (kind, more) =
             of("plastic = { albedo = [0.1, 0.2, 0.3], ior = 1.4, alpha = 0.25 }", "emission = { radiance = [1.0, 2.0, 3.0] }");
         assert_eq!(kind, "plastic, lamp");
         assert_eq!(
             more,
-            "material `mine`\nalbedo 0.100 0.200 0.300\nindex 1.4 of the coat\nα 0.2500\nemits 1.000 2.000 3.000 W/sr/m² on the mean"
+            "material `mine`\nalbedo ρ: 0.1 0.2 0.3\nior η: 1.4\nalpha α: 0.25\nemits 1.000 2.000 3.000 W/sr/m² on the mean"
         );
         let (kind, more) = of("dielectric = { ior = 1.5, ior_outside = 1.3, transmittance = [0.1, 0.6, 0.4] }", "");
         assert_eq!(kind, "dielectric");
-        assert!(
-            more.contains("index 1.5 inside, 1.3 outside") && more.contains("transmittance per metre 0.100 0.600 0.400"),
-            "{more}"
-        );
+        assert!(more.contains("ior η: 1.5\nior outside η': 1.3") && more.contains("transmittance T: 0.1 0.6 0.4 1/m"), "{more}");
         let (_, more) = of("conductor = { eta = [0.1, 0.2, 0.3], k = [3.0, 2.0, 1.0] }", "");
-        assert!(more.contains("eta 0.100 0.200 0.300\nk 3.000 2.000 1.000"), "{more}");
+        assert!(more.contains("eta η: 0.1 0.2 0.3\nk k: 3 2 1"), "{more}");
         let (_, more) = of(
             "lambertian = { albedo = 0.5 }\nbump = { texture = \"t\", height = 0.1 }",
             "[textures.t]\nchecker = { even = 0.1, odd = 0.5, scale = 4.0 }",
         );
-        assert_eq!(more, "material `mine`\nalbedo 0.500 0.500 0.500\nbump map");
-        let black = &objects("[[objects]]\nshape = { sphere = { center = [0.0, 0.0, 0.0], radius = 1.0 } }")[0];
-        assert_eq!((summary(black), details(black)), ("black".to_owned(), "reflects nothing".to_owned()));
+        assert_eq!(more, "material `mine`\nalbedo ρ: 0.5\nbump map");
+        let black = scene("[[objects]]\nshape = { sphere = { center = [0.0, 0.0, 0.0], radius = 1.0 } }");
+        let object = &black.objects[0];
+        assert_eq!((summary(&black, object), details(&black, object)), ("black".to_owned(), "reflects nothing".to_owned()));
     }
 }

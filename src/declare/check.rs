@@ -1,0 +1,104 @@
+//! Holds values against their ranges.
+use super::{Choice, Declare, Form, Parameter, Parameters, Path, Problem, Range, Textured, Value, short};
+
+/// Coordinates beyond this are refused: their squares would leave the range of f32.
+const FARTHEST: f64 = 1e12;
+
+/// All values of a description that are out of range.
+pub fn check(description: &mut dyn Declare) -> Vec<Problem> {
+    let mut checker = Checker { path: Path::default(), outer: Vec::new(), problems: Vec::new() };
+    description.parameters(&mut checker);
+    checker.problems
+}
+
+/// What is wrong with a value by itself. The path of the problem is empty.
+pub fn check_value(parameter: &Parameter, value: &Value<'_>) -> Option<Problem> {
+    let key = parameter.key;
+    let expected = |range: &Range| match range.expected {
+        "" => format!("expected a number from {} to {}", short(range.least), short(range.most)),
+        expected => expected.to_owned(),
+    };
+    let out_of_range =
+        |wrong: f64, range: &Range| Problem::at("", format!("`{key}` is out of range: {}", short(wrong)), expected(range));
+    let colour =
+        |rgb: &[f64; 3], range: &Range| rgb.iter().find(|x| !range.contains(**x)).map(|wrong| out_of_range(*wrong, range));
+    match value {
+        Value::TexturedNumber(Textured::Constant(number), range) if !range.contains(*number) => {
+            Some(out_of_range(*number, range))
+        }
+        Value::Number(number, range) if !range.contains(**number) => {
+            if *range == Range::FINITE {
+                let label = if parameter.unit.is_empty() {
+                    "expected a number".to_owned()
+                } else {
+                    format!("expected {}", parameter.unit)
+                };
+                return Some(Problem::at("", format!("`{key}` is not a finite number: {number}"), label));
+            }
+            Some(out_of_range(**number, range))
+        }
+        Value::Count(count, range) if !(range.least..=range.most).contains(*count) => {
+            let label = format!("expected a whole number from {} to {}", range.least, range.most);
+            Some(Problem::at("", format!("`{key}` is out of range: {count}"), label))
+        }
+        Value::Colour(rgb, range) => colour(rgb, range),
+        Value::Textured(Textured::Constant(rgb), range) => colour(rgb, range),
+        Value::Point(point) if !point.to_array().iter().all(|x| x.abs() <= FARTHEST) => {
+            let label = format!("coordinates must be finite and at most {FARTHEST:e} in size");
+            Some(Problem::at("", format!("`{key}` is not a position"), label))
+        }
+        _ => None,
+    }
+}
+
+struct Checker {
+    path: Path,
+    /// The lengths of the path in the tables around.
+    outer: Vec<usize>,
+    problems: Vec<Problem>,
+}
+
+impl Checker {
+    fn descend(&mut self, path: Path) {
+        self.outer.push(self.path.0.len());
+        self.path = path;
+    }
+}
+
+impl Parameters for Checker {
+    fn value(&mut self, parameter: &Parameter, value: Value<'_>) {
+        self.problems.extend(check_value(parameter, &value).map(|problem| problem.within(&self.path.key(parameter.key))));
+    }
+
+    fn enter(&mut self, parameter: &Parameter, _: Form) {
+        self.descend(self.path.key(parameter.key));
+    }
+
+    fn leave(&mut self) {
+        self.path.0.truncate(self.outer.pop().unwrap_or(0));
+    }
+
+    fn present(&mut self, _: &Parameter, now: bool) -> bool {
+        now
+    }
+
+    fn choose(&mut self, _: &Choice, now: usize) -> usize {
+        now
+    }
+
+    fn items(&mut self, _: &Parameter, now: usize) -> usize {
+        now
+    }
+
+    fn item(&mut self, parameter: &Parameter, index: usize) {
+        self.descend(self.path.key(parameter.key).item(index));
+    }
+
+    fn names(&mut self, _: &Parameter, now: Vec<String>) -> Vec<String> {
+        now
+    }
+
+    fn named(&mut self, parameter: &Parameter, name: &str) {
+        self.descend(self.path.key(parameter.key).key(name));
+    }
+}

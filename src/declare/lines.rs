@@ -1,0 +1,66 @@
+//! The values of a description as lines of text, for people.
+use super::{Choice, Form, Parameter, Parameters, Textured, Value, short};
+
+/// A line for every value that `declaration` visits: symbol or key, value, unit.
+pub fn lines_of(declaration: impl FnOnce(&mut dyn Parameters)) -> Vec<String> {
+    let mut lines = Lines(Vec::new());
+    declaration(&mut lines);
+    lines.0
+}
+
+struct Lines(Vec<String>);
+
+impl Parameters for Lines {
+    fn value(&mut self, parameter: &Parameter, value: Value<'_>) {
+        let value = match value {
+            Value::Number(number, _) => short(*number),
+            Value::Count(count, _) => count.to_string(),
+            Value::Flag(flag) => (if *flag { "yes" } else { "no" }).to_owned(),
+            Value::Text(text) | Value::File(text) | Value::Name(text, _) => text.clone(),
+            Value::Colour(rgb, _) => colour(rgb),
+            Value::Textured(Textured::Constant(rgb), _) => colour(rgb),
+            Value::TexturedNumber(Textured::Constant(number), _) => short(*number),
+            Value::Textured(Textured::Texture(name), _) => format!("by texture `{name}`"),
+            Value::TexturedNumber(Textured::Texture(name), _) => format!("by texture `{name}`"),
+            Value::Point(v) | Value::Vector(v) | Value::Factors(v) => format!("{} {} {}", short(v.x), short(v.y), short(v.z)),
+            Value::Pair(pair) => format!("{} {}", short(pair[0]), short(pair[1])),
+            Value::Counts(counts) => format!("{} {}", counts[0], counts[1]),
+            Value::Matrix(_) => "a matrix".to_owned(),
+            Value::Points(points) => format!("{} points", points.len()),
+            Value::Triangles(triangles) => triangles.len().to_string(),
+            Value::Word(place, words) => words[*place].name.to_owned(),
+        };
+        let name = parameter.key.replace('_', " ");
+        let symbol = if parameter.symbol.is_empty() { String::new() } else { format!(" {}", parameter.symbol) };
+        let unit = if parameter.unit.is_empty() { String::new() } else { format!(" {}", parameter.unit) };
+        self.0.push(format!("{name}{symbol}: {value}{unit}"));
+    }
+
+    fn enter(&mut self, _: &Parameter, _: Form) {}
+
+    fn leave(&mut self) {}
+
+    fn present(&mut self, _: &Parameter, now: bool) -> bool {
+        now
+    }
+
+    fn choose(&mut self, _: &Choice, now: usize) -> usize {
+        now
+    }
+
+    fn items(&mut self, _: &Parameter, now: usize) -> usize {
+        now
+    }
+
+    fn item(&mut self, _: &Parameter, _: usize) {}
+
+    fn names(&mut self, _: &Parameter, now: Vec<String>) -> Vec<String> {
+        now
+    }
+
+    fn named(&mut self, _: &Parameter, _: &str) {}
+}
+
+fn colour([r, g, b]: &[f64; 3]) -> String {
+    if r == g && g == b { short(*r) } else { format!("{} {} {}", short(*r), short(*g), short(*b)) }
+}

@@ -1,0 +1,118 @@
+//! What is known of a parameter besides its value: words and ranges.
+
+/// A parameter as a scene file and a person know it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Parameter {
+    /// What a scene file calls it.
+    pub key: &'static str,
+    /// One sentence: what it is.
+    pub doc: &'static str,
+    /// Its symbol in the equations; may be empty.
+    pub symbol: &'static str,
+    /// Its unit; may be empty.
+    pub unit: &'static str,
+    /// Whether a scene file must give it.
+    pub is_required: bool,
+    /// What others call it, separated by spaces: a reader answers with the key.
+    pub aliases: &'static str,
+    /// Advice for those who use an alias or a value of a wrong type.
+    pub advice: &'static str,
+}
+
+impl Parameter {
+    pub const fn new(key: &'static str, doc: &'static str) -> Parameter {
+        Parameter { key, doc, symbol: "", unit: "", is_required: false, aliases: "", advice: "" }
+    }
+
+    pub const fn required(self) -> Parameter {
+        Parameter { is_required: true, ..self }
+    }
+
+    pub const fn symbol(self, symbol: &'static str) -> Parameter {
+        Parameter { symbol, ..self }
+    }
+
+    pub const fn unit(self, unit: &'static str) -> Parameter {
+        Parameter { unit, ..self }
+    }
+
+    pub const fn aliases(self, aliases: &'static str) -> Parameter {
+        Parameter { aliases, ..self }
+    }
+
+    pub const fn advice(self, advice: &'static str) -> Parameter {
+        Parameter { advice, ..self }
+    }
+
+    /// Whether others may mean this parameter by a word.
+    pub fn is_alias(&self, word: &str) -> bool {
+        self.aliases.split(' ').any(|alias| alias == word)
+    }
+}
+
+/// Between which ends a number lies, both allowed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Range {
+    pub least: f64,
+    pub most: f64,
+    pub scale: Scale,
+    /// What a message says is expected, where the ends alone would not explain it; may be empty.
+    pub expected: &'static str,
+}
+
+/// How a slider runs through a range.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scale {
+    Linear,
+    /// By powers of ten.
+    Log,
+}
+
+impl Range {
+    /// Parts: reflectances, transmittances, roughness.
+    pub const UNIT: Range = Range::linear(0.0, 1.0);
+    /// Reflectances, channel by channel.
+    pub const REFLECTANCE: Range =
+        Range::UNIT.expected("every channel must lie in [0, 1]: a surface cannot reflect more light than it receives");
+    pub const ROUGHNESS: Range = Range::UNIT.expected("expected a number from 0 to 1");
+    /// W/(m² sr), channel by channel.
+    pub const RADIANCE: Range = Range::log(0.0, 1e15).expected("every channel must be a number from 0 to 1e15");
+    /// Refractive indices of transparent media.
+    pub const INDEX: Range = Range::linear(0.05, 20.0);
+    /// Metres.
+    pub const LENGTH: Range = Range::log(1e-12, 1e12);
+    /// Any finite number.
+    pub const FINITE: Range = Range::linear(f64::MIN, f64::MAX);
+
+    pub const fn linear(least: f64, most: f64) -> Range {
+        Range { least, most, scale: Scale::Linear, expected: "" }
+    }
+
+    pub const fn log(least: f64, most: f64) -> Range {
+        Range { least, most, scale: Scale::Log, expected: "" }
+    }
+
+    pub const fn expected(self, expected: &'static str) -> Range {
+        Range { expected, ..self }
+    }
+
+    /// False for NaN.
+    pub fn contains(&self, x: f64) -> bool {
+        (self.least..=self.most).contains(&x)
+    }
+}
+
+/// Between which ends a whole number lies, both allowed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CountRange {
+    pub least: u32,
+    pub most: u32,
+}
+
+impl CountRange {
+    pub const ANY: CountRange = CountRange { least: 0, most: u32::MAX };
+
+    pub const fn new(least: u32, most: u32) -> CountRange {
+        CountRange { least, most }
+    }
+}

@@ -1,0 +1,56 @@
+//! Where in a description a parameter stands.
+use std::fmt;
+
+use crate::quote;
+
+/// A step into a table or a list.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Step {
+    Key(String),
+    Item(usize),
+}
+
+/// From the top of a description to one of its values.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Path(pub Vec<Step>);
+
+impl Path {
+    /// Keys separated by points; numbers are places in lists.
+    pub fn of(text: &str) -> Path {
+        let step = |part: &str| part.parse().map_or_else(|_| Step::Key(part.to_owned()), Step::Item);
+        Path(text.split('.').filter(|part| !part.is_empty()).map(step).collect())
+    }
+
+    /// Whether `inner` stands at this path or within it.
+    pub fn holds(&self, inner: &Path) -> bool {
+        inner.0.starts_with(&self.0)
+    }
+
+    #[must_use]
+    pub fn join(&self, rest: &Path) -> Path {
+        Path(self.0.iter().chain(&rest.0).cloned().collect())
+    }
+
+    #[must_use]
+    pub fn key(&self, key: &str) -> Path {
+        self.join(&Path(vec![Step::Key(key.to_owned())]))
+    }
+
+    #[must_use]
+    pub fn item(&self, index: usize) -> Path {
+        self.join(&Path(vec![Step::Item(index)]))
+    }
+}
+
+impl fmt::Display for Path {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (place, step) in self.0.iter().enumerate() {
+            match step {
+                Step::Key(key) if place == 0 => write!(f, "{}", quote::piece(key))?,
+                Step::Key(key) => write!(f, ".{}", quote::piece(key))?,
+                Step::Item(index) => write!(f, "[{index}]")?,
+            }
+        }
+        Ok(())
+    }
+}

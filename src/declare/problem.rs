@@ -1,0 +1,73 @@
+//! What is wrong with a value, and where.
+use super::{path::Path, value::Family};
+use crate::quote;
+
+/// Something wrong in a description.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Problem {
+    /// Where: relative to the kind that says so, until those around it have [prefixed](Problem::within) theirs.
+    pub path: Path,
+    /// What is wrong.
+    pub message: String,
+    /// What is expected there.
+    pub label: String,
+    /// What to do; may be empty.
+    pub help: String,
+    /// Bytes of the text at `path` that are meant, where it is a text and not all of it is.
+    pub part: Option<std::ops::Range<usize>>,
+}
+
+impl Problem {
+    /// `at` as [`Path::of`] reads it.
+    pub fn at(at: &str, message: impl Into<String>, label: impl Into<String>) -> Problem {
+        Problem { path: Path::of(at), message: message.into(), label: label.into(), help: String::new(), part: None }
+    }
+
+    /// The problem of a name that stands for nothing; `known` are those that do.
+    pub fn not_defined<'k>(at: &str, family: Family, name: &str, known: impl Iterator<Item = &'k String>) -> Problem {
+        /// More are not listed.
+        const MOST: usize = 6;
+        let kind = match family {
+            Family::Texture => "texture",
+            Family::Material => "material",
+        };
+        let known: Vec<_> = known.map(String::as_str).collect();
+        let listed = known.iter().take(MOST).map(|name| format!("`{}`", quote::piece(name))).collect::<Vec<_>>().join(", ");
+        let help = match known.len() {
+            0 => format!("the scene defines no {kind}s"),
+            1..=MOST => format!("the scene defines {listed}"),
+            count => format!("the scene defines {listed} and {} more", count - MOST),
+        };
+        let meant = nearest(name, known.iter().copied());
+        let label = meant.map_or_else(|| "not defined".to_owned(), |meant| format!("did you mean `{meant}`?"));
+        Problem::at(at, format!("there is no {kind} `{name}`"), label).help(help)
+    }
+
+    #[must_use]
+    pub fn help(self, help: impl Into<String>) -> Problem {
+        Problem { help: help.into(), ..self }
+    }
+
+    /// The same problem as those around see it.
+    #[must_use]
+    pub fn within(self, outer: &Path) -> Problem {
+        Problem { path: outer.join(&self.path), ..self }
+    }
+}
+
+/// A number as one would write it: powers of ten only where there are many zeros.
+pub fn short(x: f64) -> String {
+    if x == 0.0 || !x.is_finite() || (1e-4..1e6).contains(&x.abs()) { x.to_string() } else { format!("{x:e}") }
+}
+
+/// The candidate that `word` was probably meant to be.
+pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    /// Nobody mistypes longer words, and comparing them takes as long as both are.
+    const LONGEST: usize = 100;
+    let length = word.chars().count();
+    let most = (length / 3).max(1);
+    let comparable = |candidate: &&'a str| length <= LONGEST && candidate.chars().count().abs_diff(length) <= most;
+    let candidates = candidates.into_iter().filter(comparable);
+    let distances = candidates.map(|candidate| (strsim::osa_distance(word, candidate), candidate));
+    distances.filter(|(distance, _)| *distance <= most).min().map(|(_, candidate)| candidate)
+}

@@ -1,0 +1,109 @@
+//! The types of values.
+use glam::DVec3;
+
+use super::parameter::{CountRange, Range};
+
+/// A value that a visitor may read or replace.
+pub enum Value<'v> {
+    Number(&'v mut f64, Range),
+    Count(&'v mut u32, CountRange),
+    Flag(&'v mut bool),
+    Text(&'v mut String),
+    /// A path relative to the folder of the scene.
+    File(&'v mut String),
+    /// The name of something that the scene defines.
+    Name(&'v mut String, Family),
+    /// Linear Rec. 709: three channels, or one number for grey.
+    Colour(&'v mut [f64; 3], Range),
+    Textured(&'v mut Textured, Range),
+    /// A number, or a texture whose luminance it is.
+    TexturedNumber(&'v mut Textured<f64>, Range),
+    /// Metres: a position, or a direction of any length.
+    Point(&'v mut DVec3),
+    /// Three numbers of any size.
+    Vector(&'v mut DVec3),
+    /// Three factors, or one for all.
+    Factors(&'v mut DVec3),
+    /// Two numbers.
+    Pair(&'v mut [f64; 2]),
+    /// Two whole numbers.
+    Counts(&'v mut [u32; 2]),
+    /// Row by row.
+    Matrix(&'v mut [[f64; 4]; 4]),
+    Points(&'v mut Vec<[f64; 3]>),
+    Triangles(&'v mut Vec<[u32; 3]>),
+    /// The place of one of the words.
+    Word(&'v mut usize, &'v [Word]),
+}
+
+/// What a name can stand for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Family {
+    Texture,
+    Material,
+}
+
+/// A colour, linear Rec. 709, or a number; or a texture in its place.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Textured<T = [f64; 3]> {
+    Constant(T),
+    /// The name of a texture.
+    Texture(String),
+}
+
+impl Textured {
+    pub const fn grey(value: f64) -> Textured {
+        Textured::Constant([value; 3])
+    }
+}
+
+impl From<[f32; 3]> for Textured {
+    fn from(colour: [f32; 3]) -> Textured {
+        Textured::Constant(colour.map(f64::from))
+    }
+}
+
+/// One of a few words.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Word {
+    /// What scene file and command line call it.
+    pub name: &'static str,
+    /// What the window calls it.
+    pub title: &'static str,
+    /// One sentence: what it does.
+    pub doc: &'static str,
+}
+
+/// Types whose values have a word each.
+pub trait Words: Copy + PartialEq + 'static {
+    /// All values with their words, in the order in which they are offered.
+    fn words() -> &'static [(Word, Self)];
+}
+
+/// Gives the values of an enum without data their words: name in files, title in the window, one sentence.
+#[macro_export]
+macro_rules! words {
+    ($Type:ident { $($Variant:ident: $name:literal, $title:literal, $doc:literal;)+ }) => {
+        impl $Type {
+            pub const ALL: [$Type; [$($name),+].len()] = [$($Type::$Variant),+];
+
+            /// How scene files and people call it.
+            pub const fn word(self) -> $crate::declare::Word {
+                match self {
+                    $($Type::$Variant => $crate::declare::Word { name: $name, title: $title, doc: $doc }),+
+                }
+            }
+
+            /// What scene file and command line call it.
+            pub const fn name(self) -> &'static str {
+                self.word().name
+            }
+        }
+
+        impl $crate::declare::Words for $Type {
+            fn words() -> &'static [($crate::declare::Word, Self)] {
+                const { &[$(($Type::$Variant.word(), $Type::$Variant)),+] }
+            }
+        }
+    };
+}

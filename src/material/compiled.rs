@@ -1,0 +1,108 @@
+//! What a material is compiled to, and what that takes.
+use super::{Roughness, Stage, tables::Tables};
+use crate::{
+    declare::{Parameter, Problem, Range, Textured},
+    math::colour::luminance,
+    texture::{ColourSource, TextureCompiler},
+};
+
+/// The width α of the distribution of microfacet slopes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum AlphaSource {
+    Constant(f32),
+    /// α, or where `squared` its root, is the texture's luminance.
+    Texture {
+        id: u32,
+        squared: bool,
+    },
+}
+
+/// A material as the kernel reads it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CompiledMaterial {
+    pub stage: Stage,
+    /// Constants of the kind: see its row.
+    pub rows: [[f32; 4]; 3],
+    /// Albedo, or reflectance at normal incidence; white for kinds without.
+    pub colour: ColourSource,
+    pub alpha: AlphaSource,
+    /// What a metre of the interior lets pass, for kinds that have an inside.
+    pub inside: Option<[f32; 3]>,
+    /// Whether it scatters light even where its colour is black: coats and Fresnel's rise towards grazing angles have no colour.
+    pub scatters_where_black: bool,
+    /// The largest part of light that it keeps among surfaces, in any channel: 0 for what only hands light on.
+    pub albedo: f32,
+}
+
+impl CompiledMaterial {
+    /// A smooth material of this stage and colour, and nothing else.
+    pub fn new(stage: Stage, colour: ColourSource, compiler: &MaterialCompiler) -> CompiledMaterial {
+        CompiledMaterial {
+            stage,
+            rows: [[0.0; 4]; 3],
+            colour,
+            alpha: AlphaSource::Constant(0.0),
+            inside: None,
+            scatters_where_black: false,
+            albedo: compiler.largest(colour),
+        }
+    }
+
+    /// One of a stage without a colour.
+    pub fn colourless(stage: Stage) -> CompiledMaterial {
+        CompiledMaterial {
+            stage,
+            rows: [[0.0; 4]; 3],
+            colour: ColourSource::Constant([1.0; 3]),
+            alpha: AlphaSource::Constant(0.0),
+            inside: None,
+            scatters_where_black: true,
+            albedo: 0.0,
+        }
+    }
+}
+
+/// What materials use while they are compiled.
+pub struct MaterialCompiler<'a, 'b> {
+    textures: &'a TextureCompiler<'b>,
+    pub(super) tables: &'a mut Tables,
+}
+
+impl<'a, 'b> MaterialCompiler<'a, 'b> {
+    pub(super) fn new(textures: &'a TextureCompiler<'b>, tables: &'a mut Tables) -> Self {
+        MaterialCompiler { textures, tables }
+    }
+
+    /// The colour of a parameter, or its texture.
+    pub fn colour(&self, parameter: &Parameter, value: &Textured, range: &Range) -> Result<ColourSource, Problem> {
+        self.textures.colour(parameter, value, range)
+    }
+
+    /// α, and the largest that it is: it decides whether the surface is rough at all.
+    pub fn alpha(&self, roughness: &Roughness) -> Result<(AlphaSource, f32), Problem> {
+        let (parameter, value, squared) = roughness.parts();
+        let alpha = |value: f32| if squared { value * value } else { value };
+        match value {
+            Textured::Constant(value) => {
+                let alpha = alpha(*value as f32);
+                Ok((AlphaSource::Constant(alpha), alpha))
+            }
+            Textured::Texture(name) => {
+                let named = Textured::Texture(name.clone());
+                let source = self.textures.colour(parameter, &named, &Range::ROUGHNESS)?;
+                let ColourSource::Texture(id) = source else { return Ok((AlphaSource::Constant(0.0), 0.0)) };
+                let most = luminance(self.textures.textures.maximum(id));
+                Ok((AlphaSource::Texture { id, squared }, alpha(most)))
+            }
+        }
+    }
+
+    /// The largest value of any channel.
+    fn largest(&self, colour: ColourSource) -> f32 {
+        let colour = match colour {
+            ColourSource::Constant(colour) => colour,
+            ColourSource::Texture(id) => self.textures.textures.maximum(id),
+        };
+        colour.into_iter().fold(0.0, f32::max).min(1.0)
+    }
+}

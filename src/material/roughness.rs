@@ -1,0 +1,60 @@
+//! Roughness as scenes describe it: the width α of the GGX distribution, or its root, which looks even to artists.
+use crate::declare::{OneOf, Parameter, Parameters, Range, Textured};
+
+/// How rough a surface is. Smooth where nothing is said.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Roughness {
+    /// √α.
+    Roughness(Textured<f64>),
+    Alpha(Textured<f64>),
+}
+
+const ROUGHNESS: Parameter = Parameter::new("roughness", "The root of α; 0 is smooth.").symbol("√α").aliases("rough glossiness");
+const ALPHA: Parameter =
+    Parameter::new("alpha", "Width of the GGX distribution of microfacet slopes; 0 is smooth.").symbol("α").aliases("a");
+
+impl Roughness {
+    pub const SMOOTH: Roughness = Roughness::Roughness(Textured::Constant(0.0));
+
+    /// A constant α.
+    pub fn alpha(alpha: f32) -> Roughness {
+        Roughness::Alpha(Textured::Constant(f64::from(alpha)))
+    }
+
+    /// The parameter that is given, its value, and whether that is the root of α.
+    pub(super) fn parts(&self) -> (&'static Parameter, &Textured<f64>, bool) {
+        match self {
+            Roughness::Roughness(value) => (&ROUGHNESS, value, true),
+            Roughness::Alpha(value) => (&ALPHA, value, false),
+        }
+    }
+}
+
+impl Default for Roughness {
+    fn default() -> Self {
+        Roughness::SMOOTH
+    }
+}
+
+impl OneOf for Roughness {
+    const WHAT: &'static str = "roughness";
+
+    fn alternatives() -> Vec<Self> {
+        vec![Roughness::SMOOTH, Roughness::alpha(0.0)]
+    }
+
+    fn place(&self) -> usize {
+        usize::from(matches!(self, Roughness::Alpha(_)))
+    }
+
+    fn name(&self) -> &'static str {
+        self.parts().0.key
+    }
+
+    fn chosen(&mut self, p: &mut dyn Parameters) {
+        match self {
+            Roughness::Roughness(value) => p.textured_number(&ROUGHNESS, value, Range::ROUGHNESS),
+            Roughness::Alpha(value) => p.textured_number(&ALPHA, value, Range::ROUGHNESS),
+        }
+    }
+}

@@ -1,0 +1,27 @@
+//! A box along the axes; transforms turn and shear it.
+use glam::DMat3;
+
+use super::{Build, ShapeBuilder, bounds::Bounds};
+use crate::{
+    declare::{Declare, Kind, Parameter, Parameters, Problem},
+    geometry::Shape,
+};
+
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Cuboid(pub Bounds);
+
+impl Kind for Cuboid {
+    const KIND: Parameter = Parameter::new("cuboid", "A box along the axes.").aliases("box cube aabb");
+}
+
+impl Declare for Cuboid {
+    fn parameters(&mut self, p: &mut dyn Parameters) {
+        self.0.parameters(p);
+    }
+}
+
+impl Build for Cuboid {
+    fn shapes(&self, _: &mut ShapeBuilder) -> Result<Vec<Shape>, Problem> {
+        Ok(vec![Shape::Cuboid { origin: self.0.min, edges: DMat3::from_diagonal(self.0.size()?) }])
+    }
+}

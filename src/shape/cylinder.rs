@@ -1,0 +1,48 @@
+//! A cylinder, closed by disks or open.
+use glam::DVec3;
+
+use super::{Build, RADII, RADIUS, ShapeBuilder};
+use crate::{
+    declare::{Declare, Kind, Parameter, Parameters, Problem},
+    geometry::Shape,
+};
+
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cylinder {
+    pub base: DVec3,
+    pub top: DVec3,
+    pub radius: f64,
+    pub capped: bool,
+}
+
+impl Default for Cylinder {
+    fn default() -> Self {
+        Cylinder { base: DVec3::ZERO, top: DVec3::Y, radius: 0.5, capped: true }
+    }
+}
+
+impl Kind for Cylinder {
+    const KIND: Parameter = Parameter::new("cylinder", "A round tube between two points.").aliases("tube pipe");
+}
+
+impl Declare for Cylinder {
+    fn parameters(&mut self, p: &mut dyn Parameters) {
+        const BASE: Parameter =
+            Parameter::new("base", "The middle of one end.").unit("m").required().aliases("position origin from pos location p0");
+        const TOP: Parameter = Parameter::new("top", "The middle of the other end.").unit("m").required().aliases("to p1");
+        const CAPPED: Parameter = Parameter::new("capped", "Whether disks close the ends.");
+        p.point(&BASE, &mut self.base);
+        p.point(&TOP, &mut self.top);
+        p.number(&RADIUS, &mut self.radius, RADII);
+        p.flag(&CAPPED, &mut self.capped);
+    }
+}
+
+impl Build for Cylinder {
+    fn shapes(&self, _: &mut ShapeBuilder) -> Result<Vec<Shape>, Problem> {
+        if (self.top - self.base).try_normalize().is_none() {
+            return Err(Problem::at("top", "the cylinder has no height", "`top` must differ from `base`"));
+        }
+        Ok(vec![Shape::cylinder(self.base, self.top, self.radius, self.capped)])
+    }
+}

@@ -1,0 +1,44 @@
+//! A round, flat shape.
+use glam::DVec3;
+
+use super::{Build, CENTER, RADII, RADIUS, ShapeBuilder};
+use crate::{
+    declare::{Declare, Kind, Parameter, Parameters, Problem},
+    geometry::Shape,
+};
+
+#[derive(Clone, Debug, PartialEq)]
+pub struct Disk {
+    pub center: DVec3,
+    /// Of any length.
+    pub normal: DVec3,
+    pub radius: f64,
+}
+
+impl Default for Disk {
+    fn default() -> Self {
+        Disk { center: DVec3::ZERO, normal: DVec3::Y, radius: 1.0 }
+    }
+}
+
+impl Kind for Disk {
+    const KIND: Parameter = Parameter::new("disk", "A round, flat shape.").aliases("circle disc");
+}
+
+impl Declare for Disk {
+    fn parameters(&mut self, p: &mut dyn Parameters) {
+        const NORMAL: Parameter =
+            Parameter::new("normal", "The direction that its front faces, of any length.").symbol("n").required();
+        p.point(&CENTER, &mut self.center);
+        p.point(&NORMAL, &mut self.normal);
+        p.number(&RADIUS, &mut self.radius, RADII);
+    }
+}
+
+impl Build for Disk {
+    fn shapes(&self, _: &mut ShapeBuilder) -> Result<Vec<Shape>, Problem> {
+        let normal = self.normal.try_normalize();
+        let normal = normal.ok_or_else(|| Problem::at("normal", "the normal has no direction", "it must not be zero"))?;
+        Ok(vec![Shape::disk(self.center, normal, self.radius)])
+    }
+}

@@ -1,0 +1,227 @@
+//! A mesh of triangles: from a file, as lists, or made by formula.
+use std::{path::PathBuf, sync::Arc};
+
+use super::{Build, ShapeBuilder};
+use crate::{
+    declare::{CountRange, Declare, Kind, OneOf, Parameter, Parameters, Problem, Resources, Value},
+    geometry::{
+        MeshData, Shape,
+        mesh::generate::{heightfield, torus_knot},
+    },
+    model::{Model, read, smooth_normals},
+};
+
+/// Bytes of a triangle of a mesh made by formula, its share of vertices and the making of their normals included.
+const MADE_TRIANGLE: u64 = 110;
+/// Bytes of a vertex and of a triangle that are read, and of smooth normals while they are made.
+const VERTEX: u64 = 32;
+const TRIANGLE: u64 = 12;
+const SMOOTHING: u64 = 120;
+/// Triangles of a mesh made by formula.
+const MOST_TRIANGLES: u32 = 50_000_000;
+const MOST_QUADS: u32 = (MOST_TRIANGLES / 2).isqrt();
+
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Mesh {
+    pub source: MeshSource,
+    /// Whether normals are smooth; absent: they are, but for lists.
+    pub smooth: Option<bool>,
+}
+
+/// What a mesh is made from.
+#[derive(Clone, Debug, PartialEq)]
+pub enum MeshSource {
+    File(String),
+    Lists { vertices: Vec<[f64; 3]>, triangles: Vec<[u32; 3]> },
+    Knot(Knot),
+    Heightfield(Heightfield),
+}
+
+/// A torus knot.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Knot {
+    pub triangles: u32,
+}
+
+/// Hills of noise over the unit square.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Heightfield {
+    /// Along each side.
+    pub quads: u32,
+    pub seed: u32,
+}
+
+/// What tells meshes apart that can be shown by several objects.
+#[derive(Clone, PartialEq, Eq, Hash)]
+pub(super) enum Key {
+    File { path: PathBuf, smooth: bool },
+    Knot { triangles: u32, smooth: bool },
+    Heightfield { quads: u32, seed: u32, smooth: bool },
+}
+
+const PATH: Parameter = Parameter::new("path", "OBJ or PLY, beside the scene.").required().aliases("file filename src");
+const VERTICES: Parameter = Parameter::new("vertices", "Corners of the triangles.").unit("m").required();
+const TRIANGLES: Parameter =
+    Parameter::new("triangles", "Three vertices each, counted from 0.").required().aliases("faces indices");
+const KNOT: Parameter = Parameter::new("knot", "A torus knot.").required();
+const HEIGHTFIELD: Parameter = Parameter::new("heightfield", "Hills of noise over the unit square.").required();
+
+impl Default for MeshSource {
+    fn default() -> Self {
+        MeshSource::Knot(Knot { triangles: 10_000 })
+    }
+}
+
+impl Kind for Mesh {
+    const KIND: Parameter =
+        Parameter::new("mesh", "Triangles from a file, as lists, or made by formula.").aliases("obj ply trianglemesh");
+}
+
+impl Declare for Mesh {
+    fn parameters(&mut self, p: &mut dyn Parameters) {
+        const SMOOTH: Parameter = Parameter::new("smooth", "Whether normals are interpolated over the triangles.");
+        p.one_of(&mut self.source);
+        p.optional(&SMOOTH, &mut self.smooth, || true, |p, smooth| p.flag(&SMOOTH, smooth));
+    }
+}
+
+impl OneOf for MeshSource {
+    const WHAT: &'static str = "mesh";
+
+    fn alternatives() -> Vec<Self> {
+        vec![
+            MeshSource::File(String::new()),
+            MeshSource::Lists { vertices: vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], triangles: vec![[0, 1, 2]] },
+            MeshSource::default(),
+            MeshSource::Heightfield(Heightfield { quads: 64, seed: 0 }),
+        ]
+    }
+
+    fn place(&self) -> usize {
+        match self {
+            MeshSource::File(_) => 0,
+            MeshSource::Lists { .. } => 1,
+            MeshSource::Knot(_) => 2,
+            MeshSource::Heightfield(_) => 3,
+        }
+    }
+
+    fn name(&self) -> &'static str {
+        match self {
+            MeshSource::File(_) => PATH.key,
+            MeshSource::Lists { .. } => VERTICES.key,
+            MeshSource::Knot(_) => KNOT.key,
+            MeshSource::Heightfield(_) => HEIGHTFIELD.key,
+        }
+    }
+
+    fn chosen(&mut self, p: &mut dyn Parameters) {
+        match self {
+            MeshSource::File(path) => p.value(&PATH, Value::File(path)),
+            MeshSource::Lists { vertices, triangles } => {
+                p.value(&VERTICES, Value::Points(vertices));
+                p.value(&TRIANGLES, Value::Triangles(triangles));
+            }
+            MeshSource::Knot(knot) => p.table(&KNOT, knot),
+            MeshSource::Heightfield(field) => p.table(&HEIGHTFIELD, field),
+        }
+    }
+}
+
+impl Declare for Knot {
+    fn parameters(&mut self, p: &mut dyn Parameters) {
+        const TRIANGLES: Parameter = Parameter::new("triangles", "How many, roughly.").required();
+        p.count(&TRIANGLES, &mut self.triangles, CountRange::new(18, MOST_TRIANGLES));
+    }
+}
+
+impl Declare for Heightfield {
+    fn parameters(&mut self, p: &mut dyn Parameters) {
+        const QUADS: Parameter = Parameter::new("quads", "Along each side, of two triangles each.").required();
+        const SEED: Parameter = Parameter::new("seed", "Other seeds give other hills.");
+        p.count(&QUADS, &mut self.quads, CountRange::new(1, MOST_QUADS));
+        p.count(&SEED, &mut self.seed, CountRange::ANY);
+    }
+}
+
+impl Build for Mesh {
+    fn shapes(&self, builder: &mut ShapeBuilder) -> Result<Vec<Shape>, Problem> {
+        self.data(builder).map(|data| vec![Shape::mesh(data)])
+    }
+}
+
+impl Mesh {
+    fn data(&self, builder: &mut ShapeBuilder) -> Result<Arc<MeshData>, Problem> {
+        let resources = builder.resources;
+        let smooth = self.smooth.unwrap_or(true);
+        match &self.source {
+            MeshSource::File(path) => {
+                let path = resources.path(path);
+                builder.known(Key::File { path: path.clone(), smooth }, || from_file(resources, path, smooth))
+            }
+            MeshSource::Lists { vertices, triangles } => {
+                from_lists(resources, vertices, triangles, self.smooth.unwrap_or(false)).map(Arc::new)
+            }
+            MeshSource::Knot(Knot { triangles }) => {
+                let triangles = *triangles;
+                reserve(resources, "knot.triangles", triangles.into())?;
+                builder.known(Key::Knot { triangles, smooth }, || Ok(shaded(torus_knot(triangles as usize), smooth)))
+            }
+            MeshSource::Heightfield(Heightfield { quads, seed }) => {
+                let (quads, seed) = (*quads, *seed);
+                reserve(resources, "heightfield.quads", 2 * u64::from(quads) * u64::from(quads))?;
+                builder.known(Key::Heightfield { quads, seed, smooth }, || Ok(shaded(heightfield(quads as usize, seed), smooth)))
+            }
+        }
+    }
+}
+
+impl ShapeBuilder<'_> {
+    fn known(&mut self, key: Key, make: impl FnOnce() -> Result<MeshData, Problem>) -> Result<Arc<MeshData>, Problem> {
+        if let Some(data) = self.meshes.get(&key) {
+            return Ok(data.clone());
+        }
+        let data = Arc::new(make()?);
+        self.meshes.insert(key, data.clone());
+        Ok(data)
+    }
+}
+
+/// Room for a mesh of so many triangles and half as many vertices while it is made, normals and coordinates included.
+fn reserve(resources: &Resources, key: &str, triangles: u64) -> Result<(), Problem> {
+    resources.reserve(key, format_args!("{triangles} triangles"), MADE_TRIANGLE * triangles)
+}
+
+fn from_file(resources: &Resources, path: PathBuf, smooth: bool) -> Result<MeshData, Problem> {
+    let model = read(&path).map_err(|error| Problem::at("path", error.to_string(), "this mesh cannot be used"))?;
+    let Model { vertices, triangles, normals, uvs } = model;
+    let smoothing = if smooth && normals.is_none() { SMOOTHING } else { 0 };
+    let bytes = (VERTEX + smoothing) * vertices.len() as u64 + TRIANGLE * triangles.len() as u64;
+    resources.reserve("path", format_args!("{} vertices and {} triangles", vertices.len(), triangles.len()), bytes)?;
+    let normals = smooth.then(|| normals.unwrap_or_else(|| smooth_normals(&vertices, &triangles)));
+    Ok(MeshData { vertices, triangles, normals: normals.unwrap_or_default(), uvs: uvs.unwrap_or_default() })
+}
+
+fn from_lists(resources: &Resources, vertices: &[[f64; 3]], triangles: &[[u32; 3]], smooth: bool) -> Result<MeshData, Problem> {
+    let bytes = (VERTEX + if smooth { SMOOTHING } else { 0 }) * vertices.len() as u64 + TRIANGLE * triangles.len() as u64;
+    resources.reserve("vertices", format_args!("{} vertices and {} triangles", vertices.len(), triangles.len()), bytes)?;
+    let points: Vec<[f32; 3]> = vertices.iter().map(|vertex| vertex.map(|x| x as f32)).collect();
+    if let Some(at) = points.iter().position(|vertex| vertex.iter().any(|x| !x.is_finite())) {
+        return Err(Problem::at("vertices", format!("vertex {at} is not finite"), "all coordinates must be"));
+    }
+    if triangles.is_empty() {
+        return Err(Problem::at("triangles", "the mesh is empty", "it has no triangles"));
+    }
+    for (place, triangle) in triangles.iter().enumerate() {
+        if let Some(index) = triangle.iter().find(|index| **index as usize >= points.len()) {
+            let label = format!("there are {}, counted from 0", points.len());
+            return Err(Problem::at(&format!("triangles.{place}"), format!("there is no vertex {index}"), label));
+        }
+    }
+    let normals = if smooth { smooth_normals(&points, triangles) } else { Vec::new() };
+    Ok(MeshData { vertices: points, triangles: triangles.to_vec(), normals, uvs: Vec::new() })
+}
+
+fn shaded(data: MeshData, smooth: bool) -> MeshData {
+    if smooth { data } else { MeshData { normals: Vec::new(), ..data } }
+}

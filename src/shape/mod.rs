@@ -1,0 +1,80 @@
+//! Shapes as scenes describe them.
+//!
+//! A kind is one file and one line of the catalogue below. Its file holds the description, with its parameters, and makes the
+//! [`geometry::Shape`](crate::geometry::Shape)s that the renderer knows.
+mod bounds;
+pub mod cuboid;
+pub mod cylinder;
+pub mod disk;
+pub mod isosurface;
+pub mod mesh;
+pub mod rectangle;
+pub mod sphere;
+pub mod sphere_field;
+mod transform;
+pub mod triangle;
+
+use std::{collections::HashMap, sync::Arc};
+
+pub use self::{
+    mesh::Mesh,
+    sphere::Sphere,
+    transform::{Transform, motion, product},
+};
+use crate::{
+    catalogue,
+    declare::{Parameter, Path, Problem, Range, Resources},
+    geometry::{MeshData, Shape},
+};
+
+catalogue! {
+    /// A shape as a scene describes it.
+    pub enum ShapeKind: Build, "shape" {
+        sphere::Sphere,
+        sphere_field::SphereField,
+        cuboid::Cuboid,
+        cylinder::Cylinder,
+        disk::Disk,
+        rectangle::Rectangle,
+        triangle::Triangle,
+        mesh::Mesh,
+        isosurface::Isosurface,
+    }
+}
+
+/// A kind of shape: from its description to what the renderer knows.
+pub trait Build {
+    /// The shape, or the many.
+    fn shapes(&self, builder: &mut ShapeBuilder) -> Result<Vec<Shape>, Problem>;
+}
+
+/// What shapes use while they are built. A mesh that several objects show is read or made once.
+pub struct ShapeBuilder<'a> {
+    resources: &'a Resources,
+    meshes: HashMap<mesh::Key, Arc<MeshData>>,
+}
+
+impl<'a> ShapeBuilder<'a> {
+    pub fn new(resources: &'a Resources) -> Self {
+        ShapeBuilder { resources, meshes: HashMap::new() }
+    }
+
+    /// The shapes of a description.
+    pub fn build(&mut self, kind: &ShapeKind) -> Result<Vec<Shape>, Problem> {
+        kind.kind().shapes(self).map_err(|problem| problem.within(&Path::of(kind.name())))
+    }
+}
+
+/// The sine of the angle between edges below which a shape is taken as degenerate.
+const FLATTEST: f64 = 1e-9;
+
+fn are_parallel([a, b]: [glam::DVec3; 2]) -> bool {
+    a.cross(b).length() <= FLATTEST * a.length() * b.length()
+}
+
+const CENTER: Parameter =
+    Parameter::new("center", "Its middle.").symbol("c").unit("m").required().aliases("centre position origin pos location");
+const RADIUS: Parameter = Parameter::new("radius", "Its radius.").symbol("r").unit("m").required().aliases("r size");
+
+/// Metres.
+const RADII: Range = Range::LENGTH;

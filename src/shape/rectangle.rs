@@ -1,0 +1,54 @@
+//! A rectangle, or any parallelogram.
+use glam::DVec3;
+
+use super::{Build, ShapeBuilder, are_parallel};
+use crate::{
+    declare::{Declare, Kind, Parameter, Parameters, Problem},
+    geometry::{Outline, Shape},
+};
+
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rectangle {
+    pub origin: DVec3,
+    pub edge_u: DVec3,
+    pub edge_v: DVec3,
+}
+
+impl Default for Rectangle {
+    fn default() -> Self {
+        Rectangle { origin: DVec3::ZERO, edge_u: DVec3::X, edge_v: DVec3::Y }
+    }
+}
+
+impl Kind for Rectangle {
+    const KIND: Parameter =
+        Parameter::new("rectangle", "A flat shape between two edges from a corner.").aliases("quad plane square parallelogram");
+}
+
+impl Declare for Rectangle {
+    fn parameters(&mut self, p: &mut dyn Parameters) {
+        const ORIGIN: Parameter =
+            Parameter::new("origin", "The corner where u = v = 0.").unit("m").required().aliases("corner position");
+        const EDGE_U: Parameter =
+            Parameter::new("edge_u", "From there to the corner where u = 1.").unit("m").required().aliases("u");
+        const EDGE_V: Parameter =
+            Parameter::new("edge_v", "From there to the corner where v = 1; the front is the side of v × u.")
+                .unit("m")
+                .required()
+                .aliases("v");
+        p.point(&ORIGIN, &mut self.origin);
+        p.point(&EDGE_U, &mut self.edge_u);
+        p.point(&EDGE_V, &mut self.edge_v);
+    }
+}
+
+impl Build for Rectangle {
+    fn shapes(&self, _: &mut ShapeBuilder) -> Result<Vec<Shape>, Problem> {
+        let edges = [self.edge_u, self.edge_v];
+        if are_parallel(edges) {
+            let label = "`edge_u` and `edge_v` must not be zero or parallel";
+            return Err(Problem::at("edge_v", "the rectangle has no area", label));
+        }
+        Ok(vec![Shape::Flat { outline: Outline::Parallelogram, origin: self.origin, edges, mirrored: false }])
+    }
+}

@@ -1,0 +1,39 @@
+//! A sphere.
+use glam::DVec3;
+
+use super::{Build, CENTER, RADII, RADIUS, ShapeBuilder};
+use crate::{
+    declare::{Declare, Kind, Parameter, Parameters, Problem},
+    geometry::Shape,
+};
+
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sphere {
+    pub center: DVec3,
+    pub radius: f64,
+}
+
+impl Default for Sphere {
+    fn default() -> Self {
+        Sphere { center: DVec3::ZERO, radius: 1.0 }
+    }
+}
+
+impl Kind for Sphere {
+    const KIND: Parameter = Parameter::new("sphere", "All points at one distance from a middle.").aliases("ball");
+}
+
+impl Declare for Sphere {
+    fn parameters(&mut self, p: &mut dyn Parameters) {
+        const OF_SPHERE: Parameter =
+            RADIUS.advice("to look at a sphere from inside, keep the radius positive; `flip = true` turns its normal");
+        p.point(&CENTER, &mut self.center);
+        p.number(&OF_SPHERE, &mut self.radius, RADII);
+    }
+}
+
+impl Build for Sphere {
+    fn shapes(&self, _: &mut ShapeBuilder) -> Result<Vec<Shape>, Problem> {
+        Ok(vec![Shape::Sphere { center: self.center, radius: self.radius }])
+    }
+}

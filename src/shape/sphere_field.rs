@@ -1,0 +1,48 @@
+//! Many spheres by formula.
+use super::{
+    Build, ShapeBuilder,
+    bounds::{BOUNDS, Bounds},
+};
+use crate::{
+    declare::{CountRange, Declare, Kind, Parameter, Parameters, Path, Problem},
+    geometry::{Shape, sphere_field},
+};
+
+/// Bytes of a sphere as a shape and as an object.
+const SPHERE: u64 = 1500;
+
+#[derive(Clone, Debug, PartialEq)]
+pub struct SphereField {
+    pub count: u32,
+    pub bounds: Bounds,
+    pub seed: u32,
+}
+
+impl Default for SphereField {
+    fn default() -> Self {
+        SphereField { count: 100, bounds: Bounds::default(), seed: 0 }
+    }
+}
+
+impl Kind for SphereField {
+    const KIND: Parameter = Parameter::new("sphere_field", "Many spheres at random places, an object each.");
+}
+
+impl Declare for SphereField {
+    fn parameters(&mut self, p: &mut dyn Parameters) {
+        const COUNT: Parameter = Parameter::new("count", "How many.").required().aliases("n number");
+        const SEED: Parameter = Parameter::new("seed", "Other seeds give other places.");
+        p.count(&COUNT, &mut self.count, CountRange::new(1, 1_000_000));
+        p.table(&BOUNDS, &mut self.bounds);
+        p.count(&SEED, &mut self.seed, CountRange::ANY);
+    }
+}
+
+impl Build for SphereField {
+    fn shapes(&self, builder: &mut ShapeBuilder) -> Result<Vec<Shape>, Problem> {
+        let size = self.bounds.size().map_err(|problem| problem.within(&Path::of(BOUNDS.key)))?;
+        let (count, bytes) = (self.count, SPHERE * u64::from(self.count));
+        builder.resources.reserve("count", format_args!("{count} spheres"), bytes)?;
+        Ok(sphere_field(count, self.bounds.min, size, self.seed))
+    }
+}

@@ -1,0 +1,162 @@
+//! Transforms that place shapes and carry them from time 0 to 1.
+use glam::{DAffine3, DMat3, DVec3};
+
+use super::FLATTEST;
+use crate::{
+    declare::{Declare, OneOf, Parameter, Parameters, Path, Problem, Range, Value},
+    geometry::{Motion, Step, Turns},
+};
+
+/// Scales beyond these leave the range of f32.
+const SMALLEST_SCALE: f64 = 1e-12;
+const LARGEST_SCALE: f64 = 1e12;
+/// Of lengths, so that the ends of the range lie within it.
+const ROUNDING: f64 = 1e-12;
+
+/// One transform as a scene describes it.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Transform {
+    Translate(DVec3),
+    Scale(DVec3),
+    Rotate(Rotation),
+    /// Row by row; the last row is 0 0 0 1.
+    Matrix([[f64; 4]; 4]),
+}
+
+/// About an axis through the origin.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rotation {
+    /// Of any length.
+    pub axis: DVec3,
+    /// Counter-clockwise as the axis points at the viewer.
+    pub degrees: f64,
+}
+
+const TRANSLATE: Parameter =
+    Parameter::new("translate", "Moves by these metres.").unit("m").required().aliases("move translation");
+const SCALE: Parameter = Parameter::new("scale", "Multiplies x, y and z, or all by one number.").required();
+const ROTATE: Parameter = Parameter::new("rotate", "Turns about an axis through the origin.").required().aliases("rotation");
+const MATRIX: Parameter = Parameter::new("matrix", "Four rows of four numbers; the last is 0, 0, 0, 1.").required();
+
+impl Default for Transform {
+    fn default() -> Self {
+        Transform::Translate(DVec3::ZERO)
+    }
+}
+
+impl Declare for Transform {
+    fn parameters(&mut self, p: &mut dyn Parameters) {
+        p.one_of(self);
+    }
+}
+
+impl OneOf for Transform {
+    const WHAT: &'static str = "transform";
+
+    fn alternatives() -> Vec<Self> {
+        let identity = [0, 1, 2, 3].map(|row| [0, 1, 2, 3].map(|column| if row == column { 1.0 } else { 0.0 }));
+        vec![
+            Transform::default(),
+            Transform::Scale(DVec3::ONE),
+            Transform::Rotate(Rotation { axis: DVec3::Y, degrees: 0.0 }),
+            Transform::Matrix(identity),
+        ]
+    }
+
+    fn place(&self) -> usize {
+        match self {
+            Transform::Translate(_) => 0,
+            Transform::Scale(_) => 1,
+            Transform::Rotate(_) => 2,
+            Transform::Matrix(_) => 3,
+        }
+    }
+
+    fn name(&self) -> &'static str {
+        match self {
+            Transform::Translate(_) => TRANSLATE.key,
+            Transform::Scale(_) => SCALE.key,
+            Transform::Rotate(_) => ROTATE.key,
+            Transform::Matrix(_) => MATRIX.key,
+        }
+    }
+
+    fn chosen(&mut self, p: &mut dyn Parameters) {
+        match self {
+            Transform::Translate(by) => p.value(&TRANSLATE, Value::Vector(by)),
+            Transform::Scale(factors) => p.value(&SCALE, Value::Factors(factors)),
+            Transform::Rotate(rotation) => p.table(&ROTATE, rotation),
+            Transform::Matrix(rows) => p.value(&MATRIX, Value::Matrix(rows)),
+        }
+    }
+}
+
+impl Declare for Rotation {
+    fn parameters(&mut self, p: &mut dyn Parameters) {
+        const AXIS: Parameter = Parameter::new("axis", "Of any length.").required();
+        const DEGREES: Parameter = Parameter::new("degrees", "Counter-clockwise as the axis points at the viewer.")
+            .unit("°")
+            .required()
+            .aliases("angle");
+        p.value(&AXIS, Value::Vector(&mut self.axis));
+        p.number(&DEGREES, &mut self.degrees, Range::FINITE);
+    }
+}
+
+impl Transform {
+    /// The step of a motion that it is.
+    fn step(&self) -> Result<Step, Problem> {
+        let error = |message: &str, label: &str| Err(Problem::at("", message, label));
+        let step = match self {
+            Transform::Translate(by) => Step::Translate(*by),
+            Transform::Scale(factors) => Step::Scale(*factors),
+            Transform::Rotate(rotation) => match rotation.axis.try_normalize() {
+                Some(axis) => Step::Rotate { axis, turns: Turns::from_degrees(rotation.degrees) },
+                None => return error("the axis of rotation has no direction", "it must not be zero"),
+            },
+            Transform::Matrix([x, y, z, last]) => {
+                if *last != [0.0, 0.0, 0.0, 1.0] {
+                    return error("the matrix is not affine", "the last row must be 0, 0, 0, 1");
+                }
+                let column = |i: usize| DVec3::new(x[i], y[i], z[i]);
+                Step::Matrix(DAffine3 { matrix3: DMat3::from_cols(column(0), column(1), column(2)), translation: column(3) })
+            }
+        };
+        let map = step.at(1.0);
+        if !map.is_finite() {
+            return error("the transform is not finite", "all of its numbers must be");
+        }
+        let columns = [map.matrix3.x_axis, map.matrix3.y_axis, map.matrix3.z_axis];
+        let lengths = columns.map(DVec3::length);
+        let range = SMALLEST_SCALE * (1.0 - ROUNDING)..=LARGEST_SCALE * (1.0 + ROUNDING);
+        if lengths.iter().any(|length| !range.contains(length))
+            || map.matrix3.determinant().abs() <= FLATTEST * lengths.iter().product::<f64>()
+        {
+            return error("the transform cannot be inverted", "it flattens space, or scales it beyond 1e-12 to 1e12");
+        }
+        Ok(step)
+    }
+}
+
+/// The steps of a list of transforms; paths of problems are its places.
+fn steps(list: &[Transform]) -> Result<Vec<Step>, Problem> {
+    let step = |(place, transform): (usize, &Transform)| {
+        transform.step().map_err(|problem| problem.within(&Path::default().item(place)))
+    };
+    list.iter().enumerate().map(step).collect()
+}
+
+/// The product of a list of transforms, the first one applied first.
+pub fn product(list: &[Transform]) -> Result<DAffine3, Problem> {
+    Ok(steps(list)?.iter().fold(DAffine3::IDENTITY, |before, step| step.at(1.0) * before))
+}
+
+/// A list of transforms that are reached at time 1.
+pub fn motion(list: &[Transform]) -> Result<Motion, Problem> {
+    let motion = Motion(steps(list)?);
+    if !list.is_empty() && !motion.is_invertible() {
+        let last = list.len() - 1;
+        return Err(Problem::at(&last.to_string(), "the motion cannot be inverted", "it mirrors or flattens space on its way"));
+    }
+    Ok(motion)
+}

@@ -1,0 +1,46 @@
+//! A triangle.
+use glam::DVec3;
+
+use super::{Build, ShapeBuilder, are_parallel};
+use crate::{
+    declare::{Declare, Kind, Parameter, Parameters, Problem},
+    geometry::{Outline, Shape},
+};
+
+#[derive(Clone, Debug, PartialEq)]
+pub struct Triangle {
+    pub a: DVec3,
+    pub b: DVec3,
+    pub c: DVec3,
+}
+
+impl Default for Triangle {
+    fn default() -> Self {
+        Triangle { a: DVec3::ZERO, b: DVec3::X, c: DVec3::Y }
+    }
+}
+
+impl Kind for Triangle {
+    const KIND: Parameter = Parameter::new("triangle", "The flat shape between three corners.");
+}
+
+impl Declare for Triangle {
+    fn parameters(&mut self, p: &mut dyn Parameters) {
+        const A: Parameter = Parameter::new("a", "The corner where u = v = 0.").unit("m").required();
+        const B: Parameter = Parameter::new("b", "The corner where u = 1.").unit("m").required();
+        const C: Parameter = Parameter::new("c", "The corner where v = 1.").unit("m").required();
+        p.point(&A, &mut self.a);
+        p.point(&B, &mut self.b);
+        p.point(&C, &mut self.c);
+    }
+}
+
+impl Build for Triangle {
+    fn shapes(&self, _: &mut ShapeBuilder) -> Result<Vec<Shape>, Problem> {
+        let edges = [self.b - self.a, self.c - self.a];
+        if are_parallel(edges) {
+            return Err(Problem::at("c", "the triangle has no area", "its corners must not lie on a line"));
+        }
+        Ok(vec![Shape::Flat { outline: Outline::Triangle, origin: self.a, edges, mirrored: false }])
+    }
+}

@@ -1,0 +1,132 @@
+//! The textures of a scene while it is compiled: names become ids, and what a texture refers to is compiled before it.
+use std::collections::BTreeMap;
+
+use super::{Constant, Texture, TextureKind, Textures};
+use crate::{
+    declare::{Family, Parameter, Path, Problem, Range, Resources, Textured},
+    quote,
+};
+
+/// Textures of textures may go this deep.
+const DEEPEST: usize = 64;
+
+/// A colour of the scene: constant or by a texture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ColourSource {
+    Constant([f32; 3]),
+    /// The id in [`Textures`].
+    Texture(u32),
+}
+
+/// The textures that are compiled so far, and what the scene calls them.
+pub struct TextureCompiler<'a> {
+    pub resources: &'a Resources,
+    pub textures: Textures,
+    described: &'a BTreeMap<String, TextureKind>,
+    ids: BTreeMap<String, u32>,
+    /// The textures that are being compiled, each for the one before it.
+    open: Vec<String>,
+}
+
+impl<'a> TextureCompiler<'a> {
+    /// Compiles all textures. What is wrong goes to `problems`, and a grey takes its place: what refers to it is checked all the same.
+    /// `stand_ins` are names of textures that could not be read at all.
+    pub fn new<'n>(
+        resources: &'a Resources,
+        described: &'a BTreeMap<String, TextureKind>,
+        stand_ins: impl Iterator<Item = &'n str>,
+        problems: &mut Vec<Problem>,
+    ) -> TextureCompiler<'a> {
+        let mut compiler =
+            TextureCompiler { resources, textures: Textures::default(), described, ids: BTreeMap::new(), open: Vec::new() };
+        stand_ins.for_each(|name| compiler.stand_in(name));
+        for name in described.keys() {
+            if let Err(problem) = compiler.texture(name) {
+                // The texture that closes a circle, or goes too deep, may be another than the one that is compiled.
+                let place = compiler.open.last().map_or(name.as_str(), String::as_str);
+                problems.push(problem.within(&Path::of("textures").key(place)));
+                compiler.stand_in(name);
+            }
+        }
+        compiler
+    }
+
+    fn stand_in(&mut self, name: &str) {
+        self.open.clear();
+        let grey = self.textures.push(Texture::Constant(Constant([0.5; 3])));
+        self.ids.insert(name.to_owned(), grey);
+    }
+
+    fn texture(&mut self, name: &str) -> Result<u32, Problem> {
+        if let Some(id) = self.ids.get(name) {
+            return Ok(*id);
+        }
+        let kind = &self.described[name];
+        self.open.push(name.to_owned());
+        let texture = kind.compile(self).map_err(|problem| problem.within(&Path::of(kind.name())))?;
+        self.open.pop();
+        let id = self.textures.push(texture);
+        self.ids.insert(name.to_owned(), id);
+        Ok(id)
+    }
+
+    /// The id of a part of a texture: of a colour, or of another texture, which is compiled first.
+    pub fn part(&mut self, key: &str, value: &Textured) -> Result<u32, Problem> {
+        let name = match value {
+            Textured::Constant(colour) => return Ok(self.textures.push(Texture::Constant(Constant(colour.map(|x| x as f32))))),
+            Textured::Texture(name) => name,
+        };
+        let at = format!("{key}.texture");
+        if let Some(start) = self.open.iter().position(|open| open == name) {
+            let circle: Vec<String> =
+                self.open[start..].iter().chain([&self.open[start]]).map(|name| format!("`{}`", quote::piece(name))).collect();
+            let shown = match &circle[..] {
+                [first, second, .., last] if circle.len() > 6 => format!("{first} uses {second} uses … uses {last}"),
+                all => all.join(" uses "),
+            };
+            return Err(Problem::at(&at, format!("textures in a circle: {shown}"), "this closes the circle"));
+        }
+        if self.open.len() >= DEEPEST {
+            return Err(Problem::at(&at, format!("textures are nested deeper than {DEEPEST}"), "too deep"));
+        }
+        if self.described.contains_key(name) {
+            return self.texture(name);
+        }
+        self.id(&at, name)
+    }
+
+    /// The id of a texture by its name, which stands at a key.
+    pub fn id(&self, key: &str, name: &str) -> Result<u32, Problem> {
+        let known = || self.ids.keys().chain(self.described.keys().filter(|name| !self.ids.contains_key(*name)));
+        self.ids.get(name).copied().ok_or_else(|| Problem::not_defined(key, Family::Texture, name, known()))
+    }
+
+    /// Adds a texture without a name.
+    pub fn push(&mut self, texture: Texture) -> u32 {
+        self.textures.push(texture)
+    }
+
+    /// The colour or the texture of a parameter, all of whose values lie in the range.
+    pub fn colour(&self, parameter: &Parameter, value: &Textured, range: &Range) -> Result<ColourSource, Problem> {
+        let name = match value {
+            Textured::Constant(colour) => return Ok(ColourSource::Constant(colour.map(|x| x as f32))),
+            Textured::Texture(name) => name,
+        };
+        let key = format!("{}.texture", parameter.key);
+        let id = self.id(&key, name)?;
+        let most = self.textures.maximum(id).into_iter().fold(0.0, f32::max);
+        if f64::from(most) > range.most {
+            let message = format!("`{}` is out of range: texture `{name}` reaches {most}", parameter.key);
+            return Err(Problem::at(&key, message, range.expected));
+        }
+        Ok(ColourSource::Texture(id))
+    }
+
+    /// The colour, or the mean colour of the texture.
+    pub fn typical(&self, source: ColourSource) -> [f32; 3] {
+        match source {
+            ColourSource::Constant(colour) => colour,
+            ColourSource::Texture(id) => self.textures.mean(id),
+        }
+    }
+}
