@@ -27,7 +27,7 @@ pub(super) fn shade<L: Lanes, K: Shade>(l: L, work: &Work, batch: &mut Batch) {
             let LightEstimate { shadow, wi, may_contribute, .. } = shading.sample_light(l, work);
             shadow.push(*live & may_contribute, shadows);
             if K::DETAILED && work.has_media() {
-                Inside { media: vertex.media_towards(wi.z) }.push(*live & may_contribute, shadow_media);
+                Inside { media: vertex.media_towards::<K>(wi.z) }.push(*live & may_contribute, shadow_media);
             }
         }
 
@@ -47,7 +47,7 @@ pub(super) fn shade<L: Lanes, K: Shade>(l: L, work: &Work, batch: &mut Batch) {
             }
         }
         if K::DETAILED && work.has_media() {
-            Inside { media: vertex.media_towards(sample.wi.z) }.push(keep, &mut path_media[next]);
+            Inside { media: vertex.media_towards::<K>(sample.wi.z) }.push(keep, &mut path_media[next]);
         }
     }
 }

@@ -208,7 +208,10 @@ impl<L: Lanes> Vertex<L> {
 
     /// The media beyond the surface in a direction of height `z`.
     #[inline(always)]
-    pub fn media_towards(&self, z: F<L>) -> U<L> {
+    pub fn media_towards<K: Shade>(&self, z: F<L>) -> U<L> {
+        if !K::ENTERS {
+            return self.media;
+        }
         z.below(0.0).pick(beyond(self.media, self.medium, self.local.front), self.media)
     }
 

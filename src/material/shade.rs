@@ -16,6 +16,8 @@ pub trait Shade {
     /// It has several lobes to choose from.
     const LOBES: bool = true;
     const TRANSMITS: bool = false;
+    /// What passes enters or leaves a medium.
+    const ENTERS: bool = Self::TRANSMITS;
     /// It has one lobe, for which the choice of a light is better made.
     const GLOSSY: bool = false;
 

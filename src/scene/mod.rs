@@ -137,7 +137,7 @@ impl Scene {
 
     /// Whether lights are chosen by what glossy surfaces reflect of them.
     pub fn heeds_lobes(&self) -> bool {
-        self.lights.heed_lobes() && self.surfaces.stages.iter().any(|stage| stage.is_glossy())
+        self.lights.heed_lobes() && self.surfaces.glossy
     }
 
     /// Whether something moves in the course of time.

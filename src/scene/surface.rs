@@ -21,6 +21,8 @@ pub struct Surfaces {
     /// Colour or α of some surface is textured.
     pub textured: bool,
     pub stages: Vec<Stage>,
+    /// Some surface is glossy: lights are better chosen by what it reflects of them.
+    pub glossy: bool,
     /// All surfaces are diffuse, from both sides, and of constant colour.
     pub plain: bool,
     pub materials: Materials,
@@ -63,6 +65,7 @@ impl Surfaces {
         }
         surfaces.stages.sort_unstable();
         surfaces.stages.dedup();
+        surfaces.glossy = surfaces.stages.iter().any(|stage| stage.is_glossy());
         surfaces.plain = surfaces.are_plain();
         surfaces
     }
