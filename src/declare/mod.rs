@@ -13,27 +13,38 @@
 //! | `problem.rs` | what is wrong with a value, and where |
 //! | `outline.rs` | the parameters of a kind as a list |
 //! | `resources.rs` | files and memory for kinds that are compiled |
+//! | `dice.rs` | the visitor that draws random values within their ranges |
+//! | `manual.rs`, `schema.rs` | the visitors that document a format, for people and for editors |
+//! | `write.rs` | the visitor that writes a description as TOML |
 //! | `lines.rs` | the visitor that writes values down for people |
 //! | `check.rs` | the visitor that holds values against their ranges |
 mod catalogue;
 mod check;
+mod dice;
 mod lines;
+mod manual;
 mod outline;
 mod parameter;
 mod path;
 mod problem;
 mod resources;
+mod schema;
 mod value;
+mod write;
 
 pub use self::{
     check::{check, check_value},
+    dice::Dice,
     lines::lines_of,
+    manual::manual,
     outline::{Entry, Looks, Outline, outline},
     parameter::{CountRange, Parameter, Range, Scale},
     path::{Path, Step},
     problem::{Problem, nearest, short},
     resources::Resources,
+    schema::schema,
     value::{Family, Textured, Value, Word, Words},
+    write::write,
 };
 
 /// A visitor of parameters. It reads or replaces their values.
@@ -65,6 +76,14 @@ pub trait Parameters {
 
     /// Enters one of the tables that [`Parameters::names`] listed.
     fn named(&mut self, parameter: &Parameter, name: &str);
+
+    /// Whether the visitor wants to see every alternative of a choice, one after the other, and not the one that is chosen.
+    fn sees_all(&self) -> bool {
+        false
+    }
+
+    /// The alternative that is visited next, of a visitor that sees all; `None` after the last.
+    fn alternative(&mut self, _name: Option<&'static str>) {}
 }
 
 /// How a choice may be written.
@@ -156,6 +175,14 @@ impl dyn Parameters + '_ {
         let mut alternatives = T::alternatives();
         let seen = |alternative: &mut T| Alternative { name: alternative.name(), outline: outline(|p| alternative.chosen(p)) };
         let choice = Choice { what: T::WHAT, alternatives: alternatives.iter_mut().map(seen).collect() };
+        if self.sees_all() {
+            self.choose(&choice, value.place());
+            for alternative in &mut alternatives {
+                self.alternative(Some(alternative.name()));
+                alternative.chosen(self);
+            }
+            return self.alternative(None);
+        }
         let place = self.choose(&choice, value.place());
         if place != value.place() {
             *value = alternatives.swap_remove(place);

@@ -24,6 +24,7 @@ pub mod rough_dielectric;
 mod roughness;
 mod shade;
 mod tables;
+pub mod thin_dielectric;
 #[cfg(test)]
 mod tests;
 
@@ -80,6 +81,7 @@ materials! {
     conductor::Conductor => Conductor,
     dielectric::Dielectric => Dielectric RoughDielectric,
     plastic::Plastic => Plastic,
+    thin_dielectric::ThinDielectric => ThinDielectric,
 }
 pub(crate) use in_stage;
 

@@ -1,0 +1,90 @@
+//! Draws random values within their ranges, their ends more often than by chance.
+use glam::DVec3;
+use rand::{Rng, RngCore};
+
+use super::{Choice, Form, Parameter, Parameters, Range, Scale, Textured, Value};
+
+/// The visitor that draws. Names stay as they are; lists get up to three items.
+pub struct Dice<'r> {
+    random: &'r mut dyn RngCore,
+}
+
+impl<'r> Dice<'r> {
+    pub fn new(random: &'r mut dyn RngCore) -> Dice<'r> {
+        Dice { random }
+    }
+
+    /// One of the ends of a range one time in eight, else a number between them.
+    fn number(&mut self, range: &Range) -> f64 {
+        // Ranges that are wider than any scene: where scenes are.
+        let (least, most) = (range.least.max(-1e9), range.most.min(1e9));
+        match self.random.random_range(0..16) {
+            0 => least,
+            1 => most,
+            _ if range.scale == Scale::Log => {
+                let lowest = if least > 0.0 { least } else { most * 1e-9 };
+                (lowest.ln() + self.random.random::<f64>() * (most / lowest).ln()).exp().clamp(least, most)
+            }
+            _ => least + self.random.random::<f64>() * (most - least),
+        }
+    }
+
+    fn coordinate(&mut self) -> f64 {
+        match self.random.random_range(0..8) {
+            0 => 0.0,
+            1 => 1.0,
+            _ => 20.0 * self.random.random::<f64>() - 10.0,
+        }
+    }
+
+    fn point(&mut self) -> DVec3 {
+        DVec3::new(self.coordinate(), self.coordinate(), self.coordinate())
+    }
+}
+
+impl Parameters for Dice<'_> {
+    fn value(&mut self, _: &Parameter, value: Value<'_>) {
+        match value {
+            Value::Number(number, range) => *number = self.number(&range),
+            Value::Count(count, range) => *count = self.random.random_range(range.least..=range.most.min(range.least.saturating_add(40))),
+            Value::Flag(flag) => *flag = self.random.random(),
+            Value::Colour(rgb, range) => *rgb = [0; 3].map(|_| self.number(&range)),
+            Value::Textured(textured, range) => *textured = Textured::Constant([0; 3].map(|_| self.number(&range))),
+            Value::TexturedNumber(textured, range) => *textured = Textured::Constant(self.number(&range)),
+            Value::Point(point) | Value::Vector(point) | Value::Factors(point) => *point = self.point(),
+            Value::Pair(pair) => {
+                let start = self.random.random::<f64>();
+                *pair = [start, start + self.random.random::<f64>()];
+            }
+            Value::Counts(counts) => *counts = [0; 2].map(|_| self.random.random_range(1..64)),
+            Value::Matrix(rows) => rows.iter_mut().take(3).flatten().for_each(|x| *x = self.coordinate()),
+            Value::Points(points) => points.iter_mut().for_each(|point| *point = self.point().to_array()),
+            Value::Word(place, words) => *place = self.random.random_range(0..words.len()),
+            Value::Text(_) | Value::File(_) | Value::Name(..) | Value::Triangles(_) => {}
+        }
+    }
+
+    fn enter(&mut self, _: &Parameter, _: Form) {}
+
+    fn leave(&mut self) {}
+
+    fn present(&mut self, _: &Parameter, _: bool) -> bool {
+        self.random.random()
+    }
+
+    fn choose(&mut self, choice: &Choice, _: usize) -> usize {
+        self.random.random_range(0..choice.alternatives.len())
+    }
+
+    fn items(&mut self, _: &Parameter, _: usize) -> usize {
+        self.random.random_range(0..4)
+    }
+
+    fn item(&mut self, _: &Parameter, _: usize) {}
+
+    fn names(&mut self, _: &Parameter, _: Vec<String>) -> Vec<String> {
+        (0..self.random.random_range(0..4)).map(|number| format!("name {number}")).collect()
+    }
+
+    fn named(&mut self, _: &Parameter, _: &str) {}
+}

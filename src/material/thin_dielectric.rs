@@ -1,0 +1,237 @@
+//! A pane of glass that is thin against everything else: both of its interfaces at once, without refraction.
+//!
+//! An interface reflects R(θ) and a crossing lets τ = t^(1/cos θ_t) pass, t being what passes at normal incidence and θ_t the angle
+//! within the pane (Snell, Bouguer). Of the light that falls on the pane, the reflections between its faces sum to
+//!
+//! reflected = R + (1 − R)² R τ²/(1 − R² τ²),  passed = (1 − R)² τ/(1 − R² τ²)
+//!
+//! (G. G. Stokes, "On the intensity of the light reflected from or transmitted through a pile of plates", 1862). What passes leaves
+//! in the direction in which it came, so that radiance is not scaled. This is the limit of a slab of [`super::Dielectric`] whose
+//! thickness goes to 0 while t stays.
+use super::{
+    Bsdf, BsdfSample, ChosenLobe, Compile, CompiledMaterial, Lobes, Local, MaterialCompiler, Materials, Shade, Stage, fresnel,
+};
+use crate::{
+    declare::{Declare, Kind, Parameter, Parameters, Problem, Range},
+    math::{F, Lanes, One, Pick, U, V, exp::exp2_of_negative},
+    sampling::Directions,
+};
+
+/// A pane as a scene describes it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ThinDielectric {
+    pub ior: f64,
+    /// What a crossing at normal incidence lets pass, reflections at the faces left out.
+    pub transmittance: [f64; 3],
+}
+
+impl Default for ThinDielectric {
+    fn default() -> Self {
+        ThinDielectric { ior: 1.5, transmittance: [1.0; 3] }
+    }
+}
+
+impl Kind for ThinDielectric {
+    const KIND: Parameter = Parameter::new("thin_dielectric", "A thin pane of glass: reflects and lets pass, without refraction.")
+        .aliases("pane thin_glass thindielectric window")
+        .advice("such as thin_dielectric = { ior = 1.5 }");
+}
+
+impl Declare for ThinDielectric {
+    fn parameters(&mut self, p: &mut dyn Parameters) {
+        const IOR: Parameter = Parameter::new("ior", "Index of refraction of the pane over that around it.")
+            .symbol("η")
+            .required()
+            .aliases("eta index index_of_refraction refraction");
+        const TRANSMITTANCE: Parameter =
+            Parameter::new("transmittance", "Part of the light that crosses the pane at a right angle, between its faces.")
+                .symbol("t")
+                .aliases("tint absorption color colour");
+        p.number(&IOR, &mut self.ior, Range::INDEX);
+        let range = Range::UNIT.expected("every channel must lie in [0, 1]: what a crossing lets pass");
+        p.colour(&TRANSMITTANCE, &mut self.transmittance, range);
+    }
+}
+
+impl Compile for ThinDielectric {
+    fn compile(&self, _: &mut MaterialCompiler) -> Result<CompiledMaterial, Problem> {
+        let octaves = self.transmittance.map(|t| (-t.log2()).min(1e30) as f32);
+        let rows = PaneRow { eta: self.ior as f32, octaves }.pack();
+        Ok(CompiledMaterial { rows, ..CompiledMaterial::colourless(Stage::ThinDielectric) })
+    }
+}
+
+/// The constants of a pane.
+struct PaneRow {
+    eta: f32,
+    /// −log₂ t.
+    octaves: [f32; 3],
+}
+
+impl PaneRow {
+    fn pack(&self) -> [[f32; 4]; 3] {
+        let [r, g, b] = self.octaves;
+        [[r, g, b, self.eta], [0.0; 4], [0.0; 4]]
+    }
+
+    /// η and −log₂ t.
+    #[inline(always)]
+    fn read<L: Lanes>(l: L, materials: &Materials, material: U<L>) -> (F<L>, V<L>) {
+        let [x, y, z, eta] = materials.row(l, material, 0);
+        (eta, V { x, y, z })
+    }
+}
+
+impl Shade for ThinDielectric {
+    type Bsdf<'a, L: Lanes> = ThinDielectricBsdf<L>;
+    const STAGE: Stage = Stage::ThinDielectric;
+    const SEES_LIGHTS: bool = false;
+    const TRANSMITS: bool = true;
+    const ENTERS: bool = false;
+
+    #[inline(always)]
+    fn at<L: Lanes>(l: L, materials: &Materials, _: Directions, at: &Local<L>) -> ThinDielectricBsdf<L> {
+        let (eta, octaves) = PaneRow::read(l, materials, at.material);
+        ThinDielectricBsdf { eta, octaves }
+    }
+}
+
+pub struct ThinDielectricBsdf<L: Lanes> {
+    eta: F<L>,
+    octaves: V<L>,
+}
+
+impl<L: Lanes> Clone for ThinDielectricBsdf<L> {
+    #[inline(always)]
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+impl<L: Lanes> Copy for ThinDielectricBsdf<L> {}
+
+impl<L: Lanes> ThinDielectricBsdf<L> {
+    /// What is reflected and what passes, at cos θ > 0.
+    #[inline(always)]
+    fn shares(&self, cos: F<L>) -> (V<L>, V<L>) {
+        let (r, cos_t) = fresnel::dielectric(cos, self.eta);
+        let through = 1.0 - r;
+        // Beyond the critical angle nothing enters, however long its way would be.
+        let way = 1.0 / cos_t.max(cos.splat(1e-6));
+        let channel = |octaves: F<L>| {
+            let crossing = exp2_of_negative(-(octaves * way));
+            let echo = through / (1.0 - (r * crossing) * (r * crossing)).max(cos.splat(f32::MIN_POSITIVE));
+            let passed = through * crossing * echo;
+            (r + r * crossing * passed, passed)
+        };
+        let [x, y, z] = [channel(self.octaves.x), channel(self.octaves.y), channel(self.octaves.z)];
+        (V { x: x.0, y: y.0, z: z.0 }, V { x: x.1, y: y.1, z: z.1 })
+    }
+
+    /// The probability of choosing reflection: its share of the light in the channel in which most comes back or passes.
+    #[inline(always)]
+    fn chance((reflected, passed): (V<L>, V<L>)) -> F<L> {
+        let (reflected, passed) = (reflected.max_component(), passed.max_component());
+        reflected / (reflected + passed).max(reflected.splat(f32::MIN_POSITIVE))
+    }
+}
+
+impl<L: Lanes> Bsdf<L> for ThinDielectricBsdf<L> {
+    #[inline(always)]
+    fn eval(&self, wo: V<L>, _: V<L>) -> (V<L>, F<L>) {
+        let zero = wo.z.splat(0.0);
+        (V { x: zero, y: zero, z: zero }, zero)
+    }
+
+    #[inline(always)]
+    fn sample(&self, wo: V<L>, _: (F<L>, F<L>), lobe: F<L>) -> BsdfSample<L> {
+        let (reflected, passed) = self.shares(wo.z);
+        let chance = Self::chance((reflected, passed));
+        let reflects = lobe.lt(chance);
+        let wi = V { x: -wo.x, y: -wo.y, z: reflects.pick(wo.z, -wo.z) };
+        let weight = reflects.pick(reflected * (1.0 / chance), passed * (1.0 / (1.0 - chance)));
+        let zero = wo.z.splat(0.0);
+        BsdfSample { wi, weight, pdf: zero, delta: zero.ge(zero) }
+    }
+}
+
+impl Lobes for ThinDielectricBsdf<One> {
+    fn chosen(&self, wo: V<One>, _: (F<One>, F<One>), lobe: F<One>) -> ChosenLobe {
+        let chance = Self::chance(self.shares(wo.z));
+        ChosenLobe::of_two(["reflection off both faces", "passage"], chance.0, lobe)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::M;
+
+    fn pane(ior: f64, transmittance: f64) -> Materials {
+        Materials::new(&[ThinDielectric { ior, transmittance: [transmittance, 1.0, 0.0] }.into()])
+    }
+
+    fn shares(materials: &Materials, cos: f64) -> ([f32; 3], [f32; 3]) {
+        let at = Local { material: U(0), colour: V::splat(One, [1.0; 3]), alpha: F(0.0), front: M(true) };
+        let (reflected, passed) = ThinDielectric::at(One, materials, Directions::Bsdf, &at).shares(F(cos as f32));
+        (reflected.lane(0), passed.lane(0))
+    }
+
+    #[test]
+    fn a_clear_pane_keeps_all_light_and_a_black_one_reflects_once() {
+        for ior in [0.7, 1.0, 1.3, 1.5, 2.4] {
+            let materials = pane(ior, 0.5);
+            for cos in [1e-3, 0.1, 0.3, 0.7, 1.0] {
+                let (reflected, passed) = shares(&materials, cos);
+                assert!((reflected[1] + passed[1] - 1.0).abs() < 1e-6, "{ior} {cos}: {reflected:?} {passed:?}");
+                let once = fresnel::dielectric(F::<One>(cos as f32), F(ior as f32)).0.0;
+                assert!((reflected[2] - once).abs() < 1e-6 && passed[2] < 1e-6, "{ior} {cos}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_reflections_between_the_faces_are_those_of_a_thin_slab() {
+        let (ior, t) = (1.5f64, 0.5f64);
+        let materials = pane(ior, t);
+        for cos in [0.05, 0.2, 0.6, 1.0] {
+            // Light that crosses a slab again and again, one reflection after the other, in f64.
+            let inside = (1.0 - (1.0 - cos * cos) / (ior * ior)).sqrt();
+            let [s, p] = [(cos - ior * inside) / (cos + ior * inside), (ior * cos - inside) / (ior * cos + inside)];
+            let r = 0.5 * (s * s + p * p);
+            let crossing = t.powf(1.0 / inside);
+            let (mut reflected, mut passed, mut within) = (r, 0.0, (1.0 - r) * crossing);
+            for face in 0..200 {
+                *(if face % 2 == 0 { &mut passed } else { &mut reflected }) += within * (1.0 - r);
+                within *= r * crossing;
+            }
+            let (found_reflected, found_passed) = shares(&materials, cos);
+            let error = (f64::from(found_reflected[0]) - reflected).abs().max((f64::from(found_passed[0]) - passed).abs());
+            assert!(error < 1e-6, "{cos}: {error:e}");
+        }
+    }
+
+    #[test]
+    fn samples_have_the_shares_of_their_lobes_on_average() {
+        let materials = pane(1.5, 0.3);
+        let at = Local { material: U(0), colour: V::splat(One, [1.0; 3]), alpha: F(0.0), front: M(false) };
+        let bsdf = ThinDielectric::at(One, &materials, Directions::Bsdf, &at);
+        let wo = V::<One> { x: F(0.8), y: F(0.0), z: F(0.6) };
+        let (reflected, passed) = bsdf.shares(wo.z);
+        let mut sums = [[0.0f64; 3]; 2];
+        const COUNT: u32 = 1 << 16;
+        for i in 0..COUNT {
+            let lobe = F((i as f32 + 0.5) / COUNT as f32);
+            let sample = bsdf.sample(wo, (F(0.5), F(0.5)), lobe);
+            let side = usize::from(sample.wi.z.0 < 0.0);
+            assert_eq!((sample.wi.x.0, sample.wi.z.0.abs()), (-0.8, 0.6));
+            let lobe = bsdf.chosen(wo, (F(0.5), F(0.5)), lobe);
+            assert_eq!(lobe.name == "passage", side == 1);
+            sample.weight.lane(0).iter().zip(&mut sums[side]).for_each(|(weight, sum)| *sum += f64::from(*weight) / f64::from(COUNT));
+        }
+        for (found, share) in sums.iter().zip([reflected.lane(0), passed.lane(0)]) {
+            for channel in 0..3 {
+                assert!((found[channel] - f64::from(share[channel])).abs() < 1e-4, "{found:?} {share:?}");
+            }
+        }
+    }
+}
