@@ -26,7 +26,10 @@ use std::{
 };
 
 use clap::{CommandFactory, Parser, Subcommand};
-use noisefall::{declare::nearest, scene::load};
+use noisefall::{
+    declare::nearest,
+    scene::{description::SceneDescription, load},
+};
 
 use messages::{print, tell, wrong_usage};
 
@@ -64,6 +67,8 @@ enum Command {
     Sheet(sheet::Arguments),
     /// Read and check scene files, without a picture
     Check(check::Arguments),
+    /// Print the JSON Schema of scene files, for editors
+    Schema,
 }
 
 pub fn run() -> ExitCode {
@@ -82,11 +87,18 @@ pub fn run() -> ExitCode {
         Some(Command::Study(arguments)) => study::run(&arguments),
         Some(Command::Evidence(arguments)) => evidence::run(&arguments),
         Some(Command::Sheet(arguments)) => sheet::run(&arguments),
+        Some(Command::Schema) => schema().map(succeeded),
     };
     done.unwrap_or_else(|message| {
         tell(&message);
         ExitCode::FAILURE
     })
+}
+
+/// Prints the schema that the declarations of the format make.
+fn schema() -> Result<(), Failure> {
+    let schema = noisefall::declare::schema("Noisefall scene", &mut SceneDescription::default());
+    print(&format!("{schema:#}"))
 }
 
 /// What to say of a first word that is neither a command nor a scene, but looks like a command.

@@ -7,6 +7,7 @@ use super::{
     Scene,
     carried::load_carried,
     compile::compile,
+    damage::Damage,
     description::{FORMAT, SceneDescription},
     diagnostic::{SceneError, SourceText},
     locate::locate,
@@ -15,6 +16,7 @@ use super::{
     wording::in_plain_words,
 };
 use crate::{
+    declare::{self, Problem},
     file::open_regular,
     image::looks_like,
     memory::{Size, reserve},
@@ -66,19 +68,7 @@ pub fn load(path: &Path) -> Result<Scene, SceneError> {
 /// Compiles the text of a scene file; `name` is what errors call it, and paths in the file are relative to its folder.
 pub fn parse(name: &str, text: String) -> Result<Scene, SceneError> {
     let source = SourceText { name: name.to_owned(), text };
-    let bytes = (PARSING + KEPT) * source.text.len() as u64;
-    let parsing = reserve(format_args!("{} of text", Size(source.text.len() as u64)), bytes).map_err(|error| {
-        SceneError::of_file(Path::new(name), error.to_string(), "keep large meshes in files of their own, as OBJ or PLY")
-    })?;
-    let table = DeTable::parse(&source.text).map_err(|first| not_toml(&source, &first))?;
-    if table.get_ref().is_empty() {
-        return Err(source.error(0..0, "the file is empty; a scene begins with `format = 1`", "nothing is said"));
-    }
-    check_format(&source, table.get_ref())?;
-    let mut description = SceneDescription::default();
-    let (damage, mut errors) = read_description(&mut description, &table, &source);
-    // What is described takes less than what was parsed, which is given back by now.
-    drop((table, parsing));
+    let (description, damage, mut errors) = understood(&source)?;
     let _described = reserve("the values of the file", DESCRIBED * source.text.len() as u64)
         .map_err(|error| SceneError::of_file(Path::new(name), error.to_string(), "give more memory"))?;
     let folder = Path::new(name).parent().unwrap_or(Path::new(""));
@@ -89,6 +79,54 @@ pub fn parse(name: &str, text: String) -> Result<Scene, SceneError> {
     }
     let nothing = || SceneError::of_file(Path::new(name), "this is no scene", "a scene is one TOML file");
     Err(SceneError::of_all(errors).unwrap_or_else(nothing))
+}
+
+/// Reads the description of the text of a scene file, without the files that it names.
+pub fn describe(name: &str, text: String) -> Result<SceneDescription, SceneError> {
+    let source = SourceText { name: name.to_owned(), text };
+    let (description, _, errors) = understood(&source)?;
+    SceneError::of_all(errors).map_or(Ok(description), Err)
+}
+
+/// What a text says: all of it that can be understood, what was left out, and why.
+fn understood(source: &SourceText) -> Result<(SceneDescription, Damage, Vec<SceneError>), SceneError> {
+    let bytes = (PARSING + KEPT) * source.text.len() as u64;
+    let _parsing = reserve(format_args!("{} of text", Size(source.text.len() as u64)), bytes).map_err(|error| {
+        let help = "keep large meshes in files of their own, as OBJ or PLY";
+        SceneError::of_file(Path::new(&source.name), error.to_string(), help)
+    })?;
+    let table = DeTable::parse(&source.text).map_err(|first| not_toml(source, &first))?;
+    if table.get_ref().is_empty() {
+        return Err(source.error(0..0, "the file is empty; a scene begins with `format = 1`", "nothing is said"));
+    }
+    check_format(source, table.get_ref())?;
+    let mut description = SceneDescription::default();
+    let (damage, errors) = read_description(&mut description, &table, source);
+    Ok((description, damage, errors))
+}
+
+impl SceneDescription {
+    /// Checks the description and compiles it; files that it names are looked for in `folder`.
+    pub fn build(&mut self, folder: &Path) -> Result<Scene, SceneError> {
+        let mut problems = declare::check(self);
+        if problems.is_empty() {
+            match compile(self, &self.to_text(), folder, &Damage::default()) {
+                Ok(scene) => return Ok(scene),
+                Err(found) => problems = found,
+            }
+        }
+        let error = |problem: Problem| {
+            let message = format!("`{}`: {}", problem.path, problem.message);
+            SceneError::of_file(Path::new("scene"), message, if problem.help.is_empty() { problem.label } else { problem.help })
+        };
+        let nothing = || SceneError::of_file(Path::new("scene"), "it cannot be compiled", "check its values");
+        Err(SceneError::of_all(problems.into_iter().map(error).collect()).unwrap_or_else(nothing))
+    }
+
+    /// The text of a scene file that says the same.
+    pub fn to_text(&self) -> String {
+        declare::write(&mut self.clone()).to_string()
+    }
 }
 
 /// All errors of a text that is not TOML: what can be told from the text itself, and what the reader says of other lines; `first` is what it

@@ -36,7 +36,7 @@ pub use self::{
     compile::MaterialInstance,
     diagnostic::SceneError,
     legend::Legend,
-    load::{BUILT_IN, built_in, load, parse},
+    load::{BUILT_IN, built_in, describe, load, parse},
     rays::CameraRays,
     settings::{Estimator, RenderSettings, Reuse, Roulette},
     shutter::{Moments, Shutter},

@@ -5,6 +5,7 @@ mod closed_streams;
 mod command_line;
 mod command_notes;
 mod compare;
+mod declared;
 mod evidence;
 mod figures;
 mod imports;

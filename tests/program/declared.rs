@@ -1,0 +1,202 @@
+//! What the declarations of the scene format say of themselves: manual, schema, writer, and ranges.
+use std::{fs, path::Path};
+
+use noisefall::{
+    declare::{
+        Choice, CountRange, Declare, Dice, Form, Parameter, Parameters, Range, Textured, Value, check, manual, schema, write,
+    },
+    scene::{describe, description::SceneDescription},
+};
+use rand::{SeedableRng, rngs::SmallRng};
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// The texts of all scenes that come with the program.
+fn shipped() -> impl Iterator<Item = (String, String)> {
+    let files = fs::read_dir(root().join("scenes")).expect("the folder can be read").map(|entry| entry.expect("an entry").path());
+    let scenes = files.filter(|path| path.extension().is_some_and(|extension| extension == "toml"));
+    scenes.map(|path| (path.display().to_string(), fs::read_to_string(&path).expect("a scene is text")))
+}
+
+fn drawn(seed: u64) -> SceneDescription {
+    let mut random = SmallRng::seed_from_u64(seed);
+    let mut description = SceneDescription::default();
+    description.parameters(&mut Dice::new(&mut random));
+    description
+}
+
+/// Set this variable to write the manual anew.
+const UPDATE: &str = "NOISEFALL_UPDATE_MANUAL";
+
+#[test]
+fn the_manual_is_what_the_declarations_say() {
+    let path = root().join("docs/scene-format.md");
+    let known = fs::read_to_string(&path).expect("the manual is there");
+    const BEGIN: &str = "<!-- from here on made from the declarations: NOISEFALL_UPDATE_MANUAL=1 cargo test --release --test program manual -->\n";
+    let (before, _) = known.split_once(BEGIN).expect("the place where the tables begin");
+    let now = format!("{before}{BEGIN}{}", manual(&mut SceneDescription::default()));
+    if std::env::var_os(UPDATE).is_some() {
+        fs::write(&path, &now).expect("the manual is written");
+    }
+    assert!(known == now || std::env::var_os(UPDATE).is_some(), "docs/scene-format.md is old: set {UPDATE}=1 and run this test");
+}
+
+#[test]
+fn what_is_written_reads_as_the_same() {
+    for (name, text) in shipped() {
+        let description = describe(&name, text).unwrap_or_else(|error| panic!("{}", error.report()));
+        let again = describe(&name, description.to_text()).unwrap_or_else(|error| panic!("{name}: {}", error.report()));
+        assert_eq!(description, again, "{name}");
+    }
+    for seed in 0..10_000 {
+        let description = drawn(seed);
+        let text = description.to_text();
+        let again = describe("drawn", text.clone()).unwrap_or_else(|error| panic!("seed {seed}: {}\n{text}", error.report()));
+        assert_eq!(description, again, "seed {seed}:\n{text}");
+    }
+}
+
+#[test]
+fn what_is_drawn_is_within_its_range() {
+    for seed in 0..1000 {
+        assert_eq!(check(&mut drawn(seed)), [], "seed {seed}");
+    }
+}
+
+/// Puts one number of a description just outside of its range.
+struct Spoiler {
+    /// How many numbers are left to pass over.
+    left: usize,
+    above: bool,
+    spoiled: Option<&'static str>,
+}
+
+impl Spoiler {
+    fn outside(&mut self, parameter: &Parameter, range: &Range) -> Option<f64> {
+        let beyond = if self.above { range.most + range.most.abs().max(1e-12) * 1e-6 } else { range.least - range.least.abs().max(1e-12) * 1e-6 };
+        if *range == Range::FINITE || !beyond.is_finite() {
+            return None;
+        }
+        let is_here = self.left == 0 && self.spoiled.is_none();
+        self.left = self.left.saturating_sub(1);
+        if is_here {
+            self.spoiled = Some(parameter.key);
+        }
+        is_here.then_some(beyond)
+    }
+}
+
+impl Parameters for Spoiler {
+    fn value(&mut self, parameter: &Parameter, value: Value<'_>) {
+        match value {
+            Value::Number(number, range) => *number = self.outside(parameter, &range).unwrap_or(*number),
+            Value::TexturedNumber(number, range) => {
+                if let Some(wrong) = self.outside(parameter, &range) {
+                    *number = Textured::Constant(wrong);
+                }
+            }
+            Value::Colour(colour, range) => colour[1] = self.outside(parameter, &range).unwrap_or(colour[1]),
+            Value::Textured(colour, range) => {
+                if let Some(wrong) = self.outside(parameter, &range) {
+                    *colour = Textured::Constant([0.5, wrong, 0.5]);
+                }
+            }
+            Value::Count(count, CountRange { least, most }) => {
+                let beyond = if self.above { most.checked_add(1) } else { least.checked_sub(1) };
+                let is_here = self.left == 0 && self.spoiled.is_none();
+                if let (Some(beyond), true) = (beyond, is_here && parameter.key != "format") {
+                    (*count, self.spoiled) = (beyond, Some(parameter.key));
+                }
+                self.left = self.left.saturating_sub(usize::from(beyond.is_some()));
+            }
+            _ => {}
+        }
+    }
+    fn enter(&mut self, _: &Parameter, _: Form) {}
+    fn leave(&mut self) {}
+    fn present(&mut self, _: &Parameter, now: bool) -> bool {
+        now
+    }
+    fn choose(&mut self, _: &Choice, now: usize) -> usize {
+        now
+    }
+    fn items(&mut self, _: &Parameter, now: usize) -> usize {
+        now
+    }
+    fn item(&mut self, _: &Parameter, _: usize) {}
+    fn names(&mut self, _: &Parameter, now: Vec<String>) -> Vec<String> {
+        now
+    }
+    fn named(&mut self, _: &Parameter, _: &str) {}
+}
+
+#[test]
+fn a_number_just_outside_of_its_range_is_refused_by_name() {
+    let mut tried = std::collections::BTreeSet::new();
+    for seed in 0..300 {
+        for left in 0..40 {
+            for above in [false, true] {
+                let mut description = drawn(seed);
+                let mut spoiler = Spoiler { left, above, spoiled: None };
+                description.parameters(&mut spoiler);
+                let Some(key) = spoiler.spoiled else { continue };
+                let error = describe("spoiled", description.to_text()).expect_err(key).report();
+                assert!(error.contains(&format!("`{key}` is out of range")), "seed {seed}, {key}: {error}");
+                assert!(!check(&mut description).is_empty(), "seed {seed}, {key}");
+                tried.insert((key, above));
+            }
+        }
+    }
+    assert!(tried.len() > 30, "{tried:?}");
+}
+
+/// Whether a value fits a schema: objects, lists and choices; numbers are left to the ranges.
+fn fits(value: &serde_json::Value, schema: &serde_json::Value) -> bool {
+    if let Some(choices) = schema["anyOf"].as_array() {
+        return choices.iter().any(|choice| fits(value, choice));
+    }
+    if let Some(words) = schema["enum"].as_array() {
+        return words.contains(value);
+    }
+    match (schema["type"].as_str(), value) {
+        (Some("object"), serde_json::Value::Object(table)) => {
+            let has = |key: &serde_json::Value| key.as_str().is_some_and(|key| table.contains_key(key));
+            let all = |keys: &serde_json::Value| keys.as_array().into_iter().flatten().all(has);
+            let one_of = |choice: &serde_json::Value| choice["oneOf"].as_array().into_iter().flatten().filter(|one| all(&one["required"])).count() == 1;
+            let known = |(key, value): (&String, &serde_json::Value)| match schema["properties"].get(key) {
+                Some(schema) => fits(value, schema),
+                None => schema["additionalProperties"].is_object() && fits(value, &schema["additionalProperties"]),
+            };
+            table.iter().all(known) && all(&schema["required"]) && schema["allOf"].as_array().into_iter().flatten().all(one_of)
+        }
+        (Some("array"), serde_json::Value::Array(items)) => {
+            let length = |key: &str, or: usize| schema[key].as_u64().map_or(or, |length| length as usize);
+            (length("minItems", 0)..=length("maxItems", usize::MAX)).contains(&items.len())
+                && items.iter().all(|item| fits(item, &schema["items"]))
+        }
+        (Some("number"), serde_json::Value::Number(_)) | (Some("string"), serde_json::Value::String(_)) => true,
+        (Some("integer"), serde_json::Value::Number(number)) => number.is_u64() || number.is_i64(),
+        (Some("boolean"), serde_json::Value::Bool(_)) => true,
+        _ => false,
+    }
+}
+
+#[test]
+fn scenes_fit_the_schema_and_what_is_misspelled_does_not() {
+    let schema = schema("scene", &mut SceneDescription::default());
+    let json = |text: &str| serde_json::to_value(toml::from_str::<toml::Table>(text).expect("TOML")).expect("JSON");
+    for (name, text) in shipped() {
+        let scene = json(&text);
+        assert!(fits(&scene, &schema), "{name}");
+        if text.contains("albedo") {
+            assert!(!fits(&json(&text.replace("albedo", "albido")), &schema), "{name}");
+        }
+        assert!(!fits(&json(&text.replace("resolution", "resolutions")), &schema), "{name}");
+    }
+    for seed in 0..200 {
+        let written = serde_json::to_value(write(&mut drawn(seed))).expect("JSON");
+        assert!(fits(&written, &schema), "seed {seed}: {written:#}");
+    }
+}
