@@ -20,23 +20,22 @@ pub fn check_value(parameter: &Parameter, value: &Value<'_>) -> Option<Problem> 
     };
     let out_of_range =
         |wrong: f64, range: &Range| Problem::at("", format!("`{key}` is out of range: {}", short(wrong)), expected(range));
+    let number = |wrong: f64, range: &Range| match wrong {
+        _ if wrong < 0.0 && range.least >= 0.0 => {
+            Problem::at("", format!("`{key}` is negative: {}", short(wrong)), expected(range)).help(parameter.advice)
+        }
+        _ if wrong.is_nan() => Problem::at("", format!("`{key}` is not a number"), expected(range)),
+        _ => out_of_range(wrong, range),
+    };
     let colour =
         |rgb: &[f64; 3], range: &Range| rgb.iter().find(|x| !range.contains(**x)).map(|wrong| out_of_range(*wrong, range));
     match value {
-        Value::TexturedNumber(Textured::Constant(number), range) if !range.contains(*number) => {
-            Some(out_of_range(*number, range))
+        Value::TexturedNumber(Textured::Constant(wrong), range) if !range.contains(*wrong) => Some(number(*wrong, range)),
+        Value::Number(wrong, range) if !range.contains(**wrong) && *range == Range::FINITE => {
+            let unit = if parameter.unit.is_empty() { "a number" } else { parameter.unit };
+            Some(Problem::at("", format!("`{key}` is not a finite number: {wrong}"), format!("expected {unit}")))
         }
-        Value::Number(number, range) if !range.contains(**number) => {
-            if *range == Range::FINITE {
-                let label = if parameter.unit.is_empty() {
-                    "expected a number".to_owned()
-                } else {
-                    format!("expected {}", parameter.unit)
-                };
-                return Some(Problem::at("", format!("`{key}` is not a finite number: {number}"), label));
-            }
-            Some(out_of_range(**number, range))
-        }
+        Value::Number(wrong, range) if !range.contains(**wrong) => Some(number(**wrong, range)),
         Value::Count(count, range) if !(range.least..=range.most).contains(*count) => {
             let label = format!("expected a whole number from {} to {}", range.least, range.most);
             Some(Problem::at("", format!("`{key}` is out of range: {count}"), label))

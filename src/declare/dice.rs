@@ -46,7 +46,9 @@ impl Parameters for Dice<'_> {
     fn value(&mut self, _: &Parameter, value: Value<'_>) {
         match value {
             Value::Number(number, range) => *number = self.number(&range),
-            Value::Count(count, range) => *count = self.random.random_range(range.least..=range.most.min(range.least.saturating_add(40))),
+            Value::Count(count, range) => {
+                *count = self.random.random_range(range.least..=range.most.min(range.least.saturating_add(40)))
+            }
             Value::Flag(flag) => *flag = self.random.random(),
             Value::Colour(rgb, range) => *rgb = [0; 3].map(|_| self.number(&range)),
             Value::Textured(textured, range) => *textured = Textured::Constant([0; 3].map(|_| self.number(&range))),

@@ -62,7 +62,9 @@ fn describe(value: &Value) -> String {
         Value::File(_) => "path relative to the scene".to_owned(),
         Value::Name(_, family) => format!("name of a {family:?}").to_lowercase(),
         Value::Colour(rgb, within) => format!("colour{}; {}", range(within), grey(rgb)),
-        Value::Textured(Textured::Constant(rgb), within) => format!("colour or `{{ texture = … }}`{}; {}", range(within), grey(rgb)),
+        Value::Textured(Textured::Constant(rgb), within) => {
+            format!("colour or `{{ texture = … }}`{}; {}", range(within), grey(rgb))
+        }
         Value::Textured(..) | Value::TexturedNumber(..) => "`{ texture = … }`".to_owned(),
         Value::Point(p) | Value::Vector(p) => format!("[x, y, z]; [{}, {}, {}]", short(p.x), short(p.y), short(p.z)),
         Value::Factors(_) => "[x, y, z] or one number".to_owned(),

@@ -95,7 +95,11 @@ impl Schema {
 }
 
 fn number(range: &Range) -> Json {
-    if *range == Range::FINITE { json!({ "type": "number" }) } else { json!({ "type": "number", "minimum": range.least, "maximum": range.most }) }
+    if *range == Range::FINITE {
+        json!({ "type": "number" })
+    } else {
+        json!({ "type": "number", "minimum": range.least, "maximum": range.most })
+    }
 }
 
 fn list(items: &Json, count: usize) -> Json {

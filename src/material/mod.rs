@@ -24,9 +24,9 @@ pub mod rough_dielectric;
 mod roughness;
 mod shade;
 mod tables;
-pub mod thin_dielectric;
 #[cfg(test)]
 mod tests;
+pub mod thin_dielectric;
 
 pub use self::{
     bsdf::{Bsdf, BsdfSample, ChosenLobe, Lobes},

@@ -32,9 +32,10 @@ impl Default for ThinDielectric {
 }
 
 impl Kind for ThinDielectric {
-    const KIND: Parameter = Parameter::new("thin_dielectric", "A thin pane of glass: reflects and lets pass, without refraction.")
-        .aliases("pane thin_glass thindielectric window")
-        .advice("such as thin_dielectric = { ior = 1.5 }");
+    const KIND: Parameter =
+        Parameter::new("thin_dielectric", "A thin pane of glass: reflects and lets pass, without refraction.")
+            .aliases("pane thin_glass thindielectric window")
+            .advice("such as thin_dielectric = { ior = 1.5 }");
 }
 
 impl Declare for ThinDielectric {
@@ -226,7 +227,12 @@ mod tests {
             assert_eq!((sample.wi.x.0, sample.wi.z.0.abs()), (-0.8, 0.6));
             let lobe = bsdf.chosen(wo, (F(0.5), F(0.5)), lobe);
             assert_eq!(lobe.name == "passage", side == 1);
-            sample.weight.lane(0).iter().zip(&mut sums[side]).for_each(|(weight, sum)| *sum += f64::from(*weight) / f64::from(COUNT));
+            sample
+                .weight
+                .lane(0)
+                .iter()
+                .zip(&mut sums[side])
+                .for_each(|(weight, sum)| *sum += f64::from(*weight) / f64::from(COUNT));
         }
         for (found, share) in sums.iter().zip([reflected.lane(0), passed.lane(0)]) {
             for channel in 0..3 {

@@ -47,7 +47,7 @@ struct Frame<'t> {
     table: Option<&'t DeTable<'t>>,
     span: Range<usize>,
     /// What stands in the place of the table.
-    mistaken: Option<(&'t Spanned<DeValue<'t>>, &'static str)>,
+    mistaken: Option<(&'t Spanned<DeValue<'t>>, &'static str, Form)>,
     /// A name stands in the place of the table.
     name: Option<&'t Spanned<DeValue<'t>>>,
     /// What has been asked for.
@@ -115,7 +115,7 @@ impl<'t> Reader<'t> {
         match value.get_ref() {
             DeValue::Table(table) => Frame { table: Some(table), ..frame },
             DeValue::String(_) if form == Form::NameOrTable => Frame { name: Some(value), ..frame },
-            _ => Frame { mistaken: Some((value, key)), ..frame },
+            _ => Frame { mistaken: Some((value, key, form)), ..frame },
         }
     }
 
@@ -124,8 +124,8 @@ impl<'t> Reader<'t> {
         let frame = self.frames.pop().expect("a table that was entered");
         let source = self.source;
         let mut errors = Vec::new();
-        if let Some((value, key)) = frame.mistaken {
-            errors.push(wrong_table(source, key, value, &frame));
+        if let Some((value, key, form)) = frame.mistaken {
+            errors.push(wrong_table(source, key, value, form, &frame));
         }
         for (key, _) in frame.table.into_iter().flatten() {
             if !frame.known.iter().any(|entry| entry.parameter.key == key.get_ref()) {
@@ -190,9 +190,9 @@ impl<'t> Reader<'t> {
                 }
                 let names: Vec<String> =
                     choice.alternatives.iter().map(|alternative| format!("`{}`", alternative.name)).collect();
-                let name = self.path.0.last().map_or_else(String::new, |step| format!(" of `{}`", Path(vec![step.clone()])));
-                let message = format!("the {what}{name} says no kind");
-                let error = self.source.error(span, message, format!("exactly one is needed: {}", names.join(", ")));
+                let table = self.path.0.last().map_or_else(|| what.to_owned(), |step| Path(vec![step.clone()]).to_string());
+                let message = format!("`{table}` has none of {}", names.join(", "));
+                let error = self.source.error(span, message, format!("exactly one of them is needed: the {what}"));
                 self.frame().missing.insert(0, error);
                 // What the alternative asks for is missing because there is none.
                 self.frame().table.take();
@@ -203,7 +203,7 @@ impl<'t> Reader<'t> {
 }
 
 /// The error of a value in the place of a table.
-fn wrong_table(source: &SourceText, key: &str, value: &Spanned<DeValue>, frame: &Frame) -> SceneError {
+fn wrong_table(source: &SourceText, key: &str, value: &Spanned<DeValue>, form: Form, frame: &Frame) -> SceneError {
     let text = text_at(source, &value.span());
     let found = found(value.get_ref(), text);
     if frame.choice == Some("items") {
@@ -212,8 +212,9 @@ fn wrong_table(source: &SourceText, key: &str, value: &Spanned<DeValue>, frame: 
         return error.with_help(format!("each of several has its own table: write `[[{key}]]`"));
     }
     let meant = suggestion(value.get_ref(), text, &frame.known);
-    let label = meant.map_or_else(|| "expected a table { … }".to_owned(), |meant| format!("write {meant}"));
-    source.error(value.span(), format!("`{key}`: expected a table {{ … }}, found {found}"), label)
+    let expected = if form == Form::NameOrTable { "a name in quotes, or a table { … }" } else { "a table { … }" };
+    let label = meant.map_or_else(|| format!("expected {expected}"), |meant| format!("write {meant}"));
+    source.error(value.span(), format!("`{key}`: expected {expected}, found {found}"), label)
 }
 
 impl Parameters for Reader<'_> {
@@ -230,8 +231,7 @@ impl Parameters for Reader<'_> {
             Found::Read => {
                 if let Some(problem) = check_value(parameter, &value) {
                     let error = source.error(given.span(), problem.message, problem.label);
-                    let advice = parameter.advice;
-                    self.fail(if advice.is_empty() { error } else { error.with_help(advice) });
+                    self.fail(if problem.help.is_empty() { error } else { error.with_help(problem.help) });
                 }
             }
             Found::Wrong(Wrong { span, expected, what }) => {
@@ -315,7 +315,11 @@ impl Parameters for Reader<'_> {
         match value.get_ref() {
             DeValue::Array(array) => array.len(),
             _ => {
-                let frame = Frame { mistaken: Some((value, parameter.key)), choice: Some("items"), ..Frame::new(value.span()) };
+                let frame = Frame {
+                    mistaken: Some((value, parameter.key, Form::Table)),
+                    choice: Some("items"),
+                    ..Frame::new(value.span())
+                };
                 self.descend(self.path.key(parameter.key), frame);
                 self.leave();
                 0
@@ -341,7 +345,7 @@ impl Parameters for Reader<'_> {
         match value.get_ref() {
             DeValue::Table(table) => table.iter().map(|(name, _)| name.get_ref().to_string()).collect(),
             _ => {
-                let frame = Frame { mistaken: Some((value, parameter.key)), ..Frame::new(value.span()) };
+                let frame = Frame { mistaken: Some((value, parameter.key, Form::Table)), ..Frame::new(value.span()) };
                 self.descend(self.path.key(parameter.key), frame);
                 self.leave();
                 Vec::new()

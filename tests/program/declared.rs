@@ -75,7 +75,11 @@ struct Spoiler {
 
 impl Spoiler {
     fn outside(&mut self, parameter: &Parameter, range: &Range) -> Option<f64> {
-        let beyond = if self.above { range.most + range.most.abs().max(1e-12) * 1e-6 } else { range.least - range.least.abs().max(1e-12) * 1e-6 };
+        let beyond = if self.above {
+            range.most + range.most.abs().max(1e-12) * 1e-6
+        } else {
+            range.least - range.least.abs().max(1e-12) * 1e-6
+        };
         if *range == Range::FINITE || !beyond.is_finite() {
             return None;
         }
@@ -164,7 +168,9 @@ fn fits(value: &serde_json::Value, schema: &serde_json::Value) -> bool {
         (Some("object"), serde_json::Value::Object(table)) => {
             let has = |key: &serde_json::Value| key.as_str().is_some_and(|key| table.contains_key(key));
             let all = |keys: &serde_json::Value| keys.as_array().into_iter().flatten().all(has);
-            let one_of = |choice: &serde_json::Value| choice["oneOf"].as_array().into_iter().flatten().filter(|one| all(&one["required"])).count() == 1;
+            let one_of = |choice: &serde_json::Value| {
+                choice["oneOf"].as_array().into_iter().flatten().filter(|one| all(&one["required"])).count() == 1
+            };
             let known = |(key, value): (&String, &serde_json::Value)| match schema["properties"].get(key) {
                 Some(schema) => fits(value, schema),
                 None => schema["additionalProperties"].is_object() && fits(value, &schema["additionalProperties"]),

@@ -1,8 +1,11 @@
-//! Every number of the format at the ends of its range: the last that is accepted, and the first that is refused, with a message
-//! that says where and what is allowed. A key that is new must be added here.
+//! Numbers of the format at the ends of their ranges: the last that is accepted, and the first that is refused, with a message that says
+//! where and what is allowed. `declared.rs` tries those of every declaration.
 use std::{collections::BTreeSet, fs};
 
-use noisefall::scene::{SceneError, parse};
+use noisefall::{
+    declare::{Choice, Declare, Form, Parameter, Parameters, Value},
+    scene::{SceneError, description::SceneDescription, parse},
+};
 
 /// A number of the format.
 struct Range {
@@ -54,15 +57,15 @@ const RANGES: &[Range] = &[
     range("camera.look_at", "camera = { eye = [0.0, 0.1, 4.0], look_at = [X, 0.0, 0.0], fov = 40.0, resolution = [8, 8] }", FAR, BEYOND, POSITION),
     range("camera.up", "camera = { eye = [0.0, 0.0, 4.0], look_at = [0.0, 0.0, 0.0], up = [0.0, X, 0.0], fov = 40.0, resolution = [8, 8] }", FAR, BEYOND, POSITION),
     range("camera.up", "camera = { eye = [0.0, 0.0, 4.0], look_at = [0.0, 0.0, 0.0], up = [0.0, X, 1.0], fov = 40.0, resolution = [8, 8] }", &["1e-5", "-1.0"], &["0.0", "1e-7"], "`up` is parallel"),
-    range("camera.fov", "camera = { eye = [0.0, 0.0, 4.0], look_at = [0.0, 0.0, 0.0], fov = X, resolution = [8, 8] }", &["0.001", "179.9", "40"], &["0.00099", "179.91", "0.0", "-40.0"], "`fov` must lie between 0.001 and 179.9 degrees"),
+    range("camera.fov", "camera = { eye = [0.0, 0.0, 4.0], look_at = [0.0, 0.0, 0.0], fov = X, resolution = [8, 8] }", &["0.001", "179.9", "40"], &["0.00099", "179.91", "0.0", "-40.0"], "expected a number from 0.001 to 179.9"),
     range("camera.resolution", "camera = { eye = [0.0, 0.0, 4.0], look_at = [0.0, 0.0, 0.0], fov = 40.0, resolution = [X] }", &["1, 1", "16384, 2048", "2048, 16384"], &["0, 8", "8, 0", "16385, 1", "1, 16385", "16384, 2049"], "the resolution must be at least 1 × 1, at most 16384 a side and 33554432 pixels"),
-    range("camera.projection.orthographic.width", "camera = { eye = [0.0, 0.0, 4.0], look_at = [0.0, 0.0, 0.0], projection.orthographic.width = X, resolution = [8, 8] }", &["1e-9", "1e9"], &["0.99e-9", "1.000001e9", "0.0", "-1.0", "nan"], "the width of an orthographic picture must lie between 1e-9 and 1e9"),
-    range("camera.lens.radius", "camera = { eye = [0.0, 0.0, 4.0], look_at = [0.0, 0.0, 0.0], fov = 40.0, resolution = [8, 8], lens = { radius = X, focus = 1.0 } }", &["0.0", "1e9"], &["-1e-9", "1.000001e9", "nan"], "the radius of a lens must lie between 0 and 1e9"),
-    range("camera.lens.focus", "camera = { eye = [0.0, 0.0, 4.0], look_at = [0.0, 0.0, 0.0], fov = 40.0, resolution = [8, 8], lens = { radius = 0.1, focus = X } }", &["1e-9", "1e12"], &["0.99e-9", "1.000001e12", "0.0", "nan"], "the distance in focus must lie between 1e-9 and 1e12"),
+    range("camera.projection.orthographic.width", "camera = { eye = [0.0, 0.0, 4.0], look_at = [0.0, 0.0, 0.0], projection.orthographic.width = X, resolution = [8, 8] }", &["1e-9", "1e9"], &["0.99e-9", "1.000001e9", "0.0", "-1.0", "nan"], "expected a number from 1e-9 to 1e9"),
+    range("camera.lens.radius", "camera = { eye = [0.0, 0.0, 4.0], look_at = [0.0, 0.0, 0.0], fov = 40.0, resolution = [8, 8], lens = { radius = X, focus = 1.0 } }", &["0.0", "1e9"], &["-1e-9", "1.000001e9", "nan"], "expected a number from 0 to 1e9"),
+    range("camera.lens.focus", "camera = { eye = [0.0, 0.0, 4.0], look_at = [0.0, 0.0, 0.0], fov = 40.0, resolution = [8, 8], lens = { radius = 0.1, focus = X } }", &["1e-9", "1e12"], &["0.99e-9", "1.000001e12", "0.0", "nan"], "expected a number from 1e-9 to 1e12"),
     range("camera.shutter", "camera = { eye = [0.0, 0.0, 4.0], look_at = [0.0, 0.0, 0.0], fov = 40.0, resolution = [8, 8], shutter = [0.5, X] }", &["0.5", "1e6"], &["0.499", "1.000001e6", "nan", "inf"], "expected two times from -1e6 to 1e6, the earlier one first"),
     range("camera.shutter", "camera = { eye = [0.0, 0.0, 4.0], look_at = [0.0, 0.0, 0.0], fov = 40.0, resolution = [8, 8], shutter = [X, 0.5] }", &["0.5", "-1e6"], &["0.501", "-1.000001e6", "nan", "-inf"], "`shutter` is out of range"),
-    range("camera.filter.tent.radius", "camera = { eye = [0.0, 0.0, 4.0], look_at = [0.0, 0.0, 0.0], fov = 40.0, resolution = [8, 8], filter.tent.radius = X }", &["0.01", "16.0"], &["0.0099", "16.001", "nan"], "the width of a pixel filter must lie between 0.01 and 16"),
-    range("camera.filter.gaussian.sigma", "camera = { eye = [0.0, 0.0, 4.0], look_at = [0.0, 0.0, 0.0], fov = 40.0, resolution = [8, 8], filter.gaussian.sigma = X }", &["0.01", "16.0"], &["0.0099", "16.001", "nan"], "the width of a pixel filter must lie between 0.01 and 16"),
+    range("camera.filter.tent.radius", "camera = { eye = [0.0, 0.0, 4.0], look_at = [0.0, 0.0, 0.0], fov = 40.0, resolution = [8, 8], filter.tent.radius = X }", &["0.01", "16.0"], &["0.0099", "16.001", "nan"], "expected a number from 0.01 to 16"),
+    range("camera.filter.gaussian.sigma", "camera = { eye = [0.0, 0.0, 4.0], look_at = [0.0, 0.0, 0.0], fov = 40.0, resolution = [8, 8], filter.gaussian.sigma = X }", &["0.01", "16.0"], &["0.0099", "16.001", "nan"], "expected a number from 0.01 to 16"),
     range("background.radiance", "VIEW\nbackground.radiance = X", LIGHT, NO_LIGHT, "radiance"),
     range("background.rotate", "VIEW\nbackground = { image = 'sky.hdr', rotate = X }", &["0", "-1e300", "1e300", "3600.5"], &["nan", "inf", "-inf"], "`rotate` is not a finite number"),
     range("background.scale", "VIEW\nbackground = { image = 'sky.hdr', scale = X }", &["1e-12", "1e12"], &["0.99e-12", "1.000001e12", "0.0", "-1.0", "nan"], "expected a number from 1e-12 to 1e12"),
@@ -91,10 +94,10 @@ const RANGES: &[Range] = &[
     range("materials.plastic.ior", "VIEW\nmaterials.m.plastic = { albedo = 0.5, ior = X }", &["1.0", "20.0"], &["0.999", "20.001", "-1.5", "nan"], "expected a number from 1 to 20"),
     range("materials.plastic.roughness", "VIEW\nmaterials.m.plastic = { albedo = 0.5, ior = 1.5, roughness = X }", NARROW, NOT_NARROW, "roughness"),
     range("materials.plastic.alpha", "VIEW\nmaterials.m.plastic = { albedo = 0.5, ior = 1.5, alpha = X }", NARROW, NOT_NARROW, "alpha"),
-    range("materials.bump.height", "VIEW\ntextures.t.checker = { even = 0.1, odd = 0.5, scale = 2.0 }\nmaterials.m = { lambertian.albedo = 0.5, bump = { texture = 't', height = X } }", &["-1e6", "0.0", "1e6"], &["-1.000001e6", "1.000001e6", "nan"], "`height` is out of range"),
+    range("materials.bump.height", "VIEW\ntextures.t.checker = { even = 0.1, odd = 0.5, scale = 2.0 }\nmaterials.m = { lambertian.albedo = 0.5, bump = { texture = 't', height = X } }", &["-1e6", "0.0", "1e6"], &["-1.000001e6", "1.000001e6", "nan"], "expected a number from -1e6 to 1e6"),
     range("objects.shape.sphere.center", "VIEW\n[[objects]]\nshape.sphere = { center = [X, 0.0, 0.0], radius = 1.0 }", FAR, BEYOND, POSITION),
     range("objects.shape.sphere.radius", "VIEW\n[[objects]]\nshape.sphere = { center = [0.0, 0.0, 0.0], radius = X }", RADIUS, NO_RADIUS, "expected a number from 1e-12 to 1e12"),
-    range("objects.shape.sphere_field.count", "VIEW\n[[objects]]\nshape.sphere_field = { count = X, bounds = { min = [0, 0, 0], max = [1, 1, 1] } }", &["1", "9"], &["0", "1000001"], "expected 1 to 1000000"),
+    range("objects.shape.sphere_field.count", "VIEW\n[[objects]]\nshape.sphere_field = { count = X, bounds = { min = [0, 0, 0], max = [1, 1, 1] } }", &["1", "9"], &["0", "1000001"], "expected a whole number from 1 to 1000000"),
     range("objects.shape.sphere_field.seed", "VIEW\n[[objects]]\nshape.sphere_field = { count = 9, bounds = { min = [0, 0, 0], max = [1, 1, 1] }, seed = X }", COUNT, NO_COUNT, "expected a whole number, 0 or more"),
     range("objects.shape.sphere_field.bounds.min", "VIEW\n[[objects]]\nshape.sphere_field = { count = 9, bounds = { min = [X, 0, 0], max = [2, 1, 1] } }", &["-1e12", "1.9"], &["-1.000001e12", "nan"], POSITION),
     range("objects.shape.sphere_field.bounds.max", "VIEW\n[[objects]]\nshape.sphere_field = { count = 9, bounds = { min = [0, 0, 0], max = [1, X, 1] } }", &["1e-3", "1e12"], &["0.0", "-1.0"], "`max` must lie above `min` in every coordinate"),
@@ -120,19 +123,19 @@ const RANGES: &[Range] = &[
     range("objects.shape.mesh.vertices", "VIEW\n[[objects]]\nshape.mesh = { triangles = [[0, 1, 2]], vertices = [[X, 0, 0], [0, 1, 0], [0, 0, 1]] }", &["-1e12", "1e12"], &["nan", "inf", "1e39"], "vertex 0 is not finite"),
     range("objects.shape.mesh.vertices", "VIEW\n[[objects]]\nshape.mesh = { triangles = [[0, 1, 2]], vertices = [[X, 0, 0], [0, 1, 0], [0, 0, 1]] }", &["1.9e12"], &["3e12", "-1e30"], "expected 1e-12 to 1e12 m"),
     range("objects.shape.mesh.triangles", "VIEW\n[[objects]]\nshape.mesh = { vertices = [[0, 0, 0], [0, 1, 0], [0, 0, 1]], triangles = [[0, 1, X]] }", &["2", "0"], &["3", "4294967295"], "there are 3, counted from 0"),
-    range("objects.shape.mesh.knot.triangles", "VIEW\n[[objects]]\nshape.mesh.knot.triangles = X", &["18", "100"], &["17", "50000001", "0"], "expected 18 to 50000000"),
-    range("objects.shape.mesh.heightfield.quads", "VIEW\n[[objects]]\nshape.mesh.heightfield = { quads = X }", &["1", "9"], &["0", "5001"], "expected 1 to 5000"),
+    range("objects.shape.mesh.knot.triangles", "VIEW\n[[objects]]\nshape.mesh.knot.triangles = X", &["18", "100"], &["17", "50000001", "0"], "expected a whole number from 18 to 50000000"),
+    range("objects.shape.mesh.heightfield.quads", "VIEW\n[[objects]]\nshape.mesh.heightfield = { quads = X }", &["1", "9"], &["0", "5001"], "expected a whole number from 1 to 5000"),
     range("objects.shape.mesh.heightfield.seed", "VIEW\n[[objects]]\nshape.mesh.heightfield = { quads = 2, seed = X }", COUNT, NO_COUNT, "expected a whole number, 0 or more"),
     range("objects.shape.isosurface.bounds.min", "VIEW\n[[objects]]\nshape.isosurface = { expression = 'x', bounds = { min = [X, 0, 0], max = [2, 1, 1] } }", &["-1e12", "1.9"], BEYOND, POSITION),
     range("objects.shape.isosurface.bounds.max", "VIEW\n[[objects]]\nshape.isosurface = { expression = 'x', bounds = { min = [0, 0, 0], max = [X, 1, 1] } }", &["1e-3", "1e12"], BEYOND, POSITION),
     range("objects.transform.translate", "VIEW\n[[objects]]\nBALL\ntransform = [{ translate = [X, 0, 0] }]", &["-0.99e12", "1e12"], &["nan", "inf"], "the transform is not finite"),
     range("objects.transform.scale", "VIEW\n[[objects]]\nBALL\ntransform = [{ scale = X }]", &["1e-12", "1e12", "-1.0", "[1.0, 2.0, -3.0]"], &["0.99e-12", "1.01e12", "0.0", "[1.0, 0.0, 1.0]"], "it flattens space, or scales it beyond 1e-12 to 1e12"),
     range("objects.transform.rotate.axis", "VIEW\n[[objects]]\nBALL\ntransform = [{ rotate = { axis = [0, X, 0], degrees = 30.0 } }]", &["1e-9", "-1e100"], &["0.0"], "the axis of rotation has no direction"),
-    range("objects.transform.rotate.degrees", "VIEW\n[[objects]]\nBALL\ntransform = [{ rotate = { axis = [0, 1, 0], degrees = X } }]", &["0.0", "-1e300", "1e300", "1.5e9"], &["nan", "inf", "-inf"], "the transform is not finite"),
+    range("objects.transform.rotate.degrees", "VIEW\n[[objects]]\nBALL\ntransform = [{ rotate = { axis = [0, 1, 0], degrees = X } }]", &["0.0", "-1e300", "1e300", "1.5e9"], &["nan", "inf", "-inf"], "`degrees` is not a finite number"),
     range("objects.transform.matrix", "VIEW\n[[objects]]\nBALL\ntransform = [{ matrix = [[X, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]] }]", &["1e-12", "1e12", "-1.0"], &["0.0", "0.99e-12", "1.01e12"], "it flattens space, or scales it beyond 1e-12 to 1e12"),
     range("objects.transform.matrix", "VIEW\n[[objects]]\nBALL\ntransform = [{ matrix = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, X]] }]", &["1.0"], &["0.999", "0.0", "2.0"], "the last row must be 0, 0, 0, 1"),
     range("objects.motion.translate", "VIEW\n[[objects]]\nBALL\nmotion = [{ translate = [X, 0, 0] }]", &["-3.9e12", "3.9e12"], &["4.1e12", "-4.1e12", "1e100"], "in motion it comes as far as"),
-    range("objects.motion.rotate.degrees", "VIEW\n[[objects]]\nBALL\nmotion = [{ rotate = { axis = [0, 1, 0], degrees = X } }]", &["-1e300", "1.5e9"], &["nan", "inf"], "the transform is not finite"),
+    range("objects.motion.rotate.degrees", "VIEW\n[[objects]]\nBALL\nmotion = [{ rotate = { axis = [0, 1, 0], degrees = X } }]", &["-1e300", "1.5e9"], &["nan", "inf"], "`degrees` is not a finite number"),
     range("camera.motion.translate", "camera = { eye = [0.0, 0.0, 4.0], look_at = [0.0, 0.0, 0.0], fov = 40.0, resolution = [8, 8], motion = [{ translate = [X, 0, 0] }] }", &["-1e12", "1e12"], &["nan", "inf"], "the transform is not finite"),
     range("objects.emission.radiance", "VIEW\n[[objects]]\nBALL\nemission.radiance = X", &["1e-30", "1e15", "[0.0, 1e15, 0.0]"], NO_LIGHT, "every channel must be a number from 0 to 1e15"),
     range("objects.emission.radiance", "VIEW\n[[objects]]\nBALL\nemission.radiance = X", &["1e-30"], &["0.0", "[0.0, 0.0, 0.0]"], "a light of zero power"),
@@ -140,86 +143,65 @@ const RANGES: &[Range] = &[
     range("render.max_bounces", "VIEW\nrender.max_bounces = X", COUNT, NO_COUNT, "leave it out for no cap"),
     range("render.roulette.fixed", "VIEW\nrender.roulette.fixed = X", &["0.01", "1.0"], &["0.0099", "1.000001", "0.0", "nan"], "expected a number from 0.01 to 1"),
     range("render.roulette.throughput.start", "VIEW\nrender.roulette.throughput.start = X", COUNT, NO_COUNT, "expected a whole number, 0 or more"),
-    range("render.spp", "VIEW\nrender.spp = X", &["1", "4294967295"], &["0"], "expected at least 1 sample per pixel"),
+    range("render.spp", "VIEW\nrender.spp = X", &["1", "4294967295"], &["0"], "expected a whole number from 1 to 4294967295"),
     range("render.spp", "VIEW\nrender.spp = X", &["1"], &["-1", "4294967296", "1.5"], "expected a whole number, 0 or more"),
     range("render.seed", "VIEW\nrender.seed = X", COUNT, NO_COUNT, "expected a whole number, 0 or more"),
     range("truth.radiance", "VIEW\ntruth.radiance = X", LIGHT, NO_LIGHT, "radiance"),
 ];
 
-/// Keys whose values are not numbers: names, texts, paths, truth values, and tables that hold other keys.
-const OTHERS: &[&str] = &[
-    "title",
-    "notes",
-    "camera",
-    "background",
-    "textures",
-    "materials",
-    "objects",
-    "render",
-    "truth",
-    "camera.projection",
-    "camera.projection.perspective",
-    "camera.projection.orthographic",
-    "camera.lens",
-    "camera.filter",
-    "camera.filter.box",
-    "camera.filter.tent",
-    "camera.filter.gaussian",
-    "camera.motion",
-    "background.image",
-    "textures.image",
-    "textures.checker",
-    "textures.noise",
-    "textures.image.path",
-    "textures.image.encoding",
-    "materials.lambertian",
-    "materials.mirror",
-    "materials.dielectric",
-    "materials.conductor",
-    "materials.plastic",
-    "materials.bump",
-    "materials.normal_map",
-    "materials.two_sided",
-    "materials.bump.texture",
-    "materials.dielectric.energy_compensation",
-    "materials.conductor.energy_compensation",
-    "objects.name",
-    "objects.shape",
-    "objects.material",
-    "objects.emission",
-    "objects.flip",
-    "objects.transform",
-    "objects.motion",
-    "objects.shape.sphere",
-    "objects.shape.sphere_field",
-    "objects.shape.cuboid",
-    "objects.shape.cylinder",
-    "objects.shape.disk",
-    "objects.shape.rectangle",
-    "objects.shape.triangle",
-    "objects.shape.mesh",
-    "objects.shape.isosurface",
-    "objects.shape.sphere_field.bounds",
-    "objects.shape.cylinder.capped",
-    "objects.shape.isosurface.expression",
-    "objects.shape.isosurface.bounds",
-    "objects.shape.mesh.path",
-    "objects.shape.mesh.knot",
-    "objects.shape.mesh.heightfield",
-    "objects.shape.mesh.smooth",
-    "objects.transform.rotate",
-    "objects.emission.two_sided",
-    "objects.emission.texture",
-    "render.estimator",
-    "render.directions",
-    "render.sampler",
-    "render.roulette",
-    "render.reuse",
-    "render.adaptive",
-    "render.roulette.off",
-    "render.roulette.throughput",
-    "truth.image",
-];
+/// All keys of the format, as its declarations visit them: tables and key, joined by points.
+struct Keys {
+    path: Vec<&'static str>,
+    all: BTreeSet<String>,
+}
+
+impl Keys {
+    fn declared() -> BTreeSet<String> {
+        let mut keys = Keys { path: Vec::new(), all: BTreeSet::new() };
+        SceneDescription::default().parameters(&mut keys);
+        keys.all
+    }
+
+    fn note(&mut self, key: &str) {
+        let path: Vec<&str> = self.path.iter().copied().chain([key]).collect();
+        self.all.insert(path.join("."));
+    }
+}
+
+impl Parameters for Keys {
+    fn value(&mut self, parameter: &Parameter, _: Value<'_>) {
+        self.note(parameter.key);
+    }
+    fn enter(&mut self, parameter: &Parameter, _: Form) {
+        self.note(parameter.key);
+        self.path.push(parameter.key);
+    }
+    fn leave(&mut self) {
+        self.path.pop();
+    }
+    fn present(&mut self, _: &Parameter, _: bool) -> bool {
+        true
+    }
+    fn choose(&mut self, choice: &Choice, now: usize) -> usize {
+        choice.alternatives.iter().for_each(|alternative| self.note(alternative.name));
+        now
+    }
+    fn items(&mut self, _: &Parameter, _: usize) -> usize {
+        1
+    }
+    fn item(&mut self, parameter: &Parameter, _: usize) {
+        self.enter(parameter, Form::Table);
+    }
+    fn names(&mut self, _: &Parameter, _: Vec<String>) -> Vec<String> {
+        vec!["name".to_owned()]
+    }
+    fn named(&mut self, parameter: &Parameter, _: &str) {
+        self.enter(parameter, Form::Table);
+    }
+    fn sees_all(&self) -> bool {
+        true
+    }
+}
 
 /// Every table of the format with a key that it does not have, `zzz`: what is said then lists those that it has.
 #[rustfmt::skip]
@@ -317,17 +299,27 @@ fn keys_of(table: &str, text: &str) -> Vec<String> {
 }
 
 #[test]
-fn every_key_of_the_format_has_its_range_here() {
-    let known: BTreeSet<&str> = RANGES.iter().map(|range| range.key).chain(OTHERS.iter().copied()).collect();
+fn what_is_said_of_an_unknown_key_lists_all_that_are_declared() {
+    let declared = Keys::declared();
     let mut there = BTreeSet::new();
     for (table, text) in TABLES {
-        there.extend(keys_of(table, text));
+        let listed = keys_of(table, text);
+        let missing: Vec<_> = listed.iter().filter(|key| !declared.contains(*key)).collect();
+        assert!(missing.is_empty(), "these keys are not declared: {missing:?}");
+        if !text.contains("'zzz'") {
+            let inside = |key: &&String| key.strip_prefix(table).is_some_and(|rest| !rest.contains('.'));
+            let named = |key: &&String| {
+                ["camera.projection.perspective", "camera.filter.box", "render.roulette.off"].contains(&key.as_str())
+            };
+            let unlisted: Vec<_> =
+                declared.iter().filter(inside).filter(|key| !named(key)).filter(|key| !listed.contains(key)).collect();
+            assert!(unlisted.is_empty(), "{table}: these keys are not listed: {unlisted:?}");
+        }
+        there.extend(listed);
     }
     // One kind of list serves objects and the camera, in rest and in motion.
     let same_lists = |key: &str| key.starts_with("objects.motion.") || key.starts_with("camera.motion.");
-    let missing: Vec<_> = there.iter().filter(|key| !known.contains(key.as_str())).collect();
-    assert!(missing.is_empty(), "these keys stand in no table: {missing:?}");
-    let gone: Vec<_> = known.iter().filter(|key| !there.contains(**key) && !same_lists(key)).collect();
+    let gone: Vec<_> = RANGES.iter().map(|range| range.key).filter(|key| !there.contains(*key) && !same_lists(key)).collect();
     assert!(gone.is_empty(), "these keys are no longer there: {gone:?}");
     // A key that holds others, or several kinds, is asked for them too.
     let asked: BTreeSet<String> = TABLES.iter().map(|(table, _)| table.trim_end_matches('.').to_owned()).collect();

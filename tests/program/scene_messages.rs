@@ -15,7 +15,7 @@ fn wrong_values_are_told_in_plain_words() {
         "`sphere`: expected a table { … }, found 3",
     );
     refuses("{ sphere = { center = [0.0, 1.0, 0.0], radius = 1.0 } }", "\"sphere\"", "write { sphere = … }");
-    refuses("{ sphere = { center = [0.0, 1.0, 0.0], radius = 1.0 } }", "{}", "says exactly one kind");
+    refuses("{ sphere = { center = [0.0, 1.0, 0.0], radius = 1.0 } }", "{}", "`shape` has none of `sphere`");
     refuses("\"stratified\"", "3", "expected a name in quotes");
     assert!(!error(&GOOD.replace("look_at = [0, 1, 0]", "look_at = [[0], 1, 0]")).report().contains("help"));
     refuses("seed = 9", "seed = 2024-01-01", "found a date");
@@ -23,7 +23,7 @@ fn wrong_values_are_told_in_plain_words() {
     refuses("name = \"ball\"", "flip = 1", "`flip`: expected true or false, found 1");
     refuses("fov = 40", "fov = ", "a value is missing");
     refuses("{ fixed = 0.75 }", "\"fixed\"", "write { fixed = … }");
-    refuses("{ fixed = 0.75 }", "{ fixed = 0.5, throughput = {} }", "a second kind of roulette, `throughput`");
+    refuses("{ fixed = 0.75 }", "{ fixed = 0.5, throughput = {} }", "`fixed` and `throughput` exclude each other");
     refuses("{ fixed = 0.75 }", "{ throughput = { begin = 4 } }", "unknown key `begin`");
     for jargon in ["f64", "u32", "i64", "map", "struct", "variant", "sequence"] {
         for (line, by) in
@@ -120,12 +120,13 @@ fn all_errors_of_a_file_are_told_in_the_order_of_its_lines() {
     all(
         &wrong.replace("[render]", two_balls),
         &[
+            (3, "`eye` is not a position"),
             (5, "`fov`: expected a number"),
             (8, "`albedo` is out of range"),
             (11, "did you mean `radius`?"),
-            (15, "the radius is negative"),
+            (15, "`radius` is negative: -1"),
             (16, "did you mean `white`?"),
-            (20, "a survival probability of 2"),
+            (20, "`fixed` is out of range: 2"),
             (22, "did you mean `spp`?"),
             (25, "`radiance` is out of range: -2"),
         ],
@@ -144,10 +145,7 @@ fn all_errors_of_a_file_are_told_in_the_order_of_its_lines() {
     // Many are counted.
     let many = "[[objects]]\nshape = { sphere = { center = [0, 0, 0], radius = -1 } }\n".repeat(1000);
     let report = error(&GOOD.replace("[render]", &format!("{many}[render]"))).report();
-    assert!(
-        report.matches("the radius is negative").count() == 40 && report.ends_with("the file may have more errors."),
-        "{report}"
-    );
+    assert!(report.matches("`radius` is negative").count() == 20 && report.contains("more errors"), "{report}");
 }
 
 #[test]
@@ -252,14 +250,14 @@ fn values_of_megabytes_are_not_repeated() {
     said("fov = 40", "fov = LONG", "");
     said("fov = 40", &format!("fov = {}", "9".repeat(1 << 20)), "");
     said("\"stratified\"", "\"LONG\"", "unknown value `mmm");
-    said("{ fixed = 0.75 }", "{ LONG = 0.75 }", "unknown key `mmm");
-    said("{ fixed = 0.75 }", "{ fixed = 0.5, LONG = 1 }", "a second kind of roulette");
+    said("{ fixed = 0.75 }", "{ LONG = 0.75 }", "unknown kind `mmm");
+    said("{ fixed = 0.75 }", "{ fixed = 0.5, LONG = 1 }", "unknown kind `mmm");
     said("sphere = {", "LONG = {", "unknown kind `mmm");
     said("material = \"white\"", "material = \"LONG\"", "there is no material `mmm");
     said("material = \"white\"", "shape.mesh.path = \"LONG\"", "");
     said("albedo = 0.8", "albedo = { texture = \"LONG\" }", "there is no texture `mmm");
-    said("[render]", "[textures.LONG]\n[render]", "texture `mmm");
-    said("[render]", "[materials.LONG]\n[render]", "material `mmm");
+    said("[render]", "[textures.LONG]\n[render]", "` has none of");
+    said("[render]", "[materials.LONG]\n[render]", "` has none of");
     said("[render]", "[textures.a]\nimage = { path = \"LONG\" }\n[render]", "mmm: cannot be read");
     said("[render]", "[background]\nimage = \"LONG.exr\"\n[render]", "cannot be read");
     said("[render]", "[LONG]\n[render]", "unknown key `mmm");
@@ -290,10 +288,10 @@ fn lists_of_what_there_is_are_cut() {
 
 #[test]
 fn numbers_are_written_with_few_digits() {
-    assert!(short_report("radius = 1.0", "radius = -1e300").contains("the radius is negative: -1e300"));
+    assert!(short_report("radius = 1.0", "radius = -1e300").contains("`radius` is negative: -1e300"));
     assert!(short_report("albedo = 0.8", "albedo = 1e-300, ior = 3").contains("unknown key"));
     assert!(short_report("albedo = 0.8", "albedo = 1e300").contains("`albedo` is out of range: 1e300"));
-    assert!(short_report("{ fixed = 0.75 }", "{ fixed = 1e300 }").contains("a survival probability of inf"));
+    assert!(short_report("{ fixed = 0.75 }", "{ fixed = 1e300 }").contains("`fixed` is out of range: 1e300"));
     assert!(short_report("fov = 40", "fov = 40\nshutter = [0.0, 1e300]").contains("closes at 1e300"));
     assert!(
         short_report("material = \"white\"", "material = \"white\"\ntransform = [{ translate = [1e300, 0, 0] }]")

@@ -28,7 +28,7 @@ fn degenerate_shapes_are_refused() {
     shape("cuboid = { min = [0.0, 0.0, 0.0], max = [1.0, 1.0, 0.0] }", "inverted or empty in z");
     shape("cuboid = { min = [0.0, 0.0, nan], max = [1.0, 1.0, 1.0] }", "`min` is not a position");
     shape("cylinder = { base = [0.0, 1.0, 0.0], top = [0.0, 1.0, 0.0], radius = 1.0 }", "has no height");
-    shape("cylinder = { base = [0.0, 1.0, 0.0], top = [0.0, 2.0, 0.0], radius = -1.0 }", "the radius is negative");
+    shape("cylinder = { base = [0.0, 1.0, 0.0], top = [0.0, 2.0, 0.0], radius = -1.0 }", "`radius` is negative: -1");
     shape("disk = { center = [0.0, 1.0, 0.0], normal = [0.0, 0.0, 0.0], radius = 1.0 }", "the normal has no direction");
     shape("disk = { center = [0.0, 1.0, 0.0], radius = 1.0 }", "normal");
     shape("rectangle = { origin = [0.0, 0.0, 0.0], edge_u = [1.0, 2.0, 0.0], edge_v = [2.0, 4.0, 0.0] }", "has no area");
@@ -68,8 +68,8 @@ fn transforms_apply_first_to_last() {
 #[test]
 fn meshes_that_cannot_be_are_refused() {
     shape("mesh = { path = \"no.ply\" }", "there is no such file");
-    shape("mesh = { smooth = true }", "a mesh must say one thing");
-    shape("mesh = { knot = { triangles = 100 }, path = \"a.ply\" }", "a mesh must say one thing");
+    shape("mesh = { smooth = true }", "`mesh` has none of `path`, `vertices`, `knot`, `heightfield`");
+    shape("mesh = { knot = { triangles = 100 }, path = \"a.ply\" }", "`path` and `knot` exclude each other");
     shape("mesh = { knot = { triangles = 4 } }", "expected 18 to");
     shape("mesh = { heightfield = { quads = 0 } }", "expected 1 to");
     shape("sphere_field = { count = 0, bounds = { min = [0, 0, 0], max = [1, 1, 1] } }", "expected 1 to");
