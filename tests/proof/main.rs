@@ -19,6 +19,7 @@ mod limits;
 mod mirrors;
 mod noise;
 mod picture;
+mod pictures;
 mod plate;
 mod references;
 mod shading_normals;
