@@ -10,9 +10,9 @@ use noisefall::{
     math::SimdLevel,
     render::{
         Display, Frame, Job, Publish, Renderer, ToneMap,
-        display::to_srgb,
         film::Film,
         pass::{PassJob, Threads},
+        tone::to_srgb,
     },
     scene::{Camera, RenderSettings, Scene, built_in, load, parse},
 };
@@ -116,7 +116,7 @@ fn frame_of_film(c: &mut Criterion) {
 
 fn display_transform(c: &mut Criterion) {
     let frame = Frame::of_film(&film(4), 1, RESOLUTION, RESOLUTION);
-    for (tone_map, name, _) in ToneMap::ALL {
+    for (tone_map, name) in ToneMap::ALL.map(|map| (map, map.title())) {
         c.bench_function(&format!("1280 x 720, display transform, one thread, {name}"), |b| {
             let mut pixels = Vec::new();
             b.iter(|| to_srgb(black_box(&frame.radiance), Display { exposure: 0.5, tone_map }, &mut pixels));

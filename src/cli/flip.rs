@@ -3,7 +3,7 @@
 //! P. Andersson et al., "FLIP: A Difference Evaluator for Alternating Images", HPG 2020.
 use noisefall::render::Frame;
 #[cfg(feature = "flip")]
-use noisefall::render::{Display, display::to_srgb};
+use noisefall::render::{Display, tone::to_srgb};
 
 /// What finding the error takes: two pictures in colours that are as far apart as they look, each with what filters make of it.
 #[cfg(feature = "flip")]

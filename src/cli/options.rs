@@ -150,13 +150,9 @@ pub fn exposure(text: &str) -> Result<f32, String> {
 }
 
 pub fn tone(text: &str) -> Result<ToneMap, String> {
-    match text {
-        "none" => Ok(ToneMap::None),
-        "reinhard" => Ok(ToneMap::Reinhard),
-        "aces" => Ok(ToneMap::Aces),
-        "false-colour" | "false-color" => Ok(ToneMap::FalseColour),
-        _ => Err("expected none, reinhard, aces or false-colour".to_owned()),
-    }
+    let text = text.replace("color", "colour");
+    let names = || ToneMap::ALL.map(|map| map.word().name).join(", ");
+    ToneMap::ALL.into_iter().find(|map| map.word().name == text).ok_or_else(|| format!("expected one of {}", names()))
 }
 
 pub fn format(text: &str) -> Result<Format, String> {

@@ -7,7 +7,7 @@ use std::{
 use exr::prelude::{Image, Layer, LayerAttributes, Text, WritableImage, attribute::AttributeValue};
 
 pub use super::noise_layer::{Provenance, provenance};
-use super::{display::to_srgb, frame::Frame, noise_layer, tone::Display};
+use super::{frame::Frame, noise_layer, tone::Display, tone::to_srgb};
 pub use crate::image::{Picture, SETTINGS_KEY};
 use crate::{
     file::{self, WriteError},

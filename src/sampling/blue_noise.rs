@@ -7,33 +7,45 @@
 //! point is that of the curve. The shift preserves all strata of the pixel, which therefore converges like Sobol points, and the
 //! blue noise fades as samples are added. Beyond the third surface, paths differ too much for blue noise.
 use super::{
-    Dimension,
     bits::{reverse, spread_bits},
     hash::{hash_one, unit},
-    sampler::Stream,
+    sampler::{Dimension, Points, Stream},
     sobol,
 };
-use crate::math::{F, Lanes, U};
+use crate::{
+    declare::Word,
+    math::{F, Lanes, U},
+};
 
-#[inline(always)]
-pub(super) fn one<L: Lanes>(stream: &Stream<L>, dimension: Dimension) -> F<L> {
-    let point = sobol::one_reversed(stream, dimension.0);
-    if !dimension.is_near() {
-        return unit(reverse(point));
-    }
-    let first = sobol::one_reversed(&stream.first(), dimension.0);
-    unit(reverse(point ^ first ^ on_curve(stream, dimension.0)[0]))
-}
+pub(super) struct BlueNoise;
 
-#[inline(always)]
-pub(super) fn two<L: Lanes>(stream: &Stream<L>, dimension: Dimension) -> (F<L>, F<L>) {
-    let [x, y] = sobol::two_reversed(stream, dimension.0);
-    if !dimension.is_near() {
-        return (unit(reverse(x)), unit(reverse(y)));
+impl Points for BlueNoise {
+    const WORD: Word = Word {
+        name: "bluenoise",
+        title: "Sobol, blue noise",
+        doc: "Sobol points ordered over the picture so that the noise of few samples is fine-grained.",
+    };
+
+    #[inline(always)]
+    fn one<L: Lanes>(stream: &Stream<L>, dimension: Dimension) -> F<L> {
+        let point = sobol::one_reversed(stream, dimension.0);
+        if !dimension.is_near() {
+            return unit(reverse(point));
+        }
+        let first = sobol::one_reversed(&stream.first(), dimension.0);
+        unit(reverse(point ^ first ^ on_curve(stream, dimension.0)[0]))
     }
-    let [first_x, first_y] = sobol::two_reversed(&stream.first(), dimension.0);
-    let [curve_x, curve_y] = on_curve(stream, dimension.0);
-    (unit(reverse(x ^ first_x ^ curve_x)), unit(reverse(y ^ first_y ^ curve_y)))
+
+    #[inline(always)]
+    fn two<L: Lanes>(stream: &Stream<L>, dimension: Dimension) -> (F<L>, F<L>) {
+        let [x, y] = sobol::two_reversed(stream, dimension.0);
+        if !dimension.is_near() {
+            return (unit(reverse(x)), unit(reverse(y)));
+        }
+        let [first_x, first_y] = sobol::two_reversed(&stream.first(), dimension.0);
+        let [curve_x, curve_y] = on_curve(stream, dimension.0);
+        (unit(reverse(x ^ first_x ^ curve_x)), unit(reverse(y ^ first_y ^ curve_y)))
+    }
 }
 
 /// The points of the shared sequence at the pixels' positions on the Z-curve, with reversed bits.

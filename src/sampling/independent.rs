@@ -1,18 +1,31 @@
 //! Independent uniform random numbers: plain Monte Carlo integration, whose variance is known exactly.
 use super::{
     hash::{GOLDEN, hash, unit},
-    sampler::Stream,
+    sampler::{Dimension, Points, Stream},
 };
-use crate::math::{F, Lanes};
+use crate::{
+    declare::Word,
+    math::{F, Lanes},
+};
 
-#[inline(always)]
-pub(super) fn one<L: Lanes>(stream: &Stream<L>, dimension: u32) -> F<L> {
-    unit(hash(stream.sample_key() + dimension.wrapping_mul(GOLDEN)))
-}
+pub(super) struct Independent;
 
-#[inline(always)]
-pub(super) fn two<L: Lanes>(stream: &Stream<L>, dimension: u32) -> (F<L>, F<L>) {
-    let key = stream.sample_key();
-    let draw = |d: u32| key + d.wrapping_mul(GOLDEN);
-    (unit(hash(draw(dimension))), unit(hash(draw(dimension + 1))))
+impl Points for Independent {
+    const WORD: Word = Word {
+        name: "independent",
+        title: "Independent",
+        doc: "Uniform random numbers: the plain Monte-Carlo method. Error falls as 1/√N.",
+    };
+
+    #[inline(always)]
+    fn one<L: Lanes>(stream: &Stream<L>, Dimension(dimension): Dimension) -> F<L> {
+        unit(hash(stream.sample_key() + dimension.wrapping_mul(GOLDEN)))
+    }
+
+    #[inline(always)]
+    fn two<L: Lanes>(stream: &Stream<L>, Dimension(dimension): Dimension) -> (F<L>, F<L>) {
+        let key = stream.sample_key();
+        let draw = |d: u32| key + d.wrapping_mul(GOLDEN);
+        (unit(hash(draw(dimension))), unit(hash(draw(dimension + 1))))
+    }
 }

@@ -11,27 +11,91 @@ use super::{
     hash::{GOLDEN, hash, hash_one},
     independent, sobol, stratified,
 };
-use crate::math::{F, Lanes, U};
+use crate::{
+    declare::{Word, Words},
+    math::{F, Lanes, U},
+};
 
-/// The point set of a pixel's samples. All samplers are unbiased; they differ in how fast the error falls.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Sampler {
-    Independent,
-    Stratified,
-    #[default]
-    Sobol,
-    #[serde(rename = "bluenoise")]
-    BlueNoise,
+macro_rules! samplers {
+    ($($module:ident::$Kind:ident),+ $(,)?) => {
+        /// The point set of a pixel's samples. All samplers are unbiased; they differ in how fast the error falls.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+        #[serde(rename_all = "lowercase")]
+        pub enum Sampler {
+            $($Kind),+
+        }
+
+        impl Sampler {
+            pub const ALL: [Sampler; [$(<$module::$Kind as Points>::WORD.name),+].len()] = [$(Sampler::$Kind),+];
+
+            /// How scene files and people call it.
+            pub const fn word(self) -> Word {
+                match self {
+                    $(Sampler::$Kind => <$module::$Kind as Points>::WORD),+
+                }
+            }
+        }
+
+        impl Words for Sampler {
+            fn words() -> &'static [(Word, Self)] {
+                const { &[$((<$module::$Kind as Points>::WORD, Sampler::$Kind)),+] }
+            }
+        }
+
+        impl<L: Lanes> Stream<L> {
+            /// One coordinate, in (0, 1).
+            #[inline(always)]
+            pub fn one(&self, dimension: Dimension) -> F<L> {
+                #[cfg(test)]
+                super::readings::note(self.pixel, dimension.0, 1);
+                match self.sampler {
+                    $(Sampler::$Kind => $module::$Kind::one(self, dimension)),+
+                }
+            }
+
+            /// Two coordinates, each in (0, 1).
+            #[inline(always)]
+            pub fn two(&self, dimension: Dimension) -> (F<L>, F<L>) {
+                #[cfg(test)]
+                super::readings::note(self.pixel, dimension.0, 2);
+                match self.sampler {
+                    $(Sampler::$Kind => $module::$Kind::two(self, dimension)),+
+                }
+            }
+        }
+    };
 }
 
-crate::words! {
-    Sampler {
-        Independent: "independent", "Independent", "Uniform random numbers: the plain Monte-Carlo method. Error falls as 1/√N.";
-        Stratified: "stratified", "Stratified", "Every 4^k samples fill a grid of 2^k by 2^k once each: random numbers without clumps.";
-        Sobol: "sobol", "Sobol (Owen)", "Owen-scrambled Sobol points: evenly spread in every pair of dimensions that belong together. Mostly the least error.";
-        BlueNoise: "bluenoise", "Sobol, blue noise", "Sobol points ordered over the picture so that the noise of few samples is fine-grained.";
+// The catalogue: a sampler is one file and one line here.
+samplers! {
+    independent::Independent,
+    stratified::Stratified,
+    sobol::Sobol,
+    blue_noise::BlueNoise,
+}
+
+impl Sampler {
+    /// What scene file and command line call it.
+    pub const fn name(self) -> &'static str {
+        self.word().name
     }
+}
+
+impl Default for Sampler {
+    fn default() -> Self {
+        Sampler::Sobol
+    }
+}
+
+/// The points of a sampler.
+pub(super) trait Points {
+    const WORD: Word;
+
+    /// One coordinate, in (0, 1).
+    fn one<L: Lanes>(stream: &Stream<L>, dimension: Dimension) -> F<L>;
+
+    /// Two coordinates, each in (0, 1).
+    fn two<L: Lanes>(stream: &Stream<L>, dimension: Dimension) -> (F<L>, F<L>);
 }
 
 /// The coordinate of the unit cube that a decision reads.
@@ -104,32 +168,6 @@ impl<L: Lanes> Stream<L> {
         let salt = hash_one(seed ^ GOLDEN);
         let pixel_key = hash(pixel * (hash_one(salt) | 1) + salt);
         Stream { sampler, pixel, pixel_key, salt, index, reversed: reverse(index) }
-    }
-
-    /// One coordinate, in (0, 1).
-    #[inline(always)]
-    pub fn one(&self, dimension: Dimension) -> F<L> {
-        #[cfg(test)]
-        super::readings::note(self.pixel, dimension.0, 1);
-        match self.sampler {
-            Sampler::Independent => independent::one(self, dimension.0),
-            // In one dimension the (0, 1)-sequence is the progressive stratification.
-            Sampler::Stratified | Sampler::Sobol => sobol::one(self, dimension.0),
-            Sampler::BlueNoise => blue_noise::one(self, dimension),
-        }
-    }
-
-    /// Two coordinates, each in (0, 1).
-    #[inline(always)]
-    pub fn two(&self, dimension: Dimension) -> (F<L>, F<L>) {
-        #[cfg(test)]
-        super::readings::note(self.pixel, dimension.0, 2);
-        match self.sampler {
-            Sampler::Independent => independent::two(self, dimension.0),
-            Sampler::Stratified => stratified::two(self, dimension.0),
-            Sampler::Sobol => sobol::two(self, dimension.0),
-            Sampler::BlueNoise => blue_noise::two(self, dimension),
-        }
     }
 
     /// The first sample of the same pixels.

@@ -5,24 +5,37 @@
 use super::{
     bits::{owen_reversed, reverse, sobol_reversed},
     hash::{hash, unit},
-    sampler::Stream,
+    sampler::{Dimension, Points, Stream},
 };
-use crate::math::{F, Lanes, U};
+use crate::{
+    declare::Word,
+    math::{F, Lanes, U},
+};
 
-/// Of every 2ᵏ consecutive samples, one lies in each of 2ᵏ equal intervals.
-#[inline(always)]
-pub(super) fn one<L: Lanes>(stream: &Stream<L>, dimension: u32) -> F<L> {
-    unit(reverse(one_reversed(stream, dimension)))
+pub(super) struct Sobol;
+
+impl Points for Sobol {
+    const WORD: Word = Word {
+        name: "sobol",
+        title: "Sobol (Owen)",
+        doc: "Owen-scrambled Sobol points: evenly spread in every pair of dimensions that belong together. Mostly the least error.",
+    };
+
+    /// Of every 2ᵏ consecutive samples, one lies in each of 2ᵏ equal intervals.
+    #[inline(always)]
+    fn one<L: Lanes>(stream: &Stream<L>, Dimension(dimension): Dimension) -> F<L> {
+        unit(reverse(one_reversed(stream, dimension)))
+    }
+
+    /// Of every 2ᵏ consecutive samples, one lies in each of the 2ᵏ equal rectangles of any grid of 2ⁱ × 2ᵏ⁻ⁱ.
+    #[inline(always)]
+    fn two<L: Lanes>(stream: &Stream<L>, Dimension(dimension): Dimension) -> (F<L>, F<L>) {
+        let [x, y] = two_reversed(stream, dimension);
+        (unit(reverse(x)), unit(reverse(y)))
+    }
 }
 
-/// Of every 2ᵏ consecutive samples, one lies in each of the 2ᵏ equal rectangles of any grid of 2ⁱ × 2ᵏ⁻ⁱ.
-#[inline(always)]
-pub(super) fn two<L: Lanes>(stream: &Stream<L>, dimension: u32) -> (F<L>, F<L>) {
-    let [x, y] = two_reversed(stream, dimension);
-    (unit(reverse(x)), unit(reverse(y)))
-}
-
-/// [`one`] as a 32-bit fraction with its bits in reverse order.
+/// [`Sobol::one`] as a 32-bit fraction with its bits in reverse order.
 #[inline(always)]
 pub(super) fn one_reversed<L: Lanes>(stream: &Stream<L>, dimension: u32) -> U<L> {
     let key = stream.dimension_key(dimension);
@@ -30,7 +43,7 @@ pub(super) fn one_reversed<L: Lanes>(stream: &Stream<L>, dimension: u32) -> U<L>
     owen_reversed(shuffled, hash(key ^ 0xa511_e9b3))
 }
 
-/// [`two`] as 32-bit fractions with their bits in reverse order.
+/// [`Sobol::two`] as 32-bit fractions with their bits in reverse order.
 #[inline(always)]
 pub(super) fn two_reversed<L: Lanes>(stream: &Stream<L>, dimension: u32) -> [U<L>; 2] {
     scrambled(stream.reversed_index(), stream.dimension_key(dimension))

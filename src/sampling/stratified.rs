@@ -6,18 +6,38 @@
 use super::{
     bits::{even_bits, owen_reversed, reverse},
     hash::{hash, unit},
-    sampler::Stream,
+    sampler::{Dimension, Points, Stream},
+    sobol::Sobol,
 };
-use crate::math::{F, Lanes};
+use crate::{
+    declare::Word,
+    math::{F, Lanes},
+};
 
-#[inline(always)]
-pub(super) fn two<L: Lanes>(stream: &Stream<L>, dimension: u32) -> (F<L>, F<L>) {
-    let key = stream.dimension_key(dimension);
-    let shuffled = reverse(owen_reversed(stream.reversed_index(), key));
-    let morton = reverse(owen_reversed(shuffled, hash(key ^ 0xa511_e9b3)));
-    // Sixteen bits of a coordinate say the cell; below them the place within it is random.
-    let jitter = hash(stream.sample_key() ^ key);
-    let x = (even_bits(morton >> 1) << 16) | (jitter & 0xffff);
-    let y = (even_bits(morton) << 16) | (jitter >> 16);
-    (unit(x), unit(y))
+pub(super) struct Stratified;
+
+impl Points for Stratified {
+    const WORD: Word = Word {
+        name: "stratified",
+        title: "Stratified",
+        doc: "Every 4^k samples fill a grid of 2^k by 2^k once each: random numbers without clumps.",
+    };
+
+    // In one dimension the (0, 1)-sequence is the progressive stratification.
+    #[inline(always)]
+    fn one<L: Lanes>(stream: &Stream<L>, dimension: Dimension) -> F<L> {
+        Sobol::one(stream, dimension)
+    }
+
+    #[inline(always)]
+    fn two<L: Lanes>(stream: &Stream<L>, Dimension(dimension): Dimension) -> (F<L>, F<L>) {
+        let key = stream.dimension_key(dimension);
+        let shuffled = reverse(owen_reversed(stream.reversed_index(), key));
+        let morton = reverse(owen_reversed(shuffled, hash(key ^ 0xa511_e9b3)));
+        // Sixteen bits of a coordinate say the cell; below them the place within it is random.
+        let jitter = hash(stream.sample_key() ^ key);
+        let x = (even_bits(morton >> 1) << 16) | (jitter & 0xffff);
+        let y = (even_bits(morton) << 16) | (jitter >> 16);
+        (unit(x), unit(y))
+    }
 }

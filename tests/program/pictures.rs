@@ -4,8 +4,8 @@ use std::fs;
 use noisefall::measure::SampleNoise;
 use noisefall::render::{
     Display, Frame, ToneMap,
-    display::to_srgb,
     image_file::{SETTINGS_KEY, check_target, provenance, read, save},
+    tone::to_srgb,
 };
 
 fn frame() -> Frame {

@@ -60,7 +60,8 @@ fn the_pictures_of_all_scenes_have_the_bits_that_they_had() {
         fs::write(&path, text).expect("the hashes are written");
     }
     let known = fs::read_to_string(&path).expect("the hashes are there");
-    let known: BTreeMap<_, _> = known.lines().filter_map(|line| line.rsplit_once(' ')).map(|(what, hash)| (what.to_owned(), hash.to_owned())).collect();
+    let known: BTreeMap<_, _> =
+        known.lines().filter_map(|line| line.rsplit_once(' ')).map(|(what, hash)| (what.to_owned(), hash.to_owned())).collect();
     let changed: Vec<_> = now.iter().filter(|(what, hash)| known.get(*what) != Some(*hash)).map(|(what, _)| what).collect();
     assert!(changed.is_empty() && known.len() == now.len(), "other bits, or new: {changed:?}; if that is meant, set {UPDATE}=1");
 }

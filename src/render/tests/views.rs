@@ -6,12 +6,12 @@ use crate::{
     render::{
         Display, ToneMap,
         colour_map::ColourMap,
-        display::to_srgb,
         film::Film,
         frame::Frame,
         image_file::{Picture, Provenance},
         pass::{PassJob, Threads},
         series::Series,
+        tone::to_srgb,
         truth::Reference,
         view::{Field, Look, Scale, Scores, Sources, View, draw},
     },

@@ -10,7 +10,7 @@ pub use self::{
     legend::{Legend, Scale},
     scores::Scores,
 };
-use super::{colour_map::ColourMap, display::to_srgb, frame::Frame, tone::Display, truth::Reference};
+use super::{colour_map::ColourMap, frame::Frame, tone::Display, tone::to_srgb, truth::Reference};
 use crate::integrator::Features;
 
 /// A quantity to display.

@@ -1,6 +1,6 @@
 //! What the chapter is made of: findings and pictures, and what is said of both.
 use crate::{
-    render::{Display, display::to_srgb},
+    render::{Display, tone::to_srgb},
     report::sheet::{Cell, sheet},
     scene::RenderSettings,
     study::{

@@ -6,7 +6,7 @@ use std::{
 };
 
 use egui::{Align2, ColorImage, RichText, ScrollArea, Sense, TextureHandle, TextureOptions, Ui, Vec2, vec2};
-use noisefall::render::{Display, display::to_srgb, image_file};
+use noisefall::render::{Display, image_file, tone::to_srgb};
 
 use crate::viewer::background::{
     catalogue::{CatalogueEntry, SceneRequest},

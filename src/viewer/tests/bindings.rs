@@ -176,7 +176,7 @@ fn what_is_shown_is_chosen_by_lists_buttons_and_keys() {
         click(&mut window, name);
         assert_eq!(window.state().session.look.map, map);
     }
-    for (tone_map, name, _) in ToneMap::ALL.into_iter().rev() {
+    for (tone_map, name) in ToneMap::ALL.map(|map| (map, map.title())).into_iter().rev() {
         choose(&mut window, "Tone map", name);
         assert_eq!(window.state().session.look.display.tone_map, tone_map);
     }

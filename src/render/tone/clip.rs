@@ -1,0 +1,15 @@
+//! No tone map: radiance as it is.
+use super::Tone;
+use crate::declare::Word;
+
+pub(super) struct None;
+
+impl Tone for None {
+    const WORD: Word =
+        Word { name: "none", title: "None (sRGB)", doc: "Radiance as it is; what is brighter than the screen is cut off." };
+
+    #[inline(always)]
+    fn map(radiance: [f32; 3]) -> [f32; 3] {
+        radiance
+    }
+}
