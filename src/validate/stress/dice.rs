@@ -2,6 +2,7 @@
 use std::f64::consts::PI;
 
 use glam::DVec3;
+use rand::RngCore;
 
 use crate::{
     math::{One, U},
@@ -13,6 +14,22 @@ pub struct Dice {
     drawn: u32,
 }
 
+/// For what draws from any source of random numbers.
+impl RngCore for Dice {
+    fn next_u32(&mut self) -> u32 {
+        self.drawn += 1;
+        hash(U::<One>(self.key.wrapping_add(self.drawn.wrapping_mul(GOLDEN)))).0
+    }
+
+    fn next_u64(&mut self) -> u64 {
+        u64::from(self.next_u32()) << 32 | u64::from(self.next_u32())
+    }
+
+    fn fill_bytes(&mut self, bytes: &mut [u8]) {
+        bytes.fill_with(|| self.next_u32() as u8);
+    }
+}
+
 impl Dice {
     pub fn new(family: &str, number: u32) -> Dice {
         let name = family.bytes().fold(GOLDEN, |key, byte| hash_one(key ^ u32::from(byte)));
@@ -21,8 +38,7 @@ impl Dice {
 
     /// In (0, 1).
     pub fn unit(&mut self) -> f64 {
-        self.drawn += 1;
-        unit(hash(U::<One>(self.key.wrapping_add(self.drawn.wrapping_mul(GOLDEN))))).0.into()
+        unit(U::<One>(self.next_u32())).0.into()
     }
 
     pub fn within(&mut self, least: f64, most: f64) -> f64 {

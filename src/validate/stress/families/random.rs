@@ -2,14 +2,20 @@
 use glam::DVec3;
 
 use super::{Family, rooms::closed};
-use crate::validate::stress::{
-    dice::Dice,
-    draft::{Draft, Expected, Furnace, camera_at, camera_towards, v},
+use crate::{
+    declare::{self, Declare, OneOf, Parameters, write},
+    material::Material,
+    scene::RenderSettings,
+    validate::stress::{
+        dice::Dice,
+        draft::{Draft, Expected, Furnace, camera_at, camera_towards, v},
+    },
 };
 
-pub const FAMILIES: [Family; 2] = [
+pub const FAMILIES: [Family; 3] = [
     Family { name: "moving", what: "rooms in which bodies and camera move, seen by a lens", scenes: 60, draft: moving },
     Family { name: "anything", what: "shapes, materials, lights, cameras, settings", scenes: 300, draft: anything },
+    Family { name: "declared", what: "every material and setting anywhere in its range", scenes: 200, draft: declared },
 ];
 
 const TEXTURES: &str = "textures.fine.noise = { scale = 40.0, octaves = 6, low = 0.0, high = 1.0 }\n\
@@ -39,7 +45,7 @@ pub fn anything(dice: &mut Dice) -> Draft {
             materials += &format!("materials.m{i}.bump = {{ texture = 'fine', height = {:?} }}\n", dice.decade(-6.0, 1.0));
         }
     }
-    let objects: String = (0..1 + dice.below(10)).map(|_| object(dice)).collect();
+    let objects: String = (0..1 + dice.below(10)).map(|_| object(dice, "m", 4)).collect();
     let background = dice.pick(&[
         "",
         "background.radiance = 1e-9\n",
@@ -48,6 +54,27 @@ pub fn anything(dice: &mut Dice) -> Draft {
     ]);
     let text =
         format!("camera = {{ {} }}\nrender = {{ {} }}\n{background}{TEXTURES}{materials}{objects}", camera(dice), settings(dice));
+    Draft { spp: 4, ..Draft::of(text, Expected::Valid) }
+}
+
+/// Materials and settings as their declarations draw them, on shapes of all kinds.
+fn declared(dice: &mut Dice) -> Draft {
+    let mut drawn = |value: &mut dyn Declare| {
+        value.parameters(&mut declare::Dice::new(dice));
+        toml::Value::Table(write(value)).to_string()
+    };
+    let mut materials = String::new();
+    for (place, alternative) in Material::alternatives().into_iter().enumerate() {
+        materials += &format!("materials.kind{place} = {}\n", drawn(&mut OfKind(alternative)));
+    }
+    let settings = RenderSettings { max_bounces: Some(12), ..RenderSettings::default() };
+    let settings = drawn(&mut { settings });
+    let count = Material::alternatives().len();
+    let objects: String = (0..1 + dice.below(8)).map(|_| object(dice, "kind", count)).collect();
+    let text = format!(
+        "camera = {{ {} }}\nrender = {settings}\nbackground.radiance = 1.0\n{TEXTURES}{materials}{objects}",
+        camera(dice)
+    );
     Draft { spp: 4, ..Draft::of(text, Expected::Valid) }
 }
 
@@ -106,12 +133,21 @@ fn material(dice: &mut Dice) -> String {
     }
 }
 
-fn object(dice: &mut Dice) -> String {
+/// A material whose kind is not drawn, but all of its parameters are.
+struct OfKind(Material);
+
+impl Declare for OfKind {
+    fn parameters(&mut self, p: &mut dyn Parameters) {
+        self.0.chosen(p);
+    }
+}
+
+fn object(dice: &mut Dice, material: &str, count: usize) -> String {
     let size = dice.decade(-4.0, 1.0);
     let center = dice.in_ball() * 3.0;
     let mut text = format!("[[objects]]\n{}\n", shape(dice, center, size));
     if dice.chance(0.9) {
-        text += &format!("material = 'm{}'\n", dice.below(4));
+        text += &format!("material = '{material}{}'\n", dice.below(count));
     }
     if dice.chance(0.3) {
         let radiance = dice.pick(&["1.0", "1e-9", "1e9", "[0.0, 1.0, 1e9]"]);
