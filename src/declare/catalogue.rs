@@ -31,7 +31,7 @@ macro_rules! catalogue {
 
             fn chosen(&mut self, p: &mut dyn $crate::declare::Parameters) {
                 match self {
-                    $($Family::$Kind(kind) => p.table(&<$module::$Kind as $crate::declare::Kind>::KIND, kind)),+
+                    $($Family::$Kind(kind) => p.table(&<$module::$Kind as $crate::declare::Kind>::KIND.required(), kind)),+
                 }
             }
         }

@@ -10,7 +10,7 @@ use super::{
     damage::Damage,
     diagnostic::{SceneError, SourceText},
     values::{Found, Wrong, read_value},
-    wording::{expected_word, found, suggestion, text_at, unknown},
+    wording::{expected_word, found, found_text, suggestion, text_at, unknown},
 };
 use crate::declare::{Choice, Declare, Entry, Form, Looks, Parameter, Parameters, Path, Value, check_value};
 
@@ -56,6 +56,8 @@ struct Frame<'t> {
     choice: Option<&'static str>,
     /// Errors that count only if no key is unknown: what is missing may be spelled wrong.
     missing: Vec<SceneError>,
+    /// Nothing of its choice is given: what an alternative would need is not missing besides.
+    chooses_nothing: bool,
     is_damaged: bool,
 }
 
@@ -69,6 +71,7 @@ impl<'t> Frame<'t> {
             known: Vec::new(),
             choice: None,
             missing: Vec::new(),
+            chooses_nothing: false,
             is_damaged: false,
         }
     }
@@ -95,7 +98,7 @@ impl<'t> Reader<'t> {
 
     fn miss(&mut self, parameter: &Parameter) {
         let (span, source) = (self.frame().span.clone(), self.source);
-        if self.frame().table.is_some() {
+        if self.frame().table.is_some() && !self.frame().chooses_nothing {
             let key = parameter.key;
             let given = if key == "format" { "format = 1" } else { key };
             let error = source.error(span, format!("missing key `{key}`"), format!("`{given}` must be given here"));
@@ -194,8 +197,7 @@ impl<'t> Reader<'t> {
                 let message = format!("`{table}` has none of {}", names.join(", "));
                 let error = self.source.error(span, message, format!("exactly one of them is needed: the {what}"));
                 self.frame().missing.insert(0, error);
-                // What the alternative asks for is missing because there is none.
-                self.frame().table.take();
+                self.frame().chooses_nothing = true;
                 now
             }
         }
@@ -236,7 +238,8 @@ impl Parameters for Reader<'_> {
             }
             Found::Wrong(Wrong { span, expected, what }) => {
                 let text = text_at(source, &span);
-                let what = what.unwrap_or_else(|| found(given.get_ref(), text));
+                let whole = span == given.span();
+                let what = what.unwrap_or_else(|| if whole { found(given.get_ref(), text) } else { found_text(text) });
                 let message = format!("`{}`: expected {expected}, found {what}", parameter.key);
                 let textured = matches!(value, Value::Textured(..) | Value::TexturedNumber(..)) && given.get_ref().is_str();
                 let label = if textured { format!("write {{ texture = {text} }}") } else { format!("expected {expected}") };

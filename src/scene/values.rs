@@ -167,11 +167,7 @@ fn exactly<'t, T: Copy + Default, const N: usize>(
     }
     let mut values = [T::default(); N];
     for (slot, item) in values.iter_mut().zip(list.iter()) {
-        let wrong = || Wrong {
-            span: item.span(),
-            expected: expected.to_owned(),
-            what: Some(super::wording::kind_of(item.get_ref()).to_owned()),
-        };
+        let wrong = || Wrong { span: item.span(), expected: expected.to_owned(), what: None };
         *slot = read(item.get_ref()).ok_or_else(wrong)?;
     }
     Ok(values)

@@ -101,8 +101,19 @@ pub fn found(value: &DeValue, text: &str) -> String {
     }
 }
 
+/// [`found`] of a value in a list, told from its text.
+pub fn found_text(text: &str) -> String {
+    match text.chars().next() {
+        Some('[') => "a list".to_owned(),
+        Some('{') => "a table".to_owned(),
+        Some('"' | '\'') if text.chars().count() <= LONGEST_FOUND => format!("the text {text}"),
+        _ if text.chars().count() <= LONGEST_FOUND => text.to_owned(),
+        _ => "something else".to_owned(),
+    }
+}
+
 /// What kind of value it is.
-pub fn kind_of(value: &DeValue) -> &'static str {
+fn kind_of(value: &DeValue) -> &'static str {
     match value {
         DeValue::String(_) => "text",
         DeValue::Integer(_) | DeValue::Float(_) => "a number",

@@ -72,8 +72,8 @@ fn parameters_out_of_range_are_refused() {
     let checker = |even: &str, scale: &str| format!("checker = {{ even = {even}, odd = 0.1, scale = {scale} }}");
     texture(&checker("\"red\"", "1"), "expected a colour");
     texture(&checker("[1, 2]", "1"), "expected a colour");
-    texture(&checker("-1", "1"), "`colour` is out of range");
-    texture(&checker("nan", "1"), "`colour` is out of range");
+    texture(&checker("-1", "1"), "`even` is out of range");
+    texture(&checker("nan", "1"), "`even` is out of range");
     texture(&checker("{ name = \"x\" }", "1"), "unknown key `name`");
     texture(&checker("{}", "1"), "missing key `texture`");
     for scale in ["0", "-1", "nan", "inf", "1e9"] {

@@ -46,14 +46,11 @@ fn these(
 ) -> Vec<Object> {
     let shapes = problems.keep(at, placed(o, builder));
     let material = o.material.as_ref().map(|name| {
-        let unknown = || Problem::not_defined("material", Family::Material, name, materials.keys());
-        problems.keep(at, materials.get(name).copied().ok_or_else(unknown)).flatten()
+        let unknown = || Problem::not_defined("", Family::Material, name, materials.keys());
+        problems.keep(&at.key("material"), materials.get(name).copied().ok_or_else(unknown)).flatten()
     });
     let motion = shapes.as_deref().and_then(|shapes| problems.keep(at, moved(o, shapes)));
-    let emission = o.emission.as_ref().map(|described| {
-        let emission = emission(described, o.flip, textures).map_err(|problem| problem.within(&Path::of("emission")));
-        problems.keep(at, emission)
-    });
+    let emission = o.emission.as_ref().map(|described| problems.keep(&at.key("emission"), emission(described, o.flip, textures)));
     // What is wrong has been said: nothing is rendered then.
     let (Some(shapes), Some(motion)) = (shapes, motion) else { return Vec::new() };
     let many = shapes.len() > 1;
