@@ -12,9 +12,9 @@ pub fn show(ui: &mut Ui, display: &mut Display) {
         });
         row(ui, "Tone map", "How radiance, which has no upper bound, becomes display light.", |ui, label| {
             let tone_map = &mut display.tone_map;
-            let combo = ComboBox::from_id_salt("Tone map").selected_text(tone_map.name()).show_ui(ui, |ui| {
-                for (map, name, doc) in ToneMap::ALL {
-                    ui.selectable_value(tone_map, map, name).on_hover_text(doc);
+            let combo = ComboBox::from_id_salt("Tone map").selected_text(tone_map.title()).show_ui(ui, |ui| {
+                for (map, word) in ToneMap::ALL.map(|map| (map, map.word())) {
+                    ui.selectable_value(tone_map, map, word.title).on_hover_text(word.doc);
                 }
             });
             combo.response.labelled_by(label);

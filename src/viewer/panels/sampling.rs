@@ -2,7 +2,7 @@
 use egui::{ComboBox, Id, Ui};
 use noisefall::{
     render::Status,
-    sampling::{Directions, SAMPLERS, Sampler},
+    sampling::{Directions, Sampler},
     scene::{Estimator, RenderSettings, Reuse, Roulette},
 };
 
@@ -90,9 +90,9 @@ pub fn show(ui: &mut Ui, settings: &mut RenderSettings, status: &Status, caution
 fn sampler_row(ui: &mut Ui, sampler: &mut Sampler) {
     let doc = "Which points of the unit cube the N samples of a pixel are: they decide how fast the noise falls.";
     row(ui, "Sampler", doc, |ui, label| {
-        let combo = ComboBox::from_id_salt("Sampler").selected_text(sampler.entry().title).show_ui(ui, |ui| {
-            for entry in &SAMPLERS {
-                ui.selectable_value(sampler, entry.sampler, entry.title).on_hover_text(entry.doc);
+        let combo = ComboBox::from_id_salt("Sampler").selected_text(sampler.word().title).show_ui(ui, |ui| {
+            for (value, word) in Sampler::ALL.map(|sampler| (sampler, sampler.word())) {
+                ui.selectable_value(sampler, value, word.title).on_hover_text(word.doc);
             }
         });
         combo.response.labelled_by(label);

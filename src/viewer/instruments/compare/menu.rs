@@ -1,7 +1,7 @@
 //! The menu of settings to compare with.
 use egui::Ui;
 use noisefall::{
-    sampling::SAMPLERS,
+    sampling::Sampler,
     scene::{Estimator, RenderSettings, Reuse, Roulette},
 };
 
@@ -28,8 +28,8 @@ fn alternatives(settings: &RenderSettings) -> Vec<(String, RenderSettings)> {
     {
         all.push(of(title, RenderSettings { estimator, ..*settings }));
     }
-    for entry in &SAMPLERS {
-        all.push((format!("{} samples", entry.title), RenderSettings { sampler: entry.sampler, ..*settings }));
+    for sampler in Sampler::ALL {
+        all.push((format!("{} samples", sampler.word().title), RenderSettings { sampler, ..*settings }));
     }
     for (roulette, title) in [
         (Roulette::Off, "No roulette"),
