@@ -47,7 +47,7 @@ impl Parameters for Dice<'_> {
         match value {
             Value::Number(number, range) => *number = self.number(&range),
             Value::Count(count, range) => {
-                *count = self.random.random_range(range.least..=range.most.min(range.least.saturating_add(40)))
+                *count = self.random.random_range(range.least..=range.most.min(range.least.saturating_add(40)));
             }
             Value::Flag(flag) => *flag = self.random.random(),
             Value::Colour(rgb, range) => *rgb = [0; 3].map(|_| self.number(&range)),

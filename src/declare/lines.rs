@@ -13,15 +13,14 @@ struct Lines(Vec<String>);
 impl Parameters for Lines {
     fn value(&mut self, parameter: &Parameter, value: Value<'_>) {
         let value = match value {
-            Value::Number(number, _) => short(*number),
+            Value::Number(&mut number, _) | Value::TexturedNumber(&mut Textured::Constant(number), _) => short(number),
             Value::Count(count, _) => count.to_string(),
             Value::Flag(flag) => (if *flag { "yes" } else { "no" }).to_owned(),
             Value::Text(text) | Value::File(text) | Value::Name(text, _) => text.clone(),
-            Value::Colour(rgb, _) => colour(rgb),
-            Value::Textured(Textured::Constant(rgb), _) => colour(rgb),
-            Value::TexturedNumber(Textured::Constant(number), _) => short(*number),
-            Value::Textured(Textured::Texture(name), _) => format!("by texture `{name}`"),
-            Value::TexturedNumber(Textured::Texture(name), _) => format!("by texture `{name}`"),
+            Value::Colour(rgb, _) | Value::Textured(Textured::Constant(rgb), _) => colour(rgb),
+            Value::Textured(Textured::Texture(name), _) | Value::TexturedNumber(Textured::Texture(name), _) => {
+                format!("by texture `{name}`")
+            }
             Value::Point(v) | Value::Vector(v) | Value::Factors(v) => format!("{} {} {}", short(v.x), short(v.y), short(v.z)),
             Value::Pair(pair) => format!("{} {}", short(pair[0]), short(pair[1])),
             Value::Counts(counts) => format!("{} {}", counts[0], counts[1]),

@@ -31,10 +31,10 @@ impl Manual {
         self.text += &format!("| `{}`{symbol} | {value}{required} | {}{unit} |\n", keys.join("."), parameter.doc);
     }
 
-    fn descend(&mut self, parameter: &Parameter, title: String, is_list: bool) {
+    fn descend(&mut self, parameter: &Parameter, title: &str, is_list: bool) {
         if self.path.is_empty() {
             let doc = if parameter.is_required { format!("{} Required.", parameter.doc) } else { parameter.doc.to_owned() };
-            self.heading(&title, &doc);
+            self.heading(title, &doc);
         } else {
             self.row(parameter, if is_list { "list of tables" } else { "table" });
         }
@@ -86,7 +86,7 @@ impl Parameters for Manual {
     }
 
     fn enter(&mut self, parameter: &Parameter, _: Form) {
-        self.descend(parameter, format!("`[{}]`", parameter.key), false);
+        self.descend(parameter, &format!("`[{}]`", parameter.key), false);
     }
 
     fn leave(&mut self) {
@@ -109,7 +109,7 @@ impl Parameters for Manual {
     }
 
     fn item(&mut self, parameter: &Parameter, _: usize) {
-        self.descend(parameter, format!("`[[{}]]`", parameter.key), true);
+        self.descend(parameter, &format!("`[[{}]]`", parameter.key), true);
     }
 
     fn names(&mut self, _: &Parameter, _: Vec<String>) -> Vec<String> {
@@ -117,7 +117,7 @@ impl Parameters for Manual {
     }
 
     fn named(&mut self, parameter: &Parameter, name: &str) {
-        self.descend(parameter, format!("`[{}.{name}]`", parameter.key), false);
+        self.descend(parameter, &format!("`[{}.{name}]`", parameter.key), false);
     }
 
     fn sees_all(&self) -> bool {

@@ -1,5 +1,8 @@
 //! A mesh of triangles: from a file, as lists, or made by formula.
-use std::{path::PathBuf, sync::Arc};
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+};
 
 use super::{Build, ShapeBuilder};
 use crate::{
@@ -157,7 +160,7 @@ impl Mesh {
         match &self.source {
             MeshSource::File(path) => {
                 let path = resources.path(path);
-                builder.known(Key::File { path: path.clone(), smooth }, || from_file(resources, path, smooth))
+                builder.known(Key::File { path: path.clone(), smooth }, || from_file(resources, &path, smooth))
             }
             MeshSource::Lists { vertices, triangles } => {
                 from_lists(resources, vertices, triangles, self.smooth.unwrap_or(false)).map(Arc::new)
@@ -192,8 +195,8 @@ fn reserve(resources: &Resources, key: &str, triangles: u64) -> Result<(), Probl
     resources.reserve(key, format_args!("{triangles} triangles"), MADE_TRIANGLE * triangles)
 }
 
-fn from_file(resources: &Resources, path: PathBuf, smooth: bool) -> Result<MeshData, Problem> {
-    let model = read(&path).map_err(|error| Problem::at("path", error.to_string(), "this mesh cannot be used"))?;
+fn from_file(resources: &Resources, path: &Path, smooth: bool) -> Result<MeshData, Problem> {
+    let model = read(path).map_err(|error| Problem::at("path", error.to_string(), "this mesh cannot be used"))?;
     let Model { vertices, triangles, normals, uvs } = model;
     let smoothing = if smooth && normals.is_none() { SMOOTHING } else { 0 };
     let bytes = (VERTEX + smoothing) * vertices.len() as u64 + TRIANGLE * triangles.len() as u64;

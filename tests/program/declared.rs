@@ -50,7 +50,7 @@ fn what_is_written_reads_as_the_same() {
         let again = describe(&name, description.to_text()).unwrap_or_else(|error| panic!("{name}: {}", error.report()));
         assert_eq!(description, again, "{name}");
     }
-    for seed in 0..10_000 {
+    for seed in 0..2_000 {
         let description = drawn(seed);
         let text = description.to_text();
         let again = describe("drawn", text.clone()).unwrap_or_else(|error| panic!("seed {seed}: {}\n{text}", error.report()));
@@ -136,7 +136,7 @@ impl Parameters for Spoiler {
 #[test]
 fn a_number_just_outside_of_its_range_is_refused_by_name() {
     let mut tried = std::collections::BTreeSet::new();
-    for seed in 0..300 {
+    for seed in 0..60 {
         for left in 0..40 {
             for above in [false, true] {
                 let mut description = drawn(seed);
@@ -180,9 +180,10 @@ fn fits(value: &serde_json::Value, schema: &serde_json::Value) -> bool {
             (length("minItems", 0)..=length("maxItems", usize::MAX)).contains(&items.len())
                 && items.iter().all(|item| fits(item, &schema["items"]))
         }
-        (Some("number"), serde_json::Value::Number(_)) | (Some("string"), serde_json::Value::String(_)) => true,
+        (Some("number"), serde_json::Value::Number(_))
+        | (Some("string"), serde_json::Value::String(_))
+        | (Some("boolean"), serde_json::Value::Bool(_)) => true,
         (Some("integer"), serde_json::Value::Number(number)) => number.is_u64() || number.is_i64(),
-        (Some("boolean"), serde_json::Value::Bool(_)) => true,
         _ => false,
     }
 }

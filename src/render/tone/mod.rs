@@ -62,6 +62,7 @@ tone_maps! {
     false_colour::FalseColour,
 }
 
+#[expect(clippy::derivable_impls, reason = "the catalogue marks no variant")]
 impl Default for ToneMap {
     fn default() -> Self {
         ToneMap::None

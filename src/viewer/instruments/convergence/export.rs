@@ -35,7 +35,7 @@ impl History {
         let truth = |c: &Curve| curve(self.name(c), Style::Points, c.errors(self.over, |moment| moment.true_error));
         let mut curves: Vec<_> =
             self.curves.iter().flat_map(|c| [estimated(c), truth(c)]).filter(|c| !c.points.is_empty()).collect();
-        curves.push(curve("ideal: slope -1/2", Style::Guide, self.guide()));
+        curves.push(curve("independent samples: slope -1/2", Style::Guide, self.guide()));
         let drawing = svg(SIZE, Axis::log(x), Axis::log("relative error (root of relMSE; points: true)"), &curves);
         // Its letters are black, and viewers may be dark.
         drawing.replacen('>', "><rect width=\"100%\" height=\"100%\" fill=\"white\"/>", 1)

@@ -1,0 +1,145 @@
+//! The camera of a scene file.
+use glam::DVec3;
+
+use crate::{
+    declare::{Declare, Form, OneOf, Parameter, Parameters, Range, Value},
+    sampling::Filter,
+    scene::Lens,
+    shape::Transform,
+};
+
+/// The camera of a scene file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CameraDescription {
+    pub eye: DVec3,
+    pub look_at: DVec3,
+    pub up: Option<DVec3>,
+    pub fov: Option<f64>,
+    pub resolution: [u32; 2],
+    pub projection: Projection,
+    pub lens: Option<Lens>,
+    pub filter: Filter,
+    pub shutter: Option<[f64; 2]>,
+    /// What carries the camera from time 0 to 1.
+    pub motion: Vec<Transform>,
+}
+
+impl Default for CameraDescription {
+    fn default() -> Self {
+        CameraDescription {
+            eye: DVec3::new(0.0, 0.0, 4.0),
+            look_at: DVec3::ZERO,
+            up: None,
+            fov: Some(40.0),
+            resolution: [640, 480],
+            projection: Projection::Perspective,
+            lens: None,
+            filter: Filter::Box,
+            shutter: None,
+            motion: Vec::new(),
+        }
+    }
+}
+
+impl Declare for CameraDescription {
+    fn parameters(&mut self, p: &mut dyn Parameters) {
+        const EYE: Parameter = Parameter::new("eye", "Where the camera stands.")
+            .symbol("x_0")
+            .unit("m")
+            .required()
+            .aliases("position origin from pos location");
+        const LOOK_AT: Parameter = Parameter::new("look_at", "The point in the middle of the picture.")
+            .unit("m")
+            .required()
+            .aliases("target at to direction lookat");
+        const UP: Parameter = Parameter::new("up", "The direction that is up in the picture: [0, 1, 0] where it is absent.");
+        const FOV: Parameter = Parameter::new("fov", "Full angle across the picture's width, of perspective cameras.")
+            .unit("°")
+            .aliases("angle field_of_view vfov hfov")
+            .advice("`fov` is the angle across the picture's width, in degrees");
+        const RESOLUTION: Parameter = Parameter::new("resolution", "Width and height.")
+            .unit("pixels")
+            .required()
+            .aliases("size width height")
+            .advice("write resolution = [width, height]");
+        const PROJECTION: Parameter = Parameter::new("projection", "\"perspective\" (the default), or orthographic.");
+        const LENS: Parameter = Parameter::new("lens", "A thin lens; a pinhole where it is absent.").aliases("aperture dof");
+        const FILTER: Parameter =
+            Parameter::new("filter", "How a pixel weighs the light around its centre: \"box\" (the default), tent or gaussian.")
+                .aliases("rfilter reconstruction");
+        const SHUTTER: Parameter = Parameter::new("shutter", "When it opens and closes, as parts of the motion; absent: time 0.");
+        const MOTION: Parameter = Parameter::new("motion", "Transforms that carry the camera from time 0 to 1.");
+        p.point(&EYE, &mut self.eye);
+        p.point(&LOOK_AT, &mut self.look_at);
+        p.optional(&UP, &mut self.up, || DVec3::Y, |p, up| p.point(&UP, up));
+        p.optional(&FOV, &mut self.fov, || 40.0, |p, fov| p.number(&FOV, fov, Range::linear(0.001, 179.9)));
+        p.value(&RESOLUTION, Value::Counts(&mut self.resolution));
+        p.optional_choice(&PROJECTION, Form::NameOrTable, &mut self.projection);
+        p.optional_table(&LENS, &mut self.lens);
+        p.optional_choice(&FILTER, Form::NameOrTable, &mut self.filter);
+        p.optional(&SHUTTER, &mut self.shutter, || [0.0, 1.0], |p, times| p.value(&SHUTTER, Value::Pair(times)));
+        p.list(&MOTION, &mut self.motion);
+    }
+}
+
+impl Default for Lens {
+    fn default() -> Self {
+        Lens { radius: 0.05, focus: 4.0 }
+    }
+}
+
+impl Declare for Lens {
+    fn parameters(&mut self, p: &mut dyn Parameters) {
+        const RADIUS: Parameter = Parameter::new("radius", "Of the lens; 0 is a pinhole.").unit("m").required();
+        const FOCUS: Parameter =
+            Parameter::new("focus", "Distance of the plane in focus from the eye, along the axis.").unit("m").required();
+        p.number(&RADIUS, &mut self.radius, Range::log(0.0, 1e9));
+        p.number(&FOCUS, &mut self.focus, Range::log(1e-9, 1e12));
+    }
+}
+
+/// How the world is projected.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Projection {
+    #[default]
+    Perspective,
+    Orthographic(Orthographic),
+}
+
+/// Parallel rays.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Orthographic {
+    /// Of the picture, metres.
+    pub width: f64,
+}
+
+const ORTHOGRAPHIC: Parameter = Parameter::new("orthographic", "Parallel rays.").required();
+
+impl Declare for Orthographic {
+    fn parameters(&mut self, p: &mut dyn Parameters) {
+        const WIDTH: Parameter = Parameter::new("width", "Of the picture.").unit("m").required();
+        p.number(&WIDTH, &mut self.width, Range::log(1e-9, 1e9));
+    }
+}
+
+impl OneOf for Projection {
+    const WHAT: &'static str = "projection";
+
+    fn alternatives() -> Vec<Self> {
+        vec![Projection::Perspective, Projection::Orthographic(Orthographic { width: 4.0 })]
+    }
+
+    fn place(&self) -> usize {
+        usize::from(*self != Projection::Perspective)
+    }
+
+    fn name(&self) -> &'static str {
+        if *self == Projection::Perspective { "perspective" } else { ORTHOGRAPHIC.key }
+    }
+
+    fn chosen(&mut self, p: &mut dyn Parameters) {
+        if let Projection::Orthographic(orthographic) = self {
+            p.table(&ORTHOGRAPHIC, orthographic);
+        }
+    }
+}

@@ -1,0 +1,52 @@
+//! Materials of a scene file.
+use super::light::TEXTURE;
+use crate::{
+    declare::{Declare, Family, Parameter, Parameters, Range, Value},
+    material::Material,
+};
+
+/// A material of a scene file: its kind, and what any kind may have.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MaterialDescription {
+    pub kind: Material,
+    pub bump: Option<Bump>,
+    /// A picture file of normals.
+    pub normal_map: Option<String>,
+    pub two_sided: Option<bool>,
+}
+
+impl Declare for MaterialDescription {
+    fn parameters(&mut self, p: &mut dyn Parameters) {
+        const BUMP: Parameter = Parameter::new("bump", "Heights that tilt the shading normal.").aliases("bump_map displacement");
+        const NORMAL_MAP: Parameter = Parameter::new("normal_map", "A linear picture of shading normals.").aliases("normals");
+        const TWO_SIDED: Parameter = Parameter::new("two_sided", "Whether it reflects from behind too; true where it is absent.")
+            .aliases("twosided double_sided");
+        p.one_of(&mut self.kind);
+        p.optional_table(&BUMP, &mut self.bump);
+        p.optional(&NORMAL_MAP, &mut self.normal_map, String::new, |p, path| p.value(&NORMAL_MAP, Value::File(path)));
+        p.optional(&TWO_SIDED, &mut self.two_sided, || true, |p, two_sided| p.flag(&TWO_SIDED, two_sided));
+    }
+}
+
+/// A texture of heights.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bump {
+    pub texture: String,
+    /// Metres that the brightest texel rises above the darkest.
+    pub height: f64,
+}
+
+impl Default for Bump {
+    fn default() -> Self {
+        Bump { texture: String::new(), height: 0.01 }
+    }
+}
+
+impl Declare for Bump {
+    fn parameters(&mut self, p: &mut dyn Parameters) {
+        const HEIGHT: Parameter =
+            Parameter::new("height", "How far the brightest texel rises above the darkest.").symbol("h").unit("m").required();
+        p.value(&TEXTURE.required(), Value::Name(&mut self.texture, Family::Texture));
+        p.number(&HEIGHT, &mut self.height, Range::linear(-1e6, 1e6));
+    }
+}

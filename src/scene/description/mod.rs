@@ -1,0 +1,66 @@
+//! What a scene file says: every table of the format with its parameters.
+mod camera;
+mod light;
+mod material;
+mod object;
+mod render;
+
+use std::collections::BTreeMap;
+
+pub use self::{
+    camera::{CameraDescription, Orthographic, Projection},
+    light::{BackgroundDescription, EmissionDescription, EmissionSource, TruthDescription},
+    material::{Bump, MaterialDescription},
+    object::ObjectDescription,
+    render::RenderDescription,
+};
+use crate::{
+    declare::{CountRange, Declare, Parameter, Parameters, Value},
+    texture::TextureKind,
+};
+
+/// A scene as its file describes it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SceneDescription {
+    pub title: String,
+    pub notes: String,
+    pub camera: CameraDescription,
+    pub background: Option<BackgroundDescription>,
+    pub textures: BTreeMap<String, TextureKind>,
+    pub materials: BTreeMap<String, MaterialDescription>,
+    pub objects: Vec<ObjectDescription>,
+    pub render: RenderDescription,
+    pub truth: Option<TruthDescription>,
+}
+
+/// The version of the scene format that this program reads.
+pub const FORMAT: u32 = 1;
+
+impl Declare for SceneDescription {
+    fn parameters(&mut self, p: &mut dyn Parameters) {
+        const VERSION: Parameter = Parameter::new("format", "The version of the format: 1.").required();
+        const TITLE: Parameter = Parameter::new("title", "What the window and reports call the scene.").aliases("name");
+        const NOTES: Parameter = Parameter::new("notes", "A text for people.").aliases("description comment");
+        const CAMERA: Parameter = Parameter::new("camera", "Where the picture is taken from.").required().aliases("sensor view");
+        const BACKGROUND: Parameter = Parameter::new("background", "Light from every direction that meets no surface.")
+            .aliases("environment sky envmap world");
+        const TEXTURES: Parameter = Parameter::new("textures", "Textures by name.").aliases("texture");
+        const MATERIALS: Parameter = Parameter::new("materials", "Materials by name.").aliases("material bsdfs");
+        const OBJECTS: Parameter =
+            Parameter::new("objects", "What the scene is made of; each has a table of its own.").aliases("object shapes");
+        const RENDER: Parameter =
+            Parameter::new("render", "The settings that the scene opens with.").aliases("integrator settings");
+        const TRUTH: Parameter =
+            Parameter::new("truth", "What the picture must converge to, where that is known.").aliases("reference");
+        p.count(&VERSION, &mut FORMAT.clone(), CountRange::new(FORMAT, FORMAT));
+        p.value(&TITLE, Value::Text(&mut self.title));
+        p.value(&NOTES, Value::Text(&mut self.notes));
+        p.table(&CAMERA, &mut self.camera);
+        p.optional_table(&BACKGROUND, &mut self.background);
+        p.map(&TEXTURES, &mut self.textures);
+        p.map(&MATERIALS, &mut self.materials);
+        p.list(&OBJECTS, &mut self.objects);
+        p.optional_part(&RENDER, &mut self.render);
+        p.optional_table(&TRUTH, &mut self.truth);
+    }
+}

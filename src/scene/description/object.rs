@@ -1,0 +1,42 @@
+//! Objects of a scene file.
+use super::EmissionDescription;
+use crate::{
+    declare::{Declare, Family, Form, Parameter, Parameters, Value},
+    shape::{ShapeKind, Transform},
+};
+
+/// An object of a scene file.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ObjectDescription {
+    pub name: String,
+    pub shape: ShapeKind,
+    pub material: Option<String>,
+    pub emission: Option<EmissionDescription>,
+    pub flip: bool,
+    pub transform: Vec<Transform>,
+    pub motion: Vec<Transform>,
+}
+
+impl Declare for ObjectDescription {
+    fn parameters(&mut self, p: &mut dyn Parameters) {
+        const NAME: Parameter = Parameter::new("name", "What the window calls it.").aliases("id label");
+        const SHAPE: Parameter = Parameter::new("shape", "Its surface.").required().aliases("geometry");
+        const MATERIAL: Parameter =
+            Parameter::new("material", "The name of its material; without one it is black.").aliases("bsdf");
+        const EMISSION: Parameter =
+            Parameter::new("emission", "The light that it emits.").aliases("light emitter emissive area_light lamp");
+        const FLIP: Parameter = Parameter::new("flip", "Whether the normal is turned around.").aliases("flip_normals invert");
+        const TRANSFORM: Parameter =
+            Parameter::new("transform", "A list, applied from the first to the last.").aliases("to_world transforms");
+        const MOTION: Parameter = Parameter::new("motion", "Transforms that carry it from time 0 to 1.");
+        p.value(&NAME, Value::Text(&mut self.name));
+        p.choice(&SHAPE, Form::Table, &mut self.shape);
+        p.optional(&MATERIAL, &mut self.material, String::new, |p, name| {
+            p.value(&MATERIAL, Value::Name(name, Family::Material));
+        });
+        p.optional_table(&EMISSION, &mut self.emission);
+        p.flag(&FLIP, &mut self.flip);
+        p.list(&TRANSFORM, &mut self.transform);
+        p.list(&MOTION, &mut self.motion);
+    }
+}

@@ -1,0 +1,23 @@
+//! The settings of a scene file.
+use crate::{
+    declare::{CountRange, Declare, Parameter, Parameters},
+    scene::RenderSettings,
+};
+
+/// The settings that a scene opens with.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RenderDescription {
+    pub settings: RenderSettings,
+    /// Samples a pixel to stop at.
+    pub spp: Option<u32>,
+}
+
+impl Declare for RenderDescription {
+    fn parameters(&mut self, p: &mut dyn Parameters) {
+        const SPP: Parameter = Parameter::new("spp", "Samples a pixel to stop at.")
+            .symbol("N")
+            .aliases("samples samples_per_pixel sample_count num_samples n");
+        self.settings.parameters(p);
+        p.optional(&SPP, &mut self.spp, || 64, |p, spp| p.count(&SPP, spp, CountRange::new(1, u32::MAX)));
+    }
+}
