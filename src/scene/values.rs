@@ -15,6 +15,8 @@ pub enum Found<'t> {
     Wrong(Wrong),
     /// A key of a table that stands for a texture, and those that are known.
     Unknown(&'t Spanned<Cow<'t, str>>, Vec<Entry>),
+    /// A table without this key.
+    Missing(&'static str),
     /// A texture where only a colour is taken.
     NoTexture,
     /// Text that is none of the words.
@@ -143,7 +145,7 @@ fn texture<'t>(given: &'t Spanned<DeValue<'t>>) -> Option<Result<Found<'t>, Stri
             Some(name) => Some(Err(name.to_owned())),
             None => Some(Ok(wrong(name.span(), "text in quotes"))),
         },
-        None => Some(Ok(wrong(given.span(), "{ texture = \"…\" }"))),
+        None => Some(Ok(Found::Missing(TEXTURE.key))),
     }
 }
 

@@ -129,7 +129,7 @@ fn what_is_missing_is_named() {
     refuses("format = 1\n", "", "missing key `format`");
     refuses(", radius = 1.0", "", "missing key `radius`");
     refuses("lambertian = { albedo = 0.8 }", "", "`white` has none of `lambertian`, `mirror`");
-    refuses("emission = { radiance = [1.0, 2.0, 3.0] }", "emission = {}", "missing key `radiance`");
+    refuses("emission = { radiance = [1.0, 2.0, 3.0] }", "emission = {}", "`emission` has none of `radiance`, `texture`");
 }
 
 #[test]

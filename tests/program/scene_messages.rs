@@ -145,7 +145,7 @@ fn all_errors_of_a_file_are_told_in_the_order_of_its_lines() {
     // Many are counted.
     let many = "[[objects]]\nshape = { sphere = { center = [0, 0, 0], radius = -1 } }\n".repeat(1000);
     let report = error(&GOOD.replace("[render]", &format!("{many}[render]"))).report();
-    assert!(report.matches("`radius` is negative").count() == 20 && report.contains("more errors"), "{report}");
+    assert!(report.matches("`radius` is negative").count() == 40 && report.contains("more errors"), "{report}");
 }
 
 #[test]

@@ -71,8 +71,8 @@ fn meshes_that_cannot_be_are_refused() {
     shape("mesh = { smooth = true }", "`mesh` has none of `path`, `vertices`, `knot`, `heightfield`");
     shape("mesh = { knot = { triangles = 100 }, path = \"a.ply\" }", "`path` and `knot` exclude each other");
     shape("mesh = { knot = { triangles = 4 } }", "expected a whole number from 18 to");
-    shape("mesh = { heightfield = { quads = 0 } }", "expected 1 to");
-    shape("sphere_field = { count = 0, bounds = { min = [0, 0, 0], max = [1, 1, 1] } }", "expected 1 to");
+    shape("mesh = { heightfield = { quads = 0 } }", "expected a whole number from 1 to");
+    shape("sphere_field = { count = 0, bounds = { min = [0, 0, 0], max = [1, 1, 1] } }", "expected a whole number from 1 to");
     shape("sphere_field = { count = 9, bounds = { min = [0, 0, 0], max = [1, -1, 1] } }", "the bounds are inverted");
     let lists = |vertices: &str, triangles: &str| format!("mesh = {{ vertices = [{vertices}], triangles = [{triangles}] }}");
     shape(&lists("[0, 0, 0], [1, 0, 0], [0, 1, 0]", ""), "the mesh is empty");

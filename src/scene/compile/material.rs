@@ -39,8 +39,8 @@ pub fn materials(
         if problems.are_many() {
             break;
         }
-        let instance = instance(name, material, textures, tables);
-        let number = problems.keep(&Path::of("materials").key(name), instance).map(|instance| {
+        let compiled = problems.keep(&Path::of("materials").key(name), || instance(name, material, textures, tables));
+        let number = compiled.map(|instance| {
             let number = tables.push(&instance.compiled);
             instances.push(instance);
             number

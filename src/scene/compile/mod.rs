@@ -25,6 +25,7 @@ use crate::{
     light::{Background, Lights},
     material::Materials,
     quote,
+    shape::motion,
     texture::{TextureCompiler, Textures},
 };
 
@@ -50,15 +51,13 @@ impl Problems<'_> {
     /// More are not looked for.
     const MOST: usize = super::diagnostic::SceneError::MOST;
 
-    /// The value, or `None` where its problem is kept. What is wrong with a table that something was left out of is no news.
-    fn keep<T>(&mut self, table: &Path, result: Result<T, Problem>) -> Option<T> {
-        result
-            .map_err(|problem| {
-                if !self.damage.reaches(table) {
-                    self.found.push(problem.within(table));
-                }
-            })
-            .ok()
+    /// The value, or `None` where its problem is kept. A table that something was left out of is not compiled: what is wrong with it has
+    /// been said, and its values may be out of all ranges.
+    fn keep<T>(&mut self, table: &Path, compile: impl FnOnce() -> Result<T, Problem>) -> Option<T> {
+        if self.damage.reaches(table) {
+            return None;
+        }
+        compile().map_err(|problem| self.found.push(problem.within(table))).ok()
     }
 
     fn are_many(&self) -> bool {
@@ -84,11 +83,12 @@ impl Parts {
     /// All tables are looked at, whatever is wrong with one of them.
     fn new(description: &SceneDescription, resources: &Resources, problems: &mut Problems) -> Option<Parts> {
         let at = Path::of;
-        let camera = problems.keep(&at("camera"), camera(&description.camera));
-        let camera_motion = crate::shape::motion(&description.camera.motion).map_err(|problem| problem.within(&at("motion")));
-        let camera_motion = problems.keep(&at("camera"), camera_motion);
-        let background =
-            description.background.as_ref().map(|described| problems.keep(&at("background"), background(described, resources)));
+        let camera = problems.keep(&at("camera"), || camera(&description.camera));
+        let camera_motion = problems.keep(&at("camera.motion"), || motion(&description.camera.motion));
+        let background = description
+            .background
+            .as_ref()
+            .map(|described| problems.keep(&at("background"), || background(described, resources)));
         let mut wrong = Vec::new();
         let mut textures = TextureCompiler::new(resources, &description.textures, problems.damage.names("textures"), &mut wrong);
         wrong.retain(|problem| !problems.damage.reaches(&Path(problem.path.0.iter().take(2).cloned().collect())));
@@ -97,7 +97,7 @@ impl Parts {
         let (materials, numbers) = materials(&description.materials, &mut textures, &mut tables, problems);
         let objects = objects(&description.objects, &numbers, &textures, resources, problems);
         let RenderDescription { settings, spp } = description.render;
-        let truth = description.truth.as_ref().map(|described| problems.keep(&at("truth"), truth(described, resources)));
+        let truth = description.truth.as_ref().map(|described| problems.keep(&at("truth"), || truth(described, resources)));
         Some(Parts {
             camera: camera?,
             camera_motion: camera_motion?,

@@ -44,13 +44,14 @@ fn these(
     builder: &mut ShapeBuilder,
     problems: &mut Problems,
 ) -> Vec<Object> {
-    let shapes = problems.keep(at, placed(o, builder));
+    let shapes = problems.keep(at, || placed(o, builder));
     let material = o.material.as_ref().map(|name| {
         let unknown = || Problem::not_defined("", Family::Material, name, materials.keys());
-        problems.keep(&at.key("material"), materials.get(name).copied().ok_or_else(unknown)).flatten()
+        problems.keep(&at.key("material"), || materials.get(name).copied().ok_or_else(unknown)).flatten()
     });
-    let motion = shapes.as_deref().and_then(|shapes| problems.keep(at, moved(o, shapes)));
-    let emission = o.emission.as_ref().map(|described| problems.keep(&at.key("emission"), emission(described, o.flip, textures)));
+    let motion = shapes.as_deref().and_then(|shapes| problems.keep(at, || moved(o, shapes)));
+    let emission =
+        o.emission.as_ref().map(|described| problems.keep(&at.key("emission"), || emission(described, o.flip, textures)));
     // What is wrong has been said: nothing is rendered then.
     let (Some(shapes), Some(motion)) = (shapes, motion) else { return Vec::new() };
     let many = shapes.len() > 1;

@@ -200,6 +200,10 @@ impl Parameters for Reader<'_> {
                 let error = unknown(source, key.span(), "key", key.get_ref(), &known);
                 self.fail(error);
             }
+            Found::Missing(key) => {
+                let error = source.error(given.span(), format!("missing key `{key}`"), format!("`{key}` must be given here"));
+                self.fail(error);
+            }
             Found::NoTexture => {
                 let message = format!("`{}` cannot be a texture here", parameter.key);
                 let label = "expected a colour: [red, green, blue], or one number for grey";
