@@ -7,7 +7,7 @@ use noisefall::{
     scene::load,
 };
 
-use super::{Failure, print};
+use super::messages::{Failure, print};
 
 #[derive(clap::Args)]
 pub struct Arguments {

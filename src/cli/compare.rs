@@ -20,10 +20,10 @@ use noisefall::{
 use serde_json::json;
 
 use super::{
-    Failure, figures, flip,
+    figures, flip,
+    messages::{Failure, print, tell, wrong_usage},
     options::{floor, format},
     output::Output,
-    print, tell, wrong_usage,
 };
 
 const NOTES: &str = "\

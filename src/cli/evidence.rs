@@ -10,11 +10,10 @@ use noisefall::{
 };
 
 use super::{
-    Failure, folder,
+    folder,
+    messages::{Failure, print, tell},
     options::{self as parse, DisplayOptions},
-    print,
     stop::{INTERRUPTED, stop_signal},
-    tell,
 };
 
 const NOTES: &str = "\

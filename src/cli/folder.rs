@@ -3,7 +3,7 @@ use std::path::Path;
 
 use noisefall::file::{check, replace};
 
-use super::{Failure, print};
+use super::messages::{Failure, print};
 
 /// The file in the folder that a report goes to.
 pub const REPORT: &str = "report.html";

@@ -4,7 +4,8 @@ use std::{
     process::ExitCode,
 };
 
-use super::Failure;
+/// Why a command failed: one message, of one or several lines.
+pub type Failure = String;
 
 /// Prints text and ends the line. A reader that has gone away, as in `… | head`, is no failure.
 pub fn print(text: &str) -> Result<(), Failure> {

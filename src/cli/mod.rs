@@ -31,10 +31,7 @@ use noisefall::{
     scene::{description::SceneDescription, load},
 };
 
-use messages::{print, tell, wrong_usage};
-
-/// Why a command failed: one message, of one or several lines.
-pub type Failure = String;
+use messages::{Failure, tell, wrong_usage};
 
 /// Solves the light transport equation while you watch.
 ///

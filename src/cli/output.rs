@@ -15,10 +15,7 @@ use noisefall::{
     },
 };
 
-use super::{
-    Failure,
-    messages::{print, tell},
-};
+use super::messages::{Failure, print, tell};
 
 /// The name that stands for standard output.
 const STREAM: &str = "-";

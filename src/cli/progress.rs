@@ -5,7 +5,7 @@ use crossbeam_channel::RecvTimeoutError;
 use indicatif::{ProgressBar, ProgressStyle};
 use noisefall::render::{Budget, Job, Publish, Published, Renderer, State, Status, pass::Threads};
 
-use super::{Failure, stop::stop_signal, summary::noise_text};
+use super::{messages::Failure, stop::stop_signal, summary::noise_text};
 
 /// Renders to the end, with a progress bar where there is a terminal to show it.
 pub fn render(threads: Threads, job: Job, budget: Budget, quiet: bool) -> Result<Published, Failure> {

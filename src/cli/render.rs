@@ -22,13 +22,12 @@ use noisefall::{
 };
 
 use super::{
-    Failure,
+    messages::{Failure, tell, wrong_usage},
     options::{self as parse, BounceCap, DisplayOptions},
     output::Output,
     progress::render,
     replay::{self, Form, Which},
     summary::Done,
-    tell, wrong_usage,
 };
 
 /// Samples per pixel when neither the command nor the scene says how many.

@@ -12,7 +12,7 @@ use noisefall::{
     scene::{Camera, CameraRays, RenderSettings, Scene},
 };
 
-use super::{Failure, print, tell};
+use super::messages::{Failure, print, tell};
 
 /// Samples that are traced at once.
 const BATCH: u32 = 1 << 12;

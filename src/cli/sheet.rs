@@ -13,12 +13,10 @@ use noisefall::{
 };
 
 use super::{
-    Failure,
     lists::ListOptions,
+    messages::{Failure, print, tell, wrong_usage},
     options::{self as parse, DisplayOptions},
-    print,
     stop::{INTERRUPTED, stop_signal},
-    tell, wrong_usage,
 };
 
 const NOTES: &str = "\

@@ -4,7 +4,7 @@ use std::sync::{
     atomic::{AtomicBool, Ordering},
 };
 
-use super::{Failure, tell};
+use super::messages::{Failure, tell};
 
 /// The status of a program that ended because it was interrupted.
 pub const INTERRUPTED: u8 = 130;

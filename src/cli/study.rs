@@ -19,11 +19,11 @@ use noisefall::{
 };
 
 use super::{
-    Failure, folder,
+    folder,
     lists::ListOptions,
-    options as parse, print,
+    messages::{Failure, print, tell, wrong_usage},
+    options as parse,
     stop::{INTERRUPTED, stop_signal},
-    tell, wrong_usage,
 };
 
 const NOTES: &str = "\

@@ -9,7 +9,10 @@ use noisefall::{
     validate::{Effort, KeptScene, Section, Suite, Validation, csv, drawings, html, json, reference_names},
 };
 
-use super::{Failure, folder, print};
+use super::{
+    folder,
+    messages::{Failure, print},
+};
 
 /// The folder beside the report that scenes which fail go to.
 const KEPT: &str = "stress";

@@ -29,7 +29,7 @@ impl DisplayPipeline {
                 ctx.request_repaint();
             }
         };
-        std::thread::Builder::new().name("display pipeline".to_owned()).spawn(work).expect("a thread can be started");
+        std::thread::Builder::new().name("display".to_owned()).spawn(work).expect("a thread can be started");
         DisplayPipeline { requests, waiting, last: None, ready }
     }
 
