@@ -31,7 +31,7 @@ use noisefall::{
     scene::{description::SceneDescription, load},
 };
 
-use messages::{Failure, tell, wrong_usage};
+use messages::{Failure, print, tell, wrong_usage};
 
 /// Solves the light transport equation while you watch.
 ///

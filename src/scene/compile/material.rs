@@ -1,7 +1,7 @@
 //! Materials of a description.
 use std::collections::BTreeMap;
 
-use super::{Numbers, Problems};
+use super::problems::{Numbers, Problems};
 use crate::{
     declare::{Path, Problem},
     image::{Encoding, read_light},

@@ -3,15 +3,16 @@ mod camera;
 mod light;
 mod material;
 mod object;
+mod problems;
 
 use std::{
-    collections::{BTreeMap, HashSet},
+    collections::HashSet,
     path::Path as FilePath,
     sync::{Arc, OnceLock},
 };
 
 pub use self::material::MaterialInstance;
-use self::{camera::camera, light::background, material::materials, object::objects};
+use self::{camera::camera, light::background, material::materials, object::objects, problems::Problems};
 use super::{
     Camera, Object, RenderSettings, Scene, Truth,
     damage::Damage,
@@ -33,35 +34,11 @@ use crate::{
 /// the scene file, and files are looked for in `folder`.
 pub fn compile(description: &SceneDescription, source: &str, folder: &FilePath, damage: &Damage) -> Result<Scene, Vec<Problem>> {
     let resources = Resources::new(folder);
-    let mut problems = Problems { damage, found: Vec::new() };
+    let mut problems = Problems::new(damage);
     let parts = Parts::new(description, &resources, &mut problems);
     match parts {
         Some(parts) if problems.found.is_empty() => parts.build(description, source, resources).map_err(|problem| vec![problem]),
         _ => Err(problems.found),
-    }
-}
-
-/// Collects what is wrong: a problem in one table does not keep the others from being looked at.
-struct Problems<'d> {
-    damage: &'d Damage,
-    found: Vec<Problem>,
-}
-
-impl Problems<'_> {
-    /// More are not looked for.
-    const MOST: usize = super::diagnostic::SceneError::MOST;
-
-    /// The value, or `None` where its problem is kept. A table that something was left out of is not compiled: what is wrong with it has
-    /// been said, and its values may be out of all ranges.
-    fn keep<T>(&mut self, table: &Path, compile: impl FnOnce() -> Result<T, Problem>) -> Option<T> {
-        if self.damage.reaches(table) {
-            return None;
-        }
-        compile().map_err(|problem| self.found.push(problem.within(table))).ok()
-    }
-
-    fn are_many(&self) -> bool {
-        self.found.len() >= Self::MOST
     }
 }
 
@@ -150,9 +127,6 @@ impl Parts {
         Ok(scene)
     }
 }
-
-/// The numbers of materials by their names; `None` for those that are wrong.
-type Numbers = BTreeMap<String, Option<u32>>;
 
 fn truth(description: &TruthDescription, resources: &Resources) -> Result<Truth, Problem> {
     match description {

@@ -1,5 +1,8 @@
 //! Objects of a description.
-use super::{Numbers, Problems, light::emission};
+use super::{
+    light::emission,
+    problems::{Numbers, Problems},
+};
 use crate::{
     declare::{Family, Path, Problem, Resources, short},
     geometry::{Motion, Shape},
