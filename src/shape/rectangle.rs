@@ -32,7 +32,7 @@ impl Declare for Rectangle {
         const EDGE_U: Parameter =
             Parameter::new("edge_u", "From there to the corner where u = 1.").unit("m").required().aliases("u");
         const EDGE_V: Parameter =
-            Parameter::new("edge_v", "From there to the corner where v = 1; the front is the side of v × u.")
+            Parameter::new("edge_v", "From there to the corner where v = 1; the front is the side of u × v.")
                 .unit("m")
                 .required()
                 .aliases("v");
