@@ -166,11 +166,13 @@ mod tests {
         assert!(all.statements.is_empty(), "two scores have no distribution");
         let remark = all.remark.expect("a remark");
         assert!(
-            remark.starts_with("4 statements before, of which 1 share samples with one before; 2 z-scores are pooled."),
+            remark.starts_with(
+                "The sections above have 4 statements, 1 of which share samples with an earlier one; 2 z-scores are pooled."
+            ),
             "{remark}"
         );
         // Of two normal numbers both are within ±z with ½ where Φ(z) = (1 + √½)/2: 1.05. And 1 − 0.99³ is 3.0 %.
-        assert!(remark.contains("largest |z| is 1.50;") && remark.contains("one above 1.05."), "{remark}");
+        assert!(remark.contains("largest |z| is 1.50;") && remark.contains("the largest exceeds 1.05."), "{remark}");
         assert!(remark.contains("with probability 3.0 %"), "{remark}");
         assert_eq!(all.figures.len(), 2);
     }

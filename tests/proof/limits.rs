@@ -1,7 +1,11 @@
 //! The picture at an end of a parameter's range is the limit of the pictures towards that end.
 //!
 //! Both pictures use the same random numbers, so that they differ by what the parameter changes and hardly by noise.
-use noisefall::scene::{Estimator, RenderSettings, Roulette, Scene, parse};
+use noisefall::{
+    declare::{Choice, Declare, Form, OneOf, Parameter, Parameters, Range, Textured, Value, write},
+    material::Material,
+    scene::{Estimator, RenderSettings, Roulette, Scene},
+};
 
 use crate::picture::{LUMINANCE, Picture, picture, scene, settings, sigmas_of_most};
 
@@ -203,32 +207,102 @@ fn materials_at_the_ends_of_their_ranges_are_what_they_approach() {
     }
 }
 
-/// The keys that a table of a material has: a key that it lacks is answered with them.
-fn keys(table: &str) -> Vec<String> {
-    let camera = "camera = { eye = [0, 0, 4], look_at = [0, 0, 0], fov = 40.0, resolution = [8, 8] }";
-    let Err(error) = parse("keys.toml", format!("format = 1\n{camera}\nmaterials.m.{table}zzz = 1")) else {
-        panic!("{table} has a key `zzz`")
-    };
-    let report = error.report();
-    let (_, listed) = report.split_once("help: expected ").unwrap_or_else(|| panic!("{table}: {report}"));
-    listed.split('`').skip(1).step_by(2).map(str::to_owned).collect()
+/// Puts the number of a material at a place among all of them to an end of its range, or just inside of it.
+struct AtEnd {
+    /// How many numbers are left to pass over.
+    left: usize,
+    upper: bool,
+    near: bool,
+    /// Which alternative of every choice is taken.
+    variant: usize,
+    found: Option<&'static str>,
+}
+
+impl AtEnd {
+    fn put(&mut self, parameter: &Parameter, range: &Range) -> Option<f64> {
+        if self.left > 0 || self.found.is_some() {
+            self.left = self.left.saturating_sub(1);
+            return None;
+        }
+        self.found = Some(parameter.key);
+        let end = if self.upper { range.most } else { range.least };
+        let inside = match (self.upper, end) {
+            (false, 0.0) => 1e-30,
+            (false, end) => end * (1.0 + 2e-6),
+            (true, end) => end * (1.0 - 2e-6),
+        };
+        Some(if self.near { inside } else { end })
+    }
+}
+
+impl Parameters for AtEnd {
+    fn value(&mut self, parameter: &Parameter, value: Value<'_>) {
+        match value {
+            Value::Number(number, range) => *number = self.put(parameter, &range).unwrap_or(*number),
+            Value::TexturedNumber(number, range) => {
+                if let Some(end) = self.put(parameter, &range) {
+                    *number = Textured::Constant(end);
+                }
+            }
+            Value::Colour(colour, range) => *colour = self.put(parameter, &range).map_or(*colour, |end| [end; 3]),
+            Value::Textured(colour, range) => {
+                if let Some(end) = self.put(parameter, &range) {
+                    *colour = Textured::grey(end);
+                }
+            }
+            _ => {}
+        }
+    }
+    fn enter(&mut self, _: &Parameter, _: Form) {}
+    fn leave(&mut self) {}
+    fn present(&mut self, _: &Parameter, now: bool) -> bool {
+        now
+    }
+    fn choose(&mut self, choice: &Choice, _: usize) -> usize {
+        self.variant % choice.alternatives.len()
+    }
+    fn items(&mut self, _: &Parameter, now: usize) -> usize {
+        now
+    }
+    fn item(&mut self, _: &Parameter, _: usize) {}
+    fn names(&mut self, _: &Parameter, now: Vec<String>) -> Vec<String> {
+        now
+    }
+    fn named(&mut self, _: &Parameter, _: &str) {}
+}
+
+/// The material as a scene file says it.
+struct Chosen(Material);
+
+impl Declare for Chosen {
+    fn parameters(&mut self, p: &mut dyn Parameters) {
+        self.0.chosen(p);
+    }
 }
 
 #[test]
-fn every_parameter_of_every_kind_of_material_has_an_end_here() {
-    let texts: Vec<&str> = MATERIALS.iter().chain(&SMOOTHNESS).chain(&REST).map(|end| end.text).collect();
-    let mut kinds = keys("");
-    // Of all kinds: a picture has no ends, and nothing lies between those of a switch.
-    kinds.retain(|kind| !["normal_map", "two_sided"].contains(&kind.as_str()));
-    assert!(kinds.len() >= 6, "{kinds:?}");
-    for kind in kinds {
-        let parameters = keys(&format!("{kind}."));
-        assert!(!parameters.is_empty(), "{kind}");
-        for parameter in parameters.into_iter().filter(|parameter| parameter != "texture") {
-            let says = |text: &str| text.contains(&format!("{parameter} = @")) || text.contains(&format!("{parameter} = false"));
-            assert!(texts.iter().any(|text| text.contains(&kind) && says(text)), "{kind}.{parameter} is nowhere at its ends");
+fn every_number_of_every_declared_material_is_at_its_ends_what_it_approaches() {
+    let mut tried = std::collections::BTreeSet::new();
+    for kind in Material::alternatives() {
+        for (left, upper, variant) in
+            (0..8).flat_map(|left| [false, true].into_iter().flat_map(move |u| (0..3).map(move |v| (left, u, v))))
+        {
+            let [at, near] = [false, true].map(|near| {
+                let mut end = AtEnd { left, upper, near, variant, found: None };
+                let mut material = Chosen(kind.clone());
+                material.parameters(&mut end);
+                let text = write(&mut material).into_iter().map(|(key, value)| format!("{key} = {value}")).collect::<String>();
+                (end.found, text)
+            });
+            let Some(key) = at.0.filter(|_| tried.insert(at.1.clone())) else { continue };
+            let blocks = [at.1.as_str(), &near.1].map(|text| rendered(&room(text, ""), Estimator::Mis, false).blocks(8));
+            for (at_end, inside) in blocks[0].iter().zip(&blocks[1]) {
+                let difference = (at_end.mean - inside.mean).abs() / (1.0 + inside.mean);
+                assert!(difference < NEAR, "{key} of {}: {difference:.2e}", at.1);
+            }
         }
     }
+    assert!(tried.len() > 25, "{tried:?}");
 }
 
 #[test]

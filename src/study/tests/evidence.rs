@@ -215,7 +215,11 @@ fn the_sheets_of_a_chapter_show_growing_samples_and_caps_in_their_order() {
         "{}",
         by_samples.caption
     );
-    assert!(by_cap.caption.starts_with("The picture by caps on bounces, 4 samples a pixel: path, "), "{}", by_cap.caption);
+    assert!(
+        by_cap.caption.starts_with("The picture with different caps on bounces, 4 samples a pixel: path, "),
+        "{}",
+        by_cap.caption
+    );
     // After 1 and after 4 samples.
     assert_eq!(squares(&by_samples.png, code(2.0)).1, 2);
     let places = [1.0, 1.5, 1.75, 1.968_75, 2.0].map(|radiance| squares(&by_cap.png, code(radiance)).0.expect("it is shown"));
