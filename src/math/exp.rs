@@ -1,5 +1,8 @@
 //! Powers of two by a polynomial instead of the standard library, so that every processor gives the same bits.
-use super::{lanes::Lanes, number::F, round::floor};
+use super::{
+    lanes::{F, Lanes},
+    round::floor,
+};
 
 /// 2ˣ for x ≤ 0, with a relative error below 2e-7; smaller values than 2⁻¹²⁶ are clamped to it.
 #[inline(always)]

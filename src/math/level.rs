@@ -61,8 +61,9 @@ impl SimdLevel {
 macro_rules! in_lanes {
     ($level:expr, $l:ident => $call:expr) => {{
         use $crate::math::{
-            lanes::{One, X4, X16},
+            lanes::One,
             level::SimdLevel,
+            simd::{X4, X16},
         };
         let detected = ::fearless_simd::Level::new();
         let _ = (&detected, X4::<::fearless_simd::Fallback>, X16::<::fearless_simd::Fallback>);

@@ -7,6 +7,7 @@ pub mod level;
 pub mod number;
 mod one;
 pub mod round;
+pub mod simd;
 #[cfg(test)]
 mod tests;
 pub mod trig;
@@ -14,8 +15,8 @@ pub mod vector;
 
 pub use self::{
     frame::Frame,
-    lanes::{Lanes, MAX_LANES, One},
+    lanes::{F, Lanes, M, MAX_LANES, One, U},
     level::SimdLevel,
-    number::{F, M, Pick, U},
+    number::Pick,
     vector::V,
 };

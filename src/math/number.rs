@@ -1,27 +1,7 @@
 //! `F`, `U` and `M`: reals, unsigned integers and truth values in lanes, with the operators of scalar code.
 use std::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Shl, Shr, Sub};
 
-use super::lanes::{Lanes, MAX_LANES};
-
-/// Reals (f32), one per lane.
-pub struct F<L: Lanes>(pub L::Real);
-/// Unsigned integers (u32, wrapping arithmetic), one per lane.
-pub struct U<L: Lanes>(pub L::Int);
-/// Truth values, one per lane.
-pub struct M<L: Lanes>(pub L::Mask);
-
-macro_rules! copy {
-    ($($t:ident)*) => { $(
-        impl<L: Lanes> Clone for $t<L> {
-            #[inline(always)]
-            fn clone(&self) -> Self {
-                *self
-            }
-        }
-        impl<L: Lanes> Copy for $t<L> {}
-    )* };
-}
-copy!(F U M);
+use super::lanes::{F, Lanes, M, MAX_LANES, U};
 
 macro_rules! real_operators {
     ($($op:ident $method:ident)*) => { $(

@@ -1,8 +1,5 @@
 //! The arithmetic of [`One`] lane: plain numbers.
-use super::{
-    lanes::{Lanes, One},
-    number::{F, M, U},
-};
+use super::lanes::{F, Lanes, M, One, U};
 
 impl Lanes for One {
     type Real = f32;

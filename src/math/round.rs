@@ -1,7 +1,7 @@
 //! Rounding of reals to integers.
 use super::{
-    lanes::Lanes,
-    number::{F, Pick, U},
+    lanes::{F, Lanes, U},
+    number::Pick,
 };
 
 /// The greatest integer not above x, as a real and in two's complement. Exact for |x| ≤ 2²²; larger values are clamped to ±2²²,

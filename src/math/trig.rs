@@ -2,8 +2,8 @@
 use std::f32::consts::{FRAC_PI_4, TAU};
 
 use super::{
-    lanes::Lanes,
-    number::{F, Pick},
+    lanes::{F, Lanes},
+    number::Pick,
 };
 
 /// (sin 2πu, cos 2πu) for u in [0, 1], within 2e-7.

@@ -2,8 +2,8 @@
 use std::ops::{Add, Mul, Neg, Sub};
 
 use super::{
-    lanes::Lanes,
-    number::{F, M, Pick},
+    lanes::{F, Lanes, M},
+    number::Pick,
 };
 
 /// A 3-vector per lane. Colours use the same type: x, y, z are linear red, green, blue.
