@@ -6,7 +6,7 @@ use super::{
     Shape, Sphere,
     around::Around,
     bvh::{Bvh, NONE},
-    objects::{Kind, Object},
+    object::{Kind, Object},
 };
 
 /// Maximum number of spheres of a cluster (4 is slower).

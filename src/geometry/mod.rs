@@ -21,6 +21,7 @@ mod bounds;
 mod bvh;
 mod clusters;
 mod cuboid;
+mod direction_sample;
 mod extent;
 mod flat;
 mod fraction;
@@ -28,6 +29,8 @@ mod isosurface;
 mod lists;
 pub mod mesh;
 mod motion;
+mod nearest;
+mod object;
 mod objects;
 pub mod oracle;
 mod placed;
@@ -38,6 +41,7 @@ mod shape;
 mod shapes;
 mod sphere;
 mod sphere_field;
+mod step;
 mod surface_point;
 mod tables;
 #[cfg(test)]
@@ -45,17 +49,18 @@ mod tests;
 mod toward;
 mod turns;
 
-use self::sphere::{sphere_tangents, sphere_uv};
 pub use self::{
+    direction_sample::Toward,
     isosurface::{Expression, Isosurface, ParseError},
     mesh::MeshData,
-    motion::{Motion, Step},
+    motion::Motion,
+    nearest::Nearest,
     shape::{Outline, Shape},
-    shapes::{Nearest, Shapes},
+    shapes::Shapes,
     sphere::{Cone, Sphere},
     sphere_field::sphere_field,
+    step::Step,
     surface_point::{Coordinates, Place, SurfacePoint},
-    toward::Toward,
     turns::Turns,
 };
 

@@ -7,10 +7,11 @@ use fearless_simd_macros::simd;
 use glam::DVec3;
 
 use super::{
-    Nearest, Shape,
+    Nearest,
     bounds::Bounds,
     bvh::{Bvh, Leaves, Slabs, Stack, traverse},
     lists::{Listed, Lists},
+    object::{Kind, Object},
     placed::Placed,
 };
 use crate::math::{F, Lanes, M, MAX_LANES, One, U, V};
@@ -20,34 +21,6 @@ use crate::math::{F, Lanes, M, MAX_LANES, One, U, V};
 const COST_OF_TREE: f32 = 64.0;
 /// Objects that more than one in this number of rays would hit are not in the tree.
 const SHARE: f32 = 12.0;
-
-/// An object to find, with its bounds.
-pub(super) struct Object<'a> {
-    pub bounds: Bounds,
-    pub kind: Kind<'a>,
-}
-
-#[derive(Clone, Copy)]
-pub(super) enum Kind<'a> {
-    /// An analytic shape, whose first piece is primitive `first`.
-    Analytic { first: u32, shape: &'a Shape },
-    /// Index among the placed shapes.
-    Placed(u32),
-}
-
-impl Kind<'_> {
-    /// The cost of a test of all lanes, relative to a flat shape.
-    fn cost(self) -> f32 {
-        match self {
-            Kind::Analytic { shape: Shape::Cylinder { capped: true, .. }, .. } => 4.0,
-            Kind::Analytic { shape: Shape::Cuboid { .. } | Shape::Cylinder { .. } | Shape::Ellipsoid { .. }, .. } => 2.0,
-            // In a cluster, which most registers of rays pass by: a tree over 256 spheres takes as long.
-            Kind::Analytic { shape: Shape::Sphere { .. }, .. } => 0.25,
-            // Of a placed shape, the test of whether any lane comes near.
-            Kind::Analytic { .. } | Kind::Placed(_) => 1.0,
-        }
-    }
-}
 
 /// A tree over objects.
 pub(super) struct Objects {

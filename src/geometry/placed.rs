@@ -12,9 +12,10 @@ use super::{
     isosurface::Isosurface,
     lists::Lists,
     mesh::Mesh,
-    motion::{Motion, Step},
+    motion::Motion,
     pose::{Pose, Rest},
     shape::Shape,
+    step::Step,
     tables::Tables,
 };
 use crate::math::{F, Lanes, M, Pick, U, V};

@@ -4,11 +4,12 @@ use std::{collections::HashMap, sync::Arc};
 use glam::{DAffine3, DVec3};
 
 use super::{
-    Coordinates, Motion, Place, SurfacePoint, Toward,
+    Coordinates, Motion, Nearest, Place, SurfacePoint, Toward,
     clusters::take_clusters,
     lists::Lists,
     mesh::{Mesh, MeshData},
-    objects::{Kind, Object, Objects, few_and_many},
+    object::{Kind, Object},
+    objects::{Objects, few_and_many},
     placed::{Body, Placed},
     shape::{Outline, Shape},
     tables::{PLACED, Tables},
@@ -30,15 +31,6 @@ pub struct Shapes {
     moves: bool,
     /// Number of degenerate triangles, which are left out.
     dropped: usize,
-}
-
-/// The nearest hits of rays.
-pub struct Nearest<L: Lanes> {
-    pub t: F<L>,
-    /// Primitive id, or [`super::MISS`].
-    pub primitive: U<L>,
-    /// The triangle of a mesh.
-    pub element: U<L>,
 }
 
 impl Shapes {

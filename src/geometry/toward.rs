@@ -5,6 +5,7 @@
 use std::f32::consts::TAU;
 
 use super::{
+    direction_sample::Toward,
     flat::{is_ellipse, is_rectangle},
     quadric::Local,
     rectangle::SphericalRectangle,
@@ -16,23 +17,6 @@ use crate::{
     math::{F, Lanes, M, Pick, U, V, trig::sin_cos_turns},
     sampling::warp::{disk, triangle},
 };
-
-/// A sampled direction towards a primitive.
-pub struct Toward<L: Lanes> {
-    /// Unit.
-    pub wi: V<L>,
-    /// Pdf per solid angle; 0 if there is no direction.
-    pub pdf: F<L>,
-    /// Lanes whose direction hits the front of the primitive first.
-    pub front: M<L>,
-}
-
-impl<L: Lanes> Pick<Toward<L>> for M<L> {
-    #[inline(always)]
-    fn pick(self, a: Toward<L>, b: Toward<L>) -> Toward<L> {
-        Toward { wi: self.pick(a.wi, b.wi), pdf: self.pick(a.pdf, b.pdf), front: (self & a.front) | (!self & b.front) }
-    }
-}
 
 impl Tables {
     /// The cone of directions from `x` to the given primitives; only for spheres.

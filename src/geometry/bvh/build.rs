@@ -1,46 +1,14 @@
 //! Builds a binary tree top-down, which `collapse.rs` turns into one with eight children per node.
-use glam::Vec4;
-
 use super::{
     Bvh,
     bins::{Extent, Grid, Plane, cheapest_plane},
     collapse::{Branch, Collapse, Forest},
+    item::Item,
 };
 use crate::geometry::bounds::Bounds;
 
-/// Marks an empty slot of a leaf.
-pub const NONE: u32 = u32::MAX;
-
 /// Maximum number of branches between the root and a leaf. If splits by the heuristic would go deeper, items are halved instead.
 pub(super) const MAX_DEPTH: usize = 36;
-
-/// The box of an item, with the item's number in `min.w`, so that sorting moves only 32 bytes.
-#[derive(Clone, Copy)]
-pub(super) struct Item {
-    min: Vec4,
-    max: Vec4,
-}
-
-impl Item {
-    /// Offset of the bits of numbers. The bits of small integers are subnormal reals, with which computation takes a hundred
-    /// times as long.
-    const ZERO: u32 = 1 << 29;
-
-    fn new(number: usize, bounds: &Bounds) -> Item {
-        let ([x, y, z], [max_x, max_y, max_z]) = (bounds.min, bounds.max);
-        Item { min: Vec4::new(x, y, z, f32::from_bits(number as u32 + Item::ZERO)), max: Vec4::new(max_x, max_y, max_z, 0.0) }
-    }
-
-    pub fn number(&self) -> u32 {
-        self.min.w.to_bits() - Item::ZERO
-    }
-
-    /// Twice the centre of the box.
-    #[inline(always)]
-    fn center(&self) -> Vec4 {
-        self.min + self.max
-    }
-}
 
 /// A range of items below one branch.
 #[derive(Clone, Copy)]

@@ -8,7 +8,7 @@
 use super::{
     LEAF, Node, WIDTH,
     bins::Extent,
-    build::{Item, NONE},
+    item::{Item, NONE},
 };
 
 /// Cost of a leaf relative to a node.

@@ -2,7 +2,7 @@
 //!
 //! | part | file |
 //! |---|---|
-//! | construction by the surface area heuristic | `build.rs`, `bins.rs`, `collapse.rs` |
+//! | construction by the surface area heuristic | `build.rs`, `bins.rs`, `collapse.rs`, `item.rs` |
 //! | conservative test of a ray against eight boxes at once | `slabs.rs` |
 //! | traversal, near boxes first | `traverse.rs` |
 //!
@@ -11,13 +11,14 @@
 mod bins;
 mod build;
 mod collapse;
+mod item;
 mod slabs;
 #[cfg(test)]
 mod tests;
 mod traverse;
 
 pub use self::{
-    build::NONE,
+    item::NONE,
     slabs::Slabs,
     traverse::{Leaves, Stack, traverse},
 };

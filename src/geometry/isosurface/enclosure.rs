@@ -10,7 +10,10 @@
 //! smallest normal number if it underflows; the errors of a and b are added to r and q. Those of r and q themselves, which are
 //! sums and products of positive numbers with at most 12 successive roundings, are covered by [`WIDEN`]. Overflow makes r
 //! infinite or NaN, which proves nothing, because comparisons with it are false.
-use super::tape::Quantity;
+use super::{
+    lines::{self, Line},
+    tape::Quantity,
+};
 use crate::math::{F, Lanes, M, Pick};
 
 /// A rounding error, including the rounding of its own bound.
@@ -37,26 +40,6 @@ impl<L: Lanes> Clone for Enclosure<L> {
     }
 }
 impl<L: Lanes> Copy for Enclosure<L> {}
-
-/// g(x) ≈ at_middle + slope (x − a) within `error` where x is the enclosed quantity, and |g′ − slope| ≤ `bend`.
-pub(super) struct Line<L: Lanes> {
-    pub at_middle: F<L>,
-    pub slope: F<L>,
-    pub error: F<L>,
-    pub bend: F<L>,
-}
-
-impl<L: Lanes> Pick<Line<L>> for M<L> {
-    #[inline(always)]
-    fn pick(self, a: Line<L>, b: Line<L>) -> Line<L> {
-        Line {
-            at_middle: self.pick(a.at_middle, b.at_middle),
-            slope: self.pick(a.slope, b.slope),
-            error: self.pick(a.error, b.error),
-            bend: self.pick(a.bend, b.bend),
-        }
-    }
-}
 
 impl<L: Lanes> Pick<Enclosure<L>> for M<L> {
     #[inline(always)]
@@ -208,11 +191,11 @@ impl<L: Lanes> Quantity<L> for Enclosure<L> {
     }
     #[inline(always)]
     fn reciprocal(&self) -> Self {
-        self.map(&super::lines::reciprocal(self.a, self.reach()))
+        self.map(&lines::reciprocal(self.a, self.reach()))
     }
     #[inline(always)]
     fn square_root(&self) -> Self {
-        self.map(&super::lines::square_root(self.a, self.reach()))
+        self.map(&lines::square_root(self.a, self.reach()))
     }
     #[inline(always)]
     fn absolute(&self) -> Self {
@@ -229,18 +212,18 @@ impl<L: Lanes> Quantity<L> for Enclosure<L> {
     }
     #[inline(always)]
     fn exponential(&self) -> Self {
-        self.map(&super::lines::exponential(self.a, self.reach()))
+        self.map(&lines::exponential(self.a, self.reach()))
     }
     #[inline(always)]
     fn logarithm(&self) -> Self {
-        self.map(&super::lines::logarithm(self.a, self.reach()))
+        self.map(&lines::logarithm(self.a, self.reach()))
     }
     #[inline(always)]
     fn sine(&self) -> Self {
-        self.map(&super::lines::sine(self.a, self.reach()))
+        self.map(&lines::sine(self.a, self.reach()))
     }
     #[inline(always)]
     fn cosine(&self) -> Self {
-        self.map(&super::lines::cosine(self.a, self.reach()))
+        self.map(&lines::cosine(self.a, self.reach()))
     }
 }

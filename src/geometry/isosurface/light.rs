@@ -1,7 +1,10 @@
 //! Surface coordinates of an isosurface, and directions towards an emitting one.
 use super::Isosurface;
 use crate::{
-    geometry::{Cone, Coordinates, Toward, sphere_tangents, sphere_uv},
+    geometry::{
+        Cone, Coordinates, Toward,
+        sphere::{sphere_tangents, sphere_uv},
+    },
     math::{F, Lanes, Pick, V},
 };
 

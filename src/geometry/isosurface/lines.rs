@@ -5,16 +5,33 @@
 //! domain, the line is constant, in the middle of the range of the function.
 //!
 //! [`Enclosure::map`]: super::enclosure::Enclosure::map
-use super::{
-    enclosure::Line,
-    functions::{EXP_END, EXP_ERROR, LOG_ERROR, SIN_ERROR, exp, log, sin_cos},
-};
-use crate::math::{F, Lanes, Pick};
+use super::functions::{EXP_END, EXP_ERROR, LOG_ERROR, SIN_ERROR, exp, log, sin_cos};
+use crate::math::{F, Lanes, M, Pick};
 
 /// Eight rounding errors: more than any line here accumulates.
 const ROUNDINGS: f32 = 4.0 * f32::EPSILON;
 /// log of the smallest normal number, where [`log`] ends.
 const LOWEST_LOG: f32 = -87.336_55;
+
+/// g(x) ≈ at_middle + slope (x − a) within `error` where x is the enclosed quantity, and |g′ − slope| ≤ `bend`.
+pub(super) struct Line<L: Lanes> {
+    pub at_middle: F<L>,
+    pub slope: F<L>,
+    pub error: F<L>,
+    pub bend: F<L>,
+}
+
+impl<L: Lanes> Pick<Line<L>> for M<L> {
+    #[inline(always)]
+    fn pick(self, a: Line<L>, b: Line<L>) -> Line<L> {
+        Line {
+            at_middle: self.pick(a.at_middle, b.at_middle),
+            slope: self.pick(a.slope, b.slope),
+            error: self.pick(a.error, b.error),
+            bend: self.pick(a.bend, b.bend),
+        }
+    }
+}
 
 /// 1/x = 1/c − (x − c)/c² + (x − c)²/(c²x). A range that contains 0 has no bound.
 #[inline(always)]

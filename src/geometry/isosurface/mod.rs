@@ -2,7 +2,7 @@
 //!
 //! | | |
 //! |---|---|
-//! | `token.rs`, `names.rs`, `parse.rs`, `graph.rs` | text → tokens → a graph without duplicates |
+//! | `token.rs`, `names.rs`, `parse.rs`, `parse_error.rs`, `graph.rs` | text → tokens → a graph without duplicates |
 //! | `tape.rs` | graph → a list of operations, evaluated for up to sixteen rays at once |
 //! | `jet.rs` | values with derivatives |
 //! | `enclosure.rs`, `lines.rs` | rigorous bounds of value and derivative over a segment |
@@ -22,13 +22,14 @@ mod lines;
 mod march;
 mod names;
 mod parse;
+mod parse_error;
 mod surface;
 mod tape;
 #[cfg(test)]
 mod tests;
 mod token;
 
-pub use self::parse::ParseError;
+pub use self::parse_error::ParseError;
 use self::{
     march::{Segment, first_change},
     tape::Tape,

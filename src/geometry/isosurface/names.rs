@@ -1,7 +1,7 @@
 //! The names in expressions, and suggestions for unknown ones.
 use std::ops::Range;
 
-use super::parse::ParseError;
+use super::parse_error::ParseError;
 
 /// Functions and their numbers of arguments.
 pub(super) const FUNCTIONS: [(&str, usize); 9] =

@@ -12,6 +12,7 @@ use std::ops::Range;
 use super::{
     graph::{Graph, Id, Op},
     names::{FUNCTIONS, unknown},
+    parse_error::ParseError,
     token::{Token, Tokens},
 };
 
@@ -21,22 +22,6 @@ const LONGEST: usize = 4096;
 const DEEPEST: usize = 64;
 /// Maximum integer power.
 const HIGHEST_POWER: f64 = 64.0;
-
-/// A syntax error, with its position.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct ParseError {
-    /// The erroneous bytes of the text; empty and at the end if something is missing there.
-    pub at: Range<usize>,
-    pub message: String,
-    /// Label at the position.
-    pub label: String,
-}
-
-impl ParseError {
-    pub(super) fn new(at: Range<usize>, message: impl Into<String>, label: impl Into<String>) -> ParseError {
-        ParseError { at, message: message.into(), label: label.into() }
-    }
-}
 
 /// The graph of an expression and the node of its value.
 pub(super) fn parse(text: &str) -> Result<(Graph, Id), ParseError> {

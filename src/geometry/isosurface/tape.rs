@@ -6,7 +6,7 @@ use fearless_simd_macros::simd;
 
 use super::{
     graph::{Graph, Id, Node, Op},
-    parse::ParseError,
+    parse_error::ParseError,
 };
 use crate::math::Lanes;
 

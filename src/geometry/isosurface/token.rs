@@ -1,7 +1,7 @@
 //! Numbers, names and symbols of an expression.
 use std::{fmt, ops::Range};
 
-use super::parse::ParseError;
+use super::parse_error::ParseError;
 
 const SYMBOLS: &str = "+-*/^(),";
 

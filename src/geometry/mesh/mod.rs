@@ -10,6 +10,7 @@
 //! | procedural meshes | `generate.rs` |
 mod block;
 mod data;
+mod edges;
 pub mod generate;
 mod shading;
 mod surface;
@@ -22,7 +23,7 @@ use fearless_simd_macros::simd;
 
 use self::{
     block::{Block, Shear, Shears},
-    surface::scaled_area_squared,
+    edges::scaled_area_squared,
 };
 pub use self::{
     data::MeshData,

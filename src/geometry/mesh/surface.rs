@@ -1,5 +1,5 @@
 //! The surface of a mesh at a hit.
-use super::Mesh;
+use super::{Mesh, edges::Edges};
 use crate::math::{F, Lanes, U, V};
 
 /// A point of a mesh in lanes.
@@ -20,39 +20,10 @@ pub struct Attributes<L: Lanes> {
     pub uv: [F<L>; 2],
 }
 
-/// Two edges from one vertex.
-struct Edges<L: Lanes> {
-    b: V<L>,
-    c: V<L>,
-    /// The largest component of the three edges.
-    size: F<L>,
-}
-
-impl<L: Lanes> Edges<L> {
-    #[inline(always)]
-    fn of(a: V<L>, b: V<L>, c: V<L>) -> Self {
-        let (b, c) = (b - a, c - a);
-        Edges { b, c, size: b.max_abs().max(c.max_abs()).max((c - b).max_abs()) }
-    }
-
-    /// Edges of a triangle of size 1, whose products neither vanish nor overflow, and their cross product.
-    #[inline(always)]
-    fn scaled(&self) -> (V<L>, V<L>, V<L>) {
-        let scale = 1.0 / self.size;
-        let (b, c) = (self.b * scale, self.c * scale);
-        (b, c, b.cross(c))
-    }
-}
-
 /// The weighted mean.
 #[inline(always)]
 fn mix<L: Lanes>(weights: [F<L>; 3], of: [F<L>; 3]) -> F<L> {
     weights[0] * of[0] + (weights[1] * of[1] + weights[2] * of[2])
-}
-
-/// Twice the area of a triangle scaled to size 1, squared; 0, infinite or NaN if it has no normal in f32.
-pub(super) fn scaled_area_squared<L: Lanes>(a: V<L>, b: V<L>, c: V<L>) -> F<L> {
-    Edges::of(a, b, c).scaled().2.length_squared()
 }
 
 impl Mesh {

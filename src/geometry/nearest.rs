@@ -1,0 +1,11 @@
+//! The first surfaces that rays hit.
+use crate::math::{F, Lanes, U};
+
+/// The nearest hits of rays.
+pub struct Nearest<L: Lanes> {
+    pub t: F<L>,
+    /// Primitive id, or [`super::MISS`].
+    pub primitive: U<L>,
+    /// The triangle of a mesh.
+    pub element: U<L>,
+}

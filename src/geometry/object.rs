@@ -1,0 +1,30 @@
+//! The objects of a scene before they are sorted into lists and a tree.
+use super::{Shape, bounds::Bounds};
+
+/// An object to find, with its bounds.
+pub(super) struct Object<'a> {
+    pub bounds: Bounds,
+    pub kind: Kind<'a>,
+}
+
+#[derive(Clone, Copy)]
+pub(super) enum Kind<'a> {
+    /// An analytic shape, whose first piece is primitive `first`.
+    Analytic { first: u32, shape: &'a Shape },
+    /// Index among the placed shapes.
+    Placed(u32),
+}
+
+impl Kind<'_> {
+    /// The cost of a test of all lanes, relative to a flat shape.
+    pub fn cost(self) -> f32 {
+        match self {
+            Kind::Analytic { shape: Shape::Cylinder { capped: true, .. }, .. } => 4.0,
+            Kind::Analytic { shape: Shape::Cuboid { .. } | Shape::Cylinder { .. } | Shape::Ellipsoid { .. }, .. } => 2.0,
+            // In a cluster, which most registers of rays pass by: a tree over 256 spheres takes as long.
+            Kind::Analytic { shape: Shape::Sphere { .. }, .. } => 0.25,
+            // Of a placed shape, the test of whether any lane comes near.
+            Kind::Analytic { .. } | Kind::Placed(_) => 1.0,
+        }
+    }
+}
