@@ -1,97 +1,14 @@
 //! The queues of one thread, which hold the paths of a batch between stages.
-use super::{queue::Queue, reuse::Shared, work::SLOTS};
+use super::{
+    queue::Queue,
+    records::{Detail, Gloss, Hit, Inside, Past, Path, Shadow},
+    shared::Shared,
+    slots::SLOTS,
+};
 use crate::{
     material::Stage,
     math::{F, Lanes, M, MAX_LANES, One, U, V},
-    record,
 };
-
-record! {
-    /// A path on its way to the next surface.
-    Path {
-        o: V,
-        /// Unit.
-        d: V,
-        /// Product of f cos/p and of the roulette weights so far.
-        throughput: V,
-        slot: U,
-    }
-}
-
-record! {
-    /// The previous vertex of a path, for the MIS weight of an emitter hit: see [`super::weight`].
-    Past {
-        /// Shading normal on the viewer's side.
-        n: V,
-        /// Pdf of the path's direction, per solid angle.
-        pdf: F,
-        flags: U,
-    }
-}
-
-record! {
-    /// The [`crate::light::Lobe`] of the previous vertex. Stored beside [`Past`] if light selection uses lobes.
-    Gloss {
-        wo: V,
-        alpha: F,
-    }
-}
-
-/// Flag of [`Past`]: the direction comes from a delta lobe, so no light sample could have had it.
-pub(super) const DELTA: u32 = 1;
-/// Flag of [`Past`]: lights were sampled on both sides of the surface.
-pub(super) const TRANSMITS: u32 = 2;
-
-record! {
-    /// The media around a path, innermost in the lowest byte. Stored beside paths and light samples in scenes with media.
-    Inside {
-        media: U,
-    }
-}
-
-record! {
-    /// A path at a surface that reflects.
-    Hit {
-        /// Origin of the next ray: the surface point, offset from the surface by its error.
-        p: V,
-        /// Unit geometric normal on the side the path arrived from.
-        n: V,
-        /// Albedo or reflectance.
-        colour: V,
-        throughput: V,
-        slot: U,
-    }
-}
-
-record! {
-    /// Further data for shading of surfaces that are more than diffuse.
-    Detail {
-        /// Unit, towards the viewer.
-        wo: V,
-        /// Unit shading normal on the side the path arrived from.
-        n: V,
-        alpha: F,
-        /// Offset of [`Hit::p`] from the surface.
-        error: F,
-        /// Word of the surface (see [`crate::scene::surface`]), with its flag `FRONT` if the path arrived at the front.
-        surface: U,
-        /// Media on the side the path arrived from, and the one inside the surface.
-        media: U,
-        medium: U,
-    }
-}
-
-record! {
-    /// A light sample, visible if the first surface along its ray is the target.
-    Shadow {
-        o: V,
-        d: V,
-        /// Its contribution to the pixel if it is visible.
-        radiance: V,
-        target: U,
-        slot: U,
-    }
-}
 
 /// The queues of a thread. Allocated once, reused for every tile.
 pub struct Batch {

@@ -7,11 +7,13 @@ use fearless_simd_macros::simd;
 use rayon::prelude::*;
 
 use super::{
-    batch::{Batch, Hit, Path},
+    batch::Batch,
     intersect::intersect,
+    records::{Hit, Path},
+    slots::BLOCK,
     spawn::spawn,
     surface::{Arrival, Met, vary},
-    work::{BLOCK, Work},
+    work::Work,
 };
 use crate::{
     geometry::{MISS, Place},

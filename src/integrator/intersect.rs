@@ -1,10 +1,7 @@
 //! Second stage: finds x_M, the first surface along every path. A separate instance is compiled for scenes of spheres alone.
 use fearless_simd_macros::simd;
 
-use super::{
-    batch::{Batch, Path},
-    work::Work,
-};
+use super::{batch::Batch, records::Path, work::Work};
 use crate::math::Lanes;
 
 #[inline(always)]

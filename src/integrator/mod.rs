@@ -11,6 +11,7 @@ mod features;
 mod intersect;
 mod media;
 pub mod queue;
+mod records;
 mod relief;
 mod replay;
 mod reuse;
@@ -19,6 +20,8 @@ mod series;
 mod shade;
 mod shading;
 mod shadow;
+mod shared;
+mod slots;
 mod spawn;
 mod surface;
 #[cfg(test)]
@@ -33,6 +36,7 @@ pub use self::{
     features::{Features, features},
     replay::{End, MetLight, Outcome, Reflection, Replay, SampledLight, Surface, Vertex, pixel_samples, replay},
     series::{SHARES, TERMS, Terms, trace_series},
+    slots::{BLOCK, BLOCKS, TILE},
     trace::{Interrupted, Segments, trace, trace_counting},
-    work::{BLOCK, BLOCKS, Blocks, TILE, Work},
+    work::{Blocks, Work},
 };

@@ -8,110 +8,15 @@
 use fearless_simd_macros::simd;
 
 use super::{
-    batch::{Batch, Hit},
-    work::{SLOTS, TILE, Work},
+    batch::Batch,
+    shared::{Shared, put},
+    slots::{GROUPS, MEMBERS, SLOTS, TILE},
+    work::Work,
 };
 use crate::{
     geometry::Place,
-    math::{F, Lanes, M, MAX_LANES, Pick, U, V},
-    sampling::hash::hash_one,
+    math::{F, Lanes, M, Pick, U, V},
 };
-
-/// Width and height of a group in pixels.
-const WIDTH: u32 = 4;
-const HEIGHT: u32 = 4;
-/// Number of pixels in a group. A sample costs one additional visibility ray for each pixel but one.
-const MEMBERS: usize = (WIDTH * HEIGHT) as usize;
-/// Number of groups in a batch. Its slots are the first members of all groups, then the second members, and so on.
-const GROUPS: usize = SLOTS / MEMBERS;
-
-/// The surface points that are shared, by slot.
-pub(super) struct Shared {
-    /// The first surfaces: origins of rays, with 1 in lanes that share; normals; albedos.
-    points: Vec<[f32; 4]>,
-    normals: Vec<[f32; 4]>,
-    albedos: Vec<[f32; 4]>,
-    /// The second surfaces: positions and primitives; normals, zero if there is none, and triangles.
-    found: Vec<[f32; 4]>,
-    found_normals: Vec<[f32; 4]>,
-    /// The resulting radiance, row by row of the tile.
-    pub(super) radiance: Vec<[f32; 4]>,
-}
-
-impl Default for Shared {
-    fn default() -> Self {
-        let rows = || vec![[0.0; 4]; SLOTS];
-        Shared {
-            points: rows(),
-            normals: rows(),
-            albedos: rows(),
-            found: rows(),
-            found_normals: rows(),
-            radiance: vec![[0.0; 4]; 2 * SLOTS],
-        }
-    }
-}
-
-/// Column and row of slots within their tile. Groups are shifted in every sample, so that their edges are not visible.
-#[inline(always)]
-pub(super) fn place<L: Lanes>(slot: U<L>, sample: u32) -> (U<L>, U<L>) {
-    let (member, group) = (slot >> GROUPS.trailing_zeros(), slot & (GROUPS as u32 - 1));
-    let offset = hash_one(sample);
-    let x = (group & (TILE / WIDTH - 1)) * WIDTH + (member & (WIDTH - 1));
-    let y = (group >> (TILE / WIDTH).trailing_zeros()) * HEIGHT + (member >> WIDTH.trailing_zeros());
-    ((x + (offset & (TILE - 1))) & (TILE - 1), (y + (offset >> 16)) & (TILE - 1))
-}
-
-impl Shared {
-    pub fn clear(&mut self) {
-        self.points.fill([0.0; 4]);
-        self.found_normals.fill([0.0; 4]);
-    }
-
-    /// Multiplies by the albedo of the first surface, if that is shared.
-    pub fn weighted(&self, slot: usize, colour: [f32; 3]) -> [f32; 3] {
-        let shares = self.points[slot][3] > 0.0;
-        [0, 1, 2].map(|c| if shares { colour[c] * self.albedos[slot][c] } else { colour[c] })
-    }
-
-    /// Stores the first surface of paths.
-    #[inline(always)]
-    pub fn keep_first<L: Lanes>(&mut self, l: L, lanes: M<L>, hit: &Hit<L>) {
-        put(lanes, hit.slot, hit.p, l.f(1.0), &mut self.points);
-        put(lanes, hit.slot, hit.n, l.f(0.0), &mut self.normals);
-        put(lanes, hit.slot, hit.colour, l.f(0.0), &mut self.albedos);
-    }
-
-    /// The lanes that share their first surface, and its albedo.
-    #[inline(always)]
-    pub fn first<L: Lanes>(&self, l: L, slot: U<L>) -> (M<L>, V<L>) {
-        // Lanes past the end may say anything.
-        let slot = slot & (SLOTS as u32 - 1);
-        let [r, g, b, _] = l.rows(&self.albedos, slot);
-        (l.rows(&self.points, slot)[3].above(0.0), V { x: r, y: g, z: b })
-    }
-
-    /// Stores the second surface of paths, and redirects the radiance from there on to separate slots.
-    #[inline(always)]
-    pub fn keep_second<L: Lanes>(&mut self, lanes: M<L>, place: &Place<L>, hit: &mut Hit<L>) {
-        put(lanes, hit.slot, hit.p, place.primitive.as_real_bits(), &mut self.found);
-        put(lanes, hit.slot, hit.n, place.element.as_real_bits(), &mut self.found_normals);
-        hit.slot = lanes.pick(hit.slot + SLOTS as u32, hit.slot);
-    }
-}
-
-/// Writes rows by slot.
-#[inline(always)]
-fn put<L: Lanes>(lanes: M<L>, slot: U<L>, V { x, y, z }: V<L>, w: F<L>, rows: &mut [[f32; 4]]) {
-    let slot = slot.to_array();
-    let [x, y, z, w] = [x, y, z, w].map(F::to_array);
-    let mut rest = lanes.bits();
-    while rest != 0 {
-        let lane = rest.trailing_zeros() as usize % MAX_LANES;
-        rest &= rest - 1;
-        rows[slot[lane] as usize] = [x[lane], y[lane], z[lane], w[lane]];
-    }
-}
 
 /// The first surface of a path.
 #[derive(Clone, Copy)]

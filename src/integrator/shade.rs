@@ -3,7 +3,8 @@
 use fearless_simd_macros::simd;
 
 use super::{
-    batch::{Batch, DELTA, Gloss, Inside, Past, TRANSMITS},
+    batch::Batch,
+    records::{DELTA, Gloss, Inside, Past, TRANSMITS},
     shading::{LightEstimate, Reflected, Shading, shares_first},
     work::Work,
 };

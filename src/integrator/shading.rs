@@ -1,9 +1,9 @@
 //! The computations of shading: a light sample, the next direction, and Russian roulette. [`super::shade`] queues the results;
 //! [`super::replay`] records the terms.
 use super::{
-    batch::{Detail, Hit, Path, Shadow},
     media::beyond,
     queue::Queue,
+    records::{Detail, Hit, Path, Shadow},
     roulette::{Survival, survive},
     weight::power_heuristic,
     work::Work,

@@ -5,8 +5,9 @@
 use fearless_simd_macros::simd;
 
 use super::{
-    batch::{Batch, Inside, Shadow, add},
+    batch::{Batch, add},
     media::transmittance,
+    records::{Inside, Shadow},
     surface::emission_texture,
     work::Work,
 };

@@ -2,7 +2,8 @@
 use fearless_simd_macros::simd;
 
 use super::{
-    batch::{Batch, Inside, Path},
+    batch::Batch,
+    records::{Inside, Path},
     work::Work,
 };
 use crate::{

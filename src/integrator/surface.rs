@@ -2,9 +2,10 @@
 use fearless_simd_macros::simd;
 
 use super::{
-    batch::{Batch, Detail, Gloss, Hit, Inside, Past, Path, add},
+    batch::{Batch, add},
     media::transmittance,
     queue::Queue,
+    records::{Detail, Gloss, Hit, Inside, Past, Path},
     relief::shading_normal,
     weight::weight_of_met_light,
     work::Work,

@@ -2,15 +2,17 @@
 use fearless_simd_macros::simd;
 
 use super::{
-    batch::{Batch, Path},
+    batch::Batch,
     intersect::intersect,
     queue::Queue,
+    records::Path,
     reuse::share,
     shade::shade,
     shadow::shadow,
+    slots::{BLOCK, BLOCKS, TILE},
     spawn::spawn,
     surface::surfaces,
-    work::{BLOCK, BLOCKS, TILE, Work},
+    work::Work,
 };
 use crate::{
     in_lanes,

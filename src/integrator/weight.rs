@@ -2,7 +2,7 @@
 use fearless_simd_macros::simd;
 
 use super::{
-    batch::{DELTA, Past, TRANSMITS},
+    records::{DELTA, Past, TRANSMITS},
     work::Work,
 };
 use crate::{

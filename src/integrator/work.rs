@@ -1,19 +1,10 @@
 //! The work of a batch: one sample of each pixel of a tile, or of some blocks of pixels.
-use super::reuse;
+use super::slots::{BLOCK, BLOCKS, SLOTS, TILE, place_in_groups};
 use crate::{
     math::{F, Lanes, M, U},
     sampling::{Dimension, Stream},
     scene::{CameraRays, Estimator, RenderSettings, Scene},
 };
-
-/// Maximum width and height of a tile in pixels.
-pub const TILE: u32 = 32;
-/// A batch has a slot for every pixel of a tile.
-pub(super) const SLOTS: usize = (TILE * TILE) as usize;
-/// Maximum width and height of a block in pixels.
-pub const BLOCK: u32 = 8;
-/// Number of blocks in a tile, which is also the capacity of a batch.
-pub const BLOCKS: usize = SLOTS / (BLOCK * BLOCK) as usize;
 
 /// The work of a batch: sample index `sample` of the pixels of one tile, or a sample of the pixels of some blocks.
 #[derive(Clone, Copy)]
@@ -131,7 +122,7 @@ impl<'a> Work<'a> {
     pub(super) fn place<L: Lanes>(&self, slot: U<L>) -> (U<L>, U<L>) {
         let slot = slot & (SLOTS as u32 - 1);
         if self.shares() {
-            return reuse::place(slot, self.sample);
+            return place_in_groups(slot, self.sample);
         }
         (slot & (TILE - 1), slot >> TILE.trailing_zeros())
     }

@@ -3,14 +3,16 @@ use super::terms::{MetLight, Outcome, Reflection, SampledLight, Surface, Vertex}
 use crate::{
     geometry::{MISS, Place},
     integrator::{
-        batch::{Batch, Detail, Hit, Inside, Path, Shadow},
+        batch::Batch,
         media::transmittance,
         queue::Queue,
+        records::{Detail, Hit, Inside, Path, Shadow},
         shading::{LightEstimate, Reflected, Shading, shares_first},
         shadow::arriving,
+        slots::SLOTS,
         surface::{Met, emitted, meet, weight},
         trace::Observer,
-        work::{SLOTS, Work},
+        work::Work,
     },
     material::{Bsdf, Lobes, Shade, Stage, in_stage},
     math::{F, Lanes, M, One, U, V},

@@ -16,8 +16,9 @@ pub use self::{
 };
 use super::{
     batch::Batch,
+    slots::{SLOTS, TILE},
     trace::trace_in,
-    work::{SLOTS, TILE, Work},
+    work::Work,
 };
 use crate::{
     math::{One, U},

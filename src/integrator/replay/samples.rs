@@ -5,8 +5,9 @@ use super::{radiance_at, work_of};
 use crate::{
     integrator::{
         batch::Batch,
+        slots::{BLOCK, BLOCKS},
         trace::trace,
-        work::{BLOCK, BLOCKS, Blocks, Work},
+        work::{Blocks, Work},
     },
     math::SimdLevel,
     scene::{CameraRays, RenderSettings, Scene},
