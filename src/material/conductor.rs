@@ -9,7 +9,7 @@ use std::f32::consts::FRAC_1_PI;
 use super::{
     Bsdf, BsdfSample, ChosenLobe, Compile, CompiledMaterial, Lobes, Local, MaterialCompiler, Materials, Roughness, Shade, Stage,
     albedo::Albedo,
-    fresnel::{ConductorFresnel, ConductorRow, Reflectance},
+    conductor_fresnel::{ConductorFresnel, ConductorRow, Reflectance},
     ggx, grazing,
 };
 use crate::{

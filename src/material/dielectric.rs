@@ -2,7 +2,7 @@
 pub use super::rough_dielectric::RoughDielectric;
 use super::{
     Bsdf, BsdfSample, ChosenLobe, Compile, CompiledMaterial, Lobes, Local, MaterialCompiler, Materials, Roughness, Shade, Stage,
-    conductor::ENERGY_COMPENSATION, fresnel, ggx, rough_dielectric::FAINT,
+    conductor::ENERGY_COMPENSATION, fresnel, ggx,
 };
 use crate::{
     declare::{Declare, Kind, Parameter, Parameters, Problem, Range},
@@ -89,6 +89,11 @@ impl Compile for Dielectric {
         Ok(CompiledMaterial { alpha, inside, rows: row.pack(), ..CompiledMaterial::colourless(stage) })
     }
 }
+
+/// Interfaces whose indices differ by less are treated as smooth. Even at the roughest facet they refract light by a smaller
+/// angle than this, too small for a half vector in f32, and the facets would be visible only through their masking, which is an
+/// artefact there.
+pub(super) const FAINT: f32 = 1e-3;
 
 /// The constants of an interface.
 pub(super) struct DielectricRow {

@@ -1,7 +1,7 @@
 //! The smooth mirror: a delta lobe times a metal's Fresnel reflectance.
 use super::{
     Bsdf, BsdfSample, ChosenLobe, Compile, CompiledMaterial, Lobes, Local, MaterialCompiler, Materials, Shade, Stage,
-    fresnel::ConductorFresnel,
+    conductor_fresnel::ConductorFresnel,
 };
 use crate::{
     declare::{Declare, Kind, Parameter, Parameters, Problem, Range, Textured},

@@ -10,6 +10,7 @@ mod albedo_table;
 mod bsdf;
 mod compiled;
 pub mod conductor;
+mod conductor_fresnel;
 pub mod dielectric;
 mod dielectric_albedo;
 pub mod fresnel;
@@ -32,8 +33,8 @@ pub use self::{
     bsdf::{Bsdf, BsdfSample, ChosenLobe, Lobes},
     compiled::{AlphaSource, CompiledMaterial, MaterialCompiler},
     conductor::Conductor,
+    conductor_fresnel::Reflectance,
     dielectric::{Dielectric, DielectricBsdf},
-    fresnel::Reflectance,
     lambertian::{Lambertian, LambertianBsdf},
     materials::{Local, Materials},
     mirror::Mirror,

@@ -4,7 +4,7 @@
 //! sampled by visible normals, and with energy compensation ([`super::missing_energy`]).
 use super::{
     Bsdf, BsdfSample, ChosenLobe, Lobes, Local, Materials, Shade, Stage,
-    dielectric::{DielectricBsdf, DielectricRow, uncompressed},
+    dielectric::{DielectricBsdf, DielectricRow, FAINT, uncompressed},
     fresnel, ggx,
     missing_energy::{LossTable, MissingEnergy},
 };
@@ -31,11 +31,6 @@ impl Shade for RoughDielectric {
         uncompressed(bsdf.eta(), front, z)
     }
 }
-
-/// Interfaces whose indices differ by less are treated as smooth. Even at the roughest facet they refract light by a smaller
-/// angle than this, too small for a half vector in f32, and the facets would be visible only through their masking, which is an
-/// artefact there.
-pub const FAINT: f32 = 1e-3;
 
 /// The rough interface between two transparent media; radiance that passes is scaled by 1/η² as in [`DielectricBsdf`].
 pub struct RoughDielectricBsdf<'a, L: Lanes> {

@@ -1,7 +1,7 @@
 //! Fresnel's equations in f32 against f64 and known values.
 use super::{super::fresnel, cases::gold};
 use crate::{
-    material::{Conductor, Materials, Reflectance, fresnel::ConductorFresnel},
+    material::{Conductor, Materials, Reflectance, conductor_fresnel::ConductorFresnel},
     math::{F, One, U, V},
 };
 
