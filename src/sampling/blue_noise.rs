@@ -8,8 +8,9 @@
 //! blue noise fades as samples are added. Beyond the third surface, paths differ too much for blue noise.
 use super::{
     bits::{reverse, spread_bits},
+    dimension::Dimension,
     hash::{hash_one, unit},
-    sampler::{Dimension, Points, Stream},
+    points::{Points, SampleKeys},
     sobol,
 };
 use crate::{
@@ -27,30 +28,30 @@ impl Points for BlueNoise {
     };
 
     #[inline(always)]
-    fn one<L: Lanes>(stream: &Stream<L>, dimension: Dimension) -> F<L> {
-        let point = sobol::one_reversed(stream, dimension.0);
+    fn one<L: Lanes>(keys: &SampleKeys<L>, dimension: Dimension) -> F<L> {
+        let point = sobol::one_reversed(keys, dimension.0);
         if !dimension.is_near() {
             return unit(reverse(point));
         }
-        let first = sobol::one_reversed(&stream.first(), dimension.0);
-        unit(reverse(point ^ first ^ on_curve(stream, dimension.0)[0]))
+        let first = sobol::one_reversed(&keys.first(), dimension.0);
+        unit(reverse(point ^ first ^ on_curve(keys, dimension.0)[0]))
     }
 
     #[inline(always)]
-    fn two<L: Lanes>(stream: &Stream<L>, dimension: Dimension) -> (F<L>, F<L>) {
-        let [x, y] = sobol::two_reversed(stream, dimension.0);
+    fn two<L: Lanes>(keys: &SampleKeys<L>, dimension: Dimension) -> (F<L>, F<L>) {
+        let [x, y] = sobol::two_reversed(keys, dimension.0);
         if !dimension.is_near() {
             return (unit(reverse(x)), unit(reverse(y)));
         }
-        let [first_x, first_y] = sobol::two_reversed(&stream.first(), dimension.0);
-        let [curve_x, curve_y] = on_curve(stream, dimension.0);
+        let [first_x, first_y] = sobol::two_reversed(&keys.first(), dimension.0);
+        let [curve_x, curve_y] = on_curve(keys, dimension.0);
         (unit(reverse(x ^ first_x ^ curve_x)), unit(reverse(y ^ first_y ^ curve_y)))
     }
 }
 
 /// The points of the shared sequence at the pixels' positions on the Z-curve, with reversed bits.
 #[inline(always)]
-fn on_curve<L: Lanes>(stream: &Stream<L>, dimension: u32) -> [U<L>; 2] {
-    let place = spread_bits(stream.pixel & 0xffff) | (spread_bits(stream.pixel >> 16) << 1);
-    sobol::scrambled(reverse(place), stream.splat(hash_one(stream.salt ^ hash_one(dimension))))
+fn on_curve<L: Lanes>(keys: &SampleKeys<L>, dimension: u32) -> [U<L>; 2] {
+    let place = spread_bits(keys.pixel & 0xffff) | (spread_bits(keys.pixel >> 16) << 1);
+    sobol::scrambled(reverse(place), keys.splat(hash_one(keys.salt ^ hash_one(dimension))))
 }

@@ -1,7 +1,8 @@
 //! Independent uniform random numbers: plain Monte Carlo integration, whose variance is known exactly.
 use super::{
+    dimension::Dimension,
     hash::{GOLDEN, hash, unit},
-    sampler::{Dimension, Points, Stream},
+    points::{Points, SampleKeys},
 };
 use crate::{
     declare::Word,
@@ -18,13 +19,13 @@ impl Points for Independent {
     };
 
     #[inline(always)]
-    fn one<L: Lanes>(stream: &Stream<L>, Dimension(dimension): Dimension) -> F<L> {
-        unit(hash(stream.sample_key() + dimension.wrapping_mul(GOLDEN)))
+    fn one<L: Lanes>(keys: &SampleKeys<L>, Dimension(dimension): Dimension) -> F<L> {
+        unit(hash(keys.sample_key() + dimension.wrapping_mul(GOLDEN)))
     }
 
     #[inline(always)]
-    fn two<L: Lanes>(stream: &Stream<L>, Dimension(dimension): Dimension) -> (F<L>, F<L>) {
-        let key = stream.sample_key();
+    fn two<L: Lanes>(keys: &SampleKeys<L>, Dimension(dimension): Dimension) -> (F<L>, F<L>) {
+        let key = keys.sample_key();
         let draw = |d: u32| key + d.wrapping_mul(GOLDEN);
         (unit(hash(draw(dimension))), unit(hash(draw(dimension + 1))))
     }

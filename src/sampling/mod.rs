@@ -2,9 +2,11 @@
 pub mod alias;
 mod bits;
 mod blue_noise;
+mod dimension;
 mod filter;
 pub mod hash;
 mod independent;
+mod points;
 #[cfg(test)]
 pub(crate) mod readings;
 mod sampler;
@@ -16,7 +18,8 @@ pub mod warp;
 
 pub use self::{
     alias::AliasTable,
+    dimension::Dimension,
     filter::Filter,
-    sampler::{Dimension, Sampler, Stream},
+    sampler::{Sampler, Stream},
     warp::Directions,
 };

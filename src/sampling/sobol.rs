@@ -4,8 +4,9 @@
 //! B. Burley, "Practical Hash-based Owen Scrambling", JCGT 9(4), 2020: padding by shuffled index, scrambling by hash.
 use super::{
     bits::{owen_reversed, reverse, sobol_reversed},
+    dimension::Dimension,
     hash::{hash, unit},
-    sampler::{Dimension, Points, Stream},
+    points::{Points, SampleKeys},
 };
 use crate::{
     declare::Word,
@@ -23,30 +24,30 @@ impl Points for Sobol {
 
     /// Of every 2ᵏ consecutive samples, one lies in each of 2ᵏ equal intervals.
     #[inline(always)]
-    fn one<L: Lanes>(stream: &Stream<L>, Dimension(dimension): Dimension) -> F<L> {
-        unit(reverse(one_reversed(stream, dimension)))
+    fn one<L: Lanes>(keys: &SampleKeys<L>, Dimension(dimension): Dimension) -> F<L> {
+        unit(reverse(one_reversed(keys, dimension)))
     }
 
     /// Of every 2ᵏ consecutive samples, one lies in each of the 2ᵏ equal rectangles of any grid of 2ⁱ × 2ᵏ⁻ⁱ.
     #[inline(always)]
-    fn two<L: Lanes>(stream: &Stream<L>, Dimension(dimension): Dimension) -> (F<L>, F<L>) {
-        let [x, y] = two_reversed(stream, dimension);
+    fn two<L: Lanes>(keys: &SampleKeys<L>, Dimension(dimension): Dimension) -> (F<L>, F<L>) {
+        let [x, y] = two_reversed(keys, dimension);
         (unit(reverse(x)), unit(reverse(y)))
     }
 }
 
 /// [`Sobol::one`] as a 32-bit fraction with its bits in reverse order.
 #[inline(always)]
-pub(super) fn one_reversed<L: Lanes>(stream: &Stream<L>, dimension: u32) -> U<L> {
-    let key = stream.dimension_key(dimension);
-    let shuffled = reverse(owen_reversed(stream.reversed_index(), key));
+pub(super) fn one_reversed<L: Lanes>(keys: &SampleKeys<L>, dimension: u32) -> U<L> {
+    let key = keys.dimension_key(dimension);
+    let shuffled = reverse(owen_reversed(keys.reversed_index(), key));
     owen_reversed(shuffled, hash(key ^ 0xa511_e9b3))
 }
 
 /// [`Sobol::two`] as 32-bit fractions with their bits in reverse order.
 #[inline(always)]
-pub(super) fn two_reversed<L: Lanes>(stream: &Stream<L>, dimension: u32) -> [U<L>; 2] {
-    scrambled(stream.reversed_index(), stream.dimension_key(dimension))
+pub(super) fn two_reversed<L: Lanes>(keys: &SampleKeys<L>, dimension: u32) -> [U<L>; 2] {
+    scrambled(keys.reversed_index(), keys.dimension_key(dimension))
 }
 
 /// Sobol points, shuffled and scrambled by a key. The bits of both the indices and the points are reversed.

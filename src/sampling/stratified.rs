@@ -5,8 +5,9 @@
 //! order.
 use super::{
     bits::{even_bits, owen_reversed, reverse},
+    dimension::Dimension,
     hash::{hash, unit},
-    sampler::{Dimension, Points, Stream},
+    points::{Points, SampleKeys},
     sobol::Sobol,
 };
 use crate::{
@@ -25,17 +26,17 @@ impl Points for Stratified {
 
     // In one dimension the (0, 1)-sequence is the progressive stratification.
     #[inline(always)]
-    fn one<L: Lanes>(stream: &Stream<L>, dimension: Dimension) -> F<L> {
-        Sobol::one(stream, dimension)
+    fn one<L: Lanes>(keys: &SampleKeys<L>, dimension: Dimension) -> F<L> {
+        Sobol::one(keys, dimension)
     }
 
     #[inline(always)]
-    fn two<L: Lanes>(stream: &Stream<L>, Dimension(dimension): Dimension) -> (F<L>, F<L>) {
-        let key = stream.dimension_key(dimension);
-        let shuffled = reverse(owen_reversed(stream.reversed_index(), key));
+    fn two<L: Lanes>(keys: &SampleKeys<L>, Dimension(dimension): Dimension) -> (F<L>, F<L>) {
+        let key = keys.dimension_key(dimension);
+        let shuffled = reverse(owen_reversed(keys.reversed_index(), key));
         let morton = reverse(owen_reversed(shuffled, hash(key ^ 0xa511_e9b3)));
         // Sixteen bits of a coordinate say the cell; below them the place within it is random.
-        let jitter = hash(stream.sample_key() ^ key);
+        let jitter = hash(keys.sample_key() ^ key);
         let x = (even_bits(morton >> 1) << 16) | (jitter & 0xffff);
         let y = (even_bits(morton) << 16) | (jitter >> 16);
         (unit(x), unit(y))

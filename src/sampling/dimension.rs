@@ -1,0 +1,50 @@
+//! The coordinates of a path: which decision reads which.
+
+/// The coordinate of the unit cube that a decision reads.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Dimension(pub u32);
+
+impl Dimension {
+    /// The point within the pixel (two coordinates).
+    pub const PIXEL: Dimension = Dimension(0);
+    /// The point on the lens (two).
+    pub const LENS: Dimension = Dimension(2);
+    /// The time between the opening and the closing of the shutter (one).
+    pub const TIME: Dimension = Dimension(4);
+    const PER_BOUNCE: u32 = 16;
+
+    /// Whether the coordinate belongs to the camera or one of the first three surfaces.
+    pub(super) fn is_near(self) -> bool {
+        self.0 < 4 * Self::PER_BOUNCE
+    }
+
+    /// The direction of the path after its `bounce`-th surface, counted from 1 (two).
+    pub fn direction(bounce: u32) -> Dimension {
+        Dimension(Self::PER_BOUNCE * bounce)
+    }
+
+    /// Whether the path survives after its `bounce`-th surface (one).
+    pub fn roulette(bounce: u32) -> Dimension {
+        Dimension(Self::PER_BOUNCE * bounce + 2)
+    }
+
+    /// The lobe of the BSDF that the direction is sampled from (one).
+    pub fn lobe(bounce: u32) -> Dimension {
+        Dimension(Self::PER_BOUNCE * bounce + 3)
+    }
+
+    /// The choice of the light at the `bounce`-th surface (one).
+    pub fn light_choice(bounce: u32) -> Dimension {
+        Dimension(Self::PER_BOUNCE * bounce + 4)
+    }
+
+    /// The direction to the light (two).
+    pub fn light(bounce: u32) -> Dimension {
+        Dimension(Self::PER_BOUNCE * bounce + 6)
+    }
+
+    /// The cell of an image background (two).
+    pub fn cell(bounce: u32) -> Dimension {
+        Dimension(Self::PER_BOUNCE * bounce + 8)
+    }
+}
