@@ -6,13 +6,14 @@ use glam::DVec3;
 
 use super::{
     background::Background,
+    coordinates::LightCoordinates,
     emission::{Emission, Emitters},
-    lobe::Lobe,
+    reference_point::Receiver,
     selection::Selection,
 };
 use crate::{
     geometry::{MISS, Motion, Place, Shape, Shapes},
-    math::{F, Lanes, M, Pick, U, V},
+    math::{F, Lanes, Pick, U, V},
 };
 
 /// All lights of a scene: the emitting primitives 0, 1, 2, …, every triangle of emitting meshes, and the background.
@@ -28,28 +29,6 @@ pub struct Lights {
     places: Vec<[f32; 4]>,
     /// The first light of every emitting primitive; empty under the same condition.
     firsts: Vec<[f32; 4]>,
-}
-
-/// A point for which lights are sampled.
-#[derive(Clone, Copy)]
-pub struct Receiver<L: Lanes> {
-    pub p: V<L>,
-    /// Unit normal on the side of the viewer.
-    pub n: V<L>,
-    /// Lanes whose surface receives light from both sides.
-    pub transmits: M<L>,
-    /// The glossy lobe at the point; `None` if surfaces are diffuse or the selection does not use lobes.
-    pub lobe: Option<Lobe<L>>,
-}
-
-/// The random numbers of a light sample.
-pub struct LightCoordinates<L: Lanes> {
-    /// Selects the light; read if there are several.
-    pub choice: F<L>,
-    /// Selects the cell of a background image; read if there is one.
-    pub cell: (F<L>, F<L>),
-    /// Selects the point on the light.
-    pub place: (F<L>, F<L>),
 }
 
 /// A direction towards a light.

@@ -10,9 +10,11 @@
 pub mod background;
 mod bound;
 mod choice;
+mod coordinates;
 pub mod emission;
 pub mod image_background;
 mod lobe;
+mod reference_point;
 mod selection;
 mod source;
 #[cfg(test)]
@@ -21,8 +23,10 @@ mod tree;
 
 pub use self::{
     background::Background,
-    choice::{LightCoordinates, LightSample, Lights, Receiver},
+    choice::{LightSample, Lights},
+    coordinates::LightCoordinates,
     emission::{Emission, Emitters, Side},
     image_background::ImageBackground,
     lobe::Lobe,
+    reference_point::Receiver,
 };

@@ -1,0 +1,12 @@
+//! The random numbers of a light sample.
+use crate::math::{F, Lanes};
+
+/// The random numbers of a light sample.
+pub struct LightCoordinates<L: Lanes> {
+    /// Selects the light; read if there are several.
+    pub choice: F<L>,
+    /// Selects the cell of a background image; read if there is one.
+    pub cell: (F<L>, F<L>),
+    /// Selects the point on the light.
+    pub place: (F<L>, F<L>),
+}

@@ -1,0 +1,15 @@
+//! A point that is lit.
+use super::lobe::Lobe;
+use crate::math::{Lanes, M, V};
+
+/// A point for which lights are sampled.
+#[derive(Clone, Copy)]
+pub struct Receiver<L: Lanes> {
+    pub p: V<L>,
+    /// Unit normal on the side of the viewer.
+    pub n: V<L>,
+    /// Lanes whose surface receives light from both sides.
+    pub transmits: M<L>,
+    /// The glossy lobe at the point; `None` if surfaces are diffuse or the selection does not use lobes.
+    pub lobe: Option<Lobe<L>>,
+}
