@@ -3,7 +3,7 @@ use std::path::Path;
 
 use serde::Deserialize;
 
-use super::{Camera, RenderSettings, Roulette, Scene, diagnostic::SceneError, load::parse};
+use super::{Camera, RenderSettings, Roulette, Scene, diagnostic::SceneError, parse::parse};
 use crate::{
     file::open_regular,
     image::{carried_text, looks_like},

@@ -11,6 +11,9 @@ mod infinite_variance;
 mod legend;
 mod load;
 mod locate;
+mod material_instance;
+mod object;
+mod parse;
 mod rays;
 mod read;
 mod settings;
@@ -33,18 +36,20 @@ pub use self::settings::Fault;
 use self::surface::Surfaces;
 pub use self::{
     camera::{Camera, CameraError, Lens},
-    compile::MaterialInstance,
     diagnostic::SceneError,
     legend::Legend,
-    load::{BUILT_IN, built_in, describe, load, parse},
+    load::load,
+    material_instance::MaterialInstance,
+    object::Object,
+    parse::{BUILT_IN, built_in, describe, parse},
     rays::CameraRays,
     settings::{Estimator, RenderSettings, Reuse, Roulette},
     shutter::{Moments, Shutter},
 };
 use crate::{
-    geometry::{Motion, Shape, Shapes},
+    geometry::{Motion, Shapes},
     image::Picture,
-    light::{Emission, Lights},
+    light::Lights,
     material::Stage,
     memory::Reservation,
     sampling::Directions,
@@ -90,19 +95,6 @@ pub struct Scene {
     pub warned: OnceLock<Vec<String>>,
     /// Given back with the scene.
     pub memory: Reservation,
-}
-
-/// One object as the file describes it.
-#[derive(Clone, Debug)]
-pub struct Object {
-    pub name: String,
-    pub shape: Shape,
-    pub motion: Motion,
-    /// The normal points inwards.
-    pub flip: bool,
-    /// The number of its material in [`Scene::materials`]; `None` is black.
-    pub material: Option<u32>,
-    pub emission: Option<Emission>,
 }
 
 /// What the picture must converge to.

@@ -1,29 +1,18 @@
 //! Materials of a description.
 use std::collections::BTreeMap;
 
-use super::problems::{Numbers, Problems};
+use super::problems::Problems;
 use crate::{
     declare::{Path, Problem},
     image::{Encoding, read_light},
-    material::{CompiledMaterial, Material, Materials},
+    material::Materials,
     quote,
-    scene::description::MaterialDescription,
+    scene::{MaterialInstance, description::MaterialDescription},
     texture::{ImageTexture, Texture, TextureCompiler},
 };
 
-/// A material and what varies about it over the surface.
-#[derive(Clone, Debug, PartialEq)]
-pub struct MaterialInstance {
-    pub name: String,
-    pub material: Material,
-    pub compiled: CompiledMaterial,
-    /// Texture of heights and its scale, metres.
-    pub bump: Option<(u32, f32)>,
-    /// Texture of normals.
-    pub normal_map: Option<u32>,
-    /// Black from behind.
-    pub one_sided: bool,
-}
+/// The numbers of materials by their names; `None` for those that are wrong.
+pub type Numbers = BTreeMap<String, Option<u32>>;
 
 /// All materials that can be used, and their numbers by name.
 pub fn materials(

@@ -11,10 +11,9 @@ use std::{
     sync::{Arc, OnceLock},
 };
 
-pub use self::material::MaterialInstance;
 use self::{camera::camera, light::background, material::materials, object::objects, problems::Problems};
 use super::{
-    Camera, Object, RenderSettings, Scene, Truth,
+    Camera, MaterialInstance, Object, RenderSettings, Scene, Truth,
     damage::Damage,
     description::{RenderDescription, SceneDescription, TruthDescription},
     surface::Surfaces,

@@ -1,8 +1,5 @@
 //! Objects of a description.
-use super::{
-    light::emission,
-    problems::{Numbers, Problems},
-};
+use super::{light::emission, material::Numbers, problems::Problems};
 use crate::{
     declare::{Family, Path, Problem, Resources, short},
     geometry::{Motion, Shape},

@@ -1,13 +1,8 @@
-//! What is wrong with a description, collected over its tables.
-use std::collections::BTreeMap;
-
+//! Collects the problems of a description.
 use crate::{
     declare::{Path, Problem},
     scene::{damage::Damage, diagnostic::SceneError},
 };
-
-/// The numbers of materials by their names; `None` for those that are wrong.
-pub type Numbers = BTreeMap<String, Option<u32>>;
 
 /// Collects what is wrong: a problem in one table does not keep the others from being looked at.
 pub struct Problems<'d> {
@@ -15,21 +10,19 @@ pub struct Problems<'d> {
     pub found: Vec<Problem>,
 }
 
-impl<'d> Problems<'d> {
-    pub fn new(damage: &'d Damage) -> Problems<'d> {
-        Problems { damage, found: Vec::new() }
-    }
-
+impl Problems<'_> {
     /// More are not looked for.
     const MOST: usize = SceneError::MOST;
 
-    /// The value, or `None` where its problem is kept. A table that something was left out of is not compiled: what is wrong with it has
-    /// been said, and its values may be out of all ranges.
-    pub fn keep<T>(&mut self, table: &Path, compile: impl FnOnce() -> Result<T, Problem>) -> Option<T> {
-        if self.damage.reaches(table) {
-            return None;
-        }
-        compile().map_err(|problem| self.found.push(problem.within(table))).ok()
+    /// The value, or `None` where its problem is kept. What is wrong with a table that something was left out of is no news.
+    pub fn keep<T>(&mut self, table: &Path, result: Result<T, Problem>) -> Option<T> {
+        result
+            .map_err(|problem| {
+                if !self.damage.reaches(table) {
+                    self.found.push(problem.within(table));
+                }
+            })
+            .ok()
     }
 
     pub fn are_many(&self) -> bool {
