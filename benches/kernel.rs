@@ -4,7 +4,7 @@ use noisefall::{
     math::SimdLevel,
     render::{
         film::Film,
-        pass::{PassJob, Threads},
+        threads::{PassJob, Threads},
     },
     scene::{Estimator, RenderSettings, Reuse, Roulette, built_in},
 };

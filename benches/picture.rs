@@ -11,7 +11,7 @@ use noisefall::{
     render::{
         Display, Frame, Job, Publish, Renderer, ToneMap,
         film::Film,
-        pass::{PassJob, Threads},
+        threads::{PassJob, Threads},
         tone::to_srgb,
     },
     scene::{Camera, RenderSettings, Scene, built_in, load, parse},

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use egui::{Key, vec2};
 use egui_kittest::{Harness, kittest::Queryable};
-use noisefall::{math::SimdLevel, render::pass::Threads};
+use noisefall::{math::SimdLevel, render::threads::Threads};
 
 #[path = "../src/viewer/mod.rs"]
 #[allow(dead_code, unused_imports, reason = "the program uses the rest")]

@@ -14,7 +14,7 @@ use noisefall::{
     render::{
         Beside, Budget, Frame, Job, Publish, Renderer, State, Target,
         film::Film,
-        pass::{PassJob, Threads},
+        threads::{PassJob, Threads},
     },
     scene::{Camera, built_in, load},
 };

@@ -3,7 +3,7 @@ use std::path::PathBuf;
 
 use noisefall::{
     math::SimdLevel,
-    render::{pass::Threads, truth},
+    render::{threads::Threads, truth},
     scene::load,
 };
 

@@ -5,7 +5,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use noisefall::{
     file::replace,
     math::SimdLevel,
-    render::pass::Threads,
+    render::threads::Threads,
     study::{CSV, EvidencePlan, Machine, Store, StudyError, Subject, collect, reserve_chapter},
 };
 

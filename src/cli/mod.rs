@@ -31,7 +31,8 @@ use noisefall::{
     scene::{description::SceneDescription, load},
 };
 
-use messages::{Failure, print, tell, wrong_usage};
+pub use self::messages::Failure;
+use self::messages::{print, tell, wrong_usage};
 
 /// Solves the light transport equation while you watch.
 ///

@@ -3,7 +3,7 @@ use std::{sync::atomic::Ordering, time::Duration};
 
 use crossbeam_channel::RecvTimeoutError;
 use indicatif::{ProgressBar, ProgressStyle};
-use noisefall::render::{Budget, Job, Publish, Published, Renderer, State, Status, pass::Threads};
+use noisefall::render::{Budget, Job, Publish, Published, Renderer, State, Status, threads::Threads};
 
 use super::{messages::Failure, stop::stop_signal, summary::noise_text};
 

@@ -6,7 +6,7 @@ use noisefall::{
     file::{check, replace},
     math::SimdLevel,
     memory::reserve,
-    render::{film::Film, image_file::Format, pass::Threads, tone::to_srgb},
+    render::{film::Film, image_file::Format, threads::Threads, tone::to_srgb},
     report::sheet::{self, Cell},
     scene::{Camera, RenderSettings, load},
     study::{Bench, Lists, StudyError, differing_labels, study_size},

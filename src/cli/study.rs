@@ -10,7 +10,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use noisefall::{
     math::SimdLevel,
     measure::Floor,
-    render::pass::Threads,
+    render::threads::Threads,
     sampling::{Directions, Sampler},
     scene::{Estimator, Roulette},
     study::{

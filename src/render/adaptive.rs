@@ -8,7 +8,7 @@ use rayon::prelude::*;
 
 use super::{
     film::Film,
-    pass::{PassJob, Threads},
+    threads::{PassJob, Threads},
     tile::Tile,
 };
 use crate::{
@@ -18,8 +18,6 @@ use crate::{
     scene::RenderSettings,
 };
 
-/// Minimum number of samples of every pixel.
-pub(super) const UNIFORM: u32 = 4;
 /// Exponents of the minimum and maximum rate, to base two.
 const RATES: [i32; 2] = [-2, 4];
 /// Width and height of the squares from which the pilot estimates noise; four make up a block.

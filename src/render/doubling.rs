@@ -9,18 +9,9 @@ use rayon::prelude::*;
 use super::{
     film::Film,
     region::Region,
-    tile::{Block, Estimate, Tile},
+    tile::{Block, Tile},
 };
-use crate::measure::{Floor, relative};
-
-/// Sums over the pixels and channels of a block, each divided by the squared radiance with the floor of relMSE.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Doubling {
-    /// Sum of the squared difference of the means of N and of N/2 samples.
-    moved: f64,
-    /// Sum of the variance of the mean of N samples, from the sample variance.
-    variance: f64,
-}
+use crate::measure::Floor;
 
 /// Lower bound of the remaining error, as a fraction of the last move.
 const LEAST: f64 = 0.15;
@@ -28,37 +19,6 @@ const LEAST: f64 = 0.15;
 /// The weight of the law of factors in the mean of both laws. A fit to every other shipped scene gives 0.68, and the error of the
 /// estimate in the others is then 11 % (root mean square), as with the best weight for these, 0.84: the choice hardly matters.
 const FACTORS: f64 = 0.65;
-
-impl Doubling {
-    /// `estimates` are those of the pixels of a block, and `before` their means at half as many samples. `floor` is the constant
-    /// that relMSE adds to the squared radiance.
-    pub fn new(estimates: &[Estimate], before: &[[f32; 3]], floor: f64) -> Doubling {
-        let mut doubling = Doubling::default();
-        (0..3).for_each(|channel| doubling.add(channel, estimates, before, floor));
-        doubling
-    }
-
-    /// Adds one channel. Radiance is smoothed over the block if noise hides it.
-    fn add(&mut self, channel: usize, estimates: &[Estimate], before: &[[f32; 3]], floor: f64) {
-        let mean = |estimate: &Estimate| estimate.mean[channel];
-        let variance = |estimate: &Estimate| estimate.variance_of_mean.map_or(0.0, |variance| variance[channel]);
-        let count = estimates.len() as f64;
-        let level = estimates.iter().map(mean).sum::<f64>() / count;
-        let noise = estimates.iter().map(variance).sum::<f64>() / count;
-        let spread = estimates.iter().map(|estimate| (mean(estimate) - level).powi(2)).sum::<f64>() / count;
-        // How much the radiance itself varies over the block.
-        let signal = (spread - noise).max(0.0);
-        for (estimate, before) in estimates.iter().zip(before) {
-            // A pixel far brighter than its neighbours by one lucky sample must not be divided by that sample's square: its
-            // radiance is taken for the likelier one of its own mean and of the block's (W. James and C. Stein 1961).
-            let (mean, variance) = (mean(estimate), variance(estimate));
-            let trust = if variance > 0.0 { signal / (signal + variance) } else { 1.0 };
-            let radiance = level + (mean - level) * trust;
-            self.moved += relative((mean - f64::from(before[channel])).powi(2), radiance, floor);
-            self.variance += relative(variance, radiance, floor);
-        }
-    }
-}
 
 /// Records the moves of blocks whose sample counts have just become a power of two. The floor of relMSE is that of the whole
 /// image, so this waits until all tiles are ready: no block takes another sample before. Returns whether it is complete; after an
@@ -198,13 +158,5 @@ mod tests {
         let factors = 1.2 * (0.25 * 1.6 / 0.85) / (1.0 - 0.25 * 1.6 / 0.85);
         let powers = ((2.0 * 1.2 + 4.0 * 2.0) / 6.0f64).min(1.2);
         assert!((most - powers.powf(0.35) * f64::min(factors, 1.2).powf(0.65)).abs() < 1e-12, "{most}");
-    }
-
-    #[test]
-    fn moves_and_variances_are_relative_to_radiance_smoothed_over_the_block() {
-        let estimate = |red: f64| Estimate { mean: [red, 0.0, 0.0], variance_of_mean: Some([0.5, 0.0, 0.0]) };
-        // Level 2, spread 1, noise ½: half of the difference from the level is believed, which leaves 1.5 and 2.5.
-        let found = Doubling::new(&[estimate(1.0), estimate(3.0)], &[[0.0; 3], [2.5, 0.0, 0.0]], 0.25);
-        assert!((found.moved - (1.0 / 2.5 + 0.25 / 6.5)).abs() < 1e-12 && (found.variance - 0.5 / 2.5 - 0.5 / 6.5).abs() < 1e-12);
     }
 }

@@ -4,12 +4,8 @@ use std::time::Duration;
 use rayon::prelude::*;
 
 use super::{
-    doubling::rel_mse_estimate,
-    film::Film,
-    sample_counts::SampleCounts,
-    scatter::Parts,
-    series::Series,
-    tile::{Estimate, Tile},
+    doubling::rel_mse_estimate, estimate::Estimate, film::Film, sample_counts::SampleCounts, scatter::Parts, series::Series,
+    tile::Tile,
 };
 use crate::{integrator::TILE, math::colour::luminance, measure::SampleNoise};
 

@@ -10,6 +10,7 @@ mod adaptive;
 pub mod colour_map;
 pub mod display;
 mod doubling;
+pub mod estimate;
 pub mod film;
 pub mod frame;
 pub mod image_file;
@@ -29,7 +30,9 @@ pub mod sharing;
 mod target;
 #[cfg(test)]
 mod tests;
+pub mod threads;
 pub mod tile;
+mod tile_series;
 pub mod tone;
 pub mod truth;
 pub mod view;

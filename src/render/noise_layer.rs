@@ -14,8 +14,8 @@ use exr::prelude::{
     attribute::AttributeValue, read,
 };
 
-use super::{frame::Frame, image_file::SETTINGS_KEY};
-use crate::{file::open_regular, measure::SampleNoise};
+use super::frame::Frame;
+use crate::{file::open_regular, image::SETTINGS_KEY, measure::SampleNoise};
 
 const CHANNELS: [&str; 4] = ["variance.R", "variance.G", "variance.B", "variance.block"];
 /// Key of the one attribute with all figures, in its own group of attributes. The order within a group is arbitrary, and the same

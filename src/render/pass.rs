@@ -1,34 +1,21 @@
 //! A pass: brings all tiles of a film to a number of samples, on all threads.
 use std::{
     panic::{AssertUnwindSafe, catch_unwind},
-    sync::{Mutex, PoisonError},
+    sync::PoisonError,
 };
 
-use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder, prelude::*};
+use rayon::prelude::*;
 
-use super::{adaptive, doubling, film::Film, tile::Tile};
+use super::{
+    adaptive, doubling,
+    film::Film,
+    threads::{PassJob, Threads},
+    tile::{Tile, UNIFORM},
+};
 use crate::{
-    integrator::{Batch, Interrupted, Segments, Terms, Work, replay, trace, trace_counting, trace_series},
-    math::SimdLevel,
-    scene::{CameraRays, RenderSettings, Reuse, Scene},
+    integrator::{Interrupted, Work, replay, trace, trace_series},
+    scene::{RenderSettings, Reuse},
 };
-
-/// The render threads, each with its queues.
-pub struct Threads {
-    pool: ThreadPool,
-    batches: Vec<Mutex<Batch>>,
-    /// Buffers for films with a series.
-    terms: Vec<Mutex<Terms>>,
-    level: SimdLevel,
-}
-
-/// The input of a pass.
-#[derive(Clone, Copy)]
-pub struct PassJob<'a> {
-    pub scene: &'a Scene,
-    pub rays: &'a CameraRays,
-    pub settings: &'a RenderSettings,
-}
 
 /// Figures of a pass.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -63,38 +50,10 @@ pub struct Failure {
 }
 
 impl Threads {
-    /// `count` 0 means as many as there are cores.
-    pub fn new(count: usize, level: SimdLevel) -> Result<Threads, ThreadPoolBuildError> {
-        let pool = ThreadPoolBuilder::new().num_threads(count).thread_name(|i| format!("render {i}")).build()?;
-        let (batches, terms) = (0..pool.current_num_threads()).map(|_| Default::default()).unzip();
-        Ok(Threads { pool, batches, terms, level })
-    }
-
-    pub fn count(&self) -> usize {
-        self.batches.len()
-    }
-
-    /// Runs something on the threads of the pool.
-    pub fn install<T: Send>(&self, task: impl FnOnce() -> T + Send) -> T {
-        self.pool.install(task)
-    }
-
-    /// Traces a tile on a thread of the pool; `result` gets the radiance of its pixels and the path segments.
-    pub(super) fn trace_counting<T>(
-        &self,
-        work: &Work,
-        interrupted: &dyn Fn() -> bool,
-        result: impl FnOnce(&[[f32; 4]], Segments) -> T,
-    ) -> Result<T, Interrupted> {
-        let thread = rayon::current_thread_index().unwrap_or(0);
-        let mut batch = self.batches[thread].lock().unwrap_or_else(PoisonError::into_inner);
-        trace_counting(self.level, work, &mut batch, interrupted).map(|segments| result(batch.radiance(), segments))
-    }
-
     /// Brings a film to `spp` samples per pixel, or stops between two bounces if `interrupted` returns true. An interrupted tile
     /// continues later as if nothing had happened.
     pub fn pass(&self, job: PassJob, film: &mut Film, spp: u32, interrupted: &(dyn Fn() -> bool + Sync)) -> PassCount {
-        if spp > adaptive::UNIFORM {
+        if spp > UNIFORM {
             // A pilot that fails is given up: the samples of the picture will fail as well, and it is known which.
             let spread = catch_unwind(AssertUnwindSafe(|| adaptive::spread(self, job, film, interrupted)));
             if matches!(spread, Ok(Err(Interrupted))) {

@@ -5,10 +5,11 @@ use super::{
     doubling::rel_mse_estimate_in,
     film::Film,
     frame::Frame,
-    pass::{Failure, PassCount, PassJob, SampleId, Threads},
+    pass::{Failure, PassCount, SampleId},
     protocol::{Budget, Job, Publish, State, Status, is_below},
     region::Region,
     sharing::resolved,
+    threads::{PassJob, Threads},
 };
 use crate::{
     memory::{Reservation, TooMuch},

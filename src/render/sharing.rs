@@ -3,7 +3,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use rayon::prelude::*;
 
-use super::tile::{Estimate, Tile};
+use super::{estimate::Estimate, tile::Tile};
 use crate::{
     integrator::{Batch, TILE, Work, trace},
     math::SimdLevel,

@@ -1,12 +1,14 @@
 //! A tile of the film: sums of samples per pixel, and counts per block of pixels.
 use super::{
-    adaptive::UNIFORM,
-    doubling::Doubling,
+    estimate::{Doubling, Estimate},
     region::Region,
     scatter::{Parts, Scatter},
-    series::TileSeries,
+    tile_series::TileSeries,
 };
 use crate::integrator::{BLOCK, Blocks, TILE};
+
+/// Minimum number of samples of every pixel.
+pub(super) const UNIFORM: u32 = 4;
 
 /// The pixels of one tile, row by row. Sums are f64, so that the millionth sample still counts.
 pub struct Tile {
@@ -43,14 +45,6 @@ pub(super) struct Block {
     pub doublings: [Doubling; 3],
     /// Parts of the variance of its pixels.
     parts: Parts,
-}
-
-/// Mean of a pixel's samples and the variance of that mean, per channel.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Estimate {
-    pub mean: [f64; 3],
-    /// `None` before the second sample.
-    pub variance_of_mean: Option<[f64; 3]>,
 }
 
 impl Block {

@@ -5,7 +5,7 @@ use super::{
     film::Film,
     frame::Frame,
     image_file::{ImageError, Picture, Provenance, provenance, read},
-    pass::{PassJob, Threads},
+    threads::{PassJob, Threads},
 };
 use crate::{
     measure::{Bias, Comparison, Floor, SampleNoise, compare},

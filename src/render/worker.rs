@@ -19,9 +19,9 @@ use std::{
 use crossbeam_channel::{Receiver, Sender, unbounded};
 
 use super::{
-    pass::Threads,
     protocol::{Beside, Budget, Job, Publish, Published, State},
     session::Session,
+    threads::Threads,
 };
 
 enum Message {

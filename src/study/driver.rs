@@ -12,7 +12,7 @@ use super::{
     subject::titles,
     trial::{Group, groups, trial},
 };
-use crate::{render::pass::Threads, scene::RenderSettings};
+use crate::{render::threads::Threads, scene::RenderSettings};
 
 /// A study of some scenes in a folder.
 pub struct Study<'a> {

@@ -4,7 +4,7 @@ use std::{
     time::{SystemTime, UNIX_EPOCH},
 };
 
-use crate::{math::SimdLevel, render::pass::Threads};
+use crate::{math::SimdLevel, render::threads::Threads};
 
 /// The machine and the program.
 #[derive(Clone, Debug, PartialEq)]

@@ -7,8 +7,9 @@ use crate::{
     render::{
         Frame,
         film::Film,
-        pass::{PassCount, PassJob, Threads},
+        pass::PassCount,
         sharing::resolved,
+        threads::{PassJob, Threads},
     },
     scene::{Camera, RenderSettings, Scene},
 };

@@ -23,7 +23,7 @@ pub use app::App;
 pub use background::preferences::Preferences;
 use noisefall::{
     math::SimdLevel,
-    render::pass::{Threads, panic_message},
+    render::{pass::panic_message, threads::Threads},
 };
 use panels::window::{all_but_one, cores};
 

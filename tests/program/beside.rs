@@ -6,7 +6,7 @@ use std::{
 
 use noisefall::{
     math::SimdLevel,
-    render::{Beside, Budget, Job, Publish, Published, Region, Renderer, State, pass::Threads},
+    render::{Beside, Budget, Job, Publish, Published, Region, Renderer, State, threads::Threads},
     sampling::Directions,
     scene::{Camera, Estimator, RenderSettings, Reuse, Scene, built_in, load},
 };

@@ -6,7 +6,7 @@ use std::{
 
 use noisefall::{
     math::SimdLevel,
-    render::{Beside, Budget, Frame, Job, Publish, Published, Renderer, State, Target, pass::Threads},
+    render::{Beside, Budget, Frame, Job, Publish, Published, Renderer, State, Target, threads::Threads},
     scene::{Camera, RenderSettings, Reuse, Roulette, Scene, parse},
 };
 

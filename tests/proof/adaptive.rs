@@ -5,7 +5,7 @@ use noisefall::{
     render::{
         film::Film,
         frame::Frame,
-        pass::{PassJob, Threads},
+        threads::{PassJob, Threads},
     },
     sampling::Sampler,
     scene::{Camera, Estimator, RenderSettings, Scene, load},

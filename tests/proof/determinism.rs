@@ -7,7 +7,7 @@ use noisefall::{
     render::{
         film::Film,
         frame::Frame,
-        pass::{PassJob, Threads},
+        threads::{PassJob, Threads},
     },
     sampling::{Directions, Sampler},
     scene::{Camera, Estimator, RenderSettings, Reuse, Roulette, Scene, built_in},

@@ -4,9 +4,9 @@ use noisefall::{
     math::SimdLevel,
     measure::exact::{Lamp, lamberts_ball, mean_over_pixel},
     render::{
+        estimate::Estimate,
         film::Film,
-        pass::{PassJob, Threads},
-        tile::Estimate,
+        threads::{PassJob, Threads},
     },
     sampling::{Directions, Sampler},
     scene::{Camera, Estimator, RenderSettings, Reuse, Roulette, Scene, load},

@@ -8,8 +8,8 @@ use noisefall::{
     render::{
         film::Film,
         frame::Frame,
-        pass::{PassJob, Threads},
         sharing::resolved,
+        threads::{PassJob, Threads},
     },
     sampling::{Directions, Sampler},
     scene::{Camera, Estimator, RenderSettings, Reuse, Roulette, Scene, load},

@@ -8,7 +8,7 @@ use noisefall::{
     render::{
         film::Film,
         frame::Frame,
-        pass::{PassJob, Threads},
+        threads::{PassJob, Threads},
     },
     sampling::Sampler,
     scene::{Camera, Estimator, RenderSettings, Reuse, Scene, load},

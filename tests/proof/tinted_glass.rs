@@ -128,7 +128,7 @@ fn threads_forget_the_media_of_the_scene_before() {
         math::SimdLevel,
         render::{
             film::Film,
-            pass::{PassJob, Threads},
+            threads::{PassJob, Threads},
         },
     };
     let scene = |tints: usize| {

@@ -4,7 +4,8 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use super::super::{
     Frame, Region,
     film::Film,
-    pass::{Failure, PassCount, PassJob, SampleId, Threads},
+    pass::{Failure, PassCount, SampleId},
+    threads::{PassJob, Threads},
 };
 use crate::{
     math::{SimdLevel, colour::luminance},

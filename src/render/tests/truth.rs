@@ -7,7 +7,7 @@ use crate::{
     render::{
         frame::Frame,
         image_file::{Picture, Provenance},
-        pass::Threads,
+        threads::Threads,
         truth::{Reference, contradiction},
     },
     scene::parse,

@@ -62,7 +62,7 @@ mod tests {
         math::SimdLevel,
         render::{
             film::Film,
-            pass::{PassJob, Threads},
+            threads::{PassJob, Threads},
         },
         sampling::Sampler,
         scene::{Camera, Estimator, RenderSettings, Reuse, load},

@@ -7,6 +7,7 @@
 //! No reference is needed: pictures of the same settings with other seeds differ by their noise alone, and that is so whatever the
 //! sampler, for another seed scrambles its points anew. All settings that are tried converge to the same picture, since directions,
 //! cap and reuse stay as they are in use.
+mod candidate;
 mod candidates;
 mod measured;
 mod rank;
@@ -17,21 +18,19 @@ mod wording;
 
 use std::time::Duration;
 
-pub use self::rank::{Advice, Candidate};
+pub use self::candidate::{Advice, Candidate};
 use self::{
     candidates::{MOST_OF_SECOND_STAGE, adopted, first_stage, second_stage},
     measured::measured,
     rank::rank,
-    rounds::Rounds,
+    rounds::{Rounds, SPP},
 };
 use super::{StudyError, measure::Bench, plan::study_size};
 use crate::{
-    render::pass::Threads,
+    render::threads::Threads,
     scene::{Camera, RenderSettings, Scene},
 };
 
-/// Samples a pixel of every picture.
-const SPP: u32 = 16;
 /// Rounds of a stage: the spread of fewer would say little. Where time is short, pictures are made smaller instead.
 const ROUNDS: u32 = 8;
 /// The longer side of a picture is not made shorter than this, in pixels.

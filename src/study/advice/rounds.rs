@@ -1,12 +1,14 @@
 //! Pictures in rounds: one of each of the settings, with the same seed, so that what slows the machine for a while slows all alike.
 use std::ops::Range;
 
-use super::SPP;
 use crate::{
     render::film::Film,
     scene::RenderSettings,
     study::{StudyError, measure::Bench},
 };
+
+/// Samples a pixel of every picture.
+pub const SPP: u32 = 16;
 
 /// A picture of one round.
 pub struct Picture {

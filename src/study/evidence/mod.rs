@@ -22,7 +22,7 @@ use super::{
 use crate::{
     measure::Floor,
     memory::{self, Reservation, TooMuch},
-    render::{Display, film::Film, pass::Threads},
+    render::{Display, film::Film, threads::Threads},
     sampling::{Directions, Sampler},
     scene::{Estimator, RenderSettings, Reuse, Roulette},
 };

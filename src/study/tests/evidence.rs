@@ -8,7 +8,7 @@ use super::{
 use crate::{
     math::{SimdLevel, colour::srgb_from_linear},
     measure::Floor,
-    render::{Display, pass::Threads, truth},
+    render::{Display, threads::Threads, truth},
     sampling::{Directions, Sampler},
     scene::{Camera, Estimator, RenderSettings, Roulette, parse},
     study::{

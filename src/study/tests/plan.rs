@@ -4,7 +4,7 @@ use std::time::Duration;
 use crate::{
     math::SimdLevel,
     measure::{Comparison, Floor},
-    render::pass::Threads,
+    render::threads::Threads,
     sampling::{Directions, Sampler},
     scene::{Estimator, RenderSettings, Reuse, Roulette},
     study::{

@@ -6,7 +6,7 @@ use crate::{
     measure::{Floor, SampleNoise, compare},
     render::{
         image_file::{Picture, Provenance},
-        pass::Threads,
+        threads::Threads,
         truth,
     },
     scene::parse,

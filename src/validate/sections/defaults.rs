@@ -9,8 +9,8 @@ use crate::{
     measure::exact::horizon_sphere_irradiance,
     render::{
         film::Film,
-        pass::{PassJob, Threads},
         sharing::resolved,
+        threads::{PassJob, Threads},
     },
     sampling::Sampler,
     scene::{Camera, Estimator, RenderSettings, Reuse, Roulette, Scene},

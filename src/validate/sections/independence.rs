@@ -10,7 +10,7 @@ use crate::{
     render::{
         film::Film,
         frame::Frame,
-        pass::{PassJob, Threads},
+        threads::{PassJob, Threads},
     },
     sampling::Sampler,
     scene::{Camera, Estimator, RenderSettings, Roulette, built_in},

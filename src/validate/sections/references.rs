@@ -7,7 +7,7 @@ use crate::{
     math::SimdLevel,
     render::{
         film::Film,
-        pass::{PassJob, Threads},
+        threads::{PassJob, Threads},
     },
     scene::{Estimator, RenderSettings, Roulette, Scene, load, parse},
     validate::{Effort, Section, Statement, Validation, statement::chance_beyond},

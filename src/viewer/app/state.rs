@@ -1,7 +1,7 @@
 //! The state of the window.
 use std::path::PathBuf;
 
-use noisefall::render::pass::Threads;
+use noisefall::render::threads::Threads;
 
 use super::{results::Results, session::Session, window_state::Dialogs, window_state::WindowState};
 use crate::viewer::background::{

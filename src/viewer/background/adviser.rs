@@ -6,7 +6,7 @@ use std::{
 
 use noisefall::{
     math::SimdLevel,
-    render::pass::Threads,
+    render::threads::Threads,
     study::{Advice, advise},
 };
 

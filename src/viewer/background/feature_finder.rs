@@ -5,7 +5,7 @@ use noisefall::{
     integrator::{Features, features},
     math::SimdLevel,
     memory::Reservation,
-    render::pass::Threads,
+    render::threads::Threads,
     scene::{Camera, Scene},
 };
 

@@ -3,7 +3,7 @@ use std::sync::Arc;
 
 use noisefall::{
     math::SimdLevel,
-    render::{Beside, Budget, Job, Publish, Published, Renderer, pass::Threads},
+    render::{Beside, Budget, Job, Publish, Published, Renderer, threads::Threads},
     scene::{Camera, RenderSettings, Scene},
 };
 

@@ -33,7 +33,7 @@ use egui_kittest::{
 use glam::DVec3;
 use noisefall::{
     math::SimdLevel,
-    render::{State, Target, ToneMap, image_file, pass::Threads},
+    render::{State, Target, ToneMap, image_file, threads::Threads},
     sampling::{Directions, Filter, Sampler},
     scene::{Estimator, Lens, Reuse, Roulette},
 };
