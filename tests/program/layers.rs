@@ -1,26 +1,28 @@
 //! Folders depend downwards only.
-use std::fs;
+use std::{collections::BTreeSet, fs};
 
 use crate::imports::{imports, source, source_files};
 
-/// From the top down; folders of one line do not know each other.
-const LAYERS: [&[&str]; 9] = [
+/// From the top down, with the files beside the folders; those of one line do not know each other.
+const LAYERS: [&[&str]; 11] = [
     &["validate", "study"],
     &["render", "report"],
     &["measure"],
     &["integrator"],
     &["scene"],
-    &["light"],
+    &["light", "shape"],
     &["geometry", "material"],
     &["texture"],
     &["sampling", "image", "model"],
+    &["declare"],
+    &["math", "file", "memory", "quote"],
 ];
 
 /// The folders of the window, from the top down.
 const VIEWER: [&[&str]; 6] = [&["app"], &["panels", "dialogs"], &["instruments"], &["canvas"], &["background"], &["widgets"]];
 
 fn level(folder: &str) -> Option<usize> {
-    LAYERS.iter().position(|layer| layer.contains(&folder)).or((folder == "math").then_some(LAYERS.len()))
+    LAYERS.iter().position(|layer| layer.contains(&folder))
 }
 
 /// The folders that a file names behind `crate::`, in `use crate::{a, b}` too.
@@ -57,7 +59,7 @@ fn arrows_between_folders_point_down() {
     let mut arrows = 0;
     for file in source_files(&source) {
         let folder = file.strip_prefix(&source).expect("it lies in src").components().next().expect("it has a name");
-        let folder = folder.as_os_str().to_string_lossy().into_owned();
+        let folder = folder.as_os_str().to_string_lossy().trim_end_matches(".rs").to_owned();
         let Some(from) = level(&folder) else { continue };
         let text = fs::read_to_string(&file).expect("source is text");
         for used in folders_used(&text).iter().filter(|used| **used != folder) {
@@ -69,6 +71,16 @@ fn arrows_between_folders_point_down() {
         }
     }
     assert!(arrows > 20, "the search finds arrows: {arrows}");
+}
+
+#[test]
+fn every_folder_has_its_layer() {
+    let of_modules = imports().into_keys().filter_map(|module| module.first().cloned()).collect::<BTreeSet<String>>();
+    let of_layers = LAYERS.iter().copied().flatten().chain(&["viewer", "cli"]).map(|name| (*name).to_owned()).collect();
+    assert_eq!(of_modules, of_layers);
+    let of_window = imports().into_keys().filter(|module| module.len() > 2 && module[0] == "viewer");
+    let of_window: BTreeSet<String> = of_window.map(|module| module[1].clone()).collect();
+    assert_eq!(of_window, VIEWER.iter().copied().flatten().map(|name| (*name).to_owned()).collect());
 }
 
 #[test]
