@@ -1,7 +1,7 @@
 //! The queues of one thread, which hold the paths of a batch between stages.
 use super::{
     queue::Queue,
-    records::{Detail, Gloss, Hit, Inside, Past, Path, Shadow},
+    records::{Detail, Hit, Inside, Path, PreviousLobe, PreviousVertex, Shadow},
     shared::Shared,
     slots::SLOTS,
 };
@@ -15,9 +15,9 @@ pub struct Batch {
     /// Paths of this bounce and of the next, alternating.
     pub(super) paths: [Queue; 2],
     /// Stored beside `paths` if lights are sampled.
-    pub(super) pasts: [Queue; 2],
-    /// Stored beside `pasts` in scenes with conductors and several lights.
-    pub(super) glosses: [Queue; 2],
+    pub(super) previous_vertices: [Queue; 2],
+    /// Stored beside `previous_vertices` in scenes with conductors and several lights.
+    pub(super) previous_lobes: [Queue; 2],
     /// A queue for every type of BSDF.
     pub(super) hits: [Queue; Stage::COUNT],
     /// Stored beside `hits` for types that read it.
@@ -45,8 +45,8 @@ impl Default for Batch {
     fn default() -> Self {
         Batch {
             paths: [Path::<One>::queue(SLOTS), Path::<One>::queue(SLOTS)],
-            pasts: [Past::<One>::queue(SLOTS), Past::<One>::queue(SLOTS)],
-            glosses: [Gloss::<One>::queue(SLOTS), Gloss::<One>::queue(SLOTS)],
+            previous_vertices: [PreviousVertex::<One>::queue(SLOTS), PreviousVertex::<One>::queue(SLOTS)],
+            previous_lobes: [PreviousLobe::<One>::queue(SLOTS), PreviousLobe::<One>::queue(SLOTS)],
             hits: std::array::from_fn(|_| Hit::<One>::queue(SLOTS)),
             details: std::array::from_fn(|_| Detail::<One>::queue(SLOTS)),
             shadows: Shadow::<One>::queue(SLOTS),

@@ -12,7 +12,7 @@ use super::{
     records::{Hit, Path},
     slots::BLOCK,
     spawn::spawn,
-    surface::{Arrival, Met, vary},
+    surface::{IncidentPaths, SurfaceInteraction, vary},
     work::Work,
 };
 use crate::{
@@ -111,13 +111,13 @@ impl Features {
 
 /// Hits of a block of pixels, row by row, and the cost per ray.
 struct Block {
-    seen: Vec<Option<Seen>>,
+    seen: Vec<Option<PixelFeatures>>,
     cost: f32,
 }
 
 /// One pixel of [`Features`] with a hit.
 #[derive(Clone, Copy)]
-struct Seen {
+struct PixelFeatures {
     normal: [f32; 3],
     albedo: [f32; 3],
     depth: f32,
@@ -142,7 +142,7 @@ fn look<L: Lanes>(l: L, work: &Work, batch: &mut Batch) -> Block {
 
 /// Describes the hits of the paths of a batch, in order.
 #[simd]
-fn describe<L: Lanes>(l: L, work: &Work, batch: &Batch, seen: &mut Vec<Option<Seen>>) {
+fn describe<L: Lanes>(l: L, work: &Work, batch: &Batch, seen: &mut Vec<Option<PixelFeatures>>) {
     let (scene, paths) = (work.scene, batch.current());
     for start in (0..paths.len()).step_by(L::N) {
         let path = Path::read(l, paths, start);
@@ -164,7 +164,7 @@ fn describe<L: Lanes>(l: L, work: &Work, batch: &Batch, seen: &mut Vec<Option<Se
         let (t, primitive, hits) = (t.to_array(), primitive.to_array(), hit.bits());
         let (normal, albedo) = ([normal.x, normal.y, normal.z].map(F::to_array), [albedo.x, albedo.y, albedo.z].map(F::to_array));
         for lane in 0..count {
-            seen.push((hits >> lane & 1 == 1).then(|| Seen {
+            seen.push((hits >> lane & 1 == 1).then(|| PixelFeatures {
                 normal: normal.map(|axis| axis[lane]),
                 albedo: albedo.map(|channel| channel[lane]),
                 depth: t[lane],
@@ -182,8 +182,14 @@ fn shading<L: Lanes>(l: L, scene: &Scene, hit: M<L>, path: &Path<L>, place: Plac
     let [x, y, z, word] = l.rows(&scene.surfaces.rows, place.primitive);
     let n = point.n_geometric * l.f(1.0).copysign(cos);
     let mut record = Hit { p: point.p, n, colour: V { x, y, z }, throughput: path.throughput, slot: path.slot };
-    let arrival = Arrival { d: path.d, met: Met { place, point, cos }, media: l.u(0), word: word.bits(), plain: record };
-    let (_, reflects) = arrival.sides();
-    let detail = vary(l, scene, &arrival, hit & reflects, &mut record);
+    let incident = IncidentPaths {
+        d: path.d,
+        interaction: SurfaceInteraction { place, point, cos },
+        media: l.u(0),
+        word: word.bits(),
+        plain: record,
+    };
+    let (_, reflects) = incident.sides();
+    let detail = vary(l, scene, &incident, hit & reflects, &mut record);
     (detail.n, reflects.pick(record.colour, V::splat(l, [0.0; 3])))
 }

@@ -10,9 +10,9 @@ mod fault;
 mod features;
 mod intersect;
 mod media;
+mod normal_mapping;
 pub mod queue;
 mod records;
-mod relief;
 mod replay;
 mod reuse;
 mod roulette;
@@ -34,7 +34,7 @@ pub use self::{
     batch::Batch,
     collision::{clear_fraction, is_blind},
     features::{Features, features},
-    replay::{End, MetLight, Outcome, Reflection, Replay, SampledLight, Surface, Vertex, pixel_samples, replay},
+    replay::{EmitterHit, End, Outcome, Reflection, Replay, SampledLight, Surface, Vertex, pixel_samples, replay},
     series::{SHARES, TERMS, Terms, trace_series},
     slots::{BLOCK, BLOCKS, TILE},
     trace::{Interrupted, Segments, trace, trace_counting},

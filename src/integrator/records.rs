@@ -15,7 +15,7 @@ record! {
 
 record! {
     /// The previous vertex of a path, for the MIS weight of an emitter hit: see [`super::weight`].
-    Past {
+    PreviousVertex {
         /// Shading normal on the viewer's side.
         n: V,
         /// Pdf of the path's direction, per solid angle.
@@ -25,16 +25,16 @@ record! {
 }
 
 record! {
-    /// The [`crate::light::Lobe`] of the previous vertex. Stored beside [`Past`] if light selection uses lobes.
-    Gloss {
+    /// The [`crate::light::Lobe`] of the previous vertex. Stored beside [`PreviousVertex`] if light selection uses lobes.
+    PreviousLobe {
         wo: V,
         alpha: F,
     }
 }
 
-/// Flag of [`Past`]: the direction comes from a delta lobe, so no light sample could have had it.
+/// Flag of [`PreviousVertex`]: the direction comes from a delta lobe, so no light sample could have had it.
 pub(super) const DELTA: u32 = 1;
-/// Flag of [`Past`]: lights were sampled on both sides of the surface.
+/// Flag of [`PreviousVertex`]: lights were sampled on both sides of the surface.
 pub(super) const TRANSMITS: u32 = 2;
 
 record! {

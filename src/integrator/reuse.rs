@@ -112,20 +112,20 @@ impl<L: Lanes> Second<L> {
             return l.f(0.0);
         }
         *rays += faces.count() as u64;
-        let seen = faces & self.is_met(l, work, first.p, wi, distance_squared * inverse, faces);
+        let seen = faces & self.is_visible(l, work, first.p, wi, distance_squared * inverse, faces);
         seen.pick(leaving * arriving / distance_squared, l.f(0.0))
     }
 
     /// Whether a ray hits this point first.
     #[inline(always)]
-    fn is_met(&self, l: L, work: &Work, o: V<L>, d: V<L>, distance: F<L>, lanes: M<L>) -> M<L> {
+    fn is_visible(&self, l: L, work: &Work, o: V<L>, d: V<L>, distance: F<L>, lanes: M<L>) -> M<L> {
         // Of a surface that is not convex a ray may meet another part first.
         const NEARLY: f32 = 0.999;
         let shapes = &work.scene.shapes;
-        let met =
+        let nearest =
             if shapes.are_spheres() { shapes.closest_sphere(l, o, d) } else { shapes.closest(l, lanes, o, d, self.place.time) };
-        let same = met.primitive.equals(self.place.primitive) & met.element.equals(self.place.element);
-        same & met.t.ge(distance * NEARLY)
+        let same = nearest.primitive.equals(self.place.primitive) & nearest.element.equals(self.place.element);
+        same & nearest.t.ge(distance * NEARLY)
     }
 }
 

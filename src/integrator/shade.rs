@@ -4,7 +4,7 @@ use fearless_simd_macros::simd;
 
 use super::{
     batch::Batch,
-    records::{DELTA, Gloss, Inside, Past, TRANSMITS},
+    records::{DELTA, Inside, PreviousLobe, PreviousVertex, TRANSMITS},
     shading::{LightEstimate, Reflected, Shading, shares_first},
     work::Work,
 };
@@ -16,7 +16,9 @@ use crate::{
 
 #[simd]
 pub(super) fn shade<L: Lanes, K: Shade>(l: L, work: &Work, batch: &mut Batch) {
-    let Batch { paths, pasts, glosses, path_media, hits, details, shadows, shadow_media, shared, bounce, .. } = batch;
+    let Batch {
+        paths, previous_vertices, previous_lobes, path_media, hits, details, shadows, shadow_media, shared, bounce, ..
+    } = batch;
     let (hits, details) = (&hits[K::STAGE as usize], &details[K::STAGE as usize]);
     let reflection = *bounce + 1;
     let next = (reflection & 1) as usize;
@@ -41,10 +43,10 @@ pub(super) fn shade<L: Lanes, K: Shade>(l: L, work: &Work, batch: &mut Batch) {
         if work.samples_lights() {
             let unsampled = if K::TRANSMITS { sample.delta | vertex.self_lit } else { sample.delta };
             let flags = unsampled.pick(l.u(DELTA), l.u(0)) | if K::TRANSMITS { TRANSMITS } else { 0 };
-            Past { n: vertex.n, pdf: sample.pdf, flags }.push(keep, &mut pasts[next]);
+            PreviousVertex { n: vertex.n, pdf: sample.pdf, flags }.push(keep, &mut previous_vertices[next]);
             if work.heeds_lobes() {
                 let Lobe { wo, alpha } = shading.lobe(l);
-                Gloss { wo, alpha }.push(keep, &mut glosses[next]);
+                PreviousLobe { wo, alpha }.push(keep, &mut previous_lobes[next]);
             }
         }
         if K::DETAILED && work.has_media() {

@@ -9,7 +9,7 @@ use super::{
     work::Work,
 };
 use crate::{
-    light::{LightCoordinates, LightSample, Lobe, Receiver},
+    light::{LightCoordinates, LightSample, Lobe, ReferencePoint},
     material::{Bsdf, BsdfSample, Local, Shade, Stage},
     math::{F, Frame, Lanes, M, Pick, U, V},
     sampling::{Dimension, Stream},
@@ -85,7 +85,7 @@ impl<'a, L: Lanes, K: Shade> Shading<'a, L, K> {
             place: stream.two(Dimension::light(*reflection)),
         };
         let lobe = if K::GLOSSY && work.heeds_lobes() { Some(self.lobe(l)) } else { None };
-        let at = Receiver { p: hit.p, n: vertex.n, transmits: if K::TRANSMITS { l.first(L::N) } else { l.first(0) }, lobe };
+        let at = ReferencePoint { p: hit.p, n: vertex.n, transmits: if K::TRANSMITS { l.first(L::N) } else { l.first(0) }, lobe };
         let sample = lights.sample(l, &work.scene.shapes, &at, work.time(l, hit.slot), &coordinates);
         let wi = vertex.frame.local_from_world(sample.wi);
         let (f_cos, pdf) = bsdf.eval(vertex.wo, wi);

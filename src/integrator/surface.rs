@@ -4,10 +4,10 @@ use fearless_simd_macros::simd;
 use super::{
     batch::{Batch, add},
     media::transmittance,
+    normal_mapping::shading_normal,
     queue::Queue,
-    records::{Detail, Gloss, Hit, Inside, Past, Path},
-    relief::shading_normal,
-    weight::weight_of_met_light,
+    records::{Detail, Hit, Inside, Path, PreviousLobe, PreviousVertex},
+    weight::emitter_hit_weight,
     work::Work,
 };
 use crate::{
@@ -30,10 +30,25 @@ const GRAZING: f32 = 1e-3;
 #[simd]
 pub(super) fn surfaces<L: Lanes, const VARIED: bool>(l: L, work: &Work, batch: &mut Batch, last: bool) {
     let scene = work.scene;
-    let Batch { paths, pasts, glosses, path_media, hits, details, t, primitive, element, radiance, shared, bounce, .. } = batch;
+    let Batch {
+        paths,
+        previous_vertices,
+        previous_lobes,
+        path_media,
+        hits,
+        details,
+        t,
+        primitive,
+        element,
+        radiance,
+        shared,
+        bounce,
+        ..
+    } = batch;
     hits.iter_mut().chain(details.iter_mut()).for_each(Queue::clear);
     let current = (*bounce & 1) as usize;
-    let (paths, pasts, path_media) = (&paths[current], (&pasts[current], &glosses[current]), &path_media[current]);
+    let (paths, previous_vertices, path_media) =
+        (&paths[current], (&previous_vertices[current], &previous_lobes[current]), &path_media[current]);
     let weighted = *bounce > 0 && work.samples_lights();
     let shares = *bounce == 1 && work.shares();
     for start in (0..paths.len()).step_by(L::N) {
@@ -60,7 +75,7 @@ pub(super) fn surfaces<L: Lanes, const VARIED: bool>(l: L, work: &Work, batch: &
             if sky.any() {
                 let mut light = path.throughput * background.radiance(l, path.d);
                 if weighted {
-                    light = light * weight(l, work, pasts, start, &path, Place::of(l, primitive));
+                    light = light * weight(l, work, previous_vertices, start, &path, Place::of(l, primitive));
                 }
                 add(radiance, sky, path.slot, light);
             }
@@ -70,16 +85,16 @@ pub(super) fn surfaces<L: Lanes, const VARIED: bool>(l: L, work: &Work, batch: &
             continue;
         }
 
-        let met = meet::<L, VARIED>(l, work, &path, hit, t, primitive, &element[start..]);
-        let Met { place, point, cos } = met;
+        let interaction = interact::<L, VARIED>(l, work, &path, hit, t, primitive, &element[start..]);
+        let SurfaceInteraction { place, point, cos } = interaction;
         let primitive = place.primitive;
         if !scene.lights.emitters.is_empty() {
             let emits = hit & scene.lights.emitters.emits(primitive);
             if emits.any() {
-                let (le, seen) = emitted::<L, VARIED>(l, scene, emits, &met);
+                let (le, seen) = emitted::<L, VARIED>(l, scene, emits, &interaction);
                 let mut light = path.throughput * le;
                 if weighted {
-                    light = light * weight(l, work, pasts, start, &path, place);
+                    light = light * weight(l, work, previous_vertices, start, &path, place);
                 }
                 add(radiance, seen, path.slot, light);
             }
@@ -99,8 +114,8 @@ pub(super) fn surfaces<L: Lanes, const VARIED: bool>(l: L, work: &Work, batch: &
             shared.keep_second(kept, &place, &mut plain);
         }
         if VARIED {
-            let arrival = Arrival { d: path.d, met, media, word: word.bits(), plain };
-            sort(l, work, hits, details, &arrival, record, hit);
+            let incident = IncidentPaths { d: path.d, interaction, media, word: word.bits(), plain };
+            sort(l, work, hits, details, &incident, record, hit);
         } else {
             plain.push(hit & colour.max_component().above(0.0), &mut hits[Stage::Plain as usize]);
         }
@@ -109,7 +124,7 @@ pub(super) fn surfaces<L: Lanes, const VARIED: bool>(l: L, work: &Work, batch: &
 
 /// Surface interactions of paths.
 #[derive(Clone, Copy)]
-pub(super) struct Met<L: Lanes> {
+pub(super) struct SurfaceInteraction<L: Lanes> {
     pub place: Place<L>,
     pub point: SurfacePoint<L>,
     /// Cosine between the front normal and the direction to the viewer.
@@ -119,7 +134,7 @@ pub(super) struct Met<L: Lanes> {
 /// The interactions of the paths in the lanes of `hit` with their primitives at distance `t`. The other lanes use primitive 0 and
 /// must be masked.
 #[inline(always)]
-pub(super) fn meet<L: Lanes, const VARIED: bool>(
+pub(super) fn interact<L: Lanes, const VARIED: bool>(
     l: L,
     work: &Work,
     path: &Path<L>,
@@ -127,7 +142,7 @@ pub(super) fn meet<L: Lanes, const VARIED: bool>(
     t: F<L>,
     primitive: U<L>,
     element: &[f32],
-) -> Met<L> {
+) -> SurfaceInteraction<L> {
     let shapes = &work.scene.shapes;
     let mut place = Place::of(l, hit.pick(primitive, l.u(0)));
     if VARIED {
@@ -138,40 +153,45 @@ pub(super) fn meet<L: Lanes, const VARIED: bool>(
     }
     let p = path.o + path.d * hit.pick(t, l.f(0.0));
     let point = if VARIED { shapes.surface_point(l, &place, p) } else { shapes.simple_point(l, place.primitive, p) };
-    Met { place, point, cos: -point.n_geometric.dot(path.d) }
+    SurfaceInteraction { place, point, cos: -point.n_geometric.dot(path.d) }
 }
 
 /// The radiance emitted towards the viewer in the lanes of `emits`, and the mask of those that see an emitting side.
 #[inline(always)]
-pub(super) fn emitted<L: Lanes, const VARIED: bool>(l: L, scene: &Scene, emits: M<L>, met: &Met<L>) -> (V<L>, M<L>) {
+pub(super) fn emitted<L: Lanes, const VARIED: bool>(
+    l: L,
+    scene: &Scene,
+    emits: M<L>,
+    interaction: &SurfaceInteraction<L>,
+) -> (V<L>, M<L>) {
     let emitters = &scene.lights.emitters;
-    let (mut le, seen) = emitters.radiance(l, emits, met.place.primitive, met.cos);
+    let (mut le, seen) = emitters.radiance(l, emits, interaction.place.primitive, interaction.cos);
     if VARIED && emitters.vary() {
-        le = le * emission_texture(l, scene, emits, &met.place, &met.point);
+        le = le * emission_texture(l, scene, emits, &interaction.place, &interaction.point);
     }
     (le, seen)
 }
 
-/// The MIS weight of emitter hits of the paths of a register, read from `start` on; see [`weight_of_met_light`].
+/// The MIS weight of emitter hits of the paths of a register, read from `start` on; see [`emitter_hit_weight`].
 ///
 /// The place is passed by value; otherwise it would be kept in memory even for scenes that do not need it.
 #[inline(always)]
 pub(super) fn weight<L: Lanes>(
     l: L,
     work: &Work,
-    (pasts, glosses): (&Queue, &Queue),
+    (previous_vertices, previous_lobes): (&Queue, &Queue),
     start: usize,
     path: &Path<L>,
     place: Place<L>,
 ) -> F<L> {
-    let past = Past::read(l, pasts, start);
+    let previous = PreviousVertex::read(l, previous_vertices, start);
     let lobe = if work.heeds_lobes() {
-        let Gloss { wo, alpha } = Gloss::read(l, glosses, start);
+        let PreviousLobe { wo, alpha } = PreviousLobe::read(l, previous_lobes, start);
         Some(Lobe { wo, alpha })
     } else {
         None
     };
-    weight_of_met_light(l, work, &past, lobe, path.o, path.d, &place)
+    emitter_hit_weight(l, work, &previous, lobe, path.o, path.d, &place)
 }
 
 /// The factor of textured emission at a point.
@@ -183,9 +203,9 @@ pub(super) fn emission_texture<L: Lanes>(l: L, scene: &Scene, emits: M<L>, place
 }
 
 /// Paths at a surface.
-pub(super) struct Arrival<L: Lanes> {
+pub(super) struct IncidentPaths<L: Lanes> {
     pub d: V<L>,
-    pub met: Met<L>,
+    pub interaction: SurfaceInteraction<L>,
     /// Media around the paths.
     pub media: U<L>,
     /// See [`surface`].
@@ -194,11 +214,11 @@ pub(super) struct Arrival<L: Lanes> {
     pub plain: Hit<L>,
 }
 
-impl<L: Lanes> Arrival<L> {
+impl<L: Lanes> IncidentPaths<L> {
     /// Whether the paths are at the front, and whether the surface reflects on their side.
     #[inline(always)]
     pub fn sides(&self) -> (M<L>, M<L>) {
-        let front = self.met.cos.above(0.0) ^ is_set(self.word, FLIPPED);
+        let front = self.interaction.cos.above(0.0) ^ is_set(self.word, FLIPPED);
         (front, front | !is_set(self.word, ONE_SIDED))
     }
 }
@@ -210,20 +230,20 @@ fn sort<L: Lanes>(
     work: &Work,
     hits: &mut [Queue],
     details: &mut [Queue],
-    arrival: &Arrival<L>,
+    incident: &IncidentPaths<L>,
     mut hit: Hit<L>,
     mask: M<L>,
 ) {
-    let word = arrival.word;
-    let (front, reflects) = arrival.sides();
+    let word = incident.word;
+    let (front, reflects) = incident.sides();
     let faces = mask & reflects;
-    let detail = vary(l, work.scene, arrival, faces, &mut hit);
+    let detail = vary(l, work.scene, incident, faces, &mut hit);
     let detail = Detail { surface: word | front.pick(l.u(FRONT), l.u(0)), ..detail };
     let reflects = faces & (hit.colour.max_component().above(0.0) | is_set(word, SCATTERS_WHERE_BLACK));
     for stage in &work.scene.surfaces.stages {
         let here = reflects & surface::stage(word).is(*stage as u32);
         if *stage == Stage::Plain {
-            Hit { colour: hit.colour, ..arrival.plain }.push(here, &mut hits[*stage as usize]);
+            Hit { colour: hit.colour, ..incident.plain }.push(here, &mut hits[*stage as usize]);
         } else {
             hit.push(here, &mut hits[*stage as usize]);
             detail.push(here, &mut details[*stage as usize]);
@@ -233,9 +253,9 @@ fn sort<L: Lanes>(
 
 /// Evaluates textures: sets the colour of the hit, and returns its details.
 #[inline(always)]
-pub(super) fn vary<L: Lanes>(l: L, scene: &Scene, arrival: &Arrival<L>, mask: M<L>, hit: &mut Hit<L>) -> Detail<L> {
+pub(super) fn vary<L: Lanes>(l: L, scene: &Scene, incident: &IncidentPaths<L>, mask: M<L>, hit: &mut Hit<L>) -> Detail<L> {
     let Scene { surfaces, textures, .. } = scene;
-    let Arrival { d, met: Met { place, point, cos }, media, word, .. } = arrival;
+    let IncidentPaths { d, interaction: SurfaceInteraction { place, point, cos }, media, word, .. } = incident;
     let [mut alpha, colour_texture, alpha_texture, medium] = l.rows(&surfaces.varying, place.primitive);
     let wo = -*d;
     let mut n = hit.n;

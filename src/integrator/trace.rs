@@ -116,8 +116,8 @@ pub(super) fn trace_in<L: Lanes, O: Observer>(
 fn shade_all<L: Lanes>(l: L, work: &Work, batch: &mut Batch) {
     let next = ((batch.bounce + 1) & 1) as usize;
     batch.paths[next].clear();
-    batch.pasts[next].clear();
-    batch.glosses[next].clear();
+    batch.previous_vertices[next].clear();
+    batch.previous_lobes[next].clear();
     batch.path_media[next].clear();
     for stage in &work.scene.surfaces.stages {
         in_stage!(stage, K => shade::<L, K>(l, work, batch));

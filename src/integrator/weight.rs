@@ -2,12 +2,12 @@
 use fearless_simd_macros::simd;
 
 use super::{
-    records::{DELTA, Past, TRANSMITS},
+    records::{DELTA, PreviousVertex, TRANSMITS},
     work::Work,
 };
 use crate::{
     geometry::Place,
-    light::{Lobe, Receiver},
+    light::{Lobe, ReferencePoint},
     math::{F, Lanes, Pick, V},
     scene::Estimator,
 };
@@ -23,22 +23,22 @@ pub(super) fn power_heuristic<L: Lanes>(pdf: F<L>, other: F<L>) -> F<L> {
 /// The weight of the emitter hits of paths from `o` in the direction `d` at `target`, whose primitive may be
 /// [`crate::geometry::MISS`].
 #[simd]
-pub(super) fn weight_of_met_light<L: Lanes>(
+pub(super) fn emitter_hit_weight<L: Lanes>(
     l: L,
     work: &Work,
-    past: &Past<L>,
+    previous: &PreviousVertex<L>,
     lobe: Option<Lobe<L>>,
     o: V<L>,
     d: V<L>,
     target: &Place<L>,
 ) -> F<L> {
-    let delta = !(past.flags & DELTA).is(0);
+    let delta = !(previous.flags & DELTA).is(0);
     let sampled_too = match work.settings.estimator {
         Estimator::Path => return l.f(1.0),
         Estimator::Light => l.f(0.0),
         Estimator::Mis => {
-            let at = Receiver { p: o, n: past.n, transmits: !(past.flags & TRANSMITS).is(0), lobe };
-            power_heuristic(past.pdf, work.scene.lights.pdf(l, &work.scene.shapes, &at, d, target))
+            let at = ReferencePoint { p: o, n: previous.n, transmits: !(previous.flags & TRANSMITS).is(0), lobe };
+            power_heuristic(previous.pdf, work.scene.lights.pdf(l, &work.scene.shapes, &at, d, target))
         }
     };
     delta.pick(l.f(1.0), sampled_too)

@@ -1,7 +1,7 @@
 //! The background: radiance along rays that hit no surface.
 use std::f32::consts::FRAC_1_PI;
 
-use super::{ImageBackground, Receiver};
+use super::{ImageBackground, ReferencePoint};
 use crate::{
     math::{F, Frame, Lanes, Pick, V, colour::luminance},
     sampling::warp::cosine_hemisphere,
@@ -28,7 +28,7 @@ impl Background {
     /// the cosine, on both sides of the surface alike if it transmits; an image is sampled by its radiance. Only an image reads
     /// `cell`.
     #[inline(always)]
-    pub(super) fn sample<L: Lanes>(&self, l: L, at: &Receiver<L>, cell: (F<L>, F<L>), u: (F<L>, F<L>)) -> (V<L>, F<L>) {
+    pub(super) fn sample<L: Lanes>(&self, l: L, at: &ReferencePoint<L>, cell: (F<L>, F<L>), u: (F<L>, F<L>)) -> (V<L>, F<L>) {
         match self {
             Background::Constant(_) => {
                 let behind = u.0.ge(l.f(0.5)) & at.transmits;
@@ -43,7 +43,7 @@ impl Background {
 
     /// The pdf of [`Background::sample`] at the unit direction `wi`, per solid angle.
     #[inline(always)]
-    pub(super) fn pdf<L: Lanes>(&self, l: L, at: &Receiver<L>, wi: V<L>) -> F<L> {
+    pub(super) fn pdf<L: Lanes>(&self, l: L, at: &ReferencePoint<L>, wi: V<L>) -> F<L> {
         match self {
             Background::Constant(_) => cosine_pdf(at, wi),
             Background::Image(image) => image.pdf(l, wi),
@@ -60,7 +60,7 @@ impl Background {
 }
 
 #[inline(always)]
-fn cosine_pdf<L: Lanes>(at: &Receiver<L>, wi: V<L>) -> F<L> {
+fn cosine_pdf<L: Lanes>(at: &ReferencePoint<L>, wi: V<L>) -> F<L> {
     let cos = wi.dot(at.n);
     at.transmits.pick(cos.abs() * (0.5 * FRAC_1_PI), cos.max(cos.splat(0.0)) * FRAC_1_PI)
 }

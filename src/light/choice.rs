@@ -8,7 +8,7 @@ use super::{
     background::Background,
     coordinates::LightCoordinates,
     emission::{Emission, Emitters},
-    reference_point::Receiver,
+    reference_point::ReferencePoint,
     selection::Selection,
 };
 use crate::{
@@ -107,7 +107,7 @@ impl Lights {
         self.count + usize::from(self.background.is_some()) > 1
     }
 
-    /// Whether the selection uses [`Receiver::lobe`].
+    /// Whether the selection uses [`ReferencePoint::lobe`].
     pub fn heed_lobes(&self) -> bool {
         self.are_several() && self.selection.is_without_tree()
     }
@@ -123,7 +123,7 @@ impl Lights {
         &self,
         l: L,
         shapes: &Shapes,
-        at: &Receiver<L>,
+        at: &ReferencePoint<L>,
         time: F<L>,
         u: &LightCoordinates<L>,
     ) -> LightSample<L> {
@@ -154,7 +154,7 @@ impl Lights {
     /// The pdf of [`Lights::sample`] for the direction `wi` per solid angle. `target` is the first hit along `wi`, with the
     /// primitive [`MISS`] for the background.
     #[inline(always)]
-    pub fn pdf<L: Lanes>(&self, l: L, shapes: &Shapes, at: &Receiver<L>, wi: V<L>, target: &Place<L>) -> F<L> {
+    pub fn pdf<L: Lanes>(&self, l: L, shapes: &Shapes, at: &ReferencePoint<L>, wi: V<L>, target: &Place<L>) -> F<L> {
         let sky = target.primitive.is(MISS);
         let emits = self.emitters.emits(target.primitive);
         let mut density = l.f(0.0);
@@ -180,7 +180,7 @@ impl Lights {
 
     /// Chooses a light, and returns it with its probability.
     #[inline(always)]
-    fn choose<L: Lanes>(&self, l: L, at: &Receiver<L>, u: &LightCoordinates<L>) -> (U<L>, F<L>) {
+    fn choose<L: Lanes>(&self, l: L, at: &ReferencePoint<L>, u: &LightCoordinates<L>) -> (U<L>, F<L>) {
         if !self.are_several() {
             return (l.u(if self.count == 0 { MISS } else { 0 }), l.f(1.0));
         }

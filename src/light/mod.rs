@@ -28,5 +28,5 @@ pub use self::{
     emission::{Emission, Emitters, Side},
     image_background::ImageBackground,
     lobe::Lobe,
-    reference_point::Receiver,
+    reference_point::ReferencePoint,
 };

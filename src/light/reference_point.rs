@@ -4,7 +4,7 @@ use crate::math::{Lanes, M, V};
 
 /// A point for which lights are sampled.
 #[derive(Clone, Copy)]
-pub struct Receiver<L: Lanes> {
+pub struct ReferencePoint<L: Lanes> {
     pub p: V<L>,
     /// Unit normal on the side of the viewer.
     pub n: V<L>,

@@ -10,10 +10,10 @@ use fearless_simd_macros::simd;
 use glam::{DVec3, Vec3};
 
 use super::{
-    Emission, LightCoordinates, Receiver,
+    Emission, LightCoordinates, ReferencePoint,
     bound::Bound,
     source::Source,
-    tree::{Descent, Item, Tree, light_of_word, word_of_light},
+    tree::{Item, Traversal, Tree, light_of_word, word_of_light},
 };
 use crate::{
     geometry::{MISS, Motion, Shape},
@@ -72,7 +72,7 @@ impl Selection {
 
     /// The weight of the background.
     #[inline(always)]
-    fn sky<L: Lanes>(&self, l: L, at: &Receiver<L>) -> F<L> {
+    fn sky<L: Lanes>(&self, l: L, at: &ReferencePoint<L>) -> F<L> {
         match &at.lobe {
             Some(lobe) => lobe.of_sky() * self.sky,
             None => l.f(self.sky),
@@ -81,24 +81,24 @@ impl Selection {
 
     /// Chooses a light, or [`MISS`] for the background, and returns it with its probability.
     #[simd]
-    pub fn choose<L: Lanes>(&self, l: L, at: &Receiver<L>, u: &LightCoordinates<L>) -> (U<L>, F<L>) {
+    pub fn choose<L: Lanes>(&self, l: L, at: &ReferencePoint<L>, u: &LightCoordinates<L>) -> (U<L>, F<L>) {
         let chosen = if self.words.len() <= VERY_FEW {
             self.choose_candidate::<L, VERY_FEW>(l, at, u.choice)
         } else {
             self.choose_candidate::<L, MOST_CANDIDATES>(l, at, u.choice)
         };
-        let Chosen { mut word, mut pmf, u: rest } = chosen;
+        let LightChoice { mut word, mut pmf, u: rest } = chosen;
         let sky = word.is(MISS);
         if !self.tree.is_empty() {
             let bits = u.choice.bits() ^ ((u.place.0.bits() + u.place.1.bits() * GOLDEN) * GOLDEN);
-            (word, pmf) = self.tree.descend(l, at, &Descent { inside: !sky, word, u: rest, bits, pmf });
+            (word, pmf) = self.tree.descend(l, at, &Traversal { inside: !sky, word, u: rest, bits, pmf });
         }
         (sky.pick(word, light_of_word(word)), pmf)
     }
 
     /// Chooses a candidate. `MOST` is an upper bound on their number.
     #[inline(always)]
-    fn choose_candidate<L: Lanes, const MOST: usize>(&self, l: L, at: &Receiver<L>, u: F<L>) -> Chosen<L> {
+    fn choose_candidate<L: Lanes, const MOST: usize>(&self, l: L, at: &ReferencePoint<L>, u: F<L>) -> LightChoice<L> {
         let mut weights = [l.f(0.0); MOST];
         let sky = self.sky(l, at);
         let mut total = sky;
@@ -117,13 +117,13 @@ impl Selection {
             end = end + *weight;
         }
         let pmf = total.above(0.0).pick(chosen / total, l.f(0.0));
-        Chosen { word, pmf, u: ((place - begin) / chosen).max(l.f(0.0)).min(l.f(1.0 - f32::EPSILON)) }
+        LightChoice { word, pmf, u: ((place - begin) / chosen).max(l.f(0.0)).min(l.f(1.0 - f32::EPSILON)) }
     }
 
     /// The probability that [`Selection::choose`] chooses the light `target` in the lanes of `emits`, and the background in the
     /// others.
     #[simd]
-    pub fn probability<L: Lanes>(&self, l: L, at: &Receiver<L>, emits: M<L>, target: U<L>) -> F<L> {
+    pub fn probability<L: Lanes>(&self, l: L, at: &ReferencePoint<L>, emits: M<L>, target: U<L>) -> F<L> {
         let light = emits.pick(target, l.u(0));
         let (candidate, trail) = if self.tree.is_empty() { (light, light) } else { self.tree.place(l, light) };
         let sky = self.sky(l, at);
@@ -141,7 +141,7 @@ impl Selection {
 
     /// The weight of a source or a head.
     #[inline(always)]
-    fn weight<L: Lanes>(&self, l: L, at: &Receiver<L>, candidate: usize) -> F<L> {
+    fn weight<L: Lanes>(&self, l: L, at: &ReferencePoint<L>, candidate: usize) -> F<L> {
         match self.sources.get(candidate) {
             Some(source) => source.weight(l, at),
             None => self.tree.head_weight(l, at, candidate - self.sources.len()),
@@ -150,7 +150,7 @@ impl Selection {
 }
 
 /// A chosen candidate.
-struct Chosen<L: Lanes> {
+struct LightChoice<L: Lanes> {
     /// [`MISS`] for the background.
     word: U<L>,
     pmf: F<L>,

@@ -1,7 +1,7 @@
 //! An emitting primitive in light selection: estimates an upper bound of its irradiance.
 use glam::DVec3;
 
-use super::{Receiver, bound::Bound};
+use super::{ReferencePoint, bound::Bound};
 use crate::{
     geometry::{Shape, Sphere},
     math::{F, Lanes, Pick, V},
@@ -44,7 +44,7 @@ impl Source {
     /// Estimates an upper bound of the irradiance from this light, divided by π: E ≈ L A cos θ_i cos θ_e/d², which is a bound if
     /// the light is far away. For lobes, estimates the light that they reflect.
     #[inline(always)]
-    pub fn weight<L: Lanes>(&self, l: L, at: &Receiver<L>) -> F<L> {
+    pub fn weight<L: Lanes>(&self, l: L, at: &ReferencePoint<L>) -> F<L> {
         match &self.extent {
             Extent::Sphere(sphere) => {
                 let cone = sphere.seen_from(l, at.p);
@@ -75,7 +75,7 @@ impl Source {
 
 /// The reflected light, relative to that of a diffuse surface with the light overhead.
 #[inline(always)]
-fn reflected<L: Lanes>(at: &Receiver<L>, axis: V<L>, sin_squared: F<L>, facing: F<L>) -> F<L> {
+fn reflected<L: Lanes>(at: &ReferencePoint<L>, axis: V<L>, sin_squared: F<L>, facing: F<L>) -> F<L> {
     // Not `map_or`, whose closure would be compiled without the instructions of `L`.
     match &at.lobe {
         Some(lobe) => lobe.reflected(at.n, axis, sin_squared, facing),
@@ -83,9 +83,9 @@ fn reflected<L: Lanes>(at: &Receiver<L>, axis: V<L>, sin_squared: F<L>, facing: 
     }
 }
 
-/// An upper bound of the cosine at the receiver for all directions within the angle of sine `sin` around `axis`.
+/// An upper bound of the cosine at the reference point for all directions within the angle of sine `sin` around `axis`.
 #[inline(always)]
-fn facing<L: Lanes>(l: L, at: &Receiver<L>, axis: V<L>, sin: F<L>) -> F<L> {
+fn facing<L: Lanes>(l: L, at: &ReferencePoint<L>, axis: V<L>, sin: F<L>) -> F<L> {
     // Not quite 0 for a light that only just lies below the horizon: rounding may see it.
     const GRAZING: f32 = 1e-3;
     let cos = (axis.dot(at.n) + sin + GRAZING).max(l.f(0.0)).min(l.f(1.0));

@@ -2,7 +2,7 @@
 use glam::DVec3;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
-use super::{Background, Emission, LightCoordinates, Lights, Lobe, Receiver, Side};
+use super::{Background, Emission, LightCoordinates, Lights, Lobe, ReferencePoint, Side};
 use crate::{
     geometry::{MISS, Motion, Place, Shape, Shapes},
     math::{F, M, One, U, V},
@@ -61,7 +61,7 @@ fn directions_to_lights_are_distributed_as_their_pdf() {
     let (lights, shapes, alone) = lights();
     let glossy = Some(Lobe { wo: vector(0.6, 0.0, 0.8), alpha: F(0.1) });
     for (transmits, lobe) in [(false, None), (true, None), (false, glossy)] {
-        let at = Receiver { p: vector(0.1, -0.2, 0.1), n: vector(0.0, 0.6, 0.8), transmits: M(transmits), lobe };
+        let at = ReferencePoint { p: vector(0.1, -0.2, 0.1), n: vector(0.0, 0.6, 0.8), transmits: M(transmits), lobe };
         let mut counts = vec![0.0; ACROSS * AROUND];
         let mut drawn = 0.0;
         for i in 0..SAMPLES {

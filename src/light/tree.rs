@@ -13,7 +13,7 @@ mod split;
 
 pub(super) use self::cluster::Item;
 use self::cluster::{Cluster, Rows};
-use super::Receiver;
+use super::ReferencePoint;
 use crate::{
     math::{F, Lanes, M, Pick, U},
     sampling::hash::{GOLDEN, hash, unit},
@@ -49,7 +49,7 @@ pub(super) struct Tree {
 
 /// The state of a traversal below a head.
 #[derive(Clone, Copy)]
-pub(super) struct Descent<L: Lanes> {
+pub(super) struct Traversal<L: Lanes> {
     /// Lanes that have chosen a head.
     pub inside: M<L>,
     /// Words of the heads.
@@ -73,7 +73,7 @@ impl Tree {
     }
 
     #[inline(always)]
-    pub fn head_weight<L: Lanes>(&self, l: L, at: &Receiver<L>, head: usize) -> F<L> {
+    pub fn head_weight<L: Lanes>(&self, l: L, at: &ReferencePoint<L>, head: usize) -> F<L> {
         Cluster::of_all(l, &self.heads[head]).weight(l, at, self.oriented)
     }
 
@@ -86,11 +86,11 @@ impl Tree {
 
     /// Descends to a light, and returns its word and its probability.
     #[inline(always)]
-    pub fn descend<L: Lanes>(&self, l: L, at: &Receiver<L>, from: &Descent<L>) -> (U<L>, F<L>) {
+    pub fn descend<L: Lanes>(&self, l: L, at: &ReferencePoint<L>, from: &Traversal<L>) -> (U<L>, F<L>) {
         // A number has 23 bits. Where a path through the tree has used up 10 of them, others are drawn in their place: the first
         // decisions are as well stratified as the number is, and the last ones as fine as they must be.
         const COARSE: f32 = 1.0 / 1024.0;
-        let Descent { inside, mut word, mut u, bits, mut pmf } = *from;
+        let Traversal { inside, mut word, mut u, bits, mut pmf } = *from;
         let mut share = pmf;
         let mut level = 0;
         loop {
@@ -103,21 +103,21 @@ impl Tree {
             share = coarse.pick(l.f(1.0), share);
             level += 1;
 
-            let ways = self.ways(l, at, inner, word);
-            let place = u * ways.total;
-            let (mut begin, mut chosen, mut next) = (l.f(0.0), ways.weights[0], ways.words[0]);
-            let mut end = ways.weights[0];
+            let children = self.children(l, at, inner, word);
+            let place = u * children.total;
+            let (mut begin, mut chosen, mut next) = (l.f(0.0), children.weights[0], children.words[0]);
+            let mut end = children.weights[0];
             for way in 1..WAYS {
-                let weight = ways.weights[way];
+                let weight = children.weights[way];
                 let here = (place.ge(end) & weight.above(0.0)) | !chosen.above(0.0);
                 begin = here.pick(end, begin);
                 chosen = here.pick(weight, chosen);
-                next = here.pick(ways.words[way], next);
+                next = here.pick(children.words[way], next);
                 end = end + weight;
             }
             // Below 1, whatever the rounding.
             u = ((place - begin) / chosen).max(l.f(0.0)).min(l.f(1.0 - f32::EPSILON));
-            let probability = chosen / ways.total;
+            let probability = chosen / children.total;
             share = share * probability;
             pmf = inner.pick(pmf * probability, pmf);
             word = inner.pick(next, word);
@@ -126,21 +126,21 @@ impl Tree {
 
     /// The probability of descending from heads of the given words along trails, starting with `pmf`.
     #[inline(always)]
-    pub fn follow<L: Lanes>(&self, l: L, at: &Receiver<L>, inside: M<L>, head: U<L>, trail: U<L>, pmf: F<L>) -> F<L> {
+    pub fn follow<L: Lanes>(&self, l: L, at: &ReferencePoint<L>, inside: M<L>, head: U<L>, trail: U<L>, pmf: F<L>) -> F<L> {
         let (mut word, mut trail, mut pmf) = (head, trail, pmf);
         loop {
             let inner = inside & !(word & LAST).is(0);
             if !inner.any() {
                 return pmf;
             }
-            let ways = self.ways(l, at, inner, word);
-            let (mut chosen, mut next) = (ways.weights[0], ways.words[0]);
+            let children = self.children(l, at, inner, word);
+            let (mut chosen, mut next) = (children.weights[0], children.words[0]);
             for way in 1..WAYS {
                 let here = (trail & LAST).is(way as u32);
-                chosen = here.pick(ways.weights[way], chosen);
-                next = here.pick(ways.words[way], next);
+                chosen = here.pick(children.weights[way], chosen);
+                next = here.pick(children.words[way], next);
             }
-            pmf = inner.pick(pmf * (chosen / ways.total), pmf);
+            pmf = inner.pick(pmf * (chosen / children.total), pmf);
             word = inner.pick(next, word);
             trail = trail >> BITS;
         }
@@ -148,33 +148,33 @@ impl Tree {
 
     /// The children of these nodes in the lanes of `inner`.
     #[inline(always)]
-    fn ways<L: Lanes>(&self, l: L, at: &Receiver<L>, inner: M<L>, word: U<L>) -> Ways<L> {
+    fn children<L: Lanes>(&self, l: L, at: &ReferencePoint<L>, inner: M<L>, word: U<L>) -> ChildProbabilities<L> {
         let word = inner.pick(word, l.u(0));
         let (first, last) = (word >> BITS, word & LAST);
-        let mut ways = Ways { weights: [l.f(0.0); WAYS], words: [word; WAYS], total: l.f(0.0) };
+        let mut children = ChildProbabilities { weights: [l.f(0.0); WAYS], words: [word; WAYS], total: l.f(0.0) };
         for way in 0..WAYS {
             let exists = !last.below(way as u32);
             let node = exists.pick(first + way as u32, first) << 1;
             let cluster = Cluster::new([l.rows(&self.nodes, node), l.rows(&self.nodes, node + 1)]);
-            ways.weights[way] = exists.pick(cluster.weight(l, at, self.oriented), l.f(0.0));
-            ways.words[way] = cluster.word;
-            ways.total = ways.total + ways.weights[way];
+            children.weights[way] = exists.pick(cluster.weight(l, at, self.oriented), l.f(0.0));
+            children.words[way] = cluster.word;
+            children.total = children.total + children.weights[way];
         }
         // Where none could contribute: any, all alike.
-        let dead = !ways.total.above(0.0);
+        let dead = !children.total.above(0.0);
         if dead.any() {
             for way in 0..WAYS {
                 let exists = dead & !last.below(way as u32);
-                ways.weights[way] = exists.pick(l.f(1.0), ways.weights[way]);
+                children.weights[way] = exists.pick(l.f(1.0), children.weights[way]);
             }
-            ways.total = dead.pick((last + 1).to_real(), ways.total);
+            children.total = dead.pick((last + 1).to_real(), children.total);
         }
-        ways
+        children
     }
 }
 
 /// The children of nodes, with their probabilities.
-struct Ways<L: Lanes> {
+struct ChildProbabilities<L: Lanes> {
     weights: [F<L>; WAYS],
     words: [U<L>; WAYS],
     total: F<L>,

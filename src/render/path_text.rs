@@ -1,7 +1,7 @@
 //! A path as text: the settings, the nested sum, the reason of its end, and every vertex.
 use super::path_formula;
 use crate::{
-    integrator::{MetLight, Outcome, Reflection, Replay, SampledLight, Surface, Vertex},
+    integrator::{EmitterHit, Outcome, Reflection, Replay, SampledLight, Surface, Vertex},
     render::settings_text::on_or_off,
     scene::{Camera, RenderSettings, Roulette, Scene},
 };
@@ -78,7 +78,7 @@ fn block(scene: &Scene, vertex: &Vertex) -> String {
         term("to the viewer", &place(*wo));
         shading_normal.iter().for_each(|n| term("normal", &place(*n)));
     }
-    if let Some(MetLight { radiance, weight, contribution }) = &vertex.emission {
+    if let Some(EmitterHit { radiance, weight, contribution }) = &vertex.emission {
         term("emission", &format!("Le {}, weight {}", three(*radiance), number(*weight)));
         term("", &format!("adds {}", three(*contribution)));
     }

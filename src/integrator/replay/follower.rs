@@ -1,5 +1,5 @@
 //! Records the path of one slot while a batch is traced with one lane.
-use super::terms::{MetLight, Outcome, Reflection, SampledLight, Surface, Vertex};
+use super::terms::{EmitterHit, Outcome, Reflection, SampledLight, Surface, Vertex};
 use crate::{
     geometry::{MISS, Place},
     integrator::{
@@ -10,7 +10,7 @@ use crate::{
         shading::{LightEstimate, Reflected, Shading, shares_first},
         shadow::arriving,
         slots::SLOTS,
-        surface::{Met, emitted, meet, weight},
+        surface::{SurfaceInteraction, emitted, interact, weight},
         trace::Observer,
         work::Work,
     },
@@ -65,14 +65,14 @@ impl Follower {
         let t = One.load(&batch.t[at..]);
         let primitive = One.load(&batch.primitive[at..]).bits();
         let object = (primitive.0 != MISS).then(|| work.scene.owners[primitive.0 as usize]);
-        let met = object.map(|_| meet::<One, VARIED>(One, work, &path, M(true), t, primitive, &batch.element[at..]));
+        let interaction = object.map(|_| interact::<One, VARIED>(One, work, &path, M(true), t, primitive, &batch.element[at..]));
         let media = Inside::read(One, &batch.path_media[(batch.bounce & 1) as usize], at).media;
         let transmittance = if VARIED && work.has_media() { transmittance(One, work, media, t) } else { V::splat(One, WHITE) };
         let throughput = carried(work, batch, batch.bounce, &path);
-        let emission = light_met::<VARIED>(work, &path, met).map(|(radiance, place)| {
-            let weight = weight_of_met(work, batch, at, &path, place);
+        let emission = hit_emitter::<VARIED>(work, &path, interaction).map(|(radiance, place)| {
+            let weight = emitter_hit_weight_of(work, batch, at, &path, place);
             let contribution = V::splat(One, throughput) * transmittance * radiance * weight;
-            MetLight { radiance: radiance.lane(0), weight: weight.0, contribution: contribution.lane(0) }
+            EmitterHit { radiance: radiance.lane(0), weight: weight.0, contribution: contribution.lane(0) }
         });
         self.add(emission.as_ref().map_or(BLACK, |emission| emission.contribution));
         let (normal, shading_normal) = self.normals(work, batch).unzip();
@@ -85,7 +85,9 @@ impl Follower {
             distance: object.map(|_| t.0),
             object,
             normal,
-            surface: object.zip(met).map(|(object, met)| surface(work, object, &path, &met, shading_normal)),
+            surface: object
+                .zip(interaction)
+                .map(|(object, interaction)| surface(work, object, &path, &interaction, shading_normal)),
             emission,
             light: None,
             reflection: None,
@@ -145,8 +147,8 @@ impl Follower {
         let media = Inside::read(One, &batch.shadow_media, at).media;
         let (seen, radiance) = arriving(One, work, M(true), &shadow, media);
         light.outcome = if seen.0 { Outcome::Seen } else { Outcome::Hidden };
-        let met = work.scene.shapes.closest(One, M(true), shadow.o, shadow.d, work.time(One, shadow.slot));
-        light.distance = Some(met.t.0).filter(|t| t.is_finite());
+        let nearest = work.scene.shapes.closest(One, M(true), shadow.o, shadow.d, work.time(One, shadow.slot));
+        light.distance = Some(nearest.t.0).filter(|t| t.is_finite());
         if seen.0 {
             let (_, passed) = arriving(One, work, M(true), &Shadow { radiance: V::splat(One, WHITE), ..shadow }, media);
             light.passed = passed.lane(0);
@@ -199,34 +201,44 @@ fn own(batch: &Batch, slot: U<One>, colour: [f32; 3]) -> [f32; 3] {
 }
 
 /// Emitted radiance at a hit, and its position.
-fn light_met<const VARIED: bool>(work: &Work, path: &Path<One>, met: Option<Met<One>>) -> Option<(V<One>, Place<One>)> {
+fn hit_emitter<const VARIED: bool>(
+    work: &Work,
+    path: &Path<One>,
+    interaction: Option<SurfaceInteraction<One>>,
+) -> Option<(V<One>, Place<One>)> {
     let lights = &work.scene.lights;
-    let Some(met) = met else {
+    let Some(interaction) = interaction else {
         return lights.background.as_ref().map(|sky| (sky.radiance(One, path.d), Place::of(One, U(MISS))));
     };
-    let emits = lights.emitters.emits(met.place.primitive);
+    let emits = lights.emitters.emits(interaction.place.primitive);
     if !emits.0 {
         return None;
     }
-    let (radiance, seen) = emitted::<One, VARIED>(One, work.scene, emits, &met);
-    seen.0.then_some((radiance, met.place))
+    let (radiance, seen) = emitted::<One, VARIED>(One, work.scene, emits, &interaction);
+    seen.0.then_some((radiance, interaction.place))
 }
 
 /// The MIS weight of the emitter hit by the path at index `at` of its queue.
-fn weight_of_met(work: &Work, batch: &Batch, at: usize, path: &Path<One>, place: Place<One>) -> F<One> {
+fn emitter_hit_weight_of(work: &Work, batch: &Batch, at: usize, path: &Path<One>, place: Place<One>) -> F<One> {
     let current = (batch.bounce & 1) as usize;
     if batch.bounce == 0 || !work.samples_lights() {
         return F(1.0);
     }
-    weight(One, work, (&batch.pasts[current], &batch.glosses[current]), at, path, place)
+    weight(One, work, (&batch.previous_vertices[current], &batch.previous_lobes[current]), at, path, place)
 }
 
-fn surface(work: &Work, object: u32, path: &Path<One>, met: &Met<One>, shading_normal: Option<[f32; 3]>) -> Surface {
+fn surface(
+    work: &Work,
+    object: u32,
+    path: &Path<One>,
+    interaction: &SurfaceInteraction<One>,
+    shading_normal: Option<[f32; 3]>,
+) -> Surface {
     let object = &work.scene.objects[object as usize];
     Surface {
-        position: met.point.p.lane(0),
+        position: interaction.point.p.lane(0),
         material: work.scene.material(object).map(|material| material.material.name()),
-        front: (met.cos.0 > 0.0) != object.flip,
+        front: (interaction.cos.0 > 0.0) != object.flip,
         wo: (-path.d).lane(0),
         shading_normal,
     }

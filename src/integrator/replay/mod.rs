@@ -12,7 +12,7 @@ use serde::Serialize;
 use self::follower::Follower;
 pub use self::{
     samples::pixel_samples,
-    terms::{End, MetLight, Outcome, Reflection, SampledLight, Surface, Vertex},
+    terms::{EmitterHit, End, Outcome, Reflection, SampledLight, Surface, Vertex},
 };
 use super::{
     batch::Batch,

@@ -26,7 +26,7 @@ pub struct Vertex {
     /// `None` if the path leaves the scene.
     pub surface: Option<Surface>,
     /// Emission at the hit; `None` if nothing emits.
-    pub emission: Option<MetLight>,
+    pub emission: Option<EmitterHit>,
     /// `None` if no light is sampled: by the estimator `path`, at specular surfaces, and where the path ends.
     pub light: Option<SampledLight>,
     /// `None` if nothing is reflected: the surface is black, or the vertex is the last one.
@@ -95,7 +95,7 @@ pub struct Surface {
 
 /// Emission at a hit.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct MetLight {
+pub struct EmitterHit {
     /// L_e towards the viewer.
     pub radiance: [f32; 3],
     /// MIS weight (power heuristic, Veach 1997, equation 9.14); 1 if lights are not sampled.

@@ -5,7 +5,7 @@ use statrs::distribution::{ChiSquared, ContinuousCDF};
 use super::{FEW, Item, Selection, outstanding};
 use crate::{
     geometry::{MISS, Motion, Outline, Place, Shape, Shapes},
-    light::{Emission, Emitters, LightCoordinates, Lobe, Receiver, Side},
+    light::{Emission, Emitters, LightCoordinates, Lobe, ReferencePoint, Side},
     math::{F, Lanes, M, One, Pick, SimdLevel, U, V},
     sampling::hash::hash_one,
 };
@@ -55,7 +55,7 @@ impl Set {
     }
 
     /// Probabilities of all lights, and last of the background.
-    fn pmf(&self, selection: &Selection, at: &Receiver<One>) -> Vec<f64> {
+    fn pmf(&self, selection: &Selection, at: &ReferencePoint<One>) -> Vec<f64> {
         let lights = (0..self.shapes.len() as u32).map(|light| selection.probability(One, at, M(true), U(light)));
         lights.chain([selection.probability(One, at, M(false), U(MISS))]).map(|pmf| f64::from(pmf.0)).collect()
     }
@@ -122,7 +122,7 @@ fn vector(v: DVec3) -> V<One> {
 }
 
 /// A point among the lights, close to one of them, inside one, or far away.
-fn receiver(random: &mut Random, set: &Set) -> Receiver<One> {
+fn reference_point(random: &mut Random, set: &Set) -> ReferencePoint<One> {
     let light = &set.shapes[(random.next() * set.shapes.len() as f64) as usize];
     let (center, radius) = light.bounding_sphere();
     let p = match (random.next() * 5.0) as u32 {
@@ -133,7 +133,7 @@ fn receiver(random: &mut Random, set: &Set) -> Receiver<One> {
     };
     let alpha = if random.next() < 0.4 { 0.0 } else { random.between(1e-3, 1.0) };
     let lobe = Some(Lobe { wo: vector(random.direction()), alpha: F(alpha as f32) });
-    Receiver { p: vector(p), n: vector(random.direction()), transmits: M(random.next() < 0.3), lobe }
+    ReferencePoint { p: vector(p), n: vector(random.direction()), transmits: M(random.next() < 0.3), lobe }
 }
 
 fn coordinates(random: &mut Random) -> LightCoordinates<One> {
@@ -148,7 +148,7 @@ fn probabilities_sum_to_one() {
     for set in sets() {
         let selection = set.selection();
         for _ in 0..100 {
-            let at = receiver(random, &set);
+            let at = reference_point(random, &set);
             let pmf = set.pmf(&selection, &at);
             let sum: f64 = pmf.iter().sum();
             // Where it is seen at once that no light contributes, none is chosen.
@@ -165,7 +165,7 @@ fn a_choice_has_its_probability_at_every_level() {
     for set in sets() {
         let selection = set.selection();
         for _ in 0..20 {
-            let cases: Vec<_> = (0..16).map(|_| (receiver(random, &set), coordinates(random))).collect();
+            let cases: Vec<_> = (0..16).map(|_| (reference_point(random, &set), coordinates(random))).collect();
             let one: Vec<_> = cases.iter().map(|(at, u)| selection.choose(One, at, u)).collect();
             for level in SimdLevel::available() {
                 crate::in_lanes!(level, l => all_same(l, &selection, &cases, &one));
@@ -174,16 +174,16 @@ fn a_choice_has_its_probability_at_every_level() {
     }
 }
 
-type Case = (Receiver<One>, LightCoordinates<One>);
+type Case = (ReferencePoint<One>, LightCoordinates<One>);
 
 fn lobe(case: &Case) -> Lobe<One> {
-    case.0.lobe.expect("every receiver has one")
+    case.0.lobe.expect("every reference_point has one")
 }
 
 fn all_same<L: Lanes>(l: L, selection: &Selection, cases: &[Case], one: &[(U<One>, F<One>)]) {
     for (cases, one) in cases.chunks(L::N).zip(one.chunks(L::N)) {
         let real = |get: &dyn Fn(&Case) -> f32| l.load(&cases.iter().map(get).collect::<Vec<_>>());
-        let at = Receiver {
+        let at = ReferencePoint {
             p: V { x: real(&|c| c.0.p.x.0), y: real(&|c| c.0.p.y.0), z: real(&|c| c.0.p.z.0) },
             n: V { x: real(&|c| c.0.n.x.0), y: real(&|c| c.0.n.y.0), z: real(&|c| c.0.n.z.0) },
             transmits: real(&|c| f32::from(u8::from(c.0.transmits.0))).above(0.5),
@@ -211,7 +211,7 @@ fn choices_are_as_frequent_as_their_probability() {
     for set in sets() {
         let selection = set.selection();
         for _ in 0..2 {
-            let at = receiver(random, &set);
+            let at = reference_point(random, &set);
             let pmf = set.pmf(&selection, &at);
             let mut counts = vec![0.0; pmf.len()];
             for _ in 0..CHOICES {
@@ -247,7 +247,7 @@ fn what_can_contribute_can_be_chosen() {
         let (shapes, emitters) =
             (Shapes::new(set.shapes.iter().map(|shape| (shape, &STILL)), DVec3::ZERO), Emitters::new(&set.emissions));
         for _ in 0..20_000 {
-            let at = receiver(random, &set);
+            let at = reference_point(random, &set);
             let light = U((random.next() * set.shapes.len() as f64) as u32);
             let place = Place::of(One, light);
             let toward = shapes.toward(One, &place, at.p, (F(random.next() as f32), F(random.next() as f32)));

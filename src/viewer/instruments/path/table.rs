@@ -167,7 +167,7 @@ fn short(x: f32) -> String {
 mod tests {
     use egui_kittest::{Harness, kittest::NodeT};
     use noisefall::{
-        integrator::{MetLight, Reflection, SampledLight, Surface},
+        integrator::{EmitterHit, Reflection, SampledLight, Surface},
         material::ChosenLobe,
         scene::built_in,
     };
@@ -193,7 +193,7 @@ mod tests {
                 wo: grey(0.0),
                 shading_normal: None,
             }),
-            emission: Some(MetLight { radiance: grey(0.103), weight: 0.104, contribution: grey(0.105) }),
+            emission: Some(EmitterHit { radiance: grey(0.103), weight: 0.104, contribution: grey(0.105) }),
             light: Some(SampledLight {
                 direction: grey(0.0),
                 object: Some(0),
