@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::{
     Shape, Sphere,
-    around::Around,
+    bounding_sphere::BoundingSphere,
     bvh::{Bvh, NONE},
     object::{Kind, Object},
 };
@@ -18,7 +18,7 @@ const MANY: usize = 16;
 
 /// Spheres, each with its primitive, in the order of primitives.
 pub(super) struct Cluster {
-    pub around: Around,
+    pub bounding_sphere: BoundingSphere,
     pub members: Vec<(u32, Sphere)>,
 }
 
@@ -62,6 +62,6 @@ impl Cluster {
         let middle = (min + max) / 2.0;
         let reach = balls.iter().map(|(_, center, radius)| center.distance(middle) + radius).fold(0.0, f64::max);
         let members = balls.iter().map(|(first, center, radius)| (*first, Sphere::new(*center, *radius, near))).collect();
-        Cluster { around: Around::new(middle, reach), members }
+        Cluster { bounding_sphere: BoundingSphere::new(middle, reach), members }
     }
 }

@@ -2,7 +2,7 @@
 use crate::math::{F, Lanes, M, Pick, V};
 
 /// A sampled direction towards a primitive.
-pub struct Toward<L: Lanes> {
+pub struct DirectionSample<L: Lanes> {
     /// Unit.
     pub wi: V<L>,
     /// Pdf per solid angle; 0 if there is no direction.
@@ -11,9 +11,9 @@ pub struct Toward<L: Lanes> {
     pub front: M<L>,
 }
 
-impl<L: Lanes> Pick<Toward<L>> for M<L> {
+impl<L: Lanes> Pick<DirectionSample<L>> for M<L> {
     #[inline(always)]
-    fn pick(self, a: Toward<L>, b: Toward<L>) -> Toward<L> {
-        Toward { wi: self.pick(a.wi, b.wi), pdf: self.pick(a.pdf, b.pdf), front: (self & a.front) | (!self & b.front) }
+    fn pick(self, a: DirectionSample<L>, b: DirectionSample<L>) -> DirectionSample<L> {
+        DirectionSample { wi: self.pick(a.wi, b.wi), pdf: self.pick(a.pdf, b.pdf), front: (self & a.front) | (!self & b.front) }
     }
 }

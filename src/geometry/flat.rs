@@ -68,7 +68,7 @@ impl Flat {
         let one = height.splat(1.0);
         let numerator = height * one.copysign(nearing);
         let denominator = nearing.abs();
-        // The coordinates of the meeting, times the denominator.
+        // The coordinates of the intersection, times the denominator.
         let u = coordinate(&self.u, from_anchor) * denominator + gradient(&self.u, d) * numerator;
         let v = coordinate(&self.v, from_anchor) * denominator + gradient(&self.v, d) * numerator;
         let zero = one.splat(0.0);

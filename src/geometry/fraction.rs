@@ -68,7 +68,7 @@ mod tests {
         assert!(half.less(&infinite).0 && !infinite.less(&half).0);
         assert!(half.equals(&also_half).0 && also_half.equals(&half).0);
         assert!(!half.equals(&third).0 && !third.equals(&half).0);
-        assert!(!infinite.equals(&infinite).0 && !infinite.equals(&half).0, "an infinite distance is no meeting");
+        assert!(!infinite.equals(&infinite).0 && !infinite.equals(&half).0, "an infinite distance is no intersection");
         for other in [half, infinite, none] {
             assert!(!none.less(&other).0 && !other.less(&none).0 && !none.equals(&other).0 && !other.equals(&none).0);
         }

@@ -77,8 +77,8 @@ impl Lists {
                 nearest.meet(t, l.u(*id));
             }
         }
-        for Cluster { around, members } in &self.clusters {
-            let near = around.near(o, d);
+        for Cluster { bounding_sphere, members } in &self.clusters {
+            let near = bounding_sphere.near(o, d);
             if !near.any() {
                 continue;
             }

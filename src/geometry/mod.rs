@@ -15,8 +15,8 @@
 //!
 //! A ray tests the few and large shapes of `lists.rs` one by one, skips clusters of spheres that no ray of its register comes
 //! near (`clusters.rs`), and descends a tree over the others (`objects.rs`). The surface that it hits is looked up in
-//! `tables.rs`. Meshes, isosurfaces and moving shapes have a local space (`placed.rs`). [`Shapes`] holds all of them.
-mod around;
+//! `tables.rs`. Meshes, isosurfaces and moving shapes have a local space (`instance.rs`). [`Shapes`] holds all of them.
+mod bounding_sphere;
 mod bounds;
 mod bvh;
 mod clusters;
@@ -25,6 +25,7 @@ mod direction_sample;
 mod extent;
 mod flat;
 mod fraction;
+mod instance;
 mod isosurface;
 mod lists;
 pub mod mesh;
@@ -33,8 +34,6 @@ mod nearest;
 mod object;
 mod objects;
 pub mod oracle;
-mod placed;
-mod pose;
 mod quadric;
 mod rectangle;
 mod shape;
@@ -47,10 +46,11 @@ mod tables;
 #[cfg(test)]
 mod tests;
 mod toward;
+mod transform;
 mod turns;
 
 pub use self::{
-    direction_sample::Toward,
+    direction_sample::DirectionSample,
     isosurface::{Expression, Isosurface, ParseError},
     mesh::MeshData,
     motion::Motion,
@@ -60,7 +60,7 @@ pub use self::{
     sphere::{Cone, Sphere},
     sphere_field::sphere_field,
     step::Step,
-    surface_point::{Coordinates, Place, SurfacePoint},
+    surface_point::{Coordinates, PrimitiveRef, SurfacePoint},
     turns::Turns,
 };
 

@@ -2,8 +2,8 @@
 use glam::DAffine3;
 
 use super::{
-    pose::{Pose, Rest},
     step::Step,
+    transform::{LaneTransform, StaticTransform},
 };
 use crate::math::{F, Lanes, V};
 
@@ -19,8 +19,8 @@ impl Motion {
     /// Transforms a ray o + td to `time`, with d of unit length.
     #[inline(always)]
     pub fn carry<L: Lanes>(&self, l: L, o: V<L>, d: V<L>, time: F<L>) -> (V<L>, V<L>) {
-        let pose = Pose::new(l, &Rest::IDENTITY, &self.0, time);
-        (pose.point_to_world(o), pose.vector_to_world(d).normalized())
+        let transform = LaneTransform::new(l, &StaticTransform::IDENTITY, &self.0, time);
+        (transform.point_to_world(o), transform.vector_to_world(d).normalized())
     }
 
     /// Whether the transform is invertible at all times; tests many of them.

@@ -11,8 +11,8 @@ pub(super) struct Object<'a> {
 pub(super) enum Kind<'a> {
     /// An analytic shape, whose first piece is primitive `first`.
     Analytic { first: u32, shape: &'a Shape },
-    /// Index among the placed shapes.
-    Placed(u32),
+    /// Index among the instances.
+    Instance(u32),
 }
 
 impl Kind<'_> {
@@ -23,8 +23,8 @@ impl Kind<'_> {
             Kind::Analytic { shape: Shape::Cuboid { .. } | Shape::Cylinder { .. } | Shape::Ellipsoid { .. }, .. } => 2.0,
             // In a cluster, which most registers of rays pass by: a tree over 256 spheres takes as long.
             Kind::Analytic { shape: Shape::Sphere { .. }, .. } => 0.25,
-            // Of a placed shape, the test of whether any lane comes near.
-            Kind::Analytic { .. } | Kind::Placed(_) => 1.0,
+            // Of an instance, the test of whether any lane comes near.
+            Kind::Analytic { .. } | Kind::Instance(_) => 1.0,
         }
     }
 }

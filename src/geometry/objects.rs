@@ -10,9 +10,9 @@ use super::{
     Nearest,
     bounds::Bounds,
     bvh::{Bvh, Leaves, Slabs, Stack, traverse},
+    instance::Instance,
     lists::{Listed, Lists},
     object::{Kind, Object},
-    placed::Placed,
 };
 use crate::math::{F, Lanes, M, MAX_LANES, One, U, V};
 
@@ -33,7 +33,7 @@ pub(super) struct Objects {
 #[derive(Clone, Copy)]
 enum Item {
     Listed(Listed),
-    Placed(u32),
+    Instance(u32),
 }
 
 /// Splits objects into those for lists and those for a tree. Both keep their order, because of coincident surfaces the first one
@@ -101,7 +101,7 @@ impl Objects {
         // In the order of the leaves, so that what is near in the tree is near in memory.
         let item = |&number: &u32| match objects[number as usize].kind {
             Kind::Analytic { first, shape } => Item::Listed(lists.push(first, shape, near)),
-            Kind::Placed(index) => Item::Placed(index),
+            Kind::Instance(index) => Item::Instance(index),
         };
         let items = order.iter().map(item).collect();
         Objects { bvh, items, lists }
@@ -117,7 +117,7 @@ impl Objects {
     pub fn closest<L: Lanes>(
         &self,
         l: L,
-        placed: &[Placed],
+        instances: &[Instance],
         live: M<L>,
         (o, d): (V<L>, V<L>),
         time: F<L>,
@@ -136,7 +136,7 @@ impl Objects {
             rest &= rest - 1;
             let mut found = Found {
                 objects: self,
-                placed,
+                instances,
                 below: &mut below,
                 o: vector(&origins, lane),
                 d: vector(&directions, lane),
@@ -155,7 +155,7 @@ impl Objects {
 /// The nearest hit of one ray so far.
 struct Found<'a> {
     objects: &'a Objects,
-    placed: &'a [Placed],
+    instances: &'a [Instance],
     below: &'a mut Stack,
     o: V<One>,
     d: V<One>,
@@ -172,10 +172,10 @@ impl<S: Simd> Leaves<S> for Found<'_> {
                 let (t, primitive) = self.objects.lists.meet(One, which, self.o, self.d);
                 (t, primitive, U(0))
             }
-            Item::Placed(index) => {
-                let placed = &self.placed[index as usize];
-                let found = placed.meet(One, s, self.below, (self.o, self.d), self.time, F(t_max));
-                (found.t, found.piece + placed.first, found.element)
+            Item::Instance(index) => {
+                let instance = &self.instances[index as usize];
+                let found = instance.meet(One, s, self.below, (self.o, self.d), self.time, F(t_max));
+                (found.t, found.piece + instance.first, found.element)
             }
         };
         // The first of surfaces that coincide.
@@ -191,7 +191,7 @@ impl<S: Simd> Leaves<S> for Found<'_> {
     fn touch(&self, leaf: u32) -> u32 {
         match self.objects.items[leaf as usize] {
             Item::Listed(_) => 0,
-            Item::Placed(index) => index,
+            Item::Instance(index) => index,
         }
     }
 }

@@ -7,7 +7,7 @@ use super::{Outline, Shape};
 
 /// An intersection of a ray with a piece.
 #[derive(Clone, Copy, Debug)]
-pub struct Meeting {
+pub struct Intersection {
     pub t: f64,
     /// Distance inside the outline of the piece, relative to its size; negative outside.
     pub margin: f64,
@@ -18,9 +18,9 @@ pub struct Meeting {
 }
 
 /// All intersections of o + td with the pieces of a shape, including those that miss the outline by less than `slack`.
-pub fn meetings(shape: &Shape, o: DVec3, d: DVec3, slack: f64) -> Vec<Meeting> {
-    let mut found: Vec<Meeting> = pieces(shape).iter().flat_map(|piece| meetings_of(piece, o, d)).collect();
-    found.retain(|meeting| meeting.margin > -slack && meeting.t.is_finite());
+pub fn intersections(shape: &Shape, o: DVec3, d: DVec3, slack: f64) -> Vec<Intersection> {
+    let mut found: Vec<Intersection> = pieces(shape).iter().flat_map(|piece| intersections_of(piece, o, d)).collect();
+    found.retain(|intersection| intersection.margin > -slack && intersection.t.is_finite());
     found.sort_by(|a, b| a.t.total_cmp(&b.t));
     found
 }
@@ -92,7 +92,7 @@ fn from_segment(a: DVec3, b: DVec3, p: DVec3) -> f64 {
     p.distance(a + (b - a) * share.clamp(0.0, 1.0))
 }
 
-fn meetings_of(piece: &Shape, o: DVec3, d: DVec3) -> Vec<Meeting> {
+fn intersections_of(piece: &Shape, o: DVec3, d: DVec3) -> Vec<Intersection> {
     match piece {
         Shape::Sphere { center, radius } => quadric(*center, DMat3::from_diagonal(DVec3::splat(*radius)), false, o, d),
         Shape::Ellipsoid { center, axes } => quadric(*center, *axes, false, o, d),
@@ -105,7 +105,7 @@ fn meetings_of(piece: &Shape, o: DVec3, d: DVec3) -> Vec<Meeting> {
             let height = e.cross(*f).length() / e.length().max(f.length());
             // Aside by a metre, a ray at the angle θ meets the plane 1/cos θ metres farther on.
             let cos = d.dot(n).abs();
-            vec![Meeting { t, margin, cos, clearance: margin * height * cos }]
+            vec![Intersection { t, margin, cos, clearance: margin * height * cos }]
         }
         _ => unreachable!("not an analytic piece"),
     }
@@ -128,7 +128,7 @@ fn weight(cylinder: bool) -> DVec3 {
     if cylinder { DVec3::new(1.0, 1.0, 0.0) } else { DVec3::ONE }
 }
 
-fn quadric(origin: DVec3, axes: DMat3, cylinder: bool, o: DVec3, d: DVec3) -> Vec<Meeting> {
+fn quadric(origin: DVec3, axes: DMat3, cylinder: bool, o: DVec3, d: DVec3) -> Vec<Intersection> {
     let g = axes.inverse();
     let (y, e) = (g * (o - origin), g * d);
     let weight = weight(cylinder);
@@ -140,19 +140,19 @@ fn quadric(origin: DVec3, axes: DMat3, cylinder: bool, o: DVec3, d: DVec3) -> Ve
     if discriminant < 0.0 || a == 0.0 {
         // A miss, told as a place outside; one that rounding may turn into a tangent.
         let outside = 1.0 - nearest.length();
-        return vec![Meeting { t: -b / a, margin: outside, cos: if outside > -1e-3 { 0.0 } else { 1.0 }, clearance: depth }];
+        return vec![Intersection { t: -b / a, margin: outside, cos: if outside > -1e-3 { 0.0 } else { 1.0 }, clearance: depth }];
     }
     let root = discriminant.sqrt();
     let w = -(b + root.copysign(b));
-    let meeting = |t: f64| {
+    let intersection = |t: f64| {
         let place = y + e * t;
         let n = (g.transpose() * (place * weight)).normalize();
         let margin = if cylinder { place.z.min(1.0 - place.z) } else { 1.0 };
         let cos = n.dot(d).abs();
         let clearance = if cylinder { depth.min(margin * axes.z_axis.length() * cos) } else { depth };
-        Meeting { t, margin, cos, clearance }
+        Intersection { t, margin, cos, clearance }
     };
-    vec![meeting(w / a), meeting(c / w)]
+    vec![intersection(w / a), intersection(c / w)]
 }
 
 /// A lower bound of the radii of the quadric.

@@ -57,7 +57,7 @@ impl Quadric {
     /// The nearest intersection with o + td with t > 0; NaN if there is none.
     #[inline(always)]
     pub(super) fn intersect<L: Lanes>(&self, l: L, o: V<L>, d: V<L>) -> Fraction<L> {
-        let [near, far] = self.splat(l).meetings(o, d);
+        let [near, far] = self.splat(l).intersections(o, d);
         let first = near.numerator.above(0.0).pick(near, far);
         first.only(first.numerator.above(0.0))
     }
@@ -129,7 +129,7 @@ impl<L: Lanes> Local<L> {
 
     /// Both intersections with o + td in the order of t, NaN if there are none; t may be negative.
     #[inline(always)]
-    pub fn meetings(&self, o: V<L>, d: V<L>) -> [Fraction<L>; 2] {
+    pub fn intersections(&self, o: V<L>, d: V<L>) -> [Fraction<L>; 2] {
         let Crossing { ways, speed, z, climb } = self.crossing(o, d);
         let within = [self.is_within(z + climb * ways[0]), self.is_within(z + climb * ways[1])];
         [
@@ -227,7 +227,7 @@ impl<L: Lanes> Local<L> {
     /// The point of the surface nearest to `p`, which is off the surface only by rounding.
     #[inline(always)]
     pub fn surface_point(&self, p: V<L>) -> SurfacePoint<L> {
-        // Half of the rounding of c as `meetings` evaluates it is, as for a sphere, at most 36 ε max|yᵢ|, and each yᵢ has one of
+        // Half of the rounding of c as `intersections` evaluates it is, as for a sphere, at most 36 ε max|yᵢ|, and each yᵢ has one of
         // 2.5 ε Σⱼ |Gᵢⱼ (x − q)ⱼ| itself. The steepness |∇c|/2 turns that into a distance.
         const ROUNDINGS: f32 = 40.0 * f32::EPSILON;
         const ROUNDINGS_OF_X: f32 = 4.0 * f32::EPSILON;

@@ -4,15 +4,15 @@ use std::{collections::HashMap, sync::Arc};
 use glam::{DAffine3, DVec3};
 
 use super::{
-    Coordinates, Motion, Nearest, Place, SurfacePoint, Toward,
+    Coordinates, DirectionSample, Motion, Nearest, PrimitiveRef, SurfacePoint,
     clusters::take_clusters,
+    instance::{Body, Instance},
     lists::Lists,
     mesh::{Mesh, MeshData},
     object::{Kind, Object},
     objects::{Objects, few_and_many},
-    placed::{Body, Placed},
     shape::{Outline, Shape},
-    tables::{PLACED, Tables},
+    tables::{INSTANCE, Tables},
 };
 use crate::math::{F, Lanes, M, Pick, U, V};
 
@@ -20,8 +20,8 @@ use crate::math::{F, Lanes, M, Pick, U, V};
 #[derive(Default)]
 pub struct Shapes {
     tables: Tables,
-    placed: Vec<Placed>,
-    /// Shapes that every ray tests: analytic ones, and indices of placed ones.
+    instances: Vec<Instance>,
+    /// Shapes that every ray tests: analytic ones, and indices of instances.
     lists: Lists,
     loops: Vec<u32>,
     /// Shapes in a tree.
@@ -50,7 +50,7 @@ impl Shapes {
                 Kind::Analytic { first, shape } => {
                     all.lists.push(first, shape, near);
                 }
-                Kind::Placed(index) => all.loops.push(index),
+                Kind::Instance(index) => all.loops.push(index),
             }
         }
         all.objects = (!many.is_empty()).then(|| Objects::new(&many, near));
@@ -80,22 +80,22 @@ impl Shapes {
             }
         };
         self.moves |= !motion.0.is_empty();
-        let index = self.placed.len();
+        let index = self.instances.len();
         for _ in 0..shape.piece_count() {
-            self.tables.push_placed(index);
+            self.tables.push_instance(index);
         }
-        self.placed.push(Placed::new(first, body, still, motion, shape));
-        Kind::Placed(index as u32)
+        self.instances.push(Instance::new(first, body, still, motion, shape));
+        Kind::Instance(index as u32)
     }
 
     /// The triangles of a mesh in the order of its elements.
     pub fn triangles(&self, primitive: u32) -> Vec<Shape> {
-        let Some(placed) = self.tables.placed_at(primitive).map(|index| &self.placed[index]) else { return Vec::new() };
-        let Body::Mesh(mesh) = &placed.body else { return Vec::new() };
+        let Some(instance) = self.tables.instance_at(primitive).map(|index| &self.instances[index]) else { return Vec::new() };
+        let Body::Mesh(mesh) = &instance.body else { return Vec::new() };
         let triangle = |id: u32| {
             let [a, b, c] = mesh.corners(id).map(|corner| glam::Vec3::from(corner).as_dvec3());
             let flat = Shape::Flat { outline: Outline::Triangle, origin: a, edges: [b - a, c - a], mirrored: false };
-            flat.transformed(placed.still())
+            flat.transformed(instance.still())
         };
         (0..mesh.len() as u32).map(triangle).collect()
     }
@@ -128,7 +128,7 @@ impl Shapes {
 
     /// Whether there are only static spheres, and few.
     pub fn are_spheres(&self) -> bool {
-        self.placed.is_empty() && self.objects.is_none() && self.lists.are_spheres()
+        self.instances.is_empty() && self.objects.is_none() && self.lists.are_spheres()
     }
 
     /// Whether there are only lists, and no trees.
@@ -138,7 +138,7 @@ impl Shapes {
 
     /// Whether all surfaces are static spheres, or static, open and flat.
     pub fn are_simple(&self) -> bool {
-        self.placed.is_empty() && self.tables.are_simple()
+        self.instances.is_empty() && self.tables.are_simple()
     }
 
     /// [`Shapes::closest`] for scenes whose shapes all [are spheres](Shapes::are_spheres).
@@ -160,41 +160,41 @@ impl Shapes {
         let (t, primitive) = self.lists.closest(l, o, d);
         let mut nearest = Nearest { t, primitive, element: l.u(0) };
         for &index in &self.loops {
-            let placed = &self.placed[index as usize];
-            let near = placed.near(live, o, d);
+            let instance = &self.instances[index as usize];
+            let near = instance.near(live, o, d);
             if !near.any() {
                 continue;
             }
-            let found = placed.closest(l, (o, d), time, near.pick(nearest.t, l.f(0.0)));
+            let found = instance.closest(l, (o, d), time, near.pick(nearest.t, l.f(0.0)));
             let nearer = found.t.lt(nearest.t);
             nearest.t = nearer.pick(found.t, nearest.t);
-            nearest.primitive = nearer.pick(found.piece + placed.first, nearest.primitive);
+            nearest.primitive = nearer.pick(found.piece + instance.first, nearest.primitive);
             nearest.element = nearer.pick(found.element, nearest.element);
         }
         if let Some(objects) = &self.objects {
-            objects.closest(l, &self.placed, live, (o, d), time, &mut nearest);
+            objects.closest(l, &self.instances, live, (o, d), time, &mut nearest);
         }
         nearest
     }
 
     /// The surface at a point `p` of the given places, none of which may be a [`super::MISS`].
     #[inline(always)]
-    pub fn surface_point<L: Lanes>(&self, l: L, place: &Place<L>, p: V<L>) -> SurfacePoint<L> {
+    pub fn surface_point<L: Lanes>(&self, l: L, place: &PrimitiveRef<L>, p: V<L>) -> SurfacePoint<L> {
         let mut point = self.tables.surface_point(l, place.primitive, p);
-        let mut rest = self.at_placed(l, place);
-        while let Some((here, placed)) = rest.next(self) {
-            point = here.pick(placed.surface_point(l, &rest.within(here, place), p), point);
+        let mut rest = self.at_instance(l, place);
+        while let Some((here, instance)) = rest.next(self) {
+            point = here.pick(instance.surface_point(l, &rest.within(here, place), p), point);
         }
         point
     }
 
     /// Surface coordinates of a point.
     #[inline(always)]
-    pub fn coordinates<L: Lanes>(&self, l: L, place: &Place<L>, point: &SurfacePoint<L>) -> Coordinates<L> {
+    pub fn coordinates<L: Lanes>(&self, l: L, place: &PrimitiveRef<L>, point: &SurfacePoint<L>) -> Coordinates<L> {
         let mut coordinates = self.tables.coordinates(l, place.primitive, point);
-        let mut rest = self.at_placed(l, place);
-        while let Some((here, placed)) = rest.next(self) {
-            let (found, _) = placed.coordinates(l, &rest.within(here, place), point);
+        let mut rest = self.at_instance(l, place);
+        while let Some((here, instance)) = rest.next(self) {
+            let (found, _) = instance.coordinates(l, &rest.within(here, place), point);
             coordinates = Coordinates { u: here.pick(found.u, coordinates.u), v: here.pick(found.v, coordinates.v) };
         }
         coordinates
@@ -202,11 +202,11 @@ impl Shapes {
 
     /// (∂p/∂u, ∂p/∂v) at a point, in metres; neither is zero.
     #[inline(always)]
-    pub fn tangents<L: Lanes>(&self, l: L, place: &Place<L>, point: &SurfacePoint<L>) -> (V<L>, V<L>) {
+    pub fn tangents<L: Lanes>(&self, l: L, place: &PrimitiveRef<L>, point: &SurfacePoint<L>) -> (V<L>, V<L>) {
         let (mut along_u, mut along_v) = self.tables.tangents(l, place.primitive, point);
-        let mut rest = self.at_placed(l, place);
-        while let Some((here, placed)) = rest.next(self) {
-            let (_, [u, v]) = placed.coordinates(l, &rest.within(here, place), point);
+        let mut rest = self.at_instance(l, place);
+        while let Some((here, instance)) = rest.next(self) {
+            let (_, [u, v]) = instance.coordinates(l, &rest.within(here, place), point);
             (along_u, along_v) = (here.pick(u, along_u), here.pick(v, along_v));
         }
         (along_u, along_v)
@@ -214,72 +214,72 @@ impl Shapes {
 
     /// The shading normal of a smooth mesh, otherwise the geometric normal.
     #[inline(always)]
-    pub fn smooth_normal<L: Lanes>(&self, l: L, place: &Place<L>, point: &SurfacePoint<L>) -> V<L> {
+    pub fn smooth_normal<L: Lanes>(&self, l: L, place: &PrimitiveRef<L>, point: &SurfacePoint<L>) -> V<L> {
         let mut normal = point.n_geometric;
-        let mut rest = self.at_placed(l, place);
-        while let Some((here, placed)) = rest.next(self) {
-            normal = here.pick(placed.smooth_normal(l, &rest.within(here, place), point), normal);
+        let mut rest = self.at_instance(l, place);
+        while let Some((here, instance)) = rest.next(self) {
+            normal = here.pick(instance.smooth_normal(l, &rest.within(here, place), point), normal);
         }
         normal
     }
 
     /// Samples a direction from `x` towards the given primitives, with the point `u` of the unit square.
     #[inline(always)]
-    pub fn toward<L: Lanes>(&self, l: L, place: &Place<L>, x: V<L>, u: (F<L>, F<L>)) -> Toward<L> {
+    pub fn toward<L: Lanes>(&self, l: L, place: &PrimitiveRef<L>, x: V<L>, u: (F<L>, F<L>)) -> DirectionSample<L> {
         let mut toward = self.tables.toward(l, place.primitive, x, u);
-        let mut rest = self.at_placed(l, place);
-        while let Some((here, placed)) = rest.next(self) {
-            toward = here.pick(placed.toward(l, &rest.within(here, place), x, u), toward);
+        let mut rest = self.at_instance(l, place);
+        while let Some((here, instance)) = rest.next(self) {
+            toward = here.pick(instance.toward(l, &rest.within(here, place), x, u), toward);
         }
         toward
     }
 
     /// The pdf of [`Shapes::toward`] per solid angle at the unit direction `wi`, in which the given primitives lie.
     #[inline(always)]
-    pub fn pdf_toward<L: Lanes>(&self, l: L, place: &Place<L>, x: V<L>, wi: V<L>) -> F<L> {
+    pub fn pdf_toward<L: Lanes>(&self, l: L, place: &PrimitiveRef<L>, x: V<L>, wi: V<L>) -> F<L> {
         let mut pdf = self.tables.pdf_toward(l, place.primitive, x, wi);
-        let mut rest = self.at_placed(l, place);
-        while let Some((here, placed)) = rest.next(self) {
-            pdf = here.pick(placed.pdf_toward(l, &rest.within(here, place), x, wi), pdf);
+        let mut rest = self.at_instance(l, place);
+        while let Some((here, instance)) = rest.next(self) {
+            pdf = here.pick(instance.pdf_toward(l, &rest.within(here, place), x, wi), pdf);
         }
         pdf
     }
 
     #[inline(always)]
-    fn at_placed<L: Lanes>(&self, l: L, place: &Place<L>) -> AtPlaced<L> {
-        if self.placed.is_empty() {
-            return AtPlaced { l, index: l.u(0), rest: l.first(0) };
+    fn at_instance<L: Lanes>(&self, l: L, place: &PrimitiveRef<L>) -> AtInstance<L> {
+        if self.instances.is_empty() {
+            return AtInstance { l, index: l.u(0), rest: l.first(0) };
         }
         let tag = self.tables.tag(l, place.primitive);
-        AtPlaced { l, index: tag >> 2, rest: (tag & 3).is(PLACED) }
+        AtInstance { l, index: tag >> 2, rest: (tag & 3).is(INSTANCE) }
     }
 }
 
-/// Iterates over placed shapes, with the lanes at each.
-struct AtPlaced<L: Lanes> {
+/// Iterates over instances, with the lanes at each.
+struct AtInstance<L: Lanes> {
     l: L,
     index: U<L>,
     rest: M<L>,
 }
 
-impl<L: Lanes> AtPlaced<L> {
+impl<L: Lanes> AtInstance<L> {
     /// The next shape, and the lanes at it.
     #[inline(always)]
-    fn next<'a>(&mut self, shapes: &'a Shapes) -> Option<(M<L>, &'a Placed)> {
+    fn next<'a>(&mut self, shapes: &'a Shapes) -> Option<(M<L>, &'a Instance)> {
         if !self.rest.any() {
             return None;
         }
         let index = self.index.to_array()[self.rest.bits().trailing_zeros() as usize];
         let here = self.rest & self.index.is(index);
         self.rest = self.rest & !here;
-        Some((here, &shapes.placed[index as usize]))
+        Some((here, &shapes.instances[index as usize]))
     }
 
     /// The places of these lanes; the others get the first primitive and element of the same shape.
     #[inline(always)]
-    fn within(&self, here: M<L>, place: &Place<L>) -> Place<L> {
+    fn within(&self, here: M<L>, place: &PrimitiveRef<L>) -> PrimitiveRef<L> {
         let primitive = place.primitive.to_array()[here.bits().trailing_zeros() as usize];
-        Place {
+        PrimitiveRef {
             primitive: here.pick(place.primitive, self.l.u(primitive)),
             element: here.pick(place.element, self.l.u(0)),
             time: place.time,

@@ -50,7 +50,7 @@ impl Sphere {
         let c = c_nearest + along * (b + n_d);
 
         // With w = |b| + √discriminant the roots are w/k and c/w in size, without cancellation. c < 0 is inside, b < 0 is
-        // towards the anchor's side: from outside the first meeting is c/w if the ray comes nearer, else there is none; from
+        // towards the anchor's side: from outside the first intersection is c/w if the ray comes nearer, else there is none; from
         // inside it is the one root that lies ahead. On the surface, c = 0, a ray either leaves or meets the far side.
         let nearing = b.below(0.0);
         let meets = (nearing | c.below(0.0)) & discriminant.ge(c.splat(0.0));

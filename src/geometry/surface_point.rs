@@ -31,7 +31,7 @@ pub struct Coordinates<L: Lanes> {
 
 /// A reference to a primitive, its triangle and a time.
 #[derive(Clone, Copy)]
-pub struct Place<L: Lanes> {
+pub struct PrimitiveRef<L: Lanes> {
     pub primitive: U<L>,
     /// The triangle of a mesh.
     pub element: U<L>,
@@ -39,10 +39,10 @@ pub struct Place<L: Lanes> {
     pub time: F<L>,
 }
 
-impl<L: Lanes> Place<L> {
+impl<L: Lanes> PrimitiveRef<L> {
     /// A reference to primitives that neither have elements nor move.
     #[inline(always)]
     pub fn of(l: L, primitive: U<L>) -> Self {
-        Place { primitive, element: l.u(0), time: l.f(0.0) }
+        PrimitiveRef { primitive, element: l.u(0), time: l.f(0.0) }
     }
 }

@@ -14,8 +14,8 @@ use crate::math::{F, Lanes, M, Pick, U, V, trig::turns_of};
 pub(super) const SPHERE: u32 = 0;
 pub(super) const FLAT: u32 = 1;
 pub(super) const QUADRIC: u32 = 2;
-/// The primitive is not in these tables: see [`super::placed`].
-pub(super) const PLACED: u32 = 3;
+/// The primitive is not in these tables: see [`super::instance`].
+pub(super) const INSTANCE: u32 = 3;
 
 /// Analytic shapes by primitive. Absent types cost nothing.
 #[derive(Default)]
@@ -38,16 +38,16 @@ impl Tables {
         self.anchors.len()
     }
 
-    /// Adds a primitive of a placed shape.
-    pub fn push_placed(&mut self, index: usize) {
+    /// Adds a primitive of an instance.
+    pub fn push_instance(&mut self, index: usize) {
         self.anchors.push([0.0; 4]);
-        self.normals.push([0.0, 1.0, 0.0, tag(PLACED, index)]);
+        self.normals.push([0.0, 1.0, 0.0, tag(INSTANCE, index)]);
     }
 
-    /// The index of the placed shape, if the primitive belongs to one.
-    pub fn placed_at(&self, primitive: u32) -> Option<usize> {
+    /// The index of the instance, if the primitive belongs to one.
+    pub fn instance_at(&self, primitive: u32) -> Option<usize> {
         let tag = self.normals[primitive as usize][3].to_bits();
-        (tag & 3 == PLACED).then_some((tag >> 2) as usize)
+        (tag & 3 == INSTANCE).then_some((tag >> 2) as usize)
     }
 
     /// Adds an analytic shape, whose pieces get the next numbers. `near` is a point in the middle of the scene.

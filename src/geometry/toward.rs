@@ -5,7 +5,7 @@
 use std::f32::consts::TAU;
 
 use super::{
-    direction_sample::Toward,
+    direction_sample::DirectionSample,
     flat::{is_ellipse, is_rectangle},
     quadric::Local,
     rectangle::SphericalRectangle,
@@ -27,12 +27,12 @@ impl Tables {
 
     /// Samples a direction from `x` towards the given primitives, with the point `u` of the unit square.
     #[inline(always)]
-    pub fn toward<L: Lanes>(&self, l: L, primitive: U<L>, x: V<L>, u: (F<L>, F<L>)) -> Toward<L> {
+    pub fn toward<L: Lanes>(&self, l: L, primitive: U<L>, x: V<L>, u: (F<L>, F<L>)) -> DirectionSample<L> {
         let tag = self.tag(l, primitive);
-        let mut toward = Toward { wi: x, pdf: l.f(0.0), front: l.first(0) };
+        let mut toward = DirectionSample { wi: x, pdf: l.f(0.0), front: l.first(0) };
         if (tag & 3).is(SPHERE).any() {
             let cone = self.cone(l, primitive, x);
-            toward = Toward { wi: cone.sample(u), pdf: cone.pdf(), front: cone.outside };
+            toward = DirectionSample { wi: cone.sample(u), pdf: cone.pdf(), front: cone.outside };
         }
         if let Some(AtFlat { here, rows, from_anchor }) = self.flat(l, tag, primitive, x) {
             toward = here.pick(SeenFlat::new(here, rows, from_anchor, l.rows(&self.normals, primitive)).toward(l, u), toward);
@@ -84,13 +84,13 @@ impl<L: Lanes> SeenFlat<L> {
     }
 
     #[inline(always)]
-    fn toward(&self, l: L, u: (F<L>, F<L>)) -> Toward<L> {
+    fn toward(&self, l: L, u: (F<L>, F<L>)) -> DirectionSample<L> {
         let mut way = self.uniform_over_area(u);
         if let Some((large, rectangle)) = &self.spherical {
             way = large.pick(rectangle.sample(u) - self.n * self.height, way);
         }
         let wi = way.normalized();
-        Toward { wi, pdf: self.pdf(l, wi), front: self.height.above(0.0) }
+        DirectionSample { wi, pdf: self.pdf(l, wi), front: self.height.above(0.0) }
     }
 
     /// One over the solid angle, or uniform over the area: t²/(A |cos θ|).
@@ -129,7 +129,7 @@ impl<L: Lanes> SeenFlat<L> {
 }
 
 #[inline(always)]
-fn toward_quadric<L: Lanes>(l: L, quadric: &Local<L>, x: V<L>, u: (F<L>, F<L>)) -> Toward<L> {
+fn toward_quadric<L: Lanes>(l: L, quadric: &Local<L>, x: V<L>, u: (F<L>, F<L>)) -> DirectionSample<L> {
     let [a, b, c] = quadric.axes();
     let cone = seen_from(l, quadric, x);
     let local = cone.sample(u);
@@ -139,7 +139,7 @@ fn toward_quadric<L: Lanes>(l: L, quadric: &Local<L>, x: V<L>, u: (F<L>, F<L>)) 
     let wi = (a * way.x + (b * way.y + c * way.z)).normalized();
     let (of_cylinder, front) = cylinder_pdf(l, quadric, x, wi);
     let of_ellipsoid = cone.pdf() * stretch(quadric, wi);
-    Toward {
+    DirectionSample {
         wi,
         pdf: quadric.is_cylinder.pick(of_cylinder, of_ellipsoid),
         front: (quadric.is_cylinder & front) | (!quadric.is_cylinder & cone.outside),
@@ -164,7 +164,7 @@ fn stretch<L: Lanes>(quadric: &Local<L>, wi: V<L>) -> F<L> {
 /// direction, because either may have been sampled; and whether the front is hit first.
 #[inline(always)]
 fn cylinder_pdf<L: Lanes>(l: L, quadric: &Local<L>, x: V<L>, wi: V<L>) -> (F<L>, M<L>) {
-    let [near, far] = quadric.meetings(x, wi);
+    let [near, far] = quadric.intersections(x, wi);
     let (of_near, met_near, front_near) = density_of_place(l, quadric, x, wi, near.value());
     let (of_far, _, front_far) = density_of_place(l, quadric, x, wi, far.value());
     (of_near + of_far, (met_near & front_near) | (!met_near & front_far))

@@ -11,7 +11,7 @@ use glam::DVec3;
 
 use super::{batch::Batch, trace::trace, work::Work};
 use crate::{
-    geometry::{MISS, Place},
+    geometry::{MISS, PrimitiveRef},
     math::{Lanes, One, Pick, SimdLevel, V},
     sampling::Filter,
     scene::{Camera, RenderSettings, Scene},
@@ -100,7 +100,7 @@ fn first_crossing(scene: &Scene, origin: DVec3, direction: DVec3) -> Option<Cros
     if nearest.primitive.0 == MISS {
         return None;
     }
-    let place = Place { primitive: nearest.primitive, element: nearest.element, time };
+    let place = PrimitiveRef { primitive: nearest.primitive, element: nearest.element, time };
     let point = scene.shapes.surface_point(l, &place, o + d * nearest.t);
     let outwards = point.n_geometric.dot(d).lt(l.f(0.0));
     let n = outwards.pick(-point.n_geometric, point.n_geometric);

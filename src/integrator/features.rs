@@ -16,7 +16,7 @@ use super::{
     work::Work,
 };
 use crate::{
-    geometry::{MISS, Place},
+    geometry::{MISS, PrimitiveRef},
     in_lanes,
     math::{F, Lanes, M, Pick, SimdLevel, V},
     memory::{self, Reservation, TooMuch},
@@ -156,7 +156,7 @@ fn describe<L: Lanes>(l: L, work: &Work, batch: &Batch, seen: &mut Vec<Option<Pi
         }
         // Lanes without a surface look at primitive 0.
         let primitive = hit.pick(primitive, l.u(0));
-        let mut place = Place { time: work.rays.moment(l), ..Place::of(l, primitive) };
+        let mut place = PrimitiveRef { time: work.rays.moment(l), ..PrimitiveRef::of(l, primitive) };
         if scene.shapes.have_elements() {
             place.element = hit.pick(l.load(&batch.element[start..]).bits(), l.u(0));
         }
@@ -176,7 +176,7 @@ fn describe<L: Lanes>(l: L, work: &Work, batch: &Batch, seen: &mut Vec<Option<Pi
 
 /// Shading normal on the viewer's side and colour of the surfaces that the paths in `hit` reach after `t` metres.
 #[inline(always)]
-fn shading<L: Lanes>(l: L, scene: &Scene, hit: M<L>, path: &Path<L>, place: Place<L>, t: F<L>) -> (V<L>, V<L>) {
+fn shading<L: Lanes>(l: L, scene: &Scene, hit: M<L>, path: &Path<L>, place: PrimitiveRef<L>, t: F<L>) -> (V<L>, V<L>) {
     let point = scene.shapes.surface_point(l, &place, path.o + path.d * t);
     let cos = -point.n_geometric.dot(path.d);
     let [x, y, z, word] = l.rows(&scene.surfaces.rows, place.primitive);

@@ -1,6 +1,6 @@
 //! Shading normals by bump and normal maps.
 use crate::{
-    geometry::{Place, SurfacePoint},
+    geometry::{PrimitiveRef, SurfacePoint},
     math::{F, Lanes, M, Pick, U, V},
     scene::Scene,
     texture::{TextureCoordinates, Textures},
@@ -16,7 +16,7 @@ use crate::{
 pub(super) fn shading_normal<L: Lanes>(
     l: L,
     scene: &Scene,
-    place: &Place<L>,
+    place: &PrimitiveRef<L>,
     mask: M<L>,
     point: &SurfacePoint<L>,
     n: V<L>,

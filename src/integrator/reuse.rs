@@ -14,7 +14,7 @@ use super::{
     work::Work,
 };
 use crate::{
-    geometry::Place,
+    geometry::PrimitiveRef,
     math::{F, Lanes, M, Pick, U, V},
 };
 
@@ -30,7 +30,7 @@ struct First<L: Lanes> {
 struct Second<L: Lanes> {
     p: V<L>,
     n: V<L>,
-    place: Place<L>,
+    place: PrimitiveRef<L>,
     radiance: V<L>,
     /// Lanes with light to share.
     lit: M<L>,
@@ -86,7 +86,7 @@ impl<L: Lanes> Second<L> {
         let [nx, ny, nz, element] = l.rows(&batch.shared.found_normals, slot);
         let [r, g, b, _] = l.rows(&batch.radiance, slot + SLOTS as u32);
         let (n, radiance) = (V { x: nx, y: ny, z: nz }, V { x: r, y: g, z: b });
-        let place = Place { primitive: primitive.bits(), element: element.bits(), time: work.time(l, slot) };
+        let place = PrimitiveRef { primitive: primitive.bits(), element: element.bits(), time: work.time(l, slot) };
         let lit = n.max_abs().above(0.0) & radiance.max_component().above(0.0);
         Second { p: V { x, y, z }, n, place, radiance, lit }
     }

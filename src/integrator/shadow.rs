@@ -12,7 +12,7 @@ use super::{
     work::Work,
 };
 use crate::{
-    geometry::{Nearest, Place},
+    geometry::{Nearest, PrimitiveRef},
     math::{Lanes, M, Pick, U, V},
 };
 
@@ -49,7 +49,7 @@ pub(super) fn arriving<L: Lanes>(l: L, work: &Work, live: M<L>, shadow: &Shadow<
     if scene.lights.emitters.vary() {
         let emits = seen & scene.lights.emitters.emits(primitive);
         let primitive = emits.pick(primitive, l.u(0));
-        let place = Place { primitive, element: emits.pick(element, l.u(0)), time };
+        let place = PrimitiveRef { primitive, element: emits.pick(element, l.u(0)), time };
         let point = scene.shapes.surface_point(l, &place, shadow.o + shadow.d * t);
         light = light * emission_texture(l, scene, emits, &place, &point);
     }

@@ -1,7 +1,7 @@
 //! The surfaces of paths that pixels share, until the stage `reuse`.
 use super::{records::Hit, slots::SLOTS};
 use crate::{
-    geometry::Place,
+    geometry::PrimitiveRef,
     math::{F, Lanes, M, MAX_LANES, Pick, U, V},
 };
 
@@ -63,7 +63,7 @@ impl Shared {
 
     /// Stores the second surface of paths, and redirects the radiance from there on to separate slots.
     #[inline(always)]
-    pub fn keep_second<L: Lanes>(&mut self, lanes: M<L>, place: &Place<L>, hit: &mut Hit<L>) {
+    pub fn keep_second<L: Lanes>(&mut self, lanes: M<L>, place: &PrimitiveRef<L>, hit: &mut Hit<L>) {
         put(lanes, hit.slot, hit.p, place.primitive.as_real_bits(), &mut self.found);
         put(lanes, hit.slot, hit.n, place.element.as_real_bits(), &mut self.found_normals);
         hit.slot = lanes.pick(hit.slot + SLOTS as u32, hit.slot);

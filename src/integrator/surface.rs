@@ -11,7 +11,7 @@ use super::{
     work::Work,
 };
 use crate::{
-    geometry::{Coordinates, MISS, Place, SurfacePoint},
+    geometry::{Coordinates, MISS, PrimitiveRef, SurfacePoint},
     light::Lobe,
     material::Stage,
     math::{F, Lanes, M, Pick, U, V},
@@ -75,7 +75,7 @@ pub(super) fn surfaces<L: Lanes, const VARIED: bool>(l: L, work: &Work, batch: &
             if sky.any() {
                 let mut light = path.throughput * background.radiance(l, path.d);
                 if weighted {
-                    light = light * weight(l, work, previous_vertices, start, &path, Place::of(l, primitive));
+                    light = light * weight(l, work, previous_vertices, start, &path, PrimitiveRef::of(l, primitive));
                 }
                 add(radiance, sky, path.slot, light);
             }
@@ -125,7 +125,7 @@ pub(super) fn surfaces<L: Lanes, const VARIED: bool>(l: L, work: &Work, batch: &
 /// Surface interactions of paths.
 #[derive(Clone, Copy)]
 pub(super) struct SurfaceInteraction<L: Lanes> {
-    pub place: Place<L>,
+    pub place: PrimitiveRef<L>,
     pub point: SurfacePoint<L>,
     /// Cosine between the front normal and the direction to the viewer.
     pub cos: F<L>,
@@ -144,7 +144,7 @@ pub(super) fn interact<L: Lanes, const VARIED: bool>(
     element: &[f32],
 ) -> SurfaceInteraction<L> {
     let shapes = &work.scene.shapes;
-    let mut place = Place::of(l, hit.pick(primitive, l.u(0)));
+    let mut place = PrimitiveRef::of(l, hit.pick(primitive, l.u(0)));
     if VARIED {
         place.time = work.time(l, path.slot);
     }
@@ -182,7 +182,7 @@ pub(super) fn weight<L: Lanes>(
     (previous_vertices, previous_lobes): (&Queue, &Queue),
     start: usize,
     path: &Path<L>,
-    place: Place<L>,
+    place: PrimitiveRef<L>,
 ) -> F<L> {
     let previous = PreviousVertex::read(l, previous_vertices, start);
     let lobe = if work.heeds_lobes() {
@@ -196,7 +196,13 @@ pub(super) fn weight<L: Lanes>(
 
 /// The factor of textured emission at a point.
 #[inline(always)]
-pub(super) fn emission_texture<L: Lanes>(l: L, scene: &Scene, emits: M<L>, place: &Place<L>, point: &SurfacePoint<L>) -> V<L> {
+pub(super) fn emission_texture<L: Lanes>(
+    l: L,
+    scene: &Scene,
+    emits: M<L>,
+    place: &PrimitiveRef<L>,
+    point: &SurfacePoint<L>,
+) -> V<L> {
     let Coordinates { u, v } = scene.shapes.coordinates(l, place, point);
     let at = TextureCoordinates { u, v, p: point.p };
     scene.lights.emitters.variation(l, &scene.textures, emits, place.primitive, &at)

@@ -6,7 +6,7 @@ use super::{
     work::Work,
 };
 use crate::{
-    geometry::Place,
+    geometry::PrimitiveRef,
     light::{Lobe, ReferencePoint},
     math::{F, Lanes, Pick, V},
     scene::Estimator,
@@ -30,7 +30,7 @@ pub(super) fn emitter_hit_weight<L: Lanes>(
     lobe: Option<Lobe<L>>,
     o: V<L>,
     d: V<L>,
-    target: &Place<L>,
+    target: &PrimitiveRef<L>,
 ) -> F<L> {
     let delta = !(previous.flags & DELTA).is(0);
     let sampled_too = match work.settings.estimator {

@@ -12,7 +12,7 @@ use super::{
     selection::Selection,
 };
 use crate::{
-    geometry::{MISS, Motion, Place, Shape, Shapes},
+    geometry::{MISS, Motion, PrimitiveRef, Shape, Shapes},
     math::{F, Lanes, Pick, U, V},
 };
 
@@ -90,12 +90,12 @@ impl Lights {
 
     /// Looks up the primitive and triangle of lights.
     #[inline(always)]
-    pub fn place<L: Lanes>(&self, l: L, light: U<L>, time: F<L>) -> Place<L> {
+    pub fn place<L: Lanes>(&self, l: L, light: U<L>, time: F<L>) -> PrimitiveRef<L> {
         if self.places.is_empty() {
-            return Place { primitive: light, element: l.u(0), time };
+            return PrimitiveRef { primitive: light, element: l.u(0), time };
         }
         let [primitive, element, ..] = l.rows(&self.places, light);
-        Place { primitive: primitive.bits(), element: element.bits(), time }
+        PrimitiveRef { primitive: primitive.bits(), element: element.bits(), time }
     }
 
     pub fn is_empty(&self) -> bool {
@@ -154,12 +154,12 @@ impl Lights {
     /// The pdf of [`Lights::sample`] for the direction `wi` per solid angle. `target` is the first hit along `wi`, with the
     /// primitive [`MISS`] for the background.
     #[inline(always)]
-    pub fn pdf<L: Lanes>(&self, l: L, shapes: &Shapes, at: &ReferencePoint<L>, wi: V<L>, target: &Place<L>) -> F<L> {
+    pub fn pdf<L: Lanes>(&self, l: L, shapes: &Shapes, at: &ReferencePoint<L>, wi: V<L>, target: &PrimitiveRef<L>) -> F<L> {
         let sky = target.primitive.is(MISS);
         let emits = self.emitters.emits(target.primitive);
         let mut density = l.f(0.0);
         if emits.any() {
-            let place = Place {
+            let place = PrimitiveRef {
                 primitive: emits.pick(target.primitive, l.u(0)),
                 element: emits.pick(target.element, l.u(0)),
                 time: target.time,

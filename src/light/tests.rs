@@ -4,7 +4,7 @@ use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use super::{Background, Emission, LightCoordinates, Lights, Lobe, ReferencePoint, Side};
 use crate::{
-    geometry::{MISS, Motion, Place, Shape, Shapes},
+    geometry::{MISS, Motion, PrimitiveRef, Shape, Shapes},
     math::{F, M, One, U, V},
     sampling::hash::hash_one,
 };
@@ -33,8 +33,8 @@ fn vector(x: f64, y: f64, z: f64) -> V<One> {
     V { x: F(x as f32), y: F(y as f32), z: F(z as f32) }
 }
 
-fn place(primitive: U<One>) -> Place<One> {
-    Place::of(One, primitive)
+fn place(primitive: U<One>) -> PrimitiveRef<One> {
+    PrimitiveRef::of(One, primitive)
 }
 
 fn shapes(of: &[Shape]) -> Shapes {

@@ -2,7 +2,7 @@
 //! gives the same bits.
 //!
 //! exp and log are the polynomials of S. Moshier's Cephes library (single/expf.c, single/logf.c). The bounds below are checked
-//! by `tests/functions.rs`; the enclosures in `enclosure.rs` rely on them.
+//! by `tests/functions.rs`; the affine forms in `affine_form.rs` rely on them.
 use crate::math::{F, Lanes, Pick, round::floor, trig::sin_cos_eighth};
 
 /// |exp computed − exp| ≤ this · exp, plus [`EXP_END`].

@@ -2,7 +2,7 @@
 use super::Isosurface;
 use crate::{
     geometry::{
-        Cone, Coordinates, Toward,
+        Cone, Coordinates, DirectionSample,
         sphere::{sphere_tangents, sphere_uv},
     },
     math::{F, Lanes, Pick, V},
@@ -39,13 +39,13 @@ impl Isosurface {
 
     /// Samples a direction towards the sphere around the box. Only the ray can tell whether it hits the surface.
     #[inline(always)]
-    pub fn toward<L: Lanes>(&self, l: L, x: V<L>, u: (F<L>, F<L>)) -> Toward<L> {
+    pub fn toward<L: Lanes>(&self, l: L, x: V<L>, u: (F<L>, F<L>)) -> DirectionSample<L> {
         let cone = self.cone(l, x);
         let wi = cone.sample(u);
         let t = self.intersect(l, x, wi, l.f(f32::INFINITY));
         let met = t.above(0.0);
         let point = self.surface_point(l, x + wi * met.pick(t, l.f(0.0)));
-        Toward { wi, pdf: met.pick(cone.pdf(), l.f(0.0)), front: point.n_geometric.dot(wi).below(0.0) }
+        DirectionSample { wi, pdf: met.pick(cone.pdf(), l.f(0.0)), front: point.n_geometric.dot(wi).below(0.0) }
     }
 
     /// The pdf of [`Isosurface::toward`] per solid angle.

@@ -1,10 +1,10 @@
-//! Linear approximations of functions over the range c ± w with their errors, for [`Enclosure::map`].
+//! Linear approximations of functions over the range c ± w with their errors, for [`AffineForm::map`].
 //!
 //! Each line is the tangent at c. By Taylor's theorem the function lies on one side of it, or nearly. Half of its maximum
 //! distance is added to the line; the other half is the error. If the range is too wide, or reaches a pole or the end of the
 //! domain, the line is constant, in the middle of the range of the function.
 //!
-//! [`Enclosure::map`]: super::enclosure::Enclosure::map
+//! [`AffineForm::map`]: super::affine_form::AffineForm::map
 use super::functions::{EXP_END, EXP_ERROR, LOG_ERROR, SIN_ERROR, exp, log, sin_cos};
 use crate::math::{F, Lanes, M, Pick};
 

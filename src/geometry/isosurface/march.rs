@@ -1,7 +1,7 @@
 //! The first point along a ray where f changes its sign.
 //!
 //! The march covers the segment of the ray in the box from its start, in pieces that grow by half after a decision and are halved
-//! otherwise. Over a piece, the [`Enclosure`] of f shows one of these:
+//! otherwise. Over a piece, the [`AffineForm`] of f shows one of these:
 //!
 //! * f has no zero: the march continues;
 //! * f is monotone, and its sign at the end is known: if that is the sign so far, there is no zero either; otherwise there is
@@ -17,7 +17,7 @@
 use fearless_simd_macros::simd;
 
 use super::{
-    enclosure::{Enclosure, WIDEN},
+    affine_form::{AffineForm, WIDEN},
     jet::Jet,
     tape::{Quantity, REGISTERS, Tape, run},
 };
@@ -42,7 +42,7 @@ const STEPS: u32 = 56;
 /// The rounding of a position, as a fraction of its coordinates.
 const RESOLUTION: f32 = 0.5 * f32::EPSILON;
 
-type Registers<L> = [Enclosure<L>; REGISTERS];
+type Registers<L> = [AffineForm<L>; REGISTERS];
 
 /// The rays o + td with t from 0 to `end`.
 pub(super) struct Segment<L: Lanes> {
@@ -59,7 +59,7 @@ struct Bracket<L: Lanes> {
     side: F<L>,
 }
 
-/// The conclusion from an enclosure of a piece.
+/// The conclusion from an affine form of a piece.
 struct Verdict<L: Lanes> {
     /// Lanes where f is nowhere 0.
     sure: M<L>,
@@ -71,7 +71,7 @@ struct Verdict<L: Lanes> {
 
 impl<L: Lanes> Verdict<L> {
     #[inline(always)]
-    fn of(f: &Enclosure<L>) -> Self {
+    fn of(f: &AffineForm<L>) -> Self {
         let end = f.a + f.b;
         let sure = f.has_no_zero();
         let end_known = ((f.r + end.abs() * f32::EPSILON) * WIDEN).lt(end.abs());
@@ -83,18 +83,18 @@ impl<L: Lanes> Verdict<L> {
 impl<L: Lanes> Segment<L> {
     /// Encloses f from `middle` − `half` to `middle` + `half`.
     #[inline(always)]
-    fn enclose(&self, l: L, tape: &Tape, middle: F<L>, half: F<L>, registers: &mut Registers<L>) -> Enclosure<L> {
+    fn enclose(&self, l: L, tape: &Tape, middle: F<L>, half: F<L>, registers: &mut Registers<L>) -> AffineForm<L> {
         let (o, d) = (self.o, self.d);
-        registers[0] = Enclosure::along(o.x, d.x, middle, half);
-        registers[1] = Enclosure::along(o.y, d.y, middle, half);
-        registers[2] = Enclosure::along(o.z, d.z, middle, half);
+        registers[0] = AffineForm::along(o.x, d.x, middle, half);
+        registers[1] = AffineForm::along(o.y, d.y, middle, half);
+        registers[2] = AffineForm::along(o.z, d.z, middle, half);
         run(l, tape, registers)
     }
 
     /// Lanes whose piece around `middle`, enclosed by `f`, has values of f about as small as their rounding, so that further
     /// halving does not help.
     #[inline(always)]
-    fn rounding_hides(&self, l: L, tape: &Tape, middle: F<L>, f: &Enclosure<L>, registers: &mut Registers<L>) -> M<L> {
+    fn rounding_hides(&self, l: L, tape: &Tape, middle: F<L>, f: &AffineForm<L>, registers: &mut Registers<L>) -> M<L> {
         let point = self.enclose(l, tape, middle, l.f(0.0), registers);
         !point.has_no_zero() & (f.a.abs() + f.reach()).lt(point.r * HIDDEN)
     }
@@ -104,7 +104,7 @@ impl<L: Lanes> Segment<L> {
 #[simd]
 pub(super) fn first_change<L: Lanes>(l: L, tape: &Tape, segment: &Segment<L>, live: M<L>) -> F<L> {
     let zero = l.f(0.0);
-    let mut registers = [Enclosure::constant(l, 0.0); REGISTERS];
+    let mut registers = [AffineForm::constant(l, 0.0); REGISTERS];
     let start = segment.enclose(l, tape, zero, zero, &mut registers);
     // ±1, or 0 as long as it is not known.
     let mut side = start.has_no_zero().pick(l.f(1.0).copysign(start.a), zero);

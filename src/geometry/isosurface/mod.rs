@@ -5,7 +5,7 @@
 //! | `token.rs`, `names.rs`, `parse.rs`, `parse_error.rs`, `graph.rs` | text → tokens → a graph without duplicates |
 //! | `tape.rs` | graph → a list of operations, evaluated for up to sixteen rays at once |
 //! | `jet.rs` | values with derivatives |
-//! | `enclosure.rs`, `lines.rs` | rigorous bounds of value and derivative over a segment |
+//! | `affine_form.rs`, `lines.rs` | rigorous bounds of value and derivative over a segment |
 //! | `functions.rs` | exp, log, sin and cos |
 //! | `march.rs` | the first change of sign along a ray |
 //! | `surface.rs` | point, normal and error bound |
@@ -13,7 +13,7 @@
 //!
 //! f is evaluated in f32, with its constants rounded to f32. It is defined everywhere: √a is 0 for a < 0, and log a is at least
 //! that of the smallest normal number.
-mod enclosure;
+mod affine_form;
 mod functions;
 mod graph;
 mod jet;

@@ -2,7 +2,7 @@
 use fearless_simd_macros::simd;
 
 use super::{
-    enclosure::Enclosure,
+    affine_form::AffineForm,
     jet::Jet,
     tape::{Quantity, REGISTERS, Tape, run},
 };
@@ -52,13 +52,13 @@ pub(super) fn value<L: Lanes>(l: L, tape: &Tape, p: V<L>) -> F<L> {
     run(l, tape, &mut registers).value
 }
 
-/// The offset along ±n from p at which the sign of f is certain: the enclosure of f over p ± δn proves it at both ends with a
-/// margin of three times the rounding of f, one for the evaluation there and one for the enclosure here. The first δ is twice the
+/// The offset along ±n from p at which the sign of f is certain: the affine form of f over p ± δn proves it at both ends with a
+/// margin of three times the rounding of f, one for the evaluation there and one for the affine form here. The first δ is twice the
 /// sum of |f(p)| and the rounding over the `steepness`. At a crease, where the gradient is not that of both sides, there may be
 /// no proof. The offset is kept then, and a ray that starts there has no side until f exceeds its rounding.
 #[inline(always)]
 fn clearance<L: Lanes>(l: L, tape: &Tape, p: V<L>, n: V<L>, steepness: F<L>, known: M<L>) -> F<L> {
-    let mut registers = [Enclosure::constant(l, 0.0); REGISTERS];
+    let mut registers = [AffineForm::constant(l, 0.0); REGISTERS];
     let zero = l.f(0.0);
     let here = around(l, tape, p, n, zero, &mut registers);
     let first = (here.a.abs() + here.r * 3.0) * 2.0 / steepness;
@@ -83,11 +83,11 @@ fn around<L: Lanes>(
     p: V<L>,
     n: V<L>,
     distance: F<L>,
-    registers: &mut [Enclosure<L>; REGISTERS],
-) -> Enclosure<L> {
+    registers: &mut [AffineForm<L>; REGISTERS],
+) -> AffineForm<L> {
     let zero = l.f(0.0);
-    registers[0] = Enclosure::along(p.x, n.x, zero, distance);
-    registers[1] = Enclosure::along(p.y, n.y, zero, distance);
-    registers[2] = Enclosure::along(p.z, n.z, zero, distance);
+    registers[0] = AffineForm::along(p.x, n.x, zero, distance);
+    registers[1] = AffineForm::along(p.y, n.y, zero, distance);
+    registers[2] = AffineForm::along(p.z, n.z, zero, distance);
     run(l, tape, registers)
 }

@@ -198,10 +198,14 @@ fn distances_are_those_of_the_oracle() {
         for _ in 0..4000 {
             let (o, d) = (point(&mut rng, 1.5), unit(&mut rng));
             let ray = (o.to_array(), d.to_array());
-            let meetings: Vec<_> = (0..mesh.len() as u32).filter_map(|k| oracle(mesh.corners(k), ray)).collect();
-            let clear = |meeting: &&(f64, f64, f64)| meeting.1.abs() > 1e-3 && meeting.2 > 1e-2;
-            let doubtful = meetings.iter().any(|meeting| meeting.1 > -1e-3 && !clear(&meeting));
-            let nearest = meetings.iter().filter(|meeting| meeting.1 > 0.0).map(|meeting| meeting.0).min_by(f64::total_cmp);
+            let intersections: Vec<_> = (0..mesh.len() as u32).filter_map(|k| oracle(mesh.corners(k), ray)).collect();
+            let clear = |intersection: &&(f64, f64, f64)| intersection.1.abs() > 1e-3 && intersection.2 > 1e-2;
+            let doubtful = intersections.iter().any(|intersection| intersection.1 > -1e-3 && !clear(&intersection));
+            let nearest = intersections
+                .iter()
+                .filter(|intersection| intersection.1 > 0.0)
+                .map(|intersection| intersection.0)
+                .min_by(f64::total_cmp);
             if !doubtful {
                 let t = closest(&mesh, &[ray])[0].0;
                 assert_eq!(t.is_finite(), nearest.is_some(), "{ray:?}");

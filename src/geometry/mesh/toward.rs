@@ -1,7 +1,7 @@
 //! Directions towards triangles of an emitting mesh, uniform over their area.
 use super::Mesh;
 use crate::{
-    geometry::Toward,
+    geometry::DirectionSample,
     math::{F, Lanes, M, Pick, U, V},
     sampling::warp::triangle as warp,
 };
@@ -9,12 +9,12 @@ use crate::{
 impl Mesh {
     /// See [`crate::geometry::Shapes::toward`].
     #[inline(always)]
-    pub fn toward<L: Lanes>(&self, l: L, triangle: U<L>, x: V<L>, u: (F<L>, F<L>)) -> Toward<L> {
+    pub fn toward<L: Lanes>(&self, l: L, triangle: U<L>, x: V<L>, u: (F<L>, F<L>)) -> DirectionSample<L> {
         let [a, b, c] = self.positions(l, triangle);
         let (s, t) = warp(u);
         let wi = (a + ((b - a) * s + (c - a) * t) - x).normalized();
         let (pdf, front) = self.density(l, triangle, x, wi);
-        Toward { wi, pdf, front }
+        DirectionSample { wi, pdf, front }
     }
 
     /// The pdf of [`Mesh::toward`] per solid angle.

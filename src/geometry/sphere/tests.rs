@@ -47,8 +47,8 @@ fn oracle(sphere: &Sphere, o: V<One>, d: V<One>) -> (Option<f64>, f64) {
 }
 
 fn intersect(sphere: &Sphere, o: V<One>, d: V<One>) -> Option<f64> {
-    let meeting = sphere.intersect(o, d)?;
-    meeting.less(&Fraction::infinite(One)).0.then_some(f64::from(meeting.value().0))
+    let intersection = sphere.intersect(o, d)?;
+    intersection.less(&Fraction::infinite(One)).0.then_some(f64::from(intersection.value().0))
 }
 
 fn point_on(sphere: &Sphere, p: V<One>) -> SurfacePoint<One> {

@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 use glam::{DAffine3, DMat3, DVec3};
 use rand::{Rng, rngs::SmallRng};
 
-use super::{Motion, Outline, Place, Shape, Shapes, oracle::point_at};
+use super::{Motion, Outline, PrimitiveRef, Shape, Shapes, oracle::point_at};
 use crate::math::{F, One, U, V};
 
 /// A shape with a description.
@@ -79,8 +79,8 @@ pub fn shapes(of: &[Shape]) -> Shapes {
     Shapes::new(of.iter().map(|shape| (shape, &STILL)), DVec3::ZERO)
 }
 
-pub fn place(primitive: u32) -> Place<One> {
-    Place::of(One, U(primitive))
+pub fn place(primitive: u32) -> PrimitiveRef<One> {
+    PrimitiveRef::of(One, U(primitive))
 }
 
 pub fn v(a: DVec3) -> V<One> {

@@ -9,8 +9,8 @@ use crate::{
     geometry::{
         Expression, Isosurface, MISS, Motion, Nearest, Outline, Shape, Shapes, Step, Turns,
         mesh::generate,
-        pose::{Pose, Rest},
         sphere_field,
+        transform::{LaneTransform, StaticTransform},
     },
     math::{F, M, One, U, V},
 };
@@ -43,7 +43,9 @@ fn crowd(rng: &mut SmallRng) -> Vec<(Shape, Motion)> {
 #[test]
 fn a_map_and_the_opposite_one_round_alike() {
     let turn = DMat3::from_axis_angle(DVec3::new(1.0, 2.0, 3.0).normalize(), 1.1);
-    let rounding = |matrix| Pose::new(One, &Rest::new(&DAffine3::from_mat3(matrix)), &[], F(0.0)).rounding(v(DVec3::ONE)).0;
+    let rounding = |matrix| {
+        LaneTransform::new(One, &StaticTransform::new(&DAffine3::from_mat3(matrix)), &[], F(0.0)).rounding(v(DVec3::ONE)).0
+    };
     assert_eq!(rounding(-turn), rounding(turn));
 }
 

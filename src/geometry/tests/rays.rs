@@ -6,7 +6,7 @@ use super::{Case, cases, exact, lane, place, point, unit_vector, v};
 use crate::{
     geometry::{
         MISS, Nearest, Outline, Shape, Shapes,
-        oracle::{meetings, point_at},
+        oracle::{intersections, point_at},
     },
     math::{F, M, One, U, V},
 };
@@ -39,30 +39,32 @@ fn assert_agrees(case: &Case, shapes: &Shapes, o: V<One>, d: V<One>, what: &str)
     let center = case.shape.bounding_sphere().0;
     let away = origin.distance(center) + size;
     let blur = ROUNDING * (1.0 + (away + center.length()) / size) * 8.0;
-    let all = meetings(&case.shape, origin, direction, blur);
+    let all = intersections(&case.shape, origin, direction, blur);
     // Tables hold positions in f32.
     let known_to = away + center.length();
     let tolerance = |t: f64, cos: f64| ROUNDING * 8.0 * (known_to + t.abs()) / cos.max(blur.sqrt());
     if let Some(t) = found {
-        let known = all.iter().any(|meeting| (meeting.t - t).abs() <= tolerance(meeting.t, meeting.cos));
+        let known = all.iter().any(|intersection| (intersection.t - t).abs() <= tolerance(intersection.t, intersection.cos));
         // At a tangent the exact ray may just miss.
-        let near_all = meetings(&case.shape, origin, direction, f64::INFINITY);
-        let grazes = near_all.is_empty() || near_all.iter().any(|meeting| meeting.cos < 20.0 * blur.sqrt());
+        let near_all = intersections(&case.shape, origin, direction, f64::INFINITY);
+        let grazes = near_all.is_empty() || near_all.iter().any(|intersection| intersection.cos < 20.0 * blur.sqrt());
         assert!(
             known || grazes || t < tolerance(0.0, 0.1),
             "{}, {what}: found {t:e}, there are {all:?}, o {origin} d {direction}",
             case.name
         );
     }
-    for meeting in all {
-        let sure = meeting.margin > blur && meeting.cos > 20.0 * blur.sqrt() && meeting.t > tolerance(meeting.t, meeting.cos);
-        let missed = found.is_none_or(|t| t > meeting.t + tolerance(meeting.t, meeting.cos));
-        assert!(!(sure && missed), "{}, {what}: found {found:?}, missed {meeting:?}, o {origin} d {direction}", case.name);
+    for intersection in all {
+        let sure = intersection.margin > blur
+            && intersection.cos > 20.0 * blur.sqrt()
+            && intersection.t > tolerance(intersection.t, intersection.cos);
+        let missed = found.is_none_or(|t| t > intersection.t + tolerance(intersection.t, intersection.cos));
+        assert!(!(sure && missed), "{}, {what}: found {found:?}, missed {intersection:?}, o {origin} d {direction}", case.name);
     }
 }
 
 #[test]
-fn first_meetings_agree_with_the_oracle() {
+fn first_intersections_agree_with_the_oracle() {
     const RAYS: usize = 2_500;
     let mut rng = SmallRng::seed_from_u64(1);
     for case in cases() {
@@ -105,7 +107,7 @@ fn surface_points_lie_on_the_surface() {
                 // From the point moved off by its error outwards the surface is behind, nearer than a few times the error.
                 let error = lane(found.error);
                 let o = exact(found.p + found.n_geometric * found.error);
-                let behind = meetings(piece, o, -n, 1.0);
+                let behind = intersections(piece, o, -n, 1.0);
                 let t = behind.iter().map(|m| m.t).find(|t| *t > 0.0);
                 let t = t.unwrap_or_else(|| panic!("{}: nothing behind {o}, {behind:?}", case.name));
                 assert!(t < 4.0 * error && error < 1e-3 * case.size() + 1e-6 * o.length(), "{}: {t:e} of {error:e}", case.name);
@@ -132,7 +134,7 @@ fn rays_that_leave_a_surface_do_not_meet_it_at_once() {
                 let o = found.p + found.n_geometric * (found.error * side);
                 let Some(t) = closest(&alone, o, v(d)) else { continue };
                 // What it meets must be another part of the piece, as far away as that really is.
-                let there = meetings(piece, exact(o), exact(v(d)), 1e-3);
+                let there = intersections(piece, exact(o), exact(v(d)), 1e-3);
                 let next = there.iter().map(|m| m.t).find(|next| *next > 0.0);
                 let next = next.unwrap_or_else(|| panic!("{}: nothing at {t:e}", case.name));
                 assert!(t > 0.5 * next, "{}: {t:e} of {next:e}", case.name);

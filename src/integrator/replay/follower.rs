@@ -1,7 +1,7 @@
 //! Records the path of one slot while a batch is traced with one lane.
 use super::terms::{EmitterHit, Outcome, Reflection, SampledLight, Surface, Vertex};
 use crate::{
-    geometry::{MISS, Place},
+    geometry::{MISS, PrimitiveRef},
     integrator::{
         batch::Batch,
         media::transmittance,
@@ -205,10 +205,10 @@ fn hit_emitter<const VARIED: bool>(
     work: &Work,
     path: &Path<One>,
     interaction: Option<SurfaceInteraction<One>>,
-) -> Option<(V<One>, Place<One>)> {
+) -> Option<(V<One>, PrimitiveRef<One>)> {
     let lights = &work.scene.lights;
     let Some(interaction) = interaction else {
-        return lights.background.as_ref().map(|sky| (sky.radiance(One, path.d), Place::of(One, U(MISS))));
+        return lights.background.as_ref().map(|sky| (sky.radiance(One, path.d), PrimitiveRef::of(One, U(MISS))));
     };
     let emits = lights.emitters.emits(interaction.place.primitive);
     if !emits.0 {
@@ -219,7 +219,7 @@ fn hit_emitter<const VARIED: bool>(
 }
 
 /// The MIS weight of the emitter hit by the path at index `at` of its queue.
-fn emitter_hit_weight_of(work: &Work, batch: &Batch, at: usize, path: &Path<One>, place: Place<One>) -> F<One> {
+fn emitter_hit_weight_of(work: &Work, batch: &Batch, at: usize, path: &Path<One>, place: PrimitiveRef<One>) -> F<One> {
     let current = (batch.bounce & 1) as usize;
     if batch.bounce == 0 || !work.samples_lights() {
         return F(1.0);

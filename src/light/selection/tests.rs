@@ -4,7 +4,7 @@ use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use super::{FEW, Item, Selection, outstanding};
 use crate::{
-    geometry::{MISS, Motion, Outline, Place, Shape, Shapes},
+    geometry::{MISS, Motion, Outline, PrimitiveRef, Shape, Shapes},
     light::{Emission, Emitters, LightCoordinates, Lobe, ReferencePoint, Side},
     math::{F, Lanes, M, One, Pick, SimdLevel, U, V},
     sampling::hash::hash_one,
@@ -249,7 +249,7 @@ fn what_can_contribute_can_be_chosen() {
         for _ in 0..20_000 {
             let at = reference_point(random, &set);
             let light = U((random.next() * set.shapes.len() as f64) as u32);
-            let place = Place::of(One, light);
+            let place = PrimitiveRef::of(One, light);
             let toward = shapes.toward(One, &place, at.p, (F(random.next() as f32), F(random.next() as f32)));
             let (_, lit) = emitters.radiance(One, M(true), light, toward.front.pick(F(1.0), F(-1.0)));
             let visible = at.transmits.0 || toward.wi.dot(at.n).0 > 0.0;

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use glam::DVec3;
 
 use crate::{
-    geometry::{MISS, Motion, Nearest, Place, Shape, Shapes},
+    geometry::{MISS, Motion, Nearest, PrimitiveRef, Shape, Shapes},
     material::{Bsdf, Conductor, Dielectric, LambertianBsdf, Local, Materials, Plastic, Reflectance, RoughDielectric, Shade},
     math::{F, M, One, U, V},
     report::plot::{Axis, Style, curve, plot},
@@ -179,7 +179,7 @@ fn lamps(validation: &Validation) -> Vec<Statement> {
     let of = |(name, shape): &(&str, Shape)| {
         let all = Shapes::new(std::iter::once((shape, &Motion::default())), DVec3::ZERO);
         let (center, radius) = shape.bounding_sphere();
-        let (o, place) = (lanes(DVec3::ZERO), Place::of(One, U(0)));
+        let (o, place) = (lanes(DVec3::ZERO), PrimitiveRef::of(One, U(0)));
         let is_met = |w: V<One>| {
             let Nearest { primitive: U(primitive), .. } = all.closest(One, M(true), o, w, F(0.0));
             primitive != MISS

@@ -8,7 +8,7 @@ use crate::{
     geometry::{
         Expression, Isosurface, MISS, Motion, Nearest, Outline, Shape, Shapes,
         mesh::generate,
-        oracle::{Meeting, meetings, pieces, point_at},
+        oracle::{Intersection, intersections, pieces, point_at},
         sphere_field,
     },
     math::{F, M, One, U, V},
@@ -115,7 +115,7 @@ struct Tally {
     must_hit: u32,
     must_miss: u32,
     close: u32,
-    /// Surfaces that were passed, and meetings where there is nothing.
+    /// Surfaces that were passed, and intersections where there is nothing.
     wrong: u32,
     /// Of x_M, in εS.
     errors: Vec<f64>,
@@ -141,18 +141,18 @@ impl Tally {
     }
 }
 
-/// A meeting in f64, and what rounding may move it by, aside and along.
+/// An intersection in f64, and what rounding may move it by, aside and along.
 struct Known {
-    meeting: Meeting,
+    intersection: Intersection,
     /// εS.
     digit: f64,
     along: f64,
 }
 
 impl Known {
-    /// Of a meeting at `t`, from the surface, in εS.
+    /// Of an intersection at `t`, from the surface, in εS.
     fn error(&self, t: f64) -> f64 {
-        (t - self.meeting.t).abs() * self.meeting.cos / self.digit
+        (t - self.intersection.t).abs() * self.intersection.cos / self.digit
     }
 }
 
@@ -185,17 +185,17 @@ impl Kind {
         (o.as_dvec3(), d.as_dvec3())
     }
 
-    /// All meetings of the ray in f64, misses by a little included.
+    /// All intersections of the ray in f64, misses by a little included.
     fn known(&self, o: DVec3, d: DVec3) -> Vec<Known> {
         let of = |piece: &Shape| {
             let (center, radius) = piece.bounding_sphere();
             // Spheres are anchored near the origin, other shapes are as large as they are.
             let own = if matches!(piece, Shape::Sphere { .. }) && radius > 10.0 { 0.0 } else { radius + center.length() };
-            let known = move |meeting: Meeting| {
-                let digit = EPSILON * (o.length() + (o + d * meeting.t).length() + meeting.t.abs() + own);
-                Known { digit, along: DIGITS * digit / meeting.cos.max(1e-9), meeting }
+            let known = move |intersection: Intersection| {
+                let digit = EPSILON * (o.length() + (o + d * intersection.t).length() + intersection.t.abs() + own);
+                Known { digit, along: DIGITS * digit / intersection.cos.max(1e-9), intersection }
             };
-            meetings(piece, o, d, f64::INFINITY).into_iter().map(known)
+            intersections(piece, o, d, f64::INFINITY).into_iter().map(known)
         };
         self.pieces.iter().flat_map(of).collect()
     }
@@ -205,20 +205,21 @@ impl Kind {
         let Nearest { t, primitive: U(primitive), .. } = shapes.closest(One, M(true), splat(o), splat(d), F(0.0));
         let found = (primitive != MISS).then_some(f64::from(t.0));
         let known = self.known(o, d);
-        let sure = |known: &&Known| known.meeting.clearance > DIGITS * known.digit && known.meeting.t > known.along;
-        let possible = |known: &&Known| known.meeting.clearance > -DIGITS * known.digit && known.meeting.t > -known.along;
-        let first = known.iter().filter(sure).min_by(|a, b| a.meeting.t.total_cmp(&b.meeting.t));
-        let is_there = |t: f64| known.iter().filter(possible).any(|known| (known.meeting.t - t).abs() <= known.along);
+        let sure = |known: &&Known| known.intersection.clearance > DIGITS * known.digit && known.intersection.t > known.along;
+        let possible =
+            |known: &&Known| known.intersection.clearance > -DIGITS * known.digit && known.intersection.t > -known.along;
+        let first = known.iter().filter(sure).min_by(|a, b| a.intersection.t.total_cmp(&b.intersection.t));
+        let is_there = |t: f64| known.iter().filter(possible).any(|known| (known.intersection.t - t).abs() <= known.along);
         if let Some(first) = first {
             tally.must_hit += 1;
-            let met = found.filter(|t| *t <= first.meeting.t + first.along && is_there(*t));
+            let met = found.filter(|t| *t <= first.intersection.t + first.along && is_there(*t));
             tally.wrong += u32::from(met.is_none());
             // What is wrong has the error to where it should be.
             let near = |t: f64| {
                 known
                     .iter()
                     .filter(possible)
-                    .filter(move |known| known.meeting.t <= first.meeting.t)
+                    .filter(move |known| known.intersection.t <= first.intersection.t)
                     .map(move |known| known.error(t))
             };
             tally.errors.extend(found.and_then(|t| near(t).min_by(f64::total_cmp)));

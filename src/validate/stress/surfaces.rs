@@ -5,7 +5,7 @@ use super::dice::Dice;
 use crate::{
     geometry::{
         MISS, Nearest, Shape,
-        oracle::{distance, meetings, pieces, point_at},
+        oracle::{distance, intersections, pieces, point_at},
     },
     integrator::replay,
     math::{F, M, One, U, V},
@@ -139,8 +139,10 @@ impl World<'_> {
         let p = ray.o + ray.d * t;
         let error = |face: &Shape| {
             // To first order only: where the surface is strongly curved, the way along the ray may be nearer.
-            let along =
-                meetings(face, ray.o, ray.d, 0.0).iter().map(|meeting| (meeting.t - t).abs()).fold(f64::INFINITY, f64::min);
+            let along = intersections(face, ray.o, ray.d, 0.0)
+                .iter()
+                .map(|intersection| (intersection.t - t).abs())
+                .fold(f64::INFINITY, f64::min);
             distance(face, p).min(along) / (EPSILON * self.scale(face, ray.o, p, t))
         };
         let error = here.faces.iter().map(error).reduce(f64::min).unwrap_or(0.0);
@@ -158,11 +160,11 @@ impl World<'_> {
     /// Whether f64 sees a surface in front of t, and would if the ray were moved aside or along by some rounding.
     fn passes_a_surface(&self, ray: Ray, t: f64) -> bool {
         let surely = |face: &Shape| {
-            meetings(face, ray.o, ray.d, 0.0).iter().any(|meeting| {
-                let p = ray.o + ray.d * meeting.t;
-                let rounding = LIMIT * EPSILON * self.scale(face, ray.o, p, meeting.t.abs());
-                let along = rounding / meeting.cos.max(1e-9);
-                meeting.clearance > rounding && meeting.t > along && meeting.t < t - along
+            intersections(face, ray.o, ray.d, 0.0).iter().any(|intersection| {
+                let p = ray.o + ray.d * intersection.t;
+                let rounding = LIMIT * EPSILON * self.scale(face, ray.o, p, intersection.t.abs());
+                let along = rounding / intersection.cos.max(1e-9);
+                intersection.clearance > rounding && intersection.t > along && intersection.t < t - along
             })
         };
         self.known.iter().flat_map(|known| &known.faces).any(surely)
@@ -189,7 +191,12 @@ fn is_self_hit(known: &Known, ray: Ray, t: f64) -> bool {
     if known.is_mesh || matches!(known.faces[..], [Shape::Flat { .. }]) {
         return true;
     }
-    let next = known.faces.iter().flat_map(|face| meetings(face, ray.o, ray.d, 1e-3)).map(|meeting| meeting.t).find(|t| *t > 0.0);
+    let next = known
+        .faces
+        .iter()
+        .flat_map(|face| intersections(face, ray.o, ray.d, 1e-3))
+        .map(|intersection| intersection.t)
+        .find(|t| *t > 0.0);
     next.is_none_or(|next| t < 0.5 * next)
 }
 

@@ -4,7 +4,7 @@ use rand::{SeedableRng, rngs::SmallRng};
 
 use super::{
     super::{
-        enclosure::Enclosure,
+        affine_form::AffineForm,
         tape::{Quantity, REGISTERS, run},
     },
     Expression, Isosurface, SHAPES, exact, first_sampled_change, inside_box, intersect, ray_into, shape, unit_vector, v, value,
@@ -19,9 +19,9 @@ const ZERO: f64 = 1e-5;
 
 /// The bound on the rounding of f in f32.
 fn rounding(shape: &Isosurface, p: DVec3) -> f64 {
-    let mut registers = [Enclosure::constant(One, 0.0); REGISTERS];
+    let mut registers = [AffineForm::constant(One, 0.0); REGISTERS];
     let at = v(p);
-    let still = |x| Enclosure::along(x, F(1.0), F(0.0), F(0.0));
+    let still = |x| AffineForm::along(x, F(1.0), F(0.0), F(0.0));
     registers[..3].copy_from_slice(&[still(at.x), still(at.y), still(at.z)]);
     run(One, &shape.expression.tape, &mut registers).r.0.into()
 }

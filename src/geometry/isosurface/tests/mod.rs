@@ -1,5 +1,5 @@
 //! The isosurface against references in f64.
-mod enclosure;
+mod affine_form;
 mod exact;
 mod functions;
 mod images;

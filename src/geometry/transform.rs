@@ -5,27 +5,27 @@ use super::Step;
 use crate::math::{F, Lanes, V, trig::sin_cos_turns};
 
 /// The transform at time 0: an affine map and its inverse, rounded.
-pub(super) struct Rest {
+pub(super) struct StaticTransform {
     axes: [[f32; 3]; 3],
     origin: [f32; 3],
     rows: [[f32; 3]; 3],
 }
 
-impl Rest {
-    pub const IDENTITY: Rest = {
+impl StaticTransform {
+    pub const IDENTITY: StaticTransform = {
         let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-        Rest { axes, origin: [0.0; 3], rows: axes }
+        StaticTransform { axes, origin: [0.0; 3], rows: axes }
     };
 
-    pub fn new(map: &DAffine3) -> Rest {
+    pub fn new(map: &DAffine3) -> StaticTransform {
         let columns = |matrix: &DMat3| [0, 1, 2].map(|axis| matrix.col(axis).as_vec3().to_array());
         let rows = columns(&map.matrix3.inverse().transpose());
-        Rest { axes: columns(&map.matrix3), origin: map.translation.as_vec3().to_array(), rows }
+        StaticTransform { axes: columns(&map.matrix3), origin: map.translation.as_vec3().to_array(), rows }
     }
 }
 
 /// An affine map in lanes and its inverse.
-pub(super) struct Pose<L: Lanes> {
+pub(super) struct LaneTransform<L: Lanes> {
     /// Images of the axes, and of the origin.
     pub axes: [V<L>; 3],
     origin: V<L>,
@@ -33,14 +33,14 @@ pub(super) struct Pose<L: Lanes> {
     pub rows: [V<L>; 3],
 }
 
-impl<L: Lanes> Pose<L> {
+impl<L: Lanes> LaneTransform<L> {
     /// The transform at `time`.
     #[inline(always)]
-    pub fn new(l: L, rest: &Rest, motion: &[Step], time: F<L>) -> Self {
-        let mut axes = three(l, &rest.axes);
-        let mut origin = V::splat(l, rest.origin);
+    pub fn new(l: L, at_rest: &StaticTransform, motion: &[Step], time: F<L>) -> Self {
+        let mut axes = three(l, &at_rest.axes);
+        let mut origin = V::splat(l, at_rest.origin);
         if motion.is_empty() {
-            return Pose { axes, origin, rows: three(l, &rest.rows) };
+            return LaneTransform { axes, origin, rows: three(l, &at_rest.rows) };
         }
         for step in motion {
             let partial = Partial::new(l, step, time);
@@ -50,7 +50,7 @@ impl<L: Lanes> Pose<L> {
         let [a, b, c] = axes;
         let (bc, ca, ab) = (b.cross(c), c.cross(a), a.cross(b));
         let scale = 1.0 / a.dot(bc);
-        Pose { axes, origin, rows: [bc * scale, ca * scale, ab * scale] }
+        LaneTransform { axes, origin, rows: [bc * scale, ca * scale, ab * scale] }
     }
 
     #[inline(always)]
@@ -79,7 +79,7 @@ impl<L: Lanes> Pose<L> {
         self.rows[0] * n.x + (self.rows[1] * n.y + self.rows[2] * n.z)
     }
 
-    /// Upper bound of the error of [`Pose::point_to_local`] at `p`, summed over the local coordinates.
+    /// Upper bound of the error of [`LaneTransform::point_to_local`] at `p`, summed over the local coordinates.
     #[inline(always)]
     pub fn rounding(&self, p: V<L>) -> F<L> {
         // Each coordinate is rounded as the differences to the origin, the products and two sums.

@@ -6,32 +6,32 @@ use fearless_simd_macros::simd;
 use glam::DAffine3;
 
 use super::{
-    Coordinates, MISS, Place, SurfacePoint, Toward,
-    around::Around,
+    Coordinates, DirectionSample, MISS, PrimitiveRef, SurfacePoint,
+    bounding_sphere::BoundingSphere,
     bvh::Stack,
     isosurface::Isosurface,
     lists::Lists,
     mesh::Mesh,
     motion::Motion,
-    pose::{Pose, Rest},
     shape::Shape,
     step::Step,
     tables::Tables,
+    transform::{LaneTransform, StaticTransform},
 };
 use crate::math::{F, Lanes, M, Pick, U, V};
 
 /// A shape with its transform to world space.
-pub(super) struct Placed {
+pub(super) struct Instance {
     /// Its first primitive.
     pub first: u32,
     pub body: Body,
     still: DAffine3,
-    rest: Rest,
+    at_rest: StaticTransform,
     motion: Vec<Step>,
     /// Local space is world space.
     is_world: bool,
     /// Bounding sphere over its whole motion.
-    around: Around,
+    bounding_sphere: BoundingSphere,
 }
 
 pub(super) enum Body {
@@ -40,27 +40,27 @@ pub(super) enum Body {
     Shape(Box<Tables>, Box<Lists>),
 }
 
-/// The intersection of a ray with a placed shape: distance in world space, position in the body, triangle.
-pub(super) struct Meeting<L: Lanes> {
+/// The intersection of a ray with an instance: distance in world space, position in the body, triangle.
+pub(super) struct Intersection<L: Lanes> {
     /// NaN or infinite if there is none.
     pub t: F<L>,
     pub piece: U<L>,
     pub element: U<L>,
 }
 
-impl Placed {
+impl Instance {
     /// Places a body. `shape` is the whole shape in world space at time 0.
-    pub fn new(first: u32, body: Body, still: DAffine3, motion: &Motion, shape: &Shape) -> Placed {
+    pub fn new(first: u32, body: Body, still: DAffine3, motion: &Motion, shape: &Shape) -> Instance {
         let is_world = motion.0.is_empty() && still == DAffine3::IDENTITY;
         let (center, radius) = shape.swept_sphere(motion);
-        let (rest, around) = (Rest::new(&still), Around::new(center, radius));
-        Placed { first, body, still, rest, motion: motion.0.clone(), is_world, around }
+        let (at_rest, bounding_sphere) = (StaticTransform::new(&still), BoundingSphere::new(center, radius));
+        Instance { first, body, still, at_rest, motion: motion.0.clone(), is_world, bounding_sphere }
     }
 
     /// The lanes whose ray may hit it.
     #[inline(always)]
     pub fn near<L: Lanes>(&self, live: M<L>, o: V<L>, d: V<L>) -> M<L> {
-        live & self.around.near(o, d)
+        live & self.bounding_sphere.near(o, d)
     }
 
     /// The map to world space at time 0.
@@ -69,13 +69,13 @@ impl Placed {
     }
 
     #[inline(always)]
-    fn pose<L: Lanes>(&self, l: L, time: F<L>) -> Pose<L> {
-        Pose::new(l, &self.rest, &self.motion, time)
+    fn transform<L: Lanes>(&self, l: L, time: F<L>) -> LaneTransform<L> {
+        LaneTransform::new(l, &self.at_rest, &self.motion, time)
     }
 
     /// The first intersection with o + td, d of unit length, with 0 < t < `limit`. Lanes with a limit of 0 cost almost nothing.
     #[simd]
-    pub fn closest<L: Lanes>(&self, l: L, ray: (V<L>, V<L>), time: F<L>, limit: F<L>) -> Meeting<L> {
+    pub fn closest<L: Lanes>(&self, l: L, ray: (V<L>, V<L>), time: F<L>, limit: F<L>) -> Intersection<L> {
         self.meet(l, l.token(), &mut Stack::default(), ray, time, limit)
     }
 
@@ -89,58 +89,65 @@ impl Placed {
         (o, d): (V<L>, V<L>),
         time: F<L>,
         limit: F<L>,
-    ) -> Meeting<L> {
+    ) -> Intersection<L> {
         if self.is_world {
             return self.meet_in_body(l, s, stack, (o, d), limit);
         }
-        let pose = self.pose(l, time);
-        let local = pose.vector_to_local(d);
+        let transform = self.transform(l, time);
+        let local = transform.vector_to_local(d);
         let speed = local.length_squared().sqrt();
-        let ray = (pose.point_to_local(o), local * (1.0 / speed));
+        let ray = (transform.point_to_local(o), local * (1.0 / speed));
         let found = self.meet_in_body(l, s, stack, ray, limit * speed);
-        Meeting { t: found.t / speed, ..found }
+        Intersection { t: found.t / speed, ..found }
     }
 
     #[inline(always)]
-    fn meet_in_body<L: Lanes, S: Simd>(&self, l: L, s: S, stack: &mut Stack, (o, d): (V<L>, V<L>), limit: F<L>) -> Meeting<L> {
+    fn meet_in_body<L: Lanes, S: Simd>(
+        &self,
+        l: L,
+        s: S,
+        stack: &mut Stack,
+        (o, d): (V<L>, V<L>),
+        limit: F<L>,
+    ) -> Intersection<L> {
         let zero = l.u(0);
         match &self.body {
             Body::Mesh(mesh) => {
                 let (t, element) = mesh.closest_by(l, s, stack, (o, d), limit);
                 let none = element.is(MISS);
-                Meeting { t: none.pick(l.f(f32::INFINITY), t), piece: zero, element: none.pick(zero, element) }
+                Intersection { t: none.pick(l.f(f32::INFINITY), t), piece: zero, element: none.pick(zero, element) }
             }
-            Body::Isosurface(surface) => Meeting { t: surface.intersect(l, o, d, limit), piece: zero, element: zero },
+            Body::Isosurface(surface) => Intersection { t: surface.intersect(l, o, d, limit), piece: zero, element: zero },
             Body::Shape(_, list) => {
                 let (t, piece) = list.closest(l, o, d);
-                Meeting { t, piece, element: zero }
+                Intersection { t, piece, element: zero }
             }
         }
     }
 
     /// The surface at a point `p` in world space.
     #[simd]
-    pub fn surface_point<L: Lanes>(&self, l: L, place: &Place<L>, p: V<L>) -> SurfacePoint<L> {
+    pub fn surface_point<L: Lanes>(&self, l: L, place: &PrimitiveRef<L>, p: V<L>) -> SurfacePoint<L> {
         if self.is_world {
             return self.local_point(l, place, p);
         }
-        let pose = self.pose(l, place.time);
-        let there = pose.point_to_local(p);
+        let transform = self.transform(l, place.time);
+        let there = transform.point_to_local(p);
         let local = self.local_point(l, place, there);
-        let normal = pose.normal_to_world(local.n_geometric);
+        let normal = transform.normal_to_world(local.n_geometric);
         let stretch = 1.0 / normal.length_squared().sqrt();
         let n_geometric = normal * stretch;
-        // The point moves along the normal as it does there, so that the inverse of the pose is not needed exactly.
+        // The point moves along the normal as it does there, so that the inverse of the transform is not needed exactly.
         let height = (there - local.p).dot(local.n_geometric);
         SurfacePoint {
             p: p - n_geometric * (height * stretch),
             n_geometric,
-            error: (local.error + pose.rounding(p)) * stretch + p.max_abs() * (4.0 * f32::EPSILON),
+            error: (local.error + transform.rounding(p)) * stretch + p.max_abs() * (4.0 * f32::EPSILON),
         }
     }
 
     #[inline(always)]
-    fn local_point<L: Lanes>(&self, l: L, place: &Place<L>, p: V<L>) -> SurfacePoint<L> {
+    fn local_point<L: Lanes>(&self, l: L, place: &PrimitiveRef<L>, p: V<L>) -> SurfacePoint<L> {
         match &self.body {
             Body::Mesh(mesh) => {
                 let point = mesh.surface_point(l, place.element, p);
@@ -153,9 +160,9 @@ impl Placed {
 
     /// Surface coordinates of a point, and the directions of their gradients.
     #[simd]
-    pub fn coordinates<L: Lanes>(&self, l: L, place: &Place<L>, point: &SurfacePoint<L>) -> (Coordinates<L>, [V<L>; 2]) {
-        let pose = self.pose(l, place.time);
-        let p = pose.point_to_local(point.p);
+    pub fn coordinates<L: Lanes>(&self, l: L, place: &PrimitiveRef<L>, point: &SurfacePoint<L>) -> (Coordinates<L>, [V<L>; 2]) {
+        let transform = self.transform(l, place.time);
+        let p = transform.point_to_local(point.p);
         let (coordinates, [u, v]) = match &self.body {
             Body::Mesh(mesh) => mesh.coordinates(l, place.element, p),
             Body::Isosurface(surface) => surface.coordinates(l, p),
@@ -165,17 +172,17 @@ impl Placed {
                 (tables.coordinates(l, self.piece(place), &local), [u, v])
             }
         };
-        (coordinates, [pose.vector_to_world(u), pose.vector_to_world(v)])
+        (coordinates, [transform.vector_to_world(u), transform.vector_to_world(v)])
     }
 
     /// The interpolated normal of a smooth mesh, unit; elsewhere the geometric one.
     #[simd]
-    pub fn smooth_normal<L: Lanes>(&self, l: L, place: &Place<L>, point: &SurfacePoint<L>) -> V<L> {
+    pub fn smooth_normal<L: Lanes>(&self, l: L, place: &PrimitiveRef<L>, point: &SurfacePoint<L>) -> V<L> {
         match &self.body {
             Body::Mesh(mesh) if mesh.is_smooth() => {
-                let pose = self.pose(l, place.time);
-                let normal = mesh.smooth_normal(l, place.element, pose.point_to_local(point.p));
-                pose.normal_to_world(normal).normalized()
+                let transform = self.transform(l, place.time);
+                let normal = mesh.smooth_normal(l, place.element, transform.point_to_local(point.p));
+                transform.normal_to_world(normal).normalized()
             }
             _ => point.n_geometric,
         }
@@ -183,33 +190,33 @@ impl Placed {
 
     /// A direction from `x` towards a primitive; see [`super::Shapes::toward`].
     #[simd]
-    pub fn toward<L: Lanes>(&self, l: L, place: &Place<L>, x: V<L>, u: (F<L>, F<L>)) -> Toward<L> {
-        let pose = self.pose(l, place.time);
-        let there = pose.point_to_local(x);
+    pub fn toward<L: Lanes>(&self, l: L, place: &PrimitiveRef<L>, x: V<L>, u: (F<L>, F<L>)) -> DirectionSample<L> {
+        let transform = self.transform(l, place.time);
+        let there = transform.point_to_local(x);
         let local = match &self.body {
             Body::Mesh(mesh) => mesh.toward(l, place.element, there, u),
             Body::Isosurface(surface) => surface.toward(l, there, u),
             Body::Shape(tables, _) => tables.toward(l, self.piece(place), there, u),
         };
-        let wi = pose.vector_to_world(local.wi).normalized();
-        Toward { wi, pdf: local.pdf * stretch(&pose, wi), front: local.front }
+        let wi = transform.vector_to_world(local.wi).normalized();
+        DirectionSample { wi, pdf: local.pdf * stretch(&transform, wi), front: local.front }
     }
 
-    /// The pdf of [`Placed::toward`] per solid angle.
+    /// The pdf of [`Instance::toward`] per solid angle.
     #[simd]
-    pub fn pdf_toward<L: Lanes>(&self, l: L, place: &Place<L>, x: V<L>, wi: V<L>) -> F<L> {
-        let pose = self.pose(l, place.time);
-        let (x, local) = (pose.point_to_local(x), pose.vector_to_local(wi).normalized());
+    pub fn pdf_toward<L: Lanes>(&self, l: L, place: &PrimitiveRef<L>, x: V<L>, wi: V<L>) -> F<L> {
+        let transform = self.transform(l, place.time);
+        let (x, local) = (transform.point_to_local(x), transform.vector_to_local(wi).normalized());
         let pdf = match &self.body {
             Body::Mesh(mesh) => mesh.pdf_toward(l, place.element, x, local),
             Body::Isosurface(surface) => surface.pdf_toward(l, x),
             Body::Shape(tables, _) => tables.pdf_toward(l, self.piece(place), x, local),
         };
-        pdf * stretch(&pose, wi)
+        pdf * stretch(&transform, wi)
     }
 
     #[inline(always)]
-    fn piece<L: Lanes>(&self, place: &Place<L>) -> U<L> {
+    fn piece<L: Lanes>(&self, place: &PrimitiveRef<L>) -> U<L> {
         place.primitive + self.first.wrapping_neg()
     }
 }
@@ -217,7 +224,7 @@ impl Placed {
 /// The factor from a pdf per solid angle in local space to one in world space: |det G| / |G ω|³, where G is the map to local
 /// space.
 #[inline(always)]
-fn stretch<L: Lanes>(pose: &Pose<L>, wi: V<L>) -> F<L> {
-    let square = pose.vector_to_local(wi).length_squared();
-    pose.rows[0].dot(pose.rows[1].cross(pose.rows[2])).abs() / (square * square.sqrt())
+fn stretch<L: Lanes>(transform: &LaneTransform<L>, wi: V<L>) -> F<L> {
+    let square = transform.vector_to_local(wi).length_squared();
+    transform.rows[0].dot(transform.rows[1].cross(transform.rows[2])).abs() / (square * square.sqrt())
 }

@@ -4,16 +4,16 @@ use glam::DVec3;
 use crate::math::{Lanes, M, V};
 
 /// A bounding sphere.
-pub(super) struct Around {
+pub(super) struct BoundingSphere {
     center: [f32; 3],
     radius_squared: f32,
 }
 
-impl Around {
-    pub fn new(center: DVec3, radius: f64) -> Around {
+impl BoundingSphere {
+    pub fn new(center: DVec3, radius: f64) -> BoundingSphere {
         // Much more than all roundings on the way.
         const SLACK: f64 = 1.0001;
-        Around { center: center.as_vec3().to_array(), radius_squared: (radius * radius * SLACK) as f32 }
+        BoundingSphere { center: center.as_vec3().to_array(), radius_squared: (radius * radius * SLACK) as f32 }
     }
 
     /// The lanes whose ray o + td, d of unit length, may hit the contents of the sphere.

@@ -1,10 +1,10 @@
-//! Enclosures contain what they enclose.
+//! Affine forms contain what they enclose.
 use glam::DVec3;
 use rand::{Rng, SeedableRng, rngs::SmallRng};
 
 use super::{
     super::{
-        enclosure::Enclosure,
+        affine_form::AffineForm,
         tape::{Quantity, REGISTERS, run},
     },
     Expression, SHAPES,
@@ -32,9 +32,9 @@ impl Piece {
         }
     }
 
-    fn enclosure(&self, expression: &Expression) -> Enclosure<One> {
-        let mut registers = [Enclosure::constant(One, 0.0); REGISTERS];
-        let along = |o, d| Enclosure::along(o, d, F(self.middle), F(self.half));
+    fn affine_form(&self, expression: &Expression) -> AffineForm<One> {
+        let mut registers = [AffineForm::constant(One, 0.0); REGISTERS];
+        let along = |o, d| AffineForm::along(o, d, F(self.middle), F(self.half));
         let (o, d) = (self.o, self.d);
         registers[..3].copy_from_slice(&[along(o.x, d.x), along(o.y, d.y), along(o.z, d.z)]);
         run(One, &expression.tape, &mut registers)
@@ -45,9 +45,9 @@ impl Piece {
     }
 }
 
-/// Checks an enclosure, and returns whether it bounds anything.
+/// Checks an affine form, and returns whether it bounds anything.
 fn assert_contains(expression: &Expression, piece: &Piece, rng: &mut SmallRng, what: &str) -> bool {
-    let f = piece.enclosure(expression);
+    let f = piece.affine_form(expression);
     let [a, b, r, q] = [f.a, f.b, f.r, f.q].map(|x| f64::from(x.0));
     if !(r.is_finite() && a.is_finite()) {
         return false;
@@ -72,7 +72,7 @@ fn assert_contains(expression: &Expression, piece: &Piece, rng: &mut SmallRng, w
 }
 
 #[test]
-fn values_and_slopes_lie_in_enclosures() {
+fn values_and_slopes_lie_in_affine_forms() {
     let mut rng = SmallRng::seed_from_u64(3);
     let (mut all, mut known) = (0, 0);
     for _ in 0..30_000 {
@@ -94,7 +94,7 @@ fn lines_lie_as_near_to_their_functions_as_they_can() {
     let piece = Piece { o: v(DVec3::ZERO), d: v(DVec3::X), middle: 1.0, half: 0.125 };
     for text in ["1/x", "sqrt(x)", "exp(x)", "log(x)", "sin(x)", "cos(x)"] {
         let expression = Expression::parse(text).expect("an expression");
-        let f = piece.enclosure(&expression);
+        let f = piece.affine_form(&expression);
         let exact = |s: f64| value(&expression, piece.point(s));
         let off = |s: f64| (exact(s) - exact(0.0) - f64::from(f.b.0) * s).abs();
         let least = 0.5 * off(-1.0).max(off(1.0));
@@ -103,7 +103,7 @@ fn lines_lie_as_near_to_their_functions_as_they_can() {
 }
 
 #[test]
-fn enclosures_of_shapes_shrink_with_the_square_of_the_piece() {
+fn affine_forms_of_shapes_shrink_with_the_square_of_the_piece() {
     let mut rng = SmallRng::seed_from_u64(4);
     for (name, text, _) in SHAPES.into_iter().filter(|(name, ..)| !["shell", "union"].contains(name)) {
         let expression = Expression::parse(text).expect("an expression");
@@ -111,9 +111,9 @@ fn enclosures_of_shapes_shrink_with_the_square_of_the_piece() {
             let mut piece = Piece::random(&mut rng);
             piece.half = 1.0 / 128.0;
             assert_contains(&expression, &piece, &mut rng, name);
-            let wide = piece.enclosure(&expression);
+            let wide = piece.affine_form(&expression);
             piece.half = 1.0 / 1024.0;
-            let narrow = piece.enclosure(&expression);
+            let narrow = piece.affine_form(&expression);
             assert!(narrow.r.0 < wide.r.0 / 50.0 + 3e-5 * (1.0 + wide.a.0.abs()), "{name}: {} {}", narrow.r.0, wide.r.0);
         }
     }

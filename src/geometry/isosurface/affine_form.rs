@@ -26,29 +26,29 @@ pub(super) const WIDEN: f32 = 1.0 + 8.0 * f32::EPSILON;
 const UNDERFLOW: f32 = f32::MIN_POSITIVE;
 
 /// f(s) = a + b s + e(s) for s in [−1, 1]; |e| ≤ r, |e′| ≤ q.
-pub(super) struct Enclosure<L: Lanes> {
+pub(super) struct AffineForm<L: Lanes> {
     pub a: F<L>,
     pub b: F<L>,
     pub r: F<L>,
     pub q: F<L>,
 }
 
-impl<L: Lanes> Clone for Enclosure<L> {
+impl<L: Lanes> Clone for AffineForm<L> {
     #[inline(always)]
     fn clone(&self) -> Self {
         *self
     }
 }
-impl<L: Lanes> Copy for Enclosure<L> {}
+impl<L: Lanes> Copy for AffineForm<L> {}
 
-impl<L: Lanes> Pick<Enclosure<L>> for M<L> {
+impl<L: Lanes> Pick<AffineForm<L>> for M<L> {
     #[inline(always)]
-    fn pick(self, a: Enclosure<L>, b: Enclosure<L>) -> Enclosure<L> {
-        Enclosure { a: self.pick(a.a, b.a), b: self.pick(a.b, b.b), r: self.pick(a.r, b.r), q: self.pick(a.q, b.q) }
+    fn pick(self, a: AffineForm<L>, b: AffineForm<L>) -> AffineForm<L> {
+        AffineForm { a: self.pick(a.a, b.a), b: self.pick(a.b, b.b), r: self.pick(a.r, b.r), q: self.pick(a.q, b.q) }
     }
 }
 
-impl<L: Lanes> Enclosure<L> {
+impl<L: Lanes> AffineForm<L> {
     /// The coordinate o + d (middle + half · s) of a line; o, d, middle and half are exact.
     #[inline(always)]
     pub fn along(o: F<L>, d: F<L>, middle: F<L>, half: F<L>) -> Self {
@@ -57,7 +57,7 @@ impl<L: Lanes> Enclosure<L> {
         let of_slope = b.abs() * ROUNDING + UNDERFLOW;
         // The sum is not farther from the exact one than o is.
         let of_middle = far.abs() * ROUNDING + (a.abs() * ROUNDING).min(far.abs());
-        Enclosure { a, b, r: (of_middle + of_slope) * WIDEN, q: of_slope }
+        AffineForm { a, b, r: (of_middle + of_slope) * WIDEN, q: of_slope }
     }
 
     /// Maximum distance of the function from a.
@@ -84,7 +84,7 @@ impl<L: Lanes> Enclosure<L> {
         let slope = line.slope.abs();
         let b = line.slope * self.b;
         let rounding = b.abs() * ROUNDING + UNDERFLOW;
-        Enclosure {
+        AffineForm {
             a: line.at_middle,
             b,
             r: (slope * self.r + line.error + rounding) * WIDEN,
@@ -94,7 +94,7 @@ impl<L: Lanes> Enclosure<L> {
 
     #[inline(always)]
     fn negative(&self) -> Self {
-        Enclosure { a: -self.a, b: -self.b, ..*self }
+        AffineForm { a: -self.a, b: -self.b, ..*self }
     }
 
     /// |x| where x may have either sign: it lies between the chord over the range a ± w and the chord less w − a²/w, its depth
@@ -120,30 +120,30 @@ impl<L: Lanes> Enclosure<L> {
     }
 }
 
-impl<L: Lanes> Quantity<L> for Enclosure<L> {
+impl<L: Lanes> Quantity<L> for AffineForm<L> {
     #[inline(always)]
     fn constant(l: L, value: f32) -> Self {
         let zero = l.f(0.0);
-        Enclosure { a: l.f(value), b: zero, r: zero, q: zero }
+        AffineForm { a: l.f(value), b: zero, r: zero, q: zero }
     }
     #[inline(always)]
     fn add_constant(&self, by: f32) -> Self {
         let a = self.a + by;
-        Enclosure { a, r: (self.r + a.abs() * ROUNDING) * WIDEN, ..*self }
+        AffineForm { a, r: (self.r + a.abs() * ROUNDING) * WIDEN, ..*self }
     }
     #[inline(always)]
     fn scale(&self, by: f32) -> Self {
         let (a, b) = (self.a * by, self.b * by);
         let of_slope = b.abs() * ROUNDING + UNDERFLOW;
         let by = by.abs();
-        Enclosure { a, b, r: (self.r * by + a.abs() * ROUNDING + of_slope) * WIDEN, q: (self.q * by + of_slope) * WIDEN }
+        AffineForm { a, b, r: (self.r * by + a.abs() * ROUNDING + of_slope) * WIDEN, q: (self.q * by + of_slope) * WIDEN }
     }
     #[inline(always)]
     fn add(&self, b: &Self) -> Self {
         let sum = self.a + b.a;
         let slope = self.b + b.b;
         let of_slope = slope.abs() * ROUNDING;
-        Enclosure {
+        AffineForm {
             a: sum,
             b: slope,
             r: (self.r + b.r + sum.abs() * ROUNDING + of_slope) * WIDEN,
@@ -166,7 +166,7 @@ impl<L: Lanes> Quantity<L> for Enclosure<L> {
         // Two roundings each of a and b, in all at most 2u m₁m₂, and of b alone 2u (m₁|b₂| + m₂|b₁|).
         let r1 = self.r + m1 * TWO_ROUNDINGS;
         let (q1, q2) = (self.q + b1 * TWO_ROUNDINGS, other.q + b2 * TWO_ROUNDINGS);
-        Enclosure {
+        AffineForm {
             a: self.a * other.a + bb * 0.5,
             b: self.a * other.b + other.a * self.b,
             r: (curve * 0.5 + reach1 * other.r + m2 * r1 + UNDERFLOW) * WIDEN,
@@ -182,7 +182,7 @@ impl<L: Lanes> Quantity<L> for Enclosure<L> {
         let a = self.a * self.a + curve * 0.5;
         let rounding = ab.abs() * TWO_ROUNDINGS + UNDERFLOW;
         let bend = curve + reach * self.q + slope * self.r;
-        Enclosure {
+        AffineForm {
             a,
             b: ab + ab,
             r: (curve * 0.5 + self.r * (m + reach) + a * TWO_ROUNDINGS + rounding) * WIDEN,
