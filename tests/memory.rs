@@ -12,7 +12,7 @@ use noisefall::{
     math::SimdLevel,
     memory::set_limit,
     render::{
-        Beside, Budget, Frame, Job, Publish, Renderer, State, Target,
+        Budget, Frame, Job, Publish, RenderTask, Renderer, State, Target,
         film::Film,
         threads::{PassJob, Threads},
     },
@@ -230,7 +230,7 @@ fn a_picture_that_does_not_fit_fails_in_words() {
     renderer.submit(job(2000));
     let state = |generation: u64| loop {
         wait.recv().expect("the worker is there");
-        let both = [renderer.latest(), renderer.latest_beside()].map(|published| published.status);
+        let both = [renderer.latest(), renderer.latest_second()].map(|published| published.status);
         if let Some(status) = both.into_iter().find(|of| of.generation == generation && of.state != State::Running) {
             return status.state;
         }
@@ -241,7 +241,7 @@ fn a_picture_that_does_not_fit_fails_in_words() {
     renderer.submit(job(64));
     assert_eq!(state(64), State::Done(Target::Samples(1)));
     // Of each of eight terms, 12 bytes a pixel in the film and in two frames.
-    renderer.submit_beside(Some(Beside::Series(job(160))));
+    renderer.submit_second(Some(RenderTask::Series(job(160))));
     let State::Failed(failure) = state(160) else { panic!("it is rendered") };
     assert!(failure.message.starts_with("bounces of 160 × 160 pixels need 7.4 MB;"), "{}", failure.message);
 }

@@ -4,8 +4,8 @@ use std::time::Duration;
 use rayon::prelude::*;
 
 use super::{
-    doubling::rel_mse_estimate, estimate::Estimate, film::Film, sample_counts::SampleCounts, scatter::Parts, series::Series,
-    tile::Tile,
+    error_estimator::rel_mse_estimate, estimate::Estimate, film::Film, sample_counts::SampleCounts, scatter::Parts,
+    series::Series, tile::Tile,
 };
 use crate::{integrator::TILE, math::colour::luminance, measure::SampleNoise};
 
@@ -33,7 +33,7 @@ pub struct Frame {
     pub elapsed: Duration,
     /// The series by number of bounces, if requested.
     pub series: Option<Series>,
-    /// Estimated relMSE of the image: see `render/doubling.rs`; `None` before the second sample.
+    /// Estimated relMSE of the image: see `render/error_estimator.rs`; `None` before the second sample.
     pub rel_mse_estimate: Option<f64>,
     /// Noise of the means from the variance of the samples; `None` before the second sample.
     pub noise: Option<SampleNoise>,

@@ -9,7 +9,7 @@
 mod adaptive;
 pub mod colour_map;
 pub mod display;
-mod doubling;
+mod error_estimator;
 pub mod estimate;
 pub mod film;
 pub mod frame;
@@ -40,7 +40,7 @@ pub mod worker;
 
 pub use self::{
     frame::Frame,
-    protocol::{Beside, Budget, Job, Publish, Published, State, Status},
+    protocol::{Budget, Job, Publish, Published, RenderTask, State, Status},
     region::Region,
     sample_counts::SampleCounts,
     series::Series,

@@ -7,7 +7,7 @@ use std::{
 use rayon::prelude::*;
 
 use super::{
-    adaptive, doubling,
+    adaptive, error_estimator,
     film::Film,
     threads::{PassJob, Threads},
     tile::{Tile, UNIFORM},
@@ -65,7 +65,7 @@ impl Threads {
         let mut count = PassCount::default();
         loop {
             if film.is_noting {
-                film.is_noting = !self.pool.install(|| doubling::note(film, interrupted));
+                film.is_noting = !self.pool.install(|| error_estimator::note(film, interrupted));
                 if film.is_noting || film.tiles_in_focus().all(|tile| tile.spp >= spp) {
                     return count;
                 }

@@ -49,12 +49,12 @@ pub(super) fn is_below(goal: f64, spp: u32, rel_mse_estimate: Option<f64>) -> bo
     spp >= LEAST_SPP && rel_mse_estimate.is_some_and(|rel_mse| rel_mse.sqrt() <= goal)
 }
 
-/// A second image beside the first.
+/// What an image is rendered as.
 #[derive(Clone)]
-pub enum Beside {
-    /// A different image, such as the same scene with other settings.
+pub enum RenderTask {
+    /// A picture.
     Picture(Job),
-    /// The same image as a [`super::Series`]; only full frames.
+    /// A picture with its [`super::Series`]; only full frames.
     Series(Job),
 }
 

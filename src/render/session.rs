@@ -2,7 +2,7 @@
 use std::time::{Duration, Instant};
 
 use super::{
-    doubling::rel_mse_estimate_in,
+    error_estimator::rel_mse_estimate_in,
     film::Film,
     frame::Frame,
     pass::{Failure, PassCount, SampleId},

@@ -19,14 +19,14 @@ use std::{
 use crossbeam_channel::{Receiver, Sender, unbounded};
 
 use super::{
-    protocol::{Beside, Budget, Job, Publish, Published, State},
+    protocol::{Budget, Job, Publish, Published, RenderTask, State},
     session::Session,
     threads::Threads,
 };
 
 enum Message {
     Job(Box<Job>),
-    Beside(Option<Box<Beside>>),
+    Second(Option<Box<RenderTask>>),
     Budget(Budget),
     Threads(Threads),
     Quit,
@@ -72,8 +72,8 @@ impl Renderer {
     }
 
     /// Renders this beside the first image, or nothing.
-    pub fn submit_beside(&self, beside: Option<Beside>) {
-        self.send(Message::Beside(beside.map(Box::new)));
+    pub fn submit_second(&self, second: Option<RenderTask>) {
+        self.send(Message::Second(second.map(Box::new)));
     }
 
     /// Continues with these threads.
@@ -91,7 +91,7 @@ impl Renderer {
     }
 
     /// The same for the image beside it.
-    pub fn latest_beside(&self) -> Published {
+    pub fn latest_second(&self) -> Published {
         lock(&self.shared.published)[1].clone()
     }
 
@@ -200,25 +200,25 @@ impl Worker {
             Message::Quit => return None,
             Message::Budget(budget) => self.budget = budget,
             Message::Threads(threads) => self.threads = threads,
-            Message::Job(job) => self.start(0, Beside::Picture(*job)),
-            Message::Beside(None) => {
+            Message::Job(job) => self.start(0, RenderTask::Picture(*job)),
+            Message::Second(None) => {
                 self.sessions[1] = None;
                 lock(&self.shared.published)[1] = Published::default();
             }
-            Message::Beside(Some(beside)) => self.start(1, *beside),
+            Message::Second(Some(second)) => self.start(1, *second),
         }
         Some(())
     }
 
-    fn start(&mut self, side: usize, what: Beside) {
-        let (Beside::Picture(job) | Beside::Series(job)) = &what;
+    fn start(&mut self, side: usize, what: RenderTask) {
+        let (RenderTask::Picture(job) | RenderTask::Series(job)) = &what;
         let sessions = || self.sessions.iter().flatten();
         let rate = sessions().filter(|old| Arc::ptr_eq(&old.job().scene, &job.scene)).find_map(Session::rate);
         let film = self.sessions[side].take().map(Session::into_film);
         self.lead = self.sessions[0].as_ref().map_or(Duration::ZERO, Session::elapsed);
         self.sessions[side] = Some(match what {
-            Beside::Picture(job) => Session::new(job, self.publish, rate, &self.budget, film),
-            Beside::Series(job) => Session::of_series(job, rate, &self.budget),
+            RenderTask::Picture(job) => Session::new(job, self.publish, rate, &self.budget, film),
+            RenderTask::Series(job) => Session::of_series(job, rate, &self.budget),
         });
     }
 }

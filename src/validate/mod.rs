@@ -25,7 +25,7 @@ use self::statement::SIGMAS;
 pub use self::{
     files::{csv, drawings, json},
     report::html,
-    sections::{Agreement, agreement, reference_names},
+    sections::{BlockZScores, block_z_scores, reference_names},
     statement::{Noticed, Statement},
     stress::KeptScene,
 };

@@ -1,5 +1,4 @@
 //! The program as its users meet it: scene files, command line, worker, and the structure of the source.
-mod beside;
 mod circles;
 mod closed_streams;
 mod command_line;
@@ -18,6 +17,7 @@ mod ranges;
 mod replay;
 mod scene_files;
 mod scene_messages;
+mod second_image;
 mod shapes;
 mod sheet;
 mod study;

@@ -6,7 +6,7 @@ use std::{
 
 use noisefall::{
     math::SimdLevel,
-    render::{Beside, Budget, Frame, Job, Publish, Published, Renderer, State, Target, threads::Threads},
+    render::{Budget, Frame, Job, Publish, Published, RenderTask, Renderer, State, Target, threads::Threads},
     scene::{Camera, RenderSettings, Reuse, Roulette, Scene, parse},
 };
 
@@ -111,14 +111,14 @@ fn noisy_as(generation: u64) -> Job {
 
 /// Has the worker render something else and waits for it: whatever else it meant to do with the first picture would be done by then.
 fn look_at_another_picture(renderer: &Renderer) {
-    renderer.submit_beside(Some(Beside::Picture(job(1, &plain(0.5, 16)))));
+    renderer.submit_second(Some(RenderTask::Picture(job(1, &plain(0.5, 16)))));
     let start = Instant::now();
-    while renderer.latest_beside().frame.generation != 1 {
+    while renderer.latest_second().frame.generation != 1 {
         assert!(start.elapsed() < Duration::from_secs(60), "the other picture never came");
         std::thread::sleep(Duration::from_micros(200));
     }
-    renderer.submit_beside(None);
-    while renderer.latest_beside().frame.generation != 0 {
+    renderer.submit_second(None);
+    while renderer.latest_second().frame.generation != 0 {
         assert!(start.elapsed() < Duration::from_secs(60), "the other picture never went");
         std::thread::sleep(Duration::from_micros(200));
     }

@@ -6,7 +6,7 @@ use std::path::Path;
 use noisefall::{
     sampling::Sampler,
     scene::RenderSettings,
-    validate::{Agreement, agreement},
+    validate::{BlockZScores, block_z_scores},
 };
 
 const SPP: u32 = 256;
@@ -16,8 +16,8 @@ const MOST_SIGMAS: f64 = 4.5;
 fn agrees(name: &str) {
     let spp = std::env::var("NOISEFALL_REFERENCE_SPP").ok().and_then(|spp| spp.parse().ok()).unwrap_or(SPP);
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/references").join(format!("{name}.toml"));
-    let found = agreement(&path, |scene| RenderSettings { sampler: Sampler::Independent, seed: 21, ..scene.settings }, spp);
-    let Agreement { worst, rms, count, .. } = found.unwrap_or_else(|reason| panic!("{name}: {reason}"));
+    let found = block_z_scores(&path, |scene| RenderSettings { sampler: Sampler::Independent, seed: 21, ..scene.settings }, spp);
+    let BlockZScores { worst, rms, count, .. } = found.unwrap_or_else(|reason| panic!("{name}: {reason}"));
     println!("{name}, {spp} spp: |z| at most {worst:.2} of {count}, rms {rms:.3}");
     assert_eq!(count, 16 * 16 * 3, "{name}");
     assert!(worst < MOST_SIGMAS, "{name}: {worst:.2} σ");

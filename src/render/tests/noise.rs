@@ -5,7 +5,7 @@ use crate::{
     math::SimdLevel,
     measure::{Moments, exact::furnace_variance},
     render::{
-        doubling::rel_mse_estimate_in,
+        error_estimator::rel_mse_estimate_in,
         film::Film,
         frame::Frame,
         region::Region,

@@ -13,7 +13,7 @@ use crate::{
         threads::{PassJob, Threads},
         tone::to_srgb,
         truth::Reference,
-        view::{Field, Look, Scale, Scores, Sources, View, draw},
+        view::{DisplaySettings, Field, Scale, Sources, View, ZScoreHistogram, draw},
     },
     scene::{Camera, RenderSettings, Reuse, built_in},
 };
@@ -55,7 +55,7 @@ fn sources<'a>(frame: &'a Frame, materials: &'a [String]) -> Sources<'a> {
 
 fn numbers(view: View, sources: &Sources) -> Vec<f32> {
     let mut pixels = Vec::new();
-    match draw(Look { view, ..Look::default() }, sources, &mut pixels) {
+    match draw(DisplaySettings { view, ..DisplaySettings::default() }, sources, &mut pixels) {
         Some((_, Field::Numbers(numbers))) => numbers,
         _ => panic!("{view:?} has no numbers"),
     }
@@ -87,19 +87,19 @@ fn scores_are_what_is_too_much_in_standard_errors() {
     let truth = Reference::Constant([2.0; 3]);
     let scored = Sources { truth: Some(&truth), ..sources(&frame, &[]) };
     is(&numbers(View::ZScore, &scored), &[-10.0, 0.0, 10.0 / 3.0, 5.0, f32::INFINITY, 0.0, 50.0 / 7.0, 7.5]);
-    let scores = Scores::of(&frame, &truth).expect("scores");
+    let scores = ZScoreHistogram::of(&frame, &truth).expect("scores");
     // −10, 50/7, 7.5 and ∞ lie beyond ±5, 5 itself too; 0 twice and 10/3 do not.
     assert!((scores.beyond - 5.0 / 8.0).abs() < 1e-9, "{scores:?}");
     let filled: Vec<(usize, f64)> = scores.density.iter().copied().enumerate().filter(|(_, density)| *density > 0.0).collect();
     assert_eq!(filled.iter().map(|(bin, _)| *bin).collect::<Vec<_>>(), [25, 41]);
     assert!((filled[0].1 - 2.0 / 8.0 / 0.2).abs() < 1e-9 && (filled[1].1 - 1.0 / 8.0 / 0.2).abs() < 1e-9, "{filled:?}");
-    assert!((Scores::middle(25) - 0.1).abs() < 1e-9 && (Scores::normal(1.0) - 0.241_970_724_519).abs() < 1e-9);
+    assert!((ZScoreHistogram::middle(25) - 0.1).abs() < 1e-9 && (ZScoreHistogram::normal(1.0) - 0.241_970_724_519).abs() < 1e-9);
     let finite = [-10.0, 0.0, 10.0 / 3.0, 5.0, 0.0, 50.0 / 7.0, 7.5];
     let mean = finite.iter().sum::<f64>() / 7.0;
     let deviation = (finite.iter().map(|z: &f64| (z - mean).powi(2)).sum::<f64>() / 7.0).sqrt();
     assert!((scores.mean - mean).abs() < 1e-5 && (scores.deviation - deviation).abs() < 1e-5, "{scores:?}");
     let other = Picture { width: 2, height: 4, radiance: vec![[1.0; 3]; 8] };
-    assert!(Scores::of(&frame, &Reference::Picture(Arc::new(other), Arc::new(Provenance::default()))).is_none());
+    assert!(ZScoreHistogram::of(&frame, &Reference::Picture(Arc::new(other), Arc::new(Provenance::default()))).is_none());
 }
 
 #[test]
@@ -120,7 +120,7 @@ fn a_difference_is_relative_to_what_is_pinned() {
     let narrow = Frame { width: 2, height: 4, ..pinned };
     let mut pixels = Vec::new();
     let shown = draw(
-        Look { view: View::Difference, ..Look::default() },
+        DisplaySettings { view: View::Difference, ..DisplaySettings::default() },
         &Sources { pinned: Some(&narrow), ..sources(&frame, &[]) },
         &mut pixels,
     );
@@ -133,7 +133,7 @@ fn views_of_surfaces_have_their_colours() {
     let all = Sources { features: Some(&features), ..sources(&frame, &names) };
     let shown = |view| {
         let mut pixels = Vec::new();
-        let (legend, _) = draw(Look { view, ..Look::default() }, &all, &mut pixels).expect("a legend");
+        let (legend, _) = draw(DisplaySettings { view, ..DisplaySettings::default() }, &all, &mut pixels).expect("a legend");
         (pixels, legend)
     };
     // Pixel 5 of the frame is pixel 18 of the features.
@@ -149,10 +149,12 @@ fn views_of_surfaces_have_their_colours() {
     let mut swapped = self::features();
     swapped.material.iter_mut().filter(|id| **id < 2).for_each(|id| *id = 1 - *id);
     let all = Sources { features: Some(&swapped), ..sources(&frame, &names) };
-    let (legend, _) = draw(Look { view: View::Materials, ..Look::default() }, &all, &mut Vec::new()).expect("a legend");
+    let (legend, _) =
+        draw(DisplaySettings { view: View::Materials, ..DisplaySettings::default() }, &all, &mut Vec::new()).expect("a legend");
     assert_eq!(legend.entries, [(red, "red".to_owned()), (white, "white".to_owned())], "the most seen comes first");
     let mut pixels = Vec::new();
-    let missing = draw(Look { view: View::Albedo, ..Look::default() }, &sources(&frame, &names), &mut pixels);
+    let missing =
+        draw(DisplaySettings { view: View::Albedo, ..DisplaySettings::default() }, &sources(&frame, &names), &mut pixels);
     assert!(matches!(missing, Some((_, Field::Missing))) && pixels == [GREY; 8]);
 }
 
@@ -162,7 +164,7 @@ fn numbers_have_the_colours_of_their_scale() {
     frame.radiance[7] = [f32::NAN; 3];
     let truth = Reference::Constant([2.0; 3]);
     let mut pixels = vec![[1; 4]; 3];
-    let look = Look { view: View::ZScore, map: ColourMap::Cividis, ..Look::default() };
+    let look = DisplaySettings { view: View::ZScore, map: ColourMap::Cividis, ..DisplaySettings::default() };
     let (legend, _) = draw(look, &Sources { truth: Some(&truth), ..sources(&frame, &[]) }, &mut pixels).expect("scores");
     let scale = legend.scale.expect("a scale");
     assert_eq!((scale.map, scale.ends, scale.log), (ColourMap::Diverging, [-4.0, 4.0], false));
@@ -173,7 +175,8 @@ fn numbers_have_the_colours_of_their_scale() {
     let (legend, _) =
         draw(look, &Sources { truth: Some(&truth), scale: Some(given), ..sources(&frame, &[]) }, &mut pixels).expect("scores");
     assert_eq!((legend.scale, pixels[1]), (Some(given), table[0]));
-    let (legend, _) = draw(Look { view: View::StandardError, ..look }, &sources(&frame, &[]), &mut pixels).expect("errors");
+    let (legend, _) =
+        draw(DisplaySettings { view: View::StandardError, ..look }, &sources(&frame, &[]), &mut pixels).expect("errors");
     let scale = legend.scale.expect("a scale");
     assert_eq!((scale.map, scale.ends, scale.log), (ColourMap::Cividis, [0.01, 1.0], true));
 }
@@ -183,7 +186,9 @@ fn a_scale_has_the_unit_of_its_view_and_what_is_missing_is_asked_for() {
     let (frame, features) = (Frame { counts: (0..8).collect(), ..frame() }, features());
     let truth = Reference::Constant([2.0; 3]);
     let all = Sources { features: Some(&features), truth: Some(&truth), pinned: Some(&frame), ..sources(&frame, &[]) };
-    let legend = |view, sources: &Sources| draw(Look { view, ..Look::default() }, sources, &mut Vec::new()).expect("a legend").0;
+    let legend = |view, sources: &Sources| {
+        draw(DisplaySettings { view, ..DisplaySettings::default() }, sources, &mut Vec::new()).expect("a legend").0
+    };
     for (view, unit, high) in [
         (View::StandardError, "W/(sr·m²)", 1.0),
         (View::SampleCount, "samples", 7.0),

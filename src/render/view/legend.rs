@@ -1,6 +1,6 @@
 //! Legends of views.
 use super::{
-    Field, Look, Sources, View,
+    DisplaySettings, Field, Sources, View,
     field::{category, map_of},
 };
 use crate::render::colour_map::ColourMap;
@@ -44,8 +44,8 @@ impl Scale {
 }
 
 impl Legend {
-    pub(super) fn of(look: Look, sources: &Sources, field: &Field) -> Legend {
-        let view = look.view;
+    pub(super) fn of(settings: DisplaySettings, sources: &Sources, field: &Field) -> Legend {
+        let view = settings.view;
         let title = match field {
             Field::Missing => missing(view),
             _ => view.name(),
@@ -54,7 +54,7 @@ impl Legend {
         match (view, field) {
             (View::Materials, Field::Colours(_)) => legend.entries = materials(sources),
             (_, Field::Numbers(numbers)) => {
-                legend.scale = sources.scale.or_else(|| Some(scale(view, numbers, map_of(view, look.map))));
+                legend.scale = sources.scale.or_else(|| Some(scale(view, numbers, map_of(view, settings.map))));
             }
             _ => {}
         }

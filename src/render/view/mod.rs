@@ -1,14 +1,14 @@
 //! Views besides radiance: noise, sample counts, z-scores, differences, and features of first hits.
 mod field;
 mod legend;
-mod scores;
+mod z_scores;
 
 use serde::Serialize;
 
 pub use self::{
     field::Field,
     legend::{Legend, Scale},
-    scores::Scores,
+    z_scores::ZScoreHistogram,
 };
 use super::{colour_map::ColourMap, frame::Frame, tone::Display, tone::to_srgb, truth::Reference};
 use crate::integrator::Features;
@@ -84,7 +84,7 @@ pub struct Sources<'a> {
 
 /// Display settings of views.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct Look {
+pub struct DisplaySettings {
     pub view: View,
     pub map: ColourMap,
     pub display: Display,
@@ -92,19 +92,19 @@ pub struct Look {
 
 /// Draws a view as 8-bit sRGB, row by row from the top left, and replaces the contents of `pixels`. Returns its legend and
 /// values, except for radiance.
-pub fn draw(look: Look, sources: &Sources, pixels: &mut Vec<[u8; 4]>) -> Option<(Legend, Field)> {
-    if look.view == View::Radiance {
-        to_srgb(sources.radiance.unwrap_or(&sources.frame.radiance), look.display, pixels);
+pub fn draw(settings: DisplaySettings, sources: &Sources, pixels: &mut Vec<[u8; 4]>) -> Option<(Legend, Field)> {
+    if settings.view == View::Radiance {
+        to_srgb(sources.radiance.unwrap_or(&sources.frame.radiance), settings.display, pixels);
         return None;
     }
-    let field = Field::of(look.view, sources);
-    let legend = Legend::of(look, sources, &field);
+    let field = Field::of(settings.view, sources);
+    let legend = Legend::of(settings, sources, &field);
     pixels.clear();
     match &field {
         Field::Missing => pixels.resize(sources.frame.radiance.len(), [96, 96, 96, 255]),
         Field::Colours(colours) => pixels.extend(colours.iter().map(|[r, g, b]| [*r, *g, *b, 255])),
         Field::Numbers(numbers) => {
-            let table = legend.scale.as_ref().map_or(look.map, |scale| scale.map).table();
+            let table = legend.scale.as_ref().map_or(settings.map, |scale| scale.map).table();
             let place = |x: f32| legend.scale.as_ref().map_or(0.0, |scale| scale.place(x));
             let colour = |x: &f32| if x.is_nan() { [96, 96, 96, 255] } else { table[(place(*x) * 255.0).round() as usize] };
             pixels.extend(numbers.iter().map(colour));

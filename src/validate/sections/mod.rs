@@ -16,7 +16,7 @@ mod spheres;
 mod truncation;
 mod variance;
 
-pub use self::references::{Agreement, agreement, names as reference_names};
+pub use self::references::{BlockZScores, block_z_scores, names as reference_names};
 use super::{Section, Validation};
 
 pub const ALL: [fn(&Validation) -> Section; 16] = [

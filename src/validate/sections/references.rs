@@ -119,7 +119,7 @@ fn rows(validation: &Validation, reference: &Reference) -> Vec<Statement> {
     let what = |text: String| format!("{}: {text}", spoken(&reference.name));
     // With few samples means over blocks are not normal yet.
     match compared(reference, settings, validation.spp(800).max(200)) {
-        Ok(Agreement { worst, rms, count, sigma }) => {
+        Ok(BlockZScores { worst, rms, count, sigma }) => {
             let largest = Statement::largest_z(what(format!("largest |z| of {count} block means")), &[worst], MOST_SIGMAS, sigma);
             // Channels of a block have their noise in common.
             let blocks = count as f64 / 3.0;
@@ -140,7 +140,7 @@ fn rows(validation: &Validation, reference: &Reference) -> Vec<Statement> {
 }
 
 /// How far block means are from a reference, in standard errors of both.
-pub struct Agreement {
+pub struct BlockZScores {
     pub worst: f64,
     pub rms: f64,
     /// Block means compared.
@@ -151,11 +151,11 @@ pub struct Agreement {
 
 /// Renders the scene of a file and compares it with the block means beside it. The variance of `settings` must be known from the
 /// samples themselves, as that of independent ones is.
-pub fn agreement(path: &Path, settings: impl FnOnce(&Scene) -> RenderSettings, spp: u32) -> Result<Agreement, String> {
+pub fn block_z_scores(path: &Path, settings: impl FnOnce(&Scene) -> RenderSettings, spp: u32) -> Result<BlockZScores, String> {
     compared(&Reference::read(path, String::new()), settings, spp)
 }
 
-fn compared(reference: &Reference, settings: impl FnOnce(&Scene) -> RenderSettings, spp: u32) -> Result<Agreement, String> {
+fn compared(reference: &Reference, settings: impl FnOnce(&Scene) -> RenderSettings, spp: u32) -> Result<BlockZScores, String> {
     let scene = reference.scene.as_ref().map_err(String::clone)?;
     let reference = blocks(reference.means.as_ref().map_err(String::clone)?).ok_or(UNREAD)?;
     let ours = rendered(scene, &settings(scene), spp);
@@ -173,7 +173,7 @@ fn compared(reference: &Reference, settings: impl FnOnce(&Scene) -> RenderSettin
     let mut sigmas: Vec<f64> =
         pairs.map(|([_, variance], [exact, error])| (variance + error).sqrt() / exact.max(1e-12)).collect();
     sigmas.sort_by(f64::total_cmp);
-    Ok(Agreement {
+    Ok(BlockZScores {
         sigma: sigmas.get(count / 2).copied().unwrap_or(f64::NAN),
         worst: deviations.iter().fold(0.0, |worst, z| z.abs().max(worst)),
         rms: (deviations.iter().map(|z| z * z).sum::<f64>() / count as f64).sqrt(),
@@ -249,12 +249,12 @@ mod tests {
     fn blocks_are_held_against_their_own_means_and_errors() {
         let folder = tempfile::tempdir().expect("a folder");
         write(folder.path(), "sky", "# red, green, blue\n0.4 0.5 0.5 0.05 0.1 0.1\n0.5 0.5 0.5 0.1 0.1 0.1\n");
-        let found = agreement(&folder.path().join("sky.toml"), |scene| scene.settings, 2).expect("it can be compared");
+        let found = block_z_scores(&folder.path().join("sky.toml"), |scene| scene.settings, 2).expect("it can be compared");
         assert_eq!(found.count, 6);
         assert!((found.worst - 2.0).abs() < 1e-4 && (found.rms - (4.0f64 / 6.0).sqrt()).abs() < 1e-4);
         assert!((found.sigma - 0.2).abs() < 1e-6, "of 0.125 and five times 0.2 the fourth: {}", found.sigma);
         write(folder.path(), "sky", "0.5 0.5 0.5 0.1 0.1 0.1\n");
-        let short = agreement(&folder.path().join("sky.toml"), |scene| scene.settings, 2).err();
+        let short = block_z_scores(&folder.path().join("sky.toml"), |scene| scene.settings, 2).err();
         assert_eq!(short.as_deref(), Some("2 blocks, but the reference has 1"));
     }
 

@@ -2,7 +2,7 @@
 use std::sync::Arc;
 
 use noisefall::{
-    render::{Frame, truth::Reference, view::Look},
+    render::{Frame, truth::Reference, view::DisplaySettings},
     scene::Camera,
 };
 
@@ -19,7 +19,7 @@ impl App {
         let term = self.results.second_frame.clone().filter(|_| self.window.tab == Some(InstrumentTab::Bounces));
         let view = comparison.and_then(|comparison| comparison.view());
         let pinned = if view.is_some() { second.clone() } else { session.pinned.clone() };
-        let look = Look { view: view.unwrap_or(session.look.view), ..session.look };
+        let look = DisplaySettings { view: view.unwrap_or(session.look.view), ..session.look };
         // The camera of the last request has been checked; a scene that has just been opened is requested in a moment.
         let is_open = |request: &&RenderRequest| self.is_of_open_scene(request);
         let request = self.background.worker.request().filter(is_open).filter(|_| look.view.shows_features()).cloned();

@@ -5,7 +5,7 @@ use egui::{Context, TextureHandle, TextureOptions};
 use noisefall::{
     render::{
         Frame, Status,
-        view::{Legend, Scores},
+        view::{Legend, ZScoreHistogram},
     },
     scene::Camera,
 };
@@ -24,7 +24,7 @@ pub struct Results {
     pub second_comparison: Option<ReferenceComparison>,
     pub legend: Option<Legend>,
     pub values: PixelValues,
-    pub scores: Option<Scores>,
+    pub scores: Option<ZScoreHistogram>,
     /// The picture on the screen is black.
     pub black: bool,
     /// Why it is black, and its generation.

@@ -83,7 +83,7 @@ fn remarks(request: &DisplayRequest, path: &Path) -> Vec<(&'static str, String)>
 mod tests {
     use std::sync::Arc;
 
-    use noisefall::render::{Frame, view::Look};
+    use noisefall::render::{Frame, view::DisplaySettings};
 
     use super::*;
     use crate::viewer::background::display_request::{BounceTerm, tests::request};
@@ -93,7 +93,7 @@ mod tests {
         let said = |view, (k, up_to), path: &str| {
             let frame = Arc::new(Frame { spp: 9, ..Frame::default() });
             let term = Some(BounceTerm { of: frame.clone(), k, up_to });
-            let request = DisplayRequest { term, look: Look { view, ..Look::default() }, ..request(frame) };
+            let request = DisplayRequest { term, look: DisplaySettings { view, ..DisplaySettings::default() }, ..request(frame) };
             remarks(&request, Path::new(path)).into_iter().map(|(_, text)| text).collect::<Vec<_>>()
         };
         assert_eq!(said(View::Radiance, (3, true), "a.png"), ["at most 3 bounces, 9 spp"]);

@@ -2,7 +2,7 @@
 use std::{path::Path, sync::Arc};
 
 use noisefall::{
-    render::{Budget, Frame, view::Look},
+    render::{Budget, Frame, view::DisplaySettings},
     scene::{Camera, RenderSettings, built_in},
 };
 
@@ -17,7 +17,7 @@ pub struct Session {
     pub bounces: Bounces,
     pub budget: Budget,
     pub threads: usize,
-    pub look: Look,
+    pub look: DisplaySettings,
     pub pinned: Option<Arc<Frame>>,
     pub dropped_reference: Option<DroppedReference>,
 }
@@ -34,7 +34,7 @@ impl Session {
             bounces: Bounces::default(),
             budget: Budget::default(),
             threads,
-            look: Look::default(),
+            look: DisplaySettings::default(),
             pinned: None,
             dropped_reference: None,
         }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use noisefall::render::{
     Frame,
     truth::Reference,
-    view::{Field, Legend, Scale, Scores, Sources, View, draw},
+    view::{Field, Legend, Scale, Sources, View, ZScoreHistogram, draw},
 };
 
 use super::display_request::{BounceTerm, DisplayRequest};
@@ -20,7 +20,7 @@ pub struct DisplayImage {
     pub legend: Option<Legend>,
     pub values: PixelValues,
     /// Known in the view of z-scores.
-    pub scores: Option<Scores>,
+    pub scores: Option<ZScoreHistogram>,
     /// The reference of the comparisons.
     pub reference: Option<Arc<Reference>>,
     pub comparison: Option<ReferenceComparison>,
@@ -66,7 +66,7 @@ pub fn render(request: DisplayRequest) -> DisplayImage {
         let truth = truth?;
         Some(ReferenceComparison { rel_mse: truth.compare(frame)?.rel_mse, bias: truth.bias(frame)?.z })
     };
-    let scores = truth.filter(|_| look.view == View::ZScore).and_then(|truth| Scores::of(&frame, truth));
+    let scores = truth.filter(|_| look.view == View::ZScore).and_then(|truth| ZScoreHistogram::of(&frame, truth));
     DisplayImage {
         comparison: compare(&frame),
         second_comparison: second.as_ref().and_then(|second| compare(second)),
@@ -104,7 +104,7 @@ fn image(frame: &Frame, pixels: &[[u8; 4]], most_side: usize) -> egui::ColorImag
 
 #[cfg(test)]
 mod tests {
-    use noisefall::render::{Series, view::Look};
+    use noisefall::render::{Series, view::DisplaySettings};
 
     use super::{super::display_request::tests::frame, super::display_request::tests::request, *};
 
@@ -151,7 +151,7 @@ mod tests {
 
     #[test]
     fn numbers_of_a_view_are_those_of_its_pixels_and_two_pictures_have_one_scale() {
-        let look = Look { view: View::StandardError, ..Look::default() };
+        let look = DisplaySettings { view: View::StandardError, ..DisplaySettings::default() };
         let second = Some(frame(&[1.0, 1e4, 1e-4]));
         let shown = render(DisplayRequest { look, second, shows_second: true, ..request(frame(&[0.5, 1.0, 4.0])) });
         let numbers = shown.values.numbers.expect("it is a view of numbers");
@@ -159,7 +159,7 @@ mod tests {
         let second = shown.second_image.expect("it is shown");
         assert_eq!(second.pixels[0], shown.image.pixels[1], "the same number has the same colour");
         assert!(shown.scores.is_none());
-        let look = Look { view: View::ZScore, ..Look::default() };
+        let look = DisplaySettings { view: View::ZScore, ..DisplaySettings::default() };
         let truth = Some(Arc::new(Reference::Constant([1.0; 3])));
         assert!(render(DisplayRequest { look, reference: truth, ..request(frame(&[0.9, 1.0, 1.1])) }).scores.is_some());
     }

@@ -3,7 +3,7 @@ use std::sync::Arc;
 
 use noisefall::{
     integrator::Features,
-    render::{Frame, truth::Reference, view::Look},
+    render::{Frame, truth::Reference, view::DisplaySettings},
 };
 
 /// Frames and how they are displayed.
@@ -15,7 +15,7 @@ pub struct DisplayRequest {
     pub shows_second: bool,
     /// The term of a series to show in place of the frame's own radiance.
     pub term: Option<BounceTerm>,
-    pub look: Look,
+    pub look: DisplaySettings,
     /// The picture that the frame converges to, if it is known.
     pub reference: Option<Arc<Reference>>,
     pub pinned: Option<Arc<Frame>>,
@@ -87,7 +87,7 @@ pub mod tests {
             second: None,
             shows_second: false,
             term: None,
-            look: Look::default(),
+            look: DisplaySettings::default(),
             reference: None,
             pinned: None,
             features: None,
@@ -101,7 +101,7 @@ pub mod tests {
         let a = request(frame(&[1.0]));
         let term = |k, up_to| Some(BounceTerm { of: a.frame.clone(), k, up_to });
         let (reference, other) = (Arc::new(Reference::Constant([1.0; 3])), frame(&[1.0]));
-        let look = Look { view: View::Depth, ..a.look };
+        let look = DisplaySettings { view: View::Depth, ..a.look };
         let (normal, albedo, depth, object) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         let features = Features { width: 0, height: 0, normal, albedo, depth, object, material: Vec::new(), cost: Vec::new() };
         for changed in [

@@ -3,7 +3,7 @@ use std::sync::Arc;
 
 use noisefall::{
     math::SimdLevel,
-    render::{Beside, Budget, Job, Publish, Published, Renderer, threads::Threads},
+    render::{Budget, Job, Publish, Published, RenderTask, Renderer, threads::Threads},
     scene::{Camera, RenderSettings, Scene},
 };
 
@@ -91,9 +91,9 @@ impl RenderWorkerHandle {
         }
         if self.second != second || (is_new && second.is_some()) {
             self.second_generation = self.next(now);
-            self.renderer.submit_beside(second.map(|second| match second {
-                SecondView::Other(settings) => Beside::Picture(Job { settings, ..request.job(self.second_generation) }),
-                SecondView::Series => Beside::Series(request.job(self.second_generation)),
+            self.renderer.submit_second(second.map(|second| match second {
+                SecondView::Other(settings) => RenderTask::Picture(Job { settings, ..request.job(self.second_generation) }),
+                SecondView::Series => RenderTask::Series(request.job(self.second_generation)),
             }));
             self.second = second;
         }
@@ -150,7 +150,7 @@ impl RenderWorkerHandle {
     }
 
     pub fn latest_second(&self) -> Published {
-        self.renderer.latest_beside()
+        self.renderer.latest_second()
     }
 
     /// The time of the last request.

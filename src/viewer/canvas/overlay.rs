@@ -2,7 +2,7 @@
 use egui::{Align2, Color32, FontId, Pos2, Rect, Stroke, StrokeKind, Ui, Vec2, pos2, vec2};
 use noisefall::render::{
     Region,
-    view::{Legend, Scale, Scores},
+    view::{Legend, Scale, ZScoreHistogram},
 };
 
 use super::picture_area::PictureArea;
@@ -11,7 +11,7 @@ const INK: Color32 = Color32::WHITE;
 const MARGIN: f32 = 12.0;
 
 /// Draws the marked region, the histogram of z-scores and the legend.
-pub fn show(ui: &Ui, area: &PictureArea, region: Option<Region>, scores: Option<&Scores>, legend: Option<&Legend>) {
+pub fn show(ui: &Ui, area: &PictureArea, region: Option<Region>, scores: Option<&ZScoreHistogram>, legend: Option<&Legend>) {
     if let Some(region) = region {
         show_region(ui, area, region);
     }
@@ -82,22 +82,25 @@ fn bar(ui: &Ui, rect: Rect, scale: &Scale) {
 }
 
 /// The z-scores against the unit normal distribution. Returns its height.
-fn histogram(ui: &Ui, left: f32, bottom: f32, scores: &Scores) -> f32 {
+fn histogram(ui: &Ui, left: f32, bottom: f32, scores: &ZScoreHistogram) -> f32 {
     const SIZE: Vec2 = Vec2 { x: 250.0, y: 96.0 };
     const AROUND: Vec2 = Vec2 { x: 20.0, y: 54.0 };
     let corner = ground(ui, left, bottom, SIZE + AROUND);
     let plot = Rect::from_min_size(corner, SIZE);
-    let most = scores.density.iter().copied().fold(Scores::normal(0.0), f64::max) * 1.05;
+    let most = scores.density.iter().copied().fold(ZScoreHistogram::normal(0.0), f64::max) * 1.05;
     let at = |z: f64, density: f64| {
-        let x = (z + Scores::END) / (2.0 * Scores::END);
+        let x = (z + ZScoreHistogram::END) / (2.0 * ZScoreHistogram::END);
         pos2(plot.left() + plot.width() * x as f32, plot.bottom() - plot.height() * (density / most) as f32)
     };
     for (bin, density) in scores.density.iter().enumerate() {
-        let middle = Scores::middle(bin);
-        let bar = Rect::from_two_pos(at(middle - 0.5 * Scores::WIDTH, *density), at(middle + 0.5 * Scores::WIDTH, 0.0));
+        let middle = ZScoreHistogram::middle(bin);
+        let bar = Rect::from_two_pos(
+            at(middle - 0.5 * ZScoreHistogram::WIDTH, *density),
+            at(middle + 0.5 * ZScoreHistogram::WIDTH, 0.0),
+        );
         ui.painter().rect_filled(bar, 0.0, Color32::from_rgb(86, 180, 233));
     }
-    let curve: Vec<Pos2> = (-50..=50).map(|i| f64::from(i) * 0.1).map(|z| at(z, Scores::normal(z))).collect();
+    let curve: Vec<Pos2> = (-50..=50).map(|i| f64::from(i) * 0.1).map(|z| at(z, ZScoreHistogram::normal(z))).collect();
     ui.painter().line(curve, Stroke::new(1.8, Color32::from_rgb(255, 190, 70)));
     for z in [-4, -2, 0, 2, 4] {
         let place = at(f64::from(z), 0.0) + vec2(0.0, 2.0);

@@ -5,7 +5,7 @@ use egui::{Color32, Rect, Shape, pos2};
 use noisefall::render::{
     Frame, Region, Series,
     colour_map::ColourMap,
-    view::{Legend, Scale, Scores},
+    view::{Legend, Scale, ZScoreHistogram},
 };
 
 use super::{labels::app, *};
@@ -92,7 +92,7 @@ fn scores_are_bars_at_their_places_under_the_normal_curve() {
     let mut app = app();
     let mut density = vec![0.0; 50];
     (density[30], density[10]) = (0.5, 0.25);
-    app.results.scores = Some(Scores { density, beyond: 0.05, mean: 0.1, deviation: 1.2 });
+    app.results.scores = Some(ZScoreHistogram { density, beyond: 0.05, mean: 0.1, deviation: 1.2 });
     let shapes = painted(|ui| app.overlays(ui, &AREA));
     let blue = Color32::from_rgb(86, 180, 233);
     let bars: Vec<Rect> =

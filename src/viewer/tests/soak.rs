@@ -1,5 +1,5 @@
 //! Thousands of random events: no panic, no stale frame, no memory that is lost.
-use noisefall::render::view::Look;
+use noisefall::render::view::DisplaySettings;
 use rand::{Rng, SeedableRng, rngs::SmallRng, seq::IndexedRandom};
 
 use super::*;
@@ -156,7 +156,7 @@ fn settled_memory(window: &mut Window, enough: usize) -> usize {
     const PATIENCE: Duration = Duration::from_secs(5);
     window.event(egui::Event::PointerGone);
     // What camera rays meet is kept for as long as the scene is.
-    window.state_mut().session.look = Look::default();
+    window.state_mut().session.look = DisplaySettings::default();
     window.state_mut().background.loader.open(Some(shipped("cornell_spheres")));
     wait(window, "the scene", |app| !app.background.loader.is_busy());
     // Threads have buffers that are as large as they were needed once: new threads, new buffers.

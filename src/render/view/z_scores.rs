@@ -8,8 +8,8 @@ use crate::render::{frame::Frame, truth::Reference};
 
 /// A histogram of z-scores.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Scores {
-    /// Density of the scores in bins of width [`Scores::WIDTH`] from −[`Scores::END`] to [`Scores::END`].
+pub struct ZScoreHistogram {
+    /// Density of the scores in bins of width [`ZScoreHistogram::WIDTH`] from −[`ZScoreHistogram::END`] to [`ZScoreHistogram::END`].
     pub density: Vec<f64>,
     /// Fraction of the scores beyond the ends.
     pub beyond: f64,
@@ -17,12 +17,12 @@ pub struct Scores {
     pub deviation: f64,
 }
 
-impl Scores {
+impl ZScoreHistogram {
     pub const END: f64 = 5.0;
     pub const WIDTH: f64 = 0.2;
 
     /// The histogram of all pixels with a standard error; `None` if there are none, or if the reference has another size.
-    pub fn of(frame: &Frame, truth: &Reference) -> Option<Scores> {
+    pub fn of(frame: &Frame, truth: &Reference) -> Option<ZScoreHistogram> {
         let all: Vec<f64> = scores(frame, truth)?.into_iter().map(f64::from).filter(|z| !z.is_nan()).collect();
         if all.is_empty() {
             return None;
@@ -41,7 +41,7 @@ impl Scores {
         let finite = scores.len().max(1) as f64;
         let mean = scores.iter().sum::<f64>() / finite;
         let deviation = (scores.iter().map(|z| (z - mean).powi(2)).sum::<f64>() / finite).sqrt();
-        Some(Scores { density, beyond, mean, deviation })
+        Some(ZScoreHistogram { density, beyond, mean, deviation })
     }
 
     /// The middle of a bin.
@@ -86,10 +86,10 @@ mod tests {
             };
             let mut film = Film::new([128, 128]);
             threads.pass(PassJob { scene: &scene, rays: &rays, settings: &settings }, &mut film, 1024, &|| false);
-            Scores::of(&Frame::of_film(&film, 1, [128, 128], [128, 128]), &truth).expect("it has scores")
+            ZScoreHistogram::of(&Frame::of_film(&film, 1, [128, 128], [128, 128]), &truth).expect("it has scores")
         };
         let right = scores(None);
-        let total: f64 = right.density.iter().map(|density| density * Scores::WIDTH).sum::<f64>() + right.beyond;
+        let total: f64 = right.density.iter().map(|density| density * ZScoreHistogram::WIDTH).sum::<f64>() + right.beyond;
         assert!((total - 1.0).abs() < 1e-9);
         // A mean is correlated with its own standard error where samples are skewed: scores lean by −γ/(2√N), here −0.05.
         assert!(right.mean.abs() < 0.1 && (right.deviation - 1.0).abs() < 0.05, "{right:?}");

@@ -6,7 +6,7 @@ use std::{
 
 use noisefall::{
     math::SimdLevel,
-    render::{Beside, Budget, Job, Publish, Published, Region, Renderer, State, threads::Threads},
+    render::{Budget, Job, Publish, Published, Region, RenderTask, Renderer, State, threads::Threads},
     sampling::Directions,
     scene::{Camera, Estimator, RenderSettings, Reuse, Scene, built_in, load},
 };
@@ -55,7 +55,7 @@ impl Stepwise {
     /// Lets the worker go on until something is published, and holds it there: what is looked at then is its state after one turn.
     fn times(&self) -> [Duration; 2] {
         self.published.recv_timeout(Duration::from_secs(60)).expect("something is published");
-        [self.renderer.latest(), self.renderer.latest_beside()].map(|published| published.status.elapsed)
+        [self.renderer.latest(), self.renderer.latest_second()].map(|published| published.status.elapsed)
     }
 
     fn go_on(&self) {
@@ -77,7 +77,7 @@ fn of_two_pictures_the_one_that_had_less_time_since_both_are_there_goes_on() {
     before = worker.times();
     let lead = before[0];
     let settings = RenderSettings { estimator: Estimator::Path, ..scene.settings };
-    worker.renderer.submit_beside(Some(Beside::Picture(Job { settings, ..job(2, &scene, 96) })));
+    worker.renderer.submit_second(Some(RenderTask::Picture(Job { settings, ..job(2, &scene, 96) })));
     let mut turns = [0, 0];
     while turns.iter().sum::<u32>() < 24 {
         worker.go_on();
@@ -101,12 +101,12 @@ fn of_two_pictures_each_is_what_it_is_alone() {
     let renderer = renderer();
     let other = RenderSettings { estimator: Estimator::Path, ..scene.settings };
     renderer.submit(job(1, &scene, 96));
-    renderer.submit_beside(Some(Beside::Picture(Job { settings: other, ..job(2, &scene, 96) })));
-    wait(|| renderer.latest_beside(), |published| published.status.spp >= 4);
+    renderer.submit_second(Some(RenderTask::Picture(Job { settings: other, ..job(2, &scene, 96) })));
+    wait(|| renderer.latest_second(), |published| published.status.spp >= 4);
     assert!(renderer.latest().status.spp >= 1, "both go on");
 
     renderer.set_budget(Budget { max_spp: Some(3), ..Budget::default() });
-    renderer.submit_beside(Some(Beside::Picture(Job { settings: other, ..job(3, &scene, 96) })));
+    renderer.submit_second(Some(RenderTask::Picture(Job { settings: other, ..job(3, &scene, 96) })));
     let done = |generation| {
         move |published: &Published| {
             published.status.generation == generation
@@ -114,13 +114,13 @@ fn of_two_pictures_each_is_what_it_is_alone() {
                 && published.frame.spp >= 3
         }
     };
-    let beside = wait(|| renderer.latest_beside(), done(3));
+    let second = wait(|| renderer.latest_second(), done(3));
     renderer.submit(Job { settings: other, ..job(4, &scene, 96) });
     let alone = wait(|| renderer.latest(), done(4));
-    assert_eq!(beside.frame.radiance, alone.frame.radiance);
+    assert_eq!(second.frame.radiance, alone.frame.radiance);
 
-    renderer.submit_beside(None);
-    let gone = wait(|| renderer.latest_beside(), |published| published.status.generation == 0);
+    renderer.submit_second(None);
+    let gone = wait(|| renderer.latest_second(), |published| published.status.generation == 0);
     assert!(gone.frame.radiance.is_empty());
 }
 
@@ -132,8 +132,8 @@ fn the_terms_of_a_furnace_are_powers_of_its_albedo() {
     renderer.set_budget(Budget { max_spp: Some(64), ..Budget::default() });
     // By cosine-distributed directions every sample of every term is exact, until roulette begins.
     let settings = RenderSettings { estimator: Estimator::Path, directions: Directions::Cosine, ..scene.settings };
-    renderer.submit_beside(Some(Beside::Series(Job { settings, ..job(1, &scene, 64) })));
-    let published = wait(|| renderer.latest_beside(), |published| published.frame.spp == 64);
+    renderer.submit_second(Some(RenderTask::Series(Job { settings, ..job(1, &scene, 64) })));
+    let published = wait(|| renderer.latest_second(), |published| published.frame.spp == 64);
     let series = published.frame.series.as_ref().expect("it was asked for");
     // Radiance 1 and albedo 0.5: the k-th term is 2⁻ᵏ.
     for (k, term) in series.terms.iter().enumerate().take(4) {
