@@ -6,7 +6,7 @@ use noisefall::{
     file::replace,
     math::SimdLevel,
     render::threads::Threads,
-    study::{CSV, EvidencePlan, Machine, Store, StudyError, Subject, collect, reserve_chapter},
+    study::{CSV, EvidencePlan, Machine, Store, StudyError, StudyScene, collect, reserve_chapter},
 };
 
 use super::{
@@ -49,9 +49,9 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let folder = &arguments.output;
     [folder::REPORT, CSV].into_iter().try_for_each(|name| folder::make(folder, name))?;
-    let subject = Subject::load(&arguments.scene, arguments.size, arguments.reference.as_deref());
-    let subject = subject.map_err(|error| error.to_string())?;
-    let _memory = reserve_chapter(&subject).map_err(|error| error.to_string())?;
+    let study_scene = StudyScene::load(&arguments.scene, arguments.size, arguments.reference.as_deref());
+    let study_scene = study_scene.map_err(|error| error.to_string())?;
+    let _memory = reserve_chapter(&study_scene).map_err(|error| error.to_string())?;
     let mut store = Store::open(folder).map_err(|error| error.to_string())?;
     let threads = Threads::new(arguments.threads.into(), SimdLevel::best()).map_err(|error| error.to_string())?;
     let machine = Machine::here(&threads);
@@ -68,7 +68,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
             tell(&format!("{:.0} %: {what}", 100.0 * share));
         }
     };
-    let chapter = collect(&plan, subject, (folder, &mut store), (&threads, &machine), &stopped, &mut observe);
+    let chapter = collect(&plan, study_scene, (folder, &mut store), (&threads, &machine), &stopped, &mut observe);
     bar.finish_and_clear();
     let chapter = match chapter {
         Err(StudyError::Interrupted) => return Ok(ExitCode::from(INTERRUPTED)),

@@ -14,7 +14,7 @@ use noisefall::{
     sampling::{Directions, Sampler},
     scene::{Estimator, Roulette},
     study::{
-        CSV, Findings, Lists, Machine, Plan, Progress, Store, Study, StudyError, Subject, html, label, reserve, table, verdict,
+        CSV, Findings, Lists, Machine, Plan, Progress, Store, Study, StudyError, StudyScene, html, label, reserve, table, verdict,
     },
 };
 
@@ -78,9 +78,9 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         return Ok(wrong_usage(&mistake));
     }
     [folder::REPORT, CSV].into_iter().try_for_each(|name| folder::make(&arguments.output, name))?;
-    let load = |path: &PathBuf| Subject::load(path, arguments.size, arguments.reference.as_deref());
-    let subjects = arguments.scenes.iter().map(load).collect::<Result<Vec<_>, _>>().map_err(|error| error.to_string())?;
-    let _memory = reserve(&subjects).map_err(|error| error.to_string())?;
+    let load = |path: &PathBuf| StudyScene::load(path, arguments.size, arguments.reference.as_deref());
+    let study_scenes = arguments.scenes.iter().map(load).collect::<Result<Vec<_>, _>>().map_err(|error| error.to_string())?;
+    let _memory = reserve(&study_scenes).map_err(|error| error.to_string())?;
     let mut store = Store::open(&arguments.output).map_err(|error| error.to_string())?;
     if store.dropped > 0 {
         tell(&format!("note: {} lines of {CSV} belong to incomplete runs and are ignored", store.dropped));
@@ -92,7 +92,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let study = Study { plan: &plan, folder: &arguments.output, threads: &threads, machine: &machine, stop: &stopped };
 
     let mut display = Display::new();
-    let found = study.run(&subjects, &mut store, &mut |progress| display.show(&progress));
+    let found = study.run(&study_scenes, &mut store, &mut |progress| display.show(&progress));
     display.bar.finish_and_clear();
     match found {
         Ok(findings) => finish(arguments, &findings, &plan, &machine).map(|()| ExitCode::SUCCESS),

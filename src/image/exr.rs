@@ -6,18 +6,20 @@ use ::exr::{
     prelude::{ReadChannels, ReadLayers, read},
 };
 
-use super::{Flaw, Picture, Pixel, check_size, room};
+use super::{ImageFormatError, Picture, Pixel, check_size, room};
 
 /// Blocks are decompressed in parallel, each in its own memory.
 const UNPACKING: u64 = 32 << 20;
 
-pub(super) fn decode<P: Pixel>(mut file: impl BufRead + Seek) -> Result<Picture<P>, Flaw> {
-    let headers = MetaData::read_from_buffered(&mut file, false).map_err(Flaw::broken)?.headers;
+pub(super) fn decode<P: Pixel>(mut file: impl BufRead + Seek) -> Result<Picture<P>, ImageFormatError> {
+    let headers = MetaData::read_from_buffered(&mut file, false).map_err(ImageFormatError::broken)?.headers;
     for header in &headers {
         check_size(header.layer_size.width() as u64, header.layer_size.height() as u64)?;
     }
     let sizes = headers.iter().map(|header| header.layer_size);
-    let Some(largest) = sizes.max_by_key(|size| size.area()) else { return Err(Flaw::broken("the file has no layers")) };
+    let Some(largest) = sizes.max_by_key(|size| size.area()) else {
+        return Err(ImageFormatError::broken("the file has no layers"));
+    };
     let _room = room::<P>(largest.width() as u32, largest.height() as u32, UNPACKING)?;
     file.rewind()?;
     let image = read()
@@ -30,7 +32,7 @@ pub(super) fn decode<P: Pixel>(mut file: impl BufRead + Seek) -> Result<Picture<
         .first_valid_layer()
         .all_attributes()
         .from_buffered(file)
-        .map_err(Flaw::broken)?;
+        .map_err(ImageFormatError::broken)?;
     let size = image.layer_data.size;
     let (_, radiance) = image.layer_data.channel_data.pixels;
     Ok(Picture { width: size.width() as u32, height: size.height() as u32, radiance })

@@ -4,7 +4,7 @@
 //! without the half step that Radiance itself adds: black is then 0, and other readers agree.
 use std::io::{BufRead, Read};
 
-use super::{Flaw, Picture, Pixel, check_size, pixels, room};
+use super::{ImageFormatError, Picture, Pixel, check_size, pixels, room};
 
 /// Maximum length of a header line.
 const LONGEST_LINE: u64 = 4096;
@@ -13,7 +13,7 @@ const PACKED_WIDTHS: std::ops::RangeInclusive<usize> = 8..=0x7fff;
 
 type Rgbe = [u8; 4];
 
-pub(super) fn decode<P: Pixel>(mut file: impl BufRead) -> Result<Picture<P>, Flaw> {
+pub(super) fn decode<P: Pixel>(mut file: impl BufRead) -> Result<Picture<P>, ImageFormatError> {
     let exposure = exposure(&mut file)?;
     let (width, height) = size(&text_line(&mut file)?)?;
     check_size(width.into(), height.into())?;
@@ -28,7 +28,7 @@ pub(super) fn decode<P: Pixel>(mut file: impl BufRead) -> Result<Picture<P>, Fla
 }
 
 /// Reads the header up to its empty line, and returns the factor by which the values were multiplied.
-fn exposure(file: &mut impl BufRead) -> Result<f64, Flaw> {
+fn exposure(file: &mut impl BufRead) -> Result<f64, ImageFormatError> {
     let mut exposure = 1.0;
     loop {
         let line = text_line(file)?;
@@ -38,45 +38,45 @@ fn exposure(file: &mut impl BufRead) -> Result<f64, Flaw> {
         if let Some(format) = line.strip_prefix("FORMAT=")
             && format.trim() != "32-bit_rle_rgbe"
         {
-            return Err(Flaw::broken(format!("its pixels are `{format}`, not 32-bit_rle_rgbe")));
+            return Err(ImageFormatError::broken(format!("its pixels are `{format}`, not 32-bit_rle_rgbe")));
         }
         if let Some(factor) = line.strip_prefix("EXPOSURE=") {
             let factor = factor.trim().parse().ok().filter(|factor| f64::is_normal(*factor) && *factor > 0.0);
-            exposure *= factor.ok_or_else(|| Flaw::broken(format!("`{line}` is no factor")))?;
+            exposure *= factor.ok_or_else(|| ImageFormatError::broken(format!("`{line}` is no factor")))?;
         }
     }
 }
 
 /// Width and height of a line like `-Y 512 +X 1024`: rows from the top, columns from the left.
-fn size(line: &str) -> Result<(u32, u32), Flaw> {
+fn size(line: &str) -> Result<(u32, u32), ImageFormatError> {
     let size = match line.split_whitespace().collect::<Vec<_>>()[..] {
         ["-Y", height, "+X", width] => width.parse().ok().zip(height.parse().ok()),
         _ => None,
     };
-    size.ok_or_else(|| Flaw::broken(format!("its size is `{line}`, not `-Y height +X width`")))
+    size.ok_or_else(|| ImageFormatError::broken(format!("its size is `{line}`, not `-Y height +X width`")))
 }
 
-fn text_line(file: &mut impl BufRead) -> Result<String, Flaw> {
+fn text_line(file: &mut impl BufRead) -> Result<String, ImageFormatError> {
     let mut line = Vec::new();
     file.take(LONGEST_LINE).read_until(b'\n', &mut line)?;
     if line.pop() != Some(b'\n') {
-        return Err(Flaw::broken("the file ends within its header"));
+        return Err(ImageFormatError::broken("the file ends within its header"));
     }
     Ok(String::from_utf8_lossy(&line).trim_end().to_owned())
 }
 
-fn bytes<const N: usize>(file: &mut impl BufRead) -> Result<[u8; N], Flaw> {
+fn bytes<const N: usize>(file: &mut impl BufRead) -> Result<[u8; N], ImageFormatError> {
     let mut bytes = [0; N];
-    file.read_exact(&mut bytes).map_err(|_| Flaw::broken("the file ends within its pixels"))?;
+    file.read_exact(&mut bytes).map_err(|_| ImageFormatError::broken("the file ends within its pixels"))?;
     Ok(bytes)
 }
 
-fn read_row(file: &mut impl BufRead, row: &mut [Rgbe]) -> Result<(), Flaw> {
+fn read_row(file: &mut impl BufRead, row: &mut [Rgbe]) -> Result<(), ImageFormatError> {
     let first: Rgbe = bytes(file)?;
     match first {
         [2, 2, high, low] if high < 128 && PACKED_WIDTHS.contains(&row.len()) => {
             if usize::from(u16::from_be_bytes([high, low])) != row.len() {
-                return Err(Flaw::broken("a row has another width than the picture"));
+                return Err(ImageFormatError::broken("a row has another width than the picture"));
             }
             (0..4).try_for_each(|channel| read_channel(file, row, channel))
         }
@@ -86,13 +86,13 @@ fn read_row(file: &mut impl BufRead, row: &mut [Rgbe]) -> Result<(), Flaw> {
 
 /// Reads one run-length encoded channel of a row: a byte above 128 repeats the next byte; any other is the number of literal
 /// bytes that follow.
-fn read_channel(file: &mut impl BufRead, row: &mut [Rgbe], channel: usize) -> Result<(), Flaw> {
+fn read_channel(file: &mut impl BufRead, row: &mut [Rgbe], channel: usize) -> Result<(), ImageFormatError> {
     let mut done = 0;
     while done < row.len() {
         let [count] = bytes(file)?;
         let (length, repeated) = if count > 128 { (count - 128, Some(bytes::<1>(file)?)) } else { (count, None) };
         let run = row.get_mut(done..done + usize::from(length)).filter(|run| !run.is_empty());
-        for pixel in run.ok_or_else(|| Flaw::broken("a run leaves its row"))? {
+        for pixel in run.ok_or_else(|| ImageFormatError::broken("a run leaves its row"))? {
             [pixel[channel]] = repeated.map_or_else(|| bytes(file), Ok)?;
         }
         done += usize::from(length);
@@ -102,14 +102,14 @@ fn read_channel(file: &mut impl BufRead, row: &mut [Rgbe], channel: usize) -> Re
 
 /// Reads a row pixel by pixel; `first` has been read already. Mantissas 1, 1, 1 repeat the previous pixel; the exponent is the
 /// count. Consecutive repetitions are the digits of one count in base 256.
-fn read_pixels(file: &mut impl BufRead, first: Rgbe, row: &mut [Rgbe]) -> Result<(), Flaw> {
+fn read_pixels(file: &mut impl BufRead, first: Rgbe, row: &mut [Rgbe]) -> Result<(), ImageFormatError> {
     let (mut done, mut digit, mut next) = (0usize, 0, first);
     loop {
         if let [1, 1, 1, count] = next {
             let last = done.checked_sub(1).map(|last| row[last]);
             let length = usize::from(count) << (8 * digit).min(24);
             let run = row.get_mut(done..done + length);
-            let (Some(last), Some(run)) = (last, run) else { return Err(Flaw::broken("a run leaves its row")) };
+            let (Some(last), Some(run)) = (last, run) else { return Err(ImageFormatError::broken("a run leaves its row")) };
             run.fill(last);
             done += length;
             digit += 1;

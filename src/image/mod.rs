@@ -86,15 +86,15 @@ crate::words! {
 
 /// Why a file gave no picture.
 #[derive(Debug, thiserror::Error)]
-#[error("{}: {flaw}", quote::path(path))]
+#[error("{}: {problem}", quote::path(path))]
 pub struct PictureError {
     pub path: PathBuf,
-    pub flaw: Flaw,
+    pub problem: ImageFormatError,
 }
 
 /// What is wrong with a file.
 #[derive(Debug, PartialEq, thiserror::Error)]
-pub enum Flaw {
+pub enum ImageFormatError {
     #[error("cannot be read: there is no such file")]
     Missing,
     #[error("cannot be read: {0}")]
@@ -111,16 +111,16 @@ pub enum Flaw {
     NotLight(usize, usize),
 }
 
-impl Flaw {
+impl ImageFormatError {
     /// The file violates its own format.
-    fn broken(reason: impl fmt::Display) -> Flaw {
-        Flaw::Unreadable(quote::message(&reason.to_string()))
+    fn broken(reason: impl fmt::Display) -> ImageFormatError {
+        ImageFormatError::Unreadable(quote::message(&reason.to_string()))
     }
 }
 
-impl From<std::io::Error> for Flaw {
-    fn from(error: std::io::Error) -> Flaw {
-        if error.kind() == ErrorKind::NotFound { Flaw::Missing } else { Flaw::broken(error) }
+impl From<std::io::Error> for ImageFormatError {
+    fn from(error: std::io::Error) -> ImageFormatError {
+        if error.kind() == ErrorKind::NotFound { ImageFormatError::Missing } else { ImageFormatError::broken(error) }
     }
 }
 
@@ -130,9 +130,9 @@ pub fn read(path: &Path, encoding: Encoding) -> Result<Picture, PictureError> {
 }
 
 fn read_as<P: Pixel>(path: &Path, encoding: Encoding) -> Result<Picture<P>, PictureError> {
-    let file = open_regular(path).map_err(Flaw::from);
+    let file = open_regular(path).map_err(ImageFormatError::from);
     let picture = file.and_then(|file| decode(BufReader::new(file), encoding));
-    picture.map_err(|flaw| PictureError { path: path.to_owned(), flaw })
+    picture.map_err(|problem| PictureError { path: path.to_owned(), problem })
 }
 
 /// Reads an image of radiances, which must be finite and not negative. Small negative values become 0: other programs write them
@@ -140,8 +140,8 @@ fn read_as<P: Pixel>(path: &Path, encoding: Encoding) -> Result<Picture<P>, Pict
 pub fn read_light(path: &Path, encoding: Encoding) -> Result<Texels, PictureError> {
     let mut picture: Texels = read_as(path, encoding)?;
     if let Some(at) = picture.radiance.iter().position(|pixel| !pixel.iter().all(|x| *x <= BRIGHTEST)) {
-        let flaw = Flaw::NotLight(at % picture.width as usize, at / picture.width as usize);
-        return Err(PictureError { path: path.to_owned(), flaw });
+        let problem = ImageFormatError::NotLight(at % picture.width as usize, at / picture.width as usize);
+        return Err(PictureError { path: path.to_owned(), problem });
     }
     for pixel in &mut picture.radiance {
         *pixel = pixel.map(|x| x.max(0.0));
@@ -167,7 +167,7 @@ pub fn looks_like(start: &[u8]) -> Option<&'static str> {
     KINDS.iter().find(|(magic, _)| start.starts_with(magic)).map(|(_, kind)| *kind)
 }
 
-fn decode<P: Pixel>(mut file: impl BufRead + Seek, encoding: Encoding) -> Result<Picture<P>, Flaw> {
+fn decode<P: Pixel>(mut file: impl BufRead + Seek, encoding: Encoding) -> Result<Picture<P>, ImageFormatError> {
     let mut magic = Vec::new();
     (&mut file).take(4).read_to_end(&mut magic)?;
     file.rewind()?;
@@ -175,17 +175,17 @@ fn decode<P: Pixel>(mut file: impl BufRead + Seek, encoding: Encoding) -> Result
         [0x89, b'P', b'N', b'G'] => png::decode(file, encoding),
         [0x76, 0x2f, 0x31, 0x01] => exr::decode(file),
         [b'#', b'?', ..] => hdr::decode(file),
-        _ => Err(Flaw::NotAPicture),
+        _ => Err(ImageFormatError::NotAPicture),
     }
 }
 
 /// Checks the size that a header claims, before memory is allocated for it.
-fn check_size(width: u64, height: u64) -> Result<(), Flaw> {
+fn check_size(width: u64, height: u64) -> Result<(), ImageFormatError> {
     if width == 0 || height == 0 {
-        return Err(Flaw::Empty(width, height));
+        return Err(ImageFormatError::Empty(width, height));
     }
     if width.max(height) > LONGEST_SIDE || width * height > MOST_PIXELS {
-        return Err(Flaw::TooLarge(width, height));
+        return Err(ImageFormatError::TooLarge(width, height));
     }
     Ok(())
 }
@@ -197,8 +197,8 @@ fn room<P>(width: u32, height: u32, besides: u64) -> Result<Reservation, TooMuch
 }
 
 /// An empty list with capacity for the pixels.
-fn pixels<P>(width: u32, height: u32) -> Result<Vec<P>, Flaw> {
+fn pixels<P>(width: u32, height: u32) -> Result<Vec<P>, ImageFormatError> {
     let mut list = Vec::new();
-    list.try_reserve_exact(width as usize * height as usize).map_err(Flaw::broken)?;
+    list.try_reserve_exact(width as usize * height as usize).map_err(ImageFormatError::broken)?;
     Ok(list)
 }

@@ -3,45 +3,45 @@ use std::io::{BufRead, Seek};
 
 use ::png::{BitDepth, Decoder, Transformations};
 
-use super::{Encoding, Flaw, Picture, Pixel, check_size, pixels, room};
+use super::{Encoding, ImageFormatError, Picture, Pixel, check_size, pixels, room};
 use crate::math::colour::linear_from_srgb;
 
-pub(super) fn decode<P: Pixel>(mut file: impl BufRead + Seek, encoding: Encoding) -> Result<Picture<P>, Flaw> {
+pub(super) fn decode<P: Pixel>(mut file: impl BufRead + Seek, encoding: Encoding) -> Result<Picture<P>, ImageFormatError> {
     let (width, height) = claimed_size(&mut file)?;
     check_size(width.into(), height.into())?;
     file.rewind()?;
     let mut decoder = Decoder::new(file);
     decoder.set_transformations(Transformations::EXPAND);
-    let mut reader = decoder.read_info().map_err(Flaw::broken)?;
+    let mut reader = decoder.read_info().map_err(ImageFormatError::broken)?;
     // The rows of a picture in passes are not together before the last one.
     let in_passes = reader.info().interlaced;
-    let whole = reader.output_buffer_size().ok_or_else(|| Flaw::broken("the rows are too long"))?;
+    let whole = reader.output_buffer_size().ok_or_else(|| ImageFormatError::broken("the rows are too long"))?;
     let _room = room::<P>(width, height, if in_passes { whole as u64 } else { 0 })?;
     let mut radiance = pixels(width, height)?;
     let (colour, depth) = reader.output_color_type();
     let values = Values { channels: colour.samples(), linear: linear_values(depth, encoding) };
     if in_passes {
         let mut bytes = vec![0; whole];
-        let info = reader.next_frame(&mut bytes).map_err(Flaw::broken)?;
+        let info = reader.next_frame(&mut bytes).map_err(ImageFormatError::broken)?;
         values.append(&bytes[..info.buffer_size()], &mut radiance);
     } else {
-        while let Some(row) = reader.next_row().map_err(Flaw::broken)? {
+        while let Some(row) = reader.next_row().map_err(ImageFormatError::broken)? {
             values.append(row.data(), &mut radiance);
         }
     }
     if radiance.len() != width as usize * height as usize {
-        return Err(Flaw::broken("the file ends within its pixels"));
+        return Err(ImageFormatError::broken("the file ends within its pixels"));
     }
     Ok(Picture { width, height, radiance })
 }
 
 /// Width and height of the header chunk, which the standard puts first (PNG, third edition, sections 5.6 and 11.2.1).
-fn claimed_size(file: &mut impl BufRead) -> Result<(u32, u32), Flaw> {
+fn claimed_size(file: &mut impl BufRead) -> Result<(u32, u32), ImageFormatError> {
     let mut start = [0; 24];
-    file.read_exact(&mut start).map_err(|_| Flaw::broken("the file ends within its header"))?;
+    file.read_exact(&mut start).map_err(|_| ImageFormatError::broken("the file ends within its header"))?;
     let number = |at: usize| u32::from_be_bytes([start[at], start[at + 1], start[at + 2], start[at + 3]]);
     if &start[12..16] != b"IHDR" {
-        return Err(Flaw::broken("the file does not begin with a header"));
+        return Err(ImageFormatError::broken("the file does not begin with a header"));
     }
     Ok((number(16), number(20)))
 }

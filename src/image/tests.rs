@@ -1,9 +1,9 @@
 //! Hand-made image files, byte by byte.
 use std::io::Cursor;
 
-use super::{Encoding, Flaw, Picture, Texels, decode};
+use super::{Encoding, ImageFormatError, Picture, Texels, decode};
 
-fn read(bytes: &[u8]) -> Result<Picture, Flaw> {
+fn read(bytes: &[u8]) -> Result<Picture, ImageFormatError> {
     decode(Cursor::new(bytes), Encoding::Linear)
 }
 
@@ -82,7 +82,7 @@ fn pngs_of_any_depth_and_channels_are_read() {
     assert_eq!(radiance(&png(1, 1, ColorType::GrayscaleAlpha, BitDepth::Eight, &[51, 0])), [[0.2; 3]]);
     assert_eq!(radiance(&png(2, 1, ColorType::Grayscale, BitDepth::One, &[0b0100_0000])), [[0.0; 3], [1.0; 3]]);
     assert_eq!(radiance(&png(1, 1, ColorType::Rgb, BitDepth::Sixteen, &[0, 1, 255, 255, 0, 0])), [[1.0 / 65535.0, 1.0, 0.0]]);
-    let grey: Result<Picture, Flaw> =
+    let grey: Result<Picture, ImageFormatError> =
         decode(Cursor::new(png(1, 1, ColorType::Grayscale, BitDepth::Eight, &[188])), Encoding::Srgb);
     assert!((grey.expect("it is a picture").radiance[0][1] - 0.502_886).abs() < 1e-6);
 }
@@ -101,7 +101,7 @@ fn pngs_in_passes_are_read() {
     let greys: Vec<f32> = read(&IN_PASSES).expect("it is a picture").radiance.iter().map(|pixel| pixel[1] * 255.0).collect();
     let expected = [10.0, 20.0, 30.0, 40.0, 50.0, 60.0];
     assert!(greys.len() == 6 && greys.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-4), "{greys:?}");
-    assert!(matches!(read(&IN_PASSES[..IN_PASSES.len() - 30]), Err(Flaw::Unreadable(_))));
+    assert!(matches!(read(&IN_PASSES[..IN_PASSES.len() - 30]), Err(ImageFormatError::Unreadable(_))));
 }
 
 #[test]
@@ -123,10 +123,10 @@ fn sizes_are_refused_by_the_header_alone() {
         bytes.truncate(24);
         read(&bytes)
     };
-    assert_eq!(header(60_000, 1), Err(Flaw::TooLarge(60_000, 1)));
-    assert_eq!(header(0, 4), Err(Flaw::Empty(0, 4)));
-    assert_eq!(header(u32::MAX, u32::MAX), Err(Flaw::TooLarge(u32::MAX.into(), u32::MAX.into())));
-    assert!(matches!(header(1, 1), Err(Flaw::Unreadable(_))));
-    assert_eq!(read(b"GIF89a"), Err(Flaw::NotAPicture));
-    assert_eq!(read(b""), Err(Flaw::NotAPicture));
+    assert_eq!(header(60_000, 1), Err(ImageFormatError::TooLarge(60_000, 1)));
+    assert_eq!(header(0, 4), Err(ImageFormatError::Empty(0, 4)));
+    assert_eq!(header(u32::MAX, u32::MAX), Err(ImageFormatError::TooLarge(u32::MAX.into(), u32::MAX.into())));
+    assert!(matches!(header(1, 1), Err(ImageFormatError::Unreadable(_))));
+    assert_eq!(read(b"GIF89a"), Err(ImageFormatError::NotAPicture));
+    assert_eq!(read(b""), Err(ImageFormatError::NotAPicture));
 }

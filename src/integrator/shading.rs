@@ -131,7 +131,7 @@ impl<'a, L: Lanes, K: Shade> Shading<'a, L, K> {
         let survival = survive(l, work.settings.roulette, *reflection, stream, throughput, judged);
         #[cfg(test)]
         let survival = match work.settings.fault {
-            Some(crate::scene::Fault::NoReweighting) => Survival { throughput, ..survival },
+            Some(crate::scene::InjectedFault::NoReweighting) => Survival { throughput, ..survival },
             _ => survival,
         };
         let mut goes_on = survival.alive & consistent;

@@ -44,15 +44,15 @@ pub struct Model {
 
 /// Error of reading a mesh file.
 #[derive(Debug, thiserror::Error)]
-#[error("{}: {flaw}", quote::path(path))]
+#[error("{}: {problem}", quote::path(path))]
 pub struct ModelError {
     pub path: PathBuf,
-    pub flaw: Flaw,
+    pub problem: ModelFormatError,
 }
 
 /// What is wrong with a file.
 #[derive(Debug, PartialEq, thiserror::Error)]
-pub enum Flaw {
+pub enum ModelFormatError {
     #[error("cannot be read: there is no such file")]
     Missing,
     #[error("cannot be read: {0}")]
@@ -69,9 +69,13 @@ pub enum Flaw {
     Broken(Place, String),
 }
 
-impl From<std::io::Error> for Flaw {
-    fn from(error: std::io::Error) -> Flaw {
-        if error.kind() == ErrorKind::NotFound { Flaw::Missing } else { Flaw::Unreadable(error.to_string()) }
+impl From<std::io::Error> for ModelFormatError {
+    fn from(error: std::io::Error) -> ModelFormatError {
+        if error.kind() == ErrorKind::NotFound {
+            ModelFormatError::Missing
+        } else {
+            ModelFormatError::Unreadable(error.to_string())
+        }
     }
 }
 
@@ -87,8 +91,8 @@ pub enum Place {
 }
 
 impl Place {
-    fn broken(self, reason: impl fmt::Display) -> Flaw {
-        Flaw::Broken(self, reason.to_string())
+    fn broken(self, reason: impl fmt::Display) -> ModelFormatError {
+        ModelFormatError::Broken(self, reason.to_string())
     }
 }
 
@@ -96,15 +100,15 @@ impl Place {
 pub fn read(path: &Path) -> Result<Model, ModelError> {
     let is_obj = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("obj"));
     let model = bytes(path).and_then(|(bytes, _room)| decode(&bytes, is_obj));
-    model.map_err(|flaw| ModelError { path: path.to_owned(), flaw })
+    model.map_err(|problem| ModelError { path: path.to_owned(), problem })
 }
 
 /// Reads a file, and reserves memory for it.
-fn bytes(path: &Path) -> Result<(Vec<u8>, Reservation), Flaw> {
+fn bytes(path: &Path) -> Result<(Vec<u8>, Reservation), ModelFormatError> {
     let file = open_regular(path)?;
     let length = file.metadata()?.len();
     if length > LARGEST_FILE {
-        return Err(Flaw::TooLarge);
+        return Err(ModelFormatError::TooLarge);
     }
     let room = reserve(format_args!("{} of the file", Size(length)), length)?;
     let mut bytes = Vec::with_capacity(length as usize);
@@ -113,14 +117,14 @@ fn bytes(path: &Path) -> Result<(Vec<u8>, Reservation), Flaw> {
     Ok((bytes, room))
 }
 
-fn decode(bytes: &[u8], is_obj: bool) -> Result<Model, Flaw> {
+fn decode(bytes: &[u8], is_obj: bool) -> Result<Model, ModelFormatError> {
     let mut model = match ply::is_ply(bytes) {
         true => ply::decode(bytes)?,
         false if is_obj => obj::decode(bytes)?,
-        false => return Err(Flaw::NotAModel),
+        false => return Err(ModelFormatError::NotAModel),
     };
     if model.triangles.is_empty() {
-        return Err(Flaw::Empty);
+        return Err(ModelFormatError::Empty);
     }
     if let Some(normals) = &mut model.normals {
         normals::complete(normals, &model.vertices, &model.triangles);

@@ -4,7 +4,7 @@
 //! position, a texture coordinate and a normal separately; each distinct combination becomes a vertex.
 use std::borrow::Cow;
 
-use super::{Flaw, Model, Place, number};
+use super::{Model, ModelFormatError, Place, number};
 use crate::{
     memory::{Reservation, reserve},
     quote,
@@ -13,7 +13,7 @@ use crate::{
 /// Marks a missing texture coordinate or normal of a corner.
 const NONE: u32 = u32::MAX;
 
-pub(super) fn decode(bytes: &[u8]) -> Result<Model, Flaw> {
+pub(super) fn decode(bytes: &[u8]) -> Result<Model, ModelFormatError> {
     let mut room = Reservation::none();
     let text = &text(bytes)?;
     if let Cow::Owned(copy) = text {
@@ -36,7 +36,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Model, Flaw> {
 }
 
 /// Decodes the file. Comments and names may be in any superset of ASCII; bytes that are not UTF-8 are replaced.
-fn text(bytes: &[u8]) -> Result<Cow<'_, str>, Flaw> {
+fn text(bytes: &[u8]) -> Result<Cow<'_, str>, ModelFormatError> {
     if let Some(at) = bytes.iter().position(|byte| *byte == 0) {
         let lines = bytes[..at].iter().filter(|byte| **byte == b'\n').count();
         return Err(Place::Line(lines + 1).broken("this is not text, or none whose characters are those of ASCII"));
@@ -92,7 +92,7 @@ struct Lists {
 }
 
 impl Lists {
-    fn read(text: &str, room: &mut Reservation) -> Result<Lists, Flaw> {
+    fn read(text: &str, room: &mut Reservation) -> Result<Lists, ModelFormatError> {
         let mut lists = Lists::default();
         for (number, line) in Lines::new(text) {
             lists.add(words(line), room).map_err(|reason| Place::Line(number).broken(reason))?;
@@ -198,7 +198,7 @@ impl<'a> Faces<'a> {
         Ok(Corner { place, uv, normal })
     }
 
-    fn into_model(self) -> Result<Model, Flaw> {
+    fn into_model(self) -> Result<Model, ModelFormatError> {
         /// Bytes per corner in the lists of distinct corners and their attributes.
         const CORNER: u64 = 48;
         let Faces { lists, corners, mut triangles, room: _room } = self;

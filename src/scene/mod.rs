@@ -32,7 +32,7 @@ use std::{
 use glam::DVec3;
 
 #[cfg(test)]
-pub use self::settings::Fault;
+pub use self::settings::InjectedFault;
 use self::surface::Surfaces;
 pub use self::{
     camera::{Camera, CameraError, Lens},

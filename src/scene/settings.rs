@@ -22,13 +22,13 @@ pub struct RenderSettings {
     /// A mistake that the validation must notice.
     #[cfg(test)]
     #[serde(skip)]
-    pub fault: Option<Fault>,
+    pub fault: Option<InjectedFault>,
 }
 
 /// Mistakes that tests inject into the integrator.
 #[cfg(test)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Fault {
+pub enum InjectedFault {
     /// Samples are divided by 1.03 times their density.
     WrongPdf,
     /// cos θ is missing from the integrand at the first reflection.
@@ -210,7 +210,7 @@ impl RenderSettings {
         let last = self.max_bounces.map_or(Self::LONGEST_PATH, |cap| cap.min(Self::HIGHEST_CAP));
         // A mistake may let paths go on for ever.
         #[cfg(test)]
-        let last = self.fault.map_or(last, |fault| last.min(60) + u32::from(fault == Fault::OneBounceMore));
+        let last = self.fault.map_or(last, |fault| last.min(60) + u32::from(fault == InjectedFault::OneBounceMore));
         last
     }
 

@@ -2,14 +2,14 @@
 use std::path::Path;
 
 use super::{
-    Findings, Machine, Plan, Run, Store, StudyError, Subject,
+    Findings, Machine, Plan, Run, Store, StudyError, StudyScene,
     key::{hash, text},
     measure::{Bench, measure},
     outcome::{Limits, Outcome},
     ranking::rank,
     reference::{self, Converged, Reference},
     row::{Header, rows},
-    subject::titles,
+    study_scene::titles,
     trial::{Group, groups, trial},
 };
 use crate::{render::threads::Threads, scene::RenderSettings};
@@ -40,7 +40,7 @@ pub enum Progress<'a> {
 
 /// A scene with what will be measured of it.
 struct Prepared<'a> {
-    subject: &'a Subject,
+    study_scene: &'a StudyScene,
     bench: Bench<'a>,
     title: String,
     /// All that a picture of the scene depends on besides settings.
@@ -52,12 +52,12 @@ impl Study<'_> {
     /// Measures what the store does not have, and keeps each run at once, so that an interrupted study can go on.
     pub fn run(
         &self,
-        subjects: &[Subject],
+        study_scenes: &[StudyScene],
         store: &mut Store,
         observe: &mut dyn FnMut(Progress),
     ) -> Result<Vec<Findings>, StudyError> {
-        let titled = subjects.iter().zip(titles(subjects));
-        let prepared = titled.map(|(subject, title)| self.prepare(subject, title)).collect::<Result<Vec<_>, _>>()?;
+        let titled = study_scenes.iter().zip(titles(study_scenes));
+        let prepared = titled.map(|(study_scene, title)| self.prepare(study_scene, title)).collect::<Result<Vec<_>, _>>()?;
         let runs = prepared.iter().map(|scene| self.runs(scene).count()).sum();
         observe(Progress::Planned { runs, found: prepared.iter().map(|scene| self.found(scene, store)).sum() });
         prepared.into_iter().map(|scene| self.scene(scene, store, observe)).collect()
@@ -68,28 +68,28 @@ impl Study<'_> {
     pub fn spp_in(
         &self,
         store: &Store,
-        subject: &Subject,
+        study_scene: &StudyScene,
         candidates: impl Iterator<Item = u32>,
     ) -> Result<Option<u32>, StudyError> {
         if store.is_empty() {
             return Ok(None);
         }
-        let scene = self.prepare(subject, subject.title())?;
+        let scene = self.prepare(study_scene, study_scene.title())?;
         let found = |spp: u32| Study { plan: &Plan { spp, ..self.plan.clone() }, ..*self }.found(&scene, store);
         let most = candidates.map(|spp| (found(spp), spp)).max();
         Ok(most.filter(|(found, _)| *found > 0).map(|(_, spp)| spp))
     }
 
-    fn prepare<'a>(&'a self, subject: &'a Subject, title: String) -> Result<Prepared<'a>, StudyError> {
-        let bench = Bench { scene: &subject.scene, camera: &subject.camera, threads: self.threads, stop: self.stop };
+    fn prepare<'a>(&'a self, study_scene: &'a StudyScene, title: String) -> Result<Prepared<'a>, StudyError> {
+        let bench = Bench { scene: &study_scene.scene, camera: &study_scene.camera, threads: self.threads, stop: self.stop };
         // What is wrong with it is told before anything is rendered.
-        reference::known(subject, self.plan.floor)?;
+        reference::known(study_scene, self.plan.floor)?;
         // The bits of a picture stand for all that it is made of: the scene's meshes and images, and the program itself.
-        let picture = trial(bench, &reference::settings(subject))?;
-        let [width, height] = subject.camera.resolution.map(u32::to_le_bytes);
-        let fingerprint = hash(&[subject.scene.source.as_bytes(), &width, &height, &picture.to_le_bytes()]);
-        let groups = groups(bench, &self.plan.lists.combinations(subject.scene.settings))?;
-        Ok(Prepared { subject, bench, title, fingerprint, groups })
+        let picture = trial(bench, &reference::settings(study_scene))?;
+        let [width, height] = study_scene.camera.resolution.map(u32::to_le_bytes);
+        let fingerprint = hash(&[study_scene.scene.source.as_bytes(), &width, &height, &picture.to_le_bytes()]);
+        let groups = groups(bench, &self.plan.lists.combinations(study_scene.scene.settings))?;
+        Ok(Prepared { study_scene, bench, title, fingerprint, groups })
     }
 
     /// Repeat by repeat, so that what slows the machine for a while slows all combinations, and shows as spread.
@@ -107,7 +107,7 @@ impl Study<'_> {
         let settings = RenderSettings { seed: group.settings.seed.wrapping_add(repeat), ..group.settings };
         let Machine { cpu, threads, simd, version, .. } = self.machine;
         let Plan { spp, time, floor, .. } = self.plan;
-        let reference = reference::identity(scene.subject, *spp);
+        let reference = reference::identity(scene.study_scene, *spp);
         let how = format!("{settings:?} {spp} {time:?} {floor:?} {cpu} {threads} {simd} {version}");
         (settings, text(hash(&[&scene.fingerprint.to_le_bytes(), &reference.to_le_bytes(), how.as_bytes()])))
     }
@@ -127,7 +127,7 @@ impl Study<'_> {
             observe(Progress::Begun { title: &scene.title, settings: &settings });
             let run = measure(scene.bench, &settings, self.plan, &reference.radiance)?;
             let header = Header {
-                subject: scene.subject,
+                study_scene: scene.study_scene,
                 settings: &settings,
                 repeat: repeat + 1,
                 reference: &reference,
@@ -146,22 +146,22 @@ impl Study<'_> {
     }
 
     fn reference(&self, scene: &Prepared, observe: &mut dyn FnMut(Progress)) -> Result<Reference, StudyError> {
-        let Prepared { subject, bench, ref title, fingerprint, .. } = *scene;
+        let Prepared { study_scene, bench, ref title, fingerprint, .. } = *scene;
         let converged =
-            Converged { subject, bench, folder: self.folder, fingerprint, spp: self.plan.spp, floor: self.plan.floor };
+            Converged { study_scene, bench, folder: self.folder, fingerprint, spp: self.plan.spp, floor: self.plan.floor };
         converged.reference(&mut |share| observe(Progress::Reference { title, share }))
     }
 
     fn findings(&self, scene: Prepared, runs: &[Vec<Run>], reference: Reference, limits: Limits) -> Findings {
-        let subject = scene.subject;
+        let study_scene = scene.study_scene;
         let outcome = |(group, runs): (Group, &Vec<Run>)| Outcome::of(group, runs, limits);
         let mut outcomes: Vec<Outcome> = scene.groups.into_iter().zip(runs).map(outcome).collect();
         rank(&mut outcomes);
         Findings {
             title: scene.title,
-            path: subject.path.clone(),
-            resolution: subject.camera.resolution,
-            of_scene: subject.scene.settings,
+            path: study_scene.path.clone(),
+            resolution: study_scene.camera.resolution,
+            of_scene: study_scene.scene.settings,
             reference: reference.name,
             reference_is_taken_for_exact: reference.is_taken_for_exact,
             limits,

@@ -19,7 +19,7 @@ pub struct Pair {
 /// The first places, what the scene opens with, and the last place that is ranked.
 pub fn overview(findings: &Findings) -> Option<Pair> {
     let best = findings.best()?;
-    let sound: Vec<&Outcome> = findings.outcomes.iter().filter(|outcome| outcome.standing == best.standing).collect();
+    let sound: Vec<&Outcome> = findings.outcomes.iter().filter(|outcome| outcome.eligibility == best.eligibility).collect();
     let own = findings.find(&findings.of_scene);
     let mut shown: Vec<(String, &Outcome)> = Vec::new();
     for outcome in sound.iter().take(FIRST_PLACES).copied().chain(own).chain(sound.last().copied()) {
@@ -39,15 +39,15 @@ pub fn overview(findings: &Findings) -> Option<Pair> {
 pub fn by_setting(findings: &Findings, setting: Setting) -> Option<Pair> {
     let best = findings.best()?;
     let mut shown: Vec<(String, &Outcome)> = Vec::new();
-    for worth in findings.worth(setting) {
+    for gain in findings.gains(setting) {
         let with_value = |outcome: &&Outcome| {
-            let same_otherwise = |s: &&_| setting.with(s, &best.settings) == best.settings && setting.value(s) == worth.value;
+            let same_otherwise = |s: &&_| setting.with(s, &best.settings) == best.settings && setting.value(s) == gain.value;
             outcome.alike().find(same_otherwise).is_some()
         };
         let Some(outcome) = findings.outcomes.iter().find(with_value) else { continue };
         match shown.iter_mut().find(|(_, known)| known.settings == outcome.settings) {
-            Some((name, _)) => *name = format!("{name} = {}", worth.value),
-            None => shown.push((worth.value, outcome)),
+            Some((name, _)) => *name = format!("{name} = {}", gain.value),
+            None => shown.push((gain.value, outcome)),
         }
     }
     let caption = format!("All other settings as in the best combination: {}.", label(&best.settings));

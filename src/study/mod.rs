@@ -1,7 +1,7 @@
 //! Run time against error: every combination of settings is timed and held against a reference, and the best is named.
 //!
 //! ```text
-//!   Subject (scene, size) ─▶ trial: which combinations are the same picture
+//!   StudyScene (scene, size) ─▶ trial: which combinations are the same picture
 //!                         ─▶ Reference: the truth, a file, or a converged render
 //!                         ─▶ measure: Run (seconds and errors at powers of two of samples) ─▶ Store: study.csv
 //!   runs ─▶ Outcome (slope, efficiency) ─▶ Findings (ranking) ─▶ report.html
@@ -23,7 +23,7 @@ mod report;
 mod row;
 mod setting;
 mod store;
-mod subject;
+mod study_scene;
 #[cfg(test)]
 mod tests;
 mod trial;
@@ -38,13 +38,13 @@ pub use self::{
     fit::{Slope, slope},
     machine::Machine,
     measure::{Bench, Checkpoint, Run},
-    outcome::{Outcome, Standing},
+    outcome::{Eligibility, Outcome},
     plan::{Lists, Plan, checkpoints, study_size},
     ranking::Findings,
     report::html,
     setting::{differing_labels, label},
     store::{CSV, Store},
-    subject::{Subject, reserve},
+    study_scene::{StudyScene, reserve},
     wording::{table, verdict},
 };
 use crate::{file::WriteError, scene::SceneError};

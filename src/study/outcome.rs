@@ -16,7 +16,7 @@ const LEAST_SPP_OF_FIT: u32 = 4;
 
 /// Whether a combination can be the best one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Standing {
+pub enum Eligibility {
     /// It converges, and its picture is better than none.
     Sound,
     /// It converges, but its last picture has more than half the relMSE of a black one: where no light has been found, little noise is no
@@ -51,7 +51,7 @@ pub struct Outcome {
     pub settings: RenderSettings,
     /// Combinations whose picture is the same.
     pub twins: Vec<RenderSettings>,
-    pub standing: Standing,
+    pub eligibility: Eligibility,
     /// Why it is biased; empty where it is not.
     pub bias: String,
     /// How far the mean of the picture is from that of the reference.
@@ -92,16 +92,16 @@ impl Outcome {
             runs.iter().map(|run| run.checkpoints[..length].iter().map(point).collect()).collect();
         let curve: Vec<Point> = (0..length).map(|i| mean(runs_of_points.iter().map(|run| run[i]))).collect();
         let bias = runs.iter().map(|run| run.bias.clone()).find(|bias| !bias.is_empty()).unwrap_or_default();
-        let standing = match curve.last() {
-            _ if !bias.is_empty() => Standing::Biased,
-            Some(last) if last.rel_mse < 0.5 * limits.black => Standing::Sound,
-            _ => Standing::TooNoisy,
+        let eligibility = match curve.last() {
+            _ if !bias.is_empty() => Eligibility::Biased,
+            Some(last) if last.rel_mse < 0.5 * limits.black => Eligibility::Sound,
+            _ => Eligibility::TooNoisy,
         };
         let efficiency = |run: &Vec<Point>| run.last().map(|last| 1.0 / (last.rel_mse.max(ROUNDING) * last.seconds));
         Outcome {
             settings,
             twins,
-            standing,
+            eligibility,
             bias,
             mean_error: mean_error(runs, limits.variance_of_mean),
             variances: runs.iter().map(|run| variances(&run.checkpoints[..length], limits.floor)).collect(),

@@ -3,7 +3,7 @@ use std::path::PathBuf;
 
 use super::{
     fit::student_95,
-    outcome::{Limits, Outcome, Standing},
+    outcome::{Eligibility, Limits, Outcome},
     setting::Setting,
 };
 use crate::scene::RenderSettings;
@@ -29,7 +29,7 @@ pub struct Findings {
 }
 
 /// What a value of a setting is worth, as parts of the best efficiency; none where that is not ranked.
-pub struct Worth {
+pub struct SettingGain {
     pub value: String,
     /// With all other settings as in the best combination.
     pub alone: Option<f64>,
@@ -39,13 +39,13 @@ pub struct Worth {
 
 /// Sorts by standing, then by efficiency.
 pub fn rank(outcomes: &mut [Outcome]) {
-    outcomes.sort_by(|a, b| a.standing.cmp(&b.standing).then(b.efficiency().total_cmp(&a.efficiency())));
+    outcomes.sort_by(|a, b| a.eligibility.cmp(&b.eligibility).then(b.efficiency().total_cmp(&a.efficiency())));
 }
 
 impl Findings {
     /// None where nothing has converged without bias.
     pub fn best(&self) -> Option<&Outcome> {
-        self.outcomes.first().filter(|best| best.standing == Standing::Sound)
+        self.outcomes.first().filter(|best| best.eligibility == Eligibility::Sound)
     }
 
     /// The combination that gives the picture of these settings.
@@ -61,7 +61,7 @@ impl Findings {
 
     /// [`Findings::ratio`] of what can be the best.
     fn ranked_ratio(&self, outcome: &Outcome) -> Option<f64> {
-        self.ratio(outcome).filter(|_| outcome.standing == Standing::Sound)
+        self.ratio(outcome).filter(|_| outcome.eligibility == Eligibility::Sound)
     }
 
     /// [`Findings::ratio`] of what counts for how sure the ratios are.
@@ -73,7 +73,7 @@ impl Findings {
     /// of its own where it is far from the best. None of the best itself, whose ratio is 1 by definition, and of what is biased.
     pub fn interval(&self, outcome: &Outcome) -> Option<[f64; 2]> {
         let best = self.best().filter(|best| best.settings != outcome.settings)?;
-        let ratio = self.ratio(outcome).filter(|_| outcome.standing != Standing::Biased)?;
+        let ratio = self.ratio(outcome).filter(|_| outcome.eligibility != Eligibility::Biased)?;
         let is_near = self.ratio_near_best(outcome).is_some();
         let factor = if is_near { self.uncertainty() } else { uncertainty_of_two(outcome, best) };
         factor.map(|factor| [ratio / factor, ratio * factor])
@@ -81,7 +81,7 @@ impl Findings {
 
     /// The shortest rendering time in seconds of those that are unbiased and have noise: after it the error of all of them is known.
     pub fn equal_time(&self) -> Option<f64> {
-        let noisy = self.outcomes.iter().filter(|outcome| outcome.standing != Standing::Biased && !outcome.is_exact());
+        let noisy = self.outcomes.iter().filter(|outcome| outcome.eligibility != Eligibility::Biased && !outcome.is_exact());
         noisy.map(|outcome| outcome.last().seconds).reduce(f64::min)
     }
 
@@ -105,15 +105,15 @@ impl Findings {
     }
 
     /// The values of a setting, in the order of the ranking; empty where there is only one.
-    pub fn worth(&self, setting: Setting) -> Vec<Worth> {
-        let mut values: Vec<Worth> = Vec::new();
+    pub fn gains(&self, setting: Setting) -> Vec<SettingGain> {
+        let mut values: Vec<SettingGain> = Vec::new();
         let Some(best) = self.best() else { return values };
         for outcome in &self.outcomes {
             for settings in outcome.alike() {
                 let value = setting.value(settings);
-                if values.iter().all(|worth| worth.value != value) {
+                if values.iter().all(|gain| gain.value != value) {
                     let alone = self.find(&setting.with(&best.settings, settings)).and_then(|alone| self.ranked_ratio(alone));
-                    values.push(Worth { value, alone, at_best: self.ranked_ratio(outcome) });
+                    values.push(SettingGain { value, alone, at_best: self.ranked_ratio(outcome) });
                 }
             }
         }

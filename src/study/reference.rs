@@ -2,7 +2,7 @@
 use std::path::{Path, PathBuf};
 
 use super::{
-    StudyError, Subject,
+    StudyError, StudyScene,
     key::{hash, hash_of_picture, text},
     measure::Bench,
 };
@@ -41,13 +41,13 @@ pub struct Reference {
 
 impl Reference {
     /// Without light there is no error to measure.
-    fn if_lit(self, subject: &Subject) -> Result<Reference, StudyError> {
+    fn if_lit(self, study_scene: &StudyScene) -> Result<Reference, StudyError> {
         if self.rel_mse_of_black() > 0.0 {
             return Ok(self);
         }
-        let why = subject.scene.why_black(&subject.camera, &settings(subject));
+        let why = study_scene.scene.why_black(&study_scene.camera, &settings(study_scene));
         let reason = format!("{} is entirely black ({why}): there is no error to measure", self.name);
-        Err(StudyError::Unmeasurable { path: subject.path.clone(), reason })
+        Err(StudyError::Unmeasurable { path: study_scene.path.clone(), reason })
     }
 
     /// Over pixels and channels.
@@ -63,8 +63,8 @@ impl Reference {
 }
 
 /// The settings of a converged render: unbiased, and the best of most scenes.
-pub fn settings(subject: &Subject) -> RenderSettings {
-    let of_scene = subject.scene.settings;
+pub fn settings(study_scene: &StudyScene) -> RenderSettings {
+    let of_scene = study_scene.scene.settings;
     let seeded = RenderSettings { seed: of_scene.seed ^ SEED_OF_REFERENCE, ..of_scene };
     RenderSettings {
         estimator: Estimator::Mis,
@@ -77,9 +77,9 @@ pub fn settings(subject: &Subject) -> RenderSettings {
 }
 
 /// The reference of a scene that says or has one.
-pub fn known(subject: &Subject, floor: Floor) -> Result<Option<Reference>, StudyError> {
-    let Some((known, name)) = &subject.known else { return Ok(None) };
-    let radiance = radiance(subject, known);
+pub fn known(study_scene: &StudyScene, floor: Floor) -> Result<Option<Reference>, StudyError> {
+    let Some((known, name)) = &study_scene.known else { return Ok(None) };
+    let radiance = radiance(study_scene, known);
     let provenance = if let truth::Reference::Picture(_, provenance) = known { Some(provenance) } else { None };
     let own = provenance.and_then(|provenance| own_rel_mse(&radiance, provenance, floor));
     let noise = provenance.and_then(|provenance| provenance.noise.as_ref());
@@ -88,10 +88,10 @@ pub fn known(subject: &Subject, floor: Floor) -> Result<Option<Reference>, Study
         radiance,
         rel_mse: own.unwrap_or(0.0),
         variance_of_mean: noise.map_or(0.0, SampleNoise::variance_of_mean),
-        is_taken_for_exact: own.is_none() && !subject.is_declared,
+        is_taken_for_exact: own.is_none() && !study_scene.is_declared,
         floor,
     };
-    reference.if_lit(subject).map(Some)
+    reference.if_lit(study_scene).map(Some)
 }
 
 /// The relMSE that a rendered picture has itself, by the variances in its file: as much less as the renderer found its samples to be better
@@ -110,9 +110,9 @@ fn own_rel_mse(radiance: &[[f32; 3]], provenance: &Provenance, floor: Floor) -> 
 }
 
 /// What makes it another reference. `spp` is that of the longest render.
-pub fn identity(subject: &Subject, spp: u32) -> u64 {
-    match &subject.known {
-        Some((known, _)) => hash_of_picture(&radiance(subject, known)),
+pub fn identity(study_scene: &StudyScene, spp: u32) -> u64 {
+    match &study_scene.known {
+        Some((known, _)) => hash_of_picture(&radiance(study_scene, known)),
         None => spp_of_half(spp).into(),
     }
 }
@@ -121,10 +121,10 @@ fn spp_of_half(spp_of_longest: u32) -> u32 {
     spp_of_longest.saturating_mul(TIMES_THE_SAMPLES / 2)
 }
 
-fn radiance(subject: &Subject, known: &truth::Reference) -> Vec<[f32; 3]> {
+fn radiance(study_scene: &StudyScene, known: &truth::Reference) -> Vec<[f32; 3]> {
     match known {
         truth::Reference::Constant(radiance) => {
-            let [width, height] = subject.camera.resolution;
+            let [width, height] = study_scene.camera.resolution;
             vec![*radiance; width as usize * height as usize]
         }
         truth::Reference::Picture(picture, _) => picture.radiance.clone(),
@@ -133,7 +133,7 @@ fn radiance(subject: &Subject, known: &truth::Reference) -> Vec<[f32; 3]> {
 
 /// A converged render as two independent halves, kept in a folder.
 pub struct Converged<'a> {
-    pub subject: &'a Subject,
+    pub study_scene: &'a StudyScene,
     pub bench: Bench<'a>,
     pub folder: &'a Path,
     /// All that a picture of the scene depends on besides settings.
@@ -147,9 +147,9 @@ pub struct Converged<'a> {
 impl Converged<'_> {
     /// The reference of the scene; `done` is told the share of the work that is done, where there is work.
     pub fn reference(&self, done: &mut dyn FnMut(f64)) -> Result<Reference, StudyError> {
-        match known(self.subject, self.floor)? {
+        match known(self.study_scene, self.floor)? {
             Some(reference) => Ok(reference),
-            None => self.render(done)?.if_lit(self.subject),
+            None => self.render(done)?.if_lit(self.study_scene),
         }
     }
 
@@ -167,7 +167,7 @@ impl Converged<'_> {
     }
 
     fn file(&self, settings: &RenderSettings) -> PathBuf {
-        let stem = self.subject.path.file_stem().unwrap_or_default().to_string_lossy();
+        let stem = self.study_scene.path.file_stem().unwrap_or_default().to_string_lossy();
         let parts = [
             self.fingerprint.to_le_bytes(),
             u64::from(settings.seed).to_le_bytes(),
@@ -179,7 +179,7 @@ impl Converged<'_> {
 
     /// One half with the variance of its mean, from its file if that is there and whole.
     fn half(&self, number: u32, done: &mut dyn FnMut(f64)) -> Result<(Vec<[f32; 3]>, f64), StudyError> {
-        let settings = settings(self.subject);
+        let settings = settings(self.study_scene);
         let settings = RenderSettings { seed: settings.seed.wrapping_add(number), ..settings };
         let path = self.file(&settings);
         let resolution = self.bench.camera.resolution;
@@ -207,7 +207,7 @@ impl Converged<'_> {
     }
 
     fn keep(&self, frame: &Frame, settings: &RenderSettings, path: &Path) -> Result<(), StudyError> {
-        let Subject { scene, camera, .. } = self.subject;
+        let StudyScene { scene, camera, .. } = self.study_scene;
         let text = settings_text(scene, camera, settings, Display::default(), frame, &[]);
         image_file::save(frame, Display::default(), &text, path).map_err(|error| match error {
             image_file::ImageError::Write(error) => error.into(),

@@ -2,9 +2,9 @@
 use maud::{Markup, PreEscaped, html as markup};
 
 use super::{
-    Findings, Machine, Outcome, Plan, Standing,
+    Eligibility, Findings, Machine, Outcome, Plan,
     figures::{Pair, by_setting, overview},
-    ranking::Worth,
+    ranking::SettingGain,
     setting::Setting,
     wording::{certainty, command, error, mean_error, percent, significant, slope, verdict},
 };
@@ -89,7 +89,7 @@ fn section(number: usize, findings: &Findings) -> Markup {
             @if let Some(command) = command(findings) { pre { (command) } }
             @if invalid > 0 { p.fails { (invalid) " samples were negative or not finite and count as black." } }
             @if let Some(pair) = overview(findings) { (figure(&pair)) }
-            (worth(findings))
+            (gains(findings))
             @for pair in Setting::ALL.into_iter().filter_map(|setting| by_setting(findings, setting)) { (figure(&pair)) }
             (ranking(findings))
         }
@@ -106,14 +106,14 @@ fn figure(pair: &Pair) -> Markup {
     }
 }
 
-fn worth(findings: &Findings) -> Markup {
-    let settings: Vec<(Setting, Vec<Worth>)> =
-        Setting::ALL.into_iter().map(|setting| (setting, findings.worth(setting))).collect();
-    let row = |setting: &str, worth: &Worth| {
+fn gains(findings: &Findings) -> Markup {
+    let settings: Vec<(Setting, Vec<SettingGain>)> =
+        Setting::ALL.into_iter().map(|setting| (setting, findings.gains(setting))).collect();
+    let row = |setting: &str, gain: &SettingGain| {
         markup! {
             tr {
-                th { (setting) } td { (worth.value) }
-                @for part in [worth.alone, worth.at_best] { td.n { (part.map_or_else(|| "–".to_owned(), significant)) } }
+                th { (setting) } td { (gain.value) }
+                @for part in [gain.alone, gain.at_best] { td.n { (part.map_or_else(|| "–".to_owned(), significant)) } }
             }
         }
     };
@@ -122,8 +122,8 @@ fn worth(findings: &Findings) -> Markup {
             h3 { "What each setting is worth" }
             table.short {
                 thead { tr { th { "setting" } th { "value" } th.n { "others as in the best" } th.n { "others at their best" } } }
-                tbody { @for (setting, values) in &settings { @for (i, worth) in values.iter().enumerate() {
-                    (row(if i == 0 { setting.name() } else { "" }, worth))
+                tbody { @for (setting, values) in &settings { @for (i, gain) in values.iter().enumerate() {
+                    (row(if i == 0 { setting.name() } else { "" }, gain))
                 } } }
             }
             p.source { "Efficiency relative to the best: with this value and all other settings as in the best combination, and with this value and the other settings that are best with it. A dash marks combinations that are not ranked, or have noise where the best has none." }
@@ -171,9 +171,9 @@ fn heading(shown: &[Setting]) -> Markup {
 fn row(place: usize, outcome: &Outcome, shown: &[Setting], findings: &Findings) -> Markup {
     let moments = outcome.log_efficiency();
     let spread = 100.0 * (moments.variance / moments.count).sqrt();
-    let class = match (place, outcome.standing) {
-        (1, Standing::Sound) => "first",
-        (_, Standing::Sound) => "",
+    let class = match (place, outcome.eligibility) {
+        (1, Eligibility::Sound) => "first",
+        (_, Eligibility::Sound) => "",
         _ => "weak",
     };
     markup! {
@@ -214,9 +214,9 @@ pub fn values(setting: Setting, outcome: &Outcome) -> String {
 
 /// Why a combination is not ranked; empty where it is.
 pub fn remark(outcome: &Outcome) -> String {
-    match outcome.standing {
-        Standing::Sound => String::new(),
-        Standing::TooNoisy => "too noisy".to_owned(),
-        Standing::Biased => format!("biased: {}", outcome.bias),
+    match outcome.eligibility {
+        Eligibility::Sound => String::new(),
+        Eligibility::TooNoisy => "too noisy".to_owned(),
+        Eligibility::Biased => format!("biased: {}", outcome.bias),
     }
 }

@@ -1,7 +1,7 @@
 //! A line of `study.csv`: one checkpoint of one run, with all that it depends on.
 use serde::{Deserialize, Serialize};
 
-use super::{Checkpoint, Machine, Run, Subject, key::is_key, reference::Reference, setting::Setting};
+use super::{Checkpoint, Machine, Run, StudyScene, key::is_key, reference::Reference, setting::Setting};
 use crate::{measure::Floor, scene::RenderSettings};
 
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -56,7 +56,7 @@ pub struct Row {
 
 /// What a run is besides what it measured.
 pub struct Header<'a> {
-    pub subject: &'a Subject,
+    pub study_scene: &'a StudyScene,
     pub settings: &'a RenderSettings,
     pub repeat: u32,
     pub reference: &'a Reference,
@@ -78,11 +78,11 @@ impl Row {
 
 /// The lines of a run.
 pub fn rows(header: &Header, run: &Run) -> Vec<Row> {
-    let Header { subject, settings, repeat, reference, machine, floor, key } = *header;
-    let [width, height] = subject.camera.resolution;
+    let Header { study_scene, settings, repeat, reference, machine, floor, key } = *header;
+    let [width, height] = study_scene.camera.resolution;
     let pixels = f64::from(width) * f64::from(height);
     let row = |(i, point): (usize, &Checkpoint)| Row {
-        scene: subject.path.display().to_string(),
+        scene: study_scene.path.display().to_string(),
         width,
         height,
         estimator: Setting::Estimator.value(settings),

@@ -1,7 +1,7 @@
 //! What was found, in sentences and numbers, for report and terminal alike.
 use std::fmt;
 
-use super::{Findings, Outcome, Slope, Standing, outcome::MeanError, setting::label};
+use super::{Eligibility, Findings, Outcome, Slope, outcome::MeanError, setting::label};
 use crate::render::settings_text::options;
 
 /// Three digits.
@@ -78,7 +78,7 @@ pub fn verdict(findings: &Findings) -> String {
 /// How sure the verdict is, and what it gains.
 pub fn certainty(findings: &Findings) -> String {
     let Some(best) = findings.best() else { return String::new() };
-    let lead = findings.outcomes.get(1).filter(|next| next.standing == best.standing).and_then(|next| findings.ratio(next));
+    let lead = findings.outcomes.get(1).filter(|next| next.eligibility == best.eligibility).and_then(|next| findings.ratio(next));
     let lead = lead.map(f64::recip);
     let mut text = match (findings.uncertainty(), lead) {
         (_, None) if best.is_exact() => "All others have noise.".to_owned(),
@@ -135,7 +135,7 @@ impl fmt::Display for Outcome {
 pub fn table(findings: &Findings) -> String {
     const PLACES: usize = 5;
     let cells = |outcome: &Outcome| {
-        let remark = if outcome.standing == Standing::Sound { "" } else { "not ranked" };
+        let remark = if outcome.eligibility == Eligibility::Sound { "" } else { "not ranked" };
         let ratio = findings.ratio(outcome).map_or_else(|| "–".to_owned(), significant);
         let last = outcome.last();
         let [seconds, efficiency] = [last.seconds, outcome.efficiency()].map(significant);

@@ -30,7 +30,7 @@ pub use self::{
     stress::KeptScene,
 };
 #[cfg(test)]
-use crate::scene::Fault;
+use crate::scene::InjectedFault;
 use crate::{
     report::Figure,
     sampling::hash::{GOLDEN, hash_one},
@@ -63,7 +63,7 @@ pub struct Validation {
     /// The number of the next measurement: the section in the upper half.
     measurement: AtomicU32,
     #[cfg(test)]
-    fault: Option<Fault>,
+    fault: Option<InjectedFault>,
 }
 
 /// A claim and what became of it.

@@ -7,7 +7,7 @@ use super::*;
 const CONCERNED: [usize; 4] = [0, 2, 3, 4];
 
 /// The places of sections that fail.
-fn red(fault: Option<Fault>) -> Vec<usize> {
+fn red(fault: Option<InjectedFault>) -> Vec<usize> {
     let validation = Validation { fault, ..Validation::new(Effort::Quick, None, 0) };
     let sections = validation.run_these(&CONCERNED.map(|place| sections::ALL[place]), |_, _| ());
     CONCERNED.into_iter().zip(&sections).filter(|(_, section)| !section.holds()).map(|(place, _)| place).collect()
@@ -20,24 +20,24 @@ fn without_a_mistake_all_statements_hold() {
 
 #[test]
 fn a_wrong_density_is_noticed() {
-    assert_eq!(red(Some(Fault::WrongPdf)), CONCERNED);
+    assert_eq!(red(Some(InjectedFault::WrongPdf)), CONCERNED);
 }
 
 #[test]
 fn a_dropped_cosine_is_noticed() {
-    let red = red(Some(Fault::DroppedCosine));
+    let red = red(Some(InjectedFault::DroppedCosine));
     assert!(red.contains(&0) && red.contains(&3), "{red:?}");
 }
 
 #[test]
 fn roulette_without_weights_is_noticed() {
-    let red = red(Some(Fault::NoReweighting));
+    let red = red(Some(InjectedFault::NoReweighting));
     assert!(red.contains(&2) && !red.contains(&0) && !red.contains(&3), "{red:?}");
 }
 
 #[test]
 fn a_cap_that_is_off_by_one_is_noticed() {
-    let red = red(Some(Fault::OneBounceMore));
+    let red = red(Some(InjectedFault::OneBounceMore));
     assert!(red.contains(&2) && !red.contains(&0), "{red:?}");
 }
 

@@ -1,5 +1,5 @@
 //! The header of a PLY file, which declares the layout of its values.
-use super::super::{Flaw, Place};
+use super::super::{ModelFormatError, Place};
 use crate::quote;
 
 /// Encoding of the values.
@@ -97,7 +97,7 @@ pub struct Header {
 }
 
 impl Header {
-    pub fn read(bytes: &[u8]) -> Result<Header, Flaw> {
+    pub fn read(bytes: &[u8]) -> Result<Header, ModelFormatError> {
         let mut header = Header { encoding: Encoding::Text, elements: Vec::new(), end: 0, lines: 0 };
         let mut encoding = None;
         let end_of_line = end_of_line(bytes);
@@ -198,6 +198,6 @@ fn end_of_line(bytes: &[u8]) -> u8 {
     }
 }
 
-fn unknown(place: Place, line: &[u8]) -> Flaw {
+fn unknown(place: Place, line: &[u8]) -> ModelFormatError {
     place.broken(format!("{} is not a line of a PLY 1.0 header", quote::bytes(line)))
 }

@@ -9,7 +9,7 @@ use self::{
     header::{Element, Encoding, Header, Kind, Layout},
     values::{Binary, Text, Values},
 };
-use super::{Flaw, Model};
+use super::{Model, ModelFormatError};
 use crate::memory::{Reservation, TooMuch};
 
 /// Whether the file begins with the signature of PLY.
@@ -18,7 +18,7 @@ pub(super) fn is_ply(bytes: &[u8]) -> bool {
     line.is_some_and(|line| line.trim_ascii_end().eq_ignore_ascii_case(b"ply"))
 }
 
-pub(super) fn decode(bytes: &[u8]) -> Result<Model, Flaw> {
+pub(super) fn decode(bytes: &[u8]) -> Result<Model, ModelFormatError> {
     let header = Header::read(bytes)?;
     match header.encoding {
         Encoding::Text => read(&header, Text::new(bytes, header.end, header.lines)),
@@ -27,7 +27,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Model, Flaw> {
     }
 }
 
-fn read(header: &Header, mut values: impl Values) -> Result<Model, Flaw> {
+fn read(header: &Header, mut values: impl Values) -> Result<Model, ModelFormatError> {
     let mut model = Model::default();
     let mut room = Reservation::none();
     let vertices = header.element("vertex").map_or(0, |element| element.count);
@@ -43,7 +43,7 @@ fn read(header: &Header, mut values: impl Values) -> Result<Model, Flaw> {
 }
 
 /// Rejects counts that do not fit into the rest of the file, before memory or time is spent on them.
-fn check_count<V: Values>(element: &Element, values: &V) -> Result<(), Flaw> {
+fn check_count<V: Values>(element: &Element, values: &V) -> Result<(), ModelFormatError> {
     let least = element.properties.iter().map(|property| V::least_bytes(property.layout.head())).sum::<usize>() as u64;
     // A text's last value needs no separator.
     if element.count.saturating_mul(least) > values.left() as u64 + 1 {
@@ -61,7 +61,12 @@ fn slot(name: &str) -> Option<usize> {
     names.iter().position(|names| names.contains(&name.as_str()))
 }
 
-fn read_vertices(element: &Element, values: &mut impl Values, model: &mut Model, room: &mut Reservation) -> Result<(), Flaw> {
+fn read_vertices(
+    element: &Element,
+    values: &mut impl Values,
+    model: &mut Model,
+    room: &mut Reservation,
+) -> Result<(), ModelFormatError> {
     let mut is_there = [false; 8];
     // Of properties that mean the same the first counts.
     let mut wanted = |name: &str| slot(name).filter(|slot| !std::mem::replace(&mut is_there[*slot], true));
@@ -70,7 +75,7 @@ fn read_vertices(element: &Element, values: &mut impl Values, model: &mut Model,
     let mut uvs = is_there[6..].iter().all(|there| *there).then(Vec::new);
     let mut vertex = [0.0; 8];
     for index in 0..element.count {
-        read_vertex(&slots, values, &mut vertex).map_err(|flaw| in_element(flaw, &element.name, index))?;
+        read_vertex(&slots, values, &mut vertex).map_err(|problem| in_element(problem, &element.name, index))?;
         let [x, y, z, nx, ny, nz, u, v] = vertex;
         room.push(&mut model.vertices, [x, y, z], "vertices")?;
         normals.iter_mut().try_for_each(|normals| room.push(normals, [nx, ny, nz], "normals"))?;
@@ -80,7 +85,11 @@ fn read_vertices(element: &Element, values: &mut impl Values, model: &mut Model,
     Ok(())
 }
 
-fn read_vertex(slots: &[(Layout, Option<usize>)], values: &mut impl Values, vertex: &mut [f32; 8]) -> Result<(), Flaw> {
+fn read_vertex(
+    slots: &[(Layout, Option<usize>)],
+    values: &mut impl Values,
+    vertex: &mut [f32; 8],
+) -> Result<(), ModelFormatError> {
     for (layout, slot) in slots {
         match (layout, slot) {
             (Layout::One(kind), Some(slot)) => {
@@ -104,7 +113,7 @@ fn read_faces(
     values: &mut impl Values,
     triangles: &mut Vec<[u32; 3]>,
     room: &mut Reservation,
-) -> Result<(), Flaw> {
+) -> Result<(), ModelFormatError> {
     for index in 0..element.count {
         for property in &element.properties {
             let read = match property.layout {
@@ -114,7 +123,7 @@ fn read_faces(
                 }
                 layout => skip_property(layout, values),
             };
-            read.map_err(|flaw| in_element(flaw, &element.name, index))?;
+            read.map_err(|problem| in_element(problem, &element.name, index))?;
         }
     }
     Ok(())
@@ -126,7 +135,7 @@ fn read_polygon(
     vertices: u64,
     values: &mut impl Values,
     mut add: impl FnMut([u32; 3]) -> Result<(), TooMuch>,
-) -> Result<(), Flaw> {
+) -> Result<(), ModelFormatError> {
     let place = values.place();
     let corners = values.integer(count)?;
     if corners < 3 {
@@ -149,20 +158,20 @@ fn read_polygon(
     Ok(())
 }
 
-fn skip(element: &Element, values: &mut impl Values) -> Result<(), Flaw> {
+fn skip(element: &Element, values: &mut impl Values) -> Result<(), ModelFormatError> {
     // Else any count of elements that are nothing would be counted through.
     if element.properties.is_empty() {
         return Ok(());
     }
     for index in 0..element.count {
         for property in &element.properties {
-            skip_property(property.layout, values).map_err(|flaw| in_element(flaw, &element.name, index))?;
+            skip_property(property.layout, values).map_err(|problem| in_element(problem, &element.name, index))?;
         }
     }
     Ok(())
 }
 
-fn skip_property(layout: Layout, values: &mut impl Values) -> Result<(), Flaw> {
+fn skip_property(layout: Layout, values: &mut impl Values) -> Result<(), ModelFormatError> {
     match layout {
         Layout::One(kind) => values.skip(kind, 1),
         Layout::List(count, kind) => {
@@ -175,9 +184,9 @@ fn skip_property(layout: Layout, values: &mut impl Values) -> Result<(), Flaw> {
 }
 
 /// Adds the element to an error, counted from 0.
-fn in_element(flaw: Flaw, name: &str, index: u64) -> Flaw {
-    match flaw {
-        Flaw::Broken(place, reason) => place.broken(format!("{name} {index}: {reason}")),
-        flaw => flaw,
+fn in_element(problem: ModelFormatError, name: &str, index: u64) -> ModelFormatError {
+    match problem {
+        ModelFormatError::Broken(place, reason) => place.broken(format!("{name} {index}: {reason}")),
+        problem => problem,
     }
 }

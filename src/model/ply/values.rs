@@ -1,6 +1,6 @@
 //! Readers of the values of a PLY file, as text or binary.
 use super::{
-    super::{Flaw, Place, number},
+    super::{ModelFormatError, Place, number},
     header::Kind,
 };
 use crate::quote;
@@ -16,12 +16,12 @@ pub trait Values {
     fn left(&self) -> usize;
 
     /// A number, which may be infinite or NaN.
-    fn number(&mut self, kind: Kind) -> Result<f32, Flaw>;
+    fn number(&mut self, kind: Kind) -> Result<f32, ModelFormatError>;
 
     /// A whole number of an integer type.
-    fn integer(&mut self, kind: Kind) -> Result<i64, Flaw>;
+    fn integer(&mut self, kind: Kind) -> Result<i64, ModelFormatError>;
 
-    fn skip(&mut self, kind: Kind, count: u64) -> Result<(), Flaw>;
+    fn skip(&mut self, kind: Kind, count: u64) -> Result<(), ModelFormatError>;
 }
 
 const ENDS: &str = "the file ends too early";
@@ -49,7 +49,7 @@ impl<'a> Text<'a> {
     }
 
     /// Converts the next word and advances.
-    fn word<T>(&mut self, what: &str, convert: impl Fn(&str) -> Option<T>) -> Result<T, Flaw> {
+    fn word<T>(&mut self, what: &str, convert: impl Fn(&str) -> Option<T>) -> Result<T, ModelFormatError> {
         let length = self.rest.iter().position(u8::is_ascii_whitespace).unwrap_or(self.rest.len());
         let (word, rest) = self.rest.split_at(length);
         if word.is_empty() {
@@ -77,15 +77,15 @@ impl Values for Text<'_> {
         self.rest.len()
     }
 
-    fn number(&mut self, _: Kind) -> Result<f32, Flaw> {
+    fn number(&mut self, _: Kind) -> Result<f32, ModelFormatError> {
         self.word("a number", number::real)
     }
 
-    fn integer(&mut self, _: Kind) -> Result<i64, Flaw> {
+    fn integer(&mut self, _: Kind) -> Result<i64, ModelFormatError> {
         self.word("a whole number", number::whole)
     }
 
-    fn skip(&mut self, _: Kind, count: u64) -> Result<(), Flaw> {
+    fn skip(&mut self, _: Kind, count: u64) -> Result<(), ModelFormatError> {
         (0..count).try_for_each(|_| self.word("a value", |_| Some(())))
     }
 }
@@ -102,7 +102,7 @@ impl<'a, const BIG_ENDIAN: bool> Binary<'a, BIG_ENDIAN> {
     }
 
     /// The next bytes in little-endian order.
-    fn bytes<const N: usize>(&mut self) -> Result<[u8; N], Flaw> {
+    fn bytes<const N: usize>(&mut self) -> Result<[u8; N], ModelFormatError> {
         let Some((bytes, rest)) = self.rest.split_first_chunk::<N>() else {
             return Err(Place::Byte(self.length).broken(ENDS));
         };
@@ -128,7 +128,7 @@ impl<const BIG_ENDIAN: bool> Values for Binary<'_, BIG_ENDIAN> {
         self.rest.len()
     }
 
-    fn number(&mut self, kind: Kind) -> Result<f32, Flaw> {
+    fn number(&mut self, kind: Kind) -> Result<f32, ModelFormatError> {
         Ok(match kind {
             Kind::F32 => f32::from_le_bytes(self.bytes()?),
             Kind::F64 => f64::from_le_bytes(self.bytes()?) as f32,
@@ -136,7 +136,7 @@ impl<const BIG_ENDIAN: bool> Values for Binary<'_, BIG_ENDIAN> {
         })
     }
 
-    fn integer(&mut self, kind: Kind) -> Result<i64, Flaw> {
+    fn integer(&mut self, kind: Kind) -> Result<i64, ModelFormatError> {
         Ok(match kind {
             Kind::I8 => i8::from_le_bytes(self.bytes()?).into(),
             Kind::U8 => u8::from_le_bytes(self.bytes()?).into(),
@@ -148,7 +148,7 @@ impl<const BIG_ENDIAN: bool> Values for Binary<'_, BIG_ENDIAN> {
         })
     }
 
-    fn skip(&mut self, kind: Kind, count: u64) -> Result<(), Flaw> {
+    fn skip(&mut self, kind: Kind, count: u64) -> Result<(), ModelFormatError> {
         let rest = usize::try_from(count).ok().and_then(|count| self.rest.get(count.checked_mul(kind.size())?..));
         self.rest = rest.ok_or_else(|| Place::Byte(self.length).broken(ENDS))?;
         Ok(())

@@ -4,7 +4,7 @@ use crate::{
     report::sheet::{Cell, sheet},
     scene::RenderSettings,
     study::{
-        Findings, Machine, Outcome, Standing, StudyError, Subject, differing_labels,
+        Eligibility, Findings, Machine, Outcome, StudyError, StudyScene, differing_labels,
         measure::Bench,
         report,
         setting::{Setting, label},
@@ -15,7 +15,7 @@ use crate::{
 pub const CAPS: [Option<u32>; 5] = [Some(0), Some(1), Some(2), Some(5), None];
 
 pub struct Exhibits<'a> {
-    pub subject: &'a Subject,
+    pub study_scene: &'a StudyScene,
     /// By the setting that they are about.
     pub findings: &'a [(Setting, Findings)],
     pub pictures: [Picture; 2],
@@ -79,7 +79,7 @@ impl Exhibits<'_> {
 
     /// How much was rendered, the same for all findings.
     pub fn extent(&self) -> String {
-        let [width, height] = self.subject.camera.resolution;
+        let [width, height] = self.study_scene.camera.resolution;
         format!("{width} × {height} pixels, up to {} samples a pixel, {} runs each", self.spp, self.repeats)
     }
 
@@ -97,13 +97,13 @@ impl Exhibits<'_> {
 
     /// What a reader must know of a row before its numbers.
     pub fn remark(&self, outcome: &Outcome) -> String {
-        let of_standing = match outcome.standing {
-            Standing::TooNoisy => "error near that of a black picture".to_owned(),
+        let of_eligibility = match outcome.eligibility {
+            Eligibility::TooNoisy => "error near that of a black picture".to_owned(),
             _ => report::remark(outcome),
         };
         let said = |holds: bool, remark: &str| if holds { remark.to_owned() } else { String::new() };
         let remarks = [
-            of_standing,
+            of_eligibility,
             said(outcome.is_exact(), "no noise"),
             said(self.has_infinite_variance(outcome), "variance may be infinite"),
             said(outcome.mean_error.has_heavy_tails, "heavy tails"),
@@ -112,7 +112,7 @@ impl Exhibits<'_> {
     }
 
     fn has_infinite_variance(&self, outcome: &Outcome) -> bool {
-        self.subject.scene.infinite_variance(&outcome.settings).is_some()
+        self.study_scene.scene.infinite_variance(&outcome.settings).is_some()
     }
 
     /// Whether the variance that samples show bounds anything: not where it may be infinite, nor where few samples make up most of it.

@@ -16,8 +16,8 @@ use std::{
 pub use self::chapter::Chapter;
 use self::exhibits::{CAPS, Exhibits, pictures};
 use super::{
-    Findings, Lists, Machine, Plan, Progress, Store, Study, StudyError, Subject, measure::Bench, setting::Setting,
-    subject::reserve,
+    Findings, Lists, Machine, Plan, Progress, Store, Study, StudyError, StudyScene, measure::Bench, setting::Setting,
+    study_scene::reserve,
 };
 use crate::{
     measure::Floor,
@@ -65,31 +65,32 @@ fn topics() -> [Topic; 6] {
 }
 
 /// Room for the chapter: what is measured, and at last two films with the pictures of two sheets.
-pub fn reserve_chapter(subject: &Subject) -> Result<[Reservation; 4], TooMuch> {
+pub fn reserve_chapter(study_scene: &StudyScene) -> Result<[Reservation; 4], TooMuch> {
     /// Of a pixel of a picture: its codes, and its part of a sheet with margins.
     const PIXEL: u64 = 10;
-    let [width, height] = subject.camera.resolution;
+    let [width, height] = study_scene.camera.resolution;
     let count = SPP.end().ilog2() as usize / 2 + 1 + CAPS.len();
     let bytes = PIXEL * count as u64 * u64::from(width) * u64::from(height);
     let cells = memory::reserve(format_args!("{count} pictures of {width} × {height} pixels"), bytes)?;
-    let [film, reference] = reserve(std::slice::from_ref(subject))?;
+    let [film, reference] = reserve(std::slice::from_ref(study_scene))?;
     Ok([film, reference, Film::reserve([width, height])?, cells])
 }
 
 /// Measures everything. `observe` is told what is going on, and the share of it that is done.
 pub fn collect(
     plan: &EvidencePlan,
-    subject: Subject,
+    study_scene: StudyScene,
     (folder, store): (&Path, &mut Store),
     (threads, machine): (&Threads, &Machine),
     stop: &(dyn Fn() -> bool + Sync),
     observe: &mut dyn FnMut(&str, f64),
 ) -> Result<Chapter, StudyError> {
-    let subjects = [subject];
-    let [subject] = &subjects;
-    let bench = Bench { scene: &subject.scene, camera: &subject.camera, threads, stop };
+    let study_scenes = [study_scene];
+    let [study_scene] = &study_scenes;
+    let bench = Bench { scene: &study_scene.scene, camera: &study_scene.camera, threads, stop };
     let topics = topics();
-    let runs = topics.iter().map(|topic| topic.lists.combinations(subject.scene.settings).len()).sum::<usize>() as u32 * REPEATS;
+    let runs =
+        topics.iter().map(|topic| topic.lists.combinations(study_scene.scene.settings).len()).sum::<usize>() as u32 * REPEATS;
     let study_plan = |lists: Lists, spp: u32| Plan {
         lists,
         spp,
@@ -100,14 +101,14 @@ pub fn collect(
     observe("trying out how long a sample takes", 0.0);
     let first = study_plan(topics[0].lists.clone(), *SPP.end());
     let first = Study { plan: &first, folder, threads, machine, stop };
-    let spp = samples(&first, subject, store, plan.time.mul_f64(FOR_RUNS / f64::from(runs)))?;
+    let spp = samples(&first, study_scene, store, plan.time.mul_f64(FOR_RUNS / f64::from(runs)))?;
     let mut findings: Vec<(Setting, Findings)> = Vec::new();
     let mut done = 0;
     for topic in topics {
-        let about = format!("{} of {}", topic.setting.name(), subject.title());
+        let about = format!("{} of {}", topic.setting.name(), study_scene.title());
         let plan = study_plan(topic.lists, spp);
         let study = Study { plan: &plan, folder, threads, machine, stop };
-        let found = study.run(&subjects, store, &mut |progress| {
+        let found = study.run(&study_scenes, store, &mut |progress| {
             let share = match progress {
                 Progress::Reference { share, .. } => (1.0 - FOR_RUNS - FOR_PICTURES) * share,
                 Progress::Planned { found, .. } => {
@@ -127,16 +128,16 @@ pub fn collect(
     observe("pictures", 1.0 - FOR_PICTURES);
     let pictures = pictures(bench, spp, plan.display)?;
     observe("pictures", 1.0);
-    Ok(Chapter::new(&Exhibits { subject, findings: &findings, pictures, spp, repeats: REPEATS, machine }))
+    Ok(Chapter::new(&Exhibits { study_scene, findings: &findings, pictures, spp, repeats: REPEATS, machine }))
 }
 
 /// Samples a pixel of the longest runs: as many as those that the store has of this study, since a stopwatch may round to another power of
 /// two than it did before; else as many as a run of this time has.
-fn samples(study: &Study, subject: &Subject, store: &Store, time: Duration) -> Result<u32, StudyError> {
+fn samples(study: &Study, study_scene: &StudyScene, store: &Store, time: Duration) -> Result<u32, StudyError> {
     let candidates = (SPP.start().ilog2()..=SPP.end().ilog2()).map(|power| 1 << power);
     let Study { threads, stop, .. } = *study;
-    let bench = Bench { scene: &subject.scene, camera: &subject.camera, threads, stop };
-    study.spp_in(store, subject, candidates)?.map_or_else(|| longest(bench, time), Ok)
+    let bench = Bench { scene: &study_scene.scene, camera: &study_scene.camera, threads, stop };
+    study.spp_in(store, study_scene, candidates)?.map_or_else(|| longest(bench, time), Ok)
 }
 
 /// The power of two that is nearest to the samples of a run of this time, by the settings that most runs have.

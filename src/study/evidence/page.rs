@@ -12,8 +12,8 @@ figure table { width: auto; }
 
 /// One page that opens offline.
 pub fn html(exhibits: &Exhibits, tables: &[Table], plots: &[(String, String, Plot)]) -> String {
-    let (subject, machine) = (exhibits.subject, exhibits.machine);
-    let title = subject.title();
+    let (study_scene, machine) = (exhibits.study_scene, exhibits.machine);
+    let title = study_scene.title();
     let picture = |number: usize| {
         let picture = &exhibits.pictures[number];
         Figure { caption: picture.caption.clone(), element: img(&picture.png) }.markup()
@@ -30,7 +30,7 @@ pub fn html(exhibits: &Exhibits, tables: &[Table], plots: &[(String, String, Plo
     };
     let content = markup! {
         h1 { "Evidence: " (title) }
-        p.source { (subject.path.display()) ", " (exhibits.extent()) ". noisefall " (machine.version) ", commit " (machine.commit) ", "
+        p.source { (study_scene.path.display()) ", " (exhibits.extent()) ". noisefall " (machine.version) ", commit " (machine.commit) ", "
             (machine.date) " UTC, " (machine.threads) " threads, " (machine.simd) ", " (machine.cpu) "." }
         p { "The same folder has every plot as SVG and PNG, every sheet of pictures as PNG, every table as CSV and as a LaTeX tabular, \
              and all measurements in study.csv." }

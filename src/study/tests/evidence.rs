@@ -12,18 +12,18 @@ use crate::{
     sampling::{Directions, Sampler},
     scene::{Camera, Estimator, RenderSettings, Roulette, parse},
     study::{
-        Bench, Findings, Lists, Plan, Run, Store, Study, Subject,
+        Bench, Findings, Lists, Plan, Run, Store, Study, StudyScene,
         evidence::exhibits::{Exhibits, Picture, pictures},
         setting::Setting,
     },
 };
 
 /// A furnace of albedo 0.5, and what is true of it.
-fn furnace() -> Subject {
+fn furnace() -> StudyScene {
     let scene = parse("scene.toml", include_str!("../../../scenes/furnace.toml").to_owned()).expect("a scene");
     let camera = Camera { resolution: [8, 8], ..scene.camera };
     let known = Some((truth::Reference::Constant([2.0; 3]), "the exact radiance".to_owned()));
-    Subject { path: "scene.toml".into(), scene, camera, known, is_declared: true }
+    StudyScene { path: "scene.toml".into(), scene, camera, known, is_declared: true }
 }
 
 #[test]
@@ -52,10 +52,10 @@ fn roulettes() -> Findings {
 }
 
 fn with_exhibits<T>(findings: Findings, setting: Setting, use_them: impl FnOnce(&Exhibits) -> T) -> T {
-    let (subject, machine) = (furnace(), machine());
+    let (study_scene, machine) = (furnace(), machine());
     let pictures = ["a", "b"].map(|name| Picture { name, caption: String::new(), png: Vec::new() });
     let findings = &[(setting, findings)][..];
-    use_them(&Exhibits { subject: &subject, findings, pictures, spp: 16, repeats: 2, machine: &machine })
+    use_them(&Exhibits { study_scene: &study_scene, findings, pictures, spp: 16, repeats: 2, machine: &machine })
 }
 
 #[test]
@@ -167,7 +167,7 @@ fn exponents_and_their_widths_are_cells_of_their_own() {
 #[test]
 fn runs_are_taken_as_far_as_those_that_are_there() {
     let folder = tempfile::tempdir().expect("a folder");
-    let (subject, machine) = (furnace(), machine());
+    let (study_scene, machine) = (furnace(), machine());
     let threads = Threads::new(1, SimdLevel::best()).expect("threads");
     let plan = |spp, seconds| {
         let (lists, time) = (Lists::default(), Duration::from_secs(seconds));
@@ -176,11 +176,11 @@ fn runs_are_taken_as_far_as_those_that_are_there() {
     let [measured, again, longer] = [plan(4, 1000), plan(8, 1000), plan(8, 2000)];
     let study = Study { plan: &measured, folder: folder.path(), threads: &threads, machine: &machine, stop: &|| false };
     let found = |store: &Store, plan: &Plan| {
-        Study { plan, ..study }.spp_in(store, &subject, [2, 4, 8].into_iter()).expect("it can be looked up")
+        Study { plan, ..study }.spp_in(store, &study_scene, [2, 4, 8].into_iter()).expect("it can be looked up")
     };
     let mut store = Store::open(folder.path()).expect("an empty store");
     assert_eq!(found(&store, &again), None);
-    study.run(std::slice::from_ref(&subject), &mut store, &mut |_| {}).expect("it can be measured");
+    study.run(std::slice::from_ref(&study_scene), &mut store, &mut |_| {}).expect("it can be measured");
     assert_eq!(found(&store, &again), Some(4));
     // Whoever gives it another time wants other runs.
     assert_eq!(found(&store, &longer), None);
@@ -200,13 +200,13 @@ fn squares(png: &[u8], code: u8) -> (Option<[usize; 2]>, usize) {
 
 #[test]
 fn the_sheets_of_a_chapter_show_growing_samples_and_caps_in_their_order() {
-    let mut subject = furnace();
+    let mut study_scene = furnace();
     // Every sample of these is the partial sum of the series: 1, 1½, 1¾, … and 2.
     let exact = RenderSettings { max_bounces: Some(1), ..RenderSettings::default() };
     let (estimator, directions, roulette) = (Estimator::Path, Directions::Cosine, Roulette::Off);
-    subject.scene.settings = RenderSettings { estimator, directions, roulette, sampler: Sampler::Independent, ..exact };
+    study_scene.scene.settings = RenderSettings { estimator, directions, roulette, sampler: Sampler::Independent, ..exact };
     let threads = Threads::new(1, SimdLevel::best()).expect("threads");
-    let bench = Bench { scene: &subject.scene, camera: &subject.camera, threads: &threads, stop: &|| false };
+    let bench = Bench { scene: &study_scene.scene, camera: &study_scene.camera, threads: &threads, stop: &|| false };
     let [by_samples, by_cap] = pictures(bench, 4, Display { exposure: -2.0, ..Display::default() }).expect("two sheets");
     let code = |radiance: f64| (srgb_from_linear(radiance / 4.0) * 255.0).round() as u8;
     assert_eq!((by_samples.name, by_cap.name), ("pictures_by_samples", "pictures_by_cap"));

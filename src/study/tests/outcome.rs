@@ -2,7 +2,7 @@
 use super::ranking::{outcome, run};
 use crate::{
     scene::RenderSettings,
-    study::{Outcome, Run, Standing, outcome::Limits, slope, trial::Group, wording::mean_error},
+    study::{Eligibility, Outcome, Run, outcome::Limits, slope, trial::Group, wording::mean_error},
 };
 
 #[test]
@@ -81,8 +81,8 @@ fn an_outcome_is_the_mean_of_its_runs_where_they_end() {
     // Half the error of a black picture is the limit.
     let limits = Limits { floor: 0.0, black: 0.4, variance_of_mean: 0.0, mean: 1.0 };
     let group = || Group { settings: RenderSettings::default(), twins: Vec::new() };
-    let standing = |rel_mse| Outcome::of(group(), &[run(rel_mse, 1.0)], limits).standing;
-    assert_eq!([0.199, 0.201].map(standing), [Standing::Sound, Standing::TooNoisy]);
+    let eligibility = |rel_mse| Outcome::of(group(), &[run(rel_mse, 1.0)], limits).eligibility;
+    assert_eq!([0.199, 0.201].map(eligibility), [Eligibility::Sound, Eligibility::TooNoisy]);
 }
 
 #[test]

@@ -8,7 +8,7 @@ use crate::{
     sampling::{Directions, Sampler},
     scene::{Estimator, RenderSettings, Reuse, Roulette},
     study::{
-        Lists, Plan, StudyError, Subject, checkpoints,
+        Lists, Plan, StudyError, StudyScene, checkpoints,
         measure::{Bench, NoiseOfMean, follow, measure},
         plan::study_size,
         trial::{group, groups},
@@ -59,17 +59,17 @@ fn a_run_stops_before_a_doubling_that_takes_too_long() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("scene.toml");
     std::fs::write(&path, include_str!("../../../scenes/furnace.toml")).expect("it can be written");
-    let subject = Subject::load(&path, Some([8, 8]), None).expect("a scene");
+    let study_scene = StudyScene::load(&path, Some([8, 8]), None).expect("a scene");
     let threads = Threads::new(1, SimdLevel::best()).expect("threads");
-    let bench = Bench { scene: &subject.scene, camera: &subject.camera, threads: &threads, stop: &|| false };
+    let bench = Bench { scene: &study_scene.scene, camera: &study_scene.camera, threads: &threads, stop: &|| false };
     let lists = Lists::default();
     let plan = |time| Plan { lists: lists.clone(), spp: 16, time, repeats: 1, floor: Floor::DEFAULT };
     let reference = [[2.0; 3]; 64];
-    let run = |time| measure(bench, &subject.scene.settings, &plan(time), &reference).expect("a run");
+    let run = |time| measure(bench, &study_scene.scene.settings, &plan(time), &reference).expect("a run");
     assert_eq!(run(Duration::from_secs(1000)).checkpoints.len(), 5);
     assert_eq!(run(Duration::ZERO).checkpoints.len(), 1);
     let stopped = Bench { stop: &|| true, ..bench };
-    let ended = measure(stopped, &subject.scene.settings, &plan(Duration::MAX), &reference);
+    let ended = measure(stopped, &study_scene.scene.settings, &plan(Duration::MAX), &reference);
     assert!(matches!(ended, Err(StudyError::Interrupted)));
 }
 
@@ -102,10 +102,10 @@ fn with_furnace<T>(use_it: impl FnOnce(Bench, &RenderSettings) -> T) -> T {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("scene.toml");
     std::fs::write(&path, include_str!("../../../scenes/furnace.toml")).expect("it can be written");
-    let subject = Subject::load(&path, Some([8, 8]), None).expect("a scene");
+    let study_scene = StudyScene::load(&path, Some([8, 8]), None).expect("a scene");
     let threads = Threads::new(1, SimdLevel::best()).expect("threads");
-    let bench = Bench { scene: &subject.scene, camera: &subject.camera, threads: &threads, stop: &|| false };
-    use_it(bench, &subject.scene.settings)
+    let bench = Bench { scene: &study_scene.scene, camera: &study_scene.camera, threads: &threads, stop: &|| false };
+    use_it(bench, &study_scene.scene.settings)
 }
 
 #[test]

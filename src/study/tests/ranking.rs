@@ -9,7 +9,7 @@ use crate::{
     },
     scene::{Estimator, RenderSettings, Roulette},
     study::{
-        Checkpoint, Findings, Outcome, Run, Standing, checkpoints,
+        Checkpoint, Eligibility, Findings, Outcome, Run, checkpoints,
         fit::student_95,
         outcome::Limits,
         ranking::rank,
@@ -72,8 +72,8 @@ fn neither_biased_nor_empty_pictures_win_however_fast() {
         outcome(estimator(Estimator::Mis), &[run(0.01, 2.0), run(0.012, 2.0)]),
         outcome(estimator(Estimator::Light), &[run(0.01, 1.0), run(0.012, 1.0)]),
     ]);
-    let standings: Vec<Standing> = found.outcomes.iter().map(|outcome| outcome.standing).collect();
-    assert_eq!(standings, [Standing::Sound, Standing::Sound, Standing::TooNoisy, Standing::Biased]);
+    let eligibilities: Vec<Eligibility> = found.outcomes.iter().map(|outcome| outcome.eligibility).collect();
+    assert_eq!(eligibilities, [Eligibility::Sound, Eligibility::Sound, Eligibility::TooNoisy, Eligibility::Biased]);
     assert_eq!(found.best().map(|best| best.settings.estimator), Some(Estimator::Light));
     assert!((found.ratio(&found.outcomes[1]).expect("a ratio") - 0.5).abs() < 1e-12);
     assert!(verdict(&found).contains(": light, bsdf, sobol, roulette throughput – an error of "), "{}", verdict(&found));
@@ -91,9 +91,9 @@ fn equal_repeats_leave_no_doubt() {
         findings(vec![outcome(estimator(Estimator::Path), &clear(0.02)), outcome(estimator(Estimator::Mis), &clear(0.01))]);
     assert!((found.uncertainty().expect("repeats") - 1.0).abs() < 1e-9);
     assert_eq!(found.rivals().count(), 0);
-    let worth = found.worth(Setting::Estimator);
-    assert_eq!(worth.iter().map(|worth| worth.value.as_str()).collect::<Vec<_>>(), ["mis", "path"]);
-    assert!(found.worth(Setting::Sampler).is_empty());
+    let gains = found.gains(Setting::Estimator);
+    assert_eq!(gains.iter().map(|gain| gain.value.as_str()).collect::<Vec<_>>(), ["mis", "path"]);
+    assert!(found.gains(Setting::Sampler).is_empty());
 }
 
 #[test]
@@ -188,18 +188,18 @@ fn a_setting_is_worth_what_it_is_with_the_best_and_at_its_best() {
         of(Estimator::Path, Sampler::Sobol, 0.1),
         of(Estimator::Mis, Sampler::Independent, 0.02),
     ]);
-    let worth = |setting| {
-        let values = found.worth(setting).into_iter();
-        values.map(|worth| (worth.value, worth.alone.unwrap_or(-1.0), worth.at_best.unwrap_or(-1.0))).collect::<Vec<_>>()
+    let gains = |setting| {
+        let values = found.gains(setting).into_iter();
+        values.map(|gain| (gain.value, gain.alone.unwrap_or(-1.0), gain.at_best.unwrap_or(-1.0))).collect::<Vec<_>>()
     };
     let near = |found: &[(String, f64, f64)], exact: &[(&str, f64, f64)]| {
         let same =
             |(a, b): (&(String, f64, f64), &(&str, f64, f64))| a.0 == b.0 && (a.1 - b.1).abs() < 1e-9 && (a.2 - b.2).abs() < 1e-9;
         assert!(found.len() == exact.len() && found.iter().zip(exact).all(same), "{found:?} {exact:?}");
     };
-    near(&worth(Setting::Estimator), &[("mis", 1.0, 1.0), ("path", 0.1, 0.2)]);
-    near(&worth(Setting::Sampler), &[("sobol", 1.0, 1.0), ("independent", 0.5, 0.5)]);
-    near(&worth(Setting::Roulette), &[("throughput", 1.0, 1.0), ("off", 1.0, 1.0)]);
+    near(&gains(Setting::Estimator), &[("mis", 1.0, 1.0), ("path", 0.1, 0.2)]);
+    near(&gains(Setting::Sampler), &[("sobol", 1.0, 1.0), ("independent", 0.5, 0.5)]);
+    near(&gains(Setting::Roulette), &[("throughput", 1.0, 1.0), ("off", 1.0, 1.0)]);
     assert!(
         found.find(&RenderSettings { roulette: Roulette::Off, ..RenderSettings::default() }).is_some_and(|o| o.twins.len() == 1)
     );

@@ -11,7 +11,7 @@ use crate::{
     },
     scene::parse,
     study::{
-        Subject,
+        StudyScene,
         measure::Bench,
         reference::{Converged, identity, known, settings},
     },
@@ -19,10 +19,16 @@ use crate::{
 
 const SIZE: [u32; 2] = [32, 8];
 
-fn subject(known: Option<truth::Reference>, is_declared: bool) -> Subject {
+fn study_scene(known: Option<truth::Reference>, is_declared: bool) -> StudyScene {
     let scene = parse("scene.toml", include_str!("../../../scenes/furnace.toml").to_owned()).expect("a scene");
     let camera = crate::scene::Camera { resolution: SIZE, ..scene.camera };
-    Subject { path: "scene.toml".into(), scene, camera, known: known.map(|known| (known, "a picture".to_owned())), is_declared }
+    StudyScene {
+        path: "scene.toml".into(),
+        scene,
+        camera,
+        known: known.map(|known| (known, "a picture".to_owned())),
+        is_declared,
+    }
 }
 
 /// Radiance 2 with this variance and this estimate of relMSE.
@@ -41,7 +47,7 @@ fn rendered(variance: Option<f32>, rel_mse_estimate: Option<f64>) -> truth::Refe
 #[test]
 fn the_own_error_of_a_reference_is_what_its_file_says_of_it() {
     let own = |reference, is_declared, floor| {
-        let found = known(&subject(Some(reference), is_declared), floor).expect("it is lit").expect("it is known");
+        let found = known(&study_scene(Some(reference), is_declared), floor).expect("it is lit").expect("it is known");
         (found.rel_mse, found.is_taken_for_exact, found.variance_of_mean)
     };
     let near = |(found, taken, variance): (f64, bool, f64), exact: f64| {
@@ -63,13 +69,15 @@ fn the_own_error_of_a_reference_is_what_its_file_says_of_it() {
 #[test]
 fn a_black_reference_is_refused_and_others_have_an_identity() {
     let black = truth::Reference::Constant([0.0; 3]);
-    assert!(known(&subject(Some(black), true), Floor::DEFAULT).is_err_and(|error| error.to_string().contains("entirely black")));
-    let of = |known, spp| identity(&subject(known, true), spp);
+    assert!(
+        known(&study_scene(Some(black), true), Floor::DEFAULT).is_err_and(|error| error.to_string().contains("entirely black"))
+    );
+    let of = |known, spp| identity(&study_scene(known, true), spp);
     let constant = |x| Some(truth::Reference::Constant([x; 3]));
     assert_ne!(of(constant(1.0), 4), of(constant(2.0), 4));
     assert_eq!(of(constant(1.0), 4), of(constant(1.0), 8));
     assert_ne!(of(None, 4), of(None, 8));
-    let found = known(&subject(constant(2.0), true), Floor::Absolute(4.0)).expect("it is lit").expect("it is known");
+    let found = known(&study_scene(constant(2.0), true), Floor::Absolute(4.0)).expect("it is lit").expect("it is known");
     assert!((found.rel_mse_of_black() - 0.5).abs() < 1e-12 && found.radiance.len() == 256);
 }
 
@@ -77,12 +85,13 @@ fn a_black_reference_is_refused_and_others_have_an_identity() {
 #[test]
 fn a_converged_render_knows_its_own_error_and_is_kept() {
     let folder = tempfile::tempdir().expect("a folder");
-    let mut subject = subject(None, false);
-    subject.scene.settings.reuse = crate::scene::Reuse::Off;
+    let mut study_scene = study_scene(None, false);
+    study_scene.scene.settings.reuse = crate::scene::Reuse::Off;
     let threads = Threads::new(1, SimdLevel::best()).expect("threads");
-    let bench = Bench { scene: &subject.scene, camera: &subject.camera, threads: &threads, stop: &|| false };
+    let bench = Bench { scene: &study_scene.scene, camera: &study_scene.camera, threads: &threads, stop: &|| false };
     let reference = |spp| {
-        let converged = Converged { subject: &subject, bench, folder: folder.path(), fingerprint: 7, spp, floor: Floor::DEFAULT };
+        let converged =
+            Converged { study_scene: &study_scene, bench, folder: folder.path(), fingerprint: 7, spp, floor: Floor::DEFAULT };
         let mut shares = Vec::new();
         let found = converged.reference(&mut |share| shares.push(share)).expect("a render");
         (found, shares)
@@ -107,7 +116,7 @@ fn a_converged_render_knows_its_own_error_and_is_kept() {
     // And about that of the true error: 256 pixels of noise, more even than chance.
     let truth = compare(&found.radiance, &[[2.0; 3]; 256], Floor::DEFAULT).rel_mse;
     assert!((0.6..1.6).contains(&(found.rel_mse / truth)), "{} {truth}", found.rel_mse);
-    assert_ne!(settings(&subject).seed, subject.scene.settings.seed);
+    assert_ne!(settings(&study_scene).seed, study_scene.scene.settings.seed);
     // What is there is not rendered again; for longer renders it is too short.
     let (again, shares) = reference(4);
     assert!(shares.is_empty() && again.radiance == found.radiance && is_known(again.variance_of_mean));

@@ -6,7 +6,7 @@ use crate::{
     sampling::{Directions, Sampler},
     scene::{Estimator, RenderSettings, Reuse, Roulette, parse},
     study::{
-        Checkpoint, Findings, Lists, Machine, Outcome, Plan, Run, Subject, checkpoints, differing_labels, html, label,
+        Checkpoint, Findings, Lists, Machine, Outcome, Plan, Run, StudyScene, checkpoints, differing_labels, html, label,
         outcome::Limits,
         ranking::rank,
         reference::Reference,
@@ -48,7 +48,7 @@ fn points(rel_mse: f64, seconds: f64) -> Run {
 fn lines_of_a_run_say_all_that_it_depends_on() {
     let scene = parse("scene.toml", include_str!("../../../scenes/furnace.toml").to_owned()).expect("a scene");
     let camera = crate::scene::Camera { resolution: [20, 10], ..scene.camera };
-    let subject = Subject { path: "a/scene.toml".into(), scene, camera, known: None, is_declared: false };
+    let study_scene = StudyScene { path: "a/scene.toml".into(), scene, camera, known: None, is_declared: false };
     let settings = RenderSettings {
         estimator: Estimator::Light,
         directions: Directions::Cosine,
@@ -69,8 +69,15 @@ fn lines_of_a_run_say_all_that_it_depends_on() {
         is_taken_for_exact: false,
         floor,
     };
-    let header =
-        Header { subject: &subject, settings: &settings, repeat: 2, reference: &reference, machine: &machine(), floor, key: "k" };
+    let header = Header {
+        study_scene: &study_scene,
+        settings: &settings,
+        repeat: 2,
+        reference: &reference,
+        machine: &machine(),
+        floor,
+        key: "k",
+    };
     let written = rows(&header, &points(0.02, 8.0));
     assert_eq!(run(&written), Some(points(0.02, 8.0)));
     assert_eq!(run(&written[..4]), None);

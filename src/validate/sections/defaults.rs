@@ -18,7 +18,7 @@ use crate::{
 };
 
 /// A scene, and the exact means of the pixels in which they are known.
-struct Subject {
+struct KnownScene {
     name: &'static str,
     scene: Scene,
     exact: Vec<Option<f64>>,
@@ -93,10 +93,10 @@ fn defaults(validation: &Validation) -> RenderSettings {
     }
 }
 
-impl Subject {
-    fn constant(name: &'static str, scene: Scene, exact: f64) -> Subject {
+impl KnownScene {
+    fn constant(name: &'static str, scene: Scene, exact: f64) -> KnownScene {
         let [width, height] = scene.camera.resolution;
-        Subject { name, exact: vec![Some(exact); (width * height) as usize], scene }
+        KnownScene { name, exact: vec![Some(exact); (width * height) as usize], scene }
     }
 
     fn mean_exact(&self) -> f64 {
@@ -133,7 +133,7 @@ impl Subject {
     }
 }
 
-fn subjects() -> Vec<Subject> {
+fn subjects() -> Vec<KnownScene> {
     let (sin, cos) = 75f64.to_radians().sin_cos();
     let lamp = lit(&format!("shape.sphere = {{ center = [{sin:?}, {cos:?}, 0.0], radius = 0.3 }}"));
     let irradiance = horizon_sphere_irradiance(1.0, 0.3, 1.0, cos);
@@ -150,10 +150,10 @@ fn subjects() -> Vec<Subject> {
     let (ball, exact) = lit_ball();
     let (sphere, wall) = wall_of_sphere();
     vec![
-        Subject::constant("textured integrating sphere", sphere, wall),
-        Subject::constant("ground under a lamp", lamp, direct_light::ALBEDO / std::f64::consts::PI * irradiance),
-        Subject::constant("closed sphere", inside, 0.5),
-        Subject::constant("clear ball", glass, 1.0),
-        Subject { name: "Lambert’s ball", scene: ball, exact },
+        KnownScene::constant("textured integrating sphere", sphere, wall),
+        KnownScene::constant("ground under a lamp", lamp, direct_light::ALBEDO / std::f64::consts::PI * irradiance),
+        KnownScene::constant("closed sphere", inside, 0.5),
+        KnownScene::constant("clear ball", glass, 1.0),
+        KnownScene { name: "Lambert’s ball", scene: ball, exact },
     ]
 }

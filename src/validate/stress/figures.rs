@@ -12,22 +12,22 @@ pub fn figures(trials: &[Trial]) -> Vec<Figure> {
     let mut figures = Vec::new();
     let known = || trials.iter().filter(|trial| trial.outcome.energy.is_some());
     if trials.iter().any(|trial| trial.loss().is_some()) {
-        let at = |trial: &Trial| Some((trial.draft.size, trial.loss()?.0.max(NONE)));
+        let at = |trial: &Trial| Some((trial.trial_scene.size, trial.loss()?.0.max(NONE)));
         let caption = "The part of the light that is lost, by the last digit of the coordinates in sizes of the detail; none at all is drawn at 10⁻⁹.";
         return vec![scatter(caption, Axis::log("εS/d"), Axis::log("lost"), trials, at, |digit| 10.0 * digit)];
     }
-    if known().any(|trial| trial.draft.cap.is_some_and(|cap| cap > 1000)) {
-        let at = |trial: &Trial| Some((f64::from(trial.draft.cap?), trial.outcome.energy?.max(NONE)));
+    if known().any(|trial| trial.trial_scene.cap.is_some_and(|cap| cap > 1000)) {
+        let at = |trial: &Trial| Some((f64::from(trial.trial_scene.cap?), trial.outcome.energy?.max(NONE)));
         let caption = "Relative errors of energy by the number of bounces; none at all is drawn at 10⁻⁹. What is lost once stays lost: a leak \
                        or a drift would grow to the right.";
         figures.push(scatter(caption, Axis::log("bounces"), Axis::log("error of energy"), trials, at, |_| ENERGY));
-    } else if known().any(|trial| trial.draft.size != 1.0) {
-        let at = |trial: &Trial| Some((trial.draft.size, trial.outcome.energy?.max(NONE)));
+    } else if known().any(|trial| trial.trial_scene.size != 1.0) {
+        let at = |trial: &Trial| Some((trial.trial_scene.size, trial.outcome.energy?.max(NONE)));
         let caption = "The largest relative error of a sample of each scene, by the size of what it is about; none at all is drawn at 10⁻⁹.";
         figures.push(scatter(caption, Axis::log("size, m"), Axis::log("error of energy"), trials, at, |_| ENERGY));
     }
-    if trials.iter().any(|trial| trial.draft.size != 1.0 && trial.outcome.surfaces.worst > 0.0) {
-        let found = |trial: &Trial| (trial.draft.size, trial.outcome.surfaces.worst);
+    if trials.iter().any(|trial| trial.trial_scene.size != 1.0 && trial.outcome.surfaces.worst > 0.0) {
+        let found = |trial: &Trial| (trial.trial_scene.size, trial.outcome.surfaces.worst);
         let at = |trial: &Trial| Some(found(trial)).filter(|(_, worst)| *worst > 0.0);
         let caption =
             "The farthest that x_M of each scene was off its surface, in units of εS, by the size of what the scene is about.";

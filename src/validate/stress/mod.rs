@@ -3,7 +3,6 @@
 //! A scene is text that goes through the same reader and compiler as a user's file. It is a pure function of its family and its
 //! number: a statement that fails names it, and its text is kept.
 mod dice;
-mod draft;
 mod families;
 mod figures;
 mod statements;
@@ -11,14 +10,15 @@ mod surfaces;
 #[cfg(test)]
 mod tests;
 mod trial;
+mod trial_scene;
 
 use rayon::prelude::*;
 
 use self::{
     dice::Dice,
-    draft::{Draft, Expected},
     families::{Family, GROUPS},
     trial::Outcome,
+    trial_scene::{Expected, TrialScene},
 };
 use super::{Effort, Section, Validation};
 use crate::scene::RenderSettings;
@@ -31,7 +31,7 @@ struct Trial {
     family: &'static Family,
     name: String,
     text: String,
-    draft: Draft,
+    trial_scene: TrialScene,
     outcome: Outcome,
 }
 
@@ -45,7 +45,7 @@ impl Trial {
 
     /// The part of the light that is lost, and what may be.
     fn loss(&self) -> Option<(f64, f64)> {
-        match self.draft.expected {
+        match self.trial_scene.expected {
             Expected::Within { loss, .. } => Some((self.outcome.lost?, loss)),
             _ => None,
         }
@@ -86,11 +86,11 @@ impl Validation {
             ..settings
         };
         let trial = |number: u32| {
-            let draft = (family.draft)(&mut Dice::new(family.name, number));
+            let trial_scene = (family.trial_scene)(&mut Dice::new(family.name, number));
             let name = format!("{}-{number}", family.name);
-            let text = format!("format = 1\ntitle = 'stress: {name}'\n{}", draft.text);
-            let outcome = trial::run(&text, &draft, settings);
-            Trial { family, name, text, draft, outcome }
+            let text = format!("format = 1\ntitle = 'stress: {name}'\n{}", trial_scene.text);
+            let outcome = trial::run(&text, &trial_scene, settings);
+            Trial { family, name, text, trial_scene, outcome }
         };
         (0..count).into_par_iter().map(trial).collect()
     }

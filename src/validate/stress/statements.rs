@@ -142,9 +142,9 @@ pub(super) fn count(n: u64) -> String {
 mod tests {
     use super::{super::families::random, *};
     use crate::validate::stress::{
-        draft::{Draft, Expected},
         surfaces::Comparison,
         trial::Outcome,
+        trial_scene::{Expected, TrialScene},
     };
 
     #[test]
@@ -153,7 +153,7 @@ mod tests {
             family: &random::FAMILIES[0],
             name: name.to_owned(),
             text: String::new(),
-            draft: Draft::of(String::new(), Expected::Valid),
+            trial_scene: TrialScene::of(String::new(), Expected::Valid),
             outcome: Outcome {
                 surfaces: Comparison { rays: 3, worst, ..Comparison::default() },
                 z: Some(-worst),
@@ -172,7 +172,7 @@ mod tests {
 
     fn trial(expected: Expected, outcome: Outcome) -> Trial {
         let (family, name) = (&random::FAMILIES[0], "it".to_owned());
-        Trial { family, name, text: String::new(), draft: Draft::of(String::new(), expected), outcome }
+        Trial { family, name, text: String::new(), trial_scene: TrialScene::of(String::new(), expected), outcome }
     }
 
     #[test]

@@ -1,17 +1,21 @@
 //! Mistakes in the integrator turn scenes red; every scene can be had again. That a tenth of them holds is tested by the program.
 use super::{Dice, GROUPS, KeptScene, Trial};
 use crate::{
-    scene::Fault,
+    scene::InjectedFault,
     validate::{Effort, Validation},
 };
 
-fn quick(fault: Fault) -> Validation {
+fn quick(fault: InjectedFault) -> Validation {
     Validation { fault: Some(fault), ..Validation::new(Effort::Quick, None, 0) }
 }
 
 #[test]
 fn mistakes_of_the_integrator_are_noticed_and_their_scenes_kept() {
-    for (fault, name) in [(Fault::WrongPdf, "rough"), (Fault::OneBounceMore, "spheres"), (Fault::NoReweighting, "estimators")] {
+    for (fault, name) in [
+        (InjectedFault::WrongPdf, "rough"),
+        (InjectedFault::OneBounceMore, "spheres"),
+        (InjectedFault::NoReweighting, "estimators"),
+    ] {
         let family = GROUPS.iter().flat_map(|group| group.families).find(|family| family.name == name).expect("a family");
         let kept: Vec<KeptScene> = quick(fault).trials(family).iter().filter_map(Trial::kept).collect();
         assert!(!kept.is_empty(), "{fault:?} is not noticed by {name}");
@@ -31,7 +35,7 @@ fn large_numbers_are_said_in_words() {
 #[test]
 fn scenes_are_functions_of_family_and_number() {
     for family in GROUPS.iter().flat_map(|group| group.families) {
-        let text = |number: u32| (family.draft)(&mut Dice::new(family.name, number)).text;
+        let text = |number: u32| (family.trial_scene)(&mut Dice::new(family.name, number)).text;
         assert_eq!(text(3), text(3));
         assert_ne!(text(3), text(4), "{}", family.name);
     }

@@ -6,8 +6,8 @@ use std::{
 };
 
 use super::{
-    draft::{Draft, Expected},
     surfaces::{Comparison, compare},
+    trial_scene::{Expected, TrialScene},
 };
 use crate::{
     integrator::{Batch, TILE, Work, trace},
@@ -50,10 +50,10 @@ thread_local! {
     static BATCH: RefCell<Batch> = RefCell::default();
 }
 
-/// Tries the scene of this text, which is that of the draft after its first lines.
-pub fn run(text: &str, draft: &Draft, settings: impl Fn(RenderSettings) -> RenderSettings) -> Outcome {
+/// Tries the scene of this text, which is that of the trial scene after its first lines.
+pub fn run(text: &str, trial_scene: &TrialScene, settings: impl Fn(RenderSettings) -> RenderSettings) -> Outcome {
     let start = Instant::now();
-    let tried = catch_unwind(AssertUnwindSafe(|| try_scene(text, draft, settings, start)));
+    let tried = catch_unwind(AssertUnwindSafe(|| try_scene(text, trial_scene, settings, start)));
     let mut outcome = tried.unwrap_or_else(|panic| Outcome::trouble(format!("panics: {}", panic_message(&*panic))));
     outcome.seconds = start.elapsed().as_secs_f64();
     if outcome.trouble.is_none() && start.elapsed() > PATIENCE {
@@ -68,10 +68,15 @@ impl Outcome {
     }
 }
 
-fn try_scene(text: &str, draft: &Draft, settings: impl Fn(RenderSettings) -> RenderSettings, start: Instant) -> Outcome {
-    let may_be_refused = matches!(draft.expected, Expected::Refused | Expected::ValidOrRefused);
+fn try_scene(
+    text: &str,
+    trial_scene: &TrialScene,
+    settings: impl Fn(RenderSettings) -> RenderSettings,
+    start: Instant,
+) -> Outcome {
+    let may_be_refused = matches!(trial_scene.expected, Expected::Refused | Expected::ValidOrRefused);
     let scene = match parse("stress", text.to_owned()) {
-        Ok(_) if draft.expected == Expected::Refused => return Outcome::trouble("is not refused"),
+        Ok(_) if trial_scene.expected == Expected::Refused => return Outcome::trouble("is not refused"),
         Ok(scene) => scene,
         Err(error) if may_be_refused && error.line_column().is_some() && !error.to_string().is_empty() => {
             return Outcome { refused: true, ..Outcome::default() };
@@ -79,23 +84,29 @@ fn try_scene(text: &str, draft: &Draft, settings: impl Fn(RenderSettings) -> Ren
         Err(error) => return Outcome::trouble(format!("is refused: {error}")),
     };
     let (settings, rays) = (settings(scene.settings), scene.rays(&scene.camera));
-    let Some(outcome) = render(&scene, &settings, &rays, draft, start) else {
+    let Some(outcome) = render(&scene, &settings, &rays, trial_scene, start) else {
         return Outcome::trouble(format!("is not done after {} s", PATIENCE.as_secs()));
     };
-    let surfaces = compare(&scene, &settings, &rays, matches!(draft.expected, Expected::Everywhere(_)));
+    let surfaces = compare(&scene, &settings, &rays, matches!(trial_scene.expected, Expected::Everywhere(_)));
     Outcome { surfaces, ..outcome }
 }
 
 /// None if it takes too long.
-fn render(scene: &Scene, settings: &RenderSettings, rays: &CameraRays, draft: &Draft, start: Instant) -> Option<Outcome> {
+fn render(
+    scene: &Scene,
+    settings: &RenderSettings,
+    rays: &CameraRays,
+    trial_scene: &TrialScene,
+    start: Instant,
+) -> Option<Outcome> {
     let size = scene.camera.resolution.map(|side| side.min(TILE));
     let mut outcome = Outcome::default();
     let (mut sum, mut square, mut worst) = (0.0, 0.0, 0.0f64);
-    let exact = match draft.expected {
+    let exact = match trial_scene.expected {
         Expected::Everywhere(exact) | Expected::Mean(exact) | Expected::Within { radiance: exact, .. } => exact,
         _ => 1.0,
     };
-    for sample in 0..draft.spp {
+    for sample in 0..trial_scene.spp {
         let work = Work::tile(scene, rays, settings, [0, 0], size, sample);
         BATCH.with_borrow_mut(|batch| {
             trace(SimdLevel::best(), &work, batch, &|| start.elapsed() > PATIENCE).ok()?;
@@ -115,7 +126,7 @@ fn render(scene: &Scene, settings: &RenderSettings, rays: &CameraRays, draft: &D
             Some(())
         })?;
     }
-    match draft.expected {
+    match trial_scene.expected {
         Expected::Everywhere(_) => outcome.energy = Some(worst),
         Expected::Within { .. } => outcome.lost = Some((sum / outcome.samples as f64).abs()),
         Expected::Mean(_) => outcome.z = Some(deviation(sum, square, outcome.samples as f64)),

@@ -7,22 +7,22 @@ use super::{
 };
 use crate::validate::stress::{
     dice::Dice,
-    draft::{Draft, Furnace, camera_at, camera_towards, v},
+    trial_scene::{Furnace, TrialScene, camera_at, camera_towards, v},
 };
 
 pub const FAMILIES: [Family; 3] = [
-    Family { name: "coincident", what: "boxes and balls that touch or nearly do", scenes: 120, draft: coincident },
+    Family { name: "coincident", what: "boxes and balls that touch or nearly do", scenes: 120, trial_scene: coincident },
     Family {
         name: "slivers",
         what: "needles, thin boxes and slivers, 10⁻⁷ to 10⁻² as thick as long",
         scenes: 120,
-        draft: slivers,
+        trial_scene: slivers,
     },
-    Family { name: "grazing", what: "views along floors from 10⁻⁶ m above", scenes: 80, draft: grazing },
+    Family { name: "grazing", what: "views along floors from 10⁻⁶ m above", scenes: 80, trial_scene: grazing },
 ];
 
 /// A pile of boxes on a floor with a ball on top, each a gap above the last: nothing, some rounding, or a little, either way.
-fn coincident(dice: &mut Dice) -> Draft {
+fn coincident(dice: &mut Dice) -> TrialScene {
     let size = dice.decade(-2.0, 3.0);
     let mut room = Furnace::new(dice);
     room.wall(&format!("shape.cuboid = {{ min = {}, max = {} }}", v(DVec3::splat(-size)), v(DVec3::splat(size))));
@@ -50,10 +50,10 @@ fn coincident(dice: &mut Dice) -> Draft {
     room.body(&sphere(DVec3::new(0.0, height + radius + gap(dice), 0.0), radius));
     let eye = DVec3::new(dice.within(-0.9, 0.6), 0.8, dice.within(-0.9, 0.9)) * size;
     let camera = camera_at(dice, eye, size);
-    room.draft(dice, &camera, size)
+    room.trial_scene(dice, &camera, size)
 }
 
-fn slivers(dice: &mut Dice) -> Draft {
+fn slivers(dice: &mut Dice) -> TrialScene {
     let size = dice.decade(-2.0, 3.0);
     let mut room = Furnace::new(dice);
     room.wall(&closed(dice, DVec3::ZERO, size));
@@ -63,7 +63,7 @@ fn slivers(dice: &mut Dice) -> Draft {
     let eye = dice.direction() * size * 0.49;
     let middle = dice.in_ball() * size * 0.1;
     let camera = camera_towards(dice, eye, middle);
-    room.draft(dice, &camera, size)
+    room.trial_scene(dice, &camera, size)
 }
 
 /// Something within 0.4 of the middle.
@@ -102,13 +102,13 @@ fn sliver(dice: &mut Dice, room: &mut Furnace, size: f64) {
 }
 
 /// Along a floor that is flat, or a ball so large that it nearly is, with balls half sunk in it.
-fn grazing(dice: &mut Dice) -> Draft {
+fn grazing(dice: &mut Dice) -> TrialScene {
     // Walls at right angles to the floor: what is lost at acute ones is the subject of another family.
     along_a_floor(dice, "shape.cuboid = { min = [-10.0, -10.0, -10.0], max = [10.0, 10.0, 10.0] }").0
 }
 
 /// A view along a floor within walls, and its height.
-pub fn along_a_floor(dice: &mut Dice, walls: &str) -> (Draft, f64) {
+pub fn along_a_floor(dice: &mut Dice, walls: &str) -> (TrialScene, f64) {
     let mut room = Furnace::new(dice);
     room.wall(walls);
     let radius = dice.decade(4.0, 9.0);
@@ -132,5 +132,5 @@ pub fn along_a_floor(dice: &mut Dice, walls: &str) -> (Draft, f64) {
         height - down,
         dice.pick(&[0.01, 1.0, 30.0, 120.0])
     );
-    (room.draft(dice, &camera, height), height)
+    (room.trial_scene(dice, &camera, height), height)
 }

@@ -7,18 +7,21 @@ use super::{
 };
 use crate::validate::stress::{
     dice::Dice,
-    draft::{Draft, Expected, Furnace, camera_at},
+    trial_scene::{Expected, Furnace, TrialScene, camera_at},
 };
 
 pub const FAMILIES: [Family; 3] = [
-    Family { name: "white-rooms", what: "white rooms, up to 10⁵ bounces", scenes: 32, draft: white_rooms },
-    Family { name: "mirror-rooms", what: "rooms of perfect mirrors, up to 10⁵ bounces", scenes: 32, draft: mirror_rooms },
+    Family { name: "white-rooms", what: "white rooms, up to 10⁵ bounces", scenes: 32, trial_scene: white_rooms },
+    Family { name: "mirror-rooms", what: "rooms of perfect mirrors, up to 10⁵ bounces", scenes: 32, trial_scene: mirror_rooms },
     Family {
-        name: "glass-rooms", what: "rooms of albedo 1 − 2⁻⁷ with clear balls, 10⁴ bounces", scenes: 16, draft: glass_rooms
+        name: "glass-rooms",
+        what: "rooms of albedo 1 − 2⁻⁷ with clear balls, 10⁴ bounces",
+        scenes: 16,
+        trial_scene: glass_rooms,
     },
 ];
 
-fn room(dice: &mut Dice, material: &'static str) -> Draft {
+fn room(dice: &mut Dice, material: &'static str) -> TrialScene {
     let cap = dice.pick(&[10, 100, 1000, 10_000, 100_000, 100_000, 100_000, 100_000]);
     let size = dice.decade(-6.0, 9.0);
     let center = dice.in_ball() * size;
@@ -27,7 +30,7 @@ fn room(dice: &mut Dice, material: &'static str) -> Draft {
     room.wall(&closed(dice, center, size));
     let eye = center - dice.in_ball() * size * 0.1;
     let camera = few_pixels(&camera_at(dice, eye, size));
-    Draft { spp: 1, ..room.draft(dice, &camera, size) }
+    TrialScene { spp: 1, ..room.trial_scene(dice, &camera, size) }
 }
 
 /// Long paths are few.
@@ -35,15 +38,15 @@ fn few_pixels(camera: &str) -> String {
     camera.replace("[32, 32]", "[8, 8]")
 }
 
-fn white_rooms(dice: &mut Dice) -> Draft {
+fn white_rooms(dice: &mut Dice) -> TrialScene {
     room(dice, "grey")
 }
 
-fn mirror_rooms(dice: &mut Dice) -> Draft {
+fn mirror_rooms(dice: &mut Dice) -> TrialScene {
     room(dice, "mirror")
 }
 
-fn glass_rooms(dice: &mut Dice) -> Draft {
+fn glass_rooms(dice: &mut Dice) -> TrialScene {
     let mut room = Furnace::of(1.0 - 1.0 / 128.0, 10_000);
     room.wall(&closed(dice, DVec3::ZERO, 1.0));
     for i in 0..3 {
@@ -54,5 +57,5 @@ fn glass_rooms(dice: &mut Dice) -> Draft {
     let eye = dice.in_ball() * 0.1;
     let camera = few_pixels(&camera_at(dice, eye, 1.0));
     // What glass takes of the cap is far behind the last reflection that counts.
-    Draft { expected: Expected::Everywhere(128.0), spp: 4, ..room.draft(dice, &camera, 1.0) }
+    TrialScene { expected: Expected::Everywhere(128.0), spp: 4, ..room.trial_scene(dice, &camera, 1.0) }
 }

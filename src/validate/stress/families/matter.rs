@@ -6,15 +6,15 @@ use crate::{
     measure::exact::furnace,
     validate::stress::{
         dice::Dice,
-        draft::{Draft, Expected, Furnace, camera_at, camera_towards},
+        trial_scene::{Expected, Furnace, TrialScene, camera_at, camera_towards},
     },
 };
 
 pub const FAMILIES: [Family; 4] = [
-    Family { name: "glass", what: "clear balls within balls, indices from 1 + 10⁻⁶ to 2.4", scenes: 60, draft: glass },
-    Family { name: "rough", what: "lossless rough balls, α from 10⁻⁴ to 1", scenes: 84, draft: rough },
-    Family { name: "estimators", what: "estimators, samplers, directions, roulettes", scenes: 90, draft: estimators },
-    Family { name: "bright", what: "lamps of 10⁻⁹ and 10⁹ seen by all estimators", scenes: 60, draft: bright },
+    Family { name: "glass", what: "clear balls within balls, indices from 1 + 10⁻⁶ to 2.4", scenes: 60, trial_scene: glass },
+    Family { name: "rough", what: "lossless rough balls, α from 10⁻⁴ to 1", scenes: 84, trial_scene: rough },
+    Family { name: "estimators", what: "estimators, samplers, directions, roulettes", scenes: 90, trial_scene: estimators },
+    Family { name: "bright", what: "lamps of 10⁻⁹ and 10⁹ seen by all estimators", scenes: 60, trial_scene: bright },
 ];
 
 const INDICES: [f64; 6] = [1.0, 1.000_001, 1.0003, 1.333, 1.5, 2.4];
@@ -29,7 +29,7 @@ fn room(dice: &mut Dice) -> (Furnace, String) {
     (room, camera)
 }
 
-fn glass(dice: &mut Dice) -> Draft {
+fn glass(dice: &mut Dice) -> TrialScene {
     let (mut room, camera) = room(dice);
     // From the outermost to the innermost; each names the index on both its sides.
     let (mut outside, mut radius) = (1.0, 0.5);
@@ -43,16 +43,16 @@ fn glass(dice: &mut Dice) -> Draft {
         (outside, radius) = (ior, radius * dice.within(0.3, 0.9999));
     }
     // Glass takes reflections that count towards the cap: only without one is the sum known.
-    uncapped(&room.draft(dice, &camera, 1.0), furnace(1.0, 0.5))
+    uncapped(&room.trial_scene(dice, &camera, 1.0), furnace(1.0, 0.5))
 }
 
 /// The same scene without a cap, with what then is exact.
-fn uncapped(draft: &Draft, exact: f64) -> Draft {
-    let text = draft.text.replace("max_bounces = 60, ", "");
-    Draft { size: draft.size, ..Draft::of(text, Expected::Everywhere(exact)) }
+fn uncapped(trial_scene: &TrialScene, exact: f64) -> TrialScene {
+    let text = trial_scene.text.replace("max_bounces = 60, ", "");
+    TrialScene { size: trial_scene.size, ..TrialScene::of(text, Expected::Everywhere(exact)) }
 }
 
-fn rough(dice: &mut Dice) -> Draft {
+fn rough(dice: &mut Dice) -> TrialScene {
     let (mut room, camera) = room(dice);
     let (alpha, ior) = (dice.pick(&[1e-4, 1e-3, 0.01, 0.1, 0.3, 0.6, 1.0]), dice.pick(&INDICES));
     let material = match dice.below(4) {
@@ -62,16 +62,16 @@ fn rough(dice: &mut Dice) -> Draft {
         _ => format!("dielectric = {{ ior = {ior:?}, alpha = {alpha:?} }}"),
     };
     room.lossless("rough", &material, &sphere(DVec3::ZERO, 0.5));
-    let draft = uncapped(&room.draft(dice, &camera, 1.0), furnace(1.0, 0.5));
-    Draft { expected: Expected::Mean(furnace(1.0, 0.5)), spp: 64, ..draft }
+    let trial_scene = uncapped(&room.trial_scene(dice, &camera, 1.0), furnace(1.0, 0.5));
+    TrialScene { expected: Expected::Mean(furnace(1.0, 0.5)), spp: 64, ..trial_scene }
 }
 
 /// A furnace with a grey ball, by any settings that converge to the same.
-fn estimators(dice: &mut Dice) -> Draft {
+fn estimators(dice: &mut Dice) -> TrialScene {
     let (mut room, camera) = room(dice);
     room.body(&sphere(DVec3::ZERO, 0.4));
-    let draft = uncapped(&room.draft(dice, &camera, 1.0), furnace(1.0, 0.5));
-    let text = draft
+    let trial_scene = uncapped(&room.trial_scene(dice, &camera, 1.0), furnace(1.0, 0.5));
+    let text = trial_scene
         .text
         .replace("'path'", &format!("'{}'", dice.pick(&["path", "light", "mis"])))
         .replace("'cosine'", &format!("'{}'", dice.pick(&["uniform", "cosine", "bsdf"])))
@@ -79,11 +79,11 @@ fn estimators(dice: &mut Dice) -> Draft {
             "'off'",
             dice.pick(&["'off'", "'throughput'", "{ fixed = 0.5 }", "{ fixed = 0.95 }", "{ throughput = { start = 1 } }"]),
         );
-    Draft { text, expected: Expected::Mean(furnace(1.0, 0.5)), spp: 64, ..draft }
+    TrialScene { text, expected: Expected::Mean(furnace(1.0, 0.5)), spp: 64, ..trial_scene }
 }
 
 /// One reflection off a grey ball under lamps of any strength: what is emitted outweighs all else or is nothing beside it.
-fn bright(dice: &mut Dice) -> Draft {
+fn bright(dice: &mut Dice) -> TrialScene {
     let lamp = |dice: &mut Dice| {
         let (place, radius) = (dice.direction() * dice.within(2.0, 9.0), dice.decade(-4.0, -0.5));
         let radiance = dice.pick(&[1e-9, 1.0, 1e9]);
@@ -102,5 +102,5 @@ fn bright(dice: &mut Dice) -> Draft {
         sphere(DVec3::ZERO, 1.0),
         dice.pick(&["grey", "gold"]),
     );
-    Draft::of(text, Expected::Valid)
+    TrialScene::of(text, Expected::Valid)
 }

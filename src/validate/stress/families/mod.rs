@@ -8,7 +8,7 @@ mod refused;
 mod rooms;
 mod scales;
 
-use super::{dice::Dice, draft::Draft};
+use super::{dice::Dice, trial_scene::TrialScene};
 
 /// Scenes made by one recipe.
 pub struct Family {
@@ -17,7 +17,7 @@ pub struct Family {
     pub what: &'static str,
     /// How many scenes a full run tries.
     pub scenes: u32,
-    pub draft: fn(&mut Dice) -> Draft,
+    pub trial_scene: fn(&mut Dice) -> TrialScene,
 }
 
 /// A section of the report.

@@ -8,21 +8,21 @@ use crate::{
     scene::RenderSettings,
     validate::stress::{
         dice::Dice,
-        draft::{Draft, Expected, Furnace, camera_at, camera_towards, v},
+        trial_scene::{Expected, Furnace, TrialScene, camera_at, camera_towards, v},
     },
 };
 
 pub const FAMILIES: [Family; 3] = [
-    Family { name: "moving", what: "rooms in which bodies and camera move, seen by a lens", scenes: 60, draft: moving },
-    Family { name: "anything", what: "shapes, materials, lights, cameras, settings", scenes: 300, draft: anything },
-    Family { name: "declared", what: "every material and setting anywhere in its range", scenes: 200, draft: declared },
+    Family { name: "moving", what: "rooms in which bodies and camera move, seen by a lens", scenes: 60, trial_scene: moving },
+    Family { name: "anything", what: "shapes, materials, lights, cameras, settings", scenes: 300, trial_scene: anything },
+    Family { name: "declared", what: "every material and setting anywhere in its range", scenes: 200, trial_scene: declared },
 ];
 
 const TEXTURES: &str = "textures.fine.noise = { scale = 40.0, octaves = 6, low = 0.0, high = 1.0 }\n\
                         textures.squares.checker = { even = 0.9, odd = { texture = 'fine' }, scale = 1e4 }\n";
 
 /// A furnace, while the shutter is open.
-fn moving(dice: &mut Dice) -> Draft {
+fn moving(dice: &mut Dice) -> TrialScene {
     let mut room = Furnace::new(dice);
     room.wall(&closed(dice, DVec3::ZERO, 10.0));
     for _ in 0..3 {
@@ -34,10 +34,10 @@ fn moving(dice: &mut Dice) -> Draft {
     let turn = format!("{{ rotate = {{ axis = {}, degrees = 20.0 }} }}", v(dice.direction()));
     let optics = format!("lens = {{ radius = {:?}, focus = 4.0 }}, filter = 'tent'", dice.decade(-4.0, -1.5));
     let camera = format!("{}, {optics}, shutter = [0.0, 1.0], motion = [{turn}]", camera_towards(dice, eye, DVec3::ZERO));
-    room.draft(dice, &camera, 1.0)
+    room.trial_scene(dice, &camera, 1.0)
 }
 
-pub fn anything(dice: &mut Dice) -> Draft {
+pub fn anything(dice: &mut Dice) -> TrialScene {
     let mut materials = String::new();
     for i in 0..4 {
         materials += &format!("materials.m{i}.{}\n", material(dice));
@@ -54,11 +54,11 @@ pub fn anything(dice: &mut Dice) -> Draft {
     ]);
     let text =
         format!("camera = {{ {} }}\nrender = {{ {} }}\n{background}{TEXTURES}{materials}{objects}", camera(dice), settings(dice));
-    Draft { spp: 4, ..Draft::of(text, Expected::Valid) }
+    TrialScene { spp: 4, ..TrialScene::of(text, Expected::Valid) }
 }
 
 /// Materials and settings as their declarations draw them, on shapes of all kinds.
-fn declared(dice: &mut Dice) -> Draft {
+fn declared(dice: &mut Dice) -> TrialScene {
     let mut drawn = |value: &mut dyn Declare| {
         value.parameters(&mut declare::Dice::new(dice));
         toml::Value::Table(write(value)).to_string()
@@ -75,7 +75,7 @@ fn declared(dice: &mut Dice) -> Draft {
         "camera = {{ {} }}\nrender = {settings}\nbackground.radiance = 1.0\n{TEXTURES}{materials}{objects}",
         camera(dice)
     );
-    Draft { spp: 4, ..Draft::of(text, Expected::Valid) }
+    TrialScene { spp: 4, ..TrialScene::of(text, Expected::Valid) }
 }
 
 fn camera(dice: &mut Dice) -> String {

@@ -2,12 +2,17 @@
 use super::{Family, random::anything};
 use crate::validate::stress::{
     dice::Dice,
-    draft::{Draft, Expected},
+    trial_scene::{Expected, TrialScene},
 };
 
 pub const FAMILIES: [Family; 2] = [
-    Family { name: "refused", what: "values out of range, shapes without extent, broken text", scenes: 150, draft: refused },
-    Family { name: "mistakes", what: "random scenes with one number or character changed", scenes: 500, draft: mistakes },
+    Family {
+        name: "refused",
+        what: "values out of range, shapes without extent, broken text",
+        scenes: 150,
+        trial_scene: refused,
+    },
+    Family { name: "mistakes", what: "random scenes with one number or character changed", scenes: 500, trial_scene: mistakes },
 ];
 
 const CAMERA: &str = "eye = [0.0, 0.0, 4.0], look_at = [0.0, 0.0, 0.0]";
@@ -60,14 +65,14 @@ const CASES: [(&str, &[&str]); 26] = [
     ("VIEW\n[[objects]]\nSPHERE\nX = 1.0", &["colour", "", "radius radius", "[", "\\u0000"]),
 ];
 
-fn refused(dice: &mut Dice) -> Draft {
+fn refused(dice: &mut Dice) -> TrialScene {
     let (text, values) = dice.pick(&CASES);
     let text = text
         .replace("VIEW", "camera = { CAMERA, fov = 40.0, resolution = [8, 8] }")
         .replace("SPHERE", "shape.sphere = { center = [0.0, 0.0, 0.0], radius = 1.0 }")
         .replace("CAMERA", CAMERA)
         .replace('X', dice.pick(values));
-    Draft::of(text, Expected::Refused)
+    TrialScene::of(text, Expected::Refused)
 }
 
 const VALUES: [&str; 18] = [
@@ -91,9 +96,9 @@ const VALUES: [&str; 18] = [
     "4294967295",
 ];
 
-fn mistakes(dice: &mut Dice) -> Draft {
-    let draft = anything(dice);
-    let mut text = draft.text;
+fn mistakes(dice: &mut Dice) -> TrialScene {
+    let trial_scene = anything(dice);
+    let mut text = trial_scene.text;
     match dice.below(8) {
         0 => {
             text.remove(dice.below(text.len()));
@@ -106,7 +111,7 @@ fn mistakes(dice: &mut Dice) -> Draft {
             text.replace_range(start..end, dice.pick(&VALUES));
         }
     }
-    Draft { text, expected: Expected::ValidOrRefused, spp: 2, ..draft }
+    TrialScene { text, expected: Expected::ValidOrRefused, spp: 2, ..trial_scene }
 }
 
 /// Where numbers of a text begin and end.

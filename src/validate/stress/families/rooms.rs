@@ -1,7 +1,7 @@
 //! Closed shapes for rooms and bodies.
 use glam::DVec3;
 
-use crate::validate::stress::{dice::Dice, draft::v};
+use crate::validate::stress::{dice::Dice, trial_scene::v};
 
 const CUBE: &str = "shape.mesh = { vertices = [[-1.0, -1.0, -1.0], [1.0, -1.0, -1.0], [1.0, 1.0, -1.0], [-1.0, 1.0, -1.0], \
                     [-1.0, -1.0, 1.0], [1.0, -1.0, 1.0], [1.0, 1.0, 1.0], [-1.0, 1.0, 1.0]], triangles = [[0, 2, 1], [0, 3, 2], \

@@ -11,7 +11,7 @@ use crate::{
 /// Beside a scene `NAME.toml`, its reference is `NAME.ref.exr`.
 const REFERENCE_EXTENSION: &str = "ref.exr";
 
-pub struct Subject {
+pub struct StudyScene {
     pub path: PathBuf,
     pub scene: Scene,
     pub camera: Camera,
@@ -21,9 +21,9 @@ pub struct Subject {
     pub is_declared: bool,
 }
 
-impl Subject {
+impl StudyScene {
     /// Reads a scene. `reference` is a picture to hold it against whatever else there is.
-    pub fn load(path: &Path, size: Option<[u32; 2]>, reference: Option<&Path>) -> Result<Subject, StudyError> {
+    pub fn load(path: &Path, size: Option<[u32; 2]>, reference: Option<&Path>) -> Result<StudyScene, StudyError> {
         let scene = load(path).map_err(StudyError::Scene)?;
         let unmeasurable = |reason: String| StudyError::Unmeasurable { path: path.to_owned(), reason };
         let known = known(path, &scene, reference)?;
@@ -43,7 +43,7 @@ impl Subject {
             return Err(unmeasurable("nothing in this scene emits light: there is no error to measure".to_owned()));
         }
         let is_declared = reference.is_none() && scene.truth.is_some();
-        Ok(Subject { path: path.to_owned(), scene, camera, known, is_declared })
+        Ok(StudyScene { path: path.to_owned(), scene, camera, known, is_declared })
     }
 
     /// The scene's title, or the name of its file.
@@ -54,26 +54,27 @@ impl Subject {
 }
 
 /// Room to measure these, one after the other: for a film, and for what pictures are held against.
-pub fn reserve(subjects: &[Subject]) -> Result<[Reservation; 2], TooMuch> {
+pub fn reserve(study_scenes: &[StudyScene]) -> Result<[Reservation; 2], TooMuch> {
     /// Of a pixel of a picture.
     const PIXEL: u64 = 12;
-    let pixels = |subject: &&Subject| subject.camera.resolution.map(u64::from).iter().product::<u64>();
-    let largest = subjects.iter().max_by_key(pixels);
-    let [width, height] = largest.map_or([0; 2], |subject| subject.camera.resolution);
+    let pixels = |study_scene: &&StudyScene| study_scene.camera.resolution.map(u64::from).iter().product::<u64>();
+    let largest = study_scenes.iter().max_by_key(pixels);
+    let [width, height] = largest.map_or([0; 2], |study_scene| study_scene.camera.resolution);
     // Files are kept; of a reference there are besides the radiance two halves, or a copy whose bits are hashed.
-    let files: u64 = subjects.iter().filter(|subject| subject.known.is_some()).map(|subject| pixels(&subject)).sum();
-    let bytes = PIXEL * (files + 3 * largest.map_or(0, |subject| pixels(&subject)));
+    let files: u64 =
+        study_scenes.iter().filter(|study_scene| study_scene.known.is_some()).map(|study_scene| pixels(&study_scene)).sum();
+    let bytes = PIXEL * (files + 3 * largest.map_or(0, |study_scene| pixels(&study_scene)));
     Ok([Film::reserve([width, height])?, memory::reserve(format_args!("references of {width} × {height} pixels"), bytes)?])
 }
 
 /// What to call scenes that are studied together: those of one title by their files too.
-pub fn titles(subjects: &[Subject]) -> Vec<String> {
-    let titles: Vec<String> = subjects.iter().map(Subject::title).collect();
-    let told_apart = |(title, subject): (&String, &Subject)| {
+pub fn titles(study_scenes: &[StudyScene]) -> Vec<String> {
+    let titles: Vec<String> = study_scenes.iter().map(StudyScene::title).collect();
+    let told_apart = |(title, study_scene): (&String, &StudyScene)| {
         let is_alone = titles.iter().filter(|other| *other == title).count() == 1;
-        if is_alone { title.clone() } else { format!("{title} ({})", subject.path.display()) }
+        if is_alone { title.clone() } else { format!("{title} ({})", study_scene.path.display()) }
     };
-    titles.iter().zip(subjects).map(told_apart).collect()
+    titles.iter().zip(study_scenes).map(told_apart).collect()
 }
 
 fn known(path: &Path, scene: &Scene, given: Option<&Path>) -> Result<Option<(truth::Reference, String)>, StudyError> {

@@ -21,7 +21,7 @@ pub enum Expected {
     ValidOrRefused,
 }
 
-pub struct Draft {
+pub struct TrialScene {
     /// What follows the first lines of the scene file.
     pub text: String,
     pub expected: Expected,
@@ -33,9 +33,9 @@ pub struct Draft {
     pub cap: Option<u32>,
 }
 
-impl Draft {
-    pub fn of(text: String, expected: Expected) -> Draft {
-        Draft { text, expected, spp: 8, size: 1.0, cap: None }
+impl TrialScene {
+    pub fn of(text: String, expected: Expected) -> TrialScene {
+        TrialScene { text, expected, spp: 8, size: 1.0, cap: None }
     }
 }
 
@@ -107,7 +107,7 @@ impl Furnace {
     }
 
     /// The scene that `camera` sees.
-    pub fn draft(&self, dice: &mut Dice, camera: &str, size: f64) -> Draft {
+    pub fn trial_scene(&self, dice: &mut Dice, camera: &str, size: f64) -> TrialScene {
         let exact = if self.albedo < 1.0 {
             furnace_capped(self.emission, self.albedo, self.cap)
         } else {
@@ -128,6 +128,6 @@ impl Furnace {
             self.objects,
             albedo = self.albedo,
         );
-        Draft { size, cap: Some(self.cap), ..Draft::of(text, Expected::Everywhere(exact)) }
+        TrialScene { size, cap: Some(self.cap), ..TrialScene::of(text, Expected::Everywhere(exact)) }
     }
 }
