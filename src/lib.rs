@@ -1,8 +1,8 @@
 //! Noisefall: an interactive progressive path tracer, which solves the light transport equation by Monte Carlo integration.
 //!
 //! The library is the renderer; the window and the command line are in the binary. Folders depend downwards only:
-//! `validate`, `study` → `report`, `render` → `measure` → `integrator` → `scene` → `light`, `shape` → `material`, `geometry` → `texture` →
-//! `sampling`, `image`, `model` → `declare` → `math`, `file`, `memory`, `quote`.
+//! `validate`, `study` → `report`, `render` → `measure` → `integrator` → `scene` → `light`, `shape` → `material`, `geometry` →
+//! `texture` → `sampling`, `image`, `model` → `declare` → `math`, `file`, `memory`, `quote`.
 pub mod declare;
 pub mod file;
 pub mod geometry;

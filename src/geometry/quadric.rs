@@ -227,8 +227,8 @@ impl<L: Lanes> Local<L> {
     /// The point of the surface nearest to `p`, which is off the surface only by rounding.
     #[inline(always)]
     pub fn surface_point(&self, p: V<L>) -> SurfacePoint<L> {
-        // Half of the rounding of c as `intersections` evaluates it is, as for a sphere, at most 36 ε max|yᵢ|, and each yᵢ has one of
-        // 2.5 ε Σⱼ |Gᵢⱼ (x − q)ⱼ| itself. The steepness |∇c|/2 turns that into a distance.
+        // Half of the rounding of c as `intersections` evaluates it is, as for a sphere, at most 36 ε max|yᵢ|, and each yᵢ has
+        // one of 2.5 ε Σⱼ |Gᵢⱼ (x − q)ⱼ| itself. The steepness |∇c|/2 turns that into a distance.
         const ROUNDINGS: f32 = 40.0 * f32::EPSILON;
         const ROUNDINGS_OF_X: f32 = 4.0 * f32::EPSILON;
         let x = p - self.anchor;

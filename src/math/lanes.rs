@@ -5,8 +5,9 @@
 //! compiles to any of them. Every operation is exactly rounded (IEEE 754) and nothing is contracted or reassociated, so all
 //! configurations give the same bits.
 //!
-//! The operators are in [`super::number`], the arithmetic in [`super::simd`] and `one.rs`. Of the kernel, only the tests of one ray against eight boxes or triangles use vectors
-//! of the SIMD crate directly (`geometry/bvh/slabs.rs`, `geometry/mesh/block.rs`).
+//! The operators are in [`super::number`], the arithmetic in [`super::simd`] and `one.rs`. Of the kernel, only the tests of one
+//! ray against eight boxes or triangles use vectors of the SIMD crate directly (`geometry/bvh/slabs.rs`,
+//! `geometry/mesh/block.rs`).
 use fearless_simd::{ExtractToken, Fallback};
 
 /// The widest configuration; arrays that hold the lanes of any configuration have this length.

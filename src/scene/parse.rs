@@ -101,8 +101,8 @@ impl SceneDescription {
     }
 }
 
-/// All errors of a text that is not TOML: what can be told from the text itself, and what the reader says of other lines; `first` is what it
-/// says first.
+/// All errors of a text that is not TOML: what can be told from the text itself, and what the reader says of other lines; `first`
+/// is what it says first.
 fn not_toml(source: &SourceText, first: &toml::de::Error) -> SceneError {
     if source.text.len() > LONGEST_SCANNED {
         return in_plain_words(source, first);

@@ -53,9 +53,9 @@ pub(super) fn value<L: Lanes>(l: L, tape: &Tape, p: V<L>) -> F<L> {
 }
 
 /// The offset along ±n from p at which the sign of f is certain: the affine form of f over p ± δn proves it at both ends with a
-/// margin of three times the rounding of f, one for the evaluation there and one for the affine form here. The first δ is twice the
-/// sum of |f(p)| and the rounding over the `steepness`. At a crease, where the gradient is not that of both sides, there may be
-/// no proof. The offset is kept then, and a ray that starts there has no side until f exceeds its rounding.
+/// margin of three times the rounding of f, one for the evaluation there and one for the affine form here. The first δ is twice
+/// the sum of |f(p)| and the rounding over the `steepness`. At a crease, where the gradient is not that of both sides, there may
+/// be no proof. The offset is kept then, and a ray that starts there has no side until f exceeds its rounding.
 #[inline(always)]
 fn clearance<L: Lanes>(l: L, tape: &Tape, p: V<L>, n: V<L>, steepness: F<L>, known: M<L>) -> F<L> {
     let mut registers = [AffineForm::constant(l, 0.0); REGISTERS];

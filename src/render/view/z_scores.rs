@@ -9,7 +9,8 @@ use crate::render::{frame::Frame, truth::Reference};
 /// A histogram of z-scores.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ZScoreHistogram {
-    /// Density of the scores in bins of width [`ZScoreHistogram::WIDTH`] from −[`ZScoreHistogram::END`] to [`ZScoreHistogram::END`].
+    /// Density of the scores in bins of width [`ZScoreHistogram::WIDTH`] from −[`ZScoreHistogram::END`] to
+    /// [`ZScoreHistogram::END`].
     pub density: Vec<f64>,
     /// Fraction of the scores beyond the ends.
     pub beyond: f64,

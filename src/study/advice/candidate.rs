@@ -38,7 +38,8 @@ pub struct Advice {
 }
 
 impl Candidate {
-    /// Whether it is better than the settings in use beyond what the spread over rounds explains, at 95 %, and by enough to matter.
+    /// Whether it is better than the settings in use beyond what the spread over rounds explains, at 95 %, and by enough to
+    /// matter.
     pub fn is_clearly_better(&self) -> bool {
         let by_chance = student_95(self.rounds as f64 - 1.0) * self.standard_error;
         self.relative >= LEAST_GAIN && self.relative.ln() > by_chance
