@@ -197,7 +197,7 @@ impl dyn Parameters + '_ {
         self.leave();
     }
 
-    /// [`choice`](Self::choice) that keeps what it is where the key is absent.
+    /// A choice that keeps what it is where the key is absent.
     pub fn optional_choice<T: OneOf>(&mut self, parameter: &Parameter, form: Form, value: &mut T) {
         if self.present(parameter, true) {
             self.choice(parameter, form, value);

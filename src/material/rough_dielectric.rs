@@ -1,7 +1,7 @@
 //! The rough dielectric: microfacets that reflect and refract.
 //!
 //! Walter, Marschner, Li and Torrance, "Microfacet Models for Refraction through Rough Surfaces", EGSR 2007, with GGX facets
-//! sampled by visible normals, and with energy compensation ([`super::missing_energy`]).
+//! sampled by visible normals, and with energy compensation (`missing_energy.rs`).
 use super::{
     Bsdf, BsdfSample, ChosenLobe, Lobes, Local, Materials, Shade, Stage,
     dielectric::{DielectricBsdf, DielectricRow, FAINT, uncompressed},

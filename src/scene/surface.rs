@@ -38,7 +38,7 @@ pub const ONE_SIDED: u32 = 1 << 21;
 pub const SQUARED: u32 = 1 << 22;
 /// It transmits and emits: no light is looked for from it, as it would find itself, seen from the wrong side.
 pub const SELF_LIT: u32 = 1 << 23;
-/// It scatters light even where its colour is black: see [`crate::material::Material::scatters_where_black`].
+/// It scatters light even where its colour is black: see [`crate::material::CompiledMaterial::scatters_where_black`].
 pub const SCATTERS_WHERE_BLACK: u32 = 1 << 24;
 /// Set while rendering where a path met the front.
 pub const FRONT: u32 = 1 << 31;

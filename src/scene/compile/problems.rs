@@ -1,4 +1,4 @@
-//! Collects the problems of a description.
+//! What is wrong with a description, collected over its tables.
 use crate::{
     declare::{Path, Problem},
     scene::{damage::Damage, diagnostic::SceneError},
@@ -10,19 +10,21 @@ pub struct Problems<'d> {
     pub found: Vec<Problem>,
 }
 
-impl Problems<'_> {
+impl<'d> Problems<'d> {
+    pub fn new(damage: &'d Damage) -> Problems<'d> {
+        Problems { damage, found: Vec::new() }
+    }
+
     /// More are not looked for.
     const MOST: usize = SceneError::MOST;
 
-    /// The value, or `None` where its problem is kept. What is wrong with a table that something was left out of is no news.
-    pub fn keep<T>(&mut self, table: &Path, result: Result<T, Problem>) -> Option<T> {
-        result
-            .map_err(|problem| {
-                if !self.damage.reaches(table) {
-                    self.found.push(problem.within(table));
-                }
-            })
-            .ok()
+    /// The value, or `None` where its problem is kept. A table that something was left out of is not compiled: what is wrong with it has
+    /// been said, and its values may be out of all ranges.
+    pub fn keep<T>(&mut self, table: &Path, compile: impl FnOnce() -> Result<T, Problem>) -> Option<T> {
+        if self.damage.reaches(table) {
+            return None;
+        }
+        compile().map_err(|problem| self.found.push(problem.within(table))).ok()
     }
 
     pub fn are_many(&self) -> bool {
