@@ -1,9 +1,10 @@
 //! A second picture beside the first, the picture as a series, a region before the rest, other threads on the way.
 use std::{
-    sync::{Arc, mpsc},
+    sync::Arc,
     time::{Duration, Instant},
 };
 
+use crossbeam_channel::{Receiver, Sender, bounded, unbounded};
 use noisefall::{
     math::SimdLevel,
     render::{Budget, Job, Publish, Published, Region, RenderTask, Renderer, State, threads::Threads},
@@ -36,14 +37,14 @@ fn wait(latest: impl Fn() -> Published, condition: impl Fn(&Published) -> bool) 
 /// A worker that goes on when it is told to, and says when it has published something.
 struct Stepwise {
     // The renderer waits for its worker when it is dropped, so what holds the worker is dropped before.
-    published: mpsc::Receiver<()>,
-    go: mpsc::Sender<()>,
+    published: Receiver<()>,
+    go: Sender<()>,
     renderer: Renderer,
 }
 
 impl Stepwise {
     fn new() -> Stepwise {
-        let ((publish, published), (go, gone)) = (mpsc::sync_channel(0), mpsc::channel());
+        let ((publish, published), (go, gone)) = (bounded(0), unbounded());
         let threads = Threads::new(2, SimdLevel::best()).expect("threads can be had");
         let notify = move || {
             // Nobody looks any more when the test is over.

@@ -4,9 +4,10 @@ use std::{
     sync::{
         Arc,
         atomic::{AtomicBool, Ordering},
-        mpsc,
     },
 };
+
+use crossbeam_channel::{Receiver, bounded};
 
 /// The thread of a task panicked.
 #[derive(Debug, PartialEq)]
@@ -14,14 +15,14 @@ pub struct Panicked;
 
 /// A computation on another thread. Dropping it cancels the computation.
 pub struct BackgroundTask<T> {
-    result: mpsc::Receiver<Result<T, Panicked>>,
+    result: Receiver<Result<T, Panicked>>,
     cancelled: Arc<AtomicBool>,
 }
 
 impl<T: Send + 'static> BackgroundTask<T> {
     /// Starts a task. `find` may ask now and then whether the task is cancelled. The window is drawn again when the task ends.
     pub fn start(ctx: &egui::Context, find: impl FnOnce(&(dyn Fn() -> bool + Sync)) -> T + Send + 'static) -> BackgroundTask<T> {
-        let (sender, result) = mpsc::channel();
+        let (sender, result) = bounded(1);
         let cancelled = Arc::new(AtomicBool::new(false));
         let task = BackgroundTask { result, cancelled: cancelled.clone() };
         let ctx = ctx.clone();
@@ -70,7 +71,7 @@ mod tests {
         let ctx = egui::Context::default();
         assert_eq!(wait(BackgroundTask::start(&ctx, |_| 7)), Ok(7));
         assert_eq!(wait(BackgroundTask::<i32>::start(&ctx, |_| panic!("on purpose"))), Err(Panicked));
-        let (sender, noticed) = mpsc::channel();
+        let (sender, noticed) = bounded(1);
         drop(BackgroundTask::start(&ctx, move |cancelled| {
             while !cancelled() {
                 std::thread::yield_now();

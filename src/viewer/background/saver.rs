@@ -1,22 +1,21 @@
 //! Writing files off the UI thread.
-use std::{
-    path::{Path, PathBuf},
-    sync::mpsc,
-};
+use std::path::{Path, PathBuf};
+
+use crossbeam_channel::{Receiver, Sender, unbounded};
 
 /// Where a file is, or why it is not.
 type Outcome = Result<PathBuf, String>;
 
 pub struct Saver {
     ctx: egui::Context,
-    done: (mpsc::Sender<Outcome>, mpsc::Receiver<Outcome>),
+    done: (Sender<Outcome>, Receiver<Outcome>),
     /// Files being written. The program waits for them before it ends.
     writing: Vec<std::thread::JoinHandle<()>>,
 }
 
 impl Saver {
     pub fn new(ctx: &egui::Context) -> Saver {
-        Saver { ctx: ctx.clone(), done: mpsc::channel(), writing: Vec::new() }
+        Saver { ctx: ctx.clone(), done: unbounded(), writing: Vec::new() }
     }
 
     /// Has a file written.

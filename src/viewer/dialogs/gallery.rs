@@ -2,9 +2,9 @@
 use std::{
     collections::HashMap,
     path::{Path, PathBuf},
-    sync::mpsc,
 };
 
+use crossbeam_channel::{Receiver, unbounded};
 use egui::{Align2, ColorImage, RichText, ScrollArea, Sense, TextureHandle, TextureOptions, Ui, Vec2, vec2};
 use noisefall::render::{Display, image_file, tone::to_srgb};
 
@@ -22,7 +22,7 @@ const TEXT: f32 = 36.0;
 pub struct Gallery {
     pub open: bool,
     pictures: HashMap<PathBuf, TextureHandle>,
-    arriving: Option<mpsc::Receiver<(PathBuf, ColorImage)>>,
+    arriving: Option<Receiver<(PathBuf, ColorImage)>>,
 }
 
 impl Gallery {
@@ -35,7 +35,7 @@ impl Gallery {
     /// Has the pictures read, once, and takes in those that are there.
     fn receive(&mut self, ctx: &egui::Context, scenes: impl Iterator<Item = PathBuf>) {
         let arriving = self.arriving.get_or_insert_with(|| {
-            let (sender, receiver) = mpsc::channel();
+            let (sender, receiver) = unbounded();
             let (scenes, ctx): (Vec<PathBuf>, _) = (scenes.collect(), ctx.clone());
             std::thread::spawn(move || {
                 for scene in scenes {

@@ -1,10 +1,10 @@
 //! A path that can be typed, and a file dialog of the system that fills it in.
 use std::{
     path::PathBuf,
-    sync::mpsc,
     time::{Duration, Instant},
 };
 
+use crossbeam_channel::{Receiver, Sender, unbounded};
 use egui::{Key, RichText, TextEdit, Ui};
 
 /// Nobody can dismiss a dialog sooner: there was none.
@@ -17,13 +17,13 @@ pub struct PathField {
     /// What is wrong with the path.
     pub refusal: Option<String>,
     /// What the file dialog gave: nothing where there is none.
-    picked: (mpsc::Sender<Option<PathBuf>>, mpsc::Receiver<Option<PathBuf>>),
+    picked: (Sender<Option<PathBuf>>, Receiver<Option<PathBuf>>),
     focus: bool,
 }
 
 impl PathField {
     pub fn new(path: String, hint: &'static str) -> PathField {
-        PathField { path, hint, refusal: None, picked: mpsc::channel(), focus: true }
+        PathField { path, hint, refusal: None, picked: unbounded(), focus: true }
     }
 
     /// The path without the spaces around it, if there is one.
