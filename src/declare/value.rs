@@ -57,6 +57,12 @@ impl Textured {
     }
 }
 
+impl From<[f64; 3]> for Textured {
+    fn from(colour: [f64; 3]) -> Textured {
+        Textured::Constant(colour)
+    }
+}
+
 impl From<[f32; 3]> for Textured {
     fn from(colour: [f32; 3]) -> Textured {
         Textured::Constant(colour.map(f64::from))

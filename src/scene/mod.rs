@@ -1,5 +1,6 @@
 //! The scene: scene files, checked and compiled to the renderer's data.
 mod black;
+mod build;
 mod camera;
 mod carried;
 mod compile;

@@ -9,7 +9,7 @@ const RADIANCE: Parameter = Parameter::new("radiance", "Radiance of each channel
     .aliases("power intensity flux strength brightness watts le Le L_e color colour rgb")
     .advice("radiance is in W/(m² sr): a flat lamp of area A with the power Φ has Φ/(π A)");
 
-const IMAGE: Parameter = Parameter::new("image", "An equirectangular picture, EXR, HDR or PNG; its middle is towards −z.")
+const IMAGE: Parameter = Parameter::new("image", "An equirectangular picture, such as EXR or HDR; its middle is towards −z.")
     .required()
     .aliases("file filename src path");
 

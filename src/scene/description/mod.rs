@@ -1,4 +1,30 @@
-//! What a scene file says: every table of the format with its parameters.
+//! Scene descriptions: every table of the scene format with its parameters.
+//!
+//! A description is read from a scene file or built in code. [`SceneDescription::build`] checks it as the reader does, and compiles it:
+//!
+//! ```
+//! use std::path::Path;
+//!
+//! use noisefall::{
+//!     material::Lambertian,
+//!     scene::description::{EmissionDescription, SceneDescription},
+//!     shape::{Sphere, rectangle::Rectangle},
+//! };
+//!
+//! let mut scene = SceneDescription::default();
+//! scene.add_material("white", Lambertian { albedo: [0.7, 0.7, 0.6].into() });
+//! scene.add_object("floor", Rectangle::default()).material = Some("white".to_owned());
+//! scene.add_object("lamp", Sphere::default()).emission = Some(EmissionDescription::radiance([3.0; 3]));
+//! assert_eq!(scene.build(Path::new("."))?.objects.len(), 2);
+//!
+//! scene.camera.look_at = scene.camera.eye;
+//! let error = scene.build(Path::new(".")).err().expect("the camera has no direction");
+//! assert!(error.to_string().contains("`eye` and `look_at` are the same point"));
+//! # Ok::<(), noisefall::scene::SceneError>(())
+//! ```
+//!
+//! The kinds of materials, shapes and textures are in [`crate::material`], [`crate::shape`] and [`crate::texture`]. The other types of
+//! the fields are re-exported here.
 mod camera;
 mod light;
 mod material;
@@ -7,6 +33,8 @@ mod render;
 
 use std::collections::BTreeMap;
 
+pub use glam::DVec3;
+
 pub use self::{
     camera::{CameraDescription, Orthographic, Projection},
     light::{BackgroundDescription, EmissionDescription, EmissionSource, TruthDescription},
@@ -14,12 +42,17 @@ pub use self::{
     object::ObjectDescription,
     render::RenderDescription,
 };
-use crate::{
-    declare::{CountRange, Declare, Parameter, Parameters, Value},
+use crate::declare::{CountRange, Declare, Parameter, Parameters, Value};
+pub use crate::{
+    declare::Textured,
+    material::Material,
+    sampling::Filter,
+    scene::{Lens, RenderSettings},
+    shape::{ShapeKind, Transform},
     texture::TextureKind,
 };
 
-/// A scene as its file describes it.
+/// A scene as its file describes it, or as code builds it: see the [module](self).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SceneDescription {
     pub title: String,

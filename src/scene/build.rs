@@ -1,0 +1,105 @@
+//! Building scenes in code.
+use std::path::Path;
+
+use super::{
+    Scene,
+    compile::compile,
+    damage::Damage,
+    description::{EmissionDescription, EmissionSource, MaterialDescription, ObjectDescription, SceneDescription},
+    diagnostic::SceneError,
+};
+use crate::{
+    declare::{self, Problem},
+    material::Material,
+    shape::ShapeKind,
+};
+
+impl SceneDescription {
+    /// Adds a material, or replaces the one of this name. Returns it for further changes.
+    pub fn add_material(&mut self, name: &str, kind: impl Into<Material>) -> &mut MaterialDescription {
+        let material = self.materials.entry(name.to_owned()).or_default();
+        *material = MaterialDescription { kind: kind.into(), ..MaterialDescription::default() };
+        material
+    }
+
+    /// Adds a black object that emits nothing. Returns it for further changes.
+    pub fn add_object(&mut self, name: &str, shape: impl Into<ShapeKind>) -> &mut ObjectDescription {
+        let object = ObjectDescription { name: name.to_owned(), shape: shape.into(), ..ObjectDescription::default() };
+        self.objects.push_mut(object)
+    }
+
+    /// Checks the description as the reader of scene files does, and compiles it. Files that it names are looked for in `folder`.
+    pub fn build(&self, folder: &Path) -> Result<Scene, SceneError> {
+        let mut problems = declare::check(&mut self.clone());
+        if problems.is_empty() {
+            match compile(self, &self.to_text(), folder, &Damage::default()) {
+                Ok(scene) => return Ok(scene),
+                Err(found) => problems = found,
+            }
+        }
+        let error = |problem: Problem| {
+            let message = format!("`{}`: {}", problem.path, problem.message);
+            SceneError::of_file(Path::new("scene"), message, if problem.help.is_empty() { problem.label } else { problem.help })
+        };
+        let nothing = || SceneError::of_file(Path::new("scene"), "it cannot be compiled", "check its values");
+        Err(SceneError::of_all(problems.into_iter().map(error).collect()).unwrap_or_else(nothing))
+    }
+
+    /// The text of a scene file with the same content.
+    pub fn to_text(&self) -> String {
+        declare::write(&mut self.clone()).to_string()
+    }
+}
+
+impl EmissionDescription {
+    /// Emission of a constant radiance, W/(m² sr), from the front.
+    pub fn radiance(radiance: [f64; 3]) -> EmissionDescription {
+        EmissionDescription { source: EmissionSource::Radiance(radiance), ..EmissionDescription::default() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        material::Lambertian,
+        scene::{describe, parse},
+        shape::Sphere,
+    };
+
+    fn lamp() -> SceneDescription {
+        let mut description = SceneDescription::default();
+        description.add_material("white", Lambertian::default());
+        let ball = description.add_object("ball", Sphere::default());
+        ball.material = Some("white".to_owned());
+        description.add_object("lamp", Sphere { radius: 0.5, ..Sphere::default() }).emission =
+            Some(EmissionDescription::radiance([3.0, 2.0, 1.0]));
+        description
+    }
+
+    #[test]
+    fn a_scene_built_in_code_is_the_one_of_its_text() {
+        let description = lamp();
+        let built = description.build(Path::new("")).expect("the description is valid");
+        assert_eq!(describe("text", built.source.clone()).expect("the text is valid"), description);
+        let parsed = parse("text", built.source.clone()).expect("the text is valid");
+        assert_eq!((&built.owners, built.camera), (&parsed.owners, parsed.camera));
+        // Emitting objects come first.
+        assert_eq!(built.objects[0].name, "lamp");
+        assert!(built.material(&built.objects[1]).is_some());
+    }
+
+    #[test]
+    fn a_scene_built_in_code_is_checked_as_a_file_is() {
+        let refused = |change: fn(&mut SceneDescription), message: &str| {
+            let mut description = lamp();
+            change(&mut description);
+            let error = description.build(Path::new("")).err().expect("it is invalid").report();
+            assert!(error.contains(message), "{error}");
+        };
+        refused(|scene| scene.camera.look_at = scene.camera.eye, "the same point");
+        refused(|scene| scene.objects[0].shape = Sphere { radius: -1.0, ..Sphere::default() }.into(), "radius");
+        refused(|scene| scene.objects[0].material = Some("wite".to_owned()), "did you mean `white`");
+        refused(|scene| scene.add_material("white", Lambertian { albedo: [1.5; 3].into() }).two_sided = None, "albedo");
+    }
+}
