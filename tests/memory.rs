@@ -3,9 +3,11 @@ use std::{
     fs,
     path::{Path, PathBuf},
     process::{Command, Output},
-    sync::{Arc, mpsc},
+    sync::Arc,
 };
 
+use crossbeam_channel::unbounded;
+use image::{ExtendedColorType, ImageFormat};
 use noisefall::{
     image::{Encoding, read},
     integrator::{Features, features},
@@ -113,6 +115,12 @@ fn what_is_taken_is_counted() {
     };
     png(&folder.path().join("large.png"), 2500);
     assert_counted("PNG", &folder.path().join("large.png"));
+    let pixels = vec![200; 3 * 2500 * 2500];
+    for format in [ImageFormat::Jpeg, ImageFormat::Tga, ImageFormat::WebP] {
+        let path = folder.path().join(format!("large.{}", format.extensions_str()[0]));
+        image::save_buffer_with_format(&path, &pixels, 2500, 2500, ExtendedColorType::Rgb8, format).expect("it is written");
+        assert_counted(&format!("{format:?}"), &path);
+    }
     let textured = "[textures.t]\nimage = { path = 'large.png' }\n";
     assert_counted("texture", &file("texture.toml", &scene(16, textured)));
     assert_counted("sky", &file("sky.toml", &scene(16, "[background]\nimage = 'large.png'\n")));
@@ -217,7 +225,7 @@ fn every_command_takes_the_option() {
 fn a_picture_that_does_not_fit_fails_in_words() {
     set_limit(10_000_000);
     let scene = Arc::new(built_in());
-    let (woken, wait) = mpsc::channel();
+    let (woken, wait) = unbounded();
     let threads = Threads::new(1, SimdLevel::best()).expect("a thread");
     let renderer = Renderer::new(threads, Publish::Live, move || {
         let _ = woken.send(());

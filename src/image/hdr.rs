@@ -2,6 +2,8 @@
 //!
 //! G. Ward, "Real Pixels", Graphics Gems II, 1991, and the Radiance file format notes ("Picture File Format"). Mantissas are used
 //! without the half step that Radiance itself adds: black is then 0, and other readers agree.
+//!
+//! The `image` crate reads this format too, but it ignores the exposure and has no limit for the length of a header line.
 use std::io::{BufRead, Read};
 
 use super::{ImageFormatError, Picture, Pixel, check_size, pixels, room};
@@ -18,7 +20,7 @@ pub(super) fn decode<P: Pixel>(mut file: impl BufRead) -> Result<Picture<P>, Ima
     let (width, height) = size(&text_line(&mut file)?)?;
     check_size(width.into(), height.into())?;
     let _room = room::<P>(width, height, 0)?;
-    let mut radiance = pixels(width, height)?;
+    let mut radiance = pixels(width as usize * height as usize)?;
     let mut row = vec![[0; 4]; width as usize];
     for _ in 0..height {
         read_row(&mut file, &mut row)?;

@@ -2,13 +2,14 @@
 //!
 //! | format | file | values |
 //! |---|---|---|
-//! | PNG | `png.rs` | 8 or 16 bits per channel, sRGB or linear; alpha is ignored |
+//! | PNG | `decoded.rs` | 8 or 16 bits per channel, sRGB or linear; alpha is ignored |
+//! | JPEG, TGA, WebP | `decoded.rs` | 8 bits per channel, sRGB or linear; alpha is ignored |
 //! | OpenEXR | `exr.rs` | linear; the layer's R, G and B |
 //! | Radiance HDR | `hdr.rs` | linear; one common exponent per pixel |
 mod carried;
+mod decoded;
 mod exr;
 mod hdr;
-mod png;
 #[cfg(test)]
 mod tests;
 
@@ -67,7 +68,7 @@ impl From<&Picture> for Texels {
     }
 }
 
-/// How the numbers of a PNG stand for light. The other kinds of file are linear whatever this says.
+/// What the numbers of a PNG, JPEG, TGA or WebP mean. EXR and HDR are always linear.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Encoding {
     /// The sRGB curve: for colours.
@@ -99,7 +100,7 @@ pub enum ImageFormatError {
     Missing,
     #[error("cannot be read: {0}")]
     Unreadable(String),
-    #[error("not a picture: neither PNG nor OpenEXR nor Radiance HDR")]
+    #[error("not a picture: expected PNG, JPEG, TGA, WebP, OpenEXR or Radiance HDR")]
     NotAPicture,
     #[error("the picture is {0} × {1}: it has no pixels")]
     Empty(u64, u64),
@@ -167,15 +168,19 @@ pub fn looks_like(start: &[u8]) -> Option<&'static str> {
     KINDS.iter().find(|(magic, _)| start.starts_with(magic)).map(|(_, kind)| *kind)
 }
 
-fn decode<P: Pixel>(mut file: impl BufRead + Seek, encoding: Encoding) -> Result<Picture<P>, ImageFormatError> {
-    let mut magic = Vec::new();
-    (&mut file).take(4).read_to_end(&mut magic)?;
+fn decode<P: Pixel>(mut file: impl BufRead + Seek, encoding: Encoding) -> Result<Picture<P>, Flaw> {
+    let mut start = Vec::new();
+    (&mut file).take(18).read_to_end(&mut start)?;
     file.rewind()?;
-    match magic.as_slice() {
-        [0x89, b'P', b'N', b'G'] => png::decode(file, encoding),
-        [0x76, 0x2f, 0x31, 0x01] => exr::decode(file),
+    match start.as_slice() {
+        [0x89, b'P', b'N', b'G', ..] => decoded::png(file, encoding),
+        [0xff, 0xd8, 0xff, ..] => decoded::jpeg(file, encoding),
+        [b'R', b'I', b'F', b'F', _, _, _, _, b'W', b'E', b'B', b'P', ..] => decoded::webp(file, encoding),
+        [0x76, 0x2f, 0x31, 0x01, ..] => exr::decode(file),
         [b'#', b'?', ..] => hdr::decode(file),
-        _ => Err(ImageFormatError::NotAPicture),
+        // A TGA has no signature, but few of its values are valid: kind of palette, kind of image, bits per pixel.
+        [_, 0 | 1, 1..=3 | 9..=11, .., 8 | 15 | 16 | 24 | 32, _] if start.len() == 18 => decoded::tga(file, encoding),
+        _ => Err(Flaw::NotAPicture),
     }
 }
 
@@ -196,9 +201,9 @@ fn room<P>(width: u32, height: u32, besides: u64) -> Result<Reservation, TooMuch
     reserve(format_args!("{width} × {height} pixels"), pixels * size_of::<P>() as u64 + besides)
 }
 
-/// An empty list with capacity for the pixels.
-fn pixels<P>(width: u32, height: u32) -> Result<Vec<P>, ImageFormatError> {
+/// An empty list with capacity for so many pixels.
+fn pixels<P>(count: usize) -> Result<Vec<P>, Flaw> {
     let mut list = Vec::new();
-    list.try_reserve_exact(width as usize * height as usize).map_err(ImageFormatError::broken)?;
+    list.try_reserve_exact(count).map_err(Flaw::broken)?;
     Ok(list)
 }

@@ -104,6 +104,76 @@ fn pngs_in_passes_are_read() {
     assert!(matches!(read(&IN_PASSES[..IN_PASSES.len() - 30]), Err(ImageFormatError::Unreadable(_))));
 }
 
+/// Four columns of colours, two rows.
+const COLOURS: [u8; 24] = [255, 0, 51, 0, 0, 0, 102, 102, 102, 255, 255, 255, 1, 2, 3, 4, 5, 6, 250, 251, 252, 51, 0, 255];
+
+/// The colours as linear numbers, row by row.
+fn colours() -> Vec<[f32; 3]> {
+    COLOURS.chunks(3).map(|rgb| [0, 1, 2].map(|i| (f64::from(rgb[i]) / 255.0) as f32)).collect()
+}
+
+#[test]
+fn formats_without_loss_are_read_as_they_were_written() {
+    use ::image::{ExtendedColorType::Rgb8, ImageEncoder, codecs::tga::TgaEncoder, codecs::webp::WebPEncoder};
+    let (mut tga, mut webp) = (Vec::new(), Vec::new());
+    TgaEncoder::new(&mut tga).write_image(&COLOURS, 4, 2, Rgb8).expect("a TGA");
+    WebPEncoder::new_lossless(&mut webp).write_image(&COLOURS, 4, 2, Rgb8).expect("a WebP");
+    let linear = colours();
+    for bytes in [&tga, &webp] {
+        let picture = read(bytes).expect("it is a picture");
+        assert_eq!((picture.width, picture.height, &picture.radiance), (4, 2, &linear));
+        let curved: Picture = decode(Cursor::new(bytes), Encoding::Srgb).expect("it is a picture");
+        assert!((curved.radiance[2][0] - 0.132_868).abs() < 1e-6, "{:?}", curved.radiance[2]);
+        assert!(matches!(read(&bytes[..bytes.len() / 2]), Err(Flaw::Unreadable(_))), "the file is cut");
+    }
+    // Bottom-up TGAs begin with the last row.
+    tga[17] ^= 1 << 5;
+    assert_eq!(read(&tga).expect("it is a picture").radiance, [&linear[4..], &linear[..4]].concat());
+}
+
+#[test]
+fn jpegs_are_read() {
+    use ::image::{
+        ExtendedColorType::{L8, Rgb8},
+        codecs::jpeg::JpegEncoder,
+    };
+    let encoded = |data: &[u8], colour| {
+        let mut bytes = Vec::new();
+        JpegEncoder::new_with_quality(&mut bytes, 100).encode(data, 16, 16, colour).expect("a JPEG");
+        bytes
+    };
+    let colour = encoded(&[204, 102, 51].repeat(256), Rgb8);
+    let grey = encoded(&[102; 256], L8);
+    for (bytes, expected) in [(&colour, [0.8, 0.4, 0.2]), (&grey, [0.4; 3])] {
+        let picture = read(bytes).expect("it is a picture");
+        assert_eq!((picture.width, picture.height, picture.radiance.len()), (16, 16, 256));
+        // The colour transform rounds to whole codes.
+        let is_near = |pixel: &[f32; 3]| (0..3).all(|i| (pixel[i] - expected[i]).abs() <= 2.0 / 255.0);
+        assert!(picture.radiance.iter().all(is_near), "{:?}", picture.radiance[0]);
+    }
+    assert!(matches!(read(&colour[..20]), Err(Flaw::Unreadable(_))));
+    // The size stands behind the marker of the frame, height first.
+    let frame = colour.windows(2).position(|marker| marker == [0xff, 0xc0]).expect("a frame");
+    let mut wide = colour.clone();
+    wide[frame + 7..frame + 9].copy_from_slice(&60_000u16.to_be_bytes());
+    assert_eq!(read(&wide), Err(Flaw::TooLarge(60_000, 16)));
+}
+
+#[test]
+fn other_files_are_not_taken_for_a_tga() {
+    let mut header = [0; 18];
+    (header[2], header[12], header[14], header[16]) = (2, 1, 1, 24);
+    assert!(matches!(read(&header), Err(Flaw::Unreadable(_))), "a TGA without pixels");
+    for (at, value) in [(1, 2), (2, 0), (2, 4), (2, 12), (16, 7), (16, 64)] {
+        let mut other = header;
+        other[at] = value;
+        assert_eq!(read(&other), Err(Flaw::NotAPicture), "{value} at {at}");
+    }
+    assert_eq!(read(&header[..17]), Err(Flaw::NotAPicture));
+    header[13] = 0xff;
+    assert_eq!(read(&header), Err(Flaw::TooLarge(0xff01, 1)));
+}
+
 #[test]
 fn texels_are_the_same_colours_and_nothing_else() {
     let bytes = hdr(&format!("{HEADER}\n-Y 1 +X 2\n"), &[128, 64, 0, 129, 7, 7, 7, 0]);

@@ -24,9 +24,9 @@ impl Kind for Image {
 impl Declare for Image {
     fn parameters(&mut self, p: &mut dyn Parameters) {
         const PATH: Parameter =
-            Parameter::new("path", "PNG, EXR or HDR, beside the scene.").required().aliases("file filename src");
+            Parameter::new("path", "PNG, JPEG, TGA, WebP, EXR or HDR, beside the scene.").required().aliases("file filename src");
         const ENCODING: Parameter =
-            Parameter::new("encoding", "How the numbers of a PNG stand for light; EXR and HDR are linear.");
+            Parameter::new("encoding", "What the numbers of the file mean; EXR and HDR are always linear.");
         p.value(&PATH, Value::File(&mut self.path));
         p.word(&ENCODING, &mut self.encoding);
     }

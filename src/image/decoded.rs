@@ -1,0 +1,116 @@
+//! PNG, JPEG, TGA and WebP, by the `image` crate.
+//!
+//! The size in the header is checked, and the memory of the whole decoder is reserved, before any pixel is decoded.
+use std::io::{BufRead, Seek, SeekFrom};
+
+use ::image::{
+    ImageDecoder, Limits,
+    codecs::{jpeg::JpegDecoder, png::PngDecoder, tga::TgaDecoder, webp::WebPDecoder},
+};
+
+use super::{Encoding, Flaw, LONGEST_SIDE, Picture, Pixel, check_size, pixels, room};
+use crate::{
+    math::colour::linear_from_srgb,
+    memory::{Reservation, reserve},
+};
+
+/// Maximum memory for chunks of a PNG that are not pixels, such as the text of a scene.
+const CHUNKS: u64 = 64 << 20;
+/// Bytes per pixel that decoders keep besides the result: JPEG four components of two bytes, WebP two images of four bytes, TGA indices
+/// of colours.
+const JPEG: u64 = 8;
+const WEBP: u64 = 8;
+const TGA: u64 = 2;
+
+pub(super) fn png<P: Pixel>(mut file: impl BufRead + Seek, encoding: Encoding) -> Result<Picture<P>, Flaw> {
+    let (width, height) = size_of_png(&mut file)?;
+    check_size(width.into(), height.into())?;
+    file.rewind()?;
+    decode(PngDecoder::with_limits(file, limits(CHUNKS)).map_err(Flaw::broken)?, 0, encoding)
+}
+
+pub(super) fn jpeg<P: Pixel>(mut file: impl BufRead + Seek, encoding: Encoding) -> Result<Picture<P>, Flaw> {
+    let _file = whole(&mut file)?;
+    decode(JpegDecoder::new(file).map_err(Flaw::broken)?, JPEG, encoding)
+}
+
+pub(super) fn tga<P: Pixel>(file: impl BufRead + Seek, encoding: Encoding) -> Result<Picture<P>, Flaw> {
+    decode(TgaDecoder::new(file).map_err(Flaw::broken)?, TGA, encoding)
+}
+
+pub(super) fn webp<P: Pixel>(mut file: impl BufRead + Seek, encoding: Encoding) -> Result<Picture<P>, Flaw> {
+    let _file = whole(&mut file)?;
+    decode(WebPDecoder::new(file).map_err(Flaw::broken)?, WEBP, encoding)
+}
+
+/// Decodes the pixels of a file whose header has been read. `besides`: bytes per pixel that the decoder takes for itself.
+fn decode<P: Pixel>(mut decoder: impl ImageDecoder, besides: u64, encoding: Encoding) -> Result<Picture<P>, Flaw> {
+    let (width, height) = decoder.dimensions();
+    check_size(width.into(), height.into())?;
+    let size = decoder.total_bytes() + besides * u64::from(width) * u64::from(height);
+    let _room = room::<P>(width, height, size)?;
+    decoder.set_limits(limits(size)).map_err(Flaw::broken)?;
+    let colour = decoder.color_type();
+    let mut bytes = Vec::new();
+    bytes.try_reserve_exact(decoder.total_bytes() as usize).map_err(Flaw::broken)?;
+    bytes.resize(decoder.total_bytes() as usize, 0);
+    decoder.read_image(&mut bytes).map_err(Flaw::broken)?;
+    let channels = usize::from(colour.channel_count());
+    let radiance = match usize::from(colour.bytes_per_pixel()) / channels {
+        1 => linear(bytes.iter().map(|sample| u16::from(*sample)), u8::MAX.into(), channels, encoding),
+        2 => {
+            let samples = bytes.chunks_exact(2).map(|sample| u16::from_ne_bytes([sample[0], sample[1]]));
+            linear(samples, u16::MAX, channels, encoding)
+        }
+        _ => Err(Flaw::broken(format!("its samples are {colour:?}"))),
+    }?;
+    Ok(Picture { width, height, radiance })
+}
+
+/// Converts samples from 0 to `most` to linear light. Of fewer than three channels, the first is grey.
+fn linear<P: Pixel>(
+    samples: impl ExactSizeIterator<Item = u16>,
+    most: u16,
+    channels: usize,
+    encoding: Encoding,
+) -> Result<Vec<P>, Flaw> {
+    let value = |sample: u16| {
+        let x = f64::from(sample) / f64::from(most);
+        (if encoding == Encoding::Srgb { linear_from_srgb(x) } else { x }) as f32
+    };
+    let values: Vec<f32> = (0..=most).map(value).collect();
+    let mut radiance = pixels(samples.len() / channels)?;
+    let mut samples = samples.map(|sample| values[usize::from(sample)]);
+    while let Some(first) = samples.next() {
+        let mut pixel = [first; 4];
+        pixel[1..channels].fill_with(|| samples.next().unwrap_or_default());
+        radiance.push(P::of(if channels < 3 { [first; 3] } else { [first, pixel[1], pixel[2]] }));
+    }
+    Ok(radiance)
+}
+
+/// Reserves memory for a file that its decoder reads as a whole, into a buffer that grows by doubling.
+fn whole(file: &mut impl Seek) -> Result<Reservation, Flaw> {
+    let length = file.seek(SeekFrom::End(0))?;
+    file.rewind()?;
+    Ok(reserve("the bytes of a picture", 2 * length)?)
+}
+
+fn limits(bytes: u64) -> Limits {
+    let mut limits = Limits::default();
+    limits.max_image_width = Some(LONGEST_SIDE as u32);
+    limits.max_image_height = Some(LONGEST_SIDE as u32);
+    limits.max_alloc = Some(bytes);
+    limits
+}
+
+/// Width and height of the header chunk, which the standard puts first (PNG, third edition, sections 5.6 and 11.2.1).
+fn size_of_png(file: &mut impl BufRead) -> Result<(u32, u32), Flaw> {
+    let mut start = [0; 24];
+    file.read_exact(&mut start).map_err(|_| Flaw::broken("the file ends within its header"))?;
+    let number = |at: usize| u32::from_be_bytes([start[at], start[at + 1], start[at + 2], start[at + 3]]);
+    if &start[12..16] != b"IHDR" {
+        return Err(Flaw::broken("the file does not begin with a header"));
+    }
+    Ok((number(16), number(20)))
+}
