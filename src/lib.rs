@@ -16,10 +16,13 @@ pub mod memory;
 pub mod model;
 pub mod quote;
 pub mod render;
+#[cfg(feature = "reports")]
 pub mod report;
 pub mod sampling;
 pub mod scene;
 pub mod shape;
+#[cfg(feature = "reports")]
 pub mod study;
 pub mod texture;
+#[cfg(feature = "reports")]
 pub mod validate;

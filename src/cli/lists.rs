@@ -10,25 +10,25 @@ use super::options::{self as parse, BounceCap};
 #[derive(clap::Args)]
 pub struct ListOptions {
     /// How light is found: path, light, mis
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::item(parse::estimator))]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = item(parse::estimator))]
     estimators: Vec<Estimator>,
     /// How the next direction is drawn at diffuse surfaces: uniform, cosine, bsdf
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::item(parse::directions))]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = item(parse::directions))]
     directions: Vec<Directions>,
     /// Where samples lie: independent, stratified, sobol, bluenoise (which is sobol in another order)
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::item(parse::sampler))]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = item(parse::sampler))]
     samplers: Vec<Sampler>,
     /// Russian roulette: off, survival probabilities, throughput
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::item(parse::roulette))]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = item(parse::roulette))]
     roulette: Vec<Roulette>,
     /// Highest numbers of bounces, none for no cap; what is capped is biased
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::item(parse::bounce_cap))]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = item(parse::bounce_cap))]
     max_bounces: Vec<BounceCap>,
     /// Whether neighbouring pixels share what their paths find: auto, on, off
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::item(parse::reuse))]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = item(parse::reuse))]
     reuse: Vec<Reuse>,
     /// Whether pixels get more samples where there is more noise: on, off
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::item(parse::on_or_off))]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = item(parse::on_or_off))]
     adaptive: Vec<bool>,
 }
 
@@ -47,5 +47,24 @@ impl ListOptions {
             reuses: given(&self.reuse, usual.reuses),
             adaptive: given(&self.adaptive, usual.adaptive),
         }
+    }
+}
+
+/// A value of a list, with the spaces and quotes around it that are natural in lists.
+pub fn item<T>(parse: fn(&str) -> Result<T, String>) -> impl Fn(&str) -> Result<T, String> + Clone {
+    move |text| parse(text.trim_matches(|c: char| c.is_whitespace() || matches!(c, '"' | '\'')))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn items_of_lists_lose_their_spaces_and_quotes() {
+        let sampler = item(parse::sampler);
+        for text in [" sobol", "sobol\t", "'sobol'", "\"sobol\"", " ' sobol' "] {
+            assert_eq!(sampler(text), Ok(Sampler::Sobol), "{text}");
+        }
+        assert!(sampler("").is_err() && sampler("so bol").is_err());
     }
 }

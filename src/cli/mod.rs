@@ -1,10 +1,13 @@
 //! The command line. Exit status 0 done, 1 failed with a message on standard error, 2 wrong usage, 130 interrupted.
 mod check;
 mod compare;
+#[cfg(feature = "reports")]
 mod evidence;
 mod figures;
 mod flip;
+#[cfg(feature = "reports")]
 mod folder;
+#[cfg(feature = "reports")]
 mod lists;
 mod meant;
 mod messages;
@@ -13,10 +16,13 @@ mod output;
 mod progress;
 mod render;
 mod replay;
+#[cfg(feature = "reports")]
 mod sheet;
 mod stop;
+#[cfg(feature = "reports")]
 mod study;
 mod summary;
+#[cfg(feature = "reports")]
 mod validate;
 
 use std::{
@@ -56,12 +62,16 @@ enum Command {
     /// Error of picture A against reference B
     Compare(compare::Arguments),
     /// Hold the renderer against exact solutions and write a report
+    #[cfg(feature = "reports")]
     Validate(validate::Arguments),
     /// Run time against error for every combination of settings, as a report
+    #[cfg(feature = "reports")]
     Study(study::Arguments),
     /// The chapter of a report for a scene: pictures, convergence, bias, comparisons at equal time
+    #[cfg(feature = "reports")]
     Evidence(evidence::Arguments),
     /// One labelled picture of several settings
+    #[cfg(feature = "reports")]
     Sheet(sheet::Arguments),
     /// Read and check scene files, without a picture
     Check(check::Arguments),
@@ -81,9 +91,13 @@ pub fn run() -> ExitCode {
         Some(Command::Render(arguments)) => render::run(&arguments),
         Some(Command::Compare(arguments)) => compare::run(&arguments),
         Some(Command::Check(arguments)) => check::run(&arguments).map(succeeded),
+        #[cfg(feature = "reports")]
         Some(Command::Validate(arguments)) => validate::run(&arguments).map(succeeded),
+        #[cfg(feature = "reports")]
         Some(Command::Study(arguments)) => study::run(&arguments),
+        #[cfg(feature = "reports")]
         Some(Command::Evidence(arguments)) => evidence::run(&arguments),
+        #[cfg(feature = "reports")]
         Some(Command::Sheet(arguments)) => sheet::run(&arguments),
         Some(Command::Schema) => schema().map(succeeded),
     };

@@ -159,11 +159,6 @@ pub fn format(text: &str) -> Result<Format, String> {
     Format::named(text).ok_or_else(|| "expected png or exr".to_owned())
 }
 
-/// A value of a list, with the spaces and quotes around it that are natural in lists.
-pub fn item<T>(parse: fn(&str) -> Result<T, String>) -> impl Fn(&str) -> Result<T, String> + Clone {
-    move |text| parse(text.trim_matches(|c: char| c.is_whitespace() || matches!(c, '"' | '\'')))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -221,15 +216,6 @@ mod tests {
         assert_eq!(["none", "reinhard", "aces", "false-colour"].map(tone), maps.map(Ok));
         assert_eq!(["-1.5", "2"].map(exposure), [Ok(-1.5), Ok(2.0)]);
         assert_eq!(["off", "throughput"].map(roulette), [Roulette::Off, Roulette::BY_THROUGHPUT].map(Ok));
-    }
-
-    #[test]
-    fn items_of_lists_lose_their_spaces_and_quotes() {
-        let sampler = item(sampler);
-        for text in [" sobol", "sobol\t", "'sobol'", "\"sobol\"", " ' sobol' "] {
-            assert_eq!(sampler(text), Ok(Sampler::Sobol), "{text}");
-        }
-        assert!(sampler("").is_err() && sampler("so bol").is_err());
     }
 
     #[test]

@@ -13,7 +13,7 @@ use noisefall::{
 };
 
 use super::{
-    lists::ListOptions,
+    lists::{ListOptions, item},
     messages::{Failure, print, tell, wrong_usage},
     options::{self as parse, DisplayOptions},
     stop::{INTERRUPTED, stop_signal},
@@ -33,7 +33,7 @@ pub struct Arguments {
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
     /// Samples per pixel
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::item(parse::samples), default_value = "16")]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = item(parse::samples), default_value = "16")]
     spp: Vec<u32>,
     #[command(flatten)]
     lists: ListOptions,

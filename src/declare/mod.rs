@@ -20,6 +20,7 @@
 //! | `check.rs` | the visitor that holds values against their ranges |
 mod catalogue;
 mod check;
+#[cfg(feature = "reports")]
 mod dice;
 mod lines;
 mod manual;
@@ -32,9 +33,10 @@ mod schema;
 mod value;
 mod write;
 
+#[cfg(feature = "reports")]
+pub use self::dice::Dice;
 pub use self::{
     check::{check, check_value},
-    dice::Dice,
     lines::lines_of,
     manual::manual,
     outline::{Entry, Looks, Outline, outline},

@@ -21,6 +21,8 @@ pub mod path_samples;
 pub mod path_text;
 mod protocol;
 pub mod region;
+#[cfg(feature = "cli")]
+pub mod replay_command;
 mod sample_counts;
 mod scatter;
 pub mod series;

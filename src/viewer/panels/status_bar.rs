@@ -4,7 +4,7 @@ use std::{path::Path, time::Duration};
 use egui::{Color32, RichText};
 use noisefall::{
     math::colour::luminance,
-    render::{Budget, Frame, State, Status, pass::SampleId, settings_text::replay_command, view::Legend},
+    render::{Budget, Frame, State, Status, pass::SampleId, replay_command::replay_command, view::Legend},
     scene::{Camera, RenderSettings},
 };
 
