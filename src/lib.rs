@@ -1,8 +1,14 @@
 //! Noisefall: an interactive progressive path tracer, which solves the light transport equation by Monte Carlo integration.
 //!
-//! The library is the renderer; the window and the command line are in the binary. Folders depend downwards only:
-//! `validate`, `study` → `report`, `render` → `measure` → `integrator` → `scene` → `light`, `shape` → `material`, `geometry` →
-//! `texture` → `sampling`, `image`, `model` → `declare` → `math`, `file`, `memory`, `quote`.
+//! The library is the renderer; the window and the command line are in the binary. The feature `reports` adds `report`, `study` and
+//! `validate`.
+//!
+//! [`scene::load`] reads a scene file, and [`scene::description::SceneDescription::build`] makes a scene in code.
+//! [`render::pass::Threads::pass`] renders a number of samples, and [`render::Renderer`] renders progressively on a thread of its own.
+//! [`render::image_file::save`] writes a PNG or EXR. The folder `examples/` has a program for each.
+//!
+//! Folders depend downwards only:
+//! `validate`, `study` → `report`, `render`, `measure` → `integrator` → `scene` → `light` → `material`, `geometry` → `texture` → `sampling`, `image`, `model` → `math`.
 pub mod declare;
 pub mod file;
 pub mod geometry;
