@@ -8,8 +8,11 @@ use crate::sampling::Filter;
 /// Where the picture is taken from. Right-handed world, y usually up.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Camera {
+    /// Position, metres.
     pub eye: DVec3,
+    /// The point in the middle of the image, metres.
     pub look_at: DVec3,
+    /// The direction that is up in the image, of any length.
     pub up: DVec3,
     /// Full angle across the picture's width, degrees.
     pub fov: f64,
@@ -17,6 +20,7 @@ pub struct Camera {
     pub orthographic: Option<f64>,
     /// Absent: a pinhole.
     pub lens: Option<Lens>,
+    /// The pixel filter.
     pub filter: Filter,
     /// When the picture is taken, which blurs what moves; absent: all is seen as it stands at time 0.
     pub shutter: Option<Shutter>,
@@ -36,26 +40,37 @@ pub struct Lens {
 /// Why a camera cannot take a picture.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum CameraError {
+    /// A number is infinite or NaN.
     #[error("a camera position or angle is not a finite number")]
     NotFinite,
+    /// The direction of view has no length.
     #[error("`eye` and `look_at` are the same point")]
     NoDirection,
+    /// The upward direction has no length.
     #[error("`up` is zero: it must be a direction")]
     UpIsZero,
+    /// The upward direction is the direction of view.
     #[error("`up` is parallel to the direction of view")]
     UpIsForward,
+    /// The field of view is out of range.
     #[error("`fov` must lie between 0.001 and 179.9 degrees")]
     Fov,
+    /// The width of an orthographic image is out of range.
     #[error("the width of an orthographic picture must lie between 1e-9 and 1e9 metres")]
     Width,
+    /// The radius of the lens is out of range.
     #[error("the radius of a lens must lie between 0 and 1e9 metres")]
     LensRadius,
+    /// The distance of the plane in focus is out of range.
     #[error("the distance in focus must lie between 1e-9 and 1e12 metres")]
     Focus,
+    /// A lens and parallel rays exclude each other.
     #[error("a lens needs a perspective camera")]
     LensOrthographic,
+    /// The width of the pixel filter is out of range.
     #[error("the width of a pixel filter must lie between 0.01 and 16 pixels")]
     Filter,
+    /// The resolution is out of range.
     #[error("the resolution must be at least 1 × 1, at most {0} a side and {MOST_PIXELS} pixels in all", Camera::MOST_SIDE)]
     Resolution,
 }
@@ -67,6 +82,7 @@ impl Camera {
     /// Limit of width and of height.
     pub const MOST_SIDE: u32 = 16_384;
 
+    /// Checks all values, the resolution included.
     pub fn check(&self) -> Result<(), CameraError> {
         self.check_resolution()?;
         if !(self.eye.is_finite() && self.look_at.is_finite() && self.up.is_finite() && self.fov.is_finite()) {
@@ -107,6 +123,7 @@ impl Camera {
         }
     }
 
+    /// Checks the resolution alone.
     pub fn check_resolution(&self) -> Result<(), CameraError> {
         let [w, h] = self.resolution;
         let fits = |side: u32| (1..=Self::MOST_SIDE).contains(&side);

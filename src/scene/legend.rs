@@ -13,6 +13,7 @@ pub struct Legend {
 }
 
 impl Scene {
+    /// The names of the materials with their colours.
     pub fn legend(&self) -> Legend {
         let mut numbers: HashMap<Option<u32>, u32> = HashMap::new();
         let mut names = Vec::new();

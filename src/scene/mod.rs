@@ -66,14 +66,21 @@ const MOST_LOOKED_AT: usize = 256;
 /// A compiled scene, shared between threads. It does not change, except that two values are computed at their first use and then
 /// kept: whether path reuse pays, and the warnings. Both depend on the scene alone.
 pub struct Scene {
+    /// What the window and reports call the scene.
     pub title: String,
     /// The text of the scene file.
     pub source: String,
+    /// A text for people.
     pub notes: String,
+    /// Shapes and their acceleration structures.
     pub shapes: Shapes,
+    /// What the kernel knows of the surface of every primitive.
     pub surfaces: Surfaces,
+    /// All textures.
     pub textures: Textures,
+    /// Emitters and background, with the tables that choose among them.
     pub lights: Lights,
+    /// The materials of the scene file.
     pub materials: Vec<MaterialInstance>,
     /// The objects in the order of their primitive ids, emitting ones first.
     pub objects: Vec<Object>,
@@ -85,10 +92,13 @@ pub struct Scene {
     pub camera: Camera,
     /// What carries the camera from time 0 to 1.
     pub camera_motion: Motion,
+    /// The settings that the scene opens with.
     pub settings: RenderSettings,
     /// By estimator: whether sharing paths between pixels pays, once it has been tried.
     pub sharing_pays: [OnceLock<bool>; Estimator::ALL.len()],
+    /// Samples per pixel to stop at.
     pub spp: Option<u32>,
+    /// What the image converges to, if that is known.
     pub truth: Option<Truth>,
     /// How many media lie around the middle of some dielectric.
     pub deepest_media: usize,

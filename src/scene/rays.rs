@@ -20,6 +20,7 @@ pub struct CameraRays {
     /// The direction of all rays when they are parallel.
     parallel: Option<[f32; 3]>,
     lens: Option<LensRays>,
+    /// The pixel filter.
     pub filter: Filter,
     /// The media around the eye: see [`crate::scene::surface::Surfaces::media`].
     pub media: u32,
@@ -79,6 +80,7 @@ impl Scene {
 }
 
 impl CameraRays {
+    /// Whether rays start on a lens.
     pub fn have_lens(&self) -> bool {
         self.lens.is_some()
     }

@@ -9,15 +9,21 @@ use crate::{
 /// The settings of a render. Together with scene, camera, pixel and sample index they determine every sample.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct RenderSettings {
+    /// How direct light is estimated.
     pub estimator: Estimator,
+    /// The sequence of random numbers.
     pub sampler: Sampler,
+    /// How directions are sampled at diffuse surfaces.
     pub directions: Directions,
+    /// How paths end.
     pub roulette: Roulette,
     /// The highest number of bounces counted, reflections and refractions alike; 0 is emitted light only, `None` is no cap.
     pub max_bounces: Option<u32>,
+    /// Whether neighbouring pixels share path suffixes.
     pub reuse: Reuse,
     /// Whether pixels get more samples where a pilot found more noise. Not where they share paths.
     pub adaptive: bool,
+    /// Seed of all random numbers.
     pub seed: u32,
     /// A mistake that the validation must notice.
     #[cfg(test)]
@@ -64,6 +70,7 @@ crate::words! {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Roulette {
+    /// Paths end only where nothing is left, at the cap, or in the background.
     Off,
     /// Survival probability at every bounce, from [`Roulette::LEAST`] to 1.
     Fixed(f32),
@@ -81,6 +88,7 @@ impl Roulette {
     pub const LEAST: f32 = 0.01;
     /// The first bounce at which a path can end, where nothing is said.
     pub const FIRST: u32 = 4;
+    /// By throughput, from the fourth bounce.
     pub const BY_THROUGHPUT: Roulette = Roulette::Throughput { start: Roulette::FIRST };
 
     /// What the command line calls it.
@@ -152,7 +160,9 @@ pub enum Reuse {
     /// Where a short trial says that it pays. The integrator itself takes it for [`Reuse::Off`].
     #[default]
     Auto,
+    /// Wherever neighbouring pixels can share.
     On,
+    /// Every pixel on its own.
     Off,
 }
 

@@ -4,7 +4,9 @@ use serde::{Deserialize, Serialize};
 /// When the shutter is open. Motion runs over the times 0 to 1; before and after them things stay as they are at its ends.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Shutter {
+    /// The time at which it opens, from 0 to 1.
     pub open: f64,
+    /// The time at which it closes, from 0 to 1.
     pub close: f64,
 }
 
@@ -30,6 +32,7 @@ impl Shutter {
 /// Times from `start` on, evenly over `length`; poses before 0 are the pose at 0, and after 1 that at 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Moments {
+    /// The time at which the shutter opens.
     pub start: f32,
     /// 0 where all samples show the same pose.
     pub length: f32,

@@ -20,11 +20,13 @@ pub struct Surfaces {
     pub media: Vec<[f32; 4]>,
     /// Colour or α of some surface is textured.
     pub textured: bool,
+    /// The stages that some surface uses.
     pub stages: Vec<Stage>,
     /// Some surface is glossy: lights are better chosen by what it reflects of them.
     pub glossy: bool,
     /// All surfaces are diffuse, from both sides, and of constant colour.
     pub plain: bool,
+    /// Tables and constants of the materials.
     pub materials: Materials,
 }
 
@@ -177,16 +179,19 @@ fn octaves_per_metre(transmittance: [f32; 3]) -> [f32; 4] {
     [octaves(transmittance[0]), octaves(transmittance[1]), octaves(transmittance[2]), 0.0]
 }
 
+/// The number of the material in a word.
 #[inline(always)]
 pub fn material<L: Lanes>(word: U<L>) -> U<L> {
     word & 0xffff
 }
 
+/// The stage in a word.
 #[inline(always)]
 pub fn stage<L: Lanes>(word: U<L>) -> U<L> {
     (word >> STAGE_SHIFT) & STAGE_MASK
 }
 
+/// Whether a flag is set in a word.
 #[inline(always)]
 pub fn is_set<L: Lanes>(word: U<L>, flag: u32) -> M<L> {
     !(word & flag).is(0)

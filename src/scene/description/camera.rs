@@ -11,14 +11,23 @@ use crate::{
 /// The camera of a scene file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CameraDescription {
+    /// Position of the camera, metres.
     pub eye: DVec3,
+    /// The point in the middle of the image, metres.
     pub look_at: DVec3,
+    /// The direction that is up in the image, of any length; absent: +y.
     pub up: Option<DVec3>,
+    /// Full angle across the width of the image, degrees; only for perspective cameras.
     pub fov: Option<f64>,
+    /// Width and height in pixels.
     pub resolution: [u32; 2],
+    /// Perspective or parallel rays.
     pub projection: Projection,
+    /// The thin lens; absent: a pinhole.
     pub lens: Option<Lens>,
+    /// The pixel filter.
     pub filter: Filter,
+    /// The times at which the shutter opens and closes, from 0 to 1; absent: the image is taken at time 0.
     pub shutter: Option<[f64; 2]>,
     /// What carries the camera from time 0 to 1.
     pub motion: Vec<Transform>,
@@ -101,8 +110,10 @@ impl Declare for Lens {
 /// How the world is projected.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Projection {
+    /// All rays start at the eye.
     #[default]
     Perspective,
+    /// All rays are parallel.
     Orthographic(Orthographic),
 }
 

@@ -18,8 +18,17 @@ pub(super) const TEXTURE: Parameter = Parameter::new("texture", "The name of a t
 /// The background of a scene file.
 #[derive(Clone, Debug, PartialEq)]
 pub enum BackgroundDescription {
+    /// The same radiance from all directions, W/(m² sr).
     Radiance([f64; 3]),
-    Image { path: String, rotate: f64, scale: f64 },
+    /// An equirectangular image file; its centre is at −z.
+    Image {
+        /// The file, relative to the scene.
+        path: String,
+        /// Rotation about the vertical, degrees.
+        rotate: f64,
+        /// Factor of the radiance.
+        scale: f64,
+    },
 }
 
 impl Default for BackgroundDescription {
@@ -67,15 +76,20 @@ impl OneOf for BackgroundDescription {
 /// Emission of an object of a scene file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EmissionDescription {
+    /// The radiance, constant or textured.
     pub source: EmissionSource,
+    /// Whether the back emits too.
     pub two_sided: bool,
+    /// Factor of the radiance.
     pub scale: f64,
 }
 
 /// What an emission varies by.
 #[derive(Clone, Debug, PartialEq)]
 pub enum EmissionSource {
+    /// A constant radiance, W/(m² sr).
     Radiance([f64; 3]),
+    /// The name of a texture.
     Texture(String),
 }
 
@@ -122,7 +136,9 @@ impl OneOf for EmissionSource {
 /// What the picture of a scene file must converge to.
 #[derive(Clone, Debug, PartialEq)]
 pub enum TruthDescription {
+    /// The same radiance at every pixel, W/(m² sr).
     Radiance([f64; 3]),
+    /// An image file of the resolution of the camera.
     Image(String),
 }
 

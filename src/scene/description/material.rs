@@ -8,10 +8,13 @@ use crate::{
 /// A material of a scene file: its kind, and what any kind may have.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MaterialDescription {
+    /// The BSDF.
     pub kind: Material,
+    /// A height field that tilts the shading normal.
     pub bump: Option<Bump>,
     /// A picture file of normals.
     pub normal_map: Option<String>,
+    /// Whether the back reflects too; absent: it does.
     pub two_sided: Option<bool>,
 }
 
@@ -31,6 +34,7 @@ impl Declare for MaterialDescription {
 /// A texture of heights.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bump {
+    /// The name of a texture; its luminance is the height.
     pub texture: String,
     /// Metres that the brightest texel rises above the darkest.
     pub height: f64,

@@ -55,14 +55,23 @@ pub use crate::{
 /// A scene as its file describes it, or as code builds it: see the [module](self).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SceneDescription {
+    /// What the window and reports call the scene.
     pub title: String,
+    /// A text for people.
     pub notes: String,
+    /// The camera that the scene opens with.
     pub camera: CameraDescription,
+    /// Light from every direction that meets no surface; none is black.
     pub background: Option<BackgroundDescription>,
+    /// Textures by name.
     pub textures: BTreeMap<String, TextureKind>,
+    /// Materials by name.
     pub materials: BTreeMap<String, MaterialDescription>,
+    /// The objects, in any order.
     pub objects: Vec<ObjectDescription>,
+    /// The settings that the scene opens with.
     pub render: RenderDescription,
+    /// What the image converges to, if that is known.
     pub truth: Option<TruthDescription>,
 }
 

@@ -8,12 +8,19 @@ use crate::{
 /// An object of a scene file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ObjectDescription {
+    /// What the window calls the object.
     pub name: String,
+    /// The surface.
     pub shape: ShapeKind,
+    /// The name of the material; absent: black.
     pub material: Option<String>,
+    /// The emission; absent: none.
     pub emission: Option<EmissionDescription>,
+    /// Whether the normal is reversed.
     pub flip: bool,
+    /// Transforms of the shape, from the first to the last.
     pub transform: Vec<Transform>,
+    /// Transforms that move the object from time 0 to 1.
     pub motion: Vec<Transform>,
 }
 

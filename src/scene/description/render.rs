@@ -7,6 +7,7 @@ use crate::{
 /// The settings that a scene opens with.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RenderDescription {
+    /// How the scene is rendered.
     pub settings: RenderSettings,
     /// Samples a pixel to stop at.
     pub spp: Option<u32>,
