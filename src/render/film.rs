@@ -8,6 +8,7 @@ use crate::{
 /// Sums of samples over all pixels, in tiles that each belong to one thread at a time.
 pub struct Film {
     pub(super) resolution: [u32; 2],
+    /// The tiles, row by row from the top left.
     pub tiles: Vec<Tile>,
     /// Whether all samples up to the next doubling are there, which must be recorded before there are more.
     pub(super) is_noting: bool,
@@ -83,6 +84,7 @@ impl Film {
         self.tiles.iter().any(Tile::is_adaptive)
     }
 
+    /// Samples that were dropped because they were negative or not finite.
     pub fn invalid_samples(&self) -> u64 {
         self.tiles.iter().map(|tile| tile.invalid).sum()
     }

@@ -15,8 +15,11 @@ const _: () = assert!(SampleNoise::BLOCK == TILE as usize);
 /// Linear radiance, row by row from the top left. Immutable once published.
 #[derive(Debug, Default)]
 pub struct Frame {
+    /// Number of the image that it belongs to.
     pub generation: u64,
+    /// Width in pixels.
     pub width: u32,
+    /// Height in pixels.
     pub height: u32,
     /// The full resolution of the image; larger than that of the frame while the image is coarse.
     pub full_resolution: [u32; 2],
@@ -40,6 +43,7 @@ pub struct Frame {
 }
 
 impl Frame {
+    /// The means of a film so far. A coarse film has a smaller resolution than `full_resolution`.
     pub fn of_film(film: &Film, generation: u64, [width, height]: [u32; 2], full_resolution: [u32; 2]) -> Frame {
         let pixels = width as usize * height as usize;
         let mut radiance = vec![[0.0; 3]; pixels];
@@ -102,6 +106,7 @@ impl Frame {
         self.radiance.iter().all(|radiance| *radiance == [0.0; 3])
     }
 
+    /// Whether the resolution is lower than that of the image.
     pub fn is_coarse(&self) -> bool {
         [self.width, self.height] != self.full_resolution
     }

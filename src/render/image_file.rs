@@ -17,12 +17,16 @@ use crate::{
 /// Error of reading or writing an image.
 #[derive(Debug, thiserror::Error)]
 pub enum ImageError {
+    /// The name has no known extension.
     #[error("{}: the name must end in .png (as shown) or .exr (linear)", .0.display())]
     Format(PathBuf),
+    /// The file cannot be written.
     #[error(transparent)]
     Write(#[from] WriteError),
+    /// The image does not fit the format.
     #[error("the picture cannot be encoded: {0}")]
     Encode(String),
+    /// The file cannot be read.
     #[error(transparent)]
     Read(#[from] PictureError),
 }
@@ -48,6 +52,7 @@ impl Format {
         [Format::Png, Format::Exr].into_iter().find(|format| format.name().eq_ignore_ascii_case(name))
     }
 
+    /// The extension, "png" or "exr".
     pub fn name(self) -> &'static str {
         match self {
             Format::Png => "png",

@@ -28,9 +28,11 @@ const REL_MSE: &str = "rel_mse_estimate";
 /// Metadata of a file about the render of its image.
 #[derive(Clone, Debug, Default)]
 pub struct Provenance {
+    /// Noise of the image; `None` if the file has no variances.
     pub noise: Option<SampleNoise>,
     /// Estimated relMSE: see [`Frame::rel_mse_estimate`].
     pub rel_mse_estimate: Option<f64>,
+    /// Seed of the samples; `None` if the file does not tell.
     pub seed: Option<u64>,
     /// Whether samples are independent, so that variances are exact and not only upper bounds.
     pub is_independent: bool,

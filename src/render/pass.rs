@@ -33,7 +33,9 @@ pub struct PassCount {
 /// Identifies one sample by its pixel and index, for a replay.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct SampleId {
+    /// Column and row from the top left.
     pub pixel: [u32; 2],
+    /// Index of the sample within the pixel.
     pub sample: u32,
 }
 
@@ -46,6 +48,7 @@ pub struct Failure {
     pub replays: bool,
     /// Resolution of the image, which may have been a coarse one.
     pub resolution: [u32; 2],
+    /// The message of the panic.
     pub message: String,
 }
 
@@ -145,6 +148,7 @@ impl Threads {
 }
 
 impl PassCount {
+    /// The figures of both passes together.
     pub fn merge(self, other: PassCount) -> PassCount {
         PassCount {
             rays: self.rays + other.rays,

@@ -9,10 +9,15 @@ use crate::{
 /// The path and its settings.
 #[derive(Clone, Copy)]
 pub struct PathId<'a> {
+    /// The scene.
     pub scene: &'a Scene,
+    /// The camera of the path.
     pub camera: &'a Camera,
+    /// The settings of the path.
     pub settings: &'a RenderSettings,
+    /// Column and row from the top left.
     pub pixel: [u32; 2],
+    /// Index of the sample within the pixel.
     pub sample: u32,
 }
 

@@ -12,19 +12,26 @@ use crate::scene::{Camera, RenderSettings, Scene};
 /// An image to render. Each generation is a different image.
 #[derive(Clone)]
 pub struct Job {
+    /// Number of the image. Frames and figures carry it.
     pub generation: u64,
+    /// The scene to render.
     pub scene: Arc<Scene>,
+    /// The camera, which need not be the scene's.
     pub camera: Camera,
+    /// How it is rendered.
     pub settings: RenderSettings,
 }
 
 /// How far to render it. A change continues with the existing samples.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Budget {
+    /// Whether rendering stops after the first sample.
     pub paused: bool,
     /// Number of single passes requested so far while paused; it only grows.
     pub steps: u64,
+    /// Samples per pixel at which to stop.
     pub max_spp: Option<u32>,
+    /// Render time after which to stop.
     pub max_time: Option<Duration>,
     /// Relative noise at which to stop: the root of the estimated relMSE.
     pub noise: Option<f64>,
@@ -64,7 +71,9 @@ pub enum State {
     /// No job yet.
     #[default]
     Idle,
+    /// Samples are being added.
     Running,
+    /// The budget asks for a pause.
     Paused,
     /// The render has reached a target of the budget.
     Done(Target),
@@ -75,8 +84,11 @@ pub enum State {
 /// Figures of the render, and the state of the worker.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Status {
+    /// Number of the image.
     pub generation: u64,
+    /// What the worker does.
     pub state: State,
+    /// Minimum number of samples per pixel.
     pub spp: u32,
     /// Samples per pixel of the region that is rendered before the rest.
     pub region_spp: Option<u32>,
@@ -86,6 +98,7 @@ pub struct Status {
     pub rays: u64,
     /// Render time of this image.
     pub elapsed: Duration,
+    /// Estimated relMSE; `None` before the second sample.
     pub rel_mse_estimate: Option<f64>,
     /// Whether pixels share paths.
     pub shares: bool,
@@ -93,6 +106,7 @@ pub struct Status {
     pub adapts: bool,
     /// Samples dropped because they were negative or not finite.
     pub invalid_samples: u64,
+    /// The first of the dropped samples.
     pub first_invalid: Option<SampleId>,
     /// Paths cut at [`RenderSettings::last_bounce`] in the absence of a cap.
     pub cut_paths: u64,
@@ -109,6 +123,7 @@ impl Status {
         self.rel_mse_estimate.map(f64::sqrt)
     }
 
+    /// Camera samples per second of render time.
     pub fn samples_per_second(&self) -> f64 {
         self.samples as f64 / self.elapsed.as_secs_f64().max(1e-9)
     }
@@ -117,7 +132,9 @@ impl Status {
 /// The latest frame and figures.
 #[derive(Clone, Default)]
 pub struct Published {
+    /// The latest frame; empty before the first.
     pub frame: Arc<Frame>,
+    /// The latest figures, which may be newer than the frame.
     pub status: Status,
 }
 

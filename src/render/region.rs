@@ -4,7 +4,9 @@ use crate::integrator::TILE;
 /// A rectangle of pixels, from the upper left corner up to, and excluding, the lower right one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Region {
+    /// Left and top.
     pub from: [u32; 2],
+    /// Right and bottom, exclusive.
     pub to: [u32; 2],
 }
 

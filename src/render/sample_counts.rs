@@ -10,6 +10,7 @@ pub struct SampleCounts {
     pub most: u32,
     /// Sum over the pixels.
     pub total: u64,
+    /// Number of pixels.
     pub pixels: u64,
 }
 

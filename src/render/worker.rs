@@ -81,6 +81,7 @@ impl Renderer {
         self.send(Message::Threads(threads));
     }
 
+    /// Continues up to this budget.
     pub fn set_budget(&self, budget: Budget) {
         self.send(Message::Budget(budget));
     }

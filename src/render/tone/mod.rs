@@ -16,6 +16,7 @@ use crate::declare::{Word, Words};
 pub struct Display {
     /// In stops: radiance is multiplied by 2 to this power.
     pub exposure: f32,
+    /// The tone map.
     pub tone_map: ToneMap,
 }
 
@@ -24,10 +25,14 @@ macro_rules! tone_maps {
         /// The tone maps.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
         pub enum ToneMap {
-            $($Kind),+
+            $(
+                #[doc = concat!("The tone map in `", stringify!($module), ".rs`.")]
+                $Kind
+            ),+
         }
 
         impl ToneMap {
+            /// All tone maps, in the order of the catalogue.
             pub const ALL: [ToneMap; [$($module::$Kind::WORD.name),+].len()] = [$(ToneMap::$Kind),+];
 
             /// How the command line and people call it.

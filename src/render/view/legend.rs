@@ -8,6 +8,7 @@ use crate::render::colour_map::ColourMap;
 /// The legend of a view.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Legend {
+    /// The quantity, or why it is missing.
     pub title: String,
     /// The scale of numbers, if any.
     pub scale: Option<Scale>,
@@ -18,10 +19,13 @@ pub struct Legend {
 /// A scale of numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scale {
+    /// The colours along the scale.
     pub map: ColourMap,
     /// The numbers at its ends.
     pub ends: [f32; 2],
+    /// Whether the scale is logarithmic.
     pub log: bool,
+    /// The unit of the numbers.
     pub unit: &'static str,
 }
 

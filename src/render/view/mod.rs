@@ -16,16 +16,26 @@ use crate::integrator::Features;
 /// A quantity to display.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize)]
 pub enum View {
+    /// The image itself.
     #[default]
     Radiance,
+    /// The standard error of each pixel.
     StandardError,
+    /// The number of samples of each pixel.
     SampleCount,
+    /// The deviation from the truth in standard errors.
     ZScore,
+    /// The difference from another image.
     Difference,
+    /// The normal of the first surface.
     Normals,
+    /// The albedo of the first surface.
     Albedo,
+    /// The distance of the first surface.
     Depth,
+    /// The time that the first ray takes.
     HitCost,
+    /// The material of the first surface.
     Materials,
 }
 
@@ -56,6 +66,7 @@ impl View {
         (View::Materials, "Materials", "Which material a camera ray meets first."),
     ];
 
+    /// The title in the window.
     pub fn name(self) -> &'static str {
         Self::ALL.iter().find(|(view, _, _)| *view == self).map_or("", |(_, name, _)| name)
     }
@@ -69,12 +80,15 @@ impl View {
 /// The data of views. Missing data is shown as grey.
 #[derive(Clone, Copy)]
 pub struct Sources<'a> {
+    /// The frame to show.
     pub frame: &'a Frame,
     /// Radiance to show in place of the frame's own, of the same length: a term of its series.
     pub radiance: Option<&'a [[f32; 3]]>,
+    /// The truth to compare with.
     pub truth: Option<&'a Reference>,
     /// The pinned image of the difference.
     pub pinned: Option<&'a Frame>,
+    /// The first surfaces of all pixels.
     pub features: Option<&'a Features>,
     /// The scale of another image beside this one, in place of its own.
     pub scale: Option<Scale>,
@@ -86,7 +100,9 @@ pub struct Sources<'a> {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct DisplaySettings {
     pub view: View,
+    /// Colours of numbers.
     pub map: ColourMap,
+    /// Exposure and tone map of radiance.
     pub display: Display,
 }
 

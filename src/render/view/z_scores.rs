@@ -14,12 +14,15 @@ pub struct ZScoreHistogram {
     pub density: Vec<f64>,
     /// Fraction of the scores beyond the ends.
     pub beyond: f64,
+    /// Mean of the z-scores.
     pub mean: f64,
+    /// Standard deviation of the z-scores.
     pub deviation: f64,
 }
 
 impl ZScoreHistogram {
     pub const END: f64 = 5.0;
+    /// Width of a class of the histogram.
     pub const WIDTH: f64 = 0.2;
 
     /// The histogram of all pixels with a standard error; `None` if there are none, or if the reference has another size.
