@@ -10,7 +10,10 @@ macro_rules! catalogue {
         $(#[$attribute])*
         #[derive(Clone, Debug, PartialEq)]
         pub enum $Family {
-            $($Kind($module::$Kind)),+
+            $(
+                #[doc = concat!("The kind in `", stringify!($module), ".rs`.")]
+                $Kind($module::$Kind)
+            ),+
         }
 
         impl $crate::declare::OneOf for $Family {

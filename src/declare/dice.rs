@@ -10,6 +10,7 @@ pub struct Dice<'r> {
 }
 
 impl<'r> Dice<'r> {
+    /// Draws from this source of random numbers.
     pub fn new(random: &'r mut dyn RngCore) -> Dice<'r> {
         Dice { random }
     }

@@ -91,12 +91,15 @@ pub trait Parameters {
 /// How a choice may be written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
+    /// A table with the key of an alternative.
     Table,
+    /// The name of an alternative, or a table.
     NameOrTable,
 }
 
 /// Something with parameters.
 pub trait Declare {
+    /// Visits every parameter, in the order of a reader.
     fn parameters(&mut self, p: &mut dyn Parameters);
 }
 
@@ -126,12 +129,15 @@ pub trait OneOf: Sized {
 
 /// The alternatives of a choice as a visitor sees them.
 pub struct Choice {
+    /// What is chosen: "material", "background".
     pub what: &'static str,
+    /// All alternatives, in the order of the catalogue.
     pub alternatives: Vec<Alternative>,
 }
 
 /// One alternative of a choice.
 pub struct Alternative {
+    /// What a scene file calls it.
     pub name: &'static str,
     /// Its parameters, at the level of the choice.
     pub outline: Outline,
@@ -228,6 +234,7 @@ impl dyn Parameters + '_ {
         }
     }
 
+    /// A number in a range.
     pub fn number(&mut self, parameter: &Parameter, value: &mut f64, range: Range) {
         self.value(parameter, Value::Number(value, range));
     }
@@ -239,10 +246,12 @@ impl dyn Parameters + '_ {
         *value = number as f32;
     }
 
+    /// A whole number in a range.
     pub fn count(&mut self, parameter: &Parameter, value: &mut u32, range: CountRange) {
         self.value(parameter, Value::Count(value, range));
     }
 
+    /// True or false.
     pub fn flag(&mut self, parameter: &Parameter, value: &mut bool) {
         self.value(parameter, Value::Flag(value));
     }
@@ -257,6 +266,7 @@ impl dyn Parameters + '_ {
         self.value(parameter, Value::TexturedNumber(value, range));
     }
 
+    /// A colour, linear Rec. 709.
     pub fn colour(&mut self, parameter: &Parameter, value: &mut [f64; 3], range: Range) {
         self.value(parameter, Value::Colour(value, range));
     }

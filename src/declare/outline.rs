@@ -7,23 +7,31 @@ pub type Outline = Vec<Entry>;
 /// A parameter and what its value looks like.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Entry {
+    /// The parameter.
     pub parameter: Parameter,
+    /// The form of its value.
     pub looks: Looks,
 }
 
 /// What a value looks like in a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Looks {
+    /// A number.
     Number,
     /// A list, or a number for grey.
     Colour,
+    /// A text between quotes.
     Text,
+    /// A list.
     List,
+    /// True or false.
     Flag,
+    /// A table.
     Table,
 }
 
 impl Looks {
+    /// The form of a value.
     pub fn of(value: &Value) -> Looks {
         match value {
             Value::Number(..) | Value::Count(..) | Value::TexturedNumber(..) => Looks::Number,

@@ -20,26 +20,32 @@ pub struct Parameter {
 }
 
 impl Parameter {
+    /// A parameter with its key and its sentence.
     pub const fn new(key: &'static str, doc: &'static str) -> Parameter {
         Parameter { key, doc, symbol: "", unit: "", is_required: false, aliases: "", advice: "" }
     }
 
+    /// The same, but a scene file must give it.
     pub const fn required(self) -> Parameter {
         Parameter { is_required: true, ..self }
     }
 
+    /// The same with a symbol.
     pub const fn symbol(self, symbol: &'static str) -> Parameter {
         Parameter { symbol, ..self }
     }
 
+    /// The same with a unit.
     pub const fn unit(self, unit: &'static str) -> Parameter {
         Parameter { unit, ..self }
     }
 
+    /// The same with aliases, separated by spaces.
     pub const fn aliases(self, aliases: &'static str) -> Parameter {
         Parameter { aliases, ..self }
     }
 
+    /// The same with advice.
     pub const fn advice(self, advice: &'static str) -> Parameter {
         Parameter { advice, ..self }
     }
@@ -53,8 +59,11 @@ impl Parameter {
 /// Between which ends a number lies, both allowed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Range {
+    /// The smallest number.
     pub least: f64,
+    /// The largest number.
     pub most: f64,
+    /// How a slider runs from one to the other.
     pub scale: Scale,
     /// What a message says is expected, where the ends alone would not explain it; may be empty.
     pub expected: &'static str,
@@ -63,6 +72,7 @@ pub struct Range {
 /// How a slider runs through a range.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scale {
+    /// In proportion.
     Linear,
     /// By powers of ten.
     Log,
@@ -74,6 +84,7 @@ impl Range {
     /// Reflectances, channel by channel.
     pub const REFLECTANCE: Range =
         Range::UNIT.expected("every channel must lie in [0, 1]: a surface cannot reflect more light than it receives");
+    /// Roughness and α.
     pub const ROUGHNESS: Range = Range::UNIT.expected("expected a number from 0 to 1");
     /// W/(m² sr), channel by channel.
     pub const RADIANCE: Range = Range::log(0.0, 1e15).expected("every channel must be a number from 0 to 1e15");
@@ -84,14 +95,17 @@ impl Range {
     /// Any finite number.
     pub const FINITE: Range = Range::linear(f64::MIN, f64::MAX);
 
+    /// A range with a linear scale.
     pub const fn linear(least: f64, most: f64) -> Range {
         Range { least, most, scale: Scale::Linear, expected: "" }
     }
 
+    /// A range with a logarithmic scale.
     pub const fn log(least: f64, most: f64) -> Range {
         Range { least, most, scale: Scale::Log, expected: "" }
     }
 
+    /// The same with what messages expect.
     pub const fn expected(self, expected: &'static str) -> Range {
         Range { expected, ..self }
     }
@@ -105,13 +119,17 @@ impl Range {
 /// Between which ends a whole number lies, both allowed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CountRange {
+    /// The smallest number.
     pub least: u32,
+    /// The largest number.
     pub most: u32,
 }
 
 impl CountRange {
+    /// Any whole number of 32 bits.
     pub const ANY: CountRange = CountRange { least: 0, most: u32::MAX };
 
+    /// The range from `least` to `most`.
     pub const fn new(least: u32, most: u32) -> CountRange {
         CountRange { least, most }
     }

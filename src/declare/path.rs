@@ -6,7 +6,9 @@ use crate::quote;
 /// A step into a table or a list.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Step {
+    /// A key of a table.
     Key(String),
+    /// A place in a list, from 0.
     Item(usize),
 }
 
@@ -26,16 +28,19 @@ impl Path {
         inner.0.starts_with(&self.0)
     }
 
+    /// This path, continued by another.
     #[must_use]
     pub fn join(&self, rest: &Path) -> Path {
         Path(self.0.iter().chain(&rest.0).cloned().collect())
     }
 
+    /// This path, continued by a key.
     #[must_use]
     pub fn key(&self, key: &str) -> Path {
         self.join(&Path(vec![Step::Key(key.to_owned())]))
     }
 
+    /// This path, continued by a place in a list.
     #[must_use]
     pub fn item(&self, index: usize) -> Path {
         self.join(&Path(vec![Step::Item(index)]))

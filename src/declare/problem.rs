@@ -43,6 +43,7 @@ impl Problem {
         Problem::at(at, format!("there is no {kind} `{name}`"), label).help(help)
     }
 
+    /// The same problem with advice.
     #[must_use]
     pub fn help(self, help: impl Into<String>) -> Problem {
         Problem { help: help.into(), ..self }

@@ -15,6 +15,7 @@ pub struct Resources {
 }
 
 impl Resources {
+    /// Files are looked for in `folder`.
     pub fn new(folder: impl Into<PathBuf>) -> Resources {
         Resources { folder: folder.into(), memory: RefCell::new(Reservation::none()) }
     }

@@ -5,9 +5,13 @@ use super::parameter::{CountRange, Range};
 
 /// A value that a visitor may read or replace.
 pub enum Value<'v> {
+    /// A number in a range.
     Number(&'v mut f64, Range),
+    /// A whole number in a range.
     Count(&'v mut u32, CountRange),
+    /// True or false.
     Flag(&'v mut bool),
+    /// Any text.
     Text(&'v mut String),
     /// A path relative to the folder of the scene.
     File(&'v mut String),
@@ -15,6 +19,7 @@ pub enum Value<'v> {
     Name(&'v mut String, Family),
     /// Linear Rec. 709: three channels, or one number for grey.
     Colour(&'v mut [f64; 3], Range),
+    /// A colour, or a texture in its place.
     Textured(&'v mut Textured, Range),
     /// A number, or a texture whose luminance it is.
     TexturedNumber(&'v mut Textured<f64>, Range),
@@ -30,7 +35,9 @@ pub enum Value<'v> {
     Counts(&'v mut [u32; 2]),
     /// Row by row.
     Matrix(&'v mut [[f64; 4]; 4]),
+    /// A list of positions, metres.
     Points(&'v mut Vec<[f64; 3]>),
+    /// A list of triangles, as indices of three points each.
     Triangles(&'v mut Vec<[u32; 3]>),
     /// The place of one of the words.
     Word(&'v mut usize, &'v [Word]),
@@ -39,19 +46,23 @@ pub enum Value<'v> {
 /// What a name can stand for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Family {
+    /// A texture.
     Texture,
+    /// A material.
     Material,
 }
 
 /// A colour, linear Rec. 709, or a number; or a texture in its place.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Textured<T = [f64; 3]> {
+    /// The same everywhere.
     Constant(T),
     /// The name of a texture.
     Texture(String),
 }
 
 impl Textured {
+    /// A constant with the same number in all channels.
     pub const fn grey(value: f64) -> Textured {
         Textured::Constant([value; 3])
     }
@@ -91,6 +102,7 @@ pub trait Words: Copy + PartialEq + 'static {
 macro_rules! words {
     ($Type:ident { $($Variant:ident: $name:literal, $title:literal, $doc:literal;)+ }) => {
         impl $Type {
+            /// All values, in the order in which they are offered.
             pub const ALL: [$Type; [$($name),+].len()] = [$($Type::$Variant),+];
 
             /// How scene files and people call it.

@@ -7,6 +7,7 @@ use crate::{
     geometry::Shape,
 };
 
+/// A box along the axes, between two opposite corners.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Cuboid(pub Bounds);
 

@@ -7,11 +7,16 @@ use crate::{
     geometry::Shape,
 };
 
+/// A cylinder between two points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cylinder {
+    /// Centre of one end, metres.
     pub base: DVec3,
+    /// Centre of the other end, metres.
     pub top: DVec3,
+    /// Radius, metres.
     pub radius: f64,
+    /// Whether disks close the ends.
     pub capped: bool,
 }
 

@@ -7,11 +7,14 @@ use crate::{
     geometry::Shape,
 };
 
+/// A disk.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Disk {
+    /// Centre, metres.
     pub center: DVec3,
     /// Of any length.
     pub normal: DVec3,
+    /// Radius, metres.
     pub radius: f64,
 }
 

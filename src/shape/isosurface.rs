@@ -12,9 +12,12 @@ use crate::{
     geometry::{self, Expression, Shape},
 };
 
+/// The surface where an expression is zero; inside it is negative.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Isosurface {
+    /// A formula of x, y and z in metres.
     pub expression: String,
+    /// The box that the surface is cut off at.
     pub bounds: Bounds,
 }
 

@@ -24,8 +24,10 @@ const SMOOTHING: u64 = 120;
 const MOST_TRIANGLES: u32 = 50_000_000;
 const MOST_QUADS: u32 = (MOST_TRIANGLES / 2).isqrt();
 
+/// A mesh of triangles.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
+    /// The triangles.
     pub source: MeshSource,
     /// Whether normals are smooth; absent: they are, but for lists.
     pub smooth: Option<bool>,
@@ -34,15 +36,25 @@ pub struct Mesh {
 /// What a mesh is made from.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MeshSource {
+    /// An OBJ or PLY file.
     File(String),
-    Lists { vertices: Vec<[f64; 3]>, triangles: Vec<[u32; 3]> },
+    /// Lists in the scene file.
+    Lists {
+        /// Positions, metres.
+        vertices: Vec<[f64; 3]>,
+        /// The indices of three vertices each, counter-clockwise from the front.
+        triangles: Vec<[u32; 3]>,
+    },
+    /// A torus knot.
     Knot(Knot),
+    /// Hills over the unit square.
     Heightfield(Heightfield),
 }
 
 /// A torus knot.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Knot {
+    /// Number of triangles, approximately.
     pub triangles: u32,
 }
 
@@ -51,6 +63,7 @@ pub struct Knot {
 pub struct Heightfield {
     /// Along each side.
     pub quads: u32,
+    /// Seed of the noise.
     pub seed: u32,
 }
 

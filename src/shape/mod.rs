@@ -55,6 +55,7 @@ pub struct ShapeBuilder<'a> {
 }
 
 impl<'a> ShapeBuilder<'a> {
+    /// A builder without any meshes yet.
     pub fn new(resources: &'a Resources) -> Self {
         ShapeBuilder { resources, meshes: HashMap::new() }
     }

@@ -7,10 +7,14 @@ use crate::{
     geometry::{Outline, Shape},
 };
 
+/// A parallelogram.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rectangle {
+    /// The corner where u = v = 0, metres.
     pub origin: DVec3,
+    /// The edge from there to the corner where u = 1, metres.
     pub edge_u: DVec3,
+    /// The edge from there to the corner where v = 1, metres. The front is on the side of v × u.
     pub edge_v: DVec3,
 }
 

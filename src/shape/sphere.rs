@@ -7,9 +7,12 @@ use crate::{
     geometry::Shape,
 };
 
+/// A sphere.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sphere {
+    /// Centre, metres.
     pub center: DVec3,
+    /// Radius, metres.
     pub radius: f64,
 }
 

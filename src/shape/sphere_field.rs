@@ -11,10 +11,14 @@ use crate::{
 /// Bytes of a sphere as a shape and as an object.
 const SPHERE: u64 = 1500;
 
+/// Many spheres at random places, an object each.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SphereField {
+    /// Number of spheres.
     pub count: u32,
+    /// The box that holds them.
     pub bounds: Bounds,
+    /// Seed of their places and radii.
     pub seed: u32,
 }
 

@@ -16,8 +16,11 @@ const ROUNDING: f64 = 1e-12;
 /// One transform as a scene describes it.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Transform {
+    /// A translation, metres.
     Translate(DVec3),
+    /// Factors along the axes.
     Scale(DVec3),
+    /// A rotation.
     Rotate(Rotation),
     /// Row by row; the last row is 0 0 0 1.
     Matrix([[f64; 4]; 4]),

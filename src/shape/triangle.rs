@@ -7,10 +7,14 @@ use crate::{
     geometry::{Outline, Shape},
 };
 
+/// A single triangle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Triangle {
+    /// First corner, metres.
     pub a: DVec3,
+    /// Second corner, metres.
     pub b: DVec3,
+    /// Third corner, metres.
     pub c: DVec3,
 }
 
