@@ -20,10 +20,13 @@ const RANDOM_LETTERS: usize = 6;
 /// Error of writing a file.
 #[derive(Debug, thiserror::Error)]
 pub enum WriteError {
+    /// The folder of the file does not exist.
     #[error("{}: there is no folder {}", path.display(), folder.display())]
     NoFolder { path: PathBuf, folder: PathBuf },
+    /// The path is a folder, a device or the like.
     #[error("{}: cannot be written: it is {what}, and output only replaces regular files", path.display())]
     NotAFile { path: PathBuf, what: &'static str },
+    /// The system refuses.
     #[error("{}: cannot be written: {reason}", path.display())]
     Failed { path: PathBuf, reason: String },
 }

@@ -36,8 +36,11 @@ const BRIGHTEST: f32 = 1e15;
 /// An image in memory: linear Rec. 709, row by row from the top left.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Picture<P = [f32; 3]> {
+    /// Width in pixels.
     pub width: u32,
+    /// Height in pixels.
     pub height: u32,
+    /// The pixels, row by row from the top left.
     pub radiance: Vec<P>,
 }
 
@@ -89,6 +92,7 @@ crate::words! {
 #[derive(Debug, thiserror::Error)]
 #[error("{}: {problem}", quote::path(path))]
 pub struct PictureError {
+    /// The file.
     pub path: PathBuf,
     pub problem: ImageFormatError,
 }
@@ -98,16 +102,22 @@ pub struct PictureError {
 pub enum ImageFormatError {
     #[error("cannot be read: there is no such file")]
     Missing,
+    /// The file cannot be opened or decoded.
     #[error("cannot be read: {0}")]
     Unreadable(String),
+    /// The format is not known.
     #[error("not a picture: expected PNG, JPEG, TGA, WebP, OpenEXR or Radiance HDR")]
     NotAPicture,
+    /// Width or height is 0.
     #[error("the picture is {0} × {1}: it has no pixels")]
     Empty(u64, u64),
+    /// The size exceeds the limits of this module.
     #[error("the picture is {0} × {1}: a side may have {LONGEST_SIDE} pixels and the whole {MOST_PIXELS}")]
     TooLarge(u64, u64),
+    /// The size exceeds the memory that is left.
     #[error(transparent)]
     TooMuch(#[from] TooMuch),
+    /// The pixel at this column and row is no radiance.
     #[error("the pixel at column {0}, row {1} is no amount of light: it must be a number up to {BRIGHTEST:e}")]
     NotLight(usize, usize),
 }

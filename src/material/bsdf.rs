@@ -19,6 +19,7 @@ pub trait Bsdf<L: Lanes>: Copy {
 /// The lobe that a direction was sampled from, for display.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ChosenLobe {
+    /// What the path inspector calls it.
     pub name: &'static str,
     /// Probability of choosing it.
     pub probability: f32,
@@ -47,6 +48,7 @@ impl ChosenLobe {
 
 /// A next direction at a surface.
 pub struct BsdfSample<L: Lanes> {
+    /// The sampled direction ω_i.
     pub wi: V<L>,
     /// f(ω_o, ω_i) |cos θ_i| / p(ω_i); for a delta lobe, its reflectance over the probability of choosing it. Zero if there is no
     /// direction.

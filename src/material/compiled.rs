@@ -9,10 +9,13 @@ use crate::{
 /// The width α of the distribution of microfacet slopes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum AlphaSource {
+    /// The same everywhere.
     Constant(f32),
     /// α, or where `squared` its root, is the texture's luminance.
     Texture {
+        /// Number of the texture.
         id: u32,
+        /// Whether the texture holds the root of α.
         squared: bool,
     },
 }
@@ -20,11 +23,13 @@ pub enum AlphaSource {
 /// A material as the kernel reads it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CompiledMaterial {
+    /// The stage that shades it.
     pub stage: Stage,
     /// Constants of the kind: see its row.
     pub rows: [[f32; 4]; 3],
     /// Albedo, or reflectance at normal incidence; white for kinds without.
     pub colour: ColourSource,
+    /// The width α of the GGX distribution.
     pub alpha: AlphaSource,
     /// What a metre of the interior lets pass, for kinds that have an inside.
     pub inside: Option<[f32; 3]>,

@@ -21,7 +21,9 @@ use crate::{
 /// Metal as a scene describes it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Conductor {
+    /// Reflectance of the microfacets.
     pub fresnel: Reflectance,
+    /// Roughness, 0 for a smooth surface.
     pub roughness: Roughness,
     /// Light that scatters more than once between microfacets is given back.
     pub energy_compensation: bool,
@@ -94,9 +96,11 @@ impl Shade for Conductor {
     }
 }
 
+/// The BSDF of a conductor at a point.
 pub struct ConductorBsdf<L: Lanes> {
     l: L,
     fresnel: ConductorFresnel<L>,
+    /// The width α of the GGX distribution.
     pub alpha: F<L>,
     /// Lanes with energy compensation.
     compensated: M<L>,

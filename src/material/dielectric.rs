@@ -17,6 +17,7 @@ pub struct Dielectric {
     pub ior: f64,
     /// On the side of the normal.
     pub ior_outside: f64,
+    /// Roughness of the interface, 0 for a smooth one.
     pub roughness: Roughness,
     /// What a metre of the interior lets pass.
     pub transmittance: [f64; 3],

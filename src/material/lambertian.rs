@@ -11,6 +11,7 @@ use crate::{
 /// A diffuse surface as a scene describes it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lambertian {
+    /// Albedo ρ, from 0 to 1 in each channel.
     pub albedo: Textured,
 }
 
@@ -73,9 +74,12 @@ impl Shade for Diffuse {
     }
 }
 
+/// The BSDF of a diffuse surface at a point.
 #[derive(Clone, Copy)]
 pub struct LambertianBsdf<L: Lanes> {
+    /// Albedo ρ.
     pub albedo: V<L>,
+    /// How directions are sampled.
     pub directions: Directions,
 }
 

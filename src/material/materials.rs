@@ -59,14 +59,17 @@ impl Materials {
         self.stages.len() as u32 - 1
     }
 
+    /// Number of materials.
     pub fn len(&self) -> usize {
         self.stages.len()
     }
 
+    /// Whether it is empty.
     pub fn is_empty(&self) -> bool {
         self.stages.is_empty()
     }
 
+    /// The stage that shades a material.
     pub fn stage(&self, material: usize) -> Stage {
         self.stages[material]
     }

@@ -12,6 +12,7 @@ use crate::{
 /// A mirror as a scene describes it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mirror {
+    /// Reflectance, from 0 to 1 in each channel.
     pub reflectance: Textured,
 }
 
@@ -55,6 +56,7 @@ impl Shade for Mirror {
     }
 }
 
+/// The BSDF of a mirror at a point.
 pub struct MirrorBsdf<L: Lanes> {
     fresnel: ConductorFresnel<L>,
 }

@@ -55,10 +55,14 @@ macro_rules! materials {
         /// A stage of the kernel that shades surfaces.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
         pub enum Stage {
-            $($($Stage),+),+
+            $($(
+                #[doc = concat!("A stage of `", stringify!($module), ".rs`.")]
+                $Stage
+            ),+),+
         }
 
         impl Stage {
+            /// All stages, in the order of the catalogue.
             pub const ALL: &'static [Stage] = &[$($(Stage::$Stage),+),+];
         }
 
@@ -87,6 +91,7 @@ materials! {
 pub(crate) use in_stage;
 
 impl Stage {
+    /// Number of stages.
     pub const COUNT: usize = Stage::ALL.len();
 
     /// Whether light passes to the other side.
@@ -112,6 +117,7 @@ impl Stage {
 
 /// A kind of material: from its description to what the kernel reads.
 pub trait Compile {
+    /// Checks the values and packs them for the kernel.
     fn compile(&self, compiler: &mut MaterialCompiler) -> Result<CompiledMaterial, Problem>;
 }
 

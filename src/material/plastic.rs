@@ -27,6 +27,7 @@ pub struct Plastic {
     pub albedo: Textured,
     /// Of the coat, at least 1.
     pub ior: f64,
+    /// Roughness of the coat, 0 for a smooth one.
     pub roughness: Roughness,
 }
 
@@ -110,6 +111,7 @@ impl Shade for Plastic {
     }
 }
 
+/// The BSDF of a plastic at a point.
 pub struct PlasticBsdf<'a, L: Lanes> {
     l: L,
     ior: F<L>,

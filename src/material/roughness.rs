@@ -6,6 +6,7 @@ use crate::declare::{OneOf, Parameter, Parameters, Range, Textured};
 pub enum Roughness {
     /// √α.
     Roughness(Textured<f64>),
+    /// α.
     Alpha(Textured<f64>),
 }
 
@@ -14,6 +15,7 @@ const ALPHA: Parameter =
     Parameter::new("alpha", "Width of the GGX distribution of microfacet slopes; 0 is smooth.").symbol("α").aliases("a");
 
 impl Roughness {
+    /// A smooth surface.
     pub const SMOOTH: Roughness = Roughness::Roughness(Textured::Constant(0.0));
 
     /// A constant α.

@@ -7,7 +7,9 @@ use crate::{
 
 /// A kind of bsdf and what its shading needs. What it does not need is not compiled.
 pub trait Shade {
+    /// The BSDF at a point.
     type Bsdf<'a, L: Lanes>: Bsdf<L>;
+    /// The stage in the catalogue.
     const STAGE: Stage;
     /// It depends on the direction to the viewer, has parameters besides its colour, or a shading normal of its own.
     const DETAILED: bool = true;
@@ -15,6 +17,7 @@ pub trait Shade {
     const SEES_LIGHTS: bool = true;
     /// It has several lobes to choose from.
     const LOBES: bool = true;
+    /// Whether light passes through the surface.
     const TRANSMITS: bool = false;
     /// What passes enters or leaves a medium.
     const ENTERS: bool = Self::TRANSMITS;

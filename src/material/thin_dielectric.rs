@@ -20,6 +20,7 @@ use crate::{
 /// A pane as a scene describes it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ThinDielectric {
+    /// Refractive index of the pane relative to the outside.
     pub ior: f64,
     /// What a crossing at normal incidence lets pass, reflections at the faces left out.
     pub transmittance: [f64; 3],
@@ -97,6 +98,7 @@ impl Shade for ThinDielectric {
     }
 }
 
+/// The BSDF of a pane at a point.
 pub struct ThinDielectricBsdf<L: Lanes> {
     eta: F<L>,
     octaves: V<L>,

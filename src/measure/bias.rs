@@ -23,7 +23,9 @@ pub enum Evidence {
 /// The mean difference of two images over pixels and channels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bias {
+    /// The mean difference.
     pub mean: f64,
+    /// The source of its standard error.
     pub evidence: Evidence,
     /// Standard error of the mean; `None` without evidence.
     pub standard_error: Option<f64>,

@@ -51,8 +51,11 @@ pub fn sphere_irradiance(radiance: f64, radius: f64, distance: f64, cos: f64) ->
 /// A spherical lamp.
 #[derive(Clone, Copy)]
 pub struct Lamp {
+    /// Centre, metres.
     pub center: DVec3,
+    /// Radius, metres.
     pub radius: f64,
+    /// Radiance, W/(m² sr).
     pub radiance: f64,
 }
 

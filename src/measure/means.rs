@@ -15,7 +15,9 @@ pub type Measure = fn([f32; 4]) -> f64;
 /// Statistics of the samples of one pixel, or of means of pixels, for z-tests.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Mean {
+    /// The mean.
     pub mean: f64,
+    /// The variance of the mean.
     pub variance_of_mean: f64,
 }
 
@@ -47,7 +49,9 @@ impl Mean {
 
 /// An image at the resolution of the scene's camera, row by row.
 pub struct Picture {
+    /// Width in pixels.
     pub width: usize,
+    /// The means, row by row from the top left.
     pub pixels: Vec<Mean>,
 }
 
@@ -113,6 +117,7 @@ fn tile<'a>(work: &(impl Fn(u32) -> Work<'a> + Sync), size: [u32; 2], measure: M
 }
 
 impl Picture {
+    /// The mean over all pixels.
     pub fn whole(&self) -> Mean {
         Mean::of(self.pixels.iter().copied())
     }

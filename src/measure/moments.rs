@@ -24,13 +24,18 @@ pub fn samples(scene: &Scene, settings: RenderSettings, spp: u32) -> Vec<Vec<f64
 
 /// Mean, variance and fourth central moment of numbers.
 pub struct Moments {
+    /// Number of values.
     pub count: f64,
+    /// Mean.
     pub mean: f64,
+    /// Variance.
     pub variance: f64,
+    /// Fourth central moment.
     pub fourth: f64,
 }
 
 impl Moments {
+    /// The moments of these values.
     pub fn of(values: impl IntoIterator<Item = f64>) -> Moments {
         let values: Vec<f64> = values.into_iter().collect();
         let count = values.len() as f64;

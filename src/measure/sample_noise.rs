@@ -6,6 +6,7 @@
 /// paths is correlated, so the variance of a mean over pixels is larger than without correlation; blocks are uncorrelated.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SampleNoise {
+    /// Width of the image in pixels.
     pub width: u32,
     /// Variance of the mean of every pixel, per channel; row by row from the top left.
     pub variance: Vec<[f32; 3]>,

@@ -44,6 +44,7 @@ impl AliasTable {
         (keep.pick(entry, alias.bits() & INDEX_MASK), keep.pick(own, other))
     }
 
+    /// Probability of a cell.
     #[inline(always)]
     pub fn probability<L: Lanes>(&self, l: L, cell: U<L>) -> F<L> {
         let [_, _, own, _] = l.rows(&self.rows, cell);

@@ -19,13 +19,21 @@ pub enum Filter {
     #[default]
     Box,
     /// Falls linearly to 0 at `radius`.
-    Tent { radius: f32 },
+    Tent {
+        /// Half of the width, pixels.
+        radius: f32,
+    },
     /// A normal distribution, truncated at [`Filter::GAUSSIAN_REACH`] standard deviations.
-    Gaussian { sigma: f32 },
+    Gaussian {
+        /// Standard deviation, pixels.
+        sigma: f32,
+    },
 }
 
 impl Filter {
+    /// A tent two pixels wide.
     pub const TENT: Filter = Filter::Tent { radius: 1.0 };
+    /// A Gaussian of half a pixel.
     pub const GAUSSIAN: Filter = Filter::Gaussian { sigma: 0.5 };
     /// Extent of the Gaussian in standard deviations; it excludes 0.27 % of the distribution.
     pub const GAUSSIAN_REACH: f64 = 3.0;

@@ -23,10 +23,14 @@ macro_rules! samplers {
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
         #[serde(rename_all = "lowercase")]
         pub enum Sampler {
-            $($Kind),+
+            $(
+                #[doc = concat!("The sampler in `", stringify!($module), ".rs`.")]
+                $Kind
+            ),+
         }
 
         impl Sampler {
+            /// All samplers, in the order of the catalogue.
             pub const ALL: [Sampler; [$(<$module::$Kind as Points>::WORD.name),+].len()] = [$(Sampler::$Kind),+];
 
             /// How scene files and people call it.

@@ -8,7 +8,9 @@ use crate::{
 /// A checker as a scene describes it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Checker {
+    /// Colour of the even squares.
     pub even: Textured,
+    /// Colour of the odd squares.
     pub odd: Textured,
     /// Squares per unit of u and of v.
     pub scale: f64,
@@ -49,7 +51,9 @@ impl Texturing for Checker {
 pub struct Squares {
     /// Ids of other textures.
     pub even: u32,
+    /// Number of the texture of the odd squares.
     pub odd: u32,
+    /// Squares per unit of u and v.
     pub scale: f32,
 }
 

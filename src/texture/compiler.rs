@@ -13,6 +13,7 @@ const DEEPEST: usize = 64;
 /// A colour of the scene: constant or by a texture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ColourSource {
+    /// The same everywhere, without a texture.
     Constant([f32; 3]),
     /// The id in [`Textures`].
     Texture(u32),
@@ -20,7 +21,9 @@ pub enum ColourSource {
 
 /// The textures that are compiled so far, and what the scene calls them.
 pub struct TextureCompiler<'a> {
+    /// Files and memory.
     pub resources: &'a Resources,
+    /// The textures so far.
     pub textures: Textures,
     described: &'a BTreeMap<String, TextureKind>,
     ids: BTreeMap<String, u32>,

@@ -12,7 +12,9 @@ use crate::{
 /// A picture file as a scene describes it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Image {
+    /// The file, relative to the scene.
     pub path: String,
+    /// What its numbers mean.
     pub encoding: Encoding,
 }
 
@@ -72,6 +74,7 @@ pub struct ImageTexture {
 }
 
 impl ImageTexture {
+    /// Makes a texture of an image.
     pub fn new(picture: Texels) -> ImageTexture {
         ImageTexture { width: picture.width, height: picture.height, texels: picture.radiance }
     }
@@ -104,6 +107,7 @@ impl ImageTexture {
         [0, 1, 2].map(|channel| (sum(channel) / self.texels.len() as f64) as f32)
     }
 
+    /// The largest value of each channel.
     pub fn maximum(&self) -> [f32; 3] {
         [0, 1, 2].map(|channel| self.texels.iter().map(|texel| texel[channel]).fold(0.0, f32::max))
     }
@@ -112,6 +116,7 @@ impl ImageTexture {
     pub fn step_u(&self) -> f32 {
         0.5 / self.width as f32
     }
+    /// Height of a texel in v.
     pub fn step_v(&self) -> f32 {
         0.5 / self.height as f32
     }

@@ -38,8 +38,12 @@ macro_rules! textures {
 
         /// A texture as the renderer looks it up. Colours are linear Rec. 709.
         pub enum Texture {
+            /// The same colour everywhere.
             Constant(Constant),
-            $($Kind(<$module::$Kind as Texturing>::Pattern)),+
+            $(
+                #[doc = concat!("The texture in `", stringify!($module), ".rs`.")]
+                $Kind(<$module::$Kind as Texturing>::Pattern)
+            ),+
         }
 
         /// `in_texture!(texture, pattern => call(pattern))`: the call with the pattern of a texture.
@@ -62,6 +66,7 @@ textures! {
 
 /// A kind of texture.
 pub trait Texturing: Kind {
+    /// What the renderer looks up.
     type Pattern: Pattern;
 
     /// The texture as the renderer looks it up.
@@ -81,12 +86,15 @@ pub trait Pattern {
 pub struct Found<L: Lanes> {
     /// The texture that is still to be looked up.
     pub id: U<L>,
+    /// The colour.
     pub colour: V<L>,
 }
 
 /// What the renderer knows of a texture besides its colours.
 pub struct Summary {
+    /// Mean over the unit square.
     pub mean: [f32; 3],
+    /// The largest value of each channel.
     pub maximum: [f32; 3],
     /// In u, in v, and in metres: see [`Steps`].
     pub steps: [f32; 3],
@@ -102,6 +110,7 @@ impl Summary {
 pub struct TextureCoordinates<L: Lanes> {
     /// Surface coordinates, in [0, 1) on analytic shapes; meshes may exceed it.
     pub u: F<L>,
+    /// The second surface coordinate.
     pub v: F<L>,
     /// World-space position, metres.
     pub p: V<L>,
@@ -109,7 +118,9 @@ pub struct TextureCoordinates<L: Lanes> {
 
 /// Steps for finite differences of a texture's [height](Textures::height).
 pub struct Steps<L: Lanes> {
+    /// Step of u.
     pub u: F<L>,
+    /// Step of v.
     pub v: F<L>,
     /// Metres; infinite where the texture does not depend on the position.
     pub p: F<L>,
@@ -181,10 +192,12 @@ impl Textures {
         self.maxima[id as usize]
     }
 
+    /// Number of textures.
     pub fn len(&self) -> usize {
         self.textures.len()
     }
 
+    /// Whether it is empty.
     pub fn is_empty(&self) -> bool {
         self.textures.is_empty()
     }

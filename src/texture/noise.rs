@@ -14,8 +14,11 @@ use crate::{
 pub struct Noise {
     /// Cells of the first octave per metre.
     pub scale: f64,
+    /// Number of octaves.
     pub octaves: u32,
+    /// Colour of the lowest values.
     pub low: [f64; 3],
+    /// Colour of the highest values.
     pub high: [f64; 3],
 }
 
@@ -55,9 +58,13 @@ impl Texturing for Noise {
 
 /// Noise as the renderer looks it up.
 pub struct Clouds {
+    /// Cells of the first octave per metre.
     pub scale: f32,
+    /// Number of octaves.
     pub octaves: u32,
+    /// Colour of the lowest values.
     pub low: [f32; 3],
+    /// Colour of the highest values.
     pub high: [f32; 3],
 }
 
