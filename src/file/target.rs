@@ -22,13 +22,28 @@ const RANDOM_LETTERS: usize = 6;
 pub enum WriteError {
     /// The folder of the file does not exist.
     #[error("{}: there is no folder {}", path.display(), folder.display())]
-    NoFolder { path: PathBuf, folder: PathBuf },
+    NoFolder {
+        /// The file.
+        path: PathBuf,
+        /// Its folder.
+        folder: PathBuf,
+    },
     /// The path is a folder, a device or the like.
     #[error("{}: cannot be written: it is {what}, and output only replaces regular files", path.display())]
-    NotAFile { path: PathBuf, what: &'static str },
+    NotAFile {
+        /// The path.
+        path: PathBuf,
+        /// What lies there.
+        what: &'static str,
+    },
     /// The system refuses.
     #[error("{}: cannot be written: {reason}", path.display())]
-    Failed { path: PathBuf, reason: String },
+    Failed {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        reason: String,
+    },
 }
 
 /// Checks whether a file can be written to this path, as far as this is known before there are bytes.

@@ -12,6 +12,7 @@ use crate::math::{F, Lanes, V};
 pub struct Motion(pub Vec<Step>);
 
 impl Motion {
+    /// The map at a time from 0 to 1.
     pub fn at(&self, time: f64) -> DAffine3 {
         self.0.iter().fold(DAffine3::IDENTITY, |before, step| step.at(time) * before)
     }

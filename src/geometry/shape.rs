@@ -9,43 +9,61 @@ use crate::math::{One, V};
 /// A shape. Every type except the sphere is closed under affine maps, and a sphere becomes an ellipsoid.
 #[derive(Clone, Debug)]
 pub enum Shape {
+    /// All points at one distance from a centre.
     Sphere {
+        /// Centre, metres.
         center: DVec3,
+        /// Radius, metres.
         radius: f64,
     },
     /// The image of the unit sphere: center + `axes` x, |x| = 1.
     Ellipsoid {
+        /// Centre, metres.
         center: DVec3,
+        /// The half axes, as columns.
         axes: DMat3,
     },
     /// origin + u `edges[0]` + v `edges[1]` with (u, v) inside the outline.
     Flat {
+        /// Which part of the plane belongs to the shape.
         outline: Outline,
+        /// The point with u = v = 0, metres.
         origin: DVec3,
+        /// The vectors along u and v.
         edges: [DVec3; 2],
         /// The front is the side of `edges[1] × edges[0]`.
         mirrored: bool,
     },
     /// origin + `edges` x with x in [0, 1]³.
     Cuboid {
+        /// One corner, metres.
         origin: DVec3,
+        /// The edges from there, as columns.
         edges: DMat3,
     },
     /// base + `axes` x with x² + y² = 1 and z in [0, 1], and the disks at its ends if it is capped.
     Cylinder {
+        /// Centre of one end, metres.
         base: DVec3,
+        /// Two radii and the axis, as columns.
         axes: DMat3,
+        /// Whether disks close the ends.
         capped: bool,
     },
     /// The image of the triangles under `map`. They may be shared with other shapes.
     Mesh {
+        /// The triangles.
         data: Arc<MeshData>,
         /// [Around](MeshData::boxes) the data.
         boxes: Arc<[Bounds]>,
+        /// From the space of the data to the world.
         map: DAffine3,
     },
+    /// The image of an isosurface under `map`.
     Isosurface {
+        /// The formula and its box.
         surface: Arc<Isosurface>,
+        /// From the space of the formula to the world.
         map: DAffine3,
     },
 }
@@ -69,10 +87,12 @@ impl Shape {
         Shape::Flat { outline: Outline::Ellipse, origin: center, edges, mirrored: false }
     }
 
+    /// A mesh in its own space.
     pub fn mesh(data: Arc<MeshData>) -> Shape {
         Shape::Mesh { boxes: data.boxes().into(), data, map: DAffine3::IDENTITY }
     }
 
+    /// A cylinder between two points.
     pub fn cylinder(base: DVec3, top: DVec3, radius: f64, capped: bool) -> Shape {
         let (a, b) = (top - base).normalize().any_orthonormal_pair();
         Shape::Cylinder { base, axes: DMat3::from_cols(a * radius, b * radius, top - base), capped }
@@ -127,6 +147,7 @@ impl Shape {
         }
     }
 
+    /// Number of [pieces](Shape::pieces).
     pub fn piece_count(&self) -> usize {
         match self {
             Shape::Cuboid { .. } => 6,

@@ -115,6 +115,7 @@ impl Shapes {
         self.dropped
     }
 
+    /// Whether objects are in a tree.
     #[cfg(test)]
     pub fn has_tree(&self) -> bool {
         self.objects.is_some()

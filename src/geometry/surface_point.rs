@@ -4,6 +4,7 @@ use crate::math::{F, Lanes, M, Pick, U, V};
 /// A point of a surface in lanes.
 #[derive(Clone, Copy)]
 pub struct SurfacePoint<L: Lanes> {
+    /// The point.
     pub p: V<L>,
     /// Unit geometric normal on the front side.
     pub n_geometric: V<L>,
@@ -26,6 +27,7 @@ impl<L: Lanes> Pick<SurfacePoint<L>> for M<L> {
 pub struct Coordinates<L: Lanes> {
     /// To the right and downwards, as images are stored; [0, 1] on shapes other than meshes.
     pub u: F<L>,
+    /// The second surface coordinate.
     pub v: F<L>,
 }
 

@@ -33,7 +33,9 @@ const REPETITIONS: u32 = 4;
 
 /// Features at the pixel centres, row by row from the top left.
 pub struct Features {
+    /// Width in pixels.
     pub width: u32,
+    /// Height in pixels.
     pub height: u32,
     /// Unit shading normals in world space, on the viewer's side; zero if the ray leaves the scene.
     pub normal: Vec<[f32; 3]>,

@@ -12,24 +12,29 @@ pub struct Queue {
 }
 
 impl Queue {
+    /// An empty queue.
     pub fn new(columns: usize, capacity: usize) -> Queue {
         // Registers are loaded and stored whole, so the last one may reach past the end.
         let stride = capacity + MAX_LANES;
         Queue { columns: vec![0.0; columns * stride], stride, len: 0 }
     }
 
+    /// Number of records.
     pub fn len(&self) -> usize {
         self.len
     }
 
+    /// Whether there are none.
     pub fn is_empty(&self) -> bool {
         self.len == 0
     }
 
+    /// Removes all records.
     pub fn clear(&mut self) {
         self.len = 0;
     }
 
+    /// Counts records that have been written behind the last one.
     #[inline(always)]
     pub fn advance(&mut self, by: usize) {
         self.len += by;
@@ -48,7 +53,9 @@ impl Queue {
 
 /// A field of a record.
 pub trait Field<L: Lanes>: Copy {
+    /// Number of columns that the field takes.
     const COLUMNS: usize;
+    /// Reads the field of the records from `at` on.
     fn read(l: L, queue: &Queue, column: usize, at: usize) -> Self;
     /// Writes the lanes of `keep`, compressed, or all if `whole`.
     fn append(self, keep: M<L>, whole: bool, queue: &mut Queue, column: usize);

@@ -9,13 +9,17 @@ use crate::{
 /// The work of a batch: sample index `sample` of the pixels of one tile, or a sample of the pixels of some blocks.
 #[derive(Clone, Copy)]
 pub struct Work<'a> {
+    /// The scene.
     pub scene: &'a Scene,
+    /// The rays of the camera.
     pub rays: &'a CameraRays,
+    /// How it is rendered.
     pub settings: &'a RenderSettings,
     /// Pixel coordinates of the tile's upper left corner.
     pub origin: [u32; 2],
     /// Width and height of the tile, at most [`TILE`].
     pub size: [u32; 2],
+    /// Index of the sample.
     pub sample: u32,
     /// Blocks of the tile to compute instead of the whole tile. Always `None` with path reuse, which needs whole tiles.
     pub blocks: Option<&'a Blocks>,
@@ -38,6 +42,7 @@ impl Blocks {
 }
 
 impl Blocks {
+    /// Whether there is no room for another block.
     pub fn is_full(&self) -> bool {
         self.count == BLOCKS
     }

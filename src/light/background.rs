@@ -11,6 +11,7 @@ use crate::{
 pub enum Background {
     /// The same radiance from all directions.
     Constant([f32; 3]),
+    /// An image of all directions.
     Image(ImageBackground),
 }
 

@@ -19,6 +19,7 @@ use crate::{
 /// All lights of a scene: the emitting primitives 0, 1, 2, …, every triangle of emitting meshes, and the background.
 #[derive(Default)]
 pub struct Lights {
+    /// The emitting primitives.
     pub emitters: Emitters,
     /// Absent when black.
     pub background: Option<Background>,
@@ -33,6 +34,7 @@ pub struct Lights {
 
 /// A direction towards a light.
 pub struct LightSample<L: Lanes> {
+    /// Unit direction towards the light.
     pub wi: V<L>,
     /// Unoccluded radiance that arrives.
     pub radiance: V<L>,
@@ -98,6 +100,7 @@ impl Lights {
         PrimitiveRef { primitive: primitive.bits(), element: element.bits(), time }
     }
 
+    /// Whether there are no lights.
     pub fn is_empty(&self) -> bool {
         self.count == 0 && self.background.is_none()
     }

@@ -9,7 +9,9 @@ use crate::{
 pub enum Side {
     /// The side of the normal.
     Front,
+    /// The back.
     Back,
+    /// Both sides.
     Both,
 }
 
@@ -22,6 +24,7 @@ pub struct Emission {
     pub mean: [f32; 3],
     /// Id of its texture.
     pub texture: Option<u32>,
+    /// The sides that emit.
     pub side: Side,
 }
 
@@ -54,6 +57,7 @@ impl Emitters {
         }
     }
 
+    /// Whether nothing emits.
     pub fn is_empty(&self) -> bool {
         self.rows.is_empty()
     }

@@ -11,6 +11,7 @@ pub struct Frame<L: Lanes> {
 }
 
 impl<L: Lanes> Frame<L> {
+    /// A frame with z along the unit normal n.
     #[inline(always)]
     pub fn new(n: V<L>) -> Self {
         let sign = n.z.splat(1.0).copysign(n.z);
@@ -23,11 +24,13 @@ impl<L: Lanes> Frame<L> {
         }
     }
 
+    /// A local vector in world space.
     #[inline(always)]
     pub fn world_from_local(&self, v: V<L>) -> V<L> {
         self.t * v.x + (self.b * v.y + self.n * v.z)
     }
 
+    /// A vector of world space in the frame.
     #[inline(always)]
     pub fn local_from_world(&self, v: V<L>) -> V<L> {
         V { x: self.t.dot(v), y: self.b.dot(v), z: self.n.dot(v) }

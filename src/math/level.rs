@@ -50,6 +50,7 @@ impl SimdLevel {
         }
     }
 
+    /// The widest level of this processor.
     pub fn best() -> SimdLevel {
         SimdLevel::available().into_iter().last().unwrap_or(SimdLevel::Scalar)
     }

@@ -108,30 +108,37 @@ impl<L: Lanes> Not for M<L> {
 }
 
 impl<L: Lanes> F<L> {
+    /// The smaller number.
     #[inline(always)]
     pub fn min(self, b: Self) -> Self {
         F(L::min(self.0, b.0))
     }
+    /// The larger number.
     #[inline(always)]
     pub fn max(self, b: Self) -> Self {
         F(L::max(self.0, b.0))
     }
+    /// |x|.
     #[inline(always)]
     pub fn abs(self) -> Self {
         F(L::abs(self.0))
     }
+    /// √x, correctly rounded.
     #[inline(always)]
     pub fn sqrt(self) -> Self {
         F(L::sqrt(self.0))
     }
+    /// |x| with the sign of another number.
     #[inline(always)]
     pub fn copysign(self, sign: Self) -> Self {
         F(L::copysign(self.0, sign.0))
     }
+    /// Whether x < b.
     #[inline(always)]
     pub fn lt(self, b: Self) -> M<L> {
         M(L::lt(self.0, b.0))
     }
+    /// Whether x ≥ b.
     #[inline(always)]
     pub fn ge(self, b: Self) -> M<L> {
         M(L::le(b.0, self.0))
@@ -151,14 +158,17 @@ impl<L: Lanes> F<L> {
     pub fn splat(self, x: f32) -> Self {
         F(L::splat(self.0, x))
     }
+    /// The bits of the number.
     #[inline(always)]
     pub fn bits(self) -> U<L> {
         U(L::bits(self.0))
     }
+    /// The lanes to keep, one after the other from the first on.
     #[inline(always)]
     pub fn compress(self, keep: M<L>) -> Self {
         F(L::compress(self.0, keep.0))
     }
+    /// Writes all lanes to the start of a slice.
     #[inline(always)]
     pub fn store(self, to: &mut [f32]) {
         L::store(self.0, to);
@@ -173,10 +183,12 @@ impl<L: Lanes> F<L> {
 }
 
 impl<L: Lanes> U<L> {
+    /// The number with these bits.
     #[inline(always)]
     pub fn as_real_bits(self) -> F<L> {
         F(L::from_bits(self.0))
     }
+    /// The nearest number of single precision.
     #[inline(always)]
     pub fn to_real(self) -> F<L> {
         F(L::to_real(self.0))
@@ -186,6 +198,7 @@ impl<L: Lanes> U<L> {
     pub fn is(self, k: u32) -> M<L> {
         M(L::eq_int(self.0, L::splat_int(self.0, k)))
     }
+    /// Whether both are the same.
     #[inline(always)]
     pub fn equals(self, b: Self) -> M<L> {
         M(L::eq_int(self.0, b.0))
@@ -206,6 +219,7 @@ impl<L: Lanes> U<L> {
 
 /// `mask.pick(a, b)`: `a` in the lanes of the mask, `b` in the others.
 pub trait Pick<T> {
+    /// a in the lanes of the mask, else b.
     fn pick(self, a: T, b: T) -> T;
 }
 
@@ -224,6 +238,7 @@ impl<L: Lanes> Pick<U<L>> for M<L> {
 }
 
 impl<L: Lanes> M<L> {
+    /// Whether some lane is set.
     #[inline(always)]
     pub fn any(self) -> bool {
         L::any(self.0)
@@ -233,6 +248,7 @@ impl<L: Lanes> M<L> {
     pub fn bits(self) -> u64 {
         L::bitmask(self.0)
     }
+    /// Number of lanes that are set.
     #[inline(always)]
     pub fn count(self) -> usize {
         self.bits().count_ones() as usize

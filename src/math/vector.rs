@@ -8,8 +8,11 @@ use super::{
 
 /// A 3-vector per lane. Colours use the same type: x, y, z are linear red, green, blue.
 pub struct V<L: Lanes> {
+    /// First component.
     pub x: F<L>,
+    /// Second component.
     pub y: F<L>,
+    /// Third component.
     pub z: F<L>,
 }
 
@@ -66,10 +69,12 @@ impl<L: Lanes> Neg for V<L> {
 }
 
 impl<L: Lanes> V<L> {
+    /// The same vector in all lanes.
     #[inline(always)]
     pub fn splat(l: L, a: [f32; 3]) -> Self {
         V { x: l.f(a[0]), y: l.f(a[1]), z: l.f(a[2]) }
     }
+    /// a · b.
     #[inline(always)]
     pub fn dot(self, b: Self) -> F<L> {
         self.x * b.x + (self.y * b.y + self.z * b.z)
@@ -79,18 +84,22 @@ impl<L: Lanes> V<L> {
     pub fn dot_with(self, b: [f32; 3]) -> F<L> {
         self.x * b[0] + (self.y * b[1] + self.z * b[2])
     }
+    /// a × b.
     #[inline(always)]
     pub fn cross(self, b: Self) -> Self {
         V { x: self.y * b.z - self.z * b.y, y: self.z * b.x - self.x * b.z, z: self.x * b.y - self.y * b.x }
     }
+    /// |a|².
     #[inline(always)]
     pub fn length_squared(self) -> F<L> {
         self.dot(self)
     }
+    /// a/|a|.
     #[inline(always)]
     pub fn normalized(self) -> Self {
         self * (1.0 / self.length_squared().sqrt())
     }
+    /// The largest component.
     #[inline(always)]
     pub fn max_component(self) -> F<L> {
         self.x.max(self.y).max(self.z)

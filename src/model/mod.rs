@@ -33,6 +33,7 @@ pub const LARGEST_FILE: u64 = 1 << 31;
 /// A triangle mesh as read from its file. Degenerate triangles are kept.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Model {
+    /// Positions, metres.
     pub vertices: Vec<[f32; 3]>,
     /// Vertices of each triangle, counter-clockwise seen from the front.
     pub triangles: Vec<[u32; 3]>,
@@ -46,6 +47,7 @@ pub struct Model {
 #[derive(Debug, thiserror::Error)]
 #[error("{}: {problem}", quote::path(path))]
 pub struct ModelError {
+    /// The file.
     pub path: PathBuf,
     pub problem: ModelFormatError,
 }
@@ -55,16 +57,22 @@ pub struct ModelError {
 pub enum ModelFormatError {
     #[error("cannot be read: there is no such file")]
     Missing,
+    /// The file cannot be opened or read.
     #[error("cannot be read: {0}")]
     Unreadable(String),
+    /// The file exceeds the limit.
     #[error("the file is larger than {LARGEST_FILE} bytes, the most that is read")]
     TooLarge,
+    /// The format is not known.
     #[error("not a mesh: its first line is not `ply` and its name does not end in `.obj`")]
     NotAModel,
+    /// There are no triangles.
     #[error("the mesh is empty: it has no faces")]
     Empty,
+    /// The size exceeds the memory that is left.
     #[error(transparent)]
     TooMuch(#[from] TooMuch),
+    /// The file violates its format at this place.
     #[error("{0}: {1}")]
     Broken(Place, String),
 }

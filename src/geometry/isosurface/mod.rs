@@ -46,6 +46,7 @@ pub struct Expression {
 }
 
 impl Expression {
+    /// Parses a formula of x, y and z.
     pub fn parse(text: &str) -> Result<Expression, ParseError> {
         let (graph, value) = parse::parse(text)?;
         Ok(Expression { tape: Tape::new(&graph, value, text)? })

@@ -6,6 +6,7 @@ use crate::geometry::bounds::Bounds;
 /// Vertices and triangles. `normals` and `uvs` belong to the vertices; they may be empty.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MeshData {
+    /// Positions, metres.
     pub vertices: Vec<[f32; 3]>,
     /// Counter-clockwise seen from the front.
     pub triangles: Vec<[u32; 3]>,

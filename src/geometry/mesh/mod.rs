@@ -163,6 +163,7 @@ impl Mesh {
         })
     }
 
+    /// The box around all triangles.
     pub fn bounds(&self) -> Bounds {
         self.bvh.bounds()
     }
@@ -172,6 +173,7 @@ impl Mesh {
         self.triangles.len()
     }
 
+    /// Whether there are no triangles.
     pub fn is_empty(&self) -> bool {
         self.triangles.is_empty()
     }
@@ -181,6 +183,7 @@ impl Mesh {
         self.is_smooth
     }
 
+    /// Whether vertices have texture coordinates.
     pub fn has_uvs(&self) -> bool {
         self.has_uvs
     }

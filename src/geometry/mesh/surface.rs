@@ -4,6 +4,7 @@ use crate::math::{F, Lanes, U, V};
 
 /// A point of a mesh in lanes.
 pub struct MeshPoint<L: Lanes> {
+    /// The point.
     pub p: V<L>,
     /// Unit geometric normal on the front side, from which the vertices run counter-clockwise.
     pub n_geometric: V<L>,
@@ -17,6 +18,7 @@ pub struct MeshPoint<L: Lanes> {
 pub struct Attributes<L: Lanes> {
     /// Not of unit length.
     pub normal: V<L>,
+    /// Texture coordinates.
     pub uv: [F<L>; 2],
 }
 

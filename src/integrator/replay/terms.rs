@@ -10,8 +10,11 @@ use crate::material::ChosenLobe;
 /// One segment of a path and the surface at its end.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Vertex {
+    /// Number of bounces before it.
     pub bounce: u32,
+    /// Where the ray starts, metres.
     pub origin: [f32; 3],
+    /// Unit direction of the ray.
     pub direction: [f32; 3],
     /// Product of f cos/p, roulette weights and transmittances of media before this segment.
     pub throughput: [f32; 3],
@@ -46,6 +49,7 @@ pub enum End {
     Cap,
     /// The limit on bounces of paths without a cap.
     TooLong,
+    /// Russian roulette ended the path.
     Roulette,
     /// The object has no material.
     NoMaterial,
@@ -82,6 +86,7 @@ impl End {
 /// A surface point.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Surface {
+    /// The point, metres.
     pub position: [f32; 3],
     /// Name of the material's type in the scene file; `None` for black.
     pub material: Option<&'static str>,
@@ -107,6 +112,7 @@ pub struct EmitterHit {
 /// A light sample (next-event estimation).
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SampledLight {
+    /// Unit direction towards the light.
     pub direction: [f32; 3],
     /// Index of the sampled object; `None` for the background.
     pub object: Option<u32>,
@@ -118,6 +124,7 @@ pub struct SampledLight {
     pub weight: f32,
     /// L_e of the light; with a texture, the factor of the texture.
     pub radiance: [f32; 3],
+    /// What became of the sample.
     pub outcome: Outcome,
     /// Distance to the light or its occluder; `None` if there is neither, or the ray was not traced.
     pub distance: Option<f32>,
@@ -131,6 +138,7 @@ pub struct SampledLight {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Outcome {
+    /// Nothing lies between.
     Seen,
     /// The light is occluded.
     Hidden,
@@ -141,7 +149,9 @@ pub enum Outcome {
 /// The next direction of a path, and whether the path continues.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Reflection {
+    /// The next direction ω_i, in world space.
     pub direction: [f32; 3],
+    /// The lobe that it was sampled from.
     pub lobe: ChosenLobe,
     /// Whether it leads to the other side of the surface.
     pub refracted: bool,
