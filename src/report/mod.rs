@@ -26,12 +26,14 @@ figcaption { font-size: .86rem; color: #444; }
 
 /// An image or a plot with its caption.
 pub struct Figure {
+    /// The caption, whose indices follow underscores.
     pub caption: String,
     /// An `svg` or `img` element.
     pub element: String,
 }
 
 impl Figure {
+    /// The figure as HTML.
     pub fn markup(&self) -> Markup {
         html! { figure { (PreEscaped(&self.element)) figcaption { (formula(&self.caption)) } } }
     }

@@ -32,15 +32,19 @@ pub const BESIDE: (u32, u32) = (560, 380);
 /// An axis; values on a logarithmic axis must be positive.
 #[derive(Clone, Copy)]
 pub struct Axis {
+    /// The quantity with its unit.
     pub label: &'static str,
+    /// Whether the scale is logarithmic.
     pub log: bool,
 }
 
 impl Axis {
+    /// An axis with a linear scale.
     pub fn linear(label: &'static str) -> Axis {
         Axis { label, log: false }
     }
 
+    /// An axis with a logarithmic scale.
     pub fn log(label: &'static str) -> Axis {
         Axis { label, log: true }
     }
@@ -118,34 +122,48 @@ impl Ranged for Scale {
     }
 }
 
+/// How a curve is drawn.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Style {
+    /// A solid line.
     Line,
+    /// A dashed line.
     Dashed,
+    /// Points without a line.
     Points,
     /// A dashed line that is not a measurement: grey, and last in the order.
     Guide,
 }
 
+/// A curve of a plot.
 pub struct Curve {
+    /// Its name in the legend.
     pub name: String,
+    /// How it is drawn.
     pub style: Style,
+    /// Its points, x and y.
     pub points: Vec<(f64, f64)>,
 }
 
+/// A curve of these points.
 pub fn curve(name: impl Into<String>, style: Style, points: Vec<(f64, f64)>) -> Curve {
     Curve { name: name.into(), style, points }
 }
 
 /// A plot that can be written in several formats.
 pub struct Plot {
+    /// Width and height in pixels.
     pub size: (u32, u32),
+    /// The horizontal axis.
     pub x: Axis,
+    /// The vertical axis.
     pub y: Axis,
+    /// The curves, the last one on top.
     pub curves: Vec<Curve>,
 }
 
 impl Plot {
+    /// The plot as SVG.
     pub fn svg(&self) -> String {
         svg(self.size, self.x, self.y, &self.curves)
     }

@@ -14,6 +14,7 @@ const MOST_PIXELS: u64 = 1 << 27;
 
 /// An image with lines of text below it.
 pub struct Cell {
+    /// The lines below the image.
     pub lines: Vec<String>,
     /// Display pixels, row by row.
     pub pixels: Vec<[u8; 4]>,

@@ -5,27 +5,36 @@ use maud::{Markup, html};
 pub struct Table {
     /// Base name of its files.
     pub name: String,
+    /// The caption.
     pub caption: String,
+    /// The columns.
     pub columns: Vec<Column>,
+    /// The cells, row by row.
     pub rows: Vec<Vec<String>>,
 }
 
+/// A column of a table.
 pub struct Column {
+    /// Its heading.
     pub name: String,
+    /// Whether its cells are aligned as numbers.
     pub is_number: bool,
 }
 
 impl Column {
+    /// A column of texts.
     pub fn text(name: &str) -> Column {
         Column { name: name.to_owned(), is_number: false }
     }
 
+    /// A column of numbers.
     pub fn number(name: &str) -> Column {
         Column { name: name.to_owned(), is_number: true }
     }
 }
 
 impl Table {
+    /// The table as HTML.
     pub fn markup(&self) -> Markup {
         let class = |column: usize| if self.columns[column].is_number { "n" } else { "" };
         html! {

@@ -16,9 +16,13 @@ use crate::{render::threads::Threads, scene::RenderSettings};
 
 /// A study of some scenes in a folder.
 pub struct Study<'a> {
+    /// What to measure.
     pub plan: &'a Plan,
+    /// Where measurements are kept.
     pub folder: &'a Path,
+    /// The threads that render.
     pub threads: &'a Threads,
+    /// The machine, as reports name it.
     pub machine: &'a Machine,
     /// Asks to stop.
     pub stop: &'a (dyn Fn() -> bool + Sync),
@@ -27,15 +31,35 @@ pub struct Study<'a> {
 /// What is going on.
 pub enum Progress<'a> {
     /// How many runs there will be, and how many of them the folder has.
-    Planned { runs: usize, found: usize },
+    Planned {
+        /// Runs in all.
+        runs: usize,
+        /// Runs that the folder has.
+        found: usize,
+    },
     /// The share of a converged render that is done.
-    Reference { title: &'a str, share: f64 },
+    Reference {
+        /// Title of the scene.
+        title: &'a str,
+        /// From 0 to 1.
+        share: f64,
+    },
     /// A run begins.
-    Begun { title: &'a str, settings: &'a RenderSettings },
+    Begun {
+        /// Title of the scene.
+        title: &'a str,
+        /// The settings of the run.
+        settings: &'a RenderSettings,
+    },
     /// A run is done and kept.
     Done,
     /// All runs of a combination are done.
-    Combination { title: &'a str, outcome: &'a Outcome },
+    Combination {
+        /// Title of the scene.
+        title: &'a str,
+        /// What the runs tell.
+        outcome: &'a Outcome,
+    },
 }
 
 /// A scene with what will be measured of it.

@@ -4,7 +4,9 @@ use statrs::distribution::{ContinuousCDF, StudentsT};
 /// A slope with half the width of its 95 % confidence interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Slope {
+    /// The slope.
     pub slope: f64,
+    /// Half of its 95 % confidence interval.
     pub half_width: f64,
 }
 

@@ -13,10 +13,15 @@ pub struct Machine {
     pub cpu: String,
     /// Processors that the program may use.
     pub cores: usize,
+    /// Number of render threads.
     pub threads: usize,
+    /// The SIMD level.
     pub simd: String,
+    /// The operating system.
     pub os: String,
+    /// The version of Noisefall.
     pub version: String,
+    /// The commit of Noisefall.
     pub commit: String,
     /// Year, month and day, UTC.
     pub date: String,

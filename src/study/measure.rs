@@ -17,12 +17,15 @@ use crate::{
 /// The error after some samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Checkpoint {
+    /// Samples per pixel.
     pub spp: u32,
     /// Rendering time up to here.
     pub seconds: f64,
     /// As in [`crate::measure::Comparison`].
     pub rmse: f64,
+    /// relMSE against the reference.
     pub rel_mse: f64,
+    /// Mean difference from the reference.
     pub bias: f64,
     /// Of `bias`, as the variance of the samples gives it; `None` before the second sample.
     pub bias_standard_error: Option<f64>,
@@ -47,6 +50,7 @@ impl NoiseOfMean {
 /// One render of one combination.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Run {
+    /// Time and errors at powers of two of samples.
     pub checkpoints: Vec<Checkpoint>,
     /// Samples that were not finite or negative.
     pub invalid_samples: u64,
@@ -54,15 +58,20 @@ pub struct Run {
     pub bias: String,
     /// Pixels shared paths, and samples went where noise was: what became of the settings.
     pub shares: bool,
+    /// Whether sampling was adaptive.
     pub adapts: bool,
 }
 
 /// What renders: a scene before a camera, threads, and somebody who may stop it.
 #[derive(Clone, Copy)]
 pub struct Bench<'a> {
+    /// The scene.
     pub scene: &'a Scene,
+    /// Its camera at the resolution of the study.
     pub camera: &'a Camera,
+    /// The threads that render.
     pub threads: &'a Threads,
+    /// Whether to stop.
     pub stop: &'a (dyn Fn() -> bool + Sync),
 }
 
@@ -82,11 +91,13 @@ impl Bench<'_> {
         }
     }
 
+    /// The image of a film.
     pub fn frame(&self, film: &Film) -> Frame {
         let resolution = self.camera.resolution;
         self.threads.install(|| Frame::of_film(film, 0, resolution, resolution))
     }
 
+    /// An empty film.
     pub fn film(&self) -> Film {
         Film::new(self.camera.resolution)
     }

@@ -52,16 +52,29 @@ use crate::{file::WriteError, scene::SceneError};
 /// Why a study ended early.
 #[derive(Debug, thiserror::Error)]
 pub enum StudyError {
+    /// The scene cannot be used.
     #[error("{}", .0.report())]
     Scene(SceneError),
     /// A scene that cannot be measured.
     #[error("{}: {reason}", path.display())]
-    Unmeasurable { path: PathBuf, reason: String },
+    Unmeasurable {
+        /// The scene file.
+        path: PathBuf,
+        /// What is missing.
+        reason: String,
+    },
     /// A file that cannot be read or written.
     #[error("{}: {reason}", path.display())]
-    File { path: PathBuf, reason: String },
+    File {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        reason: String,
+    },
+    /// A file cannot be written.
     #[error(transparent)]
     Write(#[from] WriteError),
+    /// The renderer failed.
     #[error("the renderer failed: {0}")]
     Renderer(String),
     /// Somebody asked to stop; what was complete is in the store.

@@ -48,6 +48,7 @@ pub struct MeanError {
 /// A combination with its measurements.
 #[derive(Clone, Debug)]
 pub struct Outcome {
+    /// The settings.
     pub settings: RenderSettings,
     /// Combinations whose picture is the same.
     pub twins: Vec<RenderSettings>,
@@ -61,6 +62,7 @@ pub struct Outcome {
     pub variances: Vec<Vec<(f64, f64)>>,
     /// What became of the settings: whether pixels shared paths, and samples went where noise was.
     pub shares: bool,
+    /// Whether sampling was adaptive.
     pub adapts: bool,
     /// Means over the runs without the reference's own error, as far as they are clear of it; never empty.
     pub curve: Vec<Point>,
@@ -68,6 +70,7 @@ pub struct Outcome {
     pub efficiencies: Vec<f64>,
     /// Of the root of relMSE over samples. None where there is no noise or too few points.
     pub slope: Option<Slope>,
+    /// Samples that were dropped because they were negative or not finite.
     pub invalid_samples: u64,
 }
 

@@ -13,19 +13,26 @@ const LONGER_SIDE: u32 = 256;
 /// The values of each setting, all of which are combined. Of an empty list what the scene opens with is taken.
 #[derive(Clone, Debug, Default)]
 pub struct Lists {
+    /// Estimators.
     pub estimators: Vec<Estimator>,
+    /// Samplings of directions.
     pub directions: Vec<Directions>,
+    /// Samplers.
     pub samplers: Vec<Sampler>,
+    /// Kinds of Russian roulette.
     pub roulettes: Vec<Roulette>,
     /// `None` is no cap.
     pub caps: Vec<Option<u32>>,
+    /// Path reuse.
     pub reuses: Vec<Reuse>,
+    /// Adaptive sampling.
     pub adaptive: Vec<bool>,
 }
 
 /// How far each combination is taken.
 #[derive(Clone, Debug)]
 pub struct Plan {
+    /// The settings, all of which are combined.
     pub lists: Lists,
     /// The largest number of samples a pixel.
     pub spp: u32,

@@ -13,8 +13,11 @@ const NEAR: f64 = 0.1;
 
 /// All that was found about a scene.
 pub struct Findings {
+    /// Title of the scene.
     pub title: String,
+    /// Its file.
     pub path: PathBuf,
+    /// Width and height in pixels.
     pub resolution: [u32; 2],
     /// What the scene opens with.
     pub of_scene: RenderSettings,
@@ -22,7 +25,9 @@ pub struct Findings {
     pub reference: String,
     /// Nothing is known of the reference's own error.
     pub reference_is_taken_for_exact: bool,
+    /// Where measurements end.
     pub limits: Limits,
+    /// Runs of each combination.
     pub repeats: u32,
     /// The best first; what cannot be the best comes last.
     pub outcomes: Vec<Outcome>,

@@ -12,6 +12,7 @@ use crate::file::{open_regular, replace};
 /// The name of the file.
 pub const CSV: &str = "study.csv";
 
+/// The measurements in a folder.
 pub struct Store {
     folder: PathBuf,
     /// The lines of each run, in the order of the file.
@@ -88,6 +89,7 @@ impl Store {
         self.runs.len()
     }
 
+    /// Whether there are none.
     pub fn is_empty(&self) -> bool {
         self.runs.is_empty()
     }

@@ -13,7 +13,9 @@ const REFERENCE_EXTENSION: &str = "ref.exr";
 
 pub struct StudyScene {
     pub path: PathBuf,
+    /// The compiled scene.
     pub scene: Scene,
+    /// Its camera at the resolution of the study.
     pub camera: Camera,
     /// The picture or radiance that is known, and what to call it; where there is none, a converged render is made.
     pub known: Option<(truth::Reference, String)>,

@@ -88,6 +88,7 @@ impl Validation {
         RenderSettings { directions, ..self.settings(Estimator::Path) }
     }
 
+    /// Random numbers with the next seed.
     pub fn random(&self) -> Random {
         Random(self.next_seed())
     }

@@ -4,6 +4,7 @@ use serde_json::{Value, json};
 use super::{Effort, Noticed, Section, Suite};
 
 impl Effort {
+    /// The name in files.
     pub fn name(self) -> &'static str {
         match self {
             Effort::Quick => "quick",

@@ -68,12 +68,17 @@ pub struct Validation {
 
 /// A claim and what became of it.
 pub struct Section {
+    /// The heading.
     pub title: &'static str,
+    /// What is claimed, in a sentence.
     pub claim: &'static str,
     /// Paragraphs that lead to the exact answer.
     pub derivation: &'static [&'static str],
+    /// The literature.
     pub source: &'static str,
+    /// What was measured.
     pub statements: Vec<Statement>,
+    /// Plots and images.
     pub figures: Vec<Figure>,
     /// What a reader should know besides.
     pub remark: Option<String>,
@@ -85,6 +90,7 @@ impl Section {
         !self.statements.is_empty()
     }
 
+    /// Whether all statements hold.
     pub fn holds(&self) -> bool {
         self.statements.iter().all(|statement| statement.holds)
     }
@@ -111,6 +117,7 @@ impl Validation {
         sections
     }
 
+    /// A validation with this seed.
     pub fn new(effort: Effort, references: Option<PathBuf>, seed: u32) -> Validation {
         Validation {
             effort,

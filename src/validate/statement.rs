@@ -14,7 +14,9 @@ pub(super) const POWER: f64 = 1.644_853_6;
 /// One measured number against what it must be.
 #[derive(Clone, Debug, Serialize)]
 pub struct Statement {
+    /// What was measured.
     pub what: String,
+    /// The measured value.
     pub measured: f64,
     /// Standard error of `measured`; 0 where there is no chance in it.
     pub error: f64,
@@ -22,6 +24,7 @@ pub struct Statement {
     pub exact: Option<f64>,
     /// The test and its outcome.
     pub statistic: String,
+    /// Whether the value is where it should be.
     pub holds: bool,
     /// The smallest bias of `measured` that fails the statement with a probability of 95 %.
     pub notices: Noticed,

@@ -7,6 +7,7 @@ use crate::report::{plot::Plot, table::Table};
 
 /// What is written: a page, and every figure and table of it by itself.
 pub struct Chapter {
+    /// The page.
     pub html: String,
     /// Names and contents.
     pub files: Vec<(String, Vec<u8>)>,
@@ -15,6 +16,7 @@ pub struct Chapter {
 }
 
 impl Chapter {
+    /// The chapter of these exhibits.
     pub fn new(exhibits: &Exhibits) -> Chapter {
         let (tables, plots) = (exhibits.tables(), exhibits.plots());
         let mut chapter = Chapter { html: page::html(exhibits, &tables, &plots), files: Vec::new(), failures: Vec::new() };

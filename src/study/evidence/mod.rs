@@ -36,7 +36,9 @@ const SPP: std::ops::RangeInclusive<u32> = 16..=4096;
 
 /// How long it may take, and how its pictures are shown.
 pub struct EvidencePlan {
+    /// Approximate duration.
     pub time: Duration,
+    /// How images are shown.
     pub display: Display,
 }
 

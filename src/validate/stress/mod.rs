@@ -54,9 +54,11 @@ impl Trial {
 
 /// A scene file that breaks an invariant.
 pub struct KeptScene {
+    /// Name of the file.
     pub name: String,
     /// The text of a scene file that says why it was kept.
     pub text: String,
+    /// Why it was kept.
     pub reason: String,
 }
 
