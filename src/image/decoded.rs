@@ -14,6 +14,8 @@ use crate::{
     memory::{Reservation, reserve},
 };
 
+/// What the memory of a decoder is called in messages.
+const BYTES: &str = "the bytes of a picture";
 /// Maximum memory for chunks of a PNG that are not pixels, such as the text of a scene.
 const CHUNKS: u64 = 64 << 20;
 /// Bytes per pixel that decoders keep besides the result: JPEG four components of two bytes, WebP two images of four bytes, TGA indices
@@ -48,7 +50,8 @@ fn decode<P: Pixel>(mut decoder: impl ImageDecoder, besides: u64, encoding: Enco
     let (width, height) = decoder.dimensions();
     check_size(width.into(), height.into())?;
     let size = decoder.total_bytes() + besides * u64::from(width) * u64::from(height);
-    let _room = room::<P>(width, height, size)?;
+    let _room = room::<P>(width, height, 0)?;
+    let _bytes = reserve(BYTES, size)?;
     decoder.set_limits(limits(size)).map_err(Flaw::broken)?;
     let colour = decoder.color_type();
     let mut bytes = Vec::new();
@@ -93,7 +96,7 @@ fn linear<P: Pixel>(
 fn whole(file: &mut impl Seek) -> Result<Reservation, Flaw> {
     let length = file.seek(SeekFrom::End(0))?;
     file.rewind()?;
-    Ok(reserve("the bytes of a picture", 2 * length)?)
+    Ok(reserve(BYTES, 2 * length)?)
 }
 
 fn limits(bytes: u64) -> Limits {

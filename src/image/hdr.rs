@@ -3,7 +3,7 @@
 //! G. Ward, "Real Pixels", Graphics Gems II, 1991, and the Radiance file format notes ("Picture File Format"). Mantissas are used
 //! without the half step that Radiance itself adds: black is then 0, and other readers agree.
 //!
-//! The `image` crate reads this format too, but it ignores the exposure and has no limit for the length of a header line.
+//! The `image` crate reads this format too, but it does not apply the exposure and has no limit for the length of a header line.
 use std::io::{BufRead, Read};
 
 use super::{ImageFormatError, Picture, Pixel, check_size, pixels, room};

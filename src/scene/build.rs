@@ -39,7 +39,8 @@ impl SceneDescription {
         }
         let error = |problem: Problem| {
             let message = format!("`{}`: {}", problem.path, problem.message);
-            SceneError::of_file(Path::new("scene"), message, if problem.help.is_empty() { problem.label } else { problem.help })
+            let advice = [problem.label, problem.help].into_iter().filter(|text| !text.is_empty()).collect::<Vec<_>>();
+            SceneError::of_file(Path::new("scene"), message, advice.join("; "))
         };
         let nothing = || SceneError::of_file(Path::new("scene"), "it cannot be compiled", "check its values");
         Err(SceneError::of_all(problems.into_iter().map(error).collect()).unwrap_or_else(nothing))
@@ -95,7 +96,9 @@ mod tests {
             let mut description = lamp();
             change(&mut description);
             let error = description.build(Path::new("")).err().expect("it is invalid").report();
-            assert!(error.contains(message), "{error}");
+            // The report breaks its lines.
+            let line = error.replace('│', " ").split_whitespace().collect::<Vec<_>>().join(" ");
+            assert!(line.contains(message), "{error}");
         };
         refused(|scene| scene.camera.look_at = scene.camera.eye, "the same point");
         refused(|scene| scene.objects[0].shape = Sphere { radius: -1.0, ..Sphere::default() }.into(), "radius");
