@@ -12,7 +12,7 @@ use noisefall::{
     render::{
         Frame,
         film::Film,
-        pass::{PassJob, Threads},
+        threads::{PassJob, Threads},
         truth::Reference,
     },
     scene::{Camera, parse},

@@ -7,7 +7,7 @@ use eframe::egui;
 use glam::DQuat;
 use noisefall::{
     math::SimdLevel,
-    render::{Display, Job, Publish, Renderer, pass::Threads, tone::to_srgb},
+    render::{Display, Job, Publish, Renderer, threads::Threads, tone::to_srgb},
     scene::{built_in, load},
 };
 

@@ -13,7 +13,7 @@ use noisefall::{
         Display, Frame,
         film::Film,
         image_file::save,
-        pass::{PassJob, Threads},
+        threads::{PassJob, Threads},
     },
     scene::description::{DVec3, EmissionDescription, SceneDescription},
     shape::{Sphere, rectangle::Rectangle},

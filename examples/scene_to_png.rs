@@ -9,7 +9,7 @@ use noisefall::{
         Display, Frame,
         film::Film,
         image_file::save,
-        pass::{PassJob, Threads},
+        threads::{PassJob, Threads},
     },
     scene::load,
 };

@@ -4,7 +4,7 @@
 //! `validate`.
 //!
 //! [`scene::load`] reads a scene file, and [`scene::description::SceneDescription::build`] makes a scene in code.
-//! [`render::pass::Threads::pass`] renders a number of samples, and [`render::Renderer`] renders progressively on a thread of its own.
+//! [`render::threads::Threads::pass`] renders a number of samples, and [`render::Renderer`] renders progressively on a thread of its own.
 //! [`render::image_file::save`] writes a PNG or EXR. The folder `examples/` has a program for each.
 //!
 //! Folders depend downwards only:

@@ -10,8 +10,8 @@ use clap::ArgGroup;
 use noisefall::{
     math::SimdLevel,
     render::{
-        Budget, Display, Job, Published, State, film::Film, image_file::Format, pass::Threads, replay_command::replay_command,
-        settings_text::settings_text, truth::Reference,
+        Budget, Display, Job, Published, State, film::Film, image_file::Format, replay_command::replay_command,
+        settings_text::settings_text, threads::Threads, truth::Reference,
     },
     sampling::{Directions, Sampler},
     scene::{Camera, Estimator, RenderSettings, Reuse, Roulette, Scene, load},

@@ -8,7 +8,7 @@ use ::image::{
     codecs::{jpeg::JpegDecoder, png::PngDecoder, tga::TgaDecoder, webp::WebPDecoder},
 };
 
-use super::{Encoding, Flaw, LONGEST_SIDE, Picture, Pixel, check_size, pixels, room};
+use super::{Encoding, ImageFormatError, LONGEST_SIDE, Picture, Pixel, check_size, pixels, room};
 use crate::{
     math::colour::linear_from_srgb,
     memory::{Reservation, reserve},
@@ -24,40 +24,40 @@ const JPEG: u64 = 8;
 const WEBP: u64 = 8;
 const TGA: u64 = 2;
 
-pub(super) fn png<P: Pixel>(mut file: impl BufRead + Seek, encoding: Encoding) -> Result<Picture<P>, Flaw> {
+pub(super) fn png<P: Pixel>(mut file: impl BufRead + Seek, encoding: Encoding) -> Result<Picture<P>, ImageFormatError> {
     let (width, height) = size_of_png(&mut file)?;
     check_size(width.into(), height.into())?;
     file.rewind()?;
-    decode(PngDecoder::with_limits(file, limits(CHUNKS)).map_err(Flaw::broken)?, 0, encoding)
+    decode(PngDecoder::with_limits(file, limits(CHUNKS)).map_err(ImageFormatError::broken)?, 0, encoding)
 }
 
-pub(super) fn jpeg<P: Pixel>(mut file: impl BufRead + Seek, encoding: Encoding) -> Result<Picture<P>, Flaw> {
+pub(super) fn jpeg<P: Pixel>(mut file: impl BufRead + Seek, encoding: Encoding) -> Result<Picture<P>, ImageFormatError> {
     let _file = whole(&mut file)?;
-    decode(JpegDecoder::new(file).map_err(Flaw::broken)?, JPEG, encoding)
+    decode(JpegDecoder::new(file).map_err(ImageFormatError::broken)?, JPEG, encoding)
 }
 
-pub(super) fn tga<P: Pixel>(file: impl BufRead + Seek, encoding: Encoding) -> Result<Picture<P>, Flaw> {
-    decode(TgaDecoder::new(file).map_err(Flaw::broken)?, TGA, encoding)
+pub(super) fn tga<P: Pixel>(file: impl BufRead + Seek, encoding: Encoding) -> Result<Picture<P>, ImageFormatError> {
+    decode(TgaDecoder::new(file).map_err(ImageFormatError::broken)?, TGA, encoding)
 }
 
-pub(super) fn webp<P: Pixel>(mut file: impl BufRead + Seek, encoding: Encoding) -> Result<Picture<P>, Flaw> {
+pub(super) fn webp<P: Pixel>(mut file: impl BufRead + Seek, encoding: Encoding) -> Result<Picture<P>, ImageFormatError> {
     let _file = whole(&mut file)?;
-    decode(WebPDecoder::new(file).map_err(Flaw::broken)?, WEBP, encoding)
+    decode(WebPDecoder::new(file).map_err(ImageFormatError::broken)?, WEBP, encoding)
 }
 
 /// Decodes the pixels of a file whose header has been read. `besides`: bytes per pixel that the decoder takes for itself.
-fn decode<P: Pixel>(mut decoder: impl ImageDecoder, besides: u64, encoding: Encoding) -> Result<Picture<P>, Flaw> {
+fn decode<P: Pixel>(mut decoder: impl ImageDecoder, besides: u64, encoding: Encoding) -> Result<Picture<P>, ImageFormatError> {
     let (width, height) = decoder.dimensions();
     check_size(width.into(), height.into())?;
     let size = decoder.total_bytes() + besides * u64::from(width) * u64::from(height);
     let _room = room::<P>(width, height, 0)?;
     let _bytes = reserve(BYTES, size)?;
-    decoder.set_limits(limits(size)).map_err(Flaw::broken)?;
+    decoder.set_limits(limits(size)).map_err(ImageFormatError::broken)?;
     let colour = decoder.color_type();
     let mut bytes = Vec::new();
-    bytes.try_reserve_exact(decoder.total_bytes() as usize).map_err(Flaw::broken)?;
+    bytes.try_reserve_exact(decoder.total_bytes() as usize).map_err(ImageFormatError::broken)?;
     bytes.resize(decoder.total_bytes() as usize, 0);
-    decoder.read_image(&mut bytes).map_err(Flaw::broken)?;
+    decoder.read_image(&mut bytes).map_err(ImageFormatError::broken)?;
     let channels = usize::from(colour.channel_count());
     let radiance = match usize::from(colour.bytes_per_pixel()) / channels {
         1 => linear(bytes.iter().map(|sample| u16::from(*sample)), u8::MAX.into(), channels, encoding),
@@ -65,7 +65,7 @@ fn decode<P: Pixel>(mut decoder: impl ImageDecoder, besides: u64, encoding: Enco
             let samples = bytes.chunks_exact(2).map(|sample| u16::from_ne_bytes([sample[0], sample[1]]));
             linear(samples, u16::MAX, channels, encoding)
         }
-        _ => Err(Flaw::broken(format!("its samples are {colour:?}"))),
+        _ => Err(ImageFormatError::broken(format!("its samples are {colour:?}"))),
     }?;
     Ok(Picture { width, height, radiance })
 }
@@ -76,7 +76,7 @@ fn linear<P: Pixel>(
     most: u16,
     channels: usize,
     encoding: Encoding,
-) -> Result<Vec<P>, Flaw> {
+) -> Result<Vec<P>, ImageFormatError> {
     let value = |sample: u16| {
         let x = f64::from(sample) / f64::from(most);
         (if encoding == Encoding::Srgb { linear_from_srgb(x) } else { x }) as f32
@@ -93,7 +93,7 @@ fn linear<P: Pixel>(
 }
 
 /// Reserves memory for a file that its decoder reads as a whole, into a buffer that grows by doubling.
-fn whole(file: &mut impl Seek) -> Result<Reservation, Flaw> {
+fn whole(file: &mut impl Seek) -> Result<Reservation, ImageFormatError> {
     let length = file.seek(SeekFrom::End(0))?;
     file.rewind()?;
     Ok(reserve(BYTES, 2 * length)?)
@@ -108,12 +108,12 @@ fn limits(bytes: u64) -> Limits {
 }
 
 /// Width and height of the header chunk, which the standard puts first (PNG, third edition, sections 5.6 and 11.2.1).
-fn size_of_png(file: &mut impl BufRead) -> Result<(u32, u32), Flaw> {
+fn size_of_png(file: &mut impl BufRead) -> Result<(u32, u32), ImageFormatError> {
     let mut start = [0; 24];
-    file.read_exact(&mut start).map_err(|_| Flaw::broken("the file ends within its header"))?;
+    file.read_exact(&mut start).map_err(|_| ImageFormatError::broken("the file ends within its header"))?;
     let number = |at: usize| u32::from_be_bytes([start[at], start[at + 1], start[at + 2], start[at + 3]]);
     if &start[12..16] != b"IHDR" {
-        return Err(Flaw::broken("the file does not begin with a header"));
+        return Err(ImageFormatError::broken("the file does not begin with a header"));
     }
     Ok((number(16), number(20)))
 }

@@ -178,7 +178,7 @@ pub fn looks_like(start: &[u8]) -> Option<&'static str> {
     KINDS.iter().find(|(magic, _)| start.starts_with(magic)).map(|(_, kind)| *kind)
 }
 
-fn decode<P: Pixel>(mut file: impl BufRead + Seek, encoding: Encoding) -> Result<Picture<P>, Flaw> {
+fn decode<P: Pixel>(mut file: impl BufRead + Seek, encoding: Encoding) -> Result<Picture<P>, ImageFormatError> {
     let mut start = Vec::new();
     (&mut file).take(18).read_to_end(&mut start)?;
     file.rewind()?;
@@ -190,7 +190,7 @@ fn decode<P: Pixel>(mut file: impl BufRead + Seek, encoding: Encoding) -> Result
         [b'#', b'?', ..] => hdr::decode(file),
         // A TGA has no signature, but few of its values are valid: kind of palette, kind of image, bits per pixel.
         [_, 0 | 1, 1..=3 | 9..=11, .., 8 | 15 | 16 | 24 | 32, _] if start.len() == 18 => decoded::tga(file, encoding),
-        _ => Err(Flaw::NotAPicture),
+        _ => Err(ImageFormatError::NotAPicture),
     }
 }
 
@@ -212,8 +212,8 @@ fn room<P>(width: u32, height: u32, besides: u64) -> Result<Reservation, TooMuch
 }
 
 /// An empty list with capacity for so many pixels.
-fn pixels<P>(count: usize) -> Result<Vec<P>, Flaw> {
+fn pixels<P>(count: usize) -> Result<Vec<P>, ImageFormatError> {
     let mut list = Vec::new();
-    list.try_reserve_exact(count).map_err(Flaw::broken)?;
+    list.try_reserve_exact(count).map_err(ImageFormatError::broken)?;
     Ok(list)
 }

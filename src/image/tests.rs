@@ -124,7 +124,7 @@ fn formats_without_loss_are_read_as_they_were_written() {
         assert_eq!((picture.width, picture.height, &picture.radiance), (4, 2, &linear));
         let curved: Picture = decode(Cursor::new(bytes), Encoding::Srgb).expect("it is a picture");
         assert!((curved.radiance[2][0] - 0.132_868).abs() < 1e-6, "{:?}", curved.radiance[2]);
-        assert!(matches!(read(&bytes[..bytes.len() / 2]), Err(Flaw::Unreadable(_))), "the file is cut");
+        assert!(matches!(read(&bytes[..bytes.len() / 2]), Err(ImageFormatError::Unreadable(_))), "the file is cut");
     }
     // Bottom-up TGAs begin with the last row.
     tga[17] ^= 1 << 5;
@@ -151,27 +151,27 @@ fn jpegs_are_read() {
         let is_near = |pixel: &[f32; 3]| (0..3).all(|i| (pixel[i] - expected[i]).abs() <= 2.0 / 255.0);
         assert!(picture.radiance.iter().all(is_near), "{:?}", picture.radiance[0]);
     }
-    assert!(matches!(read(&colour[..20]), Err(Flaw::Unreadable(_))));
+    assert!(matches!(read(&colour[..20]), Err(ImageFormatError::Unreadable(_))));
     // The size stands behind the marker of the frame, height first.
     let frame = colour.windows(2).position(|marker| marker == [0xff, 0xc0]).expect("a frame");
     let mut wide = colour.clone();
     wide[frame + 7..frame + 9].copy_from_slice(&60_000u16.to_be_bytes());
-    assert_eq!(read(&wide), Err(Flaw::TooLarge(60_000, 16)));
+    assert_eq!(read(&wide), Err(ImageFormatError::TooLarge(60_000, 16)));
 }
 
 #[test]
 fn other_files_are_not_taken_for_a_tga() {
     let mut header = [0; 18];
     (header[2], header[12], header[14], header[16]) = (2, 1, 1, 24);
-    assert!(matches!(read(&header), Err(Flaw::Unreadable(_))), "a TGA without pixels");
+    assert!(matches!(read(&header), Err(ImageFormatError::Unreadable(_))), "a TGA without pixels");
     for (at, value) in [(1, 2), (2, 0), (2, 4), (2, 12), (16, 7), (16, 64)] {
         let mut other = header;
         other[at] = value;
-        assert_eq!(read(&other), Err(Flaw::NotAPicture), "{value} at {at}");
+        assert_eq!(read(&other), Err(ImageFormatError::NotAPicture), "{value} at {at}");
     }
-    assert_eq!(read(&header[..17]), Err(Flaw::NotAPicture));
+    assert_eq!(read(&header[..17]), Err(ImageFormatError::NotAPicture));
     header[13] = 0xff;
-    assert_eq!(read(&header), Err(Flaw::TooLarge(0xff01, 1)));
+    assert_eq!(read(&header), Err(ImageFormatError::TooLarge(0xff01, 1)));
 }
 
 #[test]

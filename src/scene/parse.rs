@@ -14,10 +14,7 @@ use super::{
     syntax::{Slips, slips},
     wording::in_plain_words,
 };
-use crate::{
-    declare::{self, Problem},
-    memory::{Size, reserve},
-};
+use crate::memory::{Size, reserve};
 
 /// Of longer texts that are not TOML only the first error is told.
 const LONGEST_SCANNED: usize = 1 << 18;
@@ -75,30 +72,6 @@ fn understood(source: &SourceText) -> Result<(SceneDescription, Damage, Vec<Scen
     let mut description = SceneDescription::default();
     let (damage, errors) = read_description(&mut description, &table, source);
     Ok((description, damage, errors))
-}
-
-impl SceneDescription {
-    /// Checks the description and compiles it; files that it names are looked for in `folder`.
-    pub fn build(&mut self, folder: &Path) -> Result<Scene, SceneError> {
-        let mut problems = declare::check(self);
-        if problems.is_empty() {
-            match compile(self, &self.to_text(), folder, &Damage::default()) {
-                Ok(scene) => return Ok(scene),
-                Err(found) => problems = found,
-            }
-        }
-        let error = |problem: Problem| {
-            let message = format!("`{}`: {}", problem.path, problem.message);
-            SceneError::of_file(Path::new("scene"), message, if problem.help.is_empty() { problem.label } else { problem.help })
-        };
-        let nothing = || SceneError::of_file(Path::new("scene"), "it cannot be compiled", "check its values");
-        Err(SceneError::of_all(problems.into_iter().map(error).collect()).unwrap_or_else(nothing))
-    }
-
-    /// The text of a scene file that says the same.
-    pub fn to_text(&self) -> String {
-        declare::write(&mut self.clone()).to_string()
-    }
 }
 
 /// All errors of a text that is not TOML: what can be told from the text itself, and what the reader says of other lines; `first`
