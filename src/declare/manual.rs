@@ -26,9 +26,14 @@ impl Manual {
         let keys: Vec<&str> = self.path.iter().skip(1).map(String::as_str).chain([parameter.key]).collect();
         let symbol = if parameter.symbol.is_empty() { String::new() } else { format!(" *{}*", parameter.symbol) };
         let unit = if parameter.unit.is_empty() { String::new() } else { format!(" ({})", parameter.unit) };
-        let required = if parameter.is_required { ", required" } else { "" };
+        // What must be given has no default.
+        let value = if parameter.is_required {
+            format!("{}, required", value.split(';').next().unwrap_or_default())
+        } else {
+            value.to_owned()
+        };
         let value = value.replace('|', "\\|");
-        self.text += &format!("| `{}`{symbol} | {value}{required} | {}{unit} |\n", keys.join("."), parameter.doc);
+        self.text += &format!("| `{}`{symbol} | {value} | {}{unit} |\n", keys.join("."), parameter.doc);
     }
 
     fn descend(&mut self, parameter: &Parameter, title: &str, is_list: bool) {
