@@ -27,8 +27,11 @@ impl eframe::App for Window {
         let image =
             egui::ColorImage::from_rgba_unmultiplied([frame.width as usize, frame.height as usize], pixels.as_flattened());
         let texture = ui.ctx().load_texture("frame", image, egui::TextureOptions::NEAREST);
-        let size = self.job.camera.resolution.map(|side| side as f32);
-        let dragged = ui.add(egui::Image::new((texture.id(), size.into())).sense(egui::Sense::drag())).drag_delta();
+        let size = egui::Vec2::from(self.job.camera.resolution.map(|side| side as f32));
+        // A line of text stands below.
+        let room = ui.available_size() - egui::vec2(0.0, 24.0);
+        let size = size * (room / size).min_elem();
+        let dragged = ui.add(egui::Image::new((texture.id(), size)).sense(egui::Sense::drag())).drag_delta();
         self.texture = Some(texture);
         ui.label(format!("{} samples per pixel", published.status.spp));
         if dragged.x != 0.0 {

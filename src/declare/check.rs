@@ -1,5 +1,5 @@
 //! Holds values against their ranges.
-use super::{Choice, Declare, Form, Parameter, Parameters, Path, Problem, Range, Textured, Value, short};
+use super::{Declare, Form, Parameter, Parameters, Path, Problem, Range, Textured, Value, short};
 
 /// Coordinates beyond this are refused: their squares would leave the range of f32.
 const FARTHEST: f64 = 1e12;
@@ -77,24 +77,8 @@ impl Parameters for Checker {
         self.path.0.truncate(self.outer.pop().unwrap_or(0));
     }
 
-    fn present(&mut self, _: &Parameter, now: bool) -> bool {
-        now
-    }
-
-    fn choose(&mut self, _: &Choice, now: usize) -> usize {
-        now
-    }
-
-    fn items(&mut self, _: &Parameter, now: usize) -> usize {
-        now
-    }
-
     fn item(&mut self, parameter: &Parameter, index: usize) {
         self.descend(self.path.key(parameter.key).item(index));
-    }
-
-    fn names(&mut self, _: &Parameter, now: Vec<String>) -> Vec<String> {
-        now
     }
 
     fn named(&mut self, parameter: &Parameter, name: &str) {

@@ -2,7 +2,7 @@
 use glam::DVec3;
 use rand::{Rng, RngCore};
 
-use super::{Choice, Form, Parameter, Parameters, Range, Scale, Textured, Value};
+use super::{Choice, Parameter, Parameters, Range, Scale, Textured, Value};
 
 /// The visitor that draws. Names stay as they are; lists get up to three items.
 pub struct Dice<'r> {
@@ -67,10 +67,6 @@ impl Parameters for Dice<'_> {
         }
     }
 
-    fn enter(&mut self, _: &Parameter, _: Form) {}
-
-    fn leave(&mut self) {}
-
     fn present(&mut self, _: &Parameter, _: bool) -> bool {
         self.random.random()
     }
@@ -83,11 +79,7 @@ impl Parameters for Dice<'_> {
         self.random.random_range(0..4)
     }
 
-    fn item(&mut self, _: &Parameter, _: usize) {}
-
     fn names(&mut self, _: &Parameter, _: Vec<String>) -> Vec<String> {
         (0..self.random.random_range(0..4)).map(|number| format!("name {number}")).collect()
     }
-
-    fn named(&mut self, _: &Parameter, _: &str) {}
 }

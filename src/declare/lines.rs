@@ -1,5 +1,5 @@
 //! The values of a description as lines of text, for people.
-use super::{Choice, Form, Parameter, Parameters, Textured, Value, short};
+use super::{Parameter, Parameters, Textured, Value, short};
 
 /// A line for every value that `declaration` visits: symbol or key, value, unit.
 pub fn lines_of(declaration: impl FnOnce(&mut dyn Parameters)) -> Vec<String> {
@@ -34,30 +34,6 @@ impl Parameters for Lines {
         let unit = if parameter.unit.is_empty() { String::new() } else { format!(" {}", parameter.unit) };
         self.0.push(format!("{name}{symbol}: {value}{unit}"));
     }
-
-    fn enter(&mut self, _: &Parameter, _: Form) {}
-
-    fn leave(&mut self) {}
-
-    fn present(&mut self, _: &Parameter, now: bool) -> bool {
-        now
-    }
-
-    fn choose(&mut self, _: &Choice, now: usize) -> usize {
-        now
-    }
-
-    fn items(&mut self, _: &Parameter, now: usize) -> usize {
-        now
-    }
-
-    fn item(&mut self, _: &Parameter, _: usize) {}
-
-    fn names(&mut self, _: &Parameter, now: Vec<String>) -> Vec<String> {
-        now
-    }
-
-    fn named(&mut self, _: &Parameter, _: &str) {}
 }
 
 fn colour([r, g, b]: &[f64; 3]) -> String {

@@ -49,35 +49,43 @@ pub use self::{
     write::write,
 };
 
-/// A visitor of parameters. It reads or replaces their values.
+/// A visitor of parameters. It reads or replaces their values. What it does not say leaves everything as it is.
 pub trait Parameters {
     /// A value at a key of the current table.
     fn value(&mut self, parameter: &Parameter, value: Value<'_>);
 
     /// Enters the table at a key; what follows, up to [`Parameters::leave`], stands in it. A [`Form::NameOrTable`] may be the name of a
     /// kind in place of a table.
-    fn enter(&mut self, parameter: &Parameter, form: Form);
+    fn enter(&mut self, _parameter: &Parameter, _form: Form) {}
 
     /// Leaves a table.
-    fn leave(&mut self);
+    fn leave(&mut self) {}
 
     /// Whether an optional value or table is given, which is visited next if it is.
-    fn present(&mut self, parameter: &Parameter, now: bool) -> bool;
+    fn present(&mut self, _parameter: &Parameter, now: bool) -> bool {
+        now
+    }
 
     /// Which of the alternatives of a choice the current table holds.
-    fn choose(&mut self, choice: &Choice, now: usize) -> usize;
+    fn choose(&mut self, _choice: &Choice, now: usize) -> usize {
+        now
+    }
 
     /// How many tables the list at a key has; each is visited next, between [`Parameters::item`] and [`Parameters::leave`].
-    fn items(&mut self, parameter: &Parameter, now: usize) -> usize;
+    fn items(&mut self, _parameter: &Parameter, now: usize) -> usize {
+        now
+    }
 
     /// Enters an item of the list that [`Parameters::items`] counted.
-    fn item(&mut self, parameter: &Parameter, index: usize);
+    fn item(&mut self, _parameter: &Parameter, _index: usize) {}
 
     /// The keys of a table of named tables; each is visited next, between [`Parameters::named`] and [`Parameters::leave`].
-    fn names(&mut self, parameter: &Parameter, now: Vec<String>) -> Vec<String>;
+    fn names(&mut self, _parameter: &Parameter, now: Vec<String>) -> Vec<String> {
+        now
+    }
 
     /// Enters one of the tables that [`Parameters::names`] listed.
-    fn named(&mut self, parameter: &Parameter, name: &str);
+    fn named(&mut self, _parameter: &Parameter, _name: &str) {}
 
     /// Whether the visitor wants to see every alternative of a choice, one after the other, and not the one that is chosen.
     fn sees_all(&self) -> bool {

@@ -109,25 +109,13 @@ impl Parameters for Writer {
         }
     }
 
-    fn present(&mut self, _: &Parameter, now: bool) -> bool {
-        now
-    }
-
     fn choose(&mut self, choice: &Choice, now: usize) -> usize {
         self.frame().name = Some(choice.alternatives[now].name);
         now
     }
 
-    fn items(&mut self, _: &Parameter, now: usize) -> usize {
-        now
-    }
-
     fn item(&mut self, parameter: &Parameter, _: usize) {
         self.frames.push(Frame::new(Some(parameter.key), Place::List));
-    }
-
-    fn names(&mut self, _: &Parameter, now: Vec<String>) -> Vec<String> {
-        now
     }
 
     fn named(&mut self, parameter: &Parameter, name: &str) {

@@ -20,7 +20,8 @@ impl Roughness {
 
     /// A constant α.
     pub fn alpha(alpha: f32) -> Roughness {
-        Roughness::Alpha(Textured::Constant(f64::from(alpha)))
+        // As it is written: a description in double precision shows no digits of single precision.
+        Roughness::Alpha(Textured::Constant(alpha.to_string().parse().unwrap_or(f64::from(alpha))))
     }
 
     /// The parameter that is given, its value, and whether that is the root of α.

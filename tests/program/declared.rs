@@ -2,9 +2,7 @@
 use std::{fs, path::Path};
 
 use noisefall::{
-    declare::{
-        Choice, CountRange, Declare, Dice, Form, Parameter, Parameters, Range, Textured, Value, check, manual, schema, write,
-    },
+    declare::{CountRange, Declare, Dice, Parameter, Parameters, Range, Textured, Value, check, manual, schema, write},
     scene::{describe, description::SceneDescription},
 };
 use rand::{SeedableRng, rngs::SmallRng};
@@ -115,22 +113,6 @@ impl Parameters for Spoiler {
             _ => {}
         }
     }
-    fn enter(&mut self, _: &Parameter, _: Form) {}
-    fn leave(&mut self) {}
-    fn present(&mut self, _: &Parameter, now: bool) -> bool {
-        now
-    }
-    fn choose(&mut self, _: &Choice, now: usize) -> usize {
-        now
-    }
-    fn items(&mut self, _: &Parameter, now: usize) -> usize {
-        now
-    }
-    fn item(&mut self, _: &Parameter, _: usize) {}
-    fn names(&mut self, _: &Parameter, now: Vec<String>) -> Vec<String> {
-        now
-    }
-    fn named(&mut self, _: &Parameter, _: &str) {}
 }
 
 #[test]

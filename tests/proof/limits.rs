@@ -2,7 +2,7 @@
 //!
 //! Both pictures use the same random numbers, so that they differ by what the parameter changes and hardly by noise.
 use noisefall::{
-    declare::{Choice, Declare, Form, OneOf, Parameter, Parameters, Range, Textured, Value, write},
+    declare::{Choice, Declare, OneOf, Parameter, Parameters, Range, Textured, Value, write},
     material::Material,
     scene::{Estimator, RenderSettings, Roulette, Scene},
 };
@@ -253,22 +253,9 @@ impl Parameters for AtEnd {
             _ => {}
         }
     }
-    fn enter(&mut self, _: &Parameter, _: Form) {}
-    fn leave(&mut self) {}
-    fn present(&mut self, _: &Parameter, now: bool) -> bool {
-        now
-    }
     fn choose(&mut self, choice: &Choice, _: usize) -> usize {
         self.variant % choice.alternatives.len()
     }
-    fn items(&mut self, _: &Parameter, now: usize) -> usize {
-        now
-    }
-    fn item(&mut self, _: &Parameter, _: usize) {}
-    fn names(&mut self, _: &Parameter, now: Vec<String>) -> Vec<String> {
-        now
-    }
-    fn named(&mut self, _: &Parameter, _: &str) {}
 }
 
 /// The material as a scene file says it.
