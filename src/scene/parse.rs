@@ -38,15 +38,18 @@ pub fn built_in() -> Scene {
 pub fn parse(name: &str, text: String) -> Result<Scene, SceneError> {
     let source = SourceText { name: name.to_owned(), text };
     let (description, damage, mut errors) = understood(&source)?;
+    let nothing = || SceneError::of_file(Path::new(name), "this is no scene", "a scene is one TOML file");
     let _described = reserve("the values of the file", DESCRIBED * source.text.len() as u64)
         .map_err(|error| SceneError::of_file(Path::new(name), error.to_string(), "give more memory"))?;
+    if errors.len() >= SceneError::MOST {
+        return Err(SceneError::of_all(errors).unwrap_or_else(nothing));
+    }
     let folder = Path::new(name).parent().unwrap_or(Path::new(""));
     match compile(&description, &source.text, folder, &damage) {
         Ok(scene) if errors.is_empty() => return Ok(scene),
         Ok(_) => {}
         Err(problems) => errors.extend(locate(problems, &source)),
     }
-    let nothing = || SceneError::of_file(Path::new(name), "this is no scene", "a scene is one TOML file");
     Err(SceneError::of_all(errors).unwrap_or_else(nothing))
 }
 

@@ -85,9 +85,15 @@ impl<'t> Reader<'t> {
     }
 
     fn look_up(&mut self, parameter: &Parameter, looks: Looks) -> Option<&'t Spanned<DeValue<'t>>> {
+        let is_full = self.is_full();
         let frame = self.frame();
         frame.known.push(Entry { parameter: *parameter, looks });
-        frame.table.and_then(|table| table.get(parameter.key))
+        frame.table.filter(|_| !is_full).and_then(|table| table.get(parameter.key))
+    }
+
+    /// Whether there are as many errors as are told: each further one would cost a look at the whole text.
+    fn is_full(&self) -> bool {
+        self.errors.len() >= SceneError::MOST
     }
 
     fn fail(&mut self, error: SceneError) {
@@ -100,7 +106,7 @@ impl<'t> Reader<'t> {
 
     fn miss(&mut self, parameter: &Parameter) {
         let (span, source) = (self.frame().span.clone(), self.source);
-        if self.frame().table.is_some() && !self.frame().chooses_nothing {
+        if self.frame().table.is_some() && !self.frame().chooses_nothing && !self.is_full() {
             let key = parameter.key;
             let given = if key == "format" { "format = 1" } else { key };
             let error = source.error(span, format!("missing key `{key}`"), format!("`{given}` must be given here"));
@@ -117,6 +123,9 @@ impl<'t> Reader<'t> {
     /// A frame for a value where a table is expected.
     fn table_in(&mut self, key: &'static str, value: &'t Spanned<DeValue<'t>>, form: Form) -> Frame<'t> {
         let frame = Frame::new(value.span());
+        if self.is_full() {
+            return frame;
+        }
         match value.get_ref() {
             DeValue::Table(table) => Frame { table: Some(table), ..frame },
             DeValue::String(_) if form == Form::NameOrTable => Frame { name: Some(value), ..frame },
@@ -127,12 +136,18 @@ impl<'t> Reader<'t> {
     /// Tells what is wrong with the innermost table as a whole, and leaves it.
     fn close(&mut self) {
         let frame = self.frames.pop().expect("a table that was entered");
+        if self.is_full() {
+            return;
+        }
         let source = self.source;
         let mut errors = Vec::new();
         if let Some((value, key, form)) = frame.mistaken {
             errors.push(wrong_table(source, key, value, form, &frame));
         }
         for (key, _) in frame.table.into_iter().flatten() {
+            if errors.len() >= SceneError::MOST {
+                break;
+            }
             if !frame.known.iter().any(|entry| entry.parameter.key == key.get_ref()) {
                 let what = if frame.choice.is_some() { "kind" } else { "key" };
                 errors.push(unknown(source, key.span(), what, key.get_ref(), &frame.known));
