@@ -2,7 +2,7 @@
 use noisefall::{
     measure::{Bias, Comparison},
     render::settings_text::on_or_off,
-    scene::{RenderSettings, Roulette},
+    scene::RenderSettings,
 };
 use serde_json::{Map, Value, json};
 
@@ -15,13 +15,12 @@ pub fn named<const N: usize>(pairs: [(&str, Value); N]) -> Figures {
 
 /// All that a sample depends on besides scene and camera, in the words of the command line.
 pub fn settings(settings: &RenderSettings) -> Figures {
-    let start = if let Roulette::Throughput { start } = settings.roulette { Some(start) } else { None };
     named([
         ("estimator", json!(settings.estimator.name())),
         ("directions", json!(settings.directions.name())),
         ("sampler", json!(settings.sampler.name())),
         ("roulette", json!(settings.roulette.name())),
-        ("roulette_start", json!(start)),
+        ("roulette_start", json!(settings.roulette.first_bounce())),
         ("max_bounces", json!(settings.max_bounces)),
         ("reuse", json!(settings.reuse.name())),
         ("adaptive", json!(on_or_off(settings.adaptive))),

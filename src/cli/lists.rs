@@ -9,23 +9,23 @@ use super::options::{self as parse, BounceCap};
 
 #[derive(clap::Args)]
 pub struct ListOptions {
-    /// How light is found: path, light, mis
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = item(parse::estimator))]
+    #[arg(long, help = format!("How light is found: {}", parse::list_of::<Estimator>()),
+          value_name = "LIST", value_delimiter = ',', value_parser = item(parse::word::<Estimator>))]
     estimators: Vec<Estimator>,
-    /// How the next direction is drawn at diffuse surfaces: uniform, cosine, bsdf
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = item(parse::directions))]
+    #[arg(long, help = format!("How the next direction is drawn at diffuse surfaces: {}", parse::list_of::<Directions>()),
+          value_name = "LIST", value_delimiter = ',', value_parser = item(parse::word::<Directions>))]
     directions: Vec<Directions>,
-    /// Where samples lie: independent, stratified, sobol, bluenoise (which is sobol in another order)
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = item(parse::sampler))]
+    #[arg(long, help = format!("Where samples lie: {}", parse::list_of::<Sampler>()),
+          value_name = "LIST", value_delimiter = ',', value_parser = item(parse::word::<Sampler>))]
     samplers: Vec<Sampler>,
-    /// Russian roulette: off, survival probabilities, throughput
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = item(parse::roulette))]
+    #[arg(long, help = format!("Russian roulette: {}", Roulette::options().join(", ")),
+          value_name = "LIST", value_delimiter = ',', value_parser = item(parse::roulette))]
     roulette: Vec<Roulette>,
     /// Highest numbers of bounces, none for no cap; what is capped is biased
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = item(parse::bounce_cap))]
     max_bounces: Vec<BounceCap>,
-    /// Whether neighbouring pixels share what their paths find: auto, on, off
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = item(parse::reuse))]
+    #[arg(long, help = format!("Whether neighbouring pixels share what their paths find: {}", parse::list_of::<Reuse>()),
+          value_name = "LIST", value_delimiter = ',', value_parser = item(parse::word::<Reuse>))]
     reuse: Vec<Reuse>,
     /// Whether pixels get more samples where there is more noise: on, off
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = item(parse::on_or_off))]
@@ -61,7 +61,7 @@ mod tests {
 
     #[test]
     fn items_of_lists_lose_their_spaces_and_quotes() {
-        let sampler = item(parse::sampler);
+        let sampler = item(parse::word::<Sampler>);
         for text in [" sobol", "sobol\t", "'sobol'", "\"sobol\"", " ' sobol' "] {
             assert_eq!(sampler(text), Ok(Sampler::Sobol), "{text}");
         }

@@ -2,10 +2,10 @@
 use std::time::Duration;
 
 use noisefall::{
+    declare::Words,
     measure::Floor,
     render::{Display, ToneMap, image_file::Format},
-    sampling::{Directions, Sampler},
-    scene::{Estimator, Reuse, Roulette},
+    scene::Roulette,
 };
 
 use super::replay::Which;
@@ -16,8 +16,8 @@ pub struct DisplayOptions {
     /// Exposure of a PNG in stops: radiance is multiplied by 2 to this power
     #[arg(long, value_name = "STOPS", value_parser = exposure, allow_negative_numbers = true, default_value_t = 0.0)]
     exposure: f32,
-    /// Tone map of a PNG: none (cuts off at 1), reinhard, aces or false-colour (luminance, logarithmic)
-    #[arg(long, value_name = "MAP", value_parser = tone, default_value = "none")]
+    #[arg(long, value_name = "MAP", help = format!("Tone map of a PNG: {}", one_of::<ToneMap>()), value_parser = tone,
+          default_value = ToneMap::default().name())]
     tone: ToneMap,
 }
 
@@ -27,12 +27,29 @@ impl DisplayOptions {
     }
 }
 
-pub fn estimator(text: &str) -> Result<Estimator, String> {
-    Estimator::ALL.into_iter().find(|e| e.name() == text).ok_or_else(|| "expected path, light or mis".to_owned())
+/// The value of a word.
+pub fn word<T: Words>(text: &str) -> Result<T, String> {
+    let found = T::words().iter().find(|(word, _)| word.name == text);
+    found.map(|(_, value)| *value).ok_or_else(|| format!("expected {}", one_of::<T>()))
 }
 
-pub fn directions(text: &str) -> Result<Directions, String> {
-    Directions::ALL.into_iter().find(|d| d.name() == text).ok_or_else(|| "expected uniform, cosine or bsdf".to_owned())
+/// All words of a type, as a help text offers them: `a, b or c`.
+pub fn one_of<T: Words>() -> String {
+    either(&names::<T>())
+}
+
+/// All words of a type, as a help text lists them: `a, b, c`.
+pub fn list_of<T: Words>() -> String {
+    names::<T>().join(", ")
+}
+
+fn names<T: Words>() -> Vec<String> {
+    T::words().iter().map(|(word, _)| word.name.to_owned()).collect()
+}
+
+/// `a, b or c`.
+pub fn either(words: &[String]) -> String {
+    words.split_last().map_or_else(String::new, |(last, others)| format!("{} or {last}", others.join(", ")))
 }
 
 pub fn on_or_off(text: &str) -> Result<bool, String> {
@@ -41,16 +58,6 @@ pub fn on_or_off(text: &str) -> Result<bool, String> {
         "off" => Ok(false),
         _ => Err("expected on or off".to_owned()),
     }
-}
-
-pub fn reuse(text: &str) -> Result<Reuse, String> {
-    Reuse::ALL.into_iter().find(|reuse| reuse.name() == text).ok_or_else(|| "expected auto, on or off".to_owned())
-}
-
-pub fn sampler(text: &str) -> Result<Sampler, String> {
-    let found = Sampler::ALL.into_iter().find(|sampler| sampler.name() == text);
-    let names = || Sampler::ALL.map(Sampler::name).join(", ");
-    found.ok_or_else(|| format!("expected one of {}", names()))
 }
 
 /// `None` is no cap.
@@ -65,14 +72,7 @@ pub fn bounce_cap(text: &str) -> Result<BounceCap, String> {
 }
 
 pub fn roulette(text: &str) -> Result<Roulette, String> {
-    match text {
-        "off" => Ok(Roulette::Off),
-        "throughput" => Ok(Roulette::BY_THROUGHPUT),
-        _ => match text.parse() {
-            Ok(p) if (Roulette::LEAST..=1.0).contains(&p) => Ok(Roulette::Fixed(p)),
-            _ => Err("expected `off`, `throughput`, or a survival probability from 0.01 to 1".to_owned()),
-        },
-    }
+    Roulette::named(text).ok_or_else(|| format!("expected {}", either(&Roulette::options())))
 }
 
 pub fn resolution(text: &str) -> Result<[u32; 2], String> {
@@ -150,9 +150,7 @@ pub fn exposure(text: &str) -> Result<f32, String> {
 }
 
 pub fn tone(text: &str) -> Result<ToneMap, String> {
-    let text = text.replace("color", "colour");
-    let names = || ToneMap::ALL.map(|map| map.word().name).join(", ");
-    ToneMap::ALL.into_iter().find(|map| map.word().name == text).ok_or_else(|| format!("expected one of {}", names()))
+    word(&text.replace("color", "colour"))
 }
 
 pub fn format(text: &str) -> Result<Format, String> {
@@ -161,6 +159,11 @@ pub fn format(text: &str) -> Result<Format, String> {
 
 #[cfg(test)]
 mod tests {
+    use noisefall::{
+        sampling::{Directions, Sampler},
+        scene::{Estimator, Reuse},
+    };
+
     use super::*;
 
     #[test]
@@ -176,12 +179,14 @@ mod tests {
         );
         assert!(whole("-1").is_err() && samples("0").is_err() && samples("1e3").is_err() && threads("1025").is_err());
         assert!(resolution("640").is_err() && resolution("-1x2").is_err() && pixel("1;2").is_err());
-        assert!(estimator("bdpt").is_err() && directions("sphere").is_err() && sampler("halton").is_err());
+        assert!(
+            word::<Estimator>("bdpt").is_err() && word::<Directions>("sphere").is_err() && word::<Sampler>("halton").is_err()
+        );
     }
 
     #[test]
     fn values_at_the_ends_of_their_ranges_are_taken_and_those_beyond_are_not() {
-        assert_eq!((roulette("0.01"), roulette("1")), (Ok(Roulette::Fixed(0.01)), Ok(Roulette::Fixed(1.0))));
+        assert_eq!((roulette("0.01"), roulette("1")), (Ok(Roulette::fixed(0.01)), Ok(Roulette::fixed(1.0))));
         assert!(roulette("0.0099").is_err() && roulette("1.0001").is_err());
         assert_eq!((threads("0"), threads("1024")), (Ok(0), Ok(1024)));
         assert_eq!((samples("1"), samples("4294967295")), (Ok(1), Ok(u32::MAX)));
@@ -190,7 +195,7 @@ mod tests {
         assert!(seconds("0").is_err() && seconds("nan").is_err() && seconds("1e300").is_err());
         assert!(noise("inf").is_err() && noise("-0.1").is_err() && bounce_cap("-1").is_err() && bounce_cap("1.5").is_err());
         assert!(exposure("nan").is_err() && exposure("101").is_err() && tone("filmic").is_err());
-        assert!(on_or_off("yes").is_err() && reuse("yes").is_err() && format("jpg").is_err() && format(".png").is_err());
+        assert!(on_or_off("yes").is_err() && word::<Reuse>("yes").is_err() && format("jpg").is_err() && format(".png").is_err());
     }
 
     #[test]
@@ -204,14 +209,14 @@ mod tests {
 
     #[test]
     fn every_name_is_its_own_value() {
-        assert_eq!(["path", "light", "mis"].map(estimator), [Estimator::Path, Estimator::Light, Estimator::Mis].map(Ok));
+        assert_eq!(["path", "light", "mis"].map(word::<Estimator>), [Estimator::Path, Estimator::Light, Estimator::Mis].map(Ok));
         let kinds = [Directions::Uniform, Directions::Cosine, Directions::Bsdf];
-        assert_eq!(["uniform", "cosine", "bsdf"].map(directions), kinds.map(Ok));
-        assert_eq!(["auto", "on", "off"].map(reuse), [Reuse::Auto, Reuse::On, Reuse::Off].map(Ok));
+        assert_eq!(["uniform", "cosine", "bsdf"].map(word::<Directions>), kinds.map(Ok));
+        assert_eq!(["auto", "on", "off"].map(word::<Reuse>), [Reuse::Auto, Reuse::On, Reuse::Off].map(Ok));
         assert_eq!(["on", "off"].map(on_or_off), [true, false].map(Ok));
         assert_eq!(["png", "EXR"].map(format), [Format::Png, Format::Exr].map(Ok));
         let samplers = [Sampler::Independent, Sampler::Stratified, Sampler::Sobol, Sampler::BlueNoise];
-        assert_eq!(["independent", "stratified", "sobol", "bluenoise"].map(sampler), samplers.map(Ok));
+        assert_eq!(["independent", "stratified", "sobol", "bluenoise"].map(word::<Sampler>), samplers.map(Ok));
         let maps = [ToneMap::None, ToneMap::Reinhard, ToneMap::Aces, ToneMap::FalseColour];
         assert_eq!(["none", "reinhard", "aces", "false-colour"].map(tone), maps.map(Ok));
         assert_eq!(["-1.5", "2"].map(exposure), [Ok(-1.5), Ok(2.0)]);
@@ -220,14 +225,14 @@ mod tests {
 
     #[test]
     fn values_in_range_are_what_they_say() {
-        assert_eq!(roulette("0.5"), Ok(Roulette::Fixed(0.5)));
+        assert_eq!(roulette("0.5"), Ok(Roulette::fixed(0.5)));
         assert_eq!(["640x480", "640X480", " 640 × 480 "].map(resolution), [Ok([640, 480]), Ok([640, 480]), Ok([640, 480])]);
         assert_eq!(pixel("12, 34"), Ok([12, 34]));
         assert_eq!((seconds("1.5"), noise("0.01")), (Ok(Duration::from_millis(1500)), Ok(0.01)));
         assert_eq!(bounce_cap("none").map(|cap| cap.0), Ok(None));
         assert_eq!(bounce_cap("0").map(|cap| cap.0), Ok(Some(0)));
         assert_eq!(floor("0.02"), Ok(Floor::Absolute(0.02)));
-        assert_eq!(sampler("stratified"), Ok(Sampler::Stratified));
+        assert_eq!(word::<Sampler>("stratified"), Ok(Sampler::Stratified));
         let sizes = ["4G", "500M", "1.5gb", "64 kB", "1000000", "2T"].map(memory);
         assert_eq!(sizes, [4_000_000_000, 500_000_000, 1_500_000_000, 64_000, 1_000_000, 2_000_000_000_000].map(Ok));
         assert!(["", "0", "-1G", "nan", "inf", "G", "4X", "1e30", "4 G B"].iter().all(|text| memory(text).is_err()));

@@ -54,23 +54,22 @@ pub struct Arguments {
     /// stops depends on the samples; that shifts the mean by less than a fortieth of the target in the worst case tried
     #[arg(long, value_name = "RELATIVE", value_parser = parse::noise, overrides_with_all = ["spp", "time"])]
     noise: Option<f64>,
-    /// How light is found: path, light or mis
-    #[arg(long, value_parser = parse::estimator)]
+    #[arg(long, help = format!("How light is found: {}", parse::one_of::<Estimator>()),
+          value_parser = parse::word::<Estimator>)]
     estimator: Option<Estimator>,
-    /// How the next direction is drawn at diffuse surfaces: uniform, cosine or bsdf
-    #[arg(long, value_parser = parse::directions)]
+    #[arg(long, help = format!("How the next direction is drawn at diffuse surfaces: {}", parse::one_of::<Directions>()),
+          value_parser = parse::word::<Directions>)]
     directions: Option<Directions>,
-    /// Where samples lie: independent, stratified, sobol or bluenoise
-    #[arg(long, value_parser = parse::sampler)]
+    #[arg(long, help = format!("Where samples lie: {}", parse::one_of::<Sampler>()),
+          value_parser = parse::word::<Sampler>)]
     sampler: Option<Sampler>,
     /// Highest number of bounces (reflections and refractions), or none for no cap
     #[arg(long, value_name = "N|none", value_parser = parse::bounce_cap)]
     max_bounces: Option<BounceCap>,
-    /// Russian roulette: off, a survival probability, or throughput
-    #[arg(long, value_name = "off|P|throughput", value_parser = parse::roulette)]
+    #[arg(long, help = format!("Russian roulette: {}", parse::either(&Roulette::options())), value_parser = parse::roulette)]
     roulette: Option<Roulette>,
-    /// Whether neighbouring pixels share what their paths find: auto, on or off
-    #[arg(long, value_parser = parse::reuse)]
+    #[arg(long, help = format!("Whether neighbouring pixels share what their paths find: {}", parse::one_of::<Reuse>()),
+          value_parser = parse::word::<Reuse>)]
     reuse: Option<Reuse>,
     /// Whether pixels get more samples where a pilot finds more noise: on or off; on, --spp is the average
     #[arg(long, value_parser = parse::on_or_off)]
@@ -228,7 +227,7 @@ mod tests {
             ("--directions uniform", RenderSettings { directions: Directions::Uniform, ..of_scene }),
             ("--sampler stratified", RenderSettings { sampler: Sampler::Stratified, ..of_scene }),
             ("--max-bounces 3", RenderSettings { max_bounces: Some(3), ..of_scene }),
-            ("--roulette 0.5", RenderSettings { roulette: Roulette::Fixed(0.5), ..of_scene }),
+            ("--roulette 0.5", RenderSettings { roulette: Roulette::fixed(0.5), ..of_scene }),
             ("--reuse on", RenderSettings { reuse: Reuse::On, ..of_scene }),
             ("--adaptive on", RenderSettings { adaptive: true, ..of_scene }),
             ("--seed 7", RenderSettings { seed: 7, ..of_scene }),

@@ -111,7 +111,7 @@ impl Arguments {
             estimators: Estimator::ALL.to_vec(),
             directions: Directions::ALL.to_vec(),
             samplers: vec![Sampler::Independent, Sampler::Stratified, Sampler::Sobol],
-            roulettes: vec![Roulette::Off, Roulette::Fixed(0.8), Roulette::BY_THROUGHPUT],
+            roulettes: vec![Roulette::Off, Roulette::fixed(0.8), Roulette::BY_THROUGHPUT],
             caps: vec![None],
             ..Lists::default()
         };

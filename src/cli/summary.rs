@@ -198,7 +198,7 @@ mod tests {
         });
         assert_eq!(line, expected);
         let other = Status { shares: false, adapts: true, cut_paths: 0, ..status(State::Paused) };
-        let adaptive = RenderSettings { adaptive: true, roulette: Roulette::Fixed(0.5), ..RenderSettings::default() };
+        let adaptive = RenderSettings { adaptive: true, roulette: Roulette::fixed(0.5), ..RenderSettings::default() };
         let line = said(&other, &frame(1.0), adaptive).json;
         let keys = ["shares", "adapts", "adaptive", "roulette", "roulette_start", "max_bounces", "biased"];
         let values = [json!(false), json!(true), json!("on"), json!("0.5"), Value::Null, Value::Null, Value::Null];

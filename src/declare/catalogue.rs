@@ -32,9 +32,15 @@ macro_rules! catalogue {
                 $Family::name(self)
             }
 
+            fn about(&self) -> $crate::declare::Parameter {
+                match self {
+                    $($Family::$Kind(_) => <$module::$Kind as $crate::declare::Kind>::KIND),+
+                }
+            }
+
             fn chosen(&mut self, p: &mut dyn $crate::declare::Parameters) {
                 match self {
-                    $($Family::$Kind(kind) => p.table(&<$module::$Kind as $crate::declare::Kind>::KIND.required(), kind)),+
+                    $($Family::$Kind(kind) => $crate::declare::Kind::chosen(kind, p)),+
                 }
             }
         }

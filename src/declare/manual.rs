@@ -3,7 +3,7 @@ use super::{Choice, CountRange, Declare, Form, Parameter, Parameters, Range, Tex
 
 /// A section for each table at the top of `description`, with a row for each parameter in it. Defaults are those of `description`.
 pub fn manual(description: &mut dyn Declare) -> String {
-    let mut manual = Manual { text: String::new(), path: Vec::new(), alternative: None };
+    let mut manual = Manual { text: String::new(), path: Vec::new() };
     manual.heading("The file", "Keys at the top of the file, before the first table.");
     description.parameters(&mut manual);
     manual.text
@@ -13,8 +13,6 @@ struct Manual {
     text: String,
     /// The tables around.
     path: Vec<String>,
-    /// The alternative that is visited.
-    alternative: Option<&'static str>,
 }
 
 impl Manual {
@@ -127,9 +125,5 @@ impl Parameters for Manual {
 
     fn sees_all(&self) -> bool {
         true
-    }
-
-    fn alternative(&mut self, name: Option<&'static str>) {
-        self.alternative = name;
     }
 }

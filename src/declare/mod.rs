@@ -8,7 +8,9 @@
 //! | `mod.rs` | the traits of visitors and of what they visit |
 //! | `parameter.rs` | what is known of a parameter: words, ranges |
 //! | `value.rs` | the types of values |
-//! | `catalogue.rs` | families of kinds: the macro that makes an enum of them |
+//! | `catalogue.rs` | families of kinds with parameters: the macro that makes an enum of them |
+//! | `choices.rs` | families of kinds that may have none |
+//! | `words.rs` | families of kinds that are a word and code |
 //! | `path.rs` | where in a description a parameter stands |
 //! | `problem.rs` | what is wrong with a value, and where |
 //! | `outline.rs` | the parameters of a kind as a list |
@@ -20,6 +22,7 @@
 //! | `check.rs` | the visitor that holds values against their ranges |
 mod catalogue;
 mod check;
+mod choices;
 #[cfg(feature = "reports")]
 mod dice;
 mod lines;
@@ -31,6 +34,7 @@ mod problem;
 mod resources;
 mod schema;
 mod value;
+mod words;
 mod write;
 
 #[cfg(feature = "reports")]
@@ -115,6 +119,11 @@ pub trait Declare {
 pub trait Kind: Declare + Default {
     /// The name of the kind, and what it is.
     const KIND: Parameter;
+
+    /// The kind as its family's choice sees it: its parameters, in a table that must be given at the key of its name.
+    fn chosen(&mut self, p: &mut dyn Parameters) {
+        p.table(&Self::KIND.required(), self);
+    }
 }
 
 /// Alternatives that exclude each other, told apart by their keys.
@@ -130,6 +139,11 @@ pub trait OneOf: Sized {
 
     /// What a scene file and a person call this alternative.
     fn name(&self) -> &'static str;
+
+    /// Its name with what the window says of it.
+    fn about(&self) -> Parameter {
+        Parameter::new(self.name(), "")
+    }
 
     /// The parameters of this alternative.
     fn chosen(&mut self, p: &mut dyn Parameters);
@@ -234,10 +248,12 @@ impl dyn Parameters + '_ {
     /// A table of named tables at a key.
     pub fn map<T: Declare + Default>(&mut self, parameter: &Parameter, map: &mut std::collections::BTreeMap<String, T>) {
         let names = self.names(parameter, map.keys().cloned().collect());
-        map.retain(|name, _| names.contains(name));
+        let mut known = std::mem::take(map);
         for name in names {
             self.named(parameter, &name);
-            map.entry(name).or_default().parameters(self);
+            let mut table = known.remove(&name).unwrap_or_default();
+            table.parameters(self);
+            map.insert(name, table);
             self.leave();
         }
     }

@@ -15,6 +15,8 @@ pub struct Parameter {
     pub is_required: bool,
     /// What others call it, separated by spaces: a reader answers with the key.
     pub aliases: &'static str,
+    /// What the window calls it; may be empty: see [`Parameter::label`].
+    pub title: &'static str,
     /// Advice for those who use an alias or a value of a wrong type.
     pub advice: &'static str,
 }
@@ -22,7 +24,7 @@ pub struct Parameter {
 impl Parameter {
     /// A parameter with its key and its sentence.
     pub const fn new(key: &'static str, doc: &'static str) -> Parameter {
-        Parameter { key, doc, symbol: "", unit: "", is_required: false, aliases: "", advice: "" }
+        Parameter { key, doc, symbol: "", unit: "", is_required: false, aliases: "", title: "", advice: "" }
     }
 
     /// The same, but a scene file must give it.
@@ -45,9 +47,24 @@ impl Parameter {
         Parameter { aliases, ..self }
     }
 
+    /// The same with a title.
+    pub const fn title(self, title: &'static str) -> Parameter {
+        Parameter { title, ..self }
+    }
+
     /// The same with advice.
     pub const fn advice(self, advice: &'static str) -> Parameter {
         Parameter { advice, ..self }
+    }
+
+    /// What the window calls it: its title, or else its key in words.
+    pub fn label(&self) -> String {
+        if !self.title.is_empty() {
+            return self.title.to_owned();
+        }
+        let words = self.key.replace('_', " ");
+        let first = words.chars().next().into_iter().flat_map(char::to_uppercase);
+        first.chain(words.chars().skip(1)).collect()
     }
 
     /// Whether others may mean this parameter by a word.

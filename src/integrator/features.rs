@@ -25,7 +25,7 @@ use crate::{
 };
 
 /// A tent without width: all samples of a pixel lie at its centre.
-const MIDDLE: Filter = Filter::Tent { radius: 0.0 };
+const MIDDLE: Filter = Filter::tent(0.0);
 
 /// Number of times that the rays of a block are traced. The shortest time counts, because other load on the machine only adds
 /// time.

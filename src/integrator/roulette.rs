@@ -26,14 +26,10 @@ pub(super) fn survive<L: Lanes>(
     throughput: V<L>,
     scale: F<L>,
 ) -> Survival<L> {
-    match roulette {
-        Roulette::Fixed(p) if p < 1.0 => play(reflection, stream, throughput, l.f(p)),
-        Roulette::Throughput { start } if reflection >= start => {
-            let p = (throughput.max_component() * scale).min(l.f(Roulette::MOST)).max(l.f(Roulette::LEAST));
-            play(reflection, stream, throughput, p)
-        }
+    match roulette.probability(l, reflection, throughput, scale) {
+        Some(p) => play(reflection, stream, throughput, p),
         // Below the normal numbers an albedo above 1/2 rounds the throughput back to what it was: such a path would never end.
-        _ => Survival { alive: throughput.max_component().above(f32::MIN_POSITIVE), throughput, probability: l.f(1.0) },
+        None => Survival { alive: throughput.max_component().above(f32::MIN_POSITIVE), throughput, probability: l.f(1.0) },
     }
 }
 

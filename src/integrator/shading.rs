@@ -5,7 +5,6 @@ use super::{
     queue::Queue,
     records::{Detail, Hit, Path, Shadow},
     roulette::{Survival, survive},
-    weight::power_heuristic,
     work::Work,
 };
 use crate::{
@@ -13,7 +12,7 @@ use crate::{
     material::{Bsdf, BsdfSample, Local, Shade, Stage},
     math::{F, Frame, Lanes, M, Pick, U, V},
     sampling::{Dimension, Stream},
-    scene::{Estimator, surface},
+    scene::surface,
 };
 
 /// A register of hits of a kind.
@@ -90,10 +89,7 @@ impl<'a, L: Lanes, K: Shade> Shading<'a, L, K> {
         let wi = vertex.frame.local_from_world(sample.wi);
         let (f_cos, pdf) = bsdf.eval(vertex.wo, wi);
         let (o, consistent) = vertex.leave::<K>(hit, sample.wi, wi.z);
-        let weight = match work.settings.estimator {
-            Estimator::Mis => power_heuristic(sample.pdf, pdf),
-            Estimator::Path | Estimator::Light => l.f(1.0),
-        };
+        let weight = work.settings.estimator.light_weight(l, sample.pdf, pdf);
         let radiance = hit.throughput * f_cos * sample.radiance * (weight / sample.pdf);
         let mut may_contribute = consistent & sample.pdf.above(0.0) & radiance.max_component().above(0.0);
         if K::TRANSMITS {

@@ -47,7 +47,7 @@ fn every_decision_of_a_path_has_coordinates_of_its_own() {
     let rays = scene.rays(&scene.camera);
     let settings = RenderSettings {
         estimator: Estimator::Mis,
-        roulette: Roulette::Throughput { start: 1 },
+        roulette: Roulette::by_throughput_from(1),
         max_bounces: Some(6),
         reuse: Reuse::Off,
         ..RenderSettings::default()

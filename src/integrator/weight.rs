@@ -9,16 +9,7 @@ use crate::{
     geometry::PrimitiveRef,
     light::{Lobe, ReferencePoint},
     math::{F, Lanes, Pick, V},
-    scene::Estimator,
 };
-
-/// The power heuristic with exponent 2 (Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997, equation 9.14):
-/// the weight of a sample with pdf `pdf`, whose pdf by another strategy is `other`.
-#[inline(always)]
-pub(super) fn power_heuristic<L: Lanes>(pdf: F<L>, other: F<L>) -> F<L> {
-    let ratio = other / pdf;
-    1.0 / (1.0 + ratio * ratio)
-}
 
 /// The weight of the emitter hits of paths from `o` in the direction `d` at `target`, whose primitive may be
 /// [`crate::geometry::MISS`].
@@ -33,13 +24,12 @@ pub(super) fn emitter_hit_weight<L: Lanes>(
     target: &PrimitiveRef<L>,
 ) -> F<L> {
     let delta = !(previous.flags & DELTA).is(0);
-    let sampled_too = match work.settings.estimator {
-        Estimator::Path => return l.f(1.0),
-        Estimator::Light => l.f(0.0),
-        Estimator::Mis => {
-            let at = ReferencePoint { p: o, n: previous.n, transmits: !(previous.flags & TRANSMITS).is(0), lobe };
-            power_heuristic(previous.pdf, work.scene.lights.pdf(l, &work.scene.shapes, &at, d, target))
-        }
+    let estimator = work.settings.estimator;
+    let of_light = if estimator.compares() {
+        let at = ReferencePoint { p: o, n: previous.n, transmits: !(previous.flags & TRANSMITS).is(0), lobe };
+        work.scene.lights.pdf(l, &work.scene.shapes, &at, d, target)
+    } else {
+        l.f(0.0)
     };
-    delta.pick(l.f(1.0), sampled_too)
+    delta.pick(l.f(1.0), estimator.hit_weight(l, previous.pdf, of_light))
 }

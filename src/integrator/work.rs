@@ -3,7 +3,7 @@ use super::slots::{BLOCK, BLOCKS, SLOTS, TILE, place_in_groups};
 use crate::{
     math::{F, Lanes, M, U},
     sampling::{Dimension, Stream},
-    scene::{CameraRays, Estimator, RenderSettings, Scene},
+    scene::{CameraRays, RenderSettings, Scene},
 };
 
 /// The work of a batch: sample index `sample` of the pixels of one tile, or a sample of the pixels of some blocks.
@@ -156,13 +156,13 @@ impl<'a> Work<'a> {
     /// Whether light selection uses lobes; emitter hits then need them for their pdf.
     #[inline(always)]
     pub(super) fn heeds_lobes(&self) -> bool {
-        self.settings.estimator == Estimator::Mis && self.scene.heeds_lobes()
+        self.settings.estimator.compares() && self.scene.heeds_lobes()
     }
 
     /// Whether lights are sampled, in addition to emitter hits.
     #[inline(always)]
     pub(super) fn samples_lights(&self) -> bool {
-        self.settings.estimator != Estimator::Path && !self.scene.lights.is_empty()
+        self.settings.estimator.samples_lights() && !self.scene.lights.is_empty()
     }
 }
 

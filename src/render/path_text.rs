@@ -3,7 +3,7 @@ use super::path_formula;
 use crate::{
     integrator::{EmitterHit, Outcome, Reflection, Replay, SampledLight, Surface, Vertex},
     render::settings_text::on_or_off,
-    scene::{Camera, RenderSettings, Roulette, Scene},
+    scene::{Camera, RenderSettings, Scene},
 };
 
 /// The path and its settings.
@@ -47,9 +47,9 @@ pub fn latex(id: &PathId, replay: &Replay) -> String {
 
 fn heading(PathId { scene, camera, settings, pixel: [x, y], sample }: &PathId, replay: &Replay) -> String {
     let [width, height] = camera.resolution;
-    let roulette = match settings.roulette {
-        Roulette::Throughput { start } => format!("throughput from bounce {start} on"),
-        other => other.name(),
+    let roulette = match settings.roulette.first_bounce() {
+        Some(start) => format!("{} from bounce {start} on", settings.roulette.name()),
+        None => settings.roulette.name(),
     };
     let cap = settings.max_bounces.map_or_else(|| "none".to_owned(), |cap| cap.to_string());
     let title = if scene.title.is_empty() { String::new() } else { format!("\n  scene           {}", scene.title) };
@@ -166,7 +166,7 @@ fn number(x: f32) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Reuse, built_in};
+    use crate::scene::{Reuse, Roulette, built_in};
 
     /// The first path through the middle of the built-in scene that has a light sample, and its vertex.
     fn lit(scene: &Scene, settings: &RenderSettings) -> Vertex {
@@ -210,7 +210,7 @@ mod tests {
     #[test]
     fn what_a_path_alone_would_have_made_is_told_beside_what_is_shared() {
         let scene = built_in();
-        let settings = RenderSettings { roulette: Roulette::Throughput { start: 3 }, ..scene.settings };
+        let settings = RenderSettings { roulette: Roulette::by_throughput_from(3), ..scene.settings };
         let id = PathId { scene: &scene, camera: &scene.camera, settings: &settings, pixel: [5, 6], sample: 7 };
         let replay = Replay { radiance: [1.0, 2.0, 3.0], alone: Some([4.0, 5.0, 6.0]), ..Replay::default() };
         let said = text(&id, &replay);

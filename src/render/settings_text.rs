@@ -109,7 +109,7 @@ mod tests {
 
     #[test]
     fn only_what_differs_from_the_scene_is_an_option() {
-        let scene = RenderSettings { roulette: Roulette::Throughput { start: 1 }, ..RenderSettings::default() };
+        let scene = RenderSettings { roulette: Roulette::by_throughput_from(1), ..RenderSettings::default() };
         assert_eq!(options(&scene, &scene), "");
         let changed = RenderSettings { max_bounces: Some(3), seed: 7, ..scene };
         assert_eq!(options(&changed, &scene), " --max-bounces 3 --seed 7");
@@ -118,7 +118,7 @@ mod tests {
             sampler: Sampler::Stratified,
             estimator: Estimator::Light,
             directions: Directions::Uniform,
-            roulette: Roulette::Fixed(0.25),
+            roulette: Roulette::fixed(0.25),
             reuse: Reuse::Off,
             adaptive: true,
             ..scene
@@ -145,7 +145,7 @@ mod tests {
             sampler: Sampler::Stratified,
             estimator: Estimator::Light,
             directions: Directions::Uniform,
-            roulette: Roulette::Fixed(0.5),
+            roulette: Roulette::fixed(0.5),
             max_bounces: Some(0),
             reuse: Reuse::On,
             adaptive: true,
@@ -163,7 +163,7 @@ mod tests {
         let sampled = RenderSettings { sampler: Sampler::Stratified, ..scene };
         let estimated = RenderSettings { estimator: Estimator::Light, ..scene };
         let directed = RenderSettings { directions: Directions::Uniform, ..scene };
-        let ended = RenderSettings { roulette: Roulette::Fixed(0.5), ..scene };
+        let ended = RenderSettings { roulette: Roulette::fixed(0.5), ..scene };
         let alone = [reused, adaptive, sampled, estimated, directed, ended].map(|one| options(&one, &scene));
         let words = ["reuse on", "adaptive on", "sampler stratified", "estimator light", "directions uniform", "roulette 0.5"];
         assert_eq!(alone, words.map(|option| format!(" --{option}")));

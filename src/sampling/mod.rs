@@ -3,7 +3,7 @@ pub mod alias;
 mod bits;
 mod blue_noise;
 mod dimension;
-mod filter;
+pub mod filter;
 pub mod hash;
 mod independent;
 mod points;

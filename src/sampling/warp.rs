@@ -22,9 +22,9 @@ pub enum Directions {
 
 crate::words! {
     Directions {
-        Uniform: "uniform", "Uniform", "Over the hemisphere alike, p(ω) = 1/2π: more noise, the same picture.";
-        Cosine: "cosine", "Cosine", "In proportion to cos θ, p(ω) = cos θ/π.";
-        Bsdf: "bsdf", "Bsdf", "In proportion to f cos θ, which at a diffuse surface is the cosine.";
+        Uniform: "uniform", "Uniform", "p(ω_i) = 1 / 2π: every direction of the hemisphere alike.";
+        Cosine: "cosine", "Cosine", "p(ω_i) = cos θ / π: cancels the cosine of the equation, so there is less noise.";
+        Bsdf: "bsdf", "BSDF", "p(ω_i) in proportion to f cos θ, which at a diffuse surface is the cosine.";
     }
 }
 

@@ -3,7 +3,7 @@ use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use super::Shutter;
-use crate::sampling::Filter;
+use crate::{declare::check, sampling::Filter};
 
 /// Where the picture is taken from. Right-handed world, y usually up.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -115,12 +115,7 @@ impl Camera {
                 return Err(CameraError::LensOrthographic);
             }
         }
-        match self.filter {
-            Filter::Tent { radius: width } | Filter::Gaussian { sigma: width } if !(0.01..=16.0).contains(&width) => {
-                Err(CameraError::Filter)
-            }
-            _ => Ok(()),
-        }
+        if check(&mut self.filter.clone()).is_empty() { Ok(()) } else { Err(CameraError::Filter) }
     }
 
     /// Checks the resolution alone.

@@ -3,7 +3,8 @@ use std::path::Path;
 
 use serde::Deserialize;
 
-use super::{Camera, RenderSettings, Roulette, Scene, diagnostic::SceneError, parse::parse};
+use super::{Camera, RenderSettings, Scene, diagnostic::SceneError, parse::parse};
+use crate::declare::check;
 use crate::{
     file::open_regular,
     image::{carried_text, looks_like},
@@ -33,10 +34,8 @@ fn open(path: &Path, carried: Carried) -> Result<Scene, SceneError> {
     })?;
     let unusable = |what: String| SceneError::of_file(path, what, "open the scene file in place of the picture");
     carried.camera.check().map_err(|error| unusable(format!("the camera of the picture cannot be used: {error}")))?;
-    if let Roulette::Fixed(p) = carried.settings.roulette
-        && !(Roulette::LEAST..=1.0).contains(&p)
-    {
-        return Err(unusable(format!("the picture names a survival probability of {p}")));
+    if let Some(problem) = check(&mut carried.settings.clone()).into_iter().next() {
+        return Err(unusable(format!("a setting of the picture cannot be used: {}", problem.message)));
     }
     (scene.camera, scene.settings) = (carried.camera, carried.settings);
     Ok(scene)

@@ -10,11 +10,7 @@ impl Scene {
     /// keeps throughputs of about 1 as long as its upper bound q = [`Roulette::MOST`] is enough. A cap ends the series. Glass hands
     /// light on and keeps none, so that it does not count.
     pub fn infinite_variance(&self, settings: &RenderSettings) -> Option<String> {
-        let survival = match settings.roulette {
-            Roulette::Off => 1.0,
-            Roulette::Fixed(survival) => survival,
-            Roulette::Throughput { .. } => Roulette::MOST,
-        };
+        let survival = settings.roulette.survival();
         let is_uniform = settings.directions == Directions::Uniform;
         // Without roulette weights of 1 never grow.
         if settings.max_bounces.is_some() || (survival == 1.0 && !is_uniform) {
@@ -28,19 +24,14 @@ impl Scene {
         if survival > most {
             return None;
         }
-        let is_fixed = matches!(settings.roulette, Roulette::Fixed(_));
-        let advice = if is_fixed && most < Roulette::MOST {
+        let advice = if most < Roulette::MOST {
             format!("take more than {most:.2}, or roulette by throughput")
         } else if is_uniform {
             "take cosine directions".to_owned()
         } else {
             "take no roulette".to_owned()
         };
-        let what = match settings.roulette {
-            Roulette::Fixed(survival) if survival < 1.0 => format!("survival of {survival} in roulette"),
-            Roulette::Throughput { .. } => format!("survival of at most {survival} in roulette by throughput"),
-            _ => "paths without roulette".to_owned(),
-        };
+        let what = settings.roulette.survival_words();
         Some(format!(
             "{what}, at surfaces with ρ² E w² = {most:.2}: where light stays among these surfaces, the variance is infinite and noise figures cannot be trusted; {advice}"
         ))
@@ -67,7 +58,7 @@ mod tests {
 
     #[test]
     fn survival_at_most_the_square_of_the_albedo_is_told() {
-        let fixed = |q: f32| RenderSettings { roulette: Roulette::Fixed(q), ..Default::default() };
+        let fixed = |q: f32| RenderSettings { roulette: Roulette::fixed(q), ..Default::default() };
         for (material, most) in [
             ("lambertian = { albedo = [0.1, 0.8, 0.2] }", 0.64),
             ("lambertian = { albedo = { texture = 'tiles' } }", 0.81),
@@ -103,9 +94,9 @@ mod tests {
         assert_eq!(said(grey, settings(Roulette::Off, Directions::Cosine)), None);
         assert_eq!(said("lambertian = { albedo = 0.86 }", settings(Roulette::Off, Directions::Uniform)), None);
         assert_eq!(said("mirror = { reflectance = 0.9 }", settings(Roulette::Off, Directions::Uniform)), None);
-        assert!(said("lambertian = { albedo = 0.8 }", settings(Roulette::Fixed(0.7), Directions::Uniform)).is_some());
-        assert_eq!(said("lambertian = { albedo = 0.8 }", settings(Roulette::Fixed(0.7), Directions::Cosine)), None);
-        let capped = RenderSettings { max_bounces: Some(9), ..settings(Roulette::Fixed(0.2), Directions::Uniform) };
+        assert!(said("lambertian = { albedo = 0.8 }", settings(Roulette::fixed(0.7), Directions::Uniform)).is_some());
+        assert_eq!(said("lambertian = { albedo = 0.8 }", settings(Roulette::fixed(0.7), Directions::Cosine)), None);
+        let capped = RenderSettings { max_bounces: Some(9), ..settings(Roulette::fixed(0.2), Directions::Uniform) };
         assert_eq!(said(grey, capped), None);
     }
 }

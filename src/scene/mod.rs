@@ -7,6 +7,7 @@ mod compile;
 mod damage;
 pub mod description;
 mod diagnostic;
+mod estimator;
 mod excerpt;
 mod infinite_variance;
 mod legend;
@@ -17,6 +18,7 @@ mod object;
 mod parse;
 mod rays;
 mod read;
+pub mod roulette;
 mod settings;
 mod shutter;
 pub mod surface;
@@ -38,13 +40,15 @@ use self::surface::Surfaces;
 pub use self::{
     camera::{Camera, CameraError, Lens},
     diagnostic::SceneError,
+    estimator::{Estimator, power_heuristic},
     legend::Legend,
     load::load,
     material_instance::MaterialInstance,
     object::Object,
     parse::{BUILT_IN, built_in, describe, parse},
     rays::CameraRays,
-    settings::{Estimator, RenderSettings, Reuse, Roulette},
+    roulette::Roulette,
+    settings::{RenderSettings, Reuse},
     shutter::{Moments, Shutter},
 };
 use crate::{

@@ -1,8 +1,9 @@
 //! What the user can choose about the estimate: everything a sample depends on besides scene and camera.
 use serde::{Deserialize, Serialize};
 
+use super::{Estimator, Roulette};
 use crate::{
-    declare::{CountRange, Declare, Form, OneOf, Parameter, Parameters, Range},
+    declare::{CountRange, Declare, Form, Parameter, Parameters},
     sampling::{Directions, Sampler},
 };
 
@@ -45,114 +46,6 @@ pub enum InjectedFault {
     OneBounceMore,
 }
 
-/// How direct light is estimated. All estimators converge to the same image; they differ in noise.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Estimator {
-    /// Only by emitter hits of paths: plain path tracing (Kajiya 1986).
-    Path,
-    /// Only by sampling lights (next-event estimation), except for lights seen directly or by specular paths.
-    Light,
-    /// By both, combined by multiple importance sampling with the power heuristic (Veach 1997, equation 9.14).
-    #[default]
-    Mis,
-}
-
-crate::words! {
-    Estimator {
-        Path: "path", "Path", "Only paths that run into lights.";
-        Light: "light", "Light", "Only samples of the lights (next-event estimation), but for what is seen directly or in mirrors.";
-        Mis: "mis", "MIS", "Both, each weighted by how likely it was to find what it found (Veach 1997).";
-    }
-}
-
-/// Russian roulette: ending paths at random and weighting the survivors, so that the mean stays right.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Roulette {
-    /// Paths end only where nothing is left, at the cap, or in the background.
-    Off,
-    /// Survival probability at every bounce, from [`Roulette::LEAST`] to 1.
-    Fixed(f32),
-    /// Survival probability is the throughput's largest component, at most [`Roulette::MOST`].
-    Throughput {
-        /// The first bounce at which a path can end.
-        start: u32,
-    },
-}
-
-impl Roulette {
-    /// Upper bound of the survival probability by throughput: a path between white walls must end too.
-    pub const MOST: f32 = 0.95;
-    /// Lower bound of all survival probabilities: random numbers are multiples of 2⁻²³, which would round smaller ones.
-    pub const LEAST: f32 = 0.01;
-    /// The first bounce at which a path can end, where nothing is said.
-    pub const FIRST: u32 = 4;
-    /// By throughput, from the fourth bounce.
-    pub const BY_THROUGHPUT: Roulette = Roulette::Throughput { start: Roulette::FIRST };
-
-    /// What the command line calls it.
-    pub fn name(self) -> String {
-        match self {
-            Roulette::Off => "off".to_owned(),
-            Roulette::Fixed(p) => p.to_string(),
-            Roulette::Throughput { .. } => "throughput".to_owned(),
-        }
-    }
-}
-
-impl OneOf for Roulette {
-    const WHAT: &'static str = "roulette";
-
-    fn alternatives() -> Vec<Self> {
-        vec![Roulette::Off, Roulette::Fixed(0.8), Roulette::BY_THROUGHPUT]
-    }
-
-    fn place(&self) -> usize {
-        match self {
-            Roulette::Off => 0,
-            Roulette::Fixed(_) => 1,
-            Roulette::Throughput { .. } => 2,
-        }
-    }
-
-    fn name(&self) -> &'static str {
-        match self {
-            Roulette::Off => "off",
-            Roulette::Fixed(_) => FIXED.key,
-            Roulette::Throughput { .. } => THROUGHPUT.key,
-        }
-    }
-
-    fn chosen(&mut self, p: &mut dyn Parameters) {
-        match self {
-            Roulette::Off => {}
-            Roulette::Fixed(survival) => p.single(&FIXED, survival, Range::linear(0.01, 1.0)),
-            Roulette::Throughput { start } => p.table(&THROUGHPUT, &mut Start(start)),
-        }
-    }
-}
-
-const FIXED: Parameter = Parameter::new("fixed", "Survival probability at every bounce.").symbol("q").required();
-const THROUGHPUT: Parameter =
-    Parameter::new("throughput", "Survival probability is the throughput's largest component, at most 0.95.");
-
-/// The values of [`Roulette::Throughput`].
-struct Start<'a>(&'a mut u32);
-
-impl Declare for Start<'_> {
-    fn parameters(&mut self, p: &mut dyn Parameters) {
-        const START: Parameter = Parameter::new("start", "The first bounce at which a path can end.");
-        p.count(&START, self.0, CountRange::ANY);
-    }
-}
-
-impl Default for Roulette {
-    fn default() -> Self {
-        Roulette::BY_THROUGHPUT
-    }
-}
-
 /// Whether neighbouring pixels share what their paths find beyond the first surface (Bekaert, Sbert and Halton 2002).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -168,9 +61,9 @@ pub enum Reuse {
 
 crate::words! {
     Reuse {
-        Auto: "auto", "Auto", "Where a short trial says that it pays.";
-        On: "on", "On", "Wherever neighbouring pixels can share.";
-        Off: "off", "Off", "Every pixel on its own.";
+        Auto: "auto", "Auto", "Where a short trial of the scene says that it pays.";
+        On: "on", "Always", "Groups of 4 × 4 pixels divide what their paths find among them, by how likely each was to find it.";
+        Off: "off", "Never", "Every pixel keeps what its own paths find: the noise of neighbours is independent.";
     }
 }
 

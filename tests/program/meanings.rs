@@ -48,7 +48,7 @@ fn cameras() {
     assert_eq!((camera.fov, camera.resolution), (50.0, [7, 9]));
     assert_eq!(camera.lens, Some(Lens { radius: 0.25, focus: 3.5 }));
     assert_eq!(camera.shutter, Some(Shutter { open: 0.25, close: 0.75 }));
-    assert_eq!(camera.filter, Filter::Gaussian { sigma: 0.625 });
+    assert_eq!(camera.filter, Filter::gaussian(0.625));
     assert_eq!(scene.camera_motion.at(0.5).translation, DVec3::new(0.5, 1.0, 1.5));
     let flat =
         compiled("camera = { eye = [0, 0, 4], look_at = [0, 0, 0], projection.orthographic.width = 3, resolution = [8, 8] }");
@@ -57,9 +57,9 @@ fn cameras() {
         let camera = "eye = [0, 0, 4], look_at = [0, 0, 0], fov = 40, resolution = [8, 8]";
         compiled(&format!("camera = {{ {camera}, lens = {{ radius = 0, focus = 1 }}, filter = {text} }}")).camera
     };
-    assert_eq!(filter("'tent'").filter, Filter::Tent { radius: 1.0 });
-    assert_eq!(filter("'gaussian'").filter, Filter::Gaussian { sigma: 0.5 });
-    assert_eq!(filter("{ tent = { radius = 2.5 } }").filter, Filter::Tent { radius: 2.5 });
+    assert_eq!(filter("'tent'").filter, Filter::tent(1.0));
+    assert_eq!(filter("'gaussian'").filter, Filter::gaussian(0.5));
+    assert_eq!(filter("{ tent = { radius = 2.5 } }").filter, Filter::tent(2.5));
     assert_eq!(filter("'box'").lens, None, "a lens without extent is a pinhole");
 }
 
@@ -76,13 +76,13 @@ fn settings() {
         (settings.estimator, settings.directions, settings.sampler),
         (Estimator::Light, Directions::Cosine, Sampler::BlueNoise)
     );
-    assert_eq!((settings.max_bounces, settings.roulette), (Some(3), Roulette::Throughput { start: 7 }));
+    assert_eq!((settings.max_bounces, settings.roulette), (Some(3), Roulette::by_throughput_from(7)));
     assert_eq!((settings.reuse, settings.adaptive, settings.seed, scene.spp), (Reuse::Off, true, 99, Some(12)));
     assert_eq!(scene.truth, Some(Truth::Radiance([1.0, 2.0, 3.0])));
     let roulette = |text: &str| compiled(&format!("VIEW\nrender.roulette = {text}")).settings.roulette;
     assert_eq!(roulette("'off'"), Roulette::Off);
-    assert_eq!([roulette("'throughput'"), roulette("{ throughput = {} }")], [Roulette::Throughput { start: 4 }; 2]);
-    assert_eq!(roulette("{ fixed = 0.25 }"), Roulette::Fixed(0.25));
+    assert_eq!([roulette("'throughput'"), roulette("{ throughput = {} }")], [Roulette::by_throughput_from(4); 2]);
+    assert_eq!(roulette("{ fixed = 0.25 }"), Roulette::fixed(0.25));
 }
 
 #[test]

@@ -194,7 +194,7 @@ fn pictures_whose_scene_cannot_be_used_are_told() {
         (carried("format = 1\ncamera = 3", camera(), off()), "the picture carries this scene"),
         (carried(&with_texture, camera(), off()), "b.png"),
         (carried(&scene.source, blind, off()), "the camera of the picture cannot be used"),
-        (carried(&scene.source, camera(), serde_json::json!({ "fixed": 0.0 })), "a survival probability of 0"),
+        (carried(&scene.source, camera(), serde_json::json!({ "fixed": 0.0 })), "`fixed` is out of range: 0"),
     ] {
         for name in ["a.png", "a.exr"] {
             let path = folder.path().join(name);

@@ -59,7 +59,7 @@ fn a_good_file_means_what_it_says() {
     assert_eq!(scene.camera.resolution, [32, 24]);
     assert_eq!(scene.camera.fov, 40.0);
     assert_eq!((scene.settings.sampler, scene.settings.directions), (Sampler::Stratified, Directions::Uniform));
-    assert_eq!((scene.settings.roulette, scene.settings.max_bounces), (Roulette::Fixed(0.75), Some(5)));
+    assert_eq!((scene.settings.roulette, scene.settings.max_bounces), (Roulette::fixed(0.75), Some(5)));
     assert_eq!((scene.spp, scene.settings.seed), (Some(64), 9));
     assert_eq!(scene.truth, Some(Truth::Radiance([2.0; 3])));
     assert_eq!(scene.objects[0].name, "ball");
@@ -119,7 +119,7 @@ fn roulette_by_throughput_can_be_said_as_on_the_command_line() {
     let roulette = |text: &str| parse("test.toml", GOOD.replace("{ fixed = 0.75 }", text)).expect("it is good").settings.roulette;
     assert_eq!(roulette("\"throughput\""), Roulette::BY_THROUGHPUT);
     assert_eq!(roulette("{ throughput = {} }"), Roulette::BY_THROUGHPUT);
-    assert_eq!(roulette("{ throughput = { start = 7 } }"), Roulette::Throughput { start: 7 });
+    assert_eq!(roulette("{ throughput = { start = 7 } }"), Roulette::by_throughput_from(7));
     assert_eq!(roulette("\"off\""), Roulette::Off);
 }
 

@@ -205,7 +205,7 @@ fn paths_that_never_end_are_cut_counted_and_reported() {
     renderer.submit(Job { generation: 1, scene: scene.clone(), camera, settings });
     let cut = wait_for(&renderer, "the end", |p| matches!(p.status.state, State::Done(_)));
     assert_eq!(cut.status.cut_paths, 64);
-    let settings = RenderSettings { roulette: Roulette::Fixed(0.9), ..settings };
+    let settings = RenderSettings { roulette: Roulette::fixed(0.9), ..settings };
     renderer.submit(Job { generation: 2, scene, camera, settings });
     let whole = wait_for(&renderer, "the end", |p| p.status.generation == 2 && matches!(p.status.state, State::Done(_)));
     assert_eq!(whole.status.cut_paths, 0);

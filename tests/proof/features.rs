@@ -142,12 +142,7 @@ fn scenes() -> Vec<(&'static str, Scene, Camera)> {
 fn the_renderer_meets_the_same_surfaces() {
     for (name, scene, camera) in scenes() {
         let found = seen(&scene, &camera);
-        let middle = Camera {
-            lens: None,
-            shutter: camera.shutter.map(Shutter::at_opening),
-            filter: Filter::Tent { radius: 0.0 },
-            ..camera
-        };
+        let middle = Camera { lens: None, shutter: camera.shutter.map(Shutter::at_opening), filter: Filter::tent(0.0), ..camera };
         let rays = scene.rays(&middle);
         for pixel in (0..found.depth.len()).step_by(7) {
             let [x, y] = [pixel as u32 % found.width, pixel as u32 / found.width];

@@ -76,12 +76,12 @@ fn with_cosine_directions_each_single_sample_is_the_partial_sum() {
 fn roulette_is_unbiased_at_every_survival_probability() {
     for percent in [30, 40, 50, 60, 70, 80, 90, 95] {
         let q = f64::from(percent) / 100.0;
-        let found = moments(RenderSettings { roulette: Roulette::Fixed(q as f32), ..settings(Directions::Cosine) }, 2000);
+        let found = moments(RenderSettings { roulette: Roulette::fixed(q as f32), ..settings(Directions::Cosine) }, 2000);
         assert_within(found.z_with(furnace(LE, ALBEDO), furnace_variance(LE, ALBEDO, 1.0 / q)), &format!("q = {q}"));
     }
     for start in [0, 1, 4] {
         for directions in Directions::ALL {
-            let found = moments(RenderSettings { roulette: Roulette::Throughput { start }, ..settings(directions) }, 2000);
+            let found = moments(RenderSettings { roulette: Roulette::by_throughput_from(start), ..settings(directions) }, 2000);
             assert_within(found.z(furnace(LE, ALBEDO)), &format!("by throughput from {start}, {directions:?}"));
         }
     }
@@ -92,7 +92,7 @@ fn the_variance_is_the_closed_form() {
     let uniform = moments(settings(Directions::Uniform), 2000);
     assert_within(uniform.z_of_variance(furnace_variance(LE, ALBEDO, 4.0 / 3.0)), "uniform directions");
     for q in [0.8, 0.9] {
-        let roulette = Roulette::Fixed(q as f32);
+        let roulette = Roulette::fixed(q as f32);
         let cosine = moments(RenderSettings { roulette, ..settings(Directions::Cosine) }, 2000);
         assert_within(cosine.z_of_variance(furnace_variance(LE, ALBEDO, 1.0 / q)), &format!("roulette {q}"));
         let both = moments(RenderSettings { roulette, ..settings(Directions::Uniform) }, 2000);

@@ -52,7 +52,7 @@ fn smooth_glass_is_invisible_in_every_single_sample() {
 #[test]
 fn with_roulette_it_is_invisible_on_average() {
     for (i, scene) in arrangements("").iter().enumerate() {
-        for roulette in [Roulette::BY_THROUGHPUT, Roulette::Fixed(0.7)] {
+        for roulette in [Roulette::BY_THROUGHPUT, Roulette::fixed(0.7)] {
             let found = picture(scene, RenderSettings { roulette, ..settings(Estimator::Mis) }, RED, 256);
             assert_within(found.whole().z(1.0), &format!("arrangement {i}, {roulette:?}"));
         }

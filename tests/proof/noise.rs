@@ -176,7 +176,7 @@ fn stopping_at_a_noise_target_shifts_the_mean_by_less_than_a_fortieth_of_the_tar
             estimator: Estimator::Path,
             sampler: Sampler::Independent,
             directions: Directions::Cosine,
-            roulette: Roulette::Fixed(0.6),
+            roulette: Roulette::fixed(0.6),
             reuse: Reuse::Off,
             adaptive: false,
             ..scene.settings

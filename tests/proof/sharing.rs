@@ -106,7 +106,7 @@ fn assert_same_picture(scene: &Scene, settings: RenderSettings, spp: u32, what: 
 fn shared_paths_give_the_same_picture() {
     for estimator in Estimator::ALL {
         assert_same_picture(&scene(ROOM), settings(estimator), 800, estimator.name());
-        let box_of_walls = RenderSettings { max_bounces: Some(3), roulette: Roulette::Fixed(0.7), ..settings(estimator) };
+        let box_of_walls = RenderSettings { max_bounces: Some(3), roulette: Roulette::fixed(0.7), ..settings(estimator) };
         assert_same_picture(&built_in(), box_of_walls, 400, "the built-in scene, with a cap");
     }
 }

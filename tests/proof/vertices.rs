@@ -62,8 +62,8 @@ fn rays(scene: &Scene) -> CameraRays {
 fn all_settings(seed: u32) -> Vec<RenderSettings> {
     let endings = [
         (Roulette::Off, Some(12)),
-        (Roulette::Fixed(0.7), None),
-        (Roulette::Throughput { start: 1 }, None),
+        (Roulette::fixed(0.7), None),
+        (Roulette::by_throughput_from(1), None),
         (Roulette::BY_THROUGHPUT, Some(3)),
     ];
     let mut all = Vec::new();
@@ -218,9 +218,9 @@ fn assert_terms(vertex: &Vertex, settings: &RenderSettings, what: &str) {
         }
         match settings.roulette {
             Roulette::Off => assert_eq!(reflection.survival, 1.0),
-            Roulette::Fixed(p) => assert_eq!(reflection.survival, p),
-            Roulette::Throughput { start } if vertex.bounce + 1 < start => assert_eq!(reflection.survival, 1.0),
-            Roulette::Throughput { .. } => {
+            Roulette::Fixed(fixed) => assert_eq!(reflection.survival, fixed.survival),
+            Roulette::Throughput(throughput) if vertex.bounce + 1 < throughput.start => assert_eq!(reflection.survival, 1.0),
+            Roulette::Throughput(_) => {
                 let material = vertex.surface.as_ref().and_then(|surface| surface.material);
                 let throughput = product(arriving, reflection.weight).into_iter().fold(0.0, f32::max);
                 // What glass compresses is judged as what it will be outside; where paths are shared, the first surface does not weigh.

@@ -9,7 +9,7 @@ mod reinhard;
 use serde::Serialize;
 
 use super::display::encode;
-use crate::declare::{Word, Words};
+use crate::declare::Word;
 
 /// Display settings, which do not affect the render.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
@@ -20,65 +20,23 @@ pub struct Display {
     pub tone_map: ToneMap,
 }
 
-macro_rules! tone_maps {
-    ($($module:ident::$Kind:ident),+ $(,)?) => {
-        /// The tone maps.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-        pub enum ToneMap {
-            $(
-                #[doc = concat!("The tone map in `", stringify!($module), ".rs`.")]
-                $Kind
-            ),+
-        }
-
-        impl ToneMap {
-            /// All tone maps, in the order of the catalogue.
-            pub const ALL: [ToneMap; [$($module::$Kind::WORD.name),+].len()] = [$(ToneMap::$Kind),+];
-
-            /// How the command line and people call it.
-            pub const fn word(self) -> Word {
-                match self {
-                    $(ToneMap::$Kind => $module::$Kind::WORD),+
-                }
-            }
-        }
-
-        impl Words for ToneMap {
-            fn words() -> &'static [(Word, Self)] {
-                const { &[$(($module::$Kind::WORD, ToneMap::$Kind)),+] }
-            }
-        }
-
-        /// Converts an image to 8-bit sRGB with an opaque fourth channel, row by row from the top left, and replaces the contents of
-        /// `pixels`. (Reusing its memory halves the time.)
-        pub fn to_srgb(radiance: &[[f32; 3]], display: Display, pixels: &mut Vec<[u8; 4]>) {
-            pixels.clear();
-            match display.tone_map {
-                $(ToneMap::$Kind => $module::$Kind::show(radiance, display.exposure.exp2(), pixels)),+
-            }
-        }
-    };
-}
-
-tone_maps! {
-    clip::None,
-    reinhard::Reinhard,
-    aces::Aces,
-    false_colour::FalseColour,
-}
-
-#[expect(clippy::derivable_impls, reason = "the catalogue marks no variant")]
-impl Default for ToneMap {
-    fn default() -> Self {
-        ToneMap::None
+crate::word_kinds! {
+    /// The tone maps.
+    #[derive(Serialize)]
+    pub enum ToneMap: Tone, default None {
+        clip::None,
+        reinhard::Reinhard,
+        aces::Aces,
+        false_colour::FalseColour,
     }
+    in_tone_map
 }
 
-impl ToneMap {
-    /// What the window calls it.
-    pub const fn title(self) -> &'static str {
-        self.word().title
-    }
+/// Converts an image to 8-bit sRGB with an opaque fourth channel, row by row from the top left, and replaces the contents of `pixels`.
+/// (Reusing its memory halves the time.)
+pub fn to_srgb(radiance: &[[f32; 3]], display: Display, pixels: &mut Vec<[u8; 4]>) {
+    pixels.clear();
+    in_tone_map!(display.tone_map, T => T::show(radiance, display.exposure.exp2(), pixels));
 }
 
 /// A tone map.

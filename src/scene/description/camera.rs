@@ -74,7 +74,7 @@ impl Declare for CameraDescription {
         const PROJECTION: Parameter = Parameter::new("projection", "\"perspective\" (the default), or orthographic.");
         const LENS: Parameter = Parameter::new("lens", "A thin lens; a pinhole where it is absent.").aliases("aperture dof");
         const FILTER: Parameter =
-            Parameter::new("filter", "How a pixel weighs the light around its centre: \"box\" (the default), tent or gaussian.")
+            Parameter::new("filter", "How a pixel weighs the light around its centre: \"box\" where it is absent.")
                 .aliases("rfilter reconstruction");
         const SHUTTER: Parameter = Parameter::new("shutter", "When it opens and closes, as parts of the motion; absent: time 0.");
         const MOTION: Parameter = Parameter::new("motion", "Transforms that carry the camera from time 0 to 1.");

@@ -8,7 +8,7 @@ use crate::{
 
 /// Without roulette paths may have no end, so that it is tried only where it is in use.
 const ROULETTES: [Roulette; 4] =
-    [Roulette::Throughput { start: 2 }, Roulette::BY_THROUGHPUT, Roulette::Throughput { start: 8 }, Roulette::Fixed(0.8)];
+    [Roulette::by_throughput_from(2), Roulette::BY_THROUGHPUT, Roulette::by_throughput_from(8), Roulette::fixed(0.8)];
 
 /// The settings in use besides each sampler.
 pub const MOST_OF_SECOND_STAGE: usize = 1 + Sampler::ALL.len();

@@ -21,7 +21,7 @@ const IN_USE: RenderSettings = RenderSettings {
     estimator: Estimator::Mis,
     sampler: Sampler::Independent,
     directions: crate::sampling::Directions::Bsdf,
-    roulette: Roulette::Fixed(0.3),
+    roulette: Roulette::fixed(0.3),
     max_bounces: None,
     reuse: crate::scene::Reuse::Off,
     adaptive: false,
@@ -164,14 +164,14 @@ fn the_second_stage_takes_over_what_stood_out() {
     assert_eq!(first.len(), 1 + 4 + 2);
     assert_eq!(first_stage(&ADVISED).len(), 1 + 3 + 2);
     let seconds = |settings: &RenderSettings| match (settings.roulette, settings.estimator) {
-        (Roulette::Throughput { start: 2 }, _) => 0.2,
-        (Roulette::Throughput { .. }, _) => 0.4,
+        (roulette, _) if roulette == Roulette::by_throughput_from(2) => 0.2,
+        (Roulette::Throughput(_), _) => 0.4,
         (_, Estimator::Light) => 0.97,
         _ => 1.0,
     };
     let trials: Vec<Measured> = first.iter().map(|settings| known(*settings, 0.01, &[seconds(settings); 4])).collect();
     let base = adopted(&rank(&trials, SPP));
-    assert_eq!(base, RenderSettings { roulette: Roulette::Throughput { start: 2 }, ..IN_USE });
+    assert_eq!(base, RenderSettings { roulette: Roulette::by_throughput_from(2), ..IN_USE });
     let second = second_stage(&IN_USE, &base);
     assert_eq!((second.len(), second[0]), (MOST_OF_SECOND_STAGE, IN_USE));
     assert_eq!(second_stage(&IN_USE, &IN_USE).len(), MOST_OF_SECOND_STAGE - 1);

@@ -1,9 +1,6 @@
 //! Advice in words.
 use super::{Advice, Candidate};
-use crate::{
-    scene::{RenderSettings, Roulette},
-    study::setting::Setting,
-};
+use crate::{scene::RenderSettings, study::setting::Setting};
 
 /// What differs from the settings in use.
 pub fn differing(settings: &RenderSettings, in_use: &RenderSettings) -> Vec<Setting> {
@@ -15,21 +12,13 @@ pub fn difference(settings: &RenderSettings, in_use: &RenderSettings) -> String 
     let word = |setting| match setting {
         Setting::Estimator => format!("estimator {}", settings.estimator.name()),
         Setting::Sampler => settings.sampler.word().title.to_owned(),
-        Setting::Roulette => roulette(settings.roulette),
+        Setting::Roulette => settings.roulette.words(),
         Setting::Directions | Setting::Cap | Setting::Reuse | Setting::Adaptive => {
             format!("{} {}", setting.name(), setting.value(settings))
         }
     };
     let words: Vec<String> = differing(settings, in_use).into_iter().map(word).collect();
     if words.is_empty() { "what you have".to_owned() } else { words.join(", ") }
-}
-
-fn roulette(roulette: Roulette) -> String {
-    match roulette {
-        Roulette::Off => "no roulette".to_owned(),
-        Roulette::Fixed(survival) => format!("roulette fixed at {survival}"),
-        Roulette::Throughput { start } => format!("roulette by throughput from bounce {start} on"),
-    }
 }
 
 impl Candidate {

@@ -53,7 +53,7 @@ struct Topic {
 fn topics() -> [Topic; 6] {
     let alone = || Lists { reuses: vec![Reuse::Off], adaptive: vec![false], ..Lists::default() };
     let uncapped = || Lists { caps: vec![None], ..alone() };
-    let roulettes = vec![Roulette::Off, Roulette::Fixed(0.5), Roulette::Fixed(0.8), Roulette::BY_THROUGHPUT];
+    let roulettes = vec![Roulette::Off, Roulette::fixed(0.5), Roulette::fixed(0.8), Roulette::BY_THROUGHPUT];
     let samplers = vec![Sampler::Independent, Sampler::Stratified, Sampler::Sobol];
     let directions = vec![Directions::Uniform, Directions::Cosine, Directions::Bsdf];
     [

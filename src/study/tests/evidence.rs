@@ -44,8 +44,8 @@ fn roulettes() -> Findings {
     let mut best = run(0.01, 1.0);
     best.checkpoints.iter_mut().for_each(|point| point.bias = -0.01);
     findings(vec![
-        with(Roulette::Fixed(0.5), run(0.04, 2.0)),
-        with(Roulette::Fixed(0.2), run(0.01, 64.0)),
+        with(Roulette::fixed(0.5), run(0.04, 2.0)),
+        with(Roulette::fixed(0.2), run(0.01, 64.0)),
         with(Roulette::BY_THROUGHPUT, Run { bias: "7 paths cut".to_owned(), ..run(0.01, 0.5) }),
         with(Roulette::Off, best),
     ])

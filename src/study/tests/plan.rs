@@ -37,7 +37,7 @@ fn lists_are_combined_each_value_once() {
         estimators: vec![Estimator::Mis, Estimator::Path, Estimator::Mis],
         directions: vec![Directions::Bsdf],
         samplers: vec![Sampler::Sobol, Sampler::Independent],
-        roulettes: vec![Roulette::Off, Roulette::Fixed(0.8), Roulette::Fixed(0.8)],
+        roulettes: vec![Roulette::Off, Roulette::fixed(0.8), Roulette::fixed(0.8)],
         caps: vec![None],
         reuses: vec![Reuse::On, Reuse::Off],
         ..Lists::default()

@@ -102,7 +102,7 @@ fn settings_have_names_and_take_values_over() {
         estimator: Estimator::Light,
         directions: Directions::Uniform,
         sampler: Sampler::Independent,
-        roulette: Roulette::Fixed(0.5),
+        roulette: Roulette::fixed(0.5),
         max_bounces: Some(7),
         reuse: Reuse::On,
         adaptive: true,

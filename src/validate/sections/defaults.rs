@@ -59,7 +59,7 @@ pub fn section(validation: &Validation) -> Section {
             }
         };
         for (name, change) in ALONE {
-            let plain = || RenderSettings { roulette: Roulette::Fixed(0.9), ..validation.settings(Estimator::Path) };
+            let plain = || RenderSettings { roulette: Roulette::fixed(0.9), ..validation.settings(Estimator::Path) };
             row(name, &|| change(plain()));
         }
         for (name, change) in TOGETHER {

@@ -44,7 +44,7 @@ pub fn section(validation: &Validation) -> Section {
     }
     let (mut survived, mut cost) = (Vec::new(), Vec::new());
     for q in SURVIVALS {
-        let settings = RenderSettings { roulette: Roulette::Fixed(q as f32), ..validation.path(Directions::Cosine) };
+        let settings = RenderSettings { roulette: Roulette::fixed(q as f32), ..validation.path(Directions::Cosine) };
         let values = samples(&scene, settings, validation.spp(2500));
         let found = Moments::of(values.iter().flatten().copied());
         survived.push((q, found.mean));
@@ -132,7 +132,7 @@ fn survivals(values: &[Vec<f64>], q: f64) -> Statement {
 fn running_variances(validation: &Validation) -> Figure {
     let mut curves = Vec::new();
     for q in [0.2, 0.4] {
-        let settings = RenderSettings { roulette: Roulette::Fixed(q as f32), ..validation.path(Directions::Cosine) };
+        let settings = RenderSettings { roulette: Roulette::fixed(q as f32), ..validation.path(Directions::Cosine) };
         let values: Vec<f64> = samples(&check::furnace(ALBEDO), settings, validation.spp(2000)).into_iter().flatten().collect();
         let (mut sum, mut square, mut points) = (0.0, 0.0, Vec::new());
         let mut next = 100.0;

@@ -1,12 +1,10 @@
 //! The panel of the camera's numbers.
 use egui::{Button, RichText};
 use glam::DVec3;
-use noisefall::{
-    sampling::Filter,
-    scene::{Camera, Lens, Scene},
-};
+use noisefall::scene::{Camera, Lens, Scene};
 
 use crate::viewer::widgets::{
+    kinds::{kinds, number_rows},
     number,
     style::{controls, row},
 };
@@ -26,7 +24,10 @@ pub fn show(ui: &mut egui::Ui, camera: &mut Camera, scene: Option<&Scene>) -> bo
         if camera.orthographic.is_none() {
             lens(ui, camera, speed);
         }
-        row(ui, "Pixel filter", "How a pixel weighs the light around its centre.", |ui, _| filter(ui, &mut camera.filter));
+        row(ui, "Pixel filter", "How a pixel weighs the light around its centre.", |ui, _| {
+            ui.horizontal(|ui| kinds(ui, &mut camera.filter));
+        });
+        number_rows(ui, &mut camera.filter);
         row(ui, "Resolution", "Width and height in pixels.", |ui, label| {
             ui.horizontal(|ui| {
                 let [width, height] = &mut camera.resolution;
@@ -91,23 +92,6 @@ fn lens(ui: &mut egui::Ui, camera: &mut Camera, speed: f64) {
         });
     }
     camera.lens = (lens.radius > 0.0).then_some(lens);
-}
-
-fn filter(ui: &mut egui::Ui, filter: &mut Filter) {
-    const KINDS: [(Filter, &str, &str); 3] = [
-        (Filter::Box, "Box", "The mean over the pixel's own square: sharpest."),
-        (Filter::TENT, "Tent", "Falls linearly over one pixel: smoother edges."),
-        (Filter::GAUSSIAN, "Gaussian", "A bell of half a pixel's deviation: smoothest."),
-    ];
-    ui.horizontal(|ui| {
-        for (kind, name, doc) in KINDS {
-            let chosen = std::mem::discriminant(filter) == std::mem::discriminant(&kind);
-            let response = ui.selectable_label(chosen, name).on_hover_text(doc);
-            if response.clicked() && !chosen {
-                *filter = kind;
-            }
-        }
-    });
 }
 
 fn point(ui: &mut egui::Ui, label: egui::Id, p: &mut DVec3, speed: f64) {

@@ -1,41 +1,20 @@
 //! The panel of render settings: estimator, sampler, directions, roulette, cap and seed.
 use egui::{ComboBox, Id, Ui};
 use noisefall::{
+    declare::OneOf,
     render::Status,
-    sampling::{Directions, Sampler},
-    scene::{Estimator, RenderSettings, Reuse, Roulette},
+    sampling::Sampler,
+    scene::{RenderSettings, Reuse, Roulette},
 };
 
 use crate::viewer::widgets::{
+    kinds::{kinds, number_rows, words},
     number,
     palette::Palette,
-    style::{choices, controls, row},
+    style::{controls, row},
 };
 
-const DEFAULT_SURVIVAL: f32 = 0.8;
 const DEFAULT_CAP: u32 = 8;
-
-const ESTIMATORS: [(Estimator, &str, &str); 3] = [
-    (Estimator::Path, "Path", "Paths go on until they run into light: the equation as it stands, with most noise."),
-    (
-        Estimator::Light,
-        "Light",
-        "Every surface point samples a light (next-event estimation). Poor at glossy surfaces and large lights.",
-    ),
-    (Estimator::Mis, "MIS", "Both, each weighted by how likely it was to find what it found (multiple importance sampling)."),
-];
-
-const DIRECTIONS: [(Directions, &str, &str); 3] = [
-    (Directions::Uniform, "Uniform", "p(ω_i) = 1 / 2π: every direction of the hemisphere alike."),
-    (Directions::Cosine, "Cosine", "p(ω_i) = cos θ / π: cancels the cosine of the equation, so there is less noise."),
-    (Directions::Bsdf, "BSDF", "p(ω_i) in proportion to f cos θ, which at a diffuse surface is the cosine."),
-];
-
-const REUSE: [(Reuse, &str, &str); 3] = [
-    (Reuse::Auto, "Auto", "Where a short trial of the scene says that it pays."),
-    (Reuse::On, "Always", "Groups of 4 × 4 pixels divide what their paths find among them, by how likely each was to find it."),
-    (Reuse::Off, "Never", "Every pixel keeps what its own paths find: the noise of neighbours is independent."),
-];
 
 /// Shows which side of a comparison the panel edits, and lets the user change it.
 pub fn side_choice(ui: &mut Ui, edits_second: &mut bool) {
@@ -51,14 +30,14 @@ pub fn side_choice(ui: &mut Ui, edits_second: &mut bool) {
 pub fn show(ui: &mut Ui, settings: &mut RenderSettings, status: &Status, caution: Option<&str>) -> bool {
     controls(ui, "sampling", |ui| {
         row(ui, "Estimator", "How light L_o is found at x_M. All converge to the same picture.", |ui, _| {
-            choices(ui, &mut settings.estimator, &ESTIMATORS);
+            words(ui, &mut settings.estimator);
         });
         sampler_row(ui, &mut settings.sampler);
         row(
             ui,
             "Directions",
             "How the next direction ω_i is drawn over the hemisphere at a diffuse surface: its density p(ω_i).",
-            |ui, _| choices(ui, &mut settings.directions, &DIRECTIONS),
+            |ui, _| words(ui, &mut settings.directions),
         );
         reuse_row(ui, &mut settings.reuse, status);
         row(
@@ -104,7 +83,7 @@ fn reuse_row(ui: &mut Ui, reuse: &mut Reuse, status: &Status) {
     row(ui, "Share paths", doc, |ui, _| {
         // Below, and not beside: the panel is as wide as its widest row.
         ui.vertical(|ui| {
-            choices(ui, reuse, &REUSE);
+            words(ui, reuse);
             if *reuse == Reuse::Auto && status.spp > 0 {
                 ui.weak(if status.shares { "in use here" } else { "not in use here" });
             }
@@ -123,35 +102,12 @@ fn roulette_rows(ui: &mut Ui, roulette: &mut Roulette, caution: Option<&str>) {
             }
         });
     });
-    if let Roulette::Fixed(q) = roulette {
-        row(ui, "Survival", "The probability q with which a path goes on after a bounce.", |ui, label| {
-            let slider = number::slider(ui, q, 3, 0.05..=1.0);
-            ui.add(slider).labelled_by(label);
-        });
-    }
+    number_rows(ui, roulette);
 }
 
 fn roulette_choice(ui: &mut Ui, label: Id, roulette: &mut Roulette) {
-    let kinds = [
-        (Roulette::Off, "Off", "Paths end at the cap, or when they carry nothing any more."),
-        (Roulette::Fixed(DEFAULT_SURVIVAL), "Fixed probability", "The same survival probability q at every bounce."),
-        (
-            Roulette::BY_THROUGHPUT,
-            "By throughput",
-            "Paths that carry little die early: from the fourth bounce on, q is the throughput β, between 0.01 and 0.95.",
-        ),
-    ];
-    let is_chosen = |roulette: &Roulette, kind: &Roulette| std::mem::discriminant(roulette) == std::mem::discriminant(kind);
-    let name = kinds.iter().find(|(kind, _, _)| is_chosen(roulette, kind)).map_or("", |(_, name, _)| name);
     ui.vertical(|ui| {
-        let combo = ComboBox::from_id_salt("Roulette").selected_text(name).show_ui(ui, |ui| {
-            for (kind, name, doc) in kinds {
-                let chosen = is_chosen(roulette, &kind);
-                if ui.selectable_label(chosen, name).on_hover_text(doc).clicked() && !chosen {
-                    *roulette = kind;
-                }
-            }
-        });
-        combo.response.labelled_by(label);
+        let combo = ComboBox::from_id_salt("Roulette").selected_text(roulette.about().label());
+        combo.show_ui(ui, |ui| kinds(ui, roulette)).response.labelled_by(label);
     });
 }

@@ -60,7 +60,7 @@ fn every_choice_of_the_estimate_sets_what_it_names() {
         assert_eq!(window.state().session.settings, expected, "{label}");
     }
     for (label, roulette) in
-        [("Off", Roulette::Off), ("Fixed probability", Roulette::Fixed(0.8)), ("By throughput", Roulette::BY_THROUGHPUT)]
+        [("Off", Roulette::Off), ("Fixed probability", Roulette::fixed(0.8)), ("By throughput", Roulette::BY_THROUGHPUT)]
     {
         choose(&mut window, "Roulette", label);
         expected.roulette = roulette;
@@ -468,7 +468,7 @@ fn the_menu_of_comparisons_changes_what_it_names() {
         ("Light sampling", RenderSettings { estimator: Estimator::Light, ..of }),
         ("Independent samples", RenderSettings { sampler: Sampler::Independent, ..of }),
         ("No roulette", RenderSettings { roulette: Roulette::Off, ..of }),
-        ("Roulette of 0.8", RenderSettings { roulette: Roulette::Fixed(0.8), ..of }),
+        ("Roulette of 0.8", RenderSettings { roulette: Roulette::fixed(0.8), ..of }),
         ("Shared paths", RenderSettings { reuse: Reuse::On, ..of }),
         ("Paths of their own", RenderSettings { reuse: Reuse::Off, ..of }),
         ("A cap of 3 bounces", RenderSettings { max_bounces: Some(3), ..of }),

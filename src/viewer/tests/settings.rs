@@ -26,7 +26,7 @@ fn every_setting_of_the_estimate_starts_a_new_picture() {
         w.get_by_role_and_label(Role::Slider, "Survival").set_value_accesskit(0.5);
         w.run_steps(2);
     });
-    assert_eq!(window.state().session.settings.roulette, Roulette::Fixed(0.5));
+    assert_eq!(window.state().session.settings.roulette, Roulette::fixed(0.5));
     assert!(window.query_by_label("infinite variance?").is_some(), "walls of albedo 0.75 keep more than 0.5 of the square");
     restarts(&mut window, "no roulette", |w| choose(w, "Roulette", "Off"));
     assert!(window.query_by_label("infinite variance?").is_none(), "weights of cosine directions never grow");

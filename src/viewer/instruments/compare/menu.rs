@@ -1,6 +1,7 @@
 //! The menu of settings to compare with.
 use egui::Ui;
 use noisefall::{
+    declare::OneOf,
     sampling::Sampler,
     scene::{Estimator, RenderSettings, Reuse, Roulette},
 };
@@ -24,19 +25,14 @@ pub fn show(ui: &mut Ui, settings: &RenderSettings) -> Option<RenderSettings> {
 fn alternatives(settings: &RenderSettings) -> Vec<(String, RenderSettings)> {
     let of = |name: &str, changed: RenderSettings| (name.to_owned(), changed);
     let mut all = Vec::new();
-    for (estimator, title) in [(Estimator::Path, "Path sampling"), (Estimator::Light, "Light sampling"), (Estimator::Mis, "MIS")]
-    {
-        all.push(of(title, RenderSettings { estimator, ..*settings }));
+    for estimator in Estimator::ALL {
+        all.push(of(estimator.comparison(), RenderSettings { estimator, ..*settings }));
     }
     for sampler in Sampler::ALL {
         all.push((format!("{} samples", sampler.word().title), RenderSettings { sampler, ..*settings }));
     }
-    for (roulette, title) in [
-        (Roulette::Off, "No roulette"),
-        (Roulette::Fixed(0.8), "Roulette of 0.8"),
-        (Roulette::BY_THROUGHPUT, "Roulette by throughput"),
-    ] {
-        all.push(of(title, RenderSettings { roulette, ..*settings }));
+    for roulette in Roulette::alternatives() {
+        all.push((capitalized(&roulette.words()), RenderSettings { roulette, ..*settings }));
     }
     for (reuse, title) in [(Reuse::On, "Shared paths"), (Reuse::Off, "Paths of their own")] {
         all.push(of(title, RenderSettings { reuse, ..*settings }));
@@ -45,6 +41,11 @@ fn alternatives(settings: &RenderSettings) -> Vec<(String, RenderSettings)> {
     all.push(of("Another seed", RenderSettings { seed: settings.seed.wrapping_add(1), ..*settings }));
     all.retain(|(_, changed)| changed != settings);
     all
+}
+
+fn capitalized(words: &str) -> String {
+    let first = words.chars().next().into_iter().flat_map(char::to_uppercase);
+    first.chain(words.chars().skip(1)).collect()
 }
 
 #[cfg(test)]

@@ -1,0 +1,32 @@
+//! The mean over the square of the pixel.
+use super::Placing;
+use crate::{
+    declare::{Declare, Kind, Parameter, Parameters},
+    math::{F, Lanes},
+};
+
+/// The mean over the square of the pixel.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Box;
+
+impl Kind for Box {
+    const KIND: Parameter = Parameter::new("box", "The mean over the pixel's own square: sharpest.");
+
+    fn chosen(&mut self, _: &mut dyn Parameters) {}
+}
+
+impl Declare for Box {
+    fn parameters(&mut self, _: &mut dyn Parameters) {}
+}
+
+impl Placing for Box {
+    #[inline(always)]
+    fn place<L: Lanes>(self, _: L, u: F<L>) -> F<L> {
+        u
+    }
+
+    #[cfg(test)]
+    fn distribution(self, x: f64) -> f64 {
+        (x + 0.5).clamp(0.0, 1.0)
+    }
+}

@@ -1,0 +1,36 @@
+//! Multiple importance sampling with the power heuristic (Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997).
+use super::Strategy;
+use crate::{
+    declare::Word,
+    math::{F, Lanes},
+};
+
+/// Emitter hits and light samples count, combined by the power heuristic.
+pub(super) struct Mis;
+
+impl Strategy for Mis {
+    const WORD: Word = Word {
+        name: "mis",
+        title: "MIS",
+        doc: "Both, each weighted by how likely it was to find what it found (multiple importance sampling).",
+    };
+    const COMPARES: bool = true;
+
+    #[inline(always)]
+    fn hit_weight<L: Lanes>(_: L, pdf: F<L>, of_light: F<L>) -> F<L> {
+        power_heuristic(pdf, of_light)
+    }
+
+    #[inline(always)]
+    fn light_weight<L: Lanes>(_: L, pdf: F<L>, of_bsdf: F<L>) -> F<L> {
+        power_heuristic(pdf, of_bsdf)
+    }
+}
+
+/// The power heuristic with exponent 2 (Veach 1997, equation 9.14): the weight of a sample with pdf `pdf`, whose pdf by another strategy
+/// is `other`.
+#[inline(always)]
+pub fn power_heuristic<L: Lanes>(pdf: F<L>, other: F<L>) -> F<L> {
+    let ratio = other / pdf;
+    1.0 / (1.0 + ratio * ratio)
+}

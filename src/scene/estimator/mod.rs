@@ -1,0 +1,79 @@
+//! How direct light is estimated. All estimators converge to the same image; they differ in noise.
+//!
+//! An estimator is one file and one line of the catalogue below.
+mod light;
+mod mis;
+mod path;
+
+pub use self::mis::power_heuristic;
+use crate::{
+    declare::Word,
+    math::{F, Lanes},
+};
+
+crate::word_kinds! {
+    /// How direct light is estimated. All estimators converge to the same image; they differ in noise.
+    #[derive(serde::Serialize, serde::Deserialize)]
+    #[serde(rename_all = "lowercase")]
+    pub enum Estimator: Strategy, default Mis {
+        path::Path,
+        light::Light,
+        mis::Mis,
+    }
+    in_estimator
+}
+
+impl Estimator {
+    /// Whether lights are sampled, in addition to emitter hits.
+    #[inline(always)]
+    pub fn samples_lights(self) -> bool {
+        in_estimator!(self, E => E::SAMPLES_LIGHTS)
+    }
+
+    /// Whether a weight depends on the pdf that the other strategy has for the same sample.
+    #[inline(always)]
+    pub fn compares(self) -> bool {
+        in_estimator!(self, E => E::COMPARES)
+    }
+
+    /// The weight of an emitter hit that light sampling could have found, with the pdf of its direction and the pdf of light sampling,
+    /// both per solid angle; the latter is read only if the estimator [compares](Self::compares).
+    #[inline(always)]
+    pub fn hit_weight<L: Lanes>(self, l: L, pdf: F<L>, of_light: F<L>) -> F<L> {
+        in_estimator!(self, E => E::hit_weight(l, pdf, of_light))
+    }
+
+    /// The weight of a light sample with its pdf, and the pdf of its direction by the BSDF, both per solid angle.
+    #[inline(always)]
+    pub fn light_weight<L: Lanes>(self, l: L, pdf: F<L>, of_bsdf: F<L>) -> F<L> {
+        in_estimator!(self, E => E::light_weight(l, pdf, of_bsdf))
+    }
+
+    /// What the menu of comparisons calls it.
+    pub fn comparison(self) -> &'static str {
+        in_estimator!(self, E => E::COMPARISON)
+    }
+}
+
+/// A kind of estimator: the weights of the two strategies that find light.
+trait Strategy {
+    const WORD: Word;
+
+    /// What the menu of comparisons calls it.
+    const COMPARISON: &'static str = Self::WORD.title;
+
+    /// Whether lights are sampled, in addition to emitter hits.
+    const SAMPLES_LIGHTS: bool = true;
+
+    /// Whether a weight depends on the pdf of the other strategy.
+    const COMPARES: bool = false;
+
+    /// See [`Estimator::hit_weight`].
+    fn hit_weight<L: Lanes>(l: L, pdf: F<L>, of_light: F<L>) -> F<L>;
+
+    /// See [`Estimator::light_weight`].
+    #[inline(always)]
+    fn light_weight<L: Lanes>(l: L, _pdf: F<L>, _of_bsdf: F<L>) -> F<L> {
+        l.f(1.0)
+    }
+}

@@ -1,0 +1,24 @@
+//! Plain path tracing (Kajiya, "The Rendering Equation", SIGGRAPH 1986).
+use super::Strategy;
+use crate::{
+    declare::Word,
+    math::{F, Lanes},
+};
+
+/// Only emitter hits of paths count.
+pub(super) struct Path;
+
+impl Strategy for Path {
+    const WORD: Word = Word {
+        name: "path",
+        title: "Path",
+        doc: "Paths go on until they run into light: the equation as it stands, with most noise.",
+    };
+    const COMPARISON: &'static str = "Path sampling";
+    const SAMPLES_LIGHTS: bool = false;
+
+    #[inline(always)]
+    fn hit_weight<L: Lanes>(l: L, _: F<L>, _: F<L>) -> F<L> {
+        l.f(1.0)
+    }
+}

@@ -1,0 +1,39 @@
+//! No roulette.
+use super::Survival;
+use crate::{
+    declare::{Declare, Kind, Parameter, Parameters},
+    math::{F, Lanes, V},
+};
+
+/// Paths end only where nothing is left, at the cap, or in the background.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Off;
+
+impl Kind for Off {
+    const KIND: Parameter = Parameter::new("off", "Paths end at the cap, or when they carry nothing any more.");
+
+    fn chosen(&mut self, _: &mut dyn Parameters) {}
+}
+
+impl Declare for Off {
+    fn parameters(&mut self, _: &mut dyn Parameters) {}
+}
+
+impl Survival for Off {
+    #[inline(always)]
+    fn probability<L: Lanes>(self, _: L, _: u32, _: V<L>, _: F<L>) -> Option<F<L>> {
+        None
+    }
+
+    fn words(self) -> String {
+        "no roulette".to_owned()
+    }
+
+    fn survival(self) -> f32 {
+        1.0
+    }
+
+    fn survival_words(self) -> String {
+        "paths without roulette".to_owned()
+    }
+}

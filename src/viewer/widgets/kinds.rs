@@ -1,0 +1,45 @@
+//! Choices of kinds and words, as their catalogues list them.
+use egui::{Response, Ui};
+use noisefall::declare::{OneOf, Parameter, Parameters, Scale, Value, Words};
+
+use super::{
+    number,
+    style::{choices, row},
+};
+
+/// Buttons in a row for all words of a type.
+pub fn words<T: Words>(ui: &mut Ui, chosen: &mut T) {
+    let all: Vec<_> = T::words().iter().map(|(word, value)| (*value, word.title, word.doc)).collect();
+    choices(ui, chosen, &all);
+}
+
+/// A button for each kind, with the default values of the kind.
+pub fn kinds<T: OneOf>(ui: &mut Ui, chosen: &mut T) {
+    for kind in T::alternatives() {
+        let (about, is_chosen) = (kind.about(), kind.place() == chosen.place());
+        let button: Response = ui.selectable_label(is_chosen, about.label()).on_hover_text(about.doc);
+        if button.clicked() && !is_chosen {
+            *chosen = kind;
+        }
+    }
+}
+
+/// A row for each number that the chosen kind cannot do without.
+pub fn number_rows<T: OneOf>(ui: &mut Ui, chosen: &mut T) {
+    chosen.chosen(&mut NumberRows(ui));
+}
+
+struct NumberRows<'u>(&'u mut Ui);
+
+impl Parameters for NumberRows<'_> {
+    fn value(&mut self, parameter: &Parameter, value: Value<'_>) {
+        let Value::Number(number, range) = value else { return };
+        if parameter.is_required {
+            row(self.0, &parameter.label(), parameter.doc, |ui, label| {
+                let slider = number::slider(ui, number, 3, range.least..=range.most);
+                let suffix = if parameter.unit.is_empty() { String::new() } else { format!(" {}", parameter.unit) };
+                ui.add(slider.logarithmic(range.scale == Scale::Log).suffix(suffix)).labelled_by(label);
+            });
+        }
+    }
+}
