@@ -145,7 +145,7 @@ fn views_of_surfaces_have_their_colours() {
     assert_eq!((materials[5], materials[0], materials[4]), ([24, 24, 24, 255], [0, 114, 178, 255], [230, 159, 0, 255]));
     // 16 pixels of the features are white, 15 red.
     assert_eq!(legend.entries, [(white, "white".to_owned()), (red, "red".to_owned())]);
-    assert!(legend.scale.is_none() && legend.title == View::Materials.name());
+    assert!(legend.scale.is_none() && legend.title == View::Materials.title());
     let mut swapped = self::features();
     swapped.material.iter_mut().filter(|id| **id < 2).for_each(|id| *id = 1 - *id);
     let all = Sources { features: Some(&swapped), ..sources(&frame, &names) };

@@ -1,79 +1,123 @@
-//! Views besides radiance: noise, sample counts, z-scores, differences, and features of first hits.
+//! Views: radiance, noise, sample counts, z-scores, differences, and features of first hits.
+//!
+//! A view is one file and one line of the catalogue below.
+mod albedo;
+mod depth;
+mod difference;
 mod field;
+mod hit_cost;
 mod legend;
+mod materials;
+mod normals;
+mod radiance;
+mod sample_count;
+mod standard_error;
+mod z_score;
 mod z_scores;
 
 use serde::Serialize;
 
+use self::legend::{part_below, round_up};
 pub use self::{
     field::Field,
     legend::{Legend, Scale},
     z_scores::ZScoreHistogram,
 };
-use super::{colour_map::ColourMap, frame::Frame, tone::Display, tone::to_srgb, truth::Reference};
-use crate::integrator::Features;
+use super::{colour_map::ColourMap, frame::Frame, tone::Display, truth::Reference};
+use crate::{declare::Word, integrator::Features};
 
-/// A quantity to display.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize)]
-pub enum View {
-    /// The image itself.
-    #[default]
-    Radiance,
-    /// The standard error of each pixel.
-    StandardError,
-    /// The number of samples of each pixel.
-    SampleCount,
-    /// The deviation from the truth in standard errors.
-    ZScore,
-    /// The difference from another image.
-    Difference,
-    /// The normal of the first surface.
-    Normals,
-    /// The albedo of the first surface.
-    Albedo,
-    /// The distance of the first surface.
-    Depth,
-    /// The time that the first ray takes.
-    HitCost,
-    /// The material of the first surface.
-    Materials,
+crate::word_kinds! {
+    /// A quantity to display.
+    #[derive(Serialize)]
+    pub enum View: Quantity, default Radiance {
+        radiance::Radiance,
+        standard_error::StandardError,
+        sample_count::SampleCount,
+        z_score::ZScore,
+        difference::Difference,
+        normals::Normals,
+        albedo::Albedo,
+        depth::Depth,
+        hit_cost::HitCost,
+        materials::Materials,
+    }
+    in_view
 }
 
 impl View {
-    /// The catalogue: view, name, and one sentence for the window.
-    pub const ALL: [(View, &'static str, &'static str); 10] = [
-        (View::Radiance, "Radiance", "The picture itself: L_o of the equation at every pixel, through exposure and tone map."),
-        (
-            View::StandardError,
-            "Standard error",
-            "How far the luminance of each pixel's mean is likely to be off at most, from the variances of its samples.",
-        ),
-        (View::SampleCount, "Sample count", "How many samples N each pixel has: more where they are adaptive, or in a region."),
-        (
-            View::ZScore,
-            "Z-score",
-            "(estimate - truth)/standard error: noise without structure if right, as wide as the unit normal where samples are independent and light is not rare.",
-        ),
-        (
-            View::Difference,
-            "Difference",
-            "Radiance less that of the pinned picture, in parts of it. (A less B: the layout Difference, under Compare.)",
-        ),
-        (View::Normals, "Normals", "The shading normal n that a camera ray meets first: red is x, green y, blue z."),
-        (View::Albedo, "Albedo", "The colour that the bsdf f has where a camera ray meets it first."),
-        (View::Depth, "Depth", "The distance to x_M, the first surface along a camera ray, in metres."),
-        (View::HitCost, "Hit cost", "How long it takes to find that first surface, in nanoseconds a ray, as measured."),
-        (View::Materials, "Materials", "Which material a camera ray meets first."),
-    ];
-
-    /// The title in the window.
-    pub fn name(self) -> &'static str {
-        Self::ALL.iter().find(|(view, _, _)| *view == self).map_or("", |(_, name, _)| name)
-    }
-
     /// Whether it shows features of first hits, and not samples.
     pub fn shows_features(self) -> bool {
-        matches!(self, View::Normals | View::Albedo | View::Depth | View::HitCost | View::Materials)
+        in_view!(self, V => V::SHOWS_FEATURES)
+    }
+
+    /// Whether it shows radiance, and so terms of its series too.
+    pub fn shows_light(self) -> bool {
+        in_view!(self, V => V::SHOWS_LIGHT)
+    }
+
+    /// Whether their histogram belongs to it.
+    pub fn has_scores(self) -> bool {
+        in_view!(self, V => V::HAS_SCORES)
+    }
+}
+
+/// A kind of view.
+trait Quantity {
+    const WORD: Word;
+
+    /// Whether it shows features of first hits, and not samples.
+    const SHOWS_FEATURES: bool = false;
+
+    /// Whether it shows radiance, and so terms of its series too.
+    const SHOWS_LIGHT: bool = false;
+
+    /// Whether the histogram of z-scores belongs to it.
+    const HAS_SCORES: bool = false;
+
+    /// Whether numbers have a sign: their colours run from one hue to another then.
+    const IS_SIGNED: bool = false;
+
+    /// Whether the scale is logarithmic.
+    const IS_LOG: bool = false;
+
+    /// Of numbers.
+    fn unit() -> &'static str {
+        ""
+    }
+
+    /// Advice where its data is missing.
+    fn missing() -> &'static str {
+        "Coming …"
+    }
+
+    /// The values, pixel by pixel.
+    fn field(sources: &Sources) -> Field;
+
+    /// The ends of the scale for these numbers.
+    fn ends(numbers: &[f32]) -> [f32; 2] {
+        [0.0, round_up(part_below(numbers, 1.0))]
+    }
+
+    /// Colours by name, for the legend.
+    fn entries(_sources: &Sources) -> Vec<([u8; 3], String)> {
+        Vec::new()
+    }
+
+    /// See [`draw`].
+    fn draw(settings: DisplaySettings, sources: &Sources, pixels: &mut Vec<[u8; 4]>) -> Option<(Legend, Field)> {
+        let field = Self::field(sources);
+        let is_missing = matches!(field, Field::Missing);
+        let title = if is_missing { Self::missing() } else { Self::WORD.title };
+        let scale = match &field {
+            Field::Numbers(numbers) => sources.scale.or_else(|| {
+                let map = if Self::IS_SIGNED { ColourMap::Diverging } else { settings.map };
+                Some(Scale { map, ends: Self::ends(numbers), log: Self::IS_LOG, unit: Self::unit() })
+            }),
+            _ => None,
+        };
+        let legend = Legend { title: title.to_owned(), scale, entries: Self::entries(sources) };
+        paint(&field, &legend, settings, sources, pixels);
+        Some((legend, field))
     }
 }
 
@@ -109,14 +153,12 @@ pub struct DisplaySettings {
 /// Draws a view as 8-bit sRGB, row by row from the top left, and replaces the contents of `pixels`. Returns its legend and
 /// values, except for radiance.
 pub fn draw(settings: DisplaySettings, sources: &Sources, pixels: &mut Vec<[u8; 4]>) -> Option<(Legend, Field)> {
-    if settings.view == View::Radiance {
-        to_srgb(sources.radiance.unwrap_or(&sources.frame.radiance), settings.display, pixels);
-        return None;
-    }
-    let field = Field::of(settings.view, sources);
-    let legend = Legend::of(settings, sources, &field);
+    in_view!(settings.view, V => V::draw(settings, sources, pixels))
+}
+
+fn paint(field: &Field, legend: &Legend, settings: DisplaySettings, sources: &Sources, pixels: &mut Vec<[u8; 4]>) {
     pixels.clear();
-    match &field {
+    match field {
         Field::Missing => pixels.resize(sources.frame.radiance.len(), [96, 96, 96, 255]),
         Field::Colours(colours) => pixels.extend(colours.iter().map(|[r, g, b]| [*r, *g, *b, 255])),
         Field::Numbers(numbers) => {
@@ -126,5 +168,4 @@ pub fn draw(settings: DisplaySettings, sources: &Sources, pixels: &mut Vec<[u8; 
             pixels.extend(numbers.iter().map(colour));
         }
     }
-    Some((legend, field))
 }

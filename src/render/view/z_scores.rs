@@ -3,7 +3,7 @@
 //! They follow it if there is only noise, samples are independent, and colour channels are fully correlated. The distribution is
 //! narrower for stratified and Sobol samples, whose error is smaller than their variance suggests, and for uncorrelated channels,
 //! whose errors are added as if they were correlated.
-use super::field::scores;
+use super::z_score::scores;
 use crate::render::{frame::Frame, truth::Reference};
 
 /// A histogram of z-scores.

@@ -69,9 +69,9 @@ fn remarks(request: &DisplayRequest, path: &Path) -> Vec<(&'static str, String)>
         return remarks;
     }
     if view != View::Radiance {
-        remarks.push(("view", view.name().to_owned()));
+        remarks.push(("view", view.title().to_owned()));
     }
-    if let Some(term) = request.term.as_ref().filter(|_| matches!(view, View::Radiance | View::Difference)) {
+    if let Some(term) = request.term.as_ref().filter(|_| view.shows_light()) {
         let relation = if term.up_to { "at most" } else { "exactly" };
         let bounces = if term.k == 1 { "bounce" } else { "bounces" };
         remarks.push(("light", format!("{relation} {} {bounces}, {} spp", term.k, term.of.spp)));
@@ -98,7 +98,7 @@ mod tests {
         };
         assert_eq!(said(View::Radiance, (3, true), "a.png"), ["at most 3 bounces, 9 spp"]);
         assert_eq!(said(View::Radiance, (1, false), "a.png"), ["exactly 1 bounce, 9 spp"]);
-        assert_eq!(said(View::Depth, (1, false), "a.png"), [View::Depth.name()], "no term is seen");
+        assert_eq!(said(View::Depth, (1, false), "a.png"), [View::Depth.title()], "no term is seen");
         assert!(said(View::Radiance, (3, true), "a.EXR").is_empty());
     }
 }

@@ -66,7 +66,7 @@ pub fn render(request: DisplayRequest) -> DisplayImage {
         let truth = truth?;
         Some(ReferenceComparison { rel_mse: truth.compare(frame)?.rel_mse, bias: truth.bias(frame)?.z })
     };
-    let scores = truth.filter(|_| look.view == View::ZScore).and_then(|truth| ZScoreHistogram::of(&frame, truth));
+    let scores = truth.filter(|_| look.view.has_scores()).and_then(|truth| ZScoreHistogram::of(&frame, truth));
     DisplayImage {
         comparison: compare(&frame),
         second_comparison: second.as_ref().and_then(|second| compare(second)),

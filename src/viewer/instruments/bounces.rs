@@ -75,8 +75,8 @@ pub fn show(ui: &mut Ui, bounces: &mut Bounces, frame: Option<&Frame>, view: Vie
         )
     };
     ui.label(RichText::new(text).color(ui.accent()));
-    if !matches!(view, View::Radiance | View::Difference) {
-        let view = view.name();
+    if !view.shows_light() {
+        let view = view.title();
         ui.label(
             RichText::new(format!("The view {view} is of the whole picture: choose Radiance to see bounces."))
                 .color(ui.warning()),

@@ -18,9 +18,9 @@ pub enum ReferenceSource<'a> {
 
 /// The list of views.
 pub fn choice(ui: &mut Ui, view: &mut View) {
-    let combo = ComboBox::from_id_salt("View").selected_text(view.name()).width(150.0).height(400.0).show_ui(ui, |ui| {
-        for (of, name, doc) in View::ALL {
-            ui.selectable_value(view, of, name).on_hover_text(doc);
+    let combo = ComboBox::from_id_salt("View").selected_text(view.title()).width(150.0).height(400.0).show_ui(ui, |ui| {
+        for of in View::ALL {
+            ui.selectable_value(view, of, of.title()).on_hover_text(of.word().doc);
         }
     });
     let label = ui.label("View").on_hover_text("What of the picture is shown. Never restarts the render. (V: the next one)");
@@ -88,6 +88,6 @@ fn reference_row(ui: &mut Ui, reference: &ReferenceSource) -> bool {
 /// The view after this one, or before it.
 pub fn next(view: View, back: bool) -> View {
     let count = View::ALL.len();
-    let at = View::ALL.iter().position(|(other, _, _)| *other == view).unwrap_or(0);
-    View::ALL[(at + if back { count - 1 } else { 1 }) % count].0
+    let at = View::ALL.iter().position(|other| *other == view).unwrap_or(0);
+    View::ALL[(at + if back { count - 1 } else { 1 }) % count]
 }

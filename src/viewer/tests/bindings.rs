@@ -180,13 +180,13 @@ fn what_is_shown_is_chosen_by_lists_buttons_and_keys() {
         choose(&mut window, "Tone map", name);
         assert_eq!(window.state().session.look.display.tone_map, tone_map);
     }
-    for (view, _, _) in Shown::ALL.into_iter().skip(1).chain([Shown::ALL[0]]) {
+    for view in Shown::ALL.into_iter().skip(1).chain([Shown::ALL[0]]) {
         press(&mut window, Key::V);
         assert_eq!(window.state().session.look.view, view);
     }
     window.key_press_modifiers(Modifiers::SHIFT, Key::V);
     window.run_steps(3);
-    assert_eq!(window.state().session.look.view, Shown::ALL[Shown::ALL.len() - 1].0, "the one before");
+    assert_eq!(window.state().session.look.view, Shown::ALL[Shown::ALL.len() - 1], "the one before");
     for (key, tab) in [
         (Key::F2, InstrumentTab::Convergence),
         (Key::F3, InstrumentTab::Compare),

@@ -1,0 +1,18 @@
+//! The albedo of the first surface.
+use super::{Field, Quantity, Sources};
+use crate::{declare::Word, math::colour::srgb_from_linear};
+
+pub(super) struct Albedo;
+
+impl Quantity for Albedo {
+    const WORD: Word =
+        Word { name: "albedo", title: "Albedo", doc: "The colour that the bsdf f has where a camera ray meets it first." };
+
+    const SHOWS_FEATURES: bool = true;
+
+    fn field(sources: &Sources) -> Field {
+        Field::colours_of_features(sources, |features, i| {
+            features.albedo[i].map(|c| (srgb_from_linear(f64::from(c.clamp(0.0, 1.0))) * 255.0).round() as u8)
+        })
+    }
+}

@@ -1,0 +1,19 @@
+//! The normal of the first surface.
+use super::{Field, Quantity, Sources};
+use crate::declare::Word;
+
+pub(super) struct Normals;
+
+impl Quantity for Normals {
+    const WORD: Word = Word {
+        name: "normals",
+        title: "Normals",
+        doc: "The shading normal n that a camera ray meets first: red is x, green y, blue z.",
+    };
+
+    const SHOWS_FEATURES: bool = true;
+
+    fn field(sources: &Sources) -> Field {
+        Field::colours_of_features(sources, |features, i| features.normal[i].map(|c| ((c * 0.5 + 0.5) * 255.0).round() as u8))
+    }
+}

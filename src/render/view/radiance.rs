@@ -1,0 +1,24 @@
+//! The picture itself, through exposure and tone map.
+use super::{DisplaySettings, Field, Legend, Quantity, Sources};
+use crate::{declare::Word, render::tone::to_srgb};
+
+pub(super) struct Radiance;
+
+impl Quantity for Radiance {
+    const WORD: Word = Word {
+        name: "radiance",
+        title: "Radiance",
+        doc: "The picture itself: L_o of the equation at every pixel, through exposure and tone map.",
+    };
+
+    const SHOWS_LIGHT: bool = true;
+
+    fn draw(settings: DisplaySettings, sources: &Sources, pixels: &mut Vec<[u8; 4]>) -> Option<(Legend, Field)> {
+        to_srgb(sources.radiance.unwrap_or(&sources.frame.radiance), settings.display, pixels);
+        None
+    }
+
+    fn field(_: &Sources) -> Field {
+        Field::Missing
+    }
+}
