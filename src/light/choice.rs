@@ -115,9 +115,9 @@ impl Lights {
         self.are_several() && self.selection.is_without_tree()
     }
 
-    /// Whether the background is an image, which is sampled by cells.
+    /// Whether the background is sampled by cells.
     pub fn have_cells(&self) -> bool {
-        matches!(self.background, Some(Background::Image(_)))
+        self.background.as_ref().is_some_and(Background::has_cells)
     }
 
     /// A direction towards a light.

@@ -2,9 +2,8 @@
 //!
 //! | type | file | description |
 //! |---|---|---|
-//! | emission | `emission.rs` | radiance from one or both sides of a surface, constant or textured |
-//! | background | `background.rs` | constant radiance from all directions |
-//! | image background | `image_background.rs` | an image of all directions, sampled by its radiance |
+//! | emission | `emission/` | radiance from one or both sides of a surface, constant or textured |
+//! | background | `background/` | radiance from all directions |
 //!
 //! `selection.rs` selects a light for a point, with the light tree of `tree.rs` if there are many.
 pub mod background;
@@ -12,8 +11,8 @@ mod bound;
 mod choice;
 mod coordinates;
 pub mod emission;
-pub mod image_background;
 mod lobe;
+pub mod parameters;
 mod reference_point;
 mod selection;
 mod source;
@@ -22,11 +21,10 @@ mod tests;
 mod tree;
 
 pub use self::{
-    background::Background,
+    background::{Background, image::ImageBackground},
     choice::{LightSample, Lights},
     coordinates::LightCoordinates,
     emission::{Emission, Emitters, Side},
-    image_background::ImageBackground,
     lobe::Lobe,
     reference_point::ReferencePoint,
 };

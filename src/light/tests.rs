@@ -2,7 +2,7 @@
 use glam::DVec3;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
-use super::{Background, Emission, LightCoordinates, Lights, Lobe, ReferencePoint, Side};
+use super::{Background, Emission, LightCoordinates, Lights, Lobe, ReferencePoint, Side, background::constant::ConstantRadiance};
 use crate::{
     geometry::{MISS, Motion, PrimitiveRef, Shape, Shapes},
     math::{F, M, One, U, V},
@@ -24,7 +24,7 @@ fn lights() -> (Lights, Shapes, Vec<Shapes>) {
     let shapes = shapes_of(&spheres);
     let emitters: Vec<_> =
         spheres.iter().cloned().zip(emissions).map(|(shape, emission)| (shape, STILL.clone(), emission)).collect();
-    let lights = Lights::new(&shapes, &emitters, Some(Background::Constant([0.5, 0.4, 0.6])), DVec3::ZERO);
+    let lights = Lights::new(&shapes, &emitters, Some(Background::Constant(ConstantRadiance([0.5, 0.4, 0.6]))), DVec3::ZERO);
     let alone = spheres.iter().map(|sphere| shapes_of(std::slice::from_ref(sphere))).collect();
     (lights, shapes, alone)
 }
@@ -115,6 +115,6 @@ fn directions_to_lights_are_distributed_as_their_pdf() {
 
 #[test]
 fn the_luminance_of_a_background_is_that_of_its_colour() {
-    let found = Background::Constant([0.5, 0.25, 0.125]).luminance();
+    let found = Background::Constant(ConstantRadiance([0.5, 0.25, 0.125])).luminance();
     assert!((found - (0.2126 * 0.5 + 0.7152 * 0.25 + 0.0722 * 0.125)).abs() < 1e-6, "{found}");
 }

@@ -5,11 +5,12 @@ use super::{
     Scene,
     compile::compile,
     damage::Damage,
-    description::{EmissionDescription, EmissionSource, MaterialDescription, ObjectDescription, SceneDescription},
+    description::{EmissionDescription, MaterialDescription, ObjectDescription, SceneDescription},
     diagnostic::SceneError,
 };
 use crate::{
     declare::{self, Problem},
+    light::emission::radiance::Radiance,
     material::Material,
     shape::ShapeKind,
 };
@@ -55,7 +56,7 @@ impl SceneDescription {
 impl EmissionDescription {
     /// Emission of a constant radiance, W/(m² sr), from the front.
     pub fn radiance(radiance: [f64; 3]) -> EmissionDescription {
-        EmissionDescription { source: EmissionSource::Radiance(radiance), ..EmissionDescription::default() }
+        EmissionDescription { source: Radiance { radiance }.into(), ..EmissionDescription::default() }
     }
 }
 

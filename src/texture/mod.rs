@@ -16,7 +16,7 @@ pub use self::{
     image::{Edge, ImageTexture},
 };
 use crate::{
-    declare::{Declare, Kind, Parameters, Problem},
+    declare::{Declare, Kind, Parameter, Parameters, Problem},
     math::{F, Lanes, M, U, V, colour::LUMINANCE},
 };
 
@@ -63,6 +63,9 @@ textures! {
     checker::Checker,
     noise::Noise,
 }
+
+/// Where a texture stands for a value.
+pub const TEXTURE: Parameter = Parameter::new("texture", "The name of a texture.");
 
 /// A kind of texture.
 pub trait Texturing: Kind {

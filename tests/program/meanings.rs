@@ -5,7 +5,7 @@ use glam::DVec3;
 use noisefall::{
     declare::Textured,
     geometry::Shape,
-    light::{Background, Side},
+    light::{Background, Side, background::constant::ConstantRadiance},
     material::{AlphaSource, Conductor, Dielectric, Lambertian, Material, Mirror, Plastic, Reflectance, Roughness, Stage},
     math::{F, One, V},
     sampling::{Directions, Filter, Sampler},
@@ -169,7 +169,7 @@ fn lights() {
     assert_eq!(light("emission = { radiance = 1 }\nflip = true").side, Side::Back);
     assert!(matches!(
         compiled("VIEW\nbackground.radiance = [1, 2, 3]").lights.background,
-        Some(Background::Constant([1.0, 2.0, 3.0]))
+        Some(Background::Constant(ConstantRadiance([1.0, 2.0, 3.0])))
     ));
     assert!(compiled("VIEW\nbackground.radiance = 0").lights.background.is_none());
 }

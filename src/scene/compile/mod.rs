@@ -11,7 +11,7 @@ use std::{
     sync::{Arc, OnceLock},
 };
 
-use self::{camera::camera, light::background, material::materials, object::objects, problems::Problems};
+use self::{camera::camera, material::materials, object::objects, problems::Problems};
 use super::{
     Camera, MaterialInstance, Object, RenderSettings, Scene, Truth,
     damage::Damage,
@@ -61,10 +61,8 @@ impl Parts {
         let at = Path::of;
         let camera = problems.keep(&at("camera"), || camera(&description.camera));
         let camera_motion = problems.keep(&at("camera.motion"), || motion(&description.camera.motion));
-        let background = description
-            .background
-            .as_ref()
-            .map(|described| problems.keep(&at("background"), || background(described, resources)));
+        let background =
+            description.background.as_ref().map(|described| problems.keep(&at("background"), || described.compile(resources)));
         let mut wrong = Vec::new();
         let mut textures = TextureCompiler::new(resources, &description.textures, problems.damage.names("textures"), &mut wrong);
         wrong.retain(|problem| !problems.damage.reaches(&Path(problem.path.0.iter().take(2).cloned().collect())));

@@ -1,77 +1,11 @@
-//! What emits, and what the picture must be: backgrounds, emission, truth.
-use crate::declare::{Declare, Family, OneOf, Parameter, Parameters, Range, Value};
-
-/// Of lamps, backgrounds and truths.
-const RADIANCE: Parameter = Parameter::new("radiance", "Radiance of each channel.")
-    .symbol("L_e")
-    .unit("W/(m² sr)")
-    .required()
-    .aliases("power intensity flux strength brightness watts le Le L_e color colour rgb")
-    .advice("radiance is in W/(m² sr): a flat lamp of area A with the power Φ has Φ/(π A)");
-
-const IMAGE: Parameter = Parameter::new("image", "An equirectangular picture, such as EXR or HDR; its middle is towards −z.")
-    .required()
-    .aliases("file filename src path");
-
-pub(super) const TEXTURE: Parameter = Parameter::new("texture", "The name of a texture.");
-
-/// The background of a scene file.
-#[derive(Clone, Debug, PartialEq)]
-pub enum BackgroundDescription {
-    /// The same radiance from all directions, W/(m² sr).
-    Radiance([f64; 3]),
-    /// An equirectangular image file; its centre is at −z.
-    Image {
-        /// The file, relative to the scene.
-        path: String,
-        /// Rotation about the vertical, degrees.
-        rotate: f64,
-        /// Factor of the radiance.
-        scale: f64,
+//! Emission of objects, and what the picture must be.
+use crate::{
+    declare::{Declare, OneOf, Parameter, Parameters, Range, Value},
+    light::{
+        emission::EmissionSource,
+        parameters::{IMAGE, RADIANCE},
     },
-}
-
-impl Default for BackgroundDescription {
-    fn default() -> Self {
-        BackgroundDescription::Radiance([1.0; 3])
-    }
-}
-
-impl Declare for BackgroundDescription {
-    fn parameters(&mut self, p: &mut dyn Parameters) {
-        p.one_of(self);
-    }
-}
-
-impl OneOf for BackgroundDescription {
-    const WHAT: &'static str = "background";
-
-    fn alternatives() -> Vec<Self> {
-        vec![Self::default(), BackgroundDescription::Image { path: String::new(), rotate: 0.0, scale: 1.0 }]
-    }
-
-    fn place(&self) -> usize {
-        usize::from(matches!(self, BackgroundDescription::Image { .. }))
-    }
-
-    fn name(&self) -> &'static str {
-        if self.place() == 0 { RADIANCE.key } else { IMAGE.key }
-    }
-
-    fn chosen(&mut self, p: &mut dyn Parameters) {
-        const ROTATE: Parameter =
-            Parameter::new("rotate", "Turns the picture counter-clockwise, seen from above.").unit("degrees");
-        const SCALE: Parameter = Parameter::new("scale", "Factor of its radiance.");
-        match self {
-            BackgroundDescription::Radiance(radiance) => p.colour(&RADIANCE, radiance, Range::RADIANCE),
-            BackgroundDescription::Image { path, rotate, scale } => {
-                p.value(&IMAGE, Value::File(path));
-                p.number(&ROTATE, rotate, Range::FINITE);
-                p.number(&SCALE, scale, Range::log(1e-12, 1e12));
-            }
-        }
-    }
-}
+};
 
 /// Emission of an object of a scene file.
 #[derive(Clone, Debug, PartialEq)]
@@ -84,18 +18,9 @@ pub struct EmissionDescription {
     pub scale: f64,
 }
 
-/// What an emission varies by.
-#[derive(Clone, Debug, PartialEq)]
-pub enum EmissionSource {
-    /// A constant radiance, W/(m² sr).
-    Radiance([f64; 3]),
-    /// The name of a texture.
-    Texture(String),
-}
-
 impl Default for EmissionDescription {
     fn default() -> Self {
-        EmissionDescription { source: EmissionSource::Radiance([1.0; 3]), two_sided: false, scale: 1.0 }
+        EmissionDescription { source: EmissionSource::default(), two_sided: false, scale: 1.0 }
     }
 }
 
@@ -107,29 +32,6 @@ impl Declare for EmissionDescription {
         p.one_of(&mut self.source);
         p.flag(&TWO_SIDED, &mut self.two_sided);
         p.number(&SCALE, &mut self.scale, Range::log(0.0, 1e12));
-    }
-}
-
-impl OneOf for EmissionSource {
-    const WHAT: &'static str = "emission";
-
-    fn alternatives() -> Vec<Self> {
-        vec![EmissionSource::Radiance([1.0; 3]), EmissionSource::Texture(String::new())]
-    }
-
-    fn place(&self) -> usize {
-        usize::from(matches!(self, EmissionSource::Texture(_)))
-    }
-
-    fn name(&self) -> &'static str {
-        if self.place() == 0 { RADIANCE.key } else { TEXTURE.key }
-    }
-
-    fn chosen(&mut self, p: &mut dyn Parameters) {
-        match self {
-            EmissionSource::Radiance(radiance) => p.colour(&RADIANCE, radiance, Range::RADIANCE),
-            EmissionSource::Texture(name) => p.value(&TEXTURE.required(), Value::Name(name, Family::Texture)),
-        }
     }
 }
 

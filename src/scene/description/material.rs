@@ -1,8 +1,8 @@
 //! Materials of a scene file.
-use super::light::TEXTURE;
 use crate::{
     declare::{Declare, Family, Parameter, Parameters, Range, Value},
     material::Material,
+    texture::TEXTURE,
 };
 
 /// A material of a scene file: its kind, and what any kind may have.

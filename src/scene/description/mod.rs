@@ -37,7 +37,7 @@ pub use glam::DVec3;
 
 pub use self::{
     camera::{CameraDescription, Orthographic, Projection},
-    light::{BackgroundDescription, EmissionDescription, EmissionSource, TruthDescription},
+    light::{EmissionDescription, TruthDescription},
     material::{Bump, MaterialDescription},
     object::ObjectDescription,
     render::RenderDescription,
@@ -45,6 +45,7 @@ pub use self::{
 use crate::declare::{CountRange, Declare, Parameter, Parameters, Value};
 pub use crate::{
     declare::Textured,
+    light::{background::BackgroundDescription, emission::EmissionSource},
     material::Material,
     sampling::Filter,
     scene::{Lens, RenderSettings},

@@ -10,8 +10,11 @@ mod weights;
 use std::f64::consts::{PI, TAU};
 
 use self::weights::cell_means;
+use super::{Radiant, Surrounding};
 use crate::{
-    image::Texels,
+    declare::{Declare, Kind, Parameter, Parameters, Problem, Range, Resources, Value},
+    image::{Encoding, Texels, read_light},
+    light::{ReferencePoint, parameters::IMAGE},
     math::{
         F, Lanes, Pick, U, V,
         round::floor,
@@ -23,6 +26,81 @@ use crate::{
 
 const MOST_COLUMNS: u32 = 1024;
 const MOST_ROWS: u32 = 512;
+
+/// An image of all directions; its centre is at −z.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Image {
+    /// The file, relative to the scene.
+    pub path: String,
+    /// Rotation about the vertical, degrees.
+    pub rotate: f64,
+    /// Factor of the radiance.
+    pub scale: f64,
+}
+
+impl Default for Image {
+    fn default() -> Self {
+        Image { path: String::new(), rotate: 0.0, scale: 1.0 }
+    }
+}
+
+impl Kind for Image {
+    const KIND: Parameter = IMAGE;
+
+    fn chosen(&mut self, p: &mut dyn Parameters) {
+        self.parameters(p);
+    }
+}
+
+impl Declare for Image {
+    fn parameters(&mut self, p: &mut dyn Parameters) {
+        const ROTATE: Parameter =
+            Parameter::new("rotate", "Turns the picture counter-clockwise, seen from above.").unit("degrees");
+        const SCALE: Parameter = Parameter::new("scale", "Factor of its radiance.");
+        p.value(&IMAGE, Value::File(&mut self.path));
+        p.number(&ROTATE, &mut self.rotate, Range::FINITE);
+        p.number(&SCALE, &mut self.scale, Range::log(1e-12, 1e12));
+    }
+}
+
+impl Surrounding for Image {
+    type Radiant = ImageBackground;
+
+    fn compile(&self, resources: &Resources) -> Result<Option<ImageBackground>, Problem> {
+        let picture = read_light(&resources.path(&self.path), Encoding::Srgb)
+            .map_err(|error| Problem::at("image", error.to_string(), "this picture cannot be used"))?;
+        let bytes = ImageBackground::bytes([picture.width, picture.height]);
+        resources.reserve("image", "the texels and cells of a sky", bytes)?;
+        let background = ImageBackground::new(picture, self.rotate, self.scale as f32);
+        if background.mean_luminance() == 0.0 {
+            return Err(Problem::at("image", "a background of zero power: the picture is black", "it emits nothing"));
+        }
+        Ok(Some(background))
+    }
+}
+
+impl Radiant for ImageBackground {
+    const HAS_CELLS: bool = true;
+
+    #[inline(always)]
+    fn radiance<L: Lanes>(&self, l: L, d: V<L>) -> V<L> {
+        self.radiance(l, d)
+    }
+
+    #[inline(always)]
+    fn sample<L: Lanes>(&self, l: L, _: &ReferencePoint<L>, cell: (F<L>, F<L>), u: (F<L>, F<L>)) -> (V<L>, F<L>) {
+        self.sample(l, cell, u)
+    }
+
+    #[inline(always)]
+    fn pdf<L: Lanes>(&self, l: L, _: &ReferencePoint<L>, wi: V<L>) -> F<L> {
+        self.pdf(l, wi)
+    }
+
+    fn luminance(&self) -> f32 {
+        self.mean_luminance
+    }
+}
 
 /// An image at infinity. Radiance in W·sr⁻¹·m⁻², linear Rec. 709.
 pub struct ImageBackground {

@@ -1,8 +1,28 @@
 //! Emission of surfaces: L_e(x, ω_o), the first term of the light transport equation.
+//!
+//! What an emission varies by is one file and one line of the catalogue below.
+pub mod radiance;
+pub mod texture;
+
 use crate::{
+    declare::Problem,
     math::{F, Lanes, M, Pick, U, V},
-    texture::{TextureCoordinates, Textures},
+    texture::{TextureCompiler, TextureCoordinates, Textures},
 };
+
+crate::catalogue! {
+    /// What the emission of an object varies by, as a scene describes it.
+    pub enum EmissionSource: Emit, "emission" {
+        radiance::Radiance,
+        texture::Texture,
+    }
+}
+
+/// What an emission can vary by.
+pub trait Emit {
+    /// The emission, with its radiance times `scale`.
+    fn compile(&self, scale: f32, side: Side, textures: &TextureCompiler) -> Result<Emission, Problem>;
+}
 
 /// The side of a surface that emits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,0 +1,81 @@
+//! The same radiance from all directions.
+use std::f32::consts::FRAC_1_PI;
+
+use super::{Radiant, Surrounding};
+use crate::{
+    declare::{Declare, Kind, Parameter, Parameters, Problem, Range, Resources},
+    light::{ReferencePoint, parameters::RADIANCE},
+    math::{F, Frame, Lanes, Pick, V, colour::luminance},
+    sampling::warp::cosine_hemisphere,
+};
+
+/// The same radiance from all directions.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Constant {
+    /// W/(m² sr), linear Rec. 709.
+    pub radiance: [f64; 3],
+}
+
+impl Default for Constant {
+    fn default() -> Self {
+        Constant { radiance: [1.0; 3] }
+    }
+}
+
+impl Kind for Constant {
+    const KIND: Parameter = RADIANCE;
+
+    fn chosen(&mut self, p: &mut dyn Parameters) {
+        self.parameters(p);
+    }
+}
+
+impl Declare for Constant {
+    fn parameters(&mut self, p: &mut dyn Parameters) {
+        p.colour(&RADIANCE, &mut self.radiance, Range::RADIANCE);
+    }
+}
+
+impl Surrounding for Constant {
+    type Radiant = ConstantRadiance;
+
+    fn compile(&self, _: &Resources) -> Result<Option<ConstantRadiance>, Problem> {
+        let radiance = self.radiance.map(|x| x as f32);
+        Ok((radiance != [0.0; 3]).then_some(ConstantRadiance(radiance)))
+    }
+}
+
+/// The same radiance from all directions, W·sr⁻¹·m⁻². It is sampled in proportion to the cosine, on both sides of the surface alike if
+/// the surface transmits.
+pub struct ConstantRadiance(pub [f32; 3]);
+
+impl Radiant for ConstantRadiance {
+    #[inline(always)]
+    fn radiance<L: Lanes>(&self, l: L, _: V<L>) -> V<L> {
+        V::splat(l, self.0)
+    }
+
+    #[inline(always)]
+    fn sample<L: Lanes>(&self, l: L, at: &ReferencePoint<L>, _: (F<L>, F<L>), u: (F<L>, F<L>)) -> (V<L>, F<L>) {
+        let behind = u.0.ge(l.f(0.5)) & at.transmits;
+        let folded = behind.pick(u.0 * 2.0 - 1.0, u.0 * 2.0);
+        let local = cosine_hemisphere((at.transmits.pick(folded, u.0), u.1));
+        let wi = Frame::new(at.n).world_from_local(V { z: behind.pick(-local.z, local.z), ..local });
+        (wi, cosine_pdf(at, wi))
+    }
+
+    #[inline(always)]
+    fn pdf<L: Lanes>(&self, _: L, at: &ReferencePoint<L>, wi: V<L>) -> F<L> {
+        cosine_pdf(at, wi)
+    }
+
+    fn luminance(&self) -> f32 {
+        luminance(self.0)
+    }
+}
+
+#[inline(always)]
+fn cosine_pdf<L: Lanes>(at: &ReferencePoint<L>, wi: V<L>) -> F<L> {
+    let cos = wi.dot(at.n);
+    at.transmits.pick(cos.abs() * (0.5 * FRAC_1_PI), cos.max(cos.splat(0.0)) * FRAC_1_PI)
+}

@@ -1,0 +1,118 @@
+//! The background: radiance along rays that hit no surface.
+//!
+//! A background is one file and one line of the catalogue below. Its file holds the description, with its parameters, and the
+//! [`Radiant`] that the renderer looks up.
+pub mod constant;
+pub mod image;
+
+use super::ReferencePoint;
+use crate::{
+    declare::{Declare, Kind, Parameters, Problem, Resources},
+    math::{F, Lanes, V},
+};
+
+macro_rules! backgrounds {
+    ($($module:ident::$Kind:ident),+ $(,)?) => {
+        crate::catalogue! {
+            /// The background as a scene describes it.
+            pub enum BackgroundDescription: Declare, "background" { $($module::$Kind),+ }
+        }
+
+        impl BackgroundDescription {
+            /// The background as the renderer looks it up; `None` if it is black.
+            pub fn compile(&self, resources: &Resources) -> Result<Option<Background>, Problem> {
+                match self {
+                    $(BackgroundDescription::$Kind(kind) => kind.compile(resources).map(|found| found.map(Background::$Kind))),+
+                }
+            }
+        }
+
+        /// The background as the renderer looks it up. Radiance in W·sr⁻¹·m⁻², linear Rec. 709.
+        pub enum Background {
+            $(
+                #[doc = concat!("The background in `", stringify!($module), ".rs`.")]
+                $Kind(<$module::$Kind as Surrounding>::Radiant)
+            ),+
+        }
+
+        macro_rules! in_background {
+            ($background:expr, $radiant:ident => $call:expr) => {
+                match $background {
+                    $(Background::$Kind($radiant) => $call),+
+                }
+            };
+        }
+    };
+}
+
+backgrounds! {
+    constant::Constant,
+    image::Image,
+}
+
+/// A kind of background.
+pub trait Surrounding: Kind {
+    /// What the renderer looks up.
+    type Radiant: Radiant;
+
+    /// The background as the renderer looks it up; `None` if it is black.
+    fn compile(&self, resources: &Resources) -> Result<Option<Self::Radiant>, Problem>;
+}
+
+/// Light from all directions.
+pub trait Radiant {
+    /// Whether samples read the coordinates of a cell.
+    const HAS_CELLS: bool = false;
+
+    /// Radiance from the unit direction `d`.
+    fn radiance<L: Lanes>(&self, l: L, d: V<L>) -> V<L>;
+
+    /// Samples a unit direction, and returns it with its pdf per solid angle.
+    fn sample<L: Lanes>(&self, l: L, at: &ReferencePoint<L>, cell: (F<L>, F<L>), u: (F<L>, F<L>)) -> (V<L>, F<L>);
+
+    /// The pdf of [`Radiant::sample`] at the unit direction `wi`, per solid angle.
+    fn pdf<L: Lanes>(&self, l: L, at: &ReferencePoint<L>, wi: V<L>) -> F<L>;
+
+    /// Mean luminance over all directions.
+    fn luminance(&self) -> f32;
+}
+
+impl Background {
+    /// Radiance from the unit direction `d`.
+    #[inline(always)]
+    pub fn radiance<L: Lanes>(&self, l: L, d: V<L>) -> V<L> {
+        in_background!(self, background => Radiant::radiance(background, l, d))
+    }
+
+    /// Samples a unit direction, and returns it with its pdf per solid angle. Only backgrounds that [have cells](Self::has_cells) read
+    /// `cell`.
+    #[inline(always)]
+    pub(super) fn sample<L: Lanes>(&self, l: L, at: &ReferencePoint<L>, cell: (F<L>, F<L>), u: (F<L>, F<L>)) -> (V<L>, F<L>) {
+        in_background!(self, background => Radiant::sample(background, l, at, cell, u))
+    }
+
+    /// The pdf of [`Background::sample`] at the unit direction `wi`, per solid angle.
+    #[inline(always)]
+    pub(super) fn pdf<L: Lanes>(&self, l: L, at: &ReferencePoint<L>, wi: V<L>) -> F<L> {
+        in_background!(self, background => Radiant::pdf(background, l, at, wi))
+    }
+
+    /// Mean luminance over all directions.
+    pub fn luminance(&self) -> f32 {
+        in_background!(self, background => background.luminance())
+    }
+
+    /// Whether it is sampled by cells.
+    pub fn has_cells(&self) -> bool {
+        fn has_cells<R: Radiant>(_: &R) -> bool {
+            R::HAS_CELLS
+        }
+        in_background!(self, background => has_cells(background))
+    }
+}
+
+impl Declare for BackgroundDescription {
+    fn parameters(&mut self, p: &mut dyn Parameters) {
+        p.one_of(self);
+    }
+}
