@@ -4,7 +4,7 @@ use std::sync::Arc;
 use noisefall::render::{
     Frame,
     truth::Reference,
-    view::{Field, Legend, Scale, Sources, View, ZScoreHistogram, draw},
+    view::{Field, Legend, Scale, Sources, ZScoreHistogram, draw},
 };
 
 use super::display_request::{BounceTerm, DisplayRequest};
@@ -104,7 +104,10 @@ fn image(frame: &Frame, pixels: &[[u8; 4]], most_side: usize) -> egui::ColorImag
 
 #[cfg(test)]
 mod tests {
-    use noisefall::render::{Series, view::DisplaySettings};
+    use noisefall::render::{
+        Series,
+        view::{DisplaySettings, View},
+    };
 
     use super::{super::display_request::tests::frame, super::display_request::tests::request, *};
 

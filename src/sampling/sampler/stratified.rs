@@ -5,14 +5,16 @@
 //! order.
 use super::{
     bits::{even_bits, owen_reversed, reverse},
-    dimension::Dimension,
-    hash::{hash, unit},
     points::{Points, SampleKeys},
     sobol::Sobol,
 };
 use crate::{
     declare::Word,
     math::{F, Lanes},
+    sampling::{
+        dimension::Dimension,
+        hash::{hash, unit},
+    },
 };
 
 pub(super) struct Stratified;

@@ -8,14 +8,16 @@
 //! blue noise fades as samples are added. Beyond the third surface, paths differ too much for blue noise.
 use super::{
     bits::{reverse, spread_bits},
-    dimension::Dimension,
-    hash::{hash_one, unit},
     points::{Points, SampleKeys},
     sobol,
 };
 use crate::{
     declare::Word,
     math::{F, Lanes, U},
+    sampling::{
+        dimension::Dimension,
+        hash::{hash_one, unit},
+    },
 };
 
 pub(super) struct BlueNoise;

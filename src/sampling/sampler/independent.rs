@@ -1,12 +1,12 @@
 //! Independent uniform random numbers: plain Monte Carlo integration, whose variance is known exactly.
-use super::{
-    dimension::Dimension,
-    hash::{GOLDEN, hash, unit},
-    points::{Points, SampleKeys},
-};
+use super::points::{Points, SampleKeys};
 use crate::{
     declare::Word,
     math::{F, Lanes},
+    sampling::{
+        dimension::Dimension,
+        hash::{GOLDEN, hash, unit},
+    },
 };
 
 pub(super) struct Independent;

@@ -3,16 +3,19 @@
 //! Every coordinate is a pure function of (seed, pixel, sample index, dimension): a sample can be repeated at any time, in any
 //! order and on any thread, and has the same coordinates. The dimension follows the depth of the path, so that all paths use the
 //! same coordinate for the same decision.
-use super::{
-    blue_noise,
-    dimension::Dimension,
-    independent,
-    points::{Points, SampleKeys},
-    sobol, stratified,
-};
+//!
+//! A sampler is one file and one line of the catalogue below.
+mod bits;
+mod blue_noise;
+mod independent;
+mod points;
+mod sobol;
+mod stratified;
+
+use self::points::{Points, SampleKeys};
+use super::dimension::Dimension;
 use crate::math::{F, Lanes, U};
 
-// The catalogue: a sampler is one file and one line here.
 crate::word_kinds! {
     /// The point set of a pixel's samples. All samplers are unbiased; they differ in how fast the error falls.
     #[derive(serde::Serialize, serde::Deserialize)]
@@ -44,7 +47,7 @@ impl<L: Lanes> Stream<L> {
     #[inline(always)]
     pub fn one(&self, dimension: Dimension) -> F<L> {
         #[cfg(test)]
-        super::readings::note(self.keys.pixel, dimension.0, 1);
+        crate::sampling::readings::note(self.keys.pixel, dimension.0, 1);
         in_sampler!(self.sampler, S => S::one(&self.keys, dimension))
     }
 
@@ -52,7 +55,7 @@ impl<L: Lanes> Stream<L> {
     #[inline(always)]
     pub fn two(&self, dimension: Dimension) -> (F<L>, F<L>) {
         #[cfg(test)]
-        super::readings::note(self.keys.pixel, dimension.0, 2);
+        crate::sampling::readings::note(self.keys.pixel, dimension.0, 2);
         in_sampler!(self.sampler, S => S::two(&self.keys, dimension))
     }
 }

@@ -1,12 +1,12 @@
 //! What a sampler provides: the points of a pixel's samples, derived from hashes of seed, pixel and sample index.
-use super::{
-    bits::reverse,
-    dimension::Dimension,
-    hash::{GOLDEN, hash, hash_one},
-};
+use super::bits::reverse;
 use crate::{
     declare::Word,
     math::{F, Lanes, U},
+    sampling::{
+        dimension::Dimension,
+        hash::{GOLDEN, hash, hash_one},
+    },
 };
 
 /// The points of a sampler.

@@ -4,13 +4,15 @@
 //! B. Burley, "Practical Hash-based Owen Scrambling", JCGT 9(4), 2020: padding by shuffled index, scrambling by hash.
 use super::{
     bits::{owen_reversed, reverse, sobol_reversed},
-    dimension::Dimension,
-    hash::{hash, unit},
     points::{Points, SampleKeys},
 };
 use crate::{
     declare::Word,
     math::{F, Lanes, U},
+    sampling::{
+        dimension::Dimension,
+        hash::{hash, unit},
+    },
 };
 
 pub(super) struct Sobol;
