@@ -49,7 +49,6 @@ macro_rules! word_kinds {
             }
         }
 
-        #[expect(clippy::derivable_impls, reason = "no line of the catalogue is marked")]
         impl Default for $Family {
             fn default() -> Self {
                 $Family::$Default

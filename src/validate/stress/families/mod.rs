@@ -1,5 +1,6 @@
 //! Families of scenes, in groups of the report.
 mod contact;
+mod drawn;
 mod limits;
 mod long;
 mod matter;

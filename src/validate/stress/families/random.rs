@@ -1,11 +1,11 @@
 //! Scenes of everything there is.
 use glam::DVec3;
 
-use super::{Family, rooms::closed};
+use super::{Family, drawn, rooms::closed};
 use crate::{
-    declare::{self, Declare, OneOf, Parameters, write},
     material::Material,
-    scene::RenderSettings,
+    sampling::{Directions, Sampler},
+    scene::Estimator,
     validate::stress::{
         dice::Dice,
         trial_scene::{Expected, Furnace, TrialScene, camera_at, camera_towards, v},
@@ -15,7 +15,12 @@ use crate::{
 pub const FAMILIES: [Family; 3] = [
     Family { name: "moving", what: "rooms in which bodies and camera move, seen by a lens", scenes: 60, trial_scene: moving },
     Family { name: "anything", what: "shapes, materials, lights, cameras, settings", scenes: 300, trial_scene: anything },
-    Family { name: "declared", what: "every material and setting anywhere in its range", scenes: 200, trial_scene: declared },
+    Family {
+        name: "declared",
+        what: "every material and setting anywhere in its range, on shapes of all kinds",
+        scenes: 200,
+        trial_scene: declared,
+    },
 ];
 
 const TEXTURES: &str = "textures.fine.noise = { scale = 40.0, octaves = 6, low = 0.0, high = 1.0 }\n\
@@ -45,7 +50,7 @@ pub fn anything(dice: &mut Dice) -> TrialScene {
             materials += &format!("materials.m{i}.bump = {{ texture = 'fine', height = {:?} }}\n", dice.decade(-6.0, 1.0));
         }
     }
-    let objects: String = (0..1 + dice.below(10)).map(|_| object(dice, "m", 4)).collect();
+    let objects: String = (0..1 + dice.below(10)).map(|_| object(dice, shape, "m", 4)).collect();
     let background = dice.pick(&[
         "",
         "background.radiance = 1e-9\n",
@@ -57,20 +62,14 @@ pub fn anything(dice: &mut Dice) -> TrialScene {
     TrialScene { spp: 4, ..TrialScene::of(text, Expected::Valid) }
 }
 
-/// Materials and settings as their declarations draw them, on shapes of all kinds.
+/// Materials, shapes and settings as their declarations draw them.
 fn declared(dice: &mut Dice) -> TrialScene {
-    let mut drawn = |value: &mut dyn Declare| {
-        value.parameters(&mut declare::Dice::new(dice));
-        toml::Value::Table(write(value)).to_string()
-    };
-    let mut materials = String::new();
-    for (place, alternative) in Material::alternatives().into_iter().enumerate() {
-        materials += &format!("materials.kind{place} = {}\n", drawn(&mut OfKind(alternative)));
-    }
-    let settings = RenderSettings { max_bounces: Some(12), ..RenderSettings::default() };
-    let settings = drawn(&mut { settings });
-    let count = Material::alternatives().len();
-    let objects: String = (0..1 + dice.below(8)).map(|_| object(dice, "kind", count)).collect();
+    let materials = drawn::one_of_each::<Material>(dice);
+    let count = materials.len();
+    let materials: String =
+        materials.into_iter().enumerate().map(|(place, drawn)| format!("materials.kind{place} = {drawn}\n")).collect();
+    let settings = drawn::settings(dice);
+    let objects: String = (0..1 + dice.below(8)).map(|_| object(dice, drawn::shape, "kind", count)).collect();
     let text = format!(
         "camera = {{ {} }}\nrender = {settings}\nbackground.radiance = 1.0\n{TEXTURES}{materials}{objects}",
         camera(dice)
@@ -106,9 +105,9 @@ fn motion(dice: &mut Dice) -> String {
 }
 
 fn settings(dice: &mut Dice) -> String {
-    let estimator = dice.pick(&["path", "light", "mis"]);
-    let sampler = dice.pick(&["independent", "stratified", "sobol", "bluenoise"]);
-    let directions = dice.pick(&["uniform", "cosine", "bsdf"]);
+    let estimator = dice.pick(&Estimator::ALL).name();
+    let sampler = dice.pick(&Sampler::ALL).name();
+    let directions = dice.pick(&Directions::ALL).name();
     let roulette = dice.pick(&["'throughput'", "{ fixed = 0.01 }", "{ fixed = 0.9 }", "{ throughput = { start = 1 } }"]);
     let seed = dice.below(1 << 20);
     let reuse = dice.pick(&["on", "off"]);
@@ -133,16 +132,7 @@ fn material(dice: &mut Dice) -> String {
     }
 }
 
-/// A material whose kind is not drawn, but all of its parameters are.
-struct OfKind(Material);
-
-impl Declare for OfKind {
-    fn parameters(&mut self, p: &mut dyn Parameters) {
-        self.0.chosen(p);
-    }
-}
-
-fn object(dice: &mut Dice, material: &str, count: usize) -> String {
+fn object(dice: &mut Dice, shape: fn(&mut Dice, DVec3, f64) -> String, material: &str, count: usize) -> String {
     let size = dice.decade(-4.0, 1.0);
     let center = dice.in_ball() * 3.0;
     let mut text = format!("[[objects]]\n{}\n", shape(dice, center, size));
