@@ -9,6 +9,7 @@ mod collision;
 mod fault;
 mod features;
 mod intersect;
+mod light_sample;
 mod media;
 mod normal_mapping;
 pub mod queue;

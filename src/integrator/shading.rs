@@ -1,6 +1,7 @@
 //! The computations of shading: a light sample, the next direction, and Russian roulette. [`super::shade`] queues the results;
 //! [`super::replay`] records the terms.
 use super::{
+    light_sample::sample_light,
     media::beyond,
     queue::Queue,
     records::{Detail, Hit, Path, Shadow},
@@ -8,7 +9,7 @@ use super::{
     work::Work,
 };
 use crate::{
-    light::{LightCoordinates, LightSample, Lobe, ReferencePoint},
+    light::{LightSample, Lobe, ReferencePoint},
     material::{Bsdf, BsdfSample, Local, Shade, Stage},
     math::{F, Frame, Lanes, M, Pick, U, V},
     sampling::{Dimension, Stream},
@@ -76,16 +77,9 @@ impl<'a, L: Lanes, K: Shade> Shading<'a, L, K> {
     #[inline(always)]
     pub fn sample_light(&self, l: L, work: &Work) -> LightEstimate<L> {
         let Shading { hit, vertex, bsdf, stream, reflection, .. } = self;
-        let lights = &work.scene.lights;
-        let unused = l.f(0.0);
-        let coordinates = LightCoordinates {
-            choice: if lights.are_several() { stream.one(Dimension::light_choice(*reflection)) } else { unused },
-            cell: if lights.have_cells() { stream.two(Dimension::cell(*reflection)) } else { (unused, unused) },
-            place: stream.two(Dimension::light(*reflection)),
-        };
         let lobe = if K::GLOSSY && work.heeds_lobes() { Some(self.lobe(l)) } else { None };
         let at = ReferencePoint { p: hit.p, n: vertex.n, transmits: if K::TRANSMITS { l.first(L::N) } else { l.first(0) }, lobe };
-        let sample = lights.sample(l, &work.scene.shapes, &at, work.time(l, hit.slot), &coordinates);
+        let sample = sample_light(l, work, &at, stream, hit.slot, *reflection);
         let wi = vertex.frame.local_from_world(sample.wi);
         let (f_cos, pdf) = bsdf.eval(vertex.wo, wi);
         let (o, consistent) = vertex.leave::<K>(hit, sample.wi, wi.z);
