@@ -5,6 +5,7 @@
 //! it (the sampler's dimension, the cap, whether roulette has begun) is decided once per stage and not once per path.
 mod batch;
 mod collision;
+mod coordinates;
 #[cfg(test)]
 mod fault;
 mod features;

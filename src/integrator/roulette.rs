@@ -3,7 +3,6 @@
 //! A path survives with probability p and is then weighted by 1/p: the mean is that of the infinite path, at finite cost.
 use crate::{
     math::{F, Lanes, M, V},
-    sampling::{Dimension, Stream},
     scene::Roulette,
 };
 
@@ -16,25 +15,21 @@ pub(super) struct Survival<L: Lanes> {
     pub probability: F<L>,
 }
 
-/// Plays Russian roulette after the `reflection`-th reflection. Roulette by throughput uses the throughput times `scale`.
+/// Plays Russian roulette after the `reflection`-th reflection with the random number `u`, which is read if roulette
+/// [is played](Roulette::is_played). Roulette by throughput uses the throughput times `scale`.
 #[inline(always)]
 pub(super) fn survive<L: Lanes>(
     l: L,
     roulette: Roulette,
     reflection: u32,
-    stream: &Stream<L>,
+    u: F<L>,
     throughput: V<L>,
     scale: F<L>,
 ) -> Survival<L> {
-    match roulette.probability(l, reflection, throughput, scale) {
-        Some(p) => play(reflection, stream, throughput, p),
+    if !roulette.is_played(reflection) {
         // Below the normal numbers an albedo above 1/2 rounds the throughput back to what it was: such a path would never end.
-        None => Survival { alive: throughput.max_component().above(f32::MIN_POSITIVE), throughput, probability: l.f(1.0) },
+        return Survival { alive: throughput.max_component().above(f32::MIN_POSITIVE), throughput, probability: l.f(1.0) };
     }
-}
-
-#[inline(always)]
-fn play<L: Lanes>(reflection: u32, stream: &Stream<L>, throughput: V<L>, p: F<L>) -> Survival<L> {
-    let u = stream.one(Dimension::roulette(reflection));
+    let p = roulette.probability(l, throughput, scale);
     Survival { alive: u.lt(p), throughput: throughput * (1.0 / p), probability: p }
 }

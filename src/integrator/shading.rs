@@ -1,6 +1,7 @@
 //! The computations of shading: a light sample, the next direction, and Russian roulette. [`super::shade`] queues the results;
 //! [`super::replay`] records the terms.
 use super::{
+    coordinates::ReflectionCoordinates,
     light_sample::sample_light,
     media::beyond,
     queue::Queue,
@@ -12,8 +13,7 @@ use crate::{
     light::{LightSample, Lobe, ReferencePoint},
     material::{Bsdf, BsdfSample, Local, Shade, Stage},
     math::{F, Frame, Lanes, M, Pick, U, V},
-    sampling::{Dimension, Stream},
-    scene::surface,
+    scene::{Estimator, surface},
 };
 
 /// A register of hits of a kind.
@@ -22,7 +22,7 @@ pub(super) struct Shading<'a, L: Lanes, K: Shade> {
     pub hit: Hit<L>,
     pub vertex: Vertex<L>,
     pub bsdf: K::Bsdf<'a, L>,
-    stream: Stream<L>,
+    pub coordinates: ReflectionCoordinates<L>,
     /// Number of reflections of the paths, including this one.
     reflection: u32,
 }
@@ -60,7 +60,7 @@ impl<'a, L: Lanes, K: Shade> Shading<'a, L, K> {
     pub fn read(l: L, work: &Work<'a>, (hits, details): (&Queue, &Queue), start: usize, reflection: u32) -> Self {
         let live = l.first(hits.len() - start);
         let hit = Hit::read(l, hits, start);
-        let stream = work.stream(l, hit.slot);
+        let coordinates = ReflectionCoordinates::of(l, work, hit.slot, reflection, K::LOBES);
         let vertex = if K::DETAILED {
             let mut detail = Detail::read(l, details, start);
             // Lanes past the end may say anything: they take a material of this kind, whose rows can be read as such.
@@ -70,16 +70,16 @@ impl<'a, L: Lanes, K: Shade> Shading<'a, L, K> {
             Vertex::plain(l, &hit)
         };
         let bsdf = K::at(l, &work.scene.surfaces.materials, work.settings.directions, &vertex.local);
-        Shading { live, hit, vertex, bsdf, stream, reflection }
+        Shading { live, hit, vertex, bsdf, coordinates, reflection }
     }
 
     /// Next-event estimation: samples a light, weights it, and tells where it may contribute.
     #[inline(always)]
     pub fn sample_light(&self, l: L, work: &Work) -> LightEstimate<L> {
-        let Shading { hit, vertex, bsdf, stream, reflection, .. } = self;
+        let Shading { hit, vertex, bsdf, coordinates, reflection, .. } = self;
         let lobe = if K::GLOSSY && work.heeds_lobes() { Some(self.lobe(l)) } else { None };
         let at = ReferencePoint { p: hit.p, n: vertex.n, transmits: if K::TRANSMITS { l.first(L::N) } else { l.first(0) }, lobe };
-        let sample = sample_light(l, work, &at, stream, hit.slot, *reflection);
+        let sample = sample_light(l, work, &at, &coordinates.stream, hit.slot, *reflection);
         let wi = vertex.frame.local_from_world(sample.wi);
         let (f_cos, pdf) = bsdf.eval(vertex.wo, wi);
         let (o, consistent) = vertex.leave::<K>(hit, sample.wi, wi.z);
@@ -93,19 +93,11 @@ impl<'a, L: Lanes, K: Shade> Shading<'a, L, K> {
         LightEstimate { shadow, may_contribute, sample, wi, f_cos, weight }
     }
 
-    /// The random numbers for the next direction and its lobe.
-    #[inline(always)]
-    pub fn coordinates(&self, l: L) -> ((F<L>, F<L>), F<L>) {
-        let lobe = if K::LOBES { self.stream.one(Dimension::lobe(self.reflection)) } else { l.f(0.0) };
-        (self.stream.two(Dimension::direction(self.reflection)), lobe)
-    }
-
     /// Samples the next direction. Shared paths are weighted later, by the albedo of each pixel that uses them.
     #[inline(always)]
     pub fn reflect(&self, l: L, work: &Work, shares: bool) -> Reflected<L> {
-        let Shading { hit, vertex, bsdf, stream, reflection, .. } = self;
-        let (u, lobe) = self.coordinates(l);
-        let sample = bsdf.sample(vertex.wo, u, lobe);
+        let Shading { hit, vertex, bsdf, coordinates, reflection, .. } = self;
+        let sample = bsdf.sample(vertex.wo, coordinates.direction, coordinates.lobe);
         #[cfg(test)]
         let sample =
             BsdfSample { weight: super::fault::spoil(work.settings.fault, *reflection, sample.weight, sample.wi.z), ..sample };
@@ -118,7 +110,7 @@ impl<'a, L: Lanes, K: Shade> Shading<'a, L, K> {
         let (o, consistent) = vertex.leave::<K>(hit, d, sample.wi.z);
         let judged = K::roulette_scale(bsdf, vertex.local.front, sample.wi.z);
         let throughput = if shares { hit.throughput } else { hit.throughput * sample.weight };
-        let survival = survive(l, work.settings.roulette, *reflection, stream, throughput, judged);
+        let survival = survive(l, work.settings.roulette, *reflection, coordinates.roulette, throughput, judged);
         #[cfg(test)]
         let survival = match work.settings.fault {
             Some(crate::scene::InjectedFault::NoReweighting) => Survival { throughput, ..survival },

@@ -4,6 +4,7 @@ use crate::{
     geometry::{MISS, PrimitiveRef},
     integrator::{
         batch::Batch,
+        coordinates::ReflectionCoordinates,
         media::transmittance,
         queue::Queue,
         records::{Detail, Hit, Inside, Path, Shadow},
@@ -165,7 +166,7 @@ where
 {
     let Reflected { sample, survival, path, goes_on } = shading.reflect(One, work, shares_first::<K>(work, batch.bounce));
     let delta = sample.delta.0;
-    let (u, lobe) = shading.coordinates(One);
+    let ReflectionCoordinates { direction: u, lobe, .. } = shading.coordinates;
     let cos = sample.wi.z.abs();
     let (f_cos, _) = shading.bsdf.eval(shading.vertex.wo, sample.wi);
     let f = if cos.0 > 0.0 { f_cos * (1.0 / cos) } else { f_cos };

@@ -45,8 +45,13 @@ impl Declare for Fixed {
 
 impl Survival for Fixed {
     #[inline(always)]
-    fn probability<L: Lanes>(self, l: L, _: u32, _: V<L>, _: F<L>) -> Option<F<L>> {
-        if self.survival < 1.0 { Some(l.f(self.survival)) } else { None }
+    fn is_played(self, _: u32) -> bool {
+        self.survival < 1.0
+    }
+
+    #[inline(always)]
+    fn probability<L: Lanes>(self, l: L, _: V<L>, _: F<L>) -> F<L> {
+        l.f(self.survival)
     }
 
     fn option(self) -> String {

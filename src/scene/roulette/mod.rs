@@ -26,11 +26,17 @@ impl Roulette {
     /// Lower bound of all survival probabilities: random numbers are multiples of 2⁻²³, which would round smaller ones.
     pub const LEAST: f32 = 0.01;
 
-    /// The probability to survive the `reflection`-th reflection; `None` where every path goes on that carries anything. Roulette by
-    /// throughput uses the throughput times `scale`.
+    /// Whether roulette is played after the `reflection`-th reflection. Elsewhere every path goes on that carries anything.
     #[inline(always)]
-    pub fn probability<L: Lanes>(self, l: L, reflection: u32, throughput: V<L>, scale: F<L>) -> Option<F<L>> {
-        in_roulette!(self, roulette => roulette.probability(l, reflection, throughput, scale))
+    pub fn is_played(self, reflection: u32) -> bool {
+        in_roulette!(self, roulette => roulette.is_played(reflection))
+    }
+
+    /// The probability of survival where roulette [is played](Roulette::is_played). Roulette by throughput uses the throughput times
+    /// `scale`.
+    #[inline(always)]
+    pub fn probability<L: Lanes>(self, l: L, throughput: V<L>, scale: F<L>) -> F<L> {
+        in_roulette!(self, roulette => roulette.probability(l, throughput, scale))
     }
 
     /// What the command line calls it.
@@ -73,8 +79,11 @@ impl Roulette {
 
 /// A kind of roulette.
 trait Survival: Kind {
+    /// See [`Roulette::is_played`].
+    fn is_played(self, reflection: u32) -> bool;
+
     /// See [`Roulette::probability`].
-    fn probability<L: Lanes>(self, l: L, reflection: u32, throughput: V<L>, scale: F<L>) -> Option<F<L>>;
+    fn probability<L: Lanes>(self, l: L, throughput: V<L>, scale: F<L>) -> F<L>;
 
     /// What the command line calls it.
     fn option(self) -> String {

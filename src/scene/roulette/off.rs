@@ -21,8 +21,13 @@ impl Declare for Off {
 
 impl Survival for Off {
     #[inline(always)]
-    fn probability<L: Lanes>(self, _: L, _: u32, _: V<L>, _: F<L>) -> Option<F<L>> {
-        None
+    fn is_played(self, _: u32) -> bool {
+        false
+    }
+
+    #[inline(always)]
+    fn probability<L: Lanes>(self, l: L, _: V<L>, _: F<L>) -> F<L> {
+        l.f(1.0)
     }
 
     fn words(self) -> String {

@@ -51,11 +51,13 @@ impl Declare for Throughput {
 
 impl Survival for Throughput {
     #[inline(always)]
-    fn probability<L: Lanes>(self, l: L, reflection: u32, throughput: V<L>, scale: F<L>) -> Option<F<L>> {
-        if reflection < self.start {
-            return None;
-        }
-        Some((throughput.max_component() * scale).min(l.f(Roulette::MOST)).max(l.f(Roulette::LEAST)))
+    fn is_played(self, reflection: u32) -> bool {
+        reflection >= self.start
+    }
+
+    #[inline(always)]
+    fn probability<L: Lanes>(self, l: L, throughput: V<L>, scale: F<L>) -> F<L> {
+        (throughput.max_component() * scale).min(l.f(Roulette::MOST)).max(l.f(Roulette::LEAST))
     }
 
     fn words(self) -> String {

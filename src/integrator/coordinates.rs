@@ -1,0 +1,41 @@
+//! The random numbers of a reflection, besides those of its light sample. They do not depend on the BSDF, and are computed once
+//! per SIMD level, and not once more for each shading stage.
+use fearless_simd_macros::simd;
+
+use super::work::Work;
+use crate::{
+    math::{F, Lanes, U},
+    sampling::{Dimension, Stream},
+};
+
+/// The random numbers of a reflection.
+pub(super) struct ReflectionCoordinates<L: Lanes> {
+    /// Those of the light sample are still to be read from it.
+    pub stream: Stream<L>,
+    /// Selects the next direction.
+    pub direction: (F<L>, F<L>),
+    /// Selects the lobe; 0 if there is only one.
+    pub lobe: F<L>,
+    /// Decides about survival; 0 if there is no roulette.
+    pub roulette: F<L>,
+}
+
+impl<L: Lanes> ReflectionCoordinates<L> {
+    /// The random numbers of the `reflection`-th reflection of the paths in some slots, from surfaces with several lobes or with
+    /// one.
+    #[simd]
+    pub fn of(l: L, work: &Work, slot: U<L>, reflection: u32, several_lobes: bool) -> Self {
+        let stream = work.stream(l, slot);
+        let unused = l.f(0.0);
+        ReflectionCoordinates {
+            direction: stream.two(Dimension::direction(reflection)),
+            lobe: if several_lobes { stream.one(Dimension::lobe(reflection)) } else { unused },
+            roulette: if work.settings.roulette.is_played(reflection) {
+                stream.one(Dimension::roulette(reflection))
+            } else {
+                unused
+            },
+            stream,
+        }
+    }
+}
