@@ -10,6 +10,8 @@ pub mod noise;
 #[cfg(test)]
 mod tests;
 
+use fearless_simd_macros::simd;
+
 pub use self::{
     compiler::{ColourSource, TextureCompiler},
     constant::Constant,
@@ -155,7 +157,7 @@ impl Textures {
     }
 
     /// The colour of the textures `id` in the lanes of the mask; black in the others.
-    #[inline(always)]
+    #[simd]
     pub fn colour<L: Lanes>(&self, l: L, id: U<L>, mask: M<L>, at: &TextureCoordinates<L>) -> V<L> {
         let mut found = Found { id, colour: V::splat(l, [0.0; 3]) };
         // What a texture refers to stands before it: going backwards, one pass follows any nesting.
