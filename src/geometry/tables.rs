@@ -1,4 +1,5 @@
 //! Surface data of analytic shapes: rows by primitive. [`super::lists`] has the intersection tests.
+use fearless_simd_macros::simd;
 use glam::DVec3;
 
 use super::{
@@ -95,7 +96,7 @@ impl Tables {
     }
 
     /// The surface at a point `p` of the given primitives, none of which may be [`MISS`].
-    #[inline(always)]
+    #[simd]
     pub fn surface_point<L: Lanes>(&self, l: L, primitive: U<L>, p: V<L>) -> SurfacePoint<L> {
         let normal = l.rows(&self.normals, primitive);
         let mut point = sphere::surface_point(l.rows(&self.anchors, primitive), normal, p);
@@ -114,7 +115,7 @@ impl Tables {
     }
 
     /// Surface coordinates of a point of the given primitives.
-    #[inline(always)]
+    #[simd]
     pub fn coordinates<L: Lanes>(&self, l: L, primitive: U<L>, point: &SurfacePoint<L>) -> Coordinates<L> {
         let (mut u, mut v) = sphere_uv(point.n_geometric);
         let tag = self.tag(l, primitive);
@@ -136,7 +137,7 @@ impl Tables {
     }
 
     /// (∂p/∂u, ∂p/∂v) at a point of the given primitives, in metres; neither is zero.
-    #[inline(always)]
+    #[simd]
     pub fn tangents<L: Lanes>(&self, l: L, primitive: U<L>, point: &SurfacePoint<L>) -> (V<L>, V<L>) {
         let tag = self.tag(l, primitive);
         let curvature = l.rows(&self.anchors, primitive)[3];
