@@ -1,36 +1,24 @@
 //! The queues of one thread, which hold the paths of a batch between stages.
 use super::{
-    queue::Queue,
-    records::{Detail, Hit, Inside, Path, PreviousLobe, PreviousVertex, Shadow},
+    first_hits::FirstHits,
+    queues::{HitQueues, PathQueues, ShadowQueues},
     shared::Shared,
     slots::SLOTS,
 };
 use crate::{
     material::Stage,
-    math::{F, Lanes, M, MAX_LANES, One, U, V},
+    math::{F, Lanes, M, MAX_LANES, U, V},
 };
 
 /// The queues of a thread. Allocated once, reused for every tile.
 pub struct Batch {
     /// Paths of this bounce and of the next, alternating.
-    pub(super) paths: [Queue; 2],
-    /// Stored beside `paths` if lights are sampled.
-    pub(super) previous_vertices: [Queue; 2],
-    /// Stored beside `previous_vertices` in scenes with conductors and several lights.
-    pub(super) previous_lobes: [Queue; 2],
-    /// A queue for every type of BSDF.
-    pub(super) hits: [Queue; Stage::COUNT],
-    /// Stored beside `hits` for types that read it.
-    pub(super) details: [Queue; Stage::COUNT],
-    pub(super) shadows: Queue,
-    /// Stored beside `paths` and `shadows` in scenes with media.
-    pub(super) path_media: [Queue; 2],
-    pub(super) shadow_media: Queue,
-    /// Distance and primitive id of the first surface of every path of this bounce.
-    pub(super) t: Vec<f32>,
-    pub(super) primitive: Vec<f32>,
-    /// The triangle in scenes with meshes.
-    pub(super) element: Vec<f32>,
+    pub(super) paths: [PathQueues; 2],
+    /// The first surface of every path of this bounce.
+    pub(super) first_hits: FirstHits,
+    /// By stage of shading.
+    pub(super) hits: [HitQueues; Stage::COUNT],
+    pub(super) shadows: ShadowQueues,
     /// Radiance so far, per slot; then radiance to be shared, per slot.
     pub(super) radiance: Vec<[f32; 4]>,
     pub(super) shared: Shared,
@@ -44,17 +32,10 @@ pub struct Batch {
 impl Default for Batch {
     fn default() -> Self {
         Batch {
-            paths: [Path::<One>::queue(SLOTS), Path::<One>::queue(SLOTS)],
-            previous_vertices: [PreviousVertex::<One>::queue(SLOTS), PreviousVertex::<One>::queue(SLOTS)],
-            previous_lobes: [PreviousLobe::<One>::queue(SLOTS), PreviousLobe::<One>::queue(SLOTS)],
-            hits: std::array::from_fn(|_| Hit::<One>::queue(SLOTS)),
-            details: std::array::from_fn(|_| Detail::<One>::queue(SLOTS)),
-            shadows: Shadow::<One>::queue(SLOTS),
-            path_media: [Inside::<One>::queue(SLOTS), Inside::<One>::queue(SLOTS)],
-            shadow_media: Inside::<One>::queue(SLOTS),
-            t: vec![0.0; SLOTS + MAX_LANES],
-            primitive: vec![0.0; SLOTS + MAX_LANES],
-            element: vec![0.0; SLOTS + MAX_LANES],
+            paths: Default::default(),
+            first_hits: FirstHits::default(),
+            hits: Default::default(),
+            shadows: ShadowQueues::default(),
             radiance: vec![[0.0; 4]; 2 * SLOTS],
             shared: Shared::default(),
             bounce: 0,
@@ -71,7 +52,8 @@ impl Batch {
         &self.radiance[..SLOTS]
     }
 
-    pub(super) fn current(&self) -> &Queue {
+    /// The paths of this bounce.
+    pub(super) fn current(&self) -> &PathQueues {
         &self.paths[(self.bounce & 1) as usize]
     }
 }

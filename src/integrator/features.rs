@@ -8,15 +8,17 @@ use rayon::prelude::*;
 
 use super::{
     batch::Batch,
+    interaction::SurfaceInteraction,
     intersect::intersect,
+    queue::Register,
     records::{Hit, Path},
     slots::BLOCK,
     spawn::spawn,
-    surface::{IncidentPaths, SurfaceInteraction, vary},
+    variation::{IncidentPaths, vary},
     work::Work,
 };
 use crate::{
-    geometry::{MISS, PrimitiveRef},
+    geometry::{MISS, Nearest, PrimitiveRef},
     in_lanes,
     math::{F, Lanes, M, Pick, SimdLevel, V},
     memory::{self, Reservation, TooMuch},
@@ -146,11 +148,10 @@ fn look<L: Lanes>(l: L, work: &Work, batch: &mut Batch) -> Block {
 #[simd]
 fn describe<L: Lanes>(l: L, work: &Work, batch: &Batch, seen: &mut Vec<Option<PixelFeatures>>) {
     let (scene, paths) = (work.scene, batch.current());
-    for start in (0..paths.len()).step_by(L::N) {
-        let path = Path::read(l, paths, start);
-        let primitive = l.load(&batch.primitive[start..]).bits();
-        let t = l.load(&batch.t[start..]);
-        let hit = l.first(paths.len() - start) & !primitive.is(MISS);
+    for Register { start, live } in paths.registers(l) {
+        let path = Path::read(l, &paths.paths, start);
+        let Nearest { t, primitive, element } = batch.first_hits.get(l, start, scene.shapes.have_elements());
+        let hit = live & !primitive.is(MISS);
         let count = L::N.min(paths.len() - start);
         if !hit.any() {
             seen.resize(seen.len() + count, None);
@@ -160,7 +161,7 @@ fn describe<L: Lanes>(l: L, work: &Work, batch: &Batch, seen: &mut Vec<Option<Pi
         let primitive = hit.pick(primitive, l.u(0));
         let mut place = PrimitiveRef { time: work.rays.moment(l), ..PrimitiveRef::of(l, primitive) };
         if scene.shapes.have_elements() {
-            place.element = hit.pick(l.load(&batch.element[start..]).bits(), l.u(0));
+            place.element = hit.pick(element, l.u(0));
         }
         let (normal, albedo) = shading(l, scene, hit, &path, place, hit.pick(t, l.f(0.0)));
         let (t, primitive, hits) = (t.to_array(), primitive.to_array(), hit.bits());

@@ -9,11 +9,14 @@ mod coordinates;
 #[cfg(test)]
 mod fault;
 mod features;
+mod first_hits;
+mod interaction;
 mod intersect;
 mod light_sample;
 mod media;
 mod normal_mapping;
 pub mod queue;
+mod queues;
 mod records;
 mod replay;
 mod reuse;
@@ -29,6 +32,7 @@ mod surface;
 #[cfg(test)]
 mod tests;
 mod trace;
+mod variation;
 mod weight;
 mod work;
 

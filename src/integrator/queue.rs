@@ -40,6 +40,12 @@ impl Queue {
         self.len += by;
     }
 
+    /// The registers that hold its records, in order.
+    #[inline(always)]
+    pub fn registers<L: Lanes>(&self, l: L) -> Registers<L> {
+        Registers { l, start: 0, len: self.len }
+    }
+
     #[inline(always)]
     fn column(&self, column: usize, at: usize) -> &[f32] {
         &self.columns[column * self.stride + at..]
@@ -48,6 +54,37 @@ impl Queue {
     #[inline(always)]
     fn column_mut(&mut self, column: usize, at: usize) -> &mut [f32] {
         &mut self.columns[column * self.stride + at..]
+    }
+}
+
+/// A register of consecutive records, one per lane.
+#[derive(Clone, Copy)]
+pub struct Register<L: Lanes> {
+    /// Index of the first record.
+    pub start: usize,
+    /// The lanes that hold a record. The others may hold anything.
+    pub live: M<L>,
+}
+
+/// Iterates over the registers of a queue.
+pub struct Registers<L: Lanes> {
+    l: L,
+    start: usize,
+    len: usize,
+}
+
+impl<L: Lanes> Iterator for Registers<L> {
+    type Item = Register<L>;
+
+    // Without a closure, which would be compiled without the instructions of `L`.
+    #[inline(always)]
+    fn next(&mut self) -> Option<Register<L>> {
+        if self.start >= self.len {
+            return None;
+        }
+        let register = Register { start: self.start, live: self.l.first(self.len - self.start) };
+        self.start += L::N;
+        Some(register)
     }
 }
 

@@ -4,7 +4,8 @@ use super::{
     coordinates::ReflectionCoordinates,
     light_sample::sample_light,
     media::beyond,
-    queue::Queue,
+    queue::Register,
+    queues::HitQueues,
     records::{Detail, Hit, Path, Shadow},
     roulette::{Survival, survive},
     work::Work,
@@ -55,14 +56,13 @@ pub(super) fn shares_first<K: Shade>(work: &Work, bounce: u32) -> bool {
 }
 
 impl<'a, L: Lanes, K: Shade> Shading<'a, L, K> {
-    /// The hits from place `start` on.
+    /// Reads a register of hits.
     #[inline(always)]
-    pub fn read(l: L, work: &Work<'a>, (hits, details): (&Queue, &Queue), start: usize, reflection: u32) -> Self {
-        let live = l.first(hits.len() - start);
-        let hit = Hit::read(l, hits, start);
+    pub fn read(l: L, work: &Work<'a>, queues: &HitQueues, Register { start, live }: Register<L>, reflection: u32) -> Self {
+        let hit = Hit::read(l, &queues.hits, start);
         let coordinates = ReflectionCoordinates::of(l, work, hit.slot, reflection, K::LOBES);
         let vertex = if K::DETAILED {
-            let mut detail = Detail::read(l, details, start);
+            let mut detail = Detail::read(l, &queues.details, start);
             // Lanes past the end may say anything: they take a material of this kind, whose rows can be read as such.
             detail.surface = live.pick(detail.surface, l.u(detail.surface.to_array()[0]));
             Vertex::detailed(&hit, &detail)

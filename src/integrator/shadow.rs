@@ -6,9 +6,9 @@ use fearless_simd_macros::simd;
 
 use super::{
     batch::{Batch, add},
+    interaction::emission_texture,
     media::transmittance,
-    records::{Inside, Shadow},
-    surface::emission_texture,
+    records::Shadow,
     work::Work,
 };
 use crate::{
@@ -18,20 +18,15 @@ use crate::{
 
 #[simd]
 pub(super) fn shadow<L: Lanes>(l: L, work: &Work, batch: &mut Batch) {
-    let Batch { shadows, shadow_media, radiance, .. } = batch;
-    for start in (0..shadows.len()).step_by(L::N) {
-        let live = l.first(shadows.len() - start);
-        let shadow = Shadow::read(l, shadows, start);
-        let mut media = l.u(0);
-        if work.has_media() {
-            media = live.pick(Inside::read(l, shadow_media, start).media, l.u(0));
-        }
-        let (seen, light) = arriving(l, work, live, &shadow, media);
+    let Batch { shadows, radiance, .. } = batch;
+    for at in shadows.registers(l) {
+        let shadow = Shadow::read(l, &shadows.shadows, at.start);
+        let media = if work.has_media() { shadows.media(l, at) } else { l.u(0) };
+        let (seen, light) = arriving(l, work, at.live, &shadow, media);
         add(radiance, seen, shadow.slot, light);
     }
     batch.rays += shadows.len() as u64;
     shadows.clear();
-    shadow_media.clear();
 }
 
 /// The visible light samples in the lanes of `live`, and their radiance after the transmittance of `media`, in which they start,

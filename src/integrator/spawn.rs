@@ -15,7 +15,6 @@ use crate::{
 pub(super) fn spawn<L: Lanes>(l: L, work: &Work, batch: &mut Batch) {
     batch.bounce = 0;
     batch.paths[0].clear();
-    batch.path_media[0].clear();
     batch.radiance.fill([0.0; 4]);
     if work.shares() {
         batch.shared.clear();
@@ -34,9 +33,9 @@ pub(super) fn spawn<L: Lanes>(l: L, work: &Work, batch: &mut Batch) {
             work.rays.through(l, x, y)
         };
         let (o, d) = if work.rays.move_in_time() { work.rays.carried(l, (o, d), work.time(l, slot)) } else { (o, d) };
-        Path { o, d, throughput: V::splat(l, [1.0; 3]), slot }.push(inside, &mut batch.paths[0]);
+        Path { o, d, throughput: V::splat(l, [1.0; 3]), slot }.push(inside, &mut batch.paths[0].paths);
         if work.has_media() {
-            Inside { media: l.u(work.rays.media) }.push(inside, &mut batch.path_media[0]);
+            Inside { media: l.u(work.rays.media) }.push(inside, &mut batch.paths[0].media);
         }
     }
 }

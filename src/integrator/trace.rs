@@ -4,7 +4,7 @@ use fearless_simd_macros::simd;
 use super::{
     batch::Batch,
     intersect::intersect,
-    queue::Queue,
+    queues::HitQueues,
     records::Path,
     reuse::share,
     shade::shade,
@@ -53,7 +53,7 @@ impl Observer for Segments {
         const ACROSS: u32 = TILE / BLOCK;
         let paths = batch.current();
         for at in 0..paths.len() {
-            let (x, y) = work.place(Path::read(One, paths, at).slot);
+            let (x, y) = work.place(Path::read(One, &paths.paths, at).slot);
             self.0[(y.0 / BLOCK * ACROSS + x.0 / BLOCK) as usize] += 1;
         }
     }
@@ -95,7 +95,7 @@ pub(super) fn trace_in<L: Lanes, O: Observer>(
         }
         observer.at_surfaces(work, batch);
         if last {
-            batch.cut_paths += if cut_short { batch.hits.iter().map(Queue::len).sum::<usize>() as u64 } else { 0 };
+            batch.cut_paths += if cut_short { batch.hits.iter().map(HitQueues::len).sum::<usize>() as u64 } else { 0 };
             break;
         }
         shade_all(l, work, batch);
@@ -114,11 +114,7 @@ pub(super) fn trace_in<L: Lanes, O: Observer>(
 /// Runs the shading stages of the scene.
 #[inline(always)]
 fn shade_all<L: Lanes>(l: L, work: &Work, batch: &mut Batch) {
-    let next = ((batch.bounce + 1) & 1) as usize;
-    batch.paths[next].clear();
-    batch.previous_vertices[next].clear();
-    batch.previous_lobes[next].clear();
-    batch.path_media[next].clear();
+    batch.paths[((batch.bounce + 1) & 1) as usize].clear();
     for stage in &work.scene.surfaces.stages {
         in_stage!(stage, K => shade::<L, K>(l, work, batch));
     }

@@ -2,7 +2,8 @@
 use fearless_simd_macros::simd;
 
 use super::{
-    records::{DELTA, PreviousVertex, TRANSMITS},
+    queues::PathQueues,
+    records::{DELTA, Path, PreviousLobe, PreviousVertex, TRANSMITS},
     work::Work,
 };
 use crate::{
@@ -11,10 +12,33 @@ use crate::{
     math::{F, Lanes, Pick, V},
 };
 
+/// The weight of emitter hits at `target` of the paths from index `start` of their queue on. `target` may be
+/// [`crate::geometry::MISS`].
+///
+/// The target is passed by value; otherwise it would be kept in memory even for scenes that do not need it.
+#[inline(always)]
+pub(super) fn weight_of_hit<L: Lanes>(
+    l: L,
+    work: &Work,
+    queues: &PathQueues,
+    start: usize,
+    path: &Path<L>,
+    target: PrimitiveRef<L>,
+) -> F<L> {
+    let previous = PreviousVertex::read(l, &queues.previous_vertices, start);
+    let lobe = if work.heeds_lobes() {
+        let PreviousLobe { wo, alpha } = PreviousLobe::read(l, &queues.previous_lobes, start);
+        Some(Lobe { wo, alpha })
+    } else {
+        None
+    };
+    emitter_hit_weight(l, work, &previous, lobe, path.o, path.d, &target)
+}
+
 /// The weight of the emitter hits of paths from `o` in the direction `d` at `target`, whose primitive may be
 /// [`crate::geometry::MISS`].
 #[simd]
-pub(super) fn emitter_hit_weight<L: Lanes>(
+fn emitter_hit_weight<L: Lanes>(
     l: L,
     work: &Work,
     previous: &PreviousVertex<L>,

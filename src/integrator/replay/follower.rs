@@ -1,22 +1,24 @@
 //! Records the path of one slot while a batch is traced with one lane.
 use super::terms::{EmitterHit, Outcome, Reflection, SampledLight, Surface, Vertex};
 use crate::{
-    geometry::{MISS, PrimitiveRef},
+    geometry::{MISS, Nearest, PrimitiveRef},
     integrator::{
         batch::Batch,
         coordinates::ReflectionCoordinates,
+        interaction::{SurfaceInteraction, emitted, interact},
         media::transmittance,
-        queue::Queue,
-        records::{Detail, Hit, Inside, Path, Shadow},
+        queue::{Queue, Register},
+        queues::HitQueues,
+        records::{Detail, Hit, Path, Shadow},
         shading::{LightEstimate, Reflected, Shading, shares_first},
         shadow::arriving,
         slots::SLOTS,
-        surface::{SurfaceInteraction, emitted, interact, weight},
         trace::Observer,
+        weight::weight_of_hit,
         work::Work,
     },
     material::{Bsdf, Lobes, Shade, Stage, in_stage},
-    math::{F, Lanes, M, One, U, V},
+    math::{F, M, One, U, V},
 };
 
 const BLACK: [f32; 3] = [0.0; 3];
@@ -32,7 +34,7 @@ pub(super) struct Follower {
 impl Observer for Follower {
     fn at_surfaces(&mut self, work: &Work, batch: &Batch) {
         let paths = batch.current();
-        let Some(at) = self.find(paths, |at| Path::read(One, paths, at).slot) else { return };
+        let Some(at) = self.find(&paths.paths, |at| Path::read(One, &paths.paths, at).slot) else { return };
         let vertex =
             if work.scene.is_plain() { self.arrive::<false>(work, batch, at) } else { self.arrive::<true>(work, batch, at) };
         self.vertices.push(vertex);
@@ -62,12 +64,13 @@ impl Follower {
 
     /// Records the path at index `at` of its queue, which hits a surface or leaves the scene.
     fn arrive<const VARIED: bool>(&mut self, work: &Work, batch: &Batch, at: usize) -> Vertex {
-        let path = Path::read(One, batch.current(), at);
-        let t = One.load(&batch.t[at..]);
-        let primitive = One.load(&batch.primitive[at..]).bits();
+        let paths = batch.current();
+        let path = Path::read(One, &paths.paths, at);
+        let nearest = batch.first_hits.get(One, at, VARIED && work.scene.shapes.have_elements());
+        let Nearest { t, primitive, .. } = nearest;
         let object = (primitive.0 != MISS).then(|| work.scene.owners[primitive.0 as usize]);
-        let interaction = object.map(|_| interact::<One, VARIED>(One, work, &path, M(true), t, primitive, &batch.element[at..]));
-        let media = Inside::read(One, &batch.path_media[(batch.bounce & 1) as usize], at).media;
+        let interaction = object.map(|_| interact::<One, VARIED>(One, work, &path, M(true), &nearest));
+        let media = paths.media(One, only(at));
         let transmittance = if VARIED && work.has_media() { transmittance(One, work, media, t) } else { V::splat(One, WHITE) };
         let throughput = carried(work, batch, batch.bounce, &path);
         let emission = hit_emitter::<VARIED>(work, &path, interaction).map(|(radiance, place)| {
@@ -99,10 +102,10 @@ impl Follower {
     /// Geometric and shading normal, if the surface reflects.
     fn normals(&self, work: &Work, batch: &Batch) -> Option<([f32; 3], [f32; 3])> {
         let of_stage = |stage: &Stage| {
-            let hits = &batch.hits[*stage as usize];
+            let HitQueues { hits, details } = &batch.hits[*stage as usize];
             let at = self.find(hits, |at| Hit::read(One, hits, at).slot)?;
             let n = Hit::read(One, hits, at).n;
-            let shading = if *stage == Stage::Plain { n } else { Detail::read(One, &batch.details[*stage as usize], at).n };
+            let shading = if *stage == Stage::Plain { n } else { Detail::read(One, details, at).n };
             Some((n.lane(0), shading.lane(0)))
         };
         work.scene.surfaces.stages.iter().find_map(of_stage)
@@ -113,9 +116,9 @@ impl Follower {
     where
         for<'a> K::Bsdf<'a, One>: Lobes,
     {
-        let (hits, details) = (&batch.hits[K::STAGE as usize], &batch.details[K::STAGE as usize]);
-        let Some(at) = self.find(hits, |at| Hit::read(One, hits, at).slot) else { return };
-        let shading = Shading::<One, K>::read(One, work, (hits, details), at, batch.bounce + 1);
+        let queues = &batch.hits[K::STAGE as usize];
+        let Some(at) = self.find(&queues.hits, |at| Hit::read(One, &queues.hits, at).slot) else { return };
+        let shading = Shading::<One, K>::read(One, work, queues, only(at), batch.bounce + 1);
         let light = (K::SEES_LIGHTS && work.samples_lights()).then(|| self.light(work, batch, &shading));
         self.add(light.as_ref().map_or(BLACK, |light| light.contribution));
         if let Some(vertex) = self.vertices.last_mut() {
@@ -142,10 +145,10 @@ impl Follower {
             passed: BLACK,
             contribution: BLACK,
         };
-        let shadows = &batch.shadows;
-        let Some(at) = self.find(shadows, |at| Shadow::read(One, shadows, at).slot) else { return light };
-        let shadow = Shadow::read(One, shadows, at);
-        let media = Inside::read(One, &batch.shadow_media, at).media;
+        let queue = &batch.shadows.shadows;
+        let Some(at) = self.find(queue, |at| Shadow::read(One, queue, at).slot) else { return light };
+        let shadow = Shadow::read(One, queue, at);
+        let media = batch.shadows.media(One, only(at));
         let (seen, radiance) = arriving(One, work, M(true), &shadow, media);
         light.outcome = if seen.0 { Outcome::Seen } else { Outcome::Hidden };
         let nearest = work.scene.shapes.closest(One, M(true), shadow.o, shadow.d, work.time(One, shadow.slot));
@@ -157,6 +160,11 @@ impl Follower {
         }
         light
     }
+}
+
+/// The record at an index.
+fn only(start: usize) -> Register<One> {
+    Register { start, live: M(true) }
 }
 
 /// The next direction.
@@ -221,11 +229,10 @@ fn hit_emitter<const VARIED: bool>(
 
 /// The MIS weight of the emitter hit by the path at index `at` of its queue.
 fn emitter_hit_weight_of(work: &Work, batch: &Batch, at: usize, path: &Path<One>, place: PrimitiveRef<One>) -> F<One> {
-    let current = (batch.bounce & 1) as usize;
     if batch.bounce == 0 || !work.samples_lights() {
         return F(1.0);
     }
-    weight(One, work, (&batch.previous_vertices[current], &batch.previous_lobes[current]), at, path, place)
+    weight_of_hit(One, work, batch.current(), at, path, place)
 }
 
 fn surface(

@@ -1,0 +1,70 @@
+//! Surface interactions of paths, and what surfaces emit there.
+use super::{records::Path, work::Work};
+use crate::{
+    geometry::{Coordinates, Nearest, PrimitiveRef, SurfacePoint},
+    math::{F, Lanes, M, Pick, V},
+    scene::Scene,
+    texture::TextureCoordinates,
+};
+
+/// Surface interactions of paths.
+#[derive(Clone, Copy)]
+pub(super) struct SurfaceInteraction<L: Lanes> {
+    pub place: PrimitiveRef<L>,
+    pub point: SurfacePoint<L>,
+    /// Cosine between the front normal and the direction to the viewer.
+    pub cos: F<L>,
+}
+
+/// The interactions of the paths in the lanes of `hit` with their first surfaces. The other lanes use primitive 0 and must be
+/// masked.
+#[inline(always)]
+pub(super) fn interact<L: Lanes, const VARIED: bool>(
+    l: L,
+    work: &Work,
+    path: &Path<L>,
+    hit: M<L>,
+    nearest: &Nearest<L>,
+) -> SurfaceInteraction<L> {
+    let shapes = &work.scene.shapes;
+    let mut place = PrimitiveRef::of(l, hit.pick(nearest.primitive, l.u(0)));
+    if VARIED {
+        place.time = work.time(l, path.slot);
+    }
+    if VARIED && shapes.have_elements() {
+        place.element = hit.pick(nearest.element, l.u(0));
+    }
+    let p = path.o + path.d * hit.pick(nearest.t, l.f(0.0));
+    let point = if VARIED { shapes.surface_point(l, &place, p) } else { shapes.simple_point(l, place.primitive, p) };
+    SurfaceInteraction { place, point, cos: -point.n_geometric.dot(path.d) }
+}
+
+/// The radiance emitted towards the viewer in the lanes of `emits`, and the mask of those that see an emitting side.
+#[inline(always)]
+pub(super) fn emitted<L: Lanes, const VARIED: bool>(
+    l: L,
+    scene: &Scene,
+    emits: M<L>,
+    interaction: &SurfaceInteraction<L>,
+) -> (V<L>, M<L>) {
+    let emitters = &scene.lights.emitters;
+    let (mut le, seen) = emitters.radiance(l, emits, interaction.place.primitive, interaction.cos);
+    if VARIED && emitters.vary() {
+        le = le * emission_texture(l, scene, emits, &interaction.place, &interaction.point);
+    }
+    (le, seen)
+}
+
+/// The factor of textured emission at a point.
+#[inline(always)]
+pub(super) fn emission_texture<L: Lanes>(
+    l: L,
+    scene: &Scene,
+    emits: M<L>,
+    place: &PrimitiveRef<L>,
+    point: &SurfacePoint<L>,
+) -> V<L> {
+    let Coordinates { u, v } = scene.shapes.coordinates(l, place, point);
+    let at = TextureCoordinates { u, v, p: point.p };
+    scene.lights.emitters.variation(l, &scene.textures, emits, place.primitive, &at)
+}

@@ -1,0 +1,75 @@
+//! What varies over a surface: colour, roughness and shading normal at the points where paths arrive.
+use super::{
+    interaction::SurfaceInteraction,
+    normal_mapping::shading_normal,
+    records::{Detail, Hit},
+};
+use crate::{
+    geometry::Coordinates,
+    math::{Lanes, M, Pick, U, V},
+    scene::{
+        Scene,
+        surface::{FLIPPED, ONE_SIDED, SQUARED, is_set},
+    },
+    texture::TextureCoordinates,
+};
+
+/// Minimum height of the viewer over a shading normal; below it, the geometric normal is used.
+const GRAZING: f32 = 1e-3;
+
+/// Paths at a surface.
+pub(super) struct IncidentPaths<L: Lanes> {
+    pub d: V<L>,
+    pub interaction: SurfaceInteraction<L>,
+    /// Media around the paths.
+    pub media: U<L>,
+    /// See [`surface`].
+    pub word: U<L>,
+    /// The record for plain surfaces.
+    pub plain: Hit<L>,
+}
+
+impl<L: Lanes> IncidentPaths<L> {
+    /// Whether the paths are at the front, and whether the surface reflects on their side.
+    #[inline(always)]
+    pub fn sides(&self) -> (M<L>, M<L>) {
+        let front = self.interaction.cos.above(0.0) ^ is_set(self.word, FLIPPED);
+        (front, front | !is_set(self.word, ONE_SIDED))
+    }
+}
+
+/// Evaluates textures: sets the colour of the hit, and returns its details.
+#[inline(always)]
+pub(super) fn vary<L: Lanes>(l: L, scene: &Scene, incident: &IncidentPaths<L>, mask: M<L>, hit: &mut Hit<L>) -> Detail<L> {
+    let Scene { surfaces, textures, .. } = scene;
+    let IncidentPaths { d, interaction: SurfaceInteraction { place, point, cos }, media, word, .. } = incident;
+    let [mut alpha, colour_texture, alpha_texture, medium] = l.rows(&surfaces.varying, place.primitive);
+    let wo = -*d;
+    let mut n = hit.n;
+    if scene.shapes.have_elements() {
+        let smooth = scene.shapes.smooth_normal(l, place, point) * l.f(1.0).copysign(*cos);
+        n = smooth.dot(wo).above(GRAZING).pick(smooth, n);
+    }
+    if surfaces.textured || !surfaces.relief.is_empty() {
+        let Coordinates { u, v } = scene.shapes.coordinates(l, place, point);
+        let at = TextureCoordinates { u, v, p: point.p };
+        let id = colour_texture.bits();
+        let coloured = mask & !id.is(0);
+        if coloured.any() {
+            hit.colour = coloured.pick(textures.colour(l, id + u32::MAX, coloured, &at), hit.colour);
+        }
+        let id = alpha_texture.bits();
+        let rough = mask & !id.is(0);
+        if rough.any() {
+            let value = textures.height(l, id + u32::MAX, rough, &at);
+            alpha = rough.pick(is_set(*word, SQUARED).pick(value * value, value), alpha);
+        }
+        if !surfaces.relief.is_empty() {
+            let side = l.f(1.0).copysign(*cos);
+            let tilted = shading_normal(l, scene, place, mask, point, n * side, &at) * side;
+            // A normal that the viewer could not see is not used.
+            n = tilted.dot(wo).above(GRAZING).pick(tilted, n);
+        }
+    }
+    Detail { wo, n, alpha, error: point.error, surface: *word, media: *media, medium: medium.bits() }
+}
