@@ -1,5 +1,9 @@
 //! Records the path of one slot while a batch is traced with one lane.
-use super::terms::{EmitterHit, Outcome, Reflection, SampledLight, Surface, Vertex};
+use super::{
+    light::sampled_light,
+    terms::{EmitterHit, Reflection, Surface, Vertex},
+    throughput::{BLACK, WHITE, carried},
+};
 use crate::{
     geometry::{MISS, Nearest, PrimitiveRef},
     integrator::{
@@ -10,8 +14,7 @@ use crate::{
         queue::{Queue, Register},
         queues::HitQueues,
         records::{Detail, Hit, Path, Shadow},
-        shading::{LightEstimate, Reflected, Shading, shares_first},
-        shadow::arriving,
+        shading::{Reflected, Shading, shares_first},
         slots::SLOTS,
         trace::Observer,
         weight::weight_of_hit,
@@ -20,9 +23,6 @@ use crate::{
     material::{Bsdf, Lobes, Shade, Stage, in_stage},
     math::{F, M, One, U, V},
 };
-
-const BLACK: [f32; 3] = [0.0; 3];
-const WHITE: [f32; 3] = [1.0; 3];
 
 pub(super) struct Follower {
     slot: u32,
@@ -119,46 +119,17 @@ impl Follower {
         let queues = &batch.hits[K::STAGE as usize];
         let Some(at) = self.find(&queues.hits, |at| Hit::read(One, &queues.hits, at).slot) else { return };
         let shading = Shading::<One, K>::read(One, work, queues, only(at), batch.bounce + 1);
-        let light = (K::SEES_LIGHTS && work.samples_lights()).then(|| self.light(work, batch, &shading));
+        let light = (K::SEES_LIGHTS && work.samples_lights()).then(|| {
+            let queue = &batch.shadows.shadows;
+            let queued = self.find(queue, |at| Shadow::read(One, queue, at).slot);
+            sampled_light(work, batch, &shading.sample_light(One, work), queued.map(only))
+        });
         self.add(light.as_ref().map_or(BLACK, |light| light.contribution));
         if let Some(vertex) = self.vertices.last_mut() {
             vertex.light = light;
             vertex.reflection = Some(reflection(work, batch, &shading));
             vertex.radiance = self.radiance;
         }
-    }
-
-    /// The light sample, and what becomes of it if it was queued.
-    fn light<K: Shade>(&self, work: &Work, batch: &Batch, shading: &Shading<One, K>) -> SampledLight {
-        let LightEstimate { sample, f_cos, weight, .. } = shading.sample_light(One, work);
-        let target = sample.target.0;
-        let place = |light: u32| work.scene.lights.place(One, U(light), F(0.0));
-        let mut light = SampledLight {
-            direction: sample.wi.lane(0),
-            object: (target != MISS).then(|| work.scene.owners[place(target).primitive.0 as usize]),
-            pdf: sample.pdf.0,
-            f_cos: f_cos.lane(0),
-            weight: if sample.pdf.0 > 0.0 { weight.0 } else { 0.0 },
-            radiance: sample.radiance.lane(0),
-            outcome: Outcome::Void,
-            distance: None,
-            passed: BLACK,
-            contribution: BLACK,
-        };
-        let queue = &batch.shadows.shadows;
-        let Some(at) = self.find(queue, |at| Shadow::read(One, queue, at).slot) else { return light };
-        let shadow = Shadow::read(One, queue, at);
-        let media = batch.shadows.media(One, only(at));
-        let (seen, radiance) = arriving(One, work, M(true), &shadow, media);
-        light.outcome = if seen.0 { Outcome::Seen } else { Outcome::Hidden };
-        let nearest = work.scene.shapes.closest(One, M(true), shadow.o, shadow.d, work.time(One, shadow.slot));
-        light.distance = Some(nearest.t.0).filter(|t| t.is_finite());
-        if seen.0 {
-            let (_, passed) = arriving(One, work, M(true), &Shadow { radiance: V::splat(One, WHITE), ..shadow }, media);
-            light.passed = passed.lane(0);
-            light.contribution = own(batch, shadow.slot, radiance.lane(0));
-        }
-        light
     }
 }
 
@@ -192,21 +163,6 @@ where
         goes_on: goes_on.0,
         throughput: if goes_on.0 { carried(work, batch, batch.bounce + 1, &path) } else { BLACK },
     }
-}
-
-/// The throughput of a path before a bounce. In the queues, shared paths lack the albedo of their first surface.
-fn carried(work: &Work, batch: &Batch, bounce: u32, path: &Path<One>) -> [f32; 3] {
-    let throughput = path.throughput.lane(0);
-    if bounce == 1 && work.shares() {
-        return batch.shared.weighted(path.slot.0 as usize, throughput);
-    }
-    own(batch, path.slot, throughput)
-}
-
-/// The contribution of a slot to the path's own pixel.
-fn own(batch: &Batch, slot: U<One>, colour: [f32; 3]) -> [f32; 3] {
-    let slot = slot.0 as usize;
-    if slot < SLOTS { colour } else { batch.shared.weighted(slot - SLOTS, colour) }
 }
 
 /// Emitted radiance at a hit, and its position.

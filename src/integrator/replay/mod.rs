@@ -4,8 +4,10 @@
 //! The path is traced with one lane, and a [`Follower`] reads the queues between the stages. It computes all other terms with the
 //! functions of the stages, so every term is that of the estimator, bit for bit.
 mod follower;
+mod light;
 mod samples;
 mod terms;
+mod throughput;
 
 use serde::Serialize;
 

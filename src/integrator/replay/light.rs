@@ -1,0 +1,46 @@
+//! Records a light sample and whether it arrives.
+use super::{
+    terms::{Outcome, SampledLight},
+    throughput::{BLACK, WHITE, own},
+};
+use crate::{
+    geometry::MISS,
+    integrator::{batch::Batch, queue::Register, records::Shadow, shading::LightEstimate, shadow::arriving, work::Work},
+    math::{F, M, One, U, V},
+};
+
+/// The terms of a light sample, and what becomes of it if it is queued at an index.
+pub(super) fn sampled_light(
+    work: &Work,
+    batch: &Batch,
+    LightEstimate { sample, f_cos, weight, .. }: &LightEstimate<One>,
+    queued: Option<Register<One>>,
+) -> SampledLight {
+    let target = sample.target.0;
+    let place = |light: u32| work.scene.lights.place(One, U(light), F(0.0));
+    let mut light = SampledLight {
+        direction: sample.wi.lane(0),
+        object: (target != MISS).then(|| work.scene.owners[place(target).primitive.0 as usize]),
+        pdf: sample.pdf.0,
+        f_cos: f_cos.lane(0),
+        weight: if sample.pdf.0 > 0.0 { weight.0 } else { 0.0 },
+        radiance: sample.radiance.lane(0),
+        outcome: Outcome::Void,
+        distance: None,
+        passed: BLACK,
+        contribution: BLACK,
+    };
+    let Some(at) = queued else { return light };
+    let shadow = Shadow::read(One, &batch.shadows.shadows, at.start);
+    let media = batch.shadows.media(One, at);
+    let (seen, radiance) = arriving(One, work, M(true), &shadow, media);
+    light.outcome = if seen.0 { Outcome::Seen } else { Outcome::Hidden };
+    let nearest = work.scene.shapes.closest(One, M(true), shadow.o, shadow.d, work.time(One, shadow.slot));
+    light.distance = Some(nearest.t.0).filter(|t| t.is_finite());
+    if seen.0 {
+        let (_, passed) = arriving(One, work, M(true), &Shadow { radiance: V::splat(One, WHITE), ..shadow }, media);
+        light.passed = passed.lane(0);
+        light.contribution = own(batch, shadow.slot, radiance.lane(0));
+    }
+    light
+}
