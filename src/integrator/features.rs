@@ -11,7 +11,7 @@ use super::{
     interaction::SurfaceInteraction,
     intersect::intersect,
     queue::Register,
-    records::{Hit, Path},
+    records::Path,
     slots::BLOCK,
     spawn::spawn,
     variation::{IncidentPaths, vary},
@@ -184,15 +184,9 @@ fn shading<L: Lanes>(l: L, scene: &Scene, hit: M<L>, path: &Path<L>, place: Prim
     let cos = -point.n_geometric.dot(path.d);
     let [x, y, z, word] = l.rows(&scene.surfaces.rows, place.primitive);
     let n = point.n_geometric * l.f(1.0).copysign(cos);
-    let mut record = Hit { p: point.p, n, colour: V { x, y, z }, throughput: path.throughput, slot: path.slot };
-    let incident = IncidentPaths {
-        d: path.d,
-        interaction: SurfaceInteraction { place, point, cos },
-        media: l.u(0),
-        word: word.bits(),
-        plain: record,
-    };
+    let incident =
+        IncidentPaths { d: path.d, interaction: SurfaceInteraction { place, point, cos }, media: l.u(0), word: word.bits() };
     let (_, reflects) = incident.sides();
-    let detail = vary(l, scene, &incident, hit & reflects, &mut record);
-    (detail.n, reflects.pick(record.colour, V::splat(l, [0.0; 3])))
+    let (colour, detail) = vary(l, scene, &incident, hit & reflects, V { x, y, z }, n);
+    (detail.n, reflects.pick(colour, V::splat(l, [0.0; 3])))
 }

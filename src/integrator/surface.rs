@@ -161,29 +161,36 @@ fn queue_hits<L: Lanes, const VARIED: bool>(
         shared.keep_second(kept, place, &mut plain);
     }
     if VARIED {
-        let incident = IncidentPaths { d: path.d, interaction: *interaction, media: *media, word, plain };
-        sort(l, work, queues, &incident, record, hit);
+        let incident = IncidentPaths { d: path.d, interaction: *interaction, media: *media, word };
+        sort(l, work, queues, &incident, [record, plain], hit);
     } else {
         plain.push(hit & colour.max_component().above(0.0), &mut queues[Stage::Plain as usize].hits);
     }
 }
 
-/// Queues the paths of `mask` at reflecting surfaces, by shading stage.
+/// Queues the paths of `mask` at reflecting surfaces, by shading stage. The plain stage gets its own record of them.
 #[inline(always)]
-fn sort<L: Lanes>(l: L, work: &Work, queues: &mut [HitQueues], incident: &IncidentPaths<L>, mut hit: Hit<L>, mask: M<L>) {
+fn sort<L: Lanes>(
+    l: L,
+    work: &Work,
+    queues: &mut [HitQueues],
+    incident: &IncidentPaths<L>,
+    [hit, plain]: [Hit<L>; 2],
+    mask: M<L>,
+) {
     let word = incident.word;
     let (front, reflects) = incident.sides();
     let faces = mask & reflects;
-    let detail = vary(l, work.scene, incident, faces, &mut hit);
+    let (colour, detail) = vary(l, work.scene, incident, faces, hit.colour, hit.n);
     let detail = Detail { surface: word | front.pick(l.u(FRONT), l.u(0)), ..detail };
-    let reflects = faces & (hit.colour.max_component().above(0.0) | is_set(word, SCATTERS_WHERE_BLACK));
+    let reflects = faces & (colour.max_component().above(0.0) | is_set(word, SCATTERS_WHERE_BLACK));
     for stage in &work.scene.surfaces.stages {
         let here = reflects & surface::stage(word).is(*stage as u32);
         let queues = &mut queues[*stage as usize];
         if *stage == Stage::Plain {
-            Hit { colour: hit.colour, ..incident.plain }.push(here, &mut queues.hits);
+            Hit { colour, ..plain }.push(here, &mut queues.hits);
         } else {
-            hit.push(here, &mut queues.hits);
+            Hit { colour, ..hit }.push(here, &mut queues.hits);
             detail.push(here, &mut queues.details);
         }
     }

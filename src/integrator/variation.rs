@@ -1,9 +1,5 @@
 //! What varies over a surface: colour, roughness and shading normal at the points where paths arrive.
-use super::{
-    interaction::SurfaceInteraction,
-    normal_mapping::shading_normal,
-    records::{Detail, Hit},
-};
+use super::{interaction::SurfaceInteraction, normal_mapping::shading_normal, records::Detail};
 use crate::{
     geometry::Coordinates,
     math::{Lanes, M, Pick, U, V},
@@ -23,10 +19,8 @@ pub(super) struct IncidentPaths<L: Lanes> {
     pub interaction: SurfaceInteraction<L>,
     /// Media around the paths.
     pub media: U<L>,
-    /// See [`surface`].
+    /// See [`crate::scene::surface`].
     pub word: U<L>,
-    /// The record for plain surfaces.
-    pub plain: Hit<L>,
 }
 
 impl<L: Lanes> IncidentPaths<L> {
@@ -38,14 +32,22 @@ impl<L: Lanes> IncidentPaths<L> {
     }
 }
 
-/// Evaluates textures: sets the colour of the hit, and returns its details.
+/// Evaluates textures in the lanes of `mask`, for surfaces of colour `colour` and normal `n` without them. Returns colour and
+/// details.
 #[inline(always)]
-pub(super) fn vary<L: Lanes>(l: L, scene: &Scene, incident: &IncidentPaths<L>, mask: M<L>, hit: &mut Hit<L>) -> Detail<L> {
+pub(super) fn vary<L: Lanes>(
+    l: L,
+    scene: &Scene,
+    incident: &IncidentPaths<L>,
+    mask: M<L>,
+    colour: V<L>,
+    n: V<L>,
+) -> (V<L>, Detail<L>) {
     let Scene { surfaces, textures, .. } = scene;
-    let IncidentPaths { d, interaction: SurfaceInteraction { place, point, cos }, media, word, .. } = incident;
+    let IncidentPaths { d, interaction: SurfaceInteraction { place, point, cos }, media, word } = incident;
     let [mut alpha, colour_texture, alpha_texture, medium] = l.rows(&surfaces.varying, place.primitive);
     let wo = -*d;
-    let mut n = hit.n;
+    let (mut colour, mut n) = (colour, n);
     if scene.shapes.have_elements() {
         let smooth = scene.shapes.smooth_normal(l, place, point) * l.f(1.0).copysign(*cos);
         n = smooth.dot(wo).above(GRAZING).pick(smooth, n);
@@ -56,7 +58,7 @@ pub(super) fn vary<L: Lanes>(l: L, scene: &Scene, incident: &IncidentPaths<L>, m
         let id = colour_texture.bits();
         let coloured = mask & !id.is(0);
         if coloured.any() {
-            hit.colour = coloured.pick(textures.colour(l, id + u32::MAX, coloured, &at), hit.colour);
+            colour = coloured.pick(textures.colour(l, id + u32::MAX, coloured, &at), colour);
         }
         let id = alpha_texture.bits();
         let rough = mask & !id.is(0);
@@ -71,5 +73,5 @@ pub(super) fn vary<L: Lanes>(l: L, scene: &Scene, incident: &IncidentPaths<L>, m
             n = tilted.dot(wo).above(GRAZING).pick(tilted, n);
         }
     }
-    Detail { wo, n, alpha, error: point.error, surface: *word, media: *media, medium: medium.bits() }
+    (colour, Detail { wo, n, alpha, error: point.error, surface: *word, media: *media, medium: medium.bits() })
 }
