@@ -1,4 +1,6 @@
 //! What varies over a surface: colour, roughness and shading normal at the points where paths arrive.
+use fearless_simd_macros::simd;
+
 use super::{interaction::SurfaceInteraction, normal_mapping::shading_normal, records::Detail};
 use crate::{
     geometry::Coordinates,
@@ -34,7 +36,7 @@ impl<L: Lanes> IncidentPaths<L> {
 
 /// Evaluates textures in the lanes of `mask`, for surfaces of colour `colour` and normal `n` without them. Returns colour and
 /// details.
-#[inline(always)]
+#[simd]
 pub(super) fn vary<L: Lanes>(
     l: L,
     scene: &Scene,
