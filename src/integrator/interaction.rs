@@ -1,4 +1,6 @@
 //! Surface interactions of paths, and what surfaces emit there.
+use fearless_simd_macros::simd;
+
 use super::{records::Path, work::Work};
 use crate::{
     geometry::{Coordinates, Nearest, PrimitiveRef, SurfacePoint},
@@ -50,21 +52,23 @@ pub(super) fn emitted<L: Lanes, const VARIED: bool>(
     let emitters = &scene.lights.emitters;
     let (mut le, seen) = emitters.radiance(l, emits, interaction.place.primitive, interaction.cos);
     if VARIED && emitters.vary() {
-        le = le * emission_texture(l, scene, emits, &interaction.place, &interaction.point);
+        le = le * emission_texture(l, scene, emits, interaction.place, interaction.point);
     }
     (le, seen)
 }
 
 /// The factor of textured emission at a point.
-#[inline(always)]
+///
+/// Place and point are passed by value; otherwise they would be kept in memory even for scenes that do not need it.
+#[simd]
 pub(super) fn emission_texture<L: Lanes>(
     l: L,
     scene: &Scene,
     emits: M<L>,
-    place: &PrimitiveRef<L>,
-    point: &SurfacePoint<L>,
+    place: PrimitiveRef<L>,
+    point: SurfacePoint<L>,
 ) -> V<L> {
-    let Coordinates { u, v } = scene.shapes.coordinates(l, place, point);
+    let Coordinates { u, v } = scene.shapes.coordinates(l, &place, &point);
     let at = TextureCoordinates { u, v, p: point.p };
     scene.lights.emitters.variation(l, &scene.textures, emits, place.primitive, &at)
 }

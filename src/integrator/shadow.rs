@@ -46,7 +46,7 @@ pub(super) fn arriving<L: Lanes>(l: L, work: &Work, live: M<L>, shadow: &Shadow<
         let primitive = emits.pick(primitive, l.u(0));
         let place = PrimitiveRef { primitive, element: emits.pick(element, l.u(0)), time };
         let point = scene.shapes.surface_point(l, &place, shadow.o + shadow.d * t);
-        light = light * emission_texture(l, scene, emits, &place, &point);
+        light = light * emission_texture(l, scene, emits, place, point);
     }
     (seen, light)
 }
