@@ -36,6 +36,10 @@ mod variation;
 mod weight;
 mod work;
 
+#[cfg(test)]
+pub use self::fault::trace;
+#[cfg(not(test))]
+pub use self::trace::trace;
 pub use self::{
     batch::Batch,
     collision::{clear_fraction, is_blind},
@@ -43,6 +47,6 @@ pub use self::{
     replay::{EmitterHit, End, Outcome, Reflection, Replay, SampledLight, Surface, Vertex, pixel_samples, replay},
     series::{SHARES, TERMS, Terms, trace_series},
     slots::{BLOCK, BLOCKS, TILE},
-    trace::{Interrupted, Segments, trace, trace_counting},
+    trace::{Interrupted, Segments, trace_counting},
     work::{Blocks, Work},
 };

@@ -98,9 +98,6 @@ impl<'a, L: Lanes, K: Shade> Shading<'a, L, K> {
     pub fn reflect(&self, l: L, work: &Work, shares: bool) -> Reflected<L> {
         let Shading { hit, vertex, bsdf, coordinates, reflection, .. } = self;
         let sample = bsdf.sample(vertex.wo, coordinates.direction, coordinates.lobe);
-        #[cfg(test)]
-        let sample =
-            BsdfSample { weight: super::fault::spoil(work.settings.fault, *reflection, sample.weight, sample.wi.z), ..sample };
         let mut d = vertex.frame.world_from_local(sample.wi);
         if K::DETAILED {
             // What mirrors and refracts a direction keeps the error of its length: a step of Newton's method to 1, or else it
@@ -111,11 +108,6 @@ impl<'a, L: Lanes, K: Shade> Shading<'a, L, K> {
         let judged = K::roulette_scale(bsdf, vertex.local.front, sample.wi.z);
         let throughput = if shares { hit.throughput } else { hit.throughput * sample.weight };
         let survival = survive(l, work.settings.roulette, *reflection, coordinates.roulette, throughput, judged);
-        #[cfg(test)]
-        let survival = match work.settings.fault {
-            Some(crate::scene::InjectedFault::NoReweighting) => Survival { throughput, ..survival },
-            _ => survival,
-        };
         let mut goes_on = survival.alive & consistent;
         if K::DETAILED {
             goes_on = goes_on & survival.throughput.max_component().above(0.0);

@@ -25,8 +25,8 @@ pub trait Observer {
     /// Called after the surface stage: paths at reflecting surfaces are queued.
     fn at_surfaces(&mut self, _work: &Work, _batch: &Batch) {}
 
-    /// Called after shading: light samples and the paths of the next bounce are queued.
-    fn at_shaded(&mut self, _work: &Work, _batch: &Batch) {}
+    /// Called after shading: light samples and the paths of the next bounce are queued. Faults of tests change the paths.
+    fn at_shaded(&mut self, _work: &Work, _batch: &mut Batch) {}
 }
 
 impl Observer for () {}

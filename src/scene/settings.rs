@@ -110,11 +110,7 @@ impl RenderSettings {
 
     /// The number of bounces after which every path is cut.
     pub fn last_bounce(&self) -> u32 {
-        let last = self.max_bounces.map_or(Self::LONGEST_PATH, |cap| cap.min(Self::HIGHEST_CAP));
-        // A mistake may let paths go on for ever.
-        #[cfg(test)]
-        let last = self.fault.map_or(last, |fault| last.min(60) + u32::from(fault == InjectedFault::OneBounceMore));
-        last
+        self.max_bounces.map_or(Self::LONGEST_PATH, |cap| cap.min(Self::HIGHEST_CAP))
     }
 
     /// Why the expected picture differs from the solution of the equation; `None` when it does not.

@@ -40,7 +40,7 @@ impl Observer for Follower {
         self.vertices.push(vertex);
     }
 
-    fn at_shaded(&mut self, work: &Work, batch: &Batch) {
+    fn at_shaded(&mut self, work: &Work, batch: &mut Batch) {
         for stage in &work.scene.surfaces.stages {
             in_stage!(stage, K => self.shade::<K>(work, batch));
         }
