@@ -1,4 +1,6 @@
 //! The work of a batch: one sample of each pixel of a tile, or of some blocks of pixels.
+use fearless_simd_macros::simd;
+
 use super::slots::{BLOCK, BLOCKS, SLOTS, TILE, place_in_groups};
 use crate::{
     math::{F, Lanes, M, U},
@@ -150,6 +152,12 @@ impl<'a> Work<'a> {
         if !self.rays.take_time() {
             return self.rays.moment(l);
         }
+        self.sampled_time(l, slot)
+    }
+
+    /// The same if something moves.
+    #[simd]
+    fn sampled_time<L: Lanes>(&self, l: L, slot: U<L>) -> F<L> {
         self.rays.time(l, self.stream(l, slot).one(Dimension::TIME))
     }
 
