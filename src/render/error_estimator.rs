@@ -6,11 +6,7 @@
 //! differences.
 use rayon::prelude::*;
 
-use super::{
-    film::Film,
-    region::Region,
-    tile::{Block, Tile},
-};
+use super::{block::Block, film::Film, region::Region, tile::Tile};
 use crate::measure::Floor;
 
 /// Lower bound of the remaining error, as a fraction of the last move.

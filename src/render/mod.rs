@@ -7,6 +7,7 @@
 //! ```
 //! The window states what it wants and never waits; see [`worker`].
 mod adaptive;
+mod block;
 pub mod colour_map;
 pub mod display;
 mod error_estimator;
@@ -34,6 +35,7 @@ mod target;
 mod tests;
 pub mod threads;
 pub mod tile;
+mod tile_estimates;
 mod tile_series;
 pub mod tone;
 pub mod truth;

@@ -7,10 +7,12 @@ use std::{
 use rayon::prelude::*;
 
 use super::{
-    adaptive, error_estimator,
+    adaptive,
+    block::UNIFORM,
+    error_estimator,
     film::Film,
     threads::{PassJob, Threads},
-    tile::{Tile, UNIFORM},
+    tile::Tile,
 };
 use crate::{
     integrator::{Interrupted, Work, replay, trace, trace_series},

@@ -1,0 +1,106 @@
+//! What the samples of a tile say: means and their variance, and the moves of its blocks while their samples double.
+use std::ops::Range;
+
+use super::{
+    estimate::{Doubling, Estimate},
+    scatter::Parts,
+    tile::Tile,
+};
+use crate::integrator::BLOCK;
+
+impl Tile {
+    /// Records the moves of blocks since they had half as many samples, if due. `floor` is that of relMSE.
+    pub(super) fn double(&mut self, floor: f64) {
+        for block in 0..self.blocks.len() {
+            if self.blocks[block].has_doubled() {
+                self.double_block(block, floor);
+            }
+        }
+    }
+
+    fn double_block(&mut self, block: usize, floor: f64) {
+        let estimates = self.block_estimates(block);
+        let mut before = Vec::with_capacity(estimates.len());
+        for (row, now) in self.block_rows(block).zip(estimates.chunks(self.block_size(self.place(block))[0] as usize)) {
+            let means = &mut self.before[row];
+            before.extend_from_slice(means);
+            means.iter_mut().zip(now).for_each(|(mean, estimate)| *mean = estimate.mean.map(|c| c as f32));
+        }
+        let state = &mut self.blocks[block];
+        state.doubled = state.spp;
+        if state.spp > 1 {
+            let [last, before_last, _] = state.doublings;
+            state.doublings = [Doubling::new(&estimates, &before, floor), last, before_last];
+        }
+    }
+
+    /// Index ranges of the pixels of a block, row by row.
+    fn block_rows(&self, block: usize) -> impl Iterator<Item = Range<usize>> + use<> {
+        let ([left, top], [width, height]) = (self.place(block), self.block_size(self.place(block)));
+        let starts = (top..top + height).map({
+            let columns = self.size[0];
+            move |row| (row * columns + left) as usize
+        });
+        starts.map(move |start| start..start + width as usize)
+    }
+
+    /// The estimates of a block that has a sample, row by row.
+    fn block_estimates(&self, block: usize) -> Vec<Estimate> {
+        self.block_rows(block).flat_map(|row| self.run(row, self.blocks[block].spp)).collect()
+    }
+
+    /// Sums over pixels and channels of two estimates of the squared radiance: squares of means minus their variance, and squares
+    /// of the means of blocks.
+    pub(super) fn squares(&self) -> [f64; 2] {
+        let mut sums = [0.0; 2];
+        for (block, state) in self.blocks.iter().enumerate().filter(|(_, state)| state.spp > 0) {
+            let (mut level, mut count) = ([0.0; 3], 0.0);
+            for Estimate { mean, variance_of_mean } in self.block_rows(block).flat_map(|row| self.run(row, state.spp)) {
+                let variance = variance_of_mean.unwrap_or_default();
+                (0..3).for_each(|c| {
+                    level[c] += mean[c];
+                    sums[0] += mean[c] * mean[c] - variance[c];
+                });
+                count += 1.0;
+            }
+            sums[1] += level.iter().map(|level| level * level).sum::<f64>() / count;
+        }
+        sums
+    }
+
+    /// Variance of the mean over all pixels and channels, at least two samples each. If pixels share paths, their noise is
+    /// correlated, and the variance comes from the scatter of samples of the whole tile; otherwise it comes from each pixel,
+    /// which is more precise.
+    pub(super) fn variance_of_mean(&self, shares: bool) -> f64 {
+        let values = 3.0 * self.size.map(f64::from).iter().product::<f64>();
+        let of_sum = if shares { self.whole.variance_of_mean() } else { self.parts().map(Parts::sum).sum() };
+        of_sum / (values * values)
+    }
+
+    /// The parts of the variance of the pixels' means.
+    pub(super) fn parts(&self) -> impl Iterator<Item = Parts> {
+        self.blocks.iter().map(|block| block.parts.of_means(f64::from(block.spp)))
+    }
+
+    /// The estimates of one row of the tile, which must have a sample; `row` counts from the tile's top.
+    pub fn estimates(&self, row: usize) -> impl Iterator<Item = Estimate> {
+        let [width, _] = self.size.map(|side| side as usize);
+        let columns = width.div_ceil(BLOCK as usize);
+        let blocks = &self.blocks[row / BLOCK as usize * columns..][..columns];
+        blocks.iter().enumerate().flat_map(move |(column, block)| {
+            let left = column * BLOCK as usize;
+            self.run(row * width + left..row * width + width.min(left + BLOCK as usize), block.spp)
+        })
+    }
+
+    /// The estimates of some pixels with `spp` samples.
+    fn run(&self, pixels: Range<usize>, spp: u32) -> impl Iterator<Item = Estimate> {
+        let n = f64::from(spp.max(1));
+        let (per_sample, per_degree) = (1.0 / n, 1.0 / (n - 1.0));
+        self.sum[pixels.clone()].iter().zip(&self.sum_of_squares[pixels]).map(move |(sum, square)| {
+            let mean = sum.map(|s| s / n);
+            let variance = |c: usize| ((square[c] * per_sample - mean[c] * mean[c]) * per_degree).max(0.0);
+            Estimate { mean, variance_of_mean: (n > 1.0).then(|| [variance(0), variance(1), variance(2)]) }
+        })
+    }
+}
