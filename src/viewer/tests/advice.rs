@@ -35,3 +35,14 @@ fn escape_ends_a_study_and_the_picture_goes_on() {
     let samples = window.state().results.status.samples;
     wait(&mut window, "more samples", |app| app.results.status.samples > samples);
 }
+
+#[test]
+fn advice_for_another_view_is_given_up() {
+    let mut window = window("furnace");
+    wait(&mut window, "a picture", |app| app.results.status.spp >= 1);
+    click(&mut window, "What should I use here?");
+    assert!(window.state().is_studying());
+    window.state_mut().session.camera.fov = 33.0;
+    window.run_steps(2);
+    assert!(window.state().background.adviser.is_none());
+}

@@ -13,16 +13,6 @@ fn with_tab(scene: &str, tab: &str) -> Window {
     window
 }
 
-fn press(window: &mut Window, key: Key) {
-    window.key_press(key);
-    window.run_steps(3);
-}
-
-fn check_box(window: &mut Window, label: &str) {
-    window.get_by_role_and_label(Role::CheckBox, label).click();
-    window.run_steps(2);
-}
-
 #[test]
 fn curves_of_other_settings_stay_and_those_of_other_cameras_go() {
     let mut window = with_tab("furnace", "Convergence");

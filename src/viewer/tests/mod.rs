@@ -3,12 +3,16 @@ mod advice;
 mod bindings;
 mod camera;
 mod collision;
+mod comparing;
+mod driving;
 mod fields;
 mod glyphs;
 mod instruments;
 mod labels;
 mod manners;
+mod messages;
 mod mouse;
+mod opening;
 mod painted;
 mod path;
 mod rasteriser;
@@ -17,6 +21,7 @@ mod scenes;
 mod settings;
 mod snapshots;
 mod soak;
+mod toolbar;
 mod truth;
 
 use std::{
@@ -38,6 +43,7 @@ use noisefall::{
     scene::{Estimator, Lens, Reuse, Roulette},
 };
 
+use self::driving::*;
 use super::{app::App, background::preferences::Preferences, canvas::interaction::Tool};
 
 /// As tall as all panels together: what is scrolled out of sight cannot be clicked.
@@ -111,18 +117,6 @@ fn a_long_title_does_not_push_the_panel_out_of_the_window() {
     assert!(label.left() > 1280.0 - 336.0 && button.right() < 1280.0, "{label:?} {button:?}");
 }
 
-fn click(window: &mut Window, label: &str) {
-    window.get_by_label(label).click();
-    window.run_steps(3);
-}
-
-fn choose(window: &mut Window, combo: &str, item: &str) {
-    window.get_by_role_and_label(Role::ComboBox, combo).click();
-    window.run_steps(3);
-    window.get_by_role_and_label(Role::Button, item).click();
-    window.run_steps(3);
-}
-
 /// The number of the picture that was asked for last: known at once, and not only when the worker has taken it up.
 fn generation(window: &Window) -> u64 {
     window.state().background.worker.generation()
@@ -171,10 +165,6 @@ fn the_pixel_under_the_pointer_is_read_out() {
 #[test]
 fn every_single_key_does_what_the_help_says() {
     let mut window = window("cornell_spheres");
-    let press = |window: &mut Window, key| {
-        window.key_press(key);
-        window.run_steps(3);
-    };
     press(&mut window, Key::C);
     assert_eq!(window.state().window.tool, Tool::Camera);
     press(&mut window, Key::P);
@@ -241,43 +231,4 @@ fn f1_shows_the_keys_and_escape_hides_them() {
     window.key_press(Key::Escape);
     window.run_steps(3);
     assert!(window.query_by_label("fly down, up").is_none());
-}
-
-fn drag(window: &mut Window, button: PointerButton, from: [f32; 2], to: [f32; 2]) {
-    let [from, to] = [from, to].map(Pos2::from);
-    let press = |window: &Window, pos, pressed| {
-        window.event(egui::Event::PointerButton { pos, button, pressed, modifiers: Modifiers::NONE });
-    };
-    window.hover_at(from);
-    window.run_steps(2);
-    press(window, from, true);
-    window.run_steps(1);
-    for part in 1..=4 {
-        window.hover_at(from + (to - from) * (part as f32 / 4.0));
-        window.run_steps(1);
-    }
-    press(window, to, false);
-    window.run_steps(2);
-}
-
-fn click_at(window: &mut Window, pos: Pos2) {
-    window.hover_at(pos);
-    window.run_steps(2);
-    for pressed in [true, false] {
-        window.event(egui::Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers: Modifiers::NONE });
-    }
-    window.run_steps(3);
-}
-
-fn scroll(window: &mut Window, at: [f32; 2], by: f32) {
-    window.hover_at(at.into());
-    window.run_steps(2);
-    window.event(egui::Event::MouseWheel {
-        unit: egui::MouseWheelUnit::Point,
-        source: egui::MouseWheelSource::Wheel,
-        delta: vec2(0.0, by),
-        phase: egui::TouchPhase::Move,
-        modifiers: Modifiers::NONE,
-    });
-    window.run_steps(10);
 }

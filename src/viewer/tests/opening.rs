@@ -1,0 +1,88 @@
+//! Scenes and dropped files replace what was open.
+use std::sync::Arc;
+
+use noisefall::scene::RenderSettings;
+
+use super::*;
+
+#[test]
+fn another_scene_takes_everything_over_and_the_same_one_keeps_the_exposure() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let text = std::fs::read_to_string(shipped("furnace")).expect("it is shipped");
+    let path = folder.path().join("mine.toml");
+    std::fs::write(&path, text.replace("[render]", "[render]\nspp = 5\nseed = 3")).expect("it is written");
+    let mut window = window("cornell_spheres");
+    wait(&mut window, "a full picture", App::can_save);
+    click(&mut window, "Pin this");
+    assert!(window.state().session.pinned.is_some());
+    let app = window.state_mut();
+    app.session.look.display.exposure = 2.0;
+    app.window.view.actual_size();
+    app.session.budget = noisefall::render::Budget { paused: true, steps: 7, noise: Some(0.1), ..Default::default() };
+    let other = RenderSettings { seed: 8, ..app.session.settings };
+    app.start_comparison(other);
+    app.instruments.path.look_at([3, 4]);
+    app.dialogs.scene_error = Some("the file before it was broken".to_owned());
+    assert!(app.results.last_seeing.is_some());
+    app.background.loader.open(Some(path.clone()));
+    wait(&mut window, "my scene", |app| app.session.settings.seed == 3);
+    let app = window.state();
+    let scene = &app.session.opened.as_ref().expect("it is open").scene;
+    assert_eq!((app.session.camera, app.session.settings), (scene.camera, scene.settings));
+    assert_eq!(app.session.budget, noisefall::render::Budget { max_spp: Some(5), steps: 7, ..Default::default() });
+    assert!(
+        app.session.comparison.is_none()
+            && app.session.pinned.is_none()
+            && app.instruments.path.pixel.is_none()
+            && app.window.view.zoom.is_none()
+    );
+    assert!(app.dialogs.scene_error.is_none() && app.results.last_seeing.is_none());
+    assert_eq!(app.session.look.display.exposure, 0.0);
+    window.state_mut().session.look.display.exposure = 1.5;
+    window.state_mut().session.settings.seed = 9;
+    window.state_mut().background.loader.open(Some(path));
+    wait(&mut window, "my scene again", |app| app.session.settings.seed == 3);
+    assert_eq!(window.state().session.look.display.exposure, 1.5);
+}
+
+/// A file that is dropped on the window.
+#[derive(Debug)]
+struct Dropped(PathBuf);
+
+impl egui::DroppedFile for Dropped {
+    fn path(&self) -> &std::path::Path {
+        &self.0
+    }
+    fn bytes(&self) -> Result<Vec<u8>, String> {
+        Err("the window asks for the path only".to_owned())
+    }
+}
+
+#[test]
+fn a_dropped_file_is_a_scene_a_picture_with_its_scene_or_a_reference() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = window("cornell_spheres");
+    let drop_file = |window: &mut Window, path: PathBuf| {
+        window.input_mut().dropped_files.push(Arc::new(Dropped(path)));
+        window.step();
+    };
+    wait(&mut window, "a full picture", App::can_save);
+    let [reference, picture] = ["reference.EXR", "picture.png"].map(|name| {
+        let path = folder.path().join(name);
+        window.state_mut().save_to(path.clone());
+        wait(&mut window, "the file", |app| app.window.last_saved.as_ref() == Some(&path));
+        path
+    });
+    drop_file(&mut window, reference);
+    wait(&mut window, "the reference", |app| app.session.dropped_reference.is_some());
+    assert_eq!(window.state().session.dropped_reference.as_ref().map(|truth| truth.camera), Some(window.state().session.camera));
+    drop_file(&mut window, shipped("furnace"));
+    wait(&mut window, "the scene", |app| app.session.opened.as_ref().is_some_and(|opened| opened.name == "Furnace"));
+    assert!(window.state().session.dropped_reference.is_none(), "it was of the other scene");
+    drop_file(&mut window, picture.clone());
+    wait(&mut window, "the scene of the picture", |app| {
+        app.session.opened.as_ref().is_some_and(|opened| opened.path.as_ref() == Some(&picture))
+    });
+    let of_picture = window.state().session.opened.as_ref().map(|opened| opened.scene.objects.len());
+    assert_eq!(of_picture, noisefall::scene::load(&shipped("cornell_spheres")).ok().map(|scene| scene.objects.len()));
+}

@@ -1,0 +1,124 @@
+//! Keys, lists and buttons do what they say.
+use noisefall::render::{colour_map::ColourMap, view::View as Shown};
+
+use super::*;
+use crate::viewer::instruments::tabs::InstrumentTab;
+
+#[test]
+fn what_is_shown_is_chosen_by_lists_buttons_and_keys() {
+    let mut window = window("cornell_spheres");
+    for (map, name, _) in ColourMap::CHOICE.into_iter().rev() {
+        click(&mut window, name);
+        assert_eq!(window.state().session.look.map, map);
+    }
+    for (tone_map, name) in ToneMap::ALL.map(|map| (map, map.title())).into_iter().rev() {
+        choose(&mut window, "Tone map", name);
+        assert_eq!(window.state().session.look.display.tone_map, tone_map);
+    }
+    for view in Shown::ALL.into_iter().skip(1).chain([Shown::ALL[0]]) {
+        press(&mut window, Key::V);
+        assert_eq!(window.state().session.look.view, view);
+    }
+    window.key_press_modifiers(Modifiers::SHIFT, Key::V);
+    window.run_steps(3);
+    assert_eq!(window.state().session.look.view, Shown::ALL[Shown::ALL.len() - 1], "the one before");
+    for (key, tab) in [
+        (Key::F2, InstrumentTab::Convergence),
+        (Key::F3, InstrumentTab::Compare),
+        (Key::F4, InstrumentTab::Bounces),
+        (Key::F5, InstrumentTab::Path),
+    ] {
+        press(&mut window, key);
+        assert_eq!(window.state().window.tab, Some(tab));
+        press(&mut window, key);
+        assert_eq!(window.state().window.tab, None);
+    }
+    for (label, tab) in [
+        ("Convergence", InstrumentTab::Convergence),
+        ("Compare", InstrumentTab::Compare),
+        ("Bounces", InstrumentTab::Bounces),
+        ("Pixel", InstrumentTab::Path),
+    ] {
+        window.get_by_role_and_label(Role::Button, label).click();
+        window.run_steps(3);
+        assert_eq!(window.state().window.tab, Some(tab), "{label}");
+    }
+    press(&mut window, Key::F5);
+    let tools = [("Region", Key::G, Tool::Region), ("Inspect", Key::I, Tool::Inspect), ("Camera", Key::C, Tool::Camera)];
+    for (label, key, tool) in tools.into_iter().chain([("Picture", Key::P, Tool::Picture)]) {
+        press(&mut window, key);
+        assert_eq!(window.state().window.tool, tool);
+        press(&mut window, if tool == Tool::Picture { Key::C } else { Key::P });
+        window.get_all_by_role_and_label(Role::Button, label).next().expect("the toolbar comes first").click();
+        window.run_steps(3);
+        assert_eq!(window.state().window.tool, tool, "{label}");
+    }
+    check_box(&mut window, "Frame times");
+    assert!(window.state().frame_times.shown);
+    press(&mut window, Key::F12);
+    assert!(!window.state().frame_times.shown);
+}
+
+#[test]
+fn buttons_of_the_toolbar_do_what_they_say() {
+    let mut window = window("cornell_spheres");
+    wait(&mut window, "samples", |app| app.results.status.spp >= 1);
+    click(&mut window, "Step");
+    assert!(window.state().session.budget.paused && window.state().session.budget.steps == 1);
+    click(&mut window, "Resume");
+    assert!(!window.state().session.budget.paused);
+    click(&mut window, "1:1");
+    click(&mut window, "Fit");
+    assert_eq!(window.state().window.view.zoom, None);
+    wait(&mut window, "a full picture", App::can_save);
+    click(&mut window, "Save…");
+    assert!(window.query_by_label("Save picture").is_some());
+    click(&mut window, "EXR");
+    assert!(window.state().dialogs.save.as_ref().is_some_and(|dialog| dialog.path().ends_with(".exr")));
+    click(&mut window, "PNG");
+    assert!(window.state().dialogs.save.as_ref().is_some_and(|dialog| dialog.path().ends_with(".png")));
+    click(&mut window, "Cancel");
+    assert!(window.state().dialogs.save.is_none());
+    click(&mut window, "Help");
+    assert!(window.state().dialogs.help);
+    click(&mut window, "Help");
+    assert!(!window.state().dialogs.help);
+    click(&mut window, "Gallery");
+    assert!(window.state().dialogs.gallery.open);
+    press(&mut window, Key::Escape);
+    click(&mut window, "Open…");
+    click(&mut window, "Cancel");
+    assert!(window.state().dialogs.open.is_none());
+    // A target that is reached has nothing to step to.
+    window.state_mut().session.budget = noisefall::render::Budget { max_spp: Some(1), ..Default::default() };
+    wait(&mut window, "the target", |app| {
+        app.background.worker.latest().status.spp >= 1 && !matches!(app.results.status.state, State::Running)
+    });
+    press(&mut window, Key::Period);
+    assert!(window.state().session.budget.steps == 0 && !window.state().session.budget.paused);
+}
+
+#[test]
+fn threads_and_tour_do_what_they_say() {
+    let mut window = window("cornell_spheres");
+    window.state_mut().session.threads = 2;
+    wait(&mut window, "threads", |app| app.background.worker.threads() == 2);
+    window.get_by_role_and_label(Role::Slider, "Threads").set_value_accesskit(1.0);
+    wait(&mut window, "a thread", |app| app.background.worker.threads() == 1);
+    window.state_mut().preferences = Preferences::default();
+    window.state_mut().start_tour();
+    window.run_steps(3);
+    restarts(&mut window, "a start over", |w| click(w, "Start over"));
+    click(&mut window, "Next");
+    click(&mut window, "Show bounce 2 alone");
+    assert_eq!((window.state().session.bounces.k, window.state().session.bounces.up_to), (2, false));
+    click(&mut window, "Back");
+    assert_eq!((window.state().dialogs.tour, window.state().window.tab), (Some(0), Some(InstrumentTab::Convergence)));
+    click(&mut window, "End tour");
+    assert!(window.state().dialogs.tour.is_none() && window.state().preferences.now.toured);
+    press(&mut window, Key::F6);
+    window.run_steps(3);
+    window.get_by_role_and_label(Role::Button, "Five-sphere Cornell box (built-in)").click();
+    window.run_steps(2);
+    wait(&mut window, "the built-in scene", |app| app.session.opened.as_ref().is_some_and(|opened| opened.path.is_none()));
+}
