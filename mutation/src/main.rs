@@ -196,8 +196,9 @@ impl Run<'_> {
             }
             let rejected: Vec<&Fault> = rejected.into_iter().map(|id| &faults[id as usize - 1]).collect();
             // Others are drawn in place of faults that were drawn.
-            if let Some(fault) = rejected.iter().find(|fault| given.contains(fault)) {
-                return Err(format!("a fault of {} does not compile: {}", table.display(), fault.key()));
+            let wrong: Vec<String> = rejected.iter().filter(|fault| given.contains(fault)).map(|fault| fault.key()).collect();
+            if !wrong.is_empty() {
+                return Err(format!("faults of {} do not compile:\n{}", table.display(), wrong.join("\n")));
             }
             for fault in rejected {
                 let rejected = Rejected { key: fault.key() };
