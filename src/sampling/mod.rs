@@ -10,10 +10,8 @@ mod sampler;
 mod tests;
 pub mod warp;
 
-pub use self::{
-    alias::AliasTable,
-    dimension::Dimension,
-    filter::Filter,
-    sampler::{Sampler, Stream},
-    warp::Directions,
-};
+#[cfg(test)]
+pub use self::readings::Stream;
+#[cfg(not(test))]
+pub use self::sampler::Stream;
+pub use self::{alias::AliasTable, dimension::Dimension, filter::Filter, sampler::Sampler, warp::Directions};

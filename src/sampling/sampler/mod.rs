@@ -46,16 +46,12 @@ impl<L: Lanes> Stream<L> {
     /// One coordinate, in (0, 1).
     #[inline(always)]
     pub fn one(&self, dimension: Dimension) -> F<L> {
-        #[cfg(test)]
-        crate::sampling::readings::note(self.keys.pixel, dimension.0, 1);
         in_sampler!(self.sampler, S => S::one(&self.keys, dimension))
     }
 
     /// Two coordinates, each in (0, 1).
     #[inline(always)]
     pub fn two(&self, dimension: Dimension) -> (F<L>, F<L>) {
-        #[cfg(test)]
-        crate::sampling::readings::note(self.keys.pixel, dimension.0, 2);
         in_sampler!(self.sampler, S => S::two(&self.keys, dimension))
     }
 }
