@@ -14,7 +14,7 @@ use crate::{
     light::{LightSample, Lobe, ReferencePoint},
     material::{Bsdf, BsdfSample, Local, Shade, Stage},
     math::{F, Frame, Lanes, M, Pick, U, V},
-    scene::{Estimator, surface},
+    scene::surface,
 };
 
 /// A register of hits of a kind.
