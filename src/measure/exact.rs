@@ -73,19 +73,22 @@ pub fn lamberts_ball(albedo: f64, lamp: Lamp, o: DVec3, d: DVec3) -> Option<f64>
 }
 
 /// The mean of an exact radiance of rays o + td over a pixel of a pinhole camera, by the midpoint rule; `None` if it is unknown
-/// anywhere in the pixel.
+/// anywhere in the pixel: at a point of the rule, or at a corner of one of its cells, which an edge may cut off between the points.
 pub fn mean_over_pixel(camera: &Camera, [x, y]: [u32; 2], radiance: impl Fn(DVec3, DVec3) -> Option<f64>) -> Option<f64> {
-    const SUB: u32 = 8;
+    const SUB: u32 = 16;
     let [right, up, forward] = camera.axes();
     let [width, height] = camera.resolution.map(f64::from);
     let half = (camera.fov.to_radians() / 2.0).tan();
-    let at = |corner: u32, sub: u32| f64::from(corner) + (f64::from(sub) + 0.5) / f64::from(SUB);
-    let ray = |i: u32| {
-        let (across, down) = (2.0 * at(x, i % SUB) - width, 2.0 * at(y, i / SUB) - height);
+    let through = |[column, row]: [f64; 2]| {
+        let (across, down) = (2.0 * column - width, 2.0 * row - height);
         (forward + (right * across - up * down) * (half / width)).normalize()
     };
-    let sum = (0..SUB * SUB).map(|i| radiance(camera.eye, ray(i))).sum::<Option<f64>>();
-    sum.map(|sum| sum / f64::from(SUB * SUB))
+    let at = |corner: u32, sub: u32| f64::from(corner) + (f64::from(sub) + 0.5) / f64::from(SUB);
+    let ray = |i: u32| through([at(x, i % SUB), at(y, i / SUB)]);
+    let corner = |i: u32| through([at(x, i % (SUB + 1)), at(y, i / (SUB + 1))].map(|place| place - 0.5 / f64::from(SUB)));
+    let sum = (0..SUB * SUB).map(|i| radiance(camera.eye, ray(i))).sum::<Option<f64>>()?;
+    let is_whole = (0..(SUB + 1) * (SUB + 1)).all(|i| radiance(camera.eye, corner(i)).is_some());
+    is_whole.then_some(sum / f64::from(SUB * SUB))
 }
 
 /// Irradiance from a sphere that the horizon may cut; `cos` is the cosine of the angle θ of its centre from the normal. It is
@@ -175,6 +178,46 @@ mod tests {
                 assert_eq!(in_part, None, "{x},{y}");
             }
         }
+    }
+
+    /// An edge across a corner, between the corner itself and the point of the midpoint rule that is next to it.
+    #[test]
+    fn a_pixel_without_a_corner_is_not_whole() {
+        let camera = Camera { resolution: [4, 2], fov: 90.0, ..crate::scene::built_in().camera };
+        let [right, up, forward] = camera.axes();
+        // The corner of this pixel is at (1, 0.5) on the image plane.
+        let mean = |cut: f64| {
+            let is_known = |d: DVec3| (d.dot(right) + d.dot(up)) / d.dot(forward) < 1.5 - cut;
+            mean_over_pixel(&camera, [3, 0], |_, d| is_known(d).then_some(1.0))
+        };
+        assert_eq!((mean(-1e-9), mean(1e-9), mean(0.03)), (Some(1.0), None, None));
+    }
+
+    /// The edges of Lambert's ball, its outline and the line where the lamp begins to set, are in no pixel that is known: all parts of
+    /// such a pixel are known too, and their mean is that of the pixel.
+    #[test]
+    fn pixels_that_are_known_are_known_in_all_their_parts() {
+        const PARTS: u32 = 4;
+        let lamp = Lamp { center: DVec3::new(1.7, 1.4, 1.0), radius: 0.5, radiance: 8.0 };
+        let of_scene = crate::scene::built_in().camera;
+        let toward = lamp.center.normalize();
+        let camera = |side: u32| Camera {
+            eye: DVec3::new(0.0, 1.0, 4.0),
+            look_at: toward * 0.9,
+            fov: 14.0,
+            resolution: [side; 2],
+            ..of_scene
+        };
+        let mean = |side: u32, place: [u32; 2]| mean_over_pixel(&camera(side), place, |o, d| lamberts_ball(0.8, lamp, o, d));
+        let mut known = 0;
+        for [x, y] in (0..16 * 16).map(|i| [i % 16, i / 16]) {
+            let Some(whole) = mean(16, [x, y]) else { continue };
+            let parts = (0..PARTS * PARTS).map(|i| mean(16 * PARTS, [x * PARTS + i % PARTS, y * PARTS + i / PARTS]));
+            let parts = parts.sum::<Option<f64>>().map(|sum| sum / f64::from(PARTS * PARTS));
+            assert!(parts.is_some_and(|parts| (parts / whole - 1.0).abs() < 1e-4), "{x},{y}: {whole} {parts:?}");
+            known += 1;
+        }
+        assert!(known > 100 && known < 16 * 16, "{known}");
     }
 
     #[test]

@@ -125,6 +125,8 @@ impl Diagnostic for SceneError {
 impl SourceText {
     /// An error at a byte range of the text. `label` stands at the caret.
     pub fn error(&self, span: Range<usize>, message: impl Into<String>, label: impl Into<String>) -> SceneError {
+        #[cfg(test)]
+        LOOKS.set(LOOKS.get() + 1);
         let end = self.text.len();
         let start = self.text.floor_char_boundary(span.start.min(end));
         let before = &self.text[..start];
@@ -138,5 +140,49 @@ impl SourceText {
             place: Some(Place { line_column: (line, column), excerpt }),
             others: Vec::new(),
         }))
+    }
+}
+
+#[cfg(test)]
+thread_local! {
+    /// The errors of this thread that were given a place: each costs a look at the whole text.
+    static LOOKS: std::cell::Cell<usize> = const { std::cell::Cell::new(0) };
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::parse;
+
+    const HEAD: &str = "format = 1\ncamera = { eye = [0, 0, 0], look_at = [0, 0, 1], fov = 60, resolution = [8, 8] }\n";
+
+    /// How often the whole text is looked at until such a file, with a line or table thousands of times, is refused.
+    fn looks(repeated: impl Fn(usize) -> String) -> usize {
+        let text = HEAD.to_owned() + &(0..3000).map(repeated).collect::<String>();
+        let before = LOOKS.get();
+        let error = parse("test.toml", text).err().expect("it is wrong");
+        assert!(error.count() <= 2 * SceneError::MOST, "{}", error.count());
+        LOOKS.get() - before
+    }
+
+    #[test]
+    fn a_file_of_thousands_of_errors_costs_as_much_as_one_of_forty() {
+        let object = |body: &str| format!("[[objects]]\n{body}\n");
+        let ball = "shape.sphere = { center = [0, 0, 0], radius = 1 }";
+        let wrong: [(&str, &dyn Fn(usize) -> String); 9] = [
+            ("values of the wrong type", &|_| object("shape.sphere = { center = [0, 0, 0], radius = 'x' }")),
+            ("values out of range", &|_| object("shape.sphere = { center = [0, 0, 0], radius = -1 }")),
+            ("unknown keys of tables", &|_| object("shape.sphere = { center = [0, 0, 0], radios = 1 }")),
+            ("unknown keys of the file", &|i| format!("key_{i} = 1\n")),
+            ("unknown kinds", &|i| format!("[materials.m{i}]\nlambert.albedo = 1\n")),
+            ("missing keys", &|_| object("shape.sphere = {}")),
+            ("values in place of tables", &|_| object("shape = 3")),
+            ("names of nothing", &|i| object(&format!("{ball}\nmaterial = 'm{i}'"))),
+            ("text that is not TOML", &|_| object("shape: 3;")),
+        ];
+        for (what, repeated) in wrong {
+            let looks = looks(repeated);
+            assert!(looks <= 5 * SceneError::MOST, "{what}: {looks}");
+        }
     }
 }

@@ -110,9 +110,9 @@ fn histogram(scores: &[f64]) -> Figure {
     };
     let curves = [
         curve("z of the report", Style::Line, steps.collect()),
-        curve("unit normal", Style::Dashed, (0..=120).map(density).collect()),
+        curve("standard normal", Style::Dashed, (0..=120).map(density).collect()),
     ];
-    plot("All z-scores of the report against the unit normal density.", Axis::linear("z"), Axis::linear("density"), &curves)
+    plot("All z-scores of the report against the standard normal density.", Axis::linear("z"), Axis::linear("density"), &curves)
 }
 
 fn quantiles(scores: &[f64]) -> Figure {
@@ -120,10 +120,10 @@ fn quantiles(scores: &[f64]) -> Figure {
     let points: Vec<(f64, f64)> = scores.iter().enumerate().map(|(i, z)| (expected(i), *z)).collect();
     let end = points.iter().fold(3.0, |end: f64, (x, _)| end.max(x.abs()));
     let curves =
-        [curve("z of the report", Style::Points, points), curve("unit normal", Style::Dashed, vec![(-end, -end), (end, end)])];
-    let caption = "The same, sorted, against the quantiles of the unit normal distribution: a bias moves points off the line, wrong \
+        [curve("z of the report", Style::Points, points), curve("standard normal", Style::Dashed, vec![(-end, -end), (end, end)])];
+    let caption = "The same, sorted, against the quantiles of the standard normal distribution: a bias moves points off the line, wrong \
                    standard errors turn it.";
-    plot(caption, Axis::linear("quantile of the unit normal"), Axis::linear("z"), &curves)
+    plot(caption, Axis::linear("quantile of the standard normal"), Axis::linear("z"), &curves)
 }
 
 #[cfg(test)]

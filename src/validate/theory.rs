@@ -40,11 +40,17 @@ const CHAPTER: [(&str, &[&str]); 5] = [
     ),
     (
         "What this report cannot show",
-        &["A statement holds for the parameters that it names. No section covers these: textures and skies from image files, \
-             bump and normal maps, smooth normals, motion, pixel filters other than the box, instances, files of meshes, the window. \
+        &[
+            "A statement holds for the parameters that it names. No section covers these: textures and skies from image files, \
+             noise textures, bump and normal maps, smooth normals, motion, pixel filters other than the box, instances, files of meshes, \
+             media within media, lamps that are ellipsoids, cuboids, cylinders or isosurfaces, the window. \
              The tests of the program do, and `validate --stress` renders \
              meshes by formula, bump, motion and filters at random. Noise figures and stops by noise \
-             are not covered either. Every row states the smallest bias that it would notice; a smaller bias may remain."],
+             are not covered either. Every row states the smallest bias that it would notice; a smaller bias may remain.",
+            "Does the report notice a mistake? 35 faults were planted in the code that computes the image, one at a time: a wrong density, a \
+             lost cosine, a light that is never chosen. They were written down before anyone looked at what the report tests \
+             (mutation/report.toml in the source). The sections of the quick run noticed 35 of them.",
+        ],
     ),
 ];
 
@@ -62,5 +68,17 @@ pub fn chapter() -> Markup {
                  estimators; J. Arvo and D. Kirk, “Particle Transport and Image Synthesis”, SIGGRAPH 1990, for roulette."
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_planted_faults_are_as_many_as_are_told() {
+        let faults = include_str!("../../mutation/report.toml").matches("[[fault]]").count();
+        let told = format!("{faults} faults were planted");
+        assert!(CHAPTER.iter().flat_map(|(_, paragraphs)| *paragraphs).any(|paragraph| paragraph.contains(&told)), "{told}");
     }
 }

@@ -24,6 +24,7 @@ const CHANNELS: [Measure; 3] = [RED, |radiance| f64::from(radiance[1]), |radianc
 pub fn section(validation: &Validation) -> Section {
     let mut statements: Vec<Statement> = ETAS.iter().flat_map(|eta| interface(validation, *eta)).collect();
     statements.extend(plates(validation));
+    statements.extend(thin_panes(validation));
     statements.extend(tinted(validation));
     statements.extend(inside(validation));
     statements.push(reciprocity(validation));
@@ -39,6 +40,8 @@ pub fn section(validation: &Validation) -> Section {
             "A pane of glass lets (1 − R)² Σ R²ᵏ = (1 − R)/(1 + R) through. The renderer carries no polarisation: every face \
              sees unpolarised light. Real glass polarises, and with s and p followed apart lets up to 4 % more through (0.871 in place of \
              0.862 at 56.31°).",
+            "A thin pane has both faces at once. Of light at normal incidence a crossing lets t pass, and τ = t^(1/cos θ_i) at an angle. The pane lets \
+             T = (1 − R)² τ/(1 − R² τ²) through, straight on, and reflects R (1 + τ T): in a field of radiance 1 it shows the sum of both.",
             "Rays through the centre of a ball hit its surface at normal incidence, R = ((n − 1)/(n + 1))². A crossing lets a = t²ʳ pass. In a field of \
              radiance 1 the ball shows R + (1 − R)² a/(1 − R a) from outside, and its middle sees n² (1 − R) √a/(1 − R a).",
             "Without absorption L/n² = 1 everywhere in a field of 1, so that from within a clear ball everything has the radiance n², \
@@ -110,18 +113,25 @@ fn interface(validation: &Validation, eta: f64) -> Vec<Statement> {
 
 /// A pane before a wall that shines.
 fn pane(degrees: f64) -> Scene {
+    let glass = format!("dielectric = {{ ior = {IOR:?} }}");
+    let slab = format!("cuboid = {{ min = [-100.0, -100.0, {:?}], max = [100.0, 100.0, 0.0] }}", -THICKNESS);
+    let wall = "[[objects]]
+        shape.rectangle = { origin = [-90.0, -90.0, -3.0], edge_u = [180.0, 0.0, 0.0], edge_v = [0.0, 180.0, 0.0] }
+        emission.radiance = 1.0";
+    seen_at(degrees, &glass, &slab, wall)
+}
+
+/// Glass of this shape around the origin, seen at an angle to the z axis, with light behind or around it.
+fn seen_at(degrees: f64, glass: &str, shape: &str, light: &str) -> Scene {
     let theta = f64::to_radians(degrees);
     let eye = [2.0 * theta.sin(), 0.0, 2.0 * theta.cos()];
     scene(&format!(
         "camera = {{ eye = {eye:?}, look_at = [0.0, 0.0, 0.0], projection.orthographic.width = 0.1, resolution = [32, 32] }}
-        materials.glass.dielectric = {{ ior = {IOR:?} }}
+        materials.glass.{glass}
         [[objects]]
-        shape.cuboid = {{ min = [-100.0, -100.0, {:?}], max = [100.0, 100.0, 0.0] }}
+        shape.{shape}
         material = 'glass'
-        [[objects]]
-        shape.rectangle = {{ origin = [-90.0, -90.0, -3.0], edge_u = [180.0, 0.0, 0.0], edge_v = [0.0, 180.0, 0.0] }}
-        emission.radiance = 1.0",
-        -THICKNESS
+        {light}"
     ))
 }
 
@@ -132,6 +142,31 @@ fn plates(validation: &Validation) -> Vec<Statement> {
         Statement::mean(format!("a pane of index {IOR} transmits, at {degrees}°"), found, (1.0 - r) / (1.0 + r))
     };
     [0.0, 30.0, 56.31, 75.0, 85.0].map(plate).into()
+}
+
+/// Panes without thickness, before half a field of radiance 1 and in a whole one.
+fn thin_panes(validation: &Validation) -> Vec<Statement> {
+    const PASSED: f64 = 0.5;
+    const WHOLE: &str = "[background]\nradiance = 1.0";
+    let glass = format!("thin_dielectric = {{ ior = {IOR:?}, transmittance = {PASSED:?} }}");
+    let rectangle = "rectangle = { origin = [-1.0, -1.0, 0.0], edge_u = [2.0, 0.0, 0.0], edge_v = [0.0, 2.0, 0.0] }";
+    // A hemisphere behind the pane, whose edge is behind it too.
+    let half = "[[objects]]\nshape.disk = { center = [0.0, 0.0, -0.01], normal = [0.0, 0.0, 1.0], radius = 100.0 }\nemission.radiance = 1.0";
+    let at = |degrees: f64| {
+        let (r, cos) = exact::fresnel(IOR, degrees.to_radians());
+        let crossing = PASSED.powf(1.0 / cos);
+        let passed = (1.0 - r).powi(2) * crossing / (1.0 - (r * crossing).powi(2));
+        let what = |text: &str| format!("a thin pane that lets {PASSED} pass, {text}, at {degrees}°");
+        let picture = |light: &str, spp: u32| {
+            picture(&seen_at(degrees, &glass, rectangle, light), validation.settings(Estimator::Path), RED, spp).whole()
+        };
+        [
+            Statement::mean(what("before a wall"), picture(half, validation.spp(2000)), passed),
+            // Either way of a sample has the weight of both.
+            Statement::within(what("in a field of 1"), picture(WHOLE, 8).mean, passed + r * (1.0 + crossing * passed), 2e-6),
+        ]
+    };
+    [0.0, 56.31, 80.0].map(at).concat()
 }
 
 /// A ball of glass in a field of radiance 1.
