@@ -119,8 +119,10 @@ fn quantiles(scores: &[f64]) -> Figure {
     let expected = |i: usize| Normal::standard().inverse_cdf((i as f64 + 0.5) / scores.len() as f64);
     let points: Vec<(f64, f64)> = scores.iter().enumerate().map(|(i, z)| (expected(i), *z)).collect();
     let end = points.iter().fold(3.0, |end: f64, (x, _)| end.max(x.abs()));
-    let curves =
-        [curve("z of the report", Style::Points, points), curve("standard normal", Style::Dashed, vec![(-end, -end), (end, end)])];
+    let curves = [
+        curve("z of the report", Style::Points, points),
+        curve("standard normal", Style::Dashed, vec![(-end, -end), (end, end)]),
+    ];
     let caption = "The same, sorted, against the quantiles of the standard normal distribution: a bias moves points off the line, wrong \
                    standard errors turn it.";
     plot(caption, Axis::linear("quantile of the standard normal"), Axis::linear("z"), &curves)

@@ -42,7 +42,7 @@ const CHAPTER: [(&str, &[&str]); 5] = [
         "What this report cannot show",
         &[
             "A statement holds for the parameters that it names. No section covers these: textures and skies from image files, \
-             noise textures, bump and normal maps, smooth normals, motion, pixel filters other than the box, instances, files of meshes, \
+             noise textures, bump and normal maps, smooth normals, motion, instances, files of meshes, \
              media within media, lamps that are ellipsoids, cuboids, cylinders or isosurfaces, the window. \
              The tests of the program do, and `validate --stress` renders \
              meshes by formula, bump, motion and filters at random. Noise figures and stops by noise \

@@ -30,9 +30,15 @@ pub const RECTANGLES: [(&str, [[f64; 3]; 3]); 3] = [
 
 /// A point of level ground, seen so closely that all pixels show the same, and a lamp.
 pub fn lit(lamp: &str) -> Scene {
+    lit_in("", lamp)
+}
+
+/// The same, and what is around them.
+fn lit_in(surroundings: &str, lamp: &str) -> Scene {
     scene(&format!(
         "camera = {{ eye = [0.0, 1.0, 2.0], look_at = [0.0, 0.0, 0.0], fov = 0.001, resolution = [32, 32] }}
         materials.ground.lambertian.albedo = {ALBEDO}
+        {surroundings}
         [[objects]]
         shape.disk = {{ center = [0.0, 0.0, 0.0], normal = [0.0, 1.0, 0.0], radius = 0.01 }}
         material = 'ground'
@@ -68,9 +74,13 @@ pub fn section(validation: &Validation) -> Section {
         let flip = DVec3::from_array(u).cross(DVec3::from_array(v)).dot(corners[0]) > 0.0;
         lamp(what, &lit(&format!("{shape}\nflip = {flip}")), polygon_irradiance(1.0, &corners));
     }
+    let (scene, irradiance) = before_a_sky();
+    lamp("sphere at 45°, before a sky", &scene, irradiance);
+    let (scene, irradiance) = in_fog();
+    lamp("sphere at 0°, in fog", &scene, irradiance);
     Section {
         title: "Direct light",
-        claim: "The irradiance under a sphere and under a rectangle agrees with the closed forms, with every estimator.",
+        claim: "The irradiance under a sphere and under a rectangle, under a sky and in fog, agrees with the closed forms, with every estimator.",
         derivation: &[
             "E = ∫ L cos θ dω over the part of the lamp above the horizon; diffuse ground shows (ρ/π) E. For a sphere wholly above \
              the horizon this is π L (r/d)² cos θ; partly set, with h = d/r and y = √(h² − 1), it is \
@@ -79,6 +89,8 @@ pub fn section(validation: &Validation) -> Section {
              below the horizon is cut off. Here L = 1, ρ = 0.8, r/d = 0.3; rectangles by origin and edges in metres, y upwards: \
              small (0.3, 1, −0.2), (0.3, 0, 0), (0, 0, 0.3); large (−0.8, 0.4, −0.7), (1.6, 0, 0), (0, 0, 1.2); cut \
              (0.5, −0.7, −0.4), (0, 0, 1), (0, 1.2, 0).",
+            "A sky of radiance S gives π S, less the part that the lamp hides: E = π S + (L − S) π (r/d)² cos θ, here with S = 0.2. In fog of which a metre lets t = 1/2 pass, the lamp overhead gives \
+             2π L ∫ tˢ cos θ sin θ dθ, where s = d cos θ − √(r² − d² sin² θ) is the way to the lamp; the integral is summed up here. On the way from the ground to the camera, √5 m, the fog takes its part once more.",
             "“Path” finds the lamp by directions drawn from the bsdf, “light” by directions towards it (a sphere by the cone in which \
              it is seen, a rectangle by its solid angle if it is large and near, else by its area), “mis” by both, weighted by the \
              power heuristic.",
@@ -89,6 +101,35 @@ pub fn section(validation: &Validation) -> Section {
         figures: vec![equal_time(&costs)],
         remark: None,
     }
+}
+
+/// A lamp that hides some of a sky.
+fn before_a_sky() -> (Scene, f64) {
+    const SKY: f64 = 0.2;
+    let side = 45f64.to_radians().sin();
+    let lamp = format!("shape.sphere = {{ center = [{side:?}, {side:?}, 0.0], radius = {LAMP} }}");
+    let irradiance = PI * SKY + (1.0 - SKY) * horizon_sphere_irradiance(1.0, LAMP, 1.0, side);
+    (lit_in(&format!("background.radiance = {SKY}"), &lamp), irradiance)
+}
+
+/// A lamp overhead within a medium that does not bend light, and the irradiance that the camera, within it too, sees the effect of.
+fn in_fog() -> (Scene, f64) {
+    const PASSED: f64 = 0.5;
+    const STEPS: u32 = 10_000;
+    let fog = format!(
+        "materials.fog.dielectric = {{ ior = 1.0, transmittance = {PASSED:?} }}
+        [[objects]]
+        shape.sphere = {{ center = [0.0, 0.0, 0.0], radius = 10.0 }}
+        material = 'fog'"
+    );
+    // Over u = sin²θ/r², whose differential holds the sine and the cosine.
+    let passed = |step: u32| {
+        let sine_squared = (f64::from(step) + 0.5) / f64::from(STEPS) * LAMP * LAMP;
+        PASSED.powf((1.0 - sine_squared).sqrt() - (LAMP * LAMP - sine_squared).sqrt())
+    };
+    let mean = (0..STEPS).map(passed).sum::<f64>() / f64::from(STEPS);
+    let lamp = format!("shape.sphere = {{ center = [0.0, 1.0, 0.0], radius = {LAMP} }}");
+    (lit_in(&fog, &lamp), PI * LAMP * LAMP * mean * PASSED.powf(5f64.sqrt()))
 }
 
 /// Errors at equal time, which are no statements: times differ from run to run.

@@ -3,7 +3,10 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
-use super::direct_light::{ALBEDO, RECTANGLES, lit};
+use super::{
+    direct_light::{ALBEDO, RECTANGLES, lit},
+    edges,
+};
 use crate::{
     measure::{
         exact::{horizon_sphere_irradiance, polygon_irradiance},
@@ -42,17 +45,24 @@ pub fn section(validation: &Validation) -> Section {
         }
     }
     statements.push(lens(validation));
+    statements.extend(edges::statements(validation));
     Section {
-        title: "Meshes, lenses, many lamps",
-        claim: "The same scene described in another way gives the same light: triangles in place of faces, hundreds of lamps in place of one, a lens in place of a pinhole.",
+        title: "Meshes, many lamps, lenses and filters",
+        claim: "The same scene described in another way gives the same light: triangles in place of faces, hundreds of lamps in place of one, a lens in place of a pinhole. An edge is as soft as lens and pixel filter make it.",
         derivation: &[
             "A box of twelve triangles whose inside emits 1 and reflects 1/2 is a furnace: every sample is 2. A path that hits a wall within rounding of an edge continues from a rounded point that may lie outside; such losses must cost less than 10⁻⁶ of the light. The small rectangle of the section on direct \
              light as two triangles of a mesh has the same irradiance. A disk of radius r at the height h has E = π L r²/(r² + h²) under its \
              middle. The irradiances of lamps that do not occlude each other add up; with 300 lamps the light tree chooses among them.",
             "A checkered lamp is seen such that each square covers 2 × 2 pixels: every pixel has the radiance of its square. The small rectangle, turned away from the ground, does not light it.",
             "A lens averages over rays from all of its points. Where the radiance is the same everywhere, that changes nothing: 0.5 inside the closed sphere.",
+            "A half-plane of radiance 1 before nothing: a sample is 1 or 0, and the mean of n samples of probability p has the variance p (1 − p)/n. Every column of \
+             the picture has its own p. Behind a filter with the distribution function F it is 1 − F(e), e being the place of the edge relative to the middle of the \
+             pixel; a tent of radius r has F(x) = 1/2 + y − y |y|/2 with y = x/r, and the Gaussian is cut off at 3σ. From a point u of a lens to the point v in focus, at the \
+             distance f, a ray crosses the plane at the distance z in u (1 − z/f) + v z/f: a lens of radius R sees a disk of radius R |1 − z/f| there, of which the edge leaves the \
+             segment (acos e − e √(1 − e²))/π, e in radii of the disk, averaged over the pixel.",
         ],
-        source: "Form factors of parallel disks; J. H. Lambert, 1760; P. Moon, 1936.",
+        source: "Form factors of parallel disks; J. H. Lambert, 1760; P. Moon, 1936; R. L. Cook, T. Porter and L. Carpenter, “Distributed Ray Tracing”, \
+                 SIGGRAPH 1984.",
         statements,
         figures: Vec::new(),
         remark: None,

@@ -24,10 +24,10 @@ const CHANNELS: [Measure; 3] = [RED, |radiance| f64::from(radiance[1]), |radianc
 pub fn section(validation: &Validation) -> Section {
     let mut statements: Vec<Statement> = ETAS.iter().flat_map(|eta| interface(validation, *eta)).collect();
     statements.extend(plates(validation));
-    statements.extend(thin_panes(validation));
     statements.extend(tinted(validation));
     statements.extend(inside(validation));
     statements.push(reciprocity(validation));
+    statements.extend(thin_panes(validation));
     Section {
         title: "Glass and media",
         claim: "Smooth glass reflects and refracts by Snell’s and Fresnel’s laws, tinted glass absorbs by Beer’s, and radiance inside is n² of \

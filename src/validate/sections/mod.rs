@@ -4,6 +4,7 @@ mod defaults;
 mod densities;
 mod direct_light;
 mod directions;
+mod edges;
 mod energy;
 mod features;
 mod glass;
