@@ -14,6 +14,18 @@ pub fn rgb_png([width, height]: [u32; 2], rgb: &[u8]) -> Result<Vec<u8>, String>
     Ok(bytes)
 }
 
+/// A PNG as an SVG of its size, for documents that take figures in that form only.
+pub fn svg(png: &[u8]) -> Result<Vec<u8>, String> {
+    let reader = png::Decoder::new(std::io::Cursor::new(png)).read_info().map_err(|error| error.to_string())?;
+    let (width, height) = reader.info().size();
+    let data = STANDARD.encode(png);
+    Ok(format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\">\
+         <image width=\"{width}\" height=\"{height}\" href=\"data:image/png;base64,{data}\"/></svg>"
+    )
+    .into_bytes())
+}
+
 /// A PNG as an element of a page.
 pub fn img(png: &[u8]) -> String {
     format!("<img src=\"data:image/png;base64,{}\" alt=\"\">", STANDARD.encode(png))

@@ -33,6 +33,17 @@ fn figures_are_files_of_their_own_but_tables_are_not() {
     assert_eq!(svg("<table></table>"), None);
 }
 
+#[test]
+fn a_png_is_an_svg_of_its_size() {
+    let png = super::picture::rgb_png([3, 2], &[7; 18]).expect("a PNG");
+    let svg = String::from_utf8(super::picture::svg(&png).expect("an SVG")).expect("text");
+    assert!(
+        svg.starts_with("<svg xmlns=") && svg.contains("<image width=\"3\" height=\"2\" href=\"data:image/png;base64,"),
+        "{svg}"
+    );
+    assert!(super::picture::svg(b"no PNG").is_err());
+}
+
 /// The texts of a drawing.
 fn texts(svg: &str) -> Vec<String> {
     let parts = svg.split("<text").skip(1).filter_map(|part| part.split_once('>')?.1.split_once("</text>"));

@@ -100,15 +100,15 @@ fn body(number: usize, section: &Section) -> Markup {
 }
 
 fn row(statement: &Statement) -> Markup {
-    let error = if statement.error > 0.0 { format!("{:.1e}", statement.error) } else { "–".to_owned() };
+    let error = if statement.error > 0.0 { typeset(&format!("{:.1e}", statement.error)) } else { "–".to_owned() };
     markup! {
         tr {
-            td { (formula(&statement.what)) @if statement.shares_samples { " *" } }
+            td { (formula(&typeset(&statement.what))) @if statement.shares_samples { " *" } }
             td.n { (number(statement.measured)) }
             td.n { (error) }
             td.n { @if let Some(exact) = statement.exact { (number(exact)) } }
-            td.s { (statement.statistic) }
-            td.n { (statement.notices) }
+            td.s { (typeset(&statement.statistic)) }
+            td.n { (typeset(&statement.notices.to_string())) }
             td { (verdict(statement.holds)) }
         }
     }
@@ -125,5 +125,67 @@ fn verdict(holds: bool) -> Markup {
 /// Six digits.
 fn number(x: f64) -> String {
     let size = x.abs();
-    if size == 0.0 || (1e-3..1e5).contains(&size) { format!("{x:.6}") } else { format!("{x:.5e}") }
+    typeset(&if size == 0.0 || (1e-3..1e5).contains(&size) { format!("{x:.6}") } else { format!("{x:.5e}") })
+}
+
+/// Numbers as on paper: 1.2e-4 as 1.2 · 10⁻⁴, and a minus sign for a hyphen before a digit.
+fn typeset(text: &str) -> String {
+    const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    let mut written = String::new();
+    let mut rest = text;
+    while let Some(at) = rest.find(|c: char| c.is_ascii_digit()) {
+        let (before, number) = rest.split_at(at);
+        let is_word = before.ends_with(char::is_alphanumeric);
+        let follows_word = |before: &str| if before.is_empty() { &written } else { before }.ends_with(char::is_alphanumeric);
+        match before.strip_suffix('-').filter(|before| !follows_word(before)) {
+            Some(before) => written.extend([before, "−"]),
+            None => written.push_str(before),
+        }
+        let end = number.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(number.len());
+        let (mantissa, behind) = number.split_at(end);
+        let power = behind.strip_prefix('e').and_then(|behind| {
+            let sign = usize::from(behind.starts_with('-'));
+            let digits = behind[sign..].find(|c: char| !c.is_ascii_digit()).unwrap_or(behind.len() - sign);
+            (digits > 0 && !is_word).then(|| behind.split_at(sign + digits))
+        });
+        let Some((power, behind)) = power else {
+            written.push_str(mantissa);
+            rest = behind;
+            continue;
+        };
+        rest = behind;
+        let is_zero = mantissa.chars().all(|c| matches!(c, '0' | '.'));
+        match (is_zero, mantissa, power) {
+            (true, ..) => written.push('0'),
+            (_, _, "0") => written.push_str(mantissa),
+            (_, "1", _) => written.push_str("10"),
+            _ => written.extend([mantissa, " · 10"]),
+        }
+        if !is_zero && power != "0" {
+            written.extend(power.chars().map(|c| c.to_digit(10).map_or('⁻', |digit| DIGITS[digit as usize])));
+        }
+    }
+    written + rest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::typeset;
+
+    #[test]
+    fn numbers_are_written_as_on_paper() {
+        for (text, paper) in [
+            ("1.2e-4", "1.2 · 10⁻⁴"),
+            ("sphere of 1e-6 m", "sphere of 10⁻⁶ m"),
+            ("sphere of 1e0 m, 1e3 m", "sphere of 1 m, 10³ m"),
+            ("|Δ| = 0.0e0 ≤ 0e0", "|Δ| = 0 ≤ 0"),
+            ("z = -1.16", "z = −1.16"),
+            ("|-0.7| < 2.0e1", "|−0.7| < 2.0 · 10¹"),
+            ("-4.50000e-12 %", "−4.50000 · 10⁻¹² %"),
+            ("t = +1.91 of 9, |t| < 7.0", "t = +1.91 of 9, |t| < 7.0"),
+            ("8 × 8, Avx2, 3 even, f16e2-3", "8 × 8, Avx2, 3 even, f16e2-3"),
+        ] {
+            assert_eq!(typeset(text), paper);
+        }
+    }
 }

@@ -103,7 +103,7 @@ pub struct Surface {
 pub struct EmitterHit {
     /// L_e towards the viewer.
     pub radiance: [f32; 3],
-    /// MIS weight (power heuristic, Veach 1997, equation 9.14); 1 if lights are not sampled.
+    /// MIS weight (power heuristic, Veach 1997, section 9.2); 1 if lights are not sampled.
     pub weight: f32,
     /// Throughput × transmittance × radiance × weight.
     pub contribution: [f32; 3],

@@ -27,7 +27,7 @@ impl Strategy for Mis {
     }
 }
 
-/// The power heuristic with exponent 2 (Veach 1997, equation 9.14): the weight of a sample with pdf `pdf`, whose pdf by another strategy
+/// The power heuristic with exponent 2 (Veach 1997, section 9.2): the weight of a sample with pdf `pdf`, whose pdf by another strategy
 /// is `other`.
 #[inline(always)]
 pub fn power_heuristic<L: Lanes>(pdf: F<L>, other: F<L>) -> F<L> {

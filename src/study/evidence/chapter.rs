@@ -3,7 +3,7 @@ use super::{
     exhibits::{Exhibits, Picture},
     page,
 };
-use crate::report::{plot::Plot, table::Table};
+use crate::report::{picture::svg, plot::Plot, table::Table};
 
 /// What is written: a page, and every figure and table of it by itself.
 pub struct Chapter {
@@ -37,6 +37,7 @@ impl Chapter {
     }
 
     fn add_picture(&mut self, picture: &Picture) {
+        self.add(format!("{}.svg", picture.name), svg(&picture.png));
         self.add(format!("{}.png", picture.name), Ok(picture.png.clone()));
     }
 

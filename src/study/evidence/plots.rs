@@ -14,7 +14,8 @@ impl Exhibits<'_> {
             if let Some((findings, pair)) = pair {
                 let rendering = self.rendering(findings);
                 for (name, plot) in ["time", "samples"].into_iter().zip(pair.plots) {
-                    let caption = format!("Error against {name} by {}. {} ({rendering}).", setting.name(), pair.caption);
+                    let settings = pair.caption.trim_end_matches('.');
+                    let caption = format!("Error against {name} by {}. {settings} ({rendering}).", setting.name());
                     plots.push((format!("error_by_{}_{name}", setting.name()), caption, plot));
                 }
             }

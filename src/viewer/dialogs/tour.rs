@@ -28,8 +28,8 @@ const PAGES: [Page; 4] = [
     Page {
         title: "This picture is an estimate",
         text: "Every pixel is the mean of N random light paths. The samples scatter, and the mean comes nearer to the solution of \
-               the light transport equation as 1/√N: four times the samples, half the noise. The curve below shows it, live; the \
-               line at the bottom of the window says how far it has come.",
+               the light transport equation as 1/√N, or faster with Sobol points: four times the samples, half the noise or \
+               less. The curve below shows it, live; the line at the bottom of the window says how far it has come.",
         shows: Some(InstrumentTab::Convergence),
         tries: ("Start over", TourRequest::Restart),
     },
