@@ -207,6 +207,8 @@ where
     B::ErrorType: 'static,
 {
     font::register();
+    // Labels are black, wherever the file is shown.
+    area.fill(&WHITE)?;
     let size = area.dim_in_pixel();
     let size = (size.0 / scale, size.1 / scale);
     let small = ("sans-serif", 13 * scale);
