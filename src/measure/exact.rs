@@ -214,7 +214,7 @@ mod tests {
             let Some(whole) = mean(16, [x, y]) else { continue };
             let parts = (0..PARTS * PARTS).map(|i| mean(16 * PARTS, [x * PARTS + i % PARTS, y * PARTS + i / PARTS]));
             let parts = parts.sum::<Option<f64>>().map(|sum| sum / f64::from(PARTS * PARTS));
-            assert!(parts.is_some_and(|parts| (parts / whole - 1.0).abs() < 1e-4), "{x},{y}: {whole} {parts:?}");
+            assert!(parts.is_some_and(|parts| (parts / whole - 1.0).abs() < 2e-4), "{x},{y}: {whole} {parts:?}");
             known += 1;
         }
         assert!(known > 100 && known < 16 * 16, "{known}");
