@@ -15,6 +15,9 @@ use crate::{
 /// Pixels along the picture's sides.
 const SIDE: u32 = 32;
 
+/// The weight of a filter left of a place, in pixels from the middle.
+type Distribution<'f> = &'f dyn Fn(f64) -> f64;
+
 /// A straight edge through every filter, and before and behind the plane in focus.
 pub fn statements(validation: &Validation) -> Vec<Statement> {
     let mut statements = filters(validation);
@@ -34,13 +37,13 @@ fn filters(validation: &Validation) -> Vec<Statement> {
         let [y, end] = [(x / sigma).clamp(-3.0, 3.0), 3.0].map(|x| Normal::standard().cdf(x));
         (y - (1.0 - end)) / (2.0 * end - 1.0)
     };
-    let filters: [(&str, &str, &dyn Fn(f64) -> f64); 4] = [
+    let filters: [(&str, &str, Distribution); 4] = [
         ("box", "'box'", &|x| (x + 0.5).clamp(0.0, 1.0)),
         ("tent of radius 1", "{ tent = { radius = 1.0 } }", &|x| tent(1.0, x)),
         ("tent of radius 2.5", "{ tent = { radius = 2.5 } }", &|x| tent(2.5, x)),
         ("Gaussian of σ = 0.5", "{ gaussian = { sigma = 0.5 } }", &|x| gaussian(0.5, x)),
     ];
-    let of = |(name, filter, left_of): (&str, &str, &dyn Fn(f64) -> f64)| {
+    let of = |(name, filter, left_of): (&str, &str, Distribution)| {
         let camera = format!("eye = [0.0, 0.0, 5.0], projection.orthographic.width = 3.2, filter = {filter}");
         let exact = |column: u32| 1.0 - left_of(EDGE - f64::from(column) - 0.5);
         edge(validation, &format!("{name}, an edge"), &camera, (EDGE - 16.0) * 0.1, exact)
