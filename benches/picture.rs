@@ -9,7 +9,7 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use noisefall::{
     math::SimdLevel,
     render::{
-        Display, Frame, Job, Publish, Renderer, ToneMap,
+        Display, Frame, Publish, RenderRequest, Renderer, ToneMap,
         film::Film,
         threads::{PassJob, Threads},
         tone::to_srgb,
@@ -48,7 +48,7 @@ fn first_picture(c: &mut Criterion) {
                 generation += 1;
                 let mut camera = Camera { resolution: RESOLUTION, ..scene.camera };
                 camera.eye.x += (generation % 7) as f64 * 0.01;
-                renderer.submit(Job { generation, scene: scene.clone(), camera, settings: RenderSettings::default() });
+                renderer.submit(generation, RenderRequest { scene: scene.clone(), camera, settings: RenderSettings::default() });
                 while renderer.latest().frame.generation != generation {
                     let _ = woken.recv();
                 }
@@ -72,7 +72,7 @@ fn leaves_what_is_heavy(c: &mut Criterion) {
     let mut generation = 0;
     let mut submit = |scene: &Arc<Scene>| {
         generation += 1;
-        renderer.submit(Job { generation, scene: scene.clone(), camera: scene.camera, settings: scene.settings });
+        renderer.submit(generation, RenderRequest { scene: scene.clone(), camera: scene.camera, settings: scene.settings });
         generation
     };
     c.bench_function("16 x 16, a change while a heavy picture renders, all cores", |b| {

@@ -7,13 +7,14 @@ use eframe::egui;
 use glam::DQuat;
 use noisefall::{
     math::SimdLevel,
-    render::{Display, Job, Publish, Renderer, threads::Threads, tone::to_srgb},
+    render::{Display, Publish, RenderRequest, Renderer, threads::Threads, tone::to_srgb},
     scene::{built_in, load},
 };
 
 struct Window {
     renderer: Renderer,
-    job: Job,
+    generation: u64,
+    request: RenderRequest,
     texture: Option<egui::TextureHandle>,
 }
 
@@ -27,7 +28,7 @@ impl eframe::App for Window {
         let image =
             egui::ColorImage::from_rgba_unmultiplied([frame.width as usize, frame.height as usize], pixels.as_flattened());
         let texture = ui.ctx().load_texture("frame", image, egui::TextureOptions::NEAREST);
-        let size = egui::Vec2::from(self.job.camera.resolution.map(|side| side as f32));
+        let size = egui::Vec2::from(self.request.camera.resolution.map(|side| side as f32));
         // A line of text stands below.
         let room = ui.available_size() - egui::vec2(0.0, 24.0);
         let size = size * (room / size).min_elem();
@@ -35,12 +36,12 @@ impl eframe::App for Window {
         self.texture = Some(texture);
         ui.label(format!("{} samples per pixel", published.status.spp));
         if dragged.x != 0.0 {
-            let camera = &mut self.job.camera;
+            let camera = &mut self.request.camera;
             let turn = DQuat::from_axis_angle(camera.up.normalize(), f64::from(-0.01 * dragged.x));
             camera.eye = camera.look_at + turn * (camera.eye - camera.look_at);
             // Another generation cancels the one that is being rendered.
-            self.job.generation += 1;
-            self.renderer.submit(self.job.clone());
+            self.generation += 1;
+            self.renderer.submit(self.generation, self.request.clone());
         }
     }
 }
@@ -52,9 +53,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         let ctx = context.egui_ctx.clone();
         let renderer = Renderer::new(threads, Publish::Live, move || ctx.request_repaint());
         let (camera, settings) = (scene.camera, scene.settings);
-        let job = Job { generation: 1, scene, camera, settings };
-        renderer.submit(job.clone());
-        Ok(Box::new(Window { renderer, job, texture: None }))
+        let request = RenderRequest { scene, camera, settings };
+        renderer.submit(1, request.clone());
+        Ok(Box::new(Window { renderer, generation: 1, request, texture: None }))
     };
     Ok(eframe::run_native("Progressive", eframe::NativeOptions::default(), Box::new(create))?)
 }

@@ -14,7 +14,7 @@ use noisefall::{
     math::SimdLevel,
     memory::set_limit,
     render::{
-        Budget, Frame, Job, Publish, RenderTask, Renderer, State, Target,
+        Budget, Frame, Publish, RenderRequest, RenderTask, Renderer, State, Target,
         film::Film,
         threads::{PassJob, Threads},
     },
@@ -230,12 +230,12 @@ fn a_picture_that_does_not_fit_fails_in_words() {
     let renderer = Renderer::new(threads, Publish::Live, move || {
         let _ = woken.send(());
     });
-    let job = |side: u32| {
+    let request = |side: u32| {
         let camera = Camera { resolution: [side; 2], ..scene.camera };
-        Job { generation: u64::from(side), scene: scene.clone(), camera, settings: scene.settings }
+        RenderRequest { scene: scene.clone(), camera, settings: scene.settings }
     };
     renderer.set_budget(Budget { max_spp: Some(1), ..Budget::default() });
-    renderer.submit(job(2000));
+    renderer.submit(2000, request(2000));
     let state = |generation: u64| loop {
         wait.recv().expect("the worker is there");
         let both = [renderer.latest(), renderer.latest_second()].map(|published| published.status);
@@ -246,10 +246,10 @@ fn a_picture_that_does_not_fit_fails_in_words() {
     let State::Failed(failure) = state(2000) else { panic!("it is rendered") };
     assert!(failure.message.starts_with("pictures of 2000 × 2000 pixels need") && !failure.replays, "{}", failure.message);
     // What did not fit is not counted, and a small picture fits.
-    renderer.submit(job(64));
+    renderer.submit(64, request(64));
     assert_eq!(state(64), State::Done(Target::Samples(1)));
     // Of each of eight terms, 12 bytes a pixel in the film and in two frames.
-    renderer.submit_second(Some(RenderTask::Series(job(160))));
+    renderer.submit_second(160, RenderTask::Series(request(160)));
     let State::Failed(failure) = state(160) else { panic!("it is rendered") };
     assert!(failure.message.starts_with("bounces of 160 × 160 pixels need 7.4 MB;"), "{}", failure.message);
 }

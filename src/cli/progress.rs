@@ -3,18 +3,18 @@ use std::{sync::atomic::Ordering, time::Duration};
 
 use crossbeam_channel::RecvTimeoutError;
 use indicatif::{ProgressBar, ProgressStyle};
-use noisefall::render::{Budget, Job, Publish, Published, Renderer, State, Status, threads::Threads};
+use noisefall::render::{Budget, Publish, Published, RenderRequest, Renderer, State, Status, threads::Threads};
 
 use super::{messages::Failure, stop::stop_signal, summary::noise_text};
 
 /// Renders to the end, with a progress bar where there is a terminal to show it.
-pub fn render(threads: Threads, job: Job, budget: Budget, quiet: bool) -> Result<Published, Failure> {
+pub fn render(threads: Threads, request: RenderRequest, budget: Budget, quiet: bool) -> Result<Published, Failure> {
     let (wake, woken) = crossbeam_channel::bounded(1);
     let renderer = Renderer::new(threads, Publish::Sparse, move || {
         let _ = wake.try_send(());
     });
     renderer.set_budget(budget);
-    renderer.submit(job);
+    renderer.submit(1, request);
     let stop = stop_signal("interrupted: saving the picture as it is (once more to give up)")?;
     let bar = if quiet { ProgressBar::hidden() } else { progress_bar(&budget) };
     loop {

@@ -10,7 +10,7 @@ use clap::ArgGroup;
 use noisefall::{
     math::SimdLevel,
     render::{
-        Budget, Display, Job, Published, State, film::Film, image_file::Format, replay_command::replay_command,
+        Budget, Display, Published, RenderRequest, State, film::Film, image_file::Format, replay_command::replay_command,
         settings_text::settings_text, threads::Threads, truth::Reference,
     },
     sampling::{Directions, Sampler},
@@ -135,8 +135,8 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
 
     let start = Instant::now();
     let budget = arguments.budget(&scene);
-    let job = Job { generation: 1, scene: scene.clone(), camera, settings };
-    let Published { frame, status } = render(threads, job, budget, arguments.json)?;
+    let request = RenderRequest { scene: scene.clone(), camera, settings };
+    let Published { frame, status } = render(threads, request, budget, arguments.json)?;
     let render_seconds = start.elapsed().as_secs_f64();
 
     let replayed = |at| replay_command(&arguments.scene, &scene, camera.resolution, &settings, at);

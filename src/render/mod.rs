@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!   window or command line                 worker thread                    rayon threads
-//!   Job, Budget ──────── channel ───────▶  Session: coarse films, film  ──▶ pass over tiles
+//!   RenderRequest, Budget ── channel ─────▶  Session: coarse films, film  ──▶ pass over tiles
 //!   Frame, Status ◀── Mutex<Published> ──  one frame when it is due     ◀── sums, counts
 //! ```
 //! The window states what it wants and never waits; see [`worker`].
@@ -44,7 +44,7 @@ pub mod worker;
 
 pub use self::{
     frame::Frame,
-    protocol::{Budget, Job, Publish, Published, RenderTask, State, Status},
+    protocol::{Budget, Publish, Published, RenderRequest, RenderTask, State, Status},
     region::Region,
     sample_counts::SampleCounts,
     series::Series,

@@ -9,17 +9,22 @@ use super::{
 };
 use crate::scene::{Camera, RenderSettings, Scene};
 
-/// An image to render. Each generation is a different image.
+/// Everything that an image depends on. Display settings are not in it, so they cannot restart a render.
 #[derive(Clone)]
-pub struct Job {
-    /// Number of the image. Frames and figures carry it.
-    pub generation: u64,
+pub struct RenderRequest {
     /// The scene to render.
     pub scene: Arc<Scene>,
     /// The camera, which need not be the scene's.
     pub camera: Camera,
     /// How it is rendered.
     pub settings: RenderSettings,
+}
+
+impl PartialEq for RenderRequest {
+    /// Whether both ask for the same image. A scene equals only itself.
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.scene, &other.scene) && self.camera == other.camera && self.settings == other.settings
+    }
 }
 
 /// How far to render it. A change continues with the existing samples.
@@ -57,12 +62,12 @@ pub(super) fn is_below(goal: f64, spp: u32, rel_mse_estimate: Option<f64>) -> bo
 }
 
 /// What an image is rendered as.
-#[derive(Clone)]
+#[derive(Clone, PartialEq)]
 pub enum RenderTask {
     /// A picture.
-    Picture(Job),
+    Picture(RenderRequest),
     /// A picture with its [`super::Series`]; only full frames.
-    Series(Job),
+    Series(RenderRequest),
 }
 
 /// State of the worker.

@@ -6,7 +6,7 @@ use super::{
     film::Film,
     frame::Frame,
     pass::{Failure, PassCount, SampleId},
-    protocol::{Budget, Job, Publish, State, Status, is_below},
+    protocol::{Budget, Publish, RenderRequest, State, Status, is_below},
     region::Region,
     sharing::resolved,
     threads::{PassJob, Threads},
@@ -27,9 +27,11 @@ const MOST_SPP_A_PASS: f64 = 1024.0;
 /// A pause waits for the first full sample of an image, but at most for this time.
 const PATIENCE: Duration = Duration::from_secs(1);
 
-/// A job and its films.
+/// A request and its films.
 pub(super) struct Session {
-    job: Job,
+    /// Number of the image.
+    generation: u64,
+    request: RenderRequest,
     /// The image at a lower resolution, for display until the full one has a sample everywhere.
     coarse: Option<Coarse>,
     film: Film,
@@ -72,12 +74,19 @@ impl Coarse {
 
 impl Session {
     /// Starts a session. `rate`: known camera samples per second of the same scene. `film`: an old film to reuse.
-    pub fn new(job: Job, publish: Publish, rate: Option<f64>, budget: &Budget, film: Option<Film>) -> Session {
-        let scale = Coarse::first_scale(&job.camera, rate.unwrap_or(UNKNOWN_RATE));
-        let memory = Film::reserve(job.camera.resolution);
+    pub fn new(
+        generation: u64,
+        request: RenderRequest,
+        publish: Publish,
+        rate: Option<f64>,
+        budget: &Budget,
+        film: Option<Film>,
+    ) -> Session {
+        let scale = Coarse::first_scale(&request.camera, rate.unwrap_or(UNKNOWN_RATE));
+        let memory = Film::reserve(request.camera.resolution);
         let mut session = Session {
-            coarse: if publish == Publish::Live { Coarse::new(&job.camera, scale) } else { None },
-            film: film.map_or_else(|| Film::new(job.camera.resolution), |film| film.recycled(job.camera.resolution)),
+            coarse: if publish == Publish::Live { Coarse::new(&request.camera, scale) } else { None },
+            film: film.map_or_else(|| Film::new(request.camera.resolution), |film| film.recycled(request.camera.resolution)),
             count: PassCount::default(),
             elapsed: Duration::ZERO,
             rate,
@@ -88,7 +97,8 @@ impl Session {
             last_frame: None,
             stale: false,
             memory: [None, None],
-            job,
+            generation,
+            request,
         };
         session.keep(0, memory);
         session
@@ -99,7 +109,7 @@ impl Session {
         match memory {
             Ok(memory) => self.memory[which] = Some(memory),
             Err(error) => {
-                let (at, resolution) = (SampleId { pixel: [0, 0], sample: 0 }, self.job.camera.resolution);
+                let (at, resolution) = (SampleId { pixel: [0, 0], sample: 0 }, self.request.camera.resolution);
                 self.count.failure = Some(Failure { at, replays: false, resolution, message: error.to_string() });
             }
         }
@@ -107,10 +117,10 @@ impl Session {
 
     /// A session that stores the contribution of each number of bounces separately. Its pixels do not share paths, and have the
     /// same number of samples.
-    pub fn of_series(job: Job, rate: Option<f64>, budget: &Budget) -> Session {
-        let settings = RenderSettings { reuse: Reuse::Off, adaptive: false, ..job.settings };
-        let mut session = Session::new(Job { settings, ..job }, Publish::Sparse, rate, budget, None);
-        session.keep(1, Film::reserve_series(session.job.camera.resolution));
+    pub fn of_series(generation: u64, request: RenderRequest, rate: Option<f64>, budget: &Budget) -> Session {
+        let settings = RenderSettings { reuse: Reuse::Off, adaptive: false, ..request.settings };
+        let mut session = Session::new(generation, RenderRequest { settings, ..request }, Publish::Sparse, rate, budget, None);
+        session.keep(1, Film::reserve_series(session.request.camera.resolution));
         if session.count.failure.is_none() {
             session.film.keep_series();
         }
@@ -119,8 +129,8 @@ impl Session {
         session
     }
 
-    pub fn job(&self) -> &Job {
-        &self.job
+    pub fn request(&self) -> &RenderRequest {
+        &self.request
     }
 
     pub fn into_film(self) -> Film {
@@ -186,15 +196,15 @@ impl Session {
         self.film.focus = self.focus(budget);
         let spp = self.spp_in_focus();
         let target = if budget.paused { spp + 1 } else { spp + self.spp_of_pass(budget, publish) };
-        let rays = self.job.scene.rays(&self.job.camera);
-        let settings = threads.install(|| resolved(&self.job.scene, &rays, &self.job.settings));
-        self.shares = self.job.scene.shares(&rays, &settings);
+        let rays = self.request.scene.rays(&self.request.camera);
+        let settings = threads.install(|| resolved(&self.request.scene, &rays, &self.request.settings));
+        self.shares = self.request.scene.shares(&rays, &settings);
         let start = Instant::now();
         let time_left = budget.max_time.filter(|_| spp > 0).map(|most| most.saturating_sub(self.elapsed));
         let last_frame = self.last_frame;
         let impatient = || budget.paused && spp == 0 && last_frame.is_some_and(|coarse: Instant| coarse.elapsed() > PATIENCE);
         let enough = || interrupted() || impatient() || time_left.is_some_and(|left| start.elapsed() >= left);
-        let job = PassJob { scene: &self.job.scene, rays: &rays, settings: &settings };
+        let job = PassJob { scene: &self.request.scene, rays: &rays, settings: &settings };
         let before = self.film.samples();
         let count = threads.pass(job, &mut self.film, target, &enough);
         let samples = self.film.samples() - before;
@@ -213,7 +223,11 @@ impl Session {
 
     fn coarse_pass(&mut self, threads: &Threads, interrupted: &(dyn Fn() -> bool + Sync)) {
         let Some(coarse) = &mut self.coarse else { return };
-        let job = PassJob { scene: &self.job.scene, rays: &self.job.scene.rays(&coarse.camera), settings: &self.job.settings };
+        let job = PassJob {
+            scene: &self.request.scene,
+            rays: &self.request.scene.rays(&coarse.camera),
+            settings: &self.request.settings,
+        };
         let start = Instant::now();
         let before = coarse.film.samples();
         let count = threads.pass(job, &mut coarse.film, 1, interrupted);
@@ -233,7 +247,7 @@ impl Session {
 
     /// The number of samples that fit between two frames.
     fn spp_of_pass(&self, budget: &Budget, publish: Publish) -> u32 {
-        let resolution = self.job.camera.resolution;
+        let resolution = self.request.camera.resolution;
         let size = self.film.focus.map_or(resolution, |region| region.in_tiles(resolution).size());
         let pixels = size.map(f64::from).iter().product::<f64>().max(1.0);
         let time_left = budget.max_time.map_or(Duration::MAX, |most| most.saturating_sub(self.elapsed));
@@ -263,12 +277,12 @@ impl Session {
     pub fn frame(&mut self) -> Frame {
         self.stale = false;
         self.last_frame = Some(Instant::now());
-        let full = self.job.camera.resolution;
+        let full = self.request.camera.resolution;
         if let Some(coarse) = self.coarse.take() {
-            self.coarse = Coarse::new(&self.job.camera, coarse.scale / 2);
-            return Frame::of_film(&coarse.film, self.job.generation, coarse.camera.resolution, full);
+            self.coarse = Coarse::new(&self.request.camera, coarse.scale / 2);
+            return Frame::of_film(&coarse.film, self.generation, coarse.camera.resolution, full);
         }
-        let frame = Frame { elapsed: self.elapsed, ..Frame::of_film(&self.film, self.job.generation, full, full) };
+        let frame = Frame { elapsed: self.elapsed, ..Frame::of_film(&self.film, self.generation, full, full) };
         self.rel_mse_estimate = frame.rel_mse_estimate;
         // A region that has been left keeps the estimate for which it was.
         if let Some(region) = self.film.focus {
@@ -279,7 +293,7 @@ impl Session {
 
     pub fn status(&self, budget: &Budget) -> Status {
         Status {
-            generation: self.job.generation,
+            generation: self.generation,
             state: self.state(budget),
             spp: self.film.spp(),
             region_spp: self.focus(budget).and_then(|region| self.film.spp_in(&region)),

@@ -1,9 +1,9 @@
 //! The worker: a thread that renders the latest request and publishes frames.
 //!
-//! Others state what they *want* ([`Job`], [`Budget`]); the worker takes the latest request and drops earlier ones. A message
+//! Others state what they *want* ([`RenderRequest`], [`Budget`]); the worker takes the latest request and drops earlier ones. A message
 //! stops the pass between two bounces of a batch, which take some ten microseconds in a simple scene and longer where rays
 //! descend trees. The interrupted batch is discarded and traced again. The trial that decides about path reuse, once per scene
-//! and estimator, and the reuse stage of a batch cannot be interrupted. A new job starts an empty film; a new budget continues
+//! and estimator, and the reuse stage of a batch cannot be interrupted. A new request starts an empty film; a new budget continues
 //! the current film.
 //!
 //! A second image can be rendered beside the first. From then on both get the same time: the one that had less is next.
@@ -19,14 +19,15 @@ use std::{
 use crossbeam_channel::{Receiver, Sender, unbounded};
 
 use super::{
-    protocol::{Budget, Job, Publish, Published, RenderTask, State},
+    protocol::{Budget, Publish, Published, RenderRequest, RenderTask, State},
     session::Session,
     threads::Threads,
 };
 
 enum Message {
-    Job(Box<Job>),
-    Second(Option<Box<RenderTask>>),
+    First(u64, Box<RenderRequest>),
+    Second(u64, Box<RenderTask>),
+    StopSecond,
     Budget(Budget),
     Threads(Threads),
     Quit,
@@ -66,14 +67,19 @@ impl Renderer {
         Renderer { sender, shared, thread: Some(thread.expect("a thread can be started")) }
     }
 
-    /// Renders this instead of earlier requests.
-    pub fn submit(&self, job: Job) {
-        self.send(Message::Job(Box::new(job)));
+    /// Renders this instead of earlier requests. Frames and figures carry `generation`, the number of the image.
+    pub fn submit(&self, generation: u64, request: RenderRequest) {
+        self.send(Message::First(generation, Box::new(request)));
     }
 
-    /// Renders this beside the first image, or nothing.
-    pub fn submit_second(&self, second: Option<RenderTask>) {
-        self.send(Message::Second(second.map(Box::new)));
+    /// Renders this beside the first image.
+    pub fn submit_second(&self, generation: u64, task: RenderTask) {
+        self.send(Message::Second(generation, Box::new(task)));
+    }
+
+    /// Renders the first image alone.
+    pub fn stop_second(&self) {
+        self.send(Message::StopSecond);
     }
 
     /// Continues with these threads.
@@ -201,25 +207,25 @@ impl Worker {
             Message::Quit => return None,
             Message::Budget(budget) => self.budget = budget,
             Message::Threads(threads) => self.threads = threads,
-            Message::Job(job) => self.start(0, RenderTask::Picture(*job)),
-            Message::Second(None) => {
+            Message::First(generation, request) => self.start(0, generation, RenderTask::Picture(*request)),
+            Message::StopSecond => {
                 self.sessions[1] = None;
                 lock(&self.shared.published)[1] = Published::default();
             }
-            Message::Second(Some(second)) => self.start(1, *second),
+            Message::Second(generation, task) => self.start(1, generation, *task),
         }
         Some(())
     }
 
-    fn start(&mut self, side: usize, what: RenderTask) {
-        let (RenderTask::Picture(job) | RenderTask::Series(job)) = &what;
+    fn start(&mut self, side: usize, generation: u64, task: RenderTask) {
+        let (RenderTask::Picture(request) | RenderTask::Series(request)) = &task;
         let sessions = || self.sessions.iter().flatten();
-        let rate = sessions().filter(|old| Arc::ptr_eq(&old.job().scene, &job.scene)).find_map(Session::rate);
+        let rate = sessions().filter(|old| Arc::ptr_eq(&old.request().scene, &request.scene)).find_map(Session::rate);
         let film = self.sessions[side].take().map(Session::into_film);
         self.lead = self.sessions[0].as_ref().map_or(Duration::ZERO, Session::elapsed);
-        self.sessions[side] = Some(match what {
-            RenderTask::Picture(job) => Session::new(job, self.publish, rate, &self.budget, film),
-            RenderTask::Series(job) => Session::of_series(job, rate, &self.budget),
+        self.sessions[side] = Some(match task {
+            RenderTask::Picture(request) => Session::new(generation, request, self.publish, rate, &self.budget, film),
+            RenderTask::Series(request) => Session::of_series(generation, request, rate, &self.budget),
         });
     }
 }

@@ -94,7 +94,7 @@ impl Declare for RenderSettings {
         p.word(&ESTIMATOR, &mut self.estimator);
         p.word(&DIRECTIONS, &mut self.directions);
         p.word(&SAMPLER, &mut self.sampler);
-        p.optional(&MAX_BOUNCES, &mut self.max_bounces, || 8, |p, cap| p.count(&MAX_BOUNCES, cap, CountRange::ANY));
+        p.optional(&MAX_BOUNCES, &mut self.max_bounces, || Self::FIRST_CAP, |p, cap| p.count(&MAX_BOUNCES, cap, CountRange::ANY));
         p.optional_choice(&ROULETTE, Form::NameOrTable, &mut self.roulette);
         p.word(&REUSE, &mut self.reuse);
         p.flag(&ADAPTIVE, &mut self.adaptive);
@@ -103,10 +103,13 @@ impl Declare for RenderSettings {
 }
 
 impl RenderSettings {
-    /// Paths that go on for longer are cut, counted and reported: a room of white walls without roulette would never let one go.
+    /// Without a cap, paths that go on for longer are cut, counted and reported: a room of white walls without roulette would never
+    /// let one go.
     pub const LONGEST_PATH: u32 = 4096;
-    /// The highest cap that is taken at its word: who asks for long paths gets them, and waits.
+    /// The highest cap that is honoured, and that the window offers.
     pub const HIGHEST_CAP: u32 = 1 << 17;
+    /// The cap that the window begins with when one is switched on.
+    pub const FIRST_CAP: u32 = 8;
 
     /// The number of bounces after which every path is cut.
     pub fn last_bounce(&self) -> u32 {

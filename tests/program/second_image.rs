@@ -7,7 +7,7 @@ use std::{
 use crossbeam_channel::{Receiver, Sender, bounded, unbounded};
 use noisefall::{
     math::SimdLevel,
-    render::{Budget, Job, Publish, Published, Region, RenderTask, Renderer, State, threads::Threads},
+    render::{Budget, Publish, Published, Region, RenderRequest, RenderTask, Renderer, State, threads::Threads},
     sampling::Directions,
     scene::{Camera, Estimator, RenderSettings, Reuse, Scene, built_in, load},
 };
@@ -16,9 +16,9 @@ fn renderer() -> Renderer {
     Renderer::new(Threads::new(2, SimdLevel::best()).expect("threads can be had"), Publish::Live, || {})
 }
 
-fn job(generation: u64, scene: &Arc<Scene>, side: u32) -> Job {
+fn request(scene: &Arc<Scene>, side: u32) -> RenderRequest {
     let camera = Camera { resolution: [side, side], ..scene.camera };
-    Job { generation, scene: scene.clone(), camera, settings: scene.settings }
+    RenderRequest { scene: scene.clone(), camera, settings: scene.settings }
 }
 
 /// What is published, when it satisfies a condition. The time limit is for a machine that is busy otherwise.
@@ -68,7 +68,7 @@ impl Stepwise {
 fn of_two_pictures_the_one_that_had_less_time_since_both_are_there_goes_on() {
     let scene = Arc::new(built_in());
     let worker = Stepwise::new();
-    worker.renderer.submit(job(1, &scene, 96));
+    worker.renderer.submit(1, request(&scene, 96));
     let mut before = [Duration::ZERO; 2];
     while before[0] < Duration::from_millis(300) {
         before = worker.times();
@@ -78,7 +78,7 @@ fn of_two_pictures_the_one_that_had_less_time_since_both_are_there_goes_on() {
     before = worker.times();
     let lead = before[0];
     let settings = RenderSettings { estimator: Estimator::Path, ..scene.settings };
-    worker.renderer.submit_second(Some(RenderTask::Picture(Job { settings, ..job(2, &scene, 96) })));
+    worker.renderer.submit_second(2, RenderTask::Picture(RenderRequest { settings, ..request(&scene, 96) }));
     let mut turns = [0, 0];
     while turns.iter().sum::<u32>() < 24 {
         worker.go_on();
@@ -101,13 +101,13 @@ fn of_two_pictures_each_is_what_it_is_alone() {
     let scene = Arc::new(built_in());
     let renderer = renderer();
     let other = RenderSettings { estimator: Estimator::Path, ..scene.settings };
-    renderer.submit(job(1, &scene, 96));
-    renderer.submit_second(Some(RenderTask::Picture(Job { settings: other, ..job(2, &scene, 96) })));
+    renderer.submit(1, request(&scene, 96));
+    renderer.submit_second(2, RenderTask::Picture(RenderRequest { settings: other, ..request(&scene, 96) }));
     wait(|| renderer.latest_second(), |published| published.status.spp >= 4);
     assert!(renderer.latest().status.spp >= 1, "both go on");
 
     renderer.set_budget(Budget { max_spp: Some(3), ..Budget::default() });
-    renderer.submit_second(Some(RenderTask::Picture(Job { settings: other, ..job(3, &scene, 96) })));
+    renderer.submit_second(3, RenderTask::Picture(RenderRequest { settings: other, ..request(&scene, 96) }));
     let done = |generation| {
         move |published: &Published| {
             published.status.generation == generation
@@ -116,11 +116,11 @@ fn of_two_pictures_each_is_what_it_is_alone() {
         }
     };
     let second = wait(|| renderer.latest_second(), done(3));
-    renderer.submit(Job { settings: other, ..job(4, &scene, 96) });
+    renderer.submit(4, RenderRequest { settings: other, ..request(&scene, 96) });
     let alone = wait(|| renderer.latest(), done(4));
     assert_eq!(second.frame.radiance, alone.frame.radiance);
 
-    renderer.submit_second(None);
+    renderer.stop_second();
     let gone = wait(|| renderer.latest_second(), |published| published.status.generation == 0);
     assert!(gone.frame.radiance.is_empty());
 }
@@ -133,7 +133,7 @@ fn the_terms_of_a_furnace_are_powers_of_its_albedo() {
     renderer.set_budget(Budget { max_spp: Some(64), ..Budget::default() });
     // By cosine-distributed directions every sample of every term is exact, until roulette begins.
     let settings = RenderSettings { estimator: Estimator::Path, directions: Directions::Cosine, ..scene.settings };
-    renderer.submit_second(Some(RenderTask::Series(Job { settings, ..job(1, &scene, 64) })));
+    renderer.submit_second(1, RenderTask::Series(RenderRequest { settings, ..request(&scene, 64) }));
     let published = wait(|| renderer.latest_second(), |published| published.frame.spp == 64);
     let series = published.frame.series.as_ref().expect("it was asked for");
     // Radiance 1 and albedo 0.5: the k-th term is 2⁻ᵏ.
@@ -157,7 +157,7 @@ fn a_region_is_rendered_first_and_the_rest_catches_up() {
     let region = Region::between([40, 40], [50, 60]);
     let budget = Budget { max_spp: Some(40), region: Some(region), ..Budget::default() };
     renderer.set_budget(budget);
-    renderer.submit(job(1, &scene, 128));
+    renderer.submit(1, request(&scene, 128));
     let ahead = |published: &Published| published.frame.spp_at(45 * 128 + 45) > published.frame.spp + 4;
     let published = wait(|| renderer.latest(), ahead);
     assert_eq!(published.frame.spp_at(0), published.frame.spp, "outside nothing is done before");
@@ -166,7 +166,7 @@ fn a_region_is_rendered_first_and_the_rest_catches_up() {
     assert!(done.frame.counts.is_empty(), "all pixels have as many samples in the end");
 
     renderer.set_budget(Budget { max_spp: Some(40), ..Budget::default() });
-    renderer.submit(job(2, &scene, 128));
+    renderer.submit(2, request(&scene, 128));
     let even = wait(|| renderer.latest(), |published| published.status.generation == 2 && published.frame.spp == 40);
     assert_eq!(done.frame.radiance, even.frame.radiance, "in which order samples are taken does not matter");
 }
@@ -178,7 +178,7 @@ fn a_region_that_has_reached_the_noise_target_is_not_taken_up_again() {
     let region = Region::between([40, 40], [50, 60]);
     // Reached after some hundred samples, long before the whole picture reaches it: the lamp's edge is not in the region.
     renderer.set_budget(Budget { noise: Some(0.01), region: Some(region), ..Budget::default() });
-    renderer.submit(job(1, &scene, 128));
+    renderer.submit(1, request(&scene, 128));
     wait(|| renderer.latest(), |published| published.status.region_spp.is_some_and(|spp| spp >= 64));
     let left = wait(|| renderer.latest(), |published| published.status.region_spp.is_none());
     let inside = |published: &Published| published.frame.spp_at(45 * 128 + 45);
@@ -198,7 +198,7 @@ fn other_threads_go_on_with_the_same_picture() {
     let scene = Arc::new(built_in());
     let renderer = renderer();
     let settings = RenderSettings { reuse: Reuse::Off, ..scene.settings };
-    renderer.submit(Job { settings, ..job(1, &scene, 96) });
+    renderer.submit(1, RenderRequest { settings, ..request(&scene, 96) });
     wait(|| renderer.latest(), |published| published.status.spp >= 2);
     renderer.set_threads(Threads::new(1, SimdLevel::best()).expect("a thread can be had"));
     let before = renderer.latest().status;

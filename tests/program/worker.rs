@@ -1,4 +1,4 @@
-//! The worker: latest job wins, at once, and nothing is lost that was paid for.
+//! The worker: the latest request wins, at once, and nothing is lost that was paid for.
 use std::{
     sync::Arc,
     time::{Duration, Instant},
@@ -6,7 +6,7 @@ use std::{
 
 use noisefall::{
     math::SimdLevel,
-    render::{Budget, Frame, Job, Publish, Published, RenderTask, Renderer, State, Target, threads::Threads},
+    render::{Budget, Frame, Publish, Published, RenderRequest, RenderTask, Renderer, State, Target, threads::Threads},
     scene::{Camera, RenderSettings, Reuse, Roulette, Scene, parse},
 };
 
@@ -31,8 +31,8 @@ fn endless() -> (Arc<Scene>, RenderSettings) {
     (scene, settings)
 }
 
-fn job(generation: u64, scene: &Arc<Scene>) -> Job {
-    Job { generation, scene: scene.clone(), camera: scene.camera, settings: scene.settings }
+fn request(scene: &Arc<Scene>) -> RenderRequest {
+    RenderRequest { scene: scene.clone(), camera: scene.camera, settings: scene.settings }
 }
 
 fn renderer(publish: Publish) -> Renderer {
@@ -57,7 +57,7 @@ fn the_first_picture_is_coarse_and_the_next_ones_finer_until_full() {
     let renderer = renderer(Publish::Live);
     let scene = plain(0.5, 1024);
     renderer.set_budget(Budget { max_spp: Some(2), ..Budget::default() });
-    renderer.submit(job(1, &scene));
+    renderer.submit(1, request(&scene));
     let first = wait_for(&renderer, "a first frame", |p| p.frame.generation == 1).frame;
     assert!(first.is_coarse() && first.full_resolution == [1024, 1024]);
     assert!(first.radiance.iter().all(|pixel| *pixel == [0.5; 3]), "a coarse picture has no holes");
@@ -67,18 +67,18 @@ fn the_first_picture_is_coarse_and_the_next_ones_finer_until_full() {
 }
 
 #[test]
-fn the_latest_job_wins_and_no_old_pixel_survives() {
+fn the_latest_request_wins_and_no_old_pixel_survives() {
     let renderer = renderer(Publish::Live);
     let scenes: Vec<_> = (1..=8).map(|i| plain(i as f32, 200)).collect();
     for generation in 1..=200u64 {
         let radiance = generation % 8;
-        renderer.submit(job(generation, &scenes[radiance as usize]));
+        renderer.submit(generation, request(&scenes[radiance as usize]));
         match generation % 7 {
-            0 => assert_plain(&wait_for(&renderer, "a frame of this job", |p| p.frame.generation == generation).frame),
+            0 => assert_plain(&wait_for(&renderer, "a frame of this request", |p| p.frame.generation == generation).frame),
             _ => assert_plain(&renderer.latest().frame),
         }
     }
-    let last = wait_for(&renderer, "the last job", |p| p.frame.generation == 200 && !p.frame.is_coarse());
+    let last = wait_for(&renderer, "the last request", |p| p.frame.generation == 200 && !p.frame.is_coarse());
     assert_eq!(last.status.generation, 200);
     assert_plain(&last.frame);
 }
@@ -92,32 +92,28 @@ fn assert_plain(frame: &Frame) {
 }
 
 /// The picture of a scene with noise after exactly so many samples, without interruption.
-fn uninterrupted(job: Job, spp: u32) -> Vec<[f32; 3]> {
+fn uninterrupted(request: RenderRequest, spp: u32) -> Vec<[f32; 3]> {
     let renderer = renderer(Publish::Sparse);
     renderer.set_budget(Budget { max_spp: Some(spp), ..Budget::default() });
-    renderer.submit(job);
+    renderer.submit(1, request);
     wait_for(&renderer, "the end", |p| matches!(p.status.state, State::Done(_))).frame.radiance.clone()
 }
 
-fn noisy() -> Job {
-    noisy_as(1)
-}
-
-fn noisy_as(generation: u64) -> Job {
+fn noisy() -> RenderRequest {
     let scene = Arc::new(noisefall::scene::built_in());
     let camera = Camera { resolution: [320, 200], ..scene.camera };
-    Job { generation, camera, settings: scene.settings, scene }
+    RenderRequest { camera, settings: scene.settings, scene }
 }
 
 /// Has the worker render something else and waits for it: whatever else it meant to do with the first picture would be done by then.
 fn look_at_another_picture(renderer: &Renderer) {
-    renderer.submit_second(Some(RenderTask::Picture(job(1, &plain(0.5, 16)))));
+    renderer.submit_second(1, RenderTask::Picture(request(&plain(0.5, 16))));
     let start = Instant::now();
     while renderer.latest_second().frame.generation != 1 {
         assert!(start.elapsed() < Duration::from_secs(60), "the other picture never came");
         std::thread::sleep(Duration::from_micros(200));
     }
-    renderer.submit_second(None);
+    renderer.stop_second();
     while renderer.latest_second().frame.generation != 0 {
         assert!(start.elapsed() < Duration::from_secs(60), "the other picture never went");
         std::thread::sleep(Duration::from_micros(200));
@@ -129,7 +125,7 @@ fn pause_and_resume_lose_nothing() {
     let renderer = renderer(Publish::Live);
     let target = Budget { max_spp: Some(40), ..Budget::default() };
     renderer.set_budget(target);
-    renderer.submit(noisy());
+    renderer.submit(1, noisy());
     let mut samples = 0;
     for _ in 0..10 {
         wait_for(&renderer, "more samples", |p| p.status.samples > samples || matches!(p.status.state, State::Done(_)));
@@ -149,7 +145,7 @@ fn pause_and_resume_lose_nothing() {
 fn raising_the_target_goes_on_with_the_samples_there_are() {
     let renderer = renderer(Publish::Live);
     renderer.set_budget(Budget { max_spp: Some(4), ..Budget::default() });
-    renderer.submit(noisy());
+    renderer.submit(1, noisy());
     let first = wait_for(&renderer, "the first target", |p| matches!(p.status.state, State::Done(_)));
     assert_eq!(first.status.spp, 4);
     renderer.set_budget(Budget { max_spp: Some(9), ..Budget::default() });
@@ -168,7 +164,7 @@ fn a_step_adds_one_sample_a_pixel() {
     let renderer = renderer(Publish::Live);
     let step = |steps| Budget { paused: true, steps, ..Budget::default() };
     renderer.set_budget(step(0));
-    renderer.submit(noisy());
+    renderer.submit(1, noisy());
     for steps in 0..4u64 {
         renderer.set_budget(step(steps));
         let stepped =
@@ -184,7 +180,7 @@ fn a_noise_target_is_reached_and_a_time_target_kept() {
     // Noise is believed from 64 samples on: the target must lie beyond.
     renderer.set_budget(Budget { max_spp: Some(64), ..Budget::default() });
     let camera = Camera { resolution: [64, 64], ..noisy().camera };
-    renderer.submit(Job { camera, ..noisy() });
+    renderer.submit(1, RenderRequest { camera, ..noisy() });
     let first = wait_for(&renderer, "64 samples", |p| matches!(p.status.state, State::Done(_)) && p.frame.spp == 64);
     let goal = 0.7 * first.status.relative_noise().expect("an estimate");
     renderer.set_budget(Budget { noise: Some(goal), ..Budget::default() });
@@ -202,11 +198,11 @@ fn paths_that_never_end_are_cut_counted_and_reported() {
     let (scene, settings) = endless();
     let camera = Camera { resolution: [8, 8], ..scene.camera };
     renderer.set_budget(Budget { max_spp: Some(1), ..Budget::default() });
-    renderer.submit(Job { generation: 1, scene: scene.clone(), camera, settings });
+    renderer.submit(1, RenderRequest { scene: scene.clone(), camera, settings });
     let cut = wait_for(&renderer, "the end", |p| matches!(p.status.state, State::Done(_)));
     assert_eq!(cut.status.cut_paths, 64);
     let settings = RenderSettings { roulette: Roulette::fixed(0.9), ..settings };
-    renderer.submit(Job { generation: 2, scene, camera, settings });
+    renderer.submit(2, RenderRequest { scene, camera, settings });
     let whole = wait_for(&renderer, "the end", |p| p.status.generation == 2 && matches!(p.status.state, State::Done(_)));
     assert_eq!(whole.status.cut_paths, 0);
 }
@@ -218,7 +214,7 @@ fn a_panic_in_a_pass_becomes_a_status_with_pixel_sample_and_message() {
     let scene = Arc::new(broken);
     let renderer = renderer(Publish::Live);
     let camera = Camera { resolution: [40, 40], ..scene.camera };
-    renderer.submit(Job { generation: 1, scene: scene.clone(), camera, settings: scene.settings });
+    renderer.submit(1, RenderRequest { scene: scene.clone(), camera, settings: scene.settings });
     let failed = wait_for(&renderer, "the failure", |p| matches!(p.status.state, State::Failed(_)));
     let State::Failed(failure) = failed.status.state else { unreachable!() };
     assert!(failure.message.contains("index out of bounds") && failure.at.sample == 0, "{failure:?}");
@@ -228,7 +224,7 @@ fn a_panic_in_a_pass_becomes_a_status_with_pixel_sample_and_message() {
     let rays = scene.rays(&Camera { resolution: failure.resolution, ..camera });
     let replays = || noisefall::integrator::replay(&scene, &rays, &settings, failure.at.pixel, failure.at.sample);
     assert!(std::panic::catch_unwind(std::panic::AssertUnwindSafe(replays)).is_err());
-    renderer.submit(noisy_as(2));
+    renderer.submit(2, noisy());
     wait_for(&renderer, "the next picture", |p| p.frame.generation == 2);
 }
 
@@ -242,7 +238,7 @@ fn samples_that_are_no_numbers_are_dropped_and_counted_with_the_way_to_replay_th
     let renderer = renderer(Publish::Sparse);
     renderer.set_budget(Budget { max_spp: Some(2), ..Budget::default() });
     let camera = Camera { resolution: [64, 64], ..scene.camera };
-    renderer.submit(Job { generation: 1, scene: scene.clone(), camera, settings: scene.settings });
+    renderer.submit(1, RenderRequest { scene: scene.clone(), camera, settings: scene.settings });
     let done = wait_for(&renderer, "the end", |p| matches!(p.status.state, State::Done(_)));
     assert!(done.status.invalid_samples > 0 && done.frame.radiance.len() == 64 * 64);
     assert!(done.frame.radiance.iter().flatten().all(|c| c.is_finite()), "the picture stays finite");

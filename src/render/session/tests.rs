@@ -14,13 +14,13 @@ fn threads() -> Threads {
     Threads::new(2, SimdLevel::best()).expect("threads can be had")
 }
 
-fn job_of(scene: Scene, resolution: [u32; 2]) -> Job {
+fn request_of(scene: Scene, resolution: [u32; 2]) -> RenderRequest {
     let camera = Camera { resolution, ..scene.camera };
-    Job { generation: 4, camera, settings: scene.settings, scene: Arc::new(scene) }
+    RenderRequest { camera, settings: scene.settings, scene: Arc::new(scene) }
 }
 
 fn session(resolution: [u32; 2], publish: Publish, rate: Option<f64>) -> Session {
-    Session::new(job_of(built_in(), resolution), publish, rate, &Budget::default(), None)
+    Session::new(4, request_of(built_in(), resolution), publish, rate, &Budget::default(), None)
 }
 
 fn to(spp: u32) -> Budget {
@@ -42,7 +42,7 @@ fn the_first_picture_is_as_coarse_as_its_time_allows_and_each_next_one_twice_as_
         sizes.push([frame.width, frame.height]);
     }
     assert_eq!(sizes, [[100, 90], [200, 180], [500, 450]]);
-    assert!(!Session::new(job_of(built_in(), [1000, 900]), Publish::Sparse, None, &to(1), None).is_coarse());
+    assert!(!Session::new(4, request_of(built_in(), [1000, 900]), Publish::Sparse, None, &to(1), None).is_coarse());
 }
 
 #[test]
@@ -78,9 +78,9 @@ fn frames_come_more_seldom_as_a_picture_ages() {
     };
     assert_eq!([0.0, 1.0, 5.0, 100.0].map(|seconds| after(seconds, Publish::Live)), [33, 50, 250, 500]);
     assert_eq!([0.0, 100.0].map(|seconds| after(seconds, Publish::Sparse)), [500, 500]);
-    let series = Session::of_series(job_of(built_in(), [8, 8]), None, &Budget::default());
+    let series = Session::of_series(4, request_of(built_in(), [8, 8]), None, &Budget::default());
     assert_eq!(series.interval(Publish::Live).as_millis(), 500);
-    assert!(!series.job.settings.adaptive && series.job.settings.reuse == Reuse::Off);
+    assert!(!series.request.settings.adaptive && series.request.settings.reuse == Reuse::Off);
 }
 
 #[test]
@@ -161,7 +161,7 @@ fn figures_are_those_of_the_whole_picture_so_far() {
     let text = "format = 1\n[camera]\neye = [0, 0, 0]\nlook_at = [0, 0, 1]\nfov = 60\nresolution = [40, 40]\n\
                 [background]\nradiance = 1\n";
     let scene = parse("sky.toml", text.to_owned()).expect("it is good");
-    let mut session = Session::new(job_of(scene, [40, 40]), Publish::Sparse, None, &Budget::default(), None);
+    let mut session = Session::new(4, request_of(scene, [40, 40]), Publish::Sparse, None, &Budget::default(), None);
     for spp in [2, 5] {
         session.advance(&threads(), &to(spp), Publish::Sparse, NEVER);
         session.frame();

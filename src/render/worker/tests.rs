@@ -19,9 +19,9 @@ fn worker(publish: Publish) -> Worker {
     }
 }
 
-fn job(scene: &Arc<Scene>, generation: u64, side: u32) -> Job {
+fn request(scene: &Arc<Scene>, side: u32) -> RenderRequest {
     let camera = Camera { resolution: [side, side], ..scene.camera };
-    Job { generation, camera, settings: scene.settings, scene: scene.clone() }
+    RenderRequest { camera, settings: scene.settings, scene: scene.clone() }
 }
 
 fn advance(worker: &mut Worker, side: usize) {
@@ -34,14 +34,14 @@ fn of_two_pictures_the_one_that_had_less_time_goes_on_whatever_the_first_had_bef
     let scene = Arc::new(built_in());
     let mut worker = worker(Publish::Sparse);
     assert_eq!(worker.next(), None);
-    worker.start(0, RenderTask::Picture(job(&scene, 1, 64)));
+    worker.start(0, 1, RenderTask::Picture(request(&scene, 64)));
     assert_eq!(worker.next(), Some(0));
     while worker.sessions[0].as_ref().is_some_and(|session| session.elapsed() < Duration::from_millis(20)) {
         advance(&mut worker, 0);
     }
     let elapsed = |worker: &Worker, side: usize| worker.sessions[side].as_ref().map_or(Duration::ZERO, Session::elapsed);
     let before = elapsed(&worker, 0);
-    worker.start(1, RenderTask::Picture(job(&scene, 2, 48)));
+    worker.start(1, 2, RenderTask::Picture(request(&scene, 48)));
     // One sample of all pixels a turn.
     worker.budget = Budget { paused: true, steps: 1000, ..Budget::default() };
     let mut turns = [0, 0];
@@ -61,8 +61,8 @@ fn of_two_pictures_the_one_that_had_less_time_goes_on_whatever_the_first_had_bef
 fn the_first_look_at_a_picture_goes_before_more_samples_of_another() {
     let scene = Arc::new(built_in());
     let mut worker = worker(Publish::Live);
-    worker.start(0, RenderTask::Picture(job(&scene, 1, 512)));
-    worker.start(1, RenderTask::Picture(job(&scene, 2, 64)));
+    worker.start(0, 1, RenderTask::Picture(request(&scene, 512)));
+    worker.start(1, 2, RenderTask::Picture(request(&scene, 64)));
     let coarse = |worker: &Worker, side: usize| worker.sessions[side].as_ref().is_some_and(Session::is_coarse);
     assert!(coarse(&worker, 0) && !coarse(&worker, 1));
     assert_eq!(worker.next(), Some(0));
@@ -75,18 +75,19 @@ fn messages_are_taken_in_order_and_counted() {
     let budget = Budget { max_spp: Some(3), ..Budget::default() };
     let messages = [
         Message::Budget(budget),
-        Message::Job(Box::new(job(&scene, 7, 8))),
-        Message::Second(Some(Box::new(RenderTask::Series(job(&scene, 8, 16))))),
+        Message::First(7, Box::new(request(&scene, 8))),
+        Message::Second(8, Box::new(RenderTask::Series(request(&scene, 16)))),
         Message::Threads(Threads::new(1, SimdLevel::best()).expect("a thread can be had")),
     ];
     for message in messages {
         assert!(worker.take(message).is_some());
     }
-    let generation = |worker: &Worker, side: usize| worker.sessions[side].as_ref().map(|session| session.job().generation);
+    let generation =
+        |worker: &Worker, side: usize| worker.sessions[side].as_ref().map(|session| session.status(&worker.budget).generation);
     assert_eq!((worker.seen, worker.budget, worker.threads.count()), (4, budget, 1));
     assert_eq!([generation(&worker, 0), generation(&worker, 1)], [Some(7), Some(8)]);
     lock(&worker.shared.published)[1].status.generation = 8;
-    assert!(worker.take(Message::Second(None)).is_some());
+    assert!(worker.take(Message::StopSecond).is_some());
     assert_eq!([generation(&worker, 0), generation(&worker, 1)], [Some(7), None]);
     assert_eq!(lock(&worker.shared.published)[1].status.generation, 0);
     assert!(worker.take(Message::Quit).is_none());

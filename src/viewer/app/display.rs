@@ -2,12 +2,12 @@
 use std::sync::Arc;
 
 use noisefall::{
-    render::{Frame, truth::Reference, view::DisplaySettings},
+    render::{Frame, RenderRequest, truth::Reference, view::DisplaySettings},
     scene::Camera,
 };
 
 use super::state::App;
-use crate::viewer::background::{display_request::BounceTerm, display_request::DisplayRequest, render_worker::RenderRequest};
+use crate::viewer::background::{display_request::BounceTerm, display_request::DisplayRequest};
 use crate::viewer::canvas::drawing::Split;
 use crate::viewer::instruments::tabs::InstrumentTab;
 

@@ -1,9 +1,11 @@
 //! Joins the instruments below the picture with the state of the window. At most one is open.
 use egui::{Align, Layout, Panel, Ui};
-use noisefall::scene::RenderSettings;
+use noisefall::{
+    render::{RenderRequest, RenderTask},
+    scene::RenderSettings,
+};
 
 use super::state::App;
-use crate::viewer::background::render_worker::SecondView;
 use crate::viewer::dialogs::save_target::SaveTarget;
 use crate::viewer::instruments::{
     bounces, compare::comparison::CompareLayout, compare::comparison::Comparison, compare::figures::SideStatus,
@@ -89,12 +91,16 @@ impl App {
     }
 
     /// The second view of the open instrument: none is rendered unless it is displayed.
-    pub fn second_view(&self) -> Option<SecondView> {
+    pub fn second_view(&self) -> Option<RenderTask> {
+        let request = self.session.request()?;
         match self.window.tab {
             Some(InstrumentTab::Bounces) => {
-                bounces::has_room_for_series(self.session.camera.resolution).then_some(SecondView::Series)
+                bounces::has_room_for_series(request.camera.resolution).then_some(RenderTask::Series(request))
             }
-            _ => self.session.comparison.map(|comparison| SecondView::Other(comparison.other)),
+            _ => {
+                let other = self.session.comparison?.other;
+                Some(RenderTask::Picture(RenderRequest { settings: other, ..request }))
+            }
         }
     }
 

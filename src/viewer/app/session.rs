@@ -2,7 +2,7 @@
 use std::{path::Path, sync::Arc};
 
 use noisefall::{
-    render::{Budget, Frame, view::DisplaySettings},
+    render::{Budget, Frame, RenderRequest, view::DisplaySettings},
     scene::{Camera, RenderSettings, built_in},
 };
 
@@ -38,6 +38,12 @@ impl Session {
             pinned: None,
             dropped_reference: None,
         }
+    }
+
+    /// The picture that the controls describe, of the open scene.
+    pub fn request(&self) -> Option<RenderRequest> {
+        let scene = self.opened.as_ref()?.scene.clone();
+        Some(RenderRequest { scene, camera: self.camera, settings: self.settings })
     }
 
     /// The settings that the sampling panel shows and changes.

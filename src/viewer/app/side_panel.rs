@@ -1,8 +1,9 @@
 //! Joins the panels at the right and at the bottom with the state of the window.
 use egui::{ScrollArea, Ui};
+use noisefall::render::RenderRequest;
 
 use super::state::App;
-use crate::viewer::background::{adviser::Adviser, catalogue::SceneRequest, render_worker::RenderRequest};
+use crate::viewer::background::{adviser::Adviser, catalogue::SceneRequest};
 use crate::viewer::dialogs::open;
 use crate::viewer::panels::{
     camera, display, objects, sampling, scene, status_bar::Pixel, status_bar::StatusBar, stop, views, views::ReferenceSource,

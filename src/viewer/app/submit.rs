@@ -4,7 +4,7 @@ use std::time::Duration;
 use noisefall::render::{Budget, State};
 
 use super::state::App;
-use crate::viewer::{background::render_worker::RenderRequest, canvas::interaction::Tool};
+use crate::viewer::canvas::interaction::Tool;
 
 impl App {
     /// Requests the picture that the controls describe.
@@ -18,15 +18,14 @@ impl App {
         let (session, worker) = (&mut self.session, &mut self.background.worker);
         let [width, height] = session.camera.resolution;
         session.budget.region = session.budget.region.and_then(|region| region.within([width, height]));
-        let Some(opened) = &session.opened else { return };
+        let Some(request) = session.request() else { return };
         // Even where no picture can be asked for, the last one can be held.
         worker.set_budget(Budget { paused: session.budget.paused || self.window.hidden || is_studying, ..session.budget });
-        let request = RenderRequest { scene: opened.scene.clone(), camera: session.camera, settings: session.settings };
         // A control that is dragged asks for a new picture at every step; the next one is not asked for before the last is seen.
         let shown = [&self.results.shown, &self.results.second_frame];
         let shown = shown.map(|frame| frame.as_ref().map_or(0, |frame| frame.generation));
         let drags_control = pressed && self.window.tool != Tool::Camera;
-        if drags_control && worker.is_awaited(shown, now) && !worker.is_asked(&request, second_view) {
+        if drags_control && worker.is_awaited(shown, now) && !worker.is_asked(&request, second_view.as_ref()) {
             self.ctx.request_repaint_after(Duration::from_millis(20));
         } else if session.camera.check().is_ok() {
             worker.update(request, second_view, now);

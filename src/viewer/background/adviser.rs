@@ -6,11 +6,11 @@ use std::{
 
 use noisefall::{
     math::SimdLevel,
-    render::threads::Threads,
+    render::{RenderRequest, threads::Threads},
     study::{Advice, advise},
 };
 
-use super::{background_task::BackgroundTask, render_worker::RenderRequest};
+use super::background_task::BackgroundTask;
 
 /// Of a study.
 const TIME: Duration = Duration::from_secs(8);

@@ -1,10 +1,7 @@
 //! Handle to the render worker. It compares each request with the last one; a difference starts a new generation.
-use std::sync::Arc;
-
 use noisefall::{
     math::SimdLevel,
-    render::{Budget, Job, Publish, Published, RenderTask, Renderer, threads::Threads},
-    scene::{Camera, RenderSettings, Scene},
+    render::{Budget, Publish, Published, RenderRequest, RenderTask, Renderer, threads::Threads},
 };
 
 /// Seconds to wait for the last picture before the next one is requested, while a control is dragged.
@@ -17,42 +14,12 @@ pub struct RenderWorkerHandle {
     generation: u64,
     second_generation: u64,
     request: Option<RenderRequest>,
-    second: Option<SecondView>,
+    second: Option<RenderTask>,
     budget: Budget,
     threads: usize,
     restarts: bool,
     /// Time of the last request, in seconds of the window's clock.
     asked: f64,
-}
-
-/// Everything a picture depends on. Display settings are not in it, so they cannot restart a render.
-#[derive(Clone)]
-pub struct RenderRequest {
-    pub scene: Arc<Scene>,
-    pub camera: Camera,
-    pub settings: RenderSettings,
-}
-
-/// The second view of the same scene and camera.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum SecondView {
-    /// The picture rendered with other settings.
-    Other(RenderSettings),
-    /// The picture split by the number of bounces.
-    Series,
-}
-
-impl PartialEq for RenderRequest {
-    fn eq(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.scene, &other.scene) && self.camera == other.camera && self.settings == other.settings
-    }
-}
-
-impl RenderRequest {
-    fn job(&self, generation: u64) -> Job {
-        let RenderRequest { scene, camera, settings } = self.clone();
-        Job { generation, scene, camera, settings }
-    }
 }
 
 impl RenderWorkerHandle {
@@ -83,18 +50,18 @@ impl RenderWorkerHandle {
     }
 
     /// Requests what has changed. `now` is the time of the window's clock.
-    pub fn update(&mut self, request: RenderRequest, second: Option<SecondView>, now: f64) {
+    pub fn update(&mut self, request: RenderRequest, second: Option<RenderTask>, now: f64) {
         let is_new = std::mem::take(&mut self.restarts) || self.request.as_ref() != Some(&request);
         if is_new {
             self.generation = self.next(now);
-            self.renderer.submit(request.job(self.generation));
+            self.renderer.submit(self.generation, request.clone());
         }
         if self.second != second || (is_new && second.is_some()) {
             self.second_generation = self.next(now);
-            self.renderer.submit_second(second.map(|second| match second {
-                SecondView::Other(settings) => RenderTask::Picture(Job { settings, ..request.job(self.second_generation) }),
-                SecondView::Series => RenderTask::Series(request.job(self.second_generation)),
-            }));
+            match second.clone() {
+                Some(task) => self.renderer.submit_second(self.second_generation, task),
+                None => self.renderer.stop_second(),
+            }
             self.second = second;
         }
         self.request = Some(request);
@@ -113,8 +80,8 @@ impl RenderWorkerHandle {
     }
 
     /// Whether this equals the last request.
-    pub fn is_asked(&self, request: &RenderRequest, second: Option<SecondView>) -> bool {
-        self.request.as_ref() == Some(request) && self.second == second
+    pub fn is_asked(&self, request: &RenderRequest, second: Option<&RenderTask>) -> bool {
+        self.request.as_ref() == Some(request) && self.second.as_ref() == second
     }
 
     /// The next [`RenderWorkerHandle::update`] restarts rendering.
@@ -167,7 +134,9 @@ impl RenderWorkerHandle {
 
 #[cfg(test)]
 mod tests {
-    use noisefall::scene::built_in;
+    use std::sync::Arc;
+
+    use noisefall::scene::{Camera, RenderSettings, built_in};
 
     use super::*;
 
@@ -181,6 +150,11 @@ mod tests {
         )
     }
 
+    /// The same picture with another seed.
+    fn other(request: &RenderRequest, seed: u32) -> RenderTask {
+        RenderTask::Picture(RenderRequest { settings: RenderSettings { seed, ..request.settings }, ..request.clone() })
+    }
+
     #[test]
     fn what_was_asked_for_is_awaited_until_it_is_shown_or_patience_ends() {
         let (mut worker, request) = worker();
@@ -192,7 +166,7 @@ mod tests {
         // Nothing new is nothing to wait for, and the time counts from what was asked last.
         worker.update(request.clone(), None, 20.0);
         assert_eq!(worker.generation(), 1);
-        let other = SecondView::Other(RenderSettings { seed: 5, ..request.settings });
+        let other = other(&request, 5);
         worker.update(request.clone(), Some(other), 30.0);
         assert_eq!((worker.generation(), worker.second_generation()), (1, 2));
         assert!(worker.is_awaited([1, 0], 30.0) && !worker.is_awaited([1, 2], 30.0), "the picture beside is awaited too");
@@ -204,7 +178,7 @@ mod tests {
     fn only_what_a_picture_depends_on_starts_a_new_one() {
         let (mut worker, request) = worker();
         worker.update(request.clone(), None, 0.0);
-        assert!(worker.is_asked(&request, None) && !worker.is_asked(&request, Some(SecondView::Series)));
+        assert!(worker.is_asked(&request, None) && !worker.is_asked(&request, Some(&RenderTask::Series(request.clone()))));
         worker.set_budget(Budget { max_spp: Some(3), ..Budget::default() });
         worker.update(request.clone(), None, 0.0);
         assert_eq!(worker.generation(), 1);
@@ -222,7 +196,7 @@ mod tests {
         worker.update(request.clone(), None, 0.0);
         assert_eq!(worker.generation(), 6, "it starts over once");
         // What is beside the picture starts over with it, and anew with other settings.
-        let other = |seed| Some(SecondView::Other(RenderSettings { seed, ..request.settings }));
+        let other = |seed| Some(other(&request, seed));
         worker.update(request.clone(), other(1), 0.0);
         worker.update(request.clone(), other(2), 0.0);
         assert_eq!((worker.generation(), worker.second_generation()), (6, 8));

@@ -14,8 +14,6 @@ use crate::viewer::widgets::{
     style::{controls, row},
 };
 
-const DEFAULT_CAP: u32 = 8;
-
 /// Shows which side of a comparison the panel edits, and lets the user change it.
 pub fn side_choice(ui: &mut Ui, edits_second: &mut bool) {
     ui.horizontal(|ui| {
@@ -52,7 +50,9 @@ pub fn show(ui: &mut Ui, settings: &mut RenderSettings, status: &Status, caution
             "Bounce cap",
             "n, the highest number of bounces counted, reflections and refractions alike: the series L_e + T L_e + … is cut after T^n L_e, and the picture is biased.",
             |ui, label| {
-                number::optional(ui, label, &mut settings.max_bounces, ("no cap", "bounces"), DEFAULT_CAP, 0, 0.0..=4096.0);
+                let range = 0.0..=RenderSettings::HIGHEST_CAP.into();
+                let words = ("no cap", "bounces");
+                number::optional(ui, label, &mut settings.max_bounces, words, RenderSettings::FIRST_CAP, 0, range);
             },
         );
         row(ui, "Seed", "Which random numbers are drawn: another seed gives other noise around the same mean.", |ui, label| {

@@ -4,13 +4,11 @@ use std::{path::Path, time::Duration};
 use egui::{Color32, RichText};
 use noisefall::{
     math::colour::luminance,
-    render::{Budget, Frame, State, Status, pass::SampleId, replay_command::replay_command, view::Legend},
+    render::{Budget, Frame, RenderRequest, State, Status, pass::SampleId, replay_command::replay_command, view::Legend},
     scene::{Camera, RenderSettings},
 };
 
-use crate::viewer::background::{
-    display_image::PixelValues, display_image::ReferenceComparison, loader::OpenedScene, render_worker::RenderRequest,
-};
+use crate::viewer::background::{display_image::PixelValues, display_image::ReferenceComparison, loader::OpenedScene};
 use crate::viewer::widgets::palette::Palette;
 
 /// The figures of the line.

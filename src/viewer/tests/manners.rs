@@ -1,8 +1,11 @@
 //! Manners: rest when there is nothing to do, other threads, coalesced drags, the tour, the gallery.
-use noisefall::scene::RenderSettings;
+use noisefall::{
+    render::{RenderRequest, RenderTask},
+    scene::RenderSettings,
+};
 
 use super::*;
-use crate::viewer::{background::render_worker::SecondView, instruments::tabs::InstrumentTab};
+use crate::viewer::instruments::tabs::InstrumentTab;
 
 #[test]
 fn a_hidden_window_renders_nothing_and_goes_on_when_it_is_seen() {
@@ -14,8 +17,9 @@ fn a_hidden_window_renders_nothing_and_goes_on_when_it_is_seen() {
     // back, whatever else it meant to do with this one would be done.
     let app = window.state_mut();
     let request = app.background.worker.request().cloned().expect("it was asked for");
-    let other = RenderSettings { seed: 5, ..request.settings };
-    app.background.worker.update(request, Some(SecondView::Other(other)), 0.0);
+    let settings = RenderSettings { seed: 5, ..request.settings };
+    let other = RenderTask::Picture(RenderRequest { settings, ..request.clone() });
+    app.background.worker.update(request, Some(other), 0.0);
     wait_without_frames(&window, |app| {
         app.background.worker.latest_second().frame.generation == app.background.worker.second_generation()
     });

@@ -1,12 +1,12 @@
 //! Copies a path or the samples of a pixel, and writes them for a file.
 use egui::Ui;
 use noisefall::render::{
+    RenderRequest,
     path_samples::SampleTable,
     path_text::{self, PathId},
 };
 
 use super::inspector::PathInspector;
-use crate::viewer::background::render_worker::RenderRequest;
 
 /// The form in which a path or the samples of its pixel leave the window.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -2,11 +2,11 @@
 use noisefall::{
     integrator::{Replay, pixel_samples, replay},
     math::colour::luminance,
-    render::sharing::resolved,
+    render::{RenderRequest, sharing::resolved},
 };
 
 use super::histogram::Histogram;
-use crate::viewer::background::{background_task::BackgroundTask, render_worker::RenderRequest};
+use crate::viewer::background::background_task::BackgroundTask;
 
 /// More samples do not change what a histogram looks like.
 const MOST_SAMPLES: u32 = 4096;

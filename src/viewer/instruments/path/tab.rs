@@ -1,9 +1,11 @@
 //! The tab of the path inspector: a pixel, its samples, and the vertices of one path.
 use egui::{RichText, ScrollArea, Ui, scroll_area::ScrollBarVisibility};
-use noisefall::{math::colour::luminance, render::Frame};
+use noisefall::{
+    math::colour::luminance,
+    render::{Frame, RenderRequest},
+};
 
 use super::{copying, histogram, inspector::PathInspector, table};
-use crate::viewer::background::render_worker::RenderRequest;
 use crate::viewer::widgets::{number, palette::Palette};
 
 /// Shows what the inspector has traced. `request` is the last one to the renderer, `frame` the displayed picture.
