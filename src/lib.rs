@@ -9,6 +9,8 @@
 //!
 //! Folders depend downwards only:
 //! `validate`, `study` → `report`, `render`, `measure` → `integrator` → `scene` → `light` → `material`, `geometry` → `texture` → `sampling`, `image`, `model` → `math`.
+#![warn(missing_docs)]
+
 pub mod declare;
 pub mod file;
 pub mod geometry;

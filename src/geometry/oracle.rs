@@ -8,6 +8,7 @@ use super::{Outline, Shape};
 /// An intersection of a ray with a piece.
 #[derive(Clone, Copy, Debug)]
 pub struct Intersection {
+    /// Distance along the ray, in units of its direction.
     pub t: f64,
     /// Distance inside the outline of the piece, relative to its size; negative outside.
     pub margin: f64,

@@ -6,13 +6,18 @@ use super::turns::Turns;
 /// One transform of a list. In motion, translation, angle, scale factor − 1 and matrix − identity grow linearly with time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Step {
+    /// Translation in metres.
     Translate(DVec3),
     /// Rotation about the unit axis, counter-clockwise seen from its tip. Full turns count in motion.
     Rotate {
+        /// Unit axis through the origin.
         axis: DVec3,
+        /// Angle in turns.
         turns: Turns,
     },
+    /// Scaling by a factor per axis.
     Scale(DVec3),
+    /// Any affine transform.
     Matrix(DAffine3),
 }
 

@@ -34,6 +34,7 @@ pub struct Coordinates<L: Lanes> {
 /// A reference to a primitive, its triangle and a time.
 #[derive(Clone, Copy)]
 pub struct PrimitiveRef<L: Lanes> {
+    /// Primitive id.
     pub primitive: U<L>,
     /// The triangle of a mesh.
     pub element: U<L>,

@@ -94,12 +94,14 @@ crate::words! {
 pub struct PictureError {
     /// The file.
     pub path: PathBuf,
+    /// What is wrong with it.
     pub problem: ImageFormatError,
 }
 
 /// What is wrong with a file.
 #[derive(Debug, PartialEq, thiserror::Error)]
 pub enum ImageFormatError {
+    /// The file does not exist.
     #[error("cannot be read: there is no such file")]
     Missing,
     /// The file cannot be opened or decoded.

@@ -5,6 +5,7 @@ use crate::math::{Lanes, M, V};
 /// A point for which lights are sampled.
 #[derive(Clone, Copy)]
 pub struct ReferencePoint<L: Lanes> {
+    /// Position in world space, metres.
     pub p: V<L>,
     /// Unit normal on the side of the viewer.
     pub n: V<L>,

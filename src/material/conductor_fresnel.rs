@@ -43,7 +43,12 @@ pub enum Reflectance {
     /// Schlick's approximation from the reflectance at normal incidence.
     Schlick(Textured),
     /// Fresnel's equations with the complex index η + ik relative to the outside.
-    Index { eta: [f64; 3], k: [f64; 3] },
+    Index {
+    /// Real part η per channel.
+        eta: [f64; 3],
+    /// Imaginary part k per channel.
+        k: [f64; 3],
+    },
 }
 
 const ETA: Parameter = Parameter::new("eta", "Real part of the complex index of refraction.").symbol("η").required();

@@ -49,12 +49,14 @@ pub struct Model {
 pub struct ModelError {
     /// The file.
     pub path: PathBuf,
+    /// What is wrong with it.
     pub problem: ModelFormatError,
 }
 
 /// What is wrong with a file.
 #[derive(Debug, PartialEq, thiserror::Error)]
 pub enum ModelFormatError {
+    /// The file does not exist.
     #[error("cannot be read: there is no such file")]
     Missing,
     /// The file cannot be opened or read.

@@ -4,6 +4,7 @@ use crate::measure::relative;
 /// Mean of a pixel's samples and the variance of that mean, per channel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
+    /// Mean radiance of the samples.
     pub mean: [f64; 3],
     /// `None` before the second sample.
     pub variance_of_mean: Option<[f64; 3]>,

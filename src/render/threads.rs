@@ -1,4 +1,4 @@
-//! The render threads, and what they are given.
+//! The render threads and their input.
 use std::sync::{Mutex, PoisonError};
 
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
@@ -21,24 +21,28 @@ pub struct Threads {
 /// The input of a pass.
 #[derive(Clone, Copy)]
 pub struct PassJob<'a> {
+    /// The compiled scene.
     pub scene: &'a Scene,
+    /// The rays of the camera, by [`Scene::rays`]. They decide the resolution.
     pub rays: &'a CameraRays,
+    /// The settings of the estimate.
     pub settings: &'a RenderSettings,
 }
 
 impl Threads {
-    /// `count` 0 means as many as there are cores.
+    /// Starts `count` threads, or one per core if `count` is 0. Fails if the system refuses to start them.
     pub fn new(count: usize, level: SimdLevel) -> Result<Threads, ThreadPoolBuildError> {
         let pool = ThreadPoolBuilder::new().num_threads(count).thread_name(|i| format!("render {i}")).build()?;
         let (batches, terms) = (0..pool.current_num_threads()).map(|_| Default::default()).unzip();
         Ok(Threads { pool, batches, terms, level })
     }
 
+    /// The number of threads.
     pub fn count(&self) -> usize {
         self.batches.len()
     }
 
-    /// Runs something on the threads of the pool.
+    /// Runs a task on the pool, so that rayon's parallel iterators in it use these threads.
     pub fn install<T: Send>(&self, task: impl FnOnce() -> T + Send) -> T {
         self.pool.install(task)
     }

@@ -7,12 +7,16 @@ use crate::{
 /// One object as the file describes it.
 #[derive(Clone, Debug)]
 pub struct Object {
+    /// The name in the scene file, or a name by its position.
     pub name: String,
+    /// The shape with the object's transform applied.
     pub shape: Shape,
+    /// How the object moves while the shutter is open.
     pub motion: Motion,
     /// The normal points inwards.
     pub flip: bool,
     /// The number of its material in [`Scene::materials`](super::Scene::materials); `None` is black.
     pub material: Option<u32>,
+    /// The light that the surface emits.
     pub emission: Option<Emission>,
 }

@@ -143,6 +143,7 @@ pub struct Sources<'a> {
 /// Display settings of views.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct DisplaySettings {
+    /// The quantity to display.
     pub view: View,
     /// Colours of numbers.
     pub map: ColourMap,

@@ -21,8 +21,9 @@ pub struct ZScoreHistogram {
 }
 
 impl ZScoreHistogram {
+    /// Largest absolute z-score of the histogram.
     pub const END: f64 = 5.0;
-    /// Width of a class of the histogram.
+    /// Width of a bin of the histogram.
     pub const WIDTH: f64 = 0.2;
 
     /// The histogram of all pixels with a standard error; `None` if there are none, or if the reference has another size.

@@ -141,6 +141,7 @@ fn rows(validation: &Validation, reference: &Reference) -> Vec<Statement> {
 
 /// How far block means are from a reference, in standard errors of both.
 pub struct BlockZScores {
+    /// The largest absolute z-score.
     pub worst: f64,
     /// Root mean square over the blocks.
     pub rms: f64,
