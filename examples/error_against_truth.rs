@@ -1,4 +1,4 @@
-//! Measures the error of a render against a truth, while the number of samples doubles.
+//! Measures the error of a render against an exact solution while the sample count doubles.
 //!
 //!     cargo run --release --example error_against_truth
 //!
@@ -7,16 +7,7 @@
 #![allow(clippy::print_stdout, reason = "the figures are printed for the reader")]
 use std::error::Error;
 
-use noisefall::{
-    math::SimdLevel,
-    render::{
-        Frame,
-        film::Film,
-        threads::{PassJob, Threads},
-        truth::Reference,
-    },
-    scene::{Camera, parse},
-};
+use noisefall::{Camera, Film, Frame, PassJob, Reference, SimdLevel, Threads, parse};
 
 const RESOLUTION: [u32; 2] = [128, 128];
 
@@ -27,7 +18,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     let threads = Threads::new(0, SimdLevel::best())?;
     let job = PassJob { scene: &scene, rays: &scene.rays(&camera), settings: &scene.settings };
-    // The film keeps its samples: each pass adds those that are missing.
+    // The film keeps its samples; a pass adds those that are missing.
     let mut film = Film::new(RESOLUTION);
     println!("samples  relMSE    bias ± standard error");
     for spp in (1..=6).map(|power| 1 << power) {

@@ -5,11 +5,7 @@ use std::{env::args_os, error::Error, path::Path, sync::Arc};
 
 use eframe::egui;
 use glam::DQuat;
-use noisefall::{
-    math::SimdLevel,
-    render::{Display, Publish, RenderRequest, Renderer, threads::Threads, tone::to_srgb},
-    scene::{built_in, load},
-};
+use noisefall::{Display, Publish, RenderRequest, Renderer, SimdLevel, Threads, built_in, load, to_srgb};
 
 struct Window {
     renderer: Renderer,
@@ -29,7 +25,7 @@ impl eframe::App for Window {
             egui::ColorImage::from_rgba_unmultiplied([frame.width as usize, frame.height as usize], pixels.as_flattened());
         let texture = ui.ctx().load_texture("frame", image, egui::TextureOptions::NEAREST);
         let size = egui::Vec2::from(self.request.camera.resolution.map(|side| side as f32));
-        // A line of text stands below.
+        // Leaves room for the line of text below.
         let room = ui.available_size() - egui::vec2(0.0, 24.0);
         let size = size * (room / size).min_elem();
         let dragged = ui.add(egui::Image::new((texture.id(), size)).sense(egui::Sense::drag())).drag_delta();
@@ -39,7 +35,7 @@ impl eframe::App for Window {
             let camera = &mut self.request.camera;
             let turn = DQuat::from_axis_angle(camera.up.normalize(), f64::from(-0.01 * dragged.x));
             camera.eye = camera.look_at + turn * (camera.eye - camera.look_at);
-            // Another generation cancels the one that is being rendered.
+            // The new generation cancels the one that is being rendered.
             self.generation += 1;
             self.renderer.submit(self.generation, self.request.clone());
         }

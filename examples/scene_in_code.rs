@@ -2,21 +2,18 @@
 //!
 //!     cargo run --release --example scene_in_code -- balls.png
 //!
-//! The scene file with the same content goes to standard output.
+//! It prints the scene file with the same content to standard output.
 #![allow(clippy::print_stdout, reason = "the text of the scene is printed for the reader")]
 use std::{env::args_os, error::Error, path::Path};
 
 use noisefall::{
-    material::{Conductor, Lambertian, Reflectance},
-    math::SimdLevel,
-    render::{
-        Display, Frame,
-        film::Film,
-        image_file::save,
-        threads::{PassJob, Threads},
+    Display, Film, Frame, PassJob, SimdLevel, Threads,
+    description::{
+        DVec3, EmissionDescription, SceneDescription,
+        materials::{Conductor, Lambertian, Reflectance},
+        shapes::{Rectangle, Sphere},
     },
-    scene::description::{DVec3, EmissionDescription, SceneDescription},
-    shape::{Sphere, rectangle::Rectangle},
+    image_file::save,
 };
 
 fn balls() -> SceneDescription {
@@ -41,7 +38,7 @@ fn balls() -> SceneDescription {
 
 fn main() -> Result<(), Box<dyn Error>> {
     let picture = args_os().nth(1).ok_or("name a PNG to write")?;
-    // Textures and meshes would be read from this folder. The checks are those of the reader of scene files.
+    // The folder that paths of textures and meshes are relative to. `build` checks the scene as `load` does.
     let scene = balls().build(Path::new("."))?;
     println!("{}", scene.source);
 

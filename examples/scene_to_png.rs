@@ -3,16 +3,7 @@
 //!     cargo run --release --example scene_to_png -- scenes/cornell_box.toml cornell_box.png
 use std::{env::args_os, error::Error, path::PathBuf};
 
-use noisefall::{
-    math::SimdLevel,
-    render::{
-        Display, Frame,
-        film::Film,
-        image_file::save,
-        threads::{PassJob, Threads},
-    },
-    scene::load,
-};
+use noisefall::{Display, Film, Frame, PassJob, SimdLevel, Threads, image_file::save, load};
 
 /// Samples per pixel.
 const SPP: u32 = 16;

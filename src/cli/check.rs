@@ -1,4 +1,5 @@
-//! `noisefall check`: scene files are read and compiled; a small picture is rendered only to be held against the `[truth]` of a scene.
+//! `noisefall check`: reads and compiles scene files. A scene with a `[truth]` is also rendered as a small image and compared
+//! with it.
 use std::path::PathBuf;
 
 use noisefall::{
@@ -11,7 +12,7 @@ use super::messages::{Failure, print};
 
 #[derive(clap::Args)]
 pub struct Arguments {
-    /// Scene files
+    /// Scene files (.toml)
     #[arg(required = true)]
     scenes: Vec<PathBuf>,
 }

@@ -1,4 +1,4 @@
-//! `noisefall compare`: how far one picture is from another, and whether by more than noise.
+//! `noisefall compare`: measures the difference of two images, and whether it exceeds noise.
 use std::{
     io::Read,
     path::{Path, PathBuf},
@@ -27,37 +27,37 @@ use super::{
 };
 
 const NOTES: &str = "\
-The bias is the mean of A − B over pixels and channels. Its standard error comes from the variances of samples that `noisefall render` \
-writes into EXR files, or from the scatter of --repeats; from two pictures alone it cannot be told.
+The bias is the mean of A − B over pixels and channels. Its standard error comes from the sample variances that `noisefall render` \
+writes into EXR files, or from the spread of --repeats. From two images alone it is unknown.
 
 relMSE is the mean over pixels and channels of (a − b)²/(b² + 0.01 · mean b²), or of (a − b)²/(b² + F) with --floor F.";
 
 #[derive(clap::Args)]
 #[command(after_help = NOTES)]
 pub struct Arguments {
-    /// Picture (.exr or .png)
+    /// Image (.exr or .png)
     a: PathBuf,
-    /// Reference (.exr or .png)
+    /// Reference image (.exr or .png)
     b: PathBuf,
-    /// Pictures of the same as A with other seeds, whose scatter tells the standard error of the bias of their mean
+    /// Further renders of A with other seeds; their spread gives the standard error of the bias
     #[arg(long, value_name = "FILE", num_args = 1..)]
     repeats: Vec<PathBuf>,
-    /// What relMSE adds to the squared reference [default: 0.01 of the mean squared reference]
+    /// Constant that relMSE adds to the squared reference [default: 0.01 of the mean squared reference]
     #[arg(long, value_name = "F", value_parser = floor, allow_negative_numbers = true)]
     floor: Option<Floor>,
-    /// Picture of the difference to write: .exr (A less B) or .png (relative luminance, blue for less, red for more); - for
-    /// standard output
+    /// Difference image to write: .exr (A minus B) or .png (relative luminance, blue for less, red for more); - for standard
+    /// output
     #[arg(short, long)]
     output: Option<PathBuf>,
-    /// Format of a picture on standard output: png or exr; a file's name says it
+    /// Format of an image on standard output: png or exr. Files get the format of their extension
     #[arg(long, value_name = "FORMAT", value_parser = format, requires = "output")]
     format: Option<Format>,
-    /// Print one line of JSON, on standard error where the picture is on standard output
+    /// Print one line of JSON; on standard error if the image goes to standard output
     #[arg(long)]
     json: bool,
 }
 
-/// A file with what it says of itself.
+/// An image file and its metadata.
 struct Loaded<'a> {
     path: &'a Path,
     picture: Picture,
@@ -84,7 +84,7 @@ impl Loaded<'_> {
     }
 }
 
-/// By its first bytes, as pictures are read.
+/// Whether a file starts with the signature of PNG.
 fn is_png(path: &Path) -> bool {
     let mut start = [0; 8];
     let read = open_regular(path).and_then(|mut file| file.read_exact(&mut start));
@@ -122,25 +122,25 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let (difference, scale) = difference(output.format(), a, b, floor);
     let delivered = output.write(&difference, Display::default(), "{}")?;
     if !arguments.json {
-        let said = scale.map_or("A less B".to_owned(), |scale| format!("full colour is a difference of {:.1} %", 100.0 * scale));
+        let said = scale.map_or("A minus B".to_owned(), |scale| format!("full colour is a difference of {:.1} %", 100.0 * scale));
         lines.push(format!("{output}: {said}"));
     }
     output.report(&lines.join("\n"))?;
     Ok(delivered)
 }
 
-/// Room for so many pictures of this size with what is made of them.
+/// Reserves the memory for a number of images of this size and for their difference.
 fn room(like: &Picture, pictures: usize) -> Result<Reservation, TooMuch> {
-    /// Of a pixel: radiance, variances and mean.
+    /// Bytes per pixel: radiance, variances and mean.
     const PICTURE: u64 = 12 + 12 + 8;
-    /// Of a pixel: two frames with their codes, the difference and what colours it.
+    /// Bytes per pixel: two frames with their codes, the difference and its colours.
     const DIFFERENCE: u64 = 2 * (12 + 7) + 12 + 36;
     let [width, height] = [like.width, like.height].map(u64::from);
     let bytes = (PICTURE * pictures as u64 + DIFFERENCE + flip::BYTES_OF_PIXEL) * width * height;
     reserve(format_args!("{pictures} pictures of {width} × {height} pixels and their difference"), bytes)
 }
 
-/// Repeats that are the same picture tell nothing of noise, unless there is none: then their seeds differ all the same.
+/// Repeats of one seed have the same noise. Images without noise may be equal if their seeds differ.
 fn must_be_independent(repeats: &[&Loaded]) -> Result<(), Failure> {
     for (i, a) in repeats.iter().enumerate() {
         for b in &repeats[..i] {
@@ -164,26 +164,26 @@ fn bias(all: &[&Loaded], b: &Loaded) -> Bias {
     Bias::by_repeats(&pictures, &b.picture.radiance, of_b, width)
 }
 
-/// What is to be said of the standard error.
+/// Notes on the standard error.
 fn remarks(bias: &Bias, all: &[&Loaded], b: &Loaded) -> Vec<String> {
     let mut remarks = Vec::new();
     if bias.evidence == Evidence::None {
         remarks.push(format!(
-            "the standard error is unknown: {} has no variances; render it as EXR, or name --repeats with other seeds",
+            "the standard error is unknown: {} has no variances; render it as EXR, or give --repeats with other seeds",
             all[0].path.display()
         ));
         return remarks;
     }
     if bias.has_heavy_tails {
-        remarks.push("the variance is dominated by few samples: the standard error is not to be trusted".to_owned());
+        remarks.push("few samples make up most of the variance: do not trust the standard error".to_owned());
     }
     if bias.evidence == Evidence::Samples && !bias.is_exact && !all[0].provenance.is_independent {
-        remarks.push("at most: stratified and Sobol samples are better than their variance says".to_owned());
+        remarks.push("the standard error is an upper bound: the error of stratified and Sobol samples is smaller".to_owned());
     }
     if b.provenance.noise.is_none() {
         remarks.push(format!("the error of {} itself is unknown and assumed to be 0", b.path.display()));
     } else if all.iter().any(|a| a.provenance.seed.is_some() && a.provenance.seed == b.provenance.seed) && !bias.is_exact {
-        remarks.push("A and B have the same seed, so their noise may be in common and the standard error too large".to_owned());
+        remarks.push("A and B have the same seed: they may share noise, which makes the standard error too large".to_owned());
     }
     remarks
 }
@@ -208,7 +208,7 @@ fn text(comparison: &Comparison, flip: Option<f64>, bias: &Bias, remarks: &[Stri
     lines.join("\n")
 }
 
-/// The bias and how sure it is, in a line.
+/// The bias and its standard error in one line.
 fn said(bias: &Bias) -> String {
     let mean = bias.mean;
     match (bias.standard_error, bias.z) {
@@ -223,7 +223,7 @@ fn frame(like: &Picture, radiance: Vec<[f32; 3]>) -> Frame {
     Frame { width: like.width, height: like.height, radiance, ..Frame::default() }
 }
 
-/// A less B; for a PNG the relative difference of luminances in colours, and their scale.
+/// A minus B. For a PNG, the relative difference of luminances in colours, and the difference that has full colour.
 fn difference(format: Option<Format>, a: &Picture, b: &Picture, floor: Floor) -> (Frame, Option<f64>) {
     if format != Some(Format::Png) {
         let pairs = a.radiance.iter().zip(&b.radiance);
@@ -240,7 +240,7 @@ fn difference(format: Option<Format>, a: &Picture, b: &Picture, floor: Floor) ->
     (frame(a, relative.iter().map(|x| diverging(x / scale)).collect()), Some(scale))
 }
 
-/// From blue at −1 by white to red at 1, which colour-blind readers tell apart as well; linear display light.
+/// Linear display colours from blue at −1 through white to red at 1. Colour-blind readers can tell them apart.
 fn diverging(x: f64) -> [f32; 3] {
     const LESS: [f32; 3] = [0.017, 0.125, 0.445];
     const MORE: [f32; 3] = [0.445, 0.017, 0.025];

@@ -1,4 +1,4 @@
-//! `noisefall evidence`: the chapter of a report for one's own scene.
+//! `noisefall evidence`: writes a chapter of figures and tables about a scene.
 use std::{path::PathBuf, process::ExitCode, sync::atomic::Ordering, time::Duration};
 
 use indicatif::{ProgressBar, ProgressStyle};
@@ -17,31 +17,31 @@ use super::{
 };
 
 const NOTES: &str = "\
-DIR gets report.html, every plot as SVG and PNG, every sheet of pictures as PNG, every table as CSV and LaTeX, and study.csv with all \
-measurements. Measurements that DIR already has are not repeated.
+DIR gets report.html, every plot as SVG and PNG, every sheet of images as PNG, every table as CSV and LaTeX, and study.csv with all \
+measurements. Measurements in DIR are not repeated.
 
 Example: noisefall evidence my_scene.toml -o evidence --time 180";
 
 #[derive(clap::Args)]
 #[command(after_help = NOTES)]
 pub struct Arguments {
-    /// Scene file (.toml), or a picture that carries its scene
+    /// Scene file (.toml), or an image that carries its scene
     scene: PathBuf,
-    /// Folder for the report and its files, made if it is not there
+    /// Folder for the report and its files; created if it does not exist
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
     /// Approximate duration
     #[arg(long, value_name = "SECONDS", default_value = "180", value_parser = parse::seconds)]
     time: Duration,
-    /// Reference picture (.exr) to compare with, in place of the scene's own
+    /// Reference image (.exr), in place of the scene's own
     #[arg(long, value_name = "FILE")]
     reference: Option<PathBuf>,
-    /// Resolution in pixels [default: the reference's, or the scene's made small enough for 256 along the longer side]
+    /// Resolution in pixels [default: the reference's, or the scene's scaled down to 256 along the longer side]
     #[arg(long, value_name = "WxH", value_parser = parse::resolution, allow_hyphen_values = true)]
     size: Option<[u32; 2]>,
     #[command(flatten)]
     display: DisplayOptions,
-    /// Threads; 0 for one a core
+    /// Number of threads; 0 for one per core
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = parse::threads)]
     threads: u16,
 }

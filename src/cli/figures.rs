@@ -1,4 +1,5 @@
-//! The names of figures: the same in `render --json`, `compare --json` and `study.csv`. `docs/figures.schema.json` describes them.
+//! Figures under the names that `render --json`, `compare --json` and `study.csv` share. `docs/figures.schema.json` describes
+//! them.
 use noisefall::{
     measure::{Bias, Comparison},
     render::settings_text::on_or_off,
@@ -8,12 +9,12 @@ use serde_json::{Map, Value, json};
 
 pub type Figures = Map<String, Value>;
 
-/// Figures of their names.
+/// Figures from pairs of name and value.
 pub fn named<const N: usize>(pairs: [(&str, Value); N]) -> Figures {
     pairs.into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
 }
 
-/// All that a sample depends on besides scene and camera, in the words of the command line.
+/// The settings, which samples depend on besides scene and camera, in the words of the command line.
 pub fn settings(settings: &RenderSettings) -> Figures {
     named([
         ("estimator", json!(settings.estimator.name())),
@@ -28,7 +29,7 @@ pub fn settings(settings: &RenderSettings) -> Figures {
     ])
 }
 
-/// How far a picture is from its reference; all null where there is none.
+/// The errors of an image against its reference; all null without one.
 pub fn error(comparison: Option<&Comparison>, bias: Option<&Bias>) -> Figures {
     named([
         ("rmse", json!(comparison.map(|comparison| comparison.rmse))),

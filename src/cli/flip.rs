@@ -1,17 +1,17 @@
-//! The FLIP error of two pictures: how large an observer finds their difference who looks at one after the other.
+//! FLIP: the difference that an observer perceives who alternates between two images.
 //!
 //! P. Andersson et al., "FLIP: A Difference Evaluator for Alternating Images", HPG 2020.
 use noisefall::render::Frame;
 #[cfg(feature = "flip")]
 use noisefall::render::{Display, tone::to_srgb};
 
-/// What finding the error takes: two pictures in colours that are as far apart as they look, each with what filters make of it.
+/// Memory for both images in a perceptually uniform colour space, each with its filtered copies.
 #[cfg(feature = "flip")]
 pub const BYTES_OF_PIXEL: u64 = 8 * 12;
 #[cfg(not(feature = "flip"))]
 pub const BYTES_OF_PIXEL: u64 = 0;
 
-/// The mean error from 0 to 1 at 67 pixels a degree, of the pictures as the screen shows them; `None` in a program built without FLIP.
+/// Mean FLIP error from 0 to 1 of two images as the screen shows them, at 67 pixels per degree. `None` if built without FLIP.
 #[cfg(feature = "flip")]
 pub fn mean_error(picture: &Frame, reference: &Frame) -> Option<f64> {
     let shown = |frame: &Frame| {

@@ -1,28 +1,29 @@
-//! The folder that `-o` names.
+//! The folder of `-o DIR`.
 use std::path::Path;
 
 use noisefall::file::{check, replace};
 
 use super::messages::{Failure, print};
 
-/// The file in the folder that a report goes to.
+/// File name of a report.
 pub const REPORT: &str = "report.html";
 
-/// Makes the folder if it is not there. What is wrong with it, or with the file of this name in it, is told before a minute is spent.
+/// Creates the folder if it does not exist. Reports a problem with it, or with the file of this name in it, before the work
+/// begins.
 pub fn make(folder: &Path, name: &str) -> Result<(), Failure> {
     if folder.exists() && !folder.is_dir() {
-        return Err(format!("{}: this is a file; -o names a folder", folder.display()));
+        return Err(format!("{}: this is a file; -o needs a folder", folder.display()));
     }
-    std::fs::create_dir_all(folder).map_err(|error| format!("{}: cannot be made: {}", folder.display(), error.kind()))?;
+    std::fs::create_dir_all(folder).map_err(|error| format!("{}: cannot be created: {}", folder.display(), error.kind()))?;
     check(&folder.join(name)).map_err(|error| error.to_string())
 }
 
-/// Writes the report and says where it is.
+/// Writes the report and prints its path.
 pub fn write_report(folder: &Path, html: &str) -> Result<(), Failure> {
     write(folder, REPORT, html, "report")
 }
 
-/// Writes a file of the folder, and says what and where it is.
+/// Writes a file into the folder, and prints what it is and its path.
 pub fn write(folder: &Path, name: &str, text: &str, what: &str) -> Result<(), Failure> {
     let path = folder.join(name);
     replace(&path, text.as_bytes()).map_err(|error| error.to_string())?;

@@ -1,4 +1,4 @@
-//! Lists of settings, all of which are combined.
+//! Options that take lists of settings. A study combines the lists.
 use noisefall::{
     sampling::{Directions, Sampler},
     scene::{Estimator, Reuse, Roulette},
@@ -9,31 +9,31 @@ use super::options::{self as parse, BounceCap};
 
 #[derive(clap::Args)]
 pub struct ListOptions {
-    #[arg(long, help = format!("How light is found: {}", parse::list_of::<Estimator>()),
+    #[arg(long, help = format!("How direct light is estimated: {}", parse::list_of::<Estimator>()),
           value_name = "LIST", value_delimiter = ',', value_parser = item(parse::word::<Estimator>))]
     estimators: Vec<Estimator>,
-    #[arg(long, help = format!("How the next direction is drawn at diffuse surfaces: {}", parse::list_of::<Directions>()),
+    #[arg(long, help = format!("How directions are sampled at diffuse surfaces: {}", parse::list_of::<Directions>()),
           value_name = "LIST", value_delimiter = ',', value_parser = item(parse::word::<Directions>))]
     directions: Vec<Directions>,
-    #[arg(long, help = format!("Where samples lie: {}", parse::list_of::<Sampler>()),
+    #[arg(long, help = format!("Sampler: {}", parse::list_of::<Sampler>()),
           value_name = "LIST", value_delimiter = ',', value_parser = item(parse::word::<Sampler>))]
     samplers: Vec<Sampler>,
     #[arg(long, help = format!("Russian roulette: {}", Roulette::options().join(", ")),
           value_name = "LIST", value_delimiter = ',', value_parser = item(parse::roulette))]
     roulette: Vec<Roulette>,
-    /// Highest numbers of bounces, none for no cap; what is capped is biased
+    /// Highest numbers of bounces, or none for no cap; a cap makes the estimate biased
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = item(parse::bounce_cap))]
     max_bounces: Vec<BounceCap>,
-    #[arg(long, help = format!("Whether neighbouring pixels share what their paths find: {}", parse::list_of::<Reuse>()),
+    #[arg(long, help = format!("Whether neighbouring pixels reuse each other's paths: {}", parse::list_of::<Reuse>()),
           value_name = "LIST", value_delimiter = ',', value_parser = item(parse::word::<Reuse>))]
     reuse: Vec<Reuse>,
-    /// Whether pixels get more samples where there is more noise: on, off
+    /// Adaptive sampling, with more samples where there is more noise: on, off
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = item(parse::on_or_off))]
     adaptive: Vec<bool>,
 }
 
 impl ListOptions {
-    /// The lists; where one is not given, that of `usual`.
+    /// The lists, with those of `usual` for the ones that were not given.
     pub fn lists(&self, usual: Lists) -> Lists {
         fn given<T: Clone>(list: &[T], usual: Vec<T>) -> Vec<T> {
             if list.is_empty() { usual } else { list.to_vec() }
@@ -50,7 +50,7 @@ impl ListOptions {
     }
 }
 
-/// A value of a list, with the spaces and quotes around it that are natural in lists.
+/// Parses an item of a list; spaces and quotes around it are ignored.
 pub fn item<T>(parse: fn(&str) -> Result<T, String>) -> impl Fn(&str) -> Result<T, String> + Clone {
     move |text| parse(text.trim_matches(|c: char| c.is_whitespace() || matches!(c, '"' | '\'')))
 }

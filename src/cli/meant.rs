@@ -1,10 +1,10 @@
-//! What was meant by options of other renderers.
+//! Advice for options that other renderers have.
 use clap::{
     Command, Error,
     error::{ContextKind, ContextValue, ErrorKind},
 };
 
-/// Words that are no options here, and those that they may mean; of several the first that the command has.
+/// Unknown options, and the options that they may mean; the first one that the command has is suggested.
 const SYNONYMS: [(&[&str], &[&str]); 10] = [
     (&["samples", "samples-per-pixel", "sample-count", "num-samples"], &["spp"]),
     (&["depth", "max-depth", "bounces", "cap"], &["max-bounces"]),
@@ -18,7 +18,7 @@ const SYNONYMS: [(&[&str], &[&str]); 10] = [
     (&["ev", "stops"], &["exposure"]),
 ];
 
-/// An error of usage that names the option that was meant, where that is known.
+/// Adds the option that was probably meant to a usage error.
 pub fn with_advice(mut error: Error, program: &Command) -> Error {
     if error.kind() == ErrorKind::UnknownArgument
         && let Some(ContextValue::String(typed)) = error.get(ContextKind::InvalidArg)
@@ -29,7 +29,7 @@ pub fn with_advice(mut error: Error, program: &Command) -> Error {
     error
 }
 
-/// The option of the command that is being run.
+/// The option of the command that the typed one probably means.
 fn meant(typed: &str, program: &Command) -> Option<&'static str> {
     let word = typed.trim_start_matches('-').split('=').next()?;
     let (_, meant) = SYNONYMS.iter().find(|(words, _)| words.contains(&word))?;

@@ -1,13 +1,13 @@
-//! What the commands say. Results go to standard output, everything else to standard error; readers of either may be gone.
+//! Output of the commands. Results go to standard output, everything else to standard error. Either may be closed by its reader.
 use std::{
     io::{ErrorKind, Write, stderr, stdout},
     process::ExitCode,
 };
 
-/// Why a command failed: one message, of one or several lines.
+/// Error message of a command, of one or several lines.
 pub type Failure = String;
 
-/// Prints text and ends the line. A reader that has gone away, as in `… | head`, is no failure.
+/// Prints a line to standard output. A reader that has gone away, as in `… | head`, is not an error.
 pub fn print(text: &str) -> Result<(), Failure> {
     match writeln!(stdout(), "{text}") {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(format!("standard output: {error}")),
@@ -15,12 +15,12 @@ pub fn print(text: &str) -> Result<(), Failure> {
     }
 }
 
-/// Says something on standard error. Where that cannot be written there is nobody to say so to.
+/// Prints a line to standard error. Failures to do so are ignored.
 pub fn tell(text: &str) {
     let _ = writeln!(stderr(), "{text}");
 }
 
-/// Says why a command cannot be understood, and with which code the program then ends.
+/// Reports wrong usage. Returns the exit code for it.
 pub fn wrong_usage(mistake: &str) -> ExitCode {
     const WRONG_USAGE: u8 = 2;
     tell(mistake);

@@ -1,4 +1,4 @@
-//! The command line. Exit status 0 done, 1 failed with a message on standard error, 2 wrong usage, 130 interrupted.
+//! The command line. Exit status: 0 done, 1 failed with a message on standard error, 2 wrong usage, 130 interrupted.
 mod check;
 mod compare;
 #[cfg(feature = "reports")]
@@ -40,7 +40,7 @@ use noisefall::{
 pub use self::messages::Failure;
 use self::messages::{print, tell, wrong_usage};
 
-/// Solves the light transport equation while you watch.
+/// Interactive progressive path tracer.
 ///
 /// Without a command, opens the window on SCENE, or on the built-in Cornell box.
 #[derive(Parser)]
@@ -48,7 +48,7 @@ use self::messages::{print, tell, wrong_usage};
 struct Arguments {
     /// Scene file (.toml) to open in the window
     scene: Option<PathBuf>,
-    /// Memory that scenes and pictures may take, such as 4G or 500M [default: half of the machine's]
+    /// Memory limit for scenes and images, such as 4G or 500M [default: half of the machine's memory]
     #[arg(long, value_name = "SIZE", global = true, value_parser = options::memory)]
     memory: Option<u64>,
     #[command(subcommand)]
@@ -59,21 +59,21 @@ struct Arguments {
 enum Command {
     /// Render a scene to a PNG or EXR file, without a window
     Render(render::Arguments),
-    /// Error of picture A against reference B
+    /// Measure the error of image A against reference B
     Compare(compare::Arguments),
-    /// Hold the renderer against exact solutions and write a report
+    /// Compare the renderer with exact solutions and write a report
     #[cfg(feature = "reports")]
     Validate(validate::Arguments),
-    /// Run time against error for every combination of settings, as a report
+    /// Find the settings that reach an error in the least time, and write a report
     #[cfg(feature = "reports")]
     Study(study::Arguments),
-    /// The chapter of a report for a scene: pictures, convergence, bias, comparisons at equal time
+    /// Collect images, convergence, bias and equal-time comparisons of a scene for a report
     #[cfg(feature = "reports")]
     Evidence(evidence::Arguments),
-    /// One labelled picture of several settings
+    /// Render images with several settings onto one labelled sheet
     #[cfg(feature = "reports")]
     Sheet(sheet::Arguments),
-    /// Read and check scene files, without a picture
+    /// Report errors and likely mistakes in scene files
     Check(check::Arguments),
     /// Print the JSON Schema of scene files, for editors
     Schema,
@@ -107,13 +107,13 @@ pub fn run() -> ExitCode {
     })
 }
 
-/// Prints the schema that the declarations of the format make.
+/// Prints the JSON Schema, which is generated from the declarations of the scene format.
 fn schema() -> Result<(), Failure> {
     let schema = noisefall::declare::schema("Noisefall scene", &mut SceneDescription::default());
     print(&format!("{schema:#}"))
 }
 
-/// What to say of a first word that is neither a command nor a scene, but looks like a command.
+/// Error message if the first argument looks like a mistyped command.
 fn mistaken_command(arguments: &[OsString]) -> Option<String> {
     let word = arguments.first()?.to_str()?;
     let commands = Arguments::command();
@@ -124,12 +124,12 @@ fn mistaken_command(arguments: &[OsString]) -> Option<String> {
     }
     let meant = nearest(word, names.iter().copied());
     let advice = meant.map(|meant| format!("did you mean `{meant}`?"));
-    // A single word that is near to nothing is rather a scene that is not there.
+    // A single word that resembles no command is more likely a scene file that does not exist.
     let advice = advice.or_else(|| (arguments.len() > 1).then(|| "`noisefall --help` lists them".to_owned()))?;
     Some(format!("there is no command `{word}`; {advice}"))
 }
 
-/// Where there is no window, what is wrong with the scene is said all the same.
+/// Opens the window. If that fails, errors of the scene are reported as well.
 fn window(scene: Option<PathBuf>) -> Result<(), Failure> {
     open_window(scene.clone()).map_err(|no_window| match scene.and_then(|path| load(&path).err()) {
         Some(bad_scene) => format!("{}\n\n{no_window}", bad_scene.report()),

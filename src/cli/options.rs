@@ -1,4 +1,4 @@
-//! Values of options, parsed and checked.
+//! Parsers of option values.
 use std::time::Duration;
 
 use noisefall::{
@@ -10,10 +10,10 @@ use noisefall::{
 
 use super::replay::Which;
 
-/// How a PNG shows radiance.
+/// Display transform of a PNG.
 #[derive(clap::Args)]
 pub struct DisplayOptions {
-    /// Exposure of a PNG in stops: radiance is multiplied by 2 to this power
+    /// Exposure of a PNG in stops; each stop doubles the brightness
     #[arg(long, value_name = "STOPS", value_parser = exposure, allow_negative_numbers = true, default_value_t = 0.0)]
     exposure: f32,
     #[arg(long, value_name = "MAP", help = format!("Tone map of a PNG: {}", one_of::<ToneMap>()), value_parser = tone,
@@ -88,7 +88,7 @@ fn pair(text: &str, separators: &[char]) -> Option<[u32; 2]> {
     Some([a.trim().parse().ok()?, b.trim().parse().ok()?])
 }
 
-/// A number, two with a `-` between them, or `lit`.
+/// Parses a number, a range `A-B`, or `lit`.
 pub fn which(text: &str) -> Result<Which, String> {
     let expected = || "expected a number, a range such as 0-9999, or `lit`".to_owned();
     let number = |text: &str| text.trim().parse::<u32>().map_err(|_| expected());
@@ -121,7 +121,7 @@ pub fn seconds(text: &str) -> Result<Duration, String> {
     seconds.and_then(|s| Duration::try_from_secs_f64(s).ok()).ok_or_else(|| "expected a number of seconds above 0".to_owned())
 }
 
-/// What relMSE adds to the squared reference.
+/// Parses the constant that relMSE adds to the squared reference.
 pub fn floor(text: &str) -> Result<Floor, String> {
     let floor = text.parse::<f64>().ok().filter(|floor| floor.is_finite() && *floor > 0.0);
     floor.map(Floor::Absolute).ok_or_else(|| "expected a number above 0, such as 0.01".to_owned())
@@ -132,7 +132,7 @@ pub fn noise(text: &str) -> Result<f64, String> {
     noise.ok_or_else(|| "expected a number above 0, such as 0.01 for 1 %".to_owned())
 }
 
-/// Bytes, or as many thousands, millions and so on as the letter says.
+/// Parses a number of bytes with an optional suffix such as `K`, `M` or `G`.
 pub fn memory(text: &str) -> Result<u64, String> {
     const UNITS: [(char, f64); 4] = [('K', 1e3), ('M', 1e6), ('G', 1e9), ('T', 1e12)];
     let upper = text.trim().to_ascii_uppercase();
@@ -143,7 +143,7 @@ pub fn memory(text: &str) -> Result<u64, String> {
     bytes.map(|bytes| bytes as u64).ok_or_else(|| "expected a size, such as 4G or 500M".to_owned())
 }
 
-/// In stops.
+/// Parses an exposure in stops.
 pub fn exposure(text: &str) -> Result<f32, String> {
     let stops = text.parse().ok().filter(|stops: &f32| stops.abs() <= 100.0);
     stops.ok_or_else(|| "expected stops, from -100 to 100, such as -1.5".to_owned())

@@ -1,4 +1,4 @@
-//! Where a rendered picture goes: a file, or standard output.
+//! The destination of a rendered image: a file or standard output.
 use std::{
     fmt,
     fs::File,
@@ -17,7 +17,7 @@ use noisefall::{
 
 use super::messages::{Failure, print, tell};
 
-/// The name that stands for standard output.
+/// File name that means standard output.
 const STREAM: &str = "-";
 const ADVICE: &str = "`-o - --format png` writes the picture to standard output";
 
@@ -28,7 +28,7 @@ pub enum Output {
 }
 
 impl Output {
-    /// What `-o` and `--format` say together, or why they cannot.
+    /// The destination that `-o` and `--format` name. Fails if they contradict each other.
     pub fn of(path: &Path, format: Option<Format>) -> Result<Output, String> {
         if path == Path::new(STREAM) {
             return format.map(Output::Stream).ok_or_else(|| format!("-o {STREAM} needs --format png or --format exr"));
@@ -42,7 +42,7 @@ impl Output {
         }
     }
 
-    /// None for a file whose name asks for no format, which [`Output::check`] refuses.
+    /// The format of the image. `None` for a file with an unknown extension, which [`Output::check`] rejects.
     pub fn format(&self) -> Option<Format> {
         match self {
             Output::File(path) => Format::of(path).ok(),
@@ -50,7 +50,7 @@ impl Output {
         }
     }
 
-    /// What is wrong with it is better known before an hour of rendering than after.
+    /// Checks before the render begins that the image can be written.
     pub fn check(&self) -> Result<(), Failure> {
         match self {
             Output::File(path) => check_target(path).map_err(advise),
@@ -62,7 +62,8 @@ impl Output {
         }
     }
 
-    /// Delivers the picture. A reader of standard output that has gone away needs no message, but it has no picture either.
+    /// Writes the image. If the reader of standard output has gone away, there is no message, but the exit code reports a
+    /// failure.
     pub fn write(&self, frame: &Frame, display: Display, settings: &str) -> Result<ExitCode, Failure> {
         let save = |path: &Path| save(frame, display, settings, path);
         match self {
@@ -85,7 +86,7 @@ impl Output {
         }
     }
 
-    /// Says something of the picture where it is not in its way.
+    /// Prints a text about the image: on standard error if the image goes to standard output.
     pub fn report(&self, text: &str) -> Result<(), Failure> {
         match self {
             Output::File(_) => print(text),
@@ -106,7 +107,7 @@ impl fmt::Display for Output {
     }
 }
 
-/// Pictures may be wanted in a stream: how to write into one.
+/// Adds to the error for pipes how to write to standard output.
 fn advise(error: ImageError) -> Failure {
     match error {
         ImageError::Write(WriteError::NotAFile { .. }) => format!("{error}; {ADVICE}"),
@@ -114,15 +115,15 @@ fn advise(error: ImageError) -> Failure {
     }
 }
 
-/// A rendered picture must not be lost to a full disk: the folder for temporary files is tried.
+/// Saves an image that cannot be written to its destination in the folder for temporary files, and extends the error by its path.
 fn rescue(error: &str, name: &str, save: impl Fn(&Path) -> Result<(), ImageError>) -> Failure {
     let candidates = (0..).map(|i| std::env::temp_dir().join(format!("noisefall-{}-{i}-{name}", std::process::id())));
     let saved = { candidates }.find(|path| !path.exists()).filter(|path| save(path).is_ok());
     saved.map_or_else(|| error.to_owned(), |path| format!("{error}\nthe picture was saved as {} instead", path.display()))
 }
 
-/// Whether standard output was closed when the program started: `/dev/null` is open in its place then, for reading too, which no
-/// `> /dev/null` opens it for.
+/// Whether standard output was closed when the program started. Rust then opens `/dev/null` in its place for reading and writing;
+/// `> /dev/null` opens it for writing only.
 #[cfg(unix)]
 fn is_closed() -> bool {
     use std::os::{fd::AsFd, unix::fs::MetadataExt};

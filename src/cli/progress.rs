@@ -1,4 +1,4 @@
-//! Rendering to the end, with a progress bar.
+//! Rendering until a target is reached, with a progress bar.
 use std::{sync::atomic::Ordering, time::Duration};
 
 use crossbeam_channel::RecvTimeoutError;
@@ -7,7 +7,7 @@ use noisefall::render::{Budget, Publish, Published, RenderRequest, Renderer, Sta
 
 use super::{messages::Failure, stop::stop_signal, summary::noise_text};
 
-/// Renders to the end, with a progress bar where there is a terminal to show it.
+/// Renders until a target is reached. Shows a progress bar if standard error is a terminal.
 pub fn render(threads: Threads, request: RenderRequest, budget: Budget, quiet: bool) -> Result<Published, Failure> {
     let (wake, woken) = crossbeam_channel::bounded(1);
     let renderer = Renderer::new(threads, Publish::Sparse, move || {
@@ -48,12 +48,12 @@ fn show_progress(bar: &ProgressBar, budget: &Budget, status: &Status) {
     bar.set_message(format!("{} spp, {:.1} M samples/s{}", status.spp, status.samples_per_second() / 1e6, noise_text(status)));
 }
 
-/// How far the bar is: in samples, in milliseconds, or else in thousandths.
+/// Position of the bar: samples, milliseconds, or thousandths of the work.
 fn position(budget: &Budget, status: &Status) -> u64 {
     match (budget.noise, status.relative_noise()) {
         _ if budget.max_spp.is_some() => u64::from(status.spp),
         _ if budget.max_time.is_some() => status.elapsed.as_millis() as u64,
-        // Noise falls as the root of time: the square of the ratio is the share of the work that is done.
+        // Noise falls with the square root of time, so the fraction of the work that is done is the squared ratio.
         (Some(goal), Some(noise)) => (1000.0 * (goal / noise).powi(2)).min(1000.0) as u64,
         _ => 0,
     }
@@ -69,7 +69,7 @@ mod tests {
         let by = |budget: Budget, status: &Status| (position(&budget, status), progress_bar(&budget).length());
         assert_eq!(by(Budget { max_spp: Some(20), ..Budget::default() }, &status), (7, Some(20)));
         assert_eq!(by(Budget { max_time: Some(Duration::from_secs(10)), ..Budget::default() }, &status), (2500, Some(10_000)));
-        // Half the noise takes four times the samples.
+        // Half of the noise takes four times as many samples.
         assert_eq!(by(Budget { noise: Some(0.1), ..Budget::default() }, &status), (250, Some(1000)));
         assert_eq!(by(Budget { noise: Some(0.3), ..Budget::default() }, &status), (1000, Some(1000)));
         assert_eq!(by(Budget { noise: Some(0.1), ..Budget::default() }, &Status::default()), (0, Some(1000)));

@@ -1,4 +1,4 @@
-//! `noisefall render`: a picture without a window, by the same worker that serves the window.
+//! `noisefall render`: renders an image without a window, with the worker that also serves the window.
 use std::{
     path::PathBuf,
     process::ExitCode,
@@ -26,7 +26,7 @@ use super::{
     summary::Done,
 };
 
-/// Samples per pixel when neither the command nor the scene says how many.
+/// Samples per pixel if neither the command nor the scene states a number.
 const DEFAULT_SPP: u32 = 256;
 
 #[derive(clap::Args)]
@@ -38,29 +38,32 @@ const DEFAULT_SPP: u32 = 256;
 pub struct Arguments {
     /// Scene file (.toml)
     scene: PathBuf,
-    /// Picture to write: .png (as shown, sRGB) or .exr (linear radiance); - for standard output
+    /// Image to write: .png (sRGB, as displayed) or .exr (linear radiance); - for standard output
     #[arg(short, long, required_unless_present = "pixel")]
     output: Option<PathBuf>,
-    /// Format of a picture on standard output: png or exr; a file's name says it
+    /// Format of an image on standard output: png or exr. Files get the format of their extension
     #[arg(long, value_name = "FORMAT", value_parser = parse::format, requires = "output", conflicts_with = "pixel")]
     format: Option<Format>,
-    /// Stop after N samples per pixel [default: the scene's, or 256]; of --spp, --time and --noise the last one given counts
+    /// Stop after N samples per pixel [default: the scene's number, or 256]. If several of --spp, --time and --noise are given,
+    /// the last
+    /// one counts
     #[arg(long, value_name = "N", value_parser = parse::samples, overrides_with_all = ["time", "noise"])]
     spp: Option<u32>,
-    /// Stop after so many seconds of rendering
+    /// Stop after a rendering time
     #[arg(long, value_name = "SECONDS", value_parser = parse::seconds, overrides_with_all = ["spp", "noise"])]
     time: Option<Duration>,
-    /// Stop at this estimated relative noise (0.01 is 1 %): the root of relMSE, the mean of (x − r)²/(r² + 0.01 · mean r²). Where it
-    /// stops depends on the samples; that shifts the mean by less than a fortieth of the target in the worst case tried
+    /// Stop at an estimated relative noise (0.01 is 1 %): the root of relMSE, the mean of (x − r)²/(r² + 0.01 · mean r²). The
+    /// sample
+    /// count then depends on the samples, which biased the mean by less than a fortieth of the target in the worst case tested
     #[arg(long, value_name = "RELATIVE", value_parser = parse::noise, overrides_with_all = ["spp", "time"])]
     noise: Option<f64>,
-    #[arg(long, help = format!("How light is found: {}", parse::one_of::<Estimator>()),
+    #[arg(long, help = format!("How direct light is estimated: {}", parse::one_of::<Estimator>()),
           value_parser = parse::word::<Estimator>)]
     estimator: Option<Estimator>,
-    #[arg(long, help = format!("How the next direction is drawn at diffuse surfaces: {}", parse::one_of::<Directions>()),
+    #[arg(long, help = format!("How directions are sampled at diffuse surfaces: {}", parse::one_of::<Directions>()),
           value_parser = parse::word::<Directions>)]
     directions: Option<Directions>,
-    #[arg(long, help = format!("Where samples lie: {}", parse::one_of::<Sampler>()),
+    #[arg(long, help = format!("Sampler: {}", parse::one_of::<Sampler>()),
           value_parser = parse::word::<Sampler>)]
     sampler: Option<Sampler>,
     /// Highest number of bounces (reflections and refractions), or none for no cap
@@ -68,16 +71,16 @@ pub struct Arguments {
     max_bounces: Option<BounceCap>,
     #[arg(long, help = format!("Russian roulette: {}", parse::either(&Roulette::options())), value_parser = parse::roulette)]
     roulette: Option<Roulette>,
-    #[arg(long, help = format!("Whether neighbouring pixels share what their paths find: {}", parse::one_of::<Reuse>()),
+    #[arg(long, help = format!("Whether neighbouring pixels reuse each other's paths: {}", parse::one_of::<Reuse>()),
           value_parser = parse::word::<Reuse>)]
     reuse: Option<Reuse>,
-    /// Whether pixels get more samples where a pilot finds more noise: on or off; on, --spp is the average
+    /// Adaptive sampling, with more samples where there is more noise: on or off; --spp is then the average
     #[arg(long, value_parser = parse::on_or_off)]
     adaptive: Option<bool>,
     /// Seed of the random numbers
     #[arg(long, value_name = "N", value_parser = parse::whole)]
     seed: Option<u32>,
-    /// Threads; 0 for one a core
+    /// Number of threads; 0 for one per core
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = parse::threads)]
     threads: u16,
     /// Resolution in pixels
@@ -88,17 +91,16 @@ pub struct Arguments {
     /// Replay one path through this pixel instead of rendering
     #[arg(long, value_name = "X,Y", value_parser = parse::pixel, allow_hyphen_values = true, conflicts_with = "output")]
     pixel: Option<[u32; 2]>,
-    /// Which sample of the pixel to replay: a number, `lit` for the first that finds light, or with --csv a range such as 0-9999
-    /// [default: 0]
+    /// Sample to replay: a number, `lit` for the first that finds light, or with --csv a range such as 0-9999 [default: 0]
     #[arg(long, value_name = "N", value_parser = parse::which, requires = "pixel", conflicts_with = "output")]
     sample: Option<Which>,
     /// Print the path as LaTeX: the nested sum with its numbers
     #[arg(long, requires = "pixel", conflicts_with_all = ["json", "csv"])]
     latex: bool,
-    /// Table of samples of the pixel, with the mean and the variance so far; - for standard output
+    /// Table of samples of the pixel to write, with running mean and variance; - for standard output
     #[arg(long, value_name = "FILE", requires = "pixel", conflicts_with = "json")]
     csv: Option<PathBuf>,
-    /// Print one line of JSON last, on standard error where the picture is on standard output
+    /// Print one line of JSON at the end; on standard error if the image goes to standard output
     #[arg(long)]
     json: bool,
 }

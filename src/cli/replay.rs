@@ -1,4 +1,4 @@
-//! `noisefall render --pixel X,Y --sample N`: one path, vertex by vertex; or many samples of a pixel as a table.
+//! `noisefall render --pixel X,Y --sample N`: prints one path vertex by vertex, or a table of the samples of a pixel.
 use std::path::Path;
 
 use noisefall::{
@@ -14,34 +14,34 @@ use noisefall::{
 
 use super::messages::{Failure, print, tell};
 
-/// Samples that are traced at once.
+/// Samples that are traced together.
 const BATCH: u32 = 1 << 12;
-/// Samples among which one that finds light is looked for.
+/// Largest number of samples that are searched for one that finds light.
 const MOST_LOOKED_AT: u32 = 1 << 20;
-/// Samples of a table.
+/// Largest number of samples in a table.
 pub const MOST_LISTED: u32 = 1_000_000;
 
-/// Which samples of the pixel.
+/// A selection of samples of the pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Which {
     One(u32),
-    /// From the first to the last.
+    /// The first and the last number of a range.
     Range(u32, u32),
-    /// The first that finds light.
+    /// The first sample that finds light.
     Lit,
 }
 
-/// How a path is written.
+/// Output format of a replay.
 #[derive(Clone, Copy)]
 pub enum Form<'a> {
     Text,
     Latex,
     Json,
-    /// A table of samples, in this file or, by the name `-`, on standard output.
+    /// A table of samples in this file; `-` is standard output.
     Csv(&'a Path),
 }
 
-/// The pixel of a picture.
+/// A pixel and everything that its samples depend on.
 struct Pixel<'a> {
     scene: &'a Scene,
     camera: &'a Camera,
@@ -71,7 +71,7 @@ pub fn run(
     };
     match form {
         Form::Csv(path) => pixel.list(first, last, path),
-        _ if first != last => Err("a range of samples is a table: say where it goes with --csv FILE, or --csv -".to_owned()),
+        _ if first != last => Err("a range of samples is printed as a table: add --csv FILE, or --csv -".to_owned()),
         _ => pixel.show(first, form),
     }
 }
@@ -82,7 +82,7 @@ impl Pixel<'_> {
         pixel_samples(self.scene, &self.rays, &self.settings, self.pixel, first..end, &|| false).unwrap_or_default()
     }
 
-    /// The first sample whose own path finds light.
+    /// The first sample whose own path finds light; light of reused paths does not count.
     fn first_lit(&self) -> Result<u32, Failure> {
         let is_lit = |sample: u32| {
             let replay = replay(self.scene, &self.rays, &self.settings, self.pixel, sample);

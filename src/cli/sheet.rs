@@ -1,4 +1,4 @@
-//! `noisefall sheet`: one labelled picture of several settings.
+//! `noisefall sheet`: renders images with several settings onto one labelled sheet.
 use std::{path::PathBuf, process::ExitCode, sync::atomic::Ordering, time::Duration};
 
 use indicatif::{ProgressBar, ProgressStyle};
@@ -20,27 +20,27 @@ use super::{
 };
 
 const NOTES: &str = "\
-Each combination of the lists is a picture; a list that is not given is as the scene has it. All pictures have the same seed.
+Each combination of the lists is one image. A list that is not given has the scene's value. All images have the same seed.
 
 Example: noisefall sheet scenes/cornell_box.toml -o sheet.png --spp 1,4,16,64 --estimators path,mis";
 
 #[derive(clap::Args)]
 #[command(after_help = NOTES)]
 pub struct Arguments {
-    /// Scene file (.toml), or a picture that carries its scene
+    /// Scene file (.toml), or an image that carries its scene
     scene: PathBuf,
-    /// Picture to write (.png)
+    /// Sheet to write (.png)
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
-    /// Samples per pixel
+    /// Numbers of samples per pixel
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = item(parse::samples), default_value = "16")]
     spp: Vec<u32>,
     #[command(flatten)]
     lists: ListOptions,
-    /// Resolution of each picture [default: the scene's made small enough for 256 along the longer side]
+    /// Resolution of each image [default: the scene's, scaled down to 256 along the longer side]
     #[arg(long, value_name = "WxH", value_parser = parse::resolution, allow_hyphen_values = true)]
     size: Option<[u32; 2]>,
-    /// Pictures side by side [default: as many as there are numbers of samples, or four]
+    /// Images per row [default: as many as there are numbers of samples, or four]
     #[arg(long, value_name = "N", value_parser = parse::samples)]
     columns: Option<u32>,
     /// Seed of the random numbers
@@ -48,7 +48,7 @@ pub struct Arguments {
     seed: Option<u32>,
     #[command(flatten)]
     display: DisplayOptions,
-    /// Threads; 0 for one a core
+    /// Number of threads; 0 for one per core
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = parse::threads)]
     threads: u16,
 }
@@ -70,7 +70,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let pictures = (combinations.len() * spp.len()) as u64;
     let columns = arguments.columns.unwrap_or(if spp.len() > 1 { spp.len() as u32 } else { 4 });
     sheet::check(camera.resolution, columns, u32::try_from(pictures).unwrap_or(u32::MAX))?;
-    // The cells, and the sheet with its margins.
+    // 10 bytes per pixel: the cells, and the sheet with its margins.
     let _memory =
         reserve(format_args!("{pictures} pictures of {width} × {height}"), pictures * u64::from(width) * u64::from(height) * 10)
             .and_then(|cells| Film::reserve(camera.resolution).map(|film| (cells, film)))
@@ -93,7 +93,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     }
 }
 
-/// The pictures: for each combination one for each number of samples, of which the smaller are on the way to the larger.
+/// Renders the images. Those of one combination come from one render, which pauses at each number of samples.
 fn cells(arguments: &Arguments, bench: &Bench, combinations: &[RenderSettings], spp: &[u32]) -> Result<Vec<Cell>, StudyError> {
     let style = ProgressStyle::with_template("{bar:30} {pos}/{len} pictures  {elapsed} elapsed, {eta} left");
     let bar = ProgressBar::new((combinations.len() * spp.len()) as u64);
@@ -133,7 +133,7 @@ mod tests {
         arguments: Arguments,
     }
 
-    /// The last sample takes hardly any of the time.
+    /// The last sample takes hardly any time.
     #[test]
     fn the_seconds_of_a_picture_are_those_of_all_its_samples() {
         let arguments = Program::parse_from(["sheet", "a.toml", "-o", "a.png"]).arguments;

@@ -1,4 +1,4 @@
-//! Ctrl+C: the first time a request to stop, the second time the end.
+//! Ctrl+C: the first one asks the program to stop, the second one ends it.
 use std::sync::{
     Arc,
     atomic::{AtomicBool, Ordering},
@@ -6,10 +6,10 @@ use std::sync::{
 
 use super::messages::{Failure, tell};
 
-/// The status of a program that ended because it was interrupted.
+/// Exit status of an interrupted program.
 pub const INTERRUPTED: u8 = 130;
 
-/// Becomes true when the user interrupts the program, which then says `message`.
+/// A flag that becomes true when the user interrupts the program. `message` is then printed.
 pub fn stop_signal(message: &'static str) -> Result<Arc<AtomicBool>, Failure> {
     let stop = Arc::new(AtomicBool::new(false));
     let flag = stop.clone();

@@ -1,4 +1,4 @@
-//! `noisefall study`: run time against error for every combination of settings.
+//! `noisefall study`: measures run time against error for every combination of settings.
 use std::{
     path::PathBuf,
     process::ExitCode,
@@ -27,14 +27,14 @@ use super::{
 };
 
 const NOTES: &str = "\
-Each combination of the lists renders each scene several times, and is compared with a reference whenever its samples have doubled: the \
-scene's [truth], else the picture NAME.ref.exr beside NAME.toml, else a converged render that is made first and kept in DIR.
+Renders each scene several times with each combination of the lists, and compares it with a reference at every doubling of the samples: the \
+scene's [truth], else the image NAME.ref.exr beside NAME.toml, else a converged render, which is made first and kept in DIR.
 
-Without lists these are combined: --estimators path,light,mis --directions uniform,cosine,bsdf --samplers \
-independent,stratified,sobol --roulette off,0.8,throughput --max-bounces none, with sharing and adaptive samples as the scene has them.
+Default lists: --estimators path,light,mis --directions uniform,cosine,bsdf --samplers \
+independent,stratified,sobol --roulette off,0.8,throughput --max-bounces none. Path reuse and adaptive sampling are as the scene has them.
 
-DIR gets study.csv, a line for every measurement, and report.html: error against time and samples, slopes, efficiencies, and the best \
-settings for each scene. What DIR has already is not measured again, so an interrupted study goes on where it was.
+DIR gets study.csv with a line per measurement, and report.html with error against time and samples, slopes, efficiencies and the best \
+settings of each scene. Measurements in DIR are not repeated, so the same command continues an interrupted study.
 
 Example: noisefall study scenes/cornell_box.toml -o study --samplers independent,sobol --roulette off,throughput";
 
@@ -44,30 +44,30 @@ pub struct Arguments {
     /// Scene files (.toml)
     #[arg(required = true, value_name = "SCENE")]
     scenes: Vec<PathBuf>,
-    /// Folder for study.csv, report.html and references, made if it is not there
+    /// Folder for study.csv, report.html and references; created if it does not exist
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
     #[command(flatten)]
     lists: ListOptions,
-    /// Largest number of samples per pixel; errors are measured at powers of two up to it
+    /// Largest number of samples per pixel. Errors are measured at powers of two
     #[arg(long, value_name = "N", default_value = "256", value_parser = parse::samples)]
     spp: u32,
-    /// Rendering time of one run: a doubling of the samples that would end later is not begun
+    /// Longest rendering time of a run. A doubling of the samples that would end later is not begun
     #[arg(long, value_name = "SECONDS", default_value = "1.5", value_parser = parse::seconds)]
     seconds: Duration,
     /// Runs of each combination, with different seeds
     #[arg(long, value_name = "N", default_value = "2", value_parser = parse::samples)]
     repeats: u32,
-    /// Picture that the scene must converge to (.exr), in place of its truth; of a single scene only
+    /// Reference image (.exr) in place of the scene's truth; for a single scene only
     #[arg(long, value_name = "FILE")]
     reference: Option<PathBuf>,
-    /// Resolution in pixels [default: the reference's, or the scene's made small enough for 256 along the longer side]
+    /// Resolution in pixels [default: the reference's, or the scene's scaled down to 256 along the longer side]
     #[arg(long, value_name = "WxH", value_parser = parse::resolution, allow_hyphen_values = true)]
     size: Option<[u32; 2]>,
-    /// What relMSE, the mean of (x − r)²/(r² + F), adds to the squared reference [default: 0.01 of the mean of r²]
+    /// Constant F of relMSE, the mean of (x − r)²/(r² + F) [default: 0.01 of the mean of r²]
     #[arg(long, value_name = "F", value_parser = parse::floor)]
     floor: Option<Floor>,
-    /// Threads; 0 for one a core
+    /// Number of threads; 0 for one per core
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = parse::threads)]
     threads: u16,
 }
@@ -131,13 +131,13 @@ fn finish(arguments: &Arguments, findings: &[Findings], plan: &Plan, machine: &M
     folder::write_report(&arguments.output, &html(findings, plan, machine))
 }
 
-/// Without a terminal the reference is told of in such parts.
+/// Fraction of the reference after which a line is printed if there is no terminal.
 const REFERENCE_STEP: f64 = 0.25;
 
-/// A bar where there is a terminal, else a line for each combination.
+/// Progress as a bar, or as a line per combination if there is no terminal.
 struct Display {
     bar: ProgressBar,
-    /// When the reference that is being rendered was begun, and what share of it was last told.
+    /// When the current reference was begun, and the fraction that was printed last.
     reference: Option<(Instant, f64)>,
 }
 

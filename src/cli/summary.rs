@@ -1,4 +1,4 @@
-//! What is said of a finished picture: notes, and a line of text or of JSON.
+//! Summary of a finished image: notes, and a line of text or JSON.
 use std::path::Path;
 
 use noisefall::{
@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 
 use super::{figures, output::Output};
 
-/// A rendered picture and its figures.
+/// A rendered image and its figures.
 pub struct Done<'a> {
     pub output: &'a Output,
     pub scene: &'a Scene,
@@ -20,18 +20,18 @@ pub struct Done<'a> {
     pub frame: &'a Frame,
     pub status: &'a Status,
     pub threads: usize,
-    /// To build the scene, and to render.
+    /// Seconds of building the scene and of rendering.
     pub seconds: [f64; 2],
-    /// Against the true picture, if there is one.
+    /// The error against the scene's truth, if it has one.
     pub error: Option<(Comparison, Bias)>,
-    /// Why the picture cannot be a sample of the true one, if it cannot.
+    /// Message if the image contradicts the scene's truth by more than noise.
     pub contradiction: Option<String>,
-    /// The command that traces the first invalid sample again.
+    /// Command that replays the first invalid sample.
     pub replay: Option<String>,
 }
 
 impl Done<'_> {
-    /// Whatever must not go unseen.
+    /// Warnings and notes that the user must see.
     pub fn notes(&self, camera: &Camera) -> Vec<String> {
         let Status { invalid_samples, cut_paths, .. } = self.status;
         let mut notes = Vec::new();
@@ -80,7 +80,7 @@ impl Done<'_> {
         let mut figures = figures::settings(self.settings);
         figures.extend(figures::error(comparison, bias));
         figures.extend(figures::named([
-            // A name need not be text.
+            // A file name need not be valid Unicode.
             ("scene", json!(self.scene_path.to_string_lossy())),
             ("width", json!(frame.width)),
             ("height", json!(frame.height)),
@@ -110,13 +110,13 @@ impl Done<'_> {
     }
 }
 
-/// The mean radiance of a picture, by channel.
+/// The mean radiance of an image per channel.
 fn mean(radiance: &[[f32; 3]]) -> [f64; 3] {
     let count = radiance.len().max(1) as f64;
     [0, 1, 2].map(|c| radiance.iter().map(|rgb| f64::from(rgb[c])).sum::<f64>() / count)
 }
 
-/// ", noise 2.50 %".
+/// The estimated noise as in ", noise 2.50 %"; empty if it is unknown.
 pub fn noise_text(status: &Status) -> String {
     status.relative_noise().map_or_else(String::new, |noise| format!(", noise {:.2} %", 100.0 * noise))
 }
@@ -132,7 +132,7 @@ mod tests {
 
     use super::*;
 
-    /// Figures that all differ.
+    /// A status with a different number in every field.
     fn status(state: State) -> Status {
         Status {
             generation: 1,

@@ -1,4 +1,4 @@
-//! `noisefall validate`: every exact solution against what the renderer says.
+//! `noisefall validate`: compares the renderer with exact solutions.
 use std::{
     path::{Path, PathBuf},
     time::Instant,
@@ -14,28 +14,28 @@ use super::{
     messages::{Failure, print},
 };
 
-/// The folder beside the report that scenes which fail go to.
+/// Folder beside the report for the scenes that fail.
 const KEPT: &str = "stress";
-/// The folder beside the report that figures go to.
+/// Folder beside the report for its figures.
 const FIGURES: &str = "figures";
 /// The files beside the report.
 const FILES: [&str; 3] = [folder::REPORT, "report.csv", "report.json"];
 
 #[derive(clap::Args)]
 pub struct Arguments {
-    /// Folder for report.html, report.csv, report.json and the figures as SVG, made if it is not there
+    /// Folder for report.html, report.csv, report.json and the figures as SVG; created if it does not exist
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
-    /// Fewer samples or scenes: under half a minute
+    /// Take fewer samples or scenes, which needs less than half a minute
     #[arg(long)]
     quick: bool,
-    /// Adversarial scenes by the hundred in place of exact solutions; those that fail are written to DIR/stress
+    /// Render more than two thousand adversarial scenes instead; those that fail are written to DIR/stress
     #[arg(long, conflicts_with = "references")]
     stress: bool,
-    /// Folder of reference scenes with block means [default: those that the program carries]
+    /// Folder of reference scenes with block means [default: those in the program]
     #[arg(long, value_name = "DIR")]
     references: Option<PathBuf>,
-    /// Other random numbers for every measurement
+    /// Seed of the random numbers of all measurements
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = super::options::whole, conflicts_with = "stress")]
     seed: u32,
 }
@@ -84,12 +84,12 @@ fn write(output: &Path, sections: &[Section], suite: Suite, effort: Effort, seed
 /// Writes the scenes that fail, if there are any.
 fn keep(folder: &Path, scenes: &[KeptScene]) -> Result<(), Failure> {
     if !scenes.is_empty() {
-        std::fs::create_dir_all(folder).map_err(|error| format!("{}: cannot be made: {error}", folder.display()))?;
+        std::fs::create_dir_all(folder).map_err(|error| format!("{}: cannot be created: {error}", folder.display()))?;
     }
     scenes.iter().try_for_each(|scene| folder::write(folder, &format!("{}.toml", scene.name), &scene.text, "scene"))
 }
 
-/// What is wrong with the folders is told before a minute is spent.
+/// Reports problems with the folders before the work begins.
 fn check(arguments: &Arguments) -> Result<(), Failure> {
     if let Some(folder) = &arguments.references
         && reference_names(folder).is_empty()
@@ -107,7 +107,7 @@ fn failures(section: &Section) -> usize {
     section.statements.iter().filter(|statement| !statement.holds).count()
 }
 
-/// A line for the section, of scenes under stress another with its figures, and one for each statement that fails.
+/// Prints a line for the section, its figures if it is a stress section, and a line for each statement that fails.
 fn show(number: usize, section: &Section, suite: Suite) -> Result<(), Failure> {
     let verdict = match (section.was_run(), section.holds()) {
         (false, _) => "not run",

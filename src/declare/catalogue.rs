@@ -4,6 +4,7 @@
 ///
 /// A line in the list is the only place outside a kind's own file that names it. The enum holds the description of one kind; it reads,
 /// writes and compares as that kind does, and lends it as `&dyn` of the family's trait.
+#[doc(hidden)]
 #[macro_export]
 macro_rules! catalogue {
     ($(#[$attribute:meta])* pub enum $Family:ident: $Trait:ident, $what:literal { $($module:ident::$Kind:ident),+ $(,)? }) => {
@@ -59,6 +60,11 @@ macro_rules! catalogue {
                     $($Family::$Kind(kind) => kind),+
                 }
             }
+        }
+
+        /// The descriptions of all kinds.
+        pub mod kinds {
+            $(pub use super::$module::$Kind;)+
         }
 
         impl Default for $Family {

@@ -44,9 +44,9 @@ pub enum Reflectance {
     Schlick(Textured),
     /// Fresnel's equations with the complex index η + ik relative to the outside.
     Index {
-    /// Real part η per channel.
+        /// Real part η per channel.
         eta: [f64; 3],
-    /// Imaginary part k per channel.
+        /// Imaginary part k per channel.
         k: [f64; 3],
     },
 }

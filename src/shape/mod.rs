@@ -17,9 +17,10 @@ pub mod triangle;
 use std::{collections::HashMap, sync::Arc};
 
 pub use self::{
+    bounds::Bounds,
     mesh::Mesh,
     sphere::Sphere,
-    transform::{Transform, motion, product},
+    transform::{Rotation, Transform, motion, product},
 };
 use crate::{
     catalogue,

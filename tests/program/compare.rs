@@ -117,7 +117,7 @@ fn two_pictures_alone_say_nothing_of_the_standard_error_and_repeats_do() {
     assert!(alone["bias_standard_error"].is_null() && alone["bias_in_standard_errors"].is_null() && alone["block_z"].is_null());
     let told = said(&shell, &["a.png", "b.png"]);
     assert!(told.contains("standard error unknown") && told.contains("unknown: a.png has no variances; render it"), "{told}");
-    assert!(told.contains("or name --repeats with other seeds"), "{told}");
+    assert!(told.contains("or give --repeats with other seeds"), "{told}");
     let repeated = compare(&shell, &["a.png", "b.png", "--repeats", "c.png", "d.png", "e.png"]);
     assert!(repeated["bias_standard_error"].as_f64().is_some_and(|error| error > 0.0), "{repeated}");
     assert!(z(&repeated).abs() < SIGMAS && repeated["block_z"].as_array().map(Vec::len) == Some(16), "{repeated}");
@@ -167,7 +167,7 @@ fn a_variance_that_few_samples_make_up_is_not_trusted() {
         render_scene(&shell, "room.toml", "a.exr", &[&plain[..], &["--spp", "16", "--roulette", roulette]].concat());
         let told = said(&shell, &["a.exr", "truth.exr"]);
         let line = compare(&shell, &["a.exr", "truth.exr"]);
-        let is_heavy = told.contains("the variance is dominated by few samples: the standard error is not to be trusted");
+        let is_heavy = told.contains("few samples make up most of the variance: do not trust the standard error");
         assert_eq!(line["heavy_tails"], Value::Bool(is_heavy), "{told}");
         assert!(is_heavy || z(&line).abs() < SIGMAS, "{line}");
         is_heavy
@@ -188,7 +188,10 @@ fn a_bias_is_told_from_noise_where_pixels_share_paths_too() {
         assert!(z(&noise).abs() < SIGMAS, "{noise}");
         assert!(z(&bias) < -6.0, "{bias}");
         let told = said(&shell, &["a.exr", "b.exr"]);
-        assert!(told.contains("at most: stratified and Sobol samples") && !told.contains("is not known"), "{told}");
+        assert!(
+            told.contains("is an upper bound: the error of stratified and Sobol samples") && !told.contains("is not known"),
+            "{told}"
+        );
         if cfg!(feature = "flip") {
             let flip = |line: &Value| line["flip"].as_f64().expect("a number");
             assert!(flip(&compare(&shell, &["a.exr", "a.exr"])) == 0.0 && flip(&bias) > flip(&noise) && flip(&noise) > 0.0);
@@ -235,13 +238,13 @@ fn differences_are_written_as_numbers_and_as_colours() {
         told
     };
     assert!(said("difference.png").contains("full colour is a difference of"));
-    assert!(said("difference.exr").contains("A less B"));
+    assert!(said("difference.exr").contains("A minus B"));
     let read = |file: &str| image_file::read(&shell.path(file)).expect("a picture").radiance;
     let (a, b, difference) = (read("a.exr"), read("b.exr"), read("difference.exr"));
     let exact = |(a, b): (&[f32; 3], &[f32; 3])| [0, 1, 2].map(|c| a[c] - b[c]);
     assert!(a.iter().zip(&b).map(exact).eq(difference) && a != b);
     let streamed = shell.run(&["compare", "a.exr", "b.exr", "-o", "-", "--format", "exr"]);
-    assert!(streamed.status.success() && text(&streamed.stderr).contains("standard output: A less B"));
+    assert!(streamed.status.success() && text(&streamed.stderr).contains("standard output: A minus B"));
     assert!(fs::read(shell.path("difference.exr")).is_ok_and(|bytes| bytes == streamed.stdout));
     let unnamed = shell.run(&["compare", "a.exr", "b.exr", "-o", "-"]);
     assert!(unnamed.status.code() == Some(2) && text(&unnamed.stderr).contains("needs --format"));

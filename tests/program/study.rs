@@ -189,7 +189,7 @@ fn what_cannot_be_studied_is_told_at_once() {
     fails(&["nowhere.toml", "-o", "out"], 1, "there is no such file");
     fails(&["dark.toml", "-o", "out"], 1, "nothing in this scene emits light");
     fails(&[&scene("inside_lit_outside"), "-o", "out"], 1, "is entirely black");
-    fails(&[&furnace, "-o", "file"], 1, "file: this is a file; -o names a folder");
+    fails(&[&furnace, "-o", "file"], 1, "file: this is a file; -o needs a folder");
     fails(&[&furnace, "-o", "taken"], 1, "was not written by `noisefall study`");
     fails(&[&furnace, "-o", "out", "--reference", "nowhere.exr"], 1, "there is no such file");
     fails(&[&furnace, "-o", "out", "--size", "0x5"], 1, "resolution");

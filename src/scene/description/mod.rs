@@ -1,27 +1,6 @@
 //! Scene descriptions: every table of the scene format with its parameters.
 //!
-//! A description is read from a scene file or built in code. [`SceneDescription::build`] checks it as the reader does, and compiles it:
-//!
-//! ```
-//! use std::path::Path;
-//!
-//! use noisefall::{
-//!     material::Lambertian,
-//!     scene::description::{EmissionDescription, SceneDescription},
-//!     shape::{Sphere, rectangle::Rectangle},
-//! };
-//!
-//! let mut scene = SceneDescription::default();
-//! scene.add_material("white", Lambertian { albedo: [0.7, 0.7, 0.6].into() });
-//! scene.add_object("floor", Rectangle::default()).material = Some("white".to_owned());
-//! scene.add_object("lamp", Sphere::default()).emission = Some(EmissionDescription::radiance([3.0; 3]));
-//! assert_eq!(scene.build(Path::new("."))?.objects.len(), 2);
-//!
-//! scene.camera.look_at = scene.camera.eye;
-//! let error = scene.build(Path::new(".")).err().expect("the camera has no direction");
-//! assert!(error.to_string().contains("`eye` and `look_at` are the same point"));
-//! # Ok::<(), noisefall::scene::SceneError>(())
-//! ```
+//! A description is read from a scene file or built in code. [`SceneDescription::build`] checks it as the reader does, and compiles it.
 //!
 //! The kinds of materials, shapes and textures are in [`crate::material`], [`crate::shape`] and [`crate::texture`]. The other types of
 //! the fields are re-exported here.
