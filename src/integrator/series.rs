@@ -62,7 +62,7 @@ impl Terms {
     }
 }
 
-/// [`super::trace`] of a whole tile without path reuse, with its terms.
+/// Traces a whole tile without path reuse and records its terms.
 pub fn trace_series(
     level: SimdLevel,
     work: &Work,

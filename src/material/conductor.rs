@@ -44,7 +44,7 @@ impl Conductor {
 
 /// Of conductors and dielectrics.
 pub(super) const ENERGY_COMPENSATION: Parameter =
-    Parameter::new("energy_compensation", "Whether light that scatters more than once between microfacets is given back.");
+    Parameter::new("energy_compensation", "Whether to add the light that scatters more than once between microfacets.");
 
 impl Kind for Conductor {
     const KIND: Parameter = Parameter::new("conductor", "Metal, smooth or rough: GGX microfacets with Fresnel's reflectance.")

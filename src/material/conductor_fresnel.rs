@@ -53,12 +53,14 @@ pub enum Reflectance {
 
 const ETA: Parameter = Parameter::new("eta", "Real part of the complex index of refraction.").symbol("η").required();
 
-const K: Parameter = Parameter::new("k", "Imaginary part of the index: how fast light dies in the metal.").symbol("k").required();
+const K: Parameter =
+    Parameter::new("k", "Imaginary part of the index: how strongly the metal absorbs light.").symbol("k").required();
 
-const F0: Parameter = Parameter::new("f0", "Reflectance at normal incidence; it rises to 1 at grazing angles after Schlick.")
-    .symbol("F₀")
-    .required()
-    .aliases("color colour albedo rgb specular_color");
+const F0: Parameter =
+    Parameter::new("f0", "Reflectance at normal incidence; it rises to 1 at grazing angles by Schlick's approximation.")
+        .symbol("F₀")
+        .required()
+        .aliases("color colour albedo rgb specular_color");
 
 const REFLECTANCE: Parameter =
     Parameter::new("reflectance", "Reflectance of the microfacets, the same at every angle.").symbol("F").required();

@@ -60,7 +60,7 @@ impl Declare for Dielectric {
         const IOR_OUTSIDE: Parameter =
             Parameter::new("ior_outside", "Index of refraction on the side of the normal.").symbol("η'");
         const TRANSMITTANCE: Parameter =
-            Parameter::new("transmittance", "Part of the light that passes a metre of the interior.")
+            Parameter::new("transmittance", "Fraction of the light that passes a metre of the interior.")
                 .symbol("T")
                 .unit("1/m")
                 .aliases("tint absorption");

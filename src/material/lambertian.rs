@@ -21,7 +21,7 @@ impl Default for Lambertian {
     }
 }
 
-const ALBEDO: Parameter = Parameter::new("albedo", "Part of the light that is reflected, in each channel.")
+const ALBEDO: Parameter = Parameter::new("albedo", "Fraction of the light that is reflected, per channel.")
     .symbol("ρ")
     .required()
     .aliases("color colour rho reflectance kd Kd rgb base_color");

@@ -22,7 +22,7 @@ impl Default for Mirror {
     }
 }
 
-const REFLECTANCE: Parameter = Parameter::new("reflectance", "Part of the light that is reflected, the same at every angle.")
+const REFLECTANCE: Parameter = Parameter::new("reflectance", "Fraction of the light that is reflected, the same at every angle.")
     .symbol("r")
     .required()
     .aliases("color colour albedo rgb");

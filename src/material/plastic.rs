@@ -44,7 +44,7 @@ impl Plastic {
     }
 }
 
-const ALBEDO: Parameter = Parameter::new("albedo", "Part of the light that the base reflects, without its coat.")
+const ALBEDO: Parameter = Parameter::new("albedo", "Fraction of the light that the base reflects, without its coat.")
     .symbol("ρ")
     .required()
     .aliases("color colour rho reflectance kd Kd rgb base_color");

@@ -33,20 +33,19 @@ impl Default for ThinDielectric {
 }
 
 impl Kind for ThinDielectric {
-    const KIND: Parameter =
-        Parameter::new("thin_dielectric", "A thin pane of glass: reflects and lets pass, without refraction.")
-            .aliases("pane thin_glass thindielectric window")
-            .advice("such as thin_dielectric = { ior = 1.5 }");
+    const KIND: Parameter = Parameter::new("thin_dielectric", "A thin pane of glass: reflects and transmits without refraction.")
+        .aliases("pane thin_glass thindielectric window")
+        .advice("such as thin_dielectric = { ior = 1.5 }");
 }
 
 impl Declare for ThinDielectric {
     fn parameters(&mut self, p: &mut dyn Parameters) {
-        const IOR: Parameter = Parameter::new("ior", "Index of refraction of the pane over that around it.")
+        const IOR: Parameter = Parameter::new("ior", "Index of refraction of the pane relative to its surroundings.")
             .symbol("η")
             .required()
             .aliases("eta index index_of_refraction refraction");
         const TRANSMITTANCE: Parameter =
-            Parameter::new("transmittance", "Part of the light that crosses the pane at a right angle, between its faces.")
+            Parameter::new("transmittance", "Fraction of the light that crosses the inside of the pane at a right angle.")
                 .symbol("t")
                 .aliases("tint absorption color colour");
         p.number(&IOR, &mut self.ior, Range::INDEX);

@@ -70,27 +70,25 @@ crate::words! {
 impl Declare for RenderSettings {
     fn parameters(&mut self, p: &mut dyn Parameters) {
         const ESTIMATOR: Parameter =
-            Parameter::new("estimator", "How light is found; all estimators converge to the same picture.")
+            Parameter::new("estimator", "How direct light is estimated. All estimators converge to the same image.")
                 .aliases("integrator method nee");
-        const DIRECTIONS: Parameter = Parameter::new("directions", "How the next direction is drawn at a diffuse surface.")
+        const DIRECTIONS: Parameter = Parameter::new("directions", "How directions are sampled at diffuse surfaces.")
             .symbol("p(ω)")
             .aliases("sampling importance_sampling distribution");
-        const SAMPLER: Parameter = Parameter::new("sampler", "Which points of the unit cube the samples of a pixel are.");
-        const MAX_BOUNCES: Parameter = Parameter::new(
-            "max_bounces",
-            "Longest paths, in bounces; a cap makes the picture darker than it is. No cap where it is absent.",
-        )
-        .symbol("k")
-        .aliases("depth max_depth bounces max_bounce maxdepth")
-        .advice("leave it out for no cap");
+        const SAMPLER: Parameter = Parameter::new("sampler", "How the samples of a pixel are distributed.");
+        const MAX_BOUNCES: Parameter =
+            Parameter::new("max_bounces", "Highest number of bounces. A cap makes the image too dark. Default: no cap.")
+                .symbol("k")
+                .aliases("depth max_depth bounces max_bounce maxdepth")
+                .advice("leave it out for no cap");
         const ROULETTE: Parameter =
-            Parameter::new("roulette", "Ends paths at random and weights the survivors, so that the mean stays right.")
+            Parameter::new("roulette", "Ends paths at random and weights the survivors, so that the mean does not change.")
                 .aliases("russian_roulette rr");
         const REUSE: Parameter =
             Parameter::new("reuse", "Whether neighbouring pixels share path suffixes (Bekaert, Sbert and Halton 2002).")
                 .aliases("sharing share");
-        const ADAPTIVE: Parameter = Parameter::new("adaptive", "Whether pixels get more samples where a pilot found more noise.");
-        const SEED: Parameter = Parameter::new("seed", "Other seeds give other noise.");
+        const ADAPTIVE: Parameter = Parameter::new("adaptive", "Whether noisier pixels get more samples.");
+        const SEED: Parameter = Parameter::new("seed", "Random seed of the samples.");
         p.word(&ESTIMATOR, &mut self.estimator);
         p.word(&DIRECTIONS, &mut self.directions);
         p.word(&SAMPLER, &mut self.sampler);

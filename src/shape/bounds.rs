@@ -10,7 +10,7 @@ pub struct Bounds {
     pub max: DVec3,
 }
 
-pub const BOUNDS: Parameter = Parameter::new("bounds", "The box that it fills.").required().aliases("box bbox");
+pub const BOUNDS: Parameter = Parameter::new("bounds", "Bounding box.").required().aliases("box bbox");
 
 impl Default for Bounds {
     fn default() -> Self {
@@ -20,8 +20,8 @@ impl Default for Bounds {
 
 impl Declare for Bounds {
     fn parameters(&mut self, p: &mut dyn Parameters) {
-        const MIN: Parameter = Parameter::new("min", "The least corner.").unit("m").required();
-        const MAX: Parameter = Parameter::new("max", "The greatest corner.").unit("m").required();
+        const MIN: Parameter = Parameter::new("min", "Corner with the smallest coordinates.").unit("m").required();
+        const MAX: Parameter = Parameter::new("max", "Corner with the largest coordinates.").unit("m").required();
         p.point(&MIN, &mut self.min);
         p.point(&MAX, &mut self.max);
     }

@@ -12,7 +12,7 @@ use crate::{
 pub struct Cuboid(pub Bounds);
 
 impl Kind for Cuboid {
-    const KIND: Parameter = Parameter::new("cuboid", "A box along the axes.").aliases("box cube aabb");
+    const KIND: Parameter = Parameter::new("cuboid", "A box with edges along the axes.").aliases("box cube aabb");
 }
 
 impl Declare for Cuboid {

@@ -27,14 +27,14 @@ impl Default for Cylinder {
 }
 
 impl Kind for Cylinder {
-    const KIND: Parameter = Parameter::new("cylinder", "A round tube between two points.").aliases("tube pipe");
+    const KIND: Parameter = Parameter::new("cylinder", "A circular cylinder between two points.").aliases("tube pipe");
 }
 
 impl Declare for Cylinder {
     fn parameters(&mut self, p: &mut dyn Parameters) {
         const BASE: Parameter =
-            Parameter::new("base", "The middle of one end.").unit("m").required().aliases("position origin from pos location p0");
-        const TOP: Parameter = Parameter::new("top", "The middle of the other end.").unit("m").required().aliases("to p1");
+            Parameter::new("base", "Centre of one end.").unit("m").required().aliases("position origin from pos location p0");
+        const TOP: Parameter = Parameter::new("top", "Centre of the other end.").unit("m").required().aliases("to p1");
         const CAPPED: Parameter = Parameter::new("capped", "Whether disks close the ends.");
         p.point(&BASE, &mut self.base);
         p.point(&TOP, &mut self.top);

@@ -25,13 +25,12 @@ impl Default for Disk {
 }
 
 impl Kind for Disk {
-    const KIND: Parameter = Parameter::new("disk", "A round, flat shape.").aliases("circle disc");
+    const KIND: Parameter = Parameter::new("disk", "A flat disk.").aliases("circle disc");
 }
 
 impl Declare for Disk {
     fn parameters(&mut self, p: &mut dyn Parameters) {
-        const NORMAL: Parameter =
-            Parameter::new("normal", "The direction that its front faces, of any length.").symbol("n").required();
+        const NORMAL: Parameter = Parameter::new("normal", "Normal of the front, of any length.").symbol("n").required();
         p.point(&CENTER, &mut self.center);
         p.point(&NORMAL, &mut self.normal);
         p.number(&RADIUS, &mut self.radius, RADII);

@@ -29,13 +29,16 @@ impl Default for Isosurface {
 
 impl Kind for Isosurface {
     const KIND: Parameter =
-        Parameter::new("isosurface", "Where an expression is zero; inside it is negative.").aliases("implicit sdf");
+        Parameter::new("isosurface", "The surface where an expression is zero. The expression is negative inside.")
+            .aliases("implicit sdf");
 }
 
 impl Declare for Isosurface {
     fn parameters(&mut self, p: &mut dyn Parameters) {
-        const EXPRESSION: Parameter =
-            Parameter::new("expression", "A formula of x, y and z in metres.").symbol("f").required().aliases("formula function");
+        const EXPRESSION: Parameter = Parameter::new("expression", "Expression in x, y and z, in metres.")
+            .symbol("f")
+            .required()
+            .aliases("formula function");
         p.value(&EXPRESSION, Value::Text(&mut self.expression));
         p.table(&BOUNDS, &mut self.bounds);
     }

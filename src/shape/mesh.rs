@@ -75,12 +75,12 @@ pub(super) enum Key {
     Heightfield { quads: u32, seed: u32, smooth: bool },
 }
 
-const PATH: Parameter = Parameter::new("path", "OBJ or PLY, beside the scene.").required().aliases("file filename src");
+const PATH: Parameter = Parameter::new("path", "OBJ or PLY file.").required().aliases("file filename src");
 const VERTICES: Parameter = Parameter::new("vertices", "Corners of the triangles.").unit("m").required();
 const TRIANGLES: Parameter =
-    Parameter::new("triangles", "Three vertices each, counted from 0.").required().aliases("faces indices");
+    Parameter::new("triangles", "Three vertex indices per triangle, counted from 0.").required().aliases("faces indices");
 const KNOT: Parameter = Parameter::new("knot", "A torus knot.").required();
-const HEIGHTFIELD: Parameter = Parameter::new("heightfield", "Hills of noise over the unit square.").required();
+const HEIGHTFIELD: Parameter = Parameter::new("heightfield", "Hills of noise over x and z from −1 to 1.").required();
 
 impl Default for MeshSource {
     fn default() -> Self {
@@ -90,7 +90,7 @@ impl Default for MeshSource {
 
 impl Kind for Mesh {
     const KIND: Parameter =
-        Parameter::new("mesh", "Triangles from a file, as lists, or made by formula.").aliases("obj ply trianglemesh");
+        Parameter::new("mesh", "Triangles from a file, from lists, or procedural.").aliases("obj ply trianglemesh");
 }
 
 impl Declare for Mesh {
@@ -146,15 +146,15 @@ impl OneOf for MeshSource {
 
 impl Declare for Knot {
     fn parameters(&mut self, p: &mut dyn Parameters) {
-        const TRIANGLES: Parameter = Parameter::new("triangles", "How many, roughly.").required();
+        const TRIANGLES: Parameter = Parameter::new("triangles", "Approximate number of triangles.").required();
         p.count(&TRIANGLES, &mut self.triangles, CountRange::new(18, MOST_TRIANGLES));
     }
 }
 
 impl Declare for Heightfield {
     fn parameters(&mut self, p: &mut dyn Parameters) {
-        const QUADS: Parameter = Parameter::new("quads", "Along each side, of two triangles each.").required();
-        const SEED: Parameter = Parameter::new("seed", "Other seeds give other hills.");
+        const QUADS: Parameter = Parameter::new("quads", "Quads along each side, of two triangles each.").required();
+        const SEED: Parameter = Parameter::new("seed", "Random seed of the hills.");
         p.count(&QUADS, &mut self.quads, CountRange::new(1, MOST_QUADS));
         p.count(&SEED, &mut self.seed, CountRange::ANY);
     }

@@ -75,8 +75,8 @@ fn are_parallel([a, b]: [glam::DVec3; 2]) -> bool {
 }
 
 const CENTER: Parameter =
-    Parameter::new("center", "Its middle.").symbol("c").unit("m").required().aliases("centre position origin pos location");
-const RADIUS: Parameter = Parameter::new("radius", "Its radius.").symbol("r").unit("m").required().aliases("r size");
+    Parameter::new("center", "Centre.").symbol("c").unit("m").required().aliases("centre position origin pos location");
+const RADIUS: Parameter = Parameter::new("radius", "Radius.").symbol("r").unit("m").required().aliases("r size");
 
 /// Metres.
 const RADII: Range = Range::LENGTH;

@@ -25,8 +25,8 @@ impl Default for Rectangle {
 }
 
 impl Kind for Rectangle {
-    const KIND: Parameter =
-        Parameter::new("rectangle", "A flat shape between two edges from a corner.").aliases("quad plane square parallelogram");
+    const KIND: Parameter = Parameter::new("rectangle", "A parallelogram, given by a corner and two edges.")
+        .aliases("quad plane square parallelogram");
 }
 
 impl Declare for Rectangle {
@@ -34,9 +34,9 @@ impl Declare for Rectangle {
         const ORIGIN: Parameter =
             Parameter::new("origin", "The corner where u = v = 0.").unit("m").required().aliases("corner position");
         const EDGE_U: Parameter =
-            Parameter::new("edge_u", "From there to the corner where u = 1.").unit("m").required().aliases("u");
+            Parameter::new("edge_u", "Edge from that corner to the corner where u = 1.").unit("m").required().aliases("u");
         const EDGE_V: Parameter =
-            Parameter::new("edge_v", "From there to the corner where v = 1; the front is the side of u × v.")
+            Parameter::new("edge_v", "Edge from that corner to the corner where v = 1. The front is the side of u × v.")
                 .unit("m")
                 .required()
                 .aliases("v");

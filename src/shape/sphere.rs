@@ -23,7 +23,7 @@ impl Default for Sphere {
 }
 
 impl Kind for Sphere {
-    const KIND: Parameter = Parameter::new("sphere", "All points at one distance from a middle.").aliases("ball");
+    const KIND: Parameter = Parameter::new("sphere", "A sphere; non-uniform scaling makes an ellipsoid.").aliases("ball");
 }
 
 impl Declare for Sphere {

@@ -29,13 +29,13 @@ impl Default for SphereField {
 }
 
 impl Kind for SphereField {
-    const KIND: Parameter = Parameter::new("sphere_field", "Many spheres at random places, an object each.");
+    const KIND: Parameter = Parameter::new("sphere_field", "Many spheres at random positions, each a separate object.");
 }
 
 impl Declare for SphereField {
     fn parameters(&mut self, p: &mut dyn Parameters) {
-        const COUNT: Parameter = Parameter::new("count", "How many.").required().aliases("n number");
-        const SEED: Parameter = Parameter::new("seed", "Other seeds give other places.");
+        const COUNT: Parameter = Parameter::new("count", "Number of spheres.").required().aliases("n number");
+        const SEED: Parameter = Parameter::new("seed", "Random seed of the positions.");
         p.count(&COUNT, &mut self.count, CountRange::new(1, 1_000_000));
         p.table(&BOUNDS, &mut self.bounds);
         p.count(&SEED, &mut self.seed, CountRange::ANY);

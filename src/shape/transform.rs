@@ -35,11 +35,10 @@ pub struct Rotation {
     pub degrees: f64,
 }
 
-const TRANSLATE: Parameter =
-    Parameter::new("translate", "Moves by these metres.").unit("m").required().aliases("move translation");
-const SCALE: Parameter = Parameter::new("scale", "Multiplies x, y and z, or all by one number.").required();
-const ROTATE: Parameter = Parameter::new("rotate", "Turns about an axis through the origin.").required().aliases("rotation");
-const MATRIX: Parameter = Parameter::new("matrix", "Four rows of four numbers; the last is 0, 0, 0, 1.").required();
+const TRANSLATE: Parameter = Parameter::new("translate", "Translation.").unit("m").required().aliases("move translation");
+const SCALE: Parameter = Parameter::new("scale", "Scale factors of x, y and z, or one factor for all.").required();
+const ROTATE: Parameter = Parameter::new("rotate", "Rotation about an axis through the origin.").required().aliases("rotation");
+const MATRIX: Parameter = Parameter::new("matrix", "Four rows of four numbers; the last row is 0, 0, 0, 1.").required();
 
 impl Default for Transform {
     fn default() -> Self {
@@ -96,8 +95,8 @@ impl OneOf for Transform {
 
 impl Declare for Rotation {
     fn parameters(&mut self, p: &mut dyn Parameters) {
-        const AXIS: Parameter = Parameter::new("axis", "Of any length.").required();
-        const DEGREES: Parameter = Parameter::new("degrees", "Counter-clockwise as the axis points at the viewer.")
+        const AXIS: Parameter = Parameter::new("axis", "Direction of the axis, of any length.").required();
+        const DEGREES: Parameter = Parameter::new("degrees", "Angle, counter-clockwise when the axis points at the viewer.")
             .unit("°")
             .required()
             .aliases("angle");

@@ -25,7 +25,7 @@ impl Default for Triangle {
 }
 
 impl Kind for Triangle {
-    const KIND: Parameter = Parameter::new("triangle", "The flat shape between three corners.");
+    const KIND: Parameter = Parameter::new("triangle", "A triangle, given by its corners.");
 }
 
 impl Declare for Triangle {

@@ -24,13 +24,14 @@ impl Default for Checker {
 
 impl Kind for Checker {
     const KIND: Parameter =
-        Parameter::new("checker", "Squares of two colours in turn, over u and v.").aliases("checkerboard chess");
+        Parameter::new("checker", "Alternating squares of two colours over u and v.").aliases("checkerboard chess");
 }
 
 impl Declare for Checker {
     fn parameters(&mut self, p: &mut dyn Parameters) {
-        const EVEN: Parameter = Parameter::new("even", "The squares of the corner u = v = 0.").required().aliases("color0 a");
-        const ODD: Parameter = Parameter::new("odd", "The other squares.").required().aliases("color1 b");
+        const EVEN: Parameter =
+            Parameter::new("even", "Colour of the square at u = v = 0 and of every second one.").required().aliases("color0 a");
+        const ODD: Parameter = Parameter::new("odd", "Colour of the other squares.").required().aliases("color1 b");
         const SCALE: Parameter = Parameter::new("scale", "Squares along each side of the unit square.").required();
         p.textured(&EVEN, &mut self.even, Range::RADIANCE);
         p.textured(&ODD, &mut self.odd, Range::RADIANCE);

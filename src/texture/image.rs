@@ -20,15 +20,14 @@ pub struct Image {
 
 impl Kind for Image {
     const KIND: Parameter =
-        Parameter::new("image", "A picture over the unit square of u and v, repeated.").aliases("bitmap imagemap file");
+        Parameter::new("image", "An image over the unit square of u and v, repeated.").aliases("bitmap imagemap file");
 }
 
 impl Declare for Image {
     fn parameters(&mut self, p: &mut dyn Parameters) {
         const PATH: Parameter =
-            Parameter::new("path", "PNG, JPEG, TGA, WebP, EXR or HDR, beside the scene.").required().aliases("file filename src");
-        const ENCODING: Parameter =
-            Parameter::new("encoding", "What the numbers of the file mean; EXR and HDR are always linear.");
+            Parameter::new("path", "PNG, JPEG, TGA, WebP, EXR or HDR file.").required().aliases("file filename src");
+        const ENCODING: Parameter = Parameter::new("encoding", "Encoding of the file's numbers; EXR and HDR are always linear.");
         p.value(&PATH, Value::File(&mut self.path));
         p.word(&ENCODING, &mut self.encoding);
     }

@@ -29,8 +29,8 @@ impl Default for Noise {
 }
 
 impl Kind for Noise {
-    const KIND: Parameter = Parameter::new("noise", "Perlin noise of the position in the world, between two colours.")
-        .aliases("perlin fbm turbulence");
+    const KIND: Parameter =
+        Parameter::new("noise", "Perlin noise in world space, between two colours.").aliases("perlin fbm turbulence");
 }
 
 impl Declare for Noise {

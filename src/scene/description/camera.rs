@@ -52,17 +52,17 @@ impl Default for CameraDescription {
 
 impl Declare for CameraDescription {
     fn parameters(&mut self, p: &mut dyn Parameters) {
-        const EYE: Parameter = Parameter::new("eye", "Where the camera stands.")
+        const EYE: Parameter = Parameter::new("eye", "Position of the camera.")
             .symbol("x_0")
             .unit("m")
             .required()
             .aliases("position origin from pos location");
-        const LOOK_AT: Parameter = Parameter::new("look_at", "The point in the middle of the picture.")
+        const LOOK_AT: Parameter = Parameter::new("look_at", "Point that appears at the centre of the image.")
             .unit("m")
             .required()
             .aliases("target at to direction lookat");
-        const UP: Parameter = Parameter::new("up", "The direction that is up in the picture: [0, 1, 0] where it is absent.");
-        const FOV: Parameter = Parameter::new("fov", "Full angle across the picture's width, of perspective cameras.")
+        const UP: Parameter = Parameter::new("up", "Direction that points up in the image. Default: [0, 1, 0].");
+        const FOV: Parameter = Parameter::new("fov", "Field of view across the width of the image, for perspective cameras.")
             .unit("°")
             .aliases("angle field_of_view vfov hfov")
             .advice("`fov` is the angle across the picture's width, in degrees");
@@ -72,12 +72,13 @@ impl Declare for CameraDescription {
             .aliases("size width height")
             .advice("write resolution = [width, height]");
         const PROJECTION: Parameter = Parameter::new("projection", "\"perspective\" (the default), or orthographic.");
-        const LENS: Parameter = Parameter::new("lens", "A thin lens; a pinhole where it is absent.").aliases("aperture dof");
+        const LENS: Parameter = Parameter::new("lens", "A thin lens. Default: a pinhole.").aliases("aperture dof");
         const FILTER: Parameter =
             Parameter::new("filter", "How a pixel weighs the light around its centre: \"box\" where it is absent.")
                 .aliases("rfilter reconstruction");
-        const SHUTTER: Parameter = Parameter::new("shutter", "When it opens and closes, as parts of the motion; absent: time 0.");
-        const MOTION: Parameter = Parameter::new("motion", "Transforms that carry the camera from time 0 to 1.");
+        const SHUTTER: Parameter =
+            Parameter::new("shutter", "Times at which the shutter opens and closes, from 0 to 1 of the motion. Default: time 0.");
+        const MOTION: Parameter = Parameter::new("motion", "Transforms that move the camera from time 0 to 1.");
         p.point(&EYE, &mut self.eye);
         p.point(&LOOK_AT, &mut self.look_at);
         p.optional(&UP, &mut self.up, || DVec3::Y, |p, up| p.point(&UP, up));
@@ -99,7 +100,7 @@ impl Default for Lens {
 
 impl Declare for Lens {
     fn parameters(&mut self, p: &mut dyn Parameters) {
-        const RADIUS: Parameter = Parameter::new("radius", "Of the lens; 0 is a pinhole.").unit("m").required();
+        const RADIUS: Parameter = Parameter::new("radius", "Radius of the lens; 0 is a pinhole.").unit("m").required();
         const FOCUS: Parameter =
             Parameter::new("focus", "Distance of the plane in focus from the eye, along the axis.").unit("m").required();
         p.number(&RADIUS, &mut self.radius, Range::log(0.0, 1e9));
@@ -124,11 +125,11 @@ pub struct Orthographic {
     pub width: f64,
 }
 
-const ORTHOGRAPHIC: Parameter = Parameter::new("orthographic", "Parallel rays.").required();
+const ORTHOGRAPHIC: Parameter = Parameter::new("orthographic", "Parallel projection.").required();
 
 impl Declare for Orthographic {
     fn parameters(&mut self, p: &mut dyn Parameters) {
-        const WIDTH: Parameter = Parameter::new("width", "Of the picture.").unit("m").required();
+        const WIDTH: Parameter = Parameter::new("width", "Width of the image in the scene.").unit("m").required();
         p.number(&WIDTH, &mut self.width, Range::log(1e-9, 1e9));
     }
 }

@@ -26,9 +26,8 @@ impl Default for EmissionDescription {
 
 impl Declare for EmissionDescription {
     fn parameters(&mut self, p: &mut dyn Parameters) {
-        const TWO_SIDED: Parameter =
-            Parameter::new("two_sided", "Whether it emits from behind too.").aliases("twosided double_sided");
-        const SCALE: Parameter = Parameter::new("scale", "Factor of the radiance.");
+        const TWO_SIDED: Parameter = Parameter::new("two_sided", "Whether the back emits too.").aliases("twosided double_sided");
+        const SCALE: Parameter = Parameter::new("scale", "Factor that multiplies the radiance.");
         p.one_of(&mut self.source);
         p.flag(&TWO_SIDED, &mut self.two_sided);
         p.number(&SCALE, &mut self.scale, Range::log(0.0, 1e12));
@@ -74,7 +73,7 @@ impl OneOf for TruthDescription {
     fn chosen(&mut self, p: &mut dyn Parameters) {
         match self {
             TruthDescription::Radiance(radiance) => p.colour(&RADIANCE, radiance, Range::RADIANCE),
-            TruthDescription::Image(path) => p.value(&IMAGE, Value::File(path)),
+            TruthDescription::Image(path) => p.value(&TRUTH_IMAGE, Value::File(path)),
         }
     }
 }

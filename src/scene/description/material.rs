@@ -20,10 +20,11 @@ pub struct MaterialDescription {
 
 impl Declare for MaterialDescription {
     fn parameters(&mut self, p: &mut dyn Parameters) {
-        const BUMP: Parameter = Parameter::new("bump", "Heights that tilt the shading normal.").aliases("bump_map displacement");
-        const NORMAL_MAP: Parameter = Parameter::new("normal_map", "A linear picture of shading normals.").aliases("normals");
-        const TWO_SIDED: Parameter = Parameter::new("two_sided", "Whether it reflects from behind too; true where it is absent.")
-            .aliases("twosided double_sided");
+        const BUMP: Parameter =
+            Parameter::new("bump", "Height field that tilts the shading normal.").aliases("bump_map displacement");
+        const NORMAL_MAP: Parameter = Parameter::new("normal_map", "A linear image of shading normals.").aliases("normals");
+        const TWO_SIDED: Parameter =
+            Parameter::new("two_sided", "Whether the back reflects too. Default: true.").aliases("twosided double_sided");
         p.one_of(&mut self.kind);
         p.optional_table(&BUMP, &mut self.bump);
         p.optional(&NORMAL_MAP, &mut self.normal_map, String::new, |p, path| p.value(&NORMAL_MAP, Value::File(path)));
@@ -49,7 +50,7 @@ impl Default for Bump {
 impl Declare for Bump {
     fn parameters(&mut self, p: &mut dyn Parameters) {
         const HEIGHT: Parameter =
-            Parameter::new("height", "How far the brightest texel rises above the darkest.").symbol("h").unit("m").required();
+            Parameter::new("height", "Height of luminance 1 above luminance 0.").symbol("h").unit("m").required();
         p.value(&TEXTURE.required(), Value::Name(&mut self.texture, Family::Texture));
         p.number(&HEIGHT, &mut self.height, Range::linear(-1e6, 1e6));
     }

@@ -62,18 +62,18 @@ impl Declare for SceneDescription {
     fn parameters(&mut self, p: &mut dyn Parameters) {
         const VERSION: Parameter = Parameter::new("format", "The version of the format: 1.").required();
         const TITLE: Parameter = Parameter::new("title", "What the window and reports call the scene.").aliases("name");
-        const NOTES: Parameter = Parameter::new("notes", "A text for people.").aliases("description comment");
-        const CAMERA: Parameter = Parameter::new("camera", "Where the picture is taken from.").required().aliases("sensor view");
-        const BACKGROUND: Parameter = Parameter::new("background", "Light from every direction that meets no surface.")
-            .aliases("environment sky envmap world");
+        const NOTES: Parameter = Parameter::new("notes", "Notes for readers.").aliases("description comment");
+        const CAMERA: Parameter =
+            Parameter::new("camera", "Position, direction and lens of the camera.").required().aliases("sensor view");
+        const BACKGROUND: Parameter =
+            Parameter::new("background", "Radiance of rays that meet no surface.").aliases("environment sky envmap world");
         const TEXTURES: Parameter = Parameter::new("textures", "Textures by name.").aliases("texture");
         const MATERIALS: Parameter = Parameter::new("materials", "Materials by name.").aliases("material bsdfs");
         const OBJECTS: Parameter =
-            Parameter::new("objects", "What the scene is made of; each has a table of its own.").aliases("object shapes");
+            Parameter::new("objects", "The objects of the scene, one table each.").aliases("object shapes");
         const RENDER: Parameter =
             Parameter::new("render", "The settings that the scene opens with.").aliases("integrator settings");
-        const TRUTH: Parameter =
-            Parameter::new("truth", "What the picture must converge to, where that is known.").aliases("reference");
+        const TRUTH: Parameter = Parameter::new("truth", "What the image converges to, if that is known.").aliases("reference");
         p.count(&VERSION, &mut FORMAT.clone(), CountRange::new(FORMAT, FORMAT));
         p.value(&TITLE, Value::Text(&mut self.title));
         p.value(&NOTES, Value::Text(&mut self.notes));

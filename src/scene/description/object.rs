@@ -26,16 +26,15 @@ pub struct ObjectDescription {
 
 impl Declare for ObjectDescription {
     fn parameters(&mut self, p: &mut dyn Parameters) {
-        const NAME: Parameter = Parameter::new("name", "What the window calls it.").aliases("id label");
-        const SHAPE: Parameter = Parameter::new("shape", "Its surface.").required().aliases("geometry");
-        const MATERIAL: Parameter =
-            Parameter::new("material", "The name of its material; without one it is black.").aliases("bsdf");
+        const NAME: Parameter = Parameter::new("name", "Name in the window.").aliases("id label");
+        const SHAPE: Parameter = Parameter::new("shape", "Shape of the object.").required().aliases("geometry");
+        const MATERIAL: Parameter = Parameter::new("material", "Name of the material. Default: black.").aliases("bsdf");
         const EMISSION: Parameter =
-            Parameter::new("emission", "The light that it emits.").aliases("light emitter emissive area_light lamp");
-        const FLIP: Parameter = Parameter::new("flip", "Whether the normal is turned around.").aliases("flip_normals invert");
+            Parameter::new("emission", "Light that the surface emits.").aliases("light emitter emissive area_light lamp");
+        const FLIP: Parameter = Parameter::new("flip", "Whether to reverse the normal.").aliases("flip_normals invert");
         const TRANSFORM: Parameter =
-            Parameter::new("transform", "A list, applied from the first to the last.").aliases("to_world transforms");
-        const MOTION: Parameter = Parameter::new("motion", "Transforms that carry it from time 0 to 1.");
+            Parameter::new("transform", "Transforms, applied from the first to the last.").aliases("to_world transforms");
+        const MOTION: Parameter = Parameter::new("motion", "Transforms that move the object from time 0 to 1.");
         p.value(&NAME, Value::Text(&mut self.name));
         p.choice(&SHAPE, Form::Table, &mut self.shape);
         p.optional(&MATERIAL, &mut self.material, String::new, |p, name| {
