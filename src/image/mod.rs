@@ -83,8 +83,8 @@ pub enum Encoding {
 
 crate::words! {
     Encoding {
-        Srgb: "srgb", "sRGB", "Through the sRGB curve: colours.";
-        Linear: "linear", "Linear", "In proportion: heights, normals, masks.";
+        Srgb: "srgb", "sRGB", "sRGB transfer function: colours.";
+        Linear: "linear", "Linear", "Linear values: heights, normals, masks.";
     }
 }
 

@@ -10,7 +10,8 @@ pub enum Roughness {
     Alpha(Textured<f64>),
 }
 
-const ROUGHNESS: Parameter = Parameter::new("roughness", "The root of α; 0 is smooth.").symbol("√α").aliases("rough glossiness");
+const ROUGHNESS: Parameter =
+    Parameter::new("roughness", "Square root of α; 0 is smooth.").symbol("√α").aliases("rough glossiness");
 const ALPHA: Parameter =
     Parameter::new("alpha", "Width of the GGX distribution of microfacet slopes; 0 is smooth.").symbol("α").aliases("a");
 

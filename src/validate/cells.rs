@@ -1,4 +1,4 @@
-//! Cells of directions, which samples are counted in and functions are integrated over.
+//! Cells of directions, for histograms of samples and integrals of functions.
 use std::f64::consts::TAU;
 
 use glam::{DMat3, DVec3};
@@ -9,23 +9,24 @@ use super::microfacets::direction;
 pub struct Cells {
     frame: DMat3,
     width: f64,
-    /// Points of a cell along each side.
+    /// Quadrature points along each side of a cell.
     steps: usize,
 }
 
 impl Cells {
-    /// By the angle to the axis, and around it.
+    /// Numbers of cells in the angle to the axis and around the axis.
     const SIDES: [usize; 2] = [12, 8];
     pub const COUNT: usize = Self::SIDES[0] * Self::SIDES[1];
 
-    /// Around the direction in which a surface mirrors `wo`, for z > 0, and if it transmits around the refracted one, for z < 0;
-    /// around the normal where lobes are wide.
+    /// Grids around the mirror direction of `wo` (for z > 0) and, if the surface transmits, around the refracted direction (for z
+    /// < 0).
+    /// For wide lobes the axis is the normal.
     pub fn of_lobes(wo: DVec3, width: f64, eta: Option<f64>, steps: usize) -> Vec<Cells> {
         let is_wide = eta.is_none() && width >= 1.0;
         let mirrored = if is_wide { DVec3::Z } else { DVec3::new(-wo.x, -wo.y, wo.z) };
         let refracted = |eta: f64| {
             let across = DVec3::new(-wo.x, -wo.y, 0.0) / eta;
-            // Beyond the critical angle along the surface.
+            // Beyond the critical angle the axis lies along the surface.
             (across - DVec3::Z * (1.0 - across.length_squared()).max(0.01).sqrt()).normalize()
         };
         let axes = std::iter::once(mirrored).chain(eta.map(refracted));
@@ -37,7 +38,7 @@ impl Cells {
         Cells { frame: DMat3::from_cols(a, b, axis), width, steps }
     }
 
-    /// With t = tan(γ/2) for the angle γ to the axis, a cell is a part of a = t/(t + width).
+    /// The cell of a direction. Cells are uniform in a = t/(t + width) with t = tan(γ/2) for the angle γ to the axis.
     pub fn cell(&self, w: DVec3) -> usize {
         let w = self.frame.transpose() * w;
         let t = ((1.0 - w.z).max(0.0) / (1.0 + w.z).max(1e-12)).sqrt();
@@ -73,7 +74,7 @@ mod tests {
             let cells = Cells::around(DVec3::new(0.6, 0.0, 0.8), width, 16);
             let all: f64 = cells.integrals(&|_| 1.0).iter().sum();
             assert!((all / (2.0 * TAU) - 1.0).abs() < 1e-2, "{width}: {all}");
-            // The directions of a cell are those that it counts.
+            // Every direction of a cell must be counted in that cell.
             for (i, part) in cells.integrals(&|w| if cells.cell(w) == 37 { 1.0 } else { 0.0 }).into_iter().enumerate() {
                 assert_eq!(part > 0.0, i == 37, "{width}: {i}");
             }

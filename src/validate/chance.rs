@@ -1,4 +1,4 @@
-//! Tests that know more of chance than a standard error: Student's t, χ², and one that needs no normal distribution.
+//! Statistical tests beyond the z-test: Student's t, χ², and Catoni's test, which needs no normal distribution.
 use statrs::distribution::{ChiSquared, ContinuousCDF, StudentsT};
 
 use super::{
@@ -7,12 +7,13 @@ use super::{
 };
 use crate::measure::{Moments, as_normal};
 
-/// A χ² or Kolmogorov–Smirnov test refutes below this.
+/// Significance of χ² and Kolmogorov–Smirnov tests: a smaller p fails.
 pub const SIGNIFICANCE: f64 = 1e-4;
 
 impl Statement {
-    /// Student's t-test of independent measurements of the same number, whatever samples each was made of. Rounding in f32 counts as
-    /// an error too.
+    /// Student's t-test of independent measurements of the same number. The samples within a measurement may be dependent.
+    /// Rounding in
+    /// f32 counts as an error too.
     pub fn repeated(what: impl Into<String>, found: &[f64], exact: f64) -> Statement {
         let (mean, error) = mean_and_error(found);
         let rounded = error.hypot(1e-6 * exact);
@@ -30,7 +31,7 @@ impl Statement {
         }
     }
 
-    /// As [`Statement::repeated`], where the number must be below a limit: it fails if it is beyond doubt that it is not.
+    /// Like [`Statement::repeated`], for a number that must be below a limit. Fails if the number exceeds it significantly.
     pub fn repeated_below(what: impl Into<String>, found: &[f64], limit: f64) -> Statement {
         let ((mean, error), degrees) = (mean_and_error(found), found.len() as f64 - 1.0);
         let sure = quantile(SIGMAS, degrees) * error;
@@ -43,8 +44,8 @@ impl Statement {
         }
     }
 
-    /// Counts against expectations of the same sum. The smallest bias is the root mean square of the relative error of the
-    /// probabilities, each weighed by itself.
+    /// χ² test of counts against expectations with the same sum. The smallest bias is the root mean square relative error of the
+    /// probabilities, weighted by the probabilities.
     pub fn chi_squared(what: impl Into<String>, observed: &[f64], expected: &[f64]) -> Statement {
         let (chi2, degrees) = chi_squared(observed, expected);
         let distribution = ChiSquared::new(degrees).ok();
@@ -67,7 +68,7 @@ impl Statement {
         }
     }
 
-    /// Catoni's test of the mean of samples of known variance, which needs no further moment: with ψ(x) = ± log(1 + |x| + x²/2) and
+    /// Catoni's test of the mean of samples of known variance. It needs no further moment: with ψ(x) = ± log(1 + |x| + x²/2) and
     /// E exp ψ(a(X − μ)) ≤ 1 + a²σ²/2, the sum of ψ exceeds N a²σ²/2 + ln(2/δ) with a probability of at most δ/2 on either side.
     pub fn catoni(what: impl Into<String>, samples: impl Iterator<Item = f64>, exact: f64, variance: f64) -> Statement {
         let samples: Vec<f64> = samples.collect();
@@ -88,25 +89,26 @@ impl Statement {
     }
 }
 
-/// The mean of independent numbers, and its standard error.
+/// Mean of independent numbers and its standard error.
 fn mean_and_error(found: &[f64]) -> (f64, f64) {
     let moments = Moments::of(found.iter().copied());
     (moments.mean, (moments.variance / moments.count).sqrt())
 }
 
-/// What Student's t exceeds as rarely as a standard normal number exceeds `sigmas`.
+/// Quantile of Student's t with the tail probability of `sigmas` in the normal distribution.
 fn quantile(sigmas: f64, degrees: f64) -> f64 {
     StudentsT::new(0.0, 1.0, degrees).map_or(f64::NAN, |student| -student.inverse_cdf(chance_beyond(sigmas) / 2.0))
 }
 
-/// The bias, in standard errors, that Student's t-test notices with a probability of 95 %: the standard error is an estimate, too,
-/// whose mean and variance are about 1 − 1/(4ν) and 1/(2ν) of the true one.
+/// The bias, in standard errors, that Student's t-test detects with a probability of 95 %. The standard error is itself an
+/// estimate,
+/// with mean and variance of about 1 − 1/(4ν) and 1/(2ν) relative to the true one.
 fn noticed(degrees: f64) -> f64 {
     let threshold = quantile(SIGMAS, degrees);
     threshold * (1.0 - 0.25 / degrees) + POWER * (1.0 + threshold * threshold / (2.0 * degrees)).sqrt()
 }
 
-/// χ² and its degrees of freedom; cells of few expectations are taken together.
+/// χ² and its degrees of freedom; cells with small expectations are merged.
 fn chi_squared(observed: &[f64], expected: &[f64]) -> (f64, f64) {
     const FEW: f64 = 10.0;
     let (mut chi2, mut cells, mut rest) = (0.0, 0.0, [0.0; 2]);
@@ -166,7 +168,7 @@ mod tests {
         assert!((noticed / error - 6.2).abs() < 0.1, "{}", noticed / error);
         assert!(of(0.0).holds && of(4.0 * error).holds);
         assert!(!of(noticed).holds && !of(-noticed).holds && !of(5.0 * error).holds);
-        // A single wild sample, which would spoil a mean, says little.
+        // A single outlier, which would spoil a mean, has little influence.
         let wild = spread(0.0, count).chain(std::iter::once(1e6));
         assert!(Statement::catoni("mean", wild, 2.0, 9.0).holds);
     }
@@ -194,7 +196,7 @@ mod tests {
         // χ² of 100 degrees of freedom exceeds 161.3 with the probability 10⁻⁴.
         assert!(Statement::chi_squared("counts", &off(0.039), &expected).holds);
         assert!(!Statement::chi_squared("counts", &off(0.041), &expected).holds);
-        // With noise of the samples' own a misfit is noticed for sure from χ² = 161.3 − 100 and some on.
+        // A misfit adds to the χ² of the noise, so it is detected reliably from somewhat above χ² = 161.3 − 100.
         let noticed = relative(&statement);
         assert!((noticed * noticed * 101_000.0 - 102.0).abs() < 3.0, "{}", noticed * noticed * 101_000.0);
         let few = Statement::chi_squared("few", &[100.0, 3.0, 0.0, 5.0], &[100.0, 4.0, 3.0, 1.0]);

@@ -1,4 +1,4 @@
-//! What sections measure with: scenes from text, settings whose only chance is in the samples, sums over pictures.
+//! Tools of the sections: scenes from text, settings with independent samples, moments of images.
 use glam::{DVec3, Vec3};
 
 use super::Validation;
@@ -14,10 +14,10 @@ use crate::{
 
 pub const RED: Measure = |radiance| f64::from(radiance[0]);
 
-/// What tables of lost light and their interpolation may lose or add.
+/// Relative error of the tables of lost energy and their interpolation.
 pub const TABLES: f64 = 1e-3;
 
-/// The scene of a file that says this after its version.
+/// The scene of a text without its `format` line.
 pub fn scene(text: &str) -> Scene {
     parse("validation", format!("format = 1\n{text}")).unwrap_or_else(|error| panic!("{}\n{text}", error.report()))
 }
@@ -35,17 +35,17 @@ pub fn furnace(albedo: f64) -> Scene {
     ))
 }
 
-/// The largest of values that are not negative; NaN if one is NaN, which must not pass for small.
+/// The largest of non-negative values; NaN if one of them is NaN, so that NaN cannot pass a test.
 pub fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
     values.into_iter().fold(0.0, |largest, x| if x > largest || x.is_nan() { x } else { largest })
 }
 
-/// A direction in numbers of f32, in one lane.
+/// A direction as f32 in one lane.
 pub fn lanes(v: DVec3) -> V<One> {
     V::splat(One, v.as_vec3().to_array())
 }
 
-/// The direction of one lane in f64.
+/// A direction of one lane as f64.
 pub fn wide(v: V<One>) -> DVec3 {
     Vec3::from(v.lane(0)).as_dvec3()
 }
@@ -55,19 +55,19 @@ pub fn wide(v: V<One>) -> DVec3 {
 pub struct Random(u32);
 
 impl Random {
-    /// A number in (0, 1) for each of eight dimensions of the `i`-th of many.
+    /// A number in (0, 1) for the `i`-th sample and one of eight dimensions.
     pub fn at(self, i: u32, dimension: u32) -> F<One> {
         unit(hash(hash(U(i.wrapping_mul(8).wrapping_add(dimension))) ^ self.0))
     }
 
-    /// The point of the unit square and the number that choose a direction.
+    /// The random numbers that choose a direction: a point of the unit square, and a number for the lobe.
     pub fn direction(self, i: u32) -> ((F<One>, F<One>), F<One>) {
         ((self.at(i, 0), self.at(i, 1)), self.at(i, 2))
     }
 }
 
 impl Validation {
-    /// Independent samples without cap or roulette, and random numbers that no other measurement has.
+    /// Settings with independent samples, without cap and roulette, and with random numbers of their own.
     pub fn settings(&self, estimator: Estimator) -> RenderSettings {
         RenderSettings {
             estimator,
@@ -83,7 +83,7 @@ impl Validation {
         }
     }
 
-    /// The path estimator with these directions.
+    /// Settings of the path estimator with these directions.
     pub fn path(&self, directions: Directions) -> RenderSettings {
         RenderSettings { directions, ..self.settings(Estimator::Path) }
     }
@@ -93,7 +93,7 @@ impl Validation {
         Random(self.next_seed())
     }
 
-    /// Moments of the red of `full` samples (fewer in a quick run) of each of 1024 pixels.
+    /// Moments of the red channel of 1024 pixels, each over `full` samples, or fewer in a quick run.
     pub fn moments(&self, scene: &Scene, settings: RenderSettings, full: u32) -> Moments {
         Moments::of(samples(scene, settings, self.spp(full)).iter().flatten().copied())
     }

@@ -1,10 +1,10 @@
-//! The report as files for other programs: all statements as CSV and JSON, every figure as SVG.
+//! The report for other programs: all statements as CSV and JSON, every figure as SVG.
 use serde_json::{Value, json};
 
 use super::{Effort, Noticed, Section, Suite};
 
 impl Effort {
-    /// The name in files.
+    /// The name of the suite in files.
     pub fn name(self) -> &'static str {
         match self {
             Effort::Quick => "quick",
@@ -13,7 +13,7 @@ impl Effort {
     }
 }
 
-/// A line for every statement.
+/// The statements as CSV, one per line.
 pub fn csv(sections: &[Section]) -> Result<String, csv::Error> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     writer.write_record([
@@ -60,7 +60,7 @@ pub fn csv(sections: &[Section]) -> Result<String, csv::Error> {
     Ok(String::from_utf8(bytes).expect("text was written"))
 }
 
-/// The sections with their statements.
+/// The sections and their statements as JSON.
 pub fn json(sections: &[Section], suite: Suite, effort: Effort, seed: u32) -> Value {
     let section = |(number, section): (i32, &Section)| {
         json!({
@@ -82,7 +82,7 @@ pub fn json(sections: &[Section], suite: Suite, effort: Effort, seed: u32) -> Va
     })
 }
 
-/// The figures as SVG, by the names of their files: the section, and which of its figures.
+/// File names and contents of the figures as SVG. A name has the number of the section and of the figure in it.
 pub fn drawings(sections: &[Section]) -> Vec<(String, String)> {
     let of = |(number, section): (usize, &Section)| {
         let drawn = section.figures.iter().filter_map(super::Figure::svg).collect::<Vec<_>>();

@@ -1,10 +1,11 @@
-//! Textbook formulas of surfaces in f64, which share no line with the renderer, and integrals over them.
+//! Textbook formulas of surfaces in f64 and integrals over them. They share no code with the renderer.
 use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
 
-/// Fresnel's reflectance for unpolarised light and the cosine of refraction, 0 in total reflection; η is the index beyond the
-/// interface over that before it.
+/// Fresnel's reflectance of unpolarised light, and the cosine of refraction, which is 0 in total reflection. η is the index
+/// beyond
+/// the interface relative to the index before it.
 pub fn dielectric(cos: f64, eta: f64) -> (f64, f64) {
     let square = 1.0 - (1.0 - cos * cos) / (eta * eta);
     if square <= 0.0 {
@@ -16,7 +17,7 @@ pub fn dielectric(cos: f64, eta: f64) -> (f64, f64) {
     ((s * s + p * p) / 2.0, beyond)
 }
 
-/// Fresnel's reflectance of the complex index η + ik.
+/// Fresnel's reflectance for the complex index η + ik.
 pub fn metal(cos: f64, eta: f64, k: f64) -> f64 {
     let multiply = |(a, b): (f64, f64), (c, d): (f64, f64)| (a * c - b * d, a * d + b * c);
     let square_of_ratio = |(a, b): (f64, f64), (c, d): (f64, f64)| (a * a + b * b) / (c * c + d * d);
@@ -31,7 +32,7 @@ pub fn metal(cos: f64, eta: f64, k: f64) -> f64 {
     (s + p) / 2.0
 }
 
-/// GGX: density of microfacet area over normals (Walter et al. 2007).
+/// GGX distribution D of microfacet normals (Walter et al. 2007).
 pub fn d(alpha: f64, h: DVec3) -> f64 {
     let cos2 = h.z * h.z;
     let tan2 = (1.0 - cos2).max(0.0) / cos2;
@@ -44,13 +45,13 @@ pub fn g1(alpha: f64, w: DVec3) -> f64 {
     2.0 / (1.0 + (1.0 + alpha * alpha * tan2).sqrt())
 }
 
-/// f of microfacets that reflect, F D G/(4 cos θ_o cos θ_i).
+/// BSDF of reflecting microfacets, F D G/(4 cos θ_o cos θ_i).
 pub fn reflection(alpha: f64, wo: DVec3, wi: DVec3, fresnel: impl Fn(f64) -> f64) -> f64 {
     let h = (wo + wi).normalize();
     fresnel(wo.dot(h)) * d(alpha, h) * g1(alpha, wo) * g1(alpha, wi) / (4.0 * wo.z * wi.z)
 }
 
-/// f of microfacets that refract, of radiance: n_o²/(n_i ω_i·h + n_o ω_o·h)² (1 − F) D G |ω_i·h ω_o·h|/|cos θ_i cos θ_o|.
+/// BSDF of refracting microfacets, for radiance: n_o²/(n_i ω_i·h + n_o ω_o·h)² (1 − F) D G |ω_i·h ω_o·h|/|cos θ_i cos θ_o|.
 pub fn refraction(alpha: f64, wo: DVec3, wi: DVec3, eta: f64) -> f64 {
     let sum = wo + wi * eta;
     let h = sum.normalize() * sum.z.signum();
@@ -62,20 +63,21 @@ pub fn refraction(alpha: f64, wo: DVec3, wi: DVec3, eta: f64) -> f64 {
     passes * d(alpha, h) * g1(alpha, wo) * g1(alpha, wi) * (o * i / (wo.z * wi.z)).abs() / (o + eta * i).powi(2)
 }
 
-/// A direction at this cosine to the normal and this azimuth.
+/// The direction with this cosine to the normal and this azimuth.
 pub fn direction(cos: f64, azimuth: f64) -> DVec3 {
     let sin = (1.0 - cos * cos).max(0.0).sqrt();
     DVec3::new(sin * azimuth.cos(), sin * azimuth.sin(), cos)
 }
 
-/// What microfacets do with light seen at cosine `mu`: the integral over normals, D cos θ_h dω_h, of G₁(ω_o) ω_o·h/(cos θ_o cos θ_h)
-/// times what `leaves` says of the facet. In u = tan²/(α² + tan²), D cos θ_h dω_h = du dφ/(2π).
+/// The integral over microfacet normals, D cos θ_h dω_h, of G₁(ω_o) ω_o·h/(cos θ_o cos θ_h) `leaves`(facet), seen at cosine `mu`.
+/// In
+/// u = tan²/(α² + tan²), D cos θ_h dω_h = du dφ/(2π).
 fn over_facets(alpha: f64, mu: f64, leaves: impl Fn(DVec3, DVec3, f64) -> f64) -> f64 {
     const STEPS: [u32; 2] = [256, 128];
     let wo = direction(mu, 0.0);
     let mut sum = 0.0;
     for i in 0..STEPS[0] {
-        // Steep facets are few and weigh much: 1 − u = s⁴ and du = 4s³ ds.
+        // Steep facets are few and have large weights: 1 − u = s⁴ and du = 4s³ ds.
         let s = (f64::from(i) + 0.5) / f64::from(STEPS[0]);
         let rest = s.powi(4);
         let cos = (1.0 + alpha * alpha * (1.0 - rest) / rest).sqrt().recip();
@@ -90,7 +92,7 @@ fn over_facets(alpha: f64, mu: f64, leaves: impl Fn(DVec3, DVec3, f64) -> f64) -
     sum * g1(alpha, wo) / f64::from(STEPS[0] * STEPS[1])
 }
 
-/// The directional albedo of microfacets that reflect.
+/// Directional albedo of reflecting microfacets.
 pub fn albedo(alpha: f64, mu: f64, fresnel: impl Fn(f64) -> f64) -> f64 {
     over_facets(alpha, mu, |wo, h, seen| {
         let wi = h * (2.0 * seen) - wo;
@@ -98,7 +100,7 @@ pub fn albedo(alpha: f64, mu: f64, fresnel: impl Fn(f64) -> f64) -> f64 {
     })
 }
 
-/// What a rough interface scatters once, on both sides together.
+/// Directional albedo of single scattering at a rough interface, reflection and transmission together.
 pub fn interface_albedo(alpha: f64, mu: f64, eta: f64) -> f64 {
     over_facets(alpha, mu, |wo, h, seen| {
         let (reflectance, beyond) = dielectric(seen, eta);
@@ -138,14 +140,14 @@ mod tests {
         assert!((dielectric(1.0, 1.5).0 - 0.04).abs() < 1e-12 && dielectric(0.5, 1.0 / 1.5).0 == 1.0);
         assert!((metal(1.0, 0.2, 3.0) - (0.64 + 9.0) / (1.44 + 9.0)).abs() < 1e-12);
         assert!((metal(0.3, 1.5, 0.0) - dielectric(0.3, 1.5).0).abs() < 1e-12);
-        // The area of facets projected on the surface is that of the surface.
+        // The projected area of the facets is the area of the surface.
         for alpha in [0.1, 0.5, 1.0] {
             assert!((over_facets(alpha, 0.999_999, |_, _, _| 1.0) - 1.0).abs() < 2e-3, "{alpha}");
         }
         assert!((over_hemisphere(|w| w.z) - PI).abs() < 1e-4 && (average(100, |mu| mu) - 2.0 / 3.0).abs() < 1e-4);
     }
 
-    /// The albedo by facets is the integral of f cos over directions, for a surface rough enough to sum it up plainly.
+    /// The albedo over facets equals the integral of f cos over directions, on a surface rough enough for plain quadrature.
     #[test]
     fn albedos_are_integrals_of_f() {
         let (alpha, mu) = (0.8, 0.6);

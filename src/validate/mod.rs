@@ -1,7 +1,7 @@
-//! Exact solutions against what the renderer says, as a report that a reader can follow.
+//! Validation: the renderer compared with exact solutions, as a report with derivations.
 //!
-//! Each section makes one claim, derives the exact answer, and holds measurements against it in [`Statement`]s. All samples are
-//! seeded and the same on every machine, so that a verdict is, too.
+//! Each section makes one claim, derives the exact answer, and compares measurements with it in [`Statement`]s. All samples are
+//! seeded, so the verdict is the same on every machine.
 mod cells;
 mod chance;
 mod check;
@@ -36,16 +36,16 @@ use crate::{
     sampling::hash::{GOLDEN, hash_one},
 };
 
-/// What is held against what.
+/// A set of sections.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Suite {
-    /// Exact solutions of the light transport equation.
+    /// Comparison with exact solutions of the light transport equation.
     Exact,
-    /// Hundreds of adversarial scenes against invariants.
+    /// More than two thousand adversarial scenes, checked for invariants.
     Stress,
 }
 
-/// How much is computed.
+/// The amount of work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Effort {
     /// Under half a minute on two cores.
@@ -54,38 +54,38 @@ pub enum Effort {
     Full,
 }
 
-/// What to validate, and how thoroughly.
+/// A validation run.
 pub struct Validation {
     effort: Effort,
-    /// A folder of pictures by other renderers; those that the program carries if there is none.
+    /// Folder of references by other renderers. Default: those in the program.
     references: Option<PathBuf>,
     seed: u32,
-    /// The number of the next measurement: the section in the upper half.
+    /// The number of the next measurement, with the section in the upper 16 bits.
     measurement: AtomicU32,
     #[cfg(test)]
     fault: Option<InjectedFault>,
 }
 
-/// A claim and what became of it.
+/// A claim with its derivation and its measurements.
 pub struct Section {
     /// The heading.
     pub title: &'static str,
-    /// What is claimed, in a sentence.
+    /// The claim, in one sentence.
     pub claim: &'static str,
-    /// Paragraphs that lead to the exact answer.
+    /// Paragraphs that derive the exact answer.
     pub derivation: &'static [&'static str],
     /// The literature.
     pub source: &'static str,
-    /// What was measured.
+    /// The measurements.
     pub statements: Vec<Statement>,
     /// Plots and images.
     pub figures: Vec<Figure>,
-    /// What a reader should know besides.
+    /// A further note for the reader.
     pub remark: Option<String>,
 }
 
 impl Section {
-    /// Whether there was anything to hold it against.
+    /// Whether there was anything to compare with.
     pub fn was_run(&self) -> bool {
         !self.statements.is_empty()
     }
@@ -97,12 +97,12 @@ impl Section {
 }
 
 impl Validation {
-    /// All sections in their order; `done` is shown each when it is finished.
+    /// Runs all sections in order. Calls `done` with the number of each section, from 1, when it is finished.
     pub fn run(&self, done: impl FnMut(usize, &Section)) -> Vec<Section> {
         self.run_these(&sections::ALL, done)
     }
 
-    /// These sections, and what all their statements say together.
+    /// Runs these sections, and pools their statements in a last one.
     fn run_these(&self, these: &[fn(&Validation) -> Section], mut done: impl FnMut(usize, &Section)) -> Vec<Section> {
         let mut sections = Vec::new();
         for (i, run) in (0..).zip(these) {
@@ -117,7 +117,7 @@ impl Validation {
         sections
     }
 
-    /// A validation with this seed.
+    /// A validation run. Without `references`, the references in the program are used.
     pub fn new(effort: Effort, references: Option<PathBuf>, seed: u32) -> Validation {
         Validation {
             effort,
@@ -129,14 +129,14 @@ impl Validation {
         }
     }
 
-    /// The seed of the next measurement: no two of a report have the same.
+    /// The seed of the next measurement. All seeds of a report differ.
     fn next_seed(&self) -> u32 {
         let number = self.measurement.fetch_add(1, Ordering::Relaxed);
-        // Both maps are one-to-one.
+        // Both maps are bijective.
         hash_one(number.wrapping_mul(GOLDEN).wrapping_add(hash_one(self.seed)))
     }
 
-    /// What a full run takes `full` samples for.
+    /// The number of samples in place of `full`, those of a full run.
     fn spp(&self, full: u32) -> u32 {
         match self.effort {
             Effort::Full => full,

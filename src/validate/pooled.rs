@@ -1,4 +1,4 @@
-//! The last section: what all statements say together.
+//! The last section: all statements pooled.
 use statrs::distribution::{ChiSquared, ContinuousCDF, Normal};
 
 use super::{
@@ -82,13 +82,13 @@ fn statements(scores: &[f64]) -> Vec<Statement> {
     ]
 }
 
-/// What the largest of `count` exceeds as rarely as a single one exceeds [`SIGMAS`], rounded up.
+/// The limit that the largest of `count` scores exceeds as rarely as a single score exceeds [`SIGMAS`], rounded up.
 fn limit(count: usize) -> f64 {
     let single = 1.0 - (1.0 - chance_beyond(SIGMAS)).powf(1.0 / count as f64);
     (Normal::standard().inverse_cdf(1.0 - single / 2.0) * 100.0).ceil() / 100.0
 }
 
-/// The probability that the distance is larger than x/√n.
+/// The probability that the Kolmogorov–Smirnov distance exceeds x/√n.
 fn kolmogorov(x: f64) -> f64 {
     let term = |k: i32| 2.0 * (-1f64).powi(k - 1) * (-2.0 * f64::from(k * k) * x * x).exp();
     if x < 0.2 { 1.0 } else { (1..40).map(term).sum::<f64>().clamp(0.0, 1.0) }
@@ -132,7 +132,7 @@ fn quantiles(scores: &[f64]) -> Figure {
 mod tests {
     use super::*;
 
-    /// Normal numbers by their quantiles, moved and stretched.
+    /// Quantiles of the normal distribution, shifted and stretched.
     fn scores(shift: f64, stretch: f64) -> Vec<f64> {
         let normal = Normal::standard();
         (0..300).map(|i| shift + stretch * normal.inverse_cdf((f64::from(i) + 0.5) / 300.0)).collect()

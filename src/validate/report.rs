@@ -1,10 +1,10 @@
-//! The report as one HTML file, which needs nothing else and prints well.
+//! The report as one self-contained HTML file, which also prints well.
 use maud::{Markup, html as markup};
 
 use super::{Effort, Section, Statement, Suite, theory};
 use crate::report::{self, formula};
 
-/// What only this report has.
+/// Style rules of this report.
 const STYLE: &str = "
 :root { --width: 58rem; }
 h3 { font-size: 1.02rem; margin: 1.4rem 0 .2rem; }

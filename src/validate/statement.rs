@@ -1,4 +1,4 @@
-//! Single statements: a measured number, the exact one, and whether they agree.
+//! Statements: a measured number, the exact one, and whether they agree.
 use std::fmt;
 
 use serde::Serialize;
@@ -6,45 +6,45 @@ use statrs::function::erf::erfc;
 
 use crate::measure::{Mean, Moments};
 
-/// Deviations beyond so many standard errors refute a statement: one in 16000 does by chance, but seeds do not change.
+/// A statement fails beyond this many standard errors. By chance one in 16000 does, but the seeds are fixed.
 pub const SIGMAS: f64 = 4.0;
-/// A bias so many standard errors beyond the threshold is noticed with a probability of 95 %.
+/// A bias this many standard errors beyond the threshold is detected with a probability of 95 %.
 pub(super) const POWER: f64 = 1.644_853_6;
 
-/// One measured number against what it must be.
+/// A measured number and the number that it must be.
 #[derive(Clone, Debug, Serialize)]
 pub struct Statement {
     /// What was measured.
     pub what: String,
     /// The measured value.
     pub measured: f64,
-    /// Standard error of `measured`; 0 where there is no chance in it.
+    /// Standard error of `measured`; 0 if it is not random.
     pub error: f64,
-    /// None where the statement is about a limit.
+    /// The exact number; `None` if the statement is about a limit.
     pub exact: Option<f64>,
     /// The test and its outcome.
     pub statistic: String,
-    /// Whether the value is where it should be.
+    /// Whether the statement holds.
     pub holds: bool,
     /// The smallest bias of `measured` that fails the statement with a probability of 95 %.
     pub notices: Noticed,
-    /// The deviation, where it is a standard normal number if the statement is true.
+    /// The deviation, if it has a standard normal distribution for a correct program.
     pub z: Option<f64>,
-    /// The probability that the statement fails although it is true.
+    /// The probability that the statement fails for a correct program.
     pub chance: f64,
-    /// A statement before is about the same samples.
+    /// Whether an earlier statement uses the same samples.
     pub shares_samples: bool,
 }
 
-/// The smallest bias that a statement notices.
+/// The smallest bias that a statement detects.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Noticed {
-    /// As a part of the exact number.
+    /// As a fraction of the exact number.
     Relative(f64),
     /// In units of the measured number.
     Absolute(f64),
-    /// As a part of each of the numbers that were taken together.
+    /// As a fraction of each of the numbers that the statement combines.
     Each(f64),
 }
 
@@ -64,13 +64,13 @@ impl fmt::Display for Noticed {
     }
 }
 
-/// The probability that a standard normal number is farther from 0.
+/// The probability that |z| of a standard normal z exceeds `sigmas`.
 pub fn chance_beyond(sigmas: f64) -> f64 {
     erfc(sigmas / std::f64::consts::SQRT_2)
 }
 
 impl Statement {
-    /// A statement without chance, that holds.
+    /// A statement that holds and is not random.
     pub(super) fn plain(what: impl Into<String>, measured: f64, statistic: String) -> Statement {
         Statement {
             what: what.into(),
@@ -100,10 +100,10 @@ impl Statement {
         }
     }
 
-    /// The z-test of a mean by the variance of its own samples.
+    /// The z-test of a mean with the variance of its own samples.
     pub fn mean(what: impl Into<String>, found: Mean, exact: f64) -> Statement {
         let (error, z) = (found.variance_of_mean.sqrt(), found.z(exact));
-        // Where rounding is as large as the noise, the deviation is narrower than the normal distribution.
+        // If rounding is as large as the noise, the scores are narrower than the normal distribution.
         let is_noise = error > 1e-5 * exact.abs();
         Statement {
             statistic: format!("z = {z:+.2}"),
@@ -118,13 +118,13 @@ impl Statement {
         Statement::z(what, found.mean, (variance / found.count).sqrt(), exact)
     }
 
-    /// The z-test of a variance by the samples' fourth moment.
+    /// The z-test of a variance, with its standard error from the fourth moment of the samples.
     pub fn variance(what: impl Into<String>, found: &Moments, exact: f64) -> Statement {
         let error = ((found.fourth - found.variance * found.variance) / found.count).sqrt();
         Statement::z(what, found.variance, error, exact)
     }
 
-    /// Without chance: within a tolerance, which is what rounding may do.
+    /// A number that is not random must be exact to within a tolerance for rounding.
     pub fn within(what: impl Into<String>, measured: f64, exact: f64, tolerance: f64) -> Statement {
         let difference = (measured - exact).abs();
         Statement {
@@ -135,7 +135,7 @@ impl Statement {
         }
     }
 
-    /// Within a known error of the method, as far as noise lets one see.
+    /// The z-test of a mean whose method has a known error of up to `tolerance`.
     pub fn near(what: impl Into<String>, found: Mean, exact: f64, tolerance: f64) -> Statement {
         let (difference, error) = ((found.mean - exact).abs(), found.variance_of_mean.sqrt());
         Statement {
@@ -148,13 +148,13 @@ impl Statement {
         }
     }
 
-    /// Nothing may be found where something is counted.
+    /// A count that must be 0.
     pub fn none(what: impl Into<String>, count: u32) -> Statement {
         let statement = Statement::plain(what, f64::from(count), "must be 0".to_owned());
         Statement { exact: Some(0.0), holds: count == 0, notices: Noticed::Absolute(1.0), ..statement }
     }
 
-    /// The share of `of` tries in which something happens that must not; from 3/n on one of n is met with 95 %.
+    /// An event that must not happen in `of` tries. At a rate of 3/n it happens in n tries with a probability of 95 %.
     pub fn never(what: impl Into<String>, count: u32, of: u32) -> Statement {
         let share = f64::from(count) / f64::from(of);
         let statistic = format!("{count} of {of}, must be 0");
@@ -163,14 +163,15 @@ impl Statement {
         Statement { exact: Some(0.0), holds, notices, ..Statement::plain(what, share, statistic) }
     }
 
-    /// Must be less than a limit.
+    /// A number that must be below a limit.
     pub fn below(what: impl Into<String>, measured: f64, limit: f64) -> Statement {
         let text = if limit.abs() < 1e-3 { format!("{limit:.0e}") } else { limit.to_string() };
         let statement = Statement::plain(what, measured, format!("must be < {text}"));
         Statement { holds: measured < limit, notices: Noticed::Absolute(limit - measured), ..statement }
     }
 
-    /// The largest of standard normal numbers; a bias of a single one with the relative standard error `sigma` is noticed from the limit on.
+    /// The largest |z| of standard normal scores. `sigma` is the relative standard error of a single one, which gives the
+    /// smallest bias.
     pub fn largest_z(what: impl Into<String>, scores: &[f64], limit: f64, sigma: f64) -> Statement {
         let worst = scores.iter().fold(0.0, |worst: f64, z| if z.abs() > worst || z.is_nan() { z.abs() } else { worst });
         let chance = 1.0 - (1.0 - chance_beyond(limit)).powf(scores.len() as f64);
@@ -179,7 +180,7 @@ impl Statement {
         Statement { holds: worst < limit && !scores.is_empty(), notices, chance, ..statement }
     }
 
-    /// The same, where a statement before is about the same samples.
+    /// Marks a statement that uses the samples of an earlier one.
     pub fn of_the_same(self) -> Statement {
         Statement { shares_samples: true, ..self }
     }

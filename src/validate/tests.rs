@@ -1,12 +1,12 @@
-//! The validation can fail: a mistake in the integrator turns the sections red that are about it.
+//! The validation can fail: an injected fault in the integrator fails the sections that test it.
 use std::collections::HashSet;
 
 use super::*;
 
-/// Of the furnace, caps and roulette, directions, and spheres.
+/// Indices of the sections on the furnace, caps and roulette, directions, and spheres.
 const CONCERNED: [usize; 4] = [0, 2, 3, 4];
 
-/// The places of sections that fail.
+/// Indices of the sections that fail.
 fn red(fault: Option<InjectedFault>) -> Vec<usize> {
     let validation = Validation { fault, ..Validation::new(Effort::Quick, None, 0) };
     let sections = validation.run_these(&CONCERNED.map(|place| sections::ALL[place]), |_, _| ());

@@ -1,9 +1,9 @@
-//! The chapter before the sections: the equation, when it has one solution, and what that says of the estimates.
+//! The chapter before the sections: the equation, when it has exactly one solution, and what the estimates converge to.
 use maud::{Markup, html as markup};
 
 use crate::report::formula;
 
-/// Headings with their paragraphs.
+/// Headings and their paragraphs.
 const CHAPTER: [(&str, &[&str]); 5] = [
     (
         "The equation",

@@ -5,7 +5,8 @@ use crate::declare::Word;
 pub(super) struct Aces;
 
 impl Tone for Aces {
-    const WORD: Word = Word { name: "aces", title: "ACES-like", doc: "A filmic curve: contrast in the middle, a soft shoulder." };
+    const WORD: Word =
+        Word { name: "aces", title: "ACES-like", doc: "A filmic curve with contrast in the mid-tones and soft highlights." };
 
     #[inline(always)]
     fn map(radiance: [f32; 3]) -> [f32; 3] {

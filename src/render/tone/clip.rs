@@ -5,8 +5,7 @@ use crate::declare::Word;
 pub(super) struct None;
 
 impl Tone for None {
-    const WORD: Word =
-        Word { name: "none", title: "None (sRGB)", doc: "Radiance as it is; what is brighter than the screen is cut off." };
+    const WORD: Word = Word { name: "none", title: "None (sRGB)", doc: "No tone mapping; values above 1 are clipped." };
 
     #[inline(always)]
     fn map(radiance: [f32; 3]) -> [f32; 3] {

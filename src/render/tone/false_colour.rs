@@ -10,7 +10,7 @@ impl Tone for FalseColour {
     const WORD: Word = Word {
         name: "false-colour",
         title: "False colour",
-        doc: "Luminance in colours, from 0.001 (violet) to 1000 (yellow), logarithmic.",
+        doc: "Luminance on a logarithmic colour scale, from 0.001 (violet) to 1000 (yellow).",
     };
 
     fn map(radiance: [f32; 3]) -> [f32; 3] {

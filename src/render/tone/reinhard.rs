@@ -8,7 +8,7 @@ impl Tone for Reinhard {
     const WORD: Word = Word {
         name: "reinhard",
         title: "Reinhard",
-        doc: "Divides by one plus the luminance: no grey is cut off, only the strongest colours are; highlights are pale.",
+        doc: "Divides by one plus the luminance. Only saturated colours are clipped; highlights are pale.",
     };
 
     #[inline(always)]

@@ -26,7 +26,7 @@ impl Points for BlueNoise {
     const WORD: Word = Word {
         name: "bluenoise",
         title: "Sobol, blue noise",
-        doc: "Sobol points ordered over the picture so that the noise of few samples is fine-grained.",
+        doc: "Sobol points, ordered over the image so that the noise of few samples is fine-grained.",
     };
 
     #[inline(always)]

@@ -15,7 +15,7 @@ impl Points for Independent {
     const WORD: Word = Word {
         name: "independent",
         title: "Independent",
-        doc: "Uniform random numbers: the plain Monte-Carlo method. Error falls as 1/√N.",
+        doc: "Independent random numbers: plain Monte Carlo. The error falls as 1/√N.",
     };
 
     #[inline(always)]

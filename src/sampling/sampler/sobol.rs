@@ -21,7 +21,7 @@ impl Points for Sobol {
     const WORD: Word = Word {
         name: "sobol",
         title: "Sobol (Owen)",
-        doc: "Owen-scrambled Sobol points: evenly spread in every pair of dimensions that belong together. Mostly the least error.",
+        doc: "Owen-scrambled Sobol points, well distributed in each pair of dimensions. Usually the smallest error.",
     };
 
     /// Of every 2ᵏ consecutive samples, one lies in each of 2ᵏ equal intervals.

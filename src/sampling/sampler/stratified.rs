@@ -23,7 +23,7 @@ impl Points for Stratified {
     const WORD: Word = Word {
         name: "stratified",
         title: "Stratified",
-        doc: "Every 4^k samples fill a grid of 2^k by 2^k once each: random numbers without clumps.",
+        doc: "Jittered samples: each block of 4^k samples has one in every cell of a 2^k × 2^k grid.",
     };
 
     // In one dimension the (0, 1)-sequence is the progressive stratification.
