@@ -30,7 +30,7 @@ pub fn section(validation: &Validation) -> Section {
             statements.push(Statement::catoni(what, found.iter().flatten().copied(), exact, variance));
         }
         let cosine = validation.moments(&scene, validation.path(Directions::Cosine), 100);
-        // Every weight is ρ: each sample is the series, rounded.
+        // Every weight is ρ, so each sample is the series up to rounding.
         statements.push(Statement::within(format!("ρ = {albedo}, cosine directions"), cosine.mean, exact, 2e-6 * exact));
         statements.push(
             Statement::within(format!("ρ = {albedo}, cosine directions: variance"), cosine.variance, 0.0, 1e-10).of_the_same(),
@@ -38,7 +38,7 @@ pub fn section(validation: &Validation) -> Section {
     }
     Section {
         title: "The estimate converges to the algebraic solution",
-        claim: "In a closed room that emits L_e and reflects ρ alike everywhere, the picture is L_e/(1 − ρ).",
+        claim: "In a closed room that emits L_e and reflects ρ everywhere, the radiance is L_e/(1 − ρ).",
         derivation: &[
             "By symmetry the radiance L is the same at every point and in every direction. The integral over the hemisphere is then ρ L, and the equation becomes L = L_e + ρ L, so L = L_e/(1 − ρ): no discretisation, no approximation.",
             "A path of uniform directions multiplies its throughput by ρ · 2 cos θ at every wall, of mean ρ; a path of \
@@ -59,7 +59,7 @@ fn has_third_moment(albedo: f64) -> bool {
     2.0 * albedo.powi(3) < 1.0
 }
 
-/// Running means of single pixels in the band that they should keep to.
+/// Running means of single pixels with the 95 % band around the exact value.
 fn running_means(validation: &Validation) -> Figure {
     const ALBEDO: f64 = 0.5;
     let count = validation.spp(12_000);

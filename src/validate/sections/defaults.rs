@@ -1,4 +1,4 @@
-//! The settings that the program opens with.
+//! The default settings.
 use super::{
     direct_light::{self, lit},
     rooms::wall_of_sphere,
@@ -17,17 +17,17 @@ use crate::{
     validate::{Effort, Section, Statement, Validation, check::scene},
 };
 
-/// A scene, and the exact means of the pixels in which they are known.
+/// A scene with the exact means of the pixels where they are known.
 struct KnownScene {
     name: &'static str,
     scene: Scene,
     exact: Vec<Option<f64>>,
 }
 
-/// What is changed about the settings that are compared.
+/// A change of settings.
 type Change = fn(RenderSettings) -> RenderSettings;
 
-/// Each default alone, in place of what is plain.
+/// Plain settings with one of the defaults each.
 const ALONE: [(&str, Change); 7] = [
     ("plain: path, independent, cosine, q = 0.9", |plain| plain),
     ("plain but MIS", |plain| RenderSettings { estimator: Estimator::Mis, ..plain }),
@@ -38,7 +38,7 @@ const ALONE: [(&str, Change); 7] = [
     ("plain but adaptive", |plain| RenderSettings { adaptive: true, ..plain }),
 ];
 
-/// All defaults, and what else the program may choose or is asked for.
+/// All defaults, with each decision that the program may take.
 const TOGETHER: [(&str, Change); 4] = [
     ("all defaults", |defaults| defaults),
     ("all defaults, shared paths", |defaults| RenderSettings { reuse: Reuse::On, ..defaults }),
@@ -67,8 +67,8 @@ pub fn section(validation: &Validation) -> Section {
         }
     }
     Section {
-        title: "The program as it opens",
-        claim: "The settings that the program opens with, all together and each by itself, give the exact means.",
+        title: "Default settings",
+        claim: "The default settings, all together and one by one, give the exact means.",
         derivation: &[
             "The defaults are MIS, Sobol points, directions by bsdf, roulette by throughput from the fourth bounce on, and paths shared among pixels where a trial shows that it pays; adaptive sampling is optional. These rows render like the program itself, in passes over a film and after the same decisions. Sharing and adaptive sampling have rows where the program applies them: glass, for example, shares nothing, and where the noise is uniform there is nothing to adapt to.",
             "A wall of the textured integrating sphere shows L_e + ρ H with H of the section on that room. Under a lamp that is partly set the \
@@ -104,7 +104,7 @@ impl KnownScene {
         known.iter().sum::<f64>() / known.len() as f64
     }
 
-    /// The mean of red over the known pixels of one picture; `None` where the program does not what the settings ask for.
+    /// The mean red of the known pixels of one image; `None` if the program decides against what the settings ask for.
     fn mean(&self, threads: &Threads, settings: RenderSettings, spp: u32) -> Option<f64> {
         let [width, height] = self.scene.camera.resolution;
         let rays = self.scene.rays(&self.scene.camera);
@@ -112,7 +112,7 @@ impl KnownScene {
         let settings = threads.install(|| resolved(&self.scene, &rays, &settings));
         let mut film = Film::new([width, height]);
         let job = PassJob { scene: &self.scene, rays: &rays, settings: &settings };
-        // Passes end where the number of samples has doubled.
+        // A pass ends when the number of samples has doubled.
         while film.spp() < spp && threads.pass(job, &mut film, spp, &|| false).failure.is_none() {}
         if (asked.reuse == Reuse::On && !self.scene.shares(&rays, &settings)) || (asked.adaptive && !film.is_adaptive()) {
             return None;

@@ -1,4 +1,4 @@
-//! Sampled directions against the densities that they are divided by.
+//! Sampled directions against their pdf.
 use std::f64::consts::TAU;
 
 use glam::DVec3;
@@ -17,7 +17,7 @@ use crate::{
     },
 };
 
-/// Points of a cell, along each side, at which densities are summed up; those of lamps end at an outline.
+/// Quadrature points along each side of a cell. Pdfs of lamps are discontinuous at an outline, so they need more.
 const STEPS: usize = 64;
 const STEPS_OF_LAMPS: usize = 160;
 const ALPHAS: [f64; 3] = [0.05, 0.3, 1.0];
@@ -37,7 +37,7 @@ pub fn section(validation: &Validation) -> Section {
     let caption = "Directions by cos θ: measured frequencies (points) against the densities 2 cos θ and 1.";
     Section {
         title: "Sampled directions",
-        claim: "Sampled directions follow the pdf by which the estimator divides, at surfaces and towards lamps.",
+        claim: "Sampled directions follow the pdf that the estimator divides by, at surfaces and towards lamps.",
         derivation: &[
             "Over the hemisphere, dω = dμ dφ with μ = cos θ. A uniform direction has the density 1/(2π), so that μ is uniform in \
              [0, 1]; a cosine-distributed one has μ/π, so that μ has the density 2μ. The azimuth φ is uniform in both. These two are held against \
@@ -55,7 +55,7 @@ pub fn section(validation: &Validation) -> Section {
 
 type Points = Vec<(f64, f64)>;
 
-/// Directions of the hemisphere against the formulas of their densities.
+/// Directions of the hemisphere against the formulas of their pdfs.
 fn hemisphere(validation: &Validation, directions: Directions) -> (Statement, Points, Points) {
     const BINS: [usize; 2] = [24, 8];
     let (count, random) = (validation.spp(1_500) * 1000, validation.random());
@@ -82,7 +82,7 @@ fn hemisphere(validation: &Validation, directions: Directions) -> (Statement, Po
     (statement, (0..BINS[0]).map(frequency).collect(), (0..=BINS[0]).map(density).collect())
 }
 
-/// Samples against their density: `grids` are those of the sides z > 0 and z < 0, of which the last may be missing.
+/// χ² test of samples against their pdf. `grids` are for z > 0 and, if there is a second one, z < 0.
 fn compared(
     validation: &Validation,
     what: &str,
@@ -108,7 +108,7 @@ fn compared(
     Statement::chi_squared(format!("{what}: {count} directions against their pdf"), &counts, &expected)
 }
 
-/// A bsdf seen at cosine `mu`; `eta` is the index beyond the surface where light passes.
+/// A BSDF seen at cosine `mu`. `eta` is the index beyond the surface, if it transmits.
 fn of_bsdf(validation: &Validation, what: &str, bsdf: &impl Bsdf<One>, (mu, width): (f64, f64), eta: Option<f64>) -> Statement {
     let wo = direction(mu, 0.6);
     let grids = Cells::of_lobes(wo, width, eta, STEPS);
@@ -156,7 +156,7 @@ fn surfaces(validation: &Validation) -> Vec<Statement> {
         for front in [true, false] {
             let bsdf = RoughDielectric::at(One, &glass, Directions::Bsdf, &local(alpha, front));
             let what = format!("rough glass from {}, α = {alpha}", if front { "outside" } else { "inside" });
-            // From inside below the critical angle, for there is nothing refracted beyond.
+            // From inside only below the critical angle; nothing is refracted beyond it.
             let at = (if front { 0.4 } else { 0.9 }, at.1);
             statements.push(of_bsdf(validation, &what, &bsdf, at, Some(f64::from(bsdf.eta().0))));
         }

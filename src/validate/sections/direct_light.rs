@@ -19,16 +19,16 @@ use crate::{
 
 pub const ALBEDO: f64 = 0.8;
 const LAMP: f64 = 0.3;
-/// Angles of a spherical lamp from the zenith: high, partly set, just before it is gone.
+/// Zenith angles of a spherical lamp: above the horizon, partly below it, almost entirely below it.
 const DEGREES: [f64; 5] = [0.0, 45.0, 75.0, 90.0, 103.0];
-/// Origin and two edges: small and far, and so large and near that its solid angle is sampled rather than its area.
+/// Origin and two edges. The large one is so near that its solid angle is sampled instead of its area.
 pub const RECTANGLES: [(&str, [[f64; 3]; 3]); 3] = [
     ("small rectangle", [[0.3, 1.0, -0.2], [0.3, 0.0, 0.0], [0.0, 0.0, 0.3]]),
     ("large rectangle, near", [[-0.8, 0.4, -0.7], [1.6, 0.0, 0.0], [0.0, 0.0, 1.2]]),
     ("rectangle that the horizon cuts", [[0.5, -0.7, -0.4], [0.0, 0.0, 1.0], [0.0, 1.2, 0.0]]),
 ];
 
-/// A point of level ground, seen so closely that all pixels show the same, and a lamp.
+/// A lamp over a diffuse floor. The camera sees so small a part of the floor that all pixels are equal.
 pub fn lit(lamp: &str) -> Scene {
     lit_in("", lamp)
 }

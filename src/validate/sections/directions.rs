@@ -6,10 +6,10 @@ use crate::{
 };
 
 const ALBEDO: f64 = 0.8;
-/// Sines of the angle that the lamp reaches from the zenith; 1 is the whole sky.
+/// Sines of the angle between the zenith and the edge of the lamp; 1 is the whole sky.
 const LAMPS: [f64; 4] = [0.3, 0.6, 0.9, 1.0];
 
-/// A point of the ground, seen so closely that all pixels show the same, under a sphere of radiance 1, or the whole sky.
+/// A floor under a sphere of radiance 1, or under a sky. The camera sees so small a part of the floor that all pixels are equal.
 pub fn ground(sine: f64) -> Scene {
     let light = if sine < 1.0 {
         format!("[[objects]]\nshape.sphere = {{ center = [0.0, 1.0, 0.0], radius = {sine:?} }}\nemission.radiance = 1.0")
@@ -32,7 +32,7 @@ pub fn section(validation: &Validation) -> Section {
         let scene = ground(sine);
         let cos = (1.0 - sine * sine).sqrt();
         let mean = ALBEDO * sine * sine;
-        // Mean squares of the two samples.
+        // Mean squares of the samples by uniform and cosine directions.
         let squares = [ALBEDO * ALBEDO * sine * sine, 4.0 / 3.0 * ALBEDO * ALBEDO * (1.0 - cos.powi(3))];
         let mut found = Vec::new();
         for (directions, square) in [Directions::Cosine, Directions::Uniform].into_iter().zip(squares) {

@@ -31,7 +31,7 @@ const MATERIALS: [(&str, &str, &[f64]); 6] = [
     ("rough glass", "dielectric = { ior = 1.5, roughness = ROUGHNESS }", &[0.3, 0.6, 1.0]),
 ];
 
-/// A ball of this material in a field of radiance 1 from everywhere.
+/// A ball of this material in a uniform field of radiance 1.
 pub fn ball(material: &str) -> Scene {
     scene(&format!(
         "camera = {{ eye = [0.0, 0.0, 5.0], look_at = [0.0, 0.0, 0.0], projection.orthographic.width = 2.0, \
@@ -53,7 +53,7 @@ pub fn section(validation: &Validation) -> Section {
             let rings = rings(&found);
             let what = if roughnesses.len() > 1 { format!("{name}, roughness {roughness}") } else { name.to_owned() };
             let whole = Mean::of(rings.iter().map(|(_, ring)| *ring));
-            // Without roughness there are no tables.
+            // Smooth surfaces use no tables.
             let tolerance = if *roughness > 0.0 { TABLES } else { 1e-5 };
             statements.push(Statement::near(format!("{what}: mean over angles"), whole, 1.0, tolerance));
             let scores: Vec<f64> = rings.iter().map(|(_, ring)| z(*ring, tolerance)).collect();
@@ -71,7 +71,7 @@ pub fn section(validation: &Validation) -> Section {
     statements.extend(reciprocity(validation));
     Section {
         title: "Energy",
-        claim: "A surface that absorbs nothing is invisible in a uniform field: light is neither gained nor lost at any angle or roughness. And f is reciprocal.",
+        claim: "A surface that absorbs nothing is invisible in a uniform field: it neither gains nor loses light at any angle or roughness. The BSDF is reciprocal.",
         derivation: &[
             "In a field of radiance 1 from all directions a lossless surface sends L/n² = 1 into every direction, 1 outside and n² \
              inside of glass: a ball of it, whatever it is made of, cannot be told from the background. At the edge of the ball it is seen at grazing \
@@ -88,17 +88,17 @@ pub fn section(validation: &Validation) -> Section {
     }
 }
 
-/// The standard error of a mean near 1, of which what tables may be off by is a part.
+/// The standard error of a mean near 1, with the error of tables included.
 fn error(found: Mean, tolerance: f64) -> f64 {
     found.variance_of_mean.sqrt().hypot(tolerance / SIGMAS)
 }
 
-/// How far a mean is from 1 in such errors.
+/// The deviation of a mean from 1 in such standard errors.
 fn z(found: Mean, tolerance: f64) -> f64 {
     (found.mean - 1.0) / error(found, tolerance)
 }
 
-/// Albedos of lossless surfaces by quadrature, without noise, and which is farthest off.
+/// Albedos of lossless surfaces by quadrature, and a sentence about the one with the largest error.
 fn tables() -> (Vec<Statement>, Option<String>) {
     const ROUGHNESSES: [f64; 4] = [0.1, 0.3, 0.6, 1.0];
     let cases: Vec<(&str, f64)> = ["perfect metal", "white plastic", "rough glass from outside", "rough glass from inside"]
@@ -117,7 +117,7 @@ fn tables() -> (Vec<Statement>, Option<String>) {
     (cases.iter().zip(&found).map(row).collect(), remark)
 }
 
-/// The albedo less 1 that is farthest from 0, and the cosine at which it is.
+/// The largest error of the albedo over all angles, and its cosine.
 fn farthest_albedo(kind: &str, roughness: f64) -> (f64, f64) {
     let alpha = (roughness * roughness) as f32;
     let front = !kind.ends_with("inside");
@@ -142,7 +142,7 @@ fn farthest_albedo(kind: &str, roughness: f64) -> (f64, f64) {
     gains.into_iter().max_by(|a, b| a.0.abs().total_cmp(&b.0.abs())).unwrap_or_default()
 }
 
-/// ∫ f |cos θ_i| dω_i, without the scale of radiance.
+/// ∫ f |cos θ_i| dω_i, without the change of radiance by refraction.
 fn albedo(bsdf: &impl Bsdf<One>, alpha: f32, mu: f64, eta: Option<f64>) -> f64 {
     const STEPS: usize = 40;
     let wo = direction(mu, 0.6);
@@ -157,7 +157,7 @@ fn albedo(bsdf: &impl Bsdf<One>, alpha: f32, mu: f64, eta: Option<f64>) -> f64 {
     grids.iter().enumerate().map(of).sum()
 }
 
-/// Means of the pixels that see the ball at about the same angle, by its cosine.
+/// Means over rings of pixels that see the ball at about the same angle, with the cosine of that angle.
 fn rings(found: &Picture) -> Vec<(f64, Mean)> {
     const RINGS: usize = 12;
     let mut rings = vec![Vec::new(); RINGS];
@@ -189,7 +189,7 @@ fn reciprocity(validation: &Validation) -> Vec<Statement> {
     ]
 }
 
-/// The largest relative difference between f of two directions and f of the same exchanged.
+/// The largest relative change of f when its directions are exchanged.
 fn asymmetry(name: &str, (count, random): (u32, Random), bsdf: &impl Bsdf<One>) -> Statement {
     let direction = |i: u32| Directions::Cosine.sample(random.direction(i).0);
     let worst = (0..count).map(|i| {
@@ -200,9 +200,9 @@ fn asymmetry(name: &str, (count, random): (u32, Random), bsdf: &impl Bsdf<One>) 
     Statement::below(format!("{name}: largest relative difference of f when directions are exchanged"), largest(worst), 2e-4)
 }
 
-/// As a part of the larger one; 0 where one is hardly anything.
+/// The difference relative to the larger number; 0 if both are tiny.
 fn relative_difference(a: f64, b: f64) -> f64 {
-    // Of NaN and a number `min` and `max` are the number.
+    // `min` and `max` ignore NaN.
     if (a + b).is_nan() {
         return f64::NAN;
     }

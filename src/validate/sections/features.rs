@@ -1,4 +1,4 @@
-//! Meshes, lenses, disks and many lamps, as far as they are known exactly.
+//! Meshes, lenses, disks and many lamps, in scenes with exact solutions.
 use std::f64::consts::PI;
 
 use glam::DVec3;
@@ -33,7 +33,7 @@ pub fn section(validation: &Validation) -> Section {
     let (lamps, irradiance) = many_lamps();
     for (what, scene, irradiance) in [
         ("rectangle as a mesh", lit(&triangles), polygon_irradiance(1.0, &corners)),
-        // π L r²/(r² + h²) under its middle.
+        // π L r²/(r² + h²) below its centre.
         ("disk overhead", lit(disk), PI * 0.25 / (0.25 + 1.44)),
         ("300 spheres", lamps, irradiance),
     ] {
@@ -69,7 +69,7 @@ pub fn section(validation: &Validation) -> Section {
     }
 }
 
-/// Of the small rectangle of the section on direct light.
+/// Corners of the small rectangle in the section on direct light.
 fn corners() -> [DVec3; 4] {
     let [origin, u, v] = RECTANGLES[0].1.map(DVec3::from_array);
     [origin, origin + u, origin + u + v, origin + v]
@@ -91,7 +91,7 @@ fn room(validation: &Validation) -> Statement {
     Statement::within("furnace of twelve triangles: mean of the picture", found.mean, 2.0, 2e-6)
 }
 
-/// Squares of two radiances whose edges are those of pixels.
+/// A lamp with squares of two radiances. Their edges coincide with edges of pixels.
 fn checkered_lamp(validation: &Validation) -> Statement {
     let scene = scene(
         "camera = { eye = [0.0, 0.0, 1.0], look_at = [0.0, 0.0, 0.0], projection.orthographic.width = 1.0, resolution = [8, 8] }
@@ -124,13 +124,13 @@ fn turned_away(validation: &Validation) -> Vec<Statement> {
     Estimator::ALL.map(dark).into()
 }
 
-/// Small spheres all over the sky above a point, and their irradiance there.
+/// Small spheres distributed over the sky above a point, and their irradiance at the point.
 fn many_lamps() -> (Scene, f64) {
     const COUNT: usize = 300;
     const RADIUS: f64 = 0.02;
     let mut irradiance = 0.0;
     let lamp = |i: usize| {
-        // Even over the upper part of the hemisphere, none in front of another.
+        // Distributed evenly over the upper part of the hemisphere; none covers another.
         let cos = 0.08 + 0.9 * (i as f64 + 0.5) / COUNT as f64;
         let (sin, turn) = ((1.0 - cos * cos).sqrt(), 2.399_963_23 * i as f64);
         let center = [sin * turn.cos(), cos, sin * turn.sin()];

@@ -13,11 +13,11 @@ use crate::{
 };
 
 const IOR: f64 = 1.5;
-/// The index beyond the surface over that on the side of the viewer: into glass and diamond, and out of them.
+/// The index beyond the surface relative to that on the side of the viewer: into glass and diamond, and out of them.
 const ETAS: [f64; 4] = [1.5, 2.4, 1.0 / 1.5, 1.0 / 2.4];
 const THICKNESS: f64 = 0.1;
 const RADIUS: f64 = 0.5;
-/// What a metre lets pass of red, green and blue.
+/// Transmittance of one metre for red, green and blue.
 const TRANSMITTANCE: [f64; 3] = [0.9, 0.5, 0.05];
 const CHANNELS: [Measure; 3] = [RED, |radiance| f64::from(radiance[1]), |radiance| f64::from(radiance[2])];
 
@@ -55,7 +55,7 @@ pub fn section(validation: &Validation) -> Section {
     }
 }
 
-/// Single samples of a smooth interface.
+/// Single samples of a smooth interface against the laws of Snell and Fresnel.
 fn interface(validation: &Validation, eta: f64) -> Vec<Statement> {
     let (count, random) = (validation.spp(20_000), validation.random());
     let glass = DielectricBsdf { eta: F(eta as f32) };
@@ -111,7 +111,7 @@ fn interface(validation: &Validation, eta: f64) -> Vec<Statement> {
     statements
 }
 
-/// A pane before a wall that shines.
+/// A pane in front of an emitting wall.
 fn pane(degrees: f64) -> Scene {
     let glass = format!("dielectric = {{ ior = {IOR:?} }}");
     let slab = format!("cuboid = {{ min = [-100.0, -100.0, {:?}], max = [100.0, 100.0, 0.0] }}", -THICKNESS);
@@ -200,7 +200,7 @@ fn tinted(validation: &Validation) -> Vec<Statement> {
     statements
 }
 
-/// The field seen from within glass.
+/// The field seen from inside glass.
 fn inside(validation: &Validation) -> Vec<Statement> {
     let camera = "eye = [0.3, 0.2, -0.3], look_at = [1.0, 0.4, 0.3], fov = 90.0";
     let n2 = IOR * IOR;
@@ -214,7 +214,7 @@ fn inside(validation: &Validation) -> Vec<Statement> {
     ]
 }
 
-/// The largest relative difference between f/n² there and back.
+/// The largest relative change of f/n² when its directions are exchanged.
 fn reciprocity(validation: &Validation) -> Statement {
     let (alpha, ior) = (0.3, IOR as f32);
     let glass = Dielectric::new(ior, alpha, true).into();
@@ -240,7 +240,7 @@ fn reciprocity(validation: &Validation) -> Statement {
         let there = f64::from(sides[near].eval(wo, wi).0.x.0) / f64::from(wi.z.0.abs());
         let back = sides[if passes { far } else { near }].eval(turned(wi), turned(wo)).0;
         let back = f64::from(back.x.0) / f64::from(wo.z.0);
-        // n² of the side that the light goes to: 1 or n².
+        // n² on the side that the light goes to is 1 or n².
         let eta2 = f64::from(sides[near].eta().0).powi(2);
         let back = if passes { back / eta2 } else { back };
         if there.min(back) > 1e-6 { (there - back).abs() / there.max(back) } else { 0.0 }

@@ -61,7 +61,7 @@ fn camera() -> Camera {
     Camera { resolution: RESOLUTION, ..built_in().camera }
 }
 
-/// Of the picture and its standard error, rendered with a pause whenever the renderer has asked `pause` times.
+/// Hash of an image and its standard error, rendered with an interruption after every `pause` checks of the renderer.
 fn hash(settings: &RenderSettings, threads: usize, level: SimdLevel, pause: u32) -> u64 {
     let scene = built_in();
     let threads = Threads::new(threads, level).expect("threads can be had");
@@ -82,7 +82,7 @@ fn hash(settings: &RenderSettings, threads: usize, level: SimdLevel, pause: u32)
     hasher.finish()
 }
 
-/// Pixels, of some, whose samples taken one by one from the last to the first do not add up to the picture.
+/// The number of tested pixels whose samples, replayed from the last to the first, do not add up to the image.
 fn replayed(settings: &RenderSettings) -> u32 {
     let scene = built_in();
     let rays = scene.rays(&camera());

@@ -1,4 +1,4 @@
-//! x_M itself: what rays meet, and what they do not.
+//! Hits and misses of rays: the point x_M of the equation.
 use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DVec3};
@@ -22,16 +22,16 @@ use crate::{
     },
 };
 
-/// A ray that this many last digits aside would do otherwise may do either.
+/// A ray may hit or miss if moving it by this many units in the last place changes the exact result.
 const DIGITS: f64 = 8.0;
-/// The largest error of x_M, in last digits.
+/// The largest allowed error of x_M, in units in the last place.
 const MOST_DIGITS: f64 = 8.0;
 /// 2⁻²³.
 const EPSILON: f64 = f32::EPSILON as f64;
-/// Rays that may do either, at most.
+/// Largest fraction of rays that may do either.
 const MOST_CLOSE: f64 = 0.01;
 
-/// A surface, the pieces that f64 knows it by, and how many rays are tried of as many for simple ones.
+/// A surface, its pieces for the f64 formulas, and a divisor of the number of rays.
 struct Kind {
     name: String,
     shapes: Vec<Shape>,
@@ -51,8 +51,8 @@ pub fn section(validation: &Validation) -> Section {
     let errors = kinds.iter().zip(&found).filter(|(kind, _)| kind.name.starts_with("sphere of"));
     let errors: Vec<_> = errors.map(|(kind, tally)| (kind.name.clone(), tally.errors.clone())).collect();
     Section {
-        title: "Hits and misses: x_M itself",
-        claim: "On every kind of surface a ray finds the right point x_M, and it finds nothing where there is nothing.",
+        title: "Hits and misses",
+        claim: "On every kind of surface a ray hits the right point x_M, and misses if there is nothing to hit.",
         derivation: &[
             "x_M(x, ω) = x + tω with the smallest t > 0 at which the ray meets the surface. Separate code solves every ray in double precision by textbook formulas: quadrics by the quadratic equation, flat shapes and triangles of meshes by their plane. Half of the rays aim at a point on the surface, half at a point off it, at distances from 10⁻⁵ to twice its size. Rays start inside, outside, near and far.",
             "No ray is left out. With S the sum of the coordinates along the ray, εS is their last digit in f32. If all rays displaced by up to 8 εS hit in f64, the ray must hit; if none of them does, it must miss. The remaining rays pass within rounding of an edge, a tangent or their own origin and may do either; their share is limited.",
@@ -109,15 +109,15 @@ fn kinds() -> Vec<Kind> {
     kinds
 }
 
-/// What rays did.
+/// Results of the rays of a surface.
 #[derive(Default)]
 struct Tally {
     must_hit: u32,
     must_miss: u32,
     close: u32,
-    /// Surfaces that were passed, and intersections where there is nothing.
+    /// Missed surfaces, and hits where there is nothing.
     wrong: u32,
-    /// Of x_M, in εS.
+    /// Errors of x_M in εS.
     errors: Vec<f64>,
 }
 
@@ -141,7 +141,7 @@ impl Tally {
     }
 }
 
-/// An intersection in f64, and what rounding may move it by, aside and along.
+/// An intersection in f64, and how far rounding may move it sideways and along the ray.
 struct Known {
     intersection: Intersection,
     /// εS.
@@ -150,7 +150,7 @@ struct Known {
 }
 
 impl Known {
-    /// Of an intersection at `t`, from the surface, in εS.
+    /// The distance of a hit at `t` from the surface, in εS.
     fn error(&self, t: f64) -> f64 {
         (t - self.intersection.t).abs() * self.intersection.cos / self.digit
     }
@@ -167,13 +167,13 @@ impl Kind {
         tally
     }
 
-    /// The `i`-th ray, in numbers of f32.
+    /// Origin and direction of the `i`-th ray, rounded to f32.
     fn ray(&self, i: u32, random: Random) -> (DVec3, DVec3) {
         let at = |dimension: u32| f64::from(random.at(i, dimension).0);
         let unit = |a: f64, b: f64| point_at(&Shape::Sphere { center: DVec3::ZERO, radius: 1.0 }, [a, b]);
         let piece = &self.pieces[((at(0) * self.pieces.len() as f64) as usize).min(self.pieces.len() - 1)];
         let (center, radius) = self.shapes[0].bounding_sphere();
-        // The whole field, where there are many shapes; near the surface, where one is very large.
+        // Targets lie in the whole field if there are many shapes, and near the surface of a very large one.
         let (center, radius) = if self.shapes.len() > 1 { (DVec3::ZERO, 1.7) } else { (center, radius) };
         let on = point_at(piece, [at(1), at(2)]);
         let beside = if i.is_multiple_of(2) { 0.0 } else { radius * 2.0 * 10f64.powf(-5.3 * at(3).powi(2)) };
@@ -185,11 +185,11 @@ impl Kind {
         (o.as_dvec3(), d.as_dvec3())
     }
 
-    /// All intersections of the ray in f64, misses by a little included.
+    /// All intersections of the ray in f64, including near misses.
     fn known(&self, o: DVec3, d: DVec3) -> Vec<Known> {
         let of = |piece: &Shape| {
             let (center, radius) = piece.bounding_sphere();
-            // Spheres are anchored near the origin, other shapes are as large as they are.
+            // Spheres are anchored near the origin; other shapes count with their full size.
             let own = if matches!(piece, Shape::Sphere { .. }) && radius > 10.0 { 0.0 } else { radius + center.length() };
             let known = move |intersection: Intersection| {
                 let digit = EPSILON * (o.length() + (o + d * intersection.t).length() + intersection.t.abs() + own);
@@ -214,7 +214,7 @@ impl Kind {
             tally.must_hit += 1;
             let met = found.filter(|t| *t <= first.intersection.t + first.along && is_there(*t));
             tally.wrong += u32::from(met.is_none());
-            // What is wrong has the error to where it should be.
+            // The error is the distance to the correct point.
             let near = |t: f64| {
                 known
                     .iter()
@@ -247,7 +247,7 @@ fn error_figure(errors: &[(String, Vec<f64>)]) -> Figure {
         curve(name.clone(), Style::Line, (0..=200).map(at).collect())
     };
     let curves: Vec<_> = errors.iter().map(of).collect();
-    let caption = "Errors of x_M in units of εS, the last digit of the coordinates on the way, sorted.";
+    let caption = "Sorted errors of x_M in units of εS, the last digit of the coordinates.";
     plot(caption, Axis::linear("share of rays"), Axis::linear("error / εS"), &curves)
 }
 
@@ -297,7 +297,7 @@ mod tests {
             let other = tally(found, exact);
             assert!(other.wrong > 500 && largest(other.errors) > MOST_DIGITS, "{found} {exact}: {}", other.wrong);
         }
-        // Nothing is met where there is something, and something where there is nothing.
+        // A miss where there is a surface, and a hit where there is none.
         let judged = |found: [f64; 3], exact: [f64; 3]| {
             let at = |center: [f64; 3]| Shape::Sphere { center: center.into(), radius: 1.0 };
             let kind = Kind { name: String::new(), shapes: vec![at(found)], pieces: vec![at(exact)], divisor: 1 };

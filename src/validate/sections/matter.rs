@@ -1,4 +1,4 @@
-//! Surfaces in absolute terms.
+//! BSDFs against their formulas.
 use std::f64::consts::PI;
 
 use glam::DVec3;
@@ -24,9 +24,9 @@ const GOLD: ([f32; 3], [f32; 3]) = ([0.143, 0.374, 1.442], [3.983, 2.386, 1.603]
 const COSINES: [f64; 5] = [1.0, 0.8, 0.5, 0.25, 0.1];
 /// Relative errors of f in f32.
 const ROUNDING: f64 = 1e-5;
-/// Of the light that tables hold: at α = 0.1 their cells are the widest for what happens there.
+/// Relative error of tables. It is largest at α = 0.1, where the table varies most within a cell.
 const TABLES: f64 = 1e-2;
-/// f of a diffuse surface of albedo 0.05: where a surface reflects less, errors are relative to this.
+/// f of a diffuse surface of albedo 0.05. Errors of smaller f are relative to this.
 const FAINT: f64 = 0.05 / PI;
 
 pub fn section(validation: &Validation) -> Section {
@@ -41,8 +41,8 @@ pub fn section(validation: &Validation) -> Section {
     statements.extend(coats());
     statements.push(black_plastic(validation));
     Section {
-        title: "Surfaces in absolute terms",
-        claim: "Surfaces follow their formulas: f at pairs of directions, and its integral by quadrature.",
+        title: "Surfaces and their formulas",
+        claim: "BSDFs agree with their formulas: f at pairs of directions, and its integral by quadrature.",
         derivation: &[
             "Microfacets have f = F D G/(4 cos θ_o cos θ_i), with D = α²/(π cos⁴θ (α² + tan²θ)²) and G = G₁(ω_o) G₁(ω_i), \
              G₁ = 2/(1 + √(1 + α² tan²θ)); those that refract have f = (1 − F) D G |ω_o·h ω_i·h|/(|cos θ_o cos θ_i| (ω_o·h + η ω_i·h)²). \
@@ -67,12 +67,12 @@ fn local(colour: f32, alpha: f64, front: bool) -> Local<One> {
     Local { material: U(0), colour: V::splat(One, [colour; 3]), alpha: F(alpha as f32), front: M(front) }
 }
 
-/// f of red.
+/// The red channel of f.
 fn f(bsdf: &impl Bsdf<One>, wo: DVec3, wi: DVec3) -> f64 {
     f64::from(bsdf.eval(lanes(wo), lanes(wi)).0.x.0) / wi.z.abs()
 }
 
-/// The mean weight of samples seen at cosine `mu`, without the scale of radiance 1/η², against an integral.
+/// The mean weight of samples seen at cosine `mu`, without the factor 1/η² of radiance, against an integral.
 fn sampled(what: String, (count, random): (u32, Random), bsdf: &impl Bsdf<One>, mu: f64, eta: f64, exact: f64) -> Statement {
     let wo = lanes(direction(mu, 0.6));
     let weight = |i: u32| {
@@ -84,7 +84,7 @@ fn sampled(what: String, (count, random): (u32, Random), bsdf: &impl Bsdf<One>, 
     Statement::z(what, found.mean, (found.variance / found.count).sqrt(), exact)
 }
 
-/// The largest relative error of numbers against exact ones.
+/// The largest relative error of pairs of a number and the exact one.
 fn worst(pairs: impl Iterator<Item = (f64, f64)>) -> f64 {
     largest(pairs.map(|(found, exact)| (found / exact - 1.0).abs()))
 }
@@ -112,7 +112,7 @@ fn diffuse(validation: &Validation) -> Vec<Statement> {
     statements
 }
 
-/// Directions and weights of a smooth metal.
+/// Directions and weights at a smooth metal.
 fn mirror(validation: &Validation) -> Statement {
     let fresnel = Reflectance::index(GOLD.0, GOLD.1);
     let materials = Materials::new(&[Conductor::new(fresnel, 0.0, true).into()]);
@@ -130,7 +130,7 @@ fn mirror(validation: &Validation) -> Statement {
     Statement::below(what, largest((0..validation.spp(20_000)).map(error)), 5e-6)
 }
 
-/// Rough metals: with all that is lost at a second facet, and with what is given back.
+/// Rough metals: single scattering, and with energy compensation.
 fn metals(validation: &Validation, alpha: f64) -> Vec<Statement> {
     let what = |text: &str| format!("metal, α = {alpha}: {text}");
     let metal_of = |fresnel, compensated| Materials::new(&[Conductor::new(fresnel, alpha as f32, compensated).into()]);
@@ -173,7 +173,7 @@ fn metals(validation: &Validation, alpha: f64) -> Vec<Statement> {
     statements
 }
 
-/// f at pairs of the directions of [`COSINES`], and what it should be; where that is [`FAINT`], the error of f is made smaller.
+/// Pairs of f and its exact value for directions with [`COSINES`]. Errors of values below [`FAINT`] are relative to that.
 fn grid(bsdf: &impl Bsdf<One>, exact: impl Fn(usize, usize, DVec3, DVec3) -> f64) -> Vec<(f64, f64)> {
     let pairs = (0..COSINES.len()).flat_map(|o| (0..COSINES.len()).flat_map(move |i| [0.1, 1.0, 3.0].map(|turn| (o, i, turn))));
     let pair = |(o, i, turn): (usize, usize, f64)| {
@@ -184,7 +184,7 @@ fn grid(bsdf: &impl Bsdf<One>, exact: impl Fn(usize, usize, DVec3, DVec3) -> f64
     pairs.map(pair).collect()
 }
 
-/// Rough glass without what is given back, seen from outside (η > 1) and from inside.
+/// Rough glass with single scattering, seen from outside (η > 1) and from inside.
 fn interfaces(validation: &Validation, eta: f64) -> Vec<Statement> {
     let alpha = 0.3;
     let glass = Dielectric::new(IOR as f32, alpha as f32, false).into();
@@ -201,7 +201,7 @@ fn interfaces(validation: &Validation, eta: f64) -> Vec<Statement> {
         let exact = |wo: DVec3| {
             if wi.z > 0.0 { reflection(alpha, wo, wi, |cos| dielectric(cos, eta).0) } else { refraction(alpha, wo, wi, eta) }
         };
-        // Grazing facets are many digits smaller than others.
+        // f at grazing facets is many orders of magnitude smaller.
         let is_rare = sample.weight.x.0 == 0.0 || exact(wo) * wi.z.abs() < 1e-3;
         if is_rare { (1.0, 1.0) } else { (beyond_digits(f(&bsdf, wo, wi), wo, exact), exact(wo)) }
     };
@@ -218,8 +218,9 @@ fn interfaces(validation: &Validation, eta: f64) -> Vec<Statement> {
     statements
 }
 
-/// `found`, moved towards the exact number by what the last digits of the direction change about that: next to total reflection 1 − F falls as
-/// a root, and hardly has digits.
+/// Moves `found` towards the exact number by the change that rounding of the direction makes. Next to total reflection 1 − F
+/// falls as
+/// a square root, so rounding changes it much.
 fn beyond_digits(found: f64, w: DVec3, exact: impl Fn(DVec3) -> f64) -> f64 {
     const DIGITS: f64 = 4.0 * f32::EPSILON as f64;
     let at = exact(w);
@@ -253,7 +254,7 @@ fn coats() -> Vec<Statement> {
     [0.0, 0.1, 0.5].map(of).into()
 }
 
-/// A ball with a coat on nothing, before a background that shines as the field does.
+/// A ball with a coat over a black base, in front of a uniform background.
 fn black_plastic(validation: &Validation) -> Statement {
     let scene = ball("plastic = { albedo = 0.0, ior = 1.5 }");
     let found = picture(&scene, validation.path(Directions::Cosine), RED, validation.spp(2000)).whole();
@@ -269,7 +270,7 @@ mod tests {
     #[test]
     fn only_what_no_last_digit_explains_is_an_error() {
         let w = glam::DVec3::new(0.0, 0.0, 0.25);
-        // A root of the height: it changes by 4ε/(2 · 0.5).
+        // A square root of the height changes by 4ε/(2 · 0.5).
         let spread = 4.0 * f64::from(f32::EPSILON);
         let found = |error: f64| beyond_digits(0.5 + error, w, |w| w.z.max(0.0).sqrt()) - 0.5;
         assert_eq!([0.0, 0.9 * spread, -0.9 * spread].map(found), [0.0; 3]);

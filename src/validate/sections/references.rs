@@ -31,10 +31,10 @@ macro_rules! carried {
     };
 }
 
-/// Mean and variance of the mean of a block's red, green and blue.
+/// Mean of a block and variance of that mean, for red, green and blue.
 type Block = [[f64; 2]; 3];
 
-/// Scenes with block means, as files in `tests/references`.
+/// The references in the program: scenes with block means, from `tests/references`.
 const CARRIED: [[&str; 3]; 6] = [
     carried!("cornell_box"),
     carried!("cornell_spheres"),
@@ -44,7 +44,7 @@ const CARRIED: [[&str; 3]; 6] = [
     carried!("veach_mis"),
 ];
 
-/// A scene, and means over the blocks of its picture, with their names in messages.
+/// A scene, the block means of its image, and its name in messages.
 struct Reference {
     name: String,
     scene: Result<Scene, String>,
@@ -81,7 +81,7 @@ pub fn section(validation: &Validation) -> Section {
     let remark = if some < all { format!("A quick run: {some} of {all} references.") } else { format!("{all} references.") };
     Section {
         title: "Agreement with references",
-        claim: "Pictures of the same scenes by an independent renderer, and one that is known exactly, agree block by block.",
+        claim: "Renders of the same scenes by an independent renderer, and one exact image, agree block by block.",
         derivation: &[
             "Each reference holds means over 256 blocks of 16 × 16 pixels, three colours each, with their standard errors. The \
              difference of two unbiased estimates, over the root of the sum of their variances, is a standard normal deviate. Were \
@@ -95,12 +95,12 @@ pub fn section(validation: &Validation) -> Section {
     }
 }
 
-/// A name as it is written in a text.
+/// A file name as words.
 fn spoken(name: &str) -> String {
     name.replace('_', " ")
 }
 
-/// Scenes with block means beside them.
+/// Names of the scenes in a folder that have block means beside them.
 pub fn names(folder: &Path) -> Vec<String> {
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
     let scenes = entries.map(|entry| entry.path()).filter(|path| path.extension().is_some_and(|e| e == "toml"));
@@ -117,14 +117,14 @@ fn rows(validation: &Validation, reference: &Reference) -> Vec<Statement> {
         ..validation.settings(Estimator::Mis)
     };
     let what = |text: String| format!("{}: {text}", spoken(&reference.name));
-    // With few samples means over blocks are not normal yet.
+    // With few samples, block means do not have a normal distribution yet.
     match compared(reference, settings, validation.spp(800).max(200)) {
         Ok(BlockZScores { worst, rms, count, sigma }) => {
             let largest = Statement::largest_z(what(format!("largest |z| of {count} block means")), &[worst], MOST_SIGMAS, sigma);
-            // Channels of a block have their noise in common.
+            // The channels of a block share their noise.
             let blocks = count as f64 / 3.0;
             let chance_of_rms = ChiSquared::new(blocks).map_or(f64::NAN, |chi2| chi2.sf(MOST_RMS * MOST_RMS * blocks));
-            // As the largest of many.
+            // The probability for the largest of many.
             let chance = count as f64 * chance_beyond(MOST_SIGMAS);
             let statistic = format!("largest of {count}, must be < {MOST_SIGMAS}");
             vec![
@@ -139,7 +139,7 @@ fn rows(validation: &Validation, reference: &Reference) -> Vec<Statement> {
     }
 }
 
-/// How far block means are from a reference, in standard errors of both.
+/// Deviations of block means from a reference, in standard errors.
 pub struct BlockZScores {
     /// The largest absolute z-score.
     pub worst: f64,
@@ -151,8 +151,9 @@ pub struct BlockZScores {
     pub sigma: f64,
 }
 
-/// Renders the scene of a file and compares it with the block means beside it. The variance of `settings` must be known from the
-/// samples themselves, as that of independent ones is.
+/// Renders the scene of a file and compares it with the block means beside it. The sample variance must give the standard error,
+/// as
+/// it does for independent samples.
 pub fn block_z_scores(path: &Path, settings: impl FnOnce(&Scene) -> RenderSettings, spp: u32) -> Result<BlockZScores, String> {
     compared(&Reference::read(path, String::new()), settings, spp)
 }
@@ -165,7 +166,7 @@ fn compared(reference: &Reference, settings: impl FnOnce(&Scene) -> RenderSettin
         return Err(format!("{} blocks, but the reference has {}", ours.len(), reference.len()));
     }
     let z = |([mean, variance], [exact, error]): (&[f64; 2], &[f64; 2])| {
-        // Rounding of the reference's six digits, and of ours.
+        // Rounding of the reference to six digits, and of the render.
         let rounding = 2e-6 * exact;
         (mean - exact) / (variance + error + rounding * rounding).sqrt()
     };
@@ -183,7 +184,7 @@ fn compared(reference: &Reference, settings: impl FnOnce(&Scene) -> RenderSettin
     })
 }
 
-/// Six numbers a line: means, then standard errors; lines that start with # are remarks.
+/// Parses six numbers per line: means, then standard errors. Lines that start with # are comments.
 fn blocks(text: &str) -> Option<Vec<Block>> {
     let block = |line: &str| {
         let numbers: Vec<f64> = line.split_whitespace().map(str::parse).collect::<Result<_, _>>().ok()?;

@@ -1,4 +1,4 @@
-//! Rooms.
+//! Closed rooms: integrating sphere and mirrors.
 use std::f64::consts::PI;
 
 use crate::{
@@ -31,11 +31,12 @@ pub fn section(validation: &Validation) -> Section {
     }
 }
 
-/// Even cells, odd cells, and how many strips there are.
+/// Values of even and odd cells, and the number of strips.
 type Checker = (f64, f64, u32);
 
-/// The mean over the area of a sphere of a checker in (u, v) with an odd number of strips: along each strip of v both colours have
-/// as many cells or one more, and a strip has the area ½ (cos πv₀ − cos πv₁).
+/// The mean of a checker in (u, v) over the area of a sphere, for an odd number of strips. Along each strip of v one colour has
+/// one
+/// cell more than the other, and a strip has the area ½ (cos πv₀ − cos πv₁).
 fn mean((even, odd, strips): Checker) -> f64 {
     let edge = |j: u32| (PI * f64::from(j) / f64::from(strips)).cos();
     let strip = |j: u32| {
@@ -48,12 +49,12 @@ fn mean((even, odd, strips): Checker) -> f64 {
 const REFLECTED: Checker = (0.9, 0.2, 5);
 const EMITTED: Checker = (0.25, 2.0, 3);
 
-/// The radiance that the wall has besides its own: H.
+/// The irradiance of the wall divided by π: H.
 fn mixed() -> f64 {
     mean(EMITTED) / (1.0 - mean(REFLECTED))
 }
 
-/// A sphere of these checkers, seen from its middle.
+/// A sphere with these checkers, seen from its centre.
 fn sphere(camera: &str) -> Scene {
     let text = |(even, odd, strips): Checker| format!("checker = {{ even = {even:?}, odd = {odd:?}, scale = {strips}.0 }}");
     scene(&format!(
@@ -71,12 +72,12 @@ fn sphere(camera: &str) -> Scene {
     ))
 }
 
-/// A part of the wall that lies within even cells of both checkers, and its radiance.
+/// A view of the wall inside even cells of both checkers, and its radiance.
 pub fn wall_of_sphere() -> (Scene, f64) {
     (sphere("look_at = [-1.0, 0.0, 0.0], fov = 5.0, resolution = [64, 64]"), EMITTED.0 + REFLECTED.0 * mixed())
 }
 
-/// Looking from the middle in all directions there are: six views of a right angle, each pixel weighed by its solid angle.
+/// All directions from the centre: six views of 90°, with pixels weighted by their solid angle.
 fn integrating_sphere(validation: &Validation) -> Vec<Statement> {
     const SIDE: u32 = 32;
     let exact = mean(EMITTED) + mean(REFLECTED) * mixed();
@@ -97,10 +98,10 @@ fn integrating_sphere(validation: &Validation) -> Vec<Statement> {
                 whole += weight;
             }
         }
-        // Edges of cells within pixels: the weight of a pixel is that of its middle.
+        // Cells may end within a pixel, which has the weight of its centre.
         let error = variance.sqrt().hypot(1e-4 * whole);
         let what = format!("textured integrating sphere, mean over all directions, {}", estimator.name());
-        // The tolerance is no noise.
+        // The tolerance is not part of the noise.
         statements.push(Statement { z: None, ..Statement::z(what, sum / whole, error / whole, exact) });
     }
     statements

@@ -1,4 +1,4 @@
-//! Camera and lamp inside or outside of a sphere.
+//! Camera and lamp inside or outside a sphere.
 use base64::{Engine, prelude::BASE64_STANDARD};
 use glam::DVec3;
 
@@ -17,7 +17,7 @@ use crate::{
     },
 };
 
-/// Of `outside_lit_outside.toml`.
+/// Albedo of the ball in `outside_lit_outside.toml`.
 const ALBEDO: f64 = 0.8;
 const LAMP: Lamp = Lamp { center: DVec3::new(1.7, 1.4, 1.0), radius: 0.5, radiance: 8.0 };
 
@@ -51,7 +51,7 @@ pub fn section(validation: &Validation) -> Section {
         }
     }
     Section {
-        title: "Camera and lamp inside or outside of a sphere",
+        title: "Camera and lamp inside or outside a sphere",
         claim: "No light passes through a closed opaque sphere from either side; where camera and lamp are on the same side, the radiance is exact. This holds for paths, for shadow rays and for both together.",
         derivation: &[
             "Inside: a lamp of radius r in the middle of a sphere of radius R fills the share F = (r/R)² of the cosine-weighted \
@@ -71,19 +71,19 @@ pub fn section(validation: &Validation) -> Section {
     }
 }
 
-/// Roulette by throughput: in a closed sphere paths would go on for long.
+/// Renders with roulette by throughput, because paths in a closed sphere would be very long.
 fn pixels(validation: &Validation, scene: &Scene, estimator: Estimator, full: u32) -> Picture {
     let settings = RenderSettings { roulette: Roulette::BY_THROUGHPUT, ..validation.settings(estimator) };
     picture(scene, settings, RED, validation.spp(full))
 }
 
-/// One of the four scenes.
+/// One of the four shipped scenes.
 pub fn shipped(name: &str) -> Scene {
     let text = CASES.iter().find(|case| case.0 == name).map_or("", |case| case.2);
     parse(name, text.to_owned()).expect("a shipped scene compiles")
 }
 
-/// A view of the side of the ball that the lamp shines on, and the exact means of its pixels where they are known.
+/// A view of the lit side of the ball, and the exact means of its pixels where they are known.
 pub fn lit_ball() -> (Scene, Vec<Option<f64>>) {
     let scene = shipped("outside_lit_outside");
     let toward = LAMP.center.normalize();
@@ -93,11 +93,11 @@ pub fn lit_ball() -> (Scene, Vec<Option<f64>>) {
     (Scene { camera, ..scene }, exact)
 }
 
-/// All lit pixels, and the blocks that they lie in.
+/// Statements about all lit pixels and about their blocks.
 fn lit(validation: &Validation, estimator: Estimator, what: &str) -> [Statement; 2] {
     const BLOCK: usize = 8;
     let (scene, exact) = lit_ball();
-    // Paths find the lamp with one sample in twelve.
+    // One path in twelve finds the lamp.
     let found = pixels(validation, &scene, estimator, if estimator == Estimator::Path { 9000 } else { 900 });
     let known: Vec<(usize, Mean, f64)> =
         found.pixels.iter().zip(&exact).enumerate().filter_map(|(i, (pixel, exact))| Some((i, *pixel, (*exact)?))).collect();
@@ -121,7 +121,7 @@ fn lit(validation: &Validation, estimator: Estimator, what: &str) -> [Statement;
     ]
 }
 
-/// The picture as it is in the report.
+/// The image as HTML.
 fn element(found: &Picture, title: &str) -> String {
     let rgb: Vec<u8> =
         found.pixels.iter().flat_map(|pixel| [(srgb_from_linear(pixel.mean.min(1.0)) * 255.0).round() as u8; 3]).collect();

@@ -16,7 +16,7 @@ use crate::{
 
 const ALBEDO: f64 = 0.5;
 const CAPS: u32 = 8;
-/// Where the bias of a cap is so many standard errors, it is sure to be beyond doubt.
+/// Only caps whose bias exceeds this many standard errors get a row that requires the bias to be significant.
 const PLAIN: f64 = 8.0;
 const SURVIVALS: [f64; 7] = [0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9];
 
@@ -109,7 +109,7 @@ fn roulettes(found: &[(f64, f64)], exact: f64) -> Figure {
     plot(caption, Axis::linear("survival probability q"), Axis::linear("radiance"), &curves)
 }
 
-/// Paths by the number of walls after which they end; those that are too long to be told apart are counted together.
+/// χ² test of the lengths of paths. Long paths are counted together.
 fn survivals(values: &[Vec<f64>], q: f64) -> Statement {
     const LONGEST: usize = 40;
     let (mut worth, mut sum, mut term) = (Vec::new(), 0.0, 1.0);
@@ -128,7 +128,7 @@ fn survivals(values: &[Vec<f64>], q: f64) -> Statement {
     Statement::chi_squared(format!("survival {q}: lengths of paths against (1 − q) qᵏ"), &counts, &expected)
 }
 
-/// Variances of the samples so far, where it exists and where it does not.
+/// Running sample variances, with finite and with infinite variance.
 fn running_variances(validation: &Validation) -> Figure {
     let mut curves = Vec::new();
     for q in [0.2, 0.4] {
@@ -153,7 +153,7 @@ fn running_variances(validation: &Validation) -> Figure {
     plot(caption, Axis::log("samples N"), Axis::log("variance of the samples"), &curves)
 }
 
-/// Variance times segments: what a unit of precision costs.
+/// Variance × segments, the cost of a given precision.
 fn costs(measured: Vec<(f64, f64)>) -> Figure {
     let cost = |albedo: f64, weight_square: f64| {
         let survivals = (0..200).map(|i| 0.3 + 0.695 * f64::from(i) / 199.0);

@@ -16,12 +16,12 @@ use crate::{
 };
 
 const ALBEDO: f64 = 0.5;
-/// Samples a pixel at which errors are measured; the last one in full runs only.
+/// Samples per pixel at which errors are measured; the last one in full runs only.
 const COUNTS: [u32; 5] = [1, 4, 16, 64, 256];
-/// Pictures of each number of samples, with seeds of their own.
+/// Images for each sample count, with different seeds.
 const REPEATS: usize = 10;
 
-/// An integral that is known, and how it is sampled.
+/// An integral with a known value, and its sampling.
 struct Integrand {
     name: &'static str,
     scene: Scene,
@@ -111,7 +111,7 @@ fn variances(validation: &Validation, scene: &Scene) -> Vec<Statement> {
     [1, 4, 16, 64, 256, 1024].map(of).into()
 }
 
-/// Of every repeat the mean error and the mean squared error at each number of samples.
+/// For every repeat, the mean error and the mean squared error at each sample count.
 struct Errors {
     counts: &'static [u32],
     repeats: Vec<Vec<[f64; 2]>>,
@@ -131,18 +131,18 @@ fn errors(validation: &Validation, integrand: &Integrand, sampler: Sampler) -> E
 }
 
 impl Errors {
-    /// Over all repeats.
+    /// Mean squared errors over all repeats.
     fn mean_squares(&self) -> Vec<f64> {
         let of = |i: usize| self.repeats.iter().map(|repeat| repeat[i][1]).sum::<f64>() / self.repeats.len() as f64;
         (0..self.counts.len()).map(of).collect()
     }
 
-    /// Slopes of log error over log N by least squares.
+    /// Least-squares slopes of log error over log N.
     fn slopes(&self) -> Vec<f64> {
         let x: Vec<f64> = self.counts.iter().map(|n| f64::from(*n).ln()).collect();
         let middle = x.iter().sum::<f64>() / x.len() as f64;
         let spread: f64 = x.iter().map(|x| (x - middle).powi(2)).sum();
-        // No error at all is drawn, and counts, as one of rounding.
+        // An error of 0 is drawn and counted as one of rounding.
         let log_error = |[_, square]: &[f64; 2]| 0.5 * square.max(1e-18).ln();
         let slope = |repeat: &Vec<[f64; 2]>| x.iter().zip(repeat).map(|(x, y)| (x - middle) * log_error(y)).sum::<f64>() / spread;
         self.repeats.iter().map(slope).collect()
