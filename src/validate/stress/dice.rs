@@ -1,4 +1,4 @@
-//! Random numbers of one scene: a pure function of its family, its number, and how many were drawn before.
+//! Random numbers of one scene: a pure function of its family, its number, and the count of numbers drawn before.
 use std::f64::consts::PI;
 
 use glam::DVec3;
@@ -14,7 +14,7 @@ pub struct Dice {
     drawn: u32,
 }
 
-/// For what draws from any source of random numbers.
+/// For functions that accept any random number generator.
 impl RngCore for Dice {
     fn next_u32(&mut self) -> u32 {
         self.drawn += 1;
@@ -36,7 +36,7 @@ impl Dice {
         Dice { key: hash_one(name.wrapping_add(number)), drawn: 0 }
     }
 
-    /// In (0, 1).
+    /// A number in (0, 1).
     pub fn unit(&mut self) -> f64 {
         unit(U::<One>(self.next_u32())).0.into()
     }
@@ -45,7 +45,7 @@ impl Dice {
         least + (most - least) * self.unit()
     }
 
-    /// A power of ten, its exponent uniform.
+    /// A power of ten with a uniform exponent.
     pub fn decade(&mut self, least: f64, most: f64) -> f64 {
         10f64.powf(self.within(least, most))
     }
@@ -62,14 +62,14 @@ impl Dice {
         self.unit() < p
     }
 
-    /// Uniform over the unit sphere.
+    /// A uniform direction.
     pub fn direction(&mut self) -> DVec3 {
         let (z, turn) = (self.within(-1.0, 1.0), self.within(0.0, 2.0 * PI));
         let r = (1.0 - z * z).sqrt();
         DVec3::new(r * turn.cos(), r * turn.sin(), z)
     }
 
-    /// Uniform over the unit ball.
+    /// A uniform point of the unit ball.
     pub fn in_ball(&mut self) -> DVec3 {
         self.direction() * self.unit().cbrt()
     }
@@ -83,7 +83,7 @@ mod tests {
     fn numbers_keep_to_their_ranges_and_fill_them() {
         let mut dice = Dice::new("a family", 3);
         let mut of = |draw: &dyn Fn(&mut Dice) -> f64| -> Vec<f64> { (0..4000).map(|_| draw(&mut dice)).collect() };
-        // The mean of a uniform number is known to 1/√(12 · 4000) of its range.
+        // The mean of 4000 uniform numbers has a standard error of 1/√(12 · 4000) of their range.
         let fills = |values: &[f64], low: f64, high: f64| {
             let mean = values.iter().sum::<f64>() / values.len() as f64;
             let part = (mean - low) / (high - low);

@@ -1,11 +1,11 @@
-//! Errors of the scenes of a section as points.
+//! Plots of the errors of a section, one point per scene.
 use super::{Trial, surfaces::LIMIT, trial::ENERGY};
 use crate::report::{
     Figure,
     plot::{Axis, Curve, Style, curve, plot},
 };
 
-/// Errors that are 0 are drawn here.
+/// Where errors of 0 are drawn.
 const NONE: f64 = 1e-9;
 
 pub fn figures(trials: &[Trial]) -> Vec<Figure> {
@@ -13,7 +13,7 @@ pub fn figures(trials: &[Trial]) -> Vec<Figure> {
     let known = || trials.iter().filter(|trial| trial.outcome.energy.is_some());
     if trials.iter().any(|trial| trial.loss().is_some()) {
         let at = |trial: &Trial| Some((trial.trial_scene.size, trial.loss()?.0.max(NONE)));
-        let caption = "The part of the light that is lost, by the last digit of the coordinates in sizes of the detail; none at all is drawn at 10⁻⁹.";
+        let caption = "Fraction of the light that is lost, against the last digit of the coordinates over the size of the detail. 0 is drawn at 10⁻⁹.";
         return vec![scatter(caption, Axis::log("εS/d"), Axis::log("lost"), trials, at, |digit| 10.0 * digit)];
     }
     if known().any(|trial| trial.trial_scene.cap.is_some_and(|cap| cap > 1000)) {
@@ -23,20 +23,19 @@ pub fn figures(trials: &[Trial]) -> Vec<Figure> {
         figures.push(scatter(caption, Axis::log("bounces"), Axis::log("error of energy"), trials, at, |_| ENERGY));
     } else if known().any(|trial| trial.trial_scene.size != 1.0) {
         let at = |trial: &Trial| Some((trial.trial_scene.size, trial.outcome.energy?.max(NONE)));
-        let caption = "The largest relative error of a sample of each scene, by the size of what it is about; none at all is drawn at 10⁻⁹.";
+        let caption = "Largest relative error of a sample of each scene, against the size of its subject. 0 is drawn at 10⁻⁹.";
         figures.push(scatter(caption, Axis::log("size, m"), Axis::log("error of energy"), trials, at, |_| ENERGY));
     }
     if trials.iter().any(|trial| trial.trial_scene.size != 1.0 && trial.outcome.surfaces.worst > 0.0) {
         let found = |trial: &Trial| (trial.trial_scene.size, trial.outcome.surfaces.worst);
         let at = |trial: &Trial| Some(found(trial)).filter(|(_, worst)| *worst > 0.0);
-        let caption =
-            "The farthest that x_M of each scene was off its surface, in units of εS, by the size of what the scene is about.";
+        let caption = "Largest distance of x_M from its surface in each scene, in units of εS, against the size of its subject.";
         figures.push(scatter(caption, Axis::log("size, m"), Axis::log("error of x, εS"), trials, at, |_| LIMIT));
     }
     figures
 }
 
-/// A point a scene in the colour of its family, under the limit.
+/// A plot with a point per scene in the colour of its family, and a line at the limit.
 fn scatter(
     caption: &str,
     x: Axis,

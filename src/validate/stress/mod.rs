@@ -1,7 +1,7 @@
-//! The renderer under stress: random and adversarial scenes by the hundred, each held against invariants.
+//! Stress: more than two thousand random and adversarial scenes, each checked for invariants.
 //!
 //! A scene is text that goes through the same reader and compiler as a user's file. It is a pure function of its family and its
-//! number: a statement that fails names it, and its text is kept.
+//! number. A statement that fails names the scene, and its text is kept.
 mod dice;
 mod families;
 mod figures;
@@ -23,10 +23,10 @@ use self::{
 use super::{Effort, Section, Validation};
 use crate::scene::RenderSettings;
 
-/// Of the scenes of a family a quick run tries one in so many.
+/// A quick run tries one scene in this many.
 const QUICK: u32 = 10;
 
-/// A scene that was tried.
+/// A scene and its outcome.
 struct Trial {
     family: &'static Family,
     name: String,
@@ -36,14 +36,14 @@ struct Trial {
 }
 
 impl Trial {
-    /// The scene if it breaks an invariant.
+    /// The file to keep if the scene breaks an invariant.
     fn kept(&self) -> Option<KeptScene> {
         let reason = statements::breaks(self)?;
         let text = format!("# {}\n{}", reason.replace('\n', " "), self.text);
         Some(KeptScene { name: self.name.clone(), text, reason })
     }
 
-    /// The part of the light that is lost, and what may be.
+    /// The fraction of the light that is lost, and the limit of it.
     fn loss(&self) -> Option<(f64, f64)> {
         match self.trial_scene.expected {
             Expected::Within { loss, .. } => Some((self.outcome.lost?, loss)),
@@ -63,8 +63,9 @@ pub struct KeptScene {
 }
 
 impl Validation {
-    /// The sections under stress in their order, and the scenes that break an invariant; `done` is shown each section when it is
-    /// finished.
+    /// Runs the stress sections in order. Calls `done` with the number of each section, from 1, when it is finished. Returns the
+    /// sections
+    /// and the scenes that break an invariant.
     pub fn stress(&self, mut done: impl FnMut(usize, &Section)) -> (Vec<Section>, Vec<KeptScene>) {
         let (mut sections, mut kept) = (Vec::new(), Vec::new());
         for (i, group) in GROUPS.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! Sections of the report from what came of the scenes.
+//! Sections of the report from the outcomes of scenes.
 use super::{
     Trial,
     families::{Family, Group},
@@ -8,7 +8,7 @@ use super::{
 };
 use crate::validate::{SIGMAS, Section, Statement, check::largest};
 
-/// Of some hundred means one or two may be beyond 4 standard errors by chance.
+/// Limit of |z| for some hundred means, one of which may exceed 4 standard errors by chance.
 const SIGMAS_OF_MANY: f64 = SIGMAS + 0.5;
 
 /// Why a scene breaks an invariant.
@@ -19,7 +19,7 @@ pub fn breaks(trial: &Trial) -> Option<String> {
     let first = outcome.first_off.as_deref().unwrap_or_default();
     let energy = energy.map(|error| format!("energy off by up to {error:.1e} in {} samples, first {first}", outcome.off));
     let loss = trial.loss().filter(|(lost, most)| lost.is_nan() || lost > most);
-    let loss = loss.map(|(lost, most)| format!("{lost:.1e} of the light is lost, {most:.1e} may be"));
+    let loss = loss.map(|(lost, most)| format!("{lost:.1e} of the light is lost; the limit is {most:.1e}"));
     let z = outcome.z.filter(|z| z.is_nan() || z.abs() > SIGMAS_OF_MANY).map(|z| format!("mean off by {z:+.1} standard errors"));
     let invalid = (outcome.invalid > 0).then(|| format!("{} invalid samples", outcome.invalid));
     outcome.trouble.clone().or(invalid).or(energy).or(loss).or(z).or_else(|| surfaces.first.clone())
@@ -47,7 +47,7 @@ pub fn section(group: &Group, trials: &[Trial]) -> Section {
     }
 }
 
-/// The names of some scenes, and what is wrong with the first.
+/// The names of some bad scenes, and the problem of the first one.
 fn named(trials: &[&Trial], is_bad: impl Fn(&Trial) -> bool) -> String {
     let bad: Vec<&&Trial> = trials.iter().filter(|trial| is_bad(trial)).collect();
     let Some(first) = bad.first() else { return String::new() };
@@ -62,9 +62,9 @@ fn samples(family: &Family, trials: &[&Trial]) -> Statement {
     let bad = trials.iter().filter(|trial| is_bad(trial)).count();
     let mut what = format!("{}: {} scenes, ", family.what, trials.len());
     if refused > 0 {
-        what += &format!("{refused} of them refused clearly, ");
+        what += &format!("{refused} of them rejected with a message, ");
     }
-    what += &format!("{} samples: scenes with invalid samples, a panic or no end{}", count(samples), named(trials, is_bad));
+    what += &format!("{} samples: scenes with invalid samples, a panic or a time-out{}", count(samples), named(trials, is_bad));
     Statement::none(what, bad as u32)
 }
 
@@ -79,7 +79,7 @@ fn energy(trials: &[&Trial]) -> Option<Statement> {
 fn losses(trials: &[&Trial]) -> Option<Statement> {
     let parts = trials.iter().filter_map(|trial| Some((trial.loss()?, trial.name.as_str())));
     let (part, name) = parts.map(|((lost, most), name)| (lost / most, name)).max_by(|a, b| a.0.total_cmp(&b.0))?;
-    Some(Statement::below(format!("— light lost, of what may be, at most ({name})"), part, 1.0))
+    Some(Statement::below(format!("— largest loss of light, relative to its limit ({name})"), part, 1.0))
 }
 
 fn means(trials: &[&Trial]) -> Option<Statement> {
@@ -104,7 +104,7 @@ fn rays(trials: &[&Trial]) -> Vec<Statement> {
     vec![
         Statement::none(
             format!(
-                "— {} rays: surfaces missed, self-hits, ways out of a closed room{}",
+                "— {} rays: missed surfaces, self-hits, escapes from a closed room{}",
                 count(rays),
                 named(trials, |trial| wrong(trial) > 0)
             ),
@@ -129,7 +129,7 @@ fn remark(trials: &[Trial]) -> String {
     )
 }
 
-/// Large numbers as one would say them.
+/// Formats large numbers, as in "1.5 million".
 pub(super) fn count(n: u64) -> String {
     match n {
         0..10_000 => n.to_string(),
@@ -182,18 +182,15 @@ mod tests {
             |energy| said(Outcome { energy: Some(energy), off: 7, first_off: Some("here".to_owned()), ..Outcome::default() });
         assert_eq!([energy(0.9e-4), energy(1.1e-4)], ["", "energy off by up to 1.1e-4 in 7 samples, first here"]);
         let lost = |lost| said(Outcome { lost: Some(lost), ..Outcome::default() });
-        assert_eq!([lost(0.24), lost(0.26)], ["", "2.6e-1 of the light is lost, 2.5e-1 may be"]);
+        assert_eq!([lost(0.24), lost(0.26)], ["", "2.6e-1 of the light is lost; the limit is 2.5e-1"]);
         let z = |z| said(Outcome { z: Some(z), ..Outcome::default() });
         assert_eq!([z(4.4), z(-4.4), z(-4.6)], ["", "", "mean off by -4.6 standard errors"]);
-        assert!(
-            [energy(f64::NAN), lost(f64::NAN), z(f64::NAN)].iter().all(|said| !said.is_empty()),
-            "what is no number is no success"
-        );
+        assert!([energy(f64::NAN), lost(f64::NAN), z(f64::NAN)].iter().all(|said| !said.is_empty()), "NaN fails");
         assert_eq!(said(Outcome { invalid: 3, ..Outcome::default() }), "3 invalid samples");
         assert_eq!(said(Outcome { trouble: Some("panics".to_owned()), invalid: 3, ..Outcome::default() }), "panics");
         let missed = Comparison { first: Some("a surface is missed".to_owned()), ..Comparison::default() };
         assert_eq!(said(Outcome { surfaces: missed, ..Outcome::default() }), "a surface is missed");
-        // Only of rooms that may lose some light is that asked.
+        // Only rooms with a limit have a statement about lost light.
         assert_eq!(breaks(&trial(Expected::Valid, Outcome { lost: Some(1.0), ..Outcome::default() })), None);
     }
 
@@ -210,9 +207,9 @@ mod tests {
         assert_eq!([energy(&[&good, &bad]), losses(&[&good, &bad])].map(row), [(1.0, false), (2.0, false)]);
         let of_samples = samples(good.family, &[&good, &bad, &out]);
         assert!((of_samples.measured, of_samples.holds) == (2.0, false), "{of_samples:?}");
-        assert!(of_samples.what.contains("3 scenes, 1 of them refused clearly, 123 samples"), "{}", of_samples.what);
+        assert!(of_samples.what.contains("3 scenes, 1 of them rejected with a message, 123 samples"), "{}", of_samples.what);
         assert_eq!(row(Some(samples(good.family, &[&good]))), (0.0, true));
         assert_eq!(row(rays(&[&good, &out]).into_iter().next()), (7.0, false));
-        assert!(rays(&[&good]).is_empty(), "no ray was looked at");
+        assert!(rays(&[&good]).is_empty(), "no ray was tested");
     }
 }

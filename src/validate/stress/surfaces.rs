@@ -1,4 +1,4 @@
-//! x_M in a scene: what its rays find, against formulas in f64.
+//! Hits of rays in a scene, compared with formulas in f64.
 use glam::{DVec3, Vec3};
 
 use super::dice::Dice;
@@ -12,32 +12,34 @@ use crate::{
     scene::{CameraRays, RenderSettings, Scene},
 };
 
-/// In units of εS (see [`scale`]) a point off its surface, or a surface in front of it, is no rounding any more.
+/// Limit of the rounding error, in units of εS (see [`World::scale`]): beyond it a point is off its surface, and a surface in
+/// front
+/// of it is missed.
 pub const LIMIT: f64 = 32.0;
 /// ε = 2⁻²³.
 const EPSILON: f64 = f32::EPSILON as f64;
-/// Scenes of more pieces are not looked at.
+/// Scenes with more pieces are not tested.
 const MOST_FACES: usize = 3000;
-/// Reflections that are followed.
+/// Number of reflections that are followed.
 const DEPTH: u32 = 24;
 
-/// How the rays of a scene agree with f64.
+/// Agreement of the rays of a scene with f64.
 #[derive(Default)]
 pub struct Comparison {
     pub rays: u64,
-    /// The farthest that a point was off its surface, in εS.
+    /// Largest distance of a hit from its surface, in εS.
     pub worst: f64,
     /// Rays that passed through a surface.
     pub missed: u64,
-    /// Rays that met the surface they left at once.
+    /// Rays that hit the surface that they leave.
     pub self_hits: u64,
     /// Paths that left a closed room.
     pub escaped: u64,
-    /// The first ray that is wrong.
+    /// Description of the first wrong ray.
     pub first: Option<String>,
 }
 
-/// A primitive and the flat or quadric pieces it is made of.
+/// A primitive and its flat or quadric pieces.
 struct Known {
     primitive: u32,
     faces: Vec<Shape>,
@@ -54,16 +56,16 @@ struct World<'a> {
 struct Ray {
     o: DVec3,
     d: DVec3,
-    /// The primitive and element it leaves.
+    /// The primitive and element that it leaves.
     from: Option<(u32, u32)>,
 }
 
-/// Compares rays of replayed paths and rays aimed at surfaces; `closed` scenes let none get out.
+/// Compares rays of replayed paths and rays aimed at surfaces with f64. No ray may leave a `closed` scene.
 pub fn compare(scene: &Scene, settings: &RenderSettings, rays: &CameraRays, closed: bool) -> Comparison {
     let mut found = Comparison::default();
     let Some(world) = World::new(scene) else { return found };
     let settings = RenderSettings { max_bounces: Some(settings.last_bounce().min(DEPTH)), ..*settings };
-    // What moves has another place at every time.
+    // Moving objects are left out, because the formulas have no time.
     if !scene.moves() {
         let [width, height] = scene.camera.resolution;
         for i in 0..64 {
@@ -107,7 +109,7 @@ impl World<'_> {
         (count <= MOST_FACES).then(|| World { scene, known, near: scene.camera.look_at.length() })
     }
 
-    /// A point of a surface, sometimes near its edge, and the size of that surface.
+    /// A random point of a surface, sometimes near its edge, and the size of the surface.
     fn somewhere(&self, dice: &mut Dice) -> Option<(DVec3, f64)> {
         let known = &self.known[dice.below(self.known.len().max(1)).min(self.known.len().checked_sub(1)?)];
         let face = known.faces.get(dice.below(known.faces.len()))?;
@@ -117,7 +119,7 @@ impl World<'_> {
         Some((point_at(face, at), face.bounding_sphere().1))
     }
 
-    /// Looks at one ray, and returns what it meets.
+    /// Tests one ray, and returns the primitive and element that it hits.
     fn judge(&self, ray: Ray, closed: bool, found: &mut Comparison) -> Option<(u32, u32)> {
         let splat = |v: DVec3| V::splat(One, v.as_vec3().to_array());
         let Nearest { t, primitive: U(primitive), element: U(element) } =
@@ -128,7 +130,7 @@ impl World<'_> {
             found.first.get_or_insert_with(|| format!("{what}: from {} along {}, primitive {primitive} at {t:e}", ray.o, ray.d));
         };
         if closed && primitive == MISS {
-            wrong("a ray gets out");
+            wrong("a ray escapes");
             found.escaped += 1;
         }
         if self.passes_a_surface(ray, t) {
@@ -138,7 +140,7 @@ impl World<'_> {
         let here = self.known.iter().find(|known| known.primitive == primitive)?;
         let p = ray.o + ray.d * t;
         let error = |face: &Shape| {
-            // To first order only: where the surface is strongly curved, the way along the ray may be nearer.
+            // This distance is accurate to first order. At strong curvature the distance along the ray may be smaller.
             let along = intersections(face, ray.o, ray.d, 0.0)
                 .iter()
                 .map(|intersection| (intersection.t - t).abs())
@@ -151,13 +153,13 @@ impl World<'_> {
         }
         found.worst = found.worst.max(error);
         if ray.from == Some((primitive, element)) && is_self_hit(here, ray, t) {
-            wrong("the surface it leaves is met");
+            wrong("a ray hits the surface that it leaves");
             found.self_hits += 1;
         }
         Some((primitive, element))
     }
 
-    /// Whether f64 sees a surface in front of t, and would if the ray were moved aside or along by some rounding.
+    /// Whether f64 finds a surface in front of t, beyond what rounding sideways and along the ray explains.
     fn passes_a_surface(&self, ray: Ray, t: f64) -> bool {
         let surely = |face: &Shape| {
             intersections(face, ray.o, ray.d, 0.0).iter().any(|intersection| {
@@ -170,12 +172,13 @@ impl World<'_> {
         self.known.iter().flat_map(|known| &known.faces).any(surely)
     }
 
-    /// S: what coordinates in f32 are rounded at on the way from o to p, metres. Spheres are anchored near the scene, other
-    /// shapes are as large as they are.
+    /// S, the scale in metres at which f32 rounds coordinates on the way from o to p. Spheres are anchored near the scene; other
+    /// shapes
+    /// count with their full size.
     fn scale(&self, face: &Shape, o: DVec3, p: DVec3, t: f64) -> f64 {
         let (center, radius) = face.bounding_sphere();
         let shape = match face {
-            // What f64 itself rounds.
+            // The rounding of f64 itself.
             Shape::Sphere { .. } => (radius + center.length()) * (4.0 * f64::EPSILON / EPSILON),
             _ => radius + center.length(),
         };
@@ -183,7 +186,7 @@ impl World<'_> {
     }
 }
 
-/// Whether a ray that leaves a primitive meets the same much nearer than f64 does.
+/// Whether a ray that leaves a primitive hits it again much nearer than f64 does.
 fn is_self_hit(known: &Known, ray: Ray, t: f64) -> bool {
     if known.faces.is_empty() {
         return false;
@@ -224,10 +227,10 @@ mod tests {
         with_world(BALL, |world| {
             let ahead = ray([0.0, 0.0, 3.0], [0.0, 0.0, -1.0]);
             assert_eq!([1.0, 2.0, 2.001, f64::INFINITY].map(|t| world.passes_a_surface(ahead, t)), [false, false, true, true]);
-            // Inside, the far side counts, and the side that the ray comes from does not.
+            // From inside, the far side counts, and the side that the ray leaves does not.
             assert_eq!([1.0, 2.5].map(|t| world.passes_a_surface(ray([0.0; 3], [0.0, 0.0, 1.0]), t)), [false, true]);
             let beside = |x: f64| world.passes_a_surface(ray([x, 0.0, 3.0], [0.0, 0.0, -1.0]), f64::INFINITY);
-            assert_eq!([0.9, 1.0 - 1e-7, 1.1].map(beside), [true, false, false], "at the rim rounding decides");
+            assert_eq!([0.9, 1.0 - 1e-7, 1.1].map(beside), [true, false, false], "rounding decides at the rim");
         });
     }
 
@@ -241,7 +244,7 @@ mod tests {
             assert_eq!((found.rays, found.escaped), (2, 0));
             world.judge(ray([0.0, 0.0, 3.0], [0.0, 0.0, 1.0]), true, &mut found);
             assert_eq!((found.rays, found.escaped, found.missed, found.self_hits), (3, 1, 0, 0));
-            assert!(found.first.is_some_and(|first| first.starts_with("a ray gets out")));
+            assert!(found.first.is_some_and(|first| first.starts_with("a ray escapes")));
         });
     }
 
@@ -261,7 +264,7 @@ mod tests {
         let disk = "disk = { center = [0.0, 3.0, 4.0], normal = [0.0, 0.0, 1.0], radius = 2.0 }";
         with_world(disk, |world| {
             let scale = world.scale(&world.known[0].faces[0], DVec3::X * 10.0, DVec3::Y * 100.0, 1000.0);
-            // Origin, point, distance, what is looked at (0), and the shape: 5 away and 2 large.
+            // Origin, point, distance, target (0), and the shape, which is 5 away and has size 2.
             assert!((scale - 1117.0).abs() < 1e-4, "{scale}");
         });
         with_world("sphere = { center = [0.0, 0.0, 0.0], radius = 1e6 }", |world| {

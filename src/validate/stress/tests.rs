@@ -1,4 +1,5 @@
-//! Mistakes in the integrator turn scenes red; every scene can be had again. That a tenth of them holds is tested by the program.
+//! Injected faults in the integrator fail scenes, and every scene can be generated again. A test of the program runs a tenth of
+//! them.
 use super::{Dice, GROUPS, KeptScene, Trial};
 use crate::{
     scene::InjectedFault,

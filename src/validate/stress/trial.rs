@@ -1,4 +1,4 @@
-//! One scene: read, compiled, rendered and held against what is known of it.
+//! Trial of one scene: it is read, compiled, rendered and compared with its exact values.
 use std::{
     cell::RefCell,
     panic::{AssertUnwindSafe, catch_unwind},
@@ -18,31 +18,32 @@ use crate::{
     validate::check::largest,
 };
 
-/// Longer than any scene takes a hundred times over; one that takes longer is given up.
+/// Time limit of a scene, more than a hundred times as long as the slowest one takes.
 const PATIENCE: Duration = Duration::from_secs(20);
-/// The relative error that is allowed to a sample which is known.
+/// Largest relative error of a sample with a known value.
 pub const ENERGY: f64 = 1e-4;
 
-/// What came of a scene.
+/// Outcome of a scene.
 #[derive(Default)]
 pub struct Outcome {
     pub samples: u64,
     /// Samples that are negative or not finite.
     pub invalid: u64,
-    /// Where every sample is known: the largest relative deviation of one.
+    /// Largest relative error of a sample, if every sample is known.
     pub energy: Option<f64>,
-    /// Samples that deviate by more than [`ENERGY`], and the first of them as the command line names it.
+    /// The number of samples with a larger error than [`ENERGY`]; `first_off` is the first of them as options of the command
+    /// line.
     pub off: u64,
     pub first_off: Option<String>,
-    /// Where some loss is allowed: the part of the light that is lost.
+    /// Fraction of the light that is lost, if some loss is allowed.
     pub lost: Option<f64>,
-    /// Where the mean is known: its deviation in standard errors.
+    /// Deviation of the mean in standard errors, if the mean is known.
     pub z: Option<f64>,
     pub surfaces: Comparison,
-    /// It was refused with a message that names a place.
+    /// Whether the scene was rejected with a position.
     pub refused: bool,
     pub seconds: f64,
-    /// What else went wrong: a panic, a scene that was not done in time, a valid one that was refused, or the opposite.
+    /// Any other failure: a panic, a time-out, a valid scene that was rejected, or an invalid one that was not.
     pub trouble: Option<String>,
 }
 
@@ -50,7 +51,7 @@ thread_local! {
     static BATCH: RefCell<Batch> = RefCell::default();
 }
 
-/// Tries the scene of this text, which is that of the trial scene after its first lines.
+/// Tries a scene. `text` is the whole file of the trial scene.
 pub fn run(text: &str, trial_scene: &TrialScene, settings: impl Fn(RenderSettings) -> RenderSettings) -> Outcome {
     let start = Instant::now();
     let tried = catch_unwind(AssertUnwindSafe(|| try_scene(text, trial_scene, settings, start)));
@@ -76,7 +77,7 @@ fn try_scene(
 ) -> Outcome {
     let may_be_refused = matches!(trial_scene.expected, Expected::Refused | Expected::ValidOrRefused);
     let scene = match parse("stress", text.to_owned()) {
-        Ok(_) if trial_scene.expected == Expected::Refused => return Outcome::trouble("is not refused"),
+        Ok(_) if trial_scene.expected == Expected::Refused => return Outcome::trouble("is not rejected"),
         Ok(scene) => scene,
         Err(error) if may_be_refused && error.line_column().is_some() && !error.to_string().is_empty() => {
             return Outcome { refused: true, ..Outcome::default() };
@@ -85,13 +86,13 @@ fn try_scene(
     };
     let (settings, rays) = (settings(scene.settings), scene.rays(&scene.camera));
     let Some(outcome) = render(&scene, &settings, &rays, trial_scene, start) else {
-        return Outcome::trouble(format!("is not done after {} s", PATIENCE.as_secs()));
+        return Outcome::trouble(format!("is not finished after {} s", PATIENCE.as_secs()));
     };
     let surfaces = compare(&scene, &settings, &rays, matches!(trial_scene.expected, Expected::Everywhere(_)));
     Outcome { surfaces, ..outcome }
 }
 
-/// None if it takes too long.
+/// Renders the scene. Returns `None` if that takes too long.
 fn render(
     scene: &Scene,
     settings: &RenderSettings,
@@ -135,7 +136,7 @@ fn render(
     Some(outcome)
 }
 
-/// A mean of deviations from 1 in standard errors, what tables of lost light may be off by included.
+/// Deviation from 1 of a mean, in standard errors that include the error of tables of lost energy.
 fn deviation(sum: f64, square: f64, count: f64) -> f64 {
     let mean = sum / count;
     let variance = (square / count - mean * mean).max(0.0) / count;

@@ -1,35 +1,35 @@
-//! A scene before it is tried: its text, and what must come of it.
+//! A scene to try: its text and its expected outcome.
 use glam::DVec3;
 
 use super::dice::Dice;
 use crate::measure::exact::furnace_capped;
 
-/// What must come of a scene.
+/// Expected outcome of a scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Expected {
-    /// Every sample is this radiance.
+    /// Every sample has this radiance.
     Everywhere(f64),
-    /// The mean over picture and samples is this radiance.
+    /// The mean over pixels and samples is this radiance.
     Mean(f64),
-    /// So is it but for a relative loss, which samples of a closed room that are not it must stay below in the mean.
+    /// Samples have this radiance except for a relative loss, whose mean must stay below a limit.
     Within { radiance: f64, loss: f64 },
     /// Samples are finite and not negative.
     Valid,
-    /// The text is refused, with a message that names a place in it.
+    /// The text is rejected with a position.
     Refused,
-    /// Either of these two.
+    /// The text is rejected, or samples are valid.
     ValidOrRefused,
 }
 
 pub struct TrialScene {
-    /// What follows the first lines of the scene file.
+    /// The scene file without its first lines.
     pub text: String,
     pub expected: Expected,
-    /// Samples a pixel.
+    /// Samples per pixel.
     pub spp: u32,
-    /// The size of what the scene is about, metres.
+    /// Size of the subject, metres.
     pub size: f64,
-    /// The cap on reflections where there is one.
+    /// Cap on bounces, if there is one.
     pub cap: Option<u32>,
 }
 
@@ -44,7 +44,7 @@ pub fn v(p: DVec3) -> String {
     format!("[{:?}, {:?}, {:?}]", p.x, p.y, p.z)
 }
 
-/// A camera at `eye` that looks anywhere, its field of view from 0.01° to 179°.
+/// A camera at `eye` with a random direction and a field of view from 0.01° to 179°.
 pub fn camera_at(dice: &mut Dice, eye: DVec3, reach: f64) -> String {
     let (look_at, up) = (eye + dice.direction() * reach * dice.decade(-1.0, 0.0), dice.direction());
     let fov = if dice.chance(0.5) { dice.within(20.0, 110.0) } else { dice.pick(&[0.01, 0.1, 1.0, 150.0, 170.0, 179.0]) };
@@ -57,13 +57,14 @@ pub fn camera_towards(dice: &mut Dice, eye: DVec3, look_at: DVec3) -> String {
     format!("eye = {}, look_at = {}, up = {}, fov = {fov:?}, resolution = [32, 32]", v(eye), v(look_at), v(up))
 }
 
-/// A closed room in which every surface emits L_e and reflects ρ: with a cap of n its radiance is L_e (1 − ρⁿ⁺¹)/(1 − ρ) everywhere,
-/// and with cosine directions every single sample is.
+/// A closed room in which every surface emits L_e and reflects ρ. With a cap of n its radiance is L_e (1 − ρⁿ⁺¹)/(1 − ρ)
+/// everywhere,
+/// and so is every single sample with cosine directions.
 pub struct Furnace {
     emission: f64,
     albedo: f64,
     cap: u32,
-    /// The material of what is added next.
+    /// Material of the bodies that are added next.
     pub material: &'static str,
     materials: String,
     objects: String,
@@ -85,28 +86,28 @@ impl Furnace {
         self.objects += &format!("[[objects]]\n{shape}\nmaterial = '{material}'\nemission.radiance = {emission:?}\n{rest}\n");
     }
 
-    /// A closed surface around everything, seen from inside.
+    /// Adds a closed surface around everything, seen from inside.
     pub fn wall(&mut self, shape: &str) {
         self.add(shape, "flip = true");
     }
 
-    /// A closed body: dark inside, so that what gets in is missed.
+    /// Adds a closed body. It is dark inside, so rays that get in miss emission.
     pub fn body(&mut self, shape: &str) {
         self.add(shape, "");
     }
 
-    /// An open surface.
+    /// Adds an open surface.
     pub fn sheet(&mut self, shape: &str) {
         self.add(shape, "emission.two_sided = true");
     }
 
-    /// Something that neither emits nor absorbs.
+    /// Adds a body that neither emits nor absorbs.
     pub fn lossless(&mut self, name: &str, material: &str, shape: &str) {
         self.materials += &format!("materials.{name}.{material}\n");
         self.objects += &format!("[[objects]]\n{shape}\nmaterial = '{name}'\n");
     }
 
-    /// The scene that `camera` sees.
+    /// The scene as seen by a camera.
     pub fn trial_scene(&self, dice: &mut Dice, camera: &str, size: f64) -> TrialScene {
         let exact = if self.albedo < 1.0 {
             furnace_capped(self.emission, self.albedo, self.cap)

@@ -1,4 +1,4 @@
-//! Surfaces that touch, shapes that are hardly there, rays along surfaces.
+//! Touching surfaces, thin shapes, grazing rays.
 use glam::DVec3;
 
 use super::{
@@ -21,7 +21,8 @@ pub const FAMILIES: [Family; 3] = [
     Family { name: "grazing", what: "views along floors from 10⁻⁶ m above", scenes: 80, trial_scene: grazing },
 ];
 
-/// A pile of boxes on a floor with a ball on top, each a gap above the last: nothing, some rounding, or a little, either way.
+/// A pile of boxes on a floor with a ball on top. The gaps between them are 0, as small as rounding, or small, and may be
+/// negative.
 fn coincident(dice: &mut Dice) -> TrialScene {
     let size = dice.decade(-2.0, 3.0);
     let mut room = Furnace::new(dice);
@@ -32,12 +33,12 @@ fn coincident(dice: &mut Dice) -> TrialScene {
         let bottom = height + gap(dice);
         height = bottom + size * dice.within(0.05, 0.25);
         let half = size * dice.within(0.1, 0.6);
-        // Some reach the walls exactly.
+        // Some boxes end exactly at the walls.
         let west = if dice.chance(0.3) { -size } else { -half };
         let (min, max) = (DVec3::new(west, bottom, -half), DVec3::new(half, height, half));
         room.body(&format!("shape.cuboid = {{ min = {}, max = {} }}", v(min), v(max)));
     }
-    // Two that are the same, seen from both sides.
+    // Two identical surfaces, seen from both sides.
     let sheet = format!(
         "shape.rectangle = {{ origin = {}, edge_u = {}, edge_v = {} }}",
         v(DVec3::new(0.7, -0.5, -0.5) * size),
@@ -66,7 +67,7 @@ fn slivers(dice: &mut Dice) -> TrialScene {
     room.trial_scene(dice, &camera, size)
 }
 
-/// Something within 0.4 of the middle.
+/// Adds a thin shape within 0.4 of the centre.
 fn sliver(dice: &mut Dice, room: &mut Furnace, size: f64) {
     let (length, middle) = (0.25 * size, dice.in_ball() * 0.1 * size);
     let thickness = length * dice.decade(-7.0, -2.0);
@@ -101,13 +102,13 @@ fn sliver(dice: &mut Dice, room: &mut Furnace, size: f64) {
     }
 }
 
-/// Along a floor that is flat, or a ball so large that it nearly is, with balls half sunk in it.
+/// A grazing view of a floor that is flat or part of a large ball, with balls half sunk into it.
 fn grazing(dice: &mut Dice) -> TrialScene {
-    // Walls at right angles to the floor: what is lost at acute ones is the subject of another family.
+    // The walls are perpendicular to the floor. Another family tests acute angles.
     along_a_floor(dice, "shape.cuboid = { min = [-10.0, -10.0, -10.0], max = [10.0, 10.0, 10.0] }").0
 }
 
-/// A view along a floor within walls, and its height.
+/// A grazing view of a floor between walls, and the height of the camera.
 pub fn along_a_floor(dice: &mut Dice, walls: &str) -> (TrialScene, f64) {
     let mut room = Furnace::new(dice);
     room.wall(walls);

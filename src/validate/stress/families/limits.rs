@@ -1,4 +1,4 @@
-//! Details that single precision hardly resolves.
+//! Details near the limit of single precision.
 use glam::DVec3;
 
 use super::{
@@ -12,7 +12,7 @@ use crate::validate::stress::{
 };
 
 pub const FAMILIES: [Family; 4] = [
-    Family { name: "heaps", what: "balls of 10⁻⁶ to 10⁻² m that lie within each other", scenes: 60, trial_scene: heaps },
+    Family { name: "heaps", what: "overlapping balls of 10⁻⁶ to 10⁻² m", scenes: 60, trial_scene: heaps },
     Family { name: "small-far", what: "rooms of 30 to 10⁵ m, 10⁷ m from the origin", scenes: 60, trial_scene: small_far },
     Family { name: "creases", what: "views along a floor under slanting walls", scenes: 60, trial_scene: creases },
     Family {
@@ -20,7 +20,7 @@ pub const FAMILIES: [Family; 4] = [
     },
 ];
 
-/// What is lost may be ten times the last digit of the coordinates, of the size of the detail.
+/// Allows a loss of ten times the last digit of the coordinates over the size of the detail.
 fn lossy(trial_scene: TrialScene, coordinates: f64, detail: f64) -> TrialScene {
     let Expected::Everywhere(radiance) = trial_scene.expected else { return trial_scene };
     let digit = f64::from(f32::EPSILON) * coordinates / detail;

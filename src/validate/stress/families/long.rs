@@ -1,4 +1,4 @@
-//! Rooms that absorb nothing, or hardly anything.
+//! Rooms that absorb little or nothing.
 use glam::DVec3;
 
 use super::{
@@ -33,7 +33,7 @@ fn room(dice: &mut Dice, material: &'static str) -> TrialScene {
     TrialScene { spp: 1, ..room.trial_scene(dice, &camera, size) }
 }
 
-/// Long paths are few.
+/// A small resolution, because paths are long.
 fn few_pixels(camera: &str) -> String {
     camera.replace("[32, 32]", "[8, 8]")
 }
@@ -56,6 +56,6 @@ fn glass_rooms(dice: &mut Dice) -> TrialScene {
     }
     let eye = dice.in_ball() * 0.1;
     let camera = few_pixels(&camera_at(dice, eye, 1.0));
-    // What glass takes of the cap is far behind the last reflection that counts.
+    // The cap is far beyond the last reflection that counts, including the bounces in glass.
     TrialScene { expected: Expected::Everywhere(128.0), spp: 4, ..room.trial_scene(dice, &camera, 1.0) }
 }

@@ -1,4 +1,4 @@
-//! Materials at the limits of their parameters, and every way to find light.
+//! Materials at the limits of their parameters, and all estimators.
 use glam::DVec3;
 
 use super::{Family, rooms::sphere};
@@ -19,7 +19,7 @@ pub const FAMILIES: [Family; 4] = [
 
 const INDICES: [f64; 6] = [1.0, 1.000_001, 1.0003, 1.333, 1.5, 2.4];
 
-/// A spherical room with something in its middle.
+/// A spherical room, and a camera in it that looks at a point near its centre.
 fn room(dice: &mut Dice) -> (Furnace, String) {
     let mut room = Furnace::of(0.5, 60);
     room.wall(&sphere(DVec3::ZERO, 1.0));
@@ -31,7 +31,7 @@ fn room(dice: &mut Dice) -> (Furnace, String) {
 
 fn glass(dice: &mut Dice) -> TrialScene {
     let (mut room, camera) = room(dice);
-    // From the outermost to the innermost; each names the index on both its sides.
+    // From the outermost to the innermost ball; each states the index on both sides.
     let (mut outside, mut radius) = (1.0, 0.5);
     for i in 0..1 + dice.below(3) {
         let ior = dice.pick(&INDICES);
@@ -42,11 +42,11 @@ fn glass(dice: &mut Dice) -> TrialScene {
         );
         (outside, radius) = (ior, radius * dice.within(0.3, 0.9999));
     }
-    // Glass takes reflections that count towards the cap: only without one is the sum known.
+    // Bounces in glass count towards the cap, so the sum is known only without a cap.
     uncapped(&room.trial_scene(dice, &camera, 1.0), furnace(1.0, 0.5))
 }
 
-/// The same scene without a cap, with what then is exact.
+/// The same scene without a cap, and its exact value.
 fn uncapped(trial_scene: &TrialScene, exact: f64) -> TrialScene {
     let text = trial_scene.text.replace("max_bounces = 60, ", "");
     TrialScene { size: trial_scene.size, ..TrialScene::of(text, Expected::Everywhere(exact)) }
@@ -66,7 +66,7 @@ fn rough(dice: &mut Dice) -> TrialScene {
     TrialScene { expected: Expected::Mean(furnace(1.0, 0.5)), spp: 64, ..trial_scene }
 }
 
-/// A furnace with a grey ball, by any settings that converge to the same.
+/// A furnace with a grey ball and random unbiased settings.
 fn estimators(dice: &mut Dice) -> TrialScene {
     let (mut room, camera) = room(dice);
     room.body(&sphere(DVec3::ZERO, 0.4));
@@ -82,7 +82,7 @@ fn estimators(dice: &mut Dice) -> TrialScene {
     TrialScene { text, expected: Expected::Mean(furnace(1.0, 0.5)), spp: 64, ..trial_scene }
 }
 
-/// One reflection off a grey ball under lamps of any strength: what is emitted outweighs all else or is nothing beside it.
+/// One reflection off a grey ball under lamps of extreme radiance, high or low.
 fn bright(dice: &mut Dice) -> TrialScene {
     let lamp = |dice: &mut Dice| {
         let (place, radius) = (dice.direction() * dice.within(2.0, 9.0), dice.decade(-4.0, -0.5));

@@ -1,4 +1,4 @@
-//! Scenes of everything there is.
+//! Random scenes of all features.
 use glam::DVec3;
 
 use super::{Family, drawn, rooms::closed};
@@ -26,7 +26,7 @@ pub const FAMILIES: [Family; 3] = [
 const TEXTURES: &str = "textures.fine.noise = { scale = 40.0, octaves = 6, low = 0.0, high = 1.0 }\n\
                         textures.squares.checker = { even = 0.9, odd = { texture = 'fine' }, scale = 1e4 }\n";
 
-/// A furnace, while the shutter is open.
+/// A furnace with moving bodies and a moving camera.
 fn moving(dice: &mut Dice) -> TrialScene {
     let mut room = Furnace::new(dice);
     room.wall(&closed(dice, DVec3::ZERO, 10.0));
@@ -34,7 +34,7 @@ fn moving(dice: &mut Dice) -> TrialScene {
         let (place, size) = (dice.in_ball(), dice.decade(-2.0, -0.3));
         room.body(&format!("{}\nmotion = [{}, {}]", closed(dice, place, size), motion(dice), motion(dice)));
     }
-    // Outside of whatever place the bodies come to: at most 2.5, thrice as large, and moved twice.
+    // The camera stays outside all positions of the bodies.
     let eye = dice.direction() * 4.9;
     let turn = format!("{{ rotate = {{ axis = {}, degrees = 20.0 }} }}", v(dice.direction()));
     let optics = format!("lens = {{ radius = {:?}, focus = 4.0 }}, filter = 'tent'", dice.decade(-4.0, -1.5));

@@ -1,4 +1,4 @@
-//! Scenes that cannot be, and scenes with a mistake.
+//! Invalid scenes, and scenes with a mistake.
 use super::{Family, random::anything};
 use crate::validate::stress::{
     dice::Dice,
@@ -17,7 +17,7 @@ pub const FAMILIES: [Family; 2] = [
 
 const CAMERA: &str = "eye = [0.0, 0.0, 4.0], look_at = [0.0, 0.0, 0.0]";
 
-/// Whole texts, `X` standing for a number that is not allowed there, of those behind it.
+/// Texts in which `X` stands for one of the invalid numbers that follow.
 const CASES: [(&str, &[&str]); 26] = [
     ("camera = { CAMERA, fov = X, resolution = [8, 8] }", &["0.0", "180.0", "-40.0", "nan", "inf", "1e-4"]),
     ("camera = { CAMERA, fov = 40.0, resolution = [X, 8] }", &["0", "-1", "1000000", "4294967296", "1.5"]),
@@ -114,7 +114,7 @@ fn mistakes(dice: &mut Dice) -> TrialScene {
     TrialScene { text, expected: Expected::ValidOrRefused, spp: 2, ..trial_scene }
 }
 
-/// Where numbers of a text begin and end.
+/// Byte ranges of the numbers in a text.
 fn numbers(text: &str) -> Vec<(usize, usize)> {
     let belongs = |c: char| c.is_ascii_digit() || "+-.e".contains(c);
     let mut found = Vec::new();

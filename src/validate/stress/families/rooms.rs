@@ -11,7 +11,7 @@ const UNIT_CUBE: &str = "shape.cuboid = { min = [-1.0, -1.0, -1.0], max = [1.0, 
 const ISOSURFACE: &str = "shape.isosurface = { expression = 'x^2 + y^2 + z^2 - 1', bounds = { min = [-1.1, -1.1, -1.1], max = [1.1, \
                           1.1, 1.1] } }";
 
-/// A closed shape around a point, at least half its size away from it and at most three times.
+/// A random closed shape around a point. Its surface is between 0.5 and 3 times `size` away from the point.
 pub fn closed(dice: &mut Dice, center: DVec3, size: f64) -> String {
     let uneven = |dice: &mut Dice| DVec3::new(dice.within(0.6, 1.5), dice.within(0.6, 1.5), dice.within(0.6, 1.5)) * size;
     match dice.below(7) {
@@ -45,12 +45,12 @@ pub fn sphere(center: DVec3, radius: f64) -> String {
     format!("shape.sphere = {{ center = {}, radius = {radius:?} }}", v(center))
 }
 
-/// An ellipsoid with these radii, turned at random.
+/// A randomly rotated ellipsoid with these radii.
 pub fn ellipsoid(dice: &mut Dice, center: DVec3, radii: DVec3) -> String {
     placed(dice, UNIT_SPHERE, radii, center)
 }
 
-/// A cuboid with these half edges, turned at random.
+/// A randomly rotated cuboid with these half edges.
 pub fn cuboid(dice: &mut Dice, center: DVec3, half: DVec3) -> String {
     placed(dice, UNIT_CUBE, half, center)
 }

@@ -1,4 +1,4 @@
-//! Rooms of all sizes, and far away.
+//! Rooms of all sizes, and rooms far from the origin.
 use glam::DVec3;
 
 use super::{
@@ -25,7 +25,7 @@ pub const FAMILIES: [Family; 5] = [
 
 fn spheres(dice: &mut Dice) -> TrialScene {
     let radius = dice.decade(-6.0, 9.0);
-    // Around the origin, or with the wall there.
+    // The origin is at the centre or on the wall.
     let center = if dice.chance(0.5) { DVec3::ZERO } else { dice.direction() * radius };
     let mut room = Furnace::new(dice);
     room.wall(&sphere(center, radius));
