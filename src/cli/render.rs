@@ -45,16 +45,15 @@ pub struct Arguments {
     #[arg(long, value_name = "FORMAT", value_parser = parse::format, requires = "output", conflicts_with = "pixel")]
     format: Option<Format>,
     /// Stop after N samples per pixel [default: the scene's number, or 256]. If several of --spp, --time and --noise are given,
-    /// the last
-    /// one counts
+    /// the last one counts
     #[arg(long, value_name = "N", value_parser = parse::samples, overrides_with_all = ["time", "noise"])]
     spp: Option<u32>,
     /// Stop after a rendering time
     #[arg(long, value_name = "SECONDS", value_parser = parse::seconds, overrides_with_all = ["spp", "noise"])]
     time: Option<Duration>,
     /// Stop at an estimated relative noise (0.01 is 1 %): the root of relMSE, the mean of (x − r)²/(r² + 0.01 · mean r²). The
-    /// sample
-    /// count then depends on the samples, which biased the mean by less than a fortieth of the target in the worst case tested
+    /// sample count then depends on the samples, which biased the mean by less than a fortieth of the target in the worst case
+    /// tested
     #[arg(long, value_name = "RELATIVE", value_parser = parse::noise, overrides_with_all = ["spp", "time"])]
     noise: Option<f64>,
     #[arg(long, help = format!("How direct light is estimated: {}", parse::one_of::<Estimator>()),

@@ -1,4 +1,4 @@
-//! The whole of a study: scene by scene, what is not in the folder yet is measured.
+//! Runs a study: measures, scene by scene, everything that its folder lacks.
 use std::path::Path;
 
 use super::{
@@ -18,30 +18,30 @@ use crate::{render::threads::Threads, scene::RenderSettings};
 pub struct Study<'a> {
     /// What to measure.
     pub plan: &'a Plan,
-    /// Where measurements are kept.
+    /// The folder that keeps measurements.
     pub folder: &'a Path,
     /// The threads that render.
     pub threads: &'a Threads,
     /// The machine, as reports name it.
     pub machine: &'a Machine,
-    /// Asks to stop.
+    /// Whether to stop. Called between two bounces of a batch.
     pub stop: &'a (dyn Fn() -> bool + Sync),
 }
 
-/// What is going on.
+/// Progress of a study.
 pub enum Progress<'a> {
-    /// How many runs there will be, and how many of them the folder has.
+    /// The plan, before the first run.
     Planned {
-        /// Runs in all.
+        /// Number of runs.
         runs: usize,
-        /// Runs that the folder has.
+        /// Number of runs that the folder already has.
         found: usize,
     },
-    /// The share of a converged render that is done.
+    /// A converged render is under way.
     Reference {
         /// Title of the scene.
         title: &'a str,
-        /// From 0 to 1.
+        /// Fraction that is done.
         share: f64,
     },
     /// A run begins.
@@ -51,29 +51,29 @@ pub enum Progress<'a> {
         /// The settings of the run.
         settings: &'a RenderSettings,
     },
-    /// A run is done and kept.
+    /// A run is finished and stored.
     Done,
-    /// All runs of a combination are done.
+    /// All runs of a combination are finished.
     Combination {
         /// Title of the scene.
         title: &'a str,
-        /// What the runs tell.
+        /// The outcome of the runs.
         outcome: &'a Outcome,
     },
 }
 
-/// A scene with what will be measured of it.
+/// A scene and the combinations to measure.
 struct Prepared<'a> {
     study_scene: &'a StudyScene,
     bench: Bench<'a>,
     title: String,
-    /// All that a picture of the scene depends on besides settings.
+    /// Hash of everything that an image of the scene depends on besides the settings.
     fingerprint: u64,
     groups: Vec<Group>,
 }
 
 impl Study<'_> {
-    /// Measures what the store does not have, and keeps each run at once, so that an interrupted study can go on.
+    /// Measures what the store lacks. Each run is stored at once, so an interrupted study can continue.
     pub fn run(
         &self,
         study_scenes: &[StudyScene],
@@ -87,8 +87,8 @@ impl Study<'_> {
         prepared.into_iter().map(|scene| self.scene(scene, store, observe)).collect()
     }
 
-    /// Of these numbers of samples a pixel that with which the store has the most runs of this study. None where it has none: `spp` is a
-    /// part of every key, and what has been measured would be measured again with another one.
+    /// The sample count among `candidates` with which the store has the most runs of this study; `None` if it has none. `spp` is
+    /// part of every key, so another count would repeat the measurements.
     pub fn spp_in(
         &self,
         store: &Store,
@@ -106,9 +106,9 @@ impl Study<'_> {
 
     fn prepare<'a>(&'a self, study_scene: &'a StudyScene, title: String) -> Result<Prepared<'a>, StudyError> {
         let bench = Bench { scene: &study_scene.scene, camera: &study_scene.camera, threads: self.threads, stop: self.stop };
-        // What is wrong with it is told before anything is rendered.
+        // Errors of the reference are reported before anything is rendered.
         reference::known(study_scene, self.plan.floor)?;
-        // The bits of a picture stand for all that it is made of: the scene's meshes and images, and the program itself.
+        // The bits of an image identify everything it depends on: meshes, textures, and the program itself.
         let picture = trial(bench, &reference::settings(study_scene))?;
         let [width, height] = study_scene.camera.resolution.map(u32::to_le_bytes);
         let fingerprint = hash(&[study_scene.scene.source.as_bytes(), &width, &height, &picture.to_le_bytes()]);
@@ -116,17 +116,17 @@ impl Study<'_> {
         Ok(Prepared { study_scene, bench, title, fingerprint, groups })
     }
 
-    /// Repeat by repeat, so that what slows the machine for a while slows all combinations, and shows as spread.
+    /// All runs, repeat by repeat. A temporary slowdown of the machine then affects all combinations and shows as spread.
     fn runs<'s>(&self, scene: &'s Prepared) -> impl Iterator<Item = (&'s Group, u32)> {
         (0..self.plan.repeats).flat_map(|repeat| scene.groups.iter().map(move |group| (group, repeat)))
     }
 
-    /// How many runs of a scene the store has.
+    /// The number of runs of a scene in the store.
     fn found(&self, scene: &Prepared, store: &Store) -> usize {
         self.runs(scene).filter(|(group, repeat)| store.run(&self.key(scene, group, *repeat).1).is_some()).count()
     }
 
-    /// The settings of a run with its seed, and what it is found by.
+    /// The settings of a run with its seed, and its key in the store.
     fn key(&self, scene: &Prepared, group: &Group, repeat: u32) -> (RenderSettings, String) {
         let settings = RenderSettings { seed: group.settings.seed.wrapping_add(repeat), ..group.settings };
         let Machine { cpu, threads, simd, version, .. } = self.machine;

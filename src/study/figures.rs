@@ -1,4 +1,4 @@
-//! Plots of error against time and samples: few curves each, chosen by what they tell.
+//! Plots of error against time and samples, with few curves each.
 use super::{
     outcome::{Outcome, Point, ROUNDING},
     ranking::Findings,
@@ -6,7 +6,7 @@ use super::{
 };
 use crate::report::plot::{Axis, BESIDE, Curve, Plot, Style, curve};
 
-/// How many of the first places the overview shows.
+/// Number of best combinations in the overview.
 const FIRST_PLACES: usize = 3;
 
 /// Two plots with the same curves: error against time, error against samples.
@@ -16,7 +16,7 @@ pub struct Pair {
     pub plots: [Plot; 2],
 }
 
-/// The first places, what the scene opens with, and the last place that is ranked.
+/// The best combinations, the settings of the scene, and the last combination that is ranked.
 pub fn overview(findings: &Findings) -> Option<Pair> {
     let best = findings.best()?;
     let sound: Vec<&Outcome> = findings.outcomes.iter().filter(|outcome| outcome.eligibility == best.eligibility).collect();
@@ -28,14 +28,14 @@ pub fn overview(findings: &Findings) -> Option<Pair> {
             shown.push((name, outcome));
         }
     }
-    let mut caption = "The best combinations, what the scene opens with, and the last of those that are ranked.".to_owned();
+    let mut caption = "The best combinations, the settings of the scene, and the last combination that is ranked.".to_owned();
     if findings.limits.floor > 0.0 {
         caption.push_str(" The error of the reference is subtracted, and a curve ends where it comes close to that error.");
     }
     pair("Error against time and samples".to_owned(), caption, &shown)
 }
 
-/// One curve for each value of a setting, all others as in the best combination. None where there is only one curve.
+/// One curve for each value of a setting, with all others as in the best combination. `None` if there is only one curve.
 pub fn by_setting(findings: &Findings, setting: Setting) -> Option<Pair> {
     let best = findings.best()?;
     let mut shown: Vec<(String, &Outcome)> = Vec::new();
@@ -54,7 +54,7 @@ pub fn by_setting(findings: &Findings, setting: Setting) -> Option<Pair> {
     if shown.len() > 1 { pair(capitalised(setting.name()), caption, &shown) } else { None }
 }
 
-/// With a capital at its beginning.
+/// The name with a capital first letter.
 pub fn capitalised(name: &str) -> String {
     let mut letters = name.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
@@ -78,11 +78,11 @@ fn pair(title: String, mut caption: String, shown: &[(String, &Outcome)]) -> Opt
         (!curves.is_empty()).then(|| Plot { size: BESIDE, x, y: Axis::log("error (root of relMSE)"), curves })
     };
     let by_time = draw(Axis::log("rendering time, s"), |point| point.seconds)?;
-    let by_samples = draw(Axis::log("samples a pixel"), |point| f64::from(point.spp))?;
+    let by_samples = draw(Axis::log("samples per pixel"), |point| f64::from(point.spp))?;
     Some(Pair { title, caption, plots: [by_time, by_samples] })
 }
 
-/// How independent samples fall: from the start of the first curve, as long as the first curve.
+/// A guide line with the slope of independent samples, from the start of the first curve and of its length.
 fn guide(curves: &[Curve]) -> Option<Curve> {
     let points = &curves.first()?.points;
     let (&(x, y), &(end, _)) = (points.first()?, points.last()?);

@@ -1,4 +1,4 @@
-//! How fast the error falls: the slope of its logarithm over the logarithm of the number of samples.
+//! Rate of convergence: the slope of the log error over the log sample count.
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
 /// A slope with half the width of its 95 % confidence interval.
@@ -6,16 +6,16 @@ use statrs::distribution::{ContinuousCDF, StudentsT};
 pub struct Slope {
     /// The slope.
     pub slope: f64,
-    /// Half of its 95 % confidence interval.
+    /// Half the width of its 95 % confidence interval.
     pub half_width: f64,
 }
 
-/// The quantile that encloses 95 % on both sides.
+/// The two-sided 95 % quantile of Student's t.
 pub fn student_95(degrees: f64) -> f64 {
     StudentsT::new(0.0, 1.0, degrees).map_or(f64::NAN, |t| t.inverse_cdf(0.975))
 }
 
-/// Fits ln error = a + slope · ln N over runs of (N, error), N increasing. None of fewer than three points.
+/// Fits ln error = a + slope · ln N over runs of (N, error), N increasing. `None` for fewer than three points.
 ///
 /// The error after N samples contains the samples of all smaller N. For means of independent samples the squared errors after M < N
 /// samples correlate by M/N, and log errors, whose variance is the same for all N, do so to first order. Over N that is a Markov
@@ -39,7 +39,7 @@ pub fn slope(runs: &[Vec<(f64, f64)>]) -> Option<Slope> {
     Some(Slope { slope, half_width: student_95(degrees) * (variance * s11 / determinant).sqrt() })
 }
 
-/// Rows (1, ln N, ln error) of a run with the part taken off that the point before explains.
+/// Rows (1, ln N, ln error) of a run, decorrelated from the preceding point.
 fn whitened(run: &[(f64, f64)]) -> impl Iterator<Item = [f64; 3]> {
     let row = |&(n, error): &(f64, f64)| [1.0, n.ln(), error.ln()];
     run.iter().enumerate().map(move |(k, point)| match k.checked_sub(1).map(|before| &run[before]) {

@@ -1,4 +1,4 @@
-//! What the times were measured on.
+//! The machine and program that times were measured with.
 use std::{
     fs,
     time::{SystemTime, UNIX_EPOCH},
@@ -9,9 +9,9 @@ use crate::{math::SimdLevel, render::threads::Threads};
 /// The machine and the program.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Machine {
-    /// The model of the processor.
+    /// Model of the processor.
     pub cpu: String,
-    /// Processors that the program may use.
+    /// Number of cores that the program may use.
     pub cores: usize,
     /// Number of render threads.
     pub threads: usize,
@@ -23,12 +23,12 @@ pub struct Machine {
     pub version: String,
     /// The commit of Noisefall.
     pub commit: String,
-    /// Year, month and day, UTC.
+    /// Date as YYYY-MM-DD, UTC.
     pub date: String,
 }
 
 impl Machine {
-    /// This one.
+    /// This machine and program.
     pub fn here(threads: &Threads) -> Machine {
         let seconds = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs());
         Machine {
@@ -44,7 +44,7 @@ impl Machine {
     }
 }
 
-/// As Linux tells it; elsewhere the architecture.
+/// Model of the processor from `/proc/cpuinfo`, or the architecture on other systems.
 fn cpu() -> String {
     let info = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
     let model = info.lines().find_map(|line| line.strip_prefix("model name")?.split_once(':'));
@@ -59,7 +59,7 @@ fn os() -> String {
     if kernel.is_empty() { name.to_owned() } else { format!("{name}, kernel {}", kernel.trim()) }
 }
 
-/// The day that is so many days after 1 January 1970, in the Gregorian calendar.
+/// The Gregorian date a number of days after 1 January 1970.
 fn date(days: u64) -> String {
     let is_leap = |year: u64| year.is_multiple_of(4) && (!year.is_multiple_of(100) || year.is_multiple_of(400));
     let (mut year, mut left) = (1970, days);

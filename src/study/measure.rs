@@ -1,4 +1,4 @@
-//! One render of one combination, stopped at powers of two of samples to compare it: the time of comparing does not count.
+//! Measures one render of one combination: it pauses at powers of two of samples and is compared. Only rendering is timed.
 use std::time::{Duration, Instant};
 
 use super::{Plan, StudyError, checkpoints};
@@ -14,7 +14,7 @@ use crate::{
     scene::{Camera, RenderSettings, Scene},
 };
 
-/// The error after some samples.
+/// The errors at one sample count.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Checkpoint {
     /// Samples per pixel.
@@ -27,14 +27,14 @@ pub struct Checkpoint {
     pub rel_mse: f64,
     /// Mean difference from the reference.
     pub bias: f64,
-    /// Of `bias`, as the variance of the samples gives it; `None` before the second sample.
+    /// Standard error of `bias` from the sample variance; `None` before the second sample.
     pub bias_standard_error: Option<f64>,
-    /// How many samples of equal weight would make up that variance, as in [`SampleNoise::effective_samples`]; `None` before the second
-    /// sample, and where nothing varies.
+    /// Effective number of samples behind that variance, as in [`SampleNoise::effective_samples`]; `None` before the second
+    /// sample, or if nothing varies.
     pub effective_samples: Option<f64>,
 }
 
-/// What the samples say of the noise of a picture's mean.
+/// Noise of the mean of an image, from its samples.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct NoiseOfMean {
     pub standard_error: f64,
@@ -50,19 +50,19 @@ impl NoiseOfMean {
 /// One render of one combination.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Run {
-    /// Time and errors at powers of two of samples.
+    /// Times and errors at powers of two of samples.
     pub checkpoints: Vec<Checkpoint>,
-    /// Samples that were not finite or negative.
+    /// Number of samples that were negative or not finite.
     pub invalid_samples: u64,
-    /// Why the picture does not converge to the solution; empty when it does.
+    /// Why the estimate is biased; empty if it is not.
     pub bias: String,
-    /// Pixels shared paths, and samples went where noise was: what became of the settings.
+    /// Whether paths were reused, as the settings and the scene decided.
     pub shares: bool,
     /// Whether sampling was adaptive.
     pub adapts: bool,
 }
 
-/// What renders: a scene before a camera, threads, and somebody who may stop it.
+/// Everything that a render needs besides its settings.
 #[derive(Clone, Copy)]
 pub struct Bench<'a> {
     /// The scene.
@@ -76,7 +76,7 @@ pub struct Bench<'a> {
 }
 
 impl Bench<'_> {
-    /// Brings a film to so many samples a pixel. Returns how long that took.
+    /// Renders a film up to `spp` samples per pixel. Returns the rendering time.
     pub fn pass(&self, settings: &RenderSettings, film: &mut Film, spp: u32) -> Result<(Duration, PassCount), StudyError> {
         let scene = self.scene;
         let rays = scene.rays(self.camera);
@@ -103,10 +103,10 @@ impl Bench<'_> {
     }
 }
 
-/// Renders one combination as far as the plan says, and compares it with the reference on the way.
+/// Renders one combination up to the limits of the plan, and compares it with the reference at every checkpoint.
 pub fn measure(bench: Bench, settings: &RenderSettings, plan: &Plan, reference: &[[f32; 3]]) -> Result<Run, StudyError> {
     let mut film = bench.film();
-    // A sample that does not count, since it takes memory and fills caches; but where it takes long that does not matter.
+    // A warm-up sample that does not count: it allocates memory and fills caches. Slow scenes do not need it.
     let mut counts = Some(bench.pass(settings, &mut film, 1)?);
     if counts.as_ref().is_some_and(|(took, _)| *took < plan.time) {
         (counts, film) = (None, film.recycled(bench.camera.resolution));
@@ -123,15 +123,15 @@ pub fn measure(bench: Bench, settings: &RenderSettings, plan: &Plan, reference: 
     Ok(Run { invalid_samples: film.invalid_samples(), bias, shares, adapts: film.is_adaptive(), ..run })
 }
 
-/// The checkpoints of a run as far as the plan says, and the paths that were cut. `to` brings the picture to a number of samples, and says
-/// how long that took, how many paths were cut, the error, and the noise of its mean.
+/// The checkpoints of a run up to the limits of the plan, and the number of paths that were cut. `to` renders up to a sample
+/// count, and returns the time, the number of paths cut, the error, and the noise of the mean.
 pub(super) fn follow(
     plan: &Plan,
     mut to: impl FnMut(u32) -> Result<(Duration, u64, Comparison, Option<NoiseOfMean>), StudyError>,
 ) -> Result<(Run, u64), StudyError> {
     let (mut run, mut elapsed, mut cut_paths) = (Run::default(), Duration::ZERO, 0);
     for spp in checkpoints(plan.spp) {
-        // Refused by the rate so far: a doubling that is cut short would be lost.
+        // Skipped if it would end too late at the rate so far, because an incomplete doubling would be lost.
         let before = run.checkpoints.last().map_or(spp, |last| last.spp);
         if elapsed.as_secs_f64() * f64::from(spp) / f64::from(before) > plan.time.as_secs_f64() {
             break;

@@ -1,12 +1,12 @@
-//! Run time against error: every combination of settings is timed and held against a reference, and the best is named.
+//! Run time against error: times every combination of settings, compares it with a reference, and ranks the combinations.
 //!
 //! ```text
-//!   StudyScene (scene, size) ─▶ trial: which combinations are the same picture
+//!   StudyScene (scene, size) ─▶ trial: which combinations give the same image
 //!                         ─▶ Reference: the truth, a file, or a converged render
 //!                         ─▶ measure: Run (seconds and errors at powers of two of samples) ─▶ Store: study.csv
 //!   runs ─▶ Outcome (slope, efficiency) ─▶ Findings (ranking) ─▶ report.html
 //! ```
-//! What has been measured is kept line by line in the store and never measured again: see [`Study::run`].
+//! The store keeps measurements line by line, and they are never repeated: see [`Study::run`].
 mod advice;
 mod driver;
 mod evidence;
@@ -49,7 +49,7 @@ pub use self::{
 };
 use crate::{file::WriteError, scene::SceneError};
 
-/// Why a study ended early.
+/// Error of a study.
 #[derive(Debug, thiserror::Error)]
 pub enum StudyError {
     /// The scene cannot be used.
@@ -60,7 +60,7 @@ pub enum StudyError {
     Unmeasurable {
         /// The scene file.
         path: PathBuf,
-        /// What is missing.
+        /// Why it cannot be measured.
         reason: String,
     },
     /// A file that cannot be read or written.
@@ -68,7 +68,7 @@ pub enum StudyError {
     File {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// Message of the system.
         reason: String,
     },
     /// A file cannot be written.
@@ -77,7 +77,7 @@ pub enum StudyError {
     /// The renderer failed.
     #[error("the renderer failed: {0}")]
     Renderer(String),
-    /// Somebody asked to stop; what was complete is in the store.
+    /// The study was stopped; complete runs are in the store.
     #[error("interrupted")]
     Interrupted,
 }

@@ -1,4 +1,4 @@
-//! What the runs of one combination say.
+//! The outcome of one combination: errors, slope and efficiency from its runs.
 use super::{
     fit::{Slope, slope},
     measure::{Checkpoint, Run},
@@ -9,24 +9,23 @@ use crate::{
     scene::RenderSettings,
 };
 
-/// A relMSE below this is rounding of single precision, not noise.
+/// A relMSE below this is rounding in single precision, not noise.
 pub const ROUNDING: f64 = 1e-12;
-/// Fewer samples say little of how the error falls.
+/// Smallest sample count in the fit of the slope.
 const LEAST_SPP_OF_FIT: u32 = 4;
 
-/// Whether a combination can be the best one.
+/// Whether a combination can be ranked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Eligibility {
-    /// It converges, and its picture is better than none.
+    /// It is unbiased, and its image is clearly better than a black one.
     Sound,
-    /// It converges, but its last picture has more than half the relMSE of a black one: where no light has been found, little noise is no
-    /// merit.
+    /// It is unbiased, but its last image has more than half the relMSE of a black one: it found too little light to be compared.
     TooNoisy,
-    /// It converges to something else.
+    /// It is biased.
     Biased,
 }
 
-/// A point of the curve of errors.
+/// A point of the error curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Point {
     pub spp: u32,
@@ -34,14 +33,14 @@ pub struct Point {
     pub rel_mse: f64,
 }
 
-/// The mean of the picture less that of the reference, over all pixels and channels, at the last checkpoint of every run.
+/// The mean of the image minus that of the reference, over pixels and channels, at the last checkpoints of the runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MeanError {
     pub mean: f64,
-    /// By the variances of samples, and of the reference's where it is known; NaN before the second sample. At most so large where samples
-    /// are better than independent ones.
+    /// Standard error from the sample variances, and from those of the reference if they are known; NaN before the second sample.
+    /// An upper bound for stratified and Sobol samples.
     pub standard_error: f64,
-    /// Few samples make up most of the variance: it is likely to be too small.
+    /// Few samples make up most of the variance, so the standard error is probably too small.
     pub has_heavy_tails: bool,
 }
 
@@ -50,43 +49,45 @@ pub struct MeanError {
 pub struct Outcome {
     /// The settings.
     pub settings: RenderSettings,
-    /// Combinations whose picture is the same.
+    /// Other combinations with the same image.
     pub twins: Vec<RenderSettings>,
+    /// Whether it can be ranked.
     pub eligibility: Eligibility,
-    /// Why it is biased; empty where it is not.
+    /// Why it is biased; empty if it is not.
     pub bias: String,
-    /// How far the mean of the picture is from that of the reference.
+    /// Bias of the mean.
     pub mean_error: MeanError,
-    /// Of each run: samples a pixel, and the mean squared error over pixels and channels, W²·sr⁻²·m⁻⁴, without the reference's own
-    /// part. E (x − μ)² = V x + (E x − μ)²: of an unbiased estimate that is the variance of a pixel.
+    /// For each run, samples per pixel and the mean squared error over pixels and channels, W²·sr⁻²·m⁻⁴, minus the reference's
+    /// own error.
+    /// E (x − μ)² = V x + (E x − μ)², so for an unbiased estimate this is the variance of a pixel.
     pub variances: Vec<Vec<(f64, f64)>>,
-    /// What became of the settings: whether pixels shared paths, and samples went where noise was.
+    /// Whether paths were reused.
     pub shares: bool,
     /// Whether sampling was adaptive.
     pub adapts: bool,
-    /// Means over the runs without the reference's own error, as far as they are clear of it; never empty.
+    /// Means over the runs minus the reference's own error, up to where they come close to it; never empty.
     pub curve: Vec<Point>,
-    /// 1/(relMSE · seconds) of each run where the curve ends.
+    /// 1/(relMSE · seconds) of each run at the end of the curve.
     pub efficiencies: Vec<f64>,
-    /// Of the root of relMSE over samples. None where there is no noise or too few points.
+    /// Slope of the root of relMSE over samples; `None` without noise or with too few points.
     pub slope: Option<Slope>,
-    /// Samples that were dropped because they were negative or not finite.
+    /// Number of samples that were dropped because they were negative or not finite.
     pub invalid_samples: u64,
 }
 
-/// The relMSE that a reference has itself, and that a black picture has.
+/// The relMSE of the reference itself and of a black image.
 #[derive(Clone, Copy, Debug)]
 pub struct Limits {
     pub floor: f64,
     pub black: f64,
-    /// The variance of the reference's mean; 0 where it is exact or not known.
+    /// The variance of the reference's mean; 0 if it is exact or unknown.
     pub variance_of_mean: f64,
     /// The reference's mean radiance over pixels and channels.
     pub mean: f64,
 }
 
 impl Outcome {
-    /// `runs` must not be empty, nor without checkpoints.
+    /// The outcome of runs. There must be at least one, and each must have checkpoints.
     pub fn of(group: Group, runs: &[Run], limits: Limits) -> Outcome {
         let Group { settings, twins } = group;
         let length = comparable(runs, limits.floor);
@@ -117,13 +118,13 @@ impl Outcome {
         }
     }
 
-    /// Where the curve ends.
+    /// The last point of the curve.
     pub fn last(&self) -> Point {
         self.curve[self.curve.len() - 1]
     }
 
-    /// Samples a pixel and relMSE after a rendering time in seconds: where measured points are joined by straight lines between
-    /// logarithms, as power laws are. `None` before the first point and after the last one.
+    /// Samples per pixel and relMSE after a rendering time in seconds, interpolated linearly between logarithms. `None` before
+    /// the first point and after the last one.
     pub fn after(&self, seconds: f64) -> Option<(f64, f64)> {
         let before = self.curve.iter().rposition(|point| point.seconds <= seconds)?;
         let a = self.curve[before];
@@ -136,29 +137,29 @@ impl Outcome {
         Some((between(a.spp.into(), b.spp.into()), between(a.rel_mse.max(ROUNDING), b.rel_mse.max(ROUNDING))))
     }
 
-    /// Whether what is left is rounding.
+    /// Whether the remaining error is rounding.
     pub fn is_exact(&self) -> bool {
         self.last().rel_mse <= ROUNDING
     }
 
-    /// Geometric mean over the runs.
+    /// Geometric mean of the efficiency over the runs.
     pub fn efficiency(&self) -> f64 {
         self.log_efficiency().mean.exp()
     }
 
-    /// Of the logarithms of efficiency; their variance is NaN for a single run.
+    /// Moments of the logarithms of efficiency; the variance of a single run is NaN.
     pub fn log_efficiency(&self) -> Moments {
         Moments::of(self.efficiencies.iter().map(|efficiency| efficiency.ln()))
     }
 
-    /// All settings that give this picture.
+    /// All settings that give this image.
     pub fn alike(&self) -> impl Iterator<Item = &RenderSettings> {
         std::iter::once(&self.settings).chain(&self.twins)
     }
 }
 
-/// How many checkpoints all runs have and are clear of the reference's own error; at least one. More than the first say nothing where
-/// that one is exact.
+/// The number of checkpoints that all runs have and that exceed the reference's own error; at least one, and one if the first is
+/// exact.
 fn comparable(runs: &[Run], floor: f64) -> usize {
     let is_exact = |run: &Run| run.checkpoints[0].rel_mse <= ROUNDING;
     let shared = if runs.iter().all(is_exact) { 1 } else { runs.iter().map(|run| run.checkpoints.len()).min().unwrap_or(1) };
@@ -166,19 +167,19 @@ fn comparable(runs: &[Run], floor: f64) -> usize {
     (0..shared).rev().find(|i| is_clear(*i)).map_or(1, |last| last + 1)
 }
 
-/// What is left of rmse² where the reference's own error is taken off: as much as of relMSE.
+/// rmse² at the checkpoints, reduced by the same factor as relMSE when the reference's own error is subtracted.
 fn variances(checkpoints: &[Checkpoint], floor: f64) -> Vec<(f64, f64)> {
     let noisy = checkpoints.iter().filter(|point| tells_a_slope(point.spp, point.rel_mse));
     noisy.map(|point| (f64::from(point.spp), point.rmse.powi(2) * clear_of(point.rel_mse, floor) / point.rel_mse)).collect()
 }
 
-/// Of the mean over runs, which are independent.
+/// The bias of the mean over runs, which are independent.
 fn mean_error(runs: &[Run], variance_of_reference: f64) -> MeanError {
     let last: Vec<&Checkpoint> = runs.iter().filter_map(|run| run.checkpoints.last()).collect();
     let count = last.len() as f64;
     let of_samples = |point: &Checkpoint| point.bias_standard_error.map_or(f64::NAN, |error| error * error);
     let all: f64 = last.iter().map(|point| of_samples(point)).sum();
-    // Of independent pictures Σ v²/n adds up, n being the effective samples.
+    // Σ v²/n adds up over independent images, where n is the effective number of samples.
     let squares: f64 = last.iter().filter_map(|point| Some(of_samples(point).powi(2) / point.effective_samples?)).sum();
     MeanError {
         mean: last.iter().map(|point| point.bias).sum::<f64>() / count,
@@ -187,7 +188,7 @@ fn mean_error(runs: &[Run], variance_of_reference: f64) -> MeanError {
     }
 }
 
-/// Without the error of the reference, which is independent; no less than that, below which nothing is known.
+/// Subtracts the independent error of the reference. The result is at least that error, because nothing is known below it.
 fn clear_of(rel_mse: f64, floor: f64) -> f64 {
     (rel_mse - floor).max(floor)
 }
@@ -202,7 +203,7 @@ fn tells_a_slope(spp: u32, rel_mse: f64) -> bool {
     spp >= LEAST_SPP_OF_FIT && rel_mse > ROUNDING
 }
 
-/// Samples and errors that a slope can be fitted to.
+/// Sample counts and errors for the fit of a slope.
 fn fitted(run: &[Point]) -> Vec<(f64, f64)> {
     let noisy = run.iter().filter(|point| tells_a_slope(point.spp, point.rel_mse));
     noisy.map(|point| (f64::from(point.spp), point.rel_mse.sqrt())).collect()

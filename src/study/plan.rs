@@ -1,4 +1,4 @@
-//! What is measured: settings that are combined with each other, and how far each combination is taken.
+//! The plan of a study: lists of settings to combine, and the limits of each run.
 use std::time::Duration;
 
 use crate::{
@@ -7,21 +7,21 @@ use crate::{
     scene::{Estimator, RenderSettings, Reuse, Roulette},
 };
 
-/// The longer side of a picture, in pixels, where nobody says how large it should be.
+/// Default length of the longer side of an image, pixels.
 const LONGER_SIDE: u32 = 256;
 
-/// The values of each setting, all of which are combined. Of an empty list what the scene opens with is taken.
+/// The values of each setting, which are all combined. An empty list stands for the scene's value.
 #[derive(Clone, Debug, Default)]
 pub struct Lists {
     /// Estimators.
     pub estimators: Vec<Estimator>,
-    /// Samplings of directions.
+    /// Direction samplings.
     pub directions: Vec<Directions>,
     /// Samplers.
     pub samplers: Vec<Sampler>,
-    /// Kinds of Russian roulette.
+    /// Russian roulettes.
     pub roulettes: Vec<Roulette>,
-    /// `None` is no cap.
+    /// Bounce caps; `None` is no cap.
     pub caps: Vec<Option<u32>>,
     /// Path reuse.
     pub reuses: Vec<Reuse>,
@@ -29,23 +29,23 @@ pub struct Lists {
     pub adaptive: Vec<bool>,
 }
 
-/// How far each combination is taken.
+/// Settings and limits of the runs.
 #[derive(Clone, Debug)]
 pub struct Plan {
-    /// The settings, all of which are combined.
+    /// The settings to combine.
     pub lists: Lists,
-    /// The largest number of samples a pixel.
+    /// The largest number of samples per pixel.
     pub spp: u32,
-    /// A doubling of the samples is not begun if it would end after so much rendering time.
+    /// Longest rendering time of a run. A doubling of the samples that would end later is not begun.
     pub time: Duration,
-    /// Renders of each combination, with different seeds.
+    /// Runs of each combination, with different seeds.
     pub repeats: u32,
-    /// Of relMSE.
+    /// Floor of relMSE.
     pub floor: Floor,
 }
 
 impl Lists {
-    /// All combinations, each once.
+    /// All different combinations.
     pub fn combinations(&self, base: RenderSettings) -> Vec<RenderSettings> {
         let mut all = vec![base];
         combine(&mut all, &self.estimators, |estimator, of| RenderSettings { estimator, ..of });
@@ -59,7 +59,7 @@ impl Lists {
     }
 }
 
-/// Each of the settings with each of the values, each once.
+/// Combines all settings with all values, without duplicates.
 fn combine<V: Copy>(all: &mut Vec<RenderSettings>, values: &[V], with: impl Fn(V, RenderSettings) -> RenderSettings) {
     if values.is_empty() {
         return;
@@ -76,13 +76,13 @@ fn combine<V: Copy>(all: &mut Vec<RenderSettings>, values: &[V], with: impl Fn(V
     *all = combined;
 }
 
-/// Where the error is measured: powers of two, and the last number.
+/// Sample counts at which the error is measured: powers of two, and `spp` itself.
 pub fn checkpoints(spp: u32) -> Vec<u32> {
     let powers = (0..u32::BITS).map(|power| 1 << power).take_while(|n| *n < spp);
     powers.chain([spp]).collect()
 }
 
-/// A resolution of the same shape that is not larger than a study needs.
+/// A resolution of the same aspect ratio, scaled down to the default size of a study.
 pub fn study_size(resolution: [u32; 2]) -> [u32; 2] {
     let longer = resolution[0].max(resolution[1]);
     let scaled = |side: u32| (u64::from(side) * u64::from(LONGER_SIDE) + u64::from(longer) / 2) / u64::from(longer);

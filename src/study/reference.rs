@@ -1,4 +1,4 @@
-//! What errors are measured against: what the scene says, a file, or a converged render that is made here and kept.
+//! References: the truth of the scene, a file, or a converged render that is made here and kept.
 use std::path::{Path, PathBuf};
 
 use super::{
@@ -18,29 +18,29 @@ use crate::{
     scene::{Estimator, RenderSettings, Roulette},
 };
 
-/// A converged render takes so many times the samples of the longest render that is held against it.
+/// Samples of a converged render relative to the longest render that is compared with it.
 const TIMES_THE_SAMPLES: u32 = 16;
-/// No render that is measured has this bit of the seed changed.
+/// Bit of the seed that distinguishes references from measured renders.
 const SEED_OF_REFERENCE: u32 = 1 << 31;
-/// Parts in which a half is rendered, for the progress.
+/// Number of parts in which a half is rendered, to show progress.
 const PARTS: u32 = 32;
 
 pub struct Reference {
-    /// What it is, for a reader.
+    /// Description for readers.
     pub name: String,
     pub radiance: Vec<[f32; 3]>,
-    /// Its own relMSE, estimated; 0 where it is exact or taken for that.
+    /// Its own estimated relMSE; 0 if it is exact or assumed to be.
     pub rel_mse: f64,
-    /// The variance of its mean over pixels and channels, by that of its samples; likewise 0.
+    /// The variance of its mean over pixels and channels, from its samples; 0 if it is exact or assumed to be.
     pub variance_of_mean: f64,
-    /// It is taken for exact because nothing is known of its own error.
+    /// Its own error is unknown and assumed to be 0.
     pub is_taken_for_exact: bool,
     /// Of relMSE.
     pub floor: Floor,
 }
 
 impl Reference {
-    /// Without light there is no error to measure.
+    /// Fails for a black reference, because relative errors are undefined then.
     fn if_lit(self, study_scene: &StudyScene) -> Result<Reference, StudyError> {
         if self.rel_mse_of_black() > 0.0 {
             return Ok(self);
@@ -50,19 +50,19 @@ impl Reference {
         Err(StudyError::Unmeasurable { path: study_scene.path.clone(), reason })
     }
 
-    /// Over pixels and channels.
+    /// Mean radiance over pixels and channels.
     pub fn mean(&self) -> f64 {
         let all = self.radiance.as_flattened();
         all.iter().map(|c| f64::from(*c)).sum::<f64>() / all.len().max(1) as f64
     }
 
-    /// What a picture without any light is off by.
+    /// The relMSE of a black image.
     pub fn rel_mse_of_black(&self) -> f64 {
         compare(&vec![[0.0; 3]; self.radiance.len()], &self.radiance, self.floor).rel_mse
     }
 }
 
-/// The settings of a converged render: unbiased, and the best of most scenes.
+/// The settings of a converged render: unbiased, and the most efficient in most scenes.
 pub fn settings(study_scene: &StudyScene) -> RenderSettings {
     let of_scene = study_scene.scene.settings;
     let seeded = RenderSettings { seed: of_scene.seed ^ SEED_OF_REFERENCE, ..of_scene };
@@ -76,7 +76,7 @@ pub fn settings(study_scene: &StudyScene) -> RenderSettings {
     }
 }
 
-/// The reference of a scene that says or has one.
+/// The reference of a scene with a `[truth]` or a reference file.
 pub fn known(study_scene: &StudyScene, floor: Floor) -> Result<Option<Reference>, StudyError> {
     let Some((known, name)) = &study_scene.known else { return Ok(None) };
     let radiance = radiance(study_scene, known);
@@ -94,8 +94,8 @@ pub fn known(study_scene: &StudyScene, floor: Floor) -> Result<Option<Reference>
     reference.if_lit(study_scene).map(Some)
 }
 
-/// The relMSE that a rendered picture has itself, by the variances in its file: as much less as the renderer found its samples to be better
-/// than independent ones.
+/// The relMSE of a rendered image, from the variances in its file, reduced by the factor that the renderer found its samples to
+/// be better than independent ones.
 fn own_rel_mse(radiance: &[[f32; 3]], provenance: &Provenance, floor: Floor) -> Option<f64> {
     let noise = provenance.noise.as_ref()?;
     let by_variance = |floor: Floor| {
@@ -109,7 +109,7 @@ fn own_rel_mse(radiance: &[[f32; 3]], provenance: &Provenance, floor: Floor) -> 
     Some(by_variance(floor) * better)
 }
 
-/// What makes it another reference. `spp` is that of the longest render.
+/// Hash of everything that a converged render depends on. `spp` is that of the longest render.
 pub fn identity(study_scene: &StudyScene, spp: u32) -> u64 {
     match &study_scene.known {
         Some((known, _)) => hash_of_picture(&radiance(study_scene, known)),
@@ -131,21 +131,21 @@ fn radiance(study_scene: &StudyScene, known: &truth::Reference) -> Vec<[f32; 3]>
     }
 }
 
-/// A converged render as two independent halves, kept in a folder.
+/// A converged render, kept as two independent halves in a folder.
 pub struct Converged<'a> {
     pub study_scene: &'a StudyScene,
     pub bench: Bench<'a>,
     pub folder: &'a Path,
     /// All that a picture of the scene depends on besides settings.
     pub fingerprint: u64,
-    /// Samples a pixel of the longest render that is held against it.
+    /// Samples per pixel of the longest render that is compared with it.
     pub spp: u32,
     /// Of relMSE.
     pub floor: Floor,
 }
 
 impl Converged<'_> {
-    /// The reference of the scene; `done` is told the share of the work that is done, where there is work.
+    /// Reads or renders the reference. `done` gets the fraction of the work that is done.
     pub fn reference(&self, done: &mut dyn FnMut(f64)) -> Result<Reference, StudyError> {
         match known(self.study_scene, self.floor)? {
             Some(reference) => Ok(reference),
@@ -153,8 +153,8 @@ impl Converged<'_> {
         }
     }
 
-    /// The mean m of halves a and b has the error (a + b)/2 of theirs, of which (a − b)/2 has the same variance: its relMSE is that
-    /// of a against m.
+    /// For independent halves a and b, the error of their mean m has the same variance as (a − b)/2 = a − m, so the relMSE of m
+    /// is that of a against m.
     fn render(&self, done: &mut dyn FnMut(f64)) -> Result<Reference, StudyError> {
         let halves = [self.half(0, &mut |share| done(share / 2.0))?, self.half(1, &mut |share| done(0.5 + share / 2.0))?];
         let mean = |(a, b): (&[f32; 3], &[f32; 3])| [0, 1, 2].map(|c| 0.5 * (a[c] + b[c]));
@@ -162,7 +162,7 @@ impl Converged<'_> {
         let radiance: Vec<[f32; 3]> = a.iter().zip(b).map(mean).collect();
         let rel_mse = compare(a, &radiance, self.floor).rel_mse;
         let variance_of_mean = (of_a + of_b) / 4.0;
-        let name = format!("a converged render (mis, Sobol, {} samples a pixel)", spp_of_half(self.spp) * 2);
+        let name = format!("a converged render (mis, Sobol, {} samples per pixel)", spp_of_half(self.spp) * 2);
         Ok(Reference { name, radiance, rel_mse, variance_of_mean, is_taken_for_exact: false, floor: self.floor })
     }
 
@@ -177,7 +177,7 @@ impl Converged<'_> {
         self.folder.join(format!("reference-{stem}-{key}.exr"))
     }
 
-    /// One half with the variance of its mean, from its file if that is there and whole.
+    /// One half with the variance of its mean, from its file if that is complete.
     fn half(&self, number: u32, done: &mut dyn FnMut(f64)) -> Result<(Vec<[f32; 3]>, f64), StudyError> {
         let settings = settings(self.study_scene);
         let settings = RenderSettings { seed: settings.seed.wrapping_add(number), ..settings };

@@ -57,7 +57,7 @@ fn circumstances(plan: &Plan, machine: &Machine) -> Markup {
             tr { th { "processor" } td { (machine.cpu) } }
             tr { th { "used" } td { (count(machine.threads, "thread")) " on " (count(machine.cores, "core")) ", SIMD: " (machine.simd) } }
             tr { th { "system" } td { (machine.os) } }
-            tr { th { "each run" } td { "up to " (plan.spp) " samples a pixel; a doubling is skipped if it would end after "
+            tr { th { "each run" } td { "up to " (plan.spp) " samples per pixel; a doubling is skipped if it would end after "
                 (significant(plan.time.as_secs_f64())) " s" } }
         }
     }

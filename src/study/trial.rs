@@ -6,7 +6,7 @@ use std::collections::HashMap;
 use super::{StudyError, key::hash_of_picture, measure::Bench};
 use crate::scene::RenderSettings;
 
-/// Samples a pixel of a trial. The first sample of different samplers may be the same point.
+/// Samples per pixel of a trial. The first sample of different samplers may be the same point.
 const TRIAL_SPP: u32 = 2;
 /// Bounces of a trial: what settings differ in shows early, and paths in a closed white room would take for ever.
 const TRIAL_BOUNCES: u32 = 8;

@@ -72,7 +72,7 @@ pub fn verdict(findings: &Findings) -> String {
     if best.is_exact() {
         return format!("{place}: {settings} – no noise but rounding from the first sample on, which takes {seconds} s.");
     }
-    format!("{place}: {settings} – an error of {} after {seconds} s ({} samples a pixel).", error(best), last.spp)
+    format!("{place}: {settings} – an error of {} after {seconds} s ({} samples per pixel).", error(best), last.spp)
 }
 
 /// How sure the verdict is, and what it gains.

@@ -12,8 +12,7 @@ pub const SIGNIFICANCE: f64 = 1e-4;
 
 impl Statement {
     /// Student's t-test of independent measurements of the same number. The samples within a measurement may be dependent.
-    /// Rounding in
-    /// f32 counts as an error too.
+    /// Rounding in f32 counts as an error too.
     pub fn repeated(what: impl Into<String>, found: &[f64], exact: f64) -> Statement {
         let (mean, error) = mean_and_error(found);
         let rounded = error.hypot(1e-6 * exact);
@@ -101,8 +100,7 @@ fn quantile(sigmas: f64, degrees: f64) -> f64 {
 }
 
 /// The bias, in standard errors, that Student's t-test detects with a probability of 95 %. The standard error is itself an
-/// estimate,
-/// with mean and variance of about 1 − 1/(4ν) and 1/(2ν) relative to the true one.
+/// estimate, with mean and variance of about 1 − 1/(4ν) and 1/(2ν) relative to the true one.
 fn noticed(degrees: f64) -> f64 {
     let threshold = quantile(SIGMAS, degrees);
     threshold * (1.0 - 0.25 / degrees) + POWER * (1.0 + threshold * threshold / (2.0 * degrees)).sqrt()

@@ -4,8 +4,7 @@ use std::f64::consts::{PI, TAU};
 use glam::DVec3;
 
 /// Fresnel's reflectance of unpolarised light, and the cosine of refraction, which is 0 in total reflection. η is the index
-/// beyond
-/// the interface relative to the index before it.
+/// beyond the interface relative to the index before it.
 pub fn dielectric(cos: f64, eta: f64) -> (f64, f64) {
     let square = 1.0 - (1.0 - cos * cos) / (eta * eta);
     if square <= 0.0 {
@@ -70,8 +69,7 @@ pub fn direction(cos: f64, azimuth: f64) -> DVec3 {
 }
 
 /// The integral over microfacet normals, D cos θ_h dω_h, of G₁(ω_o) ω_o·h/(cos θ_o cos θ_h) `leaves`(facet), seen at cosine `mu`.
-/// In
-/// u = tan²/(α² + tan²), D cos θ_h dω_h = du dφ/(2π).
+/// In u = tan²/(α² + tan²), D cos θ_h dω_h = du dφ/(2π).
 fn over_facets(alpha: f64, mu: f64, leaves: impl Fn(DVec3, DVec3, f64) -> f64) -> f64 {
     const STEPS: [u32; 2] = [256, 128];
     let wo = direction(mu, 0.0);

@@ -58,7 +58,7 @@ fn the_chapter_of_the_furnace_finds_what_is_known_of_it() {
         }
     }
     assert!(read("error_by_sampler_time.svg").contains("rendering time"));
-    assert!(read("error_by_sampler_samples.svg").contains("samples a pixel"));
+    assert!(read("error_by_sampler_samples.svg").contains("samples per pixel"));
     // L_e/(1 − ρ) = 2, of which a cap of k leaves out 1/2^k.
     let rows = &tables["bias_of_caps"];
     assert_eq!(rows[0], ["bounce cap", "bias", "standard error", "z", "of the mean, %", "excluded beyond, %", "remark"]);

@@ -16,7 +16,7 @@ pub struct Candidate {
     pub relative: f64,
     /// Standard error of ln `relative`, that is, as a part of it, by the spread over rounds.
     pub standard_error: f64,
-    /// Of a picture of `spp` samples a pixel.
+    /// Of a picture of `spp` samples per pixel.
     pub rel_mse: f64,
     /// That the picture took.
     pub seconds: f64,

@@ -7,7 +7,7 @@ use crate::{
     study::{StudyError, measure::Bench},
 };
 
-/// Samples a pixel of every picture.
+/// Samples per pixel of every picture.
 pub const SPP: u32 = 16;
 
 /// A picture of one round.

@@ -65,9 +65,9 @@ pub fn pictures(bench: Bench, spp: u32, display: Display) -> Result<[Picture; 2]
     };
     let [width, height] = bench.camera.resolution;
     let how = format!("{}; {width} × {height} pixels", label(&settings));
-    let by_cap = format!("The picture with different caps on bounces, {} samples a pixel: {how}.", spp.min(SPP_OF_CAPS));
+    let by_cap = format!("The picture with different caps on bounces, {} samples per pixel: {how}.", spp.min(SPP_OF_CAPS));
     Ok([
-        of("pictures_by_samples", format!("The picture after N samples a pixel, without a cap: {how}."), &growing)?,
+        of("pictures_by_samples", format!("The picture after N samples per pixel, without a cap: {how}."), &growing)?,
         of("pictures_by_cap", by_cap, &capped)?,
     ])
 }
@@ -80,7 +80,7 @@ impl Exhibits<'_> {
     /// How much was rendered, the same for all findings.
     pub fn extent(&self) -> String {
         let [width, height] = self.study_scene.camera.resolution;
-        format!("{width} × {height} pixels, up to {} samples a pixel, {} runs each", self.spp, self.repeats)
+        format!("{width} × {height} pixels, up to {} samples per pixel, {} runs each", self.spp, self.repeats)
     }
 
     /// What every caption ends with: what the combinations have in common, and how it was rendered.

@@ -31,7 +31,7 @@ const REPEATS: u32 = 3;
 /// Parts of the time: for the runs of all studies, and for pictures. The rest is for the reference, and for trials.
 const FOR_RUNS: f64 = 0.6;
 const FOR_PICTURES: f64 = 0.1;
-/// Samples a pixel of the longest runs.
+/// Samples per pixel of the longest runs.
 const SPP: std::ops::RangeInclusive<u32> = 16..=4096;
 
 /// How long it may take, and how its pictures are shown.
@@ -133,7 +133,7 @@ pub fn collect(
     Ok(Chapter::new(&Exhibits { study_scene, findings: &findings, pictures, spp, repeats: REPEATS, machine }))
 }
 
-/// Samples a pixel of the longest runs: as many as those that the store has of this study, since a stopwatch may round to another power of
+/// Samples per pixel of the longest runs: as many as those that the store has of this study, since a stopwatch may round to another power of
 /// two than it did before; else as many as a run of this time has.
 fn samples(study: &Study, study_scene: &StudyScene, store: &Store, time: Duration) -> Result<u32, StudyError> {
     let candidates = (SPP.start().ilog2()..=SPP.end().ilog2()).map(|power| 1 << power);

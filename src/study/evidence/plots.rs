@@ -43,6 +43,6 @@ impl Exhibits<'_> {
             self.circumstances(findings)
         );
         let y = Axis::log("mean squared error (variance of a pixel)");
-        ("variance".to_owned(), caption, Plot { size: BESIDE, x: Axis::log("samples a pixel"), y, curves })
+        ("variance".to_owned(), caption, Plot { size: BESIDE, x: Axis::log("samples per pixel"), y, curves })
     }
 }

@@ -47,7 +47,7 @@ impl Exhibits<'_> {
         Table {
             name: "convergence".to_owned(),
             caption: format!(
-                "Error (the root of relMSE) after N samples a pixel, and the exponents of N with which the error and the variance of a \
+                "Error (the root of relMSE) after N samples per pixel, and the exponents of N with which the error and the variance of a \
                  pixel fall, ± half the width of their 95 % intervals. The variance is measured as the mean squared error over pixels \
                  and channels, less the error of the reference. Independent samples give −1/2 and −1; stratified and Sobol samples \
                  can fall faster. {UNTRUSTED} ({}).",
@@ -124,7 +124,7 @@ impl Exhibits<'_> {
             || format!("{name}: no setting has noise without bias, so there is no time T at which to compare."),
             |seconds| {
                 format!(
-                    "{name} after the same rendering time T = {} s, at which the fastest of the unbiased settings ends: samples a pixel \
+                    "{name} after the same rendering time T = {} s, at which the fastest of the unbiased settings ends: samples per pixel \
                      and error (the root of relMSE), interpolated between measured points on logarithmic axes ({UNKNOWN} where T is \
                      outside of what was measured).",
                     significant(seconds)

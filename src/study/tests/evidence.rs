@@ -74,7 +74,7 @@ fn equal_time_is_the_same_time_for_all_and_intervals_are_of_those_near_the_best(
                 ["throughput", "–", "–", "2.00", "–", "–", "biased: 7 paths cut"],
             ]
         );
-        let held = "(mis, bsdf, sobol; no paths shared by pixels; 8 × 8 pixels, up to 16 samples a pixel, 2 runs each; against the \
+        let held = "(mis, bsdf, sobol; no paths shared by pixels; 8 × 8 pixels, up to 16 samples per pixel, 2 runs each; against the \
                     exact radiance)";
         assert!(table.caption.contains("T = 1.00 s") && table.caption.contains(held), "{}", table.caption);
         assert!(table.latex().starts_with(&format!("% {}\n", table.caption)));
@@ -216,7 +216,7 @@ fn the_sheets_of_a_chapter_show_growing_samples_and_caps_in_their_order() {
         by_samples.caption
     );
     assert!(
-        by_cap.caption.starts_with("The picture with different caps on bounces, 4 samples a pixel: path, "),
+        by_cap.caption.starts_with("The picture with different caps on bounces, 4 samples per pixel: path, "),
         "{}",
         by_cap.caption
     );

@@ -77,7 +77,7 @@ fn the_overview_has_the_best_three_the_own_and_the_last() {
         assert_eq!(counts, [[1, 1], [1, 0], [1, 1]], "{svg}");
         assert_eq!(named(svg, "slope −1/2"), 1);
     }
-    assert!(pair.plots[0].svg().contains("rendering time, s") && pair.plots[1].svg().contains("samples a pixel"));
+    assert!(pair.plots[0].svg().contains("rendering time, s") && pair.plots[1].svg().contains("samples per pixel"));
     assert!(!pair.caption.contains("Without noise") && !pair.caption.contains("taken off"));
     let limited = Findings { limits: Limits { floor: 1e-9, black: 1e9, variance_of_mean: 0.0, mean: 1.0 }, ..found };
     assert!(overview(&limited).expect("curves").caption.contains("The error of the reference is subtracted"));

@@ -21,7 +21,7 @@ use crate::{
     },
 };
 
-/// 16 samples a pixel of a picture whose mean square is 4.
+/// 16 samples per pixel of a picture whose mean square is 4.
 pub(super) fn run(rel_mse: f64, seconds: f64) -> Run {
     let point = |n: u32| {
         let [share, all] = [f64::from(n), 16.0];
@@ -218,7 +218,7 @@ fn findings_in_words_have_their_numbers() {
     found.of_scene = estimator(Estimator::Path);
     assert_eq!(
         verdict(&found),
-        "Best: mis, bsdf, sobol, roulette throughput – an error of 20.0 % after 0.500 s (16 samples a pixel)."
+        "Best: mis, bsdf, sobol, roulette throughput – an error of 20.0 % after 0.500 s (16 samples per pixel)."
     );
     assert_eq!(
         certainty(&found),

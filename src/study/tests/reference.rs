@@ -97,7 +97,7 @@ fn a_converged_render_knows_its_own_error_and_is_kept() {
         (found, shares)
     };
     let (found, shares) = reference(4);
-    assert_eq!(found.name, "a converged render (mis, Sobol, 64 samples a pixel)");
+    assert_eq!(found.name, "a converged render (mis, Sobol, 64 samples per pixel)");
     assert!(shares.windows(2).all(|pair| pair[0] < pair[1]) && shares.last() == Some(&1.0) && shares.len() == 64, "{shares:?}");
     let files: Vec<_> = std::fs::read_dir(folder.path()).expect("a folder").map(|entry| entry.expect("a file").path()).collect();
     assert_eq!(files.len(), 2);

@@ -171,7 +171,7 @@ fn a_report_says_what_was_found_and_against_what() {
         "rendered each scene 2 times with different seeds",
         "a processor",
         "3 threads on 4 cores, SIMD: AVX2",
-        "up to 16 samples a pixel; a doubling is skipped if it would end after 1.50 s",
+        "up to 16 samples per pixel; a doubling is skipped if it would end after 1.50 s",
         "3 samples were negative or not finite and count as black.",
         "biased: cap at 2",
         // It was tried with another sampler than the best one alone, and has √(0.01 · 0.0121)/0.22 of its efficiency.

@@ -50,7 +50,7 @@ pub fn section(validation: &Validation) -> Section {
              functions of seed, pixel, sample and dimension; sums are added in the order of samples. So the number of threads, the width \
              of the registers, pauses and the order in which samples are asked for cannot matter. The pictures are compared bit for bit.",
         ],
-        source: "Hashes of all bits of a 75 × 50 picture of the built-in scene at 4 samples a pixel.",
+        source: "Hashes of all bits of a 75 × 50 picture of the built-in scene at 4 samples per pixel.",
         statements,
         figures: Vec::new(),
         remark: Some(format!("Hashes: {}.", hashes.join(", "))),

@@ -219,8 +219,7 @@ fn interfaces(validation: &Validation, eta: f64) -> Vec<Statement> {
 }
 
 /// Moves `found` towards the exact number by the change that rounding of the direction makes. Next to total reflection 1 − F
-/// falls as
-/// a square root, so rounding changes it much.
+/// falls as a square root, so rounding changes it much.
 fn beyond_digits(found: f64, w: DVec3, exact: impl Fn(DVec3) -> f64) -> f64 {
     const DIGITS: f64 = 4.0 * f32::EPSILON as f64;
     let at = exact(w);

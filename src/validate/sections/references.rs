@@ -152,8 +152,7 @@ pub struct BlockZScores {
 }
 
 /// Renders the scene of a file and compares it with the block means beside it. The sample variance must give the standard error,
-/// as
-/// it does for independent samples.
+/// as it does for independent samples.
 pub fn block_z_scores(path: &Path, settings: impl FnOnce(&Scene) -> RenderSettings, spp: u32) -> Result<BlockZScores, String> {
     compared(&Reference::read(path, String::new()), settings, spp)
 }

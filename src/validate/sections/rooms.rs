@@ -35,8 +35,7 @@ pub fn section(validation: &Validation) -> Section {
 type Checker = (f64, f64, u32);
 
 /// The mean of a checker in (u, v) over the area of a sphere, for an odd number of strips. Along each strip of v one colour has
-/// one
-/// cell more than the other, and a strip has the area ½ (cos πv₀ − cos πv₁).
+/// one cell more than the other, and a strip has the area ½ (cos πv₀ − cos πv₁).
 fn mean((even, odd, strips): Checker) -> f64 {
     let edge = |j: u32| (PI * f64::from(j) / f64::from(strips)).cos();
     let strip = |j: u32| {

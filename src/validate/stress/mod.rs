@@ -64,8 +64,7 @@ pub struct KeptScene {
 
 impl Validation {
     /// Runs the stress sections in order. Calls `done` with the number of each section, from 1, when it is finished. Returns the
-    /// sections
-    /// and the scenes that break an invariant.
+    /// sections and the scenes that break an invariant.
     pub fn stress(&self, mut done: impl FnMut(usize, &Section)) -> (Vec<Section>, Vec<KeptScene>) {
         let (mut sections, mut kept) = (Vec::new(), Vec::new());
         for (i, group) in GROUPS.iter().enumerate() {

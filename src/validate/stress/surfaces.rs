@@ -13,8 +13,7 @@ use crate::{
 };
 
 /// Limit of the rounding error, in units of εS (see [`World::scale`]): beyond it a point is off its surface, and a surface in
-/// front
-/// of it is missed.
+/// front of it is missed.
 pub const LIMIT: f64 = 32.0;
 /// ε = 2⁻²³.
 const EPSILON: f64 = f32::EPSILON as f64;
@@ -173,8 +172,7 @@ impl World<'_> {
     }
 
     /// S, the scale in metres at which f32 rounds coordinates on the way from o to p. Spheres are anchored near the scene; other
-    /// shapes
-    /// count with their full size.
+    /// shapes count with their full size.
     fn scale(&self, face: &Shape, o: DVec3, p: DVec3, t: f64) -> f64 {
         let (center, radius) = face.bounding_sphere();
         let shape = match face {

@@ -58,8 +58,7 @@ pub fn camera_towards(dice: &mut Dice, eye: DVec3, look_at: DVec3) -> String {
 }
 
 /// A closed room in which every surface emits L_e and reflects ρ. With a cap of n its radiance is L_e (1 − ρⁿ⁺¹)/(1 − ρ)
-/// everywhere,
-/// and so is every single sample with cosine directions.
+/// everywhere, and so is every single sample with cosine directions.
 pub struct Furnace {
     emission: f64,
     albedo: f64,
