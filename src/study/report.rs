@@ -23,7 +23,7 @@ td { white-space: nowrap; } table.contents td { white-space: normal; }
 summary { cursor: pointer; font-size: .86rem; }
 @media print { details::details-content { content-visibility: visible; } }
 ";
-/// Rows of a table that are shown at once.
+/// Rows of a table that are shown without a click.
 const ROWS: usize = 20;
 
 /// The report of a study.
@@ -43,9 +43,9 @@ fn introduction(plan: &Plan) -> Markup {
     let repeats = plan.repeats;
     markup! {
         p { "Every combination of settings rendered each scene " @if repeats == 1 { "once" } @else { (repeats) " times with different seeds" }
-            ", and was compared with a reference whenever its number of samples had doubled. The " b { "error" } " is the root of relMSE, the \
-             mean over pixels and channels of " span.formula { (plan.floor.formula()) } " for the picture x and the reference r. " b { "Time" } " is that of \
-             rendering alone. " b { "Efficiency" } " is " span.formula { "1/(relMSE · s)" } " at the end of a run: twice the efficiency means the same error in half the time, as long as both errors fall at the same rate." }
+            ", and was compared with a reference at every doubling of its samples. The " b { "error" } " is the root of relMSE, the \
+             mean over pixels and channels of " span.formula { (plan.floor.formula()) } " for the image x and the reference r. " b { "Time" } " is that of \
+             rendering alone. " b { "Efficiency" } " is " span.formula { "1/(relMSE · s)" } " at the end of a run: twice the efficiency means the same error in half the time if both errors fall at the same rate." }
         p { "The " b { "slope" } " is the power of the number of samples N with which the error falls: −1/2 for independent samples, steeper for stratified and Sobol samples. It is a least-squares fit from 4 samples on, with a 95 % confidence interval that accounts for the samples that successive points share." }
     }
 }
@@ -119,7 +119,7 @@ fn gains(findings: &Findings) -> Markup {
     };
     markup! {
         @if settings.iter().any(|(_, values)| !values.is_empty()) {
-            h3 { "What each setting is worth" }
+            h3 { "Gain from each setting" }
             table.short {
                 thead { tr { th { "setting" } th { "value" } th.n { "others as in the best" } th.n { "others at their best" } } }
                 tbody { @for (setting, values) in &settings { @for (i, gain) in values.iter().enumerate() {
@@ -193,7 +193,7 @@ fn row(place: usize, outcome: &Outcome, shown: &[Setting], findings: &Findings) 
     }
 }
 
-/// The value of a setting, and those that would give the same picture.
+/// The value of a setting, and the values that give the same image.
 pub fn values(setting: Setting, outcome: &Outcome) -> String {
     let only_this_differs = |twin: &&_| setting.with(twin, &outcome.settings) == outcome.settings;
     let same = outcome.twins.iter().filter(only_this_differs).map(|twin| setting.value(twin));
@@ -212,7 +212,7 @@ pub fn values(setting: Setting, outcome: &Outcome) -> String {
     values.join(" = ") + became
 }
 
-/// Why a combination is not ranked; empty where it is.
+/// Why a combination is not ranked; empty if it is.
 pub fn remark(outcome: &Outcome) -> String {
     match outcome.eligibility {
         Eligibility::Sound => String::new(),

@@ -1,4 +1,4 @@
-//! A line of `study.csv`: one checkpoint of one run, with all that it depends on.
+//! A line of `study.csv`: one checkpoint of one run, with everything that it depends on.
 use serde::{Deserialize, Serialize};
 
 use super::{Checkpoint, Machine, Run, StudyScene, key::is_key, reference::Reference, setting::Setting};
@@ -15,15 +15,15 @@ pub struct Row {
     pub roulette: String,
     pub max_bounces: String,
     pub reuse: String,
-    /// Pixels shared paths.
+    /// Whether paths were reused.
     pub shares: bool,
     pub adaptive: String,
-    /// Samples went where noise was.
+    /// Whether sampling was adaptive.
     pub adapts: bool,
-    /// From 1.
+    /// Number of the repeat, from 1.
     pub repeat: u32,
     pub seed: u32,
-    /// From 1 to `checkpoints`, which is how many lines the run has.
+    /// Number of the checkpoint, from 1 to `checkpoints`, the number of lines of the run.
     pub checkpoint: usize,
     pub checkpoints: usize,
     pub spp: u32,
@@ -33,28 +33,28 @@ pub struct Row {
     pub rmse: f64,
     pub rel_mse: f64,
     pub bias: f64,
-    /// Of the bias, but for the reference's own error; empty before the second sample.
+    /// Standard error of the bias, without the reference's own error; empty before the second sample.
     pub bias_standard_error: Option<f64>,
-    /// How many samples of equal weight would make up the variance: few mean heavy tails. Empty where nothing varies.
+    /// Effective number of samples behind the variance; a small number means heavy tails. Empty if nothing varies.
     pub effective_samples: Option<f64>,
-    /// Why the picture does not converge to the solution; empty when it does.
+    /// Why the estimate is biased; empty if it is not.
     pub biased: String,
     pub invalid_samples: u64,
     pub reference: String,
-    /// The reference's own.
+    /// The reference's own relMSE.
     pub reference_rel_mse: f64,
-    /// What relMSE adds to the squared reference: a number, or a part of the reference's mean squared radiance.
+    /// Constant that relMSE adds to the squared reference: a number, or a fraction of the reference's mean squared radiance.
     pub floor: String,
     pub threads: usize,
     pub simd: String,
     pub cpu: String,
     pub version: String,
     pub commit: String,
-    /// Last, and of fixed length, so that a line that is cut off is noticed.
+    /// The key of the run. It is last and of fixed length, so truncated lines are detected.
     pub key: String,
 }
 
-/// What a run is besides what it measured.
+/// Everything about a run except its measurements.
 pub struct Header<'a> {
     pub study_scene: &'a StudyScene,
     pub settings: &'a RenderSettings,
@@ -121,7 +121,7 @@ pub fn rows(header: &Header, run: &Run) -> Vec<Row> {
     run.checkpoints.iter().enumerate().map(row).collect()
 }
 
-/// The run of its lines, if none is missing.
+/// The run of these lines; `None` if one is missing.
 pub fn run(rows: &[Row]) -> Option<Run> {
     let first = rows.first()?;
     let complete = rows.len() == first.checkpoints && (1..).zip(rows).all(|(place, row)| row.checkpoint == place);

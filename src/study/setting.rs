@@ -1,4 +1,4 @@
-//! The settings that are studied, by name: as axes of plots and columns of tables.
+//! The settings of a study, by name: as axes of plots and columns of tables.
 use crate::{render::settings_text::on_or_off, scene::RenderSettings};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,7 +35,7 @@ impl Setting {
         }
     }
 
-    /// As the command line writes it.
+    /// The value in the words of the command line.
     pub fn value(self, settings: &RenderSettings) -> String {
         match self {
             Setting::Estimator => settings.estimator.name().to_owned(),
@@ -48,7 +48,7 @@ impl Setting {
         }
     }
 
-    /// Settings with the value that this one has in others.
+    /// `settings` with the value that this setting has in `from`.
     pub fn with(self, settings: &RenderSettings, from: &RenderSettings) -> RenderSettings {
         let mut changed = *settings;
         match self {
@@ -64,13 +64,13 @@ impl Setting {
     }
 }
 
-/// All settings in one line; cap, sharing and adaptive samples only where they are not as usual.
+/// All settings in one line. Cap, reuse and adaptive sampling are left out if they have their defaults.
 pub fn label(settings: &RenderSettings) -> String {
     let shown = |setting: &Setting| setting.is_always_told() || !setting.is_usual(settings);
     joined(Setting::ALL.into_iter().filter(shown), settings)
 }
 
-/// What some settings have in common, and what is different about each, in one line each.
+/// What some settings have in common, and the differences of each, as one line each.
 pub fn differing_labels(all: &[RenderSettings]) -> (String, Vec<String>) {
     let Some(first) = all.first() else { return (String::new(), Vec::new()) };
     let differs = |setting: &Setting| all.iter().any(|settings| setting.value(settings) != setting.value(first));
@@ -92,7 +92,7 @@ impl Setting {
         self.value(settings) == self.value(&RenderSettings::default())
     }
 
-    /// The value, with the name where that is not plain.
+    /// The value, with the name of the setting if the value alone is ambiguous.
     fn words(self, settings: &RenderSettings) -> String {
         let value = self.value(settings);
         match self {

@@ -1,4 +1,4 @@
-//! What has been measured: `study.csv`, whose runs are found again by their keys. Studies of other scenes and settings stay in it.
+//! The store of measurements: `study.csv`. Runs are found by their keys. Runs of other studies stay in it.
 use std::{
     collections::HashMap,
     fs::File,
@@ -9,21 +9,21 @@ use std::{
 use super::{StudyError, measure::Run, row};
 use crate::file::{open_regular, replace};
 
-/// The name of the file.
+/// Name of the file.
 pub const CSV: &str = "study.csv";
 
 /// The measurements in a folder.
 pub struct Store {
     folder: PathBuf,
-    /// The lines of each run, in the order of the file.
+    /// The lines of each run, in file order.
     runs: Vec<Vec<row::Row>>,
     places: HashMap<String, usize>,
-    /// Lines that were cut off, or whose run was.
+    /// Number of lines that were ignored because they or their runs were truncated.
     pub dropped: usize,
 }
 
 impl Store {
-    /// What a folder has.
+    /// Opens the store of a folder.
     pub fn open(folder: &Path) -> Result<Store, StudyError> {
         let path = folder.join(CSV);
         let failed = |reason: String| StudyError::File { path: path.clone(), reason };
@@ -47,7 +47,7 @@ impl Store {
         let mut reader = csv::Reader::from_reader(bytes);
         let header = reader.byte_headers().map_err(|error| error.to_string())?;
         if !bytes.is_empty() && header != &columns()? {
-            let advice = "move it away, or name another folder";
+            let advice = "move it away, or give another folder";
             return Err(format!("was not written by `noisefall study` of this version: {advice}"));
         }
         for line in reader.deserialize::<row::Row>() {
@@ -79,22 +79,22 @@ impl Store {
         }
     }
 
-    /// The run of a key, if it has been measured.
+    /// The run with a key, if it has been measured.
     pub fn run(&self, key: &str) -> Option<Run> {
         row::run(&self.runs[*self.places.get(key)?])
     }
 
-    /// Runs of all studies.
+    /// Number of runs, of all studies.
     pub fn len(&self) -> usize {
         self.runs.len()
     }
 
-    /// Whether there are none.
+    /// Whether there are no runs.
     pub fn is_empty(&self) -> bool {
         self.runs.is_empty()
     }
 
-    /// Keeps the lines of a run: they are in the file when this returns.
+    /// Adds the lines of a run, and writes them to the file before it returns.
     pub fn add(&mut self, rows: Vec<row::Row>) -> Result<(), StudyError> {
         rows.into_iter().for_each(|row| self.push(row));
         let path = self.folder.join(CSV);

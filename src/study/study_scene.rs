@@ -1,4 +1,4 @@
-//! A scene as it is studied: compiled, at the size of the study, with the file its pictures are held against.
+//! A scene of a study: compiled, at the resolution of the study, with its reference if that is known.
 use std::path::{Path, PathBuf};
 
 use super::{StudyError, plan::study_size};
@@ -11,20 +11,22 @@ use crate::{
 /// Beside a scene `NAME.toml`, its reference is `NAME.ref.exr`.
 const REFERENCE_EXTENSION: &str = "ref.exr";
 
+/// A scene of a study.
 pub struct StudyScene {
+    /// The scene file.
     pub path: PathBuf,
     /// The compiled scene.
     pub scene: Scene,
     /// Its camera at the resolution of the study.
     pub camera: Camera,
-    /// The picture or radiance that is known, and what to call it; where there is none, a converged render is made.
+    /// The known image or radiance and its description; without one, a converged render is made.
     pub known: Option<(truth::Reference, String)>,
-    /// What is known is what the scene declares to be true, and not a file that somebody rendered.
+    /// The reference is the scene's `[truth]`, not a rendered file.
     pub is_declared: bool,
 }
 
 impl StudyScene {
-    /// Reads a scene. `reference` is a picture to hold it against whatever else there is.
+    /// Reads a scene. `reference` is an image to use in place of any other reference.
     pub fn load(path: &Path, size: Option<[u32; 2]>, reference: Option<&Path>) -> Result<StudyScene, StudyError> {
         let scene = load(path).map_err(StudyError::Scene)?;
         let unmeasurable = |reason: String| StudyError::Unmeasurable { path: path.to_owned(), reason };
@@ -55,21 +57,21 @@ impl StudyScene {
     }
 }
 
-/// Room to measure these, one after the other: for a film, and for what pictures are held against.
+/// Reserves the memory for measuring these scenes one after the other: a film and the references.
 pub fn reserve(study_scenes: &[StudyScene]) -> Result<[Reservation; 2], TooMuch> {
-    /// Of a pixel of a picture.
+    /// Bytes per pixel of an image.
     const PIXEL: u64 = 12;
     let pixels = |study_scene: &&StudyScene| study_scene.camera.resolution.map(u64::from).iter().product::<u64>();
     let largest = study_scenes.iter().max_by_key(pixels);
     let [width, height] = largest.map_or([0; 2], |study_scene| study_scene.camera.resolution);
-    // Files are kept; of a reference there are besides the radiance two halves, or a copy whose bits are hashed.
+    // Files stay in memory. A reference also needs two halves, or a copy for hashing.
     let files: u64 =
         study_scenes.iter().filter(|study_scene| study_scene.known.is_some()).map(|study_scene| pixels(&study_scene)).sum();
     let bytes = PIXEL * (files + 3 * largest.map_or(0, |study_scene| pixels(&study_scene)));
     Ok([Film::reserve([width, height])?, memory::reserve(format_args!("references of {width} × {height} pixels"), bytes)?])
 }
 
-/// What to call scenes that are studied together: those of one title by their files too.
+/// Titles of scenes that are studied together. Equal titles are extended by the file.
 pub fn titles(study_scenes: &[StudyScene]) -> Vec<String> {
     let titles: Vec<String> = study_scenes.iter().map(StudyScene::title).collect();
     let told_apart = |(title, study_scene): (&String, &StudyScene)| {

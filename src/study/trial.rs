@@ -1,35 +1,36 @@
-//! Which combinations are the same picture: those that are so bit for bit after a few samples are measured once.
+//! Trials that find combinations with the same image. Those whose images agree bit for bit after a few samples are measured once.
 //!
-//! Directions do not matter where nothing is diffuse, samplers not where samples do not vary, roulette not where paths are short.
+//! For example, directions have no effect without diffuse surfaces, samplers have none if samples do not vary, and roulette has
+//! none on short paths.
 use std::collections::HashMap;
 
 use super::{StudyError, key::hash_of_picture, measure::Bench};
 use crate::scene::RenderSettings;
 
-/// Samples per pixel of a trial. The first sample of different samplers may be the same point.
+/// Samples per pixel of a trial. One is too few, because the first points of different samplers may coincide.
 const TRIAL_SPP: u32 = 2;
-/// Bounces of a trial: what settings differ in shows early, and paths in a closed white room would take for ever.
+/// Cap on bounces of a trial. Differences show early, and paths in a closed white room would be very long.
 const TRIAL_BOUNCES: u32 = 8;
 
-/// A combination that is measured, and those that are the same picture.
+/// A combination that is measured, and the others with the same image.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Group {
     pub settings: RenderSettings,
     pub twins: Vec<RenderSettings>,
 }
 
-/// The combinations as groups, in their order. Of equals the one is measured that is nearest to what the scene opens with.
+/// Groups the combinations, in their order. Each group measures the combination closest to the settings of the scene.
 pub fn groups(bench: Bench, combinations: &[RenderSettings]) -> Result<Vec<Group>, StudyError> {
     let mut pictures = Vec::new();
     for settings in combinations {
-        // Equal for a while does not mean that a cap is never reached, nor that samples are never spread by noise: pictures that differ in
-        // these never count as the same.
+        // A trial is too short to show the effects of a cap or of adaptive sampling, so combinations that differ in these are
+        // never grouped.
         pictures.push((trial(bench, settings)?, settings.max_bounces, settings.adaptive));
     }
     Ok(group(&pictures, combinations, &bench.scene.settings))
 }
 
-/// A hash of a trial picture's bits.
+/// Hash of the bits of a trial image.
 pub fn trial(bench: Bench, settings: &RenderSettings) -> Result<u64, StudyError> {
     let cap = settings.max_bounces.map_or(TRIAL_BOUNCES, |cap| cap.min(TRIAL_BOUNCES));
     let mut film = bench.film();
@@ -37,7 +38,7 @@ pub fn trial(bench: Bench, settings: &RenderSettings) -> Result<u64, StudyError>
     Ok(hash_of_picture(&bench.frame(&film).radiance))
 }
 
-/// Groups of combinations whose pictures have equal names.
+/// Groups combinations whose images have equal identifiers.
 pub fn group<N: Eq + std::hash::Hash>(pictures: &[N], combinations: &[RenderSettings], of_scene: &RenderSettings) -> Vec<Group> {
     let mut places: HashMap<&N, usize> = HashMap::new();
     let mut groups: Vec<Group> = Vec::new();
@@ -60,7 +61,7 @@ pub fn group<N: Eq + std::hash::Hash>(pictures: &[N], combinations: &[RenderSett
     groups
 }
 
-/// How many settings differ.
+/// The number of settings that differ.
 fn distance(a: &RenderSettings, b: &RenderSettings) -> usize {
     super::setting::Setting::ALL.into_iter().filter(|setting| setting.value(a) != setting.value(b)).count()
 }

@@ -1,10 +1,10 @@
-//! What was found, in sentences and numbers, for report and terminal alike.
+//! Findings as sentences and numbers, for the report and the terminal.
 use std::fmt;
 
 use super::{Eligibility, Findings, Outcome, Slope, outcome::MeanError, setting::label};
 use crate::render::settings_text::options;
 
-/// Three digits.
+/// Formats a number with three significant digits.
 pub fn significant(x: f64) -> String {
     let digits = if x == 0.0 { 0.0 } else { x.abs().log10().floor() };
     match digits {
@@ -19,7 +19,7 @@ pub fn percent(rel_mse: f64) -> String {
     format!("{} %", significant(100.0 * rel_mse.sqrt()))
 }
 
-/// The error of the last picture.
+/// The error at the end of the curve.
 pub fn error(outcome: &Outcome) -> String {
     if outcome.is_exact() { "no noise".to_owned() } else { percent(outcome.last().rel_mse) }
 }
@@ -28,12 +28,12 @@ pub fn slope(slope: Option<Slope>) -> String {
     slope.map_or_else(|| "–".to_owned(), |slope| exponent(slope).join(" ± "))
 }
 
-/// An exponent, and half the width of its interval.
+/// An exponent and half the width of its interval, as texts.
 pub fn exponent(Slope { slope, half_width }: Slope) -> [String; 2] {
     [format!("{slope:.2}").replace('-', "−"), format!("{half_width:.2}")]
 }
 
-/// A mean with its standard error where that is known.
+/// A mean and its standard error, if that is known, as one text.
 pub fn mean_error(error: MeanError) -> String {
     match mean_and_error(error) {
         (mean, Some(standard_error)) => format!("{mean} ± {standard_error}"),
@@ -41,7 +41,7 @@ pub fn mean_error(error: MeanError) -> String {
     }
 }
 
-/// A mean and its standard error where that is known, both to the second digit of the latter.
+/// A mean and its standard error, if that is known, rounded to two digits of the standard error.
 pub fn mean_and_error(MeanError { mean, standard_error, .. }: MeanError) -> (String, Option<String>) {
     let minus = |text: String| text.replace('-', "−");
     if !(standard_error > 0.0 && standard_error.is_finite()) {
@@ -57,10 +57,10 @@ pub fn mean_and_error(MeanError { mean, standard_error, .. }: MeanError) -> (Str
     }
 }
 
-/// Which settings are best, in one sentence.
+/// The best settings, in one sentence.
 pub fn verdict(findings: &Findings) -> String {
     let Some(best) = findings.best() else {
-        return "No combination is unbiased and clearly closer to the reference than a black picture: take more samples."
+        return "No combination is unbiased and clearly closer to the reference than a black image: take more samples."
             .to_owned();
     };
     let (last, settings) = (best.last(), label(&best.settings));
@@ -75,7 +75,7 @@ pub fn verdict(findings: &Findings) -> String {
     format!("{place}: {settings} – an error of {} after {seconds} s ({} samples per pixel).", error(best), last.spp)
 }
 
-/// How sure the verdict is, and what it gains.
+/// The uncertainty of the verdict, and the gain.
 pub fn certainty(findings: &Findings) -> String {
     let Some(best) = findings.best() else { return String::new() };
     let lead = findings.outcomes.get(1).filter(|next| next.eligibility == best.eligibility).and_then(|next| findings.ratio(next));
@@ -108,7 +108,7 @@ pub fn certainty(findings: &Findings) -> String {
     text
 }
 
-/// The first of many, and how many more there are.
+/// The first of many names, and the number of the others.
 fn some_of(names: Vec<String>) -> String {
     const SHOWN: usize = 3;
     let more = names.len().saturating_sub(SHOWN);
@@ -122,7 +122,7 @@ pub fn command(findings: &Findings) -> Option<String> {
     Some(format!("noisefall render {} -o picture.exr{}", findings.path.display(), options(&best.settings, &findings.of_scene)))
 }
 
-/// One line.
+/// A line of the table.
 impl fmt::Display for Outcome {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let last = self.last();
@@ -131,7 +131,7 @@ impl fmt::Display for Outcome {
     }
 }
 
-/// The first places as lines of a table for the terminal.
+/// The best combinations as a table for the terminal.
 pub fn table(findings: &Findings) -> String {
     const PLACES: usize = 5;
     let cells = |outcome: &Outcome| {

@@ -208,7 +208,7 @@ fn without_lists_the_usual_ones_are_combined() {
     let done = shell.run(&["study", &scene("furnace"), "-o", "out", "--spp", "1", "--repeats", "1", "--size", "8x8"]);
     assert!(done.status.success(), "{}", text(&done.stderr));
     let report = fs::read_to_string(shell.path("out/report.html")).expect("a report");
-    let worth = report.split("What each setting is worth").nth(1).and_then(|rest| rest.split("</table>").next());
+    let worth = report.split("Gain from each setting").nth(1).and_then(|rest| rest.split("</table>").next());
     let worth = worth.expect("a table of values");
     let values: BTreeSet<&str> = worth.split("<td>").skip(1).filter_map(|cell| cell.split('<').next()).collect();
     let usual = "path light mis uniform cosine bsdf independent stratified sobol off 0.8 throughput";

@@ -1,4 +1,4 @@
-//! Which settings are tried, in two stages: not all combinations, for who waits for advice does not wait long.
+//! The candidate settings, in two stages. Trying all combinations would take too long.
 use super::Advice;
 use crate::{
     sampling::Sampler,
@@ -6,11 +6,11 @@ use crate::{
     study::setting::Setting,
 };
 
-/// Without roulette paths may have no end, so that it is tried only where it is in use.
+/// Roulettes to try. `off` is left out unless it is in use, because paths may become very long.
 const ROULETTES: [Roulette; 4] =
     [Roulette::by_throughput_from(2), Roulette::BY_THROUGHPUT, Roulette::by_throughput_from(8), Roulette::fixed(0.8)];
 
-/// The settings in use besides each sampler.
+/// The settings in use and each sampler.
 pub const MOST_OF_SECOND_STAGE: usize = 1 + Sampler::ALL.len();
 
 /// The settings in use, then those with another roulette or another estimator.
@@ -35,8 +35,7 @@ fn each_once(first: &RenderSettings, others: impl IntoIterator<Item = RenderSett
     all
 }
 
-/// The settings in use with the roulette and the estimator that stand out of the first stage. What is not clearly better is left as it
-/// is: advice should change little.
+/// The settings in use with the best roulette and estimator of the first stage. They change only what is clearly better.
 pub fn adopted(advice: &Advice) -> RenderSettings {
     let in_use = advice.candidates[advice.current].settings;
     [Setting::Roulette, Setting::Estimator].into_iter().fold(in_use, |base, setting| {

@@ -1,34 +1,34 @@
-//! What pictures of the same settings say of their noise, and how long they took.
+//! Noise and time of settings, from several images of each.
 use rayon::prelude::*;
 
 use super::rounds::{Picture, Series};
 use crate::{measure::Floor, scene::RenderSettings, study::outcome::ROUNDING};
 
-/// What was measured of some settings, round by round.
+/// Measurements of some settings, by round.
 #[derive(Clone, Debug)]
 pub struct Measured {
     pub settings: RenderSettings,
-    /// The numbers of the rounds.
+    /// Numbers of the rounds.
     pub rounds: Vec<u32>,
-    /// Of the time that each picture took.
+    /// Logarithm of the rendering time of each image.
     pub log_seconds: Vec<f64>,
-    /// Of each picture from each before it: the mean over pixels and channels of (x − y)²/(m² + 0.01 · mean m²), as relMSE has it,
-    /// where m is the mean of all pictures of all settings.
+    /// Distance of each image from each earlier one: the mean over pixels and channels of (x − y)²/(m² + 0.01 · mean m²), as in
+    /// relMSE, where m is the mean of all images of all settings.
     pub differences: Vec<Vec<f64>>,
-    /// How much of m the mean of these pictures has: about 1.
+    /// The light in the mean of these images, relative to m; about 1.
     pub found: f64,
 }
 
-/// What the pictures say; all settings must converge to the same.
+/// Compares the images of several settings, which must all converge to the same image.
 pub fn measured(series: &[Series]) -> Vec<Measured> {
     let common = mean(series.iter().flat_map(|series| &series.pictures));
     let floor = Floor::DEFAULT.of(common.iter().map(|m| m * m).sum::<f64>() / common.len().max(1) as f64);
-    // Where nothing found any light, nothing differs.
+    // If no image has light, all distances are 0.
     let weights: Vec<f64> = common.iter().map(|m| 1.0 / (m * m + floor).max(f64::MIN_POSITIVE)).collect();
     series.iter().map(|series| Measured::of(series, &common, &weights)).collect()
 }
 
-/// The mean of pictures, channel by channel.
+/// The mean of images, per channel of each pixel.
 fn mean<'a>(pictures: impl Iterator<Item = &'a Picture>) -> Vec<f64> {
     let (mut sum, mut count) = (Vec::new(), 0.0);
     for picture in pictures {
@@ -61,32 +61,32 @@ impl Measured {
         }
     }
 
-    /// Whether these settings find light at all: where they do not, little noise is no merit.
+    /// Whether these settings find enough light to be compared.
     pub fn is_sound(&self) -> bool {
         self.found > 0.5
     }
 
-    /// The relMSE of a picture by those of some rounds, at least two: half the mean square of the difference of two, which has twice
-    /// the variance of one.
+    /// The relMSE of an image, from at least two rounds: half the mean squared difference of two images, because a difference has
+    /// twice the variance of one image.
     pub fn rel_mse(&self, rounds: &[u32]) -> f64 {
         let places: Vec<usize> = self.places(rounds).collect();
         let pairs = places.iter().flat_map(|a| places.iter().filter(move |b| *b < a).map(move |b| self.differences[*a][*b]));
         pairs.sum::<f64>() / (places.len() * (places.len() - 1)) as f64
     }
 
-    /// The geometric mean of the time of a picture.
+    /// Geometric mean of the rendering time of an image.
     pub fn seconds(&self, rounds: &[u32]) -> f64 {
         let (sum, count) =
             self.places(rounds).fold((0.0, 0.0), |(sum, count), place| (sum + self.log_seconds[place], count + 1.0));
         f64::exp(sum / count)
     }
 
-    /// The relMSE, no less than what rounding may add.
+    /// The relMSE, but at least that of rounding.
     pub fn noise(&self, rounds: &[u32]) -> f64 {
         self.rel_mse(rounds).max(ROUNDING)
     }
 
-    /// Where the pictures of these rounds are.
+    /// Indices of the images of these rounds.
     fn places(&self, rounds: &[u32]) -> impl Iterator<Item = usize> {
         rounds.iter().filter_map(|round| self.rounds.iter().position(|known| known == round))
     }

@@ -1,12 +1,12 @@
-//! What to use here: a short study of one scene that says which sampler, roulette and estimator would find its picture soonest.
+//! Advice: a short study of one scene that recommends the most efficient sampler, roulette and estimator.
 //!
 //! ```text
-//!   settings in use ─▶ first stage: each roulette, each estimator ─▶ second stage: with what stands out, each sampler ─▶ Advice
-//!                      Rounds: a picture of each ─▶ Measured: noise and time ─▶ rank
+//! settings in use ─▶ first stage: each roulette, each estimator ─▶ second stage: with the best of these, each sampler ─▶ Advice
+//! Rounds: an image of each ─▶ Measured: noise and time ─▶ rank
 //! ```
-//! No reference is needed: pictures of the same settings with other seeds differ by their noise alone, and that is so whatever the
-//! sampler, for another seed scrambles its points anew. All settings that are tried converge to the same picture, since directions,
-//! cap and reuse stay as they are in use.
+//! No reference is needed: images of the same settings with different seeds differ by their noise alone. This holds for every
+//! sampler, because each seed scrambles its points differently. All candidates converge to the same image, because directions,
+//! cap and reuse stay as they are.
 mod candidate;
 mod candidates;
 mod measured;
@@ -31,13 +31,13 @@ use crate::{
     scene::{Camera, RenderSettings, Scene},
 };
 
-/// Rounds of a stage: the spread of fewer would say little. Where time is short, pictures are made smaller instead.
+/// Rounds of a stage. Fewer would give a poor estimate of the spread, so if time is short the images are made smaller instead.
 const ROUNDS: u32 = 8;
-/// The longer side of a picture is not made shorter than this, in pixels.
+/// Smallest length of the longer side of an image, pixels.
 const LEAST_SIDE: f64 = 32.0;
 
-/// Tries what could be better than `settings` in a scene for about so much `time`. `progress` is told how many of the pictures to make
-/// are there, and how many that are; whoever says `stop` is heeded between two bounces.
+/// Tries candidates that could be better than `settings` for about this `time`. `progress` gets the number of images that are
+/// finished and the number of all. `stop` is called between two bounces.
 pub fn advise(
     scene: &Scene,
     camera: &Camera,
@@ -66,13 +66,13 @@ pub fn advise(
     let base = adopted(&rank(&threads.install(|| measured(&pictures.series)), SPP));
     pictures.make(&second_stage(settings, &base), ROUNDS..2 * ROUNDS, &mut made)?;
     let advice = rank(&threads.install(|| measured(&pictures.series)), SPP);
-    // What both stages have in common is not tried twice.
+    // Candidates of both stages are measured once.
     progress(total, total);
     Ok(advice)
 }
 
-/// The time that one sample a pixel of each of these takes, in seconds. Before that, one that does not count: it takes memory, fills
-/// caches, and finds out whether sharing paths pays.
+/// The time in seconds of one sample per pixel of every candidate. A warm-up sample before that does not count: it allocates
+/// memory, fills caches, and decides about path reuse.
 fn sample_of_each(bench: Bench, candidates: &[RenderSettings]) -> Result<f64, StudyError> {
     let mut seconds = 0.0;
     for settings in candidates {
@@ -83,7 +83,7 @@ fn sample_of_each(bench: Bench, candidates: &[RenderSettings]) -> Result<f64, St
     Ok(seconds)
 }
 
-/// A resolution of the same shape with this share of the pixels, or of [`LEAST_SIDE`]; never a larger one.
+/// A resolution of the same aspect ratio with this fraction of the pixels, but not below [`LEAST_SIDE`], and never a larger one.
 fn reduced(resolution: [u32; 2], share: f64) -> [u32; 2] {
     let longer = f64::from(resolution[0].max(resolution[1]));
     let scale = share.sqrt().max(LEAST_SIDE / longer).min(1.0);

@@ -1,4 +1,4 @@
-//! From measurements to advice: which settings are the most efficient, and whether that is more than chance.
+//! Ranking of candidates by efficiency, with significance.
 use super::{
     candidate::{Advice, Candidate, LEAST_GAIN},
     measured::Measured,
@@ -6,7 +6,7 @@ use super::{
 };
 use crate::measure::Moments;
 
-/// Ranks settings of which at least three pictures of `spp` samples were made. The first are those in use, which must have one in every
+/// Ranks settings with at least three images of `spp` samples each. The first are those in use, which must have an image in every
 /// round.
 pub fn rank(measured: &[Measured], spp: u32) -> Advice {
     let in_use = &measured[0];
@@ -43,18 +43,19 @@ fn candidate(measured: &Measured, in_use: &Measured, spp: u32) -> Candidate {
     }
 }
 
-/// ln of the efficiency relative to that of the settings in use, by some of the rounds.
+/// ln of the efficiency relative to that of the settings in use, from some of the rounds.
 ///
-/// Times are compared round by round, so that what slows a round cancels. Noise is that of all rounds: what a few rare samples add to
-/// that of the settings in use must not make candidates differ that were tried in other rounds.
+/// Times are compared within a round, so a slow round cancels. Noise is taken over all rounds, because rare samples of the
+/// settings in use must not make candidates differ that were tried in different rounds.
 fn log_relative(measured: &Measured, in_use: &Measured, rounds: &[u32]) -> f64 {
     let own: Vec<u32> = rounds.iter().copied().filter(|round| measured.rounds.contains(round)).collect();
     let (noise, seconds) = (in_use.noise(rounds) / measured.noise(&own), in_use.seconds(&own) / measured.seconds(&own));
     (noise * seconds).ln()
 }
 
-/// The standard error of [`log_relative`] by estimates that leave one round out: the jackknife (J. W. Tukey, 1958; for variances R. G.
-/// Miller, "Jackknifing Variances", 1968), by itself in the rounds of the candidate and in those that only the settings in use have.
+/// The standard error of [`log_relative`] by the jackknife, from estimates that leave one round out (J. W. Tukey, 1958; for
+/// variances R. G. Miller, "Jackknifing Variances", 1968). It runs separately over the rounds of the candidate and over those
+/// that only the settings in use have.
 fn standard_error(measured: &Measured, in_use: &Measured) -> f64 {
     let without = |left_out: &u32| {
         let rest: Vec<u32> = in_use.rounds.iter().copied().filter(|round| round != left_out).collect();

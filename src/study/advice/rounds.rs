@@ -1,4 +1,5 @@
-//! Pictures in rounds: one of each of the settings, with the same seed, so that what slows the machine for a while slows all alike.
+//! Rounds of images: one of each candidate, all with the same seed. A temporary slowdown of the machine affects all candidates
+//! equally.
 use std::ops::Range;
 
 use crate::{
@@ -7,24 +8,24 @@ use crate::{
     study::{StudyError, measure::Bench},
 };
 
-/// Samples per pixel of every picture.
+/// Samples per pixel of every image.
 pub const SPP: u32 = 16;
 
-/// A picture of one round.
+/// An image of one round.
 pub struct Picture {
     pub round: u32,
-    /// How long it took.
+    /// Rendering time.
     pub seconds: f64,
     pub radiance: Vec<[f32; 3]>,
 }
 
-/// The pictures of some settings, no two of the same round.
+/// The images of some settings, at most one per round.
 pub struct Series {
     pub settings: RenderSettings,
     pub pictures: Vec<Picture>,
 }
 
-/// All pictures so far.
+/// All images so far.
 pub struct Rounds<'a> {
     bench: Bench<'a>,
     pub series: Vec<Series>,
@@ -36,7 +37,7 @@ impl<'a> Rounds<'a> {
         Rounds { bench, series: Vec::new(), film: None }
     }
 
-    /// Makes a picture of each of the candidates in each of these rounds; `made` is called after every one.
+    /// Renders an image of every candidate in each of these rounds. Calls `made` after every image.
     pub fn make(&mut self, candidates: &[RenderSettings], rounds: Range<u32>, made: &mut dyn FnMut()) -> Result<(), StudyError> {
         for round in rounds {
             for settings in candidates {
@@ -52,7 +53,7 @@ impl<'a> Rounds<'a> {
     }
 
     fn picture(&mut self, settings: &RenderSettings, round: u32) -> Result<Picture, StudyError> {
-        // Memory that is there already: taking it would add to the time of all.
+        // Reuses memory, because allocation would add to the measured time.
         let used = self.film.take();
         let mut film = used.map_or_else(|| self.bench.film(), |film| film.recycled(self.bench.camera.resolution));
         let seeded = RenderSettings { seed: settings.seed.wrapping_add(round), ..*settings };

@@ -1,4 +1,4 @@
-//! Estimates on noise that is known, ranking on numbers that are known, and advice whose time is counted work.
+//! Estimates of known noise, ranking of known numbers, and advice with a deterministic clock.
 use std::{cell::Cell, time::Duration};
 
 use super::{
@@ -40,7 +40,7 @@ fn series(settings: RenderSettings, pictures: impl IntoIterator<Item = Vec<[f32;
     Series { settings, pictures: (0..).zip(pictures).map(picture).collect() }
 }
 
-/// Settings whose pictures took these times, and differ by noise of these relMSE.
+/// Measurements of settings with this relMSE and these times.
 fn known(settings: RenderSettings, rel_mse: f64, seconds: &[f64]) -> Measured {
     Measured {
         settings,
@@ -80,7 +80,7 @@ fn efficiency_is_told_from_noise_and_time() {
     let advice = rank(&[known(IN_USE, 0.08, &[1.0, 2.0, 1.0, 4.0]), known(ADVISED, 0.01, &[2.0, 4.0, 2.0, 8.0])], SPP);
     assert_eq!((advice.best, advice.current), (0, 1));
     let best = advice.best();
-    // Whatever slowed the machine slowed both.
+    // A slow round slows both candidates.
     assert!((best.relative - 4.0).abs() < 1e-9 && best.standard_error < 1e-9, "{best:?}");
     assert!((best.efficiency / advice.current().efficiency - 4.0).abs() < 1e-9);
     assert_eq!(advice.current().relative, 1.0);
@@ -105,7 +105,7 @@ fn what_chance_explains_is_as_good() {
     // 95 % of Student's t with three degrees of freedom lie within ±3.182.
     let by_errors = |count: f64| Candidate { relative: f64::exp(0.1 * count), standard_error: 0.1, ..candidate.clone() };
     assert_eq!([3.1, 3.2].map(|count| by_errors(count).is_clearly_better()), [false, true]);
-    // Nor is a gain worth a change that is sure, but small.
+    // A gain that is significant but small is not worth a change either.
     let small = rank(&[known(IN_USE, 0.0103, &[1.0; 4]), known(ADVISED, 0.01, &[1.0; 4])], SPP);
     assert_eq!(small.best, small.current);
 }

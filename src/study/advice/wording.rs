@@ -2,12 +2,12 @@
 use super::{Advice, Candidate};
 use crate::{scene::RenderSettings, study::setting::Setting};
 
-/// What differs from the settings in use.
+/// The settings that differ from those in use.
 pub fn differing(settings: &RenderSettings, in_use: &RenderSettings) -> Vec<Setting> {
     Setting::ALL.into_iter().filter(|setting| setting.with(in_use, settings) != *in_use).collect()
 }
 
-/// What differs from the settings in use, as a reader of the window calls it.
+/// The differences from the settings in use, in the words of the window.
 pub fn difference(settings: &RenderSettings, in_use: &RenderSettings) -> String {
     let word = |setting| match setting {
         Setting::Estimator => format!("estimator {}", settings.estimator.name()),
@@ -22,8 +22,8 @@ pub fn difference(settings: &RenderSettings, in_use: &RenderSettings) -> String 
 }
 
 impl Candidate {
-    /// Relative efficiency and its standard error, as `1.83 ± 0.04`: two digits of the error, but no more than three behind the point.
-    /// `∞` where the settings in use found hardly any light.
+    /// Relative efficiency and its standard error, as in `1.83 ± 0.04`, with two digits of the error and at most three decimals.
+    /// `∞` if the settings in use found hardly any light.
     pub fn ratio(&self) -> String {
         if !self.relative.is_finite() {
             return "∞".to_owned();
@@ -35,7 +35,7 @@ impl Candidate {
 }
 
 impl Advice {
-    /// What to use, and how sure that is; errors are standard errors.
+    /// The recommendation in words. Errors are standard errors.
     pub fn verdict(&self) -> String {
         let (best, current) = (self.best(), self.current());
         let mut text = if self.best == self.current {

@@ -5,13 +5,13 @@ use super::{
 };
 use crate::report::{picture::svg, plot::Plot, table::Table};
 
-/// What is written: a page, and every figure and table of it by itself.
+/// The output: a page, and each of its figures and tables as a file.
 pub struct Chapter {
     /// The page.
     pub html: String,
-    /// Names and contents.
+    /// Names and contents of the files.
     pub files: Vec<(String, Vec<u8>)>,
-    /// What could not be drawn.
+    /// Errors of plots that could not be drawn.
     pub failures: Vec<String>,
 }
 

@@ -1,4 +1,4 @@
-//! What the chapter is made of: findings and pictures, and what is said of both.
+//! The contents of the chapter: findings and images, with their captions.
 use crate::{
     render::{Display, tone::to_srgb},
     report::sheet::{Cell, sheet},
@@ -11,12 +11,12 @@ use crate::{
     },
 };
 
-/// Caps that are shown and measured.
+/// Bounce caps that are shown and measured.
 pub const CAPS: [Option<u32>; 5] = [Some(0), Some(1), Some(2), Some(5), None];
 
 pub struct Exhibits<'a> {
     pub study_scene: &'a StudyScene,
-    /// By the setting that they are about.
+    /// Findings by the setting that they compare.
     pub findings: &'a [(Setting, Findings)],
     pub pictures: [Picture; 2],
     pub spp: u32,
@@ -31,14 +31,14 @@ pub struct Picture {
     pub png: Vec<u8>,
 }
 
-/// 1, 4, 16 and so on.
+/// The numbers 1, 4, 16, … up to `most`.
 fn quadrupling(most: u32) -> impl Iterator<Item = u32> {
     (0..u32::BITS / 2).map(|power| 1 << (2 * power)).take_while(move |samples| *samples <= most)
 }
 
-/// Pictures as samples grow, and as bounces do.
+/// Sheets of images at growing sample counts and at growing caps.
 pub fn pictures(bench: Bench, spp: u32, display: Display) -> Result<[Picture; 2], StudyError> {
-    /// Of the pictures of caps.
+    /// Samples per pixel of the images with caps.
     const SPP_OF_CAPS: u32 = 64;
     let settings = RenderSettings { max_bounces: None, ..bench.scene.settings };
     let shown = |film: &_| {
@@ -77,25 +77,25 @@ impl Exhibits<'_> {
         self.findings.iter().find(|(of, _)| *of == setting).map(|(_, findings)| findings)
     }
 
-    /// How much was rendered, the same for all findings.
+    /// Resolution and number of runs, which all findings share.
     pub fn extent(&self) -> String {
         let [width, height] = self.study_scene.camera.resolution;
         format!("{width} × {height} pixels, up to {} samples per pixel, {} runs each", self.spp, self.repeats)
     }
 
-    /// What every caption ends with: what the combinations have in common, and how it was rendered.
+    /// The end of every caption: the settings that all combinations share, and the circumstances of rendering.
     pub fn circumstances(&self, findings: &Findings) -> String {
         let all: Vec<RenderSettings> = findings.outcomes.iter().flat_map(Outcome::alike).copied().collect();
         let (common, _) = differing_labels(&all);
         format!("{common}; {}", self.rendering(findings))
     }
 
-    /// How it was rendered, where the settings are told already.
+    /// The circumstances of rendering without the settings.
     pub fn rendering(&self, findings: &Findings) -> String {
         format!("{}; {}; against {}", sharing(findings), self.extent(), findings.reference)
     }
 
-    /// What a reader must know of a row before its numbers.
+    /// Remark on a row, such as why it is not ranked.
     pub fn remark(&self, outcome: &Outcome) -> String {
         let of_eligibility = match outcome.eligibility {
             Eligibility::TooNoisy => "error near that of a black picture".to_owned(),
@@ -115,13 +115,13 @@ impl Exhibits<'_> {
         self.study_scene.scene.infinite_variance(&outcome.settings).is_some()
     }
 
-    /// Whether the variance that samples show bounds anything: not where it may be infinite, nor where few samples make up most of it.
+    /// Whether the sample variance can be trusted: not if it may be infinite, nor if few samples make up most of it.
     pub fn trusts_variance(&self, outcome: &Outcome) -> bool {
         !self.has_infinite_variance(outcome) && !outcome.mean_error.has_heavy_tails
     }
 }
 
-/// What became of the setting that lets pixels share paths.
+/// Whether paths were reused, in words.
 fn sharing(findings: &Findings) -> &'static str {
     let share = || findings.outcomes.iter().map(|outcome| outcome.shares);
     match (share().any(|shares| shares), share().all(|shares| shares)) {

@@ -1,7 +1,7 @@
-//! The chapter of a report for one's own scene: what converges, how fast, and how sure that is.
+//! A chapter of figures and tables about one scene: convergence, bias, and comparisons at equal time.
 //!
-//! Each question is a small [`Study`] of one setting, all others as the scene has them, without a cap, sharing or adaptive samples;
-//! measurements are kept in the folder as those of any other study.
+//! Each question is a small [`Study`] of one setting. All other settings are those of the scene, without a cap, path reuse and
+//! adaptive sampling. The folder keeps the measurements like those of any other study.
 mod chapter;
 pub(super) mod exhibits;
 mod page;
@@ -28,13 +28,13 @@ use crate::{
 };
 
 const REPEATS: u32 = 3;
-/// Parts of the time: for the runs of all studies, and for pictures. The rest is for the reference, and for trials.
+/// Fractions of the time for the runs of all studies and for images. The rest is for the reference and for trials.
 const FOR_RUNS: f64 = 0.6;
 const FOR_PICTURES: f64 = 0.1;
 /// Samples per pixel of the longest runs.
 const SPP: std::ops::RangeInclusive<u32> = 16..=4096;
 
-/// How long it may take, and how its pictures are shown.
+/// Duration, and display settings of images.
 pub struct EvidencePlan {
     /// Approximate duration.
     pub time: Duration,
@@ -42,14 +42,14 @@ pub struct EvidencePlan {
     pub display: Display,
 }
 
-/// A question, and the setting that it is about.
+/// A question about one setting.
 struct Topic {
     setting: Setting,
     lists: Lists,
 }
 
-/// Pixels share nothing and have equally many samples but where that is the question: a setting that lets `Reuse::Auto` decide otherwise
-/// would be compared with and without sharing, and not with the others.
+/// The questions. Path reuse and adaptive sampling are off except where they are the question. Otherwise a setting for which
+/// `Reuse::Auto` decides differently would be compared with reuse against others without it.
 fn topics() -> [Topic; 6] {
     let alone = || Lists { reuses: vec![Reuse::Off], adaptive: vec![false], ..Lists::default() };
     let uncapped = || Lists { caps: vec![None], ..alone() };
@@ -66,9 +66,9 @@ fn topics() -> [Topic; 6] {
     ]
 }
 
-/// Room for the chapter: what is measured, and at last two films with the pictures of two sheets.
+/// Reserves the memory for the chapter: the measurements, and in the end two films with the images of two sheets.
 pub fn reserve_chapter(study_scene: &StudyScene) -> Result<[Reservation; 4], TooMuch> {
-    /// Of a pixel of a picture: its codes, and its part of a sheet with margins.
+    /// Bytes per pixel of an image: its codes, and its part of a sheet with margins.
     const PIXEL: u64 = 10;
     let [width, height] = study_scene.camera.resolution;
     let count = SPP.end().ilog2() as usize / 2 + 1 + CAPS.len();
@@ -78,7 +78,7 @@ pub fn reserve_chapter(study_scene: &StudyScene) -> Result<[Reservation; 4], Too
     Ok([film, reference, Film::reserve([width, height])?, cells])
 }
 
-/// Measures everything. `observe` is told what is going on, and the share of it that is done.
+/// Measures everything. `observe` gets the current step and the fraction of it that is done.
 pub fn collect(
     plan: &EvidencePlan,
     study_scene: StudyScene,
@@ -133,8 +133,8 @@ pub fn collect(
     Ok(Chapter::new(&Exhibits { study_scene, findings: &findings, pictures, spp, repeats: REPEATS, machine }))
 }
 
-/// Samples per pixel of the longest runs: as many as those that the store has of this study, since a stopwatch may round to another power of
-/// two than it did before; else as many as a run of this time has.
+/// Samples per pixel of the longest runs: that of the runs in the store, because timing may round to another power of two than
+/// it did before; without any, the number that fits this time.
 fn samples(study: &Study, study_scene: &StudyScene, store: &Store, time: Duration) -> Result<u32, StudyError> {
     let candidates = (SPP.start().ilog2()..=SPP.end().ilog2()).map(|power| 1 << power);
     let Study { threads, stop, .. } = *study;
@@ -142,9 +142,9 @@ fn samples(study: &Study, study_scene: &StudyScene, store: &Store, time: Duratio
     study.spp_in(store, study_scene, candidates)?.map_or_else(|| longest(bench, time), Ok)
 }
 
-/// The power of two that is nearest to the samples of a run of this time, by the settings that most runs have.
+/// The power of two nearest to the samples of a run of this time, measured with the settings of most runs.
 fn longest(bench: Bench, time: Duration) -> Result<u32, StudyError> {
-    /// The first sample takes memory and fills caches.
+    /// Sample counts before and after the timing. The first sample allocates memory and fills caches.
     const SAMPLES: [u32; 2] = [1, 9];
     let mut film = bench.film();
     let settings = RenderSettings { reuse: Reuse::Off, adaptive: false, max_bounces: None, ..bench.scene.settings };

@@ -1,4 +1,4 @@
-//! The chapter as a page.
+//! The chapter as an HTML page.
 use maud::{Markup, html as markup};
 
 use super::exhibits::Exhibits;
@@ -10,7 +10,7 @@ td { white-space: nowrap; }
 figure table { width: auto; }
 ";
 
-/// One page that opens offline.
+/// The self-contained page.
 pub fn html(exhibits: &Exhibits, tables: &[Table], plots: &[(String, String, Plot)]) -> String {
     let (study_scene, machine) = (exhibits.study_scene, exhibits.machine);
     let title = study_scene.title();
@@ -36,7 +36,7 @@ pub fn html(exhibits: &Exhibits, tables: &[Table], plots: &[(String, String, Plo
              and all measurements in study.csv." }
         h2 { "Error against the number of samples" }
         (picture(0)) (tables_of("convergence")) (of("error_by_sampler")) (of("variance"))
-        h2 { "Bounces, and what a cap leaves out" }
+        h2 { "Bounces and the bias of caps" }
         (picture(1)) (tables_of("bias_of_caps"))
         h2 { "Roulette" }
         (tables_of("bias_of_roulette")) (of("error_by_roulette")) (tables_of("equal_time_roulette"))
@@ -46,8 +46,8 @@ pub fn html(exhibits: &Exhibits, tables: &[Table], plots: &[(String, String, Plo
         (tables_of("equal_time_estimator")) (of("error_by_estimator"))
         h2 { "Samplers at equal time" }
         (tables_of("equal_time_sampler"))
-        h2 { "Paths shared by neighbouring pixels, at equal time" }
-        p { "All other comparisons on this page are made without sharing and without adaptive sampling." }
+        h2 { "Path reuse between neighbouring pixels, at equal time" }
+        p { "All other comparisons on this page are made without path reuse and without adaptive sampling." }
         (tables_of("equal_time_sharing"))
     };
     report::page(&format!("Evidence: {title}"), STYLE, &content)

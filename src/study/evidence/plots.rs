@@ -6,7 +6,7 @@ use crate::{
 };
 
 impl Exhibits<'_> {
-    /// All plots with their names and captions.
+    /// All plots with their file names and captions.
     pub fn plots(&self) -> Vec<(String, String, Plot)> {
         let mut plots = Vec::new();
         for setting in [Setting::Sampler, Setting::Directions, Setting::Estimator, Setting::Roulette] {
@@ -24,7 +24,7 @@ impl Exhibits<'_> {
         plots
     }
 
-    /// The variance of a pixel against the number of samples.
+    /// A plot of the variance of a pixel against the number of samples, with its file name and caption.
     fn variance(&self, findings: &Findings) -> (String, String, Plot) {
         let mean_of_runs = |outcome: &Outcome| -> Vec<(f64, f64)> {
             let runs = &outcome.variances;

@@ -1,4 +1,4 @@
-//! The tables of the chapter. Their cells are single numbers, so that programs read them too; – is for what is not known.
+//! The tables of the chapter. Each cell has one number, so programs can read them; – marks unknown values.
 use super::exhibits::Exhibits;
 use crate::{
     report::table::{Column, Table},
@@ -13,11 +13,11 @@ use crate::{
     },
 };
 
-/// Two-sided 95 % of the normal distribution.
+/// Two-sided 95 % quantile of the normal distribution.
 const NORMAL_95: f64 = 1.96;
-/// A cell of what is not known.
+/// A cell without a known value.
 const UNKNOWN: &str = "–";
-/// Why rows have no intervals.
+/// Note on rows without intervals.
 const UNTRUSTED: &str =
     "No interval is given where the variance may be infinite, nor where few samples make up most of it (heavy tails)";
 
@@ -32,7 +32,7 @@ impl Exhibits<'_> {
         convergence.into_iter().chain(bias).chain(equal_time).collect()
     }
 
-    /// How error and variance fall.
+    /// Table of the convergence of error and variance.
     fn convergence(&self, findings: &Findings) -> Table {
         let row = |outcome: &Outcome| {
             let last = outcome.last();
@@ -58,7 +58,7 @@ impl Exhibits<'_> {
         }
     }
 
-    /// How far the mean is from that of the reference, and how far it could be.
+    /// Table of the bias, and of the largest bias that is not excluded.
     fn bias(&self, setting: Setting, name: &str, findings: &Findings) -> Table {
         let mut sorted: Vec<&Outcome> = findings.outcomes.iter().collect();
         sorted.sort_by_key(|outcome| outcome.settings.max_bounces.unwrap_or(u32::MAX));
@@ -79,7 +79,7 @@ impl Exhibits<'_> {
         let found = outcome.mean_error;
         let (bias, standard_error) = mean_and_error(found);
         let is_trusted = self.trusts_variance(outcome);
-        // Below the rounding of single precision a difference is no matter of chance.
+        // A difference below the rounding of single precision is not random.
         let has_noise = found.standard_error > ROUNDING.sqrt() * mean;
         let z = (is_trusted && has_noise).then(|| number(found.mean / found.standard_error));
         let most = found.mean.abs() + NORMAL_95 * found.standard_error;
@@ -94,7 +94,7 @@ impl Exhibits<'_> {
         ]
     }
 
-    /// What is reached in the same time.
+    /// Table of samples and errors at equal time.
     fn equal_time(&self, setting: Setting, findings: &Findings) -> Table {
         let time = findings.equal_time();
         let row = |outcome: &Outcome| {
@@ -140,13 +140,13 @@ impl Exhibits<'_> {
     }
 }
 
-/// The values of a setting, numbers, and a remark.
+/// Columns for the value of a setting, numbers and a remark.
 fn columns(setting: Setting, numbers: &[&str]) -> Vec<Column> {
     let numbers = numbers.iter().copied().map(Column::number);
     std::iter::once(Column::text(setting.name())).chain(numbers).chain([Column::text("remark")]).collect()
 }
 
-/// Three digits.
+/// Formats a number with three significant digits.
 fn number(x: f64) -> String {
     significant(x).replace('-', "−")
 }
@@ -155,12 +155,12 @@ fn known(cell: Option<String>) -> String {
     cell.unwrap_or_else(|| UNKNOWN.to_owned())
 }
 
-/// Of a relMSE.
+/// The root of a relMSE, in per cent.
 fn error_in_percent(rel_mse: f64) -> String {
     number(100.0 * rel_mse.sqrt())
 }
 
-/// An exponent and half the width of its interval, where there is one.
+/// An exponent and half the width of its interval, if there is one.
 fn exponents(slope: Option<Slope>, is_bounded: bool) -> [String; 2] {
     let Some([exponent, width]) = slope.map(exponent) else { return [UNKNOWN; 2].map(str::to_owned) };
     [exponent, known(is_bounded.then_some(width))]
