@@ -1,4 +1,4 @@
-//! A short study of the scene as the camera sees it, off the UI thread. The main render pauses meanwhile.
+//! A short study of the current view, off the UI thread. The main render pauses meanwhile.
 use std::{
     sync::{Arc, Mutex, PoisonError},
     time::Duration,
@@ -12,18 +12,18 @@ use noisefall::{
 
 use super::background_task::BackgroundTask;
 
-/// Of a study.
+/// Duration of a study.
 const TIME: Duration = Duration::from_secs(8);
 
 type Outcome = Result<Advice, String>;
 
-/// A study that is running or done.
+/// A study that is running or finished.
 pub struct Adviser {
     /// Rendered test images and their total.
     progress: Arc<Mutex<(usize, usize)>>,
     pending: Option<BackgroundTask<Outcome>>,
     pub advice: Option<Outcome>,
-    /// The picture that is studied.
+    /// The scene, camera and settings of the study.
     pub request: RenderRequest,
 }
 

@@ -1,4 +1,4 @@
-//! Work on a thread of its own, cancelled when nobody waits for its result any more.
+//! A task on its own thread. It is cancelled when its handle is dropped.
 use std::{
     panic::{AssertUnwindSafe, catch_unwind},
     sync::{
@@ -20,7 +20,7 @@ pub struct BackgroundTask<T> {
 }
 
 impl<T: Send + 'static> BackgroundTask<T> {
-    /// Starts a task. `find` may ask now and then whether the task is cancelled. The window is drawn again when the task ends.
+    /// Starts a task. `find` gets a function that tells whether the task is cancelled. The window is redrawn when the task ends.
     pub fn start(ctx: &egui::Context, find: impl FnOnce(&(dyn Fn() -> bool + Sync)) -> T + Send + 'static) -> BackgroundTask<T> {
         let (sender, result) = bounded(1);
         let cancelled = Arc::new(AtomicBool::new(false));
@@ -34,7 +34,7 @@ impl<T: Send + 'static> BackgroundTask<T> {
         task
     }
 
-    /// Takes the result of a task and the task with it; `None` while the task runs, or if there is none.
+    /// Takes the result of a finished task and removes the task. `None` while it runs, or if there is none.
     pub fn take(task: &mut Option<BackgroundTask<T>>) -> Option<Result<T, Panicked>> {
         let found = task.as_ref()?.result.try_recv().ok()?;
         *task = None;

@@ -1,17 +1,17 @@
-//! The scenes that can be opened with one click: the files of the nearest `scenes/` folder, and those opened from elsewhere.
+//! The scenes of the list and the gallery: the files of the nearest `scenes/` folder, and files opened from elsewhere.
 use std::{
     fs::File,
     io::Read,
     path::{Path, PathBuf},
 };
 
-/// Bytes that are read for a title, which stands at the beginning of a file.
+/// Number of bytes that are read to find a title, which is at the beginning of a file.
 const LONGEST_HEAD: u64 = 16 << 10;
 
 /// A scene file and its title.
 pub struct CatalogueEntry {
     pub name: String,
-    /// Absolute and without links, so that each file has one path.
+    /// Canonical path, so each file has one.
     pub path: PathBuf,
 }
 
@@ -31,7 +31,7 @@ pub fn find() -> Vec<CatalogueEntry> {
     scenes
 }
 
-/// Lists a scene that was opened under its present name.
+/// Adds a scene that was opened to the list, or updates its name.
 pub fn remember(scenes: &mut Vec<CatalogueEntry>, name: &str, path: &Path) {
     let path = in_full(path);
     match scenes.iter_mut().find(|entry| entry.path == path) {
@@ -44,7 +44,8 @@ pub fn in_full(path: &Path) -> PathBuf {
     path.canonicalize().unwrap_or_else(|_| path.to_owned())
 }
 
-/// `scenes/` in the current folder, or in one above the program's own (a build lies in `target/release` of its project).
+/// `scenes/` in the current folder or in an ancestor of the program's folder, because a build is in `target/release` of its
+/// project.
 fn folder() -> Option<PathBuf> {
     let program = std::env::current_exe().ok();
     let above = program.iter().flat_map(|program| program.ancestors().skip(1));
@@ -59,7 +60,7 @@ fn list(folder: &Path) -> Vec<CatalogueEntry> {
     scenes.map(|path| CatalogueEntry { name: name(&title(&path).unwrap_or_default(), &path), path: in_full(&path) }).collect()
 }
 
-/// Reads the title of a scene file, which stands before its first table.
+/// Reads the title of a scene file, which comes before the first table.
 fn title(path: &Path) -> Option<String> {
     let mut head = Vec::new();
     File::open(path).ok()?.take(LONGEST_HEAD).read_to_end(&mut head).ok()?;
@@ -94,7 +95,7 @@ mod tests {
     fn a_folder_lists_its_scenes_and_what_is_opened_is_listed_once_under_its_last_name() {
         let folder = tempfile::tempdir().expect("a folder");
         let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).expect("it is written");
-        // Its tables are longer than what is read of it.
+        // The file is longer than the part that is read.
         let long = "x".repeat(2 * LONGEST_HEAD as usize);
         write("titled.toml", &format!("format = 1\ntitle = \"Zebra\"\n[camera]\ntitle = \"{long}\"\n"));
         write("plain_one.toml", "format = 1\n[camera]\ntitle = \"no\"\n");

@@ -19,13 +19,13 @@ pub struct DisplayImage {
     pub second_image: Option<egui::ColorImage>,
     pub legend: Option<Legend>,
     pub values: PixelValues,
-    /// Known in the view of z-scores.
+    /// The histogram, in the view of z-scores.
     pub scores: Option<ZScoreHistogram>,
     /// The reference of the comparisons.
     pub reference: Option<Arc<Reference>>,
     pub comparison: Option<ReferenceComparison>,
     pub second_comparison: Option<ReferenceComparison>,
-    /// The part of the frame's pixels that have light.
+    /// Fraction of the frame's pixels that have light.
     pub lit: f32,
 }
 
@@ -42,7 +42,7 @@ pub struct PixelValues {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ReferenceComparison {
     pub rel_mse: f64,
-    /// Bias of the mean over the picture, in standard errors.
+    /// Bias of the mean over the image, in standard errors.
     pub bias: Option<f64>,
 }
 
@@ -83,7 +83,7 @@ pub fn render(request: DisplayRequest) -> DisplayImage {
     }
 }
 
-/// The part of the pixels that have light.
+/// Fraction of the pixels that have light.
 fn lit(frame: &Frame) -> f32 {
     let lit = frame.radiance.iter().filter(|radiance| **radiance != [0.0; 3]).count();
     lit as f32 / frame.radiance.len().max(1) as f32
@@ -96,7 +96,7 @@ fn image(frame: &Frame, pixels: &[[u8; 4]], most_side: usize) -> egui::ColorImag
     if step == 1 {
         return egui::ColorImage::from_rgba_unmultiplied([width, height], pixels.as_flattened());
     }
-    // Every `step`-th pixel of what no texture can hold whole.
+    // Every `step`-th pixel, if the image exceeds the size of a texture.
     let rows = pixels.chunks_exact(width).step_by(step);
     let thinned: Vec<u8> = rows.flat_map(|row| row.iter().step_by(step)).flatten().copied().collect();
     egui::ColorImage::from_rgba_unmultiplied([width.div_ceil(step), height.div_ceil(step)], &thinned)

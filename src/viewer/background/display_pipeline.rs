@@ -10,7 +10,7 @@ use super::{display_image::DisplayImage, display_image::render, display_request:
 
 pub struct DisplayPipeline {
     requests: Sender<DisplayRequest>,
-    /// The other end, to drop requests that are out of date: they hold large pictures.
+    /// The other end of the channel, to drop outdated requests, which hold large images.
     waiting: Receiver<DisplayRequest>,
     last: Option<DisplayRequest>,
     ready: Arc<Mutex<Option<DisplayImage>>>,

@@ -16,26 +16,26 @@ pub struct DisplayRequest {
     /// The term of a series to show in place of the frame's own radiance.
     pub term: Option<BounceTerm>,
     pub look: DisplaySettings,
-    /// The picture that the frame converges to, if it is known.
+    /// The image that the frame converges to, if it is known.
     pub reference: Option<Arc<Reference>>,
     pub pinned: Option<Arc<Frame>>,
     pub features: Option<Arc<Features>>,
     pub materials: Arc<[String]>,
-    /// Textures cannot be larger.
+    /// Largest side of a texture.
     pub most_side: usize,
 }
 
-/// A term or a partial sum of a picture's series over bounces.
+/// A term or a partial sum of the series over bounces.
 #[derive(Clone)]
 pub struct BounceTerm {
     /// A frame with a series.
     pub of: Arc<Frame>,
     pub k: usize,
-    /// Light of at most so many bounces.
+    /// Whether to sum the terms up to this number of bounces.
     pub up_to: bool,
 }
 
-/// Whether both are the same thing in memory, or neither is there.
+/// Whether both are the same allocation, or both are `None`.
 fn same<T>(a: Option<&Arc<T>>, b: Option<&Arc<T>>) -> bool {
     a.map(Arc::as_ptr) == b.map(Arc::as_ptr)
 }
@@ -60,7 +60,7 @@ impl PartialEq for BounceTerm {
 }
 
 impl BounceTerm {
-    /// Mean radiance of that light.
+    /// Mean radiance of the term or sum.
     pub fn radiance(&self) -> Option<Vec<[f32; 3]>> {
         let series = self.of.series.as_ref()?;
         Some(if self.up_to { series.up_to(self.k) } else { series.terms.get(self.k)?.clone() })

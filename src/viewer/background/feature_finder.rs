@@ -1,4 +1,4 @@
-//! Finds the first surfaces that camera rays meet, off the UI thread, and only while a view shows them.
+//! Finds the first surfaces along camera rays, off the UI thread, while a view shows them.
 use std::sync::Arc;
 
 use noisefall::{
@@ -17,7 +17,7 @@ type Viewpoint = (Arc<Scene>, Camera);
 pub struct FeatureFinder {
     ctx: egui::Context,
     found: Option<Found>,
-    /// The viewpoint that was asked for last.
+    /// The last requested viewpoint.
     viewpoint: Option<Viewpoint>,
     pending: Option<BackgroundTask<Option<(Features, Reservation)>>>,
 }
@@ -33,16 +33,16 @@ impl FeatureFinder {
         FeatureFinder { ctx: ctx.clone(), found: None, viewpoint: None, pending: None }
     }
 
-    /// The features of a picture as soon as they are known; until then, those of the same scene from another camera.
+    /// The features of an image as soon as they are known; until then, those of the same scene from the previous camera.
     pub fn of(&mut self, scene: &Arc<Scene>, camera: &Camera, threads: usize) -> Option<Arc<Features>> {
         let same = |(old, at): &Viewpoint| Arc::ptr_eq(old, scene) && at == camera;
         if let (Some(features), Some(viewpoint)) = (BackgroundTask::take(&mut self.pending), &self.viewpoint) {
-            // Where the renderer fails, the picture's own threads say so.
+            // A failure here is not reported, because the render threads report the same one.
             let found = features.ok().flatten();
             self.found =
                 found.map(|(features, _memory)| Found { viewpoint: viewpoint.clone(), features: Arc::new(features), _memory });
         }
-        // A running search is left to finish: otherwise none would ever finish while the camera is dragged.
+        // A running search is not cancelled; otherwise none would finish while the camera is dragged.
         if self.pending.is_none() && !self.viewpoint.as_ref().is_some_and(same) {
             self.search(scene, camera, threads);
         }
@@ -60,7 +60,7 @@ impl FeatureFinder {
         let (scene, camera) = (scene.clone(), *camera);
         self.pending = Some(BackgroundTask::start(&self.ctx, move |cancelled| {
             let room = Features::reserve(camera.resolution).ok()?;
-            // On a pool of its own, with as many threads as render.
+            // A pool of its own, with as many threads as the renderer has.
             let pool = Threads::new(threads, SimdLevel::best()).ok()?;
             let found = pool.install(|| features(SimdLevel::best(), &scene, &camera, cancelled))?;
             Some((found, room))

@@ -16,7 +16,7 @@ pub struct OpenedScene {
     pub scene: Arc<Scene>,
     pub name: String,
     pub path: Option<PathBuf>,
-    /// The reference that the scene names, for its own camera.
+    /// The reference in the scene, which is for its own camera.
     pub truth: Option<Arc<Reference>>,
     /// Names of the materials by number.
     pub materials: Arc<[String]>,
@@ -25,12 +25,12 @@ pub struct OpenedScene {
 /// The result of opening a scene.
 pub type OpenResult = Result<OpenedScene, String>;
 
-/// A reference picture that was dropped on the window.
+/// A reference image that was dropped on the window.
 pub struct DroppedReference {
     /// Name of its file.
     pub name: String,
     pub reference: Arc<Reference>,
-    /// The camera when it was dropped: the reference is of its picture.
+    /// The camera at that moment, which the reference is for.
     pub camera: Camera,
 }
 
@@ -52,7 +52,7 @@ impl Loader {
         self.pending = Some(BackgroundTask::start(&self.ctx, |_| open(path)));
     }
 
-    /// Reads a reference for pictures by this camera.
+    /// Reads a reference for images by this camera.
     pub fn read_reference(&mut self, path: PathBuf, camera: Camera) {
         self.reference = Some(BackgroundTask::start(&self.ctx, move |_| {
             let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
@@ -62,7 +62,7 @@ impl Loader {
         }));
     }
 
-    /// Drops the reference that is being read: it is for another scene.
+    /// Discards the reference that is being read, because it is for another scene.
     pub fn forget_reference(&mut self) {
         self.reference = None;
     }
@@ -71,13 +71,13 @@ impl Loader {
         self.pending.is_some()
     }
 
-    /// The outcome of the latest request, once.
+    /// Takes the result of the latest request, if it is finished.
     pub fn take(&mut self) -> Option<OpenResult> {
         let failed = |_| Err("reading the scene failed unexpectedly".to_owned());
         Some(BackgroundTask::take(&mut self.pending)?.unwrap_or_else(failed))
     }
 
-    /// The outcome of reading the last reference, once.
+    /// Takes the last reference, if it has been read.
     pub fn take_reference(&mut self) -> Option<ReferenceResult> {
         let failed = |_| Err("Reading the reference failed unexpectedly".to_owned());
         Some(BackgroundTask::take(&mut self.reference)?.unwrap_or_else(failed))

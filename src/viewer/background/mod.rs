@@ -1,4 +1,4 @@
-//! Work off the UI thread: rendering, display, files, studies. Nothing here knows a widget.
+//! Work off the UI thread: rendering, display, files, studies. Nothing here depends on widgets.
 pub mod adviser;
 pub mod background_task;
 pub mod catalogue;

@@ -12,7 +12,7 @@ const FILE: &str = "window.toml";
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct SavedState {
-    /// The tour was seen or ended.
+    /// Whether the tour was seen or ended.
     pub toured: bool,
     /// "dark" or "light"; `None` follows the system.
     pub theme: Option<String>,
@@ -23,7 +23,7 @@ pub struct SavedState {
 pub struct Preferences {
     pub now: SavedState,
     folder: Option<PathBuf>,
-    /// Writes on a thread of its own: folders can be slow.
+    /// Writes on its own thread, because folders can be slow.
     writing: Option<JoinHandle<()>>,
 }
 

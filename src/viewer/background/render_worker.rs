@@ -4,7 +4,7 @@ use noisefall::{
     render::{Budget, Publish, Published, RenderRequest, RenderTask, Renderer, threads::Threads},
 };
 
-/// Seconds to wait for the last picture before the next one is requested, while a control is dragged.
+/// Seconds to wait for the last image before the next request, while a control is dragged.
 const PATIENCE: f64 = 0.1;
 
 pub struct RenderWorkerHandle {
@@ -41,7 +41,7 @@ impl RenderWorkerHandle {
         }
     }
 
-    /// Sets when rendering stops.
+    /// Sets the stopping targets.
     pub fn set_budget(&mut self, budget: Budget) {
         if budget != self.budget {
             self.renderer.set_budget(budget);
@@ -73,7 +73,8 @@ impl RenderWorkerHandle {
         self.latest
     }
 
-    /// Whether the last request is still to be shown and younger than [`PATIENCE`]. `shown` are the generations on the screen.
+    /// Whether the image of the last request is not shown yet and the request is younger than [`PATIENCE`]. `shown` are the
+    /// generations on the screen.
     pub fn is_awaited(&self, shown: [u64; 2], now: f64) -> bool {
         let second = self.second.is_some() && shown[1] < self.second_generation;
         (shown[0] < self.generation || second) && now - self.asked < PATIENCE
@@ -84,7 +85,7 @@ impl RenderWorkerHandle {
         self.request.as_ref() == Some(request) && self.second.as_ref() == second
     }
 
-    /// The next [`RenderWorkerHandle::update`] restarts rendering.
+    /// Makes the next [`RenderWorkerHandle::update`] restart rendering.
     pub fn restart(&mut self) {
         self.restarts = true;
     }
@@ -163,7 +164,7 @@ mod tests {
         assert!(worker.is_awaited([0, 0], 10.0 + 0.9 * PATIENCE));
         assert!(!worker.is_awaited([0, 0], 10.0 + 1.1 * PATIENCE), "for a little while only");
         assert!(!worker.is_awaited([1, 0], 10.0));
-        // Nothing new is nothing to wait for, and the time counts from what was asked last.
+        // Nothing is awaited without a new request, and the time counts from the last request.
         worker.update(request.clone(), None, 20.0);
         assert_eq!(worker.generation(), 1);
         let other = other(&request, 5);

@@ -3,7 +3,7 @@ use std::path::{Path, PathBuf};
 
 use crossbeam_channel::{Receiver, Sender, unbounded};
 
-/// Where a file is, or why it is not.
+/// Path of a written file, or an error message.
 type Outcome = Result<PathBuf, String>;
 
 pub struct Saver {
@@ -18,7 +18,7 @@ impl Saver {
         Saver { ctx: ctx.clone(), done: unbounded(), writing: Vec::new() }
     }
 
-    /// Has a file written.
+    /// Writes a file on another thread.
     pub fn save(&mut self, path: PathBuf, write: impl FnOnce(&Path) -> Result<(), String> + Send + 'static) {
         let (sender, ctx) = (self.done.0.clone(), self.ctx.clone());
         self.writing.retain(|thread| !thread.is_finished());
@@ -28,7 +28,7 @@ impl Saver {
         }));
     }
 
-    /// What became of a file, once.
+    /// Takes the outcome of a file that has been written.
     pub fn take(&self) -> Option<Outcome> {
         self.done.1.try_recv().ok()
     }

@@ -1,4 +1,4 @@
-//! The notice on a black picture: why it is black, and a button back to a camera that saw something.
+//! The notice on a black image: the reason, and a button back to a camera that saw something.
 use egui::{Align, Button, Color32, FontId, Label, Layout, Rect, Stroke, StrokeKind, Ui, UiBuilder, Vec2, vec2};
 
 use super::picture_area::PictureArea;
@@ -6,7 +6,7 @@ use super::picture_area::PictureArea;
 const MOST_WIDTH: f32 = 420.0;
 const MARGIN: f32 = 18.0;
 const GAP: f32 = 7.0;
-/// As wide as its text needs.
+/// Wide enough for its text.
 const BUTTON: Vec2 = Vec2 { x: 274.0, y: 30.0 };
 const TITLE: &str = "No light found yet";
 const BACK: &str = "Back to the last view that showed something";

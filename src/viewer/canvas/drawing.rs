@@ -1,4 +1,4 @@
-//! Draws one or two pictures: side by side, or in one place with a line between them.
+//! Draws one or two images: side by side, or in the same place with a wipe line between them.
 use egui::{Color32, CursorIcon, Painter, PointerButton, Pos2, Rect, Response, TextureId, Vec2};
 
 use super::{picture_area::PictureArea, picture_view::PictureView};
@@ -18,12 +18,12 @@ pub enum Split {
 pub struct Pictures {
     pub first: TextureId,
     pub second: Option<TextureId>,
-    /// In picture pixels, of both; their textures may be coarser.
+    /// Size of both images in pixels; their textures may be coarser.
     pub resolution: [u32; 2],
     pub split: Split,
 }
 
-/// The line between two pictures can be dragged from so near, in points.
+/// Distance from which the wipe line can be dragged, in points.
 const GRIP: f32 = 7.0;
 
 /// Finds where the pictures lie.
@@ -74,7 +74,7 @@ pub fn draw(ui: &egui::Ui, response: &Response, pictures: &Pictures, areas: &[Pi
     }
 }
 
-/// Lets the user drag the line between two pictures.
+/// Lets the user drag the wipe line.
 fn drag_line(ui: &egui::Ui, response: &Response, seen: Rect, view: &mut PictureView) -> bool {
     let line = seen.left() + view.wipe * seen.width();
     let near = |at: Pos2| (at.x - line).abs() <= GRIP && seen.contains(at);

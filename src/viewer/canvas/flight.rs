@@ -1,4 +1,4 @@
-//! Moving the camera by mouse and keys, as far as it can see where it goes.
+//! Moves the camera by mouse and keys. It stops where it would see nothing.
 use egui::{Key, Modifiers, PointerButton, Rect, Response};
 use glam::DVec3;
 use noisefall::{
@@ -9,9 +9,10 @@ use noisefall::{
 use super::navigation;
 
 const RADIANS_PER_POINT: f64 = 0.006;
-/// The part of the scene's size that flight covers in a second.
+/// Speed of flight in sizes of the scene per second.
 const FLIGHT_SPEED: f64 = 0.25;
-/// Orbits are looked at in chords of at most so many radians: these stay nearer to the arc than a camera comes to a surface.
+/// Largest chord of an orbit that is tested for collisions, radians. Such chords are closer to the arc than a camera gets to a
+/// surface.
 const CHORD: f64 = 0.05;
 
 /// The camera, if it was moved: by the mouse if `by_mouse` is set, by keys if `by_keys` is. `rect` is where the picture lies.
@@ -44,7 +45,8 @@ pub fn moved(
     (moved != *camera).then_some(moved)
 }
 
-/// As much of a move as keeps the camera where it can see: `at(1.0)` is all of it, in so many straight chords.
+/// The part of a move that keeps the camera where it can see. `at(1.0)` is the whole move, which is tested in `chords` straight
+/// parts.
 fn stopped(scene: &Scene, camera: &Camera, chords: u32, at: impl Fn(f64) -> Camera) -> Camera {
     let mut eye = camera.eye;
     for chord in 0..chords {
@@ -59,7 +61,7 @@ fn stopped(scene: &Scene, camera: &Camera, chords: u32, at: impl Fn(f64) -> Came
     at(1.0)
 }
 
-// Each axis has its own stop: what is stopped by a wall slides along it.
+// Each axis stops by itself, so the camera slides along walls.
 
 fn orbit(scene: &Scene, camera: &Camera, [right, up]: [f64; 2]) -> Camera {
     let chords = |angle: f64| (angle.abs() / CHORD).ceil().clamp(1.0, 200.0) as u32;

@@ -10,7 +10,7 @@ use super::{
     picture_area::PictureArea, picture_view::PictureView,
 };
 
-/// What a drag and the wheel do.
+/// The tool: the action of a drag and the wheel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Tool {
     /// Move and magnify the picture. Never restarts the render.
@@ -18,18 +18,18 @@ pub enum Tool {
     Picture,
     /// Move the camera: orbit, pan, dolly.
     Camera,
-    /// Mark what is rendered before the rest.
+    /// Mark a region that is rendered before the rest.
     Region,
     /// Point at pixels to see their samples.
     Inspect,
 }
 
-/// What the user did to the canvas.
+/// Input on the canvas.
 #[derive(Default)]
 pub struct CanvasOutput {
     /// The picture's pixel under the pointer.
     pub hovered: Option<[u32; 2]>,
-    /// It is one of the second picture.
+    /// Whether that pixel is in the second image.
     pub over_second: bool,
     /// The pixel that was clicked.
     pub clicked: Option<[u32; 2]>,
@@ -97,7 +97,7 @@ fn marked(ui: &egui::Ui, response: &Response, area: &PictureArea, view: &mut Pic
     if !ended && !response.dragged_by(PointerButton::Primary) {
         return None;
     }
-    // By the time a drag has ended nobody else knows where it began.
+    // egui forgets the start of a drag when it ends.
     let from = if ended { view.marks_from.take() } else { view.marks_from };
     let to = response.interact_pointer_pos()?;
     Some((Region::between(from?, area.nearest_pixel(to)), ended))
@@ -127,7 +127,7 @@ mod tests {
         *,
     };
 
-    /// What is seen of each of two pictures of 200 × 100 pixels, in points.
+    /// The visible parts of two images of 200 × 100 pixels, in points.
     fn seen(split: Split, wipe: f32) -> [Option<Rect>; 2] {
         let camera = noisefall::scene::built_in().camera;
         let mut view = PictureView { wipe, ..PictureView::default() };

@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 use glam::{DQuat, DVec3};
 use noisefall::scene::Camera;
 
-/// How near to straight up or down the camera may look, radians.
+/// Smallest angle between the view and the vertical, radians.
 const POLE: f64 = 0.02;
 
 /// Turns the eye around the point it looks at; radians to the right and upwards.
@@ -35,13 +35,13 @@ pub fn fly(camera: &Camera, by: DVec3) -> Camera {
     Camera { eye: camera.eye + step, look_at: camera.look_at + step, ..*camera }
 }
 
-/// Moves the camera in its own plane so that what is at the look-at point follows the pointer; in widths of the picture.
+/// Moves the camera in its own plane, in widths of the image, so that the scene at the look-at point follows the pointer.
 pub fn pan(camera: &Camera, right: f64, up: f64) -> Camera {
     let width = camera.width_at_look_at();
     fly(camera, DVec3::new(-right * width, -up * width, 0.0))
 }
 
-/// Multiplies the distance to the look-at point, or where all rays are parallel the width of the picture.
+/// Multiplies the distance to the look-at point, or the width of the image for an orthographic camera.
 pub fn dolly(camera: &Camera, factor: f64) -> Camera {
     match camera.orthographic {
         Some(width) => Camera { orthographic: Some((width * factor).clamp(1e-9, 1e9)), ..*camera },

@@ -35,7 +35,7 @@ fn show_region(ui: &Ui, area: &PictureArea, region: Region) {
     painter.rect_stroke(rect, 0.0, Stroke::new(1.5, Color32::from_rgb(255, 214, 90)), StrokeKind::Outside);
 }
 
-/// A dark ground for text over any picture. Returns its upper left corner.
+/// Draws a dark background for text over the image. Returns its upper left corner.
 fn ground(ui: &Ui, left: f32, bottom: f32, size: Vec2) -> Pos2 {
     let rect = Rect::from_min_size(pos2(left, bottom - size.y), size);
     ui.painter().rect_filled(rect, 6.0, Color32::from_black_alpha(190));
@@ -65,7 +65,7 @@ fn draw_legend(ui: &Ui, left: f32, bottom: f32, legend: &Legend) {
     }
 }
 
-/// A scale of colours with numbers below.
+/// Draws a colour scale with numbers below it.
 fn bar(ui: &Ui, rect: Rect, scale: &Scale) {
     const STRIPS: usize = 125;
     for i in 0..STRIPS {
@@ -81,7 +81,7 @@ fn bar(ui: &Ui, rect: Rect, scale: &Scale) {
     }
 }
 
-/// The z-scores against the unit normal distribution. Returns its height.
+/// Draws the histogram of z-scores with the unit normal distribution. Returns its height.
 fn histogram(ui: &Ui, left: f32, bottom: f32, scores: &ZScoreHistogram) -> f32 {
     const SIZE: Vec2 = Vec2 { x: 250.0, y: 96.0 };
     const AROUND: Vec2 = Vec2 { x: 20.0, y: 54.0 };
@@ -113,7 +113,7 @@ fn histogram(ui: &Ui, left: f32, bottom: f32, scores: &ZScoreHistogram) -> f32 {
     SIZE.y + AROUND.y
 }
 
-/// A number with as many digits as a legend has room for.
+/// Formats a number with as many digits as fit into a legend.
 fn number(x: f32) -> String {
     match x.abs() {
         0.0 => "0".to_owned(),

@@ -1,13 +1,13 @@
-//! Where a picture lies on the screen.
+//! Mapping between image pixels and the screen.
 use egui::{Pos2, Rect, Vec2};
 use noisefall::render::Region;
 
-/// Where a picture lies on the screen.
+/// Position of an image on the screen.
 #[derive(Clone, Copy, Debug)]
 pub struct PictureArea {
     /// The part of the screen that may be painted.
     pub clip: Rect,
-    /// The whole picture, in points.
+    /// The whole image, in points.
     pub rect: Rect,
     pub resolution: Vec2,
 }
@@ -18,7 +18,7 @@ impl PictureArea {
         self.rect.min + Vec2::new(x, y) / self.resolution * self.rect.size()
     }
 
-    /// The rectangle of the screen that pixels take.
+    /// The rectangle of a region on the screen.
     pub fn of_region(&self, region: &Region) -> Rect {
         let corner = |[x, y]: [u32; 2]| self.screen(x as f32, y as f32);
         Rect::from_min_max(corner(region.from), corner(region.to))

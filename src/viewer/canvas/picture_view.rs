@@ -1,18 +1,18 @@
-//! The zoom and the offset of the picture.
+//! Zoom and offset of the image.
 use egui::{Pos2, Rect, Vec2};
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PictureView {
-    /// Screen pixels a picture pixel; `None` fits the picture into the window.
+    /// Screen pixels per image pixel; `None` fits the image into the window.
     pub zoom: Option<f32>,
-    /// From the centre of the picture to what is seen in the middle, in picture pixels.
+    /// Offset from the centre of the image to the centre of the view, in image pixels.
     pub offset: Vec2,
-    /// Screen pixels a picture pixel as last drawn.
+    /// Screen pixels per image pixel as last drawn.
     pub drawn_zoom: f32,
-    /// Where the line between two pictures is, from 0 at the left to 1; and whether it is being dragged.
+    /// Position of the wipe line, from 0 at the left to 1, and whether it is being dragged.
     pub wipe: f32,
     pub wiping: bool,
-    /// The pixel where a region begins that is being marked.
+    /// The pixel where the region that is being marked begins.
     pub marks_from: Option<[u32; 2]>,
 }
 
@@ -29,18 +29,18 @@ impl PictureView {
         (self.zoom, self.offset) = (None, Vec2::ZERO);
     }
 
-    /// One picture pixel to one screen pixel.
+    /// Shows one image pixel per screen pixel.
     pub fn actual_size(&mut self) {
         (self.zoom, self.offset) = (Some(1.0), Vec2::ZERO);
     }
 
-    /// Where the picture lies, in points.
+    /// Rectangle of the image, in points.
     pub fn rect(&mut self, area: Rect, resolution: Vec2, pixels_per_point: f32) -> Rect {
         let fit = (area.size() * pixels_per_point / resolution).min_elem();
         self.drawn_zoom = self.zoom.unwrap_or(fit);
         let scale = self.drawn_zoom / pixels_per_point;
         let rect = Rect::from_center_size(area.center() - self.offset * scale, resolution * scale);
-        // On whole screen pixels every picture pixel is as wide as its neighbour, or one pixel off at most.
+        // Aligned to screen pixels, so the widths of image pixels differ by at most one screen pixel.
         let snap = |p: Pos2| (p.to_vec2() * pixels_per_point).round().to_pos2() / pixels_per_point;
         Rect::from_min_size(snap(rect.min), rect.size())
     }
@@ -50,7 +50,7 @@ impl PictureView {
         self.offset -= points * pixels_per_point / self.drawn_zoom;
     }
 
-    /// Magnifies about a point of the screen, which stays where it is.
+    /// Magnifies about a point of the screen, which stays in place.
     pub fn magnify(&mut self, factor: f32, about: Vec2, pixels_per_point: f32) {
         let zoom = (self.drawn_zoom * factor).clamp(*ZOOM_RANGE.start(), *ZOOM_RANGE.end());
         self.offset += about * pixels_per_point * (1.0 / self.drawn_zoom - 1.0 / zoom);
@@ -62,7 +62,7 @@ impl PictureView {
 mod tests {
     use super::*;
 
-    /// At two screen pixels a point.
+    /// Two screen pixels per point.
     const DENSE: f32 = 2.0;
 
     fn area() -> Rect {
@@ -89,7 +89,7 @@ mod tests {
         view.pan(Vec2::new(30.0, -10.0), DENSE);
         let after = view.rect(area(), Vec2::new(200.0, 100.0), DENSE);
         assert_eq!((after.size(), after.min - before.min), (before.size(), Vec2::new(30.0, -10.0)));
-        // What lies at a place of the screen stays there while it is magnified.
+        // The image stays in place under this point.
         let at = Pos2::new(90.0, 77.0);
         let part = |rect: Rect| (at - rect.min) / rect.size();
         view.magnify(3.0, at - area().center(), DENSE);

@@ -1,4 +1,4 @@
-//! Fields of numbers. A field that is only looked into changes nothing, and Escape gives an edit up.
+//! Number fields. A click into a field changes nothing, and Escape discards an edit.
 use std::ops::RangeInclusive;
 
 use egui::{
@@ -6,19 +6,19 @@ use egui::{
     emath::{Numeric, format_with_decimals_in_range},
 };
 
-/// A field of a number with so many decimals.
+/// A field for a number with a number of decimals.
 pub fn field<'a, N: Numeric>(ui: &Ui, value: &'a mut N, decimals: usize, range: RangeInclusive<f64>) -> DragValue<'a> {
     let field = DragValue::from_get_set(kept(value, decimals, range.clone(), gave_up(ui)));
     field.max_decimals(decimals).range(range).clamp_existing_to_range(false).update_while_editing(false)
 }
 
-/// A slider with such a field.
+/// A slider with a number field.
 pub fn slider<'a, N: Numeric>(ui: &Ui, value: &'a mut N, decimals: usize, range: RangeInclusive<f64>) -> Slider<'a> {
     let slider = Slider::from_get_set(range.clone(), kept(value, decimals, range, gave_up(ui)));
     slider.max_decimals(decimals).clamping(SliderClamping::Edits).update_while_editing(false)
 }
 
-/// A number that may be absent, and what is said without and behind it.
+/// A field for an optional number, with a text for `None` and a suffix.
 pub fn optional<N: Numeric>(
     ui: &mut Ui,
     label: Id,
@@ -44,8 +44,8 @@ pub fn optional<N: Numeric>(
     });
 }
 
-/// Reads and writes a value. A field shows it rounded, and gives that back whether or not somebody typed: what it may have shown
-/// is no edit.
+/// Reads and writes a value. A field shows it rounded and returns the rounded value even without an edit, so a value that rounds
+/// to the same text does not count as an edit.
 fn kept<N: Numeric>(value: &mut N, decimals: usize, range: RangeInclusive<f64>, gave_up: bool) -> impl FnMut(Option<f64>) -> f64 {
     move |new| {
         let old = value.to_f64();
@@ -58,7 +58,7 @@ fn kept<N: Numeric>(value: &mut N, decimals: usize, range: RangeInclusive<f64>, 
     }
 }
 
-/// Whether Escape was pressed in this frame or the last one: egui takes over what was typed in the frame after Escape.
+/// Whether Escape was pressed in this frame or the last one, because egui applies the typed text in the frame after Escape.
 fn gave_up(ui: &Ui) -> bool {
     let (frame, escape) = (ui.ctx().cumulative_frame_nr(), ui.input(|input| input.key_pressed(Key::Escape)));
     ui.data_mut(|data| {

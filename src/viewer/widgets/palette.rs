@@ -20,7 +20,7 @@ pub trait Palette {
         self.visuals().error_fg_color
     }
 
-    /// For emphasis and what is selected.
+    /// For emphasis and selections.
     fn accent(&self) -> Color32 {
         if self.visuals().dark_mode { Color32::from_rgb(110, 190, 240) } else { Color32::from_rgb(0, 92, 150) }
     }
@@ -46,7 +46,7 @@ pub fn set_themes(ctx: &egui::Context, chosen: Option<&str>) {
         _ => egui::ThemePreference::System,
     });
     ctx.all_styles_mut(|style| {
-        // Lists are as tall as they say, within the window.
+        // The height of a list is limited by the window only.
         style.spacing.default_area_size.y = 4096.0;
     });
     ctx.style_mut_of(egui::Theme::Dark, |style| {

@@ -1,4 +1,4 @@
-//! A path that can be typed, and a file dialog of the system that fills it in.
+//! A field for a path, which the file dialog of the system can fill in.
 use std::{
     path::PathBuf,
     time::{Duration, Instant},
@@ -7,16 +7,16 @@ use std::{
 use crossbeam_channel::{Receiver, Sender, unbounded};
 use egui::{Key, RichText, TextEdit, Ui};
 
-/// Nobody can dismiss a dialog sooner: there was none.
+/// A dialog that ends sooner was never shown, because nobody can dismiss it so fast.
 const TOO_SOON: Duration = Duration::from_millis(300);
 const NO_DIALOG: &str = "This system offers no file dialog (a desktop portal or zenity): type the path.";
 
 pub struct PathField {
     pub path: String,
     pub hint: &'static str,
-    /// What is wrong with the path.
+    /// Error message about the path.
     pub refusal: Option<String>,
-    /// What the file dialog gave: nothing where there is none.
+    /// Result of the file dialog; `None` if there is no dialog.
     picked: (Sender<Option<PathBuf>>, Receiver<Option<PathBuf>>),
     focus: bool,
 }
@@ -26,13 +26,13 @@ impl PathField {
         PathField { path, hint, refusal: None, picked: unbounded(), focus: true }
     }
 
-    /// The path without the spaces around it, if there is one.
+    /// The trimmed path; `None` if it is empty.
     pub fn path(&self) -> Option<PathBuf> {
         let path = self.path.trim();
         (!path.is_empty()).then(|| PathBuf::from(path))
     }
 
-    /// The field; whether Enter was pressed in it.
+    /// Shows the field. Returns whether Enter was pressed in it.
     pub fn show(&mut self, ui: &mut Ui) -> bool {
         match self.picked.1.try_recv() {
             Ok(Some(path)) => (self.path, self.refusal) = (path.display().to_string(), None),
@@ -47,12 +47,12 @@ impl PathField {
             self.refusal = None;
         }
         let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
-        // Whoever is refused goes on typing.
+        // After an error the user can continue typing.
         self.focus = entered;
         entered
     }
 
-    /// What is wrong with the path, or else this remark, in a line that is there even when it is empty.
+    /// Shows the error message, or else this remark, in a line that keeps its height when it is empty.
     pub fn remark(&self, ui: &mut Ui, remark: &str) {
         match &self.refusal {
             Some(refusal) => ui.colored_label(ui.visuals().error_fg_color, refusal),
@@ -60,7 +60,7 @@ impl PathField {
         };
     }
 
-    /// The button that asks the system for a path, on a thread of its own.
+    /// Shows the button that opens the file dialog of the system, on its own thread.
     pub fn browse(&self, ui: &mut Ui, ask: impl FnOnce(rfd::FileDialog) -> Option<PathBuf> + Send + 'static) {
         if !ui.button("Browse…").on_hover_text("Choose it in a file dialog").clicked() {
             return;

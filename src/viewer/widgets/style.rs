@@ -4,12 +4,12 @@ use egui::{CollapsingHeader, Color32, RichText};
 /// Width of the side panel in points.
 pub const PANEL_WIDTH: f32 = 336.0;
 
-/// Offset of a window that is anchored over the picture, and not over the side panel; `lift` moves it up.
+/// Offset of a window that is anchored over the image, not over the side panel; `lift` moves it up.
 pub fn over_the_picture(lift: f32) -> [f32; 2] {
     [-0.5 * PANEL_WIDTH, -lift]
 }
 
-/// A section of the side panel that folds.
+/// Shows a collapsible section of the side panel.
 pub fn section(ui: &mut egui::Ui, title: &str, contents: impl FnOnce(&mut egui::Ui)) {
     ui.separator();
     CollapsingHeader::new(RichText::new(title).strong()).default_open(true).show_unindented(ui, |ui| {
@@ -19,21 +19,21 @@ pub fn section(ui: &mut egui::Ui, title: &str, contents: impl FnOnce(&mut egui::
     });
 }
 
-/// A grid of labels and controls; all panels have their controls at the same place.
+/// Shows a grid of labels and controls, with the same columns in all panels.
 pub fn controls(ui: &mut egui::Ui, name: &str, rows: impl FnOnce(&mut egui::Ui)) {
     const LABEL_WIDTH: f32 = 96.0;
     ui.spacing_mut().slider_width = 120.0;
     egui::Grid::new(name).num_columns(2).min_col_width(LABEL_WIDTH).spacing([8.0, 8.0]).show(ui, rows);
 }
 
-/// One row: a label that explains itself, and a control that screen readers know by it.
+/// Shows one row: a label with a tooltip, and a control that screen readers name by the label.
 pub fn row(ui: &mut egui::Ui, label: &str, doc: &str, control: impl FnOnce(&mut egui::Ui, egui::Id)) {
     let label = ui.label(label).on_hover_text(doc);
     control(ui, label.id);
     ui.end_row();
 }
 
-/// Buttons in a row, one of which is chosen: values with their names and tooltips.
+/// Shows a row of buttons to choose one of several values, with their names and tooltips.
 pub fn choices<T: Copy + PartialEq>(ui: &mut egui::Ui, chosen: &mut T, all: &[(T, &str, &str)]) {
     ui.horizontal(|ui| {
         for (value, name, doc) in all {
@@ -42,7 +42,7 @@ pub fn choices<T: Copy + PartialEq>(ui: &mut egui::Ui, chosen: &mut T, all: &[(T
     });
 }
 
-/// Text cut to a width; a tooltip says all of it.
+/// Shows text truncated to a width, with the whole text as a tooltip.
 pub fn elided(ui: &mut egui::Ui, width: f32, text: impl Into<egui::WidgetText>) -> egui::Response {
     ui.scope(|ui| {
         ui.set_max_width(width);
@@ -51,7 +51,7 @@ pub fn elided(ui: &mut egui::Ui, width: f32, text: impl Into<egui::WidgetText>) 
     .inner
 }
 
-/// A square of a colour, before what it stands for.
+/// Shows a coloured square, as the key of a legend.
 pub fn swatch(ui: &mut egui::Ui, colour: Color32) {
     let (rect, _) = ui.allocate_exact_size(egui::vec2(11.0, 11.0), egui::Sense::hover());
     ui.painter().rect_filled(rect, 2.0, colour);
