@@ -1,4 +1,5 @@
-//! What is counted before it is taken is what is taken: a test program of its own, in whose processes nothing else takes memory.
+//! The reserved memory is the memory that is allocated. This is a separate test program, so nothing else allocates in its
+//! processes.
 use std::{
     fs,
     path::{Path, PathBuf},
@@ -21,15 +22,15 @@ use noisefall::{
     scene::{Camera, built_in, load},
 };
 
-/// Counts what is allocated, whatever the system makes of it.
+/// Counts allocated bytes.
 #[global_allocator]
 static MEMORY: cap::Cap<std::alloc::System> = cap::Cap::new(std::alloc::System, usize::MAX);
 
-/// The file to read, and what may be taken for it.
+/// The file to read, and the memory limit.
 const FILE: &str = "NOISEFALL_TEST_FILE";
 const ALLOWED: &str = "NOISEFALL_TEST_ALLOWED";
 
-/// No test of its own: what the others start as a process, to read a scene or a picture, or to render a large picture of it.
+/// Not a test of its own: the other tests start it as a process that reads a scene or an image, or renders a large image of it.
 #[test]
 fn probe() {
     let Ok(file) = std::env::var(FILE).map(PathBuf::from) else { return };
@@ -64,7 +65,7 @@ fn probe() {
     }
 }
 
-/// What a process says that reads this file.
+/// The output of a process that reads this file.
 fn probed(file: &Path, allowed: u64) -> String {
     let program = std::env::current_exe().expect("this program");
     let arguments = ["--exact", "probe", "--nocapture", "--test-threads=1"];
@@ -73,9 +74,9 @@ fn probed(file: &Path, allowed: u64) -> String {
     format!("{}{}", String::from_utf8_lossy(&stdout), String::from_utf8_lossy(&stderr))
 }
 
-/// The most that reading this file takes is counted before it is taken, and not by much more.
+/// Reading this file allocates at most the reserved memory, and not much less.
 fn assert_counted(what: &str, file: &Path) {
-    /// What is not counted: a scene without anything, batches of two threads.
+    /// Memory that is not reserved: an empty scene, batches of two threads.
     const UNCOUNTED: u64 = 12_000_000;
     let said = probed(file, u64::MAX / 2);
     let figure = |name: &str| said.split(name).nth(1).and_then(|rest| rest.split_whitespace().next()?.parse::<u64>().ok());
@@ -98,7 +99,7 @@ fn object(shape: &str) -> String {
     scene(16, &format!("[[objects]]\nshape = {{ {shape} }}\nmaterial = \"white\"\n"))
 }
 
-/// A PNG of a single value, which hardly takes room as a file.
+/// A PNG of a single value, which is tiny as a file.
 fn png(path: &Path, side: u32) {
     let mut encoder = png::Encoder::new(fs::File::create(path).expect("a file"), side, side);
     encoder.set_color(png::ColorType::Rgb);
@@ -211,7 +212,7 @@ fn every_command_takes_the_option() {
     };
     for (command, side, memory, what) in [
         ("study", 2000, "90M", "pictures of 2000 × 2000"),
-        // A film of 128 bytes a pixel, three pictures of 12, and for the chapter 12 of 10 and another film.
+        // A film of 128 bytes per pixel, three images of 12, and for the chapter 12 of 10 and another film.
         ("study", 1000, "150M", "references of 1000 × 1000"),
         ("evidence", 1000, "110M", "12 pictures of 1000 × 1000"),
         ("evidence", 1000, "360M", "pictures of 1000 × 1000"),

@@ -1,4 +1,4 @@
-//! No file and no folder imports itself by way of others.
+//! There are no circular imports between files or folders.
 use std::{
     collections::{BTreeMap, BTreeSet},
     path::{Path, PathBuf},
@@ -6,7 +6,7 @@ use std::{
 
 use crate::imports::{Imports, Module, imports, source, source_files};
 
-/// The imports between the files and folders that lie in a folder.
+/// The imports between the files and subfolders of a folder.
 fn within(folder: &[String], imports: &Imports) -> BTreeMap<String, BTreeSet<String>> {
     let part = |module: &Module| -> Option<String> {
         Some(module.strip_prefix(folder)?.first().map_or_else(|| "mod".to_owned(), Clone::clone))
@@ -20,10 +20,10 @@ fn within(folder: &[String], imports: &Imports) -> BTreeMap<String, BTreeSet<Str
     parts
 }
 
-/// A way along the arrows that ends where it began.
+/// A circle of arrows.
 fn circle(arrows: &BTreeMap<String, BTreeSet<String>>) -> Option<Vec<String>> {
     let mut left = arrows.clone();
-    // Whatever imports nothing that is left is in no circle.
+    // A module that imports none of the remaining ones is not part of a circle.
     while let Some(end) = left.iter().find(|(_, to)| !to.iter().any(|to| left.contains_key(to))).map(|(end, _)| end.clone()) {
         left.remove(&end);
     }

@@ -1,4 +1,4 @@
-//! Readers of standard output and standard error that have gone away: every command ends quietly, with the status it deserves.
+//! Closed standard output and standard error: every command ends quietly, with the exit status of its work.
 #![cfg(unix)]
 use std::{
     fs,
@@ -8,14 +8,14 @@ use std::{
 
 use crate::command_line::{Shell, scene, text};
 
-/// A pipe that nobody reads.
+/// A pipe without a reader.
 fn unread() -> Stdio {
     let (reader, writer) = pipe().expect("a pipe");
     drop(reader);
     writer.into()
 }
 
-/// Commands, what they say on standard error, and the status they end with.
+/// Commands, their messages on standard error, and their exit status.
 fn commands() -> Vec<(Vec<String>, i32)> {
     let furnace = scene("furnace");
     let commands: [(&[&str], i32); 15] = [
@@ -108,7 +108,7 @@ fn what_cannot_be_written_to_standard_output_is_told_and_a_picture_is_kept_elsew
     assert!(kept.len() == 1 && told.contains(&format!("the picture was saved as {} instead", kept[0].display())), "{told}");
     let picture = noisefall::render::image_file::read(&kept[0]).expect("a picture");
     assert_eq!((picture.width, picture.height), (8, 8));
-    // Nothing at all is an answer too.
+    // Empty output is valid too.
     let null = fs::File::options().write(true).open("/dev/null").expect("it is there");
     assert!(shell.command(&words).stdout(null).status().expect("it starts").success());
 }

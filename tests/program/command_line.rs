@@ -89,7 +89,7 @@ fn a_render_writes_a_picture_and_one_line_of_json() {
     for key in ["scene", "threads", "build_seconds", "seconds", "rays", "rel_mse_estimate"] {
         assert!(!line[key].is_null(), "{key} is missing");
     }
-    // Sobol samples are better than independent ones, whose relMSE is 1/(2 · 4.04) a sample, but 16 of them are not exact.
+    // Independent samples have a relMSE of 1/(2 · 4.04) per sample. Sobol samples are better, but 16 of them are not exact.
     let rel_mse = line["rel_mse"].as_f64().expect("the scene has a truth");
     assert!((0.0001..0.0078).contains(&rel_mse), "{rel_mse}");
     assert!(shell.path("out.exr").is_file());
@@ -146,7 +146,7 @@ fn of_several_targets_the_last_one_counts() {
     };
     let by_samples = render(&["--noise", "0.0001", "--time", "100", "--spp", "64"]);
     assert_eq!((&by_samples["spp"], &by_samples["stopped_by"]), (&64.into(), &"samples".into()));
-    // Noise is believed from 64 samples on: the target must lie beyond.
+    // Noise targets count from 64 samples on, so the target must need more.
     let rel_mse = |line: &serde_json::Value| line["rel_mse_estimate"].as_f64().expect("an estimate");
     let goal = 0.7 * rel_mse(&by_samples).sqrt();
     let by_noise = render(&["--spp", "3", "--noise", &goal.to_string()]);

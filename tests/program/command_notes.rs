@@ -1,4 +1,4 @@
-//! What the commands tell besides what they were asked for.
+//! Notes and warnings of the commands.
 use super::command_line::{Shell, scene, text};
 
 #[test]
@@ -35,7 +35,7 @@ fn roulette_that_leaves_no_finite_variance_is_told() {
         let options = ["-o", "out.png", "--spp", "2", "--size", "8x8", "--roulette", roulette];
         text(&shell.run(&[&["render", &scene("furnace")][..], &options].concat()).stderr)
     };
-    // The walls reflect one half, into uniform directions: (1/2)² · 4/3.
+    // The walls reflect one half in uniform directions: (1/2)² · 4/3.
     assert!(
         notes("0.2").contains("note: survival of 0.2") && notes("0.2").contains("the variance is infinite"),
         "{}",

@@ -1,4 +1,4 @@
-//! `noisefall compare`: error, bias with its standard error, FLIP and pictures of the difference.
+//! `noisefall compare`: error, bias with its standard error, FLIP and difference images.
 use std::fs;
 
 use noisefall::{
@@ -15,7 +15,7 @@ fn compare(shell: &Shell, arguments: &[&str]) -> Value {
     serde_json::from_str(&text(&output.stdout)).expect("a line of JSON")
 }
 
-/// The same as a reader sees it.
+/// The text output of the same comparison.
 fn said(shell: &Shell, arguments: &[&str]) -> String {
     let output = shell.run(&[&["compare"], arguments].concat());
     assert!(output.status.success(), "{}", text(&output.stderr));
@@ -37,7 +37,7 @@ fn render_furnace(shell: &Shell, file: &str, options: &[&str]) {
     render_scene(shell, &scene("furnace"), file, &[&base[..], options].concat());
 }
 
-/// A picture of one radiance, which says nothing of noise.
+/// An image of constant radiance without variances.
 fn save_constant(shell: &Shell, file: &str, radiance: f32) {
     let frame =
         Frame { width: 64, height: 64, full_resolution: [64; 2], radiance: vec![[radiance; 3]; 64 * 64], ..Frame::default() };
@@ -48,7 +48,7 @@ fn z(line: &Value) -> f64 {
     line["bias_in_standard_errors"].as_f64().unwrap_or_else(|| panic!("{line}"))
 }
 
-/// Of a picture with variances against one without: the text has the numbers of the JSON, each after its name.
+/// Compares an image with variances with one without. The text has the numbers of the JSON, each after its name.
 fn assert_text_agrees(told: &str, line: &Value) {
     let number = |name: &str| line[name].as_f64().unwrap_or_else(|| panic!("{name}: {line}"));
     let z: Vec<f64> = line["block_z"].as_array().expect("blocks").iter().filter_map(Value::as_f64).collect();
@@ -65,7 +65,7 @@ fn assert_text_agrees(told: &str, line: &Value) {
     }
 }
 
-/// One in 30000 by chance.
+/// Exceeded by chance once in 30000 cases.
 const SIGMAS: f64 = 4.0;
 
 #[test]
@@ -81,7 +81,7 @@ fn the_bias_of_a_capped_furnace_is_as_many_standard_errors_as_closed_form_says()
         assert!((z(&line) / exact - 1.0).abs() < 0.02, "cap {cap}: {} {exact}", z(&line));
         assert!((line["bias_standard_error"].as_f64().unwrap_or(0.0) / standard_error - 1.0).abs() < 0.02, "{line}");
         let blocks = line["block_z"].as_array().expect("blocks");
-        // Each of the four blocks has a quarter of the samples: twice the standard error.
+        // Each of the four blocks has a quarter of the samples, so twice the standard error.
         assert!(blocks.len() == 4 && blocks.iter().all(|z| (z.as_f64().unwrap_or(0.0) / exact - 0.5).abs() < 0.03), "{line}");
         assert_eq!((&line["heavy_tails"], &line["exact_samples"]), (&Value::Bool(false), &Value::Bool(false)));
         assert_text_agrees(&said(&shell, &["capped.exr", "truth.exr"]), &line);
@@ -137,15 +137,16 @@ fn repeats_find_the_bias_that_variances_find() {
     arguments.extend(files[1..].iter().map(String::as_str));
     let line = compare(&shell, &arguments);
     let standard_error = (furnace_capped_variance(1.0, 0.5, 4.0 / 3.0, 1) / (64.0 * 64.0 * 16.0 * 6.0)).sqrt();
-    // χ² of 5 degrees of freedom lies between 0.21 and 25.7 in all but one of 1000 cases at either end.
+    // χ² with 5 degrees of freedom is below 0.21 in one of 1000 cases, and above 25.7 in one of 10000.
     let ratio = line["bias_standard_error"].as_f64().unwrap_or(0.0) / standard_error;
     assert!((0.21f64 / 5.0).sqrt() < ratio && ratio < (25.7f64 / 5.0).sqrt(), "{ratio}");
     assert!((line["bias"].as_f64().unwrap_or(0.0) + 0.5).abs() < SIGMAS * standard_error, "{line}");
-    // Student's t of five degrees of freedom says less than so many standard errors of a normal number, but plenty.
+    // The score by Student's t with five degrees of freedom is smaller than the number of standard errors, but still large.
     assert!(z(&line) < -6.0 && z(&line) > -0.5 / standard_error, "{line}");
 }
 
-/// A room of grey walls; roulette with q = 0.5 makes every reflection 1.5 times as bright or nothing: E X² is infinite for ρ² ≥ q.
+/// A room with grey walls. With roulette at q = 0.5 every reflection is 1.5 times as bright or lost, and E X² is infinite for ρ²
+/// ≥ q.
 const ROOM: &str = r#"
 format = 1
 camera = { eye = [0.1, 0.0, 0.2], look_at = [1.0, 0.3, 0.0], fov = 90.0, resolution = [64, 64] }

@@ -1,4 +1,4 @@
-//! What the declarations of the scene format say of themselves: manual, schema, writer, and ranges.
+//! The declarations of the scene format: manual, schema, writer, and ranges.
 use std::{fs, path::Path};
 
 use noisefall::{
@@ -11,7 +11,7 @@ fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// The texts of all scenes that come with the program.
+/// The texts of all shipped scenes.
 fn shipped() -> impl Iterator<Item = (String, String)> {
     let files = fs::read_dir(root().join("scenes")).expect("the folder can be read").map(|entry| entry.expect("an entry").path());
     let scenes = files.filter(|path| path.extension().is_some_and(|extension| extension == "toml"));
@@ -25,7 +25,7 @@ fn drawn(seed: u64) -> SceneDescription {
     description
 }
 
-/// Set this variable to write the manual anew.
+/// Set this variable to update the manual.
 const UPDATE: &str = "NOISEFALL_UPDATE_MANUAL";
 
 #[test]
@@ -63,9 +63,9 @@ fn what_is_drawn_is_within_its_range() {
     }
 }
 
-/// Puts one number of a description just outside of its range.
+/// Moves one number of a description just outside its range.
 struct Spoiler {
-    /// How many numbers are left to pass over.
+    /// Numbers that are still to be skipped.
     left: usize,
     above: bool,
     spoiled: Option<&'static str>,
@@ -136,7 +136,7 @@ fn a_number_just_outside_of_its_range_is_refused_by_name() {
     assert!(tried.len() > 30, "{tried:?}");
 }
 
-/// Whether a value fits a schema: objects, lists and choices; numbers are left to the ranges.
+/// Whether a value fits a schema in objects, lists and choices. Ranges of numbers are not checked.
 fn fits(value: &serde_json::Value, schema: &serde_json::Value) -> bool {
     if let Some(choices) = schema["anyOf"].as_array() {
         return choices.iter().any(|choice| fits(value, choice));

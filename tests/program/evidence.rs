@@ -1,4 +1,4 @@
-//! `noisefall evidence`: a chapter whose numbers are right, and whose files are all there.
+//! `noisefall evidence`: the chapter has the right numbers and all files.
 use std::{
     collections::{BTreeMap, BTreeSet},
     fs,
@@ -6,7 +6,7 @@ use std::{
 
 use super::command_line::{Shell, scene, text};
 
-/// The tables of a folder by name: their headings and rows.
+/// The headings and rows of all tables in a folder, by name.
 fn tables(shell: &Shell, names: &BTreeSet<String>) -> BTreeMap<String, Vec<Vec<String>>> {
     let read = |name: &str| {
         let path = shell.path("out").join(format!("{name}.csv"));
@@ -16,7 +16,7 @@ fn tables(shell: &Shell, names: &BTreeSet<String>) -> BTreeMap<String, Vec<Vec<S
     names.iter().map(|name| (name.clone(), read(name))).collect()
 }
 
-/// Every table is there in both forms, every plot too, and all of them are on the page. Returns the names of the tables.
+/// Checks that every table and plot exists in both formats and on the page. Returns the names of the tables.
 fn check_files(shell: &Shell, stdout: &str) -> BTreeSet<String> {
     let names: BTreeSet<String> = fs::read_dir(shell.path("out"))
         .expect("a folder")
@@ -27,7 +27,7 @@ fn check_files(shell: &Shell, stdout: &str) -> BTreeSet<String> {
     assert_eq!(tables, with(".tex"));
     assert!(with(".svg").len() >= 7 && with(".svg") == with(".png"), "{names:?}");
     assert!(tables.contains("equal_time_estimator") && with(".png").contains("pictures_by_cap"), "{names:?}");
-    // All but the page and the measurements.
+    // All files except the page and the measurements.
     let count = format!("out: {} files of figures and tables", names.len() - 2);
     assert!(stdout.contains(&count), "{count}: {stdout} {names:?}");
     let page = fs::read_to_string(shell.path("out/report.html")).expect("a page");
@@ -49,7 +49,7 @@ fn the_chapter_of_the_furnace_finds_what_is_known_of_it() {
     let done = run(&[]);
     assert!(done.status.success(), "{}", text(&done.stderr));
     let read = |name: &str| fs::read_to_string(shell.path("out").join(name)).unwrap_or_else(|error| panic!("{name}: {error}"));
-    // Every cell is a number but for the first one of a row and the remark.
+    // Every cell except the first of a row and the remark is a number.
     let tables = tables(&shell, &check_files(&shell, &text(&done.stdout)));
     for (name, rows) in &tables {
         let numbers = rows[1..].iter().flat_map(|row| &row[1..row.len() - 1]);
@@ -59,7 +59,7 @@ fn the_chapter_of_the_furnace_finds_what_is_known_of_it() {
     }
     assert!(read("error_by_sampler_time.svg").contains("rendering time"));
     assert!(read("error_by_sampler_samples.svg").contains("samples per pixel"));
-    // L_e/(1 − ρ) = 2, of which a cap of k leaves out 1/2^k.
+    // L_e/(1 − ρ) = 2, from which a cap of k removes 1/2^k.
     let rows = &tables["bias_of_caps"];
     assert_eq!(rows[0], ["bounce cap", "bias", "standard error", "z", "of the mean, %", "excluded beyond, %", "remark"]);
     let exact = [("0", -1.0), ("1", -0.5), ("2", -0.25), ("5", -1.0 / 32.0), ("none", 0.0)];
@@ -68,7 +68,7 @@ fn the_chapter_of_the_furnace_finds_what_is_known_of_it() {
         assert!(row[0] == cap && (bias - exact).abs() <= 5.0 * error + 1e-3, "{row:?}");
     }
     assert_eq!(rows.len(), 1 + exact.len());
-    // Pixels share nothing in any comparison but that of sharing.
+    // Path reuse is off in all comparisons except its own.
     let csv = read("study.csv");
     let column = |name: &str| csv.lines().next().and_then(|line| line.split(',').position(|column| column == name));
     let [reuse, adaptive] = ["reuse", "adaptive"].map(|name| column(name).expect("a column"));
@@ -78,13 +78,13 @@ fn the_chapter_of_the_furnace_finds_what_is_known_of_it() {
     assert!(settings.iter().all(|[reuse, adaptive]| reuse != "auto" && adaptive == "off"), "{settings:?}");
     assert!(tables.contains_key("equal_time_sharing"));
     assert!(read("bias_of_roulette.tex").contains("\\begin{tabular}{lrrrrrl}"));
-    // The corner of the first picture of caps shows radiance 1.
+    // The corner of the first image with a cap has radiance 1.
     let corner = || {
         let sheet = noisefall::render::image_file::read(&shell.path("out/pictures_by_cap.png")).expect("a picture");
         sheet.radiance[12 * sheet.width as usize + 12][0]
     };
     assert!((corner() - 1.0).abs() < 2e-3, "{}", corner());
-    // What is there already is not measured again, whatever a stopwatch says, but shown as it is asked for.
+    // Measurements are not repeated, whatever the timing says, but the images get the display settings of the command.
     let csv = read("study.csv");
     let again = run(&["--exposure", "-2"]);
     assert!(again.status.success() && read("study.csv") == csv, "{}", text(&again.stderr));

@@ -1,4 +1,4 @@
-//! What commands print for other programs is what `docs/figures.schema.json` says.
+//! The machine-readable output of commands follows `docs/figures.schema.json`.
 use std::fs;
 
 use noisefall::math::colour::linear_from_srgb;
@@ -8,13 +8,13 @@ use super::command_line::{Shell, json as last_line, scene, text};
 
 const SCHEMA: &str = include_str!("../../docs/figures.schema.json");
 
-/// The names that a kind of output must have, in their order.
+/// The names of figures in one kind of output, in order.
 fn required(schema: &Value, kind: &str) -> Vec<String> {
     let names = schema["$defs"][kind]["required"].as_array().unwrap_or_else(|| panic!("{kind} is described"));
     names.iter().map(|name| name.as_str().expect("a name").to_owned()).collect()
 }
 
-/// Holds a value against what the schema says of its name: type, type of items, and words that it may be.
+/// Checks a value against the schema of its name: type, type of items, and allowed words.
 fn check(schema: &Value, name: &str, value: &Value) {
     let figure = &schema["$defs"]["figures"]["properties"][name];
     assert!(figure["description"].is_string(), "{name} is not described");
@@ -98,7 +98,7 @@ fn the_columns_of_a_study_are_described_in_their_order() {
     }
 }
 
-/// One setting at a time: its word is what the command line takes.
+/// Changes one setting at a time. Its word is that of the command line.
 #[test]
 fn settings_stand_under_the_names_of_their_options() {
     let shell = Shell::new();
@@ -137,7 +137,7 @@ fn exposure_and_tone_map_change_a_png_and_not_an_exr() {
         let picture = noisefall::render::image_file::read(&shell.path(file)).expect("a picture");
         (f64::from(picture.radiance[5][1]), text(&done.stderr))
     };
-    // Every pixel is 1. A code of 8 bits is known to 1 %.
+    // Every pixel is 1, up to 1 % for 8-bit codes.
     let near = |x: f64, exact: f64| assert!((x / exact - 1.0).abs() < 0.01, "{x} {exact}");
     near(render("a.png", &[]).0, 1.0);
     near(render("b.png", &["--exposure", "-1"]).0, 0.5);
@@ -147,7 +147,7 @@ fn exposure_and_tone_map_change_a_png_and_not_an_exr() {
         render("d.png", &["--tone", "aces", "--exposure", "1"]).0,
         2.0 * (2.51 * 2.0 + 0.03) / (2.0 * (2.43 * 2.0 + 0.59) + 0.14),
     );
-    // A million times as bright: the yellow end of the scale.
+    // A million times as bright is the yellow end of the scale.
     near(render("d.png", &["--tone", "false-colour", "--exposure", "20"]).0, linear_from_srgb(231.0 / 255.0));
     let (radiance, notes) = render("e.exr", &["--exposure", "-1"]);
     assert!(radiance == 1.0 && notes.contains("change a PNG only"), "{radiance} {notes}");

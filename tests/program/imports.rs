@@ -1,11 +1,11 @@
-//! The graph of imports between the modules of the program and its library. Tests in the source are left out.
+//! The graph of imports between the modules of the program and its library, without tests.
 use std::{
     collections::{BTreeMap, BTreeSet},
     fs,
     path::{Path, PathBuf},
 };
 
-/// Names from the root of the source down.
+/// The path of a module, by names from the root of the source.
 pub type Module = Vec<String>;
 
 pub type Imports = BTreeMap<Module, BTreeSet<Module>>;
@@ -46,7 +46,7 @@ fn module(source: &Path, file: &Path) -> Module {
     if names.last().is_some_and(is_root) { names[..names.len() - 1].to_vec() } else { names }
 }
 
-/// The text without comments, and without the tests at its end.
+/// The text without comments and without the tests at its end.
 fn code(text: &str) -> String {
     let end = text.match_indices("#[cfg(test)]").map(|(at, _)| at).find(|at| text[*at..].lines().nth(1).is_some_and(is_tests));
     let lines = text[..end.unwrap_or(text.len())].lines().filter(|line| !line.trim_start().starts_with("//"));

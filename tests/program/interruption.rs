@@ -11,7 +11,7 @@ use noisefall::render::image_file::{SETTINGS_KEY, read};
 
 use crate::command_line::{Shell, json, scene, text};
 
-/// Starts the program, and waits until it listens to interruptions: before that they end it at once.
+/// Starts the program, and waits until it handles interruptions. Before that, an interruption would end it at once.
 fn start(shell: &Shell, arguments: &[&str]) -> Child {
     let mut command = shell.command(arguments);
     let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("the program starts");
@@ -63,7 +63,7 @@ fn an_interrupted_render_saves_what_it_has_and_says_how_much_that_is() {
 #[test]
 fn a_second_interruption_ends_a_render_at_once() {
     let shell = Shell::new();
-    // Paths of thousands of bounces: the first sample of all pixels takes much longer than this test.
+    // Paths have thousands of bounces, so the first sample of all pixels would take much longer than this test.
     let slow = "format = 1\n[camera]\neye = [0, 0, 0]\nlook_at = [0, 0, 1]\nfov = 60\nresolution = [2048, 2048]\n\
                 [materials.white]\nlambertian = { albedo = 0.9999 }\n\
                 [[objects]]\nshape = { sphere = { center = [0, 0, 0], radius = 1 } }\nmaterial = \"white\"\n\

@@ -3,7 +3,7 @@ use std::{collections::BTreeSet, fs};
 
 use crate::imports::{imports, source, source_files};
 
-/// From the top down, with the files beside the folders; those of one line do not know each other.
+/// Folders and the files beside them, from the top down. Those of one line do not import each other.
 const LAYERS: [&[&str]; 11] = [
     &["validate", "study"],
     &["render", "report"],
@@ -25,7 +25,7 @@ fn level(folder: &str) -> Option<usize> {
     LAYERS.iter().position(|layer| layer.contains(&folder))
 }
 
-/// The folders that a file names behind `crate::`, in `use crate::{a, b}` too.
+/// The folders that a file names after `crate::`, also in `use crate::{a, b}`.
 fn folders_used(text: &str) -> Vec<String> {
     let word = |s: &str| s.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect::<String>();
     let mut used = Vec::new();

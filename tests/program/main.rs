@@ -1,4 +1,4 @@
-//! The program as its users meet it: scene files, command line, worker, and the structure of the source.
+//! Tests of the program: scene files, command line, worker, and the structure of the source.
 mod circles;
 mod closed_streams;
 mod command_line;

@@ -1,4 +1,4 @@
-//! What a file says arrives in the scene: every key with a value that is not its default, and every default.
+//! Every key of a scene file takes effect in the scene, with its default and with another value.
 use std::{fs, sync::Arc};
 
 use glam::DVec3;
@@ -152,7 +152,7 @@ fn textured_materials() {
     assert_eq!((height, instance.normal_map), (-0.5, None));
     assert_eq!(instance.compiled.colour, ColourSource::Texture(texture));
     assert_eq!(instance.compiled.alpha, AlphaSource::Texture { id: texture, squared: true });
-    // The root of the largest luminance of the texture is well above what counts as smooth.
+    // The square root of the largest luminance of the texture is well above the limit of smooth surfaces.
     assert_eq!((instance.compiled.stage, scene.textures.mean(texture)), (Stage::Conductor, mean));
     let emission = object.emission.expect("it emits");
     assert_eq!((emission.radiance, emission.mean, emission.texture), ([4.0; 3], mean.map(|x| 4.0 * x), Some(texture)));
@@ -176,7 +176,7 @@ fn lights() {
 
 #[test]
 fn skies() {
-    // Eight columns of which one is bright; the middle of the picture, between the fourth and the fifth, is towards −z.
+    // One of eight columns is bright. The centre of the image, between the fourth and the fifth column, is towards −z.
     let folder = tempfile::tempdir().expect("a folder");
     let pixels: Vec<u8> =
         (0..8).flat_map(|column| if column == 4 { [128, 128, 128, 129] } else { [128, 128, 128, 122] }).collect();
@@ -288,7 +288,7 @@ fn pictures_of_colours_go_through_the_curve_of_srgb_and_normal_maps_do_not() {
     ));
     let map = scene.material(&scene.objects[0]).and_then(|material| material.normal_map).expect("it has one");
     let [colours, numbers, normals] = [0, 1, map].map(|id| scene.textures.mean(id)[0]);
-    // Means of the red of all pixels, by a reader of its own.
+    // Means of the red channel of all pixels, by an independent reader.
     assert!((colours - 0.225_73).abs() < 1e-4 && (numbers - 0.501_63).abs() < 1e-4, "{colours} {numbers}");
     assert_eq!(normals, numbers);
 }

@@ -1,4 +1,4 @@
-//! Where output goes: to standard output where that is asked for, else to files, and never in place of anything else.
+//! The destination of output: standard output on request, otherwise regular files. Nothing else is ever replaced.
 use std::fs;
 
 use crate::command_line::{Shell, json, scene, text};
@@ -47,7 +47,7 @@ fn a_format_and_a_name_that_disagree_are_wrong_usage() {
     assert_eq!(fs::read_dir(shell.path("")).expect("it is there").count(), 0);
 }
 
-/// A second name of a file there, whose content stays if the file is replaced and changes if it is written into.
+/// A hard link to a file. Its content stays if the file is replaced, and changes if the file is overwritten.
 fn second_name(shell: &Shell, name: &str) {
     fs::write(shell.path(name), "old").expect("it is written");
     fs::hard_link(shell.path(name), shell.path(&format!("{name}.old"))).expect("a second name");
@@ -61,7 +61,7 @@ fn every_writer_replaces_files_whole() {
     let names =
         ["out.png", "out.exr", "difference.png", "sheet.png", "samples.csv", "study/report.html", "validation/report.html"];
     names.iter().for_each(|name| second_name(&shell, name));
-    // What a killed process left behind.
+    // A temporary file of a killed process.
     let leftover = |name: &str| {
         let (folder, file) = name.rsplit_once('/').unwrap_or((".", name));
         shell.path(folder).join(format!(".{file}.noisefall-dead00.part"))

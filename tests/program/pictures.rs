@@ -1,4 +1,4 @@
-//! Pictures on disk.
+//! Image files.
 use std::fs;
 
 use noisefall::measure::SampleNoise;
@@ -67,7 +67,7 @@ fn an_exr_keeps_the_variances_of_its_means_beside_ordinary_colours() {
     let meta = exr::meta::MetaData::read_from_file(&path, false).expect("it has a header");
     let names: Vec<String> = meta.headers[0].channels.list.iter().map(|channel| channel.name.to_string()).collect();
     assert_eq!((meta.headers.len(), names.join(" ")), (1, "B G R variance.B variance.G variance.R variance.block".to_owned()));
-    // What varies does not become exact because single precision ends.
+    // A varying pixel must not become exact by rounding to single precision.
     let mut dim = noisy_frame();
     if let Some(noise) = &mut dim.noise {
         noise.blocks = vec![1e-60, 0.0, 1e60, 1.0];
@@ -111,7 +111,7 @@ fn what_cannot_be_written_is_said_and_leaves_nothing_behind() {
 #[test]
 #[cfg(target_os = "linux")]
 fn names_of_temporary_files_are_not_told() {
-    // No file can be made there, whoever tries.
+    // Nobody can create a file there.
     let error = check_target(std::path::Path::new("/proc/picture.png")).expect_err("it fails").to_string();
     assert!(error.contains("/proc/picture.png: cannot be written") && !error.contains(".part"), "{error}");
 }
@@ -126,7 +126,7 @@ fn what_is_no_picture_is_refused() {
     }
 }
 
-/// Both kinds of picture open wherever a scene does, as the picture they are: camera and settings too.
+/// Both image formats can be opened in place of a scene, with their camera and settings.
 #[test]
 fn a_picture_opens_as_the_scene_that_it_shows() {
     use super::command_line::{Shell, json, scene, text};
@@ -160,7 +160,7 @@ fn a_picture_opens_as_the_scene_that_it_shows() {
             }
             assert!(text(&shell.run(&["check", picture]).stdout).contains(": ok, "));
         }
-        // The scene is carried on.
+        // The new image carries the scene too.
         assert!(text(&shell.run(&["check", "again.exr"]).stdout).contains("24 × 16"));
     }
     let study =

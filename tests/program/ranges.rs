@@ -1,5 +1,5 @@
-//! Numbers of the format at the ends of their ranges: the last that is accepted, and the first that is refused, with a message that says
-//! where and what is allowed. `declared.rs` tries those of every declaration.
+//! Numbers of the format at the ends of their ranges: the last that is accepted, and the first that is rejected, with a message
+//! that states the position and the range. `declared.rs` tests those of every declaration.
 use std::{collections::BTreeSet, fs};
 
 use noisefall::{
@@ -11,11 +11,11 @@ use noisefall::{
 struct Range {
     /// Tables and key, as [`KEYS`] collects them.
     key: &'static str,
-    /// A file without its version: `X` is the number, `VIEW` a camera, and `BALL` a shape.
+    /// A file without its `format` line. `X` stands for the number, `VIEW` for a camera, and `BALL` for a shape.
     text: &'static str,
     accepted: &'static [&'static str],
     refused: &'static [&'static str],
-    /// What every message says: what is wrong, or what is expected.
+    /// Text of every message: the error, or the expected value.
     says: &'static str,
 }
 
@@ -203,7 +203,7 @@ impl Parameters for Keys {
     }
 }
 
-/// Every table of the format with a key that it does not have, `zzz`: what is said then lists those that it has.
+/// Every table of the format with the unknown key `zzz`. The message lists the known keys.
 #[rustfmt::skip]
 const TABLES: &[(&str, &str)] = &[
     ("", "zzz = 1\nVIEW"),
@@ -284,12 +284,12 @@ fn every_number_is_accepted_to_the_ends_of_its_range_and_refused_beyond() {
     }
 }
 
-/// A report without the breaks of its lines.
+/// A report without its line breaks.
 fn plain(error: &SceneError) -> String {
     error.report().replace(['│', '\n'], " ").split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// What is said of a key that a table does not have lists those that it has: between backquotes after `expected`.
+/// The keys that the message about an unknown key lists, in backquotes after `expected`.
 fn keys_of(table: &str, text: &str) -> Vec<String> {
     let Err(error) = parse("keys.toml", full(text)) else { panic!("{table} has a key `zzz`") };
     let report = plain(&error);
@@ -317,11 +317,11 @@ fn what_is_said_of_an_unknown_key_lists_all_that_are_declared() {
         }
         there.extend(listed);
     }
-    // One kind of list serves objects and the camera, in rest and in motion.
+    // Objects and the camera use the same kind of list, for transforms and for motion.
     let same_lists = |key: &str| key.starts_with("objects.motion.") || key.starts_with("camera.motion.");
     let gone: Vec<_> = RANGES.iter().map(|range| range.key).filter(|key| !there.contains(*key) && !same_lists(key)).collect();
     assert!(gone.is_empty(), "these keys are no longer there: {gone:?}");
-    // A key that holds others, or several kinds, is asked for them too.
+    // A key with a table or several kinds is tested with these too.
     let asked: BTreeSet<String> = TABLES.iter().map(|(table, _)| table.trim_end_matches('.').to_owned()).collect();
     assert!(asked.len() > 40 && asked.iter().filter(|table| !table.is_empty()).all(|table| there.contains(table)));
 }

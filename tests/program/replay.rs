@@ -1,4 +1,4 @@
-//! `render --pixel`: a path in words, in LaTeX, and samples as a table.
+//! `render --pixel`: a path as text and LaTeX, and samples as a table.
 use std::fs;
 
 use noisefall::integrator::End;
@@ -81,7 +81,7 @@ fn why_a_path_ends_is_told() {
 #[test]
 fn lobes_are_named_with_their_probability() {
     let shell = Shell::new();
-    // On the glass ball: Fresnel's reflectance is the probability of the mirror, and both add up to 1.
+    // On the glass ball, reflection has Fresnel's reflectance as its probability, and the probabilities add up to 1.
     let head = "format = 1\ncamera = { eye = [0, 0, 4], look_at = [0, 0, 0], fov = 20, resolution = [8, 8] }\nbackground.radiance = 1\n\
                 materials.ball = MATERIAL\n[[objects]]\nshape = { sphere = { center = [0, 0, 0], radius = 1 } }\nmaterial = \"ball\"\n";
     let first = |material: &str, sample: u32| {
@@ -104,7 +104,7 @@ fn lobes_are_named_with_their_probability() {
             let which = names.iter().position(|known| *known == name).unwrap_or_else(|| panic!("{material}: {name}"));
             let probability = reflection["lobe"]["probability"].as_f64().expect("a number");
             assert_eq!(reflection["refracted"], name.contains("refraction"), "{reflection}");
-            // From the front Fresnel's reflectance is 4 %; the coat has that share of the light.
+            // At normal incidence Fresnel's reflectance is 4 %, which is the fraction of the coat.
             assert!(if which == 0 { (0.03..0.3).contains(&probability) } else { probability > 0.7 }, "{material}: {reflection}");
             seen[which] += 1;
         }

@@ -1,4 +1,4 @@
-//! Scene files: the good ones compile, the bad ones are told what is wrong, where, and what was expected.
+//! Scene files: valid ones compile; invalid ones get a message with the error, its position, and the expected value.
 use std::{
     fs,
     path::{Path, PathBuf},
@@ -37,7 +37,7 @@ pub(super) fn error(text: &str) -> SceneError {
     parse("test.toml", text.to_owned()).err().unwrap_or_else(|| panic!("this compiles:\n{text}"))
 }
 
-/// `GOOD` with one line replaced must fail there, with a message that contains `message`.
+/// Checks that `GOOD` with one line replaced fails at that line, with a message that contains `message`.
 pub(super) fn refuses(line: &str, by: &str, message: &str) {
     assert!(GOOD.contains(line), "{line}");
     let text = GOOD.replacen(line, by, 1);
@@ -49,7 +49,7 @@ pub(super) fn refuses(line: &str, by: &str, message: &str) {
     assert!(report.contains('─') || report.contains('▲'), "no caret in:\n{report}");
     let first = GOOD.lines().zip(text.lines()).position(|(a, b)| a != b).expect("a line differs") + 1;
     let last = first + by.lines().count().max(1) - 1;
-    // What a table lacks is reported at the table.
+    // A missing key is reported at its table.
     assert!((1..=last).contains(&line), "at line {line}, not {first}..={last}:\n{report}");
 }
 

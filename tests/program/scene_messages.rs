@@ -1,4 +1,4 @@
-//! What is said of files that are no scenes: in plain words, at the place, and no more than can be read.
+//! Messages about invalid scene files: plain words, with a position, and of readable length.
 use std::{fs, path::Path};
 
 use noisefall::scene::{load, parse};
@@ -43,7 +43,7 @@ fn what_was_probably_meant_is_named() {
     refuses("material = \"white\"", "material = \"whit\"", "did you mean `white`?");
 }
 
-/// What is typed, of `GOOD`, and what is said of it.
+/// A change of `GOOD`, and the message about it.
 const MEANT: [(&str, &str, &str); 38] = [
     ("spp = 64", "samples = 64", "did you mean `spp`?"),
     ("max_bounces = 5", "depth = 5", "did you mean `max_bounces`?"),
@@ -92,7 +92,7 @@ fn what_others_write_is_told_in_the_words_of_the_format() {
         let said = error(&GOOD.replacen(line, by, 1));
         assert_eq!(said.count(), 1, "{by}: one slip is one error:\n{}", said.report());
     }
-    // What is pointed at is the bracket, and not a place between two characters.
+    // The label is at the bracket, not between two characters.
     let bracket = error(&GOOD.replacen("4.0]", "4.0}", 1)).report();
     assert!(bracket.contains('┬') && !bracket.contains('▲'), "{bracket}");
 }
@@ -107,7 +107,7 @@ fn all_errors_of_a_file_are_told_in_the_order_of_its_lines() {
         says.iter().for_each(|(_, what)| assert!(report.contains(what), "{what}: {report}"));
         assert_eq!((error.count(), error.line_column().map(|place| place.0)), (says.len(), Some(says[0].0)));
     };
-    // Of form and of value, in tables that have one each; what follows from them is not told.
+    // One error of form and one of value, in two tables. Consequential errors are not reported.
     let wrong = GOOD
         .replace("fov = 40", "fov = \"wide\"")
         .replace("eye = [0.0", "eye = [1e300")
@@ -131,13 +131,13 @@ fn all_errors_of_a_file_are_told_in_the_order_of_its_lines() {
             (25, "`radiance` is out of range: -2"),
         ],
     );
-    // A material or texture that is wrong is named all the same.
+    // An invalid material or texture is still defined.
     all(&GOOD.replace("lambertian", "lambert"), &[(8, "did you mean `lambertian`?")]);
     all(&GOOD.replace("{ albedo = 0.8 }", "{ albedo = { texture = \"t\" } }\n[textures.t]\nchecker = 3"), &[(10, "a table")]);
-    // Of what is not TOML: a line each.
+    // Syntax errors of TOML: one per line.
     let slips = GOOD.replace("fov = 40", "fov = 40;").replace("eye = [0.0, 1.0, 4.0]", "eye = (0, 1, 4)");
     all(&slips.replace("= \"ball\"", ": \"ball\""), &[(3, "write [ … ]"), (5, "no `;`"), (10, "write `=`")]);
-    // Of much that is not TOML: the first.
+    // Many syntax errors of TOML: only the first one.
     let long = format!("{}# {}\n", slips.replace("= \"ball\"", ": \"ball\""), "x".repeat(1 << 18));
     assert_eq!(error(&long).count(), 1);
     let braces = GOOD.replace("radius = 1.0 } }", "radius = 1.0 }").replace("resolution = [32, 24]", "resolution = [32, 24");
@@ -190,7 +190,7 @@ fn files_that_are_no_scenes_are_refused_in_one_message() {
     fs::write(file("bytes.toml"), b"format = 1\0\x01").expect("it is written");
     assert!(report(&file("bytes.toml")).contains("not a text file"));
 
-    // A file of 200 MB that takes no room.
+    // A sparse file of 200 MB.
     fs::File::create(file("huge.toml")).and_then(|huge| huge.set_len(200 << 20)).expect("it is made");
     assert!(report(&file("huge.toml")).contains("larger than 64 MB"));
 }
@@ -221,8 +221,8 @@ fn a_pipe_is_refused_without_waiting_for_it() {
     refuses("[render]", &textured, "not a regular file");
 }
 
-/// What is said of `GOOD` with `from` replaced by `to`: few characters, lines of a width that can be read, and none that a terminal
-/// obeys.
+/// Checks the message about `GOOD` with `from` replaced by `to`: it is short, its lines are narrow, and it has no control
+/// characters.
 fn short_report(from: &str, to: &str) -> String {
     let text = GOOD.replacen(from, to, 1);
     assert_ne!(text, GOOD, "{from} is in the file");

@@ -1,4 +1,4 @@
-//! A second picture beside the first, the picture as a series, a region before the rest, other threads on the way.
+//! A second image beside the first, series over bounces, a region before the rest, and a change of threads during a render.
 use std::{
     sync::Arc,
     time::{Duration, Instant},
@@ -21,7 +21,7 @@ fn request(scene: &Arc<Scene>, side: u32) -> RenderRequest {
     RenderRequest { scene: scene.clone(), camera, settings: scene.settings }
 }
 
-/// What is published, when it satisfies a condition. The time limit is for a machine that is busy otherwise.
+/// Waits until the published state satisfies a condition. The time limit is long enough for a busy machine.
 fn wait(latest: impl Fn() -> Published, condition: impl Fn(&Published) -> bool) -> Published {
     let start = Instant::now();
     loop {
@@ -34,9 +34,9 @@ fn wait(latest: impl Fn() -> Published, condition: impl Fn(&Published) -> bool) 
     }
 }
 
-/// A worker that goes on when it is told to, and says when it has published something.
+/// A worker that can be held, and that reports each publication.
 struct Stepwise {
-    // The renderer waits for its worker when it is dropped, so what holds the worker is dropped before.
+    // The renderer waits for its worker when it is dropped, so the hold must be released first.
     published: Receiver<()>,
     go: Sender<()>,
     renderer: Renderer,
@@ -47,13 +47,13 @@ impl Stepwise {
         let ((publish, published), (go, gone)) = (bounded(0), unbounded());
         let threads = Threads::new(2, SimdLevel::best()).expect("threads can be had");
         let notify = move || {
-            // Nobody looks any more when the test is over.
+            // The receiver is gone when the test is over.
             let _ = publish.send(()).map(|()| gone.recv());
         };
         Stepwise { published, go, renderer: Renderer::new(threads, Publish::Live, notify) }
     }
 
-    /// Lets the worker go on until something is published, and holds it there: what is looked at then is its state after one turn.
+    /// Lets the worker run until it publishes, and holds it there, to inspect its state after one turn.
     fn times(&self) -> [Duration; 2] {
         self.published.recv_timeout(Duration::from_secs(60)).expect("something is published");
         [self.renderer.latest(), self.renderer.latest_second()].map(|published| published.status.elapsed)
@@ -74,7 +74,7 @@ fn of_two_pictures_the_one_that_had_less_time_since_both_are_there_goes_on() {
         before = worker.times();
         worker.go_on();
     }
-    // The worker is held after its last turn alone: the time so far is what the first is ahead.
+    // The worker is held after its last turn with one image. The time so far is the head start of that image.
     before = worker.times();
     let lead = before[0];
     let settings = RenderSettings { estimator: Estimator::Path, ..scene.settings };
@@ -84,7 +84,7 @@ fn of_two_pictures_the_one_that_had_less_time_since_both_are_there_goes_on() {
         worker.go_on();
         let after = worker.times();
         let since = [before[0] - lead, before[1]];
-        // While a picture is coarse its time does not count.
+        // The time of coarse images does not count.
         let side = (0..2).find(|&side| after[side] > before[side]);
         if let Some(side) = side {
             assert_eq!(after[1 - side], before[1 - side], "one at a time");
@@ -131,7 +131,7 @@ fn the_terms_of_a_furnace_are_powers_of_its_albedo() {
     let scene = Arc::new(load(path.as_ref()).expect("it is shipped"));
     let renderer = renderer();
     renderer.set_budget(Budget { max_spp: Some(64), ..Budget::default() });
-    // By cosine-distributed directions every sample of every term is exact, until roulette begins.
+    // With cosine-distributed directions every sample of every term is exact until roulette begins.
     let settings = RenderSettings { estimator: Estimator::Path, directions: Directions::Cosine, ..scene.settings };
     renderer.submit_second(1, RenderTask::Series(RenderRequest { settings, ..request(&scene, 64) }));
     let published = wait(|| renderer.latest_second(), |published| published.frame.spp == 64);
@@ -176,7 +176,8 @@ fn a_region_that_has_reached_the_noise_target_is_not_taken_up_again() {
     let scene = Arc::new(built_in());
     let renderer = renderer();
     let region = Region::between([40, 40], [50, 60]);
-    // Reached after some hundred samples, long before the whole picture reaches it: the lamp's edge is not in the region.
+    // The region reaches the target after some hundred samples, long before the whole image, because it does not contain the edge
+    // of the lamp.
     renderer.set_budget(Budget { noise: Some(0.01), region: Some(region), ..Budget::default() });
     renderer.submit(1, request(&scene, 128));
     wait(|| renderer.latest(), |published| published.status.region_spp.is_some_and(|spp| spp >= 64));

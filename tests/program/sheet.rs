@@ -1,4 +1,4 @@
-//! `noisefall sheet`: pictures of several settings in one.
+//! `noisefall sheet`: images with several settings on one sheet.
 use super::command_line::{Shell, scene, text};
 
 #[test]
@@ -13,12 +13,12 @@ fn a_sheet_has_a_picture_for_each_combination() {
     let two = ["--spp", "2,1,2", "--estimators", "path,mis", "--max-bounces", "0", "--exposure", "-1"];
     let (picture, said) = sheet("a.png", &two);
     assert!(said.contains("4 pictures of 220 × 10"), "{said}");
-    // Every pixel of the pictures is 1, by half a stop of exposure 0.5: four of 2200 pixels, and hardly any of the ink.
+    // Every pixel of the images is 1, or 0.5 with the exposure: four images of 2200 pixels, and hardly any pixel of the text.
     let grey = picture.radiance.iter().filter(|rgb| rgb.iter().all(|c| (c - 0.5).abs() < 0.01)).count();
     assert!((4 * 2200..4 * 2200 + 200).contains(&grey), "{grey}");
     let dark = picture.radiance.iter().filter(|rgb| rgb[1] < 0.2).count();
     assert!(dark > 200, "there are labels: {dark}");
-    // Side by side as there are numbers of samples: two columns of two.
+    // As many columns as sample counts: two columns of two images.
     let (row, _) = sheet("row.png", &[&two[..], &["--columns", "4"]].concat());
     assert!(row.width > 2 * picture.width - 40 && row.height < picture.height);
     let wrong = shell.run(&["sheet", &furnace, "-o", "a.exr"]);
@@ -34,7 +34,7 @@ fn a_sheet_has_a_picture_for_each_combination() {
 fn another_seed_gives_other_pictures() {
     let shell = Shell::new();
     let furnace = scene("furnace");
-    // The picture is red, and ink, which says how long it took, is grey.
+    // The image is red. The text, which contains the time, is grey.
     let red =
         std::fs::read_to_string(&furnace).expect("it is shipped").replace("radiance = 1.0 }", "radiance = [1.0, 0.5, 0.5] }");
     std::fs::write(shell.path("red.toml"), red).expect("it is written");

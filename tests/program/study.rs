@@ -1,9 +1,9 @@
-//! `noisefall study`: a table of measurements and a report, which an interruption does not spoil.
+//! `noisefall study`: a table of measurements and a report, which survive an interruption.
 use std::{collections::BTreeSet, fs};
 
 use crate::command_line::{Shell, scene, text};
 
-/// Eight combinations, of which some are the same picture.
+/// Eight combinations, some of which give the same image.
 const SMALL: [&str; 14] = [
     "--estimators",
     "path,mis",
@@ -80,7 +80,7 @@ fn a_study_that_was_cut_off_goes_on_where_it_was() {
     let path = shell.path("new/study/study.csv");
     let whole = fs::read_to_string(&path).expect("measurements");
     let (lines, runs) = (whole.lines().count(), (whole.lines().count() - 1) / 5);
-    // The last run loses its last three lines and half of the one before.
+    // Truncates the file by the last three lines of the last run and half of the line before.
     let cut = whole.lines().take(lines - 3).map(str::len).sum::<usize>() + lines - 3 - 20;
     fs::write(&path, &whole[..cut]).expect("it can be written");
     let again = study(&shell, &[&scene("furnace")]);
@@ -100,7 +100,7 @@ fn sharing_and_adaptive_samples_are_listed_and_scenes_of_one_title_told_apart() 
     let shipped = scene("cornell_box");
     let done = shell.run(&[&["study", "other.toml", &shipped, "-o", "out"], &few[..], &lists].concat());
     assert!(done.status.success(), "{}", text(&done.stderr));
-    // Without a terminal the reference is told of in quarters.
+    // Without a terminal, the progress of the reference is printed in quarters.
     assert!(text(&done.stderr).matches(" % of the reference, ").count() >= 8, "{}", text(&done.stderr));
     assert_eq!(text(&done.stderr).matches(": 100 % of the reference, 0 s left").count(), 2, "{}", text(&done.stderr));
     let mut table = csv::Reader::from_path(shell.path("out/study.csv")).expect("measurements");
@@ -136,7 +136,7 @@ fn references_are_files_where_there_are_some() {
     assert!(done.status.success(), "{}", text(&done.stderr));
     let csv = fs::read_to_string(shell.path("out/study.csv")).expect("measurements");
     assert!(csv.contains("sky.toml,20,10,") && csv.contains("the reference sky.ref.exr"), "{csv}");
-    // It was rendered here, so its file says how noisy it is.
+    // It was rendered by this program, so its file has variances.
     let own = |folder: &str| {
         let mut table = csv::Reader::from_path(shell.path(folder).join("study.csv")).expect("measurements");
         let column = table.headers().expect("names").iter().position(|name| name == "reference_rel_mse").expect("a column");
@@ -144,12 +144,12 @@ fn references_are_files_where_there_are_some() {
         row[column].parse::<f64>().expect("a number")
     };
     let known = own("out");
-    // 3.3 % at 64 samples on a picture of 64 × 36 pixels.
+    // 3.3 % at 64 samples on an image of 64 × 36 pixels.
     assert!((1e-5..1e-2).contains(&known), "{known}");
     assert!(!text(&done.stdout).contains("assumed to be 0"), "{}", text(&done.stdout));
     let report = |folder: &str| fs::read_to_string(shell.path(folder).join("report.html")).expect("a report");
     assert!(report("out").contains("sky.ref.exr, which itself has an estimated error of"));
-    // By another program, or by an older version of this one.
+    // A file of another program, or of an older version of this one.
     let picture = noisefall::render::image_file::read(&shell.path("sky.ref.exr")).expect("a picture");
     let frame = noisefall::render::Frame { width: 20, height: 10, radiance: picture.radiance, ..Default::default() };
     noisefall::render::image_file::save(&frame, Default::default(), "{}", &shell.path("foreign.exr")).expect("it is saved");
@@ -160,7 +160,7 @@ fn references_are_files_where_there_are_some() {
     assert!(report("foreign").contains("whose own error is unknown and assumed to be 0") && own("foreign") == 0.0);
     let csv = fs::read_to_string(shell.path("foreign/study.csv")).expect("measurements");
     assert!(csv.contains(",0.5,") && report("foreign").contains("(x − r)²/(r² + 0.5)"), "{csv}");
-    // Even where the scene says what is true, it says nothing of a file.
+    // The truth of a scene does not make the error of a file known.
     let declared = ["study", &scene("furnace"), "-o", "declared", "--reference", "foreign.exr", "--max-bounces", "1"];
     let told = text(&shell.run(&[&declared[..], &few[..]].concat()).stdout);
     assert!(told.contains("The error of the reference foreign.exr itself is unknown and assumed to be 0."), "{told}");

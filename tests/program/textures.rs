@@ -1,11 +1,11 @@
-//! Textures of scene files: what they compile to, and what is said of bad ones.
+//! Textures of scene files: their compiled form, and messages about invalid ones.
 use std::{fs, path::Path};
 
 use noisefall::scene::parse;
 
 use super::scene_files::{GOOD, error, refuses};
 
-/// `GOOD` with these tables in the place of a line of their own.
+/// `GOOD` with these tables in place of one line.
 fn refuses_tables(tables: &str, message: &str) {
     refuses("[render]", &format!("{tables}\n[render]"), message);
 }
@@ -18,7 +18,7 @@ fn image(path: &Path, message: &str) {
     texture(&format!("image = {{ path = '{}' }}", path.display()), message);
 }
 
-/// A Radiance picture that is a header and these bytes.
+/// A Radiance HDR file with a header and these bytes.
 fn hdr(path: &Path, size: &str, pixels: &[u8]) {
     fs::write(path, [b"#?RADIANCE\n\n", size.as_bytes(), b"\n", pixels].concat()).expect("it is written");
 }
@@ -32,7 +32,7 @@ fn good_textures_compile() {
                   noise = { scale = 4.0, octaves = 5, low = 0.2, high = [0.4, 0.9, 0.8] }\n[render]";
     let name = folder.path().join("scene.toml");
     let scene = parse(&name.display().to_string(), GOOD.replace("[render]", tables)).unwrap_or_else(|e| panic!("{}", e.report()));
-    // The noise and the constant of the checker, the checker, the picture.
+    // The noise and the constant of the checker, the checker, the image.
     assert_eq!(scene.textures.len(), 4);
     let close = |found: [f32; 3], expected: [f32; 3]| (0..3).all(|i| (found[i] - expected[i]).abs() < 1e-6);
     assert!(close(scene.textures.mean(2), [0.4, 0.525, 0.5]), "{:?}", scene.textures.mean(2));

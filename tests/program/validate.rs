@@ -1,4 +1,4 @@
-//! `noisefall validate`: a report that stands alone, and an exit status that says whether all of it holds.
+//! `noisefall validate`: a self-contained report, and an exit status that tells whether all statements hold.
 use std::{fs, path::Path};
 
 use crate::command_line::{Shell, text};
@@ -32,7 +32,7 @@ fn a_quick_validation_holds_and_writes_a_report_that_needs_nothing_else() {
     let drawn = fs::read_dir(shell.path("new/report/figures")).expect("figures").count();
     assert_eq!(drawn, report.matches("<figure").count() - 1, "all but the table of times");
     a_reference_that_differs_fails_the_validation(&shell);
-    // By other random numbers: all statements of section 2 are about the variance of samples.
+    // Other random numbers change the statements of section 2, which are all about sample variances.
     let measured = |folder: &str| -> Vec<String> {
         let mut rows = csv::Reader::from_path(shell.path(folder).join("report.csv")).expect("rows");
         let rows = rows.records().map(|row| row.expect("a row")).filter(|row| &row[0] == "2");

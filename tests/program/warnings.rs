@@ -1,4 +1,4 @@
-//! What is legal and probably not meant is told, and nothing else.
+//! Warnings about scenes that are valid but probably not as intended.
 use std::fs;
 
 use noisefall::scene::parse;
@@ -44,7 +44,7 @@ fn each_slip_has_its_warning() {
         let said = warnings("[render]", &format!("{}[render]", bare.repeat(count)));
         assert!(said.len() == 1 && said[0].contains(who), "{said:?}");
     }
-    // What is meant that way is not warned of.
+    // There is no warning about intentional settings.
     assert_eq!(warnings("eye = [0.0, 1.0, 4.0]", "eye = [0.1, 1.0, 0.2]").len(), 1);
     assert_eq!(warnings(lamp, &format!("{lamp}\nflip = true")), Vec::<String>::new());
     assert_eq!(warnings("fov = 40", "fov = 3.5"), Vec::<String>::new());
@@ -64,7 +64,7 @@ fn ceiling(shape: &str, above: f64, lamp: &str) -> Vec<String> {
 #[test]
 fn a_lamp_against_a_wall_is_told_whatever_its_shape_and_side() {
     let shapes = [
-        // Their fronts are below.
+        // The fronts of the lamps are below.
         "rectangle = { origin = [0, Y, 0], edge_u = [1, 0, 0], edge_v = [0, 0, 1] }",
         "triangle = { a = [0, Y, 0], b = [1, Y, 0], c = [0, Y, 1] }",
         "disk = { center = [0, Y, 0], normal = [0, -1, 0], radius = 1 }",
@@ -93,7 +93,7 @@ fn a_truth_that_the_picture_contradicts_is_told_by_check_and_after_a_render() {
         (told(&checked), told(&text(&rendered.stderr)), checked)
     };
     assert!(!with_truth("radiance = 2.0").0);
-    // 64 samples of 48 × 48 pixels know the mean to 0.1 %.
+    // With 64 samples on 48 × 48 pixels the standard error of the mean is 0.1 %.
     for wrong in ["radiance = 2.05", "radiance = 1.95", "radiance = 0.0"] {
         let (checked, rendered, said) = with_truth(wrong);
         assert!(checked && rendered, "{wrong}: {said}");

@@ -10,7 +10,7 @@ use noisefall::{
     scene::{Camera, RenderSettings, Reuse, Roulette, Scene, parse},
 };
 
-/// A scene whose whole picture is one colour: a sphere around the camera that emits and reflects nothing.
+/// A scene with an image of one colour: a sphere around the camera that emits and reflects nothing.
 fn plain(radiance: f32, resolution: u32) -> Arc<Scene> {
     let text = format!(
         "format = 1\n[camera]\neye = [0, 0, 0]\nlook_at = [0, 0, 1]\nfov = 60\nresolution = [{resolution}, {resolution}]\n\
@@ -39,7 +39,7 @@ fn renderer(publish: Publish) -> Renderer {
     Renderer::new(Threads::new(2, SimdLevel::best()).expect("threads can be had"), publish, || {})
 }
 
-/// Waits until what is published satisfies a condition. A minute is for a machine that is busy otherwise, not a target.
+/// Waits until the published state satisfies a condition. The limit of a minute is for busy machines only.
 fn wait_for(renderer: &Renderer, what: &str, condition: impl Fn(&Published) -> bool) -> Published {
     let start = Instant::now();
     loop {
@@ -83,7 +83,7 @@ fn the_latest_request_wins_and_no_old_pixel_survives() {
     assert_plain(&last.frame);
 }
 
-/// All pixels are of the frame's own generation; before the first there are none.
+/// Checks that all pixels are of the frame's own generation; before the first there are none.
 fn assert_plain(frame: &Frame) {
     let expected = (frame.generation % 8 + 1) as f32;
     assert!(frame.radiance.iter().all(|pixel| *pixel == [expected; 3]), "a pixel of another generation");
@@ -105,7 +105,7 @@ fn noisy() -> RenderRequest {
     RenderRequest { camera, settings: scene.settings, scene }
 }
 
-/// Has the worker render something else and waits for it: whatever else it meant to do with the first picture would be done by then.
+/// Lets the worker render another image and waits for it. By then it has finished all work on the first one.
 fn look_at_another_picture(renderer: &Renderer) {
     renderer.submit_second(1, RenderTask::Picture(request(&plain(0.5, 16))));
     let start = Instant::now();
@@ -177,7 +177,7 @@ fn a_step_adds_one_sample_a_pixel() {
 #[test]
 fn a_noise_target_is_reached_and_a_time_target_kept() {
     let renderer = renderer(Publish::Live);
-    // Noise is believed from 64 samples on: the target must lie beyond.
+    // Noise targets count from 64 samples on, so the target must need more.
     renderer.set_budget(Budget { max_spp: Some(64), ..Budget::default() });
     let camera = Camera { resolution: [64, 64], ..noisy().camera };
     renderer.submit(1, RenderRequest { camera, ..noisy() });

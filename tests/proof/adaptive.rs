@@ -1,4 +1,4 @@
-//! Samples spread by noise: the picture is the same, and less noisy.
+//! Adaptive sampling: the same image with less noise.
 use noisefall::{
     math::SimdLevel,
     measure::{Floor, compare},
@@ -18,7 +18,7 @@ use crate::{
 };
 
 const SIDE: u32 = 96;
-/// Sums are taken over squares of so many pixels.
+/// Side of the squares over which pixels are summed.
 const SQUARE: usize = 16;
 
 struct Picture {
@@ -34,7 +34,7 @@ fn render(threads: &Threads, scene: &Scene, settings: &RenderSettings, spp: u32)
     Picture { radiance: Frame::of_film(&film, 0, [SIDE; 2], [SIDE; 2]).radiance, samples: film.samples() }
 }
 
-/// Sums over squares of a picture, a channel.
+/// Sums over squares of an image, per channel.
 fn sums(picture: &Picture) -> Vec<f64> {
     let squares = SIDE as usize / SQUARE;
     let mut sums = vec![0.0; squares * squares * 3];
@@ -45,12 +45,12 @@ fn sums(picture: &Picture) -> Vec<f64> {
     sums
 }
 
-/// Most of this picture has little noise.
+/// A scene with little noise in most of the image.
 fn plates() -> Scene {
     load(concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/veach_plates.toml").as_ref()).expect("a shipped scene compiles")
 }
 
-/// Short renders, in which what the first samples happen to be would matter most, were it asked.
+/// Short renders, in which a bias from the first samples would be largest.
 #[test]
 fn adaptive_samples_give_the_same_picture() {
     const RENDERS: u32 = 90;

@@ -1,4 +1,4 @@
-//! Surfaces whose colour is black: what has no colour of its own, a coat or Fresnel's rise, is still there.
+//! Black surfaces: a coat, and the rise of Fresnel's reflectance, remain.
 use noisefall::{
     measure::exact::fresnel,
     scene::{Estimator, RenderSettings, Roulette, Scene},
@@ -6,7 +6,7 @@ use noisefall::{
 
 use crate::picture::{BLUE, Measure, RED, assert_all_within, picture, scene, settings};
 
-/// A flat surface of this material seen by parallel rays at the angle θ, in light of radiance 1 from everywhere.
+/// A flat surface of this material, seen by parallel rays at the angle θ in a uniform field of radiance 1.
 fn seen_at(material: &str, theta: f64) -> Scene {
     let [sin, cos] = [theta.sin(), theta.cos()].map(|x| 100.0 * x);
     scene(&format!(
@@ -64,7 +64,7 @@ fn what_is_black_without_coat_or_rise_reflects_nothing() {
     }
 }
 
-/// Black in red, and in blue as bright as it may be: the coat's part of both is the same light.
+/// Black in red and of full albedo in blue. The coat reflects the same light in both.
 const HALF_BLACK: [(&str, &str); 2] = [
     ("plastic = { albedo = [0.0, 0.0, 0.3], ior = 1.5, alpha = 0.3 }", "plastic = { albedo = 0.0, ior = 1.5, alpha = 0.3 }"),
     ("conductor = { f0 = [0.0, 0.0, 0.3], alpha = 0.3 }", "conductor = { f0 = 0.0, alpha = 0.3 }"),

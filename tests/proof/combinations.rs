@@ -1,4 +1,4 @@
-//! Path, light and mis agree where any two features meet: what is right alone may be wrong together.
+//! Path, light and mis agree for every pair of features, because features that work alone may fail together.
 use noisefall::{
     integrator::{Batch, TILE, Work, trace},
     math::{SimdLevel, colour::luminance},
@@ -12,7 +12,7 @@ use crate::{
     statistics::Moments,
 };
 
-/// What a scene may have, beside a floor, a ball and a lamp.
+/// Features of a scene besides a floor, a ball and a lamp.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Feature {
     MovingLamp,
@@ -64,10 +64,10 @@ const ALL: [Feature; 21] = [
     Sharing,
 ];
 
-/// A scene has at most one of them.
+/// Groups of features that exclude each other.
 const EXCLUSIVE: [[Feature; 2]; 2] = [[ImageSky, ConstantSky], [MovingLamp, StretchedLamp]];
 
-/// Sets of at most seven features, in which every two are together once.
+/// Sets of at most seven features that contain every pair once.
 fn sets() -> Vec<Vec<Feature>> {
     const MOST: usize = 7;
     let fits = |set: &[Feature], feature: Feature| {
@@ -192,7 +192,7 @@ fn with(set: &[Feature]) -> Scene {
     ))
 }
 
-/// Means of the four quarters of the picture, by samples: pixels may share paths, samples do not.
+/// Means of the four quarters of the image, by sample. Pixels may share paths; samples do not.
 fn quarters(scene: &Scene, settings: &RenderSettings, spp: u32) -> Vec<Moments> {
     let rays = scene.rays(&scene.camera);
     let [width, height] = scene.camera.resolution;

@@ -1,4 +1,4 @@
-//! A sample is a pure function of its number: threads, SIMD level, interruptions and replays change nothing, not a bit.
+//! A sample is a pure function of its index: threads, SIMD level, interruptions and replays do not change a bit.
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use noisefall::{
@@ -15,7 +15,7 @@ use noisefall::{
 
 const RESOLUTION: [u32; 2] = [75, 50];
 const SHARING: [Reuse; 2] = [Reuse::Off, Reuse::On];
-/// Enough for samples to be spread by noise.
+/// Enough samples for adaptive sampling to distribute them.
 const SPP: u32 = 8;
 
 fn settings(sampler: Sampler, reuse: Reuse) -> RenderSettings {
@@ -75,7 +75,7 @@ fn an_interrupted_pass_goes_on_as_if_nothing_had_happened() {
         let mut interrupted = Film::new(RESOLUTION);
         let asked = AtomicU32::new(0);
         while interrupted.spp() < SPP {
-            // Now and then, in the middle of a path.
+            // Sometimes in the middle of a path.
             threads.pass(job, &mut interrupted, SPP, &|| asked.fetch_add(1, Ordering::Relaxed) % 211 == 210);
         }
         assert!(bits(&interrupted) == bits(&film(&scene, 1, SimdLevel::best(), &settings, SPP)), "{reuse:?}");

@@ -1,4 +1,4 @@
-//! Rooms and vessels that are not spheres: furnaces, darkness, invisible glass, and the view from inside.
+//! Closed shapes other than spheres: furnaces, darkness, invisible glass, and the view from inside.
 use noisefall::{
     measure::exact::furnace,
     sampling::Directions,
@@ -39,7 +39,7 @@ const CLOSED: [(&str, &str); 6] = [
 const INSIDE: &str = "eye = [0.1, -0.05, 0.2], look_at = [0.6, 0.3, -0.2], fov = 90.0, resolution = [32, 32]";
 const OUTSIDE: &str = "eye = [1.5, 2.0, 4.0], look_at = [0.0, 0.0, 0.0], fov = 45.0, resolution = [32, 32]";
 
-/// From the middle at the middle of a wall.
+/// A camera at the centre that looks at the centre of a wall.
 const AWAY_FROM_CORNERS: &str = "eye = [0.0, 0.0, 0.0], look_at = [0.3, 0.2, -1.0], fov = 10.0, resolution = [32, 32]";
 
 const LE: f64 = 1.0;
@@ -66,11 +66,11 @@ fn exactly(found: &[Mean], expected: f64) -> bool {
 fn a_closed_room_of_any_shape_is_a_furnace() {
     for (what, shape) in CLOSED {
         let room = glowing(INSIDE, shape);
-        // By the path estimator every sample is the series itself.
+        // With the path estimator every sample is the series itself.
         let still = RenderSettings { roulette: Roulette::Off, ..settings(Estimator::Path) };
         assert!(exactly(&picture(&room, still, RED, 16).pixels, furnace(LE, ALBEDO)), "{what}");
         for directions in [Directions::Uniform, Directions::Cosine] {
-            // Light samples alone have no finite variance in corners, where walls come as near to each other as one likes.
+            // Light samples alone have infinite variance in corners, where walls come arbitrarily close to each other.
             for estimator in [Estimator::Path, Estimator::Mis] {
                 let found = picture(&room, RenderSettings { directions, ..settings(estimator) }, RED, 36);
                 let what = format!("{what}, {}, {directions:?}", estimator.name());
@@ -157,8 +157,8 @@ fn clear_glass_of_any_shape_is_invisible() {
 
 #[test]
 fn from_inside_a_block_of_glass_the_world_is_seen_in_cones_and_nothing_beside_them() {
-    // Reflections only turn the sign of the components of a direction. Where one of them exceeds cos θ_c = √(1 − 1/n²) the path
-    // leaves in the end, for n² times the radiance outside; where none does it is reflected totally for ever.
+    // Reflections only change the signs of the components of a direction. If one of them exceeds cos θ_c = √(1 − 1/n²), the path
+    // leaves in the end, with n² times the radiance outside. Otherwise it is totally reflected for ever.
     const IOR: f64 = 1.5;
     let block = "shape.cuboid = { min = [-1.0, -0.7, -1.5], max = [0.8, 0.6, 1.2] }";
     let look = |at: &str, fov: f64| format!("eye = [0.1, -0.05, 0.2], look_at = {at}, fov = {fov:?}, resolution = [32, 32]");

@@ -1,5 +1,5 @@
-//! The three estimators find the same light in every scene that comes with Noisefall, each in its own way; and where no single way
-//! is good everywhere, both together are better than either.
+//! The three estimators agree on every shipped scene. If neither path nor light sampling is good everywhere, MIS is better than
+//! either.
 use noisefall::{
     sampling::Sampler,
     scene::{Camera, Estimator, RenderSettings, Scene, load},
@@ -10,25 +10,25 @@ use crate::picture::{LUMINANCE, Mean, Picture, assert_all_within, picture, scene
 const RESOLUTION: [u32; 2] = [64, 32];
 const BLOCK: usize = 16;
 
-/// Enough that the means of most blocks are normally distributed. No estimator has to be left out anywhere: each is defined in
-/// every scene, for light behind mirrors and smooth glass counts in all of them.
+/// Enough samples for normally distributed means of most blocks. Every estimator is tested on every scene, because light behind
+/// mirrors and smooth glass counts in all of them.
 fn samples_per_pixel(scene: &str, estimator: Estimator) -> u32 {
     match scene {
         // One path in a thousand finds this lamp, or the sun through this window.
         "tiny_lamp" | "room_window" if estimator == Estimator::Path => 4096,
-        // Its samples are dear.
+        // Its samples are expensive.
         "five_hundred_lamps" => 128,
         _ => 512,
     }
 }
 
-/// Blocks, and last the whole picture.
+/// The blocks, and then the whole image.
 fn means(picture: &Picture) -> Vec<Mean> {
     picture.blocks(BLOCK).into_iter().chain([picture.whole()]).collect()
 }
 
-/// Whether the means are known to one part in ten. Where hardly a path finds light, sums of samples are not normally distributed;
-/// such blocks count in the whole picture only.
+/// Whether the standard error is at most a tenth of the mean. If hardly any path finds light, means are not normally distributed;
+/// such blocks count in the whole image only.
 fn are_known(a: Mean, b: Mean) -> bool {
     (a.variance_of_mean + b.variance_of_mean).sqrt() <= 0.1 * a.mean.max(b.mean)
 }
@@ -108,8 +108,8 @@ fn both_together_are_better_than_either_where_lamps_and_glosses_range_from_tiny_
     let variances = pictures.map(|picture| picture.pixels.iter().map(|pixel| pixel.variance_of_mean).sum::<f64>());
     let [path, light, mis] = variances;
     println!("variances: path {path:.3e}, light {light:.3e}, mis {mis:.3e}");
-    // Where samples hardly ever find what they look for, variances estimated from them are too low, never too high by much: the
-    // two single ways are worse than this says.
+    // If samples rarely find light, the sample variance is too low, and never much too high. The two single strategies are
+    // therefore worse than measured here.
     assert!(mis < path && mis < light, "path {path:.3e}, light {light:.3e}, mis {mis:.3e}");
 }
 
@@ -133,7 +133,8 @@ fn they_agree_on_rough_glass_that_shines() {
     }
 }
 
-/// More lamps than are weighed one by one: of all shapes and sides, around balls and below a floor, in a shell that shines inwards.
+/// So many lamps that they form a light tree: of all shapes and sides, around balls and below a floor, in a shell that emits
+/// inwards.
 fn hundreds_of_lamps() -> Scene {
     let mut objects = String::new();
     let mut object = |text: &str| objects += &format!("[[objects]]\n{text}\n");

@@ -1,4 +1,4 @@
-//! What a camera sees first, against what geometry says, and against what the renderer meets.
+//! First surfaces along camera rays, compared with geometry and with the renderer.
 use std::{path::Path, sync::atomic::AtomicU32, sync::atomic::Ordering};
 
 use glam::{DVec3, Vec3};
@@ -13,12 +13,12 @@ use crate::picture::scene;
 
 const MISS: u32 = u32::MAX;
 
-/// What the scene's camera sees.
+/// The features of the scene's camera.
 fn seen(scene: &Scene, camera: &Camera) -> Features {
     features(SimdLevel::best(), scene, camera, &|| false).expect("nobody interrupts")
 }
 
-/// The unit directions through the middles of the pixels of a pinhole camera.
+/// Unit directions through the centres of the pixels of a pinhole camera.
 fn directions(camera: &Camera) -> Vec<DVec3> {
     let [right, up, forward] = camera.axes();
     let [width, height] = camera.resolution;
@@ -65,7 +65,7 @@ fn a_sphere_is_where_it_is() {
         }
         hits += 1;
         let t = -b - discriminant.sqrt();
-        // Where the ray grazes, a little aside is a long way on.
+        // On a grazing ray, a small error sideways is a large one along the ray.
         let tolerance = 2e-6 / discriminant.sqrt().min(1.0);
         assert!((f64::from(found.depth[pixel]) - t).abs() < tolerance * t, "{pixel}: {} for {t}", found.depth[pixel]);
         assert!((world(found.normal[pixel]) - (eye + d * t)).length() < tolerance * t, "{pixel}: {:?}", found.normal[pixel]);
@@ -117,7 +117,7 @@ fn a_smooth_octahedron_has_the_normals_of_a_sphere() {
         let p = eye + d * f64::from(found.depth[pixel]);
         let off = p.x.abs() + p.y.abs() + p.z.abs() - 1.0;
         assert!(off.abs() < 5e-6, "{pixel} is {off} off the faces");
-        // Normals that turn away are not used.
+        // Shading normals that face away from the viewer are not used.
         let exact = p.normalize();
         if exact.dot(-d) > 0.01 {
             compared += 1;
@@ -127,7 +127,7 @@ fn a_smooth_octahedron_has_the_normals_of_a_sphere() {
     assert!(compared > 400, "{compared}");
 }
 
-/// The scenes that come with the program, whose shapes, textures and motions are of every kind, at a low resolution.
+/// The shipped scenes at a low resolution; they have shapes, textures and motions of every kind.
 fn scenes() -> Vec<(&'static str, Scene, Camera)> {
     let names = ["shapes", "textures_and_bump", "isosurfaces", "gloss_row", "motion_blur", "depth_of_field", "cornell_spheres"];
     let scene = |name| {

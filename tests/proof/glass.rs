@@ -1,6 +1,6 @@
-//! Glass that absorbs nothing is invisible where light comes from everywhere alike, whatever its shape, roughness or nesting: a
-//! path brings back the radiance 1 wherever it leaves (the furnace for interfaces; the η² that radiance gains on entering is lost
-//! on leaving). So is every surface that reflects all light.
+//! Glass that absorbs nothing is invisible in a uniform field, whatever its shape, roughness or nesting: a path returns the
+//! radiance 1 wherever it leaves (the furnace for interfaces; the factor η² that radiance gains on entering is lost on leaving).
+//! Surfaces that reflect all light are invisible too.
 use noisefall::scene::{Estimator, RenderSettings, Roulette, Scene};
 
 use crate::{
@@ -8,7 +8,7 @@ use crate::{
     statistics::assert_within,
 };
 
-/// Light of radiance 1 from everywhere, on objects between −1 and 1 in every direction.
+/// A uniform field of radiance 1 around objects between −1 and 1 on every axis.
 pub fn in_white_light(camera: &str, materials: &str, spheres: &[([f64; 3], f64, &str)]) -> Scene {
     let object = |(center, radius, material): &([f64; 3], f64, &str)| {
         format!("[[objects]]\nshape.sphere = {{ center = {center:?}, radius = {radius:?} }}\nmaterial = '{material}'\n")
@@ -71,8 +71,8 @@ fn assert_invisible(scene: &Scene, what: &str, estimators: &[Estimator], spp: u3
     }
 }
 
-/// Sampled lights alone find a lobe of width α with one sample in 1/α²: below this the mean of a few thousand samples is not
-/// normally distributed, and the light estimator is not asked.
+/// Light samples alone hit a lobe of width α with one sample in 1/α². Below this α the mean of a few thousand samples is not
+/// normally distributed, and the light estimator is not tested.
 const LEAST_ALPHA_FOR_LIGHT: f64 = 0.2;
 
 fn estimators(alpha: f64) -> &'static [Estimator] {
@@ -90,7 +90,7 @@ fn rough_glass_is_invisible() {
 
 #[test]
 fn balls_that_reflect_all_light_are_invisible() {
-    // With the α of lobes that are not smooth.
+    // With the α of rough lobes.
     let materials = [
         ("lambertian = { albedo = 1.0 }", None, 64),
         ("mirror = { reflectance = 1.0 }", None, 4),

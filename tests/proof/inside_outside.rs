@@ -14,7 +14,7 @@ use noisefall::{
 
 use crate::statistics::assert_within;
 
-/// Of `outside_lit_outside.toml`.
+/// Albedo of the ball in `outside_lit_outside.toml`.
 const ALBEDO: f64 = 0.8;
 const LAMP: Lamp = Lamp { center: DVec3::new(1.7, 1.4, 1.0), radius: 0.5, radiance: 8.0 };
 
@@ -74,7 +74,7 @@ fn no_light_passes_a_closed_sphere() {
 
 #[test]
 fn a_lamp_in_the_middle_lights_the_inside_evenly() {
-    // The lamp fills the share F = (r/R)² of the cosine-weighted hemisphere of a wall point and the wall itself the rest:
+    // The lamp fills the fraction F = (r/R)² of the cosine-weighted hemisphere of a wall point, and the wall fills the rest:
     // B = ρ (L F + B (1 − F)).
     let (albedo, radiance, share) = (0.5, 8.5, 0.25f64.powi(2));
     let exact = albedo * radiance * share / (1.0 - albedo * (1.0 - share));

@@ -1,4 +1,4 @@
-//! Light from a spherical lamp, high in the sky or partly set, on diffuse ground: ρ E/π with E in closed form.
+//! Light from a spherical lamp, above or partly below the horizon, on diffuse ground: ρ E/π with E in closed form.
 use std::f64::consts::PI;
 
 use noisefall::{
@@ -35,7 +35,7 @@ fn irradiance_by_integration(cos: f64) -> f64 {
     RADIANCE * width * (0..STEPS).map(circle).sum::<f64>()
 }
 
-/// Above, partly set by every share, and just before it is gone at 90° + 17.46°.
+/// Zenith angles above the horizon, partly below it, and just before the lamp sets at 90° + 17.46°.
 const DEGREES: [f64; 10] = [0.0, 30.0, 60.0, 72.0, 75.0, 80.0, 90.0, 95.0, 100.0, 104.0];
 
 #[test]
@@ -47,7 +47,7 @@ fn the_closed_form_is_the_integral_over_the_visible_part_of_the_lamp() {
     }
 }
 
-/// A point of a diffuse sphere below the origin, seen so closely that all pixels show the same.
+/// A diffuse sphere below the origin. The camera sees so small a part of it that all pixels are equal.
 fn lit_point(radius: f64, fov: f64, degrees: f64) -> Scene {
     let (sin, cos) = degrees.to_radians().sin_cos();
     let [x, y] = [DISTANCE * sin, DISTANCE * cos];

@@ -1,5 +1,5 @@
-//! What a camera does to an edge: the thin lens, parallel projection and pixel filters against areas in closed form. A sample
-//! sees the lamp or does not, so that the mean of n samples of probability p has the variance p (1 − p)/n.
+//! Edges through a camera: the thin lens, parallel projection and pixel filters against areas in closed form. A sample sees the
+//! lamp or not, so the mean of n samples of probability p has the variance p (1 − p)/n.
 use std::f64::consts::PI;
 
 use noisefall::scene::Estimator;
@@ -13,7 +13,7 @@ use crate::{
 const SIDE: usize = 32;
 const SPP: u32 = 4096;
 
-/// The picture of a sphere that emits 1, with nothing else to see. A camera of parallel rays may stand partly inside.
+/// The image of a sphere that emits 1 and nothing else. An orthographic camera may be partly inside it.
 fn emitter(camera: &str, center: [f64; 3], radius: f64) -> Picture {
     let scene = scene(&format!(
         "camera = {{ {camera}, resolution = [{SIDE}, {SIDE}] }}
@@ -24,7 +24,7 @@ fn emitter(camera: &str, center: [f64; 3], radius: f64) -> Picture {
     picture(&scene, settings(Estimator::Mis), RED, SPP)
 }
 
-/// Deviation of the mean over some pixels from their exact probabilities; exactly 0 and 1 must be met.
+/// Deviation of the mean over some pixels from their exact probabilities. Probabilities 0 and 1 must be exact.
 fn z(pixels: &[(f64, f64)]) -> f64 {
     let (mut difference, mut variance) = (0.0, 0.0);
     for (mean, exact) in pixels {
@@ -34,7 +34,7 @@ fn z(pixels: &[(f64, f64)]) -> f64 {
     if difference == 0.0 { 0.0 } else { difference / variance.sqrt() }
 }
 
-/// All pixels, each group of them of its own, and the whole picture.
+/// Checks all groups of pixels and the whole image.
 fn assert_shows(found: &Picture, exact: impl Fn(usize, usize) -> f64, what: &str) {
     // The closed forms round to a little less than 0 or more than 1.
     let rounded = |p: f64| {
@@ -57,7 +57,7 @@ fn assert_shows(found: &Picture, exact: impl Fn(usize, usize) -> f64, what: &str
     assert_all_within(&(0..SIDE).map(column).collect::<Vec<_>>(), &format!("{what}, by columns"));
 }
 
-/// The mean of a function over so many points of a pixel's side, by the midpoint rule; raster coordinates.
+/// The mean of a function over a pixel by the midpoint rule with this many points per side, in raster coordinates.
 fn over_side(corner: usize, points: u32, f: impl Fn(f64) -> f64) -> f64 {
     let at = |i: u32| corner as f64 + (f64::from(i) + 0.5) / f64::from(points);
     (0..points).map(|i| f(at(i))).sum::<f64>() / f64::from(points)
@@ -65,8 +65,8 @@ fn over_side(corner: usize, points: u32, f: impl Fn(f64) -> f64) -> f64 {
 
 const LENS: f64 = 0.1;
 const FOCUS: f64 = 1000.0;
-/// Width of the picture at the plane in focus. Everything lies so close to the axis that slopes stay below 3·10⁻⁴ and cones are
-/// cylinders to 10⁻⁴.
+/// Width of the image at the plane in focus. Everything is so close to the axis that slopes are below 3·10⁻⁴, and cones are
+/// cylinders to within 10⁻⁴.
 const WIDTH: f64 = 0.4;
 
 /// The camera at the distance `z` from the origin, where its objects are: there single precision is finest.
@@ -80,13 +80,13 @@ fn in_focus(raster: f64) -> f64 {
     (raster / SIDE as f64 - 0.5) * WIDTH
 }
 
-/// The share of the unit disk where x > `edge`: a circular segment.
+/// The fraction of the unit disk where x > `edge`: a circular segment.
 fn segment(edge: f64) -> f64 {
     let edge = edge.clamp(-1.0, 1.0);
     (edge.acos() - edge * (1.0 - edge * edge).sqrt()) / PI
 }
 
-/// The share of the unit disk that a disk of radius `r` at the distance `d` covers: two segments.
+/// The fraction of the unit disk that a disk of radius `r` at the distance `d` covers: two segments.
 fn overlap(r: f64, d: f64) -> f64 {
     if d >= 1.0 + r {
         return 0.0;

@@ -1,6 +1,6 @@
-//! The picture at an end of a parameter's range is the limit of the pictures towards that end.
+//! The image at an end of a parameter's range is the limit of the images towards that end.
 //!
-//! Both pictures use the same random numbers, so that they differ by what the parameter changes and hardly by noise.
+//! Both images use the same random numbers, so they differ by the effect of the parameter and hardly by noise.
 use noisefall::{
     declare::{Choice, Declare, OneOf, Parameter, Parameters, Range, Textured, Value, write},
     material::Material,
@@ -9,15 +9,15 @@ use noisefall::{
 
 use crate::picture::{LUMINANCE, Picture, picture, scene, settings, sigmas_of_most};
 
-/// A value at an end of the range, and one just inside of it.
+/// A value at an end of the range, and one just inside it.
 struct End {
-    /// What the scene says, with `@` where the value stands.
+    /// Text of the scene with `@` in place of the value.
     text: &'static str,
     at: f64,
     near: f64,
 }
 
-/// How far blocks may differ by what lies between the two values, relative to the radiance of the scene, which is about 1.
+/// Largest difference of blocks that the step between the two values may cause, relative to the radiance of the scene of about 1.
 const NEAR: f64 = 3e-3;
 
 const fn end(text: &'static str, at: f64, near: f64) -> End {
@@ -27,7 +27,7 @@ const fn end(text: &'static str, at: f64, near: f64) -> End {
 const SMALL: f64 = 1e-5;
 const WHOLE: f64 = 1.0 - SMALL;
 
-/// Of every kind of material, with parameters as smooth functions of which the picture depends.
+/// Cases for every kind of material, for parameters that change the image smoothly.
 const MATERIALS: [End; 54] = [
     end("lambertian.albedo = @", 0.0, SMALL),
     end("lambertian.albedo = @", 1.0, WHOLE),
@@ -85,7 +85,7 @@ const MATERIALS: [End; 54] = [
     end("plastic = { albedo = 0.5, ior = 1.5, roughness = @ }", 1.0, WHOLE),
 ];
 
-/// From smooth to hardly rough: other lobes, and so other random numbers.
+/// Cases from smooth to slightly rough, which have different lobes and so different random numbers.
 const SMOOTHNESS: [End; 6] = [
     end("conductor = { f0 = 0.5, alpha = @ }", 0.0, 0.00101),
     end("conductor = { f0 = 0.0, roughness = @ }", 0.0, 0.032),
@@ -95,7 +95,7 @@ const SMOOTHNESS: [End; 6] = [
     end("plastic = { albedo = 0.0, ior = 1.5, roughness = @ }", 0.0, 0.032),
 ];
 
-/// Whatever else a scene says, in place of what [`room`] says.
+/// Cases for everything else in a scene, in place of the text of [`room`].
 const REST: [End; 22] = [
     end("textures.t.checker = { even = @, odd = 0.5, scale = 4.0 }", 0.0, SMALL),
     end("textures.t.checker = { even = 0.5, odd = @, scale = 4.0 }", 1.0, WHOLE),
@@ -178,9 +178,9 @@ fn written(text: &str, value: f64) -> String {
     text.replace('@', &value).replace('$', env!("CARGO_MANIFEST_DIR"))
 }
 
-/// The picture of one seed, by blocks.
+/// Block means of the image of one seed.
 fn rendered(scene: &Scene, estimator: Estimator, from_scene: bool) -> Picture {
-    // Where paths end is left to chance as little as possible: a path more or less would be noise.
+    // As few random decisions as possible end paths, because a difference in length would be noise.
     let own = settings(estimator);
     let settings = if from_scene {
         RenderSettings { roulette: scene.settings.roulette, max_bounces: scene.settings.max_bounces, ..own }
@@ -190,7 +190,7 @@ fn rendered(scene: &Scene, estimator: Estimator, from_scene: bool) -> Picture {
     picture(scene, settings, LUMINANCE, 64)
 }
 
-/// The largest difference of blocks of 8 × 8 pixels.
+/// The largest difference between blocks of 8 × 8 pixels.
 fn difference(end: &End, room: impl Fn(&str) -> Scene, estimator: Estimator, from_scene: bool) -> f64 {
     let [at, near] = [end.at, end.near].map(|value| rendered(&room(&written(end.text, value)), estimator, from_scene).blocks(8));
     let differences = at.iter().zip(&near).map(|(at, near)| (at.mean - near.mean).abs() / (1.0 + near.mean));
@@ -207,13 +207,13 @@ fn materials_at_the_ends_of_their_ranges_are_what_they_approach() {
     }
 }
 
-/// Puts the number of a material at a place among all of them to an end of its range, or just inside of it.
+/// Sets the n-th number of a material to an end of its range, or just inside it.
 struct AtEnd {
-    /// How many numbers are left to pass over.
+    /// Numbers that are still to be skipped.
     left: usize,
     upper: bool,
     near: bool,
-    /// Which alternative of every choice is taken.
+    /// Index of the alternative of every choice.
     variant: usize,
     found: Option<&'static str>,
 }
@@ -258,7 +258,7 @@ impl Parameters for AtEnd {
     }
 }
 
-/// The material as a scene file says it.
+/// The material as text of a scene file.
 struct Chosen(Material);
 
 impl Declare for Chosen {

@@ -1,7 +1,7 @@
 //! The estimator against exact solutions of the light transport equation.
 //!
-//! Every statement is a z-test at 4σ over seeded samples, or exact where the answer is. σ comes from the closed form where there
-//! is one, else from the samples.
+//! Every statement is a z-test at 4σ over seeded samples, or exact if the answer is exact. σ comes from a closed form if there is
+//! one, otherwise from the samples.
 #![allow(clippy::print_stdout, reason = "figures are printed for those who ask for them")]
 mod adaptive;
 mod black;

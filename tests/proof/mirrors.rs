@@ -1,4 +1,4 @@
-//! Mirrors that face each other, which emit as well: light comes and goes between them, and what is seen is a geometric series.
+//! Two mirrors that face each other and emit: the radiance is a geometric series.
 //!
 //! Mirrors a and b of reflectances r_a, r_b and radiances L_a, L_b, both huge, so that a ray at right angles to one meets the other
 //! at a right angle. Looking at a: L = L_a + r_a (L_b + r_b L), so that L = (L_a + r_a L_b)/(1 − r_a r_b). With a cap at n
@@ -17,7 +17,7 @@ use crate::{
 /// Rounding of single precision over the terms of a sum.
 const ROUNDING: f64 = 2e-6;
 
-/// A mirror's reflectance and radiance, a colour each.
+/// Reflectance and radiance of a mirror, per channel.
 #[derive(Clone, Copy)]
 struct MirrorLight {
     reflectance: [f64; 3],

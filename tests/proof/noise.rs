@@ -1,5 +1,5 @@
-//! The figure for the remaining noise against the error that pictures really have: on every scene that comes with the program, and in
-//! rooms made at random from 4 to 1024 spp. And what stopping by this figure does to the mean.
+//! The noise estimate against the true error, on every shipped scene and in random rooms from 4 to 1024 samples per pixel; and
+//! the bias from stopping at a noise target.
 use std::path::Path;
 
 use noisefall::{
@@ -20,14 +20,13 @@ use crate::{picture::scene, statistics::Moments};
 
 const SPP: u32 = 128;
 const SEEDS: u32 = 6;
-/// The figure, a root of relMSE, and the true error differ by less than this factor.
+/// Largest factor between the estimate, a root of relMSE, and the true error.
 const FACTOR: f64 = 1.25;
-/// Scenes whose figure is known to be further off, and the factor that it may be off by: most of the error of the plates is in few
-/// pixels at the edges of lamps of enormous radiance; all of that of the ball is at its outline, and that of what moves at its edges,
-/// where errors fall faster than is believed.
+/// Scenes with a larger factor. Most of the error of the plates is in few pixels at the edges of very bright lamps. All error of
+/// the ball is at its outline, and that of moving objects at their edges, where errors fall faster than the estimate assumes.
 const WORSE: [(&str, f64); 3] = [("veach_plates", 1.5), ("outside_lit_outside", 1.45), ("motion_blur", 1.4)];
 
-/// One picture at each of these numbers of samples.
+/// One image at each of these sample counts.
 fn frames<const N: usize>(threads: &Threads, scene: &Scene, resolution: [u32; 2], seed: u32, spp: [u32; N]) -> [Frame; N] {
     let rays = scene.rays(&Camera { resolution, ..scene.camera });
     let settings = RenderSettings { seed, ..resolved(scene, &rays, &scene.settings) };
@@ -38,7 +37,7 @@ fn frames<const N: usize>(threads: &Threads, scene: &Scene, resolution: [u32; 2]
     })
 }
 
-/// Estimated and true relMSE, means over pictures that differ by their seeds only.
+/// Estimated and true relMSE, as means over images with different seeds.
 fn estimate_and_truth(frames: &[&Frame], radiance: &[[f32; 3]]) -> (f64, f64) {
     let floor = Floor::DEFAULT.of_picture(radiance);
     let n = frames.len() as f64;
@@ -71,7 +70,7 @@ fn the_noise_figure_is_the_error() {
         let [width, height] = scene.camera.resolution;
         let picture = |seed, spp| frames(&threads, &scene, [64, (64 * height).div_ceil(width)], seed, [spp]);
         let pictures: Vec<[Frame; 1]> = (0..SEEDS).map(|seed| picture(seed, SPP)).collect();
-        // The pictures' own mean would be too bright where one of them was lucky.
+        // The mean of these images would be too bright where one of them found rare light.
         let [reference] = picture(SEEDS, 4 * SPP);
         let (estimate, truth) = estimate_and_truth(&pictures.iter().flatten().collect::<Vec<_>>(), &reference.radiance);
         let ratio = if truth > 0.0 { (estimate / truth).sqrt() } else { 1.0 + estimate };
@@ -84,7 +83,7 @@ fn the_noise_figure_is_the_error() {
     assert!(wrong.is_empty(), "figure over error: {}", wrong.join(", "));
 }
 
-/// A room that nobody chose: balls of all materials under a lamp of some size.
+/// A random room: balls of all materials under a lamp.
 fn room(dice: &mut SmallRng) -> String {
     let mut within = |least: f64, most: f64| least + (most - least) * dice.random::<f64>();
     let mut materials = format!(
@@ -152,7 +151,7 @@ fn the_noise_figure_holds_in_rooms_made_at_random() {
     for (spp, mut ratios) in COUNTS.into_iter().zip(ratios) {
         ratios.sort_by(f64::total_cmp);
         println!("{spp:5} spp: figure over error {ratios:.2?}");
-        // Before 64 samples it may be many times too large: what is dark so far counts as if it were.
+        // Before 64 samples the estimate may be many times too large, because pixels without light so far count as dark.
         let [median, worst] = match spp {
             0..64 => continue,
             64..256 => [1.15, 4.5],
@@ -164,8 +163,8 @@ fn the_noise_figure_holds_in_rooms_made_at_random() {
     }
 }
 
-/// Where a render ends that stops at a noise target depends on its samples, and so its mean is not that of a fixed number of samples.
-/// The fewer the pixels, the more the ends differ: here they are four.
+/// A noise target makes the sample count depend on the samples, which biases the mean. Fewer pixels make the counts differ more;
+/// here there are four.
 #[test]
 fn stopping_at_a_noise_target_shifts_the_mean_by_less_than_a_fortieth_of_the_target() {
     const SIDE: u32 = 2;

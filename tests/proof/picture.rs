@@ -1,4 +1,4 @@
-//! Pictures of scenes written in the tests.
+//! Images of scenes in the tests.
 pub use noisefall::measure::{Mean, Measure, Picture, picture};
 use noisefall::{
     sampling::{Directions, Sampler},
@@ -8,12 +8,12 @@ use statrs::distribution::{ContinuousCDF, Normal};
 
 use crate::statistics::SIGMAS;
 
-/// The scene of a file that says this after its version.
+/// The scene of a text without its `format` line.
 pub fn scene(text: &str) -> Scene {
     parse("inline.toml", format!("format = 1\n{text}")).unwrap_or_else(|error| panic!("{error:?}\n{text}"))
 }
 
-/// Independent samples: only their error is what their variance says.
+/// Settings with independent samples, whose variance gives the standard error.
 pub fn settings(estimator: Estimator) -> RenderSettings {
     RenderSettings {
         estimator,
@@ -40,7 +40,7 @@ pub fn sigmas_of_most(count: usize) -> f64 {
     -normal.inverse_cdf(normal.cdf(-SIGMAS) / count as f64)
 }
 
-/// Every one of these deviations is within what chance allows so many of them.
+/// Checks that all deviations are within the limit for their number.
 pub fn assert_all_within(deviations: &[f64], what: &str) {
     assert!(!deviations.is_empty(), "{what}: nothing to compare");
     let most = sigmas_of_most(deviations.len());

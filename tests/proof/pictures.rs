@@ -1,6 +1,6 @@
-//! Small pictures of every scene that ships, with every sampler and estimator, as hashes: whatever is moved in the program, their bits stay.
+//! Hashes of small images of every shipped scene with every sampler and estimator. Refactoring must not change them.
 //!
-//! A change that is meant to change pictures says so in its commit, and writes the hashes anew.
+//! A change that is meant to change images says so in its commit and updates the hashes.
 use std::{collections::BTreeMap, fmt::Write, fs, path::Path};
 
 use noisefall::{
@@ -16,15 +16,15 @@ use noisefall::{
 
 const SIZE: u32 = 24;
 const SPP: u32 = 3;
-/// Set this variable to write the hashes anew.
+/// Set this variable to update the hashes.
 const UPDATE: &str = "NOISEFALL_UPDATE_HASHES";
 
-/// FNV-1a over the bits of a picture.
+/// FNV-1a over the bits of an image.
 fn hash(scene: &Scene, threads: &Threads, sampler: Sampler, estimator: Estimator) -> u64 {
     let [width, height] = scene.camera.resolution;
     let resolution = [SIZE, (SIZE * height).div_ceil(width)];
     let rays = scene.rays(&Camera { resolution, ..scene.camera });
-    // With sharing where the scene can: what the trial says depends on the size of the picture.
+    // Path reuse is on wherever the scene allows it, because the trial depends on the size of the image.
     let settings = RenderSettings { sampler, estimator, reuse: Reuse::On, ..scene.settings };
     let mut film = Film::new(resolution);
     threads.pass(PassJob { scene, rays: &rays, settings: &settings }, &mut film, SPP, &|| false);

@@ -1,4 +1,4 @@
-//! A plate of smooth glass before light from one side: Fresnel's equations and the sum over all reflections between its faces.
+//! A plate of smooth glass with light from one side: Fresnel's equations and the sum over all reflections between its faces.
 //!
 //! Each face reflects R(θ), the mean of both polarisations, and a crossing lets a pass. Of what comes from beyond the plate
 //! (1 − R)² a Σ (R a)²ᵏ arrives, that is (1 − R)/(1 + R) if a = 1; of what comes from the viewer's side R + (1 − R)² R a² Σ (R a)²ᵏ

@@ -1,4 +1,4 @@
-//! Pictures of an independent renderer: means over blocks of 16 × 16 pixels, with their standard errors, in `tests/references`.
+//! Images of an independent renderer: means over blocks of 16 × 16 pixels with their standard errors, in `tests/references`.
 //!
 //! `NOISEFALL_REFERENCE_SPP=4096 cargo test --release --test proof references` compares with more samples.
 use std::path::Path;
@@ -10,7 +10,7 @@ use noisefall::{
 };
 
 const SPP: u32 = 256;
-/// Some 800 block means a scene: beyond this one in 10⁵ is by chance.
+/// Limit for about 800 block means per scene; by chance one in 10⁵ exceeds it.
 const MOST_SIGMAS: f64 = 4.5;
 
 fn agrees(name: &str) {

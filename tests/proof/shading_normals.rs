@@ -1,7 +1,7 @@
-//! Shading normals of bump and normal maps on every shape, against those that follow from where the pixels lie and what their
-//! texture coordinates are.
+//! Shading normals of bump and normal maps on every shape, compared with normals derived from positions and texture coordinates
+//! of pixels.
 //!
-//! The surface shows its own (u, v) as red and green, so that neighbouring pixels say how u and v change over the surface.
+//! The surface shows its own (u, v) as red and green, so differences of neighbouring pixels give their derivatives.
 use std::path::PathBuf;
 
 use glam::{DMat2, DVec2, DVec3, Vec3};
@@ -15,13 +15,13 @@ use noisefall::{
 use crate::picture::scene;
 
 const SIDE: u32 = 96;
-/// Texels of the pictures.
+/// Texels of the images.
 const TEXELS: u32 = 64;
-/// Of u and of v on their way across the picture.
+/// Change of u and of v across the image.
 const RISE: DVec2 = DVec2::new(0.5, 0.3);
-/// Metres from black to white.
+/// Height from black to white, metres.
 const HEIGHT: f64 = 0.4;
-/// What the normal map says everywhere, before it is made unit.
+/// The constant normal of the normal map, before normalisation.
 const TILT: DVec3 = DVec3::new(0.5, 0.25, 0.8);
 
 /// Shapes within 1 m of the origin.
@@ -53,11 +53,11 @@ const SHAPES: [(&str, &str); 13] = [
     ),
 ];
 
-/// Two triangles whose texture coordinates are turned and sheared against their edges.
+/// Two triangles with texture coordinates that are rotated and sheared relative to their edges.
 const MESH: &str = "v -0.8 -0.7 0\nv 0.8 -0.6 0.1\nv 0.7 0.8 0\nv -0.7 0.6 -0.1\n\
                     vt 0.2 0.1\nvt 0.9 0.3\nvt 0.7 0.9\nvt 0.1 0.6\nf 1/1 2/2 3/3\nf 1/1 3/3 4/4\n";
 
-/// The same with normals of its own.
+/// The same with vertex normals.
 fn smooth_mesh() -> String {
     let (places, _) = MESH.split_once("f ").expect("it has faces");
     format!("{places}vn 0.3 0.1 1\nvn -0.3 0.2 1\nvn -0.2 -0.3 1\nvn 0.2 -0.1 1\nf 1/1/1 2/2/2 3/3/3\nf 1/1/1 3/3/3 4/4/4\n")
@@ -85,7 +85,7 @@ impl Files {
         self.folder.path().join(name)
     }
 
-    /// A picture of a function of (u, v) at the middles of the texels.
+    /// An image of a function of (u, v) at the centres of the texels.
     fn picture(&self, name: &str, colour: impl Fn(DVec2) -> [f64; 3]) {
         let at = |i: u32| (f64::from(i) + 0.5) / f64::from(TEXELS);
         let pixel = |i: u32| colour(DVec2::new(at(i % TEXELS), at(i / TEXELS))).map(|c| c as f32);
@@ -94,7 +94,7 @@ impl Files {
         save(&frame, Display::default(), "{}", &self.path(name)).expect("it is written");
     }
 
-    /// What parallel rays from (2, 1.5, 3) see of a shape.
+    /// The view of a shape by parallel rays from (2, 1.5, 3).
     fn seen(&self, shape: &str, material: &str) -> Features {
         let path = |name: &str| self.path(name).display().to_string();
         let shape = shape.replace("MESH", &path("mesh.obj")).replace("SMOOTH", &path("smooth.obj"));
@@ -116,7 +116,7 @@ impl Files {
     }
 }
 
-/// A place of the surface, and how it moves with u and v.
+/// A point of the surface and its derivatives.
 struct Place {
     pixel: usize,
     normal: DVec3,
@@ -125,7 +125,7 @@ struct Place {
     wo: DVec3,
 }
 
-/// The pixels in the middle of a smooth piece of surface, where pictures do not begin or end.
+/// The pixels inside a smooth piece of surface, away from edges of the texture.
 fn places(seen: &Features) -> Vec<Place> {
     let wo = DVec3::new(1.0, 0.7, 3.0).normalize();
     let right = DVec3::Y.cross(wo).normalize();
@@ -167,7 +167,7 @@ fn places(seen: &Features) -> Vec<Place> {
     all
 }
 
-/// The exact normals are those that `exact` says, wherever the viewer can see them.
+/// Checks that the normals are those of `exact` wherever they face the viewer.
 fn assert_normals(files: &Files, material: &str, exact: impl Fn(&Place) -> DVec3) {
     for (name, shape) in SHAPES {
         let (plain, found) = (files.seen(shape, ""), files.seen(shape, material));
@@ -183,7 +183,7 @@ fn assert_normals(files: &Files, material: &str, exact: impl Fn(&Place) -> DVec3
         }
         deviations.sort_by(f64::total_cmp);
         assert!(deviations.len() > 300, "{name}: only {} pixels are compared", deviations.len());
-        // A few lie next to an edge or a pole, where differences of neighbours are no derivatives.
+        // A few pixels are next to an edge or a pole, where differences do not approximate derivatives.
         let [typical, most] = [0.5, 0.95].map(|part| deviations[(deviations.len() as f64 * part) as usize]);
         println!("{name}: {typical:.1e}, {most:.1e} of {}", deviations.len());
         assert!(typical < 0.01 && most < 0.05, "{name}: {typical:.3} and {most:.3} from the exact normal");

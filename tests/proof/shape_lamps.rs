@@ -1,5 +1,5 @@
-//! Light from flat, round and stretched lamps on a diffuse point, ρ E/π, with E in closed form or by integration; and how large
-//! such lamps look.
+//! Light from flat, round and stretched lamps on a diffuse point, ρ E/π, with E in closed form or by integration; and the
+//! projected area of such lamps.
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use glam::{DAffine3, DMat3, DVec3};
@@ -16,7 +16,7 @@ use crate::{
 const RADIANCE: f64 = 7.0;
 const ALBEDO: f64 = 0.8;
 
-/// What a small diffuse square at the origin shows, facing upwards, under this object.
+/// The radiance of a small diffuse square at the origin, facing upwards, under this object.
 fn lit_by(lamp: &str, estimator: Estimator) -> Mean {
     let scene = scene(&format!(
         "camera = {{ eye = [0.0, 0.05, 0.1], look_at = [0.0, 0.0, 0.0], fov = 0.1, resolution = [32, 32] }}
@@ -70,7 +70,7 @@ fn polygons() -> Vec<(&'static str, bool, [DVec3; 3])> {
 #[test]
 fn a_polygon_lights_the_ground_by_lamberts_formula() {
     for (what, is_triangle, [a, u, v]) in polygons() {
-        // The front looks at the origin.
+        // The front faces the origin.
         let away = u.cross(v).dot(a) > 0.0;
         let (corners, shape) = if is_triangle {
             let (b, c) = (a + u, a + v);
@@ -139,7 +139,7 @@ fn a_disk_lights_the_ground_as_its_closed_form_says() {
     }
 }
 
-/// A lamp about a metre large at the origin of its own space.
+/// A lamp of about a metre at the origin of its own space.
 #[derive(Clone, Copy, Debug)]
 enum Lamp {
     /// Of radius 1, facing z.
@@ -215,8 +215,8 @@ impl Lamp {
         }
     }
 
-    /// Irradiance by its front at the origin of the ground, where `map` has placed it: ∫ L cos θ cos θ′/d² dA. What faces a
-    /// point on the front of a convex body is seen from there.
+    /// Irradiance at the origin of the ground by the front of the lamp, transformed by `map`: ∫ L cos θ cos θ′/d² dA. The lamp is
+    /// convex, so every part of its front that faces a point is visible from there.
     fn irradiance(self, map: &DAffine3) -> f64 {
         const STEPS: u32 = 400;
         // n dA becomes det M M⁻ᵀ n dA, on the side of M⁻ᵀ n.
@@ -231,12 +231,12 @@ impl Lamp {
         RADIANCE * self.pieces().iter().map(whole).sum::<f64>() / f64::from(STEPS).powi(2)
     }
 
-    /// The area that its front fills in a view along the unit vector w, where `map` has placed it: Σ |n dA · w| over what faces
-    /// the viewer.
+    /// Projected area along the unit vector w of the front of the lamp, transformed by `map`: Σ |n dA · w| over the parts that
+    /// face the viewer.
     fn projected_area(self, map: &DAffine3, w: DVec3) -> f64 {
         let [x, y, z] = [map.matrix3.x_axis, map.matrix3.y_axis, map.matrix3.z_axis];
         let area = |a: DVec3, b: DVec3| a.cross(b).dot(w).abs();
-        // Opposite to w where the front is seen.
+        // The normal is opposite to w where the front is visible.
         let facing = (map.matrix3.inverse().transpose() * DVec3::Z).dot(w) < 0.0;
         let side = 4.0 * area(x, y).hypot(area(z, y));
         match self {
@@ -269,7 +269,7 @@ impl Lamp {
 
 type Piece = Box<dyn Fn(f64, f64) -> (DVec3, DVec3)>;
 
-/// Transforms of every kind, as the file says them and as maps.
+/// Transforms of every kind, as text and as maps.
 fn placements() -> Vec<(&'static str, String, DAffine3)> {
     let turn = |axis: [f64; 3], degrees: f64| {
         let map = DAffine3::from_axis_angle(DVec3::from_array(axis).normalize(), degrees.to_radians());
@@ -301,7 +301,7 @@ fn lamps_that_are_stretched_sheared_or_mirrored_light_the_ground() {
     for lamp in Lamp::ALL {
         for (what, list, map) in placements() {
             let map = DAffine3::from_translation(place) * map;
-            // The front of flat lamps looks at the ground.
+            // The front of flat lamps faces the ground.
             let normal = map.matrix3.inverse().transpose() * DVec3::Z;
             let away = !lamp.is_closed() && !matches!(lamp, Lamp::Cylinder { .. }) && normal.dot(place) > 0.0;
             let irradiance = if away {
@@ -341,7 +341,7 @@ fn they_are_seen_as_large_as_they_are_and_only_from_the_front() {
             for w in [DVec3::new(0.2, -0.9, 0.3), DVec3::new(-0.6, 0.5, 0.7), DVec3::new(0.9, 0.1, -0.3)].map(DVec3::normalize) {
                 let what = format!("{lamp:?}, {what}, along {w:.2}");
                 let front = lamp.projected_area(&map, w);
-                // Whatever does not show its front shows its back: all of what it covers, but for the hollow of an open cylinder.
+                // Surfaces show their front or their back: the whole silhouette, except through the hollow of an open cylinder.
                 let turned = map * DAffine3::from_scale(DVec3::new(1.0, 1.0, -1.0));
                 let back = if lamp.is_closed() { 0.0 } else { lamp.projected_area(&turned, w) };
                 let found = seen(lamp, &list, w, "radiance = 1.0", false);
@@ -359,7 +359,7 @@ fn they_are_seen_as_large_as_they_are_and_only_from_the_front() {
 
 #[test]
 fn an_open_cylinder_shows_its_inside_through_its_end() {
-    // So long that no line of sight passes both ends.
+    // The cylinder is so long that no line of sight passes both ends.
     let list = "{ scale = [0.3, 0.7, 0.3] }, { rotate = { axis = [1.0, 0.0, 0.0], degrees = 90.0 } }";
     let map = DAffine3::from_axis_angle(DVec3::X, FRAC_PI_2) * DAffine3::from_scale(DVec3::new(0.3, 0.7, 0.3));
     let w = DVec3::new(0.8, 0.2, -0.6).normalize();

@@ -1,4 +1,4 @@
-//! Paths that pixels share: the picture is the same, and a path's light is divided without loss.
+//! Path reuse: the image is the same, and the light of a path is distributed without loss.
 use noisefall::{
     integrator::{Batch, TILE, Work, trace},
     math::SimdLevel,
@@ -11,8 +11,8 @@ use crate::{
     statistics::Moments,
 };
 
-/// A room with something of everything that is shared or must not be: walls of many colours, one of them one-sided, mirror, glass,
-/// metal and plastic, a lamp that reflects, a mesh, a texture, a sky behind an opening.
+/// A room with all kinds of surfaces where paths may or must not be reused: walls of many colours, one of them one-sided, mirror,
+/// glass, metal and plastic, a lamp that reflects, a mesh, a texture, a sky behind an opening.
 pub const ROOM: &str = r#"
 [camera]
 eye = [0.0, 1.0, 3.9]
@@ -76,7 +76,7 @@ fn tile(scene: &Scene, settings: RenderSettings, size: u32, sample: u32) -> Vec<
     (0..size * size).map(|i| batch.radiance()[(i / size * TILE + i % size) as usize]).collect()
 }
 
-/// Every channel of 16 blocks of a tile, sample by sample: pixels share paths, samples do not.
+/// Every channel of 16 blocks of a tile, by sample. Pixels share paths; samples do not.
 fn blocks(scene: &Scene, settings: RenderSettings, spp: u32) -> Vec<Vec<f64>> {
     const SIDE: usize = TILE as usize / 4;
     let mut values = vec![Vec::new(); 48];
@@ -111,7 +111,7 @@ fn shared_paths_give_the_same_picture() {
     }
 }
 
-/// Where all surfaces have one albedo, what a path finds is divided among the pixels and nothing is lost or gained.
+/// If all surfaces have the same albedo, the light of a path is distributed among the pixels without loss or gain.
 #[test]
 fn the_light_of_a_path_is_divided_without_loss() {
     const GREY: &str = r#"
@@ -135,7 +135,7 @@ shape = { cuboid = { min = [-1.0, -1.5, -0.9], max = [-0.3, 0.3, -0.3] } }
 material = "grey"
 "#;
     let scene = scene(GREY);
-    // Without chance in roulette, both trace the same paths.
+    // Roulette makes no random decision here, so both trace the same paths.
     let settings = RenderSettings { roulette: Roulette::Off, max_bounces: Some(5), ..settings(Estimator::Path) };
     for (size, sample) in [(TILE, 0), (TILE, 1), (TILE, 7), (19, 3), (3, 2), (1, 4)] {
         let sum = |reuse| -> f64 {

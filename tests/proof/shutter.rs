@@ -1,4 +1,4 @@
-//! The shutter is open from … to: what moves is seen at those times and no others.
+//! The shutter: moving objects are visible at the times when it is open, and at no others.
 use noisefall::{
     integrator::{features, replay},
     math::SimdLevel,
@@ -7,10 +7,10 @@ use noisefall::{
 
 use crate::picture::{RED, assert_all_within, picture, scene, settings};
 
-/// Times from … to, and what is expected of them.
+/// Opening and closing times, and the expected value.
 const SHUTTERS: [[f64; 2]; 6] = [[0.0, 1.0], [0.25, 0.75], [0.5, 0.6], [-1.0, 0.5], [0.5, 3.0], [-2.0, 4.0]];
 
-/// The mean over the time that a shutter is open of something that depends on the time from 0 to 1.
+/// The mean of a function of time over the interval in which the shutter is open.
 fn mean_over([open, close]: [f64; 2], of: impl Fn(f64) -> f64) -> f64 {
     const STEPS: u32 = 4000;
     let time = |i: u32| (open + (close - open) * (f64::from(i) + 0.5) / f64::from(STEPS)).clamp(0.0, 1.0);
@@ -19,7 +19,7 @@ fn mean_over([open, close]: [f64; 2], of: impl Fn(f64) -> f64) -> f64 {
 
 const WIDTH: usize = 32;
 
-/// An edge that moves from x = 0 to 0.5 at a steady speed, or a camera that makes it look so, in a picture from −0.5 to 0.5.
+/// An edge that moves from x = 0 to 0.5 at constant speed, or a camera with the same effect, in an image from −0.5 to 0.5.
 fn edge(what: &str, [open, close]: [f64; 2]) -> Scene {
     scene(&format!(
         "camera = {{ eye = [0, 0, 2], look_at = [0, 0, 0], projection.orthographic.width = 1.0, resolution = [{WIDTH}, 8], \
@@ -32,7 +32,7 @@ fn edge(what: &str, [open, close]: [f64; 2]) -> Scene {
     ))
 }
 
-/// The part of column `i` that the edge covers when it has come to `x`.
+/// The fraction of column `i` that the edge covers when it is at `x`.
 fn covered(i: usize, x: f64) -> f64 {
     ((x + 0.5) * WIDTH as f64 - i as f64).clamp(0.0, 1.0)
 }
@@ -67,7 +67,7 @@ fn a_shutter_that_closes_at_once_shows_one_pose() {
 fn a_short_time_is_nearly_sharp() {
     let found = picture(&edge("object", [0.0, 0.0001]), settings(Estimator::Path), RED, 256);
     for (i, pixel) in found.pixels.iter().enumerate() {
-        // The edge stands at 0, and reaches 5 · 10⁻⁵: 0.0016 of a column.
+        // The edge starts at 0 and reaches 5 · 10⁻⁵, which is 0.0016 of a column.
         let expected = if i % WIDTH < WIDTH / 2 { 1.0 } else { 0.0 };
         assert!((pixel.mean - expected).abs() < 0.05, "column {}: {}", i % WIDTH, pixel.mean);
     }
@@ -104,8 +104,8 @@ fn moving_lamps_light_by_where_they_are_while_it_is_open() {
     }
 }
 
-/// Things of every kind that move, a lamp and the camera among them: frozen halfway, or standing where they are then. There is one
-/// light: among several, one that moves is chosen by all places it comes to.
+/// Moving objects of every kind, including a lamp and the camera, frozen halfway or static at the same pose. There is one light,
+/// because a moving light among several is chosen by all its positions.
 fn halfway(frozen: bool) -> Scene {
     let object = |shape: &str, place: &str, rest: &str| {
         let way = match frozen {
@@ -143,7 +143,7 @@ fn what_is_frozen_is_what_stands_there() {
         [(Estimator::Path, Reuse::Off), (Estimator::Light, Reuse::Off), (Estimator::Mis, Reuse::Off), (Estimator::Mis, Reuse::On)]
     {
         let settings = RenderSettings { reuse, ..settings(estimator) };
-        // Directions towards what moves are drawn in a space of its own: the samples are others.
+        // Directions towards moving lamps are sampled in their own space, so the samples differ.
         let [a, b] = [&frozen, &standing].map(|scene| picture(scene, settings, RED, 256));
         let deviations: Vec<f64> = a.pixels.iter().zip(&b.pixels).map(|(a, b)| a.z_from(*b)).collect();
         assert_all_within(&deviations, &format!("{}, {reuse:?}", estimator.name()));
@@ -182,7 +182,7 @@ fn what_is_seen_first_and_what_is_replayed_is_the_frozen_pose() {
 
 #[test]
 fn a_sequence_of_features_opens_where_the_shutter_opens() {
-    // Blurred pictures have one pose to look at: the first.
+    // Features of blurred images show the first pose.
     let (open, frozen) = (edge("object", [0.5, 1.0]), edge("object", [0.5, 0.5]));
     let depth = |scene: &Scene| features(SimdLevel::best(), scene, &scene.camera, &|| false).expect("nobody interrupts").depth;
     assert_eq!(depth(&open), depth(&frozen));
@@ -191,7 +191,7 @@ fn a_sequence_of_features_opens_where_the_shutter_opens() {
 
 #[test]
 fn the_medium_around_the_eye_is_that_of_the_moment() {
-    // A ball that bends nothing and tints: the eye is in its middle halfway. Carried, or met by the ball.
+    // A ball that tints without refraction. Halfway, the eye is at its centre, because the camera or the ball has moved there.
     for (what, shutter, expected) in
         [("ball", [0.5, 0.5], 0.25), ("ball", [0.0, 0.0], 1.0), ("eye", [0.5, 0.5], 0.25), ("eye", [0.0, 0.0], 1.0)]
     {

@@ -1,4 +1,4 @@
-//! Meshes, isosurfaces and motion against what is known exactly, and against the same shapes made otherwise.
+//! Meshes, isosurfaces and motion against exact solutions, and against the same shapes in other representations.
 use noisefall::scene::{Estimator, Scene};
 
 use crate::{
@@ -61,8 +61,8 @@ fn lit(solid: &str, lamp: &str, motion: &str) -> Scene {
     ))
 }
 
-/// Two scenes that show the same, by blocks: each estimator of one against another of the other, for a mistake of an estimator would
-/// show in both alike.
+/// Compares two equal scenes by blocks. Each estimator of one is compared with another estimator of the other, because an error
+/// in an estimator would affect both scenes equally.
 fn assert_same(a: &Scene, b: &Scene, what: &str) {
     let [of_a, of_b] = [a, b].map(|scene| {
         Estimator::ALL.map(|estimator| {
@@ -103,7 +103,8 @@ fn shapes_move_alike_whatever_they_are_made_of() {
 
 #[test]
 fn a_moving_edge_covers_what_it_passes() {
-    // An edge that moves from x = 0 to 0.5 at a steady speed: a place x in between is covered for the part 1 − 2x of the time.
+    // An edge moves from x = 0 to 0.5 at constant speed, so a position x in between is covered for the fraction 1 − 2x of the
+    // time.
     const WIDTH: usize = 32;
     let scene = |what: &str| {
         scene(&format!(
@@ -121,7 +122,7 @@ fn a_moving_edge_covers_what_it_passes() {
         let mut deviations = Vec::new();
         for (i, pixel) in found.pixels.iter().enumerate() {
             let [from, to] = [0.0, 1.0].map(|side| ((i % WIDTH) as f64 + side) / WIDTH as f64 - 0.5);
-            // The integral of the covered part over the pixel.
+            // The integral of the covered fraction over the pixel.
             let covered = |x: f64| if x < 0.0 { x } else { x - x * x };
             deviations.push(pixel.z((covered(to) - covered(from)) / (to - from)));
         }
@@ -132,7 +133,7 @@ fn a_moving_edge_covers_what_it_passes() {
 #[test]
 fn every_estimator_finds_the_light_of_a_lamp_that_moves() {
     const SIDE: usize = 8;
-    // A ball that rises from close above a white floor, beside which parallel rays look down.
+    // A ball rises from close above a white floor. Parallel rays look down beside it.
     let scene = scene(&format!(
         "camera = {{ eye = [2.5, 20, 0], look_at = [2.5, 0, 0], up = [0, 0, -1], projection.orthographic.width = 2.0, \
          resolution = [{SIDE}, {SIDE}], shutter = [0.0, 1.0] }}

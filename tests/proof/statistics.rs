@@ -1,7 +1,7 @@
-//! What statistics says of samples.
+//! Statistics of samples.
 pub use noisefall::measure::{Moments, samples};
 
-/// The statements of these tests hold at this many standard deviations.
+/// Limit of deviations in these tests, in standard errors.
 pub const SIGMAS: f64 = 4.0;
 
 pub fn assert_within(z: f64, what: &str) {

@@ -3,7 +3,7 @@
 //! All points of a sphere of radius R see each other alike: cos θ cos θ′/d² = 1/4R². So the irradiance is the same everywhere,
 //! E/π = H = mean(L_o) over the area (the principle of Sumpner's integrating sphere, 1892). With L_o = L_e + ρ H this gives
 //! H = mean(L_e) + mean(ρ) H, so that L_o(x) = L_e(x) + ρ(x) H with H = mean(L_e)/(1 − mean(ρ)): only means count, however
-//! emission and albedo go together. Means are over the area, in which a strip of v has the share dA = ½ π sin πv dv.
+//! emission and albedo are distributed. Means are over the area, of which a strip of v has the fraction dA = ½ π sin πv dv.
 use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
@@ -33,7 +33,7 @@ trait Pattern: Fn(f64, f64) -> f64 {
 
 impl<T: Fn(f64, f64) -> f64> Pattern for T {}
 
-/// (u, v) where the picture's raster point lies on the unit sphere around the origin.
+/// (u, v) of the unit sphere around the origin at a raster point of the image.
 fn seen_at(scene: &Scene, x: f64, y: f64) -> (f64, f64) {
     let [right, up, forward] = scene.camera.axes();
     let half = (scene.camera.fov.to_radians() / 2.0).tan();
@@ -44,7 +44,7 @@ fn seen_at(scene: &Scene, x: f64, y: f64) -> (f64, f64) {
     (((-p.z).atan2(p.x) / TAU).rem_euclid(1.0), p.y.acos() / PI)
 }
 
-/// The pixels for which `exact` knows the radiance: as a whole, and in eight parts from dark to bright.
+/// Checks the pixels whose radiance `exact` knows, as a whole and in eight groups from dark to bright.
 fn assert_shows(found: &Picture, exact: impl Fn(usize, usize) -> Option<f64>, what: &str) {
     let known = |(i, pixel): (usize, &Mean)| Some((exact(i % found.width, i / found.width)?, *pixel));
     let mut known: Vec<(f64, Mean)> = found.pixels.iter().enumerate().filter_map(known).collect();
@@ -60,7 +60,7 @@ fn assert_shows(found: &Picture, exact: impl Fn(usize, usize) -> Option<f64>, wh
 
 #[test]
 fn checkers_of_light_and_albedo_add_their_means() {
-    // Five rows of albedo and three of emission, neither of them even: even cells cover more of the unit square than of the sphere.
+    // Five rows of albedo and three of emission. Both are odd, so even cells cover more of the unit square than of the sphere.
     const ALBEDO: (f64, f64, f64) = (0.9, 0.2, 5.0);
     const RADIANCE: (f64, f64, f64) = (0.25, 2.0, 3.0);
     let checker = |(even, odd, scale): (f64, f64, f64)| {
@@ -70,7 +70,7 @@ fn checkers_of_light_and_albedo_add_their_means() {
     let light = radiance.mean() / (1.0 - albedo.mean());
     let text = |(even, odd, scale): (f64, f64, f64)| format!("checker = {{ even = {even:?}, odd = {odd:?}, scale = {scale:?} }}");
     let scene = room("inline.toml", &text(ALBEDO), &text(RADIANCE), 1.0);
-    // Pixels that lie in one cell of both, and their neighbours too.
+    // Pixels that are in one cell of both textures with all their neighbours.
     let exact = |x: usize, y: usize| {
         let corner = |i: usize| seen_at(&scene, x as f64 + (i % 4) as f64 - 1.0, y as f64 + (i / 4) as f64 - 1.0);
         let cell = |i: usize| {
@@ -102,7 +102,7 @@ fn room(name: &str, albedo: &str, radiance: &str, scale: f64) -> Scene {
     parse(name, text).unwrap_or_else(|error| panic!("{error:?}"))
 }
 
-/// Bilinear between the centres of texels, of a picture that repeats.
+/// Bilinear interpolation between the centres of texels of a repeating image.
 fn texels<const W: usize, const H: usize>(rows: [[u8; W]; H]) -> impl Fn(f64, f64) -> f64 + Copy {
     move |u, v| {
         let (x, y) = (u * W as f64 - 0.5, v * H as f64 - 0.5);

@@ -1,8 +1,8 @@
 //! Glass that absorbs, seen along its axis, against the sum over all internal reflections.
 //!
-//! Every ray runs through the common centre of the balls, so that it meets every surface at right angles again and again. There
-//! R = ((n − 1)/(n + 1))² of the light is reflected (Fresnel's equations at normal incidence) and 1 − R passes; a way of length s
-//! lets a = transmittanceˢ pass (Beer's law). Light of radiance 1 comes from everywhere outside.
+//! Every ray goes through the common centre of the balls, so it hits every surface at a right angle. There R = ((n − 1)/(n + 1))²
+//! of the light is reflected (Fresnel's equations at normal incidence) and 1 − R is transmitted. A distance s transmits a =
+//! transmittanceˢ (Beer's law). A uniform field of radiance 1 surrounds the balls.
 use noisefall::scene::{Estimator, RenderSettings, Roulette};
 
 use crate::{
@@ -18,8 +18,8 @@ const TRANSMITTANCE: [f64; 3] = [0.9, 0.5, 0.05];
 const ON_AXIS: &str = "eye = [0.0, 0.0, 3.0], look_at = [0.0, 0.0, 0.0], projection.orthographic.width = 1e-6";
 const FROM_THE_MIDDLE: &str = "eye = [0.0, 0.0, 0.0], look_at = [0.0, 0.0, 1.0], fov = 60.0";
 
-/// The radiance in a tinted ball, with clear bubbles and kernels of these radii and materials in it, as a function of R and of
-/// what a metre lets pass.
+/// The radiance in a tinted ball, with clear bubbles and kernels of these radii and materials in it, as a function of R and the
+/// transmittance of a metre.
 fn assert_shows(camera: &str, inner: &[(f64, &str)], exact: impl Fn(f64, f64) -> f64) {
     let materials = format!(
         "materials.tinted.dielectric = {{ ior = {IOR:?}, transmittance = {TRANSMITTANCE:?} }}
@@ -62,7 +62,7 @@ fn the_middle_of_a_tinted_ball_sees_the_same_sum_through_one_surface() {
     });
 }
 
-/// A stack of layers: what it reflects on its near and on its far side, and what it lets pass.
+/// A stack of layers: its reflectance on the near and the far side, and its transmittance.
 #[derive(Clone, Copy)]
 struct Stack {
     near: f64,
@@ -71,7 +71,8 @@ struct Stack {
 }
 
 impl Stack {
-    /// Another stack beyond a way that lets `a` pass: the series of reflections between the two (G. G. Stokes, "On the Intensity
+    /// Adds another stack behind a layer of transmittance `a`: the series of reflections between the two (G. G. Stokes, "On the
+    /// Intensity
     /// of the Light Reflected from or Transmitted through a Pile of Plates", 1862).
     fn then(self, a: f64, next: Stack) -> Stack {
         let echoes = 1.0 / (1.0 - self.far * a * a * next.near);

@@ -13,10 +13,10 @@ use noisefall::{
 use self::tally::Tally;
 use crate::{picture::scene, sharing::ROOM};
 
-/// Two tiles wide and high, the outer ones cut.
+/// A resolution of two by two tiles, with partial outer tiles.
 const RESOLUTION: [u32; 2] = [48, 40];
 const PIXELS: [[u32; 2]; 4] = [[3, 9], [24, 13], [31, 31], [16, 25]];
-/// Of a tile that is cut.
+/// Pixels of a partial tile.
 const OUTER_PIXELS: [[u32; 2]; 2] = [[40, 35], [47, 39]];
 
 /// In a ball of tinted glass: a lamp that a texture varies, a matt ball, and the camera.
@@ -43,7 +43,7 @@ shape = { sphere = { center = [0.0, 1.2, 0.0], radius = 0.6 } }
 emission = { texture = "flame", scale = 10.0 }
 "#;
 
-/// All scenes that are shipped, one with something of everything, and one where light samples meet media and textures.
+/// All shipped scenes, one with all features, and one where light samples meet media and textures.
 fn scenes() -> Vec<(String, Scene)> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
     let mut files: Vec<_> = std::fs::read_dir(folder).expect("the folder").map(|entry| entry.expect("an entry").path()).collect();
@@ -57,8 +57,8 @@ fn rays(scene: &Scene) -> CameraRays {
     scene.rays(&Camera { resolution: RESOLUTION, ..scene.camera })
 }
 
-/// Estimators, roulettes and caps in all combinations, with every sampler where paths are not shared. Without roulette there is
-/// always a cap, for paths between white walls would have no end.
+/// Estimators, roulettes and caps in all combinations, with every sampler if paths are not reused. Without roulette there is
+/// always a cap, because paths between white walls would not end.
 fn all_settings(seed: u32) -> Vec<RenderSettings> {
     let endings = [
         (Roulette::Off, Some(12)),
@@ -78,7 +78,7 @@ fn all_settings(seed: u32) -> Vec<RenderSettings> {
     all
 }
 
-/// What the renderer has for some pixels of the tile that begins at `origin`.
+/// The renderer's samples of some pixels of the tile at `origin`.
 fn rendered(
     level: SimdLevel,
     (scene, rays, settings): (&Scene, &CameraRays, &RenderSettings),
@@ -112,7 +112,7 @@ fn replayed_samples_are_those_of_the_renderer_and_their_vertices_add_up_to_them(
     for (number, (name, scene)) in scenes().iter().enumerate() {
         let rays = rays(scene);
         for (i, settings) in all_settings(number as u32).iter().enumerate() {
-            // Whole tiles are traced for each where they are shared.
+            // With path reuse, each sample needs a whole tile.
             let pixels = if settings.reuse == Reuse::On { &PIXELS[i % 4..=i % 4] } else { &PIXELS[..] };
             let rendered = rendered(levels[i % levels.len()], (scene, &rays, settings), [0, 0], i as u32, &mut batch);
             for pixel in pixels {
@@ -132,7 +132,7 @@ fn replayed_samples_are_those_of_the_renderer_and_their_vertices_add_up_to_them(
     tally.assert_everything_was_met();
 }
 
-/// The surface is where the segment ends, and its normals are on the side of the viewer.
+/// Checks that the surface is at the end of the segment, with normals on the side of the viewer.
 fn assert_surface(vertex: &Vertex, what: &str) {
     assert_eq!(vertex.surface.is_some(), vertex.object.is_some(), "{what}");
     let (Some(surface), Some(distance)) = (&vertex.surface, vertex.distance) else { return };
@@ -149,7 +149,7 @@ fn assert_surface(vertex: &Vertex, what: &str) {
     }
 }
 
-/// The contributions, added in order, are the sample.
+/// Checks that the contributions, added in order, are the sample.
 fn assert_sums(replay: &Replay, what: &str) {
     let mut sum = [0f32; 3];
     for vertex in &replay.vertices {
@@ -162,7 +162,7 @@ fn assert_sums(replay: &Replay, what: &str) {
     assert_eq!(bits(sum), bits(replay.alone.unwrap_or(replay.radiance)), "{what}");
 }
 
-/// Every vertex begins with what the one before it ended with.
+/// Checks that every vertex starts with the final state of the previous one.
 fn assert_path(replay: &Replay, what: &str) {
     for (k, vertex) in replay.vertices.iter().enumerate() {
         assert_eq!(vertex.bounce, k as u32, "{what}");
@@ -176,7 +176,7 @@ fn assert_path(replay: &Replay, what: &str) {
     }
 }
 
-/// The terms of a vertex have the relations that their names say.
+/// Checks the relations between the terms of a vertex.
 fn assert_terms(vertex: &Vertex, settings: &RenderSettings, what: &str) {
     let near = |a: [f32; 3], b: [f32; 3], tolerance: f32| {
         let close = |c: usize| (a[c] - b[c]).abs() <= tolerance * a[c].abs().max(b[c].abs()).max(1e-30);
@@ -195,7 +195,7 @@ fn assert_terms(vertex: &Vertex, settings: &RenderSettings, what: &str) {
         assert!(settings.estimator != Estimator::Path && (0.0..=1.0).contains(&light.weight));
         let seen = light.outcome == Outcome::Seen;
         assert!(seen || light.contribution == [0.0; 3]);
-        // It ends at what stands there: the light itself, or what hides it; a background is nowhere.
+        // The shadow ray ends at the light or at an occluder. Backgrounds have no position.
         let ends = if seen { light.object.is_some() } else { light.outcome == Outcome::Hidden };
         assert_eq!(light.distance.is_some_and(|distance| distance > 0.0), ends, "{what}");
         if seen {
@@ -223,7 +223,7 @@ fn assert_terms(vertex: &Vertex, settings: &RenderSettings, what: &str) {
             Roulette::Throughput(_) => {
                 let material = vertex.surface.as_ref().and_then(|surface| surface.material);
                 let throughput = product(arriving, reflection.weight).into_iter().fold(0.0, f32::max);
-                // What glass compresses is judged as what it will be outside; where paths are shared, the first surface does not weigh.
+                // Radiance inside glass is scaled to its value outside. With path reuse the first surface does not count.
                 if material != Some("dielectric") && settings.reuse == Reuse::Off {
                     let expected = throughput.clamp(Roulette::LEAST, Roulette::MOST);
                     assert!((reflection.survival - expected).abs() <= 1e-5 * expected, "{expected} at {vertex:#?} of {what}");
@@ -242,7 +242,7 @@ fn the_samples_of_a_pixel_are_those_of_the_renderer() {
         let rays = rays(&scene);
         for reuse in [Reuse::Off, Reuse::On] {
             let settings = RenderSettings { reuse, ..scene.settings };
-            // Neither begins nor ends with a full batch.
+            // The range neither starts nor ends at a multiple of the batch.
             let numbers = 5..27;
             let of = |pixel: [u32; 2]| pixel_samples(&scene, &rays, &settings, pixel, numbers.clone(), &|| false);
             let pixels = [PIXELS[1], PIXELS[2], OUTER_PIXELS[0], OUTER_PIXELS[1]];

@@ -1,7 +1,7 @@
-//! What the replayed paths of a test met, so that none of it goes untested.
+//! Counts of events on the replayed paths of a test, so that no kind of event goes untested.
 use noisefall::integrator::{Outcome, Vertex};
 
-/// How often something was met that the test is about.
+/// Number of times that each kind of event occurred.
 #[derive(Debug, Default)]
 pub struct Tally {
     seen: u32,
