@@ -108,7 +108,7 @@ fn png(path: &Path, side: u32) {
 }
 
 #[test]
-fn what_is_taken_is_counted() {
+fn allocated_memory_is_counted() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = |name: &str, text: &str| {
         fs::write(folder.path().join(name), text).expect("it is written");
@@ -157,7 +157,7 @@ fn what_is_taken_is_counted() {
 }
 
 #[test]
-fn what_does_not_fit_is_refused_by_its_size() {
+fn files_that_do_not_fit_are_refused_by_their_size() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = |name: &str, text: &str| {
         fs::write(folder.path().join(name), text).expect("it is written");

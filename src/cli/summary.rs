@@ -207,7 +207,7 @@ mod tests {
     }
 
     #[test]
-    fn the_line_says_what_there_is_and_why_no_more() {
+    fn the_line_states_the_samples_and_why_the_render_stopped() {
         let line = |status: &Status, frame: &Frame| said(status, frame, RenderSettings::default()).line;
         let million = Status { samples: 1_000_000, ..status(State::Done(Target::Samples(2))) };
         assert_eq!(
@@ -224,7 +224,7 @@ mod tests {
     }
 
     #[test]
-    fn notes_are_about_what_is_wrong_and_nothing_else() {
+    fn notes_report_problems_and_nothing_else() {
         let notes = |status: &Status, frame: &Frame| said(status, frame, RenderSettings::default()).notes;
         let all = notes(&status(State::Done(Target::Time)), &frame(0.0));
         assert_eq!(all.len(), 3);
@@ -235,7 +235,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_on_standard_output_is_named_so() {
+    fn standard_output_is_named() {
         assert_eq!(Output::Stream(Format::Png).to_string(), "standard output");
     }
 }

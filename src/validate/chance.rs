@@ -203,7 +203,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_row_notices_fails_it() {
+    fn a_row_fails_for_the_bias_that_it_states() {
         let mean = |mean: f64| Mean { mean, variance_of_mean: 1e-4 };
         for (what, row) in [
             ("z", (|x| Statement::z("", x, 0.01, 2.0)) as fn(f64) -> Statement),

@@ -65,7 +65,7 @@ fn no_folder_is_exempt() {
 }
 
 #[test]
-fn a_circle_is_found_behind_what_is_none() {
+fn a_circle_is_found_behind_a_chain() {
     let arrows = |arrows: &[(&str, &str)]| {
         let mut all: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
         for (from, to) in arrows {

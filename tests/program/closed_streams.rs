@@ -76,7 +76,7 @@ fn a_study_whose_reader_has_gone_still_writes_its_report() {
 }
 
 #[test]
-fn a_picture_that_nobody_reads_is_a_failure_without_a_word() {
+fn a_picture_without_a_reader_fails_silently() {
     let shell = Shell::new();
     for format in ["png", "exr"] {
         let words = ["render", &scene("furnace"), "-o", "-", "--format", format, "--spp", "1", "--size", "8x8"];
@@ -93,7 +93,7 @@ fn a_picture_that_nobody_reads_is_a_failure_without_a_word() {
 
 #[test]
 #[cfg(target_os = "linux")]
-fn what_cannot_be_written_to_standard_output_is_told_and_a_picture_is_kept_elsewhere() {
+fn a_failed_write_to_standard_output_is_reported_and_the_picture_is_kept() {
     let shell = Shell::new();
     let full = || fs::File::options().write(true).open("/dev/full").expect("a full device");
     let check = shell.command(&["check", &scene("furnace")]).stdout(full()).output().expect("it starts");

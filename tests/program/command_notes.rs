@@ -13,7 +13,7 @@ fn without_a_display_a_bad_scene_is_named_too() {
 }
 
 #[test]
-fn a_black_picture_is_told_with_its_likely_cause() {
+fn the_likely_cause_of_a_black_picture_is_printed() {
     let shell = Shell::new();
     let said = |scene: &str| {
         let output = shell.run(&["render", scene, "-o", "out.png", "--spp", "4", "--size", "8x8"]);
@@ -29,7 +29,7 @@ fn a_black_picture_is_told_with_its_likely_cause() {
 }
 
 #[test]
-fn roulette_that_leaves_no_finite_variance_is_told() {
+fn roulette_with_infinite_variance_has_a_warning() {
     let shell = Shell::new();
     let notes = |roulette: &str| {
         let options = ["-o", "out.png", "--spp", "2", "--size", "8x8", "--roulette", roulette];
@@ -45,7 +45,7 @@ fn roulette_that_leaves_no_finite_variance_is_told() {
 }
 
 #[test]
-fn a_true_picture_of_another_size_or_kind_is_told() {
+fn a_reference_of_another_size_or_kind_is_reported() {
     let shell = Shell::new();
     let furnace = std::fs::read_to_string(scene("furnace")).expect("it is shipped");
     let truth = furnace.find("[truth]").expect("it has one");

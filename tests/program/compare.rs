@@ -89,7 +89,7 @@ fn the_bias_of_a_capped_furnace_is_as_many_standard_errors_as_closed_form_says()
 }
 
 #[test]
-fn samples_that_are_exact_are_no_matter_of_chance() {
+fn exact_samples_are_not_compared_by_chance() {
     let shell = Shell::new();
     save_constant(&shell, "truth.exr", 2.0);
     render_furnace(&shell, "cap0.exr", &["--max-bounces", "0"]);
@@ -108,7 +108,7 @@ fn samples_that_are_exact_are_no_matter_of_chance() {
 }
 
 #[test]
-fn two_pictures_alone_say_nothing_of_the_standard_error_and_repeats_do() {
+fn repeats_give_the_standard_error_and_two_pictures_alone_do_not() {
     let shell = Shell::new();
     for (seed, file) in [("1", "a.png"), ("2", "b.png"), ("3", "c.png"), ("4", "d.png"), ("5", "e.png")] {
         render(&shell, file, &["--seed", seed]);
@@ -177,7 +177,7 @@ fn a_variance_that_few_samples_make_up_is_not_trusted() {
 }
 
 #[test]
-fn a_bias_is_told_from_noise_where_pixels_share_paths_too() {
+fn bias_is_distinguished_from_noise_with_path_reuse_too() {
     let shell = Shell::new();
     for reuse in ["on", "off"] {
         render(&shell, "a.exr", &["--seed", "1", "--reuse", reuse]);

@@ -42,7 +42,7 @@ fn the_manual_is_what_the_declarations_say() {
 }
 
 #[test]
-fn what_is_written_reads_as_the_same() {
+fn written_scenes_read_back_the_same() {
     for (name, text) in shipped() {
         let description = describe(&name, text).unwrap_or_else(|error| panic!("{}", error.report()));
         let again = describe(&name, description.to_text()).unwrap_or_else(|error| panic!("{name}: {}", error.report()));
@@ -57,7 +57,7 @@ fn what_is_written_reads_as_the_same() {
 }
 
 #[test]
-fn what_is_drawn_is_within_its_range() {
+fn random_values_are_within_their_ranges() {
     for seed in 0..1000 {
         assert_eq!(check(&mut drawn(seed)), [], "seed {seed}");
     }

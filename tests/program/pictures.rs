@@ -78,7 +78,7 @@ fn an_exr_keeps_the_variances_of_its_means_beside_ordinary_colours() {
 }
 
 #[test]
-fn files_without_variances_say_nothing_of_noise() {
+fn files_without_variances_have_no_noise_estimate() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = |name: &str| folder.path().join(name);
     save(&frame(), Display::default(), r#"{ "settings": { "sampler": "sobol" } }"#, &path("plain.exr")).expect("it is saved");
@@ -96,7 +96,7 @@ fn files_without_variances_say_nothing_of_noise() {
 }
 
 #[test]
-fn what_cannot_be_written_is_said_and_leaves_nothing_behind() {
+fn a_failed_write_is_reported_and_leaves_nothing_behind() {
     let folder = tempfile::tempdir().expect("a folder");
     let attempt = |path: &std::path::Path| save(&frame(), Display::default(), "", path).expect_err("it fails").to_string();
     assert!(attempt(&folder.path().join("picture.jpg")).contains(".png"));
@@ -110,14 +110,14 @@ fn what_cannot_be_written_is_said_and_leaves_nothing_behind() {
 
 #[test]
 #[cfg(target_os = "linux")]
-fn names_of_temporary_files_are_not_told() {
+fn temporary_files_are_not_named_in_messages() {
     // Nobody can create a file there.
     let error = check_target(std::path::Path::new("/proc/picture.png")).expect_err("it fails").to_string();
     assert!(error.contains("/proc/picture.png: cannot be written") && !error.contains(".part"), "{error}");
 }
 
 #[test]
-fn what_is_no_picture_is_refused() {
+fn files_that_are_not_pictures_are_refused() {
     let folder = tempfile::tempdir().expect("a folder");
     for name in ["broken.png", "broken.exr"] {
         let path = folder.path().join(name);
@@ -170,7 +170,7 @@ fn a_picture_opens_as_the_scene_that_it_shows() {
 }
 
 #[test]
-fn pictures_whose_scene_cannot_be_used_are_told() {
+fn pictures_whose_scene_cannot_be_used_are_reported() {
     use noisefall::{
         render::{Display, Frame},
         scene::load,

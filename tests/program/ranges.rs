@@ -299,7 +299,7 @@ fn keys_of(table: &str, text: &str) -> Vec<String> {
 }
 
 #[test]
-fn what_is_said_of_an_unknown_key_lists_all_that_are_declared() {
+fn messages_about_unknown_keys_list_the_declared_ones() {
     let declared = Keys::declared();
     let mut there = BTreeSet::new();
     for (table, text) in TABLES {

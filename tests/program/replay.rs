@@ -12,7 +12,7 @@ fn replay(shell: &Shell, name: &str, options: &[&str]) -> String {
 }
 
 #[test]
-fn a_path_is_told_with_settings_nested_sum_and_end() {
+fn a_path_is_printed_with_settings_nested_sum_and_end() {
     let shell = Shell::new();
     let exact = ["--estimator", "path", "--directions", "cosine", "--roulette", "off", "--max-bounces", "2", "--sample", "5"];
     let exact = [&exact[..], &["--reuse", "off", "--adaptive", "on"]].concat();
@@ -41,7 +41,7 @@ fn a_path_is_told_with_settings_nested_sum_and_end() {
 }
 
 #[test]
-fn why_a_path_ends_is_told() {
+fn the_reason_for_the_end_of_a_path_is_printed() {
     let shell = Shell::new();
     let end = |text: &str, options: &[&str]| {
         let head = "format = 1\ncamera = { eye = [0, 0, 4], look_at = [0, 0, 0], fov = 40, resolution = [8, 8] }\n";

@@ -124,7 +124,7 @@ fn roulette_by_throughput_can_be_said_as_on_the_command_line() {
 }
 
 #[test]
-fn what_is_missing_is_named() {
+fn missing_keys_are_named() {
     refuses("fov = 40\n", "", "missing key `fov`");
     refuses("format = 1\n", "", "missing key `format`");
     refuses(", radius = 1.0", "", "missing key `radius`");
@@ -174,7 +174,7 @@ fn numbers_out_of_range_are_refused() {
 }
 
 #[test]
-fn a_camera_that_cannot_be_is_refused() {
+fn an_impossible_camera_is_refused() {
     let camera = |key: &str, message: &str| refuses("fov = 40", &format!("fov = 40\n{key}"), message);
     camera("lens = { radius = -0.05, focus = 3.0 }", "`radius` is negative: -0.05");
     camera("lens = { radius = nan, focus = 3.0 }", "`radius` is not a number");
@@ -194,7 +194,7 @@ fn a_camera_that_cannot_be_is_refused() {
 }
 
 #[test]
-fn materials_that_cannot_be_are_refused() {
+fn invalid_materials_are_refused() {
     let material = |by: &str, message: &str| refuses("lambertian = { albedo = 0.8 }", by, message);
     material("lambertian = { albedo = 0.8 }\nmirror = { reflectance = 1.0 }", "`lambertian` and `mirror` exclude each other");
     material("mirror = { reflectance = 1.1 }", "`reflectance` is out of range");
@@ -219,7 +219,7 @@ fn materials_that_cannot_be_are_refused() {
 }
 
 #[test]
-fn lights_that_cannot_be_are_refused() {
+fn invalid_lights_are_refused() {
     refuses("radiance = [1.0, 2.0, 3.0]", "radiance = 0.0", "a light of zero power");
     refuses("radiance = [1.0, 2.0, 3.0]", "radiance = 1.0, scale = 0.0", "a light of zero power");
     refuses("radiance = [1.0, 2.0, 3.0]", "texture = \"no\"", "there is no texture `no`");

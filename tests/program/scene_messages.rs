@@ -6,7 +6,7 @@ use noisefall::scene::{load, parse};
 use super::scene_files::{GOOD, error, refuses};
 
 #[test]
-fn wrong_values_are_told_in_plain_words() {
+fn messages_about_wrong_values_use_plain_words() {
     refuses("max_bounces = 5", "max_bounces = \"none\"", "leave it out for no cap");
     refuses("[[objects]]", "[objects]", "write `[[objects]]`");
     refuses(
@@ -36,7 +36,7 @@ fn wrong_values_are_told_in_plain_words() {
 }
 
 #[test]
-fn what_was_probably_meant_is_named() {
+fn messages_name_the_probable_meaning() {
     refuses("look_at = [0, 1, 0]", "lookat = [0, 1, 0]", "did you mean `look_at`?");
     refuses("[render]", "[rendr]", "did you mean `render`?");
     refuses("\"stratified\"", "\"stratifed\"", "did you mean `stratified`?");
@@ -86,7 +86,7 @@ const MEANT: [(&str, &str, &str); 38] = [
 ];
 
 #[test]
-fn what_others_write_is_told_in_the_words_of_the_format() {
+fn keys_of_other_formats_are_translated() {
     for (line, by, says) in MEANT {
         refuses(line, by, says);
         let said = error(&GOOD.replacen(line, by, 1));
@@ -98,7 +98,7 @@ fn what_others_write_is_told_in_the_words_of_the_format() {
 }
 
 #[test]
-fn all_errors_of_a_file_are_told_in_the_order_of_its_lines() {
+fn all_errors_of_a_file_are_reported_in_the_order_of_its_lines() {
     let all = |text: &str, says: &[(usize, &str)]| {
         let error = error(text);
         let report = error.report();
@@ -149,7 +149,7 @@ fn all_errors_of_a_file_are_told_in_the_order_of_its_lines() {
 }
 
 #[test]
-fn what_is_legal_in_several_lines_is_no_slip() {
+fn legal_values_on_several_lines_have_no_warning() {
     let lines = GOOD
         .replace(
             "center = [0.0, 1.0, 0.0], radius = 1.0 }",
@@ -163,7 +163,7 @@ fn what_is_legal_in_several_lines_is_no_slip() {
 }
 
 #[test]
-fn what_is_not_toml_is_refused_at_its_place() {
+fn text_that_is_not_toml_is_refused_with_its_position() {
     refuses("fov = 40", "fov = = 40", "");
     refuses("format = 1", "format = 1\nformat = 1", "duplicate key `format`");
     for nothing in ["", "\n\n", "# only a remark\n"] {
@@ -271,7 +271,7 @@ fn values_of_megabytes_are_not_repeated() {
 }
 
 #[test]
-fn lists_of_what_there_is_are_cut() {
+fn long_lists_of_keys_are_cut() {
     let many = |table: &str, body: &str| -> String {
         (0..2000).map(|i| format!("[{table}.{}{i}]\n{body}\n", "n".repeat(50))).collect::<String>() + "[render]"
     };
@@ -300,7 +300,7 @@ fn numbers_are_written_with_few_digits() {
 }
 
 #[test]
-fn nothing_in_a_message_acts_on_a_terminal() {
+fn messages_contain_no_control_characters() {
     let escape = short_report("fov = 40", "fov = 40 # \u{1b}]0;title\u{7}");
     assert!(escape.contains("test.toml:"), "{escape}");
     short_report("[render]", &format!("{}\ntitle = \"\u{1b}[2J\"\n[render]", "# a line\n".repeat(1000)));
@@ -330,7 +330,7 @@ fn of_an_error_over_many_lines_the_first_is_shown_at_its_number() {
 }
 
 #[test]
-fn a_byte_that_is_no_text_is_pointed_at_wherever_it_is() {
+fn a_byte_that_is_not_text_is_located() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("latin1.toml");
     fs::write(&path, [b"# line\n".repeat(2000), b"title = \"caf\xe9\"".to_vec()].concat()).expect("it is written");

@@ -65,7 +65,7 @@ impl Stepwise {
 }
 
 #[test]
-fn of_two_pictures_the_one_that_had_less_time_since_both_are_there_goes_on() {
+fn the_picture_with_less_time_since_both_exist_continues() {
     let scene = Arc::new(built_in());
     let worker = Stepwise::new();
     worker.renderer.submit(1, request(&scene, 96));
@@ -97,7 +97,7 @@ fn of_two_pictures_the_one_that_had_less_time_since_both_are_there_goes_on() {
 }
 
 #[test]
-fn of_two_pictures_each_is_what_it_is_alone() {
+fn each_of_two_pictures_is_the_same_as_alone() {
     let scene = Arc::new(built_in());
     let renderer = renderer();
     let other = RenderSettings { estimator: Estimator::Path, ..scene.settings };

@@ -37,7 +37,7 @@ fn degenerate_shapes_are_refused() {
 }
 
 #[test]
-fn transforms_that_cannot_be_are_refused() {
+fn invalid_transforms_are_refused() {
     transform("{ scale = 0.0 }", "cannot be inverted");
     transform("{ scale = [1.0, 0.0, 1.0] }", "cannot be inverted");
     transform("{ scale = [1.0, 2.0] }", "expected a list of 3, found 2 values");
@@ -66,7 +66,7 @@ fn transforms_apply_first_to_last() {
 }
 
 #[test]
-fn meshes_that_cannot_be_are_refused() {
+fn invalid_meshes_are_refused() {
     shape("mesh = { path = \"no.ply\" }", "there is no such file");
     shape("mesh = { smooth = true }", "`mesh` has none of `path`, `vertices`, `knot`, `heightfield`");
     shape("mesh = { knot = { triangles = 100 }, path = \"a.ply\" }", "`path` and `knot` exclude each other");
@@ -82,7 +82,7 @@ fn meshes_that_cannot_be_are_refused() {
 }
 
 #[test]
-fn isosurfaces_that_cannot_be_are_refused() {
+fn invalid_isosurfaces_are_refused() {
     let iso = |expression: &str, max: &str| {
         format!("isosurface = {{ expression = \"{expression}\", bounds = {{ min = [-1, -1, -1], max = [{max}] }} }}")
     };
@@ -96,7 +96,7 @@ fn isosurfaces_that_cannot_be_are_refused() {
 }
 
 #[test]
-fn motions_that_cannot_be_are_refused() {
+fn invalid_motions_are_refused() {
     let motion = |list: &str, message: &str| {
         refuses("material = \"white\"", &format!("material = \"white\"\nmotion = [ {list} ]"), message);
     };
@@ -111,7 +111,7 @@ fn motions_that_cannot_be_are_refused() {
 }
 
 #[test]
-fn what_is_odd_but_legal_is_told() {
+fn odd_but_legal_scenes_have_warnings() {
     let still = with("motion = [{ translate = [1, 0, 0] }]");
     assert!(still.warnings().iter().any(|warning| warning.contains("shutter")), "{:?}", still.warnings());
     let flat = GOOD.replacen(

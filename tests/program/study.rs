@@ -172,7 +172,7 @@ fn references_are_files_where_there_are_some() {
 }
 
 #[test]
-fn what_cannot_be_studied_is_told_at_once() {
+fn a_scene_that_cannot_be_studied_is_reported_at_once() {
     let shell = Shell::new();
     let furnace = scene("furnace");
     let dark = "format = 1\ncamera = { eye = [0.0, 0.0, 4.0], look_at = [0.0, 0.0, 0.0], fov = 40.0, resolution = [8, 8] }\n";

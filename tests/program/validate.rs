@@ -70,7 +70,7 @@ fn scenes_under_stress_hold_and_are_reported() {
 }
 
 #[test]
-fn a_folder_that_cannot_be_made_is_told_at_once() {
+fn a_folder_that_cannot_be_created_is_reported_at_once() {
     let shell = Shell::new();
     fs::write(shell.path("file"), "").expect("a file");
     let done = shell.run(&["validate", "-o", "file"]);
@@ -79,7 +79,7 @@ fn a_folder_that_cannot_be_made_is_told_at_once() {
 }
 
 #[test]
-fn references_that_are_asked_for_must_be_there() {
+fn requested_references_must_exist() {
     let done = Shell::new().run(&["validate", "--quick", "--references", "nowhere"]);
     assert_eq!(done.status.code(), Some(1));
     assert!(text(&done.stderr).starts_with("nowhere: no references"), "{}", text(&done.stderr));

@@ -62,7 +62,7 @@ fn ceiling(shape: &str, above: f64, lamp: &str) -> Vec<String> {
 }
 
 #[test]
-fn a_lamp_against_a_wall_is_told_whatever_its_shape_and_side() {
+fn a_lamp_against_a_wall_has_a_warning_whatever_its_shape_and_side() {
     let shapes = [
         // The fronts of the lamps are below.
         "rectangle = { origin = [0, Y, 0], edge_u = [1, 0, 0], edge_v = [0, 0, 1] }",
@@ -81,7 +81,7 @@ fn a_lamp_against_a_wall_is_told_whatever_its_shape_and_side() {
 }
 
 #[test]
-fn a_truth_that_the_picture_contradicts_is_told_by_check_and_after_a_render() {
+fn check_and_render_report_a_contradicted_truth() {
     let shell = Shell::new();
     let furnace = fs::read_to_string(scene("furnace")).expect("it is shipped");
     let with_truth = |truth: &str| {

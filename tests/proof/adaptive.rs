@@ -77,7 +77,7 @@ fn adaptive_samples_give_the_same_picture() {
 }
 
 #[test]
-fn where_noise_is_in_one_place_there_is_less_of_it_for_as_many_samples() {
+fn adaptive_sampling_reduces_local_noise() {
     let plates = plates();
     let threads = Threads::new(2, SimdLevel::best()).expect("two threads can be had");
     let with = |adaptive, seed, spp| {

@@ -58,7 +58,7 @@ fn a_smooth_metal_that_is_black_from_the_front_shines_at_grazing_angles() {
 }
 
 #[test]
-fn what_is_black_without_coat_or_rise_reflects_nothing() {
+fn black_surfaces_without_coat_or_rise_reflect_nothing() {
     for material in ["lambertian.albedo = 0.0", "mirror.reflectance = 0.0", "conductor = { reflectance = 0.0, alpha = 0.3 }"] {
         assert_every_sample_is(0.0, &seen_at(material, 1.0), material);
     }

@@ -335,7 +335,7 @@ fn seen(lamp: Lamp, list: &str, w: DVec3, emission: &str, flip: bool) -> Mean {
 }
 
 #[test]
-fn they_are_seen_as_large_as_they_are_and_only_from_the_front() {
+fn lamps_have_their_projected_area_and_shine_from_the_front_only() {
     for lamp in Lamp::ALL {
         for (what, list, map) in placements() {
             for w in [DVec3::new(0.2, -0.9, 0.3), DVec3::new(-0.6, 0.5, 0.7), DVec3::new(0.9, 0.1, -0.3)].map(DVec3::normalize) {

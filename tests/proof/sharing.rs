@@ -148,7 +148,7 @@ material = "grey"
 }
 
 #[test]
-fn what_cannot_be_shared_is_not() {
+fn paths_are_not_shared_where_they_must_not_be() {
     let uniform = RenderSettings { directions: Directions::Uniform, sampler: Sampler::Sobol, ..settings(Estimator::Mis) };
     let tinted = ROOM.replace("ior = 1.5 }", "ior = 1.5, transmittance = 0.5 }");
     for (text, settings) in [(ROOM, uniform), (tinted.as_str(), settings(Estimator::Mis))] {

@@ -137,7 +137,7 @@ fn halfway(frozen: bool) -> Scene {
 }
 
 #[test]
-fn what_is_frozen_is_what_stands_there() {
+fn a_frozen_scene_equals_the_static_one() {
     let (frozen, standing) = (halfway(true), halfway(false));
     for (estimator, reuse) in
         [(Estimator::Path, Reuse::Off), (Estimator::Light, Reuse::Off), (Estimator::Mis, Reuse::Off), (Estimator::Mis, Reuse::On)]
@@ -151,7 +151,7 @@ fn what_is_frozen_is_what_stands_there() {
 }
 
 #[test]
-fn what_is_seen_first_and_what_is_replayed_is_the_frozen_pose() {
+fn features_and_replays_show_the_frozen_pose() {
     let scenes = [halfway(true), halfway(false)];
     let [frozen, standing] =
         [0, 1].map(|i| features(SimdLevel::best(), &scenes[i], &scenes[i].camera, &|| false).expect("nobody interrupts"));
@@ -190,7 +190,7 @@ fn a_sequence_of_features_opens_where_the_shutter_opens() {
 }
 
 #[test]
-fn the_medium_around_the_eye_is_that_of_the_moment() {
+fn the_medium_around_the_eye_depends_on_time() {
     // A ball that tints without refraction. Halfway, the eye is at its centre, because the camera or the ball has moved there.
     for (what, shutter, expected) in
         [("ball", [0.5, 0.5], 0.25), ("ball", [0.0, 0.0], 1.0), ("eye", [0.5, 0.5], 0.25), ("eye", [0.0, 0.0], 1.0)]

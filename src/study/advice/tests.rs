@@ -76,7 +76,7 @@ fn noise_is_estimated_without_bias() {
 }
 
 #[test]
-fn efficiency_is_told_from_noise_and_time() {
+fn efficiency_follows_from_noise_and_time() {
     let advice = rank(&[known(IN_USE, 0.08, &[1.0, 2.0, 1.0, 4.0]), known(ADVISED, 0.01, &[2.0, 4.0, 2.0, 8.0])], SPP);
     assert_eq!((advice.best, advice.current), (0, 1));
     let best = advice.best();
@@ -91,7 +91,7 @@ fn efficiency_is_told_from_noise_and_time() {
 }
 
 #[test]
-fn what_chance_explains_is_as_good() {
+fn insignificant_differences_count_as_equal() {
     let seconds = [1.0, 1.6, 0.9, 0.5];
     let advice = rank(&[known(IN_USE, 0.012, &[1.0; 4]), known(ADVISED, 0.01, &seconds)], SPP);
     // Of the mean of logarithms the jackknife gives what the textbook does.
@@ -138,7 +138,7 @@ fn the_noise_in_use_makes_no_difference_between_stages() {
 }
 
 #[test]
-fn who_finds_no_light_is_not_praised_for_little_noise() {
+fn settings_that_find_no_light_are_not_recommended() {
     let lit = |i: u32| vec![[1.0 + 0.1 * (i % 2) as f32; 3]; 4];
     let dark = |_| vec![[0.0; 3]; 4];
     let advice = rank(&measured(&[series(IN_USE, (0..4).map(lit)), series(ADVISED, (0..4).map(dark))]), SPP);
@@ -159,7 +159,7 @@ fn without_noise_nothing_is_better() {
 }
 
 #[test]
-fn the_second_stage_takes_over_what_stood_out() {
+fn the_second_stage_adopts_the_best_of_the_first() {
     let first = first_stage(&IN_USE);
     assert_eq!(first.len(), 1 + 4 + 2);
     assert_eq!(first_stage(&ADVISED).len(), 1 + 3 + 2);

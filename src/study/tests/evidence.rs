@@ -84,7 +84,7 @@ fn equal_time_is_the_same_time_for_all_and_intervals_are_of_those_near_the_best(
 }
 
 #[test]
-fn a_bias_is_told_in_standard_errors_and_bounded_where_the_variance_is_finite() {
+fn a_bias_has_standard_errors_and_is_bounded_if_the_variance_is_finite() {
     with_exhibits(roulettes(), Setting::Roulette, |exhibits| {
         let table = exhibits.tables().into_iter().find(|table| table.name == "bias_of_roulette").expect("a table");
         let names: Vec<&str> = table.columns.iter().map(|column| column.name.as_str()).collect();
@@ -112,7 +112,7 @@ fn estimators() -> Findings {
 }
 
 #[test]
-fn what_is_noisy_is_compared_too_and_heavy_tails_have_no_interval() {
+fn noisy_settings_are_compared_too_and_heavy_tails_have_no_interval() {
     with_exhibits(estimators(), Setting::Estimator, |exhibits| {
         let table = exhibits.tables().into_iter().find(|table| table.name == "equal_time_estimator").expect("a table");
         assert!(table.caption.contains("T = 0.500 s"), "{}", table.caption);

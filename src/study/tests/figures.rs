@@ -115,7 +115,7 @@ fn a_setting_has_a_curve_for_each_value_and_twins_share_one() {
 }
 
 #[test]
-fn what_has_no_noise_is_said_and_not_drawn() {
+fn combinations_without_noise_are_named_and_not_drawn() {
     let exact = outcome(settings(Estimator::Mis, Sampler::Sobol), 1e-17, Vec::new());
     let noisy = outcome(settings(Estimator::Path, Sampler::Sobol), 0.1, Vec::new());
     let pair = overview(&findings(vec![exact.clone(), noisy], RenderSettings::default())).expect("a curve");

@@ -140,7 +140,7 @@ fn the_uncertainty_of_a_ratio_covers_it_as_often_as_it_says() {
 }
 
 #[test]
-fn what_is_far_worse_says_nothing_of_how_sure_the_first_places_are() {
+fn far_worse_combinations_do_not_change_the_uncertainty() {
     let with = |worse: [f64; 2]| {
         let sampler = |sampler| RenderSettings { sampler, ..RenderSettings::default() };
         findings(vec![
@@ -175,7 +175,7 @@ fn what_is_far_worse_says_nothing_of_how_sure_the_first_places_are() {
 }
 
 #[test]
-fn a_setting_is_worth_what_it_is_with_the_best_and_at_its_best() {
+fn the_gain_of_a_setting_is_with_the_best_and_at_its_best() {
     let of = |estimator, sampler, rel_mse| {
         let settings = RenderSettings { estimator, sampler, ..RenderSettings::default() };
         outcome(settings, &[run(rel_mse, 1.0), run(rel_mse, 1.0)])

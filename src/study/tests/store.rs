@@ -20,7 +20,7 @@ fn rows(key: &str, checkpoints: usize) -> Vec<row::Row> {
 const KEYS: [&str; 2] = ["00000000000000aa", "ffffffffffffffff"];
 
 #[test]
-fn what_is_kept_is_read_back_bit_for_bit() {
+fn stored_runs_are_read_back_bit_for_bit() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut store = Store::open(folder.path()).expect("an empty store");
     for key in KEYS {
