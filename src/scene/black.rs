@@ -1,15 +1,15 @@
-//! Why a picture may be black.
+//! Reasons for a black image.
 use super::{Camera, Object, RenderSettings, Scene};
 
 impl Scene {
-    /// The innermost object that shuts the camera in: opaque, and with its front outwards, so that only its inside is seen.
+    /// The innermost opaque object around the camera whose front faces outwards, so the camera sees only its inside.
     pub fn around(&self, camera: &Camera) -> Option<&Object> {
         let shuts_in = |object: &&Object| !object.flip && !self.has_inside(object) && object.shape.contains(camera.eye);
         let size = |object: &Object| object.shape.bounding_sphere().1;
         self.objects.iter().filter(shuts_in).min_by(|a, b| size(a).total_cmp(&size(b)))
     }
 
-    /// The likeliest reason for a picture that is black so far.
+    /// The most likely reason for an image that is black so far.
     pub fn why_black(&self, camera: &Camera, settings: &RenderSettings) -> String {
         if self.lights.is_empty() {
             return "nothing in this scene emits light".to_owned();
@@ -32,7 +32,7 @@ impl Scene {
 mod tests {
     use crate::scene::{Camera, RenderSettings, Scene, parse};
 
-    /// Balls around the origin, each of a radius and with more of its own, under a sky that is lit.
+    /// Balls around the origin, by radius and further text, under a bright sky.
     fn scene(balls: &[(&str, f64, &str)]) -> Scene {
         let ball = |(name, radius, more): &(&str, f64, &str)| {
             format!("[[objects]]\nname = '{name}'\nshape.sphere = {{ center = [0.0, 0.0, 0.0], radius = {radius:?} }}\n{more}\n")

@@ -1,28 +1,28 @@
-//! The camera: where it stands, what it looks at, and what its lens and its pixels do.
+//! The camera: position, direction, lens and pixel filter.
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use super::Shutter;
 use crate::{declare::check, sampling::Filter};
 
-/// Where the picture is taken from. Right-handed world, y usually up.
+/// A camera in a right-handed world, in which y is usually up.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Camera {
     /// Position, metres.
     pub eye: DVec3,
-    /// The point in the middle of the image, metres.
+    /// The point at the centre of the image, metres.
     pub look_at: DVec3,
     /// The direction that is up in the image, of any length.
     pub up: DVec3,
-    /// Full angle across the picture's width, degrees.
+    /// Field of view across the width of the image, degrees.
     pub fov: f64,
-    /// Width of the picture in metres, when all rays are parallel; then `fov` has no meaning.
+    /// Width of the image in metres, for an orthographic camera, which has no `fov`.
     pub orthographic: Option<f64>,
-    /// Absent: a pinhole.
+    /// The thin lens; `None` is a pinhole.
     pub lens: Option<Lens>,
     /// The pixel filter.
     pub filter: Filter,
-    /// When the picture is taken, which blurs what moves; absent: all is seen as it stands at time 0.
+    /// The times at which the shutter is open, which blurs motion; `None` is time 0.
     pub shutter: Option<Shutter>,
     /// Width and height in pixels.
     pub resolution: [u32; 2],
@@ -31,13 +31,13 @@ pub struct Camera {
 /// A thin lens: an open disk around the eye that brings the plane at distance `focus` into focus.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Lens {
-    /// Metres.
+    /// Radius, metres.
     pub radius: f64,
     /// Distance of the plane in focus from the eye along the axis, metres.
     pub focus: f64,
 }
 
-/// Why a camera cannot take a picture.
+/// Error in the values of a camera.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum CameraError {
     /// A number is infinite or NaN.
@@ -75,14 +75,14 @@ pub enum CameraError {
     Resolution,
 }
 
-/// 8K UHD fits.
+/// Largest number of pixels, enough for 8K UHD.
 const MOST_PIXELS: u64 = 1 << 25;
 
 impl Camera {
     /// Limit of width and of height.
     pub const MOST_SIDE: u32 = 16_384;
 
-    /// Checks all values, the resolution included.
+    /// Checks all values, including the resolution.
     pub fn check(&self) -> Result<(), CameraError> {
         self.check_resolution()?;
         if !(self.eye.is_finite() && self.look_at.is_finite() && self.up.is_finite() && self.fov.is_finite()) {
@@ -132,7 +132,7 @@ impl Camera {
         [right, right.cross(forward), forward]
     }
 
-    /// The width of what the picture shows at the look-at point, metres.
+    /// The width of the image at the look-at point, metres.
     pub fn width_at_look_at(&self) -> f64 {
         let perspective = 2.0 * self.eye.distance(self.look_at) * (self.fov.to_radians() / 2.0).tan();
         self.orthographic.unwrap_or(perspective)

@@ -1,4 +1,4 @@
-//! Scenes that pictures carry: a PNG or an EXR that Noisefall has written opens as the scene it shows.
+//! Scenes in image files: a PNG or EXR that Noisefall has written can be opened in place of its scene.
 use std::path::Path;
 
 use serde::Deserialize;
@@ -10,7 +10,7 @@ use crate::{
     image::{carried_text, looks_like},
 };
 
-/// What a picture says of itself.
+/// The metadata of an image.
 #[derive(Deserialize)]
 struct Carried {
     /// The text of the scene file.
@@ -19,7 +19,7 @@ struct Carried {
     settings: RenderSettings,
 }
 
-/// The scene that a file carries if it is a picture, with the camera and the settings of that picture; `None` if there is none in it.
+/// The scene in an image file, with the camera and settings of the image; `None` if the file is no image or has no scene.
 pub fn load_carried(path: &Path) -> Option<Result<Scene, SceneError>> {
     let start = &mut [0; 8];
     std::io::Read::read_exact(&mut open_regular(path).ok()?, start).ok()?;

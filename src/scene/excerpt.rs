@@ -1,28 +1,29 @@
-//! The lines of a file around an error. Long ones are cut: a caret far to the right of a window is not seen.
+//! The lines of a file around an error. Long lines are shortened, because a caret beyond the edge of the terminal would be
+//! invisible.
 use std::{ops::Range, path::Path};
 
 use miette::{MietteError, MietteSpanContents, NamedSource, SourceCode, SourceSpan, SpanContents};
 
 use crate::quote;
 
-/// Longer lines are cut.
+/// Longest line that is shown whole.
 const LONGEST_LINE: usize = 200;
-/// What is left of a line before an error.
+/// Number of characters of a shortened line before an error.
 const BEFORE: usize = 60;
-/// Lines that are kept before and after an error.
+/// Number of lines before and after an error.
 const AROUND: usize = 2;
-/// An error that reaches over more lines is marked in its first one.
+/// An error over more lines is marked in its first line only.
 const MOST_LINES: usize = 4;
 
-/// The lines around a place in a text, the long ones cut.
+/// The lines around a position in a text, with long lines shortened.
 #[derive(Clone, Debug)]
 pub struct Excerpt {
     name: String,
     text: NamedSource<String>,
     span: Range<usize>,
-    /// The column in characters of the file, less that in bytes of the excerpt.
+    /// The column in characters of the file minus the column in bytes of the excerpt.
     shift: isize,
-    /// Lines of the file before the excerpt.
+    /// Number of lines of the file before the excerpt.
     lines_before: usize,
 }
 
@@ -71,13 +72,13 @@ impl Excerpt {
         excerpt(short, short_start, marked)
     }
 
-    /// Where the error lies in what is shown.
+    /// Byte range of the error in the excerpt.
     pub fn span(&self) -> Range<usize> {
         self.span.clone()
     }
 }
 
-/// The lines around a place, and what of the place is marked.
+/// The lines around a byte range, and the part of the range to mark.
 fn around(text: &str, span: Range<usize>) -> (Range<usize>, Range<usize>) {
     let line = start_of_line(text, span.start);
     let many = text.get(span.clone()).is_some_and(|marked| marked.matches('\n').nth(MOST_LINES - 1).is_some());
@@ -96,7 +97,7 @@ fn end_of_line(text: &str, at: usize) -> usize {
     text[at..].find('\n').map_or(text.len(), |length| at + length)
 }
 
-/// The text with what a terminal would obey replaced by characters of as many bytes, so that places stay where they are.
+/// Replaces control characters of a text by characters of the same number of bytes, which keeps all positions.
 fn printable(text: &str) -> String {
     let replaced = |c: char| match c {
         '\n' | '\t' => c,

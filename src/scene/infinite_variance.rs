@@ -1,18 +1,18 @@
-//! Settings by which the variance of the estimate may be infinite.
+//! Settings for which the variance of the estimate may be infinite.
 use super::{MaterialInstance, RenderSettings, Roulette, Scene};
 use crate::sampling::Directions;
 
 impl Scene {
-    /// What is to be said of settings whose samples may have no finite variance in this scene; `None` where they have.
+    /// Warning about settings whose samples may have infinite variance in this scene; `None` if their variance is finite.
     ///
     /// Between surfaces of albedo ρ the mean square of a sample is a series in ρ² E w²/q: q is the probability to survive roulette, and E w²
     /// the mean square of the weight of a direction, 4/3 for uniform ones at diffuse surfaces and 1 otherwise. Roulette by throughput
-    /// keeps throughputs of about 1 as long as its upper bound q = [`Roulette::MOST`] is enough. A cap ends the series. Glass hands
-    /// light on and keeps none, so that it does not count.
+    /// keeps throughputs of about 1 as long as its upper bound q = [`Roulette::MOST`] is enough. A cap ends the series. Glass
+    /// absorbs nothing, so it does not count.
     pub fn infinite_variance(&self, settings: &RenderSettings) -> Option<String> {
         let survival = settings.roulette.survival();
         let is_uniform = settings.directions == Directions::Uniform;
-        // Without roulette weights of 1 never grow.
+        // Without roulette, weights of 1 do not grow.
         if settings.max_bounces.is_some() || (survival == 1.0 && !is_uniform) {
             return None;
         }

@@ -1,14 +1,14 @@
-//! The materials of a scene by number, as the legend of a picture shows them.
+//! The materials of a scene by number, for the legend of a view.
 use std::collections::HashMap;
 
 use super::{Object, Scene};
 
-/// Which materials the objects of a scene have.
+/// The materials of the objects of a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Legend {
-    /// Names in the order in which the objects need them; `black` is what objects without a material are.
+    /// Names of the materials, in the order of the first objects that use them. Objects without a material are `black`.
     pub names: Vec<String>,
-    /// The material of every object, as a place among the names.
+    /// The material of every object, as an index into the names.
     pub of_object: Vec<u32>,
 }
 

@@ -9,10 +9,10 @@ use super::{
 };
 use crate::{file::open_regular, image::looks_like};
 
-/// Larger files are refused before they are read.
+/// Larger files are rejected before they are read.
 const LARGEST_FILE: u64 = 64 << 20;
 
-/// Reads and compiles a scene file, or the scene that a picture carries.
+/// Reads and compiles a scene file, or the scene in an image file.
 pub fn load(path: &Path) -> Result<Scene, SceneError> {
     if let Some(carried) = load_carried(path) {
         return carried;
@@ -36,7 +36,7 @@ pub fn load(path: &Path) -> Result<Scene, SceneError> {
     parse(&name, text)
 }
 
-/// What the file looks like, as the end of a sentence, if it is no text at all: then none of it can be shown.
+/// Description of a binary file, as the end of a sentence; `None` for text. Binary files are not quoted.
 fn not_text(bytes: &[u8]) -> Option<String> {
     let start = &bytes[..bytes.len().min(4096)];
     let is_control = |byte: &u8| *byte < 0x20 && !b"\t\n\r\x0c".contains(byte);
@@ -64,7 +64,7 @@ fn read(path: &Path) -> Result<Vec<u8>, SceneError> {
     };
     let file = open_regular(path).map_err(unreadable)?;
     let mut bytes = Vec::new();
-    // Reading stops past the limit whatever size the file claims: it may grow meanwhile.
+    // Reading stops at the limit even if the file is smaller now, because it may grow meanwhile.
     file.take(LARGEST_FILE + 1).read_to_end(&mut bytes).map_err(unreadable)?;
     if bytes.len() as u64 > LARGEST_FILE {
         let message = format!("the file is larger than {} MB", LARGEST_FILE >> 20);

@@ -1,4 +1,4 @@
-//! Where in the text of a scene file a problem stands.
+//! Positions of problems in the text of a scene file.
 use std::ops::Range;
 
 use toml::{
@@ -9,9 +9,9 @@ use toml::{
 use super::diagnostic::{SceneError, SourceText};
 use crate::declare::{Path, Problem, Step};
 
-/// Problems as errors at their places in the text they come from.
+/// Turns problems into errors with positions in the text.
 pub fn locate(problems: Vec<Problem>, source: &SourceText) -> Vec<SceneError> {
-    // Reading the text once more takes less than keeping its tables while the scene is compiled.
+    // Parsing the text again takes less memory than keeping its tables while the scene is compiled.
     let table = DeTable::parse(&source.text).ok();
     let error = |problem: Problem| {
         let (found, value) = table.as_ref().map_or((0..1, None), |table| span_of(table, &problem.path));
@@ -22,7 +22,7 @@ pub fn locate(problems: Vec<Problem>, source: &SourceText) -> Vec<SceneError> {
     problems.into_iter().map(error).collect()
 }
 
-/// The place of a part of a text: within the quotes, unless they hold escapes, when only the whole is known.
+/// The byte range of a part of a string. If the string contains escapes, it is the range of the whole string.
 fn part_of(source: &SourceText, value: Option<&Spanned<DeValue>>, part: &Range<usize>) -> Option<Range<usize>> {
     let value = value?;
     let text = value.get_ref().as_str()?;
@@ -30,7 +30,7 @@ fn part_of(source: &SourceText, value: Option<&Spanned<DeValue>>, part: &Range<u
     (source.text.get(start..start + text.len()) == Some(text)).then(|| start + part.start..start + part.end)
 }
 
-/// The place of the value at a path, or of the innermost table on the way that there is.
+/// The byte range of the value at a path, or else of the innermost table on the path.
 fn span_of<'t>(table: &'t Spanned<DeTable<'t>>, path: &Path) -> (Range<usize>, Option<&'t Spanned<DeValue<'t>>>) {
     let mut span = 0..1;
     let mut value: Option<&Spanned<DeValue>> = None;

@@ -7,7 +7,7 @@ use crate::{
 /// One object as the file describes it.
 #[derive(Clone, Debug)]
 pub struct Object {
-    /// The name in the scene file, or a name by its position.
+    /// The name in the scene file, with a number if the shape makes several objects; may be empty.
     pub name: String,
     /// The shape with the object's transform applied.
     pub shape: Shape,

@@ -16,17 +16,17 @@ use super::{
 };
 use crate::memory::{Size, reserve};
 
-/// Of longer texts that are not TOML only the first error is told.
+/// For longer texts with syntax errors only the first one is reported.
 const LONGEST_SCANNED: usize = 1 << 18;
 
-/// Bytes that reading takes of memory for each of the text: while its TOML is parsed, what that says, and the text itself.
+/// Bytes of memory per byte of text: the TOML while it is parsed, the description, and the text itself.
 const PARSING: u64 = 115;
 
 const DESCRIBED: u64 = 24;
 
 const KEPT: u64 = 2;
 
-/// The scene that the window opens when none is named; also `scenes/cornell_spheres.toml`.
+/// The scene that the window opens by default; also `scenes/cornell_spheres.toml`.
 pub const BUILT_IN: &str = include_str!("../../scenes/cornell_spheres.toml");
 
 /// The built-in five-sphere Cornell box.
@@ -34,7 +34,7 @@ pub fn built_in() -> Scene {
     parse("cornell_spheres.toml", BUILT_IN.to_owned()).expect("the built-in scene is valid: a test compiles it")
 }
 
-/// Compiles the text of a scene file; `name` is what errors call it, and paths in the file are relative to its folder.
+/// Compiles the text of a scene file. `name` is its name in errors; paths in the file are relative to the folder of `name`.
 pub fn parse(name: &str, text: String) -> Result<Scene, SceneError> {
     let source = SourceText { name: name.to_owned(), text };
     let (description, damage, mut errors) = understood(&source)?;
@@ -60,7 +60,7 @@ pub fn describe(name: &str, text: String) -> Result<SceneDescription, SceneError
     SceneError::of_all(errors).map_or(Ok(description), Err)
 }
 
-/// What a text says: all of it that can be understood, what was left out, and why.
+/// The description in a text, its incomplete tables, and the errors.
 fn understood(source: &SourceText) -> Result<(SceneDescription, Damage, Vec<SceneError>), SceneError> {
     let bytes = (PARSING + KEPT) * source.text.len() as u64;
     let _parsing = reserve(format_args!("{} of text", Size(source.text.len() as u64)), bytes).map_err(|error| {
@@ -77,8 +77,8 @@ fn understood(source: &SourceText) -> Result<(SceneDescription, Damage, Vec<Scen
     Ok((description, damage, errors))
 }
 
-/// All errors of a text that is not TOML: what can be told from the text itself, and what the reader says of other lines; `first`
-/// is what it says first.
+/// All syntax errors of a text: those found in the text itself, and those of the TOML parser on other lines. `first` is the first
+/// error of the parser.
 fn not_toml(source: &SourceText, first: &toml::de::Error) -> SceneError {
     if source.text.len() > LONGEST_SCANNED {
         return in_plain_words(source, first);
@@ -96,7 +96,7 @@ fn not_toml(source: &SourceText, first: &toml::de::Error) -> SceneError {
     SceneError::of_all(all).unwrap_or_else(|| in_plain_words(source, first))
 }
 
-/// A file of another version is told so, whatever else it says.
+/// The error for a file of another version, which takes precedence over all other errors.
 fn check_format(source: &SourceText, table: &DeTable) -> Result<(), SceneError> {
     let Some((_, value)) = table.iter().find(|(key, _)| key.get_ref() == "format") else { return Ok(()) };
     let format = value.get_ref().as_integer().and_then(|format| i64::from_str_radix(format.as_str(), format.radix()).ok());

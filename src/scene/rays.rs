@@ -6,33 +6,33 @@ use crate::{
     sampling::{Filter, warp::disk},
 };
 
-/// The rays of a camera, ready for lanes: plane coordinates of a raster point are `corner + x per_x + y per_y`.
+/// The rays of a camera as constants of the kernel. Plane coordinates of a raster point are `corner + x per_x + y per_y`.
 #[derive(Clone, Debug)]
 pub struct CameraRays {
-    /// Of the picture, in pixels.
+    /// Width and height of the image in pixels.
     pub resolution: [u32; 2],
     eye: [f32; 3],
-    /// The upper left corner of the picture, and its change per pixel to the right and down. A direction whose forward component
-    /// is 1, or for parallel rays an offset of the eye.
+    /// The upper left corner of the image, and its change per pixel to the right and down. It is a direction with a forward
+    /// component of 1, or for parallel rays an offset of the eye.
     corner: [f32; 3],
     per_x: [f32; 3],
     per_y: [f32; 3],
-    /// The direction of all rays when they are parallel.
+    /// The direction of parallel rays.
     parallel: Option<[f32; 3]>,
     lens: Option<LensRays>,
     /// The pixel filter.
     pub filter: Filter,
     /// The media around the eye: see [`crate::scene::surface::Surfaces::media`].
     pub media: u32,
-    /// When samples are taken.
+    /// The times of samples.
     moments: Moments,
     motion: Motion,
 }
 
-/// A lens of some size.
+/// A lens with a positive radius.
 #[derive(Clone, Copy, Debug)]
 struct LensRays {
-    /// From the middle of the lens to its rim, to the right and up.
+    /// Vectors from the centre of the lens to its rim, to the right and up.
     right: [f32; 3],
     up: [f32; 3],
     focus: f32,
@@ -71,7 +71,7 @@ impl Scene {
     pub fn rays(&self, camera: &Camera) -> CameraRays {
         let shutter = camera.shutter.filter(|_| self.moves());
         let moments = shutter.map(Shutter::moments).unwrap_or_default();
-        // What does not move is not even rounded.
+        // A static camera is not transformed, which would round it.
         let motion = if moments == Moments::default() { Motion::default() } else { self.camera_motion.clone() };
         let opening = f64::from(moments.start).clamp(0.0, 1.0);
         let eye = motion.at(opening).transform_point3(camera.eye);
@@ -96,25 +96,25 @@ impl CameraRays {
         self.moments.length > 0.0
     }
 
-    /// The time of samples that all show the same pose.
+    /// The time of all samples, if it is the same.
     #[inline(always)]
     pub fn moment<L: Lanes>(&self, l: L) -> F<L> {
         l.f(self.moments.start)
     }
 
-    /// The time from 0 to 1 of samples at the part `u` of the time that the shutter is open.
+    /// The time of samples at the fraction `u` of the interval in which the shutter is open.
     #[inline(always)]
     pub fn time<L: Lanes>(&self, l: L, u: F<L>) -> F<L> {
         (u * self.moments.length + self.moments.start).max(l.f(0.0)).min(l.f(1.0))
     }
 
-    /// A ray of the camera as it stands at time 0, carried to `time`.
+    /// Moves a ray of the camera from time 0 to `time`.
     #[inline(always)]
     pub fn carried<L: Lanes>(&self, l: L, (o, d): (V<L>, V<L>), time: F<L>) -> (V<L>, V<L>) {
         self.motion.carry(l, o, d, time)
     }
 
-    /// Origin and unit direction of the rays through raster points, in pixels from the upper left corner of the picture.
+    /// Origin and unit direction of the rays through raster points, in pixels from the upper left corner of the image.
     #[inline(always)]
     pub fn through<L: Lanes>(&self, l: L, x: F<L>, y: F<L>) -> (V<L>, V<L>) {
         let place = V::splat(l, self.per_x) * x + V::splat(l, self.per_y) * y + self.corner;
@@ -124,7 +124,7 @@ impl CameraRays {
         }
     }
 
-    /// The same rays through the points `u` of the lens, uniform over its disk. Only where there is a lens.
+    /// The same rays through points of the lens, which `u` samples uniformly. There must be a lens.
     #[inline(always)]
     pub fn through_lens<L: Lanes>(&self, l: L, x: F<L>, y: F<L>, u: (F<L>, F<L>)) -> (V<L>, V<L>) {
         let Some(lens) = self.lens else { return self.through(l, x, y) };

@@ -1,7 +1,7 @@
-//! When a picture is taken, in the time of motion.
+//! The shutter: the times that an image shows.
 use serde::{Deserialize, Serialize};
 
-/// When the shutter is open. Motion runs over the times 0 to 1; before and after them things stay as they are at its ends.
+/// The interval in which the shutter is open. Motion runs from time 0 to 1; objects are at rest before and after.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Shutter {
     /// The time at which it opens, from 0 to 1.
@@ -11,15 +11,15 @@ pub struct Shutter {
 }
 
 impl Shutter {
-    /// Times beyond these are refused: samples of them all would show the ends of the motion.
+    /// Limits of the times. Beyond them nearly all samples would show the ends of the motion.
     pub const FARTHEST: f64 = 1e6;
 
-    /// A shutter that takes the picture in the moment in which this one opens.
+    /// A shutter that is open only at the moment in which this one opens.
     pub fn at_opening(self) -> Shutter {
         Shutter { close: self.open, ..self }
     }
 
-    /// The moments that its samples are spread over.
+    /// The times of its samples.
     pub(super) fn moments(self) -> Moments {
         let [first, last] = [self.open, self.close].map(|time| time.clamp(0.0, 1.0));
         if first == last {
@@ -29,12 +29,12 @@ impl Shutter {
     }
 }
 
-/// Times from `start` on, evenly over `length`; poses before 0 are the pose at 0, and after 1 that at 1.
+/// Uniform times from `start` over `length`. The pose before 0 is that at 0, and the pose after 1 is that at 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Moments {
     /// The time at which the shutter opens.
     pub start: f32,
-    /// 0 where all samples show the same pose.
+    /// Length of the interval; 0 if all samples show the same pose.
     pub length: f32,
 }
 

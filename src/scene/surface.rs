@@ -1,4 +1,4 @@
-//! What the primitives' surfaces are, as tables for the kernel, and which shading stages they need.
+//! Tables of the surfaces of primitives for the kernel, and the shading stages that they need.
 use super::{MaterialInstance, Object};
 use crate::{
     geometry::Shape,
@@ -10,21 +10,21 @@ use crate::{
 /// Surfaces by primitive. Tables that a scene does not need are empty.
 #[derive(Default)]
 pub struct Surfaces {
-    /// Colour, and the surface's word: `material | stage << 16 | flags`.
+    /// Colour, and the word `material | stage << 16 | flags`.
     pub rows: Vec<[f32; 4]>,
     /// α, textures of colour and of α, and the medium inside. An id is stored plus 1, as bits; 0 is none.
     pub varying: Vec<[f32; 4]>,
-    /// Texture of heights, their scale, and texture of normals (ids like above).
+    /// Height texture, its scale, and normal texture (ids as above).
     pub relief: Vec<[f32; 4]>,
-    /// What a metre of a medium takes away, in octaves; the first is empty space. Empty when all media are.
+    /// Extinction of media per metre, in octaves; the first is empty space. Without tinted media the table is empty.
     pub media: Vec<[f32; 4]>,
-    /// Colour or α of some surface is textured.
+    /// Whether the colour or α of some surface is textured.
     pub textured: bool,
     /// The stages that some surface uses.
     pub stages: Vec<Stage>,
-    /// Some surface is glossy: lights are better chosen by what it reflects of them.
+    /// Whether some surface is glossy, so lights are chosen with its lobe.
     pub glossy: bool,
-    /// All surfaces are diffuse, from both sides, and of constant colour.
+    /// Whether all surfaces are diffuse, two-sided, and of constant colour.
     pub plain: bool,
     /// Tables and constants of the materials.
     pub materials: Materials,
@@ -32,24 +32,24 @@ pub struct Surfaces {
 
 const STAGE_SHIFT: u32 = 16;
 const STAGE_MASK: u32 = 0xf;
-/// The normal is reversed.
+/// Flag: the normal is reversed.
 pub const FLIPPED: u32 = 1 << 20;
-/// Only the front reflects.
+/// Flag: only the front reflects.
 pub const ONE_SIDED: u32 = 1 << 21;
-/// α is the square of what its texture says.
+/// Flag: α is the square of its texture.
 pub const SQUARED: u32 = 1 << 22;
-/// It transmits and emits: no light is looked for from it, as it would find itself, seen from the wrong side.
+/// Flag: the surface transmits and emits. Lights are not sampled from it, because it would find its own back.
 pub const SELF_LIT: u32 = 1 << 23;
-/// It scatters light even where its colour is black: see [`crate::material::CompiledMaterial::scatters_where_black`].
+/// Flag: black colours scatter light too; see [`crate::material::CompiledMaterial::scatters_where_black`].
 pub const SCATTERS_WHERE_BLACK: u32 = 1 << 24;
-/// Set while rendering where a path met the front.
+/// Flag, set while rendering: the path hit the front.
 pub const FRONT: u32 = 1 << 31;
-/// Materials have 16 bits, media 8: what is beyond is refused by [`Surfaces::check`].
+/// Materials have 16 bits and media 8. [`Surfaces::check`] rejects more.
 const MOST_MATERIALS: usize = 1 << 16;
 const MOST_MEDIA: usize = 1 << 8;
 
 impl Surfaces {
-    /// Surfaces of the pieces of the objects in their order.
+    /// The surfaces of all pieces of the objects, in order.
     pub fn new(objects: &[Object], instances: &[MaterialInstance], materials: Materials) -> Surfaces {
         let inside = |instance: &MaterialInstance| instance.compiled.inside.unwrap_or([1.0; 3]);
         let has_media = instances.iter().any(|instance| inside(instance) != [1.0; 3]);
@@ -126,7 +126,7 @@ impl Surfaces {
         !self.textured && self.stages.iter().all(|stage| *stage == Stage::Plain) && !self.rows.iter().any(one_sided)
     }
 
-    /// What is too many for the tables.
+    /// Error if there are too many materials or media.
     pub fn check(&self) -> Result<(), String> {
         let too_many = |what: &str, most: usize| Err(format!("more than {most} {what}"));
         if self.materials.len() > MOST_MATERIALS {
@@ -139,7 +139,7 @@ impl Surfaces {
     }
 }
 
-/// What a row of [`Surfaces::rows`] says.
+/// A row of [`Surfaces::rows`].
 struct SurfaceRow {
     colour: [f32; 3],
     /// `material | stage << 16 | flags`.
@@ -153,12 +153,12 @@ impl SurfaceRow {
     }
 }
 
-/// What a row of [`Surfaces::varying`] says.
+/// A row of [`Surfaces::varying`].
 struct VaryingRow {
     alpha: f32,
     colour_texture: Option<u32>,
     alpha_texture: Option<u32>,
-    /// The medium inside, as a place in [`Surfaces::media`].
+    /// The medium inside, as an index into [`Surfaces::media`].
     medium: u32,
 }
 
@@ -173,7 +173,7 @@ fn texture_bits(texture: Option<u32>) -> f32 {
     f32::from_bits(texture.map_or(0, |id| id + 1))
 }
 
-/// −log₂ of what a metre lets pass; black lets nothing pass, but at no distance everything.
+/// −log₂ of the transmittance of a metre. For transmittance 0 it is finite, so that a distance of 0 transmits everything.
 fn octaves_per_metre(transmittance: [f32; 3]) -> [f32; 4] {
     let octaves = |t: f32| (-t.log2()).min(1e30);
     [octaves(transmittance[0]), octaves(transmittance[1]), octaves(transmittance[2]), 0.0]
@@ -205,7 +205,7 @@ mod tests {
         scene::{RenderSettings, Scene, parse},
     };
 
-    /// Balls of these materials, each with more of its own.
+    /// Balls of these materials, each with further text.
     fn scene(balls: &[(&str, &str)]) -> Scene {
         let ball = |(i, (material, more)): (usize, &(&str, &str))| {
             format!(

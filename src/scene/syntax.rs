@@ -1,16 +1,17 @@
-//! Slips of the pen in a scene file, found in the text itself: the TOML reader tells where it gave up, which may be lines behind the slip.
+//! Typing errors in a scene file, found in its text. The TOML parser only reports where it gave up, which may be many lines
+//! later.
 use std::ops::Range;
 
 use super::diagnostic::{SceneError, SourceText};
 
-/// What a look at the text finds.
+/// Typing errors in a text.
 pub struct Slips {
     pub errors: Vec<SceneError>,
-    /// Brackets do not match: what the reader says of the text behind them is about something else.
+    /// Brackets do not match, so later errors of the parser are misleading.
     pub unbalanced: bool,
 }
 
-/// Looks for what other languages write differently, and for brackets and quotes that are not closed.
+/// Finds syntax of other languages, and unclosed brackets and quotes.
 pub fn slips(source: &SourceText) -> Slips {
     let mut scanner = Scanner { source, open: Vec::new(), last: None, text: None, slips: Vec::new(), unbalanced: false };
     let mut start = 0;
@@ -24,11 +25,11 @@ pub fn slips(source: &SourceText) -> Slips {
 
 struct Scanner<'s> {
     source: &'s SourceText,
-    /// The brackets that are open, and where they stand.
+    /// The open brackets and their positions.
     open: Vec<(usize, char)>,
     /// The last character that is neither a space nor in a comment.
     last: Option<char>,
-    /// The quotes that end the text of several lines that we are in.
+    /// The quotes that end the current multi-line string.
     text: Option<&'static str>,
     slips: Vec<SceneError>,
     unbalanced: bool,
@@ -94,7 +95,7 @@ impl Scanner<'_> {
         }
     }
 
-    /// Past a text in quotes; None where the rest of the line is in it.
+    /// Skips a quoted string; `None` if it continues past the line.
     fn quoted(&mut self, start: usize, line: &str, at: usize) -> Option<usize> {
         let (quote, long) = if line[at..].starts_with('"') { ("\"", "\"\"\"") } else { ("'", "'''") };
         if line[at..].starts_with(long) {
@@ -120,7 +121,7 @@ impl Scanner<'_> {
                 self.unbalanced = true;
                 let message = format!("`{opening}` is closed by `{closing}`");
                 self.slip(at..at + 1, message, format!("a `{}` is missing for this", closing_of(opening)));
-                // It may close what lies around.
+                // It may close the bracket around.
                 while self.open.pop().is_some_and(|(_, outer)| closing_of(outer) != closing) {}
             }
             None => {
@@ -130,7 +131,7 @@ impl Scanner<'_> {
         }
     }
 
-    /// Says what is still open, and forgets it.
+    /// Reports all open brackets and quotes, and clears them.
     fn leave_open(&mut self) {
         let Some((at, opening)) = self.open.last().copied() else { return };
         let missing: Vec<String> = self.open.iter().rev().map(|(_, opening)| closing_of(*opening).to_string()).collect();
@@ -140,7 +141,7 @@ impl Scanner<'_> {
         self.open.clear();
     }
 
-    /// Whether a line begins a table or gives a key, although brackets are open that such a thing cannot stand in.
+    /// Whether a line starts a table or has a key where the open brackets allow neither.
     fn begins_anew(&self, start: usize, line: &str) -> bool {
         let Some(&(at, opening)) = self.open.last() else { return false };
         let words = line.trim_start();
@@ -149,7 +150,7 @@ impl Scanner<'_> {
             return is_key(name) && !["true", "false", "inf", "nan"].contains(&name) && header.contains(']');
         }
         let Some((key, _)) = words.split_once('=').filter(|(key, _)| is_key(key.trim_end())) else { return false };
-        // Tables of several lines are legal, with a comma before each key but the first, and are written with indents.
+        // Multi-line inline tables are valid. They have a comma before each key except the first, and are indented.
         let indent = line.len() - line.trim_start().len();
         let line_of_bracket = &self.source.text[self.source.text[..at].rfind('\n').map_or(0, |end| end + 1)..start];
         let indent_of_bracket = line_of_bracket.len() - line_of_bracket.trim_start().len();
@@ -157,7 +158,7 @@ impl Scanner<'_> {
         !key.is_empty() && (opening == '[' || !goes_on)
     }
 
-    /// Whether a `:` with this behind it joins a key and a value: it stands in times of day too.
+    /// Whether a `:` before this text separates a key from a value. It also occurs in times.
     fn stands_for_equals(&self, behind: &str) -> bool {
         let is_digit = |c: char| c.is_ascii_digit();
         !(self.last.is_some_and(is_digit) && behind.starts_with(is_digit))
@@ -168,7 +169,7 @@ fn closing_of(opening: char) -> char {
     if opening == '[' { ']' } else { '}' }
 }
 
-/// Whether this is a key without quotes, perhaps of several parts, that begins with a letter.
+/// Whether this is an unquoted key, possibly dotted, that starts with a letter.
 fn is_key(text: &str) -> bool {
     text.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
         && text.chars().all(|c| c.is_ascii_alphanumeric() || matches!(c, '_' | '-' | '.'))

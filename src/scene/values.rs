@@ -9,17 +9,17 @@ use toml::{
 
 use crate::declare::{Entry, Looks, Parameter, Textured, Value, Word};
 
-/// What comes of reading a value.
+/// Error of reading a value.
 pub enum Found<'t> {
     Read,
     Wrong(Wrong),
-    /// A key of a table that stands for a texture, and those that are known.
+    /// An unknown key in a table that names a texture, and the known keys.
     Unknown(&'t Spanned<Cow<'t, str>>, Vec<Entry>),
     /// A table without this key.
     Missing(&'static str),
-    /// A texture where only a colour is taken.
+    /// A texture where only a colour is allowed.
     NoTexture,
-    /// Text that is none of the words.
+    /// A string that is none of the words.
     NoWord(Vec<Word>),
 }
 
@@ -27,14 +27,14 @@ pub enum Found<'t> {
 pub struct Wrong {
     pub span: Range<usize>,
     pub expected: String,
-    /// What was found, where the text of the file does not say it best.
+    /// Description of the value found, if the text of the file is not the best one.
     pub what: Option<String>,
 }
 
 const COLOUR: &str = "a colour: [red, green, blue], or one number for grey";
 const TEXTURE: Parameter = Parameter::new("texture", "The name of a texture.");
 
-/// Reads `given` into `value`, which stays as it is if that fails.
+/// Reads `given` into `value`, which is unchanged if that fails.
 pub fn read_value<'t>(given: &'t Spanned<DeValue<'t>>, value: &mut Value<'_>) -> Found<'t> {
     let wrong = |expected: &str| Found::Wrong(Wrong { span: given.span(), expected: expected.to_owned(), what: None });
     let of = |read: Result<(), Wrong>| read.map_or_else(Found::Wrong, |()| Found::Read);
@@ -133,7 +133,7 @@ fn read_colour(given: &Spanned<DeValue>) -> Result<[f64; 3], Wrong> {
     numbers(given)
 }
 
-/// The name of a texture, where the value is a table; or what is wrong with that.
+/// The name of a texture, if the value is a table; or the error in that table.
 fn texture<'t>(given: &'t Spanned<DeValue<'t>>) -> Option<Result<Found<'t>, String>> {
     let table: &DeTable = given.get_ref().as_table()?;
     let wrong = |span: Range<usize>, expected: &str| Found::Wrong(Wrong { span, expected: expected.to_owned(), what: None });

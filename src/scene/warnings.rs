@@ -1,4 +1,4 @@
-//! Things that are legal but probably not meant, for the window and the command line.
+//! Warnings about valid scenes that are probably not as intended, for the window and the command line.
 use glam::DVec3;
 
 use super::{MOST_NESTED, Object, Scene};
@@ -8,19 +8,19 @@ use crate::{
     math::{Lanes, One, V},
 };
 
-/// A surface in front of a lamp, at less than this part of the lamp's radius, lets hardly any of its light out.
+/// A surface in front of a lamp, closer than this fraction of the lamp's radius, blocks nearly all of its light.
 const HAIRS_BREADTH: f64 = 0.01;
-/// Lamps that are looked at.
+/// Largest number of lamps that are tested.
 const MOST_LAMPS: usize = 256;
-/// Objects that are called by name.
+/// Largest number of objects that a warning names.
 const MOST_NAMED: usize = 3;
-/// Angles of view below this number of degrees are more likely radians.
+/// Fields of view below this number of degrees are probably in radians.
 const RADIANS: f64 = 3.2;
-/// The sine of the angle between `up` and the direction of view below which the picture stands at random.
+/// Sine of the angle between `up` and the view direction below which the orientation of the image is arbitrary.
 const NEARLY_PARALLEL: f64 = 0.02;
 
 impl Scene {
-    /// One sentence each, without its end.
+    /// The warnings, one sentence each, without a full stop.
     pub fn warnings(&self) -> &[String] {
         self.warned.get_or_init(|| [self.warnings_of_scene(), self.warnings_of_objects(), self.warnings_of_camera()].concat())
     }
@@ -84,20 +84,20 @@ impl Scene {
         warnings
     }
 
-    /// Lamps whose emitting side is covered, and what covers them.
+    /// Lamps whose emitting side is covered, and the objects that cover them.
     fn covered_lamps(&self) -> impl Iterator<Item = (&Object, &Object)> {
         let lamps = self.objects.iter().enumerate().take_while(|(_, object)| object.emission.is_some());
         lamps.take(MOST_LAMPS).filter_map(|(number, lamp)| Some((lamp, self.cover(number, lamp)?)))
     }
 
-    /// What covers a flat lamp that stands still.
+    /// The object that covers a static flat lamp.
     fn cover(&self, number: usize, lamp: &Object) -> Option<&Object> {
         let Shape::Flat { outline, origin, edges: [u, v], mirrored } = &lamp.shape else { return None };
         let side = lamp.emission.map(|emission| emission.side).filter(|side| *side != Side::Both)?;
         let turns = *mirrored != (side == Side::Back);
         let normal = u.cross(*v).try_normalize()? * if turns { -1.0 } else { 1.0 };
         let above = normal * HAIRS_BREADTH * lamp.shape.bounding_sphere().1;
-        // From above the lamp back to it: what is met first is not the lamp if something lies between.
+        // A ray from above the lamp towards it first hits another object if that is in between.
         let cover = |(a, b): (f64, f64)| {
             let met = self.first_object(*origin + *u * a + *v * b + above, -normal)?;
             (met != number && lamp.motion.0.is_empty()).then(|| &self.objects[met]).filter(|object| !self.has_inside(object))
@@ -106,7 +106,7 @@ impl Scene {
         covers?.first().copied()
     }
 
-    /// The number of the first object along a ray, as things are at time 0.
+    /// The index of the first object along a ray at time 0.
     fn first_object(&self, origin: DVec3, direction: DVec3) -> Option<usize> {
         let l = One;
         let [o, d] = [origin, direction].map(|v| V::splat(l, v.as_vec3().to_array()));
@@ -114,7 +114,7 @@ impl Scene {
         (nearest.primitive.0 != MISS).then(|| self.owners[nearest.primitive.0 as usize] as usize)
     }
 
-    /// The first of the objects of which something holds by name, and the verb that goes with so many of them.
+    /// The names of the first objects with a property, and the verb in singular or plural.
     fn names(&self, holds: impl Fn(&&Object) -> bool) -> Option<(String, &'static str)> {
         let count = self.objects.iter().filter(&holds).count();
         let named: Vec<String> = self.objects.iter().filter(&holds).take(MOST_NAMED).map(|object| self.name_of(object)).collect();
@@ -131,26 +131,26 @@ impl Scene {
         }
     }
 
-    /// What to call an object.
+    /// Name of an object in messages.
     pub(super) fn name_of(&self, object: &Object) -> String {
         let number = self.objects.iter().position(|other| std::ptr::eq(other, object)).map_or(0, |at| at + 1);
         if object.name.is_empty() { format!("object {number}") } else { format!("`{}`", object.name) }
     }
 
-    /// An emitter that is dark inside, and what to do about it.
+    /// Warning about an emitter around the camera that is dark inside, with advice.
     pub(super) fn emitter_from_inside(&self, emitter: &Object) -> String {
         format!("{}, which emits outwards only: `flip = true` turns its front inwards", self.name_of(emitter))
     }
 }
 
 impl Object {
-    /// Whether it emits, and nothing of that from its inside.
+    /// Whether an object emits on its outside only.
     pub(super) fn emits_outwards_only(&self) -> bool {
         self.emission.is_some_and(|emission| emission.side == Side::Front)
     }
 }
 
-/// Places all over a flat shape, in its coordinates.
+/// Points distributed over a flat shape, in its coordinates.
 fn places(outline: Outline) -> [(f64, f64); 5] {
     match outline {
         Outline::Parallelogram => [(0.5, 0.5), (0.1, 0.1), (0.9, 0.1), (0.1, 0.9), (0.9, 0.9)],

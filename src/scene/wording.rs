@@ -1,4 +1,4 @@
-//! What is said of files that cannot be read.
+//! Wording of errors in scene files.
 use std::ops::Range;
 
 use toml::de::DeValue;
@@ -6,9 +6,9 @@ use toml::de::DeValue;
 use super::diagnostic::{SceneError, SourceText};
 use crate::declare::{Entry, Looks, Parameter, Word, nearest};
 
-/// Longer texts of a file are not repeated in a message.
+/// Longest text of a file that a message quotes.
 const LONGEST_FOUND: usize = 40;
-/// What the TOML reader says of wrong syntax, by its beginning, and how we say it.
+/// Syntax errors of the TOML parser, by the start of their text, and our wording.
 const SYNTAX: [(&str, &str); 13] = [
     ("string values must be quoted", "text must stand in quotes"),
     ("extra `=`", "there is one `=` too many"),
@@ -25,7 +25,7 @@ const SYNTAX: [(&str, &str); 13] = [
     ("invalid integer", "this is not a number"),
 ];
 
-/// The error of a text that is not TOML, at its place.
+/// A syntax error with its position.
 pub fn in_plain_words(source: &SourceText, error: &toml::de::Error) -> SceneError {
     let span = error.span().unwrap_or(0..0);
     let message = error.message().replace('\n', ": ");
@@ -41,7 +41,7 @@ pub fn in_plain_words(source: &SourceText, error: &toml::de::Error) -> SceneErro
     source.error(span, words.unwrap_or(message), "this cannot be understood")
 }
 
-/// The error of a word that is not known at its place.
+/// The error for an unknown word, with its position.
 pub fn unknown(source: &SourceText, span: Range<usize>, what: &str, word: &str, known: &[Entry]) -> SceneError {
     let keys = || known.iter().map(|entry| entry.parameter.key);
     let by_alias = known.iter().find(|entry| entry.parameter.is_alias(word)).map(|entry| entry.parameter);
@@ -65,12 +65,12 @@ pub fn unknown(source: &SourceText, span: Range<usize>, what: &str, word: &str, 
     source.error(span, format!("unknown {what} `{word}`"), label).with_help(help)
 }
 
-/// A word as a reader expects it.
+/// A word as an expected value.
 pub fn expected_word(word: &Word) -> Entry {
     Entry { parameter: Parameter::new(word.name, word.doc), looks: Looks::Text }
 }
 
-/// How a value that stands in the place of a table is written, if the first value of that table looks like it.
+/// Advice for a value in place of a table, if the first value of that table has the same form.
 pub fn suggestion(value: &DeValue, text: &str, known: &[Entry]) -> Option<String> {
     if text.chars().count() > LONGEST_FOUND {
         return None;
@@ -91,7 +91,7 @@ pub fn suggestion(value: &DeValue, text: &str, known: &[Entry]) -> Option<String
     first.filter(fits).map(|entry| format!("{{ {} = {text} }}", entry.parameter.key))
 }
 
-/// What a value is, with its text where that is short.
+/// Description of a value, with its text if that is short.
 pub fn found(value: &DeValue, text: &str) -> String {
     let is_short = text.chars().count() <= LONGEST_FOUND;
     match value {
@@ -101,7 +101,7 @@ pub fn found(value: &DeValue, text: &str) -> String {
     }
 }
 
-/// [`found`] of a value in a list, told from its text.
+/// [`found`] for an item of a list, from its text.
 pub fn found_text(text: &str) -> String {
     match text.chars().next() {
         Some('[') => "a list".to_owned(),
@@ -112,7 +112,7 @@ pub fn found_text(text: &str) -> String {
     }
 }
 
-/// What kind of value it is.
+/// The type of a value.
 fn kind_of(value: &DeValue) -> &'static str {
     match value {
         DeValue::String(_) => "text",

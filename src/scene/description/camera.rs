@@ -13,23 +13,23 @@ use crate::{
 pub struct CameraDescription {
     /// Position of the camera, metres.
     pub eye: DVec3,
-    /// The point in the middle of the image, metres.
+    /// The point at the centre of the image, metres.
     pub look_at: DVec3,
-    /// The direction that is up in the image, of any length; absent: +y.
+    /// The direction that points up in the image, of any length; `None` is +y.
     pub up: Option<DVec3>,
-    /// Full angle across the width of the image, degrees; only for perspective cameras.
+    /// Field of view across the width of the image, degrees; only for perspective cameras.
     pub fov: Option<f64>,
     /// Width and height in pixels.
     pub resolution: [u32; 2],
     /// Perspective or parallel rays.
     pub projection: Projection,
-    /// The thin lens; absent: a pinhole.
+    /// The thin lens; `None` is a pinhole.
     pub lens: Option<Lens>,
     /// The pixel filter.
     pub filter: Filter,
-    /// The times at which the shutter opens and closes, from 0 to 1; absent: the image is taken at time 0.
+    /// The times at which the shutter opens and closes, from 0 to 1; `None` is time 0.
     pub shutter: Option<[f64; 2]>,
-    /// What carries the camera from time 0 to 1.
+    /// Transforms that move the camera from time 0 to 1.
     pub motion: Vec<Transform>,
 }
 
@@ -108,7 +108,7 @@ impl Declare for Lens {
     }
 }
 
-/// How the world is projected.
+/// The projection of a camera.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Projection {
     /// All rays start at the eye.
@@ -118,10 +118,10 @@ pub enum Projection {
     Orthographic(Orthographic),
 }
 
-/// Parallel rays.
+/// An orthographic projection.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Orthographic {
-    /// Of the picture, metres.
+    /// Width of the image in the scene, metres.
     pub width: f64,
 }
 

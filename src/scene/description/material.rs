@@ -5,16 +5,16 @@ use crate::{
     texture::TEXTURE,
 };
 
-/// A material of a scene file: its kind, and what any kind may have.
+/// A material of a scene file: its kind, and the parameters that all kinds share.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MaterialDescription {
     /// The BSDF.
     pub kind: Material,
     /// A height field that tilts the shading normal.
     pub bump: Option<Bump>,
-    /// A picture file of normals.
+    /// A linear image file of shading normals.
     pub normal_map: Option<String>,
-    /// Whether the back reflects too; absent: it does.
+    /// Whether the back reflects too; `None` means that it does.
     pub two_sided: Option<bool>,
 }
 
@@ -37,7 +37,7 @@ impl Declare for MaterialDescription {
 pub struct Bump {
     /// The name of a texture; its luminance is the height.
     pub texture: String,
-    /// Metres that the brightest texel rises above the darkest.
+    /// Height of luminance 1 above luminance 0, metres.
     pub height: f64,
 }
 

@@ -32,16 +32,16 @@ pub use crate::{
     texture::TextureKind,
 };
 
-/// A scene as its file describes it, or as code builds it: see the [module](self).
+/// A scene as described by a file or built in code.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SceneDescription {
-    /// What the window and reports call the scene.
+    /// Title in the window and in reports.
     pub title: String,
-    /// A text for people.
+    /// Notes for readers.
     pub notes: String,
     /// The camera that the scene opens with.
     pub camera: CameraDescription,
-    /// Light from every direction that meets no surface; none is black.
+    /// Radiance of rays that meet no surface; `None` is black.
     pub background: Option<BackgroundDescription>,
     /// Textures by name.
     pub textures: BTreeMap<String, TextureKind>,

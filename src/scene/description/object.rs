@@ -8,13 +8,13 @@ use crate::{
 /// An object of a scene file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ObjectDescription {
-    /// What the window calls the object.
+    /// Name in the window; may be empty.
     pub name: String,
     /// The surface.
     pub shape: ShapeKind,
-    /// The name of the material; absent: black.
+    /// The name of the material; `None` is black.
     pub material: Option<String>,
-    /// The emission; absent: none.
+    /// The emission, if the object emits.
     pub emission: Option<EmissionDescription>,
     /// Whether the normal is reversed.
     pub flip: bool,

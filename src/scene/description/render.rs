@@ -7,9 +7,9 @@ use crate::{
 /// The settings that a scene opens with.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RenderDescription {
-    /// How the scene is rendered.
+    /// The settings of the estimate.
     pub settings: RenderSettings,
-    /// Samples a pixel to stop at.
+    /// Samples per pixel at which the render stops; `None` is no limit.
     pub spp: Option<u32>,
 }
 
