@@ -98,6 +98,7 @@ pub trait Words: Copy + PartialEq + 'static {
 }
 
 /// Gives the values of an enum without data their words: name in files, title in the window, one sentence.
+#[doc(hidden)]
 #[macro_export]
 macro_rules! words {
     ($Type:ident { $($Variant:ident: $name:literal, $title:literal, $doc:literal;)+ }) => {

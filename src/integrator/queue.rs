@@ -139,6 +139,7 @@ impl<L: Lanes> Field<L> for V<L> {
 }
 
 /// `record! { Path { o: V, slot: U } }` makes the struct and its queue.
+#[doc(hidden)]
 #[macro_export]
 macro_rules! record {
     ($(#[$attribute:meta])* $name:ident { $($(#[$doc:meta])* $field:ident: $kind:ident),* $(,)? }) => {
