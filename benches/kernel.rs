@@ -1,4 +1,4 @@
-//! Speed of the kernel on one core: paths a second, at every SIMD level.
+//! Speed of the kernel on one core: paths per second at every SIMD level.
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use noisefall::{
     math::SimdLevel,
@@ -9,7 +9,7 @@ use noisefall::{
     scene::{Estimator, RenderSettings, Reuse, Roulette, built_in},
 };
 
-/// The five-sphere Cornell box at cap 8, one sample of 256 × 256 pixels an iteration.
+/// The five-sphere Cornell box at cap 8, one sample of 256 × 256 pixels per iteration.
 fn paths_per_second(c: &mut Criterion) {
     let mut group = c.benchmark_group("cornell_spheres, cap 8, one core");
     let scene = built_in();

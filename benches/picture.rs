@@ -1,4 +1,4 @@
-//! What stands between a change and the screen: the first coarse picture, one full pass, the frame, the display transform.
+//! Latency from a change to the screen: the first coarse image, one full pass, the frame, the display transform.
 use std::{
     hint::black_box,
     sync::Arc,
@@ -31,7 +31,7 @@ fn film(spp: u32) -> Film {
     film
 }
 
-/// From a camera change to the first frame of the new picture, while the last one renders on all cores.
+/// Time from a camera change to the first frame of the new image, while the last one renders on all cores.
 fn first_picture(c: &mut Criterion) {
     let (wake, woken) = crossbeam_channel::bounded(1);
     let notify = move || {
@@ -57,7 +57,7 @@ fn first_picture(c: &mut Criterion) {
     }
 }
 
-/// From a change to the finished picture of 16 × 16 pixels that it asks for, while paths of thousands of bounces render on all cores.
+/// Time from a change to the finished image of 16 × 16 pixels, while paths of thousands of bounces render on all cores.
 fn leaves_what_is_heavy(c: &mut Criterion) {
     let sphere = |albedo: f64, resolution: [u32; 2]| {
         let text = format!(

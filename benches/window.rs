@@ -1,7 +1,7 @@
-//! How long the window's own frames take while the renderer has all cores but one: half of them and all but one in a hundred.
+//! Frame times of the window while the renderer uses all cores but one: median and 99th percentile.
 //!
-//! `cargo bench --bench window`. Frames come at 60 a second, as on a screen; what is timed is what the window's thread
-//! does for one, up to the triangles for the graphics system.
+//! `cargo bench --bench window`. Frames come at 60 per second, as on a screen. The measured time is the work of the window's thread for
+//! one frame, up to the triangles for the graphics system.
 #![allow(clippy::print_stdout, reason = "figures are printed for those who ask for them")]
 use std::time::{Duration, Instant};
 

@@ -1,4 +1,4 @@
-//! The tables of a chapter, on numbers that are known, and how far its runs are taken.
+//! The tables of a chapter for known numbers, and the limits of its runs.
 use std::time::Duration;
 
 use super::{
@@ -18,7 +18,7 @@ use crate::{
     },
 };
 
-/// A furnace of albedo 0.5, and what is true of it.
+/// A furnace of albedo 0.5 and its exact values.
 fn furnace() -> StudyScene {
     let scene = parse("scene.toml", include_str!("../../../scenes/furnace.toml").to_owned()).expect("a scene");
     let camera = Camera { resolution: [8, 8], ..scene.camera };
@@ -28,7 +28,7 @@ fn furnace() -> StudyScene {
 
 #[test]
 fn between_checkpoints_a_power_law_is_followed_exactly() {
-    // n samples after n/16 s have the relMSE 0.16/n.
+    // n samples take n/16 s and have the relMSE 0.16/n.
     let found = outcome(RenderSettings::default(), &[run(0.01, 1.0)]);
     for seconds in [1.0 / 16.0, 0.1, 0.25, 0.3, 0.999, 1.0] {
         let (samples, rel_mse) = found.after(seconds).expect("it was measured");
@@ -37,8 +37,8 @@ fn between_checkpoints_a_power_law_is_followed_exactly() {
     assert_eq!([0.06, 1.001].map(|seconds| found.after(seconds)), [None; 2]);
 }
 
-/// By roulette: the best; one of an eighth of its efficiency; one that begins after 4 s and whose survival is less than ρ²; and one with
-/// bias that takes the shortest time.
+/// Roulettes: the best; one with an eighth of its efficiency; one that starts after 4 s with a survival below ρ²; and a biased
+/// one that takes the shortest time.
 fn roulettes() -> Findings {
     let with = |roulette, run: Run| outcome(RenderSettings { roulette, ..RenderSettings::default() }, &[run.clone(), run]);
     let mut best = run(0.01, 1.0);
@@ -90,7 +90,7 @@ fn a_bias_has_standard_errors_and_is_bounded_if_the_variance_is_finite() {
         let names: Vec<&str> = table.columns.iter().map(|column| column.name.as_str()).collect();
         let numbers = ["bias", "standard error", "z", "of the mean, %", "excluded beyond, %"];
         assert_eq!((names[0], &names[1..6], names[6]), ("roulette", &numbers[..], "remark"));
-        // Two runs of 0.1/√16 each are known together to 0.025/√2 = 0.01768; 0.01 + 1.96 · 0.01768 = 0.0446.
+        // Two runs with a standard error of 0.1/√16 each have 0.025/√2 = 0.01768 together; 0.01 + 1.96 · 0.01768 = 0.0446.
         assert_eq!(table.rows[0], ["off", "−0.010", "0.018", "−0.566", "−1.00", "4.46", ""]);
         assert_eq!(table.rows[2], ["0.2", "+0.000", "–", "–", "0.00", "–", "variance may be infinite"]);
     });
@@ -182,11 +182,11 @@ fn runs_are_taken_as_far_as_those_that_are_there() {
     assert_eq!(found(&store, &again), None);
     study.run(std::slice::from_ref(&study_scene), &mut store, &mut |_| {}).expect("it can be measured");
     assert_eq!(found(&store, &again), Some(4));
-    // Whoever gives it another time wants other runs.
+    // Another time asks for other runs.
     assert_eq!(found(&store, &longer), None);
 }
 
-/// In squares of one colour: where the first is, and how many pixels have it.
+/// The position of the first pixel of a colour, and the number of pixels with it.
 fn squares(png: &[u8], code: u8) -> (Option<[usize; 2]>, usize) {
     let mut reader = png::Decoder::new(std::io::Cursor::new(png)).read_info().expect("a PNG");
     let mut rgb = vec![0; reader.output_buffer_size().expect("a size")];

@@ -1,4 +1,4 @@
-//! Which curves are drawn, and where they lie.
+//! The curves of plots and their positions.
 use crate::{
     report::plot::Plot,
     sampling::Sampler,
@@ -54,7 +54,7 @@ fn falling(error: f64, first: f64, powers: &[i32]) -> Vec<(f64, f64)> {
     powers.iter().map(|power| (first * 2f64.powi(*power), error / 2f64.powi(*power).sqrt())).collect()
 }
 
-/// How often each name stands in a drawing.
+/// How often each name occurs in a drawing.
 fn named(svg: &str, name: &str) -> usize {
     svg.matches(&format!("\n{name}\n")).count()
 }

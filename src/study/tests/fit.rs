@@ -1,4 +1,4 @@
-//! Slopes of series that are known.
+//! Slopes of known series.
 use crate::{
     math::{One, U},
     sampling::hash::{hash, unit},
@@ -10,7 +10,7 @@ fn uniform(i: u32) -> f64 {
     f64::from(unit(hash(U::<One>(i))).0)
 }
 
-/// Squared errors of running means over `pixels` of noise, at powers of two: what a render of independent samples measures.
+/// Squared errors of running means over `pixels` of noise, at powers of two, as in a render with independent samples.
 fn noise(seed: u32, powers: u32, pixels: u32) -> Vec<(f64, f64)> {
     let mut squares = vec![0.0; powers as usize + 1];
     for pixel in 0..pixels {
@@ -34,7 +34,7 @@ fn a_power_law_is_found_exactly() {
     assert_eq!(slope(&[]), None);
 }
 
-/// The points of a run share samples; ordinary least squares would make intervals that cover in 89 of 100 cases.
+/// The points of a run share samples. The intervals of ordinary least squares would cover the slope in 89 of 100 cases only.
 #[test]
 fn intervals_cover_the_slope_of_independent_samples() {
     const STUDIES: u32 = 400;
@@ -44,11 +44,11 @@ fn intervals_cover_the_slope_of_independent_samples() {
         (found.slope + 0.5).abs() <= found.half_width
     };
     let share = f64::from((0..STUDIES).filter(covered).count() as u32) / f64::from(STUDIES);
-    // 4 standard errors of a share of 0.95 are 0.044.
+    // 4 standard errors of a fraction of 0.95 are 0.044.
     assert!((share - 0.95).abs() < 0.045, "{share}");
 }
 
-/// By hand: of ½, 0.3 and 0.28 after 4, 8 and 16 samples, each less half of the one before, over √¾.
+/// By hand: ½, 0.3 and 0.28 after 4, 8 and 16 samples, each minus half of the one before, over √¾.
 #[test]
 fn the_interval_of_three_points_is_that_of_students_t_of_one_degree() {
     let found = slope(&[vec![(4.0, 0.5), (8.0, 0.3), (16.0, 0.28)]]).expect("points");

@@ -1,4 +1,4 @@
-//! Fits, ranking, plans and the store, on numbers that are known.
+//! Fits, ranking, plans and the store, for known numbers.
 mod evidence;
 mod figures;
 mod fit;

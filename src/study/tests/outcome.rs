@@ -1,4 +1,4 @@
-//! What is made of the runs of one combination.
+//! Outcomes of the runs of one combination.
 use super::ranking::{outcome, run};
 use crate::{
     scene::RenderSettings,
@@ -38,12 +38,12 @@ fn the_error_of_the_reference_is_taken_off_and_ends_the_curve() {
     assert_eq!(found.last().spp, 8);
     assert!((found.last().rel_mse - 0.02).abs() < 1e-12);
     assert!((found.efficiency() - 1.0 / (0.02 * 0.5)).abs() < 1e-9);
-    // The variance has the same part taken off: 4 · 0.04 after 4 samples, 4 · 0.02 after 8.
+    // The variance is reduced by the same factor: 4 · 0.04 after 4 samples, 4 · 0.02 after 8.
     let near = |point: (f64, f64), exact: (f64, f64)| point.0 == exact.0 && (point.1 - exact.1).abs() < 1e-12;
     let [variances] = &found.variances[..] else { panic!("{:?}", found.variances) };
     assert!(variances.len() == 2 && near(variances[0], (4.0, 0.16)) && near(variances[1], (8.0, 0.08)), "{variances:?}");
     assert!(found.log_efficiency().variance.is_nan());
-    // Below that of the reference nothing is known.
+    // Nothing is known below the error of the reference.
     let limits = Limits { floor: 0.2, black: 1.0, variance_of_mean: 0.0, mean: 1.0 };
     let group = Group { settings: RenderSettings::default(), twins: Vec::new() };
     let unclear = Outcome::of(group, &[run(0.01, 1.0)], limits);
@@ -60,7 +60,7 @@ fn an_outcome_is_the_mean_of_its_runs_where_they_end() {
     let exact = [1.0 / (0.01 * 1.0), 1.0 / (0.02 * 3.0)];
     assert!(found.efficiencies.iter().zip(exact).all(|(a, b)| (a / b - 1.0).abs() < 1e-12), "{:?}", found.efficiencies);
     assert!((found.efficiency() - (exact[0] * exact[1]).sqrt()).abs() < 1e-9);
-    // Squared errors that fall as 1/N: the slope of the root is −1/2, from 4 samples on.
+    // Squared errors fall as 1/N, so the slope of the root is −1/2 from 4 samples on.
     assert!(found.slope.is_some_and(|slope| (slope.slope + 0.5).abs() < 1e-9), "{:?}", found.slope);
     let mut bent = run(0.01, 1.0);
     for point in &mut bent.checkpoints[..2] {
@@ -68,17 +68,17 @@ fn an_outcome_is_the_mean_of_its_runs_where_they_end() {
     }
     let bent = outcome(RenderSettings::default(), &[bent, run(0.01, 1.0)]);
     assert!(bent.slope.is_some_and(|slope| (slope.slope + 0.5).abs() < 1e-9));
-    // So is that of the mean squared error −1.
+    // The slope of the mean squared error is −1.
     for known in [found, bent] {
         assert!(slope(&known.variances).is_some_and(|slope| (slope.slope + 1.0).abs() < 1e-9), "{:?}", known.variances);
     }
-    // Of 8, 4, 2, 1 and ½ · 10⁻¹² after 1, 2, 4, 8 and 16 samples, what is not above 10⁻¹² is rounding.
+    // Errors are 8, 4, 2, 1 and ½ · 10⁻¹² after 1, 2, 4, 8 and 16 samples; up to 10⁻¹² they are rounding.
     assert_eq!(outcome(RenderSettings::default(), &[run(5e-13, 1.0)]).variances[0].len(), 1);
-    // As many checkpoints as all runs have.
+    // Only checkpoints that all runs have count.
     let mut short = run(0.01, 1.0);
     short.checkpoints.truncate(3);
     assert_eq!(outcome(RenderSettings::default(), &[run(0.01, 1.0), short]).last().spp, 4);
-    // Half the error of a black picture is the limit.
+    // The limit is half the error of a black image.
     let limits = Limits { floor: 0.0, black: 0.4, variance_of_mean: 0.0, mean: 1.0 };
     let group = || Group { settings: RenderSettings::default(), twins: Vec::new() };
     let eligibility = |rel_mse| Outcome::of(group(), &[run(rel_mse, 1.0)], limits).eligibility;
@@ -87,7 +87,7 @@ fn an_outcome_is_the_mean_of_its_runs_where_they_end() {
 
 #[test]
 fn a_curve_ends_where_one_of_its_runs_comes_near_to_the_reference() {
-    // Two runs of 0.32 and 0.16 after one sample, with 0.015 of the reference in both.
+    // Two runs with 0.32 and 0.16 after one sample, including 0.015 from the reference in both.
     let with_own = |rel_mse: f64| {
         let mut run = run(rel_mse, 1.0);
         run.checkpoints.iter_mut().for_each(|point| point.rel_mse += 0.015);

@@ -1,4 +1,4 @@
-//! What is measured, and for how long.
+//! Plans, and the duration of runs.
 use std::time::Duration;
 
 use crate::{
@@ -48,7 +48,7 @@ fn lists_are_combined_each_value_once() {
     assert_eq!(Lists { adaptive: vec![false, true], ..Lists::default() }.combinations(all[0]).len(), 2);
     assert_eq!(Lists::default().combinations(all[5]), [all[5]]);
     let all: Vec<RenderSettings> = all.into_iter().filter(|settings| settings.reuse == Reuse::On).collect();
-    // Equal pictures are one group, of which what the scene opens with is measured.
+    // Combinations with equal images are one group, which measures the settings of the scene.
     let groups = group(&["a", "b", "a", "b", "c", "c", "c", "c"], &all, &all[2]);
     assert_eq!(groups.iter().map(|group| group.twins.len()).collect::<Vec<_>>(), [1, 1, 3]);
     assert_eq!(groups[0].settings, all[2]);
@@ -73,7 +73,7 @@ fn a_run_stops_before_a_doubling_that_takes_too_long() {
     assert!(matches!(ended, Err(StudyError::Interrupted)));
 }
 
-/// Passes that take 1, 2, 4, … seconds: the time of a checkpoint is that of all passes before it.
+/// Passes take 1, 2, 4, … seconds. The time of a checkpoint is the sum over all passes up to it.
 #[test]
 fn the_time_of_a_checkpoint_is_that_of_all_rendering_so_far() {
     let lists = Lists::default();
@@ -94,7 +94,7 @@ fn the_time_of_a_checkpoint_is_that_of_all_rendering_so_far() {
     let last = all.checkpoints[4];
     assert_eq!(last.effective_samples, Some(60.0));
     assert_eq!((last.rmse, last.rel_mse, last.bias, last.bias_standard_error), (12.0, 24.0, -12.0, Some(36.0)));
-    // After 7 s and 4 samples, 8 samples would be there after 14 s.
+    // After 7 s and 4 samples, 8 samples would take 14 s.
     assert_eq!([14, 13].map(|time| run(time).0.checkpoints.len()), [4, 3]);
 }
 
@@ -126,8 +126,8 @@ fn a_run_has_the_errors_of_its_picture_and_says_why_it_is_biased() {
             }
         }
         assert_eq!(measure(bench, settings, &plan(Floor::DEFAULT), &[[2.0; 3]; 64]).expect("a run").bias, "");
-        // By uniform directions a sample is 1 + cos θ, of the variance 1/12. That of 64 pairs is known to 0.15 of itself, so that its root
-        // lies within these bounds at 4σ.
+        // With uniform directions a sample is 1 + cos θ, with variance 1/12. The relative standard error of the variance of 64
+        // pairs is 0.15, so its root is within these bounds at 4σ.
         let (directions, sampler, reuse) = (Directions::Uniform, Sampler::Independent, Reuse::Off);
         let noisy = RenderSettings { directions, sampler, reuse, ..capped };
         let errors = measure(bench, &noisy, &plan(Floor::DEFAULT), &[[2.0; 3]; 64]).expect("a run").checkpoints;
@@ -139,7 +139,7 @@ fn a_run_has_the_errors_of_its_picture_and_says_why_it_is_biased() {
 #[test]
 fn pictures_that_are_the_same_are_measured_once_but_never_with_different_caps() {
     with_furnace(|bench, settings| {
-        // At a diffuse surface `bsdf` is `cosine`; eight reflections tell no caps apart that are higher.
+        // At a diffuse surface `bsdf` equals `cosine`. Eight reflections cannot distinguish larger caps.
         let [cosine, bsdf, uniform] = [Directions::Cosine, Directions::Bsdf, Directions::Uniform]
             .map(|directions| RenderSettings { directions, ..*settings });
         let capped = RenderSettings { max_bounces: Some(100), ..cosine };

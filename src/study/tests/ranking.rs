@@ -1,4 +1,4 @@
-//! What is made of the outcomes of a scene.
+//! Ranking of the outcomes of a scene.
 use statrs::distribution::{ContinuousCDF, Normal};
 
 use crate::{
@@ -21,7 +21,7 @@ use crate::{
     },
 };
 
-/// 16 samples per pixel of a picture whose mean square is 4.
+/// Outcomes of 16 samples per pixel, for an image with a mean square of 4.
 pub(super) fn run(rel_mse: f64, seconds: f64) -> Run {
     let point = |n: u32| {
         let [share, all] = [f64::from(n), 16.0];
@@ -77,8 +77,9 @@ fn neither_biased_nor_empty_pictures_win_however_fast() {
     assert_eq!(found.best().map(|best| best.settings.estimator), Some(Estimator::Light));
     assert!((found.ratio(&found.outcomes[1]).expect("a ratio") - 0.5).abs() < 1e-12);
     assert!(verdict(&found).contains(": light, bsdf, sobol, roulette throughput – an error of "), "{}", verdict(&found));
-    // Repeats differ by a factor of 1.2, so that log efficiencies have the variance ln² 1.2/2, known to two degrees of freedom. The
-    // difference of two means of two has the same variance, and 95 % of Student's t lie within ±4.3027: a factor of 1.7414.
+    // Repeats differ by a factor of 1.2, so log efficiencies have the variance ln² 1.2/2 with two degrees of freedom. The
+    // difference of two means of two has the same variance, and 95 % of Student's t are within ±4.3027, which is a factor of
+    // 1.7414.
     assert!((found.uncertainty().expect("repeats") - 1.7414).abs() < 1e-3, "{:?}", found.uncertainty());
     assert_eq!(found.rivals().count(), 0);
     assert!(findings(vec![outcome(estimator(Estimator::Path), &[run(0.9, 1.0)])]).best().is_none());
@@ -113,7 +114,7 @@ fn normal(i: u32) -> f64 {
     Normal::new(0.0, 1.0).map_or(f64::NAN, |normal| normal.inverse_cdf(u))
 }
 
-/// Log efficiencies that scatter around what is known: the ratio of two combinations lies within the factor in 95 of 100 studies.
+/// Random log efficiencies around known means. The ratio of two combinations is within the factor in 95 of 100 studies.
 #[test]
 fn the_uncertainty_of_a_ratio_covers_it_as_often_as_it_says() {
     const STUDIES: u32 = 1500;
@@ -134,7 +135,7 @@ fn the_uncertainty_of_a_ratio_covers_it_as_often_as_it_says() {
             off.ln().abs() <= found.uncertainty().expect("repeats").ln()
         };
         let share = f64::from((0..STUDIES).filter(covered).count() as u32) / f64::from(STUDIES);
-        // 4 standard errors of a share of 0.95 are 0.0225.
+        // 4 standard errors of a fraction of 0.95 are 0.0225.
         assert!((share - 0.95).abs() < 0.0225, "{repeats} repeats of {count}: {share}");
     }
 }
@@ -151,7 +152,7 @@ fn far_worse_combinations_do_not_change_the_uncertainty() {
     };
     let (far, near) = (with([0.2, 0.15]), with([0.06, 0.08]));
     assert!(near.uncertainty() > far.uncertainty(), "{:?} {:?}", near.uncertainty(), far.uncertainty());
-    // 1.1 times the spread in two of four degrees of freedom: exp(4.3027 · ln 1.1/2) = 1.2276 for both near ones.
+    // A spread of 1.1 in both near combinations, with two degrees of freedom: exp(4.3027 · ln 1.1/2) = 1.2276.
     assert!((far.uncertainty().expect("repeats") - 1.2276).abs() < 1e-3, "{:?}", far.uncertainty());
     assert_eq!((far.rivals().count(), near.rivals().count()), (0, 1));
     // 0.0145/√(0.01 · 0.011) = 1.3825, divided and multiplied by the factor.
@@ -161,8 +162,9 @@ fn far_worse_combinations_do_not_change_the_uncertainty() {
     let intervals: Vec<Option<[f64; 2]>> = far.outcomes.iter().map(|outcome| far.interval(outcome)).collect();
     let [None, Some([low, high]), Some([lowest, highest])] = intervals[..] else { panic!("{intervals:?}") };
     assert!((low - 0.5892).abs() < 1e-3 && (high - 0.8880).abs() < 1e-3, "{low} {high}");
-    // What is far is known by its own spread and that of the best. The logarithms of two numbers of the ratio q have a mean of the variance
-    // ln² q/4: ln² (4/3)/4 + ln² 1.1/4 = 0.022961, to 0.022961²/(0.020690² + 0.002271²) = 1.217 degrees of freedom.
+    // The uncertainty of a far combination comes from its own spread and that of the best. The mean of the logarithms of two
+    // numbers with ratio q has the variance ln² q/4: ln² (4/3)/4 + ln² 1.1/4 = 0.022961, with 0.022961²/(0.020690² + 0.002271²) =
+    // 1.217 degrees of freedom.
     let ratio = (0.01f64 * 0.011).sqrt() / (0.2f64 * 0.15).sqrt();
     let factor = (student_95(1.2172) * 0.022_961f64.sqrt()).exp();
     assert!(
@@ -230,10 +232,10 @@ fn findings_in_words_have_their_numbers() {
     assert_eq!(lines[0], "settings spp s error slope efficiency of best");
     assert_eq!(lines[1], "mis, bsdf, sobol, roulette throughput 16 0.500 20.0 % −0.50 ± 0.00 50.0 1.00");
     assert_eq!(lines[2], "path, bsdf, sobol, roulette throughput 16 2.00 30.0 % −0.50 ± 0.00 5.56 0.111");
-    // Two that repeats cannot tell apart.
+    // Two combinations that the repeats cannot distinguish.
     let close = findings(vec![of(Estimator::Mis, [0.04, 0.06], 1.0), of(Estimator::Path, [0.05, 0.06], 1.0)]);
     assert!(verdict(&close).starts_with("First of 2 that cannot be told apart: mis"), "{}", verdict(&close));
-    // Two variances, ln² 1.5/2 and ln² 1.2/2, with a degree of freedom each.
+    // Two variances, ln² 1.5/2 and ln² 1.2/2, with one degree of freedom each.
     assert_eq!(
         certainty(&close),
         "By the spread of repeats, ratios of efficiencies are known to a factor of 2.60 (95 %). These cannot be told apart from it: path, bsdf, \
@@ -242,7 +244,7 @@ fn findings_in_words_have_their_numbers() {
     let biased = Run { bias: "cap at 2".to_owned(), ..run(0.01, 1.0) };
     let one = outcome(estimator(Estimator::Light), &[biased]);
     assert_eq!(one.to_string(), "light, bsdf, sobol, roulette throughput: 10.0 % after 1.00 s, 16 spp, biased: cap at 2");
-    // What is biased is no rival.
+    // A biased combination is no rival.
     let alone = findings(vec![of(Estimator::Mis, [0.04, 0.04], 1.0), one]);
     assert_eq!(certainty(&alone), "No other combination is ranked.");
 }

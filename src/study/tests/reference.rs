@@ -1,4 +1,4 @@
-//! What errors are measured against, and its own error.
+//! References and their own errors.
 use std::sync::Arc;
 
 use crate::{
@@ -31,7 +31,7 @@ fn study_scene(known: Option<truth::Reference>, is_declared: bool) -> StudyScene
     }
 }
 
-/// Radiance 2 with this variance and this estimate of relMSE.
+/// An image of radiance 2 with this variance and this estimate of relMSE.
 fn rendered(variance: Option<f32>, rel_mse_estimate: Option<f64>) -> truth::Reference {
     let picture = Picture { width: 16, height: 16, radiance: vec![[2.0; 3]; 256] };
     let noise = variance.map(|v| SampleNoise {
@@ -57,11 +57,11 @@ fn the_own_error_of_a_reference_is_what_its_file_says_of_it() {
     near(own(rendered(Some(0.0404), None), false, Floor::DEFAULT), 0.01);
     near(own(rendered(Some(0.0404), None), false, Floor::Absolute(0.04)), 0.01);
     near(own(rendered(Some(0.0404), None), false, Floor::Absolute(4.08)), 0.005);
-    // Its samples were five times as good as independent ones; worse than that they cannot have been.
+    // Its samples were five times as good as independent ones. They cannot be worse than independent ones.
     near(own(rendered(Some(0.0404), Some(0.002)), false, Floor::DEFAULT), 0.002);
     near(own(rendered(Some(0.0404), Some(0.5)), false, Floor::DEFAULT), 0.01);
     assert_eq!(own(rendered(None, None), false, Floor::DEFAULT), (0.0, true, 0.0));
-    // What the scene declares to be true is exact.
+    // The truth of a scene is exact.
     assert_eq!(own(rendered(None, None), true, Floor::DEFAULT), (0.0, false, 0.0));
     assert_eq!(own(truth::Reference::Constant([2.0; 3]), true, Floor::DEFAULT), (0.0, false, 0.0));
 }
@@ -81,7 +81,7 @@ fn a_black_reference_is_refused_and_others_have_an_identity() {
     assert!((found.rel_mse_of_black() - 0.5).abs() < 1e-12 && found.radiance.len() == 256);
 }
 
-/// Independent halves, whose mean has the error that half their difference has: of independent samples that is known.
+/// Independent halves: the error of their mean has the variance of half their difference, which is known for independent samples.
 #[test]
 fn a_converged_render_knows_its_own_error_and_is_kept() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -113,11 +113,11 @@ fn a_converged_render_knows_its_own_error_and_is_kept() {
     let of_mean = noises.map(|noise| noise.variance_of_mean()).sum::<f64>() / 4.0;
     let is_known = |variance: f64| (variance / of_mean - 1.0).abs() < 1e-6;
     assert!(is_known(found.variance_of_mean), "{} {of_mean}", found.variance_of_mean);
-    // And about that of the true error: 256 pixels of noise, more even than chance.
+    // It is also about the true error, over 256 pixels of noise.
     let truth = compare(&found.radiance, &[[2.0; 3]; 256], Floor::DEFAULT).rel_mse;
     assert!((0.6..1.6).contains(&(found.rel_mse / truth)), "{} {truth}", found.rel_mse);
     assert_ne!(settings(&study_scene).seed, study_scene.scene.settings.seed);
-    // What is there is not rendered again; for longer renders it is too short.
+    // An existing reference is not rendered again, unless it is too short for longer renders.
     let (again, shares) = reference(4);
     assert!(shares.is_empty() && again.radiance == found.radiance && is_known(again.variance_of_mean));
     assert!(!reference(8).1.is_empty());

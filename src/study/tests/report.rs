@@ -129,7 +129,7 @@ fn settings_have_names_and_take_values_over() {
     assert_eq!(differing_labels(&[on]), ("mis, bsdf, sobol, roulette throughput, sharing on".to_owned(), vec![String::new()]));
 }
 
-/// What stands in a row, all of whose cells end like this.
+/// The contents of the cells of a row.
 fn first_cells<'a>(row: &'a str, end: &str) -> Vec<&'a str> {
     row.split(end).take(16).map(|cell| cell.rsplit('>').next().unwrap_or("")).collect()
 }
@@ -174,7 +174,7 @@ fn a_report_says_what_was_found_and_against_what() {
         "up to 16 samples per pixel; a doubling is skipped if it would end after 1.50 s",
         "3 samples were negative or not finite and count as black.",
         "biased: cap at 2",
-        // It was tried with another sampler than the best one alone, and has √(0.01 · 0.0121)/0.22 of its efficiency.
+        // It was measured with another sampler only, and has √(0.01 · 0.0121)/0.22 of the best efficiency.
         "<td>path</td><td class=\"n\">–</td><td class=\"n\">0.0500</td>",
     ] {
         assert!(page.contains(said) != (said == "First of 1"), "{said}: {page}");
@@ -182,14 +182,14 @@ fn a_report_says_what_was_found_and_against_what() {
     let table = &page[page.find("All combinations").expect("the ranking")..];
     let headings = first_cells(table, "</th>");
     assert_eq!(headings[8..], ["samples", "s", "error", "slope", "efficiency", "±", "of the best", "bias"], "{headings:?}");
-    // The best is first: ±10 % between its repeats is a standard error of ln 1.21/2.
+    // The best is first. ±10 % between its repeats is a standard error of ln 1.21/2.
     let row = &page[page.find("class=\"first\"").expect("a first row")..];
     let cells = first_cells(row, "</td>");
     let settings = ["mis", "bsdf", "sobol", "throughput", "none", "auto: on", "off"];
     assert_eq!((cells[0], &cells[1..8]), ("1", &settings[..]), "{cells:?}");
     assert_eq!(cells[8..11], ["16", "1.00", "10.5 %"], "{cells:?}");
     assert!(cells[11].starts_with("−0.50 ± "), "{cells:?}");
-    // Two runs of 0.03 each are known together to 0.03/√2.
+    // Two runs with a standard error of 0.03 each have 0.03/√2 together.
     assert_eq!(cells[12..16], ["90.9", "10 %", "1.00", "−0.125 ± 0.021"], "{cells:?}");
     assert_eq!(page.matches("<figure").count(), 2, "the overview, and the samplers");
     let noisy = html(&[findings(Limits { floor: 0.0004, ..limits }, false)], &plan(Floor::Absolute(0.01)), &machine());

@@ -1,4 +1,4 @@
-//! Files of measurements, whole and cut off.
+//! Files of measurements, complete and truncated.
 use crate::study::{CSV, Store, key, row};
 
 /// The lines of a run of `checkpoints`, as the store keeps them.
@@ -42,7 +42,7 @@ fn lines_that_are_cut_off_spoil_their_own_run_only() {
     }
     let path = folder.path().join(CSV);
     let whole = std::fs::read(&path).expect("a file");
-    // Wherever the last line ends early, down to its last digit.
+    // The last line may be truncated anywhere, even by its last digit.
     let last_line = whole[..whole.len() - 1].iter().rposition(|byte| *byte == b'\n').expect("lines") + 1;
     for end in last_line + 1..whole.len() - 1 {
         std::fs::write(&path, &whole[..end]).expect("it can be written");
