@@ -1,4 +1,4 @@
-//! What a material is compiled to, and what that takes.
+//! Compiled materials and their compiler.
 use super::{Roughness, Stage, tables::Tables};
 use crate::{
     declare::{Parameter, Problem, Range, Textured},
@@ -11,7 +11,7 @@ use crate::{
 pub enum AlphaSource {
     /// The same everywhere.
     Constant(f32),
-    /// α, or where `squared` its root, is the texture's luminance.
+    /// The luminance of a texture is α, or its root if `squared`.
     Texture {
         /// Number of the texture.
         id: u32,
@@ -31,16 +31,17 @@ pub struct CompiledMaterial {
     pub colour: ColourSource,
     /// The width α of the GGX distribution.
     pub alpha: AlphaSource,
-    /// What a metre of the interior lets pass, for kinds that have an inside.
+    /// Transmittance of a metre of the interior, for kinds with an inside.
     pub inside: Option<[f32; 3]>,
-    /// Whether it scatters light even where its colour is black: coats and Fresnel's rise towards grazing angles have no colour.
+    /// Whether it scatters light even if its colour is black, because of a coat or Fresnel's rise towards grazing angles.
     pub scatters_where_black: bool,
-    /// The largest part of light that it keeps among surfaces, in any channel: 0 for what only hands light on.
+    /// The largest albedo in any channel that lets light bounce between surfaces; 0 for materials that only transmit light
+    /// onwards.
     pub albedo: f32,
 }
 
 impl CompiledMaterial {
-    /// A smooth material of this stage and colour, and nothing else.
+    /// A smooth material with this stage and colour.
     pub fn new(stage: Stage, colour: ColourSource, compiler: &MaterialCompiler) -> CompiledMaterial {
         CompiledMaterial {
             stage,
@@ -53,7 +54,7 @@ impl CompiledMaterial {
         }
     }
 
-    /// One of a stage without a colour.
+    /// A material of a stage without a colour.
     pub fn colourless(stage: Stage) -> CompiledMaterial {
         CompiledMaterial {
             stage,
@@ -67,7 +68,7 @@ impl CompiledMaterial {
     }
 }
 
-/// What materials use while they are compiled.
+/// Compiler of materials, with the textures and tables that they share.
 pub struct MaterialCompiler<'a, 'b> {
     textures: &'a TextureCompiler<'b>,
     pub(super) tables: &'a mut Tables,
@@ -83,7 +84,7 @@ impl<'a, 'b> MaterialCompiler<'a, 'b> {
         self.textures.colour(parameter, value, range)
     }
 
-    /// α, and the largest that it is: it decides whether the surface is rough at all.
+    /// α and its largest value, which decides whether the surface is rough.
     pub fn alpha(&self, roughness: &Roughness) -> Result<(AlphaSource, f32), Problem> {
         let (parameter, value, squared) = roughness.parts();
         let alpha = |value: f32| if squared { value * value } else { value };

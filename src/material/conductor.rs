@@ -18,14 +18,14 @@ use crate::{
     sampling::Directions,
 };
 
-/// Metal as a scene describes it.
+/// Metal in a scene description.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Conductor {
     /// Reflectance of the microfacets.
     pub fresnel: Reflectance,
     /// Roughness, 0 for a smooth surface.
     pub roughness: Roughness,
-    /// Light that scatters more than once between microfacets is given back.
+    /// Whether to add the light that scatters more than once between microfacets.
     pub energy_compensation: bool,
 }
 
@@ -36,13 +36,13 @@ impl Default for Conductor {
 }
 
 impl Conductor {
-    /// One of constant roughness.
+    /// Metal of constant α.
     pub fn new(fresnel: Reflectance, alpha: f32, energy_compensation: bool) -> Conductor {
         Conductor { fresnel, roughness: Roughness::alpha(alpha), energy_compensation }
     }
 }
 
-/// Of conductors and dielectrics.
+/// The flag of conductors and dielectrics.
 pub(super) const ENERGY_COMPENSATION: Parameter =
     Parameter::new("energy_compensation", "Whether to add the light that scatters more than once between microfacets.");
 

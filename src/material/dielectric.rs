@@ -10,18 +10,18 @@ use crate::{
     sampling::Directions,
 };
 
-/// Glass as a scene describes it.
+/// Glass in a scene description.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Dielectric {
-    /// On the side against the normal.
+    /// Index of refraction on the back of the surface.
     pub ior: f64,
-    /// On the side of the normal.
+    /// Index of refraction on the side of the normal.
     pub ior_outside: f64,
     /// Roughness of the interface, 0 for a smooth one.
     pub roughness: Roughness,
-    /// What a metre of the interior lets pass.
+    /// Transmittance of a metre of the interior, per channel.
     pub transmittance: [f64; 3],
-    /// Light that scatters more than once between microfacets is given back.
+    /// Whether to add the light that scatters more than once between microfacets.
     pub energy_compensation: bool,
 }
 
@@ -38,7 +38,7 @@ impl Default for Dielectric {
 }
 
 impl Dielectric {
-    /// One of constant roughness, in a medium of index 1.
+    /// Glass of constant α, in a medium of index 1.
     pub fn new(ior: f32, alpha: f32, energy_compensation: bool) -> Dielectric {
         Dielectric { ior: f64::from(ior), roughness: Roughness::alpha(alpha), energy_compensation, ..Dielectric::default() }
     }
@@ -100,7 +100,7 @@ pub(super) const FAINT: f32 = 1e-3;
 pub(super) struct DielectricRow {
     /// Index inside over that outside.
     eta: f32,
-    /// First row of the table of what is lost.
+    /// First row of the table of lost energy.
     table: u32,
     /// The table has rows for every roughness.
     varies: bool,
@@ -137,8 +137,8 @@ impl Shade for Dielectric {
     }
 }
 
-/// The square of the index that a path is in over the one outside the surface it leaves: radiance has that much more to give once
-/// it is outside again. `eta` is the index beyond the surface over that on the viewer's side.
+/// The squared ratio of the index that a path is in to the one outside the surface that it leaves, by which radiance grows
+/// outside. `eta` is the index beyond the surface relative to that on the viewer's side.
 #[inline(always)]
 pub(super) fn uncompressed<L: Lanes>(eta: F<L>, front: M<L>, z: F<L>) -> F<L> {
     let inside = front ^ z.above(0.0);
@@ -148,8 +148,8 @@ pub(super) fn uncompressed<L: Lanes>(eta: F<L>, front: M<L>, z: F<L>) -> F<L> {
 
 /// The smooth interface between two transparent media.
 ///
-/// Radiance that passes is scaled by 1/η², for it spreads or narrows with the solid angle (Veach 1997, section 5.2); what enters
-/// and leaves again keeps its radiance.
+/// Transmitted radiance is scaled by 1/η², because refraction changes the solid angle (Veach 1997, section 5.2). Light that
+/// enters and leaves again keeps its radiance.
 pub struct DielectricBsdf<L: Lanes> {
     /// The index of refraction beyond the surface over that on the side of the viewer.
     pub eta: F<L>,

@@ -8,7 +8,7 @@ use crate::{
     sampling::Directions,
 };
 
-/// A diffuse surface as a scene describes it.
+/// A diffuse surface in a scene description.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lambertian {
     /// Albedo ρ, from 0 to 1 in each channel.
@@ -45,7 +45,7 @@ impl Compile for Lambertian {
     }
 }
 
-/// Diffuse, with the geometric normal and nothing that varies but the colour.
+/// Diffuse surfaces with the geometric normal, in empty space.
 pub struct Plain;
 
 impl Shade for Plain {
@@ -60,7 +60,7 @@ impl Shade for Plain {
     }
 }
 
-/// Diffuse, with a normal of its own or in a medium.
+/// Diffuse surfaces with a shading normal or in a medium.
 pub struct Diffuse;
 
 impl Shade for Diffuse {

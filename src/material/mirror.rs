@@ -9,7 +9,7 @@ use crate::{
     sampling::Directions,
 };
 
-/// A mirror as a scene describes it.
+/// A mirror in a scene description.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mirror {
     /// Reflectance, from 0 to 1 in each channel.

@@ -20,12 +20,12 @@ use crate::{
     sampling::Directions,
 };
 
-/// Plastic as a scene describes it.
+/// Plastic in a scene description.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plastic {
-    /// Of the base without its coat.
+    /// Albedo of the base without its coat.
     pub albedo: Textured,
-    /// Of the coat, at least 1.
+    /// Index of refraction of the coat, at least 1.
     pub ior: f64,
     /// Roughness of the coat, 0 for a smooth one.
     pub roughness: Roughness,
@@ -38,7 +38,7 @@ impl Default for Plastic {
 }
 
 impl Plastic {
-    /// One of constant albedo and roughness.
+    /// Plastic of constant albedo and α.
     pub fn new(albedo: [f32; 3], ior: f32, alpha: f32) -> Plastic {
         Plastic { albedo: albedo.into(), ior: f64::from(ior), roughness: Roughness::alpha(alpha) }
     }

@@ -1,12 +1,12 @@
-//! Roughness as scenes describe it: the width α of the GGX distribution, or its root, which looks even to artists.
+//! Roughness in scene descriptions: the width α of the GGX distribution, or its square root, which looks uniform to artists.
 use crate::declare::{OneOf, Parameter, Parameters, Range, Textured};
 
-/// How rough a surface is. Smooth where nothing is said.
+/// Roughness of a surface; smooth by default.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Roughness {
-    /// √α.
+    /// The square root of α.
     Roughness(Textured<f64>),
-    /// α.
+    /// The width α.
     Alpha(Textured<f64>),
 }
 
@@ -21,11 +21,11 @@ impl Roughness {
 
     /// A constant α.
     pub fn alpha(alpha: f32) -> Roughness {
-        // As it is written: a description in double precision shows no digits of single precision.
+        // Rounds to the shortest decimal, so the description in double precision shows no digits of single precision.
         Roughness::Alpha(Textured::Constant(alpha.to_string().parse().unwrap_or(f64::from(alpha))))
     }
 
-    /// The parameter that is given, its value, and whether that is the root of α.
+    /// The parameter that is given, its value, and whether the value is the root of α.
     pub(super) fn parts(&self) -> (&'static Parameter, &Textured<f64>, bool) {
         match self {
             Roughness::Roughness(value) => (&ROUGHNESS, value, true),

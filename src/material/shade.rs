@@ -1,33 +1,33 @@
-//! The stages of the kernel: what shading needs to know of a kind of bsdf.
+//! The interface between the shading stages of the kernel and BSDF types.
 use super::{Bsdf, Local, Materials, Stage};
 use crate::{
     math::{F, Lanes, M},
     sampling::Directions,
 };
 
-/// A kind of bsdf and what its shading needs. What it does not need is not compiled.
+/// A BSDF type and the requirements of its shading. Code that it does not need is not compiled.
 pub trait Shade {
     /// The BSDF at a point.
     type Bsdf<'a, L: Lanes>: Bsdf<L>;
     /// The stage in the catalogue.
     const STAGE: Stage;
-    /// It depends on the direction to the viewer, has parameters besides its colour, or a shading normal of its own.
+    /// Whether it depends on the direction to the viewer, has parameters besides its colour, or has a shading normal.
     const DETAILED: bool = true;
-    /// It has more than delta lobes, so that sampled lights can contribute.
+    /// Whether it has lobes that are not delta, so light samples can contribute.
     const SEES_LIGHTS: bool = true;
-    /// It has several lobes to choose from.
+    /// Whether it has several lobes to choose from.
     const LOBES: bool = true;
     /// Whether light passes through the surface.
     const TRANSMITS: bool = false;
-    /// What passes enters or leaves a medium.
+    /// Whether transmitted light enters or leaves a medium.
     const ENTERS: bool = Self::TRANSMITS;
-    /// It has one lobe, for which the choice of a light is better made.
+    /// Whether lights are chosen with its lobe.
     const GLOSSY: bool = false;
 
-    /// The bsdf at some surface points. `directions` is how diffuse surfaces are sampled.
+    /// The BSDF at surface points. `directions` is the sampling of diffuse surfaces.
     fn at<'a, L: Lanes>(l: L, materials: &'a Materials, directions: Directions, at: &Local<L>) -> Self::Bsdf<'a, L>;
 
-    /// The width of the lobe; 0 where there is none.
+    /// The width of the lobe; 0 without one.
     #[inline(always)]
     fn alpha<L: Lanes>(l: L, _bsdf: &Self::Bsdf<'_, L>) -> F<L> {
         l.f(0.0)

@@ -1,25 +1,25 @@
-//! Tables that materials share: what coats and interfaces reflect in all.
+//! Albedo tables of coats and interfaces, which materials share.
 use super::{albedo, albedo_table, dielectric_albedo, ggx::SMOOTH, missing_energy};
 use crate::math::SimdLevel;
 
-/// Index of refraction and roughness of an interface that is compensated; the roughness is absent where it varies.
+/// Index of refraction and roughness of an interface with energy compensation; the roughness is `None` if it varies.
 pub type Interface = (f32, Option<f32>);
 
-/// The tables of the materials of a scene, one after the other. Materials of the same parameters share theirs.
+/// The tables of the materials of a scene, one after the other. Materials with the same parameters share them.
 #[derive(Default)]
 pub struct Tables {
     pub rows: Vec<[f32; 4]>,
-    /// Of compensated conductors; empty when there is none.
+    /// The table of compensated conductors; empty without any.
     pub loss: &'static [[f32; 4]],
-    /// Some dielectric is compensated.
+    /// Whether some dielectric is compensated.
     pub compensates_dielectrics: bool,
-    /// What the tables made so far are of, and their first rows.
+    /// Parameters of the tables so far, and their first rows.
     coats: Vec<(f32, u32)>,
     interfaces: Vec<(Option<Interface>, u32)>,
 }
 
 impl Tables {
-    /// Some conductor gives back what single scattering loses.
+    /// Adds the table of compensated conductors.
     pub fn need_loss(&mut self) {
         self.loss = &albedo::LOSS;
     }
@@ -34,7 +34,7 @@ impl Tables {
         table
     }
 
-    /// The first row of the table of an interface. Without an interface nothing is given back.
+    /// The first row of the table of an interface; without an interface, that of no compensation.
     pub fn interface(&mut self, interface: Option<Interface>) -> u32 {
         self.compensates_dielectrics |= interface.is_some();
         if let Some((_, table)) = self.interfaces.iter().find(|(of, _)| *of == interface) {

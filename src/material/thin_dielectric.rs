@@ -1,9 +1,9 @@
-//! A pane of glass that is thin against everything else: both of its interfaces at once, without refraction.
+//! A thin pane of glass: both of its interfaces at once, without refraction.
 //!
-//! An interface reflects R(θ) and a crossing lets τ = t^(1/cos θ_t) pass, t being what passes at normal incidence and θ_t the angle
-//! within the pane (Snell, Bouguer). Of the light that falls on the pane, the reflections between its faces sum to
+//! An interface reflects R(θ), and a crossing transmits τ = t^(1/cos θ_t), where t is the transmittance at normal incidence and
+//! θ_t the angle inside the pane (Snell, Bouguer). The reflections between the faces sum to
 //!
-//! reflected = R + (1 − R)² R τ²/(1 − R² τ²),  passed = (1 − R)² τ/(1 − R² τ²)
+//! reflected = R + (1 − R)² R τ²/(1 − R² τ²),  transmitted = (1 − R)² τ/(1 − R² τ²)
 //!
 //! (G. G. Stokes, "On the intensity of the light reflected from or transmitted through a pile of plates", 1862). What passes leaves
 //! in the direction in which it came, so that radiance is not scaled. This is the limit of a slab of [`super::Dielectric`] whose
@@ -17,12 +17,12 @@ use crate::{
     sampling::Directions,
 };
 
-/// A pane as a scene describes it.
+/// A thin pane of glass in a scene description.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ThinDielectric {
     /// Refractive index of the pane relative to the outside.
     pub ior: f64,
-    /// What a crossing at normal incidence lets pass, reflections at the faces left out.
+    /// Transmittance of a crossing at normal incidence, without reflections at the faces.
     pub transmittance: [f64; 3],
 }
 
@@ -112,12 +112,12 @@ impl<L: Lanes> Clone for ThinDielectricBsdf<L> {
 impl<L: Lanes> Copy for ThinDielectricBsdf<L> {}
 
 impl<L: Lanes> ThinDielectricBsdf<L> {
-    /// What is reflected and what passes, at cos θ > 0.
+    /// Reflectance and transmittance at cos θ > 0.
     #[inline(always)]
     fn shares(&self, cos: F<L>) -> (V<L>, V<L>) {
         let (r, cos_t) = fresnel::dielectric(cos, self.eta);
         let through = 1.0 - r;
-        // Beyond the critical angle nothing enters, however long its way would be.
+        // Beyond the critical angle nothing enters.
         let way = 1.0 / cos_t.max(cos.splat(1e-6));
         let channel = |octaves: F<L>| {
             let crossing = exp2_of_negative(-(octaves * way));
@@ -129,7 +129,8 @@ impl<L: Lanes> ThinDielectricBsdf<L> {
         (V { x: x.0, y: y.0, z: z.0 }, V { x: x.1, y: y.1, z: z.1 })
     }
 
-    /// The probability of choosing reflection: its share of the light in the channel in which most comes back or passes.
+    /// The probability of choosing reflection: its fraction of the light in the channel with the most reflected or transmitted
+    /// light.
     #[inline(always)]
     fn chance((reflected, passed): (V<L>, V<L>)) -> F<L> {
         let (reflected, passed) = (reflected.max_component(), passed.max_component());
@@ -196,7 +197,7 @@ mod tests {
         let (ior, t) = (1.5f64, 0.5f64);
         let materials = pane(ior, t);
         for cos in [0.05, 0.2, 0.6, 1.0] {
-            // Light that crosses a slab again and again, one reflection after the other, in f64.
+            // Sums the reflections inside a slab one by one, in f64.
             let inside = (1.0 - (1.0 - cos * cos) / (ior * ior)).sqrt();
             let [s, p] = [(cos - ior * inside) / (cos + ior * inside), (ior * cos - inside) / (ior * cos + inside)];
             let r = 0.5 * (s * s + p * p);

@@ -1,9 +1,9 @@
-//! Boxes along the axes that shapes fill.
+//! Bounding boxes of shapes.
 use glam::DVec3;
 
 use crate::declare::{Declare, Parameter, Parameters, Problem};
 
-/// From the least corner to the greatest.
+/// An axis-aligned box, from the corner with the smallest coordinates to the one with the largest.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bounds {
     pub min: DVec3,
@@ -28,7 +28,7 @@ impl Declare for Bounds {
 }
 
 impl Bounds {
-    /// The size, where it is positive along every axis.
+    /// The size, if it is positive on every axis.
     pub fn size(&self) -> Result<DVec3, Problem> {
         let size = self.max - self.min;
         match (0..3).find(|axis| size[*axis] <= 0.0) {

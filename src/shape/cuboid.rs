@@ -1,4 +1,4 @@
-//! A box along the axes; transforms turn and shear it.
+//! An axis-aligned box; transforms can rotate and shear it.
 use glam::DMat3;
 
 use super::{Build, ShapeBuilder, bounds::Bounds};
@@ -7,7 +7,7 @@ use crate::{
     geometry::Shape,
 };
 
-/// A box along the axes, between two opposite corners.
+/// An axis-aligned box between two opposite corners.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Cuboid(pub Bounds);
 

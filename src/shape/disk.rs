@@ -1,4 +1,4 @@
-//! A round, flat shape.
+//! A flat disk.
 use glam::DVec3;
 
 use super::{Build, CENTER, RADII, RADIUS, ShapeBuilder};
@@ -12,7 +12,7 @@ use crate::{
 pub struct Disk {
     /// Centre, metres.
     pub center: DVec3,
-    /// Of any length.
+    /// Normal of the front, of any length.
     pub normal: DVec3,
     /// Radius, metres.
     pub radius: f64,

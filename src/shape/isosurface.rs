@@ -12,12 +12,12 @@ use crate::{
     geometry::{self, Expression, Shape},
 };
 
-/// The surface where an expression is zero; inside it is negative.
+/// The surface where an expression is zero. The expression is negative inside.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Isosurface {
-    /// A formula of x, y and z in metres.
+    /// An expression in x, y and z, in metres.
     pub expression: String,
-    /// The box that the surface is cut off at.
+    /// The bounding box, which clips the surface.
     pub bounds: Bounds,
 }
 

@@ -1,4 +1,4 @@
-//! A mesh of triangles: from a file, as lists, or made by formula.
+//! A triangle mesh: from a file, from lists, or procedural.
 use std::{
     path::{Path, PathBuf},
     sync::Arc,
@@ -14,26 +14,26 @@ use crate::{
     model::{Model, read, smooth_normals},
 };
 
-/// Bytes of a triangle of a mesh made by formula, its share of vertices and the making of their normals included.
+/// Bytes per triangle of a procedural mesh, including its share of vertices and the computation of their normals.
 const MADE_TRIANGLE: u64 = 110;
-/// Bytes of a vertex and of a triangle that are read, and of smooth normals while they are made.
+/// Bytes per vertex and per triangle of lists, and of smooth normals while they are computed.
 const VERTEX: u64 = 32;
 const TRIANGLE: u64 = 12;
 const SMOOTHING: u64 = 120;
-/// Triangles of a mesh made by formula.
+/// Range of the number of triangles of a procedural mesh.
 const MOST_TRIANGLES: u32 = 50_000_000;
 const MOST_QUADS: u32 = (MOST_TRIANGLES / 2).isqrt();
 
-/// A mesh of triangles.
+/// A triangle mesh.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
     /// The triangles.
     pub source: MeshSource,
-    /// Whether normals are smooth; absent: they are, but for lists.
+    /// Whether normals are interpolated. `None` means yes, except for lists.
     pub smooth: Option<bool>,
 }
 
-/// What a mesh is made from.
+/// The source of a mesh.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MeshSource {
     /// An OBJ or PLY file.
@@ -47,7 +47,7 @@ pub enum MeshSource {
     },
     /// A torus knot.
     Knot(Knot),
-    /// Hills over the unit square.
+    /// Hills over x and z from −1 to 1.
     Heightfield(Heightfield),
 }
 
@@ -58,16 +58,16 @@ pub struct Knot {
     pub triangles: u32,
 }
 
-/// Hills of noise over the unit square.
+/// Hills of noise over x and z from −1 to 1.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Heightfield {
-    /// Along each side.
+    /// Quads along each side, of two triangles each.
     pub quads: u32,
     /// Seed of the noise.
     pub seed: u32,
 }
 
-/// What tells meshes apart that can be shown by several objects.
+/// Key of a mesh that several objects can share.
 #[derive(Clone, PartialEq, Eq, Hash)]
 pub(super) enum Key {
     File { path: PathBuf, smooth: bool },
@@ -203,7 +203,8 @@ impl ShapeBuilder<'_> {
     }
 }
 
-/// Room for a mesh of so many triangles and half as many vertices while it is made, normals and coordinates included.
+/// Reserves memory for a mesh with a number of triangles and half as many vertices while it is built, including normals and
+/// coordinates.
 fn reserve(resources: &Resources, key: &str, triangles: u64) -> Result<(), Problem> {
     resources.reserve(key, format_args!("{triangles} triangles"), MADE_TRIANGLE * triangles)
 }

@@ -14,7 +14,7 @@ pub struct Rectangle {
     pub origin: DVec3,
     /// The edge from there to the corner where u = 1, metres.
     pub edge_u: DVec3,
-    /// The edge from there to the corner where v = 1, metres. The front is on the side of v × u.
+    /// The edge from there to the corner where v = 1, metres. The front is on the side of u × v.
     pub edge_v: DVec3,
 }
 

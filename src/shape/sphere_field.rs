@@ -1,4 +1,4 @@
-//! Many spheres by formula.
+//! A procedural field of spheres.
 use super::{
     Build, ShapeBuilder,
     bounds::{BOUNDS, Bounds},
@@ -8,17 +8,17 @@ use crate::{
     geometry::{Shape, sphere_field},
 };
 
-/// Bytes of a sphere as a shape and as an object.
+/// Bytes per sphere, as a shape and as an object.
 const SPHERE: u64 = 1500;
 
-/// Many spheres at random places, an object each.
+/// Many spheres at random positions, each a separate object.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SphereField {
     /// Number of spheres.
     pub count: u32,
-    /// The box that holds them.
+    /// The box around all spheres.
     pub bounds: Bounds,
-    /// Seed of their places and radii.
+    /// Seed of their positions and radii.
     pub seed: u32,
 }
 

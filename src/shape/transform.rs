@@ -1,4 +1,4 @@
-//! Transforms that place shapes and carry them from time 0 to 1.
+//! Transforms that place shapes or move them from time 0 to 1.
 use glam::{DAffine3, DMat3, DVec3};
 
 use super::FLATTEST;
@@ -7,7 +7,7 @@ use crate::{
     geometry::{Motion, Step, Turns},
 };
 
-/// Scales beyond these leave the range of f32.
+/// Limits of scale factors, beyond which f32 overflows.
 const SMALLEST_SCALE: f64 = 1e-12;
 const LARGEST_SCALE: f64 = 1e12;
 /// Of lengths, so that the ends of the range lie within it.
@@ -26,12 +26,12 @@ pub enum Transform {
     Matrix([[f64; 4]; 4]),
 }
 
-/// About an axis through the origin.
+/// A rotation about an axis through the origin.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rotation {
-    /// Of any length.
+    /// Direction of the axis, of any length.
     pub axis: DVec3,
-    /// Counter-clockwise as the axis points at the viewer.
+    /// Angle in degrees, counter-clockwise when the axis points at the viewer.
     pub degrees: f64,
 }
 
@@ -106,7 +106,7 @@ impl Declare for Rotation {
 }
 
 impl Transform {
-    /// The step of a motion that it is.
+    /// The same transform as a step of a motion.
     fn step(&self) -> Result<Step, Problem> {
         let error = |message: &str, label: &str| Err(Problem::at("", message, label));
         let step = match self {
@@ -140,7 +140,7 @@ impl Transform {
     }
 }
 
-/// The steps of a list of transforms; paths of problems are its places.
+/// The steps of a list of transforms. Paths of problems are indices into the list.
 fn steps(list: &[Transform]) -> Result<Vec<Step>, Problem> {
     let step = |(place, transform): (usize, &Transform)| {
         transform.step().map_err(|problem| problem.within(&Path::default().item(place)))
@@ -153,7 +153,7 @@ pub fn product(list: &[Transform]) -> Result<DAffine3, Problem> {
     Ok(steps(list)?.iter().fold(DAffine3::IDENTITY, |before, step| step.at(1.0) * before))
 }
 
-/// A list of transforms that are reached at time 1.
+/// The motion that reaches a list of transforms at time 1.
 pub fn motion(list: &[Transform]) -> Result<Motion, Problem> {
     let motion = Motion(steps(list)?);
     if !list.is_empty() && !motion.is_invertible() {

@@ -5,7 +5,7 @@ use crate::{
     math::{F, Lanes, M, Pick, round::floor},
 };
 
-/// A checker as a scene describes it.
+/// A checker in a scene description.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Checker {
     /// Colour of the even squares.

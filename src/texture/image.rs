@@ -9,12 +9,12 @@ use crate::{
     math::{F, Lanes, M, Pick, U, V, round::floor},
 };
 
-/// A picture file as a scene describes it.
+/// An image file in a scene description.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Image {
     /// The file, relative to the scene.
     pub path: String,
-    /// What its numbers mean.
+    /// Encoding of its numbers.
     pub encoding: Encoding,
 }
 

@@ -9,7 +9,7 @@ use crate::{
     sampling::hash::{GOLDEN, hash},
 };
 
-/// Noise as a scene describes it.
+/// Noise in a scene description.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Noise {
     /// Cells of the first octave per metre.
