@@ -150,9 +150,8 @@ fn ranking(findings: &Findings) -> Markup {
             details { summary { "the other " (outcomes.len() - ROWS) } (table(&outcomes[ROWS..], ROWS + 1)) }
         }
         p.source {
-            "± is the standard error of the efficiency, from the repeats. The bias is the mean of picture less reference at the end of the \
-             runs, with its standard error by the variance of the samples: an upper bound for stratified and Sobol samples. Combinations that are biased, or too noisy (a relMSE above half of that of a black picture), are not ranked and come last."
-            @if twins > 0 { " Values joined by = gave the same picture bit for bit in a trial and were measured once, which saved "
+            "± is the standard error of the efficiency, from the repeats. The bias is the mean of the image minus the reference at the end of the runs, with its standard error from the sample variance, which is an upper bound for stratified and Sobol samples. Combinations that are biased, or too noisy (a relMSE above half of that of a black image), are not ranked and come last."
+            @if twins > 0 { " Values joined by = gave the same image, bit for bit, in a trial and were measured once, which saved "
                 (twins) " of " (outcomes.len() + twins) " combinations." }
         }
     }

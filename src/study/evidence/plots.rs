@@ -39,7 +39,7 @@ impl Exhibits<'_> {
         }
         curves.retain(|curve| !curve.points.is_empty());
         let caption = format!(
-            "Variance of a pixel against the number of samples, by sampler: the mean squared error over pixels and channels, less the error of the reference, (W/(sr m²))² ({}).",
+            "Variance of a pixel against the number of samples, by sampler: the mean squared error over pixels and channels, minus the error of the reference, (W/(sr m²))² ({}).",
             self.circumstances(findings)
         );
         let y = Axis::log("mean squared error (variance of a pixel)");

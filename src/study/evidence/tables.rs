@@ -49,7 +49,7 @@ impl Exhibits<'_> {
             caption: format!(
                 "Error (the root of relMSE) after N samples per pixel, and the exponents of N with which the error and the variance of a \
                  pixel fall, ± half the width of their 95 % intervals. The variance is measured as the mean squared error over pixels \
-                 and channels, less the error of the reference. Independent samples give −1/2 and −1; stratified and Sobol samples \
+                 and channels, minus the error of the reference. Independent samples give −1/2 and −1; stratified and Sobol samples \
                  can fall faster. {UNTRUSTED} ({}).",
                 self.circumstances(findings)
             ),

@@ -70,13 +70,11 @@ pub fn section(validation: &Validation) -> Section {
         title: "Default settings",
         claim: "The default settings, all together and one by one, give the exact means.",
         derivation: &[
-            "The defaults are MIS, Sobol points, directions by bsdf, roulette by throughput from the fourth bounce on, and paths shared among pixels where a trial shows that it pays; adaptive sampling is optional. These rows render like the program itself, in passes over a film and after the same decisions. Sharing and adaptive sampling have rows where the program applies them: glass, for example, shares nothing, and where the noise is uniform there is nothing to adapt to.",
-            "A wall of the textured integrating sphere shows L_e + ρ H with H of the section on that room. Under a lamp that is partly set the \
-             ground shows (ρ/π) E. Within the closed sphere the wall shows 0.5, and a clear ball of glass in a field of 1 shows 1. Of \
-             Lambert’s ball the lit pixels are summed.",
-            "These samples are not independent of each other, so their variance does not give the standard error. The picture is rendered with several seeds; the means are independent, and their scatter gives the standard error (Student’s t).",
+            "The defaults are MIS, Sobol points, BSDF directions, roulette by throughput from the fourth bounce on, and path reuse if a trial shows a gain; adaptive sampling is optional. These rows render like the program itself, in passes over a film and after the same decisions. Path reuse and adaptive sampling have rows where the program applies them: paths are not reused at glass, for example, and uniform noise leaves nothing to adapt to.",
+            "The radiance of a wall of the textured integrating sphere is L_e + ρ H, with H from the section on that room. The ground under a lamp that is partly below the horizon has (ρ/π) E. The wall of the closed sphere has 0.5, and a clear ball of glass in a uniform field of 1 has 1. On Lambert’s ball the lit pixels are summed.",
+            "These samples are not independent of each other, so their variance does not give the standard error. The image is rendered with several seeds. The means are independent, and their spread gives the standard error (Student’s t).",
         ],
-        source: "P. Bekaert, M. Sbert and J. Halton, “Accelerating Path Tracing by Re-Using Paths”, 2002, for shared paths.",
+        source: "P. Bekaert, M. Sbert and J. Halton, “Accelerating Path Tracing by Re-Using Paths”, 2002, for path reuse.",
         statements,
         figures: Vec::new(),
         remark: None,

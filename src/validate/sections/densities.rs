@@ -39,12 +39,10 @@ pub fn section(validation: &Validation) -> Section {
         title: "Sampled directions",
         claim: "Sampled directions follow the pdf that the estimator divides by, at surfaces and towards lamps.",
         derivation: &[
-            "Over the hemisphere, dω = dμ dφ with μ = cos θ. A uniform direction has the density 1/(2π), so that μ is uniform in \
-             [0, 1]; a cosine-distributed one has μ/π, so that μ has the density 2μ. The azimuth φ is uniform in both. These two are held against \
-             their formulas, in 24 × 8 cells.",
+            "Over the hemisphere, dω = dμ dφ with μ = cos θ. A uniform direction has the density 1/(2π), so μ is uniform in [0, 1]. A cosine-distributed one has μ/π, so μ has the density 2μ. The azimuth φ is uniform in both. Both are compared with their formulas, in 24 × 8 cells.",
             "For other surfaces, and for lamps seen from a point, the renderer’s own pdf is integrated over each of 12 × 8 cells around the mirrored \
-             or refracted direction, or the middle of the lamp, at 64 × 64 points each (160 × 160 for lamps), and the frequencies of its own samples are held against that. \
-             Rejected samples and samples of delta lobes are counted in a cell of their own, whose expected share is one minus the sum of the others.",
+             or refracted direction, or the centre of the lamp, at 64 × 64 points each (160 × 160 for lamps), and compared with the frequencies of its own samples. \
+             Rejected samples and samples of delta lobes are counted in a separate cell, whose expected fraction is one minus the sum of the others.",
         ],
         source: "χ² at the significance 10⁻⁴, each with random numbers of its own.",
         statements,

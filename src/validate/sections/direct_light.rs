@@ -82,11 +82,9 @@ pub fn section(validation: &Validation) -> Section {
         title: "Direct light",
         claim: "The irradiance under a sphere and under a rectangle, under a sky and in fog, agrees with the closed forms, with every estimator.",
         derivation: &[
-            "E = ∫ L cos θ dω over the part of the lamp above the horizon; diffuse ground shows (ρ/π) E. For a sphere wholly above \
-             the horizon this is π L (r/d)² cos θ; partly set, with h = d/r and y = √(h² − 1), it is \
+            "E = ∫ L cos θ dω over the part of the lamp above the horizon; the radiance of diffuse ground is (ρ/π) E. For a sphere entirely above the horizon this is π L (r/d)² cos θ; partly below it, with h = d/r and y = √(h² − 1), it is \
              L {[cos θ acos(−y cot θ) − y √(sin²θ − y² cos²θ)]/h² + atan(√(1 − h² cos²θ)/y)}. For a polygon E = (L/2) Σ β_i (n · g_i): \
-             β_i is the angle in which edge i is seen and g_i the unit normal of the plane through it and the point, once what lies \
-             below the horizon is cut off. Here L = 1, ρ = 0.8, r/d = 0.3; rectangles by origin and edges in metres, y upwards: \
+             β_i is the angle that edge i subtends and g_i the unit normal of the plane through it and the point, after clipping at the horizon. Here L = 1, ρ = 0.8, r/d = 0.3; rectangles by origin and edges in metres, y upwards: \
              small (0.3, 1, −0.2), (0.3, 0, 0), (0, 0, 0.3); large (−0.8, 0.4, −0.7), (1.6, 0, 0), (0, 0, 1.2); cut \
              (0.5, −0.7, −0.4), (0, 0, 1), (0, 1.2, 0).",
             "A sky of radiance S gives π S, less the part that the lamp hides: E = π S + (L − S) π (r/d)² cos θ, here with S = 0.2. In fog of which a metre lets t = 1/2 pass, the lamp overhead gives \
@@ -143,7 +141,7 @@ fn equal_time(costs: &[(String, Estimator, Mean, f64)]) -> Figure {
     let rows: String = costs.chunks(Estimator::ALL.len()).map(row).collect();
     Figure {
         caption:
-            "Standard error of a pixel after rendering 1024 pixels for one second, as measured in this run. MIS takes two rays a sample, which pays where neither strategy alone is good."
+            "Standard error of a pixel after rendering 1024 pixels for one second, as measured in this run. MIS takes two rays per sample, which is worthwhile where neither strategy alone is good."
                 .to_owned(),
         element: format!("<table><tr><th>lamp</th>{heads}</tr>{rows}</table>"),
     }

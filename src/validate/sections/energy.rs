@@ -73,12 +73,9 @@ pub fn section(validation: &Validation) -> Section {
         title: "Energy",
         claim: "A surface that absorbs nothing is invisible in a uniform field: it neither gains nor loses light at any angle or roughness. The BSDF is reciprocal.",
         derivation: &[
-            "In a field of radiance 1 from all directions a lossless surface sends L/n² = 1 into every direction, 1 outside and n² \
-             inside of glass: a ball of it, whatever it is made of, cannot be told from the background. At the edge of the ball it is seen at grazing \
+            "In a uniform field of radiance 1 a lossless surface has L/n² = 1 in every direction, so the radiance is 1 outside and n² inside glass. A ball of any lossless material is invisible against the background. At the edge of the ball it is seen at grazing \
              angles. Light is reflected and refracted many times in a glass ball; all contributions add up to 1.",
-            "Rough surfaces lose the light that microfacets scatter more than once, unless it is given back: that part comes from \
-             tables, which interpolate between cells. A metal may gain or lose some 3 · 10⁻⁴ by that; pictures of rough surfaces \
-             therefore allow 10⁻³ besides the noise, and say that they notice no less; rows by quadrature, which has no noise, say how much it is. Smooth ones allow rounding.",
+            "Rough surfaces lose the light that scatters more than once between microfacets, unless energy compensation restores it from interpolated tables. The interpolation changes the light of a metal by up to 3 · 10⁻⁴. Renders of rough surfaces therefore allow an error of 10⁻³ besides the noise, and detect nothing smaller. Rows by quadrature, which has no noise, state the actual error. Smooth surfaces allow rounding only.",
             "Helmholtz reciprocity: f(ω_i, ω_o) = f(ω_o, ω_i) for every pair of directions on the same side.",
         ],
         source: "The white furnace; C. Kulla and A. Conty, “Revisiting Physically Based Shading at Imageworks”, SIGGRAPH 2017 courses.",

@@ -33,12 +33,10 @@ pub fn section(validation: &Validation) -> Section {
         claim: "Smooth glass reflects and refracts by Snell’s and Fresnel’s laws, tinted glass absorbs by Beer’s, and radiance inside is n² of \
                 that outside.",
         derivation: &[
-            "Snell: n_o sin θ_o = n_i sin θ_i, in the plane of incidence. Beyond the critical angle all is reflected. Else R is the mean of \
+            "Snell: n_o sin θ_o = n_i sin θ_i, in the plane of incidence. Beyond the critical angle all light is reflected. Otherwise R is the mean of \
              Fresnel’s R_s and R_p, here in f64 from r_s = (cos θ_o − η cos θ_i)/(cos θ_o + η cos θ_i) and r_p = (η cos θ_o − cos θ_i)/(η cos θ_o + cos θ_i) \
-             with η = n_i/n_o. Next to the critical angle R rises as a root; its error is weighed by the cosine of refraction. A sample \
-             reflects with the probability R, and what passes is scaled by 1/η².",
-            "A pane of glass lets (1 − R)² Σ R²ᵏ = (1 − R)/(1 + R) through. The renderer carries no polarisation: every face \
-             sees unpolarised light. Real glass polarises, and with s and p followed apart lets up to 4 % more through (0.871 in place of \
+             with η = n_i/n_o. Next to the critical angle R rises as a square root, so its error is weighted by the cosine of refraction. A sample reflects with probability R; transmitted light is scaled by 1/η².",
+            "A pane of glass transmits (1 − R)² Σ R²ᵏ = (1 − R)/(1 + R). The renderer ignores polarisation: light is unpolarised at every face. Real glass polarises, and with s and p traced separately it transmits up to 4 % more (0.871 in place of \
              0.862 at 56.31°).",
             "A thin pane has both faces at once. Of light at normal incidence a crossing lets t pass, and τ = t^(1/cos θ_i) at an angle. The pane lets \
              T = (1 − R)² τ/(1 − R² τ²) through, straight on, and reflects R (1 + τ T): in a field of radiance 1 it shows the sum of both.",

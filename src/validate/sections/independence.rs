@@ -47,8 +47,7 @@ pub fn section(validation: &Validation) -> Section {
         claim: "A sample is a pure function of scene, settings, seed, pixel and number: no bit depends on how it is computed.",
         derivation: &[
             "Every operation of the kernel is exactly rounded (IEEE 754) and none is contracted or reassociated; random numbers are \
-             functions of seed, pixel, sample and dimension; sums are added in the order of samples. So the number of threads, the width \
-             of the registers, pauses and the order in which samples are asked for cannot matter. The pictures are compared bit for bit.",
+             functions of seed, pixel, sample and dimension; sums are added in the order of samples. So the number of threads, the width of the registers, pauses and the order of samples cannot matter. The images are compared bit for bit.",
         ],
         source: "Hashes of all bits of a 75 × 50 picture of the built-in scene at 4 samples per pixel.",
         statements,

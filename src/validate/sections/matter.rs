@@ -46,14 +46,13 @@ pub fn section(validation: &Validation) -> Section {
         derivation: &[
             "Microfacets have f = F D G/(4 cos θ_o cos θ_i), with D = α²/(π cos⁴θ (α² + tan²θ)²) and G = G₁(ω_o) G₁(ω_i), \
              G₁ = 2/(1 + √(1 + α² tan²θ)); those that refract have f = (1 − F) D G |ω_o·h ω_i·h|/(|cos θ_o cos θ_i| (ω_o·h + η ω_i·h)²). \
-             The report has these in f64, in code of its own, and holds what the renderer evaluates against them. \
+             The report evaluates these in f64, in separate code, and compares the renderer with them. \
              ∫ D cos θ dω = 1.",
             "The albedo is ∫ f cos θ_i dω_i, by quadrature over facets with u = tan²θ/(α² + tan²θ), in which D cos θ dω is uniform. The mean weight of samples must equal this number: a wrong D or G changes it even if the program's own tables agree with each other.",
-            "What single scattering loses, 1 − E(μ), comes back as (1 − E(ω_o))(1 − E(ω_i)) F_s/(π (1 − E_avg)) with \
+            "Energy compensation restores the loss of single scattering, 1 − E(μ), as (1 − E(ω_o))(1 − E(ω_i)) F_s/(π (1 − E_avg)) with \
              F_s = F_avg² E_avg/(1 − F_avg (1 − E_avg)). Plastic has a base ρ T(ω_o) T(ω_i)/(π (η² (1 − ρ) + ρ T_avg)) under its coat, \
-             T(μ) = 1 − E(μ) being what the coat lets pass. E is integrated here for each direction, where the renderer interpolates tables; errors of these are relative to f, or to that of a \
-             diffuse surface of albedo 0.05 where f is less.",
-            "Black plastic reflects by its coat alone: in a field of 1, the disk of a distant smooth ball has the mean 2 ∫ F(μ) μ dμ.",
+             where T(μ) = 1 − E(μ) is the transmittance of the coat. Here E is integrated for each direction, while the renderer interpolates tables. Errors are relative to f, or to f of a diffuse surface of albedo 0.05 if f is smaller.",
+            "Black plastic reflects with its coat alone: in a uniform field of 1, the image of a distant smooth ball has the mean radiance 2 ∫ F(μ) μ dμ.",
         ],
         source: "B. Walter et al., “Microfacet Models for Refraction through Rough Surfaces”, 2007; E. Heitz, “Understanding the \
                  Masking-Shadowing Function in Microfacet-Based BRDFs”, 2014; C. Kulla and A. Conty, 2017; W. G. Egan and T. Hilgeman, 1979.",
@@ -150,7 +149,7 @@ fn metals(validation: &Validation, alpha: f64) -> Vec<Statement> {
     let pairs = worst((0..validation.spp(20_000)).map(pair));
     let mut statements = vec![
         Statement::within(what("∫ D cos θ dω"), area.sum::<f64>() / 1000.0, 1.0, 1e-5),
-        Statement::below(what("largest relative error of f without what is given back"), pairs, ROUNDING),
+        Statement::below(what("largest relative error of f, single scattering"), pairs, ROUNDING),
     ];
     for mu in [0.9, 0.3] {
         let exact = albedo(alpha, mu, |_| 1.0);
@@ -166,7 +165,7 @@ fn metals(validation: &Validation, alpha: f64) -> Vec<Statement> {
     let again = mean * mean * (1.0 - mean_lost) / (1.0 - mean * mean_lost) / (PI * mean_lost);
     let exact = |o: usize, i: usize, wo: DVec3, wi: DVec3| reflection(alpha, wo, wi, red) + again * lost[o] * lost[i];
     statements.push(Statement::below(
-        what("gold: largest relative error of f with what is given back"),
+        what("gold: largest relative error of f, with energy compensation"),
         worst(grid(&whole, exact).into_iter()),
         TABLES,
     ));
@@ -206,7 +205,7 @@ fn interfaces(validation: &Validation, eta: f64) -> Vec<Statement> {
         if is_rare { (1.0, 1.0) } else { (beyond_digits(f(&bsdf, wo, wi), wo, exact), exact(wo)) }
     };
     let mut statements = vec![Statement::below(
-        what("largest relative error of f without what is given back"),
+        what("largest relative error of f, single scattering"),
         worst((0..validation.spp(20_000)).map(pair)),
         10.0 * ROUNDING,
     )];

@@ -83,10 +83,7 @@ pub fn section(validation: &Validation) -> Section {
         title: "Agreement with references",
         claim: "Renders of the same scenes by an independent renderer, and one exact image, agree block by block.",
         derivation: &[
-            "Each reference holds means over 256 blocks of 16 × 16 pixels, three colours each, with their standard errors. The \
-             difference of two unbiased estimates, over the root of the sum of their variances, is a standard normal deviate. Were \
-             the 768 of a picture independent, one would pass 4.5 in about 200 pictures. Their root mean square is about 1, and less \
-             where the reference's samples are stratified and vary less than their standard errors say.",
+            "Each reference has means over 256 blocks of 16 × 16 pixels, in three channels, with their standard errors. The difference of two unbiased estimates, divided by the root of the sum of their variances, has a standard normal distribution. If the 768 scores of an image were independent, one would exceed 4.5 in about 200 images. Their root mean square is about 1, or less if the reference has stratified samples, whose error is smaller than their standard errors.",
         ],
         source: "Mitsuba 3 (W. Jakob et al., 2022), except for the furnace enclosure, which is exact.",
         statements,

@@ -18,11 +18,9 @@ pub fn section(validation: &Validation) -> Section {
         claim: "An integrating sphere and a pair of mirrors agree with their closed forms.",
         derivation: &[
             "Every point of a sphere sees every other point with the same form factor: the irradiance is the same everywhere, and E/π = H = mean(L_e)/(1 − mean(ρ)) \
-             with means over its area, however emission and albedo are distributed. Averaged over the wall, that is over all \
-             directions from the middle, the radiance is H again. Here 5 × 5 cells of albedo 0.9 and 0.2 and 3 × 3 cells of emission \
+             with means over its area, however emission and albedo are distributed. Averaged over the wall, that is, over all directions from the centre, the radiance is H again. Here 5 × 5 cells of albedo 0.9 and 0.2 and 3 × 3 cells of emission \
              0.25 and 2 alternate.",
-            "Two mirrors that face each other, both of reflectance r and shining with L_e, show L_e Σ rᵏ: with a cap of n bounces \
-             the partial sum, and every single sample is that number. Here r = 0.75 and L_e = 1.",
+            "Two mirrors that face each other, both with reflectance r and emitting L_e, have the radiance L_e Σ rᵏ, or its partial sum with a cap of n bounces. Every single sample is that number. Here r = 0.75 and L_e = 1.",
         ],
         source: "W. E. Sumpner, 1892, for the integrating sphere.",
         statements,

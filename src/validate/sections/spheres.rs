@@ -52,15 +52,11 @@ pub fn section(validation: &Validation) -> Section {
     }
     Section {
         title: "Camera and lamp inside or outside a sphere",
-        claim: "No light passes through a closed opaque sphere from either side; where camera and lamp are on the same side, the radiance is exact. This holds for paths, for shadow rays and for both together.",
+        claim: "No light passes through a closed opaque sphere from either side. If camera and lamp are on the same side, the radiance has its exact value. This holds for paths, for shadow rays and for both together.",
         derivation: &[
-            "Inside: a lamp of radius r in the middle of a sphere of radius R fills the share F = (r/R)² of the cosine-weighted \
-             hemisphere of every wall point, the wall itself the rest. The radiance B of the wall is B = ρ (L F + B (1 − F)), here \
+            "Inside: a lamp of radius r at the centre of a sphere of radius R fills the fraction F = (r/R)² of the cosine-weighted hemisphere of every wall point, and the wall fills the rest. The radiance B of the wall is B = ρ (L F + B (1 − F)), here \
              with ρ = 1/2, L = 8.5 and F = 1/16: B = 1/2 everywhere.",
-            "Outside: where the whole lamp is above the horizon, a ball shows (ρ/π) E = ρ L (r/d)² cos θ, d being the distance of \
-             the lamp's centre and θ its angle from the normal (Lambert's ball). Here the ball is the unit sphere with ρ = 0.8, the lamp \
-             lies at (1.7, 1.4, 1) with r = 0.5 and L = 8. Where the lamp dips below the horizon pixels are left out; the others are \
-             summed over a picture of the lit side, each against its own exact mean.",
+            "Outside: where the whole lamp is above the horizon, the radiance of a ball is (ρ/π) E = ρ L (r/d)² cos θ, where d is the distance of the lamp's centre and θ its angle from the normal (Lambert's ball). Here the ball is the unit sphere with ρ = 0.8, the lamp is at (1.7, 1.4, 1) with r = 0.5 and L = 8. Pixels where the lamp is partly below the horizon are left out. The others are summed over an image of the lit side, each against its own exact mean.",
             "With a wall between lamp and camera no light arrives: every pixel is exactly 0, because no ray may pass through a surface. The \
              estimators “light” and “mis” send shadow rays to the lamp from every point of the wall.",
         ],

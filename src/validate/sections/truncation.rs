@@ -65,14 +65,11 @@ pub fn section(validation: &Validation) -> Section {
         title: "Truncation is biased, roulette is not",
         claim: "A cap of n bounces gives the partial sum of the series; Russian roulette gives the whole series, with finite variance as long as q > ρ².",
         derivation: &[
-            "The k-th bounce contributes L_e ρᵏ, so a cap of n bounces gives L_e (1 − ρⁿ⁺¹)/(1 − ρ): the picture is too dark by L_e ρⁿ⁺¹/(1 − ρ), no matter how many samples are taken.",
-            "With cosine directions and fixed roulette a path that ends after its k-th wall is worth Σ (ρ/q)ⁱ up to i = k, and that has the \
-             probability (1 − q) qᵏ: the numbers of paths of each length are held against that distribution by χ², which assumes nothing of \
-             moments.",
-            "A path that survives with probability q and is then weighted by 1/q has the mean q · X/q = X of the endless path. With \
+            "The k-th bounce contributes L_e ρᵏ, so a cap of n bounces gives L_e (1 − ρⁿ⁺¹)/(1 − ρ): the image is too dark by L_e ρⁿ⁺¹/(1 − ρ), no matter how many samples are taken.",
+            "With cosine directions and fixed roulette, a path that ends after its k-th wall has the value Σ (ρ/q)ⁱ up to i = k, with probability (1 − q) qᵏ. A χ² test compares the lengths of paths with that distribution; it needs no assumption about moments.",
+            "A path that survives with probability q and is then weighted by 1/q has the mean q · X/q = X of the infinite path. With \
              cosine directions the weight is 1/q or 0, E w² = 1/q, and by the formula of section 2 the variance is \
-             (L_e² + 2 L_e ρ L)/(1 − ρ²/q) − L², finite while q > ρ²; with uniform directions E w² = 4/(3q), finite while q > 4ρ²/3. A path has 1/(1 − q) \
-             segments on the mean: that is its cost. For q = 0.3 the third moment is infinite (ρ³ > q²); that row has Catoni’s bound, as in \
+             (L_e² + 2 L_e ρ L)/(1 − ρ²/q) − L², finite while q > ρ²; with uniform directions E w² = 4/(3q), finite while q > 4ρ²/3. A path has 1/(1 − q) segments on average, which is its cost. For q = 0.3 the third moment is infinite (ρ³ > q²); that row has Catoni’s bound, as in \
              section 1.",
             "For q ≤ ρ² = 0.25 the estimate is still unbiased, but its variance is infinite. The last figure shows the running sample variance for q = 0.2: it jumps with every rare sample and never settles. No standard error can be given, so there is no row.",
         ],

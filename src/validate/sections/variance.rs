@@ -85,11 +85,9 @@ pub fn section(validation: &Validation) -> Section {
              distributed as X but independent of w. Hence E X² = L_e² + 2 L_e ρ L + ρ² (4/3) E X², which gives \
              Var X = (L_e² + 2 L_e ρ L)/(1 − 4ρ²/3) − L², finite while ρ² < 3/4. Here ρ = 0.5 and L_e = 1.",
             "With one reflection only, X = L_e (1 + 2ρ cos θ) and Var X = 4ρ² L_e² (1/3 − 1/4) = ρ² L_e²/3. The variances of independent samples add. Stratified samples are not independent, and for a smooth integrand their error falls faster.",
-            "Errors are the root mean square over 1024 pixels of the estimate less the exact value, not its own mean: a sampler that \
-             converges to something else flattens out. Three integrands: one reflection (smooth, in two dimensions), a lamp that covers part of the \
+            "Errors are the root mean square over 1024 pixels of the estimate minus the exact value, not minus its own mean, so the curve of a sampler that converges to another value flattens out. Three integrands: one reflection (smooth, in two dimensions), a lamp that covers part of the \
              sky (discontinuous), and 20 reflections (smooth, in 40 dimensions). Slopes of log error over log N are fitted to each of \
-             10 pictures with other seeds; their scatter gives the standard error (Student’s t with 9 degrees of freedom), whatever pixels have in \
-             common.",
+             10 images with different seeds; their spread gives the standard error (Student’s t with 9 degrees of freedom), even if pixels are correlated.",
         ],
         source: "Variance of the weight: moments of cos θ uniform in [0, 1]. Sobol points are Owen-scrambled (A. Owen, “Scrambled \
                  net variance for integrals of smooth functions”, 1997).",
