@@ -55,8 +55,8 @@ impl Kind for Image {
 impl Declare for Image {
     fn parameters(&mut self, p: &mut dyn Parameters) {
         const ROTATE: Parameter =
-            Parameter::new("rotate", "Turns the picture counter-clockwise, seen from above.").unit("degrees");
-        const SCALE: Parameter = Parameter::new("scale", "Factor of its radiance.");
+            Parameter::new("rotate", "Rotation of the image, counter-clockwise seen from above.").unit("degrees");
+        const SCALE: Parameter = Parameter::new("scale", "Factor that multiplies the radiance.");
         p.value(&IMAGE, Value::File(&mut self.path));
         p.number(&ROTATE, &mut self.rotate, Range::FINITE);
         p.number(&SCALE, &mut self.scale, Range::log(1e-12, 1e12));

@@ -36,7 +36,7 @@ impl Default for Gaussian {
 }
 
 impl Kind for Gaussian {
-    const KIND: Parameter = Parameter::new("gaussian", "A normal distribution, cut off at three standard deviations: smoothest.");
+    const KIND: Parameter = Parameter::new("gaussian", "A normal distribution, cut off at three standard deviations.");
 
     fn chosen(&mut self, p: &mut dyn Parameters) {
         p.table(&Self::KIND, self);

@@ -10,7 +10,7 @@ use crate::{
 pub struct Box;
 
 impl Kind for Box {
-    const KIND: Parameter = Parameter::new("box", "The mean over the pixel's own square: sharpest.");
+    const KIND: Parameter = Parameter::new("box", "The mean over the square of the pixel.");
 
     fn chosen(&mut self, _: &mut dyn Parameters) {}
 }

@@ -31,7 +31,7 @@ impl Default for Tent {
 }
 
 impl Kind for Tent {
-    const KIND: Parameter = Parameter::new("tent", "Falls linearly to 0: smoother edges.");
+    const KIND: Parameter = Parameter::new("tent", "Falls linearly to 0.");
 
     fn chosen(&mut self, p: &mut dyn Parameters) {
         p.table(&Self::KIND, self);
@@ -40,7 +40,7 @@ impl Kind for Tent {
 
 impl Declare for Tent {
     fn parameters(&mut self, p: &mut dyn Parameters) {
-        const RADIUS: Parameter = Parameter::new("radius", "Where the tent ends.").unit("pixels").required();
+        const RADIUS: Parameter = Parameter::new("radius", "Radius of the tent.").unit("pixels").required();
         p.single(&RADIUS, &mut self.radius, WIDTHS);
     }
 }

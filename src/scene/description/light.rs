@@ -1,4 +1,5 @@
-//! Emission of objects, and what the picture must be.
+//! Emission and truths of scene files.
+
 use crate::{
     declare::{Declare, OneOf, Parameter, Parameters, Range, Value},
     light::{
@@ -24,6 +25,8 @@ impl Default for EmissionDescription {
     }
 }
 
+const TRUTH_IMAGE: Parameter = Parameter { doc: "Reference image, of the resolution of the camera.", ..IMAGE };
+
 impl Declare for EmissionDescription {
     fn parameters(&mut self, p: &mut dyn Parameters) {
         const TWO_SIDED: Parameter = Parameter::new("two_sided", "Whether the back emits too.").aliases("twosided double_sided");
@@ -34,7 +37,7 @@ impl Declare for EmissionDescription {
     }
 }
 
-/// What the picture of a scene file must converge to.
+/// What the image converges to.
 #[derive(Clone, Debug, PartialEq)]
 pub enum TruthDescription {
     /// The same radiance at every pixel, W/(m² sr).
