@@ -122,8 +122,8 @@ pub use self::{
 pub mod description {
     #[doc(inline)]
     pub use crate::scene::description::{
-        BackgroundDescription, CameraDescription, DVec3, EmissionDescription, EmissionSource, ObjectDescription, Orthographic,
-        Projection, RenderDescription, SceneDescription, TruthDescription,
+        BackgroundDescription, CameraDescription, DVec3, EmissionDescription, EmissionSource, ObjectDescription, Projection,
+        RenderDescription, SceneDescription, TruthDescription,
     };
 
     /// Materials and their parameters.

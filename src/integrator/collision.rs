@@ -14,7 +14,7 @@ use crate::{
     geometry::{MISS, PrimitiveRef},
     math::{Lanes, One, Pick, SimdLevel, V},
     sampling::Filter,
-    scene::{Camera, RenderSettings, Scene},
+    scene::{Camera, Projection, RenderSettings, Scene},
 };
 
 /// Minimum distance from a surface, as a fraction of the size of the scene.
@@ -68,7 +68,7 @@ fn view(eye: DVec3, axis: DVec3) -> Camera {
         look_at: eye + axis,
         up: axis.any_orthonormal_vector(),
         fov: 90.0,
-        orthographic: None,
+        projection: Projection::default(),
         lens: None,
         filter: Filter::Box,
         shutter: None,

@@ -2,7 +2,7 @@
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-use super::Shutter;
+use super::{Projection, Shutter};
 use crate::{declare::check, sampling::Filter};
 
 /// A camera in a right-handed world, in which y is usually up.
@@ -14,10 +14,11 @@ pub struct Camera {
     pub look_at: DVec3,
     /// The direction that is up in the image, of any length.
     pub up: DVec3,
-    /// Field of view across the width of the image, degrees.
+    /// Field of view across the width of the image, degrees, of projections that have one.
     pub fov: f64,
-    /// Width of the image in metres, for an orthographic camera, which has no `fov`.
-    pub orthographic: Option<f64>,
+    /// The projection.
+    #[serde(default, alias = "orthographic", deserialize_with = "Projection::carried")]
+    pub projection: Projection,
     /// The thin lens; `None` is a pinhole.
     pub lens: Option<Lens>,
     /// The pixel filter.
@@ -101,7 +102,7 @@ impl Camera {
     }
 
     fn check_optics(&self) -> Result<(), CameraError> {
-        if self.orthographic.is_some_and(|width| !(1e-9..=1e9).contains(&width)) {
+        if !check(&mut self.projection.clone()).is_empty() {
             return Err(CameraError::Width);
         }
         if let Some(lens) = self.lens {
@@ -111,7 +112,7 @@ impl Camera {
             if !(1e-9..=1e12).contains(&lens.focus) {
                 return Err(CameraError::Focus);
             }
-            if self.orthographic.is_some() {
+            if !self.projection.takes_lens() {
                 return Err(CameraError::LensOrthographic);
             }
         }
@@ -134,7 +135,6 @@ impl Camera {
 
     /// The width of the image at the look-at point, metres.
     pub fn width_at_look_at(&self) -> f64 {
-        let perspective = 2.0 * self.eye.distance(self.look_at) * (self.fov.to_radians() / 2.0).tan();
-        self.orthographic.unwrap_or(perspective)
+        self.projection.width_at(self.eye.distance(self.look_at), self.fov)
     }
 }

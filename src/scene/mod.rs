@@ -16,6 +16,7 @@ mod locate;
 mod material_instance;
 mod object;
 mod parse;
+pub mod projection;
 mod rays;
 mod read;
 pub mod roulette;
@@ -46,6 +47,7 @@ pub use self::{
     material_instance::MaterialInstance,
     object::Object,
     parse::{BUILT_IN, built_in, describe, parse},
+    projection::Projection,
     rays::CameraRays,
     roulette::Roulette,
     settings::{RenderSettings, Reuse},

@@ -1,5 +1,5 @@
 //! The rays of a camera, in lanes.
-use super::{Camera, Moments, Scene, Shutter};
+use super::{Camera, Moments, Projection, Scene, Shutter};
 use crate::{
     geometry::Motion,
     math::{F, Lanes, V},
@@ -17,8 +17,9 @@ pub struct CameraRays {
     corner: [f32; 3],
     per_x: [f32; 3],
     per_y: [f32; 3],
-    /// The direction of parallel rays.
-    parallel: Option<[f32; 3]>,
+    projection: Projection,
+    /// The direction of view.
+    forward: [f32; 3],
     lens: Option<LensRays>,
     /// The pixel filter.
     pub filter: Filter,
@@ -42,9 +43,9 @@ impl Camera {
     fn rays(&self) -> CameraRays {
         let [right, up, forward] = self.axes();
         let [w, h] = self.resolution.map(f64::from);
-        let half_width = self.orthographic.map_or((self.fov.to_radians() / 2.0).tan(), |width| width / 2.0);
+        let half_width = self.projection.half_width(self.fov);
         let half_height = half_width * h / w;
-        let middle = if self.orthographic.is_some() { glam::DVec3::ZERO } else { forward };
+        let middle = self.projection.middle(forward);
         let lens = self.lens.filter(|lens| lens.radius > 0.0);
         CameraRays {
             resolution: self.resolution,
@@ -52,7 +53,8 @@ impl Camera {
             corner: (middle - right * half_width + up * half_height).as_vec3().to_array(),
             per_x: (right * (2.0 * half_width / w)).as_vec3().to_array(),
             per_y: (up * (-2.0 * half_height / h)).as_vec3().to_array(),
-            parallel: self.orthographic.map(|_| forward.as_vec3().to_array()),
+            projection: self.projection,
+            forward: forward.as_vec3().to_array(),
             lens: lens.map(|lens| LensRays {
                 right: (right * lens.radius).as_vec3().to_array(),
                 up: (up * lens.radius).as_vec3().to_array(),
@@ -118,10 +120,7 @@ impl CameraRays {
     #[inline(always)]
     pub fn through<L: Lanes>(&self, l: L, x: F<L>, y: F<L>) -> (V<L>, V<L>) {
         let place = V::splat(l, self.per_x) * x + V::splat(l, self.per_y) * y + self.corner;
-        match self.parallel {
-            Some(forward) => (place + self.eye, V::splat(l, forward)),
-            None => (V::splat(l, self.eye), place.normalized()),
-        }
+        self.projection.rays(l, place, self.eye, self.forward)
     }
 
     /// The same rays through points of the lens, which `u` samples uniformly. There must be a lens.

@@ -73,7 +73,7 @@ impl Scene {
         if let Some(emitter) = self.around(camera).filter(|object| object.emits_outwards_only()) {
             warnings.push(format!("the camera is inside {}", self.emitter_from_inside(emitter)));
         }
-        if camera.orthographic.is_none() && camera.fov < RADIANS {
+        if camera.projection.has_angle() && camera.fov < RADIANS {
             let (fov, degrees) = (camera.fov, camera.fov.to_degrees());
             warnings.push(format!("`fov` is in degrees, and {fov} is a narrow view: {fov} radians would be {degrees:.1}"));
         }

@@ -9,7 +9,7 @@ use noisefall::{
     material::{AlphaSource, Conductor, Dielectric, Lambertian, Material, Mirror, Plastic, Reflectance, Roughness, Stage},
     math::{F, One, V},
     sampling::{Directions, Filter, Sampler},
-    scene::{Estimator, Lens, MaterialInstance, Object, Reuse, Roulette, Scene, Shutter, Truth, parse},
+    scene::{Estimator, Lens, MaterialInstance, Object, Projection, Reuse, Roulette, Scene, Shutter, Truth, parse},
     texture::ColourSource,
 };
 
@@ -33,7 +33,7 @@ fn instance(material: &str) -> MaterialInstance {
 fn cameras() {
     let plain = compiled("VIEW").camera;
     assert_eq!((plain.eye, plain.look_at, plain.up), (DVec3::new(0.0, 0.0, 4.0), DVec3::ZERO, DVec3::Y));
-    assert_eq!((plain.fov, plain.orthographic, plain.lens, plain.shutter), (40.0, None, None, None));
+    assert_eq!((plain.fov, plain.projection, plain.lens, plain.shutter), (40.0, Projection::Perspective, None, None));
     assert_eq!((plain.filter, plain.resolution), (Filter::Box, [8, 8]));
     let scene = compiled(
         "camera = { eye = [1, 2, 3], look_at = [4, 5, 6], up = [0, 0, 2], fov = 50, resolution = [7, 9], projection = 'perspective', \
@@ -52,7 +52,7 @@ fn cameras() {
     assert_eq!(scene.camera_motion.at(0.5).translation, DVec3::new(0.5, 1.0, 1.5));
     let flat =
         compiled("camera = { eye = [0, 0, 4], look_at = [0, 0, 0], projection.orthographic.width = 3, resolution = [8, 8] }");
-    assert_eq!((flat.camera.orthographic, flat.camera.width_at_look_at()), (Some(3.0), 3.0));
+    assert_eq!((flat.camera.projection, flat.camera.width_at_look_at()), (Projection::orthographic(3.0), 3.0));
     let filter = |text: &str| {
         let camera = "eye = [0, 0, 4], look_at = [0, 0, 0], fov = 40, resolution = [8, 8]";
         compiled(&format!("camera = {{ {camera}, lens = {{ radius = 0, focus = 1 }}, filter = {text} }}")).camera

@@ -2,27 +2,20 @@
 use glam::DVec3;
 
 use crate::{
-    declare::{Problem, short},
-    scene::{
-        Camera, CameraError, Shutter,
-        description::{CameraDescription, Projection},
-    },
+    declare::{OneOf, Problem, short},
+    scene::{Camera, CameraError, Projection, Shutter, description::CameraDescription},
 };
 
-/// What an orthographic camera has in place of an angle; it takes no part in anything.
+/// What a camera without an angle has in its place; it takes no part in anything.
 const NO_FOV: f64 = 40.0;
 
 pub fn camera(described: &CameraDescription) -> Result<Camera, Problem> {
-    let orthographic = match described.projection {
-        Projection::Orthographic(orthographic) => Some(orthographic.width),
-        Projection::Perspective => None,
-    };
     let camera = Camera {
         eye: described.eye,
         look_at: described.look_at,
         up: described.up.unwrap_or(DVec3::Y),
-        fov: fov(described.fov, orthographic)?,
-        orthographic,
+        fov: fov(described.fov, described.projection)?,
+        projection: described.projection,
         lens: described.lens,
         filter: described.filter,
         shutter: described.shutter.map(shutter).transpose()?,
@@ -40,13 +33,16 @@ pub fn camera(described: &CameraDescription) -> Result<Camera, Problem> {
     Ok(Camera { lens: camera.lens.filter(|lens| lens.radius > 0.0), ..camera })
 }
 
-/// The angle of view: of perspective cameras only.
-fn fov(fov: Option<f64>, orthographic: Option<f64>) -> Result<f64, Problem> {
-    match (fov, orthographic) {
-        (Some(fov), None) => Ok(fov),
-        (None, Some(_)) => Ok(NO_FOV),
-        (None, None) => Err(Problem::at("", "missing key `fov`", "`fov` must be given here")),
-        (Some(_), Some(_)) => Err(Problem::at("fov", "an orthographic camera has no `fov`", "remove it, or the projection")),
+/// The angle of view, of projections that have one.
+fn fov(fov: Option<f64>, projection: Projection) -> Result<f64, Problem> {
+    match (fov, projection.has_angle()) {
+        (Some(fov), true) => Ok(fov),
+        (None, false) => Ok(NO_FOV),
+        (None, true) => Err(Problem::at("", "missing key `fov`", "`fov` must be given here")),
+        (Some(_), false) => {
+            let message = format!("an {} camera has no `fov`", projection.name());
+            Err(Problem::at("fov", message, "remove it, or the projection"))
+        }
     }
 }
 

@@ -2,9 +2,9 @@
 use glam::DVec3;
 
 use crate::{
-    declare::{Declare, Form, OneOf, Parameter, Parameters, Range, Value},
+    declare::{Declare, Form, Parameter, Parameters, Range, Value},
     sampling::Filter,
-    scene::Lens,
+    scene::{Lens, Projection},
     shape::Transform,
 };
 
@@ -41,9 +41,9 @@ impl Default for CameraDescription {
             up: None,
             fov: Some(40.0),
             resolution: [640, 480],
-            projection: Projection::Perspective,
+            projection: Projection::default(),
             lens: None,
-            filter: Filter::Box,
+            filter: Filter::default(),
             shutter: None,
             motion: Vec::new(),
         }
@@ -71,7 +71,7 @@ impl Declare for CameraDescription {
             .required()
             .aliases("size width height")
             .advice("write resolution = [width, height]");
-        const PROJECTION: Parameter = Parameter::new("projection", "\"perspective\" (the default), or orthographic.");
+        const PROJECTION: Parameter = Parameter::new("projection", "How the scene is projected. Default: \"perspective\".");
         const LENS: Parameter = Parameter::new("lens", "A thin lens. Default: a pinhole.").aliases("aperture dof");
         const FILTER: Parameter =
             Parameter::new("filter", "How a pixel weighs the light around its centre: \"box\" where it is absent.")
@@ -105,53 +105,5 @@ impl Declare for Lens {
             Parameter::new("focus", "Distance of the plane in focus from the eye, along the axis.").unit("m").required();
         p.number(&RADIUS, &mut self.radius, Range::log(0.0, 1e9));
         p.number(&FOCUS, &mut self.focus, Range::log(1e-9, 1e12));
-    }
-}
-
-/// The projection of a camera.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum Projection {
-    /// All rays start at the eye.
-    #[default]
-    Perspective,
-    /// All rays are parallel.
-    Orthographic(Orthographic),
-}
-
-/// An orthographic projection.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Orthographic {
-    /// Width of the image in the scene, metres.
-    pub width: f64,
-}
-
-const ORTHOGRAPHIC: Parameter = Parameter::new("orthographic", "Parallel projection.").required();
-
-impl Declare for Orthographic {
-    fn parameters(&mut self, p: &mut dyn Parameters) {
-        const WIDTH: Parameter = Parameter::new("width", "Width of the image in the scene.").unit("m").required();
-        p.number(&WIDTH, &mut self.width, Range::log(1e-9, 1e9));
-    }
-}
-
-impl OneOf for Projection {
-    const WHAT: &'static str = "projection";
-
-    fn alternatives() -> Vec<Self> {
-        vec![Projection::Perspective, Projection::Orthographic(Orthographic { width: 4.0 })]
-    }
-
-    fn place(&self) -> usize {
-        usize::from(*self != Projection::Perspective)
-    }
-
-    fn name(&self) -> &'static str {
-        if *self == Projection::Perspective { "perspective" } else { ORTHOGRAPHIC.key }
-    }
-
-    fn chosen(&mut self, p: &mut dyn Parameters) {
-        if let Projection::Orthographic(orthographic) = self {
-            p.table(&ORTHOGRAPHIC, orthographic);
-        }
     }
 }

@@ -15,7 +15,7 @@ use std::collections::BTreeMap;
 pub use glam::DVec3;
 
 pub use self::{
-    camera::{CameraDescription, Orthographic, Projection},
+    camera::CameraDescription,
     light::{EmissionDescription, TruthDescription},
     material::{Bump, MaterialDescription},
     object::ObjectDescription,
@@ -27,7 +27,7 @@ pub use crate::{
     light::{background::BackgroundDescription, emission::EmissionSource},
     material::Material,
     sampling::Filter,
-    scene::{Lens, RenderSettings},
+    scene::{Lens, Projection, RenderSettings},
     shape::{ShapeKind, Transform},
     texture::TextureKind,
 };

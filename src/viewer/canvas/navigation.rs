@@ -43,8 +43,8 @@ pub fn pan(camera: &Camera, right: f64, up: f64) -> Camera {
 
 /// Multiplies the distance to the look-at point, or the width of the image for an orthographic camera.
 pub fn dolly(camera: &Camera, factor: f64) -> Camera {
-    match camera.orthographic {
-        Some(width) => Camera { orthographic: Some((width * factor).clamp(1e-9, 1e9)), ..*camera },
+    match camera.projection.widened(factor) {
+        Some(projection) => Camera { projection, ..*camera },
         None => Camera { eye: camera.look_at + (camera.eye - camera.look_at) * factor, ..*camera },
     }
 }

@@ -21,7 +21,7 @@ pub fn show(ui: &mut egui::Ui, camera: &mut Camera, scene: Option<&Scene>) -> bo
         });
         row(ui, "Up", "The direction that is up in the picture.", |ui, label| point(ui, label, &mut camera.up, 0.01));
         projection(ui, camera);
-        if camera.orthographic.is_none() {
+        if camera.projection.takes_lens() {
             lens(ui, camera, speed);
         }
         row(ui, "Pixel filter", "How a pixel weighs the light around its centre.", |ui, _| {
@@ -50,27 +50,21 @@ pub fn show(ui: &mut egui::Ui, camera: &mut Camera, scene: Option<&Scene>) -> bo
 }
 
 fn projection(ui: &mut egui::Ui, camera: &mut Camera) {
+    let before = *camera;
     row(ui, "Projection", "Rays through one point, or all parallel.", |ui, _| {
-        ui.horizontal(|ui| {
-            if ui.selectable_label(camera.orthographic.is_none(), "Perspective").clicked() {
-                camera.orthographic = None;
-            }
-            if ui.selectable_label(camera.orthographic.is_some(), "Orthographic").clicked() && camera.orthographic.is_none() {
-                *camera = Camera { orthographic: Some(camera.width_at_look_at()), lens: None, ..*camera };
-            }
-        });
+        ui.horizontal(|ui| kinds(ui, &mut camera.projection));
     });
-    match &mut camera.orthographic {
-        None => row(ui, "Field of view", "The full angle across the picture's width.", |ui, label| {
+    if camera.projection != before.projection {
+        camera.projection = camera.projection.with_width(before.width_at_look_at());
+        camera.lens = camera.lens.filter(|_| camera.projection.takes_lens());
+    }
+    if camera.projection.has_angle() {
+        row(ui, "Field of view", "The full angle across the picture's width.", |ui, label| {
             let slider = number::slider(ui, &mut camera.fov, 2, 1.0..=170.0).suffix("°");
             ui.add(slider).labelled_by(label);
-        }),
-        Some(width) => row(ui, "Width", "What the picture shows from left to right, in metres.", |ui, label| {
-            let speed = 0.005 * *width;
-            let field = number::field(ui, width, 3, 1e-9..=1e9).speed(speed).suffix(" m");
-            ui.add(field).labelled_by(label);
-        }),
+        });
     }
+    number_rows(ui, &mut camera.projection);
 }
 
 fn lens(ui: &mut egui::Ui, camera: &mut Camera, speed: f64) {

@@ -92,9 +92,9 @@ fn every_number_of_the_camera_is_its_own() {
     assert_eq!(window.state().session.camera.lens, Some(Lens { radius: 0.25, focus: distance }));
     let width = expected.width_at_look_at();
     click(&mut window, "Orthographic");
-    assert_eq!(window.state().session.camera, Camera { orthographic: Some(width), ..expected });
+    assert_eq!(window.state().session.camera, Camera { projection: Projection::orthographic(width), ..expected });
     set(&mut window, "Width", 0, 3.5);
-    assert_eq!(window.state().session.camera.orthographic, Some(3.5));
+    assert_eq!(window.state().session.camera.projection, Projection::orthographic(3.5));
     click(&mut window, "Perspective");
     window.state_mut().session.camera.resolution = start.resolution;
     assert_eq!(window.state().session.camera, Camera { resolution: start.resolution, ..expected });

@@ -22,7 +22,7 @@ fn the_camera_moves_by_numbers_by_mouse_and_by_keys() {
     });
     assert_eq!(window.state().session.camera.lens, Some(Lens { radius: 0.05, focus: 2.0 }));
     restarts(&mut window, "parallel rays", |w| click(w, "Orthographic"));
-    assert!(window.state().session.camera.orthographic.is_some() && window.state().session.camera.lens.is_none());
+    assert!(window.state().session.camera.projection != Projection::Perspective && window.state().session.camera.lens.is_none());
     restarts(&mut window, "perspective", |w| click(w, "Perspective"));
     window.get_by_role_and_label(Role::Button, "Camera").click();
     window.run_steps(3);

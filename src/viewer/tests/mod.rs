@@ -40,7 +40,7 @@ use noisefall::{
     math::SimdLevel,
     render::{State, Target, ToneMap, image_file, threads::Threads},
     sampling::{Directions, Filter, Sampler},
-    scene::{Estimator, Lens, Reuse, Roulette},
+    scene::{Estimator, Lens, Projection, Reuse, Roulette},
 };
 
 use self::driving::*;

@@ -101,10 +101,13 @@ fn the_wheel_and_a_drag_belong_to_the_tool() {
     let distance = |camera: &Camera| camera.eye.distance(camera.look_at);
     let farther = window.state().session.camera;
     assert!(distance(&farther) > 1.1 * distance(&start) && farther.look_at == start.look_at);
-    window.state_mut().session.camera.orthographic = Some(2.0);
+    window.state_mut().session.camera.projection = Projection::orthographic(2.0);
     wheel(&mut window, MIDDLE, 40.0, Modifiers::NONE);
     let nearer = window.state().session.camera;
-    assert!(nearer.eye == farther.eye && nearer.orthographic.is_some_and(|width| width < 1.9), "parallel rays: {nearer:?}");
+    assert!(
+        nearer.eye == farther.eye && nearer.width_at_look_at() < 1.9 && !nearer.projection.has_angle(),
+        "parallel rays: {nearer:?}"
+    );
 }
 
 #[test]

@@ -29,6 +29,9 @@ pub fn number_rows<T: OneOf>(ui: &mut Ui, chosen: &mut T) {
     chosen.chosen(&mut NumberRows(ui));
 }
 
+/// Sliders do not run over more than this from end to end.
+const WIDEST: f64 = 1e6;
+
 struct NumberRows<'u>(&'u mut Ui);
 
 impl Parameters for NumberRows<'_> {
@@ -36,9 +39,15 @@ impl Parameters for NumberRows<'_> {
         let Value::Number(number, range) = value else { return };
         if parameter.is_required {
             row(self.0, &parameter.label(), parameter.doc, |ui, label| {
-                let slider = number::slider(ui, number, 3, range.least..=range.most);
                 let suffix = if parameter.unit.is_empty() { String::new() } else { format!(" {}", parameter.unit) };
-                ui.add(slider.logarithmic(range.scale == Scale::Log).suffix(suffix)).labelled_by(label);
+                let ends = range.least..=range.most;
+                if range.most > WIDEST * range.least {
+                    let speed = 0.005 * *number;
+                    ui.add(number::field(ui, number, 3, ends).speed(speed).suffix(suffix)).labelled_by(label);
+                } else {
+                    let slider = number::slider(ui, number, 3, ends).logarithmic(range.scale == Scale::Log);
+                    ui.add(slider.suffix(suffix)).labelled_by(label);
+                }
             });
         }
     }

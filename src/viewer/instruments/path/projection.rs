@@ -9,13 +9,7 @@ pub fn project(camera: &Camera, p: DVec3) -> Option<[f32; 2]> {
     let [width, height] = camera.resolution.map(f64::from);
     let way = p - camera.eye;
     let depth = way.dot(forward);
-    let (half, scale) = match camera.orthographic {
-        Some(width) => (width / 2.0, 1.0),
-        None => ((camera.fov.to_radians() / 2.0).tan(), 1.0 / depth),
-    };
-    if camera.orthographic.is_none() && depth <= 1e-9 {
-        return None;
-    }
+    let (half, scale) = (camera.projection.half_width(camera.fov), camera.projection.scale(depth)?);
     let (x, y) = (way.dot(right) * scale / half, way.dot(up) * scale / half);
     Some([(width * (1.0 + x) / 2.0) as f32, ((height - width * y) / 2.0) as f32])
 }
@@ -39,7 +33,7 @@ pub fn clip(rect: Rect, [from, to]: [Pos2; 2]) -> Option<[Pos2; 2]> {
 mod tests {
     use noisefall::{
         math::{F, One},
-        scene::built_in,
+        scene::{Projection, built_in},
     };
 
     use super::*;
@@ -55,26 +49,26 @@ mod tests {
         assert_eq!(clip([f32::NAN, 5.0], [5.0, 5.0]), None);
     }
 
-    fn camera(orthographic: Option<f64>) -> Camera {
+    fn camera(projection: Projection) -> Camera {
         let (eye, look_at) = (DVec3::new(1.0, 2.0, 3.0), DVec3::ZERO);
-        Camera { eye, look_at, fov: 40.0, orthographic, resolution: [300, 200], ..built_in().camera }
+        Camera { eye, look_at, fov: 40.0, projection, resolution: [300, 200], ..built_in().camera }
     }
 
     #[test]
     fn what_a_ray_of_the_camera_meets_lies_where_it_went_through() {
-        for orthographic in [None, Some(3.0)] {
-            let camera = camera(orthographic);
+        for projection in [Projection::Perspective, Projection::orthographic(3.0)] {
+            let camera = camera(projection);
             let (o, d) = built_in().rays(&camera).through(One, F(30.0), F(170.0));
             let met = o + d * 5.0;
             let met = DVec3::new(met.x.0.into(), met.y.0.into(), met.z.0.into());
             let [x, y] = project(&camera, met).expect("it is in front");
-            assert!((x - 30.0).abs() < 1e-2 && (y - 170.0).abs() < 1e-2, "{orthographic:?}: {x} {y}");
+            assert!((x - 30.0).abs() < 1e-2 && (y - 170.0).abs() < 1e-2, "{projection:?}: {x} {y}");
         }
     }
 
     #[test]
     fn what_is_looked_at_lies_in_the_middle_and_edges_at_the_edge() {
-        let camera = camera(None);
+        let camera = camera(Projection::Perspective);
         let [x, y] = project(&camera, DVec3::ZERO).expect("it is in front");
         assert!((x - 150.0).abs() < 1e-3 && (y - 100.0).abs() < 1e-3);
         let [right, _, forward] = camera.axes();

@@ -1,0 +1,99 @@
+//! How the scene is projected to the image.
+//!
+//! A projection is one file and one line of the catalogue below.
+pub mod orthographic;
+pub mod perspective;
+
+use glam::DVec3;
+use serde::{Deserialize, Deserializer};
+
+use crate::{
+    declare::Kind,
+    math::{Lanes, V},
+};
+
+crate::choices! {
+    /// How the scene is projected to the image.
+    pub enum Projection, "projection", default perspective::Perspective {
+        perspective::Perspective,
+        orthographic::Orthographic(Orthographic),
+    }
+    in_projection
+}
+
+impl Projection {
+    /// Whether the camera's angle of view counts.
+    pub fn has_angle(self) -> bool {
+        in_projection!(self, projection => projection.has_angle())
+    }
+
+    /// Whether the rays of a pixel can start on a lens.
+    pub fn takes_lens(self) -> bool {
+        in_projection!(self, projection => projection.takes_lens())
+    }
+
+    /// Half of the width of the picture: at distance 1 from the eye, or in metres where rays are parallel. `angle` is the full angle of
+    /// view, degrees.
+    pub fn half_width(self, angle: f64) -> f64 {
+        in_projection!(self, projection => projection.half_width(angle))
+    }
+
+    /// The middle of the picture, from the eye.
+    pub fn middle(self, forward: DVec3) -> DVec3 {
+        in_projection!(self, projection => projection.middle(forward))
+    }
+
+    /// The factor from metres across the axis at a depth in metres to half widths; `None` where the point is not in front of the camera.
+    pub fn scale(self, depth: f64) -> Option<f64> {
+        in_projection!(self, projection => projection.scale(depth))
+    }
+
+    /// The width of what the picture shows at a distance, metres. `angle` is the full angle of view, degrees.
+    pub fn width_at(self, distance: f64, angle: f64) -> f64 {
+        in_projection!(self, projection => projection.width_at(distance, angle))
+    }
+
+    /// A kind that shows the given width, metres, where that is up to the projection.
+    #[must_use]
+    pub fn with_width(self, width: f64) -> Projection {
+        in_projection!(self, projection => projection.with_width(width).into())
+    }
+
+    /// The projection with its picture wider by a factor; `None` if the eye has to move for that.
+    pub fn widened(self, factor: f64) -> Option<Projection> {
+        in_projection!(self, projection => projection.widened(factor).map(Into::into))
+    }
+
+    /// Origin and unit direction of the rays through points of the picture, relative to the eye.
+    #[inline(always)]
+    pub(super) fn rays<L: Lanes>(self, l: L, place: V<L>, eye: [f32; 3], forward: [f32; 3]) -> (V<L>, V<L>) {
+        in_projection!(self, projection => projection.rays(l, place, eye, forward))
+    }
+
+    /// Reads a projection. Pictures of earlier versions have the width of an orthographic one in its place, or nothing.
+    pub(super) fn carried<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Projection, D::Error> {
+        #[derive(Deserialize)]
+        #[serde(untagged)]
+        enum Carried {
+            Now(Projection),
+            Width(Option<f64>),
+        }
+        Ok(match Carried::deserialize(deserializer)? {
+            Carried::Now(projection) => projection,
+            Carried::Width(width) => width.map_or_else(Projection::default, Projection::orthographic),
+        })
+    }
+}
+
+/// A kind of projection; see the functions of [`Projection`] of the same names.
+trait Projecting: Kind {
+    fn has_angle(self) -> bool;
+    fn takes_lens(self) -> bool;
+    fn half_width(self, angle: f64) -> f64;
+    fn middle(self, forward: DVec3) -> DVec3;
+    fn scale(self, depth: f64) -> Option<f64>;
+    fn width_at(self, distance: f64, angle: f64) -> f64;
+    fn with_width(self, width: f64) -> Self;
+    fn widened(self, factor: f64) -> Option<Self>;
+    fn rays<L: Lanes>(self, l: L, place: V<L>, eye: [f32; 3], forward: [f32; 3]) -> (V<L>, V<L>);
+}
