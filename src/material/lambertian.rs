@@ -51,6 +51,7 @@ pub struct Plain;
 impl Shade for Plain {
     type Bsdf<'a, L: Lanes> = LambertianBsdf<L>;
     const STAGE: Stage = Stage::Plain;
+    const DIFFUSE: bool = true;
     const DETAILED: bool = false;
     const LOBES: bool = false;
 
@@ -66,6 +67,7 @@ pub struct Diffuse;
 impl Shade for Diffuse {
     type Bsdf<'a, L: Lanes> = LambertianBsdf<L>;
     const STAGE: Stage = Stage::Diffuse;
+    const DIFFUSE: bool = true;
     const LOBES: bool = false;
 
     #[inline(always)]

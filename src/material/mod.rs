@@ -106,7 +106,7 @@ impl Stage {
 
     /// Whether it is ideally diffuse.
     pub fn is_diffuse(self) -> bool {
-        matches!(self, Stage::Plain | Stage::Diffuse)
+        in_stage!(self, K => K::DIFFUSE)
     }
 
     /// Whether lights are better chosen by what the lobe reflects of them.

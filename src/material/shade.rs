@@ -15,6 +15,8 @@ pub trait Shade {
     const DETAILED: bool = true;
     /// Whether it has lobes that are not delta, so light samples can contribute.
     const SEES_LIGHTS: bool = true;
+    /// Whether it reflects the same radiance in all directions.
+    const DIFFUSE: bool = false;
     /// Whether it has several lobes to choose from.
     const LOBES: bool = true;
     /// Whether light passes through the surface.

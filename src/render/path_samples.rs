@@ -36,7 +36,7 @@ impl SampleTable {
 
 /// A note on the variance with a sampler.
 pub fn remark(sampler: Sampler) -> Option<&'static str> {
-    (sampler != Sampler::Independent)
+    (!sampler.is_independent())
         .then_some("these samples are not independent: their mean is better known than the variance over their number says")
 }
 

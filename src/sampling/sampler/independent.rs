@@ -17,6 +17,7 @@ impl Points for Independent {
         title: "Independent",
         doc: "Independent random numbers: plain Monte Carlo. The error falls as 1/√N.",
     };
+    const INDEPENDENT: bool = true;
 
     #[inline(always)]
     fn one<L: Lanes>(keys: &SampleKeys<L>, Dimension(dimension): Dimension) -> F<L> {

@@ -29,6 +29,13 @@ crate::word_kinds! {
     in_sampler
 }
 
+impl Sampler {
+    /// Whether the samples of a pixel are independent of each other, so that their variance says how well their mean is known.
+    pub fn is_independent(self) -> bool {
+        in_sampler!(self, S => S::INDEPENDENT)
+    }
+}
+
 /// The coordinates of a sample for several pixels, one pixel per lane.
 #[derive(Clone, Copy)]
 pub struct Stream<L: Lanes> {

@@ -13,6 +13,9 @@ use crate::{
 pub(super) trait Points {
     const WORD: Word;
 
+    /// Whether the samples of a pixel are independent of each other.
+    const INDEPENDENT: bool = false;
+
     /// One coordinate, in (0, 1).
     fn one<L: Lanes>(keys: &SampleKeys<L>, dimension: Dimension) -> F<L>;
 

@@ -97,3 +97,23 @@ trait Projecting: Kind {
     fn widened(self, factor: f64) -> Option<Self>;
     fn rays<L: Lanes>(self, l: L, place: V<L>, eye: [f32; 3], forward: [f32; 3]) -> (V<L>, V<L>);
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Camera, built_in};
+
+    #[test]
+    fn cameras_of_earlier_versions_have_a_width_or_nothing() {
+        let read = |camera: &serde_json::Value| serde_json::from_value::<Camera>(camera.clone()).expect("a camera");
+        for projection in [Projection::Perspective, Projection::orthographic(3.0)] {
+            let camera = Camera { projection, ..built_in().camera };
+            let mut json = serde_json::json!(camera);
+            assert_eq!(read(&json), camera);
+            let fields = json.as_object_mut().expect("its fields");
+            fields.remove("projection");
+            fields.insert("orthographic".to_owned(), if projection.has_angle() { serde_json::Value::Null } else { 3.0.into() });
+            assert_eq!(read(&json), camera);
+        }
+    }
+}

@@ -153,7 +153,7 @@ fn convergence(integrand: &Integrand, sampler: Sampler, name: &str, errors: &Err
     let means: Vec<f64> =
         errors.repeats.iter().map(|repeat| integrand.exact + repeat.last().map_or(f64::NAN, |[error, _]| *error)).collect();
     let slopes = errors.slopes();
-    let slope = if sampler == Sampler::Independent {
+    let slope = if sampler.is_independent() {
         Statement::repeated(what("slope of log error over log N"), &slopes, -0.5)
     } else {
         Statement::repeated_below(what("slope of log error over log N"), &slopes, -0.5)
