@@ -8,6 +8,7 @@
 //! The window states what it wants and never waits; see [`worker`].
 mod adaptive;
 mod block;
+mod coarse;
 pub mod colour_map;
 pub mod display;
 mod error_estimator;

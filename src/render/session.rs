@@ -2,6 +2,7 @@
 use std::time::{Duration, Instant};
 
 use super::{
+    coarse::Coarse,
     error_estimator::rel_mse_estimate_in,
     film::Film,
     frame::Frame,
@@ -13,13 +14,11 @@ use super::{
 };
 use crate::{
     memory::{Reservation, TooMuch},
-    scene::{Camera, RenderSettings, Reuse},
+    scene::{RenderSettings, Reuse},
 };
 
 /// Camera samples per second before the first measurement: those of a slow machine with a simple scene.
 const UNKNOWN_RATE: f64 = 1e6;
-/// Time limit of the first, coarse image: less than the time between two moves of a dragged camera.
-const FIRST_PICTURE: Duration = Duration::from_millis(10);
 /// Interval between two frames: from 30 per second to 2, because an old image changes less.
 const SHORTEST_INTERVAL: Duration = Duration::from_millis(33);
 const LONGEST_INTERVAL: Duration = Duration::from_millis(500);
@@ -50,26 +49,6 @@ pub(super) struct Session {
     stale: bool,
     /// Memory of the image, and of the series.
     memory: [Option<Reservation>; 2],
-}
-
-/// One sample of every `scale`-th pixel.
-struct Coarse {
-    scale: u32,
-    camera: Camera,
-    film: Film,
-}
-
-impl Coarse {
-    fn new(full: &Camera, scale: u32) -> Option<Coarse> {
-        let resolution = full.resolution.map(|side| side.div_ceil(scale));
-        (scale > 1).then(|| Coarse { scale, camera: Camera { resolution, ..*full }, film: Film::new(resolution) })
-    }
-
-    /// The scale at which the first image meets its time limit.
-    fn first_scale(camera: &Camera, rate: f64) -> u32 {
-        let pixels = camera.resolution.map(f64::from).iter().product::<f64>();
-        (pixels / (rate * FIRST_PICTURE.as_secs_f64())).sqrt().ceil() as u32
-    }
 }
 
 impl Session {

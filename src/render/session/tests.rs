@@ -5,7 +5,7 @@ use super::*;
 use crate::{
     math::SimdLevel,
     render::Target,
-    scene::{Scene, built_in, parse},
+    scene::{Camera, Scene, built_in, parse},
 };
 
 const NEVER: &(dyn Fn() -> bool + Sync) = &|| false;
