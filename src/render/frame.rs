@@ -32,6 +32,8 @@ pub struct Frame {
     pub spp: u32,
     /// Samples of every pixel, row by row; empty if all have `spp`.
     pub counts: Vec<u32>,
+    /// Whether its pixels share paths.
+    pub shares: bool,
     /// Time spent rendering it.
     pub elapsed: Duration,
     /// The series by number of bounces, if requested.
@@ -74,6 +76,7 @@ impl Frame {
             standard_error,
             spp: film.spp(),
             counts: counts(film),
+            shares: film.shares,
             elapsed: Duration::ZERO,
             series: Series::of_film(film),
             rel_mse_estimate,

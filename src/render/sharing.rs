@@ -9,7 +9,7 @@ use crate::{
     math::SimdLevel,
     measure::{Floor, relative},
     sampling::Sampler,
-    scene::{CameraRays, Estimator, RenderSettings, Reuse, Scene},
+    scene::{CameraRays, RenderSettings, Reuse, Scene},
 };
 
 /// Positions of the tiles in the image.
@@ -23,14 +23,14 @@ const COST_WITH_TREES: f64 = 1.4;
 /// A seed that no image is likely to have.
 const SEED: u32 = 0x7f4a_7c15;
 
-/// The same settings, with [`Reuse::Auto`] resolved. If sharing is possible, the decision depends only on scene and estimator,
-/// and is made once.
+/// The same settings, with [`Reuse::Auto`] resolved. Where sharing is possible, the decision depends on the scene alone and is made
+/// once, with the scene's own estimator: a change of sampler, estimator or cap never turns sharing on or off.
 pub fn resolved(scene: &Scene, rays: &CameraRays, settings: &RenderSettings) -> RenderSettings {
     let pays = || {
-        let known = &scene.sharing_pays[settings.estimator as usize];
+        let known = &scene.sharing_pays;
         known.get().copied().unwrap_or_else(|| {
             // A scene that fails will fail again in the pass, which says where.
-            let pays = catch_unwind(AssertUnwindSafe(|| pays(scene, settings.estimator))).unwrap_or(false);
+            let pays = catch_unwind(AssertUnwindSafe(|| pays(scene))).unwrap_or(false);
             *known.get_or_init(|| pays)
         })
     };
@@ -42,8 +42,14 @@ pub fn resolved(scene: &Scene, rays: &CameraRays, settings: &RenderSettings) -> 
     RenderSettings { reuse, ..*settings }
 }
 
-fn pays(scene: &Scene, estimator: Estimator) -> bool {
-    let settings = RenderSettings { estimator, sampler: Sampler::Independent, seed: SEED, ..Default::default() };
+/// What legends and tables call an image by whether its pixels share paths.
+pub fn sharing_name(shares: bool) -> &'static str {
+    if shares { "shared paths" } else { "no sharing" }
+}
+
+fn pays(scene: &Scene) -> bool {
+    let settings =
+        RenderSettings { estimator: scene.settings.estimator, sampler: Sampler::Independent, seed: SEED, ..Default::default() };
     let rays = scene.rays(&scene.camera);
     let [width, height] = scene.camera.resolution;
     let tile = |[x, y]: &[f64; 2]| {

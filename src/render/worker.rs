@@ -2,8 +2,8 @@
 //!
 //! Others state what they *want* ([`RenderRequest`], [`Budget`]); the worker takes the latest request and drops earlier ones. A message
 //! stops the pass between two bounces of a batch, which take some ten microseconds in a simple scene and longer where rays
-//! descend trees. The interrupted batch is discarded and traced again. The trial that decides about path reuse, once per scene
-//! and estimator, and the reuse stage of a batch cannot be interrupted. A new request starts an empty film; a new budget continues
+//! descend trees. The interrupted batch is discarded and traced again. The trial that decides about path reuse, once per scene,
+//! and the reuse stage of a batch cannot be interrupted. A new request starts an empty film; a new budget continues
 //! the current film.
 //!
 //! A second image can be rendered beside the first. From then on both get the same time: the one that had less is next.

@@ -100,8 +100,8 @@ pub struct Scene {
     pub camera_motion: Motion,
     /// The settings that the scene opens with.
     pub settings: RenderSettings,
-    /// By estimator: whether sharing paths between pixels pays, once it has been tried.
-    pub sharing_pays: [OnceLock<bool>; Estimator::ALL.len()],
+    /// Whether sharing paths between pixels pays, once it has been tried.
+    pub sharing_pays: OnceLock<bool>,
     /// Samples per pixel to stop at.
     pub spp: Option<u32>,
     /// What the image converges to, if that is known.

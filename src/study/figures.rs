@@ -2,7 +2,7 @@
 use super::{
     outcome::{Outcome, Point, ROUNDING},
     ranking::Findings,
-    setting::{Setting, label},
+    setting::Setting,
 };
 use crate::report::plot::{Axis, BESIDE, Curve, Plot, Style, curve};
 
@@ -23,7 +23,7 @@ pub fn overview(findings: &Findings) -> Option<Pair> {
     let own = findings.find(&findings.of_scene);
     let mut shown: Vec<(String, &Outcome)> = Vec::new();
     for outcome in sound.iter().take(FIRST_PLACES).copied().chain(own).chain(sound.last().copied()) {
-        let name = label(&outcome.settings);
+        let name = outcome.label();
         if shown.iter().all(|(known, _)| *known != name) {
             shown.push((name, outcome));
         }
@@ -50,7 +50,7 @@ pub fn by_setting(findings: &Findings, setting: Setting) -> Option<Pair> {
             None => shown.push((gain.value, outcome)),
         }
     }
-    let caption = format!("All other settings as in the best combination: {}.", label(&best.settings));
+    let caption = format!("All other settings as in the best combination: {}.", best.label());
     if shown.len() > 1 { pair(capitalised(setting.name()), caption, &shown) } else { None }
 }
 

@@ -2,11 +2,13 @@
 use super::{
     fit::{Slope, slope},
     measure::{Checkpoint, Run},
+    setting::label,
     trial::Group,
 };
 use crate::{
     measure::{LEAST_EFFECTIVE_SAMPLES, Moments},
-    scene::RenderSettings,
+    render::sharing::sharing_name,
+    scene::{RenderSettings, Reuse},
 };
 
 /// A relMSE below this is rounding in single precision, not noise.
@@ -116,6 +118,12 @@ impl Outcome {
             curve,
             invalid_samples: runs.iter().map(|run| run.invalid_samples).sum(),
         }
+    }
+
+    /// All settings in one line. Names what became of sharing where the program decided about it.
+    pub fn label(&self) -> String {
+        let label = label(&self.settings);
+        if self.settings.reuse == Reuse::Auto { format!("{label}, {}", sharing_name(self.shares)) } else { label }
     }
 
     /// The last point of the curve.

@@ -222,3 +222,21 @@ fn paths_are_shared_where_that_pays() {
     let said = |reuse| resolved(&scene, &scene.rays(&scene.camera), &RenderSettings { reuse, ..scene.settings }).reuse;
     assert_eq!([Reuse::On, Reuse::Off].map(said), [Reuse::On, Reuse::Off]);
 }
+
+/// Curves of two settings compare these settings, and not sharing with none.
+#[test]
+fn sharing_is_decided_once_for_a_scene() {
+    for (name, decision) in [("cornell_box", Reuse::On), ("veach_plates", Reuse::Off)] {
+        let scene = shipped(name);
+        let rays = scene.rays(&scene.camera);
+        for estimator in Estimator::ALL {
+            for sampler in Sampler::ALL {
+                for max_bounces in [None, Some(2), Some(9)] {
+                    let settings =
+                        RenderSettings { estimator, sampler, max_bounces, reuse: Reuse::Auto, ..RenderSettings::default() };
+                    assert_eq!(resolved(&scene, &rays, &settings).reuse, decision, "{name}: {settings:?}");
+                }
+            }
+        }
+    }
+}

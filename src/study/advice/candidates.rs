@@ -2,7 +2,7 @@
 use super::Advice;
 use crate::{
     sampling::Sampler,
-    scene::{Estimator, RenderSettings, Roulette},
+    scene::{Estimator, RenderSettings, Reuse, Roulette},
     study::setting::Setting,
 };
 
@@ -13,11 +13,12 @@ const ROULETTES: [Roulette; 4] =
 /// The settings in use and each sampler.
 pub const MOST_OF_SECOND_STAGE: usize = 1 + Sampler::ALL.len();
 
-/// The settings in use, then those with another roulette or another estimator.
-pub fn first_stage(in_use: &RenderSettings) -> Vec<RenderSettings> {
+/// The settings in use, then those with another roulette, another estimator or `other_reuse`.
+pub fn first_stage(in_use: &RenderSettings, other_reuse: Option<Reuse>) -> Vec<RenderSettings> {
     let roulettes = ROULETTES.map(|roulette| RenderSettings { roulette, ..*in_use });
     let estimators = Estimator::ALL.map(|estimator| RenderSettings { estimator, ..*in_use });
-    each_once(in_use, roulettes.into_iter().chain(estimators))
+    let reuse = other_reuse.map(|reuse| RenderSettings { reuse, ..*in_use });
+    each_once(in_use, roulettes.into_iter().chain(estimators).chain(reuse))
 }
 
 /// The settings in use, then `base` with each sampler.
@@ -35,10 +36,10 @@ fn each_once(first: &RenderSettings, others: impl IntoIterator<Item = RenderSett
     all
 }
 
-/// The settings in use with the best roulette and estimator of the first stage. They change only what is clearly better.
+/// The settings in use with the best roulette, estimator and sharing of the first stage. They change only what is clearly better.
 pub fn adopted(advice: &Advice) -> RenderSettings {
     let in_use = advice.candidates[advice.current].settings;
-    [Setting::Roulette, Setting::Estimator].into_iter().fold(in_use, |base, setting| {
+    [Setting::Roulette, Setting::Estimator, Setting::Reuse].into_iter().fold(in_use, |base, setting| {
         let differs_in_it_alone = |settings: &RenderSettings| setting.with(&in_use, settings) == *settings;
         let mut better = advice.candidates.iter().filter(|candidate| candidate.is_clearly_better());
         let best = better.find(|candidate| differs_in_it_alone(&candidate.settings));

@@ -1,12 +1,12 @@
-//! Advice: a short study of one scene that recommends the most efficient sampler, roulette and estimator.
+//! Advice: a short study of one scene that recommends the most efficient sampler, roulette, estimator and sharing.
 //!
 //! ```text
-//! settings in use ─▶ first stage: each roulette, each estimator ─▶ second stage: with the best of these, each sampler ─▶ Advice
+//! settings in use ─▶ first stage: each roulette, estimator, sharing ─▶ second stage: with the best of these, each sampler ─▶ Advice
 //! Rounds: an image of each ─▶ Measured: noise and time ─▶ rank
 //! ```
 //! No reference is needed: images of the same settings with different seeds differ by their noise alone. This holds for every
 //! sampler, because each seed scrambles its points differently. All candidates converge to the same image, because directions,
-//! cap and reuse stay as they are.
+//! and cap stay as they are.
 mod candidate;
 mod candidates;
 mod measured;
@@ -27,8 +27,8 @@ use self::{
 };
 use super::{StudyError, measure::Bench, plan::study_size};
 use crate::{
-    render::threads::Threads,
-    scene::{Camera, RenderSettings, Scene},
+    render::{sharing::resolved, threads::Threads},
+    scene::{Camera, RenderSettings, Reuse, Scene},
 };
 
 /// Rounds of a stage. Fewer would give a poor estimate of the spread, so if time is short the images are made smaller instead.
@@ -47,8 +47,8 @@ pub fn advise(
     progress: &mut dyn FnMut(usize, usize),
     stop: &(dyn Fn() -> bool + Sync),
 ) -> Result<Advice, StudyError> {
-    let first = first_stage(settings);
     let camera = Camera { resolution: study_size(camera.resolution), ..*camera };
+    let first = first_stage(settings, threads.install(|| other_reuse(scene, &camera, settings)));
     let bench = Bench { scene, camera: &camera, threads, stop };
     let in_a_round = first.len() + MOST_OF_SECOND_STAGE;
     let seconds = sample_of_each(bench, &first)? * f64::from(SPP) * in_a_round as f64 / first.len() as f64;
@@ -69,6 +69,13 @@ pub fn advise(
     // Candidates of both stages are measured once.
     progress(total, total);
     Ok(advice)
+}
+
+/// Sharing where the settings do not share paths, and none where they do; `None` where sharing is impossible.
+fn other_reuse(scene: &Scene, camera: &Camera, settings: &RenderSettings) -> Option<Reuse> {
+    let rays = scene.rays(camera);
+    let shares = scene.shares(&rays, &resolved(scene, &rays, settings));
+    scene.can_share(&rays, settings).then_some(if shares { Reuse::Off } else { Reuse::On })
 }
 
 /// The time in seconds of one sample per pixel of every candidate. A warm-up sample before that does not count: it allocates

@@ -23,7 +23,7 @@ const IN_USE: RenderSettings = RenderSettings {
     directions: crate::sampling::Directions::Bsdf,
     roulette: Roulette::fixed(0.3),
     max_bounces: None,
-    reuse: crate::scene::Reuse::Off,
+    reuse: Reuse::Off,
     adaptive: false,
     seed: 7,
     fault: None,
@@ -160,9 +160,9 @@ fn without_noise_nothing_is_better() {
 
 #[test]
 fn the_second_stage_adopts_the_best_of_the_first() {
-    let first = first_stage(&IN_USE);
+    let first = first_stage(&IN_USE, None);
     assert_eq!(first.len(), 1 + 4 + 2);
-    assert_eq!(first_stage(&ADVISED).len(), 1 + 3 + 2);
+    assert_eq!(first_stage(&ADVISED, None).len(), 1 + 3 + 2);
     let seconds = |settings: &RenderSettings| match (settings.roulette, settings.estimator) {
         (roulette, _) if roulette == Roulette::by_throughput_from(2) => 0.2,
         (Roulette::Throughput(_), _) => 0.4,
@@ -175,6 +175,29 @@ fn the_second_stage_adopts_the_best_of_the_first() {
     let second = second_stage(&IN_USE, &base);
     assert_eq!((second.len(), second[0]), (MOST_OF_SECOND_STAGE, IN_USE));
     assert_eq!(second_stage(&IN_USE, &IN_USE).len(), MOST_OF_SECOND_STAGE - 1);
+}
+
+#[test]
+fn sharing_is_tried_and_taken_over_where_it_stands_out() {
+    let first = first_stage(&IN_USE, Some(Reuse::On));
+    let shared = RenderSettings { reuse: Reuse::On, ..IN_USE };
+    assert_eq!((first.len(), first.last()), (1 + 4 + 2 + 1, Some(&shared)));
+    let seconds = |settings: &RenderSettings| if *settings == shared { 0.2 } else { 1.0 };
+    let trials: Vec<Measured> = first.iter().map(|settings| known(*settings, 0.01, &[seconds(settings); 4])).collect();
+    let advice = rank(&trials, SPP);
+    assert_eq!((adopted(&advice), advice.best().name.as_str()), (shared, "shared paths"));
+}
+
+/// The other of sharing and no sharing, whatever the word for it: what runs already is not tried twice.
+#[test]
+fn the_other_sharing_is_the_one_that_is_not_in_use() {
+    let (scene, glass) = (scene(), parse("scene.toml", include_str!("../../../scenes/tinted_glass.toml").to_owned()));
+    let other = |scene: &Scene, reuse| other_reuse(scene, &scene.camera, &RenderSettings { reuse, ..IN_USE });
+    assert_eq!(
+        [Reuse::Auto, Reuse::On, Reuse::Off].map(|reuse| other(&scene, reuse)),
+        [Reuse::Off, Reuse::Off, Reuse::On].map(Some)
+    );
+    assert_eq!(other(&glass.expect("it is a scene"), Reuse::Auto), None);
 }
 
 fn scene() -> Scene {

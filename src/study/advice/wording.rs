@@ -1,6 +1,10 @@
 //! Advice in words.
 use super::{Advice, Candidate};
-use crate::{scene::RenderSettings, study::setting::Setting};
+use crate::{
+    render::sharing::sharing_name,
+    scene::{RenderSettings, Reuse},
+    study::setting::Setting,
+};
 
 /// The settings that differ from those in use.
 pub fn differing(settings: &RenderSettings, in_use: &RenderSettings) -> Vec<Setting> {
@@ -13,6 +17,7 @@ pub fn difference(settings: &RenderSettings, in_use: &RenderSettings) -> String 
         Setting::Estimator => format!("estimator {}", settings.estimator.name()),
         Setting::Sampler => settings.sampler.word().title.to_owned(),
         Setting::Roulette => settings.roulette.words(),
+        Setting::Reuse if settings.reuse != Reuse::Auto => sharing_name(settings.reuse == Reuse::On).to_owned(),
         Setting::Directions | Setting::Cap | Setting::Reuse | Setting::Adaptive => {
             format!("{} {}", setting.name(), setting.value(settings))
         }

@@ -72,7 +72,9 @@ fn the_overview_has_the_best_three_the_own_and_the_last() {
     let found = findings(outcomes, settings(Estimator::Light, Sampler::Sobol));
     let pair = overview(&found).expect("curves");
     for svg in &pair.plots.each_ref().map(Plot::svg) {
-        let shown = |estimator: &str, sampler: &str| named(svg, &format!("{estimator}, bsdf, {sampler}, roulette throughput"));
+        let shown = |estimator: &str, sampler: &str| {
+            named(svg, &format!("{estimator}, bsdf, {sampler}, roulette throughput, no sharing"))
+        };
         let counts = ["sobol", "stratified", "independent"].map(|sampler| [shown("mis", sampler), shown("light", sampler)]);
         assert_eq!(counts, [[1, 1], [1, 0], [1, 1]], "{svg}");
         assert_eq!(named(svg, "slope −1/2"), 1);
@@ -120,7 +122,7 @@ fn combinations_without_noise_are_named_and_not_drawn() {
     let noisy = outcome(settings(Estimator::Path, Sampler::Sobol), 0.1, Vec::new());
     let pair = overview(&findings(vec![exact.clone(), noisy], RenderSettings::default())).expect("a curve");
     assert!(
-        pair.caption.ends_with("Not shown because they have no noise: mis, bsdf, sobol, roulette throughput."),
+        pair.caption.ends_with("Not shown because they have no noise: mis, bsdf, sobol, roulette throughput, no sharing."),
         "{}",
         pair.caption
     );

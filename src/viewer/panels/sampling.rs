@@ -2,11 +2,12 @@
 use egui::{ComboBox, Id, Ui};
 use noisefall::{
     declare::OneOf,
-    render::Status,
+    render::{Status, sharing::sharing_name},
     sampling::Sampler,
     scene::{RenderSettings, Reuse, Roulette},
 };
 
+use super::presets;
 use crate::viewer::widgets::{
     kinds::{kinds, number_rows, words},
     number,
@@ -27,6 +28,7 @@ pub fn side_choice(ui: &mut Ui, edits_second: &mut bool) {
 /// Shows the settings, with a caution where their variance is infinite. Returns whether advice was asked for.
 pub fn show(ui: &mut Ui, settings: &mut RenderSettings, status: &Status, caution: Option<&str>) -> bool {
     controls(ui, "sampling", |ui| {
+        presets::show(ui, settings);
         row(ui, "Estimator", "How light L_o is found at x_M. All converge to the same picture.", |ui, _| {
             words(ui, &mut settings.estimator);
         });
@@ -79,14 +81,14 @@ fn sampler_row(ui: &mut Ui, sampler: &mut Sampler) {
 }
 
 fn reuse_row(ui: &mut Ui, reuse: &mut Reuse, status: &Status) {
-    let doc = "Whether neighbouring pixels share the light that their paths find beyond the first diffuse surface: less noise, no bias.";
+    let doc = "Shares path suffixes between neighbouring pixels (Bekaert et al. 2002). Less noise, no bias.";
     row(ui, "Share paths", doc, |ui, _| {
         // Below, and not beside: the panel is as wide as its widest row.
         ui.vertical(|ui| {
             words(ui, reuse);
-            if *reuse == Reuse::Auto && status.spp > 0 {
-                ui.weak(if status.shares { "in use here" } else { "not in use here" });
-            }
+            // Always there, so that no row below moves.
+            let in_force = if status.spp > 0 { sharing_name(status.shares) } else { "…" };
+            ui.weak(in_force).on_hover_text("What the render does. Auto decides once for the scene.");
         });
     });
 }

@@ -93,8 +93,8 @@ fn each_side_of_a_comparison_has_its_own_figures_in_their_columns() {
     app.start_comparison(RenderSettings { max_bounces: Some(2), ..app.session.settings });
     let texts = said(&mut app, |app, ui| app.instrument(ui, InstrumentTab::Compare));
     for row in [
-        ["A", "as the scene opens", "7", "2.5 s", "4.00 %", "5.00 %", "160", "the solution"],
-        ["B", "max-bounces 2", "9", "3.5 s", "2.00 %", "10.00 %", "28.6", "biased: cap at 2"],
+        ["A", "as the scene opens, no sharing", "7", "2.5 s", "4.00 %", "5.00 %", "160", "the solution"],
+        ["B", "max-bounces 2, no sharing", "9", "3.5 s", "2.00 %", "10.00 %", "28.6", "biased: cap at 2"],
     ] {
         assert!(texts.windows(row.len()).any(|cells| cells == row), "{row:?} is not in {texts:?}");
     }
@@ -119,7 +119,7 @@ fn lines_are_estimates_points_are_true_and_clear_keeps_the_curve_that_grows() {
             app.instruments.history.record(
                 &settings,
                 generation,
-                Moment { spp, seconds: 1.0, estimated, true_error, bias: None },
+                Moment { spp, seconds: 1.0, estimated, true_error, bias: None, shares: false },
             );
         }
     }
@@ -142,7 +142,7 @@ fn where_no_truth_is_known_the_plot_of_bias_says_what_it_needs() {
     app.instruments.history.what = Quantity::Bias;
     let needs = |texts: &[String]| texts.iter().any(|text| text.starts_with("Bias is known where the truth is"));
     for (spp, bias, is_known) in [(1, None, false), (4, Some(0.1), true), (16, None, true)] {
-        let moment = Moment { spp, seconds: 1.0, estimated: Some(0.5), true_error: None, bias };
+        let moment = Moment { spp, seconds: 1.0, estimated: Some(0.5), true_error: None, bias, shares: false };
         app.instruments.history.record(&scene.settings, 5, moment);
         assert_eq!(needs(&said(&mut app, |app, ui| app.instrument(ui, InstrumentTab::Convergence))), !is_known, "{spp}");
     }

@@ -15,6 +15,7 @@ mod mouse;
 mod opening;
 mod painted;
 mod path;
+mod presets;
 mod rasteriser;
 mod saving;
 mod scenes;

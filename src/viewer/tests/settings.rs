@@ -44,7 +44,7 @@ fn every_setting_of_the_estimate_starts_a_new_picture() {
 
 #[test]
 fn no_row_is_wider_than_the_panel() {
-    for (scene, says) in [("cornell_spheres", "in use here"), ("veach_plates", "not in use here")] {
+    for (scene, says) in [("cornell_spheres", "shared paths"), ("veach_plates", "no sharing")] {
         let mut window = window(scene);
         wait(&mut window, "samples", |app| app.results.status.spp >= 1);
         window.run_steps(3);

@@ -18,7 +18,8 @@ pub struct SideStatus<'a> {
 
 /// Shows the figures of both sides, and which is more efficient.
 pub fn show(ui: &mut Ui, [a, b]: [&RenderSettings; 2], of_scene: &RenderSettings, [of_a, of_b]: [SideStatus; 2]) {
-    let sides = [Side::of("A", name(a, of_scene), a, of_a), Side::of("B", name(b, of_scene), b, of_b)];
+    let named = |settings, side: SideStatus| name(settings, of_scene, side.status.shares);
+    let sides = [Side::of("A", named(a, of_a), a, of_a), Side::of("B", named(b, of_b), b, of_b)];
     Grid::new("A and B").num_columns(8).spacing([18.0, 5.0]).show(ui, |ui| {
         for (heading, doc) in HEADINGS {
             ui.label(RichText::new(heading).weak()).on_hover_text(doc);
@@ -49,7 +50,7 @@ fn began_apart([a, b]: [f64; 2]) -> bool {
 
 const HEADINGS: [(&str, &str); 8] = [
     ("", ""),
-    ("settings", "What differs from how the scene opens"),
+    ("settings", "What differs from how the scene opens, and whether pixels share paths"),
     ("N", "Samples per pixel"),
     ("time", "Seconds of rendering: both get the same since the comparison began"),
     ("noise", "Estimated relative error: the root of relMSE, the mean of (x − r)²/(r² + 0.01 · mean r²)"),

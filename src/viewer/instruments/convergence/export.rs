@@ -1,5 +1,8 @@
 //! The curves as files: CSV of every figure, SVG of the plot.
-use noisefall::report::plot::{Axis, Style, curve, svg};
+use noisefall::{
+    render::settings_text::on_or_off,
+    report::plot::{Axis, Style, curve, svg},
+};
 
 use super::history::{Curve, History, HorizontalAxis};
 
@@ -9,8 +12,15 @@ impl History {
     /// One line a moment, with a heading. What is not known is empty.
     pub fn csv(&self) -> Result<Vec<u8>, String> {
         let mut writer = csv::Writer::from_writer(Vec::new());
-        let heading =
-            ["settings", "spp", "seconds", "estimated_relative_error", "true_relative_error", "bias_in_standard_errors"];
+        let heading = [
+            "settings",
+            "sharing",
+            "spp",
+            "seconds",
+            "estimated_relative_error",
+            "true_relative_error",
+            "bias_in_standard_errors",
+        ];
         let failed = |error: csv::Error| error.to_string();
         writer.write_record(heading).map_err(failed)?;
         for curve in &self.curves {
@@ -18,7 +28,8 @@ impl History {
             for moment in &curve.moments {
                 let text = |x: Option<f64>| x.map_or_else(String::new, |x| format!("{x:e}"));
                 let [estimated, truth, bias] = [moment.estimated, moment.true_error, moment.bias].map(text);
-                let row = [name.clone(), moment.spp.to_string(), moment.seconds.to_string(), estimated, truth, bias];
+                let [spp, seconds] = [moment.spp.to_string(), moment.seconds.to_string()];
+                let row = [name.clone(), on_or_off(moment.shares).to_owned(), spp, seconds, estimated, truth, bias];
                 writer.write_record(row).map_err(failed)?;
             }
         }
@@ -70,7 +81,10 @@ mod tests {
         let other = RenderSettings { sampler: Sampler::Independent, ..scene.settings };
         let mut history = History::default();
         history.look_at(&scene, &scene.camera, None);
-        let moment = |spp, seconds, estimated, true_error, bias| Moment { spp, seconds, estimated, true_error, bias };
+        let moment = |spp, seconds, estimated, true_error, bias| {
+            let shares = spp == 64 || spp == 4;
+            Moment { spp, seconds, estimated, true_error, bias, shares }
+        };
         history.record(&scene.settings, 1, moment(1, 0.5, None, Some(0.25), None));
         history.record(&scene.settings, 1, moment(16, 2.0, Some(0.125), Some(0.0625), Some(-1.5)));
         history.record(&other, 2, moment(4, 0.75, Some(0.5), None, None));
@@ -85,11 +99,11 @@ mod tests {
         assert_eq!(
             lines,
             [
-                "settings,spp,seconds,estimated_relative_error,true_relative_error,bias_in_standard_errors",
-                "as the scene opens,1,0.5,,2.5e-1,",
-                "as the scene opens,16,2,1.25e-1,6.25e-2,-1.5e0",
-                "sampler independent,4,0.75,5e-1,,",
-                "sampler independent,64,12,7.8125e-3,,2.25e0",
+                "settings,sharing,spp,seconds,estimated_relative_error,true_relative_error,bias_in_standard_errors",
+                "\"as the scene opens, no sharing\",off,1,0.5,,2.5e-1,",
+                "\"as the scene opens, no sharing\",off,16,2,1.25e-1,6.25e-2,-1.5e0",
+                "\"sampler independent, shared paths\",on,4,0.75,5e-1,,",
+                "\"sampler independent, shared paths\",on,64,12,7.8125e-3,,2.25e0",
             ]
         );
     }

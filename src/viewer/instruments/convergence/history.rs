@@ -2,7 +2,7 @@
 use std::sync::Arc;
 
 use noisefall::{
-    render::{Frame, settings_text::options, truth::Reference},
+    render::{Frame, settings_text::options, sharing::sharing_name, truth::Reference},
     scene::{Camera, RenderSettings, Scene},
     study::{Slope, slope},
 };
@@ -22,6 +22,8 @@ pub struct Moment {
     pub true_error: Option<f64>,
     /// Of the mean over the picture, in standard errors.
     pub bias: Option<f64>,
+    /// Whether pixels share paths.
+    pub shares: bool,
 }
 
 /// The figures of one setting.
@@ -70,6 +72,7 @@ impl Moment {
             estimated: frame.rel_mse_estimate.map(f64::sqrt),
             true_error: comparison.map(|comparison| comparison.rel_mse.sqrt()),
             bias: comparison.and_then(|comparison| comparison.bias),
+            shares: frame.shares,
         }
     }
 
@@ -82,6 +85,11 @@ impl Moment {
 }
 
 impl Curve {
+    /// Whether the pixels of its picture share paths.
+    pub fn shares(&self) -> bool {
+        self.moments.last().is_some_and(|moment| moment.shares)
+    }
+
     /// Places with a positive error, which a logarithm needs.
     pub fn errors(&self, over: HorizontalAxis, error: impl Fn(&Moment) -> Option<f64>) -> Vec<(f64, f64)> {
         let points = self.moments.iter().filter_map(|moment| Some((moment.over(over), error(moment)?)));
@@ -143,29 +151,38 @@ impl History {
         }
     }
 
-    /// Names a curve by the settings that differ from those of the scene.
+    /// Names a curve by the settings that differ from those of the scene, and by sharing.
     pub fn name(&self, curve: &Curve) -> String {
         let of_scene = self.subject.as_ref().map_or_else(RenderSettings::default, |(scene, _)| scene.settings);
         let bias = if curve.settings.bias().is_some() { " (biased)" } else { "" };
-        name(&curve.settings, &of_scene) + bias
+        name(&curve.settings, &of_scene, curve.shares()) + bias
     }
 }
 
-/// Names settings by what differs from those of the scene.
-pub fn name(settings: &RenderSettings, of_scene: &RenderSettings) -> String {
+/// Names settings by what differs from those of the scene, and by whether pixels share paths.
+pub fn name(settings: &RenderSettings, of_scene: &RenderSettings, shares: bool) -> String {
     let differences = options(settings, of_scene);
-    let parts: Vec<&str> = differences.split(" --").filter(|part| !part.is_empty()).collect();
-    if parts.is_empty() { "as the scene opens".to_owned() } else { parts.join(", ") }
+    let mut parts: Vec<&str> = differences.split(" --").filter(|part| !part.is_empty()).collect();
+    if parts.is_empty() {
+        parts.push("as the scene opens");
+    }
+    // The word for it says less than what became of it.
+    parts.retain(|part| !part.starts_with("reuse "));
+    parts.push(sharing_name(shares));
+    parts.join(", ")
 }
 
 #[cfg(test)]
 mod tests {
-    use noisefall::{sampling::Sampler, scene::built_in};
+    use noisefall::{
+        sampling::Sampler,
+        scene::{Reuse, built_in},
+    };
 
     use super::*;
 
     fn moment(spp: u32, error: f64) -> Moment {
-        Moment { spp, seconds: f64::from(spp) * 0.5, estimated: Some(error), true_error: None, bias: None }
+        Moment { spp, seconds: f64::from(spp) * 0.5, estimated: Some(error), true_error: None, bias: None, shares: false }
     }
 
     fn looking_at(scene: &Arc<Scene>) -> History {
@@ -260,7 +277,10 @@ mod tests {
             history.record(&settings, generation, moment(1, 0.5));
         }
         let names: Vec<String> = history.curves.iter().map(|curve| history.name(curve)).collect();
-        assert_eq!(names[0], "as the scene opens");
+        assert_eq!(names[0], "as the scene opens, no sharing");
         assert!(names[1].contains("independent") && names[1].contains('3') && names[1].ends_with(" (biased)"), "{}", names[1]);
+        let never = RenderSettings { reuse: Reuse::Off, ..scene.settings };
+        assert_eq!(name(&never, &scene.settings, false), "no sharing");
+        assert_eq!(name(&scene.settings, &scene.settings, true), "as the scene opens, shared paths");
     }
 }

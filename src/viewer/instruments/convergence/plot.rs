@@ -211,7 +211,8 @@ mod tests {
 
     #[test]
     fn a_curve_says_its_last_figures_each_by_its_name() {
-        let last = Moment { spp: 16, seconds: 2.0, estimated: Some(0.125), true_error: Some(0.0625), bias: Some(-1.5) };
+        let last =
+            Moment { spp: 16, seconds: 2.0, estimated: Some(0.125), true_error: Some(0.0625), bias: Some(-1.5), shares: false };
         let curve = |bias| {
             let moments = vec![Moment { spp: 8, seconds: 1.0, ..last }, Moment { bias: Some(bias), ..last }];
             figures(&Curve { settings: RenderSettings::default(), generation: 1, moments }, HorizontalAxis::Samples)

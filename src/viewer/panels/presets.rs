@@ -1,0 +1,92 @@
+//! Presets of the estimator: the textbook one for experiments, and the fastest one.
+use egui::Ui;
+use noisefall::scene::{RenderSettings, Reuse};
+
+use crate::viewer::widgets::style::row;
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Preset {
+    /// The textbook estimator: pixels are independent and have the same number of samples.
+    Teaching,
+    /// The settings that are the most efficient in most scenes.
+    Fastest,
+}
+
+const PRESETS: [(Preset, &str, &str); 2] = [
+    (
+        Preset::Teaching,
+        "Teaching",
+        "The textbook estimator: no path sharing and no adaptive sampling. Estimator, sampler, directions and roulette stay as they are.",
+    ),
+    (
+        Preset::Fastest,
+        "Fastest",
+        "MIS, Owen-scrambled Sobol points, BSDF directions, roulette by throughput, and path sharing where it pays in this scene.",
+    ),
+];
+
+impl Preset {
+    /// The settings with this preset in force. Cap and seed stay: they decide what is estimated, and not how fast.
+    pub fn applied_to(self, settings: &RenderSettings) -> RenderSettings {
+        match self {
+            Preset::Teaching => RenderSettings { reuse: Reuse::Off, adaptive: false, ..*settings },
+            Preset::Fastest => {
+                RenderSettings { max_bounces: settings.max_bounces, seed: settings.seed, ..RenderSettings::default() }
+            }
+        }
+    }
+
+    /// The preset that is in force.
+    pub fn of(settings: &RenderSettings) -> Option<Preset> {
+        PRESETS.into_iter().map(|(preset, _, _)| preset).find(|preset| preset.applied_to(settings) == *settings)
+    }
+}
+
+/// Shows the presets and marks the one in force.
+pub fn show(ui: &mut Ui, settings: &mut RenderSettings) {
+    row(ui, "Preset", "A set of settings to start from. The marked one is in force.", |ui, _| {
+        ui.horizontal(|ui| {
+            let in_force = Preset::of(settings);
+            for (preset, name, doc) in PRESETS {
+                if ui.selectable_label(in_force == Some(preset), name).on_hover_text(doc).clicked() {
+                    *settings = preset.applied_to(settings);
+                }
+            }
+            if in_force.is_none() {
+                ui.weak("Custom").on_hover_text("The settings below equal neither preset.");
+            }
+        });
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use noisefall::{
+        sampling::Sampler,
+        scene::{Estimator, Roulette},
+    };
+
+    use super::*;
+
+    #[test]
+    fn a_preset_that_is_applied_is_in_force_and_keeps_what_it_does_not_name() {
+        let own = RenderSettings {
+            estimator: Estimator::Light,
+            sampler: Sampler::Stratified,
+            roulette: Roulette::Off,
+            max_bounces: Some(5),
+            adaptive: true,
+            seed: 7,
+            ..RenderSettings::default()
+        };
+        assert_eq!(Preset::of(&own), None);
+        let taught = Preset::Teaching.applied_to(&own);
+        assert_eq!(taught, RenderSettings { reuse: Reuse::Off, adaptive: false, ..own });
+        let fast = Preset::Fastest.applied_to(&own);
+        assert_eq!((fast.max_bounces, fast.seed, fast.reuse), (Some(5), 7, Reuse::Auto));
+        for preset in [Preset::Teaching, Preset::Fastest] {
+            assert_eq!(Preset::of(&preset.applied_to(&own)), Some(preset));
+        }
+        assert_eq!(Preset::of(&RenderSettings::default()), Some(Preset::Fastest));
+    }
+}

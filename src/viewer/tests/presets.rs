@@ -1,0 +1,88 @@
+//! Sharing and presets: experiments compare what they say they compare.
+use noisefall::scene::RenderSettings;
+
+use super::*;
+use crate::viewer::{instruments::tabs::InstrumentTab, panels::presets::Preset};
+
+/// Whether a button is marked as the chosen one.
+fn is_marked(window: &Window, label: &str) -> bool {
+    let button = window.get_by_role_and_label(Role::Button, label);
+    button.accesskit_node().toggled() == Some(egui::accesskit::Toggled::True)
+}
+
+fn names(window: &Window) -> Vec<String> {
+    let history = &window.state().instruments.history;
+    history.curves.iter().map(|curve| history.name(curve)).collect()
+}
+
+#[test]
+fn sharing_stays_as_it_is_while_other_settings_change_and_every_curve_names_it() {
+    let mut window = window("cornell_spheres");
+    window.state_mut().window.tab = Some(InstrumentTab::Convergence);
+    let sampled =
+        |window: &mut Window| wait(window, "samples", |app| app.results.shown.as_ref().is_some_and(|frame| frame.spp >= 2));
+    sampled(&mut window);
+    assert!(window.state().results.status.shares);
+    restarts(&mut window, "independent samples", |w| choose(w, "Sampler", "Independent"));
+    sampled(&mut window);
+    restarts(&mut window, "paths alone", |w| click(w, "Path"));
+    sampled(&mut window);
+    restarts(&mut window, "a cap", |w| w.state_mut().session.settings.max_bounces = Some(4));
+    sampled(&mut window);
+    assert!(window.state().results.status.shares, "the decision is that of the scene");
+    restarts(&mut window, "no sharing", |w| click(w, "Never"));
+    sampled(&mut window);
+    window.run_steps(3);
+    let names = names(&window);
+    assert_eq!(names.iter().filter(|name| name.contains("shared paths")).count(), 4, "{names:?}");
+    assert_eq!(names.iter().filter(|name| name.contains("no sharing")).count(), 1, "{names:?}");
+    let table = window.state().instruments.history.csv().expect("it is written");
+    let table = String::from_utf8(table).expect("it is text");
+    assert!(table.starts_with("settings,sharing,") && table.contains(",on,") && table.contains(",off,"), "{table}");
+}
+
+#[test]
+fn both_sides_of_a_comparison_name_their_sharing() {
+    let mut window = window("cornell_spheres");
+    let other = RenderSettings { reuse: Reuse::Off, ..window.state().session.settings };
+    window.state_mut().start_comparison(other);
+    wait(&mut window, "both", |app| app.results.status.spp >= 2 && app.results.second_status.spp >= 2);
+    window.run_steps(3);
+    assert!(window.query_by_label("as the scene opens, shared paths").is_some());
+    assert!(window.get_all_by_label("no sharing").next().is_some());
+}
+
+#[test]
+fn a_preset_sets_what_it_says_and_the_panel_marks_the_one_in_force() {
+    let mut window = window("cornell_spheres");
+    let app = window.state_mut();
+    app.session.settings = RenderSettings { sampler: Sampler::Stratified, max_bounces: Some(6), ..RenderSettings::default() };
+    window.run_steps(3);
+    assert!(window.query_by_label("Custom").is_some());
+    let before = window.state().session.settings;
+    restarts(&mut window, "the textbook estimator", |w| click(w, "Teaching"));
+    assert_eq!(window.state().session.settings, RenderSettings { reuse: Reuse::Off, adaptive: false, ..before });
+    assert!(is_marked(&window, "Teaching") && !is_marked(&window, "Fastest") && window.query_by_label("Custom").is_none());
+    wait(&mut window, "its samples", |app| app.results.status.spp >= 1 && !app.results.status.shares);
+    restarts(&mut window, "the fastest one", |w| click(w, "Fastest"));
+    assert!(is_marked(&window, "Fastest") && !is_marked(&window, "Teaching"));
+    let settings = window.state().session.settings;
+    assert_eq!((Preset::of(&settings), settings.max_bounces), (Some(Preset::Fastest), Some(6)), "a cap is no matter of speed");
+    wait(&mut window, "its samples", |app| app.results.status.spp >= 1 && app.results.status.shares);
+    window.get_by_role_and_label(Role::CheckBox, "Adaptive").click();
+    window.run_steps(3);
+    assert!(window.query_by_label("Custom").is_some() && !is_marked(&window, "Fastest"));
+}
+
+#[test]
+fn advice_tries_the_other_sharing() {
+    let mut window = window("cornell_box");
+    restarts(&mut window, "no sharing", |w| click(w, "Never"));
+    wait(&mut window, "a picture", |app| app.results.status.spp >= 1);
+    click(&mut window, "What should I use here?");
+    wait(&mut window, "the advice", |app| !app.is_studying());
+    let advice = window.state().background.adviser.as_ref().and_then(|adviser| adviser.advice.as_ref());
+    let advice = advice.expect("it is there").as_ref().expect("no failure");
+    assert!(advice.candidates.iter().any(|candidate| candidate.settings.reuse == Reuse::On));
+    assert_eq!(advice.best().settings.reuse, Reuse::On, "here sharing is several times as efficient: {advice:?}");
+}
