@@ -38,6 +38,17 @@ impl Film {
         memory::reserve(format_args!("pictures of {width} × {height} pixels"), PIXEL * u64::from(width) * u64::from(height))
     }
 
+    /// Bytes of a film without its frames: sums, squares and means.
+    pub(super) fn kept_bytes([width, height]: [u32; 2]) -> u64 {
+        60 * u64::from(width) * u64::from(height)
+    }
+
+    /// Reserves memory for a film without its frames.
+    pub(super) fn reserve_kept(resolution: [u32; 2]) -> Result<Reservation, TooMuch> {
+        let [width, height] = resolution;
+        memory::reserve(format_args!("earlier pictures of {width} × {height} pixels"), Self::kept_bytes(resolution))
+    }
+
     /// Reserves memory for the series by bounces of an image of this size.
     pub(super) fn reserve_series([width, height]: [u32; 2]) -> Result<Reservation, TooMuch> {
         /// Bytes per pixel: sums in the film, and means in two frames.

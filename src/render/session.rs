@@ -1,6 +1,9 @@
 //! The render of one image: its films, from coarse to full, and the size of the next pass.
+mod kept;
+
 use std::time::{Duration, Instant};
 
+pub(super) use self::kept::KeptSessions;
 use super::{
     coarse::Coarse,
     error_estimator::rel_mse_estimate_in,

@@ -6,7 +6,8 @@
 //! and the reuse stage of a batch cannot be interrupted. A new request starts an empty film; a new budget continues
 //! the current film.
 //!
-//! A second image can be rendered beside the first. From then on both get the same time: the one that had less is next.
+//! An image that was rendered before continues with its samples; the image that is being rendered starts over if it is requested
+//! again. A second image can be rendered beside the first. From then on both get the same time: the one that had less is next.
 use std::{
     sync::{
         Arc, Mutex, MutexGuard, PoisonError,
@@ -19,8 +20,9 @@ use std::{
 use crossbeam_channel::{Receiver, Sender, unbounded};
 
 use super::{
+    film::Film,
     protocol::{Budget, Publish, Published, RenderRequest, RenderTask, State},
-    session::Session,
+    session::{KeptSessions, Session},
     threads::Threads,
 };
 
@@ -61,7 +63,8 @@ impl Renderer {
             seen: 0,
             budget: Budget::default(),
             sessions: [None, None],
-            lead: Duration::ZERO,
+            leads: [Duration::ZERO; 2],
+            kept: KeptSessions::default(),
         };
         let thread = std::thread::Builder::new().name("worker".to_owned()).spawn(move || worker.run(&notify));
         Renderer { sender, shared, thread: Some(thread.expect("a thread can be started")) }
@@ -132,8 +135,10 @@ struct Worker {
     budget: Budget,
     /// For the first image and the one beside it.
     sessions: [Option<Session>; 2],
-    /// Render time of the first image when the other one began.
-    lead: Duration,
+    /// Render time of both images when the later of them began.
+    leads: [Duration; 2],
+    /// Images to go back to.
+    kept: KeptSessions,
 }
 
 impl Worker {
@@ -165,8 +170,7 @@ impl Worker {
         let sides = self.sessions.iter().enumerate().filter_map(|(side, session)| Some((side, session.as_ref()?)));
         let running = sides.filter(|(_, session)| running(session));
         // The first look at a picture goes before the second sample of another one.
-        let leads = [self.lead, Duration::ZERO];
-        let time = |side: usize, session: &Session| session.elapsed().saturating_sub(leads[side]);
+        let time = |side: usize, session: &Session| session.elapsed().saturating_sub(self.leads[side]);
         running.min_by_key(|(side, session)| (!session.is_coarse(), time(*side, session))).map(|(side, _)| side)
     }
 
@@ -209,7 +213,7 @@ impl Worker {
             Message::Threads(threads) => self.threads = threads,
             Message::First(generation, request) => self.start(0, generation, RenderTask::Picture(*request)),
             Message::StopSecond => {
-                self.sessions[1] = None;
+                self.sessions[1].take().into_iter().for_each(|session| drop(self.kept.keep(session)));
                 lock(&self.shared.published)[1] = Published::default();
             }
             Message::Second(generation, task) => self.start(1, generation, *task),
@@ -221,12 +225,28 @@ impl Worker {
         let (RenderTask::Picture(request) | RenderTask::Series(request)) = &task;
         let sessions = || self.sessions.iter().flatten();
         let rate = sessions().filter(|old| Arc::ptr_eq(&old.request().scene, &request.scene)).find_map(Session::rate);
-        let film = self.sessions[side].take().map(Session::into_film);
-        self.lead = self.sessions[0].as_ref().map_or(Duration::ZERO, Session::elapsed);
-        self.sessions[side] = Some(match task {
-            RenderTask::Picture(request) => Session::new(generation, request, self.publish, rate, &self.budget, film),
-            RenderTask::Series(request) => Session::of_series(generation, request, rate, &self.budget),
+        self.kept.retain_scene(&request.scene);
+        let old = self.sessions[side].take();
+        let starts_over = old.as_ref().is_some_and(|old| old.is_of(request));
+        let is_same_scene = old.as_ref().is_some_and(|old| Arc::ptr_eq(&old.request().scene, &request.scene));
+        let film = old.and_then(|old| if starts_over || !is_same_scene { Some(old.into_film()) } else { self.kept.keep(old) });
+        let earlier = if starts_over { None } else { self.earlier(side, &task) };
+        self.sessions[side] = Some(match (earlier, task) {
+            (Some(earlier), RenderTask::Picture(_)) => earlier.resumed(generation, self.budget.steps),
+            (_, RenderTask::Picture(request)) => Session::new(generation, request, self.publish, rate, &self.budget, film),
+            (_, RenderTask::Series(request)) => Session::of_series(generation, request, rate, &self.budget),
         });
+        self.leads = self.sessions.each_ref().map(|session| session.as_ref().map_or(Duration::ZERO, Session::elapsed));
+    }
+
+    /// The session that has samples of a task: one that is kept, or that of the other side. Makes room for a new one otherwise.
+    fn earlier(&mut self, side: usize, task: &RenderTask) -> Option<Session> {
+        let RenderTask::Picture(request) = task else { return None };
+        let earlier = self.kept.take(request).or_else(|| self.sessions[1 - side].take_if(|other| other.is_of(request)));
+        if earlier.is_none() {
+            drop(self.kept.reserve(|| Film::reserve(request.camera.resolution)));
+        }
+        earlier
     }
 }
 

@@ -50,7 +50,7 @@ pub enum InjectedFault {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Reuse {
-    /// Where a short trial says that it pays. The integrator itself takes it for [`Reuse::Off`].
+    /// Where a short trial of the scene finds a gain. The integrator itself takes it for [`Reuse::Off`].
     #[default]
     Auto,
     /// Wherever neighbouring pixels can share.
@@ -61,7 +61,7 @@ pub enum Reuse {
 
 crate::words! {
     Reuse {
-        Auto: "auto", "Auto", "Where a short trial of the scene says that it pays.";
+        Auto: "auto", "Auto", "Where a short trial of the scene finds a gain. It is decided once for a scene.";
         On: "on", "Always", "Groups of 4 × 4 pixels divide what their paths find among them, by how likely each was to find it.";
         Off: "off", "Never", "Every pixel keeps what its own paths find: the noise of neighbours is independent.";
     }

@@ -10,7 +10,7 @@ use crate::{
 
 const NEVER: &(dyn Fn() -> bool + Sync) = &|| false;
 
-fn threads() -> Threads {
+pub(super) fn threads() -> Threads {
     Threads::new(2, SimdLevel::best()).expect("threads can be had")
 }
 
@@ -19,11 +19,11 @@ fn request_of(scene: Scene, resolution: [u32; 2]) -> RenderRequest {
     RenderRequest { camera, settings: scene.settings, scene: Arc::new(scene) }
 }
 
-fn session(resolution: [u32; 2], publish: Publish, rate: Option<f64>) -> Session {
+pub(super) fn session(resolution: [u32; 2], publish: Publish, rate: Option<f64>) -> Session {
     Session::new(4, request_of(built_in(), resolution), publish, rate, &Budget::default(), None)
 }
 
-fn to(spp: u32) -> Budget {
+pub(super) fn to(spp: u32) -> Budget {
     Budget { max_spp: Some(spp), ..Budget::default() }
 }
 

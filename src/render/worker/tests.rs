@@ -2,7 +2,7 @@
 use super::*;
 use crate::{
     math::SimdLevel,
-    scene::{Camera, Scene, built_in},
+    scene::{Camera, RenderSettings, Scene, built_in},
 };
 
 fn worker(publish: Publish) -> Worker {
@@ -15,7 +15,8 @@ fn worker(publish: Publish) -> Worker {
         seen: 0,
         budget: Budget::default(),
         sessions: [None, None],
-        lead: Duration::ZERO,
+        leads: [Duration::ZERO; 2],
+        kept: KeptSessions::default(),
     }
 }
 
@@ -66,6 +67,61 @@ fn the_first_look_at_a_picture_goes_before_more_samples_of_another() {
     let coarse = |worker: &Worker, side: usize| worker.sessions[side].as_ref().is_some_and(Session::is_coarse);
     assert!(coarse(&worker, 0) && !coarse(&worker, 1));
     assert_eq!(worker.next(), Some(0));
+}
+
+/// The samples of both sides.
+fn samples(worker: &Worker) -> [Option<u64>; 2] {
+    worker.sessions.each_ref().map(|session| session.as_ref().map(|session| session.status(&worker.budget).samples))
+}
+
+#[test]
+fn earlier_settings_get_their_samples_back_and_the_same_request_starts_over() {
+    let scene = Arc::new(built_in());
+    let mut worker = worker(Publish::Sparse);
+    let of = |seed| {
+        let request = request(&scene, 32);
+        RenderTask::Picture(RenderRequest { settings: RenderSettings { seed, ..request.settings }, ..request })
+    };
+    worker.budget = Budget { max_spp: Some(4), ..Budget::default() };
+    worker.start(0, 1, of(1));
+    advance(&mut worker, 0);
+    let first = samples(&worker)[0];
+    assert_eq!(first, Some(4 * 32 * 32));
+    worker.start(0, 2, of(2));
+    assert_eq!(samples(&worker)[0], Some(0));
+    worker.start(0, 3, of(1));
+    assert_eq!(
+        (samples(&worker)[0], worker.sessions[0].as_ref().map(|session| session.status(&worker.budget).generation)),
+        (first, Some(3))
+    );
+    worker.start(0, 4, of(1));
+    assert_eq!(samples(&worker)[0], Some(0), "what is requested again starts over");
+}
+
+#[test]
+fn sides_that_are_swapped_keep_their_samples() {
+    let scene = Arc::new(built_in());
+    let mut worker = worker(Publish::Sparse);
+    let of = |seed| {
+        let request = request(&scene, 32);
+        RenderTask::Picture(RenderRequest { settings: RenderSettings { seed, ..request.settings }, ..request })
+    };
+    worker.start(0, 1, of(1));
+    worker.start(1, 2, of(2));
+    for (side, spp) in [(0, 4), (1, 2)] {
+        worker.budget = Budget { max_spp: Some(spp), ..Budget::default() };
+        advance(&mut worker, side);
+    }
+    let [a, b] = samples(&worker);
+    assert!(a > b && b > Some(0));
+    worker.start(0, 3, of(2));
+    worker.start(1, 4, of(1));
+    assert_eq!(samples(&worker), [b, a]);
+    // The comparison ends, and B stays.
+    worker.take(Message::StopSecond);
+    assert_eq!(samples(&worker), [b, None]);
+    worker.start(0, 5, of(1));
+    assert_eq!(samples(&worker), [a, None]);
 }
 
 #[test]

@@ -8,6 +8,12 @@ use crate::viewer::instruments::tabs::InstrumentTab;
 use crate::viewer::panels::{toolbar::Command, toolbar::Toolbar, views};
 
 const SAVE: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::S);
+/// The longer ones first: egui takes a shortcut without Shift for one with it.
+const UNDO_KEYS: [(KeyboardShortcut, Command); 3] = [
+    (KeyboardShortcut::new(Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::Z), Command::Redo),
+    (KeyboardShortcut::new(Modifiers::COMMAND, Key::Y), Command::Redo),
+    (KeyboardShortcut::new(Modifiers::COMMAND, Key::Z), Command::Undo),
+];
 
 const COMMAND_KEYS: [(Key, Command); 9] = [
     (Key::Space, Command::TogglePause),
@@ -36,6 +42,7 @@ impl App {
             is_paused: self.session.budget.paused,
             has_region: self.session.budget.region.is_some(),
             can_save: self.can_save(),
+            undo: self.history.names(),
             tool: self.window.tool,
             zoom: self.results.shown.as_ref().map(|_| self.window.view.drawn_zoom),
             settings: &self.session.settings,
@@ -44,7 +51,10 @@ impl App {
     }
 
     fn perform(&mut self, command: Command) {
+        self.history.end_gesture();
         match command {
+            Command::Undo => self.undo(),
+            Command::Redo => self.redo(),
             Command::TogglePause => self.session.budget.paused = !self.session.budget.paused,
             Command::Step => self.step(),
             Command::Restart => self.background.worker.restart(),
@@ -69,6 +79,14 @@ impl App {
         if ctx.input_mut(|input| input.consume_shortcut(&SAVE)) && self.can_save() {
             self.perform(Command::Save);
         }
+        // In text they belong to the text.
+        if !ctx.text_edit_focused() && !self.dialogs.wait() {
+            for (shortcut, command) in UNDO_KEYS {
+                if ctx.input_mut(|input| input.consume_shortcut(&shortcut)) {
+                    self.perform(command);
+                }
+            }
+        }
         let key = |key| ctx.input(|input| input.key_pressed(key));
         if key(Key::Escape) {
             self.escape();
@@ -88,7 +106,7 @@ impl App {
         let pressed = |key| ctx.input(|input| input.key_pressed(key) && !input.modifiers.any());
         // Whatever has the keyboard: only in text this key is the cursor's.
         if pressed(Key::Home) && !ctx.text_edit_focused() {
-            self.session.reset_camera();
+            self.perform(Command::ResetCamera);
         }
         if ctx.egui_wants_keyboard_input() || self.dialogs.wait() || self.session.opened.is_none() {
             return;

@@ -22,6 +22,7 @@ impl App {
         self.dock(ui);
         CentralPanel::no_frame().show(ui, |ui| self.canvas(ui));
         self.show_dialogs(&ctx);
+        self.record_step();
         self.frame_times.show(&ctx, self.session.threads, self.background.worker.generation());
         self.submit();
         self.window.had_focus = ctx.egui_wants_keyboard_input();

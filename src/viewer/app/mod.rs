@@ -5,6 +5,7 @@ mod dialogs;
 mod display;
 mod dock;
 mod frame;
+mod history;
 mod receive;
 mod results;
 mod saving;
@@ -12,6 +13,7 @@ mod session;
 mod side_panel;
 mod state;
 mod submit;
+mod undo;
 mod window_state;
 
 pub use self::state::App;

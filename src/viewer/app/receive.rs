@@ -1,11 +1,11 @@
 //! Receives what the threads have finished: scenes, references, frames, images, saved files.
 use noisefall::render::{Budget, State};
 
-use super::state::App;
+use super::{history::History, state::App};
 use crate::viewer::background::{
     catalogue, display_image::DisplayImage, feature_finder::FeatureFinder, loader::DroppedReference, loader::OpenedScene,
 };
-use crate::viewer::instruments::{convergence::history::Moment, path::inspector::PathInspector};
+use crate::viewer::instruments::{convergence::curve::Moment, path::inspector::PathInspector};
 
 impl App {
     pub fn receive(&mut self) {
@@ -51,6 +51,7 @@ impl App {
         let (worker, history) = (&self.background.worker, &mut self.instruments.history);
         if let Some(request) = worker.request() {
             history.look_at(&request.scene, &request.camera, image.reference.as_ref());
+            history.current = Some(request.settings);
             let frame = &image.frame;
             if frame.generation == worker.generation() && !frame.is_coarse() {
                 history.record(&request.settings, frame.generation, Moment::of(frame, image.comparison));
@@ -93,6 +94,7 @@ impl App {
         (self.instruments.path, self.background.features) = (PathInspector::new(&self.ctx), FeatureFinder::new(&self.ctx));
         (results.last_seeing, results.black_reason) = (None, None);
         self.dialogs.scene_error = None;
+        self.history = History::default();
         self.window.view.fit();
         session.opened = Some(opened);
         self.set_title();

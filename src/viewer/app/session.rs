@@ -6,6 +6,7 @@ use noisefall::{
     scene::{Camera, RenderSettings, built_in},
 };
 
+use super::history::Controls;
 use crate::viewer::background::{loader::DroppedReference, loader::OpenedScene};
 use crate::viewer::instruments::{bounces::Bounces, compare::comparison::Comparison};
 
@@ -44,6 +45,11 @@ impl Session {
     pub fn request(&self) -> Option<RenderRequest> {
         let scene = self.opened.as_ref()?.scene.clone();
         Some(RenderRequest { scene, camera: self.camera, settings: self.settings })
+    }
+
+    /// What undo and redo restore.
+    pub fn controls(&self) -> Controls {
+        Controls { camera: self.camera, settings: self.settings, comparison: self.comparison, look: self.look }
     }
 
     /// The settings that the sampling panel shows and changes.

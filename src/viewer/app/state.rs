@@ -3,18 +3,19 @@ use std::path::PathBuf;
 
 use noisefall::render::threads::Threads;
 
-use super::{results::Results, session::Session, window_state::Dialogs, window_state::WindowState};
+use super::{history::History, results::Results, session::Session, window_state::Dialogs, window_state::WindowState};
 use crate::viewer::background::{
     adviser::Adviser, catalogue, catalogue::CatalogueEntry, display_pipeline::DisplayPipeline, feature_finder::FeatureFinder,
     loader::Loader, preferences::Preferences, render_worker::RenderWorkerHandle, saver::Saver,
 };
-use crate::viewer::instruments::{convergence::history::History, path::inspector::PathInspector};
+use crate::viewer::instruments::{convergence::history::History as ErrorHistory, path::inspector::PathInspector};
 use crate::viewer::panels::frame_times::FrameTimes;
 use crate::viewer::widgets::palette::set_themes;
 
 pub struct App {
     pub ctx: egui::Context,
     pub session: Session,
+    pub history: History,
     pub results: Results,
     pub window: WindowState,
     pub instruments: Instruments,
@@ -27,7 +28,7 @@ pub struct App {
 
 /// The instruments that remember something.
 pub struct Instruments {
-    pub history: History,
+    pub history: ErrorHistory,
     pub path: PathInspector,
 }
 
@@ -57,9 +58,10 @@ impl App {
         App {
             ctx: ctx.clone(),
             session,
+            history: History::default(),
             results: Results::default(),
             window: WindowState::default(),
-            instruments: Instruments { history: History::default(), path: PathInspector::new(ctx) },
+            instruments: Instruments { history: ErrorHistory::default(), path: PathInspector::new(ctx) },
             dialogs: Dialogs::default(),
             background,
             catalogue: catalogue::find(),

@@ -22,6 +22,8 @@ pub struct WindowState {
     /// The region that is being drawn.
     pub marking: Option<Region>,
     pub hidden: bool,
+    /// How often a button of the mouse was pressed.
+    pub presses: u64,
     pub last_saved: Option<PathBuf>,
 }
 

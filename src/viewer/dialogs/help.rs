@@ -34,6 +34,7 @@ const KEYS: [(&str, &[(&str, &str)]); 4] = [
     (
         "Window",
         &[
+            ("Ctrl+Z, Ctrl+Shift+Z", "undo, redo: camera, settings, view"),
             ("Ctrl+S", "save the picture"),
             ("F1", "this help"),
             ("F2  F3  F4  F5", "convergence, compare, bounces, pixel"),

@@ -10,6 +10,8 @@ pub enum Command {
     TogglePause,
     Step,
     Restart,
+    Undo,
+    Redo,
     ChooseTool(Tool),
     ClearRegion,
     ResetCamera,
@@ -26,6 +28,8 @@ pub struct Toolbar<'a> {
     pub is_paused: bool,
     pub has_region: bool,
     pub can_save: bool,
+    /// What undo and redo would change.
+    pub undo: [Option<&'static str>; 2],
     pub tool: Tool,
     /// Screen pixels per picture pixel, if there is a picture.
     pub zoom: Option<f32>,
@@ -45,7 +49,7 @@ const TOOLS: [(Tool, &str, &str); 4] = [
 
 impl Toolbar<'_> {
     pub fn show(&self, ui: &mut Ui) -> Option<Command> {
-        const WHOLE: f32 = 865.0;
+        const WHOLE: f32 = 930.0;
         const OF_REGION: f32 = 56.0;
         const OF_ENDS: f32 = 104.0;
         let needed = WHOLE + if self.has_region { OF_REGION } else { 0.0 };
@@ -55,6 +59,8 @@ impl Toolbar<'_> {
             let mut asks = |asked: Option<Command>| command = asked.or(command);
             ui.spacing_mut().button_padding = egui::vec2(6.0, 4.0);
             asks(self.render_buttons(ui));
+            ui.separator();
+            asks(self.undo_buttons(ui));
             ui.separator();
             asks(self.tool_buttons(ui));
             ui.separator();
@@ -88,11 +94,26 @@ impl Toolbar<'_> {
                 Command::TogglePause,
             ),
             (Button::new("Step"), step, Command::Step),
-            (Button::new("Restart"), "Throw all samples away and start over (R)", Command::Restart),
+            (Button::new("Restart"), "Restart rendering (R)", Command::Restart),
         ];
         let clicked = buttons
             .map(|(button, doc, command)| ui.add_enabled(self.is_open, button).on_hover_text(doc).clicked().then_some(command));
         clicked.into_iter().flatten().next()
+    }
+
+    fn undo_buttons(&self, ui: &mut Ui) -> Option<Command> {
+        let mut command = None;
+        let buttons = [("⟲", "Undo", "Ctrl+Z", Command::Undo), ("⟳", "Redo", "Ctrl+Shift+Z", Command::Redo)];
+        for ((sign, name, keys, asked), what) in buttons.into_iter().zip(self.undo) {
+            let button = ui.add_enabled(what.is_some(), Button::new(sign));
+            button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, what.is_some(), name));
+            let doc =
+                what.map_or_else(|| format!("Nothing to {}", name.to_lowercase()), |what| format!("{name}: {what} ({keys})"));
+            if button.on_hover_text(&doc).on_disabled_hover_text(&doc).clicked() {
+                command = Some(asked);
+            }
+        }
+        command
     }
 
     fn tool_buttons(&self, ui: &mut Ui) -> Option<Command> {

@@ -9,7 +9,7 @@ use noisefall::{
 use super::*;
 use crate::viewer::background::{catalogue::SceneRequest, display_image::ReferenceComparison, loader::OpenedScene};
 use crate::viewer::dialogs::save_target::SaveTarget as File;
-use crate::viewer::instruments::{convergence::history::Moment, convergence::history::Quantity, tabs::InstrumentTab};
+use crate::viewer::instruments::{convergence::curve::Moment, convergence::history::Quantity, tabs::InstrumentTab};
 use crate::viewer::panels::{views, views::ReferenceSource};
 
 /// An app whose fields nobody changes: it shows what it is told.

@@ -24,6 +24,7 @@ mod snapshots;
 mod soak;
 mod toolbar;
 mod truth;
+mod undo;
 
 use std::{
     ops::{Deref, DerefMut},

@@ -2,9 +2,13 @@
 use noisefall::{
     render::settings_text::on_or_off,
     report::plot::{Axis, Style, curve, svg},
+    scene::RenderSettings,
 };
 
-use super::history::{Curve, History, HorizontalAxis};
+use super::{
+    curve::{Curve, HorizontalAxis},
+    history::History,
+};
 
 const SIZE: (u32, u32) = (900, 540);
 
@@ -52,12 +56,17 @@ impl History {
         drawing.replacen('>', "><rect width=\"100%\" height=\"100%\" fill=\"white\"/>", 1)
     }
 
-    /// Two ends of the line that errors of independent samples follow, through the end of the last curve.
+    /// Two ends of the line that errors of independent samples follow, through the end of the current curve; through that of the last
+    /// one while the current one is too short.
     pub fn guide(&self) -> Vec<(f64, f64)> {
-        let points = self.curves.iter().map(|curve| curve.errors(self.over, |moment| moment.estimated));
-        let points: Vec<Vec<(f64, f64)>> = points.filter(|points| points.len() > 1).collect();
-        let Some(&(x, y)) = points.last().and_then(|points| points.last()) else { return Vec::new() };
-        let all = || points.iter().flatten().map(|point| point.0);
+        let long = self.curves.iter().filter_map(|curve| {
+            let points = curve.errors(self.over, |moment| moment.estimated);
+            (points.len() > 1).then_some((curve.settings, points))
+        });
+        let long: Vec<(RenderSettings, Vec<(f64, f64)>)> = long.collect();
+        let current = long.iter().find(|(settings, _)| Some(*settings) == self.current).or(long.last());
+        let Some(&(x, y)) = current.and_then(|(_, points)| points.last()) else { return Vec::new() };
+        let all = || long.iter().flat_map(|(_, points)| points).map(|point| point.0);
         let [low, high] = [all().fold(f64::INFINITY, f64::min), all().fold(0.0, f64::max)];
         [low, high].map(|at| (at, y * (x / at).sqrt())).to_vec()
     }
@@ -67,13 +76,10 @@ impl History {
 mod tests {
     use std::sync::Arc;
 
-    use noisefall::{
-        sampling::Sampler,
-        scene::{RenderSettings, built_in},
-    };
+    use noisefall::{sampling::Sampler, scene::built_in};
 
     use super::*;
-    use crate::viewer::instruments::convergence::history::Moment;
+    use crate::viewer::instruments::convergence::curve::Moment;
 
     /// Two curves: of the scene's settings and of another sampler's.
     fn history() -> History {
@@ -118,6 +124,11 @@ mod tests {
         assert_eq!((from, to, low), (0.75, 12.0, 0.0078125));
         assert!((high / low - 4.0).abs() < 1e-12, "16 times the time, a quarter of the error");
         assert_eq!(History::default().guide(), []);
+        // It follows the curve that grows, wherever it stands in the list.
+        history.over = HorizontalAxis::Samples;
+        history.curves.swap(0, 1);
+        history.current = Some(history.curves[0].settings);
+        assert_eq!(history.guide(), [(4.0, 0.0078125 * 4.0), (64.0, 0.0078125)]);
     }
 
     #[test]

@@ -2,44 +2,14 @@
 use std::sync::Arc;
 
 use noisefall::{
-    render::{Frame, settings_text::options, sharing::sharing_name, truth::Reference},
+    render::{settings_text::options, sharing::sharing_name, truth::Reference},
     scene::{Camera, RenderSettings, Scene},
-    study::{Slope, slope},
 };
 
-use super::colours::COLOURS;
-use crate::viewer::background::display_image::ReferenceComparison;
-
-/// The figures of one frame.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Moment {
-    pub spp: u32,
-    /// Time spent rendering.
-    pub seconds: f64,
-    /// Relative error: the root of relMSE, as estimated.
-    pub estimated: Option<f64>,
-    /// The same, against the truth.
-    pub true_error: Option<f64>,
-    /// Of the mean over the picture, in standard errors.
-    pub bias: Option<f64>,
-    /// Whether pixels share paths.
-    pub shares: bool,
-}
-
-/// The figures of one setting.
-pub struct Curve {
-    pub settings: RenderSettings,
-    pub generation: u64,
-    pub moments: Vec<Moment>,
-}
-
-/// The horizontal axis of the curves.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum HorizontalAxis {
-    #[default]
-    Samples,
-    Seconds,
-}
+use super::{
+    colours::COLOURS,
+    curve::{Curve, HorizontalAxis, Moment},
+};
 
 /// The vertical axis of the curves.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -49,106 +19,79 @@ pub enum Quantity {
     Bias,
 }
 
-/// The curves of one picture: the same scene and camera.
+/// The curves of one picture: the same scene and camera. Those of other cameras are kept for a return.
 #[derive(Default)]
 pub struct History {
     pub curves: Vec<Curve>,
     pub over: HorizontalAxis,
     pub what: Quantity,
+    /// The settings that are rendered now.
+    pub current: Option<RenderSettings>,
     subject: Option<(Arc<Scene>, Camera)>,
     truth: Option<Arc<Reference>>,
+    earlier: Vec<Earlier>,
 }
+
+/// The curves of another camera.
+struct Earlier {
+    camera: Camera,
+    truth: Option<Arc<Reference>>,
+    curves: Vec<Curve>,
+}
+
+/// A drag of the camera leaves as many short sets of curves: the shortest is dropped for a new one.
+const MOST_EARLIER: usize = 24;
 
 /// One curve for each colour: the oldest is dropped for a new one.
 const MOST_CURVES: usize = COLOURS.len();
-/// Least ratio of the sample counts of successive moments.
-const SPACING: f64 = 1.03;
-
-impl Moment {
-    pub fn of(frame: &Frame, comparison: Option<ReferenceComparison>) -> Moment {
-        Moment {
-            spp: frame.spp,
-            seconds: frame.elapsed.as_secs_f64(),
-            estimated: frame.rel_mse_estimate.map(f64::sqrt),
-            true_error: comparison.map(|comparison| comparison.rel_mse.sqrt()),
-            bias: comparison.and_then(|comparison| comparison.bias),
-            shares: frame.shares,
-        }
-    }
-
-    pub fn over(&self, over: HorizontalAxis) -> f64 {
-        match over {
-            HorizontalAxis::Samples => f64::from(self.spp),
-            HorizontalAxis::Seconds => self.seconds,
-        }
-    }
-}
-
-impl Curve {
-    /// Whether the pixels of its picture share paths.
-    pub fn shares(&self) -> bool {
-        self.moments.last().is_some_and(|moment| moment.shares)
-    }
-
-    /// Places with a positive error, which a logarithm needs.
-    pub fn errors(&self, over: HorizontalAxis, error: impl Fn(&Moment) -> Option<f64>) -> Vec<(f64, f64)> {
-        let points = self.moments.iter().filter_map(|moment| Some((moment.over(over), error(moment)?)));
-        points.filter(|(x, y)| *x > 0.0 && *y > 0.0 && y.is_finite()).collect()
-    }
-
-    /// How the estimated error falls: the slope over moments that are about doublings, from 4 samples on.
-    pub fn slope(&self, over: HorizontalAxis) -> Option<Slope> {
-        let mut doublings: Vec<(f64, f64)> = Vec::new();
-        for point in self.errors(over, |moment| moment.estimated.filter(|_| moment.spp >= 4)) {
-            if doublings.last().is_none_or(|last| point.0 >= 1.9 * last.0) {
-                doublings.push(point);
-            }
-        }
-        slope(&[doublings])
-    }
-}
 
 impl History {
-    /// Drops curves of another picture, and errors against another reference.
+    /// Shows the curves of this picture: none, or those that were recorded before. Drops errors against another reference.
     pub fn look_at(&mut self, scene: &Arc<Scene>, camera: &Camera, truth: Option<&Arc<Reference>>) {
-        if self.truth.as_ref().map(Arc::as_ptr) != truth.map(Arc::as_ptr) {
-            let moments = self.curves.iter_mut().flat_map(|curve| &mut curve.moments);
-            moments.for_each(|moment| (moment.true_error, moment.bias) = (None, None));
-            self.truth = truth.cloned();
+        match self.subject.take() {
+            Some((old, at)) if Arc::ptr_eq(&old, scene) && at == *camera => {}
+            Some((old, at)) if Arc::ptr_eq(&old, scene) => self.change_camera(at, camera),
+            _ => {
+                self.curves.clear();
+                self.earlier.clear();
+            }
         }
-        let same = |(old, at): &(Arc<Scene>, Camera)| Arc::ptr_eq(old, scene) && at == camera;
-        if !self.subject.as_ref().is_some_and(same) {
-            self.curves.clear();
-            self.subject = Some((scene.clone(), *camera));
+        self.subject = Some((scene.clone(), *camera));
+        if self.truth.as_ref().map(Arc::as_ptr) != truth.map(Arc::as_ptr) {
+            self.curves.iter_mut().for_each(Curve::forget_truth);
+            self.truth = truth.cloned();
         }
     }
 
-    /// Records a full frame. A new generation replaces the curve of the same settings.
+    /// Puts the curves of a camera away, and gets those of another one back.
+    fn change_camera(&mut self, from: Camera, to: &Camera) {
+        let curves = std::mem::take(&mut self.curves);
+        if !curves.is_empty() {
+            self.earlier.push(Earlier { camera: from, truth: self.truth.take(), curves });
+        }
+        if let Some(at) = self.earlier.iter().position(|earlier| earlier.camera == *to) {
+            let known = self.earlier.remove(at);
+            (self.curves, self.truth) = (known.curves, known.truth);
+        }
+        if self.earlier.len() > MOST_EARLIER {
+            let length = |earlier: &Earlier| earlier.curves.iter().map(|curve| curve.moments.len()).sum::<usize>();
+            let shortest = (0..self.earlier.len()).min_by_key(|at| length(&self.earlier[*at]));
+            shortest.into_iter().for_each(|at| drop(self.earlier.remove(at)));
+        }
+    }
+
+    /// Records a full frame.
     pub fn record(&mut self, settings: &RenderSettings, generation: u64, moment: Moment) {
         let known = self.curves.iter().position(|curve| curve.settings == *settings);
-        let curve = match known {
-            Some(at) => &mut self.curves[at],
-            None => {
-                if self.curves.len() == MOST_CURVES {
-                    let oldest = (0..MOST_CURVES).min_by_key(|&at| self.curves[at].generation).unwrap_or(0);
-                    self.curves.remove(oldest);
-                }
-                self.curves.push(Curve { settings: *settings, generation, moments: Vec::new() });
-                self.curves.last_mut().expect("it was just added")
+        let at = known.unwrap_or_else(|| {
+            if self.curves.len() == MOST_CURVES {
+                let oldest = (0..MOST_CURVES).min_by_key(|&at| self.curves[at].generation).unwrap_or(0);
+                self.curves.remove(oldest);
             }
-        };
-        if curve.generation != generation {
-            (curve.generation, curve.moments) = (generation, Vec::new());
-        }
-        let last = curve.moments.last().map_or(0.0, |last| f64::from(last.spp));
-        if f64::from(moment.spp) >= last * SPACING && f64::from(moment.spp) > last {
-            curve.moments.push(moment);
-        } else if moment.spp > 0 && moment.true_error.is_some() {
-            // A truth that came later is held against what is there.
-            if let Some(last) = curve.moments.last_mut().filter(|last| last.spp == moment.spp) {
-                *last = moment;
-            }
-        }
+            self.curves.push(Curve::new(*settings, generation));
+            self.curves.len() - 1
+        });
+        self.curves[at].record(generation, moment);
     }
 
     /// Names a curve by the settings that differ from those of the scene, and by sharing.
@@ -192,19 +135,6 @@ mod tests {
     }
 
     #[test]
-    fn a_moment_takes_its_figures_from_the_frame_and_from_the_truth() {
-        let frame =
-            Frame { spp: 7, elapsed: std::time::Duration::from_millis(1500), rel_mse_estimate: Some(0.04), ..Frame::default() };
-        let comparison = ReferenceComparison { rel_mse: 0.25, bias: Some(-3.0) };
-        let all = Moment::of(&frame, Some(comparison));
-        assert_eq!((all.spp, all.seconds, all.true_error, all.bias), (7, 1.5, Some(0.5), Some(-3.0)));
-        assert!((all.estimated.expect("it is known") - 0.2).abs() < 1e-12);
-        let alone = Moment::of(&frame, None);
-        assert_eq!((alone.true_error, alone.bias, alone.estimated), (None, None, all.estimated));
-        assert_eq!((all.over(HorizontalAxis::Samples), all.over(HorizontalAxis::Seconds)), (7.0, 1.5));
-    }
-
-    #[test]
     fn the_slope_is_that_of_the_estimate_from_four_samples_on() {
         let scene = Arc::new(built_in());
         let mut history = looking_at(&scene);
@@ -230,7 +160,9 @@ mod tests {
         let kept: Vec<u32> = history.curves[0].moments.iter().map(|moment| moment.spp).collect();
         assert_eq!(kept, [8, 16, 100, 104], "and none that is too near to the one before");
         history.record(&scene.settings, 2, moment(1, 0.9));
-        assert_eq!((history.curves.len(), history.curves[0].moments.len(), history.curves[0].generation), (1, 1, 2));
+        assert_eq!((history.curves.len(), history.curves[0].moments.len(), history.curves[0].generation), (1, 4, 2));
+        history.record(&scene.settings, 2, moment(105, 0.9));
+        assert_eq!((history.curves.len(), history.curves[0].moments.len()), (1, 2), "it is the longer one now");
         let seeded = |seed| RenderSettings { seed, ..scene.settings };
         for seed in 1..=MOST_CURVES as u32 {
             history.record(&seeded(seed), u64::from(10 + seed), moment(1, 0.9));
@@ -263,6 +195,11 @@ mod tests {
         let mut moved = start();
         moved.look_at(&scene, &Camera { fov: 50.0, ..scene.camera }, Some(&truth));
         assert!(moved.curves.is_empty());
+        moved.look_at(&scene, &scene.camera, Some(&truth));
+        assert_eq!(moved.curves[0].moments[0].true_error, Some(0.1), "its curves come back with their camera");
+        moved.look_at(&scene, &Camera { fov: 50.0, ..scene.camera }, None);
+        moved.look_at(&scene, &scene.camera, None);
+        assert_eq!((moved.curves.len(), moved.curves[0].moments[0].true_error), (1, None), "but no errors against another truth");
         let mut other = start();
         other.look_at(&Arc::new(built_in()), &scene.camera, Some(&truth));
         assert!(other.curves.is_empty());

@@ -2,7 +2,7 @@
 use egui::{Color32, RichText, Ui};
 use egui_plot::{AxisHints, GridInput, GridMark, HLine, Line, LineStyle, Plot, PlotPoints, Points};
 
-use super::{colours::COLOURS, history::Curve, history::History, history::HorizontalAxis, history::Quantity};
+use super::{colours::COLOURS, curve::Curve, curve::HorizontalAxis, history::History, history::Quantity};
 use crate::viewer::widgets::style;
 
 /// A file that the curves are to be saved as.
@@ -207,7 +207,7 @@ mod tests {
     use noisefall::scene::RenderSettings;
 
     use super::*;
-    use crate::viewer::instruments::convergence::history::Moment;
+    use crate::viewer::instruments::convergence::curve::Moment;
 
     #[test]
     fn a_curve_says_its_last_figures_each_by_its_name() {
@@ -215,7 +215,9 @@ mod tests {
             Moment { spp: 16, seconds: 2.0, estimated: Some(0.125), true_error: Some(0.0625), bias: Some(-1.5), shares: false };
         let curve = |bias| {
             let moments = vec![Moment { spp: 8, seconds: 1.0, ..last }, Moment { bias: Some(bias), ..last }];
-            figures(&Curve { settings: RenderSettings::default(), generation: 1, moments }, HorizontalAxis::Samples)
+            let mut curve = Curve::new(RenderSettings::default(), 1);
+            curve.moments = moments;
+            figures(&curve, HorizontalAxis::Samples)
         };
         assert_eq!(curve(-1.5), "N 16, 2.0 s, error 12.50 %\ntrue 6.25 %, bias -1.5 σ");
         assert!(curve(40.0).ends_with(", bias beyond + 37 σ") && curve(-40.0).ends_with(", bias beyond - 37 σ"));

@@ -1,0 +1,178 @@
+//! Sessions of earlier images. A request that was rendered before continues with its samples.
+use std::{sync::Arc, time::Duration};
+
+use super::Session;
+use crate::{
+    memory::{Reservation, TooMuch},
+    render::{film::Film, protocol::RenderRequest},
+    scene::Scene,
+};
+
+/// Memory of all films that are kept, in bytes: four of 1920 × 1080 pixels.
+const MOST_BYTES: u64 = 512 << 20;
+
+/// Sessions to go back to, within a budget of memory.
+pub(in crate::render) struct KeptSessions {
+    kept: Vec<Kept>,
+    most_bytes: u64,
+    /// The number of sessions so far.
+    count: u64,
+}
+
+struct Kept {
+    session: Session,
+    /// The number of sessions that were kept before it.
+    number: u64,
+    bytes: u64,
+}
+
+impl Default for KeptSessions {
+    fn default() -> KeptSessions {
+        KeptSessions::within(MOST_BYTES)
+    }
+}
+
+impl KeptSessions {
+    pub fn within(most_bytes: u64) -> KeptSessions {
+        KeptSessions { kept: Vec::new(), most_bytes, count: 0 }
+    }
+
+    /// Keeps a session, or returns its film for another one to use.
+    pub fn keep(&mut self, mut session: Session) -> Option<Film> {
+        let bytes = Film::kept_bytes(session.request.camera.resolution);
+        if !session.is_worth_keeping() || bytes > self.most_bytes {
+            return Some(session.into_film());
+        }
+        // What it shows and saves is not kept.
+        session.memory = [None, None];
+        while self.bytes() + bytes > self.most_bytes {
+            self.drop_one();
+        }
+        let memory = self.reserve(|| Film::reserve_kept(session.request.camera.resolution));
+        session.memory[0] = Some(memory?);
+        self.count += 1;
+        self.kept.push(Kept { session, number: self.count, bytes });
+        None
+    }
+
+    /// The session of a request, if it is kept.
+    pub fn take(&mut self, request: &RenderRequest) -> Option<Session> {
+        let at = self.kept.iter().position(|kept| kept.session.is_of(request))?;
+        Some(self.kept.remove(at).session)
+    }
+
+    /// Drops the sessions of other scenes.
+    pub fn retain_scene(&mut self, scene: &Arc<Scene>) {
+        self.kept.retain(|kept| Arc::ptr_eq(&kept.session.request.scene, scene));
+    }
+
+    /// Makes a reservation. Drops sessions until there is memory for it.
+    pub fn reserve(&mut self, reserve: impl Fn() -> Result<Reservation, TooMuch>) -> Option<Reservation> {
+        loop {
+            match reserve() {
+                Ok(memory) => return Some(memory),
+                Err(_) if self.kept.is_empty() => return None,
+                Err(_) => self.drop_one(),
+            }
+        }
+    }
+
+    fn bytes(&self) -> u64 {
+        self.kept.iter().map(|kept| kept.bytes).sum()
+    }
+
+    /// Drops the session with the least render time per session kept since: a drag of the camera leaves many short renders, which
+    /// must not push out a long one.
+    fn drop_one(&mut self) {
+        let worth = |kept: &Kept| kept.session.elapsed.as_secs_f64() / (self.count - kept.number + 1) as f64;
+        let least = (0..self.kept.len()).min_by(|a, b| worth(&self.kept[*a]).total_cmp(&worth(&self.kept[*b])));
+        least.into_iter().for_each(|at| drop(self.kept.remove(at)));
+    }
+}
+
+impl Session {
+    /// Whether this is the image of a request. A series is not: it is another film.
+    pub fn is_of(&self, request: &RenderRequest) -> bool {
+        let RenderRequest { scene, camera, settings } = &self.request;
+        Arc::ptr_eq(scene, &request.scene)
+            && (camera, settings) == (&request.camera, &request.settings)
+            && !self.film.has_series()
+    }
+
+    /// Continues as the image of a later generation. `steps` is the number of single passes that were requested before.
+    pub fn resumed(mut self, generation: u64, steps: u64) -> Session {
+        self.memory = [None, None];
+        self.keep(0, Film::reserve(self.request.camera.resolution));
+        (self.generation, self.steps_done) = (generation, steps);
+        (self.coarse, self.last_frame, self.stale) = (None, None, true);
+        self
+    }
+
+    fn is_worth_keeping(&self) -> bool {
+        self.film.spp() > 0 && self.count.failure.is_none() && !self.film.has_series() && self.elapsed > Duration::ZERO
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{
+        super::tests::{session, threads, to},
+        *,
+    };
+    use crate::render::protocol::Publish;
+
+    /// A session of a few samples that took so many seconds.
+    fn rendered(scene: &Arc<Scene>, seed: u32, seconds: u64) -> Session {
+        let mut session = session([32, 32], Publish::Sparse, None);
+        session.request.scene = scene.clone();
+        session.request.settings.seed = seed;
+        session.advance(&threads(), &to(2), Publish::Sparse, &|| false);
+        session.elapsed = Duration::from_secs(seconds);
+        session
+    }
+
+    fn request(session: &Session) -> RenderRequest {
+        session.request.clone()
+    }
+
+    #[test]
+    fn a_session_that_is_kept_continues_with_its_samples_as_another_generation() {
+        let scene = Arc::new(crate::scene::built_in());
+        let mut kept = KeptSessions::default();
+        let first = rendered(&scene, 1, 5);
+        let (of_first, samples) = (request(&first), first.film.samples());
+        assert!(kept.keep(first).is_none() && kept.take(&of_first).is_some());
+        assert!(kept.take(&of_first).is_none(), "it was taken");
+        assert!(kept.keep(rendered(&scene, 1, 5)).is_none());
+        let other = RenderRequest { settings: crate::scene::RenderSettings { seed: 2, ..of_first.settings }, ..of_first.clone() };
+        assert!(kept.take(&other).is_none());
+        let resumed = kept.take(&of_first).expect("it is kept").resumed(17, 3);
+        assert_eq!((resumed.generation, resumed.steps_done, resumed.film.samples()), (17, 3, samples));
+        assert!(resumed.frame_due(Publish::Live, true) && !resumed.is_coarse());
+        assert!(kept.keep(resumed).is_none());
+        kept.retain_scene(&Arc::new(crate::scene::built_in()));
+        assert!(kept.take(&of_first).is_none(), "it was of another scene");
+    }
+
+    #[test]
+    fn short_renders_never_push_out_a_long_one() {
+        let scene = Arc::new(crate::scene::built_in());
+        let mut kept = KeptSessions::within(3 * Film::kept_bytes([32, 32]));
+        let long = rendered(&scene, 0, 600);
+        let of_long = request(&long);
+        assert!(kept.keep(long).is_none());
+        for seed in 1..20 {
+            assert!(kept.keep(rendered(&scene, seed, 1)).is_none());
+            assert!(kept.kept.len() <= 3);
+        }
+        assert!(kept.take(&of_long).is_some());
+    }
+
+    #[test]
+    fn what_has_no_samples_and_what_is_too_large_gives_its_film_back() {
+        let scene = Arc::new(crate::scene::built_in());
+        let empty = session([32, 32], Publish::Sparse, None);
+        assert!(KeptSessions::default().keep(empty).is_some());
+        assert!(KeptSessions::within(1000).keep(rendered(&scene, 0, 1)).is_some());
+    }
+}

@@ -1,0 +1,42 @@
+//! Joins the history with the state of the window.
+use egui::Event;
+
+use super::{
+    history::{Controls, Gesture},
+    state::App,
+};
+
+impl App {
+    /// Records what this frame has changed.
+    pub fn record_step(&mut self) {
+        if self.session.opened.is_some() {
+            let gesture = self.gesture();
+            self.history.observe(self.session.controls(), gesture);
+        }
+    }
+
+    pub fn undo(&mut self) {
+        let controls = self.history.undo();
+        controls.into_iter().for_each(|controls| self.restore(controls));
+    }
+
+    pub fn redo(&mut self) {
+        let controls = self.history.redo();
+        controls.into_iter().for_each(|controls| self.restore(controls));
+    }
+
+    fn restore(&mut self, controls: Controls) {
+        let session = &mut self.session;
+        (session.camera, session.settings) = (controls.camera, controls.settings);
+        (session.comparison, session.look) = (controls.comparison, controls.look);
+    }
+
+    fn gesture(&mut self) -> Gesture {
+        let (pressed, is_held, time) = self.ctx.input(|input| {
+            let pressed = input.events.iter().filter(|event| matches!(event, Event::PointerButton { pressed: true, .. })).count();
+            (pressed, input.pointer.any_down() || input.pointer.any_released(), input.time)
+        });
+        self.window.presses += pressed as u64;
+        Gesture { presses: self.window.presses, is_held, time }
+    }
+}

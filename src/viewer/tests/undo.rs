@@ -1,0 +1,154 @@
+//! Undo and redo: a stray click or drag costs no work.
+use noisefall::{render::view::View as Shown, scene::Camera};
+
+use super::*;
+
+fn undo(window: &mut Window) {
+    window.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+    window.run_steps(3);
+}
+
+fn redo(window: &mut Window) {
+    window.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
+    window.run_steps(3);
+}
+
+/// Waits until every pixel has so many samples, and stops there.
+fn rendered(window: &mut Window, spp: u32) {
+    window.state_mut().session.budget.max_spp = Some(spp);
+    wait(window, "the samples", |app| {
+        app.results.shown.as_ref().is_some_and(|frame| frame.spp == spp && frame.generation == app.background.worker.generation())
+    });
+}
+
+#[test]
+fn settings_that_are_undone_come_back_with_their_samples() {
+    let mut window = window("cornell_spheres");
+    rendered(&mut window, 40);
+    let first = window.state().results.shown.clone().expect("it is shown");
+    restarts(&mut window, "a stray click", |w| click(w, "Light"));
+    rendered(&mut window, 3);
+    restarts(&mut window, "the way back", undo);
+    assert_eq!(window.state().session.settings.estimator, Estimator::Mis);
+    wait(&mut window, "the samples as they were", |app| app.results.shown.as_ref().is_some_and(|frame| frame.spp == 40));
+    let again = window.state().results.shown.clone().expect("it is shown");
+    assert!(again.radiance == first.radiance && again.elapsed == first.elapsed, "the very same samples");
+    restarts(&mut window, "forth again", redo);
+    assert_eq!(window.state().session.settings.estimator, Estimator::Light);
+    wait(&mut window, "its samples", |app| app.results.shown.as_ref().is_some_and(|frame| frame.spp >= 3));
+    // Restart is meant as it is said.
+    restarts(&mut window, "a restart", |w| click(w, "Restart"));
+    wait(&mut window, "new samples", |app| app.results.shown.as_ref().is_some_and(|frame| frame.spp < 40));
+}
+
+#[test]
+fn one_drag_of_the_camera_is_one_step() {
+    let mut window = window("cornell_spheres");
+    let start = window.state().session.camera;
+    rendered(&mut window, 30);
+    window.state_mut().window.tool = Tool::Camera;
+    restarts(&mut window, "a drag", |w| drag(w, PointerButton::Primary, [400.0, 400.0], [460.0, 420.0]));
+    let first = window.state().session.camera;
+    restarts(&mut window, "another drag", |w| drag(w, PointerButton::Primary, [400.0, 400.0], [380.0, 380.0]));
+    let second = window.state().session.camera;
+    assert!(start != first && first != second);
+    for expected in [first, start, start] {
+        undo(&mut window);
+        assert_eq!(window.state().session.camera, expected);
+    }
+    wait(&mut window, "its samples", |app| app.results.shown.as_ref().is_some_and(|frame| frame.spp == 30));
+    for expected in [first, second, second] {
+        redo(&mut window);
+        assert_eq!(window.state().session.camera, expected);
+    }
+    restarts(&mut window, "the wheel", |w| scroll(w, [400.0, 400.0], 40.0));
+    undo(&mut window);
+    assert_eq!(window.state().session.camera, second, "turns of the wheel are one step");
+}
+
+#[test]
+fn view_comparison_and_camera_are_undone_in_their_order_by_keys_and_buttons() {
+    let mut window = window("cornell_spheres");
+    let start = window.state().session.controls();
+    choose(&mut window, "View", "Depth");
+    let depth = window.state().session.controls();
+    window.state_mut().start_comparison(noisefall::scene::RenderSettings { seed: 5, ..depth.settings });
+    window.run_steps(3);
+    let compared = window.state().session.controls();
+    window.state_mut().session.camera.fov = 50.0;
+    window.run_steps(3);
+    assert_eq!((depth.look.view, compared.comparison.is_some()), (Shown::Depth, true));
+    for expected in [compared, depth, start] {
+        click(&mut window, "Undo");
+        assert_eq!(window.state().session.controls(), expected);
+    }
+    assert!(window.get_by_label("Undo").accesskit_node().is_disabled());
+    click(&mut window, "Redo");
+    assert_eq!(window.state().session.controls(), depth);
+    // A new step forgets what was undone.
+    window.state_mut().session.camera.fov = 60.0;
+    window.run_steps(3);
+    redo(&mut window);
+    let camera = Camera { fov: 60.0, ..start.camera };
+    assert_eq!(window.state().session.controls().camera, camera);
+    assert!(window.get_by_label("Redo").accesskit_node().is_disabled());
+}
+
+#[test]
+fn a_slider_that_is_dragged_is_one_step_and_text_has_an_undo_of_its_own() {
+    let mut window = window("cornell_spheres");
+    let fov = window.state().session.camera.fov;
+    let slider = window.get_by_role_and_label(Role::Slider, "Field of view").rect().center();
+    drag(&mut window, PointerButton::Primary, [slider.x, slider.y], [slider.x + 30.0, slider.y]);
+    assert_ne!(window.state().session.camera.fov, fov);
+    undo(&mut window);
+    assert_eq!(window.state().session.camera.fov, fov);
+    redo(&mut window);
+    let dragged = window.state().session.camera.fov;
+    assert_ne!(dragged, fov);
+    click(&mut window, "Open…");
+    window.run_steps(3);
+    undo(&mut window);
+    assert_eq!(window.state().session.camera.fov, dragged, "a dialog has the keys");
+}
+
+#[test]
+fn another_scene_has_nothing_to_undo() {
+    let mut window = window("cornell_spheres");
+    window.state_mut().session.camera.fov = 50.0;
+    window.run_steps(2);
+    window.state_mut().background.loader.open(Some(shipped("furnace")));
+    wait(&mut window, "the scene", |app| app.session.opened.as_ref().is_some_and(|opened| opened.name == "Furnace"));
+    window.run_steps(3);
+    let camera = window.state().session.camera;
+    undo(&mut window);
+    assert_eq!(window.state().session.camera, camera);
+}
+
+/// A curve that gets shorter never replaces a longer one of the same settings, and curves come back with their camera.
+#[test]
+fn a_restart_and_a_stray_drag_cost_no_curve() {
+    let mut window = window("cornell_spheres");
+    rendered(&mut window, 40);
+    let longest = |window: &Window| {
+        let curves = &window.state().instruments.history.curves;
+        curves.iter().filter_map(|curve| curve.moments.last()).map(|moment| moment.spp).max()
+    };
+    wait(&mut window, "the curve", |app| {
+        app.instruments.history.curves.iter().any(|curve| curve.moments.last().is_some_and(|moment| moment.spp >= 38))
+    });
+    let before = longest(&window);
+    window.state_mut().session.budget.max_spp = Some(3);
+    restarts(&mut window, "a restart", |w| click(w, "Restart"));
+    rendered(&mut window, 3);
+    assert_eq!(longest(&window), before);
+    restarts(&mut window, "a stray drag", |w| {
+        w.state_mut().session.camera.fov = 70.0;
+        w.run_steps(2);
+    });
+    rendered(&mut window, 3);
+    assert!(longest(&window) < before);
+    restarts(&mut window, "the way back", undo);
+    rendered(&mut window, 3);
+    assert_eq!(longest(&window), before, "with the curve of this camera");
+}
