@@ -36,6 +36,7 @@ impl App {
             pinned,
             features,
             materials: session.opened.as_ref().map_or_else(|| Arc::from([]), |opened| opened.materials.clone()),
+            on_screen: self.window.view.on_screen(),
             most_side: self.ctx.input(|input| input.max_texture_side),
         }
     }

@@ -37,8 +37,10 @@ pub struct Results {
 impl Results {
     /// Takes over an image for the screen.
     pub fn show(&mut self, ctx: &Context, image: DisplayImage) {
-        set(ctx, &mut self.textures[0], "picture", Some(image.image));
-        set(ctx, &mut self.textures[1], "picture beside", image.second_image);
+        // A reduced picture has a texel for each pixel of the screen, but for the moment in which the zoom changes.
+        let options = if image.is_reduced { TextureOptions::LINEAR } else { TextureOptions::NEAREST };
+        set(ctx, &mut self.textures[0], "picture", Some(image.image), options);
+        set(ctx, &mut self.textures[1], "picture beside", image.second_image, options);
         (self.comparison, self.second_comparison) = (image.comparison, image.second_comparison);
         (self.legend, self.values, self.scores) = (image.legend, image.values, image.scores);
         self.shown = Some(image.frame);
@@ -51,9 +53,9 @@ impl Results {
 }
 
 /// Puts an image into a texture, or takes it away.
-fn set(ctx: &Context, texture: &mut Option<TextureHandle>, name: &str, image: Option<egui::ColorImage>) {
+fn set(ctx: &Context, texture: &mut Option<TextureHandle>, name: &str, image: Option<egui::ColorImage>, options: TextureOptions) {
     match (texture, image) {
-        (Some(texture), Some(image)) => texture.set(image, TextureOptions::NEAREST),
-        (texture, image) => *texture = image.map(|image| ctx.load_texture(name, image, TextureOptions::NEAREST)),
+        (Some(texture), Some(image)) => texture.set(image, options),
+        (texture, image) => *texture = image.map(|image| ctx.load_texture(name, image, options)),
     }
 }

@@ -50,7 +50,7 @@ impl App {
         }
         let of_worker = self.background.worker.request().cloned();
         let (Some(frame), Some(of)) = (self.results.shown.clone(), of_worker) else { return };
-        let request = self.display_request(frame.clone());
+        let request = DisplayRequest { on_screen: None, most_side: usize::MAX, ..self.display_request(frame.clone()) };
         let remarks = remarks(&request, &path);
         let display = self.session.look.display;
         let settings = settings_text(&of.scene, &of.camera, &of.settings, display, &frame, &remarks);

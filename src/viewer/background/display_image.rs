@@ -4,18 +4,23 @@ use std::sync::Arc;
 use noisefall::render::{
     Frame,
     truth::Reference,
-    view::{Field, Legend, Scale, Sources, ZScoreHistogram, draw},
+    view::{Field, Legend, Scale, Sources, View, ZScoreHistogram, draw},
 };
 
-use super::display_request::{BounceTerm, DisplayRequest};
+use super::{
+    display_request::{BounceTerm, DisplayRequest},
+    reduction::{averaged, averaged_codes, texture_size},
+};
 
 /// A frame ready to be shown.
 pub struct DisplayImage {
     pub frame: Arc<Frame>,
     pub second: Option<Arc<Frame>>,
-    /// Display pixels row by row, as a PNG stores them.
+    /// Display pixels row by row, as a PNG stores them; those of the image if the picture is reduced.
     pub pixels: Vec<[u8; 4]>,
     pub image: egui::ColorImage,
+    /// Whether the image has fewer pixels than the frame.
+    pub is_reduced: bool,
     pub second_image: Option<egui::ColorImage>,
     pub legend: Option<Legend>,
     pub values: PixelValues,
@@ -48,13 +53,22 @@ pub struct ReferenceComparison {
 
 /// Renders the pixels of a request.
 pub fn render(request: DisplayRequest) -> DisplayImage {
-    let DisplayRequest { frame, second, shows_second, term, look, reference, pinned, features, materials, most_side } = request;
+    let DisplayRequest { frame, second, shows_second, term, look, reference, pinned, features, materials, .. } = request;
+    let (on_screen, most_side) = (request.on_screen, request.most_side);
     let truth = reference.as_deref();
     let picture = |frame: &Frame, radiance: Option<&[[f32; 3]]>, scale: Option<Scale>| {
         let mut pixels = Vec::new();
         let (pinned, features) = (pinned.as_deref(), features.as_deref());
+        let size = [frame.width, frame.height].map(|side| side as usize);
+        let to = texture_size(size, on_screen, most_side);
+        let reduced =
+            (to != size && look.view == View::Radiance).then(|| averaged(radiance.unwrap_or(&frame.radiance), size, to));
+        let radiance = reduced.as_deref().or(radiance);
         let shown = draw(look, &Sources { frame, radiance, truth, pinned, features, scale, materials: &materials }, &mut pixels);
-        (image(frame, &pixels, most_side), shown, pixels)
+        if to != size && reduced.is_none() {
+            pixels = averaged_codes(&pixels, size, to);
+        }
+        (egui::ColorImage::from_rgba_unmultiplied(to, pixels.as_flattened()), shown, pixels)
     };
     let radiance = term.as_ref().filter(|term| term.of.radiance.len() == frame.radiance.len()).and_then(BounceTerm::radiance);
     let (image, shown, pixels) = picture(&frame, radiance.as_deref(), None);
@@ -68,6 +82,7 @@ pub fn render(request: DisplayRequest) -> DisplayImage {
     };
     let scores = truth.filter(|_| look.view.has_scores()).and_then(|truth| ZScoreHistogram::of(&frame, truth));
     DisplayImage {
+        is_reduced: image.size != [frame.width, frame.height].map(|side| side as usize),
         comparison: compare(&frame),
         second_comparison: second.as_ref().and_then(|second| compare(second)),
         lit: lit(&frame),
@@ -89,23 +104,11 @@ fn lit(frame: &Frame) -> f32 {
     lit as f32 / frame.radiance.len().max(1) as f32
 }
 
-/// Pixels for a texture.
-fn image(frame: &Frame, pixels: &[[u8; 4]], most_side: usize) -> egui::ColorImage {
-    let [width, height] = [frame.width, frame.height].map(|side| side as usize);
-    let step = width.max(height).div_ceil(most_side.max(1)).max(1);
-    if step == 1 {
-        return egui::ColorImage::from_rgba_unmultiplied([width, height], pixels.as_flattened());
-    }
-    // Every `step`-th pixel, if the image exceeds the size of a texture.
-    let rows = pixels.chunks_exact(width).step_by(step);
-    let thinned: Vec<u8> = rows.flat_map(|row| row.iter().step_by(step)).flatten().copied().collect();
-    egui::ColorImage::from_rgba_unmultiplied([width.div_ceil(step), height.div_ceil(step)], &thinned)
-}
-
 #[cfg(test)]
 mod tests {
     use noisefall::render::{
         Series,
+        tone::to_srgb,
         view::{DisplaySettings, View},
     };
 
@@ -168,10 +171,35 @@ mod tests {
     }
 
     #[test]
-    fn what_no_texture_can_hold_is_thinned() {
-        let shown = render(DisplayRequest { most_side: 2, ..request(frame(&[0.0, 0.2, 0.4, 0.6, 0.8])) });
-        assert_eq!((shown.image.size, shown.pixels.len()), ([2, 1], 5));
-        assert_eq!(shown.image.pixels[1].r(), shown.pixels[3][0], "every third pixel");
-        assert_eq!(render(DisplayRequest { most_side: 5, ..request(frame(&[0.0; 5])) }).image.size, [5, 1]);
+    fn what_has_more_pixels_than_the_screen_or_a_texture_is_averaged() {
+        let row = frame(&[0.0, 0.2, 0.4, 0.6, 0.8]);
+        let code = |light: f32| {
+            let mut pixels = Vec::new();
+            to_srgb(&[[light; 3]], DisplaySettings::default().display, &mut pixels);
+            pixels[0][0]
+        };
+        for request in [
+            DisplayRequest { most_side: 2, ..request(row.clone()) },
+            DisplayRequest { on_screen: Some([2, 1]), ..request(row.clone()) },
+        ] {
+            let shown = render(request);
+            assert_eq!((shown.image.size, shown.is_reduced), ([2, 1], true));
+            assert!([0.16, 0.64].iter().zip(&shown.image.pixels).all(|(light, pixel)| pixel.r().abs_diff(code(*light)) <= 1));
+        }
+        let whole = render(DisplayRequest { most_side: 5, ..request(row) });
+        assert_eq!((whole.image.size, whole.is_reduced), ([5, 1], false));
+    }
+
+    /// One pixel in a hundred that is ten times as bright as white is a tenth of white.
+    #[test]
+    fn light_is_averaged_before_the_tone_map() {
+        let mut greys = vec![0.0; 100];
+        greys[40] = 10.0;
+        let shown = render(DisplayRequest { on_screen: Some([1, 1]), ..request(frame(&greys)) });
+        assert!(shown.image.pixels[0].r().abs_diff(89) <= 1, "{:?}", shown.image.pixels[0]);
+        // Colours of numbers are averaged as they are seen.
+        let look = DisplaySettings { view: View::StandardError, ..DisplaySettings::default() };
+        let shown = render(DisplayRequest { look, on_screen: Some([1, 1]), ..request(frame(&greys)) });
+        assert_eq!((shown.image.size, shown.values.numbers.map(|numbers| numbers.len())), ([1, 1], Some(100)));
     }
 }

@@ -21,6 +21,8 @@ pub struct DisplayRequest {
     pub pinned: Option<Arc<Frame>>,
     pub features: Option<Arc<Features>>,
     pub materials: Arc<[String]>,
+    /// Width and height of the image in screen pixels, if these are fewer.
+    pub on_screen: Option<[u32; 2]>,
     /// Largest side of a texture.
     pub most_side: usize,
 }
@@ -50,6 +52,7 @@ impl PartialEq for DisplayRequest {
             && same(self.pinned.as_ref(), other.pinned.as_ref())
             && same(self.features.as_ref(), other.features.as_ref())
             && self.term == other.term
+            && self.on_screen == other.on_screen
     }
 }
 
@@ -92,6 +95,7 @@ pub mod tests {
             pinned: None,
             features: None,
             materials: Arc::from([]),
+            on_screen: None,
             most_side: 1024,
         }
     }
@@ -108,6 +112,7 @@ pub mod tests {
             DisplayRequest { frame: other.clone(), ..a.clone() },
             DisplayRequest { second: Some(other.clone()), ..a.clone() },
             DisplayRequest { shows_second: true, ..a.clone() },
+            DisplayRequest { on_screen: Some([1, 1]), ..a.clone() },
             DisplayRequest { look, ..a.clone() },
             DisplayRequest { reference: Some(reference), ..a.clone() },
             DisplayRequest { pinned: Some(other), ..a.clone() },

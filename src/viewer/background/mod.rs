@@ -8,5 +8,6 @@ pub mod display_request;
 pub mod feature_finder;
 pub mod loader;
 pub mod preferences;
+mod reduction;
 pub mod render_worker;
 pub mod saver;

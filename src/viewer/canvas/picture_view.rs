@@ -9,6 +9,8 @@ pub struct PictureView {
     pub offset: Vec2,
     /// Screen pixels per image pixel as last drawn.
     pub drawn_zoom: f32,
+    /// Width and height of the image as last drawn, in screen pixels.
+    pub drawn_size: Vec2,
     /// Position of the wipe line, from 0 at the left to 1, and whether it is being dragged.
     pub wipe: f32,
     pub wiping: bool,
@@ -20,7 +22,15 @@ const ZOOM_RANGE: std::ops::RangeInclusive<f32> = 0.05..=64.0;
 
 impl Default for PictureView {
     fn default() -> PictureView {
-        PictureView { zoom: None, offset: Vec2::ZERO, drawn_zoom: 0.0, wipe: 0.5, wiping: false, marks_from: None }
+        PictureView {
+            zoom: None,
+            offset: Vec2::ZERO,
+            drawn_zoom: 0.0,
+            drawn_size: Vec2::ZERO,
+            wipe: 0.5,
+            wiping: false,
+            marks_from: None,
+        }
     }
 }
 
@@ -39,10 +49,19 @@ impl PictureView {
         let fit = (area.size() * pixels_per_point / resolution).min_elem();
         self.drawn_zoom = self.zoom.unwrap_or(fit);
         let scale = self.drawn_zoom / pixels_per_point;
-        let rect = Rect::from_center_size(area.center() - self.offset * scale, resolution * scale);
+        // A reduced image has a texel for each screen pixel.
+        let size = resolution * self.drawn_zoom;
+        self.drawn_size = if self.drawn_zoom < 1.0 { size.round().max(Vec2::splat(1.0)) } else { size };
+        let rect = Rect::from_center_size(area.center() - self.offset * scale, self.drawn_size / pixels_per_point);
         // Aligned to screen pixels, so the widths of image pixels differ by at most one screen pixel.
         let snap = |p: Pos2| (p.to_vec2() * pixels_per_point).round().to_pos2() / pixels_per_point;
         Rect::from_min_size(snap(rect.min), rect.size())
+    }
+
+    /// Width and height of the picture in screen pixels, if it is minified.
+    pub fn on_screen(&self) -> Option<[u32; 2]> {
+        let is_minified = self.drawn_zoom > 0.0 && self.drawn_zoom < 1.0;
+        is_minified.then(|| [self.drawn_size.x as u32, self.drawn_size.y as u32])
     }
 
     pub fn pan(&mut self, points: Vec2, pixels_per_point: f32) {
@@ -108,5 +127,15 @@ mod tests {
         let mut view = PictureView { zoom: Some(1.0), offset: Vec2::new(0.3, 0.7), ..PictureView::default() };
         let min = view.rect(area(), Vec2::new(201.0, 101.0), DENSE).min.to_vec2() * DENSE;
         assert_eq!(min, min.round());
+    }
+
+    #[test]
+    fn a_minified_picture_takes_whole_screen_pixels() {
+        let mut view = PictureView { zoom: Some(1.0), ..PictureView::default() };
+        view.rect(area(), Vec2::new(201.0, 101.0), DENSE);
+        assert_eq!(view.on_screen(), None);
+        view.zoom = Some(0.3);
+        let rect = view.rect(area(), Vec2::new(201.0, 101.0), DENSE);
+        assert_eq!((view.on_screen(), rect.size() * DENSE), (Some([60, 30]), Vec2::new(60.0, 30.0)));
     }
 }

@@ -11,6 +11,7 @@ mod instruments;
 mod labels;
 mod manners;
 mod messages;
+mod minified;
 mod mouse;
 mod opening;
 mod painted;
