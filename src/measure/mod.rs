@@ -4,6 +4,7 @@ mod error;
 pub mod exact;
 mod means;
 mod moments;
+mod ratio;
 mod sample_noise;
 
 pub use self::{
@@ -11,5 +12,6 @@ pub use self::{
     error::{Comparison, Floor, compare, mean_square, relative},
     means::{Mean, Measure, Picture, picture},
     moments::{Moments, samples},
+    ratio::{BlockErrors, LogRatio, student_95},
     sample_noise::SampleNoise,
 };

@@ -46,8 +46,17 @@ impl SampleNoise {
         values.chunks(width * Self::BLOCK).flat_map(band).collect()
     }
 
+    /// The numbers of pixels of all blocks of an image, row by row.
+    pub fn block_sizes(width: usize, pixels: usize) -> impl Iterator<Item = f64> {
+        let [columns, rows] = [width, pixels / width].map(|side| side.div_ceil(Self::BLOCK));
+        (0..columns * rows).map(move |block| Self::block_size(block, [width, pixels / width]))
+    }
+
     fn pixels_of(&self, block: usize) -> f64 {
-        let [width, height] = [self.width as usize, self.variance.len() / self.width as usize];
+        Self::block_size(block, [self.width as usize, self.variance.len() / self.width as usize])
+    }
+
+    fn block_size(block: usize, [width, height]: [usize; 2]) -> f64 {
         let columns = width.div_ceil(Self::BLOCK);
         let side = |place: usize, all: usize| (all - place * Self::BLOCK).min(Self::BLOCK) as f64;
         side(block % columns, width) * side(block / columns, height)

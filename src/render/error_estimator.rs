@@ -7,7 +7,11 @@
 use rayon::prelude::*;
 
 use super::{block::Block, film::Film, region::Region, tile::Tile};
-use crate::measure::Floor;
+use crate::measure::{BlockErrors, Floor};
+
+/// The standard error of the natural logarithm of the estimate, beside chance: of samples that are not independent, how the error
+/// falls is a guess.
+pub const MODEL_ERROR: f64 = 0.11;
 
 /// Lower bound of the remaining error, as a fraction of the last move.
 const LEAST: f64 = 0.15;
@@ -55,21 +59,58 @@ pub(super) fn rel_mse_estimate(film: &Film) -> Option<f64> {
 /// The same for the tiles in a region.
 pub(super) fn rel_mse_estimate_in(film: &Film, region: &Region) -> Option<f64> {
     let tiles = || film.tiles.iter().filter(|tile| tile.lies_in(region));
-    let blocks = || tiles().flat_map(|tile| &tile.blocks);
-    if blocks().map(|block| block.doubled).min()? < 2 {
-        return None;
+    let have_doubled = tiles().flat_map(|tile| &tile.blocks).map(|block| block.doubled).min()? >= 2;
+    have_doubled.then(|| tiles().map(Sums::of).fold(Sums::default(), |a, b| a.plus(&b, 1.0)).estimate())
+}
+
+/// The expected relMSE of a film, and the same without each of its tiles; `None` before the second sample.
+pub(super) fn block_errors(film: &Film) -> Option<BlockErrors> {
+    let whole = rel_mse_estimate(film)?;
+    let sums: Vec<Sums> = film.tiles.iter().map(Sums::of).collect();
+    let all = sums.iter().fold(Sums::default(), |a, b| a.plus(b, 1.0));
+    Some(BlockErrors { whole, without: sums.iter().map(|tile| all.plus(tile, -1.0).estimate()).collect() })
+}
+
+/// What the estimate needs to know of some tiles.
+#[derive(Clone, Copy, Default)]
+struct Sums {
+    /// Moves and variances at the last three doublings, latest first.
+    doublings: [(f64, f64); 3],
+    /// The variances of now.
+    now: f64,
+    /// Pixels times channels.
+    values: f64,
+}
+
+impl Sums {
+    fn of(tile: &Tile) -> Sums {
+        let back = |steps: usize| {
+            let doubled = tile.blocks.iter().filter(|block| block.doubled.ilog2() as usize > steps);
+            let doublings = doubled.map(|block| block.doublings[steps]);
+            doublings.fold((0.0, 0.0), |(moved, variance), doubling| (moved + doubling.moved, variance + doubling.variance))
+        };
+        // Between doublings nothing is known of Sobol samples but that they are no worse than independent ones.
+        let since = |block: &Block| f64::from(block.doubled) / f64::from(block.spp);
+        Sums {
+            doublings: [0, 1, 2].map(back),
+            now: tile.blocks.iter().map(|block| block.doublings[0].variance * since(block)).sum(),
+            values: 3.0 * tile.size.map(f64::from).iter().product::<f64>(),
+        }
     }
-    let back = |steps: usize| {
-        let doubled = blocks().filter(|block| block.doubled.ilog2() as usize > steps).map(|block| block.doublings[steps]);
-        doubled.fold((0.0, 0.0), |(moved, variance), doubling| (moved + doubling.moved, variance + doubling.variance))
-    };
-    let doublings: Vec<_> = (0..3).rev().map(back).filter(|(_, variance)| *variance > 0.0).collect();
-    let Some((_, last)) = doublings.last() else { return Some(0.0) };
-    // Between doublings nothing is known of Sobol samples but that they are no worse than independent ones.
-    let since = |block: &Block| f64::from(block.doubled) / f64::from(block.spp);
-    let now: f64 = blocks().map(|block| block.doublings[0].variance * since(block)).sum();
-    let values = 3.0 * tiles().map(|tile| tile.size.map(f64::from).iter().product::<f64>()).sum::<f64>();
-    Some(remaining(&doublings) * now / last / values)
+
+    fn plus(&self, other: &Sums, sign: f64) -> Sums {
+        let sum = |step: usize| {
+            let ((moved, variance), (of_moved, of_variance)) = (self.doublings[step], other.doublings[step]);
+            (moved + sign * of_moved, variance + sign * of_variance)
+        };
+        Sums { doublings: [0, 1, 2].map(sum), now: self.now + sign * other.now, values: self.values + sign * other.values }
+    }
+
+    fn estimate(&self) -> f64 {
+        let doublings: Vec<_> = self.doublings.into_iter().rev().filter(|(_, variance)| *variance > 0.0).collect();
+        let Some((_, last)) = doublings.last() else { return 0.0 };
+        remaining(&doublings) * self.now / last / self.values
+    }
 }
 
 /// V(N) from the moves mₖ = V(2ᵏ⁻¹) − V(2ᵏ) and the sample variances at the doublings so far: the geometric mean of two laws, of

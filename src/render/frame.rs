@@ -4,10 +4,14 @@ use std::time::Duration;
 use rayon::prelude::*;
 
 use super::{
-    error_estimator::rel_mse_estimate, estimate::Estimate, film::Film, sample_counts::SampleCounts, scatter::Parts,
-    series::Series, tile::Tile,
+    error_estimator::block_errors, estimate::Estimate, film::Film, sample_counts::SampleCounts, scatter::Parts, series::Series,
+    tile::Tile,
 };
-use crate::{integrator::TILE, math::colour::luminance, measure::SampleNoise};
+use crate::{
+    integrator::TILE,
+    math::colour::luminance,
+    measure::{BlockErrors, SampleNoise},
+};
 
 // The blocks of [`SampleNoise`] are the tiles.
 const _: () = assert!(SampleNoise::BLOCK == TILE as usize);
@@ -40,6 +44,8 @@ pub struct Frame {
     pub series: Option<Series>,
     /// Estimated relMSE of the image: see `render/error_estimator.rs`; `None` before the second sample.
     pub rel_mse_estimate: Option<f64>,
+    /// The same estimate with each of its blocks left out; `None` before the second sample.
+    pub block_errors: Option<BlockErrors>,
     /// Noise of the means from the variance of the samples; `None` before the second sample.
     pub noise: Option<SampleNoise>,
 }
@@ -66,7 +72,7 @@ impl Frame {
                 }
             }
         });
-        let rel_mse_estimate = rel_mse_estimate(film);
+        let block_errors = block_errors(film);
         Frame {
             generation,
             width,
@@ -79,7 +85,8 @@ impl Frame {
             shares: film.shares,
             elapsed: Duration::ZERO,
             series: Series::of_film(film),
-            rel_mse_estimate,
+            rel_mse_estimate: block_errors.as_ref().map(|errors| errors.whole),
+            block_errors,
             noise: noise(film, variance),
         }
     }

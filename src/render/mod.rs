@@ -44,6 +44,7 @@ pub mod view;
 pub mod worker;
 
 pub use self::{
+    error_estimator::MODEL_ERROR,
     frame::Frame,
     protocol::{Budget, Publish, Published, RenderRequest, RenderTask, State, Status},
     region::Region,

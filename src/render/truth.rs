@@ -8,7 +8,7 @@ use super::{
     threads::{PassJob, Threads},
 };
 use crate::{
-    measure::{Bias, Comparison, Floor, SampleNoise, compare},
+    measure::{Bias, BlockErrors, Comparison, Floor, SampleNoise, compare},
     sampling::Sampler,
     scene::{Camera, RenderSettings, Reuse, Roulette, Scene, Truth},
 };
@@ -60,6 +60,13 @@ impl Reference {
     /// The error of a frame, if it has the reference's resolution.
     pub fn compare(&self, frame: &Frame) -> Option<Comparison> {
         Some(compare(&frame.radiance, &self.radiance_of(frame)?, Floor::DEFAULT))
+    }
+
+    /// The relMSE of a frame, and the same without each of its blocks, if it has the reference's resolution.
+    pub fn block_errors(&self, frame: &Frame) -> Option<BlockErrors> {
+        let truth = self.radiance_of(frame)?;
+        let floor = Floor::DEFAULT.of_picture(&truth);
+        Some(BlockErrors::rel_mse(&frame.radiance, &truth, frame.width as usize, floor))
     }
 
     /// The bias of a frame against the reference; `None` if the frame has another resolution.

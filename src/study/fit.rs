@@ -1,5 +1,5 @@
 //! Rate of convergence: the slope of the log error over the log sample count.
-use statrs::distribution::{ContinuousCDF, StudentsT};
+use crate::measure::student_95;
 
 /// A slope with half the width of its 95 % confidence interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -8,11 +8,6 @@ pub struct Slope {
     pub slope: f64,
     /// Half the width of its 95 % confidence interval.
     pub half_width: f64,
-}
-
-/// The two-sided 95 % quantile of Student's t.
-pub fn student_95(degrees: f64) -> f64 {
-    StudentsT::new(0.0, 1.0, degrees).map_or(f64::NAN, |t| t.inverse_cdf(0.975))
 }
 
 /// Fits ln error = a + slope · ln N over runs of (N, error), N increasing. `None` for fewer than three points.

@@ -2,11 +2,10 @@
 use std::path::PathBuf;
 
 use super::{
-    fit::student_95,
     outcome::{Eligibility, Limits, Outcome},
     setting::Setting,
 };
-use crate::scene::RenderSettings;
+use crate::{measure::student_95, scene::RenderSettings};
 
 /// Combinations with less than this fraction of the best efficiency do not count for the uncertainty of the first places.
 const NEAR: f64 = 0.1;

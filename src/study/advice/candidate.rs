@@ -1,8 +1,5 @@
 //! Candidate settings with their measurements, and the advice among them.
-use crate::{
-    scene::RenderSettings,
-    study::{fit::student_95, outcome::ROUNDING},
-};
+use crate::{measure::student_95, scene::RenderSettings, study::outcome::ROUNDING};
 
 /// Settings that were measured.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,6 +3,7 @@ use statrs::distribution::{ContinuousCDF, Normal};
 
 use crate::{
     math::{One, U},
+    measure::student_95,
     sampling::{
         Sampler,
         hash::{hash, unit},
@@ -10,7 +11,6 @@ use crate::{
     scene::{Estimator, RenderSettings, Roulette},
     study::{
         Checkpoint, Eligibility, Findings, Outcome, Run, checkpoints,
-        fit::student_95,
         outcome::Limits,
         ranking::rank,
         setting::Setting,

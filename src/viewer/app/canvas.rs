@@ -29,7 +29,7 @@ impl App {
             self.click(pixel);
         }
         if let Some(area) = &output.area {
-            self.overlays(ui, area);
+            self.overlays(ui, area, output.second_area.as_ref());
         }
     }
 
@@ -48,17 +48,20 @@ impl App {
             self.window.tab = Some(InstrumentTab::Path);
         }
         if self.window.tab == Some(InstrumentTab::Path) {
+            self.instruments.path.of_second = self.window.over_second;
             self.instruments.path.look_at(pixel);
         }
     }
 
-    pub fn overlays(&mut self, ui: &mut Ui, area: &PictureArea) {
+    /// Draws what lies over the picture. `second` is where B lies, if that is elsewhere.
+    pub fn overlays(&mut self, ui: &mut Ui, area: &PictureArea, second: Option<&PictureArea>) {
         let (session, results) = (&self.session, &self.results);
         let region = self.window.marking.or(session.budget.region);
         overlay::show(ui, area, region, results.scores.as_ref(), results.legend.as_ref());
         if self.window.tab == Some(InstrumentTab::Path) {
             let size = session.opened.as_ref().map_or(1.0, |opened| opened.scene.size) as f32;
-            drawing::draw(ui, area, &self.instruments.path, &session.camera, size);
+            let of_path = second.filter(|_| self.instruments.path.of_second).unwrap_or(area);
+            drawing::draw(ui, of_path, &self.instruments.path, &session.camera, size);
         }
         let is_full = results.shown.as_ref().is_some_and(|frame| !frame.is_coarse());
         // A notice would hide the other picture of a wipe.

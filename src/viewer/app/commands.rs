@@ -42,6 +42,7 @@ impl App {
             is_paused: self.session.budget.paused,
             has_region: self.session.budget.region.is_some(),
             can_save: self.can_save(),
+            is_comparing: self.session.comparison.is_some(),
             undo: self.history.names(),
             tool: self.window.tool,
             zoom: self.results.shown.as_ref().map(|_| self.window.view.drawn_zoom),
@@ -69,6 +70,7 @@ impl App {
             Command::Fit => self.window.view.fit(),
             Command::ActualSize => self.window.view.actual_size(),
             Command::Compare(other) => self.start_comparison(other),
+            Command::EndComparison => self.session.comparison = None,
             Command::Save => self.open_save_dialog(SaveTarget::Picture),
             Command::Help => self.dialogs.help = !self.dialogs.help,
         }

@@ -1,7 +1,9 @@
 //! Joins the instruments below the picture with the state of the window. At most one is open.
+use std::sync::Arc;
+
 use egui::{Align, Layout, Panel, Ui};
 use noisefall::{
-    render::{RenderRequest, RenderTask},
+    render::{Frame, RenderRequest, RenderTask},
     scene::RenderSettings,
 };
 
@@ -44,8 +46,10 @@ impl App {
                 bounces::show(ui, &mut self.session.bounces, frame, view, resolution);
             }
             InstrumentTab::Path => {
-                let (request, frame) = (self.background.worker.request(), self.results.shown.as_deref());
-                if path::show(ui, &mut self.instruments.path, request, frame, resolution) {
+                let (request, frame) = (self.inspected_request(), self.inspected_frame());
+                let side = self.comparison().map(|_| if self.instruments.path.of_second { "B" } else { "A" });
+                let subject = path::Subject { request: request.as_ref(), frame: frame.as_deref(), side, resolution };
+                if path::show(ui, &mut self.instruments.path, &subject) {
                     self.open_save_dialog(SaveTarget::Path);
                 }
             }
@@ -71,7 +75,8 @@ impl App {
             SideStatus { status: &results.second_status, comparison: results.second_comparison },
         ];
         let wipe = &mut self.window.view.wipe;
-        let other = compare::show(ui, &mut session.settings, &mut session.comparison, wipe, &of_scene, sides);
+        let ratio = results.error_ratio;
+        let other = compare::show(ui, &mut session.settings, &mut session.comparison, wipe, &of_scene, sides, ratio);
         other.into_iter().for_each(|other| self.start_comparison(other));
     }
 
@@ -107,9 +112,23 @@ impl App {
     /// Traces what the path inspector shows, while it is open.
     pub fn inspect(&mut self) {
         let is_open = self.window.tab == Some(InstrumentTab::Path);
-        if let Some(request) = self.background.worker.request().filter(|_| is_open) {
-            let spp = self.results.shown.as_ref().map_or(1, |frame| frame.spp);
-            self.instruments.path.search(request, spp);
+        if self.comparison().is_none() {
+            self.instruments.path.of_second = false;
         }
+        if let Some(request) = self.inspected_request().filter(|_| is_open) {
+            let spp = self.inspected_frame().map_or(1, |frame| frame.spp);
+            self.instruments.path.search(&request, spp);
+        }
+    }
+
+    /// The picture that the path inspector looks at: that of the side that was clicked.
+    pub fn inspected_request(&self) -> Option<RenderRequest> {
+        let request = self.background.worker.request()?.clone();
+        let other = self.comparison().filter(|_| self.instruments.path.of_second).map(|comparison| comparison.other);
+        Some(RenderRequest { settings: other.unwrap_or(request.settings), ..request })
+    }
+
+    fn inspected_frame(&self) -> Option<Arc<Frame>> {
+        if self.instruments.path.of_second { self.results.second_frame.clone() } else { self.results.shown.clone() }
     }
 }

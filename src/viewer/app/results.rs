@@ -3,6 +3,7 @@ use std::sync::Arc;
 
 use egui::{Context, TextureHandle, TextureOptions};
 use noisefall::{
+    measure::LogRatio,
     render::{
         Frame, Status,
         view::{Legend, ZScoreHistogram},
@@ -22,6 +23,8 @@ pub struct Results {
     pub second_frame: Option<Arc<Frame>>,
     pub comparison: Option<ReferenceComparison>,
     pub second_comparison: Option<ReferenceComparison>,
+    /// Logarithm of the error of A over that of B.
+    pub error_ratio: Option<LogRatio>,
     pub legend: Option<Legend>,
     pub values: PixelValues,
     pub scores: Option<ZScoreHistogram>,
@@ -42,6 +45,7 @@ impl Results {
         set(ctx, &mut self.textures[0], "picture", Some(image.image), options);
         set(ctx, &mut self.textures[1], "picture beside", image.second_image, options);
         (self.comparison, self.second_comparison) = (image.comparison, image.second_comparison);
+        self.error_ratio = image.error_ratio;
         (self.legend, self.values, self.scores) = (image.legend, image.values, image.scores);
         self.shown = Some(image.frame);
     }

@@ -34,8 +34,8 @@ impl App {
             SaveTarget::CurvesSvg => Ok(self.instruments.history.svg().into_bytes()),
             SaveTarget::Path => {
                 let extension = path.extension().unwrap_or_default().to_string_lossy();
-                let form = PathForm::of_extension(&extension).zip(self.background.worker.request());
-                let text = form.and_then(|(form, request)| written(&self.instruments.path, request, form));
+                let form = PathForm::of_extension(&extension).zip(self.inspected_request());
+                let text = form.and_then(|(form, request)| written(&self.instruments.path, &request, form));
                 text.map(String::into_bytes).ok_or_else(|| "No path is traced yet. Try again in a moment.".to_owned())
             }
         };

@@ -1,10 +1,13 @@
 //! Turns frames into screen pixels and compares them with the reference.
 use std::sync::Arc;
 
-use noisefall::render::{
-    Frame,
-    truth::Reference,
-    view::{Field, Legend, Scale, Sources, View, ZScoreHistogram, draw},
+use noisefall::{
+    measure::LogRatio,
+    render::{
+        Frame,
+        truth::Reference,
+        view::{Field, Legend, Scale, Sources, View, ZScoreHistogram, draw},
+    },
 };
 
 use super::{
@@ -30,6 +33,8 @@ pub struct DisplayImage {
     pub reference: Option<Arc<Reference>>,
     pub comparison: Option<ReferenceComparison>,
     pub second_comparison: Option<ReferenceComparison>,
+    /// The error of the first frame over that of the second, as a logarithm: against the reference, or as estimated.
+    pub error_ratio: Option<LogRatio>,
     /// Fraction of the frame's pixels that have light.
     pub lit: f32,
 }
@@ -85,6 +90,7 @@ pub fn render(request: DisplayRequest) -> DisplayImage {
         is_reduced: image.size != [frame.width, frame.height].map(|side| side as usize),
         comparison: compare(&frame),
         second_comparison: second.as_ref().and_then(|second| compare(second)),
+        error_ratio: second.as_ref().and_then(|second| error_ratio([&frame, second], truth)),
         lit: lit(&frame),
         frame,
         second,
@@ -95,6 +101,17 @@ pub fn render(request: DisplayRequest) -> DisplayImage {
         values: PixelValues { numbers, radiance },
         scores,
         reference,
+    }
+}
+
+/// The error of a frame over that of another one.
+fn error_ratio([first, second]: [&Frame; 2], truth: Option<&Reference>) -> Option<LogRatio> {
+    if first.is_coarse() || second.is_coarse() || first.width != second.width {
+        return None;
+    }
+    match truth {
+        Some(truth) => LogRatio::jackknife(&truth.block_errors(first)?, &truth.block_errors(second)?),
+        None => LogRatio::jackknife(first.block_errors.as_ref()?, second.block_errors.as_ref()?),
     }
 }
 

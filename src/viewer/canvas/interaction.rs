@@ -39,6 +39,8 @@ pub struct CanvasOutput {
     pub camera: Option<Camera>,
     /// Where the first picture lies, for overlays.
     pub area: Option<PictureArea>,
+    /// Where the second one lies, if that is elsewhere.
+    pub second_area: Option<PictureArea>,
 }
 
 /// Draws the pictures into the available space and reads the mouse and the keys. The camera moves through `scene`, by keys only
@@ -82,6 +84,7 @@ pub fn show(
         marked: if tool == Tool::Region && !wiped { marked(ui, &response, &under, view) } else { None },
         camera: scene.and_then(|scene| flight::moved(ui, &response, moves, camera, under.rect, scene)),
         area: Some(areas[0]),
+        second_area: areas.get(1).copied(),
     }
 }
 

@@ -18,6 +18,7 @@ pub enum Command {
     Fit,
     ActualSize,
     Compare(RenderSettings),
+    EndComparison,
     Save,
     Help,
 }
@@ -28,6 +29,7 @@ pub struct Toolbar<'a> {
     pub is_paused: bool,
     pub has_region: bool,
     pub can_save: bool,
+    pub is_comparing: bool,
     /// What undo and redo would change.
     pub undo: [Option<&'static str>; 2],
     pub tool: Tool,
@@ -71,7 +73,12 @@ impl Toolbar<'_> {
                 asks(zoom_buttons(ui, zoom));
             }
             ui.separator();
-            asks(menu::show(ui, self.settings).map(Command::Compare));
+            if self.is_comparing {
+                let end = ui.button("End comparison").on_hover_text("Goes on with the settings of A.");
+                asks(end.clicked().then_some(Command::EndComparison));
+            } else {
+                asks(menu::show(ui, self.settings).map(Command::Compare));
+            }
             if !is_narrow {
                 ui.add_space((ui.available_width() - OF_ENDS).max(0.0));
             }

@@ -72,7 +72,7 @@ fn a_comparison_starts_with_one_click_and_both_sides_converge() {
     let other = window.state().session.comparison.expect("it compares").other;
     assert_eq!((other.estimator, window.state().session.settings.estimator), (Estimator::Path, Estimator::Mis));
     wait(&mut window, "both", |app| {
-        app.results.status.spp >= 4 && app.results.second_status.spp >= 4 && app.results.textures[1].is_some()
+        app.results.status.spp >= 4 && app.results.second_status.spp >= 4 && app.results.error_ratio.is_some()
     });
     window.run_steps(3);
     assert!(window.query_by_label_contains("times as efficient").is_some());

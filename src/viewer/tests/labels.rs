@@ -2,6 +2,7 @@
 use std::sync::Arc;
 
 use noisefall::{
+    measure::LogRatio,
     render::{Frame, Series},
     scene::{RenderSettings, built_in},
 };
@@ -98,12 +99,18 @@ fn each_side_of_a_comparison_has_its_own_figures_in_their_columns() {
     ] {
         assert!(texts.windows(row.len()).any(|cells| cells == row), "{row:?} is not in {texts:?}");
     }
-    assert_says(&texts, &["A is about 5.6 times as efficient so far."]);
+    assert_says(&texts, &["No difference yet."]);
+    // The error of A is a quarter of that of B, in 2.5 s of 3.5.
+    let ratio = LogRatio { value: 0.25f64.ln(), standard_error: 0.01, degrees: 1e6, model_error: 0.0 };
+    app.results.error_ratio = Some(ratio);
+    let texts = said(&mut app, |app, ui| app.instrument(ui, InstrumentTab::Compare));
+    assert_says(&texts, &["A is 5.6 times as efficient (95 % interval 5.5 to 5.7)."]);
+    app.results.error_ratio = Some(LogRatio { value: 4f64.ln(), ..ratio });
     std::mem::swap(&mut app.results.comparison, &mut app.results.second_comparison);
     // 1/(0.01 · 2.5) and 1/(0.0025 · 3.5).
     assert_says(
         &said(&mut app, |app, ui| app.instrument(ui, InstrumentTab::Compare)),
-        &["B is about 2.9 times as efficient so far."],
+        &["B is 2.9 times as efficient (95 % interval 2.8 to 2.9)."],
     );
 }
 

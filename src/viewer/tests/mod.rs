@@ -18,6 +18,7 @@ mod painted;
 mod path;
 mod presets;
 mod rasteriser;
+mod ratios;
 mod saving;
 mod scenes;
 mod settings;

@@ -60,7 +60,7 @@ fn a_legend_has_its_colours_from_left_to_right_with_their_numbers_below() {
     let scale = Scale { map: ColourMap::Viridis, ends: [1.0, 100.0], log: true, unit: "m" };
     let entries = vec![([200, 10, 20], "first".to_owned()), ([20, 210, 30], "second".to_owned())];
     app.results.legend = Some(Legend { title: "Depth".to_owned(), scale: Some(scale), entries });
-    let shapes = painted(|ui| app.overlays(ui, &AREA));
+    let shapes = painted(|ui| app.overlays(ui, &AREA, None));
     let colour = |place: f32| {
         let [r, g, b] = ColourMap::Viridis.of(place);
         Color32::from_rgb(r, g, b)
@@ -93,7 +93,7 @@ fn scores_are_bars_at_their_places_under_the_normal_curve() {
     let mut density = vec![0.0; 50];
     (density[30], density[10]) = (0.5, 0.25);
     app.results.scores = Some(ZScoreHistogram { density, beyond: 0.05, mean: 0.1, deviation: 1.2 });
-    let shapes = painted(|ui| app.overlays(ui, &AREA));
+    let shapes = painted(|ui| app.overlays(ui, &AREA, None));
     let blue = Color32::from_rgb(86, 180, 233);
     let bars: Vec<Rect> =
         fills(&shapes).into_iter().filter(|(rect, fill)| *fill == blue && rect.height() > 1.0).map(|bar| bar.0).collect();
@@ -123,7 +123,7 @@ fn a_region_is_framed_with_the_tiles_that_it_takes() {
     let mut app = app();
     app.session.budget.region = Some(Region { from: [10, 40], to: [20, 50] });
     let frames = |app: &mut App| {
-        let shapes = painted(|ui| app.overlays(ui, &AREA));
+        let shapes = painted(|ui| app.overlays(ui, &AREA, None));
         let frame = |shape: &Shape| match shape {
             Shape::Rect(rect) if rect.stroke.width > 0.0 => Some((rect.stroke.width, rect.rect)),
             _ => None,

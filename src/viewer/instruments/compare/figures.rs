@@ -1,7 +1,9 @@
 //! The figures of both sides, and which is more efficient.
 use egui::{Grid, RichText, Ui};
 use noisefall::{
-    render::{State, Status},
+    measure::LogRatio,
+    render::{MODEL_ERROR, State, Status},
+    sampling::Sampler,
     scene::RenderSettings,
 };
 
@@ -17,7 +19,13 @@ pub struct SideStatus<'a> {
 }
 
 /// Shows the figures of both sides, and which is more efficient.
-pub fn show(ui: &mut Ui, [a, b]: [&RenderSettings; 2], of_scene: &RenderSettings, [of_a, of_b]: [SideStatus; 2]) {
+pub fn show(
+    ui: &mut Ui,
+    [a, b]: [&RenderSettings; 2],
+    of_scene: &RenderSettings,
+    [of_a, of_b]: [SideStatus; 2],
+    error_ratio: Option<LogRatio>,
+) {
     let named = |settings, side: SideStatus| name(settings, of_scene, side.status.shares);
     let sides = [Side::of("A", named(a, of_a), a, of_a), Side::of("B", named(b, of_b), b, of_b)];
     Grid::new("A and B").num_columns(8).spacing([18.0, 5.0]).show(ui, |ui| {
@@ -31,15 +39,17 @@ pub fn show(ui: &mut Ui, [a, b]: [&RenderSettings; 2], of_scene: &RenderSettings
     });
     ui.add_space(4.0);
     if began_apart(sides.each_ref().map(|side| side.seconds)) {
-        ui.weak("One had time before the comparison began: Restart (R) begins both at once.");
+        let first = if sides[0].seconds > sides[1].seconds { "A" } else { "B" };
+        ui.weak(format!("{first} had a head start. Restart (R) to give both the same time."));
     }
     if let Some(text) = incomparable(&sides) {
         ui.label(RichText::new(text).color(ui.warning()));
-    } else if let [Some(a), Some(b)] = sides.each_ref().map(|side| side.efficiency) {
-        let (text, more) = verdict(a, b);
+    } else if sides.iter().all(|side| side.efficiency.is_some()) {
+        let ratio = error_ratio.map(|ratio| efficiency_ratio(ratio, &sides, [a, b]));
+        let (text, more) = verdict(ratio);
         ui.label(RichText::new(text).color(ui.accent())).on_hover_text(more);
     } else {
-        ui.weak("Figures come with the second sample of both.");
+        ui.weak("Available after two samples per pixel.");
     }
 }
 
@@ -131,16 +141,43 @@ fn significant(x: f64) -> String {
     }
 }
 
-/// Which is better, and what that means.
-fn verdict(a: f64, b: f64) -> (String, String) {
-    let (better, ratio) = if a >= b { ("A", a / b) } else { ("B", b / a) };
-    let other = if better == "A" { "B" } else { "A" };
-    if ratio < 1.05 {
-        return ("Both are as good.".to_owned(), "Their efficiencies differ by less than five percent so far.".to_owned());
+/// ln of the efficiency of B over that of A. Where errors are estimated from samples that are not independent, the estimate of each side
+/// has an error of its own.
+fn efficiency_ratio(errors: LogRatio, sides: &[Side; 2], settings: [&RenderSettings; 2]) -> LogRatio {
+    let [a, b] = sides.each_ref().map(|side| side.seconds.max(1e-9));
+    let is_known = sides.iter().all(|side| side.truth.is_some());
+    let guessed = settings.iter().filter(|settings| !is_known && settings.sampler != Sampler::Independent).count();
+    let model_error = (guessed as f64).sqrt() * MODEL_ERROR;
+    LogRatio { value: errors.value + (a / b).ln(), model_error, ..errors }
+}
+
+/// Which is better, and what that means. `ratio` is the efficiency of B over that of A.
+fn verdict(ratio: Option<LogRatio>) -> (String, String) {
+    const EXPLANATION: &str = "95 % confidence interval by the jackknife over blocks of 32 × 32 pixels.";
+    let Some(ratio) = ratio else {
+        return ("No difference yet.".to_owned(), "The images have no noise, or are too small to tell.".to_owned());
+    };
+    let (better, other) = if ratio.value > 0.0 { ("B", "A") } else { ("A", "B") };
+    let [ratio, low, high] = LogRatio { value: ratio.value.abs(), ..ratio }.interval();
+    let is_clear = low > 1.0;
+    let [ratio, low, high] = [ratio, low, high].map(times);
+    let interval = format!("{ratio} times as efficient (95 % interval {low} to {high})");
+    if is_clear {
+        let cost = format!("{other} needs {ratio} times the time for the same error, which falls as 1/√time.");
+        (format!("{better} is {interval}."), format!("{cost} {EXPLANATION}"))
+    } else {
+        (format!("No difference yet: {better} is {interval}."), format!("The interval contains 1. {EXPLANATION}"))
     }
-    let ratio = if ratio < 10.0 { format!("{ratio:.1}") } else { format!("{ratio:.0}") };
-    let text = format!("{better} is about {ratio} times as efficient so far.");
-    (text, format!("{other} needs {ratio} times the time for the same error, which falls as 1/√time."))
+}
+
+/// A ratio with two digits that count.
+fn times(ratio: f64) -> String {
+    match ratio {
+        ratio if ratio < 2.0 => format!("{ratio:.2}"),
+        ratio if ratio < 10.0 => format!("{ratio:.1}"),
+        ratio if ratio < 1e4 => format!("{ratio:.0}"),
+        ratio => format!("{ratio:.1e}"),
+    }
 }
 
 #[cfg(test)]
@@ -193,13 +230,35 @@ mod tests {
         );
     }
 
+    fn ratio(value: f64, standard_error: f64) -> Option<LogRatio> {
+        Some(LogRatio { value: value.ln(), standard_error, degrees: 1e6, model_error: 0.0 })
+    }
+
     #[test]
-    fn the_verdict_names_the_better_one() {
-        assert!(verdict(2.0, 1.0).0.starts_with("A is about 2.0 "));
-        assert!(verdict(1.0, 3.0).0.starts_with("B is about 3.0 "));
-        assert_eq!(verdict(1.0, 1.01).0, "Both are as good.");
-        let (text, more) = verdict(1.0, 12.0);
-        assert!(text.starts_with("B is about 12 ") && more.starts_with("A needs 12 times the time"), "{text} {more}");
-        assert!(verdict(1.06, 1.0).0.starts_with("A is about 1.1 "));
+    fn the_verdict_names_the_better_one_when_its_interval_excludes_1() {
+        // exp(±1.96 · 0.1) = 0.82, 1.22.
+        assert_eq!(verdict(ratio(3.0, 0.1)).0, "B is 3.0 times as efficient (95 % interval 2.5 to 3.6).");
+        let (text, more) = verdict(ratio(1.0 / 12.0, 0.1));
+        assert_eq!(text, "A is 12 times as efficient (95 % interval 9.9 to 15).");
+        assert!(more.starts_with("B needs 12 times the time"), "{more}");
+        assert_eq!(verdict(ratio(1.2, 0.1)).0, "No difference yet: B is 1.20 times as efficient (95 % interval 0.99 to 1.46).");
+        assert!(verdict(ratio(0.82, 0.1)).0.starts_with("A is 1.22 times as efficient (95 % interval 1.00 to "));
+        assert!(verdict(None).0.starts_with("No difference yet"));
+    }
+
+    #[test]
+    fn efficiencies_differ_by_error_and_time_and_guesses_widen_their_interval() {
+        let status = |seconds| Status { spp: 7, elapsed: std::time::Duration::from_secs(seconds), ..Status::default() };
+        let sobol = RenderSettings::default();
+        let independent = RenderSettings { sampler: Sampler::Independent, ..sobol };
+        let (short, long) = (status(2), status(8));
+        let sides = |truth| [side(&short, &sobol, truth), side(&long, &sobol, truth)];
+        let errors = ratio(3.0, 0.1).expect("it is one");
+        let of = |truth, settings: [&RenderSettings; 2]| efficiency_ratio(errors, &sides(truth), settings);
+        assert!((of(None, [&sobol; 2]).value - (3.0f64 / 4.0).ln()).abs() < 1e-12, "A took a quarter of the time");
+        let model =
+            [of(None, [&sobol; 2]), of(None, [&sobol, &independent]), of(None, [&independent; 2]), of(Some(0.1), [&sobol; 2])];
+        let [both, one, none, known] = model.map(|ratio| ratio.model_error);
+        assert!((both - 2f64.sqrt() * MODEL_ERROR).abs() < 1e-12 && one == MODEL_ERROR && (none, known) == (0.0, 0.0));
     }
 }

@@ -1,14 +1,18 @@
 //! The tab of the comparison: its layout, its two settings and their figures.
 use egui::Ui;
-use noisefall::scene::RenderSettings;
+use noisefall::{measure::LogRatio, scene::RenderSettings};
 
 use super::{comparison::CompareLayout, comparison::Comparison, figures, figures::SideStatus, menu};
 use crate::viewer::widgets::style::choices;
 
 const LAYOUTS: [(CompareLayout, &str, &str); 3] = [
-    (CompareLayout::Wipe, "Wipe", "A at the left of a line, B at the right of it: drag the line"),
-    (CompareLayout::SideBySide, "Side by side", "The same part of both pictures"),
-    (CompareLayout::Difference, "Difference", "A less B, in parts of B: noise of both, and nothing else where both are unbiased"),
+    (CompareLayout::Wipe, "Wipe", "A is left of a line, B is right of it. Drag the line."),
+    (CompareLayout::SideBySide, "Side by side", "Shows the same part of both images."),
+    (
+        CompareLayout::Difference,
+        "Difference",
+        "A − B, relative to B. Where both are unbiased it shows the noise of both and nothing else.",
+    ),
 ];
 
 /// Shows the comparison, or the menu that starts one. Swapping or keeping a side changes both settings. Returns settings to compare
@@ -20,6 +24,7 @@ pub fn show(
     wipe: &mut f32,
     of_scene: &RenderSettings,
     sides: [SideStatus; 2],
+    ratio: Option<LogRatio>,
 ) -> Option<RenderSettings> {
     let Some(mut compare) = *comparison else {
         let row = ui.horizontal(|ui| {
@@ -35,10 +40,10 @@ pub fn show(
         if ui.button("Swap").on_hover_text("A becomes B, and B becomes A").clicked() {
             std::mem::swap(settings, &mut compare.other);
         }
-        if ui.button("Keep B").on_hover_text("Go on with the settings of B alone").clicked() {
+        if ui.button("Keep B").on_hover_text("End the comparison and go on with the settings of B").clicked() {
             (*settings, ends) = (compare.other, true);
         }
-        ends |= ui.button("Keep A").on_hover_text("End the comparison").clicked();
+        ends |= ui.button("Keep A").on_hover_text("End the comparison and go on with the settings of A").clicked();
         chosen = menu::show(ui, settings);
     });
     if compare.layout == CompareLayout::Wipe {
@@ -47,6 +52,6 @@ pub fn show(
     }
     *comparison = (!ends).then_some(compare);
     ui.add_space(6.0);
-    figures::show(ui, [settings, &compare.other], of_scene, sides);
+    figures::show(ui, [settings, &compare.other], of_scene, sides, ratio);
     chosen
 }

@@ -70,6 +70,8 @@ impl<T: Send + 'static> Search<T> {
 pub struct PathInspector {
     ctx: egui::Context,
     pub pixel: Option<[u32; 2]>,
+    /// The pixel is one of B.
+    pub of_second: bool,
     pub sample: u32,
     replay: Search<Replay>,
     /// With the radiance of the samples.
@@ -78,7 +80,8 @@ pub struct PathInspector {
 
 impl PathInspector {
     pub fn new(ctx: &egui::Context) -> PathInspector {
-        PathInspector { ctx: ctx.clone(), pixel: None, sample: 0, replay: Search::default(), histogram: Search::default() }
+        let (replay, histogram) = Default::default();
+        PathInspector { ctx: ctx.clone(), pixel: None, of_second: false, sample: 0, replay, histogram }
     }
 
     pub fn look_at(&mut self, pixel: [u32; 2]) {

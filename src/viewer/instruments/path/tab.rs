@@ -8,15 +8,20 @@ use noisefall::{
 use super::{copying, histogram, inspector::PathInspector, table};
 use crate::viewer::widgets::{number, palette::Palette};
 
-/// Shows what the inspector has traced. `request` is the last one to the renderer, `frame` the displayed picture.
-/// Returns whether to save the path or its samples.
-pub fn show(
-    ui: &mut Ui,
-    inspector: &mut PathInspector,
-    request: Option<&RenderRequest>,
-    frame: Option<&Frame>,
-    resolution: [u32; 2],
-) -> bool {
+/// The picture that is inspected.
+pub struct Subject<'a> {
+    /// Its request to the renderer.
+    pub request: Option<&'a RenderRequest>,
+    /// The frame on the screen.
+    pub frame: Option<&'a Frame>,
+    /// The letter of its side of a comparison.
+    pub side: Option<&'static str>,
+    pub resolution: [u32; 2],
+}
+
+/// Shows what the inspector has traced. Returns whether to save the path or its samples.
+pub fn show(ui: &mut Ui, inspector: &mut PathInspector, subject: &Subject) -> bool {
+    let Subject { request, frame, side, resolution } = *subject;
     let Some(pixel) = inspector.pixel else {
         ui.label("Click a pixel of the picture to see its samples and the paths they came by.");
         if ui.button("The pixel in the middle").clicked() {
@@ -27,7 +32,7 @@ pub fn show(
     let mut saves = false;
     egui::Panel::left("pixel").resizable(false).exact_size(312.0).show(ui, |ui| {
         ScrollArea::vertical().show(ui, |ui| {
-            pixel_choice(ui, inspector, pixel, resolution);
+            pixel_choice(ui, inspector, pixel, side, resolution);
             if let Some(frame) = frame {
                 estimate(ui, frame, pixel);
             }
@@ -52,10 +57,11 @@ pub fn show(
     saves
 }
 
-fn pixel_choice(ui: &mut Ui, inspector: &mut PathInspector, pixel: [u32; 2], [width, height]: [u32; 2]) {
+fn pixel_choice(ui: &mut Ui, inspector: &mut PathInspector, pixel: [u32; 2], side: Option<&str>, [width, height]: [u32; 2]) {
     let mut at = pixel;
     ui.horizontal(|ui| {
-        ui.label("Pixel");
+        let name = side.map_or_else(|| "Pixel".to_owned(), |side| format!("Pixel of {side}"));
+        ui.label(name).on_hover_text("Column and row from the top left. Click the image to choose another pixel.");
         for (axis, name, most) in [(0, "x", width), (1, "y", height)] {
             let label = ui.weak(name);
             let field = number::field(ui, &mut at[axis], 0, 0.0..=f64::from(most.saturating_sub(1)));
