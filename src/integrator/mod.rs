@@ -44,7 +44,10 @@ pub use self::{
     batch::Batch,
     collision::{clear_fraction, is_blind},
     features::{Features, features},
-    replay::{EmitterHit, End, Outcome, Reflection, Replay, SampledLight, Surface, Vertex, pixel_samples, replay},
+    replay::{
+        EmitterHit, End, Outcome, Reflection, Replay, SampledLight, SharedLight, Surface, Vertex, pixel_samples, replay,
+        seen_by_camera,
+    },
     series::{SHARES, TERMS, Terms, trace_series},
     slots::{BLOCK, BLOCKS, TILE},
     trace::{Interrupted, Segments, trace_counting},

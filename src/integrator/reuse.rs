@@ -15,7 +15,7 @@ use super::{
 };
 use crate::{
     geometry::PrimitiveRef,
-    math::{F, Lanes, M, Pick, U, V},
+    math::{F, Lanes, M, One, Pick, U, V},
 };
 
 /// The first surface of a path.
@@ -68,6 +68,23 @@ pub(super) fn share<L: Lanes>(l: L, work: &Work, batch: &mut Batch) {
         }
     }
     std::mem::swap(&mut batch.radiance, &mut batch.shared.radiance);
+}
+
+/// The part of the light beyond the second surface of a slot's path that stays with its own pixel.
+pub(super) fn kept(work: &Work, batch: &Batch, slot: u32) -> [f32; 3] {
+    let second = Second::read(One, work, batch, U(slot));
+    if !second.lit.any() {
+        return [0.0; 3];
+    }
+    let (mut own, mut total, mut rays) = (F(0.0), F(0.0), 0);
+    for member in 0..MEMBERS as u32 {
+        let place = U::<One>(member * GROUPS as u32 + slot % GROUPS as u32);
+        let is_own = place.0 == slot;
+        let density = second.density_from(One, work, &First::read(One, &batch.shared, place), is_own, &mut rays);
+        own = if is_own { density } else { own };
+        total = total + density;
+    }
+    batch.shared.weighted(slot as usize, (second.radiance * (1.0 / total) * own).lane(0))
 }
 
 impl<L: Lanes> First<L> {

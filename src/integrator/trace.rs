@@ -27,6 +27,9 @@ pub trait Observer {
 
     /// Called after shading: light samples and the paths of the next bounce are queued. Faults of tests change the paths.
     fn at_shaded(&mut self, _work: &Work, _batch: &mut Batch) {}
+
+    /// Called when all paths have ended, before pixels share them.
+    fn before_sharing(&mut self, _work: &Work, _batch: &Batch) {}
 }
 
 impl Observer for () {}
@@ -106,6 +109,7 @@ pub(super) fn trace_in<L: Lanes, O: Observer>(
         batch.bounce += 1;
     }
     if work.shares() {
+        observer.before_sharing(work, batch);
         share(l, work, batch);
     }
     Ok(())

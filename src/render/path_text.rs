@@ -83,7 +83,7 @@ fn block(scene: &Scene, vertex: &Vertex) -> String {
         term("to the viewer", &place(*wo));
         shading_normal.iter().for_each(|n| term("normal", &place(*n)));
     }
-    if let Some(EmitterHit { radiance, weight, contribution }) = &vertex.emission {
+    if let Some(EmitterHit { radiance, weight, contribution, .. }) = &vertex.emission {
         term("emission", &format!("Le {}, weight {}", three(*radiance), number(*weight)));
         term("", &format!("adds {}", three(*contribution)));
     }

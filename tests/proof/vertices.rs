@@ -4,7 +4,7 @@ mod tally;
 use std::{f32::consts::PI, path::Path};
 
 use noisefall::{
-    integrator::{Batch, Outcome, Replay, TILE, Vertex, Work, pixel_samples, replay, trace},
+    integrator::{Batch, Outcome, Replay, SharedLight, TILE, Vertex, Work, pixel_samples, replay, trace},
     math::SimdLevel,
     sampling::Sampler,
     scene::{Camera, CameraRays, Estimator, RenderSettings, Reuse, Roulette, Scene, load},
@@ -160,6 +160,23 @@ fn assert_sums(replay: &Replay, what: &str) {
         assert_eq!(bits(sum), bits(vertex.radiance), "bounce {} of {what}", vertex.bounce);
     }
     assert_eq!(bits(sum), bits(replay.alone.unwrap_or(replay.radiance)), "{what}");
+    assert_eq!(replay.alone.is_some(), replay.shared.is_some(), "{what}");
+    replay.shared.iter().for_each(|shared| assert_shared(replay, shared, what));
+}
+
+/// What a pixel keeps and what its neighbours find add up to its sample.
+fn assert_shared(replay: &Replay, shared: &SharedLight, what: &str) {
+    let emissions = replay.vertices.iter().flat_map(|vertex| &vertex.emission).map(|term| (term.shared, term.contribution));
+    let lights = replay.vertices.iter().flat_map(|vertex| &vertex.light).map(|term| (term.shared, term.contribution));
+    let terms: Vec<(bool, [f32; 3])> = emissions.chain(lights).collect();
+    let near = |a: f32, b: f32| (a - b).abs() <= 1e-5 * (a.abs() + b.abs()) + 1e-6;
+    for c in 0..3 {
+        let sum = |of: bool| terms.iter().filter(|(shared, _)| *shared == of).map(|(_, term)| term[c]).sum::<f32>();
+        assert!(near(sum(false), shared.unshared[c]), "{what}: {shared:?} {terms:?}");
+        assert!(shared.kept[c] >= 0.0 && shared.kept[c] <= sum(true) * 1.0001 + 1e-6, "{what}: {shared:?} {terms:?}");
+        let parts = shared.unshared[c] + shared.kept[c] + shared.from_neighbours[c];
+        assert!(near(parts, replay.radiance[c]), "{what}: {shared:?} {:?}", replay.radiance);
+    }
 }
 
 /// Checks that every vertex starts with the final state of the previous one.

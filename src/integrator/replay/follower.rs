@@ -1,7 +1,7 @@
 //! Records the path of one slot while a batch is traced with one lane.
 use super::{
     light::sampled_light,
-    terms::{EmitterHit, Reflection, Surface, Vertex},
+    terms::{EmitterHit, Reflection, SampledLight, Surface, Vertex},
     throughput::{BLACK, WHITE, carried},
 };
 use crate::{
@@ -14,6 +14,7 @@ use crate::{
         queue::{Queue, Register},
         queues::HitQueues,
         records::{Detail, Hit, Path, Shadow},
+        reuse::kept,
         shading::{Reflected, Shading, shares_first},
         slots::SLOTS,
         trace::Observer,
@@ -29,6 +30,8 @@ pub(super) struct Follower {
     /// The sum of contributions.
     pub radiance: [f32; 3],
     pub vertices: Vec<Vertex>,
+    /// The terms that are not shared, and what the pixel keeps of the others.
+    pub unshared_and_kept: Option<[[f32; 3]; 2]>,
 }
 
 impl Observer for Follower {
@@ -45,11 +48,16 @@ impl Observer for Follower {
             in_stage!(stage, K => self.shade::<K>(work, batch));
         }
     }
+
+    fn before_sharing(&mut self, work: &Work, batch: &Batch) {
+        let [r, g, b, _] = batch.radiance[self.slot as usize];
+        self.unshared_and_kept = Some([[r, g, b], kept(work, batch, self.slot)]);
+    }
 }
 
 impl Follower {
     pub fn new(slot: u32) -> Follower {
-        Follower { slot, radiance: BLACK, vertices: Vec::new() }
+        Follower { slot, radiance: BLACK, vertices: Vec::new(), unshared_and_kept: None }
     }
 
     /// The index of the slot in a queue, if it is there.
@@ -76,7 +84,8 @@ impl Follower {
         let emission = hit_emitter::<VARIED>(work, &path, interaction).map(|(radiance, place)| {
             let weight = emitter_hit_weight_of(work, batch, at, &path, place);
             let contribution = V::splat(One, throughput) * transmittance * radiance * weight;
-            EmitterHit { radiance: radiance.lane(0), weight: weight.0, contribution: contribution.lane(0) }
+            let shared = path.slot.0 >= SLOTS as u32;
+            EmitterHit { radiance: radiance.lane(0), weight: weight.0, contribution: contribution.lane(0), shared }
         });
         self.add(emission.as_ref().map_or(BLACK, |emission| emission.contribution));
         let (normal, shading_normal) = self.normals(work, batch).unzip();
@@ -122,7 +131,8 @@ impl Follower {
         let light = (K::SEES_LIGHTS && work.samples_lights()).then(|| {
             let queue = &batch.shadows.shadows;
             let queued = self.find(queue, |at| Shadow::read(One, queue, at).slot);
-            sampled_light(work, batch, &shading.sample_light(One, work), queued.map(only))
+            let shared = Hit::read(One, &queues.hits, at).slot.0 >= SLOTS as u32;
+            SampledLight { shared, ..sampled_light(work, batch, &shading.sample_light(One, work), queued.map(only)) }
         });
         self.add(light.as_ref().map_or(BLACK, |light| light.contribution));
         if let Some(vertex) = self.vertices.last_mut() {

@@ -29,6 +29,7 @@ pub(super) fn sampled_light(
         distance: None,
         passed: BLACK,
         contribution: BLACK,
+        shared: false,
     };
     let Some(at) = queued else { return light };
     let shadow = Shadow::read(One, &batch.shadows.shadows, at.start);

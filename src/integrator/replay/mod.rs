@@ -8,13 +8,15 @@ mod light;
 mod samples;
 mod terms;
 mod throughput;
+mod visible;
 
 use serde::Serialize;
 
 use self::follower::Follower;
 pub use self::{
     samples::pixel_samples,
-    terms::{EmitterHit, End, Outcome, Reflection, SampledLight, Surface, Vertex},
+    terms::{EmitterHit, End, Outcome, Reflection, SampledLight, SharedLight, Surface, Vertex},
+    visible::seen_by_camera,
 };
 use super::{
     batch::Batch,
@@ -34,6 +36,8 @@ pub struct Replay {
     pub radiance: [f32; 3],
     /// The estimate by this path alone, if pixels share paths.
     pub alone: Option<[f32; 3]>,
+    /// What pixels share in this sample, if they share paths.
+    pub shared: Option<SharedLight>,
     /// Vertices in order. The contributions of their emission and of their light samples add up to the radiance, or to `alone` if
     /// pixels share paths.
     pub vertices: Vec<Vertex>,
@@ -55,7 +59,12 @@ pub fn replay(scene: &Scene, rays: &CameraRays, settings: &RenderSettings, pixel
     debug_assert_eq!(finished, Ok(()));
     let alone = work.shares().then_some(follower.radiance);
     let end = follower.vertices.last().map_or(End::default(), |last| end_at(scene, settings, last));
-    Replay { radiance: radiance_at(&batch, [x, y]), alone, vertices: follower.vertices, end }
+    let radiance = radiance_at(&batch, [x, y]);
+    let shared = follower.unshared_and_kept.map(|[unshared, kept]| {
+        let from_neighbours = [0, 1, 2].map(|c| (radiance[c] - unshared[c] - kept[c]).max(0.0));
+        SharedLight { unshared, kept, from_neighbours }
+    });
+    Replay { radiance, alone, shared, vertices: follower.vertices, end }
 }
 
 /// The reason why a vertex is the last one.

@@ -107,6 +107,19 @@ pub struct EmitterHit {
     pub weight: f32,
     /// Throughput × transmittance × radiance × weight.
     pub contribution: [f32; 3],
+    /// Whether the contribution is shared among neighbouring pixels.
+    pub shared: bool,
+}
+
+/// The parts of a sample of a pixel that shares paths with its neighbours. They add up to the sample.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SharedLight {
+    /// The terms of the path that are not shared.
+    pub unshared: [f32; 3],
+    /// The part of its shared terms that the pixel keeps.
+    pub kept: [f32; 3],
+    /// The parts of the shared terms of neighbouring pixels.
+    pub from_neighbours: [f32; 3],
 }
 
 /// A light sample (next-event estimation).
@@ -132,6 +145,8 @@ pub struct SampledLight {
     pub passed: [f32; 3],
     /// Throughput × transmittance × f cos × radiance × weight/pdf × passed.
     pub contribution: [f32; 3],
+    /// Whether the contribution is shared among neighbouring pixels.
+    pub shared: bool,
 }
 
 /// The outcome of a light sample.

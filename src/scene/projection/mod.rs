@@ -66,7 +66,7 @@ impl Projection {
 
     /// Origin and unit direction of the rays through points of the picture, relative to the eye.
     #[inline(always)]
-    pub(super) fn rays<L: Lanes>(self, l: L, place: V<L>, eye: [f32; 3], forward: [f32; 3]) -> (V<L>, V<L>) {
+    pub(crate) fn rays<L: Lanes>(self, l: L, place: V<L>, eye: [f32; 3], forward: [f32; 3]) -> (V<L>, V<L>) {
         in_projection!(self, projection => projection.rays(l, place, eye, forward))
     }
 

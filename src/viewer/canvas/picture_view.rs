@@ -61,7 +61,7 @@ impl PictureView {
     /// Width and height of the picture in screen pixels, if it is minified.
     pub fn on_screen(&self) -> Option<[u32; 2]> {
         let is_minified = self.drawn_zoom > 0.0 && self.drawn_zoom < 1.0;
-        is_minified.then(|| [self.drawn_size.x as u32, self.drawn_size.y as u32])
+        is_minified.then_some([self.drawn_size.x as u32, self.drawn_size.y as u32])
     }
 
     pub fn pan(&mut self, points: Vec2, pixels_per_point: f32) {

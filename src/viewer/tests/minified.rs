@@ -41,7 +41,7 @@ fn thin_lines_are_seen_however_small_the_picture_is() {
     let request = app.display_request(Arc::new(striped));
     let shown = render(DisplayRequest { on_screen: Some([16, 11]), ..request });
     assert_eq!(shown.image.size, [16, 11]);
-    let codes = || shown.image.pixels.iter().map(|pixel| pixel.r());
+    let codes = || shown.image.pixels.iter().map(egui::Color32::r);
     let (least, most) = (codes().min().expect("pixels"), codes().max().expect("pixels"));
     assert!(most - least <= 1 && most.abs_diff(113) <= 1, "a sixth of white has the code 113: {least} {most}");
 }

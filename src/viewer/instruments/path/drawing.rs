@@ -7,6 +7,8 @@ use super::{inspector::PathInspector, projection::clip, projection::project, tab
 use crate::viewer::canvas::picture_area::PictureArea;
 
 const PATH: Color32 = Color32::from_rgb(255, 214, 90);
+/// Within the ring of a vertex that the camera does not see.
+const HOLLOW: Color32 = Color32::from_black_alpha(90);
 const LIGHT: Color32 = Color32::from_rgb(86, 200, 255);
 
 /// Draws the inspected pixel and the vertices of its path. `size` is that of the scene.
@@ -30,7 +32,7 @@ pub fn draw(ui: &Ui, area: &PictureArea, inspector: &PathInspector, camera: &Cam
         ends.into_iter().for_each(|ends| painter.extend(Shape::dashed_line(&ends, stroke, dash, 0.8 * dash)));
     };
     let mut before = square.center();
-    for vertex in replay.vertices.iter().take(MOST_VERTICES) {
+    for (number, vertex) in replay.vertices.iter().take(MOST_VERTICES).enumerate() {
         let Some(at) = vertex.surface.as_ref().and_then(|surface| screen(surface.position)) else {
             let away = towards([vertex.origin, vertex.direction], 0.06 * size);
             if let Some(away) = away.filter(|_| vertex.bounce > 0) {
@@ -50,7 +52,9 @@ pub fn draw(ui: &Ui, area: &PictureArea, inspector: &PathInspector, camera: &Cam
                 dashed([at, to], stroke, 3.5);
             }
         }
-        painter.circle(at, 4.0, PATH, Stroke::new(1.0, Color32::BLACK));
+        let (fill, edge) =
+            if inspector.is_seen(number) { (PATH, Stroke::new(1.0, Color32::BLACK)) } else { (HOLLOW, Stroke::new(1.6, PATH)) };
+        painter.circle(at, 4.0, fill, edge);
         let number = vertex.bounce.to_string();
         painter.text(at + vec2(8.0, -6.0), Align2::LEFT_BOTTOM, &number, FontId::proportional(13.0), Color32::BLACK);
         painter.text(at + vec2(7.0, -7.0), Align2::LEFT_BOTTOM, number, FontId::proportional(13.0), Color32::WHITE);

@@ -1,11 +1,11 @@
 //! Traces the samples of a pixel and one of its paths again, off the UI thread.
 use noisefall::{
-    integrator::{Replay, pixel_samples, replay},
+    integrator::{Replay, pixel_samples, replay, seen_by_camera},
     math::colour::luminance,
     render::{RenderRequest, sharing::resolved},
 };
 
-use super::histogram::Histogram;
+use super::{histogram::Histogram, table::Channel};
 use crate::viewer::background::background_task::BackgroundTask;
 
 /// More samples do not change what a histogram looks like.
@@ -73,7 +73,10 @@ pub struct PathInspector {
     /// The pixel is one of B.
     pub of_second: bool,
     pub sample: u32,
-    replay: Search<Replay>,
+    /// The channel that the table of terms shows.
+    pub channel: Channel,
+    /// With whether the camera sees each of its vertices.
+    replay: Search<(Replay, Vec<bool>)>,
     /// With the radiance of the samples.
     histogram: Search<(Histogram, Vec<[f32; 3]>)>,
 }
@@ -81,7 +84,7 @@ pub struct PathInspector {
 impl PathInspector {
     pub fn new(ctx: &egui::Context) -> PathInspector {
         let (replay, histogram) = Default::default();
-        PathInspector { ctx: ctx.clone(), pixel: None, of_second: false, sample: 0, replay, histogram }
+        PathInspector { ctx: ctx.clone(), pixel: None, of_second: false, sample: 0, channel: Channel::Red, replay, histogram }
     }
 
     pub fn look_at(&mut self, pixel: [u32; 2]) {
@@ -93,7 +96,12 @@ impl PathInspector {
 
     /// The path of the chosen sample; of the one before while that is traced. With the number of the sample.
     pub fn replay(&self) -> Option<(u32, &Replay)> {
-        self.replay.found.as_ref().map(|(question, replay)| (question.number, replay))
+        self.replay.found.as_ref().map(|(question, (replay, _))| (question.number, replay))
+    }
+
+    /// Whether the camera sees a vertex of that path.
+    pub fn is_seen(&self, vertex: usize) -> bool {
+        self.replay.found.as_ref().is_some_and(|(_, (_, seen))| seen.get(vertex).copied().unwrap_or(false))
     }
 
     /// Of the first samples of the pixel.
@@ -135,9 +143,11 @@ fn count_of(spp: u32) -> u32 {
     1 << spp.clamp(1, MOST_SAMPLES).ilog2()
 }
 
-fn path_of(Question { request: RenderRequest { scene, camera, settings }, pixel, number }: &Question) -> Replay {
+fn path_of(Question { request: RenderRequest { scene, camera, settings }, pixel, number }: &Question) -> (Replay, Vec<bool>) {
     let rays = scene.rays(camera);
-    replay(scene, &rays, &resolved(scene, &rays, settings), *pixel, *number)
+    let replay = replay(scene, &rays, &resolved(scene, &rays, settings), *pixel, *number);
+    let seen = seen_by_camera(scene, camera, &replay);
+    (replay, seen)
 }
 
 fn histogram_of(question: &Question, cancelled: &dyn Fn() -> bool) -> Option<(Histogram, Vec<[f32; 3]>)> {

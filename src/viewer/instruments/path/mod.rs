@@ -6,3 +6,4 @@ pub mod inspector;
 mod projection;
 pub mod tab;
 mod table;
+mod terms;

@@ -30,7 +30,7 @@ pub fn show(ui: &mut Ui, inspector: &mut PathInspector, subject: &Subject) -> bo
         return false;
     };
     let mut saves = false;
-    egui::Panel::left("pixel").resizable(false).exact_size(312.0).show(ui, |ui| {
+    egui::Panel::left("pixel").resizable(false).exact_size(290.0).show(ui, |ui| {
         ScrollArea::vertical().show(ui, |ui| {
             pixel_choice(ui, inspector, pixel, side, resolution);
             if let Some(frame) = frame {
@@ -44,16 +44,21 @@ pub fn show(ui: &mut Ui, inspector: &mut PathInspector, subject: &Subject) -> bo
         ui.label(RichText::new(text).color(ui.bad()));
         return saves;
     }
+    let mut channel = inspector.channel;
     let Some((sample, replay)) = inspector.replay() else {
         ui.weak("Tracing the samples of this pixel …");
         return saves;
     };
     let objects = request.map_or(&[][..], |request| &request.scene.objects);
     egui::Frame::new().inner_margin(egui::Margin { left: 8, ..egui::Margin::ZERO }).show(ui, |ui| {
-        table::heading(ui, sample, replay);
+        table::heading(ui, sample, replay, &mut channel);
         let bars = ScrollBarVisibility::AlwaysVisible;
-        ScrollArea::both().auto_shrink(false).scroll_bar_visibility(bars).show(ui, |ui| table::show(ui, replay, objects));
+        ScrollArea::both()
+            .auto_shrink(false)
+            .scroll_bar_visibility(bars)
+            .show(ui, |ui| table::show(ui, replay, objects, channel));
     });
+    inspector.channel = channel;
     saves
 }
 
@@ -91,7 +96,7 @@ fn sample_column(ui: &mut Ui, inspector: &mut PathInspector, request: Option<&Re
     if let Some(sample) = histogram::show(ui, histogram, inspector.sample) {
         inspector.sample = sample;
     }
-    ui.weak("Over the picture: its path in yellow; light samples in blue, faint where hidden.");
+    ui.weak("Over the image: the path in yellow, vertices that the camera does not see as rings; light samples in blue, faint where hidden.");
     request.is_some_and(|request| copying::show(ui, inspector, request))
 }
 

@@ -1,134 +1,129 @@
-//! The terms of a path, one row per vertex, summed as in the equation.
-use egui::{Grid, RichText, Ui};
+//! The terms of a path, one row each, summed as in the equation.
+use egui::{Grid, Response, RichText, Ui};
 use noisefall::{
-    integrator::{Outcome, Replay, Vertex},
+    integrator::{Outcome, Reflection, Replay, Vertex},
     scene::Object,
 };
 
-use crate::viewer::widgets::palette::Palette;
+use super::terms::{Row, Source, Term, rows, totals};
+use crate::viewer::widgets::{
+    palette::Palette,
+    style::{choices, elided},
+};
 
 const TEXT: f32 = 12.0;
+/// Widths of names, so that the table fits beside the samples in a window of 1280 points.
+const VERTEX_WIDTH: f32 = 104.0;
+const TERM_WIDTH: f32 = 112.0;
 /// More of a path than this nobody reads.
 pub const MOST_VERTICES: usize = 64;
 
-/// Columns, and what they say.
-const COLUMNS: [(&str, &str); 17] = [
-    ("k", "Bounces before this vertex"),
-    ("Σ", "The sum of light so far: in the last row, the sample"),
-    ("object", "What is met, and of which material"),
-    ("x", "The point met, in metres"),
-    ("β", "Throughput: the product of τ f cos θ / (p q) so far"),
-    ("τ", "What media on the way here let pass"),
-    ("L_e", "Radiance emitted here towards the path"),
-    ("w", "MIS weight of the emitted light"),
-    ("+ τ β w L_e", "What running into it adds to the sample"),
-    (
-        "light sample",
-        "The lamp that was chosen, and whether it is seen; not tested where it is dark on this side, or nothing of it is reflected",
-    ),
-    ("f cos θ_l", "Bsdf and cosine towards it"),
-    ("p_l", "Density of its direction, per solid angle"),
-    ("w_l", "MIS weight of the light sample"),
-    ("τ_l", "What media on the way to the lamp let pass, times its texture; 0 where it is not seen"),
-    ("+ direct", "What the light sample adds: τ β f cos θ_l L_e τ_l w_l / p_l"),
-    ("ω_i", "The next direction, in the world"),
-    ("f · cos θ / p, q", "Bsdf, cosine, density per solid angle, and roulette's survival probability of that direction"),
+/// A colour channel; the table shows one, so that factors multiply and terms add up.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Channel {
+    #[default]
+    Red,
+    Green,
+    Blue,
+}
+
+const CHANNELS: [(Channel, &str, &str); 3] = [
+    (Channel::Red, "Red", "The numbers of the red channel. A tooltip has all three."),
+    (Channel::Green, "Green", "The numbers of the green channel. A tooltip has all three."),
+    (Channel::Blue, "Blue", "The numbers of the blue channel. A tooltip has all three."),
 ];
 
-/// What the table adds up to, and how.
-pub fn heading(ui: &mut Ui, sample: u32, replay: &Replay) {
-    let formula = "L = Σ τ β (w L_e + w_l f cos θ_l L_e τ_l / p_l), β growing by τ f cos θ / (p q) a vertex";
+/// Columns, and what they say.
+const COLUMNS: [(&str, &str); 9] = [
+    ("vertex", "Bounces before it, and the object that the path hits. The tooltip has the point and the next direction."),
+    ("light", "Emission that the path hits, or the lamp of a light sample and whether it is visible"),
+    ("β", "Throughput: the product of τ f cos θ / (p q) so far, times the transmittance τ of this segment"),
+    ("f cos θ", "BSDF and cosine towards the lamp"),
+    ("L_e", "Emitted radiance, W/(sr·m²)"),
+    ("τ", "Transmittance of media towards the lamp, times its texture; 0 where it is hidden"),
+    ("w", "Weight of multiple importance sampling"),
+    ("p", "Pdf of the direction to the lamp, per solid angle"),
+    ("term", "β f cos θ L_e τ w / p. Terms in brackets are shared among neighbouring pixels."),
+];
+
+/// Shows what the table adds up to, and how, and lets the user choose a channel.
+pub fn heading(ui: &mut Ui, sample: u32, replay: &Replay, channel: &mut Channel) {
     ui.horizontal_wrapped(|ui| {
-        ui.label(RichText::new(format!("Sample {sample}: {}", colour(replay.radiance))).color(ui.accent()).strong());
-        ui.weak(formula);
+        ui.label(RichText::new(format!("Sample {sample}: {}", colour(replay.radiance))).color(ui.accent()).strong())
+            .on_hover_text("Radiance of this sample, linear red, green and blue");
+        choices(ui, channel, &CHANNELS);
     });
-    ui.weak(format!("The path {}.", replay.end.name()));
-    remark(ui, replay.alone);
+    ui.weak(format!("L = Σ β f cos θ L_e τ w / p. The path {}.", replay.end.name()));
     ui.add_space(2.0);
 }
 
-/// Notes that pixels share paths. `alone` is the radiance of this path by itself.
-fn remark(ui: &mut Ui, alone: Option<[f32; 3]>) {
-    if let Some(alone) = alone {
-        let text = format!(
-            "Pixels share what paths find: this one brought {}, the last Σ. With Share paths on Never both agree.",
-            colour(alone)
-        );
-        ui.label(RichText::new(text).color(ui.warning()));
-    }
-}
-
-pub fn show(ui: &mut Ui, replay: &Replay, objects: &[Object]) {
-    Grid::new("vertices").striped(true).spacing([14.0, 4.0]).show(ui, |ui| {
+pub fn show(ui: &mut Ui, replay: &Replay, objects: &[Object], channel: Channel) {
+    let channel = channel as usize;
+    Grid::new("vertices").striped(true).spacing([8.0, 4.0]).show(ui, |ui| {
         for (name, doc) in COLUMNS {
             ui.label(RichText::new(name).weak()).on_hover_text(doc);
         }
         ui.end_row();
-        for vertex in replay.vertices.iter().take(MOST_VERTICES) {
-            row(ui, vertex, objects);
+        for row in rows(replay, MOST_VERTICES) {
+            show_row(ui, &row, objects, channel);
+        }
+        for total in totals(replay, MOST_VERTICES) {
+            ui.label(RichText::new(&total.name).strong().size(TEXT)).on_hover_text(total.doc);
+            (0..COLUMNS.len() - 2).for_each(|_| drop(ui.label("")));
+            cell(ui, short(total.value[channel]), true).on_hover_text(colour(total.value));
+            ui.end_row();
         }
     });
-    if replay.vertices.len() > MOST_VERTICES {
-        ui.weak(format!("and {} vertices more", replay.vertices.len() - MOST_VERTICES));
+}
+
+fn show_row(ui: &mut Ui, row: &Row, objects: &[Object], channel: usize) {
+    let vertex = row.vertex;
+    let place = format!("{} {}", vertex.bounce, place(vertex, objects));
+    elided(ui, VERTEX_WIDTH, RichText::new(&place).size(TEXT)).on_hover_text(format!("{place}\n{}", details(vertex)));
+    let Some(term) = &row.term else {
+        (0..COLUMNS.len() - 1).for_each(|_| drop(ui.weak("–")));
+        ui.end_row();
+        return;
+    };
+    let source = source(term, objects);
+    elided(ui, TERM_WIDTH, RichText::new(&source).size(TEXT)).on_hover_text(&source);
+    let factors = [Some(term.throughput), term.f_cos, Some(term.radiance), term.passed];
+    factors.into_iter().for_each(|factor| factor_cell(ui, factor, channel));
+    cell(ui, format!("{:.3}", term.weight), false);
+    match term.pdf {
+        Some(pdf) => drop(cell(ui, short(pdf), false)),
+        None => drop(ui.weak("–")),
+    }
+    let value = short(term.value[channel]);
+    cell(ui, if term.is_shared { format!("({value})") } else { value }, false).on_hover_text(colour(term.value));
+    ui.end_row();
+}
+
+fn factor_cell(ui: &mut Ui, factor: Option<[f32; 3]>, channel: usize) {
+    match factor {
+        Some(factor) => drop(cell(ui, short(factor[channel]), false).on_hover_text(colour(factor))),
+        None => drop(ui.weak("–")),
     }
 }
 
-fn row(ui: &mut Ui, vertex: &Vertex, objects: &[Object]) {
-    let cell = |ui: &mut Ui, text: String| ui.label(RichText::new(text).monospace().size(TEXT));
-    cell(ui, vertex.bounce.to_string());
-    cell(ui, colour(vertex.radiance));
-    cell(ui, place(vertex, objects));
-    cell(ui, vertex.surface.as_ref().map_or_else(String::new, |surface| vector(surface.position)));
-    cell(ui, colour(vertex.throughput));
-    cell(ui, colour(vertex.transmittance));
-    match &vertex.emission {
-        Some(met) => {
-            cell(ui, colour(met.radiance));
-            cell(ui, format!("{:.3}", met.weight));
-            cell(ui, colour(met.contribution));
-        }
-        None => nothing(ui, 3),
-    }
-    match &vertex.light {
-        Some(light) => {
-            let lamp = light.object.map_or_else(|| "background".to_owned(), |id| name(objects, id));
-            let outcome = match light.outcome {
+fn cell(ui: &mut Ui, text: String, is_strong: bool) -> Response {
+    let text = RichText::new(text).monospace().size(TEXT);
+    ui.label(if is_strong { text.strong() } else { text })
+}
+
+/// Where the light of a term comes from.
+fn source(term: &Term, objects: &[Object]) -> String {
+    match term.source {
+        Source::Hit => "hit".to_owned(),
+        Source::Lamp(lamp, outcome) => {
+            let lamp = lamp.map_or_else(|| "background".to_owned(), |id| name(objects, id));
+            let outcome = match outcome {
                 Outcome::Seen => "seen",
                 Outcome::Hidden => "hidden",
                 Outcome::Void => "not tested",
             };
-            cell(ui, format!("{lamp}, {outcome}"));
-            cell(ui, colour(light.f_cos));
-            cell(ui, short(light.pdf));
-            cell(ui, format!("{:.3}", light.weight));
-            cell(ui, colour(light.passed));
-            cell(ui, colour(light.contribution));
+            format!("{lamp}, {outcome}")
         }
-        None => nothing(ui, 6),
-    }
-    match &vertex.reflection {
-        Some(next) => {
-            cell(ui, vector(next.direction));
-            let f = match (next.f, next.pdf) {
-                (Some(f), Some(pdf)) if !next.delta => format!("{} · {:.3} / {}", colour(f), next.cos, short(pdf)),
-                _ => format!("δ, weight {}", colour(next.weight)),
-            };
-            let end = match (next.survives, next.goes_on) {
-                (false, _) if next.survival < 1.0 => ", ended by roulette",
-                (_, false) => ", ends",
-                _ => "",
-            };
-            let lobe = format!("{}, chosen with probability {}", next.lobe.name, short(next.lobe.probability));
-            ui.label(RichText::new(format!("{f}, q {:.2}{end}", next.survival)).monospace().size(TEXT)).on_hover_text(lobe);
-        }
-        None => nothing(ui, 2),
-    }
-    ui.end_row();
-}
-
-fn nothing(ui: &mut Ui, columns: usize) {
-    for _ in 0..columns {
-        ui.weak("–");
     }
 }
 
@@ -137,6 +132,30 @@ fn place(vertex: &Vertex, objects: &[Object]) -> String {
     let Some(object) = vertex.object else { return "leaves the scene".to_owned() };
     let material = vertex.surface.as_ref().and_then(|surface| surface.material).unwrap_or("black");
     format!("{} ({material})", name(objects, object))
+}
+
+/// The point of a vertex, and how the path goes on from there.
+fn details(vertex: &Vertex) -> String {
+    let mut lines = Vec::new();
+    lines.extend(vertex.surface.as_ref().map(|surface| format!("x = {} m", vector(surface.position))));
+    lines.push(format!("β = {}, τ = {}", colour(vertex.throughput), colour(vertex.transmittance)));
+    lines.extend(vertex.reflection.as_ref().map(continuation));
+    lines.join("\n")
+}
+
+/// The next direction, its factor of the throughput, and why there is none.
+fn continuation(next: &Reflection) -> String {
+    let factor = match (next.f, next.pdf) {
+        (Some(f), Some(pdf)) if !next.delta => format!("f = {}, cos θ = {:.3}, p = {}", colour(f), next.cos, short(pdf)),
+        _ => format!("δ, weight {}", colour(next.weight)),
+    };
+    let end = match (next.survives, next.goes_on) {
+        (false, _) if next.survival < 1.0 => ", ended by roulette",
+        (_, false) => ", ends",
+        _ => "",
+    };
+    let lobe = format!("{} with probability {}", next.lobe.name, short(next.lobe.probability));
+    format!("ω_i = {}: {lobe}\n{factor}, q = {:.2}{end}", vector(next.direction), next.survival)
 }
 
 fn name(objects: &[Object], id: u32) -> String {
@@ -167,7 +186,7 @@ fn short(x: f32) -> String {
 mod tests {
     use egui_kittest::{Harness, kittest::NodeT};
     use noisefall::{
-        integrator::{EmitterHit, Reflection, SampledLight, Surface},
+        integrator::{EmitterHit, SampledLight, SharedLight, Surface},
         material::ChosenLobe,
         scene::built_in,
     };
@@ -181,7 +200,7 @@ mod tests {
             bounce: 3,
             origin: grey(0.0),
             direction: grey(0.0),
-            throughput: grey(0.101),
+            throughput: grey(0.5),
             transmittance: grey(0.102),
             distance: Some(1.0),
             object: Some(1),
@@ -193,7 +212,7 @@ mod tests {
                 wo: grey(0.0),
                 shading_normal: None,
             }),
-            emission: Some(EmitterHit { radiance: grey(0.103), weight: 0.104, contribution: grey(0.105) }),
+            emission: Some(EmitterHit { radiance: grey(0.103), weight: 0.104, contribution: grey(0.105), shared: false }),
             light: Some(SampledLight {
                 direction: grey(0.0),
                 object: Some(0),
@@ -205,6 +224,7 @@ mod tests {
                 distance: None,
                 passed: grey(0.109),
                 contribution: grey(0.111),
+                shared: false,
             }),
             reflection: Some(Reflection {
                 direction: [0.1, 0.2, 0.3],
@@ -225,64 +245,84 @@ mod tests {
     }
 
     /// All that is written, row by row.
-    fn written(vertices: Vec<Vertex>) -> Vec<String> {
-        let (scene, replay) = (built_in(), Replay { vertices, ..Replay::default() });
-        let harness = Harness::builder().with_size(egui::vec2(4000.0, 400.0)).build_ui(|ui| show(ui, &replay, &scene.objects));
+    fn written(replay: &Replay) -> Vec<String> {
+        let scene = built_in();
+        let harness =
+            Harness::builder().with_size(egui::vec2(4000.0, 400.0)).build_ui(|ui| show(ui, replay, &scene.objects, Channel::Red));
         let labels =
             harness.root().children_recursive().filter(|node| node.accesskit_node().role() == egui::accesskit::Role::Label);
         labels.filter_map(|label| label.accesskit_node().value()).collect()
     }
 
+    fn of(vertices: Vec<Vertex>) -> Replay {
+        Replay { vertices, radiance: [0.216, 0.5, 0.5], ..Replay::default() }
+    }
+
     #[test]
-    fn every_term_stands_below_its_heading() {
-        let texts = written(vec![vertex()]);
+    fn every_term_stands_below_its_heading_and_the_sample_below_them() {
+        let texts = written(&of(vec![vertex()]));
         let (headings, cells) = texts.split_at(COLUMNS.len());
         assert_eq!(headings, COLUMNS.map(|(name, _)| name));
         let scene = built_in();
+        let place = format!("3 {} (lambertian)", scene.objects[1].name);
+        let lamp = format!("{}, hidden", scene.objects[0].name);
+        let cells: Vec<&str> = cells.iter().map(String::as_str).filter(|cell| !cell.is_empty()).collect();
         assert_eq!(
             cells,
             [
-                "3".to_owned(),
-                "0.115".to_owned(),
-                format!("{} (lambertian)", scene.objects[1].name),
-                "1.500 2.500 3.500".to_owned(),
-                "0.101".to_owned(),
-                "0.102".to_owned(),
-                "0.103".to_owned(),
-                "0.104".to_owned(),
-                "0.105".to_owned(),
-                format!("{}, hidden", scene.objects[0].name),
-                "0.106".to_owned(),
-                "0.107".to_owned(),
-                "0.108".to_owned(),
-                "0.109".to_owned(),
-                "0.111".to_owned(),
-                "0.100 0.200 0.300".to_owned(),
-                "0.112 · 0.113 / 0.114, q 0.75, ended by roulette".to_owned(),
+                &[&place, "hit", "0.051", "–", "0.103", "–", "0.104", "–", "0.105"][..],
+                &[&place, &lamp, "0.051", "0.106", "0.900", "0.109", "0.108", "0.107", "0.111"],
+                &["Sample", "0.216"],
             ]
+            .concat()
         );
+    }
+
+    #[test]
+    fn a_vertex_tells_where_it_is_and_how_the_path_goes_on() {
+        let told = details(&vertex());
+        assert_eq!(
+            told,
+            "x = 1.500 2.500 3.500 m\nβ = 0.500, τ = 0.102\nω_i = 0.100 0.200 0.300: a lobe with probability 0.500\n\
+             f = 0.112, cos θ = 0.113, p = 0.114, q = 0.75, ended by roulette"
+        );
+        let mirror = vertex().reflection.map(|next| Reflection { delta: true, survives: true, ..next });
+        assert!(details(&Vertex { reflection: mirror, ..vertex() }).ends_with("δ, weight 0.900, q = 0.75, ends"));
     }
 
     #[test]
     fn what_a_vertex_lacks_leaves_its_columns_empty() {
         let bare = Vertex { surface: None, object: None, emission: None, light: None, reflection: None, ..vertex() };
-        let cells = &written(vec![bare])[COLUMNS.len()..];
-        assert_eq!(cells.len(), COLUMNS.len());
-        assert_eq!(cells[2], "leaves the scene");
-        assert!(cells[6..].iter().all(|cell| cell == "–"), "{cells:?}");
+        let cells = &written(&of(vec![bare]))[COLUMNS.len()..2 * COLUMNS.len()];
+        assert_eq!(cells[0], "3 leaves the scene");
+        assert!(cells[1..].iter().all(|cell| cell == "–"), "{cells:?}");
     }
 
     #[test]
-    fn a_light_sample_says_what_became_of_it_and_a_mirror_its_weight() {
+    fn a_light_sample_says_what_became_of_it() {
         let cells = |outcome| {
             let light = vertex().light.map(|light| SampledLight { object: None, outcome, ..light });
-            let reflection = vertex().reflection.map(|next| Reflection { delta: true, survives: true, ..next });
-            let cells = written(vec![Vertex { light, reflection, ..vertex() }]).split_off(COLUMNS.len());
-            [cells[9].clone(), cells[16].clone()]
+            written(&of(vec![Vertex { light, emission: None, ..vertex() }]))[COLUMNS.len() + 1].clone()
         };
-        let next = "δ, weight 0.900, q 0.75, ends";
-        assert_eq!(cells(Outcome::Seen), ["background, seen", next]);
-        assert_eq!(cells(Outcome::Void), ["background, not tested", next]);
+        assert_eq!(cells(Outcome::Seen), "background, seen");
+        assert_eq!(cells(Outcome::Void), "background, not tested");
+    }
+
+    #[test]
+    fn shared_terms_are_in_brackets_and_what_comes_from_neighbours_has_a_row() {
+        let light = vertex().light.map(|light| SampledLight { shared: true, ..light });
+        let shared = SharedLight { unshared: [0.105; 3], kept: [0.011; 3], from_neighbours: [0.1; 3] };
+        let replay = Replay { shared: Some(shared), ..of(vec![Vertex { light, ..vertex() }]) };
+        let texts = written(&replay);
+        assert!(texts.contains(&"(0.111)".to_owned()) && texts.contains(&"0.105".to_owned()), "{texts:?}");
+        let after = |name: &str| {
+            let at = texts.iter().position(|text| text == name).expect("it has a row");
+            texts[at + 1..].iter().find(|text| !text.is_empty()).cloned()
+        };
+        assert_eq!(
+            ["Shared, kept", "From neighbours", "Sample"].map(|name| after(name).expect("a number")),
+            ["0.011", "0.100", "0.216"]
+        );
     }
 
     #[test]
