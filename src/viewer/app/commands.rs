@@ -133,6 +133,10 @@ impl App {
 
     /// Closes what lies over the picture: of several things all dialogs first, then messages, then the region.
     fn escape(&mut self) {
+        // The field of a path belongs to its dialog.
+        if self.dialogs.open.take().is_some() || self.dialogs.save.take().is_some() {
+            return;
+        }
         // Escape gives the edit of a field up, and nothing else.
         if self.window.had_focus {
             return;
@@ -143,7 +147,6 @@ impl App {
         let dialogs = &mut self.dialogs;
         if dialogs.help || dialogs.gallery.open || dialogs.wait() {
             (dialogs.help, dialogs.gallery.open, dialogs.scene_error) = (false, false, None);
-            (dialogs.save, dialogs.open) = (None, None);
         } else if !dialogs.notices.0.is_empty() {
             dialogs.notices.0.clear();
         } else {

@@ -27,6 +27,7 @@ pub struct Results {
     pub error_ratio: Option<LogRatio>,
     pub legend: Option<Legend>,
     pub values: PixelValues,
+    pub second_values: PixelValues,
     pub scores: Option<ZScoreHistogram>,
     /// The picture on the screen is black.
     pub black: bool,
@@ -47,6 +48,7 @@ impl Results {
         (self.comparison, self.second_comparison) = (image.comparison, image.second_comparison);
         self.error_ratio = image.error_ratio;
         (self.legend, self.values, self.scores) = (image.legend, image.values, image.scores);
+        self.second_values = image.second_values;
         self.shown = Some(image.frame);
     }
 

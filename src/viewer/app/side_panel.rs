@@ -6,7 +6,7 @@ use super::state::App;
 use crate::viewer::background::{adviser::Adviser, catalogue::SceneRequest};
 use crate::viewer::dialogs::open;
 use crate::viewer::panels::{
-    camera, display, objects, sampling, scene, status_bar::Pixel, status_bar::StatusBar, stop, views, views::ReferenceSource,
+    camera, display, objects, pixel_readout::Pixel, sampling, scene, status_bar::StatusBar, stop, views, views::ReferenceSource,
     window,
 };
 use crate::viewer::widgets::style::section;
@@ -18,7 +18,7 @@ impl App {
         scroll.floating_allocated_width = scroll.bar_width;
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             ui.add_space(4.0);
-            let request = scene::show(ui, self.session.opened.as_ref(), &self.catalogue, self.results.why_black());
+            let request = scene::show(ui, self.session.opened.as_ref(), &self.catalogue);
             request.into_iter().for_each(|request| self.open_scene(request));
             ui.add_space(4.0);
             ui.add_enabled_ui(self.session.opened.is_some(), |ui| {
@@ -51,9 +51,7 @@ impl App {
     }
 
     fn sampling_panel(&mut self, ui: &mut Ui) {
-        if let Some(comparison) = &mut self.session.comparison {
-            sampling::side_choice(ui, &mut comparison.edits_other);
-        }
+        sampling::side_choice(ui, self.session.comparison.as_mut().map(|comparison| &mut comparison.edits_other));
         let edits_second = self.session.comparison.is_some_and(|comparison| comparison.edits_other);
         let status = if edits_second { &self.results.second_status } else { &self.results.status };
         let edited = *self.session.edited();
@@ -89,8 +87,9 @@ impl App {
     pub fn status_bar(&self, ui: &mut Ui) {
         let (session, results, over_second) = (&self.session, &self.results, self.window.over_second);
         let frame = if over_second { &results.second_frame } else { &results.shown };
-        let values = Some(&results.values).filter(|_| !over_second);
-        let pixel = |at| Some(Pixel { at, frame: frame.as_ref()?, values, legend: results.legend.as_ref() });
+        let values = if over_second { &results.second_values } else { &results.values };
+        let materials = session.opened.as_ref().map_or(&[][..], |opened| &opened.materials);
+        let pixel = |at| Some(Pixel { at, frame: frame.as_ref()?, values, legend: results.legend.as_ref(), materials });
         let bar = StatusBar {
             opened: session.opened.as_ref(),
             is_opening: self.background.loader.is_busy(),

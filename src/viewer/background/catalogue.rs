@@ -13,7 +13,27 @@ pub struct CatalogueEntry {
     pub name: String,
     /// Canonical path, so each file has one.
     pub path: PathBuf,
+    /// The chapter of the gallery.
+    pub chapter: &'static str,
 }
+
+/// The chapters of the gallery and their scenes, in an order that teaches.
+const CHAPTERS: [(&str, &[&str]); 6] = [
+    ("The box", &["cornell_box", "cornell_spheres"]),
+    ("Noise", &["bright_sky", "tiny_lamp", "room_window", "sky_lit"]),
+    ("Estimators", &["veach_plates", "glass_and_mirror", "lamp_behind_glass", "many_small_lamps", "five_hundred_lamps"]),
+    ("Materials", &["gloss_row", "tinted_glass", "thin_panes", "nested_glass", "textures_and_bump"]),
+    (
+        "Geometry",
+        &["shapes", "isosurfaces", "sphere_field", "instanced_field", "million_triangles", "depth_of_field", "motion_blur"],
+    ),
+    (
+        "Limits",
+        &["truncation", "furnace", "inside_lit_inside", "outside_lit_outside", "inside_lit_outside", "outside_lit_inside"],
+    ),
+];
+/// The chapter of all other scenes.
+const OTHERS: &str = "More scenes";
 
 /// An action that a list of scenes asks for.
 #[derive(Debug, PartialEq)]
@@ -24,11 +44,21 @@ pub enum SceneRequest {
     Gallery,
 }
 
-/// The shipped scenes, sorted by name.
+/// The shipped scenes in the order of their chapters; scenes without a chapter come last, sorted by name.
 pub fn find() -> Vec<CatalogueEntry> {
     let mut scenes = folder().map_or_else(Vec::new, |folder| list(&folder));
-    scenes.sort_by_cached_key(|entry| entry.name.to_lowercase());
+    scenes.sort_by_cached_key(|entry| (lesson(&entry.path).unwrap_or(usize::MAX), entry.name.to_lowercase()));
     scenes
+}
+
+/// The place of a scene in the chapters.
+fn lesson(path: &Path) -> Option<usize> {
+    CHAPTERS.iter().flat_map(|(_, names)| *names).position(|name| path.file_stem().is_some_and(|stem| stem == *name))
+}
+
+fn chapter(path: &Path) -> &'static str {
+    let holds = |names: &[&str]| names.iter().any(|name| path.file_stem().is_some_and(|stem| stem == *name));
+    CHAPTERS.iter().find(|(_, names)| holds(names)).map_or(OTHERS, |(chapter, _)| chapter)
 }
 
 /// Adds a scene that was opened to the list, or updates its name.
@@ -36,7 +66,7 @@ pub fn remember(scenes: &mut Vec<CatalogueEntry>, name: &str, path: &Path) {
     let path = in_full(path);
     match scenes.iter_mut().find(|entry| entry.path == path) {
         Some(entry) => name.clone_into(&mut entry.name),
-        None => scenes.push(CatalogueEntry { name: name.to_owned(), path }),
+        None => scenes.push(CatalogueEntry { name: name.to_owned(), path, chapter: OTHERS }),
     }
 }
 
@@ -57,7 +87,11 @@ fn list(folder: &Path) -> Vec<CatalogueEntry> {
     let Ok(entries) = std::fs::read_dir(folder) else { return Vec::new() };
     let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
     let scenes = paths.filter(|path| path.is_file() && path.extension().is_some_and(|extension| extension == "toml"));
-    scenes.map(|path| CatalogueEntry { name: name(&title(&path).unwrap_or_default(), &path), path: in_full(&path) }).collect()
+    let entry = |path: PathBuf| {
+        let name = name(&title(&path).unwrap_or_default(), &path);
+        CatalogueEntry { name, path: in_full(&path), chapter: chapter(&path) }
+    };
+    scenes.map(entry).collect()
 }
 
 /// Reads the title of a scene file, which comes before the first table.
@@ -86,9 +120,23 @@ mod tests {
     }
 
     #[test]
-    fn shipped_scenes_are_in_the_order_of_their_names() {
-        let names: Vec<String> = find().into_iter().map(|entry| entry.name.to_lowercase()).collect();
-        assert!(names.len() > 20 && names.is_sorted(), "{names:?}");
+    fn shipped_scenes_are_in_the_order_of_their_chapters_and_each_has_one() {
+        let scenes = find();
+        let order: Vec<&str> = CHAPTERS.iter().map(|(chapter, _)| *chapter).collect();
+        assert_eq!(order, ["The box", "Noise", "Estimators", "Materials", "Geometry", "Limits"]);
+        let places: Vec<Option<usize>> =
+            scenes.iter().map(|entry| order.iter().position(|chapter| *chapter == entry.chapter)).collect();
+        assert!(places.len() > 20 && places.is_sorted(), "{places:?}");
+        assert!(
+            places.iter().all(Option::is_some),
+            "a shipped scene has no chapter: {:?}",
+            scenes.last().map(|entry| &entry.path)
+        );
+        assert_eq!(
+            scenes.len(),
+            CHAPTERS.iter().map(|(_, names)| names.len()).sum::<usize>(),
+            "a chapter has a scene that is not there"
+        );
     }
 
     #[test]

@@ -2,6 +2,7 @@
 use std::sync::Arc;
 
 use noisefall::{
+    integrator::Features,
     measure::LogRatio,
     render::{
         Frame,
@@ -27,6 +28,7 @@ pub struct DisplayImage {
     pub second_image: Option<egui::ColorImage>,
     pub legend: Option<Legend>,
     pub values: PixelValues,
+    pub second_values: PixelValues,
     /// The histogram, in the view of z-scores.
     pub scores: Option<ZScoreHistogram>,
     /// The reference of the comparisons.
@@ -39,13 +41,30 @@ pub struct DisplayImage {
     pub lit: f32,
 }
 
-/// The values that a view displays in place of the radiance, by pixel.
+/// The values that a view displays in place of the radiance of the frame, by pixel.
 #[derive(Default)]
 pub struct PixelValues {
     /// The numbers of a view.
     pub numbers: Option<Vec<f32>>,
     /// Radiance of a term.
     pub radiance: Option<Vec<[f32; 3]>>,
+    /// The features of a view that shows them as colours.
+    pub features: Option<(View, Arc<Features>)>,
+    /// The view has no data.
+    pub is_missing: bool,
+}
+
+impl PixelValues {
+    fn of(view: View, field: Option<Field>, features: Option<&Arc<Features>>) -> PixelValues {
+        match field {
+            None => PixelValues::default(),
+            Some(Field::Missing) => PixelValues { is_missing: true, ..PixelValues::default() },
+            Some(Field::Numbers(numbers)) => PixelValues { numbers: Some(numbers), ..PixelValues::default() },
+            Some(Field::Colours(_)) => {
+                PixelValues { features: features.map(|features| (view, features.clone())), ..PixelValues::default() }
+            }
+        }
+    }
 }
 
 /// A frame compared with its reference.
@@ -78,9 +97,11 @@ pub fn render(request: DisplayRequest) -> DisplayImage {
     let radiance = term.as_ref().filter(|term| term.of.radiance.len() == frame.radiance.len()).and_then(BounceTerm::radiance);
     let (image, shown, pixels) = picture(&frame, radiance.as_deref(), None);
     let (legend, field) = shown.unzip();
-    let numbers = field.and_then(|field| if let Field::Numbers(numbers) = field { Some(numbers) } else { None });
     let scale = legend.as_ref().and_then(|legend| legend.scale);
-    let second_image = second.as_ref().filter(|_| shows_second).map(|second| picture(second, None, scale).0);
+    let second_picture = second.as_ref().filter(|_| shows_second).map(|second| picture(second, None, scale));
+    let (second_image, second_shown) = second_picture.map(|(image, shown, _)| (image, shown)).unzip();
+    let second_field = second_shown.flatten().map(|(_, field)| field);
+    let values = |field| PixelValues::of(look.view, field, features.as_ref());
     let compare = |frame: &Frame| {
         let truth = truth?;
         Some(ReferenceComparison { rel_mse: truth.compare(frame)?.rel_mse, bias: truth.bias(frame)?.z })
@@ -98,7 +119,8 @@ pub fn render(request: DisplayRequest) -> DisplayImage {
         image,
         second_image,
         legend,
-        values: PixelValues { numbers, radiance },
+        values: PixelValues { radiance, ..values(field) },
+        second_values: values(second_field),
         scores,
         reference,
     }

@@ -27,7 +27,7 @@ pub fn show(ctx: &egui::Context, adviser: &mut Option<Adviser>) -> Option<Render
             ui.set_width(520.0);
             match &study.advice {
                 None => {
-                    ui.label("Each setting that could suit this scene makes a few small pictures. The large one waits.");
+                    ui.label("Renders small test images with each candidate setting. The main render pauses meanwhile.");
                     let (done, total) = study.progress();
                     let part = part_of(done, total);
                     ui.add(ProgressBar::new(part).text(format!("{:.0} %", 100.0 * part)));
@@ -42,6 +42,12 @@ pub fn show(ctx: &egui::Context, adviser: &mut Option<Adviser>) -> Option<Render
     chosen
 }
 
+const HEADINGS: [(&str, &str); 3] = [
+    ("setting", "What differs from the current settings"),
+    ("efficiency", "1/(relMSE · seconds) relative to the current settings, with its standard error"),
+    ("error", "Relative error of one test image, the root of relMSE"),
+];
+
 /// Shows the candidates. Returns the settings to use.
 fn candidates(ui: &mut Ui, advice: &Advice) -> Option<RenderSettings> {
     let mut chosen = None;
@@ -49,14 +55,10 @@ fn candidates(ui: &mut Ui, advice: &Advice) -> Option<RenderSettings> {
     ui.add_space(6.0);
     ScrollArea::vertical().max_height(300.0).show(ui, |ui| {
         Grid::new("candidates").num_columns(4).striped(true).spacing([18.0, 5.0]).show(ui, |ui| {
-            for (heading, doc) in [
-                ("setting", "What differs from what you have"),
-                ("efficiency", "Relative to what you have, and its standard error; efficiency is 1/(relMSE · seconds)"),
-                ("error", "The root of relMSE of one small picture"),
-                ("", ""),
-            ] {
+            for (heading, doc) in HEADINGS {
                 ui.label(RichText::new(heading).weak()).on_hover_text(doc);
             }
+            ui.label("");
             ui.end_row();
             for (number, candidate) in advice.candidates.iter().enumerate() {
                 if row(ui, candidate, number == advice.best, number == advice.current) {
@@ -72,13 +74,13 @@ fn candidates(ui: &mut Ui, advice: &Advice) -> Option<RenderSettings> {
 fn row(ui: &mut Ui, candidate: &Candidate, is_best: bool, is_current: bool) -> bool {
     let name = RichText::new(&candidate.name);
     ui.label(if is_best { name.strong() } else { name });
-    ui.monospace(if is_current { "1".to_owned() } else { candidate.ratio() });
-    ui.monospace(format!("{:.2} %", 100.0 * candidate.rel_mse.sqrt()));
+    ui.monospace(if is_current { "1".to_owned() } else { candidate.ratio() }).on_hover_text(HEADINGS[1].1);
+    ui.monospace(format!("{:.2} %", 100.0 * candidate.rel_mse.sqrt())).on_hover_text(HEADINGS[2].1);
     let used = if is_current {
         ui.weak("in use");
         false
     } else {
-        ui.small_button("Use this").on_hover_text("Take these settings over: a new picture starts").clicked()
+        ui.small_button("Use this").on_hover_text("Apply these settings (restarts the render)").clicked()
     };
     ui.end_row();
     used

@@ -83,22 +83,38 @@ impl Gallery {
     /// Returns the scene that was chosen; `Some(None)` is the built-in one.
     fn cards(&self, ui: &mut Ui, catalogue: &[CatalogueEntry], columns: usize) -> Option<Option<PathBuf>> {
         let mut chosen = None;
-        let built_in = catalogue.iter().find(|entry| entry.path.ends_with("cornell_spheres.toml"));
-        let picture_of = |path: &PathBuf| self.pictures.get(path);
-        let first = (BUILT_IN_NAME, None, built_in.and_then(|entry| picture_of(&entry.path)));
-        let others = catalogue.iter().map(|entry| (entry.name.as_str(), Some(entry.path.clone()), picture_of(&entry.path)));
-        egui::Grid::new("gallery").spacing([12.0, 12.0]).show(ui, |ui| {
-            for (number, (name, path, picture)) in std::iter::once(first).chain(others).enumerate() {
-                if card(ui, name, picture) {
-                    chosen = Some(path);
+        if !catalogue.iter().any(is_built_in) && card(ui, BUILT_IN_NAME, None) {
+            chosen = Some(None);
+        }
+        for chapter in catalogue.chunk_by(|a, b| a.chapter == b.chapter) {
+            let title = chapter[0].chapter;
+            ui.label(RichText::new(title).strong());
+            egui::Grid::new(title).spacing([12.0, 8.0]).show(ui, |ui| {
+                let cards = chapter.iter().map(|entry| (entry.name.as_str(), Some(entry.path.clone()), &entry.path));
+                for (number, (name, path, picture)) in built_in(chapter).into_iter().chain(cards).enumerate() {
+                    if card(ui, name, self.pictures.get(picture)) {
+                        chosen = Some(path);
+                    }
+                    if (number + 1) % columns == 0 {
+                        ui.end_row();
+                    }
                 }
-                if (number + 1) % columns == 0 {
-                    ui.end_row();
-                }
-            }
-        });
+            });
+            ui.add_space(6.0);
+        }
         chosen
     }
+}
+
+/// Whether the built-in scene is that of a file.
+fn is_built_in(entry: &CatalogueEntry) -> bool {
+    entry.path.ends_with("cornell_spheres.toml")
+}
+
+/// The card of the built-in scene, which comes first in the chapter that has the same scene as a file.
+fn built_in(chapter: &[CatalogueEntry]) -> Option<(&'static str, Option<PathBuf>, &PathBuf)> {
+    let same = chapter.iter().find(|entry| is_built_in(entry))?;
+    Some((BUILT_IN_NAME, None, &same.path))
 }
 
 /// The picture of a shipped scene: `assets/gallery/NAME.png` beside the folder that the scene is in.
@@ -110,22 +126,22 @@ fn picture(scene: &Path) -> Option<ColorImage> {
     Some(ColorImage::from_rgba_unmultiplied([picture.width as usize, picture.height as usize], pixels.as_flattened()))
 }
 
+/// The middle of a picture that covers a card: no ground of another brightness shows beside it, whatever the theme.
+fn covering(size: Vec2) -> egui::Rect {
+    let part = PICTURE / size / (PICTURE / size).max_elem();
+    egui::Rect::from_center_size(egui::pos2(0.5, 0.5), part)
+}
+
 /// A picture with a name. Returns whether it was clicked.
 fn card(ui: &mut Ui, name: &str, picture: Option<&TextureHandle>) -> bool {
     let (rect, response) = ui.allocate_exact_size(PICTURE + vec2(0.0, TEXT), Sense::click());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, name));
     let frame = egui::Rect::from_min_size(rect.min, PICTURE);
-    ui.painter().rect_filled(frame, 3.0, ui.visuals().extreme_bg_color);
-    if let Some(texture) = picture {
-        let size = texture.size_vec2();
-        let fitted = egui::Rect::from_center_size(frame.center(), size * (PICTURE / size).min_elem());
-        ui.painter().image(
-            texture.id(),
-            fitted,
-            egui::Rect::from_min_max(egui::Pos2::ZERO, egui::pos2(1.0, 1.0)),
-            egui::Color32::WHITE,
-        );
+    match picture {
+        Some(texture) => drop(ui.painter().image(texture.id(), frame, covering(texture.size_vec2()), egui::Color32::WHITE)),
+        None => drop(ui.painter().rect_filled(frame, 3.0, ui.visuals().widgets.inactive.weak_bg_fill)),
     }
+    ui.painter().rect_stroke(frame, 0.0, ui.visuals().widgets.noninteractive.bg_stroke, egui::StrokeKind::Inside);
     if response.hovered() || response.has_focus() {
         ui.painter().rect_stroke(frame, 3.0, ui.visuals().widgets.hovered.fg_stroke, egui::StrokeKind::Outside);
     }

@@ -1,5 +1,5 @@
 //! The tour on first run: noise, bounces and roulette, shown on the picture itself.
-use egui::{Align2, Button, RichText};
+use egui::{Align2, Button, RichText, ScrollArea, Window};
 
 use crate::viewer::{instruments::tabs::InstrumentTab, widgets::palette::Palette};
 
@@ -58,6 +58,17 @@ const PAGES: [Page; 4] = [
     },
 ];
 
+/// Width of a page, and its distance from the edges and from the top of the window, in points.
+const WIDTH: f32 = 380.0;
+const MARGIN: f32 = 14.0;
+const TOP: f32 = 48.0;
+/// Height of the buttons below the text, with the frame of the window.
+const BUTTONS: f32 = 96.0;
+
+/// The number of pages.
+#[cfg(test)]
+pub const COUNT: usize = PAGES.len();
+
 /// The instrument that a page shows.
 pub fn tab_of(page: usize) -> Option<InstrumentTab> {
     PAGES[page].shows
@@ -67,35 +78,38 @@ pub fn tab_of(page: usize) -> Option<InstrumentTab> {
 pub fn show(ctx: &egui::Context, number: usize) -> Option<TourRequest> {
     let page = &PAGES[number];
     let mut request = None;
-    egui::Window::new("Tour").title_bar(false).collapsible(false).resizable(false).anchor(Align2::LEFT_TOP, [14.0, 48.0]).show(
-        ctx,
-        |ui| {
-            ui.set_width(380.0);
+    // A small screen shows the buttons and scrolls the text.
+    let screen = ctx.content_rect().size();
+    let [width, most_height] = [WIDTH.min(screen.x - 3.0 * MARGIN), (screen.y - TOP - BUTTONS - MARGIN).max(60.0)];
+    let place = Window::new("Tour").title_bar(false).collapsible(false).resizable(false).anchor(Align2::LEFT_TOP, [MARGIN, TOP]);
+    place.show(ctx, |ui| {
+        ui.set_width(width);
+        ScrollArea::vertical().max_height(most_height).show(ui, |ui| {
             ui.label(RichText::new(page.title).heading().color(ui.accent()));
             ui.add_space(4.0);
             ui.label(page.text);
-            ui.add_space(6.0);
-            let (name, asked) = page.tries;
-            if ui.button(name).clicked() {
-                request = Some(asked);
-            }
-            ui.add_space(6.0);
-            ui.horizontal(|ui| {
-                ui.weak(format!("{} of {}", number + 1, PAGES.len()));
-                ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                    let last = number + 1 == PAGES.len();
-                    if ui.add(Button::new(RichText::new(if last { "Done" } else { "Next" }).strong())).clicked() {
-                        request = Some(if last { TourRequest::End } else { TourRequest::GoTo(number + 1) });
-                    }
-                    if ui.add_enabled(number > 0, Button::new("Back")).clicked() {
-                        request = Some(TourRequest::GoTo(number - 1));
-                    }
-                    if !last && ui.button("End tour").clicked() {
-                        request = Some(TourRequest::End);
-                    }
-                });
+        });
+        ui.add_space(6.0);
+        let (name, asked) = page.tries;
+        if ui.button(name).clicked() {
+            request = Some(asked);
+        }
+        ui.add_space(6.0);
+        ui.horizontal(|ui| {
+            ui.weak(format!("{} of {}", number + 1, PAGES.len()));
+            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                let last = number + 1 == PAGES.len();
+                if ui.add(Button::new(RichText::new(if last { "Done" } else { "Next" }).strong())).clicked() {
+                    request = Some(if last { TourRequest::End } else { TourRequest::GoTo(number + 1) });
+                }
+                if ui.add_enabled(number > 0, Button::new("Back")).clicked() {
+                    request = Some(TourRequest::GoTo(number - 1));
+                }
+                if !last && ui.button("End tour").clicked() {
+                    request = Some(TourRequest::End);
+                }
             });
-        },
-    );
+        });
+    });
     request
 }

@@ -6,7 +6,7 @@ use noisefall::scene::{Camera, Lens, Scene};
 use crate::viewer::widgets::{
     kinds::{kinds, number_rows},
     number,
-    style::{controls, row},
+    style::{controls, elided, row},
 };
 
 /// Returns whether the camera is to be reset to that of the scene.
@@ -21,9 +21,7 @@ pub fn show(ui: &mut egui::Ui, camera: &mut Camera, scene: Option<&Scene>) -> bo
         });
         row(ui, "Up", "The direction that is up in the picture.", |ui, label| point(ui, label, &mut camera.up, 0.01));
         projection(ui, camera);
-        if camera.projection.takes_lens() {
-            lens(ui, camera, speed);
-        }
+        lens(ui, camera, speed);
         row(ui, "Pixel filter", "How a pixel weighs the light around its centre.", |ui, _| {
             ui.horizontal(|ui| kinds(ui, &mut camera.filter));
         });
@@ -40,10 +38,10 @@ pub fn show(ui: &mut egui::Ui, camera: &mut Camera, scene: Option<&Scene>) -> bo
             });
         });
     });
-    if let Err(error) = camera.check() {
-        ui.label(RichText::new(error.to_string()).color(ui.visuals().error_fg_color));
-    }
-    ui.add_space(5.0);
+    // A line of its own, whether or not there is an error.
+    let error = camera.check().err().map_or_else(|| " ".to_owned(), |error| error.to_string());
+    let width = ui.available_width();
+    elided(ui, width, RichText::new(&error).color(ui.visuals().error_fg_color)).on_hover_text(&error);
     let moved = scene.is_some_and(|scene| scene.camera != *camera);
     let reset = ui.add_enabled(moved, Button::new("Back to the scene's camera"));
     reset.on_hover_text("The camera the scene opened with (Home)").clicked()
@@ -58,33 +56,37 @@ fn projection(ui: &mut egui::Ui, camera: &mut Camera) {
         camera.projection = camera.projection.with_width(before.width_at_look_at());
         camera.lens = camera.lens.filter(|_| camera.projection.takes_lens());
     }
-    if camera.projection.has_angle() {
-        row(ui, "Field of view", "The full angle across the picture's width.", |ui, label| {
-            let slider = number::slider(ui, &mut camera.fov, 2, 1.0..=170.0).suffix("°");
-            ui.add(slider).labelled_by(label);
-        });
-    }
+    row(ui, "Field of view", "The full angle across the image's width.", |ui, label| {
+        let slider = number::slider(ui, &mut camera.fov, 2, 1.0..=170.0).suffix("°");
+        ui.add_enabled(camera.projection.has_angle(), slider).labelled_by(label);
+    });
     number_rows(ui, &mut camera.projection);
 }
 
 fn lens(ui: &mut egui::Ui, camera: &mut Camera, speed: f64) {
     let distance = camera.eye.distance(camera.look_at);
+    let takes_lens = camera.projection.takes_lens();
     let mut lens = camera.lens.unwrap_or(Lens { radius: 0.0, focus: distance });
-    row(ui, "Lens radius", "In metres. A wide lens blurs what is not in focus; 0 is a pinhole.", |ui, label| {
-        let radius = number::field(ui, &mut lens.radius, 4, 0.0..=1e9).speed(0.05 * speed).suffix(" m");
-        ui.add(radius).labelled_by(label);
-    });
-    if lens.radius > 0.0 {
-        row(ui, "Focus", "Distance of the plane in focus, in metres.", |ui, label| {
+    row(
+        ui,
+        "Lens radius",
+        "Radius in metres. A wide lens blurs what is out of focus; 0 is a pinhole. Orthographic cameras have no lens.",
+        |ui, label| {
+            let radius = number::field(ui, &mut lens.radius, 4, 0.0..=1e9).speed(0.05 * speed).suffix(" m");
+            ui.add_enabled(takes_lens, radius).labelled_by(label);
+        },
+    );
+    row(ui, "Focus", "Distance of the plane in focus, in metres. A pinhole has none.", |ui, label| {
+        ui.add_enabled_ui(takes_lens && lens.radius > 0.0, |ui| {
             ui.horizontal(|ui| {
                 let focus = number::field(ui, &mut lens.focus, 3, 1e-9..=1e12).speed(speed).suffix(" m");
                 ui.add(focus).labelled_by(label);
-                if ui.button("Look-at point").on_hover_text("Focus on the point in the middle of the picture").clicked() {
+                if ui.button("Look-at point").on_hover_text("Focuses on the point in the middle of the image.").clicked() {
                     lens.focus = distance;
                 }
             });
         });
-    }
+    });
     camera.lens = (lens.radius > 0.0).then_some(lens);
 }
 

@@ -3,6 +3,7 @@ pub mod camera;
 pub mod display;
 pub mod frame_times;
 pub mod objects;
+pub mod pixel_readout;
 pub mod presets;
 pub mod sampling;
 pub mod scene;

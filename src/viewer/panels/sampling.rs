@@ -12,17 +12,22 @@ use crate::viewer::widgets::{
     kinds::{kinds, number_rows, words},
     number,
     palette::Palette,
-    style::{controls, row},
+    style::{choices, controls, row},
 };
 
-/// Shows which side of a comparison the panel edits, and lets the user change it.
-pub fn side_choice(ui: &mut Ui, edits_second: &mut bool) {
-    ui.horizontal(|ui| {
-        ui.label("Settings of").on_hover_text("The two sides of the comparison below the picture");
-        ui.selectable_value(edits_second, false, "A");
-        ui.selectable_value(edits_second, true, "B");
+/// Shows which side of a comparison the panel edits, and lets the user change it. The row stays where nothing is compared, so that no
+/// other row moves.
+pub fn side_choice(ui: &mut Ui, edits_second: Option<&mut bool>) {
+    let is_comparing = edits_second.is_some();
+    let mut only_first = false;
+    let edits_second = edits_second.unwrap_or(&mut only_first);
+    ui.add_enabled_ui(is_comparing, |ui| {
+        controls(ui, "side", |ui| {
+            row(ui, "Settings of", "The side of the comparison that the rows below show and change.", |ui, _| {
+                choices(ui, edits_second, &[(false, "A", "The image itself."), (true, "B", "The image it is compared with.")]);
+            });
+        });
     });
-    ui.add_space(4.0);
 }
 
 /// Shows the settings, with a caution where their variance is infinite. Returns whether advice was asked for.
@@ -99,9 +104,10 @@ fn roulette_rows(ui: &mut Ui, roulette: &mut Roulette, caution: Option<&str>) {
         // Below, and not beside, as above.
         ui.vertical(|ui| {
             roulette_choice(ui, label, roulette);
-            if let Some(caution) = caution {
-                ui.colored_label(ui.warning(), "infinite variance?").on_hover_text(caution);
-            }
+            match caution {
+                Some(caution) => ui.colored_label(ui.warning(), "infinite variance?").on_hover_text(caution),
+                None => ui.label(" "),
+            };
         });
     });
     number_rows(ui, roulette);

@@ -12,12 +12,7 @@ use crate::viewer::background::{
 const ROW: f32 = 26.0;
 
 /// Shows the list of scenes, and the notes and warnings of the open one.
-pub fn show(
-    ui: &mut egui::Ui,
-    opened: Option<&OpenedScene>,
-    catalogue: &[CatalogueEntry],
-    why_black: Option<&str>,
-) -> Option<SceneRequest> {
+pub fn show(ui: &mut egui::Ui, opened: Option<&OpenedScene>, catalogue: &[CatalogueEntry]) -> Option<SceneRequest> {
     let name = opened.map_or("Choose a scene", |opened| opened.name.as_str()).to_owned();
     let mut request = None;
     ui.horizontal(|ui| {
@@ -41,10 +36,7 @@ pub fn show(
         if !opened.scene.notes.is_empty() {
             ui.label(RichText::new(&opened.scene.notes).weak());
         }
-        let mut warnings = opened.scene.warnings().to_vec();
-        let why_black = why_black.filter(|_| !opened.scene.lights.is_empty()).map(str::to_owned);
-        warnings.extend(why_black.filter(|why| !warnings.contains(why)));
-        for warning in warnings {
+        for warning in opened.scene.warnings() {
             ui.label(RichText::new(format!("Note: {warning}.")).color(ui.visuals().warn_fg_color));
         }
     }

@@ -1,14 +1,14 @@
 //! The line below the picture: progress, noise, bias, and the pixel under the pointer.
 use std::{path::Path, time::Duration};
 
-use egui::{Color32, RichText};
+use egui::{Color32, Label, RichText};
 use noisefall::{
-    math::colour::luminance,
-    render::{Budget, Frame, RenderRequest, State, Status, pass::SampleId, replay_command::replay_command, view::Legend},
+    render::{Budget, RenderRequest, State, Status, pass::SampleId, replay_command::replay_command},
     scene::{Camera, RenderSettings},
 };
 
-use crate::viewer::background::{display_image::PixelValues, display_image::ReferenceComparison, loader::OpenedScene};
+use super::pixel_readout::Pixel;
+use crate::viewer::background::{display_image::ReferenceComparison, loader::OpenedScene};
 use crate::viewer::widgets::palette::Palette;
 
 /// The figures of the line.
@@ -29,16 +29,6 @@ pub struct StatusBar<'a> {
     pub pixel: Option<Pixel<'a>>,
 }
 
-/// The pixel under the pointer.
-#[derive(Clone, Copy)]
-pub struct Pixel<'a> {
-    pub at: [u32; 2],
-    pub frame: &'a Frame,
-    /// What the view displays in place of the radiance.
-    pub values: Option<&'a PixelValues>,
-    pub legend: Option<&'a Legend>,
-}
-
 impl StatusBar<'_> {
     pub fn show(&self, ui: &mut egui::Ui) {
         let status = self.status;
@@ -46,23 +36,24 @@ impl StatusBar<'_> {
             let (colour, state) = self.state_text(ui);
             let (dot, _) = ui.allocate_exact_size(egui::vec2(10.0, 10.0), egui::Sense::hover());
             ui.painter().circle_filled(dot.center(), 4.5, colour);
-            ui.label(RichText::new(state).strong());
+            ui.label(RichText::new(state).strong()).on_hover_text("What the renderer does, or the target that it has reached");
             if self.opened.is_none() {
                 return;
             }
             ui.separator();
             if let Err(error) = self.camera.check() {
-                ui.label(RichText::new("this camera cannot take a picture; the last one is shown").color(ui.warning()))
+                ui.label(RichText::new("Invalid camera. The last image is shown.").color(ui.warning()))
                     .on_hover_text(error.to_string());
                 return;
             }
             let target = self.budget.max_spp.map_or_else(String::new, |most| format!(" / {most}"));
             let region = status.region_spp.map_or_else(String::new, |spp| format!(", {spp} in the region"));
-            ui.label(format!("{}{target} spp{region}", status.spp)).on_hover_text("Samples per pixel so far, and the target");
+            ui.label(format!("{}{target} spp{region}", status.spp)).on_hover_text("Samples per pixel N so far, and the target");
             ui.separator();
-            ui.label(format!("{:.1} M samples/s", status.samples_per_second() / 1e6));
+            ui.label(format!("{:.1} M samples/s", status.samples_per_second() / 1e6))
+                .on_hover_text("Millions of camera samples per second of render time");
             ui.separator();
-            ui.label(clock(status.elapsed)).on_hover_text("Time spent rendering this picture");
+            ui.label(clock(status.elapsed)).on_hover_text("Render time of this image");
             ui.separator();
             self.noise_label(ui);
             self.truth_label(ui);
@@ -70,8 +61,8 @@ impl StatusBar<'_> {
             self.bias_label(ui);
             self.trouble_label(ui);
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                // Nothing is written over what stands at the left.
-                const WIDTH: f32 = 330.0;
+                // Less room shows no number. The text is cut where it would lie over what is at the left.
+                const WIDTH: f32 = 160.0;
                 if ui.available_width() > WIDTH {
                     self.pixel_label(ui);
                 }
@@ -97,20 +88,20 @@ impl StatusBar<'_> {
     fn noise_label(&self, ui: &mut egui::Ui) {
         if let Some(why) = self.why_black {
             ui.label(RichText::new("no light found yet").color(ui.warning()))
-                .on_hover_text(format!("All samples are black: {why}"));
+                .on_hover_text(format!("All samples are black: {why}."));
             return;
         }
         let text = self.status.relative_noise().map_or_else(|| "–".to_owned(), percent);
         ui.label(format!("noise {text}")).on_hover_text(
-            "Estimated relative error: the root of relMSE, the mean of (x − r)²/(r² + 0.01 · mean r²) over pixels x and their true \
-             radiance r, from how far the picture moves while its samples double. Where light is hard to find, it is too low at first.",
+            "Estimated relative error: the root of relMSE, the mean of (x − r)²/(r² + 0.01 · mean r²) over pixels x with true radiance r. It is \
+             estimated from the change of the image as the sample count doubles. Where light is hard to find, it is too low at first.",
         );
     }
 
     fn truth_label(&self, ui: &mut egui::Ui) {
         if let Some(rel_mse) = self.comparison.map(|comparison| comparison.rel_mse) {
             ui.label(format!("true error {}", percent(rel_mse.sqrt())))
-                .on_hover_text("Root of relMSE, the mean of (x − r)²/(r² + 0.01 · mean r²), against the true picture r: the scene's, or the one that was dropped on the window");
+                .on_hover_text("Root of relMSE, the mean of (x − r)²/(r² + 0.01 · mean r²), against the reference r: that of the scene, or the one that you dropped on the window");
         } else if let Some(mismatch) = &self.mismatch {
             ui.label(RichText::new("true error unknown").color(ui.warning())).on_hover_text(mismatch);
         }
@@ -120,10 +111,10 @@ impl StatusBar<'_> {
         match self.status.bias(self.settings) {
             None => ui
                 .label(RichText::new("unbiased").color(ui.good()))
-                .on_hover_text("The picture converges to the solution of the light transport equation"),
+                .on_hover_text("The image converges to the solution of the light transport equation."),
             Some(why) => ui
                 .label(RichText::new(format!("biased: {why}")).color(ui.warning()))
-                .on_hover_text("Light that bounces more often than that is missing, however long one waits"),
+                .on_hover_text("Light with more bounces is missing, for any number of samples."),
         };
     }
 
@@ -142,14 +133,14 @@ impl StatusBar<'_> {
         if cut_paths > 0 {
             let longest = self.request.map_or(RenderSettings::LONGEST_PATH, |request| request.settings.last_bounce());
             let text = format!("paths cut after {longest} bounces");
-            trouble(text, "Choose a roulette: then paths end by themselves".to_owned());
+            trouble(text, "Choose a roulette, so that paths end by themselves.".to_owned());
         }
         if let State::Failed(failure) = &self.status.state {
             let [x, y] = failure.at.pixel;
             let (place, advice) = if failure.replays {
                 ("pixel", format!("Replay it: {}", self.replay_command(failure.at, failure.resolution)))
             } else {
-                ("the tile at", "None of its samples fails alone".to_owned())
+                ("the tile at", "None of its samples fails alone.".to_owned())
             };
             trouble(format!("{place} {x},{y}, sample {}: {}", failure.at.sample, failure.message), advice);
         }
@@ -163,22 +154,11 @@ impl StatusBar<'_> {
     }
 
     fn pixel_label(&self, ui: &mut egui::Ui) {
-        let Some(Pixel { at: [x, y], frame, values, legend }) = self.pixel else { return };
-        let Some(index) = frame.index_at([x, y]) else { return };
-        let number = values.and_then(|values| values.numbers.as_ref()?.get(index)).filter(|number| number.is_finite());
-        if let (Some(number), Some(Legend { title, scale: Some(scale), .. })) = (number, legend) {
-            let text = format!("({x}, {y})  {title} {number:.4} {}", scale.unit);
-            ui.label(RichText::new(text).monospace()).on_hover_text("Pixel, and what the view has for it");
-            return;
+        let readout = self.pixel.and_then(|pixel| pixel.readout());
+        if let Some(readout) = readout {
+            let text = Label::new(RichText::new(&readout.text).monospace()).truncate();
+            ui.add(text).on_hover_text(format!("{}\n{}", readout.text, readout.doc));
         }
-        // The error of a term alone is not known.
-        let term = values.and_then(|values| values.radiance.as_ref()?.get(index));
-        let error = frame.standard_error[index];
-        let error = if error.is_nan() || term.is_some() { String::new() } else { format!(" ± {error:.3}") };
-        let radiance @ [r, g, b] = *term.unwrap_or(&frame.radiance[index]);
-        let y_value = luminance(radiance);
-        ui.label(RichText::new(format!("({x}, {y})  RGB {r:.3} {g:.3} {b:.3}  Y {y_value:.3}{error}")).monospace())
-            .on_hover_text("Pixel, the radiance that is seen there in W/(sr·m²), its luminance and the most that the standard error of that can be");
     }
 }
 

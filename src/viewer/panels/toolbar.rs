@@ -141,6 +141,6 @@ impl Toolbar<'_> {
 fn zoom_buttons(ui: &mut Ui, zoom: f32) -> Option<Command> {
     let fits = ui.button("Fit").on_hover_text("The whole picture (F, or double-click)").clicked();
     let is_actual = ui.button("1:1").on_hover_text("One picture pixel to one screen pixel (1)").clicked();
-    ui.weak(format!("{:.0} %", 100.0 * zoom));
+    ui.weak(format!("{:.0} %", 100.0 * zoom)).on_hover_text("Screen pixels per image pixel");
     fits.then_some(Command::Fit).or(is_actual.then_some(Command::ActualSize))
 }

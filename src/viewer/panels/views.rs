@@ -56,7 +56,9 @@ pub fn rows(
                         *pinned = shown.cloned();
                     }
                     match pinned {
-                        Some(pinned) => drop(ui.weak(format!("{} spp", pinned.spp))),
+                        Some(pinned) => {
+                            drop(ui.weak(format!("{} spp", pinned.spp)).on_hover_text("Samples per pixel of the pinned image"));
+                        }
                         None => drop(ui.weak("nothing yet")),
                     }
                 });

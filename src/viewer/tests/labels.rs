@@ -60,7 +60,7 @@ fn the_line_at_the_bottom_has_every_figure_in_its_unit() {
     (app.results.shown, app.window.hovered) = (Some(frame()), Some([1, 0]));
     let texts = said(&mut app, |app, ui| app.status_bar(ui));
     assert_says(&texts, &["7 / 64 spp, 12 in the region", "2.5 M samples/s", "2.0 s", "noise 4.00 %", "true error 5.00 %"]);
-    assert_says(&texts, &["(1, 0)  RGB 0.100 0.200 0.300  Y 0.186 ± 0.050"]);
+    assert_says(&texts, &["(1, 0)  RGB 0.100 0.200 0.300  Y 0.186 ± 0.050 W/(sr·m²)"]);
 }
 
 #[test]
@@ -147,7 +147,7 @@ fn where_no_truth_is_known_the_plot_of_bias_says_what_it_needs() {
     let scene = app.session.opened.as_ref().expect("it is open").scene.clone();
     app.instruments.history.look_at(&scene, &scene.camera, None);
     app.instruments.history.what = Quantity::Bias;
-    let needs = |texts: &[String]| texts.iter().any(|text| text.starts_with("Bias is known where the truth is"));
+    let needs = |texts: &[String]| texts.iter().any(|text| text.starts_with("The bias needs a reference"));
     for (spp, bias, is_known) in [(1, None, false), (4, Some(0.1), true), (16, None, true)] {
         let moment = Moment { spp, seconds: 1.0, estimated: Some(0.5), true_error: None, bias, shares: false };
         app.instruments.history.record(&scene.settings, 5, moment);

@@ -24,6 +24,7 @@ mod scenes;
 mod settings;
 mod snapshots;
 mod soak;
+mod steady;
 mod table;
 mod toolbar;
 mod truth;

@@ -35,7 +35,7 @@ fn a_black_picture_is_told_with_its_likely_cause() {
     wait(&mut window, "samples", |app| app.results.status.spp >= 2 && app.results.black);
     window.run_steps(2);
     assert!(window.query_by_label("no light found yet").is_some() && window.query_by_label_contains("noise").is_none());
-    assert!(window.query_by_label("Note: the camera is inside `wall`.").is_some());
+    assert!(window.query_by_label("The camera is inside `wall`.").is_some());
     let mut window = opened(shipped("furnace"));
     window.run_steps(2);
     assert!(window.query_by_label("no light found yet").is_none());

@@ -24,29 +24,38 @@ pub fn kinds<T: OneOf>(ui: &mut Ui, chosen: &mut T) {
     }
 }
 
-/// A row for each number that the chosen kind cannot do without.
+/// A row for each number that some kind cannot do without. Only those of the chosen kind can be changed; the others stay, so that no
+/// row moves.
 pub fn number_rows<T: OneOf>(ui: &mut Ui, chosen: &mut T) {
-    chosen.chosen(&mut NumberRows(ui));
+    for mut kind in T::alternatives() {
+        let is_chosen = kind.place() == chosen.place();
+        let shown = if is_chosen { &mut *chosen } else { &mut kind };
+        shown.chosen(&mut NumberRows { ui, is_enabled: is_chosen });
+    }
 }
 
 /// Sliders do not run over more than this from end to end.
 const WIDEST: f64 = 1e6;
 
-struct NumberRows<'u>(&'u mut Ui);
+struct NumberRows<'u> {
+    ui: &'u mut Ui,
+    is_enabled: bool,
+}
 
 impl Parameters for NumberRows<'_> {
     fn value(&mut self, parameter: &Parameter, value: Value<'_>) {
         let Value::Number(number, range) = value else { return };
         if parameter.is_required {
-            row(self.0, &parameter.label(), parameter.doc, |ui, label| {
+            row(self.ui, &parameter.label(), parameter.doc, |ui, label| {
                 let suffix = if parameter.unit.is_empty() { String::new() } else { format!(" {}", parameter.unit) };
                 let ends = range.least..=range.most;
                 if range.most > WIDEST * range.least {
                     let speed = 0.005 * *number;
-                    ui.add(number::field(ui, number, 3, ends).speed(speed).suffix(suffix)).labelled_by(label);
+                    let field = number::field(ui, number, 3, ends).speed(speed).suffix(suffix);
+                    ui.add_enabled(self.is_enabled, field).labelled_by(label);
                 } else {
                     let slider = number::slider(ui, number, 3, ends).logarithmic(range.scale == Scale::Log);
-                    ui.add(slider.suffix(suffix)).labelled_by(label);
+                    ui.add_enabled(self.is_enabled, slider.suffix(suffix)).labelled_by(label);
                 }
             });
         }

@@ -22,8 +22,10 @@ pub fn section(ui: &mut egui::Ui, title: &str, contents: impl FnOnce(&mut egui::
 /// Shows a grid of labels and controls, with the same columns in all panels.
 pub fn controls(ui: &mut egui::Ui, name: &str, rows: impl FnOnce(&mut egui::Ui)) {
     const LABEL_WIDTH: f32 = 96.0;
+    // As high as the highest control, so that rows do not move when controls change.
+    const ROW_HEIGHT: f32 = 20.0;
     ui.spacing_mut().slider_width = 120.0;
-    egui::Grid::new(name).num_columns(2).min_col_width(LABEL_WIDTH).spacing([8.0, 8.0]).show(ui, rows);
+    egui::Grid::new(name).num_columns(2).min_col_width(LABEL_WIDTH).min_row_height(ROW_HEIGHT).spacing([8.0, 5.0]).show(ui, rows);
 }
 
 /// Shows one row: a label with a tooltip, and a control that screen readers name by the label.

@@ -38,10 +38,6 @@ pub fn show(
         }
     });
     ui.add_space(4.0);
-    if began_apart(sides.each_ref().map(|side| side.seconds)) {
-        let first = if sides[0].seconds > sides[1].seconds { "A" } else { "B" };
-        ui.weak(format!("{first} had a head start. Restart (R) to give both the same time."));
-    }
     if let Some(text) = incomparable(&sides) {
         ui.label(RichText::new(text).color(ui.warning()));
     } else if sides.iter().all(|side| side.efficiency.is_some()) {
@@ -50,6 +46,10 @@ pub fn show(
         ui.label(RichText::new(text).color(ui.accent())).on_hover_text(more);
     } else {
         ui.weak("Available after two samples per pixel.");
+    }
+    if began_apart(sides.each_ref().map(|side| side.seconds)) {
+        let first = if sides[0].seconds > sides[1].seconds { "A" } else { "B" };
+        ui.weak(format!("{first} had a head start. Restart (R) to give both the same time."));
     }
 }
 
@@ -62,11 +62,11 @@ const HEADINGS: [(&str, &str); 8] = [
     ("", ""),
     ("settings", "What differs from how the scene opens, and whether pixels share paths"),
     ("N", "Samples per pixel"),
-    ("time", "Seconds of rendering: both get the same since the comparison began"),
+    ("time", "Render time. Both sides get the same from the start of the comparison"),
     ("noise", "Estimated relative error: the root of relMSE, the mean of (x − r)²/(r² + 0.01 · mean r²)"),
-    ("true error", "Relative error against the truth, where that is known"),
-    ("efficiency", "1/(relMSE · seconds): twice as much is the same error in half the time"),
-    ("converges to", "Whether the expected picture is the solution of the equation"),
+    ("true error", "Relative error against the reference, if there is one"),
+    ("efficiency", "1/(relMSE · seconds). Twice the efficiency gives the same error in half the time"),
+    ("converges to", "Whether the expected image is the solution of the light transport equation"),
 ];
 
 /// The figures of one side.
@@ -107,15 +107,21 @@ impl Side {
         let percent = |x: Option<f64>| x.map_or_else(|| "–".to_owned(), |x| format!("{:.2} %", 100.0 * x));
         ui.strong(self.letter);
         style::elided(ui, 330.0, self.name.as_str()).on_hover_text(self.name.as_str());
-        ui.monospace(self.spp.to_string());
-        ui.monospace(format!("{:.1} s", self.seconds));
-        ui.monospace(percent(self.noise));
-        ui.monospace(percent(self.truth));
-        ui.monospace(self.efficiency.map_or_else(|| "–".to_owned(), significant));
+        let figures = [
+            self.spp.to_string(),
+            format!("{:.1} s", self.seconds),
+            percent(self.noise),
+            percent(self.truth),
+            self.efficiency.map_or_else(|| "–".to_owned(), significant),
+        ];
+        for (figure, (_, doc)) in figures.into_iter().zip(&HEADINGS[2..]) {
+            ui.monospace(figure).on_hover_text(*doc);
+        }
         match &self.trouble {
             None => ui.label(RichText::new("the solution").color(ui.good())),
             Some(trouble) => ui.label(RichText::new(trouble).color(ui.warning())),
-        };
+        }
+        .on_hover_text(HEADINGS[7].1);
         ui.end_row();
     }
 }
@@ -129,7 +135,7 @@ fn incomparable(sides: &[Side; 2]) -> Option<String> {
     let biased = sides.iter().find(|side| side.trouble.is_some() && side.truth.is_none())?;
     let letter = biased.letter;
     Some(format!(
-        "{letter} does not converge to the solution: less noise does not make it nearer. The difference shows what is missing."
+        "{letter} does not converge to the solution, so its efficiency says nothing. The layout Difference shows what is missing."
     ))
 }
 

@@ -46,10 +46,12 @@ pub fn show(
         ends |= ui.button("Keep A").on_hover_text("End the comparison and go on with the settings of A").clicked();
         chosen = menu::show(ui, settings);
     });
-    if compare.layout == CompareLayout::Wipe {
-        let label = ui.label("Line").on_hover_text("Where the wipe is: drag it in the picture, or here");
-        ui.add(egui::Slider::new(wipe, 0.0..=1.0).show_value(false)).labelled_by(label.id);
-    }
+    ui.add_enabled_ui(compare.layout == CompareLayout::Wipe, |ui| {
+        ui.horizontal(|ui| {
+            let label = ui.label("Line").on_hover_text("Moves the line between A and B. You can also drag it in the image.");
+            ui.add(egui::Slider::new(wipe, 0.0..=1.0).show_value(false)).labelled_by(label.id);
+        });
+    });
     *comparison = (!ends).then_some(compare);
     ui.add_space(6.0);
     figures::show(ui, [settings, &compare.other], of_scene, sides, ratio);

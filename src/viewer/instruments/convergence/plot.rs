@@ -34,11 +34,10 @@ pub fn show(ui: &mut Ui, history: &mut History, latest: [Option<u64>; 2], has_re
 fn axis_choice(ui: &mut Ui, history: &mut History) {
     ui.horizontal(|ui| {
         ui.selectable_value(&mut history.what, Quantity::Error, "Error").on_hover_text(
-            "Relative error, the root of relMSE: lines as estimated from the samples alone, points as it is against the truth",
+            "Relative error, the root of relMSE. Lines are estimated from the samples, points are against the reference.",
         );
         ui.selectable_value(&mut history.what, Quantity::Bias, "Bias").on_hover_text(
-            "The mean over the picture less the true one, in standard errors: an unbiased estimate stays within ±2 mostly, \
-             a biased one leaves it for ever",
+            "Mean of the image minus that of the reference, in standard errors. An unbiased estimate stays within ±2 in 95 % of cases.",
         );
         ui.separator();
         ui.selectable_value(&mut history.over, HorizontalAxis::Samples, "over N").on_hover_text("N: samples per pixel");
@@ -46,6 +45,9 @@ fn axis_choice(ui: &mut Ui, history: &mut History) {
     });
     ui.add_space(4.0);
 }
+
+const FIGURES: &str = "Samples per pixel, render time and estimated relative error. Against the reference: true error, and bias of the mean in \
+                       standard errors. The slope is that of log error, with its 95 % interval; independent samples have −0.5.";
 
 /// Names the curves and gives their last figures.
 fn legend(ui: &mut Ui, history: &History, latest: [Option<u64>; 2]) {
@@ -57,18 +59,18 @@ fn legend(ui: &mut Ui, history: &History, latest: [Option<u64>; 2]) {
             style::elided(ui, 236.0, if latest.contains(&Some(curve.generation)) { text.strong() } else { text })
                 .on_hover_text(&name);
         });
-        ui.indent(number, |ui| ui.weak(figures(curve, history.over)));
+        ui.indent(number, |ui| ui.weak(figures(curve, history.over)).on_hover_text(FIGURES));
     }
     if history.curves.is_empty() {
-        ui.weak("Curves come with the second sample. Change a setting: the curve of the last one stays.");
+        ui.weak("Available after two samples per pixel. Curves of earlier settings stay.");
     }
     if !history.curves.is_empty() {
         let root = if history.over == HorizontalAxis::Samples { "1/√N" } else { "1/√time" };
         ui.weak(match history.what {
             Quantity::Error => {
-                format!("Lines: as estimated. Points: against the truth. Dashed: {root}, the rate of independent samples.")
+                format!("Lines: estimated. Points: against the reference. Dashed: {root} through the current curve, the rate of independent samples.")
             }
-            Quantity::Bias => "Dashed: 0 and ±2 σ, within which unbiased means mostly stay.".to_owned(),
+            Quantity::Bias => "Dashed: 0 and ±2 σ. Unbiased means stay within ±2 σ in 95 % of cases.".to_owned(),
         });
     }
     ui.add_space(6.0);
@@ -97,7 +99,7 @@ fn plot(ui: &mut Ui, history: &History) {
     if history.what == Quantity::Bias
         && !history.curves.iter().flat_map(|curve| &curve.moments).any(|moment| moment.bias.is_some())
     {
-        ui.label("Bias is known where the truth is: open a scene with [truth], or drop a reference EXR on the window.");
+        ui.label("The bias needs a reference: open a scene with [truth], or drop a reference EXR on the window.");
         return;
     }
     let (over, what) = (history.over, history.what);

@@ -71,10 +71,13 @@ pub fn show(ui: &mut Ui, histogram: &Histogram, chosen: u32) -> Option<u32> {
     text(plot.left_bottom() + vec2(0.0, 3.0), Align2::LEFT_TOP, "0".to_owned());
     text(plot.right_bottom() + vec2(0.0, 3.0), Align2::RIGHT_TOP, format!("{:.3} and more", histogram.end));
     let count = histogram.samples.len();
-    ui.weak(format!("{count} samples, mean {:.4} (line), {:.0} % black", histogram.mean, 100.0 * histogram.black));
+    ui.weak(format!("{count} samples, mean {:.4} (line), {:.0} % black", histogram.mean, 100.0 * histogram.black))
+        .on_hover_text("Number of samples, mean of their luminance, and fraction without light");
     let under = |at: egui::Pos2| (((at.x - plot.left()) / width) as usize).min(BINS - 1);
     let clicked = response.clicked().then(|| response.interact_pointer_pos()).flatten().map(under);
-    response.on_hover_text("Luminance of this pixel's samples; heights by square root. Click a bar for one of its samples.");
+    response.on_hover_text(
+        "Luminance of the samples of this pixel. Heights are square roots of counts. Click a bar for one of its samples.",
+    );
     let wanted = clicked?;
     (0..count as u32).find(|sample| histogram.bin_of(*sample) == Some(wanted))
 }
