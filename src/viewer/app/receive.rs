@@ -71,7 +71,7 @@ impl App {
         if let Some(mismatch) = dropped.reference.mismatch(dropped.camera.resolution) {
             self.tell(format!("{name}: {mismatch}. Set the resolution to that of the reference."), true);
         } else {
-            self.tell(format!("The picture is now held against {name}"), false);
+            self.tell(format!("The image is now compared with {name}"), false);
         }
         self.session.dropped_reference = Some(dropped);
     }

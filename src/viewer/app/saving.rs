@@ -36,7 +36,7 @@ impl App {
                 let extension = path.extension().unwrap_or_default().to_string_lossy();
                 let form = PathForm::of_extension(&extension).zip(self.inspected_request());
                 let text = form.and_then(|(form, request)| written(&self.instruments.path, &request, form));
-                text.map(String::into_bytes).ok_or_else(|| "No path is traced yet. Try again in a moment.".to_owned())
+                text.map(String::into_bytes).ok_or_else(|| "The path is not traced yet. Try again in a moment.".to_owned())
             }
         };
         self.background.saver.save(path, move |path| replace(path, &bytes?).map_err(|error| error.to_string()));
@@ -45,7 +45,7 @@ impl App {
     /// Saves the picture on the screen.
     pub fn save_to(&mut self, path: PathBuf) {
         if !self.can_save() {
-            self.tell("Not saved: the new picture has no sample everywhere yet. Try again in a moment.".to_owned(), true);
+            self.tell("Not saved: some pixels have no sample yet. Try again in a moment.".to_owned(), true);
             return;
         }
         let of_worker = self.background.worker.request().cloned();

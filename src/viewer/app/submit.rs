@@ -12,7 +12,7 @@ impl App {
         let (pressed, now) = self.ctx.input(|input| (input.pointer.any_down(), input.time));
         if !pressed && let Err(error) = self.background.worker.set_threads(self.session.threads) {
             self.session.threads = self.background.worker.threads();
-            self.tell(format!("The threads cannot be had: {error}"), true);
+            self.tell(format!("The render threads cannot be started: {error}"), true);
         }
         let (second_view, is_studying) = (self.second_view(), self.is_studying());
         let (session, worker) = (&mut self.session, &mut self.background.worker);

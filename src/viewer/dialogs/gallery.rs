@@ -72,7 +72,7 @@ impl Gallery {
                     request = self.cards(ui, catalogue, columns).map(SceneRequest::Open);
                 });
                 ui.add_space(4.0);
-                if ui.button("Open a file…").on_hover_text("A scene that is not shown here").clicked() {
+                if ui.button("Open a file…").on_hover_text("Opens another scene file.").clicked() {
                     request = Some(SceneRequest::Browse);
                 }
             });

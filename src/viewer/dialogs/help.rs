@@ -2,19 +2,19 @@
 use egui::{Align2, RichText};
 
 const KEYS: [(&str, &[(&str, &str)]); 4] = [
-    ("Render", &[("Space", "pause, resume"), (".", "one more sample per pixel, then pause"), ("R", "start over")]),
+    ("Render", &[("Space", "pause, resume"), (".", "one more sample per pixel, then pause"), ("R", "restart")]),
     (
         "Picture",
         &[
-            ("P", "drag and wheel move the picture"),
-            ("Wheel, drag", "magnify, pan"),
+            ("P", "drag and wheel pan and zoom the image"),
+            ("Wheel, drag", "zoom, pan"),
             ("Ctrl+wheel, middle drag", "the same, with any tool"),
-            ("F, double-click", "whole picture"),
-            ("1", "one picture pixel to one screen pixel"),
+            ("F, double-click", "fit the image to the window"),
+            ("1", "one image pixel per screen pixel"),
             ("[  ]", "half a stop darker, brighter"),
-            ("V, Shift+V", "the next view, the one before"),
-            ("G", "drag marks what is rendered first; Esc clears it"),
-            ("I", "a click shows a pixel's samples and paths"),
+            ("V, Shift+V", "next view, previous view"),
+            ("G", "drag marks a region to render first; Esc clears it"),
+            ("I", "click shows the samples of a pixel and their paths"),
         ],
     ),
     (
@@ -35,11 +35,11 @@ const KEYS: [(&str, &[(&str, &str)]); 4] = [
         "Window",
         &[
             ("Ctrl+Z, Ctrl+Shift+Z", "undo, redo: camera, settings, view"),
-            ("Ctrl+S", "save the picture"),
+            ("Ctrl+S", "save the image"),
             ("F1", "this help"),
             ("F2  F3  F4  F5", "convergence, compare, bounces, pixel"),
-            ("F6", "the scenes as pictures"),
-            ("F12", "how long the window takes to draw"),
+            ("F6", "gallery of scenes"),
+            ("F12", "frame times of the window"),
             ("Esc", "close"),
         ],
     ),

@@ -63,10 +63,10 @@ fn show_notice(ui: &mut egui::Ui, notice: &Notice) -> bool {
         let colour = if notice.is_error { ui.bad() } else { ui.visuals().text_color() };
         ui.set_max_width(620.0);
         ui.add(egui::Label::new(RichText::new(&notice.text).color(colour)).wrap());
-        if notice.is_error && ui.small_button("Copy").on_hover_text("Copy this message").clicked() {
+        if notice.is_error && ui.small_button("Copy").on_hover_text("Copies this message.").clicked() {
             ui.ctx().copy_text(notice.text.clone());
         }
-        ui.small_button("Close").on_hover_text("Close this message (Esc)").clicked()
+        ui.small_button("Close").on_hover_text("Closes this message. (Esc)").clicked()
     })
     .inner
 }

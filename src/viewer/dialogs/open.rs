@@ -26,7 +26,7 @@ pub fn show(ctx: &egui::Context, dialog: &mut Option<PathField>) -> Option<PathB
     let path = field.path().filter(|_| chosen);
     match path {
         Some(path) if path.is_file() => return Some(path),
-        Some(path) => field.refusal = Some(format!("There is no file {}.", path.display())),
+        Some(path) => field.refusal = Some(format!("There is no file {}. Check the path, or choose Browse…", path.display())),
         None => {}
     }
     if open && !cancelled {
@@ -38,7 +38,9 @@ pub fn show(ctx: &egui::Context, dialog: &mut Option<PathField>) -> Option<PathB
 /// Returns whether to open, and whether to close.
 fn dialog_body(ui: &mut egui::Ui, field: &mut PathField) -> (bool, bool) {
     ui.set_width(460.0);
-    ui.label("A scene is one TOML file, or a picture that Noisefall has saved. It can also be dropped on the window.");
+    ui.label(
+        "Type the path of a scene (TOML), or of an image that Noisefall has saved. You can also drop the file on the window.",
+    );
     ui.add_space(4.0);
     let (mut chosen, mut cancelled) = (field.show(ui), false);
     field.remark(ui, "");

@@ -26,11 +26,11 @@ impl SaveTarget {
     pub fn explanation(self) -> &'static str {
         match self {
             SaveTarget::Picture => {
-                "PNG is the picture as shown (of A and B it is A); EXR is linear radiance. Both carry the settings."
+                "PNG has the image as displayed (A of a comparison); EXR has linear radiance. Both contain the settings."
             }
-            SaveTarget::CurvesCsv => "CSV: settings, samples, seconds, errors and bias, a line each.",
-            SaveTarget::CurvesSvg => "SVG: the curves of all settings, for a page or a slide.",
-            SaveTarget::Path => "TXT is the path in words and numbers, TEX its nested sum; CSV has the samples of the pixel.",
+            SaveTarget::CurvesCsv => "CSV with a row for each figure: settings, samples, seconds, errors and bias.",
+            SaveTarget::CurvesSvg => "SVG with the curves of all settings.",
+            SaveTarget::Path => "TXT has all terms of the path, TEX its nested sum, CSV the samples of the pixel.",
         }
     }
 

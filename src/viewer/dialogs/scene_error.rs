@@ -17,7 +17,7 @@ pub fn show(ctx: &egui::Context, error: &mut Option<String>, is_open: bool) -> b
                 ui.add(egui::Label::new(RichText::new(report.as_str()).monospace()).extend());
             });
             ui.horizontal(|ui| {
-                if ui.button("Copy").on_hover_text("Copy this message").clicked() {
+                if ui.button("Copy").on_hover_text("Copies this message.").clicked() {
                     ui.ctx().copy_text(report.clone());
                 }
                 built_in = !is_open && ui.button("Open the built-in scene").clicked();

@@ -27,32 +27,31 @@ struct Page {
 const PAGES: [Page; 4] = [
     Page {
         title: "This picture is an estimate",
-        text: "Every pixel is the mean of N random light paths. The samples scatter, and the mean comes nearer to the solution of \
-               the light transport equation as 1/√N, or faster with Sobol points: four times the samples, half the noise or \
-               less. The curve below shows it, live; the line at the bottom of the window says how far it has come.",
+        text: "Every pixel is the mean of N random light paths. The samples scatter. Their mean approaches the solution of the light \
+               transport equation as 1/√N, or faster with Sobol points: four times the samples halve the noise, or better. The curve below shows the error live. The status \
+               line shows the samples and the noise so far.",
         shows: Some(InstrumentTab::Convergence),
         tries: ("Start over", TourRequest::Restart),
     },
     Page {
         title: "Light bounces",
-        text: "The solution is a series: light straight from the lamps, light reflected once, twice, and so on. The bars below are \
-               what each of these brings. Cut the series short, by a bounce cap, and light is missing for ever: the picture is \
-               biased, and the window says so.",
+        text: "The solution is a series: emitted light, light reflected once, twice, and so on. The bars below show the share of each \
+               term. A bounce cap cuts the series. The missing light makes the image biased, and the window says so.",
         shows: Some(InstrumentTab::Bounces),
         tries: ("Show bounce 2 alone", TourRequest::ShowSecondBounce),
     },
     Page {
         title: "Roulette ends paths, and takes nothing away",
-        text: "Instead of a cap, a path ends at random: it survives with probability q, and survivors count 1/q times as much. The \
-               mean stays exactly right, at finite cost. Compare it with a cap of 3: what differs is the missing light.",
+        text: "A path can end at random instead of at a cap. It survives with probability q, and survivors count 1/q times as much. The \
+               mean stays exact at finite cost. Compare it with a cap of 3: the difference is the missing light.",
         shows: Some(InstrumentTab::Compare),
         tries: ("Compare with a cap of 3", TourRequest::CompareWithCap),
     },
     Page {
         title: "Now you",
-        text: "Change the sampler or the estimator and watch the curves (F2). Drag with the tool Camera (C) to move through the scene, \
-               click with Inspect (I) to see the paths of a pixel, open the gallery (F6) for other scenes. Everything explains \
-               itself when the pointer rests on it; F1 lists the keys.",
+        text: "Change the sampler or the estimator and watch the curves (F2). Drag with the tool Camera (C) to move through the scene. \
+               Click with Inspect (I) to see the paths of a pixel. Open the gallery (F6) for other scenes. Every control has a \
+               tooltip; F1 lists the keys.",
         shows: None,
         tries: ("Open the gallery", TourRequest::OpenGallery),
     },

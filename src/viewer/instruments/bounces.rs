@@ -37,24 +37,22 @@ pub fn has_room_for_series(resolution: [u32; 2]) -> bool {
 pub fn show(ui: &mut Ui, bounces: &mut Bounces, frame: Option<&Frame>, view: View, resolution: [u32; 2]) {
     if !has_room_for_series(resolution) {
         let [width, height] = resolution;
-        ui.label(format!(
-            "{width} × {height} pixels are too many to be kept bounce by bounce: choose 4 million or fewer (Camera)."
-        ));
+        ui.label(format!("{width} × {height} pixels are too many. Choose a resolution of at most 4 million pixels (Camera)."));
         return;
     }
     ui.horizontal(|ui| {
         ui.selectable_value(&mut bounces.up_to, false, "Bounce k alone")
-            .on_hover_text("T^k L_e: light that bounced exactly k times, term k of the series that solves the equation");
+            .on_hover_text("Shows T^k L_e, the light with exactly k bounces: term k of the series that solves the equation.");
         ui.selectable_value(&mut bounces.up_to, true, "Bounces up to k")
-            .on_hover_text("L_e + T L_e + … + T^k L_e: the partial sum, which is the picture that a cap of k gives");
+            .on_hover_text("Shows L_e + T L_e + … + T^k L_e, the image with a cap of k bounces.");
         ui.separator();
-        let label = ui.label("k").on_hover_text("The number of bounces between lamp and eye: reflections and refractions alike");
+        let label = ui.label("k").on_hover_text("Number of bounces, reflections and refractions alike");
         ui.add(Slider::new(&mut bounces.k, 0..=LAST)).labelled_by(label.id);
         ui.label(RichText::new(meaning(*bounces)).weak());
     });
     let Some((frame, series)) = frame.and_then(|frame| Some((frame, frame.series.as_ref()?))) else {
         ui.add_space(6.0);
-        ui.weak("The terms come with the first sample of every pixel …");
+        ui.weak("Available after one sample per pixel.");
         return;
     };
     ui.add_space(6.0);
@@ -63,7 +61,7 @@ pub fn show(ui: &mut Ui, bounces: &mut Bounces, frame: Option<&Frame>, view: Vie
     let k = bounces.k;
     let lost = series.lost_by_cap(k);
     let text = if k == LAST && bounces.up_to {
-        "This is all of the light, as the picture has it.".to_owned()
+        "This is all of the light.".to_owned()
     } else if k == LAST {
         format!("{LAST} bounces and more bring {} of the light.", percent(series.shares.iter().skip(LAST).sum()))
     } else {
@@ -78,12 +76,11 @@ pub fn show(ui: &mut Ui, bounces: &mut Bounces, frame: Option<&Frame>, view: Vie
     if !view.shows_light() {
         let view = view.title();
         ui.label(
-            RichText::new(format!("The view {view} is of the whole picture: choose Radiance to see bounces."))
-                .color(ui.warning()),
+            RichText::new(format!("The view {view} shows the whole image. Choose Radiance to see bounces.")).color(ui.warning()),
         );
     }
     let spp = frame.spp;
-    ui.weak(format!("After {spp} samples per pixel, with paths of their own. Shares are of the picture's luminance."));
+    ui.weak(format!("After {spp} samples per pixel without path sharing. Shares are fractions of the luminance of the image."));
 }
 
 /// Draws a bar for the share of each number of bounces; a click chooses the term.

@@ -10,10 +10,10 @@ pub enum InstrumentTab {
 }
 
 const TABS: [(InstrumentTab, &str, &str); 4] = [
-    (InstrumentTab::Convergence, "Convergence", "How the error falls, and how it should. (F2)"),
-    (InstrumentTab::Compare, "Compare", "Two settings of this scene in the same time. (F3)"),
-    (InstrumentTab::Bounces, "Bounces", "The picture by numbers of bounces. (F4)"),
-    (InstrumentTab::Path, "Pixel", "A pixel's samples, and single paths vertex by vertex. (F5)"),
+    (InstrumentTab::Convergence, "Convergence", "Error and bias over samples or time. (F2)"),
+    (InstrumentTab::Compare, "Compare", "Two settings at equal render time. (F3)"),
+    (InstrumentTab::Bounces, "Bounces", "The image by number of bounces. (F4)"),
+    (InstrumentTab::Path, "Pixel", "Samples of a pixel, and their paths term by term. (F5)"),
 ];
 
 /// Shows the tabs. Returns the one that was clicked.

@@ -13,20 +13,20 @@ use crate::viewer::widgets::{
 pub fn show(ui: &mut egui::Ui, camera: &mut Camera, scene: Option<&Scene>) -> bool {
     let speed = scene.map_or(0.01, |scene| scene.size * 0.002);
     controls(ui, "camera", |ui| {
-        row(ui, "Eye", "Where the camera stands, in metres: x, y (up), z.", |ui, label| {
+        row(ui, "Eye", "Position of the camera: x, y (up), z, in metres.", |ui, label| {
             point(ui, label, &mut camera.eye, speed);
         });
-        row(ui, "Look at", "The point in the middle of the picture.", |ui, label| {
+        row(ui, "Look at", "Point in the middle of the image, in metres.", |ui, label| {
             point(ui, label, &mut camera.look_at, speed);
         });
-        row(ui, "Up", "The direction that is up in the picture.", |ui, label| point(ui, label, &mut camera.up, 0.01));
+        row(ui, "Up", "Direction that is up in the image.", |ui, label| point(ui, label, &mut camera.up, 0.01));
         projection(ui, camera);
         lens(ui, camera, speed);
-        row(ui, "Pixel filter", "How a pixel weighs the light around its centre.", |ui, _| {
+        row(ui, "Pixel filter", "Weight of the light around the centre of a pixel.", |ui, _| {
             ui.horizontal(|ui| kinds(ui, &mut camera.filter));
         });
         number_rows(ui, &mut camera.filter);
-        row(ui, "Resolution", "Width and height in pixels.", |ui, label| {
+        row(ui, "Resolution", "Width and height of the image in pixels.", |ui, label| {
             ui.horizontal(|ui| {
                 let [width, height] = &mut camera.resolution;
                 let range = 1.0..=f64::from(Camera::MOST_SIDE);
@@ -44,19 +44,19 @@ pub fn show(ui: &mut egui::Ui, camera: &mut Camera, scene: Option<&Scene>) -> bo
     elided(ui, width, RichText::new(&error).color(ui.visuals().error_fg_color)).on_hover_text(&error);
     let moved = scene.is_some_and(|scene| scene.camera != *camera);
     let reset = ui.add_enabled(moved, Button::new("Back to the scene's camera"));
-    reset.on_hover_text("The camera the scene opened with (Home)").clicked()
+    reset.on_hover_text("Resets the camera to that of the scene. (Home)").clicked()
 }
 
 fn projection(ui: &mut egui::Ui, camera: &mut Camera) {
     let before = *camera;
-    row(ui, "Projection", "Rays through one point, or all parallel.", |ui, _| {
+    row(ui, "Projection", "Rays through one point, or parallel rays.", |ui, _| {
         ui.horizontal(|ui| kinds(ui, &mut camera.projection));
     });
     if camera.projection != before.projection {
         camera.projection = camera.projection.with_width(before.width_at_look_at());
         camera.lens = camera.lens.filter(|_| camera.projection.takes_lens());
     }
-    row(ui, "Field of view", "The full angle across the image's width.", |ui, label| {
+    row(ui, "Field of view", "Full horizontal angle of view.", |ui, label| {
         let slider = number::slider(ui, &mut camera.fov, 2, 1.0..=170.0).suffix("°");
         ui.add_enabled(camera.projection.has_angle(), slider).labelled_by(label);
     });

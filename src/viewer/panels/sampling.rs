@@ -34,47 +34,43 @@ pub fn side_choice(ui: &mut Ui, edits_second: Option<&mut bool>) {
 pub fn show(ui: &mut Ui, settings: &mut RenderSettings, status: &Status, caution: Option<&str>) -> bool {
     controls(ui, "sampling", |ui| {
         presets::show(ui, settings);
-        row(ui, "Estimator", "How light L_o is found at x_M. All converge to the same picture.", |ui, _| {
+        row(ui, "Estimator", "How direct light is estimated. All converge to the same image; they differ in noise.", |ui, _| {
             words(ui, &mut settings.estimator);
         });
         sampler_row(ui, &mut settings.sampler);
-        row(
-            ui,
-            "Directions",
-            "How the next direction ω_i is drawn over the hemisphere at a diffuse surface: its density p(ω_i).",
-            |ui, _| words(ui, &mut settings.directions),
-        );
+        row(ui, "Directions", "Pdf p(ω_i) of the next direction at diffuse surfaces.", |ui, _| {
+            words(ui, &mut settings.directions);
+        });
         reuse_row(ui, &mut settings.reuse, status);
         row(
             ui,
             "Adaptive",
-            "More samples N where a pilot, whose own samples do not count, finds more noise. Not where pixels share paths.",
+            "Takes more samples where a pilot finds more noise. Not used where pixels share paths.",
             |ui, label| drop(ui.checkbox(&mut settings.adaptive, "").labelled_by(label)),
         );
         roulette_rows(ui, &mut settings.roulette, caution);
         row(
             ui,
             "Bounce cap",
-            "n, the highest number of bounces counted, reflections and refractions alike: the series L_e + T L_e + … is cut after T^n L_e, and the picture is biased.",
+            "Highest number of bounces n, reflections and refractions alike. A cap cuts the series L_e + T L_e + … after T^n L_e, so the image is biased.",
             |ui, label| {
                 let range = 0.0..=RenderSettings::HIGHEST_CAP.into();
                 let words = ("no cap", "bounces");
                 number::optional(ui, label, &mut settings.max_bounces, words, RenderSettings::FIRST_CAP, 0, range);
             },
         );
-        row(ui, "Seed", "Which random numbers are drawn: another seed gives other noise around the same mean.", |ui, label| {
+        row(ui, "Seed", "Seed of the random numbers. Another seed gives other noise with the same mean.", |ui, label| {
             let field = number::field(ui, &mut settings.seed, 0, 0.0..=u32::MAX.into());
             ui.add(field).labelled_by(label);
         });
     });
     ui.add_space(4.0);
-    let doc =
-        "Try samplers, roulettes and estimators on this picture for some seconds, and offer the most efficient with figures";
+    let doc = "Tests estimators, samplers, roulettes and sharing for some seconds, and offers the most efficient settings.";
     ui.button("What should I use here?").on_hover_text(doc).clicked()
 }
 
 fn sampler_row(ui: &mut Ui, sampler: &mut Sampler) {
-    let doc = "Which points of the unit cube the N samples of a pixel are: they decide how fast the noise falls.";
+    let doc = "Points of the unit cube for the N samples of a pixel. They decide how fast the noise falls.";
     row(ui, "Sampler", doc, |ui, label| {
         let combo = ComboBox::from_id_salt("Sampler").selected_text(sampler.word().title).show_ui(ui, |ui| {
             for (value, word) in Sampler::ALL.map(|sampler| (sampler, sampler.word())) {
@@ -93,13 +89,13 @@ fn reuse_row(ui: &mut Ui, reuse: &mut Reuse, status: &Status) {
             words(ui, reuse);
             // Always there, so that no row below moves.
             let in_force = if status.spp > 0 { sharing_name(status.shares) } else { "…" };
-            ui.weak(in_force).on_hover_text("What the render does. Auto decides once for the scene.");
+            ui.weak(in_force).on_hover_text("What the render does now. Auto decides once for the scene.");
         });
     });
 }
 
 fn roulette_rows(ui: &mut Ui, roulette: &mut Roulette, caution: Option<&str>) {
-    let doc = "Ends paths at random with probability 1 − q and weights the survivors by 1/q: shorter paths, no bias.";
+    let doc = "Ends paths with probability 1 − q and weights the survivors by 1/q. Shorter paths, no bias.";
     row(ui, "Roulette", doc, |ui, label| {
         // Below, and not beside, as above.
         ui.vertical(|ui| {

@@ -15,10 +15,10 @@ const DEFAULT_PERCENT: f64 = 1.0;
 
 pub fn show(ui: &mut Ui, budget: &mut Budget, resolution: [u32; 2]) {
     controls(ui, "stop", |ui| {
-        row(ui, "Stop at", "N, the samples per pixel at which the render stops. Changing it never restarts.", |ui, label| {
+        row(ui, "Stop at", "Samples per pixel N at which the render stops. Does not restart it.", |ui, label| {
             number::optional(ui, label, &mut budget.max_spp, ("never", "spp"), DEFAULT_SPP, 0, 1.0..=16_777_216.0);
         });
-        row(ui, "Stop after", "The time of rendering after which it stops. Changing it never restarts.", |ui, label| {
+        row(ui, "Stop after", "Render time after which the render stops. Does not restart it.", |ui, label| {
             let mut seconds = budget.max_time.map(|time| time.as_secs_f64());
             number::optional(ui, label, &mut seconds, ("never", "seconds"), DEFAULT_SECONDS, 1, 0.1..=1e7);
             budget.max_time = seconds.map(Duration::from_secs_f64);
@@ -26,14 +26,14 @@ pub fn show(ui: &mut Ui, budget: &mut Budget, resolution: [u32; 2]) {
         row(
             ui,
             "Stop below",
-            "The relative error, as estimated, below which it stops; not believed before 64 samples per pixel. Where it stops depends on the samples, which biases the mean by far less than the target. Never restarts.",
+            "Estimated relative error at which the render stops, from 64 samples per pixel on. The stop depends on the samples, so it adds a bias far below the target. Does not restart the render.",
             |ui, label| {
                 let mut percent = budget.noise.map(|noise| 100.0 * noise);
                 number::optional(ui, label, &mut percent, ("never", "% noise"), DEFAULT_PERCENT, 3, 0.001..=100.0);
                 budget.noise = percent.map(|percent| percent / 100.0);
             },
         );
-        row(ui, "Region", "What is rendered before the rest, in whole tiles: drag it with the tool Region (G).", |ui, label| {
+        row(ui, "Region", "Tiles that are rendered first. Drag a rectangle with the tool Region (G).", |ui, label| {
             region(ui, label, &mut budget.region, resolution);
         });
     });
@@ -46,7 +46,7 @@ fn region(ui: &mut Ui, label: egui::Id, region: &mut Option<Region>, [width, hei
             *region = present.then(|| Region::between([width / 4, height / 4], [width * 3 / 4, height * 3 / 4]));
         }
         let Some(region) = region else {
-            ui.weak("the whole picture");
+            ui.weak("none");
             return;
         };
         let before = *region;

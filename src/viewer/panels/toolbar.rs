@@ -39,14 +39,10 @@ pub struct Toolbar<'a> {
 }
 
 const TOOLS: [(Tool, &str, &str); 4] = [
-    (Tool::Picture, "Picture", "Drag pans the picture and the wheel magnifies it. Never restarts the render. (P)"),
-    (
-        Tool::Camera,
-        "Camera",
-        "Drag orbits, right-drag pans and the wheel dollies the camera. Every move starts a new picture. (C)",
-    ),
-    (Tool::Region, "Region", "Drag marks a rectangle that is rendered before the rest. Never restarts the render. (G)"),
-    (Tool::Inspect, "Inspect", "Click a pixel to see its samples and the paths they came by. (I)"),
+    (Tool::Picture, "Picture", "Drag pans and the wheel zooms the image. Does not restart the render. (P)"),
+    (Tool::Camera, "Camera", "Drag orbits, right drag pans and the wheel dollies the camera. Restarts the render. (C)"),
+    (Tool::Region, "Region", "Drag marks a region that is rendered first. Does not restart the render. (G)"),
+    (Tool::Inspect, "Inspect", "Click shows the samples of a pixel and their paths. (I)"),
 ];
 
 impl Toolbar<'_> {
@@ -67,14 +63,14 @@ impl Toolbar<'_> {
             asks(self.tool_buttons(ui));
             ui.separator();
             let home = ui.add_enabled(self.is_open, Button::new("Home"));
-            let doc = "Go back to the camera that the scene opens with (Home)";
+            let doc = "Resets the camera to that of the scene. (Home)";
             asks(home.on_hover_text(doc).clicked().then_some(Command::ResetCamera));
             if let Some(zoom) = self.zoom {
                 asks(zoom_buttons(ui, zoom));
             }
             ui.separator();
             if self.is_comparing {
-                let end = ui.button("End comparison").on_hover_text("Goes on with the settings of A.");
+                let end = ui.button("End comparison").on_hover_text("Ends the comparison and continues with A.");
                 asks(end.clicked().then_some(Command::EndComparison));
             } else {
                 asks(menu::show(ui, self.settings).map(Command::Compare));
@@ -83,9 +79,9 @@ impl Toolbar<'_> {
                 ui.add_space((ui.available_width() - OF_ENDS).max(0.0));
             }
             let save = ui.add_enabled(self.can_save, Button::new("Save…"));
-            let doc = "Save the picture as PNG or EXR (Ctrl+S)";
+            let doc = "Saves the image as PNG or EXR. (Ctrl+S)";
             asks(save.on_hover_text(doc).clicked().then_some(Command::Save));
-            asks(ui.button("Help").on_hover_text("Keyboard and mouse (F1)").clicked().then_some(Command::Help));
+            asks(ui.button("Help").on_hover_text("Lists keys and mouse actions. (F1)").clicked().then_some(Command::Help));
             command
         };
         if is_narrow { ui.horizontal_wrapped(contents).inner } else { ui.horizontal(contents).inner }
@@ -93,15 +89,15 @@ impl Toolbar<'_> {
 
     fn render_buttons(&self, ui: &mut Ui) -> Option<Command> {
         let label = if self.is_paused { "Resume" } else { "Pause" };
-        let step = "Pause, and take one sample per pixel: of every pixel, of the region, or where noise is if Adaptive is on (.)";
+        let step = "Pauses, and takes one more sample per pixel of the image or of the region. (.)";
         let buttons = [
             (
                 Button::new(label).min_size(egui::vec2(66.0, 0.0)),
-                "Stop and go on without losing samples (Space)",
+                "Pauses or resumes the render and keeps its samples. (Space)",
                 Command::TogglePause,
             ),
             (Button::new("Step"), step, Command::Step),
-            (Button::new("Restart"), "Restart rendering (R)", Command::Restart),
+            (Button::new("Restart"), "Restarts rendering. (R)", Command::Restart),
         ];
         let clicked = buttons
             .map(|(button, doc, command)| ui.add_enabled(self.is_open, button).on_hover_text(doc).clicked().then_some(command));
@@ -130,7 +126,7 @@ impl Toolbar<'_> {
                 command = Some(Command::ChooseTool(tool));
             }
         }
-        let doc = "Clear the region and go on with the whole picture (Esc)";
+        let doc = "Clears the region and renders the whole image. (Esc)";
         if self.has_region && ui.button("Clear").on_hover_text(doc).clicked() {
             command = Some(Command::ClearRegion);
         }
@@ -139,8 +135,8 @@ impl Toolbar<'_> {
 }
 
 fn zoom_buttons(ui: &mut Ui, zoom: f32) -> Option<Command> {
-    let fits = ui.button("Fit").on_hover_text("The whole picture (F, or double-click)").clicked();
-    let is_actual = ui.button("1:1").on_hover_text("One picture pixel to one screen pixel (1)").clicked();
+    let fits = ui.button("Fit").on_hover_text("Fits the image to the window. (F, double-click)").clicked();
+    let is_actual = ui.button("1:1").on_hover_text("Shows one image pixel per screen pixel. (1)").clicked();
     ui.weak(format!("{:.0} %", 100.0 * zoom)).on_hover_text("Screen pixels per image pixel");
     fits.then_some(Command::Fit).or(is_actual.then_some(Command::ActualSize))
 }

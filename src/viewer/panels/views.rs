@@ -23,7 +23,7 @@ pub fn choice(ui: &mut Ui, view: &mut View) {
             ui.selectable_value(view, of, of.title()).on_hover_text(of.word().doc);
         }
     });
-    let label = ui.label("View").on_hover_text("What of the picture is shown. Never restarts the render. (V: the next one)");
+    let label = ui.label("View").on_hover_text("Quantity to display. Changing it does not restart the render. (V)");
     combo.response.labelled_by(label.id);
 }
 
@@ -37,34 +37,24 @@ pub fn rows(
 ) -> bool {
     let mut drops = false;
     controls(ui, "views", |ui| {
-        row(
-            ui,
-            "Colours",
-            "How views that are numbers get colours; differences and scores have a scale of their own.",
-            |ui, _| {
-                choices(ui, map, &ColourMap::CHOICE);
-            },
-        );
-        row(
-            ui,
-            "Pinned",
-            "A picture to hold others against: the view Difference shows radiance less the pinned one.",
-            |ui, _| {
-                ui.horizontal(|ui| {
-                    let can = shown.is_some_and(|frame| !frame.is_coarse());
-                    if ui.add_enabled(can, egui::Button::new("Pin this")).clicked() {
-                        *pinned = shown.cloned();
+        row(ui, "Colours", "Colour map of views of numbers. Differences and z-scores have their own.", |ui, _| {
+            choices(ui, map, &ColourMap::CHOICE);
+        });
+        row(ui, "Pinned", "The view Difference subtracts the pinned image.", |ui, _| {
+            ui.horizontal(|ui| {
+                let can = shown.is_some_and(|frame| !frame.is_coarse());
+                if ui.add_enabled(can, egui::Button::new("Pin this")).clicked() {
+                    *pinned = shown.cloned();
+                }
+                match pinned {
+                    Some(pinned) => {
+                        drop(ui.weak(format!("{} spp", pinned.spp)).on_hover_text("Samples per pixel of the pinned image"));
                     }
-                    match pinned {
-                        Some(pinned) => {
-                            drop(ui.weak(format!("{} spp", pinned.spp)).on_hover_text("Samples per pixel of the pinned image"));
-                        }
-                        None => drop(ui.weak("nothing yet")),
-                    }
-                });
-            },
-        );
-        row(ui, "Truth", "What the picture must converge to, for the true error and z-scores.", |ui, _| {
+                    None => drop(ui.weak("none")),
+                }
+            });
+        });
+        row(ui, "Reference", "Image that the render must converge to, for the true error and z-scores.", |ui, _| {
             drops = reference_row(ui, reference);
         });
     });
@@ -76,11 +66,11 @@ fn reference_row(ui: &mut Ui, reference: &ReferenceSource) -> bool {
         match reference {
             ReferenceSource::Dropped(name) => {
                 elided(ui, 120.0, *name).on_hover_text(*name);
-                return ui.small_button("Drop").on_hover_text("Go back to what the scene says").clicked();
+                return ui.small_button("Drop").on_hover_text("Returns to the reference of the scene.").clicked();
             }
-            ReferenceSource::Scene => ui.weak("as the scene says"),
-            ReferenceSource::SceneElsewhere => ui.weak("for the scene's own camera (Home)"),
-            ReferenceSource::None => ui.weak("none: drop an EXR here").on_hover_text("A picture of the same size, linear"),
+            ReferenceSource::Scene => ui.weak("from the scene"),
+            ReferenceSource::SceneElsewhere => ui.weak("for the scene's camera only (Home)"),
+            ReferenceSource::None => ui.weak("none; drop an EXR here").on_hover_text("A linear image of the same size"),
         };
         false
     });

@@ -20,14 +20,13 @@ pub fn all_but_one(cores: usize) -> usize {
 pub fn show(ui: &mut Ui, threads: &mut usize, shows_frame_times: &mut bool) -> Option<Option<String>> {
     let mut chosen = None;
     controls(ui, "window", |ui| {
-        let doc =
-            "Cores that render; one is left for the rest of the machine at first. Another number never changes the picture.";
+        let doc = "Number of render threads. It does not change the image.";
         row(ui, "Threads", doc, |ui, label| {
             let most = cores().max(*threads);
             ui.add(Slider::new(threads, 1..=most)).labelled_by(label);
         });
-        row(ui, "Theme", "Light or dark, or as the system has it.", |ui, label| chosen = theme(ui, label));
-        row(ui, "Frame times", "How long the window itself takes to draw. (F12)", |ui, label| {
+        row(ui, "Theme", "Light, dark, or the theme of the system.", |ui, label| chosen = theme(ui, label));
+        row(ui, "Frame times", "Shows how long the window takes to draw. (F12)", |ui, label| {
             ui.checkbox(shows_frame_times, "").labelled_by(label);
         });
     });

@@ -53,7 +53,7 @@ fn a_clicked_pixel_shows_exactly_the_samples_that_the_renderer_took() {
 #[test]
 fn one_steps_through_paths_and_the_table_adds_up() {
     let mut window = inspecting("cornell_spheres");
-    click(&mut window, "The pixel in the middle");
+    click(&mut window, "Use the middle pixel");
     assert_eq!(window.state().instruments.path.pixel, Some([48, 32]));
     wait(&mut window, "its samples", |app| app.instruments.path.histogram().is_some());
     for expected in [1, 2] {

@@ -46,7 +46,7 @@ fn rows_of_the_panel_stay_where_they_are() {
         ("no sharing", |app| app.session.settings.reuse = Reuse::Off),
         ("a cap", |app| app.session.settings.max_bounces = Some(3)),
         ("a lens", |app| app.session.camera.lens = Some(Lens { radius: 0.1, focus: 3.0 })),
-        ("a parallel projection", |app| app.session.camera.projection = noisefall::scene::Projection::orthographic(3.0)),
+        ("a parallel projection", |app| app.session.camera.projection = Projection::orthographic(3.0)),
         ("a camera that cannot be", |app| app.session.camera.up = DVec3::ZERO),
         ("a region", |app| app.session.budget.region = Some(noisefall::render::Region::between([1, 1], [20, 20]))),
     ];

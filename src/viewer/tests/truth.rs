@@ -27,7 +27,7 @@ fn states_error(window: &Window) -> bool {
 fn the_truth_of_the_scene_goes_with_its_camera_and_comes_back_with_it() {
     let mut window = window("furnace");
     full(&mut window);
-    assert!(window.state().results.comparison.is_some() && states_error(&window) && says(&window, "as the scene says"));
+    assert!(window.state().results.comparison.is_some() && states_error(&window) && says(&window, "from the scene"));
     // Another resolution is another sampling of the same picture.
     window.state_mut().session.camera.resolution = [48, 40];
     full(&mut window);
@@ -36,7 +36,7 @@ fn the_truth_of_the_scene_goes_with_its_camera_and_comes_back_with_it() {
     window.state_mut().session.camera.fov = 50.0;
     full(&mut window);
     assert!(window.state().results.comparison.is_none() && window.state().reference().is_none());
-    assert!(!states_error(&window) && !says(&window, "as the scene says") && says(&window, "for the scene's own camera"));
+    assert!(!states_error(&window) && !says(&window, "from the scene") && says(&window, "for the scene's camera only"));
     wait(&mut window, "a curve", |app| app.instruments.history.curves.first().is_some_and(|curve| !curve.moments.is_empty()));
     let has_truth =
         |app: &App| app.instruments.history.curves.iter().flat_map(|curve| &curve.moments).any(|m| m.true_error.is_some());
@@ -48,7 +48,7 @@ fn the_truth_of_the_scene_goes_with_its_camera_and_comes_back_with_it() {
     let request = window.state_mut().display_request(of_elsewhere);
     assert!(request.reference.is_none() && window.state().reference().is_some());
     full(&mut window);
-    assert!(window.state().results.comparison.is_some() && says(&window, "as the scene says"));
+    assert!(window.state().results.comparison.is_some() && says(&window, "from the scene"));
 }
 
 #[test]
@@ -60,7 +60,7 @@ fn a_dropped_reference_holds_for_the_camera_that_it_was_dropped_at() {
     window.state_mut().session.dropped_reference = Some(DroppedReference { name: "mine.exr".to_owned(), reference, camera });
     wait(&mut window, "the true error", |app| app.results.comparison.is_some());
     window.run_steps(2);
-    assert!(says(&window, "mine.exr") && !says(&window, "none: drop an EXR"));
+    assert!(says(&window, "mine.exr") && !says(&window, "none; drop an EXR"));
     window.state_mut().session.camera = Camera { eye: camera.eye + DVec3::X * 0.1, ..camera };
     full(&mut window);
     assert!(window.state().results.comparison.is_none() && !states_error(&window));
@@ -69,7 +69,7 @@ fn a_dropped_reference_holds_for_the_camera_that_it_was_dropped_at() {
     assert!(window.state().results.comparison.is_some());
     click(&mut window, "Drop");
     wait(&mut window, "no truth", |app| app.results.comparison.is_none());
-    assert!(window.state().session.dropped_reference.is_none() && says(&window, "none: drop an EXR"));
+    assert!(window.state().session.dropped_reference.is_none() && says(&window, "none; drop an EXR"));
 }
 
 #[test]

@@ -9,7 +9,7 @@ use egui::{Key, RichText, TextEdit, Ui};
 
 /// A dialog that ends sooner was never shown, because nobody can dismiss it so fast.
 const TOO_SOON: Duration = Duration::from_millis(300);
-const NO_DIALOG: &str = "This system offers no file dialog (a desktop portal or zenity): type the path.";
+const NO_DIALOG: &str = "This system has no file dialog (a desktop portal or zenity). Type the path.";
 
 pub struct PathField {
     pub path: String,
@@ -62,7 +62,7 @@ impl PathField {
 
     /// Shows the button that opens the file dialog of the system, on its own thread.
     pub fn browse(&self, ui: &mut Ui, ask: impl FnOnce(rfd::FileDialog) -> Option<PathBuf> + Send + 'static) {
-        if !ui.button("Browse…").on_hover_text("Choose it in a file dialog").clicked() {
+        if !ui.button("Browse…").on_hover_text("Opens a file dialog.").clicked() {
             return;
         }
         let (sender, ctx) = (self.picked.0.clone(), ui.ctx().clone());

@@ -17,7 +17,7 @@ pub fn show(ui: &mut Ui, settings: &RenderSettings) -> Option<RenderSettings> {
             }
         }
     });
-    response.response.on_hover_text("Render other settings of this scene in the same time, and see both");
+    response.response.on_hover_text("Renders other settings of this scene beside these, at equal time.");
     chosen
 }
 
@@ -34,7 +34,7 @@ fn alternatives(settings: &RenderSettings) -> Vec<(String, RenderSettings)> {
     for roulette in Roulette::alternatives() {
         all.push((capitalized(&roulette.words()), RenderSettings { roulette, ..*settings }));
     }
-    for (reuse, title) in [(Reuse::On, "Shared paths"), (Reuse::Off, "Paths of their own")] {
+    for (reuse, title) in [(Reuse::On, "Shared paths"), (Reuse::Off, "No path sharing")] {
         all.push(of(title, RenderSettings { reuse, ..*settings }));
     }
     all.push(of("A cap of 3 bounces", RenderSettings { max_bounces: Some(3), ..*settings }));

@@ -28,7 +28,7 @@ pub fn show(
 ) -> Option<RenderSettings> {
     let Some(mut compare) = *comparison else {
         let row = ui.horizontal(|ui| {
-            ui.label("Choose what to compare this picture with: both get the same time.");
+            ui.label("Choose settings to compare with: both get the same time.");
             menu::show(ui, settings)
         });
         return row.inner;
@@ -37,13 +37,13 @@ pub fn show(
     ui.horizontal(|ui| {
         choices(ui, &mut compare.layout, &LAYOUTS);
         ui.separator();
-        if ui.button("Swap").on_hover_text("A becomes B, and B becomes A").clicked() {
+        if ui.button("Swap").on_hover_text("Exchanges A and B.").clicked() {
             std::mem::swap(settings, &mut compare.other);
         }
-        if ui.button("Keep B").on_hover_text("End the comparison and go on with the settings of B").clicked() {
+        if ui.button("Keep B").on_hover_text("Ends the comparison and continues with B.").clicked() {
             (*settings, ends) = (compare.other, true);
         }
-        ends |= ui.button("Keep A").on_hover_text("End the comparison and go on with the settings of A").clicked();
+        ends |= ui.button("Keep A").on_hover_text("Ends the comparison and continues with A.").clicked();
         chosen = menu::show(ui, settings);
     });
     ui.add_enabled_ui(compare.layout == CompareLayout::Wipe, |ui| {

@@ -40,8 +40,8 @@ fn axis_choice(ui: &mut Ui, history: &mut History) {
             "Mean of the image minus that of the reference, in standard errors. An unbiased estimate stays within ±2 in 95 % of cases.",
         );
         ui.separator();
-        ui.selectable_value(&mut history.over, HorizontalAxis::Samples, "over N").on_hover_text("N: samples per pixel");
-        ui.selectable_value(&mut history.over, HorizontalAxis::Seconds, "over time").on_hover_text("Seconds of rendering");
+        ui.selectable_value(&mut history.over, HorizontalAxis::Samples, "over N").on_hover_text("Plots over samples per pixel N.");
+        ui.selectable_value(&mut history.over, HorizontalAxis::Seconds, "over time").on_hover_text("Plots over render time.");
     });
     ui.add_space(4.0);
 }
@@ -81,13 +81,13 @@ fn buttons(ui: &mut Ui, history: &mut History, latest: [Option<u64>; 2]) -> Opti
     ui.horizontal(|ui| {
         let any = !history.curves.is_empty();
         ui.add_enabled_ui(any, |ui| {
-            if ui.button("CSV…").on_hover_text("Save all figures as a table").clicked() {
+            if ui.button("CSV…").on_hover_text("Saves all figures as a table.").clicked() {
                 file = Some(CurveFile::Csv);
             }
-            if ui.button("SVG…").on_hover_text("Save the plot of errors as a drawing").clicked() {
+            if ui.button("SVG…").on_hover_text("Saves the plot as a drawing.").clicked() {
                 file = Some(CurveFile::Svg);
             }
-            if ui.button("Clear").on_hover_text("Forget the curves of earlier settings").clicked() {
+            if ui.button("Clear").on_hover_text("Removes the curves of earlier settings.").clicked() {
                 history.curves.retain(|curve| latest.contains(&Some(curve.generation)));
             }
         });

@@ -23,8 +23,8 @@ pub struct Subject<'a> {
 pub fn show(ui: &mut Ui, inspector: &mut PathInspector, subject: &Subject) -> bool {
     let Subject { request, frame, side, resolution } = *subject;
     let Some(pixel) = inspector.pixel else {
-        ui.label("Click a pixel of the picture to see its samples and the paths they came by.");
-        if ui.button("The pixel in the middle").clicked() {
+        ui.label("Click a pixel of the image to see its samples and their paths.");
+        if ui.button("Use the middle pixel").clicked() {
             inspector.look_at(resolution.map(|side| side / 2));
         }
         return false;
@@ -40,7 +40,7 @@ pub fn show(ui: &mut Ui, inspector: &mut PathInspector, subject: &Subject) -> bo
         });
     });
     if let Some(failure) = inspector.failure() {
-        let text = format!("{failure}: please report it, with the command in the line below.");
+        let text = format!("{failure}. Please report it with the command in the status line.");
         ui.label(RichText::new(text).color(ui.bad()));
         return saves;
     }
@@ -85,7 +85,7 @@ fn estimate(ui: &mut Ui, frame: &Frame, pixel: [u32; 2]) {
         let error = Some(frame.standard_error[index]).filter(|error| error.is_finite());
         let error = error.map_or_else(String::new, |error| format!(" ± {error:.4}"));
         ui.label(format!("L = {y:.4}{error}, N = {}", frame.spp_at(index)))
-            .on_hover_text("Luminance of the estimate, its standard error, and the number of samples, of the picture as shown");
+            .on_hover_text("Luminance of the displayed image, its standard error, and the number of samples");
     }
 }
 
@@ -105,17 +105,17 @@ fn sample_choice(ui: &mut Ui, inspector: &mut PathInspector) {
     let brightest = inspector.histogram().map(|histogram| histogram.brightest);
     let sample = &mut inspector.sample;
     ui.horizontal(|ui| {
-        let label = ui.label("Sample").on_hover_text("The number of the sample: it and the pixel decide the path, for ever");
-        if ui.add_enabled(*sample > 0, egui::Button::new("Previous")).on_hover_text("The sample before").clicked() {
+        let label = ui.label("Sample").on_hover_text("Sample index. The pixel and this index determine the path completely.");
+        if ui.add_enabled(*sample > 0, egui::Button::new("Previous")).on_hover_text("Previous sample").clicked() {
             *sample -= 1;
         }
         let field = number::field(ui, sample, 0, 0.0..=f64::from(u32::MAX));
         ui.add(field).labelled_by(label.id);
-        if ui.button("Next").on_hover_text("The next sample").clicked() {
+        if ui.button("Next").on_hover_text("Next sample").clicked() {
             *sample = sample.saturating_add(1);
         }
         if let Some(brightest) = brightest
-            && ui.button("Brightest").on_hover_text("The one that brings most light: where noise comes from").clicked()
+            && ui.button("Brightest").on_hover_text("Sample with the highest luminance, which causes most noise").clicked()
         {
             *sample = brightest;
         }
