@@ -111,6 +111,11 @@ impl Session {
         session
     }
 
+    /// The number of the request.
+    pub fn generation(&self) -> u64 {
+        self.generation
+    }
+
     pub fn request(&self) -> &RenderRequest {
         &self.request
     }

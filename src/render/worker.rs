@@ -231,6 +231,9 @@ impl Worker {
         let is_same_scene = old.as_ref().is_some_and(|old| Arc::ptr_eq(&old.request().scene, &request.scene));
         let film = old.and_then(|old| if starts_over || !is_same_scene { Some(old.into_film()) } else { self.kept.keep(old) });
         let earlier = if starts_over { None } else { self.earlier(side, &task) };
+        if earlier.is_none() {
+            self.make_room(&task);
+        }
         self.sessions[side] = Some(match (earlier, task) {
             (Some(earlier), RenderTask::Picture(_)) => earlier.resumed(generation, self.budget.steps),
             (_, RenderTask::Picture(request)) => Session::new(generation, request, self.publish, rate, &self.budget, film),
@@ -239,14 +242,26 @@ impl Worker {
         self.leads = self.sessions.each_ref().map(|session| session.as_ref().map_or(Duration::ZERO, Session::elapsed));
     }
 
-    /// The session that has samples of a task: one that is kept, or that of the other side. Makes room for a new one otherwise.
+    /// The session that has samples of a task: one that is kept, or that of the other side, which starts over.
     fn earlier(&mut self, side: usize, task: &RenderTask) -> Option<Session> {
         let RenderTask::Picture(request) = task else { return None };
-        let earlier = self.kept.take(request).or_else(|| self.sessions[1 - side].take_if(|other| other.is_of(request)));
-        if earlier.is_none() {
-            drop(self.kept.reserve(|| Film::reserve(request.camera.resolution)));
+        if let Some(kept) = self.kept.take(request) {
+            return Some(kept);
         }
-        earlier
+        let other = self.sessions[1 - side].take_if(|other| other.is_of(request))?;
+        let again = Session::new(other.generation(), other.request().clone(), self.publish, other.rate(), &self.budget, None);
+        self.sessions[1 - side] = Some(again);
+        Some(other)
+    }
+
+    /// Drops kept images that take the memory of a new one.
+    fn make_room(&mut self, task: &RenderTask) {
+        let (RenderTask::Picture(request) | RenderTask::Series(request)) = task;
+        let film = self.kept.reserve(|| Film::reserve(request.camera.resolution));
+        if matches!(task, RenderTask::Series(_)) {
+            drop(self.kept.reserve(|| Film::reserve_series(request.camera.resolution)));
+        }
+        drop(film);
     }
 }
 

@@ -116,8 +116,11 @@ fn each_of_two_pictures_is_the_same_as_alone() {
         }
     };
     let second = wait(|| renderer.latest_second(), done(3));
-    renderer.submit(4, RenderRequest { settings: other, ..request(&scene, 96) });
-    let alone = wait(|| renderer.latest(), done(4));
+    // Another worker: this one has samples of it.
+    let single = self::renderer();
+    single.set_budget(Budget { max_spp: Some(3), ..Budget::default() });
+    single.submit(4, RenderRequest { settings: other, ..request(&scene, 96) });
+    let alone = wait(|| single.latest(), done(4));
     assert_eq!(second.frame.radiance, alone.frame.radiance);
 
     renderer.stop_second();

@@ -39,7 +39,8 @@ fn rows_of_the_panel_stay_where_they_are() {
     let mut window = window("cornell_spheres");
     window.run_steps(3);
     let before = rows(&window);
-    let changes: [(&str, fn(&mut App)); 9] = [
+    type Change = fn(&mut App);
+    let changes: [(&str, Change); 9] = [
         ("a comparison", |app| app.start_comparison(RenderSettings { seed: 3, ..app.session.settings })),
         ("a fixed roulette", |app| app.session.settings.roulette = Roulette::fixed(0.5)),
         ("no roulette", |app| app.session.settings.roulette = Roulette::Off),
