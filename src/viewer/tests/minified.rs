@@ -16,9 +16,9 @@ fn fit_averages_over_the_pixels_of_the_screen() {
     let mut window = window("furnace");
     assert_eq!(texture_size(&window), [96, 64], "a magnified picture has its own pixels");
     window.state_mut().session.budget.max_spp = Some(1);
-    window.state_mut().session.camera.resolution = [2400, 300];
+    window.state_mut().session.camera.resolution = [2000, 250];
     wait(&mut window, "a large picture", |app| {
-        app.results.shown.as_ref().is_some_and(|frame| frame.width == 2400 && frame.spp == 1)
+        app.results.shown.as_ref().is_some_and(|frame| frame.width == 2000 && frame.spp == 1)
     });
     wait(&mut window, "its texture", |app| {
         let size = app.results.textures[0].as_ref().map(egui::TextureHandle::size);
@@ -28,7 +28,7 @@ fn fit_averages_over_the_pixels_of_the_screen() {
     assert!(width < 1280 && (width as f32 / height as f32 - 8.0).abs() < 0.1, "{width} {height}");
     // One pixel for one: nothing is averaged.
     click(&mut window, "1:1");
-    wait(&mut window, "all pixels", |app| app.results.textures[0].as_ref().is_some_and(|texture| texture.size() == [2400, 300]));
+    wait(&mut window, "all pixels", |app| app.results.textures[0].as_ref().is_some_and(|texture| texture.size() == [2000, 250]));
 }
 
 #[test]
