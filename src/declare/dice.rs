@@ -71,6 +71,10 @@ impl Parameters for Dice<'_> {
         self.random.random()
     }
 
+    fn given(&mut self, _: &Parameter) -> bool {
+        self.random.random()
+    }
+
     fn choose(&mut self, choice: &Choice, _: usize) -> usize {
         self.random.random_range(0..choice.alternatives.len())
     }

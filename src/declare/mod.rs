@@ -11,6 +11,7 @@
 //! | `catalogue.rs` | families of kinds with parameters: the macro that makes an enum of them |
 //! | `choices.rs` | families of kinds that may have none |
 //! | `words.rs` | families of kinds that are a word and code |
+//! | `owned.rs` | values that own what they hold |
 //! | `path.rs` | where in a description a parameter stands |
 //! | `problem.rs` | what is wrong with a value, and where |
 //! | `outline.rs` | the parameters of a kind as a list |
@@ -28,6 +29,7 @@ mod dice;
 mod lines;
 mod manual;
 mod outline;
+mod owned;
 mod parameter;
 mod path;
 mod problem;
@@ -44,6 +46,7 @@ pub use self::{
     lines::lines_of,
     manual::manual,
     outline::{Entry, Looks, Outline, outline},
+    owned::OwnedValue,
     parameter::{CountRange, Parameter, Range, Scale},
     path::{Path, Step},
     problem::{Problem, nearest, short},
@@ -70,9 +73,24 @@ pub trait Parameters {
         now
     }
 
+    /// Whether a table is visited that stays as it is where its key is absent.
+    fn given(&mut self, _parameter: &Parameter) -> bool {
+        true
+    }
+
+    /// Whether the visitor passes over the table that it has just entered. It leaves it all the same.
+    fn skips(&self) -> bool {
+        false
+    }
+
     /// Which of the alternatives of a choice the current table holds.
     fn choose(&mut self, _choice: &Choice, now: usize) -> usize {
         now
+    }
+
+    /// What is done to the list at a key before [`Parameters::items`] counts its tables.
+    fn rearrange(&mut self, _parameter: &Parameter) -> Option<Rearrangement> {
+        None
     }
 
     /// How many tables the list at a key has; each is visited next, between [`Parameters::item`] and [`Parameters::leave`].
@@ -107,6 +125,17 @@ pub enum Form {
     Table,
     /// The name of an alternative, or a table.
     NameOrTable,
+}
+
+/// What is done to a list. Places are from 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rearrangement {
+    /// A table with its defaults comes to stand at a place, which is at most the length.
+    Insert(usize),
+    /// The table at a place goes.
+    Remove(usize),
+    /// The table at the first place comes to stand at the second.
+    Move(usize, usize),
 }
 
 /// Something with parameters.
@@ -169,7 +198,9 @@ impl dyn Parameters + '_ {
     /// The parameters of `table` in a table at a key.
     pub fn table(&mut self, parameter: &Parameter, table: &mut dyn Declare) {
         self.enter(parameter, Form::Table);
-        table.parameters(self);
+        if !self.skips() {
+            table.parameters(self);
+        }
         self.leave();
     }
 
@@ -195,7 +226,7 @@ impl dyn Parameters + '_ {
 
     /// A table that is as it is where its key is absent.
     pub fn optional_part<T: Declare>(&mut self, parameter: &Parameter, table: &mut T) {
-        if self.present(parameter, true) {
+        if self.given(parameter) {
             self.table(parameter, table);
         }
     }
@@ -223,24 +254,37 @@ impl dyn Parameters + '_ {
     /// One of several alternatives in a table at a key, or, where it needs no values, by its name.
     pub fn choice<T: OneOf>(&mut self, parameter: &Parameter, form: Form, value: &mut T) {
         self.enter(parameter, form);
-        self.one_of(value);
+        if !self.skips() {
+            self.one_of(value);
+        }
         self.leave();
     }
 
     /// A choice that keeps what it is where the key is absent.
     pub fn optional_choice<T: OneOf>(&mut self, parameter: &Parameter, form: Form, value: &mut T) {
-        if self.present(parameter, true) {
+        if self.given(parameter) {
             self.choice(parameter, form, value);
         }
     }
 
     /// A list of tables at a key.
     pub fn list<T: Declare + Default>(&mut self, parameter: &Parameter, list: &mut Vec<T>) {
+        match self.rearrange(parameter) {
+            Some(Rearrangement::Insert(place)) => list.insert(place, T::default()),
+            Some(Rearrangement::Remove(place)) => drop(list.remove(place)),
+            Some(Rearrangement::Move(from, to)) => {
+                let item = list.remove(from);
+                list.insert(to, item);
+            }
+            None => {}
+        }
         let count = self.items(parameter, list.len());
         list.resize_with(count, T::default);
         for (index, item) in list.iter_mut().enumerate() {
             self.item(parameter, index);
-            item.parameters(self);
+            if !self.skips() {
+                item.parameters(self);
+            }
             self.leave();
         }
     }
@@ -252,7 +296,9 @@ impl dyn Parameters + '_ {
         for name in names {
             self.named(parameter, &name);
             let mut table = known.remove(&name).unwrap_or_default();
-            table.parameters(self);
+            if !self.skips() {
+                table.parameters(self);
+            }
             map.insert(name, table);
             self.leave();
         }

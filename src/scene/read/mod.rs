@@ -261,6 +261,10 @@ impl Parameters for Reader<'_> {
         if is_table { given } else { now }
     }
 
+    fn given(&mut self, parameter: &Parameter) -> bool {
+        self.present(parameter, true)
+    }
+
     fn choose(&mut self, choice: &Choice, now: usize) -> usize {
         let entries: Vec<Entry> =
             choice.alternatives.iter().flat_map(|alternative| alternative.outline.iter().copied()).collect();

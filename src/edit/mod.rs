@@ -1,0 +1,52 @@
+//! Editing: a scene as it is changed, step by step, and saved.
+//!
+//! A [`Document`] holds a [`SceneDescription`](crate::scene::description::SceneDescription) and the text that it was read from. An
+//! [`Edit`] changes it; applying one returns its exact inverse. A [`History`] keeps the inverses. [`Document::text`] writes the scene:
+//! comments, order and number formats stay, and only what changed is changed.
+//!
+//! ```
+//! use noisefall::{
+//!     declare::{OwnedValue, Path},
+//!     edit::{Document, Edit, Gesture, History},
+//! };
+//!
+//! let text = "format = 1
+//! camera = { eye = [0.0, 1.0, 4.0], look_at = [0.0, 1.0, 0.0], fov = 40, resolution = [640, 480] }
+//! [materials.gold]
+//! conductor = { f0 = [1.0, 0.78, 0.34], roughness = 0.30 } # worn
+//! ";
+//! let mut document = Document::open("room.toml", text)?;
+//! let mut history = History::default();
+//!
+//! // One value. A drag applies many such edits with the same gesture; they are undone together.
+//! let roughness = Path::of("materials.gold.conductor.roughness");
+//! let value = OwnedValue::TexturedNumber(noisefall::declare::Textured::Constant(0.4));
+//! history.apply(&mut document, &Edit::Set { path: roughness, value }, Gesture::new())?;
+//! assert!(document.text().contains("roughness = 0.4 } # worn"));
+//!
+//! // A value out of its range is refused, and nothing changes.
+//! let wrong = Edit::Set { path: Path::of("camera.fov"), value: OwnedValue::Number(200.0) };
+//! assert_eq!(history.apply(&mut document, &wrong, Gesture::new()).unwrap_err().message, "`fov` is out of range: 200");
+//!
+//! history.undo(&mut document);
+//! assert_eq!(document.text(), text);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! A path leads through the tables of a scene file: `camera.fov`, `objects.3.shape.sphere.radius`, `materials.gold.conductor.roughness`,
+//! `objects.0.transform.1.translate`. It is built by [`Path::key`](crate::declare::Path::key) and
+//! [`Path::item`](crate::declare::Path::item), as visitors of declarations build it. `materials.white` and `objects.3` are paths too.
+//!
+//! | to | apply |
+//! |---|---|
+//! | set a value; tables on the way that are absent appear | [`Edit::Set`] |
+//! | give an optional value or table its default (`objects.3.emission`) | [`Edit::Insert`] without content |
+//! | remove an optional value, an object, a material, an item of a list | [`Edit::Remove`] |
+//! | add an object, a material, a texture, a transform | [`Edit::Insert`]; [`Document::add_shape`] places one |
+//! | duplicate an object, a material, a texture | [`Document::duplicate`] |
+//! | change a kind: `path` is the table with the key of the kind, `choice` the [`Choice::what`](crate::declare::Choice::what) | [`Edit::Choose`] |
+//! | rename a material or texture; what names it follows | [`Edit::Rename`] |
+//! | rename an object | [`Edit::Set`] of its `name` |
+//! | assign a material; `None` is black | [`Document::assign`] |
+//! | reorder a list | [`Edit::Move`] |
+//! | do several at once | [`Edit::All`] |
