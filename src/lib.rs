@@ -4,6 +4,7 @@
 //! |---|---|
 //! | read a scene file | [`load`], [`parse`], [`SceneError`] |
 //! | build a scene in code | [`description`] |
+//! | change a scene file, and undo the change | [`edit`] |
 //! | choose settings | [`RenderSettings`], [`Camera`] |
 //! | render a number of samples | [`Threads::pass`] into a [`Film`] |
 //! | render progressively, with cancellation | [`Renderer`], which publishes [`Frame`]s |
@@ -35,6 +36,7 @@
 
 #[doc(hidden)]
 pub mod declare;
+pub mod edit;
 #[doc(hidden)]
 pub mod file;
 #[doc(hidden)]

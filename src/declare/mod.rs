@@ -89,7 +89,7 @@ pub trait Parameters {
     }
 
     /// What is done to the list at a key before [`Parameters::items`] counts its tables.
-    fn rearrange(&mut self, _parameter: &Parameter) -> Option<Rearrangement> {
+    fn rearrange(&mut self, _parameter: &Parameter, _length: usize) -> Option<Rearrangement> {
         None
     }
 
@@ -269,7 +269,7 @@ impl dyn Parameters + '_ {
 
     /// A list of tables at a key.
     pub fn list<T: Declare + Default>(&mut self, parameter: &Parameter, list: &mut Vec<T>) {
-        match self.rearrange(parameter) {
+        match self.rearrange(parameter, list.len()) {
             Some(Rearrangement::Insert(place)) => list.insert(place, T::default()),
             Some(Rearrangement::Remove(place)) => drop(list.remove(place)),
             Some(Rearrangement::Move(from, to)) => {

@@ -1,5 +1,5 @@
 //! What can be done to a scene.
-use super::{origin::Origin, tree::Tree};
+use super::{content::Content, origin::Origin, tree::Tree};
 use crate::declare::{OwnedValue, Path, Step};
 
 /// A change of a scene. See the [table](super) of what each is for.
@@ -59,7 +59,11 @@ pub enum Edit {
     },
     /// Several edits in their order. All are done or none is.
     All(Vec<Edit>),
+    /// Takes all of a scene from a file that was changed outside: see [`Outside`](super::Outside).
+    Reload(Box<Content>),
 }
+
+static EVERYTHING: Path = Path(Vec::new());
 
 impl Edit {
     /// The edit that sets a value.
@@ -98,6 +102,7 @@ impl Edit {
             | Edit::Rename { path, .. }
             | Edit::Move { path, .. } => vec![path],
             Edit::All(edits) => edits.iter().flat_map(Edit::paths).collect(),
+            Edit::Reload(_) => vec![&EVERYTHING],
         }
     }
 
@@ -107,7 +112,13 @@ impl Edit {
             Some(Step::Key(key)) => key.replace('_', " "),
             Some(Step::Item(_)) => match path.0.first() {
                 Some(Step::Key(key)) if key == "objects" && path.0.len() == 2 => "object".to_owned(),
-                _ => path.0.iter().rev().find_map(|step| if let Step::Key(key) = step { Some(key.as_str()) } else { None }).unwrap_or("item").to_owned(),
+                _ => path
+                    .0
+                    .iter()
+                    .rev()
+                    .find_map(|step| if let Step::Key(key) = step { Some(key.as_str()) } else { None })
+                    .unwrap_or("item")
+                    .to_owned(),
             },
             None => "scene".to_owned(),
         };
@@ -119,6 +130,7 @@ impl Edit {
             Edit::Rename { path, to } => format!("Rename {} to {to}", last(path)),
             Edit::Move { path, .. } => format!("Move {}", last(path)),
             Edit::All(edits) => edits.first().map_or_else(|| "Edit".to_owned(), Edit::title),
+            Edit::Reload(_) => "Reload".to_owned(),
         }
     }
 }

@@ -7,7 +7,7 @@
 //! ```
 //! use noisefall::{
 //!     declare::{OwnedValue, Path},
-//!     edit::{Document, Edit, Gesture, History},
+//!     edit::{Document, Edit, History},
 //! };
 //!
 //! let text = "format = 1
@@ -21,12 +21,13 @@
 //! // One value. A drag applies many such edits with the same gesture; they are undone together.
 //! let roughness = Path::of("materials.gold.conductor.roughness");
 //! let value = OwnedValue::TexturedNumber(noisefall::declare::Textured::Constant(0.4));
-//! history.apply(&mut document, &Edit::Set { path: roughness, value }, Gesture::new())?;
+//! let drag = history.gesture();
+//! history.drag(&mut document, &Edit::set(roughness, value), drag)?;
 //! assert!(document.text().contains("roughness = 0.4 } # worn"));
 //!
 //! // A value out of its range is refused, and nothing changes.
-//! let wrong = Edit::Set { path: Path::of("camera.fov"), value: OwnedValue::Number(200.0) };
-//! assert_eq!(history.apply(&mut document, &wrong, Gesture::new()).unwrap_err().message, "`fov` is out of range: 200");
+//! let wrong = Edit::set(Path::of("camera.fov"), OwnedValue::Number(200.0));
+//! assert_eq!(history.apply(&mut document, &wrong).unwrap_err().message, "`fov` is out of range: 200");
 //!
 //! history.undo(&mut document);
 //! assert_eq!(document.text(), text);
@@ -50,3 +51,52 @@
 //! | assign a material; `None` is black | [`Document::assign`] |
 //! | reorder a list | [`Edit::Move`] |
 //! | do several at once | [`Edit::All`] |
+//!
+//! | file | holds |
+//! |---|---|
+//! | `document.rs`, `content.rs` | the document, and how single edits change it |
+//! | `edit.rs` | what can be done |
+//! | `tree.rs`, `walk.rs` | a part of a description, taken down; the way of a visitor to a path |
+//! | `set.rs`, `put.rs`, `take.rs`, `choose.rs` | the visitors that change a description |
+//! | `check.rs`, `references.rs` | what the reader would refuse; names in use |
+//! | `history.rs` | undo and redo |
+//! | `origin.rs`, `save/` | what stands for which part of the file; writing it |
+//! | `names.rs`, `add.rs`, `pose.rs`, `rest.rs` | free names; new shapes and lamps; moving objects; dropping them to the floor |
+//! | `outside.rs` | files that were changed outside |
+//! | `recovery.rs`, `templates.rs` | what survives a crash; scenes to begin with |
+mod add;
+mod check;
+mod choose;
+mod content;
+mod document;
+mod edit;
+mod history;
+mod names;
+mod origin;
+mod outside;
+mod pose;
+mod put;
+mod recovery;
+mod references;
+mod rest;
+mod save;
+mod set;
+mod take;
+mod templates;
+#[cfg(test)]
+mod tests;
+mod tree;
+mod walk;
+
+pub use self::{
+    //add::Placement,
+    content::Content,
+    document::{Document, Version},
+    edit::Edit,
+    history::{Gesture, History},
+    origin::Origin,
+    //outside::Outside,
+    //recovery::Recovery,
+    //templates::{TEMPLATES, Template},
+    tree::Tree,
+};

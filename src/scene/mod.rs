@@ -40,6 +40,7 @@ pub use self::settings::InjectedFault;
 use self::surface::Surfaces;
 pub use self::{
     camera::{Camera, CameraError, Lens},
+    compile::{check_camera, check_object},
     diagnostic::SceneError,
     estimator::{Estimator, power_heuristic},
     legend::Legend,

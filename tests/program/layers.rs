@@ -8,7 +8,7 @@ const LAYERS: [&[&str]; 11] = [
     &["validate", "study"],
     &["render", "report"],
     &["measure"],
-    &["integrator"],
+    &["integrator", "edit"],
     &["scene"],
     &["light", "shape"],
     &["geometry", "material"],

@@ -1,5 +1,6 @@
 //! From a description to what the renderer runs on: names become numbers, values are checked, tables are built.
 mod camera;
+mod check;
 mod light;
 mod material;
 mod object;
@@ -11,6 +12,7 @@ use std::{
     sync::{Arc, OnceLock},
 };
 
+pub use self::check::{check_camera, check_object};
 use self::{camera::camera, material::materials, object::objects, problems::Problems};
 use super::{
     Camera, MaterialInstance, Object, RenderSettings, Scene, Truth,

@@ -67,6 +67,13 @@ fn these(
     shapes.into_iter().enumerate().map(object).collect()
 }
 
+/// The shapes where the transforms put them, and what carries them.
+pub fn placed_and_moved(o: &ObjectDescription, builder: &mut ShapeBuilder) -> Result<(Vec<Shape>, Motion), Problem> {
+    let shapes = placed(o, builder)?;
+    let motion = moved(o, &shapes)?;
+    Ok((shapes, motion))
+}
+
 /// The shapes where the transforms put them.
 fn placed(o: &ObjectDescription, builder: &mut ShapeBuilder) -> Result<Vec<Shape>, Problem> {
     let map = product(&o.transform).map_err(|problem| problem.within(&Path::of("transform")))?;

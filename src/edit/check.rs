@@ -1,0 +1,103 @@
+//! The checks of the reader, for a part of a description.
+use super::{references::references, walk::Walk};
+use crate::{
+    declare::{Declare, Family, Form, Parameter, Parameters, Path, Problem, Step, Value, check_value},
+    scene::{check_camera, check_object, description::SceneDescription},
+};
+
+/// What is wrong at a path or within it: values out of range, names that are not defined, and cameras, transforms and shapes that
+/// cannot be. Files are not read.
+pub fn check(description: &mut SceneDescription, path: &Path) -> Option<Problem> {
+    let mut checker = Checker { walk: Walk::to(path), problem: None };
+    description.parameters(&mut checker);
+    checker.problem.or_else(|| names(description, path)).or_else(|| part(description, path))
+}
+
+fn names(description: &mut SceneDescription, path: &Path) -> Option<Problem> {
+    let mut unknown = None;
+    let mut used = Vec::new();
+    references(description, path, |at, family, name| used.push((at.clone(), family, name.clone())));
+    for (at, family, name) in used {
+        let problem = match family {
+            Family::Texture if !description.textures.contains_key(&name) => {
+                Problem::not_defined("", family, &name, description.textures.keys())
+            }
+            Family::Material if !description.materials.contains_key(&name) => {
+                Problem::not_defined("", family, &name, description.materials.keys())
+            }
+            _ => continue,
+        };
+        unknown = unknown.or(Some(problem.within(&at)));
+    }
+    unknown
+}
+
+/// The camera or the object that a path leads into.
+fn part(description: &SceneDescription, path: &Path) -> Option<Problem> {
+    match &path.0[..] {
+        [Step::Key(table), ..] if table == "camera" => {
+            check_camera(&description.camera).err().map(|problem| problem.within(&Path::of("camera")))
+        }
+        [Step::Key(list), Step::Item(place), ..] if list == "objects" => {
+            let problem = check_object(description.objects.get(*place)?).err()?;
+            Some(problem.within(&Path::of("objects").item(*place)))
+        }
+        _ => None,
+    }
+}
+
+/// Why a material or a texture cannot go: it is used.
+pub fn in_use(description: &mut SceneDescription, path: &Path) -> Option<Problem> {
+    let (family, what, name) = match &path.0[..] {
+        [Step::Key(map), Step::Key(name)] if map == "materials" => (Family::Material, "material", name),
+        [Step::Key(map), Step::Key(name)] if map == "textures" => (Family::Texture, "texture", name),
+        _ => return None,
+    };
+    let mut users = Vec::new();
+    references(description, &Path::default(), |at, used, known| {
+        if used == family && known == name && !path.holds(at) {
+            users.push(at.clone());
+        }
+    });
+    let first = users.first()?.clone();
+    let message = match users.len() {
+        1 => format!("the {what} `{name}` is in use"),
+        count => format!("the {what} `{name}` is in use in {count} places"),
+    };
+    let problem = Problem::at("", message, "it is used here");
+    Some(problem.within(&first).help(format!("give another {what} in its place first")))
+}
+
+struct Checker<'p> {
+    walk: Walk<'p>,
+    problem: Option<Problem>,
+}
+
+impl Parameters for Checker<'_> {
+    fn value(&mut self, parameter: &Parameter, value: Value<'_>) {
+        if self.problem.is_none() && self.walk.takes(parameter.key) {
+            let at = self.walk.path_of(parameter.key);
+            self.problem = check_value(parameter, &value).map(|problem| problem.within(&at));
+        }
+    }
+
+    fn enter(&mut self, parameter: &Parameter, _: Form) {
+        self.walk.enter(parameter.key);
+    }
+
+    fn leave(&mut self) {
+        self.walk.leave();
+    }
+
+    fn skips(&self) -> bool {
+        self.walk.is_beside()
+    }
+
+    fn item(&mut self, parameter: &Parameter, index: usize) {
+        self.walk.item(parameter.key, index);
+    }
+
+    fn named(&mut self, parameter: &Parameter, name: &str) {
+        self.walk.named(parameter.key, name);
+    }
+}

@@ -1,0 +1,183 @@
+//! Chooses another alternative, and keeps the parameters that both have.
+use std::collections::HashMap;
+
+use super::walk::Walk;
+use crate::declare::{Choice, Declare, Form, OwnedValue, Parameter, Parameters, Path, Step, Value, check_value};
+
+/// What came of a choice.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Outcome {
+    /// It is made.
+    Done,
+    /// The table does not choose that.
+    NoChoice,
+    /// There is no such alternative.
+    NoAlternative,
+}
+
+/// Chooses the alternative `name` of the choice `what` in the table at a path. Parameters with the key and the type of one of the
+/// former alternative get its value, where their range allows it.
+pub fn choose(description: &mut dyn Declare, path: &Path, what: &str, name: &str) -> Outcome {
+    let mut places = HashMap::new();
+    let mut kept = HashMap::new();
+    let mut chooser = Chooser { within: Within::to(path), what, name: None, kept: &mut kept, places: &mut places, outcome: None };
+    description.parameters(&mut chooser);
+    let mut chooser =
+        Chooser { within: Within::to(path), what, name: Some(name), kept: &mut kept, places: &mut places, outcome: None };
+    description.parameters(&mut chooser);
+    chooser.outcome.unwrap_or(Outcome::NoChoice)
+}
+
+/// A place in the table, with an empty key for the table of the alternative: kinds keep their parameters in a table of their own name.
+type Place = Vec<Step>;
+
+/// What the former alternative says at a place.
+enum Kept {
+    Value(OwnedValue),
+    Items(usize),
+    Present,
+}
+
+/// Where the visitor is in the table with the choice.
+struct Within<'p> {
+    walk: Walk<'p>,
+    place: Place,
+    lengths: Vec<usize>,
+    /// The alternative that is visited.
+    alternative: &'static str,
+}
+
+impl<'p> Within<'p> {
+    fn to(path: &'p Path) -> Within<'p> {
+        Within { walk: Walk::to(path), place: Vec::new(), lengths: Vec::new(), alternative: "" }
+    }
+
+    fn at(&self, key: &str) -> Place {
+        let key = if self.place.is_empty() && key == self.alternative { "" } else { key };
+        let step = Step::Key(key.to_owned());
+        self.place.iter().cloned().chain([step]).collect()
+    }
+
+    /// Called before the walk enters.
+    fn descend(&mut self, place: Place, enter: impl FnOnce(&mut Walk<'p>)) {
+        self.lengths.push(self.place.len());
+        if self.walk.is_within() {
+            self.place = place;
+        }
+        enter(&mut self.walk);
+    }
+
+    fn leave(&mut self) {
+        self.walk.leave();
+        self.place.truncate(self.lengths.pop().unwrap_or(0));
+    }
+}
+
+struct Chooser<'p, 'k> {
+    within: Within<'p>,
+    what: &'p str,
+    /// The new alternative; absent while the former one is looked at.
+    name: Option<&'p str>,
+    kept: &'k mut HashMap<Place, Kept>,
+    /// Choices within the former alternative.
+    places: &'k mut HashMap<(Place, &'static str), &'static str>,
+    outcome: Option<Outcome>,
+}
+
+impl Parameters for Chooser<'_, '_> {
+    fn value(&mut self, parameter: &Parameter, mut value: Value<'_>) {
+        if !self.within.walk.is_within() {
+            return;
+        }
+        let place = self.within.at(parameter.key);
+        let was = OwnedValue::of(&value);
+        if self.name.is_none() {
+            self.kept.insert(place, Kept::Value(was));
+        } else if let Some(Kept::Value(kept)) = self.kept.get(&place)
+            && kept.assign(&mut value)
+            && check_value(parameter, &value).is_some()
+        {
+            was.assign(&mut value);
+        }
+    }
+
+    fn enter(&mut self, parameter: &Parameter, _: Form) {
+        let place = self.within.at(parameter.key);
+        self.within.descend(place, |walk| walk.enter(parameter.key));
+    }
+
+    fn leave(&mut self) {
+        self.within.leave();
+    }
+
+    fn skips(&self) -> bool {
+        self.within.walk.is_beside()
+    }
+
+    fn present(&mut self, parameter: &Parameter, now: bool) -> bool {
+        if !self.within.walk.is_within() {
+            return now;
+        }
+        // Of the value that is visited next.
+        let mut place = self.within.at(parameter.key);
+        place.push(Step::Key("present".to_owned()));
+        if self.name.is_none() {
+            if now {
+                self.kept.insert(place, Kept::Present);
+            }
+            return now;
+        }
+        now || matches!(self.kept.get(&place), Some(Kept::Present))
+    }
+
+    fn choose(&mut self, choice: &Choice, now: usize) -> usize {
+        if !self.within.walk.is_within() {
+            return now;
+        }
+        let place_of = |name: &str| choice.alternatives.iter().position(|alternative| alternative.name == name);
+        let is_this = self.within.place.is_empty() && choice.what == self.what;
+        let key = (self.within.place.clone(), choice.what);
+        let chosen = match self.name {
+            None => {
+                self.places.insert(key, choice.alternatives[now].name);
+                now
+            }
+            Some(name) if is_this => {
+                self.outcome = Some(if place_of(name).is_some() { Outcome::Done } else { Outcome::NoAlternative });
+                place_of(name).unwrap_or(now)
+            }
+            Some(_) => self.places.get(&key).and_then(|name| place_of(name)).unwrap_or(now),
+        };
+        if is_this {
+            self.within.alternative = choice.alternatives[chosen].name;
+        }
+        chosen
+    }
+
+    fn items(&mut self, parameter: &Parameter, now: usize) -> usize {
+        if !self.within.walk.is_within() {
+            return now;
+        }
+        let place = self.within.at(parameter.key);
+        if self.name.is_none() {
+            self.kept.insert(place, Kept::Items(now));
+            return now;
+        }
+        match self.kept.get(&place) {
+            Some(Kept::Items(kept)) => *kept,
+            _ => now,
+        }
+    }
+
+    fn item(&mut self, parameter: &Parameter, index: usize) {
+        let mut place = self.within.at(parameter.key);
+        place.push(Step::Item(index));
+        self.within.descend(place, |walk| walk.item(parameter.key, index));
+    }
+
+    fn named(&mut self, parameter: &Parameter, name: &str) {
+        let mut place = self.within.at(parameter.key);
+        place.push(Step::Key(name.to_owned()));
+        self.within.descend(place, |walk| walk.named(parameter.key, name));
+    }
+}

@@ -1,0 +1,157 @@
+//! A scene as it is edited.
+use std::path::{Path as FilePath, PathBuf};
+
+use super::{
+    Edit,
+    content::{Base, Content},
+    save,
+    tree::Tree,
+};
+use crate::{
+    declare::{OwnedValue, Path, Problem},
+    file::{WriteError, replace},
+    scene::{SceneError, describe, description::SceneDescription},
+};
+
+/// A state of a document: equal versions of one document have the same description and text.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Version(u64);
+
+/// A scene as it is edited: its description, the text it was read from, and where its files are.
+#[derive(Debug)]
+pub struct Document {
+    pub(super) content: Content,
+    /// The scene file; absent while the scene has none.
+    path: Option<PathBuf>,
+    /// The text of the file as it was last read or written.
+    on_disk: String,
+    version: Version,
+    saved: Option<Version>,
+    /// Never used before.
+    next: u64,
+}
+
+impl Document {
+    /// A scene file that was read. Fails if the reader refuses the text, or if it uses names that are not defined; the files that it
+    /// names are not read.
+    pub fn open(path: impl AsRef<FilePath>, text: &str) -> Result<Document, SceneError> {
+        let path = path.as_ref();
+        let content = read(&path.display().to_string(), text)?;
+        let first = Version(0);
+        Ok(Document {
+            content,
+            path: Some(path.to_owned()),
+            on_disk: text.to_owned(),
+            version: first,
+            saved: Some(first),
+            next: 1,
+        })
+    }
+
+    /// A scene without a file, such as one of a template. It counts as changed from the first edit on.
+    pub fn untitled(text: &str) -> Result<Document, SceneError> {
+        let document = Document::open("", text)?;
+        Ok(Document { path: None, ..document })
+    }
+
+    /// The scene as it is now.
+    pub fn description(&self) -> &SceneDescription {
+        &self.content.description
+    }
+
+    /// The scene file, if there is one.
+    pub fn path(&self) -> Option<&FilePath> {
+        self.path.as_deref()
+    }
+
+    /// The folder that paths in the scene are relative to; empty while the scene has no file.
+    pub fn folder(&self) -> &FilePath {
+        self.path.as_deref().and_then(FilePath::parent).unwrap_or(FilePath::new(""))
+    }
+
+    /// The state that the document is in.
+    pub fn version(&self) -> Version {
+        self.version
+    }
+
+    /// Whether the document differs from its file.
+    pub fn has_changes(&self) -> bool {
+        self.saved != Some(self.version)
+    }
+
+    /// Does an edit and returns its exact inverse. What the reader of scene files would refuse is refused, with its message, and
+    /// changes nothing.
+    pub fn apply(&mut self, edit: &Edit) -> Result<Edit, Problem> {
+        let inverse = self.content.apply(edit)?;
+        self.version = Version(self.next);
+        self.next += 1;
+        Ok(inverse)
+    }
+
+    /// Does an edit that leads to a known version.
+    pub(super) fn return_to(&mut self, version: Version, edit: &Edit) -> Result<Edit, Problem> {
+        let inverse = self.content.apply(edit)?;
+        self.version = version;
+        Ok(inverse)
+    }
+
+    /// The text of the scene file: that of the file as it was read, with what has changed.
+    pub fn text(&self) -> String {
+        save::text(&self.content)
+    }
+
+    /// Writes the scene to its file, or to another one, which is its file from then on. The file is replaced whole or not at all.
+    pub fn save(&mut self, path: impl AsRef<FilePath>) -> Result<(), WriteError> {
+        let (path, text) = (path.as_ref(), self.text());
+        replace(path, text.as_bytes())?;
+        self.path = Some(path.to_owned());
+        self.saved(text);
+        Ok(())
+    }
+
+    /// The file has this text, which is that of the document.
+    pub(super) fn saved(&mut self, text: String) {
+        self.on_disk = text;
+        self.saved = Some(self.version);
+    }
+
+    /// The text of the file as it was last read or written.
+    pub(super) fn on_disk(&self) -> &str {
+        &self.on_disk
+    }
+
+    /// The file has another text than the document, whatever version it is.
+    pub(super) fn differs_from(&mut self, on_disk: String) {
+        self.on_disk = on_disk;
+        self.saved = None;
+    }
+
+    /// What is at a path, if anything is.
+    pub fn tree(&mut self, path: &Path) -> Option<Tree> {
+        self.content.tree(path)
+    }
+
+    /// The value at a path, if there is one.
+    pub fn value(&mut self, path: &Path) -> Option<OwnedValue> {
+        self.tree(path)?.value().cloned()
+    }
+}
+
+/// What a text says, with all names defined.
+pub fn read(name: &str, text: &str) -> Result<Content, SceneError> {
+    let mut content = Content::new(text.to_owned(), describe(name, text.to_owned())?);
+    match content.problem() {
+        None => Ok(content),
+        Some(problem) => {
+            let message = format!("`{}`: {}", problem.path, problem.message);
+            Err(SceneError::of_file(FilePath::new(name), message, problem.label))
+        }
+    }
+}
+
+impl Base {
+    /// Whether a description is that of the file, bit for bit.
+    pub fn is(&self, description: &SceneDescription) -> bool {
+        Tree::of(&mut self.description.clone()).is_identical(&Tree::of(&mut description.clone()))
+    }
+}

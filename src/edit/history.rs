@@ -1,0 +1,149 @@
+//! Undo and redo.
+use std::collections::VecDeque;
+
+use super::{Document, Edit, Version};
+use crate::declare::Problem;
+
+/// More steps are forgotten, the oldest first.
+const MOST: usize = 20_000;
+
+/// A drag of the mouse, or the like: its edits are one step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Gesture(u64);
+
+/// The steps that led a document to where it is, and those that were undone.
+#[derive(Debug, Default)]
+pub struct History {
+    done: VecDeque<Step>,
+    undone: Vec<Step>,
+    gestures: u64,
+}
+
+/// From one version of a document to another.
+#[derive(Debug)]
+struct Step {
+    /// What leads there.
+    edit: Edit,
+    version: Version,
+    title: String,
+    gesture: Option<Gesture>,
+}
+
+impl History {
+    /// The oldest steps beyond this number are forgotten.
+    pub const MOST: usize = MOST;
+
+    /// A new gesture.
+    pub fn gesture(&mut self) -> Gesture {
+        self.gestures += 1;
+        Gesture(self.gestures)
+    }
+
+    /// Does an edit as a step of its own. What was undone cannot be redone afterwards.
+    pub fn apply(&mut self, document: &mut Document, edit: &Edit) -> Result<(), Problem> {
+        self.step(document, edit, None)
+    }
+
+    /// Does an edit that is undone together with the others of its gesture.
+    pub fn drag(&mut self, document: &mut Document, edit: &Edit, gesture: Gesture) -> Result<(), Problem> {
+        self.step(document, edit, Some(gesture))
+    }
+
+    fn step(&mut self, document: &mut Document, edit: &Edit, gesture: Option<Gesture>) -> Result<(), Problem> {
+        let version = document.version();
+        let inverse = document.apply(edit)?;
+        self.undone.clear();
+        match self.done.back_mut() {
+            Some(last) if gesture.is_some() && last.gesture == gesture => last.merge(inverse),
+            _ => self.done.push_back(Step { edit: inverse, version, title: edit.title(), gesture }),
+        }
+        if self.done.len() > MOST {
+            self.done.pop_front();
+        }
+        Ok(())
+    }
+
+    /// Takes back the last step. False where there is none.
+    pub fn undo(&mut self, document: &mut Document) -> bool {
+        let Some(step) = self.done.pop_back() else { return false };
+        self.undone.extend(step.follow(document));
+        true
+    }
+
+    /// Does again what was undone last. False where nothing was.
+    pub fn redo(&mut self, document: &mut Document) -> bool {
+        let Some(step) = self.undone.pop() else { return false };
+        self.done.extend(step.follow(document));
+        true
+    }
+
+    /// What undoing would take back, for a menu.
+    pub fn to_undo(&self) -> Option<&str> {
+        self.done.back().map(|step| step.title.as_str())
+    }
+
+    /// What redoing would do, for a menu.
+    pub fn to_redo(&self) -> Option<&str> {
+        self.undone.last().map(|step| step.title.as_str())
+    }
+
+    /// The edit that [`History::undo`] applies next; it names what changes.
+    pub fn next_undo(&self) -> Option<&Edit> {
+        self.done.back().map(|step| &step.edit)
+    }
+
+    /// The edit that [`History::redo`] applies next.
+    pub fn next_redo(&self) -> Option<&Edit> {
+        self.undone.last().map(|step| &step.edit)
+    }
+
+    /// Number of steps that can be undone.
+    pub fn len(&self) -> usize {
+        self.done.len()
+    }
+
+    /// Whether nothing can be undone.
+    pub fn is_empty(&self) -> bool {
+        self.done.is_empty()
+    }
+}
+
+impl Step {
+    /// Goes where the step leads, and returns the way back.
+    fn follow(self, document: &mut Document) -> Option<Step> {
+        let from = document.version();
+        let inverse = document.return_to(self.version, &self.edit);
+        debug_assert!(inverse.is_ok(), "{:?} was possible before: {inverse:?}", self.edit);
+        // Nothing is merged with a step that has been undone.
+        Some(Step { edit: inverse.ok()?, version: from, gesture: None, ..self })
+    }
+
+    /// The step leads back over one more edit.
+    fn merge(&mut self, inverse: Edit) {
+        if absorbs(&self.edit, &inverse) {
+            return;
+        }
+        match &mut self.edit {
+            Edit::All(edits) => edits.insert(0, inverse),
+            edit => {
+                let older = std::mem::replace(edit, Edit::All(Vec::new()));
+                *edit = Edit::All(vec![inverse, older]);
+            }
+        }
+    }
+}
+
+/// Whether doing `older` has the same effect as doing `newer` and then `older`.
+fn absorbs(older: &Edit, newer: &Edit) -> bool {
+    match (older, newer) {
+        (Edit::Set { path, .. }, Edit::Set { path: again, .. }) => path == again,
+        (
+            Edit::Remove { path } | Edit::Replace { path, .. },
+            Edit::Set { path: inner, .. } | Edit::Replace { path: inner, .. },
+        ) => path.holds(inner),
+        (Edit::All(older), Edit::All(newer)) => {
+            older.len() == newer.len() && older.iter().zip(newer).all(|(older, newer)| absorbs(older, newer))
+        }
+        _ => false,
+    }
+}

@@ -1,0 +1,50 @@
+//! Names of materials and textures, where a description uses them.
+use super::walk::Walk;
+use crate::declare::{Declare, Family, Form, Parameter, Parameters, Path, Textured, Value};
+
+/// Shows `look` every name that is used at a path or within it, where it stands and what it should name. `look` may change it.
+pub fn references(description: &mut dyn Declare, path: &Path, look: impl FnMut(&Path, Family, &mut String)) {
+    let mut searcher = Searcher { walk: Walk::to(path), look };
+    description.parameters(&mut searcher);
+}
+
+struct Searcher<'p, F> {
+    walk: Walk<'p>,
+    look: F,
+}
+
+impl<F: FnMut(&Path, Family, &mut String)> Parameters for Searcher<'_, F> {
+    fn value(&mut self, parameter: &Parameter, value: Value<'_>) {
+        if !self.walk.takes(parameter.key) {
+            return;
+        }
+        let at = |walk: &Walk<'_>| walk.path_of(parameter.key);
+        match value {
+            Value::Name(name, family) => (self.look)(&at(&self.walk), family, name),
+            Value::Textured(Textured::Texture(name), _) | Value::TexturedNumber(Textured::Texture(name), _) => {
+                (self.look)(&at(&self.walk).key("texture"), Family::Texture, name);
+            }
+            _ => {}
+        }
+    }
+
+    fn enter(&mut self, parameter: &Parameter, _: Form) {
+        self.walk.enter(parameter.key);
+    }
+
+    fn leave(&mut self) {
+        self.walk.leave();
+    }
+
+    fn skips(&self) -> bool {
+        self.walk.is_beside()
+    }
+
+    fn item(&mut self, parameter: &Parameter, index: usize) {
+        self.walk.item(parameter.key, index);
+    }
+
+    fn named(&mut self, parameter: &Parameter, name: &str) {
+        self.walk.named(parameter.key, name);
+    }
+}

@@ -1,0 +1,50 @@
+//! Writes a scene into the text of its file: comments, order and number formats stay, and only what changed is changed.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `outline.rs` | what a file has to say of a description, and what it may leave out |
+//! | `tables.rs`, `lists.rs`, `named.rs` | bring a table, a list, a table of named tables of the file up to date |
+//! | `objects.rs` | the same for the objects, wherever they went |
+//! | `values.rs` | values as a person writes them |
+mod lists;
+mod named;
+mod objects;
+mod outline;
+mod tables;
+mod values;
+
+use toml_edit::DocumentMut;
+
+use self::{
+    objects::spread,
+    outline::Table,
+    tables::{Level, Update},
+};
+use super::content::Content;
+
+/// The text of a scene file.
+pub fn text(content: &Content) -> String {
+    let base = &content.base;
+    let now = Table::of(&content.description);
+    let was = Table::of(&base.description);
+    if content.origins == super::origin::Origins::of(&base.description) && now.is_identical(&was) {
+        return base.text.clone();
+    }
+    // The text was read before: this cannot fail.
+    let mut document: DocumentMut = base.text.parse().unwrap_or_default();
+    spread(document.as_table_mut());
+    Update { origins: &content.origins }.table(document.as_table_mut(), &was, &now, Level::Root);
+    like(&base.text, document.to_string())
+}
+
+/// The text with the byte order mark and the line ends of another.
+fn like(original: &str, text: String) -> String {
+    const MARK: &str = "\u{feff}";
+    let returns = original.matches("\r\n").count();
+    let text = if returns > 0 && returns == original.matches('\n').count() {
+        text.replace("\r\n", "\n").replace('\n', "\r\n")
+    } else {
+        text
+    };
+    if original.starts_with(MARK) && !text.starts_with(MARK) { format!("{MARK}{text}") } else { text }
+}

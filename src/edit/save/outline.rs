@@ -1,0 +1,196 @@
+//! What a file has to say of a description: its values by key, and which of them a reader would assume anyway.
+use std::collections::BTreeMap;
+
+use crate::{
+    declare::{Choice, Declare, Form, OwnedValue, Parameter, Parameters, Value},
+    edit::tree::{Answer, Tree},
+    scene::description::SceneDescription,
+};
+
+/// A table of a file.
+#[derive(Debug, Default)]
+pub struct Table {
+    /// In the order in which a person reads them.
+    pub entries: Vec<Entry>,
+    /// The name that may stand in the place of the table, if it says nothing else.
+    pub name: Option<&'static str>,
+}
+
+/// What stands at a key.
+#[derive(Debug)]
+pub struct Entry {
+    pub key: &'static str,
+    pub node: Node,
+    /// A reader assumes the same where the key is absent.
+    pub is_default: bool,
+}
+
+/// A value, a table or several.
+#[derive(Debug)]
+pub enum Node {
+    Value {
+        value: OwnedValue,
+        /// Three equal numbers may be written as one.
+        collapses: bool,
+    },
+    Table(Table),
+    List(Vec<Table>),
+    Named(BTreeMap<String, Table>),
+}
+
+impl Table {
+    /// All of a scene.
+    pub fn of(description: &SceneDescription) -> Table {
+        let answers = Tree::of(&mut description.clone()).0;
+        // The default description is led through the same choices: what it says then is what a reader assumes.
+        let mut outliner = Outliner { answers: answers.into_iter(), frames: vec![Frame::default()] };
+        SceneDescription::default().parameters(&mut outliner);
+        outliner.frames.pop().map(|frame| frame.table).unwrap_or_default()
+    }
+
+    /// What stands at a key.
+    pub fn get(&self, key: &str) -> Option<&Entry> {
+        self.entries.iter().find(|entry| entry.key == key)
+    }
+
+    /// Whether nothing needs to be said.
+    pub fn is_default(&self) -> bool {
+        self.entries.iter().all(|entry| entry.is_default)
+    }
+
+    /// Whether both say the same, bit for bit.
+    pub fn is_identical(&self, other: &Table) -> bool {
+        let same = |(a, b): (&Entry, &Entry)| a.key == b.key && a.node.is_identical(&b.node);
+        self.name == other.name && self.entries.len() == other.entries.len() && self.entries.iter().zip(&other.entries).all(same)
+    }
+}
+
+impl Node {
+    /// Whether both say the same, bit for bit.
+    pub fn is_identical(&self, other: &Node) -> bool {
+        match (self, other) {
+            (Node::Value { value: a, .. }, Node::Value { value: b, .. }) => a.is_identical(b),
+            (Node::Table(a), Node::Table(b)) => a.is_identical(b),
+            (Node::List(a), Node::List(b)) => a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.is_identical(b)),
+            (Node::Named(a), Node::Named(b)) => {
+                a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.0 == b.0 && a.1.is_identical(b.1))
+            }
+            _ => false,
+        }
+    }
+}
+
+/// Where the table that is visited goes.
+#[derive(Default)]
+enum Place {
+    #[default]
+    Key,
+    Item,
+    Named(String),
+}
+
+#[derive(Default)]
+struct Frame {
+    table: Table,
+    key: &'static str,
+    place: Place,
+    form: Option<Form>,
+    /// The table must be written, whatever it says.
+    is_needed: bool,
+    /// The keys of alternatives that a reader would not choose by itself.
+    needed_keys: Vec<&'static str>,
+    /// What is visited next was absent by default.
+    next_is_needed: bool,
+}
+
+/// Visits a default description, and replaces its structure by that of another.
+struct Outliner {
+    answers: std::vec::IntoIter<Answer>,
+    frames: Vec<Frame>,
+}
+
+impl Outliner {
+    fn frame(&mut self) -> &mut Frame {
+        self.frames.last_mut().expect("the whole file is around")
+    }
+
+    /// Whether what is visited at a key must be written.
+    fn needs(&mut self, parameter: &Parameter) -> bool {
+        let frame = self.frame();
+        let appears = std::mem::take(&mut frame.next_is_needed);
+        appears || parameter.is_required || frame.needed_keys.contains(&parameter.key)
+    }
+
+    fn add(&mut self, key: &'static str, node: Node, is_default: bool) {
+        self.frame().table.entries.push(Entry { key, node, is_default });
+    }
+}
+
+impl Parameters for Outliner {
+    fn value(&mut self, parameter: &Parameter, value: Value<'_>) {
+        let collapses = matches!(value, Value::Colour(..) | Value::Textured(..) | Value::Factors(_));
+        let assumed = OwnedValue::of(&value);
+        let is_needed = self.needs(parameter);
+        if let Some(Answer::Value(value)) = self.answers.next() {
+            let is_default = !is_needed && value.is_identical(&assumed);
+            self.add(parameter.key, Node::Value { value, collapses }, is_default);
+        }
+    }
+
+    fn enter(&mut self, parameter: &Parameter, form: Form) {
+        let is_needed = self.needs(parameter);
+        self.frames.push(Frame { key: parameter.key, form: Some(form), is_needed, ..Frame::default() });
+    }
+
+    fn leave(&mut self) {
+        let Some(Frame { table, key, place, is_needed, .. }) = self.frames.pop() else { return };
+        let entries = &mut self.frame().table.entries;
+        match (place, entries.last_mut().map(|entry| &mut entry.node)) {
+            (Place::Item, Some(Node::List(list))) => list.push(table),
+            (Place::Named(name), Some(Node::Named(tables))) => drop(tables.insert(name, table)),
+            _ => {
+                let is_default = !is_needed && table.is_default();
+                self.add(key, Node::Table(table), is_default);
+            }
+        }
+    }
+
+    fn present(&mut self, _: &Parameter, now: bool) -> bool {
+        let Some(Answer::Present(is_present)) = self.answers.next() else { return now };
+        self.frame().next_is_needed = is_present;
+        is_present
+    }
+
+    fn choose(&mut self, choice: &Choice, now: usize) -> usize {
+        let Some(Answer::Choose(place)) = self.answers.next() else { return now };
+        let chosen = &choice.alternatives[place];
+        let frame = self.frame();
+        if frame.form == Some(Form::NameOrTable) {
+            frame.table.name = Some(chosen.name);
+            frame.is_needed |= place != now;
+        } else if place != now {
+            frame.needed_keys.extend(chosen.outline.iter().map(|entry| entry.parameter.key));
+        }
+        place
+    }
+
+    fn items(&mut self, parameter: &Parameter, now: usize) -> usize {
+        let Some(Answer::Items(count)) = self.answers.next() else { return now };
+        self.add(parameter.key, Node::List(Vec::new()), count == 0);
+        count
+    }
+
+    fn item(&mut self, parameter: &Parameter, _: usize) {
+        self.frames.push(Frame { key: parameter.key, place: Place::Item, ..Frame::default() });
+    }
+
+    fn names(&mut self, parameter: &Parameter, now: Vec<String>) -> Vec<String> {
+        let Some(Answer::Names(names)) = self.answers.next() else { return now };
+        self.add(parameter.key, Node::Named(BTreeMap::new()), names.is_empty());
+        names
+    }
+
+    fn named(&mut self, parameter: &Parameter, name: &str) {
+        self.frames.push(Frame { key: parameter.key, place: Place::Named(name.to_owned()), ..Frame::default() });
+    }
+}

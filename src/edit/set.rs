@@ -1,0 +1,72 @@
+//! Sets a value.
+use super::walk::Walk;
+use crate::declare::{Declare, Form, OwnedValue, Parameter, Parameters, Path, Value};
+
+/// What setting a value found.
+pub enum Found {
+    /// The value as it was.
+    Value(OwnedValue),
+    /// Something at this path on the way, or the value itself, was absent and is there now.
+    Absent(Path),
+}
+
+/// Why a value cannot be set. Nothing is changed then, but what was absent may have appeared.
+pub enum Failure {
+    /// There is no such value.
+    Missing,
+    /// The value is of another type.
+    Type,
+}
+
+/// Sets the value at a path. What was absent on the way and appeared is told, whatever comes of it.
+pub fn set(description: &mut dyn Declare, path: &Path, value: &OwnedValue) -> (Result<Found, Failure>, Option<Path>) {
+    let mut setter = Setter { walk: Walk::to(path), value, appeared: None, outcome: Err(Failure::Missing) };
+    description.parameters(&mut setter);
+    let Setter { appeared, outcome, .. } = setter;
+    let found = outcome.map(|was| appeared.clone().map_or(Found::Value(was), Found::Absent));
+    (found, appeared)
+}
+
+struct Setter<'p> {
+    walk: Walk<'p>,
+    value: &'p OwnedValue,
+    appeared: Option<Path>,
+    outcome: Result<OwnedValue, Failure>,
+}
+
+impl Parameters for Setter<'_> {
+    fn value(&mut self, parameter: &Parameter, mut value: Value<'_>) {
+        if self.walk.is_at(parameter.key) {
+            let was = OwnedValue::of(&value);
+            self.outcome = if self.value.assign(&mut value) { Ok(was) } else { Err(Failure::Type) };
+        }
+    }
+
+    fn enter(&mut self, parameter: &Parameter, _: Form) {
+        self.walk.enter(parameter.key);
+    }
+
+    fn leave(&mut self) {
+        self.walk.leave();
+    }
+
+    fn skips(&self) -> bool {
+        self.walk.is_beside()
+    }
+
+    fn present(&mut self, parameter: &Parameter, now: bool) -> bool {
+        let appears = !now && self.walk.leads_through(parameter.key);
+        if appears && self.appeared.is_none() {
+            self.appeared = Some(self.walk.path_of(parameter.key));
+        }
+        now || appears
+    }
+
+    fn item(&mut self, parameter: &Parameter, index: usize) {
+        self.walk.item(parameter.key, index);
+    }
+
+    fn named(&mut self, parameter: &Parameter, name: &str) {
+        self.walk.named(parameter.key, name);
+    }
+}
