@@ -13,7 +13,7 @@ use super::{
     tree::Tree,
 };
 use crate::{
-    declare::{Declare, Family, Path, Problem, Step},
+    declare::{Family, Path, Problem, Step},
     scene::description::SceneDescription,
 };
 
@@ -192,9 +192,4 @@ impl Content {
     pub fn tree(&mut self, path: &Path) -> Option<Tree> {
         Tree::at(&mut self.description, path)
     }
-}
-
-/// All that a description of a part says.
-pub fn tree_of(mut part: impl Declare) -> Tree {
-    Tree::of(&mut part)
 }

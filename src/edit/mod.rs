@@ -89,14 +89,14 @@ mod tree;
 mod walk;
 
 pub use self::{
-    //add::Placement,
+    add::Placement,
     content::Content,
     document::{Document, Version},
     edit::Edit,
     history::{Gesture, History},
     origin::Origin,
-    //outside::Outside,
-    //recovery::Recovery,
-    //templates::{TEMPLATES, Template},
+    outside::Outside,
+    recovery::Recovery,
+    templates::{TEMPLATES, Template},
     tree::Tree,
 };

@@ -1,1 +1,65 @@
+//! Scene files that were changed outside, in a text editor or by another program.
+use super::{Document, Edit, History, content::Content, document::read, tree::Tree};
+use crate::{
+    declare::Problem,
+    scene::{SceneError, description::SceneDescription},
+};
 
+/// What another program wrote to the file of a document.
+#[derive(Debug)]
+pub struct Outside {
+    content: Content,
+    /// Whether the file has another camera than before.
+    pub camera_changed: bool,
+    /// Whether the file has other settings than before.
+    pub settings_changed: bool,
+    /// Whether anything else is different, besides comments and format.
+    pub scene_changed: bool,
+    /// Whether the document has changes too, which taking the file would lose. One has to choose.
+    pub conflicts: bool,
+}
+
+impl Document {
+    /// Compares a text that the file has now with the one it had. `None` if it is the same; an error if it cannot be read, and the
+    /// document stays as it is.
+    pub fn compare_outside(&self, text: &str) -> Result<Option<Outside>, SceneError> {
+        if text == self.on_disk() {
+            return Ok(None);
+        }
+        let name = self.path().map_or_else(String::new, |path| path.display().to_string());
+        let mut content = read(&name, text)?;
+        // A file that cannot be read was changed in every part.
+        let before = read(&name, self.on_disk()).map(|before| before.description).unwrap_or_default();
+        let [was, now] = [&before, &content.description];
+        let camera_changed = was.camera != now.camera;
+        let settings_changed = was.render != now.render;
+        let scene_changed = *was != SceneDescription { camera: was.camera.clone(), render: was.render.clone(), ..now.clone() };
+        let is_rewritten = camera_changed || settings_changed || scene_changed;
+        if !is_rewritten && self.content.base.is(&before) {
+            // Only comments and format: the document keeps its changes, in the new text.
+            content.description = self.content.description.clone();
+            content.origins = self.content.origins.clone();
+        }
+        let is_ours = Tree::of(&mut content.description.clone()).is_identical(&Tree::of(&mut self.content.description.clone()));
+        let conflicts = self.has_changes() && !is_ours;
+        Ok(Some(Outside { content, camera_changed, settings_changed, scene_changed, conflicts }))
+    }
+
+    /// Takes what is in the file, as a step that can be undone.
+    pub fn take_outside(&mut self, history: &mut History, outside: Outside) -> Result<(), Problem> {
+        let text = outside.content.base.text.clone();
+        let is_saved = outside.content.base.is(&outside.content.description);
+        history.apply(self, &Edit::Reload(Box::new(outside.content)))?;
+        if is_saved {
+            self.saved(text);
+        } else {
+            self.differs_from(text);
+        }
+        Ok(())
+    }
+
+    /// Keeps what is in the document. Saving will replace what is in the file.
+    pub fn keep_own(&mut self, outside: &Outside) {
+        self.differs_from(outside.content.base.text.clone());
+    }
+}

@@ -1,1 +1,109 @@
+//! Moves, turns and scales objects.
+use glam::{DAffine3, DVec3};
 
+use super::{Document, Edit, tree::Tree};
+use crate::{
+    declare::{OwnedValue, Path},
+    scene::description::ObjectDescription,
+    shape::{ShapeKind, Transform, product},
+};
+
+/// Axes whose directions differ by less are the same.
+const SAME_AXIS: f64 = 1e-9;
+
+impl Document {
+    /// The edit that transforms an object in world space, turning and scaling about a pivot. It changes the numbers that a person would
+    /// change: the points of shapes without transforms, else the last transforms of the list. `None` where there is no such object, or
+    /// where the transform cannot be inverted.
+    pub fn transformed(&self, object: usize, change: &Transform, pivot: DVec3) -> Option<Edit> {
+        let at = Path::of("objects").item(object);
+        let described = self.description().objects.get(object)?;
+        let about = DAffine3::from_translation(pivot);
+        let map = about * product(std::slice::from_ref(change)).ok()? * about.inverse();
+        let points = described.transform.is_empty().then(|| points(&described.shape, change, &map)).flatten();
+        Some(match points {
+            Some(points) => {
+                let at = at.key("shape").key(described.shape.name());
+                let set = |(key, value): (&str, OwnedValue)| Edit::set(at.join(&Path::of(key)), value);
+                Edit::All(points.into_iter().map(set).collect())
+            }
+            None => list(described, &at.key("transform"), change, &map),
+        })
+    }
+}
+
+/// The numbers of a shape after a transform, where the shape can say it without transforms.
+fn points(shape: &ShapeKind, change: &Transform, map: &DAffine3) -> Option<Vec<(&'static str, OwnedValue)>> {
+    let point = |p: DVec3| OwnedValue::Vector(map.transform_point3(p));
+    let edge = |v: DVec3| OwnedValue::Vector(map.transform_vector3(v));
+    // What lengths are multiplied by, if all are by the same.
+    let factor = match change {
+        Transform::Translate(_) => Some(1.0),
+        Transform::Scale(factors) if factors.x == factors.y && factors.y == factors.z && factors.x > 0.0 => Some(factors.x),
+        _ => None,
+    };
+    let keeps_axes = match change {
+        Transform::Scale(factors) => factors.min_element() > 0.0,
+        _ => matches!(change, Transform::Translate(_)),
+    };
+    let length = |x: f64| factor.map(|factor| OwnedValue::Number(x * factor));
+    let is_mirrored = map.matrix3.determinant() < 0.0;
+    Some(match shape {
+        ShapeKind::Sphere(sphere) => vec![("center", point(sphere.center)), ("radius", length(sphere.radius)?)],
+        ShapeKind::Disk(disk) => vec![("center", point(disk.center)), ("radius", length(disk.radius)?)],
+        ShapeKind::Cylinder(tube) => {
+            vec![("base", point(tube.base)), ("top", point(tube.top)), ("radius", length(tube.radius)?)]
+        }
+        ShapeKind::Cuboid(cuboid) if keeps_axes => vec![("min", point(cuboid.0.min)), ("max", point(cuboid.0.max))],
+        ShapeKind::SphereField(field) if matches!(change, Transform::Translate(_)) => {
+            vec![("bounds.min", point(field.bounds.min)), ("bounds.max", point(field.bounds.max))]
+        }
+        ShapeKind::Rectangle(r) if !is_mirrored => {
+            vec![("origin", point(r.origin)), ("edge_u", edge(r.edge_u)), ("edge_v", edge(r.edge_v))]
+        }
+        ShapeKind::Triangle(t) if !is_mirrored => vec![("a", point(t.a)), ("b", point(t.b)), ("c", point(t.c))],
+        _ => return None,
+    })
+}
+
+/// The edit of a list of transforms: turning and scaling come before the last translation.
+fn list(object: &ObjectDescription, at: &Path, change: &Transform, map: &DAffine3) -> Edit {
+    let (before, translation) = match object.transform.split_last() {
+        Some((Transform::Translate(by), before)) => (before, Some(*by)),
+        _ => (&object.transform[..], None),
+    };
+    let mut edits = Vec::new();
+    let mut count = before.len();
+    if !matches!(change, Transform::Translate(_)) {
+        let last = before.last().and_then(|last| Some((at.item(count - 1), combined(last, change)?)));
+        match last {
+            Some((at, (key, value))) => edits.push(Edit::set(at.join(&Path::of(key)), value)),
+            None => {
+                edits.push(Edit::insert_tree(at.item(count), Tree::of(&mut change.clone())));
+                count += 1;
+            }
+        }
+    }
+    let moved = map.transform_point3(translation.unwrap_or(DVec3::ZERO));
+    match translation {
+        Some(_) => edits.push(Edit::set(at.item(count).key("translate"), OwnedValue::Vector(moved))),
+        None if moved != DVec3::ZERO => {
+            edits.push(Edit::insert_tree(at.item(count), Tree::of(&mut Transform::Translate(moved))));
+        }
+        None => {}
+    }
+    Edit::All(edits)
+}
+
+/// The value of a transform that stands for it and another one behind it.
+fn combined(first: &Transform, then: &Transform) -> Option<(&'static str, OwnedValue)> {
+    match (first, then) {
+        (Transform::Scale(first), Transform::Scale(then)) => Some(("scale", OwnedValue::Vector(*first * *then))),
+        (Transform::Rotate(first), Transform::Rotate(then)) => {
+            let axes = [first.axis.try_normalize()?, then.axis.try_normalize()?];
+            let is_same = axes[0].distance(axes[1]) < SAME_AXIS;
+            is_same.then(|| ("rotate.degrees", OwnedValue::Number(first.degrees + then.degrees)))
+        }
+        _ => None,
+    }
+}

@@ -1,1 +1,61 @@
+//! Changes that are not saved, kept in a file in case the program does not end as it should.
+use std::{
+    fs, io,
+    path::{Path as FilePath, PathBuf},
+};
 
+use super::Document;
+use crate::{
+    file::{WriteError, open_regular, replace},
+    scene::SceneError,
+};
+
+/// The first line of a recovery file, with the path of the scene file as a JSON string; the text of the scene follows.
+const FIRST_LINE: &str = "# Unsaved changes of the scene ";
+
+/// A scene with changes that are not saved.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Recovery {
+    /// The scene file; absent if the scene had none.
+    pub path: Option<PathBuf>,
+    /// The text of the scene.
+    pub text: String,
+}
+
+impl Recovery {
+    /// The document as it is now.
+    pub fn of(document: &Document) -> Recovery {
+        Recovery { path: document.path().map(FilePath::to_owned), text: document.text() }
+    }
+
+    /// Writes a recovery file, whole or not at all. It is a scene file itself, with one line of comment before its text.
+    pub fn write(&self, file: &FilePath) -> Result<(), WriteError> {
+        let path = self.path.as_ref().map(|path| path.to_string_lossy());
+        let path = serde_json::Value::from(path.as_deref());
+        replace(file, format!("{FIRST_LINE}{path}\n{}", self.text).as_bytes())
+    }
+
+    /// Reads a recovery file; `None` where there is none.
+    pub fn read(file: &FilePath) -> io::Result<Option<Recovery>> {
+        let text = match open_regular(file).and_then(io::read_to_string) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
+            read => read?,
+        };
+        let (first, text) = text.split_once('\n').unwrap_or((&text, ""));
+        let path = first.strip_prefix(FIRST_LINE).and_then(|path| serde_json::from_str::<Option<PathBuf>>(path).ok());
+        let wrong = || io::Error::new(io::ErrorKind::InvalidData, "it is not a recovery file");
+        Ok(Some(Recovery { path: path.ok_or_else(wrong)?, text: text.to_owned() }))
+    }
+
+    /// The document with its changes. It counts as changed.
+    pub fn open(&self) -> Result<Document, SceneError> {
+        let mut document = match &self.path {
+            Some(path) => Document::open(path, &self.text)?,
+            None => Document::untitled(&self.text)?,
+        };
+        // What is in the file now tells later whether it was changed outside.
+        let on_disk = self.path.as_ref().and_then(|path| fs::read_to_string(path).ok());
+        document.differs_from(on_disk.unwrap_or_default());
+        Ok(document)
+    }
+}

@@ -1,1 +1,68 @@
+//! Drops objects to what is below them.
+use std::ops::Range;
 
+use glam::DVec3;
+
+use super::{Document, Edit};
+use crate::{
+    geometry::MISS,
+    math::{F, M, One, V},
+    scene::{Scene, description::SceneDescription},
+    shape::{ShapeKind, Transform},
+};
+
+/// Where rays start above the box of an object, as parts of its edges.
+const PLACES: [f64; 5] = [0.01, 0.25, 0.5, 0.75, 0.99];
+/// Surfaces of the object itself that a ray passes.
+const MOST_PASSED: usize = 64;
+/// Behind a surface a ray goes on at this part of its way.
+const STEP: f64 = 1e-5;
+
+impl Document {
+    /// The edit that lets the bounding box of an object rest on the highest surface below its middle. `scene` is the compiled scene of
+    /// this document. `None` where nothing is below, or where it rests already.
+    pub fn drop_to_floor(&self, scene: &Scene, object: usize) -> Option<Edit> {
+        let own = compiled(self.description(), object)?;
+        let objects = scene.objects.get(own.clone())?;
+        let corners = objects.iter().map(|object| object.shape.corners());
+        let [min, max] = corners.reduce(|[a, b], [c, d]| [a.min(c), b.max(d)])?;
+        let places = PLACES.into_iter().flat_map(|x| PLACES.map(|z| DVec3::new(x, 0.5, z)));
+        let starts = places.map(|place| min + (max - min) * place);
+        let floor = starts.filter_map(|start| surface_below(scene, start, &own)).max_by(f64::total_cmp)?;
+        let by = floor - min.y;
+        (by != 0.0).then(|| self.transformed(object, &Transform::Translate(DVec3::Y * by), DVec3::ZERO)).flatten()
+    }
+}
+
+/// The objects of the compiled scene that one of the description became: emitting ones come first there.
+fn compiled(description: &SceneDescription, object: usize) -> Option<Range<usize>> {
+    let emits = description.objects.get(object)?.emission.is_some();
+    let count = |place: usize| match &description.objects[place].shape {
+        ShapeKind::SphereField(field) => field.count as usize,
+        _ => 1,
+    };
+    let comes_first = |place: &usize| match description.objects[*place].emission.is_some() {
+        same if same == emits => *place < object,
+        other => other,
+    };
+    let start: usize = (0..description.objects.len()).filter(comes_first).map(count).sum();
+    Some(start..start + count(object))
+}
+
+/// The height of the first surface below a point that belongs to none of these objects, as things are at time 0.
+fn surface_below(scene: &Scene, start: DVec3, own: &Range<usize>) -> Option<f64> {
+    let mut p = start;
+    for _ in 0..MOST_PASSED {
+        let [o, d] = [p, DVec3::NEG_Y].map(|v| V::splat(One, v.as_vec3().to_array()));
+        let nearest = scene.shapes.closest(One, M(true), o, d, F(0.0));
+        if nearest.primitive.0 == MISS {
+            return None;
+        }
+        let distance = f64::from(nearest.t.0);
+        if !own.contains(&(scene.owners[nearest.primitive.0 as usize] as usize)) {
+            return Some(p.y - distance);
+        }
+        p.y -= distance * (1.0 + STEP) + STEP * start.distance(p).max(p.y.abs() * STEP);
+    }
+    None
+}

@@ -70,11 +70,6 @@ impl<'p> Walk<'p> {
         self.matched == Some(self.target.len())
     }
 
-    /// Whether the current table is the target itself.
-    pub fn is_at_table(&self) -> bool {
-        self.is_within() && self.path.0.len() == self.target.len()
-    }
-
     /// Whether the target is what stands at a key of the current table.
     pub fn is_at(&self, key: &str) -> bool {
         matches!(self.left(), [Step::Key(last)] if last == key)

@@ -150,6 +150,12 @@ impl Shape {
         }
     }
 
+    /// The least and the greatest corner of the bounding box.
+    pub fn corners(&self) -> [DVec3; 2] {
+        let Extent { min, max } = self.extent();
+        [min, max]
+    }
+
     /// Extent along the world axes.
     pub(super) fn size(&self) -> DVec3 {
         let Extent { min, max } = self.extent();
