@@ -66,8 +66,8 @@ impl Content {
         debug_assert!(again.is_ok(), "{inverse:?} takes back what was done: {again:?}");
     }
 
-    /// Does an edit without checks of values.
-    fn perform(&mut self, edit: &Edit) -> Done {
+    /// Does an edit without checks of values: of those that were possible before.
+    pub(super) fn perform(&mut self, edit: &Edit) -> Done {
         match edit {
             Edit::Set { path, value } => {
                 let (found, appeared) = set(&mut self.description, path, value);

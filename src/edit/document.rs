@@ -88,9 +88,9 @@ impl Document {
         Ok(inverse)
     }
 
-    /// Does an edit that leads to a known version.
+    /// Does an edit that leads back to a known version.
     pub(super) fn return_to(&mut self, version: Version, edit: &Edit) -> Result<Edit, Problem> {
-        let inverse = self.content.apply(edit)?;
+        let inverse = self.content.perform(edit)?;
         self.version = version;
         Ok(inverse)
     }

@@ -63,6 +63,7 @@
 //! | `origin.rs`, `save/` | what stands for which part of the file; writing it |
 //! | `names.rs`, `add.rs`, `pose.rs`, `rest.rs` | free names; new shapes and lamps; moving objects; dropping them to the floor |
 //! | `outside.rs` | files that were changed outside |
+//! | `trial.rs` | random scenes, written and read |
 //! | `recovery.rs`, `templates.rs` | what survives a crash; scenes to begin with |
 mod add;
 mod check;
@@ -86,8 +87,12 @@ mod templates;
 #[cfg(test)]
 mod tests;
 mod tree;
+#[cfg(feature = "reports")]
+mod trial;
 mod walk;
 
+#[cfg(feature = "reports")]
+pub use self::trial::write_and_read;
 pub use self::{
     add::Placement,
     content::Content,

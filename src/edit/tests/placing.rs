@@ -1,0 +1,169 @@
+//! Adding, posing and dropping objects.
+use std::path::Path as FilePath;
+
+use glam::DVec3;
+
+use super::*;
+use crate::{
+    declare::OneOf,
+    edit::Placement,
+    scene::Scene,
+    shape::{Rotation, ShapeKind, Transform},
+};
+
+fn compiled(document: &Document) -> Scene {
+    document.description().build(FilePath::new("")).unwrap_or_else(|error| panic!("{}", error.report()))
+}
+
+/// The box of the object with a name.
+fn extent(document: &Document, name: &str) -> [DVec3; 2] {
+    let scene = compiled(document);
+    let of_name = |object: &&crate::scene::Object| object.name == name || object.name.starts_with(&format!("{name} "));
+    let corners = scene.objects.iter().filter(of_name).map(|object| object.shape.corners());
+    corners.reduce(|[a, b], [c, d]| [a.min(c), b.max(d)]).expect("there is such an object")
+}
+
+fn name_of(document: &Document) -> String {
+    document.description().objects.last().expect("there are objects").name.clone()
+}
+
+#[test]
+fn every_shape_is_added_to_every_side_of_a_surface() {
+    let at = DVec3::new(0.3217, 0.0, -0.41);
+    for kind in ShapeKind::alternatives() {
+        for normal in [DVec3::Y, DVec3::NEG_Y, DVec3::X, DVec3::NEG_Z, DVec3::new(0.6, 0.0, 0.8)] {
+            let placement = Placement { at, normal, scene_size: 5.0 };
+            let mut document = room();
+            let (edit, path) = document.add_shape(kind.name(), &placement, None).expect("there is such a kind");
+            does(&mut document, &edit);
+            assert_eq!(path, Path::of("objects.3"));
+            assert_eq!(document.description().objects[3].material.as_deref(), Some("floor"), "the first diffuse one");
+            let [min, max] = extent(&document, &name_of(&document));
+            let size = (max - min).max_element();
+            assert!((0.25..1.5).contains(&size), "{} {normal}: {size}", kind.name());
+            // The side towards the surface is at it, to the rounding of coordinates; knots do not fill their cube.
+            let near = (0..8)
+                .map(|corner| DVec3::from([0, 1, 2].map(|axis| if corner >> axis & 1 == 0 { min[axis] } else { max[axis] })));
+            let height = near.map(|corner| (corner - at).dot(normal)).fold(f64::INFINITY, f64::min);
+            let is_filled = !matches!(kind, ShapeKind::Mesh(_) | ShapeKind::SphereField(_) | ShapeKind::Isosurface(_));
+            let is_axis = normal.abs().max_element() == 1.0;
+            assert!(height > -0.5 && (!is_axis || height > -0.01), "{} {normal}: {height}", kind.name());
+            assert!(!is_filled || !is_axis || height < 0.01, "{} {normal}: {height}", kind.name());
+            let [x, y, z] = min.to_array();
+            assert!(x.is_finite() && y.is_finite() && z.is_finite());
+        }
+    }
+}
+
+#[test]
+fn lamps_emit_away_from_what_they_hang_on() {
+    let placement = Placement { at: DVec3::new(0.0, 2.5, 0.0), normal: DVec3::NEG_Y, scene_size: 5.0 };
+    let mut document = room();
+    let (edit, _) = document.add_lamp("rectangle", &placement).expect("there is such a kind");
+    does(&mut document, &edit);
+    assert_eq!(name_of(&document), "lamp 2");
+    let ShapeKind::Rectangle(lamp) = &document.description().objects[3].shape else { panic!("it is a rectangle") };
+    assert!(lamp.edge_u.cross(lamp.edge_v).normalize().distance(DVec3::NEG_Y) < 1e-9);
+    let [_, max] = extent(&document, "lamp 2");
+    assert!(max.y < 2.5 && max.y > 2.49);
+}
+
+#[test]
+fn a_scene_without_materials_gets_one() {
+    let bare = "format = 1\ncamera = { eye = [0, 0, 4], look_at = [0, 0, 0], fov = 40, resolution = [64, 64] }\nobjects = []\n";
+    let mut document = Document::untitled(bare).unwrap_or_else(|error| panic!("{}", error.report()));
+    let placement = Placement { at: DVec3::ZERO, normal: DVec3::Y, scene_size: 1.0 };
+    let (edit, _) = document.add_shape("sphere", &placement, None).expect("there is such a kind");
+    let inverse = does(&mut document, &edit);
+    assert!(document.text().contains("grey"), "{}", document.text());
+    compiled(&document);
+    does(&mut document, &inverse);
+    assert_eq!(document.text(), bare);
+    assert!(document.add_shape("dodecahedron", &placement, None).is_none());
+}
+
+#[test]
+fn names_that_are_free() {
+    let mut document = room();
+    assert_eq!(document.free_name("objects", "sphere"), "sphere");
+    assert_eq!(document.free_name("objects", "ball"), "ball 2");
+    does(&mut document, &text("objects.0.name", "ball 2"));
+    assert_eq!(document.free_name("objects", "ball"), "ball 3");
+    assert_eq!(document.free_name("objects", "ball 2"), "ball 3");
+    assert_eq!(document.free_name("materials", "gold"), "gold 2");
+}
+
+/// Shapes of all kinds, moved by edits as by the map.
+#[test]
+fn objects_are_transformed_as_their_points_are() {
+    let rotation = Transform::Rotate(Rotation { axis: DVec3::new(1.0, 2.0, 0.5), degrees: 33.0 });
+    let changes = [
+        Transform::Translate(DVec3::new(0.5, -0.25, 1.0)),
+        Transform::Scale(DVec3::splat(1.5)),
+        rotation.clone(),
+        Transform::Scale(DVec3::new(0.5, 2.0, 1.25)),
+        rotation,
+        Transform::Translate(DVec3::new(0.0, 1.0, 0.0)),
+    ];
+    let pivot = DVec3::new(0.2, 0.3, -0.1);
+    for kind in ShapeKind::alternatives() {
+        let placement = Placement { at: DVec3::ZERO, normal: DVec3::Y, scene_size: 5.0 };
+        let mut document = room();
+        let (edit, _) = document.add_shape(kind.name(), &placement, None).expect("there is such a kind");
+        does(&mut document, &edit);
+        for change in &changes {
+            let shapes = |document: &Document| -> Vec<crate::geometry::Shape> {
+                let scene = compiled(document);
+                let name = name_of(document);
+                let of_name = |object: &crate::scene::Object| object.name.starts_with(&name);
+                scene.objects.iter().filter(|object| of_name(object)).map(|object| object.shape.clone()).collect()
+            };
+            let map = crate::shape::product(&[Transform::Translate(-pivot), change.clone(), Transform::Translate(pivot)]);
+            let map = map.expect("it can be inverted");
+            let expected: Vec<_> = shapes(&document).iter().map(|shape| shape.transformed(&map)).collect();
+            let edit = document.transformed(3, change, pivot).expect("there is such an object");
+            does(&mut document, &edit);
+            for (expected, found) in expected.iter().zip(shapes(&document)) {
+                let ([a, b], [c, d]) = (expected.corners(), found.corners());
+                let off = a.distance(c).max(b.distance(d));
+                let is_field = matches!(kind, ShapeKind::SphereField(_));
+                assert!(off < if is_field { 1e-6 } else { 1e-9 }, "{} {change:?}: {a} {b}, {c} {d}", kind.name());
+            }
+        }
+        let transforms = document.description().objects[3].transform.len();
+        assert!(transforms <= 6, "{}: {transforms}", kind.name());
+    }
+}
+
+#[test]
+fn turning_by_the_mouse_makes_one_transform() {
+    let mut document = room();
+    for degrees in [10.0, 5.0, -2.0] {
+        let turn = Transform::Rotate(Rotation { axis: DVec3::Y, degrees });
+        let edit = document.transformed(1, &turn, DVec3::new(0.0, 0.5, 0.0)).expect("there is such an object");
+        does(&mut document, &edit);
+    }
+    let [Transform::Rotate(turn)] = &document.description().objects[1].transform[..] else { panic!("it is one rotation") };
+    assert_eq!(turn.degrees, 13.0);
+}
+
+#[test]
+fn objects_are_dropped_to_what_is_below() {
+    let mut document = room();
+    let lift = |by: f64| Transform::Translate(DVec3::Y * by);
+    for by in [0.75, -0.2] {
+        let edit = document.transformed(1, &lift(by), DVec3::ZERO).expect("there is such an object");
+        does(&mut document, &edit);
+        let edit = document.drop_to_floor(&compiled(&document), 1).expect("the floor is below");
+        does(&mut document, &edit);
+        let [min, _] = extent(&document, "ball");
+        assert!(min.y.abs() < 1e-6, "{min}");
+    }
+    // A lamp falls onto the ball.
+    let edit = document.drop_to_floor(&compiled(&document), 2).expect("the ball is below");
+    does(&mut document, &edit);
+    let [min, _] = extent(&document, "lamp");
+    assert!((min.y - 1.0).abs() < 0.01, "{min}");
+    // Below the floor is nothing.
+    assert!(document.drop_to_floor(&compiled(&document), 0).is_none());
+}
