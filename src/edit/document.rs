@@ -1,12 +1,7 @@
 //! A scene as it is edited.
 use std::path::{Path as FilePath, PathBuf};
 
-use super::{
-    Edit,
-    content::{Base, Content},
-    save,
-    tree::Tree,
-};
+use super::{content::Content, edit::Edit, save, tree::Tree};
 use crate::{
     declare::{OwnedValue, Path, Problem},
     file::{WriteError, replace},
@@ -146,12 +141,5 @@ pub fn read(name: &str, text: &str) -> Result<Content, SceneError> {
             let message = format!("`{}`: {}", problem.path, problem.message);
             Err(SceneError::of_file(FilePath::new(name), message, problem.label))
         }
-    }
-}
-
-impl Base {
-    /// Whether a description is that of the file, bit for bit.
-    pub fn is(&self, description: &SceneDescription) -> bool {
-        Tree::of(&mut self.description.clone()).is_identical(&Tree::of(&mut description.clone()))
     }
 }

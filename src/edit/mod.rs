@@ -54,8 +54,8 @@
 //!
 //! | file | holds |
 //! |---|---|
-//! | `document.rs`, `content.rs` | the document, and how single edits change it |
-//! | `edit.rs` | what can be done |
+//! | `document.rs`, `content.rs` | the document, and what it holds |
+//! | `edit.rs`, `apply.rs` | what can be done; doing it |
 //! | `tree.rs`, `walk.rs` | a part of a description, taken down; the way of a visitor to a path |
 //! | `set.rs`, `put.rs`, `take.rs`, `choose.rs` | the visitors that change a description |
 //! | `check.rs`, `references.rs` | what the reader would refuse; names in use |
@@ -66,6 +66,7 @@
 //! | `trial.rs` | random scenes, written and read |
 //! | `recovery.rs`, `templates.rs` | what survives a crash; scenes to begin with |
 mod add;
+mod apply;
 mod check;
 mod choose;
 mod content;

@@ -5,6 +5,7 @@
 mod dice;
 mod families;
 mod figures;
+mod saving;
 mod statements;
 mod surfaces;
 #[cfg(test)]
@@ -74,14 +75,21 @@ impl Validation {
             sections.push(section);
             kept.extend(trials.iter().filter_map(Trial::kept));
         }
+        let section = saving::section(self.count(saving::PAIRS));
+        done(GROUPS.len() + 1, &section);
+        sections.push(section);
         (sections, kept)
     }
 
+    /// Of so many things those that this run tries.
+    fn count(&self, all: u32) -> u32 {
+        match self.effort {
+            Effort::Full => all,
+            Effort::Quick => all.div_ceil(QUICK),
+        }
+    }
+
     fn trials(&self, family: &'static Family) -> Vec<Trial> {
-        let count = match self.effort {
-            Effort::Full => family.scenes,
-            Effort::Quick => family.scenes.div_ceil(QUICK),
-        };
         let settings = |settings: RenderSettings| RenderSettings {
             #[cfg(test)]
             fault: self.fault,
@@ -94,6 +102,6 @@ impl Validation {
             let outcome = trial::run(&text, &trial_scene, settings);
             Trial { family, name, text, trial_scene, outcome }
         };
-        (0..count).into_par_iter().map(trial).collect()
+        (0..self.count(family.scenes)).into_par_iter().map(trial).collect()
     }
 }
