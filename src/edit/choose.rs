@@ -28,7 +28,7 @@ pub fn choose(description: &mut dyn Declare, path: &Path, what: &str, name: &str
     chooser.outcome.unwrap_or(Outcome::NoChoice)
 }
 
-/// A place in the table, with an empty key for the table of the alternative: kinds keep their parameters in a table of their own name.
+/// A place in the table with the choice. Kinds keep their parameters in a table of their own name; its key is empty here.
 type Place = Vec<Step>;
 
 /// What the former alternative says at a place.
@@ -53,9 +53,12 @@ impl<'p> Within<'p> {
     }
 
     fn at(&self, key: &str) -> Place {
-        let key = if self.place.is_empty() && key == self.alternative { "" } else { key };
-        let step = Step::Key(key.to_owned());
-        self.place.iter().cloned().chain([step]).collect()
+        self.place.iter().cloned().chain([Step::Key(key.to_owned())]).collect()
+    }
+
+    /// Where the table at a key is.
+    fn table_at(&self, key: &str) -> Place {
+        self.at(if self.place.is_empty() && key == self.alternative { "" } else { key })
     }
 
     /// Called before the walk enters.
@@ -102,7 +105,7 @@ impl Parameters for Chooser<'_, '_> {
     }
 
     fn enter(&mut self, parameter: &Parameter, _: Form) {
-        let place = self.within.at(parameter.key);
+        let place = self.within.table_at(parameter.key);
         self.within.descend(place, |walk| walk.enter(parameter.key));
     }
 

@@ -46,6 +46,7 @@
 //! | add an object, a material, a texture, a transform | [`Edit::Insert`]; [`Document::add_shape`] places one |
 //! | duplicate an object, a material, a texture | [`Document::duplicate`] |
 //! | change a kind: `path` is the table with the key of the kind, `choice` the [`Choice::what`](crate::declare::Choice::what) | [`Edit::Choose`] |
+//! | the same with what has to change besides, such as the camera's angle | [`Document::change_kind`] |
 //! | rename a material or texture; what names it follows | [`Edit::Rename`] |
 //! | rename an object | [`Edit::Set`] of its `name` |
 //! | assign a material; `None` is black | [`Document::assign`] |
@@ -61,6 +62,7 @@
 //! | `check.rs`, `references.rs` | what the reader would refuse; names in use |
 //! | `history.rs` | undo and redo |
 //! | `origin.rs`, `save/` | what stands for which part of the file; writing it |
+//! | `kind.rs` | changes of kind that need more than the choice |
 //! | `names.rs`, `add.rs`, `pose.rs`, `rest.rs` | free names; new shapes and lamps; moving objects; dropping them to the floor |
 //! | `outside.rs` | files that were changed outside |
 //! | `trial.rs` | random scenes, written and read |
@@ -73,6 +75,7 @@ mod content;
 mod document;
 mod edit;
 mod history;
+mod kind;
 mod names;
 mod origin;
 mod outside;

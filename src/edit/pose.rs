@@ -10,6 +10,8 @@ use crate::{
 
 /// Axes whose directions differ by less are the same.
 const SAME_AXIS: f64 = 1e-9;
+/// Of the distance of the pivot: translations that are smaller come from rounding.
+const ROUNDING: f64 = 1e-12;
 
 impl Document {
     /// The edit that transforms an object in world space, turning and scaling about a pivot. It changes the numbers that a person would
@@ -27,7 +29,7 @@ impl Document {
                 let set = |(key, value): (&str, OwnedValue)| Edit::set(at.join(&Path::of(key)), value);
                 Edit::All(points.into_iter().map(set).collect())
             }
-            None => list(described, &at.key("transform"), change, &map),
+            None => list(described, &at.key("transform"), change, &map, ROUNDING * pivot.length()),
         })
     }
 }
@@ -67,7 +69,7 @@ fn points(shape: &ShapeKind, change: &Transform, map: &DAffine3) -> Option<Vec<(
 }
 
 /// The edit of a list of transforms: turning and scaling come before the last translation.
-fn list(object: &ObjectDescription, at: &Path, change: &Transform, map: &DAffine3) -> Edit {
+fn list(object: &ObjectDescription, at: &Path, change: &Transform, map: &DAffine3, rounding: f64) -> Edit {
     let (before, translation) = match object.transform.split_last() {
         Some((Transform::Translate(by), before)) => (before, Some(*by)),
         _ => (&object.transform[..], None),
@@ -87,7 +89,7 @@ fn list(object: &ObjectDescription, at: &Path, change: &Transform, map: &DAffine
     let moved = map.transform_point3(translation.unwrap_or(DVec3::ZERO));
     match translation {
         Some(_) => edits.push(Edit::set(at.item(count).key("translate"), OwnedValue::Vector(moved))),
-        None if moved != DVec3::ZERO => {
+        None if moved.length() > rounding => {
             edits.push(Edit::insert_tree(at.item(count), Tree::of(&mut Transform::Translate(moved))));
         }
         None => {}

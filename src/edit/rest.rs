@@ -15,7 +15,7 @@ use crate::{
 const PLACES: [f64; 5] = [0.01, 0.25, 0.5, 0.75, 0.99];
 /// Surfaces of the object itself that a ray passes.
 const MOST_PASSED: usize = 64;
-/// Behind a surface a ray goes on at this part of its way.
+/// Of the size of the object: so far behind its surfaces rays go on.
 const STEP: f64 = 1e-5;
 
 impl Document {
@@ -28,7 +28,8 @@ impl Document {
         let [min, max] = corners.reduce(|[a, b], [c, d]| [a.min(c), b.max(d)])?;
         let places = PLACES.into_iter().flat_map(|x| PLACES.map(|z| DVec3::new(x, 0.5, z)));
         let starts = places.map(|place| min + (max - min) * place);
-        let floor = starts.filter_map(|start| surface_below(scene, start, &own)).max_by(f64::total_cmp)?;
+        let step = STEP * (max - min).max_element();
+        let floor = starts.filter_map(|start| surface_below(scene, start, step, &own)).max_by(f64::total_cmp)?;
         let by = floor - min.y;
         (by != 0.0).then(|| self.transformed(object, &Transform::Translate(DVec3::Y * by), DVec3::ZERO)).flatten()
     }
@@ -50,7 +51,7 @@ fn compiled(description: &SceneDescription, object: usize) -> Option<Range<usize
 }
 
 /// The height of the first surface below a point that belongs to none of these objects, as things are at time 0.
-fn surface_below(scene: &Scene, start: DVec3, own: &Range<usize>) -> Option<f64> {
+fn surface_below(scene: &Scene, start: DVec3, step: f64, own: &Range<usize>) -> Option<f64> {
     let mut p = start;
     for _ in 0..MOST_PASSED {
         let [o, d] = [p, DVec3::NEG_Y].map(|v| V::splat(One, v.as_vec3().to_array()));
@@ -62,7 +63,7 @@ fn surface_below(scene: &Scene, start: DVec3, own: &Range<usize>) -> Option<f64>
         if !own.contains(&(scene.owners[nearest.primitive.0 as usize] as usize)) {
             return Some(p.y - distance);
         }
-        p.y -= distance * (1.0 + STEP) + STEP * start.distance(p).max(p.y.abs() * STEP);
+        p.y -= distance + step;
     }
     None
 }

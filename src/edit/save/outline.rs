@@ -168,7 +168,7 @@ impl Parameters for Outliner {
         if frame.form == Some(Form::NameOrTable) {
             frame.table.name = Some(chosen.name);
             frame.is_needed |= place != now;
-        } else if place != now {
+        } else if place != now && !chosen.outline.iter().any(|entry| entry.parameter.is_required) {
             frame.needed_keys.extend(chosen.outline.iter().map(|entry| entry.parameter.key));
         }
         place

@@ -127,6 +127,31 @@ fn another_kind_keeps_the_parameters_that_both_have() {
 }
 
 #[test]
+fn values_under_other_keys_are_not_kept() {
+    let mut document = room();
+    does(&mut document, &Edit::insert(path("objects.1.transform.0")));
+    does(&mut document, &Edit::set(path("objects.1.transform.0.translate"), OwnedValue::Vector(glam::DVec3::Y)));
+    does(&mut document, &Edit::choose(path("objects.1.transform.0"), "transform", "scale"));
+    assert_eq!(document.description().objects[1].transform, [Transform::Scale(glam::DVec3::ONE)]);
+}
+
+#[test]
+fn a_change_of_kind_takes_along_what_depends_on_it() {
+    let change = |at: &str, choice: &str, name: &str| room().change_kind(&path(at), choice, name);
+    there_and_back(&change("camera.projection", "projection", "orthographic"), |scene| assert_eq!(scene.camera.fov, None));
+    let mut document = room();
+    does(&mut document, &change("camera.projection", "projection", "orthographic"));
+    let back = document.change_kind(&path("camera.projection"), "projection", "perspective");
+    does(&mut document, &back);
+    assert_eq!(document.description().camera.fov, Some(40.0));
+    there_and_back(&change("objects.2.emission", "emission", "texture"), |scene| {
+        let emission = scene.objects[2].emission.as_ref().expect("it emits");
+        assert_eq!(emission.source, EmissionSource::Texture("tiles".to_owned()));
+    });
+    assert_eq!(change("objects.1.shape", "shape", "disk"), Edit::choose(path("objects.1.shape"), "shape", "disk"));
+}
+
+#[test]
 fn several_edits_are_all_done_or_none_is() {
     let made = [Edit::insert(path("materials.clay")), text("objects.0.material", "clay"), number("camera.fov", 50.0)];
     there_and_back(&Edit::All(made.to_vec()), |scene| assert_eq!(scene.objects[0].material.as_deref(), Some("clay")));

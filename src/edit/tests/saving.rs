@@ -2,12 +2,20 @@
 use super::*;
 use crate::{declare::Textured, scene::describe, shape::Transform};
 
-/// The lines of a text that another lacks, with a sign each.
+/// The lines that only one of two texts has, with a sign each; empty lines do not count.
 fn difference(before: &str, after: &str) -> Vec<String> {
-    let count = |text: &str, line: &str| text.lines().filter(|other| *other == line).count();
-    let gone = before.lines().filter(|line| count(before, line) > count(after, line)).map(|line| format!("- {line}"));
-    let new = after.lines().filter(|line| count(after, line) > count(before, line)).map(|line| format!("+ {line}"));
-    gone.chain(new).filter(|line| line.len() > 2).collect()
+    let only = |text: &str, other: &str, sign: &str| {
+        let mut others: Vec<&str> = other.lines().collect();
+        let is_own = |line: &&str| match others.iter().position(|other| other == line) {
+            Some(place) => {
+                others.swap_remove(place);
+                false
+            }
+            None => !line.is_empty(),
+        };
+        text.lines().filter(is_own).map(|line| format!("{sign} {line}")).collect::<Vec<_>>()
+    };
+    [only(before, after, "-"), only(after, before, "+")].concat()
 }
 
 /// The lines that edits change of a text, which then reads as what was edited.
