@@ -1,9 +1,9 @@
 //! Does single edits.
 use super::{
+    change::Edit,
     check::{check, in_use},
     choose::{Outcome, choose},
     content::Content,
-    edit::Edit,
     put::{insert, replace},
     references::references,
     set::{Failure, Found, set},

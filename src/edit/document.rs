@@ -1,7 +1,7 @@
 //! A scene as it is edited.
 use std::path::{Path as FilePath, PathBuf};
 
-use super::{content::Content, edit::Edit, save, tree::Tree};
+use super::{change::Edit, content::Content, save, tree::Tree};
 use crate::{
     declare::{OwnedValue, Path, Problem},
     file::{WriteError, replace},

@@ -1,5 +1,5 @@
 //! Changes of kind that need more than the choice.
-use super::{document::Document, edit::Edit};
+use super::{change::Edit, document::Document};
 use crate::declare::{OwnedValue, Path};
 
 impl Document {

@@ -56,7 +56,7 @@
 //! | file | holds |
 //! |---|---|
 //! | `document.rs`, `content.rs` | the document, and what it holds |
-//! | `edit.rs`, `apply.rs` | what can be done; doing it |
+//! | `change.rs`, `apply.rs` | what can be done; doing it |
 //! | `tree.rs`, `walk.rs` | a part of a description, taken down; the way of a visitor to a path |
 //! | `set.rs`, `put.rs`, `take.rs`, `choose.rs` | the visitors that change a description |
 //! | `check.rs`, `references.rs` | what the reader would refuse; names in use |
@@ -69,11 +69,11 @@
 //! | `recovery.rs`, `templates.rs` | what survives a crash; scenes to begin with |
 mod add;
 mod apply;
+mod change;
 mod check;
 mod choose;
 mod content;
 mod document;
-mod edit;
 mod history;
 mod kind;
 mod names;
@@ -99,9 +99,9 @@ mod walk;
 pub use self::trial::write_and_read;
 pub use self::{
     add::Placement,
+    change::Edit,
     content::Content,
     document::{Document, Version},
-    edit::Edit,
     history::{Gesture, History},
     origin::Origin,
     outside::Outside,

@@ -104,7 +104,7 @@ fn combined(first: &Transform, then: &Transform) -> Option<(&'static str, OwnedV
         (Transform::Rotate(first), Transform::Rotate(then)) => {
             let axes = [first.axis.try_normalize()?, then.axis.try_normalize()?];
             let is_same = axes[0].distance(axes[1]) < SAME_AXIS;
-            is_same.then(|| ("rotate.degrees", OwnedValue::Number(first.degrees + then.degrees)))
+            is_same.then_some(("rotate.degrees", OwnedValue::Number(first.degrees + then.degrees)))
         }
         _ => None,
     }

@@ -48,7 +48,7 @@ impl Update<'_> {
 /// A new table, written as those beside it are.
 fn in_style_of(tables: &dyn TableLike, table: &Table) -> Item {
     let headers = tables.iter().filter_map(|(_, item)| item.as_table()).filter(|table| !table.is_dotted());
-    let has_lines = tables.iter().any(|(_, item)| item.is_value() || item.as_table().is_some_and(|table| table.is_dotted()));
+    let has_lines = tables.iter().any(|(_, item)| item.is_value() || item.as_table().is_some_and(toml_edit::Table::is_dotted));
     let last = headers.last();
     if last.is_none() && has_lines {
         return Item::Value(written_table(table));

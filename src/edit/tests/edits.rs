@@ -66,7 +66,7 @@ fn what_is_absent_on_the_way_appears_and_goes_again() {
 #[test]
 fn objects_and_transforms_come_go_and_move() {
     there_and_back(&Edit::insert(path("objects.1")), |scene| {
-        assert_eq!((scene.objects.len(), &*scene.objects[2].name), (4, "ball"))
+        assert_eq!((scene.objects.len(), &*scene.objects[2].name), (4, "ball"));
     });
     there_and_back(&Edit::remove(path("objects.1")), |scene| {
         assert_eq!(scene.objects.iter().map(|object| &*object.name).collect::<Vec<_>>(), ["floor", "lamp"]);
@@ -104,7 +104,7 @@ fn materials_come_go_and_are_renamed_with_what_names_them() {
         assert!(scene.objects.iter().all(|object| object.material.as_deref() == Some("white")));
     });
     there_and_back(&room().assign(&[0, 1, 2], None), |scene| {
-        assert!(scene.objects.iter().all(|object| object.material.is_none()))
+        assert!(scene.objects.iter().all(|object| object.material.is_none()));
     });
 }
 

@@ -85,7 +85,7 @@ fn colours_keep_their_form() {
 #[test]
 fn what_is_new_stands_where_a_person_looks_for_it() {
     let lens = number("camera.lens.radius", 0.1);
-    assert_eq!(changed(&[lens.clone()]), ["+ lens = { radius = 0.1, focus = 4.0 }"]);
+    assert_eq!(changed(std::slice::from_ref(&lens)), ["+ lens = { radius = 0.1, focus = 4.0 }"]);
     let mut document = room();
     does(&mut document, &lens);
     does(&mut document, &Edit::insert(path("objects.1.emission")));
@@ -182,7 +182,7 @@ fn lists_grow_and_shrink() {
         [line, "+ transform = [{ scale = 2.0 }, { translate = [0.0, 1.0, 0.0] }, { translate = [1.0, 0.0, 0.0] }]"]
     );
     let drop_first = Edit::remove(path("objects.1.transform.0"));
-    assert_eq!(changed_of(&turned, &[drop_first.clone()]), [line, "+ transform = [{ translate = [0.0, 1.0, 0.0] }]"]);
+    assert_eq!(changed_of(&turned, std::slice::from_ref(&drop_first)), [line, "+ transform = [{ translate = [0.0, 1.0, 0.0] }]"]);
     assert_eq!(changed_of(&turned, &[drop_first.clone(), drop_first]), [line]);
     let lines = turned.replace("[{ scale = 2.0 }, {", "[\n  { scale = 2.0 }, # twice\n  {");
     let lift = Edit::insert(path("objects.1.transform.2"));
