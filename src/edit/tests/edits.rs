@@ -2,11 +2,12 @@
 use super::*;
 use crate::{
     declare::Textured,
-    material::Material,
-    scene::{
-        describe,
-        description::{BackgroundDescription, EmissionSource},
+    light::{
+        background::constant::Constant,
+        emission::{radiance::Radiance, texture::Texture},
     },
+    material::Material,
+    scene::{describe, description::EmissionSource},
     shape::{ShapeKind, Transform},
 };
 
@@ -52,12 +53,12 @@ fn what_is_absent_on_the_way_appears_and_goes_again() {
         assert_eq!(scene.render.settings.max_bounces, Some(5));
     });
     there_and_back(&Edit::set(path("background.radiance"), OwnedValue::Colour([0.5; 3])), |scene| {
-        assert_eq!(scene.background, Some(BackgroundDescription::Radiance([0.5; 3])));
+        assert_eq!(scene.background, Some(Constant { radiance: [0.5; 3] }.into()));
     });
     there_and_back(&Edit::insert(path("objects.1.emission")), |scene| {
         assert_eq!(
             scene.objects[1].emission.as_ref().map(|emission| &emission.source),
-            Some(&EmissionSource::Radiance([1.0; 3]))
+            Some(&EmissionSource::from(Radiance { radiance: [1.0; 3] }))
         );
     });
     there_and_back(&Edit::remove(path("objects.2.emission")), |scene| assert_eq!(scene.objects[2].emission, None));
@@ -146,7 +147,7 @@ fn a_change_of_kind_takes_along_what_depends_on_it() {
     assert_eq!(document.description().camera.fov, Some(40.0));
     there_and_back(&change("objects.2.emission", "emission", "texture"), |scene| {
         let emission = scene.objects[2].emission.as_ref().expect("it emits");
-        assert_eq!(emission.source, EmissionSource::Texture("tiles".to_owned()));
+        assert_eq!(emission.source, Texture { name: "tiles".to_owned() }.into());
     });
     assert_eq!(change("objects.1.shape", "shape", "disk"), Edit::choose(path("objects.1.shape"), "shape", "disk"));
 }
@@ -164,7 +165,7 @@ fn several_edits_are_all_done_or_none_is() {
     let both = Edit::All(vec![choose, text("objects.2.emission.texture", "tiles")]);
     there_and_back(&both, |scene| {
         let emission = scene.objects[2].emission.as_ref().expect("it emits");
-        assert_eq!(emission.source, EmissionSource::Texture("tiles".to_owned()));
+        assert_eq!(emission.source, Texture { name: "tiles".to_owned() }.into());
     });
 }
 
