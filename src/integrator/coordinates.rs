@@ -30,7 +30,7 @@ impl<L: Lanes> ReflectionCoordinates<L> {
         ReflectionCoordinates {
             direction: stream.two(Dimension::direction(reflection)),
             lobe: if several_lobes { stream.one(Dimension::lobe(reflection)) } else { unused },
-            roulette: if work.settings.roulette.is_played(reflection) {
+            roulette: if work.settings.roulette.plays_at(reflection) {
                 stream.one(Dimension::roulette(reflection))
             } else {
                 unused

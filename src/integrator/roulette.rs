@@ -16,7 +16,7 @@ pub(super) struct Survival<L: Lanes> {
 }
 
 /// Plays Russian roulette after the `reflection`-th reflection with the random number `u`, which is read if roulette
-/// [is played](Roulette::is_played). Roulette by throughput uses the throughput times `scale`.
+/// [is played](Roulette::plays_at). Roulette by throughput uses the throughput times `scale`.
 #[inline(always)]
 pub(super) fn survive<L: Lanes>(
     l: L,
@@ -26,7 +26,7 @@ pub(super) fn survive<L: Lanes>(
     throughput: V<L>,
     scale: F<L>,
 ) -> Survival<L> {
-    if !roulette.is_played(reflection) {
+    if !roulette.plays_at(reflection) {
         // Below the normal numbers an albedo above 1/2 rounds the throughput back to what it was: such a path would never end.
         return Survival { alive: throughput.max_component().above(f32::MIN_POSITIVE), throughput, probability: l.f(1.0) };
     }

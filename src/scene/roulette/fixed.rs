@@ -45,7 +45,7 @@ impl Declare for Fixed {
 
 impl Survival for Fixed {
     #[inline(always)]
-    fn is_played(self, _: u32) -> bool {
+    fn plays_at(self, _: u32) -> bool {
         self.survival < 1.0
     }
 

@@ -28,11 +28,11 @@ impl Roulette {
 
     /// Whether roulette is played after the `reflection`-th reflection. Elsewhere every path goes on that carries anything.
     #[inline(always)]
-    pub fn is_played(self, reflection: u32) -> bool {
-        in_roulette!(self, roulette => roulette.is_played(reflection))
+    pub fn plays_at(self, reflection: u32) -> bool {
+        in_roulette!(self, roulette => roulette.plays_at(reflection))
     }
 
-    /// The probability of survival where roulette [is played](Roulette::is_played). Roulette by throughput uses the throughput times
+    /// The probability of survival where roulette [is played](Roulette::plays_at). Roulette by throughput uses the throughput times
     /// `scale`.
     #[inline(always)]
     pub fn probability<L: Lanes>(self, l: L, throughput: V<L>, scale: F<L>) -> F<L> {
@@ -79,8 +79,8 @@ impl Roulette {
 
 /// A kind of roulette.
 trait Survival: Kind {
-    /// See [`Roulette::is_played`].
-    fn is_played(self, reflection: u32) -> bool;
+    /// See [`Roulette::plays_at`].
+    fn plays_at(self, reflection: u32) -> bool;
 
     /// See [`Roulette::probability`].
     fn probability<L: Lanes>(self, l: L, throughput: V<L>, scale: F<L>) -> F<L>;

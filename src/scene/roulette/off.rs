@@ -21,7 +21,7 @@ impl Declare for Off {
 
 impl Survival for Off {
     #[inline(always)]
-    fn is_played(self, _: u32) -> bool {
+    fn plays_at(self, _: u32) -> bool {
         false
     }
 

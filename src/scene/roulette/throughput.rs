@@ -51,7 +51,7 @@ impl Declare for Throughput {
 
 impl Survival for Throughput {
     #[inline(always)]
-    fn is_played(self, reflection: u32) -> bool {
+    fn plays_at(self, reflection: u32) -> bool {
         reflection >= self.start
     }
 
