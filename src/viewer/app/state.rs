@@ -10,7 +10,7 @@ use crate::viewer::background::{
 };
 use crate::viewer::instruments::{convergence::history::History as ErrorHistory, path::inspector::PathInspector};
 use crate::viewer::panels::frame_times::FrameTimes;
-use crate::viewer::widgets::palette::set_themes;
+use crate::viewer::widgets::palette::{set_fonts, set_themes};
 
 pub struct App {
     pub ctx: egui::Context,
@@ -44,6 +44,7 @@ pub struct Background {
 
 impl App {
     pub fn new(ctx: &egui::Context, threads: Threads, scene: Option<PathBuf>, preferences: Preferences) -> App {
+        set_fonts(ctx);
         set_themes(ctx, preferences.now.theme.as_deref());
         let session = Session::new(threads.count());
         let mut background = Background {

@@ -106,9 +106,10 @@ impl Toolbar<'_> {
 
     fn undo_buttons(&self, ui: &mut Ui) -> Option<Command> {
         let mut command = None;
-        let buttons = [("Undo", "Ctrl+Z", Command::Undo), ("Redo", "Ctrl+Shift+Z", Command::Redo)];
-        for ((name, keys, asked), what) in buttons.into_iter().zip(self.undo) {
-            let button = ui.add_enabled(what.is_some(), Button::new(name));
+        let buttons = [("↶", "Undo", "Ctrl+Z", Command::Undo), ("↷", "Redo", "Ctrl+Shift+Z", Command::Redo)];
+        for ((sign, name, keys, asked), what) in buttons.into_iter().zip(self.undo) {
+            let button = ui.add_enabled(what.is_some(), Button::new(sign));
+            button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, what.is_some(), name));
             let doc =
                 what.map_or_else(|| format!("Nothing to {}", name.to_lowercase()), |what| format!("{name}: {what} ({keys})"));
             if button.on_hover_text(&doc).on_disabled_hover_text(&doc).clicked() {

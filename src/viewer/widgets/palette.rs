@@ -38,6 +38,15 @@ impl Palette for egui::Visuals {
     }
 }
 
+/// Adds the letters of the monospaced font to the proportional one, which has no arrows.
+pub fn set_fonts(ctx: &egui::Context) {
+    let mut fonts = egui::FontDefinitions::default();
+    let monospace = fonts.families.get(&egui::FontFamily::Monospace).cloned().unwrap_or_default();
+    let proportional = fonts.families.entry(egui::FontFamily::Proportional).or_default();
+    proportional.extend(monospace.into_iter().filter(|name| name == "Hack"));
+    ctx.set_fonts(fonts);
+}
+
 /// Sets both themes, with faint colours made legible, and selects one.
 pub fn set_themes(ctx: &egui::Context, chosen: Option<&str>) {
     ctx.set_theme(match chosen {
