@@ -47,7 +47,7 @@ const TOOLS: [(Tool, &str, &str); 4] = [
 
 impl Toolbar<'_> {
     pub fn show(&self, ui: &mut Ui) -> Option<Command> {
-        const WHOLE: f32 = 930.0;
+        const WHOLE: f32 = 860.0;
         const OF_REGION: f32 = 56.0;
         const OF_ENDS: f32 = 104.0;
         let needed = WHOLE + if self.has_region { OF_REGION } else { 0.0 };
@@ -55,7 +55,7 @@ impl Toolbar<'_> {
         let contents = |ui: &mut Ui| {
             let mut command = None;
             let mut asks = |asked: Option<Command>| command = asked.or(command);
-            ui.spacing_mut().button_padding = egui::vec2(6.0, 4.0);
+            (ui.spacing_mut().button_padding, ui.spacing_mut().item_spacing.x) = (egui::vec2(6.0, 4.0), 6.0);
             asks(self.render_buttons(ui));
             ui.separator();
             asks(self.undo_buttons(ui));
@@ -136,7 +136,7 @@ impl Toolbar<'_> {
 
 fn zoom_buttons(ui: &mut Ui, zoom: f32) -> Option<Command> {
     let fits = ui.button("Fit").on_hover_text("Fits the image to the window. (F, double-click)").clicked();
-    let is_actual = ui.button("1:1").on_hover_text("Shows one image pixel per screen pixel. (1)").clicked();
-    ui.weak(format!("{:.0} %", 100.0 * zoom)).on_hover_text("Screen pixels per image pixel");
+    let doc = format!("Shows one image pixel per screen pixel. (1) Now it is {:.0} %.", 100.0 * zoom);
+    let is_actual = ui.button("1:1").on_hover_text(doc).clicked();
     fits.then_some(Command::Fit).or(is_actual.then_some(Command::ActualSize))
 }

@@ -48,7 +48,7 @@ fn a_click_on_side_b_shows_the_samples_of_b() {
     window.state_mut().window.tool = Tool::Inspect;
     window.run_steps(3);
     let samples_of = |window: &mut Window, x: f32, side: &str| {
-        click_at(window, Pos2::new(x, 400.0));
+        click_at(window, Pos2::new(x, 500.0));
         assert_eq!(window.state().window.tab, Some(InstrumentTab::Path));
         wait(window, "its samples", |app| {
             app.instruments.path.samples().is_some_and(|samples| samples.len() >= 2) && app.instruments.path.replay().is_some()

@@ -28,6 +28,7 @@ fn settings_that_are_undone_come_back_with_their_samples() {
     let first = window.state().results.shown.clone().expect("it is shown");
     restarts(&mut window, "a stray click", |w| click(w, "Light"));
     rendered(&mut window, 41);
+    window.state_mut().session.budget.max_spp = Some(40);
     restarts(&mut window, "the way back", undo);
     assert_eq!(window.state().session.settings.estimator, Estimator::Mis);
     wait(&mut window, "the samples as they were", |app| app.results.shown.as_ref().is_some_and(|frame| frame.spp == 40));
