@@ -233,7 +233,7 @@ mod tests {
         assert_eq!(bounce_cap("0").map(|cap| cap.0), Ok(Some(0)));
         assert_eq!(floor("0.02"), Ok(Floor::Absolute(0.02)));
         assert_eq!(word::<Sampler>("stratified"), Ok(Sampler::Stratified));
-        let sizes = ["4G", "500M", "1.5gb", "64 kB", "1000000", "2T"].map(memory);
+        let sizes = ["4G", "500M", "1.5gb", "64 kB", "1000000", " 2T "].map(memory);
         assert_eq!(sizes, [4_000_000_000, 500_000_000, 1_500_000_000, 64_000, 1_000_000, 2_000_000_000_000].map(Ok));
         assert!(["", "0", "-1G", "nan", "inf", "G", "4X", "1e30", "4 G B"].iter().all(|text| memory(text).is_err()));
     }

@@ -87,3 +87,29 @@ impl Parameters for Dice<'_> {
         (0..self.random.random_range(0..4)).map(|number| format!("name {number}")).collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use rand::{SeedableRng, rngs::SmallRng};
+
+    use super::{super::CountRange, *};
+
+    const COUNT: Parameter = Parameter::new("count", "A count.");
+
+    /// Scenes are drawn with them, and must stay small.
+    #[test]
+    fn counts_are_within_their_range_and_few() {
+        for (least, most, largest) in [(0, u32::MAX, 40), (18, 50_000_000, 58), (2, 5, 5), (u32::MAX - 1, u32::MAX, u32::MAX)] {
+            let mut random = SmallRng::seed_from_u64(u64::from(least));
+            let mut dice = Dice::new(&mut random);
+            let drawn: Vec<u32> = (0..1000)
+                .map(|_| {
+                    let mut count = 0;
+                    dice.value(&COUNT, Value::Count(&mut count, CountRange::new(least, most)));
+                    count
+                })
+                .collect();
+            assert_eq!((drawn.iter().min(), drawn.iter().max()), (Some(&least), Some(&largest)));
+        }
+    }
+}

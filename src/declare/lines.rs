@@ -39,3 +39,25 @@ impl Parameters for Lines {
 fn colour([r, g, b]: &[f64; 3]) -> String {
     if r == g && g == b { short(*r) } else { format!("{} {} {}", short(*r), short(*g), short(*b)) }
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::{super::CountRange, *};
+
+    #[test]
+    fn values_keep_the_order_of_their_parts() {
+        const SHUTTER: Parameter = Parameter::new("open_time", "When it is open.").symbol("t").unit("s");
+        let line = |value: Value<'_>| lines_of(|p| p.value(&SHUTTER, value));
+        for (value, text) in [
+            (Value::Pair(&mut [0.25, 1.5]), "0.25 1.5"),
+            (Value::Counts(&mut [3, 4]), "3 4"),
+            (Value::Point(&mut DVec3::new(1.0, 2.0, 3.0)), "1 2 3"),
+            (Value::Count(&mut 7, CountRange::ANY), "7"),
+            (Value::Flag(&mut true), "yes"),
+        ] {
+            assert_eq!(line(value), [format!("open time t: {text} s")]);
+        }
+    }
+}

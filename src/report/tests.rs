@@ -188,3 +188,12 @@ fn axes_have_their_own_titles_and_scales() {
     let ratio = |axis: usize| (dots[2][axis] - dots[1][axis]) / (dots[1][axis] - dots[0][axis]);
     assert!((ratio(0) - 1.0).abs() < 0.05 && (ratio(1) - 2.0).abs() < 0.05, "{dots:?}");
 }
+
+/// Even two of them: places at even distances of the logarithm would be odd numbers.
+#[test]
+fn labels_of_a_logarithmic_axis_are_round_numbers() {
+    let points = vec![(4.5, 4.5), (11.0, 11.0)];
+    let svg = svg(BESIDE, Axis::log("x"), Axis::log("y"), &[curve("c", Style::Points, points)]);
+    let labels: Vec<String> = texts(&svg).into_iter().filter(|text| text.parse::<f64>().is_ok()).collect();
+    assert!(labels.len() == 4 && labels.iter().all(|label| label == "5" || label == "10"), "{labels:?}");
+}

@@ -80,4 +80,16 @@ mod tests {
             }
         }
     }
+
+    #[test]
+    fn lobes_lie_around_the_mirrored_and_the_refracted_direction() {
+        let wo = DVec3::new(0.48, -0.36, 0.8);
+        for eta in [1.5, 1.0 / 1.5] {
+            let axes: Vec<DVec3> = Cells::of_lobes(wo, 0.1, Some(eta), 1).iter().map(|cells| cells.frame.z_axis).collect();
+            assert_eq!(axes[0], DVec3::new(-0.48, 0.36, 0.8));
+            // Snell: across the normal, the direction times the index stays.
+            let refracted = axes[1] * eta;
+            assert!((refracted + wo).truncate().length() < 1e-12 && refracted.z < 0.0, "{eta}: {refracted}");
+        }
+    }
 }

@@ -191,6 +191,8 @@ mod tests {
         let off = |part: f64| -> Vec<f64> { (0..101).map(|i| 1000.0 * (1.0 + if i % 2 == 0 { part } else { -part })).collect() };
         let statement = Statement::chi_squared("counts", &expected, &expected);
         assert!(statement.holds && statement.exact == Some(100.0));
+        // The variance of χ² is twice its degrees of freedom.
+        assert!((statement.error - 200.0f64.sqrt()).abs() < 1e-12, "{}", statement.error);
         // χ² of 100 degrees of freedom exceeds 161.3 with the probability 10⁻⁴.
         assert!(Statement::chi_squared("counts", &off(0.039), &expected).holds);
         assert!(!Statement::chi_squared("counts", &off(0.041), &expected).holds);

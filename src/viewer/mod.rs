@@ -49,12 +49,8 @@ pub fn run(scene: Option<PathBuf>) -> Result<(), String> {
         let create = |cc: &eframe::CreationContext| -> Box<dyn eframe::App> {
             // There is a window: from here on a panic is ours, and is shown as usual.
             let _ = std::panic::take_hook();
-            let preferences = Preferences::of_user();
-            let is_first = !preferences.now.toured;
-            let mut app = App::new(&cc.egui_ctx, threads, scene, preferences);
-            if is_first {
-                app.start_tour();
-            }
+            let mut app = App::new(&cc.egui_ctx, threads, scene, Preferences::of_user());
+            app.welcome();
             Box::new(app)
         };
         eframe::run_native("Noisefall", options, Box::new(|cc| Ok(create(cc))))

@@ -82,3 +82,18 @@ fn hills(u: f32, v: f32, seed: u32) -> f32 {
     let plane = seed as f32 * 0.618 + 0.37;
     0.64 * (fraction(V::splat(One, [u, v, plane]), 4.0, 6).0 - 0.5)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_knot_has_about_as_many_triangles_as_it_says_and_eight_times_as_many_columns_as_rows() {
+        for (triangles, rows) in [(18, 3), (144, 3), (243, 4), (256, 4), (700, 7)] {
+            let data = torus_knot(triangles);
+            // The second vertex is the next one around the tube.
+            assert_eq!(data.uvs[1], [0.0, 1.0 / rows as f32], "{triangles}");
+            assert!(data.triangles.len() <= triangles && data.triangles.len() + 2 * rows > triangles, "{triangles}");
+        }
+    }
+}

@@ -70,3 +70,12 @@ fn a_vertex_without_a_surface_points_up() {
     let vertices = [[0.0, 0.0, 0.0], [1.0, 1.0, 1.0], [2.0, 2.0, 2.0], [9.0, 9.0, 9.0]];
     assert_eq!(smooth_normals(&vertices, &[[0, 1, 2], [0, 0, 1]]), [[0.0, 1.0, 0.0]; 4]);
 }
+
+/// Three normals at 120° whose sum is rounding: the vertices are those of f32.
+#[test]
+fn normals_that_cancel_but_for_rounding_are_replaced_by_the_first() {
+    let (half, high) = (-0.5, 0.75f32.sqrt());
+    let vertices = [[0.0, 0.0, 0.0], [0.0, 0.0, 1.0], [half, high, 0.0], [1.0, 0.0, 0.0], [half, -high, 0.0]];
+    let normals = smooth_normals(&vertices, &[[0, 1, 2], [0, 1, 3], [0, 1, 4]]);
+    assert_near(&normals[..1], &[[-high, half, 0.0]]);
+}

@@ -119,7 +119,7 @@ pub fn collect(
                 }
                 Progress::Done => {
                     done += 1;
-                    1.0 - FOR_RUNS - FOR_PICTURES + FOR_RUNS * f64::from(done.min(runs)) / f64::from(runs)
+                    share_after(done, runs)
                 }
                 Progress::Begun { .. } | Progress::Combination { .. } => return,
             };
@@ -131,6 +131,11 @@ pub fn collect(
     let pictures = pictures(bench, spp, plan.display)?;
     observe("pictures", 1.0);
     Ok(Chapter::new(&Exhibits { study_scene, findings: &findings, pictures, spp, repeats: REPEATS, machine }))
+}
+
+/// The fraction of the work that is done after so many runs; there may be more than were planned.
+fn share_after(done: u32, runs: u32) -> f64 {
+    1.0 - FOR_RUNS - FOR_PICTURES + FOR_RUNS * f64::from(done.min(runs)) / f64::from(runs)
 }
 
 /// Samples per pixel of the longest runs: that of the runs in the store, because timing may round to another power of two than
@@ -154,4 +159,16 @@ fn longest(bench: Bench, time: Duration) -> Result<u32, StudyError> {
     let per_sample = begun.elapsed().as_secs_f64() / f64::from(SAMPLES[1] - SAMPLES[0]);
     let samples = (time.as_secs_f64() / per_sample.max(1e-9)).clamp(f64::from(*SPP.start()), f64::from(*SPP.end()));
     Ok(1 << samples.log2().round() as u32)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn runs_take_the_share_between_the_reference_and_the_pictures() {
+        let [reference, half, all, more] = [0, 4, 8, 9].map(|done| share_after(done, 8));
+        assert!((reference - (1.0 - FOR_RUNS - FOR_PICTURES)).abs() < 1e-12 && (all - (1.0 - FOR_PICTURES)).abs() < 1e-12);
+        assert!((half - 0.5 * (reference + all)).abs() < 1e-12 && more == all);
+    }
 }

@@ -41,6 +41,13 @@ impl App {
         advice::show(ctx, adviser).into_iter().for_each(|settings| *self.session.edited() = settings);
     }
 
+    /// Starts the tour in the first window of a user.
+    pub fn welcome(&mut self) {
+        if !self.preferences.now.toured {
+            self.start_tour();
+        }
+    }
+
     pub fn start_tour(&mut self) {
         self.follow_tour(TourRequest::GoTo(0));
     }

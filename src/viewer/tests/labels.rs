@@ -3,7 +3,7 @@ use std::sync::Arc;
 
 use noisefall::{
     measure::LogRatio,
-    render::{Frame, Series},
+    render::{Frame, Series, pass::SampleId},
     scene::{RenderSettings, built_in},
 };
 
@@ -64,6 +64,15 @@ fn the_line_at_the_bottom_has_every_figure_in_its_unit() {
 }
 
 #[test]
+fn samples_that_are_no_numbers_and_paths_that_were_cut_are_counted() {
+    let mut app = app();
+    let status = &mut app.results.status;
+    (status.invalid_samples, status.first_invalid, status.cut_paths) = (3, Some(SampleId { pixel: [4, 5], sample: 6 }), 1);
+    let texts = said(&mut app, |app, ui| app.status_bar(ui));
+    assert_says(&texts, &["3 invalid samples", "paths cut after 4096 bounces"]);
+}
+
+#[test]
 fn a_pixel_has_its_own_estimate_and_samples() {
     let mut app = app();
     (app.results.shown, app.instruments.path.pixel) = (Some(frame()), Some([1, 0]));
@@ -79,6 +88,23 @@ fn a_bounce_says_what_it_brings_what_there_is_up_to_it_and_what_a_cap_loses() {
     app.session.bounces.k = 2;
     let texts = said(&mut app, |app, ui| app.instrument(ui, InstrumentTab::Bounces));
     assert_says(&texts, &["k = 2 brings 12.00 % of the light; up to k it is 82.00 %. A cap of 2 would lose 18.00 %."]);
+}
+
+#[test]
+fn every_bar_is_named_by_its_bounces_and_the_last_has_the_rest() {
+    let mut app = app();
+    let shares = std::iter::repeat_n(0.05, 20).collect();
+    let series = Some(Series { terms: Vec::new(), shares });
+    app.results.second_frame = Some(Arc::new(Frame { spp: 7, series, ..Frame::default() }));
+    let harness = Harness::builder().with_size(SIZE).build_ui(|ui| app.instrument(ui, InstrumentTab::Bounces));
+    let buttons = harness.root().children_recursive().filter(|node| node.accesskit_node().role() == Role::Button);
+    let bars: Vec<String> =
+        buttons.filter_map(|button| button.accesskit_node().label()).filter(|name| name.contains(" bounces: ")).collect();
+    assert_eq!(bars.len(), 17);
+    for (k, bar) in bars[..16].iter().enumerate() {
+        assert_eq!(*bar, format!("{k} bounces: 5.00 %"));
+    }
+    assert_eq!(bars[16], "16 and more bounces: 20.00 %");
 }
 
 #[test]
@@ -160,9 +186,11 @@ fn frame_times_are_those_of_layout_and_of_all() {
     let mut app = app();
     app.frame_times.shown = true;
     app.frame_times.record(Duration::from_millis(5), 0.0);
+    app.frame_times.record(Duration::from_millis(5), 0.25);
     app.frame_times.record_whole(Duration::from_millis(9));
     let texts = said(&mut app, |app, ui| app.frame_times.show(ui.ctx(), 1, 0));
     assert_says(&texts, &["layout      p50   5.00 ms   p99   5.00 ms", "and drawing p50   9.00 ms   p99   9.00 ms"]);
+    assert_says(&texts, &["last one 250 ms ago; none while nothing changes"]);
 }
 
 #[test]

@@ -49,3 +49,13 @@ fn good_news_go_away_and_errors_stay_until_they_are_closed() {
     (0..9).for_each(|number| window.state_mut().tell(format!("error {number}"), true));
     assert_eq!(texts(&window), ["error 5", "error 6", "error 7", "error 8"]);
 }
+
+#[test]
+fn only_who_has_not_seen_the_tour_is_welcomed_with_it() {
+    for toured in [false, true] {
+        let mut app = labels::app();
+        app.preferences.now.toured = toured;
+        app.welcome();
+        assert_eq!(app.dialogs.tour.is_some(), !toured);
+    }
+}
