@@ -150,3 +150,24 @@ impl<'a, L: Lanes> MissingEnergy<'a, L> {
         (self.alpha, (1.0 + self.alpha * self.alpha).sqrt())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::One;
+
+    /// In a table whose loss is the number of its level, every level's roughness finds that number.
+    #[test]
+    fn a_roughness_finds_its_level() {
+        let rows: Vec<[f32; 4]> = (0..LEVELS * LEVEL_ROWS).map(|row| [(row / LEVEL_ROWS) as f32; 4]).collect();
+        let [first, last] = [ALPHAS.start, ALPHAS.end].map(|alpha| f64::from(alpha).sqrt().sqrt());
+        for level in 0..LEVELS {
+            let alpha = (first + (last - first) * level as f64 / (LEVELS - 1) as f64).powi(4) as f32;
+            for outside in [true, false] {
+                let table = LossTable { rows: &rows, offset: U(0), textured: M(true) };
+                let loss = MissingEnergy::new(One, F(alpha), M(outside), table).loss(F(0.5), M(false));
+                assert!((loss.here.0 - level as f32).abs() < 1e-3, "{level}: {}", loss.here.0);
+            }
+        }
+    }
+}

@@ -127,6 +127,7 @@ fn roulette_by_throughput_can_be_said_as_on_the_command_line() {
 fn missing_keys_are_named() {
     refuses("fov = 40\n", "", "missing key `fov`");
     refuses("format = 1\n", "", "missing key `format`");
+    assert!(error(&GOOD.replace("fov = 40\n", "")).to_string().starts_with("missing key `fov`"));
     refuses(", radius = 1.0", "", "missing key `radius`");
     refuses("lambertian = { albedo = 0.8 }", "", "`white` has none of `lambertian`, `mirror`");
     refuses("emission = { radiance = [1.0, 2.0, 3.0] }", "emission = {}", "`emission` has none of `radiance`, `texture`");

@@ -172,6 +172,13 @@ fn text_that_is_not_toml_is_refused_with_its_position() {
 }
 
 #[test]
+fn a_colon_between_key_and_value_is_a_slip_and_one_in_a_time_is_not() {
+    let text = GOOD.replace("fov = 40", "fov: 40").replace("seed = 9", "seed = 07:32:00");
+    let report = error(&text).report();
+    assert!(report.matches("joined by `=`").count() == 1 && report.contains("test.toml:5:4"), "{report}");
+}
+
+#[test]
 fn files_that_are_no_scenes_are_refused_in_one_message() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = |name: &str| folder.path().join(name);

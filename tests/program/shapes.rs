@@ -93,6 +93,9 @@ fn invalid_isosurfaces_are_refused() {
     let text = GOOD.replacen(BALL, &iso("x^2 + y^2 + w", "1, 1, 1"), 1);
     let before = text.lines().nth(10).and_then(|line| line.find("w\"")).expect("the unknown name is there");
     assert_eq!(error(&text).line_column(), Some((11, before + 1)), "the name itself is pointed at");
+    let report = error(&GOOD.replacen(BALL, &iso("x^2 + y^2 + www", "1, 1, 1"), 1)).report();
+    let marks = report.lines().find(|line| line.contains('┬')).map(|line| line.chars().filter(|c| "─┬".contains(*c)).count());
+    assert_eq!(marks, Some(3), "the whole name and nothing else: {report}");
 }
 
 #[test]

@@ -216,4 +216,17 @@ mod tests {
         let nan = [(f64::NAN, f64::NAN), (f64::NAN, 1.0), (0.0, f64::NAN)].map(|(a, b)| relative_difference(a, b));
         assert!(nan.iter().all(|x| x.is_nan()) && largest([0.1, nan[0], 0.2]).is_nan(), "{nan:?}");
     }
+
+    /// A point of the unit ball at the distance r from the axis has the height √(1 − r²), which is the cosine.
+    #[test]
+    fn rings_have_the_mean_cosine_of_their_pixels() {
+        let place = |x: usize| (2.0 * x as f64 + 1.0) / SIDE as f64 - 1.0;
+        let height = |i: usize| (1.0 - place(i % SIDE).powi(2) - place(i / SIDE).powi(2)).max(0.0).sqrt();
+        let pixels = (0..SIDE * SIDE).map(|i| Mean { mean: height(i), variance_of_mean: 0.0 }).collect();
+        let rings = rings(&Picture { width: SIDE, pixels });
+        assert!(rings.len() > 6);
+        for (cos, found) in rings {
+            assert!((found.mean - cos).abs() < 1e-9, "{cos}: {}", found.mean);
+        }
+    }
 }

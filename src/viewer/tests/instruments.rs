@@ -92,6 +92,8 @@ fn a_comparison_starts_with_one_click_and_both_sides_converge() {
         window.state().window.view.wipe < line - 0.05 && window.state().window.view.zoom.is_none(),
         "the line moved, and not the picture"
     );
+    never_restarts(&mut window, |w| drag(w, PointerButton::Primary, [middle - 100.0, height], [middle + 100.0, height]));
+    assert!(window.state().window.view.wipe > line + 0.05, "and to the other side");
 
     // The menu of the toolbar comes first, that of the tab second.
     window.get_all_by_label("Compare with…").last().expect("it is there").click();
