@@ -1,7 +1,7 @@
 //! The random numbers that a path reads.
 use std::collections::BTreeMap;
 
-use super::{Batch, Work, trace};
+use super::{Batch, Work, replay, trace};
 use crate::{
     math::SimdLevel,
     sampling::{Dimension, readings::readings_of},
@@ -114,4 +114,21 @@ fn paths_without_roulette_end_by_themselves() {
             assert_eq!(batch.cut_paths, 0, "{albedo} {estimator:?}");
         }
     }
+}
+
+#[test]
+fn a_reflection_carries_the_throughput_of_the_next_vertex() {
+    let scene = scene();
+    let rays = scene.rays(&scene.camera);
+    let settings = RenderSettings { max_bounces: Some(6), reuse: Reuse::Off, ..RenderSettings::default() };
+    let mut pairs = 0;
+    for sample in 0..16 {
+        let replayed = replay(&scene, &rays, &settings, [0, 0], sample);
+        for pair in replayed.vertices.windows(2) {
+            let reflection = pair[0].reflection.as_ref().expect("the path goes on");
+            assert_eq!(reflection.throughput, pair[1].throughput, "sample {sample}, bounce {}", pair[1].bounce);
+            pairs += 1;
+        }
+    }
+    assert!(pairs >= 16, "{pairs}");
 }

@@ -45,7 +45,7 @@ impl App {
     }
 
     /// Puts an image on the screen, and records its figures.
-    fn take_image(&mut self, image: DisplayImage) {
+    pub fn take_image(&mut self, image: DisplayImage) {
         self.results.black = self.shows_nothing(image.lit);
         self.note_blackness(image.frame.generation);
         let (worker, history) = (&self.background.worker, &mut self.instruments.history);

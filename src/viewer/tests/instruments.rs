@@ -1,5 +1,10 @@
 //! The instruments: convergence, comparison, bounces, views, region, targets.
-use noisefall::render::view::View as Shown;
+use std::sync::Arc;
+
+use noisefall::{
+    render::{Frame, view::View as Shown},
+    scene::RenderSettings,
+};
 
 use super::*;
 use crate::viewer::background::display_image::render;
@@ -61,6 +66,20 @@ fn tabs_say_what_they_are_about() {
     assert!(window.query_by_label_contains("Dashed: 1/√time").is_some());
 }
 
+fn an_outdated_second_picture_is_not_recorded(app: &mut App, other: RenderSettings) {
+    let curve = |app: &App| {
+        let curve = app.instruments.history.curves.iter().find(|curve| curve.settings == other).expect("it has a curve");
+        (curve.generation, curve.moments.len())
+    };
+    let before = curve(app);
+    assert_eq!(before.0, app.background.worker.second_generation());
+    let frame = app.results.shown.clone().expect("a picture");
+    let mut image = render(app.display_request(frame));
+    image.second = Some(Arc::new(Frame { generation: before.0 - 1, spp: 1 << 20, ..Frame::default() }));
+    app.take_image(image);
+    assert_eq!(curve(app), before);
+}
+
 #[test]
 fn a_comparison_starts_with_one_click_and_both_sides_converge() {
     let mut window = window("cornell_spheres");
@@ -77,6 +96,7 @@ fn a_comparison_starts_with_one_click_and_both_sides_converge() {
     window.run_steps(3);
     assert!(window.query_by_label_contains("times as efficient").is_some());
     assert_eq!(window.state().instruments.history.curves.len(), 2, "each has its curve");
+    an_outdated_second_picture_is_not_recorded(window.state_mut(), other);
 
     click(&mut window, "Side by side");
     assert_eq!(window.state().session.comparison.map(|compare| compare.layout), Some(CompareLayout::SideBySide));
