@@ -3,7 +3,8 @@ use super::{path::Path, value::Family};
 use crate::quote;
 
 /// Something wrong in a description.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{path}: {message}")]
 pub struct Problem {
     /// Where: relative to the kind that says so, until those around it have [prefixed](Problem::within) theirs.
     pub path: Path,

