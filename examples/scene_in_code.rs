@@ -40,7 +40,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let picture = args_os().nth(1).ok_or("name a PNG to write")?;
     // The folder that paths of textures and meshes are relative to. `build` checks the scene as `load` does.
     let scene = balls().build(Path::new("."))?;
-    println!("{}", scene.source);
+    println!("{}", *scene.source);
 
     let resolution = scene.camera.resolution;
     let mut film = Film::new(resolution);

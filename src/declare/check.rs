@@ -73,6 +73,10 @@ impl Parameters for Checker {
         self.descend(self.path.key(parameter.key));
     }
 
+    fn reads_outlines(&self) -> bool {
+        false
+    }
+
     fn leave(&mut self) {
         self.path.0.truncate(self.outer.pop().unwrap_or(0));
     }

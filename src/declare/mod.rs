@@ -15,7 +15,7 @@
 //! | `path.rs` | where in a description a parameter stands |
 //! | `problem.rs` | what is wrong with a value, and where |
 //! | `outline.rs` | the parameters of a kind as a list |
-//! | `resources.rs` | files and memory for kinds that are compiled |
+//! | `resources.rs`, `memo.rs` | files, memory and the slow parts of the compile before, for kinds that are compiled |
 //! | `dice.rs` | the visitor that draws random values within their ranges |
 //! | `manual.rs`, `schema.rs` | the visitors that document a format, for people and for editors |
 //! | `write.rs` | the visitor that writes a description as TOML |
@@ -28,6 +28,7 @@ mod choices;
 mod dice;
 mod lines;
 mod manual;
+mod memo;
 mod outline;
 mod owned;
 mod parameter;
@@ -45,12 +46,13 @@ pub use self::{
     check::{check, check_value},
     lines::lines_of,
     manual::manual,
+    memo::{Memo, PartReport},
     outline::{Entry, Looks, Outline, outline},
     owned::OwnedValue,
     parameter::{CountRange, Parameter, Range, Scale},
     path::{Path, Step},
     problem::{Problem, nearest, short},
-    resources::Resources,
+    resources::{Leftovers, Resources, key_of_file},
     schema::schema,
     value::{Family, Textured, Value, Word, Words},
     write::write,
@@ -108,6 +110,11 @@ pub trait Parameters {
 
     /// Enters one of the tables that [`Parameters::names`] listed.
     fn named(&mut self, _parameter: &Parameter, _name: &str) {}
+
+    /// Whether the visitor reads the outlines of alternatives, which take time to make.
+    fn reads_outlines(&self) -> bool {
+        true
+    }
 
     /// Whether the visitor wants to see every alternative of a choice, one after the other, and not the one that is chosen.
     fn sees_all(&self) -> bool {
@@ -234,7 +241,11 @@ impl dyn Parameters + '_ {
     /// One of several alternatives, whose keys stand in the current table.
     pub fn one_of<T: OneOf>(&mut self, value: &mut T) {
         let mut alternatives = T::alternatives();
-        let seen = |alternative: &mut T| Alternative { name: alternative.name(), outline: outline(|p| alternative.chosen(p)) };
+        let reads = self.reads_outlines();
+        let seen = |alternative: &mut T| {
+            let outline = if reads { outline(|p| alternative.chosen(p)) } else { Outline::new() };
+            Alternative { name: alternative.name(), outline }
+        };
         let choice = Choice { what: T::WHAT, alternatives: alternatives.iter_mut().map(seen).collect() };
         if self.sees_all() {
             self.choose(&choice, value.place());

@@ -1,23 +1,54 @@
-//! What kinds use while they are compiled: files beside the scene, and memory.
+//! What kinds use while they are compiled: files beside the scene, memory, and the slow parts of the compile before.
 use std::{
     cell::RefCell,
-    fmt,
+    fmt, fs,
     path::{Path, PathBuf},
+    sync::Arc,
+    time::{Duration, Instant},
 };
 
-use super::Problem;
+use super::{
+    Problem,
+    memo::{Kept, Memo, PartReport},
+};
 use crate::memory::Reservation;
 
-/// The folder that paths are relative to, and the memory that is taken so far.
+/// The folder that paths are relative to, the memory that is taken so far, and the slow parts.
 pub struct Resources {
     folder: PathBuf,
     memory: RefCell<Reservation>,
+    /// Parts of the compile before.
+    before: Memo,
+    /// Parts of this compile.
+    now: RefCell<Memo>,
+    report: RefCell<Vec<PartReport>>,
+}
+
+/// What a compile leaves: the memory that it took, its slow parts, and what it made of them.
+pub struct Leftovers {
+    /// Memory of everything that is not in the memo.
+    pub memory: Reservation,
+    /// The slow parts, for the next compile.
+    pub memo: Memo,
+    /// One entry per kind of part.
+    pub report: Vec<PartReport>,
 }
 
 impl Resources {
     /// Files are looked for in `folder`.
     pub fn new(folder: impl Into<PathBuf>) -> Resources {
-        Resources { folder: folder.into(), memory: RefCell::new(Reservation::none()) }
+        Resources::after(folder, Memo::default())
+    }
+
+    /// The same; slow parts of the compile `before` are reused.
+    pub fn after(folder: impl Into<PathBuf>, before: Memo) -> Resources {
+        Resources {
+            folder: folder.into(),
+            memory: RefCell::new(Reservation::none()),
+            before,
+            now: RefCell::default(),
+            report: RefCell::default(),
+        }
     }
 
     /// A path that a description names.
@@ -30,8 +61,124 @@ impl Resources {
         self.memory.borrow_mut().grow(what, bytes).map_err(|error| Problem::at(key, error.to_string(), "too much memory"))
     }
 
-    /// All that was taken.
-    pub fn into_memory(self) -> Reservation {
-        self.memory.into_inner()
+    /// The part with this key: made once per compile, or reused from the compile before. `part` names its kind in the report.
+    pub fn once<T: Send + Sync + 'static>(
+        &self,
+        part: &'static str,
+        key: String,
+        make: impl FnOnce() -> Result<T, Problem>,
+    ) -> Result<Arc<T>, Problem> {
+        let is_known = self.now.borrow().get(&key).is_some();
+        let start = Instant::now();
+        let mut is_made = false;
+        let value = self.hold(key, || {
+            is_made = true;
+            make()
+        })?;
+        if !is_known {
+            self.note(part, is_made.then(|| start.elapsed()));
+        }
+        Ok(value)
+    }
+
+    /// [`Resources::once`] for parts that the report leaves out.
+    pub fn hold<T: Send + Sync + 'static>(
+        &self,
+        key: String,
+        make: impl FnOnce() -> Result<T, Problem>,
+    ) -> Result<Arc<T>, Problem> {
+        let known = self.now.borrow().get(&key).and_then(Kept::value);
+        if let Some(value) = known {
+            return Ok(value);
+        }
+        if let Some((kept, value)) = self.before.get(&key).and_then(|kept| Some((kept, kept.value()?))) {
+            self.now.borrow_mut().insert(key, kept.clone());
+            return Ok(value);
+        }
+        // What the part takes is given back with the part, and not with the scene that made it.
+        let around = self.memory.replace(Reservation::none());
+        let made = make();
+        let memory = self.memory.replace(around);
+        let value = Arc::new(made?);
+        self.now.borrow_mut().insert(key, Kept::new(value.clone(), memory));
+        Ok(value)
+    }
+
+    /// Reports a part: the time that it took to make, or `None` if it was reused.
+    pub fn note(&self, part: &'static str, took: Option<Duration>) {
+        let mut report = self.report.borrow_mut();
+        let place = report.iter().position(|of| of.part == part).unwrap_or_else(|| {
+            report.push(PartReport { part, made: 0, reused: 0, took: Duration::ZERO });
+            report.len() - 1
+        });
+        match took {
+            Some(took) => {
+                report[place].made += 1;
+                report[place].took += took;
+            }
+            None => report[place].reused += 1,
+        }
+    }
+
+    /// What the compile leaves.
+    pub fn into_leftovers(self) -> Leftovers {
+        Leftovers { memory: self.memory.into_inner(), memo: self.now.into_inner(), report: self.report.into_inner() }
+    }
+}
+
+/// A file as a part of a key: its path, size and time of the last change, so that a file that changes on the disk is read again.
+pub fn key_of_file(path: &Path) -> String {
+    match fs::metadata(path) {
+        Ok(known) => format!("{path:?} {} {:?}", known.len(), known.modified().ok()),
+        Err(_) => format!("{path:?}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn three(resources: &Resources, key: &str) -> Arc<Vec<u8>> {
+        let make = || {
+            resources.reserve("", "numbers", 3)?;
+            Ok(vec![1, 2, 3])
+        };
+        resources.once("lists", key.to_owned(), make).expect("there is room")
+    }
+
+    #[test]
+    fn a_part_is_made_once_and_reused_while_compiles_use_it() {
+        let first = Resources::new("");
+        let (a, again) = (three(&first, "a"), three(&first, "a"));
+        assert!(Arc::ptr_eq(&a, &again));
+        let left = first.into_leftovers();
+        assert_eq!((left.report[0].part, left.report[0].made, left.report[0].reused), ("lists", 1, 0));
+        let second = Resources::after("", left.memo);
+        assert!(Arc::ptr_eq(&a, &three(&second, "a")) && !Arc::ptr_eq(&a, &three(&second, "b")));
+        let left = second.into_leftovers();
+        assert_eq!((left.report[0].made, left.report[0].reused), (1, 1));
+        // What a compile does not use is gone for the next one.
+        let third = Resources::after("", Resources::after("", left.memo).into_leftovers().memo);
+        assert!(!Arc::ptr_eq(&a, &three(&third, "a")));
+    }
+
+    #[test]
+    fn a_part_that_fails_is_not_kept() {
+        let resources = Resources::new("");
+        let fail = || Err::<u8, _>(Problem::at("", "no", "no"));
+        assert!(resources.once("lists", "a".to_owned(), fail).is_err());
+        assert_eq!(*resources.once("lists", "a".to_owned(), || Ok(7u8)).expect("it is made"), 7);
+    }
+
+    #[test]
+    fn the_key_of_a_file_changes_with_its_size() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("a");
+        let key = |text: &str| {
+            fs::write(&path, text).expect("it is written");
+            key_of_file(&path)
+        };
+        assert_ne!(key("one"), key("three"));
+        assert_ne!(key_of_file(&folder.path().join("b")), key_of_file(&path));
     }
 }

@@ -86,6 +86,10 @@ impl Parameters for Writer {
         self.frames.push(Frame::new(Some(parameter.key), place));
     }
 
+    fn reads_outlines(&self) -> bool {
+        false
+    }
+
     fn leave(&mut self) {
         let Some(Frame { key: Some(key), place, table, name }) = self.frames.pop() else { return };
         let outer = &mut self.frame().table;

@@ -15,7 +15,8 @@
 //!
 //! A ray tests the few and large shapes of `lists.rs` one by one, skips clusters of spheres that no ray of its register comes
 //! near (`clusters.rs`), and descends a tree over the others (`objects.rs`). The surface that it hits is looked up in
-//! `tables.rs`. Meshes, isosurfaces and moving shapes have a local space (`instance.rs`). [`Shapes`] holds all of them.
+//! `tables.rs`. Meshes, isosurfaces and moving shapes have a local space (`instance.rs`). [`Shapes`] holds all of them. Compiles of a
+//! changed scene reuse the trees of meshes (`mesh_trees.rs`).
 mod bounding_sphere;
 mod bounds;
 mod bvh;
@@ -25,10 +26,12 @@ mod direction_sample;
 mod extent;
 mod flat;
 mod fraction;
+mod identity;
 mod instance;
 mod isosurface;
 mod lists;
 pub mod mesh;
+mod mesh_trees;
 mod motion;
 mod nearest;
 mod object;
@@ -51,8 +54,10 @@ mod turns;
 
 pub use self::{
     direction_sample::DirectionSample,
+    identity::same_point,
     isosurface::{Expression, Isosurface, ParseError},
     mesh::MeshData,
+    mesh_trees::MeshReuse,
     motion::Motion,
     nearest::Nearest,
     shape::{Outline, Shape},

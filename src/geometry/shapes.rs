@@ -1,14 +1,16 @@
 //! All shapes of a scene.
-use std::{collections::HashMap, sync::Arc};
+use std::{sync::Arc, time::Duration};
 
 use glam::{DAffine3, DVec3};
 
 use super::{
     Coordinates, DirectionSample, Motion, Nearest, PrimitiveRef, SurfacePoint,
     clusters::take_clusters,
+    identity::same_map,
     instance::{Body, Instance},
     lists::Lists,
-    mesh::{Mesh, MeshData},
+    mesh::Mesh,
+    mesh_trees::{MeshBuilder, MeshReuse, MeshTrees},
     object::{Kind, Object},
     objects::{Objects, few_and_many},
     shape::{Outline, Shape},
@@ -31,13 +33,28 @@ pub struct Shapes {
     moves: bool,
     /// Number of degenerate triangles, which are left out.
     dropped: usize,
+    /// The point that coordinates are anchored near.
+    near: DVec3,
+    meshes: MeshTrees,
+    have_moved_meshes: bool,
 }
 
 impl Shapes {
     /// Builds all shapes. Their pieces are numbered in order. `near` is a point in the middle of the scene.
     pub fn new<'a>(shapes: impl Iterator<Item = (&'a Shape, &'a Motion)> + Clone, near: DVec3) -> Shapes {
-        let mut meshes = Meshes::new(shapes.clone());
-        let mut all = Shapes::default();
+        Shapes::after(None, MeshReuse::Exact, shapes, near).0
+    }
+
+    /// The same; trees of meshes are those of the shapes `before` where `reuse` allows it. Also returns the time that each of these
+    /// trees took to build, or `None` for trees that are reused.
+    pub fn after<'a>(
+        before: Option<&Shapes>,
+        reuse: MeshReuse,
+        shapes: impl Iterator<Item = (&'a Shape, &'a Motion)> + Clone,
+        near: DVec3,
+    ) -> (Shapes, Vec<Option<Duration>>) {
+        let mut meshes = MeshBuilder::new(shapes.clone(), before.map(|before| &before.meshes), reuse);
+        let mut all = Shapes { near, ..Shapes::default() };
         let mut objects = Vec::new();
         for (shape, motion) in shapes {
             let kind = all.push(shape, motion, &mut meshes, near);
@@ -54,16 +71,42 @@ impl Shapes {
             }
         }
         all.objects = (!many.is_empty()).then(|| Objects::new(&many, near));
-        all
+        (all.meshes, all.have_moved_meshes) = (meshes.trees, meshes.have_moved);
+        (all, meshes.times)
+    }
+
+    /// The point in the middle of the scene that they were built with.
+    pub fn near(&self) -> DVec3 {
+        self.near
+    }
+
+    /// Whether some mesh has the tree of another pose: see [`MeshReuse::AnyPose`].
+    pub fn have_moved_meshes(&self) -> bool {
+        self.have_moved_meshes
+    }
+
+    /// Whether a primitive has the same triangles in both, in the same pose, or none in either.
+    pub fn has_same_triangles(&self, other: &Shapes, primitive: u32) -> bool {
+        match (self.mesh_at(primitive), other.mesh_at(primitive)) {
+            (Some((a, here)), Some((b, there))) => Arc::ptr_eq(a, b) && same_map(here.still(), there.still()),
+            (None, None) => true,
+            _ => false,
+        }
+    }
+
+    /// The mesh that a primitive is, if it is one.
+    fn mesh_at(&self, primitive: u32) -> Option<(&Arc<Mesh>, &Instance)> {
+        let instance = &self.instances[self.tables.instance_at(primitive)?];
+        if let Body::Mesh(mesh) = &instance.body { Some((mesh, instance)) } else { None }
     }
 
     /// Adds the pieces of a shape to the tables, but not to lists or trees.
-    fn push<'a>(&mut self, shape: &'a Shape, motion: &Motion, meshes: &mut Meshes, near: DVec3) -> Kind<'a> {
+    fn push<'a>(&mut self, shape: &'a Shape, motion: &Motion, meshes: &mut MeshBuilder, near: DVec3) -> Kind<'a> {
         let first = self.tables.len() as u32;
         let (body, still) = match shape {
             Shape::Mesh { data, map, .. } => {
                 self.has_elements = true;
-                let (mesh, still) = meshes.build(data, map);
+                let (mesh, still) = meshes.place(data, map);
                 self.dropped += mesh.dropped();
                 (Body::Mesh(mesh), still)
             }
@@ -90,8 +133,7 @@ impl Shapes {
 
     /// The triangles of a mesh in the order of its elements.
     pub fn triangles(&self, primitive: u32) -> Vec<Shape> {
-        let Some(instance) = self.tables.instance_at(primitive).map(|index| &self.instances[index]) else { return Vec::new() };
-        let Body::Mesh(mesh) = &instance.body else { return Vec::new() };
+        let Some((mesh, instance)) = self.mesh_at(primitive) else { return Vec::new() };
         let triangle = |id: u32| {
             let [a, b, c] = mesh.corners(id).map(|corner| glam::Vec3::from(corner).as_dvec3());
             let flat = Shape::Flat { outline: Outline::Triangle, origin: a, edges: [b - a, c - a], mirrored: false };
@@ -285,35 +327,5 @@ impl<L: Lanes> AtInstance<L> {
             element: here.pick(place.element, self.l.u(0)),
             time: place.time,
         }
-    }
-}
-
-/// Meshes by their data, built once for all their instances.
-struct Meshes {
-    /// Number of instances of the data, and the mesh if it has been built in local space.
-    known: HashMap<*const MeshData, (usize, Option<Arc<Mesh>>)>,
-}
-
-impl Meshes {
-    fn new<'a>(shapes: impl Iterator<Item = (&'a Shape, &'a Motion)>) -> Meshes {
-        let mut known = HashMap::new();
-        for (shape, motion) in shapes {
-            if let Shape::Mesh { data, .. } = shape {
-                // What moves needs a space of its own as well.
-                let uses = if motion.0.is_empty() { 1 } else { 2 };
-                known.entry(Arc::as_ptr(data)).or_insert((0, None)).0 += uses;
-            }
-        }
-        Meshes { known }
-    }
-
-    /// The mesh, and the map from local to world space. A mesh with a single instance is built in world space.
-    fn build(&mut self, data: &Arc<MeshData>, map: &DAffine3) -> (Arc<Mesh>, DAffine3) {
-        let (uses, mesh) = self.known.entry(Arc::as_ptr(data)).or_insert((1, None));
-        if *uses == 1 {
-            return (Arc::new(Mesh::new(&data.transformed(map))), DAffine3::IDENTITY);
-        }
-        let mesh = mesh.get_or_insert_with(|| Arc::new(Mesh::new(data)));
-        (mesh.clone(), *map)
     }
 }

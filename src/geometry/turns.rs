@@ -29,6 +29,11 @@ impl Turns {
         self.part * TAU * time + (f64::from(self.whole) * time).fract() * TAU
     }
 
+    /// Whether both are the same, bit for bit.
+    pub(super) fn is_same(self, other: Turns) -> bool {
+        (self.whole, self.part.to_bits()) == (other.whole, other.part.to_bits())
+    }
+
     /// The total number of turns.
     pub fn count(self) -> f64 {
         (f64::from(self.whole) + self.part).abs()

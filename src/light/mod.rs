@@ -21,7 +21,10 @@ mod tests;
 mod tree;
 
 pub use self::{
-    background::{Background, image::ImageBackground},
+    background::{
+        Background,
+        image::{ImageBackground, SkyTables},
+    },
     choice::{LightSample, Lights},
     coordinates::LightCoordinates,
     emission::{Emission, Emitters, Side},

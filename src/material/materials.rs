@@ -1,5 +1,5 @@
 //! The materials of a scene as tables for the kernel.
-use std::collections::BTreeMap;
+use std::{collections::BTreeMap, time::Duration};
 
 use super::{CompiledMaterial, Material, MaterialCompiler, Stage, tables::Tables};
 use crate::{
@@ -45,6 +45,16 @@ impl Materials {
             all.push(&compiled);
         }
         all
+    }
+
+    /// No materials yet; tables of the compile before are reused.
+    pub fn after(before: &Materials) -> Self {
+        Materials { tables: Tables::after(&before.tables), ..Materials::default() }
+    }
+
+    /// The time that each shared table took to make; `None` for tables that were reused.
+    pub fn times_of_tables(&self) -> &[Option<Duration>] {
+        &self.tables.times
     }
 
     /// Compiles a material; tables that it shares with others are made once.

@@ -1,9 +1,30 @@
 //! Albedo tables of coats and interfaces, which materials share.
+use std::{
+    sync::Arc,
+    time::{Duration, Instant},
+};
+
 use super::{albedo, albedo_table, dielectric_albedo, ggx::SMOOTH, missing_energy};
 use crate::math::SimdLevel;
 
 /// Index of refraction and roughness of an interface with energy compensation; the roughness is `None` if it varies.
 pub type Interface = (f32, Option<f32>);
+
+/// Parameters of a table.
+#[derive(Clone, Copy, PartialEq)]
+enum TableOf {
+    /// A coat with this index of refraction.
+    Coat(f32),
+    /// An interface, or none.
+    Interface(Option<Interface>),
+}
+
+/// The rows of one table.
+#[derive(Clone)]
+struct Table {
+    of: TableOf,
+    rows: Arc<Vec<[f32; 4]>>,
+}
 
 /// The tables of the materials of a scene, one after the other. Materials with the same parameters share them.
 #[derive(Default)]
@@ -13,12 +34,20 @@ pub struct Tables {
     pub loss: &'static [[f32; 4]],
     /// Whether some dielectric is compensated.
     pub compensates_dielectrics: bool,
-    /// Parameters of the tables so far, and their first rows.
-    coats: Vec<(f32, u32)>,
-    interfaces: Vec<(Option<Interface>, u32)>,
+    /// The tables so far, and their first rows.
+    tables: Vec<(Table, u32)>,
+    /// Tables of the previous compile, which are reused.
+    before: Vec<Table>,
+    /// The time that each table took to make; `None` for tables that were reused.
+    pub times: Vec<Option<Duration>>,
 }
 
 impl Tables {
+    /// No tables yet; those of the previous compile are reused.
+    pub fn after(before: &Tables) -> Tables {
+        Tables { before: before.tables.iter().map(|(table, _)| table.clone()).collect(), ..Tables::default() }
+    }
+
     /// Adds the table of compensated conductors.
     pub fn need_loss(&mut self) {
         self.loss = &albedo::LOSS;
@@ -26,32 +55,41 @@ impl Tables {
 
     /// The first row of the table of a coat.
     pub fn coat(&mut self, ior: f32) -> u32 {
-        if let Some((_, table)) = self.coats.iter().find(|(index, _)| *index == ior) {
-            return *table;
-        }
-        let table = self.append(albedo_table::build(SimdLevel::best(), Some(ior)));
-        self.coats.push((ior, table));
-        table
+        self.table(TableOf::Coat(ior))
     }
 
     /// The first row of the table of an interface; without an interface, that of no compensation.
     pub fn interface(&mut self, interface: Option<Interface>) -> u32 {
         self.compensates_dielectrics |= interface.is_some();
-        if let Some((_, table)) = self.interfaces.iter().find(|(of, _)| *of == interface) {
-            return *table;
-        }
-        let table = self.append(match interface {
-            None => missing_energy::nothing_missing(),
-            Some((eta, Some(alpha))) => dielectric_albedo::uniform_rows(eta, alpha.clamp(SMOOTH, 1.0)),
-            Some((eta, None)) => dielectric_albedo::textured_rows(eta),
-        });
-        self.interfaces.push((interface, table));
-        table
+        self.table(TableOf::Interface(interface))
     }
 
-    fn append(&mut self, rows: Vec<[f32; 4]>) -> u32 {
+    fn table(&mut self, of: TableOf) -> u32 {
+        if let Some((_, first)) = self.tables.iter().find(|(table, _)| table.of == of) {
+            return *first;
+        }
+        let (table, took) = match self.before.iter().find(|table| table.of == of) {
+            Some(table) => (table.clone(), None),
+            None => {
+                let start = Instant::now();
+                (Table { of, rows: Arc::new(of.rows()) }, Some(start.elapsed()))
+            }
+        };
+        self.times.push(took);
         let first = self.rows.len() as u32;
-        self.rows.extend(rows);
+        self.rows.extend(table.rows.iter());
+        self.tables.push((table, first));
         first
+    }
+}
+
+impl TableOf {
+    fn rows(self) -> Vec<[f32; 4]> {
+        match self {
+            TableOf::Coat(ior) => albedo_table::build(SimdLevel::best(), Some(ior)),
+            TableOf::Interface(None) => missing_energy::nothing_missing(),
+            TableOf::Interface(Some((eta, Some(alpha)))) => dielectric_albedo::uniform_rows(eta, alpha.clamp(SMOOTH, 1.0)),
+            TableOf::Interface(Some((eta, None))) => dielectric_albedo::textured_rows(eta),
+        }
     }
 }

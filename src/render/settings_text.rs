@@ -17,7 +17,7 @@ pub fn settings_text(
     let mut text = json!({
         "program": concat!("Noisefall ", env!("CARGO_PKG_VERSION")),
         "title": scene.title,
-        "scene": scene.source,
+        "scene": *scene.source,
         "camera": camera,
         "settings": settings,
         "display": display,
@@ -93,7 +93,7 @@ mod tests {
         for (key, value) in [
             ("title", json!("ρ = ½, 𝄞")),
             ("view", json!("cos θ")),
-            ("scene", json!(scene.source)),
+            ("scene", json!(*scene.source)),
             ("camera", json!(camera)),
             ("settings", json!(settings)),
             ("display", json!(display)),

@@ -1,15 +1,16 @@
 //! Building scenes in code.
-use std::path::Path;
+use std::{path::Path, sync::Arc, time::Instant};
 
 use super::{
-    Scene,
-    compile::compile,
+    Scene, SceneText,
+    compile::{Before, compile},
     damage::Damage,
     description::{EmissionDescription, MaterialDescription, ObjectDescription, SceneDescription},
     diagnostic::SceneError,
 };
 use crate::{
     declare::{self, Problem},
+    geometry::MeshReuse,
     light::emission::radiance::Radiance,
     material::Material,
     shape::ShapeKind,
@@ -31,10 +32,44 @@ impl SceneDescription {
 
     /// Checks the description as the reader of scene files does, and compiles it. Files that it names are looked for in `folder`.
     pub fn build(&self, folder: &Path) -> Result<Scene, SceneError> {
+        let text = self.to_text();
+        self.compiled(SceneText::new(Box::new(move || text)), folder, None)
+    }
+
+    /// The same after a change: takes over what did not change from `before`, any scene of files in the same folder. With
+    /// [`MeshReuse::Exact`] the scene has the same bits as by [`SceneDescription::build`].
+    ///
+    /// With [`MeshReuse::AnyPose`], a mesh whose pose changed keeps its tree and is moved by a transform, which takes no time and rounds
+    /// differently. [`Shapes::have_moved_meshes`](crate::geometry::Shapes::have_moved_meshes) then tells that the scene should be compiled again when there is time.
+    ///
+    /// ```
+    /// use std::{path::Path, sync::Arc};
+    ///
+    /// use noisefall::{geometry::MeshReuse, scene::description::SceneDescription, shape::mesh::Mesh};
+    ///
+    /// let mut scene = SceneDescription::default();
+    /// scene.add_object("knot", Mesh::default());
+    /// let before = scene.build(Path::new("."))?;
+    /// scene.camera.fov = Some(20.0);
+    /// let after = Arc::new(scene).rebuild(Path::new("."), &before, MeshReuse::Exact)?;
+    /// assert_eq!((before.compiled.made("mesh trees"), after.compiled.made("mesh trees")), (1, 0));
+    /// # Ok::<(), noisefall::scene::SceneError>(())
+    /// ```
+    pub fn rebuild(self: &Arc<Self>, folder: &Path, before: &Scene, reuse: MeshReuse) -> Result<Scene, SceneError> {
+        let description = self.clone();
+        let text = SceneText::new(Box::new(move || description.to_text()));
+        self.compiled(text, folder, Some(Before { scene: before, reuse }))
+    }
+
+    fn compiled(&self, text: SceneText, folder: &Path, before: Option<Before>) -> Result<Scene, SceneError> {
+        let start = Instant::now();
         let mut problems = declare::check(&mut self.clone());
         if problems.is_empty() {
-            match compile(self, &self.to_text(), folder, &Damage::default()) {
-                Ok(scene) => return Ok(scene),
+            match compile(self, text, folder, &Damage::default(), before) {
+                Ok(mut scene) => {
+                    scene.compiled.took = start.elapsed();
+                    return Ok(scene);
+                }
                 Err(found) => problems = found,
             }
         }

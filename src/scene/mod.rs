@@ -4,6 +4,7 @@ mod build;
 mod camera;
 mod carried;
 mod compile;
+mod compile_report;
 mod damage;
 pub mod description;
 mod diagnostic;
@@ -30,7 +31,7 @@ mod wording;
 
 use std::{
     path::PathBuf,
-    sync::{Arc, OnceLock},
+    sync::{Arc, LazyLock, OnceLock},
 };
 
 use glam::DVec3;
@@ -41,6 +42,7 @@ use self::surface::Surfaces;
 pub use self::{
     camera::{Camera, CameraError, Lens},
     compile::{check_camera, check_object},
+    compile_report::CompileReport,
     diagnostic::SceneError,
     estimator::{Estimator, power_heuristic},
     legend::Legend,
@@ -55,6 +57,7 @@ pub use self::{
     shutter::{Moments, Shutter},
 };
 use crate::{
+    declare::Memo,
     geometry::{Motion, Shapes},
     image::Picture,
     light::Lights,
@@ -76,17 +79,17 @@ pub struct Scene {
     /// What the window and reports call the scene.
     pub title: String,
     /// The text of the scene file.
-    pub source: String,
+    pub source: SceneText,
     /// A text for people.
     pub notes: String,
     /// Shapes and their acceleration structures.
-    pub shapes: Shapes,
+    pub shapes: Arc<Shapes>,
     /// What the kernel knows of the surface of every primitive.
     pub surfaces: Surfaces,
     /// All textures.
     pub textures: Textures,
     /// Emitters and background, with the tables that choose among them.
-    pub lights: Lights,
+    pub lights: Arc<Lights>,
     /// The materials of the scene file.
     pub materials: Vec<MaterialInstance>,
     /// The objects in the order of their primitive ids, emitting ones first.
@@ -111,9 +114,16 @@ pub struct Scene {
     pub deepest_media: usize,
     /// See [`Scene::warnings`].
     pub warned: OnceLock<Vec<String>>,
+    /// What the compile made, and what it took over from another scene.
+    pub compiled: CompileReport,
+    /// Slow parts that other scenes can take over.
+    pub memo: Memo,
     /// Given back with the scene.
     pub memory: Reservation,
 }
+
+/// The text of a scene file; that of a scene that was changed in memory is written at its first use.
+pub type SceneText = LazyLock<String, Box<dyn FnOnce() -> String + Send>>;
 
 /// What the picture must converge to.
 #[derive(Clone, Debug, PartialEq)]

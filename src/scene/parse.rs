@@ -4,7 +4,7 @@ use std::path::Path;
 use toml::de::DeTable;
 
 use super::{
-    Scene,
+    Scene, SceneText,
     compile::compile,
     damage::Damage,
     description::{FORMAT, SceneDescription},
@@ -45,7 +45,8 @@ pub fn parse(name: &str, text: String) -> Result<Scene, SceneError> {
         return Err(SceneError::of_all(errors).unwrap_or_else(nothing));
     }
     let folder = Path::new(name).parent().unwrap_or(Path::new(""));
-    match compile(&description, &source.text, folder, &damage) {
+    let text = source.text.clone();
+    match compile(&description, SceneText::new(Box::new(move || text)), folder, &damage, None) {
         Ok(scene) if errors.is_empty() => return Ok(scene),
         Ok(_) => {}
         Err(problems) => errors.extend(locate(problems, &source)),

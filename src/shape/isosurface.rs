@@ -1,6 +1,4 @@
 //! The surface where an expression of x, y and z is zero.
-use std::sync::Arc;
-
 use glam::DAffine3;
 
 use super::{
@@ -45,12 +43,15 @@ impl Declare for Isosurface {
 }
 
 impl Build for Isosurface {
-    fn shapes(&self, _: &mut ShapeBuilder) -> Result<Vec<Shape>, Problem> {
+    fn shapes(&self, builder: &mut ShapeBuilder) -> Result<Vec<Shape>, Problem> {
         let size = self.bounds.size().map_err(|problem| problem.within(&Path::of(BOUNDS.key)))?;
-        let expression = Expression::parse(&self.expression)
-            .map_err(|error| Problem { part: Some(error.at), ..Problem::at("expression", error.message, error.label) })?;
         let [min, max] = [self.bounds.min, self.bounds.min + size].map(|corner| corner.as_vec3().to_array());
-        let surface = Arc::new(geometry::Isosurface::new(expression, min, max));
+        let key = format!("isosurface {:?} {:?} {}", min.map(f32::to_bits), max.map(f32::to_bits), self.expression);
+        let surface = builder.resources.once("isosurfaces", key, || {
+            let expression = Expression::parse(&self.expression)
+                .map_err(|error| Problem { part: Some(error.at), ..Problem::at("expression", error.message, error.label) })?;
+            Ok(geometry::Isosurface::new(expression, min, max))
+        })?;
         Ok(vec![Shape::Isosurface { surface, map: DAffine3::IDENTITY }])
     }
 }

@@ -1,12 +1,13 @@
 //! A triangle mesh: from a file, from lists, or procedural.
 use std::{
-    path::{Path, PathBuf},
+    hash::{DefaultHasher, Hash, Hasher},
+    path::Path,
     sync::Arc,
 };
 
 use super::{Build, ShapeBuilder};
 use crate::{
-    declare::{CountRange, Declare, Kind, OneOf, Parameter, Parameters, Problem, Resources, Value},
+    declare::{CountRange, Declare, Kind, OneOf, Parameter, Parameters, Problem, Resources, Value, key_of_file},
     geometry::{
         MeshData, Shape,
         mesh::generate::{heightfield, torus_knot},
@@ -65,14 +66,6 @@ pub struct Heightfield {
     pub quads: u32,
     /// Seed of the noise.
     pub seed: u32,
-}
-
-/// Key of a mesh that several objects can share.
-#[derive(Clone, PartialEq, Eq, Hash)]
-pub(super) enum Key {
-    File { path: PathBuf, smooth: bool },
-    Knot { triangles: u32, smooth: bool },
-    Heightfield { quads: u32, seed: u32, smooth: bool },
 }
 
 const PATH: Parameter = Parameter::new("path", "OBJ or PLY file.").required().aliases("file filename src");
@@ -162,45 +155,57 @@ impl Declare for Heightfield {
 
 impl Build for Mesh {
     fn shapes(&self, builder: &mut ShapeBuilder) -> Result<Vec<Shape>, Problem> {
-        self.data(builder).map(|data| vec![Shape::mesh(data)])
+        self.shape(builder).map(|shape| vec![Shape::clone(&shape)])
     }
 }
 
+/// What the report of a compile calls meshes.
+const MESHES: &str = "meshes";
+
 impl Mesh {
-    fn data(&self, builder: &mut ShapeBuilder) -> Result<Arc<MeshData>, Problem> {
+    /// The mesh in its own space. Objects with the same file or formula share it.
+    fn shape(&self, builder: &mut ShapeBuilder) -> Result<Arc<Shape>, Problem> {
         let resources = builder.resources;
         let smooth = self.smooth.unwrap_or(true);
+        let known = |key: String, make: &dyn Fn() -> Result<MeshData, Problem>| {
+            resources.once(MESHES, key, || make().map(|data| Shape::mesh(Arc::new(data))))
+        };
         match &self.source {
             MeshSource::File(path) => {
                 let path = resources.path(path);
-                builder.known(Key::File { path: path.clone(), smooth }, || from_file(resources, &path, smooth))
+                known(format!("mesh {} {smooth}", key_of_file(&path)), &|| from_file(resources, &path, smooth))
             }
             MeshSource::Lists { vertices, triangles } => {
-                from_lists(resources, vertices, triangles, self.smooth.unwrap_or(false)).map(Arc::new)
+                let smooth = self.smooth.unwrap_or(false);
+                let hash = hash_of_lists(vertices, triangles);
+                let number = builder.lists.entry(hash).or_default();
+                *number += 1;
+                known(format!("lists {hash:x} {number} {smooth}"), &|| from_lists(resources, vertices, triangles, smooth))
             }
-            MeshSource::Knot(Knot { triangles }) => {
-                let triangles = *triangles;
-                reserve(resources, "knot.triangles", triangles.into())?;
-                builder.known(Key::Knot { triangles, smooth }, || Ok(shaded(torus_knot(triangles as usize), smooth)))
-            }
+            MeshSource::Knot(Knot { triangles }) => known(format!("knot {triangles} {smooth}"), &|| {
+                reserve(resources, "knot.triangles", (*triangles).into())?;
+                Ok(shaded(torus_knot(*triangles as usize), smooth))
+            }),
             MeshSource::Heightfield(Heightfield { quads, seed }) => {
-                let (quads, seed) = (*quads, *seed);
-                reserve(resources, "heightfield.quads", 2 * u64::from(quads) * u64::from(quads))?;
-                builder.known(Key::Heightfield { quads, seed, smooth }, || Ok(shaded(heightfield(quads as usize, seed), smooth)))
+                known(format!("heightfield {quads} {seed} {smooth}"), &|| {
+                    reserve(resources, "heightfield.quads", 2 * u64::from(*quads) * u64::from(*quads))?;
+                    Ok(shaded(heightfield(*quads as usize, *seed), smooth))
+                })
             }
         }
     }
 }
 
-impl ShapeBuilder<'_> {
-    fn known(&mut self, key: Key, make: impl FnOnce() -> Result<MeshData, Problem>) -> Result<Arc<MeshData>, Problem> {
-        if let Some(data) = self.meshes.get(&key) {
-            return Ok(data.clone());
-        }
-        let data = Arc::new(make()?);
-        self.meshes.insert(key, data.clone());
-        Ok(data)
-    }
+/// 128 bits of hash: two different lists have the same one with a probability of 3·10⁻³⁹.
+fn hash_of_lists(vertices: &[[f64; 3]], triangles: &[[u32; 3]]) -> u128 {
+    let half = |salt: u8| {
+        let mut hasher = DefaultHasher::new();
+        salt.hash(&mut hasher);
+        vertices.iter().flatten().for_each(|x| x.to_bits().hash(&mut hasher));
+        triangles.hash(&mut hasher);
+        hasher.finish()
+    };
+    u128::from(half(0)) << 64 | u128::from(half(1))
 }
 
 /// Reserves memory for a mesh with a number of triangles and half as many vertices while it is built, including normals and

@@ -14,7 +14,7 @@ pub mod sphere_field;
 mod transform;
 pub mod triangle;
 
-use std::{collections::HashMap, sync::Arc};
+use std::collections::HashMap;
 
 pub use self::{
     bounds::Bounds,
@@ -25,7 +25,7 @@ pub use self::{
 use crate::{
     catalogue,
     declare::{Parameter, Path, Problem, Range, Resources},
-    geometry::{MeshData, Shape},
+    geometry::Shape,
 };
 
 catalogue! {
@@ -52,13 +52,14 @@ pub trait Build {
 /// What shapes use while they are built. A mesh that several objects show is read or made once.
 pub struct ShapeBuilder<'a> {
     resources: &'a Resources,
-    meshes: HashMap<mesh::Key, Arc<MeshData>>,
+    /// How many meshes had the same lists so far: each is a mesh of its own.
+    lists: HashMap<u128, usize>,
 }
 
 impl<'a> ShapeBuilder<'a> {
-    /// A builder without any meshes yet.
+    /// A builder that reads files and keeps meshes in these resources.
     pub fn new(resources: &'a Resources) -> Self {
-        ShapeBuilder { resources, meshes: HashMap::new() }
+        ShapeBuilder { resources, lists: HashMap::new() }
     }
 
     /// The shapes of a description.

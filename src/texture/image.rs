@@ -2,9 +2,11 @@
 //!
 //! The picture spans the unit square, u to the right and v downwards from its top left corner; texel centres lie at
 //! ((i + ½)/width, (j + ½)/height).
+use std::sync::{Arc, OnceLock};
+
 use super::{Found, Pattern, Summary, TextureCompiler, TextureCoordinates, Textures, Texturing};
 use crate::{
-    declare::{Declare, Kind, Parameter, Parameters, Problem, Value},
+    declare::{Declare, Kind, Parameter, Parameters, Problem, Resources, Value, key_of_file},
     image::{Encoding, Texels, read_light},
     math::{F, Lanes, M, Pick, U, V, round::floor},
 };
@@ -34,18 +36,14 @@ impl Declare for Image {
 }
 
 impl Texturing for Image {
-    type Pattern = ImageTexture;
+    type Pattern = Arc<ImageTexture>;
 
-    fn compile(&self, compiler: &mut TextureCompiler) -> Result<ImageTexture, Problem> {
-        let resources = compiler.resources;
-        let picture = read_light(&resources.path(&self.path), self.encoding)
-            .map_err(|error| Problem::at("path", error.to_string(), "this picture cannot be used"))?;
-        resources.reserve("path", "the texels of a picture", size_of_val(&picture.radiance[..]) as u64)?;
-        Ok(ImageTexture::new(picture))
+    fn compile(&self, compiler: &mut TextureCompiler) -> Result<Arc<ImageTexture>, Problem> {
+        ImageTexture::read(compiler.resources, "path", &self.path, self.encoding)
     }
 }
 
-impl Pattern for ImageTexture {
+impl Pattern for Arc<ImageTexture> {
     fn summary(&self, _: &Textures) -> Summary {
         Summary { mean: self.mean(), maximum: self.maximum(), steps: [self.step_u(), self.step_v(), f32::INFINITY] }
     }
@@ -70,12 +68,32 @@ pub struct ImageTexture {
     width: u32,
     height: u32,
     texels: Vec<[f32; 4]>,
+    /// Computed at its first use: compiles that reuse the texture need no visit to all texels.
+    colours: OnceLock<Colours>,
+}
+
+/// Mean and largest value of the texels.
+#[derive(Clone, Copy)]
+struct Colours {
+    mean: [f32; 3],
+    maximum: [f32; 3],
 }
 
 impl ImageTexture {
     /// Makes a texture of an image.
     pub fn new(picture: Texels) -> ImageTexture {
-        ImageTexture { width: picture.width, height: picture.height, texels: picture.radiance }
+        ImageTexture { width: picture.width, height: picture.height, texels: picture.radiance, colours: OnceLock::new() }
+    }
+
+    /// Reads the file that a description names at a key. Textures of the same file and encoding share their texels.
+    pub fn read(resources: &Resources, key: &str, path: &str, encoding: Encoding) -> Result<Arc<ImageTexture>, Problem> {
+        let path = resources.path(path);
+        resources.once("pictures", format!("picture {} {encoding:?}", key_of_file(&path)), || {
+            let picture = read_light(&path, encoding)
+                .map_err(|error| Problem::at(key, error.to_string(), "this picture cannot be used"))?;
+            resources.reserve(key, "the texels of a picture", size_of_val(&picture.radiance[..]) as u64)?;
+            Ok(ImageTexture::new(picture))
+        })
     }
 
     /// The colour at (u, v). Any numbers are allowed: NaN and infinity give some colour of the image.
@@ -102,13 +120,21 @@ impl ImageTexture {
 
     /// The mean over the unit square; for repeated bilinear texels this is the mean texel.
     pub fn mean(&self) -> [f32; 3] {
-        let sum = |channel: usize| self.texels.iter().map(|texel| f64::from(texel[channel])).sum::<f64>();
-        [0, 1, 2].map(|channel| (sum(channel) / self.texels.len() as f64) as f32)
+        self.colours().mean
     }
 
     /// The largest value of each channel.
     pub fn maximum(&self) -> [f32; 3] {
-        [0, 1, 2].map(|channel| self.texels.iter().map(|texel| texel[channel]).fold(0.0, f32::max))
+        self.colours().maximum
+    }
+
+    fn colours(&self) -> Colours {
+        let sum = |channel: usize| self.texels.iter().map(|texel| f64::from(texel[channel])).sum::<f64>();
+        let largest = |channel: usize| self.texels.iter().map(|texel| texel[channel]).fold(0.0, f32::max);
+        *self.colours.get_or_init(|| Colours {
+            mean: [0, 1, 2].map(|channel| (sum(channel) / self.texels.len() as f64) as f32),
+            maximum: [0, 1, 2].map(largest),
+        })
     }
 
     /// Half a texel.

@@ -72,6 +72,10 @@ impl Radiant for ConstantRadiance {
     fn luminance(&self) -> f32 {
         luminance(self.0)
     }
+
+    fn is_same(&self, other: &ConstantRadiance) -> bool {
+        self.0.map(f32::to_bits) == other.0.map(f32::to_bits)
+    }
 }
 
 #[inline(always)]

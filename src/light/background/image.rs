@@ -7,12 +7,15 @@
 mod tests;
 mod weights;
 
-use std::f64::consts::{PI, TAU};
+use std::{
+    f64::consts::{PI, TAU},
+    sync::Arc,
+};
 
 use self::weights::cell_means;
 use super::{Radiant, Surrounding};
 use crate::{
-    declare::{Declare, Kind, Parameter, Parameters, Problem, Range, Resources, Value},
+    declare::{Declare, Kind, Parameter, Parameters, Problem, Range, Resources, Value, key_of_file},
     image::{Encoding, Texels, read_light},
     light::{ReferencePoint, parameters::IMAGE},
     math::{
@@ -67,15 +70,19 @@ impl Surrounding for Image {
     type Radiant = ImageBackground;
 
     fn compile(&self, resources: &Resources) -> Result<Option<ImageBackground>, Problem> {
-        let picture = read_light(&resources.path(&self.path), Encoding::Srgb)
-            .map_err(|error| Problem::at("image", error.to_string(), "this picture cannot be used"))?;
-        let bytes = ImageBackground::bytes([picture.width, picture.height]);
-        resources.reserve("image", "the texels and cells of a sky", bytes)?;
-        let background = ImageBackground::new(picture, self.rotate, self.scale as f32);
-        if background.mean_luminance() == 0.0 {
-            return Err(Problem::at("image", "a background of zero power: the picture is black", "it emits nothing"));
-        }
-        Ok(Some(background))
+        let path = resources.path(&self.path);
+        let tables = resources.once("skies", format!("sky {} {:x}", key_of_file(&path), self.scale.to_bits()), || {
+            let picture = read_light(&path, Encoding::Srgb)
+                .map_err(|error| Problem::at("image", error.to_string(), "this picture cannot be used"))?;
+            let bytes = SkyTables::bytes([picture.width, picture.height]);
+            resources.reserve("image", "the texels and cells of a sky", bytes)?;
+            let tables = SkyTables::new(picture, self.scale as f32);
+            if tables.mean_luminance() == 0.0 {
+                return Err(Problem::at("image", "a background of zero power: the picture is black", "it emits nothing"));
+            }
+            Ok(tables)
+        })?;
+        Ok(Some(ImageBackground::new(tables, self.rotate)))
     }
 }
 
@@ -98,15 +105,24 @@ impl Radiant for ImageBackground {
     }
 
     fn luminance(&self) -> f32 {
-        self.mean_luminance
+        self.tables.mean_luminance
+    }
+
+    fn is_same(&self, other: &ImageBackground) -> bool {
+        Arc::ptr_eq(&self.tables, &other.tables) && self.shift.to_bits() == other.shift.to_bits()
     }
 }
 
 /// An image at infinity. Radiance in W·sr⁻¹·m⁻², linear Rec. 709.
 pub struct ImageBackground {
-    picture: ImageTexture,
+    tables: Arc<SkyTables>,
     /// Offset from an azimuth, in turns from −z towards +x, to u; in [0, 1).
     shift: f32,
+}
+
+/// The texels of an [`ImageBackground`] and the tables that sample them. They do not depend on its rotation.
+pub struct SkyTables {
+    picture: ImageTexture,
     /// Numbers of cells, powers of two.
     columns: u32,
     rows: u32,
@@ -116,10 +132,9 @@ pub struct ImageBackground {
     mean_luminance: f32,
 }
 
-impl ImageBackground {
-    /// Builds the background. `picture` holds radiances ([`crate::image::read_light`]), which are multiplied by `scale`. `rotate`
-    /// turns the image about +y by degrees, counter-clockwise seen from above.
-    pub fn new(mut picture: Texels, rotate: f64, scale: f32) -> ImageBackground {
+impl SkyTables {
+    /// Builds the tables. `picture` holds radiances ([`crate::image::read_light`]), which are multiplied by `scale`.
+    pub fn new(mut picture: Texels, scale: f32) -> SkyTables {
         for pixel in &mut picture.radiance {
             *pixel = pixel.map(|x| x * scale);
         }
@@ -134,9 +149,8 @@ impl ImageBackground {
         if power == 0.0 {
             weights.fill(1.0);
         }
-        ImageBackground {
+        SkyTables {
             picture: ImageTexture::new(picture),
-            shift: (0.5 + rotate % 360.0 / 360.0).rem_euclid(1.0) as f32,
             columns,
             rows,
             cells: AliasTable::new(&weights),
@@ -145,7 +159,7 @@ impl ImageBackground {
         }
     }
 
-    /// Memory in bytes of the background for an image of this size, including that of building it.
+    /// Memory in bytes of the tables for an image of this size, including that of building it.
     pub fn bytes([width, height]: [u32; 2]) -> u64 {
         /// Bytes of a texel; of a cell in all tables; and of the means of a row of texels over the width of every cell.
         const TEXEL: u64 = 16;
@@ -161,26 +175,39 @@ impl ImageBackground {
     pub fn mean_luminance(&self) -> f32 {
         self.mean_luminance
     }
+}
+
+impl ImageBackground {
+    /// Turns the image about +y by `rotate` degrees, counter-clockwise seen from above.
+    pub fn new(tables: Arc<SkyTables>, rotate: f64) -> ImageBackground {
+        ImageBackground { tables, shift: (0.5 + rotate % 360.0 / 360.0).rem_euclid(1.0) as f32 }
+    }
+
+    /// Mean luminance over all directions; 0 if and only if the image is black.
+    pub fn mean_luminance(&self) -> f32 {
+        self.tables.mean_luminance
+    }
 
     /// Radiance that arrives from the unit direction `d`.
     #[inline(always)]
     pub fn radiance<L: Lanes>(&self, l: L, d: V<L>) -> V<L> {
         let (u, v) = self.picture_from_world(d);
-        self.picture.colour(l, u, v, Edge::Clamp)
+        self.tables.picture.colour(l, u, v, Edge::Clamp)
     }
 
     /// Samples a unit direction, and returns it with its pdf per solid angle. `cell` selects the cell, by index and coin; `u`
     /// selects the point in it.
     #[inline(always)]
     pub fn sample<L: Lanes>(&self, l: L, cell: (F<L>, F<L>), u: (F<L>, F<L>)) -> (V<L>, F<L>) {
-        let (cell, probability) = self.cells.sample(l, cell);
-        let column = cell & (self.columns - 1);
-        let [start, extent, up, density] = l.rows(&self.bounds, cell >> self.columns.trailing_zeros());
+        let SkyTables { columns, cells, bounds, .. } = &*self.tables;
+        let (cell, probability) = cells.sample(l, cell);
+        let column = cell & (columns - 1);
+        let [start, extent, up, density] = l.rows(bounds, cell >> columns.trailing_zeros());
         // sin²(θ/2) is uniform in solid angle, and exact near the pole that it is measured from.
         let s = start + extent * u.1;
         let y = up * (1.0 - s * 2.0);
         let r = (s * (1.0 - s)).sqrt() * 2.0;
-        let azimuth = (column.to_real() + u.0) * (1.0 / self.columns as f32) + (1.0 - self.shift);
+        let azimuth = (column.to_real() + u.0) * (1.0 / *columns as f32) + (1.0 - self.shift);
         let (sin, cos) = sin_cos_turns(azimuth.above(1.0).pick(azimuth - 1.0, azimuth));
         (V { x: r * sin, y, z: -(r * cos) }, probability * density)
     }
@@ -189,9 +216,10 @@ impl ImageBackground {
     #[inline(always)]
     pub fn pdf<L: Lanes>(&self, l: L, d: V<L>) -> F<L> {
         let (u, v) = self.picture_from_world(d);
-        let row = place(v, self.rows);
-        let [_, _, _, density] = l.rows(&self.bounds, row);
-        self.cells.probability(l, row * self.columns + place(u, self.columns)) * density
+        let SkyTables { columns, rows, cells, bounds, .. } = &*self.tables;
+        let row = place(v, *rows);
+        let [_, _, _, density] = l.rows(bounds, row);
+        cells.probability(l, row * *columns + place(u, *columns)) * density
     }
 
     /// (u, v) in [0, 1]².

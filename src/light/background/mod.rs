@@ -35,6 +35,16 @@ macro_rules! backgrounds {
             ),+
         }
 
+        impl Background {
+            /// Whether both have the same bits.
+            pub fn is_same(&self, other: &Background) -> bool {
+                match (self, other) {
+                    $((Background::$Kind(a), Background::$Kind(b)) => a.is_same(b),)+
+                    _ => false,
+                }
+            }
+        }
+
         macro_rules! in_background {
             ($background:expr, $radiant:ident => $call:expr) => {
                 match $background {
@@ -75,6 +85,9 @@ pub trait Radiant {
 
     /// Mean luminance over all directions.
     fn luminance(&self) -> f32;
+
+    /// Whether both have the same bits.
+    fn is_same(&self, other: &Self) -> bool;
 }
 
 impl Background {

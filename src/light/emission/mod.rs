@@ -48,6 +48,14 @@ pub struct Emission {
     pub side: Side,
 }
 
+impl Emission {
+    /// Whether both are the same, bit for bit.
+    pub fn is_same(&self, other: &Emission) -> bool {
+        let bits = |emission: &Emission| [emission.radiance, emission.mean].map(|rgb| rgb.map(f32::to_bits));
+        bits(self) == bits(other) && (self.texture, self.side) == (other.texture, other.side)
+    }
+}
+
 /// The emission of all primitives. Emitting primitives come first, so one comparison distinguishes them from the others.
 #[derive(Default)]
 pub struct Emitters {

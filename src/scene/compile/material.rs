@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use super::problems::Problems;
 use crate::{
     declare::{Path, Problem},
-    image::{Encoding, read_light},
+    image::Encoding,
     material::Materials,
     quote,
     scene::{MaterialInstance, description::MaterialDescription},
@@ -63,9 +63,6 @@ fn instance(
 
 /// A texture without a name, of normals.
 fn normal_map(path: &str, textures: &mut TextureCompiler) -> Result<u32, Problem> {
-    let resources = textures.resources;
-    let picture = read_light(&resources.path(path), Encoding::Linear)
-        .map_err(|error| Problem::at("normal_map", error.to_string(), "this picture cannot be used"))?;
-    resources.reserve("normal_map", "the texels of a picture", size_of_val(&picture.radiance[..]) as u64)?;
-    Ok(textures.push(Texture::Image(ImageTexture::new(picture))))
+    let picture = ImageTexture::read(textures.resources, "normal_map", path, Encoding::Linear)?;
+    Ok(textures.push(Texture::Image(picture)))
 }

@@ -5,26 +5,30 @@ mod light;
 mod material;
 mod object;
 mod problems;
+mod reuse;
 
 use std::{
-    collections::HashSet,
     path::Path as FilePath,
     sync::{Arc, OnceLock},
+    time::{Duration, Instant},
 };
 
-pub use self::check::{check_camera, check_object};
 use self::{camera::camera, material::materials, object::objects, problems::Problems};
+pub use self::{
+    check::{check_camera, check_object},
+    reuse::Before,
+};
 use super::{
-    Camera, MaterialInstance, Object, RenderSettings, Scene, Truth,
+    Camera, CompileReport, MaterialInstance, Object, RenderSettings, Scene, SceneText, Truth,
     damage::Damage,
     description::{RenderDescription, SceneDescription, TruthDescription},
     surface::Surfaces,
 };
 use crate::{
-    declare::{Path, Problem, Resources},
-    geometry::{Motion, Shape, Shapes},
+    declare::{Leftovers, Memo, Path, Problem, Resources, key_of_file},
+    geometry::{Motion, Shape},
     image::{Encoding, read},
-    light::{Background, Lights},
+    light::Background,
     material::Materials,
     quote,
     shape::motion,
@@ -32,15 +36,22 @@ use crate::{
 };
 
 /// Checks a description and builds the scene, or says what is wrong with it: nothing that follows from `damage`. `source` is the text of
-/// the scene file, and files are looked for in `folder`.
-pub fn compile(description: &SceneDescription, source: &str, folder: &FilePath, damage: &Damage) -> Result<Scene, Vec<Problem>> {
-    let resources = Resources::new(folder);
+/// the scene file, and files are looked for in `folder`. What did not change is taken over from the scene `before`.
+pub fn compile(
+    description: &SceneDescription,
+    source: SceneText,
+    folder: &FilePath,
+    damage: &Damage,
+    before: Option<Before>,
+) -> Result<Scene, Vec<Problem>> {
+    let start = Instant::now();
+    let resources = Resources::after(folder, before.map_or_else(Memo::default, |before| before.scene.memo.clone()));
     let mut problems = Problems::new(damage);
-    let parts = Parts::new(description, &resources, &mut problems);
-    match parts {
-        Some(parts) if problems.found.is_empty() => parts.build(description, source, resources).map_err(|problem| vec![problem]),
-        _ => Err(problems.found),
-    }
+    let parts = Parts::new(description, &resources, before, &mut problems);
+    let Some(parts) = parts.filter(|_| problems.found.is_empty()) else { return Err(problems.found) };
+    let mut scene = parts.build(description, source, resources, before).map_err(|problem| vec![problem])?;
+    scene.compiled.took = start.elapsed();
+    Ok(scene)
 }
 
 /// What the tables of a description say, each by itself.
@@ -59,7 +70,12 @@ struct Parts {
 
 impl Parts {
     /// All tables are looked at, whatever is wrong with one of them.
-    fn new(description: &SceneDescription, resources: &Resources, problems: &mut Problems) -> Option<Parts> {
+    fn new(
+        description: &SceneDescription,
+        resources: &Resources,
+        before: Option<Before>,
+        problems: &mut Problems,
+    ) -> Option<Parts> {
         let at = Path::of;
         let camera = problems.keep(&at("camera"), || camera(&description.camera));
         let camera_motion = problems.keep(&at("camera.motion"), || motion(&description.camera.motion));
@@ -69,7 +85,8 @@ impl Parts {
         let mut textures = TextureCompiler::new(resources, &description.textures, problems.damage.names("textures"), &mut wrong);
         wrong.retain(|problem| !problems.damage.reaches(&Path(problem.path.0.iter().take(2).cloned().collect())));
         problems.found.extend(wrong);
-        let mut tables = Materials::default();
+        let known = before.map(|before| &before.scene.surfaces.materials);
+        let mut tables = known.map_or_else(Materials::default, Materials::after);
         let (materials, numbers) = materials(&description.materials, &mut textures, &mut tables, problems);
         let objects = objects(&description.objects, &numbers, &textures, resources, problems);
         let RenderDescription { settings, spp } = description.render;
@@ -89,22 +106,29 @@ impl Parts {
     }
 
     /// The scene of its parts.
-    fn build(self, description: &SceneDescription, source: &str, resources: Resources) -> Result<Scene, Problem> {
+    fn build(
+        self,
+        description: &SceneDescription,
+        source: SceneText,
+        resources: Resources,
+        before: Option<Before>,
+    ) -> Result<Scene, Problem> {
         let Parts { camera, camera_motion, background, textures, materials, tables, objects, settings, spp, truth } = self;
         reserve_tables(&resources, &objects)?;
         let owners = objects.iter().enumerate().flat_map(|(i, o)| vec![i as u32; o.shape.piece_count()]).collect();
-        let shapes = Shapes::new(objects.iter().map(|o| (&o.shape, &o.motion)), camera.look_at);
-        let emitting = objects.iter().map_while(|o| o.emission.map(|emission| (o, emission)));
-        let emitters: Vec<_> = emitting
-            .flat_map(|(o, emission)| o.shape.pieces().into_iter().map(move |piece| (piece, o.motion.clone(), emission)))
-            .collect();
+        let shapes = reuse::shapes(&objects, camera.look_at, before, &resources);
+        let lights = reuse::lights(&objects, &shapes, background, before, &resources);
+        tables.times_of_tables().iter().for_each(|took| resources.note("material tables", *took));
+        let start = Instant::now();
         let surfaces = Surfaces::new(&objects, &materials, tables);
         surfaces.check().map_err(|message| Problem::at("", message, "in this scene"))?;
+        resources.note("surfaces", Some(start.elapsed()));
+        let Leftovers { memory, memo, report } = resources.into_leftovers();
         let mut scene = Scene {
             title: quote::message(&description.title),
             notes: description.notes.clone(),
-            source: source.to_owned(),
-            lights: Lights::new(&shapes, &emitters, background, camera.look_at),
+            source,
+            lights,
             shapes,
             camera_motion,
             owners,
@@ -120,9 +144,11 @@ impl Parts {
             truth,
             deepest_media: 0,
             warned: OnceLock::new(),
-            memory: resources.into_memory(),
+            compiled: CompileReport { parts: report, took: Duration::ZERO },
+            memo,
+            memory,
         };
-        scene.deepest_media = scene.count_deepest_media();
+        scene.deepest_media = reuse::deepest_media(&scene, before);
         Ok(scene)
     }
 }
@@ -132,9 +158,11 @@ fn truth(description: &TruthDescription, resources: &Resources) -> Result<Truth,
         TruthDescription::Radiance(radiance) => Ok(Truth::Radiance(radiance.map(|x| x as f32))),
         TruthDescription::Image(image) => {
             let path = resources.path(image);
-            let picture = read(&path, Encoding::Srgb)
-                .map_err(|error| Problem::at("image", error.to_string(), "this picture cannot be used"))?;
-            Ok(Truth::Image(path, Arc::new(picture)))
+            let picture = resources.once("references", format!("truth {}", key_of_file(&path)), || {
+                read(&path, Encoding::Srgb)
+                    .map_err(|error| Problem::at("image", error.to_string(), "this picture cannot be used"))
+            })?;
+            Ok(Truth::Image(path, picture))
         }
     }
 }
@@ -147,22 +175,23 @@ fn reserve_tables(resources: &Resources, objects: &[Object]) -> Result<(), Probl
     const TRIANGLE: u64 = 220;
     /// Of a light among many, a triangle that emits being one each.
     const LIGHT: u64 = 900;
-    let mut meshes = HashSet::new();
-    let (mut triangles, mut lights) = (0, 0);
+    resources.reserve("", format_args!("{} objects", objects.len()), OBJECT * objects.len() as u64)?;
+    let mut lights = 0;
     for object in objects {
         let count = match &object.shape {
             Shape::Mesh { data, .. } => {
-                if meshes.insert(Arc::as_ptr(data)) {
-                    triangles += data.triangles.len() as u64;
-                }
-                data.triangles.len() as u64
+                let triangles = data.triangles.len() as u64;
+                // Scenes that share a mesh share its tree. The room holds the data: its address is that of no other mesh.
+                resources.hold(format!("tree of {:p}", Arc::as_ptr(data)), || {
+                    resources.reserve("", format_args!("{triangles} triangles"), TRIANGLE * triangles)?;
+                    Ok(data.clone())
+                })?;
+                triangles
             }
             _ => 1,
         };
         lights += if object.emission.is_some() { count } else { 0 };
     }
-    resources.reserve("", format_args!("{} objects", objects.len()), OBJECT * objects.len() as u64)?;
-    resources.reserve("", format_args!("{triangles} triangles"), TRIANGLE * triangles)?;
     resources.reserve("", format_args!("{lights} lights"), LIGHT * lights)
 }
 

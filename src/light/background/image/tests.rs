@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 use rand::{Rng, SeedableRng, rngs::SmallRng};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
-use super::{ImageBackground, cell_means};
+use super::{ImageBackground, SkyTables, cell_means};
 use crate::{
     image::{Picture, Texels},
     math::{F, Lanes, One, SimdLevel, V, colour::luminance},
@@ -12,6 +12,11 @@ use crate::{
 
 fn picture(width: u32, height: u32, radiance: impl FnMut(u32) -> [f32; 3]) -> Texels {
     (&Picture { width, height, radiance: (0..width * height).map(radiance).collect() }).into()
+}
+
+/// A picture turned by degrees and multiplied by a factor.
+fn background(picture: Texels, rotate: f64, scale: f32) -> ImageBackground {
+    ImageBackground::new(SkyTables::new(picture, scale).into(), rotate)
 }
 
 /// Degrees.
@@ -22,7 +27,7 @@ fn sky(width: u32, height: u32) -> ImageBackground {
     let mut random = SmallRng::seed_from_u64(3);
     let sun = height / 5 * width + width / 3;
     let sky = picture(width, height, |i| if i == sun { [900.0, 800.0, 500.0] } else { [random.random(), 0.1, 0.0] });
-    ImageBackground::new(sky, ROTATE, 2.0)
+    background(sky, ROTATE, 2.0)
 }
 
 fn direction(theta: f64, phi: f64) -> V<One> {
@@ -108,7 +113,7 @@ fn the_pdf_integrates_to_one() {
 
 #[test]
 fn directions_with_light_have_a_density() {
-    let lone = ImageBackground::new(picture(2000, 1000, |i| if i == 1_234_567 { [1e-30; 3] } else { [0.0; 3] }), 0.0, 1.0);
+    let lone = background(picture(2000, 1000, |i| if i == 1_234_567 { [1e-30; 3] } else { [0.0; 3] }), 0.0, 1.0);
     let mut lit = 0;
     for i in 0..4_000_000 {
         let (row, column) = (617.0 + 0.5 + f64::from(i / 2000 % 2000) / 1000.0 - 1.0, f64::from(i % 2000) / 1000.0 + 566.5);
@@ -125,21 +130,21 @@ fn the_middle_column_faces_minus_z_and_rotation_is_counter_clockwise_from_above(
     let marked = |column: u32| picture(8, 4, move |i| if i / 8 == 0 { [9.0; 3] } else { [f32::from(i % 8 == column); 3] });
     let at = |sky: &ImageBackground, [x, y, z]: [f32; 3]| sky.radiance(One, V { x: F(x), y: F(y), z: F(z) }).x.0;
     // The middle of the picture is the edge between columns 3 and 4.
-    let sky = ImageBackground::new(marked(4), 22.5, 1.0);
+    let sky = background(marked(4), 22.5, 1.0);
     assert!((at(&sky, [0.0, 0.0, -1.0]) - 1.0).abs() < 1e-5);
     assert_eq!((at(&sky, [0.0, 1.0, 0.0]), at(&sky, [0.0, -1.0, 0.0])), (9.0, 1.0));
-    let right = ImageBackground::new(marked(6), 22.5, 1.0);
+    let right = background(marked(6), 22.5, 1.0);
     assert!((at(&right, [1.0, 0.0, 0.0]) - 1.0).abs() < 1e-5);
-    let turned = ImageBackground::new(marked(4), 22.5 + 90.0, 1.0);
+    let turned = background(marked(4), 22.5 + 90.0, 1.0);
     assert!((at(&turned, [-1.0, 0.0, 0.0]) - 1.0).abs() < 1e-5);
 }
 
 #[test]
 fn a_black_picture_has_no_light_and_a_density_all_the_same() {
-    let black = ImageBackground::new(picture(3, 2, |_| [0.0; 3]), 0.0, 1.0);
+    let black = background(picture(3, 2, |_| [0.0; 3]), 0.0, 1.0);
     assert_eq!(black.mean_luminance(), 0.0);
     assert!(black.pdf(One, direction(1.0, 1.0)).0 > 0.0);
-    let white = ImageBackground::new(picture(3, 2, |_| [1.0; 3]), 0.0, 3.0);
+    let white = background(picture(3, 2, |_| [1.0; 3]), 0.0, 3.0);
     assert!((white.mean_luminance() - 3.0).abs() < 1e-6);
 }
 
@@ -164,7 +169,7 @@ fn the_mean_luminance_is_that_of_the_cells() {
     // The solid angle of a cell of row j of four: 2π/8 times the difference of the cosines.
     let solid_angle = |row: usize| TAU / 8.0 * ((PI * row as f64 / 4.0).cos() - (PI * (row + 1) as f64 / 4.0).cos());
     let exact = (0..32).map(|cell| means[cell] * solid_angle(cell / 8)).sum::<f64>() / (2.0 * TAU);
-    let sky = ImageBackground::new(clouds, 40.0, 3.0);
+    let sky = background(clouds, 40.0, 3.0);
     assert!((f64::from(sky.mean_luminance()) / exact - 3.0).abs() < 1e-5, "{} for {exact}", sky.mean_luminance());
 }
 
@@ -173,7 +178,7 @@ fn densities_are_in_proportion_to_the_light_of_cells() {
     // Eight columns, four rows, of powers of two: cells are texels that stand for themselves only at their middles, and the mean of
     // a cell is 3/4 of its texel, 1/8 of each neighbour's along either axis.
     let level = |i: u32| if i == 8 + 3 { 64.0 } else { 1.0 };
-    let sky = ImageBackground::new(picture(8, 4, |i| [level(i); 3]), 0.0, 1.0);
+    let sky = background(picture(8, 4, |i| [level(i); 3]), 0.0, 1.0);
     let at = |column: f64, row: f64| {
         let (theta, azimuth) = (PI * (row + 0.5) / 4.0, TAU * ((column + 0.5) / 8.0 - 0.5));
         // From −z towards +x.
@@ -225,7 +230,7 @@ fn every_width_gives_the_same_bits() {
 #[test]
 fn the_poles_have_the_density_of_the_rows_that_end_there() {
     // The lowest of four rows is nine times as bright: means of rows of cells are 1, 1, 2 and 8.
-    let sky = ImageBackground::new(picture(8, 4, |i| [if i >= 24 { 9.0 } else { 1.0 }; 3]), 30.0, 1.0);
+    let sky = background(picture(8, 4, |i| [if i >= 24 { 9.0 } else { 1.0 }; 3]), 30.0, 1.0);
     let height = |row: u32| (PI * f64::from(row) / 4.0).cos() - (PI * f64::from(row + 1) / 4.0).cos();
     let light: f64 = [1.0, 1.0, 2.0, 8.0].iter().zip(0..).map(|(mean, row)| mean * TAU * height(row)).sum();
     for (y, mean) in [(1.0, 1.0), (-1.0, 8.0)] {
@@ -237,6 +242,6 @@ fn the_poles_have_the_density_of_the_rows_that_end_there() {
 #[test]
 fn the_memory_of_a_sky_is_that_of_its_texels_and_cells() {
     // Texels of 16 bytes; cells, twice as many a side at most, of 64; and a mean for every cell of a row of texels.
-    assert_eq!(ImageBackground::bytes([37, 19]), 16 * 37 * 19 + 64 * 74 * 38 + 8 * 74 * 19);
-    assert_eq!(ImageBackground::bytes([5000, 3000]), 16 * 5000 * 3000 + 64 * 1024 * 512 + 8 * 1024 * 3000);
+    assert_eq!(SkyTables::bytes([37, 19]), 16 * 37 * 19 + 64 * 74 * 38 + 8 * 74 * 19);
+    assert_eq!(SkyTables::bytes([5000, 3000]), 16 * 5000 * 3000 + 64 * 1024 * 512 + 8 * 1024 * 3000);
 }

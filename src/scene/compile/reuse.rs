@@ -1,0 +1,113 @@
+//! Takes over the shapes and lights of the scene before, where nothing that they are made from changed.
+use std::{
+    sync::Arc,
+    time::{Duration, Instant},
+};
+
+use glam::DVec3;
+
+use crate::{
+    declare::Resources,
+    geometry::{MeshReuse, Shapes, same_point},
+    light::{Background, Lights},
+    scene::{Object, Scene},
+};
+
+/// The scene that was compiled before.
+#[derive(Clone, Copy)]
+pub struct Before<'a> {
+    pub scene: &'a Scene,
+    /// What its meshes are good for.
+    pub reuse: MeshReuse,
+}
+
+/// The shapes of the objects. `near` is a point in the middle of the scene.
+pub fn shapes(objects: &[Object], near: DVec3, before: Option<Before>, resources: &Resources) -> Arc<Shapes> {
+    const PART: &str = "shapes";
+    if let Some(Before { scene, reuse }) = before
+        && (reuse == MeshReuse::AnyPose || !scene.shapes.have_moved_meshes())
+        && same_point(&scene.shapes.near(), &near)
+        && are_same(objects, &scene.objects, |a, b| a.shape.is_same(&b.shape) && a.motion.is_same(&b.motion))
+    {
+        resources.note(PART, None);
+        return scene.shapes.clone();
+    }
+    let start = Instant::now();
+    let reuse = before.map_or(MeshReuse::Exact, |before| before.reuse);
+    let placed = objects.iter().map(|object| (&object.shape, &object.motion));
+    let (shapes, trees) = Shapes::after(before.map(|before| &*before.scene.shapes), reuse, placed, near);
+    let of_trees: Duration = trees.iter().flatten().sum();
+    resources.note(PART, Some(start.elapsed().saturating_sub(of_trees)));
+    trees.into_iter().for_each(|took| resources.note("mesh trees", took));
+    Arc::new(shapes)
+}
+
+/// The lights of the objects, whose shapes these are.
+pub fn lights(
+    objects: &[Object],
+    shapes: &Shapes,
+    background: Option<Background>,
+    before: Option<Before>,
+    resources: &Resources,
+) -> Arc<Lights> {
+    const PART: &str = "lights";
+    let near = shapes.near();
+    if let Some(Before { scene, .. }) = before
+        && same_point(&scene.shapes.near(), &near)
+        && has_same_background(scene, background.as_ref())
+        && has_same_emitters(scene, objects, shapes)
+    {
+        resources.note(PART, None);
+        return scene.lights.clone();
+    }
+    let start = Instant::now();
+    let emitting = objects.iter().map_while(|o| o.emission.map(|emission| (o, emission)));
+    let emitters: Vec<_> = emitting
+        .flat_map(|(o, emission)| o.shape.pieces().into_iter().map(move |piece| (piece, o.motion.clone(), emission)))
+        .collect();
+    let lights = Arc::new(Lights::new(shapes, &emitters, background, near));
+    resources.note(PART, Some(start.elapsed()));
+    lights
+}
+
+/// How many media lie around the middle of some dielectric of a scene whose count is not known yet.
+pub fn deepest_media(scene: &Scene, before: Option<Before>) -> usize {
+    let same_insides = |old: &Scene| {
+        let filled = |scene: &Scene, object: &Object| (object.flip, scene.has_inside(object));
+        are_same(&scene.objects, &old.objects, |a, b| filled(scene, a) == filled(old, b))
+    };
+    match before.map(|before| before.scene) {
+        Some(old)
+            if Arc::ptr_eq(&scene.shapes, &old.shapes)
+                && scene.surfaces.media.is_empty() == old.surfaces.media.is_empty()
+                && same_insides(old) =>
+        {
+            old.deepest_media
+        }
+        _ => scene.count_deepest_media(),
+    }
+}
+
+fn has_same_background(scene: &Scene, background: Option<&Background>) -> bool {
+    match (&scene.lights.background, background) {
+        (Some(a), Some(b)) => a.is_same(b),
+        (None, None) => true,
+        _ => false,
+    }
+}
+
+fn has_same_emitters(scene: &Scene, objects: &[Object], shapes: &Shapes) -> bool {
+    let emitting = |objects: &[Object]| objects.iter().take_while(|object| object.emission.is_some()).count();
+    let [here, there] = [objects, &scene.objects].map(emitting);
+    let is_same = |a: &Object, b: &Object| {
+        let same_emission = a.emission.zip(b.emission).is_some_and(|(a, b)| a.is_same(&b));
+        same_emission && a.shape.is_same(&b.shape) && a.motion.is_same(&b.motion)
+    };
+    let primitives = scene.owners.partition_point(|owner| (*owner as usize) < there) as u32;
+    are_same(&objects[..here], &scene.objects[..there], is_same)
+        && (0..primitives).all(|primitive| shapes.has_same_triangles(&scene.shapes, primitive))
+}
+
+fn are_same<T>(a: &[T], b: &[T], is_same: impl Fn(&T, &T) -> bool) -> bool {
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| is_same(a, b))
+}
