@@ -3,6 +3,7 @@
 //! ```text
 //!   window or command line                 worker thread                    rayon threads
 //!   RenderRequest, Budget ── channel ─────▶  Session: coarse films, film  ──▶ pass over tiles
+//!   SceneEdit ────────────── channel ─────▶  compiles what changed, starts a Session
 //!   Frame, Status ◀── Mutex<Published> ──  one frame when it is due     ◀── sums, counts
 //! ```
 //! The window states what it wants and never waits; see [`worker`].
@@ -27,6 +28,7 @@ pub mod region;
 pub mod replay_command;
 mod sample_counts;
 mod scatter;
+mod scene_edit;
 pub mod series;
 mod session;
 pub mod settings_text;
@@ -49,6 +51,7 @@ pub use self::{
     protocol::{Budget, Publish, Published, RenderRequest, RenderTask, State, Status},
     region::Region,
     sample_counts::SampleCounts,
+    scene_edit::{EditResult, SceneEdit},
     series::Series,
     target::Target,
     tone::{Display, ToneMap},

@@ -12,7 +12,7 @@ use super::{
     pass::{Failure, PassCount, SampleId},
     protocol::{Budget, Publish, RenderRequest, State, Status, is_below},
     region::Region,
-    sharing::resolved,
+    sharing::resolved_unless,
     threads::{PassJob, Threads},
 };
 use crate::{
@@ -183,9 +183,10 @@ impl Session {
         self.film.focus = self.focus(budget);
         let spp = self.spp_in_focus();
         let target = if budget.paused { spp + 1 } else { spp + self.spp_of_pass(budget, publish) };
-        let rays = self.request.scene.rays(&self.request.camera);
-        let settings = threads.install(|| resolved(&self.request.scene, &rays, &self.request.settings));
-        self.shares = self.request.scene.shares(&rays, &settings);
+        let RenderRequest { scene, camera, settings } = &self.request;
+        let rays = scene.rays(camera);
+        let Ok(settings) = threads.install(|| resolved_unless(scene, &rays, settings, interrupted)) else { return };
+        self.shares = scene.shares(&rays, &settings);
         let start = Instant::now();
         let time_left = budget.max_time.filter(|_| spp > 0).map(|most| most.saturating_sub(self.elapsed));
         let last_frame = self.last_frame;

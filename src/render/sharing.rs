@@ -1,11 +1,11 @@
-//! Decides whether path reuse pays in a scene, by a trial of a few tiles with and without it. The trial cannot be interrupted.
+//! Decides whether path reuse pays in a scene, by a trial of a few tiles with and without it.
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use rayon::prelude::*;
 
 use super::{estimate::Estimate, tile::Tile};
 use crate::{
-    integrator::{Batch, TILE, Work, trace},
+    integrator::{Batch, Interrupted, TILE, Work, trace},
     math::SimdLevel,
     measure::{Floor, relative},
     sampling::Sampler,
@@ -26,20 +26,31 @@ const SEED: u32 = 0x7f4a_7c15;
 /// The same settings, with [`Reuse::Auto`] resolved. Where sharing is possible, the decision depends on the scene alone and is made
 /// once, with the scene's own estimator: a change of sampler, estimator or cap never turns sharing on or off.
 pub fn resolved(scene: &Scene, rays: &CameraRays, settings: &RenderSettings) -> RenderSettings {
+    resolved_unless(scene, rays, settings, &|| false).unwrap_or(*settings)
+}
+
+/// The same, unless the trial is interrupted. Then nothing is decided.
+pub(super) fn resolved_unless(
+    scene: &Scene,
+    rays: &CameraRays,
+    settings: &RenderSettings,
+    interrupted: &(dyn Fn() -> bool + Sync),
+) -> Result<RenderSettings, Interrupted> {
     let pays = || {
         let known = &scene.sharing_pays;
-        known.get().copied().unwrap_or_else(|| {
-            // A scene that fails will fail again in the pass, which says where.
-            let pays = catch_unwind(AssertUnwindSafe(|| pays(scene))).unwrap_or(false);
-            *known.get_or_init(|| pays)
-        })
+        if let Some(pays) = known.get() {
+            return Ok(*pays);
+        }
+        // A scene that fails will fail again in the pass, which says where.
+        let pays = catch_unwind(AssertUnwindSafe(|| pays(scene, interrupted))).unwrap_or(Ok(false))?;
+        Ok(*known.get_or_init(|| pays))
     };
     let reuse = match settings.reuse {
-        Reuse::Auto if scene.can_share(rays, settings) && pays() => Reuse::On,
+        Reuse::Auto if scene.can_share(rays, settings) && pays()? => Reuse::On,
         Reuse::Auto => Reuse::Off,
         said => said,
     };
-    RenderSettings { reuse, ..*settings }
+    Ok(RenderSettings { reuse, ..*settings })
 }
 
 /// What legends and tables call an image by whether its pixels share paths.
@@ -47,7 +58,7 @@ pub fn sharing_name(shares: bool) -> &'static str {
     if shares { "shared paths" } else { "no sharing" }
 }
 
-fn pays(scene: &Scene) -> bool {
+fn pays(scene: &Scene, interrupted: &(dyn Fn() -> bool + Sync)) -> Result<bool, Interrupted> {
     let settings =
         RenderSettings { estimator: scene.settings.estimator, sampler: Sampler::Independent, seed: SEED, ..Default::default() };
     let rays = scene.rays(&scene.camera);
@@ -55,25 +66,30 @@ fn pays(scene: &Scene) -> bool {
     let tile = |[x, y]: &[f64; 2]| {
         let origin = [(width, x), (height, y)].map(|(side, part)| (f64::from(side) * part) as u32 / TILE * TILE);
         let size = [TILE.min(width - origin[0]), TILE.min(height - origin[1])];
-        [Reuse::Off, Reuse::On]
-            .map(|reuse| estimates(scene, &rays, RenderSettings { reuse, ..settings }, Tile::new(origin, size)))
+        let with = |reuse| estimates(scene, &rays, RenderSettings { reuse, ..settings }, Tile::new(origin, size), interrupted);
+        Ok([with(Reuse::Off)?, with(Reuse::On)?])
     };
-    let tiles: Vec<[Vec<Estimate>; 2]> = PLACES.par_iter().map(tile).collect();
+    let tiles = PLACES.par_iter().map(tile).collect::<Result<Vec<[Vec<Estimate>; 2]>, Interrupted>>()?;
     let [without, with] = relative_variances(&tiles);
     let cost = if scene.shapes.are_listed() { COST } else { COST_WITH_TREES };
-    without > cost * with
+    Ok(without > cost * with)
 }
 
 /// Estimates from a few samples of a tile.
-fn estimates(scene: &Scene, rays: &CameraRays, settings: RenderSettings, mut tile: Tile) -> Vec<Estimate> {
+fn estimates(
+    scene: &Scene,
+    rays: &CameraRays,
+    settings: RenderSettings,
+    mut tile: Tile,
+    interrupted: &dyn Fn() -> bool,
+) -> Result<Vec<Estimate>, Interrupted> {
     let mut batch = Batch::default();
     for sample in 0..SPP {
         let work = Work::tile(scene, rays, &settings, tile.origin, tile.size, sample);
-        if trace(SimdLevel::best(), &work, &mut batch, &|| false).is_ok() {
-            tile.add(batch.radiance());
-        }
+        trace(SimdLevel::best(), &work, &mut batch, interrupted)?;
+        tile.add(batch.radiance());
     }
-    (0..tile.size[1] as usize).flat_map(|row| tile.estimates(row)).collect()
+    Ok((0..tile.size[1] as usize).flat_map(|row| tile.estimates(row)).collect())
 }
 
 /// Sums over tiles of the variances of both, relative to the squared common means with the floor of relMSE.

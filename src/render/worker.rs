@@ -2,9 +2,9 @@
 //!
 //! Others state what they *want* ([`RenderRequest`], [`Budget`]); the worker takes the latest request and drops earlier ones. A message
 //! stops the pass between two bounces of a batch, which take some ten microseconds in a simple scene and longer where rays
-//! descend trees. The interrupted batch is discarded and traced again. The trial that decides about path reuse, once per scene,
-//! and the reuse stage of a batch cannot be interrupted. A new request starts an empty film; a new budget continues
-//! the current film.
+//! descend trees. The interrupted batch is discarded and traced again. The reuse stage of a batch cannot be interrupted, and
+//! neither can the compile of an edited scene ([`SceneEdit`]). A new request starts an empty film; a new budget continues the
+//! current film.
 //!
 //! An image that was rendered before continues with its samples; the image that is being rendered starts over if it is requested
 //! again. A second image can be rendered beside the first. From then on both get the same time: the one that had less is next.
@@ -22,12 +22,14 @@ use crossbeam_channel::{Receiver, Sender, unbounded};
 use super::{
     film::Film,
     protocol::{Budget, Publish, Published, RenderRequest, RenderTask, State},
+    scene_edit::{EditResult, SceneEdit, SceneEdits},
     session::{KeptSessions, Session},
     threads::Threads,
 };
 
 enum Message {
     First(u64, Box<RenderRequest>),
+    Edit(u64, Box<SceneEdit>),
     Second(u64, Box<RenderTask>),
     StopSecond,
     Budget(Budget),
@@ -47,6 +49,7 @@ struct Shared {
 pub struct Renderer {
     sender: Sender<Message>,
     shared: Arc<Shared>,
+    edited: Receiver<EditResult>,
     thread: Option<JoinHandle<()>>,
 }
 
@@ -65,14 +68,27 @@ impl Renderer {
             sessions: [None, None],
             leads: [Duration::ZERO; 2],
             kept: KeptSessions::default(),
+            edits: SceneEdits::default(),
+            rate: None,
         };
+        let edited = worker.edits.results();
         let thread = std::thread::Builder::new().name("worker".to_owned()).spawn(move || worker.run(&notify));
-        Renderer { sender, shared, thread: Some(thread.expect("a thread can be started")) }
+        Renderer { sender, shared, edited, thread: Some(thread.expect("a thread can be started")) }
     }
 
     /// Renders this instead of earlier requests. Frames and figures carry `generation`, the number of the image.
     pub fn submit(&self, generation: u64, request: RenderRequest) {
         self.send(Message::First(generation, Box::new(request)));
+    }
+
+    /// Compiles a changed scene and renders it instead of earlier requests. The threads and the film stay.
+    pub fn edit(&self, generation: u64, edit: SceneEdit) {
+        self.send(Message::Edit(generation, Box::new(edit)));
+    }
+
+    /// The result of an edit, once. Edits that a later request replaced have none.
+    pub fn take_edited(&self) -> Option<EditResult> {
+        self.edited.try_recv().ok()
     }
 
     /// Renders this beside the first image.
@@ -139,6 +155,9 @@ struct Worker {
     leads: [Duration; 2],
     /// Images to go back to.
     kept: KeptSessions,
+    edits: SceneEdits,
+    /// Camera samples per second before an edit: a change of the scene rarely changes it much.
+    rate: Option<f64>,
 }
 
 impl Worker {
@@ -148,6 +167,7 @@ impl Worker {
             if self.receive(!busy).is_none() {
                 return;
             }
+            self.compile_edit(notify);
             let next = self.next();
             if let Some(session) = next.and_then(|side| self.sessions[side].as_mut()) {
                 let (sent, seen) = (&self.shared.sent, self.seen);
@@ -211,7 +231,11 @@ impl Worker {
             Message::Quit => return None,
             Message::Budget(budget) => self.budget = budget,
             Message::Threads(threads) => self.threads = threads,
-            Message::First(generation, request) => self.start(0, generation, RenderTask::Picture(*request)),
+            Message::First(generation, request) => {
+                self.edits.set(None);
+                self.start(0, generation, RenderTask::Picture(*request));
+            }
+            Message::Edit(generation, edit) => self.edits.set(Some((generation, edit))),
             Message::StopSecond => {
                 self.sessions[1].take().into_iter().for_each(|session| drop(self.kept.keep(session)));
                 lock(&self.shared.published)[1] = Published::default();
@@ -221,14 +245,26 @@ impl Worker {
         Some(())
     }
 
+    /// Compiles the edit that waits, if any, and starts its image.
+    fn compile_edit(&mut self, notify: &dyn Fn()) {
+        let Some((request, result)) = self.edits.compile(&self.threads) else { return };
+        if let Some(request) = request {
+            self.rate = self.sessions[0].as_ref().and_then(Session::rate);
+            self.start(0, result.generation, RenderTask::Picture(request));
+        }
+        self.edits.tell(result);
+        notify();
+    }
+
     fn start(&mut self, side: usize, generation: u64, task: RenderTask) {
         let (RenderTask::Picture(request) | RenderTask::Series(request)) = &task;
         let sessions = || self.sessions.iter().flatten();
-        let rate = sessions().filter(|old| Arc::ptr_eq(&old.request().scene, &request.scene)).find_map(Session::rate);
+        let is_of_scene = |session: &Session| Arc::ptr_eq(&session.request().scene, &request.scene);
+        let rate = sessions().filter(|session| is_of_scene(session)).find_map(Session::rate).or(self.rate.take());
         self.kept.retain_scene(&request.scene);
         let old = self.sessions[side].take();
         let starts_over = old.as_ref().is_some_and(|old| old.is_of(request));
-        let is_same_scene = old.as_ref().is_some_and(|old| Arc::ptr_eq(&old.request().scene, &request.scene));
+        let is_same_scene = old.as_ref().is_some_and(is_of_scene);
         let film = old.and_then(|old| if starts_over || !is_same_scene { Some(old.into_film()) } else { self.kept.keep(old) });
         let earlier = if starts_over { None } else { self.earlier(side, &task) };
         if earlier.is_none() {

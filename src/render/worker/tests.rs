@@ -17,6 +17,8 @@ fn worker(publish: Publish) -> Worker {
         sessions: [None, None],
         leads: [Duration::ZERO; 2],
         kept: KeptSessions::default(),
+        edits: SceneEdits::default(),
+        rate: None,
     }
 }
 
