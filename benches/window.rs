@@ -1,14 +1,20 @@
-//! Frame times of the window while the renderer uses all cores but one: median and 99th percentile.
+//! Frame times of the window while the renderer uses all cores but one: median and 99th percentile. Then the time from an edit of the
+//! scene to its image.
 //!
-//! `cargo bench --bench window`. Frames come at 60 per second, as on a screen. The measured time is the work of the window's thread for
-//! one frame, up to the triangles for the graphics system.
+//! `cargo bench --bench window`, or `cargo bench --bench window -- edits` for edits only. Frames come at 60 per second, as on a screen.
+//! The measured time is the work of the window's thread for one frame, up to the triangles for the graphics system.
 #![allow(clippy::print_stdout, reason = "figures are printed for those who ask for them")]
-use std::time::{Duration, Instant};
+use std::{
+    path::PathBuf,
+    time::{Duration, Instant},
+};
 
 use egui::{Key, vec2};
 use egui_kittest::{Harness, kittest::Queryable};
 use noisefall::{math::SimdLevel, render::threads::Threads};
 
+#[path = "window/edits.rs"]
+mod edits;
 #[path = "../src/viewer/mod.rs"]
 #[allow(dead_code, unused_imports, reason = "the program uses the rest")]
 mod viewer;
@@ -19,6 +25,14 @@ const FRAMES: usize = 600;
 const BETWEEN: Duration = Duration::from_millis(16);
 
 fn main() {
+    // Cargo hands on what follows `--`.
+    if std::env::args().all(|argument| argument != "edits") {
+        frames();
+    }
+    edits::print();
+}
+
+fn frames() {
     let states: [(&str, &[Key], &[&str]); 7] = [
         ("only the picture", &[], &[]),
         ("convergence", &[Key::F2], &[]),
@@ -35,17 +49,22 @@ fn main() {
     }
 }
 
-/// Quantiles of ten seconds of frames, after the first second.
-fn frame_times(keys: &[Key], buttons: &[&str]) -> [Duration; 2] {
-    let draw = |ui: &mut egui::Ui, app: &mut Option<App>| {
+/// A window of 1280 × 800 with a scene, rendered on all cores but one.
+fn open(scene: Option<PathBuf>) -> Harness<'static, Option<App>> {
+    let draw = move |ui: &mut egui::Ui, app: &mut Option<App>| {
         let threads = std::thread::available_parallelism().map_or(1, usize::from).saturating_sub(1).max(1);
         let make = || {
             let threads = Threads::new(threads, SimdLevel::best()).expect("threads can be had");
-            App::new(ui.ctx(), threads, None, Preferences::default())
+            App::new(ui.ctx(), threads, scene.clone(), Preferences::default())
         };
         app.get_or_insert_with(make).show(ui);
     };
-    let mut window = Harness::builder().with_size(vec2(1280.0, 800.0)).build_ui_state(draw, None);
+    Harness::builder().with_size(vec2(1280.0, 800.0)).build_ui_state(draw, None)
+}
+
+/// Quantiles of ten seconds of frames, after the first second.
+fn frame_times(keys: &[Key], buttons: &[&str]) -> [Duration; 2] {
+    let mut window = open(None);
     let step = |window: &mut Harness<_>, frames: usize| -> Vec<Duration> {
         let time = |_| {
             std::thread::sleep(BETWEEN);

@@ -125,4 +125,14 @@ mod tests {
         let [without, with] = relative_variances(&[[of([1.0; 3], 0.1), of([3.0, 1.0, 1.0], 0.3)], dark]);
         assert!((without - 0.1 / 4.01 - 2.0).abs() < 1e-12 && (with - 0.3 / 4.01).abs() < 1e-12, "{without} {with}");
     }
+
+    #[test]
+    fn a_trial_that_is_interrupted_decides_nothing() {
+        let scene = crate::scene::built_in();
+        let rays = scene.rays(&scene.camera);
+        let settings = RenderSettings { reuse: Reuse::Auto, ..scene.settings };
+        assert!(resolved_unless(&scene, &rays, &settings, &|| true).is_err());
+        let fresh = crate::scene::built_in();
+        assert_eq!(resolved(&scene, &rays, &settings), resolved(&fresh, &fresh.rays(&fresh.camera), &settings));
+    }
 }

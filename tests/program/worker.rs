@@ -31,16 +31,16 @@ fn endless() -> (Arc<Scene>, RenderSettings) {
     (scene, settings)
 }
 
-fn request(scene: &Arc<Scene>) -> RenderRequest {
+pub fn request(scene: &Arc<Scene>) -> RenderRequest {
     RenderRequest { scene: scene.clone(), camera: scene.camera, settings: scene.settings }
 }
 
-fn renderer(publish: Publish) -> Renderer {
+pub fn renderer(publish: Publish) -> Renderer {
     Renderer::new(Threads::new(2, SimdLevel::best()).expect("threads can be had"), publish, || {})
 }
 
 /// Waits until the published state satisfies a condition. The limit of a minute is for busy machines only.
-fn wait_for(renderer: &Renderer, what: &str, condition: impl Fn(&Published) -> bool) -> Published {
+pub fn wait_for(renderer: &Renderer, what: &str, condition: impl Fn(&Published) -> bool) -> Published {
     let start = Instant::now();
     loop {
         let published = renderer.latest();

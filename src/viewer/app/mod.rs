@@ -4,6 +4,7 @@ mod commands;
 mod dialogs;
 mod display;
 mod dock;
+mod editing;
 mod frame;
 mod history;
 mod receive;

@@ -14,6 +14,7 @@ impl App {
             Some(Err(report)) => self.dialogs.scene_error = Some(report),
             None => {}
         }
+        self.receive_edited();
         match self.background.loader.take_reference() {
             Some(Ok(dropped)) => self.take_reference(dropped),
             Some(Err(error)) => self.tell(error, true),
@@ -90,6 +91,8 @@ impl App {
         (session.comparison, session.pinned, session.dropped_reference) = (None, None, None);
         self.background.adviser = None;
         self.background.loader.forget_reference();
+        self.background.settler.forget();
+        (session.waiting_edit, session.submitted_edit) = (None, None);
         // What was found of the scene before would keep it in memory.
         (self.instruments.path, self.background.features) = (PathInspector::new(&self.ctx), FeatureFinder::new(&self.ctx));
         (results.last_seeing, results.black_reason) = (None, None);

@@ -3,7 +3,7 @@ use std::{path::Path, sync::Arc};
 
 use noisefall::{
     render::{Budget, Frame, RenderRequest, view::DisplaySettings},
-    scene::{Camera, RenderSettings, built_in},
+    scene::{Camera, RenderSettings, built_in, description::SceneDescription},
 };
 
 use super::history::Controls;
@@ -12,6 +12,10 @@ use crate::viewer::instruments::{bounces::Bounces, compare::comparison::Comparis
 
 pub struct Session {
     pub opened: Option<OpenedScene>,
+    /// An edit of the scene that is not requested yet.
+    pub waiting_edit: Option<Arc<SceneDescription>>,
+    /// The edit whose result is awaited.
+    pub submitted_edit: Option<Arc<SceneDescription>>,
     pub camera: Camera,
     pub settings: RenderSettings,
     pub comparison: Option<Comparison>,
@@ -29,6 +33,8 @@ impl Session {
         let scene = built_in();
         Session {
             opened: None,
+            waiting_edit: None,
+            submitted_edit: None,
             camera: scene.camera,
             settings: scene.settings,
             comparison: None,

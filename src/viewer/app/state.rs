@@ -6,7 +6,7 @@ use noisefall::render::threads::Threads;
 use super::{history::History, results::Results, session::Session, window_state::Dialogs, window_state::WindowState};
 use crate::viewer::background::{
     adviser::Adviser, catalogue, catalogue::CatalogueEntry, display_pipeline::DisplayPipeline, feature_finder::FeatureFinder,
-    loader::Loader, preferences::Preferences, render_worker::RenderWorkerHandle, saver::Saver,
+    loader::Loader, preferences::Preferences, render_worker::RenderWorkerHandle, saver::Saver, settler::Settler,
 };
 use crate::viewer::instruments::{convergence::history::History as ErrorHistory, path::inspector::PathInspector};
 use crate::viewer::panels::frame_times::FrameTimes;
@@ -37,6 +37,7 @@ pub struct Background {
     pub worker: RenderWorkerHandle,
     pub display: DisplayPipeline,
     pub loader: Loader,
+    pub settler: Settler,
     pub saver: Saver,
     pub features: FeatureFinder,
     pub adviser: Option<Adviser>,
@@ -51,6 +52,7 @@ impl App {
             worker: RenderWorkerHandle::new(threads, ctx),
             display: DisplayPipeline::new(ctx),
             loader: Loader::new(ctx),
+            settler: Settler::new(ctx),
             saver: Saver::new(ctx),
             features: FeatureFinder::new(ctx),
             adviser: None,

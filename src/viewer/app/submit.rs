@@ -25,7 +25,11 @@ impl App {
         let shown = [&self.results.shown, &self.results.second_frame];
         let shown = shown.map(|frame| frame.as_ref().map_or(0, |frame| frame.generation));
         let drags_control = pressed && self.window.tool != Tool::Camera;
-        if drags_control && worker.is_awaited(shown, now) && !worker.is_asked(&request, second_view.as_ref()) {
+        let waits = drags_control && worker.is_awaited(shown, now);
+        let edited = session.waiting_edit.take_if(|_| !waits && !worker.is_editing());
+        if let Some(description) = edited {
+            self.submit_edit(request, description, now);
+        } else if waits && !worker.is_asked(&request, second_view.as_ref()) {
             self.ctx.request_repaint_after(Duration::from_millis(20));
         } else if session.camera.check().is_ok() {
             worker.update(request, second_view, now);

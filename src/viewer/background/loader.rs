@@ -1,5 +1,8 @@
 //! Reading and compiling scenes off the UI thread. The latest request wins.
-use std::{path::PathBuf, sync::Arc};
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+};
 
 use noisefall::{
     render::truth::Reference,
@@ -20,6 +23,24 @@ pub struct OpenedScene {
     pub truth: Option<Arc<Reference>>,
     /// Names of the materials by number.
     pub materials: Arc<[String]>,
+    /// Things that are legal but probably not meant.
+    pub warnings: Vec<String>,
+}
+
+impl OpenedScene {
+    /// The folder of the files that the scene names.
+    pub fn folder(&self) -> PathBuf {
+        self.path.as_deref().and_then(Path::parent).map(Path::to_owned).unwrap_or_default()
+    }
+
+    /// Takes over an edited scene.
+    pub fn change(&mut self, scene: Arc<Scene>) {
+        self.materials = scene.legend().names.into();
+        if scene.truth != self.scene.truth {
+            self.truth = Reference::of(&scene).map(Arc::new);
+        }
+        self.scene = scene;
+    }
 }
 
 /// The result of opening a scene.
@@ -88,21 +109,20 @@ fn open(path: Option<PathBuf>) -> OpenResult {
     let Some(path) = path else {
         let scene = built_in();
         let materials = scene.legend().names.into();
-        return Ok(OpenedScene { name: BUILT_IN_NAME.to_owned(), scene: Arc::new(scene), path: None, truth: None, materials });
+        let (name, warnings) = (BUILT_IN_NAME.to_owned(), scene.warnings().to_vec());
+        return Ok(OpenedScene { name, scene: Arc::new(scene), path: None, truth: None, materials, warnings });
     };
     let scene = load(&path).map_err(|error| error.report())?;
     let truth = Reference::of(&scene).map(Arc::new);
     let name = catalogue::name(&scene.title, &path);
     let materials = scene.legend().names.into();
-    Ok(OpenedScene { scene: Arc::new(scene), name, path: Some(path), truth, materials })
+    let warnings = scene.warnings().to_vec();
+    Ok(OpenedScene { scene: Arc::new(scene), name, path: Some(path), truth, materials, warnings })
 }
 
 #[cfg(test)]
 mod tests {
-    use std::{
-        path::Path,
-        time::{Duration, Instant},
-    };
+    use std::time::{Duration, Instant};
 
     use super::*;
 

@@ -11,3 +11,4 @@ pub mod preferences;
 mod reduction;
 pub mod render_worker;
 pub mod saver;
+pub mod settler;

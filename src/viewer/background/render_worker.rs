@@ -1,7 +1,11 @@
 //! Handle to the render worker. It compares each request with the last one; a difference starts a new generation.
+use std::{path::PathBuf, sync::Arc};
+
 use noisefall::{
+    geometry::MeshReuse,
     math::SimdLevel,
-    render::{Budget, Publish, Published, RenderRequest, RenderTask, Renderer, threads::Threads},
+    render::{Budget, EditResult, Publish, Published, RenderRequest, RenderTask, Renderer, SceneEdit, threads::Threads},
+    scene::{Scene, SceneError, description::SceneDescription},
 };
 
 /// Seconds to wait for the last image before the next request, while a control is dragged.
@@ -15,11 +19,21 @@ pub struct RenderWorkerHandle {
     second_generation: u64,
     request: Option<RenderRequest>,
     second: Option<RenderTask>,
+    /// The edit that has no result yet.
+    edit: Option<PendingEdit>,
     budget: Budget,
     threads: usize,
     restarts: bool,
     /// Time of the last request, in seconds of the window's clock.
     asked: f64,
+}
+
+/// An edit of the scene that the worker compiles.
+struct PendingEdit {
+    /// Its image, with the scene before the edit.
+    request: RenderRequest,
+    /// The generation of the previous image.
+    before: u64,
 }
 
 impl RenderWorkerHandle {
@@ -34,6 +48,7 @@ impl RenderWorkerHandle {
             second_generation: 0,
             request: None,
             second: None,
+            edit: None,
             budget: Budget::default(),
             threads: count,
             restarts: false,
@@ -49,8 +64,37 @@ impl RenderWorkerHandle {
         }
     }
 
+    /// Requests a changed scene. The request holds the scene before the edit. Until there is a result, nothing else is requested.
+    pub fn edit(&mut self, request: RenderRequest, description: Arc<SceneDescription>, folder: PathBuf, now: f64) {
+        let before = self.generation;
+        self.generation = self.next(now);
+        let RenderRequest { scene, camera, settings } = request.clone();
+        let reuse = MeshReuse::AnyPose;
+        self.renderer.edit(self.generation, SceneEdit { description, folder, before: scene, reuse, camera, settings });
+        self.edit = Some(PendingEdit { request, before });
+    }
+
+    /// Whether an edit has no result yet.
+    pub fn is_editing(&self) -> bool {
+        self.edit.is_some()
+    }
+
+    /// The result of the last edit, once: the scene, which is being rendered.
+    pub fn take_edited(&mut self) -> Option<Result<Arc<Scene>, SceneError>> {
+        let EditResult { scene, .. } = self.renderer.take_edited()?;
+        let PendingEdit { request, before } = self.edit.take()?;
+        match &scene {
+            Ok(scene) => self.request = Some(RenderRequest { scene: scene.clone(), ..request }),
+            Err(_) => self.generation = before,
+        }
+        Some(scene)
+    }
+
     /// Requests what has changed. `now` is the time of the window's clock.
     pub fn update(&mut self, request: RenderRequest, second: Option<RenderTask>, now: f64) {
+        if self.is_editing() {
+            return;
+        }
         let is_new = std::mem::take(&mut self.restarts) || self.request.as_ref() != Some(&request);
         if is_new {
             self.generation = self.next(now);

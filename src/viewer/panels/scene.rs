@@ -36,7 +36,7 @@ pub fn show(ui: &mut egui::Ui, opened: Option<&OpenedScene>, catalogue: &[Catalo
         if !opened.scene.notes.is_empty() {
             ui.label(RichText::new(&opened.scene.notes).weak());
         }
-        for warning in opened.scene.warnings() {
+        for warning in &opened.warnings {
             ui.label(RichText::new(format!("Note: {warning}.")).color(ui.visuals().warn_fg_color));
         }
     }

@@ -5,6 +5,7 @@ mod camera;
 mod collision;
 mod comparing;
 mod driving;
+mod editing;
 mod fields;
 mod glyphs;
 mod instruments;

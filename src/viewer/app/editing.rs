@@ -1,0 +1,65 @@
+//! Edits of the open scene: the worker compiles and renders them; what a drag leaves out is done when it ends.
+use std::sync::Arc;
+
+use noisefall::{
+    render::RenderRequest,
+    scene::{Camera, Scene, description::SceneDescription},
+};
+
+use super::state::App;
+use crate::viewer::background::settler::EditedScene;
+
+impl App {
+    /// Renders a changed scene. If changes come faster than their images, only the latest counts.
+    #[allow(dead_code, reason = "the editors of a scene call it")]
+    pub fn edit_scene(&mut self, description: Arc<SceneDescription>) {
+        self.session.waiting_edit = Some(description);
+    }
+
+    /// Requests an edit of the scene.
+    pub fn submit_edit(&mut self, request: RenderRequest, description: Arc<SceneDescription>, now: f64) {
+        let Some(opened) = &self.session.opened else { return };
+        let folder = opened.folder();
+        self.session.submitted_edit = Some(description.clone());
+        self.background.worker.edit(request, description, folder, now);
+    }
+
+    /// Takes over what the worker has compiled, and what has settled since.
+    pub fn receive_edited(&mut self) {
+        match self.background.worker.take_edited() {
+            Some(Ok(scene)) => self.take_edited(scene),
+            Some(Err(error)) => self.tell(format!("This change cannot be made: {error}"), true),
+            None => {}
+        }
+        // A drag goes on as long as a button is down.
+        if self.session.waiting_edit.is_none() && !self.ctx.input(|input| input.pointer.any_down()) {
+            self.background.settler.start();
+        }
+        if let Some(settled) = self.background.settler.take()
+            && let Some(opened) = &mut self.session.opened
+        {
+            opened.warnings = settled.warnings;
+            if !Arc::ptr_eq(&opened.scene, &settled.scene) {
+                opened.change(settled.scene);
+            }
+        }
+    }
+
+    fn take_edited(&mut self, scene: Arc<Scene>) {
+        let session = &mut self.session;
+        let (Some(opened), Some(description)) = (&mut session.opened, session.submitted_edit.take()) else { return };
+        // The camera and the settings are those of the window, unless they are what was edited.
+        let (old, new) = (opened.scene.camera, scene.camera);
+        if new != old {
+            let keeps_resolution = new.resolution == old.resolution;
+            session.camera =
+                Camera { resolution: if keeps_resolution { session.camera.resolution } else { new.resolution }, ..new };
+        }
+        if scene.settings != opened.scene.settings {
+            session.settings = scene.settings;
+        }
+        self.background.settler.note(EditedScene { scene: scene.clone(), description, folder: opened.folder() });
+        opened.change(scene);
+        self.results.black_reason = None;
+    }
+}

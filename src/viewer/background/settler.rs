@@ -1,0 +1,112 @@
+//! Settles edited scenes off the UI thread: what a drag leaves out to be fast is done when the drag ends.
+use std::{path::PathBuf, sync::Arc};
+
+use noisefall::{
+    geometry::MeshReuse,
+    scene::{Scene, description::SceneDescription},
+};
+
+use super::background_task::BackgroundTask;
+
+/// A scene as it was edited.
+#[derive(Clone)]
+pub struct EditedScene {
+    pub scene: Arc<Scene>,
+    pub description: Arc<SceneDescription>,
+    /// Files that it names are looked for in this folder.
+    pub folder: PathBuf,
+}
+
+/// A scene with exact meshes, and its warnings.
+pub struct SettledScene {
+    pub scene: Arc<Scene>,
+    pub warnings: Vec<String>,
+}
+
+pub struct Settler {
+    ctx: egui::Context,
+    /// The last edit, until its work is started.
+    edited: Option<EditedScene>,
+    pending: Option<BackgroundTask<SettledScene>>,
+}
+
+impl Settler {
+    pub fn new(ctx: &egui::Context) -> Settler {
+        Settler { ctx: ctx.clone(), edited: None, pending: None }
+    }
+
+    /// The latest edit. Results for earlier ones are dropped.
+    pub fn note(&mut self, edited: EditedScene) {
+        (self.edited, self.pending) = (Some(edited), None);
+    }
+
+    /// Forgets the scene.
+    pub fn forget(&mut self) {
+        (self.edited, self.pending) = (None, None);
+    }
+
+    /// Starts the work for the latest edit, if it has not started.
+    pub fn start(&mut self) {
+        if let Some(edited) = self.edited.take() {
+            self.pending = Some(BackgroundTask::start(&self.ctx, |_| settled(edited)));
+        }
+    }
+
+    /// The settled scene, once.
+    pub fn take(&mut self) -> Option<SettledScene> {
+        BackgroundTask::take(&mut self.pending)?.ok()
+    }
+}
+
+fn settled(edited: EditedScene) -> SettledScene {
+    let EditedScene { scene, description, folder } = edited;
+    // Where files vanish in the meantime, the scene stays as it is.
+    let exact = scene.shapes.have_moved_meshes().then(|| description.rebuild(&folder, &scene, MeshReuse::Exact).ok()).flatten();
+    let scene = exact.map_or(scene, Arc::new);
+    SettledScene { warnings: scene.warnings().to_vec(), scene }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::{
+        path::Path,
+        time::{Duration, Instant},
+    };
+
+    use noisefall::shape::{Transform, mesh::Mesh};
+
+    use super::*;
+
+    fn wait(settler: &mut Settler) -> SettledScene {
+        let start = Instant::now();
+        loop {
+            if let Some(settled) = settler.take() {
+                return settled;
+            }
+            assert!(start.elapsed() < Duration::from_secs(60), "it never came");
+            std::thread::sleep(Duration::from_millis(1));
+        }
+    }
+
+    #[test]
+    fn a_moved_mesh_gets_its_own_tree_when_the_drag_ends() {
+        let mut description = SceneDescription::default();
+        description.add_object("knot", Mesh::default());
+        let before = description.build(Path::new("")).expect("it is a scene");
+        description.objects[0].transform.push(Transform::Translate(glam::DVec3::X));
+        let description = Arc::new(description);
+        let moved = description.rebuild(Path::new(""), &before, MeshReuse::AnyPose).expect("it is a scene");
+        assert!(moved.shapes.have_moved_meshes());
+        let edited = EditedScene { scene: Arc::new(moved), description, folder: PathBuf::new() };
+        let mut settler = Settler::new(&egui::Context::default());
+        settler.note(edited.clone());
+        assert!(settler.take().is_none(), "it waits for the end of the drag");
+        settler.start();
+        let settled = wait(&mut settler);
+        assert!(!settled.scene.shapes.have_moved_meshes() && !settled.warnings.is_empty());
+        settler.note(edited);
+        settler.start();
+        settler.forget();
+        assert!(settler.take().is_none());
+    }
+}
