@@ -36,6 +36,10 @@ struct MeshTree {
 }
 
 impl MeshTrees {
+    pub fn len(&self) -> usize {
+        self.0.len()
+    }
+
     fn find(&self, data: &Arc<MeshData>, pose: &DAffine3) -> Option<&MeshTree> {
         self.0.iter().find(|tree| Arc::ptr_eq(&tree.data, data) && same_map(&tree.pose, pose))
     }

@@ -75,6 +75,11 @@ impl Shapes {
         (all, meshes.times)
     }
 
+    /// Number of trees of meshes; meshes in the same pose share theirs.
+    pub fn count_mesh_trees(&self) -> usize {
+        self.meshes.len()
+    }
+
     /// The point in the middle of the scene that they were built with.
     pub fn near(&self) -> DVec3 {
         self.near

@@ -90,8 +90,8 @@ fn only_what_a_change_concerns_is_made_again() {
 
 #[test]
 fn a_mesh_that_moves_keeps_its_tree_until_it_is_compiled_exactly() {
-    let mut description = SceneDescription::default();
-    description.background = Some(Constant { radiance: [1.0; 3] }.into());
+    let background = Some(Constant { radiance: [1.0; 3] }.into());
+    let mut description = SceneDescription { background, ..SceneDescription::default() };
     description.add_material("white", Lambertian { albedo: [0.8, 0.5, 0.3].into() });
     let hills = MeshSource::Heightfield(Heightfield { quads: 30, seed: 1 });
     description.add_object("hills", Mesh { source: hills, smooth: None }).material = Some("white".to_owned());

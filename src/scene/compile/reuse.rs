@@ -21,6 +21,9 @@ pub struct Before<'a> {
     pub reuse: MeshReuse,
 }
 
+/// What the report of a compile calls the trees of meshes.
+const MESH_TREES: &str = "mesh trees";
+
 /// The shapes of the objects. `near` is a point in the middle of the scene.
 pub fn shapes(objects: &[Object], near: DVec3, before: Option<Before>, resources: &Resources) -> Arc<Shapes> {
     const PART: &str = "shapes";
@@ -30,6 +33,7 @@ pub fn shapes(objects: &[Object], near: DVec3, before: Option<Before>, resources
         && are_same(objects, &scene.objects, |a, b| a.shape.is_same(&b.shape) && a.motion.is_same(&b.motion))
     {
         resources.note(PART, None);
+        (0..scene.shapes.count_mesh_trees()).for_each(|_| resources.note(MESH_TREES, None));
         return scene.shapes.clone();
     }
     let start = Instant::now();
@@ -38,7 +42,7 @@ pub fn shapes(objects: &[Object], near: DVec3, before: Option<Before>, resources
     let (shapes, trees) = Shapes::after(before.map(|before| &*before.scene.shapes), reuse, placed, near);
     let of_trees: Duration = trees.iter().flatten().sum();
     resources.note(PART, Some(start.elapsed().saturating_sub(of_trees)));
-    trees.into_iter().for_each(|took| resources.note("mesh trees", took));
+    trees.into_iter().for_each(|took| resources.note(MESH_TREES, took));
     Arc::new(shapes)
 }
 

@@ -32,7 +32,8 @@ impl App {
             None => {}
         }
         // A drag goes on as long as a button is down.
-        if self.session.waiting_edit.is_none() && !self.ctx.input(|input| input.pointer.any_down()) {
+        let is_last = self.session.waiting_edit.is_none() && !self.background.worker.is_editing();
+        if is_last && !self.ctx.input(|input| input.pointer.any_down()) {
             self.background.settler.start();
         }
         if let Some(settled) = self.background.settler.take()

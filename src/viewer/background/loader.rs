@@ -6,7 +6,7 @@ use std::{
 
 use noisefall::{
     render::truth::Reference,
-    scene::{Camera, Scene, built_in, load},
+    scene::{Camera, Scene, Truth, built_in, load},
 };
 
 use super::{background_task::BackgroundTask, catalogue};
@@ -36,7 +36,11 @@ impl OpenedScene {
     /// Takes over an edited scene.
     pub fn change(&mut self, scene: Arc<Scene>) {
         self.materials = scene.legend().names.into();
-        if scene.truth != self.scene.truth {
+        let is_same = match (&scene.truth, &self.scene.truth) {
+            (Some(Truth::Image(_, new)), Some(Truth::Image(_, old))) => Arc::ptr_eq(new, old),
+            (new, old) => new == old,
+        };
+        if !is_same {
             self.truth = Reference::of(&scene).map(Arc::new);
         }
         self.scene = scene;
