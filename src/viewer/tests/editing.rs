@@ -3,11 +3,13 @@ use std::sync::Arc;
 
 use egui::pos2;
 use noisefall::{
-    scene::{describe, description::SceneDescription, description::Transform},
+    render::{RenderRequest, RenderTask},
+    scene::{Camera, RenderSettings, built_in, describe, description::SceneDescription, description::Transform},
     shape::mesh::{Knot, Mesh, MeshSource},
 };
 
 use super::*;
+use crate::viewer::background::render_worker::RenderWorkerHandle;
 
 fn description(scene: &str) -> SceneDescription {
     let path = shipped(scene);
@@ -83,4 +85,32 @@ fn a_mesh_that_is_dragged_settles_when_the_button_is_released() {
     }
     window.drop_at(pos2(640.0, 1296.0));
     wait(&mut window, "the tree of the last pose", |app| !moves(app));
+}
+
+#[test]
+fn while_an_edit_is_compiled_nothing_else_is_requested_and_the_second_view_follows_it() {
+    let threads = Threads::new(1, SimdLevel::best()).expect("a thread can be had");
+    let mut worker = RenderWorkerHandle::new(threads, &egui::Context::default());
+    let scene = built_in();
+    let camera = Camera { resolution: [8, 8], ..scene.camera };
+    let request = RenderRequest { settings: scene.settings, scene: Arc::new(scene), camera };
+    let other = |request: &RenderRequest| {
+        let settings = RenderSettings { seed: 5, ..request.settings };
+        Some(RenderTask::Picture(RenderRequest { settings, ..request.clone() }))
+    };
+    worker.update(request.clone(), other(&request), 0.0);
+    worker.edit(request.clone(), Arc::new(description("cornell_spheres")), PathBuf::new(), 1.0);
+    worker.update(request.clone(), other(&request), 1.0);
+    assert_eq!((worker.generation(), worker.second_generation()), (3, 2));
+    let start = Instant::now();
+    let scene = loop {
+        if let Some(result) = worker.take_edited() {
+            break result.unwrap_or_else(|error| panic!("{error}"));
+        }
+        assert!(start.elapsed() < Duration::from_secs(60), "it never came");
+    };
+    assert!(!worker.is_editing());
+    let edited = RenderRequest { scene, ..request };
+    worker.update(edited.clone(), other(&edited), 2.0);
+    assert_eq!((worker.generation(), worker.second_generation()), (3, 4));
 }
