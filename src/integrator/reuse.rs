@@ -36,9 +36,10 @@ struct Second<L: Lanes> {
     lit: M<L>,
 }
 
-/// Adds the shared light of its group to the radiance of every slot, and sorts the slots into rows.
+/// Adds the shared light of its group to the radiance of every slot, and sorts the slots into rows. Returns false if it was
+/// interrupted.
 #[simd]
-pub(super) fn share<L: Lanes>(l: L, work: &Work, batch: &mut Batch) {
+pub(super) fn share<L: Lanes>(l: L, work: &Work, batch: &mut Batch, interrupted: &dyn Fn() -> bool) -> bool {
     let none = First { p: V::splat(l, [0.0; 3]), n: V::splat(l, [0.0; 3]), shares: l.first(0) };
     for start in (0..GROUPS).step_by(L::N) {
         let slot = |member: usize| l.iota() + (member * GROUPS + start) as u32;
@@ -49,6 +50,10 @@ pub(super) fn share<L: Lanes>(l: L, work: &Work, batch: &mut Batch) {
         let mut sums = [V::splat(l, [0.0; 3]); MEMBERS];
         for finder in 0..MEMBERS {
             let second = Second::read(l, work, batch, slot(finder));
+            // Where rays descend trees, the whole stage takes longer than a change should wait.
+            if finder % 4 == 0 && interrupted() {
+                return false;
+            }
             if !second.lit.any() {
                 continue;
             }
@@ -68,6 +73,7 @@ pub(super) fn share<L: Lanes>(l: L, work: &Work, batch: &mut Batch) {
         }
     }
     std::mem::swap(&mut batch.radiance, &mut batch.shared.radiance);
+    true
 }
 
 /// The part of the light beyond the second surface of a slot's path that stays with its own pixel.

@@ -38,7 +38,8 @@ impl Observer for () {}
 #[derive(Debug, PartialEq, Eq)]
 pub struct Interrupted;
 
-/// Traces one sample of every pixel of a tile; the result is [`Batch::radiance`]. Calls `interrupted` before every bounce.
+/// Traces one sample of every pixel of a tile; the result is [`Batch::radiance`]. Calls `interrupted` before every bounce, and in
+/// the reuse stage.
 ///
 /// The estimate is the sum over bounces k of throughput × emitted radiance at the k-th surface: the rendering equation (Kajiya
 /// 1986, equation 1), with one sampled direction in place of the integral at every surface. Light samples replace the emission at
@@ -110,7 +111,9 @@ pub(super) fn trace_in<L: Lanes, O: Observer>(
     }
     if work.shares() {
         observer.before_sharing(work, batch);
-        share(l, work, batch);
+        if !share(l, work, batch, interrupted) {
+            return Err(Interrupted);
+        }
     }
     Ok(())
 }

@@ -2,9 +2,8 @@
 //!
 //! Others state what they *want* ([`RenderRequest`], [`Budget`]); the worker takes the latest request and drops earlier ones. A message
 //! stops the pass between two bounces of a batch, which take some ten microseconds in a simple scene and longer where rays
-//! descend trees. The interrupted batch is discarded and traced again. The reuse stage of a batch cannot be interrupted, and
-//! neither can the compile of an edited scene ([`SceneEdit`]). A new request starts an empty film; a new budget continues the
-//! current film.
+//! descend trees. The interrupted batch is discarded and traced again. The compile of an edited scene ([`SceneEdit`]) cannot be
+//! interrupted. A new request starts an empty film; a new budget continues the current film.
 //!
 //! An image that was rendered before continues with its samples; the image that is being rendered starts over if it is requested
 //! again. A second image can be rendered beside the first. From then on both get the same time: the one that had less is next.
