@@ -23,7 +23,8 @@ impl App {
         CentralPanel::no_frame().show(ui, |ui| self.canvas(ui));
         self.show_dialogs(&ctx);
         self.record_step();
-        self.frame_times.show(&ctx, self.session.threads, self.background.worker.generation());
+        let compiled = self.session.opened.as_ref().map(|opened| &opened.scene.compiled);
+        self.frame_times.show(&ctx, self.session.threads, self.background.worker.generation(), compiled);
         self.submit();
         self.window.had_focus = ctx.egui_wants_keyboard_input();
         self.frame_times.record(start.elapsed(), ctx.input(|input| input.time));

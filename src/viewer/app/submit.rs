@@ -26,12 +26,13 @@ impl App {
         let shown = shown.map(|frame| frame.as_ref().map_or(0, |frame| frame.generation));
         let drags_control = pressed && self.window.tool != Tool::Camera;
         let waits = drags_control && worker.is_awaited(shown, now);
-        let edited = session.waiting_edit.take_if(|_| !waits && !worker.is_editing());
+        let is_valid = session.camera.check().is_ok();
+        let edited = session.waiting_edit.take_if(|_| is_valid && !waits && !worker.is_editing());
         if let Some(description) = edited {
             self.submit_edit(request, description, now);
-        } else if waits && !worker.is_asked(&request, second_view.as_ref()) {
+        } else if waits && (session.waiting_edit.is_some() || !worker.is_asked(&request, second_view.as_ref())) {
             self.ctx.request_repaint_after(Duration::from_millis(20));
-        } else if session.camera.check().is_ok() {
+        } else if is_valid {
             worker.update(request, second_view, now);
         }
     }

@@ -2,6 +2,7 @@
 use std::time::Duration;
 
 use egui::{Align2, RichText};
+use noisefall::scene::CompileReport;
 
 #[derive(Default)]
 pub struct FrameTimes {
@@ -56,8 +57,8 @@ impl FrameTimes {
         self.whole.record(took);
     }
 
-    /// Shows the figures over the picture, if they are wanted.
-    pub fn show(&self, ctx: &egui::Context, threads: usize, generation: u64) {
+    /// Shows the figures over the picture, if they are wanted. `compiled` reports the compile of the scene.
+    pub fn show(&self, ctx: &egui::Context, threads: usize, generation: u64, compiled: Option<&CompileReport>) {
         if !self.shown {
             return;
         }
@@ -71,6 +72,9 @@ impl FrameTimes {
                 }
                 ui.monospace(format!("last one {:.0} ms ago; none while nothing changes", self.between * 1e3));
                 ui.monospace(format!("render threads {threads}, generation {generation}"));
+                if let Some(compiled) = compiled {
+                    ui.monospace(format!("scene compiled in {compiled}"));
+                }
                 ui.weak("F12 hides this");
             });
         });

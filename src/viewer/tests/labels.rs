@@ -4,7 +4,7 @@ use std::sync::Arc;
 use noisefall::{
     measure::LogRatio,
     render::{Frame, Series, pass::SampleId},
-    scene::{RenderSettings, built_in},
+    scene::{CompileReport, RenderSettings, built_in},
 };
 
 use super::*;
@@ -189,9 +189,11 @@ fn frame_times_are_those_of_layout_and_of_all() {
     app.frame_times.record(Duration::from_millis(5), 0.0);
     app.frame_times.record(Duration::from_millis(5), 0.25);
     app.frame_times.record_whole(Duration::from_millis(9));
-    let texts = said(&mut app, |app, ui| app.frame_times.show(ui.ctx(), 1, 0));
+    let compiled = CompileReport::default();
+    let texts = said(&mut app, |app, ui| app.frame_times.show(ui.ctx(), 1, 0, Some(&compiled)));
     assert_says(&texts, &["layout      p50   5.00 ms   p99   5.00 ms", "and drawing p50   9.00 ms   p99   9.00 ms"]);
     assert_says(&texts, &["last one 250 ms ago; none while nothing changes"]);
+    assert_says(&texts, &["scene compiled in 0.0 ms"]);
 }
 
 #[test]
