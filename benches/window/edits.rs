@@ -10,7 +10,7 @@ use egui::pos2;
 use egui_kittest::Harness;
 use glam::DVec3;
 use noisefall::{
-    geometry::MeshReuse,
+    declare::Precision,
     material::{Dielectric, Lambertian, Plastic},
     math::SimdLevel,
     render::{
@@ -165,7 +165,7 @@ fn check(window: &Window, description: &SceneDescription, last: Change) {
     let mut description = description.clone();
     last(&mut description, place(EDITS - 1));
     let opened = window.state().as_ref().and_then(|app| app.session.opened.as_ref()).expect("it is open");
-    let exact = Arc::new(description.clone()).rebuild(&PathBuf::new(), &opened.scene, MeshReuse::Exact).expect("it is valid");
+    let exact = Arc::new(description.clone()).rebuild(&PathBuf::new(), &opened.scene, Precision::Exact).expect("it is valid");
     let new = description.build(Path::new("")).expect("it is valid");
     assert_eq!(picture(&exact), picture(&new), "an edited scene has the picture of a new one");
 }

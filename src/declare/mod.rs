@@ -15,6 +15,7 @@
 //! | `path.rs` | where in a description a parameter stands |
 //! | `problem.rs` | what is wrong with a value, and where |
 //! | `outline.rs` | the parameters of a kind as a list |
+//! | `precision.rs` | how exactly a changed scene is compiled |
 //! | `resources.rs`, `memo.rs` | files, memory and the slow parts of the compile before, for kinds that are compiled |
 //! | `dice.rs` | the visitor that draws random values within their ranges |
 //! | `manual.rs`, `schema.rs` | the visitors that document a format, for people and for editors |
@@ -33,6 +34,7 @@ mod outline;
 mod owned;
 mod parameter;
 mod path;
+mod precision;
 mod problem;
 mod resources;
 mod schema;
@@ -51,6 +53,7 @@ pub use self::{
     owned::OwnedValue,
     parameter::{CountRange, Parameter, Range, Scale},
     path::{Path, Step},
+    precision::Precision,
     problem::{Problem, nearest, short},
     resources::{Leftovers, Resources, key_of_file},
     schema::schema,

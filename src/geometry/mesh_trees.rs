@@ -12,16 +12,7 @@ use super::{
     identity::same_map,
     mesh::{Mesh, MeshData},
 };
-
-/// What a mesh may take over from the compile before.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum MeshReuse {
-    /// The tree of the same data in the same pose: shapes have the bits of those that are built from nothing.
-    #[default]
-    Exact,
-    /// If there is none, the tree of another pose, moved by a transform. It takes no time, and positions are rounded differently.
-    AnyPose,
-}
+use crate::declare::Precision;
 
 /// The trees of the meshes of a scene.
 #[derive(Clone, Default)]
@@ -54,7 +45,7 @@ pub(super) struct MeshBuilder<'a> {
     /// Number of instances of the data.
     uses: HashMap<*const MeshData, usize>,
     before: Option<&'a MeshTrees>,
-    reuse: MeshReuse,
+    precision: Precision,
     pub trees: MeshTrees,
     /// Whether some mesh has the tree of another pose.
     pub have_moved: bool,
@@ -66,7 +57,7 @@ impl<'a> MeshBuilder<'a> {
     pub fn new<'s>(
         shapes: impl Iterator<Item = (&'s Shape, &'s Motion)>,
         before: Option<&'a MeshTrees>,
-        reuse: MeshReuse,
+        precision: Precision,
     ) -> MeshBuilder<'a> {
         let mut uses = HashMap::new();
         for (shape, motion) in shapes {
@@ -75,7 +66,7 @@ impl<'a> MeshBuilder<'a> {
                 *uses.entry(Arc::as_ptr(data)).or_insert(0) += if motion.0.is_empty() { 1 } else { 2 };
             }
         }
-        MeshBuilder { uses, before, reuse, trees: MeshTrees::default(), have_moved: false, times: Vec::new() }
+        MeshBuilder { uses, before, precision, trees: MeshTrees::default(), have_moved: false, times: Vec::new() }
     }
 
     /// The mesh with its tree, and the map from there to world space. A mesh with a single instance is built in world space.
@@ -86,7 +77,7 @@ impl<'a> MeshBuilder<'a> {
         if let Some(tree) = self.known(|trees| trees.find(data, &pose)) {
             return (self.take_over(tree), still);
         }
-        if self.reuse == MeshReuse::AnyPose
+        if self.precision == Precision::Interactive
             && let Some(tree) = self.known(|trees| trees.in_any_pose(data))
         {
             self.have_moved = true;

@@ -57,7 +57,6 @@ pub use self::{
     identity::same_point,
     isosurface::{Expression, Isosurface, ParseError},
     mesh::MeshData,
-    mesh_trees::MeshReuse,
     motion::Motion,
     nearest::Nearest,
     shape::{Outline, Shape},

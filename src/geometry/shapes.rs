@@ -10,13 +10,16 @@ use super::{
     instance::{Body, Instance},
     lists::Lists,
     mesh::Mesh,
-    mesh_trees::{MeshBuilder, MeshReuse, MeshTrees},
+    mesh_trees::{MeshBuilder, MeshTrees},
     object::{Kind, Object},
     objects::{Objects, few_and_many},
     shape::{Outline, Shape},
     tables::{INSTANCE, Tables},
 };
-use crate::math::{F, Lanes, M, Pick, U, V};
+use crate::{
+    declare::Precision,
+    math::{F, Lanes, M, Pick, U, V},
+};
 
 /// All shapes of a scene.
 #[derive(Default)]
@@ -42,18 +45,18 @@ pub struct Shapes {
 impl Shapes {
     /// Builds all shapes. Their pieces are numbered in order. `near` is a point in the middle of the scene.
     pub fn new<'a>(shapes: impl Iterator<Item = (&'a Shape, &'a Motion)> + Clone, near: DVec3) -> Shapes {
-        Shapes::after(None, MeshReuse::Exact, shapes, near).0
+        Shapes::after(None, Precision::Exact, shapes, near).0
     }
 
-    /// The same; trees of meshes are those of the shapes `before` where `reuse` allows it. Also returns the time that each of these
+    /// The same; trees of meshes are those of the shapes `before` where `precision` allows it. Also returns the time that each of these
     /// trees took to build, or `None` for trees that are reused.
     pub fn after<'a>(
         before: Option<&Shapes>,
-        reuse: MeshReuse,
+        precision: Precision,
         shapes: impl Iterator<Item = (&'a Shape, &'a Motion)> + Clone,
         near: DVec3,
     ) -> (Shapes, Vec<Option<Duration>>) {
-        let mut meshes = MeshBuilder::new(shapes.clone(), before.map(|before| &before.meshes), reuse);
+        let mut meshes = MeshBuilder::new(shapes.clone(), before.map(|before| &before.meshes), precision);
         let mut all = Shapes { near, ..Shapes::default() };
         let mut objects = Vec::new();
         for (shape, motion) in shapes {
@@ -85,7 +88,7 @@ impl Shapes {
         self.near
     }
 
-    /// Whether some mesh has the tree of another pose: see [`MeshReuse::AnyPose`].
+    /// Whether some mesh has the tree of another pose: see [`Precision::Interactive`].
     pub fn have_moved_meshes(&self) -> bool {
         self.have_moved_meshes
     }

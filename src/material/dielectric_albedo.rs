@@ -8,7 +8,10 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::ggx::SMOOTH;
-use crate::math::{F, One, trig::sin_cos_turns};
+use crate::{
+    declare::Precision,
+    math::{F, One, trig::sin_cos_turns},
+};
 
 /// Cells over the cosine of one side at one roughness.
 pub const CELLS: usize = 128;
@@ -26,16 +29,22 @@ pub const ALPHAS: Range<f32> = SMOOTH..1.0;
 /// loss exchanged with the other side over α²].
 ///
 /// `eta` is the index inside over the index outside.
-pub fn uniform_rows(eta: f32, alpha: f32) -> Vec<[f32; 4]> {
-    let rules = Rules { thin: Lattice::new(1597, 987), dense: Lattice::new(10946, 6765) };
+pub fn uniform_rows(eta: f32, alpha: f32, precision: Precision) -> Vec<[f32; 4]> {
+    let rules = match precision {
+        Precision::Exact => Rules { thin: Lattice::new(1597, 987), dense: Lattice::new(10946, 6765) },
+        Precision::Interactive => Rules { thin: Lattice::new(377, 233), dense: Lattice::new(1597, 987) },
+    };
     Level::new(eta.into(), alpha.into(), &rules).rows()
 }
 
 /// Rows of a material whose roughness is textured: those of [`uniform_rows`] for all [`LEVELS`], the smoothest first.
 ///
 /// The quadrature is coarser than for one roughness, because the error between two levels is larger.
-pub fn textured_rows(eta: f32) -> Vec<[f32; 4]> {
-    let rules = Rules { thin: Lattice::new(610, 377), dense: Lattice::new(2584, 1597) };
+pub fn textured_rows(eta: f32, precision: Precision) -> Vec<[f32; 4]> {
+    let rules = match precision {
+        Precision::Exact => Rules { thin: Lattice::new(610, 377), dense: Lattice::new(2584, 1597) },
+        Precision::Interactive => Rules { thin: Lattice::new(55, 34), dense: Lattice::new(144, 89) },
+    };
     let [first, last] = [ALPHAS.start, ALPHAS.end].map(|alpha| f64::from(alpha).sqrt().sqrt());
     let alpha = |level: usize| (first + (last - first) * level as f64 / (LEVELS - 1) as f64).powi(4);
     (0..LEVELS).flat_map(|level| Level::new(eta.into(), alpha(level), &rules).rows()).collect()

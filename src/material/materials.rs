@@ -3,7 +3,7 @@ use std::{collections::BTreeMap, time::Duration};
 
 use super::{CompiledMaterial, Material, MaterialCompiler, Stage, tables::Tables};
 use crate::{
-    declare::{Problem, Resources},
+    declare::{Precision, Problem, Resources},
     math::{F, Lanes, M, U, V},
     texture::TextureCompiler,
 };
@@ -48,8 +48,13 @@ impl Materials {
     }
 
     /// No materials yet; tables of the compile before are reused.
-    pub fn after(before: &Materials) -> Self {
-        Materials { tables: Tables::after(&before.tables), ..Materials::default() }
+    pub fn after(before: &Materials, precision: Precision) -> Self {
+        Materials { tables: Tables::after(&before.tables, precision), ..Materials::default() }
+    }
+
+    /// Whether all tables are exact: see [`Precision`].
+    pub fn are_exact(&self) -> bool {
+        self.tables.are_exact()
     }
 
     /// The time that each shared table took to make; `None` for tables that were reused.

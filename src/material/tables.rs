@@ -5,7 +5,7 @@ use std::{
 };
 
 use super::{albedo, albedo_table, dielectric_albedo, ggx::SMOOTH, missing_energy};
-use crate::math::SimdLevel;
+use crate::{declare::Precision, math::SimdLevel};
 
 /// Index of refraction and roughness of an interface with energy compensation; the roughness is `None` if it varies.
 pub type Interface = (f32, Option<f32>);
@@ -23,6 +23,7 @@ enum TableOf {
 #[derive(Clone)]
 struct Table {
     of: TableOf,
+    precision: Precision,
     rows: Arc<Vec<[f32; 4]>>,
 }
 
@@ -38,14 +39,22 @@ pub struct Tables {
     tables: Vec<(Table, u32)>,
     /// Tables of the previous compile, which are reused.
     before: Vec<Table>,
+    precision: Precision,
     /// The time that each table took to make; `None` for tables that were reused.
     pub times: Vec<Option<Duration>>,
 }
 
 impl Tables {
     /// No tables yet; those of the previous compile are reused.
-    pub fn after(before: &Tables) -> Tables {
-        Tables { before: before.tables.iter().map(|(table, _)| table.clone()).collect(), ..Tables::default() }
+    pub fn after(before: &Tables, precision: Precision) -> Tables {
+        let before = before.tables.iter().map(|(table, _)| table.clone());
+        let before = before.filter(|table| precision == Precision::Interactive || table.precision == Precision::Exact);
+        Tables { before: before.collect(), precision, ..Tables::default() }
+    }
+
+    /// Whether all tables are exact.
+    pub fn are_exact(&self) -> bool {
+        self.tables.iter().all(|(table, _)| table.precision == Precision::Exact)
     }
 
     /// Adds the table of compensated conductors.
@@ -72,7 +81,8 @@ impl Tables {
             Some(table) => (table.clone(), None),
             None => {
                 let start = Instant::now();
-                (Table { of, rows: Arc::new(of.rows()) }, Some(start.elapsed()))
+                let precision = if of.takes_long() { self.precision } else { Precision::Exact };
+                (Table { of, precision, rows: Arc::new(of.rows(precision)) }, Some(start.elapsed()))
             }
         };
         self.times.push(took);
@@ -84,12 +94,19 @@ impl Tables {
 }
 
 impl TableOf {
-    fn rows(self) -> Vec<[f32; 4]> {
+    /// Whether it takes longer than a frame of the window.
+    fn takes_long(self) -> bool {
+        matches!(self, TableOf::Interface(Some(_)))
+    }
+
+    fn rows(self, precision: Precision) -> Vec<[f32; 4]> {
         match self {
             TableOf::Coat(ior) => albedo_table::build(SimdLevel::best(), Some(ior)),
             TableOf::Interface(None) => missing_energy::nothing_missing(),
-            TableOf::Interface(Some((eta, Some(alpha)))) => dielectric_albedo::uniform_rows(eta, alpha.clamp(SMOOTH, 1.0)),
-            TableOf::Interface(Some((eta, None))) => dielectric_albedo::textured_rows(eta),
+            TableOf::Interface(Some((eta, Some(alpha)))) => {
+                dielectric_albedo::uniform_rows(eta, alpha.clamp(SMOOTH, 1.0), precision)
+            }
+            TableOf::Interface(Some((eta, None))) => dielectric_albedo::textured_rows(eta, precision),
         }
     }
 }

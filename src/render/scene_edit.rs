@@ -10,7 +10,7 @@ use crossbeam_channel::{Receiver, Sender, unbounded};
 
 use super::{pass::panic_message, protocol::RenderRequest, threads::Threads};
 use crate::{
-    geometry::MeshReuse,
+    declare::Precision,
     scene::{Camera, RenderSettings, Scene, SceneError, description::SceneDescription},
 };
 
@@ -23,8 +23,8 @@ pub struct SceneEdit {
     pub folder: PathBuf,
     /// The scene whose parts are reused; it need not be the one that is rendered.
     pub before: Arc<Scene>,
-    /// Which trees of meshes may be reused.
-    pub reuse: MeshReuse,
+    /// How exactly it is compiled.
+    pub precision: Precision,
     /// The camera, which need not be the scene's.
     pub camera: Camera,
     /// How it is rendered.
@@ -42,7 +42,7 @@ pub struct EditResult {
 impl SceneEdit {
     /// Compiles the scene on the render threads.
     fn compile(&self, threads: &Threads) -> Result<Arc<Scene>, SceneError> {
-        let rebuild = || threads.install(|| self.description.rebuild(&self.folder, &self.before, self.reuse));
+        let rebuild = || threads.install(|| self.description.rebuild(&self.folder, &self.before, self.precision));
         catch_unwind(AssertUnwindSafe(rebuild)).unwrap_or_else(|panic| Err(failed(&*panic))).map(Arc::new)
     }
 }

@@ -9,8 +9,7 @@ use super::{
     diagnostic::SceneError,
 };
 use crate::{
-    declare::{self, Problem},
-    geometry::MeshReuse,
+    declare::{self, Precision, Problem},
     light::emission::radiance::Radiance,
     material::Material,
     shape::ShapeKind,
@@ -37,28 +36,28 @@ impl SceneDescription {
     }
 
     /// The same after a change: takes over what did not change from `before`, any scene of files in the same folder. With
-    /// [`MeshReuse::Exact`] the scene has the same bits as by [`SceneDescription::build`].
+    /// [`Precision::Exact`] the scene has the same bits as by [`SceneDescription::build`].
     ///
-    /// With [`MeshReuse::AnyPose`], a mesh whose pose changed keeps its tree and is moved by a transform, which takes no time and rounds
+    /// With [`Precision::Interactive`], a mesh whose pose changed keeps its tree and is moved by a transform, which takes no time and rounds
     /// differently. [`Shapes::have_moved_meshes`](crate::geometry::Shapes::have_moved_meshes) then tells that the scene should be compiled again when there is time.
     ///
     /// ```
     /// use std::{path::Path, sync::Arc};
     ///
-    /// use noisefall::{geometry::MeshReuse, scene::description::SceneDescription, shape::mesh::Mesh};
+    /// use noisefall::{declare::Precision, scene::description::SceneDescription, shape::mesh::Mesh};
     ///
     /// let mut scene = SceneDescription::default();
     /// scene.add_object("knot", Mesh::default());
     /// let before = scene.build(Path::new("."))?;
     /// scene.camera.fov = Some(20.0);
-    /// let after = Arc::new(scene).rebuild(Path::new("."), &before, MeshReuse::Exact)?;
+    /// let after = Arc::new(scene).rebuild(Path::new("."), &before, Precision::Exact)?;
     /// assert_eq!((before.compiled.made("mesh trees"), after.compiled.made("mesh trees")), (1, 0));
     /// # Ok::<(), noisefall::scene::SceneError>(())
     /// ```
-    pub fn rebuild(self: &Arc<Self>, folder: &Path, before: &Scene, reuse: MeshReuse) -> Result<Scene, SceneError> {
+    pub fn rebuild(self: &Arc<Self>, folder: &Path, before: &Scene, precision: Precision) -> Result<Scene, SceneError> {
         let description = self.clone();
         let text = SceneText::new(Box::new(move || description.to_text()));
-        self.compiled(text, folder, Some(Before { scene: before, reuse }))
+        self.compiled(text, folder, Some(Before { scene: before, precision }))
     }
 
     fn compiled(&self, text: SceneText, folder: &Path, before: Option<Before>) -> Result<Scene, SceneError> {

@@ -160,6 +160,11 @@ impl Scene {
         self.lights.heed_lobes() && self.surfaces.glossy
     }
 
+    /// Whether it has the bits of a scene that is compiled from nothing: see [`Precision`](crate::declare::Precision).
+    pub fn is_exact(&self) -> bool {
+        !self.shapes.have_moved_meshes() && self.surfaces.materials.are_exact()
+    }
+
     /// Whether something moves in the course of time.
     pub fn moves(&self) -> bool {
         self.shapes.move_in_time() || !self.camera_motion.0.is_empty()

@@ -7,8 +7,7 @@ use std::{
 
 use glam::DVec3;
 use noisefall::{
-    declare::{Dice, OneOf, Parameters},
-    geometry::MeshReuse,
+    declare::{Dice, OneOf, Parameters, Precision},
     math::SimdLevel,
     render::{
         Frame,
@@ -141,12 +140,12 @@ fn a_scene_that_is_changed_at_random_is_the_one_that_is_compiled_from_nothing() 
             let what = format!("{name}, {}", change(&mut changed, &mut random));
             // Half of the ways there lead over scenes whose meshes have moved.
             if random.random()
-                && let Ok(moved) = Arc::new(changed.clone()).rebuild(&folder, &scene, MeshReuse::AnyPose)
+                && let Ok(moved) = Arc::new(changed.clone()).rebuild(&folder, &scene, Precision::Interactive)
             {
                 scene = moved;
             }
             let new = changed.build(&folder);
-            let edited = Arc::new(changed.clone()).rebuild(&folder, &scene, MeshReuse::Exact);
+            let edited = Arc::new(changed.clone()).rebuild(&folder, &scene, Precision::Exact);
             match (edited, new) {
                 (Ok(edited), Ok(new)) => {
                     assert_same(&edited, &new, &threads, &what);

@@ -3,7 +3,7 @@ use std::{fs, path::Path, sync::Arc};
 
 use glam::DVec3;
 use noisefall::{
-    geometry::MeshReuse,
+    declare::Precision,
     light::background::{constant::Constant, image::Image},
     material::{Dielectric, Lambertian, Roughness},
     math::SimdLevel,
@@ -35,7 +35,7 @@ fn parts(
 ) -> [Vec<&'static str>; 2] {
     let mut changed = description.clone();
     change(&mut changed);
-    let scene = Arc::new(changed).rebuild(folder, before, MeshReuse::AnyPose).expect("the change is valid");
+    let scene = Arc::new(changed).rebuild(folder, before, Precision::Interactive).expect("the change is valid");
     let parts = scene.compiled.parts;
     let of = |is_made: bool| {
         let mut names: Vec<_> = parts.iter().filter(|part| (part.made > 0) == is_made).map(|part| part.part).collect();
@@ -98,8 +98,8 @@ fn a_mesh_that_moves_keeps_its_tree_until_it_is_compiled_exactly() {
     let before = description.build(Path::new("")).expect("it is valid");
     description.objects[0].transform.push(Transform::Translate(DVec3::new(0.1, -0.2, 0.05)));
     let description = Arc::new(description);
-    let [moved, exact] = [MeshReuse::AnyPose, MeshReuse::Exact]
-        .map(|reuse| description.rebuild(Path::new(""), &before, reuse).expect("it is valid"));
+    let [moved, exact] = [Precision::Interactive, Precision::Exact]
+        .map(|precision| description.rebuild(Path::new(""), &before, precision).expect("it is valid"));
     let made = |scene: &Scene| (scene.compiled.made("mesh trees"), scene.shapes.have_moved_meshes());
     assert_eq!([&moved, &exact].map(made), [(0, true), (1, false)]);
     let threads = Threads::new(2, SimdLevel::best()).expect("threads can be had");
@@ -113,7 +113,7 @@ fn a_mesh_that_moves_keeps_its_tree_until_it_is_compiled_exactly() {
     // Back in its pose, the mesh has the tree that it had.
     let mut back = SceneDescription::clone(&description);
     back.objects[0].transform.clear();
-    let back = Arc::new(back).rebuild(Path::new(""), &moved, MeshReuse::AnyPose).expect("it is valid");
+    let back = Arc::new(back).rebuild(Path::new(""), &moved, Precision::Interactive).expect("it is valid");
     assert_eq!(made(&back), (0, false));
 }
 
@@ -129,9 +129,9 @@ fn a_file_that_changes_on_the_disk_is_read_again() {
     let description = Arc::new(description);
     write("f 1 2 3\n");
     let one = description.build(folder.path()).expect("it is valid");
-    let again = description.rebuild(folder.path(), &one, MeshReuse::Exact).expect("it is valid");
+    let again = description.rebuild(folder.path(), &one, Precision::Exact).expect("it is valid");
     assert_eq!((one.compiled.made("meshes"), again.compiled.made("meshes")), (1, 0));
     write("f 1 2 3\nf 2 4 3\n");
-    let two = description.rebuild(folder.path(), &again, MeshReuse::Exact).expect("it is valid");
+    let two = description.rebuild(folder.path(), &again, Precision::Exact).expect("it is valid");
     assert_eq!((two.compiled.made("meshes"), two.compiled.made("mesh trees")), (1, 1));
 }

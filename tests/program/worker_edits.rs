@@ -6,7 +6,7 @@ use std::{
 };
 
 use noisefall::{
-    geometry::MeshReuse,
+    declare::Precision,
     render::{Budget, EditResult, Frame, Publish, Published, Renderer, SceneEdit, State},
     scene::{
         Scene,
@@ -36,7 +36,7 @@ fn edit(description: SceneDescription, before: &Arc<Scene>) -> SceneEdit {
         description: Arc::new(description),
         folder: PathBuf::new(),
         before: before.clone(),
-        reuse: MeshReuse::AnyPose,
+        precision: Precision::Interactive,
         camera: before.camera,
         settings: before.settings,
     }

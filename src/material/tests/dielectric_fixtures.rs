@@ -2,7 +2,10 @@
 use std::{collections::HashMap, sync::LazyLock};
 
 use super::super::{dielectric_albedo::uniform_rows, missing_energy::LossTable, rough_dielectric::RoughDielectricBsdf};
-use crate::math::{F, M, One, U, V};
+use crate::{
+    declare::Precision,
+    math::{F, M, One, U, V},
+};
 
 pub(super) type Direction = [f64; 3];
 
@@ -22,7 +25,7 @@ type Key = (u32, u32);
 /// Rows of the materials of all tests; the denser side is inside.
 static ROWS: LazyLock<HashMap<Key, Vec<[f32; 4]>>> = LazyLock::new(|| {
     let materials = ETAS.into_iter().filter(|&eta| eta > 1.0).flat_map(|eta| ROUGHNESSES.map(|alpha| (eta, alpha)));
-    materials.map(|(eta, alpha)| (key(eta, alpha), uniform_rows(eta, alpha))).collect()
+    materials.map(|(eta, alpha)| (key(eta, alpha), uniform_rows(eta, alpha, Precision::Exact))).collect()
 });
 
 fn key(eta: f32, alpha: f32) -> Key {

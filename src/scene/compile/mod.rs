@@ -85,8 +85,8 @@ impl Parts {
         let mut textures = TextureCompiler::new(resources, &description.textures, problems.damage.names("textures"), &mut wrong);
         wrong.retain(|problem| !problems.damage.reaches(&Path(problem.path.0.iter().take(2).cloned().collect())));
         problems.found.extend(wrong);
-        let known = before.map(|before| &before.scene.surfaces.materials);
-        let mut tables = known.map_or_else(Materials::default, Materials::after);
+        let known = before.map(|before| Materials::after(&before.scene.surfaces.materials, before.precision));
+        let mut tables = known.unwrap_or_default();
         let (materials, numbers) = materials(&description.materials, &mut textures, &mut tables, problems);
         let objects = objects(&description.objects, &numbers, &textures, resources, problems);
         let RenderDescription { settings, spp } = description.render;

@@ -7,8 +7,8 @@ use std::{
 use glam::DVec3;
 
 use crate::{
-    declare::Resources,
-    geometry::{MeshReuse, Shapes, same_point},
+    declare::{Precision, Resources},
+    geometry::{Shapes, same_point},
     light::{Background, Lights},
     scene::{Object, Scene},
 };
@@ -17,8 +17,8 @@ use crate::{
 #[derive(Clone, Copy)]
 pub struct Before<'a> {
     pub scene: &'a Scene,
-    /// What its meshes are good for.
-    pub reuse: MeshReuse,
+    /// What may be taken over from it.
+    pub precision: Precision,
 }
 
 /// What the report of a compile calls the trees of meshes.
@@ -27,8 +27,8 @@ const MESH_TREES: &str = "mesh trees";
 /// The shapes of the objects. `near` is a point in the middle of the scene.
 pub fn shapes(objects: &[Object], near: DVec3, before: Option<Before>, resources: &Resources) -> Arc<Shapes> {
     const PART: &str = "shapes";
-    if let Some(Before { scene, reuse }) = before
-        && (reuse == MeshReuse::AnyPose || !scene.shapes.have_moved_meshes())
+    if let Some(Before { scene, precision }) = before
+        && (precision == Precision::Interactive || !scene.shapes.have_moved_meshes())
         && same_point(&scene.shapes.near(), &near)
         && are_same(objects, &scene.objects, |a, b| a.shape.is_same(&b.shape) && a.motion.is_same(&b.motion))
     {
@@ -37,9 +37,9 @@ pub fn shapes(objects: &[Object], near: DVec3, before: Option<Before>, resources
         return scene.shapes.clone();
     }
     let start = Instant::now();
-    let reuse = before.map_or(MeshReuse::Exact, |before| before.reuse);
+    let precision = before.map_or(Precision::Exact, |before| before.precision);
     let placed = objects.iter().map(|object| (&object.shape, &object.motion));
-    let (shapes, trees) = Shapes::after(before.map(|before| &*before.scene.shapes), reuse, placed, near);
+    let (shapes, trees) = Shapes::after(before.map(|before| &*before.scene.shapes), precision, placed, near);
     let of_trees: Duration = trees.iter().flatten().sum();
     resources.note(PART, Some(start.elapsed().saturating_sub(of_trees)));
     trees.into_iter().for_each(|took| resources.note(MESH_TREES, took));

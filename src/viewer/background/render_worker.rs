@@ -2,7 +2,7 @@
 use std::{path::PathBuf, sync::Arc};
 
 use noisefall::{
-    geometry::MeshReuse,
+    declare::Precision,
     math::SimdLevel,
     render::{Budget, EditResult, Publish, Published, RenderRequest, RenderTask, Renderer, SceneEdit, threads::Threads},
     scene::{Scene, SceneError, description::SceneDescription},
@@ -69,8 +69,8 @@ impl RenderWorkerHandle {
         let before = self.generation;
         self.generation = self.next(now);
         let RenderRequest { scene, camera, settings } = request.clone();
-        let reuse = MeshReuse::AnyPose;
-        self.renderer.edit(self.generation, SceneEdit { description, folder, before: scene, reuse, camera, settings });
+        let precision = Precision::Interactive;
+        self.renderer.edit(self.generation, SceneEdit { description, folder, before: scene, precision, camera, settings });
         self.edit = Some(PendingEdit { request, before });
     }
 

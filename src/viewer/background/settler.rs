@@ -2,7 +2,7 @@
 use std::{path::PathBuf, sync::Arc};
 
 use noisefall::{
-    geometry::MeshReuse,
+    declare::Precision,
     scene::{Scene, description::SceneDescription},
 };
 
@@ -17,7 +17,7 @@ pub struct EditedScene {
     pub folder: PathBuf,
 }
 
-/// A scene with exact meshes, and its warnings.
+/// An exact scene, and its warnings.
 pub struct SettledScene {
     pub scene: Arc<Scene>,
     pub warnings: Vec<String>,
@@ -61,7 +61,7 @@ impl Settler {
 fn settled(edited: EditedScene) -> SettledScene {
     let EditedScene { scene, description, folder } = edited;
     // Where files vanish in the meantime, the scene stays as it is.
-    let exact = scene.shapes.have_moved_meshes().then(|| description.rebuild(&folder, &scene, MeshReuse::Exact).ok()).flatten();
+    let exact = (!scene.is_exact()).then(|| description.rebuild(&folder, &scene, Precision::Exact).ok()).flatten();
     let scene = exact.map_or(scene, Arc::new);
     SettledScene { warnings: scene.warnings().to_vec(), scene }
 }
@@ -95,15 +95,15 @@ mod tests {
         let before = description.build(Path::new("")).expect("it is a scene");
         description.objects[0].transform.push(Transform::Translate(glam::DVec3::X));
         let description = Arc::new(description);
-        let moved = description.rebuild(Path::new(""), &before, MeshReuse::AnyPose).expect("it is a scene");
-        assert!(moved.shapes.have_moved_meshes());
+        let moved = description.rebuild(Path::new(""), &before, Precision::Interactive).expect("it is a scene");
+        assert!(!moved.is_exact());
         let edited = EditedScene { scene: Arc::new(moved), description, folder: PathBuf::new() };
         let mut settler = Settler::new(&egui::Context::default());
         settler.note(edited.clone());
         assert!(settler.take().is_none(), "it waits for the end of the drag");
         settler.start();
         let settled = wait(&mut settler);
-        assert!(!settled.scene.shapes.have_moved_meshes() && !settled.warnings.is_empty());
+        assert!(settled.scene.is_exact() && !settled.warnings.is_empty());
         settler.note(edited);
         settler.start();
         settler.forget();
