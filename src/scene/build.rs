@@ -38,8 +38,8 @@ impl SceneDescription {
     /// The same after a change: takes over what did not change from `before`, any scene of files in the same folder. With
     /// [`Precision::Exact`] the scene has the same bits as by [`SceneDescription::build`].
     ///
-    /// With [`Precision::Interactive`], a mesh whose pose changed keeps its tree and is moved by a transform, which takes no time and rounds
-    /// differently. [`Shapes::have_moved_meshes`](crate::geometry::Shapes::have_moved_meshes) then tells that the scene should be compiled again when there is time.
+    /// [`Precision::Interactive`] is faster, and may give other bits. [`Scene::is_exact`] then returns false, and the scene should be
+    /// compiled again when there is time.
     ///
     /// ```
     /// use std::{path::Path, sync::Arc};

@@ -118,6 +118,28 @@ fn a_mesh_that_moves_keeps_its_tree_until_it_is_compiled_exactly() {
 }
 
 #[test]
+fn tables_of_rough_glass_are_coarse_until_they_are_compiled_exactly() {
+    let glass = |alpha: f32| Dielectric { roughness: Roughness::alpha(alpha), ..Dielectric::default() };
+    let background = Some(Constant { radiance: [1.0; 3] }.into());
+    let mut description = SceneDescription { background, ..SceneDescription::default() };
+    description.add_material("glass", glass(0.3));
+    description.add_object("ball", Sphere::default()).material = Some("glass".to_owned());
+    let before = description.build(Path::new("")).expect("it is valid");
+    description.add_material("glass", glass(0.2));
+    let description = Arc::new(description);
+    let coarse = description.rebuild(Path::new(""), &before, Precision::Interactive).expect("it is valid");
+    let exact = description.rebuild(Path::new(""), &coarse, Precision::Exact).expect("it is valid");
+    assert_eq!([&before, &coarse, &exact].map(Scene::is_exact), [true, false, true]);
+    assert_eq!([&coarse, &exact].map(|scene| scene.compiled.made("material tables")), [1, 1]);
+    let threads = Threads::new(2, SimdLevel::best()).expect("threads can be had");
+    let new = description.build(Path::new("")).expect("it is valid");
+    assert_same(&exact, &new, &threads, "exact");
+    // What is exact serves both.
+    let again = description.rebuild(Path::new(""), &exact, Precision::Interactive).expect("it is valid");
+    assert_eq!((again.is_exact(), again.compiled.made("material tables")), (true, 0));
+}
+
+#[test]
 fn a_file_that_changes_on_the_disk_is_read_again() {
     let folder = tempfile::tempdir().expect("a folder");
     let write = |triangles: &str| {
