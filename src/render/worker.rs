@@ -237,6 +237,8 @@ impl Worker {
             Message::Edit(generation, edit) => self.edits.set(Some((generation, edit))),
             Message::StopSecond => {
                 self.sessions[1].take().into_iter().for_each(|session| drop(self.kept.keep(session)));
+                // An edit may have replaced the scene since it began.
+                self.sessions[0].iter().for_each(|first| self.kept.retain_scene(&first.request().scene));
                 lock(&self.shared.published)[1] = Published::default();
             }
             Message::Second(generation, task) => self.start(1, generation, *task),

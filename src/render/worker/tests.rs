@@ -1,8 +1,12 @@
 //! Alternation between two images.
+use std::path::PathBuf;
+
 use super::*;
 use crate::{
+    declare::Precision,
     math::SimdLevel,
-    scene::{Camera, RenderSettings, Scene, built_in},
+    scene::{Camera, RenderSettings, Scene, built_in, description::SceneDescription},
+    shape::Sphere,
 };
 
 fn worker(publish: Publish) -> Worker {
@@ -124,6 +128,36 @@ fn sides_that_are_swapped_keep_their_samples() {
     assert_eq!(samples(&worker), [b, None]);
     worker.start(0, 5, of(1));
     assert_eq!(samples(&worker), [a, None]);
+}
+
+#[test]
+fn an_edit_drops_the_images_of_the_scene_before() {
+    let scene = Arc::new(built_in());
+    let mut worker = worker(Publish::Sparse);
+    let of = |seed| {
+        let request = request(&scene, 32);
+        RenderTask::Picture(RenderRequest { settings: RenderSettings { seed, ..request.settings }, ..request })
+    };
+    worker.budget = Budget { max_spp: Some(2), ..Budget::default() };
+    for (generation, side, seed) in [(1, 0, 1), (2, 0, 2), (3, 1, 3)] {
+        worker.start(side, generation, of(seed));
+        advance(&mut worker, side);
+    }
+    let mut description = SceneDescription::default();
+    description.add_object("ball", Sphere::default());
+    let RenderRequest { camera, settings, .. } = request(&scene, 32);
+    let (folder, precision) = (PathBuf::new(), Precision::Interactive);
+    let edit = SceneEdit { description: Arc::new(description), folder, before: scene.clone(), precision, camera, settings };
+    worker.take(Message::Edit(4, Box::new(edit)));
+    worker.compile_edit(&|| ());
+    let first = worker.sessions[0].as_ref().expect("it is there");
+    assert_eq!((first.generation(), Arc::ptr_eq(&first.request().scene, &scene)), (4, false));
+    // The second image is still of the scene before.
+    worker.take(Message::StopSecond);
+    for (generation, seed) in [(5, 1), (6, 3)] {
+        worker.start(0, generation, of(seed));
+        assert_eq!(samples(&worker), [Some(0), None], "seed {seed}");
+    }
 }
 
 #[test]

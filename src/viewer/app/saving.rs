@@ -15,7 +15,7 @@ impl App {
     /// Whether the screen shows the full picture that the controls describe.
     pub fn can_save(&self) -> bool {
         let worker = &self.background.worker;
-        let is_found = || worker.request().is_some_and(|request| self.background.features.has(&request.camera));
+        let is_found = || worker.request().is_some_and(|request| self.background.features.has(&request.scene, &request.camera));
         let has_features = !self.session.look.view.shows_features() || is_found();
         let Some(frame) = self.results.shown.as_ref().filter(|_| has_features) else { return false };
         !frame.is_coarse() && frame.generation == worker.generation()

@@ -50,9 +50,9 @@ impl FeatureFinder {
         found.map(|found| found.features.clone())
     }
 
-    /// Whether the features are those of this camera.
-    pub fn has(&self, camera: &Camera) -> bool {
-        self.found.as_ref().is_some_and(|found| found.viewpoint.1 == *camera)
+    /// Whether the features are those of this scene and camera.
+    pub fn has(&self, scene: &Arc<Scene>, camera: &Camera) -> bool {
+        self.found.as_ref().is_some_and(|Found { viewpoint, .. }| Arc::ptr_eq(&viewpoint.0, scene) && viewpoint.1 == *camera)
     }
 
     fn search(&mut self, scene: &Arc<Scene>, camera: &Camera, threads: usize) {
@@ -82,7 +82,7 @@ mod tests {
         let mut finder = FeatureFinder::new(&egui::Context::default());
         let wait = |finder: &mut FeatureFinder, camera: &Camera| {
             let start = std::time::Instant::now();
-            while !finder.has(camera) {
+            while !finder.has(&scene, camera) {
                 assert!(start.elapsed().as_secs() < 60, "they never came");
                 let _ = finder.of(&scene, camera, 1);
                 std::thread::yield_now();
@@ -90,10 +90,10 @@ mod tests {
             finder.of(&scene, camera, 1).expect("they are there")
         };
         let first = wait(&mut finder, &here);
-        assert!(!finder.has(&there));
+        assert!(!finder.has(&scene, &there));
         assert!(finder.of(&scene, &there, 1).is_some_and(|old| Arc::ptr_eq(&old, &first)), "those from elsewhere meanwhile");
         let second = wait(&mut finder, &there);
-        assert!(finder.has(&there) && !finder.has(&here) && first.depth != second.depth);
+        assert!(finder.has(&scene, &there) && !finder.has(&scene, &here) && first.depth != second.depth);
         assert!(finder.of(&Arc::new(built_in()), &there, 1).is_none(), "but not those of another scene");
     }
 }
