@@ -8,11 +8,13 @@
 //! | choose settings | [`RenderSettings`], [`Camera`] |
 //! | render a number of samples | [`Threads::pass`] into a [`Film`] |
 //! | render progressively, with cancellation | [`Renderer`], which publishes [`Frame`]s |
+//! | render a scene again after a change | [`rebuild`](description::SceneDescription::rebuild), [`Renderer::edit`] |
 //! | show or save an image | [`to_srgb`], [`image_file::save`] |
 //! | measure an error | [`Reference`], [`compare`], [`exact`] |
 //! | compare the renderer with exact solutions | `validate`, with the feature `reports` |
 //!
-//! The folder `examples/` has a program for each of these tasks but the last, which is the command `noisefall validate`.
+//! The folder `examples/` has programs for these tasks. Changes of scenes have their examples at the items, and the last task is
+//! the command `noisefall validate`.
 //!
 //! ```
 //! use noisefall::{Film, Frame, PassJob, SimdLevel, Threads, parse};
@@ -80,12 +82,13 @@ pub mod validate;
 
 #[doc(inline)]
 pub use self::{
+    declare::{PartReport, Precision},
     math::SimdLevel,
     measure::{Bias, Comparison, Evidence, Floor, compare, exact},
     memory::set_limit as set_memory_limit,
     render::{
-        Budget, Display, Frame, Publish, Published, Region, RenderRequest, RenderTask, Renderer, SampleCounts, State, Status,
-        Target, ToneMap,
+        Budget, Display, EditResult, Frame, Publish, Published, Region, RenderRequest, RenderTask, Renderer, SampleCounts,
+        SceneEdit, State, Status, Target, ToneMap,
         film::Film,
         image_file,
         pass::{Failure, PassCount, SampleId},
@@ -95,8 +98,8 @@ pub use self::{
     },
     sampling::{Directions, Filter, Sampler},
     scene::{
-        Camera, CameraError, CameraRays, Estimator, Lens, RenderSettings, Reuse, Roulette, Scene, SceneError, Shutter, built_in,
-        load, parse,
+        Camera, CameraError, CameraRays, CompileReport, Estimator, Lens, RenderSettings, Reuse, Roulette, Scene, SceneError,
+        Shutter, built_in, load, parse,
     },
 };
 

@@ -160,7 +160,7 @@ fn times(window: &mut Window, description: &SceneDescription, change: Change) ->
     times
 }
 
-/// The last scene of the window, once it has exact meshes, gives the bits of a picture that one gives that is compiled from nothing.
+/// The exact scene after the last edit gives the same bits as one that is compiled from scratch.
 fn check(window: &Window, description: &SceneDescription, last: Change) {
     let mut description = description.clone();
     last(&mut description, place(EDITS - 1));

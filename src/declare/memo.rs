@@ -3,7 +3,7 @@ use std::{any::Any, collections::HashMap, sync::Arc, time::Duration};
 
 use crate::memory::Reservation;
 
-/// Slow parts by key. A key states everything that determines its part, so a part that is reused equals the one that would be made.
+/// Slow parts by key. A key states everything that determines its part, so a reused part equals a new one.
 #[derive(Clone, Default)]
 pub struct Memo(HashMap<String, Kept>);
 

@@ -16,7 +16,7 @@
 //! | `problem.rs` | what is wrong with a value, and where |
 //! | `outline.rs` | the parameters of a kind as a list |
 //! | `precision.rs` | how exactly a changed scene is compiled |
-//! | `resources.rs`, `memo.rs` | files, memory and the slow parts of the compile before, for kinds that are compiled |
+//! | `resources.rs`, `memo.rs` | files, memory and the slow parts of the previous compile, for kinds that are compiled |
 //! | `dice.rs` | the visitor that draws random values within their ranges |
 //! | `manual.rs`, `schema.rs` | the visitors that document a format, for people and for editors |
 //! | `write.rs` | the visitor that writes a description as TOML |

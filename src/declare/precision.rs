@@ -3,10 +3,10 @@
 /// How exactly a changed scene is compiled.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Precision {
-    /// As from nothing: the scene has the same bits.
+    /// The scene has the same bits as one that is compiled from scratch.
     #[default]
     Exact,
-    /// Fast enough for a drag: a mesh whose pose changed keeps its tree and is moved by a transform, which rounds differently, and
-    /// tables of rough glass are integrated with fewer points.
+    /// Fast enough for a drag. A mesh with a new pose keeps its tree and is moved by a transform, which rounds differently. Tables of
+    /// rough glass are integrated with fewer points.
     Interactive,
 }

@@ -1,4 +1,4 @@
-//! What kinds use while they are compiled: files beside the scene, memory, and the slow parts of the compile before.
+//! What kinds use while they are compiled: files beside the scene, memory, and the slow parts of the previous compile.
 use std::{
     cell::RefCell,
     fmt, fs,
@@ -17,14 +17,14 @@ use crate::memory::Reservation;
 pub struct Resources {
     folder: PathBuf,
     memory: RefCell<Reservation>,
-    /// Parts of the compile before.
+    /// Parts of the previous compile.
     before: Memo,
     /// Parts of this compile.
     now: RefCell<Memo>,
     report: RefCell<Vec<PartReport>>,
 }
 
-/// What a compile leaves: the memory that it took, its slow parts, and what it made of them.
+/// Results of a compile besides the scene: the memory that it took, its slow parts, and a report of them.
 pub struct Leftovers {
     /// Memory of everything that is not in the memo.
     pub memory: Reservation,
@@ -40,7 +40,7 @@ impl Resources {
         Resources::after(folder, Memo::default())
     }
 
-    /// The same; slow parts of the compile `before` are reused.
+    /// The same, with the slow parts of the compile `before` to reuse.
     pub fn after(folder: impl Into<PathBuf>, before: Memo) -> Resources {
         Resources {
             folder: folder.into(),
@@ -61,7 +61,7 @@ impl Resources {
         self.memory.borrow_mut().grow(what, bytes).map_err(|error| Problem::at(key, error.to_string(), "too much memory"))
     }
 
-    /// The part with this key: made once per compile, or reused from the compile before. `part` names its kind in the report.
+    /// The part with this key, made once per compile or reused from the previous one. `part` names its kind in the report.
     pub fn once<T: Send + Sync + 'static>(
         &self,
         part: &'static str,
@@ -95,7 +95,7 @@ impl Resources {
             self.now.borrow_mut().insert(key, kept.clone());
             return Ok(value);
         }
-        // What the part takes is given back with the part, and not with the scene that made it.
+        // The memory of a part is released with the part, not with the scene that made it.
         let around = self.memory.replace(Reservation::none());
         let made = make();
         let memory = self.memory.replace(around);
@@ -120,13 +120,13 @@ impl Resources {
         }
     }
 
-    /// What the compile leaves.
+    /// Ends the compile.
     pub fn into_leftovers(self) -> Leftovers {
         Leftovers { memory: self.memory.into_inner(), memo: self.now.into_inner(), report: self.report.into_inner() }
     }
 }
 
-/// A file as a part of a key: its path, size and time of the last change, so that a file that changes on the disk is read again.
+/// A key for a file: path, size and time of the last change. A file that changes on disk is read again.
 pub fn key_of_file(path: &Path) -> String {
     match fs::metadata(path) {
         Ok(known) => format!("{path:?} {} {:?}", known.len(), known.modified().ok()),

@@ -1,4 +1,4 @@
-//! Whether two shapes are the same, bit for bit. `==` of numbers does not tell 0 from −0, which images can differ by.
+//! Compares shapes bit for bit. For `==`, 0 equals −0, and images can differ by that.
 use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DVec3};

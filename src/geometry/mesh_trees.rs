@@ -1,4 +1,4 @@
-//! Meshes with their trees, which compiles of a changed scene reuse.
+//! Trees of meshes, which the compile of a changed scene reuses.
 use std::{
     collections::HashMap,
     sync::Arc,
@@ -40,7 +40,7 @@ impl MeshTrees {
     }
 }
 
-/// Places meshes, each with the tree of the compile before or a new one.
+/// Places meshes. Each gets the tree of the previous compile, or a new one.
 pub(super) struct MeshBuilder<'a> {
     /// Number of instances of the data.
     uses: HashMap<*const MeshData, usize>,

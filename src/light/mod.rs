@@ -21,10 +21,7 @@ mod tests;
 mod tree;
 
 pub use self::{
-    background::{
-        Background,
-        image::{ImageBackground, SkyTables},
-    },
+    background::{Background, image::ImageBackground},
     choice::{LightSample, Lights},
     coordinates::LightCoordinates,
     emission::{Emission, Emitters, Side},

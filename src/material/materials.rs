@@ -47,7 +47,7 @@ impl Materials {
         all
     }
 
-    /// No materials yet; tables of the compile before are reused.
+    /// No materials yet; tables of the previous compile are reused.
     pub fn after(before: &Materials, precision: Precision) -> Self {
         Materials { tables: Tables::after(&before.tables, precision), ..Materials::default() }
     }

@@ -1,4 +1,4 @@
-//! Edits of the scene: the worker compiles what changed on the render threads, and renders the result at once.
+//! Edits of the scene. The worker compiles the changed parts on the render threads, and renders the result at once.
 use std::{
     any::Any,
     panic::{AssertUnwindSafe, catch_unwind},
@@ -68,7 +68,7 @@ impl Default for SceneEdits {
 }
 
 impl SceneEdits {
-    /// Where results arrive.
+    /// Receives the results.
     pub fn results(&self) -> Receiver<EditResult> {
         self.results.clone()
     }

@@ -35,8 +35,8 @@ impl SceneDescription {
         self.compiled(SceneText::new(Box::new(move || text)), folder, None)
     }
 
-    /// The same after a change: takes over what did not change from `before`, any scene of files in the same folder. With
-    /// [`Precision::Exact`] the scene has the same bits as by [`SceneDescription::build`].
+    /// The same after a change. Parts that did not change are reused from `before`, which can be any scene of the same folder. With
+    /// [`Precision::Exact`] the scene has the same bits as from [`SceneDescription::build`].
     ///
     /// [`Precision::Interactive`] is faster, and may give other bits. [`Scene::is_exact`] then returns false, and the scene should be
     /// compiled again when there is time.
@@ -44,7 +44,7 @@ impl SceneDescription {
     /// ```
     /// use std::{path::Path, sync::Arc};
     ///
-    /// use noisefall::{declare::Precision, scene::description::SceneDescription, shape::mesh::Mesh};
+    /// use noisefall::{Precision, description::{SceneDescription, shapes::Mesh}};
     ///
     /// let mut scene = SceneDescription::default();
     /// scene.add_object("knot", Mesh::default());
@@ -52,7 +52,7 @@ impl SceneDescription {
     /// scene.camera.fov = Some(20.0);
     /// let after = Arc::new(scene).rebuild(Path::new("."), &before, Precision::Exact)?;
     /// assert_eq!((before.compiled.made("mesh trees"), after.compiled.made("mesh trees")), (1, 0));
-    /// # Ok::<(), noisefall::scene::SceneError>(())
+    /// # Ok::<(), noisefall::SceneError>(())
     /// ```
     pub fn rebuild(self: &Arc<Self>, folder: &Path, before: &Scene, precision: Precision) -> Result<Scene, SceneError> {
         let description = self.clone();

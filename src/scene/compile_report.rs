@@ -1,14 +1,14 @@
-//! What a compile made, and what it took over from the scene before.
+//! Report of a compile.
 use std::{fmt, time::Duration};
 
 use crate::declare::PartReport;
 
-/// What a compile made, and what it took over from the scene before.
+/// The parts that a compile made, and those that it reused from the previous scene.
 #[derive(Clone, Debug, Default)]
 pub struct CompileReport {
     /// The kinds of parts that the scene has.
     pub parts: Vec<PartReport>,
-    /// Time of the whole compile, with the checks of all values.
+    /// Time of the whole compile, including the checks of all values.
     pub took: Duration,
 }
 

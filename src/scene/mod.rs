@@ -114,15 +114,15 @@ pub struct Scene {
     pub deepest_media: usize,
     /// See [`Scene::warnings`].
     pub warned: OnceLock<Vec<String>>,
-    /// What the compile made, and what it took over from another scene.
+    /// The parts that the compile made, and those that it reused from another scene.
     pub compiled: CompileReport,
-    /// Slow parts that other scenes can take over.
+    /// Slow parts that other scenes can reuse.
     pub memo: Memo,
     /// Given back with the scene.
     pub memory: Reservation,
 }
 
-/// The text of a scene file; that of a scene that was changed in memory is written at its first use.
+/// The text of a scene file. For a scene that was changed in memory, it is written at its first use.
 pub type SceneText = LazyLock<String, Box<dyn FnOnce() -> String + Send>>;
 
 /// What the picture must converge to.
@@ -160,7 +160,7 @@ impl Scene {
         self.lights.heed_lobes() && self.surfaces.glossy
     }
 
-    /// Whether it has the bits of a scene that is compiled from nothing: see [`Precision`](crate::declare::Precision).
+    /// Whether it has the bits of a scene that is compiled from scratch: see [`Precision`](crate::declare::Precision).
     pub fn is_exact(&self) -> bool {
         !self.shapes.have_moved_meshes() && self.surfaces.materials.are_exact()
     }

@@ -159,7 +159,7 @@ impl Build for Mesh {
     }
 }
 
-/// What the report of a compile calls meshes.
+/// Name of meshes in the report of a compile.
 const MESHES: &str = "meshes";
 
 impl Mesh {

@@ -1,4 +1,4 @@
-//! A scene that is compiled again after a change is the one that is compiled from nothing.
+//! A scene that is compiled again after a change equals one that is compiled from scratch.
 use std::{
     fs,
     path::{Path, PathBuf},
@@ -128,7 +128,7 @@ fn names() -> Vec<String> {
 }
 
 #[test]
-fn a_scene_that_is_changed_at_random_is_the_one_that_is_compiled_from_nothing() {
+fn a_scene_that_is_changed_at_random_equals_one_that_is_compiled_from_scratch() {
     const CHANGES: usize = 8;
     let threads = Threads::new(2, SimdLevel::best()).expect("threads can be had");
     let (mut random, mut compiled) = (SmallRng::seed_from_u64(20), 0);

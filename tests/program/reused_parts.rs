@@ -26,7 +26,7 @@ fn shift(scene: &mut SceneDescription, name: &str) {
     object.transform.push(Transform::Translate(DVec3::X * 0.1));
 }
 
-/// What a change makes, and what it takes over.
+/// The parts that a change makes, and those that it reuses.
 fn parts(
     folder: &Path,
     before: &Scene,

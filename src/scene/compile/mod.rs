@@ -36,7 +36,7 @@ use crate::{
 };
 
 /// Checks a description and builds the scene, or says what is wrong with it: nothing that follows from `damage`. `source` is the text of
-/// the scene file, and files are looked for in `folder`. What did not change is taken over from the scene `before`.
+/// the scene file, and files are looked for in `folder`. Parts that did not change are reused from the scene `before`.
 pub fn compile(
     description: &SceneDescription,
     source: SceneText,

@@ -1,4 +1,4 @@
-//! Takes over the shapes and lights of the scene before, where nothing that they are made from changed.
+//! Reuses the shapes and lights of the previous scene if nothing that they are made from changed.
 use std::{
     sync::Arc,
     time::{Duration, Instant},
@@ -17,11 +17,11 @@ use crate::{
 #[derive(Clone, Copy)]
 pub struct Before<'a> {
     pub scene: &'a Scene,
-    /// What may be taken over from it.
+    /// Which of its parts may be reused.
     pub precision: Precision,
 }
 
-/// What the report of a compile calls the trees of meshes.
+/// Name of the trees of meshes in the report of a compile.
 const MESH_TREES: &str = "mesh trees";
 
 /// The shapes of the objects. `near` is a point in the middle of the scene.
@@ -46,7 +46,7 @@ pub fn shapes(objects: &[Object], near: DVec3, before: Option<Before>, resources
     Arc::new(shapes)
 }
 
-/// The lights of the objects, whose shapes these are.
+/// The lights of the objects. `shapes` are those of the same objects.
 pub fn lights(
     objects: &[Object],
     shapes: &Shapes,
@@ -74,7 +74,7 @@ pub fn lights(
     lights
 }
 
-/// How many media lie around the middle of some dielectric of a scene whose count is not known yet.
+/// The value of [`Scene::deepest_media`], reused if nothing that it depends on changed.
 pub fn deepest_media(scene: &Scene, before: Option<Before>) -> usize {
     let same_insides = |old: &Scene| {
         let filled = |scene: &Scene, object: &Object| (object.flip, scene.has_inside(object));

@@ -1,4 +1,4 @@
-//! Edits of the open scene: the worker compiles and renders them; what a drag leaves out is done when it ends.
+//! Edits of the open scene. The worker compiles and renders them. After a drag, the settler compiles the exact scene.
 use std::sync::Arc;
 
 use noisefall::{
@@ -24,7 +24,7 @@ impl App {
         self.background.worker.edit(request, description, folder, now);
     }
 
-    /// Takes over what the worker has compiled, and what has settled since.
+    /// Receives the edited scene from the worker, and the exact one from the settler.
     pub fn receive_edited(&mut self) {
         match self.background.worker.take_edited() {
             Some(Ok(scene)) => self.take_edited(scene),

@@ -1,4 +1,4 @@
-//! Settles edited scenes off the UI thread: what a drag leaves out to be fast is done when the drag ends.
+//! Compiles an edited scene exactly, off the UI thread, when the drag ends.
 use std::{path::PathBuf, sync::Arc};
 
 use noisefall::{
@@ -8,7 +8,7 @@ use noisefall::{
 
 use super::background_task::BackgroundTask;
 
-/// A scene as it was edited.
+/// A scene after an edit.
 #[derive(Clone)]
 pub struct EditedScene {
     pub scene: Arc<Scene>,
