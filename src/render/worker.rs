@@ -7,6 +7,8 @@
 //!
 //! An image that was rendered before continues with its samples; the image that is being rendered starts over if it is requested
 //! again. A second image can be rendered beside the first. From then on both get the same time: the one that had less is next.
+mod start;
+
 use std::{
     sync::{
         Arc, Mutex, MutexGuard, PoisonError,
@@ -19,7 +21,6 @@ use std::{
 use crossbeam_channel::{Receiver, Sender, unbounded};
 
 use super::{
-    film::Film,
     protocol::{Budget, Publish, Published, RenderRequest, RenderTask, State},
     scene_edit::{EditResult, SceneEdit, SceneEdits},
     session::{KeptSessions, Session},
@@ -244,61 +245,6 @@ impl Worker {
             Message::Second(generation, task) => self.start(1, generation, *task),
         }
         Some(())
-    }
-
-    /// Compiles the edit that waits, if any, and starts its image.
-    fn compile_edit(&mut self, notify: &dyn Fn()) {
-        let Some((request, result)) = self.edits.compile(&self.threads) else { return };
-        if let Some(request) = request {
-            self.rate = self.sessions[0].as_ref().and_then(Session::rate);
-            self.start(0, result.generation, RenderTask::Picture(request));
-        }
-        self.edits.tell(result);
-        notify();
-    }
-
-    fn start(&mut self, side: usize, generation: u64, task: RenderTask) {
-        let (RenderTask::Picture(request) | RenderTask::Series(request)) = &task;
-        let sessions = || self.sessions.iter().flatten();
-        let is_of_scene = |session: &Session| Arc::ptr_eq(&session.request().scene, &request.scene);
-        let rate = sessions().filter(|session| is_of_scene(session)).find_map(Session::rate).or(self.rate.take());
-        self.kept.retain_scene(&request.scene);
-        let old = self.sessions[side].take();
-        let starts_over = old.as_ref().is_some_and(|old| old.is_of(request));
-        let is_same_scene = old.as_ref().is_some_and(is_of_scene);
-        let film = old.and_then(|old| if starts_over || !is_same_scene { Some(old.into_film()) } else { self.kept.keep(old) });
-        let earlier = if starts_over { None } else { self.earlier(side, &task) };
-        if earlier.is_none() {
-            self.make_room(&task);
-        }
-        self.sessions[side] = Some(match (earlier, task) {
-            (Some(earlier), RenderTask::Picture(_)) => earlier.resumed(generation, self.budget.steps),
-            (_, RenderTask::Picture(request)) => Session::new(generation, request, self.publish, rate, &self.budget, film),
-            (_, RenderTask::Series(request)) => Session::of_series(generation, request, rate, &self.budget),
-        });
-        self.leads = self.sessions.each_ref().map(|session| session.as_ref().map_or(Duration::ZERO, Session::elapsed));
-    }
-
-    /// The session that has samples of a task: one that is kept, or that of the other side, which starts over.
-    fn earlier(&mut self, side: usize, task: &RenderTask) -> Option<Session> {
-        let RenderTask::Picture(request) = task else { return None };
-        if let Some(kept) = self.kept.take(request) {
-            return Some(kept);
-        }
-        let other = self.sessions[1 - side].take_if(|other| other.is_of(request))?;
-        let again = Session::new(other.generation(), other.request().clone(), self.publish, other.rate(), &self.budget, None);
-        self.sessions[1 - side] = Some(again);
-        Some(other)
-    }
-
-    /// Drops kept images that take the memory of a new one.
-    fn make_room(&mut self, task: &RenderTask) {
-        let (RenderTask::Picture(request) | RenderTask::Series(request)) = task;
-        let film = self.kept.reserve(|| Film::reserve(request.camera.resolution));
-        if matches!(task, RenderTask::Series(_)) {
-            drop(self.kept.reserve(|| Film::reserve_series(request.camera.resolution)));
-        }
-        drop(film);
     }
 }
 
