@@ -15,8 +15,8 @@
 //!
 //! A ray tests the few and large shapes of `lists.rs` one by one, skips clusters of spheres that no ray of its register comes
 //! near (`clusters.rs`), and descends a tree over the others (`objects.rs`). The surface that it hits is looked up in
-//! `tables.rs`. Meshes, isosurfaces and moving shapes have a local space (`instance.rs`). [`Shapes`] holds all of them. Compiles of a
-//! changed scene reuse the trees of meshes (`mesh_trees.rs`).
+//! `tables.rs`. Meshes, isosurfaces and moving shapes have a local space (`instance.rs`). [`Shapes`] holds all of them. The compile of
+//! a changed scene compares shapes bit for bit (`identity.rs`) and reuses the trees of meshes (`mesh_trees.rs`).
 mod bounding_sphere;
 mod bounds;
 mod bvh;
