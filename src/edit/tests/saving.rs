@@ -78,7 +78,7 @@ fn colours_keep_their_form() {
     );
     assert_eq!(
         changed(&[albedo("floor", Textured::grey(0.5))]),
-        ["- lambertian = { albedo = { texture = \"tiles\" } }", "+ lambertian = { albedo = 0.8 }"]
+        ["- lambertian = { albedo = { texture = \"tiles\" } }", "+ lambertian = { albedo = 0.5 }"]
     );
 }
 
