@@ -30,7 +30,7 @@ pub fn show(ui: &mut Ui, inspector: &mut PathInspector, subject: &Subject) -> bo
         return false;
     };
     let mut saves = false;
-    egui::Panel::left("pixel").resizable(false).exact_size(290.0).show(ui, |ui| {
+    egui::Panel::left("pixel").resizable(false).exact_size(380.0).show(ui, |ui| {
         ScrollArea::vertical().show(ui, |ui| {
             pixel_choice(ui, inspector, pixel, side, resolution);
             if let Some(frame) = frame {
