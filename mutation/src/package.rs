@@ -13,6 +13,8 @@ use crate::{Outcome, fault::Fault, finder, schemata, schemata::Planted};
 const SWITCH: &str = include_str!("../switch/mutant.rs");
 /// Not part of the copy.
 const LEFT_OUT: [&str; 4] = ["target", ".git", ".ci", "mutation"];
+/// Part of it all the same: a test counts its faults.
+const COUNTED: &str = "mutation/report.toml";
 
 pub struct Package {
     /// Files by their path relative to the package, with `/` on every system.
@@ -31,6 +33,10 @@ impl Package {
             if !LEFT_OUT.contains(&name.as_str()) {
                 package.add(&entry, &name)?;
             }
+        }
+        let counted = folder.join(COUNTED);
+        if counted.exists() {
+            package.add(&counted, COUNTED)?;
         }
         Ok(package)
     }
