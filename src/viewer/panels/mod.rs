@@ -2,6 +2,8 @@
 pub mod camera;
 pub mod display;
 pub mod frame_times;
+#[cfg_attr(not(test), expect(dead_code, reason = "the window edits no scenes yet"))]
+pub mod inspector;
 pub mod objects;
 pub mod pixel_readout;
 pub mod presets;
@@ -9,6 +11,8 @@ pub mod sampling;
 pub mod scene;
 pub mod status_bar;
 pub mod stop;
+#[expect(dead_code, reason = "the window edits no scenes yet")]
+pub mod subject;
 pub mod toolbar;
 pub mod views;
 pub mod window;

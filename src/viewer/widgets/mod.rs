@@ -1,6 +1,11 @@
 //! Widgets, layout and colours that panels, dialogs and instruments share.
+pub mod colour_edit;
+pub mod committed_text;
+pub mod hex;
 pub mod kinds;
 pub mod number;
 pub mod palette;
 pub mod path_field;
 pub mod style;
+pub mod temperature;
+pub mod typed_number;

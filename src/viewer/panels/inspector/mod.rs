@@ -1,0 +1,63 @@
+//! The inspector: a row for every parameter of a part of the scene, made from its declaration.
+//!
+//! It shows a description and changes nothing in it. It returns what was asked for as [`Request`]s.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `rows.rs` | the visitor of declarations: tables, choices and lists, and a row for each value |
+//! | `row.rs` | the layout of a row: label, tooltip, optional mark |
+//! | `cell.rs` | the control of a value, by its type |
+//! | `numbers.rs` | sliders and fields of numbers |
+//! | `references.rs` | menus of names: textures, materials |
+//! | `request.rs` | what is asked for |
+mod cell;
+mod numbers;
+mod references;
+mod request;
+mod row;
+mod rows;
+#[cfg(test)]
+mod tests;
+
+use egui::Ui;
+use noisefall::declare::{Declare, Path};
+
+pub use self::request::{Asked, Drag, NewValue, Request};
+use self::rows::Rows;
+
+/// What the inspector knows of the scene besides the part that it shows.
+pub struct Surroundings<'s> {
+    /// Names of all textures.
+    pub textures: &'s [String],
+    /// Names of all materials.
+    pub materials: &'s [String],
+    /// The extent of the scene, metres: drags of positions depend on it.
+    pub size: f64,
+}
+
+/// The inspector between two frames.
+#[derive(Default)]
+pub struct Inspector {
+    /// A drag has made requests.
+    is_dragging: bool,
+}
+
+impl Inspector {
+    /// Shows the parameters of the part of a description at a path.
+    pub fn show(&mut self, ui: &mut Ui, part: &mut dyn Declare, path: Path, surroundings: &Surroundings) -> Asked {
+        let requests = ui.push_id(&path, |ui| {
+            let mut rows = Rows::new(ui, path.clone(), surroundings);
+            part.parameters(&mut rows);
+            rows.finish()
+        });
+        let requests = requests.inner;
+        let is_down = ui.input(|input| input.pointer.primary_down());
+        let drag = match is_down {
+            true if self.is_dragging || !requests.is_empty() => Drag::Going,
+            false if self.is_dragging => Drag::Ended,
+            _ => Drag::None,
+        };
+        self.is_dragging = drag == Drag::Going;
+        Asked { requests, drag }
+    }
+}

@@ -1,0 +1,86 @@
+//! Menus of names: textures in place of constants, and what a value refers to.
+use egui::{Button, ComboBox, Id, Ui};
+use noisefall::declare::{Family, Parameter, Path};
+
+use super::{NewValue, Request, Surroundings};
+
+/// Where a value comes from.
+pub enum Source {
+    Constant,
+    Texture(String),
+    /// A picture file that is to be chosen.
+    File,
+}
+
+const FROM_FILE: &str = "From a file…";
+
+/// The family of an optional name that is absent: only its key tells.
+pub fn family_of(parameter: &Parameter) -> Option<Family> {
+    match parameter.key {
+        "material" => Some(Family::Material),
+        "texture" => Some(Family::Texture),
+        _ => None,
+    }
+}
+
+/// The menu of names that a value can refer to.
+pub fn names(
+    ui: &mut Ui,
+    label: Id,
+    current: Option<&str>,
+    family: Family,
+    surroundings: &Surroundings,
+    is_optional: bool,
+    path: &Path,
+) -> Option<Request> {
+    const NONE: &str = "none";
+    let all = if family == Family::Material { surroundings.materials } else { surroundings.textures };
+    let mut request = None;
+    let combo = ComboBox::from_id_salt("names").truncate().selected_text(current.unwrap_or(NONE)).show_ui(ui, |ui| {
+        if is_optional && ui.selectable_label(current.is_none(), NONE).clicked() && current.is_some() {
+            request = Some(Request::Remove { path: path.clone() });
+        }
+        for name in all {
+            if ui.selectable_label(current == Some(name), name).clicked() && current != Some(name) {
+                request = Some(Request::Set { path: path.clone(), value: NewValue::Text(name.clone()) });
+            }
+        }
+        if family == Family::Texture && ui.selectable_label(false, FROM_FILE).clicked() {
+            request = Some(Request::BrowseTexture { path: path.clone() });
+        }
+    });
+    combo.response.labelled_by(label);
+    request
+}
+
+/// The menu of textures in place of the texture `current`.
+pub fn textures(ui: &mut Ui, label: Id, current: &str, surroundings: &Surroundings) -> Option<Source> {
+    let combo = ComboBox::from_id_salt("textures").truncate().selected_text(current);
+    let combo = combo.show_ui(ui, |ui| {
+        let is_constant = ui.selectable_label(false, "constant").clicked();
+        entries(ui, Some(current), surroundings).or(is_constant.then_some(Source::Constant))
+    });
+    combo.response.labelled_by(label);
+    combo.inner.flatten()
+}
+
+/// The button behind a constant, with the menu of textures in its place.
+pub fn map_button(ui: &mut Ui, label: Id, surroundings: &Surroundings) -> Option<Source> {
+    let menu = ui.menu_button("Map", |ui| entries(ui, None, surroundings));
+    menu.response.labelled_by(label).on_hover_text("Use a texture");
+    menu.inner.flatten()
+}
+
+fn entries(ui: &mut Ui, current: Option<&str>, surroundings: &Surroundings) -> Option<Source> {
+    let mut chosen = None;
+    for name in surroundings.textures {
+        let is_current = current == Some(name);
+        if ui.add(Button::selectable(is_current, name)).clicked() && !is_current {
+            chosen = Some(Source::Texture(name.clone()));
+        }
+    }
+    if ui.button(FROM_FILE).clicked() {
+        chosen = Some(Source::File);
+    }
+    chosen
+}

@@ -1,0 +1,58 @@
+//! What the inspector asks for.
+use glam::DVec3;
+use noisefall::declare::{Path, Textured};
+
+/// What was asked for in a frame.
+#[derive(Debug, Default, PartialEq)]
+pub struct Asked {
+    pub requests: Vec<Request>,
+    pub drag: Drag,
+}
+
+/// Whether requests belong together: undo takes back a whole drag.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Drag {
+    /// Every request stands by itself.
+    #[default]
+    None,
+    /// More may follow.
+    Going,
+    /// The last drag has ended, with these requests or those before.
+    Ended,
+}
+
+/// A change that was asked for. Nothing is changed yet.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Request {
+    /// Set a value.
+    Set { path: Path, value: NewValue },
+    /// Choose another alternative of a choice, whose keys stand in the table at the path.
+    Choose { path: Path, choice: &'static str, name: &'static str },
+    /// Give an optional value or table, or an item of a list, its defaults.
+    Insert { path: Path },
+    /// Remove an optional value or table, or an item of a list.
+    Remove { path: Path },
+    /// Let the user choose a file for the value.
+    BrowseFile { path: Path },
+    /// Let the user choose a picture file; make a texture of it, and set the value to its name.
+    BrowseTexture { path: Path },
+}
+
+/// What a value becomes; of the type that its declaration says.
+#[derive(Clone, Debug, PartialEq)]
+pub enum NewValue {
+    Number(f64),
+    Count(u32),
+    Flag(bool),
+    /// Of a text, a path or a name.
+    Text(String),
+    Colour([f64; 3]),
+    Textured(Textured),
+    TexturedNumber(Textured<f64>),
+    /// Of a position, a vector or three factors.
+    Vector(DVec3),
+    Pair([f64; 2]),
+    Counts([u32; 2]),
+    Matrix([[f64; 4]; 4]),
+    Word(&'static str),
+}

@@ -1,0 +1,71 @@
+//! The layout of a row: label, tooltip, optional mark, control.
+use egui::{Align, Id, Label, Layout, Response, RichText, Ui, vec2};
+use noisefall::declare::Parameter;
+
+/// Width of the labels in points.
+const LABEL_WIDTH: f32 = 104.0;
+
+/// What stands before a label.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mark {
+    None,
+    /// A check box: whether the value or table is given.
+    Optional(bool),
+    /// A button that removes the item from its list.
+    Item,
+}
+
+/// The label of a row.
+#[derive(Clone, Debug)]
+pub struct Heading {
+    pub title: String,
+    pub tooltip: String,
+    pub mark: Mark,
+}
+
+impl Heading {
+    /// The label of a parameter: key, symbol; the tooltip says what it is and its unit.
+    pub fn of(parameter: &Parameter, mark: Mark) -> Heading {
+        let symbol = if parameter.symbol.is_empty() { String::new() } else { format!(" {}", parameter.symbol) };
+        let unit = if parameter.unit.is_empty() { String::new() } else { format!("\nUnit: {}", parameter.unit) };
+        Heading { title: capital(parameter.key) + &symbol, tooltip: format!("{}{unit}", parameter.doc), mark }
+    }
+
+    /// Shows the label with its mark in a row, with a control behind it. Returns whether the mark was clicked.
+    pub fn row(&self, ui: &mut Ui, control: impl FnOnce(&mut Ui, Id)) -> bool {
+        let row = ui.horizontal(|ui| {
+            ui.spacing_mut().item_spacing.x = 4.0;
+            let size = vec2(LABEL_WIDTH, ui.spacing().interact_size.y);
+            let label = ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
+                ui.set_min_width(LABEL_WIDTH);
+                self.label(ui, RichText::new(&self.title))
+            });
+            let (label, is_marked) = label.inner;
+            control(ui, label.id);
+            is_marked
+        });
+        row.inner
+    }
+
+    /// Shows the label as the title of a table. Returns whether the mark was clicked.
+    pub fn title(&self, ui: &mut Ui) -> bool {
+        ui.horizontal(|ui| self.label(ui, RichText::new(&self.title).strong()).1).inner
+    }
+
+    fn label(&self, ui: &mut Ui, text: RichText) -> (Response, bool) {
+        let is_removed = self.mark == Mark::Item && ui.small_button("×").on_hover_text("Remove from the list").clicked();
+        if let Mark::Optional(mut is_given) = self.mark {
+            let checkbox = ui.checkbox(&mut is_given, text).on_hover_text(&self.tooltip);
+            let is_clicked = checkbox.clicked();
+            return (checkbox, is_clicked);
+        }
+        (ui.add(Label::new(text).truncate()).on_hover_text(&self.tooltip), is_removed)
+    }
+}
+
+/// A key as a title: "two_sided" is "Two sided".
+pub fn capital(key: &str) -> String {
+    let mut letters = key.chars();
+    let first = letters.next().map(|first| first.to_uppercase().to_string()).unwrap_or_default();
+    first + &letters.as_str().replace('_', " ")
+}

@@ -1,0 +1,178 @@
+//! The visitor that makes rows of parameters.
+use egui::{ComboBox, Ui};
+use noisefall::declare::{Choice, Form, Parameter, Parameters, Path, Value};
+
+use super::{
+    Request, Surroundings,
+    cell::Cell,
+    references,
+    row::{Heading, Mark, capital},
+};
+
+/// The tables that are visited, and what was asked for so far.
+pub struct Rows<'u> {
+    ui: &'u mut Ui,
+    surroundings: &'u Surroundings<'u>,
+    path: Path,
+    /// The lengths of the path in the tables around.
+    lengths: Vec<usize>,
+    /// The optional parameter that is visited next.
+    optional: Option<&'static str>,
+    /// A table that was entered and has no title yet: its choice may stand in the same row.
+    entered: Option<(Heading, Form)>,
+    /// The alternative that was chosen last; its table needs no title.
+    chosen: Option<&'static str>,
+    requests: Vec<Request>,
+}
+
+impl<'u> Rows<'u> {
+    pub fn new(ui: &'u mut Ui, path: Path, surroundings: &'u Surroundings<'u>) -> Rows<'u> {
+        let (lengths, requests) = (Vec::new(), Vec::new());
+        Rows { ui, surroundings, path, lengths, optional: None, entered: None, chosen: None, requests }
+    }
+
+    pub fn finish(self) -> Vec<Request> {
+        self.requests
+    }
+
+    fn descend(&mut self, path: Path) {
+        self.lengths.push(self.path.0.len());
+        self.path = path;
+    }
+
+    /// Shows the title of the table that was entered last.
+    fn show_title(&mut self) {
+        if let Some((heading, _)) = self.entered.take()
+            && self.ui.push_id(&self.path, |ui| heading.title(ui)).inner
+        {
+            self.requests.push(Request::Remove { path: self.path.clone() });
+        }
+    }
+
+    fn mark(&mut self, parameter: &Parameter) -> Mark {
+        let is_optional = self.optional.take() == Some(parameter.key);
+        if is_optional { Mark::Optional(true) } else { Mark::None }
+    }
+}
+
+impl Parameters for Rows<'_> {
+    fn value(&mut self, parameter: &Parameter, value: Value<'_>) {
+        self.show_title();
+        self.chosen = None;
+        let (path, mark) = (self.path.key(parameter.key), self.mark(parameter));
+        // A name that is absent is an entry of the menu of names.
+        let is_optional_name = mark != Mark::None && matches!(value, Value::Name(..));
+        let heading = Heading::of(parameter, if is_optional_name { Mark::None } else { mark });
+        let surroundings = self.surroundings;
+        let row = self.ui.push_id(&path, |ui| {
+            let mut cell = Cell { parameter, path: &path, surroundings, is_optional_name, refusal: None, request: None };
+            let is_removed = heading.row(ui, |ui, label| cell.show(ui, label, &value));
+            if let Some(refusal) = cell.refusal {
+                ui.colored_label(ui.visuals().error_fg_color, refusal);
+            }
+            if is_removed { Some(Request::Remove { path: path.clone() }) } else { cell.request }
+        });
+        self.requests.extend(row.inner);
+    }
+
+    fn enter(&mut self, parameter: &Parameter, form: Form) {
+        self.show_title();
+        let (is_kind, mark) = (self.chosen.take() == Some(parameter.key), self.mark(parameter));
+        self.entered = (!is_kind).then(|| (Heading::of(parameter, mark), form));
+        self.descend(self.path.key(parameter.key));
+    }
+
+    fn leave(&mut self) {
+        self.show_title();
+        self.path.0.truncate(self.lengths.pop().unwrap_or(0));
+    }
+
+    fn present(&mut self, parameter: &Parameter, now: bool) -> bool {
+        if now {
+            self.optional = Some(parameter.key);
+            return true;
+        }
+        self.show_title();
+        let path = self.path.key(parameter.key);
+        let surroundings = self.surroundings;
+        let request = self.ui.push_id(&path, |ui| match references::family_of(parameter) {
+            Some(family) => {
+                let mut request = None;
+                Heading::of(parameter, Mark::None).row(ui, |ui, label| {
+                    request = references::names(ui, label, None, family, surroundings, true, &path);
+                });
+                request
+            }
+            None => {
+                let is_given = Heading::of(parameter, Mark::Optional(false)).row(ui, |_, _| {});
+                is_given.then(|| Request::Insert { path: path.clone() })
+            }
+        });
+        self.requests.extend(request.inner);
+        false
+    }
+
+    fn choose(&mut self, choice: &Choice, now: usize) -> usize {
+        let of_choice =
+            || Heading { title: capital(choice.what), tooltip: format!("The kind of {}.", choice.what), mark: Mark::None };
+        let (mut heading, form) = self.entered.take().unwrap_or_else(|| (of_choice(), Form::Table));
+        if form == Form::NameOrTable {
+            // It keeps what it is where its key is absent: there is nothing to remove.
+            heading.mark = if heading.mark == Mark::Item { Mark::Item } else { Mark::None };
+        }
+        let mut place = now;
+        let is_removed = self.ui.push_id((&self.path, choice.what), |ui| {
+            heading.row(ui, |ui, label| {
+                let name = |place: usize| choice.alternatives[place].name.replace('_', " ");
+                let combo = ComboBox::from_id_salt("choice").selected_text(name(now)).show_ui(ui, |ui| {
+                    for (at, alternative) in choice.alternatives.iter().enumerate() {
+                        let entry = ui.selectable_value(&mut place, at, name(at));
+                        if let [only] = &alternative.outline[..] {
+                            entry.on_hover_text(only.parameter.doc);
+                        }
+                    }
+                });
+                combo.response.labelled_by(label);
+            })
+        });
+        if is_removed.inner {
+            self.requests.push(Request::Remove { path: self.path.clone() });
+        } else if place != now {
+            let name = choice.alternatives[place].name;
+            self.requests.push(Request::Choose { path: self.path.clone(), choice: choice.what, name });
+        }
+        self.chosen = Some(choice.alternatives[now].name);
+        now
+    }
+
+    fn items(&mut self, parameter: &Parameter, now: usize) -> usize {
+        self.show_title();
+        let path = self.path.key(parameter.key);
+        let mut is_added = false;
+        self.ui.push_id(&path, |ui| {
+            Heading::of(parameter, Mark::None).row(ui, |ui, label| {
+                is_added = ui.button("Add").labelled_by(label).on_hover_text("Add an item to the list").clicked();
+                if now == 0 {
+                    ui.weak("none");
+                }
+            })
+        });
+        if is_added {
+            self.requests.push(Request::Insert { path: path.item(now) });
+        }
+        now
+    }
+
+    fn item(&mut self, parameter: &Parameter, index: usize) {
+        self.show_title();
+        self.chosen = None;
+        let title = format!("{} {}", capital(parameter.key), index + 1);
+        self.entered = Some((Heading { title, tooltip: parameter.doc.to_owned(), mark: Mark::Item }, Form::Table));
+        self.descend(self.path.key(parameter.key).item(index));
+    }
+
+    fn named(&mut self, parameter: &Parameter, name: &str) {
+        self.show_title();
+        self.descend(self.path.key(parameter.key).key(name));
+    }
+}

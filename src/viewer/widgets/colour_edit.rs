@@ -1,0 +1,145 @@
+//! A button of a colour, which opens a picker with linear channels, sRGB hex and, of lamps, temperature.
+use egui::{
+    Color32, Id, Popup, PopupCloseBehavior, Response, Sense, Slider, Stroke, StrokeKind, Ui, WidgetInfo,
+    accesskit::Role,
+    color_picker::{Alpha, color_picker_color32},
+    vec2,
+};
+use noisefall::math::colour::luminance;
+
+use super::{
+    committed_text,
+    hex::{brightness, bytes, from_hex, hex, linear},
+    temperature::{COLDEST, HOTTEST, black_body, temperature},
+};
+
+/// Shows the button. Changes of `rgb`, linear Rec. 709, keep its brightness where it is above 1; `most` bounds every channel.
+pub fn show(ui: &mut Ui, label: Id, rgb: &mut [f64; 3], most: f64, is_light: bool) -> Response {
+    let [r, g, b] = bytes(*rgb);
+    let button = button(ui, Color32::from_rgb(r, g, b)).labelled_by(label).on_hover_text("Pick a colour");
+    Popup::menu(&button).close_behavior(PopupCloseBehavior::CloseOnClickOutside).show(|ui| {
+        ui.spacing_mut().slider_width = 180.0;
+        let changed = [picker(ui, rgb), hex_field(ui, rgb), is_light && kelvin(ui, rgb)];
+        if changed.contains(&true) {
+            *rgb = rgb.map(|x| x.clamp(0.0, most));
+        }
+    });
+    button
+}
+
+fn button(ui: &mut Ui, colour: Color32) -> Response {
+    let size = vec2(22.0, ui.spacing().interact_size.y);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+    response.widget_info(|| WidgetInfo::new(Role::ColorWell));
+    let visuals = ui.style().interact(&response);
+    ui.painter().rect_filled(rect, 3.0, colour);
+    ui.painter().rect_stroke(rect, 3.0, Stroke::new(1.0, visuals.fg_stroke.color), StrokeKind::Inside);
+    response
+}
+
+/// The plane of saturation and value with the strip of hues.
+fn picker(ui: &mut Ui, rgb: &mut [f64; 3]) -> bool {
+    let [r, g, b] = bytes(*rgb);
+    let mut colour = Color32::from_rgb(r, g, b);
+    let changed = color_picker_color32(ui, &mut colour, Alpha::Opaque);
+    if changed {
+        let brightness = brightness(*rgb);
+        *rgb = linear([colour.r(), colour.g(), colour.b()]).map(|x| x * brightness);
+    }
+    changed
+}
+
+fn hex_field(ui: &mut Ui, rgb: &mut [f64; 3]) -> bool {
+    let field = ui.horizontal(|ui| {
+        let label = ui.label("sRGB").on_hover_text("Sets the colour from its hexadecimal sRGB value; the brightness stays.");
+        committed_text::show(ui, label.id, &hex(*rgb), 80.0)
+    });
+    let field = field.inner;
+    if let Err(refusal) = from_hex(&field.typed) {
+        ui.colored_label(ui.visuals().error_fg_color, refusal);
+    }
+    let entered = field.entered.and_then(|text| from_hex(&text).ok());
+    if let Some(bytes) = entered {
+        let brightness = brightness(*rgb);
+        *rgb = linear(bytes).map(|x| x * brightness);
+    }
+    entered.is_some()
+}
+
+/// Sets the colour of a black body of the same luminance.
+fn kelvin(ui: &mut Ui, rgb: &mut [f64; 3]) -> bool {
+    let found = temperature(*rgb);
+    let mut kelvin = found.unwrap_or(6504.0).round();
+    let slider = ui.horizontal(|ui| {
+        let label = ui.label("Temperature").on_hover_text("Sets the colour of a black body; the luminance stays.");
+        let slider = Slider::new(&mut kelvin, COLDEST..=HOTTEST).logarithmic(true).fixed_decimals(0).suffix(" K");
+        let slider = ui.add(slider).labelled_by(label.id);
+        if found.is_none() {
+            ui.weak("none");
+        }
+        slider
+    });
+    let changed = slider.inner.changed();
+    if changed {
+        let y = f64::from(luminance(rgb.map(|x| x as f32)));
+        *rgb = black_body(kelvin).map(|x| x * if y > 0.0 { y } else { 1.0 });
+    }
+    changed
+}
+
+#[cfg(test)]
+mod tests {
+    use egui::Key;
+    use egui_kittest::{Harness, kittest::Queryable};
+
+    use super::*;
+
+    fn open(rgb: [f64; 3], is_light: bool) -> Harness<'static, [f64; 3]> {
+        let draw = move |ui: &mut Ui, rgb: &mut [f64; 3]| {
+            let label = ui.label("L_e").id;
+            show(ui, label, rgb, 1e15, is_light);
+        };
+        let mut harness = Harness::builder().with_size(vec2(500.0, 600.0)).build_ui_state(draw, rgb);
+        harness.get_by_role(Role::ColorWell).click();
+        harness.run_steps(4);
+        harness
+    }
+
+    #[test]
+    fn a_hexadecimal_colour_keeps_the_brightness() {
+        let mut harness = open([50.0, 50.0, 50.0], false);
+        let field = |harness: &Harness<'static, [f64; 3]>| harness.get_by_role_and_label(Role::TextInput, "sRGB").rect();
+        assert!(field(&harness).width() > 10.0);
+        harness.get_by_role_and_label(Role::TextInput, "sRGB").focus();
+        harness.run_steps(3);
+        harness.key_press_modifiers(egui::Modifiers::COMMAND, Key::A);
+        harness.event(egui::Event::Text("#ff0000".to_owned()));
+        harness.run_steps(3);
+        harness.key_press(Key::Enter);
+        harness.run_steps(3);
+        assert_eq!(*harness.state(), [50.0, 0.0, 0.0]);
+        assert!(harness.query_by_label("Temperature").is_none(), "a surface has none");
+    }
+
+    #[test]
+    fn a_temperature_keeps_the_luminance() {
+        let mut harness = open([10.0; 3], true);
+        let slider = harness.get_by_role_and_label(Role::Slider, "Temperature");
+        slider.set_value_accesskit(3000.0);
+        harness.run_steps(3);
+        let rgb = *harness.state();
+        assert!((f64::from(luminance(rgb.map(|x| x as f32))) - 10.0).abs() < 1e-4);
+        assert!(temperature(rgb).is_some_and(|kelvin| (kelvin - 3000.0).abs() < 1.0), "{rgb:?}");
+    }
+
+    #[test]
+    fn looking_at_a_colour_changes_nothing() {
+        let rgb = [0.123_456, 0.7, 1e-5];
+        let mut harness = open(rgb, true);
+        harness.get_by_role_and_label(Role::TextInput, "sRGB").focus();
+        harness.run_steps(3);
+        harness.key_press(Key::Enter);
+        harness.run_steps(3);
+        assert_eq!(*harness.state(), rgb);
+    }
+}

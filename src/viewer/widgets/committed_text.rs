@@ -1,0 +1,26 @@
+//! A field of text that counts when it is left or entered; Escape gives the edit up.
+use egui::{Id, Key, TextEdit, Ui};
+
+/// What became of the text of a field.
+pub struct CommittedText {
+    /// The text as it stands in the field.
+    pub typed: String,
+    /// The text that was entered, if it differs from the current one.
+    pub entered: Option<String>,
+}
+
+/// Shows the field; `current` is the text while nobody types.
+pub fn show(ui: &mut Ui, label: Id, current: &str, width: f32) -> CommittedText {
+    let id = ui.scope_id().with((label, "typed"));
+    let mut typed = ui.data(|data| data.get_temp::<String>(id)).unwrap_or_else(|| current.to_owned());
+    let field = TextEdit::singleline(&mut typed).desired_width(width).clip_text(true);
+    let response = ui.add(field).labelled_by(label);
+    let is_entered = response.lost_focus() && !ui.input(|input| input.key_pressed(Key::Escape));
+    if response.has_focus() {
+        ui.data_mut(|data| data.insert_temp(id, typed.clone()));
+    } else {
+        ui.data_mut(|data| data.remove::<String>(id));
+    }
+    let entered = (is_entered && typed != current).then(|| typed.clone());
+    CommittedText { typed, entered }
+}

@@ -1,0 +1,132 @@
+//! Fields of numbers that say why they refuse what is typed.
+use std::{cell::RefCell, ops::RangeInclusive};
+
+use egui::{Id, Response, Ui, Widget};
+use noisefall::quote;
+
+use super::number;
+
+/// A field of a number, and what it accepts.
+pub struct TypedNumber<'a> {
+    /// What a scene file calls the number.
+    pub key: &'a str,
+    pub range: RangeInclusive<f64>,
+    /// Change per point of a drag.
+    pub speed: f64,
+    pub unit: &'a str,
+    /// Width in points.
+    pub width: f32,
+    /// Names the field.
+    pub label: Id,
+    /// What is wrong with a number, if anything is.
+    pub check: &'a dyn Fn(f64) -> Option<String>,
+}
+
+/// Digits that a field shows at least.
+const DIGITS: i32 = 6;
+
+impl TypedNumber<'_> {
+    /// Shows the field. It takes only numbers that are in range; a typed one that is not shows its message below, until the next edit.
+    pub fn show(&self, ui: &mut Ui, value: &mut f64) -> Response {
+        let before = *value;
+        let refused = RefCell::new(None);
+        let parse = |text: &str| {
+            let text = text.trim().trim_end_matches(self.unit).trim();
+            let parsed = text.replace('−', "-").parse::<f64>().ok();
+            let not_a_number = || format!("`{}`: expected a number, found `{}`", self.key, quote::piece(text));
+            *refused.borrow_mut() = parsed.map_or_else(|| Some(not_a_number()), self.check);
+            parsed.filter(|_| refused.borrow().is_none())
+        };
+        let suffix = if self.unit.is_empty() { String::new() } else { format!(" {}", self.unit) };
+        let field = number::field(ui, value, decimals(before), self.range.clone());
+        let field = field.speed(self.speed).suffix(suffix).clip_text(true).custom_parser(parse);
+        let response = sized(ui, self.width, field).labelled_by(self.label);
+        // Screen readers set numbers without typing.
+        let set = Some(*value).filter(|value| *value != before).and_then(|value| (self.check)(value));
+        if set.is_some() {
+            *value = before;
+        }
+        let refusal = refused.into_inner().or(set);
+        remember(ui, response.id, refusal, response.changed() || response.dragged());
+        response
+    }
+}
+
+/// Decimals that show enough digits of a number.
+fn decimals(value: f64) -> usize {
+    let magnitude = if value == 0.0 || !value.is_finite() { 0 } else { value.abs().log10().floor() as i32 };
+    (DIGITS - 1 - magnitude).clamp(0, 15) as usize
+}
+
+fn sized(ui: &mut Ui, width: f32, field: impl Widget) -> Response {
+    ui.add_sized([width, ui.spacing().interact_size.y], field)
+}
+
+/// Keeps a refusal until there is another one, or an edit.
+fn remember(ui: &Ui, field: Id, refusal: Option<String>, is_edited: bool) {
+    let id = field.with("refusal");
+    if let Some(refusal) = refusal {
+        ui.data_mut(|data| data.insert_temp(id, refusal));
+    } else if is_edited {
+        ui.data_mut(|data| data.remove::<String>(id));
+    }
+}
+
+/// What was wrong with the number that was typed last into a field.
+pub fn refusal(ui: &Ui, field: Id) -> Option<String> {
+    ui.data(|data| data.get_temp(field.with("refusal")))
+}
+
+#[cfg(test)]
+mod tests {
+    use egui::{Event, Key, Modifiers, accesskit::Role};
+    use egui_kittest::{Harness, kittest::Queryable};
+
+    use super::*;
+
+    #[derive(Default)]
+    struct State {
+        value: f64,
+        refusal: Option<String>,
+    }
+
+    fn field() -> Harness<'static, State> {
+        let draw = |ui: &mut Ui, state: &mut State| {
+            let label = ui.label("fov").id;
+            let check = |x: f64| (!(1.0..=170.0).contains(&x)).then(|| format!("`fov` is out of range: {x}"));
+            let (speed, width) = (0.1, 80.0);
+            let field = TypedNumber { key: "fov", range: 1.0..=170.0, speed, unit: "°", width, label, check: &check };
+            let response = field.show(ui, &mut state.value);
+            state.refusal = refusal(ui, response.id);
+        };
+        Harness::builder().build_ui_state(draw, State { value: 40.0, ..State::default() })
+    }
+
+    fn type_in(field: &mut Harness<'static, State>, text: &str) {
+        field.get_by_role(Role::SpinButton).click();
+        field.run_steps(4);
+        field.key_press_modifiers(Modifiers::COMMAND, Key::A);
+        field.event(Event::Text(text.to_owned()));
+        field.run_steps(3);
+        field.key_press(Key::Enter);
+        field.run_steps(3);
+    }
+
+    #[test]
+    fn a_typed_number_out_of_range_changes_nothing_and_says_so_until_the_next() {
+        let mut field = field();
+        type_in(&mut field, "200");
+        assert_eq!((field.state().value, field.state().refusal.as_deref()), (40.0, Some("`fov` is out of range: 200")));
+        type_in(&mut field, "wide");
+        assert_eq!(field.state().refusal.as_deref(), Some("`fov`: expected a number, found `wide`"));
+        type_in(&mut field, "55.25°");
+        assert_eq!((field.state().value, field.state().refusal.as_deref()), (55.25, None));
+        type_in(&mut field, "−3");
+        assert_eq!((field.state().value, field.state().refusal.as_deref()), (55.25, Some("`fov` is out of range: -3")));
+    }
+
+    #[test]
+    fn small_and_large_numbers_show_their_digits() {
+        assert_eq!([0.0, 1.5, 0.000_123, 123_456.0, 1e9, 1e-20].map(decimals), [5, 5, 9, 0, 0, 15]);
+    }
+}
