@@ -7,3 +7,5 @@ pub mod navigation;
 pub mod overlay;
 pub mod picture_area;
 pub mod picture_view;
+#[cfg_attr(not(test), expect(dead_code, reason = "no gizmo is drawn yet"))]
+pub mod projection;

@@ -5,6 +5,8 @@ pub mod frame_times;
 #[cfg_attr(not(test), expect(dead_code, reason = "the window edits no scenes yet"))]
 pub mod inspector;
 pub mod objects;
+#[cfg_attr(not(test), expect(dead_code, reason = "the window edits no scenes yet"))]
+pub mod outliner;
 pub mod pixel_readout;
 pub mod presets;
 pub mod sampling;

@@ -1,8 +1,9 @@
 //! A field of text that counts when it is left or entered; Escape gives the edit up.
-use egui::{Id, Key, TextEdit, Ui};
+use egui::{Id, Key, Response, TextEdit, Ui};
 
 /// What became of the text of a field.
 pub struct CommittedText {
+    pub response: Response,
     /// The text as it stands in the field.
     pub typed: String,
     /// The text that was entered, if it differs from the current one.
@@ -22,5 +23,5 @@ pub fn show(ui: &mut Ui, label: Id, current: &str, width: f32) -> CommittedText 
         ui.data_mut(|data| data.remove::<String>(id));
     }
     let entered = (is_entered && typed != current).then(|| typed.clone());
-    CommittedText { typed, entered }
+    CommittedText { response, typed, entered }
 }

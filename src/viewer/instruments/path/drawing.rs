@@ -3,8 +3,8 @@ use egui::{Align2, Color32, FontId, Pos2, Shape, Stroke, Ui, vec2};
 use glam::Vec3;
 use noisefall::{integrator::Outcome, scene::Camera};
 
-use super::{inspector::PathInspector, projection::clip, projection::project, table::MOST_VERTICES};
-use crate::viewer::canvas::picture_area::PictureArea;
+use super::{inspector::PathInspector, table::MOST_VERTICES};
+use crate::viewer::canvas::{picture_area::PictureArea, projection::clip, projection::project};
 
 const PATH: Color32 = Color32::from_rgb(255, 214, 90);
 /// Within the ring of a vertex that the camera does not see.

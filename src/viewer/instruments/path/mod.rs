@@ -3,7 +3,6 @@ pub mod copying;
 pub mod drawing;
 mod histogram;
 pub mod inspector;
-mod projection;
 pub mod tab;
 mod table;
 mod terms;

@@ -14,6 +14,26 @@ pub fn project(camera: &Camera, p: DVec3) -> Option<[f32; 2]> {
     Some([(width * (1.0 + x) / 2.0) as f32, ((height - width * y) / 2.0) as f32])
 }
 
+/// The half-line of points that [`project`] puts at a place of the picture: origin and unit direction.
+pub fn ray(camera: &Camera, [x, y]: [f32; 2]) -> [DVec3; 2] {
+    let [right, up, forward] = camera.axes();
+    let [width, height] = camera.resolution.map(f64::from);
+    let half = camera.projection.half_width(camera.fov);
+    let across = (right * (2.0 * f64::from(x) - width) + up * (height - 2.0 * f64::from(y))) * (half / width);
+    // Points at a depth lie across by the inverse of the scale, which is linear in the depth.
+    let at = |depth: f64| camera.eye + forward * depth + across / camera.projection.scale(depth).unwrap_or(1.0);
+    let (near, way) = (at(1.0), at(2.0) - at(1.0));
+    [near - way, way.normalize()]
+}
+
+/// Metres at a point of the scene that a pixel is wide; infinite behind the camera.
+pub fn pixel_width(camera: &Camera, p: DVec3) -> f64 {
+    let [_, _, forward] = camera.axes();
+    let depth = (p - camera.eye).dot(forward);
+    let wide = camera.projection.scale(depth).map(|scale| 2.0 * camera.projection.half_width(camera.fov) / scale);
+    wide.map_or(f64::INFINITY, |wide| wide / f64::from(camera.resolution[0]))
+}
+
 /// The part of a line that lies in a rectangle (Liang and Barsky 1984). What ends near the plane of the camera is endless, nearly.
 pub fn clip(rect: Rect, [from, to]: [Pos2; 2]) -> Option<[Pos2; 2]> {
     let way = to - from;
@@ -64,6 +84,29 @@ mod tests {
             let [x, y] = project(&camera, met).expect("it is in front");
             assert!((x - 30.0).abs() < 1e-2 && (y - 170.0).abs() < 1e-2, "{projection:?}: {x} {y}");
         }
+    }
+
+    #[test]
+    fn every_point_of_a_ray_lies_where_the_ray_goes_through() {
+        for projection in [Projection::Perspective, Projection::orthographic(3.0)] {
+            let camera = camera(projection);
+            let [origin, direction] = ray(&camera, [30.0, 170.0]);
+            for distance in [0.5, 7.0] {
+                let [x, y] = project(&camera, origin + direction * distance).expect("it is in front");
+                assert!((x - 30.0).abs() < 1e-3 && (y - 170.0).abs() < 1e-3, "{projection:?}: {x} {y}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_step_of_a_pixel_is_a_pixel_wide() {
+        for projection in [Projection::Perspective, Projection::orthographic(3.0)] {
+            let camera = camera(projection);
+            let step = camera.axes()[0] * pixel_width(&camera, DVec3::ZERO);
+            let [x, _] = project(&camera, step).expect("it is in front");
+            assert!((x - 151.0).abs() < 1e-3, "{projection:?}: {x}");
+        }
+        assert_eq!(pixel_width(&camera(Projection::Perspective), DVec3::splat(1e3)), f64::INFINITY);
     }
 
     #[test]

@@ -1,0 +1,127 @@
+//! The parts of a description as entries in groups.
+use egui::{TextFormat, Visuals, text::LayoutJob};
+use noisefall::scene::description::{MaterialDescription, ObjectDescription, SceneDescription};
+
+use crate::viewer::panels::subject::Subject;
+
+/// Entries with a title.
+pub struct Group {
+    pub title: &'static str,
+    pub entries: Vec<Entry>,
+}
+
+/// A part of the scene as a row.
+pub struct Entry {
+    pub subject: Subject,
+    /// What the row calls it.
+    pub name: String,
+    /// The name in the description: an object may have none.
+    pub given_name: String,
+    /// Its kind, and for an object its material.
+    pub kind: String,
+}
+
+/// The parts of a description whose name or kind contains the search, in groups. Groups without entries are left out.
+pub fn groups(description: &SceneDescription, search: &str) -> Vec<Group> {
+    let search = search.trim().to_lowercase();
+    let matches = |entry: &Entry| entry.name.to_lowercase().contains(&search) || entry.kind.to_lowercase().contains(&search);
+    let group = |title, entries: &mut dyn Iterator<Item = Entry>| Group { title, entries: entries.filter(matches).collect() };
+    let objects = |emits: bool| {
+        let objects = description.objects.iter().enumerate().filter(move |(_, object)| object.emission.is_some() == emits);
+        objects.map(|(place, object)| of_object(place, object))
+    };
+    let view = [Entry::single(Subject::Camera, "Camera", "")];
+    let background = description.background.as_ref().map_or("none", |background| background.name());
+    let light = [Entry::single(Subject::Background, "Background", background)];
+    let materials = description.materials.iter();
+    let textures = description.textures.iter();
+    let groups = [
+        group("Objects", &mut objects(false)),
+        group("Lamps", &mut objects(true)),
+        group("Materials", &mut materials.map(|(name, material)| of_material(name, material))),
+        group(
+            "Textures",
+            &mut textures.map(|(name, texture)| Entry::named(Subject::Texture(name.clone()), name, texture.name())),
+        ),
+        group("View and sky", &mut view.into_iter().chain(light)),
+    ];
+    groups.into_iter().filter(|group| !group.entries.is_empty()).collect()
+}
+
+fn of_object(place: usize, object: &ObjectDescription) -> Entry {
+    let name = if object.name.is_empty() { format!("object {}", place + 1) } else { object.name.clone() };
+    let material = object.material.as_deref().unwrap_or("black");
+    let kind = format!("{}, {material}", object.shape.name().replace('_', " "));
+    Entry { subject: Subject::Object(place), name, given_name: object.name.clone(), kind }
+}
+
+fn of_material(name: &str, material: &MaterialDescription) -> Entry {
+    Entry::named(Subject::Material(name.to_owned()), name, material.kind.name())
+}
+
+impl Entry {
+    fn named(subject: Subject, name: &str, kind: &str) -> Entry {
+        Entry { subject, name: name.to_owned(), given_name: name.to_owned(), kind: kind.replace('_', " ") }
+    }
+
+    fn single(subject: Subject, name: &str, kind: &str) -> Entry {
+        Entry { given_name: String::new(), ..Entry::named(subject, name, kind) }
+    }
+
+    /// The name, and behind it the kind in a faint colour.
+    pub fn text(&self, visuals: &Visuals) -> LayoutJob {
+        let font = egui::FontId::proportional(14.0);
+        let mut job = LayoutJob::default();
+        job.append(&self.name, 0.0, TextFormat::simple(font.clone(), visuals.text_color()));
+        job.append(&self.kind, 10.0, TextFormat::simple(font, visuals.weak_text_color()));
+        job
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use noisefall::{material::Lambertian, scene::description::EmissionDescription, shape::Sphere, texture::TextureKind};
+
+    use super::*;
+
+    fn room() -> SceneDescription {
+        let mut room = SceneDescription::default();
+        room.add_material("white", Lambertian::default());
+        room.add_object("ball", Sphere::default()).material = Some("white".to_owned());
+        room.add_object("", Sphere::default());
+        room.add_object("lamp", Sphere::default()).emission = Some(EmissionDescription::default());
+        room.textures.insert("squares".to_owned(), TextureKind::default());
+        room
+    }
+
+    fn names(search: &str) -> Vec<(&'static str, Vec<String>)> {
+        let names = |group: Group| (group.title, group.entries.into_iter().map(|entry| entry.name).collect());
+        groups(&room(), search).into_iter().map(names).collect()
+    }
+
+    #[test]
+    fn every_part_is_in_one_group() {
+        let all = [
+            ("Objects", vec!["ball", "object 2"]),
+            ("Lamps", vec!["lamp"]),
+            ("Materials", vec!["white"]),
+            ("Textures", vec!["squares"]),
+            ("View and sky", vec!["Camera", "Background"]),
+        ];
+        assert_eq!(names(""), all.map(|(title, names)| (title, names.into_iter().map(str::to_owned).collect())));
+    }
+
+    #[test]
+    fn search_finds_names_and_kinds_in_any_case() {
+        assert_eq!(names("BALL"), [("Objects", vec!["ball".to_owned()])]);
+        assert_eq!(names("lamb"), [("Materials", vec!["white".to_owned()])]);
+        assert_eq!(names("white"), [("Objects", vec!["ball".to_owned()]), ("Materials", vec!["white".to_owned()])]);
+        assert!(names("nothing of the kind").is_empty());
+    }
+
+    #[test]
+    fn an_object_says_its_shape_and_its_material() {
+        let kinds: Vec<String> = groups(&room(), "").remove(0).entries.into_iter().map(|entry| entry.kind).collect();
+        assert_eq!(kinds, ["sphere, white", "sphere, black"]);
+    }
+}

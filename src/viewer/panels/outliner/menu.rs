@@ -1,0 +1,106 @@
+//! The menu of a part of the scene.
+use egui::Ui;
+use noisefall::{
+    declare::OneOf,
+    material::Material,
+    scene::description::{BackgroundDescription, SceneDescription},
+    shape::ShapeKind,
+    texture::TextureKind,
+};
+
+use super::entries::Entry;
+use crate::viewer::panels::subject::Subject;
+
+/// What is to be done to a part.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Action {
+    /// Move the camera so that the part fills the picture.
+    LookAt,
+    Duplicate,
+    Delete,
+    /// Give it this name.
+    Rename(String),
+    /// Make it another kind, by its name.
+    ChangeKind(&'static str),
+    /// Give it a material; `None` is black.
+    AssignMaterial(Option<String>),
+    /// Give the scene a background.
+    AddBackground,
+}
+
+/// The choices of menus.
+pub struct Menu {
+    materials: Vec<String>,
+    has_background: bool,
+}
+
+impl Menu {
+    pub fn of(description: &SceneDescription) -> Menu {
+        let materials = description.materials.keys().cloned().collect();
+        Menu { materials, has_background: description.background.is_some() }
+    }
+
+    /// Shows the menu of a part, and returns what was chosen. The name of [`Action::Rename`] is the present one.
+    pub fn show(&self, ui: &mut Ui, entry: &Entry) -> Option<Action> {
+        let mut actions = Vec::new();
+        match &entry.subject {
+            Subject::Object(_) => actions.extend([("Look at", Action::LookAt), ("Duplicate", Action::Duplicate)]),
+            Subject::Material(_) | Subject::Texture(_) => actions.push(("Duplicate", Action::Duplicate)),
+            Subject::Camera => {}
+            Subject::Background if !self.has_background => actions.push(("Add", Action::AddBackground)),
+            Subject::Background => actions.push(("Delete", Action::Delete)),
+        }
+        if can_rename(&entry.subject) {
+            actions.extend([("Rename…", Action::Rename(entry.given_name.clone())), ("Delete", Action::Delete)]);
+        }
+        let mut chosen = None;
+        for (name, action) in actions {
+            if ui.button(name).clicked() {
+                chosen = Some(action);
+            }
+        }
+        let kinds = self.kinds(&entry.subject);
+        if !kinds.is_empty() {
+            let menu = ui.menu_button("Change kind", |ui| {
+                kinds.into_iter().find(|kind| ui.button(kind.replace('_', " ")).clicked()).map(Action::ChangeKind)
+            });
+            chosen = chosen.or(menu.inner.flatten());
+        }
+        if matches!(entry.subject, Subject::Object(_)) {
+            chosen = chosen.or(ui.menu_button("Assign material", |ui| self.materials(ui)).inner.flatten());
+        }
+        chosen
+    }
+
+    fn kinds(&self, subject: &Subject) -> Vec<&'static str> {
+        match subject {
+            Subject::Object(_) => names::<ShapeKind>(),
+            Subject::Material(_) => names::<Material>(),
+            Subject::Texture(_) => names::<TextureKind>(),
+            Subject::Background if self.has_background => names::<BackgroundDescription>(),
+            Subject::Background | Subject::Camera => Vec::new(),
+        }
+    }
+
+    fn materials(&self, ui: &mut Ui) -> Option<Action> {
+        let mut chosen = None;
+        if ui.button("none (black)").clicked() {
+            chosen = Some(Action::AssignMaterial(None));
+        }
+        for name in &self.materials {
+            if ui.button(name).clicked() {
+                chosen = Some(Action::AssignMaterial(Some(name.clone())));
+            }
+        }
+        chosen
+    }
+}
+
+/// Whether a part has a name.
+pub fn can_rename(subject: &Subject) -> bool {
+    matches!(subject, Subject::Object(_) | Subject::Material(_) | Subject::Texture(_))
+}
+
+fn names<T: OneOf>() -> Vec<&'static str> {
+    T::alternatives().iter().map(OneOf::name).collect()
+}

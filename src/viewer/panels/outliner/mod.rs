@@ -1,0 +1,153 @@
+//! The outliner: a list of the parts of the scene, with search, selection and a menu for each.
+//!
+//! It shows a description and changes nothing in it. It returns what was asked for.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `entries.rs` | the parts of a description, in groups |
+//! | `menu.rs` | the menu of a part |
+mod entries;
+mod menu;
+#[cfg(test)]
+mod tests;
+
+use std::sync::Arc;
+
+use egui::{CollapsingHeader, RichText, ScrollArea, TextEdit, Ui};
+use noisefall::scene::description::SceneDescription;
+
+pub use self::menu::Action;
+use self::{
+    entries::{Entry, Group},
+    menu::Menu,
+};
+use super::subject::Subject;
+use crate::viewer::widgets::{committed_text, palette::Palette};
+
+/// What was asked for in a frame.
+#[derive(Debug, Default, PartialEq)]
+pub struct Asked {
+    /// The part that was clicked.
+    pub selected: Option<Subject>,
+    /// What is to be done to which part.
+    pub action: Option<(Subject, Action)>,
+}
+
+/// The outliner between two frames.
+#[derive(Default)]
+pub struct Outliner {
+    search: String,
+    /// The part that is being renamed.
+    renamed: Option<Subject>,
+    /// The parts that are listed.
+    listed: Option<Listed>,
+}
+
+/// The parts of a revision of the scene that a search finds.
+struct Listed {
+    revision: u64,
+    search: String,
+    groups: Vec<Group>,
+    menu: Menu,
+}
+
+/// Height of a row in points, with the space below.
+const ROW: f32 = 24.0;
+
+/// More rows of a group are shown only where one scrolls to.
+const MOST_OPEN: usize = 12;
+
+impl Outliner {
+    /// Shows the parts of a description, one of which may be selected. They are listed anew when its revision is another one.
+    pub fn show(&mut self, ui: &mut Ui, description: &SceneDescription, revision: u64, selected: Option<&Subject>) -> Asked {
+        let mut asked = Asked::default();
+        let label = ui.label("Search").on_hover_text("Shows only the parts whose name or kind contains these letters.");
+        let field = TextEdit::singleline(&mut self.search).hint_text("name or kind").desired_width(f32::INFINITY);
+        ui.add(field).labelled_by(label.id);
+        let is_listed = |listed: &Listed| (listed.revision, &listed.search) == (revision, &self.search);
+        let listed = self.listed.take().filter(is_listed).unwrap_or_else(|| Listed {
+            revision,
+            search: self.search.clone(),
+            groups: entries::groups(description, &self.search),
+            menu: Menu::of(description),
+        });
+        for group in &listed.groups {
+            self.group(ui, group, &listed.menu, selected, &mut asked);
+        }
+        self.listed = Some(listed);
+        asked
+    }
+
+    fn group(&mut self, ui: &mut Ui, group: &Group, menu: &Menu, selected: Option<&Subject>, asked: &mut Asked) {
+        let title = format!("{} ({})", group.title, group.entries.len());
+        let header = CollapsingHeader::new(RichText::new(title).strong()).id_salt(group.title).default_open(true);
+        header.show_unindented(ui, |ui| {
+            // Only the rows in sight are laid out: a scene can have a hundred thousand objects.
+            let height = ROW * group.entries.len().min(MOST_OPEN) as f32;
+            ui.spacing_mut().item_spacing.y = 2.0;
+            let rows = ScrollArea::vertical().id_salt(group.title).max_height(height).auto_shrink([false, true]);
+            rows.show_rows(ui, ROW - 2.0, group.entries.len(), |ui, range| {
+                for entry in &group.entries[range] {
+                    ui.push_id(&entry.subject, |ui| self.row(ui, entry, menu, selected == Some(&entry.subject), asked));
+                }
+            });
+        });
+    }
+
+    fn row(&mut self, ui: &mut Ui, entry: &Entry, menu: &Menu, is_selected: bool, asked: &mut Asked) {
+        let subject = &entry.subject;
+        if self.renamed.as_ref() == Some(subject) {
+            return self.name_field(ui, entry, asked);
+        }
+        let text = format!("{}  {}", entry.name, entry.kind);
+        let row = egui::Button::selectable(is_selected, entry.text(ui.visuals()));
+        let row = row.sense(egui::Sense::click_and_drag()).truncate().min_size(egui::vec2(ui.available_width(), ROW - 2.0));
+        let row = ui.add(row).on_hover_text(text);
+        if row.clicked() || row.secondary_clicked() {
+            asked.selected = Some(subject.clone());
+        }
+        if row.double_clicked() && menu::can_rename(subject) {
+            self.renamed = Some(subject.clone());
+        }
+        // A material is assigned by dragging it onto an object.
+        if let Subject::Material(name) = subject {
+            row.dnd_set_drag_payload(name.clone());
+        }
+        if matches!(subject, Subject::Object(_)) && row.dnd_hover_payload::<String>().is_some() {
+            ui.painter().rect_stroke(row.rect, 2.0, (1.5, ui.visuals().accent()), egui::StrokeKind::Inside);
+            if let Some(material) = row.dnd_release_payload::<String>() {
+                let material = Some(Arc::unwrap_or_clone(material));
+                asked.action = Some((subject.clone(), Action::AssignMaterial(material)));
+            }
+        }
+        row.context_menu(|ui| {
+            if let Some(action) = menu.show(ui, entry) {
+                match action {
+                    Action::Rename(_) => self.renamed = Some(subject.clone()),
+                    action => asked.action = Some((subject.clone(), action)),
+                }
+                ui.close();
+            }
+        });
+    }
+
+    /// The field that stands in the place of a row while the part is renamed.
+    fn name_field(&mut self, ui: &mut Ui, entry: &Entry, asked: &mut Asked) {
+        let id = ui.scope_id();
+        let field = ui.horizontal(|ui| {
+            let label = ui.label("Name");
+            committed_text::show(ui, label.id, &entry.given_name, ui.available_width() - 8.0)
+        });
+        let field = field.inner;
+        let was_shown = ui.data_mut(|data| std::mem::replace(data.get_temp_mut_or_default::<bool>(id), true));
+        if !was_shown {
+            field.response.request_focus();
+        } else if !field.response.has_focus() {
+            ui.data_mut(|data| data.remove::<bool>(id));
+            self.renamed = None;
+        }
+        if let Some(name) = field.entered {
+            asked.action = Some((entry.subject.clone(), Action::Rename(name)));
+        }
+    }
+}

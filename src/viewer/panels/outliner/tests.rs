@@ -1,0 +1,124 @@
+//! The outliner, driven as a user would: without a window around it.
+use egui::{Event, Key, Modifiers, accesskit::Role, vec2};
+use egui_kittest::{Harness, kittest::Queryable};
+use noisefall::{
+    material::Lambertian,
+    scene::description::{EmissionDescription, SceneDescription},
+    shape::Sphere,
+};
+
+use super::*;
+
+#[derive(Default)]
+struct State {
+    description: SceneDescription,
+    asked: Vec<Asked>,
+}
+
+type Panel = Harness<'static, State>;
+
+fn outliner(description: SceneDescription) -> Panel {
+    let mut outliner = Outliner::default();
+    let draw = move |ui: &mut Ui, state: &mut State| {
+        let asked = outliner.show(ui, &state.description, 0, Some(&Subject::Camera));
+        if asked != Asked::default() {
+            state.asked.push(asked);
+        }
+    };
+    Harness::builder().with_size(vec2(336.0, 900.0)).build_ui_state(draw, State { description, asked: Vec::new() })
+}
+
+fn room() -> Panel {
+    let mut room = SceneDescription::default();
+    room.add_material("white", Lambertian::default());
+    room.add_object("ball", Sphere::default()).material = Some("white".to_owned());
+    room.add_object("lamp", Sphere::default()).emission = Some(EmissionDescription::default());
+    outliner(room)
+}
+
+fn row<'p>(panel: &'p Panel, name: &'p str) -> egui_kittest::Node<'p> {
+    let rows = panel.get_all_by_role(Role::Button);
+    rows.into_iter().find(|row| label(row).starts_with(name)).expect("the part has a row")
+}
+
+fn label(node: &egui_kittest::Node) -> String {
+    use egui_kittest::kittest::NodeT;
+    node.accesskit_node().label().unwrap_or_default()
+}
+
+fn choose(panel: &mut Panel, part: &str, entries: &[&str]) {
+    row(panel, part).click_secondary();
+    panel.run_steps(4);
+    for entry in entries {
+        panel.get_by_role_and_label(Role::Button, entry).click();
+        panel.run_steps(4);
+    }
+}
+
+fn last(panel: &Panel) -> &Asked {
+    panel.state().asked.last().expect("something was asked for")
+}
+
+#[test]
+fn a_click_selects_a_part() {
+    let mut panel = room();
+    for (name, subject) in [
+        ("ball", Subject::Object(0)),
+        ("lamp", Subject::Object(1)),
+        ("white", Subject::Material("white".to_owned())),
+        ("Background", Subject::Background),
+    ] {
+        row(&panel, name).click();
+        panel.run_steps(3);
+        assert_eq!(*last(&panel), Asked { selected: Some(subject), action: None });
+    }
+}
+
+#[test]
+fn the_menu_of_a_part_asks_for_what_it_says() {
+    let ball = Subject::Object(0);
+    for (entries, action) in [
+        (&["Look at"][..], Action::LookAt),
+        (&["Duplicate"], Action::Duplicate),
+        (&["Delete"], Action::Delete),
+        (&["Change kind", "cuboid"], Action::ChangeKind("cuboid")),
+        (&["Assign material", "white"], Action::AssignMaterial(Some("white".to_owned()))),
+        (&["Assign material", "none (black)"], Action::AssignMaterial(None)),
+    ] {
+        let mut panel = room();
+        choose(&mut panel, "ball", entries);
+        assert_eq!(last(&panel).action, Some((ball.clone(), action)));
+    }
+    let mut panel = room();
+    choose(&mut panel, "Background", &["Add"]);
+    assert_eq!(last(&panel).action, Some((Subject::Background, Action::AddBackground)));
+}
+
+#[test]
+fn a_part_is_renamed_in_its_row_and_escape_gives_it_up() {
+    let mut panel = room();
+    for (key, name) in [(Key::Escape, None), (Key::Enter, Some("globe"))] {
+        panel.state_mut().asked.clear();
+        choose(&mut panel, "ball", &["Rename…"]);
+        panel.run_steps(3);
+        panel.key_press_modifiers(Modifiers::COMMAND, Key::A);
+        panel.event(Event::Text("globe".to_owned()));
+        panel.run_steps(3);
+        panel.key_press(key);
+        panel.run_steps(3);
+        let renamed = panel.state().asked.iter().find_map(|asked| asked.action.clone());
+        assert_eq!(renamed, name.map(|name: &str| (Subject::Object(0), Action::Rename(name.to_owned()))));
+        assert!(label(&row(&panel, "ball")).starts_with("ball"), "the row is back");
+    }
+}
+
+#[test]
+fn a_scene_of_many_objects_lays_out_those_in_sight() {
+    let mut many = SceneDescription::default();
+    for number in 0..5000 {
+        many.add_object(&format!("ball {number}"), Sphere::default());
+    }
+    let panel = outliner(many);
+    let rows = panel.get_all_by_role(Role::Button).filter(|row| label(row).starts_with("ball")).count();
+    assert!((1..40).contains(&rows), "{rows}");
+}
