@@ -122,6 +122,7 @@ mod tests {
         assert_eq!((&built.owners, built.camera), (&parsed.owners, parsed.camera));
         // Emitting objects come first.
         assert_eq!(built.objects[0].name, "lamp");
+        assert_eq!([0, 1].map(|object| built.objects[object].described), [1, 0]);
         assert!(built.material(&built.objects[1]).is_some());
     }
 

@@ -7,6 +7,8 @@ use crate::{
 /// One object as the file describes it.
 #[derive(Clone, Debug)]
 pub struct Object {
+    /// The place of the object in the description: several have the same if their shape is many.
+    pub described: u32,
     /// The name in the scene file, with a number if the shape makes several objects; may be empty.
     pub name: String,
     /// The shape with the object's transform applied.

@@ -27,8 +27,7 @@ pub fn objects(
         if problems.are_many() {
             break;
         }
-        let at = Path::of("objects").item(place);
-        objects.extend(these(object, &at, materials, textures, &mut shapes, problems));
+        objects.extend(these(object, place as u32, materials, textures, &mut shapes, problems));
     }
     // A stable sort: emitting primitives first, as the table of emitters wants it.
     objects.sort_by_key(|object| object.emission.is_none());
@@ -38,12 +37,13 @@ pub fn objects(
 /// The object, or, of a shape that is many, one each; none where something is wrong.
 fn these(
     o: &ObjectDescription,
-    at: &Path,
+    described: u32,
     materials: &Numbers,
     textures: &TextureCompiler,
     builder: &mut ShapeBuilder,
     problems: &mut Problems,
 ) -> Vec<Object> {
+    let at = &Path::of("objects").item(described as usize);
     let shapes = problems.keep(at, || placed(o, builder));
     let material = o.material.as_ref().map(|name| {
         let unknown = || Problem::not_defined("", Family::Material, name, materials.keys());
@@ -57,6 +57,7 @@ fn these(
     let many = shapes.len() > 1;
     let name = |number: usize| if many { format!("{} {}", quote::piece(&o.name), number + 1) } else { quote::piece(&o.name) };
     let object = |(number, shape): (usize, Shape)| Object {
+        described,
         name: if o.name.is_empty() { String::new() } else { name(number) },
         shape,
         motion: motion.clone(),

@@ -18,6 +18,11 @@ impl PictureArea {
         self.rect.min + Vec2::new(x, y) / self.resolution * self.rect.size()
     }
 
+    /// The position in picture pixels of a point of the screen.
+    pub fn place(&self, at: Pos2) -> [f32; 2] {
+        ((at - self.rect.min) / self.rect.size() * self.resolution).into()
+    }
+
     /// The rectangle of a region on the screen.
     pub fn of_region(&self, region: &Region) -> Rect {
         let corner = |[x, y]: [u32; 2]| self.screen(x as f32, y as f32);
@@ -52,6 +57,7 @@ pub mod tests {
     fn pixels_and_places_of_the_screen_are_the_same() {
         let area = area();
         assert_eq!(area.screen(3.0, 7.0), Pos2::new(130.0, 190.0));
+        assert_eq!(area.place(Pos2::new(130.0, 190.0)), [3.0, 7.0]);
         assert_eq!(area.pixel(Pos2::new(139.0, 191.0)), Some([3, 7]));
         for beyond in [[99.0, 60.0], [401.0, 60.0], [110.0, 49.0], [110.0, 251.0]] {
             assert_eq!(area.pixel(beyond.into()), None);

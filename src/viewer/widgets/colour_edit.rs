@@ -40,13 +40,15 @@ fn button(ui: &mut Ui, colour: Color32) -> Response {
 /// The plane of saturation and value with the strip of hues.
 fn picker(ui: &mut Ui, rgb: &mut [f64; 3]) -> bool {
     let [r, g, b] = bytes(*rgb);
-    let mut colour = Color32::from_rgb(r, g, b);
-    let changed = color_picker_color32(ui, &mut colour, Alpha::Opaque);
-    if changed {
+    let before = Color32::from_rgb(r, g, b);
+    let mut colour = before;
+    // It reports changes by its own rounding.
+    color_picker_color32(ui, &mut colour, Alpha::Opaque);
+    if colour != before {
         let brightness = brightness(*rgb);
         *rgb = linear([colour.r(), colour.g(), colour.b()]).map(|x| x * brightness);
     }
-    changed
+    colour != before
 }
 
 fn hex_field(ui: &mut Ui, rgb: &mut [f64; 3]) -> bool {

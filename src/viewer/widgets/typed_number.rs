@@ -22,8 +22,8 @@ pub struct TypedNumber<'a> {
     pub check: &'a dyn Fn(f64) -> Option<String>,
 }
 
-/// Digits that a field shows at least.
-const DIGITS: i32 = 6;
+/// Width of a digit in points, with its share of the margins.
+const DIGIT: f32 = 12.0;
 
 impl TypedNumber<'_> {
     /// Shows the field. It takes only numbers that are in range; a typed one that is not shows its message below, until the next edit.
@@ -38,7 +38,7 @@ impl TypedNumber<'_> {
             parsed.filter(|_| refused.borrow().is_none())
         };
         let suffix = if self.unit.is_empty() { String::new() } else { format!(" {}", self.unit) };
-        let field = number::field(ui, value, decimals(before), self.range.clone());
+        let field = number::field(ui, value, decimals(before, self.width), self.range.clone());
         let field = field.speed(self.speed).suffix(suffix).clip_text(true).custom_parser(parse);
         let response = sized(ui, self.width, field).labelled_by(self.label);
         // Screen readers set numbers without typing.
@@ -52,10 +52,11 @@ impl TypedNumber<'_> {
     }
 }
 
-/// Decimals that show enough digits of a number.
-fn decimals(value: f64) -> usize {
+/// Decimals that a field of some width has room for.
+fn decimals(value: f64, width: f32) -> usize {
     let magnitude = if value == 0.0 || !value.is_finite() { 0 } else { value.abs().log10().floor() as i32 };
-    (DIGITS - 1 - magnitude).clamp(0, 15) as usize
+    let digits = (width / DIGIT) as i32;
+    (digits - 1 - magnitude).clamp(0, 15) as usize
 }
 
 fn sized(ui: &mut Ui, width: f32, field: impl Widget) -> Response {
@@ -127,6 +128,7 @@ mod tests {
 
     #[test]
     fn small_and_large_numbers_show_their_digits() {
-        assert_eq!([0.0, 1.5, 0.000_123, 123_456.0, 1e9, 1e-20].map(decimals), [5, 5, 9, 0, 0, 15]);
+        assert_eq!([0.0, 1.5, 0.000_123, 123_456.0, 1e9, 1e-20].map(|x| decimals(x, 72.0)), [5, 5, 9, 0, 0, 15]);
+        assert_eq!([0.725, 15.25].map(|x| decimals(x, 40.0)), [3, 1]);
     }
 }

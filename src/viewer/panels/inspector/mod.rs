@@ -44,8 +44,8 @@ pub struct Inspector {
 
 impl Inspector {
     /// Shows the parameters of the part of a description at a path.
-    pub fn show(&mut self, ui: &mut Ui, part: &mut dyn Declare, path: Path, surroundings: &Surroundings) -> Asked {
-        let requests = ui.push_id(&path, |ui| {
+    pub fn show(&mut self, ui: &mut Ui, part: &mut dyn Declare, path: &Path, surroundings: &Surroundings) -> Asked {
+        let requests = ui.push_id(path, |ui| {
             let mut rows = Rows::new(ui, path.clone(), surroundings);
             part.parameters(&mut rows);
             rows.finish()

@@ -9,8 +9,9 @@ use crate::viewer::widgets::typed_number::{TypedNumber, refusal};
 const SLIDER_LEAST: f64 = 1e-3;
 const SLIDER_MOST: f64 = 1e3;
 
-/// Widths of fields in points.
-const ALONE: f32 = 84.0;
+/// Widths in points.
+const SLIDER_WIDTH: f32 = 76.0;
+const ALONE: f32 = 72.0;
 const OF_THREE: f32 = 52.0;
 const OF_CHANNELS: f32 = 40.0;
 const OF_FOUR: f32 = 42.0;
@@ -38,7 +39,7 @@ impl Numbers<'_> {
         let parameter = self.parameter;
         let mut new = old;
         if *range != Range::FINITE {
-            ui.spacing_mut().slider_width = 90.0;
+            ui.spacing_mut().slider_width = SLIDER_WIDTH;
             let [least, most] = slider_ends(range);
             let slider = Slider::new(&mut new, least..=most).show_value(false).clamping(SliderClamping::Edits);
             let slider = slider.logarithmic(range.scale == Scale::Log).smallest_positive(SLIDER_LEAST);
@@ -56,7 +57,7 @@ impl Numbers<'_> {
         let mut new = f64::from(old);
         let (least, most) = (f64::from(range.least), f64::from(range.most));
         if range.most <= FEW {
-            ui.spacing_mut().slider_width = 90.0;
+            ui.spacing_mut().slider_width = SLIDER_WIDTH;
             let slider = Slider::new(&mut new, least..=most).integer().show_value(false).clamping(SliderClamping::Edits);
             ui.add(slider).labelled_by(self.label);
         }
@@ -138,7 +139,6 @@ impl Numbers<'_> {
         DVec3::from_array(new)
     }
 
-    #[expect(clippy::too_many_arguments, reason = "all of them differ between the callers")]
     fn field(
         &mut self,
         ui: &mut Ui,

@@ -23,7 +23,7 @@ fn inspect<T: Declare + 'static>(part: T) -> Panel<T> {
     let (names, mut inspector) = (["gold", "white"].map(str::to_owned), Inspector::default());
     let draw = move |ui: &mut egui::Ui, state: &mut State<T>| {
         let surroundings = Surroundings { textures: &names, materials: &names, size: 1.0 };
-        let asked = inspector.show(ui, &mut state.part, Path::of("part"), &surroundings);
+        let asked = inspector.show(ui, &mut state.part, &Path::of("part"), &surroundings);
         if asked != Asked::default() {
             state.asked.push(asked);
         }

@@ -1,0 +1,67 @@
+//! Moves the camera so that something fills the picture.
+use glam::DVec3;
+use noisefall::scene::Camera;
+
+/// The part of the picture's shorter side that a framed sphere takes.
+const PART: f64 = 0.7;
+
+/// The camera that looks at the middle of a sphere from the same direction, and sees all of it. Radius in metres.
+pub fn look_at(camera: &Camera, center: DVec3, radius: f64) -> Camera {
+    let [_, _, forward] = camera.axes();
+    let [width, height] = camera.resolution.map(f64::from);
+    let shorter = (height / width).min(1.0);
+    let radius = radius.max(1e-9);
+    let distance = if camera.projection.has_angle() {
+        // The half angle of a cone that fits into the picture.
+        radius / (camera.projection.half_width(camera.fov) * shorter * PART).atan().sin()
+    } else {
+        camera.eye.distance(camera.look_at).max(2.0 * radius)
+    };
+    let projection = camera.projection.with_width((2.0 * radius / (PART * shorter)).clamp(1e-9, 1e9));
+    Camera { eye: center - forward * distance, look_at: center, projection, ..*camera }
+}
+
+#[cfg(test)]
+mod tests {
+    use noisefall::scene::{Projection, built_in};
+
+    use super::*;
+    use crate::viewer::canvas::projection::project;
+
+    /// How far the outermost points of a sphere lie from the middle of the picture, as a part of half its shorter side.
+    fn reach(camera: &Camera, center: DVec3, radius: f64) -> f64 {
+        let [right, up, forward] = camera.axes();
+        let [width, height] = camera.resolution.map(f64::from);
+        // The tangent cone touches the sphere a little before its middle.
+        let sine: f64 = if camera.projection.has_angle() { radius / camera.eye.distance(center) } else { 0.0 };
+        let edge = |side: DVec3| center - forward * (radius * sine) + side * (radius * (1.0 - sine * sine).sqrt());
+        [right, -right, up, -up]
+            .iter()
+            .map(|side| {
+                let [x, y] = project(camera, edge(*side)).expect("it is in front").map(f64::from);
+                (x - width / 2.0).hypot(y - height / 2.0) / (width.min(height) / 2.0)
+            })
+            .fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn a_framed_sphere_fills_its_part_of_the_picture() {
+        let center = DVec3::new(3.0, -2.0, 1.0);
+        let parallel = Projection::orthographic(2.0);
+        for (projection, resolution) in [
+            (Projection::Perspective, [300, 200]),
+            (Projection::Perspective, [100, 400]),
+            (parallel, [300, 200]),
+            (parallel, [100, 400]),
+        ] {
+            let before = Camera { projection, resolution, lens: None, ..built_in().camera };
+            for radius in [1e-3, 0.5, 40.0] {
+                let framed = look_at(&before, center, radius);
+                assert_eq!(framed.check(), Ok(()));
+                assert!(framed.axes()[2].distance(before.axes()[2]) < 1e-9, "the direction stays");
+                let reach = reach(&framed, center, radius);
+                assert!((reach - PART).abs() < 1e-3, "{projection:?} {resolution:?} {radius}: {reach}");
+            }
+        }
+    }
+}
