@@ -44,8 +44,10 @@ impl App {
 
     /// A click on the picture.
     fn click(&mut self, pixel: [u32; 2]) {
-        if self.window.tool == Tool::Inspect {
-            self.window.tab = Some(InstrumentTab::Path);
+        match self.window.tool {
+            Tool::Inspect => self.window.tab = Some(InstrumentTab::Path),
+            Tool::Picture | Tool::Camera => self.select_at(pixel),
+            Tool::Region => {}
         }
         if self.window.tab == Some(InstrumentTab::Path) {
             self.instruments.path.of_second = self.window.over_second;
@@ -55,6 +57,7 @@ impl App {
 
     /// Draws what lies over the picture. `second` is where B lies, if that is elsewhere.
     pub fn overlays(&mut self, ui: &mut Ui, area: &PictureArea, second: Option<&PictureArea>) {
+        self.outline_selection(ui, area);
         let (session, results) = (&self.session, &self.results);
         let region = self.window.marking.or(session.budget.region);
         overlay::show(ui, area, region, results.scores.as_ref(), results.legend.as_ref());

@@ -118,6 +118,9 @@ impl App {
                 self.perform(command);
             }
         }
+        if pressed(Key::L) {
+            self.look_at_selection();
+        }
         let look = &mut self.session.look;
         for (is_pressed, back) in
             [(pressed(Key::V), false), (ctx.input(|input| input.key_pressed(Key::V) && input.modifiers.shift_only()), true)]
@@ -131,7 +134,7 @@ impl App {
         look.display.exposure += 0.5 * (presses(Key::CloseBracket) - presses(Key::OpenBracket));
     }
 
-    /// Closes what lies over the picture: of several things all dialogs first, then messages, then the region.
+    /// Closes what lies over the picture: of several things all dialogs first, then messages, then the selection, then the region.
     fn escape(&mut self) {
         // The field of a path belongs to its dialog.
         if self.dialogs.open.take().is_some() || self.dialogs.save.take().is_some() {
@@ -149,7 +152,7 @@ impl App {
             (dialogs.help, dialogs.gallery.open, dialogs.scene_error) = (false, false, None);
         } else if !dialogs.notices.0.is_empty() {
             dialogs.notices.0.clear();
-        } else {
+        } else if self.selection.subject.take().is_none() {
             self.session.budget.region = None;
         }
     }

@@ -10,6 +10,8 @@ mod history;
 mod receive;
 mod results;
 mod saving;
+mod selecting;
+mod selection;
 mod session;
 mod side_panel;
 mod state;

@@ -1,7 +1,7 @@
 //! Receives what the threads have finished: scenes, references, frames, images, saved files.
 use noisefall::render::{Budget, State};
 
-use super::{history::History, state::App};
+use super::{history::History, selection::Selection, state::App};
 use crate::viewer::background::{
     catalogue, display_image::DisplayImage, feature_finder::FeatureFinder, loader::DroppedReference, loader::OpenedScene,
 };
@@ -98,6 +98,7 @@ impl App {
         (results.last_seeing, results.black_reason) = (None, None);
         self.dialogs.scene_error = None;
         self.history = History::default();
+        self.selection = Selection::new(&self.ctx);
         self.window.view.fit();
         session.opened = Some(opened);
         self.set_title();

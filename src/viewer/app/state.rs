@@ -3,7 +3,9 @@ use std::path::PathBuf;
 
 use noisefall::render::threads::Threads;
 
-use super::{history::History, results::Results, session::Session, window_state::Dialogs, window_state::WindowState};
+use super::{
+    history::History, results::Results, selection::Selection, session::Session, window_state::Dialogs, window_state::WindowState,
+};
 use crate::viewer::background::{
     adviser::Adviser, catalogue, catalogue::CatalogueEntry, display_pipeline::DisplayPipeline, feature_finder::FeatureFinder,
     loader::Loader, preferences::Preferences, render_worker::RenderWorkerHandle, saver::Saver, settler::Settler,
@@ -18,6 +20,7 @@ pub struct App {
     pub history: History,
     pub results: Results,
     pub window: WindowState,
+    pub selection: Selection,
     pub instruments: Instruments,
     pub dialogs: Dialogs,
     pub background: Background,
@@ -64,6 +67,7 @@ impl App {
             history: History::default(),
             results: Results::default(),
             window: WindowState::default(),
+            selection: Selection::new(ctx),
             instruments: Instruments { history: ErrorHistory::default(), path: PathInspector::new(ctx) },
             dialogs: Dialogs::default(),
             background,

@@ -7,7 +7,6 @@ pub mod display_pipeline;
 pub mod display_request;
 pub mod feature_finder;
 pub mod loader;
-#[cfg_attr(not(test), expect(dead_code, reason = "the window selects nothing yet"))]
 pub mod outline;
 pub mod preferences;
 mod reduction;

@@ -130,7 +130,7 @@ mod tests {
 
     #[test]
     fn a_speckled_object_has_a_coarser_outline() {
-        let checker = |x: u32, y: u32| (x + y) % 2 == 0;
+        let checker = |x: u32, y: u32| (x + y).is_multiple_of(2);
         let lines = Outline::of([400, 300], &checker).0;
         assert!(!lines.is_empty() && lines.len() <= MOST_LINES, "{}", lines.len());
         assert!(lines.iter().flatten().all(|[x, y]| *x <= 400 && *y <= 300));

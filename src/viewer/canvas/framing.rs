@@ -21,6 +21,14 @@ pub fn look_at(camera: &Camera, center: DVec3, radius: f64) -> Camera {
     Camera { eye: center - forward * distance, look_at: center, projection, ..*camera }
 }
 
+/// A sphere around several, each with its centre and radius; `None` around none.
+pub fn around(spheres: impl Iterator<Item = (DVec3, f64)> + Clone) -> Option<(DVec3, f64)> {
+    let boxes = spheres.clone().map(|(center, radius)| [center - radius, center + radius]);
+    let [min, max] = boxes.reduce(|[a, b], [c, d]| [a.min(c), b.max(d)])?;
+    let middle = 0.5 * (min + max);
+    Some((middle, spheres.map(|(center, radius)| center.distance(middle) + radius).fold(0.0, f64::max)))
+}
+
 #[cfg(test)]
 mod tests {
     use noisefall::scene::{Projection, built_in};
@@ -42,6 +50,17 @@ mod tests {
                 (x - width / 2.0).hypot(y - height / 2.0) / (width.min(height) / 2.0)
             })
             .fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn one_sphere_is_around_itself_and_several_lie_within() {
+        let ball = (DVec3::new(1.0, 2.0, 3.0), 0.5);
+        let (center, radius) = around([ball].into_iter()).expect("there is one");
+        assert!(center.distance(ball.0) < 1e-12 && (radius - 0.5).abs() < 1e-12);
+        let other = (DVec3::new(-4.0, 0.0, 3.0), 1.0);
+        let (center, radius) = around([ball, other].into_iter()).expect("there are two");
+        assert!([ball, other].iter().all(|(at, size)| at.distance(center) + size <= radius + 1e-12));
+        assert_eq!(around(std::iter::empty()), None);
     }
 
     #[test]

@@ -15,6 +15,8 @@ const KEYS: [(&str, &[(&str, &str)]); 4] = [
             ("V, Shift+V", "next view, previous view"),
             ("G", "drag marks a region to render first; Esc clears it"),
             ("I", "click shows the samples of a pixel and their paths"),
+            ("Click", "select an object; Esc clears the selection"),
+            ("L", "look at the selected object"),
         ],
     ),
     (

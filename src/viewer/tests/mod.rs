@@ -22,6 +22,7 @@ mod rasteriser;
 mod ratios;
 mod saving;
 mod scenes;
+mod selection;
 mod settings;
 mod snapshots;
 mod soak;

@@ -11,6 +11,8 @@ pub struct TypedNumber<'a> {
     /// What a scene file calls the number.
     pub key: &'a str,
     pub range: RangeInclusive<f64>,
+    /// Shows no decimals.
+    pub is_whole: bool,
     /// Change per point of a drag.
     pub speed: f64,
     pub unit: &'a str,
@@ -37,8 +39,9 @@ impl TypedNumber<'_> {
             *refused.borrow_mut() = parsed.map_or_else(|| Some(not_a_number()), self.check);
             parsed.filter(|_| refused.borrow().is_none())
         };
+        let decimals = if self.is_whole { 0 } else { decimals(before, self.width) };
         let suffix = if self.unit.is_empty() { String::new() } else { format!(" {}", self.unit) };
-        let field = number::field(ui, value, decimals(before, self.width), self.range.clone());
+        let field = number::field(ui, value, decimals, self.range.clone());
         let field = field.speed(self.speed).suffix(suffix).clip_text(true).custom_parser(parse);
         let response = sized(ui, self.width, field).labelled_by(self.label);
         // Screen readers set numbers without typing.
@@ -96,7 +99,8 @@ mod tests {
             let label = ui.label("fov").id;
             let check = |x: f64| (!(1.0..=170.0).contains(&x)).then(|| format!("`fov` is out of range: {x}"));
             let (speed, width) = (0.1, 80.0);
-            let field = TypedNumber { key: "fov", range: 1.0..=170.0, speed, unit: "°", width, label, check: &check };
+            let (range, is_whole) = (1.0..=170.0, false);
+            let field = TypedNumber { key: "fov", range, is_whole, speed, unit: "°", width, label, check: &check };
             let response = field.show(ui, &mut state.value);
             state.refusal = refusal(ui, response.id);
         };
@@ -124,6 +128,17 @@ mod tests {
         assert_eq!((field.state().value, field.state().refusal.as_deref()), (55.25, None));
         type_in(&mut field, "−3");
         assert_eq!((field.state().value, field.state().refusal.as_deref()), (55.25, Some("`fov` is out of range: -3")));
+    }
+
+    #[test]
+    fn a_screen_reader_sets_no_number_out_of_range_either() {
+        let mut field = field();
+        field.get_by_role(Role::SpinButton).set_value_accesskit(300.0);
+        field.run_steps(3);
+        assert_eq!((field.state().value, field.state().refusal.as_deref()), (40.0, Some("`fov` is out of range: 300")));
+        field.get_by_role(Role::SpinButton).set_value_accesskit(60.0);
+        field.run_steps(3);
+        assert_eq!((field.state().value, field.state().refusal.as_deref()), (60.0, None));
     }
 
     #[test]

@@ -197,36 +197,36 @@ mod tests {
         Transform::Rotate(Rotation { axis, degrees })
     }
 
-    fn way(change: Transform) -> DVec3 {
+    fn way(change: &Transform) -> DVec3 {
         let Transform::Translate(way) = change else { panic!("it is no move: {change:?}") };
-        way
+        *way
     }
 
     #[test]
     fn what_is_moved_along_an_axis_stays_under_the_pointer() {
-        for axis in 0..3 {
-            let by = AXES[axis] * 0.75;
-            let found = way(drag(Mode::Move, Lock::Axis(axis), PIVOT, PIVOT + by, false));
+        for (axis, direction) in AXES.into_iter().enumerate() {
+            let by = direction * 0.75;
+            let found = way(&drag(Mode::Move, Lock::Axis(axis), PIVOT, PIVOT + by, false));
             assert!(found.distance(by) < 1e-3, "{axis}: {found}");
         }
     }
 
     #[test]
     fn what_is_moved_in_a_plane_stays_under_the_pointer() {
-        for normal in 0..3 {
-            let by = DVec3::new(0.3, -0.2, 0.5) * (DVec3::ONE - AXES[normal]);
-            let found = way(drag(Mode::Move, Lock::Plane(normal), PIVOT, PIVOT + by, false));
+        for (normal, direction) in AXES.into_iter().enumerate() {
+            let by = DVec3::new(0.3, -0.2, 0.5) * (DVec3::ONE - direction);
+            let found = way(&drag(Mode::Move, Lock::Plane(normal), PIVOT, PIVOT + by, false));
             assert!(found.distance(by) < 1e-3, "{normal}: {found}");
         }
         let [right, up, forward] = camera().axes();
         let by = right * 0.2 - up * 0.1;
-        let found = way(drag(Mode::Move, Lock::Free, PIVOT, PIVOT + by, false));
+        let found = way(&drag(Mode::Move, Lock::Free, PIVOT, PIVOT + by, false));
         assert!(found.distance(by) < 1e-3 && found.dot(forward).abs() < 1e-6, "{found}");
     }
 
     #[test]
     fn moves_snap_to_the_grid() {
-        let found = way(drag(Mode::Move, Lock::Axis(1), PIVOT, PIVOT + DVec3::Y * 0.37, true));
+        let found = way(&drag(Mode::Move, Lock::Axis(1), PIVOT, PIVOT + DVec3::Y * 0.37, true));
         assert!(found.distance(DVec3::Y * 0.4) < 1e-9, "{found}");
     }
 

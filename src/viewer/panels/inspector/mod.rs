@@ -10,30 +10,25 @@
 //! | `numbers.rs` | sliders and fields of numbers |
 //! | `references.rs` | menus of names: textures, materials |
 //! | `request.rs` | what is asked for |
+//! | `surroundings.rs` | the rest of the scene |
 mod cell;
 mod numbers;
 mod references;
 mod request;
 mod row;
 mod rows;
+mod surroundings;
 #[cfg(test)]
 mod tests;
 
 use egui::Ui;
 use noisefall::declare::{Declare, Path};
 
-pub use self::request::{Asked, Drag, NewValue, Request};
 use self::rows::Rows;
-
-/// What the inspector knows of the scene besides the part that it shows.
-pub struct Surroundings<'s> {
-    /// Names of all textures.
-    pub textures: &'s [String],
-    /// Names of all materials.
-    pub materials: &'s [String],
-    /// The extent of the scene, metres: drags of positions depend on it.
-    pub size: f64,
-}
+pub use self::{
+    request::{Asked, Drag, NewValue, Request},
+    surroundings::Surroundings,
+};
 
 /// The inspector between two frames.
 #[derive(Default)]

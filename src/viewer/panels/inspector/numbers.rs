@@ -47,7 +47,7 @@ impl Numbers<'_> {
         }
         let check = |mut x: f64| check_value(parameter, &value(&mut x)).map(message);
         let unit = if self.parameter.unit.chars().count() <= 3 { self.parameter.unit } else { "" };
-        self.field(ui, &mut new, (range.least, range.most), speed(old, range), (unit, ALONE), &check);
+        self.field(ui, &mut new, (range.least, range.most), speed(old, range), Look { unit, ..Look::of(ALONE) }, &check);
         Some(new).filter(|new| *new != old)
     }
 
@@ -62,7 +62,7 @@ impl Numbers<'_> {
             ui.add(slider).labelled_by(self.label);
         }
         let check = |x: f64| check_count(parameter, x, range);
-        self.field(ui, &mut new, (least, most), 0.2, ("", ALONE), &check);
+        self.field(ui, &mut new, (least, most), 0.2, Look::WHOLE, &check);
         Some(new.round() as u32).filter(|new| *new != old)
     }
 
@@ -73,7 +73,7 @@ impl Numbers<'_> {
         let mut new = old.map(f64::from);
         for number in &mut new {
             let check = |x: f64| check_count(parameter, x, &range);
-            self.field(ui, number, (1.0, f64::from(u32::MAX)), 1.0, ("", ALONE), &check);
+            self.field(ui, number, (1.0, f64::from(u32::MAX)), 1.0, Look::WHOLE, &check);
         }
         Some(new.map(|x| x.round() as u32)).filter(|new| *new != old)
     }
@@ -85,7 +85,7 @@ impl Numbers<'_> {
         for channel in &mut new {
             let check = |x: f64| check_value(parameter, &Value::Colour(&mut [x; 3], *range)).map(message);
             let speed = speed(*channel, range);
-            self.field(ui, channel, (range.least, range.most), speed, ("", OF_CHANNELS), &check);
+            self.field(ui, channel, (range.least, range.most), speed, Look::of(OF_CHANNELS), &check);
         }
         Some(new).filter(|new| *new != old)
     }
@@ -107,7 +107,7 @@ impl Numbers<'_> {
         let parameter = self.parameter;
         let mut new = old;
         for number in &mut new {
-            self.field(ui, number, (f64::MIN, f64::MAX), 0.01, ("", ALONE), &|x| check_finite(parameter, x));
+            self.field(ui, number, (f64::MIN, f64::MAX), 0.01, Look::of(ALONE), &|x| check_finite(parameter, x));
         }
         Some(new).filter(|new| *new != old)
     }
@@ -120,7 +120,7 @@ impl Numbers<'_> {
             for row in new.iter_mut().take(3) {
                 ui.horizontal(|ui| {
                     for number in row {
-                        self.field(ui, number, (f64::MIN, f64::MAX), 0.01, ("", OF_FOUR), &|x| check_finite(parameter, x));
+                        self.field(ui, number, (f64::MIN, f64::MAX), 0.01, Look::of(OF_FOUR), &|x| check_finite(parameter, x));
                     }
                 });
             }
@@ -134,7 +134,7 @@ impl Numbers<'_> {
         for coordinate in &mut new {
             let check = |x: f64| check(x).or_else(|| check_finite(parameter, x));
             let speed = speed(*coordinate);
-            self.field(ui, coordinate, (f64::MIN, f64::MAX), speed, ("", OF_THREE), &check);
+            self.field(ui, coordinate, (f64::MIN, f64::MAX), speed, Look::of(OF_THREE), &check);
         }
         DVec3::from_array(new)
     }
@@ -145,15 +145,31 @@ impl Numbers<'_> {
         number: &mut f64,
         (least, most): (f64, f64),
         speed: f64,
-        (unit, width): (&str, f32),
+        look: Look,
         check: &dyn Fn(f64) -> Option<String>,
     ) {
-        let range = least..=most;
-        let field = TypedNumber { key: self.parameter.key, range, speed, unit, width, label: self.label, check };
+        let (range, Look { unit, width, is_whole }) = (least..=most, look);
+        let (key, label) = (self.parameter.key, self.label);
+        let field = TypedNumber { key, range, is_whole, speed, unit, width, label, check };
         let response = field.show(ui, number);
         if let Some(refusal) = refusal(ui, response.id) {
             *self.refused = Some(refusal);
         }
+    }
+}
+
+/// What a field looks like.
+struct Look<'a> {
+    unit: &'a str,
+    width: f32,
+    is_whole: bool,
+}
+
+impl Look<'_> {
+    const WHOLE: Look<'static> = Look { is_whole: true, ..Look::of(ALONE) };
+
+    const fn of(width: f32) -> Look<'static> {
+        Look { unit: "", width, is_whole: false }
     }
 }
 

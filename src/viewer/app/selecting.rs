@@ -1,0 +1,54 @@
+//! Selects objects in the picture, outlines them, and looks at them.
+use std::sync::Arc;
+
+use egui::Ui;
+use noisefall::render::RenderRequest;
+
+use super::state::App;
+use crate::viewer::canvas::{framing, picking, picture_area::PictureArea, selection};
+use crate::viewer::panels::subject::Subject;
+
+impl App {
+    /// Selects the object at a pixel of the picture, or nothing.
+    pub fn select_at(&mut self, pixel: [u32; 2]) {
+        let request = self.request_of_open_scene();
+        let request = request.filter(|request| (0..2).all(|axis| pixel[axis] < request.camera.resolution[axis]));
+        let object = request.and_then(|request| picking::object_at(&request.scene, &request.camera, pixel));
+        self.selection.subject = object.map(Subject::Object);
+    }
+
+    /// Draws the outline of the selected object. Without one, no pixel is looked at.
+    pub fn outline_selection(&mut self, ui: &Ui, area: &PictureArea) {
+        let request = self.request_of_open_scene().cloned();
+        let Some((request, object)) = request.zip(self.selection.object()) else { return self.selection.outline.clear() };
+        let (finder, RenderRequest { scene, camera, .. }) = (&mut self.background.features, &request);
+        let features = finder.of(scene, camera, self.session.threads).filter(|_| finder.has(camera));
+        let outline = features.and_then(|features| self.selection.outline.of(&features, picking::compiled(scene, object)));
+        let is_of_picture = area.resolution == egui::Vec2::from(camera.resolution.map(|side| side as f32));
+        if let Some(outline) = outline.filter(|_| is_of_picture) {
+            selection::draw(ui, area, &outline);
+        }
+    }
+
+    /// Moves the camera so that the selected object fills the picture.
+    pub fn look_at_selection(&mut self) {
+        let Some((request, object)) = self.request_of_open_scene().zip(self.selection.object()) else { return };
+        let scene = &request.scene;
+        let compiled = picking::compiled(scene, object);
+        let objects = &scene.objects[compiled.start as usize..compiled.end as usize];
+        let sphere = framing::around(objects.iter().map(|object| object.shape.swept_sphere(&object.motion)));
+        let Some((center, radius)) = sphere else { return };
+        let moved = framing::look_at(&self.session.camera, center, radius);
+        // A sphere can be a wall of the scene, and as large as a planet.
+        if radius > scene.size || moved.check().is_err() {
+            return self.tell("This object is larger than the scene".to_owned(), false);
+        }
+        self.session.camera = moved;
+    }
+
+    /// What is rendered, once it is of the open scene.
+    fn request_of_open_scene(&self) -> Option<&RenderRequest> {
+        let opened = self.session.opened.as_ref()?;
+        self.background.worker.request().filter(|request| Arc::ptr_eq(&request.scene, &opened.scene))
+    }
+}
