@@ -14,7 +14,7 @@ impl App {
         let scene = session.opened.as_ref().map(|opened| opened.scene.as_ref());
         // In an open list, arrows are the list's.
         let has_window = self.dialogs.wait() || self.dialogs.help || self.dialogs.gallery.open;
-        let keys = !has_window && !egui::Popup::is_any_open(ui.ctx());
+        let keys = !has_window && !egui::Popup::is_any_open(ui.ctx()) && !self.selection.gizmo.is_active() && !window.holds_chord;
         let output = interaction::show(ui, pictures, window.tool, &mut window.view, &session.camera, scene, keys);
         (window.hovered, window.over_second) = (output.hovered, output.over_second);
         if let Some(camera) = output.camera.filter(|camera| camera.check().is_ok()) {
@@ -58,6 +58,7 @@ impl App {
     /// Draws what lies over the picture. `second` is where B lies, if that is elsewhere.
     pub fn overlays(&mut self, ui: &mut Ui, area: &PictureArea, second: Option<&PictureArea>) {
         self.outline_selection(ui, area);
+        self.show_gizmo(ui, area);
         let (session, results) = (&self.session, &self.results);
         let region = self.window.marking.or(session.budget.region);
         overlay::show(ui, area, region, results.scores.as_ref(), results.legend.as_ref());

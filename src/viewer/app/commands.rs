@@ -1,5 +1,5 @@
 //! Commands of the toolbar and of single keys.
-use egui::{Context, Key, KeyboardShortcut, Modifiers, Ui};
+use egui::{Context, InputState, Key, KeyboardShortcut, Modifiers, Ui};
 
 use super::state::App;
 use crate::viewer::canvas::interaction::Tool;
@@ -7,7 +7,10 @@ use crate::viewer::dialogs::save_target::SaveTarget;
 use crate::viewer::instruments::tabs::InstrumentTab;
 use crate::viewer::panels::{toolbar::Command, toolbar::Toolbar, views};
 
-const SAVE: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::S);
+const SAVE_KEYS: [(KeyboardShortcut, Command); 2] = [
+    (KeyboardShortcut::new(Modifiers::COMMAND, Key::S), Command::SaveScene),
+    (KeyboardShortcut::new(Modifiers::COMMAND, Key::E), Command::SavePicture),
+];
 /// The longer ones first: egui takes a shortcut without Shift for one with it.
 const UNDO_KEYS: [(KeyboardShortcut, Command); 3] = [
     (KeyboardShortcut::new(Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::Z), Command::Redo),
@@ -71,15 +74,22 @@ impl App {
             Command::ActualSize => self.window.view.actual_size(),
             Command::Compare(other) => self.start_comparison(other),
             Command::EndComparison => self.session.comparison = None,
-            Command::Save => self.open_save_dialog(SaveTarget::Picture),
+            Command::SaveScene => self.save_scene(),
+            Command::SavePicture => self.open_save_dialog(SaveTarget::Picture),
             Command::Help => self.dialogs.help = !self.dialogs.help,
         }
     }
 
-    /// Single keys, unless text is being typed; and Ctrl+S.
+    /// Single keys, unless text is being typed, and those with Ctrl.
     pub fn shortcuts(&mut self, ctx: &Context) {
-        if ctx.input_mut(|input| input.consume_shortcut(&SAVE)) && self.can_save() {
-            self.perform(Command::Save);
+        self.take_gizmo_keys();
+        let holds = |input: &InputState| input.key_down(Key::S) && (self.window.holds_chord || input.modifiers.command);
+        self.window.holds_chord = ctx.input(holds);
+        for (shortcut, command) in SAVE_KEYS {
+            let can = command == Command::SaveScene || self.can_save();
+            if ctx.input_mut(|input| input.consume_shortcut(&shortcut)) && can && !self.dialogs.wait() {
+                self.perform(command);
+            }
         }
         // In text they belong to the text.
         if !ctx.text_edit_focused() && !self.dialogs.wait() {
@@ -137,7 +147,11 @@ impl App {
     /// Closes what lies over the picture: of several things all dialogs first, then messages, then the selection, then the region.
     fn escape(&mut self) {
         // The field of a path belongs to its dialog.
-        if self.dialogs.open.take().is_some() || self.dialogs.save.take().is_some() {
+        let dialogs = &mut self.dialogs;
+        if dialogs.open.take().is_some() || dialogs.save.take().is_some() || dialogs.file.take().is_some() {
+            return;
+        }
+        if dialogs.unsaved.take().is_some() {
             return;
         }
         // Escape gives the edit of a field up, and nothing else.
@@ -152,7 +166,9 @@ impl App {
             (dialogs.help, dialogs.gallery.open, dialogs.scene_error) = (false, false, None);
         } else if !dialogs.notices.0.is_empty() {
             dialogs.notices.0.clear();
-        } else if self.selection.subject.take().is_none() {
+        } else if self.selection.subject.is_some() {
+            self.selection.select(None);
+        } else {
             self.session.budget.region = None;
         }
     }

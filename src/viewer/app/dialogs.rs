@@ -4,21 +4,29 @@ use noisefall::scene::{RenderSettings, Roulette};
 use super::state::App;
 use crate::viewer::background::adviser::Adviser;
 use crate::viewer::dialogs::{
-    advice, help, open, save, scene_error,
+    advice, choose_file, help, open, save, scene_error,
     tour::{self, TourRequest},
+    unsaved::Leaving,
 };
 
 impl App {
     pub fn show_dialogs(&mut self, ctx: &egui::Context) {
         let saved = save::show(ctx, &mut self.dialogs.save);
+        if saved.is_none() && self.dialogs.save.is_none() {
+            // The question where to save had no answer.
+            self.window.leaving = None;
+        }
         saved.into_iter().for_each(|(target, path)| self.save_target(target, path));
         let opened = open::show(ctx, &mut self.dialogs.open);
-        opened.into_iter().for_each(|path| self.background.loader.open(Some(path)));
+        opened.into_iter().for_each(|path| self.ask_to_leave(Leaving::Open(Some(path))));
+        let file = choose_file::show(ctx, &mut self.dialogs.file);
+        file.into_iter().for_each(|(purpose, path)| self.use_file(&purpose, &path));
+        self.show_unsaved();
         if help::show(ctx, &mut self.dialogs.help) {
             self.start_tour();
         }
         if scene_error::show(ctx, &mut self.dialogs.scene_error, self.session.opened.is_some()) {
-            self.background.loader.open(None);
+            self.ask_to_leave(Leaving::Open(None));
         }
         let request = self.dialogs.gallery.show(ctx, &self.catalogue);
         request.into_iter().for_each(|request| self.open_scene(request));

@@ -55,7 +55,13 @@ impl App {
         }
         let of_scene = Camera { resolution: request.camera.resolution, ..opened.scene.camera };
         let is_of_scene = request.camera == of_scene && Arc::ptr_eq(&request.scene, &opened.scene);
-        opened.truth.clone().filter(|_| is_of_scene)
+        self.exact_solution().cloned().filter(|_| is_of_scene)
+    }
+
+    /// The picture that the scene file says the scene converges to. It need not hold after an edit.
+    pub fn exact_solution(&self) -> Option<&Arc<Reference>> {
+        let is_edited = self.editor.as_ref().is_some_and(|editor| !editor.is_as_opened());
+        self.session.opened.as_ref()?.truth.as_ref().filter(|_| !is_edited)
     }
 
     /// Whether a picture with light in this fraction of its pixels shows nothing. Out of a closed object one path in a hundred million

@@ -11,7 +11,6 @@ use crate::viewer::background::settler::EditedScene;
 
 impl App {
     /// Renders a changed scene. If changes come faster than their images, only the latest counts.
-    #[allow(dead_code, reason = "the editors of a scene call it")]
     pub fn edit_scene(&mut self, description: Arc<SceneDescription>) {
         self.session.waiting_edit = Some(description);
     }
@@ -50,17 +49,19 @@ impl App {
         let session = &mut self.session;
         let (Some(opened), Some(description)) = (&mut session.opened, session.submitted_edit.take()) else { return };
         // The camera and the settings are those of the window, unless they are what was edited.
-        let (old, new) = (opened.scene.camera, scene.camera);
-        if new != old {
-            let keeps_resolution = new.resolution == old.resolution;
+        let (before, new) = (&opened.description, scene.camera);
+        if description.camera != before.camera {
+            let keeps_resolution = description.camera.resolution == before.camera.resolution;
             session.camera =
                 Camera { resolution: if keeps_resolution { session.camera.resolution } else { new.resolution }, ..new };
         }
-        if scene.settings != opened.scene.settings {
+        if description.render != before.render {
             session.settings = scene.settings;
         }
+        opened.description = description.clone();
         self.background.settler.note(EditedScene { scene: scene.clone(), description, folder: opened.folder() });
         opened.change(scene);
         self.results.black_reason = None;
+        self.history.adopt(self.session.controls());
     }
 }

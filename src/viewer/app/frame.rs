@@ -12,6 +12,7 @@ impl App {
         let start = Instant::now();
         let ctx = ui.ctx().clone();
         self.window.hidden = false;
+        self.guard_changes();
         self.shortcuts(&ctx);
         self.take_dropped_file();
         self.receive();
@@ -25,6 +26,7 @@ impl App {
         self.record_step();
         let compiled = self.session.opened.as_ref().map(|opened| &opened.scene.compiled);
         self.frame_times.show(&ctx, self.session.threads, self.background.worker.generation(), compiled);
+        self.update_title();
         self.submit();
         self.window.had_focus = ctx.egui_wants_keyboard_input();
         self.frame_times.record(start.elapsed(), ctx.input(|input| input.time));
@@ -33,6 +35,7 @@ impl App {
 
 impl eframe::App for App {
     fn logic(&mut self, ctx: &egui::Context, _frame: &mut eframe::Frame) {
+        self.guard_changes();
         self.hide(ctx.input(|input| input.viewport().visible() == Some(false)));
     }
 

@@ -27,6 +27,17 @@ pub struct Controls {
 pub enum Step {
     /// Controls were changed.
     Controls { before: Controls, after: Controls },
+    /// The scene was edited. The editor of the scene knows how.
+    Edit { title: String },
+}
+
+/// What undo and redo restore.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Restored {
+    /// The controls become these.
+    Controls(Controls),
+    /// The scene goes back or forth by one edit.
+    Edit,
 }
 
 /// The state of mouse and clock in the frame of a change.
@@ -71,8 +82,11 @@ impl Controls {
 
 impl Step {
     /// What it changes, for a tooltip.
-    fn name(&self) -> &'static str {
-        let Step::Controls { before, after } = self;
+    fn name(&self) -> &str {
+        let (before, after) = match self {
+            Step::Controls { before, after } => (before, after),
+            Step::Edit { title } => return title,
+        };
         match before.differing(after) {
             [true, ..] => "camera",
             [_, _, true, _] => "comparison",
@@ -100,8 +114,26 @@ impl History {
                     self.done.pop_back();
                 }
             }
-            None => self.push(Step::Controls { before, after: now }),
+            _ => self.push(Step::Controls { before, after: now }),
         }
+    }
+
+    /// Records an edit of the scene.
+    pub fn push_edit(&mut self, title: &str) {
+        self.undone.clear();
+        self.open = None;
+        self.push(Step::Edit { title: title.to_owned() });
+    }
+
+    /// Forgets the last edit of the scene, which was cancelled.
+    pub fn drop_edit(&mut self) {
+        let last = self.done.iter().rposition(|step| matches!(step, Step::Edit { .. }));
+        last.map(|last| self.done.remove(last));
+    }
+
+    /// Takes note of controls that an edit of the scene has changed: they are no step of their own.
+    pub fn adopt(&mut self, controls: Controls) {
+        self.last = Some(controls);
     }
 
     fn push(&mut self, step: Step) {
@@ -116,29 +148,38 @@ impl History {
         self.open = None;
     }
 
-    /// Takes the last step back. Returns the controls before it.
-    pub fn undo(&mut self) -> Option<Controls> {
+    /// Takes the last step back. Returns what it restores.
+    pub fn undo(&mut self) -> Option<Restored> {
         let step = self.done.pop_back()?;
-        let Step::Controls { before, .. } = step;
+        let restored = match &step {
+            Step::Controls { before, .. } => Restored::Controls(*before),
+            Step::Edit { .. } => Restored::Edit,
+        };
         self.undone.push(step);
-        self.restored(before)
+        Some(self.restored(restored))
     }
 
-    /// Takes the last undone step again. Returns the controls after it.
-    pub fn redo(&mut self) -> Option<Controls> {
+    /// Takes the last undone step again. Returns what it restores.
+    pub fn redo(&mut self) -> Option<Restored> {
         let step = self.undone.pop()?;
-        let Step::Controls { after, .. } = step;
+        let restored = match &step {
+            Step::Controls { after, .. } => Restored::Controls(*after),
+            Step::Edit { .. } => Restored::Edit,
+        };
         self.done.push_back(step);
-        self.restored(after)
+        Some(self.restored(restored))
     }
 
-    fn restored(&mut self, controls: Controls) -> Option<Controls> {
-        (self.last, self.open) = (Some(controls), None);
-        Some(controls)
+    fn restored(&mut self, restored: Restored) -> Restored {
+        self.open = None;
+        if let Restored::Controls(controls) = restored {
+            self.last = Some(controls);
+        }
+        restored
     }
 
     /// What undo and redo would change.
-    pub fn names(&self) -> [Option<&'static str>; 2] {
+    pub fn names(&self) -> [Option<&str>; 2] {
         [self.done.back(), self.undone.last()].map(|step| step.map(Step::name))
     }
 }
@@ -174,6 +215,21 @@ mod tests {
         Gesture { presses, is_held, time }
     }
 
+    fn controls_of(restored: Restored) -> Controls {
+        match restored {
+            Restored::Controls(controls) => controls,
+            Restored::Edit => panic!("it is an edit of the scene"),
+        }
+    }
+
+    fn undone(history: &mut History) -> Option<Controls> {
+        history.undo().map(controls_of)
+    }
+
+    fn redone(history: &mut History) -> Option<Controls> {
+        history.redo().map(controls_of)
+    }
+
     fn started() -> History {
         let mut history = History::default();
         history.observe(controls(), Gesture::default());
@@ -183,13 +239,13 @@ mod tests {
     #[test]
     fn steps_go_back_and_forth_and_a_new_one_forgets_what_was_undone() {
         let mut history = started();
-        assert_eq!((history.undo(), history.names()), (None, [None, None]));
+        assert_eq!((undone(&mut history), history.names()), (None, [None, None]));
         history.observe(seeded(1), at(1, false, 1.0));
         history.observe(seeded(2), at(2, false, 1.1));
         assert_eq!(history.names(), [Some("settings"), None]);
-        assert_eq!((history.undo(), history.undo(), history.undo()), (Some(seeded(1)), Some(controls()), None));
-        assert_eq!((history.redo(), history.redo(), history.redo()), (Some(seeded(1)), Some(seeded(2)), None));
-        history.undo();
+        assert_eq!((undone(&mut history), undone(&mut history), undone(&mut history)), (Some(seeded(1)), Some(controls()), None));
+        assert_eq!((redone(&mut history), redone(&mut history), redone(&mut history)), (Some(seeded(1)), Some(seeded(2)), None));
+        undone(&mut history);
         // What is restored is no step itself.
         history.observe(seeded(1), at(2, false, 2.0));
         assert_eq!(history.names(), [Some("settings"); 2]);
@@ -204,11 +260,11 @@ mod tests {
             history.observe(seeded(seed), at(1, true, time));
         }
         history.observe(seeded(4), at(2, true, 9.1));
-        assert_eq!((history.undo(), history.undo()), (Some(seeded(3)), Some(controls())));
+        assert_eq!((undone(&mut history), undone(&mut history)), (Some(seeded(3)), Some(controls())));
         let mut history = started();
         history.observe(seeded(1), at(1, true, 1.0));
         history.observe(controls(), at(1, true, 1.1));
-        assert_eq!(history.undo(), None);
+        assert_eq!(undone(&mut history), None);
     }
 
     #[test]
@@ -217,16 +273,16 @@ mod tests {
         for (fov, time) in [(30.0, 1.0), (31.0, 1.4), (32.0, 1.8), (33.0, 2.4)] {
             history.observe(moved(fov), at(1, false, time));
         }
-        assert_eq!((history.undo(), history.undo()), (Some(moved(32.0)), Some(controls())));
+        assert_eq!((undone(&mut history), undone(&mut history)), (Some(moved(32.0)), Some(controls())));
         // Keys change settings step by step, however fast.
         let mut history = started();
         (1..4).for_each(|seed| history.observe(seeded(seed), at(1, false, 1.0 + 0.01 * f64::from(seed))));
-        assert_eq!(history.undo(), Some(seeded(2)));
+        assert_eq!(undone(&mut history), Some(seeded(2)));
         let mut history = started();
         history.observe(moved(30.0), at(1, false, 1.0));
         history.end_gesture();
         history.observe(moved(31.0), at(1, false, 1.1));
-        assert_eq!(history.undo(), Some(moved(30.0)), "a command is a step of its own");
+        assert_eq!(undone(&mut history), Some(moved(30.0)), "a command is a step of its own");
     }
 
     #[test]
@@ -234,6 +290,29 @@ mod tests {
         let mut history = started();
         (1..=MOST_STEPS as u32 + 5).for_each(|seed| history.observe(seeded(seed), at(u64::from(seed), false, 0.0)));
         assert_eq!(history.done.len(), MOST_STEPS);
-        assert!(std::iter::from_fn(|| history.undo()).last() == Some(seeded(5)));
+        assert!(std::iter::from_fn(|| undone(&mut history)).last() == Some(seeded(5)));
+    }
+
+    #[test]
+    fn edits_of_the_scene_are_steps_between_those_of_controls() {
+        let mut history = started();
+        history.observe(seeded(1), at(1, true, 1.0));
+        history.push_edit("Move");
+        history.observe(seeded(2), at(1, true, 1.1));
+        assert_eq!(history.names(), [Some("settings"), None]);
+        assert_eq!(undone(&mut history), Some(seeded(1)), "the drag does not go on over an edit");
+        assert_eq!((history.undo(), history.names()), (Some(Restored::Edit), [Some("settings"), Some("Move")]));
+        assert_eq!(undone(&mut history), Some(controls()));
+        assert_eq!(redone(&mut history), Some(seeded(1)));
+        assert_eq!(history.redo(), Some(Restored::Edit));
+        history.observe(seeded(3), at(2, false, 2.0));
+        history.drop_edit();
+        assert_eq!((undone(&mut history), undone(&mut history), history.undo()), (Some(seeded(1)), Some(controls()), None));
+        // Controls that follow an edit are no step.
+        let mut history = started();
+        history.push_edit("Set fov");
+        history.adopt(moved(30.0));
+        history.observe(moved(30.0), at(1, false, 1.0));
+        assert_eq!((history.undo(), history.undo()), (Some(Restored::Edit), None));
     }
 }

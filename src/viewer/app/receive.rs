@@ -1,16 +1,17 @@
 //! Receives what the threads have finished: scenes, references, frames, images, saved files.
-use noisefall::render::{Budget, State};
+use noisefall::{edit::Document, render::Budget};
 
-use super::{history::History, selection::Selection, state::App};
+use super::{history::History, scene_editor::SceneEditor, selection::Selection, state::App};
 use crate::viewer::background::{
     catalogue, display_image::DisplayImage, feature_finder::FeatureFinder, loader::DroppedReference, loader::OpenedScene,
 };
+use crate::viewer::dialogs::unsaved::Leaving;
 use crate::viewer::instruments::{convergence::curve::Moment, path::inspector::PathInspector};
 
 impl App {
     pub fn receive(&mut self) {
         match self.background.loader.take() {
-            Some(Ok(opened)) => self.open(opened),
+            Some(Ok((opened, document))) => self.open(opened, document),
             Some(Err(report)) => self.dialogs.scene_error = Some(report),
             None => {}
         }
@@ -34,10 +35,7 @@ impl App {
         let is_there = self.second_view().is_some() && second.frame.generation == worker.second_generation();
         self.results.second_frame = Some(second.frame).filter(|frame| is_there && !frame.radiance.is_empty());
         let published = worker.latest();
-        let before = std::mem::replace(&mut self.results.status, published.status);
-        if before.state != self.results.status.state {
-            self.set_title();
-        }
+        self.results.status = published.status;
         let request = self.display_request(published.frame);
         self.background.display.request(request);
         if let Some(image) = self.background.display.take() {
@@ -77,7 +75,7 @@ impl App {
         self.session.dropped_reference = Some(dropped);
     }
 
-    fn open(&mut self, opened: OpenedScene) {
+    fn open(&mut self, opened: OpenedScene, document: Document) {
         let (session, results, scene) = (&mut self.session, &mut self.results, &opened.scene);
         if session.opened.as_ref().is_none_or(|before| before.path != opened.path) {
             // What suited another scene's light says nothing about this one's.
@@ -99,16 +97,10 @@ impl App {
         self.dialogs.scene_error = None;
         self.history = History::default();
         self.selection = Selection::new(&self.ctx);
+        self.editor = Some(SceneEditor::new(document));
+        self.dialogs.file = None;
         self.window.view.fit();
         session.opened = Some(opened);
-        self.set_title();
-    }
-
-    /// The window's title says which target is reached: a window that is not looked at is known by its title.
-    fn set_title(&self) {
-        let Some(opened) = &self.session.opened else { return };
-        let done = if let State::Done(target) = self.results.status.state { format!(" ({target})") } else { String::new() };
-        self.ctx.send_viewport_cmd(egui::ViewportCommand::Title(format!("{}{done} – Noisefall", opened.name)));
     }
 
     /// Opens a file that was dropped on the window: a scene, or a reference for this one.
@@ -117,7 +109,7 @@ impl App {
         let Some(path) = dropped else { return };
         match path.extension().map(|extension| extension.to_string_lossy().to_ascii_lowercase()).as_deref() {
             Some("exr" | "hdr") => self.background.loader.read_reference(path, self.session.camera),
-            _ => self.background.loader.open(Some(path)),
+            _ => self.ask_to_leave(Leaving::Open(Some(path))),
         }
     }
 }

@@ -23,12 +23,14 @@ impl App {
 
     pub fn open_save_dialog(&mut self, target: SaveTarget) {
         if self.dialogs.save.is_none() {
-            self.dialogs.save = Some(SaveDialog::new(target, self.session.path(), self.window.last_saved.as_deref()));
+            let last = self.window.last_saved.as_deref().filter(|_| target != SaveTarget::Scene);
+            self.dialogs.save = Some(SaveDialog::new(target, self.session.path(), last));
         }
     }
 
     pub fn save_target(&mut self, target: SaveTarget, path: PathBuf) {
         let bytes = match target {
+            SaveTarget::Scene => return self.save_scene_to(&path),
             SaveTarget::Picture => return self.save_to(path),
             SaveTarget::CurvesCsv => self.instruments.history.csv(),
             SaveTarget::CurvesSvg => Ok(self.instruments.history.svg().into_bytes()),

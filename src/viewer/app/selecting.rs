@@ -2,11 +2,12 @@
 use std::sync::Arc;
 
 use egui::Ui;
+use glam::DVec3;
 use noisefall::render::RenderRequest;
 
 use super::state::App;
 use crate::viewer::canvas::{framing, picking, picture_area::PictureArea, selection};
-use crate::viewer::panels::subject::Subject;
+use crate::viewer::panels::{panel_tabs::PanelTab, subject::Subject};
 
 impl App {
     /// Selects the object at a pixel of the picture, or nothing.
@@ -14,7 +15,19 @@ impl App {
         let request = self.request_of_open_scene();
         let request = request.filter(|request| (0..2).all(|axis| pixel[axis] < request.camera.resolution[axis]));
         let object = request.and_then(|request| picking::object_at(&request.scene, &request.camera, pixel));
-        self.selection.subject = object.map(Subject::Object);
+        self.selection.clicked = Some(pixel);
+        self.selection.select(object.map(Subject::Object));
+        if object.is_some() {
+            self.window.panel = PanelTab::Edit;
+        }
+    }
+
+    /// The point and the normal of the surface where the picture was clicked last, or else at its middle.
+    pub fn clicked_surface(&self) -> Option<[DVec3; 2]> {
+        let RenderRequest { scene, camera, .. } = self.request_of_open_scene()?;
+        let [width, height] = camera.resolution;
+        let clicked = self.selection.clicked.filter(|[x, y]| *x < width && *y < height);
+        picking::surface_at(scene, camera, clicked.unwrap_or([width / 2, height / 2]))
     }
 
     /// Draws the outline of the selected object. Without one, no pixel is looked at.

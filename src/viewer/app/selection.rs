@@ -1,15 +1,44 @@
 //! The selected part of the scene.
+use noisefall::shape::Transform;
+
 use crate::viewer::background::outline::OutlineFinder;
+use crate::viewer::canvas::gizmo::Gizmo;
 use crate::viewer::panels::subject::Subject;
 
 pub struct Selection {
     pub subject: Option<Subject>,
     pub outline: OutlineFinder,
+    pub gizmo: Gizmo,
+    /// What the gizmo has done to the object so far.
+    pub change: Option<Transform>,
+    /// The pixel of the picture that was clicked last: new objects are placed there.
+    pub clicked: Option<[u32; 2]>,
 }
 
 impl Selection {
     pub fn new(ctx: &egui::Context) -> Selection {
-        Selection { subject: None, outline: OutlineFinder::new(ctx) }
+        Selection { subject: None, outline: OutlineFinder::new(ctx), gizmo: Gizmo::default(), change: None, clicked: None }
+    }
+
+    /// Selects a part of the scene, or nothing.
+    pub fn select(&mut self, subject: Option<Subject>) {
+        if self.subject != subject {
+            self.end_operation();
+            self.subject = subject;
+        }
+    }
+
+    /// Ends the operation of the gizmo.
+    pub fn end_operation(&mut self) {
+        self.gizmo.reset();
+        self.change = None;
+    }
+
+    /// Selects nothing in place of an object.
+    pub fn clear_object(&mut self) {
+        if self.object().is_some() {
+            self.select(None);
+        }
     }
 
     /// The place in the description of the selected object.

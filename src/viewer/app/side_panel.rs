@@ -4,10 +4,10 @@ use noisefall::render::RenderRequest;
 
 use super::state::App;
 use crate::viewer::background::{adviser::Adviser, catalogue::SceneRequest};
-use crate::viewer::dialogs::open;
+use crate::viewer::dialogs::{open, unsaved::Leaving};
 use crate::viewer::panels::{
-    camera, display, objects, pixel_readout::Pixel, sampling, scene, status_bar::StatusBar, stop, views, views::ReferenceSource,
-    window,
+    camera, display, panel_tabs, panel_tabs::PanelTab, pixel_readout::Pixel, sampling, scene, status_bar::StatusBar, stop, views,
+    views::ReferenceSource, window,
 };
 use crate::viewer::widgets::style::section;
 
@@ -21,6 +21,10 @@ impl App {
             let request = scene::show(ui, self.session.opened.as_ref(), &self.catalogue);
             request.into_iter().for_each(|request| self.open_scene(request));
             ui.add_space(4.0);
+            panel_tabs::show(ui, &mut self.window.panel);
+            if self.window.panel == PanelTab::Edit {
+                return self.editor_panel(ui);
+            }
             ui.add_enabled_ui(self.session.opened.is_some(), |ui| {
                 section(ui, "Sampling", |ui| self.sampling_panel(ui));
                 section(ui, "Stop", |ui| stop::show(ui, &mut self.session.budget, self.session.camera.resolution));
@@ -35,16 +39,13 @@ impl App {
                     let theme = window::show(ui, &mut self.session.threads, &mut self.frame_times.shown);
                     theme.into_iter().for_each(|theme| self.preferences.change(|saved| saved.theme = theme));
                 });
-                if let Some(opened) = &self.session.opened {
-                    section(ui, "Objects", |ui| objects::show(ui, &opened.scene));
-                }
             });
         });
     }
 
     pub fn open_scene(&mut self, request: SceneRequest) {
         match request {
-            SceneRequest::Open(path) => self.background.loader.open(path),
+            SceneRequest::Open(path) => self.ask_to_leave(Leaving::Open(path)),
             SceneRequest::Browse => self.dialogs.open = Some(open::path_field(self.session.path())),
             SceneRequest::Gallery => self.dialogs.gallery.open = true,
         }
@@ -71,7 +72,7 @@ impl App {
 
     pub fn display_panel(&mut self, ui: &mut Ui) {
         display::show(ui, &mut self.session.look.display);
-        let of_scene = self.session.opened.as_ref().and_then(|opened| opened.truth.as_ref());
+        let of_scene = self.exact_solution();
         let reference = match (&self.session.dropped_reference, of_scene) {
             (Some(dropped), _) => ReferenceSource::Dropped(&dropped.name),
             (None, Some(_)) if self.reference().is_some() => ReferenceSource::Scene,

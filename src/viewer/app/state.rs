@@ -4,7 +4,8 @@ use std::path::PathBuf;
 use noisefall::render::threads::Threads;
 
 use super::{
-    history::History, results::Results, selection::Selection, session::Session, window_state::Dialogs, window_state::WindowState,
+    history::History, results::Results, scene_editor::SceneEditor, selection::Selection, session::Session, window_state::Dialogs,
+    window_state::WindowState,
 };
 use crate::viewer::background::{
     adviser::Adviser, catalogue, catalogue::CatalogueEntry, display_pipeline::DisplayPipeline, feature_finder::FeatureFinder,
@@ -20,6 +21,8 @@ pub struct App {
     pub history: History,
     pub results: Results,
     pub window: WindowState,
+    /// Changes the open scene.
+    pub editor: Option<SceneEditor>,
     pub selection: Selection,
     pub instruments: Instruments,
     pub dialogs: Dialogs,
@@ -67,6 +70,7 @@ impl App {
             history: History::default(),
             results: Results::default(),
             window: WindowState::default(),
+            editor: None,
             selection: Selection::new(ctx),
             instruments: Instruments { history: ErrorHistory::default(), path: PathInspector::new(ctx) },
             dialogs: Dialogs::default(),

@@ -2,7 +2,7 @@
 use egui::Event;
 
 use super::{
-    history::{Controls, Gesture},
+    history::{Controls, Gesture, Restored},
     state::App,
 };
 
@@ -16,13 +16,19 @@ impl App {
     }
 
     pub fn undo(&mut self) {
-        let controls = self.history.undo();
-        controls.into_iter().for_each(|controls| self.restore(controls));
+        match self.history.undo() {
+            Some(Restored::Controls(controls)) => self.restore(controls),
+            Some(Restored::Edit) => self.undo_edit(),
+            None => {}
+        }
     }
 
     pub fn redo(&mut self) {
-        let controls = self.history.redo();
-        controls.into_iter().for_each(|controls| self.restore(controls));
+        match self.history.redo() {
+            Some(Restored::Controls(controls)) => self.restore(controls),
+            Some(Restored::Edit) => self.redo_edit(),
+            None => {}
+        }
     }
 
     fn restore(&mut self, controls: Controls) {

@@ -4,13 +4,16 @@ use std::path::PathBuf;
 use noisefall::render::Region;
 
 use crate::viewer::canvas::{interaction::Tool, picture_view::PictureView};
-use crate::viewer::dialogs::{gallery::Gallery, notices::Notices, save::SaveDialog};
+use crate::viewer::dialogs::{choose_file::FileDialog, gallery::Gallery, notices::Notices, save::SaveDialog, unsaved::Leaving};
 use crate::viewer::instruments::tabs::InstrumentTab;
+use crate::viewer::panels::panel_tabs::PanelTab;
 use crate::viewer::widgets::path_field::PathField;
 
 #[derive(Default)]
 pub struct WindowState {
     pub tool: Tool,
+    /// The page of the side panel.
+    pub panel: PanelTab,
     pub view: PictureView,
     pub tab: Option<InstrumentTab>,
     /// The pixel under the pointer.
@@ -22,9 +25,16 @@ pub struct WindowState {
     /// The region that is being drawn.
     pub marking: Option<Region>,
     pub hidden: bool,
+    /// S is still down after Ctrl+S: it does not move the camera.
+    pub holds_chord: bool,
     /// How often a button of the mouse was pressed.
     pub presses: u64,
     pub last_saved: Option<PathBuf>,
+    /// What goes on when the scene is saved.
+    pub leaving: Option<Leaving>,
+    /// The window closes, whatever is unsaved.
+    pub quits: bool,
+    pub title: String,
 }
 
 #[derive(Default)]
@@ -32,6 +42,9 @@ pub struct Dialogs {
     pub help: bool,
     pub save: Option<SaveDialog>,
     pub open: Option<PathField>,
+    pub file: Option<FileDialog>,
+    /// What waits for an answer about unsaved changes.
+    pub unsaved: Option<Leaving>,
     /// Why the last scene could not be opened.
     pub scene_error: Option<String>,
     pub notices: Notices,
@@ -43,6 +56,6 @@ pub struct Dialogs {
 impl Dialogs {
     /// Whether a dialog waits for an answer and takes the keys.
     pub fn wait(&self) -> bool {
-        self.save.is_some() || self.open.is_some() || self.scene_error.is_some()
+        self.save.is_some() || self.open.is_some() || self.file.is_some() || self.unsaved.is_some() || self.scene_error.is_some()
     }
 }

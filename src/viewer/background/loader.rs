@@ -5,8 +5,9 @@ use std::{
 };
 
 use noisefall::{
+    edit::{Document, Template},
     render::truth::Reference,
-    scene::{Camera, Scene, Truth, built_in, load},
+    scene::{BUILT_IN, Camera, Scene, Truth, built_in, description::SceneDescription, load, parse},
 };
 
 use super::{background_task::BackgroundTask, catalogue};
@@ -21,6 +22,8 @@ pub struct OpenedScene {
     pub path: Option<PathBuf>,
     /// The reference in the scene, which is for its own camera.
     pub truth: Option<Arc<Reference>>,
+    /// What the scene was compiled from.
+    pub description: Arc<SceneDescription>,
     /// Names of the materials by number.
     pub materials: Arc<[String]>,
     /// Things that are legal but probably not meant.
@@ -47,8 +50,8 @@ impl OpenedScene {
     }
 }
 
-/// The result of opening a scene.
-pub type OpenResult = Result<OpenedScene, String>;
+/// The result of opening a scene: with the document that edits change.
+pub type OpenResult = Result<(OpenedScene, Document), String>;
 
 /// A reference image that was dropped on the window.
 pub struct DroppedReference {
@@ -75,6 +78,11 @@ impl Loader {
     /// Opens a scene file, or the built-in scene.
     pub fn open(&mut self, path: Option<PathBuf>) {
         self.pending = Some(BackgroundTask::start(&self.ctx, |_| open(path)));
+    }
+
+    /// Begins a new scene.
+    pub fn begin(&mut self, template: Template) {
+        self.pending = Some(BackgroundTask::start(&self.ctx, move |_| begin(template)));
     }
 
     /// Reads a reference for images by this camera.
@@ -111,17 +119,28 @@ impl Loader {
 
 fn open(path: Option<PathBuf>) -> OpenResult {
     let Some(path) = path else {
-        let scene = built_in();
-        let materials = scene.legend().names.into();
-        let (name, warnings) = (BUILT_IN_NAME.to_owned(), scene.warnings().to_vec());
-        return Ok(OpenedScene { name, scene: Arc::new(scene), path: None, truth: None, materials, warnings });
+        let document = Document::untitled(BUILT_IN).map_err(|error| error.report())?;
+        return Ok(opened(built_in(), BUILT_IN_NAME.to_owned(), document, None));
     };
     let scene = load(&path).map_err(|error| error.report())?;
-    let truth = Reference::of(&scene).map(Arc::new);
+    // A picture carries its scene, and is not replaced by it.
+    let is_picture = path.extension().is_some_and(|extension| !extension.eq_ignore_ascii_case("toml"));
+    let document = if is_picture { Document::untitled(&scene.source) } else { Document::open(&path, &scene.source) };
     let name = catalogue::name(&scene.title, &path);
-    let materials = scene.legend().names.into();
-    let warnings = scene.warnings().to_vec();
-    Ok(OpenedScene { scene: Arc::new(scene), name, path: Some(path), truth, materials, warnings })
+    Ok(opened(scene, name, document.map_err(|error| error.report())?, Some(path)))
+}
+
+fn begin(template: Template) -> OpenResult {
+    let scene = parse(template.title, template.text.to_owned()).map_err(|error| error.report())?;
+    let document = Document::untitled(template.text).map_err(|error| error.report())?;
+    Ok(opened(scene, template.title.to_owned(), document, None))
+}
+
+fn opened(scene: Scene, name: String, document: Document, path: Option<PathBuf>) -> (OpenedScene, Document) {
+    let truth = Reference::of(&scene).map(Arc::new);
+    let (materials, warnings) = (scene.legend().names.into(), scene.warnings().to_vec());
+    let description = Arc::new(document.description().clone());
+    (OpenedScene { scene: Arc::new(scene), name, path, truth, description, materials, warnings }, document)
 }
 
 #[cfg(test)]
@@ -147,7 +166,7 @@ mod tests {
         loader.open(Some("no/such/scene.toml".into()));
         loader.open(None);
         assert!(loader.is_busy());
-        let opened = wait(|| loader.take()).unwrap_or_else(|error| panic!("{error}"));
+        let (opened, _) = wait(|| loader.take()).unwrap_or_else(|error| panic!("{error}"));
         assert_eq!((opened.name.as_str(), opened.path, opened.truth.is_none()), (BUILT_IN_NAME, None, true));
         assert_eq!(opened.materials.len(), opened.scene.legend().names.len());
         assert!(!loader.is_busy() && loader.take().is_none());
@@ -155,7 +174,7 @@ mod tests {
         assert!(wait(|| loader.take()).is_err_and(|error| error.contains("scene.toml")));
         let furnace = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/furnace.toml");
         loader.open(Some(furnace.clone()));
-        let opened = wait(|| loader.take()).unwrap_or_else(|error| panic!("{error}"));
+        let (opened, _) = wait(|| loader.take()).unwrap_or_else(|error| panic!("{error}"));
         assert_eq!((opened.name.as_str(), opened.path, opened.truth.is_some()), ("Furnace", Some(furnace), true));
     }
 

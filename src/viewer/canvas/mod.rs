@@ -3,7 +3,6 @@ pub mod black_notice;
 pub mod drawing;
 mod flight;
 pub mod framing;
-#[cfg_attr(not(test), expect(dead_code, reason = "the window edits no scenes yet"))]
 pub mod gizmo;
 pub mod interaction;
 pub mod navigation;

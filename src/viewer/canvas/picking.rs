@@ -1,8 +1,9 @@
 //! The object under a pixel, and the primitives of an object of the description.
 use std::ops::Range;
 
+use glam::DVec3;
 use noisefall::{
-    integrator::replay,
+    integrator::{Vertex, replay},
     sampling::Filter,
     scene::{Camera, RenderSettings, Scene, Shutter},
 };
@@ -10,11 +11,24 @@ use noisefall::{
 /// The place in the description of the object at the centre of a pixel, seen through a pinhole as the shutter opens. It takes one
 /// path of a single surface.
 pub fn object_at(scene: &Scene, camera: &Camera, pixel: [u32; 2]) -> Option<usize> {
+    let object = first_vertex(scene, camera, pixel)?.object?;
+    Some(scene.objects[object as usize].described as usize)
+}
+
+/// The point on the surface at the centre of a pixel, and the normal there: the direction towards the camera where the surface reflects
+/// nothing. `None` where there is no surface.
+pub fn surface_at(scene: &Scene, camera: &Camera, pixel: [u32; 2]) -> Option<[DVec3; 2]> {
+    let vertex = first_vertex(scene, camera, pixel)?;
+    let [origin, direction] = [vertex.origin, vertex.direction].map(|v| DVec3::from_array(v.map(f64::from)));
+    let normal = vertex.normal.map_or(-direction, |normal| DVec3::from_array(normal.map(f64::from)));
+    Some([origin + direction * f64::from(vertex.distance?), normal])
+}
+
+fn first_vertex(scene: &Scene, camera: &Camera, pixel: [u32; 2]) -> Option<Vertex> {
     let shutter = camera.shutter.map(Shutter::at_opening);
     let rays = scene.rays(&Camera { lens: None, shutter, filter: Filter::tent(0.0), ..*camera });
     let settings = RenderSettings { max_bounces: Some(0), ..RenderSettings::default() };
-    let object = replay(scene, &rays, &settings, pixel, 0).vertices.first()?.object?;
-    Some(scene.objects[object as usize].described as usize)
+    replay(scene, &rays, &settings, pixel, 0).vertices.into_iter().next()
 }
 
 /// The indices of the compiled objects that an object of the description was compiled to. They follow each other.
@@ -53,6 +67,14 @@ mod tests {
         assert_eq!([at([10, 20]), at([30, 10]), at([30, 30]), at([20, 20])], [Some(0), Some(1), Some(2), None]);
         // Pixels of 0.1 m, whose centres lie 0.45 m and 0.55 m from the middle of the ball.
         assert_eq!([at([14, 20]), at([15, 20])], [Some(0), None]);
+    }
+
+    #[test]
+    fn a_pixel_has_the_point_and_the_normal_of_its_surface() {
+        let scene = scene();
+        let [at, normal] = surface_at(&scene, &scene.camera, [30, 10]).expect("the rectangle is there");
+        assert!(at.distance(DVec3::new(1.05, 0.95, 0.0)) < 1e-4 && normal.distance(DVec3::Z) < 1e-4, "{at} {normal}");
+        assert_eq!(surface_at(&scene, &scene.camera, [20, 20]), None);
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! The window that lists keys and mouse.
 use egui::{Align2, RichText};
 
-const KEYS: [(&str, &[(&str, &str)]); 4] = [
+const KEYS: [(&str, &[(&str, &str)]); 5] = [
     ("Render", &[("Space", "pause, resume"), (".", "one more sample per pixel, then pause"), ("R", "restart")]),
     (
         "Picture",
@@ -15,8 +15,6 @@ const KEYS: [(&str, &[(&str, &str)]); 4] = [
             ("V, Shift+V", "next view, previous view"),
             ("G", "drag marks a region to render first; Esc clears it"),
             ("I", "click shows the samples of a pixel and their paths"),
-            ("Click", "select an object; Esc clears the selection"),
-            ("L", "look at the selected object"),
         ],
     ),
     (
@@ -34,10 +32,23 @@ const KEYS: [(&str, &[(&str, &str)]); 4] = [
         ],
     ),
     (
+        "Selected object",
+        &[
+            ("Click", "select an object; Esc clears the selection"),
+            ("L", "look at the object"),
+            ("G  R  S", "move, rotate, scale, while the pointer is over the image"),
+            ("X  Y  Z", "then: along an axis; with Shift across it"),
+            ("0 … 9  .  −", "then: by a number"),
+            ("Ctrl", "then: in steps"),
+            ("Enter, click", "then: keep the change; Esc, right click discard it"),
+        ],
+    ),
+    (
         "Window",
         &[
-            ("Ctrl+Z, Ctrl+Shift+Z", "undo, redo: camera, settings, view"),
-            ("Ctrl+S", "save the image"),
+            ("Ctrl+Z, Ctrl+Shift+Z", "undo, redo: scene, camera, settings, view"),
+            ("Ctrl+S", "save the scene"),
+            ("Ctrl+E", "save the image"),
             ("F1", "this help"),
             ("F2  F3  F4  F5", "convergence, compare, bounces, pixel"),
             ("F6", "gallery of scenes"),

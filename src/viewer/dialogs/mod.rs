@@ -1,5 +1,6 @@
 //! Windows over the picture: dialogs, messages, help, the gallery and the tour.
 pub mod advice;
+pub mod choose_file;
 pub mod gallery;
 pub mod help;
 pub mod notices;
@@ -8,3 +9,4 @@ pub mod save;
 pub mod save_target;
 pub mod scene_error;
 pub mod tour;
+pub mod unsaved;

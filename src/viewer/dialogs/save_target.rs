@@ -6,6 +6,8 @@ use noisefall::{file, render::image_file::check_target};
 /// The content of a file to save.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SaveTarget {
+    /// The scene file.
+    Scene,
     Picture,
     CurvesCsv,
     CurvesSvg,
@@ -16,6 +18,7 @@ pub enum SaveTarget {
 impl SaveTarget {
     pub fn title(self) -> &'static str {
         match self {
+            SaveTarget::Scene => "Save scene",
             SaveTarget::Picture => "Save picture",
             SaveTarget::CurvesCsv => "Save figures",
             SaveTarget::CurvesSvg => "Save plot",
@@ -28,6 +31,7 @@ impl SaveTarget {
             SaveTarget::Picture => {
                 "PNG has the image as displayed (A of a comparison); EXR has linear radiance. Both contain the settings."
             }
+            SaveTarget::Scene => "TOML. Comments and formats of the file stay; paths in the scene are relative to its folder.",
             SaveTarget::CurvesCsv => "CSV with a row for each figure: settings, samples, seconds, errors and bias.",
             SaveTarget::CurvesSvg => "SVG with the curves of all settings.",
             SaveTarget::Path => "TXT has all terms of the path, TEX its nested sum, CSV the samples of the pixel.",
@@ -37,6 +41,7 @@ impl SaveTarget {
     /// The extensions of its files.
     pub fn extensions(self) -> &'static [&'static str] {
         match self {
+            SaveTarget::Scene => &["toml"],
             SaveTarget::Picture => &["png", "exr"],
             SaveTarget::CurvesCsv => &["csv"],
             SaveTarget::CurvesSvg => &["svg"],
@@ -47,6 +52,9 @@ impl SaveTarget {
     pub fn check(self, path: &Path) -> Result<(), String> {
         if self == SaveTarget::Picture {
             return check_target(path).map_err(|error| error.to_string());
+        }
+        if self == SaveTarget::Scene && !self.takes(path) {
+            return Err("The name must end in .toml.".to_owned());
         }
         if self == SaveTarget::Path && !self.takes(path) {
             return Err("The name must end in .txt, .tex or .csv.".to_owned());

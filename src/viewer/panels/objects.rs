@@ -1,4 +1,6 @@
-//! The panel that lists the objects of the scene with their materials and emission.
+//! The size, material and emission of a compiled object.
+use std::ops::Range;
+
 use egui::{Grid, RichText, Ui};
 use glam::DVec3;
 use noisefall::{
@@ -10,22 +12,23 @@ use noisefall::{
 use crate::viewer::widgets::style::elided;
 
 /// Together, with what is between them, as wide as the panel.
-const NAME_WIDTH: f32 = 156.0;
+const PLACE_WIDTH: f32 = 156.0;
 const KIND_WIDTH: f32 = 136.0;
 /// More rows than these nobody reads.
-const MOST_ROWS: usize = 100;
+const MOST_ROWS: usize = 3;
 
-pub fn show(ui: &mut Ui, scene: &Scene) {
+/// Shows the size and the material of the compiled objects of a part, the first ones of many.
+pub fn show(ui: &mut Ui, scene: &Scene, objects: Range<u32>) {
+    let objects = scene.objects.get(objects.start as usize..objects.end as usize).unwrap_or_default();
     Grid::new("objects").num_columns(2).spacing([12.0, 4.0]).show(ui, |ui| {
-        for (i, object) in scene.objects.iter().take(MOST_ROWS).enumerate() {
-            let name = if object.name.is_empty() { format!("object {}", i + 1) } else { object.name.clone() };
-            elided(ui, NAME_WIDTH, name).on_hover_text(place(object));
+        for object in objects.iter().take(MOST_ROWS) {
+            elided(ui, PLACE_WIDTH, RichText::new(place(object)).weak()).on_hover_text(place(object));
             elided(ui, KIND_WIDTH, RichText::new(summary(scene, object)).weak()).on_hover_text(details(scene, object));
             ui.end_row();
         }
     });
-    if scene.objects.len() > MOST_ROWS {
-        ui.weak(format!("and {} more", scene.objects.len() - MOST_ROWS));
+    if objects.len() > MOST_ROWS {
+        ui.weak(format!("and {} more", objects.len() - MOST_ROWS));
     }
 }
 

@@ -1,7 +1,13 @@
 //! The parts of a scene that can be selected and edited.
 use noisefall::{
-    declare::{Declare, Path},
-    scene::description::SceneDescription,
+    declare::{Declare, OneOf, Path, Step},
+    material::Material,
+    scene::{
+        Projection,
+        description::{BackgroundDescription, SceneDescription},
+    },
+    shape::ShapeKind,
+    texture::TextureKind,
 };
 
 /// A part of a scene description.
@@ -25,6 +31,49 @@ impl Subject {
             Subject::Texture(name) => top.key("textures").key(name),
             Subject::Camera => top.key("camera"),
             Subject::Background => top.key("background"),
+        }
+    }
+
+    /// The part at a path of a description.
+    pub fn at(path: &Path) -> Option<Subject> {
+        Some(match &path.0[..] {
+            [Step::Key(list), Step::Item(place)] if list == "objects" => Subject::Object(*place),
+            [Step::Key(map), Step::Key(name)] if map == "materials" => Subject::Material(name.clone()),
+            [Step::Key(map), Step::Key(name)] if map == "textures" => Subject::Texture(name.clone()),
+            [Step::Key(key)] if key == "camera" => Subject::Camera,
+            [Step::Key(key)] if key == "background" => Subject::Background,
+            _ => return None,
+        })
+    }
+
+    /// The part under another name: materials and textures are known by theirs.
+    pub fn renamed(&self, name: &str) -> Subject {
+        match self {
+            Subject::Material(_) => Subject::Material(name.to_owned()),
+            Subject::Texture(_) => Subject::Texture(name.to_owned()),
+            other => other.clone(),
+        }
+    }
+
+    /// The table that chooses the kind of the part, and what is chosen there.
+    pub fn choice(&self) -> (Path, &'static str) {
+        let path = self.path();
+        match self {
+            Subject::Object(_) => (path.key("shape"), ShapeKind::WHAT),
+            Subject::Material(_) => (path, Material::WHAT),
+            Subject::Texture(_) => (path, TextureKind::WHAT),
+            Subject::Camera => (path, Projection::WHAT),
+            Subject::Background => (path, BackgroundDescription::WHAT),
+        }
+    }
+
+    /// Whether a description has the part. A background can be selected before there is one.
+    pub fn is_in(&self, description: &SceneDescription) -> bool {
+        match self {
+            Subject::Object(place) => *place < description.objects.len(),
+            Subject::Material(name) => description.materials.contains_key(name),
+            Subject::Texture(name) => description.textures.contains_key(name),
+            Subject::Camera | Subject::Background => true,
         }
     }
 

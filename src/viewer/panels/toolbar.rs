@@ -19,7 +19,8 @@ pub enum Command {
     ActualSize,
     Compare(RenderSettings),
     EndComparison,
-    Save,
+    SaveScene,
+    SavePicture,
     Help,
 }
 
@@ -31,7 +32,7 @@ pub struct Toolbar<'a> {
     pub can_save: bool,
     pub is_comparing: bool,
     /// What undo and redo would change.
-    pub undo: [Option<&'static str>; 2],
+    pub undo: [Option<&'a str>; 2],
     pub tool: Tool,
     /// Screen pixels per picture pixel, if there is a picture.
     pub zoom: Option<f32>,
@@ -79,8 +80,8 @@ impl Toolbar<'_> {
                 ui.add_space((ui.available_width() - OF_ENDS).max(0.0));
             }
             let save = ui.add_enabled(self.can_save, Button::new("Save…"));
-            let doc = "Saves the image as PNG or EXR. (Ctrl+S)";
-            asks(save.on_hover_text(doc).clicked().then_some(Command::Save));
+            let doc = "Saves the image as PNG or EXR. (Ctrl+E)";
+            asks(save.on_hover_text(doc).clicked().then_some(Command::SavePicture));
             asks(ui.button("Help").on_hover_text("Lists keys and mouse actions. (F1)").clicked().then_some(Command::Help));
             command
         };

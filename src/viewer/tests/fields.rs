@@ -85,7 +85,7 @@ fn a_picture_is_replaced_only_by_the_button_that_says_so() {
     std::fs::write(&path, "what was there").expect("it is written");
     let mut window = window("furnace");
     window.state_mut().window.last_saved = Some(path.clone());
-    window.key_press_modifiers(Modifiers::COMMAND, Key::S);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::E);
     window.run_steps(4);
     let suggested = window.state().dialogs.save.as_ref().map(|dialog| dialog.path().to_owned());
     assert_eq!(suggested, Some(folder.path().join("shot-2.png").display().to_string()));

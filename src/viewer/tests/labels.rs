@@ -18,8 +18,9 @@ pub(super) fn app() -> App {
     let threads = Threads::new(1, SimdLevel::best()).expect("a thread can be had");
     let mut app = App::new(&egui::Context::default(), threads, None, Preferences::default());
     let (scene, materials) = (Arc::new(built_in()), Arc::from([]));
+    let description = Arc::default();
     app.session.opened =
-        Some(OpenedScene { scene, name: String::new(), path: None, truth: None, materials, warnings: Vec::new() });
+        Some(OpenedScene { scene, name: String::new(), path: None, truth: None, description, materials, warnings: Vec::new() });
     app
 }
 

@@ -21,6 +21,8 @@ mod presets;
 mod rasteriser;
 mod ratios;
 mod saving;
+mod scene_edits;
+mod scene_files;
 mod scenes;
 mod selection;
 mod settings;
@@ -52,7 +54,12 @@ use noisefall::{
 };
 
 use self::driving::*;
-use super::{app::App, background::preferences::Preferences, canvas::interaction::Tool};
+use super::{
+    app::App,
+    background::preferences::Preferences,
+    canvas::interaction::Tool,
+    panels::{panel_tabs::PanelTab, subject::Subject},
+};
 
 /// As tall as all panels together: what is scrolled out of sight cannot be clicked.
 const SIZE: egui::Vec2 = vec2(1280.0, 1300.0);
@@ -112,9 +119,21 @@ fn wait(window: &mut Window, what: &str, condition: impl Fn(&App) -> bool) {
 
 #[test]
 fn the_objects_of_the_scene_are_listed_with_their_materials() {
-    let window = window("cornell_spheres");
+    let mut window = window("cornell_spheres");
+    click(&mut window, "Edit");
+    let listed =
+        |name: &str| window.get_all_by_role(Role::Button).any(|row| row.accesskit_node().label().as_deref() == Some(name));
+    for (name, kind) in [("lamp", "sphere, black"), ("amber ball", "sphere, amber"), ("back wall", "sphere, white")] {
+        assert!(listed(&format!("{name}{kind}")), "{name}");
+    }
+    assert_eq!(window.query_all_by_label_contains("sphere, ").count(), 8);
+    // The selected one has its size and its material as they were compiled.
+    window.state_mut().selection.select(Some(Subject::Object(7)));
+    window.run_steps(3);
     assert!(window.query_by_label("black, lamp").is_some());
-    assert_eq!(window.query_all_by_label("lambertian").count(), 7);
+    window.state_mut().selection.select(Some(Subject::Object(5)));
+    window.run_steps(3);
+    assert!(window.query_by_label("lambertian").is_some());
 }
 
 #[test]

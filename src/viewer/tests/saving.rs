@@ -2,11 +2,11 @@
 use super::*;
 
 #[test]
-fn ctrl_s_saves_what_is_shown_where_the_path_field_says() {
+fn ctrl_e_saves_what_is_shown_where_the_path_field_says() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("shot.exr");
     let mut window = window("cornell_spheres");
-    window.key_press_modifiers(Modifiers::COMMAND, Key::S);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::E);
     window.run_steps(4);
     let field = window.get_by_role(Role::TextInput);
     field.set_text_value_accesskit(&path.display().to_string());
@@ -23,7 +23,7 @@ fn ctrl_s_saves_what_is_shown_where_the_path_field_says() {
 #[test]
 fn a_path_that_cannot_be_written_to_is_refused_in_the_dialog() {
     let mut window = window("furnace");
-    window.key_press_modifiers(Modifiers::COMMAND, Key::S);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::E);
     window.run_steps(4);
     window.get_by_role(Role::TextInput).set_text_value_accesskit("/nowhere/at/all.png");
     window.run_steps(3);
@@ -39,10 +39,10 @@ fn a_path_that_cannot_be_written_to_is_refused_in_the_dialog() {
 fn saving_never_moves_the_camera() {
     let mut window = window("cornell_spheres");
     never_restarts(&mut window, |w| {
-        w.key_down_modifiers(Modifiers::COMMAND, Key::S);
+        w.key_down_modifiers(Modifiers::COMMAND, Key::E);
         w.run_steps(1);
-        // Ctrl is up again, S is still down.
-        w.key_down(Key::S);
+        // Ctrl is up again, E is still down.
+        w.key_down(Key::E);
         w.run_steps(3);
     });
     assert!(window.state().dialogs.save.is_some());

@@ -3,13 +3,13 @@ use egui::Shape;
 use noisefall::render::Region;
 
 use super::*;
-use crate::viewer::{canvas::projection::project, panels::subject::Subject};
+use crate::viewer::canvas::projection::project;
 
-const AMBER_BALL: usize = 5;
+pub const AMBER_BALL: usize = 5;
 const LEFT_WALL: usize = 0;
 
 /// Where the window shows a point of the scene.
-fn seen(window: &mut Window, p: DVec3) -> Pos2 {
+pub fn seen(window: &mut Window, p: DVec3) -> Pos2 {
     let at = Pos2::new(430.0, 430.0);
     window.hover_at(at);
     window.run_steps(2);
@@ -19,7 +19,7 @@ fn seen(window: &mut Window, p: DVec3) -> Pos2 {
     at + vec2(pixel[0] - hovered[0] as f32, pixel[1] - hovered[1] as f32) * zoom
 }
 
-fn ball() -> DVec3 {
+pub fn ball() -> DVec3 {
     DVec3::new(-0.44, 0.38, -0.35)
 }
 
@@ -30,6 +30,8 @@ fn meshes(window: &Window) -> usize {
 #[test]
 fn a_click_selects_an_object_and_outlines_it_without_a_restart() {
     let mut window = window("cornell_spheres");
+    window.state_mut().window.panel = PanelTab::Edit;
+    window.run_steps(2);
     let at = seen(&mut window, ball());
     let camera = window.state().session.camera;
     assert!(!window.state().background.features.has(&camera), "nothing is looked at while nothing is selected");

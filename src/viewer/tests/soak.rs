@@ -85,6 +85,8 @@ fn tame(window: &mut Window) {
         *side = (*side).min(160);
     }
     (app.dialogs.save, app.dialogs.open, app.background.adviser) = (None, None, None);
+    // No scene that is shipped is written to.
+    (app.dialogs.file, app.dialogs.unsaved, app.window.leaving) = (None, None, None);
     app.session.threads = app.session.threads.min(2);
 }
 

@@ -173,7 +173,7 @@ fn escape_leaves_the_dialogs_of_paths_at_once() {
     window.key_press(Key::Escape);
     window.run_steps(2);
     assert!(window.state().dialogs.open.is_none());
-    window.key_press_modifiers(Modifiers::COMMAND, Key::S);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::E);
     window.run_steps(4);
     assert!(window.state().dialogs.save.is_some());
     window.key_press(Key::Escape);

@@ -1,9 +1,9 @@
 //! The control of a value, by its type.
 use egui::{ComboBox, Id, Ui};
 use glam::DVec3;
-use noisefall::declare::{Parameter, Path, Range, Textured, Value, Word, check_value};
+use noisefall::declare::{OwnedValue, Parameter, Path, Range, Textured, Value, Word, check_value};
 
-use super::{NewValue, Request, Surroundings, numbers::Numbers, references};
+use super::{Request, Surroundings, numbers::Numbers, references};
 use crate::viewer::widgets::{colour_edit, committed_text};
 
 /// The control of a value, and what came of it.
@@ -24,16 +24,16 @@ impl Cell<'_> {
         match value {
             Value::Number(number, range) => {
                 let new = self.numbers(label).number(ui, **number, range, &|x| Value::Number(x, *range));
-                self.set(new.map(NewValue::Number));
+                self.set(new.map(OwnedValue::Number));
             }
             Value::Count(count, range) => {
                 let new = self.numbers(label).count(ui, **count, range);
-                self.set(new.map(NewValue::Count));
+                self.set(new.map(OwnedValue::Count));
             }
             Value::Flag(flag) => {
                 let mut new = **flag;
                 let is_changed = ui.checkbox(&mut new, "").labelled_by(label).changed();
-                self.set(is_changed.then_some(NewValue::Flag(new)));
+                self.set(is_changed.then_some(OwnedValue::Flag(new)));
             }
             Value::Text(text) => self.text(ui, label, text, 180.0),
             Value::File(text) => self.file(ui, label, text),
@@ -43,7 +43,7 @@ impl Cell<'_> {
             }
             Value::Colour(rgb, range) => {
                 let new = self.colour(ui, label, **rgb, range);
-                self.set(new.map(NewValue::Colour));
+                self.set(new.map(OwnedValue::Colour));
             }
             Value::Textured(textured, range) => self.textured(ui, label, textured, range),
             Value::TexturedNumber(textured, range) => self.textured_number(ui, label, textured, range),
@@ -51,28 +51,28 @@ impl Cell<'_> {
                 let (parameter, size) = (self.parameter, self.surroundings.size);
                 let check = |v: DVec3| check_value(parameter, &Value::Point(&mut v.clone()));
                 let new = self.numbers(label).metres(ui, **v, size, &check);
-                self.set(new.map(NewValue::Vector));
+                self.set(new.map(OwnedValue::Vector));
             }
             Value::Vector(v) => {
                 let size = if self.parameter.unit == "m" { self.surroundings.size } else { 5.0 };
                 let new = self.numbers(label).metres(ui, **v, size, &|_| None);
-                self.set(new.map(NewValue::Vector));
+                self.set(new.map(OwnedValue::Vector));
             }
             Value::Factors(v) => {
                 let new = self.numbers(label).factors(ui, **v);
-                self.set(new.map(NewValue::Vector));
+                self.set(new.map(OwnedValue::Vector));
             }
             Value::Pair(pair) => {
                 let new = self.numbers(label).pair(ui, **pair);
-                self.set(new.map(NewValue::Pair));
+                self.set(new.map(OwnedValue::Pair));
             }
             Value::Counts(counts) => {
                 let new = self.numbers(label).counts(ui, **counts);
-                self.set(new.map(NewValue::Counts));
+                self.set(new.map(OwnedValue::Counts));
             }
             Value::Matrix(rows) => {
                 let new = self.numbers(label).matrix(ui, **rows);
-                self.set(new.map(NewValue::Matrix));
+                self.set(new.map(OwnedValue::Matrix));
             }
             Value::Points(points) => _ = ui.weak(format!("{} points, in the file", points.len())),
             Value::Triangles(triangles) => _ = ui.weak(format!("{} triangles, in the file", triangles.len())),
@@ -80,7 +80,7 @@ impl Cell<'_> {
         }
     }
 
-    fn set(&mut self, value: Option<NewValue>) {
+    fn set(&mut self, value: Option<OwnedValue>) {
         self.request = value.map(|value| Request::Set { path: self.path.clone(), value });
     }
 
@@ -98,7 +98,7 @@ impl Cell<'_> {
     }
 
     fn textured(&mut self, ui: &mut Ui, label: Id, textured: &Textured, range: &Range) {
-        let set = |textured| Some(NewValue::Textured(textured));
+        let set = |textured| Some(OwnedValue::Textured(textured));
         let chosen = match textured {
             Textured::Constant(rgb) => {
                 let new = self.colour(ui, label, *rgb, range);
@@ -107,11 +107,11 @@ impl Cell<'_> {
             }
             Textured::Texture(name) => references::textures(ui, label, name, self.surroundings),
         };
-        self.choose_texture(chosen, &|name| NewValue::Textured(name.map_or(Textured::grey(0.5), Textured::Texture)));
+        self.choose_texture(chosen, &|name| OwnedValue::Textured(name.map_or(Textured::grey(0.5), Textured::Texture)));
     }
 
     fn textured_number(&mut self, ui: &mut Ui, label: Id, textured: &Textured<f64>, range: &Range) {
-        let set = |textured| Some(NewValue::TexturedNumber(textured));
+        let set = |textured| Some(OwnedValue::TexturedNumber(textured));
         let chosen = match textured {
             Textured::Constant(number) => {
                 let new = self.numbers(label).number(ui, *number, range, &|x| Value::Number(x, *range));
@@ -121,10 +121,12 @@ impl Cell<'_> {
             Textured::Texture(name) => references::textures(ui, label, name, self.surroundings),
         };
         let middle = 0.5f64.clamp(range.least, range.most);
-        self.choose_texture(chosen, &|name| NewValue::TexturedNumber(name.map_or(Textured::Constant(middle), Textured::Texture)));
+        self.choose_texture(chosen, &|name| {
+            OwnedValue::TexturedNumber(name.map_or(Textured::Constant(middle), Textured::Texture))
+        });
     }
 
-    fn choose_texture(&mut self, chosen: Option<references::Source>, value: &dyn Fn(Option<String>) -> NewValue) {
+    fn choose_texture(&mut self, chosen: Option<references::Source>, value: &dyn Fn(Option<String>) -> OwnedValue) {
         match chosen {
             Some(references::Source::Constant) => self.set(Some(value(None))),
             Some(references::Source::Texture(name)) => self.set(Some(value(Some(name)))),
@@ -135,7 +137,7 @@ impl Cell<'_> {
 
     fn text(&mut self, ui: &mut Ui, label: Id, text: &str, width: f32) {
         let entered = committed_text::show(ui, label, text, width).entered;
-        self.set(entered.map(NewValue::Text));
+        self.set(entered.map(OwnedValue::Text));
     }
 
     fn file(&mut self, ui: &mut Ui, label: Id, text: &str) {
@@ -153,6 +155,6 @@ impl Cell<'_> {
             }
         });
         combo.response.labelled_by(label);
-        self.set((new != place).then(|| NewValue::Word(words[new].name)));
+        self.set((new != place).then(|| OwnedValue::Word(words[new].name)));
     }
 }

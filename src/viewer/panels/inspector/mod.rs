@@ -26,7 +26,7 @@ use noisefall::declare::{Declare, Path};
 
 use self::rows::Rows;
 pub use self::{
-    request::{Asked, Drag, NewValue, Request},
+    request::{Asked, Drag, Request},
     surroundings::Surroundings,
 };
 

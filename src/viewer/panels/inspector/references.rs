@@ -1,8 +1,8 @@
 //! Menus of names: textures in place of constants, and what a value refers to.
 use egui::{Button, ComboBox, Id, Ui};
-use noisefall::declare::{Family, Parameter, Path};
+use noisefall::declare::{Family, OwnedValue, Parameter, Path};
 
-use super::{NewValue, Request, Surroundings};
+use super::{Request, Surroundings};
 
 /// Where a value comes from.
 pub enum Source {
@@ -42,7 +42,7 @@ pub fn names(
         }
         for name in all {
             if ui.selectable_label(current == Some(name), name).clicked() && current != Some(name) {
-                request = Some(Request::Set { path: path.clone(), value: NewValue::Text(name.clone()) });
+                request = Some(Request::Set { path: path.clone(), value: OwnedValue::Text(name.clone()) });
             }
         }
         if family == Family::Texture && ui.selectable_label(false, FROM_FILE).clicked() {

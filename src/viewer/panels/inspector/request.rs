@@ -1,6 +1,5 @@
 //! What the inspector asks for.
-use glam::DVec3;
-use noisefall::declare::{Path, Textured};
+use noisefall::declare::{OwnedValue, Path};
 
 /// What was asked for in a frame.
 #[derive(Debug, Default, PartialEq)]
@@ -25,7 +24,7 @@ pub enum Drag {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Request {
     /// Set a value.
-    Set { path: Path, value: NewValue },
+    Set { path: Path, value: OwnedValue },
     /// Choose another alternative of a choice, whose keys stand in the table at the path.
     Choose { path: Path, choice: &'static str, name: &'static str },
     /// Give an optional value or table, or an item of a list, its defaults.
@@ -36,23 +35,4 @@ pub enum Request {
     BrowseFile { path: Path },
     /// Let the user choose a picture file; make a texture of it, and set the value to its name.
     BrowseTexture { path: Path },
-}
-
-/// What a value becomes; of the type that its declaration says.
-#[derive(Clone, Debug, PartialEq)]
-pub enum NewValue {
-    Number(f64),
-    Count(u32),
-    Flag(bool),
-    /// Of a text, a path or a name.
-    Text(String),
-    Colour([f64; 3]),
-    Textured(Textured),
-    TexturedNumber(Textured<f64>),
-    /// Of a position, a vector or three factors.
-    Vector(DVec3),
-    Pair([f64; 2]),
-    Counts([u32; 2]),
-    Matrix([[f64; 4]; 4]),
-    Word(&'static str),
 }

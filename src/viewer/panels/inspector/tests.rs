@@ -2,14 +2,14 @@
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, accesskit::Role, vec2};
 use egui_kittest::{Harness, kittest::Queryable};
 use noisefall::{
-    declare::{Declare, OneOf, Parameter, Parameters, Path, Textured, Value},
+    declare::{Declare, OneOf, OwnedValue, Parameter, Parameters, Path, Textured, Value},
     material::{Conductor, Lambertian, Material},
     scene::description::{EmissionDescription, MaterialDescription, ObjectDescription},
     shape::{ShapeKind, Transform},
     texture::TextureKind,
 };
 
-use super::{Asked, Drag, Inspector, NewValue, Request, Surroundings, row::capital};
+use super::{Asked, Drag, Inspector, Request, Surroundings, row::capital};
 
 struct State<T> {
     part: T,
@@ -39,7 +39,7 @@ fn only<T>(panel: &Panel<T>) -> &Request {
     }
 }
 
-fn set(path: &str, value: NewValue) -> Request {
+fn set(path: &str, value: OwnedValue) -> Request {
     Request::Set { path: Path::of(path), value }
 }
 
@@ -104,7 +104,7 @@ fn a_typed_channel_sets_the_colour() {
     let mut panel = inspect(lambertian());
     type_in(&mut panel, "Albedo ρ", 1, "0.25");
     let colour = Textured::Constant([0.5, 0.25, 0.5]);
-    assert_eq!(*only(&panel), set("part.lambertian.albedo", NewValue::Textured(colour)));
+    assert_eq!(*only(&panel), set("part.lambertian.albedo", OwnedValue::Textured(colour)));
 }
 
 #[test]
@@ -134,12 +134,12 @@ fn a_texture_takes_the_place_of_a_colour_and_gives_it_back() {
     click(&mut panel, Role::Button, "Albedo ρ");
     click(&mut panel, Role::Button, "gold");
     let named = Textured::Texture("gold".to_owned());
-    assert_eq!(*only(&panel), set("part.lambertian.albedo", NewValue::Textured(named.clone())));
+    assert_eq!(*only(&panel), set("part.lambertian.albedo", OwnedValue::Textured(named.clone())));
 
     let mut panel = inspect(MaterialDescription { kind: Lambertian { albedo: named }.into(), ..lambertian() });
     click(&mut panel, Role::ComboBox, "Albedo ρ");
     click(&mut panel, Role::Button, "constant");
-    assert_eq!(*only(&panel), set("part.lambertian.albedo", NewValue::Textured(Textured::grey(0.5))));
+    assert_eq!(*only(&panel), set("part.lambertian.albedo", OwnedValue::Textured(Textured::grey(0.5))));
     panel.state_mut().asked.clear();
     click(&mut panel, Role::ComboBox, "Albedo ρ");
     click(&mut panel, Role::Button, "From a file…");
@@ -162,7 +162,7 @@ fn a_material_is_assigned_by_name() {
     let mut panel = inspect(ObjectDescription::default());
     click(&mut panel, Role::ComboBox, "Material");
     click(&mut panel, Role::Button, "white");
-    assert_eq!(*only(&panel), set("part.material", NewValue::Text("white".to_owned())));
+    assert_eq!(*only(&panel), set("part.material", OwnedValue::Text("white".to_owned())));
     let mut panel = inspect(ObjectDescription { material: Some("white".to_owned()), ..ObjectDescription::default() });
     click(&mut panel, Role::ComboBox, "Material");
     click(&mut panel, Role::Button, "none");
@@ -192,7 +192,7 @@ fn the_name_of_an_object_counts_when_it_is_entered() {
     assert!(panel.state().asked.is_empty());
     panel.key_press(Key::Enter);
     panel.run_steps(3);
-    assert_eq!(*only(&panel), set("part.name", NewValue::Text("globe".to_owned())));
+    assert_eq!(*only(&panel), set("part.name", OwnedValue::Text("globe".to_owned())));
 }
 
 #[test]

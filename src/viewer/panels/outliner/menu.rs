@@ -16,6 +16,8 @@ use crate::viewer::panels::subject::Subject;
 pub enum Action {
     /// Move the camera so that the part fills the picture.
     LookAt,
+    /// Move the object down until it rests on something.
+    DropToFloor,
     Duplicate,
     Delete,
     /// Give it this name.
@@ -26,6 +28,17 @@ pub enum Action {
     AssignMaterial(Option<String>),
     /// Give the scene a background.
     AddBackground,
+}
+
+/// What is to be added to the scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum New {
+    /// An object with a shape of this kind.
+    Shape(&'static str),
+    /// The same that emits light.
+    Lamp(&'static str),
+    Material,
+    Texture,
 }
 
 /// The choices of menus.
@@ -44,7 +57,11 @@ impl Menu {
     pub fn show(&self, ui: &mut Ui, entry: &Entry) -> Option<Action> {
         let mut actions = Vec::new();
         match &entry.subject {
-            Subject::Object(_) => actions.extend([("Look at", Action::LookAt), ("Duplicate", Action::Duplicate)]),
+            Subject::Object(_) => actions.extend([
+                ("Look at", Action::LookAt),
+                ("Drop to floor", Action::DropToFloor),
+                ("Duplicate", Action::Duplicate),
+            ]),
             Subject::Material(_) | Subject::Texture(_) => actions.push(("Duplicate", Action::Duplicate)),
             Subject::Camera => {}
             Subject::Background if !self.has_background => actions.push(("Add", Action::AddBackground)),

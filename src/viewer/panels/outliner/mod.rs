@@ -16,7 +16,7 @@ use std::sync::Arc;
 use egui::{CollapsingHeader, RichText, ScrollArea, TextEdit, Ui};
 use noisefall::scene::description::SceneDescription;
 
-pub use self::menu::Action;
+pub use self::menu::{Action, New};
 use self::{
     entries::{Entry, Group},
     menu::Menu,

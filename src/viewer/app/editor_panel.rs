@@ -1,0 +1,124 @@
+//! Joins the outliner and the inspector with the document.
+use egui::{RichText, Ui};
+use noisefall::{
+    declare::{Declare, Path},
+    edit::Edit,
+};
+
+use super::{scene_editor::SceneEditor, state::App};
+use crate::viewer::canvas::picking;
+use crate::viewer::dialogs::{
+    choose_file::{FileDialog, FilePurpose},
+    unsaved::Leaving,
+};
+use crate::viewer::panels::{
+    add_menu,
+    inspector::{Asked, Drag, Request, Surroundings},
+    objects,
+};
+use crate::viewer::widgets::style::section;
+
+impl App {
+    /// The panel of the scene's parts, with the parameters of the selected one.
+    pub fn editor_panel(&mut self, ui: &mut Ui) {
+        let Some(editor) = &mut self.editor else { return };
+        let description = editor.document.description();
+        let (mut asked, mut new, mut template, mut saves_as) = (Default::default(), None, None, false);
+        section(ui, "Parts", |ui| {
+            ui.horizontal(|ui| {
+                new = add_menu::show(ui);
+                template = add_menu::new_scene(ui);
+                let doc = "Saves the scene to another file. Ctrl+S saves it to its own.";
+                saves_as = ui.button("Save scene as…").on_hover_text(doc).clicked();
+            });
+            asked = editor.outliner.show(ui, description, editor.revision, self.selection.subject.as_ref());
+        });
+        if let Some(subject) = asked.selected {
+            self.selection.select(Some(subject));
+        }
+        if let Some((subject, action)) = asked.action {
+            self.act_on(subject, action);
+        }
+        new.into_iter().for_each(|new| self.add(new));
+        template.into_iter().for_each(|template| self.ask_to_leave(Leaving::New(template)));
+        if saves_as {
+            self.ask_where_to_save();
+        }
+        self.inspector(ui);
+    }
+
+    fn inspector(&mut self, ui: &mut Ui) {
+        let (Some(editor), Some(opened)) = (&mut self.editor, &self.session.opened) else { return };
+        let Some(subject) = &self.selection.subject else {
+            ui.separator();
+            ui.weak("Click an object in the image or a part in the list to change it.");
+            return;
+        };
+        let Some(mut part) = subject.of(editor.document.description()) else { return };
+        let (path, size, object) = (subject.path(), opened.scene.size, self.selection.object());
+        let mut asked = Asked::default();
+        section(ui, "Parameters", |ui| {
+            if let Some(object) = object {
+                objects::show(ui, &opened.scene, picking::compiled(&opened.scene, object));
+            }
+            asked = inspected(editor, ui, &mut *part, &path, size);
+        });
+        self.follow_inspector(asked);
+    }
+
+    /// Makes the edits that the inspector asks for.
+    fn follow_inspector(&mut self, asked: Asked) {
+        for request in asked.requests {
+            let edit = match request {
+                Request::Set { path, value } => Edit::set(path, value),
+                Request::Choose { path, choice, name } => {
+                    let Some(editor) = &self.editor else { return };
+                    editor.document.change_kind(&path, choice, name)
+                }
+                Request::Insert { path } => Edit::insert(path),
+                Request::Remove { path } => Edit::remove(path),
+                Request::BrowseFile { path } => {
+                    self.ask_for_file(FilePurpose::Value(path));
+                    continue;
+                }
+                Request::BrowseTexture { path } => {
+                    self.ask_for_file(FilePurpose::Texture(path));
+                    continue;
+                }
+            };
+            if asked.drag == Drag::None {
+                self.edit(&edit);
+            } else {
+                self.drag_edit(&edit);
+            }
+        }
+        if asked.drag == Drag::Ended
+            && let Some(editor) = &mut self.editor
+        {
+            editor.end_drag();
+        }
+    }
+
+    fn ask_for_file(&mut self, purpose: FilePurpose) {
+        self.dialogs.file = Some(FileDialog::new(purpose, self.session.path()));
+    }
+
+    /// Uses a file that was chosen: as a value, or as a texture in its place.
+    pub fn use_file(&mut self, purpose: &FilePurpose, file: &std::path::Path) {
+        let (Some(editor), Some(opened)) = (&mut self.editor, &self.session.opened) else { return };
+        let folder = std::path::absolute(opened.folder()).unwrap_or_default();
+        let file = file.strip_prefix(&folder).unwrap_or(file);
+        let edit = purpose.edit(&mut editor.document, file);
+        self.edit(&edit);
+    }
+}
+
+/// Shows the inspector of a part at a path.
+fn inspected(editor: &mut SceneEditor, ui: &mut Ui, part: &mut dyn Declare, path: &Path, size: f64) -> Asked {
+    let description = editor.document.description();
+    let [textures, materials]: [Vec<String>; 2] =
+        [description.textures.keys().cloned().collect(), description.materials.keys().cloned().collect()];
+    let surroundings = Surroundings { textures: &textures, materials: &materials, size };
+    ui.label(RichText::new(path.to_string()).weak()).on_hover_text("The place of this part in the scene file.");
+    editor.inspector.show(ui, part, path, &surroundings)
+}

@@ -1,0 +1,91 @@
+//! Joins the gizmo with the selected object: its operations are edits of the document.
+use egui::Ui;
+use glam::DVec3;
+use noisefall::shape::Transform;
+
+use super::{scene_editor::SceneEditor, state::App};
+use crate::viewer::canvas::{
+    framing,
+    gizmo::{GizmoOutput, Phase},
+    interaction::Tool,
+    picking,
+    picture_area::PictureArea,
+};
+
+impl App {
+    /// Gives the gizmo its keys, before the window looks at its own: while the pointer is over the picture.
+    pub fn take_gizmo_keys(&mut self) {
+        let is_free = !self.dialogs.wait() && self.has_gizmo();
+        if is_free && (self.window.hovered.is_some() || self.selection.gizmo.is_active()) {
+            self.selection.gizmo.take_keys(&self.ctx);
+        }
+    }
+
+    fn has_gizmo(&self) -> bool {
+        let is_moving_tool = matches!(self.window.tool, Tool::Picture | Tool::Camera);
+        is_moving_tool && self.selection.object().is_some() && self.editor.is_some()
+    }
+
+    /// Shows the gizmo of the selected object over the picture, and makes its edits.
+    pub fn show_gizmo(&mut self, ui: &mut Ui, area: &PictureArea) {
+        let Some((object, pivot)) = self.selection.object().zip(self.pivot()).filter(|_| self.has_gizmo()) else {
+            return self.selection.end_operation();
+        };
+        let size = self.session.opened.as_ref().map_or(1.0, |opened| opened.scene.size);
+        let output = self.selection.gizmo.show(ui, area, &self.session.camera, pivot, size);
+        output.into_iter().for_each(|output| self.follow_gizmo(object, &output));
+    }
+
+    /// The middle of the selected object.
+    fn pivot(&self) -> Option<DVec3> {
+        let scene = &self.session.opened.as_ref()?.scene;
+        let compiled = picking::compiled(scene, self.selection.object()?);
+        let objects = &scene.objects[compiled.start as usize..compiled.end as usize];
+        framing::around(objects.iter().map(|object| object.shape.bounding_sphere())).map(|(center, _)| center)
+    }
+
+    fn follow_gizmo(&mut self, object: usize, output: &GizmoOutput) {
+        let GizmoOutput { change, pivot, phase } = output;
+        if *phase == Phase::Cancelled || (*phase == Phase::Done && is_identity(change)) {
+            return self.cancel_drag();
+        }
+        let is_new = match &self.selection.change {
+            Some(before) => before != change,
+            None => !is_identity(change),
+        };
+        if is_new {
+            self.selection.change = Some(change.clone());
+            self.change_scene(title(change), |editor| editor.drag_from_start(|scene| scene.transformed(object, change, *pivot)));
+        }
+        if *phase == Phase::Done {
+            self.selection.change = None;
+            self.editor.iter_mut().for_each(SceneEditor::end_drag);
+        }
+    }
+
+    fn cancel_drag(&mut self) {
+        self.selection.change = None;
+        if self.editor.as_mut().is_some_and(|editor| editor.cancel_drag()) {
+            self.history.drop_edit();
+            self.follow_document();
+        }
+    }
+}
+
+fn title(change: &Transform) -> &'static str {
+    match change {
+        Transform::Translate(_) => "Move",
+        Transform::Rotate(_) => "Rotate",
+        Transform::Scale(_) => "Scale",
+        Transform::Matrix(_) => "Transform",
+    }
+}
+
+fn is_identity(change: &Transform) -> bool {
+    match change {
+        Transform::Translate(by) => *by == DVec3::ZERO,
+        Transform::Rotate(turn) => turn.degrees == 0.0,
+        Transform::Scale(by) => *by == DVec3::ONE,
+        Transform::Matrix(_) => false,
+    }
+}

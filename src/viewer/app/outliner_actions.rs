@@ -1,0 +1,103 @@
+//! Carries out what the menus of the outliner ask for.
+use noisefall::{
+    declare::{Declare, OwnedValue, Path},
+    edit::{Document, Edit, Placement, Tree},
+    scene::description::MaterialDescription,
+    texture::{TextureKind, checker::Checker},
+};
+
+use super::state::App;
+use crate::viewer::panels::{outliner::Action, outliner::New, subject::Subject};
+
+impl App {
+    /// Does something to a part of the scene.
+    pub fn act_on(&mut self, subject: Subject, action: Action) {
+        let Some(editor) = &mut self.editor else { return };
+        let document = &mut editor.document;
+        match action {
+            Action::LookAt => {
+                self.selection.select(Some(subject));
+                self.look_at_selection();
+            }
+            Action::DropToFloor => self.drop_to_floor(&subject),
+            Action::Duplicate => {
+                if let Some((edit, copy)) = document.duplicate(&subject.path()) {
+                    self.edit_and_select(&edit, &copy);
+                }
+            }
+            Action::Delete => {
+                if self.edit(&Edit::remove(subject.path())) {
+                    self.selection.select(None);
+                }
+            }
+            Action::Rename(name) => {
+                let path = subject.path();
+                let renamed = subject.renamed(&name);
+                let edit = if renamed == subject {
+                    Edit::set(path.key("name"), OwnedValue::Text(name))
+                } else {
+                    Edit::Rename { path, to: name }
+                };
+                let is_selected = self.selection.subject.as_ref() == Some(&subject);
+                if self.edit(&edit) && is_selected {
+                    self.selection.select(Some(renamed));
+                }
+            }
+            Action::ChangeKind(kind) => {
+                let (path, choice) = subject.choice();
+                let edit = document.change_kind(&path, choice, kind);
+                self.edit(&edit);
+            }
+            Action::AssignMaterial(material) => {
+                let Subject::Object(place) = subject else { return };
+                let edit = document.assign(&[place], material.as_deref());
+                self.edit(&edit);
+            }
+            Action::AddBackground => _ = self.edit(&Edit::insert(subject.path())),
+        }
+    }
+
+    /// Adds an object where the picture was clicked last, or a material or a texture.
+    pub fn add(&mut self, new: New) {
+        let placement = self.placement();
+        let Some(editor) = &self.editor else { return };
+        let document = &editor.document;
+        let added = match new {
+            New::Shape(kind) => document.add_shape(kind, &placement, None),
+            New::Lamp(kind) => document.add_lamp(kind, &placement),
+            New::Material => Some(added(document, "materials", "material", &mut MaterialDescription::default())),
+            New::Texture => Some(added(document, "textures", "texture", &mut TextureKind::from(Checker::default()))),
+        };
+        if let Some((edit, path)) = added {
+            self.edit_and_select(&edit, &path);
+        }
+    }
+
+    fn edit_and_select(&mut self, edit: &Edit, path: &Path) {
+        if self.edit(edit) {
+            self.selection.select(Subject::at(path));
+        }
+    }
+
+    fn drop_to_floor(&mut self, subject: &Subject) {
+        let (Some(opened), Some(editor), Subject::Object(place)) = (&self.session.opened, &self.editor, subject) else { return };
+        match editor.document.drop_to_floor(&opened.scene, *place) {
+            Some(edit) => _ = self.edit(&edit),
+            None => self.tell("Nothing is below this object, or it rests already".to_owned(), false),
+        }
+    }
+
+    /// Where the picture was clicked last, or else its middle, or else the point that the camera looks at.
+    fn placement(&self) -> Placement {
+        let scene_size = self.session.opened.as_ref().map_or(1.0, |opened| opened.scene.size);
+        let surface = self.clicked_surface();
+        let [at, normal] = surface.unwrap_or([self.session.camera.look_at, glam::DVec3::Y]);
+        Placement { at, normal, scene_size }
+    }
+}
+
+/// The edit that adds a part to a table under a free name, and its path.
+fn added(document: &Document, table: &str, wanted: &str, part: &mut dyn Declare) -> (Edit, Path) {
+    let path = Path::of(table).key(&document.free_name(table, wanted));
+    (Edit::insert_tree(path.clone(), Tree::of(part)), path)
+}

@@ -1,0 +1,67 @@
+//! Edits of the open scene, undo and redo included: the document changes at once, and its picture follows.
+use noisefall::{declare::Problem, edit::Edit};
+
+use super::{scene_editor::SceneEditor, state::App};
+
+impl App {
+    /// Makes an edit, as a step of its own. What the reader of scene files would refuse is refused, with its message.
+    pub fn edit(&mut self, edit: &Edit) -> bool {
+        self.change_scene(&edit.title(), |editor| editor.apply(edit).map(|()| true))
+    }
+
+    /// Makes an edit of a drag, which is one step.
+    pub fn drag_edit(&mut self, edit: &Edit) {
+        self.change_scene(&edit.title(), |editor| editor.drag(edit));
+    }
+
+    /// Changes the scene by `change`, which returns whether a step of this title begins. Returns whether the change was made.
+    pub fn change_scene(&mut self, title: &str, change: impl FnOnce(&mut SceneEditor) -> Result<bool, Problem>) -> bool {
+        let Some(editor) = &mut self.editor else { return false };
+        let made = change(editor);
+        match &made {
+            Ok(begins) => {
+                if *begins {
+                    self.history.push_edit(title);
+                }
+                self.follow_document();
+            }
+            Err(problem) => {
+                let help = if problem.help.is_empty() { String::new() } else { format!(": {}", problem.help) };
+                self.tell(format!("{}{help}", problem.message), true);
+            }
+        }
+        made.is_ok()
+    }
+
+    /// Takes back the last edit of the scene.
+    pub fn undo_edit(&mut self) {
+        self.step_in_scene(SceneEditor::undo);
+    }
+
+    /// Makes the last undone edit of the scene again.
+    pub fn redo_edit(&mut self) {
+        self.step_in_scene(SceneEditor::redo);
+    }
+
+    fn step_in_scene(&mut self, step: fn(&mut SceneEditor) -> bool) {
+        let Some(editor) = &mut self.editor else { return };
+        let objects = editor.document.description().objects.len();
+        step(editor);
+        self.selection.end_operation();
+        // Places in the list may be those of other objects now.
+        if editor.document.description().objects.len() != objects {
+            self.selection.clear_object();
+        }
+        self.follow_document();
+    }
+
+    /// Renders the document as it is now.
+    pub fn follow_document(&mut self) {
+        let Some(editor) = &self.editor else { return };
+        let description = editor.description();
+        if self.selection.subject.as_ref().is_some_and(|subject| !subject.is_in(&description)) {
+            self.selection.select(None);
+        }
+        self.edit_scene(description);
+    }
+}

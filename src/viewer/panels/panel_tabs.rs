@@ -1,0 +1,20 @@
+//! The two pages of the side panel.
+use egui::Ui;
+
+/// A page of the side panel.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum PanelTab {
+    /// How the scene is rendered and shown.
+    #[default]
+    Render,
+    /// What is in the scene.
+    Edit,
+}
+
+/// Shows the tabs, and changes the page.
+pub fn show(ui: &mut Ui, page: &mut PanelTab) {
+    ui.horizontal(|ui| {
+        ui.selectable_value(page, PanelTab::Render, "Render").on_hover_text("Settings of the render and of the window.");
+        ui.selectable_value(page, PanelTab::Edit, "Edit").on_hover_text("Objects, materials, textures and lamps of the scene.");
+    });
+}

@@ -1,0 +1,146 @@
+//! The edited scene is saved, and unsaved changes are not lost without a question.
+use std::path::Path as FilePath;
+
+use noisefall::{
+    declare::{OwnedValue, Path},
+    edit::Edit,
+};
+
+use super::*;
+use crate::viewer::dialogs::unsaved::Leaving;
+
+/// A window with a scene of its own that may be written to.
+fn window_of_copy(folder: &FilePath) -> (Window, PathBuf, String) {
+    let path = folder.join("mine.toml");
+    let text = std::fs::read_to_string(shipped("cornell_spheres")).expect("it is shipped");
+    std::fs::write(&path, &text).expect("it is written");
+    let mut window = open(Some(path.clone()));
+    wait(&mut window, "the scene", |app| app.session.opened.is_some());
+    window.state_mut().session.camera.resolution = [96, 64];
+    wait(&mut window, "a picture", |app| app.results.shown.as_ref().is_some_and(|frame| frame.width == 96));
+    (window, path, text)
+}
+
+fn grow(window: &mut Window) {
+    let edit = Edit::set(Path::of("objects.5.shape.sphere.radius"), OwnedValue::Number(0.25));
+    assert!(window.state_mut().edit(&edit));
+    window.run_steps(3);
+}
+
+fn save(window: &mut Window) {
+    window.key_press_modifiers(Modifiers::COMMAND, Key::S);
+    window.run_steps(3);
+}
+
+#[test]
+fn saving_writes_the_changed_line_and_no_other_and_the_title_says_what_is_unsaved() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (mut window, path, text) = window_of_copy(folder.path());
+    let title = |window: &Window| window.state().window.title.clone();
+    assert!(title(&window).starts_with("Five-sphere Cornell box") && !title(&window).contains('*'));
+    grow(&mut window);
+    assert!(title(&window).starts_with("Five-sphere Cornell box* "), "{}", title(&window));
+    save(&mut window);
+    assert!(!title(&window).contains('*'));
+    let saved = std::fs::read_to_string(&path).expect("it is there");
+    let changed: Vec<_> = text.lines().zip(saved.lines()).filter(|(before, after)| before != after).collect();
+    assert_eq!(changed.len(), 1, "{changed:?}");
+    assert!(changed[0].1.contains("radius = 0.25"), "{changed:?}");
+    assert_eq!(text.lines().count(), saved.lines().count());
+    assert!(window.state().dialogs.save.is_none());
+    // To before the file as it is now.
+    window.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+    window.run_steps(3);
+    assert!(title(&window).contains('*'));
+    save(&mut window);
+    assert_eq!(std::fs::read_to_string(&path).expect("it is there"), text);
+}
+
+#[test]
+fn a_scene_without_a_file_asks_where_to_save() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = open(None);
+    wait(&mut window, "the scene", |app| app.session.opened.is_some());
+    grow(&mut window);
+    save(&mut window);
+    assert!(window.state().dialogs.save.is_some());
+    let path = folder.path().join("new.toml");
+    window.state_mut().dialogs.save = None;
+    window.state_mut().save_scene_to(&path);
+    assert!(!window.state().has_unsaved_changes() && path.is_file());
+    assert_eq!(window.state().session.path(), Some(&*path));
+    grow(&mut window);
+    assert!(window.state().has_unsaved_changes());
+    save(&mut window);
+    assert!(!window.state().has_unsaved_changes() && window.state().dialogs.save.is_none(), "now it has a file");
+    window.state_mut().save_scene_to(&folder.path().join("nowhere/new.toml"));
+    assert!(window.state().dialogs.notices.0.iter().any(|notice| notice.is_error));
+}
+
+#[test]
+fn another_scene_is_opened_after_a_question_if_changes_are_unsaved() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (mut window, path, text) = window_of_copy(folder.path());
+    let furnace = || Leaving::Open(Some(shipped("furnace")));
+    grow(&mut window);
+    let asks = |window: &mut Window, answer: &str| {
+        window.state_mut().ask_to_leave(furnace());
+        window.run_steps(3);
+        assert!(window.query_by_label_contains("has changes that are not saved").is_some());
+        click(window, answer);
+        assert!(window.state().dialogs.unsaved.is_none());
+    };
+    asks(&mut window, "Cancel");
+    assert!(!window.state().background.loader.is_busy() && window.state().has_unsaved_changes());
+    asks(&mut window, "Discard changes");
+    let is_furnace = |app: &App| app.session.opened.as_ref().is_some_and(|opened| opened.name == "Furnace");
+    wait(&mut window, "the other scene", is_furnace);
+    assert_eq!(std::fs::read_to_string(&path).expect("it is there"), text);
+    window.state_mut().ask_to_leave(Leaving::Open(Some(path.clone())));
+    assert!(window.state().dialogs.unsaved.is_none(), "nothing is unsaved");
+    wait(&mut window, "the first scene", |app| !is_furnace(app));
+    grow(&mut window);
+    asks(&mut window, "Save changes");
+    wait(&mut window, "the other scene", is_furnace);
+    assert!(std::fs::read_to_string(&path).expect("it is there").contains("radius = 0.25"));
+}
+
+#[test]
+fn closing_the_window_asks_about_unsaved_changes() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (mut window, _, _) = window_of_copy(folder.path());
+    let close = |window: &mut Window| {
+        let viewport = window.input_mut().viewports.entry(egui::ViewportId::ROOT).or_default();
+        viewport.events.push(egui::ViewportEvent::Close);
+        window.step();
+        let commands = &window.output().viewport_output[&egui::ViewportId::ROOT].commands;
+        commands.contains(&egui::ViewportCommand::CancelClose)
+    };
+    assert!(!close(&mut window) && window.state().dialogs.unsaved.is_none());
+    window.run_steps(2);
+    grow(&mut window);
+    assert!(close(&mut window) && window.state().dialogs.unsaved.is_some());
+    window.run_steps(2);
+    click(&mut window, "Discard changes");
+    assert!(window.state().window.quits);
+}
+
+#[test]
+fn the_exact_solution_of_a_scene_is_not_that_of_an_edited_one() {
+    let mut window = window("furnace");
+    assert!(window.state().exact_solution().is_some());
+    let edit = Edit::set(Path::of("title"), OwnedValue::Text("Another".to_owned()));
+    assert!(window.state_mut().edit(&edit) && window.state().exact_solution().is_none());
+    window.state_mut().undo_edit();
+    assert!(window.state().exact_solution().is_some());
+}
+
+#[test]
+fn a_new_scene_begins_from_a_template() {
+    let mut window = window("cornell_spheres");
+    click(&mut window, "Edit");
+    click(&mut window, "New scene");
+    click(&mut window, "Studio");
+    wait(&mut window, "the studio", |app| app.session.opened.as_ref().is_some_and(|opened| opened.name == "Studio"));
+    assert!(window.state().session.path().is_none() && !window.state().has_unsaved_changes());
+}
