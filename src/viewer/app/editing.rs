@@ -27,7 +27,7 @@ impl App {
     pub fn receive_edited(&mut self) {
         match self.background.worker.take_edited() {
             Some(Ok(scene)) => self.take_edited(scene),
-            Some(Err(error)) => self.tell(format!("This change cannot be made: {error}"), true),
+            Some(Err(error)) => self.tell(format!("The image shows the scene before this change: {error}"), true),
             None => {}
         }
         // A drag goes on as long as a button is down.
@@ -49,7 +49,7 @@ impl App {
         let session = &mut self.session;
         let (Some(opened), Some(description)) = (&mut session.opened, session.submitted_edit.take()) else { return };
         // The camera and the settings are those of the window, unless they are what was edited.
-        let (before, new) = (&opened.description, scene.camera);
+        let (before, new) = (opened.description.clone(), scene.camera);
         if description.camera != before.camera {
             let keeps_resolution = description.camera.resolution == before.camera.resolution;
             session.camera =
@@ -59,9 +59,12 @@ impl App {
             session.settings = scene.settings;
         }
         opened.description = description.clone();
-        self.background.settler.note(EditedScene { scene: scene.clone(), description, folder: opened.folder() });
+        let folder = opened.folder();
+        self.background.settler.note(EditedScene { scene: scene.clone(), description: description.clone(), folder });
         opened.change(scene);
         self.results.black_reason = None;
-        self.history.adopt(self.session.controls());
+        if description.camera != before.camera || description.render != before.render {
+            self.history.adopt(self.session.controls());
+        }
     }
 }

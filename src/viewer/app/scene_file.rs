@@ -2,7 +2,11 @@
 use std::path::Path;
 
 use egui::ViewportCommand;
-use noisefall::render::State;
+use noisefall::{
+    declare::{Declare, Parameter, Parameters, Value},
+    render::State,
+    scene::description::SceneDescription,
+};
 
 use super::state::App;
 use crate::viewer::background::catalogue;
@@ -29,6 +33,12 @@ impl App {
     pub fn save_scene_to(&mut self, path: &Path) {
         let (Some(editor), Some(opened)) = (&mut self.editor, &mut self.session.opened) else { return };
         let leaving = self.window.leaving.take();
+        let folder = |path: &Path| path.parent().and_then(|folder| folder.canonicalize().ok());
+        let moves = opened.path.as_deref().is_some_and(|before| folder(before) != folder(path));
+        if moves && names_files(editor.document.description()) {
+            let folder = opened.folder();
+            return self.tell(format!("Not saved: the scene names files. Save it in their folder, {}", folder.display()), true);
+        }
         if let Err(error) = editor.document.save(path) {
             return self.tell(format!("Not saved: {error}"), true);
         }
@@ -102,4 +112,19 @@ impl App {
             self.ctx.send_viewport_cmd(ViewportCommand::Title(title));
         }
     }
+}
+
+/// Whether a scene names files relative to its own.
+fn names_files(description: &SceneDescription) -> bool {
+    struct Files(bool);
+    impl Parameters for Files {
+        fn value(&mut self, _: &Parameter, value: Value<'_>) {
+            if let Value::File(path) = value {
+                self.0 |= Path::new(path).is_relative();
+            }
+        }
+    }
+    let mut files = Files(false);
+    description.clone().parameters(&mut files);
+    files.0
 }

@@ -76,7 +76,8 @@ pub fn suggested_path(target: SaveTarget, scene: Option<&Path>, last_saved: Opti
     let name = of_file.unwrap_or_else(|| "cornell_spheres".to_owned());
     let path = last_saved.filter(|path| extension != "png" || SaveTarget::Picture.takes(path));
     let here = || std::env::current_dir().map_or_else(|_| PathBuf::from(&name), |folder| folder.join(&name));
-    let path = path.map_or_else(here, Path::to_owned);
+    // Paths in a scene are relative to its folder.
+    let path = path.or(scene.filter(|_| target == SaveTarget::Scene)).map_or_else(here, Path::to_owned);
     let keeps = extension == "png" && SaveTarget::Picture.takes(&path);
     free(&if keeps { path } else { path.with_extension(extension) })
 }

@@ -32,7 +32,7 @@ pub fn show(ctx: &egui::Context, scene: &str) -> Option<Answer> {
         .anchor(Align2::CENTER_CENTER, [0.0, 0.0])
         .show(ctx, |ui| {
             ui.set_width(380.0);
-            ui.label(format!("“{scene}” has changes that are not saved."));
+            ui.label(format!("`{scene}` has changes that are not saved."));
             ui.add_space(6.0);
             ui.horizontal(|ui| {
                 for (name, doc, means) in [

@@ -78,6 +78,15 @@ fn a_scene_without_a_file_asks_where_to_save() {
 }
 
 #[test]
+fn a_scene_that_names_files_stays_in_their_folder() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = window("textures_and_bump");
+    let path = folder.path().join("elsewhere.toml");
+    window.state_mut().save_scene_to(&path);
+    assert!(!path.exists() && window.state().dialogs.notices.0.iter().any(|notice| notice.text.contains("names files")));
+}
+
+#[test]
 fn another_scene_is_opened_after_a_question_if_changes_are_unsaved() {
     let folder = tempfile::tempdir().expect("a folder");
     let (mut window, path, text) = window_of_copy(folder.path());
