@@ -7,8 +7,8 @@ use super::{Document, Edit};
 use crate::{
     geometry::MISS,
     math::{F, M, One, V},
-    scene::{Scene, description::SceneDescription},
-    shape::{ShapeKind, Transform},
+    scene::Scene,
+    shape::Transform,
 };
 
 /// Where rays start above the box of an object, as parts of its edges.
@@ -22,7 +22,7 @@ impl Document {
     /// The edit that lets the bounding box of an object rest on the highest surface below its middle. `scene` is the compiled scene of
     /// this document. `None` where nothing is below, or where it rests already.
     pub fn drop_to_floor(&self, scene: &Scene, object: usize) -> Option<Edit> {
-        let own = compiled(self.description(), object)?;
+        let own = scene.objects_of(object);
         let objects = scene.objects.get(own.clone())?;
         let corners = objects.iter().map(|object| object.shape.corners());
         let [min, max] = corners.reduce(|[a, b], [c, d]| [a.min(c), b.max(d)])?;
@@ -33,21 +33,6 @@ impl Document {
         let by = floor - min.y;
         (by != 0.0).then(|| self.transformed(object, &Transform::Translate(DVec3::Y * by), DVec3::ZERO)).flatten()
     }
-}
-
-/// The objects of the compiled scene that one of the description became: emitting ones come first there.
-fn compiled(description: &SceneDescription, object: usize) -> Option<Range<usize>> {
-    let emits = description.objects.get(object)?.emission.is_some();
-    let count = |place: usize| match &description.objects[place].shape {
-        ShapeKind::SphereField(field) => field.count as usize,
-        _ => 1,
-    };
-    let comes_first = |place: &usize| match description.objects[*place].emission.is_some() {
-        same if same == emits => *place < object,
-        other => other,
-    };
-    let start: usize = (0..description.objects.len()).filter(comes_first).map(count).sum();
-    Some(start..start + count(object))
 }
 
 /// The height of the first surface below a point that belongs to none of these objects, as things are at time 0.

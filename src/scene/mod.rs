@@ -30,6 +30,7 @@ mod warnings;
 mod wording;
 
 use std::{
+    ops::Range,
     path::PathBuf,
     sync::{Arc, LazyLock, OnceLock},
 };
@@ -213,6 +214,13 @@ impl Scene {
     /// What an object is made of; `None` is black.
     pub fn material(&self, object: &Object) -> Option<&MaterialInstance> {
         object.material.map(|number| &self.materials[number as usize])
+    }
+
+    /// The places of the objects that an object of the description was compiled to. They follow each other.
+    pub fn objects_of(&self, described: usize) -> Range<usize> {
+        let is_of = |object: &Object| object.described as usize == described;
+        let first = self.objects.iter().position(is_of).unwrap_or(0);
+        first..first + self.objects[first..].iter().take_while(|object| is_of(object)).count()
     }
 
     /// Whether light passes into an object.

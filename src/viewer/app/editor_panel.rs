@@ -6,7 +6,6 @@ use noisefall::{
 };
 
 use super::{scene_editor::SceneEditor, state::App};
-use crate::viewer::canvas::picking;
 use crate::viewer::dialogs::{
     choose_file::{FileDialog, FilePurpose},
     unsaved::Leaving,
@@ -59,7 +58,7 @@ impl App {
         let mut asked = Asked::default();
         section(ui, "Parameters", |ui| {
             if let Some(object) = object {
-                objects::show(ui, &opened.scene, picking::compiled(&opened.scene, object));
+                objects::show(ui, &opened.scene, opened.scene.objects_of(object));
             }
             asked = inspected(editor, ui, &mut *part, &path, size);
         });

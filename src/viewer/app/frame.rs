@@ -24,9 +24,9 @@ impl App {
         CentralPanel::no_frame().show(ui, |ui| self.canvas(ui));
         self.show_dialogs(&ctx);
         self.record_step();
+        self.update_title();
         let compiled = self.session.opened.as_ref().map(|opened| &opened.scene.compiled);
         self.frame_times.show(&ctx, self.session.threads, self.background.worker.generation(), compiled);
-        self.update_title();
         self.submit();
         self.window.had_focus = ctx.egui_wants_keyboard_input();
         self.frame_times.record(start.elapsed(), ctx.input(|input| input.time));

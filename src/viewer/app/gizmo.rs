@@ -8,7 +8,6 @@ use crate::viewer::canvas::{
     framing,
     gizmo::{GizmoOutput, Phase},
     interaction::Tool,
-    picking,
     picture_area::PictureArea,
 };
 
@@ -39,8 +38,7 @@ impl App {
     /// The middle of the selected object.
     fn pivot(&self) -> Option<DVec3> {
         let scene = &self.session.opened.as_ref()?.scene;
-        let compiled = picking::compiled(scene, self.selection.object()?);
-        let objects = &scene.objects[compiled.start as usize..compiled.end as usize];
+        let objects = &scene.objects[scene.objects_of(self.selection.object()?)];
         framing::around(objects.iter().map(|object| object.shape.bounding_sphere())).map(|(center, _)| center)
     }
 
@@ -65,7 +63,7 @@ impl App {
 
     fn cancel_drag(&mut self) {
         self.selection.change = None;
-        if self.editor.as_mut().is_some_and(|editor| editor.cancel_drag()) {
+        if self.editor.as_mut().is_some_and(SceneEditor::cancel_drag) {
             self.history.drop_edit();
             self.follow_document();
         }

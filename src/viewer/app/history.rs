@@ -1,4 +1,7 @@
 //! Undo and redo: a stack of steps. A drag of one control or one gesture of the camera is one step.
+#[cfg(test)]
+mod tests;
+
 use std::collections::VecDeque;
 
 use noisefall::{
@@ -26,16 +29,23 @@ pub struct Controls {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Step {
     /// Controls were changed.
-    Controls { before: Controls, after: Controls },
+    Controls(Box<Change>),
     /// The scene was edited. The editor of the scene knows how.
     Edit { title: String },
 }
 
+/// The controls before and after a step.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Change {
+    before: Controls,
+    after: Controls,
+}
+
 /// What undo and redo restore.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Restored {
     /// The controls become these.
-    Controls(Controls),
+    Controls(Box<Controls>),
     /// The scene goes back or forth by one edit.
     Edit,
 }
@@ -83,11 +93,11 @@ impl Controls {
 impl Step {
     /// What it changes, for a tooltip.
     fn name(&self) -> &str {
-        let (before, after) = match self {
-            Step::Controls { before, after } => (before, after),
+        let change = match self {
+            Step::Controls(change) => change,
             Step::Edit { title } => return title,
         };
-        match before.differing(after) {
+        match change.before.differing(&change.after) {
             [true, ..] => "camera",
             [_, _, true, _] => "comparison",
             [_, true, ..] => "settings",
@@ -108,13 +118,13 @@ impl History {
         let goes_on = self.open.is_some_and(|(open, of)| of == parts && open.goes_on(gesture, parts));
         self.open = Some((gesture, parts));
         match self.done.back_mut().filter(|_| goes_on) {
-            Some(Step::Controls { before, after }) => {
-                *after = now;
-                if before == after {
+            Some(Step::Controls(change)) => {
+                change.after = now;
+                if change.before == now {
                     self.done.pop_back();
                 }
             }
-            _ => self.push(Step::Controls { before, after: now }),
+            _ => self.push(Step::Controls(Box::new(Change { before, after: now }))),
         }
     }
 
@@ -152,7 +162,7 @@ impl History {
     pub fn undo(&mut self) -> Option<Restored> {
         let step = self.done.pop_back()?;
         let restored = match &step {
-            Step::Controls { before, .. } => Restored::Controls(*before),
+            Step::Controls(change) => Restored::Controls(Box::new(change.before)),
             Step::Edit { .. } => Restored::Edit,
         };
         self.undone.push(step);
@@ -163,7 +173,7 @@ impl History {
     pub fn redo(&mut self) -> Option<Restored> {
         let step = self.undone.pop()?;
         let restored = match &step {
-            Step::Controls { after, .. } => Restored::Controls(*after),
+            Step::Controls(change) => Restored::Controls(Box::new(change.after)),
             Step::Edit { .. } => Restored::Edit,
         };
         self.done.push_back(step);
@@ -172,8 +182,8 @@ impl History {
 
     fn restored(&mut self, restored: Restored) -> Restored {
         self.open = None;
-        if let Restored::Controls(controls) = restored {
-            self.last = Some(controls);
+        if let Restored::Controls(controls) = &restored {
+            self.last = Some(**controls);
         }
         restored
     }
@@ -189,130 +199,5 @@ impl Gesture {
     fn goes_on(&self, now: Gesture, parts: [bool; 4]) -> bool {
         let is_camera = parts == [true, false, false, false];
         self.presses == now.presses && (now.is_held || (is_camera && now.time - self.time <= PAUSE))
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use noisefall::scene::built_in;
-
-    use super::*;
-
-    fn controls() -> Controls {
-        let scene = built_in();
-        Controls { camera: scene.camera, settings: scene.settings, comparison: None, look: DisplaySettings::default() }
-    }
-
-    fn moved(fov: f64) -> Controls {
-        Controls { camera: Camera { fov, ..controls().camera }, ..controls() }
-    }
-
-    fn seeded(seed: u32) -> Controls {
-        Controls { settings: RenderSettings { seed, ..controls().settings }, ..controls() }
-    }
-
-    fn at(presses: u64, is_held: bool, time: f64) -> Gesture {
-        Gesture { presses, is_held, time }
-    }
-
-    fn controls_of(restored: Restored) -> Controls {
-        match restored {
-            Restored::Controls(controls) => controls,
-            Restored::Edit => panic!("it is an edit of the scene"),
-        }
-    }
-
-    fn undone(history: &mut History) -> Option<Controls> {
-        history.undo().map(controls_of)
-    }
-
-    fn redone(history: &mut History) -> Option<Controls> {
-        history.redo().map(controls_of)
-    }
-
-    fn started() -> History {
-        let mut history = History::default();
-        history.observe(controls(), Gesture::default());
-        history
-    }
-
-    #[test]
-    fn steps_go_back_and_forth_and_a_new_one_forgets_what_was_undone() {
-        let mut history = started();
-        assert_eq!((undone(&mut history), history.names()), (None, [None, None]));
-        history.observe(seeded(1), at(1, false, 1.0));
-        history.observe(seeded(2), at(2, false, 1.1));
-        assert_eq!(history.names(), [Some("settings"), None]);
-        assert_eq!((undone(&mut history), undone(&mut history), undone(&mut history)), (Some(seeded(1)), Some(controls()), None));
-        assert_eq!((redone(&mut history), redone(&mut history), redone(&mut history)), (Some(seeded(1)), Some(seeded(2)), None));
-        undone(&mut history);
-        // What is restored is no step itself.
-        history.observe(seeded(1), at(2, false, 2.0));
-        assert_eq!(history.names(), [Some("settings"); 2]);
-        history.observe(moved(30.0), at(3, false, 3.0));
-        assert_eq!(history.names(), [Some("camera"), None]);
-    }
-
-    #[test]
-    fn a_drag_is_one_step_and_one_that_ends_where_it_began_is_none() {
-        let mut history = started();
-        for (seed, time) in [(1, 1.0), (2, 3.0), (3, 9.0)] {
-            history.observe(seeded(seed), at(1, true, time));
-        }
-        history.observe(seeded(4), at(2, true, 9.1));
-        assert_eq!((undone(&mut history), undone(&mut history)), (Some(seeded(3)), Some(controls())));
-        let mut history = started();
-        history.observe(seeded(1), at(1, true, 1.0));
-        history.observe(controls(), at(1, true, 1.1));
-        assert_eq!(undone(&mut history), None);
-    }
-
-    #[test]
-    fn turns_of_the_wheel_are_one_step_until_there_is_a_pause() {
-        let mut history = started();
-        for (fov, time) in [(30.0, 1.0), (31.0, 1.4), (32.0, 1.8), (33.0, 2.4)] {
-            history.observe(moved(fov), at(1, false, time));
-        }
-        assert_eq!((undone(&mut history), undone(&mut history)), (Some(moved(32.0)), Some(controls())));
-        // Keys change settings step by step, however fast.
-        let mut history = started();
-        (1..4).for_each(|seed| history.observe(seeded(seed), at(1, false, 1.0 + 0.01 * f64::from(seed))));
-        assert_eq!(undone(&mut history), Some(seeded(2)));
-        let mut history = started();
-        history.observe(moved(30.0), at(1, false, 1.0));
-        history.end_gesture();
-        history.observe(moved(31.0), at(1, false, 1.1));
-        assert_eq!(undone(&mut history), Some(moved(30.0)), "a command is a step of its own");
-    }
-
-    #[test]
-    fn the_oldest_steps_are_dropped() {
-        let mut history = started();
-        (1..=MOST_STEPS as u32 + 5).for_each(|seed| history.observe(seeded(seed), at(u64::from(seed), false, 0.0)));
-        assert_eq!(history.done.len(), MOST_STEPS);
-        assert!(std::iter::from_fn(|| undone(&mut history)).last() == Some(seeded(5)));
-    }
-
-    #[test]
-    fn edits_of_the_scene_are_steps_between_those_of_controls() {
-        let mut history = started();
-        history.observe(seeded(1), at(1, true, 1.0));
-        history.push_edit("Move");
-        history.observe(seeded(2), at(1, true, 1.1));
-        assert_eq!(history.names(), [Some("settings"), None]);
-        assert_eq!(undone(&mut history), Some(seeded(1)), "the drag does not go on over an edit");
-        assert_eq!((history.undo(), history.names()), (Some(Restored::Edit), [Some("settings"), Some("Move")]));
-        assert_eq!(undone(&mut history), Some(controls()));
-        assert_eq!(redone(&mut history), Some(seeded(1)));
-        assert_eq!(history.redo(), Some(Restored::Edit));
-        history.observe(seeded(3), at(2, false, 2.0));
-        history.drop_edit();
-        assert_eq!((undone(&mut history), undone(&mut history), history.undo()), (Some(seeded(1)), Some(controls()), None));
-        // Controls that follow an edit are no step.
-        let mut history = started();
-        history.push_edit("Set fov");
-        history.adopt(moved(30.0));
-        history.observe(moved(30.0), at(1, false, 1.0));
-        assert_eq!((history.undo(), history.undo()), (Some(Restored::Edit), None));
     }
 }

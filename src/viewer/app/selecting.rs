@@ -35,8 +35,10 @@ impl App {
         let request = self.request_of_open_scene().cloned();
         let Some((request, object)) = request.zip(self.selection.object()) else { return self.selection.outline.clear() };
         let (finder, RenderRequest { scene, camera, .. }) = (&mut self.background.features, &request);
-        let features = finder.of(scene, camera, self.session.threads).filter(|_| finder.has(camera));
-        let outline = features.and_then(|features| self.selection.outline.of(&features, picking::compiled(scene, object)));
+        let features = finder.of(scene, camera, self.session.threads).filter(|_| finder.has(scene, camera));
+        let objects = scene.objects_of(object);
+        let objects = objects.start as u32..objects.end as u32;
+        let outline = features.and_then(|features| self.selection.outline.of(&features, objects));
         let is_of_picture = area.resolution == egui::Vec2::from(camera.resolution.map(|side| side as f32));
         if let Some(outline) = outline.filter(|_| is_of_picture) {
             selection::draw(ui, area, &outline);
@@ -47,8 +49,7 @@ impl App {
     pub fn look_at_selection(&mut self) {
         let Some((request, object)) = self.request_of_open_scene().zip(self.selection.object()) else { return };
         let scene = &request.scene;
-        let compiled = picking::compiled(scene, object);
-        let objects = &scene.objects[compiled.start as usize..compiled.end as usize];
+        let objects = &scene.objects[scene.objects_of(object)];
         let sphere = framing::around(objects.iter().map(|object| object.shape.swept_sphere(&object.motion)));
         let Some((center, radius)) = sphere else { return };
         let moved = framing::look_at(&self.session.camera, center, radius);

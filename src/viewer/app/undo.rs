@@ -17,7 +17,7 @@ impl App {
 
     pub fn undo(&mut self) {
         match self.history.undo() {
-            Some(Restored::Controls(controls)) => self.restore(controls),
+            Some(Restored::Controls(controls)) => self.restore(*controls),
             Some(Restored::Edit) => self.undo_edit(),
             None => {}
         }
@@ -25,7 +25,7 @@ impl App {
 
     pub fn redo(&mut self) {
         match self.history.redo() {
-            Some(Restored::Controls(controls)) => self.restore(controls),
+            Some(Restored::Controls(controls)) => self.restore(*controls),
             Some(Restored::Edit) => self.redo_edit(),
             None => {}
         }

@@ -1,6 +1,4 @@
-//! The object under a pixel, and the primitives of an object of the description.
-use std::ops::Range;
-
+//! The object and the surface under a pixel.
 use glam::DVec3;
 use noisefall::{
     integrator::{Vertex, replay},
@@ -29,14 +27,6 @@ fn first_vertex(scene: &Scene, camera: &Camera, pixel: [u32; 2]) -> Option<Verte
     let rays = scene.rays(&Camera { lens: None, shutter, filter: Filter::tent(0.0), ..*camera });
     let settings = RenderSettings { max_bounces: Some(0), ..RenderSettings::default() };
     replay(scene, &rays, &settings, pixel, 0).vertices.into_iter().next()
-}
-
-/// The indices of the compiled objects that an object of the description was compiled to. They follow each other.
-pub fn compiled(scene: &Scene, described: usize) -> Range<u32> {
-    let is_of = |object: &noisefall::scene::Object| object.described as usize == described;
-    let first = scene.objects.iter().position(is_of).unwrap_or(0);
-    let count = scene.objects[first..].iter().take_while(|object| is_of(object)).count();
-    first as u32..(first + count) as u32
 }
 
 #[cfg(test)]
@@ -80,7 +70,7 @@ mod tests {
     #[test]
     fn an_object_is_found_among_the_compiled_ones() {
         let scene = scene();
-        assert_eq!([0, 1, 2].map(|described| compiled(&scene, described)), [1..2, 2..3, 0..1]);
-        assert!(compiled(&scene, 7).is_empty());
+        assert_eq!([0, 1, 2].map(|described| scene.objects_of(described)), [1..2, 2..3, 0..1]);
+        assert!(scene.objects_of(7).is_empty());
     }
 }

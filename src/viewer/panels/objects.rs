@@ -18,8 +18,8 @@ const KIND_WIDTH: f32 = 136.0;
 const MOST_ROWS: usize = 3;
 
 /// Shows the size and the material of the compiled objects of a part, the first ones of many.
-pub fn show(ui: &mut Ui, scene: &Scene, objects: Range<u32>) {
-    let objects = scene.objects.get(objects.start as usize..objects.end as usize).unwrap_or_default();
+pub fn show(ui: &mut Ui, scene: &Scene, objects: Range<usize>) {
+    let objects = &scene.objects[objects];
     Grid::new("objects").num_columns(2).spacing([12.0, 4.0]).show(ui, |ui| {
         for object in objects.iter().take(MOST_ROWS) {
             elided(ui, PLACE_WIDTH, RichText::new(place(object)).weak()).on_hover_text(place(object));
