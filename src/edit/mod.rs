@@ -51,6 +51,7 @@
 //! | rename an object | [`Edit::Set`] of its `name` |
 //! | assign a material; `None` is black | [`Document::assign`] |
 //! | reorder a list | [`Edit::Move`] |
+//! | give the scene the camera and the settings of a view | [`Document::use_view`] |
 //! | do several at once | [`Edit::All`] |
 //!
 //! | file | holds |
@@ -64,6 +65,7 @@
 //! | `origin.rs`, `save/` | what stands for which part of the file; writing it |
 //! | `kind.rs` | changes of kind that need more than the choice |
 //! | `names.rs`, `add.rs`, `pose.rs`, `rest.rs` | free names; new shapes and lamps; moving objects; dropping them to the floor |
+//! | `view.rs` | the camera and the settings of a view |
 //! | `outside.rs` | files that were changed outside |
 //! | `trial.rs` | random scenes, written and read |
 //! | `recovery.rs`, `templates.rs` | what survives a crash; scenes to begin with |
@@ -93,6 +95,7 @@ mod tests;
 mod tree;
 #[cfg(feature = "reports")]
 mod trial;
+mod view;
 mod walk;
 
 #[cfg(feature = "reports")]

@@ -11,6 +11,7 @@ mod random_edits;
 mod round_trips;
 mod saving;
 mod templates;
+mod view;
 
 use super::{Document, Edit, tree::Tree};
 use crate::{

@@ -11,9 +11,9 @@ use crate::viewer::dialogs::{
     unsaved::Leaving,
 };
 use crate::viewer::panels::{
-    add_menu,
     inspector::{Asked, Drag, Request, Surroundings},
-    objects,
+    objects, scene_commands,
+    scene_commands::SceneCommand,
 };
 use crate::viewer::widgets::style::section;
 
@@ -22,14 +22,9 @@ impl App {
     pub fn editor_panel(&mut self, ui: &mut Ui) {
         let Some(editor) = &mut self.editor else { return };
         let description = editor.document.description();
-        let (mut asked, mut new, mut template, mut saves_as) = (Default::default(), None, None, false);
+        let (mut asked, mut command) = (Default::default(), None);
         section(ui, "Parts", |ui| {
-            ui.horizontal(|ui| {
-                new = add_menu::show(ui);
-                template = add_menu::new_scene(ui);
-                let doc = "Saves the scene to another file. Ctrl+S saves it to its own.";
-                saves_as = ui.button("Save scene as…").on_hover_text(doc).clicked();
-            });
+            command = scene_commands::show(ui);
             asked = editor.outliner.show(ui, description, editor.revision, self.selection.subject.as_ref());
         });
         if let Some(subject) = asked.selected {
@@ -38,12 +33,23 @@ impl App {
         if let Some((subject, action)) = asked.action {
             self.act_on(subject, action);
         }
-        new.into_iter().for_each(|new| self.add(new));
-        template.into_iter().for_each(|template| self.ask_to_leave(Leaving::New(template)));
-        if saves_as {
-            self.ask_where_to_save();
+        match command {
+            Some(SceneCommand::Add(new)) => self.add(new),
+            Some(SceneCommand::Begin(template)) => self.ask_to_leave(Leaving::New(template)),
+            Some(SceneCommand::UseView) => self.use_view(),
+            Some(SceneCommand::SaveAs) => self.ask_where_to_save(),
+            None => {}
         }
         self.inspector(ui);
+    }
+
+    /// Gives the scene the camera and the settings of the window.
+    pub fn use_view(&mut self) {
+        let edit = |editor: &SceneEditor| editor.document.use_view(&self.session.camera, &self.session.settings);
+        match self.editor.as_ref().and_then(edit) {
+            Some(edit) => _ = self.edit(&edit),
+            None => self.tell("The scene has this camera and these settings".to_owned(), false),
+        }
     }
 
     fn inspector(&mut self, ui: &mut Ui) {

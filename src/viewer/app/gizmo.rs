@@ -15,8 +15,9 @@ impl App {
     /// Gives the gizmo its keys, before the window looks at its own: while the pointer is over the picture.
     pub fn take_gizmo_keys(&mut self) {
         let is_free = !self.dialogs.wait() && self.has_gizmo();
-        if is_free && (self.window.hovered.is_some() || self.selection.gizmo.is_active()) {
-            self.selection.gizmo.take_keys(&self.ctx);
+        let gizmo = &mut self.selection.gizmo;
+        if is_free && (self.window.hovered.is_some() || gizmo.has_pointer() || gizmo.is_active()) {
+            gizmo.take_keys(&self.ctx);
         }
     }
 

@@ -1,5 +1,4 @@
 //! Panels: each shows what it is given, and returns what was asked for.
-pub mod add_menu;
 pub mod camera;
 pub mod display;
 pub mod frame_times;
@@ -11,6 +10,7 @@ pub mod pixel_readout;
 pub mod presets;
 pub mod sampling;
 pub mod scene;
+pub mod scene_commands;
 pub mod status_bar;
 pub mod stop;
 pub mod subject;

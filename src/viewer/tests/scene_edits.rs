@@ -166,6 +166,9 @@ fn the_gizmo_moves_the_object_by_keys_and_escape_takes_it_back() {
     assert_eq!(center(&window, AMBER_BALL), start);
     // It is one step: before it nothing was edited.
     assert!(!window.state().has_unsaved_changes());
+    // Over a handle too.
+    window.hover_at(at);
+    window.run_steps(2);
     press(&mut window, Key::G);
     window.hover_at(at + vec2(60.0, 120.0));
     window.run_steps(3);

@@ -57,6 +57,23 @@ fn saving_writes_the_changed_line_and_no_other_and_the_title_says_what_is_unsave
 }
 
 #[test]
+fn the_view_of_the_window_is_saved_when_the_scene_is_given_it() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (mut window, path, text) = window_of_copy(folder.path());
+    window.state_mut().session.camera.resolution = [720, 720];
+    window.state_mut().session.camera.eye.x = 0.5;
+    window.run_steps(2);
+    assert!(!window.state().has_unsaved_changes(), "a move of the camera changes no scene");
+    let moved = window.state().session.camera;
+    window.state_mut().use_view();
+    save(&mut window);
+    let saved = std::fs::read_to_string(&path).expect("it is there");
+    assert_eq!(saved, text.replace("eye = [0.0, 1.0, 4.0]", "eye = [0.5, 1.0, 4.0]"));
+    wait(&mut window, "the edit", |app| app.session.waiting_edit.is_none() && !app.background.worker.is_editing());
+    assert_eq!(window.state().session.camera, moved);
+}
+
+#[test]
 fn a_scene_without_a_file_asks_where_to_save() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = open(None);

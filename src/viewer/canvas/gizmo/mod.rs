@@ -70,6 +70,11 @@ impl Gizmo {
         self.operation.is_some() || self.presses.iter().any(|press| matches!(press, Press::Start(_)))
     }
 
+    /// Whether the pointer is over a handle.
+    pub fn has_pointer(&self) -> bool {
+        self.hovered.is_some()
+    }
+
     /// Gives the operation up: the selection is another one.
     pub fn reset(&mut self) {
         *self = Gizmo { mode: self.mode, ..Gizmo::default() };

@@ -1,0 +1,71 @@
+//! The buttons over the list of parts: they add parts, begin new scenes, and save this one.
+use egui::Ui;
+use noisefall::{
+    declare::OneOf,
+    edit::{TEMPLATES, Template},
+    shape::ShapeKind,
+};
+
+use super::outliner::New;
+
+/// What a button asks for.
+#[derive(Clone, Copy, Debug)]
+pub enum SceneCommand {
+    Add(New),
+    Begin(Template),
+    /// Give the scene the camera and the settings of the window.
+    UseView,
+    SaveAs,
+}
+
+/// Shows the buttons.
+pub fn show(ui: &mut Ui) -> Option<SceneCommand> {
+    let parts = ui.horizontal(|ui| {
+        let add = add_menu(ui).map(SceneCommand::Add);
+        let begin = template_menu(ui).map(SceneCommand::Begin);
+        add.or(begin)
+    });
+    let file = ui.horizontal(|ui| {
+        let doc = "Gives the scene the camera and the settings of the window. Ctrl+S then saves them.";
+        let uses_view = ui.button("Use this view").on_hover_text(doc).clicked().then_some(SceneCommand::UseView);
+        let doc = "Saves the scene to another file. Ctrl+S saves it to its own.";
+        uses_view.or(ui.button("Save scene as…").on_hover_text(doc).clicked().then_some(SceneCommand::SaveAs))
+    });
+    parts.inner.or(file.inner)
+}
+
+fn add_menu(ui: &mut Ui) -> Option<New> {
+    let menu = ui.menu_button("Add", |ui| {
+        let shape = ui.menu_button("Shape", |ui| kinds(ui).map(New::Shape)).inner.flatten();
+        let lamp = ui.menu_button("Lamp", |ui| kinds(ui).map(New::Lamp)).inner.flatten();
+        let material = ui.button("Material").clicked().then_some(New::Material);
+        let texture = ui.button("Texture").clicked().then_some(New::Texture);
+        shape.or(lamp).or(material).or(texture)
+    });
+    menu.response.on_hover_text("Adds an object where you clicked last in the image, or a material or a texture.");
+    menu.inner.flatten()
+}
+
+fn template_menu(ui: &mut Ui) -> Option<Template> {
+    let menu = ui.menu_button("New scene", |ui| {
+        let mut chosen = None;
+        for template in TEMPLATES {
+            if ui.button(template.title).on_hover_text(template.doc).clicked() {
+                chosen = Some(template);
+            }
+        }
+        chosen
+    });
+    menu.response.on_hover_text("Opens a new scene in place of this one.");
+    menu.inner.flatten()
+}
+
+fn kinds(ui: &mut Ui) -> Option<&'static str> {
+    let mut chosen = None;
+    for kind in ShapeKind::alternatives() {
+        if ui.button(kind.name().replace('_', " ")).on_hover_text(kind.about().doc).clicked() {
+            chosen = Some(kind.name());
+        }
+    }
+    chosen
+}
