@@ -35,7 +35,8 @@ pub fn moved(
         } else if response.dragged_by(PointerButton::Primary) {
             moved = orbit(scene, &moved, [-x * RADIANS_PER_POINT, y * RADIANS_PER_POINT]);
         }
-        if response.hovered() {
+        // Over a handle of the gizmo too.
+        if response.contains_pointer() {
             moved = dolly(scene, &moved, 1.0 / f64::from(wheel_factor(ui)));
         }
     }

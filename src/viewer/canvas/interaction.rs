@@ -68,14 +68,16 @@ pub fn show(
     }
     // A drag may leave the picture that it began in.
     let distance = |area: &&PictureArea, at: Pos2| area.clip.distance_sq_to_pos(at);
-    let pointer = response.interact_pointer_pos().or(response.hover_pos());
+    // A handle of the gizmo takes clicks and drags, not the pixel under the pointer or the wheel.
+    let over = response.contains_pointer().then(|| ui.input(|input| input.pointer.hover_pos())).flatten();
+    let pointer = response.interact_pointer_pos().or(over);
     let under = pointer.and_then(|at| areas.iter().min_by(|a, b| distance(a, at).total_cmp(&distance(b, at))));
     let under = *under.unwrap_or(&areas[0]);
     if !wiped {
-        move_picture(ui, &response, tool, view, under.clip);
+        move_picture(ui, &response, over, tool, view, under.clip);
     }
-    let hovered = response.hover_pos().and_then(|at| under.pixel(at));
-    let over_second = response.hover_pos().is_some_and(|at| is_second(at, &pictures, &areas, view));
+    let hovered = over.and_then(|at| under.pixel(at));
+    let over_second = over.is_some_and(|at| is_second(at, &pictures, &areas, view));
     let moves = [tool == Tool::Camera && !wiped, keys];
     CanvasOutput {
         hovered,
@@ -106,13 +108,13 @@ fn marked(ui: &egui::Ui, response: &Response, area: &PictureArea, view: &mut Pic
     Some((Region::between(from?, area.nearest_pixel(to)), ended))
 }
 
-fn move_picture(ui: &egui::Ui, response: &Response, tool: Tool, view: &mut PictureView, area: Rect) {
+fn move_picture(ui: &egui::Ui, response: &Response, over: Option<Pos2>, tool: Tool, view: &mut PictureView, area: Rect) {
     let pixels_per_point = ui.ctx().pixels_per_point();
     let moves = matches!(tool, Tool::Picture | Tool::Inspect);
     if (moves && response.dragged_by(PointerButton::Primary)) || response.dragged_by(PointerButton::Middle) {
         view.pan(response.drag_delta(), pixels_per_point);
     }
-    if let Some(pointer) = response.hover_pos() {
+    if let Some(pointer) = over {
         let wheel = if tool == Tool::Camera { 1.0 } else { wheel_factor(ui) };
         let factor = ui.input(egui::InputState::zoom_delta) * wheel;
         if factor != 1.0 {

@@ -228,7 +228,7 @@ fn the_camera_of_the_scene_is_edited_and_the_window_follows_without_a_step() {
 #[test]
 fn an_object_drops_to_the_floor() {
     let mut window = window("cornell_spheres");
-    let lift = Transform::Translate(DVec3::Y);
+    let lift = Transform::Translate(DVec3::Y * 0.3);
     let editor = window.state().editor.as_ref().expect("a scene is open");
     let edit = editor.document.transformed(AMBER_BALL, &lift, DVec3::ZERO).expect("it is there");
     edits(&mut window, "the ball in the air", |w| {

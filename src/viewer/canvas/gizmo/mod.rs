@@ -89,7 +89,8 @@ impl Gizmo {
         let pivot = self.operation.as_ref().map_or(pivot, |operation| operation.pivot);
         let ended = self.follow_keys(pivot, area.place(pointer));
         let handles = handles::handles(self.mode, pivot, camera, area);
-        if self.operation.is_none() {
+        // A drag belongs to the handle that it began on, though the pointer has left it.
+        if self.operation.is_none() && !ui.input(|input| input.pointer.any_down()) {
             self.hovered = handles::under(&handles, pointer).filter(|_| is_over).map(|handle| handle.lock);
         }
         let response = self.interact(ui, area, pointer);
