@@ -23,7 +23,7 @@ impl Document {
         if rendered != *render {
             edits.push(Edit::Replace { path: Path::of("render"), tree: Tree::of(&mut rendered) });
         }
-        (!edits.is_empty()).then(|| Edit::All(edits))
+        (!edits.is_empty()).then_some(Edit::All(edits))
     }
 }
 
