@@ -80,7 +80,7 @@ impl Loaded<'_> {
             return Ok(());
         }
         let said = |of: &Loaded| format!("{} is {} × {}", of.path.display(), of.picture.width, of.picture.height);
-        Err(format!("the pictures differ in size: {}, {}", said(self), said(other)))
+        Err(format!("the images differ in size: {}, {}", said(self), said(other)))
     }
 }
 
@@ -137,7 +137,7 @@ fn room(like: &Picture, pictures: usize) -> Result<Reservation, TooMuch> {
     const DIFFERENCE: u64 = 2 * (12 + 7) + 12 + 36;
     let [width, height] = [like.width, like.height].map(u64::from);
     let bytes = (PICTURE * pictures as u64 + DIFFERENCE + flip::BYTES_OF_PIXEL) * width * height;
-    reserve(format_args!("{pictures} pictures of {width} × {height} pixels and their difference"), bytes)
+    reserve(format_args!("{pictures} images of {width} × {height} pixels and their difference"), bytes)
 }
 
 /// Repeats of one seed have the same noise. Images without noise may be equal if their seeds differ.

@@ -19,7 +19,7 @@ use super::messages::{Failure, print, tell};
 
 /// File name that means standard output.
 const STREAM: &str = "-";
-const ADVICE: &str = "`-o - --format png` writes the picture to standard output";
+const ADVICE: &str = "`-o - --format png` writes the image to standard output";
 
 #[derive(Debug, PartialEq)]
 pub enum Output {
@@ -57,7 +57,7 @@ impl Output {
             Output::Stream(_) if stdout().is_terminal() => {
                 Err("standard output is a terminal: redirect it to a file, as in `-o - --format png > picture.png`".to_owned())
             }
-            Output::Stream(_) if is_closed() => Err("standard output is closed: the picture would be lost".to_owned()),
+            Output::Stream(_) if is_closed() => Err("standard output is closed: the image would be lost".to_owned()),
             Output::Stream(_) => Ok(()),
         }
     }
@@ -119,7 +119,7 @@ fn advise(error: ImageError) -> Failure {
 fn rescue(error: &str, name: &str, save: impl Fn(&Path) -> Result<(), ImageError>) -> Failure {
     let candidates = (0..).map(|i| std::env::temp_dir().join(format!("noisefall-{}-{i}-{name}", std::process::id())));
     let saved = { candidates }.find(|path| !path.exists()).filter(|path| save(path).is_ok());
-    saved.map_or_else(|| error.to_owned(), |path| format!("{error}\nthe picture was saved as {} instead", path.display()))
+    saved.map_or_else(|| error.to_owned(), |path| format!("{error}\nthe image was saved as {} instead", path.display()))
 }
 
 /// Whether standard output was closed when the program started. Rust then opens `/dev/null` in its place for reading and writing;
@@ -164,7 +164,7 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let output = Output::File(folder.path().join("gone/out.exr"));
         let error = output.write(&frame(), Display::default(), "{}").expect_err("there is no such folder");
-        let (reason, rescued) = error.split_once("\nthe picture was saved as ").expect("it is saved");
+        let (reason, rescued) = error.split_once("\nthe image was saved as ").expect("it is saved");
         assert!(reason.contains("there is no folder"), "{error}");
         let rescued = Path::new(rescued.strip_suffix(" instead").expect("the end of the message"));
         assert_eq!(noisefall::render::image_file::read(rescued).expect("it is a picture").radiance, [[1.0; 3]]);

@@ -15,7 +15,7 @@ pub fn render(threads: Threads, request: RenderRequest, budget: Budget, quiet: b
     });
     renderer.set_budget(budget);
     renderer.submit(1, request);
-    let stop = stop_signal("interrupted: saving the picture as it is (once more to give up)")?;
+    let stop = stop_signal("interrupted: saving the unfinished image (interrupt again to stop at once)")?;
     let bar = if quiet { ProgressBar::hidden() } else { progress_bar(&budget) };
     loop {
         if woken.recv_timeout(Duration::from_millis(200)) == Err(RecvTimeoutError::Disconnected) {

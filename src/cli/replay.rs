@@ -60,7 +60,7 @@ pub fn run(
 ) -> Result<(), Failure> {
     let [width, height] = camera.resolution;
     if pixel[0] >= width || pixel[1] >= height {
-        return Err(format!("pixel {},{} lies outside the picture of {width} × {height}", pixel[0], pixel[1]));
+        return Err(format!("pixel {},{} lies outside the image of {width} × {height}", pixel[0], pixel[1]));
     }
     let rays = scene.rays(camera);
     let pixel = Pixel { scene, camera, settings: resolved(scene, &rays, settings), rays, pixel };

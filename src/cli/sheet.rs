@@ -20,7 +20,7 @@ use super::{
 };
 
 const NOTES: &str = "\
-Each combination of the lists is one image. A list that is not given has the scene's value. All images have the same seed.
+Each combination of the lists is one image. A list that is not given takes the scene's value. All images have the same seed.
 
 Example: noisefall sheet scenes/cornell_box.toml -o sheet.png --spp 1,4,16,64 --estimators path,mis";
 
@@ -72,7 +72,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     sheet::check(camera.resolution, columns, u32::try_from(pictures).unwrap_or(u32::MAX))?;
     // 10 bytes per pixel: the cells, and the sheet with its margins.
     let _memory =
-        reserve(format_args!("{pictures} pictures of {width} × {height}"), pictures * u64::from(width) * u64::from(height) * 10)
+        reserve(format_args!("{pictures} images of {width} × {height}"), pictures * u64::from(width) * u64::from(height) * 10)
             .and_then(|cells| Film::reserve(camera.resolution).map(|film| (cells, film)))
             .map_err(|error| error.to_string())?;
     let threads = Threads::new(arguments.threads.into(), SimdLevel::best()).map_err(|error| error.to_string())?;
@@ -85,7 +85,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
             let title = [scene.title.clone(), common].into_iter().filter(|line| !line.is_empty()).collect::<Vec<_>>();
             let png = threads.install(|| sheet::sheet(camera.resolution, columns, &title, &cells))?;
             replace(&arguments.output, &png).map_err(|error| error.to_string())?;
-            print(&format!("{}: {pictures} pictures of {width} × {height}", arguments.output.display()))?;
+            print(&format!("{}: {pictures} images of {width} × {height}", arguments.output.display()))?;
             Ok(ExitCode::SUCCESS)
         }
         Err(StudyError::Interrupted) => Ok(ExitCode::from(INTERRUPTED)),
@@ -95,7 +95,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
 
 /// Renders the images. Those of one combination come from one render, which pauses at each number of samples.
 fn cells(arguments: &Arguments, bench: &Bench, combinations: &[RenderSettings], spp: &[u32]) -> Result<Vec<Cell>, StudyError> {
-    let style = ProgressStyle::with_template("{bar:30} {pos}/{len} pictures  {elapsed} elapsed, {eta} left");
+    let style = ProgressStyle::with_template("{bar:30} {pos}/{len} images  {elapsed} elapsed, {eta} left");
     let bar = ProgressBar::new((combinations.len() * spp.len()) as u64);
     bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
     let (_, labels) = differing_labels(combinations);
@@ -106,7 +106,7 @@ fn cells(arguments: &Arguments, bench: &Bench, combinations: &[RenderSettings], 
             let (took, count) = bench.pass(settings, &mut film, *spp)?;
             elapsed += took;
             if count.cut_paths > 0 {
-                tell(&format!("warning: {label}: {} paths were cut: the picture is biased; use roulette", count.cut_paths));
+                tell(&format!("warning: {label}: {} paths were cut: the image is biased; use roulette", count.cut_paths));
             }
             let mut pixels = Vec::new();
             to_srgb(&bench.frame(&film).radiance, arguments.display.display(), &mut pixels);

@@ -31,7 +31,7 @@ Renders each scene several times with each combination of the lists, and compare
 scene's [truth], else the image NAME.ref.exr beside NAME.toml, else a converged render, which is made first and kept in DIR.
 
 Default lists: --estimators path,light,mis --directions uniform,cosine,bsdf --samplers \
-independent,stratified,sobol --roulette off,0.8,throughput --max-bounces none. Path reuse and adaptive sampling are as the scene has them.
+independent,stratified,sobol --roulette off,0.8,throughput --max-bounces none. Path reuse and adaptive sampling follow the scene.
 
 DIR gets study.csv with a line per measurement, and report.html with error against time and samples, slopes, efficiencies and the best \
 settings of each scene. Measurements in DIR are not repeated, so the same command continues an interrupted study.
@@ -74,7 +74,7 @@ pub struct Arguments {
 
 pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     if arguments.reference.is_some() && arguments.scenes.len() > 1 {
-        let mistake = format!("--reference is the picture of one scene, and {} are given", arguments.scenes.len());
+        let mistake = format!("--reference is the image of one scene, but {} scenes are given", arguments.scenes.len());
         return Ok(wrong_usage(&mistake));
     }
     [folder::REPORT, CSV].into_iter().try_for_each(|name| folder::make(&arguments.output, name))?;

@@ -39,13 +39,11 @@ impl Done<'_> {
             notes.push(format!("warning: {invalid_samples} invalid samples were dropped; the first one: {replay}"));
         }
         if self.frame.is_black() {
-            notes.push(format!("note: the picture is entirely black: {}", self.scene.why_black(camera, self.settings)));
+            notes.push(format!("note: the image is entirely black: {}", self.scene.why_black(camera, self.settings)));
         }
         if *cut_paths > 0 {
             let longest = self.settings.last_bounce();
-            notes.push(format!(
-                "warning: {cut_paths} paths were cut after {longest} bounces: the picture is biased; use roulette"
-            ));
+            notes.push(format!("warning: {cut_paths} paths were cut after {longest} bounces: the image is biased; use roulette"));
         }
         if let Some(contradiction) = &self.contradiction {
             let why = self.status.bias(self.settings).map_or_else(String::new, |why| format!(" (it is biased: {why})"));
@@ -229,7 +227,7 @@ mod tests {
         let all = notes(&status(State::Done(Target::Time)), &frame(0.0));
         assert_eq!(all.len(), 3);
         assert_eq!(all[0], "warning: 4 invalid samples were dropped; the first one: noisefall render a.toml --pixel 1,0");
-        assert!(all[1].starts_with("note: the picture is entirely black: "), "{}", all[1]);
+        assert!(all[1].starts_with("note: the image is entirely black: "), "{}", all[1]);
         assert!(all[2].starts_with(&format!("warning: 6 paths were cut after {}", RenderSettings::LONGEST_PATH)), "{}", all[2]);
         assert_eq!(notes(&Status { cut_paths: 0, ..status(State::Paused) }, &frame(1.0)).len(), 1);
     }

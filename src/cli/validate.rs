@@ -26,7 +26,7 @@ pub struct Arguments {
     /// Folder for report.html, report.csv, report.json and the figures as SVG; created if it does not exist
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
-    /// Take fewer samples or scenes, which needs less than half a minute
+    /// Use fewer samples or scenes; takes less than half a minute
     #[arg(long)]
     quick: bool,
     /// Render more than two thousand adversarial scenes instead; those that fail are written to DIR/stress

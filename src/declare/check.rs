@@ -43,7 +43,7 @@ pub fn check_value(parameter: &Parameter, value: &Value<'_>) -> Option<Problem> 
         Value::Colour(rgb, range) => colour(rgb, range),
         Value::Textured(Textured::Constant(rgb), range) => colour(rgb, range),
         Value::Point(point) if !point.to_array().iter().all(|x| x.abs() <= FARTHEST) => {
-            let label = format!("coordinates must be finite and at most {FARTHEST:e} in size");
+            let label = format!("coordinates must be finite and at most {FARTHEST:e} in magnitude");
             Some(Problem::at("", format!("`{key}` is not a position"), label))
         }
         _ => None,

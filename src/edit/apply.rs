@@ -53,13 +53,13 @@ impl Content {
                 appeared.map(|path| remove(&mut self.description, &path));
                 Err(match failure {
                     Failure::Missing => nothing_at(path),
-                    Failure::Type => Problem::at("", format!("`{path}` takes another type of value"), "wrong type").within(path),
+                    Failure::Type => Problem::at("", format!("`{path}` needs another type of value"), "wrong type").within(path),
                 })
             }
             Edit::Insert { path, tree, origin } => {
                 let is_item = matches!(path.0.last(), Some(Step::Item(_)));
                 if !is_item && Tree::at(&mut self.description, path).is_some() {
-                    return Err(Problem::at("", format!("there is a `{path}` already"), "it exists").within(path));
+                    return Err(Problem::at("", format!("there is already a `{path}`"), "it exists").within(path));
                 }
                 if !insert(&mut self.description, path, tree.as_ref()) {
                     return Err(nothing_at(path));
@@ -128,7 +128,7 @@ impl Content {
         }
         let is_back = replace(&mut self.description, path, &before);
         debug_assert!(is_back, "what was at {path} fits there");
-        Err(Problem::at("", format!("`{path}` takes other values"), "this does not fit").within(path))
+        Err(Problem::at("", format!("`{path}` cannot hold this value"), "this does not fit").within(path))
     }
 
     fn rename(&mut self, path: &Path, to: &str) -> Done {
@@ -142,7 +142,7 @@ impl Content {
             return Err(Problem::at("", "the name is empty", "expected a name").within(path));
         }
         if Tree::at(&mut self.description, &renamed).is_some() {
-            return Err(Problem::at("", format!("there is a `{renamed}` already"), "choose another name").within(path));
+            return Err(Problem::at("", format!("there is already a `{renamed}`"), "choose another name").within(path));
         }
         let tree = Tree::at(&mut self.description, path).ok_or_else(|| nothing_at(path))?;
         let is_done = remove(&mut self.description, path) && insert(&mut self.description, &renamed, Some(&tree));

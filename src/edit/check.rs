@@ -62,10 +62,10 @@ pub fn in_use(description: &mut SceneDescription, path: &Path) -> Option<Problem
     let first = users.first()?.clone();
     let message = match users.len() {
         1 => format!("the {what} `{name}` is in use"),
-        count => format!("the {what} `{name}` is in use in {count} places"),
+        count => format!("the {what} `{name}` is used in {count} places"),
     };
     let problem = Problem::at("", message, "it is used here");
-    Some(problem.within(&first).help(format!("give another {what} in its place first")))
+    Some(problem.within(&first).help(format!("use another {what} there first")))
 }
 
 struct Checker<'p> {

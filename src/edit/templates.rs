@@ -15,7 +15,7 @@ pub struct Template {
 pub const TEMPLATES: [Template; 3] = [
     Template {
         title: "Empty room",
-        doc: "Four walls, a window side that is open, and a lamp in the ceiling.",
+        doc: "A room without its front wall, lit by a lamp below the ceiling.",
         text: include_str!("templates/empty_room.toml"),
     },
     Template {
@@ -25,7 +25,7 @@ pub const TEMPLATES: [Template; 3] = [
     },
     Template {
         title: "Furnace",
-        doc: "A ball under the same light from everywhere: a material that loses no light cannot be seen.",
+        doc: "A ball in uniform light: a material that absorbs nothing is invisible.",
         text: include_str!("templates/furnace.toml"),
     },
 ];

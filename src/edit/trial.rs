@@ -65,7 +65,7 @@ pub fn write_and_read(random: &mut dyn RngCore) -> Result<(), String> {
     let mut content = Content::new(text.clone(), read(&text)?);
     same(&content.description, &file, &text)?;
     if save::text(&content) != text {
-        return Err(format!("a file without changes is another one:\n{text}"));
+        return Err(format!("writing a file without changes altered it:\n{text}"));
     }
     content.origins = random_origins(random, &file, &scene);
     content.description = scene;

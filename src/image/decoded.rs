@@ -15,7 +15,7 @@ use crate::{
 };
 
 /// What the memory of a decoder is called in messages.
-const BYTES: &str = "the bytes of a picture";
+const BYTES: &str = "the bytes of an image";
 /// Maximum memory for chunks of a PNG that are not pixels, such as the text of a scene.
 const CHUNKS: u64 = 64 << 20;
 /// Bytes per pixel that decoders keep besides the result: JPEG four components of two bytes, WebP two images of four bytes, TGA indices

@@ -78,7 +78,7 @@ fn read_row(file: &mut impl BufRead, row: &mut [Rgbe]) -> Result<(), ImageFormat
     match first {
         [2, 2, high, low] if high < 128 && PACKED_WIDTHS.contains(&row.len()) => {
             if usize::from(u16::from_be_bytes([high, low])) != row.len() {
-                return Err(ImageFormatError::broken("a row has another width than the picture"));
+                return Err(ImageFormatError::broken("a row has another width than the image"));
             }
             (0..4).try_for_each(|channel| read_channel(file, row, channel))
         }

@@ -108,19 +108,19 @@ pub enum ImageFormatError {
     #[error("cannot be read: {0}")]
     Unreadable(String),
     /// The format is not known.
-    #[error("not a picture: expected PNG, JPEG, TGA, WebP, OpenEXR or Radiance HDR")]
+    #[error("not an image: expected PNG, JPEG, TGA, WebP, OpenEXR or Radiance HDR")]
     NotAPicture,
     /// Width or height is 0.
-    #[error("the picture is {0} × {1}: it has no pixels")]
+    #[error("the image is {0} × {1}: it has no pixels")]
     Empty(u64, u64),
     /// The size exceeds the limits of this module.
-    #[error("the picture is {0} × {1}: a side may have {LONGEST_SIDE} pixels and the whole {MOST_PIXELS}")]
+    #[error("the image is {0} × {1}: a side may have {LONGEST_SIDE} pixels and the whole {MOST_PIXELS}")]
     TooLarge(u64, u64),
     /// The size exceeds the memory that is left.
     #[error(transparent)]
     TooMuch(#[from] TooMuch),
     /// The pixel at this column and row is no radiance.
-    #[error("the pixel at column {0}, row {1} is no amount of light: it must be a number up to {BRIGHTEST:e}")]
+    #[error("the pixel at column {0}, row {1} is not a radiance: it must be a number up to {BRIGHTEST:e}")]
     NotLight(usize, usize),
 }
 
@@ -163,16 +163,16 @@ pub fn read_light(path: &Path, encoding: Encoding) -> Result<Texels, PictureErro
 }
 
 /// The result of [`looks_like`] for a PNG.
-pub const PNG: &str = "a PNG picture";
+pub const PNG: &str = "a PNG image";
 
 /// Guesses the format of a file from its first bytes, among formats that are often confused.
 pub fn looks_like(start: &[u8]) -> Option<&'static str> {
     const KINDS: [(&[u8], &str); 8] = [
         (b"\x89PNG", PNG),
-        (b"\x76\x2f\x31\x01", "an OpenEXR picture"),
-        (b"#?RADIANCE", "a Radiance HDR picture"),
-        (b"#?RGBE", "a Radiance HDR picture"),
-        (b"\xff\xd8\xff", "a JPEG picture"),
+        (b"\x76\x2f\x31\x01", "an OpenEXR image"),
+        (b"#?RADIANCE", "a Radiance HDR image"),
+        (b"#?RGBE", "a Radiance HDR image"),
+        (b"\xff\xd8\xff", "a JPEG image"),
         (b"PK\x03\x04", "a ZIP archive"),
         (b"\x1f\x8b", "a gzip archive"),
         (b"\x7fELF", "a program"),

@@ -60,14 +60,15 @@ impl Declare for Dielectric {
         const IOR_OUTSIDE: Parameter =
             Parameter::new("ior_outside", "Index of refraction on the side of the normal.").symbol("η'");
         const TRANSMITTANCE: Parameter =
-            Parameter::new("transmittance", "Fraction of the light that passes a metre of the interior.")
+            Parameter::new("transmittance", "Fraction of the light that one metre of the interior transmits.")
                 .symbol("T")
                 .unit("1/m")
                 .aliases("tint absorption");
         p.number(&IOR, &mut self.ior, Range::INDEX);
         p.number(&IOR_OUTSIDE, &mut self.ior_outside, Range::INDEX);
         p.one_of(&mut self.roughness);
-        let range = Range::UNIT.expected("every channel must lie in [0, 1]: what a metre of the interior lets pass");
+        let range =
+            Range::UNIT.expected("every channel must lie in [0, 1]: the fraction that one metre of the interior transmits");
         p.colour(&TRANSMITTANCE, &mut self.transmittance, range);
         p.flag(&ENERGY_COMPENSATION, &mut self.energy_compensation);
     }

@@ -45,11 +45,11 @@ impl Declare for ThinDielectric {
             .required()
             .aliases("eta index index_of_refraction refraction");
         const TRANSMITTANCE: Parameter =
-            Parameter::new("transmittance", "Fraction of the light that crosses the inside of the pane at a right angle.")
+            Parameter::new("transmittance", "Fraction of the light that the inside of the pane transmits at normal incidence.")
                 .symbol("t")
                 .aliases("tint absorption color colour");
         p.number(&IOR, &mut self.ior, Range::INDEX);
-        let range = Range::UNIT.expected("every channel must lie in [0, 1]: what a crossing lets pass");
+        let range = Range::UNIT.expected("every channel must lie in [0, 1]: the fraction that one crossing transmits");
         p.colour(&TRANSMITTANCE, &mut self.transmittance, range);
     }
 }

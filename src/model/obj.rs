@@ -39,7 +39,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Model, ModelFormatError> {
 fn text(bytes: &[u8]) -> Result<Cow<'_, str>, ModelFormatError> {
     if let Some(at) = bytes.iter().position(|byte| *byte == 0) {
         let lines = bytes[..at].iter().filter(|byte| **byte == b'\n').count();
-        return Err(Place::Line(lines + 1).broken("this is not text, or none whose characters are those of ASCII"));
+        return Err(Place::Line(lines + 1).broken("this is not text in an encoding that extends ASCII"));
     }
     Ok(String::from_utf8_lossy(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)))
 }

@@ -35,7 +35,7 @@ impl Film {
         /// Bytes per pixel: sums, squares and means in the film; means and errors in up to two frames; display codes; and the
         /// file.
         const PIXEL: u64 = 60 + 2 * 20 + 4 + 24;
-        memory::reserve(format_args!("pictures of {width} × {height} pixels"), PIXEL * u64::from(width) * u64::from(height))
+        memory::reserve(format_args!("images of {width} × {height} pixels"), PIXEL * u64::from(width) * u64::from(height))
     }
 
     /// Bytes of a film without its frames: sums, squares and means.
@@ -46,7 +46,7 @@ impl Film {
     /// Reserves memory for a film without its frames.
     pub(super) fn reserve_kept(resolution: [u32; 2]) -> Result<Reservation, TooMuch> {
         let [width, height] = resolution;
-        memory::reserve(format_args!("earlier pictures of {width} × {height} pixels"), Self::kept_bytes(resolution))
+        memory::reserve(format_args!("earlier images of {width} × {height} pixels"), Self::kept_bytes(resolution))
     }
 
     /// Reserves memory for the series by bounces of an image of this size.

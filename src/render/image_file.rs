@@ -24,7 +24,7 @@ pub enum ImageError {
     #[error(transparent)]
     Write(#[from] WriteError),
     /// The image does not fit the format.
-    #[error("the picture cannot be encoded: {0}")]
+    #[error("the image cannot be encoded: {0}")]
     Encode(String),
     /// The file cannot be read.
     #[error(transparent)]
@@ -114,7 +114,7 @@ fn write_exr(frame: &Frame, settings: &str, to: &mut Vec<u8>) -> Result<(), Stri
     let mut attributes = LayerAttributes::named("");
     attributes.layer_name = None;
     attributes.software_name = Some(Text::from("Noisefall"));
-    let text = Text::new_or_none(settings).ok_or("the settings are not Latin-1 text, and EXR knows no other")?;
+    let text = Text::new_or_none(settings).ok_or("the settings are not Latin-1 text, which is all that EXR can store")?;
     attributes.other.insert(Text::from(SETTINGS_KEY), AttributeValue::Text(text));
     let channels = noise_layer::channels(frame);
     let layer = Layer::new(size, attributes, exr::prelude::Encoding::FAST_LOSSLESS, channels);

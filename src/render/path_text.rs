@@ -30,7 +30,7 @@ pub fn text(id: &PathId, replay: &Replay) -> String {
     text += &format!("\nThe path {}.", replay.end.name());
     if let Some(alone) = replay.alone {
         text += &format!(
-            "\nThis path alone would have made it {}: pixels share what their paths find (--reuse off: none does).",
+            "\nThis path alone would have made it {}: pixels share path suffixes (--reuse off stops that).",
             three(alone)
         );
     }
@@ -41,7 +41,7 @@ pub fn text(id: &PathId, replay: &Replay) -> String {
 pub fn latex(id: &PathId, replay: &Replay) -> String {
     let heading = heading(id, replay);
     let comments: String = heading.lines().map(|line| format!("% {line}\n")).collect();
-    let shared = replay.alone.map_or("", |_| "% Pixels share what their paths find: the sum is that of this path alone.\n");
+    let shared = replay.alone.map_or("", |_| "% Pixels share path suffixes: the sum is that of this path alone.\n");
     format!("{comments}% The path {}.\n{shared}{}", replay.end.name(), path_formula::latex(replay))
 }
 
@@ -137,7 +137,7 @@ fn next(reflection: &Reflection, term: &mut impl FnMut(&str, &str)) {
     let end = match reflection {
         Reflection { goes_on: true, throughput, .. } => format!("goes on with {}", three(*throughput)),
         Reflection { survives: false, survival, .. } if *survival < 1.0 => "ended by roulette".to_owned(),
-        _ => "ends: nothing would come of it".to_owned(),
+        _ => "ends: no light can follow".to_owned(),
     };
     term("", &format!("{played}{end}"));
 }
@@ -195,12 +195,7 @@ mod tests {
         for (front, outcome, [goes_on, survives], parts) in [
             (true, Outcome::Seen, [true, true], [", front, ", "is seen, adds 0.50000 2.00000 3.00000", "goes on with 0.75000 "]),
             (false, Outcome::Hidden, [false, false], [", back, ", "is hidden", "survival 0.25000, ended by roulette"]),
-            (
-                true,
-                Outcome::Void,
-                [false, true],
-                [", front, ", "cannot be reflected or is dark", "ends: nothing would come of it"],
-            ),
+            (true, Outcome::Void, [false, true], [", front, ", "cannot be reflected or is dark", "ends: no light can follow"]),
         ] {
             let told = told(front, outcome, [goes_on, survives]);
             parts.iter().for_each(|part| assert!(told.contains(part), "{part}: {told}"));

@@ -40,7 +40,7 @@ impl Reference {
         match self {
             Reference::Picture(p, _) if [p.width, p.height] != [width, height] => {
                 let size = format!("{} × {}", p.width, p.height);
-                Some(format!("the true picture is {size} and this one {width} × {height}, so the true error is not known"))
+                Some(format!("the true image is {size} and this one {width} × {height}, so the true error is not known"))
             }
             _ => None,
         }
@@ -87,7 +87,7 @@ impl Reference {
             _ => return self.contradiction_of_block(frame, &bias),
         };
         let more = if bias.mean > 0.0 { "more" } else { "less" };
-        Some(format!("the picture has {:.3e} {more} radiance on average than [truth] says, {off}", bias.mean.abs()))
+        Some(format!("the image has {:.3e} {more} radiance on average than [truth] says, {off}", bias.mean.abs()))
     }
 
     /// The same where the mean of the picture is right and that of a block is not: of a picture that is turned, mirrored or of another view.

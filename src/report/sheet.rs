@@ -43,7 +43,7 @@ impl Layout {
         let [width, height] =
             [u64::from(columns) * u64::from(cell[0]) + u64::from(MARGIN), u64::from(rows) * u64::from(cell[1]) + u64::from(head)];
         if width * height > MOST_PIXELS {
-            return Err(format!("the sheet would be {width} × {height} pixels: make the pictures smaller with --size"));
+            return Err(format!("the sheet would be {width} × {height} pixels: make the images smaller with --size"));
         }
         Ok(Layout { columns, picture, cell, head, size: [width as u32, height as u32] })
     }

@@ -22,7 +22,7 @@ pub enum Directions {
 
 crate::words! {
     Directions {
-        Uniform: "uniform", "Uniform", "p(ω_i) = 1 / 2π: every direction of the hemisphere alike.";
+        Uniform: "uniform", "Uniform", "p(ω_i) = 1 / 2π: uniform over the hemisphere.";
         Cosine: "cosine", "Cosine", "p(ω_i) = cos θ / π: cancels the cosine of the equation, so there is less noise.";
         Bsdf: "bsdf", "BSDF", "p(ω_i) in proportion to f cos θ, which at a diffuse surface is the cosine.";
     }

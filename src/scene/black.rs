@@ -22,8 +22,8 @@ impl Scene {
             );
         }
         match settings.max_bounces {
-            Some(0) => "the cap of 0 bounces leaves only what emits, and the camera sees none of it".to_owned(),
-            _ => "no path found light: it may be shut in, behind the camera, or too small to be found soon".to_owned(),
+            Some(0) => "a cap of 0 bounces shows only emitters, and the camera sees none".to_owned(),
+            _ => "no path found light: it may be enclosed, behind the camera, or too small to be found soon".to_owned(),
         }
     }
 }

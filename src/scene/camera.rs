@@ -57,7 +57,7 @@ pub enum CameraError {
     #[error("`fov` must lie between 0.001 and 179.9 degrees")]
     Fov,
     /// The width of an orthographic image is out of range.
-    #[error("the width of an orthographic picture must lie between 1e-9 and 1e9 metres")]
+    #[error("the width of an orthographic image must lie between 1e-9 and 1e9 metres")]
     Width,
     /// The radius of the lens is out of range.
     #[error("the radius of a lens must lie between 0 and 1e9 metres")]

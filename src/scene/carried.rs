@@ -30,12 +30,12 @@ pub fn load_carried(path: &Path) -> Option<Result<Scene, SceneError>> {
 
 fn open(path: &Path, carried: Carried) -> Result<Scene, SceneError> {
     let mut scene = parse(&path.display().to_string(), carried.scene).map_err(|error| {
-        error.with_help("the picture carries this scene: files that it names are looked for beside the picture")
+        error.with_help("the image carries this scene: its textures and meshes are looked for beside the image")
     })?;
-    let unusable = |what: String| SceneError::of_file(path, what, "open the scene file in place of the picture");
-    carried.camera.check().map_err(|error| unusable(format!("the camera of the picture cannot be used: {error}")))?;
+    let unusable = |what: String| SceneError::of_file(path, what, "open the scene file instead of the image");
+    carried.camera.check().map_err(|error| unusable(format!("the camera of the image cannot be used: {error}")))?;
     if let Some(problem) = check(&mut carried.settings.clone()).into_iter().next() {
-        return Err(unusable(format!("a setting of the picture cannot be used: {}", problem.message)));
+        return Err(unusable(format!("a setting of the image cannot be used: {}", problem.message)));
     }
     (scene.camera, scene.settings) = (carried.camera, carried.settings);
     Ok(scene)

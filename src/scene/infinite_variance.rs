@@ -25,15 +25,15 @@ impl Scene {
             return None;
         }
         let advice = if most < Roulette::MOST {
-            format!("take more than {most:.2}, or roulette by throughput")
+            format!("use more than {most:.2}, or roulette by throughput")
         } else if is_uniform {
-            "take cosine directions".to_owned()
+            "use cosine directions".to_owned()
         } else {
-            "take no roulette".to_owned()
+            "turn roulette off".to_owned()
         };
         let what = settings.roulette.survival_words();
         Some(format!(
-            "{what}, at surfaces with ρ² E w² = {most:.2}: where light stays among these surfaces, the variance is infinite and noise figures cannot be trusted; {advice}"
+            "{what}, at surfaces with ρ² E w² = {most:.2}: if light stays between these surfaces, the variance is infinite and noise figures cannot be trusted; {advice}"
         ))
     }
 }
@@ -74,7 +74,7 @@ mod tests {
             assert!(warning.is_none_or(|text| text.contains(&format!("more than {most}")) && text.contains("infinite")));
         }
         let white = said("lambertian = { albedo = 1.0 }", fixed(0.99)).expect("no survival is enough");
-        assert!(white.ends_with("take no roulette"), "{white}");
+        assert!(white.ends_with("turn roulette off"), "{white}");
     }
 
     #[test]

@@ -43,7 +43,7 @@ fn not_text(bytes: &[u8]) -> Option<String> {
     match looks_like(start) {
         Some(kind) => Some(format!(": it looks like {kind}")),
         None if start.starts_with(b"\xff\xfe") || start.starts_with(b"\xfe\xff") => {
-            Some(" of the kind that is read here: it looks like UTF-16".to_owned())
+            Some(" in UTF-8: it looks like UTF-16".to_owned())
         }
         None => start.iter().any(is_control).then(String::new),
     }

@@ -38,9 +38,9 @@ pub fn built_in() -> Scene {
 pub fn parse(name: &str, text: String) -> Result<Scene, SceneError> {
     let source = SourceText { name: name.to_owned(), text };
     let (description, damage, mut errors) = understood(&source)?;
-    let nothing = || SceneError::of_file(Path::new(name), "this is no scene", "a scene is one TOML file");
+    let nothing = || SceneError::of_file(Path::new(name), "this is not a scene", "a scene is one TOML file");
     let _described = reserve("the values of the file", DESCRIBED * source.text.len() as u64)
-        .map_err(|error| SceneError::of_file(Path::new(name), error.to_string(), "give more memory"))?;
+        .map_err(|error| SceneError::of_file(Path::new(name), error.to_string(), "raise the memory limit"))?;
     if errors.len() >= SceneError::MOST {
         return Err(SceneError::of_all(errors).unwrap_or_else(nothing));
     }
@@ -70,7 +70,7 @@ fn understood(source: &SourceText) -> Result<(SceneDescription, Damage, Vec<Scen
     })?;
     let table = DeTable::parse(&source.text).map_err(|first| not_toml(source, &first))?;
     if table.get_ref().is_empty() {
-        return Err(source.error(0..0, "the file is empty; a scene begins with `format = 1`", "nothing is said"));
+        return Err(source.error(0..0, "the file is empty; a scene begins with `format = 1`", "expected `format = 1`"));
     }
     check_format(source, table.get_ref())?;
     let mut description = SceneDescription::default();

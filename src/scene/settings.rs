@@ -61,9 +61,9 @@ pub enum Reuse {
 
 crate::words! {
     Reuse {
-        Auto: "auto", "Auto", "Where a short trial of the scene finds a gain. It is decided once for a scene.";
-        On: "on", "Always", "Groups of 4 × 4 pixels divide what their paths find among them, by how likely each was to find it.";
-        Off: "off", "Never", "Every pixel keeps what its own paths find: the noise of neighbours is independent.";
+        Auto: "auto", "Auto", "Shares paths if a short trial of the scene shows a gain. The decision is made once per scene.";
+        On: "on", "Always", "Reuses each path in a 4 × 4 block of pixels, weighted by multiple importance sampling.";
+        Off: "off", "Never", "Every pixel uses only its own paths, so the noise of neighbouring pixels is independent.";
     }
 }
 

@@ -28,10 +28,10 @@ impl Scene {
     fn warnings_of_scene(&self) -> Vec<String> {
         let mut warnings = Vec::new();
         if self.lights.is_empty() {
-            warnings.push("nothing in this scene emits light: the picture will be black".to_owned());
+            warnings.push("nothing in this scene emits light: the image will be black".to_owned());
         }
         if self.moves() && self.camera.shutter.is_none() {
-            warnings.push("something moves, but without `shutter` in [camera] it is seen standing still".to_owned());
+            warnings.push("something moves, but without `shutter` in [camera] the image shows it at rest".to_owned());
         }
         if self.shapes.dropped_triangles() > 0 {
             warnings.push(format!("{} triangles without area were left out", self.shapes.dropped_triangles()));
@@ -41,7 +41,7 @@ impl Scene {
         }
         let depth = self.deepest_media;
         if depth > MOST_NESTED {
-            warnings.push(format!("{depth} media lie within each other: only the tint of the inner {MOST_NESTED} is kept"));
+            warnings.push(format!("{depth} media are nested: only the innermost {MOST_NESTED} are tinted"));
         }
         warnings
     }
@@ -54,7 +54,7 @@ impl Scene {
         }
         if let Some((flipped, have)) = self.names(|object| object.flip && self.has_inside(object)) {
             warnings.push(format!(
-                "{flipped} {have} `flip` on a dielectric: `ior` and `ior_outside` change sides, and the medium fills what is around"
+                "{flipped} {have} `flip` on a dielectric: `ior` and `ior_outside` swap sides, and the medium fills the space outside"
             ));
         }
         for (lamp, wall) in self.covered_lamps() {
@@ -79,7 +79,7 @@ impl Scene {
         }
         let [_, _, forward] = camera.axes();
         if forward.cross(camera.up.normalize()).length() < NEARLY_PARALLEL {
-            warnings.push("`up` is nearly parallel to the direction of view: the picture may stand at any angle".to_owned());
+            warnings.push("`up` is nearly parallel to the direction of view: the image may be rotated by any angle".to_owned());
         }
         warnings
     }

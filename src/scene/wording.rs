@@ -15,7 +15,7 @@ const SYNTAX: [(&str, &str); 13] = [
     ("floating-point number overflowed", "the number is too large"),
     ("invalid basic string", "the text in quotes does not end"),
     ("invalid literal string", "the text in quotes does not end"),
-    ("unexpected key or value, expected newline", "a value ends with its line: there is something behind it"),
+    ("unexpected key or value, expected newline", "a value must end on its line, but more text follows"),
     ("missing comma between key-value pairs", "a `,` is missing between two keys"),
     ("missing comma between array elements", "a `,` is missing between two values"),
     ("extra comma", "there is one `,` too many"),
@@ -32,7 +32,7 @@ pub fn in_plain_words(source: &SourceText, error: &toml::de::Error) -> SceneErro
     if message == "duplicate key" {
         let key = text_at(source, &span);
         let error = source.error(span.clone(), format!("duplicate key `{key}`"), "this is the second time");
-        return error.with_help("a key can be given once; of several objects each begins with `[[objects]]`");
+        return error.with_help("a key can be given only once; each object begins with its own `[[objects]]`");
     }
     if message.starts_with("string values must be quoted") && text_at(source, &span).trim().is_empty() {
         return source.error(span, "a value is missing", "after the `=`");

@@ -90,7 +90,7 @@ fn known(path: &Path, scene: &Scene, given: Option<&Path>) -> Result<Option<(tru
         return Ok(Some((reference, format!("the reference {}", file.display()))));
     }
     let name = match &scene.truth {
-        Some(Truth::Image(file, _)) => format!("the true picture {}", file.display()),
+        Some(Truth::Image(file, _)) => format!("the true image {}", file.display()),
         _ => "the exact radiance".to_owned(),
     };
     Ok(truth::Reference::of(scene).map(|reference| (reference, name)))

@@ -89,9 +89,9 @@ impl ImageTexture {
     pub fn read(resources: &Resources, key: &str, path: &str, encoding: Encoding) -> Result<Arc<ImageTexture>, Problem> {
         let path = resources.path(path);
         resources.once("pictures", format!("picture {} {encoding:?}", key_of_file(&path)), || {
-            let picture = read_light(&path, encoding)
-                .map_err(|error| Problem::at(key, error.to_string(), "this picture cannot be used"))?;
-            resources.reserve(key, "the texels of a picture", size_of_val(&picture.radiance[..]) as u64)?;
+            let picture =
+                read_light(&path, encoding).map_err(|error| Problem::at(key, error.to_string(), "this image cannot be used"))?;
+            resources.reserve(key, "the texels of an image", size_of_val(&picture.radiance[..]) as u64)?;
             Ok(ImageTexture::new(picture))
         })
     }

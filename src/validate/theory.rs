@@ -27,7 +27,7 @@ const CHAPTER: [(&str, &[&str]); 5] = [
         &[
             "With ρ = 1 somewhere (glass, perfect mirrors, white walls) ‖T‖ may be 1. If ‖Tᵐ‖ < 1 for some m, because from every point at least a fraction ε of the light is absorbed or escapes within m bounces, the series still converges and the solution is unique.",
             "Without such a bound the partial sums for L_e ≥ 0 still increase with every term. Where Σ Tᵏ L_e is finite, it is the smallest non-negative solution, and the estimate converges to it. Clear glass is an example: near the critical angle light can stay inside for arbitrarily many bounces, and light that is totally reflected for ever neither comes from outside nor is visible from there.",
-            "A closed room whose surfaces all have ρ = 1 has no such solution. There T n² = n²: if L is a solution, so is L + c n² for any c. For L_e = 0 every c n² is a solution. For L_e > 0 there is none, because in equilibrium the absorbed power, which is 0, would have to equal the emitted power: the partial sums grow without bound. The scene format allows such a room; its picture does not converge, and its paths end after 4096 bounces or by roulette.",
+            "A closed room whose surfaces all have ρ = 1 has no such solution. There T n² = n²: if L is a solution, so is L + c n² for any c. For L_e = 0 every c n² is a solution. For L_e > 0 there is none, because in equilibrium the absorbed power, which is 0, would have to equal the emitted power: the partial sums grow without bound. The scene format allows such a room; its image does not converge, and its paths end after 4096 bounces or by roulette.",
         ],
     ),
     (

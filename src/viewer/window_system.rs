@@ -48,7 +48,7 @@ impl Displays {
     pub fn explain(&self, error: &eframe::Error) -> String {
         match error {
             eframe::Error::Winit(_) | eframe::Error::WinitEventLoop(_) => self.refusal(),
-            eframe::Error::NoGlutinConfigs(..) => "the display offers no OpenGL that the window can be drawn with".to_owned(),
+            eframe::Error::NoGlutinConfigs(..) => "the display does not offer the OpenGL that the window needs".to_owned(),
             other => self.without_source(&other.to_string()),
         }
     }

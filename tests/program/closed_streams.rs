@@ -88,7 +88,7 @@ fn a_picture_without_a_reader_fails_silently() {
     command.args(["-c", closed, env!("CARGO_BIN_EXE_noisefall"), &scene("furnace")]);
     let output = command.current_dir(shell.path("")).output().expect("it starts");
     assert_eq!(output.status.code(), Some(1));
-    assert_eq!(text(&output.stderr), "standard output is closed: the picture would be lost\n");
+    assert_eq!(text(&output.stderr), "standard output is closed: the image would be lost\n");
 }
 
 #[test]
@@ -105,7 +105,7 @@ fn a_failed_write_to_standard_output_is_reported_and_the_picture_is_kept() {
     assert_eq!(output.status.code(), Some(1));
     let kept: Vec<_> = fs::read_dir(shell.path("")).expect("it is there").flatten().map(|entry| entry.path()).collect();
     let told = text(&output.stderr);
-    assert!(kept.len() == 1 && told.contains(&format!("the picture was saved as {} instead", kept[0].display())), "{told}");
+    assert!(kept.len() == 1 && told.contains(&format!("the image was saved as {} instead", kept[0].display())), "{told}");
     let picture = noisefall::render::image_file::read(&kept[0]).expect("a picture");
     assert_eq!((picture.width, picture.height), (8, 8));
     // Empty output is valid too.

@@ -173,7 +173,7 @@ fn a_path_can_be_replayed() {
     assert!(vertex["emission"]["weight"] == 1.0 && vertex["reflection"]["survival"] == 1.0, "{vertex}");
     for pixel in ["8,4", "4,6"] {
         let outside = shell.run(&["render", &scene("furnace"), "--size", "8x6", "--pixel", pixel]);
-        assert!(outside.status.code() == Some(1) && text(&outside.stderr).contains("outside the picture of 8 × 6"), "{pixel}");
+        assert!(outside.status.code() == Some(1) && text(&outside.stderr).contains("outside the image of 8 × 6"), "{pixel}");
     }
 }
 
@@ -232,5 +232,5 @@ fn pictures_of_different_sizes_are_not_compared() {
     }
     let output = shell.run(&["compare", "a.png", "b.png"]);
     assert_eq!(output.status.code(), Some(1));
-    assert_eq!(text(&output.stderr), "the pictures differ in size: a.png is 8 × 8, b.png is 8 × 9\n");
+    assert_eq!(text(&output.stderr), "the images differ in size: a.png is 8 × 8, b.png is 8 × 9\n");
 }

@@ -53,14 +53,14 @@ fn a_reference_of_another_size_or_kind_is_reported() {
     let missing = shell.run(&["check", "scene.toml"]);
     assert!(text(&missing.stderr).contains("true.exr: cannot be read") && text(&missing.stderr).contains("scene.toml:"));
     std::fs::write(shell.path("true.exr"), "no picture").expect("it is written");
-    assert!(text(&shell.run(&["check", "scene.toml"]).stderr).contains("not a picture"));
+    assert!(text(&shell.run(&["check", "scene.toml"]).stderr).contains("not an image"));
 
     let render = |to: &str, from: &str, size: &str| shell.run(&["render", from, "-o", to, "--spp", "2", "--size", size]);
     assert!(render("true.exr", &scene("furnace"), "16x9").status.success());
     let same = render("out.exr", "scene.toml", "16x9");
-    assert!(text(&same.stdout).contains("true error") && !text(&same.stderr).contains("true picture"));
+    assert!(text(&same.stdout).contains("true error") && !text(&same.stderr).contains("true image"));
     let other = render("out.exr", "scene.toml", "16x10");
-    assert!(text(&other.stderr).contains("the true picture is 16 × 9 and this one 16 × 10"), "{}", text(&other.stderr));
+    assert!(text(&other.stderr).contains("the true image is 16 × 9 and this one 16 × 10"), "{}", text(&other.stderr));
     assert!(render("out.png", "scene.toml", "16x9").status.success());
     let compared = shell.run(&["compare", "out.png", "true.exr"]);
     assert!(compared.status.success() && text(&compared.stderr).contains("a PNG is clipped"));

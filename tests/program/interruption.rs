@@ -44,7 +44,7 @@ fn an_interrupted_render_saves_what_it_has_and_says_how_much_that_is() {
     let child = start(&shell, &[&["render", &scene("cornell_spheres"), "-o", "out.exr"], &endless[..]].concat());
     interrupt(&child);
     let output = child.wait_with_output().expect("it ends");
-    assert!(text(&output.stderr).starts_with("interrupted: saving the picture"), "{}", text(&output.stderr));
+    assert!(text(&output.stderr).starts_with("interrupted: saving the unfinished image"), "{}", text(&output.stderr));
     let line = json(&output);
     let number = |line: &serde_json::Value, key: &str| line[key].as_f64().unwrap_or_else(|| panic!("{key} in {line}"));
     assert_eq!(line["stopped_by"], "interruption");
@@ -74,7 +74,7 @@ fn a_second_interruption_ends_a_render_at_once() {
     let mut told = BufReader::new(child.stderr.take().expect("a pipe"));
     let mut first = String::new();
     told.read_line(&mut first).expect("text");
-    assert!(first.starts_with("interrupted: saving the picture as it is (once more to give up)"), "{first}");
+    assert!(first.starts_with("interrupted: saving the unfinished image (interrupt again to stop at once)"), "{first}");
     interrupt(&child);
     assert_eq!(child.wait().expect("it ends").code(), Some(130));
     assert_eq!(fs::read_dir(shell.path("")).expect("it is there").count(), 1, "only the scene");

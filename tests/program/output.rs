@@ -112,7 +112,7 @@ fn no_writer_replaces_what_is_no_regular_file_and_none_waits_for_it() {
     symlink("pipe.png", shell.path("link.png")).expect("a link");
     for (command, what) in [
         (vec!["render", &furnace, "-o", "pipe.png"], "pipe.png: cannot be written: it is a named pipe"),
-        (vec!["render", &furnace, "-o", "pipe.exr"], "`-o - --format png` writes the picture to standard output"),
+        (vec!["render", &furnace, "-o", "pipe.exr"], "`-o - --format png` writes the image to standard output"),
         (vec!["render", &furnace, "-o", "link.png"], "link.png: cannot be written: it is a named pipe"),
         (vec!["compare", "a.exr", "a.exr", "-o", "pipe.png"], "pipe.png: cannot be written: it is a named pipe"),
         (vec!["validate", "--quick", "-o", "report"], "report/report.html: cannot be written: it is a named pipe"),

@@ -191,9 +191,9 @@ fn pictures_whose_scene_cannot_be_used_are_reported() {
     for (text, says) in [
         ("{}".to_owned(), "not a text file: it looks like"),
         ("no JSON".to_owned(), "not a text file: it looks like"),
-        (carried("format = 1\ncamera = 3", camera(), off()), "the picture carries this scene"),
+        (carried("format = 1\ncamera = 3", camera(), off()), "the image carries this scene"),
         (carried(&with_texture, camera(), off()), "b.png"),
-        (carried(&scene.source, blind, off()), "the camera of the picture cannot be used"),
+        (carried(&scene.source, blind, off()), "the camera of the image cannot be used"),
         (carried(&scene.source, camera(), serde_json::json!({ "fixed": 0.0 })), "`fixed` is out of range: 0"),
     ] {
         for name in ["a.png", "a.exr"] {

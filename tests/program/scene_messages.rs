@@ -193,7 +193,7 @@ fn files_that_are_no_scenes_are_refused_in_one_message() {
 
     fs::write(file("picture.toml"), b"\x89PNG\r\n\x1a\n\xff\xfe").expect("it is written");
     let picture = report(&file("picture.toml"));
-    assert!(picture.contains("not a text file: it looks like a PNG picture") && !picture.contains('\u{fffd}'));
+    assert!(picture.contains("not a text file: it looks like a PNG image") && !picture.contains('\u{fffd}'));
     fs::write(file("bytes.toml"), b"format = 1\0\x01").expect("it is written");
     assert!(report(&file("bytes.toml")).contains("not a text file"));
 

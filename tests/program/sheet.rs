@@ -12,7 +12,7 @@ fn a_sheet_has_a_picture_for_each_combination() {
     };
     let two = ["--spp", "2,1,2", "--estimators", "path,mis", "--max-bounces", "0", "--exposure", "-1"];
     let (picture, said) = sheet("a.png", &two);
-    assert!(said.contains("4 pictures of 220 × 10"), "{said}");
+    assert!(said.contains("4 images of 220 × 10"), "{said}");
     // Every pixel of the images is 1, or 0.5 with the exposure: four images of 2200 pixels, and hardly any pixel of the text.
     let grey = picture.radiance.iter().filter(|rgb| rgb.iter().all(|c| (c - 0.5).abs() < 0.01)).count();
     assert!((4 * 2200..4 * 2200 + 200).contains(&grey), "{grey}");
@@ -25,7 +25,7 @@ fn a_sheet_has_a_picture_for_each_combination() {
     assert!(wrong.status.code() == Some(2) && text(&wrong.stderr).contains("must end in .png"), "{}", text(&wrong.stderr));
     // Before anything is rendered.
     let huge = shell.run(&["sheet", &furnace, "-o", "a.png", "--size", "5000x5000", "--spp", "1,2,3,4,5,6", "--memory", "100G"]);
-    assert!(huge.status.code() == Some(1) && text(&huge.stderr).contains("make the pictures smaller"), "{}", text(&huge.stderr));
+    assert!(huge.status.code() == Some(1) && text(&huge.stderr).contains("make the images smaller"), "{}", text(&huge.stderr));
     let large = shell.run(&["sheet", &furnace, "-o", "a.png", "--size", "9000x3000", "--memory", "100M"]);
     assert!(large.status.code() == Some(1) && text(&large.stderr).contains("9000 × 3000"), "{}", text(&large.stderr));
 }

@@ -193,7 +193,7 @@ fn a_scene_that_cannot_be_studied_is_reported_at_once() {
     fails(&[&furnace, "-o", "taken"], 1, "was not written by `noisefall study`");
     fails(&[&furnace, "-o", "out", "--reference", "nowhere.exr"], 1, "there is no such file");
     fails(&[&furnace, "-o", "out", "--size", "0x5"], 1, "resolution");
-    fails(&[&furnace, &furnace, "-o", "out", "--reference", "a.exr"], 2, "--reference is the picture of one scene");
+    fails(&[&furnace, &furnace, "-o", "out", "--reference", "a.exr"], 2, "--reference is the image of one scene");
     fails(&[&furnace, "-o", "out", "--samplers", "sobol,foo"], 2, "independent, stratified, sobol");
     fails(&[&furnace, "-o", "out", "--roulette", "off,2"], 2, "survival probability");
     fails(&[&furnace, "-o", "out", "--max-bounces", "some"], 2, "`none`");

@@ -45,7 +45,7 @@ fn pictures_that_cannot_be_used_are_named() {
     let file = |name: &str| folder.path().join(name);
     image(&file("nowhere.png"), "nowhere.png: cannot be read: there is no such file");
     fs::write(file("text.png"), "no picture").expect("it is written");
-    image(&file("text.png"), "not a picture");
+    image(&file("text.png"), "not an image");
     image(folder.path(), "cannot be read");
     hdr(&file("empty.hdr"), "-Y 0 +X 0", &[]);
     image(&file("empty.hdr"), "0 × 0");

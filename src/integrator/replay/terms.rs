@@ -71,10 +71,10 @@ impl End {
         match self {
             End::LeftScene => "leaves the scene: there is no surface ahead",
             End::Cap => "ends at the cap on bounces",
-            End::TooLong => "is cut: it has bounced too often",
+            End::TooLong => "is cut: it has reached the limit on bounces",
             End::Roulette => "is ended by roulette",
             End::NoMaterial => "ends at an object without material",
-            End::BlackFromBehind => "ends behind a surface that only its front reflects",
+            End::BlackFromBehind => "ends behind a one-sided surface",
             End::Black => "ends at a surface that is black here",
             End::NoWeight => "ends: the next direction has no weight",
             End::Vanished => "ends: its throughput is below the smallest normal number of single precision",

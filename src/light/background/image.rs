@@ -73,12 +73,12 @@ impl Surrounding for Image {
         let path = resources.path(&self.path);
         let tables = resources.once("skies", format!("sky {} {:x}", key_of_file(&path), self.scale.to_bits()), || {
             let picture = read_light(&path, Encoding::Srgb)
-                .map_err(|error| Problem::at("image", error.to_string(), "this picture cannot be used"))?;
+                .map_err(|error| Problem::at("image", error.to_string(), "this image cannot be used"))?;
             let bytes = SkyTables::bytes([picture.width, picture.height]);
             resources.reserve("image", "the texels and cells of a sky", bytes)?;
             let tables = SkyTables::new(picture, self.scale as f32);
             if tables.mean_luminance() == 0.0 {
-                return Err(Problem::at("image", "a background of zero power: the picture is black", "it emits nothing"));
+                return Err(Problem::at("image", "a background of zero power: the image is black", "it emits nothing"));
             }
             Ok(tables)
         })?;

@@ -144,7 +144,7 @@ impl<const BIG_ENDIAN: bool> Values for Binary<'_, BIG_ENDIAN> {
             Kind::U16 => u16::from_le_bytes(self.bytes()?).into(),
             Kind::I32 => i32::from_le_bytes(self.bytes()?).into(),
             Kind::U32 => u32::from_le_bytes(self.bytes()?).into(),
-            Kind::F32 | Kind::F64 => unreachable!("the header lets lengths and indices be whole only"),
+            Kind::F32 | Kind::F64 => unreachable!("the header may give lengths and indices only whole types"),
         })
     }
 

@@ -138,7 +138,7 @@ fn comments_and_names_may_be_in_any_encoding() {
     assert_eq!(model(latin), square);
     assert_eq!(refusal(b"v 0 0 0\n# Jos\xe9\nv 0 0 \xe9\n"), "line 3: `\u{fffd}` is not a number");
     let utf16: Vec<u8> = "v 0 0 0\n".bytes().flat_map(|byte| [byte, 0]).collect();
-    assert_eq!(refusal(&utf16), "line 1: this is not text, or none whose characters are those of ASCII");
+    assert_eq!(refusal(&utf16), "line 1: this is not text in an encoding that extends ASCII");
     assert!(refusal(b"v 0 0 0\nv 0\0 0\n").starts_with("line 2: this is not text"));
 }
 

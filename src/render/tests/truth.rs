@@ -100,7 +100,7 @@ fn a_mirrored_truth_is_contradicted_by_its_blocks() {
     assert_eq!((said(0.0025, halves(1.0, 2.0)), said(0.02, halves(2.0, 1.0))), (none(), none()));
     // Less than a tenth of the mean may be light that has not been found yet, however sure it seems.
     assert_eq!(said(1e-6, halves(1.14, 1.86)), none());
-    assert!(said(1e-6, halves(1.16, 1.84)).contains("though the mean of the picture agrees"));
+    assert!(said(1e-6, halves(1.16, 1.84)).contains("though the mean of the image agrees"));
 }
 
 /// The truth is that of the equation, whatever the scene's own cap leaves out.

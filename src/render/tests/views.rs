@@ -193,9 +193,9 @@ fn a_scale_has_the_unit_of_its_view_and_what_is_missing_is_asked_for() {
         (View::StandardError, "W/(sr·m²)", 1.0),
         (View::SampleCount, "samples", 7.0),
         (View::ZScore, "σ", 4.0),
-        (View::Difference, "parts of the pinned one, or of B", 0.001),
+        (View::Difference, "relative to the pinned image, or to B", 0.001),
         (View::Depth, "m", 50.0),
-        (View::HitCost, "ns a ray", 50.0),
+        (View::HitCost, "ns per ray", 50.0),
     ] {
         let scale = legend(view, &all).scale.expect("a scale");
         assert_eq!((scale.unit, scale.ends[1]), (unit, high), "{view:?}");

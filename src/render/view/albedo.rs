@@ -6,7 +6,7 @@ pub(super) struct Albedo;
 
 impl Quantity for Albedo {
     const WORD: Word =
-        Word { name: "albedo", title: "Albedo", doc: "The colour that the bsdf f has where a camera ray meets it first." };
+        Word { name: "albedo", title: "Albedo", doc: "Colour of the BSDF at the first surface along a camera ray." };
 
     const SHOWS_FEATURES: bool = true;
 

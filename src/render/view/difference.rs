@@ -8,17 +8,17 @@ impl Quantity for Difference {
     const WORD: Word = Word {
         name: "difference",
         title: "Difference",
-        doc: "Radiance less that of the pinned picture, in parts of it. (A less B: the layout Difference, under Compare.)",
+        doc: "Radiance minus that of the pinned image, relative to it. (For A minus B, choose the layout Difference under Compare.)",
     };
 
     const SHOWS_LIGHT: bool = true;
     const IS_SIGNED: bool = true;
     fn unit() -> &'static str {
-        "parts of the pinned one, or of B"
+        "relative to the pinned image, or to B"
     }
 
     fn missing() -> &'static str {
-        "Nothing of this size to hold it against yet: the first sample of B, or a picture pinned below Display"
+        "There is no image of this size to compare with yet: wait for the first sample of B, or pin an image below Display"
     }
 
     fn field(sources: &Sources) -> Field {

@@ -11,12 +11,12 @@ impl Quantity for HitCost {
     const WORD: Word = Word {
         name: "hit-cost",
         title: "Hit cost",
-        doc: "How long it takes to find that first surface, in nanoseconds a ray, as measured.",
+        doc: "Measured time to find the first surface along a camera ray, in nanoseconds.",
     };
 
     const SHOWS_FEATURES: bool = true;
     fn unit() -> &'static str {
-        "ns a ray"
+        "ns per ray"
     }
 
     fn field(sources: &Sources) -> Field {

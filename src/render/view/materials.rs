@@ -5,7 +5,7 @@ use crate::declare::Word;
 pub(super) struct Materials;
 
 impl Quantity for Materials {
-    const WORD: Word = Word { name: "materials", title: "Materials", doc: "Which material a camera ray meets first." };
+    const WORD: Word = Word { name: "materials", title: "Materials", doc: "Material of the first surface along a camera ray." };
 
     const SHOWS_FEATURES: bool = true;
 

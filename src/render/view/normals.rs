@@ -8,7 +8,7 @@ impl Quantity for Normals {
     const WORD: Word = Word {
         name: "normals",
         title: "Normals",
-        doc: "The shading normal n that a camera ray meets first: red is x, green y, blue z.",
+        doc: "Shading normal n of the first surface along a camera ray: red is x, green y, blue z.",
     };
 
     const SHOWS_FEATURES: bool = true;

@@ -8,7 +8,7 @@ impl Quantity for Radiance {
     const WORD: Word = Word {
         name: "radiance",
         title: "Radiance",
-        doc: "The picture itself: L_o of the equation at every pixel, through exposure and tone map.",
+        doc: "The image itself: L_o of the equation at every pixel, after exposure and tone map.",
     };
 
     const SHOWS_LIGHT: bool = true;

@@ -8,7 +8,7 @@ impl Quantity for SampleCount {
     const WORD: Word = Word {
         name: "sample-count",
         title: "Sample count",
-        doc: "How many samples N each pixel has: more where they are adaptive, or in a region.",
+        doc: "Number of samples N of each pixel. Adaptive sampling and regions make it vary.",
     };
 
     fn unit() -> &'static str {

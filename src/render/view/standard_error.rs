@@ -8,7 +8,7 @@ impl Quantity for StandardError {
     const WORD: Word = Word {
         name: "standard-error",
         title: "Standard error",
-        doc: "How far the luminance of each pixel's mean is likely to be off at most, from the variances of its samples.",
+        doc: "Standard error of each pixel's luminance from the variance of its samples: an upper bound for stratified and Sobol samples.",
     };
 
     fn unit() -> &'static str {

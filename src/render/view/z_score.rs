@@ -12,7 +12,7 @@ impl Quantity for ZScore {
     const WORD: Word = Word {
         name: "z-score",
         title: "Z-score",
-        doc: "(estimate - truth)/standard error: noise without structure if right, as wide as the unit normal where samples are independent and light is not rare.",
+        doc: "(estimate - truth)/standard error. Unbiased images show noise without structure; independent samples follow the unit normal distribution unless light is rare.",
     };
 
     const HAS_SCORES: bool = true;
@@ -22,7 +22,7 @@ impl Quantity for ZScore {
     }
 
     fn missing() -> &'static str {
-        "No truth for this: open a scene with [truth] at its own camera (Home), or drop a reference EXR of this size"
+        "There is no reference: open a scene with [truth] at its own camera (Home), or drop a reference EXR of this size"
     }
 
     fn field(sources: &Sources) -> Field {

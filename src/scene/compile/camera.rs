@@ -24,7 +24,7 @@ pub fn camera(described: &CameraDescription) -> Result<Camera, Problem> {
     camera.check().map_err(|error| {
         let problem = Problem::at(key(error), error.to_string(), label(error));
         if error == CameraError::UpIsForward && described.up.is_none() {
-            problem.help("`up` is [0, 1, 0] where it is not given: give another, such as [0, 0, -1]")
+            problem.help("`up` is [0, 1, 0] by default: give another, such as [0, 0, -1]")
         } else {
             problem
         }

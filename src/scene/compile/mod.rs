@@ -159,8 +159,7 @@ fn truth(description: &TruthDescription, resources: &Resources) -> Result<Truth,
         TruthDescription::Image(image) => {
             let path = resources.path(image);
             let picture = resources.once("references", format!("truth {}", key_of_file(&path)), || {
-                read(&path, Encoding::Srgb)
-                    .map_err(|error| Problem::at("image", error.to_string(), "this picture cannot be used"))
+                read(&path, Encoding::Srgb).map_err(|error| Problem::at("image", error.to_string(), "this image cannot be used"))
             })?;
             Ok(Truth::Image(path, picture))
         }

@@ -91,7 +91,7 @@ fn extent(shape: &Shape) -> Result<(), Problem> {
         return Ok(());
     }
     let [x, y, z] = center.to_array().map(short);
-    let message = format!("after its transforms the {} reaches {} m around {x}, {y}, {z}", shape.name(), short(radius));
+    let message = format!("after its transforms the {} has a radius of {} m around {x}, {y}, {z}", shape.name(), short(radius));
     Err(Problem::at("shape", message, format!("expected {SMALLEST:e} to {LARGEST:e} m")))
 }
 
@@ -101,7 +101,7 @@ fn moved(o: &ObjectDescription, shapes: &[Shape]) -> Result<Motion, Problem> {
     if let Some(last) = o.motion.len().checked_sub(1) {
         let reach = shapes.iter().map(|shape| shape.reach(&motion)).fold(0.0, f64::max);
         if reach > 4.0 * LARGEST || reach.is_nan() {
-            let message = format!("in motion it comes as far as {reach:e} m from the origin");
+            let message = format!("its motion takes it {reach:e} m away from the origin");
             return Err(Problem::at(&format!("motion.{last}"), message, format!("expected at most {LARGEST:e} m")));
         }
     }

@@ -62,10 +62,13 @@ impl Declare for CameraDescription {
             .required()
             .aliases("target at to direction lookat");
         const UP: Parameter = Parameter::new("up", "Direction that points up in the image. Default: [0, 1, 0].");
-        const FOV: Parameter = Parameter::new("fov", "Field of view across the width of the image, for perspective cameras.")
-            .unit("°")
-            .aliases("angle field_of_view vfov hfov")
-            .advice("`fov` is the angle across the picture's width, in degrees");
+        const FOV: Parameter = Parameter::new(
+            "fov",
+            "Field of view across the width of the image. Perspective cameras require it, others have none.",
+        )
+        .unit("°")
+        .aliases("angle field_of_view vfov hfov")
+        .advice("`fov` is the angle across the image's width, in degrees");
         const RESOLUTION: Parameter = Parameter::new("resolution", "Width and height.")
             .unit("pixels")
             .required()
@@ -73,9 +76,8 @@ impl Declare for CameraDescription {
             .advice("write resolution = [width, height]");
         const PROJECTION: Parameter = Parameter::new("projection", "How the scene is projected. Default: \"perspective\".");
         const LENS: Parameter = Parameter::new("lens", "A thin lens. Default: a pinhole.").aliases("aperture dof");
-        const FILTER: Parameter =
-            Parameter::new("filter", "How a pixel weighs the light around its centre: \"box\" where it is absent.")
-                .aliases("rfilter reconstruction");
+        const FILTER: Parameter = Parameter::new("filter", "How a pixel weights the light around its centre. Default: \"box\".")
+            .aliases("rfilter reconstruction");
         const SHUTTER: Parameter =
             Parameter::new("shutter", "Times at which the shutter opens and closes, from 0 to 1 of the motion. Default: time 0.");
         const MOTION: Parameter = Parameter::new("motion", "Transforms that move the camera from time 0 to 1.");

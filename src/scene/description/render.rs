@@ -15,7 +15,7 @@ pub struct RenderDescription {
 
 impl Declare for RenderDescription {
     fn parameters(&mut self, p: &mut dyn Parameters) {
-        const SPP: Parameter = Parameter::new("spp", "Samples per pixel at which the render stops.")
+        const SPP: Parameter = Parameter::new("spp", "Samples per pixel at which the render stops. Default: no limit.")
             .symbol("N")
             .aliases("samples samples_per_pixel sample_count num_samples n");
         self.settings.parameters(p);

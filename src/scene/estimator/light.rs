@@ -12,7 +12,7 @@ impl Strategy for Light {
     const WORD: Word = Word {
         name: "light",
         title: "Light",
-        doc: "Every surface point samples a light (next-event estimation). Poor at glossy surfaces and large lights.",
+        doc: "Every surface point samples a light (next-event estimation). Noisy for glossy surfaces and large lights.",
     };
     const COMPARISON: &'static str = "Light sampling";
 

@@ -12,7 +12,7 @@ impl Strategy for Mis {
     const WORD: Word = Word {
         name: "mis",
         title: "MIS",
-        doc: "Both, each weighted by how likely it was to find what it found (multiple importance sampling).",
+        doc: "Combines path and light sampling, weighted by their pdfs (multiple importance sampling).",
     };
     const COMPARES: bool = true;
 

@@ -12,7 +12,7 @@ impl Strategy for Path {
     const WORD: Word = Word {
         name: "path",
         title: "Path",
-        doc: "Paths go on until they run into light: the equation as it stands, with most noise.",
+        doc: "Paths find light only by hitting an emitter. The simplest estimator; very noisy for small lights.",
     };
     const COMPARISON: &'static str = "Path sampling";
     const SAMPLES_LIGHTS: bool = false;

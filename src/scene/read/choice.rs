@@ -40,7 +40,7 @@ impl<'t> Reader<'t> {
             (Some(first), Some(second)) => {
                 let [a, b] = [first, second].map(|place| choice.alternatives[place].name);
                 let place = own[second].map_or(span, |(key, _)| key.span());
-                let message = format!("`{a}` and `{b}` exclude each other: there is one {what}");
+                let message = format!("`{a}` and `{b}` exclude each other: give only one {what}");
                 let error = self.source.error(place, message, "remove one of them");
                 self.fail(error);
                 first
@@ -55,7 +55,7 @@ impl<'t> Reader<'t> {
                     choice.alternatives.iter().map(|alternative| format!("`{}`", alternative.name)).collect();
                 let table = self.path.0.last().map_or_else(|| what.to_owned(), |step| Path(vec![step.clone()]).to_string());
                 let message = format!("`{table}` has none of {}", names.join(", "));
-                let error = self.source.error(span, message, format!("exactly one of them is needed: the {what}"));
+                let error = self.source.error(span, message, format!("give exactly one {what}"));
                 self.frame().missing.insert(0, error);
                 self.frame().chooses_nothing = true;
                 now

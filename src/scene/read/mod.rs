@@ -175,7 +175,7 @@ fn wrong_table(source: &SourceText, key: &str, value: &Spanned<DeValue>, form: F
     if frame.choice == Some("items") {
         let error =
             source.error(value.span(), format!("`{key}`: expected a list of tables, found {found}"), "expected a list of tables");
-        return error.with_help(format!("each of several has its own table: write `[[{key}]]`"));
+        return error.with_help(format!("each item has its own table: write `[[{key}]]`"));
     }
     let meant = suggestion(value.get_ref(), text, &frame.known);
     let expected = if form == Form::NameOrTable { "a name in quotes, or a table { … }" } else { "a table { … }" };

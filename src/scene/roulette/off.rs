@@ -10,7 +10,7 @@ use crate::{
 pub struct Off;
 
 impl Kind for Off {
-    const KIND: Parameter = Parameter::new("off", "Paths end at the cap, or when they carry nothing any more.");
+    const KIND: Parameter = Parameter::new("off", "Paths end only at the cap, or when they carry no more light.");
 
     fn chosen(&mut self, _: &mut dyn Parameters) {}
 }

@@ -84,7 +84,7 @@ fn efficiency_follows_from_noise_and_time() {
     assert!((best.relative - 4.0).abs() < 1e-9 && best.standard_error < 1e-9, "{best:?}");
     assert!((best.efficiency / advice.current().efficiency - 4.0).abs() < 1e-9);
     assert_eq!(advice.current().relative, 1.0);
-    let verdict = "Sobol (Owen), roulette by throughput from bounce 4 on: 4.000 ± 0.000 times as efficient as what you have.";
+    let verdict = "Sobol (Owen), roulette by throughput from bounce 4 on: 4.000 ± 0.000 times as efficient as your settings.";
     assert_eq!(advice.verdict(), verdict);
     let exactly_as_good = Candidate { relative: 1.0, standard_error: 0.0, ..advice.candidates[0].clone() };
     assert_eq!(exactly_as_good.ratio(), "1.00 ± 0.00");
@@ -100,7 +100,7 @@ fn insignificant_differences_count_as_equal() {
     assert!((candidate.standard_error - (logs.variance / 4.0).sqrt()).abs() < 1e-12);
     assert!(candidate.relative > 1.1 && !candidate.is_clearly_better() && advice.best == advice.current);
     let verdict = advice.verdict();
-    assert!(verdict.starts_with("What you have is as good: the best of the others, Sobol (Owen), "), "{verdict}");
+    assert!(verdict.starts_with("Your settings are as good: the best alternative, Sobol (Owen), "), "{verdict}");
     assert!(verdict.ends_with(" times as efficient, which may be chance."), "{verdict}");
     // 95 % of Student's t with three degrees of freedom lie within ±3.182.
     let by_errors = |count: f64| Candidate { relative: f64::exp(0.1 * count), standard_error: 0.1, ..candidate.clone() };
@@ -146,7 +146,7 @@ fn settings_that_find_no_light_are_not_recommended() {
     assert_eq!((advice.candidates[1].efficiency, advice.candidates[1].relative), (0.0, 0.0));
     let advice = rank(&measured(&[series(IN_USE, (0..4).map(dark)), series(ADVISED, (0..4).map(lit))]), SPP);
     assert_eq!((advice.best, advice.best().relative), (0, f64::INFINITY));
-    assert!(advice.verdict().contains("what you have finds hardly any"), "{}", advice.verdict());
+    assert!(advice.verdict().contains("your settings find hardly any"), "{}", advice.verdict());
     assert_eq!([0.49, 0.51].map(|found| Measured { found, ..known(IN_USE, 0.01, &[1.0]) }.is_sound()), [false, true]);
 }
 
@@ -155,7 +155,7 @@ fn without_noise_nothing_is_better() {
     let same = |settings| series(settings, (0..4).map(|_| vec![[0.5; 3]; 4]));
     let advice = rank(&measured(&[same(IN_USE), same(ADVISED)]), SPP);
     assert_eq!(advice.best, advice.current);
-    assert_eq!(advice.verdict(), "What you have leaves no noise: nothing is better than that.");
+    assert_eq!(advice.verdict(), "Your settings leave no noise: nothing can be better.");
 }
 
 #[test]

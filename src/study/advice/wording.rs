@@ -23,7 +23,7 @@ pub fn difference(settings: &RenderSettings, in_use: &RenderSettings) -> String 
         }
     };
     let words: Vec<String> = differing(settings, in_use).into_iter().map(word).collect();
-    if words.is_empty() { "what you have".to_owned() } else { words.join(", ") }
+    if words.is_empty() { "your settings".to_owned() } else { words.join(", ") }
 }
 
 impl Candidate {
@@ -46,30 +46,26 @@ impl Advice {
         let mut text = if self.best == self.current {
             self.nothing_better()
         } else if !best.relative.is_finite() {
-            format!("{}: finds light; what you have finds hardly any of it.", best.name)
+            format!("{}: finds light; your settings find hardly any.", best.name)
         } else if best.is_exact() && !current.is_exact() {
             format!("{}: leaves no noise at all.", best.name)
         } else {
-            format!("{}: {} times as efficient as what you have.", best.name, best.ratio())
+            format!("{}: {} times as efficient as your settings.", best.name, best.ratio())
         };
         if let Some(bias) = current.settings.bias() {
-            text.push_str(&format!(" All that was tried has your {bias}, and misses what lies beyond it."));
+            text.push_str(&format!(" All candidates have your {bias} and miss the light beyond it."));
         }
         text
     }
 
     fn nothing_better(&self) -> String {
         if self.current().is_exact() {
-            return "What you have leaves no noise: nothing is better than that.".to_owned();
+            return "Your settings leave no noise: nothing can be better.".to_owned();
         }
         let Some(next) = self.candidates.iter().find(|candidate| candidate.name != self.current().name) else {
-            return "Nothing else was tried than what you have.".to_owned();
+            return "No other settings were tried.".to_owned();
         };
         let chance = if next.may_be_better() { ", which may be chance" } else { "" };
-        format!(
-            "What you have is as good: the best of the others, {}, is {} times as efficient{chance}.",
-            next.name,
-            next.ratio()
-        )
+        format!("Your settings are as good: the best alternative, {}, is {} times as efficient{chance}.", next.name, next.ratio())
     }
 }

@@ -65,9 +65,9 @@ pub fn pictures(bench: Bench, spp: u32, display: Display) -> Result<[Picture; 2]
     };
     let [width, height] = bench.camera.resolution;
     let how = format!("{}; {width} × {height} pixels", label(&settings));
-    let by_cap = format!("The picture with different caps on bounces, {} samples per pixel: {how}.", spp.min(SPP_OF_CAPS));
+    let by_cap = format!("The image with different bounce caps, {} samples per pixel: {how}.", spp.min(SPP_OF_CAPS));
     Ok([
-        of("pictures_by_samples", format!("The picture after N samples per pixel, without a cap: {how}."), &growing)?,
+        of("pictures_by_samples", format!("The image after N samples per pixel, without a cap: {how}."), &growing)?,
         of("pictures_by_cap", by_cap, &capped)?,
     ])
 }
@@ -98,7 +98,7 @@ impl Exhibits<'_> {
     /// Remark on a row, such as why it is not ranked.
     pub fn remark(&self, outcome: &Outcome) -> String {
         let of_eligibility = match outcome.eligibility {
-            Eligibility::TooNoisy => "error near that of a black picture".to_owned(),
+            Eligibility::TooNoisy => "error near that of a black image".to_owned(),
             _ => report::remark(outcome),
         };
         let said = |holds: bool, remark: &str| if holds { remark.to_owned() } else { String::new() };

@@ -73,7 +73,7 @@ pub fn reserve_chapter(study_scene: &StudyScene) -> Result<[Reservation; 4], Too
     let [width, height] = study_scene.camera.resolution;
     let count = SPP.end().ilog2() as usize / 2 + 1 + CAPS.len();
     let bytes = PIXEL * count as u64 * u64::from(width) * u64::from(height);
-    let cells = memory::reserve(format_args!("{count} pictures of {width} × {height} pixels"), bytes)?;
+    let cells = memory::reserve(format_args!("{count} images of {width} × {height} pixels"), bytes)?;
     let [film, reference] = reserve(std::slice::from_ref(study_scene))?;
     Ok([film, reference, Film::reserve([width, height])?, cells])
 }
@@ -100,7 +100,7 @@ pub fn collect(
         repeats: REPEATS,
         floor: Floor::DEFAULT,
     };
-    observe("trying out how long a sample takes", 0.0);
+    observe("measuring the time of a sample", 0.0);
     let first = study_plan(topics[0].lists.clone(), *SPP.end());
     let first = Study { plan: &first, folder, threads, machine, stop };
     let spp = samples(&first, study_scene, store, plan.time.mul_f64(FOR_RUNS / f64::from(runs)))?;

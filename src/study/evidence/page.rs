@@ -32,7 +32,7 @@ pub fn html(exhibits: &Exhibits, tables: &[Table], plots: &[(String, String, Plo
         h1 { "Evidence: " (title) }
         p.source { (study_scene.path.display()) ", " (exhibits.extent()) ". noisefall " (machine.version) ", commit " (machine.commit) ", "
             (machine.date) " UTC, " (machine.threads) " threads, " (machine.simd) ", " (machine.cpu) "." }
-        p { "The same folder has every plot and every sheet of pictures as SVG and PNG, every table as CSV and as a LaTeX tabular, \
+        p { "The same folder has every plot and every sheet of images as SVG and PNG, every table as CSV and as a LaTeX tabular, \
              and all measurements in study.csv." }
         h2 { "Error against the number of samples" }
         (picture(0)) (tables_of("convergence")) (of("error_by_sampler")) (of("variance"))

@@ -65,7 +65,7 @@ impl Exhibits<'_> {
         Table {
             name: name.to_owned(),
             caption: format!(
-                "Bias: the mean of the picture minus the mean of the reference, W/(sr m²), with the standard error that the variance of \
+                "Bias: the mean of the image minus the mean of the reference, W/(sr m²), with the standard error that the variance of \
                  the samples gives (an upper bound for stratified and Sobol samples); z, the bias in standard errors; the bias \
                  relative to the mean; and the bound that 95 % of such intervals keep: a larger bias is excluded. {UNTRUSTED} ({}).",
                 self.circumstances(findings)

@@ -122,7 +122,7 @@ fn noisy_settings_are_compared_too_and_heavy_tails_have_no_interval() {
         let path = row("path");
         assert_eq!(
             (&path[1..4], path[6].as_str()),
-            (&["16.0", "83.7", "0.0289"].map(str::to_owned)[..], "error near that of a black picture")
+            (&["16.0", "83.7", "0.0289"].map(str::to_owned)[..], "error near that of a black image")
         );
         let [low, high] = [&path[4], &path[5]].map(|cell| cell.parse::<f64>().expect("a number"));
         assert!(low < 0.0289 && high > 0.0289, "{path:?}");
@@ -216,7 +216,7 @@ fn the_sheets_of_a_chapter_show_growing_samples_and_caps_in_their_order() {
         by_samples.caption
     );
     assert!(
-        by_cap.caption.starts_with("The picture with different caps on bounces, 4 samples per pixel: path, "),
+        by_cap.caption.starts_with("The image with different bounce caps, 4 samples per pixel: path, "),
         "{}",
         by_cap.caption
     );

@@ -87,8 +87,8 @@ pub fn section(validation: &Validation) -> Section {
              β_i is the angle that edge i subtends and g_i the unit normal of the plane through it and the point, after clipping at the horizon. Here L = 1, ρ = 0.8, r/d = 0.3; rectangles by origin and edges in metres, y upwards: \
              small (0.3, 1, −0.2), (0.3, 0, 0), (0, 0, 0.3); large (−0.8, 0.4, −0.7), (1.6, 0, 0), (0, 0, 1.2); cut \
              (0.5, −0.7, −0.4), (0, 0, 1), (0, 1.2, 0).",
-            "A sky of radiance S gives π S, less the part that the lamp hides: E = π S + (L − S) π (r/d)² cos θ, here with S = 0.2. In fog of which a metre lets t = 1/2 pass, the lamp overhead gives \
-             2π L ∫ tˢ cos θ sin θ dθ, where s = d cos θ − √(r² − d² sin² θ) is the way to the lamp; the integral is summed up here. On the way from the ground to the camera, √5 m, the fog takes its part once more.",
+            "A sky of radiance S gives π S, less the part that the lamp hides: E = π S + (L − S) π (r/d)² cos θ, here with S = 0.2. In fog that transmits t = 1/2 per metre, the lamp overhead gives \
+             2π L ∫ tˢ cos θ sin θ dθ, where s = d cos θ − √(r² − d² sin² θ) is the distance to the lamp; the integral is evaluated numerically. The fog absorbs again on the √5 m from the ground to the camera.",
             "“Path” finds the lamp by directions drawn from the bsdf, “light” by directions towards it (a sphere by the cone in which \
              it is seen, a rectangle by its solid angle if it is large and near, else by its area), “mis” by both, weighted by the \
              power heuristic.",

@@ -49,7 +49,7 @@ pub fn section(validation: &Validation) -> Section {
             "Every operation of the kernel is exactly rounded (IEEE 754) and none is contracted or reassociated; random numbers are \
              functions of seed, pixel, sample and dimension; sums are added in the order of samples. So the number of threads, the width of the registers, pauses and the order of samples cannot matter. The images are compared bit for bit.",
         ],
-        source: "Hashes of all bits of a 75 × 50 picture of the built-in scene at 4 samples per pixel.",
+        source: "Hashes of all bits of a 75 × 50 image of the built-in scene at 4 samples per pixel.",
         statements,
         figures: Vec::new(),
         remark: Some(format!("Hashes: {}.", hashes.join(", "))),

@@ -130,6 +130,6 @@ fn element(found: &Picture, title: &str) -> String {
             "<img width='172' height='172' style='image-rendering: pixelated' alt='{title}' src='data:image/png;base64,{}'>",
             BASE64_STANDARD.encode(&bytes)
         ),
-        Err(error) => format!("<p>this picture could not be written: {error}</p>"),
+        Err(error) => format!("<p>this image could not be written: {error}</p>"),
     }
 }

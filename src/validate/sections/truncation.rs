@@ -163,7 +163,7 @@ fn costs(measured: Vec<(f64, f64)>) -> Figure {
         curve("uniform directions", Style::Line, cost(ALBEDO, 4.0 / 3.0)),
     ];
     let caption = "Where roulette pays: variance × segments of a path, the cost of a given precision, by the closed forms (lines) and measured (points). Cosine \
-                   directions have no variance of their own, so that paths should hardly be ended; with the noise of uniform \
+                   directions have no variance of their own, so paths should rarely be ended; with the noise of uniform \
                    directions there is a best survival probability.";
     plot(caption, Axis::linear("survival probability q"), Axis::log("variance × segments"), &curves)
 }

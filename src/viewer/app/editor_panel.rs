@@ -124,6 +124,6 @@ fn inspected(editor: &mut SceneEditor, ui: &mut Ui, part: &mut dyn Declare, path
     let [textures, materials]: [Vec<String>; 2] =
         [description.textures.keys().cloned().collect(), description.materials.keys().cloned().collect()];
     let surroundings = Surroundings { textures: &textures, materials: &materials, size };
-    ui.label(RichText::new(path.to_string()).weak()).on_hover_text("The place of this part in the scene file.");
+    ui.label(RichText::new(path.to_string()).weak()).on_hover_text("The path of this part in the scene file.");
     editor.inspector.show(ui, part, path, &surroundings)
 }

@@ -37,7 +37,10 @@ impl App {
         let moves = opened.path.as_deref().is_some_and(|before| folder(before) != folder(path));
         if moves && names_files(editor.document.description()) {
             let folder = opened.folder();
-            return self.tell(format!("Not saved: the scene names files. Save it in their folder, {}", folder.display()), true);
+            return self.tell(
+                format!("Not saved: the scene uses relative file paths. Save it in their folder, {}", folder.display()),
+                true,
+            );
         }
         if let Err(error) = editor.document.save(path) {
             return self.tell(format!("Not saved: {error}"), true);

@@ -79,7 +79,7 @@ pub fn show(ctx: &egui::Context, dialog: &mut Option<FileDialog>) -> Option<(Fil
 /// Returns whether to use the file, and whether to close.
 fn dialog_body(ui: &mut egui::Ui, field: &mut PathField) -> (bool, bool) {
     ui.set_width(460.0);
-    ui.label("A file in the folder of the scene is named relative to it.");
+    ui.label("A file in the scene's folder is stored with a relative path.");
     ui.add_space(4.0);
     let (mut chosen, mut cancelled) = (field.show(ui), false);
     field.remark(ui, "");

@@ -47,7 +47,7 @@ fn dialog_body(ui: &mut egui::Ui, field: &mut PathField) -> (bool, bool) {
     ui.horizontal(|ui| {
         let folder = field.path().and_then(|path| path.parent().map(ToOwned::to_owned));
         field.browse(ui, |dialog| {
-            let dialog = dialog.add_filter("Noisefall scene or picture", &["toml", "png", "exr"]);
+            let dialog = dialog.add_filter("Noisefall scene or image", &["toml", "png", "exr"]);
             folder.into_iter().fold(dialog, rfd::FileDialog::set_directory).pick_file()
         });
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {

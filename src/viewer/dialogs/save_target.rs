@@ -29,12 +29,14 @@ impl SaveTarget {
     pub fn explanation(self) -> &'static str {
         match self {
             SaveTarget::Picture => {
-                "PNG has the image as displayed (A of a comparison); EXR has linear radiance. Both contain the settings."
+                "PNG stores the image as displayed (A of a comparison); EXR stores linear radiance. Both store the settings."
             }
-            SaveTarget::Scene => "TOML. Comments and formats of the file stay; paths in the scene are relative to its folder.",
+            SaveTarget::Scene => {
+                "TOML. Comments and formatting of the file are kept; paths in the scene are relative to its folder."
+            }
             SaveTarget::CurvesCsv => "CSV with a row for each figure: settings, samples, seconds, errors and bias.",
             SaveTarget::CurvesSvg => "SVG with the curves of all settings.",
-            SaveTarget::Path => "TXT has all terms of the path, TEX its nested sum, CSV the samples of the pixel.",
+            SaveTarget::Path => "TXT lists all terms of the path, TEX its nested sum, CSV the samples of the pixel.",
         }
     }
 

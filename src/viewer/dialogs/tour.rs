@@ -26,7 +26,7 @@ struct Page {
 
 const PAGES: [Page; 4] = [
     Page {
-        title: "This picture is an estimate",
+        title: "This image is an estimate",
         text: "Every pixel is the mean of N random light paths. The samples scatter. Their mean approaches the solution of the light \
                transport equation as 1/√N, or faster with Sobol points: four times the samples halve the noise, or better. The curve below shows the error live. The status \
                line shows the samples and the noise so far.",
@@ -41,7 +41,7 @@ const PAGES: [Page; 4] = [
         tries: ("Show bounce 2 alone", TourRequest::ShowSecondBounce),
     },
     Page {
-        title: "Roulette ends paths, and takes nothing away",
+        title: "Roulette ends paths without bias",
         text: "A path can end at random instead of at a cap. It survives with probability q, and survivors count 1/q times as much. The \
                mean stays exact at finite cost. Compare it with a cap of 3: the difference is the missing light.",
         shows: Some(InstrumentTab::Compare),

@@ -63,10 +63,10 @@ pub fn show(ui: &mut Ui, bounces: &mut Bounces, frame: Option<&Frame>, view: Vie
     let text = if k == LAST && bounces.up_to {
         "This is all of the light.".to_owned()
     } else if k == LAST {
-        format!("{LAST} bounces and more bring {} of the light.", percent(series.shares.iter().skip(LAST).sum()))
+        format!("{LAST} or more bounces contribute {} of the light.", percent(series.shares.iter().skip(LAST).sum()))
     } else {
         format!(
-            "k = {k} brings {} of the light; up to k it is {}. A cap of {k} would lose {}.",
+            "k = {k} contributes {} of the light; up to k it is {}. A cap of {k} would lose {}.",
             percent(series.shares[k]),
             percent(1.0 - lost),
             percent(lost)
@@ -124,7 +124,7 @@ fn meaning(Bounces { k, up_to }: Bounces) -> String {
     match (k, up_to) {
         (LAST, true) => "all of the light".to_owned(),
         (LAST, false) => format!("{LAST} bounces and more"),
-        (0, _) => "lamps and background themselves".to_owned(),
+        (0, _) => "light straight from lamps and background".to_owned(),
         (1, false) => "direct light: one bounce".to_owned(),
         (k, false) => format!("light after {k} bounces"),
         (1, true) => "lamps, and light after one bounce".to_owned(),

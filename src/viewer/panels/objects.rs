@@ -37,8 +37,8 @@ fn place(object: &Object) -> String {
     let (center, radius) = object.shape.bounding_sphere();
     let edges = |edges: &[DVec3]| edges.iter().map(|edge| format!("{:.4}", edge.length())).collect::<Vec<_>>().join(" × ");
     let size = match &object.shape {
-        Shape::Ellipsoid { axes, .. } => format!("half axes {} m, ", edges(&[axes.x_axis, axes.y_axis, axes.z_axis])),
-        Shape::Flat { outline: Outline::Ellipse, edges: axes, .. } => format!("half axes {} m, ", edges(axes)),
+        Shape::Ellipsoid { axes, .. } => format!("semi-axes {} m, ", edges(&[axes.x_axis, axes.y_axis, axes.z_axis])),
+        Shape::Flat { outline: Outline::Ellipse, edges: axes, .. } => format!("semi-axes {} m, ", edges(axes)),
         Shape::Flat { edges: sides, .. } => format!("sides {} m, ", edges(sides)),
         Shape::Cuboid { edges: sides, .. } => format!("sides {} m, ", edges(&[sides.x_axis, sides.y_axis, sides.z_axis])),
         Shape::Cylinder { axes, capped, .. } => {
@@ -111,7 +111,7 @@ mod tests {
         let rectangle = shape("rectangle = { origin = [0.0, 0.0, 0.0], edge_u = [2.0, 0.0, 0.0], edge_v = [0.0, 1.0, 0.0] }");
         assert!(rectangle.contains("sides 2.0000 × 1.0000 m"), "{rectangle}");
         let disk = shape("disk = { center = [0.0, 0.0, 0.0], normal = [0.0, 1.0, 0.0], radius = 0.75 }");
-        assert!(disk.contains("half axes 0.7500 × 0.7500 m"), "{disk}");
+        assert!(disk.contains("semi-axes 0.7500 × 0.7500 m"), "{disk}");
     }
 
     #[test]

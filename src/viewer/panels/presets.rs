@@ -21,7 +21,7 @@ const PRESETS: [(Preset, &str, &str); 2] = [
     (
         Preset::Fastest,
         "Fastest",
-        "MIS, Owen-scrambled Sobol points, BSDF directions, roulette by throughput, and path sharing where it pays in this scene.",
+        "MIS, Owen-scrambled Sobol points, BSDF directions, roulette by throughput, and path sharing if it pays in this scene.",
     ),
 ];
 
@@ -53,7 +53,7 @@ pub fn show(ui: &mut Ui, settings: &mut RenderSettings) {
                 }
             }
             if in_force.is_none() {
-                ui.weak("Custom").on_hover_text("The settings below equal neither preset.");
+                ui.weak("Custom").on_hover_text("The settings below match neither preset.");
             }
         });
     });

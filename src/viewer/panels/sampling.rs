@@ -42,12 +42,9 @@ pub fn show(ui: &mut Ui, settings: &mut RenderSettings, status: &Status, caution
             words(ui, &mut settings.directions);
         });
         reuse_row(ui, &mut settings.reuse, status);
-        row(
-            ui,
-            "Adaptive",
-            "Takes more samples where a pilot finds more noise. Not used where pixels share paths.",
-            |ui, label| drop(ui.checkbox(&mut settings.adaptive, "").labelled_by(label)),
-        );
+        row(ui, "Adaptive", "Takes more samples where a pilot finds more noise. Not used if pixels share paths.", |ui, label| {
+            drop(ui.checkbox(&mut settings.adaptive, "").labelled_by(label))
+        });
         roulette_rows(ui, &mut settings.roulette, caution);
         row(
             ui,
@@ -59,7 +56,7 @@ pub fn show(ui: &mut Ui, settings: &mut RenderSettings, status: &Status, caution
                 number::optional(ui, label, &mut settings.max_bounces, words, RenderSettings::FIRST_CAP, 0, range);
             },
         );
-        row(ui, "Seed", "Seed of the random numbers. Another seed gives other noise with the same mean.", |ui, label| {
+        row(ui, "Seed", "Seed of the random numbers. Another seed gives different noise with the same mean.", |ui, label| {
             let field = number::field(ui, &mut settings.seed, 0, 0.0..=u32::MAX.into());
             ui.add(field).labelled_by(label);
         });

@@ -12,7 +12,7 @@ fn advice_is_asked_for_given_with_figures_and_taken() {
     wait(&mut window, "the pause", |app| app.background.worker.latest().status.state == State::Paused);
     wait(&mut window, "the advice", |app| !app.is_studying());
     window.run_steps(3);
-    assert!(window.query_by_label_contains("as efficient as what you have").is_some());
+    assert!(window.query_by_label_contains("as efficient as your settings").is_some());
     restarts(&mut window, "the advice taken", |w| {
         w.get_all_by_role_and_label(Role::Button, "Use this").next().expect("there is something better").click();
         w.run_steps(3);

@@ -104,9 +104,9 @@ fn the_tour_shows_noise_bounces_and_roulette_and_is_not_shown_again() {
     window.run_steps(3);
     click(&mut window, "Take the tour");
     for (title, tab) in [
-        ("This picture is an estimate", InstrumentTab::Convergence),
+        ("This image is an estimate", InstrumentTab::Convergence),
         ("Light bounces", InstrumentTab::Bounces),
-        ("Roulette ends paths, and takes nothing away", InstrumentTab::Compare),
+        ("Roulette ends paths without bias", InstrumentTab::Compare),
         ("Now you", InstrumentTab::Compare),
     ] {
         assert!(window.query_by_label(title).is_some(), "{title}");

@@ -100,7 +100,7 @@ fn the_number_under_the_pointer_is_that_of_the_view_and_has_its_unit() {
         (Shown::Normals, "n ", ""),
         (Shown::Albedo, "Albedo RGB 0.500 0.500 0.500", ""),
         (Shown::Depth, "Depth ", "m"),
-        (Shown::HitCost, "Hit cost ", "ns a ray"),
+        (Shown::HitCost, "Hit cost ", "ns per ray"),
         (Shown::Materials, "Material ", ""),
         (Shown::Radiance, "RGB ", "W/(sr·m²)"),
     ] {

@@ -53,7 +53,7 @@ fn picker(ui: &mut Ui, rgb: &mut [f64; 3]) -> bool {
 
 fn hex_field(ui: &mut Ui, rgb: &mut [f64; 3]) -> bool {
     let field = ui.horizontal(|ui| {
-        let label = ui.label("sRGB").on_hover_text("Sets the colour from its hexadecimal sRGB value; the brightness stays.");
+        let label = ui.label("sRGB").on_hover_text("Sets the colour from its hexadecimal sRGB value and keeps the brightness.");
         committed_text::show(ui, label.id, &hex(*rgb), 80.0)
     });
     let field = field.inner;
@@ -73,7 +73,7 @@ fn kelvin(ui: &mut Ui, rgb: &mut [f64; 3]) -> bool {
     let found = temperature(*rgb);
     let mut kelvin = found.unwrap_or(6504.0).round();
     let slider = ui.horizontal(|ui| {
-        let label = ui.label("Temperature").on_hover_text("Sets the colour of a black body; the luminance stays.");
+        let label = ui.label("Temperature").on_hover_text("Sets the colour to that of a black body and keeps the luminance.");
         let slider = Slider::new(&mut kelvin, COLDEST..=HOTTEST).logarithmic(true).fixed_decimals(0).suffix(" K");
         let slider = ui.add(slider).labelled_by(label.id);
         if found.is_none() {

@@ -62,7 +62,7 @@ fn arrow_head(painter: &Painter, [from, to]: [Pos2; 2], stroke: Stroke) {
 /// Draws the change so far and the keys at the lower edge of the picture.
 pub fn status(painter: &Painter, operation: &Operation, change: &Transform) {
     let text = format!(
-        "{}\nX Y Z lock an axis, with Shift a plane · Ctrl snaps · digits set a number · Enter, Esc",
+        "{}\nX Y Z lock an axis, with Shift a plane · Ctrl snaps · digits set the value · Enter keeps · Esc discards",
         title(operation, change)
     );
     let galley = painter.layout(text, FontId::proportional(13.0), Color32::WHITE, f32::INFINITY);

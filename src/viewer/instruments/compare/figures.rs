@@ -60,9 +60,9 @@ fn began_apart([a, b]: [f64; 2]) -> bool {
 
 const HEADINGS: [(&str, &str); 8] = [
     ("", ""),
-    ("settings", "What differs from how the scene opens, and whether pixels share paths"),
+    ("settings", "Differences from the settings of the scene file, and whether pixels share paths"),
     ("N", "Samples per pixel"),
-    ("time", "Render time. Both sides get the same from the start of the comparison"),
+    ("time", "Render time. Both sides get equal time from the start of the comparison"),
     ("noise", "Estimated relative error: the root of relMSE, the mean of (x − r)²/(r² + 0.01 · mean r²)"),
     ("true error", "Relative error against the reference, if there is one"),
     ("efficiency", "1/(relMSE · seconds). Twice the efficiency gives the same error in half the time"),

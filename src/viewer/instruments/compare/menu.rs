@@ -17,7 +17,7 @@ pub fn show(ui: &mut Ui, settings: &RenderSettings) -> Option<RenderSettings> {
             }
         }
     });
-    response.response.on_hover_text("Renders other settings of this scene beside these, at equal time.");
+    response.response.on_hover_text("Renders this scene with other settings beside the current ones, at equal time.");
     chosen
 }
 

@@ -8,11 +8,7 @@ use crate::viewer::widgets::style::choices;
 const LAYOUTS: [(CompareLayout, &str, &str); 3] = [
     (CompareLayout::Wipe, "Wipe", "A is left of a line, B is right of it. Drag the line."),
     (CompareLayout::SideBySide, "Side by side", "Shows the same part of both images."),
-    (
-        CompareLayout::Difference,
-        "Difference",
-        "A − B, relative to B. Where both are unbiased it shows the noise of both and nothing else.",
-    ),
+    (CompareLayout::Difference, "Difference", "A − B, relative to B. If both are unbiased, it shows only their noise."),
 ];
 
 /// Shows the comparison, or the menu that starts one. Swapping or keeping a side changes both settings. Returns settings to compare

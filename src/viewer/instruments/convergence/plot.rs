@@ -34,7 +34,7 @@ pub fn show(ui: &mut Ui, history: &mut History, latest: [Option<u64>; 2], has_re
 fn axis_choice(ui: &mut Ui, history: &mut History) {
     ui.horizontal(|ui| {
         ui.selectable_value(&mut history.what, Quantity::Error, "Error").on_hover_text(
-            "Relative error, the root of relMSE. Lines are estimated from the samples, points are against the reference.",
+            "Relative error, the root of relMSE. Lines are estimated from the samples, points are measured against the reference.",
         );
         ui.selectable_value(&mut history.what, Quantity::Bias, "Bias").on_hover_text(
             "Mean of the image minus that of the reference, in standard errors. An unbiased estimate stays within ±2 in 95 % of cases.",
@@ -81,10 +81,10 @@ fn buttons(ui: &mut Ui, history: &mut History, latest: [Option<u64>; 2]) -> Opti
     ui.horizontal(|ui| {
         let any = !history.curves.is_empty();
         ui.add_enabled_ui(any, |ui| {
-            if ui.button("CSV…").on_hover_text("Saves all figures as a table.").clicked() {
+            if ui.button("CSV…").on_hover_text("Saves all figures as CSV.").clicked() {
                 file = Some(CurveFile::Csv);
             }
-            if ui.button("SVG…").on_hover_text("Saves the plot as a drawing.").clicked() {
+            if ui.button("SVG…").on_hover_text("Saves the plot as SVG.").clicked() {
                 file = Some(CurveFile::Svg);
             }
             if ui.button("Clear").on_hover_text("Removes the curves of earlier settings.").clicked() {

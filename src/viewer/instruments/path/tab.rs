@@ -96,7 +96,7 @@ fn sample_column(ui: &mut Ui, inspector: &mut PathInspector, request: Option<&Re
     if let Some(sample) = histogram::show(ui, histogram, inspector.sample) {
         inspector.sample = sample;
     }
-    ui.weak("Over the image: the path in yellow, vertices that the camera does not see as rings; light samples in blue, faint where hidden.");
+    ui.weak("Overlay: the path in yellow, with rings at vertices that the camera does not see; light samples in blue, faint if occluded.");
     request.is_some_and(|request| copying::show(ui, inspector, request))
 }
 

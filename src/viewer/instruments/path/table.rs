@@ -28,19 +28,22 @@ pub enum Channel {
 }
 
 const CHANNELS: [(Channel, &str, &str); 3] = [
-    (Channel::Red, "Red", "The numbers of the red channel. A tooltip has all three."),
-    (Channel::Green, "Green", "The numbers of the green channel. A tooltip has all three."),
-    (Channel::Blue, "Blue", "The numbers of the blue channel. A tooltip has all three."),
+    (Channel::Red, "Red", "Shows the red channel. The tooltips show all three."),
+    (Channel::Green, "Green", "Shows the green channel. The tooltips show all three."),
+    (Channel::Blue, "Blue", "Shows the blue channel. The tooltips show all three."),
 ];
 
 /// Columns, and what they say.
 const COLUMNS: [(&str, &str); 9] = [
-    ("vertex", "Bounces before it, and the object that the path hits. The tooltip has the point and the next direction."),
+    (
+        "vertex",
+        "Number of bounces before the vertex, and the object that the path hits. The tooltip has the point and the next direction.",
+    ),
     ("light", "Emission that the path hits, or the lamp of a light sample and whether it is visible"),
     ("β", "Throughput: the product of τ f cos θ / (p q) so far, times the transmittance τ of this segment"),
     ("f cos θ", "BSDF and cosine towards the lamp"),
     ("L_e", "Emitted radiance, W/(sr·m²)"),
-    ("τ", "Transmittance of media towards the lamp, times its texture; 0 where it is hidden"),
+    ("τ", "Transmittance of media towards the lamp, times its texture; 0 if the lamp is occluded"),
     ("w", "Weight of multiple importance sampling"),
     ("p", "Pdf of the direction to the lamp, per solid angle"),
     ("term", "β f cos θ L_e τ w / p. Terms in brackets are shared among neighbouring pixels."),
