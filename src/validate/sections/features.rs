@@ -56,10 +56,10 @@ pub fn section(validation: &Validation) -> Section {
             "A checkered lamp is seen such that each square covers 2 × 2 pixels: every pixel has the radiance of its square. The small rectangle, turned away from the ground, does not light it.",
             "A lens averages over rays from all of its points. Where the radiance is the same everywhere, that changes nothing: 0.5 inside the closed sphere.",
             "For a half-plane of radiance 1 in front of black, a sample is 1 or 0, and the mean of n samples of probability p has the variance p (1 − p)/n. Every column of \
-             the picture has its own p. Behind a filter with the distribution function F it is 1 − F(e), e being the place of the edge relative to the middle of the \
+             the image has its own p. Behind a filter with the distribution function F it is 1 − F(e), e being the place of the edge relative to the middle of the \
              pixel; a tent of radius r has F(x) = 1/2 + y − y |y|/2 with y = x/r, and the Gaussian is cut off at 3σ. From a point u of a lens to the point v in focus, at the \
-             distance f, a ray crosses the plane at the distance z in u (1 − z/f) + v z/f: a lens of radius R sees a disk of radius R |1 − z/f| there, of which the edge leaves the \
-             segment (acos e − e √(1 − e²))/π, e in radii of the disk, averaged over the pixel.",
+             distance f, a ray crosses the plane at the distance z in u (1 − z/f) + v z/f: a lens of radius R sees a disk of radius R |1 − z/f| there. The edge leaves the \
+             fraction (acos e − e √(1 − e²))/π of the disk, with e in radii of the disk, averaged over the pixel.",
         ],
         source: "Form factors of parallel disks; J. H. Lambert, 1760; P. Moon, 1936; R. L. Cook, T. Porter and L. Carpenter, “Distributed Ray Tracing”, \
                  SIGGRAPH 1984.",

@@ -38,12 +38,12 @@ pub fn section(validation: &Validation) -> Section {
              with η = n_i/n_o. Next to the critical angle R rises as a square root, so its error is weighted by the cosine of refraction. A sample reflects with probability R; transmitted light is scaled by 1/η².",
             "A pane of glass transmits (1 − R)² Σ R²ᵏ = (1 − R)/(1 + R). The renderer ignores polarisation: light is unpolarised at every face. Real glass polarises, and with s and p traced separately it transmits up to 4 % more (0.871 in place of \
              0.862 at 56.31°).",
-            "A thin pane has both faces at once. One crossing transmits t at normal incidence and τ = t^(1/cos θ_i) at an angle. The pane lets \
-             T = (1 − R)² τ/(1 − R² τ²) through, straight on, and reflects R (1 + τ T): in a field of radiance 1 it shows the sum of both.",
+            "A thin pane has both faces at once. One crossing transmits t at normal incidence and τ = t^(1/cos θ_i) at an angle. The pane \
+             transmits T = (1 − R)² τ/(1 − R² τ²) straight on and reflects R (1 + τ T): in a field of radiance 1 it shows the sum of both.",
             "Rays through the centre of a ball hit its surface at normal incidence, R = ((n − 1)/(n + 1))². One crossing transmits a = t²ʳ. In a field of \
              radiance 1 the ball shows R + (1 − R)² a/(1 − R a) from outside, and its middle sees n² (1 − R) √a/(1 − R a).",
-            "Without absorption L/n² = 1 everywhere in a field of 1, so that from within a clear ball everything has the radiance n², \
-             wherever one stands from where all directions get out (nearer to the middle than r/n), smooth or rough.",
+            "Without absorption L/n² = 1 everywhere in a field of 1, so everything has the radiance n² inside a clear ball, \
+             smooth or rough, at every point from which all directions leave the ball (nearer to the middle than r/n).",
             "Reciprocity across an interface: f(ω_i → ω_o)/n_o² = f(ω_o → ω_i)/n_i². It is tested with rough glass in both directions.",
         ],
         source: "A. Fresnel, 1823; G. G. Stokes, 1862, for a pile of plates; A. Beer, 1852; E. Veach, 1997, for n².",

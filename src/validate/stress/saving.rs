@@ -22,7 +22,7 @@ pub fn section(pairs: u32) -> Section {
         derivation: &[
             "Two scenes are drawn from the declarations. The first one is a file, written with a table for everything or as a person \
              writes it. Read and written without changes, the text is the same. Then the second scene takes the place of the first: some of \
-             its objects, materials and textures stand for any of the file, with other names and in another order, and the others are new. \
+             its objects, materials and textures are matched with random ones of the file, under other names and in another order, and the others are new. \
              What is written into the file must read as the second scene.",
         ],
         source: "The same operations save a scene that is edited in the window.",
