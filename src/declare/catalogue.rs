@@ -1,6 +1,6 @@
 //! Families of kinds.
 
-/// Makes the enum of a family from the list of its kinds, which stand in a module each.
+/// Makes the enum of a family from the list of its kinds, each in a module of its own.
 ///
 /// A line in the list is the only place outside a kind's own file that names it. The enum holds the description of one kind; it reads,
 /// writes and compares as that kind does, and lends it as `&dyn` of the family's trait.
@@ -47,14 +47,14 @@ macro_rules! catalogue {
         }
 
         impl $Family {
-            /// What a scene file calls the kind.
+            /// Name of the kind in scene files.
             pub fn name(&self) -> &'static str {
                 match self {
                     $($Family::$Kind(_) => <$module::$Kind as $crate::declare::Kind>::KIND.key),+
                 }
             }
 
-            /// What the kind can do.
+            /// The kind, as the trait of its family.
             pub fn kind(&self) -> &dyn $Trait {
                 match self {
                     $($Family::$Kind(kind) => kind),+

@@ -1,4 +1,4 @@
-//! Holds values against their ranges.
+//! Compares values with their ranges.
 use super::{Declare, Form, Parameter, Parameters, Path, Problem, Range, Textured, Value, short};
 
 /// Coordinates beyond this are refused: their squares would leave the range of f32.
@@ -11,7 +11,7 @@ pub fn check(description: &mut dyn Declare) -> Vec<Problem> {
     checker.problems
 }
 
-/// What is wrong with a value by itself. The path of the problem is empty.
+/// The problem of a single value, if it has one. The path of the problem is empty.
 pub fn check_value(parameter: &Parameter, value: &Value<'_>) -> Option<Problem> {
     let key = parameter.key;
     let expected = |range: &Range| match range.expected {
@@ -52,7 +52,7 @@ pub fn check_value(parameter: &Parameter, value: &Value<'_>) -> Option<Problem> 
 
 struct Checker {
     path: Path,
-    /// The lengths of the path in the tables around.
+    /// Lengths of the paths of the enclosing tables.
     outer: Vec<usize>,
     problems: Vec<Problem>,
 }

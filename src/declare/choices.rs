@@ -1,8 +1,8 @@
-//! Families of kinds that are copied, and of which some have no parameters.
+//! Families of kinds that are `Copy`, some of them without parameters.
 
-/// Makes the enum of a family from the list of its kinds, which stand in a module each.
+/// Makes the enum of a family from the list of its kinds, each in a module of its own.
 ///
-/// A line in the list is the only place outside a kind's own file that names it, but for the kind that is the default. A kind with
+/// A line in the list is the only place outside a kind's own file that names it, except for the default kind. A kind with
 /// parameters is named twice, so that its variant holds them. The last line names a macro: `in_family!(value, kind => call(kind))` is
 /// the call with the kind of a value.
 #[macro_export]
@@ -83,7 +83,7 @@ macro_rules! choices {
     };
 }
 
-/// The kind of a variant: what the variant holds, or a kind without parameters.
+/// The kind of a variant: its content, or a kind without parameters.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! kind_of {

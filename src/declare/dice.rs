@@ -15,9 +15,9 @@ impl<'r> Dice<'r> {
         Dice { random }
     }
 
-    /// One of the ends of a range one time in eight, else a number between them.
+    /// Draws an end of a range one time in eight, otherwise a number between the ends.
     fn number(&mut self, range: &Range) -> f64 {
-        // Ranges that are wider than any scene: where scenes are.
+        // Ranges wider than any scene are narrowed to the size of scenes.
         let (least, most) = (range.least.max(-1e9), range.most.min(1e9));
         match self.random.random_range(0..16) {
             0 => least,
@@ -96,7 +96,7 @@ mod tests {
 
     const COUNT: Parameter = Parameter::new("count", "A count.");
 
-    /// Scenes are drawn with them, and must stay small.
+    /// Counts in random scenes, which must stay small.
     #[test]
     fn counts_are_within_their_range_and_few() {
         for (least, most, largest) in [(0, u32::MAX, 40), (18, 50_000_000, 58), (2, 5, 5), (u32::MAX - 1, u32::MAX, u32::MAX)] {

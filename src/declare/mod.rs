@@ -5,23 +5,23 @@
 //!
 //! | file | holds |
 //! |---|---|
-//! | `mod.rs` | the traits of visitors and of what they visit |
-//! | `parameter.rs` | what is known of a parameter: words, ranges |
+//! | `mod.rs` | the traits of visitors and of the visited types |
+//! | `parameter.rs` | description of a parameter: words, ranges |
 //! | `value.rs` | the types of values |
 //! | `catalogue.rs` | families of kinds with parameters: the macro that makes an enum of them |
-//! | `choices.rs` | families of kinds that may have none |
-//! | `words.rs` | families of kinds that are a word and code |
-//! | `owned.rs` | values that own what they hold |
-//! | `path.rs` | where in a description a parameter stands |
-//! | `problem.rs` | what is wrong with a value, and where |
+//! | `choices.rs` | the same for families of kinds that may have none |
+//! | `words.rs` | the same for families of kinds that are a word and code |
+//! | `owned.rs` | owned values |
+//! | `path.rs` | the path of a parameter in a description |
+//! | `problem.rs` | an error in a value, with its path |
 //! | `outline.rs` | the parameters of a kind as a list |
 //! | `precision.rs` | how exactly a changed scene is compiled |
 //! | `resources.rs`, `memo.rs` | files, memory and the slow parts of the previous compile, for kinds that are compiled |
 //! | `dice.rs` | the visitor that draws random values within their ranges |
 //! | `manual.rs`, `schema.rs` | the visitors that document a format, for people and for editors |
 //! | `write.rs` | the visitor that writes a description as TOML |
-//! | `lines.rs` | the visitor that writes values down for people |
-//! | `check.rs` | the visitor that holds values against their ranges |
+//! | `lines.rs` | the visitor that lists values as text |
+//! | `check.rs` | the visitor that compares values with their ranges |
 mod catalogue;
 mod check;
 mod choices;
@@ -61,44 +61,44 @@ pub use self::{
     write::write,
 };
 
-/// A visitor of parameters. It reads or replaces their values. What it does not say leaves everything as it is.
+/// A visitor of parameters. It reads or replaces their values. The default methods change nothing.
 pub trait Parameters {
-    /// A value at a key of the current table.
+    /// Visits a value at a key of the current table.
     fn value(&mut self, parameter: &Parameter, value: Value<'_>);
 
-    /// Enters the table at a key; what follows, up to [`Parameters::leave`], stands in it. A [`Form::NameOrTable`] may be the name of a
-    /// kind in place of a table.
+    /// Enters the table at a key. All visits up to [`Parameters::leave`] are inside it. A [`Form::NameOrTable`] may be the name of a kind
+    /// in place of a table.
     fn enter(&mut self, _parameter: &Parameter, _form: Form) {}
 
     /// Leaves a table.
     fn leave(&mut self) {}
 
-    /// Whether an optional value or table is given, which is visited next if it is.
+    /// Whether an optional value or table is present. If it is, it is visited next.
     fn present(&mut self, _parameter: &Parameter, now: bool) -> bool {
         now
     }
 
-    /// Whether a table is visited that stays as it is where its key is absent.
+    /// Whether to visit a table that keeps its defaults if its key is absent.
     fn given(&mut self, _parameter: &Parameter) -> bool {
         true
     }
 
-    /// Whether the visitor passes over the table that it has just entered. It leaves it all the same.
+    /// Whether to skip the content of the table that was just entered. [`Parameters::leave`] is still called.
     fn skips(&self) -> bool {
         false
     }
 
-    /// Which of the alternatives of a choice the current table holds.
+    /// Selects the alternative of a choice in the current table.
     fn choose(&mut self, _choice: &Choice, now: usize) -> usize {
         now
     }
 
-    /// What is done to the list at a key before [`Parameters::items`] counts its tables.
+    /// The change of the list at a key, if any, before [`Parameters::items`] counts its tables.
     fn rearrange(&mut self, _parameter: &Parameter, _length: usize) -> Option<Rearrangement> {
         None
     }
 
-    /// How many tables the list at a key has; each is visited next, between [`Parameters::item`] and [`Parameters::leave`].
+    /// Number of tables in the list at a key. Each is visited next, between [`Parameters::item`] and [`Parameters::leave`].
     fn items(&mut self, _parameter: &Parameter, now: usize) -> usize {
         now
     }
@@ -119,12 +119,12 @@ pub trait Parameters {
         true
     }
 
-    /// Whether the visitor wants to see every alternative of a choice, one after the other, and not the one that is chosen.
+    /// Whether the visitor visits every alternative of a choice in turn, rather than the chosen one.
     fn sees_all(&self) -> bool {
         false
     }
 
-    /// The alternative that is visited next, of a visitor that sees all; `None` after the last.
+    /// The next alternative for a visitor that visits all; `None` after the last.
     fn alternative(&mut self, _name: Option<&'static str>) {}
 }
 
@@ -137,26 +137,26 @@ pub enum Form {
     NameOrTable,
 }
 
-/// What is done to a list. Places are from 0.
+/// A change of a list. Places count from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rearrangement {
-    /// A table with its defaults comes to stand at a place, which is at most the length.
+    /// Inserts a table with its defaults at a place, which is at most the length.
     Insert(usize),
-    /// The table at a place goes.
+    /// Removes the table at a place.
     Remove(usize),
-    /// The table at the first place comes to stand at the second.
+    /// Moves the table at the first place to the second.
     Move(usize, usize),
 }
 
 /// Something with parameters.
 pub trait Declare {
-    /// Visits every parameter, in the order of a reader.
+    /// Visits every parameter, in reading order.
     fn parameters(&mut self, p: &mut dyn Parameters);
 }
 
 /// A kind of a family: a table of its own at the key of its name.
 pub trait Kind: Declare + Default {
-    /// The name of the kind, and what it is.
+    /// Name and description of the kind.
     const KIND: Parameter;
 
     /// The kind as its family's choice sees it: its parameters, in a table that must be given at the key of its name.
@@ -165,9 +165,9 @@ pub trait Kind: Declare + Default {
     }
 }
 
-/// Alternatives that exclude each other, told apart by their keys.
+/// Mutually exclusive alternatives, distinguished by their keys.
 pub trait OneOf: Sized {
-    /// What is chosen: "material", "background".
+    /// Name of the choice: "material", "background".
     const WHAT: &'static str;
 
     /// Every alternative with its default values, in the order of the catalogue.
@@ -176,10 +176,10 @@ pub trait OneOf: Sized {
     /// The place of this one among the alternatives.
     fn place(&self) -> usize;
 
-    /// What a scene file and a person call this alternative.
+    /// Name of this alternative in scene files and messages.
     fn name(&self) -> &'static str;
 
-    /// Its name with what the window says of it.
+    /// Its name, with its title and description in the window.
     fn about(&self) -> Parameter {
         Parameter::new(self.name(), "")
     }
@@ -190,7 +190,7 @@ pub trait OneOf: Sized {
 
 /// The alternatives of a choice as a visitor sees them.
 pub struct Choice {
-    /// What is chosen: "material", "background".
+    /// Name of the choice: "material", "background".
     pub what: &'static str,
     /// All alternatives, in the order of the catalogue.
     pub alternatives: Vec<Alternative>,
@@ -198,14 +198,14 @@ pub struct Choice {
 
 /// One alternative of a choice.
 pub struct Alternative {
-    /// What a scene file calls it.
+    /// Its name in scene files.
     pub name: &'static str,
     /// Its parameters, at the level of the choice.
     pub outline: Outline,
 }
 
 impl dyn Parameters + '_ {
-    /// The parameters of `table` in a table at a key.
+    /// Visits the parameters of `table` in a table at a key.
     pub fn table(&mut self, parameter: &Parameter, table: &mut dyn Declare) {
         self.enter(parameter, Form::Table);
         if !self.skips() {
@@ -214,7 +214,7 @@ impl dyn Parameters + '_ {
         self.leave();
     }
 
-    /// A value that may be absent; what appears has `fresh` as its default.
+    /// Visits a value that may be absent. `fresh` makes it when it is added.
     pub fn optional<T>(
         &mut self,
         parameter: &Parameter,
@@ -229,19 +229,19 @@ impl dyn Parameters + '_ {
         visit(self, slot.get_or_insert_with(fresh));
     }
 
-    /// A table that may be absent.
+    /// Visits a table that may be absent.
     pub fn optional_table<T: Declare + Default>(&mut self, parameter: &Parameter, slot: &mut Option<T>) {
         self.optional(parameter, slot, T::default, |p, table| p.table(parameter, table));
     }
 
-    /// A table that is as it is where its key is absent.
+    /// Visits a table that keeps its defaults if its key is absent.
     pub fn optional_part<T: Declare>(&mut self, parameter: &Parameter, table: &mut T) {
         if self.given(parameter) {
             self.table(parameter, table);
         }
     }
 
-    /// One of several alternatives, whose keys stand in the current table.
+    /// Visits one of several alternatives, whose keys are in the current table.
     pub fn one_of<T: OneOf>(&mut self, value: &mut T) {
         let mut alternatives = T::alternatives();
         let reads = self.reads_outlines();
@@ -265,7 +265,7 @@ impl dyn Parameters + '_ {
         value.chosen(self);
     }
 
-    /// One of several alternatives in a table at a key, or, where it needs no values, by its name.
+    /// Visits one of several alternatives in a table at a key, or its name if it needs no values.
     pub fn choice<T: OneOf>(&mut self, parameter: &Parameter, form: Form, value: &mut T) {
         self.enter(parameter, form);
         if !self.skips() {
@@ -274,7 +274,7 @@ impl dyn Parameters + '_ {
         self.leave();
     }
 
-    /// A choice that keeps what it is where the key is absent.
+    /// Visits a choice that keeps its default if its key is absent.
     pub fn optional_choice<T: OneOf>(&mut self, parameter: &Parameter, form: Form, value: &mut T) {
         if self.given(parameter) {
             self.choice(parameter, form, value);

@@ -4,7 +4,7 @@ use super::{Choice, Form, Parameter, Parameters, Value};
 /// The parameters at one level.
 pub type Outline = Vec<Entry>;
 
-/// A parameter and what its value looks like.
+/// A parameter and the form of its value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Entry {
     /// The parameter.
@@ -13,7 +13,7 @@ pub struct Entry {
     pub looks: Looks,
 }
 
-/// What a value looks like in a file.
+/// The form of a value in a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Looks {
     /// A number.

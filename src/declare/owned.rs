@@ -57,7 +57,7 @@ impl OwnedValue {
         }
     }
 
-    /// Gives a value this content. Returns false, and changes nothing, where the value is of another type.
+    /// Assigns this content to a value. Returns false and changes nothing if the value has another type.
     pub fn assign(&self, value: &mut Value) -> bool {
         match (self, value) {
             (OwnedValue::Number(from), Value::Number(to, _)) => **to = *from,

@@ -3,9 +3,9 @@
 /// A parameter as a scene file and a person know it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameter {
-    /// What a scene file calls it.
+    /// Its name in scene files.
     pub key: &'static str,
-    /// One sentence: what it is.
+    /// One sentence that describes it.
     pub doc: &'static str,
     /// Its symbol in the equations; may be empty.
     pub symbol: &'static str,
@@ -13,9 +13,9 @@ pub struct Parameter {
     pub unit: &'static str,
     /// Whether a scene file must give it.
     pub is_required: bool,
-    /// What others call it, separated by spaces: a reader answers with the key.
+    /// Names in other renderers, separated by spaces; the reader suggests the key for them.
     pub aliases: &'static str,
-    /// What the window calls it; may be empty: see [`Parameter::label`].
+    /// Its title in the window; may be empty: see [`Parameter::label`].
     pub title: &'static str,
     /// Advice for those who use an alias or a value of a wrong type.
     pub advice: &'static str,
@@ -57,7 +57,7 @@ impl Parameter {
         Parameter { advice, ..self }
     }
 
-    /// What the window calls it: its title, or else its key in words.
+    /// Its label in the window: the title, or else the key in words.
     pub fn label(&self) -> String {
         if !self.title.is_empty() {
             return self.title.to_owned();
@@ -67,26 +67,26 @@ impl Parameter {
         first.chain(words.chars().skip(1)).collect()
     }
 
-    /// Whether others may mean this parameter by a word.
+    /// Whether a word is another renderer's name for this parameter.
     pub fn is_alias(&self, word: &str) -> bool {
         self.aliases.split(' ').any(|alias| alias == word)
     }
 }
 
-/// Between which ends a number lies, both allowed.
+/// A closed range of numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Range {
     /// The smallest number.
     pub least: f64,
     /// The largest number.
     pub most: f64,
-    /// How a slider runs from one to the other.
+    /// Scale of a slider over the range.
     pub scale: Scale,
-    /// What a message says is expected, where the ends alone would not explain it; may be empty.
+    /// The expectation that a message states if the ends alone would not explain it; may be empty.
     pub expected: &'static str,
 }
 
-/// How a slider runs through a range.
+/// Scale of a slider.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scale {
     /// In proportion.
@@ -133,7 +133,7 @@ impl Range {
     }
 }
 
-/// Between which ends a whole number lies, both allowed.
+/// A closed range of whole numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CountRange {
     /// The smallest number.

@@ -12,7 +12,7 @@ pub enum Step {
     Item(usize),
 }
 
-/// From the top of a description to one of its values.
+/// The steps from the top of a description to one of its values.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Path(pub Vec<Step>);
 
@@ -23,7 +23,7 @@ impl Path {
         Path(text.split('.').filter(|part| !part.is_empty()).map(step).collect())
     }
 
-    /// Whether `inner` stands at this path or within it.
+    /// Whether `inner` is this path or starts with it.
     pub fn holds(&self, inner: &Path) -> bool {
         inner.0.starts_with(&self.0)
     }

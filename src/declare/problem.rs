@@ -6,7 +6,7 @@ use crate::quote;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{path}: {message}")]
 pub struct Problem {
-    /// Where: relative to the kind that says so, until those around it have [prefixed](Problem::within) theirs.
+    /// Its path, relative to the kind that reports it until the enclosing tables have [prefixed](Problem::within) theirs.
     pub path: Path,
     /// What is wrong.
     pub message: String,
@@ -14,7 +14,7 @@ pub struct Problem {
     pub label: String,
     /// What to do; may be empty.
     pub help: String,
-    /// Bytes of the text at `path` that are meant, where it is a text and not all of it is.
+    /// Byte range within the text at `path`, if only a part of that text is wrong.
     pub part: Option<std::ops::Range<usize>>,
 }
 
@@ -24,7 +24,7 @@ impl Problem {
         Problem { path: Path::of(at), message: message.into(), label: label.into(), help: String::new(), part: None }
     }
 
-    /// The problem of a name that stands for nothing; `known` are those that do.
+    /// The problem of an undefined name; `known` are the defined ones.
     pub fn not_defined<'k>(at: &str, family: Family, name: &str, known: impl Iterator<Item = &'k String>) -> Problem {
         /// More are not listed.
         const MOST: usize = 6;
@@ -50,21 +50,21 @@ impl Problem {
         Problem { help: help.into(), ..self }
     }
 
-    /// The same problem as those around see it.
+    /// The same problem with its path relative to an enclosing table.
     #[must_use]
     pub fn within(self, outer: &Path) -> Problem {
         Problem { path: outer.join(&self.path), ..self }
     }
 }
 
-/// A number as one would write it: powers of ten only where there are many zeros.
+/// A number as a person writes it: with a power of ten only if there are many zeros.
 pub fn short(x: f64) -> String {
     if x == 0.0 || !x.is_finite() || (1e-4..1e6).contains(&x.abs()) { x.to_string() } else { format!("{x:e}") }
 }
 
 /// The candidate that `word` was probably meant to be.
 pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    /// Nobody mistypes longer words, and comparing them takes as long as both are.
+    /// Longer words are not typing errors, and the comparison takes time in proportion to both lengths.
     const LONGEST: usize = 100;
     let length = word.chars().count();
     let most = (length / 3).max(1);

@@ -13,7 +13,7 @@ use super::{
 };
 use crate::memory::Reservation;
 
-/// The folder that paths are relative to, the memory that is taken so far, and the slow parts.
+/// The folder of relative paths, the memory reserved so far, and the slow parts.
 pub struct Resources {
     folder: PathBuf,
     memory: RefCell<Reservation>,
@@ -35,12 +35,12 @@ pub struct Leftovers {
 }
 
 impl Resources {
-    /// Files are looked for in `folder`.
+    /// Looks for files in `folder`.
     pub fn new(folder: impl Into<PathBuf>) -> Resources {
         Resources::after(folder, Memo::default())
     }
 
-    /// The same, with the slow parts of the compile `before` to reuse.
+    /// The same, but reuses the slow parts of the compile `before`.
     pub fn after(folder: impl Into<PathBuf>, before: Memo) -> Resources {
         Resources {
             folder: folder.into(),
@@ -56,7 +56,7 @@ impl Resources {
         if self.folder == Path::new("") { PathBuf::from(relative) } else { self.folder.join(relative) }
     }
 
-    /// Takes room for `what`, a plural, that the value at a key asks for.
+    /// Reserves memory for `what`, a plural noun, that the value at a key requires.
     pub fn reserve(&self, key: &str, what: impl fmt::Display, bytes: u64) -> Result<(), Problem> {
         self.memory.borrow_mut().grow(what, bytes).map_err(|error| Problem::at(key, error.to_string(), "too much memory"))
     }

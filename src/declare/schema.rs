@@ -29,7 +29,7 @@ struct Table {
     in_choice: bool,
 }
 
-/// What holds a table.
+/// The container of a table.
 #[derive(Clone, PartialEq)]
 enum Shape {
     Table,

@@ -43,7 +43,7 @@ pub enum Value<'v> {
     Word(&'v mut usize, &'v [Word]),
 }
 
-/// What a name can stand for.
+/// The kinds of things that a name refers to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Family {
     /// A texture.
@@ -83,9 +83,9 @@ impl From<[f32; 3]> for Textured {
 /// One of a few words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Word {
-    /// What scene file and command line call it.
+    /// Its name in scene files and on the command line.
     pub name: &'static str,
-    /// What the window calls it.
+    /// Its title in the window.
     pub title: &'static str,
     /// One sentence: what it does.
     pub doc: &'static str,
@@ -106,14 +106,14 @@ macro_rules! words {
             /// All values, in the order in which they are offered.
             pub const ALL: [$Type; [$($name),+].len()] = [$($Type::$Variant),+];
 
-            /// How scene files and people call it.
+            /// Its name in scene files and messages.
             pub const fn word(self) -> $crate::declare::Word {
                 match self {
                     $($Type::$Variant => $crate::declare::Word { name: $name, title: $title, doc: $doc }),+
                 }
             }
 
-            /// What scene file and command line call it.
+            /// Its name in scene files and on the command line.
             pub const fn name(self) -> &'static str {
                 self.word().name
             }

@@ -1,8 +1,8 @@
 //! Families of kinds that are a word and code, without parameters.
 
-/// Makes the enum of a family from the list of its kinds, which stand in a module each.
+/// Makes the enum of a family from the list of its kinds, each in a module of its own.
 ///
-/// A line in the list is the only place outside a kind's own file that names it, but for the kind that is the default. Each kind is a
+/// A line in the list is the only place outside a kind's own file that names it, except for the default kind. Each kind is a
 /// type that implements the family's trait, whose `WORD` is its name in files, its title in the window and its sentence. The last line
 /// names a macro: `in_family!(value, K => call::<K>(…))` is the call with the type of a value.
 #[macro_export]
@@ -25,19 +25,19 @@ macro_rules! word_kinds {
             /// All kinds, in the order of the catalogue.
             pub const ALL: [$Family; [$(<$module::$Kind as $Trait>::WORD.name),+].len()] = [$($Family::$Kind),+];
 
-            /// How scene files, the command line and people call it.
+            /// Its name in scene files, on the command line and in messages.
             pub const fn word(self) -> $crate::declare::Word {
                 match self {
                     $($Family::$Kind => <$module::$Kind as $Trait>::WORD),+
                 }
             }
 
-            /// What scene files and the command line call it.
+            /// Its name in scene files and on the command line.
             pub const fn name(self) -> &'static str {
                 self.word().name
             }
 
-            /// What the window calls it.
+            /// Its title in the window.
             pub const fn title(self) -> &'static str {
                 self.word().title
             }

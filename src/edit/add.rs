@@ -1,4 +1,4 @@
-//! Adds shapes and lamps where one points.
+//! Adds shapes and lamps where the pointer is.
 use glam::DVec3;
 
 use super::{Document, Edit, tree::Tree};
@@ -9,14 +9,14 @@ use crate::{
     shape::{ShapeKind, Transform},
 };
 
-/// How much smaller than the scene a new object is.
+/// Size of the scene relative to that of a new object.
 const PART_OF_SCENE: f64 = 8.0;
-/// The radiance of new lamps, W/(m² sr): one of the size of new objects lights a scene as an overcast day does a white page.
+/// The radiance of new lamps, W/(m² sr): about that of white paper on an overcast day.
 const RADIANCE: f64 = 20.0;
-/// Surfaces that are steeper are walls: what is added to them sticks out.
+/// Smallest y of the unit normal of a floor. On steeper surfaces new objects stand along the normal.
 const STEEPEST_FLOOR: f64 = 0.7;
 
-/// Where something is added.
+/// The point where an object is added.
 #[derive(Clone, Copy, Debug)]
 pub struct Placement {
     /// The point on a surface, metres.
@@ -28,7 +28,7 @@ pub struct Placement {
 }
 
 impl Placement {
-    /// The size of what is added: 1, 2 or 5 times a power of ten.
+    /// The size of the new object: 1, 2 or 5 times a power of ten, metres.
     fn size(&self) -> f64 {
         let wanted = self.scene_size / PART_OF_SCENE;
         if !(wanted.is_finite() && wanted > 0.0) {
@@ -40,25 +40,25 @@ impl Placement {
         format!("{digit}e{exponent}").parse().unwrap_or(wanted)
     }
 
-    /// A thousandth of the size, as a number of decimals.
+    /// The number of decimals that resolves a thousandth of the size.
     fn decimals(&self) -> usize {
         (3.0 - self.size().log10().floor()).max(0.0) as usize
     }
 
-    /// A point with short coordinates close to another.
+    /// The point, rounded to short coordinates.
     fn rounded(&self, p: DVec3) -> DVec3 {
         let decimals = self.decimals();
         // Adding 0 turns −0 into 0.
         p.to_array().map(|x| format!("{x:.decimals$}").parse::<f64>().unwrap_or(x) + 0.0).into()
     }
 
-    /// The direction that the object stands in: up on floors.
+    /// The direction in which the object stands on the surface: up on floors.
     fn up(&self) -> DVec3 {
         let normal = self.normal.try_normalize().unwrap_or(DVec3::Y);
         if normal.y > STEEPEST_FLOOR { DVec3::Y } else { normal }
     }
 
-    /// Two directions along the surface; the first times the second is the direction that it faces.
+    /// Two directions along the surface; their cross product is the direction that it faces.
     fn along(&self) -> [DVec3; 2] {
         let up = self.up();
         let side = if up.y.abs() > STEEPEST_FLOOR { DVec3::Z.cross(up) } else { DVec3::Y.cross(up) };
@@ -69,7 +69,7 @@ impl Placement {
 
 impl Document {
     /// The edit that adds a shape of a kind, and the path of the new object. It rests on the surface, has the material `material`, or
-    /// else the first diffuse one of the scene, and a name that is free. `None` where there is no such kind.
+    /// else the first diffuse one of the scene, and a name that is free. `None` if there is no such kind.
     pub fn add_shape(&self, kind: &str, placement: &Placement, material: Option<&str>) -> Option<(Edit, Path)> {
         let diffuse = |(name, material): (&String, &MaterialDescription)| {
             matches!(material.kind, Material::Lambertian(_)).then(|| name.clone())
@@ -104,7 +104,7 @@ impl Document {
     }
 }
 
-/// A shape of default size and place at its new place: closed ones touch the surface, flat ones lie just above it.
+/// Moves and scales a default shape to its new place: closed shapes touch the surface, flat ones lie just above it.
 fn placed(mut shape: ShapeKind, placement: &Placement) -> (ShapeKind, Vec<Transform>) {
     let (size, up) = (placement.size(), placement.up());
     let half = size / 2.0;

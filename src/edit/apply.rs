@@ -1,4 +1,4 @@
-//! Does single edits.
+//! Applies single edits.
 use super::{
     change::Edit,
     check::{check, in_use},
@@ -19,7 +19,7 @@ fn nothing_at(path: &Path) -> Problem {
 }
 
 impl Content {
-    /// Does an edit and returns its inverse, or changes nothing.
+    /// Applies an edit and returns its inverse. On an error nothing changes.
     pub fn apply(&mut self, edit: &Edit) -> Done {
         let inverse = self.perform(edit)?;
         let found = match edit {
@@ -40,7 +40,7 @@ impl Content {
         debug_assert!(again.is_ok(), "{inverse:?} takes back what was done: {again:?}");
     }
 
-    /// Does an edit without checks of values: of those that were possible before.
+    /// Applies an edit without checking values, for edits that were valid before.
     pub(super) fn perform(&mut self, edit: &Edit) -> Done {
         match edit {
             Edit::Set { path, value } => {

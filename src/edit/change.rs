@@ -1,49 +1,48 @@
-//! What can be done to a scene.
+//! The edits of a scene.
 use super::{content::Content, origin::Origin, tree::Tree};
 use crate::declare::{OwnedValue, Path, Step};
 
-/// A change of a scene. See the [table](super) of what each is for.
+/// A change of a scene. The [table](super) lists their uses.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Edit {
-    /// Sets a value. Optional values and tables on the way to it appear.
+    /// Sets a value. Adds optional tables on the path that are absent.
     Set {
         /// The value.
         path: Path,
-        /// What it becomes; of the type of the value.
+        /// The new value, of the same type.
         value: OwnedValue,
     },
-    /// Adds what is not there: an optional value or table, a table with a new name, or an item that comes to stand at its place in a
-    /// list.
+    /// Adds an optional value or table, a table with a new name, or an item at a place in a list.
     Insert {
-        /// What is added.
+        /// Path of the new part.
         path: Path,
-        /// Its content; absent: its defaults.
+        /// Its content; `None` gives it its defaults.
         tree: Option<Tree>,
-        /// What of the file it stands for, if it has been there before.
+        /// The part of the file that it was read from, if any.
         origin: Option<Origin>,
     },
     /// Removes an optional value or table, a table with a name, or an item of a list.
     Remove {
-        /// What is removed.
+        /// Path of the removed part.
         path: Path,
     },
-    /// Replaces all that is at a path.
+    /// Replaces everything at a path.
     Replace {
         /// A table, a value, a list or an item.
         path: Path,
-        /// What it becomes.
+        /// The new content.
         tree: Tree,
     },
     /// Chooses another alternative. Parameters of the same key and type stay as they are.
     Choose {
         /// The table with the keys of the alternatives, such as `objects.3.shape` or `materials.gold`.
         path: Path,
-        /// What is chosen, as [`Choice::what`](crate::declare::Choice::what) says it: "shape", "material", "roughness".
+        /// Name of the choice, as in [`Choice::what`](crate::declare::Choice::what): "shape", "material", "roughness".
         choice: String,
         /// The name of the alternative.
         name: String,
     },
-    /// Gives a material or a texture another name. What names it follows.
+    /// Renames a material or a texture, and every reference to it.
     Rename {
         /// The table with the name, such as `materials.gold`.
         path: Path,
@@ -54,12 +53,12 @@ pub enum Edit {
     Move {
         /// The item.
         path: Path,
-        /// Its place afterwards.
+        /// Its index afterwards.
         to: usize,
     },
-    /// Several edits in their order. All are done or none is.
+    /// Applies several edits in order: all of them, or none if one fails.
     All(Vec<Edit>),
-    /// Takes all of a scene from a file that was changed outside: see [`Outside`](super::Outside).
+    /// Reloads the whole scene from a file that another program changed: see [`Outside`](super::Outside).
     Reload(Box<Content>),
 }
 
@@ -91,7 +90,7 @@ impl Edit {
         Edit::Choose { path, choice: choice.into(), name: name.into() }
     }
 
-    /// What the edit changes; what it makes follow is not among it.
+    /// The paths that the edit changes, without the references that follow a renaming.
     pub fn paths(&self) -> Vec<&Path> {
         match self {
             Edit::Set { path, .. }
@@ -106,7 +105,7 @@ impl Edit {
         }
     }
 
-    /// What the edit does, for a menu: "Set roughness".
+    /// The edit in words for a menu: "Set roughness".
     pub fn title(&self) -> String {
         let last = |path: &Path| match path.0.last() {
             Some(Step::Key(key)) => key.replace('_', " "),

@@ -5,8 +5,8 @@ use crate::{
     scene::{check_camera, check_object, description::SceneDescription},
 };
 
-/// What is wrong at a path or within it: values out of range, names that are not defined, and cameras, transforms and shapes that
-/// cannot be. Files are not read.
+/// Problems at a path or below it: values out of range, undefined names, and invalid cameras, transforms and shapes. Reads no
+/// files.
 pub fn check(description: &mut SceneDescription, path: &Path) -> Option<Problem> {
     let mut checker = Checker { walk: Walk::to(path), problem: None };
     description.parameters(&mut checker);
@@ -32,7 +32,7 @@ fn names(description: &mut SceneDescription, path: &Path) -> Option<Problem> {
     unknown
 }
 
-/// The camera or the object that a path leads into.
+/// The camera or the object that contains a path.
 fn part(description: &SceneDescription, path: &Path) -> Option<Problem> {
     match &path.0[..] {
         [Step::Key(table), ..] if table == "camera" => {
@@ -46,7 +46,7 @@ fn part(description: &SceneDescription, path: &Path) -> Option<Problem> {
     }
 }
 
-/// Why a material or a texture cannot go: it is used.
+/// The problem of removing a material or a texture that is in use.
 pub fn in_use(description: &mut SceneDescription, path: &Path) -> Option<Problem> {
     let (family, what, name) = match &path.0[..] {
         [Step::Key(map), Step::Key(name)] if map == "materials" => (Family::Material, "material", name),

@@ -4,19 +4,19 @@ use std::collections::HashMap;
 use super::walk::Walk;
 use crate::declare::{Choice, Declare, Form, OwnedValue, Parameter, Parameters, Path, Step, Value, check_value};
 
-/// What came of a choice.
+/// Result of choosing an alternative.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outcome {
-    /// It is made.
+    /// The alternative was chosen.
     Done,
-    /// The table does not choose that.
+    /// The table has no such choice.
     NoChoice,
     /// There is no such alternative.
     NoAlternative,
 }
 
-/// Chooses the alternative `name` of the choice `what` in the table at a path. Parameters with the key and the type of one of the
-/// former alternative get its value, where their range allows it.
+/// Chooses the alternative `name` of the choice `what` in the table at a path. A parameter keeps its value if the former alternative
+/// has one of the same key and type, and if the value is in range.
 pub fn choose(description: &mut dyn Declare, path: &Path, what: &str, name: &str) -> Outcome {
     let mut places = HashMap::new();
     let mut kept = HashMap::new();
@@ -31,14 +31,14 @@ pub fn choose(description: &mut dyn Declare, path: &Path, what: &str, name: &str
 /// A place in the table with the choice. Kinds keep their parameters in a table of their own name; its key is empty here.
 type Place = Vec<Step>;
 
-/// What the former alternative says at a place.
+/// An answer of the former alternative at a place.
 enum Kept {
     Value(OwnedValue),
     Items(usize),
     Present,
 }
 
-/// Where the visitor is in the table with the choice.
+/// Position of the visitor in the table with the choice.
 struct Within<'p> {
     walk: Walk<'p>,
     place: Place,
@@ -79,7 +79,7 @@ impl<'p> Within<'p> {
 struct Chooser<'p, 'k> {
     within: Within<'p>,
     what: &'p str,
-    /// The new alternative; absent while the former one is looked at.
+    /// The new alternative; absent while the former one is read.
     name: Option<&'p str>,
     kept: &'k mut HashMap<Place, Kept>,
     /// Choices within the former alternative.

@@ -1,4 +1,4 @@
-//! What a document holds.
+//! The content of a document.
 use std::sync::Arc;
 
 use super::{check::check, origin::Origins, tree::Tree};
@@ -7,7 +7,7 @@ use crate::{
     scene::description::SceneDescription,
 };
 
-/// A scene, and what of a file it stands for.
+/// A scene, and the parts of a file that it was read from.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Content {
     pub(super) description: SceneDescription,
@@ -41,7 +41,7 @@ impl Content {
 }
 
 impl Base {
-    /// Whether a description is that of the file, bit for bit.
+    /// Whether a description equals that of the file, bit for bit.
     pub fn is(&self, description: &SceneDescription) -> bool {
         Tree::of(&mut self.description.clone()).is_identical(&Tree::of(&mut description.clone()))
     }

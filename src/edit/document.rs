@@ -1,4 +1,4 @@
-//! A scene as it is edited.
+//! A scene that is being edited.
 use std::path::{Path as FilePath, PathBuf};
 
 use super::{change::Edit, content::Content, save, tree::Tree};
@@ -12,7 +12,7 @@ use crate::{
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Version(u64);
 
-/// A scene as it is edited: its description, the text it was read from, and where its files are.
+/// A scene that is being edited: its description, the text that it was read from, and its folder.
 #[derive(Debug)]
 pub struct Document {
     pub(super) content: Content,
@@ -74,8 +74,8 @@ impl Document {
         self.saved != Some(self.version)
     }
 
-    /// Does an edit and returns its exact inverse. What the reader of scene files would refuse is refused, with its message, and
-    /// changes nothing.
+    /// Applies an edit and returns its exact inverse. An edit that makes the scene invalid fails with the message of the reader of
+    /// scene files, and changes nothing.
     pub fn apply(&mut self, edit: &Edit) -> Result<Edit, Problem> {
         let inverse = self.content.apply(edit)?;
         self.version = Version(self.next);
@@ -83,19 +83,19 @@ impl Document {
         Ok(inverse)
     }
 
-    /// Does an edit that leads back to a known version.
+    /// Applies an edit that leads back to a known version.
     pub(super) fn return_to(&mut self, version: Version, edit: &Edit) -> Result<Edit, Problem> {
         let inverse = self.content.perform(edit)?;
         self.version = version;
         Ok(inverse)
     }
 
-    /// The text of the scene file: that of the file as it was read, with what has changed.
+    /// The text of the scene file: the text that was read, with the changes.
     pub fn text(&self) -> String {
         save::text(&self.content)
     }
 
-    /// Writes the scene to its file, or to another one, which is its file from then on. The file is replaced whole or not at all.
+    /// Writes the scene to its file, or to another one, which becomes its file. The file is replaced whole or not at all.
     pub fn save(&mut self, path: impl AsRef<FilePath>) -> Result<(), WriteError> {
         let (path, text) = (path.as_ref(), self.text());
         replace(path, text.as_bytes())?;
@@ -104,7 +104,7 @@ impl Document {
         Ok(())
     }
 
-    /// The file has this text, which is that of the document.
+    /// Records that the file has this text, which is that of the document.
     pub(super) fn saved(&mut self, text: String) {
         self.on_disk = text;
         self.saved = Some(self.version);
@@ -115,13 +115,13 @@ impl Document {
         &self.on_disk
     }
 
-    /// The file has another text than the document, whatever version it is.
+    /// Records that the text of the file differs from that of every version of the document.
     pub(super) fn differs_from(&mut self, on_disk: String) {
         self.on_disk = on_disk;
         self.saved = None;
     }
 
-    /// What is at a path, if anything is.
+    /// The content at a path, if there is any.
     pub fn tree(&mut self, path: &Path) -> Option<Tree> {
         self.content.tree(path)
     }
@@ -132,7 +132,7 @@ impl Document {
     }
 }
 
-/// What a text says, with all names defined.
+/// The description in a text, with all names defined.
 pub fn read(name: &str, text: &str) -> Result<Content, SceneError> {
     let mut content = Content::new(text.to_owned(), describe(name, text.to_owned())?);
     match content.problem() {

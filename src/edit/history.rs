@@ -4,14 +4,14 @@ use std::collections::VecDeque;
 use super::{Document, Edit, Version};
 use crate::declare::Problem;
 
-/// More steps are forgotten, the oldest first.
+/// Largest number of steps; the oldest are forgotten first.
 const MOST: usize = 20_000;
 
-/// A drag of the mouse, or the like: its edits are one step.
+/// A gesture such as a drag of the mouse: its edits form one step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Gesture(u64);
 
-/// The steps that led a document to where it is, and those that were undone.
+/// The steps that led to the present document, and those that were undone.
 #[derive(Debug, Default)]
 pub struct History {
     done: VecDeque<Step>,
@@ -22,7 +22,7 @@ pub struct History {
 /// From one version of a document to another.
 #[derive(Debug)]
 struct Step {
-    /// What leads there.
+    /// The edit that leads there.
     edit: Edit,
     version: Version,
     title: String,
@@ -39,12 +39,12 @@ impl History {
         Gesture(self.gestures)
     }
 
-    /// Does an edit as a step of its own. What was undone cannot be redone afterwards.
+    /// Applies an edit as a step of its own. Undone steps cannot be redone afterwards.
     pub fn apply(&mut self, document: &mut Document, edit: &Edit) -> Result<(), Problem> {
         self.step(document, edit, None)
     }
 
-    /// Does an edit that is undone together with the others of its gesture.
+    /// Applies an edit that is undone together with the others of its gesture.
     pub fn drag(&mut self, document: &mut Document, edit: &Edit, gesture: Gesture) -> Result<(), Problem> {
         self.step(document, edit, Some(gesture))
     }
@@ -63,31 +63,31 @@ impl History {
         Ok(())
     }
 
-    /// Takes back the last step. False where there is none.
+    /// Undoes the last step. Returns false if there is none.
     pub fn undo(&mut self, document: &mut Document) -> bool {
         let Some(step) = self.done.pop_back() else { return false };
         self.undone.extend(step.follow(document));
         true
     }
 
-    /// Does again what was undone last. False where nothing was.
+    /// Redoes the step that was undone last. Returns false if there is none.
     pub fn redo(&mut self, document: &mut Document) -> bool {
         let Some(step) = self.undone.pop() else { return false };
         self.done.extend(step.follow(document));
         true
     }
 
-    /// What undoing would take back, for a menu.
+    /// Name of the step that undo would take back, for a menu.
     pub fn to_undo(&self) -> Option<&str> {
         self.done.back().map(|step| step.title.as_str())
     }
 
-    /// What redoing would do, for a menu.
+    /// Name of the step that redo would repeat, for a menu.
     pub fn to_redo(&self) -> Option<&str> {
         self.undone.last().map(|step| step.title.as_str())
     }
 
-    /// The edit that [`History::undo`] applies next; it names what changes.
+    /// The edit that [`History::undo`] applies next; its paths are those that change.
     pub fn next_undo(&self) -> Option<&Edit> {
         self.done.back().map(|step| &step.edit)
     }
@@ -109,7 +109,7 @@ impl History {
 }
 
 impl Step {
-    /// Goes where the step leads, and returns the way back.
+    /// Applies the step and returns its inverse.
     fn follow(self, document: &mut Document) -> Option<Step> {
         let from = document.version();
         let inverse = document.return_to(self.version, &self.edit);
@@ -118,7 +118,7 @@ impl Step {
         Some(Step { edit: inverse.ok()?, version: from, gesture: None, ..self })
     }
 
-    /// The step leads back over one more edit.
+    /// Extends the step, which undoes edits, by the inverse of one more edit.
     fn merge(&mut self, inverse: Edit) {
         if absorbs(&self.edit, &inverse) {
             return;

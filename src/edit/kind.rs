@@ -1,10 +1,10 @@
-//! Changes of kind that need more than the choice.
+//! Changes of kind that change other parameters too.
 use super::{change::Edit, document::Document};
 use crate::declare::{OwnedValue, Path};
 
 impl Document {
-    /// The edit that chooses another alternative, with what has to change besides: parallel rays have neither an angle nor a lens, and
-    /// an emission by texture names one. `path` and `choice` are those of [`Edit::Choose`].
+    /// The edit that chooses another alternative and changes the parameters that depend on it: parallel rays have neither an angle nor
+    /// a lens, and a textured emission needs the name of a texture. `path` and `choice` are those of [`Edit::Choose`].
     pub fn change_kind(&self, path: &Path, choice: &str, name: &str) -> Edit {
         let scene = self.description();
         let camera = Path::of("camera");

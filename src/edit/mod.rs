@@ -1,4 +1,4 @@
-//! Editing: a scene as it is changed, step by step, and saved.
+//! Editing: changes a scene step by step, and saves it.
 //!
 //! A [`Document`] holds a [`SceneDescription`](crate::scene::description::SceneDescription) and the text that it was read from. An
 //! [`Edit`] changes it; applying one returns its exact inverse. A [`History`] keeps the inverses. [`Document::text`] writes the scene:
@@ -40,14 +40,14 @@
 //!
 //! | to | apply |
 //! |---|---|
-//! | set a value; tables on the way that are absent appear | [`Edit::Set`] |
+//! | set a value; adds absent tables on its path | [`Edit::Set`] |
 //! | give an optional value or table its default (`objects.3.emission`) | [`Edit::Insert`] without content |
 //! | remove an optional value, an object, a material, an item of a list | [`Edit::Remove`] |
 //! | add an object, a material, a texture, a transform | [`Edit::Insert`]; [`Document::add_shape`] places one |
 //! | duplicate an object, a material, a texture | [`Document::duplicate`] |
 //! | change a kind: `path` is the table with the key of the kind, `choice` the [`Choice::what`](crate::declare::Choice::what) | [`Edit::Choose`] |
-//! | the same with what has to change besides, such as the camera's angle | [`Document::change_kind`] |
-//! | rename a material or texture; what names it follows | [`Edit::Rename`] |
+//! | the same, with the parameters that depend on it, such as the camera's angle | [`Document::change_kind`] |
+//! | rename a material or texture, and all references to it | [`Edit::Rename`] |
 //! | rename an object | [`Edit::Set`] of its `name` |
 //! | assign a material; `None` is black | [`Document::assign`] |
 //! | reorder a list | [`Edit::Move`] |
@@ -56,19 +56,19 @@
 //!
 //! | file | holds |
 //! |---|---|
-//! | `document.rs`, `content.rs` | the document, and what it holds |
-//! | `change.rs`, `apply.rs` | what can be done; doing it |
-//! | `tree.rs`, `walk.rs` | a part of a description, taken down; the way of a visitor to a path |
+//! | `document.rs`, `content.rs` | the document and its content |
+//! | `change.rs`, `apply.rs` | the edits; applying them |
+//! | `tree.rs`, `walk.rs` | a snapshot of a part of a description; following a visitor to a path |
 //! | `set.rs`, `put.rs`, `take.rs`, `choose.rs` | the visitors that change a description |
-//! | `check.rs`, `references.rs` | what the reader would refuse; names in use |
+//! | `check.rs`, `references.rs` | the reader's checks; names in use |
 //! | `history.rs` | undo and redo |
-//! | `origin.rs`, `save/` | what stands for which part of the file; writing it |
-//! | `kind.rs` | changes of kind that need more than the choice |
+//! | `origin.rs`, `save/` | the part of the file that each object comes from; writing the file |
+//! | `kind.rs` | changes of kind that change other parameters too |
 //! | `names.rs`, `add.rs`, `pose.rs`, `rest.rs` | free names; new shapes and lamps; moving objects; dropping them to the floor |
 //! | `view.rs` | the camera and the settings of a view |
 //! | `outside.rs` | files that were changed outside |
 //! | `trial.rs` | random scenes, written and read |
-//! | `recovery.rs`, `templates.rs` | what survives a crash; scenes to begin with |
+//! | `recovery.rs`, `templates.rs` | recovery after a crash; scenes to start from |
 mod add;
 mod apply;
 mod change;

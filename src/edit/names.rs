@@ -3,7 +3,7 @@ use super::{Document, Edit, tree::Answer};
 use crate::declare::{OwnedValue, Path, Step};
 
 impl Document {
-    /// A name that nothing at a table of the scene has: `wanted`, or `wanted` with a number. The table is `objects`, `materials` or
+    /// An unused name in a table of the scene: `wanted`, or `wanted` with a number. The table is `objects`, `materials` or
     /// `textures`.
     pub fn free_name(&self, table: &str, wanted: &str) -> String {
         let scene = self.description();
@@ -18,14 +18,14 @@ impl Document {
         names.find(|name| !is_taken(name)).unwrap_or_else(|| wanted.to_owned())
     }
 
-    /// The edit that copies an object, a material or a texture, and the path of the copy. An object comes to stand behind its original.
+    /// The edit that copies an object, a material or a texture, and the path of the copy. A copied object follows its original in the list.
     pub fn duplicate(&mut self, path: &Path) -> Option<(Edit, Path)> {
         let mut tree = self.tree(path)?;
         let copy = match &path.0[..] {
             [Step::Key(list), Step::Item(place)] if list == "objects" => {
                 let name = &self.description().objects.get(*place)?.name;
                 let free = if name.is_empty() { String::new() } else { self.free_name(list, name) };
-                // An object says its name first.
+                // The name is the first value of an object.
                 *tree.0.first_mut()? = Answer::Value(OwnedValue::Text(free));
                 Path::of(list).item(place + 1)
             }

@@ -1,4 +1,4 @@
-//! What of the file the objects, materials and textures of a document stand for: saving keeps their text.
+//! The parts of the file from which the objects, materials and textures of a document come. Saving keeps their text.
 use std::collections::BTreeMap;
 
 use crate::{
@@ -10,7 +10,7 @@ use crate::{
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Origin(Step);
 
-/// The origins of all that a document has; what is new has none.
+/// The origins of all objects, materials and textures of a document; new ones have none.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Origins {
     /// By place.
@@ -20,7 +20,7 @@ pub struct Origins {
 }
 
 impl Origins {
-    /// Of a description as the file has it.
+    /// The origins of a description that equals the file.
     pub fn of(description: &SceneDescription) -> Origins {
         let same = |names: Vec<&String>| names.into_iter().map(|name| (name.clone(), name.clone())).collect();
         let named = [
@@ -30,7 +30,7 @@ impl Origins {
         Origins { objects: (0..description.objects.len()).map(Some).collect(), named: named.into() }
     }
 
-    /// What has been added at a path has this origin.
+    /// Records the origin of the part that was added at a path.
     pub fn insert(&mut self, path: &Path, origin: Option<&Origin>) {
         match (&path.0[..], origin) {
             ([Step::Key(list), Step::Item(place)], origin) if list == "objects" => {
@@ -46,7 +46,7 @@ impl Origins {
         }
     }
 
-    /// What was at a path is removed.
+    /// Forgets the part that was removed from a path.
     pub fn remove(&mut self, path: &Path) -> Option<Origin> {
         match &path.0[..] {
             [Step::Key(list), Step::Item(place)] if list == "objects" && *place < self.objects.len() => {
@@ -60,7 +60,7 @@ impl Origins {
         }
     }
 
-    /// What was at a path is at another place of its list.
+    /// Follows an item to another place in its list.
     pub fn relocate(&mut self, path: &Path, to: usize) {
         if let [Step::Key(list), Step::Item(_)] = &path.0[..] {
             let origin = self.remove(path);
@@ -68,7 +68,7 @@ impl Origins {
         }
     }
 
-    /// The name in the file of what has a name now.
+    /// The name in the file of the table that has a given name now.
     pub fn name(&self, map: &str, name: &str) -> Option<&str> {
         self.named.get(map)?.get(name).map(String::as_str)
     }

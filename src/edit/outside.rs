@@ -1,11 +1,11 @@
-//! Scene files that were changed outside, in a text editor or by another program.
+//! Scene files that a text editor or another program changed.
 use super::{Document, Edit, History, content::Content, document::read, tree::Tree};
 use crate::{
     declare::Problem,
     scene::{SceneError, description::SceneDescription},
 };
 
-/// What another program wrote to the file of a document.
+/// The changes that another program wrote to the file of a document.
 #[derive(Debug)]
 pub struct Outside {
     content: Content,
@@ -13,9 +13,9 @@ pub struct Outside {
     pub camera_changed: bool,
     /// Whether the file has other settings than before.
     pub settings_changed: bool,
-    /// Whether anything else is different, besides comments and format.
+    /// Whether anything else differs except comments and formatting.
     pub scene_changed: bool,
-    /// Whether the document has changes too, which taking the file would lose. One has to choose.
+    /// Whether the document has unsaved changes too, which reloading would lose: the user has to choose.
     pub conflicts: bool,
 }
 
@@ -28,7 +28,7 @@ impl Document {
         }
         let name = self.path().map_or_else(String::new, |path| path.display().to_string());
         let mut content = read(&name, text)?;
-        // A file that cannot be read was changed in every part.
+        // An earlier text that cannot be read counts as different in every part.
         let before = read(&name, self.on_disk()).map(|before| before.description).unwrap_or_default();
         let [was, now] = [&before, &content.description];
         let camera_changed = was.camera != now.camera;
@@ -36,7 +36,7 @@ impl Document {
         let scene_changed = *was != SceneDescription { camera: was.camera.clone(), render: was.render.clone(), ..now.clone() };
         let is_rewritten = camera_changed || settings_changed || scene_changed;
         if !is_rewritten && self.content.base.is(&before) {
-            // Only comments and format: the document keeps its changes, in the new text.
+            // Only comments and formatting differ: the document keeps its changes, in the new text.
             content.description = self.content.description.clone();
             content.origins = self.content.origins.clone();
         }
@@ -45,7 +45,7 @@ impl Document {
         Ok(Some(Outside { content, camera_changed, settings_changed, scene_changed, conflicts }))
     }
 
-    /// Takes what is in the file, as a step that can be undone.
+    /// Reloads the file, as a step that can be undone.
     pub fn take_outside(&mut self, history: &mut History, outside: Outside) -> Result<(), Problem> {
         let text = outside.content.base.text.clone();
         let is_saved = outside.content.base.is(&outside.content.description);
@@ -58,7 +58,7 @@ impl Document {
         Ok(())
     }
 
-    /// Keeps what is in the document. Saving will replace what is in the file.
+    /// Keeps the document. Saving will replace the content of the file.
     pub fn keep_own(&mut self, outside: &Outside) {
         self.differs_from(outside.content.base.text.clone());
     }

@@ -8,15 +8,15 @@ use crate::{
     shape::{ShapeKind, Transform, product},
 };
 
-/// Axes whose directions differ by less are the same.
+/// Largest difference of two unit axes that count as the same.
 const SAME_AXIS: f64 = 1e-9;
-/// Of the distance of the pivot: translations that are smaller come from rounding.
+/// Smallest translation, as a fraction of the distance of the pivot; smaller ones come from rounding.
 const ROUNDING: f64 = 1e-12;
 
 impl Document {
     /// The edit that transforms an object in world space, turning and scaling about a pivot. It changes the numbers that a person would
-    /// change: the points of shapes without transforms, else the last transforms of the list. `None` where there is no such object, or
-    /// where the transform cannot be inverted.
+    /// change: the points of shapes without transforms, else the last transforms of the list. `None` if there is no such object, or if
+    /// the transform cannot be inverted.
     pub fn transformed(&self, object: usize, change: &Transform, pivot: DVec3) -> Option<Edit> {
         let at = Path::of("objects").item(object);
         let described = self.description().objects.get(object)?;
@@ -34,11 +34,11 @@ impl Document {
     }
 }
 
-/// The numbers of a shape after a transform, where the shape can say it without transforms.
+/// The parameters of a shape after a transform, if they can express it without a list of transforms.
 fn points(shape: &ShapeKind, change: &Transform, map: &DAffine3) -> Option<Vec<(&'static str, OwnedValue)>> {
     let point = |p: DVec3| OwnedValue::Vector(map.transform_point3(p));
     let edge = |v: DVec3| OwnedValue::Vector(map.transform_vector3(v));
-    // What lengths are multiplied by, if all are by the same.
+    // The factor of all lengths, if it is the same in every direction.
     let factor = match change {
         Transform::Translate(_) => Some(1.0),
         Transform::Scale(factors) if factors.x == factors.y && factors.y == factors.z && factors.x > 0.0 => Some(factors.x),
@@ -97,7 +97,7 @@ fn list(object: &ObjectDescription, at: &Path, change: &Transform, map: &DAffine
     Edit::All(edits)
 }
 
-/// The value of a transform that stands for it and another one behind it.
+/// The value of one transform that equals two in succession.
 fn combined(first: &Transform, then: &Transform) -> Option<(&'static str, OwnedValue)> {
     match (first, then) {
         (Transform::Scale(first), Transform::Scale(then)) => Some(("scale", OwnedValue::Vector(*first * *then))),

@@ -1,15 +1,15 @@
-//! Puts a tree at a path: in place of what is there, or where nothing is.
+//! Puts a tree at a path: replaces the content there, or adds it.
 use super::tree::{Answer, Tree};
 use super::walk::Walk;
 use crate::declare::{Choice, Declare, Form, Parameter, Parameters, Path, Rearrangement, Value};
 
-/// Replaces what is at a path. False where nothing is there, or where the tree does not fit; part of it may be replaced then.
+/// Replaces the content at a path. Returns false if there is none, or if the tree does not fit; part of it may be replaced then.
 pub fn replace(description: &mut dyn Declare, path: &Path, tree: &Tree) -> bool {
     put(description, path, Some(tree), false)
 }
 
-/// Adds what is not there: with its defaults, or as a tree says. False where it cannot be added, or where the tree does not fit; it may
-/// have been added then.
+/// Adds an absent part, with its defaults or the content of a tree. Returns false if it cannot be added, or if the tree does not fit;
+/// the part may have been added then.
 pub fn insert(description: &mut dyn Declare, path: &Path, tree: Option<&Tree>) -> bool {
     put(description, path, tree, true)
 }
@@ -24,15 +24,15 @@ fn put(description: &mut dyn Declare, path: &Path, tree: Option<&Tree>, adds: bo
 struct Player<'p> {
     walk: Walk<'p>,
     adds: bool,
-    /// What is added was not there before, and is now.
+    /// The part was absent before and exists now.
     is_there: bool,
-    /// What the description is told; absent: it keeps its defaults.
+    /// The answers for the description; without them it keeps its defaults.
     answers: Option<std::slice::Iter<'p, Answer>>,
     fits: bool,
 }
 
 impl<'p> Player<'p> {
-    /// The next answer, where the walk has come to its target.
+    /// The next answer, once the walk has reached its target.
     fn next(&mut self, is_here: bool) -> Option<&'p Answer> {
         if !is_here {
             return None;

@@ -1,4 +1,4 @@
-//! Changes that are not saved, kept in a file in case the program does not end as it should.
+//! Keeps unsaved changes in a file in case the program ends unexpectedly.
 use std::{
     fs, io,
     path::{Path as FilePath, PathBuf},
@@ -35,7 +35,7 @@ impl Recovery {
         replace(file, format!("{FIRST_LINE}{path}\n{}", self.text).as_bytes())
     }
 
-    /// Reads a recovery file; `None` where there is none.
+    /// Reads a recovery file; `None` if there is none.
     pub fn read(file: &FilePath) -> io::Result<Option<Recovery>> {
         let text = match open_regular(file).and_then(io::read_to_string) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),

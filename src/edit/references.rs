@@ -1,8 +1,8 @@
-//! Names of materials and textures, where a description uses them.
+//! References to materials and textures in a description.
 use super::walk::Walk;
 use crate::declare::{Declare, Family, Form, Parameter, Parameters, Path, Textured, Value};
 
-/// Shows `look` every name that is used at a path or within it, where it stands and what it should name. `look` may change it.
+/// Calls `look` with every reference at a path or below it: its path, its family and its name. `look` may change the name.
 pub fn references(description: &mut dyn Declare, path: &Path, look: impl FnMut(&Path, Family, &mut String)) {
     let mut searcher = Searcher { walk: Walk::to(path), look };
     description.parameters(&mut searcher);

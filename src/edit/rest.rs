@@ -1,4 +1,4 @@
-//! Drops objects to what is below them.
+//! Drops objects onto the surface below them.
 use std::ops::Range;
 
 use glam::DVec3;
@@ -11,16 +11,16 @@ use crate::{
     shape::Transform,
 };
 
-/// Where rays start above the box of an object, as parts of its edges.
+/// Starting points of the rays, which go down from half the height of an object's box, as fractions of its edges.
 const PLACES: [f64; 5] = [0.01, 0.25, 0.5, 0.75, 0.99];
-/// Surfaces of the object itself that a ray passes.
+/// Largest number of surfaces of the object itself that a ray passes through.
 const MOST_PASSED: usize = 64;
-/// Of the size of the object: so far behind its surfaces rays go on.
+/// Distance behind a surface of the object at which a ray continues, as a fraction of the object's size.
 const STEP: f64 = 1e-5;
 
 impl Document {
     /// The edit that lets the bounding box of an object rest on the highest surface below its middle. `scene` is the compiled scene of
-    /// this document. `None` where nothing is below, or where it rests already.
+    /// this document. `None` if there is nothing below, or if it rests already.
     pub fn drop_to_floor(&self, scene: &Scene, object: usize) -> Option<Edit> {
         let own = scene.objects_of(object);
         let objects = scene.objects.get(own.clone())?;
@@ -35,7 +35,7 @@ impl Document {
     }
 }
 
-/// The height of the first surface below a point that belongs to none of these objects, as things are at time 0.
+/// The height of the first surface below a point that belongs to none of these objects, at time 0.
 fn surface_below(scene: &Scene, start: DVec3, step: f64, own: &Range<usize>) -> Option<f64> {
     let mut p = start;
     for _ in 0..MOST_PASSED {

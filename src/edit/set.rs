@@ -2,15 +2,15 @@
 use super::walk::Walk;
 use crate::declare::{Declare, Form, OwnedValue, Parameter, Parameters, Path, Value};
 
-/// What setting a value found.
+/// Result of setting a value.
 pub enum Found {
     /// The value as it was.
     Value(OwnedValue),
-    /// Something at this path on the way, or the value itself, was absent and is there now.
+    /// The value itself, or the table at this path above it, was absent and has been added.
     Absent(Path),
 }
 
-/// Why a value cannot be set. Nothing is changed then, but what was absent may have appeared.
+/// Why a value cannot be set. Nothing is changed then, but absent tables may have been added.
 pub enum Failure {
     /// There is no such value.
     Missing,
@@ -18,7 +18,7 @@ pub enum Failure {
     Type,
 }
 
-/// Sets the value at a path. What was absent on the way and appeared is told, whatever comes of it.
+/// Sets the value at a path. Reports the table that was added on the way, even on failure.
 pub fn set(description: &mut dyn Declare, path: &Path, value: &OwnedValue) -> (Result<Found, Failure>, Option<Path>) {
     let mut setter = Setter { walk: Walk::to(path), value, appeared: None, outcome: Err(Failure::Missing) };
     description.parameters(&mut setter);

@@ -1,13 +1,13 @@
-//! Removes what is at a path, and moves items of lists.
+//! Removes the part at a path, and moves items of lists.
 use super::walk::Walk;
 use crate::declare::{Declare, Form, Parameter, Parameters, Path, Rearrangement};
 
-/// Removes an optional value or table, a table with a name, or an item of a list. False where there is no such thing.
+/// Removes an optional value or table, a table with a name, or an item of a list. Returns false if there is no such part.
 pub fn remove(description: &mut dyn Declare, path: &Path) -> bool {
     take(description, path, None)
 }
 
-/// Moves an item within its list. False where there is no such item or place.
+/// Moves an item within its list. Returns false if there is no such item or place.
 pub fn relocate(description: &mut dyn Declare, path: &Path, to: usize) -> bool {
     take(description, path, Some(to))
 }
@@ -20,7 +20,7 @@ fn take(description: &mut dyn Declare, path: &Path, to: Option<usize>) -> bool {
 
 struct Taker<'p> {
     walk: Walk<'p>,
-    /// Where the item goes; absent: it is removed.
+    /// The new index of the item; `None` removes it.
     to: Option<usize>,
     is_done: bool,
 }

@@ -1,17 +1,17 @@
-//! Scenes to begin with.
+//! Scenes to start from.
 
-/// A scene to begin with.
+/// A scene to start from.
 #[derive(Clone, Copy, Debug)]
 pub struct Template {
-    /// What a menu calls it.
+    /// Its title in a menu.
     pub title: &'static str,
-    /// One sentence: what it is for.
+    /// One sentence that describes it.
     pub doc: &'static str,
     /// The text of a scene file.
     pub text: &'static str,
 }
 
-/// All of them, in the order of a menu.
+/// All templates, in the order of the menu.
 pub const TEMPLATES: [Template; 3] = [
     Template {
         title: "Empty room",

@@ -1,4 +1,4 @@
-//! A part of a description, taken down so that it can be put back bit for bit.
+//! A snapshot of a part of a description, which can be restored bit for bit.
 use super::walk::Walk;
 use crate::declare::{Choice, Declare, Form, OwnedValue, Parameter, Parameters, Path, Value};
 
@@ -6,7 +6,7 @@ use crate::declare::{Choice, Declare, Form, OwnedValue, Parameter, Parameters, P
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tree(pub(super) Vec<Answer>);
 
-/// What a description says where a visitor asks.
+/// An answer of a description to a visitor.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Answer {
     Value(OwnedValue),
@@ -17,13 +17,13 @@ pub enum Answer {
 }
 
 impl Tree {
-    /// All of a description.
+    /// A snapshot of a whole description.
     pub fn of(description: &mut dyn Declare) -> Tree {
         let everything = Path::default();
         Tree::at(description, &everything).unwrap_or(Tree(Vec::new()))
     }
 
-    /// What is at a path, if it is there.
+    /// A snapshot of the content at a path, if there is any.
     pub fn at(description: &mut dyn Declare, path: &Path) -> Option<Tree> {
         let is_everything = path.0.is_empty();
         let mut recorder = Recorder { walk: Walk::to(path), answers: Vec::new(), is_found: is_everything };

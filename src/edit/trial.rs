@@ -38,7 +38,7 @@ fn rename_one<T>(random: &mut dyn RngCore, map: &mut std::collections::BTreeMap<
     }
 }
 
-/// Makes every name one of those that the scene defines.
+/// Replaces every reference by a name that the scene defines.
 pub fn define_names(random: &mut dyn RngCore, scene: &mut SceneDescription) {
     let mut used = [false; 2];
     let everything = Path::default();
@@ -57,8 +57,8 @@ pub fn define_names(random: &mut dyn RngCore, scene: &mut SceneDescription) {
     });
 }
 
-/// Writes a random scene into the file of another one and reads it again: first without changes, then with all of them. Says what went
-/// wrong, with the text.
+/// Writes a random scene into the file of another one and reads it again: first without changes, then with all of them. An error
+/// describes the difference and quotes the text.
 pub fn write_and_read(random: &mut dyn RngCore) -> Result<(), String> {
     let [file, scene] = [drawn_scene(random), drawn_scene(random)];
     let text = file_text(random, &file);
@@ -74,7 +74,7 @@ pub fn write_and_read(random: &mut dyn RngCore) -> Result<(), String> {
     same(&again, &content.description, &written).map_err(|error| format!("{error}\nwritten into\n{text}"))
 }
 
-/// The text of a scene: with a table for everything, or as a person writes it.
+/// The text of a scene: with a table for everything, or in the style of a person.
 fn file_text(random: &mut dyn RngCore, scene: &SceneDescription) -> String {
     let whole = write(&mut scene.clone()).to_string();
     if random.random() {
@@ -86,7 +86,7 @@ fn file_text(random: &mut dyn RngCore, scene: &SceneDescription) -> String {
     save::text(&Content { description: scene.clone(), origins, ..Content::new(bare.to_owned(), empty) })
 }
 
-/// Some objects, materials and textures stand for any of the file.
+/// Matches some objects, materials and textures with random ones of the file.
 fn random_origins(random: &mut dyn RngCore, file: &SceneDescription, scene: &SceneDescription) -> Origins {
     let mut origins = Origins::of(file);
     let mut left: Vec<usize> = (0..file.objects.len()).collect();

@@ -1,24 +1,24 @@
 //! Follows a visitor on its way to a path.
 use crate::declare::{Path, Step};
 
-/// Where a visitor is, relative to a target path.
+/// Position of a visitor relative to a target path.
 pub struct Walk<'p> {
     target: &'p [Step],
-    /// Steps of the target that lead to the current table; all of them within the target, `None` beside the way.
+    /// Number of steps of the target that lead to the current table: all of them within the target, `None` off the path.
     matched: Option<usize>,
-    /// The same of the tables around, and the lengths of their paths.
+    /// The same for the enclosing tables, with the lengths of their paths.
     outer: Vec<(Option<usize>, usize)>,
-    /// The path of the current table; not kept beside the way.
+    /// The path of the current table; not kept off the path.
     path: Path,
 }
 
 impl<'p> Walk<'p> {
-    /// From the top of a description.
+    /// Starts at the top of a description.
     pub fn to(target: &'p Path) -> Walk<'p> {
         Walk { target: &target.0, matched: Some(0), outer: Vec::new(), path: Path::default() }
     }
 
-    /// The steps that are left, on the way to the target.
+    /// The remaining steps on the way to the target.
     fn left(&self) -> &'p [Step] {
         self.matched.map_or(&[], |matched| &self.target[matched..])
     }
@@ -60,7 +60,7 @@ impl<'p> Walk<'p> {
         }
     }
 
-    /// Whether the current table lies beside the way.
+    /// Whether the current table is not on the path.
     pub fn is_beside(&self) -> bool {
         self.matched.is_none()
     }
@@ -70,22 +70,22 @@ impl<'p> Walk<'p> {
         self.matched == Some(self.target.len())
     }
 
-    /// Whether the target is what stands at a key of the current table.
+    /// Whether the target is the content of a key of the current table.
     pub fn is_at(&self, key: &str) -> bool {
         matches!(self.left(), [Step::Key(last)] if last == key)
     }
 
-    /// Whether what stands at a key of the current table is the target or belongs to it.
+    /// Whether the content of a key of the current table is the target or belongs to it.
     pub fn takes(&self, key: &str) -> bool {
         self.is_within() || self.is_at(key)
     }
 
-    /// Whether the way leads through a key of the current table, or ends there.
+    /// Whether the path leads through a key of the current table, or ends there.
     pub fn leads_through(&self, key: &str) -> bool {
         matches!(self.left(), [Step::Key(next), ..] if next == key)
     }
 
-    /// The place in the list at a key that the target is.
+    /// The target's index in the list at a key.
     pub fn item_at(&self, key: &str) -> Option<usize> {
         match self.left() {
             [Step::Key(list), Step::Item(place)] if list == key => Some(*place),
@@ -93,7 +93,7 @@ impl<'p> Walk<'p> {
         }
     }
 
-    /// The name in the table of named tables at a key that the target is.
+    /// The target's name in the table of named tables at a key.
     pub fn name_at(&self, key: &str) -> Option<&'p str> {
         match self.left() {
             [Step::Key(map), Step::Key(name)] if map == key => Some(name),
@@ -101,7 +101,7 @@ impl<'p> Walk<'p> {
         }
     }
 
-    /// The path of what stands at a key of the current table.
+    /// The path of a key of the current table.
     pub fn path_of(&self, key: &str) -> Path {
         self.path.key(key)
     }

@@ -1,4 +1,4 @@
-//! Scenes to begin with.
+//! Scenes to start from.
 use super::*;
 use crate::{edit::TEMPLATES, scene::parse};
 

@@ -37,7 +37,7 @@ struct Reader<'t> {
     /// The tables around, the innermost last.
     frames: Vec<Frame<'t>>,
     path: Path,
-    /// The lengths of the path in the tables around.
+    /// Lengths of the paths of the enclosing tables.
     lengths: Vec<usize>,
     damage: Damage,
     errors: Vec<SceneError>,

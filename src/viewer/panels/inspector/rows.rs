@@ -14,7 +14,7 @@ pub struct Rows<'u> {
     ui: &'u mut Ui,
     surroundings: &'u Surroundings<'u>,
     path: Path,
-    /// The lengths of the path in the tables around.
+    /// Lengths of the paths of the enclosing tables.
     lengths: Vec<usize>,
     /// The optional parameter that is visited next.
     optional: Option<&'static str>,
