@@ -71,7 +71,7 @@ pub const TEXTURE: Parameter = Parameter::new("texture", "The name of a texture.
 
 /// A kind of texture.
 pub trait Texturing: Kind {
-    /// What the renderer looks up.
+    /// The form that the renderer looks up.
     type Pattern: Pattern;
 
     /// The texture as the renderer looks it up.

@@ -1,4 +1,4 @@
-//! Brings the lists of tables of a file up to date: transforms, motions.
+//! Updates the lists of tables in a file: transforms, motions.
 use toml_edit::{Array, Item, Value};
 
 use super::{
@@ -8,7 +8,7 @@ use super::{
 };
 
 impl Update<'_> {
-    /// Each item of a list stands for the one at its place.
+    /// Matches each item of a list with the item of the file at the same index.
     pub fn list(&self, item: &mut Item, was: &[Table], now: &[Table]) {
         match item {
             Item::Value(Value::Array(array)) => self.array(array, was, now),
@@ -45,9 +45,9 @@ impl Update<'_> {
     }
 }
 
-/// How the items of an array stand.
+/// Layout of the items of an array.
 pub struct Layout {
-    /// What is before an item that stands on a line of its own.
+    /// The text before an item on a line of its own.
     indent: Option<String>,
 }
 

@@ -1,11 +1,11 @@
-//! Writes a scene into the text of its file: comments, order and number formats stay, and only what changed is changed.
+//! Writes a scene into the text of its file. Changes only the values that differ, and keeps comments, order and number formats.
 //!
 //! | file | holds |
 //! |---|---|
-//! | `outline.rs` | what a file has to say of a description, and what it may leave out |
-//! | `tables.rs`, `lists.rs`, `named.rs` | bring a table, a list, a table of named tables of the file up to date |
-//! | `objects.rs` | the same for the objects, wherever they went |
-//! | `values.rs` | values as a person writes them |
+//! | `outline.rs` | the required and the optional content of a file for a description |
+//! | `tables.rs`, `lists.rs`, `named.rs` | update a table, a list or a table of named tables in the file |
+//! | `objects.rs` | the same for the objects, in any order |
+//! | `values.rs` | values in the style of a person |
 mod lists;
 mod named;
 mod objects;

@@ -1,4 +1,4 @@
-//! Brings the materials and textures of a file up to date.
+//! Updates the materials and textures of a file.
 use std::collections::BTreeMap;
 
 use toml_edit::{Item, Key, TableLike};
@@ -10,7 +10,7 @@ use super::{
 };
 
 impl Update<'_> {
-    /// Renames what has another name, removes what is gone, and appends what is new in the style of the others.
+    /// Renames, removes and appends tables. New ones have the style of the others.
     pub fn named(&self, item: &mut Item, map: &str, was: &BTreeMap<String, Table>, now: &BTreeMap<String, Table>) {
         let Some(tables) = item.as_table_like_mut() else { return };
         self.rename(tables, map, now);
@@ -45,7 +45,7 @@ impl Update<'_> {
     }
 }
 
-/// A new table, written as those beside it are.
+/// A new table in the style of its neighbours.
 fn in_style_of(tables: &dyn TableLike, table: &Table) -> Item {
     let headers = tables.iter().filter_map(|(_, item)| item.as_table()).filter(|table| !table.is_dotted());
     let has_lines = tables.iter().any(|(_, item)| item.is_value() || item.as_table().is_some_and(toml_edit::Table::is_dotted));

@@ -1,4 +1,4 @@
-//! Brings the objects of a file up to date: each takes its text along, comments included.
+//! Updates the objects of a file. Each one moves with its text, including comments.
 use toml_edit::{Array, ArrayOfTables, Item, Table as TomlTable, Value};
 
 use super::{
@@ -12,7 +12,7 @@ use super::{
 const SPREAD: isize = 1 << 20;
 
 impl Update<'_> {
-    /// Each object stands for the one that it was in the file, or for none.
+    /// Matches each object with the object of the file that it comes from, if there is one.
     pub fn objects(&self, item: &mut Item, was: &[Table], now: &[Table]) {
         match item {
             Item::ArrayOfTables(tables) => self.object_tables(tables, was, now),
@@ -78,7 +78,7 @@ fn prefix(table: &TomlTable) -> &str {
     table.decor().prefix().and_then(|prefix| prefix.as_str()).unwrap_or_default()
 }
 
-/// Comments that an empty line parts from an object do not go with it.
+/// Comments that an empty line separates from an object do not move with it.
 fn hand_on_comments(tables: &mut [Option<TomlTable>], survives: &[bool]) {
     let mut orphans = String::new();
     for (table, survives) in tables.iter_mut().zip(survives) {

@@ -1,4 +1,4 @@
-//! What a file has to say of a description: its values by key, and which of them a reader would assume anyway.
+//! The content of a file for a description: values by key, and which of them equal the reader's defaults.
 use std::collections::BTreeMap;
 
 use crate::{
@@ -10,18 +10,18 @@ use crate::{
 /// A table of a file.
 #[derive(Debug, Default)]
 pub struct Table {
-    /// In the order in which a person reads them.
+    /// Entries in reading order.
     pub entries: Vec<Entry>,
-    /// The name that may stand in the place of the table, if it says nothing else.
+    /// The name that may replace the table if it has no other content.
     pub name: Option<&'static str>,
 }
 
-/// What stands at a key.
+/// The entry at a key.
 #[derive(Debug)]
 pub struct Entry {
     pub key: &'static str,
     pub node: Node,
-    /// A reader assumes the same where the key is absent.
+    /// Whether the reader assumes the same if the key is absent.
     pub is_default: bool,
 }
 
@@ -39,7 +39,7 @@ pub enum Node {
 }
 
 impl Table {
-    /// All of a scene.
+    /// The outline of a whole scene.
     pub fn of(description: &SceneDescription) -> Table {
         let answers = Tree::of(&mut description.clone()).0;
         // The default description is led through the same choices: what it says then is what a reader assumes.
@@ -48,17 +48,17 @@ impl Table {
         outliner.frames.pop().map(|frame| frame.table).unwrap_or_default()
     }
 
-    /// What stands at a key.
+    /// The entry at a key.
     pub fn get(&self, key: &str) -> Option<&Entry> {
         self.entries.iter().find(|entry| entry.key == key)
     }
 
-    /// Whether nothing needs to be said.
+    /// Whether no entry needs to be written.
     pub fn is_default(&self) -> bool {
         self.entries.iter().all(|entry| entry.is_default)
     }
 
-    /// Whether both say the same, bit for bit.
+    /// Whether both have the same content, bit for bit.
     pub fn is_identical(&self, other: &Table) -> bool {
         let same = |(a, b): (&Entry, &Entry)| a.key == b.key && a.node.is_identical(&b.node);
         self.name == other.name && self.entries.len() == other.entries.len() && self.entries.iter().zip(&other.entries).all(same)
@@ -66,7 +66,7 @@ impl Table {
 }
 
 impl Node {
-    /// Whether both say the same, bit for bit.
+    /// Whether both have the same content, bit for bit.
     pub fn is_identical(&self, other: &Node) -> bool {
         match (self, other) {
             (Node::Value { value: a, .. }, Node::Value { value: b, .. }) => a.is_identical(b),
@@ -80,7 +80,7 @@ impl Node {
     }
 }
 
-/// Where the table that is visited goes.
+/// Destination of the visited table.
 #[derive(Default)]
 enum Place {
     #[default]
@@ -95,15 +95,15 @@ struct Frame {
     key: &'static str,
     place: Place,
     form: Option<Form>,
-    /// The table must be written, whatever it says.
+    /// Whether the table must be written even if all of its values are defaults.
     is_needed: bool,
-    /// The keys of alternatives that a reader would not choose by itself.
+    /// Keys of the alternatives that are not the reader's default.
     needed_keys: Vec<&'static str>,
-    /// What is visited next was absent by default.
+    /// Whether the part that is visited next is absent by default.
     next_is_needed: bool,
 }
 
-/// Visits a default description, and replaces its structure by that of another.
+/// Visits a default description and gives it the structure of another.
 struct Outliner {
     answers: std::vec::IntoIter<Answer>,
     frames: Vec<Frame>,
@@ -114,7 +114,7 @@ impl Outliner {
         self.frames.last_mut().expect("the whole file is around")
     }
 
-    /// Whether what is visited at a key must be written.
+    /// Whether the entry at a key must be written.
     fn needs(&mut self, parameter: &Parameter) -> bool {
         let frame = self.frame();
         let appears = std::mem::take(&mut frame.next_is_needed);

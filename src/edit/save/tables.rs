@@ -1,4 +1,4 @@
-//! Brings the tables of a file up to date.
+//! Updates the tables of a file.
 use toml_edit::{InlineTable, Item, Key, Table as TomlTable, TableLike, Value};
 
 use super::{
@@ -7,13 +7,13 @@ use super::{
 };
 use crate::edit::origin::Origins;
 
-/// Changes a file from what it says to what it should say.
+/// Updates a file from its old content to its new content.
 pub struct Update<'o> {
-    /// Where objects, materials and textures stand in the file.
+    /// Positions of objects, materials and textures in the file.
     pub origins: &'o Origins,
 }
 
-/// How a table that is new is written.
+/// Style of a new table.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Level {
     /// Under a header of its own.
@@ -23,7 +23,7 @@ pub enum Level {
 }
 
 impl Update<'_> {
-    /// Brings a table up to date: what is gone goes, what is new comes to stand where a person looks for it.
+    /// Updates a table: removes old keys and inserts new ones at their places in reading order.
     pub fn table(&self, table: &mut dyn TableLike, was: &Table, now: &Table, level: Level) {
         let keys = keys_of(table);
         keys.iter().filter(|key| now.get(key).is_none()).for_each(|key| drop(table.remove(key)));
@@ -58,7 +58,7 @@ impl Update<'_> {
         }
     }
 
-    /// Brings what stands in the place of a table up to date.
+    /// Updates the item that holds a table or its name.
     pub fn table_item(&self, item: &mut Item, was: &Table, now: &Table) {
         match item {
             Item::Value(value) => self.table_value(value, was, now),
@@ -93,7 +93,7 @@ impl Update<'_> {
     }
 }
 
-/// Whether a name comes to stand in the place of a table.
+/// Whether a name replaces a table.
 fn becomes_name(was: &Table, now: &Table) -> bool {
     now.name.is_some() && now.name != was.name && now.is_default()
 }
@@ -125,7 +125,7 @@ pub fn put_back(table: &mut dyn TableLike, items: Vec<(Key, Item)>) {
     }
 }
 
-/// What is new, as a person writes it.
+/// A new item in the style of a person.
 fn fresh(entry: &Entry, level: Level) -> Item {
     match &entry.node {
         Node::Table(table) if level == Level::Root => Item::Table(section(table)),

@@ -1,4 +1,4 @@
-//! Values as a person writes them: short numbers, tables on one line, the forms that the file has.
+//! Values in the style of a person: short numbers, tables on one line, the forms that the file uses.
 use toml_edit::{Array, InlineTable, Value};
 
 use super::outline::{Node, Table};
@@ -7,7 +7,7 @@ use crate::declare::{OwnedValue, Textured};
 /// Longer lists have a line for each item.
 const LONGEST_ROW: usize = 8;
 
-/// A number with as few digits as tell it apart from all others.
+/// A number with the fewest digits that distinguish it from all others.
 fn number(x: f64) -> Value {
     // Rust writes 1e300 with an exponent here, and 1 as 1.0.
     literal(&format!("{x:?}").to_lowercase()).unwrap_or_else(|| x.into())
@@ -63,7 +63,7 @@ pub fn written(value: &OwnedValue, collapses: bool) -> Value {
     }
 }
 
-/// A table on one line, or the name that may stand in its place.
+/// A table on one line, or the name that may replace it.
 pub fn written_table(table: &Table) -> Value {
     match table.name {
         Some(name) if table.is_default() => name.into(),
@@ -86,7 +86,7 @@ pub fn written_node(node: &Node) -> Value {
     }
 }
 
-/// Replaces a value by another, in the form of the one that is there.
+/// Replaces a value by another in the form of the old one.
 pub fn replace(old: &mut Value, value: &OwnedValue, collapses: bool) {
     // A colour that is written as a list stays one.
     let collapses = collapses && !old.is_array();

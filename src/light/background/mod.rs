@@ -62,7 +62,7 @@ backgrounds! {
 
 /// A kind of background.
 pub trait Surrounding: Kind {
-    /// What the renderer looks up.
+    /// The form that the renderer looks up.
     type Radiant: Radiant;
 
     /// The background as the renderer looks it up; `None` if it is black.
@@ -115,7 +115,7 @@ impl Background {
         in_background!(self, background => background.luminance())
     }
 
-    /// Whether it is sampled by cells.
+    /// Whether samples read the coordinates of a cell.
     pub fn has_cells(&self) -> bool {
         fn has_cells<R: Radiant>(_: &R) -> bool {
             R::HAS_CELLS

@@ -1,6 +1,6 @@
 //! Emission of surfaces: L_e(x, ω_o), the first term of the light transport equation.
 //!
-//! What an emission varies by is one file and one line of the catalogue below.
+//! Each kind of emission is one file and one line of the catalogue below.
 pub mod radiance;
 pub mod texture;
 
@@ -11,14 +11,14 @@ use crate::{
 };
 
 crate::catalogue! {
-    /// What the emission of an object varies by, as a scene describes it.
+    /// The emission of an object as a scene describes it.
     pub enum EmissionSource: Emit, "emission" {
         radiance::Radiance,
         texture::Texture,
     }
 }
 
-/// What an emission can vary by.
+/// A kind of emission.
 pub trait Emit {
     /// The emission, with its radiance times `scale`.
     fn compile(&self, scale: f32, side: Side, textures: &TextureCompiler) -> Result<Emission, Problem>;
@@ -42,7 +42,7 @@ pub struct Emission {
     pub radiance: [f32; 3],
     /// Mean radiance; with a texture, over its unit square.
     pub mean: [f32; 3],
-    /// Id of its texture.
+    /// Id of its texture, if it has one.
     pub texture: Option<u32>,
     /// The sides that emit.
     pub side: Side,
@@ -56,7 +56,7 @@ impl Emission {
     }
 }
 
-/// The emission of all primitives. Emitting primitives come first, so one comparison distinguishes them from the others.
+/// The emission of all primitives. Emitting primitives come first, so a single comparison identifies them.
 #[derive(Default)]
 pub struct Emitters {
     /// Radiance, and the sign of the emitting side (0: both).

@@ -5,7 +5,7 @@ use crate::{
     texture::{TEXTURE, TextureCompiler},
 };
 
-/// A radiance that varies by a texture.
+/// A radiance given by a texture.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Texture {
     /// The name of the texture.

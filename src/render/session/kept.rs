@@ -43,7 +43,7 @@ impl KeptSessions {
         if !session.is_worth_keeping() || bytes > self.most_bytes {
             return Some(session.into_film());
         }
-        // What it shows and saves is not kept.
+        // Its frames and saved images are not kept.
         session.memory = [None, None];
         while self.bytes() + bytes > self.most_bytes {
             self.drop_one();
@@ -91,7 +91,7 @@ impl KeptSessions {
 }
 
 impl Session {
-    /// Whether this is the image of a request. A series is not: it is another film.
+    /// Whether this is the image of a request. A series is not, because it has another film.
     pub fn is_of(&self, request: &RenderRequest) -> bool {
         let RenderRequest { scene, camera, settings } = &self.request;
         Arc::ptr_eq(scene, &request.scene)
@@ -99,7 +99,7 @@ impl Session {
             && !self.film.has_series()
     }
 
-    /// Continues as the image of a later generation. `steps` is the number of single passes that were requested before.
+    /// Continues the session as the image of a later generation. `steps` is the number of single passes that were requested before.
     pub fn resumed(mut self, generation: u64, steps: u64) -> Session {
         self.memory = [None, None];
         self.keep(0, Film::reserve(self.request.camera.resolution));
@@ -121,7 +121,7 @@ mod tests {
     };
     use crate::render::protocol::Publish;
 
-    /// A session of a few samples that took so many seconds.
+    /// A session of a few samples that took the given number of seconds.
     fn rendered(scene: &Arc<Scene>, seed: u32, seconds: u64) -> Session {
         let mut session = session([32, 32], Publish::Sparse, None);
         session.request.scene = scene.clone();

@@ -14,7 +14,7 @@ use crate::{
 };
 
 crate::choices! {
-    /// The weight of the light around the centre of a pixel; separable, with integral 1. Lengths are in pixels.
+    /// The weight of the light around the centre of a pixel: separable, with integral 1. Lengths are in pixels.
     pub enum Filter, "filter", default pixel_box::Box {
         pixel_box::Box,
         tent::Tent(Tent),

@@ -1,5 +1,5 @@
 //! Sobol points whose error is blue noise over the image at low sample counts. Neighbouring pixels err in opposite directions, so
-//! an average over pixels, such as the eye takes, has less noise than its pixels.
+//! an average over pixels, such as the eye takes, has less noise than a single pixel.
 //!
 //! The first samples of all pixels are one Owen-scrambled Sobol sequence along the Z-curve (A. G. M. Ahmed and P. Wonka,
 //! "Screen-Space Blue-Noise Diffusion of Monte Carlo Sampling Error via Hierarchical Ordering of Pixels", SIGGRAPH Asia 2020).

@@ -39,7 +39,7 @@ impl<L: Lanes> SampleKeys<L> {
     /// Computes the hashes. `pixel` is y·2¹⁶ + x, so a pixel keeps its random numbers when the resolution changes.
     #[inline(always)]
     pub fn new(seed: u32, pixel: U<L>, index: U<L>) -> Self {
-        // A factor of its own for every seed: by addition alone one seed's noise would be another's, moved aside.
+        // Each seed has its own factor: with addition alone, one seed's noise would be a shifted copy of another's.
         let salt = hash_one(seed ^ GOLDEN);
         let pixel_key = hash(pixel * (hash_one(salt) | 1) + salt);
         SampleKeys { pixel, pixel_key, salt, index, reversed: reverse(index) }
@@ -60,7 +60,7 @@ impl<L: Lanes> SampleKeys<L> {
     /// A hash of pixel and dimension.
     #[inline(always)]
     pub(super) fn dimension_key(&self, dimension: u32) -> U<L> {
-        // Another constant than the sample's key has: else index n and dimension n would share their hash.
+        // The constant differs from that of the sample's key: otherwise index n and dimension n would share a hash.
         hash((self.pixel_key ^ 0x6a09_e667) + dimension.wrapping_mul(GOLDEN))
     }
 

@@ -37,7 +37,7 @@ impl Points for Stratified {
         let key = keys.dimension_key(dimension);
         let shuffled = reverse(owen_reversed(keys.reversed_index(), key));
         let morton = reverse(owen_reversed(shuffled, hash(key ^ 0xa511_e9b3)));
-        // Sixteen bits of a coordinate say the cell; below them the place within it is random.
+        // Sixteen bits of a coordinate select the cell; the lower bits are a random position within it.
         let jitter = hash(keys.sample_key() ^ key);
         let x = (even_bits(morton >> 1) << 16) | (jitter & 0xffff);
         let y = (even_bits(morton) << 16) | (jitter >> 16);

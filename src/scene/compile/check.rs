@@ -1,4 +1,4 @@
-//! Checks of single parts of a description, without what takes long: files are not read, and nothing is made by formula.
+//! Quick checks of single parts of a description: they read no files and make no procedural shapes.
 use super::{camera::camera, object::placed_and_moved};
 use crate::{
     declare::{Path, Problem, Resources},
@@ -6,14 +6,14 @@ use crate::{
     shape::{ShapeBuilder, motion, product},
 };
 
-/// Says what keeps a camera from being compiled.
+/// Checks that a camera can be compiled.
 pub fn check_camera(described: &CameraDescription) -> Result<(), Problem> {
     camera(described)?;
     motion(&described.motion).map_err(|problem| problem.within(&Path::of("motion")))?;
     Ok(())
 }
 
-/// Says what keeps the shape of an object from being placed. Of meshes and of shapes that are many, only the transforms are checked.
+/// Checks that the shape of an object can be placed. For meshes and for kinds that make many shapes, checks only the transforms.
 pub fn check_object(described: &ObjectDescription) -> Result<(), Problem> {
     if matches!(described.shape, ShapeKind::Mesh(_) | ShapeKind::SphereField(_)) {
         product(&described.transform).map_err(|problem| problem.within(&Path::of("transform")))?;

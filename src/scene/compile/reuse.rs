@@ -1,4 +1,4 @@
-//! Reuses the shapes and lights of the previous scene if nothing that they are made from changed.
+//! Reuses the shapes and lights of the previous scene if their inputs have not changed.
 use std::{
     sync::Arc,
     time::{Duration, Instant},
@@ -13,7 +13,7 @@ use crate::{
     scene::{Object, Scene},
 };
 
-/// The scene that was compiled before.
+/// The previously compiled scene.
 #[derive(Clone, Copy)]
 pub struct Before<'a> {
     pub scene: &'a Scene,
@@ -74,7 +74,7 @@ pub fn lights(
     lights
 }
 
-/// The value of [`Scene::deepest_media`], reused if nothing that it depends on changed.
+/// The value of [`Scene::deepest_media`], reused if its inputs have not changed.
 pub fn deepest_media(scene: &Scene, before: Option<Before>) -> usize {
     let same_insides = |old: &Scene| {
         let filled = |scene: &Scene, object: &Object| (object.flip, scene.has_inside(object));

@@ -22,7 +22,7 @@ crate::choices! {
 }
 
 impl Projection {
-    /// Whether the camera's angle of view counts.
+    /// Whether the camera has an angle of view.
     pub fn has_angle(self) -> bool {
         in_projection!(self, projection => projection.has_angle())
     }
@@ -32,45 +32,45 @@ impl Projection {
         in_projection!(self, projection => projection.takes_lens())
     }
 
-    /// Half of the width of the picture: at distance 1 from the eye, or in metres where rays are parallel. `angle` is the full angle of
+    /// Half of the width of the image: at distance 1 from the eye, or in metres if rays are parallel. `angle` is the full angle of
     /// view, degrees.
     pub fn half_width(self, angle: f64) -> f64 {
         in_projection!(self, projection => projection.half_width(angle))
     }
 
-    /// The middle of the picture, from the eye.
+    /// The middle of the image, relative to the eye.
     pub fn middle(self, forward: DVec3) -> DVec3 {
         in_projection!(self, projection => projection.middle(forward))
     }
 
-    /// The factor from metres across the axis at a depth in metres to half widths; `None` where the point is not in front of the camera.
+    /// The factor from metres across the axis at a depth in metres to half widths; `None` if the point is not in front of the camera.
     pub fn scale(self, depth: f64) -> Option<f64> {
         in_projection!(self, projection => projection.scale(depth))
     }
 
-    /// The width of what the picture shows at a distance, metres. `angle` is the full angle of view, degrees.
+    /// Width in metres that the image covers at a distance in metres. `angle` is the full angle of view, degrees.
     pub fn width_at(self, distance: f64, angle: f64) -> f64 {
         in_projection!(self, projection => projection.width_at(distance, angle))
     }
 
-    /// A kind that shows the given width, metres, where that is up to the projection.
+    /// The projection that shows the given width, metres, if the projection determines the width.
     #[must_use]
     pub fn with_width(self, width: f64) -> Projection {
         in_projection!(self, projection => projection.with_width(width).into())
     }
 
-    /// The projection with its picture wider by a factor; `None` if the eye has to move for that.
+    /// The projection with an image that is wider by a factor; `None` if that takes a move of the eye.
     pub fn widened(self, factor: f64) -> Option<Projection> {
         in_projection!(self, projection => projection.widened(factor).map(Into::into))
     }
 
-    /// Origin and unit direction of the rays through points of the picture, relative to the eye.
+    /// Origin and unit direction of the rays through points of the image, relative to the eye.
     #[inline(always)]
     pub(crate) fn rays<L: Lanes>(self, l: L, place: V<L>, eye: [f32; 3], forward: [f32; 3]) -> (V<L>, V<L>) {
         in_projection!(self, projection => projection.rays(l, place, eye, forward))
     }
 
-    /// Reads a projection. Pictures of earlier versions have the width of an orthographic one in its place, or nothing.
+    /// Reads a projection. Images of earlier versions store only the width of an orthographic projection, or nothing.
     pub(super) fn carried<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Projection, D::Error> {
         #[derive(Deserialize)]
         #[serde(untagged)]

@@ -11,7 +11,7 @@ use crate::{
 /// All rays are parallel.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Orthographic {
-    /// Width of the picture, metres.
+    /// Width of the image in the scene, metres.
     pub width: f64,
 }
 

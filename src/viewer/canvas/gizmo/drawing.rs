@@ -1,4 +1,4 @@
-//! Draws the handles of a gizmo, and what an operation says of itself.
+//! Draws the handles of a gizmo and the status of an operation.
 use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, vec2};
 
 use noisefall::shape::Transform;
@@ -14,7 +14,7 @@ const FREE: Color32 = Color32::from_rgb(235, 235, 235);
 const HOVERED: Color32 = Color32::from_rgb(255, 214, 90);
 const SHADOW: Color32 = Color32::from_black_alpha(130);
 
-/// Draws handles; the one with the hovered lock stands out.
+/// Draws handles and highlights the one with the hovered lock.
 pub fn handles(painter: &Painter, handles: &[Handle], mode: Mode, hovered: Option<Lock>) {
     for handle in handles.iter().rev() {
         let is_hovered = hovered == Some(handle.lock);
@@ -59,7 +59,7 @@ fn arrow_head(painter: &Painter, [from, to]: [Pos2; 2], stroke: Stroke) {
     painter.add(Shape::convex_polygon(corners, stroke.color, Stroke::NONE));
 }
 
-/// Draws the change so far and the keys at the lower edge of the picture.
+/// Draws the change so far and the keys at the lower edge of the image.
 pub fn status(painter: &Painter, operation: &Operation, change: &Transform) {
     let text = format!(
         "{}\nX Y Z lock an axis, with Shift a plane · Ctrl snaps · digits set the value · Enter keeps · Esc discards",
@@ -73,7 +73,7 @@ pub fn status(painter: &Painter, operation: &Operation, change: &Transform) {
     painter.galley(rect.min, galley, Color32::WHITE);
 }
 
-/// What the operation does and by how much.
+/// Name and amount of the operation.
 pub fn title(operation: &Operation, change: &Transform) -> String {
     let name = ["x", "y", "z"];
     let lock = match operation.lock {

@@ -1,4 +1,4 @@
-//! The handles of a gizmo: where they lie on the screen, and which one is under the pointer.
+//! The handles of a gizmo: their positions on the screen, and the one under the pointer.
 use std::f64::consts::TAU;
 
 use egui::Pos2;
@@ -13,11 +13,11 @@ use crate::viewer::canvas::{
 
 /// Length of an axis in points.
 pub const LENGTH: f64 = 84.0;
-/// The squares of planes lie between these parts of the axes.
+/// Extent of the squares of planes, as fractions of the axes.
 const PLANE: [f64; 2] = [0.28, 0.48];
-/// An axis that looks shorter than this is not shown: the pointer could not say how far, points.
+/// Shortest axis that is shown, in points. Along a shorter one the pointer is too imprecise.
 const SHORTEST: f32 = 14.0;
-/// How near the pointer must be, points.
+/// Largest distance between the pointer and a handle, in points.
 const REACH: f32 = 7.0;
 /// Corners of a ring.
 const CORNERS: u32 = 48;
@@ -29,7 +29,7 @@ pub struct Handle {
     pub shape: HandleShape,
 }
 
-/// What a handle looks like, in points of the screen.
+/// Shape of a handle, in points of the screen.
 #[derive(Clone, Debug, PartialEq)]
 pub enum HandleShape {
     /// An axis from the pivot to its end.
@@ -42,7 +42,7 @@ pub enum HandleShape {
     Circle(Pos2, f32),
 }
 
-/// The handles of a mode around a pivot; those that come first lie on top. None if the pivot is behind the camera.
+/// The handles of a mode around a pivot, topmost first. None if the pivot is behind the camera.
 pub fn handles(mode: Mode, pivot: DVec3, camera: &Camera, area: &PictureArea) -> Vec<Handle> {
     let screen = |p: DVec3| project(camera, p).map(|[x, y]| area.screen(x, y));
     let Some(center) = screen(pivot) else { return Vec::new() };
@@ -99,14 +99,14 @@ fn ring(
     (!sides.is_empty()).then_some(sides)
 }
 
-/// The handle under the pointer: the nearest one, and of those that are equally near the first.
+/// The handle under the pointer: the nearest one; the first of several at the same distance.
 pub fn under(handles: &[Handle], pointer: Pos2) -> Option<&Handle> {
     let gaps = handles.iter().map(|handle| (gap(&handle.shape, pointer), handle));
     let (_, handle) = gaps.filter(|(gap, _)| *gap <= REACH).min_by(|(a, _), (b, _)| a.total_cmp(b))?;
     Some(handle)
 }
 
-/// How far a pointer is from a handle, points.
+/// Distance of the pointer from a handle, in points.
 fn gap(shape: &HandleShape, pointer: Pos2) -> f32 {
     match shape {
         HandleShape::Circle(center, radius) if *radius <= REACH => (center.distance(pointer) - radius).max(0.0),

@@ -1,4 +1,4 @@
-//! The keys of a gizmo. They are taken from the window only while an object is selected.
+//! The keys of a gizmo. It takes them from the window only while an object is selected.
 use egui::{Context, Event, Key, Modifiers};
 
 use super::operation::{Lock, Mode};
@@ -15,7 +15,7 @@ pub enum Press {
     Cancel,
 }
 
-/// Takes the keys that start an operation, or while one is under way all keys of operations. The window does not see them after that.
+/// Takes the keys that start an operation or, during one, all keys of operations. The window does not see these keys.
 pub fn take(ctx: &Context, is_under_way: bool) -> Vec<Press> {
     if !is_under_way && ctx.egui_wants_keyboard_input() {
         return Vec::new();

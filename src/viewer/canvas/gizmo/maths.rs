@@ -1,4 +1,4 @@
-//! Where a pointer moves something along axes and planes, and how far it turns it.
+//! Converts pointer positions to distances along axes, points on planes, and angles.
 use std::f64::consts::TAU;
 
 use glam::DVec3;
@@ -6,21 +6,21 @@ use glam::DVec3;
 /// Lines and planes that are nearer to parallel than this have no useful intersection.
 const PARALLEL: f64 = 1e-4;
 
-/// Where the axis through a pivot comes nearest to a ray: metres along the unit axis. `None` if both are parallel.
+/// The point on the axis through a pivot that is nearest to a ray: metres along the unit axis. `None` if both are parallel.
 pub fn nearest_on_axis(pivot: DVec3, axis: DVec3, [origin, direction]: [DVec3; 2]) -> Option<f64> {
     let (way, cos) = (pivot - origin, axis.dot(direction));
     let sin_squared = 1.0 - cos * cos;
     (sin_squared > PARALLEL * PARALLEL).then(|| (cos * direction.dot(way) - axis.dot(way)) / sin_squared)
 }
 
-/// Where a ray meets the plane through a pivot. `None` if it runs along the plane or away from it.
+/// Intersection of a ray with the plane through a pivot. `None` if the ray is parallel to the plane or points away from it.
 pub fn on_plane(pivot: DVec3, normal: DVec3, [origin, direction]: [DVec3; 2]) -> Option<DVec3> {
     let cos = direction.dot(normal);
     let distance = (pivot - origin).dot(normal) / cos;
     (cos.abs() > PARALLEL && distance > 0.0).then(|| origin + direction * distance)
 }
 
-/// The angle of a point of the picture about a centre, radians, counter-clockwise from the right; y points down.
+/// The angle of a point of the image about a centre, radians, counter-clockwise from the right; y points down.
 pub fn angle_about(center: [f32; 2], at: [f32; 2]) -> f64 {
     f64::from(center[1] - at[1]).atan2(f64::from(at[0] - center[0]))
 }

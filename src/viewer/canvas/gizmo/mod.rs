@@ -1,10 +1,10 @@
-//! The gizmo: moves, turns and scales the selected object by handles, or by keys.
+//! The gizmo: moves, rotates and scales the selected object by handles or keys.
 //!
 //! | file | holds |
 //! |---|---|
 //! | `maths.rs` | rays, axes, planes, angles, snapping |
 //! | `operation.rs` | an operation under way: from the pointer or a typed number to a transform |
-//! | `handles.rs` | where handles lie, and which one is under the pointer |
+//! | `handles.rs` | positions of handles, and the one under the pointer |
 //! | `keys.rs` | the keys |
 //! | `drawing.rs` | draws handles and figures |
 mod drawing;
@@ -26,7 +26,7 @@ use self::{
 };
 use super::picture_area::PictureArea;
 
-/// What a gizmo did in a frame.
+/// Result of a gizmo in one frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GizmoOutput {
     /// The transform of the world about the pivot, from the beginning of the operation until now.
@@ -36,20 +36,20 @@ pub struct GizmoOutput {
     pub phase: Phase,
 }
 
-/// How far an operation is.
+/// State of an operation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Phase {
     Going,
     /// The change stays.
     Done,
-    /// The object is to be as it was.
+    /// The change is discarded.
     Cancelled,
 }
 
 /// The gizmo between two frames.
 #[derive(Default)]
 pub struct Gizmo {
-    /// What its handles do.
+    /// Operation of its handles.
     pub mode: Mode,
     operation: Option<Operation>,
     /// A key began the operation: the pointer moves it without a button.
@@ -80,12 +80,12 @@ impl Gizmo {
         *self = Gizmo { mode: self.mode, ..Gizmo::default() };
     }
 
-    /// Shows the gizmo at a pivot over the picture of a camera, in a scene of this size. Returns what an operation does.
+    /// Shows the gizmo at a pivot over the image of a camera, in a scene of this size. Returns the state of an operation.
     pub fn show(&mut self, ui: &mut Ui, area: &PictureArea, camera: &Camera, pivot: DVec3, size: f64) -> Option<GizmoOutput> {
         let [pointer, pressed] = ui.input(|input| [input.pointer.latest_pos(), input.pointer.press_origin()]);
         let is_over = pointer.is_some_and(|pointer| area.clip.contains(pointer));
         let pointer = pointer.unwrap_or(area.rect.center());
-        // While an operation is under way the object has moved already, and its pivot stays.
+        // During an operation the object has already moved, but its pivot stays.
         let pivot = self.operation.as_ref().map_or(pivot, |operation| operation.pivot);
         let ended = self.follow_keys(pivot, area.place(pointer));
         let handles = handles::handles(self.mode, pivot, camera, area);
@@ -111,7 +111,7 @@ impl Gizmo {
         Some(GizmoOutput { change, pivot, phase: ended.unwrap_or(Phase::Going) })
     }
 
-    /// The widget that takes the mouse from the picture: under the pointer over a handle, everywhere while an operation is under way.
+    /// The widget that takes the mouse from the image: over a handle, or everywhere during an operation.
     fn interact(&self, ui: &Ui, area: &PictureArea, pointer: Pos2) -> Option<Response> {
         let near = Rect::from_center_size(pointer, vec2(24.0, 24.0)).intersect(area.clip);
         let rect = match (&self.operation, self.hovered) {

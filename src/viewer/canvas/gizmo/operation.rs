@@ -1,4 +1,4 @@
-//! A move, rotation or scaling under way: from the pointer, or from a number that is typed.
+//! An active move, rotation or scaling, controlled by the pointer or a typed number.
 use glam::DVec3;
 use noisefall::{
     scene::Camera,
@@ -8,7 +8,7 @@ use noisefall::{
 use super::maths::{angle_about, grid_step, nearest_on_axis, on_plane, snapped, unwrapped};
 use crate::viewer::canvas::projection::{project, ray};
 
-/// What a gizmo does.
+/// Operation of a gizmo.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Mode {
     #[default]
@@ -17,10 +17,10 @@ pub enum Mode {
     Scale,
 }
 
-/// What it is restricted to. Axes are 0 for x, 1 for y, 2 for z.
+/// Restriction of an operation. Axes are 0 for x, 1 for y, 2 for z.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Lock {
-    /// Moves in the plane of the picture, turns about the line of sight, scales all axes alike.
+    /// Moves in the plane of the image, rotates about the line of sight, scales all axes alike.
     Free,
     Axis(usize),
     /// The plane perpendicular to an axis.
@@ -32,11 +32,11 @@ pub const AXES: [DVec3; 3] = [DVec3::X, DVec3::Y, DVec3::Z];
 
 /// Degrees that a rotation snaps to.
 const ANGLE_STEP: f64 = 15.0;
-/// What factors snap to.
+/// Step of factors that snap.
 const FACTOR_STEP: f64 = 0.1;
 /// Smaller factors would flatten the object.
 const LEAST_FACTOR: f64 = 1e-3;
-/// A scaling that begins nearer to the pivot would be too fast, in pixels of the picture.
+/// Smallest distance from the pivot at which a scaling starts, in pixels of the image; nearer ones would be too fast.
 const NEAREST: f32 = 8.0;
 
 /// An operation under way.
@@ -44,14 +44,14 @@ const NEAREST: f32 = 8.0;
 pub struct Operation {
     pub mode: Mode,
     pub lock: Lock,
-    /// What stays where it is when the object turns or grows, metres.
+    /// The fixed point of rotation and scaling, metres.
     pub pivot: DVec3,
-    /// A number in place of the pointer.
+    /// The typed number, which replaces the pointer.
     pub typed: String,
-    /// Where the pointer was at the beginning and is now, in pixels of the picture.
+    /// First and current position of the pointer, in pixels of the image.
     start: [f32; 2],
     now: [f32; 2],
-    /// Radians that the pointer has gone around the pivot.
+    /// Angle of the pointer around the pivot since the start, radians.
     turned: f64,
 }
 
@@ -70,18 +70,18 @@ impl Operation {
         }
     }
 
-    /// Restricts the operation to an axis or a plane, or frees it if it is so already.
+    /// Restricts the operation to an axis or a plane, or frees it if it already has that restriction.
     pub fn toggle(&mut self, lock: Lock) {
         self.lock = if self.lock == lock { Lock::Free } else { lock };
     }
 
-    /// The number that is typed, as far as it is one.
+    /// The typed number, if the text is a number.
     pub fn number(&self) -> Option<f64> {
         self.typed.parse().ok().filter(|number: &f64| number.is_finite())
     }
 
-    /// The transform of the world about the pivot so far, in a scene of this size. `snaps` rounds what the pointer says, not what is
-    /// typed.
+    /// The transform of the world about the pivot so far, in a scene of this size. `snaps` rounds the amount from the pointer,
+    /// not a typed one.
     pub fn change(&self, camera: &Camera, size: f64, snaps: bool) -> Transform {
         match self.mode {
             Mode::Move => Transform::Translate(self.way(camera, if snaps { Some(grid_step(size)) } else { None })),

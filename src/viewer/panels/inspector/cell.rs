@@ -1,4 +1,4 @@
-//! The control of a value, by its type.
+//! Controls for values, by type.
 use egui::{ComboBox, Id, Ui};
 use glam::DVec3;
 use noisefall::declare::{OwnedValue, Parameter, Path, Range, Textured, Value, Word, check_value};
@@ -6,12 +6,12 @@ use noisefall::declare::{OwnedValue, Parameter, Path, Range, Textured, Value, Wo
 use super::{Request, Surroundings, numbers::Numbers, references};
 use crate::viewer::widgets::{colour_edit, committed_text};
 
-/// The control of a value, and what came of it.
+/// The control of a value, and its result.
 pub struct Cell<'a> {
     pub parameter: &'a Parameter,
     pub path: &'a Path,
     pub surroundings: &'a Surroundings<'a>,
-    /// The value is a name that may be absent.
+    /// Whether the value is a name that may be absent.
     pub is_optional_name: bool,
     /// Why a typed value was refused.
     pub refusal: Option<String>,
@@ -19,7 +19,7 @@ pub struct Cell<'a> {
 }
 
 impl Cell<'_> {
-    /// Shows the value, and notes what was asked for.
+    /// Shows the value and records the requested change.
     pub fn show(&mut self, ui: &mut Ui, label: Id, value: &Value<'_>) {
         match value {
             Value::Number(number, range) => {

@@ -1,15 +1,15 @@
 //! The inspector: a row for every parameter of a part of the scene, made from its declaration.
 //!
-//! It shows a description and changes nothing in it. It returns what was asked for as [`Request`]s.
+//! It shows a description and does not change it. It returns the requested changes as [`Request`]s.
 //!
 //! | file | holds |
 //! |---|---|
 //! | `rows.rs` | the visitor of declarations: tables, choices and lists, and a row for each value |
 //! | `row.rs` | the layout of a row: label, tooltip, optional mark |
-//! | `cell.rs` | the control of a value, by its type |
+//! | `cell.rs` | controls for values, by type |
 //! | `numbers.rs` | sliders and fields of numbers |
 //! | `references.rs` | menus of names: textures, materials |
-//! | `request.rs` | what is asked for |
+//! | `request.rs` | the requested changes |
 //! | `surroundings.rs` | the rest of the scene |
 mod cell;
 mod numbers;

@@ -1,11 +1,11 @@
-//! Sliders and fields of numbers. None of them accepts what a reader would refuse.
+//! Sliders and fields for numbers. They accept only values that the reader accepts.
 use egui::{Id, Slider, SliderClamping, Ui};
 use glam::DVec3;
 use noisefall::declare::{CountRange, Parameter, Problem, Range, Scale, Value, check_value, short};
 
 use crate::viewer::widgets::typed_number::{TypedNumber, refusal};
 
-/// A slider runs over so many powers of ten at most; its field takes all numbers.
+/// Largest range of a slider in powers of ten. Its field takes all numbers.
 const SLIDER_LEAST: f64 = 1e-3;
 const SLIDER_MOST: f64 = 1e3;
 
@@ -16,7 +16,7 @@ const OF_THREE: f32 = 52.0;
 const OF_CHANNELS: f32 = 40.0;
 const OF_FOUR: f32 = 42.0;
 
-/// Counts up to here have a slider.
+/// Largest count with a slider.
 const FEW: u32 = 256;
 
 /// The fields of one value.
@@ -28,7 +28,7 @@ pub struct Numbers<'a> {
 }
 
 impl Numbers<'_> {
-    /// A number with a slider, where its range has ends. Returns the new one.
+    /// Shows a number, with a slider if its range is bounded. Returns the new number.
     pub fn number(
         &mut self,
         ui: &mut Ui,
@@ -158,7 +158,7 @@ impl Numbers<'_> {
     }
 }
 
-/// What a field looks like.
+/// Format of a field.
 struct Look<'a> {
     unit: &'a str,
     width: f32,
@@ -184,7 +184,7 @@ fn check_finite(parameter: &Parameter, mut x: f64) -> Option<String> {
     check_value(parameter, &Value::Number(&mut x, Range::FINITE)).map(message)
 }
 
-/// What a reader says of a problem.
+/// The message of the reader for a problem.
 fn message(problem: Problem) -> String {
     let rest = [problem.label, problem.help].into_iter().filter(|text| !text.is_empty());
     [problem.message].into_iter().chain(rest).collect::<Vec<_>>().join("; ")

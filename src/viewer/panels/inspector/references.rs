@@ -1,20 +1,20 @@
-//! Menus of names: textures in place of constants, and what a value refers to.
+//! Menus of names: textures instead of constants, and references.
 use egui::{Button, ComboBox, Id, Ui};
 use noisefall::declare::{Family, OwnedValue, Parameter, Path};
 
 use super::{Request, Surroundings};
 
-/// Where a value comes from.
+/// Source of a value.
 pub enum Source {
     Constant,
     Texture(String),
-    /// A picture file that is to be chosen.
+    /// An image file that the user chooses next.
     File,
 }
 
 const FROM_FILE: &str = "From a file…";
 
-/// The family of an optional name that is absent: only its key tells.
+/// The family of an absent optional name, which only its key determines.
 pub fn family_of(parameter: &Parameter) -> Option<Family> {
     match parameter.key {
         "material" => Some(Family::Material),

@@ -1,14 +1,14 @@
-//! What the inspector asks for.
+//! Changes that the inspector requests.
 use noisefall::declare::{OwnedValue, Path};
 
-/// What was asked for in a frame.
+/// The requests of one frame.
 #[derive(Debug, Default, PartialEq)]
 pub struct Asked {
     pub requests: Vec<Request>,
     pub drag: Drag,
 }
 
-/// Whether requests belong together: undo takes back a whole drag.
+/// Grouping of requests: one undo takes back a whole drag.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Drag {
     /// Every request stands by itself.
@@ -20,7 +20,7 @@ pub enum Drag {
     Ended,
 }
 
-/// A change that was asked for. Nothing is changed yet.
+/// A requested change, which is not applied yet.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Request {
     /// Set a value.
@@ -33,6 +33,6 @@ pub enum Request {
     Remove { path: Path },
     /// Let the user choose a file for the value.
     BrowseFile { path: Path },
-    /// Let the user choose a picture file; make a texture of it, and set the value to its name.
+    /// Let the user choose an image file, make a texture of it, and set the value to its name.
     BrowseTexture { path: Path },
 }

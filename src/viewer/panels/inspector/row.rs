@@ -5,11 +5,11 @@ use noisefall::declare::Parameter;
 /// Width of the labels in points.
 const LABEL_WIDTH: f32 = 104.0;
 
-/// What stands before a label.
+/// The mark before a label.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mark {
     None,
-    /// A check box: whether the value or table is given.
+    /// A check box: whether the value or table is present.
     Optional(bool),
     /// A button that removes the item from its list.
     Item,
@@ -24,7 +24,7 @@ pub struct Heading {
 }
 
 impl Heading {
-    /// The label of a parameter: key, symbol; the tooltip says what it is and its unit.
+    /// The label of a parameter: key and symbol. The tooltip has its description and unit.
     pub fn of(parameter: &Parameter, mark: Mark) -> Heading {
         let symbol = if parameter.symbol.is_empty() { String::new() } else { format!(" {}", parameter.symbol) };
         let unit = if parameter.unit.is_empty() { String::new() } else { format!("\nUnit: {}", parameter.unit) };

@@ -9,7 +9,7 @@ use super::{
     row::{Heading, Mark, capital},
 };
 
-/// The tables that are visited, and what was asked for so far.
+/// The visited tables, and the requests so far.
 pub struct Rows<'u> {
     ui: &'u mut Ui,
     surroundings: &'u Surroundings<'u>,
@@ -18,7 +18,7 @@ pub struct Rows<'u> {
     lengths: Vec<usize>,
     /// The optional parameter that is visited next.
     optional: Option<&'static str>,
-    /// A table that was entered and has no title yet: its choice may stand in the same row.
+    /// A table that was entered and has no title yet: its choice may share the row.
     entered: Option<(Heading, Form)>,
     /// The alternative that was chosen last; its table needs no title.
     chosen: Option<&'static str>,
@@ -117,7 +117,7 @@ impl Parameters for Rows<'_> {
             || Heading { title: capital(choice.what), tooltip: format!("The kind of {}.", choice.what), mark: Mark::None };
         let (mut heading, form) = self.entered.take().unwrap_or_else(|| (of_choice(), Form::Table));
         if form == Form::NameOrTable {
-            // It keeps what it is where its key is absent: there is nothing to remove.
+            // It keeps its default if its key is absent, so there is nothing to remove.
             heading.mark = if heading.mark == Mark::Item { Mark::Item } else { Mark::None };
         }
         let mut place = now;

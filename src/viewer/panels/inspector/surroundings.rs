@@ -1,6 +1,6 @@
-//! The rest of the scene, as far as rows refer to it.
+//! The parts of the scene that rows refer to.
 
-/// What the inspector knows of the scene besides the part that it shows.
+/// Context of the inspected part: names in the scene, and its size.
 pub struct Surroundings<'s> {
     /// Names of all textures.
     pub textures: &'s [String],

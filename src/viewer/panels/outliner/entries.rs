@@ -13,7 +13,7 @@ pub struct Group {
 /// A part of the scene as a row.
 pub struct Entry {
     pub subject: Subject,
-    /// What the row calls it.
+    /// Label of the row.
     pub name: String,
     /// The name in the description: an object may have none.
     pub given_name: String,

@@ -11,10 +11,10 @@ use noisefall::{
 use super::entries::Entry;
 use crate::viewer::panels::subject::Subject;
 
-/// What is to be done to a part.
+/// An action on a part.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Action {
-    /// Move the camera so that the part fills the picture.
+    /// Move the camera so that the part fills the image.
     LookAt,
     /// Move the object down until it rests on something.
     DropToFloor,
@@ -22,7 +22,7 @@ pub enum Action {
     Delete,
     /// Give it this name.
     Rename(String),
-    /// Make it another kind, by its name.
+    /// Change its kind to the one of this name.
     ChangeKind(&'static str),
     /// Give it a material; `None` is black.
     AssignMaterial(Option<String>),
@@ -30,7 +30,7 @@ pub enum Action {
     AddBackground,
 }
 
-/// What is to be added to the scene.
+/// A part to add to the scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum New {
     /// An object with a shape of this kind.

@@ -1,6 +1,6 @@
 //! The outliner: a list of the parts of the scene, with search, selection and a menu for each.
 //!
-//! It shows a description and changes nothing in it. It returns what was asked for.
+//! It shows a description and does not change it. It returns the requested actions.
 //!
 //! | file | holds |
 //! |---|---|
@@ -24,12 +24,12 @@ use self::{
 use super::subject::Subject;
 use crate::viewer::widgets::{committed_text, palette::Palette};
 
-/// What was asked for in a frame.
+/// The requests of one frame.
 #[derive(Debug, Default, PartialEq)]
 pub struct Asked {
     /// The part that was clicked.
     pub selected: Option<Subject>,
-    /// What is to be done to which part.
+    /// The action on a part.
     pub action: Option<(Subject, Action)>,
 }
 
@@ -54,7 +54,7 @@ struct Listed {
 /// Height of a row in points, with the space below.
 const ROW: f32 = 24.0;
 
-/// More rows of a group are shown only where one scrolls to.
+/// Number of rows of a group that are shown without scrolling.
 const MOST_OPEN: usize = 12;
 
 impl Outliner {
