@@ -128,7 +128,7 @@ pub trait Parameters {
     fn alternative(&mut self, _name: Option<&'static str>) {}
 }
 
-/// How a choice may be written.
+/// Forms of a choice in a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
     /// A table with the key of an alternative.

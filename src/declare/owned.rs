@@ -6,21 +6,21 @@ use super::{Textured, Value};
 /// The content of a [`Value`].
 #[derive(Clone, Debug, PartialEq)]
 pub enum OwnedValue {
-    /// Of a number.
+    /// A number.
     Number(f64),
-    /// Of a whole number.
+    /// A whole number.
     Count(u32),
     /// True or false.
     Flag(bool),
-    /// Of a text, a path or a name.
+    /// A text, a path or a name.
     Text(String),
-    /// Of a colour.
+    /// A colour.
     Colour([f64; 3]),
-    /// Of a colour that may be a texture.
+    /// A colour that may be a texture.
     Textured(Textured),
-    /// Of a number that may be a texture.
+    /// A number that may be a texture.
     TexturedNumber(Textured<f64>),
-    /// Of a position, a vector or three factors.
+    /// A position, a vector or three factors.
     Vector(DVec3),
     /// Two numbers.
     Pair([f64; 2]),

@@ -1,4 +1,4 @@
-//! What is known of a parameter besides its value: words and ranges.
+//! Description of a parameter: words and ranges.
 
 /// A parameter as a scene file and a person know it.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,4 +1,4 @@
-//! Where in a description a parameter stands.
+//! The path of a parameter in a description.
 use std::fmt;
 
 use crate::quote;

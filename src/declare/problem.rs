@@ -1,4 +1,4 @@
-//! What is wrong with a value, and where.
+//! Errors of values, with their paths.
 use super::{path::Path, value::Family};
 use crate::quote;
 
@@ -10,7 +10,7 @@ pub struct Problem {
     pub path: Path,
     /// What is wrong.
     pub message: String,
-    /// What is expected there.
+    /// The expected value.
     pub label: String,
     /// What to do; may be empty.
     pub help: String,

@@ -1,4 +1,4 @@
-//! What kinds use while they are compiled: files beside the scene, memory, and the slow parts of the previous compile.
+//! Resources of a compile: files beside the scene, memory, and the slow parts of the previous compile.
 use std::{
     cell::RefCell,
     fmt, fs,

@@ -33,7 +33,7 @@ pub enum WriteError {
     NotAFile {
         /// The path.
         path: PathBuf,
-        /// What lies there.
+        /// The kind of item at the path.
         what: &'static str,
     },
     /// The system refuses.
@@ -41,7 +41,7 @@ pub enum WriteError {
     Failed {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// The message of the operating system.
         reason: String,
     },
 }

@@ -14,7 +14,7 @@ use crate::{
     memory::{Reservation, reserve},
 };
 
-/// What the memory of a decoder is called in messages.
+/// Name of the memory of a decoder in messages.
 const BYTES: &str = "the bytes of an image";
 /// Maximum memory for chunks of a PNG that are not pixels, such as the text of a scene.
 const CHUNKS: u64 = 64 << 20;

@@ -71,7 +71,7 @@ impl From<&Picture> for Texels {
     }
 }
 
-/// What the numbers of a PNG, JPEG, TGA or WebP mean. EXR and HDR are always linear.
+/// Encoding of the numbers of a PNG, JPEG, TGA or WebP. EXR and HDR are always linear.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Encoding {
     /// The sRGB curve: for colours.

@@ -72,7 +72,7 @@ impl FaultyPaths {
         at
     }
 
-    /// What the fault multiplies the throughput by at the `reflection`-th reflection.
+    /// Factor of the fault on the throughput at the `reflection`-th reflection.
     fn factor(&self, reflection: u32, reflected: impl Fn() -> Reflected<One>) -> F<One> {
         F(match self.fault {
             InjectedFault::WrongPdf => 1.0 / 1.03,

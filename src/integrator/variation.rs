@@ -1,4 +1,4 @@
-//! What varies over a surface: colour, roughness and shading normal at the points where paths arrive.
+//! Properties that vary over a surface: colour, roughness and shading normal at the points where paths arrive.
 use fearless_simd_macros::simd;
 
 use super::{interaction::SurfaceInteraction, normal_mapping::shading_normal, records::Detail};

@@ -134,7 +134,7 @@ impl<'a> Work<'a> {
         (slot & (TILE - 1), slot >> TILE.trailing_zeros())
     }
 
-    /// Whether pixels share what their paths find.
+    /// Whether pixels share path suffixes.
     #[inline(always)]
     pub(super) fn shares(&self) -> bool {
         self.scene.shares(self.rays, self.settings)

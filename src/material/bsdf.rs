@@ -19,7 +19,7 @@ pub trait Bsdf<L: Lanes>: Copy {
 /// The lobe that a direction was sampled from, for display.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ChosenLobe {
-    /// What the path inspector calls it.
+    /// Its name in the path inspector.
     pub name: &'static str,
     /// Probability of choosing it.
     pub probability: f32,

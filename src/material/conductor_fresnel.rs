@@ -35,7 +35,7 @@ const SCHLICK: f32 = 1.0;
 
 const INDEX: f32 = 2.0;
 
-/// How much a metal reflects, channel by channel.
+/// Reflectance of a metal, channel by channel.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Reflectance {
     /// The same at every angle.
@@ -113,7 +113,7 @@ impl OneOf for Reflectance {
 }
 
 impl Reflectance {
-    /// Of a complex index η + ik.
+    /// The reflectance of a complex index η + ik.
     pub fn index(eta: [f32; 3], k: [f32; 3]) -> Reflectance {
         Reflectance::Index { eta: eta.map(f64::from), k: k.map(f64::from) }
     }
@@ -195,7 +195,7 @@ impl ConductorRow {
 }
 
 impl<L: Lanes> ConductorFresnel<L> {
-    /// Of materials; `colour` is the reflectance at normal incidence of lanes without an index.
+    /// Reads the reflectance of materials; `colour` is the reflectance at normal incidence of lanes without an index.
     #[inline(always)]
     pub(super) fn read(l: L, materials: &Materials, material: U<L>, colour: V<L>) -> Self {
         let (average, mode) = ConductorRow::read_mode(l, materials, material);

@@ -35,7 +35,7 @@ impl Materials {
     /// Materials that name no textures.
     ///
     /// # Panics
-    /// Where one names a texture.
+    /// Panics if a material refers to a texture.
     pub fn new(materials: &[Material]) -> Self {
         let (resources, none) = (Resources::new(""), BTreeMap::new());
         let textures = TextureCompiler::new(&resources, &none, std::iter::empty(), &mut Vec::new());

@@ -35,7 +35,7 @@ pub trait Shade {
         l.f(0.0)
     }
 
-    /// What roulette multiplies the throughput by before it judges it. `z` is the height of the next direction.
+    /// Factor that roulette applies to the throughput before it evaluates it. `z` is the height of the next direction.
     #[inline(always)]
     fn roulette_scale<L: Lanes>(_bsdf: &Self::Bsdf<'_, L>, _front: M<L>, z: F<L>) -> F<L> {
         z.splat(1.0)

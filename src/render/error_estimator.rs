@@ -71,7 +71,7 @@ pub(super) fn block_errors(film: &Film) -> Option<BlockErrors> {
     Some(BlockErrors { whole, without: sums.iter().map(|tile| all.plus(tile, -1.0).estimate()).collect() })
 }
 
-/// What the estimate needs to know of some tiles.
+/// Input of the estimate from some tiles.
 #[derive(Clone, Copy, Default)]
 struct Sums {
     /// Moves and variances at the last three doublings, latest first.

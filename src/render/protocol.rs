@@ -61,7 +61,7 @@ pub(super) fn is_below(goal: f64, spp: u32, rel_mse_estimate: Option<f64>) -> bo
     spp >= LEAST_SPP && rel_mse_estimate.is_some_and(|rel_mse| rel_mse.sqrt() <= goal)
 }
 
-/// What an image is rendered as.
+/// Role of a rendered image.
 #[derive(Clone, PartialEq)]
 pub enum RenderTask {
     /// A picture.
@@ -91,7 +91,7 @@ pub enum State {
 pub struct Status {
     /// Number of the image.
     pub generation: u64,
-    /// What the worker does.
+    /// State of the worker.
     pub state: State,
     /// Minimum number of samples per pixel.
     pub spp: u32,

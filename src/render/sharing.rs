@@ -53,7 +53,7 @@ pub(super) fn resolved_unless(
     Ok(RenderSettings { reuse, ..*settings })
 }
 
-/// What legends and tables call an image by whether its pixels share paths.
+/// Name of path sharing in legends and tables.
 pub fn sharing_name(shares: bool) -> &'static str {
     if shares { "shared paths" } else { "no sharing" }
 }

@@ -1,4 +1,4 @@
-//! What the samples of a tile say: means and their variance, and the moves of its blocks while their samples double.
+//! Statistics of the samples of a tile: means and their variance, and the changes of its blocks as the sample count doubles.
 use std::ops::Range;
 
 use super::{

@@ -94,7 +94,7 @@ impl Reference {
     fn contradiction_of_block(&self, frame: &Frame, bias: &Bias) -> Option<String> {
         /// Standard errors: those of a block are less sure than those of the picture.
         const MOST: f64 = 10.0;
-        /// Of the picture's mean; less may be light that a block has not found yet.
+        /// Fraction of the mean of the image; a smaller deviation may be light that a block has not found yet.
         const LEAST_PART: f64 = 0.1;
         /// For each block.
         const EFFECTIVE_SAMPLES: f64 = 100.0;

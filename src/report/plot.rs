@@ -122,7 +122,7 @@ impl Ranged for Scale {
     }
 }
 
-/// How a curve is drawn.
+/// Style of a curve.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Style {
     /// A solid line.

@@ -85,7 +85,7 @@ pub struct Scene {
     pub notes: String,
     /// Shapes and their acceleration structures.
     pub shapes: Arc<Shapes>,
-    /// What the kernel knows of the surface of every primitive.
+    /// Surface data of every primitive for the kernel.
     pub surfaces: Surfaces,
     /// All textures.
     pub textures: Textures,
@@ -99,9 +99,9 @@ pub struct Scene {
     pub owners: Vec<u32>,
     /// The extent of the scene in metres, as a person walking through it would say it.
     pub size: f64,
-    /// What the scene opens with.
+    /// Settings that the scene opens with.
     pub camera: Camera,
-    /// What carries the camera from time 0 to 1.
+    /// Motion of the camera from time 0 to 1.
     pub camera_motion: Motion,
     /// The settings that the scene opens with.
     pub settings: RenderSettings,
@@ -111,7 +111,7 @@ pub struct Scene {
     pub spp: Option<u32>,
     /// What the image converges to, if that is known.
     pub truth: Option<Truth>,
-    /// How many media lie around the middle of some dielectric.
+    /// Largest number of media around the middle of a dielectric.
     pub deepest_media: usize,
     /// See [`Scene::warnings`].
     pub warned: OnceLock<Vec<String>>,
@@ -126,7 +126,7 @@ pub struct Scene {
 /// The text of a scene file. For a scene that was changed in memory, it is written at its first use.
 pub type SceneText = LazyLock<String, Box<dyn FnOnce() -> String + Send>>;
 
-/// What the picture must converge to.
+/// The known solution of a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Truth {
     /// The same exact radiance at every pixel.
@@ -141,7 +141,7 @@ impl Scene {
         self.surfaces.plain && !self.lights.emitters.vary() && self.shapes.are_simple()
     }
 
-    /// Whether pixels share what their paths find.
+    /// Whether pixels share path suffixes.
     #[inline(always)]
     pub fn shares(&self, rays: &CameraRays, settings: &RenderSettings) -> bool {
         settings.reuse == Reuse::On && self.can_share(rays, settings)
@@ -187,12 +187,12 @@ impl Scene {
         around.iter().fold(0, |stack, (id, _)| stack << 8 | medium(*id))
     }
 
-    /// How many media lie around the middle of some dielectric, its own included; 0 where none is tinted.
+    /// Largest number of media around the middle of a dielectric, including its own; 0 if none is tinted.
     fn count_deepest_media(&self) -> usize {
         if self.surfaces.media.is_empty() {
             return 0;
         }
-        // Of a crowd some are looked at: each is held against all.
+        // In a large scene only some dielectrics are tested, each against all others.
         let dielectrics = self.objects.iter().filter(|object| self.has_inside(object));
         let step = dielectrics.clone().count().div_ceil(MOST_LOOKED_AT).max(1);
         let middles = dielectrics.step_by(step).map(|object| object.shape.bounding_sphere().0);
@@ -211,7 +211,7 @@ impl Scene {
 }
 
 impl Scene {
-    /// What an object is made of; `None` is black.
+    /// Material of an object; `None` is black.
     pub fn material(&self, object: &Object) -> Option<&MaterialInstance> {
         object.material.map(|number| &self.materials[number as usize])
     }

@@ -1,4 +1,4 @@
-//! What the user can choose about the estimate: everything a sample depends on besides scene and camera.
+//! Settings of the estimate: everything that a sample depends on besides scene and camera.
 use serde::{Deserialize, Serialize};
 
 use super::{Estimator, Roulette};
@@ -46,11 +46,11 @@ pub enum InjectedFault {
     OneBounceMore,
 }
 
-/// Whether neighbouring pixels share what their paths find beyond the first surface (Bekaert, Sbert and Halton 2002).
+/// Whether neighbouring pixels share path suffixes beyond the first surface (Bekaert, Sbert and Halton 2002).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Reuse {
-    /// Where a short trial of the scene finds a gain. The integrator itself takes it for [`Reuse::Off`].
+    /// Shares paths if a short trial of the scene shows a gain. The integrator itself treats it as [`Reuse::Off`].
     #[default]
     Auto,
     /// Wherever neighbouring pixels can share.

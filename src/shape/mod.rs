@@ -49,7 +49,7 @@ pub trait Build {
     fn shapes(&self, builder: &mut ShapeBuilder) -> Result<Vec<Shape>, Problem>;
 }
 
-/// What shapes use while they are built. A mesh that several objects show is read or made once.
+/// Context for building shapes. A mesh that several objects share is read or made once.
 pub struct ShapeBuilder<'a> {
     resources: &'a Resources,
     /// How many meshes had the same lists so far: each is a mesh of its own.

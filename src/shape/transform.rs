@@ -10,7 +10,7 @@ use crate::{
 /// Limits of scale factors, beyond which f32 overflows.
 const SMALLEST_SCALE: f64 = 1e-12;
 const LARGEST_SCALE: f64 = 1e12;
-/// Of lengths, so that the ends of the range lie within it.
+/// Relative tolerance of lengths, so that the ends of the range are accepted.
 const ROUNDING: f64 = 1e-12;
 
 /// One transform as a scene describes it.

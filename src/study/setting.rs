@@ -70,7 +70,7 @@ pub fn label(settings: &RenderSettings) -> String {
     joined(Setting::ALL.into_iter().filter(shown), settings)
 }
 
-/// What some settings have in common, and the differences of each, as one line each.
+/// The common values of some settings in one line, and a line with the differences of each.
 pub fn differing_labels(all: &[RenderSettings]) -> (String, Vec<String>) {
     let Some(first) = all.first() else { return (String::new(), Vec::new()) };
     let differs = |setting: &Setting| all.iter().any(|settings| setting.value(settings) != setting.value(first));

@@ -32,7 +32,7 @@ pub struct TextureCompiler<'a> {
 }
 
 impl<'a> TextureCompiler<'a> {
-    /// Compiles all textures. What is wrong goes to `problems`, and a grey takes its place: what refers to it is checked all the same.
+    /// Compiles all textures. Problems go to `problems`, and grey replaces the texture so that references to it can still be checked.
     /// `stand_ins` are names of textures that could not be read at all.
     pub fn new<'n>(
         resources: &'a Resources,

@@ -54,7 +54,7 @@ impl Pattern for Arc<ImageTexture> {
     }
 }
 
-/// What lies beyond the top and bottom of a picture. Left and right it always repeats.
+/// Wrapping of an image at its top and bottom. At left and right it always repeats.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Edge {
     /// Repeats the image.

@@ -66,7 +66,7 @@ textures! {
     noise::Noise,
 }
 
-/// Where a texture stands for a value.
+/// The key of a texture that replaces a value.
 pub const TEXTURE: Parameter = Parameter::new("texture", "The name of a texture.");
 
 /// A kind of texture.
@@ -80,14 +80,14 @@ pub trait Texturing: Kind {
 
 /// How a texture varies.
 pub trait Pattern {
-    /// What is known of it besides its colours; `textures` holds those that it refers to.
+    /// Its properties besides its colours; `textures` holds those that it refers to.
     fn summary(&self, textures: &Textures) -> Summary;
 
     /// Writes the colour, or the texture to look up in its place, in the lanes `here`.
     fn apply<L: Lanes>(&self, l: L, here: M<L>, at: &TextureCoordinates<L>, found: &mut Found<L>);
 }
 
-/// What a look-up knows so far.
+/// Result of a lookup so far.
 pub struct Found<L: Lanes> {
     /// The texture that is still to be looked up.
     pub id: U<L>,
@@ -95,7 +95,7 @@ pub struct Found<L: Lanes> {
     pub colour: V<L>,
 }
 
-/// What the renderer knows of a texture besides its colours.
+/// Properties of a texture besides its colours.
 pub struct Summary {
     /// Mean over the unit square.
     pub mean: [f32; 3],

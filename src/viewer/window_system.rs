@@ -1,6 +1,6 @@
-//! Which window system the window is opened on, and what is said where none answers.
+//! Selects the window system, and reports an error if none answers.
 //!
-//! Where there are X11 and Wayland, Wayland is preferred if its display answers; a name that leads nowhere is passed over.
+//! If both X11 and Wayland are present, Wayland is preferred if its display answers; a name without a display is ignored.
 
 /// The displays that the environment names.
 #[derive(Clone, Debug, Default, PartialEq)]

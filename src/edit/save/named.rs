@@ -33,7 +33,7 @@ impl Update<'_> {
         if keys.iter().all(|key| renamed.get(key.as_str()) == Some(&key.as_str())) {
             return;
         }
-        // What is renamed keeps its place.
+        // A renamed table keeps its place.
         let taken: Vec<(Key, Item)> = keys.iter().filter_map(|key| take(tables, key)).collect();
         let kept = taken.into_iter().filter_map(|(key, item)| {
             let name = *renamed.get(key.get())?;

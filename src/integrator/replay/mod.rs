@@ -36,7 +36,7 @@ pub struct Replay {
     pub radiance: [f32; 3],
     /// The estimate by this path alone, if pixels share paths.
     pub alone: Option<[f32; 3]>,
-    /// What pixels share in this sample, if they share paths.
+    /// The paths that pixels share in this sample, if they do.
     pub shared: Option<SharedLight>,
     /// Vertices in order. The contributions of their emission and of their light samples add up to the radiance, or to `alone` if
     /// pixels share paths.

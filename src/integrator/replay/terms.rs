@@ -12,7 +12,7 @@ use crate::material::ChosenLobe;
 pub struct Vertex {
     /// Number of bounces before it.
     pub bounce: u32,
-    /// Where the ray starts, metres.
+    /// Origin of the ray, metres.
     pub origin: [f32; 3],
     /// Unit direction of the ray.
     pub direction: [f32; 3],
@@ -137,7 +137,7 @@ pub struct SampledLight {
     pub weight: f32,
     /// L_e of the light; with a texture, the factor of the texture.
     pub radiance: [f32; 3],
-    /// What became of the sample.
+    /// The outcome of the sample.
     pub outcome: Outcome,
     /// Distance to the light or its occluder; `None` if there is neither, or the ray was not traced.
     pub distance: Option<f32>,

@@ -80,7 +80,7 @@ trait Quantity {
     /// Whether the scale is logarithmic.
     const IS_LOG: bool = false;
 
-    /// Of numbers.
+    /// Unit of the numbers.
     fn unit() -> &'static str {
         ""
     }

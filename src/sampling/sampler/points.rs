@@ -1,4 +1,4 @@
-//! What a sampler provides: the points of a pixel's samples, derived from hashes of seed, pixel and sample index.
+//! The trait of samplers: the points of a pixel's samples, derived from hashes of seed, pixel and sample index.
 use super::bits::reverse;
 use crate::{
     declare::Word,

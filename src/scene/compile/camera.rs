@@ -6,7 +6,7 @@ use crate::{
     scene::{Camera, CameraError, Projection, Shutter, description::CameraDescription},
 };
 
-/// What a camera without an angle has in its place; it takes no part in anything.
+/// Stand-in for the angle of a camera that has none; it has no effect.
 const NO_FOV: f64 = 40.0;
 
 pub fn camera(described: &CameraDescription) -> Result<Camera, Problem> {
@@ -55,7 +55,7 @@ fn shutter([open, close]: [f64; 2]) -> Result<Shutter, Problem> {
     Err(Problem::at("shutter", message, label))
 }
 
-/// What stands at the key that an error is about.
+/// The text at the key of an error.
 fn label(error: CameraError) -> &'static str {
     match error {
         CameraError::Resolution => "width and height in pixels",

@@ -35,7 +35,7 @@ use crate::{
     texture::{TextureCompiler, Textures},
 };
 
-/// Checks a description and builds the scene, or says what is wrong with it: nothing that follows from `damage`. `source` is the text of
+/// Checks a description and builds the scene, or returns its problems except those that follow from `damage`. `source` is the text of
 /// the scene file, and files are looked for in `folder`. Parts that did not change are reused from the scene `before`.
 pub fn compile(
     description: &SceneDescription,
@@ -54,7 +54,7 @@ pub fn compile(
     Ok(scene)
 }
 
-/// What the tables of a description say, each by itself.
+/// The compiled tables of a description.
 struct Parts {
     camera: Camera,
     camera_motion: Motion,
@@ -170,9 +170,9 @@ fn truth(description: &TruthDescription, resources: &Resources) -> Result<Truth,
 fn reserve_tables(resources: &Resources, objects: &[Object]) -> Result<(), Problem> {
     /// Bytes of an object that is not a mesh: in the tree of objects, in tables, and while those are built.
     const OBJECT: u64 = 1000;
-    /// Of a triangle in the tree of its mesh, and while that is built.
+    /// Bytes per triangle for the tree of its mesh, including its construction.
     const TRIANGLE: u64 = 220;
-    /// Of a light among many, a triangle that emits being one each.
+    /// Bytes per light among many; each emitting triangle is a light.
     const LIGHT: u64 = 900;
     resources.reserve("", format_args!("{} objects", objects.len()), OBJECT * objects.len() as u64)?;
     let mut lights = 0;

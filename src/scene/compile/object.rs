@@ -52,7 +52,7 @@ fn these(
     let motion = shapes.as_deref().and_then(|shapes| problems.keep(at, || moved(o, shapes)));
     let emission =
         o.emission.as_ref().map(|described| problems.keep(&at.key("emission"), || emission(described, o.flip, textures)));
-    // What is wrong has been said: nothing is rendered then.
+    // The problem has been reported, so nothing will be rendered.
     let (Some(shapes), Some(motion)) = (shapes, motion) else { return Vec::new() };
     let many = shapes.len() > 1;
     let name = |number: usize| if many { format!("{} {}", quote::piece(&o.name), number + 1) } else { quote::piece(&o.name) };
@@ -95,7 +95,7 @@ fn extent(shape: &Shape) -> Result<(), Problem> {
     Err(Problem::at("shape", message, format!("expected {SMALLEST:e} to {LARGEST:e} m")))
 }
 
-/// What carries the shapes from time 0 to 1.
+/// The motion of the shapes from time 0 to 1.
 fn moved(o: &ObjectDescription, shapes: &[Shape]) -> Result<Motion, Problem> {
     let motion = motion(&o.motion).map_err(|problem| problem.within(&Path::of("motion")))?;
     if let Some(last) = o.motion.len().checked_sub(1) {

@@ -1,10 +1,10 @@
-//! What is wrong with a description, collected over its tables.
+//! Problems of a description, collected over its tables.
 use crate::{
     declare::{Path, Problem},
     scene::{damage::Damage, diagnostic::SceneError},
 };
 
-/// Collects what is wrong: a problem in one table does not keep the others from being looked at.
+/// Collects problems. A problem in one table does not stop the checks of the others.
 pub struct Problems<'d> {
     pub damage: &'d Damage,
     pub found: Vec<Problem>,
@@ -18,8 +18,8 @@ impl<'d> Problems<'d> {
     /// More are not looked for.
     const MOST: usize = SceneError::MOST;
 
-    /// The value, or `None` where its problem is kept. A table that something was left out of is not compiled: what is wrong with it has
-    /// been said, and its values may be out of all ranges.
+    /// The value, or `None` if it has a problem, which is kept. An incomplete table is not compiled: its problem has been reported, and
+    /// its values may be out of range.
     pub fn keep<T>(&mut self, table: &Path, compile: impl FnOnce() -> Result<T, Problem>) -> Option<T> {
         if self.damage.reaches(table) {
             return None;

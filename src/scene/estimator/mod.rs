@@ -49,7 +49,7 @@ impl Estimator {
         in_estimator!(self, E => E::light_weight(l, pdf, of_bsdf))
     }
 
-    /// What the menu of comparisons calls it.
+    /// Its name in the menu of comparisons.
     pub fn comparison(self) -> &'static str {
         in_estimator!(self, E => E::COMPARISON)
     }
@@ -59,7 +59,7 @@ impl Estimator {
 trait Strategy {
     const WORD: Word;
 
-    /// What the menu of comparisons calls it.
+    /// Its name in the menu of comparisons.
     const COMPARISON: &'static str = Self::WORD.title;
 
     /// Whether lights are sampled, in addition to emitter hits.

@@ -48,15 +48,15 @@ struct Frame<'t> {
     /// Absent where there is none, or something else in its place.
     table: Option<&'t DeTable<'t>>,
     span: Range<usize>,
-    /// What stands in the place of the table.
+    /// Another item in the place of the table.
     mistaken: Option<(&'t Spanned<DeValue<'t>>, &'static str, Form)>,
     /// A name stands in the place of the table.
     name: Option<&'t Spanned<DeValue<'t>>>,
-    /// What has been asked for.
+    /// Keys that the declaration has visited.
     known: Vec<Entry>,
-    /// What the table chooses from, if it does nothing else.
+    /// The choice of the table, if it holds nothing else.
     choice: Option<&'static str>,
-    /// Errors that count only if no key is unknown: what is missing may be spelled wrong.
+    /// Errors that count only if no key is unknown: a missing key may be misspelled.
     missing: Vec<SceneError>,
     /// Nothing of its choice is given: what an alternative would need is not missing besides.
     chooses_nothing: bool,
@@ -133,7 +133,7 @@ impl<'t> Reader<'t> {
         }
     }
 
-    /// Tells what is wrong with the innermost table as a whole, and leaves it.
+    /// Reports the errors of the innermost table as a whole, and leaves it.
     fn close(&mut self) {
         let frame = self.frames.pop().expect("a table that was entered");
         if self.is_full() {

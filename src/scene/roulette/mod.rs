@@ -39,7 +39,7 @@ impl Roulette {
         in_roulette!(self, roulette => roulette.probability(l, throughput, scale))
     }
 
-    /// What the command line calls it.
+    /// Its name on the command line.
     pub fn name(self) -> String {
         in_roulette!(self, roulette => roulette.option())
     }
@@ -51,7 +51,7 @@ impl Roulette {
             .find_map(|roulette| in_roulette!(roulette, kind => kind.named(option).map(Into::into)))
     }
 
-    /// What the command line calls all roulettes, for messages.
+    /// Names of all roulettes on the command line, for messages.
     pub fn options() -> Vec<String> {
         Roulette::alternatives().into_iter().map(|roulette| in_roulette!(roulette, kind => kind.options())).collect()
     }
@@ -71,7 +71,7 @@ impl Roulette {
         in_roulette!(self, roulette => roulette.survival())
     }
 
-    /// What a warning about variance calls it.
+    /// Its name in a warning about variance.
     pub fn survival_words(self) -> String {
         in_roulette!(self, roulette => roulette.survival_words())
     }
@@ -85,7 +85,7 @@ trait Survival: Kind {
     /// See [`Roulette::probability`].
     fn probability<L: Lanes>(self, l: L, throughput: V<L>, scale: F<L>) -> F<L>;
 
-    /// What the command line calls it.
+    /// Its name on the command line.
     fn option(self) -> String {
         Self::KIND.key.to_owned()
     }
@@ -95,7 +95,7 @@ trait Survival: Kind {
         (option == Self::KIND.key).then_some(self)
     }
 
-    /// What a message says that the command line may call it.
+    /// The form of its name on the command line, for messages.
     fn options(self) -> String {
         Self::KIND.key.to_owned()
     }

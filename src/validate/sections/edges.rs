@@ -79,7 +79,7 @@ fn lenses(validation: &Validation) -> Vec<Statement> {
     [(1.0, 2.0), (1.5, 0.75)].map(of).concat()
 }
 
-/// What lies right of `place` emits 1. Each column of the picture has its own exact mean.
+/// The half-plane right of `place` emits 1. Each column of the image has its own exact mean.
 fn edge(validation: &Validation, what: &str, camera: &str, place: f64, exact: impl Fn(u32) -> f64) -> Vec<Statement> {
     let scene = scene(&format!(
         "camera = {{ {camera}, look_at = [0.0, 0.0, 0.0], resolution = [{SIDE}, {SIDE}] }}

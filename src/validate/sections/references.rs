@@ -17,7 +17,7 @@ use crate::{
 const BLOCK: u32 = 16;
 /// Some 800 block means a scene: beyond this one in 10⁵ is by chance.
 const MOST_SIGMAS: f64 = 4.5;
-/// Of the root mean square of their deviations: beyond it are two in 10⁶ by chance, if three channels are one number.
+/// Limit of the root mean square of their z-scores. Two images in 10⁶ exceed it by chance, if three channels count as one number.
 const MOST_RMS: f64 = 1.2;
 const UNREAD: &str = "its block means cannot be read";
 

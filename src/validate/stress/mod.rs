@@ -81,7 +81,7 @@ impl Validation {
         (sections, kept)
     }
 
-    /// Of so many things those that this run tries.
+    /// The number of items that this run tries out of `all`.
     fn count(&self, all: u32) -> u32 {
         match self.effort {
             Effort::Full => all,

@@ -10,7 +10,7 @@ use crate::{
 /// Pairs of scenes that a full run draws.
 pub const PAIRS: u32 = 10_000;
 
-/// Saves so many pairs of scenes into each other.
+/// Saves the given number of pairs of scenes into each other.
 pub fn section(pairs: u32) -> Section {
     let wrong = |number: &u32| write_and_read(&mut Dice::new("saving", *number)).is_err();
     let wrong: Vec<u32> = (0..pairs).into_par_iter().filter(wrong).collect();

@@ -22,7 +22,7 @@ pub struct OpenedScene {
     pub path: Option<PathBuf>,
     /// The reference in the scene, which is for its own camera.
     pub truth: Option<Arc<Reference>>,
-    /// What the scene was compiled from.
+    /// Source of the scene.
     pub description: Arc<SceneDescription>,
     /// Names of the materials by number.
     pub materials: Arc<[String]>,

@@ -25,7 +25,7 @@ impl Outline {
         }
     }
 
-    /// The same of blocks of pixels, each of which is as its upper left pixel.
+    /// The same for blocks of pixels, each represented by its upper left pixel.
     fn of_blocks([width, height]: [u32; 2], step: u32, is_inside: &dyn Fn(u32, u32) -> bool) -> Outline {
         let [columns, rows] = [width.div_ceil(step), height.div_ceil(step)];
         let inside = |column: u32, row: u32| column < columns && row < rows && is_inside(column * step, row * step);

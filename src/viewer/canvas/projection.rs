@@ -1,4 +1,4 @@
-//! Where points and lines of the scene lie in the picture.
+//! Projects points and lines of the scene to the image.
 use egui::{Pos2, Rect};
 use glam::DVec3;
 use noisefall::scene::Camera;

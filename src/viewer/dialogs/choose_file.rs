@@ -11,7 +11,7 @@ use noisefall::{
 use super::open::path_field;
 use crate::viewer::widgets::path_field::PathField;
 
-/// What the file is for.
+/// Purpose of the file.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FilePurpose {
     /// The value at a path is a file.

@@ -117,7 +117,7 @@ fn built_in(chapter: &[CatalogueEntry]) -> Option<(&'static str, Option<PathBuf>
     Some((BUILT_IN_NAME, None, &same.path))
 }
 
-/// The picture of a shipped scene: `assets/gallery/NAME.png` beside the folder that the scene is in.
+/// The image of a shipped scene: `assets/gallery/NAME.png` beside the folder that the scene is in.
 fn picture(scene: &Path) -> Option<ColorImage> {
     let folder = scene.parent()?.parent()?.join("assets").join("gallery");
     let picture = image_file::read(&folder.join(scene.file_stem()?).with_extension("png")).ok()?;

@@ -19,7 +19,7 @@ impl SaveTarget {
     pub fn title(self) -> &'static str {
         match self {
             SaveTarget::Scene => "Save scene",
-            SaveTarget::Picture => "Save picture",
+            SaveTarget::Picture => "Save image",
             SaveTarget::CurvesCsv => "Save figures",
             SaveTarget::CurvesSvg => "Save plot",
             SaveTarget::Path => "Save path",

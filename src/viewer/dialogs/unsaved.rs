@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use egui::{Align2, RichText};
 use noisefall::edit::Template;
 
-/// What leaves the open scene.
+/// An action that leaves the open scene.
 #[derive(Clone, Debug)]
 pub enum Leaving {
     /// Another scene is opened; `None` is the built-in one.

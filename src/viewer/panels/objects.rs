@@ -32,7 +32,7 @@ pub fn show(ui: &mut Ui, scene: &Scene, objects: Range<usize>) {
     }
 }
 
-/// What shape, how large, and where.
+/// Shape, size and position of an object.
 fn place(object: &Object) -> String {
     let (center, radius) = object.shape.bounding_sphere();
     let edges = |edges: &[DVec3]| edges.iter().map(|edge| format!("{:.4}", edge.length())).collect::<Vec<_>>().join(" × ");

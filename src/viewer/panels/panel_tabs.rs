@@ -4,10 +4,10 @@ use egui::Ui;
 /// A page of the side panel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum PanelTab {
-    /// How the scene is rendered and shown.
+    /// Settings of the render and the display.
     #[default]
     Render,
-    /// What is in the scene.
+    /// Parts of the scene.
     Edit,
 }
 

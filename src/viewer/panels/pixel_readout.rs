@@ -15,7 +15,7 @@ use crate::viewer::background::display_image::PixelValues;
 pub struct Pixel<'a> {
     pub at: [u32; 2],
     pub frame: &'a Frame,
-    /// What the view displays.
+    /// Content of the view.
     pub values: &'a PixelValues,
     pub legend: Option<&'a Legend>,
     /// Names of the materials by number.

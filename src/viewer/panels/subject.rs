@@ -22,7 +22,7 @@ pub enum Subject {
 }
 
 impl Subject {
-    /// Where the part stands in the description.
+    /// Path of the part in the description.
     pub fn path(&self) -> Path {
         let top = Path::default();
         match self {

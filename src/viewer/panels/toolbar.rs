@@ -31,7 +31,7 @@ pub struct Toolbar<'a> {
     pub has_region: bool,
     pub can_save: bool,
     pub is_comparing: bool,
-    /// What undo and redo would change.
+    /// Changes of undo and redo.
     pub undo: [Option<&'a str>; 2],
     pub tool: Tool,
     /// Screen pixels per picture pixel, if there is a picture.

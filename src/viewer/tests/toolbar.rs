@@ -72,7 +72,7 @@ fn buttons_of_the_toolbar_do_what_they_say() {
     assert_eq!(window.state().window.view.zoom, None);
     wait(&mut window, "a full picture", App::can_save);
     click(&mut window, "Save…");
-    assert!(window.query_by_label("Save picture").is_some());
+    assert!(window.query_by_label("Save image").is_some());
     click(&mut window, "EXR");
     assert!(window.state().dialogs.save.as_ref().is_some_and(|dialog| dialog.path().ends_with(".exr")));
     click(&mut window, "PNG");

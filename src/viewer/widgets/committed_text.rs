@@ -1,7 +1,7 @@
 //! A field of text that counts when it is left or entered; Escape gives the edit up.
 use egui::{Id, Key, Response, TextEdit, Ui};
 
-/// What became of the text of a field.
+/// Outcome of an edit of a text field.
 pub struct CommittedText {
     pub response: Response,
     /// The text as it stands in the field.

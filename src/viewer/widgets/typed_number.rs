@@ -1,4 +1,4 @@
-//! Fields of numbers that say why they refuse what is typed.
+//! Number fields that explain why they reject an input.
 use std::{cell::RefCell, ops::RangeInclusive};
 
 use egui::{Id, Response, Ui, Widget};
@@ -8,7 +8,7 @@ use super::number;
 
 /// A field of a number, and what it accepts.
 pub struct TypedNumber<'a> {
-    /// What a scene file calls the number.
+    /// Key of the number in scene files.
     pub key: &'a str,
     pub range: RangeInclusive<f64>,
     /// Shows no decimals.
@@ -20,7 +20,7 @@ pub struct TypedNumber<'a> {
     pub width: f32,
     /// Names the field.
     pub label: Id,
-    /// What is wrong with a number, if anything is.
+    /// The error of a number, if it has one.
     pub check: &'a dyn Fn(f64) -> Option<String>,
 }
 
@@ -76,7 +76,7 @@ fn remember(ui: &Ui, field: Id, refusal: Option<String>, is_edited: bool) {
     }
 }
 
-/// What was wrong with the number that was typed last into a field.
+/// The error of the last number that was typed into a field.
 pub fn refusal(ui: &Ui, field: Id) -> Option<String> {
     ui.data(|data| data.get_temp(field.with("refusal")))
 }

@@ -36,10 +36,10 @@ const ANGLE_STEP: f64 = 15.0;
 const FACTOR_STEP: f64 = 0.1;
 /// Smaller factors would flatten the object.
 const LEAST_FACTOR: f64 = 1e-3;
-/// Smallest distance from the pivot at which a scaling starts, in pixels of the image; nearer ones would be too fast.
+/// Smallest distance from the pivot that counts at the start of a scaling, in pixels of the image: a smaller one would be too fast.
 const NEAREST: f32 = 8.0;
 
-/// An operation under way.
+/// An active operation.
 #[derive(Clone, Debug)]
 pub struct Operation {
     pub mode: Mode,

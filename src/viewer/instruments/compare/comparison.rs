@@ -21,7 +21,7 @@ pub enum CompareLayout {
 }
 
 impl CompareLayout {
-    /// How the canvas is divided.
+    /// Layout of the canvas.
     pub fn split(self) -> Split {
         match self {
             CompareLayout::Wipe => Split::Wipe,

@@ -11,7 +11,7 @@ use crate::viewer::background::display_image::ReferenceComparison;
 use crate::viewer::instruments::convergence::history::name;
 use crate::viewer::widgets::{palette::Palette, style};
 
-/// What is known of one side.
+/// Figures of one side.
 #[derive(Clone, Copy)]
 pub struct SideStatus<'a> {
     pub status: &'a Status,

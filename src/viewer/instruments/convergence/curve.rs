@@ -25,7 +25,7 @@ pub struct Moment {
     pub estimated: Option<f64>,
     /// The same, against the truth.
     pub true_error: Option<f64>,
-    /// Of the mean over the picture, in standard errors.
+    /// Bias of the mean over the image, in standard errors.
     pub bias: Option<f64>,
     /// Whether pixels share paths.
     pub shares: bool,
@@ -100,7 +100,7 @@ impl Curve {
         points.filter(|(x, y)| *x > 0.0 && *y > 0.0 && y.is_finite()).collect()
     }
 
-    /// How the estimated error falls: the slope over moments that are about doublings, from 4 samples on.
+    /// Slope of the estimated error over moments that are about doublings, from 4 samples on.
     pub fn slope(&self, over: HorizontalAxis) -> Option<Slope> {
         let mut doublings: Vec<(f64, f64)> = Vec::new();
         for point in self.errors(over, |moment| moment.estimated.filter(|_| moment.spp >= 4)) {

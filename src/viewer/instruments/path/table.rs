@@ -114,7 +114,7 @@ fn cell(ui: &mut Ui, text: String, is_strong: bool) -> Response {
     ui.label(if is_strong { text.strong() } else { text })
 }
 
-/// Where the light of a term comes from.
+/// Source of the light of a term.
 fn source(term: &Term, objects: &[Object]) -> String {
     match term.source {
         Source::Hit => "hit".to_owned(),
@@ -130,7 +130,7 @@ fn source(term: &Term, objects: &[Object]) -> String {
     }
 }
 
-/// What a vertex lies on.
+/// Surface of a vertex.
 fn place(vertex: &Vertex, objects: &[Object]) -> String {
     let Some(object) = vertex.object else { return "leaves the scene".to_owned() };
     let material = vertex.surface.as_ref().and_then(|surface| surface.material).unwrap_or("black");

@@ -27,7 +27,7 @@ pub struct Term {
     pub is_shared: bool,
 }
 
-/// Where the light of a term comes from.
+/// Source of the light of a term.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Source {
     /// The path runs into it.
