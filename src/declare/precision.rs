@@ -1,6 +1,6 @@
-//! How exactly a changed scene is compiled.
+//! Precision of the compile of a changed scene.
 
-/// How exactly a changed scene is compiled.
+/// Precision of the compile of a changed scene.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Precision {
     /// The scene has the same bits as one that is compiled from scratch.

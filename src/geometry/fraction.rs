@@ -19,7 +19,7 @@ impl<L: Lanes> Fraction<L> {
         Fraction { numerator: l.f(f32::NAN), denominator: l.f(1.0) }
     }
 
-    /// False where either is NaN.
+    /// False if either is NaN.
     #[inline(always)]
     pub fn less(&self, other: &Self) -> M<L> {
         (self.numerator * other.denominator).lt(other.numerator * self.denominator)

@@ -21,9 +21,9 @@ impl Kind<'_> {
         match self {
             Kind::Analytic { shape: Shape::Cylinder { capped: true, .. }, .. } => 4.0,
             Kind::Analytic { shape: Shape::Cuboid { .. } | Shape::Cylinder { .. } | Shape::Ellipsoid { .. }, .. } => 2.0,
-            // In a cluster, which most registers of rays pass by: a tree over 256 spheres takes as long.
+            // In a cluster, which most registers of rays miss: a tree over 256 spheres takes as long.
             Kind::Analytic { shape: Shape::Sphere { .. }, .. } => 0.25,
-            // Of an instance, the test of whether any lane comes near.
+            // For an instance, the cost of testing whether any lane comes near.
             Kind::Analytic { .. } | Kind::Instance(_) => 1.0,
         }
     }

@@ -44,7 +44,7 @@ impl Turns {
     pub fn at<L: Lanes>(self, time: F<L>) -> F<L> {
         let mut angle = time * self.part as f32;
         if self.whole != 0 {
-            // Products of integers forget what is beyond 2³² of themselves: 2⁻³² is the unit here, and a turn is forgotten.
+            // Integer products wrap modulo 2³². The unit is 2⁻³² turns, so whole turns drop out.
             let product = fixed_point(time) * self.whole as u32;
             angle = angle + (product >> 8).to_real() * (1.0 / 16_777_216.0);
         }

@@ -21,7 +21,7 @@ pub struct LogRatio {
     pub standard_error: f64,
     /// Degrees of freedom of the standard error.
     pub degrees: f64,
-    /// Its standard error by the models from which both errors were estimated; 0 where they are known.
+    /// Its standard error by the models from which both errors were estimated; 0 if they are known.
     pub model_error: f64,
 }
 

@@ -19,11 +19,11 @@ use crate::{
 pub struct SceneEdit {
     /// The changed scene.
     pub description: Arc<SceneDescription>,
-    /// Files that it names are looked for in this folder.
+    /// Folder of its relative file paths.
     pub folder: PathBuf,
     /// The scene whose parts are reused; it need not be the one that is rendered.
     pub before: Arc<Scene>,
-    /// How exactly it is compiled.
+    /// Precision of the compile.
     pub precision: Precision,
     /// The camera, which need not be the scene's.
     pub camera: Camera,

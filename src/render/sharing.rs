@@ -20,7 +20,7 @@ const SPP: u32 = 4;
 /// 2.2 and 1.1 to 1.5.
 const COST: f64 = 2.1;
 const COST_WITH_TREES: f64 = 1.4;
-/// A seed that no image is likely to have.
+/// A seed that images are unlikely to have.
 const SEED: u32 = 0x7f4a_7c15;
 
 /// The same settings, with [`Reuse::Auto`] resolved. Where sharing is possible, the decision depends on the scene alone and is made
@@ -41,7 +41,7 @@ pub(super) fn resolved_unless(
         if let Some(pays) = known.get() {
             return Ok(*pays);
         }
-        // A scene that fails will fail again in the pass, which says where.
+        // A scene that fails will fail again in the pass, which reports the place.
         let pays = catch_unwind(AssertUnwindSafe(|| pays(scene, interrupted))).unwrap_or(Ok(false))?;
         Ok(*known.get_or_init(|| pays))
     };

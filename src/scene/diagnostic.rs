@@ -1,4 +1,4 @@
-//! Errors of scene files: what is wrong, where, and what was expected.
+//! Errors of scene files: the problem, its position, and the expected value.
 use std::{fmt, ops::Range, path::Path};
 
 use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, SourceCode};
@@ -6,8 +6,8 @@ use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, So
 use super::excerpt::Excerpt;
 use crate::quote;
 
-/// Why a scene file cannot be used: its first error, and those behind it. Displays as one line; [`SceneError::report`] adds the places with
-/// a caret each.
+/// The errors of a scene file: the first one and those after it. Displays as one line; [`SceneError::report`] adds the places with a
+/// caret each.
 #[derive(Debug, Clone)]
 pub struct SceneError(Box<Details>);
 
@@ -28,7 +28,7 @@ struct Place {
     excerpt: Excerpt,
 }
 
-/// The text of a scene file and what it is called, for pointing into it.
+/// The text of a scene file and its name, for errors that point into it.
 #[derive(Debug, Clone)]
 pub struct SourceText {
     pub name: String,
@@ -36,7 +36,7 @@ pub struct SourceText {
 }
 
 impl SceneError {
-    /// More errors of a file are neither looked for, since each costs a look at the whole text, nor shown.
+    /// Largest number of errors of a file that are found and shown. Each one costs a pass over the whole text.
     pub const MOST: usize = 40;
 
     /// An error about a file as a whole.
@@ -50,7 +50,7 @@ impl SceneError {
         }))
     }
 
-    /// All errors of a file as one, in the order of their places, each said once; `None` where there is none.
+    /// All errors of a file as one, in the order of their places and without repetition; `None` if there are none.
     pub fn of_all(mut errors: Vec<SceneError>) -> Option<SceneError> {
         errors.sort_by_key(SceneError::line_column);
         errors.dedup_by(|a, b| a.line_column() == b.line_column() && a.0.message == b.0.message);
@@ -60,7 +60,7 @@ impl SceneError {
         Some(first)
     }
 
-    /// How many errors there are.
+    /// Number of errors.
     pub fn count(&self) -> usize {
         1 + self.0.others.len()
     }
@@ -76,7 +76,7 @@ impl SceneError {
         self.0.place.as_ref().map(|place| place.line_column)
     }
 
-    /// The whole message, several lines of plain text for each error: what, file:line:column, the line with a caret, what to do.
+    /// The whole message, several lines of plain text per error: the problem, file:line:column, the line with a caret, and advice.
     pub fn report(&self) -> String {
         let errors = std::iter::once(self).chain(&self.0.others);
         let mut reports: Vec<String> = errors.take(SceneError::MOST).map(SceneError::report_of_first).collect();
@@ -145,7 +145,7 @@ impl SourceText {
 
 #[cfg(test)]
 thread_local! {
-    /// The errors of this thread that were given a place: each costs a look at the whole text.
+    /// Number of errors of this thread that were located: each costs a pass over the whole text.
     static LOOKS: std::cell::Cell<usize> = const { std::cell::Cell::new(0) };
 }
 

@@ -45,7 +45,7 @@ struct Reader<'t> {
 
 /// A table while it is read.
 struct Frame<'t> {
-    /// Absent where there is none, or something else in its place.
+    /// `None` if there is no table, or another item in its place.
     table: Option<&'t DeTable<'t>>,
     span: Range<usize>,
     /// Another item in the place of the table.

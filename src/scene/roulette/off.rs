@@ -5,7 +5,7 @@ use crate::{
     math::{F, Lanes, V},
 };
 
-/// Paths end only where nothing is left, at the cap, or in the background.
+/// Paths end only at the cap, in the background, or when they carry no more light.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Off;
 

@@ -71,7 +71,7 @@ pub fn advise(
     Ok(advice)
 }
 
-/// Sharing where the settings do not share paths, and none where they do; `None` where sharing is impossible.
+/// The opposite of the present path sharing; `None` if sharing is impossible.
 fn other_reuse(scene: &Scene, camera: &Camera, settings: &RenderSettings) -> Option<Reuse> {
     let rays = scene.rays(camera);
     let shares = scene.shares(&rays, &resolved(scene, &rays, settings));

@@ -13,7 +13,7 @@ use super::background_task::BackgroundTask;
 pub struct EditedScene {
     pub scene: Arc<Scene>,
     pub description: Arc<SceneDescription>,
-    /// Files that it names are looked for in this folder.
+    /// Folder of its relative file paths.
     pub folder: PathBuf,
 }
 
@@ -60,7 +60,7 @@ impl Settler {
 
 fn settled(edited: EditedScene) -> SettledScene {
     let EditedScene { scene, description, folder } = edited;
-    // Where files vanish in the meantime, the scene stays as it is.
+    // If files vanish in the meantime, the scene stays as it is.
     let exact = (!scene.is_exact()).then(|| description.rebuild(&folder, &scene, Precision::Exact).ok()).flatten();
     let scene = exact.map_or(scene, Arc::new);
     SettledScene { warnings: scene.warnings().to_vec(), scene }

@@ -1,8 +1,8 @@
-//! Moves the camera so that something fills the picture.
+//! Moves the camera so that an object fills the image.
 use glam::DVec3;
 use noisefall::scene::Camera;
 
-/// The part of the picture's shorter side that a framed sphere takes.
+/// Fraction of the image's shorter side that a framed sphere fills.
 const PART: f64 = 0.7;
 
 /// The camera that looks at the middle of a sphere from the same direction, and sees all of it. Radius in metres.
@@ -21,7 +21,7 @@ pub fn look_at(camera: &Camera, center: DVec3, radius: f64) -> Camera {
     Camera { eye: center - forward * distance, look_at: center, projection, ..*camera }
 }
 
-/// A sphere around several, each with its centre and radius; `None` around none.
+/// A sphere around several spheres, each with its centre and radius; `None` if there are none.
 pub fn around(spheres: impl Iterator<Item = (DVec3, f64)> + Clone) -> Option<(DVec3, f64)> {
     let boxes = spheres.clone().map(|(center, radius)| [center - radius, center + radius]);
     let [min, max] = boxes.reduce(|[a, b], [c, d]| [a.min(c), b.max(d)])?;
@@ -36,7 +36,7 @@ mod tests {
     use super::*;
     use crate::viewer::canvas::projection::project;
 
-    /// How far the outermost points of a sphere lie from the middle of the picture, as a part of half its shorter side.
+    /// Distance of the outermost points of a sphere from the middle of the image, as a fraction of half its shorter side.
     fn reach(camera: &Camera, center: DVec3, radius: f64) -> f64 {
         let [right, up, forward] = camera.axes();
         let [width, height] = camera.resolution.map(f64::from);

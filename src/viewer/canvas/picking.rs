@@ -14,7 +14,7 @@ pub fn object_at(scene: &Scene, camera: &Camera, pixel: [u32; 2]) -> Option<usiz
 }
 
 /// The point on the surface at the centre of a pixel, and the normal there: the direction towards the camera where the surface reflects
-/// nothing. `None` where there is no surface.
+/// nothing. `None` if there is no surface.
 pub fn surface_at(scene: &Scene, camera: &Camera, pixel: [u32; 2]) -> Option<[DVec3; 2]> {
     let vertex = first_vertex(scene, camera, pixel)?;
     let [origin, direction] = [vertex.origin, vertex.direction].map(|v| DVec3::from_array(v.map(f64::from)));

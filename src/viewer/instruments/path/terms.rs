@@ -6,7 +6,7 @@ type Colour = [f32; 3];
 /// A row of a vertex.
 pub struct Row<'a> {
     pub vertex: &'a Vertex,
-    /// `None` where the vertex adds nothing: nothing emits, and no light is sampled.
+    /// `None` if the vertex adds nothing: it does not emit, and no light is sampled.
     pub term: Option<Term>,
 }
 
