@@ -193,7 +193,7 @@ fn every_command_takes_the_option() {
     };
     let (status, said) = run(&["render", &file, "-o", &output, "--spp", "1", "--memory", "90M"]);
     assert_eq!(status, Some(1), "{said}");
-    assert!(said.contains("pictures of 1500 × 1500 pixels need") && said.contains("of the 90.0 MB allowed"), "{said}");
+    assert!(said.contains("images of 1500 × 1500 pixels need") && said.contains("of the 90.0 MB allowed"), "{said}");
     assert!(!Path::new(&output).exists());
     let (status, said) = run(&["render", &file, "-o", &output, "--spp", "1", "--memory", "900M"]);
     assert_eq!(status, Some(0), "{said}");
@@ -205,17 +205,17 @@ fn every_command_takes_the_option() {
     let (status, said) = run(&["compare", &output, &output, "--memory", "1M"]);
     assert!(status == Some(1) && said.contains("1500 × 1500 pixels need"), "{said}");
     let (status, said) = run(&["compare", &output, &output, "--memory", "100M"]);
-    assert!(status == Some(1) && said.contains("2 pictures of 1500 × 1500 pixels and their difference need"), "{said}");
+    assert!(status == Some(1) && said.contains("2 images of 1500 × 1500 pixels and their difference need"), "{said}");
     let of_size = |command: &str, side: u32, memory: &str| {
         let [folder, size] = [folder.path().join(command).display().to_string(), format!("{side}x{side}")];
         run(&[command, &file, "-o", &folder, "--size", &size, "--memory", memory])
     };
     for (command, side, memory, what) in [
-        ("study", 2000, "90M", "pictures of 2000 × 2000"),
+        ("study", 2000, "90M", "images of 2000 × 2000"),
         // A film of 128 bytes per pixel, three images of 12, and for the chapter 12 of 10 and another film.
         ("study", 1000, "150M", "references of 1000 × 1000"),
-        ("evidence", 1000, "110M", "12 pictures of 1000 × 1000"),
-        ("evidence", 1000, "360M", "pictures of 1000 × 1000"),
+        ("evidence", 1000, "110M", "12 images of 1000 × 1000"),
+        ("evidence", 1000, "360M", "images of 1000 × 1000"),
     ] {
         let (status, said) = of_size(command, side, memory);
         assert!(status == Some(1) && said.contains(&format!("{what} pixels need")), "{command} in {memory}: {said}");
@@ -245,7 +245,7 @@ fn a_picture_that_does_not_fit_fails_in_words() {
         }
     };
     let State::Failed(failure) = state(2000) else { panic!("it is rendered") };
-    assert!(failure.message.starts_with("pictures of 2000 × 2000 pixels need") && !failure.replays, "{}", failure.message);
+    assert!(failure.message.starts_with("images of 2000 × 2000 pixels need") && !failure.replays, "{}", failure.message);
     // What did not fit is not counted, and a small picture fits.
     renderer.submit(64, request(64));
     assert_eq!(state(64), State::Done(Target::Samples(1)));

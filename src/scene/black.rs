@@ -71,7 +71,7 @@ mod tests {
         assert!(of_lamp.starts_with("the camera is inside `lamp`, which emits outwards only: `flip = true`"), "{of_lamp}");
         let both = said(&[("lamp", 1.0, "emission = { radiance = 1, two_sided = true }")], here, None);
         assert_eq!(both, "the camera is inside `lamp`");
-        assert!(said(&[("lamp", 1.0, lamp)], outside, Some(0)).starts_with("the cap of 0 bounces"));
+        assert!(said(&[("lamp", 1.0, lamp)], outside, Some(0)).starts_with("a cap of 0 bounces"));
         assert!(said(&[("lamp", 1.0, lamp)], outside, Some(1)).starts_with("no path found light"));
     }
 }

@@ -150,5 +150,5 @@ fn exposure_and_tone_map_change_a_png_and_not_an_exr() {
     // A million times as bright is the yellow end of the scale.
     near(render("d.png", &["--tone", "false-colour", "--exposure", "20"]).0, linear_from_srgb(231.0 / 255.0));
     let (radiance, notes) = render("e.exr", &["--exposure", "-1"]);
-    assert!(radiance == 1.0 && notes.contains("change a PNG only"), "{radiance} {notes}");
+    assert!(radiance == 1.0 && notes.contains("affect a PNG only"), "{radiance} {notes}");
 }

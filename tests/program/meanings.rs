@@ -337,7 +337,7 @@ fn warnings() {
             .warnings()
             .to_vec()
     };
-    assert_eq!(shells(5, ", transmittance = 0.5"), ["5 media lie within each other: only the tint of the inner 4 is kept"]);
+    assert_eq!(shells(5, ", transmittance = 0.5"), ["5 media are nested: only the innermost 4 are tinted"]);
     assert_eq!((shells(4, ", transmittance = 0.5").len(), shells(9, "").len()), (0, 0));
     let moving = |shutter: &str| {
         let view = format!("camera = {{ eye = [0, 0, 4], look_at = [0, 0, 0], fov = 40, resolution = [8, 8]{shutter} }}");

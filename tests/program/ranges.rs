@@ -34,7 +34,7 @@ const fn range(
 
 const FAR: &[&str] = &["-1e12", "0.5", "1e12"];
 const BEYOND: &[&str] = &["1.000001e12", "-1.000001e12", "nan", "inf", "-inf"];
-const POSITION: &str = "coordinates must be finite and at most 1e12 in size";
+const POSITION: &str = "coordinates must be finite and at most 1e12 in magnitude";
 const PART: &[&str] = &["0.0", "0", "1.0", "1", "[0.0, 1.0, 0.5]"];
 const NO_PART: &[&str] = &["-1e-9", "1.000001", "nan", "inf", "[0.0, 0.0, 1.1]", "[-0.1, 0.0, 0.0]", "[0.5, 0.5]", "true"];
 const NARROW: &[&str] = &["0.0", "1.0"];
@@ -134,7 +134,7 @@ const RANGES: &[Range] = &[
     range("objects.transform.rotate.degrees", "VIEW\n[[objects]]\nBALL\ntransform = [{ rotate = { axis = [0, 1, 0], degrees = X } }]", &["0.0", "-1e300", "1e300", "1.5e9"], &["nan", "inf", "-inf"], "`degrees` is not a finite number"),
     range("objects.transform.matrix", "VIEW\n[[objects]]\nBALL\ntransform = [{ matrix = [[X, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]] }]", &["1e-12", "1e12", "-1.0"], &["0.0", "0.99e-12", "1.01e12"], "it flattens space, or scales it beyond 1e-12 to 1e12"),
     range("objects.transform.matrix", "VIEW\n[[objects]]\nBALL\ntransform = [{ matrix = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, X]] }]", &["1.0"], &["0.999", "0.0", "2.0"], "the last row must be 0, 0, 0, 1"),
-    range("objects.motion.translate", "VIEW\n[[objects]]\nBALL\nmotion = [{ translate = [X, 0, 0] }]", &["-3.9e12", "3.9e12"], &["4.1e12", "-4.1e12", "1e100"], "in motion it comes as far as"),
+    range("objects.motion.translate", "VIEW\n[[objects]]\nBALL\nmotion = [{ translate = [X, 0, 0] }]", &["-3.9e12", "3.9e12"], &["4.1e12", "-4.1e12", "1e100"], "its motion takes it"),
     range("objects.motion.rotate.degrees", "VIEW\n[[objects]]\nBALL\nmotion = [{ rotate = { axis = [0, 1, 0], degrees = X } }]", &["-1e300", "1.5e9"], &["nan", "inf"], "`degrees` is not a finite number"),
     range("camera.motion.translate", "camera = { eye = [0.0, 0.0, 4.0], look_at = [0.0, 0.0, 0.0], fov = 40.0, resolution = [8, 8], motion = [{ translate = [X, 0, 0] }] }", &["-1e12", "1e12"], &["nan", "inf"], "the transform is not finite"),
     range("objects.emission.radiance", "VIEW\n[[objects]]\nBALL\nemission.radiance = X", &["1e-30", "1e15", "[0.0, 1e15, 0.0]"], NO_LIGHT, "every channel must be a number from 0 to 1e15"),

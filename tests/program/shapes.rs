@@ -47,7 +47,7 @@ fn invalid_transforms_are_refused() {
     transform("{ matrix = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 2]] }", "not affine");
     transform("{ matrix = [[1, 2, 3, 0], [2, 4, 6, 0], [0, 0, 1, 0], [0, 0, 0, 1]] }", "cannot be inverted");
     transform("{ matrix = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]] }", "expected a list of 4, found 3 values");
-    transform("{ scale = 1e11 }, { scale = 1e11 }", "after its transforms the sphere reaches");
+    transform("{ scale = 1e11 }, { scale = 1e11 }", "after its transforms the sphere has a radius of");
     transform("{ spin = 1.0 }", "spin");
 }
 

@@ -228,7 +228,7 @@ fn what_cannot_be_is_refused() {
     says(Edit::choose(path("materials.gold"), "material", "velvet"), "velvet");
     says(Edit::choose(path("materials.gold"), "shape", "sphere"), "there is no");
     let wrong = Tree(vec![crate::edit::tree::Answer::Items(3)]);
-    says(Edit::Replace { path: path("camera"), tree: wrong.clone() }, "other values");
+    says(Edit::Replace { path: path("camera"), tree: wrong.clone() }, "cannot hold this value");
     says(Edit::Replace { path: path("objects"), tree: wrong }, "there is no");
 }
 

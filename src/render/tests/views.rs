@@ -193,7 +193,7 @@ fn a_scale_has_the_unit_of_its_view_and_what_is_missing_is_asked_for() {
         (View::StandardError, "W/(sr·m²)", 1.0),
         (View::SampleCount, "samples", 7.0),
         (View::ZScore, "σ", 4.0),
-        (View::Difference, "relative to the pinned image, or to B", 0.001),
+        (View::Difference, "relative to pinned image or B", 0.001),
         (View::Depth, "m", 50.0),
         (View::HitCost, "ns per ray", 50.0),
     ] {
@@ -201,7 +201,7 @@ fn a_scale_has_the_unit_of_its_view_and_what_is_missing_is_asked_for() {
         assert_eq!((scale.unit, scale.ends[1]), (unit, high), "{view:?}");
     }
     let missing = [View::ZScore, View::Difference, View::Depth].map(|view| legend(view, &sources(&frame, &[])).title);
-    let starts = ["No truth for this", "Nothing of this size", "Coming"];
+    let starts = ["No reference", "No image of this size", "Coming"];
     assert!(missing.iter().zip(starts).all(|(title, start)| title.starts_with(start)), "{missing:?}");
 }
 

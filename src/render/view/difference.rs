@@ -14,11 +14,11 @@ impl Quantity for Difference {
     const SHOWS_LIGHT: bool = true;
     const IS_SIGNED: bool = true;
     fn unit() -> &'static str {
-        "relative to the pinned image, or to B"
+        "relative to pinned image or B"
     }
 
     fn missing() -> &'static str {
-        "There is no image of this size to compare with yet: wait for the first sample of B, or pin an image below Display"
+        "No image of this size to compare with yet: wait for the first sample of B, or pin an image below Display"
     }
 
     fn field(sources: &Sources) -> Field {

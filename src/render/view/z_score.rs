@@ -22,7 +22,7 @@ impl Quantity for ZScore {
     }
 
     fn missing() -> &'static str {
-        "There is no reference: open a scene with [truth] at its own camera (Home), or drop a reference EXR of this size"
+        "No reference: open a scene with [truth] at its own camera (Home), or drop a reference EXR of this size"
     }
 
     fn field(sources: &Sources) -> Field {

@@ -241,7 +241,7 @@ fn advice_comes_to_an_end_and_keeps_the_cap() {
     assert!(advice.candidates.iter().all(|candidate| candidate.settings.max_bounces == Some(3) && candidate.settings.seed == 7));
     assert_eq!(advice.current().settings, in_use);
     assert!(advice.candidates.iter().all(|candidate| candidate.rel_mse > 0.0), "rounds have seeds of their own");
-    assert!(advice.verdict().ends_with(" All that was tried has your cap at 3, and misses what lies beyond it."));
+    assert!(advice.verdict().ends_with(" All candidates have your cap at 3 and miss the light beyond it."));
 }
 
 #[test]

@@ -37,10 +37,10 @@ const KEYS: [(&str, &[(&str, &str)]); 5] = [
             ("Click", "select an object; Esc clears the selection"),
             ("L", "look at the object"),
             ("G  R  S", "move, rotate, scale, while the pointer is over the image"),
-            ("X  Y  Z", "then: restrict to an axis; with Shift to the plane across it"),
+            ("X  Y  Z", "then: restrict to an axis (Shift: to a plane)"),
             ("0 … 9  .  −", "then: type the exact value"),
             ("Ctrl", "then: snap to steps"),
-            ("Enter, click", "then: keep the change; Esc or right click discards it"),
+            ("Enter, click", "then: keep; Esc or right click discards"),
         ],
     ),
     (

@@ -124,7 +124,7 @@ fn meaning(Bounces { k, up_to }: Bounces) -> String {
     match (k, up_to) {
         (LAST, true) => "all of the light".to_owned(),
         (LAST, false) => format!("{LAST} bounces and more"),
-        (0, _) => "light straight from lamps and background".to_owned(),
+        (0, _) => "light without a bounce".to_owned(),
         (1, false) => "direct light: one bounce".to_owned(),
         (k, false) => format!("light after {k} bounces"),
         (1, true) => "lamps, and light after one bounce".to_owned(),

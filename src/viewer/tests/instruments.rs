@@ -151,7 +151,7 @@ fn the_picture_is_a_series_and_nothing_is_rendered_for_it_unless_it_is_looked_at
     let image = render(app.display_request(shown));
     let mean = image.pixels.iter().map(|pixel| f64::from(pixel[1])).sum::<f64>() / image.pixels.len() as f64;
     assert!((mean - 137.0).abs() < 10.0, "a quarter has the code 137: {mean}");
-    assert!(window.query_by_label_contains("k = 2 brings 12.").is_some());
+    assert!(window.query_by_label_contains("k = 2 contributes 12.").is_some());
     assert!(window.query_by_label_contains("A cap of 2 would lose 12.").is_some());
     never_restarts(&mut window, |w| press(w, Key::F4));
     wait(&mut window, "its end", |app| app.results.second_status.generation == 0 && app.results.second_frame.is_none());

@@ -89,7 +89,7 @@ fn a_bounce_says_what_it_brings_what_there_is_up_to_it_and_what_a_cap_loses() {
     app.results.second_frame = Some(Arc::new(Frame { spp: 7, series, ..Frame::default() }));
     app.session.bounces.k = 2;
     let texts = said(&mut app, |app, ui| app.instrument(ui, InstrumentTab::Bounces));
-    assert_says(&texts, &["k = 2 brings 12.00 % of the light; up to k it is 82.00 %. A cap of 2 would lose 18.00 %."]);
+    assert_says(&texts, &["k = 2 contributes 12.00 % of the light; up to k it is 82.00 %. A cap of 2 would lose 18.00 %."]);
 }
 
 #[test]

@@ -100,7 +100,7 @@ fn a_scene_that_names_files_stays_in_their_folder() {
     let mut window = window("textures_and_bump");
     let path = folder.path().join("elsewhere.toml");
     window.state_mut().save_scene_to(&path);
-    assert!(!path.exists() && window.state().dialogs.notices.0.iter().any(|notice| notice.text.contains("names files")));
+    assert!(!path.exists() && window.state().dialogs.notices.0.iter().any(|notice| notice.text.contains("relative file paths")));
 }
 
 #[test]
