@@ -119,7 +119,7 @@ pub enum ImageFormatError {
     /// The size exceeds the memory that is left.
     #[error(transparent)]
     TooMuch(#[from] TooMuch),
-    /// The pixel at this column and row is no radiance.
+    /// The pixel at this column and row is not a radiance.
     #[error("the pixel at column {0}, row {1} is not a radiance: it must be a number up to {BRIGHTEST:e}")]
     NotLight(usize, usize),
 }
