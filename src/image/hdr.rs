@@ -44,7 +44,7 @@ fn exposure(file: &mut impl BufRead) -> Result<f64, ImageFormatError> {
         }
         if let Some(factor) = line.strip_prefix("EXPOSURE=") {
             let factor = factor.trim().parse().ok().filter(|factor| f64::is_normal(*factor) && *factor > 0.0);
-            exposure *= factor.ok_or_else(|| ImageFormatError::broken(format!("`{line}` is no factor")))?;
+            exposure *= factor.ok_or_else(|| ImageFormatError::broken(format!("`{line}` is not a factor")))?;
         }
     }
 }

@@ -76,7 +76,7 @@ fn block(scene: &Scene, vertex: &Vertex) -> String {
     let mut term = |name: &str, value: &str| text += &format!("\n  {name:<15} {value}");
     term("throughput", &three(vertex.throughput));
     if vertex.transmittance != [1.0; 3] {
-        term("media let pass", &three(vertex.transmittance));
+        term("transmittance", &three(vertex.transmittance));
     }
     if let Some(Surface { position, wo, shading_normal, .. }) = &vertex.surface {
         term("position", &place(*position));
@@ -113,9 +113,9 @@ fn light_sample(scene: &Scene, light: &SampledLight, term: &mut impl FnMut(&str,
     term(
         "",
         &match light.outcome {
-            Outcome::Seen => format!("is seen, adds {}", three(light.contribution)),
-            Outcome::Hidden => "is hidden".to_owned(),
-            Outcome::Void => "cannot be reflected or is dark".to_owned(),
+            Outcome::Seen => format!("is visible, adds {}", three(light.contribution)),
+            Outcome::Hidden => "is occluded".to_owned(),
+            Outcome::Void => "adds nothing: BSDF or radiance is 0".to_owned(),
         },
     );
 }
@@ -135,7 +135,7 @@ fn next(reflection: &Reflection, term: &mut impl FnMut(&str, &str)) {
     }
     let played = if reflection.survival < 1.0 { format!("survival {}, ", number(reflection.survival)) } else { String::new() };
     let end = match reflection {
-        Reflection { goes_on: true, throughput, .. } => format!("goes on with {}", three(*throughput)),
+        Reflection { goes_on: true, throughput, .. } => format!("continues with {}", three(*throughput)),
         Reflection { survives: false, survival, .. } if *survival < 1.0 => "ended by roulette".to_owned(),
         _ => "ends: no light can follow".to_owned(),
     };
@@ -193,9 +193,19 @@ mod tests {
             block(&scene, &vertex)
         };
         for (front, outcome, [goes_on, survives], parts) in [
-            (true, Outcome::Seen, [true, true], [", front, ", "is seen, adds 0.50000 2.00000 3.00000", "goes on with 0.75000 "]),
-            (false, Outcome::Hidden, [false, false], [", back, ", "is hidden", "survival 0.25000, ended by roulette"]),
-            (true, Outcome::Void, [false, true], [", front, ", "cannot be reflected or is dark", "ends: no light can follow"]),
+            (
+                true,
+                Outcome::Seen,
+                [true, true],
+                [", front, ", "is visible, adds 0.50000 2.00000 3.00000", "continues with 0.75000 "],
+            ),
+            (false, Outcome::Hidden, [false, false], [", back, ", "is occluded", "survival 0.25000, ended by roulette"]),
+            (
+                true,
+                Outcome::Void,
+                [false, true],
+                [", front, ", "adds nothing: BSDF or radiance is 0", "ends: no light can follow"],
+            ),
         ] {
             let told = told(front, outcome, [goes_on, survives]);
             parts.iter().for_each(|part| assert!(told.contains(part), "{part}: {told}"));

@@ -126,7 +126,7 @@ fn gains(findings: &Findings) -> Markup {
                     (row(if i == 0 { setting.name() } else { "" }, gain))
                 } } }
             }
-            p.source { "Efficiency relative to the best: with this value and all other settings as in the best combination, and with this value and the other settings that are best with it. A dash marks combinations that are not ranked, or have noise where the best has none." }
+            p.source { "Efficiency relative to the best: with this value and all other settings as in the best combination, and with this value and the other settings that are best with it. A dash marks combinations that are not ranked, or that have noise although the best has none." }
         }
     }
 }

@@ -48,7 +48,7 @@ fn check_count<V: Values>(element: &Element, values: &V) -> Result<(), ModelForm
     // A text's last value needs no separator.
     if element.count.saturating_mul(least) > values.left() as u64 + 1 {
         let (name, count, left) = (&element.name, element.count, values.left());
-        return Err(values.place().broken(format!("the {left} bytes that are left are too few for {count} of element `{name}`")));
+        return Err(values.place().broken(format!("the remaining {left} bytes are too few for {count} of element `{name}`")));
     }
     Ok(())
 }

@@ -19,7 +19,7 @@ const NORMAL_95: f64 = 1.96;
 const UNKNOWN: &str = "–";
 /// Note on rows without intervals.
 const UNTRUSTED: &str =
-    "No interval is given where the variance may be infinite, nor where few samples make up most of it (heavy tails)";
+    "No interval is given if the variance may be infinite, or if few samples make up most of it (heavy tails)";
 
 impl Exhibits<'_> {
     /// All tables, in the order of the chapter.
