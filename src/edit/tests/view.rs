@@ -22,10 +22,10 @@ fn a_scene_is_given_the_view_of_it_and_its_file_says_only_what_is_new() {
     assert_eq!(document.text(), ROOM.replace("eye = [0.0, 1.0, 4.0]", "eye = [1.0, 1.5, 4.0]"));
     document.apply(&inverse).expect("it was so");
     assert_eq!(document.text(), ROOM);
-    let parallel = Camera { projection: Projection::orthographic(3.0), up: DVec3::Z, ..camera };
+    let parallel = Camera { projection: Projection::orthographic(3.0), up: DVec3::X, ..camera };
     let seeded = RenderSettings { seed: 7, ..settings };
     let edit = document.use_view(&parallel, &seeded).expect("it is another view");
     document.apply(&edit).expect("it is valid");
     let (camera, settings) = view(&document);
-    assert_eq!((camera.projection, camera.up, settings), (parallel.projection, DVec3::Z, seeded));
+    assert_eq!((camera.projection, camera.up, settings), (parallel.projection, DVec3::X, seeded));
 }

@@ -154,7 +154,7 @@ fn the_gizmo_moves_the_object_by_keys_and_escape_takes_it_back() {
     let at = seen(&mut window, ball());
     click_at(&mut window, at);
     let (start, tool) = (center(&window, AMBER_BALL), window.state().window.tool);
-    window.hover_at(at + vec2(0.0, 120.0));
+    window.hover_at(at - vec2(0.0, 120.0));
     window.run_steps(2);
     press(&mut window, Key::G);
     for key in [Key::X, Key::Num2, Key::Enter] {
