@@ -43,7 +43,7 @@ pub fn show(ui: &mut Ui, settings: &mut RenderSettings, status: &Status, caution
         });
         reuse_row(ui, &mut settings.reuse, status);
         row(ui, "Adaptive", "Takes more samples where a pilot finds more noise. Not used if pixels share paths.", |ui, label| {
-            drop(ui.checkbox(&mut settings.adaptive, "").labelled_by(label))
+            drop(ui.checkbox(&mut settings.adaptive, "").labelled_by(label));
         });
         roulette_rows(ui, &mut settings.roulette, caution);
         row(
