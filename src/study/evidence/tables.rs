@@ -125,8 +125,8 @@ impl Exhibits<'_> {
             |seconds| {
                 format!(
                     "{name} after the same rendering time T = {} s, at which the fastest of the unbiased settings ends: samples per pixel \
-                     and error (the root of relMSE), interpolated between measured points on logarithmic axes ({UNKNOWN} where T is \
-                     outside of what was measured).",
+                     and error (the root of relMSE), interpolated between measured points on logarithmic axes ({UNKNOWN} if T is \
+                     outside the measured range).",
                     significant(seconds)
                 )
             },
