@@ -23,7 +23,7 @@ impl Scene {
         }
         match settings.max_bounces {
             Some(0) => "a cap of 0 bounces shows only emitters, and the camera sees none".to_owned(),
-            _ => "no path found light: it may be enclosed, behind the camera, or too small to be found soon".to_owned(),
+            _ => "no path found light: it may be enclosed, or too small to be found soon".to_owned(),
         }
     }
 }

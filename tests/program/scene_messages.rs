@@ -82,7 +82,7 @@ const MEANT: [(&str, &str, &str); 38] = [
     ("[[objects]]", "[[objects]", "`]` is missing"),
     ("\"ball\"", "\"ball", "the text in quotes does not end"),
     ("\"white\"", "white", "text must stand in quotes"),
-    ("radiance = 2.0", "radiance = 2,0", "a value ends with its line"),
+    ("radiance = 2.0", "radiance = 2,0", "a value must end on its line"),
 ];
 
 #[test]

@@ -191,7 +191,7 @@ fn a_cap_that_leaves_nothing_is_named_without_a_way_back() {
     wait(&mut window, "the reason", |app| app.results.why_black().is_some());
     brightness(&mut window);
     window.run_steps(2);
-    assert!(window.query_by_label_contains("The cap of 0 ").is_some() && window.query_by_label(BACK).is_none());
+    assert!(window.query_by_label_contains("A cap of 0 bounces").is_some() && window.query_by_label(BACK).is_none());
 }
 
 #[test]

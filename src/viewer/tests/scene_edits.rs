@@ -127,7 +127,7 @@ fn parts_are_added_duplicated_renamed_assigned_and_deleted() {
     window.state_mut().act_on(Subject::Material("blue".to_owned()), Action::Rename("sky".to_owned()));
     assert_eq!(description(&window).objects[AMBER_BALL].material.as_deref(), Some("sky"));
     window.state_mut().act_on(Subject::Material("sky".to_owned()), Action::Delete);
-    assert!(window.state().dialogs.notices.0.iter().any(|notice| notice.text.contains("in use")));
+    assert!(window.state().dialogs.notices.0.iter().any(|notice| notice.text.contains("aterial `sky` is")));
     window.state_mut().act_on(Subject::Background, Action::AddBackground);
     assert!(description(&window).background.is_some());
     window.state_mut().act_on(ball(), Action::Delete);
@@ -170,7 +170,7 @@ fn the_gizmo_moves_the_object_by_keys_and_escape_takes_it_back() {
     window.hover_at(at);
     window.run_steps(2);
     press(&mut window, Key::G);
-    window.hover_at(at + vec2(60.0, 120.0));
+    window.hover_at(at + vec2(60.0, -60.0));
     window.run_steps(3);
     assert_ne!(center(&window, AMBER_BALL), start);
     press(&mut window, Key::Escape);
