@@ -112,4 +112,19 @@ mod tests {
             assert_eq!((drawn.iter().min(), drawn.iter().max()), (Some(&least), Some(&largest)));
         }
     }
+
+    /// Scenes of 10¹⁵ m would be of no use, although a file may describe them.
+    #[test]
+    fn lengths_of_wide_ranges_are_those_of_scenes() {
+        const LENGTH: Parameter = Parameter::new("length", "A length.");
+        let mut random = SmallRng::seed_from_u64(3);
+        let mut dice = Dice::new(&mut random);
+        let drawn = (0..1000).map(|_| {
+            let mut length = 0.0;
+            dice.value(&LENGTH, Value::Number(&mut length, Range::linear(-1e15, 1e15)));
+            length
+        });
+        let [least, most] = drawn.fold([f64::MAX, f64::MIN], |[a, b], x| [a.min(x), b.max(x)]);
+        assert_eq!([least, most], [-1e9, 1e9]);
+    }
 }

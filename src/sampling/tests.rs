@@ -23,6 +23,12 @@ fn chi_squared(observed: &[f64], expected: &[f64]) -> f64 {
 }
 
 #[test]
+fn the_camera_and_three_surfaces_are_near() {
+    assert!(Dimension::TIME.is_near() && Dimension::direction(3).is_near());
+    assert!(!Dimension::direction(4).is_near());
+}
+
+#[test]
 fn directions_are_distributed_as_their_pdf() {
     const ACROSS: usize = 16;
     const AROUND: usize = 16;

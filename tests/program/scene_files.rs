@@ -161,6 +161,7 @@ fn numbers_out_of_range_are_refused() {
     refuses("fov = 40", "fov = nan", "`fov` is not a number");
     refuses("look_at = [0, 1, 0]", "look_at = [0, 1, 4]", "the same point");
     refuses("look_at = [0, 1, 0]", "look_at = [0, 0, 4]", "parallel");
+    refuses("look_at = [0, 1, 0]", "look_at = [0, 0, 4]", "`up` is [0, 1, 0] by default");
     refuses("resolution = [32, 24]", "resolution = [0, 24]", "resolution must be");
     refuses("resolution = [32, 24]", "resolution = [100000, 2]", "resolution must be");
     refuses("resolution = [32, 24]", "resolution = [16384, 16384]", "resolution must be");
