@@ -3,7 +3,7 @@ use super::{Choice, CountRange, Declare, Form, Parameter, Parameters, Range, Tex
 
 /// A section for each table at the top of `description`, with a row for each parameter in it. Defaults are those of `description`.
 pub fn manual(description: &mut dyn Declare) -> String {
-    let mut manual = Manual { text: String::new(), path: Vec::new() };
+    let mut manual = Manual { text: String::new(), path: Vec::new(), is_absent: false };
     manual.heading("The file", "Keys at the top of the file, before the first table.");
     description.parameters(&mut manual);
     manual.text
@@ -13,6 +13,8 @@ struct Manual {
     text: String,
     /// The tables around.
     path: Vec<String>,
+    /// Whether the next value is absent by default.
+    is_absent: bool,
 }
 
 impl Manual {
@@ -24,11 +26,12 @@ impl Manual {
         let keys: Vec<&str> = self.path.iter().skip(1).map(String::as_str).chain([parameter.key]).collect();
         let symbol = if parameter.symbol.is_empty() { String::new() } else { format!(" *{}*", parameter.symbol) };
         let unit = if parameter.unit.is_empty() { String::new() } else { format!(" ({})", parameter.unit) };
-        // What must be given has no default.
-        let value = if parameter.is_required {
-            format!("{}, required", value.split(';').next().unwrap_or_default())
-        } else {
-            value.to_owned()
+        let without_default = || value.split(';').next().unwrap_or_default().to_owned();
+        let is_absent = std::mem::take(&mut self.is_absent);
+        let value = match (parameter.is_required, is_absent) {
+            (true, _) => format!("{}, required", without_default()),
+            (false, true) => without_default(),
+            (false, false) => value.to_owned(),
         };
         let value = value.replace('|', "\\|");
         self.text += &format!("| `{}`{symbol} | {value} | {}{unit} |\n", keys.join("."), parameter.doc);
@@ -89,6 +92,7 @@ impl Parameters for Manual {
     }
 
     fn enter(&mut self, parameter: &Parameter, _: Form) {
+        self.is_absent = false;
         self.descend(parameter, &format!("`[{}]`", parameter.key), false);
     }
 
@@ -96,7 +100,8 @@ impl Parameters for Manual {
         self.path.pop();
     }
 
-    fn present(&mut self, _: &Parameter, _: bool) -> bool {
+    fn present(&mut self, _: &Parameter, now: bool) -> bool {
+        self.is_absent = !now;
         true
     }
 
