@@ -39,6 +39,7 @@ pub fn one_of<T: Words>() -> String {
 }
 
 /// All words of a type, as a help text lists them: `a, b, c`.
+#[cfg(feature = "reports")]
 pub fn list_of<T: Words>() -> String {
     names::<T>().join(", ")
 }
