@@ -176,7 +176,7 @@ fn files_that_do_not_fit_are_refused_by_their_size() {
     let field = "sphere_field = { count = 1000000, bounds = { min = [-1, -1, -1], max = [1, 1, 1] } }";
     refused(&file("d.toml", &object(field)), "1000000 spheres need");
     refused(&file("e.toml", &format!("x = [{}1]", "1,".repeat(1 << 20))), "2.1 MB of text need");
-    refused(&file("f.toml", &scene(1200, "")), "pictures of 1200 × 1200 pixels need");
+    refused(&file("f.toml", &scene(1200, "")), "images of 1200 × 1200 pixels need");
     fs::write(folder.path().join("g.obj"), "v 0 0 0\n".repeat(2_000_000)).expect("it is written");
     refused(&file("g.toml", &object("mesh = { path = 'g.obj' }")), "g.obj: line");
 }

@@ -69,7 +69,7 @@ fn broken_hdrs_are_refused() {
     refuses(&sized("-Y 60000 +X 8"), &[], "8 × 60000");
     refuses(&sized("-Y 16384 +X 16384"), &[], "16384 × 16384");
     refuses("#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n", &[], "32-bit_rle_xyze");
-    refuses("#?RADIANCE\nEXPOSURE=0\n\n", &[], "no factor");
+    refuses("#?RADIANCE\nEXPOSURE=0\n\n", &[], "is not a factor");
     refuses("#?RADIANCE\n", &[], "within its header");
     refuses(&format!("#?{}", "x".repeat(10_000)), &[], "within its header");
 }

@@ -112,7 +112,7 @@ impl Reference {
         let more = if difference > 0.0 { "more" } else { "less" };
         Some(format!(
             "the block of {0} × {0} pixels from {x},{y} on has {more} radiance than [truth] says, by {1:.1} standard errors, though the mean of \
-             the picture agrees",
+             the image agrees",
             SampleNoise::BLOCK,
             z.abs()
         ))

@@ -191,18 +191,18 @@ fn counts_beyond_the_file_are_refused() {
         assert_eq!(refusal(&file(format, &mesh(vertices, faces), data)), reason);
     };
     let text = b"0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
-    refuses("ascii", 3, 100_000_000, text, "line 13: the 8 bytes that are left are too few for 100000000 of element `face`");
+    refuses("ascii", 3, 100_000_000, text, "line 13: the remaining 8 bytes are too few for 100000000 of element `face`");
     refuses(
         "ascii",
         usize::MAX,
         1,
         text,
-        "line 10: the 26 bytes that are left are too few for 18446744073709551615 of element `vertex`",
+        "line 10: the remaining 26 bytes are too few for 18446744073709551615 of element `vertex`",
     );
     let binary = [&[0; 36][..], &[3, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]].concat();
     let format = "binary_little_endian";
-    refuses(format, 3, 100_000_000, &binary, "byte 213: the 13 bytes that are left are too few for 100000000 of element `face`");
-    refuses(format, 5, 1, &binary, "byte 169: the 49 bytes that are left are too few for 5 of element `vertex`");
+    refuses(format, 3, 100_000_000, &binary, "byte 213: the remaining 13 bytes are too few for 100000000 of element `face`");
+    refuses(format, 5, 1, &binary, "byte 169: the remaining 49 bytes are too few for 5 of element `vertex`");
 }
 
 #[test]
