@@ -1,7 +1,10 @@
 //! The checks of the reader, for a part of a description.
-use super::{references::references, walk::Walk};
+use super::{
+    references::references,
+    walk::{Walk, follows_walk},
+};
 use crate::{
-    declare::{Declare, Family, Form, Parameter, Parameters, Path, Problem, Step, Value, check_value},
+    declare::{Declare, Family, Parameter, Parameters, Path, Problem, Step, Value, check_value},
     scene::{check_camera, check_object, description::SceneDescription},
 };
 
@@ -81,23 +84,5 @@ impl Parameters for Checker<'_> {
         }
     }
 
-    fn enter(&mut self, parameter: &Parameter, _: Form) {
-        self.walk.enter(parameter.key);
-    }
-
-    fn leave(&mut self) {
-        self.walk.leave();
-    }
-
-    fn skips(&self) -> bool {
-        self.walk.is_beside()
-    }
-
-    fn item(&mut self, parameter: &Parameter, index: usize) {
-        self.walk.item(parameter.key, index);
-    }
-
-    fn named(&mut self, parameter: &Parameter, name: &str) {
-        self.walk.named(parameter.key, name);
-    }
+    follows_walk!();
 }

@@ -1,7 +1,7 @@
 //! Puts a tree at a path: replaces the content there, or adds it.
 use super::tree::{Answer, Tree};
-use super::walk::Walk;
-use crate::declare::{Choice, Declare, Form, Parameter, Parameters, Path, Rearrangement, Value};
+use super::walk::{Walk, follows_walk};
+use crate::declare::{Choice, Declare, Parameter, Parameters, Path, Rearrangement, Value};
 
 /// Replaces the content at a path. Returns false if there is none, or if the tree does not fit; part of it may be replaced then.
 pub fn replace(description: &mut dyn Declare, path: &Path, tree: &Tree) -> bool {
@@ -52,17 +52,7 @@ impl Parameters for Player<'_> {
         }
     }
 
-    fn enter(&mut self, parameter: &Parameter, _: Form) {
-        self.walk.enter(parameter.key);
-    }
-
-    fn leave(&mut self) {
-        self.walk.leave();
-    }
-
-    fn skips(&self) -> bool {
-        self.walk.is_beside()
-    }
+    follows_walk!();
 
     fn present(&mut self, parameter: &Parameter, now: bool) -> bool {
         if self.adds && self.walk.is_at(parameter.key) {
@@ -107,10 +97,6 @@ impl Parameters for Player<'_> {
         }
     }
 
-    fn item(&mut self, parameter: &Parameter, index: usize) {
-        self.walk.item(parameter.key, index);
-    }
-
     fn names(&mut self, parameter: &Parameter, mut now: Vec<String>) -> Vec<String> {
         if let Some(name) = self.walk.name_at(parameter.key).filter(|_| self.adds) {
             self.is_there = !now.iter().any(|known| known == name);
@@ -127,9 +113,5 @@ impl Parameters for Player<'_> {
             }
             None => now,
         }
-    }
-
-    fn named(&mut self, parameter: &Parameter, name: &str) {
-        self.walk.named(parameter.key, name);
     }
 }

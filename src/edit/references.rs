@@ -1,6 +1,6 @@
 //! References to materials and textures in a description.
-use super::walk::Walk;
-use crate::declare::{Declare, Family, Form, Parameter, Parameters, Path, Textured, Value};
+use super::walk::{Walk, follows_walk};
+use crate::declare::{Declare, Family, Parameter, Parameters, Path, Textured, Value};
 
 /// Calls `look` with every reference at a path or below it: its path, its family and its name. `look` may change the name.
 pub fn references(description: &mut dyn Declare, path: &Path, look: impl FnMut(&Path, Family, &mut String)) {
@@ -28,23 +28,5 @@ impl<F: FnMut(&Path, Family, &mut String)> Parameters for Searcher<'_, F> {
         }
     }
 
-    fn enter(&mut self, parameter: &Parameter, _: Form) {
-        self.walk.enter(parameter.key);
-    }
-
-    fn leave(&mut self) {
-        self.walk.leave();
-    }
-
-    fn skips(&self) -> bool {
-        self.walk.is_beside()
-    }
-
-    fn item(&mut self, parameter: &Parameter, index: usize) {
-        self.walk.item(parameter.key, index);
-    }
-
-    fn named(&mut self, parameter: &Parameter, name: &str) {
-        self.walk.named(parameter.key, name);
-    }
+    follows_walk!();
 }

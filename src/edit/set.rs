@@ -1,6 +1,6 @@
 //! Sets a value.
-use super::walk::Walk;
-use crate::declare::{Declare, Form, OwnedValue, Parameter, Parameters, Path, Value};
+use super::walk::{Walk, follows_walk};
+use crate::declare::{Declare, OwnedValue, Parameter, Parameters, Path, Value};
 
 /// Result of setting a value.
 pub enum Found {
@@ -42,17 +42,7 @@ impl Parameters for Setter<'_> {
         }
     }
 
-    fn enter(&mut self, parameter: &Parameter, _: Form) {
-        self.walk.enter(parameter.key);
-    }
-
-    fn leave(&mut self) {
-        self.walk.leave();
-    }
-
-    fn skips(&self) -> bool {
-        self.walk.is_beside()
-    }
+    follows_walk!();
 
     fn present(&mut self, parameter: &Parameter, now: bool) -> bool {
         let appears = !now && self.walk.leads_through(parameter.key);
@@ -60,13 +50,5 @@ impl Parameters for Setter<'_> {
             self.appeared = Some(self.walk.path_of(parameter.key));
         }
         now || appears
-    }
-
-    fn item(&mut self, parameter: &Parameter, index: usize) {
-        self.walk.item(parameter.key, index);
-    }
-
-    fn named(&mut self, parameter: &Parameter, name: &str) {
-        self.walk.named(parameter.key, name);
     }
 }

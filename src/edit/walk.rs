@@ -1,6 +1,32 @@
 //! Follows a visitor on its way to a path.
 use crate::declare::{Path, Step};
 
+/// The methods of a visitor that keep the walk in its field `walk` at the table that is visited, and pass over tables beside the path.
+macro_rules! follows_walk {
+    () => {
+        fn enter(&mut self, parameter: &Parameter, _: crate::declare::Form) {
+            self.walk.enter(parameter.key);
+        }
+
+        fn leave(&mut self) {
+            self.walk.leave();
+        }
+
+        fn skips(&self) -> bool {
+            self.walk.is_beside()
+        }
+
+        fn item(&mut self, parameter: &Parameter, index: usize) {
+            self.walk.item(parameter.key, index);
+        }
+
+        fn named(&mut self, parameter: &Parameter, name: &str) {
+            self.walk.named(parameter.key, name);
+        }
+    };
+}
+pub(super) use follows_walk;
+
 /// Position of a visitor relative to a target path.
 pub struct Walk<'p> {
     target: &'p [Step],

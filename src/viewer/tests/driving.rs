@@ -21,6 +21,18 @@ pub fn press(window: &mut Window, key: Key) {
     window.run_steps(3);
 }
 
+/// Takes one step back.
+pub fn undo(window: &mut Window) {
+    window.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+    window.run_steps(3);
+}
+
+/// Makes the last undone step again.
+pub fn redo(window: &mut Window) {
+    window.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
+    window.run_steps(3);
+}
+
 /// Sets the field of numbers of this name that has this place.
 pub fn set(window: &mut Window, label: &str, place: usize, value: f64) {
     let field = window.get_all_by_role_and_label(Role::SpinButton, label).nth(place).expect("there is such a field");

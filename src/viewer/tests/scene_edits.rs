@@ -31,16 +31,6 @@ fn edits(window: &mut Window, what: &str, act: impl FnOnce(&mut Window)) {
     });
 }
 
-fn undo(window: &mut Window) {
-    window.key_press_modifiers(Modifiers::COMMAND, Key::Z);
-    window.run_steps(3);
-}
-
-fn redo(window: &mut Window) {
-    window.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
-    window.run_steps(3);
-}
-
 fn select(window: &mut Window, subject: Subject) {
     window.state_mut().window.panel = PanelTab::Edit;
     window.state_mut().selection.select(Some(subject));

@@ -3,16 +3,6 @@ use noisefall::{render::view::View as Shown, scene::Camera};
 
 use super::*;
 
-fn undo(window: &mut Window) {
-    window.key_press_modifiers(Modifiers::COMMAND, Key::Z);
-    window.run_steps(3);
-}
-
-fn redo(window: &mut Window) {
-    window.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
-    window.run_steps(3);
-}
-
 /// Waits until every pixel has so many samples, and stops there.
 fn rendered(window: &mut Window, spp: u32) {
     window.state_mut().session.budget.max_spp = Some(spp);
