@@ -96,7 +96,7 @@ impl Tables {
     }
 
     /// The surface at a point `p` of the given primitives, none of which may be [`MISS`].
-    #[simd]
+    #[inline(always)]
     pub fn surface_point<L: Lanes>(&self, l: L, primitive: U<L>, p: V<L>) -> SurfacePoint<L> {
         let normal = l.rows(&self.normals, primitive);
         let mut point = sphere::surface_point(l.rows(&self.anchors, primitive), normal, p);

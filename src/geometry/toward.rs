@@ -4,8 +4,6 @@
 //! cylinders by area. An affine map A transforms a pdf p' over directions to p(ω) = p' |det A| / |A ω|³.
 use std::f32::consts::TAU;
 
-use fearless_simd_macros::simd;
-
 use super::{
     direction_sample::DirectionSample,
     flat::{is_ellipse, is_rectangle},
@@ -28,7 +26,7 @@ impl Tables {
     }
 
     /// Samples a direction from `x` towards the given primitives, with the point `u` of the unit square.
-    #[simd]
+    #[inline(always)]
     pub fn toward<L: Lanes>(&self, l: L, primitive: U<L>, x: V<L>, u: (F<L>, F<L>)) -> DirectionSample<L> {
         let tag = self.tag(l, primitive);
         let mut toward = DirectionSample { wi: x, pdf: l.f(0.0), front: l.first(0) };
@@ -46,7 +44,7 @@ impl Tables {
     }
 
     /// The pdf of [`Tables::toward`] per solid angle at the unit direction `wi`, in which the given primitives lie.
-    #[simd]
+    #[inline(always)]
     pub fn pdf_toward<L: Lanes>(&self, l: L, primitive: U<L>, x: V<L>, wi: V<L>) -> F<L> {
         let tag = self.tag(l, primitive);
         let mut pdf = if (tag & 3).is(SPHERE).any() { self.cone(l, primitive, x).pdf() } else { l.f(0.0) };

@@ -1,5 +1,4 @@
-//! The random numbers of a reflection, besides those of its light sample. They do not depend on the BSDF, and are computed once
-//! per SIMD level, and not once more for each shading stage.
+//! The random numbers of a reflection, besides those of its light sample.
 use fearless_simd_macros::simd;
 
 use super::work::Work;
@@ -21,9 +20,16 @@ pub(super) struct ReflectionCoordinates<L: Lanes> {
 }
 
 impl<L: Lanes> ReflectionCoordinates<L> {
+    /// [`ReflectionCoordinates::of`] as a call. It is compiled once per SIMD level, and not once more for each shading stage; the
+    /// most frequent stage is faster without the call.
+    #[simd]
+    pub fn call_of(l: L, work: &Work, slot: U<L>, reflection: u32, several_lobes: bool) -> Self {
+        Self::of(l, work, slot, reflection, several_lobes)
+    }
+
     /// The random numbers of the `reflection`-th reflection of the paths in some slots, from surfaces with several lobes or with
     /// one.
-    #[simd]
+    #[inline(always)]
     pub fn of(l: L, work: &Work, slot: U<L>, reflection: u32, several_lobes: bool) -> Self {
         let stream = work.stream(l, slot);
         let unused = l.f(0.0);

@@ -1,5 +1,4 @@
-//! The part of next-event estimation that does not depend on the BSDF. It is compiled once per SIMD level, and not once more for
-//! each shading stage.
+//! The part of next-event estimation that does not depend on the BSDF.
 use fearless_simd_macros::simd;
 
 use super::work::Work;
@@ -9,8 +8,22 @@ use crate::{
     sampling::{Dimension, Stream},
 };
 
-/// Samples a light at the `reflection`-th reflection of the paths in some slots, and a direction towards it.
+/// [`sample_light`] as a call. It is compiled once per SIMD level, and not once more for each shading stage; the most frequent
+/// stage is faster without the call.
 #[simd]
+pub(super) fn call_sample_light<L: Lanes>(
+    l: L,
+    work: &Work,
+    at: &ReferencePoint<L>,
+    stream: &Stream<L>,
+    slot: U<L>,
+    reflection: u32,
+) -> LightSample<L> {
+    sample_light(l, work, at, stream, slot, reflection)
+}
+
+/// Samples a light at the `reflection`-th reflection of the paths in some slots, and a direction towards it.
+#[inline(always)]
 pub(super) fn sample_light<L: Lanes>(
     l: L,
     work: &Work,

@@ -2,7 +2,7 @@
 //! [`super::replay`] records the terms.
 use super::{
     coordinates::ReflectionCoordinates,
-    light_sample::sample_light,
+    light_sample::{call_sample_light, sample_light},
     media::beyond,
     queue::Register,
     queues::HitQueues,
@@ -60,7 +60,8 @@ impl<'a, L: Lanes, K: Shade> Shading<'a, L, K> {
     #[inline(always)]
     pub fn read(l: L, work: &Work<'a>, queues: &HitQueues, Register { start, live }: Register<L>, reflection: u32) -> Self {
         let hit = Hit::read(l, &queues.hits, start);
-        let coordinates = ReflectionCoordinates::of(l, work, hit.slot, reflection, K::LOBES);
+        let coordinates_of = if K::DETAILED { ReflectionCoordinates::call_of } else { ReflectionCoordinates::of };
+        let coordinates = coordinates_of(l, work, hit.slot, reflection, K::LOBES);
         let vertex = if K::DETAILED {
             let mut detail = Detail::read(l, &queues.details, start);
             // Lanes past the end may say anything: they take a material of this kind, whose rows can be read as such.
@@ -79,6 +80,7 @@ impl<'a, L: Lanes, K: Shade> Shading<'a, L, K> {
         let Shading { hit, vertex, bsdf, coordinates, reflection, .. } = self;
         let lobe = if K::GLOSSY && work.heeds_lobes() { Some(self.lobe(l)) } else { None };
         let at = ReferencePoint { p: hit.p, n: vertex.n, transmits: if K::TRANSMITS { l.first(L::N) } else { l.first(0) }, lobe };
+        let sample_light = if K::DETAILED { call_sample_light } else { sample_light };
         let sample = sample_light(l, work, &at, &coordinates.stream, hit.slot, *reflection);
         let wi = vertex.frame.local_from_world(sample.wi);
         let (f_cos, pdf) = bsdf.eval(vertex.wo, wi);

@@ -1,6 +1,4 @@
 //! Properties that vary over a surface: colour, roughness and shading normal at the points where paths arrive.
-use fearless_simd_macros::simd;
-
 use super::{interaction::SurfaceInteraction, normal_mapping::shading_normal, records::Detail};
 use crate::{
     geometry::Coordinates,
@@ -36,7 +34,7 @@ impl<L: Lanes> IncidentPaths<L> {
 
 /// Evaluates textures in the lanes of `mask`, for surfaces of colour `colour` and normal `n` without them. Returns colour and
 /// details.
-#[simd]
+#[inline(always)]
 pub(super) fn vary<L: Lanes>(
     l: L,
     scene: &Scene,
