@@ -133,17 +133,37 @@ mod tests {
         arguments: Arguments,
     }
 
-    /// The last sample takes hardly any time.
-    #[test]
-    fn the_seconds_of_a_picture_are_those_of_all_its_samples() {
+    /// Renders 40 × 40 pixels of the built-in scene.
+    fn rendered(settings: &[RenderSettings], spp: &[u32]) -> Vec<Cell> {
         let arguments = Program::parse_from(["sheet", "a.toml", "-o", "a.png"]).arguments;
         let (scene, threads) = (built_in(), Threads::new(1, SimdLevel::best()).expect("a thread"));
         let camera = Camera { resolution: [40, 40], ..scene.camera };
-        let settings = RenderSettings { reuse: Reuse::Off, ..scene.settings };
         let bench = Bench { scene: &scene, camera: &camera, threads: &threads, stop: &|| false };
-        let cells = cells(&arguments, &bench, &[settings], &[64, 65]).expect("two pictures");
+        cells(&arguments, &bench, settings, spp).expect("images")
+    }
+
+    fn unshared() -> RenderSettings {
+        RenderSettings { reuse: Reuse::Off, ..built_in().settings }
+    }
+
+    /// The last sample takes hardly any time.
+    #[test]
+    fn the_seconds_of_a_picture_are_those_of_all_its_samples() {
+        let cells = rendered(&[unshared()], &[64, 65]);
         let seconds: Vec<f64> =
             cells.iter().filter_map(|cell| cell.lines.last()?.split_once(" spp, ")?.1.strip_suffix(" s")?.parse().ok()).collect();
         assert!(seconds.len() == 2 && seconds[1] >= seconds[0], "{seconds:?}");
+    }
+
+    #[test]
+    fn the_label_stands_above_the_figures() {
+        let settings = [Some(1), Some(2)].map(|max_bounces| RenderSettings { max_bounces, ..unshared() });
+        for cell in rendered(&settings, &[1]) {
+            assert!(
+                matches!(&cell.lines[..], [label, figures] if !label.contains(" spp") && figures.starts_with("1 spp, ")),
+                "{:?}",
+                cell.lines
+            );
+        }
     }
 }

@@ -5,7 +5,7 @@ use rand::{SeedableRng, rngs::SmallRng};
 
 use super::*;
 use crate::{
-    edit::{content::Content, origin::Origins, save, trial::write_and_read},
+    edit::{content::Content, origin::Origins, save, tree::Answer, trial::write_and_read},
     scene::describe,
 };
 
@@ -67,5 +67,17 @@ fn a_part_is_taken_down_and_put_back() {
         assert!(bits(&to).is_identical(&bits(&from)) && to == from, "seed {seed}");
         // Taking down changes nothing.
         assert!(bits(&from).is_identical(&tree));
+    }
+}
+
+/// Every answer in turn is replaced by one of another form.
+#[test]
+fn a_tree_with_an_answer_of_another_form_does_not_fit() {
+    let from = crate::edit::trial::drawn_scene(&mut SmallRng::seed_from_u64(0));
+    let tree = Tree::of(&mut from.clone());
+    for (place, answer) in tree.0.iter().enumerate() {
+        let mut other = tree.clone();
+        other.0[place] = if matches!(answer, Answer::Names(_)) { Answer::Items(0) } else { Answer::Names(Vec::new()) };
+        assert!(!crate::edit::put::replace(&mut from.clone(), &Path::default(), &other), "{place}: {answer:?}");
     }
 }

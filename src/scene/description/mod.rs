@@ -8,6 +8,7 @@ mod camera;
 mod light;
 mod material;
 mod object;
+mod presentation;
 mod render;
 
 use std::collections::BTreeMap;
@@ -19,9 +20,10 @@ pub use self::{
     light::{EmissionDescription, TruthDescription},
     material::{Bump, MaterialDescription},
     object::ObjectDescription,
+    presentation::Presentation,
     render::RenderDescription,
 };
-use crate::declare::{CountRange, Declare, Parameter, Parameters, Value};
+use crate::declare::{CountRange, Declare, Parameter, Parameters};
 pub use crate::{
     declare::Textured,
     light::{background::BackgroundDescription, emission::EmissionSource},
@@ -61,8 +63,6 @@ pub const FORMAT: u32 = 1;
 impl Declare for SceneDescription {
     fn parameters(&mut self, p: &mut dyn Parameters) {
         const VERSION: Parameter = Parameter::new("format", "The version of the format: 1.").required();
-        const TITLE: Parameter = Parameter::new("title", "What the window and reports call the scene.").aliases("name");
-        const NOTES: Parameter = Parameter::new("notes", "Notes for readers.").aliases("description comment");
         const CAMERA: Parameter =
             Parameter::new("camera", "Position, direction and lens of the camera.").required().aliases("sensor view");
         const BACKGROUND: Parameter =
@@ -71,18 +71,13 @@ impl Declare for SceneDescription {
         const MATERIALS: Parameter = Parameter::new("materials", "Materials by name.").aliases("material bsdfs");
         const OBJECTS: Parameter =
             Parameter::new("objects", "The objects of the scene, one table each.").aliases("object shapes");
-        const RENDER: Parameter =
-            Parameter::new("render", "The settings that the scene opens with.").aliases("integrator settings");
-        const TRUTH: Parameter = Parameter::new("truth", "What the image converges to, if that is known.").aliases("reference");
         p.count(&VERSION, &mut FORMAT.clone(), CountRange::new(FORMAT, FORMAT));
-        p.value(&TITLE, Value::Text(&mut self.title));
-        p.value(&NOTES, Value::Text(&mut self.notes));
+        presentation::texts(p, &mut self.title, &mut self.notes);
         p.table(&CAMERA, &mut self.camera);
         p.optional_table(&BACKGROUND, &mut self.background);
         p.map(&TEXTURES, &mut self.textures);
         p.map(&MATERIALS, &mut self.materials);
         p.list(&OBJECTS, &mut self.objects);
-        p.optional_part(&RENDER, &mut self.render);
-        p.optional_table(&TRUTH, &mut self.truth);
+        presentation::settings_and_truth(p, &mut self.render, &mut self.truth);
     }
 }

@@ -241,7 +241,7 @@ fn reciprocity(validation: &Validation) -> Statement {
         // n² on the side that the light goes to is 1 or n².
         let eta2 = f64::from(sides[near].eta().0).powi(2);
         let back = if passes { back / eta2 } else { back };
-        if there.min(back) > 1e-6 { (there - back).abs() / there.max(back) } else { 0.0 }
+        if there.max(back) > 1e-6 { (there - back).abs() / there.max(back) } else { 0.0 }
     };
     let worst = largest((0..validation.spp(20_000)).map(difference));
     Statement::below("rough glass: largest relative difference of f/n² when directions are exchanged", worst, 1e-3)

@@ -44,7 +44,7 @@ impl App {
                 }
             }
             Action::ChangeKind(kind) => {
-                let (path, choice) = subject.choice();
+                let Some((path, choice)) = subject.choice() else { return };
                 let edit = document.change_kind(&path, choice, kind);
                 self.edit(&edit);
             }

@@ -4,7 +4,7 @@ use noisefall::{
     material::Material,
     scene::{
         Projection,
-        description::{BackgroundDescription, SceneDescription},
+        description::{BackgroundDescription, Presentation, SceneDescription},
     },
     shape::ShapeKind,
     texture::TextureKind,
@@ -19,6 +19,8 @@ pub enum Subject {
     Texture(String),
     Camera,
     Background,
+    /// Title, notes, settings and truth.
+    Presentation,
 }
 
 impl Subject {
@@ -31,6 +33,7 @@ impl Subject {
             Subject::Texture(name) => top.key("textures").key(name),
             Subject::Camera => top.key("camera"),
             Subject::Background => top.key("background"),
+            Subject::Presentation => top,
         }
     }
 
@@ -42,6 +45,7 @@ impl Subject {
             [Step::Key(map), Step::Key(name)] if map == "textures" => Subject::Texture(name.clone()),
             [Step::Key(key)] if key == "camera" => Subject::Camera,
             [Step::Key(key)] if key == "background" => Subject::Background,
+            [] => Subject::Presentation,
             _ => return None,
         })
     }
@@ -55,16 +59,17 @@ impl Subject {
         }
     }
 
-    /// The table that chooses the kind of the part, and what is chosen there.
-    pub fn choice(&self) -> (Path, &'static str) {
+    /// The table that chooses the kind of the part, and what is chosen there; `None` if it has no kind.
+    pub fn choice(&self) -> Option<(Path, &'static str)> {
         let path = self.path();
-        match self {
+        Some(match self {
             Subject::Object(_) => (path.key("shape"), ShapeKind::WHAT),
             Subject::Material(_) => (path, Material::WHAT),
             Subject::Texture(_) => (path, TextureKind::WHAT),
             Subject::Camera => (path, Projection::WHAT),
             Subject::Background => (path, BackgroundDescription::WHAT),
-        }
+            Subject::Presentation => return None,
+        })
     }
 
     /// Whether a description has the part. A background can be selected before there is one.
@@ -73,7 +78,7 @@ impl Subject {
             Subject::Object(place) => *place < description.objects.len(),
             Subject::Material(name) => description.materials.contains_key(name),
             Subject::Texture(name) => description.textures.contains_key(name),
-            Subject::Camera | Subject::Background => true,
+            Subject::Camera | Subject::Background | Subject::Presentation => true,
         }
     }
 
@@ -88,6 +93,7 @@ impl Subject {
             Subject::Texture(name) => copy(description.textures.get(name)),
             Subject::Camera => copy(Some(&description.camera)),
             Subject::Background => copy(description.background.as_ref()),
+            Subject::Presentation => copy(Some(&Presentation::of(description))),
         }
     }
 }
@@ -114,5 +120,7 @@ mod tests {
         assert_eq!([Subject::Object(1), Subject::Background].map(|subject| lines(&subject, &room)), [None, None]);
         room.background = Some(BackgroundDescription::default());
         assert!(lines(&Subject::Background, &room).is_some());
+        room.title = "Room".to_owned();
+        assert!(lines(&Subject::Presentation, &room).is_some_and(|lines| lines[0] == "title: Room"));
     }
 }

@@ -228,3 +228,15 @@ fn an_object_drops_to_the_floor() {
     window.state_mut().act_on(Subject::Object(AMBER_BALL), Action::DropToFloor);
     assert!((center(&window, AMBER_BALL).y - 0.38).abs() < 1e-3, "{}", center(&window, AMBER_BALL));
 }
+
+#[test]
+fn title_and_settings_of_the_scene_have_rows_too() {
+    let mut window = window("cornell_spheres");
+    select(&mut window, Subject::Presentation);
+    assert!(window.query_by_label("Title").is_some() && window.query_by_label("Truth").is_some());
+    edits(&mut window, "the scene under its new title", |window| {
+        window.state_mut().edit(&Edit::set(Path::of("title"), OwnedValue::Text("Five balls".to_owned())));
+    });
+    let opened = window.state().session.opened.as_ref().expect("it is open");
+    assert!(opened.scene.title == "Five balls" && opened.scene.source.contains("title = \"Five balls\""));
+}

@@ -30,9 +30,12 @@ pub fn groups(description: &SceneDescription, search: &str) -> Vec<Group> {
         let objects = description.objects.iter().enumerate().filter(move |(_, object)| object.emission.is_some() == emits);
         objects.map(|(place, object)| of_object(place, object))
     };
-    let view = [Entry::single(Subject::Camera, "Camera", "")];
     let background = description.background.as_ref().map_or("none", |background| background.name());
-    let light = [Entry::single(Subject::Background, "Background", background)];
+    let single = [
+        Entry::single(Subject::Camera, "Camera", ""),
+        Entry::single(Subject::Background, "Background", background),
+        Entry::single(Subject::Presentation, "Title and settings", ""),
+    ];
     let materials = description.materials.iter();
     let textures = description.textures.iter();
     let groups = [
@@ -43,7 +46,7 @@ pub fn groups(description: &SceneDescription, search: &str) -> Vec<Group> {
             "Textures",
             &mut textures.map(|(name, texture)| Entry::named(Subject::Texture(name.clone()), name, texture.name())),
         ),
-        group("View and sky", &mut view.into_iter().chain(light)),
+        group("Scene", &mut single.into_iter()),
     ];
     groups.into_iter().filter(|group| !group.entries.is_empty()).collect()
 }
@@ -106,7 +109,7 @@ mod tests {
             ("Lamps", vec!["lamp"]),
             ("Materials", vec!["white"]),
             ("Textures", vec!["squares"]),
-            ("View and sky", vec!["Camera", "Background"]),
+            ("Scene", vec!["Camera", "Background", "Title and settings"]),
         ];
         assert_eq!(names(""), all.map(|(title, names)| (title, names.into_iter().map(str::to_owned).collect())));
     }

@@ -63,7 +63,7 @@ impl Menu {
                 ("Duplicate", Action::Duplicate),
             ]),
             Subject::Material(_) | Subject::Texture(_) => actions.push(("Duplicate", Action::Duplicate)),
-            Subject::Camera => {}
+            Subject::Camera | Subject::Presentation => {}
             Subject::Background if !self.has_background => actions.push(("Add", Action::AddBackground)),
             Subject::Background => actions.push(("Delete", Action::Delete)),
         }
@@ -95,7 +95,7 @@ impl Menu {
             Subject::Material(_) => names::<Material>(),
             Subject::Texture(_) => names::<TextureKind>(),
             Subject::Background if self.has_background => names::<BackgroundDescription>(),
-            Subject::Background | Subject::Camera => Vec::new(),
+            Subject::Background | Subject::Camera | Subject::Presentation => Vec::new(),
         }
     }
 
