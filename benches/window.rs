@@ -33,7 +33,7 @@ fn main() {
 }
 
 fn frames() {
-    let states: [(&str, &[Key], &[&str]); 7] = [
+    let states: [(&str, &[Key], &[&str]); 8] = [
         ("only the picture", &[], &[]),
         ("convergence", &[Key::F2], &[]),
         ("compare", &[Key::F3], &["Compare with…", "Path sampling"]),
@@ -41,6 +41,7 @@ fn frames() {
         ("pixel", &[Key::F5], &["The pixel in the middle"]),
         ("a view of numbers", &[Key::V], &[]),
         ("gallery", &[Key::F6], &[]),
+        ("inspector", &[], &["Edit", "amberlambertian"]),
     ];
     println!("{:<20} {:>9} {:>9}", "1280 x 800, showing", "p50 ms", "p99 ms");
     for (name, keys, buttons) in states {
