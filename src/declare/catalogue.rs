@@ -4,8 +4,6 @@
 ///
 /// A line in the list is the only place outside a kind's own file that names it. The enum holds the description of one kind; it reads,
 /// writes and compares as that kind does, and lends it as `&dyn` of the family's trait.
-#[doc(hidden)]
-#[macro_export]
 macro_rules! catalogue {
     ($(#[$attribute:meta])* pub enum $Family:ident: $Trait:ident, $what:literal { $($module:ident::$Kind:ident),+ $(,)? }) => {
         $(#[$attribute])*
@@ -80,3 +78,4 @@ macro_rules! catalogue {
         })+
     };
 }
+pub(crate) use catalogue;

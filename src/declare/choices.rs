@@ -5,7 +5,6 @@
 /// A line in the list is the only place outside a kind's own file that names it, except for the default kind. A kind with
 /// parameters is named twice, so that its variant holds them. The last line names a macro: `in_family!(value, kind => call(kind))` is
 /// the call with the kind of a value.
-#[macro_export]
 macro_rules! choices {
     (
         $(#[$attribute:meta])*
@@ -28,7 +27,7 @@ macro_rules! choices {
             ($value:expr, $kind:ident => $call:expr) => {
                 match $value {
                     $($Family::$Kind $(($kind @ $module::$Values { .. }))? => {
-                        let $kind = $crate::kind_of!($module::$Kind $(, $kind as $Values)?);
+                        let $kind = $crate::declare::kind_of!($module::$Kind $(, $kind as $Values)?);
                         $call
                     })+
                 }
@@ -82,10 +81,9 @@ macro_rules! choices {
         })+
     };
 }
+pub(crate) use choices;
 
 /// The kind of a variant: its content, or a kind without parameters.
-#[doc(hidden)]
-#[macro_export]
 macro_rules! kind_of {
     ($Kind:path) => {
         &mut <$Kind>::default()
@@ -94,3 +92,4 @@ macro_rules! kind_of {
         $kind
     };
 }
+pub(crate) use kind_of;

@@ -51,6 +51,12 @@ mod write;
 
 #[cfg(feature = "reports")]
 pub use self::dice::Dice;
+pub(crate) use self::{
+    catalogue::catalogue,
+    choices::{choices, kind_of},
+    value::words,
+    words::word_kinds,
+};
 pub use self::{
     check::{check, check_value},
     declared::{Declare, Kind, OneOf},

@@ -98,8 +98,6 @@ pub trait Words: Copy + PartialEq + 'static {
 }
 
 /// Gives the values of an enum without data their words: name in files, title in the window, one sentence.
-#[doc(hidden)]
-#[macro_export]
 macro_rules! words {
     ($Type:ident { $($Variant:ident: $name:literal, $title:literal, $doc:literal;)+ }) => {
         impl $Type {
@@ -126,3 +124,4 @@ macro_rules! words {
         }
     };
 }
+pub(crate) use words;

@@ -5,7 +5,6 @@
 /// A line in the list is the only place outside a kind's own file that names it, except for the default kind. Each kind is a
 /// type that implements the family's trait, whose `WORD` is its name in files, its title in the window and its sentence. The last line
 /// names a macro: `in_family!(value, K => call::<K>(…))` is the call with the type of a value.
-#[macro_export]
 macro_rules! word_kinds {
     (
         $(#[$attribute:meta])*
@@ -67,3 +66,4 @@ macro_rules! word_kinds {
         }
     };
 }
+pub(crate) use word_kinds;

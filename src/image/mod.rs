@@ -81,7 +81,7 @@ pub enum Encoding {
     Linear,
 }
 
-crate::words! {
+crate::declare::words! {
     Encoding {
         Srgb: "srgb", "sRGB", "sRGB transfer function: colours.";
         Linear: "linear", "Linear", "Linear values: heights, normals, masks.";

@@ -11,9 +11,8 @@ use super::{
     work::Work,
 };
 use crate::{
-    in_lanes,
     material::{Shade, in_stage},
-    math::{F, M, One, SimdLevel},
+    math::{F, M, One, SimdLevel, in_lanes},
     scene::{InjectedFault, RenderSettings},
 };
 

@@ -19,8 +19,7 @@ use super::{
 };
 use crate::{
     geometry::{MISS, Nearest, PrimitiveRef},
-    in_lanes,
-    math::{F, Lanes, M, Pick, SimdLevel, V},
+    math::{F, Lanes, M, Pick, SimdLevel, V, in_lanes},
     memory::{self, Reservation, TooMuch},
     sampling::Filter,
     scene::{Camera, Legend, RenderSettings, Scene, Shutter},

@@ -139,8 +139,6 @@ impl<L: Lanes> Field<L> for V<L> {
 }
 
 /// `record! { Path { o: V, slot: U } }` makes the struct and its queue.
-#[doc(hidden)]
-#[macro_export]
 macro_rules! record {
     ($(#[$attribute:meta])* $name:ident { $($(#[$doc:meta])* $field:ident: $kind:ident),* $(,)? }) => {
         $(#[$attribute])*
@@ -197,3 +195,4 @@ macro_rules! record {
         }
     };
 }
+pub(crate) use record;

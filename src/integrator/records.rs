@@ -1,5 +1,5 @@
 //! The records in the queues of a batch.
-use crate::record;
+use super::queue::record;
 
 record! {
     /// A path on its way to the next surface.

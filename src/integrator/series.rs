@@ -5,10 +5,7 @@ use super::{
     trace::{Interrupted, Observer, trace_in},
     work::Work,
 };
-use crate::{
-    in_lanes,
-    math::{SimdLevel, colour::luminance},
-};
+use crate::math::{SimdLevel, colour::luminance, in_lanes};
 
 /// Number of separate terms: 0, 1, … bounces; the last one is the sum of all others.
 pub const TERMS: usize = 8;

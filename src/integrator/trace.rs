@@ -15,9 +15,8 @@ use super::{
     work::Work,
 };
 use crate::{
-    in_lanes,
     material::in_stage,
-    math::{Lanes, One, SimdLevel},
+    math::{Lanes, One, SimdLevel, in_lanes},
 };
 
 /// Observes a batch between the stages; `()` does nothing.

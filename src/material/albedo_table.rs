@@ -5,10 +5,7 @@ use super::{
     fresnel::dielectric,
     ggx::{SMOOTH, g1, sample_visible_normal},
 };
-use crate::{
-    in_lanes,
-    math::{F, Lanes, MAX_LANES, One, Pick, SimdLevel, V},
-};
+use crate::math::{F, Lanes, MAX_LANES, One, Pick, SimdLevel, V, in_lanes};
 
 /// Number of cells in x; their ends fill registers.
 pub const ACROSS: usize = 2 * MAX_LANES - 1;

@@ -47,7 +47,7 @@ use crate::declare::{Path, Problem};
 
 macro_rules! materials {
     ($($module:ident::$Material:ident => $($Stage:ident)+),+ $(,)?) => {
-        crate::catalogue! {
+        crate::declare::catalogue! {
             /// A material as a scene describes it.
             pub enum Material: Compile, "material" { $($module::$Material),+ }
         }

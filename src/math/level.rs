@@ -58,8 +58,6 @@ impl SimdLevel {
 
 /// Calls a function with the lane configuration of a [`SimdLevel`]: `in_lanes!(level, l => call(l, …))`. Falls back to one lane
 /// if the processor lacks the level.
-#[doc(hidden)]
-#[macro_export]
 macro_rules! in_lanes {
     ($level:expr, $l:ident => $call:expr) => {{
         use $crate::math::{
@@ -97,3 +95,4 @@ macro_rules! in_lanes {
         }
     }};
 }
+pub(crate) use in_lanes;

@@ -3,12 +3,10 @@ use std::sync::LazyLock;
 
 use fearless_simd_macros::simd;
 
-use crate::{
+use crate::math::{
+    Lanes, SimdLevel,
+    colour::{linear_from_srgb, srgb_from_linear},
     in_lanes,
-    math::{
-        Lanes, SimdLevel,
-        colour::{linear_from_srgb, srgb_from_linear},
-    },
 };
 
 /// Applies `tone` to the radiance and appends sRGB codes. Light and codes of a block are computed in separate short loops, which

@@ -20,7 +20,7 @@ pub enum Directions {
     Bsdf,
 }
 
-crate::words! {
+crate::declare::words! {
     Directions {
         Uniform: "uniform", "Uniform", "p(ω_i) = 1 / 2π: uniform over the hemisphere.";
         Cosine: "cosine", "Cosine", "p(ω_i) = cos θ / π: cancels the cosine of the equation, so there is less noise.";

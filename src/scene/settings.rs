@@ -59,7 +59,7 @@ pub enum Reuse {
     Off,
 }
 
-crate::words! {
+crate::declare::words! {
     Reuse {
         Auto: "auto", "Auto", "Shares paths if a short trial of the scene shows a gain. The decision is made once per scene.";
         On: "on", "Always", "Reuses each path in a 4 × 4 block of pixels, weighted by multiple importance sampling.";

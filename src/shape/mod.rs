@@ -23,8 +23,7 @@ pub use self::{
     transform::{Rotation, Transform, motion, product},
 };
 use crate::{
-    catalogue,
-    declare::{Parameter, Path, Problem, Range, Resources},
+    declare::{Parameter, Path, Problem, Range, Resources, catalogue},
     geometry::Shape,
 };
 

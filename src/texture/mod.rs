@@ -24,7 +24,7 @@ use crate::{
 
 macro_rules! textures {
     ($($module:ident::$Kind:ident),+ $(,)?) => {
-        crate::catalogue! {
+        crate::declare::catalogue! {
             /// A texture as a scene describes it.
             pub enum TextureKind: Declare, "texture" { $($module::$Kind),+ }
         }

@@ -240,7 +240,7 @@ fn every_width_gives_the_same_bits() {
         });
         let one = |lane: usize| lanes_of(One, &set, &coordinates.map(|c| [c[lane]; 16]), U((lane % 4) as u32))[0];
         for level in SimdLevel::available() {
-            let found = crate::in_lanes!(level, l => lanes_of(l, &set, &coordinates, l.iota() & 3));
+            let found = crate::math::in_lanes!(level, l => lanes_of(l, &set, &coordinates, l.iota() & 3));
             let expected: Vec<_> = (0..found.len()).map(one).collect();
             assert_eq!(found, expected, "{level:?}");
         }

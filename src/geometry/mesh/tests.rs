@@ -13,10 +13,7 @@ use super::{
     block::{SIZE, Shears},
     generate,
 };
-use crate::{
-    in_lanes,
-    math::{F, Lanes, MAX_LANES, One, Pick, SimdLevel, V},
-};
+use crate::math::{F, Lanes, MAX_LANES, One, Pick, SimdLevel, V, in_lanes};
 
 type Ray = ([f32; 3], [f32; 3]);
 

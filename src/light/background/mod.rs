@@ -13,7 +13,7 @@ use crate::{
 
 macro_rules! backgrounds {
     ($($module:ident::$Kind:ident),+ $(,)?) => {
-        crate::catalogue! {
+        crate::declare::catalogue! {
             /// The background as a scene describes it.
             pub enum BackgroundDescription: Declare, "background" { $($module::$Kind),+ }
         }

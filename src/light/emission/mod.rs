@@ -10,7 +10,7 @@ use crate::{
     texture::{TextureCompiler, TextureCoordinates, Textures},
 };
 
-crate::catalogue! {
+crate::declare::catalogue! {
     /// The emission of an object as a scene describes it.
     pub enum EmissionSource: Emit, "emission" {
         radiance::Radiance,

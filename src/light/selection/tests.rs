@@ -168,7 +168,7 @@ fn a_choice_has_its_probability_at_every_level() {
             let cases: Vec<_> = (0..16).map(|_| (reference_point(random, &set), coordinates(random))).collect();
             let one: Vec<_> = cases.iter().map(|(at, u)| selection.choose(One, at, u)).collect();
             for level in SimdLevel::available() {
-                crate::in_lanes!(level, l => all_same(l, &selection, &cases, &one));
+                crate::math::in_lanes!(level, l => all_same(l, &selection, &cases, &one));
             }
         }
     }

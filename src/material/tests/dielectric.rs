@@ -12,8 +12,7 @@ use super::super::{
 };
 use crate::{
     declare::Precision,
-    in_lanes,
-    math::{F, Lanes, M, One, Pick, SimdLevel, U, V},
+    math::{F, Lanes, M, One, Pick, SimdLevel, U, V, in_lanes},
 };
 
 #[test]

@@ -6,8 +6,7 @@ use super::{
     cases::{local, mixed},
 };
 use crate::{
-    in_lanes,
-    math::{F, Lanes, MAX_LANES, SimdLevel, V},
+    math::{F, Lanes, MAX_LANES, SimdLevel, V, in_lanes},
     sampling::Directions,
 };
 

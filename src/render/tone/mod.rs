@@ -20,7 +20,7 @@ pub struct Display {
     pub tone_map: ToneMap,
 }
 
-crate::word_kinds! {
+crate::declare::word_kinds! {
     /// The tone maps.
     #[derive(Serialize)]
     pub enum ToneMap: Tone, default None {

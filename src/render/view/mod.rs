@@ -26,7 +26,7 @@ pub use self::{
 use super::{colour_map::ColourMap, frame::Frame, tone::Display, truth::Reference};
 use crate::{declare::Word, integrator::Features};
 
-crate::word_kinds! {
+crate::declare::word_kinds! {
     /// A quantity to display.
     #[derive(Serialize)]
     pub enum View: Quantity, default Radiance {

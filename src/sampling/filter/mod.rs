@@ -13,7 +13,7 @@ use crate::{
     math::{F, Lanes},
 };
 
-crate::choices! {
+crate::declare::choices! {
     /// The weight of the light around the centre of a pixel: separable, with integral 1. Lengths are in pixels.
     pub enum Filter, "filter", default pixel_box::Box {
         pixel_box::Box,

@@ -16,7 +16,7 @@ use self::points::{Points, SampleKeys};
 use super::dimension::Dimension;
 use crate::math::{F, Lanes, U};
 
-crate::word_kinds! {
+crate::declare::word_kinds! {
     /// The point set of a pixel's samples. All samplers are unbiased; they differ in how fast the error falls.
     #[derive(serde::Serialize, serde::Deserialize)]
     #[serde(rename_all = "lowercase")]

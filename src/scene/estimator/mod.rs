@@ -11,7 +11,7 @@ use crate::{
     math::{F, Lanes},
 };
 
-crate::word_kinds! {
+crate::declare::word_kinds! {
     /// How direct light is estimated. All estimators converge to the same image; they differ in noise.
     #[derive(serde::Serialize, serde::Deserialize)]
     #[serde(rename_all = "lowercase")]

@@ -12,7 +12,7 @@ use crate::{
     math::{Lanes, V},
 };
 
-crate::choices! {
+crate::declare::choices! {
     /// How the scene is projected to the image.
     pub enum Projection, "projection", default perspective::Perspective {
         perspective::Perspective,

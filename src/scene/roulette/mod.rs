@@ -10,7 +10,7 @@ use crate::{
     math::{F, Lanes, V},
 };
 
-crate::choices! {
+crate::declare::choices! {
     /// How paths end.
     pub enum Roulette, "roulette", default throughput::Throughput {
         off::Off,

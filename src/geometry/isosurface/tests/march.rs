@@ -9,10 +9,7 @@ use super::{
     },
     Expression, Isosurface, SHAPES, exact, first_sampled_change, inside_box, intersect, ray_into, shape, unit_vector, v, value,
 };
-use crate::{
-    in_lanes,
-    math::{F, Lanes, One, SimdLevel, V},
-};
+use crate::math::{F, Lanes, One, SimdLevel, V, in_lanes};
 
 /// Tolerance of f at a hit: some hundred roundings of numbers around 1.
 const ZERO: f64 = 1e-5;

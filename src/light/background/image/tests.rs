@@ -220,7 +220,7 @@ fn every_width_gives_the_same_bits() {
     for _ in 0..500 {
         let numbers: [[f32; 16]; 4] = std::array::from_fn(|_| std::array::from_fn(|_| unit(&mut random).0));
         for level in SimdLevel::available() {
-            let found = crate::in_lanes!(level, l => lanes_of(l, &sky, &numbers));
+            let found = crate::math::in_lanes!(level, l => lanes_of(l, &sky, &numbers));
             let one = |lane: usize| lanes_of(One, &sky, &numbers.map(|n| [n[lane]; 16]))[0];
             assert_eq!(found, (0..found.len()).map(one).collect::<Vec<_>>(), "{level:?}");
         }
