@@ -1,16 +1,15 @@
 //! The render of one image: its films, from coarse to full, and the size of the next pass.
 mod kept;
+mod publishing;
 
 use std::time::{Duration, Instant};
 
 pub(super) use self::kept::KeptSessions;
 use super::{
     coarse::Coarse,
-    error_estimator::rel_mse_estimate_in,
     film::Film,
-    frame::Frame,
     pass::{Failure, PassCount, SampleId},
-    protocol::{Budget, Publish, RenderRequest, State, Status, is_below},
+    protocol::{Budget, Publish, RenderRequest, State, is_below},
     region::Region,
     sharing::resolved_unless,
     threads::{PassJob, Threads},
@@ -22,9 +21,6 @@ use crate::{
 
 /// Camera samples per second before the first measurement: those of a slow machine with a simple scene.
 const UNKNOWN_RATE: f64 = 1e6;
-/// Interval between two frames: from 30 per second to 2, because an old image changes less.
-const SHORTEST_INTERVAL: Duration = Duration::from_millis(33);
-const LONGEST_INTERVAL: Duration = Duration::from_millis(500);
 const MOST_SPP_A_PASS: f64 = 1024.0;
 /// A pause waits for the first full sample of an image, but at most for this time.
 const PATIENCE: Duration = Duration::from_secs(1);
@@ -242,59 +238,6 @@ impl Session {
         let time = self.interval(publish).min(time_left).as_secs_f64();
         let fits = (self.rate.unwrap_or(UNKNOWN_RATE) * time / pixels).clamp(1.0, MOST_SPP_A_PASS) as u32;
         budget.max_spp.map_or(fits, |most| fits.min(most.saturating_sub(self.spp_in_focus())))
-    }
-
-    fn interval(&self, publish: Publish) -> Duration {
-        match publish {
-            // Many pictures in one are not copied so often.
-            Publish::Live if self.film.has_series() => LONGEST_INTERVAL,
-            Publish::Live => (self.elapsed / 20).clamp(SHORTEST_INTERVAL, LONGEST_INTERVAL),
-            Publish::Sparse => LONGEST_INTERVAL,
-        }
-    }
-
-    /// Whether the samples that no frame shows yet should be shown now.
-    pub fn frame_due(&self, publish: Publish, at_rest: bool) -> bool {
-        let waited = self.last_frame.is_none_or(|last| last.elapsed() >= self.interval(publish));
-        // The full picture is shown once it has no holes; until then the last coarse one stays.
-        let complete = self.coarse.is_some() || self.film.spp() > 0;
-        self.stale && complete && (at_rest || waited || self.coarse.is_some())
-    }
-
-    /// The image so far. A coarse film is replaced by the next finer one.
-    pub fn frame(&mut self) -> Frame {
-        self.stale = false;
-        self.last_frame = Some(Instant::now());
-        let full = self.request.camera.resolution;
-        if let Some(coarse) = self.coarse.take() {
-            self.coarse = Coarse::new(&self.request.camera, coarse.scale / 2);
-            return Frame::of_film(&coarse.film, self.generation, coarse.camera.resolution, full);
-        }
-        let frame = Frame { elapsed: self.elapsed, ..Frame::of_film(&self.film, self.generation, full, full) };
-        self.rel_mse_estimate = frame.rel_mse_estimate;
-        // A region that has been left keeps the estimate for which it was.
-        if let Some(region) = self.film.focus {
-            self.region_estimate = rel_mse_estimate_in(&self.film, &region).map(|rel_mse| (region, rel_mse));
-        }
-        frame
-    }
-
-    pub fn status(&self, budget: &Budget) -> Status {
-        Status {
-            generation: self.generation,
-            state: self.state(budget),
-            spp: self.film.spp(),
-            region_spp: self.focus(budget).and_then(|region| self.film.spp_in(&region)),
-            samples: self.film.samples(),
-            rays: self.count.rays,
-            elapsed: self.elapsed,
-            rel_mse_estimate: self.rel_mse_estimate,
-            shares: self.shares,
-            adapts: self.film.is_adaptive(),
-            invalid_samples: self.film.invalid_samples(),
-            first_invalid: self.count.invalid,
-            cut_paths: self.count.cut_paths,
-        }
     }
 }
 

@@ -1,4 +1,5 @@
 //! Building blocks of reports. Each report is one self-contained HTML file that prints well, with plots as SVG.
+mod axis;
 mod font;
 pub mod picture;
 pub mod plot;

@@ -4,7 +4,7 @@ use toml::{
     de::{DeTable, DeValue},
 };
 
-use super::Reader;
+use super::reader::Reader;
 use crate::{
     declare::{Alternative, Choice, Entry, Looks, Parameter, Path},
     scene::wording::unknown,
