@@ -101,7 +101,6 @@ mod walk;
 #[cfg(feature = "reports")]
 pub use self::trial::write_and_read;
 pub use self::{
-    add::Placement,
     change::Edit,
     content::Content,
     document::{Document, Version},
@@ -112,3 +111,5 @@ pub use self::{
     templates::{TEMPLATES, Template},
     tree::Tree,
 };
+#[doc(inline)]
+pub use crate::shape::Placement;

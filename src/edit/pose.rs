@@ -5,7 +5,7 @@ use super::{Document, Edit, tree::Tree};
 use crate::{
     declare::{OwnedValue, Path},
     scene::description::ObjectDescription,
-    shape::{ShapeKind, Transform, product},
+    shape::{PointMap, Transform, product},
 };
 
 /// Largest difference of two unit axes that count as the same.
@@ -22,7 +22,8 @@ impl Document {
         let described = self.description().objects.get(object)?;
         let about = DAffine3::from_translation(pivot);
         let map = about * product(std::slice::from_ref(change)).ok()? * about.inverse();
-        let points = described.transform.is_empty().then(|| points(&described.shape, change, &map)).flatten();
+        let by = PointMap { change, map: &map };
+        let points = described.transform.is_empty().then(|| described.shape.kind().transformed(&by)).flatten();
         Some(match points {
             Some(points) => {
                 let at = at.key("shape").key(described.shape.name());
@@ -32,40 +33,6 @@ impl Document {
             None => list(described, &at.key("transform"), change, &map, ROUNDING * pivot.length()),
         })
     }
-}
-
-/// The parameters of a shape after a transform, if they can express it without a list of transforms.
-fn points(shape: &ShapeKind, change: &Transform, map: &DAffine3) -> Option<Vec<(&'static str, OwnedValue)>> {
-    let point = |p: DVec3| OwnedValue::Vector(map.transform_point3(p));
-    let edge = |v: DVec3| OwnedValue::Vector(map.transform_vector3(v));
-    // The factor of all lengths, if it is the same in every direction.
-    let factor = match change {
-        Transform::Translate(_) => Some(1.0),
-        Transform::Scale(factors) if factors.x == factors.y && factors.y == factors.z && factors.x > 0.0 => Some(factors.x),
-        _ => None,
-    };
-    let keeps_axes = match change {
-        Transform::Scale(factors) => factors.min_element() > 0.0,
-        _ => matches!(change, Transform::Translate(_)),
-    };
-    let length = |x: f64| factor.map(|factor| OwnedValue::Number(x * factor));
-    let is_mirrored = map.matrix3.determinant() < 0.0;
-    Some(match shape {
-        ShapeKind::Sphere(sphere) => vec![("center", point(sphere.center)), ("radius", length(sphere.radius)?)],
-        ShapeKind::Disk(disk) => vec![("center", point(disk.center)), ("radius", length(disk.radius)?)],
-        ShapeKind::Cylinder(tube) => {
-            vec![("base", point(tube.base)), ("top", point(tube.top)), ("radius", length(tube.radius)?)]
-        }
-        ShapeKind::Cuboid(cuboid) if keeps_axes => vec![("min", point(cuboid.0.min)), ("max", point(cuboid.0.max))],
-        ShapeKind::SphereField(field) if matches!(change, Transform::Translate(_)) => {
-            vec![("bounds.min", point(field.bounds.min)), ("bounds.max", point(field.bounds.max))]
-        }
-        ShapeKind::Rectangle(r) if !is_mirrored => {
-            vec![("origin", point(r.origin)), ("edge_u", edge(r.edge_u)), ("edge_v", edge(r.edge_v))]
-        }
-        ShapeKind::Triangle(t) if !is_mirrored => vec![("a", point(t.a)), ("b", point(t.b)), ("c", point(t.c))],
-        _ => return None,
-    })
 }
 
 /// The edit of a list of transforms: turning and scaling come before the last translation.

@@ -1,7 +1,7 @@
 //! An axis-aligned box; transforms can rotate and shear it.
 use glam::DMat3;
 
-use super::{Build, ShapeBuilder, bounds::Bounds};
+use super::{Build, Changes, Placement, PointMap, ShapeBuilder, ShapeKind, bounds::Bounds};
 use crate::{
     declare::{Declare, Kind, Parameter, Parameters, Problem},
     geometry::Shape,
@@ -24,5 +24,13 @@ impl Declare for Cuboid {
 impl Build for Cuboid {
     fn shapes(&self, _: &mut ShapeBuilder) -> Result<Vec<Shape>, Problem> {
         Ok(vec![Shape::Cuboid { origin: self.0.min, edges: DMat3::from_diagonal(self.0.size()?) }])
+    }
+
+    fn placed(&self, placement: &Placement) -> Option<ShapeKind> {
+        Some(Cuboid(placement.cube()).into())
+    }
+
+    fn transformed(&self, by: &PointMap) -> Option<Changes> {
+        by.keeps_axes().then(|| vec![("min", by.point(self.0.min)), ("max", by.point(self.0.max))])
     }
 }

@@ -1,7 +1,7 @@
 //! A cylinder, closed by disks or open.
 use glam::DVec3;
 
-use super::{Build, RADII, RADIUS, ShapeBuilder};
+use super::{Build, Changes, Placement, PointMap, RADII, RADIUS, ShapeBuilder, ShapeKind};
 use crate::{
     declare::{Declare, Kind, Parameter, Parameters, Problem},
     geometry::Shape,
@@ -49,5 +49,14 @@ impl Build for Cylinder {
             return Err(Problem::at("top", "the cylinder has no height", "`top` must differ from `base`"));
         }
         Ok(vec![Shape::cylinder(self.base, self.top, self.radius, self.capped)])
+    }
+
+    fn placed(&self, placement: &Placement) -> Option<ShapeKind> {
+        let (base, top) = (placement.reached(0.0), placement.reached(placement.size()));
+        Some(Cylinder { base, top, radius: placement.half() / 2.0, ..self.clone() }.into())
+    }
+
+    fn transformed(&self, by: &PointMap) -> Option<Changes> {
+        Some(vec![("base", by.point(self.base)), ("top", by.point(self.top)), ("radius", by.length(self.radius)?)])
     }
 }

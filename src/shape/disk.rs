@@ -1,7 +1,7 @@
 //! A flat disk.
 use glam::DVec3;
 
-use super::{Build, CENTER, RADII, RADIUS, ShapeBuilder};
+use super::{Build, CENTER, Changes, Placement, PointMap, RADII, RADIUS, ShapeBuilder, ShapeKind};
 use crate::{
     declare::{Declare, Kind, Parameter, Parameters, Problem},
     geometry::Shape,
@@ -42,5 +42,13 @@ impl Build for Disk {
         let normal = self.normal.try_normalize();
         let normal = normal.ok_or_else(|| Problem::at("normal", "the normal has no direction", "it must not be zero"))?;
         Ok(vec![Shape::disk(self.center, normal, self.radius)])
+    }
+
+    fn placed(&self, placement: &Placement) -> Option<ShapeKind> {
+        Some(Disk { center: placement.above(), normal: placement.up(), radius: placement.half() }.into())
+    }
+
+    fn transformed(&self, by: &PointMap) -> Option<Changes> {
+        Some(vec![("center", by.point(self.center)), ("radius", by.length(self.radius)?)])
     }
 }

@@ -157,6 +157,10 @@ impl Build for Mesh {
     fn shapes(&self, builder: &mut ShapeBuilder) -> Result<Vec<Shape>, Problem> {
         self.shape(builder).map(|shape| vec![Shape::clone(&shape)])
     }
+
+    fn is_quick(&self) -> bool {
+        false
+    }
 }
 
 /// Name of meshes in the report of a compile.

@@ -8,6 +8,8 @@ pub mod cylinder;
 pub mod disk;
 pub mod isosurface;
 pub mod mesh;
+mod placement;
+mod point_map;
 pub mod rectangle;
 pub mod sphere;
 pub mod sphere_field;
@@ -19,6 +21,8 @@ use std::collections::HashMap;
 pub use self::{
     bounds::Bounds,
     mesh::Mesh,
+    placement::Placement,
+    point_map::{Changes, PointMap},
     sphere::Sphere,
     transform::{Rotation, Transform, motion, product},
 };
@@ -46,6 +50,22 @@ catalogue! {
 pub trait Build {
     /// The shape, or the many.
     fn shapes(&self, builder: &mut ShapeBuilder) -> Result<Vec<Shape>, Problem>;
+
+    /// The same, moved and scaled to its place in a scene: a closed shape touches the surface, a flat one lies just above it. `None`
+    /// if only transforms can do that; the shape is then about as large as the cube from −1 to 1.
+    fn placed(&self, _placement: &Placement) -> Option<ShapeKind> {
+        None
+    }
+
+    /// The parameters after a transform of all points. `None` if the shape needs a list of transforms for that.
+    fn transformed(&self, _by: &PointMap) -> Option<Changes> {
+        None
+    }
+
+    /// Whether it can be built at once: without files, and without many shapes or triangles.
+    fn is_quick(&self) -> bool {
+        true
+    }
 }
 
 /// Context for building shapes. A mesh that several objects share is read or made once.

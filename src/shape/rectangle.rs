@@ -1,7 +1,7 @@
 //! A rectangle, or any parallelogram.
 use glam::DVec3;
 
-use super::{Build, ShapeBuilder, are_parallel};
+use super::{Build, Changes, Placement, PointMap, ShapeBuilder, ShapeKind, are_parallel};
 use crate::{
     declare::{Declare, Kind, Parameter, Parameters, Problem},
     geometry::{Outline, Shape},
@@ -54,5 +54,15 @@ impl Build for Rectangle {
             return Err(Problem::at("edge_v", "the rectangle has no area", label));
         }
         Ok(vec![Shape::Flat { outline: Outline::Parallelogram, origin: self.origin, edges, mirrored: false }])
+    }
+
+    fn placed(&self, placement: &Placement) -> Option<ShapeKind> {
+        let (origin, [edge_u, edge_v]) = placement.square();
+        Some(Rectangle { origin, edge_u, edge_v }.into())
+    }
+
+    fn transformed(&self, by: &PointMap) -> Option<Changes> {
+        let [u, v] = [self.edge_u, self.edge_v].map(|edge| by.edge(edge));
+        (!by.mirrors()).then(|| vec![("origin", by.point(self.origin)), ("edge_u", u), ("edge_v", v)])
     }
 }

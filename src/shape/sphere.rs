@@ -1,7 +1,7 @@
 //! A sphere.
 use glam::DVec3;
 
-use super::{Build, CENTER, RADII, RADIUS, ShapeBuilder};
+use super::{Build, CENTER, Changes, Placement, PointMap, RADII, RADIUS, ShapeBuilder, ShapeKind};
 use crate::{
     declare::{Declare, Kind, Parameter, Parameters, Problem},
     geometry::Shape,
@@ -38,5 +38,14 @@ impl Declare for Sphere {
 impl Build for Sphere {
     fn shapes(&self, _: &mut ShapeBuilder) -> Result<Vec<Shape>, Problem> {
         Ok(vec![Shape::Sphere { center: self.center, radius: self.radius }])
+    }
+
+    fn placed(&self, placement: &Placement) -> Option<ShapeKind> {
+        let radius = placement.half();
+        Some(Sphere { center: placement.reached(radius), radius }.into())
+    }
+
+    fn transformed(&self, by: &PointMap) -> Option<Changes> {
+        Some(vec![("center", by.point(self.center)), ("radius", by.length(self.radius)?)])
     }
 }

@@ -1,6 +1,6 @@
 //! A procedural field of spheres.
 use super::{
-    Build, ShapeBuilder,
+    Build, Changes, Placement, PointMap, ShapeBuilder, ShapeKind,
     bounds::{BOUNDS, Bounds},
 };
 use crate::{
@@ -48,5 +48,18 @@ impl Build for SphereField {
         let (count, bytes) = (self.count, SPHERE * u64::from(self.count));
         builder.resources.reserve("count", format_args!("{count} spheres"), bytes)?;
         Ok(sphere_field(count, self.bounds.min, size, self.seed))
+    }
+
+    fn placed(&self, placement: &Placement) -> Option<ShapeKind> {
+        Some(SphereField { bounds: placement.cube(), ..self.clone() }.into())
+    }
+
+    fn transformed(&self, by: &PointMap) -> Option<Changes> {
+        let Bounds { min, max } = self.bounds;
+        by.only_translates().then(|| vec![("bounds.min", by.point(min)), ("bounds.max", by.point(max))])
+    }
+
+    fn is_quick(&self) -> bool {
+        false
     }
 }

@@ -1,7 +1,7 @@
 //! A triangle.
 use glam::DVec3;
 
-use super::{Build, ShapeBuilder, are_parallel};
+use super::{Build, Changes, Placement, PointMap, ShapeBuilder, ShapeKind, are_parallel};
 use crate::{
     declare::{Declare, Kind, Parameter, Parameters, Problem},
     geometry::{Outline, Shape},
@@ -46,5 +46,15 @@ impl Build for Triangle {
             return Err(Problem::at("c", "the triangle has no area", "its corners must not lie on a line"));
         }
         Ok(vec![Shape::Flat { outline: Outline::Triangle, origin: self.a, edges, mirrored: false }])
+    }
+
+    fn placed(&self, placement: &Placement) -> Option<ShapeKind> {
+        let (a, [u, v]) = placement.square();
+        Some(Triangle { a, b: a + u, c: placement.rounded(a + u / 2.0 + v) }.into())
+    }
+
+    fn transformed(&self, by: &PointMap) -> Option<Changes> {
+        let corners = [("a", self.a), ("b", self.b), ("c", self.c)];
+        (!by.mirrors()).then(|| corners.map(|(key, corner)| (key, by.point(corner))).into())
     }
 }

@@ -2,7 +2,7 @@
 use super::{camera::camera, object::placed_and_moved};
 use crate::{
     declare::{Path, Problem, Resources},
-    scene::description::{CameraDescription, ObjectDescription, ShapeKind},
+    scene::description::{CameraDescription, ObjectDescription},
     shape::{ShapeBuilder, motion, product},
 };
 
@@ -15,7 +15,7 @@ pub fn check_camera(described: &CameraDescription) -> Result<(), Problem> {
 
 /// Checks that the shape of an object can be placed. For meshes and for kinds that make many shapes, checks only the transforms.
 pub fn check_object(described: &ObjectDescription) -> Result<(), Problem> {
-    if matches!(described.shape, ShapeKind::Mesh(_) | ShapeKind::SphereField(_)) {
+    if !described.shape.kind().is_quick() {
         product(&described.transform).map_err(|problem| problem.within(&Path::of("transform")))?;
         motion(&described.motion).map_err(|problem| problem.within(&Path::of("motion")))?;
         return Ok(());
