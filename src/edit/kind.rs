@@ -1,20 +1,21 @@
 //! Changes of kind that change other parameters too.
 use super::{change::Edit, document::Document};
-use crate::declare::{OwnedValue, Path};
+use crate::{
+    declare::{OneOf, OwnedValue, Path},
+    scene::{Projection, description::CameraDescription},
+};
 
 impl Document {
     /// The edit that chooses another alternative and changes the parameters that depend on it: parallel rays have neither an angle nor
     /// a lens, and a textured emission needs the name of a texture. `path` and `choice` are those of [`Edit::Choose`].
     pub fn change_kind(&self, path: &Path, choice: &str, name: &str) -> Edit {
         let scene = self.description();
-        let camera = Path::of("camera");
         let mut edits = vec![Edit::choose(path.clone(), choice, name)];
         match (choice, name) {
-            ("projection", "orthographic") => {
-                let given = [("fov", scene.camera.fov.is_some()), ("lens", scene.camera.lens.is_some())];
-                edits.extend(given.iter().filter(|(_, is_given)| *is_given).map(|(key, _)| Edit::remove(camera.key(key))));
+            ("projection", _) => {
+                let projection = Projection::alternatives().into_iter().find(|projection| projection.name() == name);
+                edits.extend(projection.into_iter().flat_map(|projection| of_projection(projection, &scene.camera)));
             }
-            ("projection", "perspective") if scene.camera.fov.is_none() => edits.push(Edit::insert(camera.key("fov"))),
             ("emission", "texture") => {
                 let first = scene.textures.keys().next();
                 edits.extend(first.map(|texture| Edit::set(path.key("texture"), OwnedValue::Text(texture.clone()))));
@@ -23,4 +24,19 @@ impl Document {
         }
         if edits.len() == 1 { edits.swap_remove(0) } else { Edit::All(edits) }
     }
+}
+
+/// The edits that give a camera what a projection needs, and take away what it cannot have.
+fn of_projection(projection: Projection, camera: &CameraDescription) -> Vec<Edit> {
+    let at = |key| Path::of("camera").key(key);
+    let mut edits = Vec::new();
+    match (projection.has_angle(), camera.fov) {
+        (true, None) => edits.push(Edit::insert(at("fov"))),
+        (false, Some(_)) => edits.push(Edit::remove(at("fov"))),
+        _ => {}
+    }
+    if camera.lens.is_some() && !projection.takes_lens() {
+        edits.push(Edit::remove(at("lens")));
+    }
+    edits
 }

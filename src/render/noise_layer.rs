@@ -13,9 +13,10 @@ use exr::prelude::{
     AnyChannel, AnyChannels, FlatSamples, ImageAttributes, MetaData, ReadChannels, ReadLayers, ReadSpecificChannel, Text,
     attribute::AttributeValue, read,
 };
+use serde::Deserialize;
 
 use super::frame::Frame;
-use crate::{file::open_regular, image::SETTINGS_KEY, measure::SampleNoise};
+use crate::{file::open_regular, image::SETTINGS_KEY, measure::SampleNoise, sampling::Sampler};
 
 const CHANNELS: [&str; 4] = ["variance.R", "variance.G", "variance.B", "variance.block"];
 /// Key of the one attribute with all figures, in its own group of attributes. The order within a group is arbitrary, and the same
@@ -102,7 +103,7 @@ pub fn provenance(path: &Path) -> Provenance {
         noise,
         rel_mse_estimate: number(REL_MSE),
         seed: settings["seed"].as_u64(),
-        is_independent: settings["sampler"] == "independent",
+        is_independent: Sampler::deserialize(&settings["sampler"]).is_ok_and(Sampler::is_independent),
     }
 }
 

@@ -2,7 +2,7 @@
 use glam::DVec3;
 
 use super::dice::Dice;
-use crate::measure::exact::furnace_capped;
+use crate::{measure::exact::furnace_capped, sampling::Sampler};
 
 /// Expected outcome of a scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -113,7 +113,7 @@ impl Furnace {
         } else {
             self.emission * f64::from(self.cap + 1)
         };
-        let sampler = dice.pick(&["independent", "stratified", "sobol", "bluenoise"]);
+        let sampler = dice.pick(&Sampler::ALL).name();
         let text = format!(
             "camera = {{ {camera} }}\n\
              render = {{ estimator = 'path', directions = 'cosine', sampler = '{sampler}', roulette = 'off', max_bounces = {}, \

@@ -4,6 +4,8 @@ use glam::DVec3;
 use super::{Family, rooms::sphere};
 use crate::{
     measure::exact::furnace,
+    sampling::Directions,
+    scene::Estimator,
     validate::stress::{
         dice::Dice,
         trial_scene::{Expected, Furnace, TrialScene, camera_at, camera_towards},
@@ -73,8 +75,8 @@ fn estimators(dice: &mut Dice) -> TrialScene {
     let trial_scene = uncapped(&room.trial_scene(dice, &camera, 1.0), furnace(1.0, 0.5));
     let text = trial_scene
         .text
-        .replace("'path'", &format!("'{}'", dice.pick(&["path", "light", "mis"])))
-        .replace("'cosine'", &format!("'{}'", dice.pick(&["uniform", "cosine", "bsdf"])))
+        .replace("'path'", &format!("'{}'", dice.pick(&Estimator::ALL).name()))
+        .replace("'cosine'", &format!("'{}'", dice.pick(&Directions::ALL).name()))
         .replace(
             "'off'",
             dice.pick(&["'off'", "'throughput'", "{ fixed = 0.5 }", "{ fixed = 0.95 }", "{ throughput = { start = 1 } }"]),
@@ -92,7 +94,7 @@ fn bright(dice: &mut Dice) -> TrialScene {
     let lamps: String = (0..1 + dice.below(5)).map(|_| lamp(dice)).collect();
     let eye = dice.direction() * 3.0;
     let camera = camera_at(dice, eye, 3.0);
-    let estimator = dice.pick(&["path", "light", "mis"]);
+    let estimator = dice.pick(&Estimator::ALL).name();
     let text = format!(
         "camera = {{ {camera} }}\nrender.estimator = '{estimator}'\nbackground.radiance = {:?}\n\
          materials.grey.lambertian.albedo = 0.9\nmaterials.gold.conductor = {{ f0 = [1.0, 0.8, 0.3], alpha = {:?} }}\n\

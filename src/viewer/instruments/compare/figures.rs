@@ -3,7 +3,6 @@ use egui::{Grid, RichText, Ui};
 use noisefall::{
     measure::LogRatio,
     render::{MODEL_ERROR, State, Status},
-    sampling::Sampler,
     scene::RenderSettings,
 };
 
@@ -152,7 +151,7 @@ fn significant(x: f64) -> String {
 fn efficiency_ratio(errors: LogRatio, sides: &[Side; 2], settings: [&RenderSettings; 2]) -> LogRatio {
     let [a, b] = sides.each_ref().map(|side| side.seconds.max(1e-9));
     let is_known = sides.iter().all(|side| side.truth.is_some());
-    let guessed = settings.iter().filter(|settings| !is_known && settings.sampler != Sampler::Independent).count();
+    let guessed = settings.iter().filter(|settings| !is_known && !settings.sampler.is_independent()).count();
     let model_error = (guessed as f64).sqrt() * MODEL_ERROR;
     LogRatio { value: errors.value + (a / b).ln(), model_error, ..errors }
 }
@@ -188,6 +187,8 @@ fn times(ratio: f64) -> String {
 
 #[cfg(test)]
 mod tests {
+    use noisefall::sampling::Sampler;
+
     use super::*;
 
     fn side(status: &Status, settings: &RenderSettings, truth: Option<f64>) -> Side {
