@@ -62,7 +62,6 @@ impl Declare for Dielectric {
         const TRANSMITTANCE: Parameter =
             Parameter::new("transmittance", "Fraction of the light that one metre of the interior transmits.")
                 .symbol("T")
-                .unit("1/m")
                 .aliases("tint absorption");
         p.number(&IOR, &mut self.ior, Range::INDEX);
         p.number(&IOR_OUTSIDE, &mut self.ior_outside, Range::INDEX);
