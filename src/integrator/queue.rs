@@ -142,17 +142,10 @@ impl<L: Lanes> Field<L> for V<L> {
 macro_rules! record {
     ($(#[$attribute:meta])* $name:ident { $($(#[$doc:meta])* $field:ident: $kind:ident),* $(,)? }) => {
         $(#[$attribute])*
+        #[derive(Clone, Copy)]
         pub struct $name<L: $crate::math::Lanes> {
             $($(#[$doc])* pub $field: $crate::math::$kind<L>),*
         }
-
-        impl<L: $crate::math::Lanes> Clone for $name<L> {
-            #[inline(always)]
-            fn clone(&self) -> Self {
-                *self
-            }
-        }
-        impl<L: $crate::math::Lanes> Copy for $name<L> {}
 
         impl<L: $crate::math::Lanes> $name<L> {
             const COLUMNS: usize =

@@ -18,6 +18,7 @@ use crate::math::{F, Lanes, SimdLevel, U, round::floor};
 pub static LOSS: LazyLock<Vec<[f32; 4]>> = LazyLock::new(|| build(SimdLevel::best(), None));
 
 /// A line of a table: α is fixed, per lane.
+#[derive(Clone, Copy)]
 pub struct Albedo<'a, L: Lanes> {
     table: &'a [[f32; 4]],
     /// Row of the line's first cell.
@@ -28,14 +29,6 @@ pub struct Albedo<'a, L: Lanes> {
     /// Position of α between the lower and upper ends of the line.
     t: F<L>,
 }
-
-impl<L: Lanes> Clone for Albedo<'_, L> {
-    #[inline(always)]
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-impl<L: Lanes> Copy for Albedo<'_, L> {}
 
 impl<'a, L: Lanes> Albedo<'a, L> {
     /// Looks up a line in the table that begins at row `first` of `table`; α is from [`SMOOTH`] to 1.

@@ -9,8 +9,12 @@ use crate::math::{F, Lanes, M, One, Pick, V};
 /// of the viewer: `wo.z` > 0; `wi.z` < 0 is transmission. Pdfs are per solid angle.
 pub trait Bsdf<L: Lanes>: Copy {
     /// f(ω_o, ω_i) |cos θ_i| of the lobes that are not delta, and the pdf with which [`Bsdf::sample`] samples `wi` from them,
-    /// including the probability of choosing them.
-    fn eval(&self, wo: V<L>, wi: V<L>) -> (V<L>, F<L>);
+    /// including the probability of choosing them. By default all lobes are delta.
+    #[inline(always)]
+    fn eval(&self, wo: V<L>, _wi: V<L>) -> (V<L>, F<L>) {
+        let zero = wo.z.splat(0.0);
+        (V { x: zero, y: zero, z: zero }, zero)
+    }
 
     /// Samples the next direction with the point `u` of the unit square; `lobe` in (0, 1) chooses between lobes.
     fn sample(&self, wo: V<L>, u: (F<L>, F<L>), lobe: F<L>) -> BsdfSample<L>;

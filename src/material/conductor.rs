@@ -97,6 +97,7 @@ impl Shade for Conductor {
 }
 
 /// The BSDF of a conductor at a point.
+#[derive(Clone, Copy)]
 pub struct ConductorBsdf<L: Lanes> {
     l: L,
     fresnel: ConductorFresnel<L>,
@@ -108,14 +109,6 @@ pub struct ConductorBsdf<L: Lanes> {
     /// The restored fraction of the light that single scattering loses, divided by π times the average loss.
     returned: V<L>,
 }
-
-impl<L: Lanes> Clone for ConductorBsdf<L> {
-    #[inline(always)]
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-impl<L: Lanes> Copy for ConductorBsdf<L> {}
 
 impl<L: Lanes> ConductorBsdf<L> {
     #[inline(always)]

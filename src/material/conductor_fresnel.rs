@@ -10,6 +10,7 @@ use crate::{
 };
 
 /// Fresnel reflectance of metals, per lane: constant, Schlick's approximation, or Fresnel's equations with a complex index.
+#[derive(Clone, Copy)]
 pub struct ConductorFresnel<L: Lanes> {
     /// Reflectance at normal incidence in lanes without an index.
     f0: V<L>,
@@ -21,15 +22,6 @@ pub struct ConductorFresnel<L: Lanes> {
     /// Average of the lanes with an index.
     average: V<L>,
 }
-
-impl<L: Lanes> Clone for ConductorFresnel<L> {
-    #[inline(always)]
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<L: Lanes> Copy for ConductorFresnel<L> {}
 
 const SCHLICK: f32 = 1.0;
 

@@ -2,7 +2,7 @@
 pub use super::rough_dielectric::RoughDielectric;
 use super::{
     Bsdf, BsdfSample, ChosenLobe, Compile, CompiledMaterial, Lobes, Local, MaterialCompiler, Materials, Roughness, Shade, Stage,
-    conductor::ENERGY_COMPENSATION, fresnel, ggx,
+    conductor::ENERGY_COMPENSATION, fresnel, ggx, ior,
 };
 use crate::{
     declare::{Declare, Kind, Parameter, Parameters, Problem, Range},
@@ -53,10 +53,7 @@ impl Kind for Dielectric {
 
 impl Declare for Dielectric {
     fn parameters(&mut self, p: &mut dyn Parameters) {
-        const IOR: Parameter = Parameter::new("ior", "Index of refraction inside.")
-            .symbol("η")
-            .required()
-            .aliases("eta index index_of_refraction refraction");
+        const IOR: Parameter = ior("Index of refraction inside.");
         const IOR_OUTSIDE: Parameter =
             Parameter::new("ior_outside", "Index of refraction on the side of the normal.").symbol("η'");
         const TRANSMITTANCE: Parameter =
@@ -150,26 +147,13 @@ pub(super) fn uncompressed<L: Lanes>(eta: F<L>, front: M<L>, z: F<L>) -> F<L> {
 ///
 /// Transmitted radiance is scaled by 1/η², because refraction changes the solid angle (Veach 1997, section 5.2). Light that
 /// enters and leaves again keeps its radiance.
+#[derive(Clone, Copy)]
 pub struct DielectricBsdf<L: Lanes> {
     /// The index of refraction beyond the surface over that on the side of the viewer.
     pub eta: F<L>,
 }
 
-impl<L: Lanes> Clone for DielectricBsdf<L> {
-    #[inline(always)]
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-impl<L: Lanes> Copy for DielectricBsdf<L> {}
-
 impl<L: Lanes> Bsdf<L> for DielectricBsdf<L> {
-    #[inline(always)]
-    fn eval(&self, wo: V<L>, _: V<L>) -> (V<L>, F<L>) {
-        let zero = wo.z.splat(0.0);
-        (V { x: zero, y: zero, z: zero }, zero)
-    }
-
     /// Reflects with a probability equal to the reflectance, so the weight is 1 apart from the scale of radiance.
     #[inline(always)]
     fn sample(&self, wo: V<L>, _: (F<L>, F<L>), lobe: F<L>) -> BsdfSample<L> {

@@ -57,25 +57,12 @@ impl Shade for Mirror {
 }
 
 /// The BSDF of a mirror at a point.
+#[derive(Clone, Copy)]
 pub struct MirrorBsdf<L: Lanes> {
     fresnel: ConductorFresnel<L>,
 }
 
-impl<L: Lanes> Clone for MirrorBsdf<L> {
-    #[inline(always)]
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-impl<L: Lanes> Copy for MirrorBsdf<L> {}
-
 impl<L: Lanes> Bsdf<L> for MirrorBsdf<L> {
-    #[inline(always)]
-    fn eval(&self, wo: V<L>, _wi: V<L>) -> (V<L>, F<L>) {
-        let zero = wo.z.splat(0.0);
-        (V { x: zero, y: zero, z: zero }, zero)
-    }
-
     #[inline(always)]
     fn sample(&self, wo: V<L>, _u: (F<L>, F<L>), _lobe: F<L>) -> BsdfSample<L> {
         let wi = V { x: -wo.x, y: -wo.y, z: wo.z };

@@ -15,6 +15,7 @@ use super::{
 use crate::math::{F, Lanes, M, Pick, U, V, trig::sin_cos_turns};
 
 /// Tables of the losses of materials, per lane.
+#[derive(Clone, Copy)]
 pub struct LossTable<'a, L: Lanes> {
     /// Rows of all materials, from [`super::dielectric_albedo`].
     pub rows: &'a [[f32; 4]],
@@ -30,6 +31,7 @@ pub fn nothing_missing() -> Vec<[f32; 4]> {
 }
 
 /// The lost light of surface points with known roughness.
+#[derive(Clone, Copy)]
 pub struct MissingEnergy<'a, L: Lanes> {
     l: L,
     rows: &'a [[f32; 4]],
@@ -52,22 +54,6 @@ pub struct Loss<L: Lanes> {
     /// Part of the mean that goes to the other side, divided by α².
     exchanged: F<L>,
 }
-
-impl<L: Lanes> Clone for LossTable<'_, L> {
-    #[inline(always)]
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-impl<L: Lanes> Copy for LossTable<'_, L> {}
-
-impl<L: Lanes> Clone for MissingEnergy<'_, L> {
-    #[inline(always)]
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-impl<L: Lanes> Copy for MissingEnergy<'_, L> {}
 
 impl<'a, L: Lanes> MissingEnergy<'a, L> {
     #[inline(always)]

@@ -43,7 +43,7 @@ pub use self::{
     roughness::Roughness,
     shade::Shade,
 };
-use crate::declare::{Path, Problem};
+use crate::declare::{Parameter, Path, Problem};
 
 macro_rules! materials {
     ($($module:ident::$Material:ident => $($Stage:ident)+),+ $(,)?) => {
@@ -113,6 +113,11 @@ impl Stage {
     pub fn is_glossy(self) -> bool {
         in_stage!(self, K => K::GLOSSY)
     }
+}
+
+/// The index of refraction of a kind.
+const fn ior(doc: &'static str) -> Parameter {
+    Parameter::new("ior", doc).symbol("η").required().aliases("eta index index_of_refraction refraction")
 }
 
 /// A kind of material: from its description to what the kernel reads.

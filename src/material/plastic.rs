@@ -12,7 +12,7 @@ use super::{
     Bsdf, BsdfSample, ChosenLobe, Compile, CompiledMaterial, Lobes, Local, MaterialCompiler, Materials, Roughness, Shade, Stage,
     albedo::Albedo,
     fresnel::{dielectric, dielectric_average},
-    ggx,
+    ggx, ior,
 };
 use crate::{
     declare::{Declare, Kind, Parameter, Parameters, Problem, Range, Textured},
@@ -56,10 +56,7 @@ impl Kind for Plastic {
 
 impl Declare for Plastic {
     fn parameters(&mut self, p: &mut dyn Parameters) {
-        const IOR: Parameter = Parameter::new("ior", "Index of refraction of the coat.")
-            .symbol("η")
-            .required()
-            .aliases("eta index index_of_refraction refraction");
+        const IOR: Parameter = ior("Index of refraction of the coat.");
         p.textured(&ALBEDO, &mut self.albedo, Range::REFLECTANCE);
         p.number(&IOR, &mut self.ior, Range::linear(1.0, 20.0));
         p.one_of(&mut self.roughness);
@@ -112,6 +109,7 @@ impl Shade for Plastic {
 }
 
 /// The BSDF of a plastic at a point.
+#[derive(Clone, Copy)]
 pub struct PlasticBsdf<'a, L: Lanes> {
     l: L,
     ior: F<L>,
@@ -125,14 +123,6 @@ pub struct PlasticBsdf<'a, L: Lanes> {
     /// The largest channel of the base's directional albedo, over T(ω_o).
     brightest: F<L>,
 }
-
-impl<L: Lanes> Clone for PlasticBsdf<'_, L> {
-    #[inline(always)]
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-impl<L: Lanes> Copy for PlasticBsdf<'_, L> {}
 
 impl<'a, L: Lanes> PlasticBsdf<'a, L> {
     #[inline(always)]

@@ -33,19 +33,12 @@ impl Shade for RoughDielectric {
 }
 
 /// The rough interface between two transparent media; radiance that passes is scaled by 1/η² as in [`DielectricBsdf`].
+#[derive(Clone, Copy)]
 pub struct RoughDielectricBsdf<'a, L: Lanes> {
     eta: F<L>,
     alpha: F<L>,
     missing: Option<MissingEnergy<'a, L>>,
 }
-
-impl<L: Lanes> Clone for RoughDielectricBsdf<'_, L> {
-    #[inline(always)]
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-impl<L: Lanes> Copy for RoughDielectricBsdf<'_, L> {}
 
 impl<'a, L: Lanes> RoughDielectricBsdf<'a, L> {
     #[inline(always)]

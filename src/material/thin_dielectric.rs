@@ -10,6 +10,7 @@
 //! thickness goes to 0 while t stays.
 use super::{
     Bsdf, BsdfSample, ChosenLobe, Compile, CompiledMaterial, Lobes, Local, MaterialCompiler, Materials, Shade, Stage, fresnel,
+    ior,
 };
 use crate::{
     declare::{Declare, Kind, Parameter, Parameters, Problem, Range},
@@ -40,10 +41,7 @@ impl Kind for ThinDielectric {
 
 impl Declare for ThinDielectric {
     fn parameters(&mut self, p: &mut dyn Parameters) {
-        const IOR: Parameter = Parameter::new("ior", "Index of refraction of the pane relative to its surroundings.")
-            .symbol("η")
-            .required()
-            .aliases("eta index index_of_refraction refraction");
+        const IOR: Parameter = ior("Index of refraction of the pane relative to its surroundings.");
         const TRANSMITTANCE: Parameter =
             Parameter::new("transmittance", "Fraction of the light that the inside of the pane transmits at normal incidence.")
                 .symbol("t")
@@ -98,18 +96,11 @@ impl Shade for ThinDielectric {
 }
 
 /// The BSDF of a pane at a point.
+#[derive(Clone, Copy)]
 pub struct ThinDielectricBsdf<L: Lanes> {
     eta: F<L>,
     octaves: V<L>,
 }
-
-impl<L: Lanes> Clone for ThinDielectricBsdf<L> {
-    #[inline(always)]
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-impl<L: Lanes> Copy for ThinDielectricBsdf<L> {}
 
 impl<L: Lanes> ThinDielectricBsdf<L> {
     /// Reflectance and transmittance at cos θ > 0.
@@ -139,12 +130,6 @@ impl<L: Lanes> ThinDielectricBsdf<L> {
 }
 
 impl<L: Lanes> Bsdf<L> for ThinDielectricBsdf<L> {
-    #[inline(always)]
-    fn eval(&self, wo: V<L>, _: V<L>) -> (V<L>, F<L>) {
-        let zero = wo.z.splat(0.0);
-        (V { x: zero, y: zero, z: zero }, zero)
-    }
-
     #[inline(always)]
     fn sample(&self, wo: V<L>, _: (F<L>, F<L>), lobe: F<L>) -> BsdfSample<L> {
         let (reflected, passed) = self.shares(wo.z);

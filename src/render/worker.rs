@@ -58,19 +58,7 @@ impl Renderer {
     pub fn new(threads: Threads, publish: Publish, notify: impl Fn() + Send + 'static) -> Renderer {
         let (sender, receiver) = unbounded();
         let shared = Arc::new(Shared { published: Mutex::default(), sent: AtomicU64::new(0) });
-        let worker = Worker {
-            threads,
-            publish,
-            receiver,
-            shared: shared.clone(),
-            seen: 0,
-            budget: Budget::default(),
-            sessions: [None, None],
-            leads: [Duration::ZERO; 2],
-            kept: KeptSessions::default(),
-            edits: SceneEdits::default(),
-            rate: None,
-        };
+        let worker = Worker::new(threads, publish, receiver, shared.clone());
         let edited = worker.edits.results();
         let thread = std::thread::Builder::new().name("worker".to_owned()).spawn(move || worker.run(&notify));
         Renderer { sender, shared, edited, thread: Some(thread.expect("a thread can be started")) }
@@ -161,6 +149,22 @@ struct Worker {
 }
 
 impl Worker {
+    fn new(threads: Threads, publish: Publish, receiver: Receiver<Message>, shared: Arc<Shared>) -> Worker {
+        Worker {
+            threads,
+            publish,
+            receiver,
+            shared,
+            seen: 0,
+            budget: Budget::default(),
+            sessions: [None, None],
+            leads: [Duration::ZERO; 2],
+            kept: KeptSessions::default(),
+            edits: SceneEdits::default(),
+            rate: None,
+        }
+    }
+
     fn run(mut self, notify: &dyn Fn()) {
         loop {
             let busy = self.next().is_some();

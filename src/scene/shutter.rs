@@ -42,12 +42,13 @@ pub struct Moments {
 mod tests {
     use super::*;
 
+    fn moments(open: f64, close: f64) -> (f32, f32) {
+        let Moments { start, length } = Shutter { open, close }.moments();
+        (start, length)
+    }
+
     #[test]
     fn samples_are_spread_over_the_time_that_the_shutter_is_open() {
-        let moments = |open, close| {
-            let Moments { start, length } = Shutter { open, close }.moments();
-            (start, length)
-        };
         assert_eq!(moments(0.0, 1.0), (0.0, 1.0));
         assert_eq!(moments(0.25, 0.75), (0.25, 0.5));
         assert_eq!(moments(-1.0, 0.5), (-1.0, 1.5), "two thirds of the samples show the beginning");
@@ -56,10 +57,6 @@ mod tests {
 
     #[test]
     fn one_pose_needs_no_times() {
-        let moments = |open, close| {
-            let Moments { start, length } = Shutter { open, close }.moments();
-            (start, length)
-        };
         assert_eq!(moments(0.5, 0.5), (0.5, 0.0));
         assert_eq!(moments(-2.0, 0.0), (0.0, 0.0));
         assert_eq!(moments(1.0, 2.0), (1.0, 0.0));

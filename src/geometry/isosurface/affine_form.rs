@@ -26,20 +26,13 @@ pub(super) const WIDEN: f32 = 1.0 + 8.0 * f32::EPSILON;
 const UNDERFLOW: f32 = f32::MIN_POSITIVE;
 
 /// f(s) = a + b s + e(s) for s in [−1, 1]; |e| ≤ r, |e′| ≤ q.
+#[derive(Clone, Copy)]
 pub(super) struct AffineForm<L: Lanes> {
     pub a: F<L>,
     pub b: F<L>,
     pub r: F<L>,
     pub q: F<L>,
 }
-
-impl<L: Lanes> Clone for AffineForm<L> {
-    #[inline(always)]
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-impl<L: Lanes> Copy for AffineForm<L> {}
 
 impl<L: Lanes> Pick<AffineForm<L>> for M<L> {
     #[inline(always)]

@@ -11,19 +11,9 @@ use crate::{
 
 fn worker(publish: Publish) -> Worker {
     let (_, receiver) = unbounded();
-    Worker {
-        threads: Threads::new(2, SimdLevel::best()).expect("threads can be had"),
-        publish,
-        receiver,
-        shared: Arc::new(Shared { published: Mutex::default(), sent: AtomicU64::new(0) }),
-        seen: 0,
-        budget: Budget::default(),
-        sessions: [None, None],
-        leads: [Duration::ZERO; 2],
-        kept: KeptSessions::default(),
-        edits: SceneEdits::default(),
-        rate: None,
-    }
+    let threads = Threads::new(2, SimdLevel::best()).expect("threads can be had");
+    let shared = Arc::new(Shared { published: Mutex::default(), sent: AtomicU64::new(0) });
+    Worker::new(threads, publish, receiver, shared)
 }
 
 fn request(scene: &Arc<Scene>, side: u32) -> RenderRequest {

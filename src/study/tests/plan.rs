@@ -56,21 +56,17 @@ fn lists_are_combined_each_value_once() {
 
 #[test]
 fn a_run_stops_before_a_doubling_that_takes_too_long() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = folder.path().join("scene.toml");
-    std::fs::write(&path, include_str!("../../../scenes/furnace.toml")).expect("it can be written");
-    let study_scene = StudyScene::load(&path, Some([8, 8]), None).expect("a scene");
-    let threads = Threads::new(1, SimdLevel::best()).expect("threads");
-    let bench = Bench { scene: &study_scene.scene, camera: &study_scene.camera, threads: &threads, stop: &|| false };
-    let lists = Lists::default();
-    let plan = |time| Plan { lists: lists.clone(), spp: 16, time, repeats: 1, floor: Floor::DEFAULT };
-    let reference = [[2.0; 3]; 64];
-    let run = |time| measure(bench, &study_scene.scene.settings, &plan(time), &reference).expect("a run");
-    assert_eq!(run(Duration::from_secs(1000)).checkpoints.len(), 5);
-    assert_eq!(run(Duration::ZERO).checkpoints.len(), 1);
-    let stopped = Bench { stop: &|| true, ..bench };
-    let ended = measure(stopped, &study_scene.scene.settings, &plan(Duration::MAX), &reference);
-    assert!(matches!(ended, Err(StudyError::Interrupted)));
+    with_furnace(|bench, settings| {
+        let lists = Lists::default();
+        let plan = |time| Plan { lists: lists.clone(), spp: 16, time, repeats: 1, floor: Floor::DEFAULT };
+        let reference = [[2.0; 3]; 64];
+        let run = |time| measure(bench, settings, &plan(time), &reference).expect("a run");
+        assert_eq!(run(Duration::from_secs(1000)).checkpoints.len(), 5);
+        assert_eq!(run(Duration::ZERO).checkpoints.len(), 1);
+        let stopped = Bench { stop: &|| true, ..bench };
+        let ended = measure(stopped, settings, &plan(Duration::MAX), &reference);
+        assert!(matches!(ended, Err(StudyError::Interrupted)));
+    });
 }
 
 /// Passes take 1, 2, 4, … seconds. The time of a checkpoint is the sum over all passes up to it.

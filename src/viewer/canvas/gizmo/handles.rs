@@ -148,22 +148,8 @@ fn area_of([a, b, c, d]: &[Pos2; 4]) -> f32 {
 #[cfg(test)]
 mod tests {
     use egui::{Rect, Vec2};
-    use noisefall::scene::{Projection, built_in};
 
-    use super::*;
-
-    fn camera() -> Camera {
-        let (eye, look_at) = (DVec3::new(3.0, 2.0, 5.0), DVec3::ZERO);
-        Camera {
-            eye,
-            look_at,
-            up: DVec3::Y,
-            fov: 40.0,
-            projection: Projection::Perspective,
-            resolution: [300, 200],
-            ..built_in().camera
-        }
-    }
+    use super::{super::tests::oblique_camera as camera, *};
 
     /// A picture at twice its size.
     fn area() -> PictureArea {

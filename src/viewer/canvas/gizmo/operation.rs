@@ -161,24 +161,10 @@ impl MapAll for DVec3 {
 #[cfg(test)]
 mod tests {
     use glam::DQuat;
-    use noisefall::scene::{Projection, built_in};
 
-    use super::*;
+    use super::{super::tests::oblique_camera as camera, *};
 
     const PIVOT: DVec3 = DVec3::new(0.2, 0.1, -0.3);
-
-    fn camera() -> Camera {
-        let (eye, look_at) = (DVec3::new(3.0, 2.0, 5.0), DVec3::ZERO);
-        Camera {
-            eye,
-            look_at,
-            up: DVec3::Y,
-            fov: 40.0,
-            projection: Projection::Perspective,
-            resolution: [300, 200],
-            ..built_in().camera
-        }
-    }
 
     fn seen(p: DVec3) -> [f32; 2] {
         project(&camera(), p).expect("it is in front")

@@ -27,6 +27,13 @@ fn camera() -> Camera {
     Camera { eye, look_at, up: DVec3::Y, projection, lens: None, resolution: [600, 400], ..built_in().camera }
 }
 
+/// From above and from the side.
+pub(super) fn oblique_camera() -> Camera {
+    let (eye, look_at) = (DVec3::new(3.0, 2.0, 5.0), DVec3::ZERO);
+    let (projection, resolution) = (Projection::Perspective, [300, 200]);
+    Camera { eye, look_at, up: DVec3::Y, fov: 40.0, projection, resolution, ..built_in().camera }
+}
+
 fn canvas() -> Canvas {
     let draw = |ui: &mut Ui, state: &mut State| {
         let rect = Rect::from_min_size(Pos2::ZERO, SIZE);
