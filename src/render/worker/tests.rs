@@ -1,6 +1,8 @@
 //! Alternation between two images.
 use std::path::PathBuf;
 
+use crossbeam_channel::unbounded;
+
 use super::*;
 use crate::{
     declare::Precision,
