@@ -12,8 +12,9 @@ use crate::{
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Version(u64);
 
-/// A scene that is being edited: its description, the text that it was read from, and its folder.
-#[derive(Debug)]
+/// A scene that is being edited: its description, the text that it was read from, and its folder. A clone is a snapshot that another
+/// thread can write or compare.
+#[derive(Clone, Debug)]
 pub struct Document {
     pub(super) content: Content,
     /// The scene file; absent while the scene has none.
@@ -24,6 +25,14 @@ pub struct Document {
     saved: Option<Version>,
     /// Never used before.
     next: u64,
+}
+
+/// A version of a document that was written to a file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Written {
+    path: PathBuf,
+    text: String,
+    version: Version,
 }
 
 impl Document {
@@ -97,11 +106,23 @@ impl Document {
 
     /// Writes the scene to its file, or to another one, which becomes its file. The file is replaced whole or not at all.
     pub fn save(&mut self, path: impl AsRef<FilePath>) -> Result<(), WriteError> {
+        let written = self.write(path)?;
+        self.note_written(written);
+        Ok(())
+    }
+
+    /// Writes the scene to a file, for [`Document::note_written`]. The file is replaced whole or not at all.
+    pub fn write(&self, path: impl AsRef<FilePath>) -> Result<Written, WriteError> {
         let (path, text) = (path.as_ref(), self.text());
         replace(path, text.as_bytes())?;
-        self.path = Some(path.to_owned());
-        self.saved(text);
-        Ok(())
+        Ok(Written { path: path.to_owned(), text, version: self.version })
+    }
+
+    /// Records that this version of the document was written. The file becomes that of the document, which counts as changed if it has
+    /// another version by now.
+    pub fn note_written(&mut self, written: Written) {
+        self.path = Some(written.path);
+        (self.on_disk, self.saved) = (written.text, Some(written.version));
     }
 
     /// Records that the file has this text, which is that of the document.
@@ -111,7 +132,7 @@ impl Document {
     }
 
     /// The text of the file as it was last read or written.
-    pub(super) fn on_disk(&self) -> &str {
+    pub fn on_disk(&self) -> &str {
         &self.on_disk
     }
 

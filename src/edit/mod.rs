@@ -103,7 +103,7 @@ pub use self::trial::write_and_read;
 pub use self::{
     change::Edit,
     content::Content,
-    document::{Document, Version},
+    document::{Document, Version, Written},
     history::{Gesture, History},
     origin::Origin,
     outside::Outside,

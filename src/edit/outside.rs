@@ -19,6 +19,13 @@ pub struct Outside {
     pub conflicts: bool,
 }
 
+impl Outside {
+    /// The text of the file.
+    pub fn text(&self) -> &str {
+        &self.content.base.text
+    }
+}
+
 impl Document {
     /// Compares a text that the file has now with the one it had. `None` if it is the same; an error if it cannot be read, and the
     /// document stays as it is.
@@ -47,7 +54,7 @@ impl Document {
 
     /// Reloads the file, as a step that can be undone.
     pub fn take_outside(&mut self, history: &mut History, outside: Outside) -> Result<(), Problem> {
-        let text = outside.content.base.text.clone();
+        let text = outside.text().to_owned();
         let is_saved = outside.content.base.is(&outside.content.description);
         history.apply(self, &Edit::Reload(Box::new(outside.content)))?;
         if is_saved {
@@ -58,8 +65,8 @@ impl Document {
         Ok(())
     }
 
-    /// Keeps the document. Saving will replace the content of the file.
-    pub fn keep_own(&mut self, outside: &Outside) {
-        self.differs_from(outside.content.base.text.clone());
+    /// Keeps the document although the file has another text now. Saving will replace it.
+    pub fn keep_own(&mut self, on_disk: impl Into<String>) {
+        self.differs_from(on_disk.into());
     }
 }

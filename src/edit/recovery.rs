@@ -1,7 +1,7 @@
 //! Keeps unsaved changes in a file in case the program ends unexpectedly.
 use std::{
     fs, io,
-    path::{Path as FilePath, PathBuf},
+    path::{Path as FilePath, PathBuf, absolute},
 };
 
 use super::Document;
@@ -16,7 +16,7 @@ const FIRST_LINE: &str = "# Unsaved changes of the scene ";
 /// A scene with changes that are not saved.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Recovery {
-    /// The scene file; absent if the scene had none.
+    /// The scene file, with an absolute path; absent if the scene had none.
     pub path: Option<PathBuf>,
     /// The text of the scene.
     pub text: String,
@@ -25,7 +25,8 @@ pub struct Recovery {
 impl Recovery {
     /// The document as it is now.
     pub fn of(document: &Document) -> Recovery {
-        Recovery { path: document.path().map(FilePath::to_owned), text: document.text() }
+        let absolute = |path: &FilePath| absolute(path).unwrap_or_else(|_| path.to_owned());
+        Recovery { path: document.path().map(absolute), text: document.text() }
     }
 
     /// Writes a recovery file, whole or not at all. It is a scene file itself, with one line of comment before its text.

@@ -17,6 +17,11 @@ pub fn load(path: &Path) -> Result<Scene, SceneError> {
     if let Some(carried) = load_carried(path) {
         return carried;
     }
+    parse(&path.display().to_string(), read_text(path)?)
+}
+
+/// The text of a scene file, which is not parsed.
+pub fn read_text(path: &Path) -> Result<String, SceneError> {
     let bytes = read(path)?;
     if let Some(kind) = not_text(&bytes) {
         let message = format!("this is not a text file{kind}");
@@ -26,14 +31,12 @@ pub fn load(path: &Path) -> Result<Scene, SceneError> {
             "a scene is one TOML file, saved as UTF-8 text, or a PNG or EXR that Noisefall has written with its scene",
         ));
     }
-    let name = path.display().to_string();
-    let text = String::from_utf8(bytes).map_err(|error| {
+    String::from_utf8(bytes).map_err(|error| {
         let valid = error.utf8_error().valid_up_to();
         let text = String::from_utf8_lossy(&error.into_bytes()).into_owned();
-        let source = SourceText { name: name.clone(), text };
+        let source = SourceText { name: path.display().to_string(), text };
         source.error(valid..valid + 1, "the file is not UTF-8 text", "this byte is not UTF-8").with_help("save the file as UTF-8")
-    })?;
-    parse(&name, text)
+    })
 }
 
 /// Description of a binary file, as the end of a sentence; `None` for text. Binary files are not quoted.

@@ -47,7 +47,7 @@ pub use self::{
     diagnostic::SceneError,
     estimator::{Estimator, power_heuristic},
     legend::Legend,
-    load::load,
+    load::{load, read_text},
     material_instance::MaterialInstance,
     object::Object,
     parse::{BUILT_IN, built_in, describe, parse},

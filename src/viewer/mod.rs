@@ -50,6 +50,7 @@ pub fn run(scene: Option<PathBuf>) -> Result<(), String> {
             // There is a window: from here on a panic is ours, and is shown as usual.
             let _ = std::panic::take_hook();
             let mut app = App::new(&cc.egui_ctx, threads, scene, Preferences::of_user());
+            app.use_disk();
             app.welcome();
             Box::new(app)
         };

@@ -48,7 +48,7 @@ fn both_sides_may_change() {
     let changed = ROOM.replace("radius = 0.5", "radius = 0.4");
     let outside = compare(&document, &changed);
     assert!(outside.conflicts && outside.scene_changed && !outside.camera_changed);
-    document.keep_own(&outside);
+    document.keep_own(outside.text());
     assert!(document.has_changes() && document.text().contains("fov = 30"));
     assert!(document.compare_outside(&changed).expect("it is readable").is_none(), "it was compared");
     history.undo(&mut document);
@@ -100,4 +100,23 @@ fn a_scene_without_a_file_is_recovered_too() {
     Recovery::of(&document).write(&file).expect("it is written");
     let recovered = Recovery::read(&file).expect("it is readable").expect("it is there").open().expect("it is valid");
     assert_eq!((recovered.path(), recovered.text().as_str(), recovered.has_changes()), (None, ROOM, true));
+}
+
+#[test]
+fn a_version_that_was_written_in_the_background_is_saved_and_later_ones_are_not() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("room.toml");
+    let mut document = room();
+    does(&mut document, &number("camera.fov", 30.0));
+    let snapshot = document.clone();
+    let back = does(&mut document, &number("camera.fov", 50.0));
+    let written = snapshot.write(&file).expect("it is written");
+    document.note_written(written);
+    assert_eq!((document.path(), document.has_changes()), (Some(&*file), true));
+    let text = std::fs::read_to_string(&file).expect("it is there");
+    assert!(text.contains("fov = 30") && document.on_disk() == text);
+    does(&mut document, &back);
+    assert!(document.compare_outside(&text).expect("it is readable").is_none(), "it is our own");
+    document.save(&file).expect("it is written");
+    assert!(!document.has_changes());
 }

@@ -151,7 +151,7 @@ impl App {
         if dialogs.open.take().is_some() || dialogs.save.take().is_some() || dialogs.file.take().is_some() {
             return;
         }
-        if dialogs.unsaved.take().is_some() {
+        if dialogs.unsaved.take().is_some() || dialogs.conflict.take().is_some() || dialogs.recovery.take().is_some() {
             return;
         }
         // Escape gives the edit of a field up, and nothing else.
@@ -164,7 +164,8 @@ impl App {
         let dialogs = &mut self.dialogs;
         if dialogs.help || dialogs.gallery.open || dialogs.wait() {
             (dialogs.help, dialogs.gallery.open, dialogs.scene_error) = (false, false, None);
-        } else if !dialogs.notices.0.is_empty() {
+        } else if dialogs.file_error.is_some() || !dialogs.notices.0.is_empty() {
+            dialogs.file_error = None;
             dialogs.notices.0.clear();
         } else if self.selection.subject.is_some() {
             self.selection.select(None);

@@ -22,6 +22,9 @@ impl App {
         let file = choose_file::show(ctx, &mut self.dialogs.file);
         file.into_iter().for_each(|(purpose, path)| self.use_file(&purpose, &path));
         self.show_unsaved();
+        self.show_conflict();
+        self.show_recovery();
+        scene_error::show_of_file(ctx, &mut self.dialogs.file_error);
         if help::show(ctx, &mut self.dialogs.help) {
             self.start_tour();
         }

@@ -27,6 +27,7 @@ impl App {
     pub fn receive_edited(&mut self) {
         match self.background.worker.take_edited() {
             Some(Ok(scene)) => self.take_edited(scene),
+            Some(Err(error)) if self.diagnose_file(&error) => {}
             Some(Err(error)) => self.tell(format!("The image shows the scene before this change: {error}"), true),
             None => {}
         }
@@ -58,11 +59,14 @@ impl App {
         if description.render != before.render {
             session.settings = scene.settings;
         }
+        if description.render.spp != before.render.spp {
+            session.budget.max_spp = scene.spp;
+        }
         opened.description = description.clone();
         let folder = opened.folder();
         self.background.settler.note(EditedScene { scene: scene.clone(), description: description.clone(), folder });
         opened.change(scene);
-        self.results.black_reason = None;
+        (self.results.black_reason, self.dialogs.file_error) = (None, None);
         if description.camera != before.camera || description.render != before.render {
             self.history.adopt(self.session.controls());
         }

@@ -23,6 +23,7 @@ impl App {
         self.dock(ui);
         CentralPanel::no_frame().show(ui, |ui| self.canvas(ui));
         self.show_dialogs(&ctx);
+        self.keep_changes();
         self.record_step();
         self.update_title();
         let compiled = self.session.opened.as_ref().map(|opened| &opened.scene.compiled);

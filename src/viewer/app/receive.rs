@@ -1,7 +1,7 @@
 //! Receives what the threads have finished: scenes, references, frames, images, saved files.
 use noisefall::{edit::Document, render::Budget};
 
-use super::{history::History, scene_editor::SceneEditor, selection::Selection, state::App};
+use super::{file_tasks::OutsideChanges, history::History, scene_editor::SceneEditor, selection::Selection, state::App};
 use crate::viewer::background::{
     catalogue, display_image::DisplayImage, feature_finder::FeatureFinder, loader::DroppedReference, loader::OpenedScene,
 };
@@ -11,11 +11,17 @@ use crate::viewer::instruments::{convergence::curve::Moment, path::inspector::Pa
 impl App {
     pub fn receive(&mut self) {
         match self.background.loader.take() {
-            Some(Ok((opened, document))) => self.open(opened, document),
+            Some(Ok((opened, document))) => {
+                let is_first = self.session.opened.is_none();
+                self.open(opened, document);
+                self.look_for_recovery(is_first);
+            }
             Some(Err(report)) => self.dialogs.scene_error = Some(report),
             None => {}
         }
         self.receive_edited();
+        self.receive_saved();
+        self.follow_files();
         match self.background.loader.take_reference() {
             Some(Ok(dropped)) => self.take_reference(dropped),
             Some(Err(error)) => self.tell(error, true),
@@ -98,7 +104,8 @@ impl App {
         self.history = History::default();
         self.selection = Selection::new(&self.ctx);
         self.editor = Some(SceneEditor::new(document));
-        self.dialogs.file = None;
+        (self.outside, self.saving) = (OutsideChanges::default(), None);
+        (self.dialogs.file, self.dialogs.conflict, self.dialogs.file_error) = (None, None, None);
         self.window.view.fit();
         session.opened = Some(opened);
     }

@@ -3,7 +3,7 @@ use std::sync::Arc;
 
 use noisefall::{
     declare::Problem,
-    edit::{Document, Edit, Gesture, History, Version},
+    edit::{Document, Edit, Gesture, History, Outside, Version},
     scene::description::SceneDescription,
 };
 
@@ -11,8 +11,8 @@ use crate::viewer::panels::{inspector::Inspector, outliner::Outliner};
 
 pub struct SceneEditor {
     pub document: Document,
-    /// The document as it was opened.
-    opened: Version,
+    /// The document as it is in its file, if it was opened or reloaded without changes.
+    opened: Option<Version>,
     history: History,
     /// The drag that is under way; its edits are one step.
     drag: Option<Gesture>,
@@ -25,7 +25,7 @@ pub struct SceneEditor {
 impl SceneEditor {
     pub fn new(document: Document) -> SceneEditor {
         SceneEditor {
-            opened: document.version(),
+            opened: (!document.has_changes()).then(|| document.version()),
             document,
             history: History::default(),
             drag: None,
@@ -35,9 +35,9 @@ impl SceneEditor {
         }
     }
 
-    /// Whether the scene is the one that was opened: what its file says of its exact image holds.
+    /// Whether the scene is the one of its file: what the file says of its exact image holds.
     pub fn is_as_opened(&self) -> bool {
-        self.document.version() == self.opened
+        self.opened == Some(self.document.version())
     }
 
     /// A copy of the scene as it is now.
@@ -88,6 +88,17 @@ impl SceneEditor {
     /// Takes back what the drag has made. Returns whether there was anything.
     pub fn cancel_drag(&mut self) -> bool {
         self.drag.take().is_some() && self.undo()
+    }
+
+    /// Reloads the file, as a step of its own.
+    pub fn take_outside(&mut self, outside: Outside) {
+        (self.drag, self.revision) = (None, self.revision + 1);
+        // A text that was read fits.
+        let taken = self.document.take_outside(&mut self.history, outside);
+        debug_assert!(taken.is_ok(), "{taken:?}");
+        if !self.document.has_changes() {
+            self.opened = Some(self.document.version());
+        }
     }
 
     /// Takes back the last step. False if there is none.

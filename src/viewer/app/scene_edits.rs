@@ -1,5 +1,5 @@
 //! Edits of the open scene, undo and redo included: the document changes at once, and its picture follows.
-use noisefall::{declare::Problem, edit::Edit};
+use noisefall::{declare::Problem, edit::Edit, scene::description::SceneDescription};
 
 use super::{scene_editor::SceneEditor, state::App};
 
@@ -35,15 +35,16 @@ impl App {
 
     /// Takes back the last edit of the scene.
     pub fn undo_edit(&mut self) {
-        self.step_in_scene(SceneEditor::undo);
+        self.step_in_scene(SceneEditor::undo, |_| true);
     }
 
     /// Makes the last undone edit of the scene again.
     pub fn redo_edit(&mut self) {
-        self.step_in_scene(SceneEditor::redo);
+        self.step_in_scene(SceneEditor::redo, |_| true);
     }
 
-    fn step_in_scene(&mut self, step: fn(&mut SceneEditor) -> bool) {
+    /// Changes the whole scene by `step`, and renders it if it `is_new`.
+    pub fn step_in_scene<T>(&mut self, step: impl FnOnce(&mut SceneEditor) -> T, is_new: impl FnOnce(&SceneDescription) -> bool) {
         let Some(editor) = &mut self.editor else { return };
         let objects = editor.document.description().objects.len();
         step(editor);
@@ -52,7 +53,9 @@ impl App {
         if editor.document.description().objects.len() != objects {
             self.selection.clear_object();
         }
-        self.follow_document();
+        if is_new(editor.document.description()) {
+            self.follow_document();
+        }
     }
 
     /// Renders the document as it is now.

@@ -4,12 +4,13 @@ use std::path::PathBuf;
 use noisefall::render::threads::Threads;
 
 use super::{
-    history::History, results::Results, scene_editor::SceneEditor, selection::Selection, session::Session, window_state::Dialogs,
-    window_state::WindowState,
+    file_tasks::OutsideChanges, file_tasks::PendingSave, history::History, results::Results, scene_editor::SceneEditor,
+    selection::Selection, session::Session, window_state::Dialogs, window_state::WindowState,
 };
 use crate::viewer::background::{
     adviser::Adviser, catalogue, catalogue::CatalogueEntry, display_pipeline::DisplayPipeline, feature_finder::FeatureFinder,
-    loader::Loader, preferences::Preferences, render_worker::RenderWorkerHandle, saver::Saver, settler::Settler,
+    file_watcher::FileWatcher, loader::Loader, preferences::Preferences, recovery_keeper::RecoveryKeeper,
+    render_worker::RenderWorkerHandle, saver::Saver, settler::Settler,
 };
 use crate::viewer::instruments::{convergence::history::History as ErrorHistory, path::inspector::PathInspector};
 use crate::viewer::panels::frame_times::FrameTimes;
@@ -23,6 +24,9 @@ pub struct App {
     pub window: WindowState,
     /// Changes the open scene.
     pub editor: Option<SceneEditor>,
+    /// What other programs do to the files of the open scene.
+    pub outside: OutsideChanges,
+    pub saving: Option<PendingSave>,
     pub selection: Selection,
     pub instruments: Instruments,
     pub dialogs: Dialogs,
@@ -45,6 +49,8 @@ pub struct Background {
     pub loader: Loader,
     pub settler: Settler,
     pub saver: Saver,
+    pub files: FileWatcher,
+    pub recovery: RecoveryKeeper,
     pub features: FeatureFinder,
     pub adviser: Option<Adviser>,
 }
@@ -60,6 +66,8 @@ impl App {
             loader: Loader::new(ctx),
             settler: Settler::new(ctx),
             saver: Saver::new(ctx),
+            files: FileWatcher::idle(),
+            recovery: RecoveryKeeper::default(),
             features: FeatureFinder::new(ctx),
             adviser: None,
         };
@@ -71,6 +79,8 @@ impl App {
             results: Results::default(),
             window: WindowState::default(),
             editor: None,
+            outside: OutsideChanges::default(),
+            saving: None,
             selection: Selection::new(ctx),
             instruments: Instruments { history: ErrorHistory::default(), path: PathInspector::new(ctx) },
             dialogs: Dialogs::default(),
@@ -78,6 +88,15 @@ impl App {
             catalogue: catalogue::find(),
             preferences,
             frame_times: FrameTimes::default(),
+        }
+    }
+
+    /// Watches the files of the open scene, and keeps unsaved changes of this user in case the program ends unexpectedly.
+    pub fn use_disk(&mut self) {
+        self.background.recovery = RecoveryKeeper::of_user();
+        match FileWatcher::start(&self.ctx) {
+            Ok(files) => self.background.files = files,
+            Err(error) => self.tell(format!("Changes by other programs are not noticed: {error}"), true),
         }
     }
 

@@ -3,8 +3,11 @@ use std::path::PathBuf;
 
 use noisefall::render::Region;
 
+use crate::viewer::background::recovery_files::FoundRecovery;
 use crate::viewer::canvas::{interaction::Tool, picture_view::PictureView};
-use crate::viewer::dialogs::{choose_file::FileDialog, gallery::Gallery, notices::Notices, save::SaveDialog, unsaved::Leaving};
+use crate::viewer::dialogs::{
+    choose_file::FileDialog, conflict::Conflict, gallery::Gallery, notices::Notices, save::SaveDialog, unsaved::Leaving,
+};
 use crate::viewer::instruments::tabs::InstrumentTab;
 use crate::viewer::panels::panel_tabs::PanelTab;
 use crate::viewer::widgets::path_field::PathField;
@@ -30,7 +33,7 @@ pub struct WindowState {
     /// How often a button of the mouse was pressed.
     pub presses: u64,
     pub last_saved: Option<PathBuf>,
-    /// What goes on when the scene is saved.
+    /// What goes on when the scene is saved, while the place to save it is asked for.
     pub leaving: Option<Leaving>,
     /// The window closes, whatever is unsaved.
     pub quits: bool,
@@ -45,8 +48,14 @@ pub struct Dialogs {
     pub file: Option<FileDialog>,
     /// What waits for an answer about unsaved changes.
     pub unsaved: Option<Leaving>,
+    /// What waits for an answer about a scene file that another program has changed.
+    pub conflict: Option<Conflict>,
+    /// Unsaved changes that can be restored.
+    pub recovery: Option<FoundRecovery>,
     /// Why the last scene could not be opened.
     pub scene_error: Option<String>,
+    /// Why the file of the open scene cannot be reloaded.
+    pub file_error: Option<String>,
     pub notices: Notices,
     pub gallery: Gallery,
     /// The page of the tour that is open.
@@ -56,6 +65,7 @@ pub struct Dialogs {
 impl Dialogs {
     /// Whether a dialog waits for an answer and takes the keys.
     pub fn wait(&self) -> bool {
-        self.save.is_some() || self.open.is_some() || self.file.is_some() || self.unsaved.is_some() || self.scene_error.is_some()
+        let has_question = self.unsaved.is_some() || self.conflict.is_some() || self.recovery.is_some();
+        self.save.is_some() || self.open.is_some() || self.file.is_some() || has_question || self.scene_error.is_some()
     }
 }

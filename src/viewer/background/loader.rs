@@ -5,7 +5,7 @@ use std::{
 };
 
 use noisefall::{
-    edit::{Document, Template},
+    edit::{Document, Recovery, Template},
     render::truth::Reference,
     scene::{BUILT_IN, Camera, Scene, Truth, built_in, description::SceneDescription, load, parse},
 };
@@ -85,6 +85,11 @@ impl Loader {
         self.pending = Some(BackgroundTask::start(&self.ctx, move |_| begin(template)));
     }
 
+    /// Opens a scene with the changes that were not saved.
+    pub fn restore(&mut self, recovery: Recovery) {
+        self.pending = Some(BackgroundTask::start(&self.ctx, move |_| restore(recovery)));
+    }
+
     /// Reads a reference for images by this camera.
     pub fn read_reference(&mut self, path: PathBuf, camera: Camera) {
         self.reference = Some(BackgroundTask::start(&self.ctx, move |_| {
@@ -134,6 +139,14 @@ fn begin(template: Template) -> OpenResult {
     let scene = parse(template.title, template.text.to_owned()).map_err(|error| error.report())?;
     let document = Document::untitled(template.text).map_err(|error| error.report())?;
     Ok(opened(scene, template.title.to_owned(), document, None))
+}
+
+fn restore(recovery: Recovery) -> OpenResult {
+    let document = recovery.open().map_err(|error| error.report())?;
+    let source = recovery.path.as_ref().map_or_else(|| "recovered scene".to_owned(), |path| path.display().to_string());
+    let scene = parse(&source, recovery.text).map_err(|error| error.report())?;
+    let name = catalogue::name(&scene.title, Path::new(&source));
+    Ok(opened(scene, name, document, recovery.path))
 }
 
 fn opened(scene: Scene, name: String, document: Document, path: Option<PathBuf>) -> (OpenedScene, Document) {

@@ -1,7 +1,7 @@
 //! Writing files off the UI thread.
 use std::path::{Path, PathBuf};
 
-use crossbeam_channel::{Receiver, Sender, unbounded};
+use crossbeam_channel::{Receiver, Sender, bounded, unbounded};
 
 /// Path of a written file, or an error message.
 type Outcome = Result<PathBuf, String>;
@@ -20,12 +20,19 @@ impl Saver {
 
     /// Writes a file on another thread.
     pub fn save(&mut self, path: PathBuf, write: impl FnOnce(&Path) -> Result<(), String> + Send + 'static) {
-        let (sender, ctx) = (self.done.0.clone(), self.ctx.clone());
+        let sender = self.done.0.clone();
+        self.run(move || _ = sender.send(write(&path).map(|()| path)));
+    }
+
+    /// Does other work on a file on another thread. Returns where its result will be.
+    pub fn run<T: Send + 'static>(&mut self, work: impl FnOnce() -> T + Send + 'static) -> Receiver<T> {
+        let ((sender, result), ctx) = (bounded(1), self.ctx.clone());
         self.writing.retain(|thread| !thread.is_finished());
         self.writing.push(std::thread::spawn(move || {
-            let _ = sender.send(write(&path).map(|()| path));
+            let _ = sender.send(work());
             ctx.request_repaint();
         }));
+        result
     }
 
     /// Takes the outcome of a file that has been written.

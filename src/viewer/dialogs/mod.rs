@@ -1,10 +1,12 @@
 //! Windows over the picture: dialogs, messages, help, the gallery and the tour.
 pub mod advice;
 pub mod choose_file;
+pub mod conflict;
 pub mod gallery;
 pub mod help;
 pub mod notices;
 pub mod open;
+pub mod recovery;
 pub mod save;
 pub mod save_target;
 pub mod scene_error;

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 use egui::{Align2, RichText};
 use noisefall::edit::Template;
 
+use crate::viewer::background::recovery_files::FoundRecovery;
+
 /// An action that leaves the open scene.
 #[derive(Clone, Debug)]
 pub enum Leaving {
@@ -11,7 +13,19 @@ pub enum Leaving {
     Open(Option<PathBuf>),
     /// A new scene is begun.
     New(Template),
+    /// A scene is opened with changes of an earlier run.
+    Restore(FoundRecovery),
     Quit,
+}
+
+/// A scene to save.
+#[derive(Clone, Debug)]
+pub struct SaveOrder {
+    pub path: PathBuf,
+    /// Replaces the file even if another program has changed it.
+    pub replaces: bool,
+    /// What goes on when the scene is saved.
+    pub leaving: Option<Leaving>,
 }
 
 /// An answer.

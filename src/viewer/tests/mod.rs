@@ -20,6 +20,8 @@ mod path;
 mod presets;
 mod rasteriser;
 mod ratios;
+mod recovery;
+mod reloading;
 mod saving;
 mod scene_edits;
 mod scene_files;

@@ -10,7 +10,7 @@ use super::*;
 use crate::viewer::dialogs::unsaved::Leaving;
 
 /// A window with a scene of its own that may be written to.
-fn window_of_copy(folder: &FilePath) -> (Window, PathBuf, String) {
+pub fn window_of_copy(folder: &FilePath) -> (Window, PathBuf, String) {
     let path = folder.join("mine.toml");
     let text = std::fs::read_to_string(shipped("cornell_spheres")).expect("it is shipped");
     std::fs::write(&path, &text).expect("it is written");
@@ -21,15 +21,22 @@ fn window_of_copy(folder: &FilePath) -> (Window, PathBuf, String) {
     (window, path, text)
 }
 
-fn grow(window: &mut Window) {
+pub fn grow(window: &mut Window) {
     let edit = Edit::set(Path::of("objects.5.shape.sphere.radius"), OwnedValue::Number(0.25));
     assert!(window.state_mut().edit(&edit));
     window.run_steps(3);
 }
 
-fn save(window: &mut Window) {
+pub fn save(window: &mut Window) {
     window.key_press_modifiers(Modifiers::COMMAND, Key::S);
     window.run_steps(3);
+    is_written(window);
+}
+
+/// Waits until the file is written.
+fn is_written(window: &mut Window) {
+    wait(window, "the end of saving", |app| app.saving.is_none());
+    window.run_steps(2);
 }
 
 #[test]
@@ -84,6 +91,7 @@ fn a_scene_without_a_file_asks_where_to_save() {
     let path = folder.path().join("new.toml");
     window.state_mut().dialogs.save = None;
     window.state_mut().save_scene_to(&path);
+    is_written(&mut window);
     assert!(!window.state().has_unsaved_changes() && path.is_file());
     assert_eq!(window.state().session.path(), Some(&*path));
     grow(&mut window);
@@ -91,6 +99,7 @@ fn a_scene_without_a_file_asks_where_to_save() {
     save(&mut window);
     assert!(!window.state().has_unsaved_changes() && window.state().dialogs.save.is_none(), "now it has a file");
     window.state_mut().save_scene_to(&folder.path().join("nowhere/new.toml"));
+    is_written(&mut window);
     assert!(window.state().dialogs.notices.0.iter().any(|notice| notice.is_error));
 }
 
@@ -100,6 +109,7 @@ fn a_scene_that_names_files_stays_in_their_folder() {
     let mut window = window("textures_and_bump");
     let path = folder.path().join("elsewhere.toml");
     window.state_mut().save_scene_to(&path);
+    is_written(&mut window);
     assert!(!path.exists() && window.state().dialogs.notices.0.iter().any(|notice| notice.text.contains("relative file paths")));
 }
 

@@ -1,0 +1,82 @@
+//! Saves the open scene off the UI thread, one file at a time.
+use std::path::{Path, PathBuf};
+
+use crossbeam_channel::TryRecvError;
+use noisefall::edit::Written;
+
+use super::{file_tasks::PendingSave, state::App};
+use crate::viewer::background::{
+    catalogue,
+    file_state::{SaveResult, save},
+};
+use crate::viewer::dialogs::{save_target::SaveTarget, unsaved::SaveOrder};
+
+impl App {
+    /// Saves the scene to its file. A scene without a file asks for one.
+    pub fn save_scene(&mut self) {
+        let Some(editor) = &self.editor else { return };
+        match editor.document.path().map(Path::to_owned) {
+            Some(path) => {
+                let leaving = self.window.leaving.take();
+                self.order_save(SaveOrder { path, replaces: false, leaving });
+            }
+            None => self.ask_where_to_save(),
+        }
+    }
+
+    pub fn ask_where_to_save(&mut self) {
+        self.open_save_dialog(SaveTarget::Scene);
+    }
+
+    /// Saves the scene to a file that was chosen. It is the file of the scene from then on.
+    pub fn save_scene_to(&mut self, path: &Path) {
+        let leaving = self.window.leaving.take();
+        self.order_save(SaveOrder { path: path.to_owned(), replaces: true, leaving });
+    }
+
+    /// Saves the scene when the last save has ended.
+    pub fn order_save(&mut self, order: SaveOrder) {
+        if let Some(saving) = &mut self.saving {
+            saving.next = Some(order);
+            return;
+        }
+        let Some(editor) = &self.editor else { return };
+        let (document, opened) = (editor.document.clone(), self.session.path().map(Path::to_owned));
+        let (path, replaces) = (order.path.clone(), order.replaces);
+        let result = self.background.saver.run(move || save(&document, opened.as_deref(), &path, replaces));
+        self.saving = Some(PendingSave { order, result, next: None });
+    }
+
+    /// Receives the result of a save. Then what waited for it goes on.
+    pub fn receive_saved(&mut self) {
+        let Some(saving) = &self.saving else { return };
+        let result = match saving.result.try_recv() {
+            Ok(result) => result,
+            Err(TryRecvError::Empty) => return,
+            Err(TryRecvError::Disconnected) => SaveResult::Failed("saving failed unexpectedly".to_owned()),
+        };
+        let Some(PendingSave { order, next, .. }) = self.saving.take() else { return };
+        self.outside.recheck();
+        match result {
+            SaveResult::Written(written) => {
+                self.take_saved(order.path, written);
+                order.leaving.into_iter().for_each(|leaving| self.ask_to_leave(leaving));
+            }
+            SaveResult::Differs(state) => self.follow_file(state, Some(order)),
+            SaveResult::Failed(error) => self.tell(format!("Not saved: {error}"), true),
+        }
+        next.into_iter().for_each(|next| self.order_save(next));
+    }
+
+    fn take_saved(&mut self, path: PathBuf, written: Written) {
+        let (Some(editor), Some(opened)) = (&mut self.editor, &mut self.session.opened) else { return };
+        editor.document.note_written(written);
+        self.dialogs.conflict = None;
+        if opened.path.as_ref() != Some(&path) {
+            opened.name = catalogue::name(&editor.document.description().title, &path);
+            catalogue::remember(&mut self.catalogue, &opened.name, &path);
+            opened.path = Some(path.clone());
+        }
+        self.tell(format!("Saved {}", path.display()), false);
+    }
+}

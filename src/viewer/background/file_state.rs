@@ -1,0 +1,119 @@
+//! The file of a scene: saves to it, compares it with the document, and finds the files that a scene names.
+use std::path::{Path, PathBuf};
+
+use noisefall::{
+    declare::{Declare, Parameter, Parameters, Value},
+    edit::{Document, Outside, Written},
+    scene::{description::SceneDescription, read_text},
+};
+
+/// The file of a document as it is now.
+pub enum FileState {
+    /// It has the text that the document knows, or is not there.
+    Known,
+    /// Another program changed it.
+    Changed(Box<Outside>),
+    /// It is not a scene that can be read.
+    Broken(BrokenFile),
+}
+
+/// A file that cannot be read as a scene.
+pub struct BrokenFile {
+    /// Its text; absent if it is not text.
+    pub text: Option<String>,
+    /// What is wrong, and where.
+    pub report: String,
+}
+
+/// The result of saving a scene.
+pub enum SaveResult {
+    Written(Written),
+    /// The file was changed by another program, and stays as it is.
+    Differs(FileState),
+    Failed(String),
+}
+
+/// Compares a document with its file.
+pub fn compare(document: &Document) -> FileState {
+    let Some(path) = document.path().filter(|path| path.exists()) else { return FileState::Known };
+    let text = match read_text(path) {
+        Ok(text) => text,
+        // An editor may have removed it in the meantime, to replace it.
+        Err(_) if !path.exists() => return FileState::Known,
+        Err(error) => return FileState::Broken(BrokenFile { text: None, report: error.report() }),
+    };
+    match document.compare_outside(&text) {
+        Ok(None) => FileState::Known,
+        Ok(Some(outside)) => FileState::Changed(Box::new(outside)),
+        Err(error) => FileState::Broken(BrokenFile { text: Some(text), report: error.report() }),
+    }
+}
+
+/// Saves a document that was opened from a file. A file that another program has changed is replaced only if `replaces` says so.
+pub fn save(document: &Document, opened: Option<&Path>, path: &Path, replaces: bool) -> SaveResult {
+    let folder = |path: &Path| path.parent().and_then(|folder| folder.canonicalize().ok());
+    if let Some(opened) = opened.filter(|opened| folder(opened) != folder(path))
+        && named_files(document.description()).iter().any(|file| file.is_relative())
+    {
+        let folder = opened.parent().unwrap_or(Path::new("")).display();
+        return SaveResult::Failed(format!("the scene uses relative file paths. Save it in their folder, {folder}"));
+    }
+    if !replaces && document.path() == Some(path) {
+        match compare(document) {
+            FileState::Known => {}
+            state => return SaveResult::Differs(state),
+        }
+    }
+    document.write(path).map_or_else(|error| SaveResult::Failed(error.to_string()), SaveResult::Written)
+}
+
+/// The files that a scene names.
+pub fn named_files(description: &SceneDescription) -> Vec<PathBuf> {
+    struct Files(Vec<PathBuf>);
+    impl Parameters for Files {
+        fn value(&mut self, _: &Parameter, value: Value<'_>) {
+            if let Value::File(path) = value {
+                self.0.push(PathBuf::from(&*path));
+            }
+        }
+    }
+    let mut files = Files(Vec::new());
+    description.clone().parameters(&mut files);
+    files.0
+}
+
+#[cfg(test)]
+mod tests {
+    use noisefall::{
+        declare::{OwnedValue, Path as ParameterPath},
+        edit::Edit,
+        scene::BUILT_IN,
+    };
+
+    use super::*;
+
+    #[test]
+    fn a_file_that_was_changed_outside_is_replaced_only_on_demand() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("mine.toml");
+        std::fs::write(&path, BUILT_IN).expect("it is written");
+        let mut document = Document::open(&path, BUILT_IN).expect("it is a scene");
+        let narrower = Edit::set(ParameterPath::of("camera.fov"), OwnedValue::Number(20.0));
+        document.apply(&narrower).expect("it is in range");
+        for (text, is_scene) in [(format!("{BUILT_IN}\n# from outside\n"), true), ("format = 1\n".to_owned(), false)] {
+            std::fs::write(&path, &text).expect("it is written");
+            let SaveResult::Differs(state) = save(&document, Some(&path), &path, false) else { panic!("it is replaced") };
+            match state {
+                FileState::Changed(outside) => assert!(is_scene && !outside.conflicts),
+                FileState::Broken(broken) => assert!(!is_scene && broken.text.as_ref() == Some(&text)),
+                FileState::Known => panic!("it is not known"),
+            }
+            assert_eq!(std::fs::read_to_string(&path).expect("it is there"), text);
+        }
+        let SaveResult::Written(written) = save(&document, Some(&path), &path, true) else { panic!("it is refused") };
+        document.note_written(written);
+        assert!(!document.has_changes() && matches!(compare(&document), FileState::Known));
+        std::fs::remove_file(&path).expect("it is there");
+        assert!(matches!(compare(&document), FileState::Known));
+    }
+}

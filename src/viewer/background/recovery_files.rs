@@ -1,0 +1,125 @@
+//! Recovery files: a window has at most one, and a locked file beside it while it runs: `unsaved-AbC123.toml` and
+//! `unsaved-AbC123.lock`.
+use std::{
+    fs::{self, File, TryLockError},
+    path::{Path, PathBuf},
+    time::Duration,
+};
+
+use noisefall::edit::{Document, Recovery};
+use tempfile::NamedTempFile;
+
+use super::catalogue::in_full;
+
+/// Unsaved changes that a window has left behind.
+#[derive(Clone, Debug)]
+pub struct FoundRecovery {
+    pub file: PathBuf,
+    pub recovery: Recovery,
+    /// Time since the last change.
+    pub age: Duration,
+    /// Whether the scene file was changed later.
+    pub is_older: bool,
+}
+
+/// The recovery file of a window.
+pub struct OwnFile {
+    pub path: PathBuf,
+    /// Locked, and removed when it is dropped.
+    _lock: NamedTempFile,
+}
+
+/// Writes the changes. Returns whether they are in the file.
+pub fn keep(folder: &Path, own: &mut Option<OwnFile>, document: &Document) -> bool {
+    if own.is_none() {
+        *own = begin(folder).ok();
+    }
+    own.as_ref().is_some_and(|own| Recovery::of(document).write(&own.path).is_ok())
+}
+
+fn begin(folder: &Path) -> std::io::Result<OwnFile> {
+    fs::create_dir_all(folder)?;
+    let lock = tempfile::Builder::new().prefix("unsaved-").suffix(".lock").tempfile_in(folder)?;
+    // Not every file system has locks.
+    let _ = lock.as_file().lock();
+    Ok(OwnFile { path: lock.path().with_extension("toml"), _lock: lock })
+}
+
+/// Removes a recovery file, and the lock that it may have.
+pub fn remove(file: &Path) {
+    let _ = fs::remove_file(file);
+    let _ = fs::remove_file(file.with_extension("lock"));
+}
+
+/// The latest changes of a scene, or of any, that no window has open.
+pub fn find(folder: &Path, scene: Option<&Path>) -> Option<FoundRecovery> {
+    let files = fs::read_dir(folder).ok()?.flatten().map(|entry| entry.path());
+    let left = files.filter(|file| file.extension().is_some_and(|extension| extension == "toml") && !is_in_use(file));
+    let found = left.filter_map(|file| read(file).filter(|found| is_of(&found.recovery, scene)));
+    found.min_by_key(|found| found.age)
+}
+
+/// Reads a recovery file. Removes it if the scene file has the same content.
+fn read(file: PathBuf) -> Option<FoundRecovery> {
+    let recovery = Recovery::read(&file).ok()??;
+    if recovery.path.as_ref().is_some_and(|path| fs::read_to_string(path).is_ok_and(|text| text == recovery.text)) {
+        remove(&file);
+        return None;
+    }
+    let changed = |path: &Path| path.metadata().and_then(|metadata| metadata.modified()).ok();
+    let written = changed(&file)?;
+    let is_older = recovery.path.as_deref().and_then(changed).is_some_and(|later| later > written);
+    Some(FoundRecovery { file, recovery, age: written.elapsed().unwrap_or_default(), is_older })
+}
+
+fn is_of(recovery: &Recovery, scene: Option<&Path>) -> bool {
+    scene.is_none_or(|scene| recovery.path.as_deref().is_some_and(|path| in_full(path) == in_full(scene)))
+}
+
+fn is_in_use(file: &Path) -> bool {
+    File::open(file.with_extension("lock")).is_ok_and(|lock| matches!(lock.try_lock(), Err(TryLockError::WouldBlock)))
+}
+
+#[cfg(test)]
+pub mod tests {
+    use noisefall::{
+        declare::{OwnedValue, Path as ParameterPath},
+        edit::Edit,
+        scene::BUILT_IN,
+    };
+
+    use super::*;
+
+    /// A scene with unsaved changes.
+    pub fn changed(path: &Path, fov: f64) -> Document {
+        let mut document = Document::open(path, BUILT_IN).expect("it is a scene");
+        let edit = Edit::set(ParameterPath::of("camera.fov"), OwnedValue::Number(fov));
+        document.apply(&edit).expect("it is in range");
+        document
+    }
+
+    /// How many files a folder has.
+    pub fn files(folder: &Path) -> usize {
+        fs::read_dir(folder).map_or(0, Iterator::count)
+    }
+
+    #[test]
+    fn changes_of_a_window_that_is_gone_are_found_and_those_of_an_open_window_are_not() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let scene = folder.path().join("mine.toml");
+        let kept = folder.path().join("recovery");
+        let document = changed(&scene, 20.0);
+        let mut own = None;
+        assert!(find(&kept, None).is_none());
+        assert!(keep(&kept, &mut own, &document));
+        assert!(find(&kept, Some(&scene)).is_none(), "the window is open");
+        drop(own);
+        let found = find(&kept, Some(&scene)).expect("it was left behind");
+        assert_eq!(found.recovery, Recovery::of(&document));
+        assert!(find(&kept, None).is_some() && find(&kept, Some(&folder.path().join("other.toml"))).is_none());
+        // What was saved after all is nothing to restore.
+        fs::write(&scene, document.text()).expect("it is written");
+        assert!(find(&kept, Some(&scene)).is_none());
+        assert_eq!(files(&kept), 0);
+    }
+}
