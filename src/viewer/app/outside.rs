@@ -50,14 +50,15 @@ impl App {
 
     /// Watches the scene file and the files that the scene names.
     fn watch_files(&mut self) {
-        let Some(document) = self.editor.as_ref().map(|editor| &editor.document) else { return };
+        let (Some(editor), Some(opened)) = (&self.editor, &self.session.opened) else { return };
+        let (document, folder) = (&editor.document, opened.folder());
         let (path, version) = (document.path().unwrap_or(Path::new("")), document.version());
         let before = self.outside.watched.as_ref();
         if before.is_some_and(|(of, watched)| of == path && *watched == version) {
             return;
         }
         let is_other = before.is_none_or(|(of, _)| of != path);
-        let named = named_files(document.description()).into_iter().map(|file| document.folder().join(file));
+        let named = named_files(document.description()).into_iter().map(|file| folder.join(file));
         let files = named.chain(document.path().map(Path::to_owned)).collect();
         self.background.files.watch(files);
         self.outside.watched = Some((path.to_owned(), version));

@@ -90,10 +90,17 @@ fn shipped(name: &str) -> PathBuf {
 
 /// A window in which nothing has happened yet.
 fn open(scene: Option<PathBuf>) -> Window {
+    open_with(scene, |_| {})
+}
+
+/// The same with an app that is prepared before its first frame.
+fn open_with(scene: Option<PathBuf>, prepare: impl Fn(&mut App) + 'static) -> Window {
     let draw = move |ui: &mut egui::Ui, app: &mut Lazy| {
         let make = || {
             let threads = Threads::new(1, SimdLevel::best()).expect("a thread can be had");
-            App::new(ui.ctx(), threads, scene.clone(), Preferences::default())
+            let mut app = App::new(ui.ctx(), threads, scene.clone(), Preferences::default());
+            prepare(&mut app);
+            app
         };
         app.0.get_or_insert_with(make).show(ui);
     };

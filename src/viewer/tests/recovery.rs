@@ -15,9 +15,8 @@ fn kept(folder: &Path) -> Vec<PathBuf> {
 
 /// A window on a file, which keeps its changes in a folder.
 fn reopened(path: Option<PathBuf>, folder: &Path) -> Window {
-    let mut window = open(path);
-    window.step();
-    window.state_mut().background.recovery = RecoveryKeeper::in_folder(folder);
+    let folder = folder.to_owned();
+    let mut window = open_with(path, move |app| app.background.recovery = RecoveryKeeper::in_folder(&folder));
     wait(&mut window, "the scene", |app| app.session.opened.is_some());
     window.state_mut().session.camera.resolution = [96, 64];
     window
