@@ -111,7 +111,7 @@ impl App {
     /// Shows the question about a file that was changed by another program, and follows the answer.
     pub fn show_conflict(&mut self) {
         let (Some(conflict), Some(editor)) = (&self.dialogs.conflict, &mut self.editor) else { return };
-        if self.dialogs.save.is_some() {
+        if self.dialogs.save.is_some() || self.saving.is_some() {
             return;
         }
         let Some(answer) = conflict::show(&self.ctx, conflict, &file_name(editor)) else { return };

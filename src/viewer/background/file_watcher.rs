@@ -160,48 +160,37 @@ fn places(file: &Path) -> impl Iterator<Item = PathBuf> + use<> {
 mod tests {
     use super::*;
 
-    /// Waits for a report. The limit is for a machine that is busy otherwise.
-    fn wait(watcher: &FileWatcher) -> PathBuf {
+    /// Makes a change again and again until it is reported, because folders are watched from some moment on. The limit is for a machine
+    /// that is busy otherwise.
+    fn is_reported(watcher: &FileWatcher, path: &Path, change: impl Fn()) {
         let start = Instant::now();
-        loop {
-            if let Some(path) = watcher.take() {
-                return path;
-            }
+        while watcher.take().as_deref() != Some(path) {
             assert!(start.elapsed() < Duration::from_secs(60), "it never came");
-            std::thread::sleep(Duration::from_millis(1));
+            change();
+            std::thread::sleep(Duration::from_millis(20));
         }
     }
 
     #[test]
-    fn a_file_that_is_written_or_replaced_is_reported_by_the_name_it_was_asked_for() {
+    fn a_file_that_is_written_replaced_or_made_is_reported_by_the_name_it_was_asked_for() {
         let folder = tempfile::tempdir().expect("a folder");
-        let path = |name: &str| folder.path().join(name);
-        let write = |name: &str, text: &str| std::fs::write(path(name), text).expect("it is written");
-        write("scene.toml", "one");
+        // Not the name that the system has for it.
+        let path = |name: &str| folder.path().join(".").join("within").join("..").join(name);
+        std::fs::create_dir(folder.path().join("within")).expect("it is made");
+        let write = |name: &str| std::fs::write(path(name), "text").expect("it is written");
+        ["written.toml", "replaced.toml"].map(write);
         let mut watcher = FileWatcher::start(&egui::Context::default()).expect("the system has a watcher");
-        // Folders are watched from some moment on: until then the file changes again and again.
-        watcher.watch([path("scene.toml")].into());
-        let start = Instant::now();
-        while watcher.changed.1.is_empty() {
-            write("scene.toml", "two");
-            write("other.toml", "two");
-            assert!(start.elapsed() < Duration::from_secs(60), "it never came");
-            std::thread::sleep(Duration::from_millis(20));
-        }
-        assert_eq!(wait(&watcher), path("scene.toml"));
-        // An editor writes another file and renames it. What happened before may be reported once more.
-        write("scene.toml~", "three");
-        std::fs::rename(path("scene.toml~"), path("scene.toml")).expect("it is renamed");
-        while std::fs::read_to_string(wait(&watcher)).expect("it is there") != "three" {}
-        // A file that is not there yet.
-        watcher.watch([path("later.png")].into());
-        let start = Instant::now();
-        while watcher.changed.1.is_empty() {
-            write("later.png", "picture");
-            assert!(start.elapsed() < Duration::from_secs(60), "it never came");
-            std::thread::sleep(Duration::from_millis(20));
-        }
-        while wait(&watcher) != path("later.png") {}
+        watcher.watch([path("written.toml"), path("replaced.toml"), path("made.png")].into());
+        is_reported(&watcher, &path("written.toml"), || write("written.toml"));
+        is_reported(&watcher, &path("replaced.toml"), || {
+            write("replaced.toml~");
+            std::fs::rename(path("replaced.toml~"), path("replaced.toml")).expect("it is renamed");
+        });
+        is_reported(&watcher, &path("made.png"), || write("made.png"));
+        // Folders come and go with the files.
+        let inner = path("within").join("inner.png");
+        watcher.watch([inner.clone()].into());
+        is_reported(&watcher, &inner, || std::fs::write(&inner, "text").expect("it is written"));
     }
 
     #[test]

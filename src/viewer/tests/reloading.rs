@@ -109,13 +109,13 @@ fn an_error_is_shown_with_its_line_and_the_last_scene_stays() {
     wait(&mut window, "more samples", |app| app.results.status.samples > samples);
     // Names of nothing are found by the reader, files that are missing by the compiler: both have a line.
     let missing = format!(
-        "{text}\n[textures.none]\nimage = {{ path = 'none.png' }}\n[materials.none]\nlambertian.albedo = {{ texture = 'none' }}\n[[objects]]\nname = 'last'\nmaterial = 'none'\nshape.sphere = {{ center = [0, 0, 0], radius = 0.1 }}\n"
+        "{text}\n[textures.gone]\nimage = {{ path = 'gone.png' }}\n[materials.gone]\nlambertian.albedo = {{ texture = 'gone' }}\n[[objects]]\nname = 'last'\nmaterial = 'gone'\nshape.sphere = {{ center = [0, 0, 0], radius = 0.1 }}\n"
     );
     write(&mut window, &path, &missing);
     wait(&mut window, "the diagnosis", |app| app.dialogs.file_error.is_some());
     let error = window.state().dialogs.file_error.clone().expect("it is shown");
-    let line = 1 + missing[..missing.find("'none.png'").expect("it is there")].matches('\n').count();
-    assert!(error.contains("none.png") && error.contains(&format!("mine.toml:{line}:")), "{error}");
+    let line = 1 + missing[..missing.find("'gone.png'").expect("it is there")].matches('\n').count();
+    assert!(error.contains("gone.png") && error.contains(&format!("mine.toml:{line}:")), "{error}");
     assert_eq!(generation(&window), before);
     write(&mut window, &path, &with_radius(&text, "0.3"));
     assert_eq!((radius(window.state()), window.state().dialogs.file_error.as_ref()), (0.3, None));
