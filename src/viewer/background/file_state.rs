@@ -100,7 +100,8 @@ mod tests {
         let mut document = Document::open(&path, BUILT_IN).expect("it is a scene");
         let narrower = Edit::set(ParameterPath::of("camera.fov"), OwnedValue::Number(20.0));
         document.apply(&narrower).expect("it is in range");
-        for (text, is_scene) in [(format!("{BUILT_IN}\n# from outside\n"), true), ("format = 1\n".to_owned(), false)] {
+        for (text, is_scene) in [(format!("{BUILT_IN}\n# from outside\n"), true), ("format = 1\ncamera = 3\n".to_owned(), false)]
+        {
             std::fs::write(&path, &text).expect("it is written");
             let SaveResult::Differs(state) = save(&document, Some(&path), &path, false) else { panic!("it is replaced") };
             match state {

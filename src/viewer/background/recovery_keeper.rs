@@ -168,7 +168,7 @@ mod tests {
         drop(keeper);
         assert!(!left.file.exists());
         let found = find(&kept, Some(&scene)).expect("it was left behind again");
-        assert!(found.recovery.text.contains("30"));
+        assert_eq!(found.recovery.text, changed(&scene, 30.0).text());
         let mut keeper = RecoveryKeeper::in_folder(&kept);
         keeper.discard(found);
         drop(keeper);
