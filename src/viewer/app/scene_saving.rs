@@ -1,5 +1,5 @@
 //! Saves the open scene off the UI thread, one file at a time.
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use crossbeam_channel::TryRecvError;
 use noisefall::edit::Written;
@@ -59,7 +59,7 @@ impl App {
         self.outside.recheck();
         match result {
             SaveResult::Written(written) => {
-                self.take_saved(order.path, written);
+                self.take_saved(&order.path, written);
                 order.leaving.into_iter().for_each(|leaving| self.ask_to_leave(leaving));
             }
             SaveResult::Differs(state) => self.follow_file(state, Some(order)),
@@ -68,14 +68,14 @@ impl App {
         next.into_iter().for_each(|next| self.order_save(next));
     }
 
-    fn take_saved(&mut self, path: PathBuf, written: Written) {
+    fn take_saved(&mut self, path: &Path, written: Written) {
         let (Some(editor), Some(opened)) = (&mut self.editor, &mut self.session.opened) else { return };
         editor.document.note_written(written);
         self.dialogs.conflict = None;
-        if opened.path.as_ref() != Some(&path) {
-            opened.name = catalogue::name(&editor.document.description().title, &path);
-            catalogue::remember(&mut self.catalogue, &opened.name, &path);
-            opened.path = Some(path.clone());
+        if opened.path.as_deref() != Some(path) {
+            opened.name = catalogue::name(&editor.document.description().title, path);
+            catalogue::remember(&mut self.catalogue, &opened.name, path);
+            opened.path = Some(path.to_owned());
         }
         self.tell(format!("Saved {}", path.display()), false);
     }

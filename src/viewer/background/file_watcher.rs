@@ -56,8 +56,8 @@ impl FileWatcher {
     /// Watches these files instead of the earlier ones.
     pub fn watch(&mut self, files: BTreeSet<PathBuf>) {
         if files != self.files {
-            self.files.clone_from(&files);
             self.messages.iter().for_each(|messages| _ = messages.send(Message::Files(files.clone())));
+            self.files = files;
         }
     }
 
