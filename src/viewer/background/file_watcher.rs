@@ -178,7 +178,7 @@ mod tests {
         let path = |name: &str| folder.path().join(".").join("within").join("..").join(name);
         std::fs::create_dir(folder.path().join("within")).expect("it is made");
         let write = |name: &str| std::fs::write(path(name), "text").expect("it is written");
-        ["written.toml", "replaced.toml"].map(write);
+        ["written.toml", "replaced.toml"].into_iter().for_each(write);
         let mut watcher = FileWatcher::start(&egui::Context::default()).expect("the system has a watcher");
         watcher.watch([path("written.toml"), path("replaced.toml"), path("made.png")].into());
         is_reported(&watcher, &path("written.toml"), || write("written.toml"));
