@@ -88,7 +88,7 @@ pub use self::{
     memory::set_limit as set_memory_limit,
     render::{
         Budget, Display, EditResult, Frame, Publish, Published, Region, RenderRequest, RenderTask, Renderer, SampleCounts,
-        SceneEdit, State, Status, Target, ToneMap,
+        SceneEdit, State, Status, Target, ToneMap, WhiteBalance,
         film::Film,
         image_file,
         pass::{Failure, PassCount, SampleId},

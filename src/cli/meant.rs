@@ -5,7 +5,7 @@ use clap::{
 };
 
 /// Unknown options, and the options that they may mean; the first one that the command has is suggested.
-const SYNONYMS: [(&[&str], &[&str]); 10] = [
+const SYNONYMS: [(&[&str], &[&str]); 11] = [
     (&["samples", "samples-per-pixel", "sample-count", "num-samples"], &["spp"]),
     (&["depth", "max-depth", "bounces", "cap"], &["max-bounces"]),
     (&["resolution", "width", "height", "res"], &["size"]),
@@ -16,6 +16,7 @@ const SYNONYMS: [(&[&str], &[&str]); 10] = [
     (&["out", "file"], &["output"]),
     (&["tonemap", "tone-map"], &["tone"]),
     (&["ev", "stops"], &["exposure"]),
+    (&["temperature", "kelvin", "wb"], &["white-balance"]),
 ];
 
 /// Adds the option that was probably meant to a usage error.

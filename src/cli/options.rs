@@ -4,7 +4,7 @@ use std::time::Duration;
 use noisefall::{
     declare::Words,
     measure::Floor,
-    render::{Display, ToneMap, image_file::Format},
+    render::{Display, ToneMap, WhiteBalance, image_file::Format},
     scene::Roulette,
 };
 
@@ -16,6 +16,10 @@ pub struct DisplayOptions {
     /// Exposure of a PNG in stops; each stop doubles the brightness
     #[arg(long, value_name = "STOPS", value_parser = exposure, allow_negative_numbers = true, default_value_t = 0.0)]
     exposure: f32,
+    /// White balance of a PNG: the colour temperature of the light that appears white, in kelvin, and optionally its tint, positive
+    /// for green light, such as 2700 or 4000,10 [default: 6504, no change]
+    #[arg(long, value_name = "KELVIN[,TINT]", value_parser = white_balance, allow_negative_numbers = true)]
+    white_balance: Option<WhiteBalance>,
     #[arg(long, value_name = "MAP", help = format!("Tone map of a PNG: {}", one_of::<ToneMap>()), value_parser = tone,
           default_value = ToneMap::default().name())]
     tone: ToneMap,
@@ -23,7 +27,7 @@ pub struct DisplayOptions {
 
 impl DisplayOptions {
     pub fn display(&self) -> Display {
-        Display { exposure: self.exposure, tone_map: self.tone }
+        Display { exposure: self.exposure, white_balance: self.white_balance.unwrap_or_default(), tone_map: self.tone }
     }
 }
 
@@ -150,6 +154,16 @@ pub fn exposure(text: &str) -> Result<f32, String> {
     stops.ok_or_else(|| "expected stops, from -100 to 100, such as -1.5".to_owned())
 }
 
+/// Parses a colour temperature in kelvin with an optional tint.
+pub fn white_balance(text: &str) -> Result<WhiteBalance, String> {
+    let (kelvin, tint) = text.split_once(',').unwrap_or((text, "0"));
+    let number = |text: &str, [low, high]: [f32; 2]| text.trim().parse().ok().filter(|x: &f32| (low..=high).contains(x));
+    let balance = number(kelvin, WhiteBalance::KELVIN).zip(number(tint, WhiteBalance::TINT));
+    balance.map(|(kelvin, tint)| WhiteBalance { kelvin, tint }).ok_or_else(|| {
+        "expected a temperature from 2000 to 25000 kelvin, and optionally a tint from -150 to 150, such as 4000,10".to_owned()
+    })
+}
+
 pub fn tone(text: &str) -> Result<ToneMap, String> {
     word(&text.replace("color", "colour"))
 }
@@ -200,6 +214,17 @@ mod tests {
     }
 
     #[test]
+    fn a_white_balance_is_a_temperature_with_or_without_a_tint() {
+        let balance = |kelvin, tint| Ok(WhiteBalance { kelvin, tint });
+        assert_eq!(
+            ["2700", "4000, -10", "25000,150"].map(white_balance),
+            [balance(2700.0, 0.0), balance(4000.0, -10.0), balance(25_000.0, 150.0)]
+        );
+        assert_eq!(white_balance("6504"), Ok(WhiteBalance::default()));
+        assert!(["", "1999", "25001", "nan", "4000,", "4000,151", "4000,1,2", "warm"].iter().all(|x| white_balance(x).is_err()));
+    }
+
+    #[test]
     fn samples_are_numbers_ranges_or_the_first_lit() {
         assert_eq!(
             ["7", "0-9999", " 3 - 3", "lit"].map(which),
@@ -218,8 +243,9 @@ mod tests {
         assert_eq!(["png", "EXR"].map(format), [Format::Png, Format::Exr].map(Ok));
         let samplers = [Sampler::Independent, Sampler::Stratified, Sampler::Sobol, Sampler::BlueNoise];
         assert_eq!(["independent", "stratified", "sobol", "bluenoise"].map(word::<Sampler>), samplers.map(Ok));
-        let maps = [ToneMap::None, ToneMap::Reinhard, ToneMap::Aces, ToneMap::FalseColour];
-        assert_eq!(["none", "reinhard", "aces", "false-colour"].map(tone), maps.map(Ok));
+        let maps =
+            [ToneMap::None, ToneMap::Reinhard, ToneMap::Aces, ToneMap::Agx, ToneMap::Neutral, ToneMap::FalseColour].map(Ok);
+        assert_eq!(["none", "reinhard", "aces", "agx", "neutral", "false-colour"].map(tone), maps);
         assert_eq!(["-1.5", "2"].map(exposure), [Ok(-1.5), Ok(2.0)]);
         assert_eq!(["off", "throughput"].map(roulette), [Roulette::Off, Roulette::BY_THROUGHPUT].map(Ok));
     }

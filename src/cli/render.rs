@@ -121,7 +121,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let Some(output) = output else { return Err("no output file".to_owned()) };
     output.check()?;
     if output.format() == Some(Format::Exr) && arguments.display.display() != Display::default() {
-        tell("note: an EXR stores the radiance unchanged; --exposure and --tone affect a PNG only");
+        tell("note: an EXR stores the radiance unchanged; --exposure, --white-balance and --tone affect a PNG only");
     }
     // The worker asks again: here it is no failure of the renderer.
     drop(Film::reserve(camera.resolution).map_err(|error| error.to_string())?);

@@ -8,6 +8,7 @@ pub mod number;
 mod one;
 pub mod round;
 pub mod simd;
+pub mod temperature;
 #[cfg(test)]
 mod tests;
 pub mod trig;

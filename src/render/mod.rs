@@ -43,6 +43,7 @@ mod tile_series;
 pub mod tone;
 pub mod truth;
 pub mod view;
+mod white_balance;
 pub mod worker;
 
 pub use self::{
@@ -55,5 +56,6 @@ pub use self::{
     series::Series,
     target::Target,
     tone::{Display, ToneMap},
+    white_balance::WhiteBalance,
     worker::Renderer,
 };

@@ -84,7 +84,7 @@ mod tests {
         scene.title = "ρ = ½, 𝄞".to_owned();
         // Interrupted: two pixels have a sample more.
         let frame = Frame { spp: 3, radiance: vec![[0.0; 3]; 4], counts: vec![3, 4, 3, 4], ..Frame::default() };
-        let display = Display { exposure: 1.5, tone_map: ToneMap::Reinhard };
+        let display = Display { exposure: 1.5, tone_map: ToneMap::Reinhard, ..Display::default() };
         let settings = RenderSettings { seed: 9, ..scene.settings };
         let camera = Camera { resolution: [2, 2], ..scene.camera };
         let text = settings_text(&scene, &camera, &settings, display, &frame, &[("view", "cos θ".to_owned())]);

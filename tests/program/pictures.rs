@@ -17,7 +17,7 @@ fn frame() -> Frame {
 fn a_png_has_the_pixels_of_the_screen_and_the_settings() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("picture.PNG");
-    let display = Display { exposure: -1.0, tone_map: ToneMap::Aces };
+    let display = Display { exposure: -1.0, tone_map: ToneMap::Aces, ..Display::default() };
     save(&frame(), display, "the settings: ρ = 0.5", &path).expect("it is saved");
     let decoder = png::Decoder::new(std::io::BufReader::new(fs::File::open(&path).expect("it is there")));
     let mut reader = decoder.read_info().expect("it is a PNG");

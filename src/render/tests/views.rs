@@ -218,8 +218,8 @@ fn colours_are_compared_by_luminance() {
 #[test]
 fn every_pixel_of_a_large_picture_has_its_own_code() {
     let radiance: Vec<[f32; 3]> = (0..1300).map(|i| [i as f32 / 1300.0, 1.0 - i as f32 / 1300.0, 0.25]).collect();
-    for tone_map in [ToneMap::None, ToneMap::Reinhard, ToneMap::Aces, ToneMap::FalseColour] {
-        let display = Display { exposure: -0.5, tone_map };
+    for tone_map in ToneMap::ALL {
+        let display = Display { exposure: -0.5, tone_map, ..Display::default() };
         let shown = |radiance: &[[f32; 3]]| {
             let mut pixels = vec![[7; 4]; 5];
             to_srgb(radiance, display, &mut pixels);
@@ -235,7 +235,7 @@ fn every_pixel_of_a_large_picture_has_its_own_code() {
 fn false_colours_are_six_decades_around_one() {
     let shown = |luminance: f32, exposure: f32| {
         let mut pixels = Vec::new();
-        to_srgb(&[[luminance; 3]], Display { exposure, tone_map: ToneMap::FalseColour }, &mut pixels);
+        to_srgb(&[[luminance; 3]], Display { exposure, tone_map: ToneMap::FalseColour, ..Display::default() }, &mut pixels);
         [pixels[0][0], pixels[0][1], pixels[0][2]]
     };
     let near = |found: [u8; 3], at: f32| {

@@ -1,7 +1,7 @@
 //! Luminance on a logarithmic scale of colours, six decades around 1.
 use std::sync::LazyLock;
 
-use super::Tone;
+use super::{Gain, Tone};
 use crate::{declare::Word, math::colour::luminance, render::colour_map::ColourMap};
 
 pub(super) struct FalseColour;
@@ -17,8 +17,9 @@ impl Tone for FalseColour {
         radiance
     }
 
-    fn show(radiance: &[[f32; 3]], scale: f32, pixels: &mut Vec<[u8; 4]>) {
-        let colours = &*FALSE_COLOURS;
+    /// Without white balance: the scale is of the light in the scene.
+    fn show(radiance: &[[f32; 3]], gain: &Gain, pixels: &mut Vec<[u8; 4]>) {
+        let (colours, scale) = (&*FALSE_COLOURS, gain.scale);
         pixels.extend(radiance.iter().map(|radiance| colours.of(luminance(*radiance) * scale)));
     }
 }

@@ -1,6 +1,6 @@
-//! Exposure and tone map. Neither restarts the render.
-use egui::{ComboBox, Slider, Ui};
-use noisefall::render::{Display, ToneMap};
+//! Exposure, white balance and tone map. None of them restarts the render.
+use egui::{Button, ComboBox, Slider, Ui};
+use noisefall::render::{Display, ToneMap, WhiteBalance};
 
 use crate::viewer::widgets::style::{controls, row};
 
@@ -10,6 +10,7 @@ pub fn show(ui: &mut Ui, display: &mut Display) {
             let slider = Slider::new(&mut display.exposure, -10.0..=10.0).step_by(0.1).fixed_decimals(1).suffix(" EV");
             ui.add(slider).labelled_by(label);
         });
+        white_balance(ui, &mut display.white_balance);
         row(ui, "Tone map", "Maps radiance, which has no upper bound, to display light.", |ui, label| {
             let tone_map = &mut display.tone_map;
             let combo = ComboBox::from_id_salt("Tone map").selected_text(tone_map.title()).show_ui(ui, |ui| {
@@ -21,4 +22,25 @@ pub fn show(ui: &mut Ui, display: &mut Display) {
         });
     });
     ui.add_space(8.0);
+}
+
+fn white_balance(ui: &mut Ui, balance: &mut WhiteBalance) {
+    let range = |[low, high]: [f32; 2]| low..=high;
+    let doc = "Colour temperature of the light that appears white. Lower values make the image bluer.";
+    row(ui, "White balance", doc, |ui, label| {
+        let kelvin = Slider::new(&mut balance.kelvin, range(WhiteBalance::KELVIN)).logarithmic(true);
+        ui.add(kelvin.step_by(1.0).fixed_decimals(0).suffix(" K")).labelled_by(label);
+    });
+    row(ui, "Tint", "Shifts the image from green (negative) to magenta (positive).", |ui, label| {
+        ui.horizontal(|ui| {
+            // The button needs room.
+            ui.spacing_mut().slider_width *= 0.5;
+            let tint = Slider::new(&mut balance.tint, range(WhiteBalance::TINT)).step_by(1.0).fixed_decimals(0);
+            ui.add(tint).labelled_by(label);
+            let reset = ui.add_enabled(*balance != WhiteBalance::NEUTRAL, Button::new("Neutral"));
+            if reset.on_hover_text("Resets the white balance: colours stay as they are.").clicked() {
+                *balance = WhiteBalance::NEUTRAL;
+            }
+        });
+    });
 }

@@ -5,12 +5,14 @@ use egui::{
     color_picker::{Alpha, color_picker_color32},
     vec2,
 };
-use noisefall::math::colour::luminance;
+use noisefall::math::{
+    colour::luminance,
+    temperature::{COLDEST, HOTTEST, black_body, temperature},
+};
 
 use super::{
     committed_text,
     hex::{brightness, bytes, from_hex, hex, linear},
-    temperature::{COLDEST, HOTTEST, black_body, temperature},
 };
 
 /// Shows the button. Changes of `rgb`, linear Rec. 709, keep its brightness where it is above 1; `most` bounds every channel.

@@ -7,5 +7,4 @@ pub mod number;
 pub mod palette;
 pub mod path_field;
 pub mod style;
-pub mod temperature;
 pub mod typed_number;

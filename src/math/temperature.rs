@@ -1,7 +1,7 @@
 //! Colours of black bodies by temperature, and the temperature of a colour.
 use std::sync::LazyLock;
 
-use noisefall::math::colour::luminance;
+use super::colour::luminance;
 
 /// Kelvin. Light of less than 2000 K leaves the gamut of Rec. 709.
 pub const COLDEST: f64 = 2000.0;
@@ -20,12 +20,12 @@ static MATCHING: LazyLock<Vec<(f64, [f64; 3])>> = LazyLock::new(|| {
     wavelengths.map(|wavelength| (wavelength, matching(wavelength))).collect()
 });
 
-/// From CIE XYZ to linear Rec. 709 (IEC 61966-2-1).
-const REC_709: [[f64; 3]; 3] =
+/// From CIE XYZ to linear Rec. 709, row by row (IEC 61966-2-1).
+pub const REC_709: [[f64; 3]; 3] =
     [[3.240_454_2, -1.537_138_5, -0.498_531_4], [-0.969_266, 1.876_010_8, 0.041_556], [0.055_643_4, -0.204_025_9, 1.057_225_2]];
 
-/// The inverse.
-const XYZ: [[f64; 3]; 3] =
+/// From linear Rec. 709 to CIE XYZ, row by row.
+pub const XYZ: [[f64; 3]; 3] =
     [[0.412_456_4, 0.357_576_1, 0.180_437_5], [0.212_672_9, 0.715_152_2, 0.072_175], [0.019_333_9, 0.119_192, 0.950_304_1]];
 
 /// The linear Rec. 709 colour of a black body, with luminance 1.
@@ -48,7 +48,7 @@ pub fn temperature(rgb: [f64; 3]) -> Option<f64> {
 }
 
 /// The CIE XYZ of a black body, up to a factor (Planck 1901).
-fn planck(kelvin: f64) -> [f64; 3] {
+pub fn planck(kelvin: f64) -> [f64; 3] {
     let radiance = |nm: f64| (560.0 / nm).powi(5) / (C_2 / (nm * kelvin)).exp_m1();
     MATCHING.iter().fold([0.0; 3], |sum, (nm, weights)| {
         let radiance = radiance(*nm);
@@ -74,8 +74,8 @@ fn times(matrix: &[[f64; 3]; 3], v: [f64; 3]) -> [f64; 3] {
     matrix.map(|row| row[0] * v[0] + row[1] * v[1] + row[2] * v[2])
 }
 
-/// The CIE 1960 chromaticity of a colour; `None` of black.
-fn uv([x, y, z]: [f64; 3]) -> Option<[f64; 2]> {
+/// The CIE 1960 chromaticity u, v of a colour in CIE XYZ; `None` of black.
+pub fn uv([x, y, z]: [f64; 3]) -> Option<[f64; 2]> {
     let sum = x + 15.0 * y + 3.0 * z;
     (sum > 0.0 && sum.is_finite()).then(|| [4.0 * x / sum, 6.0 * y / sum])
 }
