@@ -14,20 +14,28 @@ impl Document {
     /// The edit that adds a shape of a kind, and the path of the new object. It rests on the surface, has the material `material`, or
     /// else the first diffuse one of the scene, and a name that is free. `None` if there is no such kind.
     pub fn add_shape(&self, kind: &str, placement: &Placement, material: Option<&str>) -> Option<(Edit, Path)> {
+        let (name, new_material) = self.diffuse_material(material);
+        let object = ObjectDescription { material: Some(name), ..ObjectDescription::default() };
+        let (add, path) = self.add(kind, placement, object)?;
+        Some((with_material(new_material, add), path))
+    }
+
+    /// The material `wanted`, or else the first diffuse one of the scene, or else a new grey one with the edit that adds it.
+    pub(super) fn diffuse_material(&self, wanted: Option<&str>) -> (String, Option<Edit>) {
         let diffuse = |(name, material): (&String, &MaterialDescription)| {
             matches!(material.kind, Material::Lambertian(_)).then(|| name.clone())
         };
-        let known = material.map(str::to_owned).or_else(|| self.description().materials.iter().find_map(diffuse));
-        let name = known.clone().unwrap_or_else(|| self.free_name("materials", "grey"));
-        let object = ObjectDescription { material: Some(name.clone()), ..ObjectDescription::default() };
-        let (add, path) = self.add(kind, placement, object)?;
-        if known.is_some() {
-            return Some((add, path));
-        }
-        let mut grey =
-            MaterialDescription { kind: Lambertian { albedo: [0.5; 3].into() }.into(), ..MaterialDescription::default() };
-        let with_material = Edit::insert_tree(Path::of("materials").key(&name), Tree::of(&mut grey));
-        Some((Edit::All(vec![with_material, add]), path))
+        let known = wanted.map(str::to_owned).or_else(|| self.description().materials.iter().find_map(diffuse));
+        known.map_or_else(
+            || {
+                let name = self.free_name("materials", "grey");
+                let kind = Lambertian { albedo: [0.5; 3].into() }.into();
+                let mut grey = MaterialDescription { kind, ..MaterialDescription::default() };
+                let insert = Edit::insert_tree(Path::of("materials").key(&name), Tree::of(&mut grey));
+                (name, Some(insert))
+            },
+            |name| (name, None),
+        )
     }
 
     /// The edit that adds a lamp with the shape of a kind, and the path of the new object. Flat ones emit away from the surface.
@@ -47,5 +55,13 @@ impl Document {
         let mut object = ObjectDescription { name: self.free_name("objects", &wanted), shape, transform, ..object };
         let path = Path::of("objects").item(self.description().objects.len());
         Some((Edit::insert_tree(path.clone(), Tree::of(&mut object)), path))
+    }
+}
+
+/// Adds an object after its material, if that is new.
+pub fn with_material(new_material: Option<Edit>, add: Edit) -> Edit {
+    match new_material {
+        Some(insert) => Edit::All(vec![insert, add]),
+        None => add,
     }
 }

@@ -44,6 +44,7 @@
 //! | give an optional value or table its default (`objects.3.emission`) | [`Edit::Insert`] without content |
 //! | remove an optional value, an object, a material, an item of a list | [`Edit::Remove`] |
 //! | add an object, a material, a texture, a transform | [`Edit::Insert`]; [`Document::add_shape`] places one |
+//! | add a mesh file; make an image the background | [`Document::add_mesh`]; [`Document::set_sky`] |
 //! | duplicate an object, a material, a texture | [`Document::duplicate`] |
 //! | change a kind: `path` is the table with the key of the kind, `choice` the [`Choice::what`](crate::declare::Choice::what) | [`Edit::Choose`] |
 //! | the same, with the parameters that depend on it, such as the camera's angle | [`Document::change_kind`] |
@@ -65,6 +66,7 @@
 //! | `origin.rs`, `save/` | the part of the file that each object comes from; writing the file |
 //! | `kind.rs` | changes of kind that change other parameters too |
 //! | `names.rs`, `add.rs`, `pose.rs`, `rest.rs` | free names; new shapes and lamps; moving objects; dropping them to the floor |
+//! | `import.rs` | meshes and skies from files |
 //! | `view.rs` | the camera and the settings of a view |
 //! | `outside.rs` | files that were changed outside |
 //! | `trial.rs` | random scenes, written and read |
@@ -77,6 +79,7 @@ mod choose;
 mod content;
 mod document;
 mod history;
+mod import;
 mod kind;
 mod names;
 mod origin;

@@ -3,7 +3,7 @@ use std::ops::Range;
 
 use glam::DVec3;
 
-use super::{Document, Edit};
+use super::{Document, Edit, Placement};
 use crate::{
     geometry::MISS,
     math::{F, M, One, V},
@@ -32,6 +32,19 @@ impl Document {
         let floor = starts.filter_map(|start| surface_below(scene, start, step, &own)).max_by(f64::total_cmp)?;
         let by = floor - min.y;
         (by != 0.0).then(|| self.transformed(object, &Transform::Translate(DVec3::Y * by), DVec3::ZERO)).flatten()
+    }
+}
+
+impl Placement {
+    /// The place on the floor below this one. One on a wall or a ceiling is moved away from it by `clearance`, metres, before; one
+    /// without a floor below stays there.
+    pub(super) fn on_floor(self, scene: &Scene, clearance: f64) -> Placement {
+        if self.is_on_floor() {
+            return self;
+        }
+        let start = self.at + self.normal * clearance;
+        let floor = surface_below(scene, start, STEP * self.scene_size, &(0..0));
+        Placement { at: DVec3 { y: floor.unwrap_or(start.y), ..start }, normal: DVec3::Y, ..self }
     }
 }
 

@@ -38,10 +38,15 @@ impl Placement {
     }
 
     /// The point, rounded to short coordinates.
-    pub(super) fn rounded(&self, p: DVec3) -> DVec3 {
+    pub(crate) fn rounded(&self, p: DVec3) -> DVec3 {
         let decimals = self.decimals();
         // Adding 0 turns −0 into 0.
         p.to_array().map(|x| format!("{x:.decimals$}").parse::<f64>().unwrap_or(x) + 0.0).into()
+    }
+
+    /// Whether the surface is a floor: horizontal, or not much steeper.
+    pub(crate) fn is_on_floor(&self) -> bool {
+        self.normal.y > STEEPEST_FLOOR
     }
 
     /// The direction in which the object stands on the surface: up on floors.

@@ -1,6 +1,7 @@
 //! Tests of editing.
 mod edits;
 mod history;
+mod importing;
 mod outside;
 mod placing;
 #[cfg(feature = "reports")]
