@@ -27,6 +27,7 @@ use noisefall::{
 };
 use panels::window::{all_but_one, cores};
 
+const ICON: &[u8] = include_bytes!("../../assets/icon.png");
 const NO_WINDOW: &str = "use `noisefall render SCENE -o picture.png` to render without a window";
 
 /// Opens the window on a scene file, or on the built-in scene. Returns when it is closed.
@@ -39,6 +40,7 @@ pub fn run(scene: Option<PathBuf>) -> Result<(), String> {
         viewport: egui::ViewportBuilder::default()
             .with_title("Noisefall")
             .with_app_id("noisefall")
+            .with_icon(eframe::icon_data::from_png_bytes(ICON).unwrap_or_default())
             .with_inner_size([1280.0, 760.0])
             .with_min_inner_size([720.0, 480.0]),
         renderer: eframe::Renderer::Glow,

@@ -1,5 +1,5 @@
 //! Commands of the toolbar and of single keys.
-use egui::{Context, InputState, Key, KeyboardShortcut, Modifiers, Ui};
+use egui::{Context, InputState, Key, KeyboardShortcut, Modifiers, Ui, ViewportCommand};
 
 use super::state::App;
 use crate::viewer::canvas::interaction::Tool;
@@ -99,7 +99,12 @@ impl App {
                 }
             }
         }
+        self.take_copy_key(ctx);
         let key = |key| ctx.input(|input| input.key_pressed(key));
+        if key(Key::F11) {
+            let is_full = ctx.input(|input| input.viewport().fullscreen.unwrap_or(false));
+            ctx.send_viewport_cmd(ViewportCommand::Fullscreen(!is_full));
+        }
         if key(Key::Escape) {
             self.escape();
         }

@@ -6,6 +6,7 @@ use noisefall::{
 };
 
 use super::{scene_editor::SceneEditor, state::App};
+use crate::viewer::background::loader::OpenedScene;
 use crate::viewer::dialogs::{
     choose_file::{FileDialog, FilePurpose},
     unsaved::Leaving,
@@ -110,11 +111,17 @@ impl App {
 
     /// Uses a file that was chosen: as a value, or as a texture in its place.
     pub fn use_file(&mut self, purpose: &FilePurpose, file: &std::path::Path) {
-        let (Some(editor), Some(opened)) = (&mut self.editor, &self.session.opened) else { return };
-        let folder = std::path::absolute(opened.folder()).unwrap_or_default();
-        let file = file.strip_prefix(&folder).unwrap_or(file);
-        let edit = purpose.edit(&mut editor.document, file);
+        let path = self.path_in_scene(file);
+        let Some(editor) = &mut self.editor else { return };
+        let edit = purpose.edit(&mut editor.document, std::path::Path::new(&path));
         self.edit(&edit);
+    }
+
+    /// The path of a file as the scene stores it: relative if the file lies in the folder of the scene.
+    pub fn path_in_scene(&self, file: &std::path::Path) -> String {
+        let folder = self.session.opened.as_ref().map(OpenedScene::folder).unwrap_or_default();
+        let folder = std::path::absolute(folder).unwrap_or_default();
+        file.strip_prefix(&folder).unwrap_or(file).display().to_string()
     }
 }
 

@@ -14,7 +14,7 @@ impl App {
         self.window.hidden = false;
         self.guard_changes();
         self.shortcuts(&ctx);
-        self.take_dropped_file();
+        self.take_dropped_files();
         self.receive();
         self.inspect();
         Panel::bottom("status").show(ui, |ui| self.status_bar(ui));

@@ -1,9 +1,11 @@
 //! The window as a whole. It joins panels, instruments and dialogs with the work in the background.
 mod canvas;
 mod commands;
+mod copying;
 mod dialogs;
 mod display;
 mod dock;
+mod dropping;
 mod editing;
 mod editor_panel;
 mod file_tasks;

@@ -73,7 +73,7 @@ impl App {
         }
     }
 
-    fn edit_and_select(&mut self, edit: &Edit, path: &Path) {
+    pub fn edit_and_select(&mut self, edit: &Edit, path: &Path) {
         if self.edit(edit) {
             self.selection.select(Subject::at(path));
         }
@@ -90,7 +90,7 @@ impl App {
     /// Where the picture was clicked last, or else its middle, or else the point that the camera looks at.
     fn placement(&self) -> Placement {
         let scene_size = self.session.opened.as_ref().map_or(1.0, |opened| opened.scene.size);
-        let surface = self.clicked_surface();
+        let surface = self.surface_at(None);
         let [at, normal] = surface.unwrap_or([self.session.camera.look_at, glam::DVec3::Y]);
         Placement { at, normal, scene_size }
     }

@@ -1,11 +1,13 @@
 //! Receives what the threads have finished: scenes, references, frames, images, saved files.
-use noisefall::{edit::Document, render::Budget};
+use noisefall::{
+    edit::Document,
+    render::{Budget, WhiteBalance},
+};
 
 use super::{file_tasks::OutsideChanges, history::History, scene_editor::SceneEditor, selection::Selection, state::App};
 use crate::viewer::background::{
-    catalogue, display_image::DisplayImage, feature_finder::FeatureFinder, loader::DroppedReference, loader::OpenedScene,
+    catalogue, display_image::DisplayImage, feature_finder::FeatureFinder, loader::DroppedReference, loader::OpenedScene, recent,
 };
-use crate::viewer::dialogs::unsaved::Leaving;
 use crate::viewer::instruments::{convergence::curve::Moment, path::inspector::PathInspector};
 
 impl App {
@@ -22,6 +24,7 @@ impl App {
         self.receive_edited();
         self.receive_saved();
         self.follow_files();
+        self.receive_copy();
         match self.background.loader.take_reference() {
             Some(Ok(dropped)) => self.take_reference(dropped),
             Some(Err(error)) => self.tell(error, true),
@@ -85,10 +88,12 @@ impl App {
         let (session, results, scene) = (&mut self.session, &mut self.results, &opened.scene);
         if session.opened.as_ref().is_none_or(|before| before.path != opened.path) {
             // What suited another scene's light says nothing about this one's.
-            session.look.display.exposure = 0.0;
+            let display = &mut session.look.display;
+            (display.exposure, display.white_balance) = (0.0, WhiteBalance::NEUTRAL);
         }
         if let Some(path) = &opened.path {
             catalogue::remember(&mut self.catalogue, &opened.name, path);
+            self.preferences.change(|saved| recent::note(&mut saved.recent, path));
         }
         (session.camera, session.settings) = (scene.camera, scene.settings);
         session.budget = Budget { max_spp: scene.spp, steps: session.budget.steps, ..Budget::default() };
@@ -108,15 +113,5 @@ impl App {
         (self.dialogs.file, self.dialogs.conflict, self.dialogs.file_error) = (None, None, None);
         self.window.view.fit();
         session.opened = Some(opened);
-    }
-
-    /// Opens a file that was dropped on the window: a scene, or a reference for this one.
-    pub fn take_dropped_file(&mut self) {
-        let dropped = self.ctx.input(|input| input.raw.dropped_files.first().map(|file| file.path().to_owned()));
-        let Some(path) = dropped else { return };
-        match path.extension().map(|extension| extension.to_string_lossy().to_ascii_lowercase()).as_deref() {
-            Some("exr" | "hdr") => self.background.loader.read_reference(path, self.session.camera),
-            _ => self.ask_to_leave(Leaving::Open(Some(path))),
-        }
     }
 }

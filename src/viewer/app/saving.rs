@@ -1,9 +1,12 @@
 //! Saves the picture, the curves or a path to a file.
-use std::path::{Path, PathBuf};
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+};
 
 use noisefall::{
     file::replace,
-    render::{image_file::save_shown, settings_text::settings_text, view::View},
+    render::{Frame, image_file::save_shown, settings_text::settings_text, view::View},
 };
 
 use super::state::App;
@@ -44,6 +47,11 @@ impl App {
         self.background.saver.save(path, move |path| replace(path, &bytes?).map_err(|error| error.to_string()));
     }
 
+    /// The request for all pixels of a frame, as the controls say.
+    pub fn full_display_request(&mut self, frame: Arc<Frame>) -> DisplayRequest {
+        DisplayRequest { on_screen: None, most_side: usize::MAX, ..self.display_request(frame) }
+    }
+
     /// Saves the picture on the screen.
     pub fn save_to(&mut self, path: PathBuf) {
         if !self.can_save() {
@@ -52,7 +60,7 @@ impl App {
         }
         let of_worker = self.background.worker.request().cloned();
         let (Some(frame), Some(of)) = (self.results.shown.clone(), of_worker) else { return };
-        let request = DisplayRequest { on_screen: None, most_side: usize::MAX, ..self.display_request(frame.clone()) };
+        let request = self.full_display_request(frame.clone());
         let remarks = remarks(&request, &path);
         let display = self.session.look.display;
         let settings = settings_text(&of.scene, &of.camera, &of.settings, display, &frame, &remarks);
@@ -83,9 +91,7 @@ fn remarks(request: &DisplayRequest, path: &Path) -> Vec<(&'static str, String)>
 
 #[cfg(test)]
 mod tests {
-    use std::sync::Arc;
-
-    use noisefall::render::{Frame, view::DisplaySettings};
+    use noisefall::render::view::DisplaySettings;
 
     use super::*;
     use crate::viewer::background::display_request::{BounceTerm, tests::request};

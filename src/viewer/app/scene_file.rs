@@ -68,7 +68,7 @@ impl App {
     /// by its title.
     pub fn update_title(&mut self) {
         let Some(opened) = &self.session.opened else { return };
-        let mark = if self.has_unsaved_changes() { "*" } else { "" };
+        let mark = if self.has_unsaved_changes() { " •" } else { "" };
         let done = if let State::Done(target) = self.results.status.state { format!(" ({target})") } else { String::new() };
         let title = format!("{}{mark}{done} – Noisefall", opened.name);
         if title != self.window.title {

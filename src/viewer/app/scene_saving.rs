@@ -8,6 +8,7 @@ use super::{file_tasks::PendingSave, state::App};
 use crate::viewer::background::{
     catalogue,
     file_state::{SaveResult, save},
+    recent,
 };
 use crate::viewer::dialogs::{save_target::SaveTarget, unsaved::SaveOrder};
 
@@ -76,6 +77,7 @@ impl App {
             opened.name = catalogue::name(&editor.document.description().title, path);
             catalogue::remember(&mut self.catalogue, &opened.name, path);
             opened.path = Some(path.to_owned());
+            self.preferences.change(|saved| recent::note(&mut saved.recent, path));
         }
         self.tell(format!("Saved {}", path.display()), false);
     }

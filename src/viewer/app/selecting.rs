@@ -12,9 +12,7 @@ use crate::viewer::panels::{panel_tabs::PanelTab, subject::Subject};
 impl App {
     /// Selects the object at a pixel of the picture, or nothing.
     pub fn select_at(&mut self, pixel: [u32; 2]) {
-        let request = self.request_of_open_scene();
-        let request = request.filter(|request| (0..2).all(|axis| pixel[axis] < request.camera.resolution[axis]));
-        let object = request.and_then(|request| picking::object_at(&request.scene, &request.camera, pixel));
+        let object = self.object_at(pixel);
         self.selection.clicked = Some(pixel);
         self.selection.select(object.map(Subject::Object));
         if object.is_some() {
@@ -22,12 +20,19 @@ impl App {
         }
     }
 
-    /// The point and the normal of the surface where the picture was clicked last, or else at its middle.
-    pub fn clicked_surface(&self) -> Option<[DVec3; 2]> {
+    /// The place in the description of the object at a pixel of the picture.
+    pub fn object_at(&self, pixel: [u32; 2]) -> Option<usize> {
+        let request = self.request_of_open_scene();
+        let request = request.filter(|request| (0..2).all(|axis| pixel[axis] < request.camera.resolution[axis]));
+        request.and_then(|request| picking::object_at(&request.scene, &request.camera, pixel))
+    }
+
+    /// The point and the normal of the surface at a pixel, or else where the picture was clicked last, or else at its middle.
+    pub fn surface_at(&self, pixel: Option<[u32; 2]>) -> Option<[DVec3; 2]> {
         let RenderRequest { scene, camera, .. } = self.request_of_open_scene()?;
         let [width, height] = camera.resolution;
-        let clicked = self.selection.clicked.filter(|[x, y]| *x < width && *y < height);
-        picking::surface_at(scene, camera, clicked.unwrap_or([width / 2, height / 2]))
+        let pixel = pixel.or(self.selection.clicked).filter(|[x, y]| *x < width && *y < height);
+        picking::surface_at(scene, camera, pixel.unwrap_or([width / 2, height / 2]))
     }
 
     /// Draws the outline of the selected object. Without one, no pixel is looked at.

@@ -3,8 +3,8 @@ use egui::{ScrollArea, Ui};
 use noisefall::render::RenderRequest;
 
 use super::state::App;
-use crate::viewer::background::{adviser::Adviser, catalogue::SceneRequest};
-use crate::viewer::dialogs::{open, unsaved::Leaving};
+use crate::viewer::background::{adviser::Adviser, catalogue::SceneRequest, recent};
+use crate::viewer::dialogs::{open::OpenDialog, unsaved::Leaving};
 use crate::viewer::panels::{
     camera, display, panel_tabs, panel_tabs::PanelTab, pixel_readout::Pixel, sampling, scene, status_bar::StatusBar, stop, views,
     views::ReferenceSource, window,
@@ -46,7 +46,10 @@ impl App {
     pub fn open_scene(&mut self, request: SceneRequest) {
         match request {
             SceneRequest::Open(path) => self.ask_to_leave(Leaving::Open(path)),
-            SceneRequest::Browse => self.dialogs.open = Some(open::path_field(self.session.path())),
+            SceneRequest::Browse => {
+                let recent = recent::look_up(&self.preferences.now.recent);
+                self.dialogs.open = Some(OpenDialog::new(self.session.path(), recent));
+            }
             SceneRequest::Gallery => self.dialogs.gallery.open = true,
         }
     }

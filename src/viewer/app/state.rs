@@ -8,9 +8,9 @@ use super::{
     selection::Selection, session::Session, window_state::Dialogs, window_state::WindowState,
 };
 use crate::viewer::background::{
-    adviser::Adviser, catalogue, catalogue::CatalogueEntry, display_pipeline::DisplayPipeline, feature_finder::FeatureFinder,
-    file_watcher::FileWatcher, loader::Loader, preferences::Preferences, recovery_keeper::RecoveryKeeper,
-    render_worker::RenderWorkerHandle, saver::Saver, settler::Settler,
+    adviser::Adviser, background_task::BackgroundTask, catalogue, catalogue::CatalogueEntry, display_pipeline::DisplayPipeline,
+    dropped::DropReader, feature_finder::FeatureFinder, file_watcher::FileWatcher, loader::Loader, preferences::Preferences,
+    recovery_keeper::RecoveryKeeper, render_worker::RenderWorkerHandle, saver::Saver, settler::Settler,
 };
 use crate::viewer::instruments::{convergence::history::History as ErrorHistory, path::inspector::PathInspector};
 use crate::viewer::panels::frame_times::FrameTimes;
@@ -47,10 +47,13 @@ pub struct Background {
     pub worker: RenderWorkerHandle,
     pub display: DisplayPipeline,
     pub loader: Loader,
+    pub drops: DropReader,
     pub settler: Settler,
     pub saver: Saver,
     pub files: FileWatcher,
     pub recovery: RecoveryKeeper,
+    /// The image that is drawn for the clipboard.
+    pub copying: Option<BackgroundTask<egui::ColorImage>>,
     pub features: FeatureFinder,
     pub adviser: Option<Adviser>,
 }
@@ -64,10 +67,12 @@ impl App {
             worker: RenderWorkerHandle::new(threads, ctx),
             display: DisplayPipeline::new(ctx),
             loader: Loader::new(ctx),
+            drops: DropReader::new(ctx),
             settler: Settler::new(ctx),
             saver: Saver::new(ctx),
             files: FileWatcher::idle(),
             recovery: RecoveryKeeper::default(),
+            copying: None,
             features: FeatureFinder::new(ctx),
             adviser: None,
         };

@@ -6,11 +6,11 @@ use noisefall::render::Region;
 use crate::viewer::background::recovery_files::FoundRecovery;
 use crate::viewer::canvas::{interaction::Tool, picture_view::PictureView};
 use crate::viewer::dialogs::{
-    choose_file::FileDialog, conflict::Conflict, gallery::Gallery, notices::Notices, save::SaveDialog, unsaved::Leaving,
+    choose_file::FileDialog, conflict::Conflict, gallery::Gallery, notices::Notices, open::OpenDialog, save::SaveDialog,
+    unsaved::Leaving,
 };
 use crate::viewer::instruments::tabs::InstrumentTab;
 use crate::viewer::panels::panel_tabs::PanelTab;
-use crate::viewer::widgets::path_field::PathField;
 
 #[derive(Default)]
 pub struct WindowState {
@@ -44,7 +44,7 @@ pub struct WindowState {
 pub struct Dialogs {
     pub help: bool,
     pub save: Option<SaveDialog>,
-    pub open: Option<PathField>,
+    pub open: Option<OpenDialog>,
     pub file: Option<FileDialog>,
     /// What waits for an answer about unsaved changes.
     pub unsaved: Option<Leaving>,

@@ -16,6 +16,8 @@ pub struct SavedState {
     pub toured: bool,
     /// "dark" or "light"; `None` follows the system.
     pub theme: Option<String>,
+    /// The files that were opened last, the latest first.
+    pub recent: Vec<PathBuf>,
 }
 
 /// The saved state and its folder. A folder that cannot be read or written is not reported.
@@ -70,7 +72,10 @@ mod tests {
         let inner = folder.path().join("noisefall");
         let mut preferences = Preferences::in_folder(&inner);
         assert_eq!(preferences.now, SavedState::default());
-        preferences.change(|now| (now.toured, now.theme) = (true, Some("light".to_owned())));
+        preferences.change(|now| {
+            (now.toured, now.theme) = (true, Some("light".to_owned()));
+            now.recent = vec![PathBuf::from("/a \"scene\".toml")];
+        });
         let now = preferences.now.clone();
         drop(preferences);
         assert_eq!(Preferences::in_folder(&inner).now, now);

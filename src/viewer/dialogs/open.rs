@@ -1,9 +1,12 @@
 //! The dialog that opens a scene file.
 use std::path::{Path, PathBuf};
 
-use egui::{Align, Align2, Button, Layout, RichText};
+use egui::{Align, Align2, Button, Layout, RichText, vec2};
 
-use crate::viewer::{background::catalogue::in_full, widgets::path_field::PathField};
+use crate::viewer::{
+    background::{catalogue::in_full, recent::RecentFile},
+    widgets::path_field::PathField,
+};
 
 /// A field with the folder of the open scene in it.
 pub fn path_field(scene: Option<&Path>) -> PathField {
@@ -13,26 +16,65 @@ pub fn path_field(scene: Option<&Path>) -> PathField {
     PathField::new(start, "path/to/scene.toml")
 }
 
+/// Asks for the file to open.
+pub struct OpenDialog {
+    pub field: PathField,
+    recent: Vec<RecentFile>,
+}
+
+impl OpenDialog {
+    /// A dialog that begins in the folder of the open scene.
+    pub fn new(scene: Option<&Path>, recent: Vec<RecentFile>) -> OpenDialog {
+        OpenDialog { field: path_field(scene), recent }
+    }
+}
+
 /// Shows the dialog until it is answered. Returns the file to open.
-pub fn show(ctx: &egui::Context, dialog: &mut Option<PathField>) -> Option<PathBuf> {
-    let mut field = dialog.take()?;
-    let (mut open, mut chosen, mut cancelled) = (true, false, false);
+pub fn show(ctx: &egui::Context, dialog: &mut Option<OpenDialog>) -> Option<PathBuf> {
+    let OpenDialog { mut field, recent } = dialog.take()?;
+    let (mut open, mut chosen, mut cancelled, mut again) = (true, false, false, None);
     egui::Window::new("Open a scene")
         .open(&mut open)
         .collapsible(false)
         .resizable(false)
         .anchor(Align2::CENTER_CENTER, [0.0, 0.0])
-        .show(ctx, |ui| (chosen, cancelled) = dialog_body(ui, &mut field));
-    let path = field.path().filter(|_| chosen);
-    match path {
+        .show(ctx, |ui| {
+            (chosen, cancelled) = dialog_body(ui, &mut field);
+            again = recent_files(ui, &recent);
+        });
+    match again.or(field.path().filter(|_| chosen)) {
         Some(path) if path.is_file() => return Some(path),
         Some(path) => field.refusal = Some(format!("There is no file {}. Check the path, or choose Browse…", path.display())),
         None => {}
     }
     if open && !cancelled {
-        *dialog = Some(field);
+        *dialog = Some(OpenDialog { field, recent });
     }
     None
+}
+
+/// Shows the files that were opened last; those that are gone are disabled. Returns the one that was clicked.
+fn recent_files(ui: &mut egui::Ui, files: &[RecentFile]) -> Option<PathBuf> {
+    if files.is_empty() {
+        return None;
+    }
+    ui.separator();
+    ui.label(RichText::new("Recent files").strong());
+    let mut chosen = None;
+    for RecentFile { path, exists } in files {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        let row = Button::new(name).right_text(RichText::new(folder_name(path)).weak()).truncate();
+        let row = ui.add_enabled(*exists, row.frame_when_inactive(false).min_size(vec2(ui.available_width(), 0.0)));
+        let row = row.on_hover_text(path.display().to_string());
+        if row.on_disabled_hover_text(format!("{} is no longer there.", path.display())).clicked() {
+            chosen = Some(path.clone());
+        }
+    }
+    chosen
+}
+
+fn folder_name(path: &Path) -> String {
+    path.parent().and_then(Path::file_name).unwrap_or_default().to_string_lossy().into_owned()
 }
 
 /// Returns whether to open, and whether to close.

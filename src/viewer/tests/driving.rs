@@ -1,4 +1,9 @@
 //! What a user does to a window: clicks, keys, drags.
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+};
+
 use egui::{Key, Modifiers, PointerButton, Pos2, accesskit::Role, vec2};
 use egui_kittest::kittest::Queryable;
 
@@ -82,4 +87,23 @@ pub fn scroll(window: &mut Window, at: [f32; 2], by: f32) {
         modifiers: Modifiers::NONE,
     });
     window.run_steps(10);
+}
+
+/// A file that is dropped on the window.
+#[derive(Debug)]
+struct Dropped(PathBuf);
+
+impl egui::DroppedFile for Dropped {
+    fn path(&self) -> &Path {
+        &self.0
+    }
+    fn bytes(&self) -> Result<Vec<u8>, String> {
+        Err("the window asks for the path only".to_owned())
+    }
+}
+
+/// Drops a file on the window, where the pointer is.
+pub fn drop_file(window: &mut Window, path: PathBuf) {
+    window.input_mut().dropped_files.push(Arc::new(Dropped(path)));
+    window.step();
 }

@@ -1,6 +1,4 @@
 //! Scenes and dropped files replace what was open.
-use std::sync::Arc;
-
 use noisefall::scene::RenderSettings;
 
 use super::*;
@@ -45,27 +43,10 @@ fn another_scene_takes_everything_over_and_the_same_one_keeps_the_exposure() {
     assert_eq!(window.state().session.look.display.exposure, 1.5);
 }
 
-/// A file that is dropped on the window.
-#[derive(Debug)]
-struct Dropped(PathBuf);
-
-impl egui::DroppedFile for Dropped {
-    fn path(&self) -> &std::path::Path {
-        &self.0
-    }
-    fn bytes(&self) -> Result<Vec<u8>, String> {
-        Err("the window asks for the path only".to_owned())
-    }
-}
-
 #[test]
 fn a_dropped_file_is_a_scene_a_picture_with_its_scene_or_a_reference() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = window("cornell_spheres");
-    let drop_file = |window: &mut Window, path: PathBuf| {
-        window.input_mut().dropped_files.push(Arc::new(Dropped(path)));
-        window.step();
-    };
     wait(&mut window, "a full picture", App::can_save);
     let [reference, picture] = ["reference.EXR", "picture.png"].map(|name| {
         let path = folder.path().join(name);

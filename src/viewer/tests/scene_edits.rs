@@ -12,16 +12,16 @@ use super::{
 };
 use crate::viewer::panels::outliner::{Action, New};
 
-fn description(window: &Window) -> &SceneDescription {
+pub fn description(window: &Window) -> &SceneDescription {
     window.state().editor.as_ref().expect("a scene is open").document.description()
 }
 
-fn bits(window: &Window) -> Tree {
+pub fn bits(window: &Window) -> Tree {
     Tree::of(&mut description(window).clone())
 }
 
 /// Does something and waits for the picture of the edited scene.
-fn edits(window: &mut Window, what: &str, act: impl FnOnce(&mut Window)) {
+pub fn edits(window: &mut Window, what: &str, act: impl FnOnce(&mut Window)) {
     let before = generation(window);
     act(window);
     wait(window, what, |app| {

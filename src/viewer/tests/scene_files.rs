@@ -44,11 +44,11 @@ fn saving_writes_the_changed_line_and_no_other_and_the_title_says_what_is_unsave
     let folder = tempfile::tempdir().expect("a folder");
     let (mut window, path, text) = window_of_copy(folder.path());
     let title = |window: &Window| window.state().window.title.clone();
-    assert!(title(&window).starts_with("Five-sphere Cornell box") && !title(&window).contains('*'));
+    assert!(title(&window).starts_with("Five-sphere Cornell box") && !title(&window).contains('•'));
     grow(&mut window);
-    assert!(title(&window).starts_with("Five-sphere Cornell box* "), "{}", title(&window));
+    assert!(title(&window).starts_with("Five-sphere Cornell box • "), "{}", title(&window));
     save(&mut window);
-    assert!(!title(&window).contains('*'));
+    assert!(!title(&window).contains('•'));
     let saved = std::fs::read_to_string(&path).expect("it is there");
     let changed: Vec<_> = text.lines().zip(saved.lines()).filter(|(before, after)| before != after).collect();
     assert_eq!(changed.len(), 1, "{changed:?}");
@@ -58,7 +58,7 @@ fn saving_writes_the_changed_line_and_no_other_and_the_title_says_what_is_unsave
     // To before the file as it is now.
     window.key_press_modifiers(Modifiers::COMMAND, Key::Z);
     window.run_steps(3);
-    assert!(title(&window).contains('*'));
+    assert!(title(&window).contains('•'));
     save(&mut window);
     assert_eq!(std::fs::read_to_string(&path).expect("it is there"), text);
 }

@@ -1,0 +1,74 @@
+//! Files that were dropped on the window: scenes, meshes, textures, skies and references.
+use std::path::Path as FilePath;
+
+use glam::DVec3;
+use noisefall::edit::Placement;
+
+use super::state::App;
+use crate::viewer::background::dropped::DroppedFile;
+use crate::viewer::dialogs::{choose_file::FilePurpose, unsaved::Leaving};
+
+impl App {
+    /// Reads what was dropped on the window, and uses what has been read.
+    pub fn take_dropped_files(&mut self) {
+        let dropped = self.ctx.input(|input| input.raw.dropped_files.clone());
+        for file in dropped {
+            self.background.drops.read(file.path().to_owned(), self.session.camera.resolution, self.window.hovered);
+        }
+        while let Some((file, pixel)) = self.background.drops.take() {
+            // Some systems do not move the pointer while a file is dragged.
+            let pixel = pixel.or(self.window.hovered);
+            match file {
+                Ok(file) => self.use_dropped(file, pixel),
+                Err(why) => self.tell(why, true),
+            }
+        }
+    }
+
+    fn use_dropped(&mut self, file: DroppedFile, pixel: Option<[u32; 2]>) {
+        match file {
+            DroppedFile::Scene(path) => self.ask_to_leave(Leaving::Open(Some(path))),
+            DroppedFile::Reference(path) => self.background.loader.read_reference(path, self.session.camera),
+            _ if self.editor.is_none() => self.tell("Open a scene first.".to_owned(), true),
+            DroppedFile::Mesh(path, bounds) => self.add_mesh(&path, bounds, pixel),
+            DroppedFile::Texture(path) => self.use_as_texture(&path, pixel),
+            DroppedFile::Sky(path) => self.use_as_sky(&path),
+        }
+    }
+
+    /// Adds a mesh where it was dropped, or else where the image was clicked last.
+    fn add_mesh(&mut self, file: &FilePath, bounds: [DVec3; 2], pixel: Option<[u32; 2]>) {
+        let path = self.path_in_scene(file);
+        let surface = self.surface_at(pixel);
+        let (Some(editor), Some(opened)) = (&self.editor, &self.session.opened) else { return };
+        // Without a surface, it stands on the floor below the point that the camera looks at.
+        let [at, normal] = surface.unwrap_or([self.session.camera.look_at, DVec3::ZERO]);
+        let placement = Placement { at, normal, scene_size: opened.scene.size };
+        let (edit, object) = editor.document.add_mesh(&path, bounds, placement, &opened.scene);
+        self.edit_and_select(&edit, &object);
+    }
+
+    /// Makes an image the colour of the object that it was dropped on, or else of the selected one.
+    fn use_as_texture(&mut self, file: &FilePath, pixel: Option<[u32; 2]>) {
+        let under = pixel.and_then(|pixel| self.object_at(pixel));
+        let Some(editor) = &self.editor else { return };
+        let object = under.or(self.selection.object()).and_then(|place| editor.document.description().objects.get(place));
+        let Some(object) = object else {
+            return self.tell("Drop the texture on an object, or select the object first.".to_owned(), true);
+        };
+        let Some(material) = &object.material else {
+            return self.tell("This object has no material. Assign one first.".to_owned(), true);
+        };
+        match editor.document.colour_of_material(material) {
+            Some(colour) => self.use_file(&FilePurpose::Texture(colour), file),
+            None => self.tell(format!("The material {material} has no colour that a texture could replace."), true),
+        }
+    }
+
+    fn use_as_sky(&mut self, file: &FilePath) {
+        let path = self.path_in_scene(file);
+        let Some(editor) = &self.editor else { return };
+        let edit = editor.document.set_sky(&path);
+        self.edit(&edit);
+    }
+}

@@ -1,0 +1,138 @@
+//! What one expects of a desktop program: recent files, full screen, the clipboard, white balance with a way back.
+use egui::{OutputCommand, ViewportCommand, ViewportId};
+use noisefall::render::WhiteBalance;
+
+use super::*;
+
+/// What the window asks of the system next.
+fn asked(window: &mut Window, what: &str) -> Vec<OutputCommand> {
+    let start = Instant::now();
+    loop {
+        window.step();
+        let commands = window.output().platform_output.commands.clone();
+        if !commands.is_empty() {
+            return commands;
+        }
+        assert!(start.elapsed() < Duration::from_secs(60), "{what} never came");
+        std::thread::sleep(Duration::from_millis(2));
+    }
+}
+
+#[test]
+fn ctrl_c_copies_all_pixels_of_the_picture_as_a_png_has_them() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("shot.png");
+    let mut window = window("cornell_spheres");
+    window.state_mut().session.look.display.tone_map = ToneMap::Agx;
+    click(&mut window, "Pause");
+    wait(&mut window, "the pause", |app| app.results.status.state == State::Paused && app.can_save());
+    window.event(egui::Event::Copy);
+    let commands = asked(&mut window, "the copy");
+    let [OutputCommand::CopyImage(copied)] = &commands[..] else { panic!("{commands:?}") };
+    assert!(window.query_by_label("Copied the image, 96 × 64 pixels").is_some());
+    window.state_mut().save_to(path.clone());
+    wait(&mut window, "the file", |app| app.window.last_saved.is_some());
+    let saved = image::open(&path).expect("it is a picture").into_rgba8();
+    assert_eq!((copied.size, copied.as_raw()), ([96, 64], saved.as_raw().as_slice()));
+}
+
+#[test]
+fn while_a_message_is_open_ctrl_c_copies_it() {
+    let mut window = window("furnace");
+    for text in ["an error", "the last error"] {
+        window.state_mut().tell(text.to_owned(), true);
+    }
+    window.state_mut().tell("good news".to_owned(), false);
+    let copied = |window: &mut Window| {
+        window.event(egui::Event::Copy);
+        let commands = asked(window, "the text");
+        let [OutputCommand::CopyText(text)] = &commands[..] else { panic!("{commands:?}") };
+        text.clone()
+    };
+    assert_eq!(copied(&mut window), "the last error");
+    window.state_mut().dialogs.scene_error = Some("a report".to_owned());
+    assert_eq!(copied(&mut window), "a report");
+}
+
+#[test]
+fn in_text_ctrl_c_belongs_to_the_text() {
+    let mut window = window("furnace");
+    window.key_press_modifiers(Modifiers::COMMAND, Key::E);
+    window.run_steps(4);
+    window.get_by_role(Role::TextInput).focus();
+    window.run_steps(2);
+    window.event(egui::Event::Copy);
+    window.run_steps(3);
+    assert!(window.state().background.copying.is_none());
+}
+
+#[test]
+fn f11_asks_for_the_full_screen_and_for_the_way_back() {
+    let mut window = window("furnace");
+    for is_full in [false, true] {
+        window.input_mut().viewports.entry(ViewportId::ROOT).or_default().fullscreen = Some(is_full);
+        window.key_press(Key::F11);
+        let mut asked = Vec::new();
+        for _ in 0..3 {
+            window.step();
+            let commands = &window.output().viewport_output[&ViewportId::ROOT].commands;
+            asked.extend(commands.iter().filter(|command| matches!(command, ViewportCommand::Fullscreen(_))).cloned());
+        }
+        assert_eq!(asked, [ViewportCommand::Fullscreen(!is_full)]);
+    }
+}
+
+#[test]
+fn recent_files_are_listed_opened_and_disabled_when_they_are_gone() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let text = std::fs::read_to_string(shipped("furnace")).expect("it is shipped");
+    let [mine, gone] = ["mine.toml", "gone.toml"].map(|name| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, &text).expect("it is written");
+        path.canonicalize().expect("it is there")
+    });
+    let mut window = window("cornell_spheres");
+    window.state_mut().preferences = Preferences::in_folder(&folder.path().join("preferences"));
+    for path in [&mine, &gone, &shipped("bright_sky")] {
+        window.state_mut().background.loader.open(Some(path.clone()));
+        let path = Some(path.clone());
+        wait(&mut window, "the scene", |app| app.session.opened.as_ref().is_some_and(|opened| opened.path == path));
+    }
+    let recent = window.state().preferences.now.recent.clone();
+    assert_eq!(recent, [shipped("bright_sky").canonicalize().expect("it is shipped"), gone.clone(), mine.clone()]);
+    std::fs::remove_file(&gone).expect("it was there");
+    click(&mut window, "Open…");
+    let row = |window: &Window, name: &str| {
+        let rows = window.query_all_by_role(Role::Button);
+        rows.map(|row| row.accesskit_node().label().unwrap_or_default()).find(|label| label.starts_with(name))
+    };
+    let labels = ["mine.toml", "gone.toml"].map(|name| row(&window, name).expect("it is listed"));
+    assert!(window.get_by_label(&labels[1]).accesskit_node().is_disabled());
+    click(&mut window, &labels[0]);
+    wait(&mut window, "my scene", |app| app.session.opened.as_ref().is_some_and(|opened| opened.path.as_ref() == Some(&mine)));
+    assert!(window.state().dialogs.open.is_none());
+    assert_eq!(window.state().preferences.now.recent[0], mine);
+    drop(window);
+    assert_eq!(Preferences::in_folder(&folder.path().join("preferences")).now.recent[0], mine, "they are kept");
+}
+
+#[test]
+fn white_balance_has_a_way_back_to_neutral_and_never_restarts() {
+    let mut window = window("cornell_spheres");
+    let balance = |window: &Window| window.state().session.look.display.white_balance;
+    assert_eq!(balance(&window), WhiteBalance::NEUTRAL);
+    never_restarts(&mut window, |w| {
+        w.get_by_role_and_label(Role::Slider, "White balance").set_value_accesskit(3000.0);
+        w.run_steps(2);
+        w.get_by_role_and_label(Role::Slider, "Tint").set_value_accesskit(12.0);
+        w.run_steps(2);
+    });
+    assert_eq!(balance(&window), WhiteBalance { kelvin: 3000.0, tint: 12.0 });
+    never_restarts(&mut window, |w| click(w, "Neutral"));
+    assert_eq!(balance(&window), WhiteBalance::NEUTRAL);
+    undo(&mut window);
+    assert_eq!(balance(&window).kelvin, 3000.0, "it can be undone");
+    window.state_mut().background.loader.open(Some(shipped("furnace")));
+    wait(&mut window, "another scene", |app| app.session.opened.as_ref().is_some_and(|opened| opened.name == "Furnace"));
+    assert_eq!(balance(&window), WhiteBalance::NEUTRAL, "what suited the other scene");
+}
