@@ -120,7 +120,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     }];
     let Some(output) = output else { return print(&lines[0]).map(|()| ExitCode::SUCCESS) };
     let (difference, scale) = difference(output.format(), a, b, floor);
-    let delivered = output.write(&difference, Display::default(), "{}")?;
+    let delivered = output.write(&difference, &[], Display::default(), "{}")?;
     if !arguments.json {
         let said = scale.map_or("A minus B".to_owned(), |scale| format!("full colour is a difference of {:.1} %", 100.0 * scale));
         lines.push(format!("{output}: {said}"));

@@ -7,6 +7,7 @@ mod figures;
 mod flip;
 #[cfg(feature = "reports")]
 mod folder;
+mod layers;
 #[cfg(feature = "reports")]
 mod lists;
 mod meant;
@@ -16,8 +17,10 @@ mod output;
 mod progress;
 mod render;
 mod replay;
+mod sequence;
 #[cfg(feature = "reports")]
 mod sheet;
+mod shot;
 mod stop;
 #[cfg(feature = "reports")]
 mod study;

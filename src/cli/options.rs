@@ -116,6 +116,13 @@ pub fn samples(text: &str) -> Result<u32, String> {
     samples.ok_or_else(|| "expected a whole number, 1 or more".to_owned())
 }
 
+/// Parses the number of frames of a turntable.
+pub fn frames(text: &str) -> Result<u32, String> {
+    const MOST: u32 = 100_000;
+    let frames = text.parse().ok().filter(|frames| (1..=MOST).contains(frames));
+    frames.ok_or_else(|| format!("expected a whole number from 1 to {MOST}"))
+}
+
 pub fn threads(text: &str) -> Result<u16, String> {
     let threads = text.parse().ok().filter(|threads| *threads <= 1024);
     threads.ok_or_else(|| "expected a whole number from 0 to 1024".to_owned())

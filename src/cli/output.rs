@@ -11,7 +11,8 @@ use noisefall::{
     file::WriteError,
     render::{
         Display, Frame,
-        image_file::{Format, ImageError, check_target, encode, save},
+        image_file::{Contents, Format, ImageError, check_target},
+        layers::Channel,
     },
 };
 
@@ -21,7 +22,7 @@ use super::messages::{Failure, print, tell};
 const STREAM: &str = "-";
 const ADVICE: &str = "`-o - --format png` writes the image to standard output";
 
-#[derive(Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Output {
     File(PathBuf),
     Stream(Format),
@@ -50,6 +51,14 @@ impl Output {
         }
     }
 
+    /// The path of a file.
+    pub fn file(&self) -> Option<&Path> {
+        match self {
+            Output::File(path) => Some(path),
+            Output::Stream(_) => None,
+        }
+    }
+
     /// Checks before the render begins that the image can be written.
     pub fn check(&self) -> Result<(), Failure> {
         match self {
@@ -64,8 +73,9 @@ impl Output {
 
     /// Writes the image. If the reader of standard output has gone away, there is no message, but the exit code reports a
     /// failure.
-    pub fn write(&self, frame: &Frame, display: Display, settings: &str) -> Result<ExitCode, Failure> {
-        let save = |path: &Path| save(frame, display, settings, path);
+    pub fn write(&self, frame: &Frame, channels: &[Channel], display: Display, settings: &str) -> Result<ExitCode, Failure> {
+        let contents = Contents { frame, channels, settings };
+        let save = |path: &Path| contents.save(display, path);
         match self {
             Output::File(path) => match save(path) {
                 Ok(()) => Ok(ExitCode::SUCCESS),
@@ -75,7 +85,7 @@ impl Output {
                 }
             },
             Output::Stream(format) => {
-                let bytes = encode(frame, display, settings, *format).map_err(|error| error.to_string())?;
+                let bytes = contents.encode(display, *format).map_err(|error| error.to_string())?;
                 let mut stream = stdout().lock();
                 match stream.write_all(&bytes).and_then(|()| stream.flush()) {
                     Ok(()) => Ok(ExitCode::SUCCESS),
@@ -163,7 +173,7 @@ mod tests {
     fn a_picture_that_cannot_go_where_it_should_is_saved_elsewhere() {
         let folder = tempfile::tempdir().expect("a folder");
         let output = Output::File(folder.path().join("gone/out.exr"));
-        let error = output.write(&frame(), Display::default(), "{}").expect_err("there is no such folder");
+        let error = output.write(&frame(), &[], Display::default(), "{}").expect_err("there is no such folder");
         let (reason, rescued) = error.split_once("\nthe image was saved as ").expect("it is saved");
         assert!(reason.contains("there is no folder"), "{error}");
         let rescued = Path::new(rescued.strip_suffix(" instead").expect("the end of the message"));

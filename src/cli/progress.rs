@@ -1,51 +1,118 @@
 //! Rendering until a target is reached, with a progress bar.
-use std::{sync::atomic::Ordering, time::Duration};
+use std::{
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering},
+    },
+    time::Duration,
+};
 
-use crossbeam_channel::RecvTimeoutError;
+use crossbeam_channel::{Receiver, RecvTimeoutError};
 use indicatif::{ProgressBar, ProgressStyle};
-use noisefall::render::{Budget, Publish, Published, RenderRequest, Renderer, State, Status, threads::Threads};
+use noisefall::render::{Budget, Publish, Published, RenderRequest, RenderTask, Renderer, State, Status, threads::Threads};
 
 use super::{messages::Failure, stop::stop_signal, summary::noise_text};
 
-/// Renders until a target is reached. Shows a progress bar if standard error is a terminal.
-pub fn render(threads: Threads, request: RenderRequest, budget: Budget, quiet: bool) -> Result<Published, Failure> {
-    let (wake, woken) = crossbeam_channel::bounded(1);
-    let renderer = Renderer::new(threads, Publish::Sparse, move || {
-        let _ = wake.try_send(());
-    });
-    renderer.set_budget(budget);
-    renderer.submit(1, request);
-    let stop = stop_signal("interrupted: saving the unfinished image (interrupt again to stop at once)")?;
-    let bar = if quiet { ProgressBar::hidden() } else { progress_bar(&budget) };
-    loop {
-        if woken.recv_timeout(Duration::from_millis(200)) == Err(RecvTimeoutError::Disconnected) {
-            return Err("the render thread ended unexpectedly".to_owned());
+/// The worker of a command, and the progress of its images.
+pub struct Rendering {
+    renderer: Renderer,
+    woken: Receiver<()>,
+    stop: Arc<AtomicBool>,
+    budget: Budget,
+    bar: ProgressBar,
+    /// Number of the image that is rendered, and of all images.
+    image: u64,
+    images: u64,
+}
+
+impl Rendering {
+    /// Starts the worker. `images` is the number of images to render, each with the same budget. Shows a progress bar if standard
+    /// error is a terminal.
+    pub fn new(threads: Threads, budget: Budget, images: u64, quiet: bool) -> Result<Rendering, Failure> {
+        let (wake, woken) = crossbeam_channel::bounded(1);
+        let renderer = Renderer::new(threads, Publish::Sparse, move || {
+            let _ = wake.try_send(());
+        });
+        renderer.set_budget(budget);
+        let stop = stop_signal(if images > 1 {
+            "interrupted: the unfinished frame is dropped (interrupt again to stop at once)"
+        } else {
+            "interrupted: saving the unfinished image (interrupt again to stop at once)"
+        })?;
+        let bar = if quiet { ProgressBar::hidden() } else { progress_bar(&budget, images) };
+        Ok(Rendering { renderer, woken, stop, budget, bar, image: 0, images })
+    }
+
+    /// Whether the user has asked to stop.
+    pub fn is_interrupted(&self) -> bool {
+        self.stop.load(Ordering::Relaxed)
+    }
+
+    /// Renders the next image up to the budget.
+    pub fn picture(&mut self, request: RenderRequest) -> Result<Published, Failure> {
+        self.image += 1;
+        self.renderer.submit(self.image, request);
+        self.finished(Renderer::latest)
+    }
+
+    /// Renders the same image by number of bounces, with samples of its own.
+    pub fn series(&mut self, request: RenderRequest) -> Result<Published, Failure> {
+        self.renderer.submit_second(self.image, RenderTask::Series(request));
+        let published = self.finished(Renderer::latest_second);
+        self.renderer.stop_second();
+        published
+    }
+
+    /// Hides the bar while a task prints.
+    pub fn suspend<T>(&self, task: impl FnOnce() -> T) -> T {
+        self.bar.suspend(task)
+    }
+
+    /// Waits for the end of the current image.
+    fn finished(&self, latest: fn(&Renderer) -> Published) -> Result<Published, Failure> {
+        loop {
+            if self.woken.recv_timeout(Duration::from_millis(200)) == Err(RecvTimeoutError::Disconnected) {
+                return Err("the render thread ended unexpectedly".to_owned());
+            }
+            if self.is_interrupted() {
+                self.renderer.set_budget(Budget { paused: true, ..self.budget });
+            }
+            // Until the worker begins, the figures are those of the image before.
+            let published = latest(&self.renderer);
+            if published.status.generation != self.image {
+                continue;
+            }
+            self.show(&published.status);
+            if matches!(published.status.state, State::Paused | State::Done(_) | State::Failed(_)) {
+                if self.image == self.images {
+                    self.bar.finish_and_clear();
+                }
+                return Ok(published);
+            }
         }
-        if stop.load(Ordering::Relaxed) {
-            renderer.set_budget(Budget { paused: true, ..budget });
-        }
-        let published = renderer.latest();
-        show_progress(&bar, &budget, &published.status);
-        if matches!(published.status.state, State::Paused | State::Done(_) | State::Failed(_)) {
-            bar.finish_and_clear();
-            return Ok(published);
-        }
+    }
+
+    fn show(&self, status: &Status) {
+        let before = length(&self.budget) * self.image.saturating_sub(1);
+        self.bar.set_position(before + position(&self.budget, status));
+        let frame = if self.images > 1 { format!("frame {} of {}, ", self.image, self.images) } else { String::new() };
+        let rate = status.samples_per_second() / 1e6;
+        self.bar.set_message(format!("{frame}{} spp, {rate:.1} M samples/s{}", status.spp, noise_text(status)));
     }
 }
 
-fn progress_bar(budget: &Budget) -> ProgressBar {
-    let length = match budget {
+fn progress_bar(budget: &Budget, images: u64) -> ProgressBar {
+    let style = ProgressStyle::with_template("{bar:30} {percent:>3} %  {msg}  {elapsed} elapsed, {eta} left");
+    ProgressBar::new(length(budget) * images).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+}
+
+/// Length of the bar of one image.
+fn length(budget: &Budget) -> u64 {
+    match budget {
         Budget { max_spp: Some(spp), .. } => u64::from(*spp),
         Budget { max_time: Some(time), .. } => time.as_millis() as u64,
         _ => 1000,
-    };
-    let style = ProgressStyle::with_template("{bar:30} {percent:>3} %  {msg}  {elapsed} elapsed, {eta} left");
-    ProgressBar::new(length).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
-}
-
-fn show_progress(bar: &ProgressBar, budget: &Budget, status: &Status) {
-    bar.set_position(position(budget, status));
-    bar.set_message(format!("{} spp, {:.1} M samples/s{}", status.spp, status.samples_per_second() / 1e6, noise_text(status)));
+    }
 }
 
 /// Position of the bar: samples, milliseconds, or thousandths of the work.
@@ -66,7 +133,7 @@ mod tests {
     #[test]
     fn the_bar_is_as_far_as_the_render() {
         let status = Status { spp: 7, elapsed: Duration::from_millis(2500), rel_mse_estimate: Some(0.04), ..Status::default() };
-        let by = |budget: Budget, status: &Status| (position(&budget, status), progress_bar(&budget).length());
+        let by = |budget: Budget, status: &Status| (position(&budget, status), progress_bar(&budget, 1).length());
         assert_eq!(by(Budget { max_spp: Some(20), ..Budget::default() }, &status), (7, Some(20)));
         assert_eq!(by(Budget { max_time: Some(Duration::from_secs(10)), ..Budget::default() }, &status), (2500, Some(10_000)));
         // Half of the noise takes four times as many samples.

@@ -10,20 +10,26 @@ use clap::ArgGroup;
 use noisefall::{
     math::SimdLevel,
     render::{
-        Budget, Display, Published, RenderRequest, State, film::Film, image_file::Format, replay_command::replay_command,
-        settings_text::settings_text, threads::Threads, truth::Reference,
+        Budget, Display,
+        film::Film,
+        image_file::Format,
+        layers::{self, Layer},
+        threads::Threads,
+        truth::Reference,
     },
     sampling::{Directions, Sampler},
     scene::{Camera, Estimator, RenderSettings, Reuse, Roulette, Scene, load},
 };
 
 use super::{
+    layers::{Layers, parse as layers_of},
     messages::{Failure, tell, wrong_usage},
     options::{self as parse, BounceCap, DisplayOptions},
     output::Output,
-    progress::render,
+    progress::Rendering,
     replay::{self, Form, Which},
-    summary::Done,
+    sequence::SequenceOptions,
+    shot::Job,
 };
 
 /// Samples per pixel if neither the command nor the scene states a number.
@@ -87,6 +93,11 @@ pub struct Arguments {
     size: Option<[u32; 2]>,
     #[command(flatten)]
     display: DisplayOptions,
+    #[arg(long, value_name = "LIST", help = format!("Layers of an EXR: all, or a list of {}", parse::one_of::<Layer>()),
+          value_parser = layers_of, requires = "output")]
+    layers: Option<Layers>,
+    #[command(flatten)]
+    sequence: SequenceOptions,
     /// Replay one path through this pixel instead of rendering
     #[arg(long, value_name = "X,Y", value_parser = parse::pixel, allow_hyphen_values = true, conflicts_with = "output")]
     pixel: Option<[u32; 2]>,
@@ -109,6 +120,9 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         Ok(output) => output,
         Err(mistake) => return Ok(wrong_usage(&mistake)),
     };
+    if let Some(mistake) = arguments.sequence.mistake(output.as_ref()) {
+        return Ok(wrong_usage(&mistake));
+    }
     let start = Instant::now();
     let scene = Arc::new(load(&arguments.scene).map_err(|error| error.report())?);
     let camera = Camera { resolution: arguments.size.unwrap_or(scene.camera.resolution), ..scene.camera };
@@ -119,54 +133,39 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         return replay::run(&scene, &camera, &settings, pixel, which, arguments.form()).map(|()| ExitCode::SUCCESS);
     }
     let Some(output) = output else { return Err("no output file".to_owned()) };
-    output.check()?;
-    if output.format() == Some(Format::Exr) && arguments.display.display() != Display::default() {
-        tell("note: an EXR stores the radiance unchanged; --exposure, --white-balance and --tone affect a PNG only");
-    }
+    let shots = arguments.sequence.shots(camera, &output)?;
+    let Some(first) = shots.first() else { return Ok(ExitCode::SUCCESS) };
+    first.output.check()?;
+    let layers = arguments.layers(&output);
     // The worker asks again: here it is no failure of the renderer.
     drop(Film::reserve(camera.resolution).map_err(|error| error.to_string())?);
+    let _layers = layers::reserve(&layers.0, camera.resolution).map_err(|error| error.to_string())?;
     let reference = Reference::of(&scene);
     let mismatch = reference.as_ref().and_then(|truth| truth.mismatch(camera.resolution));
     mismatch.iter().for_each(|mismatch| tell(&format!("note: {mismatch}")));
     let infinite = scene.infinite_variance(&settings);
     scene.warnings().iter().chain(&infinite).for_each(|warning| tell(&format!("note: {warning}")));
     let threads = Threads::new(arguments.threads.into(), SimdLevel::best()).map_err(|error| error.to_string())?;
-    let thread_count = threads.count();
-    let build_seconds = start.elapsed().as_secs_f64();
-
-    let start = Instant::now();
-    let budget = arguments.budget(&scene);
-    let request = RenderRequest { scene: scene.clone(), camera, settings };
-    let Published { frame, status } = render(threads, request, budget, arguments.json)?;
-    let render_seconds = start.elapsed().as_secs_f64();
-
-    let replayed = |at| replay_command(&arguments.scene, &scene, camera.resolution, &settings, at);
-    if let State::Failed(failure) = &status.state {
-        let replay = failure.replays.then(|| format!("\nreplay: {}", replayed(failure.at)));
-        return Err(format!("the renderer failed: {}{}", failure.message, replay.unwrap_or_default()));
-    }
-    let display = arguments.display.display();
-    let text = settings_text(&scene, &camera, &settings, display, &frame, &[]);
-    let delivered = output.write(&frame, display, &text)?;
-    if delivered != ExitCode::SUCCESS {
-        return Ok(delivered);
-    }
-    let done = Done {
-        output: &output,
-        scene: &scene,
+    let job = Job {
         scene_path: &arguments.scene,
-        settings: &settings,
-        error: reference.as_ref().and_then(|truth| truth.compare(&frame).zip(truth.bias(&frame))),
-        contradiction: reference.and_then(|truth| truth.contradiction(&frame)),
-        replay: status.first_invalid.map(replayed),
-        frame: &frame,
-        status: &status,
-        threads: thread_count,
-        seconds: [build_seconds, render_seconds],
+        settings,
+        display: arguments.display.display(),
+        layers: &layers,
+        reference,
+        threads: threads.count(),
+        build_seconds: start.elapsed().as_secs_f64(),
+        is_sequence: arguments.sequence.is_asked(),
+        json: arguments.json,
+        scene,
     };
-    done.notes(&camera).iter().for_each(|note| tell(note));
-    output.report(&if arguments.json { done.json().to_string() } else { done.line() })?;
-    Ok(delivered)
+    let mut rendering = Rendering::new(threads, arguments.budget(&job.scene), shots.len() as u64, job.json)?;
+    for shot in &shots {
+        let done = job.render(&mut rendering, shot)?;
+        if done != ExitCode::SUCCESS {
+            return Ok(done);
+        }
+    }
+    Ok(ExitCode::SUCCESS)
 }
 
 impl Arguments {
@@ -182,6 +181,21 @@ impl Arguments {
             adaptive: self.adaptive.unwrap_or(of_scene.adaptive),
             seed: self.seed.unwrap_or(of_scene.seed),
         }
+    }
+
+    /// The layers of the image, which only an EXR can have. Tells which options have no effect.
+    fn layers(&self, output: &Output) -> Layers {
+        let layers = self.layers.clone().unwrap_or_default();
+        if output.format() != Some(Format::Exr) {
+            if !layers.0.is_empty() {
+                tell("note: --layers affects an EXR only");
+            }
+            return Layers::default();
+        }
+        if self.display.display() != Display::default() {
+            tell("note: an EXR stores the radiance unchanged; --exposure, --white-balance and --tone affect a PNG only");
+        }
+        layers
     }
 
     fn form(&self) -> Form<'_> {

@@ -44,6 +44,8 @@ pub struct Features {
     pub albedo: Vec<[f32; 3]>,
     /// Metres along the ray; infinite if it leaves the scene.
     pub depth: Vec<f32>,
+    /// Positions in world space, metres; zero if the ray leaves the scene.
+    pub position: Vec<[f32; 3]>,
     /// Indices into [`Scene::objects`], or [`MISS`].
     pub object: Vec<u32>,
     /// Indices into [`Legend::names`], or [`MISS`].
@@ -77,7 +79,7 @@ impl Features {
     /// Reserves memory for the features of an image of this size.
     pub fn reserve([width, height]: [u32; 2]) -> Result<Reservation, TooMuch> {
         /// Bytes per pixel: of the result, and of its block before that.
-        const PIXEL: u64 = 40 + 40;
+        const PIXEL: u64 = 52 + 52;
         memory::reserve(format_args!("features of {width} × {height} pixels"), PIXEL * u64::from(width) * u64::from(height))
     }
 
@@ -90,6 +92,7 @@ impl Features {
             normal: vec![[0.0; 3]; pixels],
             albedo: vec![[0.0; 3]; pixels],
             depth: vec![f32::INFINITY; pixels],
+            position: vec![[0.0; 3]; pixels],
             object: vec![MISS; pixels],
             material: vec![MISS; pixels],
             cost: vec![0.0; pixels],
@@ -106,6 +109,7 @@ impl Features {
             self.normal[pixel] = seen.normal;
             self.albedo[pixel] = seen.albedo;
             self.depth[pixel] = seen.depth;
+            self.position[pixel] = seen.position;
             self.object[pixel] = seen.object;
             self.material[pixel] = legend.of_object[seen.object as usize];
         }
@@ -124,6 +128,7 @@ struct PixelFeatures {
     normal: [f32; 3],
     albedo: [f32; 3],
     depth: f32,
+    position: [f32; 3],
     object: u32,
 }
 
@@ -162,14 +167,17 @@ fn describe<L: Lanes>(l: L, work: &Work, batch: &Batch, seen: &mut Vec<Option<Pi
         if scene.shapes.have_elements() {
             place.element = hit.pick(element, l.u(0));
         }
-        let (normal, albedo) = shading(l, scene, hit, &path, place, hit.pick(t, l.f(0.0)));
+        let reached = hit.pick(t, l.f(0.0));
+        let (normal, albedo) = shading(l, scene, hit, &path, place, reached);
+        let position = path.o + path.d * reached;
         let (t, primitive, hits) = (t.to_array(), primitive.to_array(), hit.bits());
-        let (normal, albedo) = ([normal.x, normal.y, normal.z].map(F::to_array), [albedo.x, albedo.y, albedo.z].map(F::to_array));
+        let [normal, albedo, position] = [normal, albedo, position].map(|v| [v.x, v.y, v.z].map(F::to_array));
         for lane in 0..count {
             seen.push((hits >> lane & 1 == 1).then(|| PixelFeatures {
                 normal: normal.map(|axis| axis[lane]),
                 albedo: albedo.map(|channel| channel[lane]),
                 depth: t[lane],
+                position: position.map(|axis| axis[lane]),
                 object: scene.owners[primitive[lane] as usize],
             }));
         }

@@ -4,10 +4,12 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use exr::prelude::{Image, Layer, LayerAttributes, Text, WritableImage, attribute::AttributeValue};
+use exr::prelude::{
+    AnyChannel, AnyChannels, FlatSamples, Image, Layer, LayerAttributes, Text, WritableImage, attribute::AttributeValue,
+};
 
 pub use super::noise_layer::{Provenance, provenance};
-use super::{frame::Frame, noise_layer, tone::Display, tone::to_srgb};
+use super::{frame::Frame, layers::Channel, noise_layer, tone::Display, tone::to_srgb};
 pub use crate::image::{Picture, SETTINGS_KEY};
 use crate::{
     file::{self, WriteError},
@@ -69,32 +71,50 @@ pub fn check_target(path: &Path) -> Result<(), ImageError> {
 
 /// Writes a frame as PNG or EXR, by the extension. The file appears whole or not at all. `settings` is any text.
 pub fn save(frame: &Frame, display: Display, settings: &str, path: &Path) -> Result<(), ImageError> {
-    let bytes = encode(frame, display, settings, Format::of(path)?)?;
-    Ok(file::replace(path, &bytes)?)
+    Contents { frame, channels: &[], settings }.save(display, path)
 }
 
-/// [`save`] with these pixels in a PNG: the frame as displayed.
-pub fn save_shown(frame: &Frame, pixels: &[[u8; 4]], settings: &str, path: &Path) -> Result<(), ImageError> {
-    let bytes = encode_shown(frame, pixels, settings, Format::of(path)?)?;
-    Ok(file::replace(path, &bytes)?)
+/// The contents of an image file.
+#[derive(Clone, Copy)]
+pub struct Contents<'a> {
+    /// The image.
+    pub frame: &'a Frame,
+    /// Further channels of an EXR, as many values each as the frame has pixels: see [`super::layers`].
+    pub channels: &'a [Channel],
+    /// Any text.
+    pub settings: &'a str,
 }
 
-/// Encodes a frame to the bytes of a file.
-pub fn encode(frame: &Frame, display: Display, settings: &str, format: Format) -> Result<Vec<u8>, ImageError> {
-    let mut pixels = Vec::new();
-    if format == Format::Png {
-        to_srgb(&frame.radiance, display, &mut pixels);
+impl Contents<'_> {
+    /// Writes a PNG or EXR, by the extension. The file appears whole or not at all.
+    pub fn save(&self, display: Display, path: &Path) -> Result<(), ImageError> {
+        let bytes = self.encode(display, Format::of(path)?)?;
+        Ok(file::replace(path, &bytes)?)
     }
-    encode_shown(frame, &pixels, settings, format)
-}
 
-fn encode_shown(frame: &Frame, pixels: &[[u8; 4]], settings: &str, format: Format) -> Result<Vec<u8>, ImageError> {
-    let mut bytes = Vec::new();
-    let encoded = match format {
-        Format::Png => write_png([frame.width, frame.height], pixels, settings, &mut bytes),
-        Format::Exr => write_exr(frame, settings, &mut bytes),
-    };
-    encoded.map(|()| bytes).map_err(ImageError::Encode)
+    /// [`Contents::save`] with these pixels in a PNG: the frame as displayed.
+    pub fn save_shown(&self, pixels: &[[u8; 4]], path: &Path) -> Result<(), ImageError> {
+        let bytes = self.encode_shown(pixels, Format::of(path)?)?;
+        Ok(file::replace(path, &bytes)?)
+    }
+
+    /// The bytes of a file.
+    pub fn encode(&self, display: Display, format: Format) -> Result<Vec<u8>, ImageError> {
+        let mut pixels = Vec::new();
+        if format == Format::Png {
+            to_srgb(&self.frame.radiance, display, &mut pixels);
+        }
+        self.encode_shown(&pixels, format)
+    }
+
+    fn encode_shown(&self, pixels: &[[u8; 4]], format: Format) -> Result<Vec<u8>, ImageError> {
+        let mut bytes = Vec::new();
+        let encoded = match format {
+            Format::Png => write_png([self.frame.width, self.frame.height], pixels, self.settings, &mut bytes),
+            Format::Exr => write_exr(self, &mut bytes),
+        };
+        encoded.map(|()| bytes).map_err(ImageError::Encode)
+    }
 }
 
 fn write_png([width, height]: [u32; 2], pixels: &[[u8; 4]], settings: &str, to: &mut impl Write) -> Result<(), String> {
@@ -109,14 +129,16 @@ fn write_png([width, height]: [u32; 2], pixels: &[[u8; 4]], settings: &str, to: 
     writer.finish().map_err(|error| error.to_string())
 }
 
-fn write_exr(frame: &Frame, settings: &str, to: &mut Vec<u8>) -> Result<(), String> {
+fn write_exr(&Contents { frame, channels, settings }: &Contents, to: &mut Vec<u8>) -> Result<(), String> {
     let size = (frame.width as usize, frame.height as usize);
     let mut attributes = LayerAttributes::named("");
     attributes.layer_name = None;
     attributes.software_name = Some(Text::from("Noisefall"));
     let text = Text::new_or_none(settings).ok_or("the settings are not Latin-1 text, which is all that EXR can store")?;
     attributes.other.insert(Text::from(SETTINGS_KEY), AttributeValue::Text(text));
-    let channels = noise_layer::channels(frame);
+    let mut list = noise_layer::channels(frame);
+    list.extend(channels.iter().map(|Channel { name, values }| AnyChannel::new(name.as_str(), FlatSamples::F32(values.clone()))));
+    let channels = AnyChannels::sort(list.into());
     let layer = Layer::new(size, attributes, exr::prelude::Encoding::FAST_LOSSLESS, channels);
     let mut image = Image::from_layer(layer);
     noise_layer::add_figures(frame, &mut image.attributes);

@@ -17,6 +17,7 @@ pub mod estimate;
 pub mod film;
 pub mod frame;
 pub mod image_file;
+pub mod layers;
 mod noise_layer;
 pub mod pass;
 pub mod path_formula;

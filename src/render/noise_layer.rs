@@ -10,7 +10,7 @@ use std::{
 };
 
 use exr::prelude::{
-    AnyChannel, AnyChannels, FlatSamples, ImageAttributes, MetaData, ReadChannels, ReadLayers, ReadSpecificChannel, Text,
+    AnyChannel, FlatSamples, ImageAttributes, MetaData, ReadChannels, ReadLayers, ReadSpecificChannel, Text,
     attribute::AttributeValue, read,
 };
 use serde::Deserialize;
@@ -40,7 +40,7 @@ pub struct Provenance {
 }
 
 /// The channels of a frame, with its variances if it has any.
-pub(super) fn channels(frame: &Frame) -> AnyChannels<FlatSamples> {
+pub(super) fn channels(frame: &Frame) -> Vec<AnyChannel<FlatSamples>> {
     let plane = |name: &str, values: Vec<f32>| AnyChannel::new(name, FlatSamples::F32(values));
     let of = |pixels: &[[f32; 3]], c: usize| pixels.iter().map(|rgb| rgb[c]).collect::<Vec<f32>>();
     let mut planes: Vec<_> = ["R", "G", "B"].iter().enumerate().map(|(c, name)| plane(name, of(&frame.radiance, c))).collect();
@@ -51,7 +51,7 @@ pub(super) fn channels(frame: &Frame) -> AnyChannels<FlatSamples> {
         let block = |i: usize| i / width / SampleNoise::BLOCK * columns + i % width / SampleNoise::BLOCK;
         planes.push(plane(CHANNELS[3], (0..frame.radiance.len()).map(|i| kept(noise.blocks[block(i)])).collect()));
     }
-    AnyChannels::sort(planes.into())
+    planes
 }
 
 /// Converts a variance for the file; a positive one must not become 0.

@@ -2,6 +2,7 @@
 mod black;
 mod build;
 mod camera;
+mod camera_path;
 mod carried;
 mod compile;
 mod compile_report;
@@ -25,6 +26,7 @@ mod settings;
 mod shutter;
 pub mod surface;
 mod syntax;
+mod turntable;
 mod values;
 mod warnings;
 mod wording;
@@ -42,6 +44,7 @@ pub use self::settings::InjectedFault;
 use self::surface::Surfaces;
 pub use self::{
     camera::{Camera, CameraError, Lens},
+    camera_path::CameraPath,
     compile::{check_camera, check_object},
     compile_report::CompileReport,
     diagnostic::SceneError,

@@ -20,6 +20,7 @@ mod reused_parts;
 mod scene_files;
 mod scene_messages;
 mod second_image;
+mod sequences;
 mod shapes;
 mod sheet;
 mod study;

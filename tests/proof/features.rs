@@ -33,7 +33,7 @@ fn world(normal: [f32; 3]) -> DVec3 {
 }
 
 fn assert_nothing_at(found: &Features, pixel: usize) {
-    assert_eq!((found.normal[pixel], found.albedo[pixel]), ([0.0; 3], [0.0; 3]));
+    assert_eq!([found.normal[pixel], found.albedo[pixel], found.position[pixel]], [[0.0; 3]; 3]);
     assert_eq!((found.depth[pixel], found.object[pixel], found.material[pixel]), (f32::INFINITY, MISS, MISS));
 }
 
@@ -166,7 +166,7 @@ fn the_renderer_meets_the_same_surfaces() {
 #[test]
 fn all_levels_see_the_same_bits() {
     let bits = |found: &Features| {
-        let vectors = found.normal.iter().chain(&found.albedo).flatten();
+        let vectors = found.normal.iter().chain(&found.albedo).chain(&found.position).flatten();
         let reals: Vec<u32> = vectors.chain(&found.depth).map(|x| x.to_bits()).collect();
         (reals, found.object.clone(), found.material.clone())
     };

@@ -1,6 +1,7 @@
 //! Film, frames and their noise estimates, with known samples.
 mod film;
 mod frame;
+mod layers;
 mod noise;
 mod passes;
 mod tile;

@@ -43,6 +43,7 @@ fn features() -> Features {
         normal: (0..32).map(|i| if i == 18 { [1.0, 0.0, -1.0] } else { [0.0; 3] }).collect(),
         albedo: (0..32).map(|i| if i == 18 { [1.0, 0.0, 0.5] } else { [0.0; 3] }).collect(),
         depth: numbers.iter().map(|x| if *x == 0.0 { f32::INFINITY } else { *x }).collect(),
+        position: vec![[0.0; 3]; 32],
         object: vec![0; 32],
         material: (0..32).map(|i| if i == 18 { u32::MAX } else { u32::from(i >= 16) }).collect(),
         cost: numbers.iter().map(|x| x * 2.0).collect(),

@@ -6,7 +6,7 @@ use std::{
 
 use noisefall::{
     file::replace,
-    render::{Frame, image_file::save_shown, settings_text::settings_text, view::View},
+    render::{Frame, image_file::Contents, settings_text::settings_text, view::View},
 };
 
 use super::state::App;
@@ -66,7 +66,9 @@ impl App {
         let settings = settings_text(&of.scene, &of.camera, &of.settings, display, &frame, &remarks);
         self.background.saver.save(path, move |path| {
             let DisplayImage { frame, pixels, .. } = render(request);
-            save_shown(&frame, &pixels, &settings, path).map_err(|error| error.to_string())
+            Contents { frame: &frame, channels: &[], settings: &settings }
+                .save_shown(&pixels, path)
+                .map_err(|error| error.to_string())
         });
     }
 }

@@ -106,8 +106,9 @@ pub mod tests {
         let term = |k, up_to| Some(BounceTerm { of: a.frame.clone(), k, up_to });
         let (reference, other) = (Arc::new(Reference::Constant([1.0; 3])), frame(&[1.0]));
         let look = DisplaySettings { view: View::Depth, ..a.look };
-        let (normal, albedo, depth, object) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        let features = Features { width: 0, height: 0, normal, albedo, depth, object, material: Vec::new(), cost: Vec::new() };
+        let (normal, albedo, depth, position, object) = (Vec::new(), Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let (material, cost) = (Vec::new(), Vec::new());
+        let features = Features { width: 0, height: 0, normal, albedo, depth, position, object, material, cost };
         for changed in [
             DisplayRequest { frame: other.clone(), ..a.clone() },
             DisplayRequest { second: Some(other.clone()), ..a.clone() },

@@ -132,6 +132,7 @@ mod tests {
             normal: vec![[0.0; 3], [0.0, 0.6, 0.8]],
             albedo: vec![[0.0; 3], [0.25, 0.5, 0.75]],
             depth: vec![1.0; 2],
+            position: vec![[0.0; 3]; 2],
             object: vec![0; 2],
             material: vec![0, 1],
             cost: vec![1.0; 2],
