@@ -96,6 +96,9 @@ pub struct Arguments {
     #[arg(long, value_name = "LIST", help = format!("Layers of an EXR: all, or a list of {}", parse::one_of::<Layer>()),
           value_parser = layers_of, requires = "output")]
     layers: Option<Layers>,
+    /// Denoise the image, which biases it: non-local means over two halves of the samples. The file says so
+    #[arg(long, requires = "output")]
+    denoise: bool,
     #[command(flatten)]
     sequence: SequenceOptions,
     /// Replay one path through this pixel instead of rendering
@@ -151,6 +154,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         settings,
         display: arguments.display.display(),
         layers: &layers,
+        denoises: arguments.denoise,
         reference,
         threads: threads.count(),
         build_seconds: start.elapsed().as_secs_f64(),
@@ -210,7 +214,7 @@ impl Arguments {
     fn budget(&self, scene: &Scene) -> Budget {
         let by_samples = self.time.is_none() && self.noise.is_none();
         let max_spp = by_samples.then(|| self.spp.or(scene.spp).unwrap_or(DEFAULT_SPP));
-        Budget { max_spp, max_time: self.time, noise: self.noise, ..Budget::default() }
+        Budget { max_spp, max_time: self.time, noise: self.noise, halves: self.denoise, ..Budget::default() }
     }
 }
 

@@ -2,8 +2,10 @@
 use std::{path::Path, process::ExitCode, sync::Arc, time::Instant};
 
 use noisefall::{
+    math::SimdLevel,
     render::{
-        Display, Published, RenderRequest, State, replay_command::replay_command, settings_text::settings_text, truth::Reference,
+        Display, Frame, Published, RenderRequest, State, denoise, replay_command::replay_command, settings_text::settings_text,
+        threads::Threads, truth::Reference,
     },
     scene::{Camera, RenderSettings, Scene},
 };
@@ -24,6 +26,7 @@ pub struct Job<'a> {
     pub settings: RenderSettings,
     pub display: Display,
     pub layers: &'a Layers,
+    pub denoises: bool,
     pub reference: Option<Reference>,
     pub threads: usize,
     pub build_seconds: f64,
@@ -50,8 +53,10 @@ impl Job<'_> {
             tell("the sequence is not finished; the same command with --resume continues it");
             return Ok(ExitCode::from(INTERRUPTED));
         }
+        let denoised = if self.denoises { Some(self.denoised(&frame)?) } else { None };
+        let frame = denoised.map_or(frame, Arc::new);
         let channels = self.layers.channels(&self.scene, camera, &frame, bounces.as_deref(), self.threads)?;
-        let text = settings_text(&self.scene, camera, &self.settings, self.display, &frame, &[]);
+        let text = settings_text(&self.scene, camera, &self.settings, self.display, &frame, &self.remarks());
         let delivered = output.write(&frame, &channels, self.display, &text)?;
         if delivered != ExitCode::SUCCESS {
             return Ok(delivered);
@@ -75,6 +80,24 @@ impl Job<'_> {
             output.report(&if self.json { done.json().to_string() } else { done.line() })
         })?;
         Ok(delivered)
+    }
+
+    /// A frame without its noise, nor its noise estimate.
+    fn denoised(&self, frame: &Frame) -> Result<Frame, Failure> {
+        let size = [frame.width, frame.height];
+        let _memory = denoise::reserve(size).map_err(|error| error.to_string())?;
+        let threads = Threads::new(self.threads, SimdLevel::best()).map_err(|error| error.to_string())?;
+        let radiance = threads.install(|| denoise::denoised(frame, &|| false));
+        let radiance = radiance.ok_or("--denoise needs two samples per pixel or more, and memory for half images")?;
+        tell(&format!("note: {}", denoise::LABEL));
+        let Frame { width, height, full_resolution, spp, shares, elapsed, .. } = *frame;
+        let counts = frame.counts.clone();
+        Ok(Frame { width, height, full_resolution, radiance, spp, counts, shares, elapsed, ..Frame::default() })
+    }
+
+    /// Settings that say what has been done to the image.
+    fn remarks(&self) -> Vec<(&'static str, String)> {
+        self.denoises.then(|| ("image", denoise::LABEL.to_owned())).into_iter().collect()
     }
 
     /// Whether it is the scene's own camera, whose image the scene may know.

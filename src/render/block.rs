@@ -20,6 +20,13 @@ pub(super) struct Block {
 }
 
 impl Block {
+    /// The number of samples in the first of two halves, a power of two; `None` before the second sample.
+    pub fn first_half(&self) -> Option<u32> {
+        let is_far = 2 * u64::from(self.spp) >= 3 * u64::from(self.doubled);
+        let first = if is_far { self.doubled } else { self.doubled / 2 };
+        Some(first).filter(|first| (1..self.spp).contains(first))
+    }
+
     /// Whether the number of samples is a power of two whose move is not recorded yet.
     pub fn has_doubled(&self) -> bool {
         self.spp.is_power_of_two() && self.spp > self.doubled

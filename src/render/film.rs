@@ -32,15 +32,15 @@ impl Film {
 
     /// Reserves memory for an image of this size: the film, its frames, and saving one of them.
     pub fn reserve([width, height]: [u32; 2]) -> Result<Reservation, TooMuch> {
-        /// Bytes per pixel: sums, squares and means in the film; means and errors in up to two frames; display codes; and the
+        /// Bytes per pixel: sums, squares and two means in the film; means and errors in up to two frames; display codes; and the
         /// file.
-        const PIXEL: u64 = 60 + 2 * 20 + 4 + 24;
+        const PIXEL: u64 = 72 + 2 * 20 + 4 + 24;
         memory::reserve(format_args!("images of {width} × {height} pixels"), PIXEL * u64::from(width) * u64::from(height))
     }
 
     /// Bytes of a film without its frames: sums, squares and means.
     pub(super) fn kept_bytes([width, height]: [u32; 2]) -> u64 {
-        60 * u64::from(width) * u64::from(height)
+        72 * u64::from(width) * u64::from(height)
     }
 
     /// Reserves memory for a film without its frames.

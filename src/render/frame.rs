@@ -4,8 +4,8 @@ use std::time::Duration;
 use rayon::prelude::*;
 
 use super::{
-    error_estimator::block_errors, estimate::Estimate, film::Film, sample_counts::SampleCounts, scatter::Parts, series::Series,
-    tile::Tile,
+    error_estimator::block_errors, estimate::Estimate, film::Film, halves::Halves, sample_counts::SampleCounts, scatter::Parts,
+    series::Series, tile::Tile,
 };
 use crate::{
     integrator::TILE,
@@ -46,6 +46,8 @@ pub struct Frame {
     pub rel_mse_estimate: Option<f64>,
     /// The same estimate with each of its blocks left out; `None` before the second sample.
     pub block_errors: Option<BlockErrors>,
+    /// Two halves of the samples, if requested.
+    pub halves: Option<Halves>,
     /// Noise of the means from the variance of the samples; `None` before the second sample.
     pub noise: Option<SampleNoise>,
 }
@@ -85,6 +87,7 @@ impl Frame {
             shares: film.shares,
             elapsed: Duration::ZERO,
             series: Series::of_film(film),
+            halves: None,
             rel_mse_estimate: block_errors.as_ref().map(|errors| errors.whole),
             block_errors,
             noise: noise(film, variance),

@@ -42,6 +42,8 @@ pub struct Budget {
     pub noise: Option<f64>,
     /// Region to render before the rest, until it has `max_spp` samples.
     pub region: Option<Region>,
+    /// Whether frames have the two halves of their samples.
+    pub halves: bool,
 }
 
 impl Budget {

@@ -8,6 +8,7 @@ pub(super) use self::kept::KeptSessions;
 use super::{
     coarse::Coarse,
     film::Film,
+    halves::Halves,
     pass::{Failure, PassCount, SampleId},
     protocol::{Budget, Publish, RenderRequest, State, is_below},
     region::Region,
@@ -48,6 +49,8 @@ pub(super) struct Session {
     stale: bool,
     /// Memory of the image, and of the series.
     memory: [Option<Reservation>; 2],
+    /// Memory of half images, if frames have them.
+    halves: Option<Reservation>,
 }
 
 impl Session {
@@ -75,6 +78,7 @@ impl Session {
             last_frame: None,
             stale: false,
             memory: [None, None],
+            halves: None,
             generation,
             request,
         };
@@ -105,6 +109,14 @@ impl Session {
         // The picture that it is the series of is there to look at.
         session.last_frame = Some(Instant::now());
         session
+    }
+
+    /// Adds half images to frames, or leaves them out. If there is no memory for them, frames do without.
+    pub fn keep_halves(&mut self, keeps: bool) {
+        if keeps != self.halves.is_some() {
+            self.halves = if keeps { Halves::reserve(self.request.camera.resolution).ok() } else { None };
+            self.stale |= self.halves.is_some() && self.film.spp() > 0;
+        }
     }
 
     /// The number of the request.

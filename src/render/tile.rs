@@ -14,6 +14,8 @@ pub struct Tile {
     pub(super) sum_of_squares: Vec<[f64; 3]>,
     /// The means at the last power of two of samples.
     pub(super) before: Vec<[f32; 3]>,
+    /// The means at the power of two before that.
+    pub(super) earlier: Vec<[f32; 3]>,
     /// Row by row.
     pub(super) blocks: Vec<Block>,
     /// Scatter of samples summed over all pixels and channels, if all pixels have the same number of samples.
@@ -34,6 +36,7 @@ impl Tile {
             sum: Vec::new(),
             sum_of_squares: Vec::new(),
             before: Vec::new(),
+            earlier: Vec::new(),
             blocks: vec![Block::default(); (columns * rows) as usize],
             whole: Scatter::default(),
             series: None,
@@ -185,6 +188,7 @@ impl Tile {
             sums.resize(pixels, [0.0; 3]);
         }
         self.before.resize(pixels, [0.0; 3]);
+        self.earlier.resize(pixels, [0.0; 3]);
     }
 
     /// Pixel coordinates of the upper left corner of a block.

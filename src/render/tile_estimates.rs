@@ -22,6 +22,7 @@ impl Tile {
         let estimates = self.block_estimates(block);
         let mut before = Vec::with_capacity(estimates.len());
         for (row, now) in self.block_rows(block).zip(estimates.chunks(self.block_size(self.place(block))[0] as usize)) {
+            self.earlier[row.clone()].copy_from_slice(&self.before[row.clone()]);
             let means = &mut self.before[row];
             before.extend_from_slice(means);
             means.iter_mut().zip(now).for_each(|(mean, estimate)| *mean = estimate.mean.map(|c| c as f32));
@@ -80,6 +81,17 @@ impl Tile {
     /// The parts of the variance of the pixels' means.
     pub(super) fn parts(&self) -> impl Iterator<Item = Parts> {
         self.blocks.iter().map(|block| block.parts.of_means(f64::from(block.spp)))
+    }
+
+    /// The means of the first samples of a pixel and of the rest, and the share of the first; `None` before the second sample.
+    pub(super) fn halves(&self, [column, row]: [u32; 2]) -> Option<([[f32; 3]; 2], f32)> {
+        let block = &self.blocks[(row / BLOCK * self.size[0].div_ceil(BLOCK) + column / BLOCK) as usize];
+        let first = block.first_half()?;
+        let pixel = (row * self.size[0] + column) as usize;
+        let mean = if first == block.doubled { self.before[pixel] } else { self.earlier[pixel] };
+        let [n, rest] = [first, block.spp - first].map(f64::from);
+        let of_rest = [0, 1, 2].map(|c| ((self.sum[pixel][c] - n * f64::from(mean[c])) / rest).max(0.0) as f32);
+        Some(([mean, of_rest], (n / (n + rest)) as f32))
     }
 
     /// The estimates of one row of the tile, which must have a sample; `row` counts from the tile's top.

@@ -6,6 +6,7 @@ use crate::render::{
     coarse::Coarse,
     error_estimator::rel_mse_estimate_in,
     frame::Frame,
+    halves::Halves,
     protocol::{Budget, Publish, Status},
 };
 
@@ -40,7 +41,8 @@ impl Session {
             self.coarse = Coarse::new(&self.request.camera, coarse.scale / 2);
             return Frame::of_film(&coarse.film, self.generation, coarse.camera.resolution, full);
         }
-        let frame = Frame { elapsed: self.elapsed, ..Frame::of_film(&self.film, self.generation, full, full) };
+        let halves = self.halves.as_ref().and_then(|_| Halves::of_film(&self.film));
+        let frame = Frame { elapsed: self.elapsed, halves, ..Frame::of_film(&self.film, self.generation, full, full) };
         self.rel_mse_estimate = frame.rel_mse_estimate;
         // A region that has been left keeps the estimate for which it was.
         if let Some(region) = self.film.focus {

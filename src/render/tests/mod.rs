@@ -1,4 +1,5 @@
 //! Film, frames and their noise estimates, with known samples.
+mod denoise;
 mod film;
 mod frame;
 mod layers;

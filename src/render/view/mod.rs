@@ -2,6 +2,7 @@
 //!
 //! A view is one file and one line of the catalogue below.
 mod albedo;
+mod denoised;
 mod depth;
 mod difference;
 mod field;
@@ -40,6 +41,7 @@ crate::declare::word_kinds! {
         depth::Depth,
         hit_cost::HitCost,
         materials::Materials,
+        denoised::Denoised,
     }
     in_view
 }
@@ -53,6 +55,11 @@ impl View {
     /// Whether it shows radiance, and so terms of its series too.
     pub fn shows_light(self) -> bool {
         in_view!(self, V => V::SHOWS_LIGHT)
+    }
+
+    /// Whether it shows the denoised image.
+    pub fn is_denoised(self) -> bool {
+        in_view!(self, V => V::IS_DENOISED)
     }
 
     /// Whether their histogram belongs to it.
@@ -70,6 +77,9 @@ trait Quantity {
 
     /// Whether it shows radiance, and so terms of its series too.
     const SHOWS_LIGHT: bool = false;
+
+    /// Whether it shows the denoised image, which stands in place of the radiance.
+    const IS_DENOISED: bool = false;
 
     /// Whether the histogram of z-scores belongs to it.
     const HAS_SCORES: bool = false;
@@ -126,7 +136,7 @@ trait Quantity {
 pub struct Sources<'a> {
     /// The frame to show.
     pub frame: &'a Frame,
-    /// Radiance to show in place of the frame's own, of the same length: a term of its series.
+    /// Radiance to show in place of the frame's own, of the same length: a term of its series, or the denoised image.
     pub radiance: Option<&'a [[f32; 3]]>,
     /// The truth to compare with.
     pub truth: Option<&'a Reference>,

@@ -26,6 +26,12 @@ impl App {
         let reference = self.reference().filter(|_| frame.generation == self.background.worker.generation());
         let finder = &mut self.background.features;
         let features = request.and_then(|request| finder.of(&request.scene, &request.camera, session.threads));
+        let denoised = if look.view.is_denoised() {
+            self.background.denoiser.denoised(&frame, session.threads)
+        } else {
+            self.background.denoiser.stop();
+            None
+        };
         DisplayRequest {
             reference,
             term: term.map(|of| BounceTerm { of, k: session.bounces.k, up_to: session.bounces.up_to }),
@@ -35,6 +41,7 @@ impl App {
             look,
             pinned,
             features,
+            denoised,
             materials: session.opened.as_ref().map_or_else(|| Arc::from([]), |opened| opened.materials.clone()),
             on_screen: self.window.view.on_screen(),
             most_side: self.ctx.input(|input| input.max_texture_side),

@@ -18,6 +18,7 @@ mod receive;
 mod recovering;
 mod results;
 mod saving;
+mod saving_layers;
 mod scene_editor;
 mod scene_edits;
 mod scene_file;

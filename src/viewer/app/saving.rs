@@ -21,7 +21,8 @@ impl App {
         let is_found = || worker.request().is_some_and(|request| self.background.features.has(&request.scene, &request.camera));
         let has_features = !self.session.look.view.shows_features() || is_found();
         let Some(frame) = self.results.shown.as_ref().filter(|_| has_features) else { return false };
-        !frame.is_coarse() && frame.generation == worker.generation()
+        let is_denoised = !self.session.look.view.is_denoised() || self.background.denoiser.has(frame);
+        is_denoised && !frame.is_coarse() && frame.generation == worker.generation()
     }
 
     pub fn open_save_dialog(&mut self, target: SaveTarget) {
@@ -35,6 +36,7 @@ impl App {
         let bytes = match target {
             SaveTarget::Scene => return self.save_scene_to(&path),
             SaveTarget::Picture => return self.save_to(path),
+            SaveTarget::Layers => return self.save_layers_to(path),
             SaveTarget::CurvesCsv => self.instruments.history.csv(),
             SaveTarget::CurvesSvg => Ok(self.instruments.history.svg().into_bytes()),
             SaveTarget::Path => {

@@ -8,9 +8,10 @@ use super::{
     selection::Selection, session::Session, window_state::Dialogs, window_state::WindowState,
 };
 use crate::viewer::background::{
-    adviser::Adviser, background_task::BackgroundTask, catalogue, catalogue::CatalogueEntry, display_pipeline::DisplayPipeline,
-    dropped::DropReader, feature_finder::FeatureFinder, file_watcher::FileWatcher, loader::Loader, preferences::Preferences,
-    recovery_keeper::RecoveryKeeper, render_worker::RenderWorkerHandle, saver::Saver, settler::Settler,
+    adviser::Adviser, background_task::BackgroundTask, catalogue, catalogue::CatalogueEntry, denoiser::Denoiser,
+    display_pipeline::DisplayPipeline, dropped::DropReader, feature_finder::FeatureFinder, file_watcher::FileWatcher,
+    loader::Loader, preferences::Preferences, recovery_keeper::RecoveryKeeper, render_worker::RenderWorkerHandle, saver::Saver,
+    settler::Settler,
 };
 use crate::viewer::instruments::{convergence::history::History as ErrorHistory, path::inspector::PathInspector};
 use crate::viewer::panels::frame_times::FrameTimes;
@@ -55,6 +56,7 @@ pub struct Background {
     /// The image that is drawn for the clipboard.
     pub copying: Option<BackgroundTask<egui::ColorImage>>,
     pub features: FeatureFinder,
+    pub denoiser: Denoiser,
     pub adviser: Option<Adviser>,
 }
 
@@ -74,6 +76,7 @@ impl App {
             recovery: RecoveryKeeper::default(),
             copying: None,
             features: FeatureFinder::new(ctx),
+            denoiser: Denoiser::new(ctx),
             adviser: None,
         };
         background.loader.open(scene);

@@ -77,7 +77,8 @@ pub struct ReferenceComparison {
 
 /// Renders the pixels of a request.
 pub fn render(request: DisplayRequest) -> DisplayImage {
-    let DisplayRequest { frame, second, shows_second, term, look, reference, pinned, features, materials, .. } = request;
+    let DisplayRequest { frame, second, shows_second, term, look, reference, pinned, features, denoised, materials, .. } =
+        request;
     let (on_screen, most_side) = (request.on_screen, request.most_side);
     let truth = reference.as_deref();
     let picture = |frame: &Frame, radiance: Option<&[[f32; 3]]>, scale: Option<Scale>| {
@@ -85,8 +86,8 @@ pub fn render(request: DisplayRequest) -> DisplayImage {
         let (pinned, features) = (pinned.as_deref(), features.as_deref());
         let size = [frame.width, frame.height].map(|side| side as usize);
         let to = texture_size(size, on_screen, most_side);
-        let reduced =
-            (to != size && look.view == View::Radiance).then(|| averaged(radiance.unwrap_or(&frame.radiance), size, to));
+        let reduced = (to != size && (look.view == View::Radiance || radiance.is_some() && look.view.is_denoised()))
+            .then(|| averaged(radiance.unwrap_or(&frame.radiance), size, to));
         let radiance = reduced.as_deref().or(radiance);
         let shown = draw(look, &Sources { frame, radiance, truth, pinned, features, scale, materials: &materials }, &mut pixels);
         if to != size && reduced.is_none() {
@@ -94,7 +95,12 @@ pub fn render(request: DisplayRequest) -> DisplayImage {
         }
         (egui::ColorImage::from_rgba_unmultiplied(to, pixels.as_flattened()), shown, pixels)
     };
-    let radiance = term.as_ref().filter(|term| term.of.radiance.len() == frame.radiance.len()).and_then(BounceTerm::radiance);
+    let is_of_frame = |radiance: &Vec<[f32; 3]>| radiance.len() == frame.radiance.len();
+    let radiance = if look.view.is_denoised() {
+        denoised.map(|radiance| radiance.to_vec()).filter(is_of_frame)
+    } else {
+        term.as_ref().and_then(BounceTerm::radiance).filter(is_of_frame)
+    };
     let (image, shown, pixels) = picture(&frame, radiance.as_deref(), None);
     let (legend, field) = shown.unzip();
     let scale = legend.as_ref().and_then(|legend| legend.scale);

@@ -20,6 +20,8 @@ pub struct DisplayRequest {
     pub reference: Option<Arc<Reference>>,
     pub pinned: Option<Arc<Frame>>,
     pub features: Option<Arc<Features>>,
+    /// The denoised radiance of the frame.
+    pub denoised: Option<Arc<Vec<[f32; 3]>>>,
     pub materials: Arc<[String]>,
     /// Width and height of the image in screen pixels, if these are fewer.
     pub on_screen: Option<[u32; 2]>,
@@ -51,6 +53,7 @@ impl PartialEq for DisplayRequest {
             && same(self.reference.as_ref(), other.reference.as_ref())
             && same(self.pinned.as_ref(), other.pinned.as_ref())
             && same(self.features.as_ref(), other.features.as_ref())
+            && same(self.denoised.as_ref(), other.denoised.as_ref())
             && self.term == other.term
             && self.on_screen == other.on_screen
     }
@@ -94,6 +97,7 @@ pub mod tests {
             reference: None,
             pinned: None,
             features: None,
+            denoised: None,
             materials: Arc::from([]),
             on_screen: None,
             most_side: 1024,
@@ -119,6 +123,7 @@ pub mod tests {
             DisplayRequest { pinned: Some(other), ..a.clone() },
             DisplayRequest { features: Some(Arc::new(features)), ..a.clone() },
             DisplayRequest { term: term(1, false), ..a.clone() },
+            DisplayRequest { denoised: Some(Arc::new(Vec::new())), ..a.clone() },
         ] {
             assert!(changed != a && changed == changed.clone());
         }

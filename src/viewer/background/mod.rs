@@ -2,6 +2,7 @@
 pub mod adviser;
 pub mod background_task;
 pub mod catalogue;
+pub mod denoiser;
 pub mod display_image;
 pub mod display_pipeline;
 pub mod display_request;

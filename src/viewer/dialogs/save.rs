@@ -28,14 +28,14 @@ impl SaveDialog {
 
 /// Shows the dialog until it is answered. Returns what to save, and where.
 pub fn show(ctx: &egui::Context, dialog: &mut Option<SaveDialog>) -> Option<(SaveTarget, PathBuf)> {
-    let SaveDialog { target, mut field } = dialog.take()?;
+    let SaveDialog { mut target, mut field } = dialog.take()?;
     let (mut open, mut save, mut cancelled) = (true, false, false);
     egui::Window::new(target.title())
         .open(&mut open)
         .collapsible(false)
         .resizable(false)
         .anchor(Align2::CENTER_CENTER, [0.0, 0.0])
-        .show(ctx, |ui| (save, cancelled) = dialog_body(ui, target, &mut field));
+        .show(ctx, |ui| (save, cancelled) = dialog_body(ui, &mut target, &mut field));
     if let Some(path) = field.path().filter(|_| save) {
         match target.check(&path) {
             Ok(()) => return Some((target, path)),
@@ -48,10 +48,28 @@ pub fn show(ctx: &egui::Context, dialog: &mut Option<SaveDialog>) -> Option<(Sav
     None
 }
 
+/// The choice whether an image has layers, which makes it an EXR.
+fn layers_choice(ui: &mut egui::Ui, target: &mut SaveTarget, field: &mut PathField) {
+    let mut has_layers = *target == SaveTarget::Layers;
+    if !has_layers && *target != SaveTarget::Picture {
+        return;
+    }
+    let choice = ui.checkbox(&mut has_layers, "Layers").on_hover_text("Adds the first surfaces and sample counts to an EXR.");
+    if choice.changed() {
+        *target = if has_layers { SaveTarget::Layers } else { SaveTarget::Picture };
+        if has_layers {
+            field.path = PathBuf::from(&field.path).with_extension("exr").display().to_string();
+        }
+        field.refusal = None;
+    }
+}
+
 /// Returns whether to save, and whether to close. A file is replaced by the button that says so, never by Enter.
-fn dialog_body(ui: &mut egui::Ui, target: SaveTarget, field: &mut PathField) -> (bool, bool) {
+fn dialog_body(ui: &mut egui::Ui, target: &mut SaveTarget, field: &mut PathField) -> (bool, bool) {
     ui.set_width(460.0);
     ui.label(target.explanation());
+    layers_choice(ui, target, field);
+    let target = *target;
     ui.add_space(4.0);
     let entered = field.show(ui);
     let exists = field.path().is_some_and(|path| path.is_file());

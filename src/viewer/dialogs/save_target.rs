@@ -9,6 +9,8 @@ pub enum SaveTarget {
     /// The scene file.
     Scene,
     Picture,
+    /// The picture as an EXR with layers.
+    Layers,
     CurvesCsv,
     CurvesSvg,
     /// What the path inspector shows.
@@ -20,6 +22,7 @@ impl SaveTarget {
         match self {
             SaveTarget::Scene => "Save scene",
             SaveTarget::Picture => "Save image",
+            SaveTarget::Layers => "Save image with layers",
             SaveTarget::CurvesCsv => "Save figures",
             SaveTarget::CurvesSvg => "Save plot",
             SaveTarget::Path => "Save path",
@@ -30,6 +33,9 @@ impl SaveTarget {
         match self {
             SaveTarget::Picture => {
                 "PNG stores the image as displayed (A of a comparison); EXR stores linear radiance. Both store the settings."
+            }
+            SaveTarget::Layers => {
+                "EXR with radiance, albedo, normal, depth, position, object, material, samples, and bounces if Bounces is open."
             }
             SaveTarget::Scene => {
                 "TOML. Comments and formatting of the file are kept; paths in the scene are relative to its folder."
@@ -45,6 +51,7 @@ impl SaveTarget {
         match self {
             SaveTarget::Scene => &["toml"],
             SaveTarget::Picture => &["png", "exr"],
+            SaveTarget::Layers => &["exr"],
             SaveTarget::CurvesCsv => &["csv"],
             SaveTarget::CurvesSvg => &["svg"],
             SaveTarget::Path => &["txt", "tex", "csv"],
@@ -54,6 +61,9 @@ impl SaveTarget {
     pub fn check(self, path: &Path) -> Result<(), String> {
         if self == SaveTarget::Picture {
             return check_target(path).map_err(|error| error.to_string());
+        }
+        if self == SaveTarget::Layers && !self.takes(path) {
+            return Err("The name must end in .exr.".to_owned());
         }
         if self == SaveTarget::Scene && !self.takes(path) {
             return Err("The name must end in .toml.".to_owned());

@@ -21,6 +21,27 @@ fn ctrl_e_saves_what_is_shown_where_the_path_field_says() {
 }
 
 #[test]
+fn an_image_with_layers_has_the_first_surfaces_beside_its_radiance() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("layers.png");
+    let mut window = window("cornell_spheres");
+    window.key_press_modifiers(Modifiers::COMMAND, Key::E);
+    window.run_steps(4);
+    window.get_by_role(Role::TextInput).set_text_value_accesskit(&path.display().to_string());
+    window.run_steps(3);
+    click(&mut window, "Layers");
+    click(&mut window, "Save");
+    wait(&mut window, "the file", |app| app.window.last_saved.is_some());
+    let path = path.with_extension("exr");
+    assert_eq!(image_file::read(&path).expect("it is an EXR").width, 96);
+    let meta = exr::meta::MetaData::read_from_file(&path, false).expect("it has a header");
+    let names: Vec<String> = meta.headers[0].channels.list.iter().map(|channel| channel.name.to_string()).collect();
+    assert!(["Normal.X", "Depth.Z", "IndexOB.X", "SampleCount.X"].iter().all(|name| names.iter().any(|known| known == name)));
+    let notices = &window.state().dialogs.notices.0;
+    assert!(notices.iter().any(|notice| notice.text.contains("no bounces")), "the note stays");
+}
+
+#[test]
 fn a_path_that_cannot_be_written_to_is_refused_in_the_dialog() {
     let mut window = window("furnace");
     window.key_press_modifiers(Modifiers::COMMAND, Key::E);

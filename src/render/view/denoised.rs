@@ -1,0 +1,37 @@
+//! The denoised image.
+use super::{DisplaySettings, Field, Legend, Quantity, Sources, paint};
+use crate::{
+    declare::Word,
+    render::{denoise::LABEL, tone::to_srgb},
+};
+
+pub(super) struct Denoised;
+
+impl Quantity for Denoised {
+    const WORD: Word = Word {
+        name: "denoised",
+        title: "Denoised (biased)",
+        doc: "The image after non-local means over two halves of its samples (Rousselle et al. 2012): biased, not the solution of the equation.",
+    };
+
+    const IS_DENOISED: bool = true;
+
+    fn missing() -> &'static str {
+        "Denoising …"
+    }
+
+    fn field(_: &Sources) -> Field {
+        Field::Missing
+    }
+
+    fn draw(settings: DisplaySettings, sources: &Sources, pixels: &mut Vec<[u8; 4]>) -> Option<(Legend, Field)> {
+        let legend = |title: &str| Legend { title: title.to_owned(), scale: None, entries: Vec::new() };
+        let Some(radiance) = sources.radiance else {
+            let legend = legend(Self::missing());
+            paint(&Field::Missing, &legend, settings, sources, pixels);
+            return Some((legend, Field::Missing));
+        };
+        to_srgb(radiance, settings.display, pixels);
+        Some((legend(LABEL), Field::Colours(Vec::new())))
+    }
+}

@@ -1,0 +1,50 @@
+//! Saves the picture as an EXR with layers.
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+};
+
+use noisefall::{
+    integrator::{Features, features},
+    math::SimdLevel,
+    render::{
+        Display, Frame, RenderRequest,
+        image_file::Contents,
+        layers::{Layer, LayerSources, channels, reserve},
+        settings_text::settings_text,
+        threads::Threads,
+    },
+};
+
+use super::state::App;
+
+impl App {
+    /// Saves the picture on the screen with all layers that are known.
+    pub fn save_layers_to(&mut self, path: PathBuf) {
+        let of_worker = self.background.worker.request().cloned();
+        let (Some(frame), Some(of), true) = (self.results.shown.clone(), of_worker, self.can_save()) else {
+            self.tell("Not saved: some pixels have no sample yet. Try again in a moment.".to_owned(), true);
+            return;
+        };
+        let series = self.results.second_frame.clone().filter(|frame| frame.series.is_some());
+        if series.is_none() {
+            self.tell("The file has no bounces. Open Bounces (F4) before saving to include them.".to_owned(), false);
+        }
+        let threads = self.session.threads;
+        self.background.saver.save(path, move |path| write(&frame, series.as_ref(), &of, threads, path));
+    }
+}
+
+fn write(frame: &Frame, bounces: Option<&Arc<Frame>>, of: &RenderRequest, threads: usize, path: &Path) -> Result<(), String> {
+    let RenderRequest { scene, camera, settings } = of;
+    let _layers = reserve(&Layer::ALL, camera.resolution).map_err(|error| error.to_string())?;
+    let _features = Features::reserve(camera.resolution).map_err(|error| error.to_string())?;
+    // A pool of its own, with as many threads as the renderer has.
+    let pool = Threads::new(threads, SimdLevel::best()).map_err(|error| error.to_string())?;
+    let seen = pool.install(|| features(SimdLevel::best(), scene, camera, &|| false));
+    let series = bounces.and_then(|frame| frame.series.as_ref());
+    let (channels, _) = channels(&Layer::ALL, frame, &LayerSources { features: seen.as_ref(), series });
+    let text = settings_text(scene, camera, settings, Display::default(), frame, &[]);
+    let contents = Contents { frame, channels: &channels, settings: &text };
+    contents.save(Display::default(), path).map_err(|error| error.to_string())
+}

@@ -1,0 +1,67 @@
+//! Denoises frames off the UI thread, while the view shows them.
+use std::sync::Arc;
+
+use noisefall::{
+    math::SimdLevel,
+    render::{
+        Frame,
+        denoise::{denoised, reserve},
+        threads::Threads,
+    },
+};
+
+use super::background_task::BackgroundTask;
+
+type Radiance = Arc<Vec<[f32; 3]>>;
+
+pub struct Denoiser {
+    ctx: egui::Context,
+    /// The last result, and its frame.
+    done: Option<(Arc<Frame>, Radiance)>,
+    /// The frame of the task.
+    of: Option<Arc<Frame>>,
+    pending: Option<BackgroundTask<Option<Vec<[f32; 3]>>>>,
+}
+
+impl Denoiser {
+    pub fn new(ctx: &egui::Context) -> Denoiser {
+        Denoiser { ctx: ctx.clone(), done: None, of: None, pending: None }
+    }
+
+    /// The denoised radiance of a frame as soon as it is known; until then, that of an earlier frame of the same image.
+    pub fn denoised(&mut self, frame: &Arc<Frame>, threads: usize) -> Option<Radiance> {
+        if let (Some(found), Some(of)) = (BackgroundTask::take(&mut self.pending), &self.of) {
+            self.done = found.ok().flatten().map(|radiance| (of.clone(), Arc::new(radiance)));
+        }
+        let is_of_image = |of: &Arc<Frame>| of.generation == frame.generation && of.radiance.len() == frame.radiance.len();
+        // A task for the same image runs to its end; otherwise none would end while samples arrive.
+        if self.pending.is_some() && !self.of.as_ref().is_some_and(is_of_image) {
+            self.pending = None;
+        }
+        let is_new = !self.of.as_ref().is_some_and(|of| Arc::ptr_eq(of, frame));
+        if self.pending.is_none() && is_new && frame.halves.is_some() {
+            self.start(frame, threads);
+        }
+        self.done.as_ref().filter(|(of, _)| is_of_image(of)).map(|(_, radiance)| radiance.clone())
+    }
+
+    /// Whether a result of this image is known.
+    pub fn has(&self, frame: &Frame) -> bool {
+        self.done.as_ref().is_some_and(|(of, _)| of.generation == frame.generation && of.width == frame.width)
+    }
+
+    /// Cancels the task and drops the result: nothing shows it.
+    pub fn stop(&mut self) {
+        (self.done, self.of, self.pending) = (None, None, None);
+    }
+
+    fn start(&mut self, frame: &Arc<Frame>, threads: usize) {
+        self.of = Some(frame.clone());
+        let frame = frame.clone();
+        self.pending = Some(BackgroundTask::start(&self.ctx, move |cancelled| {
+            let _memory = reserve([frame.width, frame.height]).ok()?;
+            let pool = Threads::new(threads, SimdLevel::best()).ok()?;
+            pool.install(|| denoised(&frame, cancelled))
+        }));
+    }
+}
