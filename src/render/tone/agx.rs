@@ -3,7 +3,7 @@
 //! The primaries and the range are those of Blender's configuration, as Filament and three.js use them: light in Rec. 2020 is mixed
 //! towards grey, encoded by log₂, and mapped by a sigmoid; then the mixing is undone. The sigmoid is the polynomial of degree 6 that
 //! B. Wrensch fitted to it ("Minimal AgX Implementation", 2023; mean squared error 3.7 · 10⁻⁶).
-use super::{Rows, Tone, times};
+use super::{Rows, Tone};
 use crate::declare::Word;
 
 pub(super) struct Agx;
@@ -16,8 +16,8 @@ const REC_2020: Rows = [
 ];
 /// The inverse.
 const REC_709: Rows = [
-    [1.660_491, -0.587_641_14, -0.072_849_86],
-    [-0.124_550_475, 1.132_899_9, -0.008_349_423],
+    [1.660_491, -0.587_641_1, -0.072_849_86],
+    [-0.124_550_48, 1.132_899_9, -0.008_349_423],
     [-0.018_150_763, -0.100_578_9, 1.118_729_7],
 ];
 /// Mixes the channels, so that each sees some light of the others.
@@ -47,10 +47,15 @@ impl Tone for Agx {
     };
 
     fn map(radiance: [f32; 3]) -> [f32; 3] {
-        let mixed = times(&INSET, times(&REC_2020, radiance));
-        let display = times(&OUTSET, mixed.map(curve));
-        times(&REC_709, display.map(|c| c.max(0.0).powf(GAMMA)))
+        let codes = mixed(&INSET, mixed(&REC_2020, radiance)).map(curve);
+        let display = mixed(&OUTSET, codes);
+        mixed(&REC_709, display.map(|c| c.max(0.0).powf(GAMMA)))
     }
+}
+
+/// A matrix whose rows add up to 1, times a colour: grey stays the same, bit for bit.
+fn mixed(rows: &Rows, [r, g, b]: [f32; 3]) -> [f32; 3] {
+    rows.map(|row| g + row[0] * (r - g) + row[2] * (b - g))
 }
 
 /// The display code of a channel of light.
