@@ -32,7 +32,7 @@ fn is_one_step(window: &mut Window, path: PathBuf) {
     let before = bits(window);
     edits(window, "the picture with the file", |w| {
         drop_file(w, path);
-        wait(w, "the edit", |app| app.has_unsaved_changes());
+        wait(w, "the edit", App::has_unsaved_changes);
     });
     let after = bits(window);
     undo(window);
