@@ -50,9 +50,11 @@ fn gain(frame: &Frame) -> Option<f32> {
         let scale = f64::from(share * (1.0 - share));
         for c in 0..3 {
             let [a, b] = [0, 1].map(|half| f64::from(halves.means[half][i][c]));
-            let level = f64::from(frame.radiance[i][c]).powi(2) + floor;
+            let variance = f64::from(noise.variance[i][c]);
+            // Relative to the radiance, so that lamps do not decide, nor pixels that are dark by chance.
+            let level = f64::from(frame.radiance[i][c]).powi(2) + variance + floor;
             found += (a - b).powi(2) * scale / level;
-            independent += f64::from(noise.variance[i][c]) / level;
+            independent += variance / level;
         }
     }
     Some(if independent > 0.0 { (found / independent).clamp(LEAST_GAIN, 1.0) as f32 } else { 1.0 })

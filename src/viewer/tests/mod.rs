@@ -4,6 +4,7 @@ mod bindings;
 mod camera;
 mod collision;
 mod comparing;
+mod denoising;
 mod desktop;
 mod driving;
 mod dropping;
