@@ -5,6 +5,7 @@ mod command_line;
 mod command_notes;
 mod compare;
 mod declared;
+mod denoising;
 mod edited_scenes;
 mod evidence;
 mod figures;
