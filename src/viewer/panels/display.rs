@@ -1,5 +1,5 @@
 //! Exposure, white balance and tone map. None of them restarts the render.
-use egui::{Button, ComboBox, Slider, Ui};
+use egui::{Button, ComboBox, DragValue, Slider, Ui};
 use noisefall::render::{Display, ToneMap, WhiteBalance};
 
 use crate::viewer::widgets::style::{controls, row};
@@ -24,19 +24,18 @@ pub fn show(ui: &mut Ui, display: &mut Display) {
     ui.add_space(8.0);
 }
 
+/// One row: the panel has no room for more.
 fn white_balance(ui: &mut Ui, balance: &mut WhiteBalance) {
     let range = |[low, high]: [f32; 2]| low..=high;
-    let doc = "Colour temperature of the light that appears white. Lower values make the image bluer.";
+    let doc = "The light that appears white: its colour temperature and its tint. Applied before the tone map.";
     row(ui, "White balance", doc, |ui, label| {
-        let kelvin = Slider::new(&mut balance.kelvin, range(WhiteBalance::KELVIN)).logarithmic(true);
-        ui.add(kelvin.step_by(1.0).fixed_decimals(0).suffix(" K")).labelled_by(label);
-    });
-    row(ui, "Tint", "Shifts the image from green (negative) to magenta (positive).", |ui, label| {
         ui.horizontal(|ui| {
-            // The button needs room.
-            ui.spacing_mut().slider_width *= 0.5;
-            let tint = Slider::new(&mut balance.tint, range(WhiteBalance::TINT)).step_by(1.0).fixed_decimals(0);
-            ui.add(tint).labelled_by(label);
+            let kelvin = DragValue::new(&mut balance.kelvin).range(range(WhiteBalance::KELVIN)).speed(20.0).fixed_decimals(0);
+            let kelvin = ui.add(kelvin.suffix(" K")).labelled_by(label);
+            kelvin.on_hover_text("Colour temperature in kelvin. Lower values make the image bluer.");
+            let tint = DragValue::new(&mut balance.tint).range(range(WhiteBalance::TINT)).speed(0.5).fixed_decimals(0);
+            let tint = ui.add(tint).labelled_by(label);
+            tint.on_hover_text("Tint. Shifts the image from green (negative) to magenta (positive).");
             let reset = ui.add_enabled(*balance != WhiteBalance::NEUTRAL, Button::new("Neutral"));
             if reset.on_hover_text("Resets the white balance: colours stay as they are.").clicked() {
                 *balance = WhiteBalance::NEUTRAL;

@@ -122,10 +122,8 @@ fn white_balance_has_a_way_back_to_neutral_and_never_restarts() {
     let balance = |window: &Window| window.state().session.look.display.white_balance;
     assert_eq!(balance(&window), WhiteBalance::NEUTRAL);
     never_restarts(&mut window, |w| {
-        w.get_by_role_and_label(Role::Slider, "White balance").set_value_accesskit(3000.0);
-        w.run_steps(2);
-        w.get_by_role_and_label(Role::Slider, "Tint").set_value_accesskit(12.0);
-        w.run_steps(2);
+        set(w, "White balance", 0, 3000.0);
+        set(w, "White balance", 1, 12.0);
     });
     assert_eq!(balance(&window), WhiteBalance { kelvin: 3000.0, tint: 12.0 });
     never_restarts(&mut window, |w| click(w, "Neutral"));
