@@ -21,6 +21,7 @@ mod opening;
 mod painted;
 mod path;
 mod presets;
+mod random_edits;
 mod rasteriser;
 mod ratios;
 mod recovery;

@@ -11,7 +11,7 @@ fn description(app: &App) -> &SceneDescription {
 }
 
 /// Waits until what has changed is taken up, compiled and shown.
-fn settle(window: &mut Window) {
+pub fn settle(window: &mut Window) {
     wait(window, "rest", |app| {
         let waits = app.background.worker.is_editing() || app.session.waiting_edit.is_some();
         let shown = app.results.shown.as_ref().is_some_and(|frame| frame.generation == app.background.worker.generation());
@@ -21,7 +21,7 @@ fn settle(window: &mut Window) {
 }
 
 /// Writes a file as a text editor does, and reports it as the file system does.
-fn write(window: &mut Window, path: &PathBuf, text: &str) {
+pub fn write(window: &mut Window, path: &PathBuf, text: &str) {
     settle(window);
     std::fs::write(path, text).expect("it is written");
     window.state().background.files.report(path);
