@@ -65,3 +65,29 @@ impl Cluster {
         Cluster { bounding_sphere: BoundingSphere::new(middle, reach), members }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Motion;
+
+    #[test]
+    fn from_the_fewest_spheres_on_there_are_clusters_and_the_first_sphere_counts() {
+        // Groups of as many as a cluster holds, far apart.
+        let sphere = |i: usize| {
+            let center = DVec3::new((i / SIZE * 100) as f64, (i % SIZE / 4) as f64, (i % 4) as f64);
+            Shape::Sphere { center, radius: 0.4 }
+        };
+        let spheres: Vec<Shape> = (0..MANY).map(sphere).collect();
+        let sizes = |count: usize| {
+            let object = |(first, shape)| Object {
+                bounds: Shape::bounds(shape, &Motion::default()),
+                kind: Kind::Analytic { first, shape },
+            };
+            let mut objects: Vec<Object> = (0..).zip(&spheres[..count]).map(object).collect();
+            let clusters = take_clusters(&mut objects, DVec3::ZERO);
+            (objects.len(), clusters.iter().map(|cluster| cluster.members.len()).sum::<usize>())
+        };
+        assert_eq!([sizes(MANY - 1), sizes(MANY)], [(MANY - 1, 0), (0, MANY)]);
+    }
+}

@@ -52,6 +52,12 @@ fn grid(count: u32, size: DVec3) -> UVec3 {
 mod tests {
     use super::*;
 
+    /// A cell that is rounded up in every direction would be half as wide across a rod as along it.
+    #[test]
+    fn the_cells_of_a_rod_are_a_row() {
+        assert_eq!(grid(68, DVec3::new(100.0, 1.0, 1.0)).min(UVec3::new(140, 9, 9)), UVec3::new(136, 1, 1));
+    }
+
     #[test]
     fn spheres_lie_in_the_box_and_apart() {
         for (count, size) in [

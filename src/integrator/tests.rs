@@ -132,3 +132,55 @@ fn a_reflection_carries_the_throughput_of_the_next_vertex() {
     }
     assert!(pairs >= 16, "{pairs}");
 }
+
+/// A scene under a white sky, seen from (0, 0, 4).
+fn under_white_sky(rest: &str) -> Scene {
+    let text = format!(
+        "format = 1
+        background.radiance = 1
+        camera = {{ eye = [0, 0, 4], look_at = [0, 0, 0], fov = 40, resolution = [8, 8] }}
+        {rest}"
+    );
+    parse("inline.toml", text).unwrap_or_else(|error| panic!("{}", error.report()))
+}
+
+#[test]
+fn the_shading_normal_of_a_vertex_is_its_geometric_one_but_on_smooth_meshes() {
+    for (shape, bends) in [("sphere = { center = [0, 0, 0], radius = 1 }", false), ("mesh.knot.triangles = 500", true)] {
+        let object = format!("[materials.white]\nlambertian.albedo = 0.5\n[[objects]]\nshape.{shape}\nmaterial = 'white'");
+        let scene = under_white_sky(&object);
+        let rays = scene.rays(&scene.camera);
+        let mut count = 0;
+        for pixel in (0..64).map(|i| [i % 8, i / 8]) {
+            let first = &replay(&scene, &rays, &scene.settings, pixel, 0).vertices[0];
+            let Some(normal) = first.normal else { continue };
+            let shading = first.surface.as_ref().and_then(|surface| surface.shading_normal).expect("it has one");
+            assert!((shading.map(|x| x * x).iter().sum::<f32>() - 1.0).abs() < 1e-5, "{shape}: {shading:?}");
+            assert_eq!(shading != normal, bends, "{shape}: {shading:?}, {normal:?}");
+            count += 1;
+        }
+        assert!(count >= 8, "{shape}: {count}");
+    }
+}
+
+/// Between a red mirror and a green one, the second reflection leaves nothing, which roulette of a fixed probability ignores.
+#[test]
+fn a_path_that_carries_nothing_ends() {
+    let mirror = |name: &str, z: i32, colour: &str| {
+        format!(
+            "[materials.{name}]\nmirror.reflectance = {colour}\n[[objects]]\nmaterial = '{name}'\n\
+             shape.rectangle = {{ origin = [-99, -99, {z}], edge_u = [198, 0, 0], edge_v = [0, 198, 0] }}\n"
+        )
+    };
+    let scene = under_white_sky(&[mirror("red", 0, "[0.9, 0, 0]"), mirror("green", 5, "[0, 0.9, 0]")].concat());
+    let rays = scene.rays(&scene.camera);
+    let settings = RenderSettings { roulette: Roulette::fixed(0.9), max_bounces: Some(6), ..RenderSettings::default() };
+    let mut survivors = 0;
+    for sample in 0..16 {
+        let vertices = replay(&scene, &rays, &settings, [4, 4], sample).vertices;
+        assert!(vertices.len() <= 2, "sample {sample}: {} vertices", vertices.len());
+        let last = vertices.get(1).and_then(|vertex| vertex.reflection.as_ref());
+        survivors += u32::from(last.is_some_and(|reflection| reflection.survives && !reflection.goes_on));
+    }
+    assert!(survivors > 4, "{survivors}");
+}

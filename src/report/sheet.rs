@@ -106,6 +106,13 @@ mod tests {
     use super::*;
 
     #[test]
+    fn small_pictures_leave_room_for_their_labels() {
+        let width = |picture: u32| Layout::new([picture, 10], 2, 4, [1, 1]).map(|layout| layout.size[0]);
+        let of = |cell: u32| Ok(2 * (cell + MARGIN) + MARGIN);
+        assert_eq!([10, 300].map(width), [of(LEAST_WIDTH), of(300)]);
+    }
+
+    #[test]
     fn pictures_stand_in_rows_with_ink_below_them() {
         let cell = |colour: u8, lines: &[&str]| Cell {
             lines: lines.iter().map(|line| (*line).to_owned()).collect(),

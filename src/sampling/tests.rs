@@ -207,6 +207,22 @@ fn blue_noise_has_all_strata_of_sobol_points() {
     }
 }
 
+/// Every coordinate of a pixel is that of Sobol points after an exclusive or, which is the same for all its samples.
+#[test]
+fn blue_noise_shifts_each_coordinate_of_sobol_points() {
+    // The bits that f32 keeps.
+    let bits = |sampler, pixel, index, dimension| point(sampler, pixel, index, dimension).map(|x| (x * 65536.0) as u32);
+    for dimension in [Dimension::PIXEL, Dimension::direction(1), Dimension::direction(9)] {
+        for pixel in [0, 77, 5 << 16 | 3] {
+            let shift = |index: u32| {
+                let [[a, b], [c, d]] = [Sampler::BlueNoise, Sampler::Sobol].map(|sampler| bits(sampler, pixel, index, dimension));
+                [a ^ c, b ^ d]
+            };
+            assert!((1..64).all(|index| shift(index) == shift(0)), "{dimension:?} of pixel {pixel}");
+        }
+    }
+}
+
 /// Variance of the mean of smooth integrands over blocks of 4 × 4 pixels at one sample per pixel, relative to independent
 /// samples.
 fn variance_of_blocks(sampler: Sampler, dimension: Dimension) -> f64 {
@@ -242,8 +258,9 @@ fn one_sample_a_pixel_has_little_error_at_low_frequencies_with_blue_noise_and_wh
 #[test]
 fn stratified_points_have_one_in_every_cell_of_every_grid() {
     for pixel in 0..8 {
-        for level in 1..=6 {
-            for block in [0u32, 1, 7, 12345] {
+        // The last one has more samples than half of their bits can count.
+        for (level, blocks) in (1..=6).map(|level| (level, &[0u32, 1, 7, 12345][..])).chain([(9, &[1][..])]) {
+            for &block in blocks {
                 let first = block << (2 * level);
                 let points: Vec<_> =
                     (0..1u32 << (2 * level)).map(|i| point(Sampler::Stratified, pixel, first + i, Dimension::PIXEL)).collect();

@@ -267,6 +267,16 @@ mod tests {
     }
 
     #[test]
+    fn what_has_no_material_has_no_colour_texture_or_medium() {
+        let bumpy = "dielectric = { ior = 1.5, transmittance = 0.5 }\nbump = { texture = 'squares', height = 0.01 }";
+        let bare = "[[objects]]\nshape.sphere = { center = [0, 3, 0], radius = 0.25 }";
+        let surfaces = scene(&[(bumpy, bare)]).surfaces;
+        for table in [&surfaces.rows, &surfaces.varying, &surfaces.relief] {
+            assert_eq!((table.len(), table[0] == [0.0; 4], table[1]), (2, false, [0.0; 4]));
+        }
+    }
+
+    #[test]
     fn plain_is_a_scene_of_diffuse_constant_two_sided_colour() {
         let is_plain = |balls: &[(&str, &str)]| scene(balls).surfaces.plain;
         assert!(is_plain(&[(WHITE, ""), (WHITE, "flip = true")]));

@@ -251,3 +251,21 @@ fn from_lists(resources: &Resources, vertices: &[[f64; 3]], triangles: &[[u32; 3
 fn shaded(data: MeshData, smooth: bool) -> MeshData {
     if smooth { data } else { MeshData { normals: Vec::new(), ..data } }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn meshes_of_a_formula_are_shared_and_each_pair_of_lists_is_a_mesh_of_its_own() {
+        let resources = Resources::new("");
+        let mut builder = ShapeBuilder::new(&resources);
+        let mut are_same = |source: &MeshSource| {
+            let mesh = Mesh { source: source.clone(), smooth: None };
+            let [a, b] = [0; 2].map(|_| mesh.shape(&mut builder).expect("it is valid"));
+            a.is_same(&b)
+        };
+        let found: Vec<bool> = MeshSource::alternatives()[1..].iter().map(&mut are_same).collect();
+        assert_eq!(found, [false, true, true], "lists, a knot, and hills");
+    }
+}

@@ -48,3 +48,17 @@ fn like(original: &str, text: String) -> String {
     };
     if original.starts_with(MARK) && !text.starts_with(MARK) { format!("{MARK}{text}") } else { text }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::like;
+
+    #[test]
+    fn only_a_text_whose_lines_all_end_as_on_windows_gives_others_its_ends() {
+        let ends = |original: &str| like(original, "a = 1\nb = 2\n".to_owned());
+        assert_eq!(ends("a = 1\r\nc = 3\r\n"), "a = 1\r\nb = 2\r\n");
+        for original in ["a = 1\r\nc = 3\n", "a = 1\nc = 3\n", "a = 1"] {
+            assert_eq!(ends(original), "a = 1\nb = 2\n", "{original:?}");
+        }
+    }
+}

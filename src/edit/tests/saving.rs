@@ -47,6 +47,9 @@ fn values_change_where_they_stand() {
     // The 0 that has no point stays so, and the others keep theirs.
     let look = Edit::set(path("camera.look_at"), OwnedValue::Vector(glam::DVec3::new(0.1, 1.0, 2.0)));
     assert_eq!(changed(&[look]), ["- look_at = [0.0, 1.0, 0]", "+ look_at = [0.1, 1.0, 2]"]);
+    // An integer has no sign at 0.
+    let behind = Edit::set(path("camera.look_at"), OwnedValue::Vector(glam::DVec3::new(0.0, 1.0, -0.0)));
+    assert_eq!(changed(&[behind]), ["- look_at = [0.0, 1.0, 0]", "+ look_at = [0.0, 1.0, -0.0]"]);
     let metal = Edit::set(path("materials.gold.conductor.roughness"), OwnedValue::TexturedNumber(Textured::Constant(1e-7)));
     assert_eq!(
         changed(&[metal]),

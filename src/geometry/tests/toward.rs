@@ -114,7 +114,8 @@ fn nothing_has_a_density_where_a_flat_shape_is_seen_from_its_edge() {
         }
         for z in [0.5, -0.5] {
             let near = V { x: F(0.2), y: F(0.3), z: F(z) };
-            assert_eq!(shapes.toward(One, &place(0), near, (F(0.4), F(0.3))).front.0, z > 0.0, "its front is above");
+            let toward = shapes.toward(One, &place(0), near, (F(0.4), F(0.3)));
+            assert_eq!((toward.front.0, toward.pdf.0 > 0.0), (z > 0.0, true), "its front is above, and both sides are seen");
         }
     }
 }

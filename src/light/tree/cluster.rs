@@ -190,6 +190,26 @@ mod tests {
         sampling::hash::{hash, unit},
     };
 
+    /// By rounding, the square of a cosine of −1 is larger than 1 in some of these directions.
+    #[test]
+    fn lights_straight_behind_a_surface_or_that_face_straight_away_from_it_count_for_nothing() {
+        for i in 0..200 {
+            let u = |k: u32| f64::from(unit(hash(U::<One>(8 * i + k))).0);
+            let (z, turn) = (2.0 * u(0) - 1.0, std::f64::consts::TAU * u(1));
+            let (sin, cos) = turn.sin_cos();
+            let out = (glam::DVec2::new(cos, sin) * (1.0 - z * z).sqrt()).extend(z).as_vec3();
+            let center = out * (1.0 + u(2)) as f32;
+            let item = |axis: Vec3| Item { center, radius: 0.1, power: 1.0, axis, two_sided: false, light: 0 };
+            let weight = |n: Vec3, axis: Vec3| {
+                let n = V::splat(One, n.to_array());
+                let at = ReferencePoint { p: V::splat(One, [0.0; 3]), n, transmits: M(false), lobe: None };
+                Cluster::of_all(One, &rows(&[item(axis)], 0)).weight(One, &at, axis != Vec3::ZERO).0
+            };
+            assert_eq!([weight(-out, Vec3::ZERO), weight(out, out)], [0.0; 2], "{i}: {out}");
+            assert!(weight(out, -out) > 0.0, "{i}: {out}");
+        }
+    }
+
     /// A quarter of the bound cos(θ − β), which is 1 where the sphere reaches over the normal, and three quarters of cos θ.
     #[test]
     fn what_a_cluster_may_send_falls_off_with_the_angle_at_the_reference_point() {

@@ -155,6 +155,14 @@ mod tests {
     }
 
     #[test]
+    fn a_session_that_is_resumed_has_the_memory_of_its_film_and_of_no_series() {
+        let mut session = rendered(&Arc::new(crate::scene::built_in()), 1, 1);
+        session.memory = [None, Some(Reservation::none())];
+        let resumed = session.resumed(2, 0);
+        assert_eq!(resumed.memory.each_ref().map(Option::is_some), [true, false]);
+    }
+
+    #[test]
     fn short_renders_never_push_out_a_long_one() {
         let scene = Arc::new(crate::scene::built_in());
         let mut kept = KeptSessions::within(3 * Film::kept_bytes([32, 32]));

@@ -55,6 +55,17 @@ fn a_frame_is_held_against_a_radiance_or_a_picture_of_its_size() {
 }
 
 #[test]
+fn the_errors_without_a_block_are_those_of_the_others() {
+    let mut frame = frame([0.01, 0.01]);
+    // The right one of two blocks is exact.
+    frame.radiance = (0..64 * 32).map(|pixel| [if pixel % 64 < 32 { 1.5 } else { 1.0 }; 3]).collect();
+    for reference in [Reference::Constant([1.0; 3]), picture(1.0, None)] {
+        let errors = reference.block_errors(&frame).expect("the same size");
+        assert!(errors.without[0] == 0.0 && (errors.without[1] / errors.whole - 2.0).abs() < 1e-9, "{errors:?}");
+    }
+}
+
+#[test]
 fn the_noise_of_the_reference_counts_and_what_is_not_known_is_not_claimed() {
     let noisy = frame([0.01, 0.03]);
     let reference = picture(1.0, frame([0.05, 0.07]).noise);

@@ -68,5 +68,6 @@ mod tests {
         let linear = Scale { ends: [-4.0, 4.0], log: false, ..log };
         assert_eq!((linear.place(-9.0), linear.place(0.0), linear.number(0.75)), (0.0, 0.5, 2.0));
         assert_eq!([0.9, 1.0, 1.2, 3.0, 700.0].map(round_up), [1.0, 1.0, 2.0, 5.0, 1000.0]);
+        assert!(round_up(0.0) > 0.0, "the ends of a scale differ");
     }
 }

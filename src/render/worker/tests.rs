@@ -113,6 +113,7 @@ fn sides_that_are_swapped_keep_their_samples() {
     let [a, b] = samples(&worker);
     assert!(a > b && b > Some(0));
     worker.start(0, 3, of(2));
+    assert_eq!(samples(&worker), [b, Some(0)], "the other side starts over");
     worker.start(1, 4, of(1));
     assert_eq!(samples(&worker), [b, a]);
     // The comparison ends, and B stays.

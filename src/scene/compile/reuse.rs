@@ -115,3 +115,38 @@ fn has_same_emitters(scene: &Scene, objects: &[Object], shapes: &Shapes) -> bool
 fn are_same<T>(a: &[T], b: &[T], is_same: impl Fn(&T, &T) -> bool) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(|(a, b)| is_same(a, b))
 }
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+    use crate::{
+        scene::description::{EmissionDescription, SceneDescription},
+        shape::{
+            Mesh, Sphere, Transform,
+            mesh::{Heightfield, MeshSource},
+        },
+    };
+
+    /// Lights refer to the triangles of their meshes: new triangles of one mesh need new lights, whatever the others have.
+    #[test]
+    fn lights_are_made_anew_where_one_mesh_of_them_has_other_triangles() {
+        let mut description = SceneDescription::default();
+        let hills = MeshSource::Heightfield(Heightfield { quads: 4, seed: 1 });
+        description.add_object("hills", Mesh { source: hills, smooth: None });
+        description.add_object("ball", Sphere::default());
+        for object in &mut description.objects {
+            object.emission = Some(EmissionDescription::radiance([1.0; 3]));
+        }
+        let before = description.build(Path::new("")).expect("it is valid");
+        description.objects[0].transform.push(Transform::Translate(DVec3::new(0.1, 0.2, 0.3)));
+        let description = Arc::new(description);
+        let after = |before: &Scene, precision| description.rebuild(Path::new(""), before, precision).expect("it is valid");
+        let moved = after(&before, Precision::Interactive);
+        let exact = after(&moved, Precision::Exact);
+        let made = |scene: &Scene| ["mesh trees", "lights"].map(|part| scene.compiled.made(part));
+        assert_eq!([&moved, &exact].map(made), [[0, 1], [1, 1]]);
+        assert_eq!(made(&after(&exact, Precision::Exact)), [0, 0]);
+    }
+}
