@@ -84,6 +84,8 @@ fn efficiency_follows_from_noise_and_time() {
     assert!((best.relative - 4.0).abs() < 1e-9 && best.standard_error < 1e-9, "{best:?}");
     assert!((best.efficiency / advice.current().efficiency - 4.0).abs() < 1e-9);
     assert_eq!(advice.current().relative, 1.0);
+    // The geometric mean of the times is 8^¼ s.
+    assert!((advice.current().efficiency * 0.08 * 8f64.powf(0.25) - 1.0).abs() < 1e-12, "{:?}", advice.current());
     let verdict = "Sobol (Owen), roulette by throughput from bounce 4 on: 4.000 ± 0.000 times as efficient as your settings.";
     assert_eq!(advice.verdict(), verdict);
     let exactly_as_good = Candidate { relative: 1.0, standard_error: 0.0, ..advice.candidates[0].clone() };
@@ -146,6 +148,7 @@ fn settings_that_find_no_light_are_not_recommended() {
     assert_eq!((advice.candidates[1].efficiency, advice.candidates[1].relative), (0.0, 0.0));
     let advice = rank(&measured(&[series(IN_USE, (0..4).map(dark)), series(ADVISED, (0..4).map(lit))]), SPP);
     assert_eq!((advice.best, advice.best().relative), (0, f64::INFINITY));
+    assert_eq!(advice.best().ratio(), "∞");
     assert!(advice.verdict().contains("your settings find hardly any"), "{}", advice.verdict());
     assert_eq!([0.49, 0.51].map(|found| Measured { found, ..known(IN_USE, 0.01, &[1.0]) }.is_sound()), [false, true]);
 }

@@ -105,25 +105,15 @@ pub fn collect(
     let first = Study { plan: &first, folder, threads, machine, stop };
     let spp = samples(&first, study_scene, store, plan.time.mul_f64(FOR_RUNS / f64::from(runs)))?;
     let mut findings: Vec<(Setting, Findings)> = Vec::new();
-    let mut done = 0;
+    let mut finished = FinishedRuns { done: 0, runs };
     for topic in topics {
         let about = format!("{} of {}", topic.setting.name(), study_scene.title());
         let plan = study_plan(topic.lists, spp);
         let study = Study { plan: &plan, folder, threads, machine, stop };
         let found = study.run(&study_scenes, store, &mut |progress| {
-            let share = match progress {
-                Progress::Reference { share, .. } => (1.0 - FOR_RUNS - FOR_PICTURES) * share,
-                Progress::Planned { found, .. } => {
-                    done += found as u32;
-                    return;
-                }
-                Progress::Done => {
-                    done += 1;
-                    share_after(done, runs)
-                }
-                Progress::Begun { .. } | Progress::Combination { .. } => return,
-            };
-            observe(if share < 1.0 - FOR_RUNS - FOR_PICTURES { "reference" } else { &about }, share);
+            if let Some(share) = finished.note(&progress) {
+                observe(if share < 1.0 - FOR_RUNS - FOR_PICTURES { "reference" } else { &about }, share);
+            }
         })?;
         findings.extend(found.into_iter().map(|findings| (topic.setting, findings)));
     }
@@ -131,6 +121,31 @@ pub fn collect(
     let pictures = pictures(bench, spp, plan.display)?;
     observe("pictures", 1.0);
     Ok(Chapter::new(&Exhibits { study_scene, findings: &findings, pictures, spp, repeats: REPEATS, machine }))
+}
+
+/// The finished runs of all studies of a chapter.
+struct FinishedRuns {
+    done: u32,
+    /// Number of all runs.
+    runs: u32,
+}
+
+impl FinishedRuns {
+    /// Notes the progress of a study. Returns the fraction of the work of the chapter that is done, if it changes.
+    fn note(&mut self, progress: &Progress) -> Option<f64> {
+        match progress {
+            Progress::Reference { share, .. } => Some((1.0 - FOR_RUNS - FOR_PICTURES) * share),
+            Progress::Planned { found, .. } => {
+                self.done += *found as u32;
+                None
+            }
+            Progress::Done => {
+                self.done += 1;
+                Some(share_after(self.done, self.runs))
+            }
+            Progress::Begun { .. } | Progress::Combination { .. } => None,
+        }
+    }
 }
 
 /// The fraction of the work that is done after so many runs; there may be more than were planned.
@@ -170,5 +185,22 @@ mod tests {
         let [reference, half, all, more] = [0, 4, 8, 9].map(|done| share_after(done, 8));
         assert!((reference - (1.0 - FOR_RUNS - FOR_PICTURES)).abs() < 1e-12 && (all - (1.0 - FOR_PICTURES)).abs() < 1e-12);
         assert!((half - 0.5 * (reference + all)).abs() < 1e-12 && more == all);
+    }
+
+    #[test]
+    fn runs_of_all_studies_and_runs_that_the_folder_has_count() {
+        let mut finished = FinishedRuns { done: 0, runs: 8 };
+        let half_of_reference = finished.note(&Progress::Reference { title: "a room", share: 0.5 });
+        assert!(half_of_reference.is_some_and(|share| (share - 0.5 * (1.0 - FOR_RUNS - FOR_PICTURES)).abs() < 1e-12));
+        // Two studies of four runs. The folder has one run of the first and three of the second.
+        let of_study = [(1, 3), (3, 1)].map(|(found, measured)| {
+            let planned = finished.note(&Progress::Planned { runs: 4, found });
+            assert_eq!(planned, None);
+            (0..measured).map(|_| finished.note(&Progress::Done)).collect::<Vec<_>>()
+        });
+        assert_eq!(
+            of_study,
+            [&[2, 3, 4][..], &[8]].map(|done| done.iter().map(|done| Some(share_after(*done, 8))).collect::<Vec<_>>())
+        );
     }
 }

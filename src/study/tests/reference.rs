@@ -122,3 +122,19 @@ fn a_converged_render_knows_its_own_error_and_is_kept() {
     assert!(shares.is_empty() && again.radiance == found.radiance && is_known(again.variance_of_mean));
     assert!(!reference(8).1.is_empty());
 }
+
+#[test]
+fn a_converged_render_keeps_its_channels_apart() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut study_scene = study_scene(None, false);
+    let sky = "format = 1\ncamera = { eye = [0, 0, 0], look_at = [0, 0, 1], fov = 60, resolution = [8, 8] }\n\
+               background.radiance = [0.25, 0.5, 1.0]\n";
+    study_scene.scene = parse("sky.toml", sky.to_owned()).expect("a scene");
+    study_scene.camera = study_scene.scene.camera;
+    let threads = Threads::new(1, SimdLevel::best()).expect("threads");
+    let bench = Bench { scene: &study_scene.scene, camera: &study_scene.camera, threads: &threads, stop: &|| false };
+    let (fingerprint, spp, floor) = (7, 4, Floor::DEFAULT);
+    let converged = Converged { study_scene: &study_scene, bench, folder: folder.path(), fingerprint, spp, floor };
+    let found = converged.reference(&mut |_| {}).expect("a render");
+    assert_eq!(found.radiance, [[0.25, 0.5, 1.0]; 64]);
+}
