@@ -45,7 +45,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let effort = if arguments.quick { Effort::Quick } else { Effort::Full };
     let start = Instant::now();
     let suite = if arguments.stress { Suite::Stress } else { Suite::Exact };
-    let validation = Validation::new(effort, arguments.references.clone(), arguments.seed);
+    let validation = validation(arguments, effort);
     let mut lines = Vec::new();
     let done = |number: usize, section: &Section| lines.push(show(number, section, suite));
     let (sections, kept) = match suite {
@@ -66,6 +66,10 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         return Err(format!("{failed} of {statements} statements fail ({seconds:.0} s)"));
     }
     print(&format!("all {statements} statements hold ({seconds:.0} s)"))
+}
+
+fn validation(arguments: &Arguments, effort: Effort) -> Validation {
+    Validation::new(effort, arguments.references.clone(), arguments.seed)
 }
 
 /// Writes the report, its rows and its figures.
@@ -127,4 +131,29 @@ fn show(number: usize, section: &Section, suite: Suite) -> Result<(), Failure> {
         ))?;
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::Parser;
+
+    use super::*;
+
+    #[derive(Parser)]
+    struct Command {
+        #[command(flatten)]
+        arguments: Arguments,
+    }
+
+    #[test]
+    fn a_validation_has_the_seed_and_the_references_of_the_command() {
+        let of = |words: &[&str]| {
+            let command = Command::parse_from([&["validate"][..], words].concat());
+            format!("{:?}", validation(&command.arguments, Effort::Quick))
+        };
+        let given = of(&["--seed", "7", "--references", "a/folder"]);
+        assert!(given.contains("seed: 7") && given.contains("references: Some(\"a/folder\")"), "{given}");
+        let default = of(&[]);
+        assert!(default.contains("seed: 0") && default.contains("references: None"), "{default}");
+    }
 }

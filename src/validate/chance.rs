@@ -154,6 +154,9 @@ mod tests {
         assert!((noticed(7.0) - 12.3).abs() < 0.1 && (noticed(15.0) - 7.7).abs() < 0.1, "{} {}", noticed(7.0), noticed(15.0));
         let below = |t: f64| Statement::repeated_below("t", &found, 2.5 - t * (5.0f64 / 12.0).sqrt()).holds;
         assert!(below(32.0) && !below(33.5) && below(-33.5));
+        let far_below = Statement::repeated_below("t", &found, 4.5);
+        let Noticed::Absolute(bias) = far_below.notices else { panic!("{far_below:?}") };
+        assert!((bias - 2.0 - noticed(3.0) * (5.0f64 / 12.0).sqrt()).abs() < 1e-9, "the limit is 2 above the mean: {bias}");
         assert!(Statement::repeated("exact", &[2.0; 5], 2.0).holds && !Statement::repeated("exact", &[2.0; 5], 2.001).holds);
     }
 

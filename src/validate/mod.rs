@@ -55,6 +55,7 @@ pub enum Effort {
 }
 
 /// A validation run.
+#[derive(Debug)]
 pub struct Validation {
     effort: Effort,
     /// Folder of references by other renderers. Default: those in the program.

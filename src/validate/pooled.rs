@@ -179,6 +179,21 @@ mod tests {
         assert_eq!(all.figures.len(), 2);
     }
 
+    /// At ±4.5 both curves of the histogram are at 0, and nothing lies below.
+    #[test]
+    fn the_normal_density_has_the_same_baseline_as_the_histogram() {
+        let drawn = histogram(&scores(0.0, 1.0)).element;
+        let lowest = |colour: &str| {
+            let lines = drawn.split("<polyline").filter(|line| line.contains(colour));
+            let points = lines.filter_map(|line| Some(line.split_once("points=\"")?.1.split_once('"')?.0));
+            let heights = points.flat_map(str::split_whitespace).filter_map(|point| point.split_once(',')?.1.parse::<i32>().ok());
+            // SVG counts from the top.
+            heights.max().expect("a curve")
+        };
+        let [measured, normal] = ["#0072B2", "#D55E00"].map(lowest);
+        assert!((measured - normal).abs() <= 1, "{measured} {normal}");
+    }
+
     #[test]
     fn scores_have_the_figures_of_their_quantiles() {
         let found = statements(&scores(0.1, 1.0));

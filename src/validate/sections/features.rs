@@ -156,3 +156,21 @@ fn lens(validation: &Validation) -> Statement {
     let settings = RenderSettings { roulette: Roulette::BY_THROUGHPUT, ..validation.settings(Estimator::Mis) };
     Statement::mean("closed sphere through a lens", picture(&scene, settings, RED, validation.spp(2000)).whole(), 0.5)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Shape;
+
+    #[test]
+    fn the_many_lamps_lie_on_the_unit_sphere_and_none_covers_another() {
+        let (scene, _) = many_lamps();
+        let center = |shape: &Shape| if let Shape::Sphere { center, .. } = shape { Some(*center) } else { None };
+        let centers: Vec<DVec3> = scene.objects.iter().filter_map(|object| center(&object.shape)).collect();
+        assert_eq!(centers.len(), 300);
+        for (i, a) in centers.iter().enumerate() {
+            assert!((a.length() - 1.0).abs() < 1e-9, "lamp {i} is {} m from the point", a.length());
+            assert!(centers[..i].iter().all(|b| a.distance(*b) > 0.05), "lamp {i} covers another");
+        }
+    }
+}

@@ -252,6 +252,10 @@ mod tests {
         assert_eq!(found.count, 6);
         assert!((found.worst - 2.0).abs() < 1e-4 && (found.rms - (4.0f64 / 6.0).sqrt()).abs() < 1e-4);
         assert!((found.sigma - 0.2).abs() < 1e-6, "of 0.125 and five times 0.2 the fourth: {}", found.sigma);
+        // Without any noise, the rounding of both is the standard error: 2 · 10⁻⁶ of the mean.
+        write(folder.path(), "sky", &"0.500001 0.500001 0.500001 0 0 0\n".repeat(2));
+        let exact = block_z_scores(&folder.path().join("sky.toml"), |scene| scene.settings, 2).expect("it can be compared");
+        assert!((exact.worst - 1.0).abs() < 1e-3 && (exact.rms - 1.0).abs() < 1e-3, "{} {}", exact.worst, exact.rms);
         write(folder.path(), "sky", "0.5 0.5 0.5 0.1 0.1 0.1\n");
         let short = block_z_scores(&folder.path().join("sky.toml"), |scene| scene.settings, 2).err();
         assert_eq!(short.as_deref(), Some("2 blocks, but the reference has 1"));

@@ -60,3 +60,30 @@ fn placed(dice: &mut Dice, shape: &str, scale: DVec3, center: DVec3) -> String {
     let rotate = format!("rotate = {{ axis = {axis}, degrees = {degrees:?} }}");
     format!("{shape}\ntransform = [{{ scale = {} }}, {{ {rotate} }}, {{ translate = {} }}]", v(scale), v(center))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        geometry::{MISS, Nearest},
+        math::{F, M, One, U},
+        validate::check::{lanes, scene},
+    };
+
+    #[test]
+    fn a_closed_shape_surrounds_its_centre_at_the_stated_distance() {
+        let (center, size) = (DVec3::new(3.0, -2.0, 1.0), 0.5);
+        for number in 0..40 {
+            let mut dice = Dice::new("closed", number);
+            let shape = closed(&mut dice, center, size);
+            let camera = "camera = { eye = [0.0, 0.0, 0.0], look_at = [0.0, 0.0, 1.0], fov = 40.0, resolution = [8, 8] }";
+            let scene = scene(&format!("{camera}\n[[objects]]\n{shape}"));
+            for direction in [(); 20].map(|()| dice.direction()) {
+                let Nearest { t, primitive: U(primitive), .. } =
+                    scene.shapes.closest(One, M(true), lanes(center), lanes(direction), F(0.0));
+                let sizes = f64::from(t.0) / size;
+                assert!(primitive != MISS && (0.5..=3.0).contains(&sizes), "{sizes} sizes along {direction}: {shape}");
+            }
+        }
+    }
+}
