@@ -26,6 +26,7 @@ use noisefall::{
     render::{pass::panic_message, threads::Threads},
 };
 use panels::window::{all_but_one, cores};
+use window_system::WindowSystem;
 
 const ICON: &[u8] = include_bytes!("../../assets/icon.png");
 const NO_WINDOW: &str = "use `noisefall render SCENE -o picture.png` to render without a window";
@@ -36,17 +37,7 @@ pub fn run(scene: Option<PathBuf>) -> Result<(), String> {
     let system = displays.choose().map_err(|why| format!("{why}; {NO_WINDOW}"))?;
     let threads = all_but_one(cores());
     let threads = Threads::new(threads, SimdLevel::best()).map_err(|error| error.to_string())?;
-    let mut options = eframe::NativeOptions {
-        viewport: egui::ViewportBuilder::default()
-            .with_title("Noisefall")
-            .with_app_id("noisefall")
-            .with_icon(eframe::icon_data::from_png_bytes(ICON).unwrap_or_default())
-            .with_inner_size([1280.0, 760.0])
-            .with_min_inner_size([720.0, 480.0]),
-        renderer: eframe::Renderer::Glow,
-        ..Default::default()
-    };
-    window_system::force(system, &mut options);
+    let options = options(system);
     let open = || {
         let create = |cc: &eframe::CreationContext| -> Box<dyn eframe::App> {
             // There is a window: from here on a panic is ours, and is shown as usual.
@@ -67,4 +58,20 @@ pub fn run(scene: Option<PathBuf>) -> Result<(), String> {
         Ok(Err(error)) => Err(format!("the window cannot be opened: {}; {NO_WINDOW}", displays.explain(&error))),
         Err(panic) => Err(format!("the window failed: {}; {NO_WINDOW}", displays.without_source(&panic_message(&*panic)))),
     }
+}
+
+/// The window as it opens.
+fn options(system: WindowSystem) -> eframe::NativeOptions {
+    let mut options = eframe::NativeOptions {
+        viewport: egui::ViewportBuilder::default()
+            .with_title("Noisefall")
+            .with_app_id("noisefall")
+            .with_icon(eframe::icon_data::from_png_bytes(ICON).unwrap_or_default())
+            .with_inner_size([1280.0, 760.0])
+            .with_min_inner_size([720.0, 480.0]),
+        renderer: eframe::Renderer::Glow,
+        ..Default::default()
+    };
+    window_system::force(system, &mut options);
+    options
 }

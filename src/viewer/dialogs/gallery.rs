@@ -16,6 +16,8 @@ use crate::viewer::background::{
 /// Of a card: its picture, and below it two lines of text.
 const PICTURE: Vec2 = Vec2 { x: 164.0, y: 112.0 };
 const TEXT: f32 = 36.0;
+/// Between two cards of a row.
+const GAP: f32 = 12.0;
 
 /// Pictures of scenes, read off the UI thread when they are first looked at.
 #[derive(Default)]
@@ -61,7 +63,7 @@ impl Gallery {
         self.receive(ctx, catalogue.iter().map(|entry| entry.path.clone()));
         let (mut open, mut request) = (true, None);
         let room = ctx.content_rect().size() - vec2(80.0, 120.0);
-        let columns = ((room.x / (PICTURE.x + 12.0)).floor() as usize).clamp(1, 6);
+        let columns = columns(room.x);
         egui::Window::new("Scenes")
             .open(&mut open)
             .collapsible(false)
@@ -89,7 +91,7 @@ impl Gallery {
         for chapter in catalogue.chunk_by(|a, b| a.chapter == b.chapter) {
             let title = chapter[0].chapter;
             ui.label(RichText::new(title).strong());
-            egui::Grid::new(title).spacing([12.0, 8.0]).show(ui, |ui| {
+            egui::Grid::new(title).spacing([GAP, 8.0]).show(ui, |ui| {
                 let cards = chapter.iter().map(|entry| (entry.name.as_str(), Some(entry.path.clone()), &entry.path));
                 for (number, (name, path, picture)) in built_in(chapter).into_iter().chain(cards).enumerate() {
                     if card(ui, name, self.pictures.get(picture)) {
@@ -104,6 +106,11 @@ impl Gallery {
         }
         chosen
     }
+}
+
+/// The number of cards beside each other in this width, in points.
+fn columns(width: f32) -> usize {
+    ((width / (PICTURE.x + GAP)).floor() as usize).clamp(1, 6)
 }
 
 /// Whether the built-in scene is that of a file.
@@ -149,4 +156,14 @@ fn card(ui: &mut Ui, name: &str, picture: Option<&TextureHandle>) -> bool {
     let mut below = ui.new_child(egui::UiBuilder::new().max_rect(text));
     below.add(egui::Label::new(RichText::new(name).size(12.0)).selectable(false).wrap());
     response.on_hover_text(name).clicked()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_row_has_as_many_cards_as_fit_but_at_least_one_and_at_most_six() {
+        assert_eq!([0.0, 100.0, 351.0, 352.0, 900.0, 1056.0, 4000.0].map(columns), [1, 1, 1, 2, 5, 6, 6]);
+    }
 }

@@ -69,3 +69,16 @@ fn scene_list(ui: &mut egui::Ui, opened: Option<&OpenedScene>, catalogue: &[Cata
     }
     chosen
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_list_has_all_rows_or_as_many_as_the_window_has_room_for() {
+        for (scenes, rows) in [(3, 4.0), (1000, 26.0)] {
+            let draw = move |ui: &mut egui::Ui| assert_eq!(list_height(ui, scenes), ROW * rows, "{scenes} scenes");
+            _ = egui_kittest::Harness::builder().with_size(vec2(400.0, 800.0)).build_ui(draw);
+        }
+    }
+}

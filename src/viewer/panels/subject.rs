@@ -105,6 +105,17 @@ mod tests {
     use super::*;
 
     #[test]
+    fn a_part_with_kinds_names_the_table_that_chooses_one() {
+        let found = |subject: Subject| subject.choice();
+        assert_eq!(found(Subject::Object(2)), Some((Path::of("objects.2.shape"), ShapeKind::WHAT)));
+        assert_eq!(found(Subject::Material("red".to_owned())), Some((Path::of("materials.red"), Material::WHAT)));
+        assert_eq!(found(Subject::Texture("bark".to_owned())), Some((Path::of("textures.bark"), TextureKind::WHAT)));
+        assert_eq!(found(Subject::Camera), Some((Path::of("camera"), Projection::WHAT)));
+        assert_eq!(found(Subject::Background), Some((Path::of("background"), BackgroundDescription::WHAT)));
+        assert_eq!(found(Subject::Presentation), None);
+    }
+
+    #[test]
     fn a_part_is_found_at_its_path() {
         let mut room = SceneDescription::default();
         room.add_material("white", Lambertian::default());

@@ -68,3 +68,15 @@ fn the_menu_of_comparisons_changes_what_it_names() {
         assert_eq!(window.state().session.settings, of);
     }
 }
+
+/// No pointer is clicked, which would close the menu anyway.
+#[test]
+fn the_menu_of_comparisons_closes_behind_a_choice_by_a_screen_reader() {
+    let mut window = window("cornell_spheres");
+    window.get_all_by_label("Compare with…").next().expect("the toolbar has it").click();
+    window.run_steps(3);
+    window.get_by_label("Another seed").click_accesskit();
+    window.run_steps(3);
+    assert!(window.state().session.comparison.is_some());
+    assert!(window.query_by_label("Another seed").is_none());
+}

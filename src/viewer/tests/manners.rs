@@ -27,6 +27,19 @@ fn a_hidden_window_renders_nothing_and_goes_on_when_it_is_seen() {
     wait(&mut window, "more samples", |app| app.results.status.samples > samples && app.results.status.state == State::Running);
 }
 
+#[test]
+fn a_window_that_is_minimized_is_hidden() {
+    let mut window = window("furnace");
+    for (minimized, occluded, hidden) in [(true, false, true), (false, false, false), (false, true, true)] {
+        let viewport = window.input_mut().viewports.get_mut(&egui::ViewportId::ROOT).expect("the window");
+        (viewport.minimized, viewport.occluded) = (Some(minimized), Some(occluded));
+        window.step();
+        let ctx = window.ctx.clone();
+        eframe::App::logic(&mut **window.state_mut(), &ctx, &mut eframe::Frame::_new_kittest());
+        assert_eq!(window.state().window.hidden, hidden, "minimized: {minimized}, occluded: {occluded}");
+    }
+}
+
 /// Waits for the worker, while no frame is drawn.
 fn wait_without_frames(window: &Window, condition: impl Fn(&App) -> bool) {
     let start = Instant::now();

@@ -5,7 +5,9 @@ use super::{rasteriser::Blind, *};
 use crate::viewer::{
     dialogs::tour,
     instruments::{convergence::curve::Curve, tabs::InstrumentTab},
+    options,
     widgets::style::PANEL_WIDTH,
+    window_system::WindowSystem,
 };
 
 /// The heights at which the rows of the panel stand.
@@ -240,4 +242,19 @@ fn the_gallery_is_in_an_order_that_teaches_and_its_pictures_cover_their_cards() 
         is_picture && (clipped.shape.visual_bounding_rect().size() - size).length() < 1.0
     });
     assert!(pictures.count() >= 4);
+}
+
+#[test]
+fn the_smallest_window_has_as_much_room_for_the_picture_as_for_the_panel() {
+    let size = |options: &eframe::NativeOptions| [options.viewport.min_inner_size, options.viewport.inner_size];
+    let [least, first] = size(&options(WindowSystem::Default)).map(|size| size.expect("a size"));
+    assert!(least.x >= 2.0 * PANEL_WIDTH && least.x > least.y, "{least}");
+    assert!(first.x > least.x && first.y > least.y, "{first} {least}");
+}
+
+#[cfg(all(unix, not(target_os = "macos")))]
+#[test]
+fn a_window_opens_in_the_window_system_that_was_chosen() {
+    let is_forced = |system| options(system).event_loop_builder.is_some();
+    assert_eq!([WindowSystem::X11, WindowSystem::Default].map(is_forced), [true, false]);
 }

@@ -126,6 +126,9 @@ mod tests {
         assert_eq!(field.state().refusal.as_deref(), Some("`fov`: expected a number, found `wide`"));
         type_in(&mut field, "55.25°");
         assert_eq!((field.state().value, field.state().refusal.as_deref()), (55.25, None));
+        type_in(&mut field, " 60.5° ");
+        assert_eq!((field.state().value, field.state().refusal.as_deref()), (60.5, None), "spaces do not count");
+        type_in(&mut field, "55.25");
         type_in(&mut field, "−3");
         assert_eq!((field.state().value, field.state().refusal.as_deref()), (55.25, Some("`fov` is out of range: -3")));
     }

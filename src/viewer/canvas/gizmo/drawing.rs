@@ -89,3 +89,21 @@ pub fn title(operation: &Operation, change: &Transform) -> String {
         Transform::Matrix(_) => String::new(),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+    use noisefall::shape::Rotation;
+
+    use super::*;
+
+    #[test]
+    fn the_title_has_the_amount_along_each_axis() {
+        let by = DVec3::new(1.0, -2.5, 0.125);
+        let titled = |mode, lock, change| title(&Operation::new(mode, lock, DVec3::ZERO, [0.0; 2]), &change);
+        assert_eq!(titled(Mode::Move, Lock::Free, Transform::Translate(by)), "Move: 1.000 -2.500 0.125 m");
+        assert_eq!(titled(Mode::Scale, Lock::Plane(1), Transform::Scale(by)), "Scale across y: 1.000 -2.500 0.125");
+        let turn = Transform::Rotate(Rotation { axis: DVec3::Z, degrees: 22.5 });
+        assert_eq!(titled(Mode::Rotate, Lock::Axis(2), turn), "Rotate about z: 22.5°");
+    }
+}
