@@ -55,7 +55,7 @@ mod tests {
     /// A cell that is rounded up in every direction would be half as wide across a rod as along it.
     #[test]
     fn the_cells_of_a_rod_are_a_row() {
-        assert_eq!(grid(68, DVec3::new(100.0, 1.0, 1.0)).min(UVec3::new(140, 9, 9)), UVec3::new(136, 1, 1));
+        assert_eq!(grid(68, DVec3::new(100.0, 1.0, 1.0)), UVec3::new(136, 1, 1));
     }
 
     #[test]

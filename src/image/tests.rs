@@ -31,7 +31,7 @@ fn a_plain_hdr_has_its_mantissas_times_powers_of_two() {
     assert_eq!((picture.width, picture.height), (1, 2));
     assert_eq!(picture.radiance, [[0.5, 0.25, 0.0], [0.0; 3]]);
     // Spaces around values do not count, factors are multiplied, and may be small.
-    let bytes = hdr("FORMAT= 32-bit_rle_rgbe \nEXPOSURE=0.5\nEXPOSURE= 0.25 \n\n-Y 1 +X 1\n", &[128, 64, 0, 129]);
+    let bytes = hdr("#?RADIANCE\nFORMAT= 32-bit_rle_rgbe \nEXPOSURE=0.5\nEXPOSURE= 0.25 \n\n-Y 1 +X 1\n", &[128, 64, 0, 129]);
     assert_eq!(read(&bytes).expect("it is a picture").radiance, [[8.0, 4.0, 0.0]]);
 }
 

@@ -210,7 +210,7 @@ fn blue_noise_has_all_strata_of_sobol_points() {
 /// Every coordinate of a pixel is that of Sobol points after an exclusive or, which is the same for all its samples.
 #[test]
 fn blue_noise_shifts_each_coordinate_of_sobol_points() {
-    // The bits that f32 keeps.
+    // Fewer bits than f32 keeps.
     let bits = |sampler, pixel, index, dimension| point(sampler, pixel, index, dimension).map(|x| (x * 65536.0) as u32);
     for dimension in [Dimension::PIXEL, Dimension::direction(1), Dimension::direction(9)] {
         for pixel in [0, 77, 5 << 16 | 3] {
