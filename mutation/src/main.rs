@@ -106,11 +106,12 @@ fn run(options: &Options) -> Outcome<()> {
     let verdicts = run.journal(&run.named("results", "jsonl"), run.package.hash());
     let candidates = run.package.candidates()?;
     run.say(&format!("{} places for faults", candidates.len()));
+    let given = run.given()?;
     let explained = survivors::read(&read(&run.own.join("SURVIVORS.md"))?)?;
-    for row in explained.iter().filter(|row| !candidates.iter().any(|fault| row.is(fault))) {
+    for row in explained.iter().filter(|row| !candidates.iter().chain(&given).any(|fault| row.is(fault))) {
         eprintln!("SURVIVORS.md explains a fault that cannot be made any more: {}", row.name());
     }
-    let faults = run.choose(candidates, &verdicts)?;
+    let faults = run.choose(candidates, given, &verdicts)?;
     if options.list {
         for (id, fault) in (1..).zip(&faults) {
             println!("{id:4} {}:{} {} [{}] {}", fault.file, fault.line, fault.function, fault.operator, fault.change());
@@ -154,15 +155,19 @@ impl Run<'_> {
         self.options.faults.clone().unwrap_or_else(|| self.own.join("faults.toml"))
     }
 
+    /// The faults of that table.
+    fn given(&self) -> Outcome<Vec<Fault>> {
+        let table = self.table();
+        given::read(&read(&table)?, &table.display().to_string(), &self.package)
+    }
+
     fn journal<T: Serialize + DeserializeOwned>(&self, name: &str, sources: u64) -> Journal<T> {
         Journal::new(self.workplace.join(name), sources)
     }
 
     /// The faults that were asked for, without those that do not compile.
-    fn choose(&self, mut candidates: Vec<Fault>, verdicts: &Journal<Verdict>) -> Outcome<Vec<Fault>> {
+    fn choose(&self, mut candidates: Vec<Fault>, given: Vec<Fault>, verdicts: &Journal<Verdict>) -> Outcome<Vec<Fault>> {
         let options = self.options;
-        let table = self.table();
-        let given = given::read(&read(&table)?, &table.display().to_string(), &self.package)?;
         if options.given {
             candidates = given.clone();
         }
@@ -198,7 +203,7 @@ impl Run<'_> {
             // Others are drawn in place of faults that were drawn.
             let wrong: Vec<String> = rejected.iter().filter(|fault| given.contains(fault)).map(|fault| fault.key()).collect();
             if !wrong.is_empty() {
-                return Err(format!("faults of {} do not compile:\n{}", table.display(), wrong.join("\n")));
+                return Err(format!("faults of {} do not compile:\n{}", self.table().display(), wrong.join("\n")));
             }
             for fault in rejected {
                 let rejected = Rejected { key: fault.key() };
