@@ -176,7 +176,7 @@ mod tests {
 
     #[test]
     fn mistakes_are_reported_with_their_place() {
-        let refused = |text: String| CameraPath::parse("path.toml", text).expect_err("it is refused").to_string();
+        let refused = |text: String| CameraPath::parse("path.toml", text).expect_err("it is refused").report();
         assert!(refused(PATH.replace("time = 2.0", "time = 1.0")).contains("camera 2 is not later than camera 1"));
         assert!(refused(PATH.replace("time = 2.0", "tim = 2.0")).contains("time"));
         assert!(refused("frames = 5".to_owned()).contains("two cameras or more"));

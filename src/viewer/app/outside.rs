@@ -138,7 +138,9 @@ impl App {
 
     /// Finds the place of an error in a scene file that was reloaded. Returns false if the document is not that of its file.
     pub fn diagnose_file(&mut self, error: &SceneError) -> bool {
-        let document = self.editor.as_ref().map(|editor| &editor.document).filter(|document| !document.has_changes());
+        let submitted = self.session.submitted_edit.as_deref();
+        let document = self.editor.as_ref().map(|editor| &editor.document);
+        let document = document.filter(|document| !document.has_changes() && submitted == Some(document.description()));
         let Some(path) = document.and_then(|document| document.path()).map(Path::to_owned) else { return false };
         let known = error.report();
         let report = move |_: &(dyn Fn() -> bool + Sync)| load(&path).err().map_or(known, |error| error.report());

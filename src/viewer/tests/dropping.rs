@@ -28,18 +28,20 @@ fn picture(folder: &tempfile::TempDir, name: &str) -> PathBuf {
 }
 
 /// Drops a file and waits for the picture of the edited scene; then undo gives the scene before, and redo this one.
-fn is_one_step(window: &mut Window, path: PathBuf) {
+fn is_one_step(window: &mut Window, path: PathBuf) -> Option<usize> {
     let before = bits(window);
     edits(window, "the picture with the file", |w| {
         drop_file(w, path);
         wait(w, "the edit", App::has_unsaved_changes);
     });
+    let selected = window.state().selection.object();
     let after = bits(window);
     undo(window);
     assert!(bits(window).is_identical(&before));
     assert!(!window.state().has_unsaved_changes());
     redo(window);
     assert!(bits(window).is_identical(&after) && !after.is_identical(&before));
+    selected
 }
 
 fn albedo(window: &Window) -> Textured {
@@ -64,7 +66,8 @@ fn a_mesh_stands_on_the_floor_where_it_is_dropped() {
     let at = seen(&mut window, spot);
     window.hover_at(at);
     window.run_steps(2);
-    is_one_step(&mut window, mesh.clone());
+    let selected = is_one_step(&mut window, mesh.clone());
+    assert_eq!(selected, Some(8), "it is selected");
     let objects = &description(&window).objects;
     let tent = objects.last().expect("there are objects");
     assert_eq!((objects.len(), tent.name.as_str(), tent.material.as_deref()), (9, "tent", Some("amber")));
@@ -73,7 +76,6 @@ fn a_mesh_stands_on_the_floor_where_it_is_dropped() {
         "{:?}",
         tent.shape
     );
-    assert_eq!(window.state().selection.object(), Some(8), "it is selected");
     wait(&mut window, "the compiled tent", |app| {
         app.session.opened.as_ref().is_some_and(|opened| opened.scene.objects.len() == 9)
     });

@@ -2,7 +2,7 @@
 use std::sync::Arc;
 
 use noisefall::{
-    render::{Frame, view::View as Shown},
+    render::{Frame, denoise::LABEL, view::View as Shown},
     scene::RenderSettings,
 };
 
@@ -171,7 +171,8 @@ fn every_view_is_shown_with_a_legend_and_none_restarts() {
             if view == Shown::Difference {
                 click(w, "Pin this");
             }
-            wait(w, name, |app| app.results.legend.as_ref().is_some_and(|legend| legend.title == name));
+            let title = if view == Shown::Denoised { LABEL } else { name };
+            wait(w, name, |app| app.results.legend.as_ref().is_some_and(|legend| legend.title == title));
         }
     });
     choose(&mut window, "View", "Z-score");

@@ -68,7 +68,7 @@ use super::{
 };
 
 /// As tall as all panels together: what is scrolled out of sight cannot be clicked.
-const SIZE: egui::Vec2 = vec2(1280.0, 1300.0);
+const SIZE: egui::Vec2 = vec2(1280.0, 1340.0);
 
 type Window = Harness<'static, Lazy>;
 
