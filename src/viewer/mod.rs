@@ -26,7 +26,6 @@ use noisefall::{
     render::{pass::panic_message, threads::Threads},
 };
 use panels::window::{all_but_one, cores};
-use window_system::WindowSystem;
 
 const ICON: &[u8] = include_bytes!("../../assets/icon.png");
 const NO_WINDOW: &str = "use `noisefall render SCENE -o picture.png` to render without a window";
@@ -61,7 +60,7 @@ pub fn run(scene: Option<PathBuf>) -> Result<(), String> {
 }
 
 /// The window as it opens.
-fn options(system: WindowSystem) -> eframe::NativeOptions {
+fn options(system: window_system::WindowSystem) -> eframe::NativeOptions {
     let mut options = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default()
             .with_title("Noisefall")

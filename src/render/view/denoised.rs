@@ -1,5 +1,5 @@
 //! The denoised image.
-use super::{DisplaySettings, Field, Legend, Quantity, Sources, paint};
+use super::{DisplaySettings, Field, Legend, Quantity, Sources};
 use crate::{
     declare::Word,
     render::{denoise::LABEL, tone::to_srgb},
@@ -17,7 +17,7 @@ impl Quantity for Denoised {
     const IS_DENOISED: bool = true;
 
     fn missing() -> &'static str {
-        "Denoising …"
+        "Denoising …: this is the image without it"
     }
 
     fn field(_: &Sources) -> Field {
@@ -27,9 +27,8 @@ impl Quantity for Denoised {
     fn draw(settings: DisplaySettings, sources: &Sources, pixels: &mut Vec<[u8; 4]>) -> Option<(Legend, Field)> {
         let legend = |title: &str| Legend { title: title.to_owned(), scale: None, entries: Vec::new() };
         let Some(radiance) = sources.radiance else {
-            let legend = legend(Self::missing());
-            paint(&Field::Missing, &legend, settings, sources, pixels);
-            return Some((legend, Field::Missing));
+            to_srgb(&sources.frame.radiance, settings.display, pixels);
+            return Some((legend(Self::missing()), Field::Missing));
         };
         to_srgb(radiance, settings.display, pixels);
         Some((legend(LABEL), Field::Colours(Vec::new())))

@@ -27,6 +27,8 @@ pub struct StatusBar<'a> {
     /// Why the picture cannot be compared with the reference of the scene.
     pub mismatch: Option<String>,
     pub pixel: Option<Pixel<'a>>,
+    /// The view shows a filtered image.
+    pub is_denoised: bool,
 }
 
 impl StatusBar<'_> {
@@ -108,6 +110,11 @@ impl StatusBar<'_> {
     }
 
     fn bias_label(&self, ui: &mut egui::Ui) {
+        if self.is_denoised {
+            let text = RichText::new("biased: denoised").color(ui.warning());
+            ui.label(text).on_hover_text("The view filters the image. The samples are not changed.");
+            return;
+        }
         match self.status.bias(self.settings) {
             None => ui
                 .label(RichText::new("unbiased").color(ui.good()))

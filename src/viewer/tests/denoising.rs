@@ -9,6 +9,8 @@ fn the_denoised_view_has_its_label_and_is_computed_only_while_it_is_shown() {
     window.state_mut().session.look.view = View::Denoised;
     let is_labelled = |app: &App| app.results.legend.as_ref().is_some_and(|legend| legend.title == LABEL);
     wait(&mut window, "the denoised image", is_labelled);
+    window.run_steps(2);
+    assert!(window.query_by_label("biased: denoised").is_some() && window.query_by_label("unbiased").is_none());
     let results = &window.state().results;
     assert!(results.values.radiance.is_some(), "the number under the pointer is denoised too");
     assert!(results.shown.as_ref().is_some_and(|frame| frame.halves.is_some()));

@@ -25,7 +25,11 @@ fn ctrl_c_copies_all_pixels_of_the_picture_as_a_png_has_them() {
     let mut window = window("cornell_spheres");
     window.state_mut().session.look.display.tone_map = ToneMap::Agx;
     click(&mut window, "Pause");
-    wait(&mut window, "the pause", |app| app.results.status.state == State::Paused && app.can_save());
+    wait(&mut window, "the pause", |app| {
+        let status = &app.results.status;
+        let is_last = app.results.shown.as_ref().is_some_and(|frame| frame.spp == status.spp);
+        status.state == State::Paused && is_last && app.can_save()
+    });
     window.event(egui::Event::Copy);
     let commands = asked(&mut window, "the copy");
     let [OutputCommand::CopyImage(copied)] = &commands[..] else { panic!("{commands:?}") };
@@ -34,7 +38,9 @@ fn ctrl_c_copies_all_pixels_of_the_picture_as_a_png_has_them() {
     window.state_mut().save_to(path.clone());
     wait(&mut window, "the file", |app| app.window.last_saved.is_some());
     let saved = image::open(&path).expect("it is a picture").into_rgba8();
-    assert_eq!((copied.size, copied.as_raw()), ([96, 64], saved.as_raw().as_slice()));
+    assert_eq!(copied.size, [96, 64]);
+    let differing = copied.as_raw().iter().zip(saved.as_raw()).filter(|(a, b)| a != b).count();
+    assert_eq!(differing, 0);
 }
 
 #[test]
