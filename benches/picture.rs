@@ -121,7 +121,7 @@ fn display_transform(c: &mut Criterion) {
         c.bench_function(&format!("1280 x 720, display transform, one thread, {name}"), |b| {
             let mut pixels = Vec::new();
             b.iter(|| {
-                to_srgb(black_box(&frame.radiance), Display { exposure: 0.5, tone_map, ..Display::default() }, &mut pixels)
+                to_srgb(black_box(&frame.radiance), Display { exposure: 0.5, tone_map, ..Display::default() }, &mut pixels);
             });
         });
     }
