@@ -24,12 +24,9 @@ fn ctrl_c_copies_all_pixels_of_the_picture_as_a_png_has_them() {
     let path = folder.path().join("shot.png");
     let mut window = window("cornell_spheres");
     window.state_mut().session.look.display.tone_map = ToneMap::Agx;
-    click(&mut window, "Pause");
-    wait(&mut window, "the pause", |app| {
-        let status = &app.results.status;
-        let is_last = app.results.shown.as_ref().is_some_and(|frame| frame.spp == status.spp);
-        status.state == State::Paused && is_last && app.can_save()
-    });
+    window.state_mut().session.budget.max_spp = Some(4);
+    restarts(&mut window, "a restart", |w| press(w, Key::R));
+    wait(&mut window, "the last frame", |app| app.can_save() && app.results.shown.as_ref().is_some_and(|frame| frame.spp == 4));
     window.event(egui::Event::Copy);
     let commands = asked(&mut window, "the copy");
     let [OutputCommand::CopyImage(copied)] = &commands[..] else { panic!("{commands:?}") };
