@@ -38,7 +38,7 @@ fn frames() {
         ("convergence", &[Key::F2], &[]),
         ("compare", &[Key::F3], &["Compare with…", "Path sampling"]),
         ("bounces", &[Key::F4], &[]),
-        ("pixel", &[Key::F5], &["The pixel in the middle"]),
+        ("pixel", &[Key::F5], &["Use the middle pixel"]),
         ("a view of numbers", &[Key::V], &[]),
         ("gallery", &[Key::F6], &[]),
         ("inspector", &[], &["Edit", "amberlambertian"]),
