@@ -156,6 +156,7 @@ fn the_image_after_random_edits_is_that_of_the_saved_file() {
     let [of_edits, of_file] = [&window, &fresh].map(|window| Tree::of(&mut description(window).clone()));
     assert!(of_edits.is_identical(&of_file));
     let saved = image(&mut fresh);
-    assert!(edited.iter().flatten().any(|value| *value > 0.0));
+    // In a longer run the camera may end inside an object.
+    assert!(events != EVENTS || edited.iter().flatten().any(|value| *value > 0.0));
     assert!(edited == saved, "the image after {events} events is another one than that of the file");
 }
