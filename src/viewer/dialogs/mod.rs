@@ -6,6 +6,7 @@ pub mod gallery;
 pub mod help;
 pub mod notices;
 pub mod open;
+mod question;
 pub mod recovery;
 pub mod save;
 pub mod save_target;

@@ -1,8 +1,9 @@
 //! The question whether to restore changes that were not saved.
 use std::time::Duration;
 
-use egui::{Align2, RichText};
+use egui::Ui;
 
+use super::question::{Choice, ask};
 use crate::viewer::background::{catalogue, recovery_files::FoundRecovery};
 
 /// An answer.
@@ -15,36 +16,21 @@ pub enum RecoveryAnswer {
 
 /// Asks the question.
 pub fn show(ctx: &egui::Context, found: &FoundRecovery) -> Option<RecoveryAnswer> {
-    let (mut open, mut answer) = (true, None);
-    egui::Window::new("Unsaved changes were found")
-        .open(&mut open)
-        .collapsible(false)
-        .resizable(false)
-        .anchor(Align2::CENTER_CENTER, [0.0, 0.0])
-        .show(ctx, |ui| {
-            ui.set_width(420.0);
-            let path = found.recovery.path.as_deref();
-            let scene =
-                path.map_or_else(|| "a scene without a file".to_owned(), |path| format!("`{}`", catalogue::name("", path)));
-            let label = ui.label(format!("Restore unsaved changes of {scene} from {} ago?", in_words(found.age)));
-            path.into_iter().for_each(|path| _ = label.clone().on_hover_text(path.display().to_string()));
-            if found.is_older {
-                ui.label("The scene file was changed after that.");
-            }
-            ui.add_space(6.0);
-            ui.horizontal(|ui| {
-                for (name, doc, means) in [
-                    (RichText::new("Restore changes").strong(), "Opens the scene with these changes.", RecoveryAnswer::Restore),
-                    (RichText::new("Discard changes"), "Deletes these changes.", RecoveryAnswer::Discard),
-                    (RichText::new("Later"), "Asks again when the scene is opened next time. (Esc)", RecoveryAnswer::Later),
-                ] {
-                    if ui.button(name).on_hover_text(doc).clicked() {
-                        answer = Some(means);
-                    }
-                }
-            });
-        });
-    if open { answer } else { Some(RecoveryAnswer::Later) }
+    let explain = |ui: &mut Ui| {
+        let path = found.recovery.path.as_deref();
+        let scene = path.map_or_else(|| "a scene without a file".to_owned(), |path| format!("`{}`", catalogue::name("", path)));
+        let label = ui.label(format!("Restore unsaved changes of {scene} from {} ago?", in_words(found.age)));
+        path.into_iter().for_each(|path| _ = label.clone().on_hover_text(path.display().to_string()));
+        if found.is_older {
+            ui.label("The scene file was changed after that.");
+        }
+    };
+    let choices = [
+        Choice::new("Restore changes", "Opens the scene with these changes.", RecoveryAnswer::Restore),
+        Choice::new("Discard changes", "Deletes these changes.", RecoveryAnswer::Discard),
+        Choice::new("Later", "Asks again when the scene is opened next time. (Esc)", RecoveryAnswer::Later),
+    ];
+    ask(ctx, "Unsaved changes were found", 420.0, explain, choices, RecoveryAnswer::Later)
 }
 
 /// A time in its largest unit.

@@ -1,9 +1,10 @@
 //! The question what becomes of changes that are not saved.
 use std::path::PathBuf;
 
-use egui::{Align2, RichText};
+use egui::Ui;
 use noisefall::edit::Template;
 
+use super::question::{Choice, ask};
 use crate::viewer::background::recovery_files::FoundRecovery;
 
 /// An action that leaves the open scene.
@@ -38,27 +39,11 @@ pub enum Answer {
 
 /// Asks the question about a scene of this name.
 pub fn show(ctx: &egui::Context, scene: &str) -> Option<Answer> {
-    let (mut open, mut answer) = (true, None);
-    egui::Window::new("Unsaved changes")
-        .open(&mut open)
-        .collapsible(false)
-        .resizable(false)
-        .anchor(Align2::CENTER_CENTER, [0.0, 0.0])
-        .show(ctx, |ui| {
-            ui.set_width(380.0);
-            ui.label(format!("`{scene}` has changes that are not saved."));
-            ui.add_space(6.0);
-            ui.horizontal(|ui| {
-                for (name, doc, means) in [
-                    (RichText::new("Save changes").strong(), "Saves the scene, then continues.", Answer::Save),
-                    (RichText::new("Discard changes"), "Continues without saving.", Answer::Discard),
-                    (RichText::new("Cancel"), "Returns to the scene. (Esc)", Answer::Cancel),
-                ] {
-                    if ui.button(name).on_hover_text(doc).clicked() {
-                        answer = Some(means);
-                    }
-                }
-            });
-        });
-    if open { answer } else { Some(Answer::Cancel) }
+    let choices = [
+        Choice::new("Save changes", "Saves the scene, then continues.", Answer::Save),
+        Choice::new("Discard changes", "Continues without saving.", Answer::Discard),
+        Choice::new("Cancel", "Returns to the scene. (Esc)", Answer::Cancel),
+    ];
+    let explain = |ui: &mut Ui| _ = ui.label(format!("`{scene}` has changes that are not saved."));
+    ask(ctx, "Unsaved changes", 380.0, explain, choices, Answer::Cancel)
 }
