@@ -19,7 +19,7 @@ impl App {
 
     fn copy(&mut self) {
         let message = self.dialogs.notices.0.iter().rfind(|notice| notice.is_error).map(|notice| &notice.text);
-        match self.dialogs.scene_error.as_ref().or(message) {
+        match self.dialogs.scene_error.as_ref().or(self.dialogs.file_error.as_ref()).or(message) {
             Some(message) => self.ctx.copy_text(message.clone()),
             None => self.copy_image(),
         }
@@ -29,7 +29,7 @@ impl App {
     fn copy_image(&mut self) {
         let frame = self.results.shown.clone().filter(|_| self.can_save());
         let Some(frame) = frame else {
-            return self.tell("Not copied: some pixels have no sample yet. Try again in a moment.".to_owned(), false);
+            return self.tell("Not copied: the image is not complete yet. Try again in a moment.".to_owned(), false);
         };
         let request = self.full_display_request(frame);
         self.background.copying = Some(BackgroundTask::start(&self.ctx, move |_| render(request).image));

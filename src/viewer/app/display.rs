@@ -2,7 +2,7 @@
 use std::sync::Arc;
 
 use noisefall::{
-    render::{Frame, RenderRequest, truth::Reference, view::DisplaySettings},
+    render::{Frame, RenderRequest, truth::Reference, view::DisplaySettings, view::View},
     scene::Camera,
 };
 
@@ -19,7 +19,7 @@ impl App {
         let term = self.results.second_frame.clone().filter(|_| self.window.tab == Some(InstrumentTab::Bounces));
         let view = comparison.and_then(|comparison| comparison.view());
         let pinned = if view.is_some() { second.clone() } else { session.pinned.clone() };
-        let look = DisplaySettings { view: view.unwrap_or(session.look.view), ..session.look };
+        let look = DisplaySettings { view: self.shown_view(), ..session.look };
         // The camera of the last request has been checked; a scene that has just been opened is requested in a moment.
         let is_open = |request: &&RenderRequest| self.is_of_open_scene(request);
         let request = self.background.worker.request().filter(is_open).filter(|_| look.view.shows_features()).cloned();
@@ -45,6 +45,15 @@ impl App {
             materials: session.opened.as_ref().map_or_else(|| Arc::from([]), |opened| opened.materials.clone()),
             on_screen: self.window.view.on_screen(),
             most_side: self.ctx.input(|input| input.max_texture_side),
+        }
+    }
+
+    /// The view of the image. In a comparison neither side is denoised.
+    pub fn shown_view(&self) -> View {
+        let own = self.session.look.view;
+        match self.comparison() {
+            Some(comparison) => comparison.view().unwrap_or(if own.is_denoised() { View::Radiance } else { own }),
+            None => own,
         }
     }
 

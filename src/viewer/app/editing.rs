@@ -19,6 +19,8 @@ impl App {
     pub fn submit_edit(&mut self, request: RenderRequest, description: Arc<SceneDescription>, now: f64) {
         let Some(opened) = &self.session.opened else { return };
         let folder = opened.folder();
+        // A diagnosis of an earlier edit is out of date.
+        self.outside.diagnosis = None;
         self.session.submitted_edit = Some(description.clone());
         self.background.worker.edit(request, description, folder, now);
     }
@@ -66,7 +68,11 @@ impl App {
         let folder = opened.folder();
         self.background.settler.note(EditedScene { scene: scene.clone(), description: description.clone(), folder });
         opened.change(scene);
-        (self.results.black_reason, self.dialogs.file_error) = (None, None);
+        self.results.black_reason = None;
+        if self.dialogs.file_error.is_some() {
+            // That this scene compiles says nothing about the file as it is now.
+            self.outside.recheck();
+        }
         if description.camera != before.camera || description.render != before.render {
             self.history.adopt(self.session.controls());
         }

@@ -8,7 +8,7 @@ use crate::viewer::background::{
     background_task::BackgroundTask,
     file_state::{FileState, SaveResult},
 };
-use crate::viewer::dialogs::unsaved::{Leaving, SaveOrder};
+use crate::viewer::dialogs::unsaved::{Leaving, SaveRequest};
 
 /// What other programs do to the files.
 #[derive(Default)]
@@ -37,15 +37,17 @@ impl OutsideChanges {
 
 /// A scene that is being saved.
 pub struct PendingSave {
-    pub order: SaveOrder,
+    pub request: SaveRequest,
+    /// The file that it is saved to.
+    pub path: PathBuf,
     pub result: Receiver<SaveResult>,
-    /// The order that was given meanwhile.
-    pub next: Option<SaveOrder>,
+    /// What was requested meanwhile.
+    pub next: Option<SaveRequest>,
 }
 
 impl PendingSave {
     /// Leaves the scene when it is saved.
     pub fn leave(&mut self, leaving: Leaving) {
-        self.next.as_mut().unwrap_or(&mut self.order).leaving = Some(leaving);
+        self.next.as_mut().unwrap_or(&mut self.request).leaving = Some(leaving);
     }
 }

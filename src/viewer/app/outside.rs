@@ -13,16 +13,16 @@ use crate::viewer::background::{
 };
 use crate::viewer::dialogs::{
     conflict::{self, Conflict, ConflictAnswer},
-    unsaved::SaveOrder,
+    unsaved::SaveRequest,
 };
 
 impl App {
-    /// Takes up what other programs have changed. A drag of the mouse and a save end first.
+    /// Takes up what other programs have changed. Drags and saves end first.
     pub fn follow_files(&mut self) {
         if let Some(Ok(report)) = BackgroundTask::take(&mut self.outside.diagnosis) {
             self.dialogs.file_error = Some(report);
         }
-        if self.saving.is_some() || self.ctx.input(|input| input.pointer.any_down()) {
+        if self.saving.is_some() || self.is_dragging() {
             return;
         }
         self.watch_files();
@@ -67,7 +67,7 @@ impl App {
     }
 
     /// Takes up the file as it is now. `save` is a save that met it.
-    pub fn follow_file(&mut self, state: FileState, save: Option<SaveOrder>) {
+    pub fn follow_file(&mut self, state: FileState, save: Option<SaveRequest>) {
         let save = save.or_else(|| self.dialogs.conflict.take()?.save);
         self.dialogs.conflict = None;
         match state {
@@ -75,20 +75,42 @@ impl App {
                 if self.shows_document() {
                     self.dialogs.file_error = None;
                 }
-                save.into_iter().for_each(|save| self.order_save(save));
+                save.into_iter().for_each(|save| self.request_save(save));
             }
             FileState::Changed(outside) if outside.conflicts => {
                 (self.dialogs.conflict, self.dialogs.file_error) = (Some(Conflict { file: Ok(outside), save }), None);
             }
             FileState::Changed(outside) => {
                 self.take_outside(*outside);
-                save.and_then(|save| save.leaving).into_iter().for_each(|leaving| self.ask_to_leave(leaving));
+                self.resume_save(save);
+            }
+            FileState::Missing => {
+                if let Some(editor) = &mut self.editor {
+                    editor.document.keep_own("");
+                    let name = file_name(editor);
+                    self.tell(format!("{name} was removed by another program. Save the scene to keep it."), true);
+                }
             }
             FileState::Broken(file) => {
                 self.dialogs.file_error = Some(file.report.clone());
                 self.dialogs.conflict = save.map(|save| Conflict { file: Err(file), save: Some(save) });
             }
         }
+    }
+
+    /// Goes on with a save that waited for the file to be taken up.
+    fn resume_save(&mut self, save: Option<SaveRequest>) {
+        let Some(save) = save else { return };
+        if self.has_unsaved_changes() {
+            self.request_save(save);
+        } else {
+            save.leaving.into_iter().for_each(|leaving| self.ask_to_leave(leaving));
+        }
+    }
+
+    /// Whether a drag of the mouse or an operation of the gizmo is under way.
+    pub fn is_dragging(&self) -> bool {
+        self.selection.gizmo.is_active() || self.ctx.input(|input| input.pointer.any_down())
     }
 
     /// Whether the picture is, or will be, that of the document.
@@ -124,13 +146,15 @@ impl App {
         match (answer, file) {
             (ConflictAnswer::KeepMine, file) => {
                 let text = file.map_or_else(|broken| broken.text, |outside| Some(outside.text().to_owned()));
+                // A later change of the file is asked about again. What is not text cannot be compared.
+                let replaces = text.is_none();
                 text.into_iter().for_each(|text| editor.document.keep_own(text));
                 self.outside.recheck();
-                save.into_iter().for_each(|save| self.order_save(SaveOrder { replaces: true, ..save }));
+                save.into_iter().for_each(|save| self.request_save(SaveRequest { replaces, ..save }));
             }
             (ConflictAnswer::UseFile, Ok(outside)) => {
                 self.take_outside(*outside);
-                save.and_then(|save| save.leaving).into_iter().for_each(|leaving| self.ask_to_leave(leaving));
+                self.resume_save(save);
             }
             _ => {}
         }

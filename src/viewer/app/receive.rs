@@ -100,6 +100,7 @@ impl App {
         (session.comparison, session.pinned, session.dropped_reference) = (None, None, None);
         self.background.adviser = None;
         self.background.loader.forget_reference();
+        self.background.drops.forget();
         self.background.settler.forget();
         (session.waiting_edit, session.submitted_edit) = (None, None);
         // What was found of the scene before would keep it in memory.

@@ -8,9 +8,9 @@ use crate::viewer::dialogs::{
 };
 
 impl App {
-    /// Keeps the unsaved changes as they are now. A drag of the mouse ends first.
+    /// Keeps the unsaved changes as they are now. A drag ends first.
     pub fn keep_changes(&mut self) {
-        if !self.ctx.input(|input| input.pointer.any_down()) {
+        if !self.is_dragging() {
             let document = self.editor.as_ref().map(|editor| &editor.document);
             self.background.recovery.keep(document.filter(|document| document.has_changes() && !self.window.quits));
         }

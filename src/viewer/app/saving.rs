@@ -21,7 +21,7 @@ impl App {
         let is_found = || worker.request().is_some_and(|request| self.background.features.has(&request.scene, &request.camera));
         let has_features = !self.session.look.view.shows_features() || is_found();
         let Some(frame) = self.results.shown.as_ref().filter(|_| has_features) else { return false };
-        let is_denoised = !self.session.look.view.is_denoised() || self.background.denoiser.has(frame);
+        let is_denoised = !self.shown_view().is_denoised() || self.background.denoiser.of(frame).is_some();
         is_denoised && !frame.is_coarse() && frame.generation == worker.generation()
     }
 
@@ -61,7 +61,10 @@ impl App {
             return;
         }
         let of_worker = self.background.worker.request().cloned();
-        let (Some(frame), Some(of)) = (self.results.shown.clone(), of_worker) else { return };
+        let (Some(shown), Some(of)) = (self.results.shown.clone(), of_worker) else { return };
+        // A denoised image may be that of an earlier frame.
+        let denoised = self.background.denoiser.of(&shown).filter(|_| self.shown_view().is_denoised());
+        let frame = denoised.unwrap_or(shown);
         let request = self.full_display_request(frame.clone());
         let remarks = remarks(&request, &path);
         let display = self.session.look.display;

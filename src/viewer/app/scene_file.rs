@@ -10,12 +10,13 @@ impl App {
         self.editor.as_ref().is_some_and(|editor| editor.document.has_changes())
     }
 
-    /// Leaves the open scene, after a question if it has unsaved changes.
+    /// Leaves the open scene: when it is saved, or after a question if it has unsaved changes.
     pub fn ask_to_leave(&mut self, leaving: Leaving) {
-        if self.has_unsaved_changes() {
-            self.dialogs.unsaved = Some(leaving);
-        } else {
-            self.leave(leaving);
+        let is_saved = !self.has_unsaved_changes();
+        match &mut self.saving {
+            _ if is_saved => self.leave(leaving),
+            Some(saving) => saving.leave(leaving),
+            None => self.dialogs.unsaved = Some(leaving),
         }
     }
 
@@ -41,19 +42,18 @@ impl App {
         let closes = self.ctx.input(|input| input.viewport().close_requested());
         if closes && !self.window.quits && self.has_unsaved_changes() {
             self.ctx.send_viewport_cmd(ViewportCommand::CancelClose);
-            match &mut self.saving {
-                Some(saving) => saving.leave(Leaving::Quit),
-                None => self.dialogs.unsaved = Some(Leaving::Quit),
-            }
+            self.ask_to_leave(Leaving::Quit);
         }
     }
 
     /// Shows the question about unsaved changes, and follows the answer.
     pub fn show_unsaved(&mut self) {
-        let Some(leaving) = self.dialogs.unsaved.clone() else { return };
+        if self.dialogs.unsaved.is_none() {
+            return;
+        }
         let name = self.session.opened.as_ref().map_or("", |opened| opened.name.as_str());
         let Some(answer) = unsaved::show(&self.ctx, name) else { return };
-        self.dialogs.unsaved = None;
+        let Some(leaving) = self.dialogs.unsaved.take() else { return };
         match answer {
             Answer::Save => {
                 self.window.leaving = Some(leaving);

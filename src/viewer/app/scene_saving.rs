@@ -10,19 +10,17 @@ use crate::viewer::background::{
     file_state::{SaveResult, save},
     recent,
 };
-use crate::viewer::dialogs::{save_target::SaveTarget, unsaved::SaveOrder};
+use crate::viewer::dialogs::{save_target::SaveTarget, unsaved::SaveRequest};
 
 impl App {
     /// Saves the scene to its file. A scene without a file asks for one.
     pub fn save_scene(&mut self) {
         let Some(editor) = &self.editor else { return };
-        match editor.document.path().map(Path::to_owned) {
-            Some(path) => {
-                let leaving = self.window.leaving.take();
-                self.order_save(SaveOrder { path, replaces: false, leaving });
-            }
-            None => self.ask_where_to_save(),
+        if editor.document.path().is_none() {
+            return self.ask_where_to_save();
         }
+        let leaving = self.window.leaving.take();
+        self.request_save(SaveRequest { leaving, ..SaveRequest::default() });
     }
 
     pub fn ask_where_to_save(&mut self) {
@@ -32,20 +30,22 @@ impl App {
     /// Saves the scene to a file that was chosen. It is the file of the scene from then on.
     pub fn save_scene_to(&mut self, path: &Path) {
         let leaving = self.window.leaving.take();
-        self.order_save(SaveOrder { path: path.to_owned(), replaces: true, leaving });
+        self.request_save(SaveRequest { path: Some(path.to_owned()), replaces: true, leaving });
     }
 
     /// Saves the scene when the last save has ended.
-    pub fn order_save(&mut self, order: SaveOrder) {
+    pub fn request_save(&mut self, request: SaveRequest) {
         if let Some(saving) = &mut self.saving {
-            saving.next = Some(order);
+            let earlier = saving.next.take().unwrap_or_default();
+            saving.next = Some(request.after(earlier));
             return;
         }
         let Some(editor) = &self.editor else { return };
+        let Some(path) = request.path.as_deref().or(editor.document.path()).map(Path::to_owned) else { return };
         let (document, opened) = (editor.document.clone(), self.session.path().map(Path::to_owned));
-        let (path, replaces) = (order.path.clone(), order.replaces);
-        let result = self.background.saver.run(move || save(&document, opened.as_deref(), &path, replaces));
-        self.saving = Some(PendingSave { order, result, next: None });
+        let (to, replaces) = (path.clone(), request.replaces);
+        let result = self.background.saver.run(move || save(&document, opened.as_deref(), &to, replaces));
+        self.saving = Some(PendingSave { request, path, result, next: None });
     }
 
     /// Receives the result of a save. Then what waited for it goes on.
@@ -56,17 +56,17 @@ impl App {
             Err(TryRecvError::Empty) => return,
             Err(TryRecvError::Disconnected) => SaveResult::Failed("saving failed unexpectedly".to_owned()),
         };
-        let Some(PendingSave { order, next, .. }) = self.saving.take() else { return };
+        let Some(PendingSave { request, path, next, .. }) = self.saving.take() else { return };
         self.outside.recheck();
         match result {
             SaveResult::Written(written) => {
-                self.take_saved(&order.path, written);
-                order.leaving.into_iter().for_each(|leaving| self.ask_to_leave(leaving));
+                self.take_saved(&path, written);
+                request.leaving.into_iter().for_each(|leaving| self.ask_to_leave(leaving));
             }
-            SaveResult::Differs(state) => self.follow_file(state, Some(order)),
+            SaveResult::Differs(state) => self.follow_file(state, Some(request)),
             SaveResult::Failed(error) => self.tell(format!("Not saved: {error}"), true),
         }
-        next.into_iter().for_each(|next| self.order_save(next));
+        next.into_iter().for_each(|next| self.request_save(next));
     }
 
     fn take_saved(&mut self, path: &Path, written: Written) {

@@ -107,7 +107,7 @@ impl App {
             comparison: results.comparison,
             mismatch: self.reference().and_then(|reference| reference.mismatch(session.camera.resolution)),
             pixel: self.window.hovered.and_then(pixel),
-            is_denoised: session.look.view.is_denoised(),
+            is_denoised: self.shown_view().is_denoised(),
         };
         bar.show(ui);
     }

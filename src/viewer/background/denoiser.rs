@@ -33,7 +33,7 @@ impl Denoiser {
         if let (Some(found), Some(of)) = (BackgroundTask::take(&mut self.pending), &self.of) {
             self.done = found.ok().flatten().map(|radiance| (of.clone(), Arc::new(radiance)));
         }
-        let is_of_image = |of: &Arc<Frame>| of.generation == frame.generation && of.radiance.len() == frame.radiance.len();
+        let is_of_image = |of: &Arc<Frame>| is_of_image(of, frame);
         // A task for the same image runs to its end; otherwise none would end while samples arrive.
         if self.pending.is_some() && !self.of.as_ref().is_some_and(is_of_image) {
             self.pending = None;
@@ -45,9 +45,9 @@ impl Denoiser {
         self.done.as_ref().filter(|(of, _)| is_of_image(of)).map(|(_, radiance)| radiance.clone())
     }
 
-    /// Whether a result of this image is known.
-    pub fn has(&self, frame: &Frame) -> bool {
-        self.done.as_ref().is_some_and(|(of, _)| of.generation == frame.generation && of.width == frame.width)
+    /// The frame of this image whose result is known.
+    pub fn of(&self, frame: &Frame) -> Option<Arc<Frame>> {
+        self.done.as_ref().map(|(of, _)| of.clone()).filter(|of| is_of_image(of, frame))
     }
 
     /// Cancels the task and drops the result: nothing shows it.
@@ -64,4 +64,8 @@ impl Denoiser {
             pool.install(|| denoised(&frame, cancelled))
         }));
     }
+}
+
+fn is_of_image(of: &Frame, frame: &Frame) -> bool {
+    of.generation == frame.generation && of.radiance.len() == frame.radiance.len()
 }

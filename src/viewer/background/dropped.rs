@@ -28,44 +28,61 @@ pub enum DroppedFile {
     Reference(PathBuf),
 }
 
-/// What a file is for, or why it cannot be used.
-type Purpose = Result<DroppedFile, String>;
+/// What a file is, or the reason why it cannot be used, and the pixel that it was dropped on, if the pointer was over one.
+pub type DropResult = (Result<DroppedFile, String>, Option<[u32; 2]>);
 
-/// A file that is being read.
+/// A file that was dropped.
 struct Pending {
-    task: Option<BackgroundTask<Purpose>>,
+    path: PathBuf,
+    /// Resolution of the rendered image.
+    resolution: [u32; 2],
     /// The pixel that it was dropped on.
     pixel: Option<[u32; 2]>,
 }
 
-/// Reads files in the order in which they were dropped.
+/// Reads files one by one, in the order in which they were dropped.
 pub struct DropReader {
     ctx: egui::Context,
+    /// The first one is being read if there is a task.
     pending: VecDeque<Pending>,
+    task: Option<BackgroundTask<Result<DroppedFile, String>>>,
 }
 
 impl DropReader {
     pub fn new(ctx: &egui::Context) -> DropReader {
-        DropReader { ctx: ctx.clone(), pending: VecDeque::new() }
+        DropReader { ctx: ctx.clone(), pending: VecDeque::new(), task: None }
     }
 
     /// Reads a file that was dropped on a pixel, if the pointer was over one. `resolution` is that of the rendered image.
     pub fn read(&mut self, path: PathBuf, resolution: [u32; 2], pixel: Option<[u32; 2]>) {
-        let task = BackgroundTask::start(&self.ctx, move |_| purpose(path, resolution));
-        self.pending.push_back(Pending { task: Some(task), pixel });
+        self.pending.push_back(Pending { path, resolution, pixel });
+        self.start();
     }
 
-    /// Takes the next file and its pixel, if it has been read.
-    pub fn take(&mut self) -> Option<(Purpose, Option<[u32; 2]>)> {
-        let Pending { task, pixel } = self.pending.front_mut()?;
+    /// Takes the next file, or the reason why it cannot be used, and the pixel that it was dropped on, if it has been read.
+    pub fn take(&mut self) -> Option<DropResult> {
         let failed = |_| Err("Reading the file failed unexpectedly".to_owned());
-        let found = (BackgroundTask::take(task)?.unwrap_or_else(failed), *pixel);
-        self.pending.pop_front();
-        Some(found)
+        let file = BackgroundTask::take(&mut self.task)?.unwrap_or_else(failed);
+        let Pending { pixel, .. } = self.pending.pop_front()?;
+        self.start();
+        Some((file, pixel))
+    }
+
+    /// Forgets the files: they were dropped on another scene.
+    pub fn forget(&mut self) {
+        self.pending.clear();
+        self.task = None;
+    }
+
+    fn start(&mut self) {
+        if let Some(Pending { path, resolution, .. }) = self.pending.front().filter(|_| self.task.is_none()) {
+            let (path, resolution) = (path.clone(), *resolution);
+            self.task = Some(BackgroundTask::start(&self.ctx, move |_| purpose(path, resolution)));
+        }
     }
 }
 
-fn purpose(path: PathBuf, resolution: [u32; 2]) -> Purpose {
+fn purpose(path: PathBuf, resolution: [u32; 2]) -> Result<DroppedFile, String> {
     let extension = path.extension().map(|extension| extension.to_string_lossy().to_ascii_lowercase());
     match extension.as_deref() {
         Some("toml") => Ok(DroppedFile::Scene(path)),

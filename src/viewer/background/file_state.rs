@@ -9,8 +9,10 @@ use noisefall::{
 
 /// The file of a document as it is now.
 pub enum FileState {
-    /// It has the text that the document knows, or is not there.
+    /// It has the text that the document knows, or the document has no file.
     Known,
+    /// Another program removed it.
+    Missing,
     /// Another program changed it.
     Changed(Box<Outside>),
     /// It is not a scene that can be read.
@@ -35,11 +37,10 @@ pub enum SaveResult {
 
 /// Compares a document with its file.
 pub fn compare(document: &Document) -> FileState {
-    let Some(path) = document.path().filter(|path| path.exists()) else { return FileState::Known };
+    let Some(path) = document.path() else { return FileState::Known };
     let text = match read_text(path) {
         Ok(text) => text,
-        // An editor may have removed it in the meantime, to replace it.
-        Err(_) if !path.exists() => return FileState::Known,
+        Err(_) if !path.exists() => return if document.on_disk().is_empty() { FileState::Known } else { FileState::Missing },
         Err(error) => return FileState::Broken(BrokenFile { text: None, report: error.report() }),
     };
     match document.compare_outside(&text) {
@@ -60,7 +61,7 @@ pub fn save(document: &Document, opened: Option<&Path>, path: &Path, replaces: b
     }
     if !replaces && document.path() == Some(path) {
         match compare(document) {
-            FileState::Known => {}
+            FileState::Known | FileState::Missing => {}
             state => return SaveResult::Differs(state),
         }
     }
@@ -107,7 +108,7 @@ mod tests {
             match state {
                 FileState::Changed(outside) => assert!(is_scene && !outside.conflicts),
                 FileState::Broken(broken) => assert!(!is_scene && broken.text.as_ref() == Some(&text)),
-                FileState::Known => panic!("it is not known"),
+                FileState::Known | FileState::Missing => panic!("it is there, and another one"),
             }
             assert_eq!(std::fs::read_to_string(&path).expect("it is there"), text);
         }
@@ -115,6 +116,9 @@ mod tests {
         document.note_written(written);
         assert!(!document.has_changes() && matches!(compare(&document), FileState::Known));
         std::fs::remove_file(&path).expect("it is there");
-        assert!(matches!(compare(&document), FileState::Known));
+        assert!(matches!(compare(&document), FileState::Missing));
+        document.keep_own("");
+        assert!(document.has_changes() && matches!(compare(&document), FileState::Known));
+        assert!(matches!(save(&document, Some(&path), &path, false), SaveResult::Written(_)) && path.is_file());
     }
 }

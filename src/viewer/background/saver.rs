@@ -1,5 +1,8 @@
 //! Writing files off the UI thread.
-use std::path::{Path, PathBuf};
+use std::{
+    panic::{AssertUnwindSafe, catch_unwind},
+    path::{Path, PathBuf},
+};
 
 use crossbeam_channel::{Receiver, Sender, bounded, unbounded};
 
@@ -29,7 +32,9 @@ impl Saver {
         let ((sender, result), ctx) = (bounded(1), self.ctx.clone());
         self.writing.retain(|thread| !thread.is_finished());
         self.writing.push(std::thread::spawn(move || {
-            let _ = sender.send(work());
+            // Without a result, the receiver finds its sender gone.
+            let _ = catch_unwind(AssertUnwindSafe(work)).map(|found| sender.send(found));
+            drop(sender);
             ctx.request_repaint();
         }));
         result

@@ -4,7 +4,7 @@ use noisefall::edit::Outside;
 
 use super::{
     question::{Choice, ask},
-    unsaved::SaveOrder,
+    unsaved::SaveRequest,
 };
 use crate::viewer::background::file_state::BrokenFile;
 
@@ -12,7 +12,7 @@ use crate::viewer::background::file_state::BrokenFile;
 pub struct Conflict {
     pub file: Result<Box<Outside>, BrokenFile>,
     /// A save that waits for the answer.
-    pub save: Option<SaveOrder>,
+    pub save: Option<SaveRequest>,
 }
 
 /// An answer.
@@ -31,7 +31,7 @@ pub fn show(ctx: &egui::Context, conflict: &Conflict, file: &str) -> Option<Conf
         ui.label(format!("`{file}` was changed by another program{end}. The scene in this window has unsaved changes."));
     };
     let keep = if conflict.save.is_some() {
-        "Replaces the file by the scene in this window."
+        "Replaces the file with the scene in this window."
     } else {
         "Keeps the scene in this window. Ctrl+S then replaces the file."
     };

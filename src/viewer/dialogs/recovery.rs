@@ -28,7 +28,7 @@ pub fn show(ctx: &egui::Context, found: &FoundRecovery) -> Option<RecoveryAnswer
     let choices = [
         Choice::new("Restore changes", "Opens the scene with these changes.", RecoveryAnswer::Restore),
         Choice::new("Discard changes", "Deletes these changes.", RecoveryAnswer::Discard),
-        Choice::new("Later", "Asks again when the scene is opened next time. (Esc)", RecoveryAnswer::Later),
+        Choice::new("Later", "Asks again the next time. (Esc)", RecoveryAnswer::Later),
     ];
     ask(ctx, "Unsaved changes were found", 420.0, explain, choices, RecoveryAnswer::Later)
 }

@@ -20,13 +20,25 @@ pub enum Leaving {
 }
 
 /// A scene to save.
-#[derive(Clone, Debug)]
-pub struct SaveOrder {
-    pub path: PathBuf,
+#[derive(Clone, Debug, Default)]
+pub struct SaveRequest {
+    /// The file that was chosen; `None` is the file of the scene.
+    pub path: Option<PathBuf>,
     /// Replaces the file even if another program has changed it.
     pub replaces: bool,
     /// What goes on when the scene is saved.
     pub leaving: Option<Leaving>,
+}
+
+impl SaveRequest {
+    /// One request for this one and an earlier one.
+    pub fn after(self, earlier: SaveRequest) -> SaveRequest {
+        SaveRequest {
+            path: self.path.or(earlier.path),
+            replaces: self.replaces || earlier.replaces,
+            leaving: self.leaving.or(earlier.leaving),
+        }
+    }
 }
 
 /// An answer.
@@ -46,4 +58,17 @@ pub fn show(ctx: &egui::Context, scene: &str) -> Option<Answer> {
     ];
     let explain = |ui: &mut Ui| _ = ui.label(format!("`{scene}` has changes that are not saved."));
     ask(ctx, "Unsaved changes", 380.0, explain, choices, Answer::Cancel)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_later_request_takes_the_place_of_an_earlier_one_and_loses_nothing_of_it() {
+        let chosen = SaveRequest { path: Some("b.toml".into()), replaces: true, leaving: None };
+        let own = SaveRequest { leaving: Some(Leaving::Quit), ..SaveRequest::default() };
+        let SaveRequest { path, replaces, leaving } = own.after(chosen);
+        assert!(path == Some("b.toml".into()) && replaces && matches!(leaving, Some(Leaving::Quit)));
+    }
 }

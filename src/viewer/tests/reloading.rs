@@ -241,3 +241,32 @@ fn an_image_of_a_texture_is_read_again_when_it_changes() {
     settle(&mut window);
     assert!(generation(&window) > before && made(&window) == 1 && !window.state().has_unsaved_changes());
 }
+
+#[test]
+fn a_save_goes_on_after_a_comment_that_was_not_noticed() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (mut window, path, text) = window_of_copy(folder.path());
+    settle(&mut window);
+    grow(&mut window);
+    std::fs::write(&path, format!("{text}\n# seen late\n")).expect("it is written");
+    save(&mut window);
+    settle(&mut window);
+    assert!(!window.state().has_unsaved_changes());
+    assert!(read(&path).contains("radius = 0.25") && read(&path).ends_with("# seen late\n"));
+}
+
+#[test]
+fn a_scene_whose_file_was_removed_is_not_saved() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (mut window, path, _) = window_of_copy(folder.path());
+    settle(&mut window);
+    std::fs::remove_file(&path).expect("it is there");
+    window.state().background.files.report(&path);
+    window.run_steps(2);
+    settle(&mut window);
+    assert!(window.state().has_unsaved_changes());
+    assert!(window.state().dialogs.notices.0.iter().any(|notice| notice.text.contains("mine.toml was removed")));
+    save(&mut window);
+    settle(&mut window);
+    assert!(!window.state().has_unsaved_changes() && path.is_file());
+}
