@@ -111,10 +111,12 @@ impl Session {
         session
     }
 
-    /// Adds half images to frames, or leaves them out. If there is no memory for them, frames do without.
-    pub fn keep_halves(&mut self, keeps: bool) {
+    /// Adds half images to frames, or leaves them out. Drops kept sessions until there is memory for them. If that is too little,
+    /// frames do without.
+    pub fn keep_halves(&mut self, keeps: bool, kept: &mut KeptSessions) {
         if keeps != self.halves.is_some() {
-            self.halves = if keeps { Halves::reserve(self.request.camera.resolution).ok() } else { None };
+            let resolution = self.request.camera.resolution;
+            self.halves = if keeps { kept.reserve(|| Halves::reserve(resolution)) } else { None };
             self.stale |= self.halves.is_some() && self.film.spp() > 0;
         }
     }

@@ -122,7 +122,7 @@ impl Worker {
     /// Makes a frame if one is due, and notifies of changes.
     fn publish(&mut self, side: usize, notify: &dyn Fn()) {
         let Some(session) = &mut self.sessions[side] else { return };
-        session.keep_halves(self.budget.halves && side == 0);
+        session.keep_halves(self.budget.halves && side == 0, &mut self.kept);
         let at_rest = session.state(&self.budget) != State::Running;
         let frame = session.frame_due(self.publish, at_rest).then(|| self.threads.install(|| Arc::new(session.frame())));
         // The frame's noise estimate may itself be what the budget waits for.

@@ -43,8 +43,8 @@ impl KeptSessions {
         if !session.is_worth_keeping() || bytes > self.most_bytes {
             return Some(session.into_film());
         }
-        // Its frames and saved images are not kept.
-        session.memory = [None, None];
+        // Its frames, half images and saved images are not kept.
+        (session.memory, session.halves) = ([None, None], None);
         while self.bytes() + bytes > self.most_bytes {
             self.drop_one();
         }
@@ -155,11 +155,19 @@ mod tests {
     }
 
     #[test]
-    fn a_session_that_is_resumed_has_the_memory_of_its_film_and_of_no_series() {
+    fn a_session_that_is_kept_and_resumed_has_the_memory_of_its_film_alone() {
         let mut session = rendered(&Arc::new(crate::scene::built_in()), 1, 1);
         session.memory = [None, Some(Reservation::none())];
-        let resumed = session.resumed(2, 0);
+        session.halves = Some(Reservation::none());
+        let of_session = request(&session);
+        let mut kept = KeptSessions::default();
+        assert!(kept.keep(session).is_none());
+        let of_kept = &kept.kept[0].session;
+        assert!(of_kept.memory.each_ref().map(Option::is_some) == [true, false] && of_kept.halves.is_none());
+        let mut resumed = kept.take(&of_session).expect("it is kept").resumed(2, 0);
         assert_eq!(resumed.memory.each_ref().map(Option::is_some), [true, false]);
+        resumed.keep_halves(true, &mut kept);
+        assert!(resumed.halves.is_some(), "half images are reserved again");
     }
 
     #[test]
