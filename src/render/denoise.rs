@@ -14,7 +14,7 @@ use crate::{
 /// Label of every denoised image.
 pub const LABEL: &str = "denoised: biased, not the solution of the equation";
 
-/// Bounds of the variance relative to that of independent samples.
+/// Smallest variance relative to that of independent samples.
 const LEAST_GAIN: f64 = 0.01;
 
 /// The denoised radiance of a frame. `None` if it has no halves, or if it was cancelled. Runs on the threads of the calling pool.
@@ -34,9 +34,11 @@ pub fn denoised(frame: &Frame, cancelled: &(dyn Fn() -> bool + Sync)) -> Option<
     Some(first.iter().zip(&second).zip(&halves.shares).map(whole).collect())
 }
 
-/// Reserves memory for [`denoised`] at this size: variances and results of both halves.
+/// Reserves memory for [`denoised`] at this size.
 pub fn reserve([width, height]: [u32; 2]) -> Result<Reservation, TooMuch> {
-    const PIXEL: u64 = 5 * 12;
+    /// Bytes per pixel: two variances, the results of both halves, and the image; and if there are as many threads as bands, the
+    /// sums of the bands, and their distances, which also cover the rows of patches around a band.
+    const PIXEL: u64 = 5 * 12 + 16 + 6;
     memory::reserve(format_args!("denoised images of {width} × {height} pixels"), PIXEL * u64::from(width) * u64::from(height))
 }
 
