@@ -80,14 +80,20 @@ impl Layer {
     }
 
     /// The reason why an image has no such layer.
-    fn absence(self) -> &'static str {
-        if self.needs_features() { "the camera sees no surface" } else { "no bounces are recorded" }
+    fn absence(self, frame: &Frame, sources: &LayerSources) -> &'static str {
+        match (self, sources.features, sources.series) {
+            _ if [frame.width, frame.height] != frame.full_resolution => "the image is still coarse",
+            (Layer::Bounces, _, None) => "no bounces are recorded",
+            (Layer::Bounces, _, Some(_)) => "the bounces were recorded at another resolution",
+            (_, None, _) => "no surfaces are recorded",
+            (_, Some(features), _) if !is_of_frame(features, frame) => "the surfaces were recorded at another resolution",
+            (_, Some(_), _) => "the camera sees no surface",
+        }
     }
 
     /// Its channels; none if the image lacks the data.
     fn channels(self, frame: &Frame, sources: &LayerSources) -> Vec<Channel> {
-        let seen =
-            |features: &&Features| features.depth.len() == frame.radiance.len() && features.object.iter().any(|o| *o != MISS);
+        let seen = |features: &&Features| is_of_frame(features, frame) && features.object.iter().any(|o| *o != MISS);
         let features = sources.features.filter(seen);
         let number = |index: u32| if index == MISS { 0.0 } else { index as f32 + 1.0 };
         let one = |name: &str, values: Vec<f32>| vec![Channel { name: name.to_owned(), values }];
@@ -112,7 +118,7 @@ pub fn channels(layers: &[Layer], frame: &Frame, sources: &LayerSources) -> (Vec
     for layer in layers {
         let found = layer.channels(frame, sources);
         if found.is_empty() {
-            notes.push(format!("the layer `{}` is left out: {}", layer.name(), layer.absence()));
+            notes.push(format!("the layer `{}` is left out: {}", layer.name(), layer.absence(frame, sources)));
         }
         channels.extend(found);
     }
@@ -129,6 +135,11 @@ pub fn reserve(layers: &[Layer], [width, height]: [u32; 2]) -> Result<Reservatio
     };
     let bytes = 3 * 4 * layers.iter().map(planes).sum::<u64>();
     memory::reserve(format_args!("layers of {width} × {height} pixels"), bytes * u64::from(width) * u64::from(height))
+}
+
+/// Whether features have the resolution of a frame.
+fn is_of_frame(features: &Features, frame: &Frame) -> bool {
+    features.depth.len() == frame.radiance.len()
 }
 
 /// The terms of a series up to the last one with light.

@@ -93,9 +93,30 @@ fn layers_that_an_image_lacks_are_left_out_with_a_note() {
     assert!(
         notes[0].contains("`bounces` is left out: no bounces") && notes[3].contains("`depth` is left out: the camera sees no")
     );
+}
+
+#[test]
+fn the_note_of_a_layer_that_is_left_out_gives_the_true_reason() {
+    let note = |layer: Layer, frame: &Frame, sources: &LayerSources| {
+        let (found, notes) = channels(&[layer], frame, sources);
+        assert!(found.is_empty(), "data of another image is of no use");
+        notes.join("\n")
+    };
     let small = Features { depth: Vec::new(), ..features() };
-    let sources = LayerSources { features: Some(&small), series: None };
-    assert!(channels(&[Layer::Normal], &frame(), &sources).0.is_empty(), "features of another image are of no use");
+    let short = Series { terms: vec![Vec::new(); 8], shares: Vec::new() };
+    let of_another = LayerSources { features: Some(&small), series: Some(&short) };
+    let coarse = Frame { full_resolution: [4, 2], ..frame() };
+    for (layer, frame, sources, reason) in [
+        (Layer::Normal, frame(), of_another, "the surfaces were recorded at another resolution"),
+        (Layer::Bounces, frame(), of_another, "the bounces were recorded at another resolution"),
+        (Layer::Normal, frame(), LayerSources::default(), "no surfaces are recorded"),
+        (Layer::Bounces, frame(), LayerSources::default(), "no bounces are recorded"),
+        (Layer::Normal, Frame { full_resolution: [4, 2], ..frame() }, of_another, "the image is still coarse"),
+        (Layer::Bounces, coarse, of_another, "the image is still coarse"),
+    ] {
+        let said = note(layer, &frame, &sources);
+        assert_eq!(said, format!("the layer `{}` is left out: {reason}", layer.name()));
+    }
 }
 
 #[test]
