@@ -75,7 +75,8 @@ impl Scene {
         }
         if camera.projection.has_angle() && camera.fov < RADIANS {
             let (fov, degrees) = (camera.fov, camera.fov.to_degrees());
-            warnings.push(format!("`fov` is in degrees, and {fov} is a narrow view: {fov} radians would be {degrees:.1}"));
+            warnings
+                .push(format!("`fov` is in degrees, and {fov} is a narrow view: taken as radians, it would be {degrees:.1}°"));
         }
         let [_, _, forward] = camera.axes();
         if forward.cross(camera.up.normalize()).length() < NEARLY_PARALLEL {

@@ -23,7 +23,8 @@ fn each_slip_has_its_warning() {
     for (from, to, says) in [
         ("material = \"white\"\nemission = { radiance = [1.0, 2.0, 3.0] }", "", "`ball` has neither `material` nor `emission`"),
         ("eye = [0.0, 1.0, 4.0]", "eye = [0.1, 1.0, 0.2]", "inside `ball`, which emits outwards only: `flip = true`"),
-        ("fov = 40", "fov = 0.7", "0.7 radians would be 40.1"),
+        ("fov = 40", "fov = 0.7", "0.7 is a narrow view: taken as radians, it would be 40.1°"),
+        ("fov = 40", "fov = 1.0", "1 is a narrow view: taken as radians, it would be 57.3°"),
         ("look_at = [0, 1, 0]", "look_at = [0, -30, 3.9]", "`up` is nearly parallel to the direction of view"),
     ] {
         let said = warnings(from, to);
