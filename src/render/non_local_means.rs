@@ -3,10 +3,10 @@
 use rayon::prelude::*;
 
 /// Pixels on each side of the search window.
-const REACH: isize = 7;
+const SEARCH_RADIUS: isize = 7;
 /// Pixels on each side of a patch.
-const PATCH: usize = 3;
-/// The squared strength k² of the filter; a smaller k keeps more noise.
+const PATCH_RADIUS: usize = 3;
+/// The squared strength k² of the filter, with k = 0.45 as in Rousselle et al. 2012; a smaller k keeps more noise.
 const STRENGTH: f32 = 0.45 * 0.45;
 /// Rows of a band, which one thread filters.
 const BAND: usize = 16;
@@ -52,11 +52,11 @@ impl Band<'_> {
     fn run(&self, image: &[[f32; 3]], result: &mut [[f32; 3]], cancelled: &(dyn Fn() -> bool + Sync)) -> Option<()> {
         let mut sums = vec![[0.0f32; 4]; self.rows * self.width];
         let mut distances = Distances::default();
-        for dy in -REACH..=REACH {
+        for dy in -SEARCH_RADIUS..=SEARCH_RADIUS {
             if cancelled() {
                 return None;
             }
-            for dx in -REACH..=REACH {
+            for dx in -SEARCH_RADIUS..=SEARCH_RADIUS {
                 distances.measure(self, [dx, dy]);
                 self.add([dx, dy], &distances, image, &mut sums);
             }
@@ -84,7 +84,7 @@ impl Band<'_> {
 
     /// Rows of the image that patches around the band cover.
     fn covered(&self) -> std::ops::Range<usize> {
-        self.first.saturating_sub(PATCH)..(self.first + self.rows + PATCH).min(self.height)
+        self.first.saturating_sub(PATCH_RADIUS)..(self.first + self.rows + PATCH_RADIUS).min(self.height)
     }
 
     /// The distance of two pixels, averaged over the channels: the squared difference without the part that noise explains, relative to
@@ -133,7 +133,7 @@ impl Distances {
 
 /// The places of a patch around a place, within an image of this side.
 fn around(at: usize, side: usize) -> std::ops::Range<usize> {
-    at.saturating_sub(PATCH)..(at + PATCH + 1).min(side)
+    at.saturating_sub(PATCH_RADIUS)..(at + PATCH_RADIUS + 1).min(side)
 }
 
 /// The places whose neighbours at an offset lie inside.

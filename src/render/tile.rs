@@ -14,7 +14,8 @@ pub struct Tile {
     pub(super) sum_of_squares: Vec<[f64; 3]>,
     /// The means at the last power of two of samples.
     pub(super) before: Vec<[f32; 3]>,
-    /// The means at the power of two before that.
+    /// The means at the power of two before that. They are kept whether half images are requested or not, so that a render that has
+    /// begun can be denoised.
     pub(super) earlier: Vec<[f32; 3]>,
     /// Row by row.
     pub(super) blocks: Vec<Block>,

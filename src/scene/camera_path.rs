@@ -64,7 +64,7 @@ impl Declare for CameraKey {
 }
 
 impl CameraPath {
-    /// Reads a file. Fails with the line of the error.
+    /// Reads a file. Errors of syntax and of single values have their line.
     pub fn load(path: &Path) -> Result<CameraPath, SceneError> {
         CameraPath::parse(&path.display().to_string(), read_text(path)?)
     }

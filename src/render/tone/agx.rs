@@ -32,7 +32,7 @@ const OUTSET: Rows = [
     [-0.141_329_76, 1.157_823_7, -0.016_493_939],
     [-0.141_329_76, -0.110_606_64, 1.251_936_4],
 ];
-/// The encoded range in stops above 1.
+/// The encoded range in stops relative to 1.
 const STOPS: [f32; 2] = [-12.473_93, 4.026_069];
 /// Coefficients of the sigmoid from degree 6 down.
 const SIGMOID: [f32; 7] = [15.5, -40.14, 31.96, -6.868, 0.4298, 0.1191, -0.002_32];

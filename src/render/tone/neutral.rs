@@ -4,10 +4,12 @@ use crate::declare::Word;
 
 pub(super) struct Neutral;
 
-/// The reflectance of a dielectric at normal incidence, which is subtracted.
-const F90_OFFSET: f32 = 0.04;
+/// The reflectance of a dielectric at normal incidence, which is subtracted; `F90` in the source.
+const F0: f32 = 0.04;
+/// The offset x − x²/(4 F0) of a small channel x reaches F0 at 2 F0, with slope 0.
+const CURVATURE: f32 = 1.0 / (4.0 * F0);
 /// Peak of the channels, after the subtraction, above which they are compressed.
-const START: f32 = 0.8 - F90_OFFSET;
+const START: f32 = 0.8 - F0;
 /// How fast compressed colours fade to white.
 const DESATURATION: f32 = 0.15;
 
@@ -21,7 +23,7 @@ impl Tone for Neutral {
     #[inline(always)]
     fn map(radiance: [f32; 3]) -> [f32; 3] {
         let least = radiance[0].min(radiance[1]).min(radiance[2]);
-        let offset = if least < 2.0 * F90_OFFSET { least - 6.25 * least * least } else { F90_OFFSET };
+        let offset = if least < 2.0 * F0 { least - CURVATURE * least * least } else { F0 };
         let colour = radiance.map(|c| c - offset);
         let peak = colour[0].max(colour[1]).max(colour[2]);
         if peak < START {
