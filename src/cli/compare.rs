@@ -1,19 +1,13 @@
 //! `noisefall compare`: measures the difference of two images, and whether it exceeds noise.
-use std::{
-    io::Read,
-    path::{Path, PathBuf},
-    process::ExitCode,
-};
+use std::{path::PathBuf, process::ExitCode};
 
 use noisefall::{
-    file::open_regular,
-    image::{PNG, looks_like},
     math::colour::luminance,
     measure::{Bias, Comparison, Evidence, Floor, compare},
     memory::{Reservation, TooMuch, reserve},
     render::{
         Display, Frame,
-        image_file::{Format, Picture, Provenance, provenance, read},
+        image_file::{Format, Picture},
     },
 };
 
@@ -21,6 +15,7 @@ use serde_json::json;
 
 use super::{
     figures, flip,
+    loaded_image::{LoadedImage, is_png, must_be_repeats},
     messages::{Failure, print, tell, wrong_usage},
     options::{floor, format},
     output::Output,
@@ -57,40 +52,6 @@ pub struct Arguments {
     json: bool,
 }
 
-/// An image file and its metadata.
-struct Loaded<'a> {
-    path: &'a Path,
-    picture: Picture,
-    provenance: Provenance,
-}
-
-impl Loaded<'_> {
-    fn read(path: &Path) -> Result<Loaded<'_>, Failure> {
-        let picture = read(path).map_err(|error| error.to_string())?;
-        if let Some(i) = picture.radiance.iter().position(|rgb| rgb.iter().any(|c| !c.is_finite())) {
-            let (x, y) = (i as u32 % picture.width, i as u32 / picture.width);
-            return Err(format!("{}: pixel {x},{y} is not a finite number", path.display()));
-        }
-        Ok(Loaded { path, picture, provenance: provenance(path) })
-    }
-
-    fn must_be_as_large_as(&self, other: &Loaded) -> Result<(), Failure> {
-        let [a, b] = [self, other].map(|of| [of.picture.width, of.picture.height]);
-        if a == b {
-            return Ok(());
-        }
-        let said = |of: &Loaded| format!("{} is {} × {}", of.path.display(), of.picture.width, of.picture.height);
-        Err(format!("the images differ in size: {}, {}", said(self), said(other)))
-    }
-}
-
-/// Whether a file starts with the signature of PNG.
-fn is_png(path: &Path) -> bool {
-    let mut start = [0; 8];
-    let read = open_regular(path).and_then(|mut file| file.read_exact(&mut start));
-    read.is_ok() && looks_like(&start) == Some(PNG)
-}
-
 pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let output = match arguments.output.as_deref().map(|path| Output::of(path, arguments.format)).transpose() {
         Ok(output) => output,
@@ -100,13 +61,15 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     if is_png(&arguments.a) != is_png(&arguments.b) {
         tell("note: a PNG is clipped at 1 and rounded to display codes, an EXR is not: they differ by more than noise");
     }
-    let (a, b) = (Loaded::read(&arguments.a)?, Loaded::read(&arguments.b)?);
+    let (a, b) = (LoadedImage::read(&arguments.a)?, LoadedImage::read(&arguments.b)?);
     a.must_be_as_large_as(&b)?;
     let _memory = room(&a.picture, 2 + arguments.repeats.len()).map_err(|error| error.to_string())?;
-    let repeats = arguments.repeats.iter().map(|path| Loaded::read(path)).collect::<Result<Vec<_>, _>>()?;
+    let repeats = arguments.repeats.iter().map(|path| LoadedImage::read(path)).collect::<Result<Vec<_>, _>>()?;
     repeats.iter().try_for_each(|repeat| repeat.must_be_as_large_as(&b))?;
-    let all: Vec<&Loaded> = std::iter::once(&a).chain(&repeats).collect();
-    must_be_independent(&all)?;
+    let all: Vec<&LoadedImage> = std::iter::once(&a).chain(&repeats).collect();
+    if !repeats.is_empty() {
+        must_be_repeats(&all)?;
+    }
     let bias = bias(&all, &b);
     let remarks = remarks(&bias, &all, &b);
     let floor = arguments.floor.unwrap_or(Floor::DEFAULT);
@@ -140,21 +103,7 @@ fn room(like: &Picture, pictures: usize) -> Result<Reservation, TooMuch> {
     reserve(format_args!("{pictures} images of {width} × {height} pixels and their difference"), bytes)
 }
 
-/// Repeats of one seed have the same noise. Images without noise may be equal if their seeds differ.
-fn must_be_independent(repeats: &[&Loaded]) -> Result<(), Failure> {
-    for (i, a) in repeats.iter().enumerate() {
-        for b in &repeats[..i] {
-            let seeds = a.provenance.seed.zip(b.provenance.seed);
-            if seeds.map_or(a.picture == b.picture, |(a, b)| a == b) {
-                let (a, b) = (a.path.display(), b.path.display());
-                return Err(format!("{b} and {a} have the same noise: repeats need other seeds (`noisefall render --seed N`)"));
-            }
-        }
-    }
-    Ok(())
-}
-
-fn bias(all: &[&Loaded], b: &Loaded) -> Bias {
+fn bias(all: &[&LoadedImage], b: &LoadedImage) -> Bias {
     let width = b.picture.width as usize;
     let of_b = b.provenance.noise.as_ref();
     if let [a] = all {
@@ -164,14 +113,17 @@ fn bias(all: &[&Loaded], b: &Loaded) -> Bias {
     Bias::by_repeats(&pictures, &b.picture.radiance, of_b, width)
 }
 
-/// Notes on the standard error.
-fn remarks(bias: &Bias, all: &[&Loaded], b: &Loaded) -> Vec<String> {
-    let mut remarks = Vec::new();
+/// Notes on the images and on the standard error.
+fn remarks(bias: &Bias, all: &[&LoadedImage], b: &LoadedImage) -> Vec<String> {
+    let denoised = all.iter().copied().chain([b]).filter(|of| of.provenance.is_denoised);
+    let mut remarks: Vec<String> = denoised.map(|of| format!("{} is denoised, and so biased", of.path.display())).collect();
     if bias.evidence == Evidence::None {
-        remarks.push(format!(
-            "the standard error is unknown: {} has no variances; render it as EXR, or give --repeats with other seeds",
-            all[0].path.display()
-        ));
+        let advice = if all[0].provenance.is_denoised {
+            "render it without --denoise"
+        } else {
+            "render it as EXR, or give --repeats with other seeds"
+        };
+        remarks.push(format!("the standard error is unknown: {} has no variances; {advice}", all[0].path.display()));
         return remarks;
     }
     if bias.has_heavy_tails {

@@ -14,6 +14,17 @@ use crate::{
 /// Label of every denoised image.
 pub const LABEL: &str = "denoised: biased, not the solution of the equation";
 
+/// Key of [`LABEL`] in the settings of an image file.
+pub const LABEL_KEY: &str = "image";
+
+/// Title of the view that shows denoised images. The window saves it in the settings of an image.
+pub const VIEW_TITLE: &str = "Denoised (biased)";
+
+/// Whether the settings of an image file, as in [`super::settings_text`], say that the image is denoised.
+pub fn is_denoised(settings: &serde_json::Value) -> bool {
+    settings[LABEL_KEY] == LABEL || settings["view"] == VIEW_TITLE
+}
+
 /// Smallest variance relative to that of independent samples.
 const LEAST_GAIN: f64 = 0.01;
 

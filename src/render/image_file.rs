@@ -31,6 +31,9 @@ pub enum ImageError {
     /// The file cannot be read.
     #[error(transparent)]
     Read(#[from] PictureError),
+    /// The image is to be a reference, but it is biased.
+    #[error("{}: the image is denoised, and so biased; a reference must be a render without --denoise", .0.display())]
+    Denoised(PathBuf),
 }
 
 /// Format of an image file.

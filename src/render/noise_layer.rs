@@ -14,9 +14,10 @@ use exr::prelude::{
     attribute::AttributeValue, read,
 };
 use serde::Deserialize;
+use serde_json::Value;
 
-use super::frame::Frame;
-use crate::{file::open_regular, image::SETTINGS_KEY, measure::SampleNoise, sampling::Sampler};
+use super::{denoise, frame::Frame};
+use crate::{file::open_regular, image::carried_text, measure::SampleNoise, sampling::Sampler};
 
 const CHANNELS: [&str; 4] = ["variance.R", "variance.G", "variance.B", "variance.block"];
 /// Key of the one attribute with all figures, in its own group of attributes. The order within a group is arbitrary, and the same
@@ -37,6 +38,8 @@ pub struct Provenance {
     pub seed: Option<u64>,
     /// Whether samples are independent, so that variances are exact and not only upper bounds.
     pub is_independent: bool,
+    /// Whether the image is denoised, and so biased. PNG files tell this too.
+    pub is_denoised: bool,
 }
 
 /// The channels of a frame, with its variances if it has any.
@@ -73,13 +76,17 @@ pub(super) fn add_figures(frame: &Frame, attributes: &mut ImageAttributes) {
     }
 }
 
-/// The metadata of an image file; empty unless it is an EXR by this program.
+/// The metadata of an image file. All is unknown unless it is an EXR by this program, except whether it is denoised.
 pub fn provenance(path: &Path) -> Provenance {
-    let Ok(mut file) = open_regular(path).map(BufReader::new) else { return Provenance::default() };
-    let Some(header) = MetaData::read_from_buffered(&mut file, false).ok().and_then(|meta| meta.headers.into_iter().next())
-    else {
-        return Provenance::default();
-    };
+    let text = open_regular(path).ok().and_then(carried_text).unwrap_or_default();
+    let settings = serde_json::from_str::<Value>(&text).unwrap_or_default();
+    Provenance { is_denoised: denoise::is_denoised(&settings), ..of_exr(path, &settings["settings"]).unwrap_or_default() }
+}
+
+/// The metadata of an EXR with these settings.
+fn of_exr(path: &Path, settings: &Value) -> Option<Provenance> {
+    let mut file = open_regular(path).map(BufReader::new).ok()?;
+    let header = MetaData::read_from_buffered(&mut file, false).ok()?.headers.into_iter().next()?;
     let text = |value: Option<&AttributeValue>| {
         if let Some(AttributeValue::Text(text)) = value { text.to_string() } else { String::new() }
     };
@@ -88,23 +95,19 @@ pub fn provenance(path: &Path) -> Provenance {
         let value = figures.split(' ').find_map(|figure| figure.strip_prefix(name)?.strip_prefix('='));
         value.and_then(|value| value.parse::<f64>().ok())
     };
-    let settings = match header.own_attributes.other.get(&Text::from(SETTINGS_KEY)) {
-        Some(AttributeValue::Text(text)) => serde_json::from_str::<serde_json::Value>(&text.to_string()).unwrap_or_default(),
-        _ => serde_json::Value::Null,
-    };
-    let settings = &settings["settings"];
     let said = number(EFFECTIVE_SAMPLES).zip(number(BLOCK_DEGREES)).filter(|_| file.rewind().is_ok());
     let noise = said.and_then(|(effective_samples, block_degrees)| {
         let of_pixels = read_noise(file)?;
         let is_sound = effective_samples > 0.0 && block_degrees >= 1.0;
         is_sound.then_some(SampleNoise { effective_samples, block_degrees, ..of_pixels })
     });
-    Provenance {
+    Some(Provenance {
         noise,
         rel_mse_estimate: number(REL_MSE),
         seed: settings["seed"].as_u64(),
         is_independent: Sampler::deserialize(&settings["sampler"]).is_ok_and(Sampler::is_independent),
-    }
+        is_denoised: false,
+    })
 }
 
 fn read_noise(file: BufReader<std::fs::File>) -> Option<SampleNoise> {

@@ -13,6 +13,9 @@ use crate::{
     scene::{Camera, RenderSettings, Reuse, Roulette, Scene, Truth},
 };
 
+/// Why a `[truth]` is not one.
+const DENOISED: &str = "the true image is denoised, and so biased";
+
 /// The reference of a scene. It is valid for the camera of the scene file.
 pub enum Reference {
     /// The same radiance at every pixel, at any resolution.
@@ -30,14 +33,24 @@ impl Reference {
         }
     }
 
-    /// Reads an image file as a reference.
+    /// Reads an image file as a reference. Fails for a denoised image.
     pub fn read(path: &Path) -> Result<Reference, ImageError> {
-        Ok(Reference::Picture(Arc::new(read(path)?), Arc::new(provenance(path))))
+        let (picture, provenance) = (read(path)?, provenance(path));
+        if provenance.is_denoised {
+            return Err(ImageError::Denoised(path.to_owned()));
+        }
+        Ok(Reference::Picture(Arc::new(picture), Arc::new(provenance)))
+    }
+
+    /// Whether it is a denoised image. Nothing is compared with that, because it is biased.
+    pub fn is_denoised(&self) -> bool {
+        matches!(self, Reference::Picture(_, provenance) if provenance.is_denoised)
     }
 
     /// The reason why images of this resolution cannot be compared with the reference, if they cannot.
     pub fn mismatch(&self, [width, height]: [u32; 2]) -> Option<String> {
         match self {
+            _ if self.is_denoised() => Some(format!("{DENOISED}, so the true error is not known")),
             Reference::Picture(p, _) if [p.width, p.height] != [width, height] => {
                 let size = format!("{} × {}", p.width, p.height);
                 Some(format!("the true image is {size} and this one {width} × {height}, so the true error is not known"))
@@ -46,13 +59,13 @@ impl Reference {
         }
     }
 
-    /// The exact radiance of every pixel of a frame, if the frame has the reference's resolution.
+    /// The exact radiance of every pixel of a frame, if the frame can be compared with the reference.
     pub fn radiance_of(&self, frame: &Frame) -> Option<Cow<'_, [[f32; 3]]>> {
         match self {
             Reference::Constant(radiance) => Some(vec![*radiance; frame.radiance.len()].into()),
             Reference::Picture(picture, _) => {
-                let same = [picture.width, picture.height] == [frame.width, frame.height];
-                same.then(|| picture.radiance.as_slice().into())
+                let can_compare = self.mismatch([frame.width, frame.height]).is_none();
+                can_compare.then(|| picture.radiance.as_slice().into())
             }
         }
     }
@@ -119,13 +132,16 @@ impl Reference {
     }
 }
 
-/// A message if a small image with independent samples contradicts the `[truth]` of a scene.
+/// A message if a small image with independent samples contradicts the `[truth]` of a scene, or if that is a denoised image.
 pub fn contradiction(scene: &Scene, threads: &Threads) -> Option<String> {
     /// Longer side of the image if the truth is constant, so that any resolution is valid.
     const LONGER_SIDE: u32 = 48;
     /// Samples of the whole image.
     const SAMPLES: u64 = 1 << 23;
     let reference = Reference::of(scene)?;
+    if reference.is_denoised() {
+        return Some(DENOISED.to_owned());
+    }
     let [width, height] = scene.camera.resolution;
     let resolution = match &reference {
         Reference::Picture(picture, _) => [picture.width, picture.height],

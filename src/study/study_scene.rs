@@ -93,5 +93,10 @@ fn known(path: &Path, scene: &Scene, given: Option<&Path>) -> Result<Option<(tru
         Some(Truth::Image(file, _)) => format!("the true image {}", file.display()),
         _ => "the exact radiance".to_owned(),
     };
-    Ok(truth::Reference::of(scene).map(|reference| (reference, name)))
+    let reference = truth::Reference::of(scene);
+    if reference.as_ref().is_some_and(truth::Reference::is_denoised) {
+        let reason = format!("{name} is denoised, and so biased; [truth] must be a render without --denoise");
+        return Err(StudyError::Unmeasurable { path: path.to_owned(), reason });
+    }
+    Ok(reference.map(|reference| (reference, name)))
 }

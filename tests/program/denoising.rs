@@ -1,4 +1,6 @@
 //! `render --denoise`.
+use std::fs;
+
 use noisefall::render::{denoise::LABEL, image_file::read};
 
 use crate::command_line::{Shell, scene, text};
@@ -22,4 +24,65 @@ fn a_denoised_image_says_so_and_differs_from_the_render() {
     assert!(carries("denoised.exr") && !carries("plain.exr"));
     let refused = render("one.exr", &["--spp", "1", "--denoise"]);
     assert!(refused.status.code() == Some(1) && text(&refused.stderr).contains("two samples"), "{}", text(&refused.stderr));
+}
+
+/// Renders 4 samples per pixel of 16 × 9 pixels.
+fn rendered(shell: &Shell, scene: &str, name: &str, rest: &[&str]) {
+    let done = shell.run(&[&["render", scene, "-o", name, "--spp", "4", "--size", "16x9"], rest].concat());
+    assert!(done.status.success(), "{}", text(&done.stderr));
+}
+
+#[test]
+fn a_comparison_says_which_image_is_denoised_and_takes_none_for_a_repeat() {
+    let shell = Shell::new();
+    for (name, rest) in [
+        ("plain.exr", &["--seed", "1"][..]),
+        ("other.exr", &["--seed", "2"]),
+        ("denoised.exr", &["--seed", "3", "--denoise"]),
+        ("denoised.png", &["--seed", "4", "--denoise"]),
+    ] {
+        rendered(&shell, &scene("cornell_spheres"), name, rest);
+    }
+    let compared = |files: &[&str]| shell.run(&[&["compare"], files].concat());
+    let said = |files: &[&str]| text(&compared(files).stdout);
+    for file in ["denoised.exr", "denoised.png"] {
+        let remark = format!("note: {file} is denoised, and so biased\n");
+        assert!(said(&[file, "plain.exr"]).contains(&remark), "{}", said(&[file, "plain.exr"]));
+        assert!(said(&[file, "plain.exr"]).contains("has no variances; render it without --denoise"));
+        assert!(said(&["plain.exr", file]).contains(&remark), "{}", said(&["plain.exr", file]));
+    }
+    assert!(!said(&["plain.exr", "other.exr"]).contains("denoise"), "{}", said(&["plain.exr", "other.exr"]));
+    for files in
+        [["plain.exr", "other.exr", "--repeats", "denoised.exr"], ["denoised.exr", "other.exr", "--repeats", "plain.exr"]]
+    {
+        let refused = compared(&files);
+        let told = text(&refused.stderr);
+        assert!(refused.status.code() == Some(1) && told.contains("denoised.exr is denoised: A and its repeats"), "{told}");
+    }
+}
+
+#[test]
+fn a_denoised_image_is_no_reference() {
+    let shell = Shell::new();
+    let furnace = scene("furnace");
+    rendered(&shell, &furnace, "denoised.exr", &["--denoise"]);
+    let text_of_scene = fs::read_to_string(&furnace).expect("it is shipped");
+    let truth = text_of_scene.find("[truth]").expect("it has one");
+    let declared = format!("{}[truth]\nimage = \"denoised.exr\"\n", &text_of_scene[..truth]);
+    fs::write(shell.path("declared.toml"), declared).expect("it is written");
+    let said = "the true image is denoised, and so biased";
+    let done = shell.run(&["render", "declared.toml", "-o", "out.exr", "--spp", "4", "--size", "16x9"]);
+    assert!(done.status.success() && text(&done.stderr).contains(said), "{}", text(&done.stderr));
+    assert!(!text(&done.stdout).contains("true error"), "{}", text(&done.stdout));
+    let checked = shell.run(&["check", "declared.toml"]);
+    assert!(checked.status.success() && text(&checked.stdout).contains(said), "{}", text(&checked.stdout));
+    let studied = |arguments: &[&str]| {
+        let refused = shell.run(&[&["study", "-o", "out"], arguments].concat());
+        assert_eq!(refused.status.code(), Some(1), "{arguments:?}");
+        text(&refused.stderr)
+    };
+    let told = studied(&["declared.toml"]);
+    assert!(told.contains("the true image") && told.contains("denoised.exr is denoised, and so biased"), "{told}");
+    let told = studied(&[&furnace, "--reference", "denoised.exr"]);
+    assert!(told.contains("denoised.exr: the image is denoised, and so biased; a reference must be a render"), "{told}");
 }

@@ -4,8 +4,10 @@ use std::fs;
 use noisefall::measure::SampleNoise;
 use noisefall::render::{
     Display, Frame, ToneMap,
+    denoise::LABEL,
     image_file::{SETTINGS_KEY, check_target, provenance, read, save},
     tone::to_srgb,
+    view::View,
 };
 
 fn frame() -> Frame {
@@ -92,6 +94,23 @@ fn files_without_variances_have_no_noise_estimate() {
     for name in ["picture.png", "broken.exr", "nowhere.exr"] {
         let found = provenance(&path(name));
         assert!(found.noise.is_none() && !found.is_independent, "{name}");
+    }
+}
+
+#[test]
+fn files_of_both_formats_tell_whether_they_are_denoised() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for name in ["picture.exr", "picture.png"] {
+        let path = folder.path().join(name);
+        let is_denoised = |settings: String| {
+            save(&frame(), Display::default(), &settings, &path).expect("it is saved");
+            provenance(&path).is_denoised
+        };
+        // The command line labels the image, and the window names the view.
+        assert!(is_denoised(format!(r#"{{ "image": "{LABEL}" }}"#)), "{name}");
+        assert!(is_denoised(format!(r#"{{ "view": "{}" }}"#, View::Denoised.title())), "{name}");
+        assert!(!is_denoised(format!(r#"{{ "view": "{}" }}"#, View::Albedo.title())), "{name}");
+        assert!(!is_denoised(format!(r#"{{ "title": "{LABEL}" }}"#)) && !is_denoised("no JSON".to_owned()), "{name}");
     }
 }
 

@@ -2,7 +2,10 @@
 use super::{DisplaySettings, Field, Legend, Quantity, Sources};
 use crate::{
     declare::Word,
-    render::{denoise::LABEL, tone::to_srgb},
+    render::{
+        denoise::{LABEL, VIEW_TITLE},
+        tone::to_srgb,
+    },
 };
 
 pub(super) struct Denoised;
@@ -10,7 +13,7 @@ pub(super) struct Denoised;
 impl Quantity for Denoised {
     const WORD: Word = Word {
         name: "denoised",
-        title: "Denoised (biased)",
+        title: VIEW_TITLE,
         doc: "The image after non-local means over two halves of its samples (Rousselle et al. 2012): biased, not the solution of the equation.",
     };
 
