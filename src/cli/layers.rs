@@ -36,14 +36,15 @@ impl Layers {
         self.0.contains(&Layer::Bounces)
     }
 
-    /// The channels of an image. `bounces` is a frame with its series.
+    /// The channels of an image. `bounces` is a frame with its series. The caller has reserved the memory of the channels, and of the
+    /// surfaces in them.
     pub fn channels(
         &self,
         scene: &Scene,
         camera: &Camera,
         frame: &Frame,
         bounces: Option<&Frame>,
-        threads: usize,
+        threads: &Threads,
     ) -> Result<Vec<Channel>, Failure> {
         let seen = if self.0.iter().any(|layer| layer.needs_features()) { Some(seen(scene, camera, threads)?) } else { None };
         let sources = LayerSources { features: seen.as_ref(), series: bounces.and_then(|frame| frame.series.as_ref()) };
@@ -54,9 +55,7 @@ impl Layers {
 }
 
 /// The first surfaces along camera rays.
-fn seen(scene: &Scene, camera: &Camera, threads: usize) -> Result<Features, Failure> {
-    let _memory = Features::reserve(camera.resolution).map_err(|error| error.to_string())?;
-    let threads = Threads::new(threads, SimdLevel::best()).map_err(|error| error.to_string())?;
+fn seen(scene: &Scene, camera: &Camera, threads: &Threads) -> Result<Features, Failure> {
     let found = threads.install(|| features(SimdLevel::best(), scene, camera, &|| false));
     found.ok_or_else(|| "the search for the first surfaces was interrupted".to_owned())
 }

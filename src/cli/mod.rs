@@ -17,6 +17,7 @@ mod options;
 mod output;
 mod progress;
 mod render;
+mod render_memory;
 mod replay;
 mod sequence;
 #[cfg(feature = "reports")]

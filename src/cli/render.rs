@@ -9,14 +9,7 @@ use std::{
 use clap::ArgGroup;
 use noisefall::{
     math::SimdLevel,
-    render::{
-        Budget, Display,
-        film::Film,
-        image_file::Format,
-        layers::{self, Layer},
-        threads::Threads,
-        truth::Reference,
-    },
+    render::{Budget, Display, image_file::Format, layers::Layer, threads::Threads, truth::Reference},
     sampling::{Directions, Sampler},
     scene::{Camera, Estimator, RenderSettings, Reuse, Roulette, Scene, load},
 };
@@ -26,7 +19,8 @@ use super::{
     messages::{Failure, tell, wrong_usage},
     options::{self as parse, BounceCap, DisplayOptions},
     output::Output,
-    progress::Rendering,
+    progress::{Plan, Rendering},
+    render_memory,
     replay::{self, Form, Which},
     sequence::SequenceOptions,
     shot::Job,
@@ -137,18 +131,20 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     }
     let Some(output) = output else { return Err("no output file".to_owned()) };
     let shots = arguments.sequence.shots(camera, &output)?;
-    let Some(first) = shots.first() else { return Ok(ExitCode::SUCCESS) };
-    first.output.check()?;
+    if shots.is_empty() {
+        return Ok(ExitCode::SUCCESS);
+    }
+    shots.iter().try_for_each(|shot| shot.output.check())?;
+    let budget = arguments.budget(&scene)?;
     let layers = arguments.layers(&output);
-    // The worker asks again: here it is no failure of the renderer.
-    drop(Film::reserve(camera.resolution).map_err(|error| error.to_string())?);
-    let _layers = layers::reserve(&layers.0, camera.resolution).map_err(|error| error.to_string())?;
+    let memory = render_memory::reserve(&layers.0, arguments.denoise, camera.resolution);
+    let _memory = memory.map_err(|error| error.to_string())?;
     let reference = Reference::of(&scene);
     let mismatch = reference.as_ref().and_then(|truth| truth.mismatch(camera.resolution));
     mismatch.iter().for_each(|mismatch| tell(&format!("note: {mismatch}")));
     let infinite = scene.infinite_variance(&settings);
     scene.warnings().iter().chain(&infinite).for_each(|warning| tell(&format!("note: {warning}")));
-    let threads = Threads::new(arguments.threads.into(), SimdLevel::best()).map_err(|error| error.to_string())?;
+    let threads = || Threads::new(arguments.threads.into(), SimdLevel::best()).map_err(|error| error.to_string());
     let job = Job {
         scene_path: &arguments.scene,
         settings,
@@ -156,13 +152,14 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         layers: &layers,
         denoises: arguments.denoise,
         reference,
-        threads: threads.count(),
+        threads: threads()?,
         build_seconds: start.elapsed().as_secs_f64(),
         is_sequence: arguments.sequence.is_asked(),
         json: arguments.json,
         scene,
     };
-    let mut rendering = Rendering::new(threads, arguments.budget(&job.scene), shots.len() as u64, job.json)?;
+    let plan = Plan { images: shots.len() as u64, has_bounces: layers.has_bounces(), is_sequence: job.is_sequence };
+    let mut rendering = Rendering::new(threads()?, budget, plan, job.json)?;
     for shot in &shots {
         let done = job.render(&mut rendering, shot)?;
         if done != ExitCode::SUCCESS {
@@ -211,73 +208,16 @@ impl Arguments {
         }
     }
 
-    fn budget(&self, scene: &Scene) -> Budget {
+    /// How far to render an image of a scene. Fails if that is not enough for denoising.
+    fn budget(&self, scene: &Scene) -> Result<Budget, Failure> {
         let by_samples = self.time.is_none() && self.noise.is_none();
         let max_spp = by_samples.then(|| self.spp.or(scene.spp).unwrap_or(DEFAULT_SPP));
-        Budget { max_spp, max_time: self.time, noise: self.noise, halves: self.denoise, ..Budget::default() }
+        if self.denoise && max_spp == Some(1) {
+            return Err("--denoise needs two samples per pixel or more: render with --spp 2 or more".to_owned());
+        }
+        Ok(Budget { max_spp, max_time: self.time, noise: self.noise, halves: self.denoise, ..Budget::default() })
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use clap::Parser;
-    use noisefall::scene::built_in;
-
-    use super::*;
-
-    /// The program's arguments behind `render a.toml -o a.png`.
-    fn arguments(options: &str) -> Arguments {
-        #[derive(Parser)]
-        struct Program {
-            #[command(flatten)]
-            arguments: Arguments,
-        }
-        let words = format!("render a.toml -o a.png {options}");
-        Program::try_parse_from(words.split_whitespace()).expect("they are right").arguments
-    }
-
-    #[test]
-    fn every_option_takes_the_place_of_the_scenes_setting_and_of_no_other() {
-        let scene = built_in();
-        let of_scene = scene.settings;
-        assert_eq!(arguments("").settings(&scene), of_scene);
-        for (option, expected) in [
-            ("--estimator path", RenderSettings { estimator: Estimator::Path, ..of_scene }),
-            ("--directions uniform", RenderSettings { directions: Directions::Uniform, ..of_scene }),
-            ("--sampler stratified", RenderSettings { sampler: Sampler::Stratified, ..of_scene }),
-            ("--max-bounces 3", RenderSettings { max_bounces: Some(3), ..of_scene }),
-            ("--roulette 0.5", RenderSettings { roulette: Roulette::fixed(0.5), ..of_scene }),
-            ("--reuse on", RenderSettings { reuse: Reuse::On, ..of_scene }),
-            ("--adaptive on", RenderSettings { adaptive: true, ..of_scene }),
-            ("--seed 7", RenderSettings { seed: 7, ..of_scene }),
-        ] {
-            assert_ne!(expected, of_scene, "{option} changes nothing");
-            assert_eq!(arguments(option).settings(&scene), expected, "{option}");
-        }
-        let mut capped = built_in();
-        capped.settings.max_bounces = Some(2);
-        assert_eq!(arguments("--max-bounces none").settings(&capped).max_bounces, None);
-        assert_eq!(arguments("").settings(&capped).max_bounces, Some(2));
-    }
-
-    #[test]
-    fn the_last_target_counts_then_the_scenes_and_then_the_default() {
-        let mut scene = built_in();
-        scene.spp = Some(33);
-        let budget = |max_spp, max_time, noise| Budget { max_spp, max_time, noise, ..Budget::default() };
-        let second = Some(Duration::from_secs(1));
-        for (options, expected) in [
-            ("", budget(Some(33), None, None)),
-            ("--spp 5", budget(Some(5), None, None)),
-            ("--time 1", budget(None, second, None)),
-            ("--noise 0.1", budget(None, None, Some(0.1))),
-            ("--spp 5 --noise 0.1 --time 1", budget(None, second, None)),
-            ("--time 1 --spp 5 --noise 0.1", budget(None, None, Some(0.1))),
-            ("--noise 0.1 --time 1 --spp 5", budget(Some(5), None, None)),
-        ] {
-            assert_eq!(arguments(options).budget(&scene), expected, "{options}");
-        }
-        scene.spp = None;
-        assert_eq!(arguments("").budget(&scene), budget(Some(256), None, None));
-    }
-}
+mod tests;

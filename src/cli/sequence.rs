@@ -45,7 +45,7 @@ impl SequenceOptions {
         };
         let all = cameras.len();
         let shot = |(camera, number)| Some(Shot { camera, output: Output::File(numbered(output.file()?, number)?) });
-        let is_left = |shot: &Shot| !(self.resume && shot.output.file().is_some_and(Path::exists));
+        let is_left = |shot: &Shot| !(self.resume && shot.output.file().is_some_and(Path::is_file));
         let left: Vec<Shot> = cameras.into_iter().zip(1..).filter_map(shot).filter(is_left).collect();
         if left.len() < all {
             tell(&format!("note: {} of {all} frames exist and are left out", all - left.len()));

@@ -2,10 +2,9 @@
 use std::{path::Path, process::ExitCode, sync::Arc, time::Instant};
 
 use noisefall::{
-    math::SimdLevel,
     render::{
-        Display, Frame, Published, RenderRequest, State, denoise, replay_command::replay_command, settings_text::settings_text,
-        threads::Threads, truth::Reference,
+        Display, Frame, Published, RenderRequest, State, Status, denoise, replay_command::replay_command,
+        settings_text::settings_text, threads::Threads, truth::Reference,
     },
     scene::{Camera, RenderSettings, Scene},
 };
@@ -28,7 +27,8 @@ pub struct Job<'a> {
     pub layers: &'a Layers,
     pub denoises: bool,
     pub reference: Option<Reference>,
-    pub threads: usize,
+    /// Threads for layers and denoising, as many as the worker has.
+    pub threads: Threads,
     pub build_seconds: f64,
     pub is_sequence: bool,
     pub json: bool,
@@ -37,67 +37,85 @@ pub struct Job<'a> {
 impl Job<'_> {
     /// Renders an image, writes it, and prints its line. A frame of a sequence is written only when it is finished.
     pub fn render(&self, rendering: &mut Rendering, shot: &Shot) -> Result<ExitCode, Failure> {
-        let Shot { camera, output } = shot;
         let start = Instant::now();
-        let request = RenderRequest { scene: self.scene.clone(), camera: *camera, settings: self.settings };
-        let Published { frame, status } = rendering.picture(request.clone())?;
+        let request = RenderRequest { scene: self.scene.clone(), camera: shot.camera, settings: self.settings };
+        let picture = rendering.picture(request.clone())?;
         let render_seconds = start.elapsed().as_secs_f64();
-        let replayed = |at| replay_command(self.scene_path, &self.scene, camera.resolution, &self.settings, at);
-        if let State::Failed(failure) = &status.state {
-            let replay = failure.replays.then(|| format!("\nreplay: {}", replayed(failure.at)));
-            return Err(format!("the renderer failed: {}{}", failure.message, replay.unwrap_or_default()));
-        }
+        self.failure(&picture.status, &shot.camera).map_or(Ok(()), Err)?;
         let has_bounces = self.layers.has_bounces() && !rendering.is_interrupted();
-        let bounces = if has_bounces { Some(rendering.series(request)?.frame) } else { None };
+        let bounces = if has_bounces { Some(rendering.series(request)?) } else { None };
+        let failure = bounces.as_ref().and_then(|bounces| self.failure(&bounces.status, &shot.camera));
         if self.is_sequence && rendering.is_interrupted() {
-            tell("the sequence is not finished; the same command with --resume continues it");
+            rendering.suspend(|| tell("the sequence is not finished; the same command with --resume continues it"));
             return Ok(ExitCode::from(INTERRUPTED));
         }
-        let denoised = if self.denoises { Some(self.denoised(&frame)?) } else { None };
-        let frame = denoised.map_or(frame, Arc::new);
-        let channels = self.layers.channels(&self.scene, camera, &frame, bounces.as_deref(), self.threads)?;
-        let text = settings_text(&self.scene, camera, &self.settings, self.display, &frame, &self.remarks());
-        let delivered = output.write(&frame, &channels, self.display, &text)?;
+        match failure {
+            Some(failure) if self.is_sequence => Err(failure),
+            // The image itself is finished: only its layer is lost.
+            Some(failure) => rendering.suspend(|| self.deliver(shot, &picture, None, render_seconds)).and(Err(failure)),
+            None => {
+                let bounces = bounces.map(|bounces| bounces.frame);
+                rendering.suspend(|| self.deliver(shot, &picture, bounces.as_deref(), render_seconds))
+            }
+        }
+    }
+
+    /// The message of a render that failed.
+    fn failure(&self, status: &Status, camera: &Camera) -> Option<Failure> {
+        let State::Failed(failure) = &status.state else { return None };
+        let replay = || replay_command(self.scene_path, &self.scene, camera.resolution, &self.settings, failure.at);
+        let replay = if failure.replays { format!("\nreplay: {}", replay()) } else { String::new() };
+        Some(format!("the renderer failed: {}{replay}", failure.message))
+    }
+
+    /// Writes a rendered image, and prints its line. `bounces` is a frame with its series.
+    fn deliver(
+        &self,
+        Shot { camera, output }: &Shot,
+        Published { frame, status }: &Published,
+        bounces: Option<&Frame>,
+        render_seconds: f64,
+    ) -> Result<ExitCode, Failure> {
+        let denoised = if self.denoises { self.denoised(frame) } else { None };
+        let (frame, is_denoised) = (denoised.as_ref().unwrap_or(frame), denoised.is_some());
+        let channels = self.layers.channels(&self.scene, camera, frame, bounces, &self.threads)?;
+        let remarks = if is_denoised { vec![(denoise::LABEL_KEY, denoise::LABEL.to_owned())] } else { Vec::new() };
+        let text = settings_text(&self.scene, camera, &self.settings, self.display, frame, &remarks);
+        let delivered = output.write(frame, &channels, self.display, &text)?;
         if delivered != ExitCode::SUCCESS {
             return Ok(delivered);
         }
         let reference = self.reference.as_ref().filter(|_| self.is_of_scene(camera));
+        let replayed = |at| replay_command(self.scene_path, &self.scene, camera.resolution, &self.settings, at);
         let done = Done {
             output,
             scene: &self.scene,
             scene_path: self.scene_path,
             settings: &self.settings,
-            error: reference.and_then(|truth| truth.compare(&frame).zip(truth.bias(&frame))),
-            contradiction: reference.and_then(|truth| truth.contradiction(&frame)),
+            error: reference.and_then(|truth| truth.compare(frame).zip(truth.bias(frame))),
+            contradiction: reference.and_then(|truth| truth.contradiction(frame)),
             replay: status.first_invalid.map(replayed),
-            frame: &frame,
-            status: &status,
-            threads: self.threads,
+            frame,
+            status,
+            is_denoised,
+            threads: self.threads.count(),
             seconds: [self.build_seconds, render_seconds],
         };
-        rendering.suspend(|| {
-            done.notes(camera).iter().for_each(|note| tell(note));
-            output.report(&if self.json { done.json().to_string() } else { done.line() })
-        })?;
+        done.notes(camera).iter().for_each(|note| tell(note));
+        output.report(&if self.json { done.json().to_string() } else { done.line() })?;
         Ok(delivered)
     }
 
-    /// A frame without its noise, nor its noise estimate.
-    fn denoised(&self, frame: &Frame) -> Result<Frame, Failure> {
-        let size = [frame.width, frame.height];
-        let _memory = denoise::reserve(size).map_err(|error| error.to_string())?;
-        let threads = Threads::new(self.threads, SimdLevel::best()).map_err(|error| error.to_string())?;
-        let radiance = threads.install(|| denoise::denoised(frame, &|| false));
-        let radiance = radiance.ok_or("--denoise needs two samples per pixel or more, and memory for half images")?;
+    /// A frame without its noise, nor its noise estimate. `None`, with a warning, if it has no half images.
+    fn denoised(&self, frame: &Frame) -> Option<Frame> {
+        let Some(radiance) = self.threads.install(|| denoise::denoised(frame, &|| false)) else {
+            tell("warning: the image is not denoised: that needs two samples of every pixel, and memory for half images");
+            return None;
+        };
         tell(&format!("note: {}", denoise::LABEL));
         let Frame { width, height, full_resolution, spp, shares, elapsed, .. } = *frame;
         let counts = frame.counts.clone();
-        Ok(Frame { width, height, full_resolution, radiance, spp, counts, shares, elapsed, ..Frame::default() })
-    }
-
-    /// Settings that say what has been done to the image.
-    fn remarks(&self) -> Vec<(&'static str, String)> {
-        self.denoises.then(|| ("image", denoise::LABEL.to_owned())).into_iter().collect()
+        Some(Frame { width, height, full_resolution, radiance, spp, counts, shares, elapsed, ..Frame::default() })
     }
 
     /// Whether it is the scene's own camera, whose image the scene may know.

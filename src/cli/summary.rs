@@ -19,6 +19,8 @@ pub struct Done<'a> {
     pub settings: &'a RenderSettings,
     pub frame: &'a Frame,
     pub status: &'a Status,
+    /// Whether the frame is denoised. The noise of its samples says nothing about it then.
+    pub is_denoised: bool,
     pub threads: usize,
     /// Seconds of building the scene and of rendering.
     pub seconds: [f64; 2],
@@ -46,20 +48,31 @@ impl Done<'_> {
             notes.push(format!("warning: {cut_paths} paths were cut after {longest} bounces: the image is biased; use roulette"));
         }
         if let Some(contradiction) = &self.contradiction {
-            let why = self.status.bias(self.settings).map_or_else(String::new, |why| format!(" (it is biased: {why})"));
+            let why = self.bias().map_or_else(String::new, |why| format!(" (it is biased: {why})"));
             notes.push(format!("warning: {contradiction}{why}"));
         }
         notes
+    }
+
+    /// Why the image is biased; `None` if it is not.
+    fn bias(&self) -> Option<String> {
+        let denoised = self.is_denoised.then(|| "denoised".to_owned());
+        let reasons: Vec<String> = denoised.into_iter().chain(self.status.bias(self.settings)).collect();
+        (!reasons.is_empty()).then(|| reasons.join(", "))
     }
 
     pub fn line(&self) -> String {
         let (output, samples) = (self.output, self.frame.sample_counts());
         let [_, seconds] = self.seconds;
         let rate = self.status.samples as f64 / seconds / 1e6;
-        let noise = if self.frame.is_black() { ", no light found".to_owned() } else { noise_text(self.status) };
+        let noise = match self.frame.is_black() {
+            true => ", no light found".to_owned(),
+            false if self.is_denoised => String::new(),
+            false => noise_text(self.status),
+        };
         let error = self.error.as_ref().map(|(error, _)| format!(", true error {:.2} %", 100.0 * error.rel_mse.sqrt()));
         let error = error.unwrap_or_default();
-        let bias = self.status.bias(self.settings).map_or_else(|| "unbiased".to_owned(), |why| format!("biased: {why}"));
+        let bias = self.bias().map_or_else(|| "unbiased".to_owned(), |why| format!("biased: {why}"));
         let end = match &self.status.state {
             State::Done(target) => target.to_string(),
             _ => "interrupted".to_owned(),
@@ -97,8 +110,8 @@ impl Done<'_> {
             ("paths_per_second", json!(status.samples as f64 / seconds)),
             ("rays", json!(status.rays)),
             ("mean", json!(mean(&frame.radiance))),
-            ("rel_mse_estimate", json!(status.rel_mse_estimate)),
-            ("biased", json!(status.bias(self.settings))),
+            ("rel_mse_estimate", json!(status.rel_mse_estimate.filter(|_| !self.is_denoised))),
+            ("biased", json!(self.bias())),
             ("cut_paths", json!(status.cut_paths)),
             ("dropped_triangles", json!(self.scene.shapes.dropped_triangles())),
             ("invalid_samples", json!(status.invalid_samples)),
@@ -120,120 +133,4 @@ pub fn noise_text(status: &Status) -> String {
 }
 
 #[cfg(test)]
-mod tests {
-    use std::time::Duration;
-
-    use noisefall::{
-        render::{Target, image_file::Format},
-        scene::{Roulette, built_in},
-    };
-
-    use super::*;
-
-    /// A status with a different number in every field.
-    fn status(state: State) -> Status {
-        Status {
-            generation: 1,
-            state,
-            spp: 2,
-            region_spp: None,
-            samples: 10,
-            rays: 77,
-            elapsed: Duration::from_secs(1),
-            rel_mse_estimate: Some(0.0009),
-            shares: true,
-            adapts: false,
-            invalid_samples: 4,
-            first_invalid: None,
-            cut_paths: 6,
-        }
-    }
-
-    fn frame(radiance: f32) -> Frame {
-        let (radiance, counts) = (vec![[radiance, 2.0 * radiance, 4.0 * radiance]; 4], vec![2, 3, 2, 3]);
-        Frame { width: 4, height: 1, full_resolution: [4, 1], radiance, spp: 2, counts, ..Frame::default() }
-    }
-
-    struct Said {
-        json: Value,
-        line: String,
-        notes: Vec<String>,
-    }
-
-    fn said(status: &Status, frame: &Frame, settings: RenderSettings) -> Said {
-        let (scene, output) = (built_in(), Output::File("out.png".into()));
-        let comparison = Comparison { rmse: 0.125, rel_mse: 0.0004, bias: 9.0 };
-        let done = Done {
-            output: &output,
-            scene: &scene,
-            scene_path: Path::new("a.toml"),
-            settings: &settings,
-            frame,
-            status,
-            threads: 3,
-            seconds: [0.25, 0.5],
-            error: Some((comparison, Bias::by_samples(&[[1.0; 3]; 4], &[[3.0; 3]; 4], [None, None], 4))),
-            contradiction: None,
-            replay: Some("noisefall render a.toml --pixel 1,0".to_owned()),
-        };
-        Said { json: done.json(), line: done.line(), notes: done.notes(&scene.camera) }
-    }
-
-    #[test]
-    fn every_figure_stands_under_its_name() {
-        let settings = RenderSettings { seed: 8, max_bounces: Some(5), ..RenderSettings::default() };
-        let of_time = status(State::Done(Target::Time));
-        let line = said(&of_time, &frame(1.0), settings).json;
-        let expected = json!({
-            "scene": "a.toml", "width": 4, "height": 1, "spp": 2, "mean_spp": 2.5, "stopped_by": "time", "threads": 3,
-            "simd": SimdLevel::best().name(), "version": env!("CARGO_PKG_VERSION"), "commit": env!("NOISEFALL_COMMIT"),
-            "estimator": "mis", "directions": "bsdf", "sampler": "sobol", "roulette": "throughput", "roulette_start": 4,
-            "max_bounces": 5, "reuse": "auto", "shares": true, "adaptive": "off", "adapts": false, "seed": 8,
-            "build_seconds": 0.25, "seconds": 0.5, "paths": 10, "paths_per_second": 20.0, "rays": 77, "mean": [1.0, 2.0, 4.0],
-            "rel_mse_estimate": 0.0009, "biased": "cap at 5", "cut_paths": 6, "dropped_triangles": 0, "invalid_samples": 4,
-            "rmse": 0.125, "rel_mse": 0.0004, "bias": -2.0, "bias_standard_error": null, "bias_in_standard_errors": null,
-            "exact_samples": false, "heavy_tails": false, "replay": "noisefall render a.toml --pixel 1,0",
-        });
-        assert_eq!(line, expected);
-        let other = Status { shares: false, adapts: true, cut_paths: 0, ..status(State::Paused) };
-        let adaptive = RenderSettings { adaptive: true, roulette: Roulette::fixed(0.5), ..RenderSettings::default() };
-        let line = said(&other, &frame(1.0), adaptive).json;
-        let keys = ["shares", "adapts", "adaptive", "roulette", "roulette_start", "max_bounces", "biased"];
-        let values = [json!(false), json!(true), json!("on"), json!("0.5"), Value::Null, Value::Null, Value::Null];
-        assert_eq!(keys.map(|key| line[key].clone()), values);
-        assert_eq!(line["stopped_by"], "interruption");
-    }
-
-    #[test]
-    fn the_line_states_the_samples_and_why_the_render_stopped() {
-        let line = |status: &Status, frame: &Frame| said(status, frame, RenderSettings::default()).line;
-        let million = Status { samples: 1_000_000, ..status(State::Done(Target::Samples(2))) };
-        assert_eq!(
-            line(&million, &frame(1.0)),
-            "out.png: 2.5 spp on average (2 to 3) in 0.50 s (2.0 M samples/s), noise 3.00 %, true error 2.00 %, \
-             biased: 6 paths cut; stopped at 2 spp"
-        );
-        let whole = Status { cut_paths: 0, rel_mse_estimate: None, ..status(State::Paused) };
-        let even = Frame { counts: Vec::new(), ..frame(0.0) };
-        assert_eq!(
-            line(&whole, &even),
-            "out.png: 2 spp in 0.50 s (0.0 M samples/s), no light found, true error 2.00 %, unbiased; interrupted"
-        );
-    }
-
-    #[test]
-    fn notes_report_problems_and_nothing_else() {
-        let notes = |status: &Status, frame: &Frame| said(status, frame, RenderSettings::default()).notes;
-        let all = notes(&status(State::Done(Target::Time)), &frame(0.0));
-        assert_eq!(all.len(), 3);
-        assert_eq!(all[0], "warning: 4 invalid samples were dropped; the first one: noisefall render a.toml --pixel 1,0");
-        assert!(all[1].starts_with("note: the image is entirely black: "), "{}", all[1]);
-        assert!(all[2].starts_with(&format!("warning: 6 paths were cut after {}", RenderSettings::LONGEST_PATH)), "{}", all[2]);
-        assert_eq!(notes(&Status { cut_paths: 0, ..status(State::Paused) }, &frame(1.0)).len(), 1);
-    }
-
-    #[test]
-    fn standard_output_is_named() {
-        assert_eq!(Output::Stream(Format::Png).to_string(), "standard output");
-    }
-}
+mod tests;

@@ -50,7 +50,7 @@ impl Film {
     }
 
     /// Reserves memory for the series by bounces of an image of this size.
-    pub(super) fn reserve_series([width, height]: [u32; 2]) -> Result<Reservation, TooMuch> {
+    pub fn reserve_series([width, height]: [u32; 2]) -> Result<Reservation, TooMuch> {
         /// Bytes per pixel: sums in the film, and means in two frames.
         const PIXEL: u64 = 3 * 12 * TERMS as u64;
         memory::reserve(format_args!("bounces of {width} × {height} pixels"), PIXEL * u64::from(width) * u64::from(height))

@@ -21,7 +21,7 @@ impl Halves {
     }
 
     /// Reserves memory for the halves of two frames of this size.
-    pub(super) fn reserve([width, height]: [u32; 2]) -> Result<Reservation, TooMuch> {
+    pub fn reserve([width, height]: [u32; 2]) -> Result<Reservation, TooMuch> {
         const PIXEL: u64 = 2 * 28;
         memory::reserve(format_args!("half images of {width} × {height} pixels"), PIXEL * u64::from(width) * u64::from(height))
     }

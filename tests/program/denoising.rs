@@ -1,9 +1,12 @@
 //! `render --denoise`.
 use std::fs;
 
-use noisefall::render::{denoise::LABEL, image_file::read};
+use noisefall::render::{
+    denoise::LABEL,
+    image_file::{provenance, read},
+};
 
-use crate::command_line::{Shell, scene, text};
+use crate::command_line::{Shell, json, scene, text};
 
 #[test]
 fn a_denoised_image_says_so_and_differs_from_the_render() {
@@ -15,15 +18,39 @@ fn a_denoised_image_says_so_and_differs_from_the_render() {
     assert!(render("plain.exr", &["--spp", "8"]).status.success());
     let done = render("denoised.exr", &["--spp", "8", "--denoise"]);
     assert!(done.status.success() && text(&done.stderr).contains(LABEL), "{}", text(&done.stderr));
+    let line = text(&done.stdout);
+    assert!(line.contains("biased: denoised") && !line.contains("unbiased") && !line.contains("noise "), "{line}");
     let [plain, denoised] = ["plain.exr", "denoised.exr"].map(|name| read(&shell.path(name)).expect("an image").radiance);
     assert_ne!(plain, denoised);
     let carries = |name: &str| {
-        let bytes = std::fs::read(shell.path(name)).expect("it is there");
+        let bytes = fs::read(shell.path(name)).expect("it is there");
         bytes.windows(LABEL.len()).any(|text| text == LABEL.as_bytes())
     };
     assert!(carries("denoised.exr") && !carries("plain.exr"));
     let refused = render("one.exr", &["--spp", "1", "--denoise"]);
     assert!(refused.status.code() == Some(1) && text(&refused.stderr).contains("two samples"), "{}", text(&refused.stderr));
+    assert!(!shell.path("one.exr").exists());
+    let figures = json(&render("denoised.png", &["--spp", "8", "--denoise", "--json"]));
+    assert_eq!((&figures["biased"], &figures["rel_mse_estimate"]), (&"denoised".into(), &serde_json::Value::Null));
+}
+
+#[test]
+fn an_image_that_cannot_be_denoised_is_saved_as_it_is() {
+    let shell = Shell::new();
+    // The first sample takes longer than this, and it is finished in any case.
+    let short = ["--time", "0.000001", "--denoise"];
+    let render = |name: &str, rest: &[&str]| {
+        let done = shell.run(&[&["render", &scene("cornell_spheres"), "-o", name, "--size", "32x24"], rest].concat());
+        assert!(done.status.success(), "{}", text(&done.stderr));
+        done
+    };
+    let done = render("short.exr", &short);
+    assert!(text(&done.stderr).contains("warning: the image is not denoised: that needs two samples"), "{}", text(&done.stderr));
+    assert!(text(&done.stdout).contains(" 1 spp ") && text(&done.stdout).contains(", unbiased;"), "{}", text(&done.stdout));
+    render("plain.exr", &["--spp", "1"]);
+    let [short, plain] = ["short.exr", "plain.exr"].map(|name| shell.path(name));
+    assert_eq!(read(&short).expect("an image").radiance, read(&plain).expect("an image").radiance);
+    assert!(!provenance(&short).is_denoised);
 }
 
 /// Renders 4 samples per pixel of 16 × 9 pixels.

@@ -61,6 +61,20 @@ fn an_interrupted_render_saves_what_it_has_and_says_how_much_that_is() {
 }
 
 #[test]
+fn an_interrupted_sequence_drops_its_unfinished_frame_even_if_it_is_the_only_one() {
+    let shell = Shell::new();
+    let endless = ["--turntable", "1", "--spp", "100000000", "--size", "40x30"];
+    let child = start(&shell, &[&["render", &scene("cornell_spheres"), "-o", "out-#.png"], &endless[..]].concat());
+    interrupt(&child);
+    let output = child.wait_with_output().expect("it ends");
+    let told = text(&output.stderr);
+    assert!(told.starts_with("interrupted: the unfinished frame is dropped"), "{told}");
+    assert!(told.contains("the same command with --resume continues it"), "{told}");
+    assert_eq!(output.status.code(), Some(130));
+    assert_eq!(fs::read_dir(shell.path("")).expect("it is there").count(), 0, "no frame");
+}
+
+#[test]
 fn a_second_interruption_ends_a_render_at_once() {
     let shell = Shell::new();
     // Paths have thousands of bounces, so the first sample of all pixels would take much longer than this test.

@@ -71,6 +71,20 @@ fn every_frame_of_a_turntable_is_the_image_of_its_camera() {
 }
 
 #[test]
+fn every_file_of_a_sequence_is_checked_before_the_first_frame() {
+    let shell = Shell::new();
+    fs::create_dir(shell.path("turn-3.png")).expect("a folder");
+    let furnace = scene("furnace");
+    for rest in [&[][..], &["--resume"]] {
+        let refused = shell.run(&[&["render", &furnace, "--turntable", "3", "-o", "turn-#.png"], &SMALL[..], rest].concat());
+        let told = text(&refused.stderr);
+        assert!(refused.status.code() == Some(1) && told.contains("turn-3.png: cannot be written"), "{told}");
+        // A folder is no frame.
+        assert!(!told.contains("left out") && !shell.path("turn-1.png").exists(), "{told}");
+    }
+}
+
+#[test]
 fn a_camera_path_is_rendered_from_its_file() {
     let shell = Shell::new();
     let key = |time: f64, x: f64| format!("[[camera]]\ntime = {time:?}\neye = [{x:?}, 1.0, 4.0]\nlook_at = [0.0, 1.0, 0.0]\n");
