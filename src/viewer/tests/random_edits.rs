@@ -19,8 +19,9 @@ use crate::viewer::panels::outliner::{Action, New};
 const EVENTS: usize = 150;
 /// Sets another number of events, for a longer run.
 const LONGER: &str = "NOISEFALL_RANDOM_EDITS";
-/// More objects would only be slow.
+/// More objects, or more materials and textures, would only be slow.
 const MOST_OBJECTS: usize = 20;
+const MOST_MATERIALS: usize = 30;
 /// The rows of the inspector, in the side panel.
 const ROWS: [[f32; 2]; 2] = [[1000.0, 1270.0], [420.0, 1280.0]];
 
@@ -34,7 +35,7 @@ fn event(window: &mut Window, random: &mut SmallRng, path: &PathBuf) {
     match random.random_range(0..12) {
         0 if count < MOST_OBJECTS => add_object(window, random),
         0 | 1 => act(window, random, Action::Delete),
-        2 => window.state_mut().add(if random.random() { New::Material } else { New::Texture }),
+        2 => add_material(window, random),
         3 => act(window, random, Action::Duplicate),
         4 => {
             let materials: Vec<String> = description(window).materials.keys().cloned().collect();
@@ -56,6 +57,17 @@ fn add_object(window: &mut Window, random: &mut SmallRng) {
     let kind = *kinds.choose(random).expect("there are kinds");
     let kind = ShapeKind::alternatives().iter().map(OneOf::name).find(|name| *name == kind).unwrap_or("sphere");
     window.state_mut().add(if random.random_range(0..4) == 0 { New::Lamp(kind) } else { New::Shape(kind) });
+}
+
+fn add_material(window: &mut Window, random: &mut SmallRng) {
+    let SceneDescription { materials, textures, .. } = description(window);
+    if materials.len() + textures.len() < MOST_MATERIALS {
+        return window.state_mut().add(if random.random() { New::Material } else { New::Texture });
+    }
+    let names = materials.keys().cloned().map(Subject::Material).chain(textures.keys().cloned().map(Subject::Texture));
+    let names: Vec<Subject> = names.collect();
+    // Those that something uses stay.
+    window.state_mut().act_on(names.choose(random).expect("there are many").clone(), Action::Delete);
 }
 
 fn random_object(window: &Window, random: &mut SmallRng) -> Option<Subject> {
