@@ -21,9 +21,9 @@ pub struct RenderRequest {
 }
 
 impl PartialEq for RenderRequest {
-    /// Whether both ask for the same image. A scene equals only itself.
+    /// Whether both ask for the same image.
     fn eq(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.scene, &other.scene) && self.camera == other.camera && self.settings == other.settings
+        self.scene.has_same_image(&other.scene) && self.camera == other.camera && self.settings == other.settings
     }
 }
 

@@ -25,6 +25,8 @@ pub struct SceneEdit {
     pub before: Arc<Scene>,
     /// Precision of the compile.
     pub precision: Precision,
+    /// Whether the scene differs from `before` in texts only: see [`SceneDescription::differs_in_texts`]. Its image then continues.
+    pub keeps_image: bool,
     /// The camera, which need not be the scene's.
     pub camera: Camera,
     /// How it is rendered.
@@ -43,7 +45,11 @@ impl SceneEdit {
     /// Compiles the scene on the render threads.
     fn compile(&self, threads: &Threads) -> Result<Arc<Scene>, SceneError> {
         let rebuild = || threads.install(|| self.description.rebuild(&self.folder, &self.before, self.precision));
-        catch_unwind(AssertUnwindSafe(rebuild)).unwrap_or_else(|panic| Err(failed(&*panic))).map(Arc::new)
+        let mut scene = catch_unwind(AssertUnwindSafe(rebuild)).unwrap_or_else(|panic| Err(failed(&*panic)))?;
+        if self.keeps_image {
+            scene.keep_image(&self.before);
+        }
+        Ok(Arc::new(scene))
     }
 }
 

@@ -22,6 +22,7 @@ pub mod projection;
 mod rays;
 mod read;
 pub mod roulette;
+mod same_image;
 mod settings;
 mod shutter;
 pub mod surface;
@@ -116,6 +117,8 @@ pub struct Scene {
     pub truth: Option<Truth>,
     /// Largest number of media around the middle of a dielectric.
     pub deepest_media: usize,
+    /// Shared by scenes that have the same image: see [`Scene::has_same_image`].
+    pub identity: Arc<()>,
     /// See [`Scene::warnings`].
     pub warned: OnceLock<Vec<String>>,
     /// The parts that the compile made, and those that it reused from another scene.

@@ -37,6 +37,7 @@ fn edit(description: SceneDescription, before: &Arc<Scene>) -> SceneEdit {
         folder: PathBuf::new(),
         before: before.clone(),
         precision: Precision::Interactive,
+        keeps_image: false,
         camera: before.camera,
         settings: before.settings,
     }

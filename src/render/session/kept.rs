@@ -63,7 +63,7 @@ impl KeptSessions {
 
     /// Drops the sessions of other scenes.
     pub fn retain_scene(&mut self, scene: &Arc<Scene>) {
-        self.kept.retain(|kept| Arc::ptr_eq(&kept.session.request.scene, scene));
+        self.kept.retain(|kept| kept.session.request.scene.has_same_image(scene));
     }
 
     /// Makes a reservation. Drops sessions until there is memory for it.
@@ -94,7 +94,7 @@ impl Session {
     /// Whether this is the image of a request. A series is not, because it has another film.
     pub fn is_of(&self, request: &RenderRequest) -> bool {
         let RenderRequest { scene, camera, settings } = &self.request;
-        Arc::ptr_eq(scene, &request.scene)
+        scene.has_same_image(&request.scene)
             && (camera, settings) == (&request.camera, &request.settings)
             && !self.film.has_series()
     }

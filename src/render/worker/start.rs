@@ -1,14 +1,20 @@
 //! Starts images: of requests, of tasks beside them, and of edited scenes.
-use std::{sync::Arc, time::Duration};
+use std::time::Duration;
 
 use super::Worker;
-use crate::render::{film::Film, protocol::RenderTask, session::Session};
+use crate::render::{
+    film::Film,
+    protocol::{RenderRequest, RenderTask},
+    session::Session,
+};
 
 impl Worker {
     /// Compiles the edit that waits, if any, and starts its image.
     pub(super) fn compile_edit(&mut self, notify: &dyn Fn()) {
         let Some((request, result)) = self.edits.compile(&self.threads) else { return };
-        if let Some(request) = request {
+        if let Some(request) = request
+            && !self.follows(&request)
+        {
             self.rate = self.sessions[0].as_ref().and_then(Session::rate);
             self.start(0, result.generation, RenderTask::Picture(request));
         }
@@ -16,11 +22,17 @@ impl Worker {
         notify();
     }
 
+    /// Whether the first image is that of a request already. It then continues with the scene of the request.
+    fn follows(&mut self, request: &RenderRequest) -> bool {
+        let first = self.sessions[0].as_mut().filter(|first| first.is_of(request));
+        first.map(|first| first.set_scene(request.scene.clone())).is_some()
+    }
+
     /// Starts the image of a task on a side, or continues it if it was rendered before.
     pub(super) fn start(&mut self, side: usize, generation: u64, task: RenderTask) {
         let (RenderTask::Picture(request) | RenderTask::Series(request)) = &task;
         let sessions = || self.sessions.iter().flatten();
-        let is_of_scene = |session: &Session| Arc::ptr_eq(&session.request().scene, &request.scene);
+        let is_of_scene = |session: &Session| session.request().scene.has_same_image(&request.scene);
         let rate = sessions().filter(|session| is_of_scene(session)).find_map(Session::rate).or(self.rate.take());
         self.kept.retain_scene(&request.scene);
         let old = self.sessions[side].take();

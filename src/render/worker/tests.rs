@@ -140,7 +140,8 @@ fn an_edit_drops_the_images_of_the_scene_before() {
     description.add_object("ball", Sphere::default());
     let RenderRequest { camera, settings, .. } = request(&scene, 32);
     let (folder, precision) = (PathBuf::new(), Precision::Interactive);
-    let edit = SceneEdit { description: Arc::new(description), folder, before: scene.clone(), precision, camera, settings };
+    let (description, before, keeps_image) = (Arc::new(description), scene.clone(), false);
+    let edit = SceneEdit { description, folder, before, precision, keeps_image, camera, settings };
     worker.take(Message::Edit(4, Box::new(edit)));
     worker.compile_edit(&|| ());
     let first = worker.sessions[0].as_ref().expect("it is there");
@@ -151,6 +152,36 @@ fn an_edit_drops_the_images_of_the_scene_before() {
         worker.start(0, generation, of(seed));
         assert_eq!(samples(&worker), [Some(0), None], "seed {seed}");
     }
+}
+
+#[test]
+fn an_edit_of_the_title_keeps_the_samples_of_all_images() {
+    let mut description = SceneDescription::default();
+    description.add_object("ball", Sphere::default());
+    let scene = Arc::new(description.build("".as_ref()).expect("it is valid"));
+    let mut worker = worker(Publish::Sparse);
+    let of = |seed| {
+        let request = request(&scene, 32);
+        RenderTask::Picture(RenderRequest { settings: RenderSettings { seed, ..request.settings }, ..request })
+    };
+    worker.budget = Budget { max_spp: Some(2), ..Budget::default() };
+    for (generation, seed) in [(1, 1), (2, 2)] {
+        worker.start(0, generation, of(seed));
+        advance(&mut worker, 0);
+    }
+    let before = samples(&worker);
+    description.title = "Ball".to_owned();
+    let RenderTask::Picture(RenderRequest { camera, settings, .. }) = of(2) else { return };
+    let (folder, precision) = (PathBuf::new(), Precision::Interactive);
+    let (description, before_edit, keeps_image) = (Arc::new(description), scene.clone(), true);
+    let edit = SceneEdit { description, folder, before: before_edit, precision, keeps_image, camera, settings };
+    worker.take(Message::Edit(2, Box::new(edit)));
+    worker.compile_edit(&|| ());
+    let first = worker.sessions[0].as_ref().expect("it is there");
+    assert_eq!((first.generation(), first.request().scene.title.as_str()), (2, "Ball"));
+    assert_eq!(samples(&worker), before);
+    worker.start(0, 3, of(1));
+    assert_eq!(samples(&worker), before, "the kept image is still one of the scene");
 }
 
 #[test]

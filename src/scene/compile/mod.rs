@@ -143,6 +143,7 @@ impl Parts {
             spp,
             truth,
             deepest_media: 0,
+            identity: Arc::new(()),
             warned: OnceLock::new(),
             compiled: CompileReport { parts: report, took: Duration::ZERO },
             memo,

@@ -7,7 +7,7 @@ use noisefall::{
 };
 
 use super::state::App;
-use crate::viewer::background::settler::EditedScene;
+use crate::viewer::background::{render_worker::EditedDescription, settler::EditedScene};
 
 impl App {
     /// Renders a changed scene. If changes come faster than their images, only the latest counts.
@@ -22,7 +22,8 @@ impl App {
         // A diagnosis of an earlier edit is out of date.
         self.outside.diagnosis = None;
         self.session.submitted_edit = Some(description.clone());
-        self.background.worker.edit(request, description, folder, now);
+        let differs_in_texts = description.differs_in_texts(&opened.description);
+        self.background.worker.edit(request, EditedDescription { description, folder, differs_in_texts }, now);
     }
 
     /// Receives the edited scene from the worker, and the exact one from the settler.

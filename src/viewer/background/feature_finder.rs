@@ -35,7 +35,7 @@ impl FeatureFinder {
 
     /// The features of an image as soon as they are known; until then, those of the same scene from the previous camera.
     pub fn of(&mut self, scene: &Arc<Scene>, camera: &Camera, threads: usize) -> Option<Arc<Features>> {
-        let same = |(old, at): &Viewpoint| Arc::ptr_eq(old, scene) && at == camera;
+        let same = |(old, at): &Viewpoint| old.has_same_image(scene) && at == camera;
         if let (Some(features), Some(viewpoint)) = (BackgroundTask::take(&mut self.pending), &self.viewpoint) {
             // A failure here is not reported, because the render threads report the same one.
             let found = features.ok().flatten();
@@ -46,13 +46,13 @@ impl FeatureFinder {
         if self.pending.is_none() && !self.viewpoint.as_ref().is_some_and(same) {
             self.search(scene, camera, threads);
         }
-        let found = self.found.as_ref().filter(|found| Arc::ptr_eq(&found.viewpoint.0, scene));
+        let found = self.found.as_ref().filter(|found| found.viewpoint.0.has_same_image(scene));
         found.map(|found| found.features.clone())
     }
 
     /// Whether the features are those of this scene and camera.
     pub fn has(&self, scene: &Arc<Scene>, camera: &Camera) -> bool {
-        self.found.as_ref().is_some_and(|Found { viewpoint, .. }| Arc::ptr_eq(&viewpoint.0, scene) && viewpoint.1 == *camera)
+        self.found.as_ref().is_some_and(|Found { viewpoint, .. }| viewpoint.0.has_same_image(scene) && viewpoint.1 == *camera)
     }
 
     fn search(&mut self, scene: &Arc<Scene>, camera: &Camera, threads: usize) {

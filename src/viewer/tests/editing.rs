@@ -9,7 +9,7 @@ use noisefall::{
 };
 
 use super::*;
-use crate::viewer::background::render_worker::RenderWorkerHandle;
+use crate::viewer::background::render_worker::{EditedDescription, RenderWorkerHandle};
 
 fn description(scene: &str) -> SceneDescription {
     let path = shipped(scene);
@@ -51,6 +51,27 @@ fn a_brighter_lamp_makes_the_picture_brighter_and_keeps_camera_and_settings() {
     description.camera.fov = Some(50.0);
     edit(&mut window, &description);
     assert_eq!(window.state().session.camera.fov, 50.0);
+}
+
+#[test]
+fn an_edit_of_title_and_notes_keeps_the_samples_and_is_in_the_scene_of_the_image() {
+    let mut window = window("cornell_spheres");
+    let mut description = description("cornell_spheres");
+    (description.title, description.notes) = ("Five balls".to_owned(), "One is amber.".to_owned());
+    never_restarts(&mut window, |w| {
+        w.state_mut().edit_scene(Arc::new(description.clone()));
+        w.step();
+        wait(w, "the edited scene", |app| app.session.opened.as_ref().is_some_and(|opened| opened.scene.title == "Five balls"));
+    });
+    assert!(window.query_by_label("One is amber.").is_some());
+    let request = window.state().background.worker.request().expect("it is rendered");
+    assert!(request.scene.source.contains("Five balls"), "a saved image carries the new title");
+    // The next change restarts the render.
+    description.materials.clear();
+    description.objects.iter_mut().for_each(|object| object.material = None);
+    restarts(&mut window, "the black scene", |w| {
+        edit(w, &description);
+    });
 }
 
 #[test]
@@ -99,7 +120,8 @@ fn while_an_edit_is_compiled_nothing_else_is_requested_and_the_second_view_follo
         Some(RenderTask::Picture(RenderRequest { settings, ..request.clone() }))
     };
     worker.update(request.clone(), other(&request), 0.0);
-    worker.edit(request.clone(), Arc::new(description("cornell_spheres")), PathBuf::new(), 1.0);
+    let (description, folder) = (Arc::new(description("cornell_spheres")), PathBuf::new());
+    worker.edit(request.clone(), EditedDescription { description, folder, differs_in_texts: false }, 1.0);
     worker.update(request.clone(), other(&request), 1.0);
     assert_eq!((worker.generation(), worker.second_generation()), (3, 2));
     let start = Instant::now();

@@ -49,8 +49,8 @@ impl History {
     /// Shows the curves of this picture: none, or those that were recorded before. Drops errors against another reference.
     pub fn look_at(&mut self, scene: &Arc<Scene>, camera: &Camera, truth: Option<&Arc<Reference>>) {
         match self.subject.take() {
-            Some((old, at)) if Arc::ptr_eq(&old, scene) && at == *camera => {}
-            Some((old, at)) if Arc::ptr_eq(&old, scene) => self.change_camera(at, camera),
+            Some((old, at)) if old.has_same_image(scene) && at == *camera => {}
+            Some((old, at)) if old.has_same_image(scene) => self.change_camera(at, camera),
             _ => {
                 self.curves.clear();
                 self.earlier.clear();
