@@ -1,8 +1,10 @@
 //! File access: opens files that a user names, and replaces files atomically.
+mod numbered;
 mod target;
 
 use std::{fs::File, io, path::Path};
 
+pub use numbered::numbered;
 pub use target::{WriteError, check, replace};
 
 /// Opens a regular file for reading. Anything else is an error: reading from a pipe could wait for ever.

@@ -10,6 +10,7 @@ mod folder;
 mod layers;
 #[cfg(feature = "reports")]
 mod lists;
+mod live;
 mod loaded_image;
 mod meant;
 mod messages;

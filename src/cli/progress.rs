@@ -1,17 +1,21 @@
 //! Rendering until a target is reached, with a progress bar.
 use std::{
+    ops::ControlFlow,
     sync::{
         Arc,
         atomic::{AtomicBool, Ordering},
     },
-    time::Duration,
 };
 
-use crossbeam_channel::{Receiver, RecvTimeoutError};
 use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
-use noisefall::render::{Budget, Publish, Published, RenderRequest, RenderTask, Renderer, State, Status, threads::Threads};
+use noisefall::render::{Budget, Published, RenderRequest, Status, still::StillRenderer, threads::Threads};
 
-use super::{messages::Failure, stop::stop_signal, summary::noise_text};
+use super::{
+    live::LiveView,
+    messages::{Failure, tell},
+    stop::stop_signal,
+    summary::noise_text,
+};
 
 /// The images of a command.
 #[derive(Clone, Copy)]
@@ -40,9 +44,14 @@ impl Plan {
 
 /// The worker of a command, and the progress of its images.
 pub struct Rendering {
-    renderer: Renderer,
-    woken: Receiver<()>,
+    stills: StillRenderer,
     stop: Arc<AtomicBool>,
+    progress: Progress,
+    live: LiveView,
+}
+
+/// The progress bar of all images.
+struct Progress {
     budget: Budget,
     bar: ProgressBar,
     plan: Plan,
@@ -53,16 +62,13 @@ pub struct Rendering {
 }
 
 impl Rendering {
-    /// Starts the worker. Each render has the same budget. Shows a progress bar if standard error is a terminal.
-    pub fn new(threads: Threads, budget: Budget, plan: Plan, quiet: bool) -> Result<Rendering, Failure> {
-        let (wake, woken) = crossbeam_channel::bounded(1);
-        let renderer = Renderer::new(threads, Publish::Sparse, move || {
-            let _ = wake.try_send(());
-        });
-        renderer.set_budget(budget);
+    /// Starts the worker. Each render has the same budget. Shows a progress bar if standard error is a terminal, and the images in the
+    /// live view.
+    pub fn new(threads: Threads, budget: Budget, plan: Plan, quiet: bool, live: LiveView) -> Result<Rendering, Failure> {
         let stop = stop_signal(plan.interruption())?;
         let bar = if quiet { ProgressBar::hidden() } else { progress_bar(&budget, &plan) };
-        Ok(Rendering { renderer, woken, stop, budget, bar, plan, image: 0, finished: 0 })
+        let progress = Progress { budget, bar, plan, image: 0, finished: 0 };
+        Ok(Rendering { stills: StillRenderer::new(threads, budget), stop, progress, live })
     }
 
     /// Whether the user has asked to stop.
@@ -72,46 +78,48 @@ impl Rendering {
 
     /// Renders the next image up to the budget.
     pub fn picture(&mut self, request: RenderRequest) -> Result<Published, Failure> {
-        self.image += 1;
-        self.renderer.submit(self.image, request);
-        self.finish(Renderer::latest)
+        self.progress.image += 1;
+        let Rendering { stills, stop, progress, live } = self;
+        let mut watch = |published: &Published| {
+            progress.show(&published.status);
+            let is_of_image = published.frame.generation == published.status.generation;
+            let warning = if is_of_image { live.show(&published.frame) } else { None };
+            warning.into_iter().for_each(|warning| progress.bar.suspend(|| tell(&warning)));
+            go_on(stop)
+        };
+        let published = stills.picture(request, &mut watch).map_err(|error| error.to_string());
+        self.progress.finished += 1;
+        published
     }
 
     /// Renders the same image by number of bounces, with samples of its own.
     pub fn series(&mut self, request: RenderRequest) -> Result<Published, Failure> {
-        self.renderer.submit_second(self.image, RenderTask::Series(request));
-        let published = self.finish(Renderer::latest_second);
-        self.renderer.stop_second();
+        let Rendering { stills, stop, progress, .. } = self;
+        let mut watch = |published: &Published| {
+            progress.show(&published.status);
+            go_on(stop)
+        };
+        let published = stills.series(request, &mut watch).map_err(|error| error.to_string());
+        self.progress.finished += 1;
         published
     }
 
     /// Hides the bar while a task prints.
     pub fn suspend<T>(&self, task: impl FnOnce() -> T) -> T {
-        self.bar.suspend(task)
+        self.progress.bar.suspend(task)
     }
 
-    /// Waits for the end of the current render.
-    fn finish(&mut self, latest: fn(&Renderer) -> Published) -> Result<Published, Failure> {
-        loop {
-            if self.woken.recv_timeout(Duration::from_millis(200)) == Err(RecvTimeoutError::Disconnected) {
-                return Err("the render thread ended unexpectedly".to_owned());
-            }
-            if self.is_interrupted() {
-                self.renderer.set_budget(Budget { paused: true, ..self.budget });
-            }
-            // Until the worker begins, the figures are those of the image before.
-            let published = latest(&self.renderer);
-            if published.status.generation != self.image {
-                continue;
-            }
-            self.show(&published.status);
-            if matches!(published.status.state, State::Paused | State::Done(_) | State::Failed(_)) {
-                self.finished += 1;
-                return Ok(published);
-            }
-        }
+    /// Waits until the live view has the last image.
+    pub fn finish(self) {
+        self.live.finish();
     }
+}
 
+fn go_on(stop: &AtomicBool) -> ControlFlow<()> {
+    if stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+}
+
+impl Progress {
     fn show(&self, status: &Status) {
         self.bar.set_position(length(&self.budget) * self.finished + position(&self.budget, status));
         let frame = if self.plan.images > 1 { format!("frame {} of {}, ", self.image, self.plan.images) } else { String::new() };
@@ -149,6 +157,8 @@ fn position(budget: &Budget, status: &Status) -> u64 {
 
 #[cfg(test)]
 mod tests {
+    use std::time::Duration;
+
     use super::*;
 
     #[test]

@@ -1,6 +1,6 @@
 //! `noisefall render`: renders an image without a window, with the worker that also serves the window.
 use std::{
-    path::PathBuf,
+    path::{Path, PathBuf},
     process::ExitCode,
     sync::Arc,
     time::{Duration, Instant},
@@ -9,13 +9,14 @@ use std::{
 use clap::ArgGroup;
 use noisefall::{
     math::SimdLevel,
-    render::{Budget, Display, image_file::Format, layers::Layer, threads::Threads, truth::Reference},
+    render::{Budget, Display, image_file::Format, layers::Layer, tev::DEFAULT_ADDRESS, threads::Threads, truth::Reference},
     sampling::{Directions, Sampler},
     scene::{Camera, Estimator, RenderSettings, Reuse, Roulette, Scene, load},
 };
 
 use super::{
     layers::{Layers, parse as layers_of},
+    live::{self, LiveView},
     messages::{Failure, tell, wrong_usage},
     options::{self as parse, BounceCap, DisplayOptions},
     output::Output,
@@ -95,6 +96,10 @@ pub struct Arguments {
     denoise: bool,
     #[command(flatten)]
     sequence: SequenceOptions,
+    /// Show the image in the viewer tev while it is rendered: linear radiance, at most once a second
+    #[arg(long, value_name = "HOST:PORT", num_args = 0..=1, default_missing_value = DEFAULT_ADDRESS, value_parser = live::address,
+          conflicts_with = "pixel")]
+    tev: Option<String>,
     /// Replay one path through this pixel instead of rendering
     #[arg(long, value_name = "X,Y", value_parser = parse::pixel, allow_hyphen_values = true, conflicts_with = "output")]
     pixel: Option<[u32; 2]>,
@@ -159,14 +164,22 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         scene,
     };
     let plan = Plan { images: shots.len() as u64, has_bounces: layers.has_bounces(), is_sequence: job.is_sequence };
-    let mut rendering = Rendering::new(threads()?, budget, plan, job.json)?;
+    let live = LiveView::connect(arguments.tev.as_deref(), name(&job.scene, &arguments.scene))?;
+    let mut rendering = Rendering::new(threads()?, budget, plan, job.json, live)?;
     for shot in &shots {
         let done = job.render(&mut rendering, shot)?;
         if done != ExitCode::SUCCESS {
             return Ok(done);
         }
     }
+    rendering.finish();
     Ok(ExitCode::SUCCESS)
+}
+
+/// The title of a scene, or else the name of its file.
+fn name(scene: &Scene, path: &Path) -> String {
+    let of_file = || path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    if scene.title.is_empty() { of_file() } else { scene.title.clone() }
 }
 
 impl Arguments {

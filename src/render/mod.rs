@@ -37,9 +37,12 @@ pub mod series;
 mod session;
 pub mod settings_text;
 pub mod sharing;
+pub mod still;
 mod target;
 #[cfg(test)]
 mod tests;
+#[cfg(feature = "cli")]
+pub mod tev;
 pub mod threads;
 pub mod tile;
 mod tile_estimates;

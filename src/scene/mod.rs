@@ -3,6 +3,7 @@ mod black;
 mod build;
 mod camera;
 mod camera_path;
+mod camera_sequence;
 mod carried;
 mod compile;
 mod compile_report;
@@ -46,6 +47,7 @@ use self::surface::Surfaces;
 pub use self::{
     camera::{Camera, CameraError, Lens},
     camera_path::CameraPath,
+    camera_sequence::CameraSequence,
     compile::{check_camera, check_object},
     compile_report::CompileReport,
     diagnostic::SceneError,

@@ -25,6 +25,8 @@ mod sequences;
 mod shapes;
 mod sheet;
 mod study;
+mod tev;
+mod tev_server;
 mod textures;
 mod validate;
 mod warnings;

@@ -1,0 +1,52 @@
+//! `render --tev`: shows the image in tev while it is rendered.
+use std::sync::Arc;
+
+use noisefall::render::{
+    Frame,
+    tev::{Tev, TevError, TevStream, check_address},
+};
+
+use super::messages::{Failure, tell};
+
+/// Parses the address of tev.
+pub fn address(text: &str) -> Result<String, String> {
+    check_address(text).map(|()| text.to_owned())
+}
+
+/// The connection to tev, if one was asked for. When it is lost, the render continues.
+pub struct LiveView {
+    /// Name of the image in tev.
+    name: String,
+    stream: Option<TevStream>,
+}
+
+impl LiveView {
+    /// Connects to tev if there is an address.
+    pub fn connect(address: Option<&str>, name: String) -> Result<LiveView, Failure> {
+        let connect = |address| Tev::connect(address).and_then(|tev| TevStream::start(tev, || ()));
+        let stream = address.map(connect).transpose().map_err(|error| error.to_string())?;
+        Ok(LiveView { name, stream })
+    }
+
+    /// Shows a frame. Returns a warning, once, if the connection is lost.
+    pub fn show(&mut self, frame: &Arc<Frame>) -> Option<String> {
+        let stream = self.stream.as_mut()?;
+        if let Some(failure) = stream.failure() {
+            self.stream = None;
+            return Some(warning(&failure));
+        }
+        stream.show(&self.name, frame);
+        None
+    }
+
+    /// Waits until the last frame is sent.
+    pub fn finish(self) {
+        if let Some(Err(failure)) = self.stream.map(TevStream::finish) {
+            tell(&warning(&failure));
+        }
+    }
+}
+
+fn warning(failure: &TevError) -> String {
+    format!("warning: {failure}")
+}
