@@ -28,7 +28,7 @@ fn the_last_frame_is_in_tev_when_the_stream_is_finished() {
     }
     assert!(stream.failure().is_none());
     stream.finish().expect("it is sent");
-    let packets = server.packets();
+    let packets = server.finish();
     let channels = ["R", "G", "B"].map(str::to_owned).to_vec();
     let created = Packet::Create { name: "Room".to_owned(), grabs_focus: true, size: [7, 5], channels: channels.clone() };
     assert_eq!(packets.iter().filter(|packet| **packet == created).count(), 1, "it is created once");
@@ -46,7 +46,7 @@ fn a_large_image_comes_in_parts_and_one_of_another_size_or_name_is_created_anew(
     tev.show("a", &frame([3, 2], 1.0)).expect("it is sent");
     tev.show("a", &frame([2, 3], 1.0)).expect("it is sent");
     drop(tev);
-    let packets = server.packets();
+    let packets = server.finish();
     let starts: Vec<usize> = (0..packets.len()).filter(|i| matches!(packets[*i], Packet::Create { .. })).collect();
     assert_eq!((starts.len(), starts[1], packets.len()), (3, 4, 8), "three bands of 349, 349 and 2 rows, and two small images");
     assert_eq!(image(&packets[..starts[1]]), ([1000, 700], large.radiance.clone()));
@@ -59,6 +59,7 @@ fn a_connection_that_is_closed_is_an_error_that_says_so() {
     let mut tev = Tev::connect(&server.address).expect("it listens");
     let large = frame([1024, 1024], 1.0);
     let error = (0..1000).find_map(|_| tev.show("Room", &large).err()).expect("nobody reads").to_string();
+    assert_eq!(server.packets().len(), 1);
     assert!(error.contains(&format!("tev at {} was lost", server.address)) && error.contains("connect again"), "{error}");
 }
 
@@ -68,7 +69,7 @@ fn the_command_shows_its_image_in_tev_and_writes_the_same_radiance() {
     let size = ["--size", "24x16", "--spp", "4"];
     let done = shell.run(&[&["render", &spheres, "--tev", &server.address, "-o", "out.exr"][..], &size].concat());
     assert!(done.status.success() && done.stderr.is_empty(), "{}", text(&done.stderr));
-    let packets = server.packets();
+    let packets = server.finish();
     let title = noisefall::scene::load(spheres.as_ref()).expect("it is a scene").title;
     assert!(matches!(&packets[0], Packet::Create { name, .. } if *name == title), "{:?}", packets[0]);
     assert_eq!(image(&packets), ([24, 16], read(&shell.path("out.exr")).expect("an image").radiance));

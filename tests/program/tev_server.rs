@@ -2,6 +2,7 @@
 use std::{
     io::Read,
     net::{TcpListener, TcpStream},
+    sync::{Arc, Mutex},
     thread::JoinHandle,
 };
 
@@ -15,7 +16,8 @@ pub enum Packet {
 /// Waits for one connection.
 pub struct TevServer {
     pub address: String,
-    received: JoinHandle<Vec<Packet>>,
+    received: Arc<Mutex<Vec<Packet>>>,
+    thread: JoinHandle<()>,
 }
 
 impl TevServer {
@@ -23,16 +25,25 @@ impl TevServer {
     pub fn start(most: usize) -> TevServer {
         let listener = TcpListener::bind("127.0.0.1:0").expect("there is a free port");
         let address = listener.local_addr().expect("it has an address").to_string();
-        let received = std::thread::spawn(move || {
+        let received = Arc::new(Mutex::new(Vec::new()));
+        let kept = received.clone();
+        let thread = std::thread::spawn(move || {
             let (mut socket, _) = listener.accept().expect("there is a connection");
-            std::iter::from_fn(|| packet(&mut socket)).take(most).collect()
+            let packets = std::iter::from_fn(|| packet(&mut socket)).take(most);
+            packets.for_each(|packet| kept.lock().expect("nothing failed").push(packet));
         });
-        TevServer { address, received }
+        TevServer { address, received, thread }
+    }
+
+    /// The packets so far.
+    pub fn packets(&self) -> Vec<Packet> {
+        self.received.lock().expect("nothing failed").clone()
     }
 
     /// The packets, when the connection has ended.
-    pub fn packets(self) -> Vec<Packet> {
-        self.received.join().expect("they can be read")
+    pub fn finish(self) -> Vec<Packet> {
+        self.thread.join().expect("they can be read");
+        self.received.lock().expect("nothing failed").clone()
     }
 }
 

@@ -91,7 +91,7 @@ impl Tev {
         // The protocol ends texts with a zero.
         let name = name.replace('\0', " ");
         let size @ [width, height] = [frame.width, frame.height];
-        if !self.created.as_ref().is_some_and(|(of, at)| (of, at) == (&name, &size)) {
+        if self.created.as_ref().is_none_or(|(of, at)| (of, at) != (&name, &size)) {
             let packet = PacketCreateImage { image_name: &name, grab_focus: true, width, height, channel_names: &CHANNELS };
             self.client.send(packet).map_err(|error| self.lost(&error))?;
         }

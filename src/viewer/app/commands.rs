@@ -156,6 +156,9 @@ impl App {
         if dialogs.open.take().is_some() || dialogs.save.take().is_some() || dialogs.file.take().is_some() {
             return;
         }
+        if dialogs.tev.take().is_some() || dialogs.sequence.take().is_some() || dialogs.existing_frames.take().is_some() {
+            return;
+        }
         if dialogs.unsaved.take().is_some() || dialogs.conflict.take().is_some() || dialogs.recovery.take().is_some() {
             return;
         }

@@ -4,19 +4,26 @@ use noisefall::scene::{RenderSettings, Roulette};
 use super::state::App;
 use crate::viewer::background::adviser::Adviser;
 use crate::viewer::dialogs::{
-    advice, choose_file, help, open, save, scene_error,
+    advice, choose_file, help, open, save,
+    save::SaveAnswer,
+    scene_error,
     tour::{self, TourRequest},
     unsaved::Leaving,
 };
 
 impl App {
     pub fn show_dialogs(&mut self, ctx: &egui::Context) {
-        let saved = save::show(ctx, &mut self.dialogs.save);
-        if saved.is_none() && self.dialogs.save.is_none() {
+        let answer = save::show(ctx, &mut self.dialogs.save);
+        if answer.is_none() && self.dialogs.save.is_none() {
             // The question where to save had no answer.
             self.window.leaving = None;
         }
-        saved.into_iter().for_each(|(target, path)| self.save_target(target, path));
+        match answer {
+            Some(SaveAnswer::File(target, path)) => self.save_target(target, path),
+            Some(SaveAnswer::Other(export)) => self.open_export(export),
+            None => {}
+        }
+        self.show_export_dialogs(ctx);
         let opened = open::show(ctx, &mut self.dialogs.open);
         opened.into_iter().for_each(|path| self.ask_to_leave(Leaving::Open(Some(path))));
         let file = choose_file::show(ctx, &mut self.dialogs.file);

@@ -18,6 +18,7 @@ impl App {
         self.receive();
         self.inspect();
         Panel::bottom("status").show(ui, |ui| self.status_bar(ui));
+        self.exports_panel(ui);
         Panel::right("settings").resizable(false).exact_size(PANEL_WIDTH).show(ui, |ui| self.side_panel(ui));
         Panel::top("toolbar").show(ui, |ui| self.toolbar(ui));
         self.dock(ui);

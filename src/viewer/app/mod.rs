@@ -8,6 +8,7 @@ mod dock;
 mod dropping;
 mod editing;
 mod editor_panel;
+mod exports;
 mod file_tasks;
 mod frame;
 mod gizmo;

@@ -25,6 +25,7 @@ impl App {
         self.receive_saved();
         self.follow_files();
         self.receive_copy();
+        self.receive_exports();
         match self.background.loader.take_reference() {
             Some(Ok(dropped)) => self.take_reference(dropped),
             Some(Err(error)) => self.tell(error, true),

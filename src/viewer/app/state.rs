@@ -11,7 +11,7 @@ use crate::viewer::background::{
     adviser::Adviser, background_task::BackgroundTask, catalogue, catalogue::CatalogueEntry, denoiser::Denoiser,
     display_pipeline::DisplayPipeline, dropped::DropReader, feature_finder::FeatureFinder, file_watcher::FileWatcher,
     loader::Loader, preferences::Preferences, recovery_keeper::RecoveryKeeper, render_worker::RenderWorkerHandle, saver::Saver,
-    settler::Settler,
+    sequence_task::SequenceTask, settler::Settler, tev_link::TevLink,
 };
 use crate::viewer::instruments::{convergence::history::History as ErrorHistory, path::inspector::PathInspector};
 use crate::viewer::panels::frame_times::FrameTimes;
@@ -57,6 +57,9 @@ pub struct Background {
     pub copying: Option<BackgroundTask<egui::ColorImage>>,
     pub features: FeatureFinder,
     pub denoiser: Denoiser,
+    pub tev: TevLink,
+    /// The numbered frames that are being rendered.
+    pub sequence: Option<SequenceTask>,
     pub adviser: Option<Adviser>,
 }
 
@@ -77,6 +80,8 @@ impl App {
             copying: None,
             features: FeatureFinder::new(ctx),
             denoiser: Denoiser::new(ctx),
+            tev: TevLink::new(ctx),
+            sequence: None,
             adviser: None,
         };
         background.loader.open(scene);

@@ -14,14 +14,15 @@ impl App {
             self.session.threads = self.background.worker.threads();
             self.tell(format!("The render threads cannot be started: {error}"), true);
         }
-        let (second_view, is_studying) = (self.second_view(), self.is_studying());
+        let second_view = self.second_view();
+        let waits_for_other = self.is_studying() || self.is_rendering_sequence();
         let halves = self.shown_view().is_denoised();
         let (session, worker) = (&mut self.session, &mut self.background.worker);
         let [width, height] = session.camera.resolution;
         session.budget.region = session.budget.region.and_then(|region| region.within([width, height]));
         let Some(request) = session.request() else { return };
         // Even where no picture can be asked for, the last one can be held.
-        let paused = session.budget.paused || self.window.hidden || is_studying;
+        let paused = session.budget.paused || self.window.hidden || waits_for_other;
         worker.set_budget(Budget { paused, halves, ..session.budget });
         // A control that is dragged asks for a new picture at every step; the next one is not asked for before the last is seen.
         let shown = [&self.results.shown, &self.results.second_frame];

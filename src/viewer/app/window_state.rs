@@ -3,11 +3,11 @@ use std::path::PathBuf;
 
 use noisefall::render::Region;
 
-use crate::viewer::background::recovery_files::FoundRecovery;
+use crate::viewer::background::{recovery_files::FoundRecovery, sequence_task::SequenceRequest};
 use crate::viewer::canvas::{interaction::Tool, picture_view::PictureView};
 use crate::viewer::dialogs::{
-    choose_file::FileDialog, conflict::Conflict, gallery::Gallery, notices::Notices, open::OpenDialog, save::SaveDialog,
-    unsaved::Leaving,
+    choose_file::FileDialog, conflict::Conflict, connect_tev::TevDialog, gallery::Gallery, notices::Notices, open::OpenDialog,
+    save::SaveDialog, sequence::SequenceDialog, unsaved::Leaving,
 };
 use crate::viewer::instruments::tabs::InstrumentTab;
 use crate::viewer::panels::panel_tabs::PanelTab;
@@ -46,6 +46,10 @@ pub struct Dialogs {
     pub save: Option<SaveDialog>,
     pub open: Option<OpenDialog>,
     pub file: Option<FileDialog>,
+    pub tev: Option<TevDialog>,
+    pub sequence: Option<SequenceDialog>,
+    /// Frames to render of which this many exist, of this many.
+    pub existing_frames: Option<(SequenceRequest, [usize; 2])>,
     /// What waits for an answer about unsaved changes.
     pub unsaved: Option<Leaving>,
     /// What waits for an answer about a scene file that another program has changed.
@@ -66,6 +70,8 @@ impl Dialogs {
     /// Whether a dialog waits for an answer and takes the keys.
     pub fn wait(&self) -> bool {
         let has_question = self.unsaved.is_some() || self.conflict.is_some() || self.recovery.is_some();
-        self.save.is_some() || self.open.is_some() || self.file.is_some() || has_question || self.scene_error.is_some()
+        let has_export = self.tev.is_some() || self.sequence.is_some() || self.existing_frames.is_some();
+        let has_file = self.save.is_some() || self.open.is_some() || self.file.is_some();
+        has_file || has_export || has_question || self.scene_error.is_some()
     }
 }

@@ -19,4 +19,6 @@ pub mod recovery_keeper;
 mod reduction;
 pub mod render_worker;
 pub mod saver;
+pub mod sequence_task;
 pub mod settler;
+pub mod tev_link;

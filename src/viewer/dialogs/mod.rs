@@ -2,6 +2,7 @@
 pub mod advice;
 pub mod choose_file;
 pub mod conflict;
+pub mod connect_tev;
 pub mod gallery;
 pub mod help;
 pub mod notices;
@@ -11,5 +12,6 @@ pub mod recovery;
 pub mod save;
 pub mod save_target;
 pub mod scene_error;
+pub mod sequence;
 pub mod tour;
 pub mod unsaved;

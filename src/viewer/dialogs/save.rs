@@ -26,19 +26,42 @@ impl SaveDialog {
     }
 }
 
-/// Shows the dialog until it is answered. Returns what to save, and where.
-pub fn show(ctx: &egui::Context, dialog: &mut Option<SaveDialog>) -> Option<(SaveTarget, PathBuf)> {
+/// An answer.
+pub enum SaveAnswer {
+    /// Saves this to a file.
+    File(SaveTarget, PathBuf),
+    /// Exports the image in another way.
+    Other(OtherExport),
+}
+
+/// Exports of the image that are not one file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OtherExport {
+    /// Numbered frames.
+    Sequence,
+    /// The image in tev, while it is rendered.
+    Tev,
+}
+
+/// Shows the dialog until it is answered.
+pub fn show(ctx: &egui::Context, dialog: &mut Option<SaveDialog>) -> Option<SaveAnswer> {
     let SaveDialog { mut target, mut field } = dialog.take()?;
-    let (mut open, mut save, mut cancelled) = (true, false, false);
+    let (mut open, mut save, mut cancelled, mut other) = (true, false, false, None);
     egui::Window::new(target.title())
         .open(&mut open)
         .collapsible(false)
         .resizable(false)
         .anchor(Align2::CENTER_CENTER, [0.0, 0.0])
-        .show(ctx, |ui| (save, cancelled) = dialog_body(ui, &mut target, &mut field));
+        .show(ctx, |ui| {
+            (save, cancelled) = dialog_body(ui, &mut target, &mut field);
+            other = other_exports(ui, target);
+        });
+    if let Some(other) = other {
+        return Some(SaveAnswer::Other(other));
+    }
     if let Some(path) = field.path().filter(|_| save) {
         match target.check(&path) {
-            Ok(()) => return Some((target, path)),
+            Ok(()) => return Some(SaveAnswer::File(target, path)),
             Err(error) => field.refusal = Some(error),
         }
     }
@@ -62,6 +85,21 @@ fn layers_choice(ui: &mut egui::Ui, target: &mut SaveTarget, field: &mut PathFie
         }
         field.refusal = None;
     }
+}
+
+/// The buttons for other exports of an image.
+fn other_exports(ui: &mut egui::Ui, target: SaveTarget) -> Option<OtherExport> {
+    if !matches!(target, SaveTarget::Picture | SaveTarget::Layers) {
+        return None;
+    }
+    ui.separator();
+    let buttons = [
+        ("Render turntable…", "Renders numbered images around the look-at point, or along a camera path.", OtherExport::Sequence),
+        ("Send to tev…", "Shows the image in the viewer tev while it is rendered.", OtherExport::Tev),
+    ];
+    let clicked =
+        |ui: &mut egui::Ui| buttons.map(|(name, doc, export)| ui.button(name).on_hover_text(doc).clicked().then_some(export));
+    ui.horizontal(clicked).inner.into_iter().flatten().next()
 }
 
 /// Returns whether to save, and whether to close. A file is replaced by the button that says so, never by Enter.

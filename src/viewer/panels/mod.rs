@@ -1,6 +1,7 @@
 //! Panels: each shows what it is given, and returns what was asked for.
 pub mod camera;
 pub mod display;
+pub mod exports;
 pub mod frame_times;
 pub mod inspector;
 pub mod objects;

@@ -9,6 +9,7 @@ mod desktop;
 mod driving;
 mod dropping;
 mod editing;
+mod exports;
 mod fields;
 mod glyphs;
 mod instruments;

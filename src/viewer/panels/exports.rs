@@ -1,0 +1,45 @@
+//! The line that shows exports under way: the connection to tev, and numbered frames.
+use egui::{ProgressBar, Ui};
+
+use crate::viewer::background::{
+    sequence_task::SequenceProgress,
+    tev_link::{TevLink, TevState},
+};
+
+/// What a button of the line asks for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ExportCommand {
+    StopTev,
+    StopSequence,
+}
+
+/// Shows the line. `spp` are the samples of a whole frame.
+pub fn show(ui: &mut Ui, tev: &TevLink, sequence: Option<(SequenceProgress, u32)>) -> Option<ExportCommand> {
+    let mut command = None;
+    ui.horizontal(|ui| {
+        if let Some((progress, spp)) = sequence {
+            let SequenceProgress { frame, frames, spp: done } = progress;
+            let text = if frames == 0 { "Preparing frames".to_owned() } else { format!("Rendering frame {frame} of {frames}") };
+            ui.label(text).on_hover_text("The main render pauses meanwhile.");
+            let part = (frame.saturating_sub(1) as f32 + done as f32 / spp as f32) / frames.max(1) as f32;
+            ui.add(ProgressBar::new(part).desired_width(160.0).text(format!("{:.0} %", 100.0 * part)));
+            let doc = "Drops the unfinished frame. Finished frames stay.";
+            if ui.button("Stop rendering").on_hover_text(doc).clicked() {
+                command = Some(ExportCommand::StopSequence);
+            }
+        }
+        if sequence.is_some() && tev.state() != TevState::Off {
+            ui.separator();
+        }
+        let text = match tev.state() {
+            TevState::Off => return,
+            TevState::Connecting => format!("Connecting to tev at {}", tev.address),
+            TevState::Live => format!("Sending to tev at {}", tev.address),
+        };
+        ui.label(text).on_hover_text("tev gets the image at most once a second.");
+        if ui.button("Stop sending").on_hover_text("Ends the connection. tev keeps the image.").clicked() {
+            command = Some(ExportCommand::StopTev);
+        }
+    });
+    command
+}
