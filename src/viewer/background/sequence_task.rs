@@ -112,9 +112,12 @@ fn render(request: &SequenceRequest, tell: &dyn Fn(SequenceProgress), stops: &dy
     let cameras = request.cameras.cameras(&request.image.camera)?;
     let numbered = |(camera, number)| numbered(&request.files, number).map(|path| (camera, path));
     let shots: Vec<(Camera, PathBuf)> = cameras.into_iter().zip(1..).filter_map(numbered).collect();
-    let (first, frames) = (shots.first().ok_or("the name of the files has no #")?, shots.len());
-    check_target(&first.1).map_err(|error| error.to_string())?;
-    let existing = shots.iter().filter(|(_, path)| path.exists()).count();
+    let frames = shots.len();
+    if frames == 0 {
+        return Err("the name of the files has no #".to_owned());
+    }
+    shots.iter().try_for_each(|(_, path)| check_target(path)).map_err(|error| error.to_string())?;
+    let existing = shots.iter().filter(|(_, path)| path.is_file()).count();
     if existing > 0 && request.existing == ExistingFrames::Ask {
         return Ok(SequenceEnd::Exist { existing, frames });
     }
@@ -122,7 +125,7 @@ fn render(request: &SequenceRequest, tell: &dyn Fn(SequenceProgress), stops: &dy
     let mut stills = StillRenderer::new(threads, Budget { max_spp: Some(request.spp), ..Budget::default() });
     let mut rendered = 0;
     for (frame, (camera, path)) in (1..).zip(&shots) {
-        if request.existing != ExistingFrames::Replace && path.exists() {
+        if request.existing != ExistingFrames::Replace && path.is_file() {
             continue;
         }
         let mut watch = |published: &Published| {
