@@ -2,10 +2,7 @@
 mod kept;
 mod publishing;
 
-use std::{
-    sync::Arc,
-    time::{Duration, Instant},
-};
+use std::time::{Duration, Instant};
 
 pub(super) use self::kept::KeptSessions;
 use super::{
@@ -20,7 +17,7 @@ use super::{
 };
 use crate::{
     memory::{Reservation, TooMuch},
-    scene::{RenderSettings, Reuse, Scene},
+    scene::{RenderSettings, Reuse},
 };
 
 /// Camera samples per second before the first measurement: those of a slow machine with a simple scene.
@@ -131,11 +128,6 @@ impl Session {
 
     pub fn request(&self) -> &RenderRequest {
         &self.request
-    }
-
-    /// Continues with another scene that has the same image.
-    pub fn set_scene(&mut self, scene: Arc<Scene>) {
-        self.request.scene = scene;
     }
 
     pub fn into_film(self) -> Film {

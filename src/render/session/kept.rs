@@ -99,6 +99,11 @@ impl Session {
             && !self.film.has_series()
     }
 
+    /// Continues with another scene that has the same image.
+    pub fn set_scene(&mut self, scene: Arc<Scene>) {
+        self.request.scene = scene;
+    }
+
     /// Continues the session as the image of a later generation. `steps` is the number of single passes that were requested before.
     pub fn resumed(mut self, generation: u64, steps: u64) -> Session {
         self.memory = [None, None];

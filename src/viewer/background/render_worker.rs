@@ -1,12 +1,12 @@
 //! Handle to the render worker. It compares each request with the last one; a difference starts a new generation.
-use std::{path::PathBuf, sync::Arc};
+mod edits;
 
 use noisefall::{
-    declare::Precision,
     math::SimdLevel,
-    render::{Budget, EditResult, Publish, Published, RenderRequest, RenderTask, Renderer, SceneEdit, threads::Threads},
-    scene::{Scene, SceneError, description::SceneDescription},
+    render::{Budget, Publish, Published, RenderRequest, RenderTask, Renderer, threads::Threads},
 };
+
+pub use self::edits::EditedDescription;
 
 /// Seconds to wait for the last image before the next request, while a control is dragged.
 const PATIENCE: f64 = 0.1;
@@ -38,15 +38,6 @@ struct PendingEdit {
     keeps_image: bool,
 }
 
-/// A changed scene.
-pub struct EditedDescription {
-    pub description: Arc<SceneDescription>,
-    /// Folder of its relative file paths.
-    pub folder: PathBuf,
-    /// Only title, notes or truth have changed.
-    pub differs_in_texts: bool,
-}
-
 impl RenderWorkerHandle {
     pub fn new(threads: Threads, ctx: &egui::Context) -> RenderWorkerHandle {
         let ctx = ctx.clone();
@@ -73,42 +64,6 @@ impl RenderWorkerHandle {
             self.renderer.set_budget(budget);
             self.budget = budget;
         }
-    }
-
-    /// Requests a changed scene. The request holds the scene before the edit. If only texts changed, the image continues. Until there
-    /// is a result, nothing else is requested.
-    pub fn edit(&mut self, request: RenderRequest, edited: EditedDescription, now: f64) {
-        let EditedDescription { description, folder, differs_in_texts } = edited;
-        let before = self.generation;
-        let keeps_image = differs_in_texts && !self.restarts && self.request.as_ref() == Some(&request);
-        if !keeps_image {
-            self.generation = self.next(now);
-        }
-        let RenderRequest { scene, camera, settings } = request.clone();
-        let precision = Precision::Interactive;
-        self.renderer
-            .edit(self.generation, SceneEdit { description, folder, before: scene, precision, keeps_image, camera, settings });
-        self.edit = Some(PendingEdit { request, before, keeps_image });
-    }
-
-    /// Whether an edit has no result yet.
-    pub fn is_editing(&self) -> bool {
-        self.edit.is_some()
-    }
-
-    /// The result of the last edit, once: the scene, which is being rendered.
-    pub fn take_edited(&mut self) -> Option<Result<Arc<Scene>, SceneError>> {
-        let EditResult { scene, .. } = self.renderer.take_edited()?;
-        let PendingEdit { request, before, keeps_image } = self.edit.take()?;
-        match &scene {
-            Ok(scene) => {
-                // A file of the scene may have changed too: the image is a new one then.
-                self.restarts |= keeps_image && !scene.has_same_image(&request.scene);
-                self.request = Some(RenderRequest { scene: scene.clone(), ..request });
-            }
-            Err(_) => self.generation = before,
-        }
-        Some(scene)
     }
 
     /// Requests what has changed. `now` is the time of the window's clock.

@@ -1,0 +1,57 @@
+//! Edits of the scene: requests to the worker, and their results.
+use std::{path::PathBuf, sync::Arc};
+
+use noisefall::{
+    declare::Precision,
+    render::{EditResult, RenderRequest, SceneEdit},
+    scene::{Scene, SceneError, description::SceneDescription},
+};
+
+use super::{PendingEdit, RenderWorkerHandle};
+
+/// A changed scene.
+pub struct EditedDescription {
+    pub description: Arc<SceneDescription>,
+    /// Folder of its relative file paths.
+    pub folder: PathBuf,
+    /// Only title, notes or truth have changed.
+    pub differs_in_texts: bool,
+}
+
+impl RenderWorkerHandle {
+    /// Requests a changed scene. The request holds the scene before the edit. If only texts changed, the image continues. Until there
+    /// is a result, nothing else is requested.
+    pub fn edit(&mut self, request: RenderRequest, edited: EditedDescription, now: f64) {
+        let EditedDescription { description, folder, differs_in_texts } = edited;
+        let before = self.generation;
+        let keeps_image = differs_in_texts && !self.restarts && self.request.as_ref() == Some(&request);
+        if !keeps_image {
+            self.generation = self.next(now);
+        }
+        let RenderRequest { scene, camera, settings } = request.clone();
+        let precision = Precision::Interactive;
+        let edit = SceneEdit { description, folder, before: scene, precision, keeps_image, camera, settings };
+        self.renderer.edit(self.generation, edit);
+        self.edit = Some(PendingEdit { request, before, keeps_image });
+    }
+
+    /// Whether an edit has no result yet.
+    pub fn is_editing(&self) -> bool {
+        self.edit.is_some()
+    }
+
+    /// The result of the last edit, once: the scene, which is being rendered.
+    pub fn take_edited(&mut self) -> Option<Result<Arc<Scene>, SceneError>> {
+        let EditResult { scene, .. } = self.renderer.take_edited()?;
+        let PendingEdit { request, before, keeps_image } = self.edit.take()?;
+        match &scene {
+            Ok(scene) => {
+                // A file of the scene may have changed too: the image is a new one then.
+                self.restarts |= keeps_image && !scene.has_same_image(&request.scene);
+                self.request = Some(RenderRequest { scene: scene.clone(), ..request });
+            }
+            Err(_) => self.generation = before,
+        }
+        Some(scene)
+    }
+}
