@@ -88,7 +88,7 @@ fn render_turntable(window: &mut Window, spp: f64, files: &std::path::Path) {
     set(window, "Frames", 0, 3.0);
     set(window, "Samples", 0, spp);
     type_text(window, &files.display().to_string());
-    click(window, "Render");
+    click(window, "Render frames");
 }
 
 #[test]
@@ -139,12 +139,12 @@ fn a_name_without_a_number_and_a_path_that_is_not_there_are_refused_in_the_dialo
     let mut window = window("furnace");
     open_export(&mut window, "Render turntable…");
     type_text(&mut window, "frame.png");
-    click(&mut window, "Render");
+    click(&mut window, "Render frames");
     assert!(window.query_by_label_contains("The name needs #").is_some() && window.state().dialogs.sequence.is_some());
     click(&mut window, "Camera path");
     type_text_into(&mut window, 1, "#.png");
     type_text_into(&mut window, 0, "no/such/path.toml");
-    click(&mut window, "Render");
+    click(&mut window, "Render frames");
     assert!(window.query_by_label("There is no such file.").is_some() && !window.state().is_rendering_sequence());
 }
 
