@@ -46,6 +46,8 @@ pub mod geometry;
 #[doc(hidden)]
 pub mod image;
 #[doc(hidden)]
+pub mod import;
+#[doc(hidden)]
 pub mod integrator;
 #[doc(hidden)]
 pub mod light;

@@ -208,7 +208,7 @@ impl<'a> Faces<'a> {
         let uvs = attribute(&distinct, &lists.uvs, |corner| corner.uv);
         let normals = attribute(&distinct, &lists.normals, |corner| corner.normal);
         let vertices = distinct.iter().map(|corner| lists.places[corner.place as usize]).collect();
-        Ok(Model { vertices, triangles, normals, uvs })
+        Ok(Model { vertices, triangles, normals, uvs, colours: None })
     }
 }
 

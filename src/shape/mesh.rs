@@ -220,7 +220,7 @@ fn reserve(resources: &Resources, key: &str, triangles: u64) -> Result<(), Probl
 
 fn from_file(resources: &Resources, path: &Path, smooth: bool) -> Result<MeshData, Problem> {
     let model = read(path).map_err(|error| Problem::at("path", error.to_string(), "this mesh cannot be used"))?;
-    let Model { vertices, triangles, normals, uvs } = model;
+    let Model { vertices, triangles, normals, uvs, .. } = model;
     let smoothing = if smooth && normals.is_none() { SMOOTHING } else { 0 };
     let bytes = (VERTEX + smoothing) * vertices.len() as u64 + TRIANGLE * triangles.len() as u64;
     resources.reserve("path", format_args!("{} vertices and {} triangles", vertices.len(), triangles.len()), bytes)?;

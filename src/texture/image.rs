@@ -6,18 +6,111 @@ use std::sync::{Arc, OnceLock};
 
 use super::{Found, Pattern, Summary, TextureCompiler, TextureCoordinates, Textures, Texturing};
 use crate::{
-    declare::{Declare, Kind, Parameter, Parameters, Problem, Resources, Value, key_of_file},
+    declare::{Declare, Kind, Parameter, Parameters, Problem, Range, Resources, Value, key_of_file, words},
     image::{Encoding, Texels, read_light},
     math::{F, Lanes, M, Pick, U, V, round::floor},
 };
 
 /// An image file in a scene description.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Image {
     /// The file, relative to the scene.
     pub path: String,
     /// Encoding of its numbers.
     pub encoding: Encoding,
+    /// The channels that are used.
+    pub channel: Channel,
+    /// What continues the image in u.
+    pub wrap_u: Wrap,
+    /// What continues the image in v.
+    pub wrap_v: Wrap,
+    /// Interpolation between texels.
+    pub filter: TexelFilter,
+    /// Factors of u and v, applied first.
+    pub scale: [f64; 2],
+    /// Rotation of u towards v, degrees, applied second.
+    pub rotate: f64,
+    /// Added to u and v at last.
+    pub offset: [f64; 2],
+}
+
+impl Default for Image {
+    fn default() -> Self {
+        Image {
+            path: String::new(),
+            encoding: Encoding::default(),
+            channel: Channel::Rgb,
+            wrap_u: Wrap::Repeat,
+            wrap_v: Wrap::Repeat,
+            filter: TexelFilter::Bilinear,
+            scale: [1.0; 2],
+            rotate: 0.0,
+            offset: [0.0; 2],
+        }
+    }
+}
+
+/// Channels of an image or of vertex colors.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Channel {
+    /// The color.
+    Rgb,
+    /// The first channel.
+    Red,
+    /// The second channel.
+    Green,
+    /// The third channel.
+    Blue,
+    /// The opacity; 1 if there is none.
+    Alpha,
+}
+
+words! {
+    Channel {
+        Rgb: "rgb", "RGB", "The color.";
+        Red: "red", "Red", "The first channel, as grey.";
+        Green: "green", "Green", "The second channel, as grey.";
+        Blue: "blue", "Blue", "The third channel, as grey.";
+        Alpha: "alpha", "Alpha", "The opacity, as grey; 1 if the file has none.";
+    }
+}
+
+/// What continues an image beyond its unit square.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Wrap {
+    /// The image again.
+    Repeat,
+    /// The mirrored image.
+    Mirror,
+    /// Its outermost texels.
+    Clamp,
+    /// Nothing: black.
+    Black,
+}
+
+words! {
+    Wrap {
+        Repeat: "repeat", "Repeat", "The image again.";
+        Mirror: "mirror", "Mirror", "The image, mirrored every second time.";
+        Clamp: "clamp", "Clamp", "The outermost texels.";
+        Black: "black", "Black", "Black.";
+    }
+}
+
+/// Interpolation between texels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TexelFilter {
+    /// Linear in u and v.
+    Bilinear,
+    /// None.
+    Nearest,
+}
+
+words! {
+    TexelFilter {
+        Bilinear: "bilinear", "Bilinear", "Interpolates between four texels.";
+        Nearest: "nearest", "Nearest", "The texel at the point.";
+    }
 }
 
 impl Kind for Image {
@@ -31,7 +124,21 @@ impl Declare for Image {
             Parameter::new("path", "PNG, JPEG, TGA, WebP, EXR or HDR file.").required().aliases("file filename src");
         const ENCODING: Parameter = Parameter::new("encoding", "Encoding of the file's numbers; EXR and HDR are always linear.");
         p.value(&PATH, Value::File(&mut self.path));
+        const CHANNEL: Parameter = Parameter::new("channel", "The channels that are used.");
+        const WRAP_U: Parameter = Parameter::new("wrap_u", "What continues the image in u.");
+        const WRAP_V: Parameter = Parameter::new("wrap_v", "What continues the image in v.");
+        const FILTER: Parameter = Parameter::new("filter", "Interpolation between texels.");
+        const SCALE: Parameter = Parameter::new("scale", "Factors of u and v, applied first.");
+        const ROTATE: Parameter = Parameter::new("rotate", "Rotation of u towards v, applied second.").unit("degrees");
+        const OFFSET: Parameter = Parameter::new("offset", "Added to u and v at last.");
         p.word(&ENCODING, &mut self.encoding);
+        p.word(&CHANNEL, &mut self.channel);
+        p.word(&WRAP_U, &mut self.wrap_u);
+        p.word(&WRAP_V, &mut self.wrap_v);
+        p.word(&FILTER, &mut self.filter);
+        p.value(&SCALE, Value::Pair(&mut self.scale));
+        p.number(&ROTATE, &mut self.rotate, Range::FINITE);
+        p.value(&OFFSET, Value::Pair(&mut self.offset));
     }
 }
 

@@ -6,9 +6,13 @@ pub mod checker;
 mod compiler;
 mod constant;
 pub mod image;
+pub mod mix;
 pub mod noise;
+pub mod product;
+pub mod ramp;
 #[cfg(test)]
 mod tests;
+pub mod vertex_color;
 
 use fearless_simd_macros::simd;
 
@@ -64,6 +68,10 @@ textures! {
     image::Image,
     checker::Checker,
     noise::Noise,
+    product::Product,
+    mix::Mix,
+    ramp::Ramp,
+    vertex_color::VertexColor,
 }
 
 /// The key of a texture that replaces a value.
