@@ -17,8 +17,9 @@ use crate::{
 
 /// Bytes per triangle of a procedural mesh, including its share of vertices and the computation of their normals.
 const MADE_TRIANGLE: u64 = 110;
-/// Bytes per vertex and per triangle of lists, and of smooth normals while they are computed.
+/// Bytes per vertex and per triangle of lists, of colours, and of smooth normals while they are computed.
 const VERTEX: u64 = 32;
+const COLOUR: u64 = 16;
 const TRIANGLE: u64 = 12;
 const SMOOTHING: u64 = 120;
 /// Range of the number of triangles of a procedural mesh.
@@ -220,12 +221,17 @@ fn reserve(resources: &Resources, key: &str, triangles: u64) -> Result<(), Probl
 
 fn from_file(resources: &Resources, path: &Path, smooth: bool) -> Result<MeshData, Problem> {
     let model = read(path).map_err(|error| Problem::at("path", error.to_string(), "this mesh cannot be used"))?;
-    let Model { vertices, triangles, normals, uvs, .. } = model;
+    let Model { vertices, triangles, normals, uvs, colours } = model;
     let smoothing = if smooth && normals.is_none() { SMOOTHING } else { 0 };
-    let bytes = (VERTEX + smoothing) * vertices.len() as u64 + TRIANGLE * triangles.len() as u64;
+    let colouring = if colours.is_some() { COLOUR } else { 0 };
+    let bytes = (VERTEX + smoothing + colouring) * vertices.len() as u64 + TRIANGLE * triangles.len() as u64;
     resources.reserve("path", format_args!("{} vertices and {} triangles", vertices.len(), triangles.len()), bytes)?;
     let normals = smooth.then(|| normals.unwrap_or_else(|| smooth_normals(&vertices, &triangles)));
-    Ok(MeshData { vertices, triangles, normals: normals.unwrap_or_default(), uvs: uvs.unwrap_or_default() })
+    let mut colours = colours.unwrap_or_default();
+    // NaN becomes 0. Textures of vertex colours count on a range.
+    colours.as_flattened_mut().iter_mut().for_each(|x| *x = x.max(0.0).min(1.0));
+    let (normals, uvs) = (normals.unwrap_or_default(), uvs.unwrap_or_default());
+    Ok(MeshData { vertices, triangles, normals, uvs, colours: Arc::new(colours) })
 }
 
 fn from_lists(resources: &Resources, vertices: &[[f64; 3]], triangles: &[[u32; 3]], smooth: bool) -> Result<MeshData, Problem> {
@@ -245,7 +251,7 @@ fn from_lists(resources: &Resources, vertices: &[[f64; 3]], triangles: &[[u32; 3
         }
     }
     let normals = if smooth { smooth_normals(&points, triangles) } else { Vec::new() };
-    Ok(MeshData { vertices: points, triangles: triangles.to_vec(), normals, uvs: Vec::new() })
+    Ok(MeshData { vertices: points, triangles: triangles.to_vec(), normals, ..MeshData::default() })
 }
 
 fn shaded(data: MeshData, smooth: bool) -> MeshData {
