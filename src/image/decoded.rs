@@ -90,7 +90,7 @@ fn linear<P: Pixel>(
         let rgb = if channels < 3 { [first; 3] } else { [first, pixel[1], pixel[2]] };
         let rgb = rgb.map(|sample| values[usize::from(sample)]);
         let opacity = || f32::from(pixel[channels - 1]) / f32::from(most);
-        radiance.push(if P::HAS_OPACITY && channels % 2 == 0 { P::with_opacity(rgb, opacity()) } else { P::of(rgb) });
+        radiance.push(if P::HAS_OPACITY && channels.is_multiple_of(2) { P::with_opacity(rgb, opacity()) } else { P::of(rgb) });
     }
     Ok(radiance)
 }

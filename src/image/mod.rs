@@ -87,7 +87,7 @@ impl Pixel for Opacity {
 
     fn with_opacity(_: [f32; 3], opacity: f32) -> Self {
         // NaN becomes 0.
-        Opacity(opacity.max(0.0).min(1.0))
+        Opacity(if opacity > 0.0 { opacity.min(1.0) } else { 0.0 })
     }
 }
 

@@ -228,8 +228,8 @@ fn from_file(resources: &Resources, path: &Path, smooth: bool) -> Result<MeshDat
     resources.reserve("path", format_args!("{} vertices and {} triangles", vertices.len(), triangles.len()), bytes)?;
     let normals = smooth.then(|| normals.unwrap_or_else(|| smooth_normals(&vertices, &triangles)));
     let mut colours = colours.unwrap_or_default();
-    // NaN becomes 0. Textures of vertex colours count on a range.
-    colours.as_flattened_mut().iter_mut().for_each(|x| *x = x.max(0.0).min(1.0));
+    // Textures of vertex colours count on their range. NaN becomes 0.
+    colours.as_flattened_mut().iter_mut().for_each(|x| *x = if *x > 0.0 { x.min(1.0) } else { 0.0 });
     let (normals, uvs) = (normals.unwrap_or_default(), uvs.unwrap_or_default());
     Ok(MeshData { vertices, triangles, normals, uvs, colours: Arc::new(colours) })
 }

@@ -23,8 +23,8 @@ fn picture() -> Picture {
     Picture { width: 3, height: 2, radiance: (0..6).map(|i| [i as f32, 10.0 * i as f32, 0.5]).collect() }
 }
 
-fn plain(picture: Picture) -> ImagePattern {
-    ImagePattern::Plain(Arc::new(ImageTexture::new((&picture).into())))
+fn plain(picture: &Picture) -> ImagePattern {
+    ImagePattern::Plain(Arc::new(ImageTexture::new(picture.into())))
 }
 
 #[test]
@@ -205,7 +205,7 @@ fn noise_goes_from_its_low_colour_to_its_high_one() {
 #[test]
 fn steps_are_those_of_the_finest_part() {
     let mut set = Textures::default();
-    let image = set.push(Texture::Image(plain(picture())));
+    let image = set.push(Texture::Image(plain(&picture())));
     let noise = set.push(Texture::Noise(Clouds { scale: 2.0, octaves: 3, low: [0.0, 0.75, 0.0], high: [1.0, 0.5, 0.25] }));
     let checker = set.push(Texture::Checker(Squares { even: image, odd: noise, scale: 8.0 }));
     let constant = set.push(Texture::Constant(Constant([0.5, 0.25, 0.125])));
@@ -235,7 +235,7 @@ fn lanes_of<L: Lanes>(l: L, set: &Textures, coordinates: &[[f32; 16]; 3], ids: U
 fn every_width_gives_the_same_bits() {
     let mut set = Textures::default();
     let low = set.push(Texture::Noise(Clouds { scale: 9.0, octaves: 6, low: [0.1, 0.2, 0.3], high: [0.9, 0.5, 0.3] }));
-    let image = set.push(Texture::Image(plain(picture())));
+    let image = set.push(Texture::Image(plain(&picture())));
     set.push(Texture::Checker(Squares { even: low, odd: image, scale: 5.0 }));
     set.push(Texture::Constant(Constant([0.25; 3])));
     for round in 0..200u32 {

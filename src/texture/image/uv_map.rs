@@ -41,7 +41,7 @@ impl UvMap {
     pub fn intervals(&self) -> Option<[[f64; 2]; 2]> {
         let [[a, b, c], [d, e, f]] = self.0;
         let is_aligned = (b == 0.0 && d == 0.0) || (a == 0.0 && e == 0.0);
-        is_aligned.then(|| [[c, a + b + c], [f, d + e + f]])
+        is_aligned.then_some([[c, a + b + c], [f, d + e + f]])
     }
 }
 

@@ -57,7 +57,7 @@ fn before_black<L: Lanes>(t: F<L>, size: u32) -> Neighbours<L> {
     let (start, first) = floor(x);
     let second = first + 1;
     let (has_first, has_second) = (first.below(size), second.below(size));
-    let (none, zero, fraction) = (first & 0, t.splat(0.0), x - start);
+    let (none, zero, fraction) = (U(L::splat_int(first.0, 0)), t.splat(0.0), x - start);
     Neighbours {
         texels: [has_first.pick(first, none), has_second.pick(second, none)],
         weights: [has_first.pick(1.0 - fraction, zero), has_second.pick(fraction, zero)],
