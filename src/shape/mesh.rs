@@ -274,4 +274,18 @@ mod tests {
         let found: Vec<bool> = MeshSource::alternatives()[1..].iter().map(&mut are_same).collect();
         assert_eq!(found, [false, true, true], "lists, a knot, and hills");
     }
+
+    #[test]
+    fn colours_of_files_are_brought_into_their_range() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("a.ply");
+        let types = ["x", "y", "z", "red", "green", "blue"].map(|name| format!("property float {name}\n")).concat();
+        let text = format!(
+            "ply\nformat ascii 1.0\nelement vertex 3\n{types}element face 1\nproperty list uchar int vertex_indices\nend_header\n\
+             0 0 0 0.5 2 -1\n1 0 0 0 0 0\n0 1 0 1 1 1\n3 0 1 2\n"
+        );
+        std::fs::write(&path, text).expect("it is written");
+        let data = from_file(&Resources::new(""), &path, true).expect("it is a mesh");
+        assert_eq!(*data.colours, [[0.5, 1.0, 0.0, 1.0], [0.0, 0.0, 0.0, 1.0], [1.0; 4]]);
+    }
 }

@@ -20,7 +20,6 @@ mod wrapping;
 
 use std::sync::Arc;
 
-use self::uv_map::UvMap;
 pub use self::{
     sampled::SampledImage,
     texels::{Edge, ImageTexture},
@@ -119,10 +118,9 @@ impl Texturing for Image {
         if self.is_plain() {
             return Ok(ImagePattern::Plain(texels));
         }
-        let map = UvMap::new(self)?;
         // The mean may take a visit to all texels.
         let key = format!("sampled {} {self:?}", key_of_file(&resources.path(&self.path)));
-        resources.hold(key, || Ok(SampledImage::new(texels, self, map))).map(ImagePattern::Sampled)
+        resources.hold(key, || SampledImage::new(texels, self)).map(ImagePattern::Sampled)
     }
 }
 

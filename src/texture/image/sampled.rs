@@ -11,6 +11,7 @@ use super::{
     words::{Channel, TexelFilter, Wrap},
 };
 use crate::{
+    declare::Problem,
     math::{F, Lanes, One, U, V},
     texture::Summary,
 };
@@ -27,12 +28,13 @@ pub struct SampledImage {
 }
 
 impl SampledImage {
-    /// Texels with the settings of an image. `map` is that of its coordinates. The texels of opacity hold it as grey.
-    pub fn new(texels: Arc<ImageTexture>, image: &Image, map: UvMap) -> SampledImage {
+    /// Texels with the settings of an image. The texels of opacity hold it as grey. Fails for coordinates far beyond the image.
+    pub fn new(texels: Arc<ImageTexture>, image: &Image) -> Result<SampledImage, Problem> {
         let Image { channel, wrap_u, wrap_v, filter, .. } = *image;
+        let map = UvMap::new(image)?;
         let mut sampled = SampledImage { texels, channel, wrap_u, wrap_v, filter, map, mean: [0.0; 3] };
         sampled.mean = sampled.mean();
-        sampled
+        Ok(sampled)
     }
 
     /// Its properties besides its colours.

@@ -1,4 +1,8 @@
 //! Values where they are known, continuity, means, and lanes of different textures.
+mod combined;
+mod images;
+mod limits;
+
 use std::sync::Arc;
 
 use super::{
