@@ -156,6 +156,11 @@ pub mod description {
     /// Textures.
     pub mod textures {
         #[doc(inline)]
-        pub use crate::texture::{TextureKind, kinds::*};
+        pub use crate::texture::{
+            TextureKind,
+            image::{Channel, TexelFilter, Wrap},
+            kinds::*,
+            ramp::Stop,
+        };
     }
 }

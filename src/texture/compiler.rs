@@ -1,7 +1,7 @@
 //! The textures of a scene while it is compiled: names become ids, and what a texture refers to is compiled before it.
 use std::collections::BTreeMap;
 
-use super::{Constant, FractionSource, Texture, TextureKind, Textures};
+use super::{Constant, Texture, TextureKind, Textures};
 use crate::{
     declare::{Family, Parameter, Path, Problem, Range, Resources, Textured},
     quote,
@@ -17,6 +17,15 @@ const MOST_LOOKUPS: u32 = 64;
 pub enum ColourSource {
     /// The same everywhere, without a texture.
     Constant([f32; 3]),
+    /// The id in [`Textures`].
+    Texture(u32),
+}
+
+/// A fraction, from 0 to 1: constant, or the luminance of a texture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum FractionSource {
+    /// The same everywhere.
+    Constant(f32),
     /// The id in [`Textures`].
     Texture(u32),
 }

@@ -18,10 +18,9 @@ pub mod vertex_color;
 use fearless_simd_macros::simd;
 
 pub use self::{
-    compiler::{ColourSource, TextureCompiler},
+    compiler::{ColourSource, FractionSource, TextureCompiler},
     constant::Constant,
     image::{Edge, ImagePattern, ImageTexture},
-    parts::FractionSource,
 };
 use crate::{
     declare::{Declare, Kind, Parameter, Parameters, Problem},

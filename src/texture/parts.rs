@@ -1,18 +1,9 @@
 //! Parts of textures that combine several: constants, and textures that are looked up at the same point.
-use super::{ColourSource, Constant, Pattern, Summary, TextureCoordinates, Textures};
+use super::{ColourSource, Constant, FractionSource, Pattern, Summary, TextureCoordinates, Textures};
 use crate::math::{
     F, Lanes, M, V,
     colour::{LUMINANCE, luminance},
 };
-
-/// A fraction, from 0 to 1: constant, or the luminance of a texture.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum FractionSource {
-    /// The same everywhere.
-    Constant(f32),
-    /// The id in [`Textures`].
-    Texture(u32),
-}
 
 /// Properties of a fraction.
 pub(super) struct FractionSummary {

@@ -38,7 +38,7 @@ impl Texturing for VertexColor {
     }
 }
 
-/// Vertex colours as the renderer looks them up: their channels.
+/// Vertex colours as the renderer looks them up: their channels. As a height they are flat, because they do not depend on u and v.
 pub struct VertexLookup(pub Channel);
 
 impl Pattern for VertexLookup {
