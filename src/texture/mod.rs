@@ -113,7 +113,7 @@ pub struct Summary {
     pub maximum: [f32; 3],
     /// In u, in v, and in metres: see [`Steps`].
     pub steps: [f32; 3],
-    /// Lookups of other textures that a lookup makes at most, besides the first of nested checkers.
+    /// Lookups of other textures that a lookup makes at most: see [`Textures::lookups`].
     pub lookups: u32,
 }
 
@@ -216,7 +216,8 @@ impl Textures {
         self.maxima[id as usize]
     }
 
-    /// The number of other textures that a lookup looks up at most, one after the other: parts of products, mixtures and ramps.
+    /// The largest number of lookups that a lookup makes of other textures: of the parts of products, mixtures and ramps, and of their
+    /// parts. The squares of checkers do not count.
     pub fn lookups(&self, id: u32) -> u32 {
         self.lookups[id as usize]
     }
