@@ -46,6 +46,8 @@ pub mod geometry;
 #[doc(hidden)]
 pub mod image;
 #[doc(hidden)]
+pub mod import;
+#[doc(hidden)]
 pub mod integrator;
 #[doc(hidden)]
 pub mod light;
@@ -154,6 +156,11 @@ pub mod description {
     /// Textures.
     pub mod textures {
         #[doc(inline)]
-        pub use crate::texture::{TextureKind, kinds::*};
+        pub use crate::texture::{
+            TextureKind,
+            image::{Channel, TexelFilter, Wrap},
+            kinds::*,
+            ramp::Stop,
+        };
     }
 }

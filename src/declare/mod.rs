@@ -25,6 +25,7 @@
 //! | `write.rs` | the visitor that writes a description as TOML |
 //! | `lines.rs` | the visitor that lists values as text |
 //! | `check.rs` | the visitor that compares values with their ranges |
+mod assets;
 mod catalogue;
 mod check;
 mod choices;
@@ -51,13 +52,8 @@ mod write;
 
 #[cfg(feature = "reports")]
 pub use self::dice::Dice;
-pub(crate) use self::{
-    catalogue::catalogue,
-    choices::{choices, kind_of},
-    value::words,
-    words::word_kinds,
-};
 pub use self::{
+    assets::Assets,
     check::{check, check_value},
     declared::{Declare, Kind, OneOf},
     lines::lines_of,
@@ -75,4 +71,10 @@ pub use self::{
     value::{Family, Textured, Value, Word, Words},
     visitor::{Form, Parameters, Rearrangement},
     write::write,
+};
+pub(crate) use self::{
+    catalogue::catalogue,
+    choices::{choices, kind_of},
+    value::words,
+    words::word_kinds,
 };

@@ -188,6 +188,18 @@ impl Instance {
         }
     }
 
+    /// The interpolated colour and opacity of a mesh's vertices; 1 elsewhere.
+    #[simd]
+    pub fn vertex_colour<L: Lanes>(&self, l: L, place: &PrimitiveRef<L>, point: &SurfacePoint<L>) -> [F<L>; 4] {
+        match &self.body {
+            Body::Mesh(mesh) => {
+                let transform = self.transform(l, place.time);
+                mesh.vertex_colour(l, place.element, transform.point_to_local(point.p))
+            }
+            _ => [l.f(1.0); 4],
+        }
+    }
+
     /// A direction from `x` towards a primitive; see [`super::Shapes::toward`].
     #[simd]
     pub fn toward<L: Lanes>(&self, l: L, place: &PrimitiveRef<L>, x: V<L>, u: (F<L>, F<L>)) -> DirectionSample<L> {

@@ -70,9 +70,10 @@ fn decode<P: Pixel>(mut decoder: impl ImageDecoder, besides: u64, encoding: Enco
     Ok(Picture { width, height, radiance })
 }
 
-/// Converts samples from 0 to `most` to linear light. Of fewer than three channels, the first is grey.
+/// Converts samples from 0 to `most` to linear light. Of fewer than three channels, the first is grey. The last of two or four
+/// channels is opacity, which is linear.
 fn linear<P: Pixel>(
-    samples: impl ExactSizeIterator<Item = u16>,
+    mut samples: impl ExactSizeIterator<Item = u16>,
     most: u16,
     channels: usize,
     encoding: Encoding,
@@ -83,11 +84,13 @@ fn linear<P: Pixel>(
     };
     let values: Vec<f32> = (0..=most).map(value).collect();
     let mut radiance = pixels(samples.len() / channels)?;
-    let mut samples = samples.map(|sample| values[usize::from(sample)]);
     while let Some(first) = samples.next() {
         let mut pixel = [first; 4];
         pixel[1..channels].fill_with(|| samples.next().unwrap_or_default());
-        radiance.push(P::of(if channels < 3 { [first; 3] } else { [first, pixel[1], pixel[2]] }));
+        let rgb = if channels < 3 { [first; 3] } else { [first, pixel[1], pixel[2]] };
+        let rgb = rgb.map(|sample| values[usize::from(sample)]);
+        let opacity = || f32::from(pixel[channels - 1]) / f32::from(most);
+        radiance.push(if P::HAS_OPACITY && channels.is_multiple_of(2) { P::with_opacity(rgb, opacity()) } else { P::of(rgb) });
     }
     Ok(radiance)
 }

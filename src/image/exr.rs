@@ -25,9 +25,11 @@ pub(super) fn decode<P: Pixel>(mut file: impl BufRead + Seek) -> Result<Picture<
     let image = read()
         .no_deep_data()
         .largest_resolution_level()
-        .rgb_channels(
+        .rgba_channels(
             |size, _| (size.width(), vec![P::default(); size.area()]),
-            |(width, pixels), at, (r, g, b): (f32, f32, f32)| pixels[at.y() * *width + at.x()] = P::of([r, g, b]),
+            |(width, pixels), at, (r, g, b, a): (f32, f32, f32, f32)| {
+                pixels[at.y() * *width + at.x()] = P::with_opacity([r, g, b], a);
+            },
         )
         .first_valid_layer()
         .all_attributes()

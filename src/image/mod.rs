@@ -2,10 +2,12 @@
 //!
 //! | format | file | values |
 //! |---|---|---|
-//! | PNG | `decoded.rs` | 8 or 16 bits per channel, sRGB or linear; alpha is ignored |
-//! | JPEG, TGA, WebP | `decoded.rs` | 8 bits per channel, sRGB or linear; alpha is ignored |
-//! | OpenEXR | `exr.rs` | linear; the layer's R, G and B |
+//! | PNG | `decoded.rs` | 8 or 16 bits per channel, sRGB or linear |
+//! | JPEG, TGA, WebP | `decoded.rs` | 8 bits per channel, sRGB or linear |
+//! | OpenEXR | `exr.rs` | linear; the layer's R, G, B and A |
 //! | Radiance HDR | `hdr.rs` | linear; one common exponent per pixel |
+//!
+//! Opacity (alpha) is linear in all formats. It is read on its own, by [`read_opacity`], and ignored otherwise.
 mod carried;
 mod decoded;
 mod exr;
@@ -49,7 +51,15 @@ pub type Texels = Picture<[f32; 4]>;
 
 /// The in-memory format of a pixel.
 trait Pixel: Copy + Default {
+    /// Whether it keeps opacity.
+    const HAS_OPACITY: bool = false;
+
+    /// An opaque pixel.
     fn of(rgb: [f32; 3]) -> Self;
+
+    fn with_opacity(rgb: [f32; 3], _opacity: f32) -> Self {
+        Self::of(rgb)
+    }
 }
 
 impl Pixel for [f32; 3] {
@@ -61,6 +71,23 @@ impl Pixel for [f32; 3] {
 impl Pixel for [f32; 4] {
     fn of([r, g, b]: [f32; 3]) -> Self {
         [r, g, b, 0.0]
+    }
+}
+
+/// A pixel of which only the opacity is kept.
+#[derive(Clone, Copy, Default)]
+struct Opacity(f32);
+
+impl Pixel for Opacity {
+    const HAS_OPACITY: bool = true;
+
+    fn of(_: [f32; 3]) -> Self {
+        Opacity(1.0)
+    }
+
+    fn with_opacity(_: [f32; 3], opacity: f32) -> Self {
+        // NaN becomes 0.
+        Opacity(if opacity > 0.0 { opacity.min(1.0) } else { 0.0 })
     }
 }
 
@@ -160,6 +187,12 @@ pub fn read_light(path: &Path, encoding: Encoding) -> Result<Texels, PictureErro
         *pixel = pixel.map(|x| x.max(0.0));
     }
     Ok(picture)
+}
+
+/// Reads the opacity of an image as grey, from 0 to 1; it is 1 if the file has none.
+pub fn read_opacity(path: &Path) -> Result<Texels, PictureError> {
+    let Picture { width, height, radiance } = read_as::<Opacity>(path, Encoding::Linear)?;
+    Ok(Picture { width, height, radiance: radiance.iter().map(|Opacity(x)| Pixel::of([*x; 3])).collect() })
 }
 
 /// The result of [`looks_like`] for a PNG.

@@ -1,7 +1,7 @@
 //! Hand-made image files, byte by byte.
 use std::io::Cursor;
 
-use super::{Encoding, ImageFormatError, Picture, Texels, decode};
+use super::{Encoding, ImageFormatError, Opacity, Picture, Texels, decode, read_opacity};
 
 fn read(bytes: &[u8]) -> Result<Picture, ImageFormatError> {
     decode(Cursor::new(bytes), Encoding::Linear)
@@ -85,6 +85,32 @@ fn pngs_of_any_depth_and_channels_are_read() {
     let grey: Result<Picture, ImageFormatError> =
         decode(Cursor::new(png(1, 1, ColorType::Grayscale, BitDepth::Eight, &[188])), Encoding::Srgb);
     assert!((grey.expect("it is a picture").radiance[0][1] - 0.502_886).abs() < 1e-6);
+}
+
+#[test]
+fn opacity_is_linear_and_1_without_a_channel() {
+    use png::{BitDepth, ColorType};
+    let opacities = |bytes: &[u8]| -> Vec<f32> {
+        let picture: Picture<Opacity> = decode(Cursor::new(bytes), Encoding::Srgb).expect("it is a picture");
+        picture.radiance.iter().map(|Opacity(x)| *x).collect()
+    };
+    assert_eq!(opacities(&png(2, 1, ColorType::Rgba, BitDepth::Eight, &[255, 0, 51, 51, 1, 2, 3, 255])), [0.2, 1.0]);
+    assert_eq!(opacities(&png(1, 1, ColorType::GrayscaleAlpha, BitDepth::Sixteen, &[255, 255, 51, 51])), [0.2]);
+    assert_eq!(opacities(&png(1, 1, ColorType::Rgb, BitDepth::Eight, &[1, 2, 3])), [1.0]);
+    assert_eq!(opacities(&png(1, 1, ColorType::Grayscale, BitDepth::Eight, &[1])), [1.0]);
+    assert_eq!(opacities(&hdr(&format!("{HEADER}\n-Y 1 +X 1\n"), &[128, 64, 0, 129])), [1.0]);
+}
+
+#[test]
+fn the_opacity_of_an_exr_is_read_as_grey_within_its_range() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("a.exr");
+    let opacity = [0.25, 7.0, -1.0, f32::NAN];
+    ::exr::prelude::write_rgba_file(&path, 4, 1, |x, _| (0.5f32, 0.5f32, 0.5f32, opacity[x])).expect("it is written");
+    let texels = read_opacity(&path).expect("it is a picture");
+    let greys = [0.25, 1.0, 0.0, 0.0].map(|x: f32| [x, x, x, 0.0]);
+    assert_eq!((texels.width, texels.height, texels.radiance), (4, 1, greys.to_vec()));
+    assert_eq!(super::read_light(&path, Encoding::Srgb).expect("it is light").radiance[3], [0.5, 0.5, 0.5, 0.0]);
 }
 
 /// 3 × 2 pixels of 10, 20, … 60, in the passes of Adam7.

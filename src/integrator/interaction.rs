@@ -69,6 +69,19 @@ pub(super) fn emission_texture<L: Lanes>(
     point: SurfacePoint<L>,
 ) -> V<L> {
     let Coordinates { u, v } = scene.shapes.coordinates(l, &place, &point);
-    let at = TextureCoordinates { u, v, p: point.p };
+    let vertex = vertex_colour(l, scene, place, point);
+    let at = TextureCoordinates { u, v, p: point.p, vertex: vertex.as_ref() };
     scene.lights.emitters.variation(l, &scene.textures, emits, place.primitive, &at)
+}
+
+/// The colour and opacity of vertices at a point, in scenes with textures that need them.
+#[inline(always)]
+pub(super) fn vertex_colour<L: Lanes>(l: L, scene: &Scene, place: PrimitiveRef<L>, point: SurfacePoint<L>) -> Option<[F<L>; 4]> {
+    if scene.textures.use_vertices() { Some(interpolated_colour(l, scene, place, point)) } else { None }
+}
+
+/// A call, and arguments by value, for the same reason as [`emission_texture`].
+#[simd]
+fn interpolated_colour<L: Lanes>(l: L, scene: &Scene, place: PrimitiveRef<L>, point: SurfacePoint<L>) -> [F<L>; 4] {
+    scene.shapes.vertex_colour(l, &place, &point)
 }

@@ -1,5 +1,9 @@
 //! Properties that vary over a surface: colour, roughness and shading normal at the points where paths arrive.
-use super::{interaction::SurfaceInteraction, normal_mapping::shading_normal, records::Detail};
+use super::{
+    interaction::{SurfaceInteraction, vertex_colour},
+    normal_mapping::shading_normal,
+    records::Detail,
+};
 use crate::{
     geometry::Coordinates,
     math::{Lanes, M, Pick, U, V},
@@ -54,7 +58,8 @@ pub(super) fn vary<L: Lanes>(
     }
     if surfaces.textured || !surfaces.relief.is_empty() {
         let Coordinates { u, v } = scene.shapes.coordinates(l, place, point);
-        let at = TextureCoordinates { u, v, p: point.p };
+        let vertex = vertex_colour(l, scene, *place, *point);
+        let at = TextureCoordinates { u, v, p: point.p, vertex: vertex.as_ref() };
         let id = colour_texture.bits();
         let coloured = mask & !id.is(0);
         if coloured.any() {

@@ -11,6 +11,7 @@ mod bound;
 mod choice;
 mod coordinates;
 pub mod emission;
+pub mod lamp;
 mod lobe;
 pub mod parameters;
 mod reference_point;

@@ -13,7 +13,7 @@ use super::{
     ggx, grazing,
 };
 use crate::{
-    declare::{Declare, Kind, Parameter, Parameters, Problem},
+    declare::{Declare, Kind, Parameter, Parameters, Problem, Range},
     math::{F, Lanes, M, One, Pick, V},
     sampling::Directions,
 };
@@ -25,26 +25,42 @@ pub struct Conductor {
     pub fresnel: Reflectance,
     /// Roughness, 0 for a smooth surface.
     pub roughness: Roughness,
+    /// How much longer the highlight is across the tangent, from 0 (round) to 1.
+    pub anisotropy: f64,
+    /// Rotation of the tangent about the normal, degrees.
+    pub tangent_rotation: f64,
     /// Whether to add the light that scatters more than once between microfacets.
     pub energy_compensation: bool,
 }
 
 impl Default for Conductor {
     fn default() -> Self {
-        Conductor { fresnel: Reflectance::default(), roughness: Roughness::SMOOTH, energy_compensation: true }
+        Conductor {
+            fresnel: Reflectance::default(),
+            roughness: Roughness::SMOOTH,
+            anisotropy: 0.0,
+            tangent_rotation: 0.0,
+            energy_compensation: true,
+        }
     }
 }
 
 impl Conductor {
     /// Metal of constant α.
     pub fn new(fresnel: Reflectance, alpha: f32, energy_compensation: bool) -> Conductor {
-        Conductor { fresnel, roughness: Roughness::alpha(alpha), energy_compensation }
+        Conductor { fresnel, roughness: Roughness::alpha(alpha), energy_compensation, ..Conductor::default() }
     }
 }
 
 /// The flag of conductors and dielectrics.
 pub(super) const ENERGY_COMPENSATION: Parameter =
     Parameter::new("energy_compensation", "Whether to add the light that scatters more than once between microfacets.");
+
+/// The anisotropy of conductors and dielectrics.
+pub(super) const ANISOTROPY: Parameter =
+    Parameter::new("anisotropy", "How much longer the highlight is across the tangent; 0 is round.");
+pub(super) const TANGENT_ROTATION: Parameter =
+    Parameter::new("tangent_rotation", "Rotation of the tangent about the normal.").unit("degrees");
 
 impl Kind for Conductor {
     const KIND: Parameter = Parameter::new("conductor", "Metal, smooth or rough: GGX microfacets with Fresnel's reflectance.")
@@ -56,6 +72,8 @@ impl Declare for Conductor {
     fn parameters(&mut self, p: &mut dyn Parameters) {
         p.one_of(&mut self.fresnel);
         p.one_of(&mut self.roughness);
+        p.number(&ANISOTROPY, &mut self.anisotropy, Range::UNIT);
+        p.number(&TANGENT_ROTATION, &mut self.tangent_rotation, Range::FINITE);
         p.flag(&ENERGY_COMPENSATION, &mut self.energy_compensation);
     }
 }

@@ -2,7 +2,8 @@
 pub use super::rough_dielectric::RoughDielectric;
 use super::{
     Bsdf, BsdfSample, ChosenLobe, Compile, CompiledMaterial, Lobes, Local, MaterialCompiler, Materials, Roughness, Shade, Stage,
-    conductor::ENERGY_COMPENSATION, fresnel, ggx, ior,
+    conductor::{ANISOTROPY, ENERGY_COMPENSATION, TANGENT_ROTATION},
+    fresnel, ggx, ior,
 };
 use crate::{
     declare::{Declare, Kind, Parameter, Parameters, Problem, Range},
@@ -19,6 +20,10 @@ pub struct Dielectric {
     pub ior_outside: f64,
     /// Roughness of the interface, 0 for a smooth one.
     pub roughness: Roughness,
+    /// How much longer the highlight is across the tangent, from 0 (round) to 1.
+    pub anisotropy: f64,
+    /// Rotation of the tangent about the normal, degrees.
+    pub tangent_rotation: f64,
     /// Transmittance of a metre of the interior, per channel.
     pub transmittance: [f64; 3],
     /// Whether to add the light that scatters more than once between microfacets.
@@ -31,6 +36,8 @@ impl Default for Dielectric {
             ior: 1.5,
             ior_outside: 1.0,
             roughness: Roughness::SMOOTH,
+            anisotropy: 0.0,
+            tangent_rotation: 0.0,
             transmittance: [1.0; 3],
             energy_compensation: true,
         }
@@ -63,6 +70,8 @@ impl Declare for Dielectric {
         p.number(&IOR, &mut self.ior, Range::INDEX);
         p.number(&IOR_OUTSIDE, &mut self.ior_outside, Range::INDEX);
         p.one_of(&mut self.roughness);
+        p.number(&ANISOTROPY, &mut self.anisotropy, Range::UNIT);
+        p.number(&TANGENT_ROTATION, &mut self.tangent_rotation, Range::FINITE);
         let range =
             Range::UNIT.expected("every channel must lie in [0, 1]: the fraction that one metre of the interior transmits");
         p.colour(&TRANSMITTANCE, &mut self.transmittance, range);

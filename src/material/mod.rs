@@ -7,12 +7,14 @@
 //! and in `missing_energy.rs` for interfaces.
 mod albedo;
 mod albedo_table;
+pub mod blend;
 mod bsdf;
 mod compiled;
 pub mod conductor;
 mod conductor_fresnel;
 pub mod dielectric;
 mod dielectric_albedo;
+pub mod diffuse_transmission;
 pub mod fresnel;
 pub mod ggx;
 mod grazing;
@@ -20,7 +22,9 @@ pub mod lambertian;
 mod materials;
 pub mod mirror;
 mod missing_energy;
+pub mod null;
 pub mod plastic;
+pub mod principled;
 pub mod rough_dielectric;
 mod roughness;
 mod shade;
@@ -46,7 +50,7 @@ pub use self::{
 use crate::declare::{Parameter, Path, Problem};
 
 macro_rules! materials {
-    ($($module:ident::$Material:ident => $($Stage:ident)+),+ $(,)?) => {
+    ($($module:ident::$Material:ident => $($Stage:ident)*),+ $(,)?) => {
         crate::declare::catalogue! {
             /// A material as a scene describes it.
             pub enum Material: Compile, "material" { $($module::$Material),+ }
@@ -57,13 +61,13 @@ macro_rules! materials {
         pub enum Stage {
             $($(
                 #[doc = concat!("A stage of `", stringify!($module), ".rs`.")]
-                $Stage
-            ),+),+
+                $Stage,
+            )*)+
         }
 
         impl Stage {
             /// All stages, in the order of the catalogue.
-            pub const ALL: &'static [Stage] = &[$($(Stage::$Stage),+),+];
+            pub const ALL: &'static [Stage] = &[$($(Stage::$Stage,)*)+];
         }
 
         /// `in_stage!(stage, K => call::<K>(…))`: the call with the [`Shade`] of a [`Stage`].
@@ -73,7 +77,7 @@ macro_rules! materials {
                     $($($crate::material::Stage::$Stage => {
                         type $kind = $crate::material::$module::$Stage;
                         $call
-                    })+)+
+                    })*)+
                 }
             };
         }
@@ -87,6 +91,10 @@ materials! {
     dielectric::Dielectric => Dielectric RoughDielectric,
     plastic::Plastic => Plastic,
     thin_dielectric::ThinDielectric => ThinDielectric,
+    diffuse_transmission::DiffuseTransmission => ,
+    principled::Principled => ,
+    blend::Blend => ,
+    null::Null => ,
 }
 pub(crate) use in_stage;
 

@@ -41,6 +41,8 @@ pub struct Model {
     pub normals: Option<Vec<[f32; 3]>>,
     /// One per vertex, with v as in the file: upwards by the convention of both formats.
     pub uvs: Option<Vec<[f32; 2]>>,
+    /// One per vertex: linear Rec. 709 and opacity.
+    pub colours: Option<Vec<[f32; 4]>>,
 }
 
 /// Error of reading a mesh file.

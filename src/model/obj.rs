@@ -1,11 +1,13 @@
 //! Wavefront OBJ: reads all polygons, and ignores groups, objects and materials.
 //!
 //! Wavefront Technologies, "Appendix B1. Object Files (.obj)", Advanced Visualizer manual, 1995. A corner of a face refers to a
-//! position, a texture coordinate and a normal separately; each distinct combination becomes a vertex.
+//! position, a texture coordinate and a normal separately; each distinct combination becomes a vertex. Colours after a position,
+//! which the standard does not have, are sRGB, as Blender writes them.
 use std::borrow::Cow;
 
 use super::{Model, ModelFormatError, Place, number};
 use crate::{
+    math::colour::linear_from_srgb,
     memory::{Reservation, reserve},
     quote,
 };
@@ -89,7 +91,12 @@ struct Lists {
     places: Vec<[f32; 3]>,
     uvs: Vec<[f32; 2]>,
     normals: Vec<[f32; 3]>,
+    /// Colours of positions, up to the last one that has any.
+    colours: Vec<[f32; 4]>,
 }
+
+/// The colour of positions without one.
+const WHITE: [f32; 4] = [1.0; 4];
 
 impl Lists {
     fn read(text: &str, room: &mut Reservation) -> Result<Lists, ModelFormatError> {
@@ -102,7 +109,15 @@ impl Lists {
 
     fn add<'a>(&mut self, mut words: impl Iterator<Item = &'a str> + Clone, room: &mut Reservation) -> Result<(), String> {
         match words.next() {
-            Some("v") => room.push(&mut self.places, place(words)?, "vertices"),
+            Some("v") => {
+                if let Some(colour) = colour(words.clone()) {
+                    while self.colours.len() < self.places.len() {
+                        room.push(&mut self.colours, WHITE, "colours").map_err(|error| error.to_string())?;
+                    }
+                    room.push(&mut self.colours, colour, "colours").map_err(|error| error.to_string())?;
+                }
+                room.push(&mut self.places, place(words)?, "vertices")
+            }
             Some("vt") => room.push(&mut self.uvs, numbers(words, 1).map(finite)?, "texture coordinates"),
             Some("vn") => room.push(&mut self.normals, numbers(words, 3).map(finite)?, "normals"),
             _ => Ok(()),
@@ -123,6 +138,12 @@ fn place<'a>(words: impl Iterator<Item = &'a str> + Clone) -> Result<[f32; 3], S
         Some((_, word)) => Err(format!("{} is not a finite number", quote::bytes(word.as_bytes()))),
         None => Ok(place),
     }
+}
+
+/// The colour after a position, if there is one: three numbers more. A fourth number alone is a weight.
+fn colour<'a>(words: impl Iterator<Item = &'a str>) -> Option<[f32; 4]> {
+    let [red, green, blue] = finite(numbers(words.skip(3), 3).ok()?).map(|x| linear_from_srgb(x.into()) as f32);
+    Some([red, green, blue, 1.0])
 }
 
 /// Reads N numbers. Those after the first `needed` are optional and 0 by default; further ones, such as weights, are ignored.
@@ -201,14 +222,18 @@ impl<'a> Faces<'a> {
     fn into_model(self) -> Result<Model, ModelFormatError> {
         /// Bytes per corner in the lists of distinct corners and their attributes.
         const CORNER: u64 = 48;
+        const COLOUR: u64 = size_of::<[f32; 4]>() as u64;
         let Faces { lists, corners, mut triangles, room: _room } = self;
-        let _more = reserve(format_args!("{} corners", corners.len()), CORNER * corners.len() as u64)?;
+        let bytes = CORNER + if lists.colours.is_empty() { 0 } else { COLOUR };
+        let _more = reserve(format_args!("{} corners", corners.len()), bytes * corners.len() as u64)?;
         let (distinct, vertices) = distinct(&corners, lists.places.len());
         triangles.as_flattened_mut().iter_mut().for_each(|corner| *corner = vertices[*corner as usize]);
         let uvs = attribute(&distinct, &lists.uvs, |corner| corner.uv);
         let normals = attribute(&distinct, &lists.normals, |corner| corner.normal);
         let vertices = distinct.iter().map(|corner| lists.places[corner.place as usize]).collect();
-        Ok(Model { vertices, triangles, normals, uvs })
+        let colour = |corner: &Corner| lists.colours.get(corner.place as usize).copied().unwrap_or(WHITE);
+        let colours = (!lists.colours.is_empty()).then(|| distinct.iter().map(colour).collect());
+        Ok(Model { vertices, triangles, normals, uvs, colours })
     }
 }
 

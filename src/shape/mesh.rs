@@ -17,8 +17,9 @@ use crate::{
 
 /// Bytes per triangle of a procedural mesh, including its share of vertices and the computation of their normals.
 const MADE_TRIANGLE: u64 = 110;
-/// Bytes per vertex and per triangle of lists, and of smooth normals while they are computed.
+/// Bytes per vertex and per triangle of lists, of colours, and of smooth normals while they are computed.
 const VERTEX: u64 = 32;
+const COLOUR: u64 = 16;
 const TRIANGLE: u64 = 12;
 const SMOOTHING: u64 = 120;
 /// Range of the number of triangles of a procedural mesh.
@@ -220,12 +221,17 @@ fn reserve(resources: &Resources, key: &str, triangles: u64) -> Result<(), Probl
 
 fn from_file(resources: &Resources, path: &Path, smooth: bool) -> Result<MeshData, Problem> {
     let model = read(path).map_err(|error| Problem::at("path", error.to_string(), "this mesh cannot be used"))?;
-    let Model { vertices, triangles, normals, uvs } = model;
+    let Model { vertices, triangles, normals, uvs, colours } = model;
     let smoothing = if smooth && normals.is_none() { SMOOTHING } else { 0 };
-    let bytes = (VERTEX + smoothing) * vertices.len() as u64 + TRIANGLE * triangles.len() as u64;
+    let colouring = if colours.is_some() { COLOUR } else { 0 };
+    let bytes = (VERTEX + smoothing + colouring) * vertices.len() as u64 + TRIANGLE * triangles.len() as u64;
     resources.reserve("path", format_args!("{} vertices and {} triangles", vertices.len(), triangles.len()), bytes)?;
     let normals = smooth.then(|| normals.unwrap_or_else(|| smooth_normals(&vertices, &triangles)));
-    Ok(MeshData { vertices, triangles, normals: normals.unwrap_or_default(), uvs: uvs.unwrap_or_default() })
+    let mut colours = colours.unwrap_or_default();
+    // Textures of vertex colours count on their range. NaN becomes 0.
+    colours.as_flattened_mut().iter_mut().for_each(|x| *x = if *x > 0.0 { x.min(1.0) } else { 0.0 });
+    let (normals, uvs) = (normals.unwrap_or_default(), uvs.unwrap_or_default());
+    Ok(MeshData { vertices, triangles, normals, uvs, colours: Arc::new(colours) })
 }
 
 fn from_lists(resources: &Resources, vertices: &[[f64; 3]], triangles: &[[u32; 3]], smooth: bool) -> Result<MeshData, Problem> {
@@ -245,7 +251,7 @@ fn from_lists(resources: &Resources, vertices: &[[f64; 3]], triangles: &[[u32; 3
         }
     }
     let normals = if smooth { smooth_normals(&points, triangles) } else { Vec::new() };
-    Ok(MeshData { vertices: points, triangles: triangles.to_vec(), normals, uvs: Vec::new() })
+    Ok(MeshData { vertices: points, triangles: triangles.to_vec(), normals, ..MeshData::default() })
 }
 
 fn shaded(data: MeshData, smooth: bool) -> MeshData {
@@ -267,5 +273,19 @@ mod tests {
         };
         let found: Vec<bool> = MeshSource::alternatives()[1..].iter().map(&mut are_same).collect();
         assert_eq!(found, [false, true, true], "lists, a knot, and hills");
+    }
+
+    #[test]
+    fn colours_of_files_are_brought_into_their_range() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("a.ply");
+        let types = ["x", "y", "z", "red", "green", "blue"].map(|name| format!("property float {name}\n")).concat();
+        let text = format!(
+            "ply\nformat ascii 1.0\nelement vertex 3\n{types}element face 1\nproperty list uchar int vertex_indices\nend_header\n\
+             0 0 0 0.5 2 -1\n1 0 0 0 0 0\n0 1 0 1 1 1\n3 0 1 2\n"
+        );
+        std::fs::write(&path, text).expect("it is written");
+        let data = from_file(&Resources::new(""), &path, true).expect("it is a mesh");
+        assert_eq!(*data.colours, [[0.5, 1.0, 0.0, 1.0], [0.0, 0.0, 0.0, 1.0], [1.0; 4]]);
     }
 }

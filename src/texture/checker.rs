@@ -68,11 +68,12 @@ impl Pattern for Squares {
             mean: [0, 1, 2].map(|channel| even.mean[channel] * share + odd.mean[channel] * (1.0 - share)),
             maximum: [0, 1, 2].map(|channel| f32::max(even.maximum[channel], odd.maximum[channel])),
             steps: [eu.min(ou).min(step), ev.min(ov).min(step), ep.min(op)],
+            lookups: even.lookups.saturating_add(odd.lookups),
         }
     }
 
     #[inline(always)]
-    fn apply<L: Lanes>(&self, l: L, here: M<L>, at: &TextureCoordinates<L>, found: &mut Found<L>) {
+    fn apply<L: Lanes>(&self, l: L, here: M<L>, at: &TextureCoordinates<L>, _: &Textures, found: &mut Found<L>) {
         found.id = here.pick(is_even(at.u, at.v, self.scale).pick(l.u(self.even), l.u(self.odd)), found.id);
     }
 }

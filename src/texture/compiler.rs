@@ -9,12 +9,23 @@ use crate::{
 
 /// Textures of textures may go this deep.
 const DEEPEST: usize = 64;
+/// A lookup may make so many of other textures. A product of a product of … with itself would make 2ⁿ.
+const MOST_LOOKUPS: u32 = 64;
 
 /// A colour of the scene: constant or by a texture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ColourSource {
     /// The same everywhere, without a texture.
     Constant([f32; 3]),
+    /// The id in [`Textures`].
+    Texture(u32),
+}
+
+/// A fraction, from 0 to 1: constant, or the luminance of a texture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum FractionSource {
+    /// The same everywhere.
+    Constant(f32),
     /// The id in [`Textures`].
     Texture(u32),
 }
@@ -67,20 +78,48 @@ impl<'a> TextureCompiler<'a> {
         let kind = &self.described[name];
         self.open.push(name.to_owned());
         let texture = kind.compile(self).map_err(|problem| problem.within(&Path::of(kind.name())))?;
-        self.open.pop();
         let id = self.textures.push(texture);
+        let lookups = self.textures.lookups(id);
+        if lookups > MOST_LOOKUPS {
+            let message = format!("a lookup of this texture takes {lookups} lookups of others, more than {MOST_LOOKUPS}");
+            return Err(Problem::at(kind.name(), message, "it combines too many"));
+        }
+        self.open.pop();
         self.ids.insert(name.to_owned(), id);
         Ok(id)
     }
 
     /// The id of a part of a texture: of a colour, or of another texture, which is compiled first.
     pub fn part(&mut self, key: &str, value: &Textured) -> Result<u32, Problem> {
+        match self.source(key, value)? {
+            ColourSource::Constant(colour) => Ok(self.textures.push(Texture::Constant(Constant(colour)))),
+            ColourSource::Texture(id) => Ok(id),
+        }
+    }
+
+    /// A part of a texture: a colour, or another texture, which is compiled first.
+    pub fn source(&mut self, key: &str, value: &Textured) -> Result<ColourSource, Problem> {
+        match value {
+            Textured::Constant(colour) => Ok(ColourSource::Constant(colour.map(|x| x as f32))),
+            Textured::Texture(name) => self.nested(key, name).map(ColourSource::Texture),
+        }
+    }
+
+    /// A part of a texture that is a fraction: a number from 0 to 1, or another texture, which is compiled first.
+    pub fn fraction(&mut self, key: &str, value: &Textured<f64>) -> Result<FractionSource, Problem> {
         let name = match value {
-            Textured::Constant(colour) => return Ok(self.textures.push(Texture::Constant(Constant(colour.map(|x| x as f32))))),
+            Textured::Constant(x) => return Ok(FractionSource::Constant(*x as f32)),
             Textured::Texture(name) => name,
         };
+        let id = self.nested(key, name)?;
+        self.check_range(key, (name, id), &Range::UNIT)?;
+        Ok(FractionSource::Texture(id))
+    }
+
+    /// The id of a texture that another one names at a key; it is compiled first.
+    fn nested(&mut self, key: &str, name: &str) -> Result<u32, Problem> {
         let at = format!("{key}.texture");
-        if let Some(start) = self.open.iter().position(|open| open == name) {
+        if let Some(start) = self.open.iter().position(|open| open.as_str() == name) {
             let circle: Vec<String> =
                 self.open[start..].iter().chain([&self.open[start]]).map(|name| format!("`{}`", quote::piece(name))).collect();
             let shown = match &circle[..] {
@@ -115,14 +154,19 @@ impl<'a> TextureCompiler<'a> {
             Textured::Constant(colour) => return Ok(ColourSource::Constant(colour.map(|x| x as f32))),
             Textured::Texture(name) => name,
         };
-        let key = format!("{}.texture", parameter.key);
-        let id = self.id(&key, name)?;
+        let id = self.id(&format!("{}.texture", parameter.key), name)?;
+        self.check_range(parameter.key, (name, id), range)?;
+        Ok(ColourSource::Texture(id))
+    }
+
+    /// Checks that a texture at a key does not exceed the range.
+    fn check_range(&self, key: &str, (name, id): (&str, u32), range: &Range) -> Result<(), Problem> {
         let most = self.textures.maximum(id).into_iter().fold(0.0, f32::max);
         if f64::from(most) > range.most {
-            let message = format!("`{}` is out of range: texture `{name}` reaches {most}", parameter.key);
-            return Err(Problem::at(&key, message, range.expected));
+            let message = format!("`{key}` is out of range: texture `{name}` reaches {most}");
+            return Err(Problem::at(&format!("{key}.texture"), message, range.expected));
         }
-        Ok(ColourSource::Texture(id))
+        Ok(())
     }
 
     /// The colour, or the mean colour of the texture.

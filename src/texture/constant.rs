@@ -7,11 +7,11 @@ pub struct Constant(pub [f32; 3]);
 
 impl Pattern for Constant {
     fn summary(&self, _: &Textures) -> Summary {
-        Summary { mean: self.0, maximum: self.0, steps: [Summary::COARSEST, Summary::COARSEST, f32::INFINITY] }
+        Summary { mean: self.0, maximum: self.0, steps: [Summary::COARSEST, Summary::COARSEST, f32::INFINITY], lookups: 0 }
     }
 
     #[inline(always)]
-    fn apply<L: Lanes>(&self, l: L, here: M<L>, _: &TextureCoordinates<L>, found: &mut Found<L>) {
+    fn apply<L: Lanes>(&self, l: L, here: M<L>, _: &TextureCoordinates<L>, _: &Textures, found: &mut Found<L>) {
         found.colour = here.pick(V::splat(l, self.0), found.colour);
     }
 }

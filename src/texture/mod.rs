@@ -6,16 +6,21 @@ pub mod checker;
 mod compiler;
 mod constant;
 pub mod image;
+pub mod mix;
 pub mod noise;
+mod parts;
+pub mod product;
+pub mod ramp;
 #[cfg(test)]
 mod tests;
+pub mod vertex_color;
 
 use fearless_simd_macros::simd;
 
 pub use self::{
-    compiler::{ColourSource, TextureCompiler},
+    compiler::{ColourSource, FractionSource, TextureCompiler},
     constant::Constant,
-    image::{Edge, ImageTexture},
+    image::{Edge, ImagePattern, ImageTexture},
 };
 use crate::{
     declare::{Declare, Kind, Parameter, Parameters, Problem},
@@ -64,6 +69,10 @@ textures! {
     image::Image,
     checker::Checker,
     noise::Noise,
+    product::Product,
+    mix::Mix,
+    ramp::Ramp,
+    vertex_color::VertexColor,
 }
 
 /// The key of a texture that replaces a value.
@@ -83,8 +92,9 @@ pub trait Pattern {
     /// Its properties besides its colours; `textures` holds those that it refers to.
     fn summary(&self, textures: &Textures) -> Summary;
 
-    /// Writes the colour, or the texture to look up in its place, in the lanes `here`.
-    fn apply<L: Lanes>(&self, l: L, here: M<L>, at: &TextureCoordinates<L>, found: &mut Found<L>);
+    /// Writes the colour, or the texture to look up in its place, in the lanes `here`. A texture that combines several looks them
+    /// up among `textures`.
+    fn apply<L: Lanes>(&self, l: L, here: M<L>, at: &TextureCoordinates<L>, textures: &Textures, found: &mut Found<L>);
 }
 
 /// Result of a lookup so far.
@@ -103,6 +113,8 @@ pub struct Summary {
     pub maximum: [f32; 3],
     /// In u, in v, and in metres: see [`Steps`].
     pub steps: [f32; 3],
+    /// Lookups of other textures that a lookup makes at most: see [`Textures::lookups`].
+    pub lookups: u32,
 }
 
 impl Summary {
@@ -112,13 +124,15 @@ impl Summary {
 
 /// The point of a texture lookup.
 #[derive(Clone, Copy)]
-pub struct TextureCoordinates<L: Lanes> {
+pub struct TextureCoordinates<'a, L: Lanes> {
     /// Surface coordinates, in [0, 1) on analytic shapes; meshes may exceed it.
     pub u: F<L>,
     /// The second surface coordinate.
     pub v: F<L>,
     /// World-space position, metres.
     pub p: V<L>,
+    /// Interpolated colour and opacity of vertices. `None` is white; it stands in scenes without [`vertex_color`] textures.
+    pub vertex: Option<&'a [F<L>; 4]>,
 }
 
 /// Steps for finite differences of a texture's [height](Textures::height).
@@ -138,22 +152,26 @@ pub struct Textures {
     means: Vec<[f32; 3]>,
     maxima: Vec<[f32; 3]>,
     steps: Vec<[f32; 4]>,
+    lookups: Vec<u32>,
+    use_vertices: bool,
 }
 
 impl Textures {
     /// Adds a texture and returns its id. Textures that it refers to must have been added before.
     pub fn push(&mut self, texture: Texture) -> u32 {
-        let Summary { mean, maximum, steps: [u, v, p] } = in_texture!(&texture, pattern => pattern.summary(self));
+        let Summary { mean, maximum, steps: [u, v, p], lookups } = in_texture!(&texture, pattern => pattern.summary(self));
         self.means.push(mean);
         self.maxima.push(maximum);
         self.steps.push([u, v, p, 0.0]);
+        self.lookups.push(lookups);
+        self.use_vertices |= matches!(texture, Texture::VertexColor(_));
         self.textures.push(texture);
         self.textures.len() as u32 - 1
     }
 
     fn summary_of(&self, id: u32) -> Summary {
         let [u, v, p, _] = self.steps[id as usize];
-        Summary { mean: self.mean(id), maximum: self.maximum(id), steps: [u, v, p] }
+        Summary { mean: self.mean(id), maximum: self.maximum(id), steps: [u, v, p], lookups: self.lookups(id) }
     }
 
     /// The colour of the textures `id` in the lanes of the mask; black in the others.
@@ -164,7 +182,7 @@ impl Textures {
         for k in (0..self.textures.len()).rev() {
             let here = mask & found.id.is(k as u32);
             if here.any() {
-                in_texture!(&self.textures[k], pattern => pattern.apply(l, here, at, &mut found));
+                in_texture!(&self.textures[k], pattern => pattern.apply(l, here, at, self, &mut found));
             }
         }
         found.colour
@@ -185,8 +203,9 @@ impl Textures {
         Steps { u, v, p }
     }
 
-    /// The mean colour. It is exact over the unit square for images and checkers of constants. For noise it is the expectation
-    /// over random gradients; for a checker of textures, their means weighted by area. It is zero only if the colour is zero
+    /// The mean colour. It is exact over the unit square for images, except those turned by other angles than multiples of 90°, and for
+    /// checkers of constants. For noise it is the expectation over random gradients; for a checker of textures, their means weighted
+    /// by area; for products and mixtures, that of parts that do not depend on each other. It is zero only if the colour is zero
     /// everywhere.
     pub fn mean(&self, id: u32) -> [f32; 3] {
         self.means[id as usize]
@@ -195,6 +214,17 @@ impl Textures {
     /// The largest value that each channel can take.
     pub fn maximum(&self, id: u32) -> [f32; 3] {
         self.maxima[id as usize]
+    }
+
+    /// The largest number of lookups that a lookup makes of other textures: of the parts of products, mixtures and ramps, and of their
+    /// parts. The squares of checkers do not count.
+    pub fn lookups(&self, id: u32) -> u32 {
+        self.lookups[id as usize]
+    }
+
+    /// Whether some texture needs the colours of vertices.
+    pub fn use_vertices(&self) -> bool {
+        self.use_vertices
     }
 
     /// Number of textures.

@@ -74,11 +74,12 @@ impl Pattern for Clouds {
             mean: [0, 1, 2].map(|channel| 0.5 * (self.low[channel] + self.high[channel])),
             maximum: [0, 1, 2].map(|channel| f32::max(self.low[channel], self.high[channel])),
             steps: [Summary::COARSEST, Summary::COARSEST, step(self.scale, self.octaves)],
+            lookups: 0,
         }
     }
 
     #[inline(always)]
-    fn apply<L: Lanes>(&self, l: L, here: M<L>, at: &TextureCoordinates<L>, found: &mut Found<L>) {
+    fn apply<L: Lanes>(&self, l: L, here: M<L>, at: &TextureCoordinates<L>, _: &Textures, found: &mut Found<L>) {
         let t = fraction(at.p, self.scale, self.octaves);
         found.colour = here.pick(V::splat(l, self.low) * (1.0 - t) + V::splat(l, self.high) * t, found.colour);
     }

@@ -30,4 +30,5 @@ mod space;
 mod statistics;
 mod textured_sphere;
 mod tinted_glass;
+mod vertex_colors;
 mod vertices;

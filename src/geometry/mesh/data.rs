@@ -1,9 +1,11 @@
 //! Vertices and triangles of a mesh, before its tree is built.
+use std::sync::Arc;
+
 use glam::{DAffine3, DVec3, Vec3};
 
 use crate::geometry::bounds::Bounds;
 
-/// Vertices and triangles. `normals` and `uvs` belong to the vertices; they may be empty.
+/// Vertices and triangles. `normals`, `uvs` and `colours` belong to the vertices; they may be empty.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MeshData {
     /// Positions, metres.
@@ -14,6 +16,8 @@ pub struct MeshData {
     pub normals: Vec<[f32; 3]>,
     /// v is upwards.
     pub uvs: Vec<[f32; 2]>,
+    /// Linear Rec. 709 and opacity, from 0 to 1. The mesh shares them.
+    pub colours: Arc<Vec<[f32; 4]>>,
 }
 
 impl MeshData {
@@ -50,6 +54,7 @@ impl MeshData {
             triangles: self.triangles.iter().map(turned).collect(),
             normals: self.normals.iter().map(normal).collect(),
             uvs: self.uvs.clone(),
+            colours: self.colours.clone(),
         }
     }
 
@@ -75,7 +80,7 @@ mod tests {
     #[test]
     fn boxes_of_what_is_far_apart_are_apart() {
         let vertices = vec![[-4.0, 1.0, 2.0], [-4.0, 1.25, 2.0], [4.0, 9.0, 6.0], [4.0, 9.0, 5.5]];
-        let data = MeshData { vertices, triangles: vec![[0, 1, 2], [1, 2, 3]], normals: Vec::new(), uvs: Vec::new() };
+        let data = MeshData { vertices, triangles: vec![[0, 1, 2], [1, 2, 3]], ..MeshData::default() };
         let boxes = data.boxes();
         let found: Vec<_> = boxes.iter().map(|bounds| (bounds.min, bounds.max)).collect();
         assert_eq!(found, [([-4.0, 1.0, 2.0], [-4.0, 1.25, 2.0]), ([4.0, 9.0, 5.5], [4.0, 9.0, 6.0])]);

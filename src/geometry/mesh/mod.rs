@@ -4,7 +4,7 @@
 //! |---|---|
 //! | a ray against several triangles at once | `block.rs` |
 //! | the surface point at a hit | `surface.rs` |
-//! | coordinates and smooth normals there | `shading.rs` |
+//! | coordinates, smooth normals and colours there | `shading.rs` |
 //! | directions towards one that emits | `toward.rs` |
 //! | vertices and triangles | `data.rs` |
 //! | procedural meshes | `generate.rs` |
@@ -17,6 +17,8 @@ mod surface;
 #[cfg(test)]
 mod tests;
 mod toward;
+
+use std::sync::Arc;
 
 use fearless_simd::Simd;
 use fearless_simd_macros::simd;
@@ -48,6 +50,8 @@ pub struct Mesh {
     vertices: Vec<[f32; 4]>,
     /// Normal, then v. Empty if the mesh has neither.
     normals: Vec<[f32; 4]>,
+    /// Colour and opacity of the vertices; may be empty.
+    colours: Arc<Vec<[f32; 4]>>,
     is_smooth: bool,
     has_uvs: bool,
     dropped: usize,
@@ -116,7 +120,8 @@ impl Mesh {
         }
         let (vertices, normals) = rows(data);
         let (is_smooth, has_uvs) = (!data.normals.is_empty(), !data.uvs.is_empty());
-        Mesh { bvh, blocks, triangles, vertices, normals, is_smooth, has_uvs, dropped: data.triangles.len() - kept.len() }
+        let dropped = data.triangles.len() - kept.len();
+        Mesh { bvh, blocks, triangles, vertices, normals, colours: data.colours.clone(), is_smooth, has_uvs, dropped }
     }
 
     /// The first triangle along o + td with 0 < t < `t_max`: t, or `t_max` if there is none, and the triangle's number or `NONE`.
@@ -195,7 +200,7 @@ impl Mesh {
 
     /// Memory in bytes.
     pub fn bytes(&self) -> usize {
-        let rows = self.triangles.len() + self.vertices.len() + self.normals.len();
+        let rows = self.triangles.len() + self.vertices.len() + self.normals.len() + self.colours.len();
         self.bvh.bytes() + size_of_val(self.blocks.as_slice()) + rows * size_of::<[f32; 4]>()
     }
 }

@@ -1,5 +1,5 @@
-//! Interpolated coordinates and normals of a mesh.
-use super::Mesh;
+//! Interpolated coordinates, normals and colours of a mesh.
+use super::{Mesh, surface::mix};
 use crate::{
     geometry::Coordinates,
     math::{F, Lanes, Pick, U, V},
@@ -37,6 +37,25 @@ impl Mesh {
         let normal = self.attributes(l, triangle, point.barycentrics).normal;
         // A normal of the file that points to the back, or nowhere, is not used.
         normal.dot(point.n_geometric).above(0.0).pick(normal, point.n_geometric)
+    }
+
+    /// The interpolated colour and opacity of the vertices at a point `p` of a triangle, from 0 to 1; 1 without colours.
+    #[inline(always)]
+    pub fn vertex_colour<L: Lanes>(&self, l: L, triangle: U<L>, p: V<L>) -> [F<L>; 4] {
+        let (zero, one) = (l.f(0.0), l.f(1.0));
+        if self.colours.is_empty() {
+            return [one; 4];
+        }
+        let [beta, gamma] = self.surface_point(l, triangle, p).barycentrics;
+        let weights = [(1.0 - beta - gamma).max(zero), beta, gamma];
+        let [a, b, c, _] = l.rows(&self.triangles, triangle);
+        let (a, b, c) = (l.rows(&self.colours, a.bits()), l.rows(&self.colours, b.bits()), l.rows(&self.colours, c.bits()));
+        let mut colour = [zero; 4];
+        for (channel, value) in colour.iter_mut().enumerate() {
+            // The weights add up to 1 only within rounding.
+            *value = mix(weights, [a[channel], b[channel], c[channel]]).min(one);
+        }
+        colour
     }
 
     #[inline(always)]

@@ -24,7 +24,7 @@ pub struct Attributes<L: Lanes> {
 
 /// The weighted mean.
 #[inline(always)]
-fn mix<L: Lanes>(weights: [F<L>; 3], of: [F<L>; 3]) -> F<L> {
+pub(super) fn mix<L: Lanes>(weights: [F<L>; 3], of: [F<L>; 3]) -> F<L> {
     weights[0] * of[0] + (weights[1] * of[1] + weights[2] * of[2])
 }
 

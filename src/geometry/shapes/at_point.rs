@@ -52,6 +52,20 @@ impl Shapes {
         normal
     }
 
+    /// The interpolated colour and opacity of a mesh's vertices, from 0 to 1; 1 on other shapes.
+    #[inline(always)]
+    pub fn vertex_colour<L: Lanes>(&self, l: L, place: &PrimitiveRef<L>, point: &SurfacePoint<L>) -> [F<L>; 4] {
+        let mut colour = [l.f(1.0); 4];
+        let mut rest = self.at_instance(l, place);
+        while let Some((here, instance)) = rest.next(self) {
+            let found = instance.vertex_colour(l, &rest.within(here, place), point);
+            for (value, found) in colour.iter_mut().zip(found) {
+                *value = here.pick(found, *value);
+            }
+        }
+        colour
+    }
+
     /// Samples a direction from `x` towards the given primitives, with the point `u` of the unit square.
     #[inline(always)]
     pub fn toward<L: Lanes>(&self, l: L, place: &PrimitiveRef<L>, x: V<L>, u: (F<L>, F<L>)) -> DirectionSample<L> {

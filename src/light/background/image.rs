@@ -24,6 +24,7 @@ use crate::{
         trig::{sin_cos_turns, turns_of},
     },
     sampling::AliasTable,
+    shape::Transform,
     texture::{Edge, ImageTexture},
 };
 
@@ -39,11 +40,13 @@ pub struct Image {
     pub rotate: f64,
     /// Factor of the radiance.
     pub scale: f64,
+    /// Rotations and mirrorings of the image after `rotate`, from the first to the last. Translations do not matter.
+    pub transform: Vec<Transform>,
 }
 
 impl Default for Image {
     fn default() -> Self {
-        Image { path: String::new(), rotate: 0.0, scale: 1.0 }
+        Image { path: String::new(), rotate: 0.0, scale: 1.0, transform: Vec::new() }
     }
 }
 
@@ -60,9 +63,12 @@ impl Declare for Image {
         const ROTATE: Parameter =
             Parameter::new("rotate", "Rotation of the image, counter-clockwise seen from above.").unit("degrees");
         const SCALE: Parameter = Parameter::new("scale", "Factor that multiplies the radiance.");
+        const TRANSFORM: Parameter =
+            Parameter::new("transform", "Rotations and mirrorings of the image, applied after `rotate`.");
         p.value(&IMAGE, Value::File(&mut self.path));
         p.number(&ROTATE, &mut self.rotate, Range::FINITE);
         p.number(&SCALE, &mut self.scale, Range::log(1e-12, 1e12));
+        p.list(&TRANSFORM, &mut self.transform);
     }
 }
 

@@ -4,6 +4,7 @@
 //! [`Radiant`] that the renderer looks up.
 pub mod constant;
 pub mod image;
+pub mod sky;
 
 use super::ReferencePoint;
 use crate::{
@@ -58,6 +59,7 @@ macro_rules! backgrounds {
 backgrounds! {
     constant::Constant,
     image::Image,
+    sky::Sky,
 }
 
 /// A kind of background.

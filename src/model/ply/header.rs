@@ -41,6 +41,19 @@ impl Kind {
         !matches!(self, Kind::F32 | Kind::F64)
     }
 
+    /// The number that stands for 1 in colours of this type; `None` for fractions.
+    pub fn full(self) -> Option<f32> {
+        match self {
+            Kind::I8 => Some(i8::MAX.into()),
+            Kind::U8 => Some(u8::MAX.into()),
+            Kind::I16 => Some(i16::MAX.into()),
+            Kind::U16 => Some(u16::MAX.into()),
+            Kind::I32 => Some(i32::MAX as f32),
+            Kind::U32 => Some(u32::MAX as f32),
+            Kind::F32 | Kind::F64 => None,
+        }
+    }
+
     /// Size of a binary value in bytes.
     pub fn size(self) -> usize {
         match self {

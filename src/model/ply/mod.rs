@@ -1,16 +1,26 @@
 //! PLY: vertices and polygons as text or binary, in the layout that the header declares.
 //!
 //! G. Turk, "The PLY Polygon File Format", Stanford, 1994. Unknown elements and properties are skipped. Values of a text file may
-//! be spread over lines in any way.
+//! be spread over lines in any way. Colours of whole numbers are sRGB, those of fractions are linear; opacity is linear.
 mod header;
 mod values;
+
+use std::sync::LazyLock;
 
 use self::{
     header::{Element, Encoding, Header, Kind, Layout},
     values::{Binary, Text, Values},
 };
 use super::{Model, ModelFormatError};
-use crate::memory::{Reservation, TooMuch};
+use crate::{
+    math::colour::linear_from_srgb,
+    memory::{Reservation, TooMuch},
+};
+
+/// Numbers of a vertex: position, normal, texture coordinates, colour and opacity.
+const NUMBERS: usize = 12;
+const FIRST_COLOUR: usize = 8;
+const OPACITY: usize = 11;
 
 /// Whether the file begins with the signature of PLY.
 pub(super) fn is_ply(bytes: &[u8]) -> bool {
@@ -53,11 +63,23 @@ fn check_count<V: Values>(element: &Element, values: &V) -> Result<(), ModelForm
     Ok(())
 }
 
-/// The index of a property among a vertex's eight numbers.
+/// The index of a property among the numbers of a vertex.
 fn slot(name: &str) -> Option<usize> {
     let name = name.to_ascii_lowercase();
-    let names: [&[&str]; 8] =
-        [&["x"], &["y"], &["z"], &["nx"], &["ny"], &["nz"], &["s", "u", "texture_u"], &["t", "v", "texture_v"]];
+    let names: [&[&str]; NUMBERS] = [
+        &["x"],
+        &["y"],
+        &["z"],
+        &["nx"],
+        &["ny"],
+        &["nz"],
+        &["s", "u", "texture_u"],
+        &["t", "v", "texture_v"],
+        &["red", "r", "diffuse_red"],
+        &["green", "g", "diffuse_green"],
+        &["blue", "b", "diffuse_blue"],
+        &["alpha", "a", "diffuse_alpha"],
+    ];
     names.iter().position(|names| names.contains(&name.as_str()))
 }
 
@@ -67,28 +89,31 @@ fn read_vertices(
     model: &mut Model,
     room: &mut Reservation,
 ) -> Result<(), ModelFormatError> {
-    let mut is_there = [false; 8];
+    let mut is_there = [false; NUMBERS];
     // Of properties that mean the same the first counts.
     let mut wanted = |name: &str| slot(name).filter(|slot| !std::mem::replace(&mut is_there[*slot], true));
     let slots: Vec<(Layout, Option<usize>)> = element.properties.iter().map(|p| (p.layout, wanted(&p.name))).collect();
     let mut normals = is_there[3..6].iter().all(|there| *there).then(Vec::new);
-    let mut uvs = is_there[6..].iter().all(|there| *there).then(Vec::new);
-    let mut vertex = [0.0; 8];
+    let mut uvs = is_there[6..FIRST_COLOUR].iter().all(|there| *there).then(Vec::new);
+    let mut colours = is_there[FIRST_COLOUR..OPACITY].iter().all(|there| *there).then(Vec::new);
+    let mut vertex = [0.0; NUMBERS];
+    vertex[OPACITY] = 1.0;
     for index in 0..element.count {
         read_vertex(&slots, values, &mut vertex).map_err(|problem| in_element(problem, &element.name, index))?;
-        let [x, y, z, nx, ny, nz, u, v] = vertex;
+        let [x, y, z, nx, ny, nz, u, v, red, green, blue, opacity] = vertex;
         room.push(&mut model.vertices, [x, y, z], "vertices")?;
         normals.iter_mut().try_for_each(|normals| room.push(normals, [nx, ny, nz], "normals"))?;
         uvs.iter_mut().try_for_each(|uvs| room.push(uvs, [u, v], "texture coordinates"))?;
+        colours.iter_mut().try_for_each(|colours| room.push(colours, [red, green, blue, opacity], "colours"))?;
     }
-    (model.normals, model.uvs) = (normals, uvs);
+    (model.normals, model.uvs, model.colours) = (normals, uvs, colours);
     Ok(())
 }
 
 fn read_vertex(
     slots: &[(Layout, Option<usize>)],
     values: &mut impl Values,
-    vertex: &mut [f32; 8],
+    vertex: &mut [f32; NUMBERS],
 ) -> Result<(), ModelFormatError> {
     for (layout, slot) in slots {
         match (layout, slot) {
@@ -99,12 +124,27 @@ fn read_vertex(
                 if !number.is_finite() && *slot < 3 {
                     return Err(place.broken(format!("{number} is not a finite number")));
                 }
-                vertex[*slot] = if number.is_finite() { number } else { 0.0 };
+                let number = if number.is_finite() { number } else { 0.0 };
+                vertex[*slot] = if *slot < FIRST_COLOUR { number } else { linear(number, *kind, *slot) };
             }
             _ => skip_property(*layout, values)?,
         }
     }
     Ok(())
+}
+
+/// Linear values of sRGB bytes.
+static LINEAR: LazyLock<[f32; 256]> =
+    LazyLock::new(|| std::array::from_fn(|byte| linear_from_srgb(byte as f64 / f64::from(u8::MAX)) as f32));
+
+/// A channel of a colour in linear light, or opacity.
+fn linear(number: f32, kind: Kind, slot: usize) -> f32 {
+    match kind.full() {
+        None => number,
+        Some(full) if slot == OPACITY => number / full,
+        Some(_) if kind == Kind::U8 => LINEAR[usize::from(number as u8)],
+        Some(full) => linear_from_srgb(f64::from(number / full)) as f32,
+    }
 }
 
 fn read_faces(

@@ -148,3 +148,17 @@ fn lines_may_end_in_carriage_returns_alone() {
     assert_eq!(model(text.replace('\n', "\r").as_bytes()), model(text.as_bytes()));
     assert_eq!(refusal(b"v 0 0 0\rv 0 0\r"), "line 2: there are 2 numbers, not 3");
 }
+
+#[test]
+fn colours_of_vertices_are_srgb_and_white_where_they_lack() {
+    let text = "v 0 0 0\nv 1 0 0 0 1 0.5\nv 0 1 0 1\nv 0 0 1 1 0 nan # a comment\nf 1 2 3\nf 2 1 4\n";
+    let colours = model(text.as_bytes()).colours.expect("colours");
+    let (white, half) = ([1.0; 4], 0.214_041_14);
+    assert_eq!((colours.len(), colours[0], colours[2], colours[3]), (4, white, white, [0.0, 0.0, 0.0, 1.0]));
+    assert!(colours[1].iter().zip([0.0, 1.0, half, 1.0]).all(|(x, y)| (x - y).abs() < 1e-6), "{:?}", colours[1]);
+    // A corner with another normal is another vertex of the same colour.
+    let twice = model(b"v 0 0 0 1 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nvn 0 1 0\nf 1//1 2//1 3//1\nf 1//2 2//1 3//1\n");
+    assert_eq!(twice.colours.map(|colours| [colours[0], colours[1]]), Some([[1.0, 0.0, 0.0, 1.0]; 2]));
+    // Weights and words that are no numbers are not colours.
+    assert_eq!(model(&square("v 0 0 1 1\nv 1 1 1 a b c\nf 1 2 3\n")).colours, None);
+}

@@ -252,3 +252,28 @@ fn binary_values_that_do_not_fit_are_refused_by_place() {
     refuses(1.0, 3, "byte 211: face 0: vertex 3 does not exist: there are 3, counted from 0");
     refuses(1.0, -1, "byte 211: face 0: vertex -1 does not exist: there are 3, counted from 0");
 }
+
+#[test]
+fn colours_of_whole_numbers_are_srgb_and_those_of_fractions_linear() {
+    let colours = |types: [&str; 4], values: &str| {
+        let [red, green, blue, alpha] = types;
+        let colour = format!("property {red} red\nproperty {green} green\nproperty {blue} diffuse_blue\n{alpha}");
+        let elements = mesh(3, 1).replace("property float z\n", &format!("property float z\n{colour}"));
+        let vertices: String = ["0 0 0", "1 0 0", "0 1 0"].map(|place| format!("{place} {values}\n")).concat();
+        model(&file("ascii", &elements, format!("{vertices}3 0 1 2\n").as_bytes())).colours.expect("colours")
+    };
+    let close = |found: Vec<[f32; 4]>, expected: [f32; 4]| {
+        assert!(found.len() == 3 && found.iter().all(|c| (0..4).all(|i| (c[i] - expected[i]).abs() < 1e-6)), "{found:?}");
+    };
+    close(colours(["uchar", "uchar", "uchar", ""], "0 255 128"), [0.0, 1.0, 0.215_860_5, 1.0]);
+    close(colours(["uchar", "uchar", "uint8", "property uchar alpha\n"], "0 255 128 51"), [0.0, 1.0, 0.215_860_5, 0.2]);
+    close(colours(["float", "double", "float", "property float a\n"], "0.5 nan 2 0.25"), [0.5, 0.0, 2.0, 0.25]);
+    close(colours(["ushort", "ushort", "uchar", ""], "65535 0 300"), [1.0, 0.0, 1.0, 1.0]);
+}
+
+#[test]
+fn two_channels_are_no_colour() {
+    let elements = mesh(3, 1).replace("property float z\n", "property float z\nproperty uchar red\nproperty uchar green\n");
+    let text = "0 0 0 1 2\n1 0 0 1 2\n0 1 0 1 2\n3 0 1 2\n";
+    assert_eq!(model(&file("ascii", &elements, text.as_bytes())).colours, None);
+}

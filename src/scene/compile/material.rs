@@ -8,7 +8,7 @@ use crate::{
     material::Materials,
     quote,
     scene::{MaterialInstance, description::MaterialDescription},
-    texture::{ImageTexture, Texture, TextureCompiler},
+    texture::{ImagePattern, ImageTexture, Texture, TextureCompiler},
 };
 
 /// The numbers of materials by their names; `None` for those that are wrong.
@@ -64,5 +64,5 @@ fn instance(
 /// A texture without a name, of normals.
 fn normal_map(path: &str, textures: &mut TextureCompiler) -> Result<u32, Problem> {
     let picture = ImageTexture::read(textures.resources, "normal_map", path, Encoding::Linear)?;
-    Ok(textures.push(Texture::Image(picture)))
+    Ok(textures.push(Texture::Image(ImagePattern::Plain(picture))))
 }

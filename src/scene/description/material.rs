@@ -1,6 +1,6 @@
 //! Materials of a scene file.
 use crate::{
-    declare::{Declare, Family, Parameter, Parameters, Range, Value},
+    declare::{Declare, Family, Parameter, Parameters, Range, Textured, Value},
     material::Material,
     texture::TEXTURE,
 };
@@ -16,6 +16,8 @@ pub struct MaterialDescription {
     pub normal_map: Option<String>,
     /// Whether the back reflects too; `None` means that it does.
     pub two_sided: Option<bool>,
+    /// Fraction of the light that meets the surface; the rest passes. `None` means 1.
+    pub opacity: Option<Textured<f64>>,
 }
 
 impl Declare for MaterialDescription {
@@ -25,10 +27,22 @@ impl Declare for MaterialDescription {
         const NORMAL_MAP: Parameter = Parameter::new("normal_map", "A linear image of shading normals.").aliases("normals");
         const TWO_SIDED: Parameter =
             Parameter::new("two_sided", "Whether the back reflects too. Default: true.").aliases("twosided double_sided");
+        const OPACITY: Parameter =
+            Parameter::new("opacity", "Fraction of the light that meets the surface; the rest passes unchanged. Default: 1.")
+                .symbol("α")
+                .aliases("alpha mask cutout");
         p.one_of(&mut self.kind);
         p.optional_table(&BUMP, &mut self.bump);
         p.optional(&NORMAL_MAP, &mut self.normal_map, String::new, |p, path| p.value(&NORMAL_MAP, Value::File(path)));
         p.optional(&TWO_SIDED, &mut self.two_sided, || true, |p, two_sided| p.flag(&TWO_SIDED, two_sided));
+        p.optional(
+            &OPACITY,
+            &mut self.opacity,
+            || Textured::Constant(1.0),
+            |p, opacity| {
+                p.textured_number(&OPACITY, opacity, Range::UNIT);
+            },
+        );
     }
 }
 

@@ -5,6 +5,7 @@
 //! The kinds of materials, shapes and textures are in [`crate::material`], [`crate::shape`] and [`crate::texture`]. The other types of
 //! the fields are re-exported here.
 mod camera;
+mod lamp;
 mod light;
 mod material;
 mod object;
@@ -17,6 +18,7 @@ pub use glam::DVec3;
 
 pub use self::{
     camera::CameraDescription,
+    lamp::LampDescription,
     light::{EmissionDescription, TruthDescription},
     material::{Bump, MaterialDescription},
     object::ObjectDescription,
@@ -51,6 +53,8 @@ pub struct SceneDescription {
     pub materials: BTreeMap<String, MaterialDescription>,
     /// The objects, in any order.
     pub objects: Vec<ObjectDescription>,
+    /// Lamps without surface.
+    pub lamps: Vec<LampDescription>,
     /// The settings that the scene opens with.
     pub render: RenderDescription,
     /// What the image converges to, if that is known.
@@ -71,6 +75,7 @@ impl Declare for SceneDescription {
         const MATERIALS: Parameter = Parameter::new("materials", "Materials by name.").aliases("material bsdfs");
         const OBJECTS: Parameter =
             Parameter::new("objects", "The objects of the scene, one table each.").aliases("object shapes");
+        const LAMPS: Parameter = Parameter::new("lamps", "Lamps without surface, one table each.").aliases("lights lamp");
         p.count(&VERSION, &mut FORMAT.clone(), CountRange::new(FORMAT, FORMAT));
         presentation::texts(p, &mut self.title, &mut self.notes);
         p.table(&CAMERA, &mut self.camera);
@@ -78,6 +83,7 @@ impl Declare for SceneDescription {
         p.map(&TEXTURES, &mut self.textures);
         p.map(&MATERIALS, &mut self.materials);
         p.list(&OBJECTS, &mut self.objects);
+        p.list(&LAMPS, &mut self.lamps);
         presentation::settings_and_truth(p, &mut self.render, &mut self.truth);
     }
 }

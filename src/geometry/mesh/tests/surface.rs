@@ -1,10 +1,12 @@
 //! Points, normals and offsets.
+use std::sync::Arc;
+
 use fearless_simd::Fallback;
 use glam::Vec3;
 use rand::{Rng, SeedableRng, rngs::SmallRng};
 
 use super::{
-    super::{Mesh, block::Shears, generate},
+    super::{Mesh, MeshData, block::Shears, generate},
     soup, unit,
 };
 use crate::math::{One, U, V};
@@ -72,5 +74,29 @@ fn points_lie_on_their_triangles() {
         assert!(at.error.0 < 3e-6, "{}", at.error.0);
         let normal = Vec3::from(mesh.attributes(One, U(triangle), at.barycentrics).normal.lane(0));
         assert!(normal.length() < 1.001 && normal.as_dvec3().dot(n) > 0.0, "the front is outside");
+    }
+}
+
+#[test]
+fn colours_of_vertices_are_interpolated_and_1_without_them() {
+    let colours = vec![[1.0, 0.0, 0.0, 1.0], [0.0, 1.0, 0.0, 0.5], [0.0, 0.0, 1.0, 0.0]];
+    let bare = MeshData {
+        vertices: vec![[0.0; 3], [2.0, 0.0, 0.0], [0.0, 4.0, 0.0]],
+        triangles: vec![[0, 1, 2]],
+        ..MeshData::default()
+    };
+    let coloured = Mesh::new(&MeshData { colours: Arc::new(colours), ..bare.clone() });
+    let at = |mesh: &Mesh, p: [f32; 3]| mesh.vertex_colour(One, U(0), V::splat(One, p)).map(|x| x.0);
+    for (p, expected) in [
+        ([0.0, 0.0, 0.0], [1.0, 0.0, 0.0, 1.0]),
+        ([2.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.5]),
+        ([0.0, 4.0, 0.0], [0.0, 0.0, 1.0, 0.0]),
+        ([0.5, 1.0, 0.0], [0.5, 0.25, 0.25, 0.625]),
+        // Beside the triangle by rounding.
+        ([-1e-6, 2.0, 1e-6], [0.5, 0.0, 0.5, 0.5]),
+    ] {
+        let found = at(&coloured, p);
+        assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-5 && (0.0..=1.0).contains(a)), "{p:?}: {found:?}");
+        assert_eq!(at(&Mesh::new(&bare), p), [1.0; 4]);
     }
 }

@@ -1,8 +1,12 @@
 //! Values where they are known, continuity, means, and lanes of different textures.
+mod combined;
+mod images;
+mod limits;
+
 use std::sync::Arc;
 
 use super::{
-    Constant, Edge, ImageTexture, Texture, TextureCoordinates, Textures,
+    Constant, Edge, ImagePattern, ImageTexture, Texture, TextureCoordinates, Textures,
     checker::{self, Squares},
     noise::{self, Clouds},
 };
@@ -11,8 +15,8 @@ use crate::{
     math::{F, Lanes, M, One, SimdLevel, U, V},
 };
 
-fn at(u: f32, v: f32) -> TextureCoordinates<One> {
-    TextureCoordinates { u: F(u), v: F(v), p: V { x: F(u), y: F(v), z: F(0.0) } }
+fn at(u: f32, v: f32) -> TextureCoordinates<'static, One> {
+    TextureCoordinates { u: F(u), v: F(v), p: V { x: F(u), y: F(v), z: F(0.0) }, vertex: None }
 }
 
 fn noise_at([x, y, z]: [f32; 3], octaves: u32) -> f32 {
@@ -21,6 +25,10 @@ fn noise_at([x, y, z]: [f32; 3], octaves: u32) -> f32 {
 
 fn picture() -> Picture {
     Picture { width: 3, height: 2, radiance: (0..6).map(|i| [i as f32, 10.0 * i as f32, 0.5]).collect() }
+}
+
+fn plain(picture: &Picture) -> ImagePattern {
+    ImagePattern::Plain(Arc::new(ImageTexture::new(picture.into())))
 }
 
 #[test]
@@ -201,7 +209,7 @@ fn noise_goes_from_its_low_colour_to_its_high_one() {
 #[test]
 fn steps_are_those_of_the_finest_part() {
     let mut set = Textures::default();
-    let image = set.push(Texture::Image(Arc::new(ImageTexture::new((&picture()).into()))));
+    let image = set.push(Texture::Image(plain(&picture())));
     let noise = set.push(Texture::Noise(Clouds { scale: 2.0, octaves: 3, low: [0.0, 0.75, 0.0], high: [1.0, 0.5, 0.25] }));
     let checker = set.push(Texture::Checker(Squares { even: image, odd: noise, scale: 8.0 }));
     let constant = set.push(Texture::Constant(Constant([0.5, 0.25, 0.125])));
@@ -222,7 +230,7 @@ fn steps_are_those_of_the_finest_part() {
 #[inline(always)]
 fn lanes_of<L: Lanes>(l: L, set: &Textures, coordinates: &[[f32; 16]; 3], ids: U<L>) -> Vec<[u32; 3]> {
     let [u, v, z] = [0, 1, 2].map(|axis| l.load(&coordinates[axis]));
-    let at = TextureCoordinates { u, v, p: V { x: u, y: v, z } };
+    let at = TextureCoordinates { u, v, p: V { x: u, y: v, z }, vertex: None };
     let colour = set.colour(l, ids, l.first(L::N), &at);
     (0..L::N).map(|lane| colour.lane(lane).map(f32::to_bits)).collect()
 }
@@ -231,7 +239,7 @@ fn lanes_of<L: Lanes>(l: L, set: &Textures, coordinates: &[[f32; 16]; 3], ids: U
 fn every_width_gives_the_same_bits() {
     let mut set = Textures::default();
     let low = set.push(Texture::Noise(Clouds { scale: 9.0, octaves: 6, low: [0.1, 0.2, 0.3], high: [0.9, 0.5, 0.3] }));
-    let image = set.push(Texture::Image(Arc::new(ImageTexture::new((&picture()).into()))));
+    let image = set.push(Texture::Image(plain(&picture())));
     set.push(Texture::Checker(Squares { even: low, odd: image, scale: 5.0 }));
     set.push(Texture::Constant(Constant([0.25; 3])));
     for round in 0..200u32 {

@@ -1,0 +1,72 @@
+//! Scenes of other programs.
+//!
+//! A reader translates a file into a [`SceneDescription`], as if it had been written by hand: everything else, the window and the
+//! command line included, works with the description. What cannot be translated exactly is listed as a [`Remark`].
+pub mod gltf;
+pub mod mesh;
+pub mod mitsuba;
+pub mod pbrt;
+mod remark;
+
+use std::path::Path;
+
+pub use self::remark::Remark;
+use crate::{
+    declare::Assets,
+    scene::{SceneError, description::SceneDescription},
+};
+
+/// A scene of another program.
+#[derive(Default)]
+pub struct Imported {
+    /// The scene. Paths of files on disk are relative to the folder of the file that was read, or absolute.
+    pub description: SceneDescription,
+    /// Meshes and images that exist in memory only: [`crate::model::Model`] by paths such as `meshes/chair.ply`, and encoded image
+    /// files, as `Vec<u8>`, by paths such as `textures/wood.png`.
+    pub assets: Assets,
+    /// What was not taken over exactly.
+    pub remarks: Vec<Remark>,
+}
+
+/// Choices of the user about a file.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ImportOptions {
+    /// Values of parameters, such as `-D spp=16` for Mitsuba's `$spp`.
+    pub defines: Vec<(String, String)>,
+    /// Time of animations, seconds.
+    pub time: f64,
+    /// Name of the variant of materials.
+    pub variant: Option<String>,
+    /// Whether files outside the folder of the scene may be read.
+    pub allow_outside: bool,
+}
+
+/// Whether a file is a scene of another program, by its name.
+pub fn is_foreign(path: &Path) -> bool {
+    reader(path).is_some()
+}
+
+/// Reads a scene of another program.
+pub fn read(path: &Path, options: &ImportOptions) -> Result<Imported, SceneError> {
+    match reader(path) {
+        Some(read) => read(path, options),
+        None => Err(SceneError::of_file(
+            path,
+            "the format is not known",
+            "scenes end in .toml, .gltf, .glb, .xml, .pbrt, .obj, .ply or .stl",
+        )),
+    }
+}
+
+type Reader = fn(&Path, &ImportOptions) -> Result<Imported, SceneError>;
+
+fn reader(path: &Path) -> Option<Reader> {
+    let extension = path.extension()?.to_str()?.to_ascii_lowercase();
+    Some(match extension.as_str() {
+        "gltf" | "glb" => gltf::read,
+        "xml" => mitsuba::read,
+        "pbrt" => pbrt::read,
+        "obj" | "ply" | "stl" => mesh::read,
+        _ => return None,
+    })
+}

@@ -1,0 +1,23 @@
+//! Remarks about what was not taken over exactly.
+use std::fmt;
+
+use serde::Serialize;
+
+/// Something that was not taken over exactly.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Remark {
+    /// Where it stands: `scene.xml:12:5`, or `scene.gltf: material "Wood"`.
+    pub place: String,
+    /// What stands there: "`<bsdf type=\"hair\">`".
+    pub found: String,
+    /// What was used instead: "grey plastic".
+    pub used: String,
+    /// What that changes in the image: "the strands look like plastic".
+    pub effect: String,
+}
+
+impl fmt::Display for Remark {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {} became {}: {}", self.place, self.found, self.used, self.effect)
+    }
+}

@@ -1,0 +1,36 @@
+//! Light from a direction, of a sun far away.
+use glam::DVec3;
+
+use super::Shine;
+use crate::declare::{Declare, Kind, Parameter, Parameters, Range, Value};
+
+/// Light from a direction, of a sun far away.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Directional {
+    /// Direction in which the light travels, of any length.
+    pub direction: DVec3,
+    /// Irradiance of a surface that faces the light.
+    pub irradiance: [f64; 3],
+}
+
+impl Default for Directional {
+    fn default() -> Self {
+        Directional { direction: DVec3::new(0.0, -1.0, 0.0), irradiance: [1.0; 3] }
+    }
+}
+
+impl Kind for Directional {
+    const KIND: Parameter =
+        Parameter::new("directional", "Light from a direction, of a sun far away.").aliases("sun distant directional_light");
+}
+
+impl Declare for Directional {
+    fn parameters(&mut self, p: &mut dyn Parameters) {
+        const DIRECTION: Parameter = Parameter::new("direction", "Direction in which the light travels, of any length.");
+        const IRRADIANCE: Parameter = Parameter::new("irradiance", "Irradiance of a surface that faces the light.").unit("W/m²");
+        p.value(&DIRECTION, Value::Vector(&mut self.direction));
+        p.colour(&IRRADIANCE, &mut self.irradiance, Range::RADIANCE);
+    }
+}
+
+impl Shine for Directional {}

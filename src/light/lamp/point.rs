@@ -1,0 +1,36 @@
+//! A lamp without size that shines equally in all directions.
+use glam::DVec3;
+
+use super::Shine;
+use crate::declare::{Declare, Kind, Parameter, Parameters, Range};
+
+/// A lamp without size that shines equally in all directions.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Point {
+    /// Where it stands.
+    pub position: DVec3,
+    /// Radiant intensity of each channel.
+    pub intensity: [f64; 3],
+}
+
+impl Default for Point {
+    fn default() -> Self {
+        Point { position: DVec3::new(0.0, 2.0, 0.0), intensity: [1.0; 3] }
+    }
+}
+
+impl Kind for Point {
+    const KIND: Parameter =
+        Parameter::new("point", "A lamp without size that shines equally in all directions.").aliases("point_light omni");
+}
+
+impl Declare for Point {
+    fn parameters(&mut self, p: &mut dyn Parameters) {
+        const POSITION: Parameter = Parameter::new("position", "Where it stands.").unit("m");
+        const INTENSITY: Parameter = Parameter::new("intensity", "Radiant intensity of each channel.").unit("W/sr");
+        p.point(&POSITION, &mut self.position);
+        p.colour(&INTENSITY, &mut self.intensity, Range::RADIANCE);
+    }
+}
+
+impl Shine for Point {}

@@ -1,0 +1,66 @@
+//! An image that is cast from a point.
+use glam::DVec3;
+
+use super::Shine;
+use crate::{
+    declare::{Declare, Kind, Parameter, Parameters, Range, Value},
+    image::Encoding,
+};
+
+/// An image that is cast from a point.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Projector {
+    /// Where it stands.
+    pub position: DVec3,
+    /// A point on its axis.
+    pub target: DVec3,
+    /// Upwards in the image.
+    pub up: DVec3,
+    /// The image file, relative to the scene.
+    pub image: String,
+    /// Encoding of the file's numbers; EXR and HDR are always linear.
+    pub encoding: Encoding,
+    /// Angle across the width of the image.
+    pub fov: f64,
+    /// Radiant intensity on the axis where the image is 1.
+    pub scale: f64,
+}
+
+impl Default for Projector {
+    fn default() -> Self {
+        Projector {
+            position: DVec3::new(0.0, 2.0, 0.0),
+            target: DVec3::ZERO,
+            up: DVec3::Y,
+            image: String::new(),
+            encoding: Encoding::Srgb,
+            fov: 40.0,
+            scale: 1.0,
+        }
+    }
+}
+
+impl Kind for Projector {
+    const KIND: Parameter = Parameter::new("projector", "An image that is cast from a point.").aliases("texture_light slide");
+}
+
+impl Declare for Projector {
+    fn parameters(&mut self, p: &mut dyn Parameters) {
+        const POSITION: Parameter = Parameter::new("position", "Where it stands.").unit("m");
+        const TARGET: Parameter = Parameter::new("target", "A point on its axis.").unit("m");
+        const UP: Parameter = Parameter::new("up", "Upwards in the image.");
+        const IMAGE: Parameter = Parameter::new("image", "The image file, relative to the scene.");
+        const ENCODING: Parameter = Parameter::new("encoding", "Encoding of the file's numbers; EXR and HDR are always linear.");
+        const FOV: Parameter = Parameter::new("fov", "Angle across the width of the image.").unit("degrees");
+        const SCALE: Parameter = Parameter::new("scale", "Radiant intensity on the axis where the image is 1.").unit("W/sr");
+        p.point(&POSITION, &mut self.position);
+        p.point(&TARGET, &mut self.target);
+        p.value(&UP, Value::Vector(&mut self.up));
+        p.value(&IMAGE, Value::File(&mut self.image));
+        p.word(&ENCODING, &mut self.encoding);
+        p.number(&FOV, &mut self.fov, Range::linear(0.01, 179.0));
+        p.number(&SCALE, &mut self.scale, Range::log(0.0, 1e12));
+    }
+}
+
+impl Shine for Projector {}

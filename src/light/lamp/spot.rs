@@ -1,0 +1,79 @@
+//! A lamp without size that shines within a cone.
+use glam::DVec3;
+
+use super::Shine;
+use crate::declare::{Declare, Kind, Parameter, Parameters, Range, words};
+
+/// A lamp without size that shines within a cone.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Spot {
+    /// Where it stands.
+    pub position: DVec3,
+    /// A point on its axis.
+    pub target: DVec3,
+    /// Radiant intensity on the axis.
+    pub intensity: [f64; 3],
+    /// Angle between the axis and the edge of the cone, where the light ends.
+    pub angle: f64,
+    /// Angle up to which the intensity is that of the axis.
+    pub inner: f64,
+    /// How the intensity falls between the two angles.
+    pub falloff: Falloff,
+}
+
+/// How the intensity of a spot falls to 0 between its inner angle and its edge.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Falloff {
+    /// Smoothstep of the cosine, as pbrt does.
+    Smooth,
+    /// Linear in the angle, as Mitsuba does.
+    Linear,
+    /// The square of the cosine's fraction, as glTF does.
+    Square,
+}
+
+words! {
+    Falloff {
+        Smooth: "smooth", "Smooth", "Smoothstep of the cosine of the angle.";
+        Linear: "linear", "Linear", "Linear in the angle.";
+        Square: "square", "Square", "Square of what is linear in the cosine of the angle.";
+    }
+}
+
+impl Default for Spot {
+    fn default() -> Self {
+        Spot {
+            position: DVec3::new(0.0, 2.0, 0.0),
+            target: DVec3::ZERO,
+            intensity: [1.0; 3],
+            angle: 30.0,
+            inner: 20.0,
+            falloff: Falloff::Smooth,
+        }
+    }
+}
+
+impl Kind for Spot {
+    const KIND: Parameter =
+        Parameter::new("spot", "A lamp without size that shines within a cone.").aliases("spotlight spot_light");
+}
+
+impl Declare for Spot {
+    fn parameters(&mut self, p: &mut dyn Parameters) {
+        const POSITION: Parameter = Parameter::new("position", "Where it stands.").unit("m");
+        const TARGET: Parameter = Parameter::new("target", "A point on its axis.").unit("m");
+        const INTENSITY: Parameter = Parameter::new("intensity", "Radiant intensity on the axis.").unit("W/sr");
+        const ANGLE: Parameter =
+            Parameter::new("angle", "Angle between the axis and the edge of the cone, where the light ends.").unit("degrees");
+        const INNER: Parameter = Parameter::new("inner", "Angle up to which the intensity is that of the axis.").unit("degrees");
+        const FALLOFF: Parameter = Parameter::new("falloff", "How the intensity falls between the two angles.");
+        p.point(&POSITION, &mut self.position);
+        p.point(&TARGET, &mut self.target);
+        p.colour(&INTENSITY, &mut self.intensity, Range::RADIANCE);
+        p.number(&ANGLE, &mut self.angle, Range::linear(0.01, 180.0));
+        p.number(&INNER, &mut self.inner, Range::linear(0.0, 180.0));
+        p.word(&FALLOFF, &mut self.falloff);
+    }
+}
+
+impl Shine for Spot {}

@@ -1,0 +1,22 @@
+//! A surface that does not touch light.
+use super::{Compile, CompiledMaterial, MaterialCompiler};
+use crate::declare::{Declare, Kind, Parameter, Parameters, Problem};
+
+/// A surface that does not touch light, in a scene description.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Null;
+
+impl Kind for Null {
+    const KIND: Parameter =
+        Parameter::new("null", "A surface that light passes unchanged.").aliases("invisible interface passthrough");
+}
+
+impl Declare for Null {
+    fn parameters(&mut self, _: &mut dyn Parameters) {}
+}
+
+impl Compile for Null {
+    fn compile(&self, _: &mut MaterialCompiler) -> Result<CompiledMaterial, Problem> {
+        Err(Problem::at("", "not built yet", "not built yet"))
+    }
+}

@@ -1,0 +1,28 @@
+//! Lamps of a scene file.
+use crate::{
+    declare::{Declare, Parameter, Parameters, Value},
+    light::lamp::LampKind,
+    shape::Transform,
+};
+
+/// A lamp without surface of a scene file.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct LampDescription {
+    /// Name in the window; may be empty.
+    pub name: String,
+    /// The lamp.
+    pub kind: LampKind,
+    /// Transforms of the lamp, from the first to the last.
+    pub transform: Vec<Transform>,
+}
+
+impl Declare for LampDescription {
+    fn parameters(&mut self, p: &mut dyn Parameters) {
+        const NAME: Parameter = Parameter::new("name", "Name in the window.").aliases("id label");
+        const TRANSFORM: Parameter =
+            Parameter::new("transform", "Transforms, applied from the first to the last.").aliases("to_world transforms");
+        p.value(&NAME, Value::Text(&mut self.name));
+        p.one_of(&mut self.kind);
+        p.list(&TRANSFORM, &mut self.transform);
+    }
+}
