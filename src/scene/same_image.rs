@@ -9,11 +9,11 @@ const HARMLESS: [&str; 2] = ["surfaces", "references"];
 impl SceneDescription {
     /// Whether title, notes or truth differ, and nothing else does.
     pub fn differs_in_texts(&self, other: &SceneDescription) -> bool {
-        let SceneDescription { title, notes, truth, camera, background, textures, materials, objects, render } = self;
+        let SceneDescription { title, notes, truth, camera, background, textures, materials, objects, lamps, render } = self;
         (title, notes, truth) != (&other.title, &other.notes, &other.truth)
             && (camera, background, render) == (&other.camera, &other.background, &other.render)
             && (textures, materials) == (&other.textures, &other.materials)
-            && *objects == other.objects
+            && (objects, lamps) == (&other.objects, &other.lamps)
     }
 }
 
