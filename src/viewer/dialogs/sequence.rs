@@ -123,7 +123,8 @@ fn dialog_body(ui: &mut Ui, asked: &mut SequenceDialog) -> (bool, bool) {
         let name = asked.files.path().and_then(|path| path.file_name().map(|name| name.to_string_lossy().into_owned()));
         asked.files.browse(ui, move |dialog| name.into_iter().fold(dialog, rfd::FileDialog::set_file_name).save_file());
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            renders |= ui.add_enabled(asked.files.path().is_some(), Button::new(RichText::new("Render frames").strong())).clicked();
+            renders |=
+                ui.add_enabled(asked.files.path().is_some(), Button::new(RichText::new("Render frames").strong())).clicked();
             cancelled = ui.button("Cancel").clicked();
         });
     });
