@@ -45,9 +45,11 @@ fn dialog_body(ui: &mut Ui, field: &mut PathField) -> (bool, bool) {
     ui.add_space(4.0);
     let (mut connects, mut cancelled) = (field.show(ui), false);
     field.remark(ui, "");
-    ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-        connects |= ui.add_enabled(field.path().is_some(), Button::new(RichText::new("Connect").strong())).clicked();
-        cancelled = ui.button("Cancel").clicked();
+    ui.horizontal(|ui| {
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            connects |= ui.add_enabled(field.path().is_some(), Button::new(RichText::new("Connect").strong())).clicked();
+            cancelled = ui.button("Cancel").clicked();
+        });
     });
     (connects, cancelled)
 }
