@@ -8,23 +8,29 @@ use super::{
     background::Background,
     coordinates::LightCoordinates,
     emission::{Emission, Emitters},
+    lamp::{Lamp, LampSample, Lamps},
     reference_point::ReferencePoint,
     selection::Selection,
 };
 use crate::{
-    geometry::{MISS, Motion, PrimitiveRef, Shape, Shapes},
-    math::{F, Lanes, Pick, U, V},
+    geometry::{MISS, Motion, Nearest, PrimitiveRef, Shape, Shapes},
+    math::{F, Lanes, M, Pick, U, V},
 };
 
-/// All lights of a scene: the emitting primitives 0, 1, 2, …, every triangle of emitting meshes, and the background.
+/// All lights of a scene: the emitting primitives 0, 1, 2, …, every triangle of emitting meshes, the lamps without surface, and the
+/// background.
 #[derive(Default)]
 pub struct Lights {
     /// The emitting primitives.
     pub emitters: Emitters,
     /// Absent when black.
     pub background: Option<Background>,
+    /// The lamps without surface, numbered after the surfaces.
+    pub lamps: Lamps,
     selection: Selection,
-    /// Number of lights without the background.
+    /// Selection among the lamps without surface alone.
+    selection_of_lamps: Selection,
+    /// Number of lights with a surface.
     count: usize,
     /// Primitive and triangle of every light, as bits; empty if every light's number is its primitive.
     places: Vec<[f32; 4]>,
@@ -36,22 +42,31 @@ pub struct Lights {
 pub struct LightSample<L: Lanes> {
     /// Unit direction towards the light.
     pub wi: V<L>,
-    /// Unoccluded radiance that arrives.
+    /// Unoccluded radiance that arrives; from a lamp without surface the irradiance of a surface that faces it.
     pub radiance: V<L>,
-    /// Pdf of `wi` per solid angle, including the probability of choosing the light; 0 if there is no light.
+    /// Pdf of `wi` per solid angle, including the probability of choosing the light; 0 if there is no light. For a lamp without
+    /// surface, that probability alone.
     pub pdf: F<L>,
-    /// The first hit along `wi` must be the [light](Lights::light_at) of this number, or [`MISS`] for the background, for the
-    /// light to arrive.
+    /// Lanes of lamps without surface: no other strategy could have sampled the direction.
+    pub delta: M<L>,
+    /// The light, or [`MISS`] for the background: see [`Lights::arrives`].
     pub target: U<L>,
 }
 
 impl Lights {
     /// Collects the lights. `emitters` are the emitting pieces of the shapes, which are their first primitives, with their
     /// motion.
-    pub fn new(shapes: &Shapes, emitters: &[(Shape, Motion, Emission)], background: Option<Background>, near: DVec3) -> Lights {
+    pub fn new(
+        shapes: &Shapes,
+        emitters: &[(Shape, Motion, Emission)],
+        lamps: &[Lamp],
+        background: Option<Background>,
+        near: DVec3,
+    ) -> Lights {
         let mut lights = Lights {
             emitters: Emitters::new(&emitters.iter().map(|(.., emission)| *emission).collect::<Vec<_>>()),
             background,
+            lamps: Lamps::new(lamps),
             ..Lights::default()
         };
         let have_elements = emitters.iter().any(|(piece, ..)| matches!(piece, Shape::Mesh { .. }));
@@ -74,7 +89,8 @@ impl Lights {
         }
         lights.count = sources.len();
         let sky = lights.background.as_ref().map_or(0.0, Background::luminance);
-        lights.selection = Selection::new(&sources, sky, near);
+        lights.selection = Selection::new(&sources, lamps, sky, near);
+        lights.selection_of_lamps = Selection::new(&[], lamps, 0.0, near);
         lights
     }
 
@@ -102,12 +118,17 @@ impl Lights {
 
     /// Whether there are no lights.
     pub fn is_empty(&self) -> bool {
-        self.count == 0 && self.background.is_none()
+        !self.can_be_hit() && self.lamps.is_empty()
+    }
+
+    /// Whether rays can hit a light: an emitting surface or the background.
+    pub fn can_be_hit(&self) -> bool {
+        self.count > 0 || self.background.is_some()
     }
 
     /// Whether there are several lights.
     pub fn are_several(&self) -> bool {
-        self.count + usize::from(self.background.is_some()) > 1
+        self.count + self.lamps.len() + usize::from(self.background.is_some()) > 1
     }
 
     /// Whether the selection uses [`ReferencePoint::lobe`].
@@ -132,12 +153,16 @@ impl Lights {
     ) -> LightSample<L> {
         let (target, pmf) = self.choose(l, at, u);
         let sky = target.is(MISS);
-        let mut sample = LightSample { wi: at.n, radiance: V::splat(l, [0.0; 3]), pdf: l.f(0.0), target };
-        if (!sky).any() {
-            let place = self.place(l, sky.pick(l.u(0), target), time);
+        let mut sample = LightSample { wi: at.n, radiance: V::splat(l, [0.0; 3]), pdf: l.f(0.0), delta: l.first(0), target };
+        let mut on_surface = !sky;
+        if !self.lamps.is_empty() {
+            on_surface = on_surface & target.below(self.count as u32);
+        }
+        if on_surface.any() {
+            let place = self.place(l, on_surface.pick(target, l.u(0)), time);
             let toward = shapes.toward(l, &place, at.p, u.place);
             let side = toward.front.pick(l.f(1.0), l.f(-1.0));
-            let (radiance, lit) = self.emitters.radiance(l, !sky, place.primitive, side);
+            let (radiance, lit) = self.emitters.radiance(l, on_surface, place.primitive, side);
             sample.wi = toward.wi;
             sample.radiance = radiance;
             sample.pdf = lit.pick(toward.pdf, l.f(0.0));
@@ -150,8 +175,72 @@ impl Lights {
             sample.radiance = sky.pick(background.radiance(l, wi), sample.radiance);
             sample.pdf = sky.pick(pdf, sample.pdf);
         }
+        if !self.lamps.is_empty() {
+            self.add_lamps(l, at, &mut sample);
+        }
         sample.pdf = sample.pdf * pmf;
         sample
+    }
+
+    /// A direction towards a lamp without surface, as if there were no other lights. There must be one.
+    #[inline(always)]
+    pub fn sample_lamps<L: Lanes>(&self, l: L, at: &ReferencePoint<L>, u: &LightCoordinates<L>) -> LightSample<L> {
+        let (lamp, pmf) = self.selection_of_lamps.choose(l, at, u);
+        // Where no lamp shines, none is chosen.
+        let target = lamp.is(MISS).pick(lamp, lamp + self.count as u32);
+        let mut sample = LightSample { wi: at.n, radiance: V::splat(l, [0.0; 3]), pdf: l.f(0.0), delta: l.first(0), target };
+        self.add_lamps(l, at, &mut sample);
+        sample.pdf = sample.pdf * pmf;
+        sample
+    }
+
+    /// Completes the samples whose target is a lamp without surface, up to the probability of choosing it.
+    #[inline(always)]
+    fn add_lamps<L: Lanes>(&self, l: L, at: &ReferencePoint<L>, sample: &mut LightSample<L>) {
+        let lamps = self.are_lamps(sample.target);
+        if !lamps.any() {
+            return;
+        }
+        let LampSample { wi, irradiance } = self.lamps.sample(l, self.lamp(l, lamps, sample.target), at.p);
+        sample.wi = lamps.pick(wi, sample.wi);
+        sample.radiance = lamps.pick(irradiance, sample.radiance);
+        sample.pdf = lamps.pick(l.f(1.0), sample.pdf);
+        sample.delta = lamps;
+    }
+
+    /// Lanes whose light is a lamp without surface.
+    #[inline(always)]
+    fn are_lamps<L: Lanes>(&self, light: U<L>) -> M<L> {
+        let first = self.count as u32;
+        light.below(first + self.lamps.len() as u32) & !light.below(first)
+    }
+
+    /// The numbers of the lamps of `lights` in the lanes of `lamps`, and the first lamp in the others.
+    #[inline(always)]
+    fn lamp<L: Lanes>(&self, l: L, lamps: M<L>, lights: U<L>) -> U<L> {
+        lamps.pick(lights + (self.count as u32).wrapping_neg(), l.u(0))
+    }
+
+    /// The lamp without surface of this light, by its place among all lamps.
+    pub fn lamp_at(&self, light: u32) -> Option<usize> {
+        let lamp = (light as usize).checked_sub(self.count)?;
+        (lamp < self.lamps.len()).then_some(lamp)
+    }
+
+    /// Whether the light `target` arrives at `o` from the direction in which `nearest` is the first hit: it is the target, or the
+    /// target is a lamp without surface that is not farther away. `nearest` then ends at the lamp.
+    #[inline(always)]
+    pub fn arrives<L: Lanes>(&self, l: L, target: U<L>, o: V<L>, nearest: &mut Nearest<L>) -> M<L> {
+        let hit = self.light_at(l, nearest.primitive, nearest.element).equals(target);
+        if self.lamps.is_empty() {
+            return hit;
+        }
+        let lamps = self.are_lamps(target);
+        let distance = self.lamps.distance(l, self.lamp(l, lamps, target), o);
+        let free = lamps & nearest.t.ge(distance);
+        nearest.t = free.pick(distance, nearest.t);
+        nearest.primitive = free.pick(l.u(MISS), nearest.primitive);
+        free | (hit & !lamps)
     }
 
     /// The pdf of [`Lights::sample`] for the direction `wi` per solid angle. `target` is the first hit along `wi`, with the
@@ -185,7 +274,7 @@ impl Lights {
     #[inline(always)]
     fn choose<L: Lanes>(&self, l: L, at: &ReferencePoint<L>, u: &LightCoordinates<L>) -> (U<L>, F<L>) {
         if !self.are_several() {
-            return (l.u(if self.count == 0 { MISS } else { 0 }), l.f(1.0));
+            return (l.u(if self.count + self.lamps.len() == 0 { MISS } else { 0 }), l.f(1.0));
         }
         self.selection.choose(l, at, u)
     }

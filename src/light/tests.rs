@@ -24,7 +24,7 @@ fn lights() -> (Lights, Shapes, Vec<Shapes>) {
     let shapes = shapes_of(&spheres);
     let emitters: Vec<_> =
         spheres.iter().cloned().zip(emissions).map(|(shape, emission)| (shape, STILL.clone(), emission)).collect();
-    let lights = Lights::new(&shapes, &emitters, Some(Background::Constant(ConstantRadiance([0.5, 0.4, 0.6]))), DVec3::ZERO);
+    let lights = Lights::new(&shapes, &emitters, &[], Some(Background::Constant(ConstantRadiance([0.5, 0.4, 0.6]))), DVec3::ZERO);
     let alone = spheres.iter().map(|sphere| shapes_of(std::slice::from_ref(sphere))).collect();
     (lights, shapes, alone)
 }

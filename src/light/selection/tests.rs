@@ -51,7 +51,7 @@ impl Set {
     fn selection(&self) -> Selection {
         let still = |(shape, emission): (&Shape, &Emission)| (shape.clone(), Motion::default(), *emission);
         let lights: Vec<_> = self.shapes.iter().zip(&self.emissions).map(still).collect();
-        Selection::new(&lights, self.sky, DVec3::ZERO)
+        Selection::new(&lights, &[], self.sky, DVec3::ZERO)
     }
 
     /// Probabilities of all lights, and last of the background.

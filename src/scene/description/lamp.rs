@@ -1,7 +1,7 @@
 //! Lamps of a scene file.
 use crate::{
     declare::{Declare, Parameter, Parameters, Value},
-    light::lamp::LampKind,
+    light::lamp::{LampKind, kinds::Projector},
     shape::Transform,
 };
 
@@ -14,6 +14,17 @@ pub struct LampDescription {
     pub kind: LampKind,
     /// Transforms of the lamp, from the first to the last.
     pub transform: Vec<Transform>,
+}
+
+impl LampDescription {
+    /// The lamp with white in place of the image that it casts, so that it can be checked without reading files.
+    pub fn without_files(&self) -> LampDescription {
+        let kind = match &self.kind {
+            LampKind::Projector(projector) => Projector { image: String::new(), ..projector.clone() }.into(),
+            other => other.clone(),
+        };
+        LampDescription { kind, ..self.clone() }
+    }
 }
 
 impl Declare for LampDescription {
