@@ -34,7 +34,10 @@ enum Shape {
     },
     /// A picture. The axes are linear forms: `x` and `y` of a direction over `z` are its coordinates, from −1 to 1 in the picture,
     /// and `z` is positive in front of the lamp.
-    Picture { axes: [DVec3; 3], image: Option<Arc<ImageTexture>> },
+    Picture {
+        axes: [DVec3; 3],
+        image: Option<Arc<ImageTexture>>,
+    },
 }
 
 /// The numbers of a lamp.

@@ -22,12 +22,12 @@ mod tests;
 
 use glam::DAffine3;
 
-pub use self::{compiled::Lamp, table::Lamps};
 pub(super) use self::{
     beam::Beam,
     compiled::{LampBound, LampRows},
     table::LampSample,
 };
+pub use self::{compiled::Lamp, table::Lamps};
 use crate::declare::{Declare, Parameters, Problem, Resources};
 
 /// Largest number of directional lamps of a scene. They have no position, so they are weighted one by one beside the light tree.

@@ -53,7 +53,8 @@ impl Declare for Projector {
         const IMAGE: Parameter = Parameter::new("image", "The image file, relative to the scene; a white square if it is empty.");
         const ENCODING: Parameter = Parameter::new("encoding", "Encoding of the file's numbers; EXR and HDR are always linear.");
         const FOV: Parameter = Parameter::new("fov", "Angle across the width of the image.").unit("degrees");
-        const SCALE: Parameter = Parameter::new("scale", "Radiant intensity where the image is 1, in all of its directions.").unit("W/sr");
+        const SCALE: Parameter =
+            Parameter::new("scale", "Radiant intensity where the image is 1, in all of its directions.").unit("W/sr");
         p.point(&POSITION, &mut self.position);
         p.point(&TARGET, &mut self.target);
         p.value(&UP, Value::Vector(&mut self.up));

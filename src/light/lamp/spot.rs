@@ -65,7 +65,8 @@ impl Declare for Spot {
         const INTENSITY: Parameter = Parameter::new("intensity", "Radiant intensity on the axis.").unit("W/sr");
         const ANGLE: Parameter =
             Parameter::new("angle", "Angle between the axis and the edge of the cone, where the light ends.").unit("degrees");
-        const INNER: Parameter = Parameter::new("inner", "Angle up to which the intensity is that of the axis; at most `angle`.").unit("degrees");
+        const INNER: Parameter =
+            Parameter::new("inner", "Angle up to which the intensity is that of the axis; at most `angle`.").unit("degrees");
         const FALLOFF: Parameter = Parameter::new("falloff", "How the intensity falls between the two angles.");
         p.point(&POSITION, &mut self.position);
         p.point(&TARGET, &mut self.target);

@@ -5,7 +5,7 @@ use noisefall::{
     scene::Object,
 };
 
-use super::terms::{Row, Source, Term, rows, totals};
+use super::terms::{Row, Source, Target, Term, rows, totals};
 use crate::viewer::widgets::{
     palette::Palette,
     style::{choices, elided},
