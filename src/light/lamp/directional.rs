@@ -1,7 +1,7 @@
 //! Light from a direction, of a sun far away.
 use glam::{DAffine3, DVec3};
 
-use super::{Lamp, Shine};
+use super::{Lamp, LampKind, Shine};
 use crate::declare::{Declare, Kind, Parameter, Parameters, Problem, Range, Resources, Value};
 
 /// Light from a direction, of a sun far away.
@@ -42,5 +42,13 @@ impl Shine for Directional {
 
     fn position(&self) -> Option<DVec3> {
         None
+    }
+
+    fn moved(&self, map: &DAffine3) -> Vec<(&'static str, DVec3)> {
+        vec![("direction", map.transform_vector3(self.direction))]
+    }
+
+    fn placed(&self, position: DVec3, target: DVec3, irradiance: f64) -> LampKind {
+        Directional { direction: target - position, irradiance: [irradiance; 3] }.into()
     }
 }

@@ -20,7 +20,7 @@ mod table;
 #[cfg(test)]
 mod tests;
 
-use glam::DAffine3;
+use glam::{DAffine3, DVec3};
 
 pub(super) use self::{
     beam::Beam,
@@ -49,7 +49,19 @@ pub trait Shine {
     fn compile(&self, map: &DAffine3, resources: &Resources) -> Result<Lamp, Problem>;
 
     /// Where the lamp stands before its transform; `None` if it is infinitely far away.
-    fn position(&self) -> Option<glam::DVec3>;
+    fn position(&self) -> Option<DVec3>;
+
+    /// Its points and directions after a map that does not mirror, by their keys.
+    fn moved(&self, map: &DAffine3) -> Vec<(&'static str, DVec3)>;
+
+    /// A lamp of this kind that stands at `position`, shines on `target`, and has about the irradiance `irradiance` there, W/m².
+    fn placed(&self, position: DVec3, target: DVec3, irradiance: f64) -> LampKind;
+}
+
+/// The radiant intensity that has an irradiance over a distance, to three digits.
+fn intensity(position: DVec3, target: DVec3, irradiance: f64) -> f64 {
+    let exact = irradiance * position.distance_squared(target);
+    format!("{exact:.2e}").parse().unwrap_or(exact)
 }
 
 impl Declare for LampKind {

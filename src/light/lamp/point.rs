@@ -1,7 +1,7 @@
 //! A lamp without size that shines equally in all directions.
 use glam::{DAffine3, DVec3};
 
-use super::{Lamp, Shine};
+use super::{Lamp, LampKind, Shine, intensity};
 use crate::declare::{Declare, Kind, Parameter, Parameters, Problem, Range, Resources};
 
 /// A lamp without size that shines equally in all directions.
@@ -40,5 +40,13 @@ impl Shine for Point {
 
     fn position(&self) -> Option<DVec3> {
         Some(self.position)
+    }
+
+    fn moved(&self, map: &DAffine3) -> Vec<(&'static str, DVec3)> {
+        vec![("position", map.transform_point3(self.position))]
+    }
+
+    fn placed(&self, position: DVec3, target: DVec3, irradiance: f64) -> LampKind {
+        Point { position, intensity: [intensity(position, target, irradiance); 3] }.into()
     }
 }

@@ -1,7 +1,7 @@
 //! An image that is cast from a point.
 use glam::{DAffine3, DVec3};
 
-use super::{Lamp, Shine, spot::axis};
+use super::{Lamp, LampKind, Shine, intensity, spot::axis};
 use crate::{
     declare::{Declare, Kind, Parameter, Parameters, Problem, Range, Resources, Value},
     image::Encoding,
@@ -83,5 +83,20 @@ impl Shine for Projector {
 
     fn position(&self) -> Option<DVec3> {
         Some(self.position)
+    }
+
+    fn moved(&self, map: &DAffine3) -> Vec<(&'static str, DVec3)> {
+        vec![
+            ("position", map.transform_point3(self.position)),
+            ("target", map.transform_point3(self.target)),
+            ("up", map.transform_vector3(self.up)),
+        ]
+    }
+
+    fn placed(&self, position: DVec3, target: DVec3, irradiance: f64) -> LampKind {
+        // The image of a projector that shines on a floor would have no direction upwards.
+        let up =
+            if (target - position).cross(DVec3::Y).length() < 1e-3 * position.distance(target) { DVec3::NEG_Z } else { DVec3::Y };
+        Projector { position, target, up, scale: intensity(position, target, irradiance), ..Projector::default() }.into()
     }
 }

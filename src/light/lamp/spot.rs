@@ -1,7 +1,7 @@
 //! A lamp without size that shines within a cone.
 use glam::{DAffine3, DVec3};
 
-use super::{Lamp, Shine};
+use super::{Lamp, LampKind, Shine, intensity};
 use crate::declare::{Declare, Kind, Parameter, Parameters, Problem, Range, Resources, words};
 
 /// A lamp without size that shines within a cone.
@@ -87,6 +87,14 @@ impl Shine for Spot {
 
     fn position(&self) -> Option<DVec3> {
         Some(self.position)
+    }
+
+    fn moved(&self, map: &DAffine3) -> Vec<(&'static str, DVec3)> {
+        vec![("position", map.transform_point3(self.position)), ("target", map.transform_point3(self.target))]
+    }
+
+    fn placed(&self, position: DVec3, target: DVec3, irradiance: f64) -> LampKind {
+        Spot { position, target, intensity: [intensity(position, target, irradiance); 3], ..Spot::default() }.into()
     }
 }
 

@@ -2,7 +2,7 @@
 use crate::{
     declare::{Declare, Parameter, Parameters, Value},
     light::lamp::{LampKind, kinds::Projector},
-    shape::Transform,
+    shape::{Transform, product},
 };
 
 /// A lamp without surface of a scene file.
@@ -24,6 +24,13 @@ impl LampDescription {
             other => other.clone(),
         };
         LampDescription { kind, ..self.clone() }
+    }
+}
+
+impl LampDescription {
+    /// Where the lamp stands after its transforms, metres; `None` if it is infinitely far away.
+    pub fn position(&self) -> Option<glam::DVec3> {
+        Some(product(&self.transform).ok()?.transform_point3(self.kind.kind().position()?))
     }
 }
 
