@@ -12,8 +12,6 @@ mod features;
 mod first_hits;
 mod interaction;
 mod intersect;
-#[cfg(test)]
-mod lamp_tests;
 mod light_sample;
 mod media;
 mod normal_mapping;

@@ -24,10 +24,6 @@ use super::{
 };
 use crate::declare::{Declare, Kind, Parameter, Parameters, Problem, Range, Resources, Value};
 
-/// Lumens of a watt of light whose spectrum is constant over the visible range: it makes radiances, W/(m² sr), of luminances, cd/m²
-/// (G. Ward, "The RADIANCE Lighting Simulation and Rendering System", SIGGRAPH 1994).
-const LUMENS_PER_WATT: f64 = 179.0;
-
 /// The smallest turbidity of the model.
 const CLEAREST: f64 = 2.0;
 

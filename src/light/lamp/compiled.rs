@@ -3,7 +3,7 @@ use std::{f64::consts::TAU, sync::Arc};
 
 use glam::DVec3;
 
-use super::spot::Falloff;
+use super::falloff::Falloff;
 use crate::{declare::Problem, math::colour::luminance, texture::ImageTexture};
 
 /// A lamp as the renderer needs it.

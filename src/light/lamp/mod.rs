@@ -7,12 +7,14 @@
 //! | file | holds |
 //! |---|---|
 //! | `point.rs`, `spot.rs`, `directional.rs`, `projector.rs` | the kinds: description, parameters, compiled lamp |
+//! | `falloff.rs` | how spots fall off |
 //! | `compiled.rs` | a compiled lamp and its rows |
 //! | `beam.rs` | the light of lamps at points, in lanes |
 //! | `table.rs` | all lamps of a scene |
 mod beam;
 mod compiled;
 pub mod directional;
+mod falloff;
 pub mod point;
 pub mod projector;
 pub mod spot;

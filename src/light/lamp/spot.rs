@@ -1,8 +1,9 @@
 //! A lamp without size that shines within a cone.
 use glam::{DAffine3, DVec3};
 
+pub use super::falloff::Falloff;
 use super::{Lamp, LampKind, Shine, intensity};
-use crate::declare::{Declare, Kind, Parameter, Parameters, Problem, Range, Resources, words};
+use crate::declare::{Declare, Kind, Parameter, Parameters, Problem, Range, Resources};
 
 /// A lamp without size that shines within a cone.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,25 +20,6 @@ pub struct Spot {
     pub inner: f64,
     /// How the intensity falls between the two angles.
     pub falloff: Falloff,
-}
-
-/// How the intensity of a spot falls to 0 between its inner angle and its edge.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Falloff {
-    /// Smoothstep of the cosine, as pbrt does.
-    Smooth,
-    /// Linear in the angle, as Mitsuba does.
-    Linear,
-    /// The square of the cosine's fraction, as glTF does.
-    Square,
-}
-
-words! {
-    Falloff {
-        Smooth: "smooth", "Smooth", "Smoothstep of the cosine of the angle.";
-        Linear: "linear", "Linear", "Linear in the angle.";
-        Square: "square", "Square", "Square of what is linear in the cosine of the angle.";
-    }
 }
 
 impl Default for Spot {

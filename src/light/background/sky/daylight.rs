@@ -3,8 +3,11 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
-use super::LUMENS_PER_WATT;
 use crate::math::temperature::{REC_709, times};
+
+/// Lumens of a watt of light whose spectrum is constant over the visible range: it makes radiances, W/(m² sr), of luminances, cd/m²
+/// (G. Ward, "The RADIANCE Lighting Simulation and Rendering System", SIGGRAPH 1994).
+pub const LUMENS_PER_WATT: f64 = 179.0;
 
 /// A clear sky without its sun.
 pub struct Daylight {

@@ -5,7 +5,7 @@
 //! where the eye hardly sees; they are left out.
 use glam::DVec3;
 
-use super::LUMENS_PER_WATT;
+use super::daylight::LUMENS_PER_WATT;
 use crate::math::temperature::{REC_709, matching, times};
 
 /// Solid angle of the sun, sr: a disk with a diameter of 1.39·10⁹ m at 1.5·10¹¹ m.

@@ -4,7 +4,8 @@ use std::f64::consts::{PI, TAU};
 use glam::DVec3;
 
 use super::{
-    CLEAREST, Daylight, ImageBackground, LUMENS_PER_WATT, Sky, SkyTables,
+    CLEAREST, ImageBackground, Sky, SkyTables,
+    daylight::{Daylight, LUMENS_PER_WATT},
     raster::{HEIGHT, Raster, WIDTH},
     sun::{self, SOLID_ANGLE},
 };

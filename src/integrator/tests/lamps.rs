@@ -1,7 +1,6 @@
 //! Lamps without surface in rendered scenes: against formulas, and the estimators against each other.
-use super::{Batch, Work, replay, trace};
 use crate::{
-    integrator::TILE,
+    integrator::{Batch, TILE, Work, replay, trace},
     math::{SimdLevel, colour::luminance},
     sampling::Sampler,
     scene::{Estimator, RenderSettings, Reuse, Scene, parse},
