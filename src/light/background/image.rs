@@ -242,7 +242,7 @@ impl ImageBackground {
     /// (u, v) in [0, 1]².
     #[inline(always)]
     fn picture_from_world<L: Lanes>(&self, l: L, d: V<L>) -> (F<L>, F<L>) {
-        let d = if let Some(turn) = &self.turn { turn.from_world(l, d) } else { d };
+        let d = if let Some(turn) = &self.turn { turn.to_image(l, d) } else { d };
         let u = turns_of(-d.z, d.x) + self.shift;
         let u = u.below(1.0).pick(u, u - 1.0);
         let r = (d.x * d.x + d.z * d.z).sqrt();

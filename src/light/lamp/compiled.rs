@@ -98,7 +98,7 @@ impl Lamp {
     pub fn check(&self) -> Result<(), Problem> {
         const LARGEST: f64 = 1e12;
         match self.source {
-            Source::At(position) if !(position.abs().max_element() <= LARGEST) => {
+            Source::At(position) if position.is_nan() || position.abs().max_element() > LARGEST => {
                 Err(Problem::at("", "the lamp is too far away", format!("expected coordinates up to {LARGEST:e} m")))
             }
             _ => Ok(()),

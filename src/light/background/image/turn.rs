@@ -43,7 +43,7 @@ impl Turn {
 
     /// A direction of the world, in the image: the inverse of an orthogonal matrix is its transpose.
     #[inline(always)]
-    pub fn from_world<L: Lanes>(&self, l: L, d: V<L>) -> V<L> {
+    pub fn to_image<L: Lanes>(&self, l: L, d: V<L>) -> V<L> {
         let [a, b, c] = &self.axes;
         V { x: d.dot(V::splat(l, *a)), y: d.dot(V::splat(l, *b)), z: d.dot(V::splat(l, *c)) }
     }

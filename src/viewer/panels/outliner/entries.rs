@@ -99,6 +99,7 @@ mod tests {
         room.add_object("ball", Sphere::default()).material = Some("white".to_owned());
         room.add_object("", Sphere::default());
         room.add_object("lamp", Sphere::default()).emission = Some(EmissionDescription::default());
+        room.lamps.push(LampDescription::default());
         room.textures.insert("squares".to_owned(), TextureKind::default());
         room
     }
@@ -112,7 +113,7 @@ mod tests {
     fn every_part_is_in_one_group() {
         let all = [
             ("Objects", vec!["ball", "object 2"]),
-            ("Lamps", vec!["lamp"]),
+            ("Lamps", vec!["lamp", "lamp 1"]),
             ("Materials", vec!["white"]),
             ("Textures", vec!["squares"]),
             ("Scene", vec!["Camera", "Background", "Title and settings"]),
