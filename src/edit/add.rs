@@ -2,13 +2,16 @@
 use super::{Document, Edit, tree::Tree};
 use crate::{
     declare::{OneOf, Path},
+    light::lamp::LampKind,
     material::{Lambertian, Material},
-    scene::description::{EmissionDescription, MaterialDescription, ObjectDescription},
+    scene::description::{EmissionDescription, LampDescription, MaterialDescription, ObjectDescription},
     shape::{Placement, ShapeKind},
 };
 
 /// The radiance of new lamps, W/(m² sr): about that of white paper on an overcast day.
 const RADIANCE: f64 = 20.0;
+/// The irradiance of new lamps without surface where they are added, W/m²: a surface there is about as bright.
+const IRRADIANCE: f64 = 20.0;
 
 impl Document {
     /// The edit that adds a shape of a kind, and the path of the new object. It rests on the surface, has the material `material`, or
@@ -43,6 +46,17 @@ impl Document {
         let emission = EmissionDescription::radiance([RADIANCE; 3]);
         let object = ObjectDescription { name: "lamp".to_owned(), emission: Some(emission), ..ObjectDescription::default() };
         self.add(kind, placement, object)
+    }
+
+    /// The edit that adds a lamp without surface of a kind above the surface, and the path of the new lamp.
+    pub fn add_lamp_without_surface(&self, kind: &str, placement: &Placement) -> Option<(Edit, Path)> {
+        let kind = LampKind::alternatives().into_iter().find(|lamp| lamp.name() == kind)?;
+        let (position, target) = (placement.reached(2.0 * placement.size()), placement.rounded(placement.at));
+        let name = self.free_name("lamps", &kind.name().replace('_', " "));
+        let kind = kind.kind().placed(position, target, IRRADIANCE);
+        let mut lamp = LampDescription { name, kind, ..LampDescription::default() };
+        let path = Path::of("lamps").item(self.description().lamps.len());
+        Some((Edit::insert_tree(path.clone(), Tree::of(&mut lamp)), path))
     }
 
     fn add(&self, kind: &str, placement: &Placement, object: ObjectDescription) -> Option<(Edit, Path)> {

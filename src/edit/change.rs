@@ -111,6 +111,7 @@ impl Edit {
             Some(Step::Key(key)) => key.replace('_', " "),
             Some(Step::Item(_)) => match path.0.first() {
                 Some(Step::Key(key)) if key == "objects" && path.0.len() == 2 => "object".to_owned(),
+                Some(Step::Key(key)) if key == "lamps" && path.0.len() == 2 => "lamp".to_owned(),
                 _ => path
                     .0
                     .iter()

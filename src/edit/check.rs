@@ -5,7 +5,7 @@ use super::{
 };
 use crate::{
     declare::{Declare, Family, Parameter, Parameters, Path, Problem, Step, Value, check_value},
-    scene::{check_camera, check_object, description::SceneDescription},
+    scene::{check_camera, check_lamp, check_object, description::SceneDescription},
 };
 
 /// Problems at a path or below it: values out of range, undefined names, and invalid cameras, transforms and shapes. Reads no
@@ -35,7 +35,7 @@ fn names(description: &mut SceneDescription, path: &Path) -> Option<Problem> {
     unknown
 }
 
-/// The camera or the object that contains a path.
+/// The camera, the object or the lamp that contains a path.
 fn part(description: &SceneDescription, path: &Path) -> Option<Problem> {
     match &path.0[..] {
         [Step::Key(table), ..] if table == "camera" => {
@@ -44,6 +44,10 @@ fn part(description: &SceneDescription, path: &Path) -> Option<Problem> {
         [Step::Key(list), Step::Item(place), ..] if list == "objects" => {
             let problem = check_object(description.objects.get(*place)?).err()?;
             Some(problem.within(&Path::of("objects").item(*place)))
+        }
+        [Step::Key(list), Step::Item(place), ..] if list == "lamps" => {
+            let problem = check_lamp(description.lamps.get(*place)?).err()?;
+            Some(problem.within(&Path::of("lamps").item(*place)))
         }
         _ => None,
     }

@@ -43,13 +43,13 @@
 //! | set a value; adds absent tables on its path | [`Edit::Set`] |
 //! | give an optional value or table its default (`objects.3.emission`) | [`Edit::Insert`] without content |
 //! | remove an optional value, an object, a material, an item of a list | [`Edit::Remove`] |
-//! | add an object, a material, a texture, a transform | [`Edit::Insert`]; [`Document::add_shape`] places one |
+//! | add an object, a lamp, a material, a texture, a transform | [`Edit::Insert`]; [`Document::add_shape`] and [`Document::add_lamp_without_surface`] place one |
 //! | add a mesh file; make an image the background | [`Document::add_mesh`]; [`Document::set_sky`] |
-//! | duplicate an object, a material, a texture | [`Document::duplicate`] |
+//! | duplicate an object, a lamp, a material, a texture | [`Document::duplicate`] |
 //! | change a kind: `path` is the table with the key of the kind, `choice` the [`Choice::what`](crate::declare::Choice::what) | [`Edit::Choose`] |
 //! | the same, with the parameters that depend on it, such as the camera's angle | [`Document::change_kind`] |
 //! | rename a material or texture, and all references to it | [`Edit::Rename`] |
-//! | rename an object | [`Edit::Set`] of its `name` |
+//! | rename an object or a lamp | [`Edit::Set`] of its `name` |
 //! | assign a material; `None` is black | [`Document::assign`] |
 //! | reorder a list | [`Edit::Move`] |
 //! | give the scene the camera and the settings of a view | [`Document::use_view`] |

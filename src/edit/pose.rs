@@ -1,10 +1,9 @@
-//! Moves, turns and scales objects.
+//! Moves, turns and scales objects and lamps.
 use glam::{DAffine3, DVec3};
 
 use super::{Document, Edit, tree::Tree};
 use crate::{
     declare::{OwnedValue, Path},
-    scene::description::ObjectDescription,
     shape::{PointMap, Transform, product},
 };
 
@@ -30,16 +29,30 @@ impl Document {
                 let set = |(key, value): (&str, OwnedValue)| Edit::set(at.join(&Path::of(key)), value);
                 Edit::All(points.into_iter().map(set).collect())
             }
-            None => list(described, &at.key("transform"), change, &map, ROUNDING * pivot.length()),
+            None => list(&described.transform, &at.key("transform"), change, &map, ROUNDING * pivot.length()),
         })
+    }
+
+    /// The same for a lamp without surface. Its intensity stays.
+    pub fn transformed_lamp(&self, lamp: usize, change: &Transform, pivot: DVec3) -> Option<Edit> {
+        let at = Path::of("lamps").item(lamp);
+        let described = self.description().lamps.get(lamp)?;
+        let about = DAffine3::from_translation(pivot);
+        let map = about * product(std::slice::from_ref(change)).ok()? * about.inverse();
+        if !described.transform.is_empty() || map.matrix3.determinant() < 0.0 {
+            return Some(list(&described.transform, &at.key("transform"), change, &map, ROUNDING * pivot.length()));
+        }
+        let at = at.key(described.kind.name());
+        let points = described.kind.kind().moved(&map).into_iter();
+        Some(Edit::All(points.map(|(key, point)| Edit::set(at.key(key), OwnedValue::Vector(point))).collect()))
     }
 }
 
 /// The edit of a list of transforms: turning and scaling come before the last translation.
-fn list(object: &ObjectDescription, at: &Path, change: &Transform, map: &DAffine3, rounding: f64) -> Edit {
-    let (before, translation) = match object.transform.split_last() {
+fn list(transforms: &[Transform], at: &Path, change: &Transform, map: &DAffine3, rounding: f64) -> Edit {
+    let (before, translation) = match transforms.split_last() {
         Some((Transform::Translate(by), before)) => (before, Some(*by)),
-        _ => (&object.transform[..], None),
+        _ => (transforms, None),
     };
     let mut edits = Vec::new();
     let mut count = before.len();

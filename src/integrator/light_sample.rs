@@ -39,5 +39,9 @@ pub(super) fn sample_light<L: Lanes>(
         cell: if lights.have_cells() { stream.two(Dimension::cell(reflection)) } else { (unused, unused) },
         place: stream.two(Dimension::light(reflection)),
     };
-    lights.sample(l, &work.scene.shapes, at, work.time(l, slot), &coordinates)
+    if work.settings.estimator.samples_lights() {
+        lights.sample(l, &work.scene.shapes, at, work.time(l, slot), &coordinates)
+    } else {
+        lights.sample_lamps(l, at, &coordinates)
+    }
 }

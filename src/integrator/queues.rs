@@ -9,7 +9,7 @@ use crate::math::{Lanes, One, Pick, U};
 /// Paths on their way to the next surface.
 pub(super) struct PathQueues {
     pub paths: Queue,
-    /// Filled if lights are sampled.
+    /// Filled if emitter hits are weighted.
     pub previous_vertices: Queue,
     /// Filled beside `previous_vertices` in scenes with conductors and several lights.
     pub previous_lobes: Queue,

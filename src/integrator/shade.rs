@@ -52,7 +52,7 @@ fn queue_path<L: Lanes, K: Shade>(l: L, work: &Work, shading: &Shading<L, K>, re
     let (Shading { live, vertex, .. }, Reflected { sample, path, goes_on, .. }) = (shading, reflected);
     let keep = *live & *goes_on;
     path.push(keep, &mut queues.paths);
-    if work.samples_lights() {
+    if work.weights_hits() {
         let unsampled = if K::TRANSMITS { sample.delta | vertex.self_lit } else { sample.delta };
         let flags = unsampled.pick(l.u(DELTA), l.u(0)) | if K::TRANSMITS { TRANSMITS } else { 0 };
         PreviousVertex { n: vertex.n, pdf: sample.pdf, flags }.push(keep, &mut queues.previous_vertices);

@@ -1,7 +1,7 @@
 //! Fifth stage: tests which light samples are visible.
 //!
-//! A sample counts if the first surface along its ray is the light that it was sampled from. No distances are compared, so there
-//! is no tolerance.
+//! A sample counts if the first surface along its ray is the light that it was sampled from, or if the ray reaches its lamp without
+//! surface. There is no tolerance: no distance is compared with that of a surface of the light.
 use fearless_simd_macros::simd;
 
 use super::{
@@ -35,8 +35,9 @@ pub(super) fn shadow<L: Lanes>(l: L, work: &Work, batch: &mut Batch) {
 pub(super) fn arriving<L: Lanes>(l: L, work: &Work, live: M<L>, shadow: &Shadow<L>, media: U<L>) -> (M<L>, V<L>) {
     let scene = work.scene;
     let time = work.time(l, shadow.slot);
-    let Nearest { t, primitive, element } = scene.shapes.closest(l, live, shadow.o, shadow.d, time);
-    let seen = live & scene.lights.light_at(l, primitive, element).equals(shadow.target);
+    let mut nearest = scene.shapes.closest(l, live, shadow.o, shadow.d, time);
+    let seen = live & scene.lights.arrives(l, shadow.target, shadow.o, &mut nearest);
+    let Nearest { t, primitive, element } = nearest;
     let mut light = shadow.radiance;
     if work.has_media() {
         light = light * transmittance(l, work, media, t);

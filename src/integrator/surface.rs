@@ -27,7 +27,7 @@ pub(super) fn surfaces<L: Lanes, const VARIED: bool>(l: L, work: &Work, batch: &
     let Batch { paths, first_hits, hits, radiance, shared, bounce, .. } = batch;
     hits.iter_mut().for_each(HitQueues::clear);
     let paths = &paths[(*bounce & 1) as usize];
-    let previous = (*bounce > 0 && work.samples_lights()).then_some(paths);
+    let previous = (*bounce > 0 && work.weights_hits()).then_some(paths);
     let shares = *bounce == 1 && work.shares();
     let has_elements = VARIED && work.scene.shapes.have_elements();
     for at in paths.registers(l) {

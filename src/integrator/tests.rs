@@ -1,4 +1,6 @@
 //! The random numbers that a path reads.
+mod lamps;
+
 use std::collections::BTreeMap;
 
 use super::{Batch, Work, replay, trace};

@@ -167,10 +167,17 @@ impl<'a> Work<'a> {
         self.settings.estimator.compares() && self.scene.heeds_lobes()
     }
 
-    /// Whether lights are sampled, in addition to emitter hits.
+    /// Whether surfaces sample a light. Lamps without surface are sampled by all estimators, because no ray can hit them.
     #[inline(always)]
     pub(super) fn samples_lights(&self) -> bool {
-        self.settings.estimator.samples_lights() && !self.scene.lights.is_empty()
+        let lights = &self.scene.lights;
+        (self.settings.estimator.samples_lights() && !lights.is_empty()) || !lights.lamps.is_empty()
+    }
+
+    /// Whether emitter hits are weighted, because light samples could have found the same light.
+    #[inline(always)]
+    pub(super) fn weights_hits(&self) -> bool {
+        self.settings.estimator.samples_lights() && self.scene.lights.can_be_hit()
     }
 }
 

@@ -1,9 +1,12 @@
-//! Bounds of an emitting piece for light selection: its position, power and emitting side.
+//! Bounds of an emitting piece or a lamp for light selection: its position, power and emitting side.
 use std::f64::consts::PI;
 
 use glam::DVec3;
 
-use super::emission::{Emission, Side};
+use super::{
+    emission::{Emission, Side},
+    lamp::{Lamp, LampBound},
+};
 use crate::{
     geometry::{Motion, Shape},
     math::colour::luminance,
@@ -44,5 +47,11 @@ impl Bound {
             Side::Both => (light, light),
         };
         Bound { center, radius, size, normal, front, back, moves }
+    }
+
+    /// Bounds a lamp without surface; `None` if it is infinitely far away.
+    pub fn of_lamp(lamp: &Lamp) -> Option<Bound> {
+        let LampBound { position, axis, light } = lamp.bound()?;
+        Some(Bound { center: position, radius: 0.0, size: 1.0 / PI, normal: axis, front: light, back: 0.0, moves: false })
     }
 }

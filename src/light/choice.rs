@@ -2,29 +2,37 @@
 //!
 //! A light is chosen in proportion to an estimate of its unoccluded irradiance at the point, E ≈ π L sin²θ · max(cos) over its
 //! cone of half angle θ; textured emitters count with their mean radiance (Shirley et al. 1996 discuss good choices).
+mod lamps;
+
 use glam::DVec3;
 
 use super::{
     background::Background,
     coordinates::LightCoordinates,
     emission::{Emission, Emitters},
+    lamp::{Lamp, Lamps},
     reference_point::ReferencePoint,
     selection::Selection,
 };
 use crate::{
     geometry::{MISS, Motion, PrimitiveRef, Shape, Shapes},
-    math::{F, Lanes, Pick, U, V},
+    math::{F, Lanes, M, Pick, U, V},
 };
 
-/// All lights of a scene: the emitting primitives 0, 1, 2, …, every triangle of emitting meshes, and the background.
+/// All lights of a scene: the emitting primitives 0, 1, 2, …, every triangle of emitting meshes, the lamps without surface, and the
+/// background.
 #[derive(Default)]
 pub struct Lights {
     /// The emitting primitives.
     pub emitters: Emitters,
     /// Absent when black.
     pub background: Option<Background>,
+    /// The lamps without surface, numbered after the surfaces.
+    pub lamps: Lamps,
     selection: Selection,
-    /// Number of lights without the background.
+    /// Selection among the lamps without surface alone.
+    selection_of_lamps: Selection,
+    /// Number of lights with a surface.
     count: usize,
     /// Primitive and triangle of every light, as bits; empty if every light's number is its primitive.
     places: Vec<[f32; 4]>,
@@ -36,22 +44,31 @@ pub struct Lights {
 pub struct LightSample<L: Lanes> {
     /// Unit direction towards the light.
     pub wi: V<L>,
-    /// Unoccluded radiance that arrives.
+    /// Unoccluded radiance that arrives; from a lamp without surface the irradiance of a surface that faces it.
     pub radiance: V<L>,
-    /// Pdf of `wi` per solid angle, including the probability of choosing the light; 0 if there is no light.
+    /// Pdf of `wi` per solid angle, including the probability of choosing the light; 0 if there is no light. For a lamp without
+    /// surface, that probability alone.
     pub pdf: F<L>,
-    /// The first hit along `wi` must be the [light](Lights::light_at) of this number, or [`MISS`] for the background, for the
-    /// light to arrive.
+    /// Lanes of lamps without surface: no other strategy could have sampled the direction.
+    pub delta: M<L>,
+    /// The light, or [`MISS`] for the background: see [`Lights::arrives`].
     pub target: U<L>,
 }
 
 impl Lights {
     /// Collects the lights. `emitters` are the emitting pieces of the shapes, which are their first primitives, with their
     /// motion.
-    pub fn new(shapes: &Shapes, emitters: &[(Shape, Motion, Emission)], background: Option<Background>, near: DVec3) -> Lights {
+    pub fn new(
+        shapes: &Shapes,
+        emitters: &[(Shape, Motion, Emission)],
+        lamps: &[Lamp],
+        background: Option<Background>,
+        near: DVec3,
+    ) -> Lights {
         let mut lights = Lights {
             emitters: Emitters::new(&emitters.iter().map(|(.., emission)| *emission).collect::<Vec<_>>()),
             background,
+            lamps: Lamps::new(lamps),
             ..Lights::default()
         };
         let have_elements = emitters.iter().any(|(piece, ..)| matches!(piece, Shape::Mesh { .. }));
@@ -74,7 +91,8 @@ impl Lights {
         }
         lights.count = sources.len();
         let sky = lights.background.as_ref().map_or(0.0, Background::luminance);
-        lights.selection = Selection::new(&sources, sky, near);
+        lights.selection = Selection::new(&sources, lamps, sky, near);
+        lights.selection_of_lamps = Selection::new(&[], lamps, 0.0, near);
         lights
     }
 
@@ -102,12 +120,17 @@ impl Lights {
 
     /// Whether there are no lights.
     pub fn is_empty(&self) -> bool {
-        self.count == 0 && self.background.is_none()
+        !self.can_be_hit() && self.lamps.is_empty()
+    }
+
+    /// Whether rays can hit a light: an emitting surface or the background.
+    pub fn can_be_hit(&self) -> bool {
+        self.count > 0 || self.background.is_some()
     }
 
     /// Whether there are several lights.
     pub fn are_several(&self) -> bool {
-        self.count + usize::from(self.background.is_some()) > 1
+        self.count + self.lamps.len() + usize::from(self.background.is_some()) > 1
     }
 
     /// Whether the selection uses [`ReferencePoint::lobe`].
@@ -132,12 +155,16 @@ impl Lights {
     ) -> LightSample<L> {
         let (target, pmf) = self.choose(l, at, u);
         let sky = target.is(MISS);
-        let mut sample = LightSample { wi: at.n, radiance: V::splat(l, [0.0; 3]), pdf: l.f(0.0), target };
-        if (!sky).any() {
-            let place = self.place(l, sky.pick(l.u(0), target), time);
+        let mut sample = LightSample { wi: at.n, radiance: V::splat(l, [0.0; 3]), pdf: l.f(0.0), delta: l.first(0), target };
+        let mut on_surface = !sky;
+        if !self.lamps.is_empty() {
+            on_surface = on_surface & target.below(self.count as u32);
+        }
+        if on_surface.any() {
+            let place = self.place(l, on_surface.pick(target, l.u(0)), time);
             let toward = shapes.toward(l, &place, at.p, u.place);
             let side = toward.front.pick(l.f(1.0), l.f(-1.0));
-            let (radiance, lit) = self.emitters.radiance(l, !sky, place.primitive, side);
+            let (radiance, lit) = self.emitters.radiance(l, on_surface, place.primitive, side);
             sample.wi = toward.wi;
             sample.radiance = radiance;
             sample.pdf = lit.pick(toward.pdf, l.f(0.0));
@@ -149,6 +176,9 @@ impl Lights {
             sample.wi = sky.pick(wi, sample.wi);
             sample.radiance = sky.pick(background.radiance(l, wi), sample.radiance);
             sample.pdf = sky.pick(pdf, sample.pdf);
+        }
+        if !self.lamps.is_empty() {
+            self.add_lamps(l, at, &mut sample);
         }
         sample.pdf = sample.pdf * pmf;
         sample
@@ -185,7 +215,7 @@ impl Lights {
     #[inline(always)]
     fn choose<L: Lanes>(&self, l: L, at: &ReferencePoint<L>, u: &LightCoordinates<L>) -> (U<L>, F<L>) {
         if !self.are_several() {
-            return (l.u(if self.count == 0 { MISS } else { 0 }), l.f(1.0));
+            return (l.u(if self.count + self.lamps.len() == 0 { MISS } else { 0 }), l.f(1.0));
         }
         self.selection.choose(l, at, u)
     }

@@ -1,8 +1,9 @@
-//! Light sources: surfaces that emit, and the background.
+//! Light sources: surfaces that emit, lamps without surface, and the background.
 //!
 //! | type | file | description |
 //! |---|---|---|
 //! | emission | `emission/` | radiance from one or both sides of a surface, constant or textured |
+//! | lamps without surface | `lamp/` | point, spot, directional lamp, projector |
 //! | background | `background/` | radiance from all directions |
 //!
 //! `selection.rs` selects a light for a point, with the light tree of `tree.rs` if there are many.
@@ -26,6 +27,7 @@ pub use self::{
     choice::{LightSample, Lights},
     coordinates::LightCoordinates,
     emission::{Emission, Emitters, Side},
+    lamp::{Lamp, Lamps},
     lobe::Lobe,
     reference_point::ReferencePoint,
 };

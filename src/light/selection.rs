@@ -12,6 +12,7 @@ use glam::{DVec3, Vec3};
 use super::{
     Emission, LightCoordinates, ReferencePoint,
     bound::Bound,
+    lamp::{Lamp, MOST_DIRECTIONAL},
     source::Source,
     tree::{Item, Traversal, Tree, light_of_word, word_of_light},
 };
@@ -32,6 +33,8 @@ const LARGE: usize = 16;
 /// a light sample, mostly falls by a third.
 const HEADS: usize = 32;
 const MOST_CANDIDATES: usize = if FEW > LARGE + HEADS { FEW } else { LARGE + HEADS };
+/// The tree needs some heads beside the lights that are weighted one by one.
+const _: () = assert!(LARGE + MOST_DIRECTIONAL + 8 <= MOST_CANDIDATES);
 
 /// The candidates of a choice: the background, the lights that are weighted one by one, and the heads of the tree.
 #[derive(Default)]
@@ -45,19 +48,32 @@ pub(super) struct Selection {
 }
 
 impl Selection {
-    /// Builds the selection. `lights` are the emitting shapes with their motion. `near` is a point near the middle of the scene.
-    pub fn new(lights: &[(Shape, Motion, Emission)], sky: f32, near: DVec3) -> Selection {
-        let bound = |light: usize| Bound::new(&lights[light].0, &lights[light].1, &lights[light].2);
-        let (single, tree) = if lights.len() <= FEW {
-            ((0..lights.len() as u32).collect(), Tree::default())
+    /// Builds the selection. `lights` are the emitting shapes with their motion, and lamps are numbered after them. `near` is a point
+    /// near the middle of the scene.
+    pub fn new(lights: &[(Shape, Motion, Emission)], lamps: &[Lamp], sky: f32, near: DVec3) -> Selection {
+        let count = lights.len() + lamps.len();
+        let surface = |(shape, motion, emission): &(Shape, Motion, Emission)| Bound::new(shape, motion, emission);
+        let (single, tree) = if count <= FEW {
+            ((0..count as u32).collect(), Tree::default())
         } else {
-            let mut items: Vec<_> = (0..lights.len()).map(|light| Item::new(&bound(light), light as u32)).collect();
+            let bounds = lights.iter().map(|light| Some(surface(light))).chain(lamps.iter().map(Bound::of_lamp));
+            let (mut items, mut single) = (Vec::new(), Vec::new());
+            for (light, bound) in (0..).zip(bounds) {
+                match bound {
+                    Some(bound) => items.push(Item::new(&bound, light)),
+                    // A light without a position has no place in the tree.
+                    None => single.push(light),
+                }
+            }
             let small = items.len() - outstanding(&mut items);
-            let single: Vec<_> = items.drain(small..).map(|item| item.light).collect();
-            let tree = Tree::new(&mut items, &single, HEADS);
+            single.extend(items.drain(small..).map(|item| item.light));
+            let tree = Tree::new(&mut items, &single, HEADS.min(MOST_CANDIDATES - single.len()));
             (single, tree)
         };
-        let source = |light: &u32| Source::new(&lights[*light as usize].0, &bound(*light as usize), near);
+        let source = |light: &u32| match lights.get(*light as usize) {
+            Some(light) => Source::new(&light.0, &surface(light), near),
+            None => Source::of_lamp(&lamps[*light as usize - lights.len()]),
+        };
         Selection {
             sky,
             sources: single.iter().map(source).collect(),

@@ -1,13 +1,19 @@
-//! An emitting primitive in light selection: estimates an upper bound of its irradiance.
+//! A light in selection: estimates an upper bound of its irradiance.
+use std::f32::consts::FRAC_1_PI;
+
 use glam::DVec3;
 
-use super::{ReferencePoint, bound::Bound};
+use super::{
+    ReferencePoint,
+    bound::Bound,
+    lamp::{Beam, Lamp, LampRows},
+};
 use crate::{
     geometry::{Shape, Sphere},
     math::{F, Lanes, Pick, V},
 };
 
-/// An emitting primitive.
+/// An emitting primitive, or a lamp without surface.
 pub(super) struct Source {
     extent: Extent,
     /// Luminance of the front and of the back.
@@ -24,6 +30,8 @@ enum Extent {
         size: f32,
         normal: Option<[f32; 3]>,
     },
+    /// A lamp without surface. Its irradiance is known exactly, but for the image that it may cast.
+    Lamp(LampRows),
 }
 
 impl Source {
@@ -39,6 +47,11 @@ impl Source {
             },
         };
         Source { extent, front: bound.front, back: bound.back }
+    }
+
+    /// Builds a source from a lamp.
+    pub fn of_lamp(lamp: &Lamp) -> Source {
+        Source { extent: Extent::Lamp(lamp.rows(0)), front: lamp.light() * FRAC_1_PI, back: 0.0 }
     }
 
     /// Estimates an upper bound of the irradiance from this light, divided by π: E ≈ L A cos θ_i cos θ_e/d², which is a bound if
@@ -68,6 +81,13 @@ impl Source {
                     None => light = light * self.front.max(self.back),
                 }
                 light * *size / distance_squared.max(l.f(*radius_squared))
+            }
+            Extent::Lamp(rows) => {
+                let beam = Beam::of_all(l, rows);
+                let way = beam.way_from(l, at.p);
+                let zero = l.f(0.0);
+                let reflected = reflected(at, way.wi, zero, facing(l, at, way.wi, zero));
+                reflected * beam.strength(l, -way.wi) * way.spread * self.front
             }
         }
     }

@@ -2,9 +2,11 @@
 use glam::DVec3;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
-use super::{Background, Emission, LightCoordinates, Lights, Lobe, ReferencePoint, Side, background::constant::ConstantRadiance};
+use super::{
+    Background, Emission, Lamp, LightCoordinates, Lights, Lobe, ReferencePoint, Side, background::constant::ConstantRadiance,
+};
 use crate::{
-    geometry::{MISS, Motion, PrimitiveRef, Shape, Shapes},
+    geometry::{MISS, Motion, Nearest, PrimitiveRef, Shape, Shapes},
     math::{F, M, One, U, V},
     sampling::hash::hash_one,
 };
@@ -24,7 +26,7 @@ fn lights() -> (Lights, Shapes, Vec<Shapes>) {
     let shapes = shapes_of(&spheres);
     let emitters: Vec<_> =
         spheres.iter().cloned().zip(emissions).map(|(shape, emission)| (shape, STILL.clone(), emission)).collect();
-    let lights = Lights::new(&shapes, &emitters, Some(Background::Constant(ConstantRadiance([0.5, 0.4, 0.6]))), DVec3::ZERO);
+    let lights = Lights::new(&shapes, &emitters, &[], Some(Background::Constant(ConstantRadiance([0.5, 0.4, 0.6]))), DVec3::ZERO);
     let alone = spheres.iter().map(|sphere| shapes_of(std::slice::from_ref(sphere))).collect();
     (lights, shapes, alone)
 }
@@ -117,4 +119,86 @@ fn directions_to_lights_are_distributed_as_their_pdf() {
 fn the_luminance_of_a_background_is_that_of_its_colour() {
     let found = Background::Constant(ConstantRadiance([0.5, 0.25, 0.125])).luminance();
     assert!((found - (0.2126 * 0.5 + 0.7152 * 0.25 + 0.0722 * 0.125)).abs() < 1e-6, "{found}");
+}
+
+/// A ball, a point lamp, a directional lamp and a lamp below the horizon.
+fn with_lamps() -> (Lights, Shapes) {
+    let ball = Shape::Sphere { center: DVec3::new(0.0, 3.0, 1.0), radius: 0.5 };
+    let light = Emission { radiance: [4.0; 3], mean: [4.0; 3], texture: None, side: Side::Front };
+    let shapes = shapes(std::slice::from_ref(&ball));
+    let lamps = [
+        Lamp::point(DVec3::new(1.0, 2.0, 0.0), [3.0; 3]),
+        Lamp::directional(DVec3::new(0.6, 0.8, 0.0), [0.7; 3]),
+        Lamp::point(DVec3::new(0.0, -1.0, 0.0), [100.0; 3]),
+    ];
+    (Lights::new(&shapes, &[(ball, STILL.clone(), light)], &lamps, None, DVec3::ZERO), shapes)
+}
+
+fn on_floor() -> ReferencePoint<One> {
+    ReferencePoint { p: vector(0.0, 0.0, 0.0), n: vector(0.0, 1.0, 0.0), transmits: M(false), lobe: None }
+}
+
+/// The irradiance of a ball is π L sin²θ times the cosine of its middle; of a point lamp, I cos/d²; of a directional one, E cos.
+#[test]
+fn samples_of_surfaces_and_lamps_add_up_to_the_irradiance_of_all() {
+    const SAMPLES: u32 = 100_000;
+    let (lights, shapes) = with_lamps();
+    let ball = std::f64::consts::PI * 4.0 * (0.25 / 10.0) * (3.0 / 10f64.sqrt());
+    let lamps = 3.0 / 5.0 * (2.0 / 5f64.sqrt()) + 0.7 * 0.8;
+    let at = on_floor();
+    let mean = |sample: &dyn Fn(u32) -> super::LightSample<One>| {
+        let value = |i: u32| {
+            let sample = sample(i);
+            let cos = sample.wi.dot(at.n).0.max(0.0);
+            if sample.pdf.0 > 0.0 { f64::from(sample.radiance.x.0 * cos / sample.pdf.0) } else { 0.0 }
+        };
+        let sums = (0..SAMPLES).map(value).fold([0.0; 2], |[sum, squares], x| [sum + x, squares + x * x]);
+        let mean = sums[0] / f64::from(SAMPLES);
+        (mean, ((sums[1] / f64::from(SAMPLES) - mean * mean).max(0.0) / f64::from(SAMPLES)).sqrt())
+    };
+    let (all, error) = mean(&|i| lights.sample(One, &shapes, &at, F(0.0), &coordinates(i)));
+    assert!((all - ball - lamps).abs() < 4.0 * error + 1e-5, "{all} ± {error} for {}", ball + lamps);
+    let (alone, error) = mean(&|i| lights.sample_lamps(One, &at, &coordinates(i)));
+    assert!((alone - lamps).abs() < 4.0 * error + 1e-5, "{alone} ± {error} for {lamps}");
+}
+
+#[test]
+fn the_pdf_of_a_surface_next_to_lamps_has_its_part_of_the_choice() {
+    let (lights, shapes) = with_lamps();
+    let at = on_floor();
+    let (mut surfaces, mut lamps) = (0, 0);
+    for i in 0..2000 {
+        let sample = lights.sample(One, &shapes, &at, F(0.0), &coordinates(i));
+        match lights.lamp_at(sample.target.0) {
+            None => {
+                let pdf = lights.pdf(One, &shapes, &at, sample.wi, &place(sample.target));
+                assert!((pdf.0 / sample.pdf.0 - 1.0).abs() < 1e-3 && !sample.delta.0, "{} {}", pdf.0, sample.pdf.0);
+                surfaces += 1;
+            }
+            Some(lamp) => {
+                assert!(lamp < 2 && sample.delta.0 && sample.pdf.0 <= 1.0, "the third lamp is below the horizon: {lamp}");
+                lamps += 1;
+            }
+        }
+    }
+    assert!(surfaces > 100 && lamps > 100, "{surfaces} {lamps}");
+}
+
+#[test]
+fn a_lamp_arrives_unless_something_is_nearer() {
+    let (lights, _) = with_lamps();
+    let arrives = |target: u32, t: f32, primitive: u32| {
+        let mut nearest = Nearest { t: F(t), primitive: U(primitive), element: U(0) };
+        let arrives = lights.arrives(One, U(target), vector(0.0, 0.0, 0.0), &mut nearest).0;
+        (arrives, nearest.t.0)
+    };
+    // Light 0 is the ball; primitive 1 is something dark, whose number is that of a lamp.
+    let distance = 5f32.sqrt();
+    assert_eq!(arrives(1, 2.0, 1), (false, 2.0));
+    assert_eq!(arrives(1, 3.0, 1), (true, distance));
+    assert_eq!(arrives(1, 3.0, 0), (true, distance));
+    assert_eq!(arrives(1, f32::INFINITY, MISS), (true, distance));
+    assert_eq!(arrives(2, f32::INFINITY, MISS), (true, f32::INFINITY));
+    assert_eq!(arrives(2, 1e30, 2), (false, 1e30));
+    assert_eq!([arrives(0, 2.0, 0).0, arrives(0, 2.0, 1).0], [true, false]);
 }

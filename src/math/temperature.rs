@@ -58,7 +58,7 @@ pub fn planck(kelvin: f64) -> [f64; 3] {
 
 /// The CIE 1931 colour matching functions by Wyman, Sloan and Shirley, "Simple Analytic Approximations to the CIE XYZ Color Matching
 /// Functions", JCGT 2(2), 2013.
-fn matching(nm: f64) -> [f64; 3] {
+pub fn matching(nm: f64) -> [f64; 3] {
     let lobe = |weight: f64, middle: f64, [left, right]: [f64; 2]| {
         let t = (nm - middle) / if nm < middle { left } else { right };
         weight * (-0.5 * t * t).exp()
@@ -70,7 +70,8 @@ fn matching(nm: f64) -> [f64; 3] {
     ]
 }
 
-fn times(matrix: &[[f64; 3]; 3], v: [f64; 3]) -> [f64; 3] {
+/// A matrix times a vector.
+pub fn times(matrix: &[[f64; 3]; 3], v: [f64; 3]) -> [f64; 3] {
     matrix.map(|row| row[0] * v[0] + row[1] * v[1] + row[2] * v[2])
 }
 

@@ -13,6 +13,7 @@ mod diagnostic;
 mod estimator;
 mod excerpt;
 mod infinite_variance;
+mod lamp;
 mod legend;
 mod load;
 mod locate;
@@ -48,10 +49,11 @@ pub use self::{
     camera::{Camera, CameraError, Lens},
     camera_path::CameraPath,
     camera_sequence::CameraSequence,
-    compile::{check_camera, check_object},
+    compile::{check_camera, check_lamp, check_object},
     compile_report::CompileReport,
     diagnostic::SceneError,
     estimator::{Estimator, power_heuristic},
+    lamp::LampInstance,
     legend::Legend,
     load::{load, read_text},
     material_instance::MaterialInstance,
@@ -95,12 +97,14 @@ pub struct Scene {
     pub surfaces: Surfaces,
     /// All textures.
     pub textures: Textures,
-    /// Emitters and background, with the tables that choose among them.
+    /// Emitters, lamps and background, with the tables that choose among them.
     pub lights: Arc<Lights>,
     /// The materials of the scene file.
     pub materials: Vec<MaterialInstance>,
     /// The objects in the order of their primitive ids, emitting ones first.
     pub objects: Vec<Object>,
+    /// The lamps without surface that emit light, in the order of [`Lights::lamps`].
+    pub lamps: Vec<LampInstance>,
     /// The place of the object that a primitive is a piece of.
     pub owners: Vec<u32>,
     /// The extent of the scene in metres, as a person walking through it would say it.

@@ -21,7 +21,7 @@ pub struct Placement {
 
 impl Placement {
     /// The size of the new object: 1, 2 or 5 times a power of ten, metres.
-    pub(super) fn size(&self) -> f64 {
+    pub(crate) fn size(&self) -> f64 {
         let wanted = self.scene_size / PART_OF_SCENE;
         if !(wanted.is_finite() && wanted > 0.0) {
             return 1.0;
@@ -69,7 +69,7 @@ impl Placement {
     }
 
     /// The point at a height over the surface, metres.
-    pub(super) fn reached(&self, height: f64) -> DVec3 {
+    pub(crate) fn reached(&self, height: f64) -> DVec3 {
         self.rounded(self.at + self.up() * height)
     }
 

@@ -4,13 +4,14 @@ use std::{collections::BTreeSet, fs};
 use crate::imports::{imports, source, source_files};
 
 /// Folders and the files beside them, from the top down. Those of one line do not import each other.
-const LAYERS: [&[&str]; 11] = [
+const LAYERS: [&[&str]; 12] = [
     &["validate", "study"],
     &["render", "report"],
     &["measure"],
     &["integrator", "edit"],
     &["scene"],
-    &["light", "shape"],
+    &["light"],
+    &["shape"],
     &["geometry", "material"],
     &["texture"],
     &["sampling", "image", "model"],

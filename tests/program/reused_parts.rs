@@ -51,7 +51,7 @@ fn only_what_a_change_concerns_is_made_again() {
     let assets = folder.join("assets");
     let sky = fs::read_dir(&assets).expect("the folder can be read").map(|file| file.expect("an entry").path());
     let sky = sky.filter(|path| path.extension().is_some_and(|extension| extension == "exr")).min().expect("there is a sky");
-    let picture = |rotate: f64| Image { path: sky.display().to_string(), rotate, scale: 1.0 };
+    let picture = |rotate: f64| Image { path: sky.display().to_string(), rotate, ..Image::default() };
     description.background = Some(picture(0.0).into());
     let glass = Dielectric { roughness: Roughness::alpha(0.3), ..Dielectric::default() };
     description.add_material("glass", glass.clone());

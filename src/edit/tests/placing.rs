@@ -1,14 +1,15 @@
 //! Adding, posing and dropping objects.
 use std::path::Path as FilePath;
 
-use glam::DVec3;
+use glam::{DAffine3, DVec3};
 
 use super::*;
 use crate::{
     declare::OneOf,
     edit::Placement,
-    scene::Scene,
-    shape::{Rotation, ShapeKind, Transform},
+    light::lamp::LampKind,
+    scene::{Scene, description::LampDescription},
+    shape::{Rotation, ShapeKind, Transform, product},
 };
 
 fn compiled(document: &Document) -> Scene {
@@ -68,6 +69,84 @@ fn lamps_emit_away_from_what_they_hang_on() {
     assert!(max.y < 2.5 && max.y > 2.49);
 }
 
+fn lamp(document: &Document, place: usize) -> LampDescription {
+    document.description().lamps[place].clone()
+}
+
+#[test]
+fn lamps_without_surface_are_added_duplicated_renamed_and_deleted() {
+    let placement = Placement { at: DVec3::new(0.3, 0.0, -0.4), normal: DVec3::Y, scene_size: 5.0 };
+    for kind in LampKind::alternatives() {
+        let mut document = room();
+        let before = document.text();
+        let (edit, added) = document.add_lamp_without_surface(kind.name(), &placement).expect("there is such a kind");
+        let inverse = does(&mut document, &edit);
+        assert_eq!(added, path("lamps.0"));
+        assert!(document.text().contains("[[lamps]]"), "{}", document.text());
+        let found = lamp(&document, 0);
+        assert_eq!((found.name.as_str(), found.kind.name()), (kind.name(), kind.name()));
+        assert!(found.position().is_none_or(|position| position.distance(DVec3::new(0.3, 1.0, -0.4)) < 1e-9), "{found:?}");
+        let scene = compiled(&document);
+        assert_eq!((scene.lamps.len(), scene.lights.lamps.len()), (1, 1));
+        let (edit, copy) = document.duplicate(&added).expect("it is there");
+        let duplicated = does(&mut document, &edit);
+        assert_eq!((copy, lamp(&document, 1).name), (path("lamps.1"), format!("{} 2", kind.name())));
+        does(&mut document, &text("lamps.1.name", "other"));
+        does(&mut document, &text("lamps.1.name", &format!("{} 2", kind.name())));
+        does(&mut document, &duplicated);
+        does(&mut document, &inverse);
+        assert_eq!(document.text(), before);
+    }
+    assert!(room().add_lamp_without_surface("candle", &placement).is_none());
+}
+
+#[test]
+fn the_kind_and_the_parameters_of_a_lamp_change_by_their_paths() {
+    let placement = Placement { at: DVec3::ZERO, normal: DVec3::Y, scene_size: 5.0 };
+    let mut document = room();
+    let (edit, added) = document.add_lamp_without_surface("point", &placement).expect("there is such a kind");
+    does(&mut document, &edit);
+    does(&mut document, &Edit::set(path("lamps.0.point.intensity"), OwnedValue::Colour([3.0, 2.0, 1.0])));
+    let spot = document.change_kind(&added, LampKind::WHAT, "spot");
+    does(&mut document, &spot);
+    let LampKind::Spot(spot) = lamp(&document, 0).kind else { panic!("it is a spot") };
+    assert_eq!((spot.intensity, spot.position.y), ([3.0, 2.0, 1.0], 1.0), "it keeps what both have");
+    let problem = refuses(&mut document, &Edit::set(path("lamps.0.spot.target"), OwnedValue::Vector(spot.position)));
+    assert!(problem.message.contains("the same point"), "{problem:?}");
+}
+
+#[test]
+fn lamps_are_transformed_as_their_points_are() {
+    let placement = Placement { at: DVec3::new(0.5, 0.0, 0.0), normal: DVec3::Y, scene_size: 5.0 };
+    let changes = [
+        Transform::Translate(DVec3::new(0.5, -0.25, 1.0)),
+        Transform::Rotate(Rotation { axis: DVec3::Z, degrees: 90.0 }),
+        Transform::Scale(DVec3::new(-1.0, 1.0, 1.0)),
+        Transform::Translate(DVec3::X),
+    ];
+    let pivot = DVec3::new(0.2, 0.3, -0.1);
+    for kind in LampKind::alternatives() {
+        let mut document = room();
+        let (edit, _) = document.add_lamp_without_surface(kind.name(), &placement).expect("there is such a kind");
+        does(&mut document, &edit);
+        let mut position = lamp(&document, 0).position();
+        for change in &changes {
+            let edit = document.transformed_lamp(0, change, pivot).expect("it can be transformed");
+            does(&mut document, &edit);
+            let map = DAffine3::from_translation(pivot)
+                * product(std::slice::from_ref(change)).expect("it is valid")
+                * DAffine3::from_translation(-pivot);
+            position = position.map(|p| map.transform_point3(p));
+            let found = lamp(&document, 0).position();
+            assert!(found.zip(position).is_none_or(|(a, b)| a.distance(b) < 1e-9), "{}: {found:?} {position:?}", kind.name());
+            compiled(&document);
+        }
+        // Until it was mirrored, only its points changed.
+        assert!(!lamp(&document, 0).transform.is_empty());
+    }
+    assert!(room().transformed_lamp(0, &changes[0], pivot).is_none());
+}
+
 #[test]
 fn a_scene_without_materials_gets_one() {
     let bare = "format = 1\ncamera = { eye = [0, 0, 4], look_at = [0, 0, 0], fov = 40, resolution = [64, 64] }\nobjects = []\n";
@@ -118,7 +197,7 @@ fn objects_are_transformed_as_their_points_are() {
                 let of_name = |object: &crate::scene::Object| object.name.starts_with(&name);
                 scene.objects.iter().filter(|object| of_name(object)).map(|object| object.shape.clone()).collect()
             };
-            let map = crate::shape::product(&[Transform::Translate(-pivot), change.clone(), Transform::Translate(pivot)]);
+            let map = product(&[Transform::Translate(-pivot), change.clone(), Transform::Translate(pivot)]);
             let map = map.expect("it can be inverted");
             let expected: Vec<_> = shapes(&document).iter().map(|shape| shape.transformed(&map)).collect();
             let edit = document.transformed(3, change, pivot).expect("there is such an object");

@@ -195,7 +195,7 @@ fn hit_emitter<const VARIED: bool>(
 
 /// The MIS weight of the emitter hit by the path at index `at` of its queue.
 fn emitter_hit_weight_of(work: &Work, batch: &Batch, at: usize, path: &Path<One>, place: PrimitiveRef<One>) -> F<One> {
-    if batch.bounce == 0 || !work.samples_lights() {
+    if batch.bounce == 0 || !work.weights_hits() {
         return F(1.0);
     }
     weight_of_hit(One, work, batch.current(), at, path, place)

@@ -17,10 +17,13 @@ pub(super) fn sampled_light(
     queued: Option<Register<One>>,
 ) -> SampledLight {
     let target = sample.target.0;
-    let place = |light: u32| work.scene.lights.place(One, U(light), F(0.0));
+    let lights = &work.scene.lights;
+    let lamp = lights.lamp_at(target);
+    let place = |light: u32| lights.place(One, U(light), F(0.0));
     let mut light = SampledLight {
         direction: sample.wi.lane(0),
-        object: (target != MISS).then(|| work.scene.owners[place(target).primitive.0 as usize]),
+        object: (target != MISS && lamp.is_none()).then(|| work.scene.owners[place(target).primitive.0 as usize]),
+        lamp: lamp.map(|lamp| work.scene.lamps[lamp].title()),
         pdf: sample.pdf.0,
         f_cos: f_cos.lane(0),
         weight: if sample.pdf.0 > 0.0 { weight.0 } else { 0.0 },
@@ -36,7 +39,8 @@ pub(super) fn sampled_light(
     let media = batch.shadows.media(One, at);
     let (seen, radiance) = arriving(One, work, M(true), &shadow, media);
     light.outcome = if seen.0 { Outcome::Seen } else { Outcome::Hidden };
-    let nearest = work.scene.shapes.closest(One, M(true), shadow.o, shadow.d, work.time(One, shadow.slot));
+    let mut nearest = work.scene.shapes.closest(One, M(true), shadow.o, shadow.d, work.time(One, shadow.slot));
+    lights.arrives(One, shadow.target, shadow.o, &mut nearest);
     light.distance = Some(nearest.t.0).filter(|t| t.is_finite());
     if seen.0 {
         let (_, passed) = arriving(One, work, M(true), &Shadow { radiance: V::splat(One, WHITE), ..shadow }, media);

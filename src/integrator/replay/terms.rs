@@ -127,15 +127,19 @@ pub struct SharedLight {
 pub struct SampledLight {
     /// Unit direction towards the light.
     pub direction: [f32; 3],
-    /// Index of the sampled object; `None` for the background.
+    /// Index of the sampled object; `None` for the background and for lamps without surface.
     pub object: Option<u32>,
-    /// Pdf of the direction, including the probability of choosing the light; 0 if no light is on this side.
+    /// Name of the sampled lamp without surface.
+    pub lamp: Option<String>,
+    /// Pdf of the direction, including the probability of choosing the light; 0 if no light is on this side. For a lamp without
+    /// surface, that probability alone.
     pub pdf: f32,
     /// BSDF times |cos θ_i|.
     pub f_cos: [f32; 3],
-    /// MIS weight (power heuristic); 1 if emitter hits are not counted, 0 if the pdf is 0.
+    /// MIS weight (power heuristic); 1 if emitter hits are not counted or cannot happen, 0 if the pdf is 0.
     pub weight: f32,
-    /// L_e of the light; with a texture, the factor of the texture.
+    /// L_e of the light; with a texture, the factor of the texture. For a lamp without surface, the irradiance of a surface that faces
+    /// it, W/m².
     pub radiance: [f32; 3],
     /// The outcome of the sample.
     pub outcome: Outcome,

@@ -5,6 +5,7 @@
 //! its radiance times solid angle; within a cell the pdf is constant per solid angle.
 #[cfg(test)]
 mod tests;
+mod turn;
 mod weights;
 
 use std::{
@@ -12,7 +13,7 @@ use std::{
     sync::Arc,
 };
 
-use self::weights::cell_means;
+use self::{turn::Turn, weights::cell_means};
 use super::{Radiant, Surrounding};
 use crate::{
     declare::{Declare, Kind, Parameter, Parameters, Problem, Range, Resources, Value, key_of_file},
@@ -76,6 +77,7 @@ impl Surrounding for Image {
     type Radiant = ImageBackground;
 
     fn compile(&self, resources: &Resources) -> Result<Option<ImageBackground>, Problem> {
+        let turn = Turn::of(&self.transform)?;
         let path = resources.path(&self.path);
         let tables = resources.once("skies", format!("sky {} {:x}", key_of_file(&path), self.scale.to_bits()), || {
             let picture = read_light(&path, Encoding::Srgb)
@@ -88,7 +90,7 @@ impl Surrounding for Image {
             }
             Ok(tables)
         })?;
-        Ok(Some(ImageBackground::new(tables, self.rotate)))
+        Ok(Some(ImageBackground { turn, ..ImageBackground::new(tables, self.rotate) }))
     }
 }
 
@@ -115,7 +117,12 @@ impl Radiant for ImageBackground {
     }
 
     fn is_same(&self, other: &ImageBackground) -> bool {
-        Arc::ptr_eq(&self.tables, &other.tables) && self.shift.to_bits() == other.shift.to_bits()
+        let same_turn = match (&self.turn, &other.turn) {
+            (Some(a), Some(b)) => a.is_same(b),
+            (None, None) => true,
+            _ => false,
+        };
+        same_turn && Arc::ptr_eq(&self.tables, &other.tables) && self.shift.to_bits() == other.shift.to_bits()
     }
 }
 
@@ -124,6 +131,8 @@ pub struct ImageBackground {
     tables: Arc<SkyTables>,
     /// Offset from an azimuth, in turns from −z towards +x, to u; in [0, 1).
     shift: f32,
+    /// What turns or mirrors the image after that.
+    turn: Option<Turn>,
 }
 
 /// The texels of an [`ImageBackground`] and the tables that sample them. They do not depend on its rotation.
@@ -186,7 +195,7 @@ impl SkyTables {
 impl ImageBackground {
     /// Turns the image about +y by `rotate` degrees, counter-clockwise seen from above.
     pub fn new(tables: Arc<SkyTables>, rotate: f64) -> ImageBackground {
-        ImageBackground { tables, shift: (0.5 + rotate % 360.0 / 360.0).rem_euclid(1.0) as f32 }
+        ImageBackground { tables, shift: (0.5 + rotate % 360.0 / 360.0).rem_euclid(1.0) as f32, turn: None }
     }
 
     /// Mean luminance over all directions; 0 if and only if the image is black.
@@ -197,7 +206,7 @@ impl ImageBackground {
     /// Radiance that arrives from the unit direction `d`.
     #[inline(always)]
     pub fn radiance<L: Lanes>(&self, l: L, d: V<L>) -> V<L> {
-        let (u, v) = self.picture_from_world(d);
+        let (u, v) = self.picture_from_world(l, d);
         self.tables.picture.colour(l, u, v, Edge::Clamp)
     }
 
@@ -215,13 +224,15 @@ impl ImageBackground {
         let r = (s * (1.0 - s)).sqrt() * 2.0;
         let azimuth = (column.to_real() + u.0) * (1.0 / *columns as f32) + (1.0 - self.shift);
         let (sin, cos) = sin_cos_turns(azimuth.above(1.0).pick(azimuth - 1.0, azimuth));
-        (V { x: r * sin, y, z: -(r * cos) }, probability * density)
+        let d = V { x: r * sin, y, z: -(r * cos) };
+        let d = if let Some(turn) = &self.turn { turn.to_world(l, d) } else { d };
+        (d, probability * density)
     }
 
     /// Pdf of [`sample`](Self::sample) at the unit direction `d`, per solid angle.
     #[inline(always)]
     pub fn pdf<L: Lanes>(&self, l: L, d: V<L>) -> F<L> {
-        let (u, v) = self.picture_from_world(d);
+        let (u, v) = self.picture_from_world(l, d);
         let SkyTables { columns, rows, cells, bounds, .. } = &*self.tables;
         let row = place(v, *rows);
         let [_, _, _, density] = l.rows(bounds, row);
@@ -230,7 +241,8 @@ impl ImageBackground {
 
     /// (u, v) in [0, 1]².
     #[inline(always)]
-    fn picture_from_world<L: Lanes>(&self, d: V<L>) -> (F<L>, F<L>) {
+    fn picture_from_world<L: Lanes>(&self, l: L, d: V<L>) -> (F<L>, F<L>) {
+        let d = if let Some(turn) = &self.turn { turn.to_image(l, d) } else { d };
         let u = turns_of(-d.z, d.x) + self.shift;
         let u = u.below(1.0).pick(u, u - 1.0);
         let r = (d.x * d.x + d.z * d.z).sqrt();

@@ -1,8 +1,31 @@
-//! A clear sky with a sun.
+//! A clear sky with a sun: A. Preetham, P. Shirley and B. Smits, "A Practical Analytic Model for Daylight", SIGGRAPH 1999.
+//!
+//! Up is +y. Below the horizon the background is black, and a sun that is below it shines only as far as its disk is above. The sky of
+//! a sun below the horizon is that of a sun on the horizon: the model knows no twilight. It is meant for turbidities from 2 to 6;
+//! smaller ones count as 2.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `daylight.rs` | the radiance of the sky |
+//! | `sun.rs` | the radiance of the sun after its way through the air |
+//! | `raster.rs` | the image of both |
+mod daylight;
+mod raster;
+mod sun;
+#[cfg(test)]
+mod tests;
+
 use glam::DVec3;
 
-use super::{Surrounding, image::ImageBackground};
+use self::{daylight::Daylight, raster::Raster};
+use super::{
+    Surrounding,
+    image::{ImageBackground, SkyTables},
+};
 use crate::declare::{Declare, Kind, Parameter, Parameters, Problem, Range, Resources, Value};
+
+/// The smallest turbidity of the model.
+const CLEAREST: f64 = 2.0;
 
 /// A clear sky with a sun, in a scene description.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,7 +47,8 @@ impl Default for Sky {
 }
 
 impl Kind for Sky {
-    const KIND: Parameter = Parameter::new("sky", "A clear sky with a sun.").aliases("sunsky preetham hosek");
+    const KIND: Parameter =
+        Parameter::new("sky", "A clear sky with a sun; black below the horizon.").aliases("sunsky preetham hosek");
 }
 
 impl Declare for Sky {
@@ -43,7 +67,25 @@ impl Declare for Sky {
 impl Surrounding for Sky {
     type Radiant = ImageBackground;
 
-    fn compile(&self, _: &Resources) -> Result<Option<ImageBackground>, Problem> {
-        Err(Problem::at("", "not built yet", "not built yet"))
+    fn compile(&self, resources: &Resources) -> Result<Option<ImageBackground>, Problem> {
+        let no_direction = || Problem::at("sky.sun", "the sun is in no direction", "it must not be zero");
+        let sun = self.sun.try_normalize().ok_or_else(no_direction)?;
+        let numbers = [sun.x, sun.y, sun.z, self.turbidity, self.sky_scale, self.sun_scale].map(f64::to_bits);
+        let tables = resources.once("skies", format!("clear sky {numbers:x?}"), || {
+            resources.reserve("sky", "the texels and cells of a sky", SkyTables::bytes([raster::WIDTH, raster::HEIGHT]))?;
+            Ok(SkyTables::new(self.raster(sun).into_texels(), 1.0))
+        })?;
+        Ok((tables.mean_luminance() > 0.0).then(|| ImageBackground::new(tables, 0.0)))
+    }
+}
+
+impl Sky {
+    /// The image for the unit direction `sun`.
+    fn raster(&self, sun: DVec3) -> Raster {
+        let turbidity = self.turbidity.max(CLEAREST);
+        let sky = Daylight::new(sun, turbidity);
+        let mut raster = Raster::of(|direction| sky.radiance(direction).map(|x| x * self.sky_scale));
+        raster.add_sun(sun, sun::radiance(sun, turbidity).map(|x| x * self.sun_scale));
+        raster
     }
 }

@@ -1,8 +1,8 @@
 //! Light from a direction, of a sun far away.
-use glam::DVec3;
+use glam::{DAffine3, DVec3};
 
-use super::Shine;
-use crate::declare::{Declare, Kind, Parameter, Parameters, Range, Value};
+use super::{Lamp, LampKind, Shine};
+use crate::declare::{Declare, Kind, Parameter, Parameters, Problem, Range, Resources, Value};
 
 /// Light from a direction, of a sun far away.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,4 +33,22 @@ impl Declare for Directional {
     }
 }
 
-impl Shine for Directional {}
+impl Shine for Directional {
+    fn compile(&self, map: &DAffine3, _: &Resources) -> Result<Lamp, Problem> {
+        let direction = map.transform_vector3(self.direction).try_normalize();
+        let direction = direction.ok_or_else(|| Problem::at("direction", "the light has no direction", "it must not be zero"))?;
+        Ok(Lamp::directional(-direction, self.irradiance))
+    }
+
+    fn position(&self) -> Option<DVec3> {
+        None
+    }
+
+    fn moved(&self, map: &DAffine3) -> Vec<(&'static str, DVec3)> {
+        vec![("direction", map.transform_vector3(self.direction))]
+    }
+
+    fn placed(&self, position: DVec3, target: DVec3, irradiance: f64) -> LampKind {
+        Directional { direction: target - position, irradiance: [irradiance; 3] }.into()
+    }
+}

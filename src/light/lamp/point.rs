@@ -1,8 +1,8 @@
 //! A lamp without size that shines equally in all directions.
-use glam::DVec3;
+use glam::{DAffine3, DVec3};
 
-use super::Shine;
-use crate::declare::{Declare, Kind, Parameter, Parameters, Range};
+use super::{Lamp, LampKind, Shine, intensity};
+use crate::declare::{Declare, Kind, Parameter, Parameters, Problem, Range, Resources};
 
 /// A lamp without size that shines equally in all directions.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,4 +33,20 @@ impl Declare for Point {
     }
 }
 
-impl Shine for Point {}
+impl Shine for Point {
+    fn compile(&self, map: &DAffine3, _: &Resources) -> Result<Lamp, Problem> {
+        Ok(Lamp::point(map.transform_point3(self.position), self.intensity))
+    }
+
+    fn position(&self) -> Option<DVec3> {
+        Some(self.position)
+    }
+
+    fn moved(&self, map: &DAffine3) -> Vec<(&'static str, DVec3)> {
+        vec![("position", map.transform_point3(self.position))]
+    }
+
+    fn placed(&self, position: DVec3, target: DVec3, irradiance: f64) -> LampKind {
+        Point { position, intensity: [intensity(position, target, irradiance); 3] }.into()
+    }
+}

@@ -1,10 +1,11 @@
 //! An image that is cast from a point.
-use glam::DVec3;
+use glam::{DAffine3, DVec3};
 
-use super::Shine;
+use super::{Lamp, LampKind, Shine, intensity, spot::axis};
 use crate::{
-    declare::{Declare, Kind, Parameter, Parameters, Range, Value},
+    declare::{Declare, Kind, Parameter, Parameters, Problem, Range, Resources, Value},
     image::Encoding,
+    texture::ImageTexture,
 };
 
 /// An image that is cast from a point.
@@ -16,13 +17,13 @@ pub struct Projector {
     pub target: DVec3,
     /// Upwards in the image.
     pub up: DVec3,
-    /// The image file, relative to the scene.
+    /// The image file, relative to the scene; a white square if it is empty.
     pub image: String,
     /// Encoding of the file's numbers; EXR and HDR are always linear.
     pub encoding: Encoding,
     /// Angle across the width of the image.
     pub fov: f64,
-    /// Radiant intensity on the axis where the image is 1.
+    /// Radiant intensity where the image is 1, in all of its directions.
     pub scale: f64,
 }
 
@@ -49,10 +50,11 @@ impl Declare for Projector {
         const POSITION: Parameter = Parameter::new("position", "Where it stands.").unit("m");
         const TARGET: Parameter = Parameter::new("target", "A point on its axis.").unit("m");
         const UP: Parameter = Parameter::new("up", "Upwards in the image.");
-        const IMAGE: Parameter = Parameter::new("image", "The image file, relative to the scene.");
+        const IMAGE: Parameter = Parameter::new("image", "The image file, relative to the scene; a white square if it is empty.");
         const ENCODING: Parameter = Parameter::new("encoding", "Encoding of the file's numbers; EXR and HDR are always linear.");
         const FOV: Parameter = Parameter::new("fov", "Angle across the width of the image.").unit("degrees");
-        const SCALE: Parameter = Parameter::new("scale", "Radiant intensity on the axis where the image is 1.").unit("W/sr");
+        const SCALE: Parameter =
+            Parameter::new("scale", "Radiant intensity where the image is 1, in all of its directions.").unit("W/sr");
         p.point(&POSITION, &mut self.position);
         p.point(&TARGET, &mut self.target);
         p.value(&UP, Value::Vector(&mut self.up));
@@ -63,4 +65,38 @@ impl Declare for Projector {
     }
 }
 
-impl Shine for Projector {}
+impl Shine for Projector {
+    fn compile(&self, map: &DAffine3, resources: &Resources) -> Result<Lamp, Problem> {
+        let forward = axis(self.position, self.target)?;
+        let right = forward.cross(self.up).try_normalize().unwrap_or_else(|| forward.any_orthonormal_vector());
+        let image = match self.image.as_str() {
+            "" => None,
+            file => Some(ImageTexture::read(resources, "image", file, self.encoding)?),
+        };
+        let aspect = image.as_ref().map_or(1.0, |image| f64::from(image.step_v() / image.step_u()));
+        let half_width = (0.5 * self.fov).to_radians().tan();
+        let forms = [right / half_width, right.cross(forward) * aspect / half_width, forward];
+        // A form of directions before the transform becomes one of directions after it: also of mirrored and sheared ones.
+        let covector = map.matrix3.inverse().transpose();
+        Ok(Lamp::projector(map.transform_point3(self.position), self.scale, forms.map(|form| covector * form), image))
+    }
+
+    fn position(&self) -> Option<DVec3> {
+        Some(self.position)
+    }
+
+    fn moved(&self, map: &DAffine3) -> Vec<(&'static str, DVec3)> {
+        vec![
+            ("position", map.transform_point3(self.position)),
+            ("target", map.transform_point3(self.target)),
+            ("up", map.transform_vector3(self.up)),
+        ]
+    }
+
+    fn placed(&self, position: DVec3, target: DVec3, irradiance: f64) -> LampKind {
+        // The image of a projector that shines on a floor would have no direction upwards.
+        let up =
+            if (target - position).cross(DVec3::Y).length() < 1e-3 * position.distance(target) { DVec3::NEG_Z } else { DVec3::Y };
+        Projector { position, target, up, scale: intensity(position, target, irradiance), ..Projector::default() }.into()
+    }
+}

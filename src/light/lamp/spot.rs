@@ -1,8 +1,9 @@
 //! A lamp without size that shines within a cone.
-use glam::DVec3;
+use glam::{DAffine3, DVec3};
 
-use super::Shine;
-use crate::declare::{Declare, Kind, Parameter, Parameters, Range, words};
+pub use super::falloff::Falloff;
+use super::{Lamp, LampKind, Shine, intensity};
+use crate::declare::{Declare, Kind, Parameter, Parameters, Problem, Range, Resources};
 
 /// A lamp without size that shines within a cone.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,29 +16,10 @@ pub struct Spot {
     pub intensity: [f64; 3],
     /// Angle between the axis and the edge of the cone, where the light ends.
     pub angle: f64,
-    /// Angle up to which the intensity is that of the axis.
+    /// Angle up to which the intensity is that of the axis; at most `angle`.
     pub inner: f64,
     /// How the intensity falls between the two angles.
     pub falloff: Falloff,
-}
-
-/// How the intensity of a spot falls to 0 between its inner angle and its edge.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Falloff {
-    /// Smoothstep of the cosine, as pbrt does.
-    Smooth,
-    /// Linear in the angle, as Mitsuba does.
-    Linear,
-    /// The square of the cosine's fraction, as glTF does.
-    Square,
-}
-
-words! {
-    Falloff {
-        Smooth: "smooth", "Smooth", "Smoothstep of the cosine of the angle.";
-        Linear: "linear", "Linear", "Linear in the angle.";
-        Square: "square", "Square", "Square of what is linear in the cosine of the angle.";
-    }
 }
 
 impl Default for Spot {
@@ -65,7 +47,8 @@ impl Declare for Spot {
         const INTENSITY: Parameter = Parameter::new("intensity", "Radiant intensity on the axis.").unit("W/sr");
         const ANGLE: Parameter =
             Parameter::new("angle", "Angle between the axis and the edge of the cone, where the light ends.").unit("degrees");
-        const INNER: Parameter = Parameter::new("inner", "Angle up to which the intensity is that of the axis.").unit("degrees");
+        const INNER: Parameter =
+            Parameter::new("inner", "Angle up to which the intensity is that of the axis; at most `angle`.").unit("degrees");
         const FALLOFF: Parameter = Parameter::new("falloff", "How the intensity falls between the two angles.");
         p.point(&POSITION, &mut self.position);
         p.point(&TARGET, &mut self.target);
@@ -76,4 +59,29 @@ impl Declare for Spot {
     }
 }
 
-impl Shine for Spot {}
+impl Shine for Spot {
+    fn compile(&self, map: &DAffine3, _: &Resources) -> Result<Lamp, Problem> {
+        let [position, target] = [self.position, self.target].map(|p| map.transform_point3(p));
+        let axis = axis(position, target)?;
+        let angles = [self.inner, self.angle].map(f64::to_radians);
+        Ok(Lamp::spot(position, self.intensity, axis, angles, self.falloff))
+    }
+
+    fn position(&self) -> Option<DVec3> {
+        Some(self.position)
+    }
+
+    fn moved(&self, map: &DAffine3) -> Vec<(&'static str, DVec3)> {
+        vec![("position", map.transform_point3(self.position)), ("target", map.transform_point3(self.target))]
+    }
+
+    fn placed(&self, position: DVec3, target: DVec3, irradiance: f64) -> LampKind {
+        Spot { position, target, intensity: [intensity(position, target, irradiance); 3], ..Spot::default() }.into()
+    }
+}
+
+/// The unit direction from a lamp to its target.
+pub(super) fn axis(position: DVec3, target: DVec3) -> Result<DVec3, Problem> {
+    let axis = (target - position).try_normalize();
+    axis.ok_or_else(|| Problem::at("target", "`target` and `position` are the same point", "the lamp shines in no direction"))
+}

@@ -5,7 +5,10 @@ use statrs::distribution::{ChiSquared, ContinuousCDF};
 use super::{FEW, Item, Selection, outstanding};
 use crate::{
     geometry::{MISS, Motion, Outline, PrimitiveRef, Shape, Shapes},
-    light::{Emission, Emitters, LightCoordinates, Lobe, ReferencePoint, Side},
+    light::{
+        Emission, Emitters, Lamp, Lamps, LightCoordinates, Lobe, ReferencePoint, Side,
+        lamp::{MOST_DIRECTIONAL, spot::Falloff},
+    },
     math::{F, Lanes, M, One, Pick, SimdLevel, U, V},
     sampling::hash::hash_one,
 };
@@ -38,6 +41,7 @@ struct Set {
     name: &'static str,
     shapes: Vec<Shape>,
     emissions: Vec<Emission>,
+    lamps: Vec<Lamp>,
     sky: f32,
 }
 
@@ -45,18 +49,23 @@ impl Set {
     fn new(name: &'static str, lights: impl IntoIterator<Item = (Shape, f32, Side)>) -> Set {
         let emission = |light, side| Emission { radiance: [light; 3], mean: [light; 3], texture: None, side };
         let (shapes, emissions) = lights.into_iter().map(|(shape, light, side)| (shape, emission(light, side))).unzip();
-        Set { name, shapes, emissions, sky: 0.0 }
+        Set { name, shapes, emissions, lamps: Vec::new(), sky: 0.0 }
     }
 
     fn selection(&self) -> Selection {
         let still = |(shape, emission): (&Shape, &Emission)| (shape.clone(), Motion::default(), *emission);
         let lights: Vec<_> = self.shapes.iter().zip(&self.emissions).map(still).collect();
-        Selection::new(&lights, self.sky, DVec3::ZERO)
+        Selection::new(&lights, &self.lamps, self.sky, DVec3::ZERO)
+    }
+
+    /// Number of lights without the background.
+    fn count(&self) -> usize {
+        self.shapes.len() + self.lamps.len()
     }
 
     /// Probabilities of all lights, and last of the background.
     fn pmf(&self, selection: &Selection, at: &ReferencePoint<One>) -> Vec<f64> {
-        let lights = (0..self.shapes.len() as u32).map(|light| selection.probability(One, at, M(true), U(light)));
+        let lights = (0..self.count() as u32).map(|light| selection.probability(One, at, M(true), U(light)));
         lights.chain([selection.probability(One, at, M(false), U(MISS))]).map(|pmf| f64::from(pmf.0)).collect()
     }
 }
@@ -112,8 +121,35 @@ fn sets() -> Vec<Set> {
     lights.insert(500, (ball(DVec3::Y * -1e6, 1e6 - 3.0), 0.1, front));
     lights.push((ball(DVec3::ZERO, 1e3), 0.01, Side::Back));
     all.push(Set::new("two enormous, a thousand tiny", lights));
+    all.push(with_lamps(r, "a few lamps", [5, 20, 4]));
+    all.push(with_lamps(r, "many lamps", [100, 200, MOST_DIRECTIONAL]));
     all.push(Set::new("shells", (0..MANY).map(|_| (ball(r.point(3.0), 0.5), 1.0, any_side(r)))));
     all
+}
+
+/// Surfaces, lamps with a position, and directional lamps.
+fn with_lamps(r: &mut Random, name: &'static str, [surfaces, positions, directions]: [usize; 3]) -> Set {
+    let shapes: Vec<_> = (0..surfaces).map(|_| (any_shape(r, 0.1), 1.0, any_side(r))).collect();
+    let mut lamps: Vec<Lamp> = (0..positions).map(|_| any_lamp(r)).collect();
+    lamps.extend((0..directions).map(|_| Lamp::directional(r.direction(), [r.next(); 3])));
+    Set { sky: 0.01, lamps, ..Set::new(name, shapes) }
+}
+
+/// A lamp with a position, of any kind.
+fn any_lamp(r: &mut Random) -> Lamp {
+    let (position, intensity, axis) = (r.point(3.0), [10f64.powf(r.between(-3.0, 0.0)); 3], r.direction());
+    match (r.next() * 3.0) as u32 {
+        0 => Lamp::point(position, intensity),
+        1 => {
+            let edge = r.between(0.1, 3.1);
+            let falloff = Falloff::ALL[(r.next() * 3.0) as usize];
+            Lamp::spot(position, intensity, axis, [edge * r.next(), edge], falloff)
+        }
+        _ => {
+            let right = axis.any_orthonormal_vector();
+            Lamp::projector(position, 1.0, [right, right.cross(axis) * 2.0, axis], None)
+        }
+    }
 }
 
 fn vector(v: DVec3) -> V<One> {
@@ -216,7 +252,7 @@ fn choices_are_as_frequent_as_their_probability() {
             let mut counts = vec![0.0; pmf.len()];
             for _ in 0..CHOICES {
                 let (target, _) = selection.choose(One, &at, &coordinates(random));
-                counts[(target.0 as usize).min(set.shapes.len())] += 1.0;
+                counts[(target.0 as usize).min(set.count())] += 1.0;
             }
             // What is rare is taken together.
             let mut bins = vec![(0.0, 0.0)];
@@ -261,6 +297,27 @@ fn what_can_contribute_can_be_chosen() {
         }
     }
     assert!(contributions > 40_000, "{contributions}");
+}
+
+#[test]
+fn a_lamp_that_shines_on_a_point_can_be_chosen() {
+    let random = &mut Random(5 << 20);
+    let mut contributions = 0;
+    for set in sets().iter().filter(|set| !set.lamps.is_empty()) {
+        let (selection, lamps) = (set.selection(), Lamps::new(&set.lamps));
+        for _ in 0..10_000 {
+            let at = reference_point(random, set);
+            let lamp = (random.next() * set.lamps.len() as f64) as u32;
+            let light = lamps.sample(One, U(lamp), at.p);
+            let visible = at.transmits.0 || light.wi.dot(at.n).0 > 0.0;
+            if visible && light.irradiance.max_component().0 > 0.0 {
+                let pmf = selection.probability(One, &at, M(true), U(set.shapes.len() as u32 + lamp)).0;
+                assert!(pmf > 0.0, "{}: lamp {lamp} from {:?}", set.name, at.p.lane(0));
+                contributions += 1;
+            }
+        }
+    }
+    assert!(contributions > 3000, "{contributions}");
 }
 
 #[test]

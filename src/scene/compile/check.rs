@@ -1,8 +1,8 @@
 //! Quick checks of single parts of a description: they read no files and make no procedural shapes.
-use super::{camera::camera, object::placed_and_moved};
+use super::{camera::camera, lamp::placed_lamp, object::placed_and_moved};
 use crate::{
     declare::{Path, Problem, Resources},
-    scene::description::{CameraDescription, ObjectDescription},
+    scene::description::{CameraDescription, LampDescription, ObjectDescription},
     shape::{ShapeBuilder, motion, product},
 };
 
@@ -11,6 +11,11 @@ pub fn check_camera(described: &CameraDescription) -> Result<(), Problem> {
     camera(described)?;
     motion(&described.motion).map_err(|problem| problem.within(&Path::of("motion")))?;
     Ok(())
+}
+
+/// Checks that a lamp without surface can be placed.
+pub fn check_lamp(described: &LampDescription) -> Result<(), Problem> {
+    placed_lamp(&described.without_files(), &Resources::new("")).map(drop)
 }
 
 /// Checks that the shape of an object can be placed. For meshes and for kinds that make many shapes, checks only the transforms.

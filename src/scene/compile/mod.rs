@@ -1,6 +1,7 @@
 //! From a description to what the renderer runs on: names become numbers, values are checked, tables are built.
 mod camera;
 mod check;
+mod lamp;
 mod light;
 mod material;
 mod object;
@@ -13,13 +14,13 @@ use std::{
     time::{Duration, Instant},
 };
 
-use self::{camera::camera, material::materials, object::objects, problems::Problems};
+use self::{camera::camera, lamp::lamps, material::materials, object::objects, problems::Problems};
 pub use self::{
-    check::{check_camera, check_object},
+    check::{check_camera, check_lamp, check_object},
     reuse::Before,
 };
 use super::{
-    Camera, CompileReport, MaterialInstance, Object, RenderSettings, Scene, SceneText, Truth,
+    Camera, CompileReport, LampInstance, MaterialInstance, Object, RenderSettings, Scene, SceneText, Truth,
     damage::Damage,
     description::{RenderDescription, SceneDescription, TruthDescription},
     surface::Surfaces,
@@ -28,7 +29,7 @@ use crate::{
     declare::{Leftovers, Memo, Path, Problem, Resources, key_of_file},
     geometry::{Motion, Shape},
     image::{Encoding, read},
-    light::Background,
+    light::{Background, Lamp},
     material::Materials,
     quote,
     shape::motion,
@@ -63,6 +64,7 @@ struct Parts {
     materials: Vec<MaterialInstance>,
     tables: Materials,
     objects: Vec<Object>,
+    lamps: Vec<(LampInstance, Lamp)>,
     settings: RenderSettings,
     spp: Option<u32>,
     truth: Option<Truth>,
@@ -89,6 +91,7 @@ impl Parts {
         let mut tables = known.unwrap_or_default();
         let (materials, numbers) = materials(&description.materials, &mut textures, &mut tables, problems);
         let objects = objects(&description.objects, &numbers, &textures, resources, problems);
+        let lamps = lamps(&description.lamps, resources, problems);
         let RenderDescription { settings, spp } = description.render;
         let truth = description.truth.as_ref().map(|described| problems.keep(&at("truth"), || truth(described, resources)));
         Some(Parts {
@@ -99,6 +102,7 @@ impl Parts {
             materials,
             tables,
             objects,
+            lamps,
             settings,
             spp,
             truth: truth.flatten(),
@@ -113,11 +117,12 @@ impl Parts {
         resources: Resources,
         before: Option<Before>,
     ) -> Result<Scene, Problem> {
-        let Parts { camera, camera_motion, background, textures, materials, tables, objects, settings, spp, truth } = self;
-        reserve_tables(&resources, &objects)?;
+        let Parts { camera, camera_motion, background, textures, materials, tables, objects, lamps, settings, spp, truth } = self;
+        let (lamp_instances, lamps): (Vec<_>, Vec<_>) = lamps.into_iter().unzip();
+        reserve_tables(&resources, &objects, lamps.len())?;
         let owners = objects.iter().enumerate().flat_map(|(i, o)| vec![i as u32; o.shape.piece_count()]).collect();
         let shapes = reuse::shapes(&objects, camera.look_at, before, &resources);
-        let lights = reuse::lights(&objects, &shapes, background, before, &resources);
+        let lights = reuse::lights(&objects, &shapes, &lamps, background, before, &resources);
         tables.times_of_tables().iter().for_each(|took| resources.note("material tables", *took));
         let start = Instant::now();
         let surfaces = Surfaces::new(&objects, &materials, tables);
@@ -137,6 +142,7 @@ impl Parts {
             size: size(&objects, &camera),
             materials,
             objects,
+            lamps: lamp_instances,
             camera,
             settings,
             sharing_pays: Default::default(),
@@ -168,7 +174,7 @@ fn truth(description: &TruthDescription, resources: &Resources) -> Result<Truth,
 }
 
 /// Room for what the renderer looks objects up in: trees, and lights.
-fn reserve_tables(resources: &Resources, objects: &[Object]) -> Result<(), Problem> {
+fn reserve_tables(resources: &Resources, objects: &[Object], lamps: usize) -> Result<(), Problem> {
     /// Bytes of an object that is not a mesh: in the tree of objects, in tables, and while those are built.
     const OBJECT: u64 = 1000;
     /// Bytes per triangle for the tree of its mesh, including its construction.
@@ -176,7 +182,7 @@ fn reserve_tables(resources: &Resources, objects: &[Object]) -> Result<(), Probl
     /// Bytes per light among many; each emitting triangle is a light.
     const LIGHT: u64 = 900;
     resources.reserve("", format_args!("{} objects", objects.len()), OBJECT * objects.len() as u64)?;
-    let mut lights = 0;
+    let mut lights = lamps as u64;
     for object in objects {
         let count = match &object.shape {
             Shape::Mesh { data, .. } => {

@@ -9,7 +9,7 @@ use glam::DVec3;
 use crate::{
     declare::{Precision, Resources},
     geometry::{Shapes, same_point},
-    light::{Background, Lights},
+    light::{Background, Lamp, Lamps, Lights},
     scene::{Object, Scene},
 };
 
@@ -46,10 +46,11 @@ pub fn shapes(objects: &[Object], near: DVec3, before: Option<Before>, resources
     Arc::new(shapes)
 }
 
-/// The lights of the objects. `shapes` are those of the same objects.
+/// The lights of the objects, and the lamps without surface. `shapes` are those of the same objects.
 pub fn lights(
     objects: &[Object],
     shapes: &Shapes,
+    lamps: &[Lamp],
     background: Option<Background>,
     before: Option<Before>,
     resources: &Resources,
@@ -59,6 +60,7 @@ pub fn lights(
     if let Some(Before { scene, .. }) = before
         && same_point(&scene.shapes.near(), &near)
         && has_same_background(scene, background.as_ref())
+        && scene.lights.lamps.are_same(&Lamps::new(lamps))
         && has_same_emitters(scene, objects, shapes)
     {
         resources.note(PART, None);
@@ -69,7 +71,7 @@ pub fn lights(
     let emitters: Vec<_> = emitting
         .flat_map(|(o, emission)| o.shape.pieces().into_iter().map(move |piece| (piece, o.motion.clone(), emission)))
         .collect();
-    let lights = Arc::new(Lights::new(shapes, &emitters, background, near));
+    let lights = Arc::new(Lights::new(shapes, &emitters, lamps, background, near));
     resources.note(PART, Some(start.elapsed()));
     lights
 }

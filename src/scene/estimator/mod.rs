@@ -24,7 +24,7 @@ crate::declare::word_kinds! {
 }
 
 impl Estimator {
-    /// Whether lights are sampled, in addition to emitter hits.
+    /// Whether lights that rays can hit are sampled, in addition to emitter hits. Lamps without surface always are.
     #[inline(always)]
     pub fn samples_lights(self) -> bool {
         in_estimator!(self, E => E::SAMPLES_LIGHTS)

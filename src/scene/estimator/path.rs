@@ -5,14 +5,14 @@ use crate::{
     math::{F, Lanes},
 };
 
-/// Only emitter hits of paths count.
+/// Only emitter hits of paths count, and light samples of lamps without surface, which no path can hit.
 pub(super) struct Path;
 
 impl Strategy for Path {
     const WORD: Word = Word {
         name: "path",
         title: "Path",
-        doc: "Paths find light only by hitting an emitter. The simplest estimator; very noisy for small lights.",
+        doc: "Paths find light only by hitting an emitter; lamps without surface are sampled. The simplest estimator; very noisy for small lights.",
     };
     const COMPARISON: &'static str = "Path sampling";
     const SAMPLES_LIGHTS: bool = false;

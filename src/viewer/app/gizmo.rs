@@ -1,4 +1,4 @@
-//! Joins the gizmo with the selected object: its operations are edits of the document.
+//! Joins the gizmo with the selected object or lamp: its operations are edits of the document.
 use egui::Ui;
 use glam::DVec3;
 use noisefall::shape::Transform;
@@ -10,6 +10,7 @@ use crate::viewer::canvas::{
     interaction::Tool,
     picture_area::PictureArea,
 };
+use crate::viewer::panels::subject::Subject;
 
 impl App {
     /// Gives the gizmo its keys, before the window looks at its own: while the pointer is over the picture.
@@ -23,27 +24,30 @@ impl App {
 
     fn has_gizmo(&self) -> bool {
         let is_moving_tool = matches!(self.window.tool, Tool::Picture | Tool::Camera);
-        is_moving_tool && self.selection.object().is_some() && self.editor.is_some()
+        is_moving_tool && self.selection.movable().is_some() && self.editor.is_some()
     }
 
-    /// Shows the gizmo of the selected object over the picture, and makes its edits.
+    /// Shows the gizmo of the selected part over the picture, and makes its edits.
     pub fn show_gizmo(&mut self, ui: &mut Ui, area: &PictureArea) {
-        let Some((object, pivot)) = self.selection.object().zip(self.pivot()).filter(|_| self.has_gizmo()) else {
+        let Some((subject, pivot)) = self.selection.movable().cloned().zip(self.pivot()).filter(|_| self.has_gizmo()) else {
             return self.selection.end_operation();
         };
         let size = self.session.opened.as_ref().map_or(1.0, |opened| opened.scene.size);
         let output = self.selection.gizmo.show(ui, area, &self.session.camera, pivot, size);
-        output.into_iter().for_each(|output| self.follow_gizmo(object, &output));
+        output.into_iter().for_each(|output| self.follow_gizmo(&subject, &output));
     }
 
-    /// The middle of the selected object.
+    /// The middle of the selected object, or the position of the selected lamp.
     fn pivot(&self) -> Option<DVec3> {
+        if let Some(Subject::Lamp(place)) = self.selection.subject {
+            return self.editor.as_ref()?.document.description().lamps.get(place)?.position();
+        }
         let scene = &self.session.opened.as_ref()?.scene;
         let objects = &scene.objects[scene.objects_of(self.selection.object()?)];
         framing::around(objects.iter().map(|object| object.shape.bounding_sphere())).map(|(center, _)| center)
     }
 
-    fn follow_gizmo(&mut self, object: usize, output: &GizmoOutput) {
+    fn follow_gizmo(&mut self, subject: &Subject, output: &GizmoOutput) {
         let GizmoOutput { change, pivot, phase } = output;
         if *phase == Phase::Cancelled || (*phase == Phase::Done && is_identity(change)) {
             return self.cancel_drag();
@@ -54,7 +58,13 @@ impl App {
         };
         if is_new {
             self.selection.change = Some(change.clone());
-            self.change_scene(title(change), |editor| editor.drag_from_start(|scene| scene.transformed(object, change, *pivot)));
+            self.change_scene(title(change), |editor| {
+                editor.drag_from_start(|scene| match subject {
+                    Subject::Object(object) => scene.transformed(*object, change, *pivot),
+                    Subject::Lamp(lamp) => scene.transformed_lamp(*lamp, change, *pivot),
+                    _ => None,
+                })
+            });
         }
         if *phase == Phase::Done {
             self.selection.change = None;

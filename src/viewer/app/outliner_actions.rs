@@ -57,7 +57,7 @@ impl App {
         }
     }
 
-    /// Adds an object where the picture was clicked last, or a material or a texture.
+    /// Adds an object or a lamp where the picture was clicked last, or a material or a texture.
     pub fn add(&mut self, new: New) {
         let placement = self.placement();
         let Some(editor) = &self.editor else { return };
@@ -65,6 +65,7 @@ impl App {
         let added = match new {
             New::Shape(kind) => document.add_shape(kind, &placement, None),
             New::Lamp(kind) => document.add_lamp(kind, &placement),
+            New::LampWithoutSurface(kind) => document.add_lamp_without_surface(kind, &placement),
             New::Material => Some(added(document, "materials", "material", &mut MaterialDescription::default())),
             New::Texture => Some(added(document, "textures", "texture", &mut TextureKind::from(Checker::default()))),
         };

@@ -9,7 +9,7 @@ pub struct Selection {
     pub subject: Option<Subject>,
     pub outline: OutlineFinder,
     pub gizmo: Gizmo,
-    /// What the gizmo has done to the object so far.
+    /// What the gizmo has done to the object or lamp so far.
     pub change: Option<Transform>,
     /// The pixel of the picture that was clicked last: new objects are placed there.
     pub clicked: Option<[u32; 2]>,
@@ -39,6 +39,11 @@ impl Selection {
         if self.object().is_some() {
             self.select(None);
         }
+    }
+
+    /// The selected part that the gizmo may move: an object or a lamp.
+    pub fn movable(&self) -> Option<&Subject> {
+        self.subject.as_ref().filter(|subject| matches!(subject, Subject::Object(_) | Subject::Lamp(_)))
     }
 
     /// The place in the description of the selected object.

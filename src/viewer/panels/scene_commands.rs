@@ -3,6 +3,7 @@ use egui::Ui;
 use noisefall::{
     declare::OneOf,
     edit::{TEMPLATES, Template},
+    light::lamp::LampKind,
     shape::ShapeKind,
 };
 
@@ -36,13 +37,13 @@ pub fn show(ui: &mut Ui) -> Option<SceneCommand> {
 
 fn add_menu(ui: &mut Ui) -> Option<New> {
     let menu = ui.menu_button("Add", |ui| {
-        let shape = ui.menu_button("Shape", |ui| kinds(ui).map(New::Shape)).inner.flatten();
-        let lamp = ui.menu_button("Lamp", |ui| kinds(ui).map(New::Lamp)).inner.flatten();
+        let shape = ui.menu_button("Shape", |ui| kinds::<ShapeKind>(ui).map(New::Shape)).inner.flatten();
+        let lamp = ui.menu_button("Lamp", lamps).inner.flatten();
         let material = ui.button("Material").clicked().then_some(New::Material);
         let texture = ui.button("Texture").clicked().then_some(New::Texture);
         shape.or(lamp).or(material).or(texture)
     });
-    menu.response.on_hover_text("Adds an object where you clicked last in the image, or a material or a texture.");
+    menu.response.on_hover_text("Adds an object or a lamp where you clicked last in the image, or a material or a texture.");
     menu.inner.flatten()
 }
 
@@ -60,9 +61,16 @@ fn template_menu(ui: &mut Ui) -> Option<Template> {
     menu.inner.flatten()
 }
 
-fn kinds(ui: &mut Ui) -> Option<&'static str> {
+/// Shapes that emit light, and lamps without surface.
+fn lamps(ui: &mut Ui) -> Option<New> {
+    let shape = kinds::<ShapeKind>(ui).map(New::Lamp);
+    ui.separator();
+    shape.or(kinds::<LampKind>(ui).map(New::LampWithoutSurface))
+}
+
+fn kinds<T: OneOf>(ui: &mut Ui) -> Option<&'static str> {
     let mut chosen = None;
-    for kind in ShapeKind::alternatives() {
+    for kind in T::alternatives() {
         if ui.button(kind.name().replace('_', " ")).on_hover_text(kind.about().doc).clicked() {
             chosen = Some(kind.name());
         }

@@ -1,6 +1,7 @@
 //! The parts of a scene that can be selected and edited.
 use noisefall::{
     declare::{Declare, OneOf, Path, Step},
+    light::lamp::LampKind,
     material::Material,
     scene::{
         Projection,
@@ -13,8 +14,10 @@ use noisefall::{
 /// A part of a scene description.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Subject {
-    /// An object, lamps included, by its place in the description.
+    /// An object, one that emits light included, by its place in the description.
     Object(usize),
+    /// A lamp without surface, by its place in the description.
+    Lamp(usize),
     Material(String),
     Texture(String),
     Camera,
@@ -29,6 +32,7 @@ impl Subject {
         let top = Path::default();
         match self {
             Subject::Object(place) => top.key("objects").item(*place),
+            Subject::Lamp(place) => top.key("lamps").item(*place),
             Subject::Material(name) => top.key("materials").key(name),
             Subject::Texture(name) => top.key("textures").key(name),
             Subject::Camera => top.key("camera"),
@@ -41,6 +45,7 @@ impl Subject {
     pub fn at(path: &Path) -> Option<Subject> {
         Some(match &path.0[..] {
             [Step::Key(list), Step::Item(place)] if list == "objects" => Subject::Object(*place),
+            [Step::Key(list), Step::Item(place)] if list == "lamps" => Subject::Lamp(*place),
             [Step::Key(map), Step::Key(name)] if map == "materials" => Subject::Material(name.clone()),
             [Step::Key(map), Step::Key(name)] if map == "textures" => Subject::Texture(name.clone()),
             [Step::Key(key)] if key == "camera" => Subject::Camera,
@@ -64,6 +69,7 @@ impl Subject {
         let path = self.path();
         Some(match self {
             Subject::Object(_) => (path.key("shape"), ShapeKind::WHAT),
+            Subject::Lamp(_) => (path, LampKind::WHAT),
             Subject::Material(_) => (path, Material::WHAT),
             Subject::Texture(_) => (path, TextureKind::WHAT),
             Subject::Camera => (path, Projection::WHAT),
@@ -76,6 +82,7 @@ impl Subject {
     pub fn is_in(&self, description: &SceneDescription) -> bool {
         match self {
             Subject::Object(place) => *place < description.objects.len(),
+            Subject::Lamp(place) => *place < description.lamps.len(),
             Subject::Material(name) => description.materials.contains_key(name),
             Subject::Texture(name) => description.textures.contains_key(name),
             Subject::Camera | Subject::Background | Subject::Presentation => true,
@@ -89,6 +96,7 @@ impl Subject {
         }
         match self {
             Subject::Object(place) => copy(description.objects.get(*place)),
+            Subject::Lamp(place) => copy(description.lamps.get(*place)),
             Subject::Material(name) => copy(description.materials.get(name)),
             Subject::Texture(name) => copy(description.textures.get(name)),
             Subject::Camera => copy(Some(&description.camera)),
@@ -100,7 +108,12 @@ impl Subject {
 
 #[cfg(test)]
 mod tests {
-    use noisefall::{declare::lines_of, material::Lambertian, scene::description::BackgroundDescription, shape::Sphere};
+    use noisefall::{
+        declare::lines_of,
+        material::Lambertian,
+        scene::description::{BackgroundDescription, LampDescription},
+        shape::Sphere,
+    };
 
     use super::*;
 
@@ -110,6 +123,7 @@ mod tests {
         assert_eq!(found(Subject::Object(2)), Some((Path::of("objects.2.shape"), ShapeKind::WHAT)));
         assert_eq!(found(Subject::Material("red".to_owned())), Some((Path::of("materials.red"), Material::WHAT)));
         assert_eq!(found(Subject::Texture("bark".to_owned())), Some((Path::of("textures.bark"), TextureKind::WHAT)));
+        assert_eq!(found(Subject::Lamp(1)), Some((Path::of("lamps.1"), LampKind::WHAT)));
         assert_eq!(found(Subject::Camera), Some((Path::of("camera"), Projection::WHAT)));
         assert_eq!(found(Subject::Background), Some((Path::of("background"), BackgroundDescription::WHAT)));
         assert_eq!(found(Subject::Presentation), None);
@@ -131,6 +145,9 @@ mod tests {
         assert_eq!([Subject::Object(1), Subject::Background].map(|subject| lines(&subject, &room)), [None, None]);
         room.background = Some(BackgroundDescription::default());
         assert!(lines(&Subject::Background, &room).is_some());
+        room.lamps.push(LampDescription::default());
+        assert_eq!(Subject::at(&Path::of("lamps.0")), Some(Subject::Lamp(0)));
+        assert!(lines(&Subject::Lamp(0), &room).is_some() && !Subject::Lamp(1).is_in(&room));
         room.title = "Room".to_owned();
         assert!(lines(&Subject::Presentation, &room).is_some_and(|lines| lines[0] == "title: Room"));
     }

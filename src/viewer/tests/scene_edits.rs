@@ -128,6 +128,28 @@ fn parts_are_added_duplicated_renamed_assigned_and_deleted() {
 }
 
 #[test]
+fn lamps_without_surface_are_parts_like_others() {
+    let mut window = window("cornell_spheres");
+    let start = bits(&window);
+    window.state_mut().add(New::LampWithoutSurface("spot"));
+    assert_eq!(window.state().selection.subject, Some(Subject::Lamp(0)), "what is new is selected");
+    window.state_mut().act_on(Subject::Lamp(0), Action::Duplicate);
+    assert_eq!(window.state().selection.subject, Some(Subject::Lamp(1)));
+    window.state_mut().act_on(Subject::Lamp(1), Action::Rename("stage".to_owned()));
+    window.state_mut().act_on(Subject::Lamp(1), Action::ChangeKind("point"));
+    let lamps = description(&window).lamps.clone();
+    assert_eq!(
+        [&lamps[0], &lamps[1]].map(|lamp| (lamp.name.clone(), lamp.kind.name())),
+        [("spot".to_owned(), "spot"), ("stage".to_owned(), "point")]
+    );
+    edits(&mut window, "the picture of both", |w| w.run_steps(2));
+    window.state_mut().act_on(Subject::Lamp(1), Action::Delete);
+    assert_eq!((description(&window).lamps.len(), window.state().selection.subject.clone()), (1, None));
+    (0..5).for_each(|_| undo(&mut window));
+    assert!(bits(&window).is_identical(&start));
+}
+
+#[test]
 fn the_menu_adds_what_it_says() {
     let mut window = window("cornell_spheres");
     for entries in [&["Add", "Material"][..], &["Add", "Texture"]] {

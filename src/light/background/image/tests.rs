@@ -1,13 +1,15 @@
 //! Sampling against the pdf, the pdf against radiance, and the orientation of the image.
 use std::f64::consts::{PI, TAU};
 
+use glam::DVec3;
 use rand::{Rng, SeedableRng, rngs::SmallRng};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
-use super::{ImageBackground, SkyTables, cell_means};
+use super::{ImageBackground, SkyTables, Turn, cell_means};
 use crate::{
     image::{Picture, Texels},
     math::{F, Lanes, One, SimdLevel, V, colour::luminance},
+    shape::{Rotation, Transform, product},
 };
 
 fn picture(width: u32, height: u32, radiance: impl FnMut(u32) -> [f32; 3]) -> Texels {
@@ -244,4 +246,54 @@ fn the_memory_of_a_sky_is_that_of_its_texels_and_cells() {
     // Texels of 16 bytes; cells, twice as many a side at most, of 64; and a mean for every cell of a row of texels.
     assert_eq!(SkyTables::bytes([37, 19]), 16 * 37 * 19 + 64 * 74 * 38 + 8 * 74 * 19);
     assert_eq!(SkyTables::bytes([5000, 3000]), 16 * 5000 * 3000 + 64 * 1024 * 512 + 8 * 1024 * 3000);
+}
+
+/// A rotation, a mirroring, and both with a translation and a scale that do not matter.
+fn turns() -> Vec<Vec<Transform>> {
+    let rotation = Transform::Rotate(Rotation { axis: DVec3::new(1.0, 2.0, -0.5), degrees: 70.0 });
+    let mirror = Transform::Scale(DVec3::new(-1.0, 1.0, 1.0));
+    let all = vec![mirror.clone(), rotation.clone(), Transform::Translate(DVec3::X), Transform::Scale(DVec3::splat(2.0))];
+    vec![vec![rotation], vec![mirror], all]
+}
+
+#[test]
+fn a_turned_image_is_the_image_in_turned_directions() {
+    let straight = sky(37, 19);
+    let mut random = SmallRng::seed_from_u64(4);
+    for list in turns() {
+        let matrix = product(&list).expect("it is valid").matrix3;
+        let turned = ImageBackground { turn: Turn::of(&list).expect("it is a turn"), ..sky(37, 19) };
+        let mut same = 0;
+        for _ in 0..2000 {
+            let d = direction(PI * random.random::<f64>(), TAU * random.random::<f64>());
+            let there = (matrix * glam::Vec3::from(d.lane(0)).as_dvec3()).normalize().as_vec3().to_array();
+            let there = V::splat(One, there);
+            let [a, b] = [straight.radiance(One, d), turned.radiance(One, there)].map(|light| luminance(light.lane(0)));
+            assert!((a - b).abs() < 1e-2 * (1.0 + a), "{a} {b}");
+            same += u32::from((straight.pdf(One, d).0 / turned.pdf(One, there).0 - 1.0).abs() < 1e-6);
+            let numbers = [0; 4].map(|_| unit(&mut random));
+            let [index, coin, u, v] = numbers;
+            let ((a, pdf), (b, same_pdf)) =
+                (straight.sample(One, (index, coin), (u, v)), turned.sample(One, (index, coin), (u, v)));
+            assert_eq!(pdf.0, same_pdf.0);
+            let expected = (matrix * glam::Vec3::from(a.lane(0)).as_dvec3()).normalize();
+            assert!(expected.distance(glam::Vec3::from(b.lane(0)).as_dvec3()) < 1e-6);
+        }
+        // At the rim of a cell rounding may take a direction to the next one.
+        assert!(same > 1990, "{same}");
+    }
+}
+
+#[test]
+fn transforms_that_distort_directions_are_refused_and_none_is_no_turn() {
+    assert!(Turn::of(&[]).expect("nothing is wrong").is_none());
+    assert!(Turn::of(&[Transform::Scale(DVec3::new(1.0, 2.0, 1.0))]).is_err());
+    let sheared = [[1.0, 0.1, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
+    assert!(Turn::of(&[Transform::Matrix(sheared)]).is_err());
+    // A quarter turn of another program, in single precision.
+    let e = 1e-6;
+    let turned = [[e, 0.0, 1.0, 5.0], [0.0, 1.0, e, 0.0], [-1.0, 0.0, 0.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
+    let turn = Turn::of(&[Transform::Matrix(turned)]).expect("it is a rotation").expect("it is there");
+    let d = turn.to_world(One, V { x: F(1.0), y: F(0.0), z: F(0.0) });
+    assert!((d.z.0 + 1.0).abs() < 1e-6 && (d.length_squared().0 - 1.0).abs() < 1e-6);
 }

@@ -5,7 +5,7 @@ use noisefall::{
     scene::Object,
 };
 
-use super::terms::{Row, Source, Term, rows, totals};
+use super::terms::{Row, Source, Target, Term, rows, totals};
 use crate::viewer::widgets::{
     palette::Palette,
     style::{choices, elided},
@@ -45,7 +45,7 @@ const COLUMNS: [(&str, &str); 9] = [
     ("L_e", "Emitted radiance, W/(sr·m²)"),
     ("τ", "Transmittance of media towards the lamp, times its texture; 0 if the lamp is occluded"),
     ("w", "Weight of multiple importance sampling"),
-    ("p", "Pdf of the direction to the lamp, per solid angle"),
+    ("p", "Pdf of the direction to the lamp, per solid angle; of a lamp without surface, the probability of choosing it"),
     ("term", "β f cos θ L_e τ w / p. Terms in brackets are shared among neighbouring pixels."),
 ];
 
@@ -116,16 +116,20 @@ fn cell(ui: &mut Ui, text: String, is_strong: bool) -> Response {
 
 /// Source of the light of a term.
 fn source(term: &Term, objects: &[Object]) -> String {
-    match term.source {
+    match &term.source {
         Source::Hit => "hit".to_owned(),
-        Source::Lamp(lamp, outcome) => {
-            let lamp = lamp.map_or_else(|| "background".to_owned(), |id| name(objects, id));
+        Source::Light(target, outcome) => {
+            let light = match target {
+                Target::Object(id) => name(objects, *id),
+                Target::Lamp(name) => name.clone(),
+                Target::Background => "background".to_owned(),
+            };
             let outcome = match outcome {
                 Outcome::Seen => "seen",
                 Outcome::Hidden => "hidden",
                 Outcome::Void => "not tested",
             };
-            format!("{lamp}, {outcome}")
+            format!("{light}, {outcome}")
         }
     }
 }
@@ -219,6 +223,7 @@ mod tests {
             light: Some(SampledLight {
                 direction: grey(0.0),
                 object: Some(0),
+                lamp: None,
                 pdf: 0.107,
                 f_cos: grey(0.106),
                 weight: 0.108,
@@ -309,6 +314,9 @@ mod tests {
         };
         assert_eq!(cells(Outcome::Seen), "background, seen");
         assert_eq!(cells(Outcome::Void), "background, not tested");
+        let light = vertex().light.map(|light| SampledLight { object: None, lamp: Some("spot".to_owned()), ..light });
+        let of_lamp = written(&of(vec![Vertex { light, emission: None, ..vertex() }]));
+        assert_eq!(of_lamp[COLUMNS.len() + 1], "spot, hidden");
     }
 
     #[test]

@@ -28,12 +28,21 @@ pub struct Term {
 }
 
 /// Source of the light of a term.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Source {
     /// The path runs into it.
     Hit,
-    /// A lamp that was sampled; `None` is the background.
-    Lamp(Option<u32>, Outcome),
+    /// A light that was sampled.
+    Light(Target, Outcome),
+}
+
+/// A light that was sampled.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Target {
+    Object(u32),
+    /// A lamp without surface, by its name.
+    Lamp(String),
+    Background,
 }
 
 /// A row that closes the sum.
@@ -76,7 +85,7 @@ fn of_hit(throughput: Colour, hit: &EmitterHit) -> Term {
 
 fn of_light(throughput: Colour, light: &SampledLight) -> Term {
     Term {
-        source: Source::Lamp(light.object, light.outcome),
+        source: Source::Light(target(light), light.outcome),
         throughput,
         f_cos: Some(light.f_cos),
         radiance: light.radiance,
@@ -85,6 +94,14 @@ fn of_light(throughput: Colour, light: &SampledLight) -> Term {
         pdf: Some(light.pdf),
         value: light.contribution,
         is_shared: light.shared,
+    }
+}
+
+fn target(light: &SampledLight) -> Target {
+    match (&light.lamp, light.object) {
+        (Some(lamp), _) => Target::Lamp(lamp.clone()),
+        (None, Some(object)) => Target::Object(object),
+        (None, None) => Target::Background,
     }
 }
 

@@ -1,6 +1,6 @@
 //! The parts of a description as entries in groups.
 use egui::{TextFormat, Visuals, text::LayoutJob};
-use noisefall::scene::description::{MaterialDescription, ObjectDescription, SceneDescription};
+use noisefall::scene::description::{LampDescription, MaterialDescription, ObjectDescription, SceneDescription};
 
 use crate::viewer::panels::subject::Subject;
 
@@ -36,11 +36,12 @@ pub fn groups(description: &SceneDescription, search: &str) -> Vec<Group> {
         Entry::single(Subject::Background, "Background", background),
         Entry::single(Subject::Presentation, "Title and settings", ""),
     ];
+    let lamps = description.lamps.iter().enumerate().map(|(place, lamp)| of_lamp(place, lamp));
     let materials = description.materials.iter();
     let textures = description.textures.iter();
     let groups = [
         group("Objects", &mut objects(false)),
-        group("Lamps", &mut objects(true)),
+        group("Lamps", &mut objects(true).chain(lamps)),
         group("Materials", &mut materials.map(|(name, material)| of_material(name, material))),
         group(
             "Textures",
@@ -56,6 +57,11 @@ fn of_object(place: usize, object: &ObjectDescription) -> Entry {
     let material = object.material.as_deref().unwrap_or("black");
     let kind = format!("{}, {material}", object.shape.name().replace('_', " "));
     Entry { subject: Subject::Object(place), name, given_name: object.name.clone(), kind }
+}
+
+fn of_lamp(place: usize, lamp: &LampDescription) -> Entry {
+    let name = if lamp.name.is_empty() { format!("lamp {}", place + 1) } else { lamp.name.clone() };
+    Entry { given_name: lamp.name.clone(), ..Entry::named(Subject::Lamp(place), &name, lamp.kind.name()) }
 }
 
 fn of_material(name: &str, material: &MaterialDescription) -> Entry {
@@ -93,6 +99,7 @@ mod tests {
         room.add_object("ball", Sphere::default()).material = Some("white".to_owned());
         room.add_object("", Sphere::default());
         room.add_object("lamp", Sphere::default()).emission = Some(EmissionDescription::default());
+        room.lamps.push(LampDescription::default());
         room.textures.insert("squares".to_owned(), TextureKind::default());
         room
     }
@@ -106,7 +113,7 @@ mod tests {
     fn every_part_is_in_one_group() {
         let all = [
             ("Objects", vec!["ball", "object 2"]),
-            ("Lamps", vec!["lamp"]),
+            ("Lamps", vec!["lamp", "lamp 1"]),
             ("Materials", vec!["white"]),
             ("Textures", vec!["squares"]),
             ("Scene", vec!["Camera", "Background", "Title and settings"]),

@@ -2,6 +2,7 @@
 use egui::Ui;
 use noisefall::{
     declare::OneOf,
+    light::lamp::LampKind,
     material::Material,
     scene::description::{BackgroundDescription, SceneDescription},
     shape::ShapeKind,
@@ -37,6 +38,8 @@ pub enum New {
     Shape(&'static str),
     /// The same that emits light.
     Lamp(&'static str),
+    /// A lamp without surface of this kind.
+    LampWithoutSurface(&'static str),
     Material,
     Texture,
 }
@@ -62,7 +65,7 @@ impl Menu {
                 ("Drop to floor", Action::DropToFloor),
                 ("Duplicate", Action::Duplicate),
             ]),
-            Subject::Material(_) | Subject::Texture(_) => actions.push(("Duplicate", Action::Duplicate)),
+            Subject::Lamp(_) | Subject::Material(_) | Subject::Texture(_) => actions.push(("Duplicate", Action::Duplicate)),
             Subject::Camera | Subject::Presentation => {}
             Subject::Background if !self.has_background => actions.push(("Add", Action::AddBackground)),
             Subject::Background => actions.push(("Delete", Action::Delete)),
@@ -92,6 +95,7 @@ impl Menu {
     fn kinds(&self, subject: &Subject) -> Vec<&'static str> {
         match subject {
             Subject::Object(_) => names::<ShapeKind>(),
+            Subject::Lamp(_) => names::<LampKind>(),
             Subject::Material(_) => names::<Material>(),
             Subject::Texture(_) => names::<TextureKind>(),
             Subject::Background if self.has_background => names::<BackgroundDescription>(),
@@ -115,7 +119,7 @@ impl Menu {
 
 /// Whether a part has a name.
 pub fn can_rename(subject: &Subject) -> bool {
-    matches!(subject, Subject::Object(_) | Subject::Material(_) | Subject::Texture(_))
+    matches!(subject, Subject::Object(_) | Subject::Lamp(_) | Subject::Material(_) | Subject::Texture(_))
 }
 
 fn names<T: OneOf>() -> Vec<&'static str> {

@@ -1,0 +1,121 @@
+//! The light of lamps at points, in lanes: each lane has a lamp of its own, or all have the same.
+use super::compiled::{BY_ANGLE, EVEN, LampRows, PICTURE};
+use crate::math::{F, Lanes, M, Pick, U, V, trig::turns_of};
+
+/// Lamps in lanes.
+pub struct Beam<L: Lanes> {
+    rows: [[F<L>; 4]; 5],
+}
+
+/// The way from points to their lamps.
+pub struct Way<L: Lanes> {
+    /// Unit direction towards the lamp.
+    pub wi: V<L>,
+    /// Distance, metres; infinite for directional lamps.
+    pub distance: F<L>,
+    /// Irradiance of a surface that faces the lamp, for each unit of its power: 1/distance², or 1 for directional lamps.
+    pub spread: F<L>,
+}
+
+impl<L: Lanes> Beam<L> {
+    /// The lamps of these numbers.
+    #[inline(always)]
+    pub fn read(l: L, rows: &[[f32; 4]], lamp: U<L>) -> Self {
+        let first = lamp * 5;
+        let rows = [
+            l.rows(rows, first),
+            l.rows(rows, first + 1),
+            l.rows(rows, first + 2),
+            l.rows(rows, first + 3),
+            l.rows(rows, first + 4),
+        ];
+        Beam { rows }
+    }
+
+    /// One lamp in all lanes.
+    #[inline(always)]
+    pub fn of_all(l: L, rows: &LampRows) -> Self {
+        let mut lanes = [[l.f(0.0); 4]; 5];
+        for (lanes, row) in lanes.iter_mut().zip(rows) {
+            for (lane, x) in lanes.iter_mut().zip(row) {
+                *lane = l.f(*x);
+            }
+        }
+        Beam { rows: lanes }
+    }
+
+    /// The way from `p` to the lamp.
+    #[inline(always)]
+    pub fn way_from(&self, l: L, p: V<L>) -> Way<L> {
+        /// Square of the smallest distance, so that no number becomes infinite.
+        const NEAREST: f32 = 1e-30;
+        let [x, y, z, w] = self.rows[0];
+        let way = V { x, y, z } - p * w;
+        let squared = way.length_squared().max(l.f(NEAREST));
+        let length = squared.sqrt();
+        let spread = w.above(0.0).pick(1.0 / squared, l.f(1.0));
+        Way { wi: way * (1.0 / length), distance: length / w, spread }
+    }
+
+    /// The power of the beam on its axis.
+    #[inline(always)]
+    pub fn power(&self) -> V<L> {
+        let [x, y, z, _] = self.rows[1];
+        V { x, y, z }
+    }
+
+    /// The word of the shape.
+    #[inline(always)]
+    fn word(&self) -> U<L> {
+        self.rows[1][3].bits()
+    }
+
+    /// Lanes that cast the picture of this number: 0 is white.
+    #[inline(always)]
+    pub fn casts(&self, picture: u32) -> M<L> {
+        self.word().is(PICTURE + picture)
+    }
+
+    /// The fraction of the power in the unit direction `d` away from the lamp, without the image of a picture.
+    #[inline(always)]
+    pub fn strength(&self, l: L, d: V<L>) -> F<L> {
+        let word = self.word();
+        let even = word.is(EVEN);
+        if !(!even).any() {
+            return l.f(1.0);
+        }
+        let is_cone = word.below(PICTURE);
+        let (_, _, inside) = self.picture_place(l, d);
+        let picture = inside.pick(l.f(1.0), l.f(0.0));
+        even.pick(l.f(1.0), is_cone.pick(self.cone(l, d), picture))
+    }
+
+    /// The falloff of a cone.
+    #[inline(always)]
+    fn cone(&self, l: L, d: V<L>) -> F<L> {
+        let ([x, y, z, edge], [a, b, c, factor]) = (self.rows[2], self.rows[3]);
+        let axis = V { x, y, z };
+        let cos = d.dot(axis);
+        let angle = -turns_of(cos, d.cross(axis).length_squared().sqrt());
+        let place = self.word().is(BY_ANGLE).pick(angle, cos);
+        let t = ((place - edge) * factor).max(l.f(0.0)).min(l.f(1.0));
+        t * (a + t * (b + t * c))
+    }
+
+    /// A linear form of the direction `d`.
+    #[inline(always)]
+    fn form(&self, row: usize, d: V<L>) -> F<L> {
+        let [x, y, z, _] = self.rows[row];
+        d.dot(V { x, y, z })
+    }
+
+    /// Where the direction `d` is in the picture: u to the right and v down, and whether both are in [0, 1].
+    #[inline(always)]
+    pub fn picture_place(&self, l: L, d: V<L>) -> (F<L>, F<L>, M<L>) {
+        let z = self.form(4, d);
+        let half = 0.5 / z;
+        let (u, v) = (self.form(2, d) * half + 0.5, 0.5 - self.form(3, d) * half);
+        let (zero, one) = (l.f(0.0), l.f(1.0));
+        (u, v, z.above(0.0) & u.ge(zero) & one.ge(u) & v.ge(zero) & one.ge(v))
+    }
+}

@@ -1,0 +1,189 @@
+//! A compiled lamp, and the rows of numbers that the renderer reads.
+use std::{f64::consts::TAU, sync::Arc};
+
+use glam::DVec3;
+
+use super::falloff::Falloff;
+use crate::{declare::Problem, math::colour::luminance, texture::ImageTexture};
+
+/// A lamp as the renderer needs it.
+pub struct Lamp {
+    source: Source,
+    /// Radiant intensity, W/sr, where the beam is 1; of a directional lamp the irradiance, W/m².
+    power: [f32; 3],
+    shape: Shape,
+}
+
+/// The origin of the light.
+enum Source {
+    At(DVec3),
+    /// Unit direction towards the light.
+    Towards(DVec3),
+}
+
+/// The distribution over directions.
+enum Shape {
+    Even,
+    Cone {
+        /// Unit.
+        axis: DVec3,
+        /// Radians; `inner` is at most `edge`.
+        edge: f64,
+        inner: f64,
+        falloff: Falloff,
+    },
+    /// A picture. The axes are linear forms: `x` and `y` of a direction over `z` are its coordinates, from −1 to 1 in the picture,
+    /// and `z` is positive in front of the lamp.
+    Picture {
+        axes: [DVec3; 3],
+        image: Option<Arc<ImageTexture>>,
+    },
+}
+
+/// The numbers of a lamp.
+///
+/// | row | content |
+/// |---|---|
+/// | 0 | homogeneous position; of a directional lamp the direction towards it and 0 |
+/// | 1 | power, and the word of the shape: [`EVEN`], [`BY_COSINE`], [`BY_ANGLE`], or [`PICTURE`] plus the number of the image |
+/// | 2 | cone: axis, edge; picture: x form |
+/// | 3 | cone: coefficients of t, t² and t³, and the factor that makes t; picture: y form |
+/// | 4 | picture: z form |
+pub type LampRows = [[f32; 4]; 5];
+
+/// Equal in all directions.
+pub(super) const EVEN: u32 = 0;
+/// A cone whose falloff depends on the cosine.
+pub(super) const BY_COSINE: u32 = 1;
+/// A cone whose falloff depends on the angle.
+pub(super) const BY_ANGLE: u32 = 2;
+/// The first picture. It is white; images follow.
+pub(super) const PICTURE: u32 = 3;
+
+/// Factor of an edge without falloff.
+const STEEPEST: f64 = 1e30;
+
+/// Bounds of a lamp with a position, for the light tree.
+pub struct LampBound {
+    pub position: DVec3,
+    /// Unit direction of the axis of light that stays on one side of the lamp.
+    pub axis: Option<DVec3>,
+    /// Estimate of the luminous part of the intensity.
+    pub light: f32,
+}
+
+impl Lamp {
+    /// A lamp that shines equally in all directions.
+    pub fn point(position: DVec3, intensity: [f64; 3]) -> Lamp {
+        Lamp { source: Source::At(position), power: single(intensity), shape: Shape::Even }
+    }
+
+    /// A lamp that is infinitely far away in the unit direction `towards`.
+    pub fn directional(towards: DVec3, irradiance: [f64; 3]) -> Lamp {
+        Lamp { source: Source::Towards(towards), power: single(irradiance), shape: Shape::Even }
+    }
+
+    /// A lamp that shines in a cone around a unit axis. The angles are in radians.
+    pub fn spot(position: DVec3, intensity: [f64; 3], axis: DVec3, [inner, edge]: [f64; 2], falloff: Falloff) -> Lamp {
+        let shape = Shape::Cone { axis, edge, inner: inner.min(edge), falloff };
+        Lamp { source: Source::At(position), power: single(intensity), shape }
+    }
+
+    /// A lamp that casts a picture. The axes are linear forms of directions; `None` is white.
+    pub fn projector(position: DVec3, intensity: f64, axes: [DVec3; 3], image: Option<Arc<ImageTexture>>) -> Lamp {
+        Lamp { source: Source::At(position), power: single([intensity; 3]), shape: Shape::Picture { axes, image } }
+    }
+
+    /// Checks the position, which a transform may take beyond the numbers of the renderer.
+    pub fn check(&self) -> Result<(), Problem> {
+        const LARGEST: f64 = 1e12;
+        match self.source {
+            Source::At(position) if position.is_nan() || position.abs().max_element() > LARGEST => {
+                Err(Problem::at("", "the lamp is too far away", format!("expected coordinates up to {LARGEST:e} m")))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Whether it emits nothing.
+    pub fn is_black(&self) -> bool {
+        self.light() == 0.0
+    }
+
+    /// Where it stands; `None` if it is infinitely far away.
+    pub fn position(&self) -> Option<DVec3> {
+        match self.source {
+            Source::At(position) => Some(position),
+            Source::Towards(_) => None,
+        }
+    }
+
+    /// The image that it casts.
+    pub(super) fn image(&self) -> Option<&Arc<ImageTexture>> {
+        match &self.shape {
+            Shape::Picture { image, .. } => image.as_ref(),
+            _ => None,
+        }
+    }
+
+    /// The luminance of the power; of a picture, of its mean.
+    pub(in crate::light) fn light(&self) -> f32 {
+        luminance(self.power) * self.image().map_or(1.0, |image| luminance(image.mean()))
+    }
+
+    /// Bounds for the light tree; `None` if it is infinitely far away.
+    pub(in crate::light) fn bound(&self) -> Option<LampBound> {
+        /// Radians. Light of wider cones is everywhere.
+        const WIDEST: f64 = 1.5;
+        let axis = match self.shape {
+            Shape::Cone { axis, edge, .. } if edge < WIDEST => Some(axis),
+            _ => None,
+        };
+        Some(LampBound { position: self.position()?, axis, light: self.light() })
+    }
+
+    /// The rows of the lamp; `image` is the number of its image among those of the scene, which count from 1.
+    pub(in crate::light) fn rows(&self, image: u32) -> LampRows {
+        let mut rows = [[0.0; 4]; 5];
+        rows[0] = match self.source {
+            Source::At(position) => row(position, 1.0),
+            Source::Towards(direction) => row(direction, 0.0),
+        };
+        let word = match &self.shape {
+            Shape::Even => EVEN,
+            Shape::Cone { falloff: Falloff::Linear, .. } => BY_ANGLE,
+            Shape::Cone { .. } => BY_COSINE,
+            Shape::Picture { .. } => PICTURE + image,
+        };
+        let [r, g, b] = self.power;
+        rows[1] = [r, g, b, f32::from_bits(word)];
+        match &self.shape {
+            Shape::Even => {}
+            Shape::Cone { axis, edge, inner, falloff } => {
+                // t is 0 at the edge and 1 at the inner angle; angles count as negative turns, so that t grows with them too.
+                let of = |angle: f64| if word == BY_ANGLE { -angle / TAU } else { angle.cos() };
+                let factor = (1.0 / (of(*inner) - of(*edge)).max(0.0)).min(STEEPEST);
+                rows[2] = row(*axis, of(*edge));
+                rows[3] = match falloff {
+                    Falloff::Smooth => [0.0, 3.0, -2.0, factor as f32],
+                    Falloff::Linear => [1.0, 0.0, 0.0, factor as f32],
+                    Falloff::Square => [0.0, 1.0, 0.0, factor as f32],
+                };
+            }
+            Shape::Picture { axes, .. } => {
+                for (row_of_axis, axis) in rows[2..].iter_mut().zip(axes) {
+                    *row_of_axis = row(*axis, 0.0);
+                }
+            }
+        }
+        rows
+    }
+}
+
+fn single(colour: [f64; 3]) -> [f32; 3] {
+    colour.map(|x| x as f32)
+}
+
+fn row(v: DVec3, w: f64) -> [f32; 4] {
+    v.extend(w).as_vec4().to_array()
+}

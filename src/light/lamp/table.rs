@@ -1,0 +1,89 @@
+//! All lamps of a scene, as the renderer looks them up.
+use std::sync::Arc;
+
+use fearless_simd_macros::simd;
+
+use super::{Beam, Lamp};
+use crate::{
+    math::{F, Lanes, Pick, U, V},
+    texture::{Edge, ImageTexture},
+};
+
+/// The lamps of a scene.
+#[derive(Default)]
+pub struct Lamps {
+    /// Five rows for each lamp: see [`super::LampRows`].
+    rows: Vec<[f32; 4]>,
+    /// The images that lamps cast.
+    images: Vec<Arc<ImageTexture>>,
+}
+
+/// The light of a lamp at a point.
+pub struct LampSample<L: Lanes> {
+    /// Unit direction towards the lamp.
+    pub wi: V<L>,
+    /// Unoccluded irradiance of a surface that faces the lamp, W/m².
+    pub irradiance: V<L>,
+}
+
+impl Lamps {
+    /// Makes the table.
+    pub fn new(lamps: &[Lamp]) -> Lamps {
+        let mut images: Vec<Arc<ImageTexture>> = Vec::new();
+        let mut number = |lamp: &Lamp| {
+            let Some(image) = lamp.image() else { return 0 };
+            let known = images.iter().position(|known| Arc::ptr_eq(known, image));
+            let place = known.unwrap_or_else(|| {
+                images.push(image.clone());
+                images.len() - 1
+            });
+            place as u32 + 1
+        };
+        let rows = lamps.iter().flat_map(|lamp| lamp.rows(number(lamp))).collect();
+        Lamps { rows, images }
+    }
+
+    /// Number of lamps.
+    pub fn len(&self) -> usize {
+        self.rows.len() / 5
+    }
+
+    /// Whether there are none.
+    #[inline(always)]
+    pub fn is_empty(&self) -> bool {
+        self.rows.is_empty()
+    }
+
+    /// Whether both have the same bits.
+    pub fn are_same(&self, other: &Lamps) -> bool {
+        let bits = |lamps: &Lamps| lamps.rows.iter().flatten().map(|x| x.to_bits()).collect::<Vec<_>>();
+        bits(self) == bits(other)
+            && self.images.len() == other.images.len()
+            && self.images.iter().zip(&other.images).all(|(a, b)| Arc::ptr_eq(a, b))
+    }
+
+    /// The light of lamps at the points `p`.
+    #[simd]
+    pub fn sample<L: Lanes>(&self, l: L, lamp: U<L>, p: V<L>) -> LampSample<L> {
+        let beam = Beam::read(l, &self.rows, lamp);
+        let way = beam.way_from(l, p);
+        let mut irradiance = beam.power() * (way.spread * beam.strength(l, -way.wi));
+        for (number, image) in self.images.iter().enumerate() {
+            let casts = beam.casts(number as u32 + 1);
+            if casts.any() {
+                let (u, v, _) = beam.picture_place(l, -way.wi);
+                // An image repeats in u: half a texel from its edges is the last place that does not blend with the other edge.
+                let rim = image.step_u();
+                let u = u.max(l.f(rim)).min(l.f(1.0 - rim));
+                irradiance = casts.pick(irradiance * image.colour(l, u, v, Edge::Clamp), irradiance);
+            }
+        }
+        LampSample { wi: way.wi, irradiance }
+    }
+
+    /// The distance of lamps from the points `p`, metres; infinite for directional lamps.
+    #[simd]
+    pub fn distance<L: Lanes>(&self, l: L, lamp: U<L>, p: V<L>) -> F<L> {
+        Beam::read(l, &self.rows, lamp).way_from(l, p).distance
+    }
+}
