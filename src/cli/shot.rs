@@ -2,6 +2,7 @@
 use std::{path::Path, process::ExitCode, sync::Arc, time::Instant};
 
 use noisefall::{
+    import::Remarks,
     math::SimdLevel,
     render::{
         Display, Frame, Published, RenderRequest, State, denoise, replay_command::replay_command, settings_text::settings_text,
@@ -31,6 +32,10 @@ pub struct Job<'a> {
     pub threads: usize,
     pub build_seconds: f64,
     pub is_sequence: bool,
+    /// The options of the scene as words of a command.
+    pub scene_options: String,
+    /// What of the scene was not taken over exactly.
+    pub scene_remarks: Remarks,
     pub json: bool,
 }
 
@@ -42,7 +47,10 @@ impl Job<'_> {
         let request = RenderRequest { scene: self.scene.clone(), camera: *camera, settings: self.settings };
         let Published { frame, status } = rendering.picture(request.clone())?;
         let render_seconds = start.elapsed().as_secs_f64();
-        let replayed = |at| replay_command(self.scene_path, &self.scene, camera.resolution, &self.settings, at);
+        let replayed = |at| {
+            let command = replay_command(self.scene_path, &self.scene, camera.resolution, &self.settings, at);
+            command + &self.scene_options
+        };
         if let State::Failed(failure) = &status.state {
             let replay = failure.replays.then(|| format!("\nreplay: {}", replayed(failure.at)));
             return Err(format!("the renderer failed: {}{}", failure.message, replay.unwrap_or_default()));
@@ -66,6 +74,7 @@ impl Job<'_> {
             output,
             scene: &self.scene,
             scene_path: self.scene_path,
+            remarks: &self.scene_remarks,
             settings: &self.settings,
             error: reference.and_then(|truth| truth.compare(&frame).zip(truth.bias(&frame))),
             contradiction: reference.and_then(|truth| truth.contradiction(&frame)),

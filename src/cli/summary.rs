@@ -2,6 +2,7 @@
 use std::path::Path;
 
 use noisefall::{
+    import::Remarks,
     math::SimdLevel,
     measure::{Bias, Comparison},
     render::{Frame, State, Status},
@@ -16,6 +17,8 @@ pub struct Done<'a> {
     pub output: &'a Output,
     pub scene: &'a Scene,
     pub scene_path: &'a Path,
+    /// What of the scene was not taken over exactly.
+    pub remarks: &'a Remarks,
     pub settings: &'a RenderSettings,
     pub frame: &'a Frame,
     pub status: &'a Status,
@@ -103,6 +106,7 @@ impl Done<'_> {
             ("dropped_triangles", json!(self.scene.shapes.dropped_triangles())),
             ("invalid_samples", json!(status.invalid_samples)),
             ("replay", json!(self.replay)),
+            ("remarks", json!(self.remarks)),
         ]));
         figures.into()
     }
@@ -124,6 +128,7 @@ mod tests {
     use std::time::Duration;
 
     use noisefall::{
+        import::Remark,
         render::{Target, image_file::Format},
         scene::{Roulette, built_in},
     };
@@ -162,11 +167,14 @@ mod tests {
 
     fn said(status: &Status, frame: &Frame, settings: RenderSettings) -> Said {
         let (scene, output) = (built_in(), Output::File("out.png".into()));
+        let [place, found, used, effect] = ["a.xml:1:1", "`hair`", "plastic", "it looks smooth"].map(str::to_owned);
+        let remark = Remark { place, found, used, effect };
         let comparison = Comparison { rmse: 0.125, rel_mse: 0.0004, bias: 9.0 };
         let done = Done {
             output: &output,
             scene: &scene,
             scene_path: Path::new("a.toml"),
+            remarks: &[remark].into_iter().collect(),
             settings: &settings,
             frame,
             status,
@@ -193,6 +201,9 @@ mod tests {
             "rel_mse_estimate": 0.0009, "biased": "cap at 5", "cut_paths": 6, "dropped_triangles": 0, "invalid_samples": 4,
             "rmse": 0.125, "rel_mse": 0.0004, "bias": -2.0, "bias_standard_error": null, "bias_in_standard_errors": null,
             "exact_samples": false, "heavy_tails": false, "replay": "noisefall render a.toml --pixel 1,0",
+            "remarks": [
+                { "place": "a.xml:1:1", "found": "`hair`", "used": "plastic", "effect": "it looks smooth", "count": 1 },
+            ],
         });
         assert_eq!(line, expected);
         let other = Status { shares: false, adapts: true, cut_paths: 0, ..status(State::Paused) };

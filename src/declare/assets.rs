@@ -1,19 +1,48 @@
 //! Files that exist in memory only.
-use std::{any::Any, collections::BTreeMap, fmt, sync::Arc};
+use std::{
+    any::Any,
+    collections::BTreeMap,
+    fmt,
+    sync::{
+        Arc,
+        atomic::{AtomicU64, Ordering},
+    },
+};
 
-/// Contents of files that exist in memory only, by the path under which a description names them. A clone shares the contents.
+/// Contents of files that exist in memory only, by the path under which a description names them. Clones share the contents.
 #[derive(Clone, Default)]
-pub struct Assets(BTreeMap<String, Arc<dyn Any + Send + Sync>>);
+pub struct Assets(Arc<BTreeMap<String, Asset>>);
+
+/// The content of a file in memory.
+#[derive(Clone)]
+pub(super) struct Asset {
+    content: Arc<dyn Any + Send + Sync>,
+    /// No other content of this process has it: part of the keys of what is made of the content.
+    pub number: u64,
+}
+
+impl Asset {
+    /// The content, if it has this type.
+    pub fn content<T: Send + Sync + 'static>(&self) -> Option<Arc<T>> {
+        self.content.clone().downcast().ok()
+    }
+}
 
 impl Assets {
     /// Adds a file.
     pub fn insert<T: Send + Sync + 'static>(&mut self, path: impl Into<String>, content: T) {
-        self.0.insert(path.into(), Arc::new(content));
+        static NUMBERS: AtomicU64 = AtomicU64::new(0);
+        let number = NUMBERS.fetch_add(1, Ordering::Relaxed);
+        Arc::make_mut(&mut self.0).insert(path.into(), Asset { content: Arc::new(content), number });
     }
 
     /// The content of a file, if it has this type.
     pub fn get<T: Send + Sync + 'static>(&self, path: &str) -> Option<Arc<T>> {
-        self.0.get(path)?.clone().downcast().ok()
+        self.0.get(path)?.content()
+    }
+
+    pub(super) fn asset(&self, path: &str) -> Option<&Asset> {
+        self.0.get(path)
     }
 
     /// The paths of all files.

@@ -15,12 +15,13 @@ mod tests;
 
 use std::{
     fmt,
-    io::{BufRead, BufReader, ErrorKind, Read, Seek},
+    io::{BufRead, BufReader, Cursor, ErrorKind, Read, Seek},
     path::{Path, PathBuf},
 };
 
 pub use self::carried::{SETTINGS_KEY, carried_text};
 use crate::{
+    declare::NamedFile,
     file::open_regular,
     memory::{Reservation, TooMuch, reserve},
     quote,
@@ -151,7 +152,17 @@ fn read_as<P: Pixel>(path: &Path, encoding: Encoding) -> Result<Picture<P>, Pict
 /// Reads an image of radiances, which must be finite and not negative. Small negative values become 0: other programs write them
 /// for colours outside Rec. 709.
 pub fn read_light(path: &Path, encoding: Encoding) -> Result<Texels, PictureError> {
-    let mut picture: Texels = read_as(path, encoding)?;
+    light(path, read_as(path, encoding)?)
+}
+
+/// The same for a file that can be in memory.
+pub fn read_light_of(file: &NamedFile, encoding: Encoding) -> Result<Texels, PictureError> {
+    let Some(bytes) = file.content::<Vec<u8>>() else { return read_light(file.path(), encoding) };
+    let picture = decode(Cursor::new(&bytes[..]), encoding);
+    light(file.path(), picture.map_err(|problem| PictureError { path: file.path().to_owned(), problem })?)
+}
+
+fn light(path: &Path, mut picture: Texels) -> Result<Texels, PictureError> {
     if let Some(at) = picture.radiance.iter().position(|pixel| !pixel.iter().all(|x| *x <= BRIGHTEST)) {
         let problem = ImageFormatError::NotLight(at % picture.width as usize, at / picture.width as usize);
         return Err(PictureError { path: path.to_owned(), problem });

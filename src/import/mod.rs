@@ -6,6 +6,7 @@ pub mod gltf;
 pub mod mesh;
 pub mod mitsuba;
 pub mod names;
+mod open;
 pub mod paths;
 pub mod pbrt;
 mod remark;
@@ -13,7 +14,13 @@ pub mod remarks;
 
 use std::path::Path;
 
-pub use self::{names::Names, paths::Folder, remark::Remark, remarks::Remarks};
+pub use self::{
+    names::Names,
+    open::{Opened, load, open},
+    paths::Folder,
+    remark::Remark,
+    remarks::Remarks,
+};
 use crate::{
     declare::Assets,
     scene::{SceneError, description::SceneDescription},

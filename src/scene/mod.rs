@@ -61,7 +61,7 @@ pub use self::{
     shutter::{Moments, Shutter},
 };
 use crate::{
-    declare::Memo,
+    declare::{Assets, Memo},
     geometry::{Motion, Shapes},
     image::Picture,
     light::Lights,
@@ -122,6 +122,8 @@ pub struct Scene {
     pub compiled: CompileReport,
     /// Slow parts that other scenes can reuse.
     pub memo: Memo,
+    /// Files that the scene names and that are not on disk.
+    pub assets: Assets,
     /// Given back with the scene.
     pub memory: Reservation,
 }

@@ -6,8 +6,8 @@ use std::sync::{Arc, OnceLock};
 
 use super::{Found, Pattern, Summary, TextureCompiler, TextureCoordinates, Textures, Texturing};
 use crate::{
-    declare::{Declare, Kind, Parameter, Parameters, Problem, Range, Resources, Value, key_of_file, words},
-    image::{Encoding, Texels, read_light},
+    declare::{Declare, Kind, Parameter, Parameters, Problem, Range, Resources, Value, words},
+    image::{Encoding, Texels, read_light_of},
     math::{F, Lanes, M, Pick, U, V, round::floor},
 };
 
@@ -194,10 +194,10 @@ impl ImageTexture {
 
     /// Reads the file that a description names at a key. Textures of the same file and encoding share their texels.
     pub fn read(resources: &Resources, key: &str, path: &str, encoding: Encoding) -> Result<Arc<ImageTexture>, Problem> {
-        let path = resources.path(path);
-        resources.once("pictures", format!("picture {} {encoding:?}", key_of_file(&path)), || {
-            let picture =
-                read_light(&path, encoding).map_err(|error| Problem::at(key, error.to_string(), "this image cannot be used"))?;
+        let file = resources.file(path);
+        resources.once("pictures", format!("picture {} {encoding:?}", file.key()), || {
+            let picture = read_light_of(&file, encoding)
+                .map_err(|error| Problem::at(key, error.to_string(), "this image cannot be used"))?;
             resources.reserve(key, "the texels of an image", size_of_val(&picture.radiance[..]) as u64)?;
             Ok(ImageTexture::new(picture))
         })

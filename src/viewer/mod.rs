@@ -31,7 +31,8 @@ const ICON: &[u8] = include_bytes!("../../assets/icon.png");
 const NO_WINDOW: &str = "use `noisefall render SCENE -o picture.png` to render without a window";
 
 /// Opens the window on a scene file, or on the built-in scene. Returns when it is closed.
-pub fn run(scene: Option<PathBuf>) -> Result<(), String> {
+/// The scene is read with the options; `strict` refuses a scene with remarks.
+pub fn run(scene: Option<PathBuf>, _options: noisefall::import::ImportOptions, _strict: bool) -> Result<(), String> {
     let displays = window_system::found();
     let system = displays.choose().map_err(|why| format!("{why}; {NO_WINDOW}"))?;
     let threads = all_but_one(cores());

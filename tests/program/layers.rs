@@ -7,8 +7,8 @@ use crate::imports::{imports, source, source_files};
 const LAYERS: [&[&str]; 11] = [
     &["validate", "study"],
     &["render", "report"],
-    &["measure"],
-    &["integrator", "edit", "import"],
+    &["measure", "import", "export"],
+    &["integrator", "edit"],
     &["scene"],
     &["light", "shape"],
     &["geometry", "material"],

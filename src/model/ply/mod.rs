@@ -4,7 +4,9 @@
 //! be spread over lines in any way.
 mod header;
 mod values;
+mod write;
 
+pub use self::write::encode;
 use self::{
     header::{Element, Encoding, Header, Kind, Layout},
     values::{Binary, Text, Values},

@@ -2,7 +2,7 @@
 use std::path::{Path, PathBuf};
 
 use noisefall::{
-    declare::{Declare, Parameter, Parameters, Value},
+    declare::for_each_file,
     edit::{Document, Outside, Written},
     scene::{description::SceneDescription, read_text},
 };
@@ -70,17 +70,9 @@ pub fn save(document: &Document, opened: Option<&Path>, path: &Path, replaces: b
 
 /// The files that a scene names.
 pub fn named_files(description: &SceneDescription) -> Vec<PathBuf> {
-    struct Files(Vec<PathBuf>);
-    impl Parameters for Files {
-        fn value(&mut self, _: &Parameter, value: Value<'_>) {
-            if let Value::File(path) = value {
-                self.0.push(PathBuf::from(&*path));
-            }
-        }
-    }
-    let mut files = Files(Vec::new());
-    description.clone().parameters(&mut files);
-    files.0
+    let mut files = Vec::new();
+    for_each_file(&mut description.clone(), &mut |path| files.push(PathBuf::from(&*path)));
+    files
 }
 
 #[cfg(test)]
