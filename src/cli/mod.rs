@@ -149,7 +149,8 @@ fn window(scene: Option<PathBuf>, options: &SceneOptions) -> Result<(), Failure>
 
 #[cfg(feature = "viewer")]
 fn open_window(scene: Option<PathBuf>, options: &SceneOptions) -> Result<(), Failure> {
-    crate::viewer::run(scene, options.import_options(), options.strict)
+    let (options, strict) = (options.import_options(), options.strict);
+    crate::viewer::run(crate::viewer::GivenScene { path: scene, options, strict })
 }
 
 #[cfg(not(feature = "viewer"))]

@@ -1,6 +1,4 @@
 //! The state of the window.
-use std::path::PathBuf;
-
 use noisefall::render::threads::Threads;
 
 use super::{
@@ -8,9 +6,20 @@ use super::{
     selection::Selection, session::Session, window_state::Dialogs, window_state::WindowState,
 };
 use crate::viewer::background::{
-    adviser::Adviser, background_task::BackgroundTask, catalogue, catalogue::CatalogueEntry, denoiser::Denoiser,
-    display_pipeline::DisplayPipeline, dropped::DropReader, feature_finder::FeatureFinder, file_watcher::FileWatcher,
-    loader::Loader, preferences::Preferences, recovery_keeper::RecoveryKeeper, render_worker::RenderWorkerHandle, saver::Saver,
+    adviser::Adviser,
+    background_task::BackgroundTask,
+    catalogue,
+    catalogue::CatalogueEntry,
+    denoiser::Denoiser,
+    display_pipeline::DisplayPipeline,
+    dropped::DropReader,
+    feature_finder::FeatureFinder,
+    file_watcher::FileWatcher,
+    loader::{GivenScene, Loader},
+    preferences::Preferences,
+    recovery_keeper::RecoveryKeeper,
+    render_worker::RenderWorkerHandle,
+    saver::Saver,
     settler::Settler,
 };
 use crate::viewer::instruments::{convergence::history::History as ErrorHistory, path::inspector::PathInspector};
@@ -61,7 +70,7 @@ pub struct Background {
 }
 
 impl App {
-    pub fn new(ctx: &egui::Context, threads: Threads, scene: Option<PathBuf>, preferences: Preferences) -> App {
+    pub fn new(ctx: &egui::Context, threads: Threads, scene: GivenScene, preferences: Preferences) -> App {
         set_fonts(ctx);
         set_themes(ctx, preferences.now.theme.as_deref());
         let session = Session::new(threads.count());
@@ -79,7 +88,7 @@ impl App {
             denoiser: Denoiser::new(ctx),
             adviser: None,
         };
-        background.loader.open(scene);
+        background.loader.open_given(scene);
         App {
             ctx: ctx.clone(),
             session,

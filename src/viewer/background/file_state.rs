@@ -2,8 +2,10 @@
 use std::path::{Path, PathBuf};
 
 use noisefall::{
-    declare::for_each_file,
-    edit::{Document, Outside, Written},
+    declare::{Assets, for_each_file},
+    edit::{Document, Outside, Version, Written},
+    export::{self, Source},
+    import::is_foreign,
     scene::{description::SceneDescription, read_text},
 };
 
@@ -30,6 +32,8 @@ pub struct BrokenFile {
 /// The result of saving a scene.
 pub enum SaveResult {
     Written(Written),
+    /// A scene of another program was written with its meshes and textures. The scene that is open still has them in memory.
+    Exported(Version),
     /// The file was changed by another program, and stays as it is.
     Differs(FileState),
     Failed(String),
@@ -50,8 +54,13 @@ pub fn compare(document: &Document) -> FileState {
     }
 }
 
-/// Saves a document that was opened from a file. A file that another program has changed is replaced only if `replaces` says so.
-pub fn save(document: &Document, opened: Option<&Path>, path: &Path, replaces: bool) -> SaveResult {
+/// Saves a document that was opened from a file. `assets` are the files of the scene that are in memory. A file that another program has changed is replaced only if `replaces` says so.
+pub fn save(document: &Document, opened: Option<&Path>, assets: &Assets, path: &Path, replaces: bool) -> SaveResult {
+    if let Some(opened) = opened.filter(|opened| is_foreign(opened) && document.path().is_none()) {
+        let folder = opened.parent().unwrap_or(Path::new(""));
+        let exported = export::write(Source { description: document.description(), assets, folder }, path);
+        return exported.map_or_else(|error| SaveResult::Failed(error.to_string()), |_| SaveResult::Exported(document.version()));
+    }
     let folder = |path: &Path| path.parent().and_then(|folder| folder.canonicalize().ok());
     if let Some(opened) = opened.filter(|opened| folder(opened) != folder(path))
         && named_files(document.description()).iter().any(|file| file.is_relative())
@@ -96,7 +105,9 @@ mod tests {
         for (text, is_scene) in [(format!("{BUILT_IN}\n# from outside\n"), true), ("format = 1\ncamera = 3\n".to_owned(), false)]
         {
             std::fs::write(&path, &text).expect("it is written");
-            let SaveResult::Differs(state) = save(&document, Some(&path), &path, false) else { panic!("it is replaced") };
+            let SaveResult::Differs(state) = save(&document, Some(&path), &Assets::default(), &path, false) else {
+                panic!("it is replaced")
+            };
             match state {
                 FileState::Changed(outside) => assert!(is_scene && !outside.conflicts),
                 FileState::Broken(broken) => assert!(!is_scene && broken.text.as_ref() == Some(&text)),
@@ -104,13 +115,17 @@ mod tests {
             }
             assert_eq!(std::fs::read_to_string(&path).expect("it is there"), text);
         }
-        let SaveResult::Written(written) = save(&document, Some(&path), &path, true) else { panic!("it is refused") };
+        let SaveResult::Written(written) = save(&document, Some(&path), &Assets::default(), &path, true) else {
+            panic!("it is refused")
+        };
         document.note_written(written);
         assert!(!document.has_changes() && matches!(compare(&document), FileState::Known));
         std::fs::remove_file(&path).expect("it is there");
         assert!(matches!(compare(&document), FileState::Missing));
         document.keep_own("");
         assert!(document.has_changes() && matches!(compare(&document), FileState::Known));
-        assert!(matches!(save(&document, Some(&path), &path, false), SaveResult::Written(_)) && path.is_file());
+        assert!(
+            matches!(save(&document, Some(&path), &Assets::default(), &path, false), SaveResult::Written(_)) && path.is_file()
+        );
     }
 }

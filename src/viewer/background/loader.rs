@@ -6,8 +6,9 @@ use std::{
 
 use noisefall::{
     edit::{Document, Recovery, Template},
+    import::{self, ImportOptions, Opened, Remarks},
     render::truth::Reference,
-    scene::{BUILT_IN, Camera, Scene, Truth, built_in, description::SceneDescription, load, parse},
+    scene::{BUILT_IN, Camera, Scene, Truth, built_in, description::SceneDescription, parse},
 };
 
 use super::{background_task::BackgroundTask, catalogue};
@@ -28,6 +29,25 @@ pub struct OpenedScene {
     pub materials: Arc<[String]>,
     /// Things that are legal but probably not meant.
     pub warnings: Vec<String>,
+    /// What was not taken over exactly from the file of another program.
+    pub remarks: Arc<Remarks>,
+}
+
+/// A scene of the command line.
+#[derive(Clone, Debug, Default)]
+pub struct GivenScene {
+    /// The file; `None` is the built-in scene.
+    pub path: Option<PathBuf>,
+    /// Options of the reader, also when the file is opened again.
+    pub options: ImportOptions,
+    /// Whether remarks are errors.
+    pub strict: bool,
+}
+
+impl From<Option<PathBuf>> for GivenScene {
+    fn from(path: Option<PathBuf>) -> GivenScene {
+        GivenScene { path, ..GivenScene::default() }
+    }
 }
 
 impl OpenedScene {
@@ -68,16 +88,25 @@ pub struct Loader {
     ctx: egui::Context,
     pending: Option<BackgroundTask<OpenResult>>,
     reference: Option<BackgroundTask<ReferenceResult>>,
+    /// The scene of the command line.
+    given: GivenScene,
 }
 
 impl Loader {
     pub fn new(ctx: &egui::Context) -> Loader {
-        Loader { ctx: ctx.clone(), pending: None, reference: None }
+        Loader { ctx: ctx.clone(), pending: None, reference: None, given: GivenScene::default() }
+    }
+
+    /// Opens the scene of the command line.
+    pub fn open_given(&mut self, scene: GivenScene) {
+        self.given = scene.clone();
+        self.open(scene.path);
     }
 
     /// Opens a scene file, or the built-in scene.
     pub fn open(&mut self, path: Option<PathBuf>) {
-        self.pending = Some(BackgroundTask::start(&self.ctx, |_| open(path)));
+        let scene = if path == self.given.path { self.given.clone() } else { path.into() };
+        self.pending = Some(BackgroundTask::start(&self.ctx, |_| open(scene)));
     }
 
     /// Begins a new scene.
@@ -122,17 +151,22 @@ impl Loader {
     }
 }
 
-fn open(path: Option<PathBuf>) -> OpenResult {
-    let Some(path) = path else {
+fn open(scene: GivenScene) -> OpenResult {
+    let GivenScene { path: Some(path), options, strict } = scene else {
         let document = Document::untitled(BUILT_IN).map_err(|error| error.report())?;
         return Ok(opened(built_in(), BUILT_IN_NAME.to_owned(), document, None));
     };
-    let scene = load(&path).map_err(|error| error.report())?;
-    // A picture carries its scene, and is not replaced by it.
-    let is_picture = path.extension().is_some_and(|extension| !extension.eq_ignore_ascii_case("toml"));
-    let document = if is_picture { Document::untitled(&scene.source) } else { Document::open(&path, &scene.source) };
+    let Opened { scene, remarks } = import::open(&path, &options).map_err(|error| error.report())?;
+    if strict && !remarks.is_empty() {
+        let lines = remarks.lines(remarks.len()).join("\n");
+        return Err(format!("{}: with --strict, each of these is an error:\n{lines}", path.display()));
+    }
+    // A picture or a scene of another program is not replaced by its scene.
+    let is_other = path.extension().is_some_and(|extension| !extension.eq_ignore_ascii_case("toml"));
+    let document = if is_other { Document::untitled(&scene.source) } else { Document::open(&path, &scene.source) };
     let name = catalogue::name(&scene.title, &path);
-    Ok(opened(scene, name, document.map_err(|error| error.report())?, Some(path)))
+    let (opened, document) = opened(scene, name, document.map_err(|error| error.report())?, Some(path));
+    Ok((OpenedScene { remarks: Arc::new(remarks), ..opened }, document))
 }
 
 fn begin(template: Template) -> OpenResult {
@@ -153,7 +187,10 @@ fn opened(scene: Scene, name: String, document: Document, path: Option<PathBuf>)
     let truth = Reference::of(&scene).map(Arc::new);
     let (materials, warnings) = (scene.legend().names.into(), scene.warnings().to_vec());
     let description = Arc::new(document.description().clone());
-    (OpenedScene { scene: Arc::new(scene), name, path, truth, description, materials, warnings }, document)
+    (
+        OpenedScene { scene: Arc::new(scene), name, path, truth, description, materials, warnings, remarks: Arc::default() },
+        document,
+    )
 }
 
 #[cfg(test)]

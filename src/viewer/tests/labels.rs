@@ -8,7 +8,11 @@ use noisefall::{
 };
 
 use super::*;
-use crate::viewer::background::{catalogue::SceneRequest, display_image::ReferenceComparison, loader::OpenedScene};
+use crate::viewer::background::{
+    catalogue::SceneRequest,
+    display_image::ReferenceComparison,
+    loader::{GivenScene, OpenedScene},
+};
 use crate::viewer::dialogs::save_target::SaveTarget as File;
 use crate::viewer::instruments::{convergence::curve::Moment, convergence::history::Quantity, tabs::InstrumentTab};
 use crate::viewer::panels::{views, views::ReferenceSource};
@@ -16,11 +20,19 @@ use crate::viewer::panels::{views, views::ReferenceSource};
 /// An app whose fields nobody changes: it shows what it is told.
 pub(super) fn app() -> App {
     let threads = Threads::new(1, SimdLevel::best()).expect("a thread can be had");
-    let mut app = App::new(&egui::Context::default(), threads, None, Preferences::default());
+    let mut app = App::new(&egui::Context::default(), threads, GivenScene::default(), Preferences::default());
     let (scene, materials) = (Arc::new(built_in()), Arc::from([]));
     let description = Arc::default();
-    app.session.opened =
-        Some(OpenedScene { scene, name: String::new(), path: None, truth: None, description, materials, warnings: Vec::new() });
+    app.session.opened = Some(OpenedScene {
+        scene,
+        name: String::new(),
+        path: None,
+        truth: None,
+        description,
+        materials,
+        warnings: Vec::new(),
+        remarks: Arc::default(),
+    });
     app
 }
 
