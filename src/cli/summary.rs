@@ -106,7 +106,7 @@ impl Done<'_> {
             ("dropped_triangles", json!(self.scene.shapes.dropped_triangles())),
             ("invalid_samples", json!(status.invalid_samples)),
             ("replay", json!(self.replay)),
-            ("remarks", json!(self.remarks)),
+            ("remarks", json!(self.remarks.lines(usize::MAX))),
         ]));
         figures.into()
     }
@@ -202,8 +202,7 @@ mod tests {
             "rmse": 0.125, "rel_mse": 0.0004, "bias": -2.0, "bias_standard_error": null, "bias_in_standard_errors": null,
             "exact_samples": false, "heavy_tails": false, "replay": "noisefall render a.toml --pixel 1,0",
         });
-        expected["remarks"] =
-            json!([{ "place": "a.xml:1:1", "found": "`hair`", "used": "plastic", "effect": "it looks smooth", "count": 1 }]);
+        expected["remarks"] = json!(["a.xml:1:1: `hair` → plastic: it looks smooth"]);
         assert_eq!(line, expected);
         let other = Status { shares: false, adapts: true, cut_paths: 0, ..status(State::Paused) };
         let adaptive = RenderSettings { adaptive: true, roulette: Roulette::fixed(0.5), ..RenderSettings::default() };

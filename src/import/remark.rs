@@ -1,8 +1,7 @@
 //! Remarks about what was not taken over exactly.
-use serde::Serialize;
 
 /// Something that was not taken over exactly.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Remark {
     /// Where it stands: `scene.xml:12:5`, or `scene.gltf: material "Wood"`.
     pub place: String,

@@ -1,8 +1,6 @@
 //! The list of remarks about a file.
 use std::{collections::HashMap, fmt};
 
-use serde::{Serialize, Serializer, ser::SerializeSeq};
-
 use super::Remark;
 
 /// Further remarks are counted only.
@@ -18,10 +16,9 @@ pub struct Remarks {
 }
 
 /// A remark, with the number of places that it applies to.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Counted {
     /// The remark about the first place.
-    #[serde(flatten)]
     pub remark: Remark,
     /// All places, the first included.
     pub count: usize,
@@ -110,14 +107,6 @@ impl From<Vec<Remark>> for Remarks {
     }
 }
 
-impl Serialize for Remarks {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut list = serializer.serialize_seq(Some(self.list.len()))?;
-        self.list.iter().try_for_each(|counted| list.serialize_element(counted))?;
-        list.end()
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -133,8 +122,6 @@ mod tests {
         assert_eq!(shown[0], "a.xml:1:1 and 2 more places: `hair` → plastic: strands look smooth");
         assert_eq!(shown[1], "a.xml:4:1: `disk` → nothing: it is missing");
         assert_eq!(remarks.lines(1)[1], "… and 1 more");
-        let json = serde_json::to_value(&remarks).expect("it has a text");
-        assert_eq!((json[0]["place"].as_str(), json[0]["count"].as_u64()), (Some("a.xml:1:1"), Some(3)));
     }
 
     #[test]
