@@ -128,7 +128,7 @@ mod tests {
         export::{check, write},
         scene::{describe, description::SceneDescription},
         shape::mesh::{Mesh, MeshSource},
-        texture::Image,
+        texture::kinds::Image,
     };
 
     fn triangle() -> Model {
@@ -157,7 +157,9 @@ mod tests {
         let [from, to] = [(); 2].map(|()| tempfile::tempdir().expect("a folder"));
         fs::write(from.path().join("wood.png"), "wood").expect("it is written");
         let mut assets = Assets::default();
-        ["meshes/a.ply", "../../meshes/A.ply"].map(|path| assets.insert(path, triangle()));
+        for path in ["meshes/a.ply", "../../meshes/A.ply"] {
+            assets.insert(path, triangle());
+        }
         let description = scene(&["meshes/a.ply", "../../meshes/A.ply", "meshes/a.ply"], "wood.png");
         let source = Source { description: &description, assets: &assets, folder: from.path() };
         let done = write(source, &to.path().join("room.toml")).expect("it is written");
