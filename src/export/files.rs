@@ -1,6 +1,6 @@
 //! The files that a scene names, beside an exported scene.
 use std::{
-    collections::BTreeMap,
+    collections::{BTreeMap, btree_map::Entry},
     fs,
     io::Read,
     path::{Path, PathBuf},
@@ -58,12 +58,12 @@ impl Files {
             }
         }
         for (named, content) in moved {
-            if !files.files.contains_key(&named) {
+            if let Entry::Vacant(place) = files.files.entry(named) {
                 let name = match &content {
                     Content::Disk(path) => names.free(&path.file_name().unwrap_or_default().to_string_lossy()),
-                    _ => names.free(&named),
+                    _ => names.free(place.key()),
                 };
-                files.files.insert(named, File { path: format!("{data}/{name}"), copy: Some((name, content)) });
+                place.insert(File { path: format!("{data}/{name}"), copy: Some((name, content)) });
             }
         }
         Ok(files)

@@ -71,7 +71,7 @@ pub fn write(source: Source, path: &Path) -> Result<Exported, ExportError> {
 
 /// The writer of a format, by the name of the file.
 pub fn check(path: &Path) -> Result<Writer, ExportError> {
-    let extension = path.extension().map(|extension| extension.to_ascii_lowercase());
+    let extension = path.extension().map(std::ffi::OsStr::to_ascii_lowercase);
     match extension.as_deref().and_then(|extension| extension.to_str()) {
         Some("toml") => Ok(toml::write),
         _ => Err(ExportError::UnknownFormat(path.to_owned())),

@@ -14,5 +14,5 @@ pub fn write(source: Source, path: &Path) -> Result<Exported, ExportError> {
     let text = new_text(&description);
     let [written, copied] = files.write()?;
     replace(path, text.as_bytes())?;
-    Ok(Exported { text, folder: (written + copied > 0).then(|| files.folder), written, copied })
+    Ok(Exported { text, folder: (written + copied > 0).then_some(files.folder), written, copied })
 }

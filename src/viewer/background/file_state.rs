@@ -95,6 +95,18 @@ mod tests {
     use super::*;
 
     #[test]
+    fn a_scene_of_another_program_is_written_with_its_files_and_keeps_its_document() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let document = Document::untitled(BUILT_IN).expect("it is a scene");
+        let (opened, path) = (folder.path().join("room.gltf"), folder.path().join("room.toml"));
+        let done = save(&document, Some(&opened), &Assets::default(), &path, false);
+        assert!(matches!(done, SaveResult::Exported(version) if version == document.version()));
+        assert!(path.is_file() && document.path().is_none());
+        let refused = save(&document, Some(&opened), &Assets::default(), &folder.path().join("no/room.toml"), false);
+        assert!(matches!(refused, SaveResult::Failed(error) if error.contains("there is no folder")));
+    }
+
+    #[test]
     fn a_file_that_was_changed_outside_is_replaced_only_on_demand() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("mine.toml");

@@ -10,6 +10,7 @@ mod driving;
 mod dropping;
 mod editing;
 mod fields;
+mod foreign_scenes;
 mod glyphs;
 mod instruments;
 mod labels;
