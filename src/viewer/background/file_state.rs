@@ -5,7 +5,6 @@ use noisefall::{
     declare::{Assets, for_each_file},
     edit::{Document, Outside, Version, Written},
     export::{self, Source},
-    import::is_foreign,
     scene::{description::SceneDescription, read_text},
 };
 
@@ -56,8 +55,8 @@ pub fn compare(document: &Document) -> FileState {
 
 /// Saves a document that was opened from a file. `assets` are the files of the scene that are in memory. A file that another program has changed is replaced only if `replaces` says so.
 pub fn save(document: &Document, opened: Option<&Path>, assets: &Assets, path: &Path, replaces: bool) -> SaveResult {
-    if let Some(opened) = opened.filter(|opened| is_foreign(opened) && document.path().is_none()) {
-        let folder = opened.parent().unwrap_or(Path::new(""));
+    if let Some(origin) = document.origin() {
+        let folder = origin.parent().unwrap_or(Path::new(""));
         let exported = export::write(Source { description: document.description(), assets, folder }, path);
         return exported.map_or_else(|error| SaveResult::Failed(error.to_string()), |_| SaveResult::Exported(document.version()));
     }
@@ -97,8 +96,8 @@ mod tests {
     #[test]
     fn a_scene_of_another_program_is_written_with_its_files_and_keeps_its_document() {
         let folder = tempfile::tempdir().expect("a folder");
-        let document = Document::untitled(BUILT_IN).expect("it is a scene");
         let (opened, path) = (folder.path().join("room.gltf"), folder.path().join("room.toml"));
+        let document = Document::imported(&opened, BUILT_IN).expect("it is a scene");
         let done = save(&document, Some(&opened), &Assets::default(), &path, false);
         assert!(matches!(done, SaveResult::Exported(version) if version == document.version()));
         assert!(path.is_file() && document.path().is_none());

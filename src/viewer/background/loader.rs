@@ -1,12 +1,12 @@
 //! Reading and compiling scenes off the UI thread. The latest request wins.
 use std::{
-    path::{Path, PathBuf},
+    path::{Path, PathBuf, absolute},
     sync::Arc,
 };
 
 use noisefall::{
     edit::{Document, Recovery, Template},
-    import::{self, ImportOptions, Opened, Remarks},
+    import::{self, ImportOptions, Opened, Remarks, is_foreign},
     render::truth::Reference,
     scene::{BUILT_IN, Camera, Scene, Truth, built_in, description::SceneDescription, parse},
 };
@@ -105,8 +105,14 @@ impl Loader {
 
     /// Opens a scene file, or the built-in scene.
     pub fn open(&mut self, path: Option<PathBuf>) {
-        let scene = if path == self.given.path { self.given.clone() } else { path.into() };
+        let scene = if self.is_given(path.as_deref()) { GivenScene { path, ..self.given.clone() } } else { path.into() };
         self.pending = Some(BackgroundTask::start(&self.ctx, |_| open(scene)));
+    }
+
+    /// Whether a file is that of the command line, whose options it takes.
+    fn is_given(&self, path: Option<&Path>) -> bool {
+        let paths = self.given.path.as_deref().zip(path);
+        paths.is_some_and(|(given, path)| absolute(given).ok() == absolute(path).ok())
     }
 
     /// Begins a new scene.
@@ -116,7 +122,9 @@ impl Loader {
 
     /// Opens a scene with the changes that were not saved.
     pub fn restore(&mut self, recovery: Recovery) {
-        self.pending = Some(BackgroundTask::start(&self.ctx, move |_| restore(recovery)));
+        let is_given = self.is_given(recovery.origin.as_deref());
+        let options = if is_given { self.given.options.clone() } else { ImportOptions::default() };
+        self.pending = Some(BackgroundTask::start(&self.ctx, move |_| restore(recovery, &options)));
     }
 
     /// Reads a reference for images by this camera.
@@ -161,9 +169,13 @@ fn open(scene: GivenScene) -> OpenResult {
         let lines = remarks.lines(remarks.len()).join("\n");
         return Err(format!("{}: with --strict, each of these is an error:\n{lines}", path.display()));
     }
-    // A picture or a scene of another program is not replaced by its scene.
-    let is_other = path.extension().is_some_and(|extension| !extension.eq_ignore_ascii_case("toml"));
-    let document = if is_other { Document::untitled(&scene.source) } else { Document::open(&path, &scene.source) };
+    // A picture carries its scene, and is not replaced by it.
+    let is_picture = path.extension().is_some_and(|extension| !extension.eq_ignore_ascii_case("toml"));
+    let document = match () {
+        () if is_foreign(&path) => Document::imported(&path, &scene.source),
+        () if is_picture => Document::untitled(&scene.source),
+        () => Document::open(&path, &scene.source),
+    };
     let name = catalogue::name(&scene.title, &path);
     let (opened, document) = opened(scene, name, document.map_err(|error| error.report())?, Some(path));
     Ok((OpenedScene { remarks: Arc::new(remarks), ..opened }, document))
@@ -175,12 +187,18 @@ fn begin(template: Template) -> OpenResult {
     Ok(opened(scene, template.title.to_owned(), document, None))
 }
 
-fn restore(recovery: Recovery) -> OpenResult {
+fn restore(recovery: Recovery, options: &ImportOptions) -> OpenResult {
     let document = recovery.open().map_err(|error| error.report())?;
-    let source = recovery.path.as_ref().map_or_else(|| "recovered scene".to_owned(), |path| path.display().to_string());
-    let scene = parse(&source, recovery.text).map_err(|error| error.report())?;
+    let source = recovery.file().map_or_else(|| "recovered scene".to_owned(), |path| path.display().to_string());
+    let scene = match &recovery.origin {
+        // Its meshes and textures are in the original only.
+        Some(origin) => import::read(origin, options)
+            .and_then(|imported| Arc::new(document.description().clone()).build_with(origin, imported.assets)),
+        None => parse(&source, recovery.text.clone()),
+    };
+    let scene = scene.map_err(|error| error.report())?;
     let name = catalogue::name(&scene.title, Path::new(&source));
-    Ok(opened(scene, name, document, recovery.path))
+    Ok(opened(scene, name, document, recovery.file().map(Path::to_owned)))
 }
 
 fn opened(scene: Scene, name: String, document: Document, path: Option<PathBuf>) -> (OpenedScene, Document) {
