@@ -2,6 +2,15 @@
 use super::{Model, normals};
 
 impl Model {
+    /// Memory of the lists, bytes.
+    pub fn bytes(&self) -> u64 {
+        let vertices = size_of_val(&self.vertices[..]) + size_of_val(&self.triangles[..]);
+        let normals = self.normals.as_deref().map_or(0, size_of_val);
+        let uvs = self.uvs.as_deref().map_or(0, size_of_val);
+        let colours = self.colours.as_deref().map_or(0, size_of_val);
+        (vertices + normals + uvs + colours) as u64
+    }
+
     /// The mesh as a reader returns it: with unit normals and finite coordinates. An error is the end of a sentence about the mesh.
     pub fn checked(mut self) -> Result<Model, String> {
         let count = self.vertices.len();
