@@ -2,10 +2,12 @@
 use std::{
     path::{Path, PathBuf},
     process::ExitCode,
+    sync::Arc,
 };
 
 use noisefall::{
     export::{self, Exported, Source},
+    import::Opened,
     scene::describe,
 };
 
@@ -38,8 +40,9 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     if is_same(path, output) {
         return Ok(wrong_usage(&format!("{}: the converted scene would replace the scene itself", output.display())));
     }
-    let scene = options.open(path)?.scene;
-    let description = describe(&path.display().to_string(), scene.source.clone()).map_err(|error| error.report())?;
+    let Opened { scene, description, .. } = options.open(path)?;
+    let of_text = || describe(&path.display().to_string(), scene.source.clone()).map(Arc::new);
+    let description = description.map_or_else(of_text, Ok).map_err(|error| error.report())?;
     let folder = path.parent().unwrap_or(Path::new(""));
     let source = Source { description: &description, assets: &scene.assets, folder };
     let exported = export::write(source, output).map_err(|error| error.to_string())?;

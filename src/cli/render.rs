@@ -131,7 +131,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         return Ok(wrong_usage(&mistake));
     }
     let start = Instant::now();
-    let Opened { scene, remarks } = arguments.options.open(&arguments.scene)?;
+    let Opened { scene, remarks, .. } = arguments.options.open(&arguments.scene)?;
     let scene = Arc::new(scene);
     let camera = Camera { resolution: arguments.size.unwrap_or(scene.camera.resolution), ..scene.camera };
     camera.check().map_err(|error| error.to_string())?;

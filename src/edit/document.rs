@@ -61,9 +61,19 @@ impl Document {
         Ok(Document { path: None, ..document })
     }
 
-    /// A scene that was read from the file of another program, as the text of a scene file. It has no file of its own yet.
-    pub fn imported(origin: impl AsRef<FilePath>, text: &str) -> Result<Document, SceneError> {
-        Ok(Document { origin: Some(origin.as_ref().to_owned()), ..Document::untitled(text)? })
+    /// A scene that was read from the file of another program. `text` is a scene file with its content, but the scene has no file of its
+    /// own yet.
+    pub fn imported(origin: impl AsRef<FilePath>, text: &str, description: SceneDescription) -> Document {
+        let first = Version(0);
+        Document {
+            content: Content::new(text.to_owned(), description),
+            path: None,
+            origin: Some(origin.as_ref().to_owned()),
+            on_disk: String::new(),
+            version: first,
+            saved: Some(first),
+            next: 1,
+        }
     }
 
     /// The scene as it is now.

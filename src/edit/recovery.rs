@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use super::Document;
 use crate::{
     file::{WriteError, open_regular, replace},
-    scene::SceneError,
+    scene::{SceneError, describe},
 };
 
 /// The first line of a recovery file: the path of the scene file as a JSON string, or `{"from": …}` with the file of another program.
@@ -66,7 +66,10 @@ impl Recovery {
     pub fn open(&self) -> Result<Document, SceneError> {
         let mut document = match (&self.path, &self.origin) {
             (Some(path), _) => Document::open(path, &self.text)?,
-            (None, Some(origin)) => Document::imported(origin, &self.text)?,
+            (None, Some(origin)) => {
+                let description = describe(&origin.display().to_string(), self.text.clone())?;
+                Document::imported(origin, &self.text, description)
+            }
             (None, None) => Document::untitled(&self.text)?,
         };
         // What is in the file now tells later whether it was changed outside.

@@ -53,6 +53,14 @@ pub enum ExportError {
         /// The message of the operating system.
         reason: String,
     },
+    /// The text of the scene exceeds the limit of the reader.
+    #[error("{}: the scene would be {size} of text, more than a scene file may have", quote::path(path))]
+    TooLong {
+        /// The scene file.
+        path: PathBuf,
+        /// The size, with a unit.
+        size: String,
+    },
     /// A file or folder cannot be written.
     #[error(transparent)]
     Write(#[from] WriteError),

@@ -2,7 +2,7 @@
 use std::path::Path;
 
 use super::{ExportError, Exported, Source, files::Files};
-use crate::{declare::for_each_file, edit::new_text, file::replace};
+use crate::{declare::for_each_file, edit::new_text, file::replace, memory::Size, scene::LARGEST_FILE};
 
 /// Writes the files, and then the scene that names them.
 pub fn write(source: Source, path: &Path) -> Result<Exported, ExportError> {
@@ -12,6 +12,9 @@ pub fn write(source: Source, path: &Path) -> Result<Exported, ExportError> {
     let files = Files::place(&source, named, path)?;
     for_each_file(&mut description, &mut |file| *file = files.path(file));
     let text = new_text(&description);
+    if text.len() as u64 > LARGEST_FILE {
+        return Err(ExportError::TooLong { path: path.to_owned(), size: Size(text.len() as u64).to_string() });
+    }
     let [written, copied] = files.write()?;
     replace(path, text.as_bytes())?;
     Ok(Exported { text, folder: (written + copied > 0).then_some(files.folder), written, copied })

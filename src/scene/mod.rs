@@ -50,7 +50,7 @@ pub use self::{
     diagnostic::SceneError,
     estimator::{Estimator, power_heuristic},
     legend::Legend,
-    load::{load, read_text},
+    load::{LARGEST_FILE, load, read_text},
     material_instance::MaterialInstance,
     object::Object,
     parse::{BUILT_IN, built_in, describe, parse},

@@ -106,7 +106,7 @@ fn a_scene_without_a_file_is_recovered_too() {
 fn a_scene_of_another_program_is_recovered_with_its_origin() {
     let folder = tempfile::tempdir().expect("a folder");
     let [scene, file] = ["room.gltf", "room.recovery"].map(|name| folder.path().join(name));
-    let mut document = Document::imported(&scene, ROOM).expect("it is valid");
+    let mut document = Document::imported(&scene, ROOM, crate::scene::describe("room", ROOM.to_owned()).expect("it is valid"));
     does(&mut document, &number("camera.fov", 30.0));
     Recovery::of(&document).write(&file).expect("it is written");
     let recovery = Recovery::read(&file).expect("it is readable").expect("it is there");

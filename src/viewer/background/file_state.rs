@@ -88,7 +88,7 @@ mod tests {
     use noisefall::{
         declare::{OwnedValue, Path as ParameterPath},
         edit::Edit,
-        scene::BUILT_IN,
+        scene::{BUILT_IN, describe},
     };
 
     use super::*;
@@ -97,7 +97,7 @@ mod tests {
     fn a_scene_of_another_program_is_written_with_its_files_and_keeps_its_document() {
         let folder = tempfile::tempdir().expect("a folder");
         let (opened, path) = (folder.path().join("room.gltf"), folder.path().join("room.toml"));
-        let document = Document::imported(&opened, BUILT_IN).expect("it is a scene");
+        let document = Document::imported(&opened, BUILT_IN, describe("room", BUILT_IN.to_owned()).expect("it is a scene"));
         let done = save(&document, Some(&opened), &Assets::default(), &path, false);
         assert!(matches!(done, SaveResult::Exported(version) if version == document.version()));
         assert!(path.is_file() && document.path().is_none());

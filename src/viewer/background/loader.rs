@@ -6,7 +6,7 @@ use std::{
 
 use noisefall::{
     edit::{Document, Recovery, Template},
-    import::{self, ImportOptions, Opened, Remarks, is_foreign},
+    import::{self, ImportOptions, Opened, Remarks},
     render::truth::Reference,
     scene::{BUILT_IN, Camera, Scene, Truth, built_in, description::SceneDescription, parse},
 };
@@ -164,17 +164,17 @@ fn open(scene: GivenScene) -> OpenResult {
         let document = Document::untitled(BUILT_IN).map_err(|error| error.report())?;
         return Ok(opened(built_in(), BUILT_IN_NAME.to_owned(), document, None));
     };
-    let Opened { scene, remarks } = import::open(&path, &options).map_err(|error| error.report())?;
+    let Opened { scene, remarks, description } = import::open(&path, &options).map_err(|error| error.report())?;
     if strict && !remarks.is_empty() {
         let lines = remarks.lines(remarks.len()).join("\n");
         return Err(format!("{}: with --strict, each of these is an error:\n{lines}", path.display()));
     }
     // A picture carries its scene, and is not replaced by it.
     let is_picture = path.extension().is_some_and(|extension| !extension.eq_ignore_ascii_case("toml"));
-    let document = match () {
-        () if is_foreign(&path) => Document::imported(&path, &scene.source),
-        () if is_picture => Document::untitled(&scene.source),
-        () => Document::open(&path, &scene.source),
+    let document = match description {
+        Some(description) => Ok(Document::imported(&path, &scene.source, (*description).clone())),
+        None if is_picture => Document::untitled(&scene.source),
+        None => Document::open(&path, &scene.source),
     };
     let name = catalogue::name(&scene.title, &path);
     let (opened, document) = opened(scene, name, document.map_err(|error| error.report())?, Some(path));
