@@ -81,7 +81,7 @@ fn list(path: &Path, remarks: &Remarks) -> String {
 }
 
 fn quoted(word: &str) -> String {
-    shlex::try_quote(word).map_or_else(|_| word.to_owned(), |quoted| quoted.into_owned())
+    shlex::try_quote(word).map_or_else(|_| word.to_owned(), std::borrow::Cow::into_owned)
 }
 
 fn define(text: &str) -> Result<(String, String), String> {

@@ -124,7 +124,7 @@ impl Loader {
     pub fn restore(&mut self, recovery: Recovery) {
         let is_given = self.is_given(recovery.origin.as_deref());
         let options = if is_given { self.given.options.clone() } else { ImportOptions::default() };
-        self.pending = Some(BackgroundTask::start(&self.ctx, move |_| restore(recovery, &options)));
+        self.pending = Some(BackgroundTask::start(&self.ctx, move |_| restore(&recovery, &options)));
     }
 
     /// Reads a reference for images by this camera.
@@ -187,7 +187,7 @@ fn begin(template: Template) -> OpenResult {
     Ok(opened(scene, template.title.to_owned(), document, None))
 }
 
-fn restore(recovery: Recovery, options: &ImportOptions) -> OpenResult {
+fn restore(recovery: &Recovery, options: &ImportOptions) -> OpenResult {
     let document = recovery.open().map_err(|error| error.report())?;
     let source = recovery.file().map_or_else(|| "recovered scene".to_owned(), |path| path.display().to_string());
     let scene = match &recovery.origin {

@@ -72,7 +72,7 @@ fn the_line_at_the_bottom_has_every_figure_in_its_unit() {
     app.session.budget.max_spp = Some(64);
     app.results.comparison = Some(ReferenceComparison { rel_mse: 0.0025, bias: None });
     (app.results.shown, app.window.hovered) = (Some(frame()), Some([1, 0]));
-    let texts = said(&mut app, |app, ui| app.status_bar(ui));
+    let texts = said(&mut app, App::status_bar);
     assert_says(&texts, &["7 / 64 spp, 12 in the region", "2.5 M samples/s", "2.0 s", "noise 4.00 %", "true error 5.00 %"]);
     assert_says(&texts, &["(1, 0)  RGB 0.100 0.200 0.300  Y 0.186 ± 0.050 W/(sr·m²)"]);
 }
@@ -82,7 +82,7 @@ fn samples_that_are_no_numbers_and_paths_that_were_cut_are_counted() {
     let mut app = app();
     let status = &mut app.results.status;
     (status.invalid_samples, status.first_invalid, status.cut_paths) = (3, Some(SampleId { pixel: [4, 5], sample: 6 }), 1);
-    let texts = said(&mut app, |app, ui| app.status_bar(ui));
+    let texts = said(&mut app, App::status_bar);
     assert_says(&texts, &["3 invalid samples", "paths cut after 4096 bounces"]);
 }
 
