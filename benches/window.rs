@@ -56,7 +56,7 @@ fn open(scene: Option<PathBuf>) -> Harness<'static, Option<App>> {
         let threads = std::thread::available_parallelism().map_or(1, usize::from).saturating_sub(1).max(1);
         let make = || {
             let threads = Threads::new(threads, SimdLevel::best()).expect("threads can be had");
-            App::new(ui.ctx(), threads, scene.clone(), Preferences::default())
+            App::new(ui.ctx(), threads, scene.clone().into(), Preferences::default())
         };
         app.get_or_insert_with(make).show(ui);
     };

@@ -2,7 +2,8 @@
 //!
 //! | task | items |
 //! |---|---|
-//! | read a scene file | [`load`], [`parse`], [`SceneError`] |
+//! | read a scene file of any format | [`load`], [`parse`], [`SceneError`] |
+//! | read one with options, and list what was not taken over exactly | [`open`], [`ImportOptions`], [`Remarks`] |
 //! | build a scene in code | [`description`] |
 //! | change a scene file, and undo the change | [`edit`] |
 //! | choose settings | [`RenderSettings`], [`Camera`] |
@@ -39,6 +40,8 @@
 #[doc(hidden)]
 pub mod declare;
 pub mod edit;
+#[doc(hidden)]
+pub mod export;
 #[doc(hidden)]
 pub mod file;
 #[doc(hidden)]
@@ -84,7 +87,8 @@ pub mod validate;
 
 #[doc(inline)]
 pub use self::{
-    declare::{PartReport, Precision},
+    declare::{Assets, PartReport, Precision},
+    import::{ImportOptions, Opened, Remark, Remarks, load, open},
     math::SimdLevel,
     measure::{Bias, Comparison, Evidence, Floor, compare, exact},
     memory::set_limit as set_memory_limit,
@@ -101,7 +105,7 @@ pub use self::{
     sampling::{Directions, Filter, Sampler},
     scene::{
         Camera, CameraError, CameraRays, CompileReport, Estimator, Lens, RenderSettings, Reuse, Roulette, Scene, SceneError,
-        Shutter, built_in, load, parse,
+        Shutter, built_in, parse,
     },
 };
 

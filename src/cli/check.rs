@@ -3,26 +3,31 @@
 use std::path::PathBuf;
 
 use noisefall::{
+    import::Opened,
     math::SimdLevel,
     render::{threads::Threads, truth},
-    scene::load,
 };
 
-use super::messages::{Failure, print};
+use super::{
+    messages::{Failure, print},
+    scene_file::SceneOptions,
+};
 
 #[derive(clap::Args)]
 pub struct Arguments {
-    /// Scene files (.toml)
+    /// Scene files: .toml, .gltf, .glb, .xml (Mitsuba), .pbrt, .obj, .ply or .stl
     #[arg(required = true)]
     scenes: Vec<PathBuf>,
+    #[command(flatten)]
+    options: SceneOptions,
 }
 
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let mut reports = Vec::new();
     for path in &arguments.scenes {
-        match load(path) {
-            Err(error) => reports.push(error.report()),
-            Ok(scene) => {
+        match arguments.options.open(path) {
+            Err(report) => reports.push(report),
+            Ok(Opened { scene, .. }) => {
                 let [width, height] = scene.camera.resolution;
                 let objects = match scene.objects.len() {
                     1 => "1 object".to_owned(),

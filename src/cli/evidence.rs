@@ -13,6 +13,7 @@ use super::{
     folder,
     messages::{Failure, print, tell},
     options::{self as parse, DisplayOptions},
+    scene_file::SceneOptions,
     stop::{INTERRUPTED, stop_signal},
 };
 
@@ -25,8 +26,10 @@ Example: noisefall evidence my_scene.toml -o evidence --time 180";
 #[derive(clap::Args)]
 #[command(after_help = NOTES)]
 pub struct Arguments {
-    /// Scene file (.toml), or an image that carries its scene
+    /// Scene file: .toml, .gltf, .glb, .xml (Mitsuba), .pbrt, .obj, .ply, .stl, or an image that carries its scene
     scene: PathBuf,
+    #[command(flatten)]
+    options: SceneOptions,
     /// Folder for the report and its files; created if it does not exist
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
@@ -49,7 +52,8 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let folder = &arguments.output;
     [folder::REPORT, CSV].into_iter().try_for_each(|name| folder::make(folder, name))?;
-    let study_scene = StudyScene::load(&arguments.scene, arguments.size, arguments.reference.as_deref());
+    let scene = arguments.options.open(&arguments.scene)?.scene;
+    let study_scene = StudyScene::new(&arguments.scene, scene, arguments.size, arguments.reference.as_deref());
     let study_scene = study_scene.map_err(|error| error.to_string())?;
     let _memory = reserve_chapter(&study_scene).map_err(|error| error.to_string())?;
     let mut store = Store::open(folder).map_err(|error| error.to_string())?;

@@ -1,6 +1,7 @@
 //! The command line. Exit status: 0 done, 1 failed with a message on standard error, 2 wrong usage, 130 interrupted.
 mod check;
 mod compare;
+mod convert;
 #[cfg(feature = "reports")]
 mod evidence;
 mod figures;
@@ -20,6 +21,7 @@ mod progress;
 mod render;
 mod render_memory;
 mod replay;
+mod scene_file;
 mod sequence;
 #[cfg(feature = "reports")]
 mod sheet;
@@ -38,13 +40,13 @@ use std::{
 };
 
 use clap::{CommandFactory, Parser, Subcommand};
-use noisefall::{
-    declare::nearest,
-    scene::{description::SceneDescription, load},
-};
+use noisefall::{declare::nearest, scene::description::SceneDescription};
 
 pub use self::messages::Failure;
-use self::messages::{print, tell, wrong_usage};
+use self::{
+    messages::{print, tell, wrong_usage},
+    scene_file::SceneOptions,
+};
 
 /// Interactive progressive path tracer.
 ///
@@ -52,8 +54,10 @@ use self::messages::{print, tell, wrong_usage};
 #[derive(Parser)]
 #[command(name = "noisefall", version, args_conflicts_with_subcommands = true)]
 struct Arguments {
-    /// Scene file (.toml) to open in the window
+    /// Scene file to open in the window: .toml, .gltf, .glb, .xml (Mitsuba), .pbrt, .obj, .ply or .stl
     scene: Option<PathBuf>,
+    #[command(flatten)]
+    options: SceneOptions,
     /// Memory limit for scenes and images, such as 4G or 500M [default: half of the machine's memory]
     #[arg(long, value_name = "SIZE", global = true, value_parser = options::memory)]
     memory: Option<u64>,
@@ -81,6 +85,8 @@ enum Command {
     Sheet(sheet::Arguments),
     /// Report errors and likely mistakes in scene files
     Check(check::Arguments),
+    /// Write a scene of another program as a scene file of Noisefall, with its meshes and textures
+    Convert(convert::Arguments),
     /// Print the JSON Schema of scene files, for editors
     Schema,
 }
@@ -93,9 +99,10 @@ pub fn run() -> ExitCode {
     arguments.memory.into_iter().for_each(noisefall::memory::set_limit);
     let succeeded = |()| ExitCode::SUCCESS;
     let done = match arguments.command {
-        None => window(arguments.scene).map(succeeded),
+        None => window(arguments.scene, &arguments.options).map(succeeded),
         Some(Command::Render(arguments)) => render::run(&arguments),
         Some(Command::Compare(arguments)) => compare::run(&arguments),
+        Some(Command::Convert(arguments)) => convert::run(&arguments),
         Some(Command::Check(arguments)) => check::run(&arguments).map(succeeded),
         #[cfg(feature = "reports")]
         Some(Command::Validate(arguments)) => validate::run(&arguments).map(succeeded),
@@ -136,19 +143,20 @@ fn mistaken_command(arguments: &[OsString]) -> Option<String> {
 }
 
 /// Opens the window. If that fails, errors of the scene are reported as well.
-fn window(scene: Option<PathBuf>) -> Result<(), Failure> {
-    open_window(scene.clone()).map_err(|no_window| match scene.and_then(|path| load(&path).err()) {
-        Some(bad_scene) => format!("{}\n\n{no_window}", bad_scene.report()),
+fn window(scene: Option<PathBuf>, options: &SceneOptions) -> Result<(), Failure> {
+    open_window(scene.clone(), options).map_err(|no_window| match scene.and_then(|path| options.open(&path).err()) {
+        Some(bad_scene) => format!("{bad_scene}\n\n{no_window}"),
         None => no_window,
     })
 }
 
 #[cfg(feature = "viewer")]
-fn open_window(scene: Option<PathBuf>) -> Result<(), Failure> {
-    crate::viewer::run(scene)
+fn open_window(scene: Option<PathBuf>, options: &SceneOptions) -> Result<(), Failure> {
+    let (options, strict) = (options.import_options(), options.strict);
+    crate::viewer::run(crate::viewer::GivenScene { path: scene, options, strict })
 }
 
 #[cfg(not(feature = "viewer"))]
-fn open_window(_: Option<PathBuf>) -> Result<(), Failure> {
+fn open_window(_: Option<PathBuf>, _: &SceneOptions) -> Result<(), Failure> {
     Err("this build has no window (feature `viewer` is off); use `noisefall render SCENE -o picture.png`".to_owned())
 }

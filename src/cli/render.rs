@@ -8,10 +8,11 @@ use std::{
 
 use clap::ArgGroup;
 use noisefall::{
+    import::Opened,
     math::SimdLevel,
     render::{Budget, Display, image_file::Format, layers::Layer, tev::DEFAULT_ADDRESS, threads::Threads, truth::Reference},
     sampling::{Directions, Sampler},
-    scene::{Camera, Estimator, RenderSettings, Reuse, Roulette, Scene, load},
+    scene::{Camera, Estimator, RenderSettings, Reuse, Roulette, Scene},
 };
 
 use super::{
@@ -23,6 +24,7 @@ use super::{
     progress::{Plan, Rendering},
     render_memory,
     replay::{self, Form, Which},
+    scene_file::SceneOptions,
     sequence::SequenceOptions,
     shot::Job,
 };
@@ -37,7 +39,7 @@ const DEFAULT_SPP: u32 = 256;
     override_usage = "noisefall render [OPTIONS] <SCENE> -o <OUTPUT>\n       noisefall render [OPTIONS] <SCENE> --pixel <X,Y>"
 )]
 pub struct Arguments {
-    /// Scene file (.toml)
+    /// Scene file: .toml, .gltf, .glb, .xml (Mitsuba), .pbrt, .obj, .ply, .stl, or an image that carries its scene
     scene: PathBuf,
     /// Image to write: .png (sRGB, as displayed) or .exr (linear radiance); - for standard output
     #[arg(short, long, required_unless_present = "pixel")]
@@ -87,6 +89,8 @@ pub struct Arguments {
     #[arg(long, value_name = "WxH", value_parser = parse::resolution, allow_hyphen_values = true)]
     size: Option<[u32; 2]>,
     #[command(flatten)]
+    options: SceneOptions,
+    #[command(flatten)]
     display: DisplayOptions,
     #[arg(long, value_name = "LIST", help = format!("Layers of an EXR: all, or a list of {}", parse::one_of::<Layer>()),
           value_parser = layers_of, requires = "output")]
@@ -126,7 +130,8 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         return Ok(wrong_usage(&mistake));
     }
     let start = Instant::now();
-    let scene = Arc::new(load(&arguments.scene).map_err(|error| error.report())?);
+    let Opened { scene, remarks, .. } = arguments.options.open(&arguments.scene)?;
+    let scene = Arc::new(scene);
     let camera = Camera { resolution: arguments.size.unwrap_or(scene.camera.resolution), ..scene.camera };
     camera.check().map_err(|error| error.to_string())?;
     let settings = arguments.settings(&scene);
@@ -160,6 +165,8 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         threads: threads()?,
         build_seconds: start.elapsed().as_secs_f64(),
         is_sequence: arguments.sequence.is_asked(),
+        scene_options: arguments.options.words(),
+        scene_remarks: remarks,
         json: arguments.json,
         scene,
     };

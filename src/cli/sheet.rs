@@ -8,7 +8,7 @@ use noisefall::{
     memory::reserve,
     render::{film::Film, image_file::Format, threads::Threads, tone::to_srgb},
     report::sheet::{self, Cell},
-    scene::{Camera, RenderSettings, load},
+    scene::{Camera, RenderSettings},
     study::{Bench, Lists, StudyError, differing_labels, study_size},
 };
 
@@ -16,6 +16,7 @@ use super::{
     lists::{ListOptions, item},
     messages::{Failure, print, tell, wrong_usage},
     options::{self as parse, DisplayOptions},
+    scene_file::SceneOptions,
     stop::{INTERRUPTED, stop_signal},
 };
 
@@ -27,8 +28,10 @@ Example: noisefall sheet scenes/cornell_box.toml -o sheet.png --spp 1,4,16,64 --
 #[derive(clap::Args)]
 #[command(after_help = NOTES)]
 pub struct Arguments {
-    /// Scene file (.toml), or an image that carries its scene
+    /// Scene file: .toml, .gltf, .glb, .xml (Mitsuba), .pbrt, .obj, .ply, .stl, or an image that carries its scene
     scene: PathBuf,
+    #[command(flatten)]
+    options: SceneOptions,
     /// Sheet to write (.png)
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
@@ -58,7 +61,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         return Ok(wrong_usage(&format!("{}: a sheet is a PNG: the name must end in .png", arguments.output.display())));
     }
     check(&arguments.output).map_err(|error| error.to_string())?;
-    let scene = load(&arguments.scene).map_err(|error| error.report())?;
+    let scene = arguments.options.open(&arguments.scene)?.scene;
     let camera = Camera { resolution: arguments.size.unwrap_or(study_size(scene.camera.resolution)), ..scene.camera };
     camera.check().map_err(|error| error.to_string())?;
     let base = RenderSettings { seed: arguments.seed.unwrap_or(scene.settings.seed), ..scene.settings };

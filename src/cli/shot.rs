@@ -2,8 +2,9 @@
 use std::{path::Path, process::ExitCode, sync::Arc, time::Instant};
 
 use noisefall::{
+    import::Remarks,
     render::{
-        Display, Frame, Published, RenderRequest, State, Status, denoise, replay_command::replay_command,
+        Display, Frame, Published, RenderRequest, State, Status, denoise, pass::SampleId, replay_command::replay_command,
         settings_text::settings_text, threads::Threads, truth::Reference,
     },
     scene::{Camera, RenderSettings, Scene},
@@ -31,6 +32,10 @@ pub struct Job<'a> {
     pub threads: Threads,
     pub build_seconds: f64,
     pub is_sequence: bool,
+    /// The options of the scene as words of a command.
+    pub scene_options: String,
+    /// What of the scene was not taken over exactly.
+    pub scene_remarks: Remarks,
     pub json: bool,
 }
 
@@ -63,9 +68,13 @@ impl Job<'_> {
     /// The message of a render that failed.
     fn failure(&self, status: &Status, camera: &Camera) -> Option<Failure> {
         let State::Failed(failure) = &status.state else { return None };
-        let replay = || replay_command(self.scene_path, &self.scene, camera.resolution, &self.settings, failure.at);
-        let replay = if failure.replays { format!("\nreplay: {}", replay()) } else { String::new() };
+        let replay = if failure.replays { format!("\nreplay: {}", self.replay(camera, failure.at)) } else { String::new() };
         Some(format!("the renderer failed: {}{replay}", failure.message))
+    }
+
+    /// The command that replays a sample.
+    fn replay(&self, camera: &Camera, at: SampleId) -> String {
+        replay_command(self.scene_path, &self.scene, camera.resolution, &self.settings, at) + &self.scene_options
     }
 
     /// Writes a rendered image, and prints its line. `bounces` is a frame with its series.
@@ -86,15 +95,15 @@ impl Job<'_> {
             return Ok(delivered);
         }
         let reference = self.reference.as_ref().filter(|_| self.is_of_scene(camera));
-        let replayed = |at| replay_command(self.scene_path, &self.scene, camera.resolution, &self.settings, at);
         let done = Done {
             output,
             scene: &self.scene,
             scene_path: self.scene_path,
+            remarks: &self.scene_remarks,
             settings: &self.settings,
             error: reference.and_then(|truth| truth.compare(frame).zip(truth.bias(frame))),
             contradiction: reference.and_then(|truth| truth.contradiction(frame)),
-            replay: status.first_invalid.map(replayed),
+            replay: status.first_invalid.map(|at| self.replay(camera, at)),
             frame,
             status,
             is_denoised,

@@ -23,6 +23,7 @@ use super::{
     lists::ListOptions,
     messages::{Failure, print, tell, wrong_usage},
     options as parse,
+    scene_file::SceneOptions,
     stop::{INTERRUPTED, stop_signal},
 };
 
@@ -41,9 +42,11 @@ Example: noisefall study scenes/cornell_box.toml -o study --samplers independent
 #[derive(clap::Args)]
 #[command(allow_negative_numbers = true, after_help = NOTES)]
 pub struct Arguments {
-    /// Scene files (.toml)
+    /// Scene files: .toml, .gltf, .glb, .xml (Mitsuba), .pbrt, .obj, .ply or .stl
     #[arg(required = true, value_name = "SCENE")]
     scenes: Vec<PathBuf>,
+    #[command(flatten)]
+    options: SceneOptions,
     /// Folder for study.csv, report.html and references; created if it does not exist
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
@@ -78,8 +81,12 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         return Ok(wrong_usage(&mistake));
     }
     [folder::REPORT, CSV].into_iter().try_for_each(|name| folder::make(&arguments.output, name))?;
-    let load = |path: &PathBuf| StudyScene::load(path, arguments.size, arguments.reference.as_deref());
-    let study_scenes = arguments.scenes.iter().map(load).collect::<Result<Vec<_>, _>>().map_err(|error| error.to_string())?;
+    let load = |path: &PathBuf| {
+        let scene = arguments.options.open(path)?.scene;
+        let study_scene = StudyScene::new(path, scene, arguments.size, arguments.reference.as_deref());
+        study_scene.map_err(|error| error.to_string())
+    };
+    let study_scenes = arguments.scenes.iter().map(load).collect::<Result<Vec<_>, Failure>>()?;
     let _memory = reserve(&study_scenes).map_err(|error| error.to_string())?;
     let mut store = Store::open(&arguments.output).map_err(|error| error.to_string())?;
     if store.dropped > 0 {

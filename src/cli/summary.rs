@@ -2,6 +2,7 @@
 use std::path::Path;
 
 use noisefall::{
+    import::Remarks,
     math::SimdLevel,
     measure::{Bias, Comparison},
     render::{Frame, State, Status},
@@ -16,6 +17,8 @@ pub struct Done<'a> {
     pub output: &'a Output,
     pub scene: &'a Scene,
     pub scene_path: &'a Path,
+    /// What of the scene was not taken over exactly.
+    pub remarks: &'a Remarks,
     pub settings: &'a RenderSettings,
     pub frame: &'a Frame,
     pub status: &'a Status,
@@ -116,6 +119,7 @@ impl Done<'_> {
             ("dropped_triangles", json!(self.scene.shapes.dropped_triangles())),
             ("invalid_samples", json!(status.invalid_samples)),
             ("replay", json!(self.replay)),
+            ("remarks", json!(self.remarks.lines(usize::MAX))),
         ]));
         figures.into()
     }

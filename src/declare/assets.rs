@@ -1,34 +1,74 @@
 //! Files that exist in memory only.
-use std::{any::Any, collections::BTreeMap, fmt, sync::Arc};
+use std::{
+    any::Any,
+    collections::BTreeMap,
+    fmt,
+    sync::{
+        Arc,
+        atomic::{AtomicU64, Ordering},
+    },
+};
 
-/// Contents of files that exist in memory only, by the path under which a description names them. A clone shares the contents.
+use crate::memory::Reservation;
+
+/// Contents of files that exist in memory only, by the path under which a description names them. Clones share the contents.
 #[derive(Clone, Default)]
-pub struct Assets(BTreeMap<String, Arc<dyn Any + Send + Sync>>);
+pub struct Assets {
+    files: Arc<BTreeMap<String, Asset>>,
+    /// Given back with the last clone.
+    memory: Option<Arc<Reservation>>,
+}
+
+/// The content of a file in memory.
+#[derive(Clone)]
+pub(super) struct Asset {
+    content: Arc<dyn Any + Send + Sync>,
+    /// No other content of this process has it: part of the keys of what is made of the content.
+    pub number: u64,
+}
+
+impl Asset {
+    /// The content, if it has this type.
+    pub fn content<T: Send + Sync + 'static>(&self) -> Option<Arc<T>> {
+        self.content.clone().downcast().ok()
+    }
+}
 
 impl Assets {
     /// Adds a file.
     pub fn insert<T: Send + Sync + 'static>(&mut self, path: impl Into<String>, content: T) {
-        self.0.insert(path.into(), Arc::new(content));
+        static NUMBERS: AtomicU64 = AtomicU64::new(0);
+        let number = NUMBERS.fetch_add(1, Ordering::Relaxed);
+        Arc::make_mut(&mut self.files).insert(path.into(), Asset { content: Arc::new(content), number });
     }
 
     /// The content of a file, if it has this type.
     pub fn get<T: Send + Sync + 'static>(&self, path: &str) -> Option<Arc<T>> {
-        self.0.get(path)?.clone().downcast().ok()
+        self.files.get(path)?.content()
+    }
+
+    pub(super) fn asset(&self, path: &str) -> Option<&Asset> {
+        self.files.get(path)
+    }
+
+    /// Keeps the memory of the contents reserved while they exist, in place of an earlier reservation.
+    pub fn keep_reserved(&mut self, memory: Reservation) {
+        self.memory = Some(Arc::new(memory));
     }
 
     /// The paths of all files.
     pub fn paths(&self) -> impl Iterator<Item = &str> {
-        self.0.keys().map(String::as_str)
+        self.files.keys().map(String::as_str)
     }
 
     /// Whether there are none.
     pub fn is_empty(&self) -> bool {
-        self.0.is_empty()
+        self.files.is_empty()
     }
 }
 
 impl fmt::Debug for Assets {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_set().entries(self.0.keys()).finish()
+        f.debug_set().entries(self.files.keys()).finish()
     }
 }

@@ -19,11 +19,13 @@
 //! | `outline.rs` | the parameters of a kind as a list, and a choice of kinds |
 //! | `lister.rs` | the visitor that makes such a list |
 //! | `precision.rs` | how exactly a changed scene is compiled |
-//! | `resources.rs`, `memo.rs` | files, memory and the slow parts of the previous compile, for kinds that are compiled |
+//! | `resources.rs`, `memo.rs` | memory and the slow parts of the previous compile, for kinds that are compiled |
+//! | `assets.rs`, `named_file.rs` | files in memory, and files that a description names |
 //! | `dice.rs` | the visitor that draws random values within their ranges |
 //! | `manual.rs`, `schema.rs` | the visitors that document a format, for people and for editors |
 //! | `write.rs` | the visitor that writes a description as TOML |
 //! | `lines.rs` | the visitor that lists values as text |
+//! | `files.rs` | the visitor of the files that a description names |
 //! | `check.rs` | the visitor that compares values with their ranges |
 mod assets;
 mod catalogue;
@@ -32,10 +34,12 @@ mod choices;
 mod declared;
 #[cfg(feature = "reports")]
 mod dice;
+mod files;
 mod lines;
 mod lister;
 mod manual;
 mod memo;
+mod named_file;
 mod outline;
 mod owned;
 mod parameter;
@@ -56,17 +60,19 @@ pub use self::{
     assets::Assets,
     check::{check, check_value},
     declared::{Declare, Kind, OneOf},
+    files::for_each_file,
     lines::lines_of,
     lister::outline,
     manual::manual,
     memo::{Memo, PartReport},
+    named_file::{NamedFile, key_of_file},
     outline::{Alternative, Choice, Entry, Looks, Outline},
     owned::OwnedValue,
     parameter::{CountRange, Parameter, Range, Scale},
     path::{Path, Step},
     precision::Precision,
     problem::{Problem, nearest, short},
-    resources::{Leftovers, Resources, key_of_file},
+    resources::{Leftovers, Resources},
     schema::schema,
     value::{Family, Textured, Value, Word, Words},
     visitor::{Form, Parameters, Rearrangement},

@@ -1,14 +1,14 @@
 //! Resources of a compile: files beside the scene, memory, and the slow parts of the previous compile.
 use std::{
     cell::RefCell,
-    fmt, fs,
+    fmt,
     path::{Path, PathBuf},
     sync::Arc,
     time::{Duration, Instant},
 };
 
 use super::{
-    Problem,
+    Assets, NamedFile, Problem,
     memo::{Kept, Memo, PartReport},
 };
 use crate::memory::Reservation;
@@ -16,6 +16,7 @@ use crate::memory::Reservation;
 /// The folder of relative paths, the memory reserved so far, and the slow parts.
 pub struct Resources {
     folder: PathBuf,
+    assets: Assets,
     memory: RefCell<Reservation>,
     /// Parts of the previous compile.
     before: Memo,
@@ -44,11 +45,22 @@ impl Resources {
     pub fn after(folder: impl Into<PathBuf>, before: Memo) -> Resources {
         Resources {
             folder: folder.into(),
+            assets: Assets::default(),
             memory: RefCell::new(Reservation::none()),
             before,
             now: RefCell::default(),
             report: RefCell::default(),
         }
+    }
+
+    /// The same, but looks for files in memory first.
+    pub fn with_assets(self, assets: Assets) -> Resources {
+        Resources { assets, ..self }
+    }
+
+    /// A file that a description names.
+    pub fn file(&self, named: &str) -> NamedFile {
+        NamedFile::new(self.path(named), self.assets.asset(named))
     }
 
     /// A path that a description names.
@@ -126,14 +138,6 @@ impl Resources {
     }
 }
 
-/// A key for a file: path, size and time of the last change. A file that changes on disk is read again.
-pub fn key_of_file(path: &Path) -> String {
-    match fs::metadata(path) {
-        Ok(known) => format!("{path:?} {} {:?}", known.len(), known.modified().ok()),
-        Err(_) => format!("{path:?}"),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -168,17 +172,5 @@ mod tests {
         let fail = || Err::<u8, _>(Problem::at("", "no", "no"));
         assert!(resources.once("lists", "a".to_owned(), fail).is_err());
         assert_eq!(*resources.once("lists", "a".to_owned(), || Ok(7u8)).expect("it is made"), 7);
-    }
-
-    #[test]
-    fn the_key_of_a_file_changes_with_its_size() {
-        let folder = tempfile::tempdir().expect("a folder");
-        let path = folder.path().join("a");
-        let key = |text: &str| {
-            fs::write(&path, text).expect("it is written");
-            key_of_file(&path)
-        };
-        assert_ne!(key("one"), key("three"));
-        assert_ne!(key_of_file(&folder.path().join("b")), key_of_file(&path));
     }
 }

@@ -19,6 +19,8 @@ pub struct Document {
     pub(super) content: Content,
     /// The scene file; absent while the scene has none.
     path: Option<PathBuf>,
+    /// The file of another program that the scene was read from, while the scene has no file of its own.
+    origin: Option<PathBuf>,
     /// The text of the file as it was last read or written.
     on_disk: String,
     version: Version,
@@ -45,6 +47,7 @@ impl Document {
         Ok(Document {
             content,
             path: Some(path.to_owned()),
+            origin: None,
             on_disk: text.to_owned(),
             version: first,
             saved: Some(first),
@@ -58,6 +61,21 @@ impl Document {
         Ok(Document { path: None, ..document })
     }
 
+    /// A scene that was read from the file of another program. `text` is a scene file with its content, but the scene has no file of its
+    /// own yet.
+    pub fn imported(origin: impl AsRef<FilePath>, text: &str, description: SceneDescription) -> Document {
+        let first = Version(0);
+        Document {
+            content: Content::new(text.to_owned(), description),
+            path: None,
+            origin: Some(origin.as_ref().to_owned()),
+            on_disk: String::new(),
+            version: first,
+            saved: Some(first),
+            next: 1,
+        }
+    }
+
     /// The scene as it is now.
     pub fn description(&self) -> &SceneDescription {
         &self.content.description
@@ -66,6 +84,11 @@ impl Document {
     /// The scene file, if there is one.
     pub fn path(&self) -> Option<&FilePath> {
         self.path.as_deref()
+    }
+
+    /// The file of another program that the scene was read from, while it has no file of its own.
+    pub fn origin(&self) -> Option<&FilePath> {
+        self.origin.as_deref()
     }
 
     /// The folder that paths in the scene are relative to; empty while the scene has no file.
@@ -121,7 +144,7 @@ impl Document {
     /// Records that this version of the document was written. The file becomes that of the document, which counts as changed if it has
     /// another version by now.
     pub fn note_written(&mut self, written: Written) {
-        self.path = Some(written.path);
+        (self.path, self.origin) = (Some(written.path), None);
         (self.on_disk, self.saved) = (written.text, Some(written.version));
     }
 

@@ -111,6 +111,7 @@ pub use self::{
     origin::Origin,
     outside::Outside,
     recovery::Recovery,
+    save::new_text,
     templates::{TEMPLATES, Template},
     tree::Tree,
 };

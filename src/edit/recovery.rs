@@ -4,13 +4,16 @@ use std::{
     path::{Path as FilePath, PathBuf, absolute},
 };
 
+use serde_json::{Value, json};
+
 use super::Document;
 use crate::{
     file::{WriteError, open_regular, replace},
-    scene::SceneError,
+    scene::{SceneError, describe},
 };
 
-/// The first line of a recovery file, with the path of the scene file as a JSON string; the text of the scene follows.
+/// The first line of a recovery file: the path of the scene file as a JSON string, or `{"from": …}` with the file of another program.
+/// The text of the scene follows.
 const FIRST_LINE: &str = "# Unsaved changes of the scene ";
 
 /// A scene with changes that are not saved.
@@ -18,6 +21,8 @@ const FIRST_LINE: &str = "# Unsaved changes of the scene ";
 pub struct Recovery {
     /// The scene file, with an absolute path; absent if the scene had none.
     pub path: Option<PathBuf>,
+    /// The file of another program that the scene was read from, with an absolute path, if the scene had no file of its own.
+    pub origin: Option<PathBuf>,
     /// The text of the scene.
     pub text: String,
 }
@@ -26,14 +31,21 @@ impl Recovery {
     /// The document as it is now.
     pub fn of(document: &Document) -> Recovery {
         let absolute = |path: &FilePath| absolute(path).unwrap_or_else(|_| path.to_owned());
-        Recovery { path: document.path().map(absolute), text: document.text() }
+        Recovery { path: document.path().map(absolute), origin: document.origin().map(absolute), text: document.text() }
+    }
+
+    /// The file that the window had open.
+    pub fn file(&self) -> Option<&FilePath> {
+        self.path.as_deref().or(self.origin.as_deref())
     }
 
     /// Writes a recovery file, whole or not at all. It is a scene file itself, with one line of comment before its text.
     pub fn write(&self, file: &FilePath) -> Result<(), WriteError> {
-        let path = self.path.as_ref().map(|path| path.to_string_lossy());
-        let path = serde_json::Value::from(path.as_deref());
-        replace(file, format!("{FIRST_LINE}{path}\n{}", self.text).as_bytes())
+        let source = match (&self.path, &self.origin) {
+            (None, Some(origin)) => json!({ "from": origin.to_string_lossy() }),
+            (path, _) => json!(path.as_ref().map(|path| path.to_string_lossy())),
+        };
+        replace(file, format!("{FIRST_LINE}{source}\n{}", self.text).as_bytes())
     }
 
     /// Reads a recovery file; `None` if there is none.
@@ -43,16 +55,22 @@ impl Recovery {
             read => read?,
         };
         let (first, text) = text.split_once('\n').unwrap_or((&text, ""));
-        let path = first.strip_prefix(FIRST_LINE).and_then(|path| serde_json::from_str::<Option<PathBuf>>(path).ok());
+        let source = first.strip_prefix(FIRST_LINE).and_then(|source| serde_json::from_str::<Value>(source).ok());
         let wrong = || io::Error::new(io::ErrorKind::InvalidData, "it is not a recovery file");
-        Ok(Some(Recovery { path: path.ok_or_else(wrong)?, text: text.to_owned() }))
+        let source = source.ok_or_else(wrong)?;
+        let [path, origin] = [&source, &source["from"]].map(|path| path.as_str().map(PathBuf::from));
+        Ok(Some(Recovery { path, origin, text: text.to_owned() }))
     }
 
     /// The document with its changes. It counts as changed.
     pub fn open(&self) -> Result<Document, SceneError> {
-        let mut document = match &self.path {
-            Some(path) => Document::open(path, &self.text)?,
-            None => Document::untitled(&self.text)?,
+        let mut document = match (&self.path, &self.origin) {
+            (Some(path), _) => Document::open(path, &self.text)?,
+            (None, Some(origin)) => {
+                let description = describe(&origin.display().to_string(), self.text.clone())?;
+                Document::imported(origin, &self.text, description)
+            }
+            (None, None) => Document::untitled(&self.text)?,
         };
         // What is in the file now tells later whether it was changed outside.
         let on_disk = self.path.as_ref().and_then(|path| fs::read_to_string(path).ok());

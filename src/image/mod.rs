@@ -7,7 +7,7 @@
 //! | OpenEXR | `exr.rs` | linear; the layer's R, G, B and A |
 //! | Radiance HDR | `hdr.rs` | linear; one common exponent per pixel |
 //!
-//! Opacity (alpha) is linear in all formats. It is read on its own, by [`read_opacity`], and ignored otherwise.
+//! Opacity (alpha) is linear in all formats. It is read on its own, by [`read_opacity_of`], and ignored otherwise.
 mod carried;
 mod decoded;
 mod exr;
@@ -17,12 +17,13 @@ mod tests;
 
 use std::{
     fmt,
-    io::{BufRead, BufReader, ErrorKind, Read, Seek},
+    io::{BufRead, BufReader, Cursor, ErrorKind, Read, Seek},
     path::{Path, PathBuf},
 };
 
 pub use self::carried::{SETTINGS_KEY, carried_text};
 use crate::{
+    declare::NamedFile,
     file::open_regular,
     memory::{Reservation, TooMuch, reserve},
     quote,
@@ -175,10 +176,24 @@ fn read_as<P: Pixel>(path: &Path, encoding: Encoding) -> Result<Picture<P>, Pict
     picture.map_err(|problem| PictureError { path: path.to_owned(), problem })
 }
 
+/// The same for a file that can be in memory.
+fn read_named<P: Pixel>(file: &NamedFile, encoding: Encoding) -> Result<Picture<P>, PictureError> {
+    let Some(bytes) = file.content::<Vec<u8>>() else { return read_as(file.path(), encoding) };
+    decode(Cursor::new(&bytes[..]), encoding).map_err(|problem| PictureError { path: file.path().to_owned(), problem })
+}
+
 /// Reads an image of radiances, which must be finite and not negative. Small negative values become 0: other programs write them
 /// for colours outside Rec. 709.
 pub fn read_light(path: &Path, encoding: Encoding) -> Result<Texels, PictureError> {
-    let mut picture: Texels = read_as(path, encoding)?;
+    light(path, read_as(path, encoding)?)
+}
+
+/// The same for a file that can be in memory.
+pub fn read_light_of(file: &NamedFile, encoding: Encoding) -> Result<Texels, PictureError> {
+    light(file.path(), read_named(file, encoding)?)
+}
+
+fn light(path: &Path, mut picture: Texels) -> Result<Texels, PictureError> {
     if let Some(at) = picture.radiance.iter().position(|pixel| !pixel.iter().all(|x| *x <= BRIGHTEST)) {
         let problem = ImageFormatError::NotLight(at % picture.width as usize, at / picture.width as usize);
         return Err(PictureError { path: path.to_owned(), problem });
@@ -190,8 +205,8 @@ pub fn read_light(path: &Path, encoding: Encoding) -> Result<Texels, PictureErro
 }
 
 /// Reads the opacity of an image as grey, from 0 to 1; it is 1 if the file has none.
-pub fn read_opacity(path: &Path) -> Result<Texels, PictureError> {
-    let Picture { width, height, radiance } = read_as::<Opacity>(path, Encoding::Linear)?;
+pub fn read_opacity_of(file: &NamedFile) -> Result<Texels, PictureError> {
+    let Picture { width, height, radiance } = read_named::<Opacity>(file, Encoding::Linear)?;
     Ok(Picture { width, height, radiance: radiance.iter().map(|Opacity(x)| Pixel::of([*x; 3])).collect() })
 }
 

@@ -1,7 +1,8 @@
 //! Hand-made image files, byte by byte.
 use std::io::Cursor;
 
-use super::{Encoding, ImageFormatError, Opacity, Picture, Texels, decode, read_opacity};
+use super::{Encoding, ImageFormatError, Opacity, Picture, Texels, decode, read_opacity_of};
+use crate::declare::Resources;
 
 fn read(bytes: &[u8]) -> Result<Picture, ImageFormatError> {
     decode(Cursor::new(bytes), Encoding::Linear)
@@ -107,7 +108,7 @@ fn the_opacity_of_an_exr_is_read_as_grey_within_its_range() {
     let path = folder.path().join("a.exr");
     let opacity = [0.25, 7.0, -1.0, f32::NAN];
     ::exr::prelude::write_rgba_file(&path, 4, 1, |x, _| (0.5f32, 0.5f32, 0.5f32, opacity[x])).expect("it is written");
-    let texels = read_opacity(&path).expect("it is a picture");
+    let texels = read_opacity_of(&Resources::new("").file(&path.display().to_string())).expect("it is a picture");
     let greys = [0.25, 1.0, 0.0, 0.0].map(|x: f32| [x, x, x, 0.0]);
     assert_eq!((texels.width, texels.height, texels.radiance), (4, 1, greys.to_vec()));
     assert_eq!(super::read_light(&path, Encoding::Srgb).expect("it is light").radiance[3], [0.5, 0.5, 0.5, 0.0]);

@@ -3,14 +3,25 @@
 //! A reader translates a file into a [`SceneDescription`], as if it had been written by hand: everything else, the window and the
 //! command line included, works with the description. What cannot be translated exactly is listed as a [`Remark`].
 pub mod gltf;
+mod memory;
 pub mod mesh;
 pub mod mitsuba;
+pub mod names;
+mod open;
+pub mod paths;
 pub mod pbrt;
 mod remark;
+pub mod remarks;
 
 use std::path::Path;
 
-pub use self::remark::Remark;
+pub use self::{
+    names::Names,
+    open::{Opened, load, open},
+    paths::Folder,
+    remark::Remark,
+    remarks::Remarks,
+};
 use crate::{
     declare::Assets,
     scene::{SceneError, description::SceneDescription},
@@ -25,7 +36,7 @@ pub struct Imported {
     /// files, as `Vec<u8>`, by paths such as `textures/wood.png`.
     pub assets: Assets,
     /// What was not taken over exactly.
-    pub remarks: Vec<Remark>,
+    pub remarks: Remarks,
 }
 
 /// Choices of the user about a file.
@@ -49,7 +60,12 @@ pub fn is_foreign(path: &Path) -> bool {
 /// Reads a scene of another program.
 pub fn read(path: &Path, options: &ImportOptions) -> Result<Imported, SceneError> {
     match reader(path) {
-        Some(read) => read(path, options),
+        Some(read) => {
+            let mut imported = read(path, options)?;
+            memory::reserve_assets(&mut imported.assets)
+                .map_err(|error| SceneError::of_file(path, error.to_string(), "raise the memory limit"))?;
+            Ok(imported)
+        }
         None => Err(SceneError::of_file(
             path,
             "the format is not known",

@@ -1,10 +1,7 @@
 //! Remarks about what was not taken over exactly.
-use std::fmt;
-
-use serde::Serialize;
 
 /// Something that was not taken over exactly.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Remark {
     /// Where it stands: `scene.xml:12:5`, or `scene.gltf: material "Wood"`.
     pub place: String,
@@ -14,10 +11,4 @@ pub struct Remark {
     pub used: String,
     /// What that changes in the image: "the strands look like plastic".
     pub effect: String,
-}
-
-impl fmt::Display for Remark {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {} became {}: {}", self.place, self.found, self.used, self.effect)
-    }
 }

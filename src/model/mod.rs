@@ -6,6 +6,7 @@
 //! | Wavefront OBJ | `obj.rs` | its name; the format has no signature |
 //!
 //! Files are not trusted: a count in a file allocates memory only if the file has the bytes for it.
+mod checked;
 mod normals;
 mod number;
 mod obj;
@@ -20,6 +21,7 @@ use std::{
 };
 
 pub use normals::smooth_normals;
+pub use ply::encode as encode_ply;
 
 use crate::{
     file::open_regular,

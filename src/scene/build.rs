@@ -3,13 +3,13 @@ use std::{path::Path, sync::Arc, time::Instant};
 
 use super::{
     Scene, SceneText,
-    compile::{Before, compile},
+    compile::{Before, Files, compile},
     damage::Damage,
     description::{EmissionDescription, MaterialDescription, ObjectDescription, SceneDescription},
     diagnostic::SceneError,
 };
 use crate::{
-    declare::{self, Precision, Problem},
+    declare::{self, Assets, Precision, Problem},
     light::emission::radiance::Radiance,
     material::Material,
     shape::ShapeKind,
@@ -32,10 +32,18 @@ impl SceneDescription {
     /// Checks the description as the reader of scene files does, and compiles it. Files that it names are looked for in `folder`.
     pub fn build(&self, folder: &Path) -> Result<Scene, SceneError> {
         let text = self.to_text();
-        self.compiled(SceneText::new(Box::new(move || text)), folder, None)
+        let files = Files { folder, assets: Assets::default() };
+        self.compiled(SceneText::new(Box::new(move || text)), Path::new("scene"), files, None)
     }
 
-    /// The same after a change. Parts that did not change are reused from `before`, which can be any scene of the same folder. With
+    /// The same for the scene of a file in another format, which errors name. Files are looked for in `assets` and in the folder of the
+    /// file. The text of the scene is written at its first use.
+    pub fn build_with(self: &Arc<Self>, file: &Path, assets: Assets) -> Result<Scene, SceneError> {
+        let files = Files { folder: file.parent().unwrap_or(Path::new("")), assets };
+        self.compiled(self.later_text(), file, files, None)
+    }
+
+    /// The same after a change. Parts that did not change are reused from `before`, which can be any scene of the same folder and the same files in memory. With
     /// [`Precision::Exact`] the scene has the same bits as from [`SceneDescription::build`].
     ///
     /// [`Precision::Interactive`] is faster, and may give other bits. [`Scene::is_exact`] then returns false, and the scene should be
@@ -55,16 +63,20 @@ impl SceneDescription {
     /// # Ok::<(), noisefall::SceneError>(())
     /// ```
     pub fn rebuild(self: &Arc<Self>, folder: &Path, before: &Scene, precision: Precision) -> Result<Scene, SceneError> {
-        let description = self.clone();
-        let text = SceneText::new(Box::new(move || description.to_text()));
-        self.compiled(text, folder, Some(Before { scene: before, precision }))
+        let files = Files { folder, assets: before.assets.clone() };
+        self.compiled(self.later_text(), Path::new("scene"), files, Some(Before { scene: before, precision }))
     }
 
-    fn compiled(&self, text: SceneText, folder: &Path, before: Option<Before>) -> Result<Scene, SceneError> {
+    fn later_text(self: &Arc<Self>) -> SceneText {
+        let description = self.clone();
+        SceneText::new(Box::new(move || description.to_text()))
+    }
+
+    fn compiled(&self, text: SceneText, name: &Path, files: Files, before: Option<Before>) -> Result<Scene, SceneError> {
         let start = Instant::now();
         let mut problems = declare::check(&mut self.clone());
         if problems.is_empty() {
-            match compile(self, text, folder, &Damage::default(), before) {
+            match compile(self, text, files, &Damage::default(), before) {
                 Ok(mut scene) => {
                     scene.compiled.took = start.elapsed();
                     return Ok(scene);
@@ -75,9 +87,9 @@ impl SceneDescription {
         let error = |problem: Problem| {
             let message = format!("`{}`: {}", problem.path, problem.message);
             let advice = [problem.label, problem.help].into_iter().filter(|text| !text.is_empty()).collect::<Vec<_>>();
-            SceneError::of_file(Path::new("scene"), message, advice.join("; "))
+            SceneError::of_file(name, message, advice.join("; "))
         };
-        let nothing = || SceneError::of_file(Path::new("scene"), "it cannot be compiled", "check its values");
+        let nothing = || SceneError::of_file(name, "it cannot be compiled", "check its values");
         Err(SceneError::of_all(problems.into_iter().map(error).collect()).unwrap_or_else(nothing))
     }
 

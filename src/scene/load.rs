@@ -9,8 +9,8 @@ use super::{
 };
 use crate::{file::open_regular, image::looks_like};
 
-/// Larger files are rejected before they are read.
-const LARGEST_FILE: u64 = 64 << 20;
+/// Maximum size of a scene file, bytes. Larger files are rejected before they are read.
+pub const LARGEST_FILE: u64 = 64 << 20;
 
 /// Reads and compiles a scene file, or the scene in an image file.
 pub fn load(path: &Path) -> Result<Scene, SceneError> {

@@ -55,7 +55,7 @@ pub use self::{
     estimator::{Estimator, power_heuristic},
     lamp::LampInstance,
     legend::Legend,
-    load::{load, read_text},
+    load::{LARGEST_FILE, load, read_text},
     material_instance::MaterialInstance,
     object::Object,
     parse::{BUILT_IN, built_in, describe, parse},
@@ -66,7 +66,7 @@ pub use self::{
     shutter::{Moments, Shutter},
 };
 use crate::{
-    declare::Memo,
+    declare::{Assets, Memo},
     geometry::{Motion, Shapes},
     image::Picture,
     light::Lights,
@@ -131,6 +131,8 @@ pub struct Scene {
     pub compiled: CompileReport,
     /// Slow parts that other scenes can reuse.
     pub memo: Memo,
+    /// Files that the scene names and that are not on disk.
+    pub assets: Assets,
     /// Given back with the scene.
     pub memory: Reservation,
 }

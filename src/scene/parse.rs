@@ -5,7 +5,7 @@ use toml::de::DeTable;
 
 use super::{
     Scene, SceneText,
-    compile::compile,
+    compile::{Files, compile},
     damage::Damage,
     description::{FORMAT, SceneDescription},
     diagnostic::{SceneError, SourceText},
@@ -14,7 +14,10 @@ use super::{
     syntax::{Slips, slips},
     wording::in_plain_words,
 };
-use crate::memory::{Size, reserve};
+use crate::{
+    declare::Assets,
+    memory::{Size, reserve},
+};
 
 /// For longer texts with syntax errors only the first one is reported.
 const LONGEST_SCANNED: usize = 1 << 18;
@@ -45,8 +48,9 @@ pub fn parse(name: &str, text: String) -> Result<Scene, SceneError> {
         return Err(SceneError::of_all(errors).unwrap_or_else(nothing));
     }
     let folder = Path::new(name).parent().unwrap_or(Path::new(""));
+    let files = Files { folder, assets: Assets::default() };
     let text = source.text.clone();
-    match compile(&description, SceneText::new(Box::new(move || text)), folder, &damage, None) {
+    match compile(&description, SceneText::new(Box::new(move || text)), files, &damage, None) {
         Ok(scene) if errors.is_empty() => return Ok(scene),
         Ok(_) => {}
         Err(problems) => errors.extend(locate(problems, &source)),

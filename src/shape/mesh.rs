@@ -1,18 +1,18 @@
 //! A triangle mesh: from a file, from lists, or procedural.
 use std::{
     hash::{DefaultHasher, Hash, Hasher},
-    path::Path,
     sync::Arc,
 };
 
 use super::{Build, ShapeBuilder};
 use crate::{
-    declare::{CountRange, Declare, Kind, OneOf, Parameter, Parameters, Problem, Resources, Value, key_of_file},
+    declare::{CountRange, Declare, Kind, NamedFile, OneOf, Parameter, Parameters, Problem, Resources, Value},
     geometry::{
         MeshData, Shape,
         mesh::generate::{heightfield, torus_knot},
     },
     model::{Model, read, smooth_normals},
+    quote,
 };
 
 /// Bytes per triangle of a procedural mesh, including its share of vertices and the computation of their normals.
@@ -177,8 +177,8 @@ impl Mesh {
         };
         match &self.source {
             MeshSource::File(path) => {
-                let path = resources.path(path);
-                known(format!("mesh {} {smooth}", key_of_file(&path)), &|| from_file(resources, &path, smooth))
+                let file = resources.file(path);
+                known(format!("mesh {} {smooth}", file.key()), &|| from_file(resources, &file, smooth))
             }
             MeshSource::Lists { vertices, triangles } => {
                 let smooth = self.smooth.unwrap_or(false);
@@ -219,8 +219,12 @@ fn reserve(resources: &Resources, key: &str, triangles: u64) -> Result<(), Probl
     resources.reserve(key, format_args!("{triangles} triangles"), MADE_TRIANGLE * triangles)
 }
 
-fn from_file(resources: &Resources, path: &Path, smooth: bool) -> Result<MeshData, Problem> {
-    let model = read(path).map_err(|error| Problem::at("path", error.to_string(), "this mesh cannot be used"))?;
+fn from_file(resources: &Resources, file: &NamedFile, smooth: bool) -> Result<MeshData, Problem> {
+    let model = match file.content::<Model>() {
+        Some(model) => Model::clone(&model).checked().map_err(|problem| format!("{}: {problem}", quote::path(file.path()))),
+        None => read(file.path()).map_err(|error| error.to_string()),
+    };
+    let model = model.map_err(|message| Problem::at("path", message, "this mesh cannot be used"))?;
     let Model { vertices, triangles, normals, uvs, colours } = model;
     let smoothing = if smooth && normals.is_none() { SMOOTHING } else { 0 };
     let colouring = if colours.is_some() { COLOUR } else { 0 };
@@ -285,7 +289,8 @@ mod tests {
              0 0 0 0.5 2 -1\n1 0 0 0 0 0\n0 1 0 1 1 1\n3 0 1 2\n"
         );
         std::fs::write(&path, text).expect("it is written");
-        let data = from_file(&Resources::new(""), &path, true).expect("it is a mesh");
+        let resources = Resources::new("");
+        let data = from_file(&resources, &resources.file(&path.display().to_string()), true).expect("it is a mesh");
         assert_eq!(*data.colours, [[0.5, 1.0, 0.0, 1.0], [0.0, 0.0, 0.0, 1.0], [1.0; 4]]);
     }
 }

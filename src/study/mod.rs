@@ -47,14 +47,11 @@ pub use self::{
     study_scene::{StudyScene, reserve},
     wording::{table, verdict},
 };
-use crate::{file::WriteError, scene::SceneError};
+use crate::file::WriteError;
 
 /// Error of a study.
 #[derive(Debug, thiserror::Error)]
 pub enum StudyError {
-    /// The scene cannot be used.
-    #[error("{}", .0.report())]
-    Scene(SceneError),
     /// A scene that cannot be measured.
     #[error("{}: {reason}", path.display())]
     Unmeasurable {

@@ -5,7 +5,7 @@ use super::{StudyError, plan::study_size};
 use crate::{
     memory::{self, Reservation, TooMuch},
     render::{film::Film, truth},
-    scene::{Camera, Scene, Truth, load},
+    scene::{Camera, Scene, Truth},
 };
 
 /// Beside a scene `NAME.toml`, its reference is `NAME.ref.exr`.
@@ -26,9 +26,8 @@ pub struct StudyScene {
 }
 
 impl StudyScene {
-    /// Reads a scene. `reference` is an image to use in place of any other reference.
-    pub fn load(path: &Path, size: Option<[u32; 2]>, reference: Option<&Path>) -> Result<StudyScene, StudyError> {
-        let scene = load(path).map_err(StudyError::Scene)?;
+    /// A scene that was read from a file. `reference` is an image to use in place of any other reference.
+    pub fn new(path: &Path, scene: Scene, size: Option<[u32; 2]>, reference: Option<&Path>) -> Result<StudyScene, StudyError> {
         let unmeasurable = |reason: String| StudyError::Unmeasurable { path: path.to_owned(), reason };
         let known = known(path, &scene, reference)?;
         let own_size = match &known {

@@ -27,7 +27,7 @@ pub use self::{
 };
 use super::{Found, Pattern, Summary, TextureCompiler, TextureCoordinates, Textures, Texturing};
 use crate::{
-    declare::{Declare, Kind, Parameter, Parameters, Problem, Range, Value, key_of_file},
+    declare::{Declare, Kind, Parameter, Parameters, Problem, Range, Value},
     image::Encoding,
     math::{Lanes, M, Pick},
 };
@@ -119,7 +119,7 @@ impl Texturing for Image {
             return Ok(ImagePattern::Plain(texels));
         }
         // The mean may take a visit to all texels.
-        let key = format!("sampled {} {self:?}", key_of_file(&resources.path(&self.path)));
+        let key = format!("sampled {} {self:?}", resources.file(&self.path).key());
         resources.hold(key, || SampledImage::new(texels, self)).map(ImagePattern::Sampled)
     }
 }

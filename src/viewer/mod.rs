@@ -14,13 +14,10 @@ mod tests;
 mod widgets;
 mod window_system;
 
-use std::{
-    panic::{AssertUnwindSafe, catch_unwind},
-    path::PathBuf,
-};
+use std::panic::{AssertUnwindSafe, catch_unwind};
 
 pub use app::App;
-pub use background::preferences::Preferences;
+pub use background::{loader::GivenScene, preferences::Preferences};
 use noisefall::{
     math::SimdLevel,
     render::{pass::panic_message, threads::Threads},
@@ -31,7 +28,7 @@ const ICON: &[u8] = include_bytes!("../../assets/icon.png");
 const NO_WINDOW: &str = "use `noisefall render SCENE -o picture.png` to render without a window";
 
 /// Opens the window on a scene file, or on the built-in scene. Returns when it is closed.
-pub fn run(scene: Option<PathBuf>) -> Result<(), String> {
+pub fn run(scene: GivenScene) -> Result<(), String> {
     let displays = window_system::found();
     let system = displays.choose().map_err(|why| format!("{why}; {NO_WINDOW}"))?;
     let threads = all_but_one(cores());

@@ -58,6 +58,7 @@ fn every_command_has_help() {
         &["render", "--help"],
         &["compare", "--help"],
         &["check", "--help"],
+        &["convert", "--help"],
         &["validate", "--help"],
         &["study", "--help"],
         &["sheet", "--help"],

@@ -7,7 +7,7 @@ use crate::imports::{imports, source, source_files};
 const LAYERS: [&[&str]; 12] = [
     &["validate", "study"],
     &["render", "report"],
-    &["measure"],
+    &["measure", "import", "export"],
     &["integrator", "edit"],
     &["scene"],
     &["light"],

@@ -9,6 +9,7 @@ mod denoising;
 mod edited_scenes;
 mod evidence;
 mod figures;
+mod formats;
 mod imports;
 mod interruption;
 mod layers;

@@ -2,6 +2,7 @@
 use std::time::Duration;
 
 use noisefall::{
+    import::Remark,
     render::{Target, image_file::Format},
     scene::{Roulette, built_in},
 };
@@ -44,11 +45,14 @@ fn said(status: &Status, frame: &Frame, settings: RenderSettings) -> Said {
 
 fn said_of(status: &Status, frame: &Frame, settings: RenderSettings, is_denoised: bool) -> Said {
     let (scene, output) = (built_in(), Output::File("out.png".into()));
+    let [place, found, used, effect] = ["a.xml:1:1", "`hair`", "plastic", "it looks smooth"].map(str::to_owned);
+    let remark = Remark { place, found, used, effect };
     let comparison = Comparison { rmse: 0.125, rel_mse: 0.0004, bias: 9.0 };
     let done = Done {
         output: &output,
         scene: &scene,
         scene_path: Path::new("a.toml"),
+        remarks: &[remark].into_iter().collect(),
         settings: &settings,
         frame,
         status,
@@ -67,7 +71,7 @@ fn every_figure_stands_under_its_name() {
     let settings = RenderSettings { seed: 8, max_bounces: Some(5), ..RenderSettings::default() };
     let of_time = status(State::Done(Target::Time));
     let line = said(&of_time, &frame(1.0), settings).json;
-    let expected = json!({
+    let mut expected = json!({
         "scene": "a.toml", "width": 4, "height": 1, "spp": 2, "mean_spp": 2.5, "stopped_by": "time", "threads": 3,
         "simd": SimdLevel::best().name(), "version": env!("CARGO_PKG_VERSION"), "commit": env!("NOISEFALL_COMMIT"),
         "estimator": "mis", "directions": "bsdf", "sampler": "sobol", "roulette": "throughput", "roulette_start": 4,
@@ -77,6 +81,7 @@ fn every_figure_stands_under_its_name() {
         "rmse": 0.125, "rel_mse": 0.0004, "bias": -2.0, "bias_standard_error": null, "bias_in_standard_errors": null,
         "exact_samples": false, "heavy_tails": false, "replay": "noisefall render a.toml --pixel 1,0",
     });
+    expected["remarks"] = json!(["a.xml:1:1: `hair` → plastic: it looks smooth"]);
     assert_eq!(line, expected);
     let other = Status { shares: false, adapts: true, cut_paths: 0, ..status(State::Paused) };
     let adaptive = RenderSettings { adaptive: true, roulette: Roulette::fixed(0.5), ..RenderSettings::default() };

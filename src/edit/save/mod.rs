@@ -20,14 +20,15 @@ use self::{
     outline::Table,
     tables::{Level, Update},
 };
-use super::content::Content;
+use super::{content::Content, origin::Origins};
+use crate::scene::description::SceneDescription;
 
 /// The text of a scene file.
 pub fn text(content: &Content) -> String {
     let base = &content.base;
     let now = Table::of(&content.description);
     let was = Table::of(&base.description);
-    if content.origins == super::origin::Origins::of(&base.description) && now.is_identical(&was) {
+    if content.origins == Origins::of(&base.description) && now.is_identical(&was) {
         return base.text.clone();
     }
     // The text was read before: this cannot fail.
@@ -35,6 +36,14 @@ pub fn text(content: &Content) -> String {
     spread(document.as_table_mut());
     Update { origins: &content.origins }.table(document.as_table_mut(), &was, &now, Level::Root);
     like(&base.text, document.to_string())
+}
+
+/// The text of a new scene file, without values that equal their defaults.
+pub fn new_text(description: &SceneDescription) -> String {
+    let (was, now) = (Table::default(), Table::of(description));
+    let mut document = DocumentMut::new();
+    Update { origins: &Origins::default() }.table(document.as_table_mut(), &was, &now, Level::Root);
+    document.to_string()
 }
 
 /// The text with the byte order mark and the line ends of another.
@@ -51,7 +60,39 @@ fn like(original: &str, text: String) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::like;
+    use super::{like, new_text};
+    use crate::{
+        edit::Document,
+        scene::{
+            BUILT_IN, describe,
+            description::{EmissionDescription, SceneDescription},
+        },
+        shape::{Sphere, Transform},
+    };
+
+    #[test]
+    fn a_new_text_has_the_content_and_few_lines() {
+        let written = |description: &SceneDescription| {
+            let text = new_text(description);
+            let read = describe("new.toml", text.clone()).unwrap_or_else(|error| panic!("{}\n{text}", error.report()));
+            assert_eq!(read, *description, "{text}");
+            text
+        };
+        let text = written(Document::untitled(BUILT_IN).expect("it is a scene").description());
+        assert!(text.starts_with("format = 1") && text.lines().count() < 2 * BUILT_IN.lines().count(), "{text}");
+        let mut description = SceneDescription::default();
+        for name in ["a \"quoted\" name", "ü\n", "a.b"] {
+            let ball = description.add_object(name, Sphere { radius: 0.1 + 0.2, ..Sphere::default() });
+            ball.emission = Some(EmissionDescription::radiance([1.0 / 3.0, 1e-9, 1e9]));
+            ball.transform = vec![Transform::Matrix([
+                [1.0, -0.0, 0.1, 5e-7],
+                [0.0, 1.0, 0.0, 0.0],
+                [0.0, 0.0, 1.0, 0.0],
+                [0.0, 0.0, 0.0, 1.0],
+            ])];
+        }
+        written(&description);
+    }
 
     #[test]
     fn only_a_text_whose_lines_all_end_as_on_windows_gives_others_its_ends() {

@@ -81,7 +81,7 @@ fn changes_survive_a_crash() {
     does(&mut document, &number("camera.fov", 30.0));
     Recovery::of(&document).write(&file).expect("it is written");
     let recovery = Recovery::read(&file).expect("it is readable").expect("it is there");
-    assert_eq!(recovery, Recovery { path: Some(scene.clone()), text: document.text() });
+    assert_eq!(recovery, Recovery { path: Some(scene.clone()), origin: None, text: document.text() });
     let recovered = recovery.open().expect("it is valid");
     assert_eq!((recovered.path(), recovered.text(), recovered.has_changes()), (Some(&*scene), document.text(), true));
     assert!(recovered.compare_outside(ROOM).expect("it is readable").is_none(), "the file is as it was");
@@ -100,6 +100,21 @@ fn a_scene_without_a_file_is_recovered_too() {
     Recovery::of(&document).write(&file).expect("it is written");
     let recovered = Recovery::read(&file).expect("it is readable").expect("it is there").open().expect("it is valid");
     assert_eq!((recovered.path(), recovered.text().as_str(), recovered.has_changes()), (None, ROOM, true));
+}
+
+#[test]
+fn a_scene_of_another_program_is_recovered_with_its_origin() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let [scene, file] = ["room.gltf", "room.recovery"].map(|name| folder.path().join(name));
+    let mut document = Document::imported(&scene, ROOM, crate::scene::describe("room", ROOM.to_owned()).expect("it is valid"));
+    does(&mut document, &number("camera.fov", 30.0));
+    Recovery::of(&document).write(&file).expect("it is written");
+    let recovery = Recovery::read(&file).expect("it is readable").expect("it is there");
+    assert_eq!((recovery.file(), &recovery.path), (Some(&*scene), &None));
+    let mut recovered = recovery.open().expect("it is valid");
+    assert_eq!((recovered.path(), recovered.origin(), recovered.has_changes()), (None, Some(&*scene), true));
+    recovered.save(folder.path().join("room.toml")).expect("it is written");
+    assert_eq!(recovered.origin(), None, "it has a file of its own");
 }
 
 #[test]

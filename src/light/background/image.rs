@@ -16,8 +16,8 @@ use std::{
 use self::{turn::Turn, weights::cell_means};
 use super::{Radiant, Surrounding};
 use crate::{
-    declare::{Declare, Kind, Parameter, Parameters, Problem, Range, Resources, Value, key_of_file},
-    image::{Encoding, Texels, read_light},
+    declare::{Declare, Kind, Parameter, Parameters, Problem, Range, Resources, Value},
+    image::{Encoding, Texels, read_light_of},
     light::{ReferencePoint, parameters::IMAGE},
     math::{
         F, Lanes, Pick, U, V,
@@ -78,9 +78,9 @@ impl Surrounding for Image {
 
     fn compile(&self, resources: &Resources) -> Result<Option<ImageBackground>, Problem> {
         let turn = Turn::of(&self.transform)?;
-        let path = resources.path(&self.path);
-        let tables = resources.once("skies", format!("sky {} {:x}", key_of_file(&path), self.scale.to_bits()), || {
-            let picture = read_light(&path, Encoding::Srgb)
+        let file = resources.file(&self.path);
+        let tables = resources.once("skies", format!("sky {} {:x}", file.key(), self.scale.to_bits()), || {
+            let picture = read_light_of(&file, Encoding::Srgb)
                 .map_err(|error| Problem::at("image", error.to_string(), "this image cannot be used"))?;
             let bytes = SkyTables::bytes([picture.width, picture.height]);
             resources.reserve("image", "the texels and cells of a sky", bytes)?;

@@ -4,9 +4,11 @@
 //! be spread over lines in any way. Colours of whole numbers are sRGB, those of fractions are linear; opacity is linear.
 mod header;
 mod values;
+mod write;
 
 use std::sync::LazyLock;
 
+pub use self::write::encode;
 use self::{
     header::{Element, Encoding, Header, Kind, Layout},
     values::{Binary, Text, Values},

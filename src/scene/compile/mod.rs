@@ -26,7 +26,7 @@ use super::{
     surface::Surfaces,
 };
 use crate::{
-    declare::{Leftovers, Memo, Path, Problem, Resources, key_of_file},
+    declare::{Assets, Leftovers, Memo, Path, Problem, Resources, key_of_file},
     geometry::{Motion, Shape},
     image::{Encoding, read},
     light::{Background, Lamp},
@@ -36,22 +36,31 @@ use crate::{
     texture::{TextureCompiler, Textures},
 };
 
+/// Files that a description names: in memory, or in a folder.
+pub struct Files<'a> {
+    pub folder: &'a FilePath,
+    pub assets: Assets,
+}
+
 /// Checks a description and builds the scene, or returns its problems except those that follow from `damage`. `source` is the text of
-/// the scene file, and files are looked for in `folder`. Parts that did not change are reused from the scene `before`.
+/// the scene file. Parts that did not change are reused from the scene `before`.
 pub fn compile(
     description: &SceneDescription,
     source: SceneText,
-    folder: &FilePath,
+    files: Files,
     damage: &Damage,
     before: Option<Before>,
 ) -> Result<Scene, Vec<Problem>> {
     let start = Instant::now();
-    let resources = Resources::after(folder, before.map_or_else(Memo::default, |before| before.scene.memo.clone()));
+    let memo = before.map_or_else(Memo::default, |before| before.scene.memo.clone());
+    let Files { folder, assets } = files;
+    let resources = Resources::after(folder, memo).with_assets(assets.clone());
     let mut problems = Problems::new(damage);
     let parts = Parts::new(description, &resources, before, &mut problems);
     let Some(parts) = parts.filter(|_| problems.found.is_empty()) else { return Err(problems.found) };
     let mut scene = parts.build(description, source, resources, before).map_err(|problem| vec![problem])?;
     scene.compiled.took = start.elapsed();
+    scene.assets = assets;
     Ok(scene)
 }
 
@@ -154,6 +163,7 @@ impl Parts {
             compiled: CompileReport { parts: report, took: Duration::ZERO },
             memo,
             memory,
+            assets: Assets::default(),
         };
         scene.deepest_media = reuse::deepest_media(&scene, before);
         Ok(scene)

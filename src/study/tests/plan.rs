@@ -98,7 +98,8 @@ fn with_furnace<T>(use_it: impl FnOnce(Bench, &RenderSettings) -> T) -> T {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("scene.toml");
     std::fs::write(&path, include_str!("../../../scenes/furnace.toml")).expect("it can be written");
-    let study_scene = StudyScene::load(&path, Some([8, 8]), None).expect("a scene");
+    let scene = crate::scene::load(&path).expect("a scene");
+    let study_scene = StudyScene::new(&path, scene, Some([8, 8]), None).expect("a scene");
     let threads = Threads::new(1, SimdLevel::best()).expect("threads");
     let bench = Bench { scene: &study_scene.scene, camera: &study_scene.camera, threads: &threads, stop: &|| false };
     use_it(bench, &study_scene.scene.settings)

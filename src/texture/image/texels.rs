@@ -1,12 +1,9 @@
 //! The table of an image's texels, repeated with bilinear interpolation.
-use std::{
-    path::Path,
-    sync::{Arc, OnceLock},
-};
+use std::sync::{Arc, OnceLock};
 
 use crate::{
-    declare::{Problem, Resources, key_of_file},
-    image::{Encoding, PictureError, Texels, read_light, read_opacity},
+    declare::{NamedFile, Problem, Resources},
+    image::{Encoding, PictureError, Texels, read_light_of, read_opacity_of},
     math::{F, Lanes, Pick, U, V, round::floor},
 };
 
@@ -43,12 +40,12 @@ impl ImageTexture {
 
     /// Reads the file that a description names at a key. Textures of the same file and encoding share their texels.
     pub fn read(resources: &Resources, key: &str, path: &str, encoding: Encoding) -> Result<Arc<ImageTexture>, Problem> {
-        ImageTexture::decoded(resources, key, path, &format!("{encoding:?}"), |path| read_light(path, encoding))
+        ImageTexture::decoded(resources, key, path, &format!("{encoding:?}"), |file| read_light_of(file, encoding))
     }
 
     /// Reads the opacity of the file, as grey.
     pub fn read_opacity(resources: &Resources, key: &str, path: &str) -> Result<Arc<ImageTexture>, Problem> {
-        ImageTexture::decoded(resources, key, path, "opacity", read_opacity)
+        ImageTexture::decoded(resources, key, path, "opacity", read_opacity_of)
     }
 
     /// Decodes a file once; `what` tells its texels from others of the same file.
@@ -57,11 +54,11 @@ impl ImageTexture {
         key: &str,
         path: &str,
         what: &str,
-        read: impl FnOnce(&Path) -> Result<Texels, PictureError>,
+        read: impl FnOnce(&NamedFile) -> Result<Texels, PictureError>,
     ) -> Result<Arc<ImageTexture>, Problem> {
-        let path = resources.path(path);
-        resources.once("pictures", format!("picture {} {what}", key_of_file(&path)), || {
-            let picture = read(&path).map_err(|error| Problem::at(key, error.to_string(), "this image cannot be used"))?;
+        let file = resources.file(path);
+        resources.once("pictures", format!("picture {} {what}", file.key()), || {
+            let picture = read(&file).map_err(|error| Problem::at(key, error.to_string(), "this image cannot be used"))?;
             resources.reserve(key, "the texels of an image", size_of_val(&picture.radiance[..]) as u64)?;
             Ok(ImageTexture::new(picture))
         })

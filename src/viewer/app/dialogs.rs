@@ -4,7 +4,7 @@ use noisefall::scene::{RenderSettings, Roulette};
 use super::state::App;
 use crate::viewer::background::adviser::Adviser;
 use crate::viewer::dialogs::{
-    advice, choose_file, help, open, save,
+    advice, choose_file, help, open, remarks, save,
     save::SaveAnswer,
     scene_error,
     tour::{self, TourRequest},
@@ -32,6 +32,9 @@ impl App {
         self.show_conflict();
         self.show_recovery();
         scene_error::show_of_file(ctx, &mut self.dialogs.file_error);
+        if let Some(opened) = self.session.opened.as_ref().filter(|_| self.dialogs.remarks) {
+            remarks::show(ctx, &mut self.dialogs.remarks, &opened.remarks);
+        }
         if help::show(ctx, &mut self.dialogs.help) {
             self.start_tour();
         }

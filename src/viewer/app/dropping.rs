@@ -29,11 +29,18 @@ impl App {
         match file {
             DroppedFile::Scene(path) => self.ask_to_leave(Leaving::Open(Some(path))),
             DroppedFile::Reference(path) => self.background.loader.read_reference(path, self.session.camera),
+            DroppedFile::Mesh(path, _) if self.asks_for_scene() => self.ask_to_leave(Leaving::Open(Some(path))),
             _ if self.editor.is_none() => self.tell("Open a scene first.".to_owned(), true),
             DroppedFile::Mesh(path, bounds) => self.add_mesh(&path, bounds, pixel),
             DroppedFile::Texture(path) => self.use_as_texture(&path, pixel),
             DroppedFile::Sky(path) => self.use_as_sky(&path),
         }
+    }
+
+    /// Whether a mesh is to be the scene: there is no object that it could stand beside, or the window asks for a scene to open.
+    fn asks_for_scene(&mut self) -> bool {
+        let is_empty = self.editor.as_ref().is_none_or(|editor| editor.document.description().objects.is_empty());
+        self.dialogs.open.take().is_some() || is_empty
     }
 
     /// Adds a mesh where it was dropped, or else where the image was clicked last.

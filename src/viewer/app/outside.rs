@@ -1,8 +1,9 @@
 //! Follows the files of the open scene: other programs can change them.
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use noisefall::{
     edit::Outside,
+    import::is_foreign,
     scene::{SceneError, load},
 };
 
@@ -13,7 +14,7 @@ use crate::viewer::background::{
 };
 use crate::viewer::dialogs::{
     conflict::{self, Conflict, ConflictAnswer},
-    unsaved::SaveRequest,
+    unsaved::{Leaving, SaveRequest},
 };
 
 impl App {
@@ -29,6 +30,8 @@ impl App {
         while let Some(path) = self.background.files.take() {
             if self.editor.as_ref().is_some_and(|editor| editor.document.path() == Some(&path)) {
                 self.outside.recheck();
+            } else if self.session.path() == Some(&path) {
+                self.reload_foreign(path);
             } else {
                 // The scene names it. The compile reads files that have changed.
                 self.follow_document();
@@ -59,11 +62,18 @@ impl App {
         }
         let is_other = before.is_none_or(|(of, _)| of != path);
         let named = named_files(document.description()).into_iter().map(|file| folder.join(file));
-        let files = named.chain(document.path().map(Path::to_owned)).collect();
+        let foreign = opened.path.clone().filter(|path| is_foreign(path));
+        let files = named.chain(document.path().map(Path::to_owned)).chain(foreign).collect();
         self.background.files.watch(files);
         self.outside.watched = Some((path.to_owned(), version));
         // It could have changed before it was watched.
         self.outside.is_due |= is_other;
+    }
+
+    /// Opens the file of another program again that has changed.
+    fn reload_foreign(&mut self, path: PathBuf) {
+        self.window.kept_view = Some((path.clone(), self.session.camera, self.session.settings));
+        self.ask_to_leave(Leaving::Open(Some(path)));
     }
 
     /// Takes up the file as it is now. `save` is a save that met it.

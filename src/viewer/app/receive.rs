@@ -96,7 +96,9 @@ impl App {
             catalogue::remember(&mut self.catalogue, &opened.name, path);
             self.preferences.change(|saved| recent::note(&mut saved.recent, path));
         }
-        (session.camera, session.settings) = (scene.camera, scene.settings);
+        let kept = self.window.kept_view.take().filter(|(path, ..)| opened.path.as_ref() == Some(path));
+        (session.camera, session.settings) =
+            kept.map_or((scene.camera, scene.settings), |(_, camera, settings)| (camera, settings));
         session.budget = Budget { max_spp: scene.spp, steps: session.budget.steps, ..Budget::default() };
         (session.comparison, session.pinned, session.dropped_reference) = (None, None, None);
         self.background.adviser = None;
@@ -113,6 +115,7 @@ impl App {
         self.editor = Some(SceneEditor::new(document));
         (self.outside, self.saving) = (OutsideChanges::default(), None);
         (self.dialogs.file, self.dialogs.conflict, self.dialogs.file_error) = (None, None, None);
+        self.dialogs.remarks = !opened.remarks.is_empty();
         self.window.view.fit();
         session.opened = Some(opened);
     }

@@ -20,7 +20,8 @@ impl App {
         }
     }
 
-    fn leave(&mut self, leaving: Leaving) {
+    /// Leaves the open scene, whatever is unsaved.
+    pub fn leave(&mut self, leaving: Leaving) {
         self.background.recovery.restoring = None;
         match leaving {
             Leaving::Open(path) => self.background.loader.open(path),

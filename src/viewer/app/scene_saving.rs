@@ -1,8 +1,8 @@
 //! Saves the open scene off the UI thread, one file at a time.
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crossbeam_channel::TryRecvError;
-use noisefall::edit::Written;
+use noisefall::edit::{Version, Written};
 
 use super::{file_tasks::PendingSave, state::App};
 use crate::viewer::background::{
@@ -10,7 +10,10 @@ use crate::viewer::background::{
     file_state::{SaveResult, save},
     recent,
 };
-use crate::viewer::dialogs::{save_target::SaveTarget, unsaved::SaveRequest};
+use crate::viewer::dialogs::{
+    save_target::SaveTarget,
+    unsaved::{Leaving, SaveRequest},
+};
 
 impl App {
     /// Saves the scene to its file. A scene without a file asks for one.
@@ -43,8 +46,9 @@ impl App {
         let Some(editor) = &self.editor else { return };
         let Some(path) = request.path.as_deref().or(editor.document.path()).map(Path::to_owned) else { return };
         let (document, opened) = (editor.document.clone(), self.session.path().map(Path::to_owned));
+        let assets = self.session.opened.as_ref().map(|opened| opened.scene.assets.clone()).unwrap_or_default();
         let (to, replaces) = (path.clone(), request.replaces);
-        let result = self.background.saver.run(move || save(&document, opened.as_deref(), &to, replaces));
+        let result = self.background.saver.run(move || save(&document, opened.as_deref(), &assets, &to, replaces));
         self.saving = Some(PendingSave { request, path, result, next: None });
     }
 
@@ -63,10 +67,25 @@ impl App {
                 self.take_saved(&path, written);
                 request.leaving.into_iter().for_each(|leaving| self.ask_to_leave(leaving));
             }
+            SaveResult::Exported(version) => self.take_exported(path, version, request.leaving),
             SaveResult::Differs(state) => self.follow_file(state, Some(request)),
             SaveResult::Failed(error) => self.tell(format!("Not saved: {error}"), true),
         }
         next.into_iter().for_each(|next| self.request_save(next));
+    }
+
+    /// Goes on with a scene of another program in the file that was written: its meshes and textures are files now.
+    fn take_exported(&mut self, path: PathBuf, version: Version, leaving: Option<Leaving>) {
+        if self.editor.as_ref().is_some_and(|editor| editor.document.version() != version) {
+            let text = format!("Saved {} without your latest changes. Save again to include them.", path.display());
+            return self.tell(text, true);
+        }
+        self.tell(format!("Saved {}", path.display()), false);
+        if let Some(leaving) = leaving {
+            return self.leave(leaving);
+        }
+        self.window.kept_view = Some((path.clone(), self.session.camera, self.session.settings));
+        self.background.loader.open(Some(path));
     }
 
     fn take_saved(&mut self, path: &Path, written: Written) {

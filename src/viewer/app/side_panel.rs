@@ -88,7 +88,7 @@ impl App {
         }
     }
 
-    pub fn status_bar(&self, ui: &mut Ui) {
+    pub fn status_bar(&mut self, ui: &mut Ui) {
         let (session, results, over_second) = (&self.session, &self.results, self.window.over_second);
         let frame = if over_second { &results.second_frame } else { &results.shown };
         let values = if over_second { &results.second_values } else { &results.values };
@@ -109,6 +109,6 @@ impl App {
             pixel: self.window.hovered.and_then(pixel),
             is_denoised: self.shown_view().is_denoised(),
         };
-        bar.show(ui);
+        self.dialogs.remarks |= bar.show(ui);
     }
 }

@@ -1,6 +1,4 @@
 //! The state of the window.
-use std::path::PathBuf;
-
 use noisefall::render::threads::Threads;
 
 use super::{
@@ -8,10 +6,23 @@ use super::{
     selection::Selection, session::Session, window_state::Dialogs, window_state::WindowState,
 };
 use crate::viewer::background::{
-    adviser::Adviser, background_task::BackgroundTask, catalogue, catalogue::CatalogueEntry, denoiser::Denoiser,
-    display_pipeline::DisplayPipeline, dropped::DropReader, feature_finder::FeatureFinder, file_watcher::FileWatcher,
-    loader::Loader, preferences::Preferences, recovery_keeper::RecoveryKeeper, render_worker::RenderWorkerHandle, saver::Saver,
-    sequence_task::SequenceTask, settler::Settler, tev_link::TevLink,
+    adviser::Adviser,
+    background_task::BackgroundTask,
+    catalogue,
+    catalogue::CatalogueEntry,
+    denoiser::Denoiser,
+    display_pipeline::DisplayPipeline,
+    dropped::DropReader,
+    feature_finder::FeatureFinder,
+    file_watcher::FileWatcher,
+    loader::{GivenScene, Loader},
+    preferences::Preferences,
+    recovery_keeper::RecoveryKeeper,
+    render_worker::RenderWorkerHandle,
+    saver::Saver,
+    sequence_task::SequenceTask,
+    settler::Settler,
+    tev_link::TevLink,
 };
 use crate::viewer::instruments::{convergence::history::History as ErrorHistory, path::inspector::PathInspector};
 use crate::viewer::panels::frame_times::FrameTimes;
@@ -64,7 +75,7 @@ pub struct Background {
 }
 
 impl App {
-    pub fn new(ctx: &egui::Context, threads: Threads, scene: Option<PathBuf>, preferences: Preferences) -> App {
+    pub fn new(ctx: &egui::Context, threads: Threads, scene: GivenScene, preferences: Preferences) -> App {
         set_fonts(ctx);
         set_themes(ctx, preferences.now.theme.as_deref());
         let session = Session::new(threads.count());
@@ -84,7 +95,7 @@ impl App {
             sequence: None,
             adviser: None,
         };
-        background.loader.open(scene);
+        background.loader.open_given(scene);
         App {
             ctx: ctx.clone(),
             session,

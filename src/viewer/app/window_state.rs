@@ -1,7 +1,10 @@
 //! The state of the window itself: tools, tabs and dialogs.
 use std::path::PathBuf;
 
-use noisefall::render::Region;
+use noisefall::{
+    render::Region,
+    scene::{Camera, RenderSettings},
+};
 
 use crate::viewer::background::{recovery_files::FoundRecovery, sequence_task::SequenceRequest};
 use crate::viewer::canvas::{interaction::Tool, picture_view::PictureView};
@@ -38,6 +41,8 @@ pub struct WindowState {
     /// The window closes, whatever is unsaved.
     pub quits: bool,
     pub title: String,
+    /// A file whose scene is shown as the one before it, with its camera and settings, when it is opened.
+    pub kept_view: Option<(PathBuf, Camera, RenderSettings)>,
 }
 
 #[derive(Default)]
@@ -58,6 +63,8 @@ pub struct Dialogs {
     pub recovery: Option<FoundRecovery>,
     /// Why the last scene could not be opened.
     pub scene_error: Option<String>,
+    /// The list of what was not taken over exactly is open.
+    pub remarks: bool,
     /// Why the file of the open scene cannot be reloaded.
     pub file_error: Option<String>,
     pub notices: Notices,

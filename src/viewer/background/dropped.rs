@@ -85,8 +85,8 @@ impl DropReader {
 fn purpose(path: PathBuf, resolution: [u32; 2]) -> Result<DroppedFile, String> {
     let extension = path.extension().map(|extension| extension.to_string_lossy().to_ascii_lowercase());
     match extension.as_deref() {
-        Some("toml") => Ok(DroppedFile::Scene(path)),
-        Some("obj" | "ply") => {
+        Some("toml" | "gltf" | "glb" | "xml" | "pbrt") => Ok(DroppedFile::Scene(path)),
+        Some("obj" | "ply" | "stl") => {
             let model = read_model(&path).map_err(|error| error.to_string())?;
             Ok(DroppedFile::Mesh(path, bounds(&model)))
         }
@@ -105,7 +105,7 @@ fn purpose(path: PathBuf, resolution: [u32; 2]) -> Result<DroppedFile, String> {
         _ => {
             let name = path.file_name().unwrap_or_default().to_string_lossy();
             Err(format!(
-                "{name} cannot be used. Drop a scene (TOML), a mesh (OBJ, PLY), a texture (PNG, JPEG, TGA, WebP), or a sky or \
+                "{name} cannot be used. Drop a scene (TOML, glTF, GLB, XML, PBRT), a mesh (OBJ, PLY, STL), a texture (PNG, JPEG, TGA, WebP), or a sky or \
                  reference (EXR, HDR)."
             ))
         }

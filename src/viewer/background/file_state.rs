@@ -2,8 +2,9 @@
 use std::path::{Path, PathBuf};
 
 use noisefall::{
-    declare::{Declare, Parameter, Parameters, Value},
-    edit::{Document, Outside, Written},
+    declare::{Assets, for_each_file},
+    edit::{Document, Outside, Version, Written},
+    export::{self, Source},
     scene::{description::SceneDescription, read_text},
 };
 
@@ -30,6 +31,8 @@ pub struct BrokenFile {
 /// The result of saving a scene.
 pub enum SaveResult {
     Written(Written),
+    /// A scene of another program was written with its meshes and textures. The scene that is open still has them in memory.
+    Exported(Version),
     /// The file was changed by another program, and stays as it is.
     Differs(FileState),
     Failed(String),
@@ -50,8 +53,13 @@ pub fn compare(document: &Document) -> FileState {
     }
 }
 
-/// Saves a document that was opened from a file. A file that another program has changed is replaced only if `replaces` says so.
-pub fn save(document: &Document, opened: Option<&Path>, path: &Path, replaces: bool) -> SaveResult {
+/// Saves a document that was opened from a file. `assets` are the files of the scene that are in memory. A file that another program has changed is replaced only if `replaces` says so.
+pub fn save(document: &Document, opened: Option<&Path>, assets: &Assets, path: &Path, replaces: bool) -> SaveResult {
+    if let Some(origin) = document.origin() {
+        let folder = origin.parent().unwrap_or(Path::new(""));
+        let exported = export::write(Source { description: document.description(), assets, folder }, path);
+        return exported.map_or_else(|error| SaveResult::Failed(error.to_string()), |_| SaveResult::Exported(document.version()));
+    }
     let folder = |path: &Path| path.parent().and_then(|folder| folder.canonicalize().ok());
     if let Some(opened) = opened.filter(|opened| folder(opened) != folder(path))
         && named_files(document.description()).iter().any(|file| file.is_relative())
@@ -70,17 +78,9 @@ pub fn save(document: &Document, opened: Option<&Path>, path: &Path, replaces: b
 
 /// The files that a scene names.
 pub fn named_files(description: &SceneDescription) -> Vec<PathBuf> {
-    struct Files(Vec<PathBuf>);
-    impl Parameters for Files {
-        fn value(&mut self, _: &Parameter, value: Value<'_>) {
-            if let Value::File(path) = value {
-                self.0.push(PathBuf::from(&*path));
-            }
-        }
-    }
-    let mut files = Files(Vec::new());
-    description.clone().parameters(&mut files);
-    files.0
+    let mut files = Vec::new();
+    for_each_file(&mut description.clone(), &mut |path| files.push(PathBuf::from(&*path)));
+    files
 }
 
 #[cfg(test)]
@@ -88,10 +88,22 @@ mod tests {
     use noisefall::{
         declare::{OwnedValue, Path as ParameterPath},
         edit::Edit,
-        scene::BUILT_IN,
+        scene::{BUILT_IN, describe},
     };
 
     use super::*;
+
+    #[test]
+    fn a_scene_of_another_program_is_written_with_its_files_and_keeps_its_document() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let (opened, path) = (folder.path().join("room.gltf"), folder.path().join("room.toml"));
+        let document = Document::imported(&opened, BUILT_IN, describe("room", BUILT_IN.to_owned()).expect("it is a scene"));
+        let done = save(&document, Some(&opened), &Assets::default(), &path, false);
+        assert!(matches!(done, SaveResult::Exported(version) if version == document.version()));
+        assert!(path.is_file() && document.path().is_none());
+        let refused = save(&document, Some(&opened), &Assets::default(), &folder.path().join("no/room.toml"), false);
+        assert!(matches!(refused, SaveResult::Failed(error) if error.contains("there is no folder")));
+    }
 
     #[test]
     fn a_file_that_was_changed_outside_is_replaced_only_on_demand() {
@@ -104,7 +116,9 @@ mod tests {
         for (text, is_scene) in [(format!("{BUILT_IN}\n# from outside\n"), true), ("format = 1\ncamera = 3\n".to_owned(), false)]
         {
             std::fs::write(&path, &text).expect("it is written");
-            let SaveResult::Differs(state) = save(&document, Some(&path), &path, false) else { panic!("it is replaced") };
+            let SaveResult::Differs(state) = save(&document, Some(&path), &Assets::default(), &path, false) else {
+                panic!("it is replaced")
+            };
             match state {
                 FileState::Changed(outside) => assert!(is_scene && !outside.conflicts),
                 FileState::Broken(broken) => assert!(!is_scene && broken.text.as_ref() == Some(&text)),
@@ -112,13 +126,17 @@ mod tests {
             }
             assert_eq!(std::fs::read_to_string(&path).expect("it is there"), text);
         }
-        let SaveResult::Written(written) = save(&document, Some(&path), &path, true) else { panic!("it is refused") };
+        let SaveResult::Written(written) = save(&document, Some(&path), &Assets::default(), &path, true) else {
+            panic!("it is refused")
+        };
         document.note_written(written);
         assert!(!document.has_changes() && matches!(compare(&document), FileState::Known));
         std::fs::remove_file(&path).expect("it is there");
         assert!(matches!(compare(&document), FileState::Missing));
         document.keep_own("");
         assert!(document.has_changes() && matches!(compare(&document), FileState::Known));
-        assert!(matches!(save(&document, Some(&path), &path, false), SaveResult::Written(_)) && path.is_file());
+        assert!(
+            matches!(save(&document, Some(&path), &Assets::default(), &path, false), SaveResult::Written(_)) && path.is_file()
+        );
     }
 }

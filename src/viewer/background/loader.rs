@@ -1,13 +1,14 @@
 //! Reading and compiling scenes off the UI thread. The latest request wins.
 use std::{
-    path::{Path, PathBuf},
+    path::{Path, PathBuf, absolute},
     sync::Arc,
 };
 
 use noisefall::{
     edit::{Document, Recovery, Template},
+    import::{self, ImportOptions, Opened, Remarks},
     render::truth::Reference,
-    scene::{BUILT_IN, Camera, Scene, Truth, built_in, description::SceneDescription, load, parse},
+    scene::{BUILT_IN, Camera, Scene, Truth, built_in, description::SceneDescription, parse},
 };
 
 use super::{background_task::BackgroundTask, catalogue};
@@ -28,6 +29,25 @@ pub struct OpenedScene {
     pub materials: Arc<[String]>,
     /// Things that are legal but probably not meant.
     pub warnings: Vec<String>,
+    /// What was not taken over exactly from the file of another program.
+    pub remarks: Arc<Remarks>,
+}
+
+/// A scene of the command line.
+#[derive(Clone, Debug, Default)]
+pub struct GivenScene {
+    /// The file; `None` is the built-in scene.
+    pub path: Option<PathBuf>,
+    /// Options of the reader, also when the file is opened again.
+    pub options: ImportOptions,
+    /// Whether remarks are errors.
+    pub strict: bool,
+}
+
+impl From<Option<PathBuf>> for GivenScene {
+    fn from(path: Option<PathBuf>) -> GivenScene {
+        GivenScene { path, ..GivenScene::default() }
+    }
 }
 
 impl OpenedScene {
@@ -68,16 +88,31 @@ pub struct Loader {
     ctx: egui::Context,
     pending: Option<BackgroundTask<OpenResult>>,
     reference: Option<BackgroundTask<ReferenceResult>>,
+    /// The scene of the command line.
+    given: GivenScene,
 }
 
 impl Loader {
     pub fn new(ctx: &egui::Context) -> Loader {
-        Loader { ctx: ctx.clone(), pending: None, reference: None }
+        Loader { ctx: ctx.clone(), pending: None, reference: None, given: GivenScene::default() }
+    }
+
+    /// Opens the scene of the command line.
+    pub fn open_given(&mut self, scene: GivenScene) {
+        self.given = scene.clone();
+        self.open(scene.path);
     }
 
     /// Opens a scene file, or the built-in scene.
     pub fn open(&mut self, path: Option<PathBuf>) {
-        self.pending = Some(BackgroundTask::start(&self.ctx, |_| open(path)));
+        let scene = if self.is_given(path.as_deref()) { GivenScene { path, ..self.given.clone() } } else { path.into() };
+        self.pending = Some(BackgroundTask::start(&self.ctx, |_| open(scene)));
+    }
+
+    /// Whether a file is that of the command line, whose options it takes.
+    fn is_given(&self, path: Option<&Path>) -> bool {
+        let paths = self.given.path.as_deref().zip(path);
+        paths.is_some_and(|(given, path)| absolute(given).ok() == absolute(path).ok())
     }
 
     /// Begins a new scene.
@@ -87,7 +122,9 @@ impl Loader {
 
     /// Opens a scene with the changes that were not saved.
     pub fn restore(&mut self, recovery: Recovery) {
-        self.pending = Some(BackgroundTask::start(&self.ctx, move |_| restore(recovery)));
+        let is_given = self.is_given(recovery.origin.as_deref());
+        let options = if is_given { self.given.options.clone() } else { ImportOptions::default() };
+        self.pending = Some(BackgroundTask::start(&self.ctx, move |_| restore(&recovery, &options)));
     }
 
     /// Reads a reference for images by this camera.
@@ -122,17 +159,26 @@ impl Loader {
     }
 }
 
-fn open(path: Option<PathBuf>) -> OpenResult {
-    let Some(path) = path else {
+fn open(scene: GivenScene) -> OpenResult {
+    let GivenScene { path: Some(path), options, strict } = scene else {
         let document = Document::untitled(BUILT_IN).map_err(|error| error.report())?;
         return Ok(opened(built_in(), BUILT_IN_NAME.to_owned(), document, None));
     };
-    let scene = load(&path).map_err(|error| error.report())?;
+    let Opened { scene, remarks, description } = import::open(&path, &options).map_err(|error| error.report())?;
+    if strict && !remarks.is_empty() {
+        let lines = remarks.lines(remarks.len()).join("\n");
+        return Err(format!("{}: with --strict, each of these is an error:\n{lines}", path.display()));
+    }
     // A picture carries its scene, and is not replaced by it.
     let is_picture = path.extension().is_some_and(|extension| !extension.eq_ignore_ascii_case("toml"));
-    let document = if is_picture { Document::untitled(&scene.source) } else { Document::open(&path, &scene.source) };
+    let document = match description {
+        Some(description) => Ok(Document::imported(&path, &scene.source, (*description).clone())),
+        None if is_picture => Document::untitled(&scene.source),
+        None => Document::open(&path, &scene.source),
+    };
     let name = catalogue::name(&scene.title, &path);
-    Ok(opened(scene, name, document.map_err(|error| error.report())?, Some(path)))
+    let (opened, document) = opened(scene, name, document.map_err(|error| error.report())?, Some(path));
+    Ok((OpenedScene { remarks: Arc::new(remarks), ..opened }, document))
 }
 
 fn begin(template: Template) -> OpenResult {
@@ -141,19 +187,28 @@ fn begin(template: Template) -> OpenResult {
     Ok(opened(scene, template.title.to_owned(), document, None))
 }
 
-fn restore(recovery: Recovery) -> OpenResult {
+fn restore(recovery: &Recovery, options: &ImportOptions) -> OpenResult {
     let document = recovery.open().map_err(|error| error.report())?;
-    let source = recovery.path.as_ref().map_or_else(|| "recovered scene".to_owned(), |path| path.display().to_string());
-    let scene = parse(&source, recovery.text).map_err(|error| error.report())?;
+    let source = recovery.file().map_or_else(|| "recovered scene".to_owned(), |path| path.display().to_string());
+    let scene = match &recovery.origin {
+        // Its meshes and textures are in the original only.
+        Some(origin) => import::read(origin, options)
+            .and_then(|imported| Arc::new(document.description().clone()).build_with(origin, imported.assets)),
+        None => parse(&source, recovery.text.clone()),
+    };
+    let scene = scene.map_err(|error| error.report())?;
     let name = catalogue::name(&scene.title, Path::new(&source));
-    Ok(opened(scene, name, document, recovery.path))
+    Ok(opened(scene, name, document, recovery.file().map(Path::to_owned)))
 }
 
 fn opened(scene: Scene, name: String, document: Document, path: Option<PathBuf>) -> (OpenedScene, Document) {
     let truth = Reference::of(&scene).map(Arc::new);
     let (materials, warnings) = (scene.legend().names.into(), scene.warnings().to_vec());
     let description = Arc::new(document.description().clone());
-    (OpenedScene { scene: Arc::new(scene), name, path, truth, description, materials, warnings }, document)
+    (
+        OpenedScene { scene: Arc::new(scene), name, path, truth, description, materials, warnings, remarks: Arc::default() },
+        document,
+    )
 }
 
 #[cfg(test)]

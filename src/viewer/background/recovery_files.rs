@@ -68,12 +68,12 @@ fn read(file: PathBuf) -> Option<FoundRecovery> {
     }
     let changed = |path: &Path| path.metadata().and_then(|metadata| metadata.modified()).ok();
     let written = changed(&file)?;
-    let is_older = recovery.path.as_deref().and_then(changed).is_some_and(|later| later > written);
+    let is_older = recovery.file().and_then(changed).is_some_and(|later| later > written);
     Some(FoundRecovery { file, recovery, age: written.elapsed().unwrap_or_default(), is_older })
 }
 
 fn is_of(recovery: &Recovery, scene: Option<&Path>) -> bool {
-    scene.is_none_or(|scene| recovery.path.as_deref().is_some_and(|path| in_full(path) == in_full(scene)))
+    scene.is_none_or(|scene| recovery.file().is_some_and(|path| in_full(path) == in_full(scene)))
 }
 
 fn is_in_use(file: &Path) -> bool {

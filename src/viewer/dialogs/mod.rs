@@ -9,6 +9,7 @@ pub mod notices;
 pub mod open;
 mod question;
 pub mod recovery;
+pub mod remarks;
 pub mod save;
 pub mod save_target;
 pub mod scene_error;

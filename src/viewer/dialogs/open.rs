@@ -8,6 +8,9 @@ use crate::viewer::{
     widgets::path_field::PathField,
 };
 
+/// Extensions of the files that can be opened.
+const EXTENSIONS: [&str; 10] = ["toml", "gltf", "glb", "xml", "pbrt", "obj", "ply", "stl", "png", "exr"];
+
 /// A field with the folder of the open scene in it.
 pub fn path_field(scene: Option<&Path>) -> PathField {
     let path = scene.map(in_full);
@@ -81,7 +84,8 @@ fn folder_name(path: &Path) -> String {
 fn dialog_body(ui: &mut egui::Ui, field: &mut PathField) -> (bool, bool) {
     ui.set_width(460.0);
     ui.label(
-        "Type the path of a scene (TOML), or of an image that Noisefall has saved. You can also drop the file on the window.",
+        "Type the path of a scene (TOML, glTF, GLB, Mitsuba XML, PBRT), of a mesh (OBJ, PLY, STL), or of an image that Noisefall has \
+         saved. You can also drop the file on the window.",
     );
     ui.add_space(4.0);
     let (mut chosen, mut cancelled) = (field.show(ui), false);
@@ -89,7 +93,7 @@ fn dialog_body(ui: &mut egui::Ui, field: &mut PathField) -> (bool, bool) {
     ui.horizontal(|ui| {
         let folder = field.path().and_then(|path| path.parent().map(ToOwned::to_owned));
         field.browse(ui, |dialog| {
-            let dialog = dialog.add_filter("Noisefall scene or image", &["toml", "png", "exr"]);
+            let dialog = dialog.add_filter("Scene, mesh or image", &EXTENSIONS);
             folder.into_iter().fold(dialog, rfd::FileDialog::set_directory).pick_file()
         });
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {

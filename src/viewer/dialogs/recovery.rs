@@ -17,7 +17,7 @@ pub enum RecoveryAnswer {
 /// Asks the question.
 pub fn show(ctx: &egui::Context, found: &FoundRecovery) -> Option<RecoveryAnswer> {
     let explain = |ui: &mut Ui| {
-        let path = found.recovery.path.as_deref();
+        let path = found.recovery.file();
         let scene = path.map_or_else(|| "a scene without a file".to_owned(), |path| format!("`{}`", catalogue::name("", path)));
         let label = ui.label(format!("Restore unsaved changes of {scene} from {} ago?", in_words(found.age)));
         path.into_iter().for_each(|path| _ = label.clone().on_hover_text(path.display().to_string()));

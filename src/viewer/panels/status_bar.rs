@@ -32,8 +32,9 @@ pub struct StatusBar<'a> {
 }
 
 impl StatusBar<'_> {
-    pub fn show(&self, ui: &mut egui::Ui) {
-        let status = self.status;
+    /// Shows the line. Returns whether the list of remarks is asked for.
+    pub fn show(&self, ui: &mut egui::Ui) -> bool {
+        let (status, mut asks) = (self.status, false);
         ui.horizontal(|ui| {
             let (colour, state) = self.state_text(ui);
             let (dot, _) = ui.allocate_exact_size(egui::vec2(10.0, 10.0), egui::Sense::hover());
@@ -62,6 +63,7 @@ impl StatusBar<'_> {
             ui.separator();
             self.bias_label(ui);
             self.trouble_label(ui);
+            asks = self.remarks_link(ui);
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                 // Less room shows no number. The text is cut where it would lie over what is at the left.
                 const WIDTH: f32 = 160.0;
@@ -70,6 +72,16 @@ impl StatusBar<'_> {
                 }
             });
         });
+        asks
+    }
+
+    /// The number of things that were not taken over exactly. Returns whether it was clicked.
+    fn remarks_link(&self, ui: &mut egui::Ui) -> bool {
+        let Some(opened) = self.opened.filter(|opened| !opened.remarks.is_empty()) else { return false };
+        ui.separator();
+        ui.link(remarks_text(opened.remarks.len()))
+            .on_hover_text("Lists what could not be taken over exactly from the file.")
+            .clicked()
     }
 
     fn state_text(&self, ui: &egui::Ui) -> (Color32, String) {
@@ -167,6 +179,10 @@ impl StatusBar<'_> {
             ui.add(text).on_hover_text(format!("{}\n{}", readout.text, readout.doc));
         }
     }
+}
+
+fn remarks_text(count: usize) -> String {
+    if count == 1 { "1 remark".to_owned() } else { format!("{count} remarks") }
 }
 
 /// The text with a capital at its beginning.

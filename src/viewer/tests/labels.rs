@@ -8,7 +8,11 @@ use noisefall::{
 };
 
 use super::*;
-use crate::viewer::background::{catalogue::SceneRequest, display_image::ReferenceComparison, loader::OpenedScene};
+use crate::viewer::background::{
+    catalogue::SceneRequest,
+    display_image::ReferenceComparison,
+    loader::{GivenScene, OpenedScene},
+};
 use crate::viewer::dialogs::save_target::SaveTarget as File;
 use crate::viewer::instruments::{convergence::curve::Moment, convergence::history::Quantity, tabs::InstrumentTab};
 use crate::viewer::panels::{views, views::ReferenceSource};
@@ -16,11 +20,19 @@ use crate::viewer::panels::{views, views::ReferenceSource};
 /// An app whose fields nobody changes: it shows what it is told.
 pub(super) fn app() -> App {
     let threads = Threads::new(1, SimdLevel::best()).expect("a thread can be had");
-    let mut app = App::new(&egui::Context::default(), threads, None, Preferences::default());
+    let mut app = App::new(&egui::Context::default(), threads, GivenScene::default(), Preferences::default());
     let (scene, materials) = (Arc::new(built_in()), Arc::from([]));
     let description = Arc::default();
-    app.session.opened =
-        Some(OpenedScene { scene, name: String::new(), path: None, truth: None, description, materials, warnings: Vec::new() });
+    app.session.opened = Some(OpenedScene {
+        scene,
+        name: String::new(),
+        path: None,
+        truth: None,
+        description,
+        materials,
+        warnings: Vec::new(),
+        remarks: Arc::default(),
+    });
     app
 }
 
@@ -60,7 +72,7 @@ fn the_line_at_the_bottom_has_every_figure_in_its_unit() {
     app.session.budget.max_spp = Some(64);
     app.results.comparison = Some(ReferenceComparison { rel_mse: 0.0025, bias: None });
     (app.results.shown, app.window.hovered) = (Some(frame()), Some([1, 0]));
-    let texts = said(&mut app, |app, ui| app.status_bar(ui));
+    let texts = said(&mut app, App::status_bar);
     assert_says(&texts, &["7 / 64 spp, 12 in the region", "2.5 M samples/s", "2.0 s", "noise 4.00 %", "true error 5.00 %"]);
     assert_says(&texts, &["(1, 0)  RGB 0.100 0.200 0.300  Y 0.186 ± 0.050 W/(sr·m²)"]);
 }
@@ -70,7 +82,7 @@ fn samples_that_are_no_numbers_and_paths_that_were_cut_are_counted() {
     let mut app = app();
     let status = &mut app.results.status;
     (status.invalid_samples, status.first_invalid, status.cut_paths) = (3, Some(SampleId { pixel: [4, 5], sample: 6 }), 1);
-    let texts = said(&mut app, |app, ui| app.status_bar(ui));
+    let texts = said(&mut app, App::status_bar);
     assert_says(&texts, &["3 invalid samples", "paths cut after 4096 bounces"]);
 }
 

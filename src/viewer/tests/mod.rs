@@ -11,6 +11,7 @@ mod dropping;
 mod editing;
 mod exports;
 mod fields;
+mod foreign_scenes;
 mod glyphs;
 mod instruments;
 mod labels;
@@ -103,7 +104,7 @@ fn open_with(scene: Option<PathBuf>, prepare: impl Fn(&mut App) + 'static) -> Wi
     let draw = move |ui: &mut egui::Ui, app: &mut Lazy| {
         let make = || {
             let threads = Threads::new(1, SimdLevel::best()).expect("a thread can be had");
-            let mut app = App::new(ui.ctx(), threads, scene.clone(), Preferences::default());
+            let mut app = App::new(ui.ctx(), threads, scene.clone().into(), Preferences::default());
             prepare(&mut app);
             app
         };

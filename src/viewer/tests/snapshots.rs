@@ -13,7 +13,7 @@ fn at_rest(scene: &str, spp: u32, change: impl FnOnce(&mut App)) -> Window {
     let draw = move |ui: &mut egui::Ui, app: &mut Lazy| {
         let make = || {
             let threads = Threads::new(1, SimdLevel::best()).expect("a thread can be had");
-            App::new(ui.ctx(), threads, Some(scene.clone()), Preferences::default())
+            App::new(ui.ctx(), threads, Some(scene.clone()).into(), Preferences::default())
         };
         app.0.get_or_insert_with(make).show(ui);
     };

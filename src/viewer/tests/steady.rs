@@ -138,7 +138,7 @@ fn dense() -> Window {
     let draw = move |ui: &mut egui::Ui, app: &mut Lazy| {
         let make = || {
             let threads = Threads::new(1, SimdLevel::best()).expect("a thread can be had");
-            App::new(ui.ctx(), threads, Some(shipped("furnace")), Preferences::default())
+            App::new(ui.ctx(), threads, Some(shipped("furnace")).into(), Preferences::default())
         };
         app.0.get_or_insert_with(make).show(ui);
     };

@@ -1,0 +1,85 @@
+//! `noisefall convert`: writes a scene of any format as a scene file of Noisefall.
+use std::{
+    path::{Path, PathBuf},
+    process::ExitCode,
+    sync::Arc,
+};
+
+use noisefall::{
+    export::{self, Exported, Source},
+    import::Opened,
+    scene::describe,
+};
+
+use super::{
+    messages::{Failure, print, wrong_usage},
+    scene_file::SceneOptions,
+};
+
+const NOTES: &str = "\
+Meshes and textures go to the folder OUT.files beside OUT.toml. Files that lie in the folder of OUT.toml stay where they are. Existing \
+files of the same names are replaced.
+
+Example: noisefall convert room.gltf -o room.toml";
+
+#[derive(clap::Args)]
+#[command(after_help = NOTES)]
+pub struct Arguments {
+    /// Scene file: .toml, .gltf, .glb, .xml (Mitsuba), .pbrt, .obj, .ply, .stl, or an image that carries its scene
+    scene: PathBuf,
+    /// Scene file to write (.toml)
+    #[arg(short, long, value_name = "OUT")]
+    output: PathBuf,
+    #[command(flatten)]
+    options: SceneOptions,
+}
+
+pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
+    let Arguments { scene: path, output, options } = arguments;
+    export::check(output).map_err(|error| error.to_string())?;
+    if is_same(path, output) {
+        return Ok(wrong_usage(&format!("{}: the converted scene would replace the scene itself", output.display())));
+    }
+    let Opened { scene, description, .. } = options.open(path)?;
+    let of_text = || describe(&path.display().to_string(), scene.source.clone()).map(Arc::new);
+    let description = description.map_or_else(of_text, Ok).map_err(|error| error.report())?;
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let source = Source { description: &description, assets: &scene.assets, folder };
+    let exported = export::write(source, output).map_err(|error| error.to_string())?;
+    print(&format!("{}: {}", output.display(), outcome(&exported, description.objects.len())))?;
+    Ok(ExitCode::SUCCESS)
+}
+
+fn is_same(a: &Path, b: &Path) -> bool {
+    a.canonicalize().ok().zip(b.canonicalize().ok()).is_some_and(|(a, b)| a == b)
+}
+
+/// What was written, as in `12 objects; 3 files written and 2 copied to room.files`.
+fn outcome(exported: &Exported, objects: usize) -> String {
+    let objects = if objects == 1 { "1 object".to_owned() } else { format!("{objects} objects") };
+    let Exported { folder: Some(folder), written, copied, .. } = exported else { return objects };
+    let files = |count: usize| if count == 1 { "1 file".to_owned() } else { format!("{count} files") };
+    let what = match (written, copied) {
+        (written, 0) => format!("{} written to", files(*written)),
+        (0, copied) => format!("{} copied to", files(*copied)),
+        (written, copied) => format!("{} written and {copied} copied to", files(*written)),
+    };
+    format!("{objects}; {what} {}", folder.display())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_outcome_counts_files() {
+        let of = |written, copied| {
+            let folder = (written + copied > 0).then(|| PathBuf::from("a.files"));
+            outcome(&Exported { text: String::new(), folder, written, copied }, 2)
+        };
+        assert_eq!(of(0, 0), "2 objects");
+        assert_eq!(of(3, 0), "2 objects; 3 files written to a.files");
+        assert_eq!(of(0, 1), "2 objects; 1 file copied to a.files");
+        assert_eq!(of(1, 2), "2 objects; 1 file written and 2 copied to a.files");
+    }
+}

@@ -1,0 +1,137 @@
+//! Scene arguments: files of any format, and the options of those of other programs.
+use std::path::Path;
+
+use noisefall::{
+    import::{self, ImportOptions, Opened, Remarks, is_foreign},
+    quote,
+};
+
+use super::messages::{Failure, tell};
+
+/// Largest number of remarks that are printed.
+const MOST_REMARKS: usize = 20;
+
+#[derive(clap::Args, Clone, Debug, Default)]
+pub struct SceneOptions {
+    /// Value of a parameter of a scene, such as spp=16 for $spp in a Mitsuba scene. Can be repeated
+    #[arg(short = 'D', long = "define", value_name = "NAME=VALUE", value_parser = define, help_heading = HEADING)]
+    defines: Vec<(String, String)>,
+    /// Time of the animations of a glTF scene [default: 0]
+    #[arg(long, value_name = "SECONDS", value_parser = time, allow_negative_numbers = true, help_heading = HEADING)]
+    at: Option<f64>,
+    /// Variant of the materials of a glTF scene
+    #[arg(long, value_name = "NAME", help_heading = HEADING)]
+    variant: Option<String>,
+    /// Read files outside the folder of the scene too, if it names them
+    #[arg(long, help_heading = HEADING)]
+    allow_outside: bool,
+    /// Fail if anything in the scene cannot be taken over exactly
+    #[arg(long, help_heading = HEADING)]
+    pub strict: bool,
+}
+
+const HEADING: &str = "Scenes of other programs";
+
+impl SceneOptions {
+    /// The options of the reader.
+    pub fn import_options(&self) -> ImportOptions {
+        ImportOptions {
+            defines: self.defines.clone(),
+            time: self.at.unwrap_or(0.0),
+            variant: self.variant.clone(),
+            allow_outside: self.allow_outside,
+        }
+    }
+
+    /// Opens a scene file of any format, and prints the remarks about it on standard error.
+    pub fn open(&self, path: &Path) -> Result<Opened, Failure> {
+        let options = self.import_options();
+        if options != ImportOptions::default() && !is_foreign(path) {
+            tell("note: -D, --at, --variant and --allow-outside affect scenes of other programs only");
+        }
+        let opened = import::open(path, &options).map_err(|error| error.report())?;
+        if !opened.remarks.is_empty() {
+            let list = list(path, &opened.remarks);
+            if self.strict {
+                return Err(format!("{list}\nwith --strict, each of these is an error"));
+            }
+            tell(&format!("warning: {list}"));
+        }
+        Ok(opened)
+    }
+
+    /// The options as words of a command, each with a space before it.
+    pub fn words(&self) -> String {
+        let defines = self.defines.iter().map(|(name, value)| format!("-D {}", quoted(&format!("{name}={value}"))));
+        let time = self.at.map(|time| format!("--at {time}"));
+        let variant = self.variant.as_ref().map(|name| format!("--variant {}", quoted(name)));
+        let outside = self.allow_outside.then(|| "--allow-outside".to_owned());
+        defines.chain(time).chain(variant).chain(outside).map(|word| format!(" {word}")).collect()
+    }
+}
+
+/// The remarks about a scene, one line each.
+fn list(path: &Path, remarks: &Remarks) -> String {
+    let what = match remarks.len() {
+        1 => "1 thing was".to_owned(),
+        count => format!("{count} things were"),
+    };
+    let lines: String = remarks.lines(MOST_REMARKS).iter().map(|line| format!("\n  {line}")).collect();
+    format!("{}: {what} not taken over exactly:{lines}", quote::path(path))
+}
+
+fn quoted(word: &str) -> String {
+    shlex::try_quote(word).map_or_else(|_| word.to_owned(), std::borrow::Cow::into_owned)
+}
+
+fn define(text: &str) -> Result<(String, String), String> {
+    let (name, value) = text.split_once('=').ok_or("expected NAME=VALUE, such as spp=16")?;
+    let name = name.trim_start_matches('$');
+    if name.is_empty() { Err("the name is missing, as in spp=16".to_owned()) } else { Ok((name.to_owned(), value.to_owned())) }
+}
+
+fn time(text: &str) -> Result<f64, String> {
+    let time = text.parse().ok().filter(|time: &f64| time.is_finite());
+    time.ok_or_else(|| "expected a number of seconds".to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::Parser;
+
+    use super::*;
+
+    #[derive(Parser)]
+    struct Program {
+        #[command(flatten)]
+        options: SceneOptions,
+    }
+
+    #[test]
+    fn options_are_read_and_written() {
+        let words = ["render", "-D", "spp=16", "-D$file=a b=c", "--at", "-1.5", "--variant", "Red one", "--allow-outside"];
+        let SceneOptions { strict, .. } = Program::parse_from(["render", "--strict"]).options;
+        let options = Program::parse_from(words).options;
+        let expected = ImportOptions {
+            defines: vec![("spp".to_owned(), "16".to_owned()), ("file".to_owned(), "a b=c".to_owned())],
+            time: -1.5,
+            variant: Some("Red one".to_owned()),
+            allow_outside: true,
+        };
+        assert!(strict && !options.strict);
+        assert_eq!(options.import_options(), expected);
+        let again = shlex::split(&format!("render{}", options.words())).expect("they are words");
+        assert_eq!(Program::parse_from(again).options.import_options(), expected);
+        assert_eq!(SceneOptions::default().words(), "");
+        assert!(define("spp").is_err() && define("=3").is_err() && time("nan").is_err() && time("x").is_err());
+    }
+
+    #[test]
+    fn a_long_list_of_remarks_is_cut() {
+        let mut remarks = Remarks::default();
+        (0..30).for_each(|i| remarks.add("a.xml:1:1", format!("`{i}`"), "nothing", "it is missing"));
+        let list = list(Path::new("a.xml"), &remarks);
+        assert!(list.starts_with("a.xml: 30 things were not taken over exactly:\n  a.xml:1:1: `0` → nothing: it is missing\n"));
+        assert_eq!((list.lines().count(), list.lines().last()), (MOST_REMARKS + 2, Some("  … and 10 more")));
+    }
+}
