@@ -8,6 +8,7 @@ macro_rules! catalogue {
     ($(#[$attribute:meta])* pub enum $Family:ident: $Trait:ident, $what:literal { $($module:ident::$Kind:ident),+ $(,)? }) => {
         $(#[$attribute])*
         #[derive(Clone, Debug, PartialEq)]
+        #[allow(clippy::large_enum_variant, reason = "scenes hold few descriptions, and edit them in place")]
         pub enum $Family {
             $(
                 #[doc = concat!("The kind in `", stringify!($module), ".rs`.")]

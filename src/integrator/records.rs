@@ -77,6 +77,17 @@ record! {
 }
 
 record! {
+    /// Where a path is on a surface, in scenes with materials whose shading reads it. Stored beside [`Detail`].
+    Chart {
+        /// Texture coordinates.
+        u: F,
+        v: F,
+        /// ∂p/∂u, of any length.
+        along_u: V,
+    }
+}
+
+record! {
     /// A light sample, visible if the first surface along its ray is the target.
     Shadow {
         o: V,

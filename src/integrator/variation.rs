@@ -1,5 +1,9 @@
 //! Properties that vary over a surface: colour, roughness and shading normal at the points where paths arrive.
-use super::{interaction::SurfaceInteraction, normal_mapping::shading_normal, records::Detail};
+use super::{
+    interaction::SurfaceInteraction,
+    normal_mapping::shading_normal,
+    records::{Chart, Detail},
+};
 use crate::{
     geometry::Coordinates,
     math::{Lanes, M, Pick, U, V},
@@ -30,6 +34,15 @@ impl<L: Lanes> IncidentPaths<L> {
         let front = self.interaction.cos.above(0.0) ^ is_set(self.word, FLIPPED);
         (front, front | !is_set(self.word, ONE_SIDED))
     }
+}
+
+/// Texture coordinates and tangents of the paths.
+#[inline(always)]
+pub(super) fn chart<L: Lanes>(l: L, scene: &Scene, incident: &IncidentPaths<L>) -> Chart<L> {
+    let SurfaceInteraction { place, point, .. } = &incident.interaction;
+    let Coordinates { u, v } = scene.shapes.coordinates(l, place, point);
+    let (along_u, _) = scene.shapes.tangents(l, place, point);
+    Chart { u, v, along_u }
 }
 
 /// Evaluates textures in the lanes of `mask`, for surfaces of colour `colour` and normal `n` without them. Returns colour and

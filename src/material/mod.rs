@@ -7,6 +7,7 @@
 //! and in `missing_energy.rs` for interfaces.
 mod albedo;
 mod albedo_table;
+mod anisotropy;
 pub mod blend;
 mod bsdf;
 mod compiled;
@@ -92,7 +93,7 @@ materials! {
     plastic::Plastic => Plastic,
     thin_dielectric::ThinDielectric => ThinDielectric,
     diffuse_transmission::DiffuseTransmission => ,
-    principled::Principled => ,
+    principled::Principled => Principled PrincipledGlass,
     blend::Blend => ,
     null::Null => ,
 }
@@ -110,6 +111,11 @@ impl Stage {
     /// Whether sampled lights can contribute.
     pub fn sees_lights(self) -> bool {
         in_stage!(self, K => K::SEES_LIGHTS)
+    }
+
+    /// Whether its shading reads texture coordinates and the tangent where a material needs them.
+    pub fn reads_chart(self) -> bool {
+        in_stage!(self, K => K::CHARTED)
     }
 
     /// Whether it is ideally diffuse.

@@ -1,5 +1,9 @@
 //! The local frame at a surface point.
-use super::{lanes::Lanes, vector::V};
+use super::{
+    lanes::{F, Lanes},
+    number::Pick,
+    vector::V,
+};
 
 /// An orthonormal right-handed basis (t, b, n) whose third axis is the given unit vector.
 ///
@@ -22,6 +26,20 @@ impl<L: Lanes> Frame<L> {
             b: V { x: xy, y: sign + n.y * n.y * a, z: -n.y },
             n,
         }
+    }
+
+    /// A frame with z along the unit normal `n`, and x along the part of `tangent` in the surface, turned about `n` by the angle of
+    /// this cosine and sine. Lanes whose tangent has no such part get the frame of [`Frame::new`].
+    #[inline(always)]
+    pub fn along(n: V<L>, tangent: V<L>, (cos, sin): (F<L>, F<L>)) -> Self {
+        let flat = tangent - n * n.dot(tangent);
+        let square = flat.length_squared();
+        // False for NaN, too.
+        let exists = square.above(1e-12 * 1e-12) & square.below(f32::MAX);
+        let t = flat * (1.0 / square.sqrt());
+        let turned = t * cos + n.cross(t) * sin;
+        let t = exists.pick(turned, Frame::new(n).t);
+        Frame { t, b: n.cross(t), n }
     }
 
     /// A local vector in world space.

@@ -18,6 +18,8 @@ pub struct Surfaces {
     pub relief: Vec<[f32; 4]>,
     /// Extinction of media per metre, in octaves; the first is empty space. Without tinted media the table is empty.
     pub media: Vec<[f32; 4]>,
+    /// Whether the shading of some surface reads texture coordinates or the tangent.
+    pub charted: bool,
     /// Whether the colour or α of some surface is textured.
     pub textured: bool,
     /// The stages that some surface uses.
@@ -42,6 +44,8 @@ pub const SQUARED: u32 = 1 << 22;
 pub const SELF_LIT: u32 = 1 << 23;
 /// Flag: black colours scatter light too; see [`crate::material::CompiledMaterial::scatters_where_black`].
 pub const SCATTERS_WHERE_BLACK: u32 = 1 << 24;
+/// Flag: light that passes stays in its medium; see [`crate::material::CompiledMaterial::sheet`].
+pub const SHEET: u32 = 1 << 30;
 /// Flag, set while rendering: the path hit the front.
 pub const FRONT: u32 = 1 << 31;
 /// Materials have 16 bits and media 8. [`Surfaces::check`] rejects more.
@@ -97,8 +101,10 @@ impl Surfaces {
             | flag(instance.one_sided, ONE_SIDED)
             | flag(squared, SQUARED)
             | flag(self_lit, SELF_LIT)
-            | flag(compiled.scatters_where_black, SCATTERS_WHERE_BLACK);
+            | flag(compiled.scatters_where_black, SCATTERS_WHERE_BLACK)
+            | flag(compiled.sheet, SHEET);
         let medium = if self.media.is_empty() || compiled.inside.is_none() { 0 } else { number + 1 };
+        self.charted |= compiled.charted;
         self.textured |= colour_texture.or(alpha_texture).is_some();
         self.rows.push(SurfaceRow { colour, word: number | (stage as u32) << STAGE_SHIFT | flags }.pack());
         self.varying.push(VaryingRow { alpha, colour_texture, alpha_texture, medium }.pack());
