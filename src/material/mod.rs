@@ -7,6 +7,7 @@
 //! and in `missing_energy.rs` for interfaces.
 mod albedo;
 mod albedo_table;
+mod anisotropic_conductor;
 mod anisotropy;
 pub mod blend;
 mod bsdf;
@@ -88,7 +89,7 @@ macro_rules! materials {
 materials! {
     lambertian::Lambertian => Plain Diffuse,
     mirror::Mirror => Mirror,
-    conductor::Conductor => Conductor,
+    conductor::Conductor => Conductor AnisotropicConductor,
     dielectric::Dielectric => Dielectric RoughDielectric,
     plastic::Plastic => Plastic,
     thin_dielectric::ThinDielectric => ThinDielectric,

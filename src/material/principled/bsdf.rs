@@ -1,17 +1,12 @@
 //! The BSDF of a principled material: its lobes one above the other.
-use std::f32::consts::FRAC_1_PI;
-
 use super::{
     super::{Bsdf, BsdfSample, ChosenLobe, Lobes, fresnel::dielectric, ggx},
     interface::grey,
     point::Point,
-    rough_diffuse::rough_diffuse,
+    rough_diffuse::{self, rough_diffuse},
     view::View,
 };
-use crate::{
-    math::{F, Lanes, M, One, Pick, V},
-    sampling::Directions,
-};
+use crate::math::{F, Lanes, M, One, Pick, V};
 
 /// The BSDF at a point. `CLEAR`: light may pass.
 #[derive(Clone, Copy)]
@@ -42,7 +37,7 @@ impl<L: Lanes, const CLEAR: bool> PrincipledBsdf<'_, L, CLEAR> {
             let entered = self.0.opaque * self.0.entry * (1.0 - self.0.base.albedo(wi, self.0.interface.index));
             let diffuse = rough_diffuse(self.0.albedo, values.diffuse_roughness, wo, V { z: cos, ..wi });
             f = diffuse * view.entered * entered * passed;
-            pdf = view.diffuse_chance * cos * FRAC_1_PI;
+            pdf = view.diffuse_chance * rough_diffuse::pdf(values.diffuse_roughness, cos);
         }
         let h = (wo + wi).normalized();
         if self.0.has_coat.any() {
@@ -157,7 +152,7 @@ impl<L: Lanes, const CLEAR: bool> Bsdf<L> for PrincipledBsdf<'_, L, CLEAR> {
             chance = refracts.pick(1.0 - reflects, reflects);
         }
         if of_diffuse.any() {
-            wi = of_diffuse.pick(Directions::Cosine.sample(u), wi);
+            wi = of_diffuse.pick(rough_diffuse::sample(values.diffuse_roughness, u), wi);
         }
         if let Some(fuzz) = &view.fuzz {
             wi = of_fuzz.pick(fuzz.sample(u), wi);

@@ -2,7 +2,7 @@
 use super::{
     super::{AlphaSource, Compile, CompiledMaterial, MaterialCompiler, Stage, dielectric::FAINT, ggx},
     Principled, layout, parameters as of,
-    point::index,
+    point::{index, roughened},
 };
 use crate::{
     declare::{Parameter, Problem, Range, Textured},
@@ -64,10 +64,7 @@ impl Principled {
         compiler.tables.need_loss();
         let base_table = compiler.tables.coat(table_ior);
         let coat_table = if coated { compiler.tables.coat(coat_ior) } else { base_table };
-        let constant = match alpha {
-            AlphaSource::Constant(alpha) if !coated => Some(alpha),
-            _ => None,
-        };
+        let constant = self.constant_alpha(sources, alpha);
         let rough = constant.is_none_or(|alpha| alpha >= ggx::SMOOTH);
         let solid = clear && rough && !self.thin_walled && (ior - 1.0).abs() >= FAINT && flags & layout::ANISOTROPIC == 0;
         let interface_table = if clear { compiler.tables.interface(solid.then_some((ior, constant))) } else { base_table };
@@ -84,6 +81,13 @@ impl Principled {
             interface_table,
             further: 0,
         }
+    }
+
+    /// α of the base under its coat, if it is the same everywhere.
+    fn constant_alpha(&self, sources: &Sources, alpha: AlphaSource) -> Option<f32> {
+        let AlphaSource::Constant(alpha) = alpha else { return None };
+        let (weight, root) = (sources.constant(layout::COATING, 3)?, sources.constant(layout::LAYERS, 0)?);
+        Some(roughened::<One>(F(alpha), F(root * root), F(weight)).0)
     }
 
     /// The index of the table of E/F: the effective one to the next multiple of 0.05, so that materials share tables.

@@ -48,20 +48,19 @@ impl<'a, L: Lanes, const CLEAR: bool> Point<'a, L, CLEAR> {
         let mut values = values(l, &materials.further, constants.further, lookup);
         let (zero, one) = (l.f(0.0), l.f(1.0));
         let sheet = constants.has(SHEET);
+        let rows = &materials.tables.rows;
+        let anisotropic = constants.has(ANISOTROPIC);
+        let coat_alpha = values.coat_roughness * values.coat_roughness;
+        let alpha = roughened(at.alpha, coat_alpha, values.coat_weight);
+        let base = Facets::new(l, rows, constants.base_table, alpha, anisotropic.pick(values.anisotropy, zero));
+        let coat = Facets::new(l, rows, constants.coat_table, coat_alpha, anisotropic.pick(values.coat_anisotropy, zero));
+        let interface = interface::<L, CLEAR>(&constants, &values, at, sheet);
         if CLEAR {
-            // Coat and fuzz lie on the outside of what light enters.
+            // Coat and fuzz lie on the outside of what light enters; inside, the base is the same.
             let layered = at.front | sheet | !values.transmission_weight.above(0.0);
             values.coat_weight = layered.pick(values.coat_weight, zero);
             values.fuzz_weight = layered.pick(values.fuzz_weight, zero);
         }
-        let rows = &materials.tables.rows;
-        let anisotropic = constants.has(ANISOTROPIC);
-        let coat_alpha = values.coat_roughness * values.coat_roughness;
-        let has_coat = constants.has(COAT) & values.coat_weight.above(0.0);
-        let alpha = roughened(at.alpha, coat_alpha, has_coat.pick(values.coat_weight, zero));
-        let base = Facets::new(l, rows, constants.base_table, alpha, anisotropic.pick(values.anisotropy, zero));
-        let coat = Facets::new(l, rows, constants.coat_table, coat_alpha, anisotropic.pick(values.coat_anisotropy, zero));
-        let interface = interface::<L, CLEAR>(&constants, &values, at, sheet);
         let metalness = values.metalness;
         let transmission = if CLEAR { values.transmission_weight } else { zero };
         let opaque = (1.0 - metalness) * (1.0 - transmission);
@@ -79,7 +78,7 @@ impl<'a, L: Lanes, const CLEAR: bool> Point<'a, L, CLEAR> {
             tint: constants.has(TINTED).pick(values.transmission_color, grey(one)),
             entry: one,
             darkening: grey(one),
-            has_coat,
+            has_coat: constants.has(COAT) & values.coat_weight.above(0.0),
             has_fuzz: constants.has(FUZZ) & values.fuzz_weight.above(0.0),
             has_metal: constants.has(METAL) & metalness.above(0.0),
             front: at.front,
@@ -89,8 +88,8 @@ impl<'a, L: Lanes, const CLEAR: bool> Point<'a, L, CLEAR> {
         if opaque.above(0.0).any() {
             point.entry = point.entry(constants.table_ior);
         }
-        if has_coat.any() {
-            point.darkening = has_coat.pick(point.darkening(at.alpha, transmission), point.darkening);
+        if point.has_coat.any() {
+            point.darkening = point.has_coat.pick(point.darkening(at.alpha, transmission), point.darkening);
         }
         point
     }
@@ -130,7 +129,7 @@ impl<'a, L: Lanes, const CLEAR: bool> Point<'a, L, CLEAR> {
 
 /// α of the base under a coat: it widens what it transmits in and out (OpenPBR 1.1, "Coat roughening", in α).
 #[inline(always)]
-fn roughened<L: Lanes>(alpha: F<L>, coat_alpha: F<L>, weight: F<L>) -> F<L> {
+pub fn roughened<L: Lanes>(alpha: F<L>, coat_alpha: F<L>, weight: F<L>) -> F<L> {
     let both = (alpha * alpha + coat_alpha * coat_alpha * 2.0).min(alpha.splat(1.0)).sqrt();
     alpha + (both - alpha) * weight
 }

@@ -5,7 +5,10 @@
 //! albedo is the paper's polynomial, so that a white surface is lossless within 2e-4.
 use std::f32::consts::{FRAC_1_PI, PI};
 
-use crate::math::{F, Lanes, Pick, V};
+use crate::{
+    math::{F, Lanes, Pick, V},
+    sampling::Directions,
+};
 
 /// 1/A − 1 per roughness.
 const FALL: f32 = 0.5 - 2.0 / (3.0 * PI);
@@ -36,6 +39,29 @@ pub fn rough_diffuse<L: Lanes>(rho: V<L>, roughness: F<L>, wo: V<L>, wi: V<L>) -
         z: single + rho.z * further / series.z,
     };
     rho * white * cosine
+}
+
+/// Fraction of the directions that are uniform, per roughness: a rough surface seen at a grazing angle sends light back along it,
+/// where cosine sampling would have weights of 1/cos θ_i.
+const UNIFORM: f32 = 0.6;
+
+/// Samples a direction: some are uniform, the others have the density of the cosine.
+#[inline(always)]
+pub fn sample<L: Lanes>(roughness: F<L>, u: (F<L>, F<L>)) -> V<L> {
+    let share = roughness * UNIFORM;
+    let uniform = u.0.lt(share);
+    if !uniform.any() {
+        return Directions::Cosine.sample(((u.0 - share) / (1.0 - share), u.1));
+    }
+    let rest = uniform.pick(u.0 / share, (u.0 - share) / (1.0 - share));
+    uniform.pick(Directions::Uniform.sample((rest, u.1)), Directions::Cosine.sample((rest, u.1)))
+}
+
+/// Pdf of [`sample`] per solid angle, at a cosine above 0.
+#[inline(always)]
+pub fn pdf<L: Lanes>(roughness: F<L>, cos: F<L>) -> F<L> {
+    let share = roughness * UNIFORM;
+    Directions::Uniform.pdf(cos) * share + Directions::Cosine.pdf(cos) * (1.0 - share)
 }
 
 /// Albedo of the single scattering of a white surface at cosine μ; `a` is its A.

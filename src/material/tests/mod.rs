@@ -7,6 +7,7 @@ mod distribution;
 mod energy;
 mod fresnel;
 mod lanes;
+mod principled;
 
 use crate::math::{F, One, V};
 
