@@ -1,10 +1,12 @@
 //! The BSDF of a principled material: its lobes one above the other.
+use fearless_simd_macros::simd;
+
 use super::{
     super::{Bsdf, BsdfSample, ChosenLobe, Lobes, fresnel::dielectric, ggx},
     interface::grey,
     point::Point,
     rough_diffuse::{self, rough_diffuse},
-    view::View,
+    view::{View, view},
 };
 use crate::math::{F, Lanes, M, One, Pick, V};
 
@@ -22,12 +24,24 @@ struct Facet<L: Lanes> {
     unmasked: F<L>,
 }
 
+/// [`Bsdf::eval`] for a known view, as a call.
+#[simd]
+fn eval_with<L: Lanes, const CLEAR: bool>(
+    l: L,
+    bsdf: &PrincipledBsdf<L, CLEAR>,
+    view: &View<L>,
+    wo: V<L>,
+    wi: V<L>,
+) -> (V<L>, F<L>) {
+    bsdf.lobes(l, view, wo, wi)
+}
+
 impl<L: Lanes, const CLEAR: bool> PrincipledBsdf<'_, L, CLEAR> {
-    /// [`Bsdf::eval`] for a known view.
+    /// f |cos θ_i| and pdf of the lobes that are not delta.
     #[inline(always)]
-    fn eval_with(&self, view: &View<L>, wo: V<L>, wi: V<L>) -> (V<L>, F<L>) {
+    fn lobes(&self, l: L, view: &View<L>, wo: V<L>, wi: V<L>) -> (V<L>, F<L>) {
         let Point { values, .. } = &self.0;
-        let zero = wo.z.splat(0.0);
+        let zero = l.f(0.0);
         let above = wi.z.above(0.0);
         let cos = wi.z.max(zero);
         let way = if self.0.has_coat.any() { above.pick(self.0.way(cos), zero) } else { zero };
@@ -120,13 +134,15 @@ impl<L: Lanes, const CLEAR: bool> PrincipledBsdf<'_, L, CLEAR> {
 impl<L: Lanes, const CLEAR: bool> Bsdf<L> for PrincipledBsdf<'_, L, CLEAR> {
     #[inline(always)]
     fn eval(&self, wo: V<L>, wi: V<L>) -> (V<L>, F<L>) {
-        self.eval_with(&self.0.view(wo), wo, wi)
+        let l = self.0.l;
+        eval_with(l, self, &view(l, &self.0, wo), wo, wi)
     }
 
     #[inline(always)]
     fn sample(&self, wo: V<L>, u: (F<L>, F<L>), lobe: F<L>) -> BsdfSample<L> {
         let Point { base, coat, values, .. } = &self.0;
-        let view = self.0.view(wo);
+        let l = self.0.l;
+        let view = view(l, &self.0, wo);
         let (zero, one) = (wo.z.splat(0.0), wo.z.splat(1.0));
         let ([of_fuzz, of_coat, of_diffuse], rest) = view.chosen(lobe);
         let rough = (of_coat & coat.rough) | (!of_coat & base.rough);
@@ -159,7 +175,7 @@ impl<L: Lanes, const CLEAR: bool> Bsdf<L> for PrincipledBsdf<'_, L, CLEAR> {
         }
         let spread = of_fuzz | of_diffuse;
         (exists, delta) = (exists | spread, delta & !spread);
-        let (f, pdf) = self.eval_with(&view, wo, wi);
+        let (f, pdf) = eval_with(l, self, &view, wo, wi);
         let sample = BsdfSample::of(wi, f, pdf);
         // Weights of the delta lobes.
         let way = refracts.pick(zero, self.0.way(wo.z));
@@ -181,7 +197,7 @@ fn inverse<L: Lanes>(x: F<L>) -> F<L> {
 impl<const CLEAR: bool> Lobes for PrincipledBsdf<'_, One, CLEAR> {
     fn chosen(&self, wo: V<One>, u: (F<One>, F<One>), lobe: F<One>) -> ChosenLobe {
         let Point { base, coat, interface, .. } = &self.0;
-        let view = self.0.view(wo);
+        let view = view(One, &self.0, wo);
         let ([fuzz, coated, diffuse], rest) = view.chosen(lobe);
         let named = |name, probability: F<One>| ChosenLobe { name, probability: probability.0 };
         if fuzz.0 {

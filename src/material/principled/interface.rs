@@ -10,6 +10,7 @@ const SCALE_AT_82: f32 = 17.651_27;
 /// The reflecting and transmitting parts of the base at a point.
 #[derive(Clone, Copy)]
 pub struct Interface<L: Lanes> {
+    pub l: L,
     /// Index of refraction that gives the reflectance, at least 1: of the base against what lies on it, scaled by the specular weight.
     pub index: F<L>,
     /// Index beyond the surface over that on the side of the viewer; 1 in lanes of `sheet`.
@@ -51,7 +52,7 @@ impl<L: Lanes> Interface<L> {
         let mut metal = self.metal_reflectance(cos);
         let mut opaque = grey(plain);
         if let Some((film, weight)) = &self.film {
-            let coloured = film.reflectance(cos);
+            let coloured = film.reflectance(self.l, cos);
             metal = mix(metal, coloured * self.metal_weight, *weight);
             opaque = mix(opaque, coloured, *weight);
         }
@@ -74,7 +75,7 @@ impl<L: Lanes> Interface<L> {
         let thin = from_dense.pick(refracted.max(zero).sqrt(), cos);
         let mut found = grey(dielectric(thin, self.index).0);
         if let Some((film, weight)) = &self.film {
-            found = mix(found, film.reflectance(thin), *weight);
+            found = mix(found, film.reflectance(self.l, thin), *weight);
         }
         found = (from_dense & !refracted.above(0.0)).pick(grey(one), found);
         if !self.sheet.any() {

@@ -54,7 +54,7 @@ impl<'a, L: Lanes, const CLEAR: bool> Point<'a, L, CLEAR> {
         let alpha = roughened(at.alpha, coat_alpha, values.coat_weight);
         let base = Facets::new(l, rows, constants.base_table, alpha, anisotropic.pick(values.anisotropy, zero));
         let coat = Facets::new(l, rows, constants.coat_table, coat_alpha, anisotropic.pick(values.coat_anisotropy, zero));
-        let interface = interface::<L, CLEAR>(&constants, &values, at, sheet);
+        let interface = interface::<L, CLEAR>(l, &constants, &values, at, sheet);
         if CLEAR {
             // Coat and fuzz lie on the outside of what light enters; inside, the base is the same.
             let layered = at.front | sheet | !values.transmission_weight.above(0.0);
@@ -142,12 +142,13 @@ fn average<L: Lanes>(index: F<L>) -> F<L> {
 
 #[inline(always)]
 fn interface<L: Lanes, const CLEAR: bool>(
+    l: L,
     constants: &Constants<F<L>, crate::math::U<L>>,
     values: &Values<L>,
     at: &Local<L>,
     sheet: M<L>,
 ) -> Interface<L> {
-    let one = at.alpha.splat(1.0);
+    let one = l.f(1.0);
     let metal = at.colour * values.base_weight;
     let index = index(constants.ior, constants.coat_ior, values.coat_weight, values.specular_weight);
     let relative = if CLEAR { sheet.pick(one, at.front.pick(constants.ior, 1.0 / constants.ior)) } else { one };
@@ -159,9 +160,10 @@ fn interface<L: Lanes, const CLEAR: bool>(
         let head_on = mix(grey(bare * bare), metal, values.metalness);
         let base = V { x: index_of(head_on.x), y: index_of(head_on.y), z: index_of(head_on.z) };
         let thin = ThinFilm { ior: constants.film_ior, thickness: values.film_thickness, base };
-        film = Some((thin, has_film.pick(values.film_weight, at.alpha.splat(0.0))));
+        film = Some((thin, has_film.pick(values.film_weight, l.f(0.0))));
     }
     Interface {
+        l,
         index,
         relative,
         sheet,

@@ -1,4 +1,6 @@
 //! A principled material seen from a direction: what its layers let through, and the probabilities of its lobes.
+use fearless_simd_macros::simd;
+
 use super::{
     super::{albedo::Albedo, anisotropy::loss, fresnel::dielectric, missing_energy::MissingEnergy},
     fuzz::Fuzz,
@@ -34,11 +36,18 @@ pub struct View<L: Lanes> {
     pub interface_chance: F<L>,
 }
 
-impl<'a, L: Lanes, const CLEAR: bool> Point<'a, L, CLEAR> {
-    /// The material seen from ω_o above the surface.
+/// A material seen from ω_o above the surface.
+///
+/// This is a call, so that a stage has it once and not for each of its uses.
+#[simd]
+pub fn view<L: Lanes, const CLEAR: bool>(l: L, point: &Point<L, CLEAR>, wo: V<L>) -> View<L> {
+    point.seen_from(l, wo)
+}
+
+impl<L: Lanes, const CLEAR: bool> Point<'_, L, CLEAR> {
     #[inline(always)]
-    pub fn view(&self, wo: V<L>) -> View<L> {
-        let Point { l, values, .. } = self;
+    fn seen_from(&self, l: L, wo: V<L>) -> View<L> {
+        let values = &self.values;
         let (zero, one) = (l.f(0.0), l.f(1.0));
         let mut view = View {
             fuzz: None,
