@@ -20,7 +20,8 @@
 //!   the directions of the other. Anisotropic metals get a part of it, and anisotropic glass none.
 //! * E/F of rough interfaces is tabulated for indices that are rounded to multiples of 0.05, and for textured weights at weight 1.
 //! * The coat widens the base's facets by their sum of squares, also if these are anisotropic.
-//! * The film has one Gaussian band of wavelengths per channel and sees a metal as a dielectric: see `thin_film.rs`.
+//! * The film has one Gaussian band of wavelengths per channel and sees a metal as a dielectric: see `thin_film.rs`. An opaque base
+//!   gets what the brightest film of that index would let in, so that some light is lost between film and base.
 //! * A film and a coat are seen by rays inside of glass only by their reflectance, and a coat not at all.
 //! * Diffuse bases without roughness are Lambert's; there is no subsurface scattering.
 //!

@@ -50,7 +50,7 @@ impl<L: Lanes, const CLEAR: bool> PrincipledBsdf<'_, L, CLEAR> {
         if self.0.opaque.above(0.0).any() {
             let entered = self.0.opaque * self.0.entry * (1.0 - self.0.base.albedo(wi, self.0.interface.index));
             let diffuse = rough_diffuse(self.0.albedo, values.diffuse_roughness, wo, V { z: cos, ..wi });
-            f = diffuse * view.entered * entered * passed;
+            f = diffuse * (view.entered * entered) * passed;
             pdf = view.diffuse_chance * rough_diffuse::pdf(values.diffuse_roughness, cos);
         }
         let h = (wo + wi).normalized();

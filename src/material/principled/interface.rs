@@ -22,8 +22,16 @@ pub struct Interface<L: Lanes> {
     pub metal_dip: V<L>,
     /// Specular weight, which scales the reflectance of the metal at all angles.
     pub metal_weight: F<L>,
-    /// The film, and its weight.
-    pub film: Option<(ThinFilm<L>, F<L>)>,
+    pub film: Option<Film<L>>,
+}
+
+/// The film on an interface.
+#[derive(Clone, Copy)]
+pub struct Film<L: Lanes> {
+    pub layer: ThinFilm<L>,
+    /// Indices of a dielectric that reflects what the metal does at normal incidence.
+    pub metal: V<L>,
+    pub weight: F<L>,
 }
 
 /// Reflectances of a microfacet.
@@ -51,16 +59,24 @@ impl<L: Lanes> Interface<L> {
         let plain = dielectric(cos, self.index).0;
         let mut metal = self.metal_reflectance(cos);
         let mut opaque = grey(plain);
-        if let Some((film, weight)) = &self.film {
-            let coloured = film.reflectance(self.l, cos);
-            metal = mix(metal, coloured * self.metal_weight, *weight);
-            opaque = mix(opaque, coloured, *weight);
+        if let Some(film) = &self.film {
+            let on_metal = film.layer.reflectance(self.l, film.metal, cos) * self.metal_weight;
+            metal = mix(metal, on_metal, film.weight);
+            opaque = mix(opaque, film.layer.reflectance(self.l, grey(self.index), cos), film.weight);
         }
         let mut clear = opaque;
         if CLEAR {
             clear = self.clear(cos);
         }
         Reflectances { metal, opaque, clear }
+    }
+
+    /// What a smooth opaque base reflects; with a film, no less than that.
+    #[inline(always)]
+    pub fn most_reflected(&self, cos: F<L>) -> F<L> {
+        let plain = dielectric(cos, self.index).0;
+        let Some(film) = &self.film else { return plain };
+        plain + (film.layer.most(self.index, cos) - plain) * film.weight
     }
 
     /// Reflectance of the clear base.
@@ -74,8 +90,8 @@ impl<L: Lanes> Interface<L> {
         let refracted = 1.0 - (1.0 - cos * cos) / (self.relative * self.relative);
         let thin = from_dense.pick(refracted.max(zero).sqrt(), cos);
         let mut found = grey(dielectric(thin, self.index).0);
-        if let Some((film, weight)) = &self.film {
-            found = mix(found, film.reflectance(self.l, thin), *weight);
+        if let Some(film) = &self.film {
+            found = mix(found, film.layer.reflectance(self.l, grey(self.index), thin), film.weight);
         }
         found = (from_dense & !refracted.above(0.0)).pick(grey(one), found);
         if !self.sheet.any() {

@@ -2,7 +2,7 @@
 use super::{
     super::{Local, Materials, dielectric::FAINT, missing_energy::LossTable},
     facets::Facets,
-    interface::{Interface, dip, grey, mix},
+    interface::{Film, Interface, dip, grey, mix},
     layout::{ANISOTROPIC, COAT, Constants, FILM, FUZZ, METAL, SHEET, TINTED, VARIES},
     thin_film::ThinFilm,
     values::{Lookup, Values, values},
@@ -156,11 +156,11 @@ fn interface<L: Lanes, const CLEAR: bool>(
     let has_film = constants.has(FILM) & values.film_weight.above(0.0);
     let mut film = None;
     if has_film.any() {
-        let bare = (index - 1.0) / (index + 1.0);
-        let head_on = mix(grey(bare * bare), metal, values.metalness);
-        let base = V { x: index_of(head_on.x), y: index_of(head_on.y), z: index_of(head_on.z) };
-        let thin = ThinFilm { ior: constants.film_ior, thickness: values.film_thickness, base };
-        film = Some((thin, has_film.pick(values.film_weight, l.f(0.0))));
+        film = Some(Film {
+            layer: ThinFilm { ior: constants.film_ior, thickness: values.film_thickness },
+            metal: V { x: index_of(metal.x), y: index_of(metal.y), z: index_of(metal.z) },
+            weight: has_film.pick(values.film_weight, l.f(0.0)),
+        });
     }
     Interface {
         l,

@@ -20,31 +20,38 @@ const BAND_WIDTH: f32 = 0.13;
 /// Number of terms.
 const ORDERS: usize = 2;
 
-/// A film between air and a base.
+/// A film between air and a base. The indices of a base give it its reflectance at normal incidence in air.
 #[derive(Clone, Copy)]
 pub struct ThinFilm<L: Lanes> {
     /// Index of the film, at least 1.
     pub ior: F<L>,
     /// µm.
     pub thickness: F<L>,
-    /// Indices that give the base its reflectance at normal incidence in air.
-    pub base: V<L>,
 }
 
 impl<L: Lanes> ThinFilm<L> {
     /// Reflectance from 0 to 1 at the cosine in air.
     #[inline(always)]
-    pub fn reflectance(&self, l: L, cos: F<L>) -> V<L> {
-        film_reflectance(l, self, cos)
+    pub fn reflectance(&self, l: L, base: V<L>, cos: F<L>) -> V<L> {
+        film_reflectance(l, self, base, cos)
+    }
+
+    /// No film of this index reflects more of unpolarised light, whatever its thickness: all waves have the same phase.
+    #[inline(always)]
+    pub fn most(&self, base: F<L>, cos: F<L>) -> F<L> {
+        let (outer, inside) = dielectric(cos, self.ior);
+        let inner = dielectric(inside, base / self.ior).0;
+        let sum = outer.sqrt() + inner.sqrt();
+        (sum * sum).min(cos.splat(1.0))
     }
 
     #[inline(always)]
-    fn sums(&self, cos: F<L>) -> V<L> {
+    fn sums(&self, base: V<L>, cos: F<L>) -> V<L> {
         let outer = Amplitudes::new(cos, self.ior);
         let inside = dielectric(cos, self.ior).1;
         // Optical path difference, µm.
         let path = self.ior * self.thickness * inside * 2.0;
-        let relative = self.base * (1.0 / self.ior);
+        let relative = base * (1.0 / self.ior);
         V {
             x: series(&outer, &Amplitudes::new(inside, relative.x), path, BANDS[0]),
             y: series(&outer, &Amplitudes::new(inside, relative.y), path, BANDS[1]),
@@ -76,8 +83,8 @@ impl<L: Lanes> Amplitudes<L> {
 
 /// [`ThinFilm::reflectance`] as a call: few materials have a film.
 #[simd]
-fn film_reflectance<L: Lanes>(l: L, film: &ThinFilm<L>, cos: F<L>) -> V<L> {
-    film.sums(cos.min(l.f(1.0)))
+fn film_reflectance<L: Lanes>(l: L, film: &ThinFilm<L>, base: V<L>, cos: F<L>) -> V<L> {
+    film.sums(base, cos.min(l.f(1.0)))
 }
 
 /// The reflectance of a channel: the mean of both polarisations. `path` is the path difference in µm.
@@ -118,8 +125,13 @@ mod tests {
     use super::*;
     use crate::math::One;
 
-    fn film(thickness: f32, base: f32) -> ThinFilm<One> {
-        ThinFilm { ior: F(1.33), thickness: F(thickness), base: V::splat(One, [base; 3]) }
+    /// Reflectance of a film of soap water.
+    fn film(thickness: f32, base: f32, cos: f32) -> [f32; 3] {
+        soap(thickness).reflectance(One, V::splat(One, [base; 3]), F(cos)).lane(0)
+    }
+
+    fn soap(thickness: f32) -> ThinFilm<One> {
+        ThinFilm { ior: F(1.33), thickness: F(thickness) }
     }
 
     #[test]
@@ -127,7 +139,7 @@ mod tests {
         for base in [1.5, 1.8] {
             for cos in [1.0, 0.7, 0.4] {
                 let exact = dielectric(F::<One>(cos), F(base)).0.0;
-                let found = film(0.0, base).reflectance(One, F(cos)).lane(0);
+                let found = film(0.0, base, cos);
                 assert!(found.iter().all(|x| (x - exact).abs() < 0.005), "{base} {cos}: {found:?} {exact}");
             }
         }
@@ -135,9 +147,9 @@ mod tests {
 
     #[test]
     fn a_thick_film_has_no_colour_and_a_thin_one_has() {
-        let [r, g, b] = film(5.0, 1.8).reflectance(One, F(0.9)).lane(0);
+        let [r, g, b] = film(5.0, 1.8, 0.9);
         assert!((r - g).abs() < 1e-4 && (g - b).abs() < 1e-4, "{r} {g} {b}");
-        let [r, _, b] = film(0.3, 1.8).reflectance(One, F(0.9)).lane(0);
+        let [r, _, b] = film(0.3, 1.8, 0.9);
         assert!((r - b).abs() > 0.01, "{r} {b}");
     }
 
@@ -145,8 +157,9 @@ mod tests {
     fn reflectances_are_fractions() {
         for i in 0..1000 {
             let x = i as f32 / 1000.0;
-            let found = film(x * 2.0, 1.0 + 4.0 * x).reflectance(One, F((x * 37.0).fract())).lane(0);
-            assert!(found.iter().all(|x| (0.0..=1.0).contains(x)), "{found:?}");
+            let (thickness, base, cos) = (x * 2.0, 1.0 + 4.0 * x, (x * 37.0).fract());
+            let (found, most) = (film(thickness, base, cos), soap(thickness).most(F(base), F(cos)).0);
+            assert!(found.iter().all(|x| (0.0..=most + 1e-3).contains(x)), "{base} {cos}: {found:?} {most}");
         }
     }
 }

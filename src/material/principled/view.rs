@@ -25,7 +25,7 @@ pub struct View<L: Lanes> {
     /// log₂ of the coat's color, and the way in it towards the viewer over its thickness.
     absorption: Option<(V<L>, F<L>)>,
     /// What the interface of an opaque base lets in.
-    pub entered: V<L>,
+    pub entered: F<L>,
     /// Factors that restore the light that single scattering between microfacets loses.
     pub metal_gain: V<L>,
     pub clear_gain: F<L>,
@@ -56,7 +56,7 @@ impl<L: Lanes, const CLEAR: bool> Point<'_, L, CLEAR> {
             coat: zero,
             passed: self.darkening,
             absorption: None,
-            entered: grey(one),
+            entered: one,
             metal_gain: grey(one),
             clear_gain: one,
             fuzz_chance: zero,
@@ -80,7 +80,7 @@ impl<L: Lanes, const CLEAR: bool> Point<'_, L, CLEAR> {
         view.passed = view.passed * (rest * (1.0 - view.coat));
         let seen = self.interface.reflectances::<CLEAR>(wo.z);
         if self.opaque.above(0.0).any() {
-            view.entered = grey(one) - least(seen.opaque * self.base.quotient(wo), one);
+            view.entered = 1.0 - (self.interface.most_reflected(wo.z) * self.base.quotient(wo)).min(one);
         }
         self.gains(wo, &mut view);
         self.choose(wo, &seen, rest, &mut view);
@@ -120,7 +120,7 @@ impl<L: Lanes, const CLEAR: bool> Point<'_, L, CLEAR> {
     fn choose(&self, wo: V<L>, seen: &Reflectances<L>, rest: F<L>, view: &mut View<L>) {
         let Point { values, .. } = self;
         let passed = view.passed * view.absorbed(values.coat_weight, self.way(wo.z));
-        let entered = passed * view.entered * self.albedo;
+        let entered = passed * self.albedo * view.entered;
         let quotient = self.base.quotient(wo);
         let metal = seen.metal * values.metalness;
         let opaque = values.specular_color * seen.opaque * (self.opaque * quotient);
@@ -200,10 +200,4 @@ impl<L: Lanes> View<L> {
         let diffuse = lobe.lt(third) & !fuzz & !coat;
         ([fuzz, coat, diffuse], (lobe - third) / self.interface_chance)
     }
-}
-
-/// Each channel, and at most `most`.
-#[inline(always)]
-fn least<L: Lanes>(v: V<L>, most: F<L>) -> V<L> {
-    V { x: v.x.min(most), y: v.y.min(most), z: v.z.min(most) }
 }

