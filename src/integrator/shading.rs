@@ -81,7 +81,6 @@ impl<'a, L: Lanes, K: Shade> Shading<'a, L, K> {
         };
         let (materials, directions) = (&work.scene.surfaces.materials, work.settings.directions);
         let bsdf = if K::CHARTED {
-            #[expect(clippy::manual_map, reason = "a closure would not be compiled for the instructions of the lanes")]
             let lookup = match &chart {
                 Some(Chart { u, v, .. }) => Some((&work.scene.textures, TextureCoordinates { u: *u, v: *v, p: hit.p })),
                 None => None,

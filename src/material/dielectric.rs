@@ -6,6 +6,7 @@ use super::{
     conductor::{ANISOTROPY, ENERGY_COMPENSATION, TANGENT_ROTATION},
     fresnel, ggx, ior,
     principled::Principled,
+    refraction::{FAINT, uncompressed},
 };
 use crate::{
     declare::{Declare, Kind, Parameter, Parameters, Problem, Range, Textured},
@@ -116,11 +117,6 @@ impl Compile for Dielectric {
     }
 }
 
-/// Interfaces whose indices differ by less are treated as smooth. Even at the roughest facet they refract light by a smaller
-/// angle than this, too small for a half vector in f32, and the facets would be visible only through their masking, which is an
-/// artefact there.
-pub(super) const FAINT: f32 = 1e-3;
-
 /// The constants of an interface.
 pub(super) struct DielectricRow {
     /// Index inside over that outside.
@@ -160,15 +156,6 @@ impl Shade for Dielectric {
     fn roulette_scale<L: Lanes>(bsdf: &DielectricBsdf<L>, front: M<L>, z: F<L>) -> F<L> {
         uncompressed(bsdf.eta, front, z)
     }
-}
-
-/// The squared ratio of the index that a path is in to the one outside the surface that it leaves, by which radiance grows
-/// outside. `eta` is the index beyond the surface relative to that on the viewer's side.
-#[inline(always)]
-pub(super) fn uncompressed<L: Lanes>(eta: F<L>, front: M<L>, z: F<L>) -> F<L> {
-    let inside = front ^ z.above(0.0);
-    let ratio = front.pick(eta, 1.0 / eta);
-    inside.pick(ratio * ratio, z.splat(1.0))
 }
 
 /// The smooth interface between two transparent media.

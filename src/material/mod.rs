@@ -27,6 +27,7 @@ mod missing_energy;
 pub mod null;
 pub mod plastic;
 pub mod principled;
+mod refraction;
 pub mod rough_dielectric;
 mod roughness;
 mod shade;

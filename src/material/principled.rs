@@ -22,7 +22,7 @@
 //! * The coat widens the base's facets by their sum of squares, also if these are anisotropic.
 //! * The film has one Gaussian band of wavelengths per channel and sees a metal as a dielectric: see `thin_film.rs`. An opaque base
 //!   gets what the brightest film of that index would let in, so that some light is lost between film and base.
-//! * A film and a coat are seen by rays inside of glass only by their reflectance, and a coat not at all.
+//! * Rays inside of glass see neither its coat nor its fuzz.
 //! * Diffuse bases without roughness are Lambert's; there is no subsurface scattering.
 //!
 //! Emission belongs to the object.
@@ -41,7 +41,7 @@ mod view;
 
 pub use self::bsdf::PrincipledBsdf;
 use self::{layout::Constants, point::Point};
-use super::{Local, Materials, Shade, Stage, dielectric::uncompressed};
+use super::{Local, Materials, Shade, Stage, refraction::uncompressed};
 use crate::{
     declare::{Kind, Parameter, Textured},
     math::{F, Lanes, M, Pick},

@@ -1,6 +1,6 @@
 //! Compiles a principled material.
 use super::{
-    super::{AlphaSource, Compile, CompiledMaterial, MaterialCompiler, Stage, dielectric::FAINT, ggx},
+    super::{AlphaSource, Compile, CompiledMaterial, MaterialCompiler, Stage, ggx, refraction::FAINT},
     Principled, layout, parameters as of,
     point::{index, roughened},
 };

@@ -1,6 +1,6 @@
 //! A principled material at a point: what does not depend on directions.
 use super::{
-    super::{Local, Materials, dielectric::FAINT, missing_energy::LossTable},
+    super::{Local, Materials, missing_energy::LossTable, refraction::FAINT},
     facets::Facets,
     interface::{Film, Interface, dip, grey, mix},
     layout::{ANISOTROPIC, COAT, Constants, FILM, FUZZ, METAL, SHEET, TINTED, VARIES},
