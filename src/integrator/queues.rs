@@ -1,7 +1,7 @@
 //! Queues that are filled and read in lockstep: the records of paths at one stage. A scene fills only those that it needs.
 use super::{
     queue::{Queue, Register, Registers},
-    records::{Detail, Hit, Inside, Path, PreviousLobe, PreviousVertex, Shadow},
+    records::{Chart, Detail, Hit, Inside, Path, PreviousLobe, PreviousVertex, Shadow},
     slots::SLOTS,
 };
 use crate::math::{Lanes, One, Pick, U};
@@ -60,11 +60,13 @@ pub(super) struct HitQueues {
     pub hits: Queue,
     /// Filled for types that read it.
     pub details: Queue,
+    /// Filled for types that read it, in scenes that need it.
+    pub charts: Queue,
 }
 
 impl Default for HitQueues {
     fn default() -> Self {
-        HitQueues { hits: Hit::<One>::queue(SLOTS), details: Detail::<One>::queue(SLOTS) }
+        HitQueues { hits: Hit::<One>::queue(SLOTS), details: Detail::<One>::queue(SLOTS), charts: Chart::<One>::queue(SLOTS) }
     }
 }
 
@@ -77,6 +79,7 @@ impl HitQueues {
     pub fn clear(&mut self) {
         self.hits.clear();
         self.details.clear();
+        self.charts.clear();
     }
 
     #[inline(always)]

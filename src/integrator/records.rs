@@ -77,6 +77,20 @@ record! {
 }
 
 record! {
+    /// Where a path is on a surface, in scenes with materials whose shading reads it. Stored beside [`Detail`].
+    Chart {
+        /// Texture coordinates.
+        u: F,
+        v: F,
+        /// ∂p/∂u, of any length.
+        along_u: V,
+        /// Colour and opacity of vertices, in scenes with textures that read them.
+        vertex: V,
+        vertex_opacity: F,
+    }
+}
+
+record! {
     /// A light sample, visible if the first surface along its ray is the target.
     Shadow {
         o: V,

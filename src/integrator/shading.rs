@@ -6,7 +6,7 @@ use super::{
     media::beyond,
     queue::Register,
     queues::HitQueues,
-    records::{Detail, Hit, Path, Shadow},
+    records::{Chart, Detail, Hit, Path, Shadow},
     roulette::{Survival, survive},
     work::Work,
 };
@@ -15,6 +15,7 @@ use crate::{
     material::{Bsdf, BsdfSample, Local, Shade, Stage},
     math::{F, Frame, Lanes, M, Pick, U, V},
     scene::surface,
+    texture::TextureCoordinates,
 };
 
 /// A register of hits of a kind.
@@ -62,15 +63,35 @@ impl<'a, L: Lanes, K: Shade> Shading<'a, L, K> {
         let hit = Hit::read(l, &queues.hits, start);
         let coordinates_of = if K::DETAILED { ReflectionCoordinates::call_of } else { ReflectionCoordinates::of };
         let coordinates = coordinates_of(l, work, hit.slot, reflection, K::LOBES);
+        let mut chart = None;
         let vertex = if K::DETAILED {
             let mut detail = Detail::read(l, &queues.details, start);
             // Lanes past the end may say anything: they take a material of this kind, whose rows can be read as such.
             detail.surface = live.pick(detail.surface, l.u(detail.surface.to_array()[0]));
-            Vertex::detailed(&hit, &detail)
+            if K::CHARTED && work.scene.surfaces.charted {
+                chart = Some(Chart::read(l, &queues.charts, start));
+            }
+            let mut vertex = Vertex::detailed(&hit, &detail);
+            if let Some(chart) = &chart {
+                vertex.align::<K>(l, work, &detail, chart);
+            }
+            vertex
         } else {
             Vertex::plain(l, &hit)
         };
-        let bsdf = K::at(l, &work.scene.surfaces.materials, work.settings.directions, &vertex.local);
+        let (materials, directions) = (&work.scene.surfaces.materials, work.settings.directions);
+        let bsdf = if K::CHARTED {
+            let colour = chart.as_ref().map(|Chart { vertex: V { x, y, z }, vertex_opacity, .. }| [*x, *y, *z, *vertex_opacity]);
+            let lookup = match &chart {
+                Some(Chart { u, v, .. }) => {
+                    Some((&work.scene.textures, TextureCoordinates { u: *u, v: *v, p: hit.p, vertex: colour.as_ref() }))
+                }
+                None => None,
+            };
+            K::at_chart(l, materials, directions, &vertex.local, lookup)
+        } else {
+            K::at(l, materials, directions, &vertex.local)
+        };
         Shading { live, hit, vertex, bsdf, coordinates, reflection }
     }
 
@@ -142,6 +163,8 @@ pub(super) struct Vertex<L: Lanes> {
     local: Local<L>,
     /// See [`surface::SELF_LIT`].
     pub self_lit: M<L>,
+    /// See [`surface::SHEET`].
+    sheet: M<L>,
     /// Media on the viewer's side, and the one inside the surface.
     media: U<L>,
     medium: U<L>,
@@ -159,6 +182,7 @@ impl<L: Lanes> Vertex<L> {
             error: l.f(0.0),
             local,
             self_lit: l.first(0),
+            sheet: l.first(0),
             media: l.u(0),
             medium: l.u(0),
         }
@@ -180,9 +204,20 @@ impl<L: Lanes> Vertex<L> {
             error: detail.error,
             local,
             self_lit: surface::is_set(detail.surface, surface::SELF_LIT),
+            sheet: surface::is_set(detail.surface, surface::SHEET),
             media: detail.media,
             medium: detail.medium,
         }
+    }
+
+    /// Turns the frame to the tangent.
+    #[inline(always)]
+    fn align<K: Shade>(&mut self, l: L, work: &Work, detail: &Detail<L>, chart: &Chart<L>) {
+        let (cos, sin) = K::turn(l, &work.scene.surfaces.materials, &self.local);
+        // The turn is about the front normal.
+        let sin = self.local.front.pick(sin, -sin);
+        self.frame = Frame::along(detail.n, chart.along_u, (cos, sin));
+        self.wo = self.frame.local_from_world(detail.wo);
     }
 
     /// The media beyond the surface in a direction of height `z`.
@@ -191,7 +226,11 @@ impl<L: Lanes> Vertex<L> {
         if !K::ENTERS {
             return self.media;
         }
-        z.below(0.0).pick(beyond(self.media, self.medium, self.local.front), self.media)
+        let mut enters = z.below(0.0);
+        if K::SHEETS {
+            enters = enters & !self.sheet;
+        }
+        enters.pick(beyond(self.media, self.medium, self.local.front), self.media)
     }
 
     /// The origin of a ray in the world-space direction `d`, and whether it leaves on the side of the shading normal; `z` is its

@@ -9,7 +9,7 @@ use super::{
     queues::{HitQueues, PathQueues},
     records::{Detail, Hit, Path},
     shared::Shared,
-    variation::{IncidentPaths, vary},
+    variation::{IncidentPaths, chart, vary},
     weight::weight_of_hit,
     work::Work,
 };
@@ -192,6 +192,9 @@ fn sort<L: Lanes>(
         } else {
             Hit { colour, ..hit }.push(here, &mut queues.hits);
             detail.push(here, &mut queues.details);
+            if work.scene.surfaces.charted && stage.reads_chart() && here.any() {
+                chart(l, work.scene, incident).push(here, &mut queues.charts);
+            }
         }
     }
 }

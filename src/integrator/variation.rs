@@ -2,7 +2,7 @@
 use super::{
     interaction::{SurfaceInteraction, vertex_colour},
     normal_mapping::shading_normal,
-    records::Detail,
+    records::{Chart, Detail},
 };
 use crate::{
     geometry::Coordinates,
@@ -34,6 +34,16 @@ impl<L: Lanes> IncidentPaths<L> {
         let front = self.interaction.cos.above(0.0) ^ is_set(self.word, FLIPPED);
         (front, front | !is_set(self.word, ONE_SIDED))
     }
+}
+
+/// Texture coordinates and tangents of the paths.
+#[inline(always)]
+pub(super) fn chart<L: Lanes>(l: L, scene: &Scene, incident: &IncidentPaths<L>) -> Chart<L> {
+    let SurfaceInteraction { place, point, .. } = &incident.interaction;
+    let Coordinates { u, v } = scene.shapes.coordinates(l, place, point);
+    let (along_u, _) = scene.shapes.tangents(l, place, point);
+    let [x, y, z, vertex_opacity] = vertex_colour(l, scene, *place, *point).unwrap_or([l.f(1.0); 4]);
+    Chart { u, v, along_u, vertex: V { x, y, z }, vertex_opacity }
 }
 
 /// Evaluates textures in the lanes of `mask`, for surfaces of colour `colour` and normal `n` without them. Returns colour and
@@ -79,4 +89,54 @@ pub(super) fn vary<L: Lanes>(
         }
     }
     (colour, Detail { wo, n, alpha, error: point.error, surface: *word, media: *media, medium: medium.bits() })
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{
+        integrator::{Batch, Work, trace},
+        math::SimdLevel,
+        scene::{RenderSettings, parse},
+    };
+
+    /// Radiance of a ball of this material under a bright sky and a lamp.
+    fn radiance(material: &str) -> Vec<[f32; 4]> {
+        let text = format!(
+            "format = 1
+            background.radiance = [0.2, 0.4, 0.6]
+            camera = {{ eye = [0, 0, 4], look_at = [0, 0, 0], fov = 40, resolution = [16, 16] }}
+            textures.half.checker = {{ even = 0.5, odd = 0.5, scale = 3 }}
+            textures.warm.checker = {{ even = [0.75, 0.5, 0.25], odd = [0.75, 0.5, 0.25], scale = 3 }}
+            [materials.ball]
+            principled = {{ {material} }}
+            [[objects]]
+            shape.sphere = {{ center = [0, 0, 0], radius = 1 }}
+            material = 'ball'
+            [[objects]]
+            shape.sphere = {{ center = [0, 3, 3], radius = 0.5 }}
+            emission.radiance = 9"
+        );
+        let scene = parse("ball.toml", text).unwrap_or_else(|error| panic!("{}", error.report()));
+        let (rays, settings) = (scene.rays(&scene.camera), RenderSettings::default());
+        let work = Work::tile(&scene, &rays, &settings, [0, 0], [16, 16], 3);
+        let mut batch = Batch::default();
+        trace(SimdLevel::best(), &work, &mut batch, &|| false).expect("nothing interrupts");
+        batch.radiance().to_vec()
+    }
+
+    /// One parameter is textured in each scene, so that both have the same frames.
+    #[test]
+    fn a_texture_of_one_value_is_that_value() {
+        let constant = "base_metalness = 0.5, coat_weight = 0.5, coat_color = [0.75, 0.5, 0.25], fuzz_weight = 0.5";
+        let expected = radiance(&format!("{constant}, coat_roughness = {{ texture = 'half' }}"));
+        for textured in [
+            "base_metalness = { texture = 'half' }, coat_weight = 0.5, coat_color = [0.75, 0.5, 0.25], fuzz_weight = 0.5",
+            "base_metalness = 0.5, coat_weight = 0.5, coat_color = { texture = 'warm' }, fuzz_weight = 0.5",
+            "base_metalness = 0.5, coat_weight = 0.5, coat_color = [0.75, 0.5, 0.25], fuzz_weight = { texture = 'half' }",
+        ] {
+            let found = radiance(&format!("{textured}, coat_roughness = 0.5"));
+            let same = found.iter().zip(&expected).filter(|(a, b)| (a[0] - b[0]).abs() <= 1e-3 * b[0].max(1e-3)).count();
+            assert!(same > found.len() - 4, "{textured}: {same} of {}", found.len());
+        }
+    }
 }

@@ -27,12 +27,18 @@ pub struct CompiledMaterial {
     pub stage: Stage,
     /// Constants of the kind: see its row.
     pub rows: [[f32; 4]; 3],
+    /// Further constants. The last number of `rows` becomes the place of the first of them, as bits.
+    pub further: Vec<[f32; 4]>,
+    /// Whether its shading reads texture coordinates or the tangent.
+    pub charted: bool,
     /// Albedo, or reflectance at normal incidence; white for kinds without.
     pub colour: ColourSource,
     /// The width α of the GGX distribution.
     pub alpha: AlphaSource,
     /// Transmittance of a metre of the interior, for kinds with an inside.
     pub inside: Option<[f32; 3]>,
+    /// Whether it transmits light without an inside.
+    pub sheet: bool,
     /// Whether it scatters light even if its colour is black, because of a coat or Fresnel's rise towards grazing angles.
     pub scatters_where_black: bool,
     /// The largest albedo in any channel that lets light bounce between surfaces; 0 for materials that only transmit light
@@ -46,9 +52,12 @@ impl CompiledMaterial {
         CompiledMaterial {
             stage,
             rows: [[0.0; 4]; 3],
+            further: Vec::new(),
+            charted: false,
             colour,
             alpha: AlphaSource::Constant(0.0),
             inside: None,
+            sheet: false,
             scatters_where_black: false,
             albedo: compiler.largest(colour),
         }
@@ -59,9 +68,12 @@ impl CompiledMaterial {
         CompiledMaterial {
             stage,
             rows: [[0.0; 4]; 3],
+            further: Vec::new(),
+            charted: false,
             colour: ColourSource::Constant([1.0; 3]),
             alpha: AlphaSource::Constant(0.0),
             inside: None,
+            sheet: false,
             scatters_where_black: true,
             albedo: 0.0,
         }
@@ -87,6 +99,11 @@ impl<'a, 'b> MaterialCompiler<'a, 'b> {
     /// α and its largest value, which decides whether the surface is rough.
     pub fn alpha(&self, roughness: &Roughness) -> Result<(AlphaSource, f32), Problem> {
         let (parameter, value, squared) = roughness.parts();
+        self.alpha_of(parameter, value, squared)
+    }
+
+    /// The same of a parameter whose value is α, or its root if `squared`.
+    pub fn alpha_of(&self, parameter: &Parameter, value: &Textured<f64>, squared: bool) -> Result<(AlphaSource, f32), Problem> {
         let alpha = |value: f32| if squared { value * value } else { value };
         match value {
             Textured::Constant(value) => {
@@ -103,8 +120,22 @@ impl<'a, 'b> MaterialCompiler<'a, 'b> {
         }
     }
 
-    /// The largest value of any channel.
-    fn largest(&self, colour: ColourSource) -> f32 {
+    /// The number of a parameter in all channels, or its texture, whose luminance it is.
+    pub fn number(&self, parameter: &Parameter, value: &Textured<f64>, range: &Range) -> Result<ColourSource, Problem> {
+        let colour = match value {
+            Textured::Constant(value) => Textured::Constant([*value; 3]),
+            Textured::Texture(name) => Textured::Texture(name.clone()),
+        };
+        self.textures.colour(parameter, &colour, range)
+    }
+
+    /// The colour, or the mean colour of the texture.
+    pub fn typical(&self, colour: ColourSource) -> [f32; 3] {
+        self.textures.typical(colour)
+    }
+
+    /// The largest value of any channel, at most 1.
+    pub fn largest(&self, colour: ColourSource) -> f32 {
         let colour = match colour {
             ColourSource::Constant(colour) => colour,
             ColourSource::Texture(id) => self.textures.textures.maximum(id),

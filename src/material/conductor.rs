@@ -6,9 +6,11 @@
 //! facet each time with probability 1 − E_avg, which sums to F_avg² E_avg/(1 − F_avg(1 − E_avg)) for k ≥ 2.
 use std::f32::consts::FRAC_1_PI;
 
+pub use super::anisotropic_conductor::AnisotropicConductor;
 use super::{
     Bsdf, BsdfSample, ChosenLobe, Compile, CompiledMaterial, Lobes, Local, MaterialCompiler, Materials, Roughness, Shade, Stage,
     albedo::Albedo,
+    anisotropic_conductor::TangentRow,
     conductor_fresnel::{ConductorFresnel, ConductorRow, Reflectance},
     ggx, grazing,
 };
@@ -25,7 +27,7 @@ pub struct Conductor {
     pub fresnel: Reflectance,
     /// Roughness, 0 for a smooth surface.
     pub roughness: Roughness,
-    /// How much longer the highlight is across the tangent, from 0 (round) to 1.
+    /// How much longer the highlight is along the tangent ∂p/∂u, from 0 (round) to 1.
     pub anisotropy: f64,
     /// Rotation of the tangent about the normal, degrees.
     pub tangent_rotation: f64,
@@ -58,7 +60,7 @@ pub(super) const ENERGY_COMPENSATION: Parameter =
 
 /// The anisotropy of conductors and dielectrics.
 pub(super) const ANISOTROPY: Parameter =
-    Parameter::new("anisotropy", "How much longer the highlight is across the tangent; 0 is round.");
+    Parameter::new("anisotropy", "How much longer the highlight is along the tangent ∂p/∂u; 0 is round.");
 pub(super) const TANGENT_ROTATION: Parameter =
     Parameter::new("tangent_rotation", "Rotation of the tangent about the normal.").unit("degrees");
 
@@ -86,11 +88,18 @@ impl Compile for Conductor {
         }
         let row = ConductorRow::new(&self.fresnel, self.energy_compensation)?;
         let colour = self.fresnel.colour(compiler)?;
-        let stage = if most < ggx::SMOOTH { Stage::Mirror } else { Stage::Conductor };
+        let mut stage = if most < ggx::SMOOTH { Stage::Mirror } else { Stage::Conductor };
+        let mut further = Vec::new();
+        if stage == Stage::Conductor && self.anisotropy > 0.0 {
+            stage = Stage::AnisotropicConductor;
+            further = TangentRow { anisotropy: self.anisotropy, rotation: self.tangent_rotation }.pack();
+        }
         let plain = CompiledMaterial::new(stage, colour, compiler);
         Ok(CompiledMaterial {
             alpha,
             rows: row.pack(),
+            charted: !further.is_empty(),
+            further,
             scatters_where_black: !matches!(self.fresnel, Reflectance::Constant(_)),
             albedo: self.fresnel.head_on().unwrap_or(plain.albedo),
             ..plain

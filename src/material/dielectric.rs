@@ -1,12 +1,15 @@
 //! The smooth dielectric: mirror reflection and refraction.
 pub use super::rough_dielectric::RoughDielectric;
 use super::{
-    Bsdf, BsdfSample, ChosenLobe, Compile, CompiledMaterial, Lobes, Local, MaterialCompiler, Materials, Roughness, Shade, Stage,
+    AlphaSource, Bsdf, BsdfSample, ChosenLobe, Compile, CompiledMaterial, Lobes, Local, MaterialCompiler, Materials, Roughness,
+    Shade, Stage,
     conductor::{ANISOTROPY, ENERGY_COMPENSATION, TANGENT_ROTATION},
     fresnel, ggx, ior,
+    principled::Principled,
+    refraction::{FAINT, uncompressed},
 };
 use crate::{
-    declare::{Declare, Kind, Parameter, Parameters, Problem, Range},
+    declare::{Declare, Kind, Parameter, Parameters, Problem, Range, Textured},
     math::{F, Lanes, M, One, Pick, U, V},
     sampling::Directions,
 };
@@ -20,7 +23,7 @@ pub struct Dielectric {
     pub ior_outside: f64,
     /// Roughness of the interface, 0 for a smooth one.
     pub roughness: Roughness,
-    /// How much longer the highlight is across the tangent, from 0 (round) to 1.
+    /// How much longer the highlight is along the tangent ∂p/∂u, from 0 (round) to 1.
     pub anisotropy: f64,
     /// Rotation of the tangent about the normal, degrees.
     pub tangent_rotation: f64,
@@ -45,6 +48,20 @@ impl Default for Dielectric {
 }
 
 impl Dielectric {
+    /// Rough anisotropic glass: the clear base of a principled material. The light that scatters more than once is lost.
+    fn anisotropic(&self, compiler: &mut MaterialCompiler, eta: f32, alpha: AlphaSource) -> Result<CompiledMaterial, Problem> {
+        let glass = Principled {
+            base_color: Textured::grey(1.0),
+            specular_ior: f64::from(eta),
+            specular_roughness_anisotropy: Textured::Constant(self.anisotropy),
+            transmission_weight: Textured::Constant(1.0),
+            tangent_rotation: self.tangent_rotation,
+            ..Principled::default()
+        };
+        let inside = Some(self.transmittance.map(|x| x as f32));
+        Ok(CompiledMaterial { alpha, inside, ..glass.compile(compiler)? })
+    }
+
     /// Glass of constant α, in a medium of index 1.
     pub fn new(ior: f32, alpha: f32, energy_compensation: bool) -> Dielectric {
         Dielectric { ior: f64::from(ior), roughness: Roughness::alpha(alpha), energy_compensation, ..Dielectric::default() }
@@ -83,10 +100,13 @@ impl Compile for Dielectric {
     fn compile(&self, compiler: &mut MaterialCompiler) -> Result<CompiledMaterial, Problem> {
         let (alpha, most) = compiler.alpha(&self.roughness)?;
         let eta = self.ior as f32 / self.ior_outside as f32;
+        if most >= ggx::SMOOTH && self.anisotropy > 0.0 {
+            return self.anisotropic(compiler, eta, alpha);
+        }
         let mut row = DielectricRow { eta, table: 0, varies: false };
         let mut stage = Stage::Dielectric;
         if most >= ggx::SMOOTH {
-            let varies = matches!(alpha, super::AlphaSource::Texture { .. });
+            let varies = matches!(alpha, AlphaSource::Texture { .. });
             let compensated = self.energy_compensation && (eta - 1.0).abs() >= FAINT;
             row.table = compiler.tables.interface(compensated.then_some((eta, if varies { None } else { Some(most) })));
             row.varies = varies && compensated;
@@ -96,11 +116,6 @@ impl Compile for Dielectric {
         Ok(CompiledMaterial { alpha, inside, rows: row.pack(), ..CompiledMaterial::colourless(stage) })
     }
 }
-
-/// Interfaces whose indices differ by less are treated as smooth. Even at the roughest facet they refract light by a smaller
-/// angle than this, too small for a half vector in f32, and the facets would be visible only through their masking, which is an
-/// artefact there.
-pub(super) const FAINT: f32 = 1e-3;
 
 /// The constants of an interface.
 pub(super) struct DielectricRow {
@@ -141,15 +156,6 @@ impl Shade for Dielectric {
     fn roulette_scale<L: Lanes>(bsdf: &DielectricBsdf<L>, front: M<L>, z: F<L>) -> F<L> {
         uncompressed(bsdf.eta, front, z)
     }
-}
-
-/// The squared ratio of the index that a path is in to the one outside the surface that it leaves, by which radiance grows
-/// outside. `eta` is the index beyond the surface relative to that on the viewer's side.
-#[inline(always)]
-pub(super) fn uncompressed<L: Lanes>(eta: F<L>, front: M<L>, z: F<L>) -> F<L> {
-    let inside = front ^ z.above(0.0);
-    let ratio = front.pick(eta, 1.0 / eta);
-    inside.pick(ratio * ratio, z.splat(1.0))
 }
 
 /// The smooth interface between two transparent media.

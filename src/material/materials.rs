@@ -25,6 +25,8 @@ pub struct Local<L: Lanes> {
 pub struct Materials {
     /// [`ROWS`] a material: see the row of its kind.
     pub(super) rows: Vec<[f32; 4]>,
+    /// Further rows of the kinds that need more.
+    pub(super) further: Vec<[f32; 4]>,
     pub(super) tables: Tables,
     stages: Vec<Stage>,
 }
@@ -69,7 +71,12 @@ impl Materials {
 
     /// Adds a material and returns its number.
     pub fn push(&mut self, material: &CompiledMaterial) -> u32 {
-        self.rows.extend(material.rows);
+        let mut rows = material.rows;
+        if !material.further.is_empty() {
+            rows[ROWS as usize - 1][3] = f32::from_bits(self.further.len() as u32);
+            self.further.extend(&material.further);
+        }
+        self.rows.extend(rows);
         self.stages.push(material.stage);
         self.stages.len() as u32 - 1
     }

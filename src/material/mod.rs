@@ -7,6 +7,8 @@
 //! and in `missing_energy.rs` for interfaces.
 mod albedo;
 mod albedo_table;
+mod anisotropic_conductor;
+mod anisotropy;
 pub mod blend;
 mod bsdf;
 mod compiled;
@@ -25,6 +27,7 @@ mod missing_energy;
 pub mod null;
 pub mod plastic;
 pub mod principled;
+mod refraction;
 pub mod rough_dielectric;
 mod roughness;
 mod shade;
@@ -87,12 +90,12 @@ macro_rules! materials {
 materials! {
     lambertian::Lambertian => Plain Diffuse,
     mirror::Mirror => Mirror,
-    conductor::Conductor => Conductor,
+    conductor::Conductor => Conductor AnisotropicConductor,
     dielectric::Dielectric => Dielectric RoughDielectric,
     plastic::Plastic => Plastic,
     thin_dielectric::ThinDielectric => ThinDielectric,
     diffuse_transmission::DiffuseTransmission => ,
-    principled::Principled => ,
+    principled::Principled => Principled PrincipledGlass,
     blend::Blend => ,
     null::Null => ,
 }
@@ -110,6 +113,11 @@ impl Stage {
     /// Whether sampled lights can contribute.
     pub fn sees_lights(self) -> bool {
         in_stage!(self, K => K::SEES_LIGHTS)
+    }
+
+    /// Whether its shading reads texture coordinates and the tangent where a material needs them.
+    pub fn reads_chart(self) -> bool {
+        in_stage!(self, K => K::CHARTED)
     }
 
     /// Whether it is ideally diffuse.

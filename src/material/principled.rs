@@ -1,6 +1,53 @@
-//! OpenPBR Surface 1.1: metal, glass, diffuse base, coat and fuzz in one material.
-use super::{Compile, CompiledMaterial, MaterialCompiler};
-use crate::declare::{Declare, Kind, Parameter, Parameters, Problem, Range, Textured};
+//! OpenPBR Surface 1.1: a base of metal, glass or diffuse material, under a film, a coat and fuzz.
+//!
+//! Academy Software Foundation, "OpenPBR Surface", version 1.1, 2024. With ω_o fixed, the BSDF is, from outside to inside,
+//!
+//! f = F f_fuzz + (1 − F E_fuzz) [C f_coat + (1 − C E_coat) A Δ f_base],
+//! f_base = M f_metal + (1 − M) [T f_clear + (1 − T) (f_interface + f_diffuse)],
+//!
+//! where F, C, M and T are the weights of fuzz, coat, metal and transmission, E are directional albedos at ω_o, A is the absorption
+//! of the coat, and Δ its darkening. Every layer gets what the one above leaves, so that no more light is reflected than arrives.
+//!
+//! **Exact**, up to tables and rounding: the dielectric interfaces (Fresnel, GGX, Smith's separable shadowing), smooth and rough
+//! glass, Lambert's and the rough diffuse base under an interface (what the interface reflects, and what it lets in, sum to 1), F82
+//! metals, the fuzz lobe, the absorption of the coat, anisotropic facets and their sampling.
+//!
+//! **Approximate**:
+//! * Layers do not see each other's lobes: light between them is in E and Δ alone. The terms of coat and fuzz depend on ω_o and not
+//!   on ω_i, and thus are not reciprocal. Neither are fuzz itself, metals and glass with α > 0 (see below). Everything else is.
+//! * Light that single scattering loses between the facets of a metal or glass is restored by a factor that depends on ω_o (E. Turquin,
+//!   "Practical multiple scattering compensation for microfacet models", 2019): white ones are lossless, but the restored light has
+//!   the directions of the other. Anisotropic metals get a part of it, and anisotropic glass none.
+//! * E/F of rough interfaces is tabulated for indices that are rounded to multiples of 0.05, and for textured weights at weight 1.
+//! * The coat widens the base's facets by their sum of squares, also if these are anisotropic.
+//! * The film has one Gaussian band of wavelengths per channel and sees a metal as a dielectric: see `thin_film.rs`. An opaque base
+//!   gets what the brightest film of that index would let in, so that some light is lost between film and base.
+//! * Rays inside of glass see neither its coat nor its fuzz.
+//! * Diffuse bases without roughness are Lambert's; there is no subsurface scattering.
+//!
+//! Emission belongs to the object.
+mod bsdf;
+mod compile;
+mod facets;
+mod fuzz;
+mod interface;
+mod layout;
+mod parameters;
+mod point;
+mod rough_diffuse;
+mod thin_film;
+mod values;
+mod view;
+
+pub use self::bsdf::PrincipledBsdf;
+use self::{layout::Constants, point::Point};
+use super::{Local, Materials, Shade, Stage, refraction::uncompressed};
+use crate::{
+    declare::{Kind, Parameter, Textured},
+    math::{F, Lanes, M, Pick},
+    sampling::Directions,
+    texture::{TextureCoordinates, Textures},
+};
 
 /// OpenPBR Surface 1.1 in a scene description.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,7 +66,7 @@ pub struct Principled {
     pub specular_color: Textured,
     /// Square root of the width α of the GGX distribution.
     pub specular_roughness: Textured<f64>,
-    /// How much longer the highlight is across the tangent; 0 is round.
+    /// How much longer the highlight is along the tangent; 0 is round.
     pub specular_roughness_anisotropy: Textured<f64>,
     /// Index of refraction of the base.
     pub specular_ior: f64,
@@ -98,79 +145,60 @@ impl Kind for Principled {
             .aliases("openpbr disney standard_surface pbr uber");
 }
 
-impl Declare for Principled {
-    fn parameters(&mut self, p: &mut dyn Parameters) {
-        const BASE_WEIGHT: Parameter = Parameter::new("base_weight", "Factor of the base color.");
-        const BASE_COLOR: Parameter =
-            Parameter::new("base_color", "Albedo of the diffuse base, and reflectance of the metal at normal incidence.");
-        const BASE_DIFFUSE_ROUGHNESS: Parameter =
-            Parameter::new("base_diffuse_roughness", "Roughness of the diffuse base; 0 is Lambertian.");
-        const BASE_METALNESS: Parameter = Parameter::new("base_metalness", "Fraction of the base that is metal.");
-        const SPECULAR_WEIGHT: Parameter =
-            Parameter::new("specular_weight", "Factor of the reflectance of the interface; of metals, at grazing angles too.");
-        const SPECULAR_COLOR: Parameter =
-            Parameter::new("specular_color", "Tint of the reflection off the interface; of metals, at grazing angles.");
-        const SPECULAR_ROUGHNESS: Parameter =
-            Parameter::new("specular_roughness", "Square root of the width α of the GGX distribution.");
-        const SPECULAR_ROUGHNESS_ANISOTROPY: Parameter =
-            Parameter::new("specular_roughness_anisotropy", "How much longer the highlight is across the tangent; 0 is round.");
-        const SPECULAR_IOR: Parameter = Parameter::new("specular_ior", "Index of refraction of the base.");
-        const TRANSMISSION_WEIGHT: Parameter =
-            Parameter::new("transmission_weight", "Fraction of the base, besides metal, that is clear and refracts.");
-        const TRANSMISSION_COLOR: Parameter =
-            Parameter::new("transmission_color", "Color of the light that passes: at each interface, or after the depth.");
-        const TRANSMISSION_DEPTH: Parameter =
-            Parameter::new("transmission_depth", "Distance after which the inside has its color; 0 tints the interface.")
-                .unit("m");
-        const COAT_WEIGHT: Parameter = Parameter::new("coat_weight", "Fraction of the surface under a clear coat.");
-        const COAT_COLOR: Parameter = Parameter::new("coat_color", "Fraction of the light that the coat transmits, in and out.");
-        const COAT_ROUGHNESS: Parameter = Parameter::new("coat_roughness", "Square root of the width α of the coat.");
-        const COAT_ROUGHNESS_ANISOTROPY: Parameter =
-            Parameter::new("coat_roughness_anisotropy", "Anisotropy of the coat; 0 is round.");
-        const COAT_IOR: Parameter = Parameter::new("coat_ior", "Index of refraction of the coat.");
-        const COAT_DARKENING: Parameter =
-            Parameter::new("coat_darkening", "How much reflections inside the coat darken the base.");
-        const FUZZ_WEIGHT: Parameter = Parameter::new("fuzz_weight", "Fraction of the surface under fuzz.");
-        const FUZZ_COLOR: Parameter = Parameter::new("fuzz_color", "Albedo of the fuzz.");
-        const FUZZ_ROUGHNESS: Parameter = Parameter::new("fuzz_roughness", "Roughness of the fuzz.");
-        const THIN_FILM_WEIGHT: Parameter = Parameter::new("thin_film_weight", "Fraction of the surface with a thin film.");
-        const THIN_FILM_THICKNESS: Parameter = Parameter::new("thin_film_thickness", "Thickness of the film.").unit("µm");
-        const THIN_FILM_IOR: Parameter = Parameter::new("thin_film_ior", "Index of refraction of the film.");
-        const TANGENT_ROTATION: Parameter =
-            Parameter::new("tangent_rotation", "Rotation of the tangent about the normal.").unit("degrees");
-        const THIN_WALLED: Parameter =
-            Parameter::new("thin_walled", "Whether the surface is a thin sheet, which refracts nothing.");
-        p.textured_number(&BASE_WEIGHT, &mut self.base_weight, Range::UNIT);
-        p.textured(&BASE_COLOR, &mut self.base_color, Range::REFLECTANCE);
-        p.textured_number(&BASE_DIFFUSE_ROUGHNESS, &mut self.base_diffuse_roughness, Range::UNIT);
-        p.textured_number(&BASE_METALNESS, &mut self.base_metalness, Range::UNIT);
-        p.textured_number(&SPECULAR_WEIGHT, &mut self.specular_weight, Range::UNIT);
-        p.textured(&SPECULAR_COLOR, &mut self.specular_color, Range::REFLECTANCE);
-        p.textured_number(&SPECULAR_ROUGHNESS, &mut self.specular_roughness, Range::ROUGHNESS);
-        p.textured_number(&SPECULAR_ROUGHNESS_ANISOTROPY, &mut self.specular_roughness_anisotropy, Range::UNIT);
-        p.number(&SPECULAR_IOR, &mut self.specular_ior, Range::INDEX);
-        p.textured_number(&TRANSMISSION_WEIGHT, &mut self.transmission_weight, Range::UNIT);
-        p.textured(&TRANSMISSION_COLOR, &mut self.transmission_color, Range::REFLECTANCE);
-        p.number(&TRANSMISSION_DEPTH, &mut self.transmission_depth, Range::log(0.0, 1e12));
-        p.textured_number(&COAT_WEIGHT, &mut self.coat_weight, Range::UNIT);
-        p.textured(&COAT_COLOR, &mut self.coat_color, Range::REFLECTANCE);
-        p.textured_number(&COAT_ROUGHNESS, &mut self.coat_roughness, Range::ROUGHNESS);
-        p.textured_number(&COAT_ROUGHNESS_ANISOTROPY, &mut self.coat_roughness_anisotropy, Range::UNIT);
-        p.number(&COAT_IOR, &mut self.coat_ior, Range::linear(1.0, 20.0));
-        p.textured_number(&COAT_DARKENING, &mut self.coat_darkening, Range::UNIT);
-        p.textured_number(&FUZZ_WEIGHT, &mut self.fuzz_weight, Range::UNIT);
-        p.textured(&FUZZ_COLOR, &mut self.fuzz_color, Range::REFLECTANCE);
-        p.textured_number(&FUZZ_ROUGHNESS, &mut self.fuzz_roughness, Range::ROUGHNESS);
-        p.textured_number(&THIN_FILM_WEIGHT, &mut self.thin_film_weight, Range::UNIT);
-        p.textured_number(&THIN_FILM_THICKNESS, &mut self.thin_film_thickness, Range::linear(0.0, 10.0));
-        p.number(&THIN_FILM_IOR, &mut self.thin_film_ior, Range::linear(1.0, 20.0));
-        p.number(&TANGENT_ROTATION, &mut self.tangent_rotation, Range::FINITE);
-        p.flag(&THIN_WALLED, &mut self.thin_walled);
-    }
+/// The stage of principled materials whose base transmits light.
+pub struct PrincipledGlass;
+
+/// Implements [`Shade`] for an opaque or a clear stage.
+macro_rules! shade {
+    ($Stage:ident, $CLEAR:literal, { $($more:tt)* }) => {
+        impl Shade for $Stage {
+            type Bsdf<'a, L: Lanes> = PrincipledBsdf<'a, L, $CLEAR>;
+            const STAGE: Stage = Stage::$Stage;
+            const CHARTED: bool = true;
+
+            #[inline(always)]
+            fn at<'a, L: Lanes>(l: L, materials: &'a Materials, _: Directions, at: &Local<L>) -> PrincipledBsdf<'a, L, $CLEAR> {
+                PrincipledBsdf(Point::new(l, materials, at, None))
+            }
+
+            #[inline(always)]
+            fn at_chart<'a, L: Lanes>(
+                l: L,
+                materials: &'a Materials,
+                _: Directions,
+                at: &Local<L>,
+                lookup: Option<(&Textures, TextureCoordinates<L>)>,
+            ) -> PrincipledBsdf<'a, L, $CLEAR> {
+                PrincipledBsdf(Point::new(l, materials, at, lookup))
+            }
+
+            #[inline(always)]
+            fn turn<L: Lanes>(l: L, materials: &Materials, at: &Local<L>) -> (F<L>, F<L>) {
+                Constants::read(l, materials, at.material).turn
+            }
+
+            $($more)*
+        }
+    };
 }
 
-impl Compile for Principled {
-    fn compile(&self, _: &mut MaterialCompiler) -> Result<CompiledMaterial, Problem> {
-        Err(Problem::at("", "not built yet", "not built yet"))
+shade!(Principled, false, {
+    const GLOSSY: bool = true;
+
+    /// That of metals; lights are chosen for other bases as for diffuse ones.
+    #[inline(always)]
+    fn alpha<L: Lanes>(l: L, bsdf: &PrincipledBsdf<L, false>) -> F<L> {
+        let Point { base, values, .. } = &bsdf.0;
+        (base.rough & values.metalness.above(0.5)).pick(base.widths.mean(), l.f(0.0))
     }
-}
+});
+
+shade!(PrincipledGlass, true, {
+    const TRANSMITS: bool = true;
+    const SHEETS: bool = true;
+
+    #[inline(always)]
+    fn roulette_scale<L: Lanes>(bsdf: &PrincipledBsdf<L, true>, front: M<L>, z: F<L>) -> F<L> {
+        uncompressed(bsdf.0.interface.relative, front, z)
+    }
+});

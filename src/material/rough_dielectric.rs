@@ -4,9 +4,10 @@
 //! sampled by visible normals, and with energy compensation (`missing_energy.rs`).
 use super::{
     Bsdf, BsdfSample, ChosenLobe, Lobes, Local, Materials, Shade, Stage,
-    dielectric::{DielectricBsdf, DielectricRow, FAINT, uncompressed},
+    dielectric::{DielectricBsdf, DielectricRow},
     fresnel, ggx,
     missing_energy::{LossTable, MissingEnergy},
+    refraction::{FAINT, uncompressed},
 };
 use crate::{
     math::{F, Lanes, M, One, Pick, V},

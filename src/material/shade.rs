@@ -3,6 +3,7 @@ use super::{Bsdf, Local, Materials, Stage};
 use crate::{
     math::{F, Lanes, M},
     sampling::Directions,
+    texture::{TextureCoordinates, Textures},
 };
 
 /// A BSDF type and the requirements of its shading. Code that it does not need is not compiled.
@@ -25,9 +26,32 @@ pub trait Shade {
     const ENTERS: bool = Self::TRANSMITS;
     /// Whether lights are chosen with its lobe.
     const GLOSSY: bool = false;
+    /// Whether it has a frame along the tangent and textures of its own, in scenes with materials that need them: then it is made
+    /// by [`Shade::at_chart`].
+    const CHARTED: bool = false;
+    /// Whether some of its surfaces are sheets, which transmit light without an inside.
+    const SHEETS: bool = false;
 
     /// The BSDF at surface points. `directions` is the sampling of diffuse surfaces.
     fn at<'a, L: Lanes>(l: L, materials: &'a Materials, directions: Directions, at: &Local<L>) -> Self::Bsdf<'a, L>;
+
+    /// The same, with the textures of the scene and the coordinates at which they are looked up, if any are needed.
+    #[inline(always)]
+    fn at_chart<'a, L: Lanes>(
+        l: L,
+        materials: &'a Materials,
+        directions: Directions,
+        at: &Local<L>,
+        _lookup: Option<(&Textures, TextureCoordinates<L>)>,
+    ) -> Self::Bsdf<'a, L> {
+        Self::at(l, materials, directions, at)
+    }
+
+    /// Cosine and sine of the angle by which the tangent is turned about the front normal.
+    #[inline(always)]
+    fn turn<L: Lanes>(l: L, _materials: &Materials, _at: &Local<L>) -> (F<L>, F<L>) {
+        (l.f(1.0), l.f(0.0))
+    }
 
     /// The width of the lobe; 0 without one.
     #[inline(always)]

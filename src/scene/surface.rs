@@ -18,6 +18,8 @@ pub struct Surfaces {
     pub relief: Vec<[f32; 4]>,
     /// Extinction of media per metre, in octaves; the first is empty space. Without tinted media the table is empty.
     pub media: Vec<[f32; 4]>,
+    /// Whether the shading of some surface reads texture coordinates or the tangent.
+    pub charted: bool,
     /// Whether the colour or α of some surface is textured.
     pub textured: bool,
     /// The stages that some surface uses.
@@ -42,6 +44,8 @@ pub const SQUARED: u32 = 1 << 22;
 pub const SELF_LIT: u32 = 1 << 23;
 /// Flag: black colours scatter light too; see [`crate::material::CompiledMaterial::scatters_where_black`].
 pub const SCATTERS_WHERE_BLACK: u32 = 1 << 24;
+/// Flag: light that passes stays in its medium; see [`crate::material::CompiledMaterial::sheet`].
+pub const SHEET: u32 = 1 << 30;
 /// Flag, set while rendering: the path hit the front.
 pub const FRONT: u32 = 1 << 31;
 /// Materials have 16 bits and media 8. [`Surfaces::check`] rejects more.
@@ -97,8 +101,10 @@ impl Surfaces {
             | flag(instance.one_sided, ONE_SIDED)
             | flag(squared, SQUARED)
             | flag(self_lit, SELF_LIT)
-            | flag(compiled.scatters_where_black, SCATTERS_WHERE_BLACK);
+            | flag(compiled.scatters_where_black, SCATTERS_WHERE_BLACK)
+            | flag(compiled.sheet, SHEET);
         let medium = if self.media.is_empty() || compiled.inside.is_none() { 0 } else { number + 1 };
+        self.charted |= compiled.charted;
         self.textured |= colour_texture.or(alpha_texture).is_some();
         self.rows.push(SurfaceRow { colour, word: number | (stage as u32) << STAGE_SHIFT | flags }.pack());
         self.varying.push(VaryingRow { alpha, colour_texture, alpha_texture, medium }.pack());
@@ -233,6 +239,12 @@ mod tests {
             ("dielectric.ior = 1.5", Stage::Dielectric),
             ("dielectric = { ior = 1.5, roughness = 0.5 }", Stage::RoughDielectric),
             ("plastic = { albedo = 0.5, ior = 1.5 }", Stage::Plastic),
+            ("conductor = { f0 = 0.5, roughness = 0.5, anisotropy = 0.5 }", Stage::AnisotropicConductor),
+            ("conductor = { f0 = 0.5, anisotropy = 0.5 }", Stage::Mirror),
+            ("dielectric = { ior = 1.5, roughness = 0.5, anisotropy = 0.5 }", Stage::PrincipledGlass),
+            ("principled.base_color = 0", Stage::Principled),
+            ("principled = { transmission_weight = 0.5 }", Stage::PrincipledGlass),
+            ("principled = { transmission_weight = 0.5, base_metalness = 1 }", Stage::Principled),
         ] {
             assert_eq!(stages(material), [stage], "{material}");
         }
@@ -255,6 +267,39 @@ mod tests {
         assert_eq!(flags("plastic = { albedo = 0.5, ior = 1.5 }", "") & SCATTERS_WHERE_BLACK, SCATTERS_WHERE_BLACK);
         let two = scene(&[(WHITE, ""), ("mirror.reflectance = 0.5", "")]).surfaces;
         assert_eq!([0, 1].map(|row| two.rows[row][3].to_bits()), [0, 1 | (Stage::Mirror as u32) << STAGE_SHIFT]);
+    }
+
+    #[test]
+    fn charts_are_for_textures_and_anisotropy_of_kinds_that_read_them() {
+        let charted = |material: &str| scene(&[(material, "")]).surfaces.charted;
+        for material in [
+            "principled.base_metalness = { texture = 'squares' }",
+            "principled.specular_roughness_anisotropy = 0.5",
+            "conductor = { f0 = 0.5, roughness = 0.5, anisotropy = 0.5 }",
+        ] {
+            assert!(charted(material), "{material}");
+        }
+        for material in [
+            "principled = {}",
+            "principled = { base_color = { texture = 'squares' }, specular_roughness = { texture = 'squares' } }",
+            "conductor = { f0 = 0.5, roughness = { texture = 'squares' } }",
+        ] {
+            assert!(!charted(material), "{material}");
+        }
+    }
+
+    #[test]
+    fn sheets_have_no_inside_and_clear_principled_materials_absorb_like_dielectrics() {
+        let deep = "principled = { transmission_weight = 1, transmission_color = [0.5, 0.25, 1.0], transmission_depth = 2 }";
+        let sheet =
+            "principled = { transmission_weight = 1, transmission_color = 0.5, transmission_depth = 2, thin_walled = true }";
+        let surfaces = scene(&[(deep, ""), (sheet, "")]).surfaces;
+        assert_eq!(surfaces.media.len(), 3);
+        for (octaves, expected) in surfaces.media[1].into_iter().zip([0.5, 1.0, 0.0, 0.0]) {
+            assert!((octaves - expected).abs() < 1e-6, "{:?}", surfaces.media);
+        }
+        let sheets = [0, 1].map(|row| surfaces.rows[row][3].to_bits() & SHEET != 0);
+        assert_eq!((sheets, surfaces.varying[1][3].to_bits()), ([false, true], 0));
     }
 
     #[test]

@@ -96,6 +96,8 @@ fn materials() {
         ior: 1.5,
         ior_outside: 1.0,
         roughness: Roughness::SMOOTH,
+        anisotropy: 0.0,
+        tangent_rotation: 0.0,
         transmittance: [1.0; 3],
         energy_compensation: true,
     };
@@ -107,6 +109,8 @@ fn materials() {
         ior: 1.25,
         ior_outside: 1.75,
         roughness: Roughness::Roughness(Textured::Constant(0.5)),
+        anisotropy: 0.0,
+        tangent_rotation: 0.0,
         transmittance: [0.1, 0.2, 0.3],
         energy_compensation: false,
     };
@@ -115,9 +119,11 @@ fn materials() {
     let gold = Reflectance::Index { eta: [0.1, 0.2, 0.3], k: [3.0, 2.0, 1.0] };
     assert_eq!(
         material("conductor = { eta = [0.1, 0.2, 0.3], k = [3, 2, 1], alpha = 0.5 }"),
-        Conductor { fresnel: gold, roughness: Roughness::alpha(0.5), energy_compensation: true }.into()
+        Conductor { fresnel: gold, roughness: Roughness::alpha(0.5), energy_compensation: true, ..Conductor::default() }.into()
     );
-    let steel = |fresnel| Material::from(Conductor { fresnel, roughness: Roughness::SMOOTH, energy_compensation: false });
+    let steel = |fresnel| {
+        Material::from(Conductor { fresnel, roughness: Roughness::SMOOTH, energy_compensation: false, ..Conductor::default() })
+    };
     assert_eq!(material("conductor = { f0 = 0.5, energy_compensation = false }"), steel(Reflectance::Schlick(grey.clone())));
     assert_eq!(material("conductor = { reflectance = 0.5, energy_compensation = false }"), steel(Reflectance::Constant(grey)));
     let plastic = instance("plastic = { albedo = [0.1, 0.2, 0.3], ior = 1.25, roughness = 0.1 }");

@@ -1,7 +1,12 @@
 //! The table of cases.
 use super::super::{
     Bsdf, BsdfSample, Conductor, Lambertian, LambertianBsdf, Local, Material, Materials, Mirror, Plastic, Reflectance, Shade,
-    Stage, conductor::ConductorBsdf, mirror::MirrorBsdf, plastic::PlasticBsdf,
+    Stage,
+    anisotropic_conductor::AnisotropicConductorBsdf,
+    conductor::{AnisotropicConductor, ConductorBsdf},
+    mirror::MirrorBsdf,
+    plastic::PlasticBsdf,
+    principled::{Principled, PrincipledBsdf},
 };
 use crate::{
     declare::Textured,
@@ -30,6 +35,8 @@ pub struct Case {
     pub directions: Directions,
     /// Whether the albedo must be 1.
     pub lossless: bool,
+    /// Whether light and viewer can be exchanged.
+    pub reciprocal: bool,
     materials: Materials,
 }
 
@@ -38,7 +45,7 @@ impl Case {
         let material = material.into();
         let name = format!("{material:?} {directions:?}");
         let materials = Materials::new(std::slice::from_ref(&material));
-        Case { name, alpha, material, directions, lossless, materials }
+        Case { name, alpha, material, directions, lossless, reciprocal: true, materials }
     }
 
     pub fn bsdf(&self) -> Any<'_> {
@@ -50,6 +57,8 @@ impl Case {
             Stage::Mirror => Any::Mirror(Mirror::at(One, all, directions, &at)),
             Stage::Conductor => Any::Conductor(Conductor::at(One, all, directions, &at)),
             Stage::Plastic => Any::Plastic(Plastic::at(One, all, directions, &at)),
+            Stage::Principled => Any::Principled(Principled::at(One, all, directions, &at)),
+            Stage::AnisotropicConductor => Any::AnisotropicConductor(AnisotropicConductor::at(One, all, directions, &at)),
             _ => unreachable!("tested with the dielectrics"),
         }
     }
@@ -77,16 +86,61 @@ pub fn cases() -> Vec<Case> {
             all.push(Case::new(Plastic::new(albedo, ior, alpha), alpha, cosine, albedo == [1.0; 3]));
         }
     }
+    for anisotropy in [0.3, 0.8] {
+        for alpha in [0.05, 0.3] {
+            let material = Conductor { anisotropy, ..Conductor::new(fresnels()[1].clone(), alpha, true) };
+            all.push(Case { reciprocal: false, ..Case::new(material, alpha, cosine, false) });
+        }
+    }
+    all.extend(principled());
+    all
+}
+
+/// Principled materials; the first ones are a base under an interface alone.
+fn principled() -> Vec<Case> {
+    let number = Textured::Constant;
+    let base = |color: [f32; 3], alpha: f32| Principled {
+        base_color: color.into(),
+        specular_roughness: number(f64::from(alpha).sqrt()),
+        ..Principled::default()
+    };
+    let cosine = Directions::Cosine;
+    let mut all = Vec::new();
+    for alpha in [0.0, 0.01, 0.1, 0.3, 1.0] {
+        all.push(Case::new(base([1.0; 3], alpha), alpha, cosine, true));
+        all.push(Case::new(base([0.8, 0.3, 0.0], alpha), alpha, cosine, false));
+    }
+    let (paint, metal) = (base([0.8, 0.3, 0.1], 0.3), Principled { base_metalness: number(1.0), ..base([0.9, 0.5, 0.1], 0.2) });
+    let coat = Principled { coat_weight: number(0.8), coat_color: [0.9, 0.6, 0.4].into(), ..paint.clone() };
+    let layered = [
+        Principled { base_diffuse_roughness: number(0.7), ..paint.clone() },
+        Principled { specular_weight: number(0.5), specular_color: [1.0, 0.7, 0.2].into(), ..paint.clone() },
+        Principled { base_metalness: number(0.5), ..paint.clone() },
+        Principled { specular_color: [0.8, 0.7, 0.5].into(), ..metal.clone() },
+        Principled { specular_roughness_anisotropy: number(0.6), ..metal.clone() },
+        coat.clone(),
+        Principled { coat_roughness: number(0.5), ..coat.clone() },
+        Principled { fuzz_weight: number(0.9), fuzz_color: [0.3, 0.5, 0.9].into(), ..paint.clone() },
+        Principled { thin_film_weight: number(1.0), ..metal },
+        Principled { thin_film_weight: number(0.7), fuzz_weight: number(0.3), base_metalness: number(0.3), ..coat },
+    ];
+    all.extend(layered.into_iter().map(|material| {
+        let Textured::Constant(roughness) = material.specular_roughness else { unreachable!("no textures here") };
+        Case { reciprocal: false, ..Case::new(material, (roughness * roughness) as f32, cosine, false) }
+    }));
     all
 }
 
 /// A BSDF of any type.
 #[derive(Clone, Copy)]
+#[allow(clippy::large_enum_variant, reason = "tests hold few of them")]
 pub enum Any<'a> {
     Lambertian(LambertianBsdf<One>),
     Mirror(MirrorBsdf<One>),
     Conductor(ConductorBsdf<One>),
     Plastic(PlasticBsdf<'a, One>),
+    Principled(PrincipledBsdf<'a, One, false>),
+    AnisotropicConductor(AnisotropicConductorBsdf<'a, One>),
 }
 
 impl Bsdf<One> for Any<'_> {
@@ -96,6 +150,8 @@ impl Bsdf<One> for Any<'_> {
             Any::Mirror(bsdf) => bsdf.eval(wo, wi),
             Any::Conductor(bsdf) => bsdf.eval(wo, wi),
             Any::Plastic(bsdf) => bsdf.eval(wo, wi),
+            Any::Principled(bsdf) => bsdf.eval(wo, wi),
+            Any::AnisotropicConductor(bsdf) => bsdf.eval(wo, wi),
         }
     }
 
@@ -105,6 +161,8 @@ impl Bsdf<One> for Any<'_> {
             Any::Mirror(bsdf) => bsdf.sample(wo, u, lobe),
             Any::Conductor(bsdf) => bsdf.sample(wo, u, lobe),
             Any::Plastic(bsdf) => bsdf.sample(wo, u, lobe),
+            Any::Principled(bsdf) => bsdf.sample(wo, u, lobe),
+            Any::AnisotropicConductor(bsdf) => bsdf.sample(wo, u, lobe),
         }
     }
 }
@@ -127,12 +185,31 @@ pub fn mixed() -> [Vec<Material>; 2] {
     ]
 }
 
+/// Opaque and clear principled materials, four of each.
+pub fn mixed_principled() -> [Vec<Material>; 2] {
+    let number = Textured::Constant;
+    let plain = Principled::default;
+    let coat = || Principled { coat_weight: number(0.7), coat_color: [0.9, 0.5, 0.2].into(), ..plain() };
+    let film = || Principled { thin_film_weight: number(0.8), specular_roughness_anisotropy: number(0.5), ..plain() };
+    let fuzz = || Principled { fuzz_weight: number(0.6), base_diffuse_roughness: number(0.5), ..plain() };
+    let opaque = [plain(), coat(), film(), fuzz()];
+    let clear = |weight: f64, thin_walled: bool, material: Principled| Principled {
+        transmission_weight: number(weight),
+        transmission_color: [0.5, 0.9, 0.7].into(),
+        thin_walled,
+        ..material
+    };
+    let clear = [clear(1.0, false, plain()), clear(0.5, false, coat()), clear(0.8, true, film()), clear(0.6, true, fuzz())];
+    [opaque.map(Material::from).into(), clear.map(Material::from).into()]
+}
+
 /// The colour that a texture may replace; white for types without.
 fn colour(material: &Material) -> [f32; 3] {
     let source = match material {
         Material::Lambertian(Lambertian { albedo }) | Material::Plastic(Plastic { albedo, .. }) => albedo,
         Material::Mirror(Mirror { reflectance }) => reflectance,
         Material::Conductor(Conductor { fresnel: Reflectance::Constant(f0) | Reflectance::Schlick(f0), .. }) => f0,
+        Material::Principled(Principled { base_color, .. }) => base_color,
         _ => return [1.0; 3],
     };
     let Textured::Constant(colour) = source else { unreachable!("no textures here") };

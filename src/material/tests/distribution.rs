@@ -156,7 +156,7 @@ fn the_weight_of_a_sample_is_its_eval_over_its_pdf() {
 #[test]
 fn light_and_viewer_can_be_exchanged() {
     let mut rng = SmallRng::seed_from_u64(13);
-    for case in &cases() {
+    for case in cases().iter().filter(|case| case.reciprocal) {
         let bsdf = case.bsdf();
         for cos in COSINES {
             let wo = viewer(cos);

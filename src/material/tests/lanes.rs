@@ -2,8 +2,12 @@
 use fearless_simd_macros::simd;
 
 use super::{
-    super::{Bsdf, Conductor, Material, Materials, Plastic, Shade, albedo_table::build},
-    cases::{local, mixed},
+    super::{
+        Bsdf, Conductor, Material, Materials, Plastic, Shade,
+        albedo_table::build,
+        principled::{Principled, PrincipledGlass},
+    },
+    cases::{local, mixed, mixed_principled},
 };
 use crate::{
     math::{F, Lanes, MAX_LANES, SimdLevel, V, in_lanes},
@@ -19,7 +23,7 @@ fn column(k: u32) -> Vec<f32> {
 
 /// All results of a BSDF, for all points.
 #[simd]
-fn answers<L: Lanes>(l: L, plastic: bool, materials: &Materials, columns: &[Vec<f32>], out: &mut Vec<u32>) {
+fn answers<L: Lanes, K: Shade>(l: L, materials: &Materials, columns: &[Vec<f32>], out: &mut Vec<u32>) {
     for start in (0..POINTS).step_by(L::N) {
         let read = Columns { l, columns, start };
         let cos = read.at(0);
@@ -28,11 +32,7 @@ fn answers<L: Lanes>(l: L, plastic: bool, materials: &Materials, columns: &[Vec<
         let number = (l.iota() + start as u32) & 3;
         let at = local(number, V { x: read.at(1), y: read.at(2), z: read.at(3) }, read.at(4));
         let u = (read.at(5), read.at(6));
-        let (values, pdf) = if plastic {
-            answer(&Plastic::at(l, materials, Directions::Bsdf, &at), wo, u, read.at(7))
-        } else {
-            answer(&Conductor::at(l, materials, Directions::Bsdf, &at), wo, u, read.at(7))
-        };
+        let (values, pdf) = answer(&K::at(l, materials, Directions::Bsdf, &at), wo, u, read.at(7));
         for lane in 0..L::N {
             out.extend(values.map(|v| v.lane(lane).map(f32::to_bits)).as_flattened());
             out.push(pdf.to_array()[lane].to_bits());
@@ -62,20 +62,25 @@ fn answer<L: Lanes>(bsdf: &impl Bsdf<L>, wo: V<L>, u: (F<L>, F<L>), lobe: F<L>) 
 
 #[test]
 fn any_number_of_lanes_gives_the_same_bits() {
+    let [conductors, plastics] = mixed();
+    let [opaque, clear] = mixed_principled();
+    assert!(are_alike::<Conductor>(&conductors), "conductors");
+    assert!(are_alike::<Plastic>(&plastics), "plastics");
+    assert!(are_alike::<Principled>(&opaque), "opaque principled materials");
+    assert!(are_alike::<PrincipledGlass>(&clear), "clear principled materials");
+}
+
+/// Whether four materials of a kind have the same bits at every level.
+fn are_alike<K: Shade>(list: &[Material]) -> bool {
     let columns: Vec<_> = (0..8).map(column).collect();
-    let [conductors, plastics]: [Vec<Material>; 2] = mixed();
-    for (plastic, list) in [(false, conductors), (true, plastics)] {
-        let materials = Materials::new(&list);
-        let all: Vec<Vec<u32>> = SimdLevel::available()
-            .into_iter()
-            .map(|level| {
-                let mut out = Vec::new();
-                in_lanes!(level, l => answers(l, plastic, &materials, &columns, &mut out));
-                out
-            })
-            .collect();
-        assert!(all.windows(2).all(|pair| pair[0] == pair[1]), "plastic: {plastic}");
-    }
+    let materials = Materials::new(list);
+    let answers = SimdLevel::available().into_iter().map(|level| {
+        let mut out = Vec::new();
+        in_lanes!(level, l => answers::<_, K>(l, &materials, &columns, &mut out));
+        out
+    });
+    let all: Vec<Vec<u32>> = answers.collect();
+    all.windows(2).all(|pair| pair[0] == pair[1])
 }
 
 #[test]

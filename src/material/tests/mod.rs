@@ -7,11 +7,12 @@ mod distribution;
 mod energy;
 mod fresnel;
 mod lanes;
+mod principled;
 
 use crate::math::{F, One, V};
 
 /// A lattice of `n` points of the unit square, `n` and `step` successive Fibonacci numbers.
-fn lattice(n: u32, step: u32) -> impl Iterator<Item = (F<One>, F<One>)> {
+pub(super) fn lattice(n: u32, step: u32) -> impl Iterator<Item = (F<One>, F<One>)> {
     let n64 = f64::from(n);
     (0..n).map(move |i| {
         let turn = f64::from((u64::from(i) * u64::from(step) % u64::from(n)) as u32);
