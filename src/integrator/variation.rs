@@ -44,8 +44,9 @@ pub(super) fn vary<L: Lanes>(
     n: V<L>,
 ) -> (V<L>, Detail<L>) {
     let Scene { surfaces, textures, .. } = scene;
-    let IncidentPaths { d, interaction: SurfaceInteraction { place, point, cos }, media, word } = incident;
-    let [mut alpha, colour_texture, alpha_texture, medium] = l.rows(&surfaces.varying, place.primitive);
+    let IncidentPaths { d, interaction, media, word } = incident;
+    let SurfaceInteraction { place, row, point, cos } = interaction;
+    let [mut alpha, colour_texture, alpha_texture, medium] = l.rows(&surfaces.varying, *row);
     let wo = -*d;
     let (mut colour, mut n) = (colour, n);
     if scene.shapes.have_elements() {
@@ -68,7 +69,7 @@ pub(super) fn vary<L: Lanes>(
         }
         if !surfaces.relief.is_empty() {
             let side = l.f(1.0).copysign(*cos);
-            let tilted = shading_normal(l, scene, place, mask, point, n * side, &at) * side;
+            let tilted = shading_normal(l, scene, interaction, mask, n * side, &at) * side;
             // A normal that the viewer could not see is not used.
             n = tilted.dot(wo).above(GRAZING).pick(tilted, n);
         }

@@ -18,7 +18,8 @@ fn lights() -> (Lights, Shapes, Vec<Shapes>) {
         (DVec3::new(0.0, 2.0, 0.5), 0.5),
     ]
     .map(|(center, radius)| Shape::Sphere { center, radius });
-    let emission = |light: f32, side| Emission { radiance: [light; 3], mean: [light; 3], texture: None, side };
+    let emission =
+        |light: f32, side| Emission { radiance: [light; 3], mean: [light; 3], texture: None, side, translucent: false };
     let emissions = [emission(8.0, Side::Front), emission(3.0, Side::Both), emission(0.2, Side::Back), emission(9.0, Side::Back)];
     let shapes_of = shapes;
     let shapes = shapes_of(&spheres);

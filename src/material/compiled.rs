@@ -54,6 +54,12 @@ impl CompiledMaterial {
         }
     }
 
+    /// A material that scatters nothing.
+    pub fn black() -> CompiledMaterial {
+        let colour = ColourSource::Constant([0.0; 3]);
+        CompiledMaterial { colour, scatters_where_black: false, ..CompiledMaterial::colourless(Stage::Plain) }
+    }
+
     /// A material of a stage without a colour.
     pub fn colourless(stage: Stage) -> CompiledMaterial {
         CompiledMaterial {

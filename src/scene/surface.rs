@@ -1,13 +1,16 @@
 //! Tables of the surfaces of primitives for the kernel, and the shading stages that they need.
+mod applied;
+mod blends;
+
+use self::applied::AppliedMaterial;
 use super::{MaterialInstance, Object};
 use crate::{
-    geometry::Shape,
     material::{AlphaSource, Materials, Stage},
     math::{Lanes, M, U},
-    texture::ColourSource,
+    texture::{ColourSource, NumberSource},
 };
 
-/// Surfaces by primitive. Tables that a scene does not need are empty.
+/// Surfaces by primitive, and after them the parts of blends. Tables that a scene does not need are empty.
 #[derive(Default)]
 pub struct Surfaces {
     /// Colour, and the word `material | stage << 16 | flags`.
@@ -16,6 +19,11 @@ pub struct Surfaces {
     pub varying: Vec<[f32; 4]>,
     /// Height texture, its scale, and normal texture (ids as above).
     pub relief: Vec<[f32; 4]>,
+    /// Opacity, its texture (an id as above), and 1 for surfaces that are not all opaque or are blends. Filled if there are such
+    /// surfaces.
+    pub opacity: Vec<[f32; 4]>,
+    /// Weight of the second part of a blend, its texture (an id as above), and the rows of both parts as bits.
+    pub blends: Vec<[f32; 4]>,
     /// Extinction of media per metre, in octaves; the first is empty space. Without tinted media the table is empty.
     pub media: Vec<[f32; 4]>,
     /// Whether the colour or α of some surface is textured.
@@ -42,6 +50,8 @@ pub const SQUARED: u32 = 1 << 22;
 pub const SELF_LIT: u32 = 1 << 23;
 /// Flag: black colours scatter light too; see [`crate::material::CompiledMaterial::scatters_where_black`].
 pub const SCATTERS_WHERE_BLACK: u32 = 1 << 24;
+/// Flag: a blend. The first column of the row holds its index in [`Surfaces::blends`] as bits.
+pub const BLENDED: u32 = 1 << 30;
 /// Flag, set while rendering: the path hit the front.
 pub const FRONT: u32 = 1 << 31;
 /// Materials have 16 bits and media 8. [`Surfaces::check`] rejects more.
@@ -53,18 +63,19 @@ impl Surfaces {
     pub fn new(objects: &[Object], instances: &[MaterialInstance], materials: Materials) -> Surfaces {
         let inside = |instance: &MaterialInstance| instance.compiled.inside.unwrap_or([1.0; 3]);
         let has_media = instances.iter().any(|instance| inside(instance) != [1.0; 3]);
-        let has_relief = instances.iter().any(|instance| instance.bump.is_some() || instance.normal_map.is_some());
+        let columns = Columns::new(objects, instances);
         let mut surfaces = Surfaces { materials, ..Surfaces::default() };
         if has_media {
             surfaces.media.push([0.0; 4]);
             surfaces.media.extend(instances.iter().map(|instance| octaves_per_metre(inside(instance))));
         }
         for object in objects {
-            let instance = object.material.map(|number| (number, &instances[number as usize]));
+            let applied = AppliedMaterial::of_object(object, instances);
             for _ in 0..object.shape.piece_count() {
-                surfaces.push(object, instance, has_relief);
+                surfaces.push(applied.as_ref(), columns);
             }
         }
+        blends::add(&mut surfaces, objects, instances, columns);
         surfaces.stages.sort_unstable();
         surfaces.stages.dedup();
         surfaces.glossy = surfaces.stages.iter().any(|stage| stage.is_glossy());
@@ -72,17 +83,22 @@ impl Surfaces {
         surfaces
     }
 
-    fn push(&mut self, object: &Object, instance: Option<(u32, &MaterialInstance)>, has_relief: bool) {
-        let Some((number, instance)) = instance else {
+    /// Adds the row of a surface, which is black without a material.
+    fn push(&mut self, applied: Option<&AppliedMaterial>, columns: Columns) {
+        let Some(applied) = applied else {
             self.rows.push([0.0; 4]);
             self.varying.push([0.0; 4]);
-            if has_relief {
+            if columns.relief {
                 self.relief.push([0.0; 4]);
+            }
+            if columns.opacity {
+                self.opacity.push([1.0, 0.0, 0.0, 0.0]);
             }
             return;
         };
+        let AppliedMaterial { number, instance, .. } = *applied;
         let compiled = &instance.compiled;
-        let stage = self.stage(object, instance);
+        let stage = applied.stage(!self.media.is_empty());
         let (colour, colour_texture) = match compiled.colour {
             ColourSource::Constant(colour) => (colour, None),
             ColourSource::Texture(id) => ([1.0; 3], Some(id)),
@@ -92,9 +108,9 @@ impl Surfaces {
             AlphaSource::Texture { id, squared } => (1.0, Some(id), squared),
         };
         let flag = |set: bool, flag: u32| if set { flag } else { 0 };
-        let self_lit = stage.transmits() && stage.sees_lights() && object.emission.is_some();
-        let flags = flag(object.flip, FLIPPED)
-            | flag(instance.one_sided, ONE_SIDED)
+        let self_lit = stage.transmits() && stage.sees_lights() && applied.emits;
+        let flags = flag(applied.flip, FLIPPED)
+            | flag(applied.one_sided, ONE_SIDED)
             | flag(squared, SQUARED)
             | flag(self_lit, SELF_LIT)
             | flag(compiled.scatters_where_black, SCATTERS_WHERE_BLACK);
@@ -102,23 +118,23 @@ impl Surfaces {
         self.textured |= colour_texture.or(alpha_texture).is_some();
         self.rows.push(SurfaceRow { colour, word: number | (stage as u32) << STAGE_SHIFT | flags }.pack());
         self.varying.push(VaryingRow { alpha, colour_texture, alpha_texture, medium }.pack());
-        if has_relief {
-            let (heights, height) = instance.bump.map_or((None, 0.0), |(id, height)| (Some(id), height));
-            self.relief.push([texture_bits(heights), height, texture_bits(instance.normal_map), 0.0]);
+        if columns.relief {
+            let (heights, height) = applied.bump.map_or((None, 0.0), |(id, height)| (Some(id), height));
+            self.relief.push([texture_bits(heights), height, texture_bits(applied.normal_map), 0.0]);
+        }
+        if columns.opacity {
+            let layered = instance.properties.passes || instance.blend.is_some();
+            let [opacity, texture] = number_row(instance.opacity);
+            self.opacity.push([opacity, texture, f32::from(u8::from(layered)), 0.0]);
         }
         if compiled.scatters_where_black || colour != [0.0; 3] {
             self.stages.push(stage);
         }
     }
 
-    /// Diffuse surfaces need more than their plain stage where normals vary or there are media.
-    fn stage(&self, object: &Object, instance: &MaterialInstance) -> Stage {
-        let is_smooth = matches!(&object.shape, Shape::Mesh { data, .. } if !data.normals.is_empty());
-        let has_normals = instance.bump.is_some() || instance.normal_map.is_some();
-        match instance.compiled.stage {
-            Stage::Plain if has_normals || is_smooth || !self.media.is_empty() => Stage::Diffuse,
-            stage => stage,
-        }
+    /// Whether no light passes through surfaces, and none is a blend.
+    pub fn are_opaque(&self) -> bool {
+        self.opacity.is_empty()
     }
 
     fn are_plain(&self) -> bool {
@@ -136,6 +152,26 @@ impl Surfaces {
             return too_many("materials in a scene with tinted media", MOST_MEDIA - 1);
         }
         Ok(())
+    }
+}
+
+/// The tables that only some scenes need.
+#[derive(Clone, Copy)]
+struct Columns {
+    relief: bool,
+    opacity: bool,
+}
+
+impl Columns {
+    fn new(objects: &[Object], instances: &[MaterialInstance]) -> Columns {
+        let is_layered = |number: u32| {
+            let instance = &instances[number as usize];
+            instance.properties.passes || instance.blend.is_some()
+        };
+        Columns {
+            relief: instances.iter().any(|instance| instance.bump.is_some() || instance.normal_map.is_some()),
+            opacity: objects.iter().filter_map(|object| object.material).any(is_layered),
+        }
     }
 }
 
@@ -171,6 +207,14 @@ impl VaryingRow {
 /// An id plus 1, as bits; 0 is none.
 fn texture_bits(texture: Option<u32>) -> f32 {
     f32::from_bits(texture.map_or(0, |id| id + 1))
+}
+
+/// A number and its texture.
+fn number_row(source: NumberSource) -> [f32; 2] {
+    match source {
+        NumberSource::Constant(number) => [number, texture_bits(None)],
+        NumberSource::Texture(id) => [1.0, texture_bits(Some(id))],
+    }
 }
 
 /// −log₂ of the transmittance of a metre. For transmittance 0 it is finite, so that a distance of 0 transmits everything.

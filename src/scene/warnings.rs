@@ -100,7 +100,9 @@ impl Scene {
         // A ray from above the lamp towards it first hits another object if that is in between.
         let cover = |(a, b): (f64, f64)| {
             let met = self.first_object(*origin + *u * a + *v * b + above, -normal)?;
-            (met != number && lamp.motion.0.is_empty()).then(|| &self.objects[met]).filter(|object| !self.has_inside(object))
+            (met != number && lamp.motion.0.is_empty())
+                .then(|| &self.objects[met])
+                .filter(|object| !self.has_inside(object) && !self.lets_pass(object))
         };
         let covers: Option<Vec<&Object>> = places(*outline).into_iter().map(cover).collect();
         covers?.first().copied()

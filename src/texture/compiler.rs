@@ -19,6 +19,15 @@ pub enum ColourSource {
     Texture(u32),
 }
 
+/// A number of the scene: constant, or the luminance of a texture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum NumberSource {
+    /// The same everywhere.
+    Constant(f32),
+    /// The id in [`Textures`].
+    Texture(u32),
+}
+
 /// The textures that are compiled so far, and what the scene calls them.
 pub struct TextureCompiler<'a> {
     /// Files and memory.
@@ -123,6 +132,18 @@ impl<'a> TextureCompiler<'a> {
             return Err(Problem::at(&key, message, range.expected));
         }
         Ok(ColourSource::Texture(id))
+    }
+
+    /// The number or the texture of a parameter, all of whose values lie in the range.
+    pub fn number(&self, parameter: &Parameter, value: &Textured<f64>, range: &Range) -> Result<NumberSource, Problem> {
+        let name = match value {
+            Textured::Constant(number) => return Ok(NumberSource::Constant(*number as f32)),
+            Textured::Texture(name) => name,
+        };
+        Ok(match self.colour(parameter, &Textured::Texture(name.clone()), range)? {
+            ColourSource::Constant([number, ..]) => NumberSource::Constant(number),
+            ColourSource::Texture(id) => NumberSource::Texture(id),
+        })
     }
 
     /// The colour, or the mean colour of the texture.

@@ -17,7 +17,7 @@ pub mod vertex_color;
 use fearless_simd_macros::simd;
 
 pub use self::{
-    compiler::{ColourSource, TextureCompiler},
+    compiler::{ColourSource, NumberSource, TextureCompiler},
     constant::Constant,
     image::{Edge, ImageTexture},
 };

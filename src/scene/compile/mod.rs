@@ -88,7 +88,8 @@ impl Parts {
         let known = before.map(|before| Materials::after(&before.scene.surfaces.materials, before.precision));
         let mut tables = known.unwrap_or_default();
         let (materials, numbers) = materials(&description.materials, &mut textures, &mut tables, problems);
-        let objects = objects(&description.objects, &numbers, &textures, resources, problems);
+        let mut objects = objects(&description.objects, &numbers, &textures, resources, problems);
+        objects.iter_mut().for_each(|object| light::see_through(object, &materials));
         let RenderDescription { settings, spp } = description.render;
         let truth = description.truth.as_ref().map(|described| problems.keep(&at("truth"), || truth(described, resources)));
         Some(Parts {
