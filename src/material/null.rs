@@ -7,8 +7,9 @@ use crate::declare::{Declare, Kind, Parameter, Parameters, Problem};
 pub struct Null;
 
 impl Kind for Null {
-    const KIND: Parameter =
-        Parameter::new("null", "A surface that light passes unchanged.").aliases("invisible interface passthrough");
+    const KIND: Parameter = Parameter::new("null", "A surface that light passes unchanged.")
+        .aliases("invisible interface passthrough")
+        .advice("such as null = {}");
 }
 
 impl Declare for Null {

@@ -63,7 +63,13 @@ impl Properties {
         }
     }
 
-    /// The properties of a blend of surfaces.
+    /// The properties of a blend of its parts, by those that it has before.
+    #[must_use]
+    pub fn of_blend(self, parts: Properties) -> Properties {
+        Properties { passes: self.passes | parts.passes, ..parts }
+    }
+
+    /// The properties of either of two surfaces.
     #[must_use]
     pub fn or(self, other: Properties) -> Properties {
         Properties {

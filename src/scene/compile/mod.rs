@@ -1,4 +1,5 @@
 //! From a description to what the renderer runs on: names become numbers, values are checked, tables are built.
+mod blend;
 mod camera;
 mod check;
 mod light;
