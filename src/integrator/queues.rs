@@ -1,7 +1,7 @@
 //! Queues that are filled and read in lockstep: the records of paths at one stage. A scene fills only those that it needs.
 use super::{
     queue::{Queue, Register, Registers},
-    records::{Detail, Hit, Inside, Path, PreviousLobe, PreviousVertex, Shadow},
+    records::{Detail, Hit, Inside, Path, PreviousLobe, PreviousVertex, Shadow, Transmittance},
     slots::SLOTS,
 };
 use crate::math::{Lanes, One, Pick, U};
@@ -60,11 +60,17 @@ pub(super) struct HitQueues {
     pub hits: Queue,
     /// Filled for types that read it.
     pub details: Queue,
+    /// Filled for types that have a diffuse transmittance.
+    pub transmittances: Queue,
 }
 
 impl Default for HitQueues {
     fn default() -> Self {
-        HitQueues { hits: Hit::<One>::queue(SLOTS), details: Detail::<One>::queue(SLOTS) }
+        HitQueues {
+            hits: Hit::<One>::queue(SLOTS),
+            details: Detail::<One>::queue(SLOTS),
+            transmittances: Transmittance::<One>::queue(SLOTS),
+        }
     }
 }
 
@@ -77,6 +83,7 @@ impl HitQueues {
     pub fn clear(&mut self) {
         self.hits.clear();
         self.details.clear();
+        self.transmittances.clear();
     }
 
     #[inline(always)]

@@ -6,7 +6,7 @@ use super::{
     media::beyond,
     queue::Register,
     queues::HitQueues,
-    records::{Detail, Hit, Path, Shadow},
+    records::{Detail, Hit, Path, Shadow, Transmittance},
     roulette::{Survival, survive},
     work::Work,
 };
@@ -70,7 +70,10 @@ impl<'a, L: Lanes, K: Shade> Shading<'a, L, K> {
         } else {
             Vertex::plain(l, &hit)
         };
-        let bsdf = K::at(l, &work.scene.surfaces.materials, work.settings.directions, &vertex.local);
+        let mut bsdf = K::at(l, &work.scene.surfaces.materials, work.settings.directions, &vertex.local);
+        if K::HAS_TRANSMITTANCE {
+            bsdf = K::with_transmittance(bsdf, Transmittance::read(l, &queues.transmittances, start).colour);
+        }
         Shading { live, hit, vertex, bsdf, coordinates, reflection }
     }
 

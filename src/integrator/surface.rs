@@ -7,9 +7,9 @@ use super::{
     media::transmittance,
     queue::Register,
     queues::{HitQueues, PathQueues},
-    records::{Detail, Hit, Path},
+    records::{Detail, Hit, Path, Transmittance},
     shared::Shared,
-    variation::{IncidentPaths, vary},
+    variation::{IncidentPaths, transmittance_of_surface, vary},
     weight::weight_of_hit,
     work::Work,
 };
@@ -193,6 +193,10 @@ fn sort<L: Lanes>(
         } else {
             Hit { colour, ..hit }.push(here, &mut queues.hits);
             detail.push(here, &mut queues.details);
+            if stage.has_transmittance() {
+                let colour = transmittance_of_surface(l, work.scene, incident, here);
+                Transmittance { colour }.push(here, &mut queues.transmittances);
+            }
         }
     }
 }

@@ -76,3 +76,18 @@ pub(super) fn vary<L: Lanes>(
     }
     (colour, Detail { wo, n, alpha, error: point.error, surface: *word, media: *media, medium: medium.bits() })
 }
+
+/// Diffuse transmittance in the lanes of `mask`.
+#[inline(always)]
+pub(super) fn transmittance_of_surface<L: Lanes>(l: L, scene: &Scene, incident: &IncidentPaths<L>, mask: M<L>) -> V<L> {
+    let SurfaceInteraction { place, row, point, .. } = &incident.interaction;
+    let [x, y, z, texture] = l.rows(&scene.surfaces.transmittance, *row);
+    let (constant, id) = (V { x, y, z }, texture.bits());
+    let textured = mask & !id.is(0);
+    if !textured.any() {
+        return constant;
+    }
+    let Coordinates { u, v } = scene.shapes.coordinates(l, place, point);
+    let at = TextureCoordinates { u, v, p: point.p };
+    textured.pick(scene.textures.colour(l, id + u32::MAX, textured, &at), constant)
+}

@@ -29,6 +29,8 @@ pub struct CompiledMaterial {
     pub rows: [[f32; 4]; 3],
     /// Albedo, or reflectance at normal incidence; white for kinds without.
     pub colour: ColourSource,
+    /// Diffuse transmittance, for kinds with one.
+    pub transmittance: Option<ColourSource>,
     /// The width α of the GGX distribution.
     pub alpha: AlphaSource,
     /// Transmittance of a metre of the interior, for kinds with an inside.
@@ -47,6 +49,7 @@ impl CompiledMaterial {
             stage,
             rows: [[0.0; 4]; 3],
             colour,
+            transmittance: None,
             alpha: AlphaSource::Constant(0.0),
             inside: None,
             scatters_where_black: false,
@@ -66,6 +69,7 @@ impl CompiledMaterial {
             stage,
             rows: [[0.0; 4]; 3],
             colour: ColourSource::Constant([1.0; 3]),
+            transmittance: None,
             alpha: AlphaSource::Constant(0.0),
             inside: None,
             scatters_where_black: true,
@@ -111,10 +115,14 @@ impl<'a, 'b> MaterialCompiler<'a, 'b> {
 
     /// The largest value of any channel.
     fn largest(&self, colour: ColourSource) -> f32 {
-        let colour = match colour {
+        self.maximum(colour).into_iter().fold(0.0, f32::max).min(1.0)
+    }
+
+    /// The largest value of each channel.
+    pub(super) fn maximum(&self, colour: ColourSource) -> [f32; 3] {
+        match colour {
             ColourSource::Constant(colour) => colour,
             ColourSource::Texture(id) => self.textures.textures.maximum(id),
-        };
-        colour.into_iter().fold(0.0, f32::max).min(1.0)
+        }
     }
 }

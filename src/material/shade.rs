@@ -1,7 +1,7 @@
 //! The interface between the shading stages of the kernel and BSDF types.
 use super::{Bsdf, Local, Materials, Stage};
 use crate::{
-    math::{F, Lanes, M},
+    math::{F, Lanes, M, V},
     sampling::Directions,
 };
 
@@ -23,11 +23,19 @@ pub trait Shade {
     const TRANSMITS: bool = false;
     /// Whether transmitted light enters or leaves a medium.
     const ENTERS: bool = Self::TRANSMITS;
+    /// Whether it has a diffuse transmittance besides its colour: see [`Shade::with_transmittance`].
+    const HAS_TRANSMITTANCE: bool = false;
     /// Whether lights are chosen with its lobe.
     const GLOSSY: bool = false;
 
     /// The BSDF at surface points. `directions` is the sampling of diffuse surfaces.
     fn at<'a, L: Lanes>(l: L, materials: &'a Materials, directions: Directions, at: &Local<L>) -> Self::Bsdf<'a, L>;
+
+    /// The BSDF with its diffuse transmittance at the points.
+    #[inline(always)]
+    fn with_transmittance<'a, L: Lanes>(bsdf: Self::Bsdf<'a, L>, _transmittance: V<L>) -> Self::Bsdf<'a, L> {
+        bsdf
+    }
 
     /// The width of the lobe; 0 without one.
     #[inline(always)]

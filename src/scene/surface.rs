@@ -19,6 +19,8 @@ pub struct Surfaces {
     pub varying: Vec<[f32; 4]>,
     /// Height texture, its scale, and normal texture (ids as above).
     pub relief: Vec<[f32; 4]>,
+    /// Diffuse transmittance and its texture (an id as above). Filled if some material has one.
+    pub transmittance: Vec<[f32; 4]>,
     /// Opacity, its texture (an id as above), and 1 for surfaces that are not all opaque or are blends. Filled if there are such
     /// surfaces.
     pub opacity: Vec<[f32; 4]>,
@@ -94,15 +96,15 @@ impl Surfaces {
             if columns.opacity {
                 self.opacity.push([1.0, 0.0, 0.0, 0.0]);
             }
+            if columns.transmittance {
+                self.transmittance.push([0.0; 4]);
+            }
             return;
         };
         let AppliedMaterial { number, instance, .. } = *applied;
         let compiled = &instance.compiled;
         let stage = applied.stage(!self.media.is_empty());
-        let (colour, colour_texture) = match compiled.colour {
-            ColourSource::Constant(colour) => (colour, None),
-            ColourSource::Texture(id) => ([1.0; 3], Some(id)),
-        };
+        let (colour, colour_texture) = constant_and_texture(compiled.colour);
         let (alpha, alpha_texture, squared) = match compiled.alpha {
             AlphaSource::Constant(alpha) => (alpha, None, false),
             AlphaSource::Texture { id, squared } => (1.0, Some(id), squared),
@@ -121,6 +123,11 @@ impl Surfaces {
         if columns.relief {
             let (heights, height) = applied.bump.map_or((None, 0.0), |(id, height)| (Some(id), height));
             self.relief.push([texture_bits(heights), height, texture_bits(applied.normal_map), 0.0]);
+        }
+        if columns.transmittance {
+            let (transmittance, texture) = compiled.transmittance.map_or(([0.0; 3], None), constant_and_texture);
+            let [r, g, b] = transmittance;
+            self.transmittance.push([r, g, b, texture_bits(texture)]);
         }
         if columns.opacity {
             let layered = instance.properties.passes || instance.blend.is_some();
@@ -160,6 +167,7 @@ impl Surfaces {
 struct Columns {
     relief: bool,
     opacity: bool,
+    transmittance: bool,
 }
 
 impl Columns {
@@ -170,6 +178,7 @@ impl Columns {
         };
         Columns {
             relief: instances.iter().any(|instance| instance.bump.is_some() || instance.normal_map.is_some()),
+            transmittance: instances.iter().any(|instance| instance.compiled.transmittance.is_some()),
             opacity: objects.iter().filter_map(|object| object.material).any(is_layered),
         }
     }
@@ -207,6 +216,14 @@ impl VaryingRow {
 /// An id plus 1, as bits; 0 is none.
 fn texture_bits(texture: Option<u32>) -> f32 {
     f32::from_bits(texture.map_or(0, |id| id + 1))
+}
+
+/// A colour and its texture, which replaces it.
+fn constant_and_texture(source: ColourSource) -> ([f32; 3], Option<u32>) {
+    match source {
+        ColourSource::Constant(colour) => (colour, None),
+        ColourSource::Texture(id) => ([1.0; 3], Some(id)),
+    }
 }
 
 /// A number and its texture.

@@ -111,7 +111,7 @@ impl Follower {
     /// Geometric and shading normal, if the surface reflects.
     fn normals(&self, work: &Work, batch: &Batch) -> Option<([f32; 3], [f32; 3])> {
         let of_stage = |stage: &Stage| {
-            let HitQueues { hits, details } = &batch.hits[*stage as usize];
+            let HitQueues { hits, details, .. } = &batch.hits[*stage as usize];
             let at = self.find(hits, |at| Hit::read(One, hits, at).slot)?;
             let n = Hit::read(One, hits, at).n;
             let shading = if *stage == Stage::Plain { n } else { Detail::read(One, details, at).n };
