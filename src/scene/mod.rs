@@ -141,7 +141,7 @@ pub enum Truth {
 impl Scene {
     /// Whether all surfaces are spheres or flat, diffuse, from both sides, and neither their colour nor what they emit varies.
     pub fn is_plain(&self) -> bool {
-        self.surfaces.plain && self.surfaces.are_opaque() && !self.lights.emitters.vary() && self.shapes.are_simple()
+        self.surfaces.plain && !self.lights.emitters.vary() && self.shapes.are_simple()
     }
 
     /// Whether pixels share path suffixes.

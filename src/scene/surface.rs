@@ -34,7 +34,7 @@ pub struct Surfaces {
     pub stages: Vec<Stage>,
     /// Whether some surface is glossy, so lights are chosen with its lobe.
     pub glossy: bool,
-    /// Whether all surfaces are diffuse, two-sided, and of constant colour.
+    /// Whether all surfaces are diffuse, two-sided, opaque, and of constant colour.
     pub plain: bool,
     /// Tables and constants of the materials.
     pub materials: Materials,
@@ -146,7 +146,10 @@ impl Surfaces {
 
     fn are_plain(&self) -> bool {
         let one_sided = |row: &[f32; 4]| row[3].to_bits() & ONE_SIDED != 0;
-        !self.textured && self.stages.iter().all(|stage| *stage == Stage::Plain) && !self.rows.iter().any(one_sided)
+        !self.textured
+            && self.are_opaque()
+            && self.stages.iter().all(|stage| *stage == Stage::Plain)
+            && !self.rows.iter().any(one_sided)
     }
 
     /// Error if there are too many materials or media.
@@ -294,6 +297,7 @@ mod tests {
             ("dielectric.ior = 1.5", Stage::Dielectric),
             ("dielectric = { ior = 1.5, roughness = 0.5 }", Stage::RoughDielectric),
             ("plastic = { albedo = 0.5, ior = 1.5 }", Stage::Plastic),
+            ("diffuse_transmission = { reflectance = 0.5, transmittance = 0.5 }", Stage::DiffuseTransmission),
         ] {
             assert_eq!(stages(material), [stage], "{material}");
         }
@@ -338,6 +342,22 @@ mod tests {
     }
 
     #[test]
+    fn only_scenes_with_opacity_or_blends_have_a_table_of_opacities() {
+        let surfaces = |material: &str| scene(&[(material, ""), (WHITE, "")]).surfaces;
+        for opaque in [WHITE, "lambertian.albedo = 0.5\nopacity = 1", "dielectric.ior = 1.5"] {
+            let surfaces = surfaces(opaque);
+            assert!(surfaces.are_opaque() && surfaces.blends.is_empty() && surfaces.transmittance.is_empty(), "{opaque}");
+        }
+        let rows = |material: &str| surfaces(material).opacity;
+        assert_eq!(rows("lambertian.albedo = 0.5\nopacity = 0.25"), [[0.25, 0.0, 1.0, 0.0], [1.0, 0.0, 0.0, 0.0]]);
+        assert_eq!(rows("null = {}")[0], [0.0, 0.0, 1.0, 0.0]);
+        assert_eq!(rows("null = {}\nopacity = 1")[0], [0.0, 0.0, 1.0, 0.0]);
+        let textured = rows("lambertian.albedo = 0.5\nopacity = { texture = 'squares' }")[0];
+        assert_eq!((textured[0], textured[1].to_bits() > 0, textured[2]), (1.0, true, 1.0));
+        assert_eq!(surfaces("null = {}").stages, [Stage::Plain], "what is never met needs no stage");
+    }
+
+    #[test]
     fn plain_is_a_scene_of_diffuse_constant_two_sided_colour() {
         let is_plain = |balls: &[(&str, &str)]| scene(balls).surfaces.plain;
         assert!(is_plain(&[(WHITE, ""), (WHITE, "flip = true")]));
@@ -345,6 +365,7 @@ mod tests {
             "mirror.reflectance = 0.5",
             "lambertian.albedo = 0.5\ntwo_sided = false",
             "lambertian.albedo = { texture = 'squares' }",
+            "lambertian.albedo = 0.5\nopacity = 0.5",
         ] {
             assert!(!is_plain(&[(WHITE, ""), (other, "")]), "{other}");
         }
@@ -366,5 +387,6 @@ mod tests {
         assert!(!can(&scene(&[("mirror.reflectance = 0.5", "")]), |_| ()));
         assert!(can(&scene(&[(WHITE, ""), ("mirror.reflectance = 0.5", "")]), |_| ()));
         assert!(!can(&scene(&[(WHITE, ""), ("dielectric = { ior = 1.5, transmittance = 0.5 }", "")]), |_| ()));
+        assert!(!can(&scene(&[(WHITE, ""), ("null = {}", "")]), |_| ()), "a visibility ray does not know transmittances");
     }
 }

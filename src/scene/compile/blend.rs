@@ -174,7 +174,7 @@ mod tests {
 
     #[test]
     fn a_blend_with_glass_has_two_sides() {
-        let report = refused("[materials.top]\nblend = { first = 'white', second = 'glass' }\ntwo_sided = false");
+        let report = refused("materials.top = { blend = { first = 'white', second = 'glass' }, two_sided = false }");
         assert!(report.contains("a blend with a material that transmits light has two sides"), "{report}");
     }
 
