@@ -108,7 +108,7 @@ fn through_surfaces<L: Lanes>(
             arriving.light = (sky | at_light).pick(arriving.light + light, arriving.light);
         }
         passed = (hit & !crossing.again).pick(passed * (1.0 - alpha), passed);
-        let goes_on = hit & passed.above(0.0);
+        let goes_on = hit & !sky & passed.above(0.0);
         arriving.t = ((at_light | (open & !goes_on)) & !arriving.seen).pick(t, arriving.t);
         arriving.seen = arriving.seen | sky | at_light;
         if crossed == MOST_CROSSINGS || !goes_on.any() {

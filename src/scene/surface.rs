@@ -53,7 +53,7 @@ pub const SELF_LIT: u32 = 1 << 23;
 /// Flag: black colours scatter light too; see [`crate::material::CompiledMaterial::scatters_where_black`].
 pub const SCATTERS_WHERE_BLACK: u32 = 1 << 24;
 /// Flag: a blend. The first column of the row holds its index in [`Surfaces::blends`] as bits.
-pub const BLENDED: u32 = 1 << 30;
+pub const BLENDED: u32 = 1 << 25;
 /// Flag, set while rendering: the path hit the front.
 pub const FRONT: u32 = 1 << 31;
 /// Materials have 16 bits and media 8. [`Surfaces::check`] rejects more.

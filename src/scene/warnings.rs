@@ -6,6 +6,7 @@ use crate::{
     geometry::{MISS, Outline, Shape},
     light::Side,
     math::{Lanes, One, V},
+    texture::NumberSource,
 };
 
 /// A surface in front of a lamp, closer than this fraction of the lamp's radius, blocks nearly all of its light.
@@ -51,6 +52,11 @@ impl Scene {
         let bare = self.names(|object| object.material.is_none() && object.emission.is_none());
         if let Some((bare, have)) = bare {
             warnings.push(format!("{bare} {have} neither `material` nor `emission`, and will be black"));
+        }
+        let is_clear =
+            |object: &Object| self.material(object).is_some_and(|material| material.opacity == NumberSource::Constant(0.0));
+        if let Some((clear, have)) = self.names(|object| object.emission.is_some() && is_clear(object)) {
+            warnings.push(format!("{clear} {have} `emission` but a material that lets all light pass, and will be dark"));
         }
         if let Some((flipped, have)) = self.names(|object| object.flip && self.has_inside(object)) {
             warnings.push(format!(
