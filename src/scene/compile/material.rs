@@ -1,7 +1,7 @@
 //! Materials of a description.
 use std::collections::BTreeMap;
 
-use super::{blend::blends, problems::Problems};
+use super::problems::Problems;
 use crate::{
     declare::{Path, Problem, Range},
     image::Encoding,
@@ -39,7 +39,6 @@ pub fn materials(
         });
         numbers.insert(name.clone(), number);
     }
-    blends(described, &numbers, &mut instances, textures, problems);
     (instances, numbers)
 }
 

@@ -14,7 +14,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use self::{camera::camera, material::materials, object::objects, problems::Problems};
+use self::{blend::blends, camera::camera, material::materials, object::objects, problems::Problems};
 pub use self::{
     check::{check_camera, check_object},
     reuse::Before,
@@ -88,7 +88,8 @@ impl Parts {
         problems.found.extend(wrong);
         let known = before.map(|before| Materials::after(&before.scene.surfaces.materials, before.precision));
         let mut tables = known.unwrap_or_default();
-        let (materials, numbers) = materials(&description.materials, &mut textures, &mut tables, problems);
+        let (mut materials, numbers) = materials(&description.materials, &mut textures, &mut tables, problems);
+        blends(&description.materials, &numbers, &mut materials, &textures, problems);
         let mut objects = objects(&description.objects, &numbers, &textures, resources, problems);
         objects.iter_mut().for_each(|object| light::see_through(object, &materials));
         let RenderDescription { settings, spp } = description.render;
