@@ -80,3 +80,24 @@ fn normal_map(path: &str, textures: &mut TextureCompiler) -> Result<u32, Problem
     let picture = ImageTexture::read(textures.resources, "normal_map", path, Encoding::Linear)?;
     Ok(textures.push(Texture::Image(picture)))
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::scene::parse;
+
+    #[test]
+    fn a_sheet_may_not_scatter_more_than_it_receives() {
+        let refused = |material: &str| {
+            let text = format!(
+                "format = 1\nbackground.radiance = 1\n\
+                 camera = {{ eye = [0, 0, 9], look_at = [0, 0, 0], fov = 60, resolution = [8, 8] }}\n\
+                 textures.squares.checker = {{ even = 0.2, odd = 0.6, scale = 2 }}\nmaterials.leaf.diffuse_transmission = {material}"
+            );
+            parse("leaf.toml", text).err().expect("it scatters too much").report()
+        };
+        let constant = refused("{ reflectance = [0.5, 0.7, 0.5], transmittance = [0.5, 0.5, 0.5] }");
+        assert!(constant.contains("add up to 1.2 in green"), "{constant}");
+        let textured = refused("{ reflectance = 0.5, transmittance = { texture = 'squares' } }");
+        assert!(textured.contains("add up to 1.1 in red") && textured.contains("their largest value"), "{textured}");
+    }
+}
