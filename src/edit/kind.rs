@@ -1,13 +1,18 @@
 //! Changes of kind that change other parameters too.
 use super::{change::Edit, document::Document};
 use crate::{
-    declare::{OneOf, OwnedValue, Path},
-    scene::{Projection, description::CameraDescription},
+    declare::{OneOf, OwnedValue, Path, Step},
+    material::Material,
+    scene::{
+        Projection,
+        description::{CameraDescription, SceneDescription},
+    },
 };
 
 impl Document {
     /// The edit that chooses another alternative and changes the parameters that depend on it: parallel rays have neither an angle nor
-    /// a lens, and a textured emission needs the name of a texture. `path` and `choice` are those of [`Edit::Choose`].
+    /// a lens, a textured emission needs the name of a texture, and a blend those of two materials. `path` and `choice` are those of
+    /// [`Edit::Choose`].
     pub fn change_kind(&self, path: &Path, choice: &str, name: &str) -> Edit {
         let scene = self.description();
         let mut edits = vec![Edit::choose(path.clone(), choice, name)];
@@ -20,10 +25,21 @@ impl Document {
                 let first = scene.textures.keys().next();
                 edits.extend(first.map(|texture| Edit::set(path.key("texture"), OwnedValue::Text(texture.clone()))));
             }
+            ("material", "blend") => edits.extend(of_blend(path, scene)),
             _ => {}
         }
         if edits.len() == 1 { edits.swap_remove(0) } else { Edit::All(edits) }
     }
+}
+
+/// The edits that give a blend two other materials. Neither is a blend, so none leads back to it.
+fn of_blend(path: &Path, scene: &SceneDescription) -> Vec<Edit> {
+    let is_this = |name: &str| matches!(path.0.last(), Some(Step::Key(key)) if key == name);
+    let others = scene.materials.iter().filter(|(name, other)| !is_this(name) && !matches!(other.kind, Material::Blend(_)));
+    let names: Vec<&String> = others.map(|(name, _)| name).take(2).collect();
+    let (Some(first), Some(second)) = (names.first(), names.last()) else { return Vec::new() };
+    let set = |key: &str, name: &str| Edit::set(path.key("blend").key(key), OwnedValue::Text(name.to_owned()));
+    vec![set("first", first), set("second", second)]
 }
 
 /// The edits that give a camera what a projection needs, and take away what it cannot have.

@@ -1,5 +1,7 @@
 //! Features of the first hits, without noise: normals, colours, distances, objects, and the cost of finding them.
 //!
+//! Where light passes through surfaces, a first hit is a surface that is more than half opaque there, and the heavier part of a blend.
+//!
 //! It runs the first stages of the renderer, `spawn → intersect → surface`, on blocks of pixels with rays through pixel centres.
 use std::time::{Duration, Instant};
 
@@ -10,6 +12,7 @@ use super::{
     batch::Batch,
     interaction::SurfaceInteraction,
     intersect::intersect,
+    passage::Decisions,
     queue::Register,
     records::Path,
     slots::BLOCK,
@@ -19,7 +22,7 @@ use super::{
 };
 use crate::{
     geometry::{MISS, Nearest, PrimitiveRef},
-    math::{F, Lanes, M, Pick, SimdLevel, V, in_lanes},
+    math::{F, Lanes, M, Pick, SimdLevel, U, V, in_lanes},
     memory::{self, Reservation, TooMuch},
     sampling::Filter,
     scene::{Camera, Legend, RenderSettings, Scene, Shutter},
@@ -138,7 +141,7 @@ fn look<L: Lanes>(l: L, work: &Work, batch: &mut Batch) -> Block {
     let mut shortest = Duration::MAX;
     for _ in 0..REPETITIONS {
         let start = Instant::now();
-        intersect(l, work, batch);
+        intersect(l, work, batch, Decisions::Middle);
         shortest = shortest.min(start.elapsed());
     }
     // A coarse clock may say that it took no time.
@@ -168,7 +171,8 @@ fn describe<L: Lanes>(l: L, work: &Work, batch: &Batch, seen: &mut Vec<Option<Pi
             place.element = hit.pick(element, l.u(0));
         }
         let reached = hit.pick(t, l.f(0.0));
-        let (normal, albedo) = shading(l, scene, hit, &path, place, reached);
+        let row = if work.has_blends() { hit.pick(batch.first_hits.rows(l, start), l.u(0)) } else { primitive };
+        let (normal, albedo) = shading(l, scene, hit, &path, (place, row), reached);
         let position = path.o + path.d * reached;
         let (t, primitive, hits) = (t.to_array(), primitive.to_array(), hit.bits());
         let [normal, albedo, position] = [normal, albedo, position].map(|v| [v.x, v.y, v.z].map(F::to_array));
@@ -186,13 +190,20 @@ fn describe<L: Lanes>(l: L, work: &Work, batch: &Batch, seen: &mut Vec<Option<Pi
 
 /// Shading normal on the viewer's side and colour of the surfaces that the paths in `hit` reach after `t` metres.
 #[inline(always)]
-fn shading<L: Lanes>(l: L, scene: &Scene, hit: M<L>, path: &Path<L>, place: PrimitiveRef<L>, t: F<L>) -> (V<L>, V<L>) {
+fn shading<L: Lanes>(
+    l: L,
+    scene: &Scene,
+    hit: M<L>,
+    path: &Path<L>,
+    (place, row): (PrimitiveRef<L>, U<L>),
+    t: F<L>,
+) -> (V<L>, V<L>) {
     let point = scene.shapes.surface_point(l, &place, path.o + path.d * t);
     let cos = -point.n_geometric.dot(path.d);
-    let [x, y, z, word] = l.rows(&scene.surfaces.rows, place.primitive);
+    let [x, y, z, word] = l.rows(&scene.surfaces.rows, row);
     let n = point.n_geometric * l.f(1.0).copysign(cos);
     let incident =
-        IncidentPaths { d: path.d, interaction: SurfaceInteraction { place, point, cos }, media: l.u(0), word: word.bits() };
+        IncidentPaths { d: path.d, interaction: SurfaceInteraction { place, row, point, cos }, media: l.u(0), word: word.bits() };
     let (_, reflects) = incident.sides();
     let (colour, detail) = vary(l, scene, &incident, hit & reflects, V { x, y, z }, n);
     (detail.n, reflects.pick(colour, V::splat(l, [0.0; 3])))

@@ -2,7 +2,7 @@
 use super::slots::SLOTS;
 use crate::{
     geometry::Nearest,
-    math::{Lanes, MAX_LANES},
+    math::{Lanes, MAX_LANES, U},
 };
 
 /// The first surfaces of paths.
@@ -11,13 +11,15 @@ pub(super) struct FirstHits {
     primitive: Vec<f32>,
     /// The triangle, in scenes with meshes.
     element: Vec<f32>,
+    /// The row of the surface, in scenes with blends.
+    row: Vec<f32>,
 }
 
 impl Default for FirstHits {
     fn default() -> Self {
         // Registers are stored whole, so the last one may reach past the end.
         let column = || vec![0.0; SLOTS + MAX_LANES];
-        FirstHits { t: column(), primitive: column(), element: column() }
+        FirstHits { t: column(), primitive: column(), element: column(), row: column() }
     }
 }
 
@@ -30,6 +32,18 @@ impl FirstHits {
         if has_elements {
             nearest.element.as_real_bits().store(&mut self.element[at..]);
         }
+    }
+
+    /// Stores the rows of the first surfaces: see [`crate::scene::surface::Surfaces`].
+    #[inline(always)]
+    pub fn put_rows<L: Lanes>(&mut self, at: usize, rows: U<L>) {
+        rows.as_real_bits().store(&mut self.row[at..]);
+    }
+
+    /// The rows of the first surfaces, in scenes with blends.
+    #[inline(always)]
+    pub fn rows<L: Lanes>(&self, l: L, at: usize) -> U<L> {
+        l.load(&self.row[at..]).bits()
     }
 
     /// The first surfaces of the paths from index `at` on, with element 0 unless `has_elements`.

@@ -4,7 +4,7 @@ use fearless_simd_macros::simd;
 use super::{records::Path, work::Work};
 use crate::{
     geometry::{Coordinates, Nearest, PrimitiveRef, SurfacePoint},
-    math::{F, Lanes, M, Pick, V},
+    math::{F, Lanes, M, Pick, U, V},
     scene::Scene,
     texture::TextureCoordinates,
 };
@@ -13,13 +13,15 @@ use crate::{
 #[derive(Clone, Copy)]
 pub(super) struct SurfaceInteraction<L: Lanes> {
     pub place: PrimitiveRef<L>,
+    /// The row of the surface: see [`crate::scene::surface::Surfaces`]. That of the primitive, unless it is a blend.
+    pub row: U<L>,
     pub point: SurfacePoint<L>,
     /// Cosine between the front normal and the direction to the viewer.
     pub cos: F<L>,
 }
 
-/// The interactions of the paths in the lanes of `hit` with their first surfaces. The other lanes use primitive 0 and must be
-/// masked.
+/// The interactions of the paths in the lanes of `hit` with their first surfaces, whose rows are given in scenes with blends. The
+/// other lanes use primitive 0 and must be masked.
 #[inline(always)]
 pub(super) fn interact<L: Lanes, const VARIED: bool>(
     l: L,
@@ -27,6 +29,7 @@ pub(super) fn interact<L: Lanes, const VARIED: bool>(
     path: &Path<L>,
     hit: M<L>,
     nearest: &Nearest<L>,
+    row: Option<U<L>>,
 ) -> SurfaceInteraction<L> {
     let shapes = &work.scene.shapes;
     let mut place = PrimitiveRef::of(l, hit.pick(nearest.primitive, l.u(0)));
@@ -38,7 +41,12 @@ pub(super) fn interact<L: Lanes, const VARIED: bool>(
     }
     let p = path.o + path.d * hit.pick(nearest.t, l.f(0.0));
     let point = if VARIED { shapes.surface_point(l, &place, p) } else { shapes.simple_point(l, place.primitive, p) };
-    SurfaceInteraction { place, point, cos: -point.n_geometric.dot(path.d) }
+    // Not `map_or`, whose closure would be compiled without the instructions of `L`.
+    let row = match row {
+        Some(row) => hit.pick(row, l.u(0)),
+        None => place.primitive,
+    };
+    SurfaceInteraction { place, row, point, cos: -point.n_geometric.dot(path.d) }
 }
 
 /// The radiance emitted towards the viewer in the lanes of `emits`, and the mask of those that see an emitting side.

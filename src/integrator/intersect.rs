@@ -1,15 +1,18 @@
-//! Second stage: finds x_M, the first surface along every path. A separate instance is compiled for scenes of spheres alone.
+//! Second stage: finds x_M, the first surface that every path meets. A separate instance is compiled for scenes of spheres alone.
 use fearless_simd_macros::simd;
 
-use super::{batch::Batch, queue::Register, records::Path, work::Work};
+use super::{batch::Batch, meet::meet, passage::Decisions, queue::Register, records::Path, work::Work};
 use crate::math::Lanes;
 
 #[inline(always)]
-pub(super) fn intersect<L: Lanes>(l: L, work: &Work, batch: &mut Batch) {
+pub(super) fn intersect<L: Lanes>(l: L, work: &Work, batch: &mut Batch, decisions: Decisions) {
     if work.scene.shapes.are_spheres() {
         intersect_with::<L, true>(l, work, batch);
     } else {
         intersect_with::<L, false>(l, work, batch);
+    }
+    if work.has_passages() {
+        meet(l, work, batch, decisions);
     }
 }
 

@@ -1,12 +1,12 @@
 //! Shading normals by bump and normal maps.
+use super::interaction::SurfaceInteraction;
 use crate::{
-    geometry::{PrimitiveRef, SurfacePoint},
     math::{F, Lanes, M, Pick, U, V},
     scene::Scene,
     texture::{TextureCoordinates, Textures},
 };
 
-/// The shading normal on the front of the surface at `point`: in the lanes of `mask`, `n` tilted by the textures in its row of
+/// The shading normal on the front of a surface: in the lanes of `mask`, `n` tilted by the textures in its row of
 /// [`crate::scene::surface::Surfaces::relief`].
 ///
 /// A height h displaces the surface to p + h n; without the small terms from the curvature of n, its normal is n − ∇h (J. Blinn,
@@ -16,13 +16,12 @@ use crate::{
 pub(super) fn shading_normal<L: Lanes>(
     l: L,
     scene: &Scene,
-    place: &PrimitiveRef<L>,
+    SurfaceInteraction { place, row, point, .. }: &SurfaceInteraction<L>,
     mask: M<L>,
-    point: &SurfacePoint<L>,
     n: V<L>,
     at: &TextureCoordinates<L>,
 ) -> V<L> {
-    let [bump, height, map, _] = l.rows(&scene.surfaces.relief, place.primitive);
+    let [bump, height, map, _] = l.rows(&scene.surfaces.relief, *row);
     let (bump, map) = (bump.bits(), map.bits());
     let (bumped, mapped) = (mask & !bump.is(0), mask & !map.is(0));
     if !(bumped | mapped).any() {

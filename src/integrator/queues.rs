@@ -1,7 +1,7 @@
 //! Queues that are filled and read in lockstep: the records of paths at one stage. A scene fills only those that it needs.
 use super::{
     queue::{Queue, Register, Registers},
-    records::{Chart, Detail, Hit, Inside, Path, PreviousLobe, PreviousVertex, Shadow},
+    records::{Chart, Detail, Hit, Inside, Path, PreviousLobe, PreviousVertex, Shadow, Transmittance},
     slots::SLOTS,
 };
 use crate::math::{Lanes, One, Pick, U};
@@ -62,11 +62,18 @@ pub(super) struct HitQueues {
     pub details: Queue,
     /// Filled for types that read it, in scenes that need it.
     pub charts: Queue,
+    /// Filled for types that have a diffuse transmittance.
+    pub transmittances: Queue,
 }
 
 impl Default for HitQueues {
     fn default() -> Self {
-        HitQueues { hits: Hit::<One>::queue(SLOTS), details: Detail::<One>::queue(SLOTS), charts: Chart::<One>::queue(SLOTS) }
+        HitQueues {
+            hits: Hit::<One>::queue(SLOTS),
+            details: Detail::<One>::queue(SLOTS),
+            charts: Chart::<One>::queue(SLOTS),
+            transmittances: Transmittance::<One>::queue(SLOTS),
+        }
     }
 }
 
@@ -80,6 +87,7 @@ impl HitQueues {
         self.hits.clear();
         self.details.clear();
         self.charts.clear();
+        self.transmittances.clear();
     }
 
     #[inline(always)]

@@ -91,6 +91,13 @@ record! {
 }
 
 record! {
+    /// The diffuse transmittance of a surface. Stored beside [`Hit`] for types of BSDF that have one.
+    Transmittance {
+        colour: V,
+    }
+}
+
+record! {
     /// A light sample, visible if the first surface along its ray is the target.
     Shadow {
         o: V,

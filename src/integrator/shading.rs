@@ -6,7 +6,7 @@ use super::{
     media::beyond,
     queue::Register,
     queues::HitQueues,
-    records::{Chart, Detail, Hit, Path, Shadow},
+    records::{Chart, Detail, Hit, Path, Shadow, Transmittance},
     roulette::{Survival, survive},
     work::Work,
 };
@@ -80,7 +80,7 @@ impl<'a, L: Lanes, K: Shade> Shading<'a, L, K> {
             Vertex::plain(l, &hit)
         };
         let (materials, directions) = (&work.scene.surfaces.materials, work.settings.directions);
-        let bsdf = if K::CHARTED {
+        let mut bsdf = if K::CHARTED {
             let colour = chart.as_ref().map(|Chart { vertex: V { x, y, z }, vertex_opacity, .. }| [*x, *y, *z, *vertex_opacity]);
             let lookup = match &chart {
                 Some(Chart { u, v, .. }) => {
@@ -92,6 +92,9 @@ impl<'a, L: Lanes, K: Shade> Shading<'a, L, K> {
         } else {
             K::at(l, materials, directions, &vertex.local)
         };
+        if K::HAS_TRANSMITTANCE {
+            bsdf = K::with_transmittance(bsdf, Transmittance::read(l, &queues.transmittances, start).colour);
+        }
         Shading { live, hit, vertex, bsdf, coordinates, reflection }
     }
 

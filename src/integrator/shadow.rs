@@ -1,38 +1,62 @@
 //! Fifth stage: tests which light samples are visible.
 //!
 //! A sample counts if the first surface along its ray is the light that it was sampled from, or if the ray reaches its lamp without
-//! surface. There is no tolerance: no distance is compared with that of a surface of the light.
+//! surface. There is no tolerance: no distance is compared with that of a surface of the light. Light that passes
+//! through surfaces on its way is multiplied by their transmittances (`passage.rs`).
 use fearless_simd_macros::simd;
 
 use super::{
     batch::{Batch, add},
     interaction::emission_texture,
     media::transmittance,
+    passage::{Crossing, Decisions, MOST_CROSSINGS, Passage},
     records::Shadow,
     work::Work,
 };
 use crate::{
-    geometry::{Nearest, PrimitiveRef},
-    math::{Lanes, M, Pick, U, V},
+    geometry::{MISS, Nearest, PrimitiveRef},
+    math::{F, Lanes, M, Pick, U, V},
+    sampling::Dimension,
 };
 
 #[simd]
 pub(super) fn shadow<L: Lanes>(l: L, work: &Work, batch: &mut Batch) {
-    let Batch { shadows, radiance, .. } = batch;
+    let Batch { shadows, radiance, rays, bounce, .. } = batch;
     for at in shadows.registers(l) {
         let shadow = Shadow::read(l, &shadows.shadows, at.start);
         let media = if work.has_media() { shadows.media(l, at) } else { l.u(0) };
-        let (seen, light) = arriving(l, work, at.live, &shadow, media);
+        let Arriving { seen, light, .. } = arriving(l, work, at.live, &shadow, media, *bounce + 1, rays);
         add(radiance, seen, shadow.slot, light);
     }
-    batch.rays += shadows.len() as u64;
+    *rays += shadows.len() as u64;
     shadows.clear();
 }
 
-/// The visible light samples in the lanes of `live`, and their radiance after the transmittance of `media`, in which they start,
-/// and the textures of their lights.
+/// What becomes of light samples.
+pub(super) struct Arriving<L: Lanes> {
+    /// Lanes whose light is visible.
+    pub seen: M<L>,
+    /// Their radiance.
+    pub light: V<L>,
+    /// Distance to the light, or to what hides it; infinite if there is neither.
+    pub t: F<L>,
+}
+
+/// The light samples of the `reflection`-th reflections in the lanes of `live`, after the transmittance of `media`, in which they
+/// start, and the textures of their lights. Counts the rays beyond the first one of each sample.
 #[inline(always)]
-pub(super) fn arriving<L: Lanes>(l: L, work: &Work, live: M<L>, shadow: &Shadow<L>, media: U<L>) -> (M<L>, V<L>) {
+pub(super) fn arriving<L: Lanes>(
+    l: L,
+    work: &Work,
+    live: M<L>,
+    shadow: &Shadow<L>,
+    media: U<L>,
+    reflection: u32,
+    rays: &mut u64,
+) -> Arriving<L> {
+    if work.has_passages() {
+        return through_surfaces(l, work, live, shadow, media, reflection, rays);
+    }
     let scene = work.scene;
     let time = work.time(l, shadow.slot);
     let mut nearest = scene.shapes.closest(l, live, shadow.o, shadow.d, time);
@@ -49,5 +73,77 @@ pub(super) fn arriving<L: Lanes>(l: L, work: &Work, live: M<L>, shadow: &Shadow<
         let point = scene.shapes.surface_point(l, &place, shadow.o + shadow.d * t);
         light = light * emission_texture(l, scene, emits, place, point);
     }
-    (seen, light)
+    Arriving { seen, light, t }
+}
+
+/// [`arriving`] where light passes through surfaces. A ray may meet several points of its light: a direction was sampled, and not
+/// one of them.
+#[simd]
+fn through_surfaces<L: Lanes>(
+    l: L,
+    work: &Work,
+    live: M<L>,
+    shadow: &Shadow<L>,
+    media: U<L>,
+    reflection: u32,
+    rays: &mut u64,
+) -> Arriving<L> {
+    let scene = work.scene;
+    let time = work.time(l, shadow.slot);
+    let part = if work.has_blends() { work.stream(l, shadow.slot).one(Dimension::shadow_blend(reflection)) } else { l.f(0.5) };
+    let first = scene.shapes.closest(l, live, shadow.o, shadow.d, time);
+    let mut arriving = Arriving { seen: l.first(0), light: V::splat(l, [0.0; 3]), t: l.f(f32::INFINITY) };
+    let mut passage = Passage::new(l, [shadow.o, shadow.d], time, first);
+    let (mut open, mut passed) = (live, l.f(1.0));
+    for crossed in 0..=MOST_CROSSINGS {
+        let hit = passage.hits(open);
+        let mut nearest = passage.nearest();
+        let arrives = scene.lights.arrives(l, shadow.target, shadow.o, &mut nearest);
+        let reached = open & arrives & nearest.primitive.is(MISS);
+        let crossing = passage.crossing(l, scene, hit);
+        let part = Decisions::Random.of_crossing(part, crossed);
+        let (alpha, _) = crossing.opacity(l, scene, hit, part, Decisions::Random);
+        let PrimitiveRef { primitive, element, .. } = crossing.place;
+        let at_light = hit & !crossing.again & scene.lights.light_at(l, primitive, element).equals(shadow.target);
+        let t = nearest.t;
+        if (reached | at_light).any() {
+            let fraction = passed * at_light.pick(alpha, l.f(1.0));
+            let light = shadow.radiance * light_at_crossing(l, work, at_light, &crossing, media, t) * fraction;
+            arriving.light = (reached | at_light).pick(arriving.light + light, arriving.light);
+        }
+        passed = (hit & !crossing.again).pick(passed * (1.0 - alpha), passed);
+        let goes_on = hit & !reached & passed.above(0.0);
+        arriving.t = ((at_light | (open & !goes_on)) & !arriving.seen).pick(t, arriving.t);
+        arriving.seen = arriving.seen | reached | at_light;
+        if crossed == MOST_CROSSINGS || !goes_on.any() {
+            break;
+        }
+        *rays += goes_on.count() as u64;
+        passage.cross(l, scene, goes_on, &crossing);
+        open = goes_on;
+    }
+    arriving
+}
+
+/// The factor of lights at crossings in the lanes of `at_light`: whether the side is lit, and its texture. Everywhere, the transmittance
+/// of `media` over `t` metres.
+#[inline(always)]
+fn light_at_crossing<L: Lanes>(
+    l: L,
+    work: &Work,
+    at_light: M<L>,
+    Crossing { place, point, cos, .. }: &Crossing<L>,
+    media: U<L>,
+    t: F<L>,
+) -> V<L> {
+    let (scene, white) = (work.scene, V::splat(l, [1.0; 3]));
+    let mut factor = if work.has_media() { transmittance(l, work, media, t) } else { white };
+    if at_light.any() {
+        let (_, lit) = scene.lights.emitters.radiance(l, at_light, place.primitive, *cos);
+        factor = (at_light & !lit).pick(V::splat(l, [0.0; 3]), factor);
+        if scene.lights.emitters.vary() {
+            factor = factor * at_light.pick(emission_texture(l, scene, at_light, *place, *point), white);
+        }
+    }
+    factor
 }

@@ -7,9 +7,9 @@ use super::{
     media::transmittance,
     queue::Register,
     queues::{HitQueues, PathQueues},
-    records::{Detail, Hit, Path},
+    records::{Detail, Hit, Path, Transmittance},
     shared::Shared,
-    variation::{IncidentPaths, chart, vary},
+    variation::{IncidentPaths, chart, transmittance_of_surface, vary},
     weight::weight_of_hit,
     work::Work,
 };
@@ -42,7 +42,8 @@ pub(super) fn surfaces<L: Lanes, const VARIED: bool>(l: L, work: &Work, batch: &
         if !hit.any() {
             continue;
         }
-        let interaction = interact::<L, VARIED>(l, work, &arrival.path, hit, &arrival.nearest);
+        let rows = if VARIED && work.has_blends() { Some(first_hits.rows(l, at.start)) } else { None };
+        let interaction = interact::<L, VARIED>(l, work, &arrival.path, hit, &arrival.nearest, rows);
         add_emission::<L, VARIED>(l, work, previous, &arrival, hit, &interaction, radiance);
         if !last {
             let shared = if shares { Some(&mut *shared) } else { None };
@@ -149,8 +150,8 @@ fn queue_hits<L: Lanes, const VARIED: bool>(
     queues: &mut [HitQueues],
 ) {
     let Arrival { path, media, .. } = arrival;
-    let SurfaceInteraction { place, point, cos } = interaction;
-    let [x, y, z, word] = l.rows(&work.scene.surfaces.rows, place.primitive);
+    let SurfaceInteraction { place, row, point, cos } = interaction;
+    let [x, y, z, word] = l.rows(&work.scene.surfaces.rows, *row);
     let (colour, word) = (V { x, y, z }, word.bits());
     let n = point.n_geometric * l.f(1.0).copysign(*cos);
     let record = Hit { p: point.p + n * point.error, n, colour, throughput: path.throughput, slot: path.slot };
@@ -194,6 +195,10 @@ fn sort<L: Lanes>(
             detail.push(here, &mut queues.details);
             if work.scene.surfaces.charted && stage.reads_chart() && here.any() {
                 chart(l, work.scene, incident).push(here, &mut queues.charts);
+            }
+            if stage.has_transmittance() {
+                let colour = transmittance_of_surface(l, work.scene, incident, here);
+                Transmittance { colour }.push(here, &mut queues.transmittances);
             }
         }
     }

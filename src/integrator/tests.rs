@@ -10,7 +10,7 @@ use crate::{
     scene::{Estimator, RenderSettings, Reuse, Roulette, Scene, parse},
 };
 
-/// A scene that samples everything: a lens, motion, lobes, lamps and a background image.
+/// A scene that samples everything: a lens, motion, lobes, opacity, blends, lamps and a background image.
 fn scene() -> Scene {
     let text = format!(
         "format = 1
@@ -24,6 +24,14 @@ fn scene() -> Scene {
         shutter = [0.0, 1.0]
         [materials.coated]
         plastic = {{ albedo = 0.8, ior = 1.5 }}
+        [materials.hole]
+        null = {{}}
+        [materials.veil]
+        blend = {{ first = 'coated', second = 'hole' }}
+        opacity = 0.5
+        [[objects]]
+        shape.sphere = {{ center = [0.0, 0.0, 0.0], radius = 2.5 }}
+        material = 'veil'
         [[objects]]
         shape.sphere = {{ center = [0.0, 0.0, 0.0], radius = 2.0 }}
         material = 'coated'
@@ -78,6 +86,9 @@ fn every_decision_of_a_path_has_coordinates_of_its_own() {
         (Dimension::light_choice(1), 1),
         (Dimension::light(1), 2),
         (Dimension::cell(1), 2),
+        (Dimension::opacity(1), 1),
+        (Dimension::blend(1), 1),
+        (Dimension::shadow_blend(1), 1),
         (Dimension::direction(2), 2),
         (Dimension::roulette(2), 1),
         (Dimension::lobe(2), 1),

@@ -4,6 +4,7 @@ use fearless_simd_macros::simd;
 use super::{
     batch::Batch,
     intersect::intersect,
+    passage::Decisions,
     queues::HitQueues,
     records::Path,
     reuse::share,
@@ -90,7 +91,7 @@ pub(super) fn trace_in<L: Lanes, O: Observer>(
             return Err(Interrupted);
         }
         let last = batch.bounce == last_bounce;
-        intersect(l, work, batch);
+        intersect(l, work, batch, Decisions::Random);
         if work.scene.is_plain() {
             surfaces::<L, false>(l, work, batch, last && !cut_short);
         } else {

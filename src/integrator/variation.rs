@@ -58,8 +58,9 @@ pub(super) fn vary<L: Lanes>(
     n: V<L>,
 ) -> (V<L>, Detail<L>) {
     let Scene { surfaces, textures, .. } = scene;
-    let IncidentPaths { d, interaction: SurfaceInteraction { place, point, cos }, media, word } = incident;
-    let [mut alpha, colour_texture, alpha_texture, medium] = l.rows(&surfaces.varying, place.primitive);
+    let IncidentPaths { d, interaction, media, word } = incident;
+    let SurfaceInteraction { place, row, point, cos } = interaction;
+    let [mut alpha, colour_texture, alpha_texture, medium] = l.rows(&surfaces.varying, *row);
     let wo = -*d;
     let (mut colour, mut n) = (colour, n);
     if scene.shapes.have_elements() {
@@ -83,12 +84,28 @@ pub(super) fn vary<L: Lanes>(
         }
         if !surfaces.relief.is_empty() {
             let side = l.f(1.0).copysign(*cos);
-            let tilted = shading_normal(l, scene, place, mask, point, n * side, &at) * side;
+            let tilted = shading_normal(l, scene, interaction, mask, n * side, &at) * side;
             // A normal that the viewer could not see is not used.
             n = tilted.dot(wo).above(GRAZING).pick(tilted, n);
         }
     }
     (colour, Detail { wo, n, alpha, error: point.error, surface: *word, media: *media, medium: medium.bits() })
+}
+
+/// Diffuse transmittance in the lanes of `mask`.
+#[inline(always)]
+pub(super) fn transmittance_of_surface<L: Lanes>(l: L, scene: &Scene, incident: &IncidentPaths<L>, mask: M<L>) -> V<L> {
+    let SurfaceInteraction { place, row, point, .. } = &incident.interaction;
+    let [x, y, z, texture] = l.rows(&scene.surfaces.transmittance, *row);
+    let (constant, id) = (V { x, y, z }, texture.bits());
+    let textured = mask & !id.is(0);
+    if !textured.any() {
+        return constant;
+    }
+    let Coordinates { u, v } = scene.shapes.coordinates(l, place, point);
+    let vertex = vertex_colour(l, scene, *place, *point);
+    let at = TextureCoordinates { u, v, p: point.p, vertex: vertex.as_ref() };
+    textured.pick(scene.textures.colour(l, id + u32::MAX, textured, &at), constant)
 }
 
 #[cfg(test)]

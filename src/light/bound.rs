@@ -42,6 +42,7 @@ impl Bound {
         };
         let light = luminance(emission.mean);
         let (front, back) = match emission.side {
+            _ if emission.translucent => (light, light),
             Side::Front => (light, 0.0),
             Side::Back => (0.0, light),
             Side::Both => (light, light),

@@ -167,7 +167,9 @@ impl Lights {
             let (radiance, lit) = self.emitters.radiance(l, on_surface, place.primitive, side);
             sample.wi = toward.wi;
             sample.radiance = radiance;
-            sample.pdf = lit.pick(toward.pdf, l.f(0.0));
+            // Behind the near side of a translucent lamp, its far side may be lit.
+            let may_shine = if self.emitters.are_translucent() { !sky } else { lit };
+            sample.pdf = may_shine.pick(toward.pdf, l.f(0.0));
         }
         if let Some(background) = &self.background
             && sky.any()

@@ -1,4 +1,8 @@
 //! A mixture of two materials.
+//!
+//! Every hit is at one of the two, with the probability of its weight, so that the mean is that of the sum of both BSDFs by weight
+//! (M. Pharr, W. Jakob and G. Humphreys, "Physically Based Rendering", 4th edition, section 10.5.2). The surface stage of the kernel
+//! therefore never sees a blend, only its parts (`integrator/passage.rs`).
 use super::{Compile, CompiledMaterial, MaterialCompiler};
 use crate::declare::{Declare, Family, Kind, Parameter, Parameters, Problem, Range, Textured, Value};
 
@@ -13,6 +17,11 @@ pub struct Blend {
     pub weight: Textured<f64>,
 }
 
+impl Blend {
+    /// The key of the weight.
+    pub const WEIGHT: Parameter = Parameter::new("weight", "Fraction of the second material.").symbol("w");
+}
+
 impl Default for Blend {
     fn default() -> Self {
         Blend { first: String::new(), second: String::new(), weight: Textured::Constant(0.5) }
@@ -20,22 +29,24 @@ impl Default for Blend {
 }
 
 impl Kind for Blend {
-    const KIND: Parameter = Parameter::new("blend", "A mixture of two materials.").aliases("mix blendbsdf");
+    const KIND: Parameter = Parameter::new("blend", "A mixture of two materials, each of which may be a blend or `null`.")
+        .aliases("mix blendbsdf")
+        .advice("such as blend = { first = \"paint\", second = \"rust\", weight = 0.3 }");
 }
 
 impl Declare for Blend {
     fn parameters(&mut self, p: &mut dyn Parameters) {
         const FIRST: Parameter = Parameter::new("first", "Name of the first material.").required();
         const SECOND: Parameter = Parameter::new("second", "Name of the second material.").required();
-        const WEIGHT: Parameter = Parameter::new("weight", "Fraction of the second material.").symbol("w");
         p.value(&FIRST, Value::Name(&mut self.first, Family::Material));
         p.value(&SECOND, Value::Name(&mut self.second, Family::Material));
-        p.textured_number(&WEIGHT, &mut self.weight, Range::UNIT);
+        p.textured_number(&Self::WEIGHT, &mut self.weight, Range::UNIT);
     }
 }
 
 impl Compile for Blend {
+    /// The names are known once all materials are compiled: see `scene/compile/blend.rs`.
     fn compile(&self, _: &mut MaterialCompiler) -> Result<CompiledMaterial, Problem> {
-        Err(Problem::at("", "not built yet", "not built yet"))
+        Ok(CompiledMaterial::black())
     }
 }

@@ -33,6 +33,8 @@ pub struct CompiledMaterial {
     pub charted: bool,
     /// Albedo, or reflectance at normal incidence; white for kinds without.
     pub colour: ColourSource,
+    /// Diffuse transmittance, for kinds with one.
+    pub transmittance: Option<ColourSource>,
     /// The width α of the GGX distribution.
     pub alpha: AlphaSource,
     /// Transmittance of a metre of the interior, for kinds with an inside.
@@ -55,12 +57,19 @@ impl CompiledMaterial {
             further: Vec::new(),
             charted: false,
             colour,
+            transmittance: None,
             alpha: AlphaSource::Constant(0.0),
             inside: None,
             sheet: false,
             scatters_where_black: false,
             albedo: compiler.largest(colour),
         }
+    }
+
+    /// A material that scatters nothing.
+    pub fn black() -> CompiledMaterial {
+        let colour = ColourSource::Constant([0.0; 3]);
+        CompiledMaterial { colour, scatters_where_black: false, ..CompiledMaterial::colourless(Stage::Plain) }
     }
 
     /// A material of a stage without a colour.
@@ -71,6 +80,7 @@ impl CompiledMaterial {
             further: Vec::new(),
             charted: false,
             colour: ColourSource::Constant([1.0; 3]),
+            transmittance: None,
             alpha: AlphaSource::Constant(0.0),
             inside: None,
             sheet: false,
@@ -136,10 +146,14 @@ impl<'a, 'b> MaterialCompiler<'a, 'b> {
 
     /// The largest value of any channel, at most 1.
     pub fn largest(&self, colour: ColourSource) -> f32 {
-        let colour = match colour {
+        self.maximum(colour).into_iter().fold(0.0, f32::max).min(1.0)
+    }
+
+    /// The largest value of each channel.
+    pub(super) fn maximum(&self, colour: ColourSource) -> [f32; 3] {
+        match colour {
             ColourSource::Constant(colour) => colour,
             ColourSource::Texture(id) => self.textures.textures.maximum(id),
-        };
-        colour.into_iter().fold(0.0, f32::max).min(1.0)
+        }
     }
 }

@@ -42,6 +42,7 @@ pub use self::{
     conductor::Conductor,
     conductor_fresnel::Reflectance,
     dielectric::{Dielectric, DielectricBsdf},
+    diffuse_transmission::DiffuseTransmission,
     lambertian::{Lambertian, LambertianBsdf},
     materials::{Local, Materials},
     mirror::Mirror,
@@ -94,7 +95,7 @@ materials! {
     dielectric::Dielectric => Dielectric RoughDielectric,
     plastic::Plastic => Plastic,
     thin_dielectric::ThinDielectric => ThinDielectric,
-    diffuse_transmission::DiffuseTransmission => ,
+    diffuse_transmission::DiffuseTransmission => DiffuseTransmission,
     principled::Principled => Principled PrincipledGlass,
     blend::Blend => ,
     null::Null => ,
@@ -123,6 +124,11 @@ impl Stage {
     /// Whether it is ideally diffuse.
     pub fn is_diffuse(self) -> bool {
         in_stage!(self, K => K::DIFFUSE)
+    }
+
+    /// Whether it has a diffuse transmittance besides its colour.
+    pub fn has_transmittance(self) -> bool {
+        in_stage!(self, K => K::HAS_TRANSMITTANCE)
     }
 
     /// Whether lights are better chosen by what the lobe reflects of them.

@@ -1,4 +1,4 @@
-//! A surface that does not touch light.
+//! A surface that does not touch light: its opacity is 0 (`scene/compile/material.rs`), so no path meets it.
 use super::{Compile, CompiledMaterial, MaterialCompiler};
 use crate::declare::{Declare, Kind, Parameter, Parameters, Problem};
 
@@ -7,8 +7,9 @@ use crate::declare::{Declare, Kind, Parameter, Parameters, Problem};
 pub struct Null;
 
 impl Kind for Null {
-    const KIND: Parameter =
-        Parameter::new("null", "A surface that light passes unchanged.").aliases("invisible interface passthrough");
+    const KIND: Parameter = Parameter::new("null", "A surface that light passes unchanged.")
+        .aliases("invisible interface passthrough")
+        .advice("such as null = {}");
 }
 
 impl Declare for Null {
@@ -17,6 +18,6 @@ impl Declare for Null {
 
 impl Compile for Null {
     fn compile(&self, _: &mut MaterialCompiler) -> Result<CompiledMaterial, Problem> {
-        Err(Problem::at("", "not built yet", "not built yet"))
+        Ok(CompiledMaterial::black())
     }
 }

@@ -1,7 +1,7 @@
 //! The interface between the shading stages of the kernel and BSDF types.
 use super::{Bsdf, Local, Materials, Stage};
 use crate::{
-    math::{F, Lanes, M},
+    math::{F, Lanes, M, V},
     sampling::Directions,
     texture::{TextureCoordinates, Textures},
 };
@@ -24,6 +24,8 @@ pub trait Shade {
     const TRANSMITS: bool = false;
     /// Whether transmitted light enters or leaves a medium.
     const ENTERS: bool = Self::TRANSMITS;
+    /// Whether it has a diffuse transmittance besides its colour: see [`Shade::with_transmittance`].
+    const HAS_TRANSMITTANCE: bool = false;
     /// Whether lights are chosen with its lobe.
     const GLOSSY: bool = false;
     /// Whether it has a frame along the tangent and textures of its own, in scenes with materials that need them: then it is made
@@ -51,6 +53,12 @@ pub trait Shade {
     #[inline(always)]
     fn turn<L: Lanes>(l: L, _materials: &Materials, _at: &Local<L>) -> (F<L>, F<L>) {
         (l.f(1.0), l.f(0.0))
+    }
+
+    /// The BSDF with its diffuse transmittance at the points.
+    #[inline(always)]
+    fn with_transmittance<'a, L: Lanes>(bsdf: Self::Bsdf<'a, L>, _transmittance: V<L>) -> Self::Bsdf<'a, L> {
+        bsdf
     }
 
     /// The width of the lobe; 0 without one.

@@ -47,4 +47,19 @@ impl Dimension {
     pub fn cell(bounce: u32) -> Dimension {
         Dimension(Self::PER_BOUNCE * bounce + 8)
     }
+
+    /// Whether the path meets a surface that lets light pass, on the way to its `bounce`-th surface (one).
+    pub fn opacity(bounce: u32) -> Dimension {
+        Dimension(Self::PER_BOUNCE * bounce + 10)
+    }
+
+    /// The part of a blend that the path meets, on the way to its `bounce`-th surface (one).
+    pub fn blend(bounce: u32) -> Dimension {
+        Dimension(Self::PER_BOUNCE * bounce + 11)
+    }
+
+    /// The part of a blend that the light sample of the `bounce`-th surface crosses (one).
+    pub fn shadow_blend(bounce: u32) -> Dimension {
+        Dimension(Self::PER_BOUNCE * bounce + 12)
+    }
 }

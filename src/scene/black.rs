@@ -4,7 +4,9 @@ use super::{Camera, Object, RenderSettings, Scene};
 impl Scene {
     /// The innermost opaque object around the camera whose front faces outwards, so the camera sees only its inside.
     pub fn around(&self, camera: &Camera) -> Option<&Object> {
-        let shuts_in = |object: &&Object| !object.flip && !self.has_inside(object) && object.shape.contains(camera.eye);
+        let shuts_in = |object: &&Object| {
+            !object.flip && !self.has_inside(object) && !self.lets_pass(object) && object.shape.contains(camera.eye)
+        };
         let size = |object: &Object| object.shape.bounding_sphere().1;
         self.objects.iter().filter(shuts_in).min_by(|a, b| size(a).total_cmp(&size(b)))
     }

@@ -17,8 +17,8 @@ impl Scene {
             return None;
         }
         let square = |material: &MaterialInstance| {
-            let weight_square = if is_uniform && material.compiled.stage.is_diffuse() { 4.0 / 3.0 } else { 1.0 };
-            material.compiled.albedo.powi(2) * weight_square
+            let weight_square = if is_uniform && material.properties.diffuse { 4.0 / 3.0 } else { 1.0 };
+            material.properties.albedo.powi(2) * weight_square
         };
         let most = self.objects.iter().filter_map(|object| self.material(object)).map(square).fold(0.0, f32::max);
         if survival > most {

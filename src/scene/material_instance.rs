@@ -1,7 +1,10 @@
 //! Materials as a scene uses them.
-use crate::material::{CompiledMaterial, Material};
+use crate::{
+    material::{CompiledMaterial, Material},
+    texture::NumberSource,
+};
 
-/// A compiled material with its bump and normal maps.
+/// A compiled material with its opacity, bump map and normal map.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MaterialInstance {
     /// The name in the scene file.
@@ -16,4 +19,65 @@ pub struct MaterialInstance {
     pub normal_map: Option<u32>,
     /// Black from behind.
     pub one_sided: bool,
+    /// Fraction of the light that meets the surface.
+    pub opacity: NumberSource,
+    /// The parts of a blend.
+    pub blend: Option<BlendParts>,
+    /// Properties of the surface.
+    pub properties: Properties,
+}
+
+/// The parts of a blend.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BlendParts {
+    /// Numbers of the two materials.
+    pub materials: [u32; 2],
+    /// Fraction of the second material.
+    pub weight: NumberSource,
+}
+
+/// Properties of a surface. A blend has a property if one of its materials has it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Properties {
+    /// Whether it is ideally diffuse.
+    pub diffuse: bool,
+    /// Whether its BSDF transmits light.
+    pub transmits: bool,
+    /// Whether it bounds an interior.
+    pub has_inside: bool,
+    /// Whether its opacity lets light pass.
+    pub passes: bool,
+    /// The largest albedo in any channel: see [`CompiledMaterial::albedo`].
+    pub albedo: f32,
+}
+
+impl Properties {
+    /// The properties of a compiled material with an opacity.
+    pub fn new(compiled: &CompiledMaterial, opacity: NumberSource) -> Properties {
+        Properties {
+            diffuse: compiled.stage.is_diffuse(),
+            transmits: compiled.stage.transmits(),
+            has_inside: compiled.inside.is_some(),
+            passes: opacity != NumberSource::Constant(1.0),
+            albedo: compiled.albedo,
+        }
+    }
+
+    /// The properties of a blend of its parts, by those that it has before.
+    #[must_use]
+    pub fn of_blend(self, parts: Properties) -> Properties {
+        Properties { passes: self.passes | parts.passes, ..parts }
+    }
+
+    /// The properties of either of two surfaces.
+    #[must_use]
+    pub fn or(self, other: Properties) -> Properties {
+        Properties {
+            diffuse: self.diffuse | other.diffuse,
+            transmits: self.transmits | other.transmits,
+            has_inside: self.has_inside | other.has_inside,
+            passes: self.passes | other.passes,
+            albedo: self.albedo.max(other.albedo),
+        }
+    }
 }

@@ -56,7 +56,7 @@ pub use self::{
     lamp::LampInstance,
     legend::Legend,
     load::{LARGEST_FILE, load, read_text},
-    material_instance::MaterialInstance,
+    material_instance::{BlendParts, MaterialInstance, Properties},
     object::Object,
     parse::{BUILT_IN, built_in, describe, parse},
     projection::Projection,
@@ -162,11 +162,15 @@ impl Scene {
     }
 
     /// Whether they could: from diffuse surfaces by cosine-distributed directions, in empty space, while nothing moves.
+    ///
+    /// Not where light passes through surfaces or materials are blended: the pdf with which another pixel finds a point would then
+    /// contain the mean transmittance on the way and the mean opacity there, and a visibility ray tells neither.
     pub fn can_share(&self, rays: &CameraRays, settings: &RenderSettings) -> bool {
         settings.directions != Directions::Uniform
             && settings.max_bounces.is_none_or(|cap| cap > 1)
             && !rays.take_time()
             && self.surfaces.media.is_empty()
+            && self.surfaces.are_opaque()
             && self.surfaces.stages.contains(&Stage::Plain)
     }
 
@@ -239,6 +243,11 @@ impl Scene {
 
     /// Whether light passes into an object.
     pub fn has_inside(&self, object: &Object) -> bool {
-        self.material(object).is_some_and(|material| material.compiled.inside.is_some())
+        self.material(object).is_some_and(|material| material.properties.has_inside)
+    }
+
+    /// Whether light passes through the surface of an object without meeting it.
+    pub fn lets_pass(&self, object: &Object) -> bool {
+        self.material(object).is_some_and(|material| material.properties.passes)
     }
 }

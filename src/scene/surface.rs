@@ -1,13 +1,16 @@
 //! Tables of the surfaces of primitives for the kernel, and the shading stages that they need.
+mod applied;
+mod blends;
+
+use self::applied::AppliedMaterial;
 use super::{MaterialInstance, Object};
 use crate::{
-    geometry::Shape,
     material::{AlphaSource, Materials, Stage},
     math::{Lanes, M, U},
-    texture::ColourSource,
+    texture::{ColourSource, NumberSource},
 };
 
-/// Surfaces by primitive. Tables that a scene does not need are empty.
+/// Surfaces by primitive, and after them the parts of blends. Tables that a scene does not need are empty.
 #[derive(Default)]
 pub struct Surfaces {
     /// Colour, and the word `material | stage << 16 | flags`.
@@ -16,6 +19,13 @@ pub struct Surfaces {
     pub varying: Vec<[f32; 4]>,
     /// Height texture, its scale, and normal texture (ids as above).
     pub relief: Vec<[f32; 4]>,
+    /// Diffuse transmittance and its texture (an id as above). Filled if some material has one.
+    pub transmittance: Vec<[f32; 4]>,
+    /// Opacity, its texture (an id as above), and 1 for surfaces that are not all opaque or are blends. Filled if there are such
+    /// surfaces.
+    pub opacity: Vec<[f32; 4]>,
+    /// Weight of the second part of a blend, its texture (an id as above), and the rows of both parts as bits.
+    pub blends: Vec<[f32; 4]>,
     /// Extinction of media per metre, in octaves; the first is empty space. Without tinted media the table is empty.
     pub media: Vec<[f32; 4]>,
     /// Whether the shading of some surface reads texture coordinates or the tangent.
@@ -26,7 +36,7 @@ pub struct Surfaces {
     pub stages: Vec<Stage>,
     /// Whether some surface is glossy, so lights are chosen with its lobe.
     pub glossy: bool,
-    /// Whether all surfaces are diffuse, two-sided, and of constant colour.
+    /// Whether all surfaces are diffuse, two-sided, opaque, and of constant colour.
     pub plain: bool,
     /// Tables and constants of the materials.
     pub materials: Materials,
@@ -46,6 +56,8 @@ pub const SELF_LIT: u32 = 1 << 23;
 pub const SCATTERS_WHERE_BLACK: u32 = 1 << 24;
 /// Flag: light that passes stays in its medium; see [`crate::material::CompiledMaterial::sheet`].
 pub const SHEET: u32 = 1 << 30;
+/// Flag: a blend. The first column of the row holds its index in [`Surfaces::blends`] as bits.
+pub const BLENDED: u32 = 1 << 25;
 /// Flag, set while rendering: the path hit the front.
 pub const FRONT: u32 = 1 << 31;
 /// Materials have 16 bits and media 8. [`Surfaces::check`] rejects more.
@@ -57,18 +69,19 @@ impl Surfaces {
     pub fn new(objects: &[Object], instances: &[MaterialInstance], materials: Materials) -> Surfaces {
         let inside = |instance: &MaterialInstance| instance.compiled.inside.unwrap_or([1.0; 3]);
         let has_media = instances.iter().any(|instance| inside(instance) != [1.0; 3]);
-        let has_relief = instances.iter().any(|instance| instance.bump.is_some() || instance.normal_map.is_some());
+        let columns = Columns::new(objects, instances);
         let mut surfaces = Surfaces { materials, ..Surfaces::default() };
         if has_media {
             surfaces.media.push([0.0; 4]);
             surfaces.media.extend(instances.iter().map(|instance| octaves_per_metre(inside(instance))));
         }
         for object in objects {
-            let instance = object.material.map(|number| (number, &instances[number as usize]));
+            let applied = AppliedMaterial::of_object(object, instances);
             for _ in 0..object.shape.piece_count() {
-                surfaces.push(object, instance, has_relief);
+                surfaces.push(applied.as_ref(), columns);
             }
         }
+        blends::add(&mut surfaces, objects, instances, columns);
         surfaces.stages.sort_unstable();
         surfaces.stages.dedup();
         surfaces.glossy = surfaces.stages.iter().any(|stage| stage.is_glossy());
@@ -76,29 +89,34 @@ impl Surfaces {
         surfaces
     }
 
-    fn push(&mut self, object: &Object, instance: Option<(u32, &MaterialInstance)>, has_relief: bool) {
-        let Some((number, instance)) = instance else {
+    /// Adds the row of a surface, which is black without a material.
+    fn push(&mut self, applied: Option<&AppliedMaterial>, columns: Columns) {
+        let Some(applied) = applied else {
             self.rows.push([0.0; 4]);
             self.varying.push([0.0; 4]);
-            if has_relief {
+            if columns.relief {
                 self.relief.push([0.0; 4]);
+            }
+            if columns.opacity {
+                self.opacity.push([1.0, 0.0, 0.0, 0.0]);
+            }
+            if columns.transmittance {
+                self.transmittance.push([0.0; 4]);
             }
             return;
         };
+        let AppliedMaterial { number, instance, .. } = *applied;
         let compiled = &instance.compiled;
-        let stage = self.stage(object, instance);
-        let (colour, colour_texture) = match compiled.colour {
-            ColourSource::Constant(colour) => (colour, None),
-            ColourSource::Texture(id) => ([1.0; 3], Some(id)),
-        };
+        let stage = applied.stage(!self.media.is_empty());
+        let (colour, colour_texture) = constant_and_texture(compiled.colour);
         let (alpha, alpha_texture, squared) = match compiled.alpha {
             AlphaSource::Constant(alpha) => (alpha, None, false),
             AlphaSource::Texture { id, squared } => (1.0, Some(id), squared),
         };
         let flag = |set: bool, flag: u32| if set { flag } else { 0 };
-        let self_lit = stage.transmits() && stage.sees_lights() && object.emission.is_some();
-        let flags = flag(object.flip, FLIPPED)
-            | flag(instance.one_sided, ONE_SIDED)
+        let self_lit = stage.transmits() && stage.sees_lights() && applied.emits;
+        let flags = flag(applied.flip, FLIPPED)
+            | flag(applied.one_sided, ONE_SIDED)
             | flag(squared, SQUARED)
             | flag(self_lit, SELF_LIT)
             | flag(compiled.scatters_where_black, SCATTERS_WHERE_BLACK)
@@ -108,28 +126,36 @@ impl Surfaces {
         self.textured |= colour_texture.or(alpha_texture).is_some();
         self.rows.push(SurfaceRow { colour, word: number | (stage as u32) << STAGE_SHIFT | flags }.pack());
         self.varying.push(VaryingRow { alpha, colour_texture, alpha_texture, medium }.pack());
-        if has_relief {
-            let (heights, height) = instance.bump.map_or((None, 0.0), |(id, height)| (Some(id), height));
-            self.relief.push([texture_bits(heights), height, texture_bits(instance.normal_map), 0.0]);
+        if columns.relief {
+            let (heights, height) = applied.bump.map_or((None, 0.0), |(id, height)| (Some(id), height));
+            self.relief.push([texture_bits(heights), height, texture_bits(applied.normal_map), 0.0]);
+        }
+        if columns.transmittance {
+            let (transmittance, texture) = compiled.transmittance.map_or(([0.0; 3], None), constant_and_texture);
+            let [r, g, b] = transmittance;
+            self.transmittance.push([r, g, b, texture_bits(texture)]);
+        }
+        if columns.opacity {
+            let layered = instance.properties.passes || instance.blend.is_some();
+            let [opacity, texture] = number_row(instance.opacity);
+            self.opacity.push([opacity, texture, f32::from(u8::from(layered)), 0.0]);
         }
         if compiled.scatters_where_black || colour != [0.0; 3] {
             self.stages.push(stage);
         }
     }
 
-    /// Diffuse surfaces need more than their plain stage where normals vary or there are media.
-    fn stage(&self, object: &Object, instance: &MaterialInstance) -> Stage {
-        let is_smooth = matches!(&object.shape, Shape::Mesh { data, .. } if !data.normals.is_empty());
-        let has_normals = instance.bump.is_some() || instance.normal_map.is_some();
-        match instance.compiled.stage {
-            Stage::Plain if has_normals || is_smooth || !self.media.is_empty() => Stage::Diffuse,
-            stage => stage,
-        }
+    /// Whether no light passes through surfaces, and none is a blend.
+    pub fn are_opaque(&self) -> bool {
+        self.opacity.is_empty()
     }
 
     fn are_plain(&self) -> bool {
         let one_sided = |row: &[f32; 4]| row[3].to_bits() & ONE_SIDED != 0;
-        !self.textured && self.stages.iter().all(|stage| *stage == Stage::Plain) && !self.rows.iter().any(one_sided)
+        !self.textured
+            && self.are_opaque()
+            && self.stages.iter().all(|stage| *stage == Stage::Plain)
+            && !self.rows.iter().any(one_sided)
     }
 
     /// Error if there are too many materials or media.
@@ -142,6 +168,28 @@ impl Surfaces {
             return too_many("materials in a scene with tinted media", MOST_MEDIA - 1);
         }
         Ok(())
+    }
+}
+
+/// The tables that only some scenes need.
+#[derive(Clone, Copy)]
+struct Columns {
+    relief: bool,
+    opacity: bool,
+    transmittance: bool,
+}
+
+impl Columns {
+    fn new(objects: &[Object], instances: &[MaterialInstance]) -> Columns {
+        let is_layered = |number: u32| {
+            let instance = &instances[number as usize];
+            instance.properties.passes || instance.blend.is_some()
+        };
+        Columns {
+            relief: instances.iter().any(|instance| instance.bump.is_some() || instance.normal_map.is_some()),
+            transmittance: instances.iter().any(|instance| instance.compiled.transmittance.is_some()),
+            opacity: objects.iter().filter_map(|object| object.material).any(is_layered),
+        }
     }
 }
 
@@ -177,6 +225,22 @@ impl VaryingRow {
 /// An id plus 1, as bits; 0 is none.
 fn texture_bits(texture: Option<u32>) -> f32 {
     f32::from_bits(texture.map_or(0, |id| id + 1))
+}
+
+/// A colour and its texture, which replaces it.
+fn constant_and_texture(source: ColourSource) -> ([f32; 3], Option<u32>) {
+    match source {
+        ColourSource::Constant(colour) => (colour, None),
+        ColourSource::Texture(id) => ([1.0; 3], Some(id)),
+    }
+}
+
+/// A number and its texture.
+fn number_row(source: NumberSource) -> [f32; 2] {
+    match source {
+        NumberSource::Constant(number) => [number, texture_bits(None)],
+        NumberSource::Texture(id) => [1.0, texture_bits(Some(id))],
+    }
 }
 
 /// −log₂ of the transmittance of a metre. For transmittance 0 it is finite, so that a distance of 0 transmits everything.
@@ -245,6 +309,7 @@ mod tests {
             ("principled.base_color = 0", Stage::Principled),
             ("principled = { transmission_weight = 0.5 }", Stage::PrincipledGlass),
             ("principled = { transmission_weight = 0.5, base_metalness = 1 }", Stage::Principled),
+            ("diffuse_transmission = { reflectance = 0.5, transmittance = 0.5 }", Stage::DiffuseTransmission),
         ] {
             assert_eq!(stages(material), [stage], "{material}");
         }
@@ -322,6 +387,22 @@ mod tests {
     }
 
     #[test]
+    fn only_scenes_with_opacity_or_blends_have_a_table_of_opacities() {
+        let surfaces = |material: &str| scene(&[(material, ""), (WHITE, "")]).surfaces;
+        for opaque in [WHITE, "lambertian.albedo = 0.5\nopacity = 1", "dielectric.ior = 1.5"] {
+            let surfaces = surfaces(opaque);
+            assert!(surfaces.are_opaque() && surfaces.blends.is_empty() && surfaces.transmittance.is_empty(), "{opaque}");
+        }
+        let rows = |material: &str| surfaces(material).opacity;
+        assert_eq!(rows("lambertian.albedo = 0.5\nopacity = 0.25"), [[0.25, 0.0, 1.0, 0.0], [1.0, 0.0, 0.0, 0.0]]);
+        assert_eq!(rows("null = {}")[0], [0.0, 0.0, 1.0, 0.0]);
+        assert_eq!(rows("null = {}\nopacity = 1")[0], [0.0, 0.0, 1.0, 0.0]);
+        let textured = rows("lambertian.albedo = 0.5\nopacity = { texture = 'squares' }")[0];
+        assert_eq!((textured[0], textured[1].to_bits() > 0, textured[2]), (1.0, true, 1.0));
+        assert_eq!(surfaces("null = {}").stages, [Stage::Plain], "what is never met needs no stage");
+    }
+
+    #[test]
     fn plain_is_a_scene_of_diffuse_constant_two_sided_colour() {
         let is_plain = |balls: &[(&str, &str)]| scene(balls).surfaces.plain;
         assert!(is_plain(&[(WHITE, ""), (WHITE, "flip = true")]));
@@ -329,6 +410,7 @@ mod tests {
             "mirror.reflectance = 0.5",
             "lambertian.albedo = 0.5\ntwo_sided = false",
             "lambertian.albedo = { texture = 'squares' }",
+            "lambertian.albedo = 0.5\nopacity = 0.5",
         ] {
             assert!(!is_plain(&[(WHITE, ""), (other, "")]), "{other}");
         }
@@ -350,5 +432,6 @@ mod tests {
         assert!(!can(&scene(&[("mirror.reflectance = 0.5", "")]), |_| ()));
         assert!(can(&scene(&[(WHITE, ""), ("mirror.reflectance = 0.5", "")]), |_| ()));
         assert!(!can(&scene(&[(WHITE, ""), ("dielectric = { ior = 1.5, transmittance = 0.5 }", "")]), |_| ()));
+        assert!(!can(&scene(&[(WHITE, ""), ("null = {}", "")]), |_| ()), "a visibility ray does not know transmittances");
     }
 }

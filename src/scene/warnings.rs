@@ -6,6 +6,7 @@ use crate::{
     geometry::{MISS, Outline, Shape},
     light::Side,
     math::{Lanes, One, V},
+    texture::NumberSource,
 };
 
 /// A surface in front of a lamp, closer than this fraction of the lamp's radius, blocks nearly all of its light.
@@ -51,6 +52,11 @@ impl Scene {
         let bare = self.names(|object| object.material.is_none() && object.emission.is_none());
         if let Some((bare, have)) = bare {
             warnings.push(format!("{bare} {have} neither `material` nor `emission`, and will be black"));
+        }
+        let is_clear =
+            |object: &Object| self.material(object).is_some_and(|material| material.opacity == NumberSource::Constant(0.0));
+        if let Some((clear, have)) = self.names(|object| object.emission.is_some() && is_clear(object)) {
+            warnings.push(format!("{clear} {have} `emission` but a material that lets all light pass, and will be dark"));
         }
         if let Some((flipped, have)) = self.names(|object| object.flip && self.has_inside(object)) {
             warnings.push(format!(
@@ -101,7 +107,9 @@ impl Scene {
         // A ray from above the lamp towards it first hits another object if that is in between.
         let cover = |(a, b): (f64, f64)| {
             let met = self.first_object(*origin + *u * a + *v * b + above, -normal)?;
-            (met != number && lamp.motion.0.is_empty()).then(|| &self.objects[met]).filter(|object| !self.has_inside(object))
+            (met != number && lamp.motion.0.is_empty())
+                .then(|| &self.objects[met])
+                .filter(|object| !self.has_inside(object) && !self.lets_pass(object))
         };
         let covers: Option<Vec<&Object>> = places(*outline).into_iter().map(cover).collect();
         covers?.first().copied()

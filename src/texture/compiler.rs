@@ -21,9 +21,9 @@ pub enum ColourSource {
     Texture(u32),
 }
 
-/// A fraction, from 0 to 1: constant, or the luminance of a texture.
+/// A number of the scene: constant, or the luminance of a texture.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum FractionSource {
+pub enum NumberSource {
     /// The same everywhere.
     Constant(f32),
     /// The id in [`Textures`].
@@ -106,14 +106,14 @@ impl<'a> TextureCompiler<'a> {
     }
 
     /// A part of a texture that is a fraction: a number from 0 to 1, or another texture, which is compiled first.
-    pub fn fraction(&mut self, key: &str, value: &Textured<f64>) -> Result<FractionSource, Problem> {
+    pub fn fraction(&mut self, key: &str, value: &Textured<f64>) -> Result<NumberSource, Problem> {
         let name = match value {
-            Textured::Constant(x) => return Ok(FractionSource::Constant(*x as f32)),
+            Textured::Constant(x) => return Ok(NumberSource::Constant(*x as f32)),
             Textured::Texture(name) => name,
         };
         let id = self.nested(key, name)?;
         self.check_range(key, (name, id), &Range::UNIT)?;
-        Ok(FractionSource::Texture(id))
+        Ok(NumberSource::Texture(id))
     }
 
     /// The id of a texture that another one names at a key; it is compiled first.
@@ -167,6 +167,18 @@ impl<'a> TextureCompiler<'a> {
             return Err(Problem::at(&format!("{key}.texture"), message, range.expected));
         }
         Ok(())
+    }
+
+    /// The number or the texture of a parameter, all of whose values lie in the range.
+    pub fn number(&self, parameter: &Parameter, value: &Textured<f64>, range: &Range) -> Result<NumberSource, Problem> {
+        let name = match value {
+            Textured::Constant(number) => return Ok(NumberSource::Constant(*number as f32)),
+            Textured::Texture(name) => name,
+        };
+        Ok(match self.colour(parameter, &Textured::Texture(name.clone()), range)? {
+            ColourSource::Constant([number, ..]) => NumberSource::Constant(number),
+            ColourSource::Texture(id) => NumberSource::Texture(id),
+        })
     }
 
     /// The colour, or the mean colour of the texture.

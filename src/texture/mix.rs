@@ -2,8 +2,7 @@
 use fearless_simd_macros::simd;
 
 use super::{
-    ColourSource, Found, FractionSource, Pattern, Summary, TextureCompiler, TextureCoordinates, Textures, Texturing,
-    parts::finest,
+    ColourSource, Found, NumberSource, Pattern, Summary, TextureCompiler, TextureCoordinates, Textures, Texturing, parts::finest,
 };
 use crate::{
     declare::{Declare, Kind, Parameter, Parameters, Problem, Range, Textured},
@@ -58,7 +57,7 @@ pub struct Mixture {
     /// Colour where the weight is 1.
     pub b: ColourSource,
     /// Fraction of the second colour.
-    pub weight: FractionSource,
+    pub weight: NumberSource,
 }
 
 impl Mixture {
@@ -71,7 +70,7 @@ impl Mixture {
     /// The largest value of a channel: a mixture by any weight up to the largest is at most the larger one of its ends.
     fn most(&self, a: f32, b: f32, weight: f32) -> f32 {
         let end = a * (1.0 - weight) + b * weight;
-        if let FractionSource::Constant(_) = self.weight { end } else { a.max(end) }
+        if let NumberSource::Constant(_) = self.weight { end } else { a.max(end) }
     }
 }
 

@@ -18,7 +18,7 @@ pub mod vertex_color;
 use fearless_simd_macros::simd;
 
 pub use self::{
-    compiler::{ColourSource, FractionSource, TextureCompiler},
+    compiler::{ColourSource, NumberSource, TextureCompiler},
     constant::Constant,
     image::{Edge, ImagePattern, ImageTexture},
 };

@@ -1,5 +1,5 @@
 //! Parts of textures that combine several: constants, and textures that are looked up at the same point.
-use super::{ColourSource, Constant, FractionSource, Pattern, Summary, TextureCoordinates, Textures};
+use super::{ColourSource, Constant, NumberSource, Pattern, Summary, TextureCoordinates, Textures};
 use crate::math::{
     F, Lanes, M, V,
     colour::{LUMINANCE, luminance},
@@ -29,11 +29,11 @@ impl Textures {
 
     /// The fraction of a part in the lanes `here`.
     #[inline(always)]
-    pub(super) fn fraction<L: Lanes>(&self, l: L, part: FractionSource, here: M<L>, at: &TextureCoordinates<L>) -> F<L> {
+    pub(super) fn fraction<L: Lanes>(&self, l: L, part: NumberSource, here: M<L>, at: &TextureCoordinates<L>) -> F<L> {
         match part {
-            FractionSource::Constant(x) => l.f(x),
+            NumberSource::Constant(x) => l.f(x),
             // The weights of luminance add up to 1 only within rounding.
-            FractionSource::Texture(id) => self.colour(l, l.u(id), here, at).dot_with(LUMINANCE).min(l.f(1.0)),
+            NumberSource::Texture(id) => self.colour(l, l.u(id), here, at).dot_with(LUMINANCE).min(l.f(1.0)),
         }
     }
 
@@ -49,10 +49,10 @@ impl Textures {
     }
 
     /// Properties of a fraction, counted likewise.
-    pub(super) fn summary_of_fraction(&self, part: FractionSource) -> FractionSummary {
+    pub(super) fn summary_of_fraction(&self, part: NumberSource) -> FractionSummary {
         let (mean, maximum, Summary { steps, lookups, .. }) = match part {
-            FractionSource::Constant(x) => (x, x, self.summary_of_part(ColourSource::Constant([x; 3]))),
-            FractionSource::Texture(id) => {
+            NumberSource::Constant(x) => (x, x, self.summary_of_part(ColourSource::Constant([x; 3]))),
+            NumberSource::Texture(id) => {
                 let summary = self.summary_of_part(ColourSource::Texture(id));
                 (luminance(summary.mean).min(1.0), luminance(summary.maximum).min(1.0), summary)
             }

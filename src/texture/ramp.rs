@@ -1,7 +1,7 @@
 //! Colors along a scale, interpolated between stops.
 use fearless_simd_macros::simd;
 
-use super::{Found, FractionSource, Pattern, Summary, TextureCompiler, TextureCoordinates, Textures, Texturing};
+use super::{Found, NumberSource, Pattern, Summary, TextureCompiler, TextureCoordinates, Textures, Texturing};
 use crate::{
     declare::{Declare, Kind, Parameter, Parameters, Problem, Range, Textured},
     math::{F, Lanes, M, One, Pick, V},
@@ -77,7 +77,7 @@ impl Texturing for Ramp {
 /// A ramp as the renderer looks it up.
 pub struct Gradient {
     /// Place on the scale.
-    pub input: FractionSource,
+    pub input: NumberSource,
     /// Places in ascending order, with their colours; at least one.
     pub stops: Vec<(f32, [f32; 3])>,
 }
@@ -108,7 +108,7 @@ impl Gradient {
     /// has that of the stops.
     fn mean(&self, textures: &Textures) -> [f32; 3] {
         const SIDE: u32 = 32;
-        if let FractionSource::Constant(place) = self.input {
+        if let NumberSource::Constant(place) = self.input {
             return self.at(One, F(place)).lane(0);
         }
         let mut sum = [0.0; 3];

@@ -22,6 +22,7 @@ fn each_slip_has_its_warning() {
     let glass = "lambertian = { albedo = 0.8 }\n[materials.glass]\ndielectric = { ior = 1.5 }";
     for (from, to, says) in [
         ("material = \"white\"\nemission = { radiance = [1.0, 2.0, 3.0] }", "", "`ball` has neither `material` nor `emission`"),
+        ("lambertian = { albedo = 0.8 }", "null = {}", "`ball` has `emission` but a material that lets all light pass"),
         ("eye = [0.0, 1.0, 4.0]", "eye = [0.1, 1.0, 0.2]", "inside `ball`, which emits outwards only: `flip = true`"),
         ("fov = 40", "fov = 0.7", "0.7 is a narrow view: taken as radians, it would be 40.1°"),
         ("fov = 40", "fov = 1.0", "1 is a narrow view: taken as radians, it would be 57.3°"),

@@ -232,8 +232,13 @@ fn a_panic_in_a_pass_becomes_a_status_with_pixel_sample_and_message() {
 fn samples_that_are_no_numbers_are_dropped_and_counted_with_the_way_to_replay_them() {
     use noisefall::light::{Emission, Emitters, Side};
     let mut broken = noisefall::scene::built_in();
-    Arc::get_mut(&mut broken.lights).expect("no other scene has them").emitters =
-        Emitters::new(&[Emission { radiance: [1.0, f32::NAN, 1.0], mean: [1.0; 3], texture: None, side: Side::Front }]);
+    Arc::get_mut(&mut broken.lights).expect("no other scene has them").emitters = Emitters::new(&[Emission {
+        radiance: [1.0, f32::NAN, 1.0],
+        mean: [1.0; 3],
+        texture: None,
+        side: Side::Front,
+        translucent: false,
+    }]);
     let scene = Arc::new(broken);
     let renderer = renderer(Publish::Sparse);
     renderer.set_budget(Budget { max_spp: Some(2), ..Budget::default() });

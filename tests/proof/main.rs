@@ -18,6 +18,7 @@ mod lens;
 mod limits;
 mod mirrors;
 mod noise;
+mod opacity;
 mod picture;
 mod pictures;
 mod plate;

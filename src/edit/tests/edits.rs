@@ -110,6 +110,18 @@ fn materials_come_go_and_are_renamed_with_what_names_them() {
 }
 
 #[test]
+fn blends_follow_the_names_of_their_parts() {
+    let mut document = room();
+    let blend = document.change_kind(&path("materials.gold"), "material", "blend");
+    does(&mut document, &blend);
+    does(&mut document, &Edit::Rename { path: path("materials.white"), to: "paper".to_owned() });
+    let Material::Blend(blend) = &document.description().materials["gold"].kind else { panic!("it is a blend") };
+    assert_eq!([&blend.first, &blend.second], ["floor", "paper"]);
+    let problem = refuses(&mut document, &Edit::remove(path("materials.paper")));
+    assert_eq!(problem.message, "the material `paper` is in use");
+}
+
+#[test]
 fn another_kind_keeps_the_parameters_that_both_have() {
     there_and_back(&Edit::choose(path("materials.gold"), "material", "plastic"), |scene| {
         let Material::Plastic(plastic) = &scene.materials["gold"].kind else { panic!("it is plastic") };
@@ -148,6 +160,10 @@ fn a_change_of_kind_takes_along_what_depends_on_it() {
     there_and_back(&change("objects.2.emission", "emission", "texture"), |scene| {
         let emission = scene.objects[2].emission.as_ref().expect("it emits");
         assert_eq!(emission.source, Texture { name: "tiles".to_owned() }.into());
+    });
+    there_and_back(&change("materials.gold", "material", "blend"), |scene| {
+        let Material::Blend(blend) = &scene.materials["gold"].kind else { panic!("it is a blend") };
+        assert_eq!([&blend.first, &blend.second], ["floor", "white"]);
     });
     assert_eq!(change("objects.1.shape", "shape", "disk"), Edit::choose(path("objects.1.shape"), "shape", "disk"));
 }

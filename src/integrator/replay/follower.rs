@@ -77,7 +77,7 @@ impl Follower {
         let nearest = batch.first_hits.get(One, at, VARIED && work.scene.shapes.have_elements());
         let Nearest { t, primitive, .. } = nearest;
         let object = (primitive.0 != MISS).then(|| work.scene.owners[primitive.0 as usize]);
-        let interaction = object.map(|_| interact::<One, VARIED>(One, work, &path, M(true), &nearest));
+        let interaction = object.map(|_| interact::<One, VARIED>(One, work, &path, M(true), &nearest, None));
         let media = paths.media(One, only(at));
         let transmittance = if VARIED && work.has_media() { transmittance(One, work, media, t) } else { V::splat(One, WHITE) };
         let throughput = carried(work, batch, batch.bounce, &path);

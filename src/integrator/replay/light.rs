@@ -37,15 +37,13 @@ pub(super) fn sampled_light(
     let Some(at) = queued else { return light };
     let shadow = Shadow::read(One, &batch.shadows.shadows, at.start);
     let media = batch.shadows.media(One, at);
-    let (seen, radiance) = arriving(One, work, M(true), &shadow, media);
-    light.outcome = if seen.0 { Outcome::Seen } else { Outcome::Hidden };
-    let mut nearest = work.scene.shapes.closest(One, M(true), shadow.o, shadow.d, work.time(One, shadow.slot));
-    lights.arrives(One, shadow.target, shadow.o, &mut nearest);
-    light.distance = Some(nearest.t.0).filter(|t| t.is_finite());
-    if seen.0 {
-        let (_, passed) = arriving(One, work, M(true), &Shadow { radiance: V::splat(One, WHITE), ..shadow }, media);
-        light.passed = passed.lane(0);
-        light.contribution = own(batch, shadow.slot, radiance.lane(0));
+    let end_of = |shadow: &Shadow<One>| arriving(One, work, M(true), shadow, media, batch.bounce + 1, &mut 0);
+    let arriving = end_of(&shadow);
+    light.outcome = if arriving.seen.0 { Outcome::Seen } else { Outcome::Hidden };
+    light.distance = Some(arriving.t.0).filter(|t| t.is_finite());
+    if arriving.seen.0 {
+        light.passed = end_of(&Shadow { radiance: V::splat(One, WHITE), ..shadow }).light.lane(0);
+        light.contribution = own(batch, shadow.slot, arriving.light.lane(0));
     }
     light
 }

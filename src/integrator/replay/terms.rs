@@ -145,7 +145,7 @@ pub struct SampledLight {
     pub outcome: Outcome,
     /// Distance to the light or its occluder; `None` if there is neither, or the ray was not traced.
     pub distance: Option<f32>,
-    /// Transmittance of media, times the texture of the light; 0 if the light is not visible.
+    /// Transmittance of media and of surfaces, times the opacity and the texture of the light; 0 if the light is not visible.
     pub passed: [f32; 3],
     /// Throughput × transmittance × f cos × radiance × weight/pdf × passed.
     pub contribution: [f32; 3],

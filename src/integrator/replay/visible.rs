@@ -3,11 +3,12 @@ use glam::{DVec3, Vec3};
 
 use super::Replay;
 use crate::{
-    math::{Lanes, One, V},
+    integrator::passage::{Decisions, MOST_CROSSINGS, Passage},
+    math::{F, M, One, V},
     scene::{Camera, Scene},
 };
 
-/// For every vertex of a path, whether nothing lies between it and the middle of the camera's lens, at the time when the shutter
+/// For every vertex of a path, whether nothing opaque lies between it and the middle of the camera's lens, at the time when the shutter
 /// opens. What leaves the scene is not seen.
 pub fn seen_by_camera(scene: &Scene, camera: &Camera, replay: &Replay) -> Vec<bool> {
     let is_seen = |position: [f32; 3]| sees(scene, camera, Vec3::from(position).as_dvec3());
@@ -24,8 +25,28 @@ fn sees(scene: &Scene, camera: &Camera, point: DVec3) -> bool {
     let [eye, forward, place, to] = [camera.eye, forward, place, point].map(|v| v.as_vec3().to_array());
     let (o, d) = camera.projection.rays(One, V::splat(One, place), eye, forward);
     let distance = (V::splat(One, to) - o).length_squared().0.sqrt();
-    let nearest = scene.shapes.closest(One, One.first(1), o, d, scene.rays(camera).moment(One));
-    depth > 0.0 && nearest.t.0 >= NEARLY * distance
+    depth > 0.0 && first_opaque(scene, [o, d], scene.rays(camera).moment(One), NEARLY * distance) >= NEARLY * distance
+}
+
+/// Distance to the first surface along a ray that lets no light pass, or to any surface beyond `limit`.
+fn first_opaque(scene: &Scene, [o, d]: [V<One>; 2], time: F<One>, limit: f32) -> f32 {
+    let all = M(true);
+    let mut passage = Passage::new(One, [o, d], time, scene.shapes.closest(One, all, o, d, time));
+    if scene.surfaces.are_opaque() {
+        return passage.nearest().t.0;
+    }
+    for _ in 0..MOST_CROSSINGS {
+        if passage.nearest().t.0 >= limit || !passage.layered(One, scene, all).0 {
+            break;
+        }
+        let crossing = passage.crossing(One, scene, all);
+        let (alpha, _) = crossing.opacity(One, scene, all, F(0.5), Decisions::Middle);
+        if alpha.0 >= 1.0 {
+            break;
+        }
+        passage.cross(One, scene, all, &crossing);
+    }
+    passage.nearest().t.0
 }
 
 #[cfg(test)]

@@ -46,13 +46,15 @@ pub struct Emission {
     pub texture: Option<u32>,
     /// The sides that emit.
     pub side: Side,
+    /// Whether its far side can be seen through the surface.
+    pub translucent: bool,
 }
 
 impl Emission {
     /// Whether both are the same, bit for bit.
     pub fn is_same(&self, other: &Emission) -> bool {
         let bits = |emission: &Emission| [emission.radiance, emission.mean].map(|rgb| rgb.map(f32::to_bits));
-        bits(self) == bits(other) && (self.texture, self.side) == (other.texture, other.side)
+        bits(self) == bits(other) && (self.texture, self.side, self.translucent) == (other.texture, other.side, other.translucent)
     }
 }
 
@@ -63,6 +65,7 @@ pub struct Emitters {
     rows: Vec<[f32; 4]>,
     /// Id of the texture plus 1 as bits, 0 for none; empty when no emission varies.
     textures: Vec<[f32; 4]>,
+    translucent: bool,
 }
 
 impl Emitters {
@@ -82,6 +85,7 @@ impl Emitters {
         Emitters {
             rows: emissions.iter().map(row).collect(),
             textures: if vary { emissions.iter().map(texture).collect() } else { Vec::new() },
+            translucent: emissions.iter().any(|emission| emission.translucent),
         }
     }
 
@@ -102,6 +106,11 @@ impl Emitters {
     pub fn radiance<L: Lanes>(&self, l: L, emits: M<L>, primitive: U<L>, cos: F<L>) -> (V<L>, M<L>) {
         let [x, y, z, side] = l.rows(&self.rows, emits.pick(primitive, l.u(0)));
         (V { x, y, z }, emits & (side * cos).ge(l.f(0.0)))
+    }
+
+    /// Whether the far side of some emitter can be seen through it: see [`Emission::translucent`].
+    pub fn are_translucent(&self) -> bool {
+        self.translucent
     }
 
     /// Whether any emission is textured.

@@ -36,6 +36,6 @@ impl Declare for Radiance {
 impl Emit for Radiance {
     fn compile(&self, scale: f32, side: Side, _: &TextureCompiler) -> Result<Emission, Problem> {
         let radiance = self.radiance.map(|x| x as f32 * scale);
-        Ok(Emission { radiance, mean: radiance, texture: None, side })
+        Ok(Emission { radiance, mean: radiance, texture: None, side, translucent: false })
     }
 }

@@ -29,6 +29,7 @@ impl Declare for Texture {
 impl Emit for Texture {
     fn compile(&self, scale: f32, side: Side, textures: &TextureCompiler) -> Result<Emission, Problem> {
         let id = textures.id("texture", &self.name)?;
-        Ok(Emission { radiance: [scale; 3], mean: textures.textures.mean(id).map(|x| x * scale), texture: Some(id), side })
+        let mean = textures.textures.mean(id).map(|x| x * scale);
+        Ok(Emission { radiance: [scale; 3], mean, texture: Some(id), side, translucent: false })
     }
 }

@@ -47,7 +47,7 @@ struct Set {
 
 impl Set {
     fn new(name: &'static str, lights: impl IntoIterator<Item = (Shape, f32, Side)>) -> Set {
-        let emission = |light, side| Emission { radiance: [light; 3], mean: [light; 3], texture: None, side };
+        let emission = |light, side| Emission { radiance: [light; 3], mean: [light; 3], texture: None, side, translucent: false };
         let (shapes, emissions) = lights.into_iter().map(|(shape, light, side)| (shape, emission(light, side))).unzip();
         Set { name, shapes, emissions, lamps: Vec::new(), sky: 0.0 }
     }

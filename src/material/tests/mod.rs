@@ -3,6 +3,7 @@ mod cases;
 mod dielectric;
 mod dielectric_fixtures;
 mod dielectric_pdf;
+mod diffuse_transmission;
 mod distribution;
 mod energy;
 mod fresnel;

@@ -1,10 +1,20 @@
 //! Emitting surfaces.
 use crate::{
     declare::Problem,
+    geometry::Shape,
     light::{Emission, Side},
-    scene::description::EmissionDescription,
+    scene::{MaterialInstance, Object, description::EmissionDescription},
     texture::TextureCompiler,
 };
+
+/// Marks the emission of an object whose far side can be seen through its near side. Flat pieces have no far side.
+pub fn see_through(object: &mut Object, materials: &[MaterialInstance]) {
+    let is_curved = !matches!(object.shape, Shape::Flat { .. } | Shape::Cuboid { .. } | Shape::Mesh { .. });
+    let passes = object.material.is_some_and(|number| materials[number as usize].properties.passes);
+    if let Some(emission) = &mut object.emission {
+        emission.translucent = is_curved && passes;
+    }
+}
 
 /// Emission of a surface.
 pub fn emission(described: &EmissionDescription, flip: bool, textures: &TextureCompiler) -> Result<Emission, Problem> {

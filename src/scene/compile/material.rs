@@ -3,12 +3,15 @@ use std::collections::BTreeMap;
 
 use super::problems::Problems;
 use crate::{
-    declare::{Path, Problem},
+    declare::{Path, Problem, Range},
     image::Encoding,
-    material::Materials,
+    material::{Material, Materials},
     quote,
-    scene::{MaterialInstance, description::MaterialDescription},
-    texture::{ImagePattern, ImageTexture, Texture, TextureCompiler},
+    scene::{
+        MaterialInstance, Properties,
+        description::{MaterialDescription, OPACITY},
+    },
+    texture::{ImagePattern, ImageTexture, NumberSource, Texture, TextureCompiler},
 };
 
 /// The numbers of materials by their names; `None` for those that are wrong.
@@ -47,6 +50,7 @@ fn instance(
 ) -> Result<MaterialInstance, Problem> {
     let bump = described.bump.as_ref().map(|bump| Ok((textures.id("bump.texture", &bump.texture)?, bump.height as f32)));
     let normal_map = described.normal_map.as_ref().map(|path| normal_map(path, textures));
+    let opacity = opacity(described, textures)?;
     let compiled = tables.compile(&described.kind, textures)?;
     if compiled.stage.transmits() && described.two_sided == Some(false) {
         return Err(Problem::at("two_sided", format!("a {} has two sides", described.kind.name()), "remove this"));
@@ -54,15 +58,46 @@ fn instance(
     Ok(MaterialInstance {
         name: quote::piece(name),
         material: described.kind.clone(),
+        properties: Properties::new(&compiled, opacity),
         compiled,
         bump: bump.transpose()?,
         normal_map: normal_map.transpose()?,
         one_sided: described.two_sided == Some(false),
+        opacity,
+        blend: None,
     })
+}
+
+/// The opacity of a material; 0 for `null`.
+fn opacity(described: &MaterialDescription, textures: &TextureCompiler) -> Result<NumberSource, Problem> {
+    let opacity = described.opacity.as_ref().map(|opacity| textures.number(&OPACITY, opacity, &Range::UNIT)).transpose()?;
+    let is_null = matches!(described.kind, Material::Null(_));
+    Ok(if is_null { NumberSource::Constant(0.0) } else { opacity.unwrap_or(NumberSource::Constant(1.0)) })
 }
 
 /// A texture without a name, of normals.
 fn normal_map(path: &str, textures: &mut TextureCompiler) -> Result<u32, Problem> {
     let picture = ImageTexture::read(textures.resources, "normal_map", path, Encoding::Linear)?;
     Ok(textures.push(Texture::Image(ImagePattern::Plain(picture))))
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::scene::parse;
+
+    #[test]
+    fn a_sheet_may_not_scatter_more_than_it_receives() {
+        let refused = |material: &str| {
+            let text = format!(
+                "format = 1\nbackground.radiance = 1\n\
+                 camera = {{ eye = [0, 0, 9], look_at = [0, 0, 0], fov = 60, resolution = [8, 8] }}\n\
+                 textures.squares.checker = {{ even = 0.2, odd = 0.6, scale = 2 }}\nmaterials.leaf.diffuse_transmission = {material}"
+            );
+            parse("leaf.toml", text).err().expect("it scatters too much").report()
+        };
+        let constant = refused("{ reflectance = [0.5, 0.7, 0.5], transmittance = [0.5, 0.5, 0.5] }");
+        assert!(constant.contains("add up to 1.2 in green"), "{constant}");
+        let textured = refused("{ reflectance = 0.5, transmittance = { texture = 'squares' } }");
+        assert!(textured.contains("add up to 1.1 in red") && textured.contains("their largest value"), "{textured}");
+    }
 }

@@ -1,4 +1,5 @@
 //! From a description to what the renderer runs on: names become numbers, values are checked, tables are built.
+mod blend;
 mod camera;
 mod check;
 mod lamp;
@@ -14,7 +15,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use self::{camera::camera, lamp::lamps, material::materials, object::objects, problems::Problems};
+use self::{blend::blends, camera::camera, lamp::lamps, material::materials, object::objects, problems::Problems};
 pub use self::{
     check::{check_camera, check_lamp, check_object},
     reuse::Before,
@@ -98,8 +99,10 @@ impl Parts {
         problems.found.extend(wrong);
         let known = before.map(|before| Materials::after(&before.scene.surfaces.materials, before.precision));
         let mut tables = known.unwrap_or_default();
-        let (materials, numbers) = materials(&description.materials, &mut textures, &mut tables, problems);
-        let objects = objects(&description.objects, &numbers, &textures, resources, problems);
+        let (mut materials, numbers) = materials(&description.materials, &mut textures, &mut tables, problems);
+        blends(&description.materials, &numbers, &mut materials, &textures, problems);
+        let mut objects = objects(&description.objects, &numbers, &textures, resources, problems);
+        objects.iter_mut().for_each(|object| light::see_through(object, &materials));
         let lamps = lamps(&description.lamps, resources, problems);
         let RenderDescription { settings, spp } = description.render;
         let truth = description.truth.as_ref().map(|described| problems.keep(&at("truth"), || truth(described, resources)));

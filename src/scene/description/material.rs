@@ -5,6 +5,12 @@ use crate::{
     texture::TEXTURE,
 };
 
+/// The key of the opacity of materials.
+pub const OPACITY: Parameter =
+    Parameter::new("opacity", "Fraction of the light that meets the surface; the rest passes unchanged. Default: 1.")
+        .symbol("α")
+        .aliases("alpha mask cutout");
+
 /// A material of a scene file: its kind, and the parameters that all kinds share.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MaterialDescription {
@@ -27,10 +33,6 @@ impl Declare for MaterialDescription {
         const NORMAL_MAP: Parameter = Parameter::new("normal_map", "A linear image of shading normals.").aliases("normals");
         const TWO_SIDED: Parameter =
             Parameter::new("two_sided", "Whether the back reflects too. Default: true.").aliases("twosided double_sided");
-        const OPACITY: Parameter =
-            Parameter::new("opacity", "Fraction of the light that meets the surface; the rest passes unchanged. Default: 1.")
-                .symbol("α")
-                .aliases("alpha mask cutout");
         p.one_of(&mut self.kind);
         p.optional_table(&BUMP, &mut self.bump);
         p.optional(&NORMAL_MAP, &mut self.normal_map, String::new, |p, path| p.value(&NORMAL_MAP, Value::File(path)));

@@ -16,6 +16,7 @@ use std::collections::BTreeMap;
 
 pub use glam::DVec3;
 
+pub(super) use self::material::OPACITY;
 pub use self::{
     camera::CameraDescription,
     lamp::LampDescription,

@@ -3,7 +3,7 @@ use super::{at, lanes_of, picture, plain};
 use crate::{
     math::{F, Lanes, M, One, SimdLevel, U},
     texture::{
-        ColourSource, Constant, FractionSource, Texture, TextureCoordinates, Textures, checker::Squares, image::Channel,
+        ColourSource, Constant, NumberSource, Texture, TextureCoordinates, Textures, checker::Squares, image::Channel,
         mix::Mixture, noise::Clouds, product::Factors, ramp::Gradient, vertex_color::VertexLookup,
     },
 };
@@ -52,9 +52,8 @@ fn products_multiply() {
 fn mixtures_interpolate_by_luminance() {
     let mut set = textures();
     let [a, b] = [1, 0].map(ColourSource::Texture);
-    let varying = set.push(Texture::Mix(Mixture { a, b, weight: FractionSource::Texture(3) }));
-    let constant =
-        set.push(Texture::Mix(Mixture { a, b: ColourSource::Constant(GREEN), weight: FractionSource::Constant(0.25) }));
+    let varying = set.push(Texture::Mix(Mixture { a, b, weight: NumberSource::Texture(3) }));
+    let constant = set.push(Texture::Mix(Mixture { a, b: ColourSource::Constant(GREEN), weight: NumberSource::Constant(0.25) }));
     for at in points() {
         let [noise, image, checker] = [0, 1, 3].map(|id| colour(&set, id, &at));
         let weight = luminance(checker).min(1.0);
@@ -71,7 +70,7 @@ fn the_largest_value_of_a_mixture_is_that_of_the_largest_weight() {
     // The luminance of the checker is at most that of the highest noise.
     let most = luminance([0.9, 0.5, 0.3]);
     let (a, b) = (ColourSource::Constant([0.5; 3]), ColourSource::Constant([1.0; 3]));
-    let id = set.push(Texture::Mix(Mixture { a, b, weight: FractionSource::Texture(3) }));
+    let id = set.push(Texture::Mix(Mixture { a, b, weight: NumberSource::Texture(3) }));
     assert!(set.maximum(id).iter().all(|x| (x - (0.5 + 0.5 * most)).abs() < 1e-6), "{:?}", set.maximum(id));
     assert!(points().all(|at| colour(&set, id, &at)[0] <= set.maximum(id)[0] + 1e-6));
     // The weight and the colours do not depend on each other.
@@ -97,10 +96,10 @@ fn ramps_interpolate_between_their_stops() {
         (1.0, [4.0, 4.0, 4.0]),
     ];
     for (place, expected) in expected {
-        let id = set.push(Texture::Ramp(Gradient { input: FractionSource::Constant(place), stops: stops() }));
+        let id = set.push(Texture::Ramp(Gradient { input: NumberSource::Constant(place), stops: stops() }));
         assert_eq!((colour(&set, id, &at(0.3, 0.4)), set.mean(id)), (expected, expected), "{place}");
     }
-    let one = set.push(Texture::Ramp(Gradient { input: FractionSource::Texture(0), stops: vec![(0.5, GREEN)] }));
+    let one = set.push(Texture::Ramp(Gradient { input: NumberSource::Texture(0), stops: vec![(0.5, GREEN)] }));
     assert!(points().all(|at| colour(&set, one, &at) == GREEN));
 }
 
@@ -108,7 +107,7 @@ fn ramps_interpolate_between_their_stops() {
 fn ramps_of_textures_are_at_their_luminance() {
     let mut set = textures();
     let grey = vec![(0.0, [0.0, 1.0, 0.5]), (1.0, [1.0, 0.0, 0.5])];
-    let id = set.push(Texture::Ramp(Gradient { input: FractionSource::Texture(0), stops: grey }));
+    let id = set.push(Texture::Ramp(Gradient { input: NumberSource::Texture(0), stops: grey }));
     for at in points() {
         let place = luminance(colour(&set, 0, &at));
         let found = colour(&set, id, &at);
@@ -120,7 +119,7 @@ fn ramps_of_textures_are_at_their_luminance() {
     assert_eq!(set.maximum(id), [1.0, 1.0, 0.5]);
     // A ramp whose colour no point of the grid meets is not black.
     let rare = vec![(0.999, [0.0; 3]), (1.0, [3.0; 3])];
-    let id = set.push(Texture::Ramp(Gradient { input: FractionSource::Texture(0), stops: rare }));
+    let id = set.push(Texture::Ramp(Gradient { input: NumberSource::Texture(0), stops: rare }));
     assert_eq!(set.mean(id), [1.5; 3]);
 }
 
@@ -143,7 +142,7 @@ fn lookups_of_others_are_counted() {
     let [image, checker, constant] = [ColourSource::Texture(1), ColourSource::Texture(3), ColourSource::Constant(GREEN)];
     let one = set.push(Texture::Product(Factors { a: image, b: constant }));
     let two = set.push(Texture::Product(Factors { a: image, b: checker }));
-    let mix = Mixture { a: ColourSource::Texture(two), b: ColourSource::Texture(one), weight: FractionSource::Texture(3) };
+    let mix = Mixture { a: ColourSource::Texture(two), b: ColourSource::Texture(one), weight: NumberSource::Texture(3) };
     let mix = set.push(Texture::Mix(mix));
     let squares = set.push(Texture::Checker(Squares { even: mix, odd: two, scale: 2.0 }));
     assert_eq!([0, 1, 3, one, two, mix, squares].map(|id| set.lookups(id)), [0, 0, 0, 1, 2, 6, 8]);
@@ -154,9 +153,9 @@ fn every_width_gives_the_same_bits_of_combined_textures() {
     let mut set = textures();
     let [noise, image, checker] = [0, 1, 3].map(ColourSource::Texture);
     let product = set.push(Texture::Product(Factors { a: checker, b: image }));
-    let weight = FractionSource::Texture(0);
+    let weight = NumberSource::Texture(0);
     let mix = set.push(Texture::Mix(Mixture { a: ColourSource::Texture(product), b: noise, weight }));
-    set.push(Texture::Ramp(Gradient { input: FractionSource::Texture(3), stops: stops() }));
+    set.push(Texture::Ramp(Gradient { input: NumberSource::Texture(3), stops: stops() }));
     set.push(Texture::Checker(Squares { even: mix, odd: product, scale: 3.0 }));
     assert_eq!(set.len(), 8);
     for round in 0..100u32 {

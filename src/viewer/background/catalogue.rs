@@ -22,7 +22,7 @@ const CHAPTERS: [(&str, &[&str]); 6] = [
     ("The box", &["cornell_box", "cornell_spheres"]),
     ("Noise", &["bright_sky", "tiny_lamp", "room_window", "sky_lit"]),
     ("Estimators", &["veach_plates", "glass_and_mirror", "lamp_behind_glass", "many_small_lamps", "five_hundred_lamps", "lamps"]),
-    ("Materials", &["gloss_row", "principled", "tinted_glass", "thin_panes", "nested_glass", "textures_and_bump"]),
+    ("Materials", &["gloss_row", "principled", "tinted_glass", "thin_panes", "leaves", "nested_glass", "textures_and_bump"]),
     (
         "Geometry",
         &["shapes", "isosurfaces", "sphere_field", "instanced_field", "million_triangles", "depth_of_field", "motion_blur"],

@@ -2,8 +2,9 @@
 use glam::DVec3;
 
 use crate::{
-    declare::{self, Choice, Declare, OneOf, Parameter, Parameters, Range, Resources, Value, write},
+    declare::{self, Choice, Declare, OneOf, Parameter, Parameters, Range, Resources, Textured, Value, write},
     geometry::Shape,
+    material::Material,
     scene::RenderSettings,
     shape::{ShapeBuilder, ShapeKind},
     validate::stress::{dice::Dice, trial_scene::v},
@@ -21,14 +22,26 @@ pub fn settings(dice: &mut Dice) -> String {
     text(&mut settings)
 }
 
-/// One of each kind of a family, with values anywhere in their ranges.
-pub fn one_of_each<T: OneOf>(dice: &mut Dice) -> Vec<String> {
+/// A material of each kind, with values anywhere in their ranges. Blends are of the materials `parts`.
+pub fn materials(dice: &mut Dice, parts: [&str; 2]) -> Vec<String> {
     let drawn = |kind| {
         let mut kind = OfKind(kind);
         kind.parameters(&mut declare::Dice::new(dice));
+        match &mut kind.0 {
+            Material::Blend(blend) => (blend.first, blend.second) = (parts[0].to_owned(), parts[1].to_owned()),
+            // Both fractions may be the largest of their range, but not together.
+            Material::DiffuseTransmission(sheet) => {
+                for fraction in [&mut sheet.reflectance, &mut sheet.transmittance] {
+                    if let Textured::Constant(rgb) = fraction {
+                        *rgb = rgb.map(|x| 0.5 * x);
+                    }
+                }
+            }
+            _ => {}
+        }
         text(&mut kind)
     };
-    T::alternatives().into_iter().map(drawn).collect()
+    Material::alternatives().into_iter().map(drawn).collect()
 }
 
 /// A shape of any kind around a point. Values that make no shape are drawn again.

@@ -3,7 +3,6 @@ use glam::DVec3;
 
 use super::{Family, drawn, rooms::closed};
 use crate::{
-    material::Material,
     sampling::{Directions, Sampler},
     scene::Estimator,
     validate::stress::{
@@ -64,7 +63,7 @@ pub fn anything(dice: &mut Dice) -> TrialScene {
 
 /// Materials, shapes and settings as their declarations draw them.
 fn declared(dice: &mut Dice) -> TrialScene {
-    let materials = drawn::one_of_each::<Material>(dice);
+    let materials = drawn::materials(dice, ["kind0", "kind1"]);
     let count = materials.len();
     let materials: String =
         materials.into_iter().enumerate().map(|(place, drawn)| format!("materials.kind{place} = {drawn}\n")).collect();
