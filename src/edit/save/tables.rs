@@ -51,7 +51,9 @@ impl Update<'_> {
                 _ => *item = Item::Value(written(value, *collapses)),
             },
             (Node::Table(was), Node::Table(now)) => self.table_item(item, was, now),
-            (Node::List(was), Node::List(now)) if level == Level::Root => self.objects(item, was, now),
+            (Node::List(was), Node::List(tables)) if level == Level::Root && now.key == "objects" => {
+                self.objects(item, was, tables);
+            }
             (Node::List(was), Node::List(now)) => self.list(item, was, now),
             (Node::Named(was), Node::Named(tables)) => self.named(item, now.key, was, tables),
             (_, now) => *item = Item::Value(written_node(now)),

@@ -84,7 +84,7 @@ fn a_surface_in_between_hides_a_lamp_and_one_behind_it_does_not() {
 fn an_emitter_behind_a_lamp_is_not_taken_for_it() {
     // Light numbers of lamps follow those of surfaces, and so do the primitives that do not emit.
     let emitter = "[[objects]]\nshape.sphere = { center = [0, 500, 0], radius = 1 }\nemission.radiance = 1e-6\n";
-    let dark = "[[objects]]\nshape.disk = { center = [0, 1, 0], normal = [0, -1, 0], radius = 0.3 }\nmaterial = 'grey'\n";
+    let dark = "[[objects]]\nshape.disk = { center = [0, 1, 0], normal = [0, -1, 0], radius = 0.3 }\n";
     let scene = at(0.0, &format!("{emitter}{POINT}"));
     let [r, ..] = mean(&scene, Estimator::Mis, Reuse::Off, 400);
     assert!((r.0 / (0.5 / std::f64::consts::PI * 2.0) - 1.0).abs() < 0.01 + 4.0 * r.1, "{r:?}");
