@@ -1,0 +1,1 @@
+//! glTF files that are made in the tests.
