@@ -60,6 +60,25 @@ impl<'a> Column<'a> {
         checked(document, buffers, accessor).map_err(|error| error.within(&format!("accessor {index}")))
     }
 
+    /// A column of real numbers, `width` to an element, or of whole numbers if they are.
+    pub fn of_numbers(numbers: &[f32], width: usize, are_whole: bool) -> Column<'static> {
+        let bytes = |x: &f32| if are_whole { (*x as u32).to_le_bytes() } else { x.to_le_bytes() };
+        let component = if are_whole { Component::U32 } else { Component::F32 };
+        let bytes: Vec<u8> = numbers.iter().flat_map(bytes).collect();
+        Column { bytes: bytes.into(), stride: 4 * width, count: numbers.len() / width, component, width, normalized: false }
+    }
+
+    /// A column of indices.
+    pub fn of_indices(indices: impl Iterator<Item = u32>) -> Column<'static> {
+        let bytes: Vec<u8> = indices.flat_map(u32::to_le_bytes).collect();
+        Column { count: bytes.len() / 4, bytes: bytes.into(), stride: 4, component: Component::U32, width: 1, normalized: false }
+    }
+
+    /// The same column without a copy of its bytes.
+    pub fn borrowed(&self) -> Column<'_> {
+        Column { bytes: Cow::Borrowed(&self.bytes), ..*self }
+    }
+
     /// The elements at these places, as real numbers. Elements of another width are refused.
     pub fn reals<const N: usize>(&self, picks: &Picks) -> Found<Vec<[f32; N]>> {
         if self.width != N {
@@ -163,6 +182,23 @@ fn checked<'a>(document: &Document, buffers: &'a Buffers, accessor: &Accessor) -
         Some(sparse) => replaced(document, buffers, column, sparse, size),
         None => Ok(column),
     }
+}
+
+/// How the numbers of an accessor are stored elsewhere: numbers of an element, the greatest code if codes stand for fractions, and
+/// whether the numbers are whole.
+pub fn meaning(accessor: &Accessor) -> Found<(usize, f32, bool)> {
+    let component = Component::of(accessor.component_type)?;
+    let (width, _) = layout(&accessor.shape, component)?;
+    let most = match component {
+        _ if !accessor.normalized => 1.0,
+        Component::I8 => 127.0,
+        Component::U8 => 255.0,
+        Component::I16 => 32767.0,
+        Component::U16 => 65535.0,
+        Component::U32 | Component::F32 => 1.0,
+    };
+    let is_unsigned = matches!(component, Component::U8 | Component::U16 | Component::U32);
+    Ok((width, most, is_unsigned && !accessor.normalized))
 }
 
 /// Numbers and bytes of an element. Columns of matrices start at multiples of four bytes, which no matrix that is read makes visible.

@@ -52,6 +52,11 @@ impl Buffers {
         Ok(&data[start as usize..end as usize])
     }
 
+    /// Bytes of memory that decoded data may still take.
+    pub fn left(&self) -> u64 {
+        self.allowance.get()
+    }
+
     /// Accounts for decoded data. A small file cannot ask for much memory.
     pub fn spend(&self, bytes: u64, what: &str) -> Found<()> {
         let left = self.allowance.get().checked_sub(bytes);

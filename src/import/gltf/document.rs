@@ -129,6 +129,24 @@ impl Attributes {
             .filter_map(|(joints, weights)| joints.zip(weights))
     }
 
+    /// All attributes, by their names.
+    pub fn all(&self) -> [Option<Index>; 12] {
+        [
+            self.position,
+            self.normal,
+            self.tangent,
+            self.color,
+            self.uv_0,
+            self.uv_1,
+            self.uv_2,
+            self.uv_3,
+            self.joints_0,
+            self.joints_1,
+            self.weights_0,
+            self.weights_1,
+        ]
+    }
+
     /// The same without what cannot be seen with these texture coordinates and without a skin.
     pub fn visible(&self, uvs: Option<u32>) -> Attributes {
         Attributes {

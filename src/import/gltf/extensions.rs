@@ -1,11 +1,12 @@
 //! Extensions of glTF that are read, as they stand in the JSON.
 use serde::{Deserialize, de::IgnoredAny};
 
-use super::document::{Index, TextureInfo};
+use super::document::{Attributes, Index, TextureInfo};
 
 /// The extensions that are understood.
-pub const KNOWN: [&str; 20] = [
+pub const KNOWN: [&str; 21] = [
     "EXT_texture_webp",
+    "KHR_draco_mesh_compression",
     "KHR_lights_punctual",
     "KHR_materials_anisotropy",
     "KHR_materials_clearcoat",
@@ -29,8 +30,7 @@ pub const KNOWN: [&str; 20] = [
 ];
 
 /// Why a file that requires an extension is refused, and how to get one that does not.
-pub const REFUSED: [(&str, &str); 4] = [
-    ("KHR_draco_mesh_compression", "export the file without Draco compression of meshes"),
+pub const REFUSED: [(&str, &str); 3] = [
     ("EXT_meshopt_compression", "export the file without meshopt compression"),
     ("KHR_meshopt_compression", "export the file without meshopt compression"),
     ("KHR_texture_basisu", "export its textures as PNG, JPEG or WebP: KTX2 files are not read"),
@@ -55,7 +55,7 @@ extensions! {
     /// Of nodes.
     NodeExtensions { light: LightUse = "KHR_lights_punctual" }
     /// Of primitives.
-    PrimitiveExtensions { variants: Mappings = "KHR_materials_variants", draco: IgnoredAny = "KHR_draco_mesh_compression" }
+    PrimitiveExtensions { variants: Mappings = "KHR_materials_variants", draco: Draco = "KHR_draco_mesh_compression" }
     /// Of buffer views.
     ViewExtensions { meshopt: IgnoredAny = "EXT_meshopt_compression", meshopt_khr: IgnoredAny = "KHR_meshopt_compression" }
     /// Of textures.
@@ -164,4 +164,5 @@ structures! {
         attenuation_distance: Option<f64> = None,
         attenuation_color: [f64; 3] = [1.0; 3],
     }
+    Draco { buffer_view: Index = 0, attributes: Attributes = Attributes::default() }
 }

@@ -88,7 +88,7 @@ impl<'a> Instances<'a> {
     ) -> Instances<'a> {
         Instances {
             document,
-            vertices: Vertices { document, buffers },
+            vertices: Vertices::new(document, buffers),
             hierarchy,
             poses,
             materials,
@@ -166,7 +166,7 @@ impl<'a> Instances<'a> {
             to.remarks.add(place, format!("a primitive of {what}"), "nothing", "they have no surface and are missing");
             return Ok(());
         }
-        self.check(to, primitive, &place)?;
+        self.check(to, primitive, &place);
         let material = self.material(primitive);
         let surface = self.materials.surface(primitive, material)?;
         let Some(known) = self.model(to, shown, (at, primitive), surface.uvs)? else {
@@ -195,17 +195,8 @@ impl<'a> Instances<'a> {
         Ok(())
     }
 
-    /// Remarks on parts of a primitive that are not read. One whose data is compressed alone is refused.
-    fn check(&self, to: &mut Imported, primitive: &Primitive, place: &str) -> Found<()> {
-        let has_data = |index: Option<Index>| {
-            let accessor = index.and_then(|index| self.document.accessors.get(index as usize));
-            accessor.is_none_or(|accessor| accessor.buffer_view.is_some() || accessor.sparse.is_some())
-        };
-        let is_draco = primitive.extensions.as_ref().is_some_and(|extensions| extensions.draco.is_some());
-        if is_draco && !(has_data(primitive.attributes.position) && has_data(primitive.indices)) {
-            let message = "its triangles are compressed by KHR_draco_mesh_compression, which is not read";
-            return Err(Refusal::new(message, "export the file without Draco compression of meshes"));
-        }
+    /// Remarks on parts of a primitive that are not read.
+    fn check(&self, to: &mut Imported, primitive: &Primitive, place: &str) {
         let material = primitive.material.and_then(|index| self.document.materials.get(index as usize));
         if primitive.attributes.tangent.is_some() && material.is_some_and(|material| material.normal_texture.is_some()) {
             to.remarks.add(place, "TANGENT", "the directions of u and v on each triangle", "bumps may show edges of triangles");
@@ -218,7 +209,6 @@ impl<'a> Instances<'a> {
                 "textures do not follow the pose",
             );
         }
-        Ok(())
     }
 
     /// The material of a primitive in the chosen variant.

@@ -9,6 +9,7 @@ mod buffers;
 mod cameras;
 mod container;
 mod document;
+mod draco;
 mod extensions;
 mod images;
 mod instances;

@@ -1,4 +1,6 @@
 //! Vertices of a primitive, at rest or deformed.
+use std::collections::HashMap;
+
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 
 use super::{
@@ -6,6 +8,7 @@ use super::{
     accessor::{Column, Picks},
     buffers::Buffers,
     document::{Document, Index, Primitive},
+    draco,
     triangles::{Mode, compact},
 };
 use crate::model::Model;
@@ -21,14 +24,21 @@ pub struct Deformation {
 
 /// Reads primitives.
 pub struct Vertices<'a> {
-    pub document: &'a Document,
+    document: &'a Document,
     pub buffers: &'a Buffers,
+    /// Decompressed columns of the primitive, by accessor.
+    decompressed: HashMap<Index, Column<'static>>,
 }
 
-impl Vertices<'_> {
+impl<'a> Vertices<'a> {
+    pub fn new(document: &'a Document, buffers: &'a Buffers) -> Vertices<'a> {
+        Vertices { document, buffers, decompressed: HashMap::new() }
+    }
+
     /// The triangles of a primitive, with a set of its texture coordinates; `None` if there are none.
-    pub fn model(&self, primitive: &Primitive, uvs: Option<u32>, deformation: &Deformation) -> Found<Option<Model>> {
+    pub fn model(&mut self, primitive: &Primitive, uvs: Option<u32>, deformation: &Deformation) -> Found<Option<Model>> {
         let Some(positions) = primitive.attributes.position else { return Ok(None) };
+        self.decompressed = draco::columns(self.document, self.buffers, primitive)?;
         let positions = self.column(positions)?;
         let mut triangles = self.triangles(primitive, positions.count)?;
         let picks = compact(&mut triangles, positions.count)?;
@@ -52,7 +62,10 @@ impl Vertices<'_> {
     }
 
     fn column(&self, index: Index) -> Found<Column<'_>> {
-        Column::open(self.document, self.buffers, index)
+        match self.decompressed.get(&index) {
+            Some(column) => Ok(column.borrowed()),
+            None => Column::open(self.document, self.buffers, index),
+        }
     }
 
     /// A column with one element for each vertex.
@@ -65,7 +78,8 @@ impl Vertices<'_> {
     }
 
     fn triangles(&self, primitive: &Primitive, count: usize) -> Found<Vec<[u32; 3]>> {
-        let mode = Mode::of(primitive.mode)?;
+        // Draco stores triangles, whatever the mode was before.
+        let mode = if self.decompressed.is_empty() { Mode::of(primitive.mode)? } else { Mode::Triangles };
         // A corner, and its share of a triangle: a strip has a triangle for each corner.
         let corner = if mode == Mode::Triangles { 8 } else { 16 };
         let corners = match primitive.indices {

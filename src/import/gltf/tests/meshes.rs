@@ -128,3 +128,42 @@ fn what_is_not_in_the_scene_is_not_shown() {
     let found = imported(&triangle(json!({ "nodes": nodes, "scenes": [], "cameras": camera })));
     assert_eq!(found.description.objects.len(), 2);
 }
+
+#[test]
+fn triangles_compressed_by_draco_are_those_that_were_compressed() {
+    use draco_core::{
+        DataType, EncoderBuffer, EncoderOptions, FaceIndex, GeometryAttributeType, Mesh, MeshEncoder, PointAttribute, PointIndex,
+    };
+    let mut positions = PointAttribute::new();
+    positions.init(GeometryAttributeType::Position, 3, DataType::Float32, false, 3);
+    let bytes: Vec<u8> = CORNERS.iter().flat_map(|x| x.to_le_bytes()).collect();
+    positions.buffer_mut().write(0, &bytes);
+    let mut mesh = Mesh::new();
+    mesh.add_attribute(positions);
+    mesh.set_num_faces(1);
+    mesh.set_face(FaceIndex(0), [0, 1, 2].map(PointIndex));
+    let mut encoder = MeshEncoder::new();
+    encoder.set_mesh(mesh);
+    let mut stream = EncoderBuffer::new();
+    encoder.encode(&EncoderOptions::new(), &mut stream).expect("it is encoded");
+    let primitive = json!({ "attributes": { "POSITION": 0 }, "indices": 1, "extensions": {
+        "KHR_draco_mesh_compression": { "bufferView": 0, "attributes": { "POSITION": 0 } } } });
+    let file = |bytes: &[u8]| {
+        triangle(json!({
+            "buffers": [{ "byteLength": bytes.len(), "uri": uri(bytes) }],
+            "bufferViews": [{ "buffer": 0, "byteLength": bytes.len() }],
+            "accessors": [
+                { "componentType": 5126, "count": 3, "type": "VEC3" },
+                { "componentType": 5125, "count": 3, "type": "SCALAR" },
+            ],
+            "meshes": [{ "primitives": [primitive] }],
+            "extensionsRequired": ["KHR_draco_mesh_compression"],
+        }))
+    };
+    let found = model(&imported(&file(stream.data())), 0);
+    let corner = |vertex: u32| found.vertices[vertex as usize].map(|x| (x * 1000.0).round() / 1000.0);
+    let mut corners = found.triangles[0].map(corner);
+    corners.sort_by(|a, b| a.partial_cmp(b).expect("numbers"));
+    assert_eq!(corners, [[0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]]);
+    assert!(refusal(&file(&stream.data()[..stream.data().len() / 2])).contains("Draco"));
+}
