@@ -2,9 +2,9 @@
 use std::borrow::Cow;
 
 use super::{
-    Found,
     buffers::Buffers,
     document::{Accessor, Document, Index, Sparse, element},
+    refusal::Found,
 };
 
 /// The type of a number.
@@ -179,7 +179,7 @@ fn checked<'a>(document: &Document, buffers: &'a Buffers, accessor: &Accessor) -
     };
     let column = Column { bytes, stride, count, component, width, normalized: accessor.normalized };
     match &accessor.sparse {
-        Some(sparse) => replaced(document, buffers, column, sparse, size),
+        Some(sparse) => replaced(document, buffers, &column, sparse, size),
         None => Ok(column),
     }
 }
@@ -231,7 +231,7 @@ fn window(bytes: &[u8], offset: u64, count: usize, stride: u64, size: usize) -> 
 fn replaced<'a>(
     document: &Document,
     buffers: &'a Buffers,
-    column: Column<'a>,
+    column: &Column<'a>,
     sparse: &Sparse,
     size: usize,
 ) -> Found<Column<'a>> {
@@ -255,5 +255,5 @@ fn replaced<'a>(
             bytes.get_mut(start..start + size).ok_or_else(|| format!("it replaces element {place}, which it does not have"))?;
         target.copy_from_slice(value);
     }
-    Ok(Column { bytes: bytes.into(), stride: size, ..column })
+    Ok(Column { bytes: bytes.into(), stride: size, ..*column })
 }

@@ -4,10 +4,10 @@ use std::collections::HashMap;
 use glam::{DQuat, DVec4};
 
 use super::{
-    Found,
     accessor::{Column, Picks},
     buffers::Buffers,
     document::{Animation, Channel, Document, Index, element},
+    refusal::Found,
 };
 
 /// What animations set at a node.

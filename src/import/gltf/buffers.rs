@@ -4,9 +4,9 @@ use std::{cell::Cell, collections::HashMap, path::PathBuf, rc::Rc};
 use base64::{Engine, engine::general_purpose::STANDARD};
 
 use super::{
-    Found, Refusal,
     container::take,
     document::{Buffer, BufferView, Document, Index, element},
+    refusal::{Found, Refusal},
 };
 use crate::{file::open_regular, import::Folder, memory::Reservation};
 

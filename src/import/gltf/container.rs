@@ -5,7 +5,7 @@ use std::{
     path::Path,
 };
 
-use super::{Found, Refusal, document::Document};
+use super::{Refusal, document::Document, refusal::Found};
 use crate::{
     file::open_regular,
     memory::{Reservation, reserve},

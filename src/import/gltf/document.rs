@@ -4,16 +4,13 @@
 //! Extensions are in `extensions.rs`.
 use serde::Deserialize;
 
-use super::{
-    Found, Refusal,
-    extensions::{
-        DocumentExtensions, MaterialExtensions, NodeExtensions, PrimitiveExtensions, TextureExtensions, TextureInfoExtensions,
-        ViewExtensions,
-    },
+use super::extensions::{
+    DocumentExtensions, MaterialExtensions, NodeExtensions, PrimitiveExtensions, TextureExtensions, ViewExtensions,
 };
-
-/// Place of an element in a list of the document.
-pub type Index = u32;
+pub use super::{
+    attributes::{Attributes, Index, element},
+    extensions::TextureInfo,
+};
 
 /// A glTF document.
 #[derive(Debug, Default, Deserialize)]
@@ -87,76 +84,6 @@ pub struct Primitive {
     pub mode: Option<u32>,
     pub targets: Vec<Attributes>,
     pub extensions: Option<Box<PrimitiveExtensions>>,
-}
-
-/// Accessors of vertices, or of their displacements in a morph target.
-#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq, Hash)]
-#[serde(default, rename_all = "SCREAMING_SNAKE_CASE")]
-pub struct Attributes {
-    pub position: Option<Index>,
-    pub normal: Option<Index>,
-    pub tangent: Option<Index>,
-    #[serde(rename = "COLOR_0")]
-    pub color: Option<Index>,
-    #[serde(rename = "TEXCOORD_0")]
-    uv_0: Option<Index>,
-    #[serde(rename = "TEXCOORD_1")]
-    uv_1: Option<Index>,
-    #[serde(rename = "TEXCOORD_2")]
-    uv_2: Option<Index>,
-    #[serde(rename = "TEXCOORD_3")]
-    uv_3: Option<Index>,
-    #[serde(rename = "JOINTS_0")]
-    joints_0: Option<Index>,
-    #[serde(rename = "JOINTS_1")]
-    joints_1: Option<Index>,
-    #[serde(rename = "WEIGHTS_0")]
-    weights_0: Option<Index>,
-    #[serde(rename = "WEIGHTS_1")]
-    weights_1: Option<Index>,
-}
-
-impl Attributes {
-    /// The accessor of a set of texture coordinates.
-    pub fn uvs(&self, set: u32) -> Option<Index> {
-        [self.uv_0, self.uv_1, self.uv_2, self.uv_3].get(set as usize).copied().flatten()
-    }
-
-    /// The accessors of joints and of their weights, four a vertex each.
-    pub fn influences(&self) -> impl Iterator<Item = (Index, Index)> {
-        [(self.joints_0, self.weights_0), (self.joints_1, self.weights_1)]
-            .into_iter()
-            .filter_map(|(joints, weights)| joints.zip(weights))
-    }
-
-    /// All attributes, by their names.
-    pub fn all(&self) -> [Option<Index>; 12] {
-        [
-            self.position,
-            self.normal,
-            self.tangent,
-            self.color,
-            self.uv_0,
-            self.uv_1,
-            self.uv_2,
-            self.uv_3,
-            self.joints_0,
-            self.joints_1,
-            self.weights_0,
-            self.weights_1,
-        ]
-    }
-
-    /// The same without what cannot be seen with these texture coordinates and without a skin.
-    pub fn visible(&self, uvs: Option<u32>) -> Attributes {
-        Attributes {
-            position: self.position,
-            normal: self.normal,
-            color: self.color,
-            uv_0: uvs.and_then(|set| self.uvs(set)),
-            ..Attributes::default()
-        }
-    }
 }
 
 #[derive(Debug, Default, Deserialize)]
@@ -267,28 +194,6 @@ impl Default for MetallicRoughness {
     }
 }
 
-/// A use of a texture.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(rename_all = "camelCase")]
-pub struct TextureInfo {
-    pub index: Index,
-    #[serde(default)]
-    tex_coord: u32,
-    /// Of normal maps.
-    #[serde(default)]
-    pub scale: Option<f64>,
-    #[serde(default)]
-    pub extensions: TextureInfoExtensions,
-}
-
-impl TextureInfo {
-    /// The set of texture coordinates.
-    pub fn set(&self) -> u32 {
-        let transform = self.extensions.transform.as_ref();
-        transform.and_then(|transform| transform.tex_coord).unwrap_or(self.tex_coord)
-    }
-}
-
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
 pub struct Texture {
@@ -368,9 +273,4 @@ pub struct AnimationSampler {
     pub output: Index,
     #[serde(default)]
     pub interpolation: Option<String>,
-}
-
-/// An element of a list, or a refusal that says which one is missing.
-pub fn element<'a, T>(list: &'a [T], index: Index, what: &str) -> Found<&'a T> {
-    list.get(index as usize).ok_or_else(|| Refusal::from(format!("there is no {what} {index}: the file has {}", list.len())))
 }

@@ -4,14 +4,15 @@ use std::collections::HashMap;
 use draco_core::{DecodeLimits, DecoderBuffer, Mesh, MeshDecoder};
 
 use super::{
-    Found, Refusal,
     accessor::{Column, meaning},
     buffers::Buffers,
     document::{Document, Index, Primitive, element},
+    refusal::{Found, Refusal},
 };
 
-/// Bytes that a point or a triangle takes at least while it is decoded.
-const LEAST: u64 = 12;
+/// Bytes of a triangle, and bytes that one takes while it is decoded.
+const TRIANGLE: u64 = 12;
+const WORK: u64 = 100;
 
 /// The columns of a primitive, by the accessors that they stand for; none if the primitive is not compressed.
 pub fn columns(document: &Document, buffers: &Buffers, primitive: &Primitive) -> Found<HashMap<Index, Column<'static>>> {
@@ -21,7 +22,7 @@ pub fn columns(document: &Document, buffers: &Buffers, primitive: &Primitive) ->
     let Some(indices) = primitive.indices else { return Err("triangles compressed by Draco have no `indices`".into()) };
     let mesh = decoded(buffers.view(document, described.buffer_view)?, buffers.left())?;
     let faces = mesh.faces().iter().flatten().map(|point| point.0);
-    buffers.spend(LEAST * mesh.num_faces() as u64, "triangles")?;
+    buffers.spend(TRIANGLE * mesh.num_faces() as u64, "triangles")?;
     let mut columns = HashMap::from([(indices, Column::of_indices(faces))]);
     let pairs = primitive.attributes.all().into_iter().zip(described.attributes.all());
     for (accessor, id) in pairs.filter_map(|(accessor, id)| accessor.zip(id)) {
@@ -41,7 +42,8 @@ pub fn columns(document: &Document, buffers: &Buffers, primitive: &Primitive) ->
 
 /// Decodes a stream that may take this much memory, bytes.
 fn decoded(bytes: &[u8], left: u64) -> Found<Mesh> {
-    let limits = DecodeLimits::default().with_max_points(left / LEAST).with_max_faces(left / LEAST).with_max_decoded_bytes(left);
+    let limits =
+        DecodeLimits::default().with_max_points(left / WORK).with_max_faces(left / WORK).with_max_decoded_bytes(left / 3);
     let mut mesh = Mesh::new();
     let mut buffer = DecoderBuffer::new(bytes).with_limits(limits);
     let outcome = MeshDecoder::new().decode(&mut buffer, &mut mesh);

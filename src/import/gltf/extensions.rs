@@ -1,7 +1,7 @@
 //! Extensions of glTF that are read, as they stand in the JSON.
 use serde::{Deserialize, de::IgnoredAny};
 
-use super::document::{Attributes, Index, TextureInfo};
+use super::attributes::{Attributes, Index};
 
 /// The extensions that are understood.
 pub const KNOWN: [&str; 21] = [
@@ -76,6 +76,28 @@ extensions! {
         transmission: Transmission = "KHR_materials_transmission",
         unlit: IgnoredAny = "KHR_materials_unlit",
         volume: Volume = "KHR_materials_volume",
+    }
+}
+
+/// A use of a texture.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub struct TextureInfo {
+    pub index: Index,
+    #[serde(default)]
+    tex_coord: u32,
+    /// Of normal maps.
+    #[serde(default)]
+    pub scale: Option<f64>,
+    #[serde(default)]
+    pub extensions: TextureInfoExtensions,
+}
+
+impl TextureInfo {
+    /// The set of texture coordinates.
+    pub fn set(&self) -> u32 {
+        let transform = self.extensions.transform.as_ref();
+        transform.and_then(|transform| transform.tex_coord).unwrap_or(self.tex_coord)
     }
 }
 

@@ -4,13 +4,13 @@ use std::{collections::HashMap, rc::Rc};
 use glam::{DAffine3, DVec3, Vec3};
 
 use super::{
-    Found, Refusal,
     animation::Poses,
     buffers::Buffers,
     document::{Attributes, Document, Index, Mesh, Primitive, element},
     images::file_name,
     materials::Materials,
     nodes::{Hierarchy, rows},
+    refusal::{Found, Refusal},
     triangles::Mode,
     vertices::{Deformation, Vertices},
 };

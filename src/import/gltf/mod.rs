@@ -5,6 +5,7 @@
 //! can ask for is limited by its size.
 mod accessor;
 mod animation;
+mod attributes;
 mod buffers;
 mod cameras;
 mod container;

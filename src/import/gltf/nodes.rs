@@ -2,11 +2,11 @@
 use glam::{DAffine3, DMat3, DVec3};
 
 use super::{
-    Found, Refusal,
     accessor::{Column, Picks},
     animation::{Poses, quaternion},
     buffers::Buffers,
     document::{Document, Index, Node, element},
+    refusal::{Found, Refusal},
 };
 
 /// Where nodes are.

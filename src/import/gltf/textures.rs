@@ -143,7 +143,7 @@ impl<'a> Textures<'a> {
 
     /// The image of a texture with its sampler and transform.
     fn described(&mut self, to: &mut Imported, info: &TextureInfo) -> Result<Image, String> {
-        let text = |error: super::Refusal| error.message;
+        let text = |error: super::refusal::Refusal| error.message;
         let texture = element(&self.document.textures, info.index, "texture").map_err(text)?;
         let webp = texture.extensions.webp.as_ref().map(|image| image.source);
         let source = match webp.or(texture.source) {

@@ -1,5 +1,5 @@
 //! Triangles of primitives, and the vertices that they use.
-use super::{Found, accessor::Picks};
+use super::{accessor::Picks, refusal::Found};
 
 /// What a primitive draws.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -4,11 +4,11 @@ use std::collections::HashMap;
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 
 use super::{
-    Found,
     accessor::{Column, Picks},
     buffers::Buffers,
     document::{Document, Index, Primitive},
     draco,
+    refusal::Found,
     triangles::{Mode, compact},
 };
 use crate::model::Model;

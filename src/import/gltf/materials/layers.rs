@@ -65,7 +65,7 @@ impl Work<'_, '_> {
                 self.remark("`clearcoatNormalTexture`", "the normals of the base", "the coat has other bumps");
             }
             (None, Some(_)) => {
-                self.remark("a smooth coat over a normal map", "the normals of the base", "the coat has bumps too")
+                self.remark("a smooth coat over a normal map", "the normals of the base", "the coat has bumps too");
             }
             _ => {}
         }

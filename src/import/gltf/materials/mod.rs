@@ -6,9 +6,9 @@ mod light;
 use std::collections::HashMap;
 
 use super::{
-    Found,
     document::{Document, Index, Material, Primitive, TextureInfo, element},
     extensions::MaterialExtensions,
+    refusal::Found,
     textures::{Surface, Textures, Use, number},
 };
 use crate::{

@@ -21,7 +21,7 @@ fn png(texel: [u8; 4]) -> Vec<u8> {
 }
 
 /// A triangle with texture coordinates, textures of three images, and a material.
-fn with(material: Value, parts: Value) -> Imported {
+fn with(material: &Value, parts: Value) -> Imported {
     let columns: [(&str, &[f32]); 3] = [("VEC3", &CORNERS), ("VEC2", &[0.0; 6]), ("VEC4", &[0.5; 12])];
     let image = |name: &str, texel| json!({ "name": name, "uri": uri(&png(texel)) });
     let mut json = document(
@@ -62,7 +62,7 @@ fn texture<'f, T>(found: &'f Imported, used: &Textured<T>) -> &'f TextureKind {
 fn metal_and_roughness_are_channels_of_one_file() {
     let pbr = json!({ "baseColorFactor": [0.5, 0.25, 1, 0.5], "metallicFactor": 1, "roughnessFactor": 0.5,
         "metallicRoughnessTexture": { "index": 0 } });
-    let found = with(json!({ "name": "M", "pbrMetallicRoughness": pbr, "doubleSided": true }), json!({}));
+    let found = with(&json!({ "name": "M", "pbrMetallicRoughness": pbr, "doubleSided": true }), json!({}));
     let principled = principled(&found);
     assert_eq!((material(&found).two_sided, &material(&found).opacity), (None, &None));
     assert_eq!(principled.base_color, Textured::Constant([0.5, 0.25, 1.0]));
@@ -79,7 +79,7 @@ fn metal_and_roughness_are_channels_of_one_file() {
 fn samplers_and_transforms_are_those_of_the_texture() {
     let transform = json!({ "KHR_texture_transform": { "offset": [0.1, 0.2], "rotation": 0.5, "scale": [2, 3] } });
     let pbr = json!({ "baseColorTexture": { "index": 2, "extensions": transform } });
-    let found = with(json!({ "pbrMetallicRoughness": pbr }), json!({}));
+    let found = with(&json!({ "pbrMetallicRoughness": pbr }), json!({}));
     let TextureKind::Image(image) = texture(&found, &principled(&found).base_color) else { panic!("an image") };
     assert_eq!((image.wrap_u, image.wrap_v, image.filter), (Wrap::Clamp, Wrap::Mirror, TexelFilter::Nearest));
     assert_eq!((image.scale, image.offset, image.rotate), ([2.0, 3.0], [0.1, 0.2], -(0.5f64.to_degrees())));
@@ -91,7 +91,7 @@ fn samplers_and_transforms_are_those_of_the_texture() {
 fn alpha_modes_become_opacity() {
     let with_mode = |mode: &str| {
         let pbr = json!({ "baseColorFactor": [1, 1, 1, 0.5], "baseColorTexture": { "index": 0 } });
-        with(json!({ "pbrMetallicRoughness": pbr, "alphaMode": mode, "alphaCutoff": 0.25 }), json!({}))
+        with(&json!({ "pbrMetallicRoughness": pbr, "alphaMode": mode, "alphaCutoff": 0.25 }), json!({}))
     };
     assert_eq!(material(&with_mode("OPAQUE")).opacity, None);
     let blended = with_mode("BLEND");
@@ -107,7 +107,7 @@ fn alpha_modes_become_opacity() {
     assert!(stops[1] == (0.25, 1.0) && stops[0].1 == 0.0 && (0.24..0.25).contains(&stops[0].0), "{stops:?}");
     let constant = |alpha: f64| {
         let pbr = json!({ "baseColorFactor": [1, 1, 1, alpha] });
-        let found = with(json!({ "pbrMetallicRoughness": pbr, "alphaMode": "MASK" }), json!({}));
+        let found = with(&json!({ "pbrMetallicRoughness": pbr, "alphaMode": "MASK" }), json!({}));
         material(&found).opacity.clone()
     };
     assert_eq!((constant(0.5), constant(0.49)), (None, Some(Textured::Constant(0.0))));
@@ -116,7 +116,7 @@ fn alpha_modes_become_opacity() {
 #[test]
 fn emission_is_factor_times_texture_times_strength() {
     let extensions = json!({ "KHR_materials_emissive_strength": { "emissiveStrength": 7 } });
-    let emission = |described: Value| with(described, json!({})).description.objects[0].emission.clone();
+    let emission = |described: Value| with(&described, json!({})).description.objects[0].emission.clone();
     let plain =
         emission(json!({ "emissiveFactor": [1, 0.5, 0], "extensions": extensions, "doubleSided": true })).expect("it emits");
     assert!(plain.two_sided && plain.scale == 7.0);
@@ -132,7 +132,7 @@ fn emission_is_factor_times_texture_times_strength() {
 fn vertex_colours_multiply_the_color() {
     let primitive = json!({ "attributes": { "POSITION": 0, "TEXCOORD_0": 1, "COLOR_0": 2 }, "material": 0 });
     let pbr = json!({ "baseColorFactor": [0.5, 0.5, 0.5, 1] });
-    let found = with(json!({ "pbrMetallicRoughness": pbr }), json!({ "meshes": [{ "primitives": [primitive] }] }));
+    let found = with(&json!({ "pbrMetallicRoughness": pbr }), json!({ "meshes": [{ "primitives": [primitive] }] }));
     let TextureKind::Product(product) = texture(&found, &principled(&found).base_color) else { panic!("a product") };
     assert!(matches!(texture(&found, &product.b), TextureKind::VertexColor(_)) && product.a == Textured::grey(0.5));
     assert_eq!(model(&found, 0).colours, Some(vec![[0.5; 4]; 3]));
@@ -148,7 +148,7 @@ fn transmission_is_thin_without_a_volume_and_solid_from_blender() {
         }
         let pbr = json!({ "baseColorFactor": [0.25, 1, 1, 1], "metallicFactor": 0 });
         let described = json!({ "extensions": extensions, "pbrMetallicRoughness": pbr });
-        let found = with(described, json!({ "asset": { "version": "2.0", "generator": generator } }));
+        let found = with(&described, json!({ "asset": { "version": "2.0", "generator": generator } }));
         assert_eq!((material(&found).two_sided, principled(&found).specular_ior), (None, 1.3));
         let Principled { transmission_color, transmission_depth, thin_walled, .. } = principled(&found).clone();
         (transmission_color, transmission_depth, thin_walled)
@@ -163,7 +163,7 @@ fn transmission_is_thin_without_a_volume_and_solid_from_blender() {
 #[test]
 fn anisotropy_has_the_widths_of_the_extension() {
     let extensions = json!({ "KHR_materials_anisotropy": { "anisotropyStrength": 0.6, "anisotropyRotation": 1.0 } });
-    let found = with(json!({ "extensions": extensions, "pbrMetallicRoughness": { "roughnessFactor": 0.4 } }), json!({}));
+    let found = with(&json!({ "extensions": extensions, "pbrMetallicRoughness": { "roughnessFactor": 0.4 } }), json!({}));
     let principled = principled(&found);
     let (Textured::Constant(roughness), Textured::Constant(anisotropy)) =
         (&principled.specular_roughness, &principled.specular_roughness_anisotropy)
@@ -179,7 +179,7 @@ fn anisotropy_has_the_widths_of_the_extension() {
 #[test]
 fn unlit_surfaces_emit_their_color_and_reflect_nothing() {
     let pbr = json!({ "baseColorFactor": [0.5, 0.25, 0, 1] });
-    let found = with(json!({ "extensions": { "KHR_materials_unlit": {} }, "pbrMetallicRoughness": pbr }), json!({}));
+    let found = with(&json!({ "extensions": { "KHR_materials_unlit": {} }, "pbrMetallicRoughness": pbr }), json!({}));
     assert!(matches!(&material(&found).kind, Material::Lambertian(black) if black.albedo == Textured::grey(0.0)));
     let emission = found.description.objects[0].emission.as_ref().expect("it emits");
     assert!(matches!(&emission.source, EmissionSource::Radiance(found) if found.radiance == [0.5, 0.25, 0.0]));
@@ -213,7 +213,7 @@ fn textures_that_are_missing_are_remarks() {
         (json!([{ "bufferView": 99 }]), "no buffer view"),
         (json!([]), "no image 0"),
     ] {
-        let found = with(json!({ "pbrMetallicRoughness": { "baseColorTexture": { "index": 0 } } }), json!({ "images": images }));
+        let found = with(&json!({ "pbrMetallicRoughness": { "baseColorTexture": { "index": 0 } } }), json!({ "images": images }));
         assert_eq!(principled(&found).base_color, Textured::grey(1.0));
         let lines = found.remarks.lines(9);
         assert!(lines.iter().any(|line| line.contains(reason)), "{reason}: {lines:?}");
