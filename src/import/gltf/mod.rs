@@ -1,10 +1,154 @@
 //! glTF 2.0 files.
+//!
+//! The JSON is read by the types of `document.rs` and `extensions.rs`, not by the crate `gltf`: that crate knows half of the extensions,
+//! and indexes buffers without checks. Here, every access is checked, no structure is followed by recursion, and the memory that a file
+//! can ask for is limited by its size.
+mod accessor;
+mod animation;
+mod attributes;
+mod buffers;
+mod cameras;
+mod container;
+mod document;
+mod draco;
+mod extensions;
+mod images;
+mod instances;
+mod lights;
+mod materials;
+mod nodes;
+mod refusal;
+#[cfg(test)]
+mod tests;
+mod textures;
+mod triangles;
+mod vertices;
+
 use std::path::Path;
 
-use super::{ImportOptions, Imported};
-use crate::scene::SceneError;
+use self::{
+    animation::Poses,
+    buffers::Buffers,
+    container::Container,
+    document::{Document, Index, element},
+    images::Images,
+    instances::Instances,
+    materials::Materials,
+    nodes::Hierarchy,
+    refusal::{Found, Refusal},
+    textures::Textures,
+};
+use super::{Folder, ImportOptions, Imported, Names, studio};
+use crate::{quote, scene::SceneError};
 
-/// Reads the file.
-pub fn read(path: &Path, _: &ImportOptions) -> Result<Imported, SceneError> {
-    Err(SceneError::of_file(path, "not built yet", "not built yet"))
+/// Reads a file.
+///
+/// At time 0 the nodes stand as the file states them, and skins and morph targets are in that pose; at any other time animations move
+/// them.
+pub fn read(path: &Path, options: &ImportOptions) -> Result<Imported, SceneError> {
+    let file = path.file_name().map_or_else(|| "glTF".to_owned(), |name| quote::piece(&name.to_string_lossy()));
+    container::open(path)
+        .and_then(|container| translated(container, &Folder::new(path, options), options, &file))
+        .map_err(|refusal| refusal.of_file(path))
+}
+
+/// The scene of a container.
+fn translated(container: Container, folder: &Folder, options: &ImportOptions, file: &str) -> Found<Imported> {
+    let Container { document, blob, length, room: _room } = container;
+    let mut to = Imported::default();
+    check_extensions(&document, &mut to, file)?;
+    let variant = options.variant.as_deref().map(|name| variant(&document, name)).transpose()?;
+    let buffers = Buffers::read(&document, blob, length, folder)?;
+    let poses = match options.time.is_finite() && options.time != 0.0 {
+        true => animation::poses(&document, &buffers, options.time)?,
+        false => Poses::default(),
+    };
+    for name in &poses.left_out {
+        let found = format!("animation \"{name}\"");
+        to.remarks.add(file, found, "animations before it", "what they move too does not follow it");
+    }
+    for target in &poses.unknown {
+        to.remarks.add(file, format!("an animation of `{target}`"), "nothing", "it stays as it is");
+    }
+    let hierarchy = Hierarchy::new(&document, &poses)?;
+    let textures = Textures::new(&document, Images::new(&document, &buffers, folder));
+    let materials = Materials::new(&document, textures, file);
+    let mut instances = Instances::new(&document, &buffers, &hierarchy, &poses, materials, file);
+    instances.variant = variant;
+    instances.most += length / instances::BYTES_OF_FILE;
+    instances.add(&mut to)?;
+    let bounds = instances.bounds;
+    lamps(&document, &hierarchy, &mut to, file)?;
+    if !camera(&document, &hierarchy, &mut to, file)? {
+        studio::frame(&mut to.description, bounds);
+        to.remarks.add(file, "no camera", "a camera that shows everything", "the view is not the author's");
+    }
+    if to.description.lamps.is_empty() && to.description.objects.iter().all(|object| object.emission.is_none()) {
+        let Imported { description, assets, remarks } = &mut to;
+        studio::light(description, assets, remarks, file);
+    }
+    Ok(to)
+}
+
+/// Refuses a file that requires an extension that is not read, and remarks on one that uses it.
+fn check_extensions(document: &Document, to: &mut Imported, file: &str) -> Found<()> {
+    let is_known = |name: &str| extensions::KNOWN.contains(&name);
+    if let Some(name) = document.extensions_required.iter().find(|name| !is_known(name)) {
+        let help = extensions::REFUSED.iter().find(|(refused, _)| refused == name).map(|(_, help)| *help);
+        let help = help.unwrap_or("export the file without this extension");
+        return Err(Refusal::new(format!("it requires the extension `{name}`, which is not read"), help));
+    }
+    let has_fallback = |name: &str| extensions::REFUSED.iter().any(|(refused, _)| *refused == name);
+    for name in document.extensions_used.iter().filter(|name| !is_known(name) && !has_fallback(name)) {
+        to.remarks.add(file, format!("the extension `{name}`"), "nothing", "what it describes is missing");
+    }
+    Ok(())
+}
+
+/// The place of a variant of the materials.
+fn variant(document: &Document, wanted: &str) -> Found<Index> {
+    let variants = document.extensions.variants.as_ref().map_or(&[][..], |found| &found.variants);
+    let place = variants.iter().position(|variant| variant.name == wanted);
+    place.map(|place| place as Index).ok_or_else(|| {
+        let names = variants.iter().take(20).map(|variant| format!("`{}`", variant.name)).collect::<Vec<_>>();
+        let help =
+            if names.is_empty() { "the file has no variants".to_owned() } else { format!("there are {}", names.join(", ")) };
+        Refusal::new(format!("there is no variant `{wanted}`"), help)
+    })
+}
+
+fn lamps(document: &Document, hierarchy: &Hierarchy, to: &mut Imported, file: &str) -> Found<()> {
+    let lights = document.extensions.lights.as_ref().map_or(&[][..], |found| &found.lights);
+    let mut names = Names::default();
+    for index in &hierarchy.shown {
+        let node = &document.nodes[*index as usize];
+        let Some(used) = node.extensions.as_deref().and_then(|extensions| extensions.light.as_deref()) else { continue };
+        let light = element(lights, used.light, "lamp")?;
+        let wanted = if node.name.is_empty() { &light.name } else { &node.name };
+        let name = names.unique(wanted, "lamp");
+        let place = format!("{file}: lamp \"{name}\"");
+        let world = &hierarchy.worlds[*index as usize];
+        to.description.lamps.extend(lights::lamp(light, &name, world, &mut to.remarks, &place));
+    }
+    Ok(())
+}
+
+/// Takes the first camera, and returns whether there is one.
+fn camera(document: &Document, hierarchy: &Hierarchy, to: &mut Imported, file: &str) -> Found<bool> {
+    let mut has_camera = false;
+    for index in &hierarchy.shown {
+        let node = &document.nodes[*index as usize];
+        let Some(camera) = node.camera else { continue };
+        let camera = element(&document.cameras, camera, "camera")?;
+        let name = if node.name.is_empty() { &camera.name } else { &node.name };
+        if has_camera {
+            to.remarks.add(format!("{file}: camera \"{name}\""), "a further camera", "the first one", "its view is not shown");
+        } else if let Some(description) = cameras::camera(camera, &hierarchy.worlds[*index as usize]) {
+            to.description.camera = description;
+            has_camera = true;
+        } else {
+            to.remarks.add(format!("{file}: camera \"{name}\""), "a camera without a view", "nothing", "its view is not shown");
+        }
+    }
+    Ok(has_camera)
 }

@@ -1,0 +1,144 @@
+//! Buffers: the binary chunk, data URIs, and files beside the scene.
+use std::{cell::Cell, collections::HashMap, path::PathBuf, rc::Rc};
+
+use base64::{Engine, engine::general_purpose::STANDARD};
+
+use super::{
+    container::take,
+    document::{Buffer, BufferView, Document, Index, element},
+    refusal::{Found, Refusal},
+};
+use crate::{file::open_regular, import::Folder, memory::Reservation};
+
+/// Bytes that decoded data may take beyond a factor of the files.
+const FACTOR: u64 = 3;
+const BASE: u64 = 192 << 20;
+
+/// The bytes of all buffers. A buffer that cannot be read is an error only if something uses it.
+pub struct Buffers {
+    data: Vec<Found<Rc<Vec<u8>>>>,
+    /// Bytes of memory that decoded data may still take.
+    allowance: Cell<u64>,
+    _room: Reservation,
+}
+
+impl Buffers {
+    /// Reads all buffers. `length` is that of the scene file, bytes.
+    pub fn read(document: &Document, blob: Option<Vec<u8>>, length: u64, folder: &Folder) -> Found<Buffers> {
+        let mut files = Files { folder, known: HashMap::new(), room: Reservation::none(), length };
+        let mut blob = blob.map(Rc::new);
+        let mut data = Vec::new();
+        for (place, buffer) in document.buffers.iter().enumerate() {
+            let bytes = match &buffer.uri {
+                Some(uri) => files.bytes(uri),
+                None if place == 0 => blob.take().ok_or_else(|| missing(document)),
+                None => Err(missing(document)),
+            };
+            data.push(
+                bytes.and_then(|bytes| long_enough(bytes, buffer)).map_err(|error| error.within(&format!("buffer {place}"))),
+            );
+        }
+        let allowance = Cell::new(FACTOR * files.length + BASE);
+        Ok(Buffers { data, allowance, _room: files.room })
+    }
+
+    /// The bytes of a view.
+    pub fn view(&self, document: &Document, index: Index) -> Found<&[u8]> {
+        let view = element(&document.buffer_views, index, "buffer view")?;
+        let data = element(&self.data, view.buffer, "buffer")?.as_ref().map_err(Clone::clone)?;
+        let BufferView { byte_offset: start, byte_length: length, .. } = *view;
+        let end = start.checked_add(length).filter(|end| *end <= data.len() as u64);
+        let end = end.ok_or_else(|| format!("buffer view {index} goes beyond the end of buffer {}", view.buffer))?;
+        Ok(&data[start as usize..end as usize])
+    }
+
+    /// Bytes of memory that decoded data may still take.
+    pub fn left(&self) -> u64 {
+        self.allowance.get()
+    }
+
+    /// Accounts for decoded data. A small file cannot ask for much memory.
+    pub fn spend(&self, bytes: u64, what: &str) -> Found<()> {
+        let left = self.allowance.get().checked_sub(bytes);
+        let help = "the file repeats its data too often; export it with less";
+        self.allowance
+            .set(left.ok_or_else(|| Refusal::new(format!("{what} need more memory than a file of its size should"), help))?);
+        Ok(())
+    }
+}
+
+fn missing(document: &Document) -> Refusal {
+    let compressed = |name: &&String| name.ends_with("_compression");
+    match document.extensions_used.iter().find(compressed) {
+        Some(name) => {
+            Refusal::new(format!("its data is compressed by {name}, which is not read"), "export it without compression")
+        }
+        None => "it has no data".into(),
+    }
+}
+
+fn long_enough(bytes: Rc<Vec<u8>>, buffer: &Buffer) -> Found<Rc<Vec<u8>>> {
+    if (bytes.len() as u64) < buffer.byte_length {
+        return Err(format!("it should have {} bytes, and has {}", buffer.byte_length, bytes.len()).into());
+    }
+    Ok(bytes)
+}
+
+/// Files that buffers name. Each is read once.
+struct Files<'a> {
+    folder: &'a Folder,
+    known: HashMap<PathBuf, Rc<Vec<u8>>>,
+    room: Reservation,
+    /// Bytes of all files.
+    length: u64,
+}
+
+impl Files<'_> {
+    fn bytes(&mut self, uri: &str) -> Found<Rc<Vec<u8>>> {
+        if let Some(bytes) = data_uri(uri) {
+            return bytes.map(Rc::new);
+        }
+        let help = "a glTF file needs the files that it names, in its own folder";
+        let path = resolve(self.folder, uri).map_err(|message| Refusal::new(message, help))?;
+        if let Some(known) = self.known.get(&path) {
+            return Ok(known.clone());
+        }
+        let unreadable = |error: std::io::Error| Refusal::new(format!("`{uri}` cannot be read: {error}"), help);
+        let mut file = open_regular(&path).map_err(unreadable)?;
+        let length = file.metadata().map_err(unreadable)?.len();
+        self.room.grow("the bytes of a buffer", length)?;
+        let bytes = Rc::new(take(&mut file, length)?);
+        self.length += length;
+        self.known.insert(path, bytes.clone());
+        Ok(bytes)
+    }
+}
+
+/// The file that a URI names. Names with `%20` are also tried as they stand.
+pub fn resolve(folder: &Folder, uri: &str) -> Result<PathBuf, String> {
+    let decoded = String::from_utf8(percent_decoded(uri)).unwrap_or_else(|_| uri.to_owned());
+    folder.resolve(&decoded).or_else(|error| if decoded == uri { Err(error) } else { folder.resolve(uri).map_err(|_| error) })
+}
+
+/// The content of a data URI; `None` for others.
+pub fn data_uri(uri: &str) -> Option<Found<Vec<u8>>> {
+    let rest = uri.strip_prefix("data:")?;
+    let Some((kind, data)) = rest.split_once(',') else { return Some(Err("a data URI has no data".into())) };
+    if !kind.ends_with(";base64") {
+        return Some(Ok(percent_decoded(data)));
+    }
+    let decoded = STANDARD.decode(data.trim_end());
+    Some(decoded.map_err(|error| format!("a data URI is not base64: {error}").into()))
+}
+
+fn percent_decoded(text: &str) -> Vec<u8> {
+    let bytes = text.as_bytes();
+    let mut decoded = Vec::with_capacity(bytes.len());
+    let mut at = 0;
+    while at < bytes.len() {
+        let code = text.get(at + 1..at + 3).filter(|_| bytes[at] == b'%').and_then(|code| u8::from_str_radix(code, 16).ok());
+        decoded.push(code.unwrap_or(bytes[at]));
+        at += if code.is_some() { 3 } else { 1 };
+    }
+    decoded
+}

@@ -1,0 +1,126 @@
+//! The two containers of glTF: `.gltf`, which is the JSON itself, and `.glb`, which holds JSON and binary data as chunks.
+use std::{
+    fs::File,
+    io::{ErrorKind, Read, Seek, SeekFrom},
+    path::Path,
+};
+
+use super::{Refusal, document::Document, refusal::Found};
+use crate::{
+    file::open_regular,
+    memory::{Reservation, reserve},
+};
+
+const MAGIC: u32 = u32::from_le_bytes(*b"glTF");
+const JSON: u32 = u32::from_le_bytes(*b"JSON");
+const BINARY: u32 = u32::from_le_bytes(*b"BIN\0");
+/// Bytes of memory that an element of the JSON takes at most while lists grow, and a number in a list.
+const ELEMENT: u64 = 512;
+const NUMBER: u64 = 12;
+/// Bytes of memory that a document may take beyond this factor of its text.
+const FACTOR: u64 = 4;
+const BASE: u64 = 200 << 20;
+
+/// A file, read once.
+pub struct Container {
+    pub document: Document,
+    /// The binary chunk.
+    pub blob: Option<Vec<u8>>,
+    /// Length of the file, bytes.
+    pub length: u64,
+    /// Room for the chunks.
+    pub room: Reservation,
+}
+
+/// Reads a file. Its first bytes determine the container, not its name.
+pub fn open(path: &Path) -> Found<Container> {
+    let unreadable = |error: std::io::Error| match error.kind() {
+        ErrorKind::NotFound => Refusal::new("there is no such file", "check the path"),
+        _ => Refusal::new(format!("cannot be read: {error}"), "a scene is a .gltf or .glb file"),
+    };
+    let mut file = open_regular(path).map_err(unreadable)?;
+    let length = file.metadata().map_err(unreadable)?.len();
+    let room = reserve("the bytes of the file", length)?;
+    let mut head = [0; 12];
+    let is_binary = length >= 12 && file.read_exact(&mut head).is_ok() && word(&head, 0) == MAGIC;
+    if !is_binary {
+        file.seek(SeekFrom::Start(0)).map_err(unreadable)?;
+        let json = take(&mut file, length)?;
+        return Ok(Container { document: parse(&json)?, blob: None, length, room });
+    }
+    match word(&head, 1) {
+        2 => {}
+        version => return Err(refused_version(&version.to_string())),
+    }
+    let (document, blob) = chunks(&mut file, length - 12)?;
+    Ok(Container { document, blob, length, room })
+}
+
+/// The chunks of a binary file whose header has been read.
+fn chunks(file: &mut File, mut left: u64) -> Found<(Document, Option<Vec<u8>>)> {
+    let (mut document, mut blob) = (None, None);
+    while left >= 8 && (document.is_none() || blob.is_none()) {
+        let mut head = [0; 8];
+        file.read_exact(&mut head).map_err(|error| format!("cannot be read: {error}"))?;
+        let length = u64::from(word(&head, 0));
+        left -= 8;
+        if length > left {
+            return Err(format!("a chunk of {length} bytes goes beyond the end of the file").into());
+        }
+        match word(&head, 1) {
+            JSON if document.is_none() => document = Some(parse(&take(file, length)?)?),
+            BINARY if blob.is_none() => blob = Some(take(file, length)?),
+            _ => {
+                file.seek_relative(length as i64).map_err(|error| format!("cannot be read: {error}"))?;
+            }
+        }
+        left -= length;
+    }
+    document.map(|document| (document, blob)).ok_or_else(|| "the file has no JSON".into())
+}
+
+fn word(bytes: &[u8], place: usize) -> u32 {
+    let at = 4 * place;
+    u32::from_le_bytes([bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]])
+}
+
+/// Reads bytes that the file is known to have.
+pub fn take(file: &mut File, length: u64) -> Found<Vec<u8>> {
+    let mut bytes = Vec::new();
+    let size = usize::try_from(length).map_err(|_| "the file is too large")?;
+    bytes.try_reserve_exact(size).map_err(|_| format!("there is no memory for {length} bytes"))?;
+    file.take(length).read_to_end(&mut bytes).map_err(|error| format!("cannot be read: {error}"))?;
+    if bytes.len() < size {
+        return Err("the file ends too early".into());
+    }
+    Ok(bytes)
+}
+
+/// Parses the JSON.
+pub fn parse(json: &[u8]) -> Found<Document> {
+    let json = json.strip_prefix(b"\xef\xbb\xbf").unwrap_or(json);
+    let count = |bytes: &[u8]| json.iter().filter(|byte| bytes.contains(byte)).count() as u64;
+    let needed = ELEMENT * count(b"{") + NUMBER * count(b",");
+    if needed > FACTOR * json.len() as u64 + BASE {
+        return Err(Refusal::new("the file describes too many elements", "split it into several files"));
+    }
+    let _room = reserve("elements of the file", needed)?;
+    let document: Document = serde_json::from_slice(json).map_err(|error| {
+        let place = if error.line() > 0 { format!("line {}, column {}: ", error.line(), error.column()) } else { String::new() };
+        let text = error.to_string();
+        let message = text.split(" at line ").next().unwrap_or_default();
+        Refusal::from(format!("{place}{message}"))
+    })?;
+    let version = document.asset.min_version.as_deref().unwrap_or(&document.asset.version);
+    match version {
+        "2.0" => Ok(document),
+        // A later version that adds to 2.0 can be read as 2.0.
+        _ if version.starts_with("2.") && document.asset.min_version.is_none() => Ok(document),
+        "" => Err("it does not say its version, so it is not glTF".into()),
+        _ => Err(refused_version(version)),
+    }
+}
+
+fn refused_version(version: &str) -> Refusal {
+    Refusal::new(format!("glTF {version} is not read"), "export the file as glTF 2.0")
+}

@@ -1,0 +1,188 @@
+//! Materials: glTF's metallic-roughness model and its extensions as `principled`, OpenPBR Surface.
+mod base;
+mod layers;
+mod light;
+
+use std::collections::HashMap;
+
+use super::{
+    document::{Document, Index, Material, Primitive, TextureInfo, element},
+    extensions::MaterialExtensions,
+    refusal::Found,
+    textures::{Surface, Textures, Use, number},
+};
+use crate::{
+    declare::Textured,
+    image::Encoding,
+    import::{Imported, Names},
+    scene::description::{EmissionDescription, MaterialDescription},
+    texture::image::{Channel, Image, Wrap},
+};
+
+/// A material of the description.
+#[derive(Clone, Debug)]
+pub struct Made {
+    pub name: String,
+    /// Emission of the objects that have it.
+    pub emission: Option<EmissionDescription>,
+}
+
+/// Makes the materials of the description.
+pub struct Materials<'a> {
+    document: &'a Document,
+    textures: Textures<'a>,
+    /// Name of the file, in remarks.
+    file: &'a str,
+    names: Names,
+    made: HashMap<(Option<Index>, Surface), Made>,
+}
+
+/// A material that is being made.
+struct Work<'w, 'a> {
+    material: &'w Material,
+    extensions: &'w MaterialExtensions,
+    textures: &'w mut Textures<'a>,
+    to: &'w mut Imported,
+    surface: &'w Surface,
+    place: &'w str,
+    /// Whether Blender wrote the file.
+    is_of_blender: bool,
+}
+
+impl<'a> Materials<'a> {
+    pub fn new(document: &'a Document, textures: Textures<'a>, file: &'a str) -> Materials<'a> {
+        Materials { document, textures, file, names: Names::default(), made: HashMap::new() }
+    }
+
+    /// The surface of a primitive for its material: which texture coordinates are read. They are those of the color.
+    pub fn surface(&self, primitive: &Primitive, material: Option<Index>) -> Found<Surface> {
+        let material = material.map(|index| element(&self.document.materials, index, "material")).transpose()?;
+        let wanted = material.and_then(|material| maps(material).next().map(TextureInfo::set));
+        let has = |set: &u32| primitive.attributes.uvs(*set).is_some();
+        // Without textures, the coordinates give the tangents of anisotropic materials.
+        let uvs = wanted.filter(has).or_else(|| (0..4).find(has));
+        Ok(Surface { uvs, colours: primitive.attributes.color.is_some() })
+    }
+
+    /// The material for a surface.
+    pub fn make(&mut self, to: &mut Imported, index: Option<Index>, surface: &Surface) -> Found<Made> {
+        let key = (index, surface.clone());
+        if let Some(made) = self.made.get(&key) {
+            return Ok(made.clone());
+        }
+        let usual = Material { double_sided: true, ..Material::default() };
+        let material = index.map_or(Ok(&usual), |index| element(&self.document.materials, index, "material"))?;
+        let fallback = index.map_or_else(|| "default".to_owned(), |index| format!("material {index}"));
+        let name = self.names.unique(&material.name, &fallback);
+        let place = format!("{}: material \"{name}\"", self.file);
+        let none = MaterialExtensions::default();
+        let mut work = Work {
+            material,
+            extensions: material.extensions.as_deref().unwrap_or(&none),
+            textures: &mut self.textures,
+            to,
+            surface,
+            place: &place,
+            is_of_blender: self.document.asset.generator.contains("Blender I/O"),
+        };
+        let (description, emission) = work.make();
+        to.description.materials.insert(name.clone(), description);
+        let made = Made { name, emission };
+        self.made.insert(key, made.clone());
+        Ok(made)
+    }
+}
+
+/// The textures of a material that are read, that of its color first.
+fn maps(material: &Material) -> impl Iterator<Item = &TextureInfo> {
+    let pbr = material.pbr_metallic_roughness.as_deref();
+    let specular = material.extensions.as_deref().and_then(|extensions| extensions.specular_glossiness.as_deref());
+    let maps = [
+        specular.and_then(|specular| specular.diffuse_texture.as_ref()),
+        pbr.and_then(|pbr| pbr.base_color_texture.as_ref()),
+        pbr.and_then(|pbr| pbr.metallic_roughness_texture.as_ref()),
+        material.normal_texture.as_deref(),
+        material.emissive_texture.as_deref(),
+    ];
+    maps.into_iter().flatten()
+}
+
+impl Work<'_, '_> {
+    fn make(&mut self) -> (MaterialDescription, Option<EmissionDescription>) {
+        let opacity = self.opacity();
+        let is_culled = !self.material.double_sided;
+        if self.extensions.unlit.is_some() {
+            let (kind, emission) = self.unlit();
+            return (MaterialDescription { kind, opacity, ..MaterialDescription::default() }, emission);
+        }
+        let principled = self.principled();
+        let transmits = principled.transmission_weight != Textured::Constant(0.0);
+        let is_one_sided = is_culled && !transmits;
+        if is_one_sided {
+            let effect = "back faces are black; a rasterizer shows what lies behind them";
+            self.remark("`doubleSided` is false", "`two_sided = false`", effect);
+        }
+        if self.material.occlusion_texture.is_some() {
+            let effect = "none: light that does not reach corners is computed";
+            self.remark("`occlusionTexture`", "nothing", effect);
+        }
+        let normal_map = self.normal_map();
+        let emission = self.emission();
+        let two_sided = is_one_sided.then_some(false);
+        (MaterialDescription { kind: principled.into(), bump: None, normal_map, two_sided, opacity }, emission)
+    }
+
+    fn remark(&mut self, found: impl Into<String>, used: impl Into<String>, effect: impl Into<String>) {
+        self.to.remarks.add(self.place, found, used, effect);
+    }
+
+    fn colour(&mut self, factor: [f64; 3], map: Option<&TextureInfo>) -> Textured {
+        let of = Use { map, surface: self.surface, place: self.place };
+        self.textures.colour(self.to, factor.map(|x| x.max(0.0)), &of, Encoding::Srgb)
+    }
+
+    fn number(&mut self, factor: f64, map: Option<&TextureInfo>, channel: Channel) -> Textured<f64> {
+        let of = Use { map, surface: self.surface, place: self.place };
+        self.textures.number(self.to, factor.clamp(0.0, 1.0), &of, channel)
+    }
+
+    /// A color times that of the vertices.
+    fn with_vertices(&mut self, colour: Textured) -> Textured {
+        if !self.surface.colours {
+            return colour;
+        }
+        let vertices = self.textures.vertex_colour(self.to, Channel::Rgb);
+        self.textures.times(self.to, colour, vertices)
+    }
+
+    /// A number times the opacity of the vertices.
+    fn with_vertex_alpha(&mut self, alpha: Textured<f64>) -> Textured<f64> {
+        if !self.surface.colours {
+            return alpha;
+        }
+        let vertices = self.textures.vertex_colour(self.to, Channel::Alpha);
+        number(self.textures.times(self.to, super::textures::grey(alpha), vertices))
+    }
+
+    /// The file of the normal map, which is read as it stands.
+    fn normal_map(&mut self) -> Option<String> {
+        let map = self.material.normal_texture.as_deref();
+        let of = Use { map, surface: self.surface, place: self.place };
+        let image = self.textures.path(self.to, &of)?;
+        let scale = map.and_then(|map| map.scale).unwrap_or(1.0);
+        if scale == 0.0 {
+            return None;
+        }
+        if scale != 1.0 {
+            self.remark(format!("`normalTexture.scale` {scale}"), "1", "bumps are of another depth");
+        }
+        let plain = Image { path: image.path.clone(), ..Image::default() };
+        if (image.scale, image.rotate, image.offset) != (plain.scale, plain.rotate, plain.offset) {
+            self.remark("a transform of `normalTexture`", "none", "bumps lie elsewhere on the surface");
+        }
+        if (image.wrap_u, image.wrap_v) != (Wrap::Repeat, Wrap::Repeat) {
+            self.remark("a wrap mode of `normalTexture`", "repeat", "bumps differ where coordinates leave the unit square");
+        }
+        Some(image.path)
+    }
+}

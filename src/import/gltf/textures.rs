@@ -1,0 +1,205 @@
+//! Textures: images with their samplers and transforms, products with factors, and vertex colours.
+use std::collections::HashMap;
+
+use super::{
+    document::{Document, TextureInfo, element},
+    images::{Images, is_black},
+};
+use crate::{
+    declare::Textured,
+    image::Encoding,
+    import::{Imported, Names},
+    texture::{
+        TextureKind,
+        image::{Channel, Image, TexelFilter, Wrap},
+        product::Product,
+        ramp::{Ramp, Stop},
+        vertex_color::VertexColor,
+    },
+};
+
+/// Makes the textures of the description. Equal ones are one.
+pub struct Textures<'a> {
+    pub document: &'a Document,
+    images: Images<'a>,
+    names: Names,
+    known: HashMap<String, String>,
+}
+
+/// The surface that a material is made for.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Surface {
+    /// The set of texture coordinates; `None` if there is none.
+    pub uvs: Option<u32>,
+    /// Whether vertices have colours.
+    pub colours: bool,
+}
+
+/// A texture of a material.
+pub struct Use<'u> {
+    /// The texture in the file.
+    pub map: Option<&'u TextureInfo>,
+    /// The surface that it is for.
+    pub surface: &'u Surface,
+    /// The place of remarks.
+    pub place: &'u str,
+}
+
+impl<'a> Textures<'a> {
+    pub fn new(document: &'a Document, images: Images<'a>) -> Textures<'a> {
+        Textures { document, images, names: Names::default(), known: HashMap::new() }
+    }
+
+    /// A factor times the color of a texture.
+    pub fn colour(&mut self, to: &mut Imported, factor: [f64; 3], of: &Use, encoding: Encoding) -> Textured {
+        match self.image(to, of, Channel::Rgb, encoding) {
+            Some(name) => self.times(to, Textured::Constant(factor), Textured::Texture(name)),
+            None => Textured::Constant(factor),
+        }
+    }
+
+    /// A factor times a channel of a texture.
+    pub fn number(&mut self, to: &mut Imported, factor: f64, of: &Use, channel: Channel) -> Textured<f64> {
+        // The opacity is read from the same file as the color: both share their texels.
+        let encoding = if channel == Channel::Alpha { Encoding::Srgb } else { Encoding::Linear };
+        match self.image(to, of, channel, encoding) {
+            Some(name) => number(self.times(to, Textured::grey(factor), Textured::Texture(name))),
+            None => Textured::Constant(factor),
+        }
+    }
+
+    /// A product. A factor of 1 is left out.
+    pub fn times(&mut self, to: &mut Imported, a: Textured, b: Textured) -> Textured {
+        match (&a, &b) {
+            (Textured::Constant(a), Textured::Constant(b)) => Textured::Constant(std::array::from_fn(|i| a[i] * b[i])),
+            (Textured::Constant(one), _) if *one == [1.0; 3] => b,
+            (_, Textured::Constant(one)) if *one == [1.0; 3] => a,
+            _ => Textured::Texture(self.add(to, Product { a, b }.into(), "product")),
+        }
+    }
+
+    /// The colors of the vertices, or a channel of them.
+    pub fn vertex_colour(&mut self, to: &mut Imported, channel: Channel) -> Textured {
+        Textured::Texture(self.add(to, VertexColor { channel }.into(), "vertex color"))
+    }
+
+    /// A number between two stops of a ramp: `from` where the input is `start`, and `until` where it is `end`.
+    pub fn ramp(
+        &mut self,
+        to: &mut Imported,
+        input: Textured<f64>,
+        [start, end]: [f64; 2],
+        [from, until]: [f64; 2],
+    ) -> Textured<f64> {
+        if let Textured::Constant(x) = input {
+            let t = ((x - start) / (end - start)).clamp(0.0, 1.0);
+            return Textured::Constant(from + t * (until - from));
+        }
+        let stop = |at: f64, value: f64| Stop { at, color: [value; 3] };
+        let ramp = Ramp { input, stops: vec![stop(start, from), stop(end, until)] };
+        Textured::Texture(self.add(to, ramp.into(), "ramp"))
+    }
+
+    /// The file of a texture, for normal maps.
+    pub fn path(&mut self, to: &mut Imported, of: &Use) -> Option<Image> {
+        let info = of.map?;
+        let Some(set) = of.surface.uvs else {
+            to.remarks.add(of.place, "a texture on a mesh without TEXCOORD_n", "its factor alone", "the surface has one color");
+            return None;
+        };
+        if info.set() != set {
+            let found = format!("a texture at TEXCOORD_{}", info.set());
+            to.remarks.add(of.place, found, format!("TEXCOORD_{set}"), "the texture lies elsewhere on the surface");
+        }
+        match self.described(to, info) {
+            Ok(image) => Some(image),
+            Err(reason) => {
+                to.remarks.add(
+                    of.place,
+                    format!("texture {}: {reason}", info.index),
+                    "its factor alone",
+                    "the texture is missing",
+                );
+                None
+            }
+        }
+    }
+
+    /// Whether a texture is black everywhere, as far as its file is at hand.
+    pub fn is_black(&mut self, to: &mut Imported, of: &Use) -> bool {
+        let image = of.map.and_then(|info| self.described(to, info).ok());
+        image.is_some_and(|image| is_black(&to.assets, &image.path))
+    }
+
+    fn image(&mut self, to: &mut Imported, of: &Use, channel: Channel, encoding: Encoding) -> Option<String> {
+        let image = self.path(to, of)?;
+        let texture = element(&self.document.textures, of.map?.index, "texture").ok()?;
+        let file = image.path.rsplit('/').next().unwrap_or_default();
+        let stem = file.rsplit_once('.').map_or(file, |(stem, _)| stem);
+        let base = if texture.name.is_empty() { stem } else { &texture.name };
+        let wanted = if channel == Channel::Rgb { base.to_owned() } else { format!("{base} {}", channel.name()) };
+        Some(self.add(to, Image { channel, encoding, ..image }.into(), &wanted))
+    }
+
+    /// The image of a texture with its sampler and transform.
+    fn described(&mut self, to: &mut Imported, info: &TextureInfo) -> Result<Image, String> {
+        let text = |error: super::refusal::Refusal| error.message;
+        let texture = element(&self.document.textures, info.index, "texture").map_err(text)?;
+        let webp = texture.extensions.webp.as_ref().map(|image| image.source);
+        let source = match webp.or(texture.source) {
+            Some(source) => source,
+            None if texture.extensions.basisu.is_some() => return Err("KTX2 files (KHR_texture_basisu) are not read".to_owned()),
+            None => return Err("it has no image".to_owned()),
+        };
+        let sampler = match texture.sampler {
+            Some(sampler) => element(&self.document.samplers, sampler, "sampler").map_err(text)?.clone(),
+            None => super::document::Sampler::default(),
+        };
+        let transform = info.extensions.transform.as_deref().cloned().unwrap_or_default();
+        Ok(Image {
+            path: self.images.path(source, &mut to.assets)?,
+            wrap_u: wrap(sampler.wrap_s),
+            wrap_v: wrap(sampler.wrap_t),
+            filter: if sampler.mag_filter == Some(NEAREST) { TexelFilter::Nearest } else { TexelFilter::Bilinear },
+            scale: transform.scale,
+            // From v towards u, as exporters and viewers do it.
+            rotate: 0.0 - transform.rotation.to_degrees(),
+            offset: transform.offset,
+            ..Image::default()
+        })
+    }
+
+    fn add(&mut self, to: &mut Imported, kind: TextureKind, wanted: &str) -> String {
+        let key = format!("{kind:?}");
+        let name = self.known.entry(key).or_insert_with(|| self.names.unique(wanted, "texture"));
+        to.description.textures.entry(name.clone()).or_insert(kind);
+        name.clone()
+    }
+}
+
+/// A color as a number: textures give their luminance, which is that of a grey.
+pub fn number(colour: Textured) -> Textured<f64> {
+    match colour {
+        Textured::Constant([grey, _, _]) => Textured::Constant(grey),
+        Textured::Texture(name) => Textured::Texture(name),
+    }
+}
+
+/// A number as a grey color.
+pub fn grey(number: Textured<f64>) -> Textured {
+    match number {
+        Textured::Constant(number) => Textured::grey(number),
+        Textured::Texture(name) => Textured::Texture(name),
+    }
+}
+
+/// Code of filters without interpolation.
+const NEAREST: u32 = 9728;
+
+fn wrap(code: Option<u32>) -> Wrap {
+    match code {
+        Some(33071) => Wrap::Clamp,
+        Some(33648) => Wrap::Mirror,
+        _ => Wrap::Repeat,
+    }
+}

@@ -1,0 +1,194 @@
+//! Vertices of a primitive, at rest or deformed.
+use std::collections::HashMap;
+
+use glam::{DAffine3, DMat3, DVec3, Vec3};
+
+use super::{
+    accessor::{Column, Picks},
+    buffers::Buffers,
+    document::{Document, Index, Primitive},
+    draco,
+    refusal::Found,
+    triangles::{Mode, compact},
+};
+use crate::model::Model;
+
+/// What moves the vertices of a mesh.
+#[derive(Clone, Debug, Default)]
+pub struct Deformation {
+    /// Weights of the morph targets.
+    pub weights: Vec<f64>,
+    /// Of each joint of the skin: from the mesh at its bind pose to the world. Empty without a skin.
+    pub joints: Vec<DAffine3>,
+}
+
+/// Reads primitives.
+pub struct Vertices<'a> {
+    document: &'a Document,
+    pub buffers: &'a Buffers,
+    /// Decompressed columns of the primitive, by accessor.
+    decompressed: HashMap<Index, Column<'static>>,
+}
+
+impl<'a> Vertices<'a> {
+    pub fn new(document: &'a Document, buffers: &'a Buffers) -> Vertices<'a> {
+        Vertices { document, buffers, decompressed: HashMap::new() }
+    }
+
+    /// The triangles of a primitive, with a set of its texture coordinates; `None` if there are none.
+    pub fn model(&mut self, primitive: &Primitive, uvs: Option<u32>, deformation: &Deformation) -> Found<Option<Model>> {
+        let Some(positions) = primitive.attributes.position else { return Ok(None) };
+        self.decompressed = draco::columns(self.document, self.buffers, primitive)?;
+        let positions = self.column(positions)?;
+        let mut triangles = self.triangles(primitive, positions.count)?;
+        let picks = compact(&mut triangles, positions.count)?;
+        if triangles.is_empty() {
+            return Ok(None);
+        }
+        let mut model = self.rest(primitive, uvs, &picks, &positions)?;
+        model.triangles = triangles;
+        self.morph(primitive, &picks, &deformation.weights, &mut model)?;
+        if !deformation.joints.is_empty() {
+            self.bend(primitive, &picks, &deformation.joints, &mut model)?;
+        }
+        if let Some(at) = model.vertices.iter().position(|vertex| vertex.iter().any(|x| !x.is_finite())) {
+            return Err(format!("vertex {at} has coordinates that are not finite").into());
+        }
+        if let Some(normals) = &mut model.normals {
+            // A normal without direction is left out: the surface has the one of the triangle there.
+            normals.iter_mut().for_each(|n| *n = Vec3::from(*n).try_normalize().unwrap_or(Vec3::ZERO).to_array());
+        }
+        Ok(Some(model))
+    }
+
+    fn column(&self, index: Index) -> Found<Column<'_>> {
+        match self.decompressed.get(&index) {
+            Some(column) => Ok(column.borrowed()),
+            None => Column::open(self.document, self.buffers, index),
+        }
+    }
+
+    /// A column with one element for each vertex.
+    fn attribute(&self, index: Index, count: usize, name: &str) -> Found<Column<'_>> {
+        let column = self.column(index)?;
+        match column.count >= count {
+            true => Ok(column),
+            false => Err(format!("{name} has {} elements for {count} vertices", column.count).into()),
+        }
+    }
+
+    fn triangles(&self, primitive: &Primitive, count: usize) -> Found<Vec<[u32; 3]>> {
+        // Draco stores triangles, whatever the mode was before.
+        let mode = if self.decompressed.is_empty() { Mode::of(primitive.mode)? } else { Mode::Triangles };
+        // A corner, and its share of a triangle: a strip has a triangle for each corner.
+        let corner = if mode == Mode::Triangles { 8 } else { 16 };
+        let corners = match primitive.indices {
+            Some(index) => {
+                let column = self.column(index)?;
+                self.buffers.spend(corner * column.count as u64, "triangles")?;
+                column.wholes::<1>(&Picks::First(column.count))?.into_flattened()
+            }
+            None => {
+                self.buffers.spend(corner * count as u64, "triangles")?;
+                (0..count as u32).collect()
+            }
+        };
+        Ok(mode.triangles(&corners))
+    }
+
+    /// Vertices as the file states them.
+    fn rest(&self, primitive: &Primitive, uvs: Option<u32>, picks: &Picks, positions: &Column) -> Found<Model> {
+        let (attributes, count) = (&primitive.attributes, positions.count);
+        let bytes = |index: Option<Index>, bytes: u64| if index.is_some() { bytes } else { 0 };
+        let vertex = 12 + bytes(attributes.normal, 12) + bytes(uvs, 8) + bytes(attributes.color, 16);
+        self.buffers.spend(vertex * picks.len() as u64, "vertices")?;
+        let normals = attributes.normal.map(|index| self.attribute(index, count, "NORMAL")?.reals(picks));
+        let uvs = uvs.and_then(|set| attributes.uvs(set)).map(|index| self.uvs(index, count, picks));
+        let colours = attributes.color.map(|index| self.colours(index, count, picks));
+        Ok(Model {
+            vertices: positions.reals(picks)?,
+            triangles: Vec::new(),
+            normals: normals.transpose()?,
+            uvs: uvs.transpose()?,
+            colours: colours.transpose()?,
+        })
+    }
+
+    fn uvs(&self, index: Index, count: usize, picks: &Picks) -> Found<Vec<[f32; 2]>> {
+        let uvs: Vec<[f32; 2]> = self.attribute(index, count, "TEXCOORD")?.reals(picks)?;
+        // v of glTF points down.
+        Ok(uvs.into_iter().map(|[u, v]| [finite(u), 1.0 - finite(v)]).collect())
+    }
+
+    fn colours(&self, index: Index, count: usize, picks: &Picks) -> Found<Vec<[f32; 4]>> {
+        let column = self.attribute(index, count, "COLOR_0")?;
+        let clean = |colour: [f32; 4]| colour.map(|x| finite(x).clamp(0.0, 1.0));
+        if column.width == 3 {
+            return Ok(column.reals(picks)?.into_iter().map(|[r, g, b]| clean([r, g, b, 1.0])).collect());
+        }
+        Ok(column.reals(picks)?.into_iter().map(clean).collect())
+    }
+
+    /// Adds the displacements of morph targets.
+    fn morph(&self, primitive: &Primitive, picks: &Picks, weights: &[f64], model: &mut Model) -> Found<()> {
+        let weighted = primitive.targets.iter().zip(weights).filter(|(_, weight)| **weight != 0.0);
+        for (target, weight) in weighted {
+            let add = |index: Option<Index>, to: &mut Vec<[f32; 3]>| -> Found<()> {
+                let Some(index) = index else { return Ok(()) };
+                let by = self.displacement(index, picks)?;
+                for (to, by) in to.iter_mut().zip(by) {
+                    *to = (Vec3::from(*to) + Vec3::from(by) * *weight as f32).to_array();
+                }
+                Ok(())
+            };
+            add(target.position, &mut model.vertices)?;
+            if let Some(normals) = &mut model.normals {
+                add(target.normal, normals)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn displacement(&self, index: Index, picks: &Picks) -> Found<Vec<[f32; 3]>> {
+        self.attribute(index, picks.needed(), "a morph target")?.reals(picks)
+    }
+
+    /// Moves the vertices with the joints: linear blend skinning.
+    fn bend(&self, primitive: &Primitive, picks: &Picks, joints: &[DAffine3], model: &mut Model) -> Found<()> {
+        let mut maps = vec![(DMat3::ZERO, DVec3::ZERO, 0.0); model.vertices.len()];
+        for (names, weights) in primitive.attributes.influences() {
+            let names = self.attribute(names, picks.needed(), "JOINTS")?;
+            let weights = self.attribute(weights, picks.needed(), "WEIGHTS")?;
+            let pairs = names.wholes::<4>(picks)?.into_iter().zip(weights.reals::<4>(picks)?);
+            for (map, (names, weights)) in maps.iter_mut().zip(pairs) {
+                for (name, weight) in names.into_iter().zip(weights).filter(|(_, weight)| *weight > 0.0) {
+                    let joint = joints.get(name as usize);
+                    let joint = joint.ok_or_else(|| format!("a vertex names joint {name}; the skin has {}", joints.len()))?;
+                    let weight = f64::from(weight);
+                    *map = (map.0 + joint.matrix3 * weight, map.1 + joint.translation * weight, map.2 + weight);
+                }
+            }
+        }
+        for (vertex, map) in maps.iter().enumerate() {
+            // A vertex without joints follows the first one.
+            let (linear, shift) = match map.2 > 0.0 {
+                true => (map.0 * (1.0 / map.2), map.1 / map.2),
+                false => (joints[0].matrix3, joints[0].translation),
+            };
+            let p = Vec3::from(model.vertices[vertex]).as_dvec3();
+            model.vertices[vertex] = (linear * p + shift).as_vec3().to_array();
+            if let Some(normals) = &mut model.normals {
+                // The cofactors are the inverse transpose up to a factor, and exist for every matrix.
+                let (x, y, z) = (linear.x_axis, linear.y_axis, linear.z_axis);
+                let cofactors = DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y));
+                let normal = cofactors * Vec3::from(normals[vertex]).as_dvec3();
+                normals[vertex] = normal.normalize_or_zero().as_vec3().to_array();
+            }
+        }
+        Ok(())
+    }
+}
+
+fn finite(x: f32) -> f32 {
+    if x.is_finite() { x } else { 0.0 }
+}
