@@ -63,11 +63,6 @@ impl Tree {
         self.files[place.file].error(place.span.clone(), message, "here").with_help(help)
     }
 
-    /// All elements, in the order of the file.
-    pub fn elements(&self) -> impl Iterator<Item = Element<'_>> {
-        (0..self.nodes.len()).map(|index| Element { tree: self, index })
-    }
-
     fn target(&self, id: &str) -> Option<usize> {
         let mut id = id;
         for _ in 0..MOST_ALIASES {
