@@ -163,7 +163,7 @@ mod tests {
         use crate::math::temperature::temperature;
         for kelvin in [2800.0, 5000.0, 9000.0] {
             let found = temperature(Spectrum::black_body(kelvin).emission()).expect("it is near the locus");
-            assert!((found / kelvin - 1.0).abs() < 0.01, "{kelvin} K: {found}");
+            assert!((found / kelvin - 1.0).abs() < 0.03, "{kelvin} K: {found}");
         }
         // Planck's law at 5000 K and 555 nm is 1.274·10⁴ W/(m² sr nm).
         let radiance = Spectrum::black_body(5000.0).value(555.0);

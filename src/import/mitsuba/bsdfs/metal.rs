@@ -46,8 +46,11 @@ fn reflectance(import: &mut Import, element: Element) -> Result<Reflectance, Sce
     }))
 }
 
-/// η and k; `None` of a mirror.
-fn indices(import: &mut Import, element: Element) -> Result<Option<([f64; 3], [f64; 3])>, SceneError> {
+/// η and k per channel.
+type Index = ([f64; 3], [f64; 3]);
+
+/// The index of a metal; `None` of a mirror.
+fn indices(import: &mut Import, element: Element) -> Result<Option<Index>, SceneError> {
     let outside = element.number("ext_eta", 1.0)?;
     if element.has("eta") || element.has("k") {
         let [eta, k] = [index(import, element, "eta", 0.0)?, index(import, element, "k", 1.0)?];

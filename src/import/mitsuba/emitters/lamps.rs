@@ -49,7 +49,7 @@ pub fn spot(import: &mut Import, element: Element) -> Result<(), SceneError> {
     let inner = element.number("beam_width", 0.75 * angle)?.clamp(0.0, angle);
     if let Some(texture) = element.property("texture")? {
         if texture.kind() == "bitmap" && angle < 89.0 {
-            return textured_spot(import, element, texture, &map, picture::Cone { intensity, angle, inner });
+            return textured_spot(import, element, texture, &map, &picture::Cone { intensity, angle, inner });
         }
         import.remark(texture, "white", "the light has no picture");
     }
@@ -63,10 +63,10 @@ fn textured_spot(
     element: Element,
     texture: Element,
     map: &DAffine3,
-    cone: picture::Cone,
+    cone: &picture::Cone,
 ) -> Result<(), SceneError> {
     let image = import.bitmap(texture)?;
-    let Some(bytes) = picture::of_spot(import, &image, &cone) else {
+    let Some(bytes) = picture::of_spot(import, &image, cone) else {
         return Err(texture.error("the image of the spot cannot be read", "check the file"));
     };
     let path = import.add_image(element.label(), "exr", bytes);

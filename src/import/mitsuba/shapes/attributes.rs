@@ -69,7 +69,8 @@ pub fn apply(
 /// The values of an attribute of vertices, or of faces once for each triangle.
 fn values(bytes: &[u8], of: &str, attribute: &str) -> Option<Vec<[f32; 4]>> {
     let (groups, mut body) = header(bytes)?;
-    for group in &groups {
+    // Without properties, a count is not bounded by the size of the file.
+    for group in groups.iter().filter(|group| !group.properties.is_empty()) {
         let slots = slots(group, attribute);
         let is_wanted = group.name == of && slots.iter().any(Option::is_some);
         let mut found = Vec::new();

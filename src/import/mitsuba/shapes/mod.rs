@@ -23,6 +23,7 @@ use crate::{
 const MOST_OBJECTS: usize = 1 << 18;
 
 /// What a family needs of a shape besides its own values.
+#[derive(Clone, Copy)]
 pub struct Placed<'a> {
     /// `to_world`, and that of the instance around it.
     pub map: DAffine3,

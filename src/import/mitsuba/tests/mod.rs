@@ -111,7 +111,7 @@ fn what_is_not_read_is_reported_with_its_place() {
         "{SENSOR}\n  <shape type=\"sphere\"><float name=\"foo\" value=\"1\"/></shape><bsdf type=\"null\" id=\"n\"/>"
     ));
     let lines = imported.remarks.lines(9);
-    assert!(lines.len() == 1 && lines[0].contains("scene.xml:2:25: `<float name=\"foo\" value=\"1\">` → nothing"), "{lines:?}");
+    assert!(lines.len() == 1 && lines[0].contains("scene.xml:2:24: `<float name=\"foo\" value=\"1\">` → nothing"), "{lines:?}");
 }
 
 #[test]
