@@ -1,11 +1,11 @@
-//! PNG, JPEG, TGA and WebP, by the `image` crate.
+//! PNG, JPEG, TGA, WebP and BMP, by the `image` crate.
 //!
 //! The size in the header is checked, and the memory of the whole decoder is reserved, before any pixel is decoded.
 use std::io::{BufRead, Seek, SeekFrom};
 
 use ::image::{
     ImageDecoder, Limits,
-    codecs::{jpeg::JpegDecoder, png::PngDecoder, tga::TgaDecoder, webp::WebPDecoder},
+    codecs::{bmp::BmpDecoder, jpeg::JpegDecoder, png::PngDecoder, tga::TgaDecoder, webp::WebPDecoder},
 };
 
 use super::{Encoding, ImageFormatError, LONGEST_SIDE, Picture, Pixel, check_size, pixels, room};
@@ -43,6 +43,10 @@ pub(super) fn tga<P: Pixel>(file: impl BufRead + Seek, encoding: Encoding) -> Re
 pub(super) fn webp<P: Pixel>(mut file: impl BufRead + Seek, encoding: Encoding) -> Result<Picture<P>, ImageFormatError> {
     let _file = whole(&mut file)?;
     decode(WebPDecoder::new(file).map_err(ImageFormatError::broken)?, WEBP, encoding)
+}
+
+pub(super) fn bmp<P: Pixel>(file: impl BufRead + Seek, encoding: Encoding) -> Result<Picture<P>, ImageFormatError> {
+    decode(BmpDecoder::new(file).map_err(ImageFormatError::broken)?, 0, encoding)
 }
 
 /// Decodes the pixels of a file whose header has been read. `besides`: bytes per pixel that the decoder takes for itself.

@@ -3,7 +3,7 @@
 //! | format | file | values |
 //! |---|---|---|
 //! | PNG | `decoded.rs` | 8 or 16 bits per channel, sRGB or linear |
-//! | JPEG, TGA, WebP | `decoded.rs` | 8 bits per channel, sRGB or linear |
+//! | JPEG, TGA, WebP, BMP | `decoded.rs` | 8 bits per channel, sRGB or linear |
 //! | OpenEXR | `exr.rs` | linear; the layer's R, G, B and A |
 //! | Radiance HDR | `hdr.rs` | linear; one common exponent per pixel |
 //!
@@ -99,7 +99,7 @@ impl From<&Picture> for Texels {
     }
 }
 
-/// Encoding of the numbers of a PNG, JPEG, TGA or WebP. EXR and HDR are always linear.
+/// Encoding of the numbers of a PNG, JPEG, TGA, WebP or BMP. EXR and HDR are always linear.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Encoding {
     /// The sRGB curve: for colours.
@@ -136,7 +136,7 @@ pub enum ImageFormatError {
     #[error("cannot be read: {0}")]
     Unreadable(String),
     /// The format is not known.
-    #[error("not an image: expected PNG, JPEG, TGA, WebP, OpenEXR or Radiance HDR")]
+    #[error("not an image: expected PNG, JPEG, TGA, WebP, BMP, OpenEXR or Radiance HDR")]
     NotAPicture,
     /// Width or height is 0.
     #[error("the image is {0} × {1}: it has no pixels")]
@@ -236,6 +236,7 @@ fn decode<P: Pixel>(mut file: impl BufRead + Seek, encoding: Encoding) -> Result
         [0x89, b'P', b'N', b'G', ..] => decoded::png(file, encoding),
         [0xff, 0xd8, 0xff, ..] => decoded::jpeg(file, encoding),
         [b'R', b'I', b'F', b'F', _, _, _, _, b'W', b'E', b'B', b'P', ..] => decoded::webp(file, encoding),
+        [b'B', b'M', ..] => decoded::bmp(file, encoding),
         [0x76, 0x2f, 0x31, 0x01, ..] => exr::decode(file),
         [b'#', b'?', ..] => hdr::decode(file),
         // A TGA has no signature, but few of its values are valid: kind of palette, kind of image, bits per pixel.

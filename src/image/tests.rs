@@ -227,3 +227,15 @@ fn sizes_are_refused_by_the_header_alone() {
     assert_eq!(read(b"GIF89a"), Err(ImageFormatError::NotAPicture));
     assert_eq!(read(b""), Err(ImageFormatError::NotAPicture));
 }
+
+#[test]
+fn a_bmp_has_its_rows_from_the_bottom() {
+    let header = |size: u32| [&b"BM"[..], &size.to_le_bytes(), &[0; 4], &54u32.to_le_bytes(), &40u32.to_le_bytes()].concat();
+    let shape = [1u32.to_le_bytes(), 2u32.to_le_bytes()].concat();
+    let rest = [&[1, 0, 24, 0][..], &[0; 24]].concat();
+    // Blue, green, red, and a byte that fills the row.
+    let rows = [0, 0, 255, 0, 255, 0, 0, 0];
+    let bytes = [header(62), shape, rest, rows.to_vec()].concat();
+    assert_eq!(read(&bytes).expect("it is a picture").radiance, [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]);
+    assert!((0..bytes.len() - 1).all(|end| read(&bytes[..end]).is_err()));
+}

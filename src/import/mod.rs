@@ -12,6 +12,7 @@ pub mod paths;
 pub mod pbrt;
 mod remark;
 pub mod remarks;
+pub mod spectrum;
 pub mod studio;
 
 use std::path::Path;

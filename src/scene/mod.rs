@@ -51,7 +51,7 @@ pub use self::{
     camera_sequence::CameraSequence,
     compile::{check_camera, check_lamp, check_object},
     compile_report::CompileReport,
-    diagnostic::SceneError,
+    diagnostic::{SceneError, SourceText},
     estimator::{Estimator, power_heuristic},
     lamp::LampInstance,
     legend::Legend,

@@ -1,10 +1,71 @@
 //! Scenes of Mitsuba 2 and 3 in XML.
+//!
+//! A file becomes a tree of elements (`load.rs`, `tree.rs`), with parameters, defaults and includes in place. Each plugin is translated
+//! by the function that the table of its family names: `bsdfs/`, `shapes/`, `emitters/`, `textures.rs`. What no function has read is
+//! reported.
+//!
+//! W. Jakob et al., "Mitsuba 3 renderer", 2022, and its manual.
+mod bsdfs;
+mod colours;
+mod context;
+mod emitters;
+mod fov;
+mod integrator;
+mod load;
+mod markup;
+mod parameters;
+mod pictures;
+mod sensor;
+mod shapes;
+#[cfg(test)]
+mod tests;
+mod textures;
+mod transforms;
+mod tree;
+mod unread;
+mod upgrade;
+mod values;
+
 use std::path::Path;
 
+use glam::DAffine3;
+
+use self::{context::Import, tree::Element};
 use super::{ImportOptions, Imported};
 use crate::scene::SceneError;
 
 /// Reads the file.
-pub fn read(path: &Path, _: &ImportOptions) -> Result<Imported, SceneError> {
-    Err(SceneError::of_file(path, "not built yet", "not built yet"))
+pub fn read(path: &Path, options: &ImportOptions) -> Result<Imported, SceneError> {
+    let (tree, files) = load::load(path, options)?;
+    let mut import = Import::new(files);
+    let root = tree.root().see();
+    let title = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
+    import.description.title = title;
+    scene(&mut import, root)?;
+    unread::report(&mut import, root);
+    unread::crossings(&mut import);
+    let Import { description, assets, remarks, .. } = import;
+    Ok(Imported { description, assets, remarks })
+}
+
+fn scene(import: &mut Import, root: Element) -> Result<(), SceneError> {
+    for (_, integrator) in root.objects(&["integrator"])?.into_iter().take(1) {
+        import.integrator(integrator)?;
+    }
+    let sensors = root.objects(&["sensor"])?;
+    match sensors.first() {
+        Some((_, sensor)) => import.sensor(*sensor)?,
+        None => import.remark(root, "our default camera", "the scene has no sensor"),
+    }
+    for (_, sensor) in sensors.iter().skip(1) {
+        import.remark(*sensor, "the first sensor", "further views are missing");
+        unread::skip(*sensor);
+    }
+    for (_, shape) in root.objects(&["shape"])? {
+        import.shape(shape, &DAffine3::IDENTITY)?;
+    }
+    for (_, emitter) in root.objects(&["emitter"])? {
+        import.emitter(emitter)?;
+    }
+    Ok(())
 }

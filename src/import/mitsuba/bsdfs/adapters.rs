@@ -1,0 +1,120 @@
+//! BSDFs that change others: bumps, masks, sides and mixtures.
+use super::{
+    super::{context::Import, tree::Element},
+    transparent,
+};
+use crate::{
+    image::Encoding,
+    material::{blend::Blend, null::Null},
+    scene::{
+        SceneError,
+        description::{Bump, MaterialDescription, Textured},
+    },
+    texture::{
+        image::{Image, Wrap},
+        product::Product,
+    },
+};
+
+fn nested<'t>(element: Element<'t>) -> Result<Vec<Element<'t>>, SceneError> {
+    Ok(element.objects(&["bsdf"])?.into_iter().map(|(_, bsdf)| bsdf).collect())
+}
+
+fn only<'t>(element: Element<'t>) -> Result<Element<'t>, SceneError> {
+    match nested(element)?[..] {
+        [bsdf] => Ok(bsdf),
+        _ => Err(element.error(format!("a `{}` needs one BSDF within it", element.kind()), "nest one BSDF, or refer to one")),
+    }
+}
+
+pub fn two_sided(import: &mut Import, element: Element, _: bool) -> Result<MaterialDescription, SceneError> {
+    let sides = nested(element)?;
+    match sides[..] {
+        [front] => import.material(front, true),
+        [front, back] => {
+            if front.index != back.index {
+                import.remark(back, "the material of the front", "the back looks like the front");
+            }
+            import.material(front, true)
+        }
+        _ => Err(element.error("a `twosided` needs one or two BSDFs within it", "nest them, or refer to them")),
+    }
+}
+
+pub fn mask(import: &mut Import, element: Element, two_sided: bool) -> Result<MaterialDescription, SceneError> {
+    let inner = import.material(only(element)?, two_sided)?;
+    let opacity = import.fraction(element, "opacity", 0.5)?;
+    let opacity = match (opacity, inner.opacity) {
+        (opacity, None) => opacity,
+        (Textured::Constant(a), Some(Textured::Constant(b))) => Textured::Constant(a * b),
+        (Textured::Constant(a), Some(b)) | (b, Some(Textured::Constant(a))) => import.scaled(b, a),
+        (Textured::Texture(a), Some(Textured::Texture(b))) => {
+            let product = Product { a: Textured::Texture(a), b: Textured::Texture(b) };
+            Textured::Texture(import.add_texture(&format!("{} opacity", element.label()), product))
+        }
+    };
+    Ok(MaterialDescription { opacity: Some(opacity), ..inner })
+}
+
+pub fn blend(import: &mut Import, element: Element, two_sided: bool) -> Result<MaterialDescription, SceneError> {
+    let [first, second] = nested(element)?[..] else {
+        return Err(element.error("a blend needs two BSDFs within it", "nest them, or refer to them"));
+    };
+    let weight = import.fraction(element, "weight", 0.5)?;
+    let [first, second] = [import.surface(first, two_sided)?.material, import.surface(second, two_sided)?.material];
+    let has_back = |name: &String| import.description.materials.get(name).is_none_or(|part| part.two_sided != Some(false));
+    let sides = if has_back(&first) || has_back(&second) { None } else { Some(false) };
+    Ok(MaterialDescription { two_sided: sides, ..transparent(Blend { first, second, weight }) })
+}
+
+pub fn null(_: &mut Import, _: Element, _: bool) -> Result<MaterialDescription, SceneError> {
+    Ok(transparent(Null))
+}
+
+pub fn bump_map(import: &mut Import, element: Element, two_sided: bool) -> Result<MaterialDescription, SceneError> {
+    let inner = import.material(only(element)?, two_sided)?;
+    let heights = element.objects(&["texture"])?;
+    let [(_, heights)] = heights[..] else {
+        return Err(element.error("a bump map needs one texture within it", "nest one texture, or refer to one"));
+    };
+    if inner.bump.is_some() {
+        import.remark(element, "the inner bump map", "the outer one is missing");
+        return Ok(inner);
+    }
+    let texture = import.texture(heights)?;
+    let height = element.number("scale", 1.0)?.clamp(-1e6, 1e6);
+    Ok(MaterialDescription { bump: Some(Bump { texture, height }), ..inner })
+}
+
+pub fn normal_map(import: &mut Import, element: Element, two_sided: bool) -> Result<MaterialDescription, SceneError> {
+    element.ignore(&["flip_invalid_normals", "use_shadowing_function", "use_shadowing"]);
+    let inner = import.material(only(element)?, two_sided)?;
+    let normals = match element.property("normalmap")? {
+        Some(normals) => normals,
+        None => match element.objects(&["texture"])?[..] {
+            [(_, normals)] => normals,
+            _ => {
+                return Err(element.error("a normal map needs its texture", "add `<texture name=\"normalmap\" type=\"bitmap\">`"));
+            }
+        },
+    };
+    if normals.kind() != "bitmap" {
+        import.remark(normals, "no normal map", "the surface is smooth");
+        return Ok(inner);
+    }
+    let image = import.bitmap(normals)?;
+    if image.encoding != Encoding::Linear {
+        import.remark(normals, "its linear values", "normals are tilted by other angles");
+    }
+    let plain = Image { path: image.path.clone(), encoding: image.encoding, filter: image.filter, ..Image::default() };
+    if image != plain
+        && (image.wrap_u != Wrap::Repeat || image.scale != [1.0; 2] || image.rotate != 0.0 || image.offset != [0.0; 2])
+    {
+        import.remark(normals, "the image over the unit square, repeated", "the normals lie elsewhere");
+    }
+    if inner.normal_map.is_some() {
+        import.remark(element, "the inner normal map", "the outer one is missing");
+        return Ok(inner);
+    }
+    Ok(MaterialDescription { normal_map: Some(image.path), ..inner })
+}

@@ -1,0 +1,147 @@
+//! What a translation has made so far.
+use std::{
+    collections::{BTreeSet, HashMap},
+    path::PathBuf,
+};
+
+use super::{load::Files, tree::Element};
+use crate::{
+    declare::Assets,
+    import::{Names, Remarks},
+    model::Model,
+    scene::{SceneError, description::SceneDescription},
+};
+
+/// Objects within objects, references followed.
+const DEEPEST: usize = 64;
+
+/// A translation.
+pub struct Import {
+    pub files: Files,
+    pub description: SceneDescription,
+    pub assets: Assets,
+    pub remarks: Remarks,
+    pub textures: Names,
+    pub materials: Names,
+    pub asset_names: Names,
+    /// What the object that is being translated uses of the shape that it lies on.
+    pub uses: Uses,
+    /// Textures by their element.
+    pub known_textures: HashMap<usize, (String, Uses)>,
+    /// Materials by their element and whether both sides reflect.
+    pub known_surfaces: HashMap<(usize, bool), Surface>,
+    /// Image files by the path that the description gives them.
+    pub images: HashMap<String, PathBuf>,
+    /// Models in memory by file and variant.
+    pub known_models: HashMap<String, String>,
+    /// The objects that are being translated, the innermost last.
+    within: Vec<usize>,
+}
+
+/// What textures need of a shape.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Uses {
+    /// Surface coordinates, or tangents that follow them.
+    pub coordinates: bool,
+    /// Attributes of meshes.
+    pub attributes: BTreeSet<String>,
+}
+
+/// A material in the description.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Surface {
+    /// Its name.
+    pub material: String,
+    pub uses: Uses,
+}
+
+impl Uses {
+    /// Adds what something else uses.
+    pub fn add(&mut self, other: &Uses) {
+        self.coordinates |= other.coordinates;
+        self.attributes.extend(other.attributes.iter().cloned());
+    }
+}
+
+impl Import {
+    /// A translation that has made nothing yet.
+    pub fn new(files: Files) -> Import {
+        Import {
+            files,
+            description: SceneDescription::default(),
+            assets: Assets::default(),
+            remarks: Remarks::default(),
+            textures: Names::default(),
+            materials: Names::default(),
+            asset_names: Names::default(),
+            uses: Uses::default(),
+            known_textures: HashMap::new(),
+            known_surfaces: HashMap::new(),
+            images: HashMap::new(),
+            known_models: HashMap::new(),
+            within: Vec::new(),
+        }
+    }
+
+    /// Adds a remark about an element: what was used instead, and what that changes in the image.
+    pub fn remark(&mut self, element: Element, used: &str, effect: &str) {
+        self.remarks.add(element.place(), element.shown(), used, effect);
+    }
+
+    /// Adds a remark about a value of an element, if it has that value.
+    pub fn remark_value(&mut self, element: Element, name: &str, used: &str, effect: &str) -> Result<(), SceneError> {
+        if let Some(value) = element.property(name)? {
+            self.remark(value, used, effect);
+        }
+        Ok(())
+    }
+
+    /// Translates an object that can contain others. An object within itself is an error.
+    pub fn nested<T>(
+        &mut self,
+        element: Element,
+        translate: impl FnOnce(&mut Import) -> Result<T, SceneError>,
+    ) -> Result<T, SceneError> {
+        if self.within.contains(&element.index) {
+            return Err(element.error(format!("{} contains itself", element.shown()), "break the circle of references"));
+        }
+        if self.within.len() >= DEEPEST {
+            return Err(element.error(format!("objects are nested more than {DEEPEST} deep"), "simplify the scene"));
+        }
+        self.within.push(element.index);
+        let result = translate(self);
+        self.within.pop();
+        result
+    }
+
+    /// Translates something, and returns what it uses of shapes besides.
+    pub fn used<T>(&mut self, translate: impl FnOnce(&mut Import) -> Result<T, SceneError>) -> Result<(T, Uses), SceneError> {
+        let around = std::mem::take(&mut self.uses);
+        let result = translate(self);
+        let uses = std::mem::replace(&mut self.uses, around);
+        self.uses.add(&uses);
+        Ok((result?, uses))
+    }
+
+    /// The path of a file that a value of an element names.
+    pub fn file(&mut self, element: Element, name: &str) -> Result<PathBuf, SceneError> {
+        let named = element.required_text(name)?;
+        self.files
+            .resolve(named)
+            .map_err(|message| element.error(message, "paths are relative to the scene file, or to the folder of a `<path>`"))
+    }
+
+    /// Adds a mesh that exists in memory only, and returns its path.
+    pub fn add_model(&mut self, name: &str, model: Model) -> String {
+        let path = format!("meshes/{}.ply", self.asset_names.unique(name, "mesh"));
+        self.assets.insert(path.clone(), model);
+        path
+    }
+
+    /// Adds an image that exists in memory only, and returns its path. `extension` is `png` or `exr`.
+    pub fn add_image(&mut self, name: &str, extension: &str, bytes: Vec<u8>) -> String {
+        let path = format!("textures/{}.{extension}", self.asset_names.unique(name, "image"));
+        self.assets.insert(path.clone(), bytes);
+        path
+    }
+}

@@ -1,0 +1,121 @@
+//! Lamps without surface.
+use std::f64::consts::PI;
+
+use glam::{DAffine3, DVec3};
+
+use super::{
+    super::{colours::Role, context::Import, fov, tree::Element},
+    picture,
+};
+use crate::{
+    image::Encoding,
+    light::lamp::{
+        LampKind,
+        directional::Directional,
+        point::Point,
+        projector::Projector,
+        spot::{Falloff, Spot},
+    },
+    scene::{
+        SceneError,
+        description::{LampDescription, Textured},
+    },
+};
+
+pub fn point(import: &mut Import, element: Element) -> Result<(), SceneError> {
+    let map = element.affine("to_world")?;
+    let position = element.vector("position")?.unwrap_or(map.translation);
+    let intensity = constant(import, element, "intensity")?;
+    add(import, element, Point { position, intensity })
+}
+
+pub fn directional(import: &mut Import, element: Element) -> Result<(), SceneError> {
+    let map = element.affine("to_world")?;
+    let direction = match element.vector("direction")? {
+        Some(direction) if element.has("to_world") => map.transform_vector3(direction),
+        Some(direction) => direction,
+        None => map.transform_vector3(DVec3::Z),
+    };
+    let direction = direction.try_normalize();
+    let direction = direction.ok_or_else(|| element.error("the direction is zero", "such as value=\"0, 0, -1\""))?;
+    let irradiance = constant(import, element, "irradiance")?;
+    add(import, element, Directional { direction, irradiance })
+}
+
+pub fn spot(import: &mut Import, element: Element) -> Result<(), SceneError> {
+    let map = element.affine("to_world")?;
+    let intensity = constant(import, element, "intensity")?;
+    let angle = element.number("cutoff_angle", 20.0)?.clamp(0.01, 180.0);
+    let inner = element.number("beam_width", 0.75 * angle)?.clamp(0.0, angle);
+    if let Some(texture) = element.property("texture")? {
+        if texture.kind() == "bitmap" && angle < 89.0 {
+            return textured_spot(import, element, texture, &map, &picture::Cone { intensity, angle, inner });
+        }
+        import.remark(texture, "white", "the light has no picture");
+    }
+    let [position, target] = [map.translation, map.transform_point3(DVec3::Z)];
+    add(import, element, Spot { position, target, intensity, angle, inner, falloff: Falloff::Linear })
+}
+
+/// A spot with a picture is a projector whose image holds the falloff too.
+fn textured_spot(
+    import: &mut Import,
+    element: Element,
+    texture: Element,
+    map: &DAffine3,
+    cone: &picture::Cone,
+) -> Result<(), SceneError> {
+    let image = import.bitmap(texture)?;
+    let Some(bytes) = picture::of_spot(import, &image, cone) else {
+        return Err(texture.error("the image of the spot cannot be read", "check the file"));
+    };
+    let path = import.add_image(element.label(), "exr", bytes);
+    import.remark(texture, "an image of the light and its falloff", "the edge of the cone is interpolated between pixels");
+    let [position, target, up] = axes(map);
+    let fov = 2.0 * cone.angle;
+    add(import, element, Projector { position, target, up, image: path, encoding: Encoding::Linear, fov, scale: 1.0 })
+}
+
+pub fn projector(import: &mut Import, element: Element) -> Result<(), SceneError> {
+    let map = element.affine("to_world")?;
+    let scale = PI * element.number("scale", 1.0)?.max(0.0);
+    let missing = || element.error("a projector needs its `irradiance`", "add `<texture name=\"irradiance\" type=\"bitmap\">`");
+    let irradiance = element.property("irradiance")?.ok_or_else(missing)?;
+    let (path, encoding, aspect) = match import.constant(irradiance, Role::Emission)? {
+        Some(colour) => {
+            let bytes = picture::plain(colour).ok_or_else(|| irradiance.error("the image cannot be made", ""))?;
+            (import.add_image(element.label(), "exr", bytes), Encoding::Linear, 1.0)
+        }
+        None if irradiance.kind() == "bitmap" => {
+            let image = import.bitmap(irradiance)?;
+            let aspect =
+                picture::aspect(import, &image).ok_or_else(|| irradiance.error("the image cannot be read", "check the file"))?;
+            if image.scale != [1.0; 2] || image.rotate != 0.0 || image.offset != [0.0; 2] {
+                import.remark(irradiance, "the image without `to_uv`", "the picture lies elsewhere");
+            }
+            (image.path, image.encoding, aspect)
+        }
+        None => return Err(irradiance.error("a projector shows images only", "use a `bitmap`")),
+    };
+    let fov = fov::across_width(element, aspect)?.clamp(0.01, 179.0);
+    let [position, target, up] = axes(&map);
+    add(import, element, Projector { position, target, up, image: path, encoding, fov, scale })
+}
+
+/// Position, a point ahead, and the direction upwards.
+fn axes(map: &DAffine3) -> [DVec3; 3] {
+    [map.translation, map.transform_point3(DVec3::Z), map.transform_vector3(DVec3::Y)]
+}
+
+fn constant(import: &mut Import, element: Element, name: &str) -> Result<[f64; 3], SceneError> {
+    match import.colour(element, name, 1.0, Role::Emission)? {
+        Textured::Constant(colour) => Ok(colour),
+        Textured::Texture(_) => Err(element.error(format!("`{name}` cannot be a texture"), "use `<rgb>` or `<spectrum>`")),
+    }
+}
+
+fn add(import: &mut Import, element: Element, kind: impl Into<LampKind>) -> Result<(), SceneError> {
+    let name = element.label().to_owned();
+    import.description.lamps.push(LampDescription { name, kind: kind.into(), transform: Vec::new() });
+    Ok(())
+}

@@ -1,0 +1,33 @@
+//! Emitters: one file a family.
+pub mod area;
+mod environment;
+mod lamps;
+mod picture;
+mod sun;
+
+use super::{context::Import, tree::Element};
+use crate::scene::SceneError;
+
+impl Import {
+    /// Adds an emitter that belongs to no shape.
+    pub fn emitter(&mut self, element: Element) -> Result<(), SceneError> {
+        element.ignore(&["sampling_weight"]);
+        match element.kind() {
+            "point" => lamps::point(self, element),
+            "spot" => lamps::spot(self, element),
+            "directional" => lamps::directional(self, element),
+            "projector" => lamps::projector(self, element),
+            "constant" => environment::constant(self, element),
+            "envmap" => environment::image(self, element),
+            "sunsky" | "sun" | "sky" => environment::sky(self, element),
+            "area" | "directionalarea" => Err(element.error("an area emitter outside of a shape", "nest it in a shape")),
+            _ => {
+                self.remark(element, "nothing", "its light is missing");
+                element.children().for_each(|child| {
+                    child.see();
+                });
+                Ok(())
+            }
+        }
+    }
+}

@@ -1,0 +1,53 @@
+//! Settings of the estimate.
+use super::{context::Import, tree::Element};
+use crate::scene::{Estimator, Roulette, SceneError};
+
+impl Import {
+    /// Takes over the depth of paths.
+    pub fn integrator(&mut self, element: Element) -> Result<(), SceneError> {
+        element.ignore(&[
+            "emitter_samples",
+            "bsdf_samples",
+            "shading_samples",
+            "samples_per_pass",
+            "sample_count",
+            "block_size",
+            "timeout",
+            "strict_normals",
+            "aovs",
+        ]);
+        if let Some((_, inner)) = element.objects(&["integrator"])?.first() {
+            return self.nested(element, |import| import.integrator(*inner));
+        }
+        if element.flag("hide_emitters", false)? {
+            self.remark_value(element, "hide_emitters", "visible lamps", "the camera sees emitters and the background")?;
+        }
+        let depth = match element.kind() {
+            // One reflection: Mitsuba counts the edges of a path and we count its bounces.
+            "direct" | "direct_projective" => Some(2),
+            "path" | "ptracer" | "volpath" | "volpathmis" | "prb" | "prb_basic" | "prbvolpath" | "prb_projective" | "bdpt" => {
+                self.depth(element)?
+            }
+            _ => {
+                self.remark(element, "path tracing", "the picture shows light, whatever the integrator computes");
+                self.depth(element)?
+            }
+        };
+        if depth == Some(0) {
+            self.remark_value(element, "max_depth", "1", "emitters are visible")?;
+        }
+        self.description.render.settings.max_bounces = depth.map(|depth| depth.saturating_sub(1));
+        self.description.render.settings.estimator = Estimator::Mis;
+        if let Some(start) = element.integer("rr_depth")? {
+            let start = u32::try_from(start).unwrap_or(0).min(1 << 16);
+            self.description.render.settings.roulette = Roulette::by_throughput_from(start);
+        }
+        Ok(())
+    }
+
+    /// Edges of the longest path; `None` is no limit.
+    fn depth(&mut self, element: Element) -> Result<Option<u32>, SceneError> {
+        let depth = element.integer("max_depth")?.unwrap_or(-1);
+        Ok(u32::try_from(depth).ok())
+    }
+}

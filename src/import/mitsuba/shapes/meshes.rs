@@ -1,0 +1,117 @@
+//! Meshes of files.
+use std::path::Path;
+
+use super::{
+    super::{context::Import, tree::Element},
+    Geometry, Placed, attributes,
+};
+use crate::{
+    model::{self, Model, smooth_normals},
+    scene::SceneError,
+    shape::{Mesh, ShapeKind, mesh::MeshSource},
+};
+
+/// How a mesh differs from its file.
+pub struct Variant {
+    /// Whether v of the file runs downwards.
+    pub flip_v: bool,
+    /// Whether normals are those of the triangles.
+    pub face_normals: bool,
+}
+
+pub fn obj(import: &mut Import, element: Element, placed: Placed) -> Result<Geometry, SceneError> {
+    element.ignore(&["collapse", "max_smooth_angle"]);
+    file(import, element, placed, true)
+}
+
+pub fn ply(import: &mut Import, element: Element, placed: Placed) -> Result<Geometry, SceneError> {
+    element.ignore(&["srgb"]);
+    file(import, element, placed, false)
+}
+
+fn file(import: &mut Import, element: Element, placed: Placed, flips_by_default: bool) -> Result<Geometry, SceneError> {
+    let path = import.file(element, "filename")?;
+    let face_normals = element.flag("face_normals", false)?;
+    // Mitsuba's v runs downwards, and that of a model upwards.
+    let flip_v = !element.flag("flip_tex_coords", flips_by_default)? && placed.uses.coordinates;
+    let mirrors = placed.map.matrix3.determinant() < 0.0;
+    let flip = placed.flip ^ (mirrors && (face_normals || !has_normals(element, &path)?));
+    let shape = if flip_v || !placed.uses.attributes.is_empty() {
+        let wanted: Vec<&String> = placed.uses.attributes.iter().collect();
+        let key = format!("{} {flip_v} {face_normals} {wanted:?}", path.display());
+        let name = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
+        let file = import.shared_model(&key, &name, |import| {
+            let mut model = read(element, &path)?;
+            attributes::apply(import, element, &path, &mut model, placed.uses, face_normals)?;
+            let variant = Variant { flip_v, face_normals };
+            Ok(variant.of(model))
+        })?;
+        in_memory(file, !face_normals)
+    } else {
+        let source = MeshSource::File(import.files.folder.described(&path));
+        Mesh { source, smooth: face_normals.then_some(false) }.into()
+    };
+    Ok(Geometry { shape, map: placed.map, flip })
+}
+
+impl Variant {
+    /// The model with these changes.
+    pub fn of(&self, mut model: Model) -> Model {
+        if self.flip_v
+            && let Some(uvs) = &mut model.uvs
+        {
+            uvs.iter_mut().for_each(|uv| uv[1] = 1.0 - uv[1]);
+        }
+        if self.face_normals {
+            model.normals = None;
+        }
+        model
+    }
+}
+
+/// Reads the file of a mesh.
+pub fn read(element: Element, path: &Path) -> Result<Model, SceneError> {
+    model::read(path).map_err(|error| element.error(error.to_string(), "this mesh cannot be used"))
+}
+
+/// A mesh in memory.
+pub fn in_memory(path: String, smooth: bool) -> ShapeKind {
+    Mesh { source: MeshSource::File(path), smooth: (!smooth).then_some(false) }.into()
+}
+
+/// Whether a file has normals of its own. A mirror turns those of triangles round, and not those of the file.
+fn has_normals(element: Element, path: &Path) -> Result<bool, SceneError> {
+    read(element, path).map(|model| model.normals.is_some())
+}
+
+/// A model whose triangles share no vertices. Smooth normals stay smooth.
+pub fn unwelded(model: &Model, face_normals: bool) -> Model {
+    let smooth = || smooth_normals(&model.vertices, &model.triangles);
+    let normals = (!face_normals).then(|| model.normals.clone().unwrap_or_else(smooth));
+    let corners = || model.triangles.iter().flatten().map(|corner| *corner as usize);
+    Model {
+        vertices: corners().map(|corner| model.vertices[corner]).collect(),
+        triangles: (0..model.triangles.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect(),
+        normals: normals.map(|normals| corners().map(|corner| normals[corner]).collect()),
+        uvs: model.uvs.as_ref().map(|uvs| corners().map(|corner| uvs[corner]).collect()),
+        colours: None,
+    }
+}
+
+impl Import {
+    /// The path of a model in memory, which is made once for each key.
+    pub fn shared_model(
+        &mut self,
+        key: &str,
+        name: &str,
+        make: impl FnOnce(&mut Import) -> Result<Model, SceneError>,
+    ) -> Result<String, SceneError> {
+        if let Some(path) = self.known_models.get(key) {
+            return Ok(path.clone());
+        }
+        let model = make(self)?;
+        let path = self.add_model(name, model);
+        self.known_models.insert(key.to_owned(), path.clone());
+        Ok(path)
+    }
+}

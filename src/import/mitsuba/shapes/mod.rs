@@ -1,0 +1,128 @@
+//! Shapes: one file a family.
+mod analytic;
+mod attributes;
+mod cube;
+mod disk;
+mod meshes;
+mod serialized;
+
+use glam::DAffine3;
+
+use super::{
+    context::{Import, Uses},
+    emitters::area,
+    transforms::described,
+    tree::Element,
+};
+use crate::{
+    scene::{SceneError, description::ObjectDescription},
+    shape::ShapeKind,
+};
+
+/// Objects in all. Instances of groups multiply.
+const MOST_OBJECTS: usize = 1 << 18;
+
+/// What a family needs of a shape besides its own values.
+#[derive(Clone, Copy)]
+pub struct Placed<'a> {
+    /// `to_world`, and that of the instance around it.
+    pub map: DAffine3,
+    /// Whether the shape asks for the other side as its front.
+    pub flip: bool,
+    /// What its material and its emission use.
+    pub uses: &'a Uses,
+}
+
+/// A shape in the description.
+pub struct Geometry {
+    pub shape: ShapeKind,
+    pub map: DAffine3,
+    pub flip: bool,
+}
+
+type Translate = fn(&mut Import, Element, Placed) -> Result<Geometry, SceneError>;
+
+fn family(kind: &str) -> Option<Translate> {
+    Some(match kind {
+        "sphere" => analytic::sphere,
+        "cylinder" => analytic::cylinder,
+        "rectangle" => analytic::rectangle,
+        "disk" => disk::disk,
+        "cube" => cube::cube,
+        "obj" => meshes::obj,
+        "ply" => meshes::ply,
+        "serialized" => serialized::serialized,
+        _ => return None,
+    })
+}
+
+impl Import {
+    /// Adds the objects of a shape that stands in the scene, or in an instance with a map of its own.
+    pub fn shape(&mut self, element: Element, around: &DAffine3) -> Result<(), SceneError> {
+        self.nested(element, |import| match element.kind() {
+            "shapegroup" => Ok(()),
+            "instance" => import.instance(element, around),
+            "merge" => element.objects(&["shape"])?.into_iter().try_for_each(|(_, shape)| import.shape(shape, around)),
+            _ => import.object(element, around),
+        })
+    }
+
+    fn instance(&mut self, element: Element, around: &DAffine3) -> Result<(), SceneError> {
+        let map = *around * element.affine("to_world")?;
+        for (_, group) in element.objects(&["shape"])? {
+            if group.kind() != "shapegroup" {
+                return Err(element.error("an instance must refer to a shape group", "`<ref id=\"…\"/>` of a `shapegroup`"));
+            }
+            let shapes = group.objects(&["shape"])?;
+            self.nested(group, |import| shapes.into_iter().try_for_each(|(_, shape)| import.shape(shape, &map)))?;
+        }
+        Ok(())
+    }
+
+    fn object(&mut self, element: Element, around: &DAffine3) -> Result<(), SceneError> {
+        let Some(translate) = family(element.kind()) else {
+            let message = format!("the shape `{}`, which Noisefall does not render", element.kind());
+            return Err(element.error(message, "replace it by a mesh, or remove it"));
+        };
+        if self.description.objects.len() >= MOST_OBJECTS {
+            return Err(
+                element.error(format!("the scene has more than {MOST_OBJECTS} objects"), "merge meshes, or use fewer instances")
+            );
+        }
+        refuse_media(element)?;
+        for (_, sensor) in element.objects(&["sensor"])? {
+            self.remark(sensor, "nothing", "it measures nothing");
+        }
+        let (surface, mut uses) = match element.objects(&["bsdf"])?.last() {
+            Some((_, bsdf)) => self.used(|import| import.surface(*bsdf, false))?,
+            None => (self.default_surface(), Uses::default()),
+        };
+        let (emission, emitted) = self.used(|import| area::emission(import, element))?;
+        uses.add(&emitted);
+        element.ignore(&["silhouette_sampling_weight", "name"]);
+        let map = *around * element.affine("to_world")?;
+        let placed = Placed { map, flip: element.flag("flip_normals", false)?, uses: &uses };
+        let Geometry { shape, map, flip } = translate(self, element, placed)?;
+        self.description.objects.push(ObjectDescription {
+            name: element.label().to_owned(),
+            shape,
+            material: Some(surface.material),
+            emission,
+            flip,
+            transform: described(&map),
+            motion: Vec::new(),
+        });
+        Ok(())
+    }
+}
+
+/// A shape with a medium inside or outside is an error.
+pub fn refuse_media(element: Element) -> Result<(), SceneError> {
+    match element.objects(&["medium"])?.first() {
+        Some((_, medium)) => Err(medium.error(
+            "the scene contains a participating medium, which Noisefall does not render",
+            "remove the media; clear glass absorbs by its `transmittance`",
+        )),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,191 @@
+//! BSDFs and textures.
+use super::{SENSOR, material, read_with, refused, remarks, scene};
+use crate::{
+    import::ImportOptions,
+    material::{Material, Reflectance, Roughness},
+    scene::description::{TextureKind, Textured},
+};
+
+fn alpha(roughness: &Roughness) -> f64 {
+    match roughness {
+        Roughness::Alpha(Textured::Constant(alpha)) => *alpha,
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn opaque_materials_are_black_from_behind_unless_they_are_twosided() {
+    let (diffuse, imported) = material("<bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"0.2 0.5, 0.3\"/></bsdf>");
+    let Material::Lambertian(lambertian) = &diffuse.kind else { panic!("{diffuse:?}") };
+    assert_eq!((&lambertian.albedo, diffuse.two_sided), (&Textured::Constant([0.2, 0.5, 0.3]), Some(false)));
+    assert!(imported.remarks.is_empty());
+    let (diffuse, _) = material("<bsdf type=\"twosided\"><bsdf type=\"diffuse\"/></bsdf>");
+    assert_eq!(diffuse.two_sided, None);
+    let (default, _) = material("");
+    assert!(matches!(&default.kind, Material::Lambertian(x) if x.albedo == Textured::grey(0.5)));
+}
+
+#[test]
+fn glass_has_the_indices_of_named_materials() {
+    let text =
+        "<bsdf type=\"dielectric\"><string name=\"int_ior\" value=\"diamond\"/><string name=\"ext_ior\" value=\"Water\"/></bsdf>";
+    let (glass, _) = material(text);
+    let Material::Dielectric(dielectric) = &glass.kind else { panic!("{glass:?}") };
+    assert_eq!((dielectric.ior, dielectric.ior_outside, glass.two_sided), (2.419, 1.333, None));
+    let (glass, _) = material(
+        "<bsdf type=\"thindielectric\"><float name=\"int_ior\" value=\"1.5\"/><float name=\"ext_ior\" value=\"1\"/></bsdf>",
+    );
+    assert!(matches!(glass.kind, Material::ThinDielectric(pane) if pane.ior == 1.5));
+    let unknown = format!(
+        "{SENSOR}<shape type=\"sphere\"><bsdf type=\"dielectric\"><string name=\"int_ior\" value=\"mud\"/></bsdf></shape>"
+    );
+    assert!(refused(&unknown).contains("mud"));
+}
+
+#[test]
+fn metals_have_names_indices_or_are_mirrors() {
+    let reflectance = |text: &str| match material(text).0.kind {
+        Material::Conductor(metal) => metal.fresnel,
+        other => panic!("{other:?}"),
+    };
+    let gold = reflectance("<bsdf type=\"conductor\"><string name=\"material\" value=\"Au\"/></bsdf>");
+    assert!(matches!(gold, Reflectance::Index { eta, .. } if (eta[2] - 1.4425).abs() < 1e-3));
+    let given = "<bsdf type=\"conductor\"><spectrum name=\"eta\" value=\"0.789\"/><spectrum name=\"k\" value=\"6.15\"/></bsdf>";
+    assert_eq!(reflectance(given), Reflectance::Index { eta: [0.789; 3], k: [6.15; 3] });
+    let mirror = "<bsdf type=\"conductor\"><rgb name=\"specular_reflectance\" value=\"0.5\"/></bsdf>";
+    assert_eq!(reflectance(mirror), Reflectance::Constant(Textured::grey(0.5)));
+}
+
+#[test]
+fn widths_of_facets_become_a_width_and_an_anisotropy() {
+    let rough = |values: &str| {
+        let (found, imported) =
+            material(&format!("<bsdf type=\"roughconductor\"><string name=\"distribution\" value=\"ggx\"/>{values}</bsdf>"));
+        let Material::Conductor(metal) = found.kind else { panic!("not a metal") };
+        assert!(imported.remarks.is_empty() && !metal.energy_compensation);
+        (alpha(&metal.roughness), metal.anisotropy, metal.tangent_rotation)
+    };
+    assert_eq!(rough(""), (0.1, 0.0, 0.0));
+    let wide = |name: &str, value: f64| format!("<float name=\"{name}\" value=\"{value}\"/>");
+    let (width, a, turned) = rough(&(wide("alpha_u", 0.3) + &wide("alpha_v", 0.1)));
+    let long = width * (2.0 / (1.0 + (1.0 - a) * (1.0 - a))).sqrt();
+    assert!((long - 0.3).abs() < 1e-12 && ((1.0 - a) * long - 0.1).abs() < 1e-12 && turned == 0.0);
+    assert_eq!(rough(&(wide("alpha_u", 0.1) + &wide("alpha_v", 0.3))).2, 90.0);
+    let (_, imported) = material("<bsdf type=\"roughconductor\"/>");
+    assert!(remarks(&imported)[0].contains("Beckmann"));
+}
+
+#[test]
+fn plastics_are_linear_by_default_and_ours_reflects_as_much() {
+    let albedo = |nonlinear: bool| {
+        let text = format!(
+            "<bsdf type=\"plastic\"><rgb name=\"diffuse_reflectance\" value=\"0.5\"/><float name=\"int_ior\" value=\"1.9\"/>\
+             <boolean name=\"nonlinear\" value=\"{nonlinear}\"/></bsdf>"
+        );
+        match material(&text).0.kind {
+            Material::Plastic(plastic) => plastic.albedo,
+            other => panic!("{other:?}"),
+        }
+    };
+    assert_eq!(albedo(true), Textured::grey(0.5));
+    let Textured::Constant([linear, ..]) = albedo(false) else { panic!("it is constant") };
+    // ρ' = ρ/(1 − R + ρ R) with R ≈ 0.76 at an index of 1.9.
+    assert!((linear - 0.5 / (1.0 - 0.5 * 0.76)).abs() < 0.02, "{linear}");
+}
+
+#[test]
+fn masks_bumps_and_blends_keep_what_they_hold() {
+    let (masked, _) = material(
+        "<bsdf type=\"mask\"><float name=\"opacity\" value=\"0.25\"/><bsdf type=\"twosided\"><bsdf type=\"diffuse\"/></bsdf></bsdf>",
+    );
+    assert_eq!((masked.opacity, masked.two_sided), (Some(Textured::Constant(0.25)), None));
+    let (nothing, _) = material("<bsdf type=\"null\"/>");
+    assert!(matches!(nothing.kind, Material::Null(_)));
+    let text = "<bsdf type=\"blendbsdf\" id=\"both\"><float name=\"weight\" value=\"0.3\"/><bsdf type=\"diffuse\"/>\
+        <bsdf type=\"conductor\" id=\"metal\"/></bsdf>";
+    let (both, imported) = material(text);
+    let Material::Blend(blend) = both.kind else { panic!("not a blend") };
+    assert_eq!((blend.first.as_str(), blend.second.as_str(), blend.weight), ("diffuse", "metal", Textured::Constant(0.3)));
+    assert_eq!((imported.description.materials.len(), both.two_sided), (3, Some(false)));
+    let text = "<bsdf type=\"bumpmap\"><texture type=\"checkerboard\" id=\"squares\"/><float name=\"scale\" value=\"2\"/>\
+        <bsdf type=\"diffuse\"/></bsdf>";
+    let bump = material(text).0.bump.expect("it is bumpy");
+    assert_eq!((bump.texture.as_str(), bump.height), ("squares", 2.0));
+}
+
+#[test]
+fn disney_becomes_openpbr() {
+    let text = "<bsdf type=\"principled\"><rgb name=\"base_color\" value=\"0.2,0.8,0.1 \"/><float name=\"roughness\" value=\"0.2\"/>\
+        <float name=\"anisotropic\" value=\"0.5\"/><float name=\"metallic\" value=\"0.7\"/><float name=\"specular\" value=\"0.5\"/>\
+        <float name=\"clearcoat\" value=\"0.8\"/></bsdf>";
+    let (found, imported) = material(text);
+    let Material::Principled(openpbr) = found.kind else { panic!("not principled") };
+    assert_eq!((openpbr.base_metalness, openpbr.coat_weight), (Textured::Constant(0.7), Textured::Constant(0.2)));
+    assert!((openpbr.specular_ior - 1.5).abs() < 1e-9 && found.two_sided == Some(false));
+    // The widths along and across the tangent multiply to r⁴.
+    let (Textured::Constant(r), Textured::Constant(a)) = (openpbr.specular_roughness, openpbr.specular_roughness_anisotropy)
+    else {
+        panic!("they are constant")
+    };
+    let long = r * r * (2.0 / (1.0 + (1.0 - a) * (1.0 - a))).sqrt();
+    assert!((long * long * (1.0 - a) - 0.2f64.powi(4)).abs() < 1e-12 && (a - 0.45).abs() < 1e-12);
+    assert!(remarks(&imported)[0].contains("OpenPBR"));
+    let (thin, _) = material("<bsdf type=\"principledthin\"><float name=\"spec_trans\" value=\"0.4\"/></bsdf>");
+    assert!(matches!(thin.kind, Material::Blend(blend) if blend.weight == Textured::Constant(0.4)));
+}
+
+#[test]
+fn unknown_materials_are_grey_and_measured_ones_are_refused() {
+    let (hair, imported) = material("<bsdf type=\"hair\"><float name=\"x\" value=\"1\"/></bsdf>");
+    assert!(matches!(hair.kind, Material::Lambertian(_)) && remarks(&imported).len() == 1);
+    let measured = format!("{SENSOR}<shape type=\"sphere\"><bsdf type=\"measured\"/></shape>");
+    assert!(refused(&measured).contains("measured"));
+}
+
+#[test]
+fn checkers_have_two_squares_a_unit_and_stretched_ones_are_images() {
+    let texture = |to_uv: &str| {
+        let text = format!(
+            "<bsdf type=\"diffuse\"><texture name=\"reflectance\" type=\"checkerboard\" id=\"c\"><transform name=\"to_uv\">{to_uv}\
+             </transform></texture></bsdf>"
+        );
+        let (_, imported) = material(&text);
+        assert!(imported.remarks.is_empty(), "{:?}", remarks(&imported));
+        imported.description.textures
+    };
+    let plain = texture("<scale x=\"5\" y=\"5\"/>");
+    assert!(matches!(&plain["c"], TextureKind::Checker(c) if c.scale == 10.0 && c.even == Textured::grey(0.4)));
+    let stretched = texture("<scale x=\"5\" y=\"2\"/><rotate z=\"1\" angle=\"30\"/><translate x=\"0.5\"/>");
+    assert!(matches!(&stretched["c"], TextureKind::Mix(_)));
+    let TextureKind::Image(squares) = &stretched["c squares"] else { panic!("not an image") };
+    assert!((squares.scale[0] - 5.0).abs() < 1e-12 && (squares.scale[1] - 2.0).abs() < 1e-12);
+    assert!((squares.rotate - 30.0).abs() < 1e-9 && squares.offset == [0.5, 0.0]);
+}
+
+#[test]
+fn images_keep_their_encoding_wrap_and_filter() {
+    let text = "<scene version=\"3.0.0\"><shape type=\"sphere\"><bsdf type=\"diffuse\"><texture name=\"reflectance\" type=\"bitmap\" id=\"t\">\
+        <string name=\"filename\" value=\"wood.png\"/><boolean name=\"raw\" value=\"true\"/><string name=\"wrap_mode\" value=\"mirror\"/>\
+        <string name=\"filter_type\" value=\"nearest\"/></texture></bsdf></shape></scene>";
+    let imported = read_with(&[("wood.png", "")], text, &ImportOptions::default()).expect("it is valid");
+    let TextureKind::Image(image) = &imported.description.textures["t"] else { panic!("not an image") };
+    let words = (image.encoding.name(), image.wrap_u.name(), image.wrap_v.name(), image.filter.name());
+    assert_eq!((image.path.as_str(), words), ("wood.png", ("linear", "mirror", "mirror", "nearest")));
+}
+
+#[test]
+fn spectra_become_colors() {
+    let albedo = |spectrum: &str| match material(&format!("<bsdf type=\"diffuse\">{spectrum}</bsdf>")).0.kind {
+        Material::Lambertian(lambertian) => lambertian.albedo,
+        other => panic!("{other:?}"),
+    };
+    let flat = albedo("<spectrum name=\"reflectance\" value=\"300:0.78, 900:0.78\"/>");
+    assert!(matches!(flat, Textured::Constant(c) if c.iter().all(|x| (x - 0.78).abs() < 1e-9)), "{flat:?}");
+    let red = albedo("<spectrum name=\"reflectance\" value=\"400:0 600:0 610:1 800:1\"/>");
+    assert!(matches!(red, Textured::Constant([r, g, _]) if r > 0.5 && g < 0.2), "{red:?}");
+    assert_eq!(albedo("<spectrum name=\"reflectance\" value=\"0.3\"/>"), Textured::grey(0.3));
+    let imported = scene(&format!(
+        "{SENSOR}<shape type=\"sphere\"><bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"1.5\"/></bsdf></shape>"
+    ));
+    assert_eq!(remarks(&imported).len(), 1);
+}
