@@ -16,7 +16,7 @@ pub struct SceneOptions {
     /// Value of a parameter of a scene, such as spp=16 for $spp in a Mitsuba scene. Can be repeated
     #[arg(short = 'D', long = "define", value_name = "NAME=VALUE", value_parser = define, help_heading = HEADING)]
     defines: Vec<(String, String)>,
-    /// Time of the animations of a glTF scene [default: 0]
+    /// Time of the animations of a glTF scene; without it, the pose that the file states
     #[arg(long, value_name = "SECONDS", value_parser = time, allow_negative_numbers = true, help_heading = HEADING)]
     at: Option<f64>,
     /// Variant of the materials of a glTF scene
@@ -37,7 +37,7 @@ impl SceneOptions {
     pub fn import_options(&self) -> ImportOptions {
         ImportOptions {
             defines: self.defines.clone(),
-            time: self.at.unwrap_or(0.0),
+            time: self.at,
             variant: self.variant.clone(),
             allow_outside: self.allow_outside,
         }
@@ -114,7 +114,7 @@ mod tests {
         let options = Program::parse_from(words).options;
         let expected = ImportOptions {
             defines: vec![("spp".to_owned(), "16".to_owned()), ("file".to_owned(), "a b=c".to_owned())],
-            time: -1.5,
+            time: Some(-1.5),
             variant: Some("Red one".to_owned()),
             allow_outside: true,
         };

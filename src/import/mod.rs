@@ -46,8 +46,8 @@ pub struct Imported {
 pub struct ImportOptions {
     /// Values of parameters, such as `-D spp=16` for Mitsuba's `$spp`.
     pub defines: Vec<(String, String)>,
-    /// Time of animations, seconds.
-    pub time: f64,
+    /// Time of animations, seconds; the pose that the file states without them if `None`.
+    pub time: Option<f64>,
     /// Name of the variant of materials.
     pub variant: Option<String>,
     /// Whether files outside the folder of the scene may be read.

@@ -59,9 +59,9 @@ fn translated(container: Container, folder: &Folder, options: &ImportOptions, fi
     check_extensions(&document, &mut to, file)?;
     let variant = options.variant.as_deref().map(|name| variant(&document, name)).transpose()?;
     let buffers = Buffers::read(&document, blob, length, folder)?;
-    let poses = match options.time.is_finite() && options.time != 0.0 {
-        true => animation::poses(&document, &buffers, options.time)?,
-        false => Poses::default(),
+    let poses = match options.time.filter(|time| time.is_finite()) {
+        Some(time) => animation::poses(&document, &buffers, time)?,
+        None => Poses::default(),
     };
     for name in &poses.left_out {
         let found = format!("animation \"{name}\"");

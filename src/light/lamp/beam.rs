@@ -86,8 +86,16 @@ impl<L: Lanes> Beam<L> {
         }
         let is_cone = word.below(PICTURE);
         let (_, _, inside) = self.picture_place(l, d);
-        let picture = inside.pick(l.f(1.0), l.f(0.0));
+        let picture = inside.pick(self.rise(l, d), l.f(0.0));
         even.pick(l.f(1.0), is_cone.pick(self.cone(l, d), picture))
+    }
+
+    /// The rise of a flat picture's intensity away from its axis, 1/cos³; 1 for other pictures.
+    #[inline(always)]
+    fn rise(&self, l: L, d: V<L>) -> F<L> {
+        let length = self.rows[4][3];
+        let slant = length / self.form(4, d);
+        length.above(0.0).pick(slant * slant * slant, l.f(1.0))
     }
 
     /// The falloff of a cone.

@@ -36,6 +36,8 @@ enum Shape {
     /// and `z` is positive in front of the lamp.
     Picture {
         axes: [DVec3; 3],
+        /// Whether the intensity rises by 1/cos³ of the angle to the axis, so that a screen is lit evenly.
+        flat: bool,
         image: Option<Arc<ImageTexture>>,
     },
 }
@@ -48,7 +50,7 @@ enum Shape {
 /// | 1 | power, and the word of the shape: [`EVEN`], [`BY_COSINE`], [`BY_ANGLE`], or [`PICTURE`] plus the number of the image |
 /// | 2 | cone: axis, edge; picture: x form |
 /// | 3 | cone: coefficients of t, t² and t³, and the factor that makes t; picture: y form |
-/// | 4 | picture: z form |
+/// | 4 | picture: z form, and its length if the picture is flat |
 pub type LampRows = [[f32; 4]; 5];
 
 /// Equal in all directions.
@@ -90,8 +92,9 @@ impl Lamp {
     }
 
     /// A lamp that casts a picture. The axes are linear forms of directions; `None` is white.
-    pub fn projector(position: DVec3, intensity: f64, axes: [DVec3; 3], image: Option<Arc<ImageTexture>>) -> Lamp {
-        Lamp { source: Source::At(position), power: single([intensity; 3]), shape: Shape::Picture { axes, image } }
+    pub fn projector(position: DVec3, intensity: f64, axes: [DVec3; 3], flat: bool, image: Option<Arc<ImageTexture>>) -> Lamp {
+        let shape = Shape::Picture { axes, flat, image };
+        Lamp { source: Source::At(position), power: single([intensity; 3]), shape }
     }
 
     /// Checks the position, which a transform may take beyond the numbers of the renderer.
@@ -170,10 +173,11 @@ impl Lamp {
                     Falloff::Square => [0.0, 1.0, 0.0, factor as f32],
                 };
             }
-            Shape::Picture { axes, .. } => {
+            Shape::Picture { axes, flat, .. } => {
                 for (row_of_axis, axis) in rows[2..].iter_mut().zip(axes) {
                     *row_of_axis = row(*axis, 0.0);
                 }
+                rows[4][3] = if *flat { axes[2].length() as f32 } else { 0.0 };
             }
         }
         rows

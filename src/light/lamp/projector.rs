@@ -23,8 +23,10 @@ pub struct Projector {
     pub encoding: Encoding,
     /// Angle across the width of the image.
     pub fov: f64,
-    /// Radiant intensity where the image is 1, in all of its directions.
+    /// Radiant intensity on the axis where the image is 1.
     pub scale: f64,
+    /// Whether a screen that faces it is lit evenly, as by a slide projector; otherwise the intensity is the same in all directions.
+    pub flat: bool,
 }
 
 impl Default for Projector {
@@ -37,6 +39,7 @@ impl Default for Projector {
             encoding: Encoding::Srgb,
             fov: 40.0,
             scale: 1.0,
+            flat: false,
         }
     }
 }
@@ -53,8 +56,11 @@ impl Declare for Projector {
         const IMAGE: Parameter = Parameter::new("image", "The image file, relative to the scene; a white square if it is empty.");
         const ENCODING: Parameter = Parameter::new("encoding", "Encoding of the file's numbers; EXR and HDR are always linear.");
         const FOV: Parameter = Parameter::new("fov", "Angle across the width of the image.").unit("degrees");
-        const SCALE: Parameter =
-            Parameter::new("scale", "Radiant intensity where the image is 1, in all of its directions.").unit("W/sr");
+        const SCALE: Parameter = Parameter::new("scale", "Radiant intensity on the axis where the image is 1.").unit("W/sr");
+        const FLAT: Parameter = Parameter::new(
+            "flat",
+            "Whether a screen that faces it is lit evenly; otherwise the intensity is the same in all directions.",
+        );
         p.point(&POSITION, &mut self.position);
         p.point(&TARGET, &mut self.target);
         p.value(&UP, Value::Vector(&mut self.up));
@@ -62,6 +68,7 @@ impl Declare for Projector {
         p.word(&ENCODING, &mut self.encoding);
         p.number(&FOV, &mut self.fov, Range::linear(0.01, 179.0));
         p.number(&SCALE, &mut self.scale, Range::log(0.0, 1e12));
+        p.flag(&FLAT, &mut self.flat);
     }
 }
 
@@ -78,7 +85,8 @@ impl Shine for Projector {
         let forms = [right / half_width, right.cross(forward) * aspect / half_width, forward];
         // A form of directions before the transform becomes one of directions after it: also of mirrored and sheared ones.
         let covector = map.matrix3.inverse().transpose();
-        Ok(Lamp::projector(map.transform_point3(self.position), self.scale, forms.map(|form| covector * form), image))
+        let axes = forms.map(|form| covector * form);
+        Ok(Lamp::projector(map.transform_point3(self.position), self.scale, axes, self.flat, image))
     }
 
     fn position(&self) -> Option<DVec3> {

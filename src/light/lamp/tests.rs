@@ -111,8 +111,9 @@ fn a_spot_whose_inner_angle_is_its_edge_ends_sharply() {
 
 #[test]
 fn a_projector_without_an_image_casts_a_square_of_its_angle() {
-    let projector = Projector { position: DVec3::ZERO, target: DVec3::NEG_Z, fov: 60.0, scale: 3.0, ..Projector::default() };
-    let lamps = here(projector);
+    let position = DVec3::ZERO;
+    let projector = Projector { position, target: DVec3::NEG_Z, fov: 60.0, scale: 3.0, ..Projector::default() };
+    let [round, flat] = [false, true].map(|flat| here(Projector { flat, ..projector.clone() }));
     let half = 30f64.to_radians().tan();
     for i in 0..500 {
         let p = DVec3::new(2.0 * random(2 * i) - 1.0, 2.0 * random(2 * i + 1) - 1.0, -1.0);
@@ -120,9 +121,12 @@ fn a_projector_without_an_image_casts_a_square_of_its_angle() {
         if (inside - half).abs() < 1e-4 {
             continue;
         }
-        let exact = if inside < half { 3.0 / p.length_squared() } else { 0.0 };
-        assert!((light(&lamps, p).1[0] - exact).abs() < 1e-4, "{p}");
-        assert_eq!(light(&lamps, -p).1, [0.0; 3], "behind it");
+        // On the screen z = −1, the irradiance times the cosine 1/|p| is 3 everywhere if the picture is flat.
+        for (lamps, exact) in [(&round, 3.0 / p.length_squared()), (&flat, 3.0 * p.length())] {
+            let exact = if inside < half { exact } else { 0.0 };
+            assert!((light(lamps, p).1[0] - exact).abs() < 1e-4, "{p}");
+            assert_eq!(light(lamps, -p).1, [0.0; 3], "behind it");
+        }
     }
 }
 
@@ -135,8 +139,8 @@ fn red_and_green() -> Arc<ImageTexture> {
 #[test]
 fn the_image_of_a_projector_is_the_right_way_round_and_does_not_wrap() {
     let axes = [DVec3::X, DVec3::Y * 2.0, DVec3::NEG_Z];
-    let white_then = Lamp::projector(DVec3::ZERO, 1.0, axes, None);
-    let lamps = Lamps::new(&[Lamp::projector(DVec3::ZERO, 1.0, axes, Some(red_and_green())), white_then]);
+    let white_then = Lamp::projector(DVec3::ZERO, 1.0, axes, false, None);
+    let lamps = Lamps::new(&[Lamp::projector(DVec3::ZERO, 1.0, axes, false, Some(red_and_green())), white_then]);
     // Seen from the projector, x is to the right. Beyond the middles of the texels there is only their colour, up to the edge.
     for (x, y, expected) in
         [(-0.7, 0.3, [1.0, 0.0]), (-0.999, 0.0, [1.0, 0.0]), (0.7, -0.3, [0.0, 1.0]), (0.999, 0.49, [0.0, 1.0])]
@@ -192,7 +196,7 @@ fn every_width_gives_the_same_bits() {
     let kinds: [LampKind; 4] =
         [Point::default().into(), Spot::default().into(), Directional::default().into(), Projector::default().into()];
     let mut all: Vec<Lamp> = kinds.iter().map(|kind| compiled(kind.kind(), &DAffine3::IDENTITY)).collect();
-    all.push(Lamp::projector(DVec3::Y, 1.0, [DVec3::X, DVec3::Z, DVec3::NEG_Y], Some(red_and_green())));
+    all.push(Lamp::projector(DVec3::Y, 1.0, [DVec3::X, DVec3::Z, DVec3::NEG_Y], false, Some(red_and_green())));
     let lamps = Lamps::new(&all);
     for round in 0..100 {
         let points: [[f32; 16]; 3] =

@@ -14,7 +14,7 @@ fn animated(shape: &str, times: &[f32], values: &[f32], target: &str, interpolat
 }
 
 fn matrix_at(json: &Value, time: f64) -> [[f64; 4]; 4] {
-    let options = ImportOptions { time, ..ImportOptions::default() };
+    let options = ImportOptions { time: Some(time), ..ImportOptions::default() };
     let found = read_bytes("a.gltf", json.to_string().as_bytes(), &options).unwrap_or_else(|error| panic!("{}", error.report()));
     matrix(&found.description.objects[0])
 }
@@ -74,8 +74,8 @@ fn morph_targets_are_added_by_their_weights() {
         let count = found.assets.paths().filter(|path| path.starts_with("meshes/")).count();
         ([0, 1, 2, 3].map(|object| model(&found, object).vertices[0][2]), count)
     };
-    assert_eq!(heights(0.0), ([0.5, 0.5, 1.0, 0.0], 3));
-    assert_eq!(heights(0.75), ([1.5, 0.5, 1.0, 0.0], 4));
+    assert_eq!(heights(None), ([0.5, 0.5, 1.0, 0.0], 3));
+    assert_eq!(heights(Some(0.75)), ([1.5, 0.5, 1.0, 0.0], 4));
 }
 
 #[test]

@@ -73,7 +73,7 @@ fn textured_spot(
     import.remark(texture, "an image of the light and its falloff", "the edge of the cone is interpolated between pixels");
     let [position, target, up] = axes(map);
     let fov = 2.0 * cone.angle;
-    add(import, element, Projector { position, target, up, image: path, encoding: Encoding::Linear, fov, scale: 1.0 })
+    add(import, element, Projector { position, target, up, image: path, encoding: Encoding::Linear, fov, scale: 1.0, flat: true })
 }
 
 pub fn projector(import: &mut Import, element: Element) -> Result<(), SceneError> {
@@ -99,7 +99,7 @@ pub fn projector(import: &mut Import, element: Element) -> Result<(), SceneError
     };
     let fov = fov::across_width(element, aspect)?.clamp(0.01, 179.0);
     let [position, target, up] = axes(&map);
-    add(import, element, Projector { position, target, up, image: path, encoding, fov, scale })
+    add(import, element, Projector { position, target, up, image: path, encoding, fov, scale, flat: true })
 }
 
 /// Position, a point ahead, and the direction upwards.
