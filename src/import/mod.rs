@@ -10,6 +10,7 @@ pub mod paths;
 pub mod pbrt;
 mod remark;
 pub mod remarks;
+pub mod spectrum;
 
 use std::path::Path;
 

@@ -47,7 +47,7 @@ pub use self::{
     camera_path::CameraPath,
     compile::{check_camera, check_object},
     compile_report::CompileReport,
-    diagnostic::SceneError,
+    diagnostic::{SceneError, SourceText},
     estimator::{Estimator, power_heuristic},
     legend::Legend,
     load::{load, read_text},
