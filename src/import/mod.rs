@@ -11,6 +11,7 @@ pub mod pbrt;
 mod remark;
 pub mod remarks;
 pub mod spectrum;
+pub mod studio;
 
 use std::path::Path;
 
