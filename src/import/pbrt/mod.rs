@@ -1,6 +1,6 @@
 //! Scenes of pbrt-v4.
 //!
-//! A text is split into tokens (`tokens.rs`) and parameters (`parameters.rs`). Directives change the graphics state (`state.rs`) or
+//! A text is split into tokens (`tokens.rs`) and parameters (`parameter_lists.rs`). Directives change the graphics state (`state.rs`) or
 //! add to the description. Materials and textures are translated when a shape uses them first.
 //!
 //! pbrt's world is left-handed, in that its camera sees +x at the right when it looks along +z with +y up: see `camera.rs`.
@@ -12,7 +12,9 @@ mod import;
 mod lights;
 mod materials;
 mod media;
+mod moving;
 mod named_spectra;
+mod parameter_lists;
 mod parameters;
 mod reading;
 mod settings;

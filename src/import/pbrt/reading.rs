@@ -3,7 +3,8 @@ use std::rc::Rc;
 
 use super::{
     directives::{Interpreter, OpenFile},
-    parameters::{Entity, number, parameters},
+    parameter_lists::{number, parameters},
+    parameters::Entity,
     source::Place,
     state::Target,
     tokens::{Token, Tokens, unquoted},

@@ -17,9 +17,9 @@ use crate::{
 };
 
 /// Objects that every file may have.
-const MOST_OBJECTS: u64 = 500_000;
+const MOST_OBJECTS: u64 = 200_000;
 /// Bytes of the texts for each further object.
-const BYTES_PER_OBJECT: u64 = 64;
+const BYTES_PER_OBJECT: u64 = 16;
 
 /// A shape in the file, or in the definition of an object.
 #[derive(Clone)]

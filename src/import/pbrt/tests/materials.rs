@@ -57,7 +57,7 @@ fn named_materials_mixtures_and_interfaces() {
     let Material::Blend(blend) = &material(&found).kind else { panic!("a blend") };
     assert_eq!((blend.first.as_str(), blend.second.as_str(), &blend.weight), ("red", "glass", &Textured::Constant(0.25)));
     let Material::Dielectric(glass) = &found.description.materials["glass"].kind else { panic!("glass") };
-    assert!((glass.ior - 1.5168).abs() < 1e-9);
+    assert!((glass.ior - 1.5168).abs() < 1e-6);
     let second = &found.description.objects[1];
     let name = second.material.as_ref().expect("a material");
     assert!(matches!(found.description.materials[name].kind, Material::Null(_)) && second.emission.is_none());
