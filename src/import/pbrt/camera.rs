@@ -5,7 +5,7 @@
 //! right-handed programs contain `Scale -1 1 1` before the camera, and stay as they are.
 use glam::{DAffine3, DVec3};
 
-use super::{directives::Options, import::Import, parameters::Entity};
+use super::{import::Import, options::Options, parameters::Entity};
 use crate::scene::{Lens, Projection, SceneError, description::CameraDescription};
 
 /// The reflection of mirrored worlds.

@@ -7,13 +7,12 @@ use super::{
     camera,
     colour_spaces::ColourSpace,
     import::Import,
-    materials::MaterialRef,
+    options::Options,
     parameter_lists::parameters,
-    parameters::Entity,
+    records::{MaterialRef, Surface},
     settings,
     source::Place,
     state::{Stack, State, Target},
-    surfaces::Surface,
     tokens::{Token, Tokens},
 };
 use crate::scene::SceneError;
@@ -31,16 +30,6 @@ pub struct Interpreter {
     /// The object that is being defined.
     pub definition: Option<(String, Vec<Surface>)>,
     options: Options,
-}
-
-/// Directives before `WorldBegin`; the camera is translated when all are known.
-#[derive(Default)]
-pub struct Options {
-    pub camera: Option<(Rc<Entity>, [DAffine3; 2])>,
-    pub film: Option<Rc<Entity>>,
-    pub filter: Option<Rc<Entity>>,
-    pub sampler: Option<Rc<Entity>>,
-    pub integrator: Option<Rc<Entity>>,
 }
 
 /// A file that is being read.

@@ -8,11 +8,9 @@ use std::{
 use glam::DAffine3;
 
 use super::{
-    materials::MaterialRef,
     parameters::Entity,
+    records::{Covering, Surface, TextureKey},
     source::{Files, Place},
-    surfaces::Surface,
-    textures::TextureKey,
 };
 use crate::{
     declare::{Assets, Textured},
@@ -56,14 +54,6 @@ pub struct Import {
     pub times: [f64; 2],
     /// Whether something moves.
     pub moves: bool,
-}
-
-/// How an object is covered.
-#[derive(Clone, Debug)]
-pub struct Covering {
-    pub material: MaterialRef,
-    pub opacity: Option<Textured<f64>>,
-    pub place: Place,
 }
 
 impl Import {

@@ -1,5 +1,5 @@
 //! Film, pixel filter, sampler and integrator.
-use super::{directives::Options, import::Import, parameters::Entity};
+use super::{import::Import, options::Options, parameters::Entity};
 use crate::{
     sampling::{
         Filter,

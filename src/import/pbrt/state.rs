@@ -5,8 +5,8 @@ use glam::DAffine3;
 
 use super::{
     colour_spaces::ColourSpace,
-    materials::MaterialRef,
     parameters::{Entity, Parameter},
+    records::MaterialRef,
     source::Place,
 };
 use crate::scene::SceneError;

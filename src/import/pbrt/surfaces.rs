@@ -4,15 +4,13 @@ use std::rc::Rc;
 use glam::DAffine3;
 
 use super::{
-    import::{Covering, Import},
+    import::Import,
+    records::Surface,
     source::Place,
     transforms::{described, is_invertible},
 };
 use crate::{
-    scene::{
-        SceneError,
-        description::{EmissionDescription, ObjectDescription, ShapeKind},
-    },
+    scene::{SceneError, description::ObjectDescription},
     shape::Transform,
 };
 
@@ -20,20 +18,6 @@ use crate::{
 const MOST_OBJECTS: u64 = 200_000;
 /// Bytes of the texts for each further object.
 const BYTES_PER_OBJECT: u64 = 16;
-
-/// A shape in the file, or in the definition of an object.
-#[derive(Clone)]
-pub struct Surface {
-    pub name: String,
-    pub shape: ShapeKind,
-    /// From the shape of the description to that of the file.
-    pub local: DAffine3,
-    /// From the shape of the file to the world, at both times.
-    pub maps: [DAffine3; 2],
-    pub flip: bool,
-    pub emission: Option<EmissionDescription>,
-    pub covering: Covering,
-}
 
 impl Import {
     /// Adds an object. `by` moves the surface besides, at both times.

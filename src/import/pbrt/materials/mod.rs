@@ -17,6 +17,7 @@ use std::rc::Rc;
 use super::{
     import::Import,
     parameters::{Entity, Type},
+    records::MaterialRef,
     source::Place,
 };
 use crate::{
@@ -27,15 +28,6 @@ use crate::{
         description::{Bump, Material, MaterialDescription},
     },
 };
-
-/// A material that a shape refers to.
-#[derive(Clone, Debug)]
-pub enum MaterialRef {
-    /// The grey surface that scenes begin with.
-    Default,
-    Numbered(usize),
-    Named(Rc<str>),
-}
 
 impl Import {
     /// `Material`.

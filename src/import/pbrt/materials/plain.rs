@@ -1,12 +1,12 @@
 //! Materials with an exact counterpart.
 use std::rc::Rc;
 
-use super::MaterialRef;
 use crate::{
     declare::Textured,
     import::pbrt::{
         import::Import,
         parameters::{Entity, Type, Values},
+        records::MaterialRef,
         spectra::{COLOURS, Role, luminance},
     },
     material::{

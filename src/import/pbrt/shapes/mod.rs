@@ -18,9 +18,9 @@ use glam::DAffine3;
 
 use super::{
     directives::Interpreter,
-    import::{Covering, Import},
+    import::Import,
     parameters::{Entity, Type},
-    surfaces::Surface,
+    records::{Covering, Surface},
 };
 use crate::{
     declare::Textured,

@@ -24,9 +24,6 @@ use crate::{
     texture::{mix::Mix, product::Product},
 };
 
-/// Whether a texture holds numbers instead of colours, and its name.
-pub type TextureKey = (bool, String);
-
 /// What the values of a texture are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Content {
