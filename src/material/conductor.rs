@@ -75,7 +75,7 @@ impl Declare for Conductor {
         p.one_of(&mut self.fresnel);
         p.one_of(&mut self.roughness);
         p.number(&ANISOTROPY, &mut self.anisotropy, Range::UNIT);
-        p.number(&TANGENT_ROTATION, &mut self.tangent_rotation, Range::FINITE);
+        p.number(&TANGENT_ROTATION, &mut self.tangent_rotation, Range::linear(-360.0, 360.0));
         p.flag(&ENERGY_COMPENSATION, &mut self.energy_compensation);
     }
 }

@@ -88,7 +88,7 @@ impl Declare for Dielectric {
         p.number(&IOR_OUTSIDE, &mut self.ior_outside, Range::INDEX);
         p.one_of(&mut self.roughness);
         p.number(&ANISOTROPY, &mut self.anisotropy, Range::UNIT);
-        p.number(&TANGENT_ROTATION, &mut self.tangent_rotation, Range::FINITE);
+        p.number(&TANGENT_ROTATION, &mut self.tangent_rotation, Range::linear(-360.0, 360.0));
         let range =
             Range::UNIT.expected("every channel must lie in [0, 1]: the fraction that one metre of the interior transmits");
         p.colour(&TRANSMITTANCE, &mut self.transmittance, range);

@@ -84,16 +84,16 @@ impl<'a> Column<'a> {
         if self.width != N {
             return Err(format!("an accessor has elements of {} numbers where {N} are expected", self.width).into());
         }
-        let scale = |most: f32| if self.normalized { 1.0 / most } else { 1.0 };
+        let one = |most: f32| if self.normalized { most } else { 1.0 };
         // The least code of signed numbers is below −1.
         let signed = |x: f32| if self.normalized { x.max(-1.0) } else { x };
         Ok(match self.component {
             Component::F32 => self.decoded(picks, f32::from_le_bytes),
-            Component::U8 => self.decoded(picks, |[x]| f32::from(x) * scale(255.0)),
-            Component::I8 => self.decoded(picks, |[x]| signed(f32::from(x as i8) * scale(127.0))),
-            Component::U16 => self.decoded(picks, |x| f32::from(u16::from_le_bytes(x)) * scale(65535.0)),
-            Component::I16 => self.decoded(picks, |x| signed(f32::from(i16::from_le_bytes(x)) * scale(32767.0))),
-            Component::U32 => self.decoded(picks, |x| u32::from_le_bytes(x) as f32 * scale(u32::MAX as f32)),
+            Component::U8 => self.decoded(picks, |[x]| f32::from(x) / one(255.0)),
+            Component::I8 => self.decoded(picks, |[x]| signed(f32::from(x as i8) / one(127.0))),
+            Component::U16 => self.decoded(picks, |x| f32::from(u16::from_le_bytes(x)) / one(65535.0)),
+            Component::I16 => self.decoded(picks, |x| signed(f32::from(i16::from_le_bytes(x)) / one(32767.0))),
+            Component::U32 => self.decoded(picks, |x| u32::from_le_bytes(x) as f32 / one(u32::MAX as f32)),
         })
     }
 

@@ -147,7 +147,7 @@ fn any_lamp(r: &mut Random) -> Lamp {
         }
         _ => {
             let right = axis.any_orthonormal_vector();
-            Lamp::projector(position, 1.0, [right, right.cross(axis) * 2.0, axis], None)
+            Lamp::projector(position, 1.0, [right, right.cross(axis) * 2.0, axis], false, None)
         }
     }
 }

@@ -72,7 +72,7 @@ impl Declare for Principled {
         p.textured_number(&THIN_FILM_WEIGHT, &mut self.thin_film_weight, Range::UNIT);
         p.textured_number(&THIN_FILM_THICKNESS, &mut self.thin_film_thickness, THICKNESS);
         p.number(&THIN_FILM_IOR, &mut self.thin_film_ior, Range::linear(1.0, 20.0));
-        p.number(&TANGENT_ROTATION, &mut self.tangent_rotation, Range::FINITE);
+        p.number(&TANGENT_ROTATION, &mut self.tangent_rotation, Range::linear(-360.0, 360.0));
         p.flag(&THIN_WALLED, &mut self.thin_walled);
     }
 }

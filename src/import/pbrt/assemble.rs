@@ -1,0 +1,54 @@
+//! The last step: materials, now that all of them are known, and light if there is none.
+use std::path::Path;
+
+use super::import::Import;
+use crate::{
+    import::studio,
+    scene::{
+        SceneError,
+        description::{Material, ShapeKind},
+    },
+};
+
+impl Import {
+    /// Gives all objects their materials, and completes the scene.
+    pub fn assemble(&mut self, path: &Path) -> Result<(), SceneError> {
+        for (index, covering) in std::mem::take(&mut self.coverings).into_iter().enumerate() {
+            let name = self.material(&covering.material, covering.opacity.as_ref(), &covering.place)?;
+            let is_interface = matches!(self.description.materials[&name].kind, Material::Null(_));
+            let object = &mut self.description.objects[index];
+            object.material = Some(name);
+            if is_interface && object.emission.take().is_some() {
+                let found = "an area light with an interface as its material";
+                self.remarks.add(covering.place.to_string(), found, "no light", "pbrt ignores the light too");
+            }
+        }
+        self.remark_disks();
+        if !self.moves {
+            self.description.camera.shutter = None;
+        }
+        let emits = self.description.objects.iter().any(|object| object.emission.is_some());
+        if !emits && self.description.lamps.is_empty() && self.description.background.is_none() {
+            let place = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+            studio::light(&mut self.description, &mut self.assets, &mut self.remarks, &place);
+        }
+        Ok(())
+    }
+
+    /// Coordinates of whole disks run along x and y here, and around the middle in pbrt.
+    fn remark_disks(&mut self) {
+        let textured = |name: &String| format!("{:?}", self.description.materials[name]).contains("Texture(\"");
+        let is_textured_disk = |object: &&crate::scene::description::ObjectDescription| {
+            matches!(object.shape, ShapeKind::Disk(_)) && object.material.as_ref().is_some_and(textured)
+        };
+        let count = self.description.objects.iter().filter(is_textured_disk).count();
+        for _ in 0..count {
+            self.remarks.add(
+                "Shape \"disk\"",
+                "a textured disk",
+                "texture coordinates along x and y",
+                "the texture is placed differently",
+            );
+        }
+    }
+}

@@ -1,0 +1,88 @@
+use super::{Files, error, imported};
+
+#[test]
+fn unbalanced_ends_are_refused() {
+    for (text, reason) in [
+        ("WorldBegin\nAttributeEnd", "no beginning"),
+        ("WorldBegin\nAttributeBegin\nTransformEnd", "does not end what began in line 2"),
+        ("WorldBegin\nAttributeBegin", "its End is missing"),
+        ("WorldBegin\nObjectBegin \"a\"\nObjectBegin \"b\"", "within another"),
+        ("WorldBegin\nObjectBegin \"a\"\nObjectInstance \"a\"", "within a definition"),
+        ("WorldBegin\nObjectInstance \"a\"", "no object"),
+        ("WorldBegin\nWorldBegin", "comes twice"),
+    ] {
+        assert!(error(text).contains(reason), "{text}: {}", error(text));
+    }
+}
+
+#[test]
+fn deep_nesting_is_refused_without_recursion() {
+    let deep = |pairs: usize| "WorldBegin\n".to_owned() + &"AttributeBegin\n".repeat(pairs) + &"AttributeEnd\n".repeat(pairs);
+    imported(&deep(10_000));
+    assert!(error(&deep(20_000)).contains("nested more than"));
+}
+
+#[test]
+fn circles_are_refused() {
+    let files = Files::new(&[("a.pbrt", "Include \"b.pbrt\""), ("b.pbrt", "Include \"a.pbrt\"")]);
+    assert!(files.read().is_err_and(|error| error.to_string().contains("includes itself")));
+    let texture = "Texture \"t\" \"float\" \"scale\" \"texture tex\" \"t\"\nShape \"sphere\" \"texture alpha\" \"t\"";
+    assert!(error(&format!("WorldBegin\n{texture}")).contains("contains itself"));
+    let mix = "MakeNamedMaterial \"m\" \"string type\" \"mix\" \"string materials\" [\"m\" \"m\"]\nNamedMaterial \"m\"\nShape \"sphere\"";
+    assert!(error(&format!("WorldBegin\n{mix}")).contains("contains itself"));
+}
+
+#[test]
+fn files_that_multiply_are_refused() {
+    let names: Vec<String> = (0..40).map(|i| format!("{i}.pbrt")).collect();
+    let texts: Vec<String> = (0..40).map(|i| format!("Include \"{}.pbrt\"\n", i + 1).repeat(2)).collect();
+    let mut files: Vec<(&str, &str)> = names.iter().zip(&texts).map(|(name, text)| (name.as_str(), text.as_str())).collect();
+    files.extend([("40.pbrt", ""), ("a.pbrt", "Include \"0.pbrt\"")]);
+    assert!(Files::new(&files).read().is_err_and(|error| error.to_string().contains("again and again")));
+}
+
+#[test]
+fn objects_that_multiply_are_refused() {
+    let shapes = "Shape \"sphere\"\n".repeat(1000);
+    let uses = "ObjectInstance \"a\"\n".repeat(2000);
+    assert!(error(&format!("WorldBegin\nObjectBegin \"a\"\n{shapes}ObjectEnd\n{uses}")).contains("more than"));
+}
+
+#[test]
+fn numbers_are_finite() {
+    for number in ["nan", "inf", "-infinity", "1e999", "1.2.3", "0x10", "\"1\"", "true"] {
+        let text = format!("WorldBegin\nShape \"sphere\" \"float radius\" {number}");
+        assert!(error(&text).contains("number"), "{number}");
+    }
+    assert!(error("Translate 1 2 nan").contains("finite"));
+    assert!(error("Scale 1 2").contains("not complete"));
+    assert!(error("Transform [1 2 3]").contains("not a number"));
+    assert!(error("Rotate 30 0 0 0").contains("axis"));
+}
+
+#[test]
+fn truncated_texts_have_errors_and_no_panic() {
+    let text = "LookAt 0 0 5 0 0 0 0 1 0\nFilm \"rgb\" \"string filename\" [\"a.png\"]\nCamera \"perspective\" \"float fov\" [ 30 ]\n\
+                WorldBegin\nAttributeBegin\nMaterial \"conductor\" \"float roughness\" .1\nAttribute \"shape\" \"float alpha\" .5\n\
+                Shape \"sphere\" \"float radius\" [ 2 ]\nAttributeEnd\nOption \"float x\" 3\n";
+    imported(text);
+    for end in 0..text.len() {
+        let _ = Files::new(&[("a.pbrt", &text[..end])]).read();
+    }
+}
+
+#[test]
+fn media_are_refused_where_they_matter() {
+    let fog = "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" \"rgb sigma_s\" [1 1 1]\n";
+    imported(&format!("WorldBegin\n{fog}Shape \"sphere\""));
+    let message = error(&format!("WorldBegin\n{fog}MediumInterface \"fog\" \"\"\nShape \"sphere\""));
+    assert!(message.contains("participating medium `fog` is not rendered"), "{message}");
+    let clear = "MakeNamedMedium \"air\" \"string type\" \"homogeneous\" \"float scale\" 0\nMediumInterface \"air\" \"air\"\n";
+    imported(&format!("WorldBegin\n{clear}Shape \"sphere\""));
+}
+
+#[test]
+fn shapes_without_extent_are_left_out() {
+    let found = imported("WorldBegin\nScale 0 1 1\nShape \"sphere\"");
+    assert!(found.description.objects.is_empty() && !found.remarks.is_empty());
+}

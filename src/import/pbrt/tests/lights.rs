@@ -1,0 +1,77 @@
+use glam::DVec3;
+
+use super::{error, imported, remarks, world};
+use crate::{
+    import::Imported,
+    light::{background::BackgroundDescription, emission::EmissionSource, lamp::LampKind},
+};
+
+fn radiance(found: &Imported) -> [f64; 3] {
+    let emission = found.description.objects[0].emission.as_ref().expect("it emits");
+    match &emission.source {
+        EmissionSource::Radiance(constant) => constant.radiance,
+        EmissionSource::Texture(_) => panic!("a constant"),
+    }
+}
+
+fn near(found: [f64; 3], expected: [f64; 3]) -> bool {
+    found.iter().zip(expected).all(|(a, b)| (a - b).abs() <= 1e-6 * b.abs().max(1.0))
+}
+
+#[test]
+fn rgb_light_has_its_radiance_and_spectra_have_luminance_1() {
+    let light = |parameters: &str| radiance(&world(&format!("AreaLightSource \"diffuse\" {parameters}\nShape \"sphere\"")));
+    assert!(near(light("\"rgb L\" [1 2 3] \"float scale\" 2"), [2.0, 4.0, 6.0]));
+    assert!(near(light(""), [1.0; 3]));
+    for spectrum in ["\"blackbody L\" 4000", "\"spectrum L\" [400 7 700 9]", "\"spectrum L\" \"stdillum-F11\""] {
+        let [r, g, b] = light(spectrum);
+        let luminance = 0.2126 * r + 0.7152 * g + 0.0722 * b;
+        assert!((luminance - 1.0).abs() < 0.02, "{spectrum}: {luminance}");
+    }
+}
+
+#[test]
+fn power_is_spread_over_the_area() {
+    let sphere = world("Scale 2 2 2\nAreaLightSource \"diffuse\" \"float power\" 100\nShape \"sphere\" \"float radius\" 1.5");
+    let expected = 100.0 / (std::f64::consts::PI * 4.0 * std::f64::consts::PI * 9.0);
+    assert!(near(radiance(&sphere), [expected; 3]), "{:?}", radiance(&sphere));
+    let square = "\"point3 P\" [0 0 0 2 0 0 2 2 0 0 2 0] \"integer indices\" [0 1 2 0 2 3]";
+    let mesh =
+        world(&format!("AreaLightSource \"diffuse\" \"float power\" 6 \"bool twosided\" true\nShape \"trianglemesh\" {square}"));
+    // Each triangle of 2 m² emits the power, on both sides.
+    assert!(near(radiance(&mesh), [6.0 / (std::f64::consts::PI * 2.0 * 2.0); 3]), "{:?}", radiance(&mesh));
+}
+
+#[test]
+fn the_film_multiplies_all_light() {
+    let found = imported(
+        "Film \"rgb\" \"float iso\" 200 \"float exposuretime\" .25\nWorldBegin\nLightSource \"infinite\" \"rgb L\" [1 2 4]\n\
+         LightSource \"infinite\" \"rgb L\" [1 1 1] \"float scale\" 3",
+    );
+    let Some(BackgroundDescription::Constant(constant)) = &found.description.background else { panic!("a constant") };
+    assert!(near(constant.radiance, [2.0, 2.5, 3.5]), "{:?}", constant.radiance);
+}
+
+#[test]
+fn lamps_stand_where_the_file_puts_them() {
+    let found = world(
+        "Translate 0 0 1\nLightSource \"point\" \"rgb I\" [1 2 3] \"float scale\" 10 \"point3 from\" [1 0 0]\n\
+         LightSource \"spot\" \"point3 from\" [0 5 0] \"point3 to\" [0 0 0] \"float coneangle\" 40 \"float conedeltaangle\" 10\n\
+         LightSource \"distant\" \"point3 from\" [0 1 0] \"point3 to\" [0 0 0] \"float illuminance\" 7",
+    );
+    let [point, spot, distant] = &found.description.lamps[..] else { panic!("three lamps") };
+    let LampKind::Point(point) = &point.kind else { panic!("a point") };
+    assert!(near(point.intensity, [10.0, 20.0, 30.0]) && point.position == DVec3::new(1.0, 0.0, 1.0));
+    let LampKind::Spot(spot) = &spot.kind else { panic!("a spot") };
+    assert_eq!((spot.angle, spot.inner, spot.target), (40.0, 30.0, DVec3::new(0.0, 0.0, 1.0)));
+    let LampKind::Directional(sun) = &distant.kind else { panic!("a sun") };
+    assert!(near(sun.irradiance, [7.0; 3]) && sun.direction == DVec3::NEG_Y);
+    assert!(remarks(&found).is_empty());
+}
+
+#[test]
+fn errors_have_their_places() {
+    assert!(error("WorldBegin\n  LightSource \"sun\"").contains("a.pbrt:2:3"));
+    assert!(error("WorldBegin\nLightSource \"infinite\" \"string filename\" \"/etc/passwd\"").contains("absolute"));
+    assert!(error("WorldBegin\nLightSource \"infinite\" \"string filename\" \"no.exr\"").contains("no such file"));
+}

@@ -1,0 +1,109 @@
+use super::{error, remarks, world};
+use crate::{
+    declare::Textured,
+    import::Imported,
+    material::{Reflectance, Roughness},
+    scene::description::{Material, MaterialDescription, TextureKind},
+};
+
+fn material(found: &Imported) -> &MaterialDescription {
+    let name = found.description.objects[0].material.as_ref().expect("it has a material");
+    &found.description.materials[name]
+}
+
+#[test]
+fn shapes_begin_with_a_grey_surface() {
+    let found = world("Shape \"sphere\"");
+    let Material::Lambertian(grey) = &material(&found).kind else { panic!("diffuse") };
+    assert_eq!(grey.albedo, Textured::grey(0.5));
+}
+
+#[test]
+fn roughness_is_the_square_of_alpha_unless_it_is_not_remapped() {
+    let alpha = |parameters: &str| {
+        let found = world(&format!(
+            "Material \"conductor\" \"spectrum eta\" \"metal-Au-eta\" \"spectrum k\" \"metal-Au-k\" {parameters}\nShape \"sphere\""
+        ));
+        let Material::Conductor(gold) = &material(&found).kind else { panic!("metal") };
+        assert!(matches!(gold.fresnel, Reflectance::Index { eta, .. } if eta[2] > eta[0]) && !gold.energy_compensation);
+        match gold.roughness {
+            Roughness::Alpha(Textured::Constant(alpha)) => (alpha, gold.anisotropy),
+            _ => panic!("a constant"),
+        }
+    };
+    assert_eq!(alpha("\"float roughness\" .25"), (0.5, 0.0));
+    assert_eq!(alpha("\"float roughness\" .25 \"bool remaproughness\" false"), (0.25, 0.0));
+    assert!((alpha("\"float uroughness\" .25 \"float vroughness\" .0625").1 - 0.5).abs() < 1e-12);
+    assert_eq!(alpha(""), (0.0, 0.0));
+}
+
+#[test]
+fn a_reflectance_is_the_index_that_gives_it() {
+    let found = world("Material \"conductor\" \"rgb reflectance\" [.5 .8 1]\nShape \"sphere\"");
+    let Material::Conductor(metal) = &material(&found).kind else { panic!("metal") };
+    let Reflectance::Index { eta, k } = &metal.fresnel else { panic!("an index") };
+    let head_on = k[1] * k[1] / (4.0 + k[1] * k[1]);
+    assert!(*eta == [1.0; 3] && (head_on - 0.8).abs() < 1e-12 && k[2].is_finite());
+}
+
+#[test]
+fn named_materials_mixtures_and_interfaces() {
+    let found = world(
+        "MakeNamedMaterial \"red\" \"string type\" \"diffuse\" \"rgb reflectance\" [1 0 0]\n\
+         MakeNamedMaterial \"both\" \"string type\" \"mix\" \"string materials\" [\"red\" \"glass\"] \"float amount\" .25\n\
+         MakeNamedMaterial \"glass\" \"string type\" \"dielectric\" \"spectrum eta\" \"glass-BK7\"\n\
+         NamedMaterial \"both\"\nShape \"sphere\"\nMaterial \"interface\"\nAreaLightSource \"diffuse\"\nShape \"sphere\"",
+    );
+    let Material::Blend(blend) = &material(&found).kind else { panic!("a blend") };
+    assert_eq!((blend.first.as_str(), blend.second.as_str(), &blend.weight), ("red", "glass", &Textured::Constant(0.25)));
+    let Material::Dielectric(glass) = &found.description.materials["glass"].kind else { panic!("glass") };
+    assert!((glass.ior - 1.5168).abs() < 1e-6);
+    let second = &found.description.objects[1];
+    let name = second.material.as_ref().expect("a material");
+    assert!(matches!(found.description.materials[name].kind, Material::Null(_)) && second.emission.is_none());
+    assert!(remarks(&found).iter().any(|line| line.contains("colours")));
+}
+
+#[test]
+fn coats_opacity_and_bumps() {
+    let found = world(
+        "Texture \"holes\" \"float\" \"checkerboard\" \"float uscale\" 4 \"float vscale\" 4\n\
+         Texture \"bumps\" \"float\" \"scale\" \"texture tex\" \"holes\" \"float scale\" .1\n\
+         Material \"coateddiffuse\" \"rgb reflectance\" [.2 .3 .4] \"texture displacement\" \"bumps\"\n\
+         Shape \"sphere\" \"texture alpha\" \"holes\"",
+    );
+    let paint = material(&found);
+    assert!(matches!(&paint.kind, Material::Plastic(plastic) if plastic.ior == 1.5));
+    let Some(Textured::Texture(holes)) = &paint.opacity else { panic!("a texture") };
+    assert!(matches!(found.description.textures[holes], TextureKind::Mix(_)));
+    let bump = paint.bump.as_ref().expect("a bump");
+    assert!(bump.height == 1.0 && matches!(found.description.textures[&bump.texture], TextureKind::Product(_)));
+    assert!(remarks(&found).is_empty(), "{:?}", remarks(&found));
+}
+
+#[test]
+fn image_textures_turn_their_coordinates_upwards() {
+    let files = [
+        (
+            "a.pbrt",
+            "WorldBegin\nTexture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"t.png\" \"float uscale\" 2 \"float vscale\" 3\n\
+          \"float udelta\" .5 \"float vdelta\" .25 \"string wrap\" \"clamp\"\nMaterial \"diffuse\" \"texture reflectance\" \"t\"\nShape \"sphere\"",
+        ),
+        ("t.png", "not read yet"),
+    ];
+    let found = super::Files::new(&files).read().expect("it is read");
+    let TextureKind::Image(image) = &found.description.textures["t"] else { panic!("an image") };
+    assert_eq!((image.path.as_str(), image.scale, image.offset), ("t.png", [2.0, 3.0], [0.5, -2.25]));
+}
+
+#[test]
+fn substitutes_and_unknown_things_say_so() {
+    let found = world(
+        "Material \"subsurface\" \"float mfp\" 3\nShape \"sphere\"\nMaterial \"diffuse\" \"float shine\" 3\nShape \"sphere\"",
+    );
+    let lines = remarks(&found).join("\n");
+    assert!(lines.contains("subsurface") && lines.contains("`shine`"), "{lines}");
+    assert!(error("WorldBegin\nMaterial \"matte\"\nShape \"sphere\"").contains("no material of pbrt-v4"));
+    assert!(error("WorldBegin\nNamedMaterial \"x\"\nShape \"sphere\"").contains("`x` is no material"));
+    assert!(error("WorldBegin\nMaterial \"diffuse\" \"texture reflectance\" \"t\"\nShape \"disk\"").contains("no texture `t`"));
+}
