@@ -5,12 +5,15 @@
 pub mod gltf;
 pub mod mesh;
 pub mod mitsuba;
+pub mod names;
+pub mod paths;
 pub mod pbrt;
 mod remark;
+pub mod remarks;
 
 use std::path::Path;
 
-pub use self::remark::Remark;
+pub use self::{names::Names, paths::Folder, remark::Remark, remarks::Remarks};
 use crate::{
     declare::Assets,
     scene::{SceneError, description::SceneDescription},
@@ -25,7 +28,7 @@ pub struct Imported {
     /// files, as `Vec<u8>`, by paths such as `textures/wood.png`.
     pub assets: Assets,
     /// What was not taken over exactly.
-    pub remarks: Vec<Remark>,
+    pub remarks: Remarks,
 }
 
 /// Choices of the user about a file.

@@ -1,6 +1,4 @@
 //! Remarks about what was not taken over exactly.
-use std::fmt;
-
 use serde::Serialize;
 
 /// Something that was not taken over exactly.
@@ -14,10 +12,4 @@ pub struct Remark {
     pub used: String,
     /// What that changes in the image: "the strands look like plastic".
     pub effect: String,
-}
-
-impl fmt::Display for Remark {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {} became {}: {}", self.place, self.found, self.used, self.effect)
-    }
 }

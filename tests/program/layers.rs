@@ -8,7 +8,7 @@ const LAYERS: [&[&str]; 11] = [
     &["validate", "study"],
     &["render", "report"],
     &["measure"],
-    &["integrator", "edit"],
+    &["integrator", "edit", "import"],
     &["scene"],
     &["light", "shape"],
     &["geometry", "material"],

@@ -1,0 +1,138 @@
+//! Paths of files that a scene refers to.
+use std::{
+    io::ErrorKind,
+    path::{Component, Path, PathBuf},
+};
+
+use super::ImportOptions;
+use crate::quote;
+
+/// The folder of a scene. Files outside it are refused unless the user allows them: a scene from elsewhere must not read what it
+/// likes.
+#[derive(Clone, Debug)]
+pub struct Folder {
+    /// As the user typed it.
+    typed: PathBuf,
+    /// The same without links.
+    root: PathBuf,
+    allow_outside: bool,
+}
+
+impl Folder {
+    /// The folder of the scene file that the user chose.
+    pub fn new(scene: &Path, options: &ImportOptions) -> Folder {
+        let parent = scene.parent().filter(|folder| !folder.as_os_str().is_empty());
+        let typed = parent.unwrap_or(Path::new(".")).to_owned();
+        let root = typed.canonicalize().unwrap_or_else(|_| typed.clone());
+        Folder { typed, root, allow_outside: options.allow_outside }
+    }
+
+    /// The file at a path that the scene names. It exists, and lies within the folder, links followed. The message of an error does
+    /// not begin with the path of the scene.
+    pub fn resolve(&self, named: &str) -> Result<PathBuf, String> {
+        self.resolve_beside(&self.typed, named)
+    }
+
+    /// The same for a path that a file in `folder` names, such as a material library.
+    pub fn resolve_beside(&self, folder: &Path, named: &str) -> Result<PathBuf, String> {
+        let shown = quote::path(Path::new(named));
+        let path = Path::new(named);
+        if named.is_empty() {
+            return Err("the path is empty".to_owned());
+        }
+        // Before the disk is touched: some absolute paths lead to other machines.
+        if is_absolute(path) && !self.allow_outside {
+            return Err(format!("`{shown}` is an absolute path; {ADVICE}"));
+        }
+        let full = folder.join(path).canonicalize().map_err(|error| match error.kind() {
+            ErrorKind::NotFound => format!("`{shown}`: there is no such file"),
+            _ => format!("`{shown}` cannot be found: {error}"),
+        })?;
+        if full.starts_with(&self.root) || self.allow_outside {
+            return Ok(full);
+        }
+        Err(format!("`{shown}` lies outside the folder of the scene; {ADVICE}"))
+    }
+
+    /// The path that a description gives to a resolved file: relative to the folder of the scene, or else absolute.
+    pub fn described(&self, resolved: &Path) -> String {
+        let inside = resolved.strip_prefix(&self.root).ok();
+        let parts = inside.map(|path| path.components().map(|part| part.as_os_str().to_string_lossy()).collect::<Vec<_>>());
+        parts.map_or_else(|| resolved.display().to_string(), |parts| parts.join("/"))
+    }
+}
+
+const ADVICE: &str = "--allow-outside permits it";
+
+/// Whether a path does not start at the folder of the scene, on any system.
+fn is_absolute(path: &Path) -> bool {
+    let text = path.as_os_str().as_encoded_bytes();
+    let has_drive = text.len() > 1 && text[0].is_ascii_alphabetic() && text[1] == b':';
+    let has_root = path.components().next().is_some_and(|part| matches!(part, Component::Prefix(_) | Component::RootDir));
+    has_root || has_drive || text.starts_with(b"\\")
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use super::*;
+
+    fn scene() -> (tempfile::TempDir, PathBuf) {
+        let folder = tempfile::tempdir().expect("a folder");
+        fs::create_dir_all(folder.path().join("scene/textures")).expect("a folder");
+        for file in ["secret.png", "scene/textures/wood.png"] {
+            fs::write(folder.path().join(file), "x").expect("it is written");
+        }
+        let path = folder.path().join("scene/room.xml");
+        (folder, path)
+    }
+
+    #[test]
+    fn files_in_the_folder_are_found_and_described_by_their_relative_path() {
+        let (_folder, path) = scene();
+        let folder = Folder::new(&path, &ImportOptions::default());
+        let wood = folder.resolve("textures/wood.png").expect("it is there");
+        assert_eq!(
+            (fs::read(&wood).expect("it is readable"), folder.described(&wood)),
+            (b"x".to_vec(), "textures/wood.png".into())
+        );
+        assert_eq!(folder.resolve("textures/../textures/wood.png"), Ok(wood.clone()));
+        assert_eq!(folder.resolve_beside(wood.parent().expect("a folder"), "wood.png"), Ok(wood));
+    }
+
+    #[test]
+    fn files_elsewhere_are_refused_by_the_name_of_the_flag_that_allows_them() {
+        let (_folder, path) = scene();
+        let strict = Folder::new(&path, &ImportOptions::default());
+        let lax = Folder::new(&path, &ImportOptions { allow_outside: true, ..ImportOptions::default() });
+        let secret = path.parent().and_then(Path::parent).expect("a folder").join("secret.png");
+        for named in ["../secret.png", "textures/../../secret.png", secret.to_str().expect("text")] {
+            assert!(strict.resolve(named).is_err_and(|error| error.contains("--allow-outside")), "{named}");
+            let found = lax.resolve(named).expect("it is allowed");
+            assert_eq!(Path::new(&lax.described(&found)), found);
+        }
+        for named in ["C:\\secret.png", "\\\\machine\\secret.png", "/secret.png"] {
+            assert!(strict.resolve(named).is_err_and(|error| error.contains("absolute")), "{named}");
+        }
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_does_not_lead_outside() {
+        let (_folder, path) = scene();
+        let folder = Folder::new(&path, &ImportOptions::default());
+        let link = path.with_file_name("link.png");
+        std::os::unix::fs::symlink("../secret.png", link).expect("it is made");
+        assert!(folder.resolve("link.png").is_err_and(|error| error.contains("outside")));
+    }
+
+    #[test]
+    fn missing_and_impossible_files_have_messages() {
+        let (_folder, path) = scene();
+        let folder = Folder::new(&path, &ImportOptions::default());
+        let message = |named: &str| folder.resolve(named).expect_err("it is refused");
+        assert_eq!((message(""), message("a.png")), ("the path is empty".into(), "`a.png`: there is no such file".into()));
+        assert!(message("a\0b").contains("cannot be found"));
+    }
+}
