@@ -10,6 +10,7 @@ pub mod paths;
 pub mod pbrt;
 mod remark;
 pub mod remarks;
+pub mod studio;
 
 use std::path::Path;
 
