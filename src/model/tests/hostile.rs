@@ -1,7 +1,7 @@
 //! Randomly modified files: each is read or rejected, without a panic.
 use rand::{Rng, SeedableRng, rngs::SmallRng};
 
-use super::super::{Model, decode};
+use super::super::{Model, Named, decode};
 
 const OBJ: &str = "# a square\nv 0 0 0\nv 1 0 0 1\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 1\nvn 0 0 1\nvn 0 1 0\n\
     f 1/1/1 2/2/1 3/1/2 \\\n 4/2/1\ng a\nf -1//-1 -2//-2 -3//-1\nf 1 2 3\n";
@@ -81,11 +81,11 @@ fn check(model: &Model) {
 #[test]
 fn mutated_files_are_read_or_refused() {
     let files = [OBJ.as_bytes().to_vec(), text_ply(), binary_ply(false), binary_ply(true)];
-    files.iter().for_each(|file| check(&decode(file, true).expect("it is a mesh")));
+    files.iter().for_each(|file| check(&decode(file, Some(Named::Obj)).expect("it is a mesh")));
     let (mut random, mut read) = (SmallRng::seed_from_u64(1), 0);
     for i in 0..10_000 {
         let file = mutated(&files[i % files.len()], &mut random);
-        if let Ok(model) = decode(&file, true) {
+        if let Ok(model) = decode(&file, Some(Named::Obj)) {
             check(&model);
             // A triangle takes 6 bytes and a vertex of its own 2 at least: nothing comes from a claim alone.
             assert!(6 * model.triangles.len() <= 4 * file.len() && model.vertices.len() <= file.len());
@@ -99,6 +99,6 @@ fn mutated_files_are_read_or_refused() {
 #[test]
 fn cut_files_are_read_or_refused_at_every_length() {
     for file in [OBJ.as_bytes().to_vec(), text_ply(), binary_ply(false), binary_ply(true)] {
-        (0..file.len()).filter_map(|length| decode(&file[..length], true).ok()).for_each(|model| check(&model));
+        (0..file.len()).filter_map(|length| decode(&file[..length], Some(Named::Obj)).ok()).for_each(|model| check(&model));
     }
 }
