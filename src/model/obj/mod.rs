@@ -9,6 +9,8 @@
 mod faces;
 mod lists;
 mod parts;
+#[cfg(test)]
+mod tests;
 mod text;
 
 use std::borrow::Cow;

@@ -2,7 +2,10 @@
 mod hostile;
 mod normals;
 mod obj;
+mod parts;
 mod ply;
+mod polygons;
+mod stl;
 
 use std::{
     fs::{self, File},
