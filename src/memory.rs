@@ -95,6 +95,11 @@ impl Reservation {
         }
     }
 
+    /// Takes over the bytes of another reservation.
+    pub fn absorb(&mut self, mut other: Reservation) {
+        self.bytes += std::mem::take(&mut other.bytes);
+    }
+
     /// Appends to a list, and reserves its growth. `what` names the items.
     pub fn push<T>(&mut self, list: &mut Vec<T>, item: T, what: &str) -> Result<(), TooMuch> {
         const FEWEST: usize = 64;

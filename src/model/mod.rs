@@ -3,16 +3,20 @@
 //! | format | file | recognised by |
 //! |---|---|---|
 //! | PLY | `ply/` | its first line, `ply`, whatever the name of the file |
-//! | Wavefront OBJ | `obj.rs` | its name; the format has no signature |
+//! | Wavefront OBJ | `obj/` | its name; the format has no signature |
+//! | STL | `stl.rs` | its name; both kinds, told apart by the size of the file |
 //!
 //! Files are not trusted: a count in a file allocates memory only if the file has the bytes for it.
 mod checked;
 mod normals;
-mod number;
+pub mod number;
 mod obj;
 mod ply;
+mod polygon;
+mod stl;
 #[cfg(test)]
 mod tests;
+mod weld;
 
 use std::{
     fmt,
@@ -70,8 +74,11 @@ pub enum ModelFormatError {
     #[error("the file is larger than {LARGEST_FILE} bytes, the most that is read")]
     TooLarge,
     /// The format is not known.
-    #[error("not a mesh: its first line is not `ply` and its name does not end in `.obj`")]
+    #[error("not a mesh: its first line is not `ply` and its name does not end in `.obj` or `.stl`")]
     NotAModel,
+    /// An OBJ file has too many materials to be read by material.
+    #[error("the faces have too many different materials")]
+    TooManyMaterials,
     /// There are no triangles.
     #[error("the mesh is empty: it has no faces")]
     Empty,
@@ -110,11 +117,53 @@ impl Place {
     }
 }
 
+/// The meshes of an OBJ file by material.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Parts {
+    /// What stands after `mtllib`, line by line: one file name or several, with spaces within and between them.
+    pub libraries: Vec<String>,
+    /// One mesh per material that has faces, in the order in which they come first.
+    pub list: Vec<Part>,
+}
+
+/// The faces of a material.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Part {
+    /// What stands after `usemtl`; `None` for faces before the first such line.
+    pub material: Option<String>,
+    /// The mesh.
+    pub model: Model,
+}
+
+/// Formats without a signature.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Named {
+    Obj,
+    Stl,
+}
+
+impl Named {
+    fn of(path: &Path) -> Option<Named> {
+        let ends_in = |end: &str| path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(end));
+        if ends_in("obj") { Some(Named::Obj) } else { ends_in("stl").then_some(Named::Stl) }
+    }
+}
+
+/// Whether the mesh of a file is flat unless a scene says that it is smooth: STL files state a normal per triangle.
+pub fn is_flat(path: &Path) -> bool {
+    Named::of(path) == Some(Named::Stl)
+}
+
 /// Reads a mesh file of any supported format.
 pub fn read(path: &Path) -> Result<Model, ModelError> {
-    let is_obj = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("obj"));
-    let model = bytes(path).and_then(|(bytes, _room)| decode(&bytes, is_obj));
+    let model = bytes(path).and_then(|(bytes, _room)| decode(&bytes, Named::of(path)));
     model.map_err(|problem| ModelError { path: path.to_owned(), problem })
+}
+
+/// Reads a mesh file as one mesh per material. Only OBJ files have several.
+pub fn read_parts(path: &Path) -> Result<Parts, ModelError> {
+    let parts = bytes(path).and_then(|(bytes, _room)| decode_parts(&bytes, Named::of(path)));
+    parts.map_err(|problem| ModelError { path: path.to_owned(), problem })
 }
 
 /// Reads a file, and reserves memory for it.
@@ -131,12 +180,27 @@ fn bytes(path: &Path) -> Result<(Vec<u8>, Reservation), ModelFormatError> {
     Ok((bytes, room))
 }
 
-fn decode(bytes: &[u8], is_obj: bool) -> Result<Model, ModelFormatError> {
-    let mut model = match ply::is_ply(bytes) {
-        true => ply::decode(bytes)?,
-        false if is_obj => obj::decode(bytes)?,
-        false => return Err(ModelFormatError::NotAModel),
-    };
+fn decode(bytes: &[u8], named: Option<Named>) -> Result<Model, ModelFormatError> {
+    completed(match named {
+        _ if ply::is_ply(bytes) => ply::decode(bytes)?,
+        Some(Named::Obj) => obj::decode(bytes)?,
+        Some(Named::Stl) => stl::decode(bytes)?,
+        None => return Err(ModelFormatError::NotAModel),
+    })
+}
+
+fn decode_parts(bytes: &[u8], named: Option<Named>) -> Result<Parts, ModelFormatError> {
+    if named != Some(Named::Obj) || ply::is_ply(bytes) {
+        let model = decode(bytes, named)?;
+        return Ok(Parts { libraries: Vec::new(), list: vec![Part { material: None, model }] });
+    }
+    let Parts { libraries, list } = obj::decode_parts(bytes)?;
+    let complete = |part: Part| completed(part.model).map(|model| Part { material: part.material, model });
+    let list: Vec<Part> = list.into_iter().map(complete).collect::<Result<_, _>>()?;
+    if list.is_empty() { Err(ModelFormatError::Empty) } else { Ok(Parts { libraries, list }) }
+}
+
+fn completed(mut model: Model) -> Result<Model, ModelFormatError> {
     if model.triangles.is_empty() {
         return Err(ModelFormatError::Empty);
     }

@@ -1,6 +1,7 @@
 //! A triangle mesh: from a file, from lists, or procedural.
 use std::{
     hash::{DefaultHasher, Hash, Hasher},
+    path::Path,
     sync::Arc,
 };
 
@@ -11,7 +12,7 @@ use crate::{
         MeshData, Shape,
         mesh::generate::{heightfield, torus_knot},
     },
-    model::{Model, read, smooth_normals},
+    model::{Model, is_flat, read, smooth_normals},
     quote,
 };
 
@@ -31,14 +32,14 @@ const MOST_QUADS: u32 = (MOST_TRIANGLES / 2).isqrt();
 pub struct Mesh {
     /// The triangles.
     pub source: MeshSource,
-    /// Whether normals are interpolated. `None` means yes, except for lists.
+    /// Whether normals are interpolated. `None` means yes, except for lists and STL files.
     pub smooth: Option<bool>,
 }
 
 /// The source of a mesh.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MeshSource {
-    /// An OBJ or PLY file.
+    /// An OBJ, PLY or STL file.
     File(String),
     /// Lists in the scene file.
     Lists {
@@ -69,7 +70,7 @@ pub struct Heightfield {
     pub seed: u32,
 }
 
-const PATH: Parameter = Parameter::new("path", "OBJ or PLY file.").required().aliases("file filename src");
+const PATH: Parameter = Parameter::new("path", "OBJ, PLY or STL file.").required().aliases("file filename src");
 const VERTICES: Parameter = Parameter::new("vertices", "Corners of the triangles.").unit("m").required();
 const TRIANGLES: Parameter =
     Parameter::new("triangles", "Three vertex indices per triangle, counted from 0.").required().aliases("faces indices");
@@ -171,7 +172,8 @@ impl Mesh {
     /// The mesh in its own space. Objects with the same file or formula share it.
     fn shape(&self, builder: &mut ShapeBuilder) -> Result<Arc<Shape>, Problem> {
         let resources = builder.resources;
-        let smooth = self.smooth.unwrap_or(true);
+        let is_flat = matches!(&self.source, MeshSource::File(path) if is_flat(Path::new(path)));
+        let smooth = self.smooth.unwrap_or(!is_flat);
         let known = |key: String, make: &dyn Fn() -> Result<MeshData, Problem>| {
             resources.once(MESHES, key, || make().map(|data| Shape::mesh(Arc::new(data))))
         };

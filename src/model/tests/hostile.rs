@@ -1,7 +1,10 @@
 //! Randomly modified files: each is read or rejected, without a panic.
 use rand::{Rng, SeedableRng, rngs::SmallRng};
 
-use super::super::{Model, decode};
+use super::{
+    super::{Model, Named, decode, decode_parts},
+    stl,
+};
 
 const OBJ: &str = "# a square\nv 0 0 0\nv 1 0 0 1\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 1\nvn 0 0 1\nvn 0 1 0\n\
     f 1/1/1 2/2/1 3/1/2 \\\n 4/2/1\ng a\nf -1//-1 -2//-2 -3//-1\nf 1 2 3\n";
@@ -81,11 +84,11 @@ fn check(model: &Model) {
 #[test]
 fn mutated_files_are_read_or_refused() {
     let files = [OBJ.as_bytes().to_vec(), text_ply(), binary_ply(false), binary_ply(true)];
-    files.iter().for_each(|file| check(&decode(file, true).expect("it is a mesh")));
+    files.iter().for_each(|file| check(&decode(file, Some(Named::Obj)).expect("it is a mesh")));
     let (mut random, mut read) = (SmallRng::seed_from_u64(1), 0);
     for i in 0..10_000 {
         let file = mutated(&files[i % files.len()], &mut random);
-        if let Ok(model) = decode(&file, true) {
+        if let Ok(model) = decode(&file, Some(Named::Obj)) {
             check(&model);
             // A triangle takes 6 bytes and a vertex of its own 2 at least: nothing comes from a claim alone.
             assert!(6 * model.triangles.len() <= 4 * file.len() && model.vertices.len() <= file.len());
@@ -99,6 +102,41 @@ fn mutated_files_are_read_or_refused() {
 #[test]
 fn cut_files_are_read_or_refused_at_every_length() {
     for file in [OBJ.as_bytes().to_vec(), text_ply(), binary_ply(false), binary_ply(true)] {
-        (0..file.len()).filter_map(|length| decode(&file[..length], true).ok()).for_each(|model| check(&model));
+        (0..file.len()).filter_map(|length| decode(&file[..length], Some(Named::Obj)).ok()).for_each(|model| check(&model));
     }
+}
+
+#[test]
+fn mutated_stl_files_are_read_or_refused() {
+    let files = [stl::TEXT.as_bytes().to_vec(), stl::binary("solid by hand", &stl::SQUARE), stl::binary("", &stl::SQUARE)];
+    let (mut random, mut read) = (SmallRng::seed_from_u64(2), 0);
+    for i in 0..6_000 {
+        let file = mutated(&files[i % files.len()], &mut random);
+        if let Ok(model) = decode(&file, Some(Named::Stl)) {
+            check(&model);
+            assert!(12 * model.triangles.len() <= file.len() && model.vertices.len() <= file.len());
+            read += 1;
+        }
+    }
+    assert!((600..5400).contains(&read), "{read} could be read");
+    for file in files {
+        (0..file.len()).filter_map(|length| decode(&file[..length], Some(Named::Stl)).ok()).for_each(|model| check(&model));
+    }
+}
+
+#[test]
+fn the_parts_of_mutated_files_have_the_triangles_of_the_whole() {
+    let text = OBJ.replace("f -1", "usemtl a\nmtllib b c.mtl\nf -1").replace("f 1 2 3", "usemtl b\nf 1 2 3\nusemtl a\nf 4 3 2 1");
+    let (mut random, mut read) = (SmallRng::seed_from_u64(3), 0);
+    for _ in 0..4_000 {
+        let file = mutated(text.as_bytes(), &mut random);
+        let (whole, parts) = (decode(&file, Some(Named::Obj)), decode_parts(&file, Some(Named::Obj)));
+        assert_eq!(whole.as_ref().err(), parts.as_ref().err());
+        let (Ok(whole), Ok(parts)) = (whole, parts) else { continue };
+        parts.list.iter().for_each(|part| check(&part.model));
+        let triangles: usize = parts.list.iter().map(|part| part.model.triangles.len()).sum();
+        assert_eq!(triangles, whole.triangles.len());
+        read += 1;
+    }
+    assert!((400..3600).contains(&read), "{read} could be read");
 }

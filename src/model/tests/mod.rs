@@ -2,22 +2,25 @@
 mod hostile;
 mod normals;
 mod obj;
+mod parts;
 mod ply;
+mod polygons;
+mod stl;
 
 use std::{
     fs::{self, File},
     path::Path,
 };
 
-use super::{LARGEST_FILE, Model, decode, read};
+use super::{LARGEST_FILE, Model, Named, decode, read};
 
 /// The error of an OBJ file, or of a PLY file if the first line says so.
 fn refusal(bytes: &[u8]) -> String {
-    decode(bytes, true).expect_err("it is broken").to_string()
+    decode(bytes, Some(Named::Obj)).expect_err("it is broken").to_string()
 }
 
 fn model(bytes: &[u8]) -> Model {
-    decode(bytes, true).expect("it is a mesh")
+    decode(bytes, Some(Named::Obj)).expect("it is a mesh")
 }
 
 fn message(path: &Path) -> String {
@@ -37,7 +40,7 @@ fn kinds_are_told_by_the_first_line_and_the_name() {
         property list uchar int vertex_indices\nend_header\n0 0 0 1 0 0 0 1 0 3 0 1 2";
     assert_eq!(read(&file("b.mesh", ply)).expect("it is PLY"), obj);
     assert_eq!(read(&file("b.obj", ply)).expect("it is PLY"), obj);
-    let neither = "not a mesh: its first line is not `ply` and its name does not end in `.obj`";
+    let neither = "not a mesh: its first line is not `ply` and its name does not end in `.obj` or `.stl`";
     assert_eq!(message(&file("c.ply", "plywood\n")), neither);
     assert_eq!(message(&file("d.ply", "")), neither);
     assert_eq!(message(&file("e", "v 0 0 0\n")), neither);

@@ -1,0 +1,64 @@
+//! Objects, cameras and light of mesh files.
+use super::{super::read, SQUARE, scene};
+use crate::{
+    import::{ImportOptions, Imported},
+    light::background::BackgroundDescription,
+    model::Model,
+    scene::description::ShapeKind,
+    shape::mesh::MeshSource,
+};
+
+/// The mesh files of the objects.
+fn files(scene: &Imported) -> Vec<&str> {
+    let file = |shape| match shape {
+        ShapeKind::Mesh(mesh) => match &mesh.source {
+            MeshSource::File(path) => &**path,
+            _ => panic!("a mesh of a file"),
+        },
+        _ => panic!("a mesh"),
+    };
+    scene.description.objects.iter().map(|object| file(&object.shape)).collect()
+}
+
+#[test]
+fn a_file_with_one_material_is_an_object_of_the_file() {
+    let scene = scene(&format!("{SQUARE}f 1 2 3\n"), &[]);
+    assert_eq!(files(&scene), ["a.obj"]);
+    assert_eq!((scene.description.objects[0].name.as_str(), scene.description.materials.len()), ("a", 1));
+    assert!(matches!(scene.description.background, Some(BackgroundDescription::Image(_))));
+    let found: Vec<&str> = scene.remarks.iter().map(|counted| counted.remark.found.as_str()).collect();
+    assert_eq!(found, ["no material", "no camera", "no light"]);
+}
+
+#[test]
+fn each_material_is_an_object_with_a_mesh_in_memory() {
+    let mtl = b"newmtl red/1\nKd 1 0 0\nnewmtl lamp\nKd 0 0 0\nKe 2 3 4\n";
+    let obj = format!("mtllib a.mtl\n{SQUARE}usemtl red/1\nf 1 2 3\nusemtl lamp\nf 1 3 4\nusemtl red/1\nf 2 3 4\n");
+    let scene = scene(&obj, &[("a.mtl", mtl)]);
+    assert_eq!(files(&scene), ["meshes/red_1.ply", "meshes/lamp.ply"]);
+    let names: Vec<&str> = scene.description.objects.iter().map(|object| object.name.as_str()).collect();
+    assert_eq!(names, ["red/1", "lamp"]);
+    assert_eq!(scene.assets.get::<Model>("meshes/red_1.ply").expect("it is there").triangles.len(), 2);
+    // The lamp is the light.
+    assert!(scene.description.objects[1].emission.is_some() && scene.description.background.is_none());
+    assert_eq!(scene.remarks.len(), 1, "{:?}", scene.remarks.lines(9));
+}
+
+#[test]
+fn other_mesh_files_are_scenes_too() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("tri.stl");
+    let text = "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid\n";
+    std::fs::write(&path, text).expect("it is written");
+    let scene = read(&path, &ImportOptions::default()).expect("it is a scene");
+    assert_eq!(files(&scene), ["tri.stl"]);
+    std::fs::write(&path, "solid\n").expect("it is written");
+    let error = read(&path, &ImportOptions::default()).err().expect("it is empty").to_string();
+    assert!(error.ends_with("tri.stl: the mesh is empty: it has no faces"), "{error}");
+}
+
+#[test]
+fn colours_of_vertices_are_the_albedo_where_there_is_no_material() {
+    let scene = scene("v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\nf 1 2 3\n", &[]);
+    assert_eq!(scene.description.textures.keys().collect::<Vec<_>>(), ["vertex color"]);
+}

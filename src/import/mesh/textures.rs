@@ -1,0 +1,123 @@
+//! Images of materials, with their transforms and factors.
+use std::{collections::HashMap, path::Path};
+
+use super::{library::locate, map::Map};
+use crate::{
+    declare::Textured,
+    image::Encoding,
+    import::{Folder, Imported, Names},
+    quote,
+    texture::{
+        TextureKind,
+        image::{Channel, Image, Wrap},
+        product::Product,
+    },
+};
+
+/// Ends of the names of images that are read.
+const READABLE: [&str; 8] = ["png", "jpg", "jpeg", "tga", "webp", "exr", "hdr", "pic"];
+
+/// The textures of a scene.
+pub struct Textures {
+    folder: Folder,
+    names: Names,
+    known: HashMap<String, String>,
+}
+
+impl Textures {
+    pub fn new(folder: Folder) -> Textures {
+        Textures { folder, names: Names::default(), known: HashMap::new() }
+    }
+
+    /// A color times a texture.
+    pub fn colour(&mut self, to: &mut Imported, place: &str, factor: [f64; 3], map: Option<&Map>) -> Textured {
+        let Some(map) = map else { return Textured::Constant(factor) };
+        let Some(image) = self.image(to, place, map, Encoding::Srgb) else { return Textured::Constant(factor) };
+        let factor = factor.map(|x| x * map.range[1]);
+        let channel = map.channel.unwrap_or(Channel::Rgb);
+        let name = self.add(to, Image { channel, ..image }.into(), stem(&map.path));
+        self.times(to, factor, name)
+    }
+
+    /// A number times a texture of numbers, which are linear. Without a choice of the channel it is the luminance.
+    pub fn number(&mut self, to: &mut Imported, place: &str, factor: f64, map: Option<&Map>, channel: Channel) -> Textured<f64> {
+        let Some(map) = map else { return Textured::Constant(factor) };
+        let channel = map.channel.unwrap_or(channel);
+        // Opacity is read from the same texels as the color.
+        let encoding = if channel == Channel::Alpha { Encoding::Srgb } else { Encoding::Linear };
+        let Some(image) = self.image(to, place, map, encoding) else { return Textured::Constant(factor) };
+        let name = self.add(to, Image { channel, ..image }.into(), stem(&map.path));
+        match self.times(to, [factor * map.range[1]; 3], name) {
+            Textured::Constant([grey, ..]) => Textured::Constant(grey),
+            Textured::Texture(name) => Textured::Texture(name),
+        }
+    }
+
+    /// The name of a texture, for bump maps.
+    pub fn heights(&mut self, to: &mut Imported, place: &str, map: &Map) -> Option<String> {
+        let image = self.image(to, place, map, Encoding::Linear)?;
+        let channel = map.channel.unwrap_or(Channel::Rgb);
+        Some(self.add(to, Image { channel, ..image }.into(), stem(&map.path)))
+    }
+
+    /// The file of a normal map.
+    pub fn normals(&self, to: &mut Imported, place: &str, map: &Map) -> Option<String> {
+        let image = self.image(to, place, map, Encoding::Linear)?;
+        let plain = Image { path: image.path.clone(), encoding: image.encoding, ..Image::default() };
+        if image != plain {
+            to.remarks.add(place, "options of a normal map", "the image without them", "the relief lies elsewhere");
+        }
+        Some(image.path)
+    }
+
+    /// Adds a texture, once, and returns its name.
+    pub fn add(&mut self, to: &mut Imported, kind: TextureKind, wanted: &str) -> String {
+        let key = format!("{kind:?}");
+        let name = self.known.entry(key).or_insert_with(|| self.names.unique(wanted, "texture")).clone();
+        to.description.textures.entry(name.clone()).or_insert(kind);
+        name
+    }
+
+    fn times(&mut self, to: &mut Imported, factor: [f64; 3], name: String) -> Textured {
+        if factor == [1.0; 3] {
+            return Textured::Texture(name);
+        }
+        let wanted = format!("{name} times a color");
+        let factor = factor.map(|x| x.clamp(0.0, 1e15));
+        let product = Product { a: Textured::Constant(factor), b: Textured::Texture(name) };
+        Textured::Texture(self.add(to, product.into(), &wanted))
+    }
+
+    /// The image of a statement. v points upwards in the file and downwards in ours.
+    fn image(&self, to: &mut Imported, place: &str, map: &Map, encoding: Encoding) -> Option<Image> {
+        let extension = map.path.rsplit('.').next().unwrap_or_default().to_ascii_lowercase();
+        let located = match READABLE.contains(&extension.as_str()) {
+            true => locate(&map.path, &self.folder),
+            false => Err(format!("`{}` is not of a format that is read", quote::path(Path::new(&map.path)))),
+        };
+        let path = match located {
+            Ok(path) => self.folder.described(&path),
+            Err(reason) => {
+                to.remarks.add(place, format!("texture: {reason}"), "its factor alone", "the texture is missing");
+                return None;
+            }
+        };
+        for option in &map.unknown {
+            let found = format!("option `{}` of a texture", quote::piece(option));
+            to.remarks.add(place, found, "nothing", "the texture looks different");
+        }
+        if map.range[0] != 0.0 {
+            to.remarks.add(place, "`-mm` with a base", "its gain alone", "the texture is darker");
+        }
+        let wrap = if map.clamps { Wrap::Clamp } else { Wrap::Repeat };
+        // u, v ↦ s u + o, s v + o upwards is v ↦ s v + 1 − s − o downwards.
+        let offset = [map.offset[0], 1.0 - map.scale[1] - map.offset[1]];
+        Some(Image { path, encoding, wrap_u: wrap, wrap_v: wrap, scale: map.scale, offset, ..Image::default() })
+    }
+}
+
+/// A file name without folders and its end.
+fn stem(path: &str) -> &str {
+    let file = path.rsplit(['/', '\\']).next().unwrap_or_default();
+    file.rsplit_once('.').map_or(file, |(stem, _)| stem)
+}

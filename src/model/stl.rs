@@ -1,0 +1,97 @@
+//! STL: triangles as text or binary. Equal corners become one vertex.
+//!
+//! M. Burns, "Automated Fabrication", 1993, section 6.5. The normals of the facets are those of the triangles, and are not read; nor are
+//! the two bytes after each binary triangle, which some programs use for colours in ways that contradict each other.
+use super::{Model, ModelFormatError, Place, number, weld};
+use crate::{
+    memory::{Reservation, reserve},
+    quote,
+};
+
+/// Bytes before the triangles of a binary file: a comment and their count.
+const HEADER: usize = 84;
+/// Bytes of a binary triangle: normal, three corners, and two bytes more.
+const TRIANGLE: usize = 50;
+/// Offset of the first corner in a triangle.
+const CORNERS: usize = 12;
+
+pub(super) fn decode(bytes: &[u8]) -> Result<Model, ModelFormatError> {
+    let (places, _room) = if is_binary(bytes) { binary(bytes)? } else { text(bytes)? };
+    let _welding = reserve(format_args!("{} corners", places.len()), weld::WELDING * places.len() as u64)?;
+    let (vertices, corners) = weld::positions(&places);
+    let triangles = corners.as_chunks().0.to_vec();
+    Ok(Model { vertices, triangles, ..Model::default() })
+}
+
+/// Number of triangles that a binary file claims to have.
+fn claimed(bytes: &[u8]) -> Option<usize> {
+    let count = bytes.get(HEADER - 4..HEADER)?.first_chunk()?;
+    Some(u32::from_le_bytes(*count) as usize)
+}
+
+/// Whether the file is binary. Comments of binary files begin with `solid` too, so its size decides first.
+fn is_binary(bytes: &[u8]) -> bool {
+    /// Text has no zeros, and the header of a binary file has many.
+    const START: usize = 512;
+    let fits = claimed(bytes).is_some_and(|count| bytes.len() == HEADER + TRIANGLE * count);
+    let names_solid = bytes.trim_ascii_start().get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid"));
+    fits || !names_solid || bytes[..bytes.len().min(START)].contains(&0)
+}
+
+fn binary(bytes: &[u8]) -> Result<(Vec<[f32; 3]>, Reservation), ModelFormatError> {
+    let end = Place::Byte(bytes.len());
+    let count = claimed(bytes).ok_or_else(|| end.broken("the file ends within its header"))?;
+    let triangles = &bytes[HEADER..];
+    if triangles.len() / TRIANGLE < count {
+        let left = triangles.len();
+        return Err(Place::Byte(HEADER).broken(format!("the remaining {left} bytes are too few for {count} triangles")));
+    }
+    let room = reserve(format_args!("{} corners", 3 * count), (3 * count * size_of::<[f32; 3]>()) as u64)?;
+    let mut places = Vec::with_capacity(3 * count);
+    for triangle in triangles.chunks_exact(TRIANGLE).take(count) {
+        let numbers = triangle[CORNERS..].as_chunks::<4>().0;
+        let corners = numbers.as_chunks::<3>().0.iter().take(3);
+        places.extend(corners.map(|corner| corner.map(f32::from_le_bytes)));
+    }
+    if let Some(corner) = places.iter().position(|place: &[f32; 3]| !place.iter().all(|x| x.is_finite())) {
+        let at = HEADER + corner / 3 * TRIANGLE + CORNERS + corner % 3 * size_of::<[f32; 3]>();
+        return Err(Place::Byte(at).broken(format!("triangle {}: a coordinate is not a finite number", corner / 3)));
+    }
+    Ok((places, room))
+}
+
+fn text(bytes: &[u8]) -> Result<(Vec<[f32; 3]>, Reservation), ModelFormatError> {
+    let (mut places, mut room) = (Vec::new(), Reservation::none());
+    // Corners since the loop began.
+    let mut corners = 0;
+    for (line, words) in bytes.split(|byte| *byte == b'\n').enumerate() {
+        let place = Place::Line(line + 1);
+        let mut words = words.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
+        let Some(keyword) = words.next() else { continue };
+        if keyword.eq_ignore_ascii_case(b"vertex") {
+            let position = position(words).map_err(|reason| place.broken(reason))?;
+            room.push(&mut places, position, "corners")?;
+            corners += 1;
+        } else if keyword.eq_ignore_ascii_case(b"endloop") {
+            if corners != 3 {
+                return Err(place.broken(format!("a facet has {corners} corners, not 3")));
+            }
+            corners = 0;
+        }
+    }
+    if corners > 0 {
+        let lines = 1 + bytes.iter().filter(|byte| **byte == b'\n').count();
+        return Err(Place::Line(lines).broken("the file ends within a facet"));
+    }
+    Ok((places, room))
+}
+
+fn position<'a>(mut words: impl Iterator<Item = &'a [u8]>) -> Result<[f32; 3], String> {
+    let mut position = [0.0; 3];
+    for number in &mut position {
+        let word = words.next().ok_or("a vertex has three coordinates")?;
+        let real = str::from_utf8(word).ok().and_then(number::real).filter(|x| x.is_finite());
+        *number = real.ok_or_else(|| format!("{} is not a finite number", quote::bytes(word)))?;
+    }
+    Ok(position)
+}
