@@ -43,7 +43,7 @@ impl Files {
         let root = parent.canonicalize().map_err(|_| no_folder(scene, parent))?;
         let stem = scene.file_stem().unwrap_or_default().to_string_lossy();
         let data = format!("{stem}.files");
-        let mut files = Files { folder: parent.join(&data), files: BTreeMap::new() };
+        let mut files = Files { folder: scene.with_file_name(&data), files: BTreeMap::new() };
         let (mut names, mut moved) = (FileNames::default(), Vec::new());
         for named in named {
             match content(source, &named)? {

@@ -49,7 +49,7 @@ impl Kind for Ramp {
 impl Declare for Ramp {
     fn parameters(&mut self, p: &mut dyn Parameters) {
         const INPUT: Parameter = Parameter::new("input", "Place on the scale; a texture counts by its luminance.").required();
-        const STOPS: Parameter = Parameter::new("stops", "Colors by place, in ascending order.").required();
+        const STOPS: Parameter = Parameter::new("stops", "Colors by place, in ascending order.");
         p.textured_number(&INPUT, &mut self.input, Range::UNIT);
         p.list(&STOPS, &mut self.stops);
     }

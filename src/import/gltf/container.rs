@@ -5,7 +5,10 @@ use std::{
     path::Path,
 };
 
-use super::{Refusal, document::Document, refusal::Found};
+use super::{
+    document::Document,
+    refusal::{Found, Refusal},
+};
 use crate::{
     file::open_regular,
     memory::{Reservation, reserve},

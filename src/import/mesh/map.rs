@@ -1,6 +1,9 @@
 //! Texture statements: `map_Kd -s 2 2 1 -clamp on wood planks.png`.
 use crate::texture::image::Channel;
 
+/// Magnitude of the largest number of an option.
+const LARGEST: f64 = 1e6;
+
 /// A texture of a material, as its statement gives it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Map {
@@ -111,7 +114,7 @@ impl<'a> Rest<'a> {
             let (word, rest) = split(self.0);
             let Some(number) = word.parse::<f64>().ok().filter(|x| x.is_finite() && !rest.is_empty()) else { break };
             self.0 = rest;
-            numbers.push(number);
+            numbers.push(number.clamp(-LARGEST, LARGEST));
         }
         numbers
     }

@@ -226,7 +226,7 @@ impl Work<'_> {
         let bump = heights.and_then(|map| {
             let texture = self.textures.heights(self.to, self.place, map)?;
             self.remark("a bump map", "heights in proportion to the scene", "the relief may be deeper or flatter");
-            Some(Bump { texture, height: map.bump * size.max(1e-9) * RELIEF })
+            Some(Bump { texture, height: (map.bump * size * RELIEF).clamp(-1e6, 1e6) })
         });
         (bump, None)
     }

@@ -1,7 +1,7 @@
 //! The statements of an MTL file.
 //!
-//! Wavefront Technologies, "Appendix B2. MTL material format", 1995; `Ke` and the keys of physically based materials (`Pr Pm Ps Pc Pcr
-//! aniso anisor norm`) are those of C. Brandrud and the exporters of Blender.
+//! Wavefront Technologies, "Appendix B2. MTL material format", 1995. `Ke` and the keys of physically based materials (`Pr Pm Ps Pc Pcr
+//! aniso anisor norm`) are extensions that exporters such as Blender's write.
 use std::collections::BTreeMap;
 
 use super::map::Map;

@@ -37,7 +37,7 @@ impl Kind {
         })
     }
 
-    fn is_whole(self) -> bool {
+    pub fn is_whole(self) -> bool {
         !matches!(self, Kind::F32 | Kind::F64)
     }
 

@@ -1,8 +1,10 @@
 //! PLY: vertices and polygons as text or binary, in the layout that the header declares.
 //!
 //! G. Turk, "The PLY Polygon File Format", Stanford, 1994. Unknown elements and properties are skipped. Values of a text file may
-//! be spread over lines in any way. Colours of whole numbers are sRGB, those of fractions are linear; opacity is linear.
+//! be spread over lines in any way. Strips of triangles (`tristrips`) are read too. Colours of whole numbers are sRGB, those of fractions are linear; opacity is linear.
+mod bulk;
 mod header;
+mod strips;
 mod values;
 mod write;
 
@@ -13,7 +15,10 @@ use self::{
     header::{Element, Encoding, Header, Kind, Layout},
     values::{Binary, Text, Values},
 };
-use super::{Model, ModelFormatError};
+use super::{
+    Model, ModelFormatError,
+    polygon::{self, Polygon},
+};
 use crate::{
     math::colour::linear_from_srgb,
     memory::{Reservation, TooMuch},
@@ -41,16 +46,19 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Model, ModelFormatError> {
 
 fn read(header: &Header, mut values: impl Values) -> Result<Model, ModelFormatError> {
     let mut model = Model::default();
+    let mut polygons = Vec::new();
     let mut room = Reservation::none();
     let vertices = header.element("vertex").map_or(0, |element| element.count);
     for element in &header.elements {
         check_count(element, &values)?;
         match element.name.as_str() {
             "vertex" => read_vertices(element, &mut values, &mut model, &mut room)?,
-            "face" => read_faces(element, vertices, &mut values, &mut model.triangles, &mut room)?,
+            "face" => read_faces(element, vertices, &mut values, (&mut model.triangles, &mut polygons), &mut room)?,
+            "tristrips" => strips::read(element, vertices, &mut values, &mut model.triangles, &mut room)?,
             _ => skip(element, &mut values)?,
         }
     }
+    polygon::cut(&mut model.triangles, &polygons, |vertex| model.vertices[vertex as usize]);
     Ok(model)
 }
 
@@ -95,6 +103,14 @@ fn read_vertices(
     // Of properties that mean the same the first counts.
     let mut wanted = |name: &str| slot(name).filter(|slot| !std::mem::replace(&mut is_there[*slot], true));
     let slots: Vec<(Layout, Option<usize>)> = element.properties.iter().map(|p| (p.layout, wanted(&p.name))).collect();
+    if values.block(0).is_some() {
+        let numbers = is_there.iter().filter(|there| **there).count() as u64 + 1;
+        room.grow(format_args!("{} vertices", element.count), numbers.saturating_mul(4 * element.count))?;
+    }
+    if let Some((vertices, length)) = bulk::vertices(element, &slots, values) {
+        *model = Model { triangles: std::mem::take(&mut model.triangles), ..vertices };
+        return values.skip(Kind::U8, length);
+    }
     let mut normals = is_there[3..6].iter().all(|there| *there).then(Vec::new);
     let mut uvs = is_there[6..FIRST_COLOUR].iter().all(|there| *there).then(Vec::new);
     let mut colours = is_there[FIRST_COLOUR..OPACITY].iter().all(|there| *there).then(Vec::new);
@@ -153,10 +169,17 @@ fn read_faces(
     element: &Element,
     vertices: u64,
     values: &mut impl Values,
-    triangles: &mut Vec<[u32; 3]>,
+    (triangles, polygons): (&mut Vec<[u32; 3]>, &mut Vec<Polygon>),
     room: &mut Reservation,
 ) -> Result<(), ModelFormatError> {
+    if let Some((found, length)) = bulk::triangles(element, vertices, values) {
+        room.grow(format_args!("{} triangles", found.len()), size_of_val(&found[..]) as u64)?;
+        // Strips may come first.
+        triangles.extend(found);
+        return values.skip(Kind::U8, length);
+    }
     for index in 0..element.count {
+        let first = triangles.len() as u32;
         for property in &element.properties {
             let read = match property.layout {
                 Layout::List(count, kind) if property.is_polygon() => {
@@ -166,6 +189,10 @@ fn read_faces(
                 layout => skip_property(layout, values),
             };
             read.map_err(|problem| in_element(problem, &element.name, index))?;
+        }
+        let count = triangles.len() as u32 - first;
+        if count > 1 {
+            room.push(polygons, Polygon { first, count }, "polygons")?;
         }
     }
     Ok(())

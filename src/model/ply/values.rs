@@ -22,6 +22,15 @@ pub trait Values {
     fn integer(&mut self, kind: Kind) -> Result<i64, ModelFormatError>;
 
     fn skip(&mut self, kind: Kind, count: u64) -> Result<(), ModelFormatError>;
+
+    /// The next bytes of binary values, if there are that many.
+    fn block(&self, length: usize) -> Option<&[u8]>;
+
+    /// The number at the beginning of a block.
+    fn number_at(block: &[u8], kind: Kind) -> f32;
+
+    /// The whole number of an integer type at the beginning of a block.
+    fn integer_at(block: &[u8], kind: Kind) -> i64;
 }
 
 const ENDS: &str = "the file ends too early";
@@ -88,6 +97,18 @@ impl Values for Text<'_> {
     fn skip(&mut self, _: Kind, count: u64) -> Result<(), ModelFormatError> {
         (0..count).try_for_each(|_| self.word("a value", |_| Some(())))
     }
+
+    fn block(&self, _: usize) -> Option<&[u8]> {
+        None
+    }
+
+    fn number_at(_: &[u8], _: Kind) -> f32 {
+        unreachable!("text has no blocks")
+    }
+
+    fn integer_at(_: &[u8], _: Kind) -> i64 {
+        unreachable!("text has no blocks")
+    }
 }
 
 /// Contiguous binary values.
@@ -152,5 +173,22 @@ impl<const BIG_ENDIAN: bool> Values for Binary<'_, BIG_ENDIAN> {
         let rest = usize::try_from(count).ok().and_then(|count| self.rest.get(count.checked_mul(kind.size())?..));
         self.rest = rest.ok_or_else(|| Place::Byte(self.length).broken(ENDS))?;
         Ok(())
+    }
+
+    #[inline]
+    fn block(&self, length: usize) -> Option<&[u8]> {
+        self.rest.get(..length)
+    }
+
+    #[inline]
+    fn number_at(block: &[u8], kind: Kind) -> f32 {
+        let mut value = Binary::<BIG_ENDIAN> { rest: block, length: 0 };
+        value.number(kind).expect("a block holds whole rows")
+    }
+
+    #[inline]
+    fn integer_at(block: &[u8], kind: Kind) -> i64 {
+        let mut value = Binary::<BIG_ENDIAN> { rest: block, length: 0 };
+        value.integer(kind).expect("a block holds whole rows")
     }
 }

@@ -277,3 +277,32 @@ fn two_channels_are_no_colour() {
     let text = "0 0 0 1 2\n1 0 0 1 2\n0 1 0 1 2\n3 0 1 2\n";
     assert_eq!(model(&file("ascii", &elements, text.as_bytes())).colours, None);
 }
+
+#[test]
+fn concave_polygons_are_cut_even_if_they_come_before_their_vertices() {
+    let text = format!("element face 2\n{CORNERS}element vertex 4\n{PLACES}");
+    let data = b"4 0 1 2 3\n3 0 1 3\n2 -1 0\n1 0 0\n2 1 0\n0 0 0\n";
+    assert_eq!(model(&file("ascii", &text, data)).triangles, [[1, 2, 3], [0, 1, 3], [0, 1, 3]]);
+}
+
+#[test]
+fn strips_of_triangles_turn_and_begin_anew_at_minus_one() {
+    let elements = format!("element vertex 5\n{PLACES}element tristrips 1\nproperty list int int vertex_indices\n");
+    let data = b"0 0 0\n1 0 0\n0 1 0\n1 1 0\n2 2 0\n11 0 1 2 3 -1 1 3 3 2 4 -1\n";
+    assert_eq!(model(&file("ascii", &elements, data)).triangles, [[0, 1, 2], [2, 1, 3], [3, 2, 4]]);
+    let data = b"0 0 0\n1 0 0\n0 1 0\n1 1 0\n2 2 0\n3 0 1 5\n";
+    let refused = refusal(&file("ascii", &elements, data));
+    assert!(refused.ends_with("tristrips 0: vertex 5 does not exist: there are 5, counted from 0"), "{refused}");
+}
+
+#[test]
+fn blocks_of_triangles_are_read_like_polygons() {
+    let elements = mesh(3, 2);
+    let places = [0f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0].map(f32::to_le_bytes);
+    let triangle = [&[3u8][..], [0, 1, 2].map(i32::to_le_bytes).as_flattened()].concat();
+    let quad = [&[4u8][..], [0, 1, 2, 2].map(i32::to_le_bytes).as_flattened()].concat();
+    let with =
+        |faces: &[&[u8]]| model(&file("binary_little_endian", &elements, &[places.as_flattened(), &faces.concat()].concat()));
+    assert_eq!(with(&[&triangle, &triangle]).triangles, [[0, 1, 2]; 2]);
+    assert_eq!(with(&[&triangle, &quad]).triangles, [[0, 1, 2], [0, 1, 2], [0, 2, 2]]);
+}

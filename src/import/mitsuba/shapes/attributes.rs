@@ -3,14 +3,16 @@
 //! An attribute is a group of properties `name_0`, `name_1`, `name_2` of vertices or faces; `r`, `g` and `b` are its name `color`.
 use std::{collections::HashMap, path::Path};
 
-use super::{
-    super::{
-        context::{Import, Uses},
-        tree::Element,
-    },
-    meshes::unwelded,
+use super::super::{
+    context::{Import, Uses},
+    tree::Element,
 };
-use crate::{file::open_regular, math::colour::linear_from_srgb, model::Model, scene::SceneError};
+use crate::{
+    file::open_regular,
+    math::colour::linear_from_srgb,
+    model::{Model, smooth_normals},
+    scene::SceneError,
+};
 
 /// A type of values: its size in bytes, and whether it is a fraction or a signed number.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -211,6 +213,20 @@ fn header(bytes: &[u8]) -> Option<(Vec<Group>, Body<'_>)> {
             ["end_header"] => return Some((groups, Body { rest, format: format? })),
             _ => {}
         }
+    }
+}
+
+/// A model whose triangles share no vertices. Smooth normals stay smooth.
+fn unwelded(model: &Model, face_normals: bool) -> Model {
+    let smooth = || smooth_normals(&model.vertices, &model.triangles);
+    let normals = (!face_normals).then(|| model.normals.clone().unwrap_or_else(smooth));
+    let corners = || model.triangles.iter().flatten().map(|corner| *corner as usize);
+    Model {
+        vertices: corners().map(|corner| model.vertices[corner]).collect(),
+        triangles: (0..model.triangles.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect(),
+        normals: normals.map(|normals| corners().map(|corner| normals[corner]).collect()),
+        uvs: model.uvs.as_ref().map(|uvs| corners().map(|corner| uvs[corner]).collect()),
+        colours: None,
     }
 }
 

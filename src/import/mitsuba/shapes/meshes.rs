@@ -84,20 +84,6 @@ fn has_normals(element: Element, path: &Path) -> Result<bool, SceneError> {
     read(element, path).map(|model| model.normals.is_some())
 }
 
-/// A model whose triangles share no vertices. Smooth normals stay smooth.
-pub fn unwelded(model: &Model, face_normals: bool) -> Model {
-    let smooth = || smooth_normals(&model.vertices, &model.triangles);
-    let normals = (!face_normals).then(|| model.normals.clone().unwrap_or_else(smooth));
-    let corners = || model.triangles.iter().flatten().map(|corner| *corner as usize);
-    Model {
-        vertices: corners().map(|corner| model.vertices[corner]).collect(),
-        triangles: (0..model.triangles.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect(),
-        normals: normals.map(|normals| corners().map(|corner| normals[corner]).collect()),
-        uvs: model.uvs.as_ref().map(|uvs| corners().map(|corner| uvs[corner]).collect()),
-        colours: None,
-    }
-}
-
 impl Import {
     /// The path of a model in memory, which is made once for each key.
     pub fn shared_model(
