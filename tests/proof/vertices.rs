@@ -209,7 +209,7 @@ fn assert_terms(vertex: &Vertex, settings: &RenderSettings, what: &str) {
         }
     }
     if let Some(light) = &vertex.light {
-        assert!(settings.estimator != Estimator::Path || light.lamp.is_some());
+        assert!(settings.estimator != Estimator::Path || light.object.is_none());
         assert!((0.0..=1.0).contains(&light.weight));
         let seen = light.outcome == Outcome::Seen;
         assert!(seen || light.contribution == [0.0; 3]);

@@ -91,7 +91,7 @@ impl Objects<'_> {
         let wanted = part.material.as_deref().unwrap_or_default();
         let name = self.names.unique(wanted, "material");
         let Appearance { material, emission } = match self.library.find(wanted) {
-            Some((place, material)) => material::appearance(&material.clone(), place, self.size, &mut self.textures, to),
+            Some((place, material)) => material::appearance(material, place, self.size, &mut self.textures, to),
             None => Appearance { material: self.plain(&part, to), emission: None },
         };
         to.description.materials.insert(name.clone(), material);

@@ -15,7 +15,7 @@ use crate::{
 };
 
 /// Ends of the names of images that are read.
-const READABLE: [&str; 8] = ["png", "jpg", "jpeg", "tga", "webp", "exr", "hdr", "pic"];
+const READABLE: [&str; 9] = ["bmp", "png", "jpg", "jpeg", "tga", "webp", "exr", "hdr", "pic"];
 
 /// The textures of a scene.
 pub struct Textures {

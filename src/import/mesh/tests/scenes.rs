@@ -10,13 +10,15 @@ use crate::{
 
 /// The mesh files of the objects.
 fn files(scene: &Imported) -> Vec<&str> {
-    let file = |shape| match shape {
-        ShapeKind::Mesh(mesh) => match &mesh.source {
-            MeshSource::File(path) => &**path,
-            _ => panic!("a mesh of a file"),
-        },
-        _ => panic!("a mesh"),
-    };
+    fn file(shape: &ShapeKind) -> &str {
+        match shape {
+            ShapeKind::Mesh(mesh) => match &mesh.source {
+                MeshSource::File(path) => path,
+                _ => panic!("a mesh of a file"),
+            },
+            _ => panic!("a mesh"),
+        }
+    }
     scene.description.objects.iter().map(|object| file(&object.shape)).collect()
 }
 

@@ -6,7 +6,7 @@ use super::{
     Geometry, Placed, attributes,
 };
 use crate::{
-    model::{self, Model, smooth_normals},
+    model::{self, Model},
     scene::SceneError,
     shape::{Mesh, ShapeKind, mesh::MeshSource},
 };
