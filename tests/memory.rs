@@ -142,8 +142,8 @@ fn allocated_memory_is_counted() {
     assert_counted("many numbers", &file("numbers.toml", &format!("x = [{}1]", "1,".repeat(1 << 20))));
     assert_counted("many tables", &file("tables.toml", &"[[o]]\n".repeat(150_000)));
 
-    let vertices: String = (0..200_000).map(|i| format!("v {} {} {}\n", i % 7, i % 11, i % 13)).collect();
-    let faces: String = (1..=199_998).map(|i| format!("f {i} {} {}\n", i + 1, i + 2)).collect();
+    let vertices: String = (0..300_000).map(|i| format!("v {} {} {}\n", i % 7, i % 11, i % 13)).collect();
+    let faces: String = (1..=299_998).map(|i| format!("f {i} {} {}\n", i + 1, i + 2)).collect();
     file("large.obj", &(vertices + &faces));
     assert_counted("OBJ", &file("obj.toml", &object("mesh = { path = 'large.obj' }")));
     let vertices: String = (0..300_000).map(|i| format!("{} {} {}\n", i % 7, i % 11, i % 13)).collect();
