@@ -68,7 +68,7 @@ struct Arguments {
 #[derive(Subcommand)]
 enum Command {
     /// Render a scene to a PNG or EXR file, without a window
-    Render(render::Arguments),
+    Render(Box<render::Arguments>),
     /// Measure the error of image A against reference B
     Compare(compare::Arguments),
     /// Compare the renderer with exact solutions and write a report
