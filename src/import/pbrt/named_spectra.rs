@@ -14,8 +14,8 @@ const GLASSES: [(&str, f64); 10] = [
     ("F11", 1.7847),
 ];
 
-/// Name, η and k per channel: measured spectra (E. D. Palik, "Handbook of Optical Constants of Solids", 1985 to 1998; brass: M.
-/// Querry, "Optical Constants", 1985), integrated against the CIE 1931 observer and converted to linear Rec. 709.
+/// Name, η and k per channel: measured spectra as pbrt tabulates them, integrated against the CIE 1931 observer and converted to linear
+/// Rec. 709.
 const METALS: [(&str, [f64; 3], [f64; 3]); 7] = [
     ("Ag", [0.155_276, 0.116_728, 0.138_388], [4.828_354, 3.122_222, 2.146_901]),
     ("Al", [1.657_460, 0.880_369, 0.521_229], [9.223_869, 6.269_523, 4.837_001]),
