@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use super::{
     BLENDED, Columns, Surfaces,
     applied::{AppliedMaterial, Key},
-    number_row,
+    rows::number_row,
 };
 use crate::scene::{MaterialInstance, Object, material_instance::BlendParts};
 
