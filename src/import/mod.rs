@@ -7,6 +7,7 @@ mod memory;
 pub mod mesh;
 pub mod mitsuba;
 pub mod names;
+mod new_files;
 mod open;
 pub mod paths;
 pub mod pbrt;
@@ -19,6 +20,7 @@ use std::path::Path;
 
 pub use self::{
     names::Names,
+    new_files::NewFiles,
     open::{Opened, load, open},
     paths::Folder,
     remark::Remark,

@@ -6,9 +6,7 @@ use std::{
 
 use super::{load::Files, tree::Element};
 use crate::{
-    declare::Assets,
-    import::{Names, Remarks},
-    model::Model,
+    import::{Names, NewFiles, Remarks},
     scene::{SceneError, description::SceneDescription},
 };
 
@@ -19,11 +17,11 @@ const DEEPEST: usize = 64;
 pub struct Import {
     pub files: Files,
     pub description: SceneDescription,
-    pub assets: Assets,
+    /// Meshes and images that exist in memory only.
+    pub new_files: NewFiles,
     pub remarks: Remarks,
     pub textures: Names,
     pub materials: Names,
-    pub asset_names: Names,
     /// What the object that is being translated uses of the shape that it lies on.
     pub uses: Uses,
     /// Textures by their element.
@@ -69,11 +67,10 @@ impl Import {
         Import {
             files,
             description: SceneDescription::default(),
-            assets: Assets::default(),
+            new_files: NewFiles::default(),
             remarks: Remarks::default(),
             textures: Names::default(),
             materials: Names::default(),
-            asset_names: Names::default(),
             uses: Uses::default(),
             known_textures: HashMap::new(),
             known_surfaces: HashMap::new(),
@@ -129,19 +126,5 @@ impl Import {
         self.files
             .resolve(named)
             .map_err(|message| element.error(message, "paths are relative to the scene file, or to the folder of a `<path>`"))
-    }
-
-    /// Adds a mesh that exists in memory only, and returns its path.
-    pub fn add_model(&mut self, name: &str, model: Model) -> String {
-        let path = format!("meshes/{}.ply", self.asset_names.unique(name, "mesh"));
-        self.assets.insert(path.clone(), model);
-        path
-    }
-
-    /// Adds an image that exists in memory only, and returns its path. `extension` is `png` or `exr`.
-    pub fn add_image(&mut self, name: &str, extension: &str, bytes: Vec<u8>) -> String {
-        let path = format!("textures/{}.{extension}", self.asset_names.unique(name, "image"));
-        self.assets.insert(path.clone(), bytes);
-        path
     }
 }

@@ -44,8 +44,8 @@ pub fn read(path: &Path, options: &ImportOptions) -> Result<Imported, SceneError
     scene(&mut import, root)?;
     unread::report(&mut import, root);
     unread::crossings(&mut import);
-    let Import { description, assets, remarks, .. } = import;
-    Ok(Imported { description, assets, remarks })
+    let Import { description, new_files, remarks, .. } = import;
+    Ok(Imported { description, assets: new_files.assets, remarks })
 }
 
 fn scene(import: &mut Import, root: Element) -> Result<(), SceneError> {

@@ -165,7 +165,7 @@ impl Import {
         // Elsewhere the squares are the texels of an image.
         let pixels = [[0; 3], [255; 3], [255; 3], [0; 3]];
         let bytes = pictures::png(2, 2, &pixels).ok_or_else(|| element.error("the checkerboard cannot be made", ""))?;
-        let path = self.add_image("checkerboard", "png", bytes);
+        let path = self.new_files.add_image("checkerboard", "png", bytes);
         let squares = Image { path, encoding: Encoding::Linear, filter: TexelFilter::Nearest, ..placed };
         let weight = self.add_texture(&format!("{} squares", element.label()), squares);
         Ok(Mix { a: even, b: odd, weight: Textured::Texture(weight) }.into())

@@ -30,7 +30,7 @@ impl Import {
         let emits = self.description.objects.iter().any(|object| object.emission.is_some());
         if !emits && self.description.lamps.is_empty() && self.description.background.is_none() {
             let place = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-            studio::light(&mut self.description, &mut self.assets, &mut self.remarks, &place);
+            studio::light(&mut self.description, &mut self.new_files.assets, &mut self.remarks, &place);
         }
         Ok(())
     }

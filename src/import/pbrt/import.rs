@@ -13,9 +13,8 @@ use super::{
     source::{Files, Place},
 };
 use crate::{
-    declare::{Assets, Textured},
-    import::{Folder, ImportOptions, Imported, Names, Remarks},
-    model::Model,
+    declare::Textured,
+    import::{Folder, ImportOptions, Imported, Names, NewFiles, Remarks},
     scene::{SceneError, description::SceneDescription},
 };
 
@@ -23,9 +22,9 @@ use crate::{
 pub struct Import {
     pub files: Files,
     pub description: SceneDescription,
-    pub assets: Assets,
+    /// Meshes and images that exist in memory only.
+    pub new_files: NewFiles,
     pub remarks: Remarks,
-    pub asset_names: Names,
     pub texture_names: Names,
     pub material_names: Names,
     /// Textures by type and name, as they stand in the file.
@@ -62,9 +61,8 @@ impl Import {
         Import {
             files: Files::new(Folder::new(scene, options)),
             description: SceneDescription::default(),
-            assets: Assets::default(),
+            new_files: NewFiles::default(),
             remarks: Remarks::default(),
-            asset_names: Names::default(),
             texture_names: Names::default(),
             material_names: Names::default(),
             textures: HashMap::new(),
@@ -86,7 +84,7 @@ impl Import {
 
     /// The result.
     pub fn finish(self) -> Imported {
-        Imported { description: self.description, assets: self.assets, remarks: self.remarks }
+        Imported { description: self.description, assets: self.new_files.assets, remarks: self.remarks }
     }
 
     /// Adds a remark about a directive: what was used instead, and what that changes in the image.
@@ -142,19 +140,5 @@ impl Import {
     pub fn required_file(&self, entity: &Entity, name: &str) -> Result<PathBuf, SceneError> {
         let missing = || entity.error(format!("{} names no file", entity.shown()), format!("`string {name}` is missing"));
         self.file(entity, name)?.ok_or_else(missing)
-    }
-
-    /// Adds a mesh that exists in memory only, and returns its path.
-    pub fn add_model(&mut self, name: &str, model: Model) -> String {
-        let path = format!("meshes/{}.ply", self.asset_names.unique(name, "mesh"));
-        self.assets.insert(path.clone(), model);
-        path
-    }
-
-    /// Adds an encoded image that exists in memory only, and returns its path.
-    pub fn add_image(&mut self, name: &str, extension: &str, bytes: Vec<u8>) -> String {
-        let path = format!("textures/{}.{extension}", self.asset_names.unique(name, "image"));
-        self.assets.insert(path.clone(), bytes);
-        path
     }
 }

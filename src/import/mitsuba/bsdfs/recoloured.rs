@@ -41,7 +41,7 @@ impl Import {
         let pixels: Vec<[f32; 3]> = picture.radiance.iter().map(|[r, g, b, _]| [*r, *g, *b].map(channel)).collect();
         let bytes = pictures::exr(picture.width, picture.height, &pixels)?;
         let name = file.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
-        let path = self.add_image(&name, "exr", bytes);
+        let path = self.new_files.add_image(&name, "exr", bytes);
         Some(Image { path, encoding: Encoding::Linear, ..image.clone() })
     }
 }

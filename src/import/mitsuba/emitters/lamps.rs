@@ -69,7 +69,7 @@ fn textured_spot(
     let Some(bytes) = picture::of_spot(import, &image, cone) else {
         return Err(texture.error("the image of the spot cannot be read", "check the file"));
     };
-    let path = import.add_image(element.label(), "exr", bytes);
+    let path = import.new_files.add_image(element.label(), "exr", bytes);
     import.remark(texture, "an image of the light and its falloff", "the edge of the cone is interpolated between pixels");
     let [position, target, up] = axes(map);
     let fov = 2.0 * cone.angle;
@@ -84,7 +84,7 @@ pub fn projector(import: &mut Import, element: Element) -> Result<(), SceneError
     let (path, encoding, aspect) = match import.constant(irradiance, Role::Emission)? {
         Some(colour) => {
             let bytes = picture::plain(colour).ok_or_else(|| irradiance.error("the image cannot be made", ""))?;
-            (import.add_image(element.label(), "exr", bytes), Encoding::Linear, 1.0)
+            (import.new_files.add_image(element.label(), "exr", bytes), Encoding::Linear, 1.0)
         }
         None if irradiance.kind() == "bitmap" => {
             let image = import.bitmap(irradiance)?;

@@ -96,7 +96,7 @@ impl Import {
             return Ok(path.clone());
         }
         let model = make(self)?;
-        let path = self.add_model(name, model);
+        let path = self.new_files.add_model(name, model);
         self.known_models.insert(key.to_owned(), path.clone());
         Ok(path)
     }

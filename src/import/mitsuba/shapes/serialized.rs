@@ -45,7 +45,7 @@ pub fn serialized(import: &mut Import, element: Element, placed: Placed) -> Resu
         Ok(Variant { flip_v, face_normals }.of(model.map_err(error)?))
     })?;
     let mirrors = placed.map.matrix3.determinant() < 0.0;
-    let has_normals = import.assets.get::<Model>(&file).is_some_and(|model| model.normals.is_some());
+    let has_normals = import.new_files.assets.get::<Model>(&file).is_some_and(|model| model.normals.is_some());
     let flip = placed.flip ^ (mirrors && !has_normals);
     Ok(Geometry { shape: meshes::in_memory(file, !face_normals), map: placed.map, flip })
 }

@@ -76,7 +76,7 @@ impl Import {
             drop(picture);
             let bytes = pictures::exr(width, width / 2, &sky).ok_or_else(|| wrong("the sky cannot be encoded".to_owned()))?;
             self.remark(entity, "the image resampled to an equirectangular one", "its texels are averaged a little");
-            (self.add_image("sky", "exr", bytes), frame)
+            (self.new_files.add_image("sky", "exr", bytes), frame)
         } else {
             if picture.width != 2 * picture.height {
                 self.remark(entity, "an equirectangular image", "the image is neither square nor twice as wide as high");

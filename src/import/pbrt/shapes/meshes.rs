@@ -63,7 +63,7 @@ impl Import {
             0..=FEW => Areas::Faces { triangles: model.triangles.iter().map(|triangle| triangle.map(corner)).collect(), each },
             _ => Areas::Unknown,
         };
-        let path = self.add_model(name, model);
+        let path = self.new_files.add_model(name, model);
         Some(Built::mesh(name, path, smooth, areas))
     }
 }

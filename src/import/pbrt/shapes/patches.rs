@@ -44,7 +44,7 @@ impl Import {
             return Err(entity.error("the shape is too large", "its coordinates must be finite in single precision"));
         }
         self.remark(entity, "a mesh of 16384 triangles", "its outline is a polygon");
-        let path = self.add_model(name, model);
+        let path = self.new_files.add_model(name, model);
         Ok(Built::mesh(name, path, true, Areas::Unknown))
     }
 }

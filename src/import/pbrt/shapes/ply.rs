@@ -39,7 +39,7 @@ impl Import {
         let mut model = read(file.path()).map_err(|error| wrong(format!("`{name}`: {}", error.problem)))?;
         super::meshes::face_normals(&mut model);
         let smooth = model.normals.is_some();
-        let described = self.add_model(name, model);
+        let described = self.new_files.add_model(name, model);
         self.packed_meshes.insert(key, (described.clone(), smooth));
         Ok(Built::mesh(name, described, smooth, Areas::Unknown))
     }

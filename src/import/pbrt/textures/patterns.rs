@@ -43,7 +43,7 @@ impl Import {
         let [scale, [du, offset_v]] = self.mapping(entity)?;
         let bytes = pictures::exr(2, 2, &corners).unwrap_or_default();
         let image = Image {
-            path: self.add_image(name, "exr", bytes),
+            path: self.new_files.add_image(name, "exr", bytes),
             encoding: Encoding::Linear,
             wrap_u: Wrap::Clamp,
             wrap_v: Wrap::Clamp,
@@ -57,8 +57,8 @@ impl Import {
     /// The path of an image that all textures of a kind share.
     fn pattern(&mut self, name: &str, extension: &str, encoded: impl FnOnce() -> Option<Vec<u8>>) -> String {
         let path = format!("textures/{name} pattern.{extension}");
-        if self.assets.get::<Vec<u8>>(&path).is_none() {
-            self.assets.insert(path.clone(), encoded().unwrap_or_default());
+        if self.new_files.assets.get::<Vec<u8>>(&path).is_none() {
+            self.new_files.assets.insert(path.clone(), encoded().unwrap_or_default());
         }
         path
     }
