@@ -127,8 +127,8 @@ impl Objects {
         let (origins, directions) = (arrays(o), arrays(d));
         let times = time.to_array();
         let mut distances = nearest.t.to_array();
-        let mut primitives = nearest.primitive.to_array();
-        let mut elements = nearest.element.to_array();
+        let mut primitives = nearest.primitive.as_real_bits().to_array();
+        let mut elements = nearest.element.as_real_bits().to_array();
         let (mut stack, mut below) = (Stack::default(), Stack::default());
         let mut rest = live.bits();
         while rest != 0 {
@@ -141,14 +141,13 @@ impl Objects {
                 o: vector(&origins, lane),
                 d: vector(&directions, lane),
                 time: F(times[lane]),
-                primitive: primitives[lane],
-                element: elements[lane],
+                primitive: primitives[lane].to_bits(),
+                element: elements[lane].to_bits(),
             };
             distances[lane] = traverse(l.token(), &self.bvh, &mut stack, (&slabs, lane), distances[lane], &mut found);
-            (primitives[lane], elements[lane]) = (found.primitive, found.element);
+            (primitives[lane], elements[lane]) = (f32::from_bits(found.primitive), f32::from_bits(found.element));
         }
-        let load = |words: &[u32; MAX_LANES]| l.load(&words.map(f32::from_bits)).bits();
-        *nearest = Nearest { t: l.load(&distances), primitive: load(&primitives), element: load(&elements) };
+        *nearest = Nearest { t: l.load(&distances), primitive: l.load(&primitives).bits(), element: l.load(&elements).bits() };
     }
 }
 

@@ -7,7 +7,7 @@ use super::{
 };
 use crate::{
     material::Stage,
-    math::{F, Lanes, M, MAX_LANES, U, V},
+    math::{Lanes, M, MAX_LANES, U, V},
 };
 
 /// The queues of a thread. Allocated once, reused for every tile.
@@ -62,7 +62,7 @@ impl Batch {
 #[inline(always)]
 pub(super) fn add<L: Lanes>(radiance: &mut [[f32; 4]], mask: M<L>, slot: U<L>, light: V<L>) {
     let slot = slot.to_array();
-    let [x, y, z] = [light.x, light.y, light.z].map(F::to_array);
+    let (x, y, z) = (light.x.to_array(), light.y.to_array(), light.z.to_array());
     let mut lanes = mask.bits();
     while lanes != 0 {
         let lane = lanes.trailing_zeros() as usize % MAX_LANES;

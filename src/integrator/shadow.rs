@@ -59,9 +59,9 @@ pub(super) fn arriving<L: Lanes>(
     }
     let scene = work.scene;
     let time = work.time(l, shadow.slot);
-    let mut nearest = scene.shapes.closest(l, live, shadow.o, shadow.d, time);
-    let seen = live & scene.lights.arrives(l, shadow.target, shadow.o, &mut nearest);
-    let Nearest { t, primitive, element } = nearest;
+    let nearest = scene.shapes.closest(l, live, shadow.o, shadow.d, time);
+    let (arrives, Nearest { t, primitive, element }) = scene.lights.arrives(l, shadow.target, shadow.o, nearest);
+    let seen = live & arrives;
     let mut light = shadow.radiance;
     if work.has_media() {
         light = light * transmittance(l, work, media, t);
@@ -97,8 +97,7 @@ fn through_surfaces<L: Lanes>(
     let (mut open, mut passed) = (live, l.f(1.0));
     for crossed in 0..=MOST_CROSSINGS {
         let hit = passage.hits(open);
-        let mut nearest = passage.nearest();
-        let arrives = scene.lights.arrives(l, shadow.target, shadow.o, &mut nearest);
+        let (arrives, nearest) = scene.lights.arrives(l, shadow.target, shadow.o, passage.nearest());
         let reached = open & arrives & nearest.primitive.is(MISS);
         let crossing = passage.crossing(l, scene, hit);
         let part = Decisions::Random.of_crossing(part, crossed);

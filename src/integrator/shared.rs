@@ -40,8 +40,11 @@ impl Shared {
 
     /// Multiplies by the albedo of the first surface, if that is shared.
     pub fn weighted(&self, slot: usize, colour: [f32; 3]) -> [f32; 3] {
-        let shares = self.points[slot][3] > 0.0;
-        [0, 1, 2].map(|c| if shares { colour[c] * self.albedos[slot][c] } else { colour[c] })
+        if self.points[slot][3] <= 0.0 {
+            return colour;
+        }
+        let ([r, g, b], albedo) = (colour, self.albedos[slot]);
+        [r * albedo[0], g * albedo[1], b * albedo[2]]
     }
 
     /// Stores the first surface of paths.
@@ -74,7 +77,7 @@ impl Shared {
 #[inline(always)]
 pub(super) fn put<L: Lanes>(lanes: M<L>, slot: U<L>, V { x, y, z }: V<L>, w: F<L>, rows: &mut [[f32; 4]]) {
     let slot = slot.to_array();
-    let [x, y, z, w] = [x, y, z, w].map(F::to_array);
+    let (x, y, z, w) = (x.to_array(), y.to_array(), z.to_array(), w.to_array());
     let mut rest = lanes.bits();
     while rest != 0 {
         let lane = rest.trailing_zeros() as usize % MAX_LANES;

@@ -16,7 +16,7 @@ use super::{
 };
 use crate::{
     geometry::{MISS, Motion, PrimitiveRef, Shape, Shapes},
-    math::{F, Lanes, M, Pick, U, V},
+    math::{F, Lanes, Pick, U, V},
 };
 
 /// All lights of a scene: the emitting primitives 0, 1, 2, …, every triangle of emitting meshes, the lamps without surface, and the
@@ -49,8 +49,6 @@ pub struct LightSample<L: Lanes> {
     /// Pdf of `wi` per solid angle, including the probability of choosing the light; 0 if there is no light. For a lamp without
     /// surface, that probability alone.
     pub pdf: F<L>,
-    /// Lanes of lamps without surface: no other strategy could have sampled the direction.
-    pub delta: M<L>,
     /// The light, or [`MISS`] for the background: see [`Lights::arrives`].
     pub target: U<L>,
 }
@@ -155,7 +153,7 @@ impl Lights {
     ) -> LightSample<L> {
         let (target, pmf) = self.choose(l, at, u);
         let sky = target.is(MISS);
-        let mut sample = LightSample { wi: at.n, radiance: V::splat(l, [0.0; 3]), pdf: l.f(0.0), delta: l.first(0), target };
+        let mut sample = LightSample { wi: at.n, radiance: V::splat(l, [0.0; 3]), pdf: l.f(0.0), target };
         let mut on_surface = !sky;
         if !self.lamps.is_empty() {
             on_surface = on_surface & target.below(self.count as u32);
@@ -180,7 +178,7 @@ impl Lights {
             sample.pdf = sky.pick(pdf, sample.pdf);
         }
         if !self.lamps.is_empty() {
-            self.add_lamps(l, at, &mut sample);
+            sample = self.with_lamps(l, at.p, sample);
         }
         sample.pdf = sample.pdf * pmf;
         sample

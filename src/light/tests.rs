@@ -173,11 +173,19 @@ fn the_pdf_of_a_surface_next_to_lamps_has_its_part_of_the_choice() {
         match lights.lamp_at(sample.target.0) {
             None => {
                 let pdf = lights.pdf(One, &shapes, &at, sample.wi, &place(sample.target));
-                assert!((pdf.0 / sample.pdf.0 - 1.0).abs() < 1e-3 && !sample.delta.0, "{} {}", pdf.0, sample.pdf.0);
+                assert!(
+                    (pdf.0 / sample.pdf.0 - 1.0).abs() < 1e-3 && !lights.are_lamps(sample.target).0,
+                    "{} {}",
+                    pdf.0,
+                    sample.pdf.0
+                );
                 surfaces += 1;
             }
             Some(lamp) => {
-                assert!(lamp < 2 && sample.delta.0 && sample.pdf.0 <= 1.0, "the third lamp is below the horizon: {lamp}");
+                assert!(
+                    lamp < 2 && lights.are_lamps(sample.target).0 && sample.pdf.0 <= 1.0,
+                    "the third lamp is below the horizon: {lamp}"
+                );
                 lamps += 1;
             }
         }
@@ -189,9 +197,9 @@ fn the_pdf_of_a_surface_next_to_lamps_has_its_part_of_the_choice() {
 fn a_lamp_arrives_unless_something_is_nearer() {
     let (lights, _) = with_lamps();
     let arrives = |target: u32, t: f32, primitive: u32| {
-        let mut nearest = Nearest { t: F(t), primitive: U(primitive), element: U(0) };
-        let arrives = lights.arrives(One, U(target), vector(0.0, 0.0, 0.0), &mut nearest).0;
-        (arrives, nearest.t.0)
+        let nearest = Nearest { t: F(t), primitive: U(primitive), element: U(0) };
+        let (arrives, end) = lights.arrives(One, U(target), vector(0.0, 0.0, 0.0), nearest);
+        (arrives.0, end.t.0)
     };
     // Light 0 is the ball; primitive 1 is something dark, whose number is that of a lamp.
     let distance = 5f32.sqrt();

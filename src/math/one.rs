@@ -29,7 +29,8 @@ impl Lanes for One {
     }
     #[inline(always)]
     fn rows(self, table: &[[f32; 4]], index: U<Self>) -> [F<Self>; 4] {
-        table[index.0 as usize].map(F)
+        let [x, y, z, w] = table[index.0 as usize];
+        [F(x), F(y), F(z), F(w)]
     }
     #[inline(always)]
     fn store(x: f32, to: &mut [f32]) {

@@ -53,7 +53,9 @@ macro_rules! simd_lanes {
                 let mut at = [0u32; $n];
                 index.0.store_slice(&mut at);
                 if index.is(at[0]).count() == $n {
-                    return table[at[0] as usize].map(|x| self.f(x));
+                    // Not `map`, which is compiled without the instructions of `self`.
+                    let [x, y, z, w] = table[at[0] as usize];
+                    return [self.f(x), self.f(y), self.f(z), self.f(w)];
                 }
                 let mut rows = [[0f32; 4]; $n];
                 for lane in 0..$n {

@@ -10,6 +10,12 @@ pub struct Estimate {
     pub variance_of_mean: Option<[f64; 3]>,
 }
 
+/// A colour in single precision. Called for every pixel, so it is no `map`, which is not always inlined.
+#[inline(always)]
+pub(super) fn single([r, g, b]: [f64; 3]) -> [f32; 3] {
+    [r as f32, g as f32, b as f32]
+}
+
 /// Sums over the pixels and channels of a block, each divided by the squared radiance with the floor of relMSE.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Doubling {

@@ -4,8 +4,14 @@ use std::time::Duration;
 use rayon::prelude::*;
 
 use super::{
-    error_estimator::block_errors, estimate::Estimate, film::Film, halves::Halves, sample_counts::SampleCounts, scatter::Parts,
-    series::Series, tile::Tile,
+    error_estimator::block_errors,
+    estimate::{Estimate, single},
+    film::Film,
+    halves::Halves,
+    sample_counts::SampleCounts,
+    scatter::Parts,
+    series::Series,
+    tile::Tile,
 };
 use crate::{
     integrator::TILE,
@@ -67,9 +73,9 @@ impl Frame {
                 for row in 0..tile.size[1] as usize {
                     let start = row * width as usize + tile.origin[0] as usize;
                     for (i, estimate) in (start..).zip(tile.estimates(row)) {
-                        radiance[i] = estimate.mean.map(|c| c as f32);
+                        radiance[i] = single(estimate.mean);
                         error[i] = luminance_error(&estimate);
-                        variance[i] = estimate.variance_of_mean.unwrap_or_default().map(|v| v as f32);
+                        variance[i] = single(estimate.variance_of_mean.unwrap_or_default());
                     }
                 }
             }

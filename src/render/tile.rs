@@ -162,7 +162,7 @@ impl Tile {
                     first_invalid = first_invalid.or(Some(pixel));
                     rgb = [0.0; 3];
                 }
-                let rgb = rgb.map(f64::from);
+                let rgb = [f64::from(rgb[0]), f64::from(rgb[1]), f64::from(rgb[2])];
                 let all = rgb[0] + rgb[1] + rgb[2];
                 parts.add(all, count, sum[0] + sum[1] + sum[2]);
                 total += all;

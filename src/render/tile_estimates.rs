@@ -2,7 +2,7 @@
 use std::ops::Range;
 
 use super::{
-    estimate::{Doubling, Estimate},
+    estimate::{Doubling, Estimate, single},
     scatter::Parts,
     tile::Tile,
 };
@@ -25,7 +25,7 @@ impl Tile {
             self.earlier[row.clone()].copy_from_slice(&self.before[row.clone()]);
             let means = &mut self.before[row];
             before.extend_from_slice(means);
-            means.iter_mut().zip(now).for_each(|(mean, estimate)| *mean = estimate.mean.map(|c| c as f32));
+            means.iter_mut().zip(now).for_each(|(mean, estimate)| *mean = single(estimate.mean));
         }
         let state = &mut self.blocks[block];
         state.doubled = state.spp;
@@ -110,7 +110,7 @@ impl Tile {
         let n = f64::from(spp.max(1));
         let (per_sample, per_degree) = (1.0 / n, 1.0 / (n - 1.0));
         self.sum[pixels.clone()].iter().zip(&self.sum_of_squares[pixels]).map(move |(sum, square)| {
-            let mean = sum.map(|s| s / n);
+            let mean = [sum[0] / n, sum[1] / n, sum[2] / n];
             let variance = |c: usize| ((square[c] * per_sample - mean[c] * mean[c]) * per_degree).max(0.0);
             Estimate { mean, variance_of_mean: (n > 1.0).then(|| [variance(0), variance(1), variance(2)]) }
         })

@@ -1,8 +1,10 @@
 //! Samples of lamps without surface among the lights, and whether light arrives.
+use fearless_simd_macros::simd;
+
 use super::{LightSample, Lights};
 use crate::{
     geometry::{MISS, Nearest},
-    light::{LightCoordinates, ReferencePoint, lamp::LampSample},
+    light::{LightCoordinates, ReferencePoint},
     math::{Lanes, M, Pick, U, V},
 };
 
@@ -13,29 +15,32 @@ impl Lights {
         let (lamp, pmf) = self.selection_of_lamps.choose(l, at, u);
         // Where no lamp shines, none is chosen.
         let target = lamp.is(MISS).pick(lamp, lamp + self.count as u32);
-        let mut sample = LightSample { wi: at.n, radiance: V::splat(l, [0.0; 3]), pdf: l.f(0.0), delta: l.first(0), target };
-        self.add_lamps(l, at, &mut sample);
-        sample.pdf = sample.pdf * pmf;
-        sample
+        let sample = LightSample { wi: at.n, radiance: V::splat(l, [0.0; 3]), pdf: l.f(0.0), target };
+        let sample = self.with_lamps(l, at.p, sample);
+        LightSample { pdf: sample.pdf * pmf, ..sample }
     }
 
-    /// Completes the samples whose target is a lamp without surface, up to the probability of choosing it.
-    #[inline(always)]
-    pub(super) fn add_lamps<L: Lanes>(&self, l: L, at: &ReferencePoint<L>, sample: &mut LightSample<L>) {
-        let lamps = self.are_lamps(sample.target);
+    /// Completes the samples whose target is a lamp without surface, up to the probability of choosing it. A call, with the sample by
+    /// value; otherwise it would be kept in memory even for scenes without lamps.
+    #[simd]
+    pub(super) fn with_lamps<L: Lanes>(&self, l: L, p: V<L>, sample: LightSample<L>) -> LightSample<L> {
+        let LightSample { wi, radiance, pdf, target } = sample;
+        let lamps = self.are_lamps(target);
         if !lamps.any() {
-            return;
+            return sample;
         }
-        let LampSample { wi, irradiance } = self.lamps.sample(l, self.lamp(l, lamps, sample.target), at.p);
-        sample.wi = lamps.pick(wi, sample.wi);
-        sample.radiance = lamps.pick(irradiance, sample.radiance);
-        sample.pdf = lamps.pick(l.f(1.0), sample.pdf);
-        sample.delta = lamps;
+        let of_lamp = self.lamps.sample(l, self.lamp(l, lamps, target), p);
+        LightSample {
+            wi: lamps.pick(of_lamp.wi, wi),
+            radiance: lamps.pick(of_lamp.irradiance, radiance),
+            pdf: lamps.pick(l.f(1.0), pdf),
+            target,
+        }
     }
 
-    /// Lanes whose light is a lamp without surface.
+    /// Lanes whose light is a lamp without surface: no other strategy could have sampled the direction towards it.
     #[inline(always)]
-    fn are_lamps<L: Lanes>(&self, light: U<L>) -> M<L> {
+    pub fn are_lamps<L: Lanes>(&self, light: U<L>) -> M<L> {
         let first = self.count as u32;
         light.below(first + self.lamps.len() as u32) & !light.below(first)
     }
@@ -53,18 +58,27 @@ impl Lights {
     }
 
     /// Whether the light `target` arrives at `o` from the direction in which `nearest` is the first hit: it is the target, or the
-    /// target is a lamp without surface that is not farther away. `nearest` then ends at the lamp.
+    /// target is a lamp without surface that is not farther away. The ray then ends at the lamp.
     #[inline(always)]
-    pub fn arrives<L: Lanes>(&self, l: L, target: U<L>, o: V<L>, nearest: &mut Nearest<L>) -> M<L> {
+    pub fn arrives<L: Lanes>(&self, l: L, target: U<L>, o: V<L>, nearest: Nearest<L>) -> (M<L>, Nearest<L>) {
         let hit = self.light_at(l, nearest.primitive, nearest.element).equals(target);
         if self.lamps.is_empty() {
-            return hit;
+            return (hit, nearest);
         }
+        self.arrives_from_lamps(l, target, o, nearest, hit)
+    }
+
+    /// A call by value, for the same reason as [`Lights::with_lamps`].
+    #[simd]
+    fn arrives_from_lamps<L: Lanes>(&self, l: L, target: U<L>, o: V<L>, nearest: Nearest<L>, hit: M<L>) -> (M<L>, Nearest<L>) {
         let lamps = self.are_lamps(target);
         let distance = self.lamps.distance(l, self.lamp(l, lamps, target), o);
         let free = lamps & nearest.t.ge(distance);
-        nearest.t = free.pick(distance, nearest.t);
-        nearest.primitive = free.pick(l.u(MISS), nearest.primitive);
-        free | (hit & !lamps)
+        let end = Nearest {
+            t: free.pick(distance, nearest.t),
+            primitive: free.pick(l.u(MISS), nearest.primitive),
+            element: nearest.element,
+        };
+        (free | (hit & !lamps), end)
     }
 }

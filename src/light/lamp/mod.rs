@@ -27,7 +27,6 @@ use glam::{DAffine3, DVec3};
 pub(super) use self::{
     beam::Beam,
     compiled::{LampBound, LampRows},
-    table::LampSample,
 };
 pub use self::{compiled::Lamp, table::Lamps};
 use crate::declare::{Declare, Parameters, Problem, Resources};
