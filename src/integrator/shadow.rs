@@ -19,13 +19,27 @@ use crate::{
     sampling::Dimension,
 };
 
-#[simd]
+/// Runs the stage.
 pub(super) fn shadow<L: Lanes>(l: L, work: &Work, batch: &mut Batch) {
+    if work.has_passages() {
+        test::<L, true>(l, work, batch);
+    } else {
+        test::<L, false>(l, work, batch);
+    }
+}
+
+/// `PASSAGES` is compiled for scenes where light passes through surfaces.
+#[simd]
+fn test<L: Lanes, const PASSAGES: bool>(l: L, work: &Work, batch: &mut Batch) {
     let Batch { shadows, radiance, rays, bounce, .. } = batch;
     for at in shadows.registers(l) {
         let shadow = Shadow::read(l, &shadows.shadows, at.start);
         let media = if work.has_media() { shadows.media(l, at) } else { l.u(0) };
-        let Arriving { seen, light, .. } = arriving(l, work, at.live, &shadow, media, *bounce + 1, rays);
+        let Arriving { seen, light, .. } = if PASSAGES {
+            through_surfaces(l, work, at.live, &shadow, media, *bounce + 1, rays)
+        } else {
+            directly(l, work, at.live, &shadow, media)
+        };
         add(radiance, seen, shadow.slot, light);
     }
     *rays += shadows.len() as u64;
@@ -44,7 +58,6 @@ pub(super) struct Arriving<L: Lanes> {
 
 /// The light samples of the `reflection`-th reflections in the lanes of `live`, after the transmittance of `media`, in which they
 /// start, and the textures of their lights. Counts the rays beyond the first one of each sample.
-#[inline(always)]
 pub(super) fn arriving<L: Lanes>(
     l: L,
     work: &Work,
@@ -55,8 +68,15 @@ pub(super) fn arriving<L: Lanes>(
     rays: &mut u64,
 ) -> Arriving<L> {
     if work.has_passages() {
-        return through_surfaces(l, work, live, shadow, media, reflection, rays);
+        through_surfaces(l, work, live, shadow, media, reflection, rays)
+    } else {
+        directly(l, work, live, shadow, media)
     }
+}
+
+/// [`arriving`] where every surface stops light.
+#[inline(always)]
+fn directly<L: Lanes>(l: L, work: &Work, live: M<L>, shadow: &Shadow<L>, media: U<L>) -> Arriving<L> {
     let scene = work.scene;
     let time = work.time(l, shadow.slot);
     let nearest = scene.shapes.closest(l, live, shadow.o, shadow.d, time);

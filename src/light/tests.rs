@@ -159,7 +159,7 @@ fn samples_of_surfaces_and_lamps_add_up_to_the_irradiance_of_all() {
     };
     let (all, error) = mean(&|i| lights.sample(One, &shapes, &at, F(0.0), &coordinates(i)));
     assert!((all - ball - lamps).abs() < 4.0 * error + 1e-5, "{all} ± {error} for {}", ball + lamps);
-    let (alone, error) = mean(&|i| lights.sample_lamps(One, &at, &coordinates(i)));
+    let (alone, error) = mean(&|i| lights.sample_lamps(One, at, coordinates(i)));
     assert!((alone - lamps).abs() < 4.0 * error + 1e-5, "{alone} ± {error} for {lamps}");
 }
 

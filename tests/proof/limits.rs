@@ -210,6 +210,9 @@ fn materials_at_the_ends_of_their_ranges_are_what_they_approach() {
     }
 }
 
+/// More than any material has.
+const NUMBERS: usize = 40;
+
 /// Sets the n-th number of a material to an end of its range, or just inside it.
 struct AtEnd {
     /// Numbers that are still to be skipped.
@@ -286,7 +289,7 @@ fn every_number_of_every_declared_material_is_at_its_ends_what_it_approaches() {
     let mut tried = std::collections::BTreeSet::new();
     for kind in Material::alternatives().into_iter().map(valid) {
         for (left, upper, variant) in
-            (0..8).flat_map(|left| [false, true].into_iter().flat_map(move |u| (0..3).map(move |v| (left, u, v))))
+            (0..NUMBERS).flat_map(|left| [false, true].into_iter().flat_map(move |u| (0..3).map(move |v| (left, u, v))))
         {
             let [at, near] = [false, true].map(|near| {
                 let mut end = AtEnd { left, upper, near, variant, found: None };

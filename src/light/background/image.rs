@@ -13,6 +13,8 @@ use std::{
     sync::Arc,
 };
 
+use fearless_simd_macros::simd;
+
 use self::{turn::Turn, weights::cell_means};
 use super::{Radiant, Surrounding};
 use crate::{
@@ -203,8 +205,8 @@ impl ImageBackground {
         self.tables.mean_luminance
     }
 
-    /// Radiance that arrives from the unit direction `d`.
-    #[inline(always)]
+    /// Radiance that arrives from the unit direction `d`. A call, as are the two below: scenes under other skies keep their registers.
+    #[simd]
     pub fn radiance<L: Lanes>(&self, l: L, d: V<L>) -> V<L> {
         let (u, v) = self.picture_from_world(l, d);
         self.tables.picture.colour(l, u, v, Edge::Clamp)
@@ -212,7 +214,7 @@ impl ImageBackground {
 
     /// Samples a unit direction, and returns it with its pdf per solid angle. `cell` selects the cell, by index and coin; `u`
     /// selects the point in it.
-    #[inline(always)]
+    #[simd]
     pub fn sample<L: Lanes>(&self, l: L, cell: (F<L>, F<L>), u: (F<L>, F<L>)) -> (V<L>, F<L>) {
         let SkyTables { columns, cells, bounds, .. } = &*self.tables;
         let (cell, probability) = cells.sample(l, cell);
@@ -230,7 +232,7 @@ impl ImageBackground {
     }
 
     /// Pdf of [`sample`](Self::sample) at the unit direction `d`, per solid angle.
-    #[inline(always)]
+    #[simd]
     pub fn pdf<L: Lanes>(&self, l: L, d: V<L>) -> F<L> {
         let (u, v) = self.picture_from_world(l, d);
         let SkyTables { columns, rows, cells, bounds, .. } = &*self.tables;

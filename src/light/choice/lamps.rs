@@ -10,9 +10,9 @@ use crate::{
 
 impl Lights {
     /// A direction towards a lamp without surface, as if there were no other lights. There must be one.
-    #[inline(always)]
-    pub fn sample_lamps<L: Lanes>(&self, l: L, at: &ReferencePoint<L>, u: &LightCoordinates<L>) -> LightSample<L> {
-        let (lamp, pmf) = self.selection_of_lamps.choose(l, at, u);
+    #[simd]
+    pub fn sample_lamps<L: Lanes>(&self, l: L, at: ReferencePoint<L>, u: LightCoordinates<L>) -> LightSample<L> {
+        let (lamp, pmf) = self.selection_of_lamps.choose(l, &at, &u);
         // Where no lamp shines, none is chosen.
         let target = lamp.is(MISS).pick(lamp, lamp + self.count as u32);
         let sample = LightSample { wi: at.n, radiance: V::splat(l, [0.0; 3]), pdf: l.f(0.0), target };

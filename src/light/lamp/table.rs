@@ -14,6 +14,8 @@ use crate::{
 pub struct Lamps {
     /// Five rows for each lamp: see [`super::LampRows`].
     rows: Vec<[f32; 4]>,
+    /// Number of lamps.
+    count: usize,
     /// The images that lamps cast.
     images: Vec<Arc<ImageTexture>>,
 }
@@ -40,18 +42,19 @@ impl Lamps {
             place as u32 + 1
         };
         let rows = lamps.iter().flat_map(|lamp| lamp.rows(number(lamp))).collect();
-        Lamps { rows, images }
+        Lamps { rows, count: lamps.len(), images }
     }
 
     /// Number of lamps.
+    #[inline(always)]
     pub fn len(&self) -> usize {
-        self.rows.len() / 5
+        self.count
     }
 
     /// Whether there are none.
     #[inline(always)]
     pub fn is_empty(&self) -> bool {
-        self.rows.is_empty()
+        self.count == 0
     }
 
     /// Whether both have the same bits.
