@@ -1,19 +1,31 @@
-//! Scenes that differ only in title, notes and truth, and therefore have the same image.
+//! Scenes that differ only in title, notes, truth and names of objects, and therefore have the same image.
 use std::sync::Arc;
 
-use super::{Scene, description::SceneDescription};
+use super::{
+    Scene,
+    description::{ObjectDescription, SceneDescription},
+};
 
 /// Parts whose compile leaves the image as it is: they are made every time, or only compared with the image.
 const HARMLESS: [&str; 2] = ["surfaces", "references"];
 
 impl SceneDescription {
-    /// Whether title, notes or truth differ, and nothing else does.
+    /// Whether title, notes, truth or names of objects differ, and nothing else does.
     pub fn differs_in_texts(&self, other: &SceneDescription) -> bool {
         let SceneDescription { title, notes, truth, camera, background, textures, materials, objects, lamps, render } = self;
-        (title, notes, truth) != (&other.title, &other.notes, &other.truth)
+        let names = |objects: &[ObjectDescription]| objects.iter().map(|object| object.name.clone()).collect::<Vec<_>>();
+        ((title, notes, truth) != (&other.title, &other.notes, &other.truth) || names(objects) != names(&other.objects))
             && (camera, background, render) == (&other.camera, &other.background, &other.render)
             && (textures, materials) == (&other.textures, &other.materials)
-            && (objects, lamps) == (&other.objects, &other.lamps)
+            && lamps == &other.lamps
+            && objects.len() == other.objects.len()
+            && objects.iter().zip(&other.objects).all(|(a, b)| a.is_same_but_for_name(b))
+    }
+}
+
+impl ObjectDescription {
+    fn is_same_but_for_name(&self, other: &ObjectDescription) -> bool {
+        self == other || *self == ObjectDescription { name: self.name.clone(), ..other.clone() }
     }
 }
 
@@ -60,6 +72,8 @@ mod tests {
         assert!(changed(|scene| scene.notes = "Bright.".to_owned()));
         assert!(changed(|scene| scene.truth = Some(Default::default())));
         assert!(!changed(|scene| (scene.title, scene.camera.fov) = ("Room".to_owned(), Some(20.0))));
+        assert!(changed(|scene| scene.objects[0].name = "wall".to_owned()));
+        assert!(!changed(|scene| (scene.objects[0].name, scene.objects[0].flip) = ("wall".to_owned(), true)));
         assert!(!changed(|scene| scene.render.settings.seed = 5));
         assert!(!changed(|scene| drop(scene.objects.pop())));
     }

@@ -5,26 +5,30 @@ use super::state::App;
 use crate::viewer::canvas::interaction::Tool;
 use crate::viewer::dialogs::save_target::SaveTarget;
 use crate::viewer::instruments::tabs::InstrumentTab;
-use crate::viewer::panels::{toolbar::Command, toolbar::Toolbar, views};
+use crate::viewer::panels::{
+    outliner::{Action, can_rename},
+    toolbar::{Command, Toolbar},
+    views,
+};
 
 const SAVE_KEYS: [(KeyboardShortcut, Command); 2] = [
     (KeyboardShortcut::new(Modifiers::COMMAND, Key::S), Command::SaveScene),
     (KeyboardShortcut::new(Modifiers::COMMAND, Key::E), Command::SavePicture),
 ];
-/// The longer ones first: egui takes a shortcut without Shift for one with it.
-const UNDO_KEYS: [(KeyboardShortcut, Command); 3] = [
+/// The longer ones first: egui takes a shortcut without Shift for one with it. A key alone must not cost samples.
+const STEP_KEYS: [(KeyboardShortcut, Command); 4] = [
     (KeyboardShortcut::new(Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::Z), Command::Redo),
     (KeyboardShortcut::new(Modifiers::COMMAND, Key::Y), Command::Redo),
     (KeyboardShortcut::new(Modifiers::COMMAND, Key::Z), Command::Undo),
+    (KeyboardShortcut::new(Modifiers::COMMAND, Key::R), Command::Restart),
 ];
 
-const COMMAND_KEYS: [(Key, Command); 9] = [
+const COMMAND_KEYS: [(Key, Command); 8] = [
     (Key::Space, Command::TogglePause),
     (Key::Period, Command::Step),
-    (Key::R, Command::Restart),
     (Key::P, Command::ChooseTool(Tool::Picture)),
     (Key::C, Command::ChooseTool(Tool::Camera)),
-    (Key::G, Command::ChooseTool(Tool::Region)),
+    (Key::B, Command::ChooseTool(Tool::Region)),
     (Key::I, Command::ChooseTool(Tool::Inspect)),
     (Key::F, Command::Fit),
     (Key::Num1, Command::ActualSize),
@@ -83,7 +87,11 @@ impl App {
     /// Single keys, unless text is being typed, and those with Ctrl.
     pub fn shortcuts(&mut self, ctx: &Context) {
         self.take_gizmo_keys();
-        let holds = |input: &InputState| input.key_down(Key::S) && (self.window.holds_chord || input.modifiers.command);
+        let can_duplicate = self.selection.subject.is_some();
+        let holds = |input: &InputState| {
+            let saves = input.key_down(Key::S) && (self.window.holds_chord || input.modifiers.command);
+            saves || (input.key_down(Key::D) && (self.window.holds_chord || (can_duplicate && input.modifiers.shift)))
+        };
         self.window.holds_chord = ctx.input(holds);
         for (shortcut, command) in SAVE_KEYS {
             let can = command == Command::SaveScene || self.can_save();
@@ -93,7 +101,7 @@ impl App {
         }
         // In text they belong to the text.
         if !ctx.text_edit_focused() && !self.dialogs.wait() {
-            for (shortcut, command) in UNDO_KEYS {
+            for (shortcut, command) in STEP_KEYS {
                 if ctx.input_mut(|input| input.consume_shortcut(&shortcut)) {
                     self.perform(command);
                 }
@@ -135,6 +143,13 @@ impl App {
         }
         if pressed(Key::L) {
             self.look_at_selection();
+        }
+        if let Some(subject) = self.selection.subject.clone().filter(can_rename) {
+            if pressed(Key::Delete) || pressed(Key::X) {
+                self.act_on(subject, Action::Delete);
+            } else if ctx.input(|input| input.key_pressed(Key::D) && input.modifiers.shift_only()) {
+                self.act_on(subject, Action::Duplicate);
+            }
         }
         let look = &mut self.session.look;
         for (is_pressed, back) in

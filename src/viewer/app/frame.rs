@@ -19,7 +19,11 @@ impl App {
         self.inspect();
         Panel::bottom("status").show(ui, |ui| self.status_bar(ui));
         self.exports_panel(ui);
-        Panel::right("settings").resizable(false).exact_size(PANEL_WIDTH).show(ui, |ui| self.side_panel(ui));
+        Panel::right("settings")
+            .resizable(true)
+            .default_size(PANEL_WIDTH)
+            .size_range(PANEL_WIDTH..=2.0 * PANEL_WIDTH)
+            .show(ui, |ui| self.side_panel(ui));
         Panel::top("toolbar").show(ui, |ui| self.toolbar(ui));
         self.dock(ui);
         CentralPanel::no_frame().show(ui, |ui| self.canvas(ui));

@@ -31,7 +31,7 @@ pub struct WindowState {
     /// The region that is being drawn.
     pub marking: Option<Region>,
     pub hidden: bool,
-    /// S is still down after Ctrl+S: it does not move the camera.
+    /// The key is still down after Ctrl+S or Shift+D: it does not move the camera.
     pub holds_chord: bool,
     /// How often a button of the mouse was pressed.
     pub presses: u64,

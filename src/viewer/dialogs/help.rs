@@ -2,7 +2,7 @@
 use egui::{Align2, RichText};
 
 const KEYS: [(&str, &[(&str, &str)]); 5] = [
-    ("Render", &[("Space", "pause, resume"), (".", "one more sample per pixel, then pause"), ("R", "restart")]),
+    ("Render", &[("Space", "pause, resume"), (".", "one more sample per pixel, then pause"), ("Ctrl+R", "restart")]),
     (
         "Picture",
         &[
@@ -13,7 +13,7 @@ const KEYS: [(&str, &[(&str, &str)]); 5] = [
             ("1", "one image pixel per screen pixel"),
             ("[  ]", "half a stop darker, brighter"),
             ("V, Shift+V", "next view, previous view"),
-            ("G", "drag marks a region to render first; Esc clears it"),
+            ("B", "drag marks a region to render first; Esc clears it"),
             ("I", "click shows the samples of a pixel and their paths"),
         ],
     ),
@@ -36,6 +36,8 @@ const KEYS: [(&str, &[(&str, &str)]); 5] = [
         &[
             ("Click", "select an object; Esc clears the selection"),
             ("L", "look at the object"),
+            ("Shift+D", "duplicate"),
+            ("X, Delete", "delete"),
             ("G  R  S", "move, rotate, scale, while the pointer is over the image"),
             ("X  Y  Z", "then: restrict to an axis (Shift: to a plane)"),
             ("0 … 9  .  −", "then: type the exact value"),

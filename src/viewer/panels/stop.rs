@@ -33,7 +33,7 @@ pub fn show(ui: &mut Ui, budget: &mut Budget, resolution: [u32; 2]) {
                 budget.noise = percent.map(|percent| percent / 100.0);
             },
         );
-        row(ui, "Region", "Tiles that are rendered first. Drag a rectangle with the tool Region (G).", |ui, label| {
+        row(ui, "Region", "Tiles that are rendered first. Drag a rectangle with the tool Region (B).", |ui, label| {
             region(ui, label, &mut budget.region, resolution);
         });
     });

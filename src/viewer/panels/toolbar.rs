@@ -42,7 +42,7 @@ pub struct Toolbar<'a> {
 const TOOLS: [(Tool, &str, &str); 4] = [
     (Tool::Picture, "Picture", "Drag pans and the wheel zooms the image. Does not restart the render. (P)"),
     (Tool::Camera, "Camera", "Drag orbits, right drag pans and the wheel dollies the camera. Restarts the render. (C)"),
-    (Tool::Region, "Region", "Drag marks a region that is rendered first. Does not restart the render. (G)"),
+    (Tool::Region, "Region", "Drag marks a region that is rendered first. Does not restart the render. (B)"),
     (Tool::Inspect, "Inspect", "Click shows the samples of a pixel and their paths. (I)"),
 ];
 
@@ -98,7 +98,7 @@ impl Toolbar<'_> {
                 Command::TogglePause,
             ),
             (Button::new("Step"), step, Command::Step),
-            (Button::new("Restart"), "Restarts rendering. (R)", Command::Restart),
+            (Button::new("Restart"), "Restarts rendering. (Ctrl+R)", Command::Restart),
         ];
         let clicked = buttons
             .map(|(button, doc, command)| ui.add_enabled(self.is_open, button).on_hover_text(doc).clicked().then_some(command));

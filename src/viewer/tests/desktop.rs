@@ -25,7 +25,7 @@ fn ctrl_c_copies_all_pixels_of_the_picture_as_a_png_has_them() {
     let mut window = window("cornell_spheres");
     window.state_mut().session.look.display.tone_map = ToneMap::Agx;
     window.state_mut().session.budget.max_spp = Some(4);
-    restarts(&mut window, "a restart", |w| press(w, Key::R));
+    restarts(&mut window, "a restart", restart);
     wait(&mut window, "the last frame", |app| app.can_save() && app.results.shown.as_ref().is_some_and(|frame| frame.spp == 4));
     window.event(egui::Event::Copy);
     let commands = asked(&mut window, "the copy");

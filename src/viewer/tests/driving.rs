@@ -26,6 +26,12 @@ pub fn press(window: &mut Window, key: Key) {
     window.run_steps(3);
 }
 
+/// Restarts the render.
+pub fn restart(window: &mut Window) {
+    window.key_press_modifiers(Modifiers::COMMAND, Key::R);
+    window.run_steps(3);
+}
+
 /// Takes one step back.
 pub fn undo(window: &mut Window) {
     window.key_press_modifiers(Modifiers::COMMAND, Key::Z);

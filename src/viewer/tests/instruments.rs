@@ -191,7 +191,7 @@ fn a_region_is_dragged_rendered_first_and_cleared() {
     let mut window = window("cornell_spheres");
     wait(&mut window, "samples", |app| app.results.status.spp >= 2);
     never_restarts(&mut window, |w| {
-        press(w, Key::G);
+        press(w, Key::B);
         assert_eq!(w.state().window.tool, Tool::Region);
         drag(w, PointerButton::Primary, [440.0, 380.0], [500.0, 420.0]);
     });

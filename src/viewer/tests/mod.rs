@@ -223,7 +223,7 @@ fn every_single_key_does_what_the_help_says() {
     assert!(window.state().session.budget.paused);
     press(&mut window, Key::Space);
     assert!(!window.state().session.budget.paused);
-    restarts(&mut window, "a restart", |w| press(w, Key::R));
+    restarts(&mut window, "a restart", restart);
     for (key, axis, sign) in
         [(Key::A, 0, -1.0), (Key::D, 0, 1.0), (Key::Q, 1, -1.0), (Key::E, 1, 1.0), (Key::S, 2, -1.0), (Key::W, 2, 1.0)]
     {

@@ -58,7 +58,7 @@ fn the_pointer_is_over_the_pixel_that_lies_under_it() {
 
 #[test]
 fn with_any_tool_ctrl_and_wheel_magnify_and_a_middle_drag_pans() {
-    for key in [Key::P, Key::C, Key::G, Key::I] {
+    for key in [Key::P, Key::C, Key::B, Key::I] {
         let mut window = window("furnace");
         window.key_press(key);
         window.run_steps(3);

@@ -198,18 +198,37 @@ fn the_gizmo_moves_the_object_by_keys_and_escape_takes_it_back() {
 }
 
 #[test]
-fn without_a_selection_the_keys_are_those_of_the_window() {
+fn keys_of_operations_cost_nothing_without_an_object_or_beside_the_picture() {
     let mut window = window("cornell_spheres");
+    let tool = window.state().window.tool;
+    let press_both = |w: &mut Window| [Key::G, Key::R].into_iter().for_each(|key| press(w, key));
     window.hover_at(Pos2::new(430.0, 430.0));
     window.run_steps(2);
-    press(&mut window, Key::G);
-    assert_eq!(window.state().window.tool, Tool::Region);
-    press(&mut window, Key::P);
+    never_restarts(&mut window, press_both);
     window.state_mut().selection.select(Some(Subject::Object(AMBER_BALL)));
     window.event(egui::Event::PointerGone);
     window.run_steps(2);
-    press(&mut window, Key::G);
-    assert_eq!(window.state().window.tool, Tool::Region, "the pointer is not over the picture");
+    never_restarts(&mut window, press_both);
+    assert_eq!((window.state().window.tool, window.state().has_unsaved_changes()), (tool, false));
+}
+
+#[test]
+fn keys_duplicate_and_delete_the_selected_object() {
+    let mut window = window("cornell_spheres");
+    let (count, camera) = (description(&window).objects.len(), window.state().session.camera);
+    for delete in [Key::Delete, Key::X] {
+        window.state_mut().selection.select(Some(Subject::Object(AMBER_BALL)));
+        window.key_press_modifiers(Modifiers::SHIFT, Key::D);
+        window.run_steps(3);
+        assert_eq!(description(&window).objects.len(), count + 1);
+        press(&mut window, delete);
+        assert_eq!((description(&window).objects.len(), window.state().selection.subject.clone()), (count, None));
+        press(&mut window, delete);
+        assert_eq!(description(&window).objects.len(), count, "nothing is selected");
+    }
+    assert_eq!(window.state().session.camera, camera, "the key does not fly");
+    (0..4).for_each(|_| undo(&mut window));
+    assert!(!window.state().has_unsaved_changes());
 }
 
 #[test]

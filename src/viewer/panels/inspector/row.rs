@@ -2,8 +2,10 @@
 use egui::{Align, Id, Label, Layout, Response, RichText, Ui, vec2};
 use noisefall::declare::Parameter;
 
-/// Width of the labels in points.
+/// Width of the labels in points, while the panel is at its narrowest. They get half of what is added.
 const LABEL_WIDTH: f32 = 104.0;
+/// Width of rows in that panel.
+const CONTENT_WIDTH: f32 = 320.0;
 
 /// The mark before a label.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,11 +35,13 @@ impl Heading {
 
     /// Shows the label with its mark in a row, with a control behind it. Returns whether the mark was clicked.
     pub fn row(&self, ui: &mut Ui, control: impl FnOnce(&mut Ui, Id)) -> bool {
-        let row = ui.horizontal(|ui| {
+        // What does not fit goes to the next line; a row wider than the panel would shift the panel.
+        let row = ui.horizontal_wrapped(|ui| {
             ui.spacing_mut().item_spacing.x = 4.0;
-            let size = vec2(LABEL_WIDTH, ui.spacing().interact_size.y);
+            let width = LABEL_WIDTH + (0.5 * (ui.available_width() - CONTENT_WIDTH)).max(0.0);
+            let size = vec2(width, ui.spacing().interact_size.y);
             let label = ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
-                ui.set_min_width(LABEL_WIDTH);
+                ui.set_min_width(width);
                 self.label(ui, RichText::new(&self.title))
             });
             let (label, is_marked) = label.inner;

@@ -16,7 +16,7 @@ use std::sync::Arc;
 use egui::{CollapsingHeader, RichText, ScrollArea, TextEdit, Ui};
 use noisefall::scene::description::SceneDescription;
 
-pub use self::menu::{Action, New};
+pub use self::menu::{Action, New, can_rename};
 use self::{
     entries::{Entry, Group},
     menu::Menu,
@@ -106,7 +106,7 @@ impl Outliner {
         if row.clicked() || row.secondary_clicked() {
             asked.selected = Some(subject.clone());
         }
-        if row.double_clicked() && menu::can_rename(subject) {
+        if row.double_clicked() && can_rename(subject) {
             self.renamed = Some(subject.clone());
         }
         // A material is assigned by dragging it onto an object.
