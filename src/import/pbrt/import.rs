@@ -11,6 +11,7 @@ use super::{
     parameters::Entity,
     records::{Covering, Surface, TextureKey},
     source::{Files, Place},
+    spectra::Role,
 };
 use crate::{
     declare::Textured,
@@ -41,6 +42,12 @@ pub struct Import {
     pub media: HashMap<String, Rc<Entity>>,
     /// Paths and whether there are normals, of meshes that were packed.
     pub packed_meshes: HashMap<String, (String, bool)>,
+    /// Colours of spectrum files.
+    pub known_spectra: HashMap<(PathBuf, Role), [f64; 3]>,
+    /// Meshes of parts of quadrics.
+    pub patches: usize,
+    /// Surfaces of instances, whether they become objects or not.
+    pub instances: u64,
     /// The shapes of each definition of an object.
     pub definitions: HashMap<String, Rc<Vec<Surface>>>,
     /// Material and opacity of each object of the description.
@@ -73,6 +80,9 @@ impl Import {
             known_materials: HashMap::new(),
             media: HashMap::new(),
             packed_meshes: HashMap::new(),
+            known_spectra: HashMap::new(),
+            patches: 0,
+            instances: 0,
             definitions: HashMap::new(),
             coverings: Vec::new(),
             mirror: DAffine3::IDENTITY,
