@@ -4,7 +4,7 @@ use std::{
     path::PathBuf,
 };
 
-use super::{load::Files, tree::Element};
+use super::{colours::Role, load::Files, shapes::Packed, tree::Element};
 use crate::{
     import::{Names, NewFiles, Remarks},
     scene::{SceneError, description::SceneDescription},
@@ -32,6 +32,14 @@ pub struct Import {
     pub images: HashMap<String, PathBuf>,
     /// Models in memory by file and variant.
     pub known_models: HashMap<String, String>,
+    /// Colours of spectrum files.
+    pub known_spectra: HashMap<(PathBuf, Role), [f64; 3]>,
+    /// Whether mesh files have normals.
+    pub known_normals: HashMap<PathBuf, bool>,
+    /// The last file of serialized meshes.
+    pub packed: Option<Packed>,
+    /// Shapes that were followed, those of groups once for each instance.
+    pub shapes: usize,
     /// The objects that are being translated, the innermost last.
     within: Vec<usize>,
 }
@@ -76,6 +84,10 @@ impl Import {
             known_surfaces: HashMap::new(),
             images: HashMap::new(),
             known_models: HashMap::new(),
+            known_spectra: HashMap::new(),
+            known_normals: HashMap::new(),
+            packed: None,
+            shapes: 0,
             within: Vec::new(),
         }
     }

@@ -2,7 +2,7 @@
 //!
 //! A file holds several meshes one after the other, and ends in a dictionary of their offsets. Its format is in Mitsuba's manual, at the
 //! plugin `serialized`.
-use std::io::Read;
+use std::{io::Read, path::PathBuf};
 
 use miniz_oxide::inflate::decompress_to_vec_zlib_with_limit;
 
@@ -13,7 +13,7 @@ use super::{
 };
 use crate::{
     file::open_regular,
-    memory::reserve,
+    memory::{Reservation, reserve},
     model::{LARGEST_FILE, Model},
     scene::SceneError,
 };
@@ -26,6 +26,9 @@ const FACE_NORMALS: u32 = 0x10;
 const DOUBLE: u32 = 0x2000;
 /// Room for a small file that unpacks well.
 const ROOM: usize = 64 << 20;
+/// Bytes of all meshes per byte of their file, besides.
+const MOST_UNPACKED: u64 = 8;
+const ENDS: &str = "the file ends too early";
 
 pub fn serialized(import: &mut Import, element: Element, placed: Placed) -> Result<Geometry, SceneError> {
     let path = import.file(element, "filename")?;
@@ -34,15 +37,13 @@ pub fn serialized(import: &mut Import, element: Element, placed: Placed) -> Resu
     let flip_v = !element.flag("flip_tex_coords", false)?;
     let key = format!("{} {number} {flip_v} {face_normals}", path.display());
     let name = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
-    let file = import.shared_model(&key, &name, |_| {
+    let file = import.shared_model(&key, &name, |import| {
         let error = |message: &str| element.error(format!("the mesh cannot be read: {message}"), "this file cannot be used");
-        let mut bytes = Vec::new();
-        let read = open_regular(&path).and_then(|file| file.take(LARGEST_FILE).read_to_end(&mut bytes));
-        read.map_err(|reason| error(&reason.to_string()))?;
-        let _room =
-            reserve("the bytes of a mesh", (4 * bytes.len() + ROOM) as u64).map_err(|reason| error(&reason.to_string()))?;
-        let model = usize::try_from(number).ok().map_or(Err("there is no mesh of this number"), |number| decode(&bytes, number));
-        Ok(Variant { flip_v, face_normals }.of(model.map_err(error)?))
+        if import.packed.as_ref().is_none_or(|packed| packed.path != path) {
+            import.packed = Some(Packed::read(path.clone()).map_err(|reason| error(&reason))?);
+        }
+        let packed = import.packed.as_mut().ok_or_else(|| error(ENDS))?;
+        Ok(Variant { flip_v, face_normals }.of(packed.mesh(number).map_err(error)?))
     })?;
     let mirrors = placed.map.matrix3.determinant() < 0.0;
     let has_normals = import.new_files.assets.get::<Model>(&file).is_some_and(|model| model.normals.is_some());
@@ -50,9 +51,37 @@ pub fn serialized(import: &mut Import, element: Element, placed: Placed) -> Resu
     Ok(Geometry { shape: meshes::in_memory(file, !face_normals), map: placed.map, flip })
 }
 
+/// The file that was read last. The shapes of a scene often lie in one file.
+pub struct Packed {
+    path: PathBuf,
+    bytes: Vec<u8>,
+    /// Bytes of the meshes so far: entries of the dictionary can name the same stream again and again.
+    unpacked: u64,
+    _room: Reservation,
+}
+
+impl Packed {
+    fn read(path: PathBuf) -> Result<Packed, String> {
+        let mut bytes = Vec::new();
+        let read = open_regular(&path).and_then(|file| file.take(LARGEST_FILE).read_to_end(&mut bytes));
+        read.map_err(|reason| reason.to_string())?;
+        let room = reserve("the bytes of a mesh", (4 * bytes.len() + ROOM) as u64).map_err(|reason| reason.to_string())?;
+        Ok(Packed { path, bytes, unpacked: 0, _room: room })
+    }
+
+    fn mesh(&mut self, number: i64) -> Result<Model, &'static str> {
+        let number = usize::try_from(number).map_err(|_| "there is no mesh of this number")?;
+        let model = decode(&self.bytes, number)?;
+        self.unpacked += model.bytes();
+        if self.unpacked > MOST_UNPACKED * self.bytes.len() as u64 + ROOM as u64 {
+            return Err("the scene unpacks it again and again");
+        }
+        Ok(model)
+    }
+}
+
 /// The mesh of a number.
 fn decode(bytes: &[u8], number: usize) -> Result<Model, &'static str> {
-    const ENDS: &str = "the file ends too early";
     let short = |at: usize| bytes.get(at..at + 2).map(|two| u16::from_le_bytes([two[0], two[1]]));
     let offset = offset(bytes, number, short(2).ok_or(ENDS)?).ok_or("there is no mesh of this number")?;
     let version = match (short(offset), short(offset + 2)) {

@@ -73,6 +73,27 @@ fn instances_that_multiply_are_refused() {
 }
 
 #[test]
+fn groups_without_shapes_that_double_are_refused() {
+    let merge = |i: usize| format!("<shape type=\"merge\" id=\"m{i}\"><ref id=\"m{0}\"/><ref id=\"m{0}\"/></shape>", i + 1);
+    let merges: String = (0..50).map(merge).collect();
+    let last = "<shape type=\"merge\" id=\"m50\"/>";
+    assert!(refused(&format!("{SENSOR}{merges}{last}")).contains("repeat"));
+}
+
+#[test]
+fn parameters_and_search_folders_that_each_use_looks_through_are_few() {
+    let defaults: String = (0..2000).map(|i| format!("<default name=\"a{i}\" value=\"\"/>")).collect();
+    assert!(refused(&defaults).contains("parameters"));
+    assert!(refused(&"<path value=\".\"/>".repeat(100)).contains("folders"));
+}
+
+#[test]
+fn search_folders_do_not_open_the_whole_disk() {
+    assert!(refused("<path value=\"../../../../../etc\"/>").contains("above"));
+    assert!(refused("<path value=\"..\"/>").contains("holds"));
+}
+
+#[test]
 fn missing_and_wrong_values_have_a_place() {
     assert!(refused(&format!("{SENSOR}<shape type=\"sphere\"><ref id=\"gone\"/></shape>")).contains("\"gone\""));
     assert!(refused(&format!("{SENSOR}<shape type=\"obj\"/>")).contains("filename"));
