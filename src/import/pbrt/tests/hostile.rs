@@ -65,6 +65,12 @@ fn parts_of_quadrics_take_little_memory_each() {
 }
 
 #[test]
+fn attributes_have_few_values() {
+    let numbers = "1 ".repeat(5000);
+    assert!(error(&format!("Attribute \"shape\" \"float a\" [{numbers}]\nWorldBegin")).contains("attributes"));
+}
+
+#[test]
 fn a_spectrum_file_is_read_once() {
     let spectrum: String = (0..60_000).map(|i| format!("{} 1\n", 300.0 + f64::from(i) / 100.0)).collect();
     let lights = "LightSource \"point\" \"spectrum I\" \"a.spd\"\n".repeat(2000);
