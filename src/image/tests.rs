@@ -1,7 +1,7 @@
 //! Hand-made image files, byte by byte.
 use std::io::Cursor;
 
-use super::{Encoding, ImageFormatError, Opacity, Picture, Texels, decode, read_opacity_of};
+use super::{Encoding, ImageFormatError, Opacity, Picture, Texels, check_length, decode, read_opacity_of};
 use crate::declare::Resources;
 
 fn read(bytes: &[u8]) -> Result<Picture, ImageFormatError> {

@@ -13,7 +13,7 @@ use crate::{
 const LARGEST_SPECTRUM: u64 = 16 << 20;
 
 /// What a spectrum stands for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
     /// Light.
     Emission,
@@ -72,14 +72,15 @@ impl Import {
         const HELP: &str = "a spectrum file has a wavelength in nm and a value per line";
         let named = element.attribute("filename").unwrap_or_default();
         let path = self.files.resolve(named).map_err(|message| element.error(message, HELP))?;
-        if let Some(known) = self.known_spectra.get(&(path.clone(), role)) {
+        let key = format!("{role:?} {}", path.display());
+        if let Some(known) = self.known_spectra.get(&key) {
             return Ok(*known);
         }
         let mut bytes = Vec::new();
         let read = open_regular(&path).and_then(|file| file.take(LARGEST_SPECTRUM).read_to_end(&mut bytes));
         read.map_err(|error| element.error(format!("`{named}` cannot be read: {error}"), HELP))?;
         let colour = role.of(&checked(element, Spectrum::parse(&String::from_utf8_lossy(&bytes)))?);
-        self.known_spectra.insert((path, role), colour);
+        self.known_spectra.insert(key, colour);
         Ok(colour)
     }
 

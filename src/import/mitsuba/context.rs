@@ -4,7 +4,7 @@ use std::{
     path::PathBuf,
 };
 
-use super::{colours::Role, load::Files, shapes::Packed, tree::Element};
+use super::{load::Files, packed::Packed, tree::Element};
 use crate::{
     import::{Names, NewFiles, Remarks},
     scene::{SceneError, description::SceneDescription},
@@ -32,12 +32,12 @@ pub struct Import {
     pub images: HashMap<String, PathBuf>,
     /// Models in memory by file and variant.
     pub known_models: HashMap<String, String>,
-    /// Colours of spectrum files.
-    pub known_spectra: HashMap<(PathBuf, Role), [f64; 3]>,
+    /// Colours of spectrum files by what they stand for and by path.
+    pub known_spectra: HashMap<String, [f64; 3]>,
     /// Whether mesh files have normals.
     pub known_normals: HashMap<PathBuf, bool>,
-    /// The last file of serialized meshes.
-    pub packed: Option<Packed>,
+    /// Files of serialized meshes.
+    pub packed: HashMap<PathBuf, Packed>,
     /// Shapes that were followed, those of groups once for each instance.
     pub shapes: usize,
     /// The objects that are being translated, the innermost last.
@@ -86,7 +86,7 @@ impl Import {
             known_models: HashMap::new(),
             known_spectra: HashMap::new(),
             known_normals: HashMap::new(),
-            packed: None,
+            packed: HashMap::new(),
             shapes: 0,
             within: Vec::new(),
         }

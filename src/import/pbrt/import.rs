@@ -11,7 +11,6 @@ use super::{
     parameters::Entity,
     records::{Covering, Surface, TextureKey},
     source::{Files, Place},
-    spectra::Role,
 };
 use crate::{
     declare::Textured,
@@ -42,8 +41,8 @@ pub struct Import {
     pub media: HashMap<String, Rc<Entity>>,
     /// Paths and whether there are normals, of meshes that were packed.
     pub packed_meshes: HashMap<String, (String, bool)>,
-    /// Colours of spectrum files.
-    pub known_spectra: HashMap<(PathBuf, Role), [f64; 3]>,
+    /// Colours of spectrum files by what they stand for and by path.
+    pub known_spectra: HashMap<String, [f64; 3]>,
     /// Meshes of parts of quadrics.
     pub patches: usize,
     /// Surfaces of instances, whether they become objects or not.

@@ -105,11 +105,12 @@ impl Import {
         let wrong = |message: String| {
             parameter.place.error(message, "expected the name of a spectrum of pbrt, or a file in the folder of the scene")
         };
-        let key = (self.files.folder.resolve(name).map_err(wrong)?, role);
+        let path = self.files.folder.resolve(name).map_err(wrong)?;
+        let key = format!("{role:?} {}", path.display());
         if let Some(known) = self.known_spectra.get(&key) {
             return Ok(*known);
         }
-        let (bytes, _room) = unpacked(&key.0).map_err(wrong)?;
+        let (bytes, _room) = unpacked(&path).map_err(wrong)?;
         let text = String::from_utf8_lossy(&bytes);
         let colour = role.of_spectrum(&spectrum(parameter, Spectrum::parse(&text))?);
         self.known_spectra.insert(key, colour);

@@ -8,8 +8,6 @@ mod serialized;
 
 use glam::DAffine3;
 
-pub use self::serialized::Packed;
-
 use super::{
     context::{Import, Uses},
     emitters::area,
