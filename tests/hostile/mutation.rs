@@ -28,7 +28,7 @@ const NUMBERS: [&str; 14] = [
     "NaN",
     "inf",
 ];
-const PIECES: [&str; 24] = [
+const PIECES: [&str; 25] = [
     "<!DOCTYPE a [<!ENTITY b \"ha\"><!ENTITY c \"&b;&b;&b;\"><!ENTITY d SYSTEM \"file:///etc/passwd\">]>",
     "&c;",
     "&d;",
@@ -39,6 +39,7 @@ const PIECES: [&str; 24] = [
     "<ref id=\"wood\"/>",
     "<ref id=\"group\"/>",
     "<alias id=\"wood\" as=\"glass\"/>",
+    "<ref name=\"value\" id=\"wood\"/>",
     "$spp",
     "Include \"scene.pbrt\"\n",
     "Import \"part.pbrt\"\n",

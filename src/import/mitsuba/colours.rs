@@ -99,7 +99,9 @@ impl Import {
                 role.of(&Spectrum::black_body(kelvin)).map(|x| x * scale)
             }
             "uniform" | "rawconstant" => match nested("value")? {
-                Some(value) if value.tag() != "float" && value.tag() != "integer" => return self.constant(value, role),
+                Some(value) if value.tag() != "float" && value.tag() != "integer" => {
+                    return self.nested(element, |import| import.constant(value, role));
+                }
                 _ => [scale("value")?; 3],
             },
             "d65" | "srgb_d65" | "srgb" | "rgb" => {

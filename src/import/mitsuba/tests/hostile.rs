@@ -50,6 +50,11 @@ fn circles_of_includes_references_and_aliases_are_refused() {
         <shape type=\"instance\"><ref id=\"g\"/></shape>"
     );
     assert!(refused(&groups).contains("contains itself"));
+    let spectra = format!(
+        "{SENSOR}<texture type=\"uniform\" id=\"u\"><ref name=\"value\" id=\"u\"/></texture><shape type=\"sphere\"><bsdf type=\"diffuse\">\
+        <ref name=\"reflectance\" id=\"u\"/></bsdf></shape>"
+    );
+    assert!(refused(&spectra).contains("itself"));
     let aliases =
         format!("{SENSOR}<alias id=\"a\" as=\"b\"/><alias id=\"b\" as=\"a\"/><shape type=\"sphere\"><ref id=\"a\"/></shape>");
     assert!(refused(&aliases).contains("nothing has the id"));
