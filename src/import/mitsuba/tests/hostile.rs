@@ -93,6 +93,23 @@ fn parameters_and_search_folders_that_each_use_looks_through_are_few() {
 }
 
 #[test]
+fn textures_that_hold_each_other_twice_do_not_multiply() {
+    let texture = |i: usize| {
+        let next = i + 1;
+        format!(
+            "<texture type=\"checkerboard\" id=\"t{i}\"><ref name=\"color0\" id=\"t{next}\"/><ref name=\"color1\" id=\"t{next}\"/></texture>"
+        )
+    };
+    let textures: String = (0..40).map(texture).collect();
+    let text = format!(
+        "<scene version=\"3.0.0\">{SENSOR}{textures}<texture type=\"checkerboard\" id=\"t40\"/><shape type=\"sphere\"><bsdf \
+         type=\"plastic\"><boolean name=\"nonlinear\" value=\"true\"/><ref name=\"diffuse_reflectance\" id=\"t0\"/></bsdf></shape></scene>"
+    );
+    let read = read_with(&[], &text, &ImportOptions::default());
+    assert!(read.is_ok_and(|read| read.description.textures.len() < 200));
+}
+
+#[test]
 fn search_folders_do_not_open_the_whole_disk() {
     assert!(refused("<path value=\"../../../../../etc\"/>").contains("above"));
     assert!(refused("<path value=\"..\"/>").contains("holds"));
