@@ -38,9 +38,9 @@ use self::bases::{Base, File, Reader};
 static MEMORY: cap::Cap<std::alloc::System> = cap::Cap::new(std::alloc::System, usize::MAX);
 
 /// Inputs of a short run.
-const INPUTS: u64 = 3000;
+const INPUTS: u64 = 1500;
 /// One input in this many is compiled too, which takes longer than reading.
-const COMPILED: u64 = 24;
+const COMPILED: u64 = 32;
 /// Most memory: per byte of the files, and besides.
 const FACTOR: usize = 4;
 const ROOM: usize = 256 << 20;
